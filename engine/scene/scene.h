@@ -1,0 +1,165 @@
+// The Scene: what a script says, as plain data in SI units. No behaviour. Each item knows the script line that made it.
+#pragma once
+#include <map>
+#include <string>
+#include <vector>
+
+#include "engine/base/error.h"
+#include "engine/base/units.h"
+#include "engine/base/vec.h"
+#include "engine/geometry/polyhedron.h"
+#include "engine/laws/laws.h"
+#include "engine/loads/loads.h"
+
+namespace erbs {
+
+// What a block is made of, and how it behaves as debris (contacts that are no joints, or no longer).
+struct Material {
+  std::string name;
+  double density = 0;       // kg/m3
+  double kn = 5e10;         // Pa/m, contact stiffness of debris
+  double ks = 2e10;         // Pa/m
+  double friction = 0.6;    // of debris
+  double restitution = 0.3; // of an impact through the centre, 0..1
+  Vec3 color{0.70, 0.35, 0.25};  // linear 0..1 for the pictures
+  Place place;
+};
+
+// How a block starts, relative to its rest pose, in which joints are found.
+struct Initial {
+  Vec3 position = Vec3::Zero();  // m, added after the rotation
+  Vec3 rotation = Vec3::Zero();  // rad, rotation vector, about `about`
+  Vec3 velocity = Vec3::Zero();  // m/s, of the centroid
+  Vec3 spin = Vec3::Zero();      // rad/s, world axes
+  Vec3 about = Vec3::Zero();     // m, point in the rest frame; the centroid where has_about is false
+  bool has_about = false;
+  bool given = false;
+};
+
+struct Block {
+  std::string name;
+  std::string group;               // for joint rules and recorders, e.g. "wall_south"
+  std::vector<Polyhedron> parts;   // m, world axes at rest; usually one; several convex parts are one rigid block
+  int material = -1;               // index into Scene::materials
+  bool fixed = false;              // part of the ground
+  bool free = false;               // allowed to have no joint
+  Initial initial;
+  Place place;
+};
+
+// Faces of blocks of group_a and group_b ("" is any) that face each other at rest across at most thickness + tolerance are
+// joined by `law`. The last rule that matches a pair wins.
+struct JointRule {
+  std::string name;
+  std::string group_a, group_b;
+  Law law;
+  double thickness = 0;     // m, nominal gap at rest
+  double tolerance = 1e-4;  // m
+  std::string rule = "simpson";  // simpson | midpoint | trapezoid | gauss
+  int points_long = 3, points_short = 3;  // contact points along the longer and the shorter side of a rectangle
+  bool none = false;        // pairs that match get no joint
+  Place place;
+};
+
+struct Damping {
+  double mass = 0;  // 1/s, coefficient a of c = a m
+  std::string scope = "bonded";   // bonded | all | none
+  std::string form = "centred";   // centred | explicit
+  double joint_ratio = 0;         // viscous ratio of joints, of each joint's own critical value
+  Place place;
+};
+
+struct Analysis {
+  double duration = 1;       // s
+  double dt = 0;             // s; 0: from dt_rule
+  double dt_fraction = 0.9;  // of the limit in force
+  std::string dt_rule = "limit";  // limit | period_tenth (3) | hart (4) | hakuno (5) | hakuno_half
+  bool unstable = false;     // let a dt past the limit run: divergence is then expected and detected
+  std::string kernel = "fast";    // fast | reference
+  std::string start = "equilibrium";  // equilibrium | ramp | rest (how gravity comes on)
+  double ramp_time = 0;      // s, for start = "ramp"; 0: chosen
+  std::string overlap = "error";  // error | stress_free
+  double collapse_fraction = 0.05;  // share of mass that has fallen
+  double stop_after_collapse = -1;  // s of simulated time after collapse; -1: go on to duration
+  double energy_gate = 0;    // relative; 0: by the kind of run (1e-6 elastic, 1e-3 bonded, 1e-2 collapse)
+  double lazy_rotation = 1e-5;  // rad of block rotation between refreshes of joint frames
+  bool gyroscopic = true;    // false: the scalar Euler equation of Gu and Miao eq. (1), for comparison only
+  double output_dt = 0.01;   // s, rows of histories.csv and energy.csv
+  double frame_dt = 0.04;    // s, poses for pictures
+  Place place;
+};
+
+// One column (or three) of histories.csv.
+struct Recorder {
+  std::string name;          // column stem, e.g. "floor3"
+  std::string quantity;      // a name in engine/record/recorders.h, e.g. displacement, velocity, acceleration, reaction
+  std::vector<std::string> blocks;  // block names; the quantity is averaged (or summed, for forces) over them
+  std::string axis = "xyz";  // which components
+  std::string frame = "rel"; // rel (to the ground) | abs
+  bool has_point = false;
+  Vec3 point = Vec3::Zero(); // m at rest: the quantity of this material point instead of the centroid
+  Place place;
+};
+
+struct Camera {
+  std::string name;
+  Vec3 eye{8, -8, 5}, target{0, 0, 1}, up{0, 0, 1};
+  double fov = 35 * pi / 180;  // rad, vertical
+  Place place;
+};
+
+struct Param {
+  std::string name;
+  double value = 0, fallback = 0;
+  std::string text;   // assumption or meaning
+  std::string unit;
+  Place place;
+};
+
+// expect(key, value, {...}): the scene is the test.
+struct Expectation {
+  std::string key;           // dotted key of metrics.json
+  double value = 0;          // for rel and abs
+  std::string text_value;    // for status and other words
+  enum class Kind { rel, abs, below, above, between, equal } kind = Kind::rel;
+  double tolerance = 0;      // rel or abs; the bound for below and above
+  double low = 0, high = 0;  // between
+  std::string source;
+  Place place;
+};
+
+// What a load acts through.
+struct Load {
+  enum class Kind { ground, force, moment, tilt, motion } kind = Kind::ground;
+  // ground: acceleration of the ground (m/s2) along direction; force (N) or moment (N m) on a block; tilt: angle (rad) by which
+  // gravity turns about direction; motion: displacement (m) of a block along direction, its other degrees of freedom held
+  Wave wave;
+  Vec3 direction{1, 0, 0};
+  std::string block;
+  Vec3 point = Vec3::Zero();  // m at rest, where a force acts (moves with the block)
+  bool has_point = false;
+  std::string name;
+  Place place;
+};
+
+struct Scene {
+  std::string name;           // file name without folder and ending
+  std::string file;
+  Vec3 gravity{0, 0, -standard_g};
+  std::vector<Material> materials;
+  std::vector<JointRule> joint_rules;
+  std::vector<Block> blocks;
+  std::vector<Load> loads;
+  Damping damping;
+  Analysis analysis;
+  std::vector<Recorder> recorders;
+  std::vector<Camera> cameras;
+  std::vector<Param> params;
+  std::vector<Expectation> expectations;
+  std::map<std::string, std::string> inputs;  // path of each file read -> its hash
+};
+
+// Every mistake that can be seen without building a model; empty when there is none. Messages carry place and remedy.
+std::vector<std::string> check(const Scene& scene);
+
+}  // namespace erbs
