@@ -18,6 +18,7 @@ struct alignas(64) JointBatch {
   double open_limit[lanes];    // m, opening at which tension cracks; 0 for dry joints
   double slip_limit[lanes];    // m, c / ks
   double slip_slope[lanes];    // mu kn / ks: limit of slip = slip_limit - slip_slope * largest opening
+  double close_limit[lanes];   // m, closing at which mortar crushes; infinite where it does not
   double half_s[lanes], half_t[lanes], radius[lanes];
   int a[lanes], b[lanes], row_a[lanes], row_b[lanes];
 };
@@ -27,6 +28,7 @@ enum class Tier : std::uint8_t { intact, cracked, open };
 struct JointMemory {
   double q[6] = {};   // at the last step (cracked joints only)
   double f[6] = {};   // N, N m
+  double elastic = 0; // J
 };
 
 // Every energy term, in J; names as in metrics.json. State terms are filled when sampled, the others accumulate.
@@ -49,7 +51,8 @@ struct Energy {
 struct State {
   long step = 0;
   double t = 0;                 // s, of the positions; velocities are half a step behind until the kick
-  double dt = 0;                // s
+  double dt = 0;                // s, of the next drift
+  double last_dt = 0;           // s, of the drift that led here; 0 at the start
   // blocks [nblock + 1]: the last is a block at rest for unused lanes
   std::vector<Vec3> u;          // m, of the centroid from rest, relative to the ground
   std::vector<Quat> q;          // rotation from rest
