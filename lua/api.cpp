@@ -162,7 +162,7 @@ std::string read_input(Context& context, const std::filesystem::path& path, cons
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream text;
   if (!stream || !(text << stream.rdbuf())) throw Error(fmt::format("cannot read {}", path.string()), place);
-  context.scene.inputs[path.string()] = hash_text(text.str());
+  context.scene.inputs[path.string()] = hash_text(fnv1a(text.str()));
   return text.str();
 }
 
