@@ -45,7 +45,8 @@ Place current_place(lua_State* lua) {
 
 Arguments Call::arguments(int index) const {
   if (!lua_istable(lua, index))
-    throw Error(fmt::format("{} takes a table of keys, not {}; write {}{{ ... }}", function.name, described(lua, index), function.name), place);
+    throw Error(fmt::format("{} takes a table of keys, not {}; write {}{{ ... }}", function.name, described(lua, index), function.name),
+                place);
   return Arguments(context, lua, index, function.name, place, function.keys);
 }
 
@@ -57,7 +58,8 @@ std::string Call::text(int index, const char* what) const {
                             function.parameters),
                 place);
   const std::string text = lua_tostring(lua, index);
-  if (text.size() > 1000) throw Error(fmt::format("{}: {} is {} characters long; at most 1000 are allowed", function.name, what, text.size()), place);
+  if (text.size() > 1000)
+    throw Error(fmt::format("{}: {} is {} characters long; at most 1000 are allowed", function.name, what, text.size()), place);
   return text;
 }
 
@@ -123,8 +125,8 @@ void call_script(lua_State* lua, Context& context, int arguments, int results) {
   std::string message = lua_type(lua, -1) == LUA_TSTRING ? lua_tostring(lua, -1) : "an error without a message";
   lua_pop(lua, 1);
   if (status == LUA_ERRMEM)
-    message = fmt::format("{}: the script needs more than {} MiB of memory; is a table or a string growing without end?", context.scene.file,
-                          context.limits.bytes >> 20);
+    message = fmt::format("{}: the script needs more than {} MiB of memory; is a table or a string growing without end?",
+                          context.scene.file, context.limits.bytes >> 20);
   throw Error(message);
 }
 
@@ -144,8 +146,8 @@ std::filesystem::path find_input(const Context& context, const std::string& file
   } else {
     tried = {context.folder / name};
     std::error_code ignored;
-    for (fs::path above = fs::weakly_canonical(context.folder.empty() ? fs::path(".") : context.folder, ignored); above != above.root_path();
-         above = above.parent_path())
+    for (fs::path above = fs::weakly_canonical(context.folder.empty() ? fs::path(".") : context.folder, ignored);
+         above != above.root_path(); above = above.parent_path())
       if (above.filename() == "scenes") tried.push_back(above / name);
     tried.push_back(fs::path("scenes") / name);
   }
@@ -160,7 +162,7 @@ std::string read_input(Context& context, const std::filesystem::path& path, cons
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream text;
   if (!stream || !(text << stream.rdbuf())) throw Error(fmt::format("cannot read {}", path.string()), place);
-  context.scene.inputs[path.string()] = hash_text(text.str());
+  context.scene.inputs[path.string()] = hash_text(fnv1a(text.str()));
   return text.str();
 }
 

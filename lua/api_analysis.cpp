@@ -71,7 +71,8 @@ std::vector<Function> analysis_functions() {
   return {
       {"damping", damping, "{ ... }", "", "Damping of blocks and of joints.", keys_of<Damping>()},
       {"analysis", analysis, "{ ... }", "", "How long to run, with which step, and when to stop.", keys_of<Analysis>()},
-      {"recorder", recorder, "{ ... }", "", "Writes a quantity of one block, or its mean (of forces: the sum) over several, to histories.csv.",
+      {"recorder", recorder, "{ ... }", "",
+       "Writes a quantity of one block, or its mean (of forces: the sum) over several, to histories.csv.",
        joined({keys_of<Recorder>(),
                {{"block", "strings", "", "name of the block"},
                 {"blocks", "strings", "", "names of several blocks"},

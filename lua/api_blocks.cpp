@@ -206,10 +206,8 @@ int prism(Call& call) {
   }
   if (doubled_area < 0) std::reverse(polygon.begin(), polygon.end());  // either sense of rotation is welcome
   std::vector<Polyhedron> parts;
-  if (polygon.size() < 3 || doubled_area == 0)
-    arguments.mistake("polygon must be at least three points { x, y } that span an area");
-  else if (height > 0)
-    parts = {translated(extruded(polygon, height, axis[0] - 'x'), at)};
+  if (polygon.size() < 3 || doubled_area == 0) arguments.mistake("polygon must be at least three points { x, y } that span an area");
+  else if (height > 0) parts = {translated(extruded(polygon, height, axis[0] - 'x'), at)};
   return add_block(call, arguments, std::move(parts), "prism");
 }
 
@@ -230,9 +228,7 @@ int mesh(Call& call) {
         for (auto& vertex : part.vertices) vertex *= scale;
         part = translated(part, at);
       }
-    } catch (const Error& error) {
-      arguments.mistake(error.what());
-    }
+    } catch (const Error& error) { arguments.mistake(error.what()); }
   return add_block(call, arguments, std::move(parts), "mesh");
 }
 
@@ -317,7 +313,8 @@ std::vector<Function> block_functions() {
                 at},
                placed})},
       {"prism", prism, "{ ... }", name, "A convex polygon extruded along an axis.",
-       joined({{{"polygon", "pairs", "m", "corners { u, v }; u and v are the axes after `axis` in the order x, y, z, x, ...", -far, far, true, "", ""},
+       joined({{{"polygon", "pairs", "m", "corners { u, v }; u and v are the axes after `axis` in the order x, y, z, x, ...", -far, far,
+                 true, "", ""},
                 {"height", "number", "m", "length along the axis", 1e-6, far, true, "", ""},
                 {"axis", "string", "", "direction of extrusion", -unbounded, unbounded, false, "x|y|z", "z"},
                 at},
@@ -327,7 +324,11 @@ std::vector<Function> block_functions() {
                 {"scale", "number", "", "factor on its coordinates, to metres", 1e-9, 1e9, false, "", "1"},
                 at},
                placed})},
-      {"ground", ground, "{ ... }", name, "A fixed plate to stand and fall on.",
+      {"ground",
+       ground,
+       "{ ... }",
+       name,
+       "A fixed plate to stand and fall on.",
        {{"z", "number", "m", "height of its top", -far, far, false, "", "0"},
         {"size", "number", "m", "length of its sides", 1e-3, far, false, "", "20"},
         {"depth", "number", "m", "thickness of the plate", 1e-3, far, false, "", "1"},
@@ -335,7 +336,10 @@ std::vector<Function> block_functions() {
         {"friction", "number", "", "coefficient of friction, instead of its material's", 0, 10, false, "", ""},
         {"name", "string", "", "its name", -unbounded, unbounded, false, "", "ground"},
         {"group", "string", "", "its group", -unbounded, unbounded, false, "", "ground"}}},
-      {"transform", transform, "{ ..., function() ... end }", "any: what the function returns",
+      {"transform",
+       transform,
+       "{ ..., function() ... end }",
+       "any: what the function returns",
        "Places everything built inside the function rigidly: x -> about + rotation (x - about) + at.",
        {{"1", "function", "", "builds; called at once", -unbounded, unbounded, true, "", ""},
         {"at", "vec3", "m", "shift, after the rotation", -far, far, false, "", "{ 0, 0, 0 }"},

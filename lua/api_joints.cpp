@@ -37,7 +37,9 @@ int make_law(Call& call) {
 
 template <class... L>
 void add_laws(std::vector<Function>& functions, const std::variant<L...>*) {
-  (functions.push_back({std::string(L::law_name), make_law<L>, "{ ... }", "law: to be given to joint{ law = ... }", text_of(L::law_name), keys_of<L>()}), ...);
+  (functions.push_back(
+       {std::string(L::law_name), make_law<L>, "{ ... }", "law: to be given to joint{ law = ... }", text_of(L::law_name), keys_of<L>()}),
+   ...);
 }
 
 void read_points(Arguments& arguments, JointRule& rule) {
@@ -48,7 +50,8 @@ void read_points(Arguments& arguments, JointRule& rule) {
     const int side = static_cast<int>(std::lround(std::sqrt(std::max(n, 0))));
     rule.points_long = rule.points_short = side;
     if (side * side != n || n == 0)
-      arguments.mistake(fmt::format("points = {} is no square number; write points = {{ along the longer side, along the shorter side }}", n));
+      arguments.mistake(
+          fmt::format("points = {} is no square number; write points = {{ along the longer side, along the shorter side }}", n));
     return;
   }
   std::vector<double> sides;
@@ -78,8 +81,7 @@ int joint(Call& call) {
     }
   }
   const auto law = arguments.law("law");
-  if (law)
-    rule.law = *law;
+  if (law) rule.law = *law;
   else if (!arguments.has("law") && !rule.none)
     arguments.mistake("\"law\" is missing; give law = mortar{ ... } or dry{ ... }, or none = true");
   if (auto* mortar = std::get_if<Mortar>(&rule.law)) {
@@ -98,12 +100,13 @@ std::vector<Function> joint_functions() {
   std::vector<Function> functions;
   add_laws(functions, static_cast<const Law*>(nullptr));
   functions.push_back(
-      {"joint", joint, "{ ... }", "", "Joins faces that face each other at rest by a law; the last rule that matches a pair of blocks wins.",
+      {"joint", joint, "{ ... }", "",
+       "Joins faces that face each other at rest by a law; the last rule that matches a pair of blocks wins.",
        joined({{{"law", "law", "", "a law value: mortar{ ... } or dry{ ... }"},
                 {"between", "strings", "", "two groups, { \"wall\", \"slab\" }; \"\" is any (default: any and any)"}},
                keys_of<JointRule>(),
-               {{"points", "points_per_face", "", "contact points: { along the longer side, along the shorter side }, or one square number", 1, 64, false, "",
-                 "{ 3, 3 }"}}})});
+               {{"points", "points_per_face", "", "contact points: { along the longer side, along the shorter side }, or one square number",
+                 1, 64, false, "", "{ 3, 3 }"}}})});
   return functions;
 }
 

@@ -53,7 +53,9 @@ int gravity(Call& call) {
     return 0;
   }
   if (!lua_istable(call.lua, 1))
-    throw Error(fmt::format("gravity takes a number or a vector, not {}; write gravity(9.81) or gravity{{ 0, 0, -9.81 }}", described(call.lua, 1)), call.place);
+    throw Error(
+        fmt::format("gravity takes a number or a vector, not {}; write gravity(9.81) or gravity{{ 0, 0, -9.81 }}", described(call.lua, 1)),
+        call.place);
   Arguments arguments = call.arguments();
   Vec3 vector = Vec3::Zero();
   arguments.read("1", vector.x());
@@ -81,12 +83,17 @@ std::vector<Function> load_functions() {
       {"ground_motion", ground_motion, "{ ... }", "", "Shakes the ground by an acceleration; several add up.",
        load_keys("m/s2", "direction", "\"x\", \"y\", \"z\" or a vector", false)},
       {"force", force, "{ ... }", "", "A force on a block.", force_keys},
-      {"moment", moment, "{ ... }", "", "A moment on a block.", load_keys("N m", "direction", "axis of the moment: \"x\", \"y\", \"z\" or a vector", true)},
+      {"moment", moment, "{ ... }", "", "A moment on a block.",
+       load_keys("N m", "direction", "axis of the moment: \"x\", \"y\", \"z\" or a vector", true)},
       {"tilt", tilt, "{ ... }", "", "Turns gravity by an angle about an axis, as a tilting table does.",
        load_keys("rad", "axis", "\"x\", \"y\", \"z\" or a vector", false)},
       {"motion", motion, "{ ... }", "", "Moves a block by a displacement along a direction; its other degrees of freedom are held.",
        load_keys("m", "direction", "\"x\", \"y\", \"z\" or a vector", true)},
-      {"gravity", gravity, "{ ... }", "", "Gravity as gravity(9.81), downwards, or gravity{ 0, 0, -9.81 }.",
+      {"gravity",
+       gravity,
+       "{ ... }",
+       "",
+       "Gravity as gravity(9.81), downwards, or gravity{ 0, 0, -9.81 }.",
        {{"1", "number", "m/s2", "along x (or the one number: downwards)", -1000, 1000, true},
         {"2", "number", "m/s2", "along y", -1000, 1000, true},
         {"3", "number", "m/s2", "along z", -1000, 1000, true}}},

@@ -28,17 +28,16 @@ int param(Call& call) {
   if (!lua_isnoneornil(call.lua, 3)) split_unit(call.text(3, "text"), item);
   auto& params = call.context.scene.params;
   for (const Param& other : params)
-    if (other.name == item.name) call.mistake(fmt::format("\"{}\" was declared before, at {}; use another name", item.name, other.place.text()));
+    if (other.name == item.name)
+      call.mistake(fmt::format("\"{}\" was declared before, at {}; use another name", item.name, other.place.text()));
   bool given = false;
   for (Override& override_ : call.context.overrides)
     if (override_.name == item.name) {
       item.value = override_.value;
       given = override_.used = true;
     }
-  if (given)
-    lua_pushnumber(call.lua, item.value);
-  else
-    lua_pushvalue(call.lua, 2);  // a whole number stays one
+  if (given) lua_pushnumber(call.lua, item.value);
+  else lua_pushvalue(call.lua, 2);  // a whole number stays one
   params.push_back(std::move(item));
   return 1;
 }
@@ -49,25 +48,21 @@ int metric(Call& call) {
   item.unit = call.text(2, "unit");
   item.place = call.place;
   for (const Metric& other : call.context.metrics)
-    if (other.name == item.name) call.mistake(fmt::format("\"{}\" was given before, at {}; use another name", item.name, other.place.text()));
+    if (other.name == item.name)
+      call.mistake(fmt::format("\"{}\" was given before, at {}; use another name", item.name, other.place.text()));
   lua_settop(call.lua, 3);
-  if (lua_type(call.lua, 3) == LUA_TNUMBER)
-    item.value = lua_tonumber(call.lua, 3), item.function = LUA_NOREF;
-  else if (lua_isfunction(call.lua, 3))
-    item.function = luaL_ref(call.lua, LUA_REGISTRYINDEX);
-  else
-    throw Error(fmt::format("metric \"{}\" must be a number or a function(run), not {}", item.name, described(call.lua, 3)), call.place);
+  if (lua_type(call.lua, 3) == LUA_TNUMBER) item.value = lua_tonumber(call.lua, 3), item.function = LUA_NOREF;
+  else if (lua_isfunction(call.lua, 3)) item.function = luaL_ref(call.lua, LUA_REGISTRYINDEX);
+  else throw Error(fmt::format("metric \"{}\" must be a number or a function(run), not {}", item.name, described(call.lua, 3)), call.place);
   call.context.metrics.push_back(std::move(item));
   return 0;
 }
 
 const Keys& tolerance_keys() {
-  static const Keys keys = {{"rel", "number", "", "largest relative error", 0, 1e9},
-                            {"abs", "number", "", "largest absolute error", 0, unbounded},
-                            {"below", "boolean", "", "the value is an upper bound"},
-                            {"above", "boolean", "", "the value is a lower bound"},
-                            {"between", "numbers", "", "{ lowest, highest }"},
-                            {"source", "string", "", "where the number is from"}};
+  static const Keys keys = {
+      {"rel", "number", "", "largest relative error", 0, 1e9}, {"abs", "number", "", "largest absolute error", 0, unbounded},
+      {"below", "boolean", "", "the value is an upper bound"}, {"above", "boolean", "", "the value is a lower bound"},
+      {"between", "numbers", "", "{ lowest, highest }"},       {"source", "string", "", "where the number is from"}};
   return keys;
 }
 
@@ -89,13 +84,12 @@ void read_tolerance(Arguments& arguments, Expectation& item, bool has_number) {
     arguments.read("between", bounds);
     item.kind = Kind::between;
     ++kinds;
-    if (bounds.size() == 2 && bounds[0] <= bounds[1])
-      item.low = bounds[0], item.high = bounds[1];
-    else
-      arguments.mistake("between must be { lowest, highest }");
+    if (bounds.size() == 2 && bounds[0] <= bounds[1]) item.low = bounds[0], item.high = bounds[1];
+    else arguments.mistake("between must be { lowest, highest }");
   }
   arguments.read("source", item.source);
-  if (kinds != 1 && (has_number || kinds > 1)) arguments.mistake(fmt::format("of \"{}\": give one of rel, abs, below, above, between", item.key));
+  if (kinds != 1 && (has_number || kinds > 1))
+    arguments.mistake(fmt::format("of \"{}\": give one of rel, abs, below, above, between", item.key));
 }
 
 int expect(Call& call) {
@@ -109,12 +103,14 @@ int expect(Call& call) {
     item.kind = Expectation::Kind::equal;
     item.text_value = type == LUA_TSTRING ? lua_tostring(call.lua, 2) : lua_toboolean(call.lua, 2) ? "true" : "false";
   } else if (type != LUA_TNIL) {
-    throw Error(fmt::format("expect \"{}\": the value must be a number, a word, true or false, not {}", item.key, described(call.lua, 2)), call.place);
+    throw Error(fmt::format("expect \"{}\": the value must be a number, a word, true or false, not {}", item.key, described(call.lua, 2)),
+                call.place);
   }
   if (lua_istable(call.lua, 3)) {
     Arguments arguments(call.context, call.lua, 3, "expect", call.place, tolerance_keys());
     read_tolerance(arguments, item, type == LUA_TNUMBER);
-    if (type == LUA_TNIL && item.kind != Expectation::Kind::between) arguments.mistake(fmt::format("of \"{}\": the value is nil", item.key));
+    if (type == LUA_TNIL && item.kind != Expectation::Kind::between)
+      arguments.mistake(fmt::format("of \"{}\": the value is nil", item.key));
   } else if (type == LUA_TNUMBER || type == LUA_TNIL) {
     call.mistake(fmt::format("of \"{}\": add how near it must be, such as {{ rel = 0.01 }}", item.key));
   }
@@ -130,8 +126,10 @@ int include(Call& call) {
   const fs::path path = fs::weakly_canonical(folder / file);
   if (std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first != folder.end())
     throw Error(fmt::format("include \"{}\" leaves the folder of the scene; put the file beside the scene", file), call.place);
-  if (!fs::is_regular_file(path)) throw Error(fmt::format("include \"{}\": there is no such file in {}", file, folder.string()), call.place);
-  if (context.includes >= 20) throw Error(fmt::format("include \"{}\" is nested more than 20 deep; does a file include itself?", file), call.place);
+  if (!fs::is_regular_file(path))
+    throw Error(fmt::format("include \"{}\": there is no such file in {}", file, folder.string()), call.place);
+  if (context.includes >= 20)
+    throw Error(fmt::format("include \"{}\" is nested more than 20 deep; does a file include itself?", file), call.place);
   const std::string text = read_input(context, path, call.place);
   lua_settop(call.lua, 1);
   load_chunk(call.lua, context, text, (context.folder / file).lexically_normal().string());
@@ -148,20 +146,35 @@ int include(Call& call) {
 
 std::vector<Function> result_functions() {
   return {
-      {"param", param, "name, default, text", "number: the default, or what -D name=value says",
+      {"param",
+       param,
+       "name, default, text",
+       "number: the default, or what -D name=value says",
        "Declares a number that -D and studies may change.",
        {{"name", "string", "", "its name", -unbounded, unbounded, true},
         {"default", "number", "", "its value where none is given", -unbounded, unbounded, true},
         {"text", "string", "", "what it means or assumes, and its unit at the end: \"density of brick, assumed [kg/m3]\""}}},
-      {"metric", metric, "name, unit, value", "", "Adds a number to metrics.json; a function is called after the run with a table `run`.",
+      {"metric",
+       metric,
+       "name, unit, value",
+       "",
+       "Adds a number to metrics.json; a function is called after the run with a table `run`.",
        {{"name", "string", "", "key under \"metrics\"", -unbounded, unbounded, true},
         {"unit", "string", "", "its unit, \"\" for none", -unbounded, unbounded, true},
         {"value", "metric", "", "a number, or function(run) that returns one", -unbounded, unbounded, true}}},
-      {"expect", expect, "key, value, how", "", "Says what a key of metrics.json must be; the scene is the test.",
+      {"expect",
+       expect,
+       "key, value, how",
+       "",
+       "Says what a key of metrics.json must be; the scene is the test.",
        {{"key", "string", "", "dotted key: \"metrics.x\", \"energy.residual_relative\", \"status\"", -unbounded, unbounded, true},
         {"value", "expected", "", "a number, a word, true or false", -unbounded, unbounded, true},
         {"how", "tolerance", "", "{ rel = | abs = | below = true | above = true | between = { lo, hi }, source = \"...\" }"}}},
-      {"include", include, "file", "any: what the file returns", "Runs another script of the scene's folder in the same scene.",
+      {"include",
+       include,
+       "file",
+       "any: what the file returns",
+       "Runs another script of the scene's folder in the same scene.",
        {{"file", "string", "", "path, relative to the scene", -unbounded, unbounded, true}}},
   };
 }

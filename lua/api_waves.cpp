@@ -24,9 +24,7 @@ void finish(Call&, Arguments& arguments, Table& wave) {
   arguments.read("values", values);
   try {
     wave = make_table(std::move(times), std::move(values), wave.hold);
-  } catch (const Error& error) {
-    arguments.mistake(error.what());
-  }
+  } catch (const Error& error) { arguments.mistake(error.what()); }
 }
 
 void finish(Call& call, Arguments& arguments, Record& wave) {
@@ -64,7 +62,9 @@ Keys wave_keys() {
 
 template <class... W>
 void add_waves(std::vector<Function>& functions, const std::variant<W...>*) {
-  (functions.push_back({std::string(W::wave_name), make_wave<W>, "{ ... }", "wave: to be given to a load; wave(t) is its value", text_of(W::wave_name), wave_keys<W>()}), ...);
+  (functions.push_back({std::string(W::wave_name), make_wave<W>, "{ ... }", "wave: to be given to a load; wave(t) is its value",
+                        text_of(W::wave_name), wave_keys<W>()}),
+   ...);
 }
 
 }  // namespace

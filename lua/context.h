@@ -28,8 +28,8 @@ struct Metric {
 
 // A load whose wave is a Lua function, sampled once the duration of the run is known.
 struct Sampling {
-  size_t load = 0;      // index into Scene::loads
-  int function = -2;    // reference in the Lua registry
+  size_t load = 0;       // index into Scene::loads
+  int function = -2;     // reference in the Lua registry
   double sample = 1e-3;  // s
   Place place;
 };
@@ -61,8 +61,8 @@ struct Context {
   std::vector<GroupRecorder> group_recorders;
   std::vector<std::string> output;  // what the script printed
   std::filesystem::path folder;     // of the scene file
-  std::vector<std::string> files;    // names of the chunks that are the user's
-  const RunResults* run = nullptr;   // while metrics are evaluated
+  std::vector<std::string> files;   // names of the chunks that are the user's
+  const RunResults* run = nullptr;  // while metrics are evaluated
   int includes = 0;                 // depth of include at the moment
   bool quiet = false;               // print writes to output only
 

@@ -26,16 +26,21 @@ Keys joined(std::vector<Keys> lists) {
 
 std::string described(lua_State* lua, int index) {
   switch (lua_type(lua, index)) {
-    case LUA_TNUMBER: return fmt::format("the number {}", written(lua_tonumber(lua, index)));
+    case LUA_TNUMBER:
+      return fmt::format("the number {}", written(lua_tonumber(lua, index)));
     case LUA_TSTRING: {
       const std::string text = lua_tostring(lua, index);
       return fmt::format("the string \"{}\"", text.size() > 40 ? text.substr(0, 37) + "..." : text);
     }
-    case LUA_TBOOLEAN: return lua_toboolean(lua, index) ? "true" : "false";
+    case LUA_TBOOLEAN:
+      return lua_toboolean(lua, index) ? "true" : "false";
     case LUA_TNIL:
-    case LUA_TNONE: return "nil";
-    case LUA_TUSERDATA: return luaL_testudata(lua, index, "law") ? "a law" : "a wave";
-    default: return std::string("a ") + lua_typename(lua, lua_type(lua, index));
+    case LUA_TNONE:
+      return "nil";
+    case LUA_TUSERDATA:
+      return luaL_testudata(lua, index, "law") ? "a law" : "a wave";
+    default:
+      return std::string("a ") + lua_typename(lua, lua_type(lua, index));
   }
 }
 
@@ -74,13 +79,15 @@ Arguments::Arguments(Context& context, lua_State* lua, int index, std::string la
     if (lua_type(lua_, -2) == LUA_TSTRING) {
       const std::string name = lua_tostring(lua_, -2);
       if (std::find(known.begin(), known.end(), name) == known.end()) unknown.push_back(name);
-    } else if (!(lua_isinteger(lua_, -2) && std::find(known.begin(), known.end(), std::to_string(lua_tointeger(lua_, -2))) != known.end())) {
+    } else if (!(lua_isinteger(lua_, -2) &&
+                 std::find(known.begin(), known.end(), std::to_string(lua_tointeger(lua_, -2))) != known.end())) {
       ++positional;
     }
   }
   std::sort(unknown.begin(), unknown.end());
   for (const auto& name : unknown) mistake(fmt::format("unknown key \"{}\"{}", name, did_you_mean(name, known)));
-  if (positional > 0) mistake(fmt::format("{} value(s) without a key; write them as key = value (keys: {})", positional, fmt::join(known, ", ")));
+  if (positional > 0)
+    mistake(fmt::format("{} value(s) without a key; write them as key = value (keys: {})", positional, fmt::join(known, ", ")));
   for (const Key& k : *keys_)
     if (k.required && !has(k.name)) mistake(fmt::format("\"{}\" is missing ({}); add {} = ...", k.name, k.text, k.name));
 }
@@ -95,8 +102,7 @@ const Key& Arguments::key(const std::string& name) const {
 
 bool Arguments::push(const std::string& key) const {
   const bool positional = !key.empty() && key.find_first_not_of("0123456789") == std::string::npos;
-  if (positional)
-    lua_rawgeti(lua_, index_, std::stoi(key));
+  if (positional) lua_rawgeti(lua_, index_, std::stoi(key));
   else {
     lua_pushlstring(lua_, key.data(), key.size());
     lua_rawget(lua_, index_);
@@ -167,20 +173,16 @@ void Arguments::read(const std::string& key, double& into) {
 void Arguments::read(const std::string& key, int& into) {
   if (!push(key)) return;
   if (const auto value = number_at_top(key, key)) {
-    if (*value == std::floor(*value) && std::abs(*value) < 1e9)
-      into = static_cast<int>(*value);
-    else
-      mistake(fmt::format("{} = {} must be a whole number", key, written(*value)));
+    if (*value == std::floor(*value) && std::abs(*value) < 1e9) into = static_cast<int>(*value);
+    else mistake(fmt::format("{} = {} must be a whole number", key, written(*value)));
   }
   lua_pop(lua_, 1);
 }
 
 void Arguments::read(const std::string& key, bool& into) {
   if (!push(key)) return;
-  if (lua_isboolean(lua_, -1))
-    into = lua_toboolean(lua_, -1);
-  else
-    wrong_type(key, key, "true or false");
+  if (lua_isboolean(lua_, -1)) into = lua_toboolean(lua_, -1);
+  else wrong_type(key, key, "true or false");
   lua_pop(lua_, 1);
 }
 
@@ -194,33 +196,27 @@ void Arguments::read(const std::string& key, std::string& into) {
     const std::string& words = this->key(key).words;
     const auto allowed = split(words);
     const std::string word(text, std::min<size_t>(length, 4096));
-    if (length > 1000)
-      mistake(fmt::format("{} is {} characters long; at most 1000 are allowed", key, length));
+    if (length > 1000) mistake(fmt::format("{} is {} characters long; at most 1000 are allowed", key, length));
     else if (!words.empty() && std::find(allowed.begin(), allowed.end(), word) == allowed.end())
       mistake(fmt::format("{} = \"{}\" is not one of {}{}", key, word, fmt::join(allowed, ", "),
                           nearest(word, allowed).empty() ? "" : did_you_mean(word, allowed)));
-    else
-      into = word;
+    else into = word;
   }
   lua_pop(lua_, 1);
 }
 
 std::optional<Vec3> Arguments::vector_at_top(const std::string& key, const std::string& path) const {
   if (!lua_istable(lua_, -1) || lua_rawlen(lua_, -1) != 3) {
-    if (lua_istable(lua_, -1))
-      mistake(fmt::format("{} must be {{ x, y, z }}, not a table of {}", path, lua_rawlen(lua_, -1)));
-    else
-      wrong_type(key, path, "a vector { x, y, z }");
+    if (lua_istable(lua_, -1)) mistake(fmt::format("{} must be {{ x, y, z }}, not a table of {}", path, lua_rawlen(lua_, -1)));
+    else wrong_type(key, path, "a vector { x, y, z }");
     return std::nullopt;
   }
   Vec3 vector = Vec3::Zero();
   bool sound = true;
   for (int i = 0; i < 3; ++i) {
     lua_rawgeti(lua_, -1, i + 1);
-    if (const auto value = number_at_top(key, fmt::format("{}[{}]", path, i + 1)))
-      vector[i] = *value;
-    else
-      sound = false;
+    if (const auto value = number_at_top(key, fmt::format("{}[{}]", path, i + 1))) vector[i] = *value;
+    else sound = false;
     lua_pop(lua_, 1);
   }
   if (!sound) return std::nullopt;
@@ -293,10 +289,8 @@ void Arguments::read(const std::string& key, std::vector<std::string>& into) {
     const auto n = static_cast<lua_Integer>(lua_rawlen(lua_, -1));
     for (lua_Integer i = 1; i <= n; ++i) {
       lua_rawgeti(lua_, -1, i);
-      if (lua_type(lua_, -1) == LUA_TSTRING)
-        into.emplace_back(lua_tostring(lua_, -1));
-      else
-        wrong_type(key, fmt::format("{}[{}]", key, i), "a string");
+      if (lua_type(lua_, -1) == LUA_TSTRING) into.emplace_back(lua_tostring(lua_, -1));
+      else wrong_type(key, fmt::format("{}[{}]", key, i), "a string");
       lua_pop(lua_, 1);
     }
   } else {
@@ -318,8 +312,7 @@ void Arguments::read(const std::string& key, std::vector<std::vector<int>>& into
       lua_rawgeti(lua_, -1, j);
       if (lua_isinteger(lua_, -1) && lua_tointeger(lua_, -1) >= 1 && lua_tointeger(lua_, -1) < 1000000)
         row.push_back(static_cast<int>(lua_tointeger(lua_, -1)) - 1);
-      else
-        wrong_type(key, fmt::format("{}[{}][{}]", key, i, j), "a vertex number (from 1)");
+      else wrong_type(key, fmt::format("{}[{}][{}]", key, i, j), "a vertex number (from 1)");
       lua_pop(lua_, 1);
     }
     into.push_back(row);
@@ -335,10 +328,8 @@ void Arguments::direction(const std::string& key, Vec3& into) {
     into = Vec3::Unit(word[0] - 'x');
   } else if (lua_istable(lua_, -1)) {
     if (const auto vector = vector_at_top(key, key)) {
-      if (vector->norm() < 1e-12)
-        mistake(fmt::format("{} has no length; give a vector such as {{ 1, 0, 0 }}", key));
-      else
-        into = vector->normalized();
+      if (vector->norm() < 1e-12) mistake(fmt::format("{} has no length; give a vector such as {{ 1, 0, 0 }}", key));
+      else into = vector->normalized();
     }
   } else {
     wrong_type(key, key, "\"x\", \"y\", \"z\" or a vector { x, y, z }");

@@ -34,7 +34,7 @@ Keys keys_of() {
   const T made{};
   Keys keys;
   for (const Field<T>& field : T::fields()) {
-    Key key{std::string(field.name), "", std::string(field.unit), std::string(field.text), field.low, field.high, field.required,
+    Key key{std::string(field.name),  "", std::string(field.unit), std::string(field.text), field.low, field.high, field.required,
             std::string(field.words), ""};
     std::visit(
         [&](auto member) {
@@ -63,8 +63,7 @@ class Arguments {
   bool has(const std::string& key) const;
   template <class T>
   void read(T& item) {  // every key of T's field list that is there
-    for (const Field<T>& field : T::fields())
-      std::visit([&](auto member) { read(std::string(field.name), item.*member); }, field.member);
+    for (const Field<T>& field : T::fields()) std::visit([&](auto member) { read(std::string(field.name), item.*member); }, field.member);
   }
   void read(const std::string& key, double& into);
   void read(const std::string& key, int& into);
@@ -74,9 +73,9 @@ class Arguments {
   void read(const std::string& key, std::vector<double>& into);
   void read(const std::string& key, std::vector<Vec3>& into);
   void read_pairs(const std::string& key, std::vector<Eigen::Vector2d>& into);  // { {u, v}, ... }
-  void read(const std::string& key, std::vector<std::string>& into);       // a string, or a list of strings
-  void read(const std::string& key, std::vector<std::vector<int>>& into);  // lists of indices from 1, made to count from 0
-  void direction(const std::string& key, Vec3& into);                      // "x", "y", "z" or a vector; made a unit vector
+  void read(const std::string& key, std::vector<std::string>& into);            // a string, or a list of strings
+  void read(const std::string& key, std::vector<std::vector<int>>& into);       // lists of indices from 1, made to count from 0
+  void direction(const std::string& key, Vec3& into);                           // "x", "y", "z" or a vector; made a unit vector
   std::optional<Law> law(const std::string& key);
   std::optional<Wave> wave(const std::string& key);  // a wave value, or a number that holds for ever
   int function(const std::string& key);              // reference in the registry, LUA_NOREF where there is none

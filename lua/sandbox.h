@@ -14,15 +14,15 @@ namespace erbs {
 struct Context;
 
 struct Limits {
-  double seconds = 10;           // wall clock, of one stretch of script
+  double seconds = 10;  // wall clock, of one stretch of script
   size_t bytes = size_t{512} << 20;
   // State of the limits
   size_t used = 0;
   bool capped = true;  // lifted while C++ objects are alive, so that no memory error of Lua jumps over them
   std::chrono::steady_clock::time_point deadline{};
   std::atomic<bool> expired = false;
-  std::mutex mutex;      // guards `doing`
-  std::string doing;     // the library function (and its line) that runs outside the reach of the hook
+  std::mutex mutex;   // guards `doing`
+  std::string doing;  // the library function (and its line) that runs outside the reach of the hook
 };
 
 // A stretch of script under the time limit. The count hook stops Lua code (pcall cannot swallow it: once the time is over every

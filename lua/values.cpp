@@ -53,10 +53,8 @@ void push_wave(lua_State* lua, Context& context, Wave wave) {
 std::optional<Law> Arguments::law(const std::string& key) {
   std::optional<Law> law;
   if (!push(key)) return law;
-  if (const size_t* index = handle_at_top(lua_, law_type))
-    law = context_->laws[*index];
-  else
-    wrong_type(key, key, "a joint law, such as mortar{ ... } or dry{ ... }");
+  if (const size_t* index = handle_at_top(lua_, law_type)) law = context_->laws[*index];
+  else wrong_type(key, key, "a joint law, such as mortar{ ... } or dry{ ... }");
   lua_pop(lua_, 1);
   return law;
 }
@@ -64,12 +62,10 @@ std::optional<Law> Arguments::law(const std::string& key) {
 std::optional<Wave> Arguments::wave(const std::string& key) {
   std::optional<Wave> wave;
   if (!push(key)) return wave;
-  if (const size_t* index = handle_at_top(lua_, wave_type))
-    wave = context_->waves[*index];
+  if (const size_t* index = handle_at_top(lua_, wave_type)) wave = context_->waves[*index];
   else if (const auto number = lua_type(lua_, -1) == LUA_TNUMBER ? number_at_top(key, key) : std::nullopt)
     wave = Pulse{*number, 0, unbounded};
-  else
-    wrong_type(key, key, "a wave, such as sine{ ... } or record{ ... }, a number, or a function of time");
+  else wrong_type(key, key, "a wave, such as sine{ ... } or record{ ... }, a number, or a function of time");
   lua_pop(lua_, 1);
   return wave;
 }
