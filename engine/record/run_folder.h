@@ -1,38 +1,12 @@
 // The run folder: what a run leaves behind, and all that the renderer, reports and studies know of it.
 #pragma once
-#include <cstdint>
-#include <map>
 #include <string>
-#include <utility>
-#include <vector>
 
 #include "engine/record/csv.h"
-#include "engine/record/json.h"
-#include "engine/scene/scene.h"
+#include "engine/record/manifest.h"
+#include "engine/record/metrics.h"
 
 namespace erbs {
-
-// manifest.json: what was run, with what.
-struct Manifest {
-  std::string version, git_hash, compiler, isa;
-  int threads = 1;
-  std::string started;                                    // UTC, ISO 8601
-  std::string scene_name, scene_file, scene_hash, title;  // title: the first comment line of the script
-  std::vector<Param> params;
-  std::map<std::string, std::string> inputs;  // path of each file read -> its hash
-  std::vector<std::string> effects_on, effects_off;
-  double duration = 0, output_dt = 0, frame_dt = 0;    // s
-  double dt = 0, dt_critical = 0, dt_block_bound = 0;  // s
-  std::string dt_rule;
-  Vec3 gravity = Vec3::Zero();  // m/s2
-  std::vector<Camera> cameras;
-  std::vector<Material> materials;                                // name, density, debris, colour; motion.h5 names them by index
-  std::vector<std::pair<std::string, std::string>> metric_units;  // of the scene's own metrics: name, unit
-  Json laws, loads, settings;                                     // every other parameter of the scene with its unit, from the field lists
-};
-
-// All that the scene and the program know; the caller adds threads, effects, dt and its rule.
-Manifest manifest_of(const Scene& scene, const std::string& script);
 
 enum class Existing { refuse, force, resume };  // what to do with a folder that is there
 
@@ -46,11 +20,6 @@ void create_run_folder(const std::string& dir, Existing existing, const std::str
 
 bool is_run_folder(const std::string& dir);
 
-Manifest read_manifest(const std::string& dir);  // places and laws are not read back
-void write_manifest(const std::string& dir, const Manifest& manifest);
 std::string run_file(const std::string& dir, const std::string& name);  // DIR/name
-
-std::string program_version();  // "0.1.0 (1a2b3c4)"
-std::string machine_isa();      // widest vector instructions of this processor: avx512f, avx2, ...
 
 }  // namespace erbs

@@ -167,6 +167,7 @@ struct Recorder {
   std::string name;                 // column stem, e.g. "floor3"
   std::string quantity;             // a name in engine/record/recorders.h, e.g. displacement, velocity, acceleration, reaction
   std::vector<std::string> blocks;  // block names; the quantity is averaged (or summed, for forces) over them
+  std::vector<std::string> others;  // block names; joint quantities: only joints between `blocks` and these (empty: any other)
   std::string axis = "xyz";         // which components
   std::string frame = "rel";        // rel (to the ground) | abs
   bool has_point = false;
