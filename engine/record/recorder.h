@@ -26,6 +26,12 @@ struct Ask {
   std::vector<int> blocks, others;  // block numbers
 };
 
+// Helpers of the kinds.
+int quantity_index(const std::vector<Quantity>& quantities, const std::string& name);  // -1 where it is not among them
+// name_<symbol>x_<unit>, ... for the letters of `axis`
+std::vector<std::string> axis_columns(const std::string& name, const std::string& axis, const std::string& symbol, const std::string& unit);
+void put_axes(const Vec3& value, const std::string& axis, double* out);
+
 class Recorders {
  public:
   // Error, all mistakes at once, for an unknown quantity, block or axis, or a column named twice.

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "engine/record/csv.h"
+#include "engine/record/joint_look.h"
 #include "engine/record/motion_file.h"
 #include "engine/record/recorder.h"
 #include "engine/record/snapshot.h"
@@ -53,11 +54,5 @@ class RunWriter {
 
 // The drawn side of a model: shapes (shared between equal blocks), blocks and joints.
 MotionScene motion_scene(const Scene& scene, const Model& model);
-
-// Largest opening (m) over the corners of joint j, and share of its area that is damaged; exact at any rotation.
-struct JointLook {
-  double opening, slip, damage;  // m, m, 0..1
-};
-JointLook look_at_joint(const Model& model, const State& state, int j);
 
 }  // namespace erbs

@@ -40,20 +40,20 @@ Solver::Solver(const Model& model, State& state, int threads)
   floor_ = std::max(1e-300, 1e-12 * weight * (high - low));
 }
 
-void Solver::run(const std::function<bool(double)>& wanted, const std::function<bool(bool)>& stop) {
+void Solver::run(const Hooks& hooks) {
   Barrier barrier(threads_);
   stop_ = false;
   together(threads_, [&](int thread) {
     for (;;) {
-      if (thread == 0) begin(wanted);
+      if (thread == 0) begin(hooks);
       barrier.wait();
       joints(thread);
       barrier.wait();
       blocks(thread);
       barrier.wait();
       if (thread == 0) {
-        finish();
-        stop_ = broken_ || (sample_ != Sample::none && stop(sample_ == Sample::full));
+        finish(hooks);
+        stop_ = broken_ || (sample_ != Sample::none && hooks.stop());
       }
       barrier.wait();
       if (stop_) return;
@@ -61,8 +61,8 @@ void Solver::run(const std::function<bool(double)>& wanted, const std::function<
   });
 }
 
-void Solver::begin(const std::function<bool(double)>& wanted) {
-  sample_ = wanted(state_.t) ? Sample::full : state_.step % ledger_every == 0 ? Sample::ledger : Sample::none;
+void Solver::begin(const Hooks& hooks) {
+  sample_ = hooks.wanted(state_.t) ? Sample::full : state_.step % ledger_every == 0 ? Sample::ledger : Sample::none;
   for (const BlockSums& sums : block_sums_)
     if (sums.stale) {
       refresh_stale(model_, state_);
@@ -149,7 +149,7 @@ void Solver::drive() {
   }
 }
 
-void Solver::finish() {
+void Solver::finish(const Hooks& hooks) {
   State& s = state_;
   drive();
   for (const BlockSums& sums : block_sums_) broken_ = broken_ || sums.broken;
@@ -168,6 +168,11 @@ void Solver::finish() {
   if (sample_ == Sample::full) {
     instant_.v_after = s.v;
     instant_.w_after = s.w;
+    std::swap(instant_.u, s.u);
+    std::swap(instant_.q, s.q);
+    hooks.sampled();
+    std::swap(instant_.u, s.u);
+    std::swap(instant_.q, s.q);
   }
   s.t = s.start_t + double(s.step + 1 - s.start_step) * s.dt;
   ++s.step;
@@ -215,6 +220,13 @@ void Solver::settle_ledger() {
   }
   if (e.started) e.height_flux += std::fabs(e.gravity - gravity_before);
   settle(e, floor_, state_.t, worst);
+}
+
+Vec6 Solver::block_wrench(int b) const { return joint_wrench(model_, state_, b) + Eigen::Map<const Vec6>(&push_[6 * z(b)]); }
+
+Vec6 Solver::load_wrench(int b) const {
+  if (model_.kind[z(b)] == Kind::driven) return -block_wrench(b);
+  return load_.empty() ? Vec6(Vec6::Zero()) : Vec6(Eigen::Map<const Vec6>(&load_[6 * z(b)]));
 }
 
 std::vector<int> Solver::take_cracked() { return std::exchange(cracked_, {}); }

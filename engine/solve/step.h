@@ -14,8 +14,8 @@ namespace erbs {
 struct Instant {
   double t = 0;
   Excitation excitation;          // means over the kick about t
-  std::vector<Vec3> v_before, v_after, w_before, w_after;  // half a step before and after t [nblock]; filled on request
-  std::vector<Vec3> u;            // m at t: the state itself has drifted on
+  std::vector<Vec3> v_before, v_after, w_before, w_after;  // m/s, rad/s, half a step before and after t [nblock]
+  std::vector<Vec3> u;            // m, poses at t while the state has drifted on; swapped with it during sampled()
   std::vector<Quat> q;
 };
 
@@ -23,22 +23,29 @@ class Solver {
  public:
   Solver(const Model& model, State& state, int threads);
 
-  // Steps until `stop` says so. A step whose time is wanted is a sample: the ledger is settled there, instant() holds poses and
-  // velocities about t, and stop(true) is called after it. Every 32nd step the ledger is settled as well and stop(false) called.
-  // Also returns when a number broke.
-  void run(const std::function<bool(double t)>& wanted, const std::function<bool(bool sampled)>& stop);
+  // Steps until `stop` says so, or a number breaks. A step whose time is wanted is a sample: the ledger is settled there, and
+  // sampled() is called with the state as it is at t and the velocities about t in instant(). Every 32nd step the ledger is
+  // settled as well. stop() is called after such steps, when the state is whole: a checkpoint may be taken there.
+  struct Hooks {
+    std::function<bool(double t)> wanted;
+    std::function<void()> sampled;
+    std::function<bool()> stop;
+  };
+  void run(const Hooks& hooks);
 
   const Instant& instant() const { return instant_; }
   bool broken() const { return broken_; }
+  Vec6 block_wrench(int b) const;  // N, N m about the centroid: joints and contacts
+  Vec6 load_wrench(int b) const;   // loads; on a driven block what holds it on its course
   std::vector<int> take_cracked();  // joints that cracked since the last call, in the order of their number
 
  private:
   enum class Sample { none, ledger, full };
-  void begin(const std::function<bool(double)>& wanted);
+  void begin(const Hooks& hooks);
   void excite();
   void joints(int thread);
   void blocks(int thread);
-  void finish();
+  void finish(const Hooks& hooks);
   void drive();
   void settle_ledger();
 
