@@ -14,9 +14,11 @@ enum class Part { motion, history, carried };
 template <class S, class F>
 requires std::is_same_v<std::remove_const_t<S>, State>
 void each(S& state, F&& f) {
-  auto& [step, t, dt, last_dt, u, q, v, spin_momentum, w, base_u, base_q, row, island, grounded, loose, batch, slow, tier, memory, history,
-         wrench, joints_broken, energy, max_penetration_relative, momentum_residual] = state;
+  auto& [step, start_step, start_t, t, dt, last_dt, u, q, v, spin_momentum, w, base_u, base_q, row, island, grounded, joined, loose, batch, slow, tier, memory, history,
+         wrench, joints_broken, energy, gravity_before, moment_before, max_penetration_relative, momentum_residual] = state;
   f("step", step, Part::carried);
+  f("start_step", start_step, Part::carried);
+  f("start_t", start_t, Part::carried);
   f("t", t, Part::motion);
   f("dt", dt, Part::carried);
   f("last_dt", last_dt, Part::carried);
@@ -30,6 +32,7 @@ void each(S& state, F&& f) {
   f("row", row, Part::carried);
   f("island", island, Part::carried);
   f("grounded", grounded, Part::carried);
+  f("joined", joined, Part::carried);
   f("loose", loose, Part::carried);
   f("batch", batch, Part::carried);
   f("slow", slow, Part::carried);
@@ -39,6 +42,8 @@ void each(S& state, F&& f) {
   f("wrench", wrench, Part::carried);
   f("joints_broken", joints_broken, Part::history);
   f("energy", energy, Part::carried);
+  f("gravity_before", gravity_before, Part::carried);
+  f("moment_before", moment_before, Part::carried);
   f("max_penetration_relative", max_penetration_relative, Part::carried);
   f("momentum_residual", momentum_residual, Part::carried);
 }

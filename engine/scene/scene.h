@@ -122,7 +122,7 @@ struct Damping {
 };
 
 struct Analysis {
-  double duration = 1;                // s
+  double duration = 0;                // s; must be given
   double dt = 0;                      // s; 0: from dt_rule
   double dt_fraction = 0.9;           // of the limit in force
   std::string dt_rule = "limit";      // limit | period_tenth (3) | hart (4) | hakuno (5) | hakuno_half
@@ -253,5 +253,7 @@ struct Scene {
 
 // Every mistake that can be seen without building a model; empty when there is none. Messages carry place and remedy.
 std::vector<std::string> check(const Scene& scene);
+// What is no mistake, but should be known before the run.
+std::vector<std::string> warnings(const Scene& scene);
 
 }  // namespace erbs
