@@ -1,4 +1,4 @@
-// motion.h5: what the blocks look like, and where they are in each frame. The one door to HDF5.
+// motion.h5: what the blocks look like, and where they are in each frame. h5.cpp is the one door to HDF5.
 //
 //   /block_name /group_name /block_group /block_material /block_fixed /block_rest [blocks,3] /block_size [blocks,3]
 //   /shape_* (drawn parts, shared between equal blocks)  /joint_* (who touches whom, and where)
