@@ -1,5 +1,5 @@
 -- What wall{...} and building{...} take: one table for reading, messages and help; and the reader that reports every mistake at once.
--- Used by masonry.lua, which defines the functions.
+-- First of four files: masonry_keys, masonry_bond, masonry_runs, masonry. Each adds what the next ones use to masonry_parts.
 
 -- type: number (low, high allowed ends included; `above` excluded), integer, string, boolean, vec (three numbers), table
 
@@ -137,6 +137,7 @@ local function read_value(what, key, value, mistakes)
   if key.choice and value ~= key.choice[1] and value ~= key.choice[2] then
     return wrong("= \"%s\" is not known; allowed: %s", value, table.concat(key.choice, ", "))
   end
+  if key.type == "integer" then return math.tointeger(value) end  -- a number given by -D is no integer yet
   if key.keys then return read(what .. "." .. key.name, value, key.keys, mistakes) end
   if key.list then
     local all = {}
@@ -180,4 +181,4 @@ end
 
 local function fail(...) stop_if { string.format(...) } end
 
-masonry_keys = { read = read, stop_if = stop_if, fail = fail, nearest = nearest, millimetres = millimetres }
+masonry_parts = { read = read, stop_if = stop_if, fail = fail, nearest = nearest, millimetres = millimetres, eps = 1e-7 }

@@ -2,9 +2,9 @@
 --
 -- Where whole and half bricks do not fill a stretch, the cheapest of three remedies is taken: a cut closer, a half, or head joints a
 -- little wider. "Cheapest" is the cost below: few cuts, no small ones, and head joints far from those of the course beneath.
--- Positions u run along the wall, in metres. Used by masonry.lua only.
+-- Positions u run along the wall, in metres.
 
-local eps = 1e-7  -- m, lengths closer than this are equal
+local eps = masonry_parts.eps  -- m, lengths closer than this are equal
 
 local function piece_kind(job, length)
   if math.abs(length - job.full) < eps then return "full" end
@@ -131,4 +131,4 @@ local function lay(masonry, start, stop, below, pattern)
   return found
 end
 
-masonry_bond = { lay = lay, piece_kind = piece_kind, eps = eps }
+masonry_parts.lay, masonry_parts.piece_kind = lay, piece_kind
