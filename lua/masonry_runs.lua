@@ -123,7 +123,7 @@ local function place_openings(masonry, runs, openings)
         numbers[stem] = (numbers[stem] or 0) + 1
         name = opening.kind .. numbers[stem]
       elseif #places > 1 then
-        name = name .. "_" .. storey
+        name = name .. (name:find("%d$") and "_" or "") .. storey
       end
       if used[run.name .. name] then fail("two openings of wall \"%s\" are called \"%s\"", run.name, name) end
       used[run.name .. name] = true
