@@ -105,6 +105,15 @@ local function summarise(masonry, runs)
   out.summary = table.concat(lines, "\n")
 end
 
+-- The nearest of 1, 2, 5, 10, 20, 50, ... mm (on a logarithmic scale): lengths of cut bricks are tried in such steps.
+local function round_step(x)
+  local decade = 10 ^ math.floor(math.log(x, 10))
+  for _, step in ipairs { 1, 2, 5 } do
+    if x < step * decade * math.sqrt(step == 2 and 2.5 or 2) then return step * decade end
+  end
+  return 10 * decade
+end
+
 -- From checked keys to blocks. corners: outer corners of the plan.
 local function raise(k, title, corners, closed, names, courses)
   local lo, hi = { math.huge, math.huge }, { -math.huge, -math.huge }
@@ -113,7 +122,7 @@ local function raise(k, title, corners, closed, names, courses)
   end
   local masonry = {
     full = k.brick.length, width = k.brick.width, height = k.brick.height, half = k.brick.length / 2, t = k.joint, closer = k.closer,
-    joint_max = k.joint_max or 1.5 * k.joint, step = k.brick.length / 30, bearing = k.lintel.bearing or k.brick.length / 2,
+    joint_max = k.joint_max or 1.5 * k.joint, step = round_step(k.brick.length / 30), bearing = k.lintel.bearing or k.brick.length / 2,
     at = k.at, material = k.material, lintel = k.lintel, slab = k.slab, base = k.base, shift = k.shift, courses = courses, laid = {},
     prefix = k.prefix, title = title, plan_box = { lo = lo, hi = hi },
   }

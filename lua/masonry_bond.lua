@@ -20,16 +20,21 @@ local function piece_cost(job, length, at_end)
   return 1 + math.max(0, (job.half - length) / job.half) + (at_end and 0 or 0.2)
 end
 
--- A head joint at u costs by its distance from the nearest one beneath: much below a quarter of a brick, little below a half.
+-- A head joint at u costs by its lap, the distance from the nearest joint beneath: much below a quarter of a brick, little below a half.
+local function lap_cost(masonry, u, below)
+  local lap, quarter, cost = masonry.full, masonry.full / 4, 0
+  for _, b in ipairs(below) do lap = math.min(lap, math.abs(b - u)) end
+  if lap < quarter - eps then cost = 1 + 6 * (quarter - lap) / quarter end
+  if lap < masonry.half then cost = cost + 0.3 * (masonry.half - lap) / masonry.half end
+  return cost
+end
+
 local function joint_cost(job, u)
-  local known = job.joint_costs[u]
-  if known then return known end
-  local d = job.full
-  for _, b in ipairs(job.below) do d = math.min(d, math.abs(b - u)) end
-  local quarter, cost = job.full / 4, 0
-  if d < quarter - eps then cost = 1 + 6 * (quarter - d) / quarter end
-  if d < job.half then cost = cost + 0.3 * (job.half - d) / job.half end
-  job.joint_costs[u] = cost
+  local cost = job.joint_costs[u]
+  if not cost then
+    cost = lap_cost(job, u, job.below)
+    job.joint_costs[u] = cost
+  end
   return cost
 end
 
@@ -131,4 +136,4 @@ local function lay(masonry, start, stop, below, pattern)
   return found
 end
 
-masonry_parts.lay, masonry_parts.piece_kind = lay, piece_kind
+masonry_parts.lay, masonry_parts.lap_cost, masonry_parts.piece_kind = lay, lap_cost, piece_kind

@@ -2,7 +2,7 @@
 
 local eps, millimetres = masonry_parts.eps, masonry_parts.millimetres
 local fail, nearest = masonry_parts.fail, masonry_parts.nearest
-local lay, piece_kind = masonry_parts.lay, masonry_parts.piece_kind
+local lay, lap_cost, piece_kind = masonry_parts.lay, masonry_parts.lap_cost, masonry_parts.piece_kind
 
 -- ---- runs: the straight stretches of a plan ------------------------------------------------------------------------------------
 
@@ -181,19 +181,23 @@ local function note_joint(masonry, below, u, width)
 end
 
 -- A lintel rests on its jambs by at least the bearing; it is made up to a quarter brick longer at either end where whole bricks then
--- fit beside it: at a joint of the pattern, or n bricks away from the neighbour. side: -1 left end, +1 right end; far: where the
--- stretch beside it ends.
+-- fit beside it (at a joint of the pattern, or n bricks away from the neighbour) or its end would come too near a joint beneath.
+-- side: -1 left end, +1 right end; far: where the stretch beside it ends.
 local function lengthen_lintel(masonry, lintel, side, far, below, pattern)
   local own = side < 0 and lintel.lo or lintel.hi
   local pitch, found, least = masonry.full + masonry.t, own, math.huge
   local ends_at = { own, far - side * math.floor(side * (far - own) / pitch + eps) * pitch }
   for _, joint in ipairs(pattern) do ends_at[#ends_at + 1] = joint.u + side * joint.width / 2 - side * masonry.t end
+  if lap_cost(masonry, own + side * masonry.t / 2, below) > 1 then
+    for k = 1, math.floor(masonry.full / 4 / masonry.step) do ends_at[#ends_at + 1] = own + side * k * masonry.step end
+  end
   for _, u in ipairs(ends_at) do
     local longer = side * (u - own)
     if longer > -eps and longer < masonry.full / 4 then
       local face = u + side * masonry.t
       local laid = lay(masonry, math.min(face, far), math.max(face, far), below, pattern)
-      if laid and laid.cost < least - eps then found, least = u, laid.cost end
+      local cost = laid and laid.cost + lap_cost(masonry, u + side * masonry.t / 2, below)
+      if cost and cost < least - eps then found, least = u, cost end
     end
   end
   if side < 0 then lintel.lo = found else lintel.hi = found end
@@ -253,10 +257,12 @@ local function lay_course(masonry, index, run, storey, course, number, z, below,
   for _, o in ipairs(lengthen_lintels(masonry, run, storey, course, below, pattern, start, stop)) do
     parts[#parts + 1] = { u, o.lo - o.gap }
     u = o.hi + o.gap
-    if o.lintel then
+    if o.lintel and course == o.lintel.bottom then
       joint(o.lo - masonry.t / 2, masonry.t)
       joint(o.hi + masonry.t / 2, masonry.t)
-      if course == o.lintel.bottom then lay_lintel(masonry, run, o, z) end
+      lay_lintel(masonry, run, o, z)
+    elseif o.lintel then  -- the joints at its ends go on upwards
+      joints[#joints + 1], joints[#joints + 2] = o.lo - masonry.t / 2, o.hi + masonry.t / 2
     end
   end
   parts[#parts + 1] = { u, stop }
