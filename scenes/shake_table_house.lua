@@ -106,13 +106,20 @@ for floor, slab in ipairs(house.slabs) do
   end)
 end
 
-recorder { name = "base", quantity = "reaction", block = "ground" }
+recorder { name = "base", quantity = "reaction" }  -- no block named: the sum over all supports
 metric("base_shear_peak_N", "N", function(run) return run.peak("base_fx_N") end)
 metric("base_shear_peak_of_weight", "", function(run) return run.peak("base_fx_N") / weight end)
-metric("first_crack_s", "s", function(run) return run.first_crack end)
-metric("collapse_time_s", "s", function(run) return run.metrics.collapse.time_s end)
+
+recorder { name = "mortar", quantity = "damage" }         -- share of all joints' area
+recorder { name = "mortar", quantity = "joints_broken" }
+metric("first_crack_s", "s", function(run)  -- to the row of histories.csv; events.csv has it to the step
+  for i, damage in ipairs(run.history("mortar_damage")) do
+    if damage > 0 then return run.time[i] end
+  end
+end)
+metric("collapse_time_s", "s", function(run) return run.collapse.time_s end)
 metric("collapse_direction_deg", "deg", function(run)  -- of the fallen blocks' mean displacement, from x towards y
-  local d = run.metrics.collapse.direction
+  local d = run.collapse.direction
   return d and math.atan(d[2], d[1]) / deg
 end)
 
