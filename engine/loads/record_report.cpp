@@ -114,7 +114,7 @@ void print(std::ostream& out, const RecordReport& r) {
   };
   peak_row("PGV", r.pgv, r.true_pgv, "m/s");
   peak_row("PGD", r.pgd, r.true_pgd, "m");
-  row("end velocity", fmt::format("{:.2g} m/s", r.end_velocity));
+  row("end velocity", fmt::format("{:.1e} m/s", r.end_velocity));
   row("end displacement", fmt::format("{:.1f} mm", std::round(1e4 * r.end_displacement) / 10 + 0.0));  // + 0.0: no "-0.0"
   row("Arias intensity", fmt::format("{:.4f} m/s", r.arias));
   row("duration D5-95", fmt::format("{:.2f} s, from {:.2f} to {:.2f} s", r.time_95 - r.time_5, r.time_5, r.time_95));

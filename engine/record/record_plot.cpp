@@ -47,41 +47,49 @@ std::string spectrum(const RecordReport& r) {
   return text + "END\n";
 }
 
+// The step of 1, 2 or 5 times a power of ten that makes two to five tics up to `reach`.
+double tic_step(double reach) {
+  const double decade = std::pow(10, std::floor(std::log10(reach)));
+  const double lead = reach / decade;
+  return decade * (lead < 2 ? 0.5 : lead < 4 ? 1 : 2);
+}
+
 // A circle at the peak and its value beside it, on the side that has room.
 std::string marker(const Panel& p, double duration) {
   const bool left = p.peak.time > 0.6 * duration;
   return fmt::format("set label 1 at {:.8g},{:.8g} {} {} offset {},{} point pt 7 ps 0.8 lc rgb '{}' tc rgb '#222222' noenhanced front\n",
                      p.peak.time, p.peak.value, gnuplot_quoted(p.note), left ? "right" : "left", left ? -1.0 : 1.0,
-                     p.peak.value > 0 ? 0.5 : -0.5, p.color);
+                     p.peak.value > 0 ? 0.0 : -0.4, p.color);
 }
 
 std::string panel(const Panel& p, const RecordReport& r, bool last) {
-  const double reach = 1.28 * std::abs(p.peak.value);
+  const double reach = std::max(1.28 * std::abs(p.peak.value), 1e-12);  // a record of zeros has a picture too
   std::string text = fmt::format(
       "set lmargin at screen 0.075\nset rmargin at screen 0.6\nset bmargin at screen {}\nset tmargin at screen {}\n"
       "set title '{}' offset 0,-0.7 tc rgb '{}' font ',14'\nset ylabel '{}' offset 0.6,0 tc rgb '#333333'\n"
       "set xrange [0:{:.8g}]\nset yrange [{:.8g}:{:.8g}]\nset format x '{}'\n{}\n",
       p.bottom, p.top, p.title, p.color, p.label, r.duration, -reach, reach, last ? "%g" : "",
       last ? "set xlabel 'time (s)' offset 0,0.3 tc rgb '#333333'" : "unset xlabel");
-  text += fmt::format("set object 1 rectangle from {:.8g}, graph 0 to {:.8g}, graph 1 fc rgb '#f3efe8' behind\n", r.time_5, r.time_95);
-  text += marker(p, r.duration);
+  text += fmt::format("set object 1 rectangle from {:.8g}, graph 0 to {:.8g}, graph 1 fc rgb '#f3efe8' fs solid noborder behind\n",
+                      r.time_5, r.time_95);
+  text += fmt::format("set ytics {:.8g}\n", tic_step(reach)) + marker(p, r.duration);
   text += "set arrow 1 from graph 0, first 0 to graph 1, first 0 nohead lc rgb '#9a9a9a' lw 1\n";
   return text + fmt::format("plot $history using 1:{} with lines lw 1.1 lc rgb '{}'\n", p.column, p.color);
 }
 
 std::string spectrum_panel(const RecordReport& r) {
-  const double top = r.spectrum_peak.acceleration / standard_g;
+  const double top = std::max(r.spectrum_peak.acceleration / standard_g, 1e-12);
   std::string text =
       "unset object 1\nunset arrow 1\nset lmargin at screen 0.685\nset rmargin at screen 0.975\nset bmargin at screen 0.40\nset tmargin at "
       "screen 0.865\n"
       "set title 'Response spectrum, 5 % damping' offset 0,-0.7 tc rgb '#5b3a78' font ',14'\n"
       "set ylabel 'pseudo-acceleration Sa (g)' offset 0.6,0\nset xlabel 'period T (s)' offset 0,0.3 tc rgb '#333333'\n"
-      "set logscale x\nset format x '%g'\nset xtics (0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5)\n";
+      "set ytics auto\nset logscale x\nset format x '%g'\nset xtics (0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5)\n";
   text +=
       fmt::format("set xrange [{:.8g}:{:.8g}]\nset yrange [0:{:.8g}]\n", r.spectrum.front().period, r.spectrum.back().period, 1.2 * top);
   const bool left = r.spectrum_peak.period > 0.5;
   text += fmt::format(
-      "set label 1 at {:.8g},{:.8g} '{:.3f} g at {:.2f} s' {} offset {},0.6 point pt 7 ps 0.8 lc rgb '#5b3a78' tc rgb '#222222' front\n",
+      "set label 1 at {:.8g},{:.8g} '{:.3f} g at {:.2f} s' {} offset {},0.2 point pt 7 ps 0.8 lc rgb '#5b3a78' tc rgb '#222222' front\n",
       r.spectrum_peak.period, top, top, r.spectrum_peak.period, left ? "right" : "left", left ? -0.6 : 0.6);
   return text + "plot $spectrum using 1:2 with lines lw 1.8 lc rgb '#5b3a78'\n";
 }
@@ -93,7 +101,7 @@ std::string summary(const RecordReport& r) {
       {"PGA", fmt::format("{:.5f} g", std::abs(r.pga.value) / standard_g)},
       {"PGV", fmt::format("{:.4f} m/s", std::abs(r.pgv.value))},
       {"PGD", fmt::format("{:.4f} m", std::abs(r.pgd.value))},
-      {"end velocity", fmt::format("{:.2g} m/s", r.end_velocity)},
+      {"end velocity", fmt::format("{:.1e} m/s", r.end_velocity)},
       {"end displacement", fmt::format("{:.1f} mm", std::round(1e4 * r.end_displacement) / 10 + 0.0)},
       {"Arias intensity", fmt::format("{:.3f} m/s", r.arias)},
       {"duration D5-95 (shaded)", fmt::format("{:.2f} s", r.time_95 - r.time_5)},
