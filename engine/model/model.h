@@ -69,6 +69,7 @@ struct Model {
   Vec3 gravity = Vec3::Zero();          // m/s2
   Damping damping;
   Analysis analysis;
+  bool damping_explicit = false, damping_all = false;
   std::vector<Material> materials;
   std::vector<std::vector<Polyhedron>> parts;   // drawn shape: m, relative to the centroid, axes at rest [nblock]
   std::vector<std::vector<Polyhedron>> shapes;  // contact shape: jointed faces moved out by half the bed [nblock]

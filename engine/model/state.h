@@ -36,20 +36,25 @@ struct Energy {
   double base_work = 0, external_work = 0, tilt_work = 0;
   double kinetic = 0, gravity = 0, elastic = 0;
   double friction = 0, fracture = 0, crushing = 0, damping = 0, contact_damping = 0, reset = 0;
-  double stored_at_start = 0;   // kinetic + gravity + elastic at t = 0
-  double absolute_work = 0;     // Int |power| of base, external and tilt
-  double largest_stored = 0;    // largest kinetic + |elastic change| so far
+  double base_next = 0, external_next = 0, damping_next = 0, absolute_next = 0;  // of the half drift after the sample
+  double start = 0;             // kinetic + gravity + elastic at the first sample
   double elastic_at_start = 0;
-  double released = 0;          // half the flux of height energy
+  double absolute_work = 0;     // Int |power| of base, external and tilt
+  double largest_moving = 0;    // largest kinetic + |elastic change| so far
+  double height_flux = 0;       // Int |d gravity|
   double residual = 0;          // J, now
-  double residual_relative = 0; // largest so far
+  double residual_relative = 0; // now
+  double residual_worst = 0;    // largest residual_relative so far
   double largest_jump = 0;      // J, largest change of the residual between two samples
   double largest_jump_time = 0;
-  int largest_jump_joint = -1, largest_jump_block = -1;
+  int largest_jump_joint = -1;  // the joint whose own balance was worst in that interval
+  bool started = false;
 };
 
 struct State {
   long step = 0;
+  long start_step = 0;          // since the last change of dt, t = start_t + (step - start_step) dt: no sum of roundings
+  double start_t = 0;
   double t = 0;                 // s, of the positions; velocities are half a step behind until the kick
   double dt = 0;                // s, of the next drift
   double last_dt = 0;           // s, of the drift that led here; 0 at the start
@@ -64,6 +69,7 @@ struct State {
   std::vector<double> row;      // displacement and rotation since the refresh (m, rad), 8 doubles a block: one cache line
   std::vector<int> island;      // blocks joined to each other, named by their lowest block
   std::vector<std::uint8_t> grounded;  // the island holds a fixed or driven block
+  std::vector<std::uint8_t> joined;    // has a joint that is not open
   std::vector<std::uint8_t> loose;     // may meet new neighbours
   // joints
   std::vector<JointBatch> batch;       // [ceil(njoint / lanes)]
@@ -74,6 +80,8 @@ struct State {
   std::vector<double> wrench;          // rows of 8 doubles: force, moment on a block from one joint end [2 njoint + 1]
   int joints_broken = 0;
   Energy energy;
+  Vec3 gravity_before = Vec3::Zero();  // m/s2, of the last step, and sum of m u then: for the work of tilting
+  Vec3 moment_before = Vec3::Zero();   // kg m
   double max_penetration_relative = 0;
   double momentum_residual = 0;
 };

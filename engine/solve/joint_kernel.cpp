@@ -150,8 +150,9 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
   sums.energy.crushing += e.crushing;
 }
 
-void joint_forces(const Model& m, State& s, int first, int last, JointSums& sums) {
+void joint_forces(const Model& m, State& s, int first, int last, bool sample, JointSums& sums) {
   Lanes o;
+  if (sample) sums.energy.elastic = 0;
   for (int k = first; k < last; ++k) {
     const JointBatch& B = s.batch[z(k)];
     elastic(B, s.row.data(), o);
@@ -168,6 +169,13 @@ void joint_forces(const Model& m, State& s, int first, int last, JointSums& sums
       }
     }
     wrenches(B, o, s.wrench.data());
+    if (!sample) continue;
+    for (int l = 0; l < lanes && k * lanes + l < m.njoint; ++l) {
+      const int j = k * lanes + l;
+      if (s.tier[z(j)] == Tier::cracked) sums.energy.elastic += s.memory[z(j)].elastic;
+      if (s.tier[z(j)] != Tier::intact) continue;
+      for (int i = 0; i < 6; ++i) sums.energy.elastic += 0.5 * o.f[i][l] * o.q[i][l];
+    }
   }
 }
 

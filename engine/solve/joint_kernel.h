@@ -8,7 +8,7 @@ namespace erbs {
 
 // What a thread gathers while it goes through its joints, by fixed chunks of batches so that sums do not depend on threads.
 struct JointSums {
-  JointEnergy energy;        // dissipated (elastic is not accumulated)
+  JointEnergy energy;        // dissipated so far; elastic: stored now, filled on request
   double largest_error = 0;  // J, of the joints' own energy balance over the step
   int worst_joint = -1;
   int cracked_now = 0;       // joints that lost their soundness in this step
@@ -18,6 +18,8 @@ struct JointSums {
 void joint_by_points(const Model& model, State& state, int j, const double q[6], double f[6], JointSums& sums);
 
 // Writes the wrench rows of batches [first, last). Joints near a limit or with history go point by point (joint_response.h).
-void joint_forces(const Model& model, State& state, int first, int last, JointSums& sums);
+// Fills sums.energy.elastic when `sample`.
+inline constexpr int batch_grain = 8;
+void joint_forces(const Model& model, State& state, int first, int last, bool sample, JointSums& sums);
 
 }  // namespace erbs

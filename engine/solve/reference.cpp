@@ -27,13 +27,21 @@ bool sound_resultant(const Model& m, const Joint& joint, const JointPose& pose, 
   return true;
 }
 
+double stored(const Model& m, const State& s, int j, const JointPose& pose) {
+  if (s.tier[z(j)] == Tier::cracked) return s.memory[z(j)].elastic;
+  double sum = 0;
+  for (int i = 0; i < 6; ++i) sum += 0.5 * m.joint[z(j)].stiffness[i] * pose.q[i] * pose.q[i];
+  return sum;
+}
+
 void add(std::vector<double>& rows, int row, const Vec3& force, const Vec3& moment) {
   for (int i = 0; i < 3; ++i) rows[z(row) * 8 + z(i)] = force[i], rows[z(row) * 8 + 3 + z(i)] = moment[i];
 }
 
 }  // namespace
 
-void reference_forces(const Model& m, State& s, int first, int last, JointSums& sums) {
+void reference_forces(const Model& m, State& s, int first, int last, bool sample, JointSums& sums) {
+  if (sample) sums.energy.elastic = 0;
   for (int j = first; j < last; ++j) {
     const Joint& joint = m.joint[z(j)];
     Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
@@ -45,6 +53,7 @@ void reference_forces(const Model& m, State& s, int first, int last, JointSums& 
       force = Vec3(f[0], f[1], f[2]);
       moment = Vec3(f[3], f[4], f[5]);
     }
+    if (sample && !open) sums.energy.elastic += stored(m, s, j, pose);
     force = pose.frame * force;
     moment = pose.frame * moment;
     const Vec3 arm_a = 0.5 * (pose.sum + pose.apart), arm_b = 0.5 * (pose.sum - pose.apart);
