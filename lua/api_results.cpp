@@ -54,6 +54,7 @@ int metric(Call& call) {
   if (lua_type(call.lua, 3) == LUA_TNUMBER) item.value = lua_tonumber(call.lua, 3), item.function = LUA_NOREF;
   else if (lua_isfunction(call.lua, 3)) item.function = luaL_ref(call.lua, LUA_REGISTRYINDEX);
   else throw Error(fmt::format("metric \"{}\" must be a number or a function(run), not {}", item.name, described(call.lua, 3)), call.place);
+  call.context.scene.metric_units.emplace_back(item.name, item.unit);
   call.context.metrics.push_back(std::move(item));
   return 0;
 }

@@ -3,15 +3,15 @@
 #include <cmath>
 #include <lua5.4/lua.hpp>
 
-#include "engine/base/spectrum.h"
 #include "engine/base/words.h"
+#include "engine/record/signal.h"
 #include "lua/api.h"
 #include "lua/script.h"
 
 namespace erbs {
 namespace {
 
-void push_json(lua_State* lua, const nlohmann::json& value) {
+void push_json(lua_State* lua, const Json& value) {
   if (!lua_checkstack(lua, 10)) throw Error("metrics are nested too deeply");
   if (value.is_number()) {
     lua_pushnumber(lua, value.get<double>());
@@ -46,16 +46,17 @@ const std::vector<double>& column_of(lua_State* lua, const Context& context) {
   if (lua_istable(lua, 1)) lua_remove(lua, 1);
   const RunResults& run = results_of(lua, context);
   if (lua_type(lua, 1) != LUA_TSTRING)
-    throw Error(fmt::format("the column must be a string, not {}; known: {}", described(lua, 1), fmt::join(run.columns, ", ")),
+    throw Error(fmt::format("the column must be a string, not {}; known: {}", described(lua, 1), fmt::join(run.histories.names, ", ")),
                 current_place(lua));
   const std::string name = lua_tostring(lua, 1);
-  const auto found = std::find(run.columns.begin(), run.columns.end(), name);
-  if (found == run.columns.end())
-    throw Error(fmt::format("histories.csv has no column \"{}\"{}", name, did_you_mean(name, run.columns)), current_place(lua));
-  const auto& column = run.histories[static_cast<size_t>(found - run.columns.begin())];
+  const int found = run.histories.find(name);
+  if (found < 0) throw Error(fmt::format("histories.csv has no column \"{}\"{}", name, did_you_mean(name, run.histories.names)), current_place(lua));
+  const auto& column = run.histories.columns[static_cast<size_t>(found)];
   if (column.empty()) throw Error(fmt::format("column \"{}\" is empty; the run wrote no row", name), current_place(lua));
   return column;
 }
+
+const std::vector<double>& times_of(lua_State* lua, const Context& context) { return results_of(lua, context).histories.columns.front(); }
 
 void push_numbers(lua_State* lua, const std::vector<double>& values) {
   lua_createtable(lua, static_cast<int>(values.size()), 0);
@@ -75,10 +76,15 @@ int history(lua_State* lua, Context& context) {
   return 1;
 }
 
+// Largest magnitude, as magnitude: what a spectrum or a drift limit is compared with.
 int peak(lua_State* lua, Context& context) {
-  double largest = 0;
-  for (const double v : column_of(lua, context)) largest = std::max(largest, std::abs(v));
-  return number(lua, largest);
+  const auto& column = column_of(lua, context);
+  return number(lua, std::abs(erbs::peak(times_of(lua, context), column).value));
+}
+
+int peak_time(lua_State* lua, Context& context) {
+  const auto& column = column_of(lua, context);
+  return number(lua, erbs::peak(times_of(lua, context), column).time);
 }
 
 int highest(lua_State* lua, Context& context) {
@@ -93,9 +99,25 @@ int lowest(lua_State* lua, Context& context) {
 
 int rms(lua_State* lua, Context& context) {
   const auto& column = column_of(lua, context);
-  double sum = 0;
-  for (const double v : column) sum += v * v;
-  return number(lua, std::sqrt(sum / static_cast<double>(column.size())));
+  return number(lua, erbs::rms(times_of(lua, context), column));
+}
+
+int mean(lua_State* lua, Context& context) {
+  const auto& column = column_of(lua, context);
+  return number(lua, erbs::mean(times_of(lua, context), column));
+}
+
+int period(lua_State* lua, Context& context) {
+  const auto& column = column_of(lua, context);
+  return number(lua, erbs::period(times_of(lua, context), column));
+}
+
+// run.crossings(column, level, rising): times at which the column passes the level.
+int crossings(lua_State* lua, Context& context) {
+  const auto& column = column_of(lua, context);
+  const double level = lua_type(lua, 2) == LUA_TNUMBER ? lua_tonumber(lua, 2) : 0;
+  push_numbers(lua, erbs::crossings(times_of(lua, context), column, level, lua_toboolean(lua, 3) != 0));
+  return 1;
 }
 
 int last(lua_State* lua, Context& context) { return number(lua, column_of(lua, context).back()); }
@@ -103,15 +125,13 @@ int first(lua_State* lua, Context& context) { return number(lua, column_of(lua, 
 
 int frequency(lua_State* lua, Context& context) {
   const auto& column = column_of(lua, context);
-  const auto& time = results_of(lua, context).histories.front();
-  const double dt = time.size() > 1 ? (time.back() - time.front()) / static_cast<double>(time.size() - 1) : 0;
-  return number(lua, dominant_frequency(column, dt));
+  return number(lua, dominant_frequency(times_of(lua, context), column));
 }
 
 // run.at(column, t): between rows, linear.
 int at(lua_State* lua, Context& context) {
   const auto& column = column_of(lua, context);
-  const auto& time = results_of(lua, context).histories.front();
+  const auto& time = times_of(lua, context);
   if (lua_type(lua, 2) != LUA_TNUMBER)
     throw Error(fmt::format("run.at: the time must be a number, not {}", described(lua, 2)), current_place(lua));
   const double t = lua_tonumber(lua, 2);
@@ -124,17 +144,18 @@ int at(lua_State* lua, Context& context) {
 }
 
 constexpr std::pair<const char*, Body> run_functions[] = {
-    {"history", history}, {"peak", peak},   {"max", highest},         {"min", lowest}, {"rms", rms},
-    {"last", last},       {"first", first}, {"frequency", frequency}, {"at", at}};
+    {"history", history}, {"peak", peak},   {"peak_time", peak_time}, {"max", highest},         {"min", lowest},
+    {"rms", rms},         {"mean", mean},   {"first", first},         {"last", last},           {"at", at},
+    {"frequency", frequency}, {"period", period}, {"crossings", crossings}};
 
 // The keys of metrics.json, then time, metrics, columns and the functions above.
 void push_run(lua_State* lua, const RunResults& run) {
-  push_json(lua, run.metrics.is_object() ? run.metrics : nlohmann::json::object());
+  push_json(lua, run.metrics.is_object() ? run.metrics : Json::object());
   push_json(lua, run.metrics);
   lua_setfield(lua, -2, "metrics");
-  push_numbers(lua, run.histories.empty() ? std::vector<double>{} : run.histories.front());
+  push_numbers(lua, run.histories.columns.empty() ? std::vector<double>{} : run.histories.columns.front());
   lua_setfield(lua, -2, "time");
-  push_json(lua, run.columns);
+  push_json(lua, run.histories.names);
   lua_setfield(lua, -2, "columns");
   for (const auto& [name, body] : run_functions) {
     push_guarded(lua, body);
@@ -173,15 +194,15 @@ std::vector<MetricValue> Script::evaluate_metrics(const RunResults& results) {
   return values;
 }
 
-nlohmann::json Script::lua_functions() {
+Json Script::lua_functions() {
   const Cap uncapped(context_->limits, false);
   lua_getglobal(lua_, "masonry_functions");
-  const auto to_json = [this](auto& self, int depth) -> nlohmann::json {
+  const auto to_json = [this](auto& self, int depth) -> Json {
     if (lua_type(lua_, -1) == LUA_TNUMBER) return lua_tonumber(lua_, -1);
     if (lua_type(lua_, -1) == LUA_TSTRING) return lua_tostring(lua_, -1);
     if (lua_type(lua_, -1) == LUA_TBOOLEAN) return lua_toboolean(lua_, -1) != 0;
     if (!lua_istable(lua_, -1) || depth > 8 || !lua_checkstack(lua_, 10)) return nullptr;
-    nlohmann::json list = nlohmann::json::array(), named = nlohmann::json::object();
+    Json list = Json::array(), named = Json::object();
     const auto n = static_cast<lua_Integer>(lua_rawlen(lua_, -1));
     for (lua_Integer i = 1; i <= n; ++i) {
       lua_rawgeti(lua_, -1, i);
@@ -192,7 +213,7 @@ nlohmann::json Script::lua_functions() {
       if (lua_type(lua_, -2) == LUA_TSTRING) named[lua_tostring(lua_, -2)] = self(self, depth + 1);
     return named.empty() ? list : named;
   };
-  nlohmann::json functions = to_json(to_json, 0);
+  Json functions = to_json(to_json, 0);
   lua_pop(lua_, 1);
   return functions;
 }

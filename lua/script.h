@@ -1,12 +1,13 @@
 // A scene script: loaded into a Scene, and kept alive for the functions called after the run.
 #pragma once
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "engine/record/csv.h"
+#include "engine/record/json.h"
 #include "engine/scene/scene.h"
 
 struct lua_State;
@@ -20,9 +21,8 @@ using Overrides = std::vector<std::pair<std::string, std::string>>;
 
 // What a run left behind, for metric functions.
 struct RunResults {
-  nlohmann::json metrics;                      // metrics.json
-  std::vector<std::string> columns;            // of histories.csv; the first is time_s
-  std::vector<std::vector<double>> histories;  // one per column              [columns][rows]
+  Json metrics;        // metrics.json
+  CsvTable histories;  // histories.csv; its first column is time_s
 };
 
 struct MetricValue {
@@ -52,7 +52,7 @@ class Script {
   const Scene& scene() const;
   const std::vector<std::string>& output() const;  // what it printed
   // The functions written in Lua (walls, arches): name, line of help, keys; from the list masonry_functions.
-  nlohmann::json lua_functions();
+  Json lua_functions();
 
  private:
   void run(const std::string& text, const std::string& name, const Overrides& overrides);

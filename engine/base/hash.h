@@ -1,4 +1,4 @@
-// A short fingerprint of bytes, to tell whether an input is the one of another run (FNV-1a, 64 bits: Fowler, Noll, Vo 1991).
+// FNV-1a, 64 bits (Fowler, Noll and Vo 1991): tells whether bytes are the same, not whether someone forged them.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -8,11 +8,14 @@
 
 namespace erbs {
 
-inline std::uint64_t fnv1a(std::string_view bytes, std::uint64_t hash = 14695981039346656037ull) {
-  for (const char c : bytes) hash = (hash ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  return hash;
+// `state` of an earlier call goes on with more bytes.
+inline std::uint64_t fnv1a(std::string_view bytes, std::uint64_t state = 0xcbf29ce484222325u) {
+  for (const char c : bytes) state = (state ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return state;
 }
 
-inline std::string hash_text(std::string_view bytes) { return fmt::format("{:016x}", fnv1a(bytes)); }
+// As it is written in manifests: 16 hexadecimal digits.
+inline std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }
+inline std::string hash_text(std::string_view bytes) { return hash_text(fnv1a(bytes)); }
 
 }  // namespace erbs

@@ -2,6 +2,7 @@
 #pragma once
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -248,6 +249,7 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<Param> params;
   std::vector<Expectation> expectations;
+  std::vector<std::pair<std::string, std::string>> metric_units;  // of the scene's own metrics: name, unit
   std::map<std::string, std::string> inputs;  // path of each file read -> its hash
 };
 

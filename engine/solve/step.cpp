@@ -222,6 +222,13 @@ void Solver::settle_ledger() {
   settle(e, floor_, state_.t, worst);
 }
 
+Vec6 Solver::block_wrench(int b) const { return joint_wrench(model_, state_, b) + Eigen::Map<const Vec6>(&push_[6 * z(b)]); }
+
+Vec6 Solver::load_wrench(int b) const {
+  if (model_.kind[z(b)] == Kind::driven) return -block_wrench(b);
+  return load_.empty() ? Vec6(Vec6::Zero()) : Vec6(Eigen::Map<const Vec6>(&load_[6 * z(b)]));
+}
+
 std::vector<int> Solver::take_cracked() { return std::exchange(cracked_, {}); }
 
 }  // namespace erbs

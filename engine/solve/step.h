@@ -35,6 +35,8 @@ class Solver {
 
   const Instant& instant() const { return instant_; }
   bool broken() const { return broken_; }
+  Vec6 block_wrench(int b) const;  // N, N m about the centroid: joints and contacts
+  Vec6 load_wrench(int b) const;   // loads; on a driven block what holds it on its course
   std::vector<int> take_cracked();  // joints that cracked since the last call, in the order of their number
 
  private:
