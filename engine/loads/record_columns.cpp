@@ -104,11 +104,16 @@ size_t time_column(const Rows& rows) {
   return 0;
 }
 
+// Seconds in one unit of the times. A name such as time_h is no guess but a question.
 double time_factor(const RecordText& text, const Rows& rows, size_t column) {
-  const std::string unit = rows.columns.empty() ? "" : lower(trim(rows.columns[column].unit));
-  if (unit.empty() || unit == "s" || unit == "sec") return 1;
-  if (unit == "ms") return 1e-3;
-  throw Error(fmt::format("time in \"{}\" is unknown; name the column time_s or time_ms", unit), {text.path, rows.names_line});
+  if (rows.columns.empty()) return 1;
+  const std::string name = lower(rows.columns[column].name), unit = lower(trim(rows.columns[column].unit));
+  if (name == "t" || name == "time") {
+    if (unit.empty() || unit == "s" || unit == "sec") return 1;
+    if (unit == "ms") return 1e-3;
+  }
+  throw Error(fmt::format("the column of times is named \"{}\" [{}]; name it time_s or time_ms", rows.columns[column].name, unit),
+              {text.path, rows.names_line});
 }
 
 RecordFile parse_time_and_value(const RecordText& text, const Rows& rows, const Record& wanted) {

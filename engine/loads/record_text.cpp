@@ -81,7 +81,7 @@ RecordText read_record_text(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error("the record file cannot be opened; check its permissions", {path});
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
-  RecordText text{path, hash_text(fnv1a(bytes)), {}};
+  RecordText text{path, hash_text(bytes), {}};
   std::string_view rest = bytes;
   if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);  // the byte order mark of some editors
   bool blank = true;
