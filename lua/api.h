@@ -41,6 +41,9 @@ std::vector<Function> load_functions();
 std::vector<Function> analysis_functions();
 std::vector<Function> result_functions();
 
+const Keys& part_keys();       // of block{ parts = { ... } }
+const Keys& tolerance_keys();  // of expect(key, value, { ... })
+
 // Pushes a C function that runs `body` with the memory cap lifted and turns an Error into a Lua error when every C++ object is
 // gone: Lua's errors are jumps that run no destructors.
 using Body = int (*)(lua_State*, Context&);

@@ -42,10 +42,11 @@ int recorder(Call& call) {
   arguments.read("blocks", several);
   item.blocks = one;
   item.blocks.insert(item.blocks.end(), several.begin(), several.end());
-  if (arguments.has("group")) {
+  arguments.read("others", item.others);
+  for (const char* key : {"group", "other_group"}) {
     std::string group;
-    arguments.read("group", group);
-    if (!group.empty()) call.context.group_recorders.push_back({scene.recorders.size(), group});
+    arguments.read(key, group);
+    if (!group.empty()) call.context.group_recorders.push_back({scene.recorders.size(), group, key[0] == 'o'});
   }
   scene.recorders.push_back(std::move(item));
   return 0;
@@ -76,7 +77,9 @@ std::vector<Function> analysis_functions() {
        joined({keys_of<Recorder>(),
                {{"block", "strings", "", "name of the block"},
                 {"blocks", "strings", "", "names of several blocks"},
-                {"group", "string", "", "all blocks of a group"}}})},
+                {"group", "string", "", "all blocks of a group"},
+                {"others", "strings", "", "of joints: names of the blocks on their other side (default: any)"},
+                {"other_group", "string", "", "of joints: all blocks of a group on their other side"}}})},
       {"camera", camera, "{ ... }", "", "A view for the pictures.", keys_of<Camera>()},
   };
 }

@@ -8,18 +8,18 @@
 #include "lua/api.h"
 
 namespace erbs {
-namespace {
 
-constexpr double far = 1e6;  // m, no coordinate lies further out
-
-const Keys& initial_keys() {
-  static const Keys keys = keys_of<Initial>();
-  return keys;
-}
+static constexpr double far = 1e6;  // m, no coordinate lies further out
 
 const Keys& part_keys() {
   static const Keys keys = {{"vertices", "points", "m", "corners", -far, far, true, "", ""},
                             {"faces", "faces", "", "loops of vertex numbers, counter-clockwise seen from outside (default: the hull)"}};
+  return keys;
+}
+namespace {
+
+const Keys& initial_keys() {
+  static const Keys keys = keys_of<Initial>();
   return keys;
 }
 

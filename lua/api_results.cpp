@@ -4,6 +4,14 @@
 #include "lua/api.h"
 
 namespace erbs {
+
+const Keys& tolerance_keys() {
+  static const Keys keys = {
+      {"rel", "number", "", "largest relative error", 0, 1e9}, {"abs", "number", "", "largest absolute error", 0, unbounded},
+      {"below", "boolean", "", "the value is an upper bound"}, {"above", "boolean", "", "the value is a lower bound"},
+      {"between", "numbers", "", "{ lowest, highest }"},       {"source", "string", "", "where the number is from"}};
+  return keys;
+}
 namespace {
 
 // "share of the peak, assumed [g]" -> meaning and unit
@@ -57,14 +65,6 @@ int metric(Call& call) {
   call.context.scene.metric_units.emplace_back(item.name, item.unit);
   call.context.metrics.push_back(std::move(item));
   return 0;
-}
-
-const Keys& tolerance_keys() {
-  static const Keys keys = {
-      {"rel", "number", "", "largest relative error", 0, 1e9}, {"abs", "number", "", "largest absolute error", 0, unbounded},
-      {"below", "boolean", "", "the value is an upper bound"}, {"above", "boolean", "", "the value is a lower bound"},
-      {"between", "numbers", "", "{ lowest, highest }"},       {"source", "string", "", "where the number is from"}};
-  return keys;
 }
 
 void read_tolerance(Arguments& arguments, Expectation& item, bool has_number) {

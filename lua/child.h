@@ -5,7 +5,7 @@
 
 namespace erbs {
 
-std::string own_path();     // of the program that runs
+std::string own_path();       // of the program that runs
 std::string renderer_path();  // of erbs-render: beside the program, else as PATH finds it
 
 struct Child {

@@ -44,6 +44,7 @@ struct Override {
 struct GroupRecorder {
   size_t recorder = 0;  // index into Scene::recorders
   std::string group;
+  bool others = false;  // the other side of its joints
 };
 
 struct RunResults;

@@ -40,7 +40,8 @@ void judge_number(const Expectation& item, double got, Verdict& verdict) {
       verdict.passed = got >= item.low && got <= item.high;
       verdict.expected = fmt::format("{:g} to {:g}", item.low, item.high);
       break;
-    case Kind::equal: break;
+    case Kind::equal:
+      break;
   }
 }
 
@@ -92,8 +93,13 @@ std::vector<Verdict> verdicts_of(const Json& json) {
   for (const auto& item : json) {
     Verdict v;
     v.passed = item.value("passed", false);
-    for (const auto& [key, into] : {std::pair{"key", &v.key}, {"expected", &v.expected}, {"got", &v.got}, {"error", &v.error},
-                                    {"tolerance", &v.tolerance}, {"source", &v.source}, {"place", &v.place}})
+    for (const auto& [key, into] : {std::pair{"key", &v.key},
+                                    {"expected", &v.expected},
+                                    {"got", &v.got},
+                                    {"error", &v.error},
+                                    {"tolerance", &v.tolerance},
+                                    {"source", &v.source},
+                                    {"place", &v.place}})
       *into = item.value(key, "");
     verdicts.push_back(std::move(v));
   }

@@ -50,7 +50,8 @@ const std::vector<double>& column_of(lua_State* lua, const Context& context) {
                 current_place(lua));
   const std::string name = lua_tostring(lua, 1);
   const int found = run.histories.find(name);
-  if (found < 0) throw Error(fmt::format("histories.csv has no column \"{}\"{}", name, did_you_mean(name, run.histories.names)), current_place(lua));
+  if (found < 0)
+    throw Error(fmt::format("histories.csv has no column \"{}\"{}", name, did_you_mean(name, run.histories.names)), current_place(lua));
   const auto& column = run.histories.columns[static_cast<size_t>(found)];
   if (column.empty()) throw Error(fmt::format("column \"{}\" is empty; the run wrote no row", name), current_place(lua));
   return column;
@@ -144,9 +145,35 @@ int at(lua_State* lua, Context& context) {
 }
 
 constexpr std::pair<const char*, Body> run_functions[] = {
-    {"history", history}, {"peak", peak},   {"peak_time", peak_time}, {"max", highest},         {"min", lowest},
-    {"rms", rms},         {"mean", mean},   {"first", first},         {"last", last},           {"at", at},
-    {"frequency", frequency}, {"period", period}, {"crossings", crossings}};
+    {"history", history},    {"peak", peak},   {"peak_time", peak_time}, {"max", highest}, {"min", lowest},          {"rms", rms},
+    {"mean", mean},          {"first", first}, {"last", last},           {"at", at},       {"frequency", frequency}, {"period", period},
+    {"crossings", crossings}};
+
+// run.events: { { time, event, name, value }, ... } in their order, and run.first_crack: { time, name }, nil where there is none.
+void push_events(lua_State* lua, const CsvTable& events) {
+  lua_newtable(lua);
+  lua_pushnil(lua);
+  const int what = events.find("event"), name = events.find("name"), value = events.find("value"), time = events.find("time_s");
+  if (what < 0 || name < 0 || value < 0 || time < 0) return;
+  const auto& words = events.text[static_cast<size_t>(what)];
+  const auto& names = events.text[static_cast<size_t>(name)];
+  for (size_t i = 0; i < std::min({events.rows(), words.size(), names.size(), size_t{100000}}); ++i) {
+    lua_createtable(lua, 0, 4);
+    lua_pushnumber(lua, events.columns[static_cast<size_t>(time)][i]);
+    lua_setfield(lua, -2, "time");
+    lua_pushstring(lua, words[i].c_str());
+    lua_setfield(lua, -2, "event");
+    lua_pushstring(lua, names[i].c_str());
+    lua_setfield(lua, -2, "name");
+    lua_pushnumber(lua, events.columns[static_cast<size_t>(value)][i]);
+    lua_setfield(lua, -2, "value");
+    if (words[i] == "crack" && lua_isnil(lua, -2)) {
+      lua_pushvalue(lua, -1);
+      lua_replace(lua, -3);
+    }
+    lua_rawseti(lua, -3, static_cast<lua_Integer>(i + 1));
+  }
+}
 
 // The keys of metrics.json, then time, metrics, columns and the functions above.
 void push_run(lua_State* lua, const RunResults& run) {
@@ -157,6 +184,9 @@ void push_run(lua_State* lua, const RunResults& run) {
   lua_setfield(lua, -2, "time");
   push_json(lua, run.histories.names);
   lua_setfield(lua, -2, "columns");
+  push_events(lua, run.events);
+  lua_setfield(lua, -3, "first_crack");
+  lua_setfield(lua, -2, "events");
   for (const auto& [name, body] : run_functions) {
     push_guarded(lua, body);
     lua_setfield(lua, -2, name);

@@ -13,8 +13,8 @@ struct Options {
   Overrides overrides;             // -D name=value
   std::string directory;           // -o; "": runs/<scene name>
   bool force = false, quiet = false;
-  int threads = 0;  // 0: as many as the machine has
-  std::optional<double> until;             // s, simulated
+  int threads = 0;              // 0: as many as the machine has
+  std::optional<double> until;  // s, simulated
   bool resume = false;
   std::optional<double> max_wall;          // s, of wall clock
   std::optional<double> checkpoint_every;  // s, of wall clock

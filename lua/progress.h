@@ -3,14 +3,9 @@
 #include <chrono>
 #include <string>
 
-namespace erbs {
+#include "engine/analysis/dynamic.h"
 
-struct Progress {
-  double time = 0, duration = 0;  // s, simulated
-  long steps = 0;
-  int joints_broken = 0;
-  double residual = 0;  // of energy, relative
-};
+namespace erbs {
 
 class ProgressPrinter {
  public:
@@ -30,6 +25,6 @@ class ProgressPrinter {
 };
 
 std::string duration_text(double seconds);  // "3.2 s", "4 min 05 s", "2 h 10 min"
-bool colors(int file);                       // a terminal, and NO_COLOR not set
+bool colors(int file);                      // a terminal, and NO_COLOR not set
 
 }  // namespace erbs

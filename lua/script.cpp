@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "engine/base/words.h"
+#include "engine/record/recorder.h"
 #include "lua/api.h"
 #include "lua/embedded.h"
 
@@ -162,7 +163,7 @@ void resolve_groups(Context& context) {
       if (block.group == item.group) recorder.blocks.push_back(block.name);
       else if (std::find(groups.begin(), groups.end(), block.group) == groups.end()) groups.push_back(block.group);
     }
-    if (recorder.blocks.empty())
+    if ((item.others ? recorder.others : recorder.blocks).empty())
       context.mistake(recorder.place, fmt::format("recorder \"{}\": group \"{}\" has no blocks{}", recorder.name, item.group,
                                                   did_you_mean(item.group, groups)));
   }
@@ -259,7 +260,9 @@ void Script::finish(bool whole) {
   if (whole) {
     // What reading has already complained about, checking need not.
     const std::vector<std::string> read = context.mistakes;
-    for (const auto& message : check(context.scene)) {
+    std::vector<std::string> found = check(context.scene);
+    for (auto& message : check_recorders(context.scene)) found.push_back(std::move(message));
+    for (const auto& message : found) {
       const std::string place = place_of(message);
       const auto same = [&](const std::string& other) { return !place.empty() && place_of(other) == place; };
       if (std::none_of(read.begin(), read.end(), same)) context.mistakes.push_back(message);

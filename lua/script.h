@@ -23,6 +23,7 @@ using Overrides = std::vector<std::pair<std::string, std::string>>;
 struct RunResults {
   Json metrics;        // metrics.json
   CsvTable histories;  // histories.csv; its first column is time_s
+  CsvTable events;     // events.csv: time_s, event, name, value, unit
 };
 
 struct MetricValue {

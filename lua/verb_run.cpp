@@ -5,10 +5,14 @@
 #include <fstream>
 #include <iterator>
 
-#include "engine/record/run_folder.h"
+#include <atomic>
+#include <thread>
+
+#include "engine/analysis/dynamic.h"
 #include "lua/child.h"
 #include "lua/expectations.h"
-#include "lua/run_scene.h"
+#include "lua/options.h"
+#include "lua/progress.h"
 
 namespace erbs {
 namespace {
@@ -26,11 +30,13 @@ std::string text_of(const std::string& path) {
 }
 
 // Evaluates what the scene asks for and writes it into the run folder. Returns the messages of metrics that failed.
-std::vector<std::string> complete_metrics(Script& script, const std::string& directory, bool whole, Json& metrics, std::vector<Verdict>& verdicts) {
+std::vector<std::string> complete_metrics(Script& script, const std::string& directory, bool whole, Json& metrics,
+                                          std::vector<Verdict>& verdicts) {
   std::vector<std::string> failures;
   metrics = read_metrics(directory);
   Json own = Json::object();
-  for (const MetricValue& metric : script.evaluate_metrics({metrics, read_csv(run_file(directory, "histories.csv"))})) {
+  for (const MetricValue& metric :
+       script.evaluate_metrics({metrics, read_csv(run_file(directory, "histories.csv")), read_csv(run_file(directory, "events.csv"))})) {
     own[metric.name] = metric.value ? Json(*metric.value) : Json(nullptr);
     if (!metric.error.empty()) failures.push_back(metric.error);
   }
@@ -62,9 +68,10 @@ std::string collapse_text(const Json& metrics) {
 }
 
 void print_summary(const Scene& scene, const std::string& directory, const Json& metrics, const std::vector<Verdict>& verdicts) {
-  fmt::print("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken\n", scene.name, metrics.value("status", ""),
-             number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")), number_at(metrics, "realtime_factor"),
-             metrics.value("blocks", 0), metrics.value("joints", 0), metrics.value("joints_broken", 0));
+  fmt::print("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken\n", scene.name,
+             metrics.value("status", ""), number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")),
+             number_at(metrics, "realtime_factor"), metrics.value("blocks", 0), metrics.value("joints", 0),
+             metrics.value("joints_broken", 0));
   fmt::print("{}\nenergy residual {:.1e}\n", collapse_text(metrics), number_at(metrics, "energy.residual_relative"));
   for (const auto& [name, unit] : scene.metric_units) {
     const Json* value = find_key(metrics, "metrics." + name);
@@ -81,16 +88,34 @@ void print_summary(const Scene& scene, const std::string& directory, const Json&
   std::fflush(stdout);
 }
 
-int exit_code(const Scene& scene, const Options& options, const RunEnd& end, const Json& metrics, const std::vector<Verdict>& verdicts) {
-  if (end.status == "interrupted") return exit_interrupted;
-  if (end.status == "stopped") return exit_stopped;
-  const bool welcome = end.status == "diverged" && expects_divergence(scene);
-  if (!welcome && (end.numbers_wrong || end.status == "diverged")) return exit_numbers;
+int exit_code(const Scene& scene, const Options& options, const RunOutcome& outcome, const Json& metrics,
+              const std::vector<Verdict>& verdicts) {
+  const std::string& status = outcome.metrics.status;
+  if (status == "interrupted") return exit_interrupted;
+  const bool welcome = status == "diverged" && expects_divergence(scene);
+  if (!welcome && (!outcome.gate_passed || status == "diverged")) return exit_numbers;
+  if (status == "stopped") return exit_stopped;
   for (const Verdict& verdict : verdicts)
     if (!verdict.passed) return exit_expectation;
   const Json* collapsed = find_key(metrics, "collapse.collapsed");
   if (options.fail_on_collapse && collapsed && *collapsed == true) return exit_expectation;
   return exit_ok;
+}
+
+// The seam to the engine: one scene, one run folder.
+RunOutcome run_scene(const Scene& scene, const std::string& script, const std::string& directory, const Options& options) {
+  RunOptions run;
+  run.directory = directory;
+  run.existing = options.resume ? Existing::resume : options.force ? Existing::force : Existing::refuse;
+  run.threads = options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  run.until = options.until;
+  run.max_wall = options.max_wall.value_or(0);
+  run.checkpoint_every = options.checkpoint_every.value_or(60);
+  run.allow_unstable = options.allow_unstable;
+  run.interrupted = &interrupted;
+  ProgressPrinter printer(options.quiet, options.log_json);
+  run.progress = [&](const Progress& now) { printer.show(now); };
+  return run_dynamic(scene, script, run);
 }
 
 }  // namespace
@@ -105,25 +130,22 @@ int verb_run(const Options& options) {
   if (options.allow_unstable) scene.analysis.unstable = true;
   for (const auto& warning : warnings(scene)) fmt::print(stderr, "warning: {}\n", warning);
   const std::string directory = options.directory.empty() ? "runs/" + scene.name : options.directory;
-
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  RunEnd end;
-  {
-    ProgressPrinter printer(options.quiet, options.log_json);
-    end = run_scene(scene, text_of(path), directory, options, interrupted, [&](const Progress& now) { printer.show(now); });
-  }
-  if (!end.reason.empty()) fmt::print(stderr, "{}: {}\n", path, end.reason);
+  const RunOutcome outcome = run_scene(scene, text_of(path), directory, options);
+  for (const auto& warning : outcome.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  if (!outcome.trouble.empty()) fmt::print(stderr, "{}: {}\n", path, outcome.trouble);
 
   Json metrics;
   std::vector<Verdict> verdicts;
-  const bool whole = end.status == "completed" || end.status == "diverged";
+  const std::string& status = outcome.metrics.status;
+  const bool whole = status == "completed" || status == "diverged";
   const auto failures = complete_metrics(script, directory, whole, metrics, verdicts);
   for (const auto& message : failures) fmt::print(stderr, "{}\n", message);
   if (!options.quiet) print_summary(scene, directory, metrics, verdicts);
-  int code = exit_code(scene, options, end, metrics, verdicts);
+  int code = exit_code(scene, options, outcome, metrics, verdicts);
   if (code == exit_ok && !failures.empty()) code = exit_usage;
-  if (options.video && end.status != "interrupted") {
+  if (options.video && status != "interrupted") {
     const int drawn = run_renderer({directory, "--video"});
     if (code == exit_ok) code = drawn;
   }

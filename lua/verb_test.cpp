@@ -1,4 +1,5 @@
 // erbs test DIR|SCENE...: every scene that carries expectations, run by child processes side by side, as one table.
+#include <unistd.h>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -6,7 +7,6 @@
 #include <map>
 #include <set>
 #include <thread>
-#include <unistd.h>
 
 #include "engine/record/run_folder.h"
 #include "lua/child.h"
@@ -45,7 +45,8 @@ std::vector<Case> cases_of(const Options& options) {
     if (fs::is_directory(word)) {
       std::vector<std::string> found;
       for (const auto& entry : fs::recursive_directory_iterator(word))
-        if (entry.is_regular_file() && entry.path().extension() == ".lua" && carries_expectations(entry.path())) found.push_back(entry.path().string());
+        if (entry.is_regular_file() && entry.path().extension() == ".lua" && carries_expectations(entry.path()))
+          found.push_back(entry.path().string());
       std::sort(found.begin(), found.end());
       if (found.empty()) throw Error(fmt::format("{} holds no scene with expectations; add expect(...) to one", word));
       scenes.insert(scenes.end(), found.begin(), found.end());
@@ -129,11 +130,10 @@ std::vector<Row> rows_of(const Case& item) {
       cost = fmt::format("{:.2f} s, {:.2g} pt", wall && wall->is_number() ? wall->get<double>() : 0.0,
                          updates && updates->is_number() ? updates->get<double>() : 0.0);
     }
-  } catch (const Error& error) {
-    rows.push_back({{item.name, "(run folder)", "", error.what(), "", "", "FAILED", ""}, false});
-  }
+  } catch (const Error& error) { rows.push_back({{item.name, "(run folder)", "", error.what(), "", "", "FAILED", ""}, false}); }
   for (const Verdict& v : verdicts)
-    rows.push_back({{item.name, v.key, v.expected, v.got, v.error, v.tolerance, v.passed ? "ok" : "FAILED", rows.empty() ? cost : ""}, v.passed});
+    rows.push_back(
+        {{item.name, v.key, v.expected, v.got, v.error, v.tolerance, v.passed ? "ok" : "FAILED", rows.empty() ? cost : ""}, v.passed});
   const bool wrong_code = item.code != exit_ok && item.code != exit_expectation;
   if (wrong_code || rows.empty()) {
     const std::string why = wrong_code ? reason(item) : "the scene carries no expectation; add expect(...)";
@@ -144,7 +144,8 @@ std::vector<Row> rows_of(const Case& item) {
 
 // Letters, not bytes, of UTF-8.
 size_t width_of(const std::string& text) {
-  return static_cast<size_t>(std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+  return static_cast<size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
 }
 
 void print_table(const std::vector<Row>& rows) {
@@ -192,8 +193,8 @@ int verb_test(const Options& options) {
   }
   print_table(rows);
   const auto failed = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.passed; });
-  fmt::print("{} expectations of {} cases: {} passed, {} failed ({} cases) in {}\n", rows.size(), cases.size(), rows.size() - static_cast<size_t>(failed),
-             failed, failed_cases, duration_text(wall));
+  fmt::print("{} expectations of {} cases: {} passed, {} failed ({} cases) in {}\n", rows.size(), cases.size(),
+             rows.size() - static_cast<size_t>(failed), failed, failed_cases, duration_text(wall));
   return failed == 0 ? exit_ok : exit_expectation;
 }
 

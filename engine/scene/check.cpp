@@ -124,16 +124,8 @@ void check_loads(Report& report, const Scene& scene, const Index& index) {
   }
 }
 
-void check_recorders(Report& report, const Scene& scene, const Index& index) {
-  std::set<std::pair<std::string, std::string>> seen;
-  for (const Recorder& recorder : scene.recorders) {
-    const std::string who = fmt::format("recorder \"{}\"", recorder.name);
-    for (const auto& name : recorder.blocks) named(report, index, name, recorder.place, who);
-    if (!seen.insert({recorder.name + "|" + recorder.axis + "|" + recorder.frame, recorder.quantity}).second)
-      report.say(recorder.place, "{} of {} is there twice; give one of them another name", who, recorder.quantity);
-    if (recorder.has_point && recorder.blocks.size() != 1)
-      report.say(recorder.place, "{} has a point and {} blocks; a point belongs to one block", who, recorder.blocks.size());
-  }
+// Recorders are checked where quantities are known, in engine/record.
+void check_cameras(Report& report, const Scene& scene) {
   std::set<std::string> cameras;
   for (const Camera& camera : scene.cameras)
     if (!cameras.insert(camera.name).second)
@@ -162,7 +154,7 @@ std::vector<std::string> check(const Scene& scene) {
   check_blocks(report, scene);
   check_joints(report, scene, groups);
   check_loads(report, scene, index);
-  check_recorders(report, scene, index);
+  check_cameras(report, scene);
   check_analysis(report, scene);
   return report.mistakes;
 }
