@@ -45,7 +45,7 @@ struct Mortar {
         {"us_ultimate", &Mortar::us_ultimate, "m", "slip at which cohesion is spent (default from Gf2)", 0, 1},
         {"fc", &Mortar::fc, "Pa", "compressive strength, a plateau (0: unlimited)", 0, 1e10},
         {"uc_ultimate", &Mortar::uc_ultimate, "m", "closing at which the mortar is crushed and its bond lost (0: never)", 0, 1},
-        {"coupling", &Mortar::coupling, "", "tension-shear coupling: coulomb, linear or ellipse"},
+        {"coupling", &Mortar::coupling, "", "tension-shear coupling: coulomb, linear or ellipse", 0, 0, false, "coulomb|linear|ellipse"},
     };
   }
 };

@@ -1,0 +1,264 @@
+#include "engine/contact/contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/units.h"
+#include "engine/contact/friction.h"
+
+namespace erbs {
+namespace {
+
+using std::size_t;
+
+const ContactShape& shape_of(const ContactShapes& shapes, int block, int part) {
+  return shapes.shape[static_cast<size_t>(shapes.first[static_cast<size_t>(block)] + part)];
+}
+
+// The pair seen from its reference body.
+struct View {
+  const ContactShape *reference, *other;
+  const ContactBlock *reference_block, *other_block;
+  PairPose pose;
+};
+
+View view_of(const Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b) {
+  View s;
+  const ContactShape &shape_a = shape_of(shapes, pair.a, pair.part_a), &shape_b = shape_of(shapes, pair.b, pair.part_b);
+  s.reference = pair.b_is_reference ? &shape_b : &shape_a;
+  s.other = pair.b_is_reference ? &shape_a : &shape_b;
+  s.reference_block = pair.b_is_reference ? &b : &a;
+  s.other_block = pair.b_is_reference ? &a : &b;
+  // Relative positions first: a shift of the whole scene by 1e4 m must not cost digits.
+  const Vec3 apart = (s.other_block->rest - s.reference_block->rest) + (s.other_block->u - s.reference_block->u);
+  s.pose.shift = s.reference_block->turn.transpose() * apart;
+  s.pose.turn = s.reference_block->turn.transpose() * s.other_block->turn;
+  return s;
+}
+
+Motion motion_of(const View& s) {
+  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
+  const Vec3 apart = r.turn * s.pose.shift;
+  return {r.turn.transpose() * (o.v - r.v - r.w.cross(apart)), r.turn.transpose() * (o.w - r.w)};
+}
+
+// A wrench on the other body in pair axes, as forces and moments on a and b in world axes.
+PairWrench to_world(const Pair& pair, const View& s, const Vec3& force, const Vec3& moment) {
+  const Mat3& turn = s.reference_block->turn;
+  const Vec3 f = turn * force, m_other = turn * moment, m_reference = -(turn * (moment + s.pose.shift.cross(force)));
+  PairWrench w;
+  w.force = pair.b_is_reference ? Vec3(-f) : f;
+  w.moment_a = pair.b_is_reference ? m_other : m_reference;
+  w.moment_b = pair.b_is_reference ? m_reference : m_other;
+  return w;
+}
+
+void add(PairWrench& to, const PairWrench& w) {
+  to.force += w.force;
+  to.moment_a += w.moment_a;
+  to.moment_b += w.moment_b;
+}
+
+// Inverse of the mass that both bodies present at x (pair axes, from the centroid of the other) along n; a bound for any direction
+// where n is zero (1/kg).
+double inverse_mass_at(const View& s, const Vec3& x, const Vec3& n) {
+  const Vec3 arm = x + s.pose.shift;
+  const bool along = n.squaredNorm() > 0;
+  const double r2 = along ? arm.cross(n).squaredNorm() : arm.squaredNorm(), o2 = along ? x.cross(n).squaredNorm() : x.squaredNorm();
+  return s.reference_block->inverse_mass + s.other_block->inverse_mass + r2 * s.reference_block->inverse_inertia +
+         o2 * s.other_block->inverse_inertia;
+}
+
+struct Dashpot {
+  double chi = 0;    // s/m
+  double limit = 1;  // of the factor 1 + chi closing
+};
+
+// Hunt and Crossley's factor for the impact at hand, a small linear one for the settled contact written in the same form
+// (its coefficient is 2 settling sqrt(kn A m)), both kept below what the explicit step bears.
+Dashpot dashpot(Pair& pair, const Patch& patch, double inverse_mass, const ContactSettings& settings, double dt) {
+  Dashpot d;
+  pair.approach = std::max({pair.approach * std::exp(-dt / settings.memory), patch.closing, settings.reference_speed});
+  if (!(inverse_mass > 0)) return d;
+  const double kn = pair.law.kn, x = impact_factor(pair.law.restitution);
+  const double settled = 2 * settings.settling * std::sqrt(kn * patch.area / inverse_mass) / (kn * patch.total);
+  d.chi = x / pair.approach + settled;
+  const double bearable = 0.5 / (inverse_mass * kn * patch.total * dt);
+  d.chi = std::min(d.chi, bearable);
+  d.limit = 1 + std::max(x, 1.0);
+  return d;
+}
+
+// Books half a step of work of the last wrench and half a step of the present one (J, done on the bodies).
+double trapezoid(PairWrench& last, const PairWrench& now, const ContactBlock& a, const ContactBlock& b, double dt) {
+  const double work = 0.5 * dt * (power(last, a, b) + power(now, a, b));
+  last = now;
+  return work;
+}
+
+// The fading difference to the joint the pair was handed over from.
+PairWrench fading(Pair& pair, const View& s, double dt) {
+  if (pair.offset_left <= 0) return {};
+  pair.offset_left = std::max(0.0, pair.offset_left - dt);
+  const double share = pair.offset_left / pair.offset_time;
+  return to_world(pair, s, share * pair.offset_force, share * pair.offset_moment);
+}
+
+void forget_contact(Pair& pair) {
+  pair.touching = 0;
+  pair.u.setZero();
+  pair.psi = pair.area = pair.gyration = pair.tangential = 0;
+}
+
+// Bounds of section 6 of the stability page: the patch resists with at most kn A along and kt across, dashpots weigh 2 c / dt.
+void stability(const Pair& pair, const View& s, const Patch& patch, const Dashpot& d, double viscous, double dt, PairResult& result) {
+  const double kn = pair.law.kn, normal = kn * patch.area + 2 * kn * patch.total * d.chi / dt;
+  const double tangential = pair.law.ks * pair.area + 2 * viscous / dt;
+  auto rate = [&](const ContactBlock& block, const Vec3& arm) {
+    const double reach = arm.norm() + pair.gyration;
+    return (normal + tangential) * (block.inverse_mass + reach * reach * block.inverse_inertia);
+  };
+  const double other = rate(*s.other_block, patch.centroid), reference = rate(*s.reference_block, patch.centroid + s.pose.shift);
+  result.rate_a = pair.b_is_reference ? other : reference;
+  result.rate_b = pair.b_is_reference ? reference : other;
+}
+
+}  // namespace
+
+double power(const PairWrench& w, const ContactBlock& a, const ContactBlock& b) {
+  return w.force.dot(b.v - a.v) + w.moment_a.dot(a.w) + w.moment_b.dot(b.w);
+}
+
+double torsion_radius(double area, double gyration) {
+  if (!(gyration > 0)) return 0;
+  // Interpolates between the line and the square by the slenderness area / gyration^2 (6 for a square).
+  return gyration * (0.866 + 0.0711 * std::pow(std::min(1.1, area / (6 * gyration * gyration)), 4.0 / 3));
+}
+
+double impact_factor(double restitution) {
+  const double e = std::clamp(restitution, 0.02, 1.0);
+  if (e > 1 - 1e-9) return 0;
+  double low = 0, high = 1 / e;  // the root lies below 1 / e
+  for (int i = 0; i < 100; ++i) {
+    const double x = (low + high) / 2;
+    const double difference = x - std::log1p(x) + e * x + std::log1p(-e * x);
+    (difference > 0 ? low : high) = x;
+  }
+  return (low + high) / 2;
+}
+
+double speed_limit(const ContactShape& a, const ContactShape& b, double dt) { return std::min(a.thickness, b.thickness) / 4 / dt; }
+
+Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, const ContactShapes& shapes) {
+  Pair p;
+  p.a = a;
+  p.b = b;
+  p.part_a = part_a;
+  p.part_b = part_b;
+  p.law = law;
+  // Equal volumes up to round-off: the lower block decides.
+  p.b_is_reference = shape_of(shapes, b, part_b).volume > shape_of(shapes, a, part_a).volume * (1 + 1e-9);
+  return p;
+}
+
+bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
+                double dt, bool want_energy, Pieces& room, PairResult& result) {
+  result = PairResult{};
+  const View s = view_of(pair, shapes, a, b);
+  Patch patch;
+  if (find_pieces(*s.reference, *s.other, s.pose, pair.separating, room)) patch = elastic_patch(room);
+  const bool touches = patch.total > 0;
+  if (!touches && !pair.touching && pair.offset_left <= 0) return false;
+
+  PairWrench elastic, damping, friction;
+  const double stored_before = pair.tangential;
+  double slipped = 0, viscous = 0;
+  if (touches) {
+    const Motion motion = motion_of(s);
+    closing_speeds(room, motion.linear, motion.angular, patch);
+    const double kn = pair.law.kn;
+    elastic = to_world(pair, s, kn * patch.force, kn * patch.moment);
+    const Dashpot d = dashpot(pair, patch, inverse_mass_at(s, patch.pressure_centre, patch.normal), settings, dt);
+    Vec3 damping_force, damping_moment;
+    damping_wrench(room, d.chi, d.limit, damping_force, damping_moment);
+    const double inverse_mass = inverse_mass_at(s, patch.centroid, Vec3::Zero());
+    const Friction f =
+        patch_friction(pair, patch, s.pose, motion, kn * patch.force.norm(), inverse_mass, settings.settling_tangential);
+    viscous = inverse_mass > 0 ? 2 * settings.settling_tangential * std::sqrt(pair.law.ks * pair.area / inverse_mass) : 0;
+    damping = to_world(pair, s, kn * damping_force + f.viscous_force, kn * damping_moment + f.viscous_moment);
+    friction = to_world(pair, s, f.force, f.moment);
+    slipped = f.slipped;
+    pair.tangential = f.stored;
+    pair.touching = 1;
+    result.touching = true;
+    result.depth = patch.deepest;
+    stability(pair, s, patch, d, viscous, dt, result);
+    if (want_energy) result.elastic = kn * energy_integral(*s.reference, *s.other, s.pose, room);
+  } else if (pair.touching) {
+    forget_contact(pair);
+    slipped = 0.5 * stored_before;  // the springs go slack: the limit is zero (what the half step of work leaves is in `reset`)
+    pair.approach = 0;
+  }
+  pair.turn = s.pose.turn;
+  pair.shift = s.pose.shift;
+  pair.known = 1;
+
+  const PairWrench offset = fading(pair, s, dt);
+  const double lost_in_friction = -trapezoid(pair.friction, friction, a, b, dt) - (pair.tangential - stored_before);
+  result.friction = slipped;
+  result.reset = lost_in_friction - slipped;
+  result.damping = -trapezoid(pair.damping, damping, a, b, dt);
+  result.handover = -trapezoid(pair.offset, offset, a, b, dt);
+  result.tangential = pair.tangential;
+  result.wrench = elastic;
+  add(result.wrench, damping);
+  add(result.wrench, friction);
+  add(result.wrench, offset);
+  return true;
+}
+
+void hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
+               const Vec3& force_on_b, const Vec3& moment_on_b, double area, Pieces& room) {
+  const View s = view_of(pair, shapes, a, b);
+  const Mat3 back = s.reference_block->turn.transpose();
+  // The old wrench on the body that is not the reference, pair axes.
+  Vec3 old_force = back * force_on_b, old_moment = back * moment_on_b;
+  if (pair.b_is_reference) {
+    old_moment = -(old_moment - s.pose.shift.cross(old_force));  // about the centroid of a, which lies at +shift from that of b
+    old_force = -old_force;
+  }
+  Patch patch;
+  if (find_pieces(*s.reference, *s.other, s.pose, pair.separating, room)) patch = elastic_patch(room);
+  Vec3 new_force = Vec3::Zero(), new_moment = Vec3::Zero();
+  forget_contact(pair);
+  double stiffness = pair.law.kn * area;
+  Vec3 middle = -s.pose.shift / 2;
+  if (patch.total > 0) {
+    const double kn = pair.law.kn;
+    // First touch at this pose, then the springs are given the force and torsion of the joint.
+    patch_friction(pair, patch, s.pose, {Vec3::Zero(), Vec3::Zero()}, kn * patch.force.norm(), 0, 0);
+    const double kt = pair.law.ks * pair.area, kr = kt * pair.gyration * pair.gyration;
+    const Vec3 t = old_force - old_force.dot(pair.n) * pair.n;
+    pair.u = -t / kt;
+    pair.psi = kr > 0 ? -(old_moment - patch.centroid.cross(old_force)).dot(pair.n) / kr : 0.0;
+    pair.touching = 1;
+    pair.turn = s.pose.turn;
+    pair.shift = s.pose.shift;
+    const Friction f = patch_friction(pair, patch, s.pose, {Vec3::Zero(), Vec3::Zero()}, kn * patch.force.norm(), 0, 0);
+    pair.tangential = f.stored;
+    pair.friction = to_world(pair, s, f.force, f.moment);
+    new_force = kn * patch.force + f.force;
+    new_moment = kn * patch.moment + f.moment;
+    stiffness = kn * patch.area;
+    middle = patch.centroid;
+  }
+  pair.known = 1;
+  pair.offset_force = old_force - new_force;
+  pair.offset_moment = old_moment - new_moment;
+  const double inverse_mass = inverse_mass_at(s, middle, Vec3::Zero());
+  pair.offset_time = inverse_mass > 0 && stiffness > 0 ? settings.handover_periods * 2 * pi / std::sqrt(stiffness * inverse_mass) : 0;
+  pair.offset_left = pair.offset_time;
+  pair.offset = to_world(pair, s, pair.offset_force, pair.offset_moment);
+}
+
+}  // namespace erbs

@@ -1,0 +1,52 @@
+// Force between two parts: elastic inner-distance pressure, impact damping, friction of the patch.
+#pragma once
+#include "engine/contact/narrow.h"
+#include "engine/contact/pair.h"
+
+namespace erbs {
+
+// What one evaluation gives besides the wrench. Losses belong to the step that ends at the pose given: each is the work of its
+// own wrench by the trapezoid of the leapfrog, (F_n + F_n+1) / 2 . v_n+1/2 dt.
+struct PairResult {
+  PairWrench wrench;
+  bool touching = false;
+  double elastic = 0;     // J, normal, stored (only where asked for)
+  double tangential = 0;  // J, stored by the friction springs
+  double friction = 0;    // J, lost in slip
+  double damping = 0;     // J, lost in dashpots
+  double reset = 0;       // J, lost where the springs of friction are carried to a larger or moved patch; near zero
+  double handover = 0;    // J, lost to the fading difference to an old joint
+  double depth = 0;       // m, deepest overlap
+  // Upper bounds of the pair's share in the greatest eigenvalue of M^-1/2 K M^-1/2 of each block, dashpots included (1/s2):
+  // stable while dt^2 <= 2 / (sum over the pairs and joints of a block), for every block.
+  double rate_a = 0, rate_b = 0;
+};
+
+// Evaluates `pair` at the current pose and updates its memory; dt is the step that led here. Returns false if the bodies are apart
+// and nothing was or is stored (the result is then all zero).
+bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
+                double dt, bool want_energy, Pieces& room, PairResult& result);
+
+// A new pair; fixes its reference body for good.
+Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, const ContactShapes& shapes);
+
+// Starts `pair` with what an old joint carries at this instant (world axes, on block b, moment about the centroid of b), so that
+// the force is continuous: friction takes the tangential part, the difference of the rest fades over some contact periods.
+// `area` (m2) of the old joint sets the period where the bodies do not touch yet.
+void hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
+               const Vec3& force_on_b, const Vec3& moment_on_b, double area, Pieces& room);
+
+// X with X - ln(1 + X) = -e X - ln(1 - e X): a pressure kn phi (1 + X v / v_i) returns e of the approach speed v_i (Hunt and Crossley 1975).
+double impact_factor(double restitution);
+
+// Radius r of the torsion limit mu N r of a patch of this area and polar radius of gyration; within 0.4 % for rectangles
+// (.866 gyration for a line, .937 for a square; Int |x| dA / A in closed form).
+double torsion_radius(double area, double gyration);
+
+// Greatest relative speed at which two parts cannot pass through each other unseen: they move a quarter of the thinner per step.
+double speed_limit(const ContactShape& a, const ContactShape& b, double dt);
+
+// Power of a pair's wrench at the given velocities (W).
+double power(const PairWrench& wrench, const ContactBlock& a, const ContactBlock& b);
+
+}  // namespace erbs

@@ -1,0 +1,241 @@
+#include "engine/contact/narrow.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace erbs {
+namespace {
+
+using std::size_t;
+using Bits = std::uint64_t;
+constexpr int most_corners = most_vertices + most_faces + 2;  // a convex loop gains at most one corner per cut
+
+size_t at(int i) { return static_cast<size_t>(i); }
+Bits bit(int i) { return Bits(1) << i; }
+
+struct Loop {
+  int n = 0;
+  Vec3 p[most_corners];
+};
+
+// The part of `in` where value(x) = c - n.x >= 0. A loop that lies in the plane is kept only if `keep_zero`, so that of two
+// complementary cuts exactly one keeps it. False if nothing is left.
+bool cut(const Loop& in, const Vec3& n, double c, bool keep_zero, Loop& out) {
+  double d[most_corners];
+  bool positive = false, negative = false;
+  for (int i = 0; i < in.n; ++i) {
+    d[i] = c - n.dot(in.p[i]);
+    positive = positive || d[i] > 0;
+    negative = negative || d[i] < 0;
+  }
+  out.n = 0;
+  if (!positive && (negative || !keep_zero)) return false;
+  for (int i = 0, last = in.n - 1; i < in.n; last = i++) {
+    if ((d[last] < 0 && d[i] > 0) || (d[last] > 0 && d[i] < 0)) out.p[out.n++] = in.p[last] + d[last] / (d[last] - d[i]) * (in.p[i] - in.p[last]);
+    if (d[i] >= 0) out.p[out.n++] = in.p[i];
+  }
+  return out.n >= 3;
+}
+
+// Vertices of B that are inside face f of A.
+Bits inside(const ContactShape& a, int nv, int f, const Pieces& w) {
+  Bits m = 0;
+  const Vec3 n = a.normal[at(f)];
+  const double c = w.c[f];
+  for (int k = 0; k < nv; ++k) m |= Bits(c - n.dot(w.v[k]) > 0) << k;
+  return m;
+}
+
+// True if face j of B has all of A on its outer side.
+bool face_of_other_separates(const ContactShape& a, const ContactShape& b, const PairPose& pose, int j) {
+  const Vec3 n = pose.turn * b.normal[at(j)];
+  const double c = b.offset[at(j)] + n.dot(pose.shift);
+  return std::all_of(a.vertex.begin(), a.vertex.end(), [&](const Vec3& x) { return n.dot(x) >= c; });
+}
+
+void place_other(const ContactShape& a, const ContactShape& b, const PairPose& pose, Pieces& w) {
+  for (size_t k = 0; k < b.vertex.size(); ++k) w.v[k] = pose.turn * b.vertex[k];
+  for (size_t f = 0; f < a.normal.size(); ++f) w.c[f] = a.offset[f] - a.normal[f].dot(pose.shift);
+}
+
+void append(Pieces& w, int face, int nearest, const Loop& loop, const Vec3& n, double c) {
+  w.piece.push_back({face, nearest, static_cast<int>(w.vertex.size()), loop.n});
+  for (int i = 0; i < loop.n; ++i) {
+    w.vertex.push_back(loop.p[i]);
+    w.depth.push_back(std::max(0.0, c - n.dot(loop.p[i])));
+  }
+}
+
+// Splits face j of B, already clipped to A, where another face of A is the nearest.
+void split(const ContactShape& a, int j, Loop& g, Loop& h, Pieces& w) {
+  const int nf = static_cast<int>(a.normal.size());
+  double least[most_faces];
+  // A face of A is nearest somewhere on the loop only if its least depth is below the smallest of the greatest depths.
+  double bound = std::numeric_limits<double>::infinity();
+  for (int f = 0; f < nf; ++f) {
+    double low = std::numeric_limits<double>::infinity(), high = 0;
+    for (int i = 0; i < g.n; ++i) {
+      const double d = w.c[f] - a.normal[at(f)].dot(g.p[i]);
+      low = std::min(low, d);
+      high = std::max(high, d);
+    }
+    least[f] = low;
+    bound = std::min(bound, high);
+  }
+  int near[most_faces], count = 0;
+  for (int f = 0; f < nf; ++f) {
+    if (least[f] <= bound) near[count++] = f;
+  }
+  if (count == 1) {
+    append(w, j, near[0], g, a.normal[at(near[0])], w.c[near[0]]);
+    return;
+  }
+  Loop other;
+  for (int i = 0; i < count; ++i) {
+    const int f = near[i];
+    Loop *from = &g, *to = &h, *spare = &other;
+    bool left = true;
+    for (int k = 0; k < count && left; ++k) {
+      const int e = near[k];
+      if (e == f) continue;
+      left = cut(*from, a.normal[at(e)] - a.normal[at(f)], w.c[e] - w.c[f], f < e, *to);
+      from = to;
+      std::swap(to, spare);
+    }
+    if (left) append(w, j, f, *from, a.normal[at(f)], w.c[f]);
+  }
+}
+
+}  // namespace
+
+bool find_pieces(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, Pieces& w) {
+  const int nfa = static_cast<int>(a.normal.size()), nfb = static_cast<int>(b.normal.size()), nv = static_cast<int>(b.vertex.size());
+  w.piece.clear();
+  w.vertex.clear();
+  w.depth.clear();
+  if (separating >= nfa && face_of_other_separates(a, b, pose, separating - nfa)) return false;
+  place_other(a, b, pose, w);
+  if (separating >= 0 && separating < nfa && inside(a, nv, separating, w) == 0) return false;
+  Bits in[most_faces], crossing = 0;
+  const Bits all = nv == 64 ? ~Bits(0) : bit(nv) - 1;
+  for (int f = 0; f < nfa; ++f) {
+    in[f] = inside(a, nv, f, w);
+    if (in[f] == 0) {
+      separating = f;
+      return false;
+    }
+    if (in[f] != all) crossing |= bit(f);
+  }
+  Loop one, two;
+  for (int j = 0; j < nfb; ++j) {
+    const Bits mask = b.mask[at(j)];
+    bool outside = false;
+    for (int f = 0; f < nfa && !outside; ++f) outside = (in[f] & mask) == 0;
+    if (outside) continue;
+    Loop *g = &one, *h = &two;
+    g->n = 0;
+    for (int i = b.loop_first[at(j)]; i < b.loop_first[at(j) + 1]; ++i) g->p[g->n++] = w.v[b.loop[at(i)]];
+    bool left = true;
+    for (int f = 0; f < nfa && left; ++f) {
+      if ((crossing & bit(f)) == 0 || (in[f] & mask) == mask) continue;
+      left = cut(*g, a.normal[at(f)], w.c[f], false, *h);
+      std::swap(g, h);
+    }
+    if (!left) continue;
+    w.n[j] = pose.turn * b.normal[at(j)];
+    split(a, j, *g, *h, w);
+  }
+  separating = -1;
+  if (!w.piece.empty()) return true;
+  for (int j = 0; j < nfb && separating < 0; ++j) {
+    if (face_of_other_separates(a, b, pose, j)) separating = nfa + j;
+  }
+  return false;
+}
+
+Patch elastic_patch(const Pieces& w) {
+  Patch out;
+  Vec3 pressure = Vec3::Zero(), area = Vec3::Zero();
+  double polar = 0, farthest = 0;
+  for (const Piece& piece : w.piece) {
+    const Vec3& n = w.n[piece.face];
+    const Vec3* x = &w.vertex[at(piece.first)];
+    const double* phi = &w.depth[at(piece.first)];
+    double i0 = 0;
+    Vec3 i1 = Vec3::Zero();
+    for (int k = 1; k + 1 < piece.count; ++k) {
+      const Vec3 &p = x[0], &q = x[k], &r = x[k + 1];
+      const double dS = 0.5 * n.dot((q - p).cross(r - p));
+      const double sum = phi[0] + phi[k] + phi[k + 1];
+      const Vec3 s = p + q + r;
+      i0 += dS / 3 * sum;
+      i1 += dS / 12 * (sum * s + phi[0] * p + phi[k] * q + phi[k + 1] * r);
+      out.area += dS;
+      area += dS / 3 * s;
+      polar += dS / 12 * (s.squaredNorm() + p.squaredNorm() + q.squaredNorm() + r.squaredNorm());
+    }
+    for (int k = 0; k < piece.count; ++k) {
+      out.deepest = std::max(out.deepest, phi[k]);
+      farthest = std::max(farthest, x[k].squaredNorm());
+    }
+    out.total += i0;
+    pressure += i1;
+    out.force -= i0 * n;
+    out.moment -= i1.cross(n);
+  }
+  if (!(out.total > 0) || !(out.area > 0)) {
+    out.total = 0;
+    return out;
+  }
+  out.pressure_centre = pressure / out.total;
+  out.centroid = area / out.area;
+  out.gyration = std::sqrt(std::max(0.0, polar / out.area - out.centroid.squaredNorm()));
+  out.extent = std::sqrt(farthest);
+  const double size = out.force.norm();
+  if (size > 0) out.normal = out.force / size;
+  else out.total = 0;
+  return out;
+}
+
+void closing_speeds(Pieces& w, const Vec3& linear, const Vec3& angular, Patch& patch) {
+  w.closing.resize(w.vertex.size());
+  patch.closing = -std::numeric_limits<double>::infinity();
+  for (const Piece& piece : w.piece) {
+    const Vec3& n = w.n[piece.face];
+    const double along = n.dot(linear);
+    const Vec3 turning = n.cross(angular);  // n . (angular x x) = (n x angular) . x
+    for (int i = piece.first; i < piece.first + piece.count; ++i) {
+      w.closing[at(i)] = along + turning.dot(w.vertex[at(i)]);
+      patch.closing = std::max(patch.closing, w.closing[at(i)]);
+    }
+  }
+}
+
+void damping_wrench(const Pieces& w, double chi, double limit, Vec3& force, Vec3& moment) {
+  force.setZero();
+  moment.setZero();
+  for (const Piece& piece : w.piece) {
+    const Vec3& n = w.n[piece.face];
+    const Vec3* x = &w.vertex[at(piece.first)];
+    const double* phi = &w.depth[at(piece.first)];
+    const double* closing = &w.closing[at(piece.first)];
+    auto extra = [&](int k) { return std::clamp(chi * closing[k], -1.0, limit - 1); };
+    double i0 = 0;
+    Vec3 i1 = Vec3::Zero();
+    for (int k = 1; k + 1 < piece.count; ++k) {
+      const Vec3 &p = x[0], &q = x[k], &r = x[k + 1];
+      const double dS = 0.5 * n.dot((q - p).cross(r - p));
+      const double s0 = extra(0), s1 = extra(k), s2 = extra(k + 1), f0 = phi[0], f1 = phi[k], f2 = phi[k + 1];
+      const double sf = f0 + f1 + f2, ss = s0 + s1 + s2, sfs = f0 * s0 + f1 * s1 + f2 * s2;
+      i0 += dS / 12 * (sf * ss + sfs);
+      // Int phi s x over a triangle: products of three linear functions in closed form.
+      i1 += dS / 60 * ((sf * ss + sfs + ss * f0 + sf * s0 + 2 * f0 * s0) * p + (sf * ss + sfs + ss * f1 + sf * s1 + 2 * f1 * s1) * q +
+                       (sf * ss + sfs + ss * f2 + sf * s2 + 2 * f2 * s2) * r);
+    }
+    force -= i0 * n;
+    moment -= i1.cross(n);
+  }
+}
+
+}  // namespace erbs

@@ -1,0 +1,68 @@
+// Where two convex bodies overlap, and the elastic and damping pressure there.
+//
+// Inner-distance potential: E = kn Int_{A and B} phi dV with phi(x) = least depth of x below the faces of the reference body A.
+// phi vanishes on the surface of A, so moving boundaries add nothing and the force is an exact derivative of E,
+//   force on B = -kn sum_j n_j Int_{face j of B inside A} phi dS,
+// the same law for faces, edges and corners. Each face of B is clipped to A and split where another face of A is the nearest;
+// phi is linear on each piece.
+#pragma once
+#include <vector>
+
+#include "engine/contact/shape.h"
+
+namespace erbs {
+
+// Pair axes: the axes of the reference body A, origin at the centroid of the other body B, so that lever arms stay short even
+// where A is a slab of many metres.
+struct PairPose {
+  Mat3 turn;   // x (pair axes) = turn * x (axes of B at rest)
+  Vec3 shift;  // m, centroid of B relative to the centroid of A, axes of A
+};
+
+struct Piece {
+  int face;          // of B
+  int nearest;       // face of A
+  int first, count;  // vertices in Pieces::vertex
+};
+
+// Room that is used again from call to call, one per thread.
+struct Pieces {
+  std::vector<Piece> piece;
+  std::vector<Vec3> vertex;    // m, pair axes
+  std::vector<double> depth;   // m, phi
+  std::vector<double> closing; // m/s, speed of B into A along the normal of the face
+  Vec3 v[most_vertices];       // m, vertices of B, pair axes
+  Vec3 n[most_faces];          // normals of B, pair axes
+  double c[most_faces];        // m, depth of the origin below the faces of A
+};
+
+// Finds the pieces. `separating` caches the face that keeps the bodies apart (faces of A, then faces of B after them; -1: none).
+// False if they do not overlap.
+bool find_pieces(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, Pieces& out);
+
+// What the elastic part says about the patch; everything in pair axes, kn = 1.
+struct Patch {
+  Vec3 force = Vec3::Zero();   // m3, on B
+  Vec3 moment = Vec3::Zero();  // m4, on B about its centroid
+  Vec3 normal = Vec3::Zero();  // unit, direction of the force on B
+  double total = 0;            // m3, Int phi dS
+  double area = 0;             // m2, surface of B inside A
+  double gyration = 0;         // m, polar radius of gyration of that surface
+  double extent = 0;           // m, largest distance of the patch from the centroid of B
+  double deepest = 0;          // m
+  double closing = 0;          // m/s, greatest
+  Vec3 pressure_centre = Vec3::Zero();
+  Vec3 centroid = Vec3::Zero();
+};
+Patch elastic_patch(const Pieces& pieces);
+
+// Speed of B into A at every vertex of the pieces; `linear` and `angular` as of a body with its centroid at the origin.
+void closing_speeds(Pieces& pieces, const Vec3& linear, const Vec3& angular, Patch& patch);
+
+// Damping pressure phi (s - 1), s = 1 + chi closing, clamped at its vertices to [0, limit]: never pulls, power never positive.
+void damping_wrench(const Pieces& pieces, double chi, double limit, Vec3& force, Vec3& moment);
+
+// E / kn (m4) of the pieces found last for the same bodies.
+double energy_integral(const ContactShape& a, const ContactShape& b, const PairPose& pose, const Pieces& pieces);
+
+}  // namespace erbs

@@ -1,0 +1,207 @@
+#include "engine/geometry/quadrature.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "engine/base/error.h"
+#include "engine/base/units.h"
+
+namespace erbs {
+namespace {
+
+using std::size_t;
+
+LineRule gauss_line(int n) {
+  LineRule r;
+  for (int i = 0; i < n; ++i) {
+    double x = std::cos(pi * (i + 0.75) / (n + 0.5)), slope = 1;
+    for (int turn = 0; turn < 100; ++turn) {  // Newton on the Legendre polynomial
+      double p0 = 1, p1 = x;
+      for (int k = 2; k <= n; ++k) {
+        const double p2 = ((2 * k - 1) * x * p1 - (k - 1) * p0) / k;
+        p0 = p1;
+        p1 = p2;
+      }
+      slope = n * (x * p1 - p0) / (x * x - 1);
+      const double step = p1 / slope;
+      x -= step;
+      if (std::abs(step) < 1e-15) break;
+    }
+    r.at.push_back(-x / 2);
+    r.weight.push_back(1 / ((1 - x * x) * slope * slope));
+  }
+  return r;
+}
+
+// Equal spacing. Odd n: composite Simpson. Even n from 4: trapezoid whose two outer weights on each side make quadratics exact
+// (n = 4 is the 3/8 rule).
+LineRule simpson_line(int n) {
+  if (n <= 2) return gauss_line(n);
+  LineRule r;
+  const double h = 1.0 / (n - 1), half = (n - 1) / 2.0;
+  double outer = 0, next = 0;
+  if (n % 2 == 0) {
+    double inside = 0;  // half the sum of squares of the points between the two outer pairs, in spacings
+    for (int i = n / 2; i < n - 2; ++i) inside += (i - half) * (i - half);
+    outer = (half * half * half / 3 - inside - 1.5 * (half - 1) * (half - 1)) / (half * half - (half - 1) * (half - 1));
+    next = 1.5 - outer;
+  }
+  for (int i = 0; i < n; ++i) {
+    r.at.push_back(i * h - 0.5);
+    const int from_end = std::min(i, n - 1 - i);
+    double w = 1;
+    if (n % 2 == 1) w = from_end == 0 ? 1.0 / 3 : i % 2 == 1 ? 4.0 / 3 : 2.0 / 3;
+    else if (from_end == 0) w = outer;
+    else if (from_end == 1) w = next;
+    r.weight.push_back(w * h);
+  }
+  return r;
+}
+
+double cross2(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+bool is_rectangle(const Polygon2& p) {
+  if (p.size() != 4) return false;
+  for (size_t i = 0; i < 4; ++i) {
+    const Vec2 e = p[(i + 1) % 4] - p[i], f = p[(i + 2) % 4] - p[(i + 1) % 4];
+    if (std::abs(e.dot(f)) > 1e-6 * e.norm() * f.norm()) return false;
+  }
+  return true;
+}
+
+std::vector<QuadraturePoint> on_rectangle(const Polygon2& p, const LineRule& longer, const LineRule& shorter) {
+  Vec2 u = (p[1] - p[0] + p[2] - p[3]) / 2, v = (p[3] - p[0] + p[2] - p[1]) / 2;
+  const Vec2 centre = (p[0] + p[1] + p[2] + p[3]) / 4;
+  if (v.norm() > u.norm() * (1 + 1e-9)) {
+    const Vec2 old = u;
+    u = v;
+    v = -old;
+  }
+  const double area = cross2(u, v);
+  std::vector<QuadraturePoint> points;
+  for (size_t j = 0; j < shorter.at.size(); ++j) {
+    for (size_t i = 0; i < longer.at.size(); ++i) {
+      const Vec2 x = centre + longer.at[i] * u + shorter.at[j] * v;
+      points.push_back({x.x(), x.y(), area * longer.weight[i] * shorter.weight[j]});
+    }
+  }
+  return points;
+}
+
+// Fan triangles about the centroid; corners, mid-sides and centroids of the fan are shared between neighbours.
+std::vector<QuadraturePoint> fan(const Polygon2& p, const std::string& rule) {
+  const Vec2 c = moments(p).centroid;
+  const size_t n = p.size();
+  std::vector<QuadraturePoint> centre{{c.x(), c.y(), 0}}, corner, spoke, side, inside;
+  for (const Vec2& v : p) {
+    corner.push_back({v.x(), v.y(), 0});
+    spoke.push_back({(v.x() + c.x()) / 2, (v.y() + c.y()) / 2, 0});
+  }
+  for (size_t i = 0; i < n; ++i) {
+    const size_t k = (i + 1) % n;
+    const double area = cross2(p[i] - c, p[k] - c) / 2;
+    const Vec2 m = (p[i] + p[k]) / 2, g = (p[i] + p[k] + c) / 3;
+    if (rule == "gauss") {  // three interior points, exact for quadratics
+      for (const Vec2& v : {p[i], p[k], c}) {
+        const Vec2 x = v / 2 + g / 2;
+        inside.push_back({x.x(), x.y(), area / 3});
+      }
+      continue;
+    }
+    const double at_vertex = rule == "simpson" ? 1.0 / 20 : 1.0 / 3, at_side = rule == "simpson" ? 2.0 / 15 : 0.0;
+    centre[0].weight += area * at_vertex;
+    corner[i].weight += area * at_vertex;
+    corner[k].weight += area * at_vertex;
+    spoke[i].weight += area * at_side;
+    spoke[k].weight += area * at_side;
+    side.push_back({m.x(), m.y(), area * at_side});
+    inside.push_back({g.x(), g.y(), rule == "simpson" ? area * 9.0 / 20 : 0.0});
+  }
+  std::vector<QuadraturePoint> points;
+  for (const auto* set : {&corner, &side, &spoke, &inside, &centre}) {
+    for (const QuadraturePoint& q : *set) {
+      if (q.weight > 0) points.push_back(q);
+    }
+  }
+  return points;
+}
+
+// Cells of equal sides along the principal axes, cut by the polygon; each carries its own centroid and area.
+std::vector<QuadraturePoint> cells(const Polygon2& p, int n_long, int n_short) {
+  const PolygonMoments m = moments(p);
+  const double angle = 0.5 * std::atan2(2 * m.xy, m.xx - m.yy);
+  const Vec2 e(std::cos(angle), std::sin(angle)), f(-e.y(), e.x());
+  Vec2 low(1e300, 1e300), high(-1e300, -1e300);
+  for (const Vec2& v : p) {
+    const Vec2 x(e.dot(v), f.dot(v));
+    low = low.cwiseMin(x);
+    high = high.cwiseMax(x);
+  }
+  std::vector<QuadraturePoint> points;
+  for (int j = 0; j < n_short; ++j) {
+    Polygon2 row = clip_half_plane(p, f, low.y() + (high.y() - low.y()) * (j + 1) / n_short);
+    row = clip_half_plane(row, -f, -(low.y() + (high.y() - low.y()) * j / n_short));
+    for (int i = 0; i < n_long; ++i) {
+      Polygon2 cell = clip_half_plane(row, e, low.x() + (high.x() - low.x()) * (i + 1) / n_long);
+      cell = clip_half_plane(cell, -e, -(low.x() + (high.x() - low.x()) * i / n_long));
+      const PolygonMoments part = moments(cell);
+      if (part.area > 1e-12 * m.area) points.push_back({part.centroid.x(), part.centroid.y(), part.area});
+    }
+  }
+  return points;
+}
+
+}  // namespace
+
+LineRule line_rule(const std::string& rule, int n) {
+  const int least = rule == "trapezoid" ? 2 : 1;
+  if (n < least || n > 64) throw Error(fmt::format("{} points a side with the rule {}: {} to 64 are possible", n, rule, least));
+  if (rule == "simpson") return simpson_line(n);
+  if (rule == "gauss") return gauss_line(n);
+  LineRule r;
+  if (rule != "midpoint" && rule != "trapezoid") {
+    throw Error("unknown rule of contact points \"" + rule + "\"; it is simpson, midpoint, trapezoid or gauss");
+  }
+  for (int i = 0; i < n; ++i) {
+    if (rule == "midpoint") {
+      r.at.push_back((i + 0.5) / n - 0.5);
+      r.weight.push_back(1.0 / n);
+    } else {
+      r.at.push_back(static_cast<double>(i) / (n - 1) - 0.5);
+      r.weight.push_back((i == 0 || i == n - 1 ? 0.5 : 1.0) / (n - 1));
+    }
+  }
+  return r;
+}
+
+std::vector<QuadraturePoint> quadrature(const Polygon2& polygon, const std::string& rule, int n_long, int n_short) {
+  const LineRule longer = line_rule(rule, n_long), shorter = line_rule(rule, n_short);
+  if (is_rectangle(polygon)) return on_rectangle(polygon, longer, shorter);
+  return rule == "midpoint" ? cells(polygon, n_long, n_short) : fan(polygon, rule);
+}
+
+PrincipalAxes principal_axes(const std::vector<QuadraturePoint>& points) {
+  PrincipalAxes a;
+  for (const QuadraturePoint& p : points) {
+    a.area += p.weight;
+    a.centroid += p.weight * Vec2(p.x, p.y);
+  }
+  a.centroid /= a.area;
+  double xx = 0, yy = 0, xy = 0;
+  for (const QuadraturePoint& p : points) {
+    const double x = p.x - a.centroid.x(), y = p.y - a.centroid.y();
+    xx += p.weight * x * x;
+    yy += p.weight * y * y;
+    xy += p.weight * x * y;
+  }
+  if (std::abs(xy) < 1e-12 * (xx + yy)) xy = 0;
+  if (std::abs(xx - yy) < 1e-12 * (xx + yy) && xy == 0) a.angle = 0;  // no axis is preferred: keep x
+  else a.angle = 0.5 * std::atan2(2 * xy, xx - yy);
+  const double c = std::cos(a.angle), s = std::sin(a.angle);
+  a.along = c * c * xx + s * s * yy + 2 * c * s * xy;
+  a.across = s * s * xx + c * c * yy - 2 * c * s * xy;
+  return a;
+}
+
+}  // namespace erbs

@@ -1,0 +1,189 @@
+#include "engine/model/interface.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <tuple>
+#include <utility>
+
+#include "engine/geometry/clip.h"
+#include "engine/geometry/separation.h"
+
+namespace erbs {
+namespace {
+
+using std::size_t;
+constexpr double facing = 1e-3;          // rad
+constexpr double least_fraction = 1e-4;  // of the smaller face: less overlap is no interface
+constexpr double least_overlap = 1e-6;   // of the smaller edge: less is round-off
+
+size_t at(int i) { return static_cast<size_t>(i); }
+
+// A part with what the search needs of it.
+struct Part {
+  int block, part;
+  const Polyhedron* shape;
+  Box box;
+  double edge;  // m, smallest
+  std::vector<Plane> planes;
+};
+
+std::vector<Part> parts_of(std::span<const InterfaceBlock> blocks) {
+  std::vector<Part> parts;
+  for (size_t b = 0; b < blocks.size(); ++b) {
+    for (size_t p = 0; p < blocks[b].parts.size(); ++p) {
+      const Polyhedron& shape = blocks[b].parts[p];
+      parts.push_back({static_cast<int>(b), static_cast<int>(p), &shape, bounding_box(shape), smallest_edge(shape), planes(shape)});
+    }
+  }
+  return parts;
+}
+
+// Calls visit(i, j) for parts whose boxes come closer than `margin`: sorted along the axis of greatest spread, so that one huge
+// slab costs one pass and not a full grid.
+template <class Visit>
+void near_pairs(const std::vector<Part>& parts, double margin, Visit&& visit) {
+  Vec3 mean = Vec3::Zero(), spread = Vec3::Zero();
+  for (const Part& p : parts) mean += (p.box.low + p.box.high) / 2 / static_cast<double>(parts.size());
+  for (const Part& p : parts) spread += ((p.box.low + p.box.high) / 2 - mean).cwiseAbs2();
+  int axis = 0;
+  spread.maxCoeff(&axis);
+  std::vector<int> order(parts.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::sort(order.begin(), order.end(),
+            [&](int i, int j) { return std::make_pair(parts[at(i)].box.low[axis], i) < std::make_pair(parts[at(j)].box.low[axis], j); });
+  std::vector<int> open;  // parts that still reach the sweep plane
+  for (int i : order) {
+    const Box& p = parts[at(i)].box;
+    size_t kept = 0;
+    for (int j : open) {
+      const Box& q = parts[at(j)].box;
+      if (q.high[axis] + margin < p.low[axis]) continue;
+      open[kept++] = j;
+      if (((q.low.array() - margin) <= p.high.array()).all() && ((p.low.array() - margin) <= q.high.array()).all()) visit(i, j);
+    }
+    open.resize(kept);
+    open.push_back(i);
+  }
+}
+
+bool group_matches(const std::string& wanted, std::string_view group) { return wanted.empty() || wanted == group; }
+
+// Index of the last rule that matches, -1 if none does. Results are kept per pair of groups.
+class RuleTable {
+ public:
+  explicit RuleTable(std::span<const JointRule> rules) : rules_(rules) {}
+  int find(std::string_view a, std::string_view b) {
+    auto [place, fresh] = known_.try_emplace({a, b}, -1);
+    if (!fresh) return place->second;
+    for (size_t r = 0; r < rules_.size(); ++r) {
+      const JointRule& j = rules_[r];
+      if ((group_matches(j.group_a, a) && group_matches(j.group_b, b)) || (group_matches(j.group_a, b) && group_matches(j.group_b, a))) {
+        place->second = static_cast<int>(r);
+      }
+    }
+    return place->second;
+  }
+
+ private:
+  std::span<const JointRule> rules_;
+  std::map<std::pair<std::string_view, std::string_view>, int> known_;
+};
+
+// The overlap of face fa of p and face fb of q in the plane of n, as a polygon midway between them; empty where there is none.
+bool overlap_polygon(const Part& p, int fa, const Part& q, int fb, Interface& out) {
+  const Plane& pa = p.planes[at(fa)];
+  const Plane& pb = q.planes[at(fb)];
+  const Vec3 n = (pa.n - pb.n).normalized();
+  const Vec3 t = n.unitOrthogonal(), s = n.cross(t);
+  const Vec3 origin = p.shape->vertices[at(p.shape->faces[at(fa)][0])];
+  auto project = [&](const Polyhedron& shape, int face, bool reversed) {
+    Polygon2 flat;
+    for (int v : shape.faces[at(face)]) {
+      const Vec3 r = shape.vertices[at(v)] - origin;
+      flat.emplace_back(t.dot(r), s.dot(r));
+    }
+    if (reversed) std::reverse(flat.begin(), flat.end());
+    return flat;
+  };
+  const Polygon2 flat_a = project(*p.shape, fa, false), flat_b = project(*q.shape, fb, true);
+  const double smaller = std::min(moments(flat_a).area, moments(flat_b).area);
+  const Polygon2 common = simplified(clip_convex(flat_a, flat_b), 1e-9 * std::sqrt(smaller));
+  if (common.size() < 3) return false;
+  const PolygonMoments m = moments(common);
+  if (m.area < least_fraction * smaller) return false;
+  // Height of both planes above a point of the flat polygon, along n.
+  auto height = [&](const Plane& plane, const Vec2& x) {
+    const Vec3 r = origin + x.x() * t + x.y() * s;
+    return (plane.d - plane.n.dot(r)) / plane.n.dot(n);
+  };
+  out.gap = height(pb, m.centroid) - height(pa, m.centroid);
+  out.area = m.area;
+  out.normal = n;
+  out.polygon.clear();
+  for (const Vec2& x : common) out.polygon.push_back(origin + x.x() * t + x.y() * s + (height(pa, x) + height(pb, x)) / 2 * n);
+  return true;
+}
+
+// Every pair of faces of two parts that qualifies.
+void find_faces(const Part& p, const Part& q, const JointRule& rule, int rule_index, double overlap, std::vector<Interface>& all) {
+  const double cosine = -std::cos(facing);
+  const double least = -std::max(rule.tolerance, overlap * std::min(p.edge, q.edge)), most = rule.thickness + rule.tolerance;
+  const double slack = facing * std::max((p.box.high - p.box.low).norm(), (q.box.high - q.box.low).norm());
+  for (size_t fa = 0; fa < p.planes.size(); ++fa) {
+    const Vec3 on_a = p.shape->vertices[at(p.shape->faces[fa][0])];
+    for (size_t fb = 0; fb < q.planes.size(); ++fb) {
+      if (p.planes[fa].n.dot(q.planes[fb].n) > cosine) continue;
+      const Vec3 on_b = q.shape->vertices[at(q.shape->faces[fb][0])];
+      const double distance = p.planes[fa].n.dot(on_b - on_a);
+      if (distance < least - slack || distance > most + slack) continue;
+      Interface found{p.block, q.block, p.part, q.part, static_cast<int>(fa), static_cast<int>(fb), {}, Vec3::Zero(), 0, 0, rule_index};
+      if (overlap_polygon(p, found.face_a, q, found.face_b, found) && found.gap >= least && found.gap <= most)
+        all.push_back(std::move(found));
+    }
+  }
+}
+
+bool boxes_overlap(const Box& a, const Box& b, double depth) {
+  return ((a.high - b.low).array() > depth).all() && ((b.high - a.low).array() > depth).all();
+}
+
+}  // namespace
+
+Interfaces find_interfaces(std::span<const InterfaceBlock> blocks, std::span<const JointRule> rules, double overlap) {
+  const std::vector<Part> parts = parts_of(blocks);
+  RuleTable table(rules);
+  double margin = 0;
+  for (const JointRule& r : rules) margin = std::max(margin, r.none ? 0 : r.thickness + r.tolerance);
+  Interfaces result;
+  if (parts.empty()) return result;
+  std::map<std::pair<int, int>, Overlap> deepest;
+  near_pairs(parts, margin, [&](int i, int j) {
+    const bool in_order = std::make_pair(parts[at(i)].block, parts[at(i)].part) < std::make_pair(parts[at(j)].block, parts[at(j)].part);
+    const Part& p = parts[at(in_order ? i : j)];
+    const Part& q = parts[at(in_order ? j : i)];
+    const InterfaceBlock& a = blocks[at(p.block)];
+    const InterfaceBlock& b = blocks[at(q.block)];
+    if (p.block == q.block || (a.fixed && b.fixed)) return;
+    const double edge = std::min(p.edge, q.edge);
+    if (boxes_overlap(p.box, q.box, least_overlap * edge)) {
+      const double depth = -separation(*p.shape, *q.shape, -least_overlap * edge).gap;
+      if (depth > least_overlap * edge) {
+        Overlap& o = deepest.try_emplace({p.block, q.block}, Overlap{p.block, q.block, 0, 0}).first->second;
+        if (depth / edge > o.relative) o = {p.block, q.block, depth, depth / edge};
+      }
+    }
+    const int rule = table.find(a.group, b.group);
+    if (rule < 0 || rules[at(rule)].none) return;
+    find_faces(p, q, rules[at(rule)], rule, overlap, result.all);
+  });
+  std::sort(result.all.begin(), result.all.end(), [](const Interface& x, const Interface& y) {
+    return std::tie(x.a, x.b, x.part_a, x.part_b, x.face_a, x.face_b) < std::tie(y.a, y.b, y.part_a, y.part_b, y.face_a, y.face_b);
+  });
+  for (const auto& [key, o] : deepest) result.overlaps.push_back(o);
+  return result;
+}
+
+}  // namespace erbs

@@ -1,0 +1,46 @@
+// Faces of different blocks that face each other at rest: the places of joints.
+#pragma once
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "engine/geometry/polyhedron.h"
+#include "engine/scene/scene.h"
+
+namespace erbs {
+
+struct InterfaceBlock {
+  std::span<const Polyhedron> parts;  // m, world axes at rest
+  std::string_view group;
+  bool fixed = false;
+};
+
+struct Interface {
+  int a, b;                   // blocks, a < b
+  int part_a, part_b;         // parts of the blocks
+  int face_a, face_b;         // faces of the parts
+  std::vector<Vec3> polygon;  // m, overlap on the surface midway between the faces, world axes at rest, counter-clockwise about normal
+  Vec3 normal;                // unit, from a to b
+  double gap;                 // m, mean distance of the faces at rest; negative where they overlap
+  double area;                // m2
+  int rule;                   // index of the joint rule
+};
+
+// Two blocks that overlap at rest.
+struct Overlap {
+  int a, b;
+  double depth;     // m, the least shift that parts them
+  double relative;  // of the smallest edge of both
+};
+
+struct Interfaces {
+  std::vector<Interface> all;     // sorted by (a, b, part_a, part_b, face_a, face_b)
+  std::vector<Overlap> overlaps;  // relative depth above 1e-6, sorted by (a, b)
+};
+
+// The last rule that matches a pair of groups wins; pairs without a rule, pairs whose rule says none, and pairs of fixed blocks
+// have no interface. Faces count as facing where their normals are opposite within 1e-3 rad and their gap lies between
+// -`overlap` of the smaller edge (or the rule's tolerance, if larger) and thickness + tolerance.
+Interfaces find_interfaces(std::span<const InterfaceBlock> blocks, std::span<const JointRule> rules, double overlap = 0.05);
+
+}  // namespace erbs
