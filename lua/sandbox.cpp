@@ -48,7 +48,7 @@ int noted(lua_State* lua) {
     const Cap uncapped(limits, false);
     const Place place = current_place(lua);
     const std::lock_guard lock(limits.mutex);
-    limits.doing = place.text() + ": string." + lua_tostring(lua, lua_upvalueindex(2));
+    limits.doing = place.text() + ": " + lua_tostring(lua, lua_upvalueindex(2));
   }
   lua_pushvalue(lua, lua_upvalueindex(1));
   lua_insert(lua, 1);
@@ -99,7 +99,7 @@ int print(lua_State* lua) {
 void wrap(lua_State* lua, const char* library, const char* name, lua_CFunction wrapper) {
   lua_getglobal(lua, library);
   lua_getfield(lua, -1, name);
-  lua_pushstring(lua, name);
+  lua_pushfstring(lua, "%s.%s", library, name);
   lua_pushcclosure(lua, wrapper, 2);
   lua_setfield(lua, -2, name);
   lua_pop(lua, 1);
