@@ -17,7 +17,7 @@ struct PairLaw {
 struct ContactSettings {
   double reference_speed = 0.01;  // m/s, restitution is as asked for above it, impacts are softer below
   double memory = 0.02;           // s, over which the greatest approach speed is forgotten
-  double settling = 0.05;         // share of critical damping of the settled contact, normal
+  double settling = 0.2;          // share of critical damping of the settled contact, normal; fades with the speed of impact
   double settling_tangential = 0.05;  // the same of a contact that sticks, tangential
   double handover_periods = 5;    // contact periods over which the difference to the old joint fades
 };
@@ -34,7 +34,6 @@ struct Pair {
   PairLaw law;
   std::uint8_t b_is_reference = 0;  // whose inner distance is the potential: the larger part, then the lower block; never changes
   std::uint8_t touching = 0;
-  std::uint8_t known = 0;      // turn and shift hold the pose of the last step
   int separating = -1;         // cache only
   // relative pose at the last step, pair axes
   Mat3 turn = Mat3::Identity();
@@ -66,7 +65,7 @@ template <class F>
 void each(Pair& p, F&& f) {
   f(p.a), f(p.b), f(p.part_a), f(p.part_b);
   f(p.law.kn), f(p.law.ks), f(p.law.mu), f(p.law.restitution);
-  f(p.b_is_reference), f(p.touching), f(p.known), f(p.separating);
+  f(p.b_is_reference), f(p.touching), f(p.separating);
   f(p.turn), f(p.shift), f(p.n), f(p.c), f(p.u), f(p.psi), f(p.area), f(p.gyration), f(p.approach);
   f(p.offset_force), f(p.offset_moment), f(p.offset_left), f(p.offset_time);
   each(p.friction, f), each(p.damping, f), each(p.offset, f);
