@@ -32,6 +32,7 @@ struct Pair {
   int a = 0, b = 0;            // blocks, a < b
   int part_a = 0, part_b = 0;  // parts of them
   PairLaw law;
+  double impact = 0;           // impact_factor(law.restitution)
   std::uint8_t b_is_reference = 0;  // whose inner distance is the potential: the larger part, then the lower block; never changes
   std::uint8_t touching = 0;
   int separating = -1;         // cache only
@@ -64,7 +65,7 @@ void each(PairWrench& w, F&& f) {
 template <class F>
 void each(Pair& p, F&& f) {
   f(p.a), f(p.b), f(p.part_a), f(p.part_b);
-  f(p.law.kn), f(p.law.ks), f(p.law.mu), f(p.law.restitution);
+  f(p.law.kn), f(p.law.ks), f(p.law.mu), f(p.law.restitution), f(p.impact);
   f(p.b_is_reference), f(p.touching), f(p.separating);
   f(p.turn), f(p.shift), f(p.n), f(p.c), f(p.u), f(p.psi), f(p.area), f(p.gyration), f(p.approach);
   f(p.offset_force), f(p.offset_moment), f(p.offset_left), f(p.offset_time);
