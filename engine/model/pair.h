@@ -34,6 +34,7 @@ struct Pair {
   int a = 0, b = 0;            // blocks, a < b
   int part_a = 0, part_b = 0;  // parts of them
   PairLaw law;
+  double impact = 0;           // impact_factor(law.restitution)
   std::uint8_t b_is_reference = 0;  // whose inner distance is the potential: the larger part, then the lower block; never changes
   std::uint8_t touching = 0;
   int separating = -1;         // cache only
@@ -89,7 +90,7 @@ void each(P& p, F&& f) {
   f("a", p.a), f("b", p.b), f("part_a", p.part_a), f("part_b", p.part_b), f("law", p.law);
   f("b_is_reference", p.b_is_reference), f("touching", p.touching), f("separating", p.separating);
   f("turn", p.turn), f("shift", p.shift), f("n", p.n), f("c", p.c), f("u", p.u), f("psi", p.psi);
-  f("area", p.area), f("gyration", p.gyration), f("approach", p.approach);
+  f("area", p.area), f("gyration", p.gyration), f("approach", p.approach), f("impact", p.impact);
   f("offset_force", p.offset_force), f("offset_moment", p.offset_moment);
   f("offset_left", p.offset_left), f("offset_time", p.offset_time);
   f("friction", p.friction), f("damping", p.damping), f("offset", p.offset), f("tangential", p.tangential);
