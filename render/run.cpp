@@ -4,7 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
+#include "engine/record/json.h"
 
 #include "engine/base/error.h"
 #include "render/table.h"

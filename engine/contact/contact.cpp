@@ -81,10 +81,9 @@ Dashpot dashpot(Pair& pair, const Patch& patch, double inverse_mass, const Conta
   pair.approach = std::max({pair.approach * std::exp(-dt / settings.memory), patch.closing, settings.reference_speed});
   if (!(inverse_mass > 0)) return d;
   const double kn = pair.law.kn, x = impact_factor(pair.law.restitution);
-  const double settled = 2 * settings.settling * std::sqrt(kn * patch.area / inverse_mass) / (kn * patch.total);
-  d.chi = x / pair.approach + settled;
-  const double bearable = 0.5 / (inverse_mass * kn * patch.total * dt);
-  d.chi = std::min(d.chi, bearable);
+  const double share = settings.settling * settings.reference_speed / pair.approach;  // an impact is left to its restitution
+  d.chi = x / pair.approach + 2 * share * std::sqrt(kn * patch.area / inverse_mass) / (kn * patch.total);
+  if (dt > 0) d.chi = std::min(d.chi, 0.5 / (inverse_mass * kn * patch.total * dt));
   d.limit = 1 + std::max(x, 1.0);
   return d;
 }
@@ -110,10 +109,11 @@ void forget_contact(Pair& pair) {
   pair.psi = pair.area = pair.gyration = pair.tangential = 0;
 }
 
-// Bounds of section 6 of the stability page: the patch resists with at most kn A along and kt across, dashpots weigh 2 c / dt.
+// The patch resists with at most kn A along and kt across; dashpots that see the velocity of half a step before weigh 2 c / dt.
 void stability(const Pair& pair, const View& s, const Patch& patch, const Dashpot& d, double viscous, double dt, PairResult& result) {
-  const double kn = pair.law.kn, normal = kn * patch.area + 2 * kn * patch.total * d.chi / dt;
-  const double tangential = pair.law.ks * pair.area + 2 * viscous / dt;
+  const double per_step = dt > 0 ? 2 / dt : 0, kn = pair.law.kn;
+  const double normal = kn * patch.area + kn * patch.total * d.chi * per_step;
+  const double tangential = pair.law.ks * pair.area + viscous * per_step;
   auto rate = [&](const ContactBlock& block, const Vec3& arm) {
     const double reach = arm.norm() + pair.gyration;
     return (normal + tangential) * (block.inverse_mass + reach * reach * block.inverse_inertia);
@@ -201,7 +201,6 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
   }
   pair.turn = s.pose.turn;
   pair.shift = s.pose.shift;
-  pair.known = 1;
 
   const PairWrench offset = fading(pair, s, dt);
   const double lost_in_friction = -trapezoid(pair.friction, friction, a, b, dt) - (pair.tangential - stored_before);
@@ -252,7 +251,6 @@ void hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, c
     stiffness = kn * patch.area;
     middle = patch.centroid;
   }
-  pair.known = 1;
   pair.offset_force = old_force - new_force;
   pair.offset_moment = old_moment - new_moment;
   const double inverse_mass = inverse_mass_at(s, middle, Vec3::Zero());

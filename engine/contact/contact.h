@@ -1,7 +1,7 @@
 // Force between two parts: elastic inner-distance pressure, impact damping, friction of the patch.
 #pragma once
 #include "engine/contact/narrow.h"
-#include "engine/contact/pair.h"
+#include "engine/model/pair.h"
 
 namespace erbs {
 
@@ -22,7 +22,7 @@ struct PairResult {
   double rate_a = 0, rate_b = 0;
 };
 
-// Evaluates `pair` at the current pose and updates its memory; dt is the step that led here. Returns false if the bodies are apart
+// Evaluates `pair` at the current pose and updates its memory; dt (s) is the step that led here, 0 at the start of a run. Returns false if the bodies are apart
 // and nothing was or is stored (the result is then all zero).
 bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
                 double dt, bool want_energy, Pieces& room, PairResult& result);

@@ -59,7 +59,10 @@ ContactShapes contact_shapes(const std::vector<std::vector<Polyhedron>>& parts_o
   ContactShapes all;
   for (const auto& parts : parts_of_blocks) {
     all.first.push_back(static_cast<int>(all.shape.size()));
-    for (const Polyhedron& p : parts) all.shape.push_back(contact_shape(p));
+    for (const Polyhedron& p : parts) {
+      all.block.push_back(static_cast<int>(all.first.size()) - 1);
+      all.shape.push_back(contact_shape(p));
+    }
   }
   all.first.push_back(static_cast<int>(all.shape.size()));
   return all;

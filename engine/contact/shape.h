@@ -33,6 +33,7 @@ ContactShape contact_shape(const Polyhedron& part);
 struct ContactShapes {
   std::vector<ContactShape> shape;
   std::vector<int> first;  // [nblock + 1]
+  std::vector<int> block;  // of each shape
 };
 ContactShapes contact_shapes(const std::vector<std::vector<Polyhedron>>& parts_of_blocks);
 
