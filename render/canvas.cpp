@@ -6,7 +6,7 @@
 #include "engine/base/error.h"
 #include "render/shaders.h"
 
-namespace erbs {
+namespace erbs::render {
 
 Target& Target::operator=(Target&& other) noexcept {
   std::swap(width, other.width);
@@ -167,11 +167,15 @@ Image Canvas::finish(const Eigen::Matrix4f& projection, double radius) {
   occlusion_uniforms(finish_program_, projection, radius);
   screen_pass(finish_program_, final_);
 
-  Image flipped(width_, height_), image(width_, height_);
-  gl_.PixelStorei(GL_PACK_ALIGNMENT, 1);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RGB, GL_UNSIGNED_BYTE, flipped.rgb.data());
-  for (int y = 0; y < height_; ++y) std::copy_n(flipped.pixel(0, height_ - 1 - y), 3 * width_, image.pixel(0, y));
+  Image image(width_, height_);
+  std::vector<std::uint8_t> rgba(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
+  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  for (int y = 0; y < height_; ++y) {
+    const std::uint8_t* from = &rgba[static_cast<std::size_t>(height_ - 1 - y) * static_cast<std::size_t>(width_) * 4];
+    std::uint8_t* to = image.pixel(0, y);
+    for (int x = 0; x < width_; ++x, from += 4, to += 3) to[0] = from[0], to[1] = from[1], to[2] = from[2];
+  }
   return image;
 }
 
-}  // namespace erbs
+}  // namespace erbs::render

@@ -6,7 +6,7 @@
 #include "render/gl.h"
 #include "render/image.h"
 
-namespace erbs {
+namespace erbs::render {
 
 // A texture (or a multisampled buffer) and the framebuffer that draws into it; frees itself.
 class Target {
@@ -54,4 +54,4 @@ class Canvas {
   GLuint occlusion_program_, blur_program_, finish_program_, empty_;
 };
 
-}  // namespace erbs
+}  // namespace erbs::render

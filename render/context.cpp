@@ -5,7 +5,7 @@
 
 #include "engine/base/error.h"
 
-namespace erbs {
+namespace erbs::render {
 
 void prepare_contexts() {
   // One thread per context: frames are what is shared out, and nothing waits for a slower tile.
@@ -23,4 +23,4 @@ std::unique_ptr<Context> make_context(const std::string& kind) {
   return context;
 }
 
-}  // namespace erbs
+}  // namespace erbs::render

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-namespace erbs {
+namespace erbs::render {
 
 class Context {
  public:
@@ -22,4 +22,4 @@ std::unique_ptr<Context> make_context(const std::string& kind = "auto");
 // Settings that the software rasteriser reads from the environment when the first context is made. Call before any thread starts.
 void prepare_contexts();
 
-}  // namespace erbs
+}  // namespace erbs::render

@@ -8,7 +8,7 @@
 
 #include "render/context.h"
 
-namespace erbs {
+namespace erbs::render {
 namespace {
 
 class EglContext : public Context {
@@ -74,4 +74,4 @@ std::unique_ptr<Context> make_egl_context() {
   return nullptr;
 }
 
-}  // namespace erbs
+}  // namespace erbs::render

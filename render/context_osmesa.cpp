@@ -5,7 +5,7 @@
 
 #include "render/context.h"
 
-namespace erbs {
+namespace erbs::render {
 namespace {
 
 class OsmesaContext : public Context {
@@ -48,4 +48,4 @@ std::unique_ptr<Context> make_osmesa_context() {
   return context;
 }
 
-}  // namespace erbs
+}  // namespace erbs::render

@@ -6,7 +6,7 @@
 #include "engine/base/error.h"
 #include "render/shaders.h"
 
-namespace erbs {
+namespace erbs::render {
 namespace {
 
 // Buffers of one kind of geometry.
@@ -18,9 +18,8 @@ struct Drawable {
 const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
 template <class V>
-Drawable upload(const Gl& gl, const std::vector<V>& vertices, const std::vector<std::uint32_t>& index) {
+Drawable upload(const Gl& gl, const std::vector<V>& vertices) {
   Drawable d;
-  d.count = static_cast<GLsizei>(index.size());
   gl.GenVertexArrays(1, &d.vao);
   gl.BindVertexArray(d.vao);
   gl.GenBuffers(1, &d.vertices);
@@ -28,8 +27,13 @@ Drawable upload(const Gl& gl, const std::vector<V>& vertices, const std::vector<
   gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(V)), vertices.data(), GL_STATIC_DRAW);
   gl.GenBuffers(1, &d.index);
   gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, d.index);
-  gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(index.size() * sizeof(std::uint32_t)), index.data(), GL_STATIC_DRAW);
   return d;
+}
+
+void choose(const Gl& gl, Drawable& d, const std::vector<std::uint32_t>& index) {
+  gl.BindVertexArray(d.vao);
+  gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(index.size() * sizeof(std::uint32_t)), index.data(), GL_STREAM_DRAW);
+  d.count = static_cast<GLsizei>(index.size());
 }
 
 template <class V>
@@ -89,12 +93,12 @@ struct Painter::Hidden {
   Hidden& operator=(const Hidden&) = delete;
 
   void upload_geometry() {
-    bricks = upload(gl, show.mesh.vertices, show.mesh.index);
+    bricks = upload(gl, show.mesh.vertices);
     floats<Vertex>(gl, 0, 3, offsetof(Vertex, p));
     floats<Vertex>(gl, 1, 3, offsetof(Vertex, n));
     integers<Vertex>(gl, 2, 1, offsetof(Vertex, block));
     integers<Vertex>(gl, 3, 1, offsetof(Vertex, joint));
-    cracks = upload(gl, show.mesh.cracks, show.mesh.crack_index);
+    cracks = upload(gl, show.mesh.cracks);
     floats<CrackVertex>(gl, 0, 3, offsetof(CrackVertex, pa));
     floats<CrackVertex>(gl, 1, 3, offsetof(CrackVertex, pb));
     floats<CrackVertex>(gl, 2, 3, offsetof(CrackVertex, out));
@@ -102,8 +106,9 @@ struct Painter::Hidden {
     integers<CrackVertex>(gl, 4, 3, offsetof(CrackVertex, a));
     floats<CrackVertex>(gl, 5, 1, offsetof(CrackVertex, side));
     using Corner = std::array<float, 2>;
-    plane = upload(gl, std::vector<Corner>{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}, {0, 1, 2, 0, 2, 3});
+    plane = upload(gl, std::vector<Corner>{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}});
     floats<Corner>(gl, 0, 2, 0);
+    choose(gl, plane, {0, 1, 2, 0, 2, 3});
   }
 
   void fill(const Texels& t, const std::vector<float>& values) const {
@@ -159,7 +164,7 @@ struct Painter::Hidden {
     gl.BindTexture(GL_TEXTURE_2D, canvas->shadow_map());
   }
 
-  void draw_picture(const Light& light, const View& v, const FrameTexels&) const {
+  void draw_picture(const Light& light, const View& v) const {
     const Stage& stage = show.stage;
     canvas->begin_picture();
     use(solid, light, light.camera);
@@ -204,12 +209,14 @@ Image Painter::draw(const MotionFrame& frame, const Camera& camera) {
   h.fill(h.blocks, texels.blocks);
   h.gl.ActiveTexture(GL_TEXTURE1);
   h.fill(h.joints, texels.joints);
+  choose(h.gl, h.bricks, texels.index);
+  choose(h.gl, h.cracks, texels.crack_index);
   h.draw_shadow(light);
-  h.draw_picture(light, v, texels);
+  h.draw_picture(light, v);
   Image image = h.canvas->finish(v.projection, 0.022 * h.show.stage.size());
   if (const GLenum error = h.gl.GetError(); error != GL_NO_ERROR)
     throw std::logic_error(fmt::format("internal error: OpenGL reports {:#x}; please report it", error));
   return image;
 }
 
-}  // namespace erbs
+}  // namespace erbs::render

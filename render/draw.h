@@ -7,7 +7,7 @@
 #include "render/run.h"
 #include "render/stage.h"
 
-namespace erbs {
+namespace erbs::render {
 
 enum class Coloring { material, damage };
 
@@ -31,9 +31,10 @@ Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<Mo
 // Colour of damage 0..1 (linear), as in the legend.
 Vec3 damage_color(double damage);
 
-// The numbers the shaders read: 12 floats a block, 4 a joint.
+// What the shaders read, 12 floats a block and 4 a joint, and the triangles that can be seen.
 struct FrameTexels {
   std::vector<float> blocks, joints;
+  std::vector<std::uint32_t> index, crack_index;
 };
 FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring);
 
@@ -49,4 +50,4 @@ class Painter {
   std::unique_ptr<Hidden> hidden_;
 };
 
-}  // namespace erbs
+}  // namespace erbs::render

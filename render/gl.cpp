@@ -5,7 +5,7 @@
 
 #include "engine/base/error.h"
 
-namespace erbs {
+namespace erbs::render {
 
 Gl load_gl(const Context& context) {
   Gl gl;
@@ -51,4 +51,4 @@ GLuint make_program(const Gl& gl, const std::string& common, const std::string& 
   throw std::logic_error(fmt::format("internal error: shaders do not link: {}", log.data()));
 }
 
-}  // namespace erbs
+}  // namespace erbs::render

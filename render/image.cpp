@@ -7,7 +7,7 @@
 
 #include "engine/base/error.h"
 
-namespace erbs {
+namespace erbs::render {
 
 // libpng's simplified interface cannot choose the filter: no filter and level 4 are twice as fast and smaller for our pictures.
 void write_png(const std::string& path, const Image& image) {
@@ -41,4 +41,4 @@ Image read_png(const std::string& path) {
   return image;
 }
 
-}  // namespace erbs
+}  // namespace erbs::render

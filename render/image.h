@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-namespace erbs {
+namespace erbs::render {
 
 struct Image {
   int width = 0, height = 0;
@@ -20,4 +20,4 @@ struct Image {
 void write_png(const std::string& path, const Image& image);
 Image read_png(const std::string& path);
 
-}  // namespace erbs
+}  // namespace erbs::render

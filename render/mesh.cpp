@@ -1,25 +1,21 @@
 #include "render/mesh.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
 
-namespace erbs {
+namespace erbs::render {
 namespace {
-
-using Loop = std::vector<Vec3>;
 
 Vec3 corner(const MotionShape& s, int i) {
   const std::size_t k = 3 * static_cast<std::size_t>(i);
   return {s.vertices[k], s.vertices[k + 1], s.vertices[k + 2]};
 }
 
-// Newell's normal; its length is twice the area.
-Vec3 area_normal(const Loop& loop) {
-  Vec3 n = Vec3::Zero();
-  for (std::size_t i = 0; i < loop.size(); ++i) n += loop[i].cross(loop[(i + 1) % loop.size()]);
-  return n;
+Loop loop_of(const MotionShape& shape, const std::vector<int>& face) {
+  Loop loop;
+  for (int i : face) loop.push_back(corner(shape, i));
+  return loop;
 }
 
 Vec3 middle(const Loop& loop) {
@@ -28,7 +24,41 @@ Vec3 middle(const Loop& loop) {
   return sum / static_cast<double>(std::max<std::size_t>(1, loop.size()));
 }
 
-// The loop with each side moved inwards by d, or by less where the face is too narrow for that.
+Span append(std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& some) {
+  const Span span{static_cast<std::uint32_t>(all.size()), static_cast<std::uint32_t>(all.size() + some.size())};
+  all.insert(all.end(), some.begin(), some.end());
+  return span;
+}
+
+// A face is buried where joints cover it but for the mortar's own gaps.
+std::vector<bool> find_buried(const MotionScene& scene, int block, const MotionShape& shape, const std::vector<int>& joints) {
+  std::vector<bool> buried;
+  const Vec3 rest = scene.blocks[static_cast<std::size_t>(block)].rest;
+  for (const std::vector<int>& face : shape.faces) {
+    const Loop loop = loop_of(shape, face);
+    const Vec3 twice = area_normal(loop), n = twice.normalized();
+    double covered = 0;
+    for (int j : joints) {
+      const MotionJoint& joint = scene.joints[static_cast<std::size_t>(j)];
+      if (joint.polygon.size() < 3) continue;
+      const Vec3 out = joint_normal(scene, joint) * (joint.a == block ? 1.0 : -1.0);
+      const Vec3 at = joint.polygon.front() + scene.blocks[static_cast<std::size_t>(joint.a)].rest - rest;
+      const double far = std::abs((at - loop.front()).dot(n));
+      if (out.dot(n) > 0.999 && far < 0.6 * joint.thickness + 1e-4) covered += 0.5 * area_normal(joint.polygon).norm();
+    }
+    buried.push_back(covered > 0.93 * 0.5 * twice.norm());
+  }
+  return buried;
+}
+
+}  // namespace
+
+Vec3 area_normal(const Loop& loop) {
+  Vec3 n = Vec3::Zero();
+  for (std::size_t i = 0; i < loop.size(); ++i) n += loop[i].cross(loop[(i + 1) % loop.size()]);
+  return n;
+}
+
 Loop inset(const Loop& loop, const Vec3& n, double d) {
   const std::size_t count = loop.size();
   const Vec3 c = middle(loop);
@@ -57,68 +87,6 @@ void add_fan(std::vector<std::uint32_t>& index, const std::vector<std::uint32_t>
   for (std::size_t i = 2; i < loop.size(); ++i) index.insert(index.end(), {loop[0], loop[i - 1], loop[i]});
 }
 
-// Mortar between `base` (in the middle of the joint) and the face of the block, `half` (m, signed) along n.
-void add_mortar(Mesh& mesh, const Loop& base, const Vec3& n, double half, std::uint32_t block, std::uint32_t joint) {
-  const std::size_t count = base.size();
-  const Vec3 to_face = half * n;
-  std::vector<std::uint32_t> cap;
-  for (const Vec3& p : base) cap.push_back(add_vertex(mesh, p, half > 0 ? Vec3(-n) : n, block, joint));
-  if (half > 0) std::reverse(cap.begin(), cap.end());
-  add_fan(mesh.index, cap);
-  for (std::size_t i = 0; i < count; ++i) {
-    const Vec3 &p = base[i], &q = base[(i + 1) % count];
-    const Vec3 out = (q - p).cross(n).normalized();
-    std::vector<std::uint32_t> side;
-    for (const Vec3& v : {p, q, Vec3(q + to_face), Vec3(p + to_face)}) side.push_back(add_vertex(mesh, v, out, block, joint));
-    if (half < 0) std::reverse(side.begin(), side.end());
-    add_fan(mesh.index, side);
-  }
-}
-
-// polygon relative to a; to_b: what to subtract to have it relative to b.
-void add_crack(Mesh& mesh, const Loop& polygon, const Vec3& n, const Vec3& to_b, const MotionJoint& joint, std::uint32_t index) {
-  const std::size_t count = polygon.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::array<Vec3, 2> ends{polygon[i], polygon[(i + 1) % count]};
-    const Vec3 before = (polygon[i] - polygon[(i + count - 1) % count]).cross(n).normalized();
-    const Vec3 here = (ends[1] - ends[0]).cross(n).normalized();
-    const Vec3 after = (polygon[(i + 2) % count] - ends[1]).cross(n).normalized();
-    const auto first = static_cast<std::uint32_t>(mesh.cracks.size());
-    for (int k = 0; k < 4; ++k) {  // a,start  a,end  b,end  b,start
-      const bool at_end = k == 1 || k == 2;
-      const Vec3 p = ends[at_end ? 1 : 0], out = here + (at_end ? after : before);
-      const Vec3 miter = out / std::max(0.3, 1 + here.dot(at_end ? after : before));
-      CrackVertex v{{}, {}, {}, {}, static_cast<std::uint32_t>(joint.a), static_cast<std::uint32_t>(joint.b), index, k < 2 ? -1.0F : 1.0F};
-      for (int c = 0; c < 3; ++c) {
-        v.pa[c] = static_cast<float>(p[c]);
-        v.pb[c] = static_cast<float>(p[c] - to_b[c]);
-        v.out[c] = static_cast<float>(miter[c]);
-        v.normal[c] = static_cast<float>(n[c]);
-      }
-      mesh.cracks.push_back(v);
-    }
-    mesh.crack_index.insert(mesh.crack_index.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
-  }
-}
-
-void add_joint(Mesh& mesh, const MotionScene& scene, std::size_t j, double chamfer) {
-  const MotionJoint& joint = scene.joints[j];
-  if (joint.polygon.size() < 3) return;
-  const Vec3 n = joint_normal(scene, joint);
-  const Vec3 to_b = scene.blocks[static_cast<std::size_t>(joint.b)].rest - scene.blocks[static_cast<std::size_t>(joint.a)].rest;
-  Loop polygon = joint.polygon;
-  if (area_normal(polygon).dot(n) < 0) std::reverse(polygon.begin(), polygon.end());
-  const auto index = static_cast<std::uint32_t>(j);
-  add_crack(mesh, polygon, n, to_b, joint, index);
-  if (joint.thickness <= 0) return;
-  Loop on_a = inset(polygon, n, 0.5 * chamfer);  // raked a little, so that courses read
-  add_mortar(mesh, on_a, n, -0.5 * joint.thickness, static_cast<std::uint32_t>(joint.a), index);
-  for (Vec3& p : on_a) p -= to_b;
-  add_mortar(mesh, on_a, n, 0.5 * joint.thickness, static_cast<std::uint32_t>(joint.b), index);
-}
-
-}  // namespace
-
 Vec3 joint_normal(const MotionScene& scene, const MotionJoint& joint) {
   if (joint.normal.norm() > 0.5) return joint.normal.normalized();
   const Vec3 n = area_normal(joint.polygon);
@@ -127,20 +95,20 @@ Vec3 joint_normal(const MotionScene& scene, const MotionJoint& joint) {
   return (n.dot(from_a) < 0 ? -n : n).normalized();
 }
 
-void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double chamfer) {
+void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double chamfer, const std::vector<bool>& buried_face,
+              std::vector<std::uint32_t>& open, std::vector<std::uint32_t>& buried) {
   // The vertex of each corner of each face; faces around a corner are found by the directed edge that leaves it.
   std::vector<std::vector<std::uint32_t>> ids;
   std::map<std::pair<int, int>, std::pair<std::size_t, std::size_t>> edge;  // from, to -> face, position in its loop
   for (const std::vector<int>& face : shape.faces) {
-    Loop loop;
-    for (int i : face) loop.push_back(corner(shape, i));
+    const Loop loop = loop_of(shape, face);
     const Vec3 n = area_normal(loop).normalized();
     ids.emplace_back();
     for (const Vec3& p : inset(loop, n, chamfer)) ids.back().push_back(add_vertex(mesh, p, n, block, no_joint));
-    add_fan(mesh.index, ids.back());
+    add_fan(buried_face[ids.size() - 1] ? buried : open, ids.back());
     for (std::size_t k = 0; k < face.size(); ++k) edge[{face[k], face[(k + 1) % face.size()]}] = {ids.size() - 1, k};
   }
-  auto next = [&](std::size_t face, std::size_t k) { return (k + 1) % shape.faces[face].size(); };
+  const auto next = [&](std::size_t face, std::size_t k) { return (k + 1) % shape.faces[face].size(); };
   std::map<int, bool> done;
   for (const auto& [ends, at] : edge) {
     const auto [i, j] = ends;
@@ -148,32 +116,43 @@ void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double 
     if (opposite == edge.end()) continue;
     const auto [f, k] = at;
     const auto [g, m] = opposite->second;
-    if (i < j) add_fan(mesh.index, {ids[f][next(f, k)], ids[f][k], ids[g][next(g, m)], ids[g][m]});
+    if (i < j) add_fan(buried_face[f] && buried_face[g] ? buried : open, {ids[f][next(f, k)], ids[f][k], ids[g][next(g, m)], ids[g][m]});
     if (done[i]) continue;
     done[i] = true;
-    // Around corner i: from an edge that leaves it to the twin that arrives, whose successor leaves in the next face.
+    // Around corner i, anticlockwise from outside: the edge that arrives in this face leaves in the next.
     std::vector<std::uint32_t> around;
+    bool all_buried = true;
     auto here = at;
     for (std::size_t turn = 0; turn < shape.faces.size(); ++turn) {
       around.push_back(ids[here.first][here.second]);
+      all_buried = all_buried && buried_face[here.first];
       const std::vector<int>& loop = shape.faces[here.first];
       const auto before = edge.find({loop[here.second], loop[(here.second + loop.size() - 1) % loop.size()]});
       if (before == edge.end() || before->second == at) break;
       here = before->second;
     }
-    add_fan(mesh.index, around);
+    add_fan(all_buried ? buried : open, around);
   }
 }
 
 Mesh build_mesh(const MotionScene& scene, const std::vector<bool>& hidden, double chamfer) {
   Mesh mesh;
+  std::vector<std::vector<int>> touching(scene.blocks.size());
+  for (std::size_t j = 0; j < scene.joints.size(); ++j)
+    for (int block : {scene.joints[j].a, scene.joints[j].b}) touching[static_cast<std::size_t>(block)].push_back(static_cast<int>(j));
   for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
-    if (hidden[b]) continue;
-    for (int part : scene.blocks[b].parts)
-      add_part(mesh, scene.shapes[static_cast<std::size_t>(part)], static_cast<std::uint32_t>(b), chamfer);
+    std::vector<std::uint32_t> open, buried;
+    for (int part : scene.blocks[b].parts) {
+      if (hidden[b]) continue;
+      const MotionShape& shape = scene.shapes[static_cast<std::size_t>(part)];
+      add_part(mesh, shape, static_cast<std::uint32_t>(b), chamfer, find_buried(scene, static_cast<int>(b), shape, touching[b]), open,
+               buried);
+    }
+    mesh.open.push_back(append(mesh.index, open));
+    mesh.buried.push_back(append(mesh.index, buried));
   }
-  for (std::size_t j = 0; j < scene.joints.size(); ++j) add_joint(mesh, scene, j, chamfer);
+  add_joints(mesh, scene, touching, chamfer);
   return mesh;
 }
 
-}  // namespace erbs
+}  // namespace erbs::render

@@ -9,7 +9,7 @@
 #include "engine/base/error.h"
 #include "render/table.h"
 
-namespace erbs {
+namespace erbs::render {
 namespace {
 
 using Json = nlohmann::json;
@@ -74,4 +74,4 @@ Run read_run(const std::string& dir) {
   return run;
 }
 
-}  // namespace erbs
+}  // namespace erbs::render

@@ -6,7 +6,7 @@
 #include "engine/record/motion_file.h"
 #include "engine/scene/scene.h"
 
-namespace erbs {
+namespace erbs::render {
 
 struct Paint {
   std::string name;
@@ -32,4 +32,4 @@ struct Run {
 // Error where DIR is no run folder.
 Run read_run(const std::string& dir);
 
-}  // namespace erbs
+}  // namespace erbs::render

@@ -1,9 +1,9 @@
 #include "render/shaders.h"
 
-namespace erbs {
+namespace erbs::render {
 
 // Texels of `blocks`: 3 b: centroid and damage; 3 b + 1: quaternion x, y, z, w; 3 b + 2: colour (linear).
-// Texels of `joints`: damage 0..1, distance (m) of the two sides, whether its mortar is shown, unused.
+// Texels of `joints`: damage 0..1, distance (m) of the two sides.
 const std::string shader_common = R"(
 uniform samplerBuffer blocks;
 uniform samplerBuffer joints;
@@ -22,20 +22,24 @@ uniform mat4 to_shadow;
 uniform float shadow_texel;   // m
 uniform float shadow_step;    // of the map
 
-// Share of the sun that reaches a point: 3 x 3 taps, each a bilinear comparison.
-float sunlight(vec3 p, vec3 n) {
+// Share of the sun that reaches a point: 3 x 3 taps, each a bilinear comparison. The count of taps is zero where nothing can
+// throw a shadow: the software rasteriser leaves a loop early, but runs through both arms of an if.
+float sunlight(vec3 p, vec3 n, float facing) {
   vec4 s = to_shadow * vec4(p + n * (2.0 * shadow_texel), 1.0);
   vec3 c = s.xyz * 0.5 + 0.5;
-  if (any(lessThan(c, vec3(0.0))) || any(greaterThan(c, vec3(1.0)))) return 1.0;
+  bool outside = any(lessThan(c, vec3(0.0))) || any(greaterThan(c, vec3(1.0)));
+  int taps = outside || facing <= 0.0 ? 0 : 9;
   float lit = 0.0;
-  for (int i = -1; i <= 1; ++i)
-    for (int j = -1; j <= 1; ++j) lit += texture(shadow, vec3(c.xy + vec2(i, j) * (1.4 * shadow_step), c.z - 0.0004));
-  return lit / 9.0;
+  for (int i = 0; i < taps; ++i) {
+    vec2 step = vec2(i / 3 - 1, i - (i / 3) * 3 - 1) * (1.4 * shadow_step);
+    lit += texture(shadow, vec3(c.xy + step, c.z - 0.0004));
+  }
+  return taps == 0 ? 1.0 : lit / 9.0;
 }
 
 vec3 lit(vec3 albedo, vec3 p, vec3 n, float cavity) {
   float direct = max(dot(n, sun), 0.0);
-  if (direct > 0.0) direct *= sunlight(p, n);
+  direct *= sunlight(p, n, direct);
   vec3 sky = mix(vec3(0.36, 0.33, 0.30), vec3(0.56, 0.62, 0.70), 0.5 + 0.5 * n.z);
   return albedo * (sky * cavity + vec3(1.02, 0.97, 0.88) * direct);
 }
@@ -55,13 +59,11 @@ void main() {
   world = place.xyz + turn(q, at);
   n = turn(q, normal);
   albedo = texelFetch(blocks, b + 2).rgb;
-  bool shown = true;
   if (joint != 0xffffffffu) {
     vec4 j = texelFetch(joints, int(joint));
     albedo = by_damage > 0.5 ? mix(albedo, vec3(0.75), 0.15) : mix(mortar, 0.55 * mortar, j.x);
-    shown = j.z > 0.5;
   }
-  gl_Position = shown ? camera * vec4(world, 1.0) : vec4(0.0, 0.0, 2.0, 1.0);
+  gl_Position = camera * vec4(world, 1.0);
 }
 )";
 
@@ -78,12 +80,9 @@ void main() {
 const std::string shade_vertex = R"(
 layout(location = 0) in vec3 at;
 layout(location = 2) in uint block;
-layout(location = 3) in uint joint;
 void main() {
   int b = int(block) * 3;
-  vec3 world = texelFetch(blocks, b).xyz + turn(texelFetch(blocks, b + 1), at);
-  bool shown = joint == 0xffffffffu || texelFetch(joints, int(joint)).z > 0.5;
-  gl_Position = shown ? camera * vec4(world, 1.0) : vec4(0.0, 0.0, 2.0, 1.0);
+  gl_Position = camera * vec4(texelFetch(blocks, b).xyz + turn(texelFetch(blocks, b + 1), at), 1.0);
 }
 )";
 const std::string shade_fragment = "void main() {}\n";
@@ -244,4 +243,4 @@ void main() {
 }
 )";
 
-}  // namespace erbs
+}  // namespace erbs::render

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-namespace erbs {
+namespace erbs::render {
 
 extern const std::string shader_common;
 extern const std::string solid_vertex, solid_fragment;  // bricks and mortar
@@ -12,4 +12,4 @@ extern const std::string ground_vertex, ground_fragment;
 extern const std::string screen_vertex;  // one triangle over the whole picture
 extern const std::string sky_fragment, occlusion_fragment, blur_fragment, finish_fragment;
 
-}  // namespace erbs
+}  // namespace erbs::render

@@ -5,7 +5,7 @@
 
 #include "render/draw.h"
 
-namespace erbs {
+namespace erbs::render {
 namespace {
 
 // A number in -1..1 that is the same for the same block in every run.
@@ -84,10 +84,40 @@ Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<Mo
   return show;
 }
 
+namespace {
+
+// Around a joint that is damaged or has moved, everything is drawn.
+void choose_triangles(const Show& show, const MotionFrame& frame, FrameTexels& t) {
+  const MotionScene& scene = *show.scene;
+  const float moved = static_cast<float>(0.1 * show.chamfer);
+  std::vector<bool> quiet(scene.blocks.size(), true);
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    if (frame.damage[j] == 0 && t.joints[4 * j + 1] < moved) continue;
+    quiet[static_cast<std::size_t>(scene.joints[j].a)] = quiet[static_cast<std::size_t>(scene.joints[j].b)] = false;
+  }
+  const auto add = [](std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from, Span span) {
+    to.insert(to.end(), from.begin() + span.begin, from.begin() + span.end);
+  };
+  t.index.reserve(show.mesh.index.size());
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
+    add(t.index, show.mesh.index, show.mesh.open[b]);
+    if (!quiet[b]) add(t.index, show.mesh.index, show.mesh.buried[b]);
+  }
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    const bool closed = quiet[static_cast<std::size_t>(scene.joints[j].a)] && quiet[static_cast<std::size_t>(scene.joints[j].b)];
+    add(t.index, show.mesh.index, closed ? show.mesh.pointing[j] : show.mesh.beds[j]);
+    if (frame.damage[j] > 0) add(t.crack_index, show.mesh.crack_index, show.mesh.crack[j]);
+  }
+}
+
+}  // namespace
+
 FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring) {
   const MotionScene& scene = *show.scene;
   const std::size_t nb = scene.blocks.size(), nj = scene.joints.size();
-  FrameTexels t{std::vector<float>(12 * std::max<std::size_t>(1, nb)), std::vector<float>(4 * std::max<std::size_t>(1, nj))};
+  FrameTexels t;
+  t.blocks.resize(12 * std::max<std::size_t>(1, nb));
+  t.joints.resize(4 * std::max<std::size_t>(1, nj));
   std::vector<float> worst(nb);
   for (std::size_t j = 0; j < nj; ++j) {
     const MotionJoint& joint = scene.joints[j];
@@ -97,7 +127,6 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
     worst[b] = std::max(worst[b], damage);
     t.joints[4 * j] = damage;
     t.joints[4 * j + 1] = parted(scene, joint, frame);
-    t.joints[4 * j + 2] = 1;
   }
   for (std::size_t b = 0; b < nb; ++b) {
     const Vec3 color = coloring == Coloring::damage ? damage_color(static_cast<double>(worst[b])) : show.block_color[b];
@@ -106,7 +135,8 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
     const float values[12] = {p[0], p[1], p[2], worst[b], p[4], p[5], p[6], p[3], c.x(), c.y(), c.z(), 0};
     std::copy_n(values, 12, &t.blocks[12 * b]);
   }
+  choose_triangles(show, frame, t);
   return t;
 }
 
-}  // namespace erbs
+}  // namespace erbs::render

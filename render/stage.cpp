@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace erbs {
+namespace erbs::render {
 namespace {
 
 Eigen::AlignedBox3d box_of(const MotionScene& scene, const MotionBlock& block) {
@@ -160,4 +160,4 @@ Eigen::Matrix4f shadow_view(const Stage& stage, const Eigen::Vector3f& sun) {
   return (ortho * to_sun).cast<float>();
 }
 
-}  // namespace erbs
+}  // namespace erbs::render

@@ -5,7 +5,7 @@
 #include "engine/record/motion_file.h"
 #include "engine/scene/scene.h"
 
-namespace erbs {
+namespace erbs::render {
 
 struct Stage {
   Eigen::AlignedBox3d building;                            // m, all blocks but the ground, at rest
@@ -36,4 +36,4 @@ Eigen::Vector3f sun_of(const Camera& camera);
 // World to shadow map (clip space) for this sun.
 Eigen::Matrix4f shadow_view(const Stage& stage, const Eigen::Vector3f& sun);
 
-}  // namespace erbs
+}  // namespace erbs::render

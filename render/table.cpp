@@ -6,7 +6,7 @@
 #include <limits>
 #include <string_view>
 
-namespace erbs {
+namespace erbs::render {
 namespace {
 
 std::vector<std::string_view> split(std::string_view line) {
@@ -49,4 +49,4 @@ Table read_table(const std::string& path) {
   return table;
 }
 
-}  // namespace erbs
+}  // namespace erbs::render

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-namespace erbs {
+namespace erbs::render {
 
 struct Table {
   std::vector<std::string> names;            // [columns]
@@ -15,4 +15,4 @@ struct Table {
 // An empty table where the file does not exist. A last line cut short by a kill is left out.
 Table read_table(const std::string& path);
 
-}  // namespace erbs
+}  // namespace erbs::render

@@ -30,7 +30,7 @@ local damping_ratio = param("damping_ratio", 0.05, "of the first mode, assumed: 
 local first_frequency = param("first_frequency", 10 * Hz, "estimate of the first mode, for the damping coefficient only [Hz]")
 local slab_thickness = param("slab_thickness", 50 * mm, "what three storeys of 13 courses leave of 4260 mm [m]")
 local bearing = param("bearing", 100 * mm, "of lintels, at least; assumed [m]")
-local closer = param("closer", 90 * mm, "shortest cut brick: 45 mm would do with one cut a course, but makes the step a fifth smaller [m]")
+local closer = param("closer", 90 * mm, "shortest cut brick: 45 mm would do with one cut a course, but makes the step a sixth smaller [m]")
 
 -- What a run varies -----------------------------------------------------------------------------------------------------------------
 local pga = param("pga", 0.4 * g, "peak acceleration of the table along x [m/s2]")

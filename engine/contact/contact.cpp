@@ -80,7 +80,7 @@ Dashpot dashpot(Pair& pair, const Patch& patch, double inverse_mass, const Conta
   Dashpot d;
   pair.approach = std::max({pair.approach * std::exp(-dt / settings.memory), patch.closing, settings.reference_speed});
   if (!(inverse_mass > 0)) return d;
-  const double kn = pair.law.kn, x = impact_factor(pair.law.restitution);
+  const double kn = pair.law.kn, x = pair.impact;
   const double share = settings.settling * settings.reference_speed / pair.approach;  // an impact is left to its restitution
   d.chi = x / pair.approach + 2 * share * std::sqrt(kn * patch.area / inverse_mass) / (kn * patch.total);
   if (dt > 0) d.chi = std::min(d.chi, 0.5 / (inverse_mass * kn * patch.total * dt));
@@ -132,7 +132,8 @@ double power(const PairWrench& w, const ContactBlock& a, const ContactBlock& b) 
 double torsion_radius(double area, double gyration) {
   if (!(gyration > 0)) return 0;
   // Interpolates between the line and the square by the slenderness area / gyration^2 (6 for a square).
-  return gyration * (0.866 + 0.0711 * std::pow(std::min(1.1, area / (6 * gyration * gyration)), 4.0 / 3));
+  const double fill = std::min(1.1, area / (6 * gyration * gyration));
+  return gyration * (0.866 + 0.0711 * fill * std::cbrt(fill));
 }
 
 double impact_factor(double restitution) {
@@ -156,6 +157,7 @@ Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, const Co
   p.part_a = part_a;
   p.part_b = part_b;
   p.law = law;
+  p.impact = impact_factor(law.restitution);
   // Equal volumes up to round-off: the lower block decides.
   p.b_is_reference = shape_of(shapes, b, part_b).volume > shape_of(shapes, a, part_a).volume * (1 + 1e-9);
   return p;

@@ -6,6 +6,7 @@
 
 #include "engine/model/joint_batch.h"
 #include "engine/model/model.h"
+#include "engine/model/pair.h"
 
 namespace erbs {
 
@@ -64,6 +65,9 @@ struct State {
   std::vector<JointMemory> memory;     // [njoint]
   std::vector<PointHistory> history;   // [npoint]
   std::vector<double> wrench;          // rows of 8 doubles: force, moment on a block from one joint end [2 njoint + 1]
+  PairList debris;                     // contacts of loose blocks
+  double dt_goal = 0;                  // s, the step the run asks for; dt may be shorter while contacts change
+  int calm = 0;                        // steps since contacts last held dt down
   int joints_broken = 0;
   Energy energy;
   Vec3 gravity_before = Vec3::Zero();  // m/s2, of the last step, and sum of m u then: for the work of tilting

@@ -29,8 +29,11 @@ std::vector<Brick> bricks_of(const Scene& scene) {
 
 std::vector<Brick> built(const std::string& text) {
   Script script({.quiet = true});
-  return bricks_of(script.load_text("material{ name = 'brick', density = 1800 }\nground{}\n"
-                                    "joint{ law = dry{ kn = 1e10, mu = 0.6 }, thickness = 5*mm, tolerance = 2.5*mm }\n" + text, "t.lua"));
+  return bricks_of(
+      script.load_text("material{ name = 'brick', density = 1800 }\nground{}\nanalysis{ duration = 1 }\n"
+                       "joint{ law = dry{ kn = 1e10, mu = 0.6 }, thickness = 5*mm, tolerance = 2.5*mm }\n" +
+                           text,
+                       "t.lua"));
 }
 
 std::vector<std::string> mistakes_of(const std::string& text) {
@@ -107,7 +110,8 @@ const char* const house =
 }  // namespace
 
 TEST_CASE("a plain wall is laid in running bond with halves", "[lua][masonry]") {
-  const auto bricks = built("wall{ length = 1.525, courses = 6, brick = {length = 0.3, width = 0.125, height = 0.1}, joint = 5*mm, quiet = true }");
+  const auto bricks =
+      built("wall{ length = 1.525, courses = 6, brick = {length = 0.3, width = 0.125, height = 0.1}, joint = 5*mm, quiet = true }");
   check_fit(bricks, 5e-3);
   CHECK(bricks.size() == 3 * 5 + 3 * 6);  // 5 whole with joints of 6.25 mm; 2 halves and 4 whole with 5 mm
   CHECK(shortest_lap(head_joints(bricks, "wall")) > 0.14);
@@ -115,7 +119,8 @@ TEST_CASE("a plain wall is laid in running bond with halves", "[lua][masonry]") 
 }
 
 TEST_CASE("dry masonry of whole and half bricks has no gaps", "[lua][masonry]") {
-  const auto bricks = built("wall{ length = 4*0.3, courses = 16, brick = {length = 0.3, width = 0.125, height = 0.1}, joint = 0, quiet = true, axis = 'y' }");
+  const auto bricks = built(
+      "wall{ length = 4*0.3, courses = 16, brick = {length = 0.3, width = 0.125, height = 0.1}, joint = 0, quiet = true, axis = 'y' }");
   CHECK(bricks.size() == 8 * 4 + 8 * 5);
   double volume = 0;
   for (const Brick& b : bricks) volume += (b.high - b.low).prod();
@@ -171,8 +176,11 @@ TEST_CASE("open and re-entrant plans fit as well", "[lua][masonry]") {
 
 TEST_CASE("the summary says what was cut and widened", "[lua][masonry]") {
   Script script({.quiet = true});
-  script.load_text("material{ name = 'brick', density = 1800 }\nground{}\njoint{ law = dry{ kn = 1e10, mu = 0.6 }, thickness = 5*mm, tolerance = 2*mm }\n"
-                   "building{ plan = {1.525, 1.83}, courses = 4, joint = 5*mm, brick = {length = 0.3, width = 0.125, height = 0.1} }", "t.lua");
+  script.load_text(
+      "material{ name = 'brick', density = 1800 }\nground{}\nanalysis{ duration = 1 }\njoint{ law = dry{ kn = 1e10, mu = 0.6 }, thickness "
+      "= 5*mm, tolerance = 2*mm }\n"
+      "building{ plan = {1.525, 1.83}, courses = 4, joint = 5*mm, brick = {length = 0.3, width = 0.125, height = 0.1} }",
+      "t.lua");
   std::string said;
   for (const auto& line : script.output()) said += line + "\n";
   CHECK(said.find("5 whole, head joints 6.25 mm") != std::string::npos);
@@ -183,13 +191,15 @@ TEST_CASE("mistakes in masonry are named with line and remedy, all at once", "[l
   const auto some = mistakes_of("wall{ lenght = 2, courses = 3,\n  brick = {length = 0.3, width = 0.125, height = -0.1}, joint = 5*mm }");
   REQUIRE(some.size() >= 3);
   const auto said = [&](const std::string& words) {
-    return std::any_of(some.begin(), some.end(), [&](const std::string& m) { return m.starts_with("t.lua:4") && m.find(words) != std::string::npos; });
+    return std::any_of(some.begin(), some.end(),
+                       [&](const std::string& m) { return m.starts_with("t.lua:5") && m.find(words) != std::string::npos; });
   };
   CHECK(said("unknown key \"lenght\"; did you mean \"length\"?"));
   CHECK(said("length is missing"));
   CHECK(said("height = -0.1 must be above 0"));
 
-  const std::string walls = "building{ plan = {1.525, 1.83}, courses = 13, joint = 5*mm, brick = {length = 0.3, width = 0.125, height = 0.1}, openings = {";
+  const std::string walls =
+      "building{ plan = {1.525, 1.83}, courses = 13, joint = 5*mm, brick = {length = 0.3, width = 0.125, height = 0.1}, openings = {";
   const auto near_corner = mistakes_of(walls + "{wall = 'south', at = 0.1, width = 0.4, height = 0.5}} }");
   REQUIRE(near_corner.size() == 1);
   CHECK(near_corner[0].find("allowed: 170 mm to 1355 mm") != std::string::npos);

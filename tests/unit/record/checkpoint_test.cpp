@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "engine/base/error.h"
-#include "engine/contact/pair.h"
+#include "engine/model/pair.h"
 #include "engine/record/collapse.h"
 #include "engine/record/run_writer.h"
 #include "tests/unit/record/two_bricks.h"
