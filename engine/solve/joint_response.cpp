@@ -88,7 +88,7 @@ double crush(const PointLaw& law, double weight, double g0, double g1, PointHist
     energy.crushing += -0.5 * (before + law.fc) * more * weight;
     h.crushed += more;
     pressure = law.fc;
-    if (law.closing_ultimate > 0 && -g1 > law.closing_ultimate) h.damage = 1;
+    if (law.closing_ultimate > 0 && -g1 > law.closing_ultimate) damage_to(law, h, 1);
   }
   return pressure * weight;
 }
@@ -102,10 +102,10 @@ Shear shear(const PointLaw& law, const Point& point, double normal, double sigma
             JointEnergy& energy) {
   const double weight = point.weight, k = law.ks * weight;
   Shear now{k * (g1.s - h.slip_s), k * (g1.t - h.slip_t)};
-  const double size = std::sqrt(now.s * now.s + now.t * now.t);
   const auto limit = [&](double p) { return (p < 1 ? bond_shear(law, sigma, p) * weight : 0) + friction_at(law, p) * normal; };
-  const double cap = limit(h.damage);
-  if (size <= cap || k == 0) return now;
+  const double cap = limit(h.damage), square = now.s * now.s + now.t * now.t;
+  if (square <= cap * cap || k == 0) return now;
+  const double size = std::sqrt(square);
   const Gap g0 = gap_at(q_before, point.s, point.t);
   const Shear before{k * (g0.s - h.slip_s), k * (g0.t - h.slip_t)};
   const bool bonded = h.damage < 1 && law.c > 0;
@@ -113,7 +113,7 @@ Shear shear(const PointLaw& law, const Point& point, double normal, double sigma
   if (bonded) {
     // Softening: the limit falls linearly with the slip it allows, size - k slip = cap + slope slip.
     const double slope = law.slip_ultimate > 0 ? ((law.mu_residual - law.mu) * normal - law.c * weight) / law.slip_ultimate : -k;
-    h.damage = k + slope > 0 ? std::min(1.0, h.damage + (size - cap) / (k + slope) / law.slip_ultimate) : 1;
+    damage_to(law, h, k + slope > 0 ? h.damage + (size - cap) / (k + slope) / law.slip_ultimate : 1);
     slip = (size - limit(h.damage)) / k;
   }
   const double ds = slip * now.s / size, dt = slip * now.t / size;
@@ -201,16 +201,17 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
     const double weight = point[i].weight, damage_before = h.damage;
     const Gap g = gap_at(q, point[i].s, point[i].t);
     const bool bonded = damage_before < 1 && !law.dry;
-    if (bonded && g.n > law.opening_peak + h.damage * (law.opening_ultimate - law.opening_peak))
-      h.damage = law.opening_ultimate > law.opening_peak ? std::min(1.0, (g.n - law.opening_peak) / (law.opening_ultimate - law.opening_peak)) : 1;
-    const double sigma = bonded && g.n > 0 ? secant(law, h.damage) * g.n : 0;
+    const double k0 = damage_before > 0 ? h.secant : law.kn;
+    if (bonded && g.n > (damage_before > 0 ? h.reach : law.opening_peak))
+      damage_to(law, h, law.opening_ultimate > law.opening_peak ? (g.n - law.opening_peak) / (law.opening_ultimate - law.opening_peak) : 1);
+    const double sigma = bonded && g.n > 0 ? (h.damage > 0 ? h.secant : law.kn) * g.n : 0;
     const Shear tau = shear(law, point[i], pressed[std::size_t(i)], sigma, q_before, g, h, energy);
     f[0] += tau.s;
     f[1] += tau.t;
     f[5] += tau.t * point[i].s - tau.s * point[i].t;
-    if (law.ks > 0) energy.elastic += 0.5 * (tau.s * tau.s + tau.t * tau.t) / (law.ks * weight);
+    energy.elastic += 0.5 * (tau.s * (g.s - h.slip_s) + tau.t * (g.t - h.slip_t));
     if (!bonded) continue;
-    const double k0 = secant(law, damage_before), k1 = secant(law, h.damage), opening = std::max(0.0, g.n);
+    const double k1 = h.damage > 0 ? h.secant : law.kn, opening = std::max(0.0, g.n);
     if (k0 != k1) energy.fracture += 0.5 * (k0 - k1) * std::max(0.0, gap_at(q_before, point[i].s, point[i].t).n) * opening * weight;
     const double pull = k1 * opening * weight;
     f[2] += pull;
