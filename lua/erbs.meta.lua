@@ -435,15 +435,15 @@ function include(file) end
 ---@field axis? "x"|"y" direction it runs in [default x]
 ---@field courses? integer number of courses; or give height [at least 1]
 ---@field height? number instead of courses; snapped to whole ones [m; at least 0]
----@field at? vec where the plan's origin stands; z is the top of the support [m; default [0.0,0.0,0.0]]
----@field brick table size of a whole brick
+---@field at? erbs.vec3 where the plan's origin stands; z is the top of the support [m; default { 0, 0, 0 }]
+---@field brick { length: number, width: number, height: number } size of a whole brick: { length*, width*, height* }
 ---@field joint number thickness of bed and head joints; 0 is dry masonry [m; at least 0]
 ---@field closer? number shortest piece that may be cut [m; at least 0; default 0.04]
 ---@field joint_max? number widest head joint; default 1.5 joints [m; at least 0]
----@field shift? integer 1: start with the other of the two alternating courses [0 to 1; default 0.0]
----@field openings? table doors and windows [default []]
----@field lintel? table the pieces over openings [default []]
----@field base? table a fixed plate below; default none (stand on ground{} or another block)
+---@field shift? integer 1: start with the other of the two alternating courses [0 to 1; default 0]
+---@field openings? { wall?: string, name?: string, kind?: "window"|"door", storey?: any, at?: number, centre?: number, width: number, sill?: number, height: number, lintel?: boolean }[] doors and windows: a list of { wall, name, kind, storey, at, centre, width*, sill, height*, lintel } [default {  }]
+---@field lintel? { bearing?: number, courses?: integer, material?: string, group?: string } the pieces over openings: { bearing, courses, material, group } [default {  }]
+---@field base? { thickness: number, margin?: number, material?: string, group?: string } a fixed plate below; default none (stand on ground{} or another block): { thickness*, margin, material, group }
 ---@field material? string of the bricks [default brick]
 ---@field quiet? boolean true: do not print the summary [default false]
 
@@ -457,18 +457,18 @@ function wall(keys) end
 ---@field plan table outer size {x, y}, or outer corners {{x,y}, ...} counter-clockwise [m]
 ---@field closed? boolean false: the last corner is not joined to the first [default true]
 ---@field walls? table names of the runs; default south, east, north, west for a rectangle, else wall1, ...
----@field storeys? integer number of storeys [at least 1; default 1.0]
+---@field storeys? integer number of storeys [at least 1; default 1]
 ---@field courses any per storey: a number, or a list with one for each
----@field slab? table a rigid plate on the walls of every storey; default none
----@field at? vec where the plan's origin stands; z is the top of the support [m; default [0.0,0.0,0.0]]
----@field brick table size of a whole brick
+---@field slab? { thickness: number, overhang?: number, material?: string, group?: string } a rigid plate on the walls of every storey; default none: { thickness*, overhang, material, group }
+---@field at? erbs.vec3 where the plan's origin stands; z is the top of the support [m; default { 0, 0, 0 }]
+---@field brick { length: number, width: number, height: number } size of a whole brick: { length*, width*, height* }
 ---@field joint number thickness of bed and head joints; 0 is dry masonry [m; at least 0]
 ---@field closer? number shortest piece that may be cut [m; at least 0; default 0.04]
 ---@field joint_max? number widest head joint; default 1.5 joints [m; at least 0]
----@field shift? integer 1: start with the other of the two alternating courses [0 to 1; default 0.0]
----@field openings? table doors and windows [default []]
----@field lintel? table the pieces over openings [default []]
----@field base? table a fixed plate below; default none (stand on ground{} or another block)
+---@field shift? integer 1: start with the other of the two alternating courses [0 to 1; default 0]
+---@field openings? { wall?: string, name?: string, kind?: "window"|"door", storey?: any, at?: number, centre?: number, width: number, sill?: number, height: number, lintel?: boolean }[] doors and windows: a list of { wall, name, kind, storey, at, centre, width*, sill, height*, lintel } [default {  }]
+---@field lintel? { bearing?: number, courses?: integer, material?: string, group?: string } the pieces over openings: { bearing, courses, material, group } [default {  }]
+---@field base? { thickness: number, margin?: number, material?: string, group?: string } a fixed plate below; default none (stand on ground{} or another block): { thickness*, margin, material, group }
 ---@field material? string of the bricks [default brick]
 ---@field quiet? boolean true: do not print the summary [default false]
 

@@ -32,7 +32,7 @@ Keys keys_of(const Json& list) {
     key.unit = item.value("unit", "");
     key.text = item.value("help", "");
     key.required = item.value("required", false);
-    if (item.contains("default")) key.fallback = item["default"].is_string() ? item["default"].get<std::string>() : item["default"].dump();
+    if (item.contains("default")) key.fallback = written(item["default"]);
     if (item.contains("low") && item["low"].is_number()) key.low = item["low"].get<double>();
     if (item.contains("above") && item["above"].is_number()) key.low = item["above"].get<double>();
     if (item.contains("high") && item["high"].is_number()) key.high = item["high"].get<double>();

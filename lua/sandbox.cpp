@@ -53,6 +53,11 @@ int noted(lua_State* lua) {
   lua_pushvalue(lua, lua_upvalueindex(1));
   lua_insert(lua, 1);
   lua_call(lua, lua_gettop(lua) - 1, LUA_MULTRET);
+  {
+    Limits& limits = context_of(lua).limits;
+    const std::lock_guard lock(limits.mutex);
+    limits.doing.clear();
+  }
   return lua_gettop(lua);
 }
 
@@ -157,7 +162,7 @@ Stretch::Stretch(lua_State* lua, Context& context) : lua_(lua), context_(context
   lua_sethook(lua, count_hook, LUA_MASKCOUNT, 1000);
   watchdog_ = std::thread([this] {
     std::unique_lock lock(mutex_);
-    const auto latest = context_.limits.deadline + std::chrono::seconds(1);
+    const auto latest = context_.limits.deadline + std::chrono::seconds(3);  // the hook comes first, also on a busy machine
     if (ended_.wait_until(lock, latest, [this] { return done_; })) return;
     std::string doing;
     {

@@ -12,9 +12,11 @@
   X(ATTACHSHADER, AttachShader)                                                                                                           \
   X(BINDBUFFER, BindBuffer)                                                                                                               \
   X(BINDFRAMEBUFFER, BindFramebuffer)                                                                                                     \
-  X(BINDRENDERBUFFER, BindRenderbuffer) X(BINDTEXTURE, BindTexture) X(BINDVERTEXARRAY, BindVertexArray)                                   \
-      X(BLITFRAMEBUFFER, BlitFramebuffer) X(BUFFERDATA, BufferData) X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus) X(CLEAR, Clear) X(  \
-          CLEARCOLOR, ClearColor) X(COLORMASK, ColorMask) X(COMPILESHADER, CompileShader) X(CREATEPROGRAM, CreateProgram)                 \
+  X(BINDRENDERBUFFER, BindRenderbuffer)                                                                                                   \
+  X(BINDTEXTURE, BindTexture)                                                                                                             \
+  X(BINDVERTEXARRAY, BindVertexArray)                                                                                                     \
+  X(BLITFRAMEBUFFER, BlitFramebuffer) X(BUFFERDATA, BufferData) X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus) X(CLEAR, Clear)         \
+      X(CLEARCOLOR, ClearColor) X(COLORMASK, ColorMask) X(COMPILESHADER, CompileShader) X(CREATEPROGRAM, CreateProgram)                   \
           X(CREATESHADER, CreateShader) X(DELETEBUFFERS, DeleteBuffers) X(DELETEFRAMEBUFFERS, DeleteFramebuffers) X(                      \
               DELETEPROGRAM, DeleteProgram) X(DELETERENDERBUFFERS, DeleteRenderbuffers) X(DELETESHADER, DeleteShader)                     \
               X(DELETETEXTURES, DeleteTextures) X(DELETEVERTEXARRAYS, DeleteVertexArrays) X(DEPTHFUNC, DepthFunc) X(DEPTHMASK, DepthMask) \

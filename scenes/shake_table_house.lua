@@ -26,8 +26,10 @@ local c = param("c", 0.30 * MPa, "cohesion of the bed, assumed: 1.5 ft [Pa]")
 local mu = param("mu", 0.6, "friction of the bed, assumed, before and after failure")
 local Gf1 = param("Gf1", 0, "fracture energy in tension, assumed brittle: the source calls its criterion conservative [J/m2]")
 local Gf2 = param("Gf2", 0, "fracture energy in shear, assumed brittle [J/m2]")
-local damping_ratio = param("damping_ratio", 0.05, "of the first mode, assumed: usual for masonry")
-local first_frequency = param("first_frequency", 10 * Hz, "estimate of the first mode, for the damping coefficient only [Hz]")
+-- Bricks are rigid and the source's mortar is stiff: the first mode of the model along x is at 123.5 Hz (measured by a short pulse),
+-- ten times that of a real house. 5 % of critical at 10 Hz is 0.4 % there; 5 % there would be 78 1/s and would brake all rocking.
+local damping_ratio = param("damping_ratio", 0.05, "share of critical damping, assumed: usual for masonry")
+local damping_frequency = param("damping_frequency", 10 * Hz, "where that share holds, assumed: a real house of three storeys [Hz]")
 local slab_thickness = param("slab_thickness", 50 * mm, "what three storeys of 13 courses leave of 4260 mm [m]")
 local bearing = param("bearing", 100 * mm, "of lintels, at least; assumed [m]")
 local closer = param("closer", 90 * mm, "shortest cut brick: 45 mm would do with one cut a course, but makes the step a sixth smaller [m]")
@@ -36,7 +38,7 @@ local closer = param("closer", 90 * mm, "shortest cut brick: 45 mm would do with
 local pga = param("pga", 0.4 * g, "peak acceleration of the table along x [m/s2]")
 local time_factor = param("time_factor", 0.707, "time scale of the record: a 1:2 model with accelerations kept")
 local duration = param("duration", 1559 * 0.02 * 0.707, "of the run; the whole record by default [s]")
-local damping_mass = param("damping", 2 * damping_ratio * 2 * pi * first_frequency, "mass damping c/m; default 2 ratio omega [1/s]")
+local damping_mass = param("damping", 2 * damping_ratio * 2 * pi * damping_frequency, "mass damping c/m; default 2 ratio omega [1/s]")
 local after_collapse = param("after_collapse", 4 * s, "how long to watch the debris [s]")
 
 -- The house -------------------------------------------------------------------------------------------------------------------------

@@ -119,7 +119,7 @@ TEST_CASE("the command line is checked", "[program]") {
   CHECK(contains(bench.said, "-D durration=1: the scene has no param \"durration\"; did you mean \"duration\"?"));
   CHECK(bench.run(falling, {"--max-wall", "soon"}) == 2);
   CHECK(bench.erbs({"version"}) == 0);
-  CHECK(contains(bench.said, "erbs 0."));
+  CHECK(contains(bench.said, "erbs "));
   CHECK(bench.erbs({"help", "mortar"}) == 0);
   CHECK(contains(bench.said, "tensile strength (Pa; 0 to 1e+09; required)"));
   CHECK(bench.erbs({"help", "run"}) == 0);
