@@ -11,11 +11,11 @@
 namespace erbs {
 
 struct PairList {
-  std::vector<Pair> pair;      // sorted by (a, b, part_a, part_b)
-  double margin = 0.01;        // m, parts closer than this are listed
-  bool valid = false;          // set to false when blocks come loose or pairs are freed: the next search then runs
-  std::vector<Vec3> u;         // m, pose of each block at the last search [nblock]
-  std::vector<Mat3> turn;      //                                          [nblock]
+  std::vector<Pair> pair;  // sorted by (a, b, part_a, part_b)
+  double margin = 0.01;    // m, parts closer than this are listed
+  bool valid = false;      // set to false when blocks come loose or pairs are freed: the next search then runs
+  std::vector<Vec3> u;     // m, pose of each block at the last search [nblock]
+  std::vector<Mat3> turn;  //                                          [nblock]
   long searches = 0;
 };
 
