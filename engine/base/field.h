@@ -21,6 +21,7 @@ struct Field {
   std::string_view text;  // one sentence
   double low = -unbounded, high = unbounded;  // allowed range, ends included
   bool required = false;
+  std::string_view words = {};  // of a text: the words allowed, "a|b|c"; empty is any
 };
 
 template <class T>

@@ -10,15 +10,6 @@
 
 namespace erbs {
 
-struct PairList {
-  std::vector<Pair> pair;  // sorted by (a, b, part_a, part_b)
-  double margin = 0.01;    // m, parts closer than this are listed
-  bool valid = false;      // set to false when blocks come loose or pairs are freed: the next search then runs
-  std::vector<Vec3> u;     // m, pose of each block at the last search [nblock]
-  std::vector<Mat3> turn;  //                                          [nblock]
-  long searches = 0;
-};
-
 inline std::uint64_t pair_key(int a, int b) { return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b); }
 
 // A tenth of the median thickness.

@@ -86,7 +86,7 @@ Dashpot dashpot(Pair& pair, const Patch& patch, double inverse_mass, const Conta
   const double slow = settings.reference_speed / pair.approach,
                share = settings.settling * slow * slow;  // an impact is left to its restitution
   d.chi = x / pair.approach + 2 * share * std::sqrt(kn * patch.area / inverse_mass) / (kn * patch.total);
-  if (dt > 0) d.chi = std::min(d.chi, 0.5 / (inverse_mass * kn * patch.total * dt));
+  if (dt > 0) d.chi = std::min(d.chi, 0.25 / (inverse_mass * kn * patch.total * dt));
   d.limit = 1 + std::max(x, 1.0);
   return d;
 }
@@ -112,14 +112,15 @@ void forget_contact(Pair& pair) {
   pair.psi = pair.area = pair.gyration = pair.tangential = 0;
 }
 
-// The patch resists with at most kn A along and kt across; dashpots that see the velocity of half a step before weigh 2 c / dt.
-void stability(const Pair& pair, const View& s, const Patch& patch, const Dashpot& d, double viscous, double dt, PairResult& result) {
-  const double per_step = dt > 0 ? 2 / dt : 0, kn = pair.law.kn;
-  const double normal = kn * patch.area + kn * patch.total * d.chi * per_step;
-  const double tangential = pair.law.ks * pair.area + viscous * per_step;
+// The patch resists with at most kn A along its normal and kt across; its spread about its centroid adds the gyration to the arms.
+// Dashpots are not in the sum: they see the velocity of half a step before, and dashpot() and the cap on the tangential one keep
+// each below a quarter of m / dt, which an explicit step bears beside springs at this bound (dt^2 k / m + 2 c dt / m < 4).
+void stability(const Pair& pair, const View& s, const Patch& patch, PairResult& result) {
+  const double normal = pair.law.kn * patch.area, tangential = pair.law.ks * pair.area, spread = pair.gyration * pair.gyration;
   auto rate = [&](const ContactBlock& block, const Vec3& arm) {
-    const double reach = arm.norm() + pair.gyration;
-    return (normal + tangential) * (block.inverse_mass + reach * reach * block.inverse_inertia);
+    const double lever = arm.cross(patch.normal).squaredNorm();
+    return normal * (block.inverse_mass + (lever + spread) * block.inverse_inertia) +
+           tangential * (block.inverse_mass + (arm.squaredNorm() + spread) * block.inverse_inertia);
   };
   const double other = rate(*s.other_block, patch.centroid), reference = rate(*s.reference_block, patch.centroid + s.pose.shift);
   result.rate_a = pair.b_is_reference ? other : reference;
@@ -177,7 +178,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
 
   PairWrench elastic, damping, friction;
   const double stored_before = pair.tangential;
-  double slipped = 0, viscous = 0;
+  double slipped = 0;
   if (touches) {
     const Motion motion = motion_of(s);
     closing_speeds(room, motion.linear, motion.angular, patch);
@@ -188,7 +189,6 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     damping_wrench(room, patch.normal, d.chi, d.limit, damping_force, damping_moment);
     const double inverse_mass = inverse_mass_at(s, patch.centroid, Vec3::Zero());
     const Friction f = patch_friction(pair, patch, s.pose, motion, kn * patch.force.norm(), inverse_mass, settings.settling_tangential);
-    viscous = inverse_mass > 0 ? 2 * settings.settling_tangential * std::sqrt(pair.law.ks * pair.area / inverse_mass) : 0;
     damping = to_world(pair, s, kn * damping_force + f.viscous_force, kn * damping_moment + f.viscous_moment);
     friction = to_world(pair, s, f.force, f.moment);
     slipped = f.slipped;
@@ -196,7 +196,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     pair.touching = 1;
     result.touching = true;
     result.depth = patch.deepest;
-    stability(pair, s, patch, d, viscous, dt, result);
+    stability(pair, s, patch, result);
     if (want_energy) result.elastic = kn * energy_integral(*s.reference, *s.other, s.pose, room);
   } else if (pair.touching) {
     forget_contact(pair);

@@ -1,7 +1,7 @@
 // Force between two parts: elastic inner-distance pressure, impact damping, friction of the patch.
 #pragma once
 #include "engine/contact/narrow.h"
-#include "engine/contact/pair.h"
+#include "engine/model/pair.h"
 
 namespace erbs {
 

@@ -1,7 +1,7 @@
 // Coulomb friction of a patch: two slips and a torsion at its area centroid, limit about the centre of pressure.
 #pragma once
 #include "engine/contact/narrow.h"
-#include "engine/contact/pair.h"
+#include "engine/model/pair.h"
 
 namespace erbs {
 

@@ -29,7 +29,7 @@ struct Mortar {
   static constexpr std::string_view law_name = "mortar";
   static Fields<Mortar> fields() {
     return {
-        {"E", &Mortar::E, "Pa", "Young's modulus of the mortar", 1e3, 1e14},
+        {"E", &Mortar::E, "Pa", "Young's modulus of the mortar", 0, 1e14},
         {"nu", &Mortar::nu, "", "Poisson's ratio, G = E / (2 (1 + nu))", -0.99, 0.5},
         {"G", &Mortar::G, "Pa", "shear modulus of the mortar (default from E and nu)", 0, 1e14},
         {"thickness", &Mortar::thickness, "m", "thickness of the bed; kn = E / thickness, ks = G / thickness", 0, 1},
@@ -45,7 +45,7 @@ struct Mortar {
         {"us_ultimate", &Mortar::us_ultimate, "m", "slip at which cohesion is spent (default from Gf2)", 0, 1},
         {"fc", &Mortar::fc, "Pa", "compressive strength, a plateau (0: unlimited)", 0, 1e10},
         {"uc_ultimate", &Mortar::uc_ultimate, "m", "closing at which the mortar is crushed and its bond lost (0: never)", 0, 1},
-        {"coupling", &Mortar::coupling, "", "tension-shear coupling: coulomb, linear or ellipse"},
+        {"coupling", &Mortar::coupling, "", "tension-shear coupling: coulomb, linear or ellipse", 0, 0, false, "coulomb|linear|ellipse"},
     };
   }
 };

@@ -2,9 +2,11 @@
 #pragma once
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/field.h"
 #include "engine/base/units.h"
 #include "engine/base/vec.h"
 #include "engine/geometry/polyhedron.h"
@@ -16,13 +18,25 @@ namespace erbs {
 // What a block is made of, and how it behaves as debris (contacts that are no joints, or no longer).
 struct Material {
   std::string name;
-  double density = 0;       // kg/m3
-  double kn = 5e10;         // Pa/m, contact stiffness of debris
-  double ks = 2e10;         // Pa/m
-  double friction = 0.6;    // of debris
-  double restitution = 0.3; // of an impact through the centre, 0..1
+  double density = 0;            // kg/m3
+  double kn = 5e10;              // Pa/m, contact stiffness of debris
+  double ks = 2e10;              // Pa/m
+  double friction = 0.6;         // of debris
+  double restitution = 0.3;      // of an impact through the centre, 0..1
   Vec3 color{0.70, 0.35, 0.25};  // linear 0..1 for the pictures
   Place place;
+
+  static Fields<Material> fields() {
+    return {
+        {"name", &Material::name, "", "what blocks call it by", 0, 0, true},
+        {"density", &Material::density, "kg/m3", "mass per volume of the block", 0.01, 1e5, true},
+        {"kn", &Material::kn, "Pa/m", "normal stiffness of debris contacts", 1e3, 1e16},
+        {"ks", &Material::ks, "Pa/m", "shear stiffness of debris contacts", 0, 1e16},
+        {"friction", &Material::friction, "", "coefficient of friction of debris contacts", 0, 10},
+        {"restitution", &Material::restitution, "", "speed after over speed before an impact through the centre", 0, 1},
+        {"color", &Material::color, "", "red, green, blue for the pictures", 0, 1},
+    };
+  }
 };
 
 // How a block starts, relative to its rest pose, in which joints are found.
@@ -34,17 +48,36 @@ struct Initial {
   Vec3 about = Vec3::Zero();     // m, point in the rest frame; the centroid where has_about is false
   bool has_about = false;
   bool given = false;
+
+  static Fields<Initial> fields() {
+    return {
+        {"position", &Initial::position, "m", "displacement from rest", -1e6, 1e6},
+        {"rotation", &Initial::rotation, "rad", "rotation vector (axis times angle) from rest", -100, 100},
+        {"velocity", &Initial::velocity, "m/s", "velocity of the centroid", -1e4, 1e4},
+        {"spin", &Initial::spin, "rad/s", "angular velocity, world axes", -1e5, 1e5},
+        {"about", &Initial::about, "m", "point at rest the rotation is about (default the centroid)", -1e6, 1e6},
+    };
+  }
 };
 
 struct Block {
   std::string name;
-  std::string group;               // for joint rules and recorders, e.g. "wall_south"
-  std::vector<Polyhedron> parts;   // m, world axes at rest; usually one; several convex parts are one rigid block
-  int material = -1;               // index into Scene::materials
-  bool fixed = false;              // part of the ground
-  bool free = false;               // allowed to have no joint
+  std::string group;              // for joint rules and recorders, e.g. "wall_south"
+  std::vector<Polyhedron> parts;  // m, world axes at rest; usually one; several convex parts are one rigid block
+  int material = -1;              // index into Scene::materials
+  bool fixed = false;             // part of the ground
+  bool free = false;              // allowed to have no joint
   Initial initial;
   Place place;
+
+  static Fields<Block> fields() {  // the keys every kind of block has; its shape is read by its maker
+    return {
+        {"name", &Block::name, "", "name, unique (default from the group and a number)"},
+        {"group", &Block::group, "", "group, for joint rules and recorders"},
+        {"fixed", &Block::fixed, "", "part of the ground"},
+        {"free", &Block::free, "", "may stand without any joint"},
+    };
+  }
 };
 
 // Faces of blocks of group_a and group_b ("" is any) that face each other at rest across at most thickness + tolerance are
@@ -53,52 +86,104 @@ struct JointRule {
   std::string name;
   std::string group_a, group_b;
   Law law;
-  double thickness = 0;     // m, nominal gap at rest
-  double tolerance = 1e-4;  // m
-  std::string rule = "simpson";  // simpson | midpoint | trapezoid | gauss
+  double thickness = 0;                   // m, nominal gap at rest
+  double tolerance = 1e-4;                // m
+  std::string rule = "simpson";           // simpson | midpoint | trapezoid | gauss
   int points_long = 3, points_short = 3;  // contact points along the longer and the shorter side of a rectangle
-  bool none = false;        // pairs that match get no joint
+  bool none = false;                      // pairs that match get no joint
   Place place;
+
+  static Fields<JointRule> fields() {
+    return {
+        {"name", &JointRule::name, "", "name of the rule, for reports"},
+        {"thickness", &JointRule::thickness, "m", "nominal gap at rest (default the thickness of the law)", 0, 1},
+        {"tolerance", &JointRule::tolerance, "m", "how far faces at rest may be from that gap", 0, 1},
+        {"rule", &JointRule::rule, "", "how contact points and their weights are laid out", 0, 0, false,
+         "simpson|midpoint|trapezoid|gauss"},
+        {"none", &JointRule::none, "", "pairs that match get no joint"},
+    };
+  }
 };
 
 struct Damping {
-  double mass = 0;  // 1/s, coefficient a of c = a m
-  std::string scope = "bonded";   // bonded | all | none
-  std::string form = "centred";   // centred | explicit
-  double joint_ratio = 0;         // viscous ratio of joints, of each joint's own critical value
+  double mass = 0;               // 1/s, coefficient a of c = a m
+  std::string scope = "bonded";  // bonded | all | none
+  std::string form = "centred";  // centred | explicit
+  double joint_ratio = 0;        // viscous ratio of joints, of each joint's own critical value
   Place place;
+
+  static Fields<Damping> fields() {
+    return {
+        {"mass", &Damping::mass, "1/s", "coefficient a of the mass damping c = a m", 0, 1e7},
+        {"scope", &Damping::scope, "", "which blocks feel it", 0, 0, false, "bonded|all|none"},
+        {"form", &Damping::form, "", "how a step takes it in", 0, 0, false, "centred|explicit"},
+        {"joint_ratio", &Damping::joint_ratio, "", "viscous ratio of joints, of each joint's own critical value", 0, 10},
+    };
+  }
 };
 
 struct Analysis {
-  double duration = 1;       // s
-  double dt = 0;             // s; 0: from dt_rule
-  double dt_fraction = 0.9;  // of the limit in force
-  std::string dt_rule = "limit";  // limit | period_tenth (3) | hart (4) | hakuno (5) | hakuno_half
-  bool unstable = false;     // let a dt past the limit run: divergence is then expected and detected
-  std::string kernel = "fast";    // fast | reference
+  double duration = 0;                // s; must be given
+  double dt = 0;                      // s; 0: from dt_rule
+  double dt_fraction = 0.9;           // of the limit in force
+  std::string dt_rule = "limit";      // limit | period_tenth (3) | hart (4) | hakuno (5) | hakuno_half
+  bool unstable = false;              // let a dt past the limit run: divergence is then expected and detected
+  std::string kernel = "fast";        // fast | reference
   std::string start = "equilibrium";  // equilibrium | ramp | rest (how gravity comes on)
-  double ramp_time = 0;      // s, for start = "ramp"; 0: chosen
-  std::string overlap = "error";  // error | stress_free
-  double collapse_fraction = 0.05;  // share of mass that has fallen
-  double stop_after_collapse = -1;  // s of simulated time after collapse; -1: go on to duration
-  double energy_gate = 0;    // relative; 0: by the kind of run (1e-6 elastic, 1e-3 bonded, 1e-2 collapse)
-  double lazy_rotation = 1e-5;  // rad of block rotation between refreshes of joint frames
-  bool gyroscopic = true;    // false: the scalar Euler equation of Gu and Miao eq. (1), for comparison only
-  double output_dt = 0.01;   // s, rows of histories.csv and energy.csv
-  double frame_dt = 0.04;    // s, poses for pictures
+  double ramp_time = 0;               // s, for start = "ramp"; 0: chosen
+  std::string overlap = "error";      // error | stress_free
+  double collapse_fraction = 0.05;    // share of mass that has fallen
+  double stop_after_collapse = -1;    // s of simulated time after collapse; -1: go on to duration
+  double energy_gate = 0;             // relative; 0: by the kind of run (1e-6 elastic, 1e-3 bonded, 1e-2 collapse)
+  double lazy_rotation = 1e-5;        // rad of block rotation between refreshes of joint frames
+  bool gyroscopic = true;             // false: the scalar Euler equation of Gu and Miao eq. (1), for comparison only
+  double output_dt = 0.01;            // s, rows of histories.csv and energy.csv
+  double frame_dt = 0.04;             // s, poses for pictures
   Place place;
+
+  static Fields<Analysis> fields() {
+    return {
+        {"duration", &Analysis::duration, "s", "simulated time", 1e-9, 1e6},
+        {"dt", &Analysis::dt, "s", "time step (0: from dt_rule); { value, unstable = true } lets one past the limit run", 0, 1},
+        {"dt_fraction", &Analysis::dt_fraction, "", "share of the limit in force", 1e-6, 1},
+        {"dt_rule", &Analysis::dt_rule, "", "where dt comes from", 0, 0, false, "limit|period_tenth|hart|hakuno|hakuno_half"},
+        {"unstable", &Analysis::unstable, "", "let a dt past the limit run"},
+        {"kernel", &Analysis::kernel, "", "which step kernel", 0, 0, false, "fast|reference"},
+        {"start", &Analysis::start, "", "how gravity comes on", 0, 0, false, "equilibrium|ramp|rest"},
+        {"ramp_time", &Analysis::ramp_time, "s", "length of the gravity ramp (0: chosen)", 0, 1e6},
+        {"overlap", &Analysis::overlap, "", "what to do with blocks that overlap at rest", 0, 0, false, "error|stress_free"},
+        {"collapse_fraction", &Analysis::collapse_fraction, "", "share of mass fallen that is called a collapse", 0, 1},
+        {"stop_after_collapse", &Analysis::stop_after_collapse, "s", "time to go on after a collapse (-1: to the end)", -1, 1e6},
+        {"energy_gate", &Analysis::energy_gate, "", "relative energy residual that ends a run (0: by the kind of run)", 0, 1e6},
+        {"lazy_rotation", &Analysis::lazy_rotation, "rad", "block rotation between refreshes of joint frames", 0, 0.1},
+        {"gyroscopic", &Analysis::gyroscopic, "", "the gyroscopic term w x (I w)"},
+        {"output_dt", &Analysis::output_dt, "s", "time between rows of histories.csv and energy.csv", 1e-9, 1e6},
+        {"frame_dt", &Analysis::frame_dt, "s", "time between poses for pictures", 1e-9, 1e6},
+    };
+  }
 };
 
 // One column (or three) of histories.csv.
 struct Recorder {
-  std::string name;          // column stem, e.g. "floor3"
-  std::string quantity;      // a name in engine/record/recorders.h, e.g. displacement, velocity, acceleration, reaction
+  std::string name;                 // column stem, e.g. "floor3"
+  std::string quantity;             // a name in engine/record/recorders.h, e.g. displacement, velocity, acceleration, reaction
   std::vector<std::string> blocks;  // block names; the quantity is averaged (or summed, for forces) over them
-  std::string axis = "xyz";  // which components
-  std::string frame = "rel"; // rel (to the ground) | abs
+  std::vector<std::string> others;  // block names; joint quantities: only joints between `blocks` and these (empty: any other)
+  std::string axis = "xyz";         // which components
+  std::string frame = "rel";        // rel (to the ground) | abs
   bool has_point = false;
-  Vec3 point = Vec3::Zero(); // m at rest: the quantity of this material point instead of the centroid
+  Vec3 point = Vec3::Zero();  // m at rest: the quantity of this material point instead of the centroid
   Place place;
+
+  static Fields<Recorder> fields() {
+    return {
+        {"name", &Recorder::name, "", "stem of its columns in histories.csv", 0, 0, true},
+        {"quantity", &Recorder::quantity, "", "what is written", 0, 0, true},
+        {"axis", &Recorder::axis, "", "which components", 0, 0, false, "x|y|z|xy|xz|yz|xyz"},
+        {"frame", &Recorder::frame, "", "relative to the ground, or absolute", 0, 0, false, "rel|abs"},
+        {"point", &Recorder::point, "m", "material point at rest, instead of the centroid", -1e6, 1e6},
+    };
+  }
 };
 
 struct Camera {
@@ -106,21 +191,29 @@ struct Camera {
   Vec3 eye{8, -8, 5}, target{0, 0, 1}, up{0, 0, 1};
   double fov = 35 * pi / 180;  // rad, vertical
   Place place;
+
+  static Fields<Camera> fields() {
+    return {
+        {"name", &Camera::name, "", "what the pictures are called", 0, 0, true}, {"eye", &Camera::eye, "m", "where it stands", -1e6, 1e6},
+        {"target", &Camera::target, "m", "what it looks at", -1e6, 1e6},         {"up", &Camera::up, "", "which way is up", -1, 1},
+        {"fov", &Camera::fov, "rad", "vertical angle of view", 0.001, 3.1},
+    };
+  }
 };
 
 struct Param {
   std::string name;
   double value = 0, fallback = 0;
-  std::string text;   // assumption or meaning
+  std::string text;  // assumption or meaning
   std::string unit;
   Place place;
 };
 
 // expect(key, value, {...}): the scene is the test.
 struct Expectation {
-  std::string key;           // dotted key of metrics.json
-  double value = 0;          // for rel and abs
-  std::string text_value;    // for status and other words
+  std::string key;         // dotted key of metrics.json
+  double value = 0;        // for rel and abs
+  std::string text_value;  // for status and other words
   enum class Kind { rel, abs, below, above, between, equal } kind = Kind::rel;
   double tolerance = 0;      // rel or abs; the bound for below and above
   double low = 0, high = 0;  // between
@@ -143,7 +236,7 @@ struct Load {
 };
 
 struct Scene {
-  std::string name;           // file name without folder and ending
+  std::string name;  // file name without folder and ending
   std::string file;
   Vec3 gravity{0, 0, -standard_g};
   std::vector<Material> materials;
@@ -156,10 +249,13 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<Param> params;
   std::vector<Expectation> expectations;
+  std::vector<std::pair<std::string, std::string>> metric_units;  // of the scene's own metrics: name, unit
   std::map<std::string, std::string> inputs;  // path of each file read -> its hash
 };
 
 // Every mistake that can be seen without building a model; empty when there is none. Messages carry place and remedy.
 std::vector<std::string> check(const Scene& scene);
+// What is no mistake, but should be known before the run.
+std::vector<std::string> warnings(const Scene& scene);
 
 }  // namespace erbs

@@ -1,6 +1,8 @@
 // A pair of parts that may touch: its law, and all it remembers from step to step.
 #pragma once
 #include <cstdint>
+#include <type_traits>
+#include <vector>
 
 #include "engine/base/vec.h"
 
@@ -57,20 +59,46 @@ struct Pair {
   double tangential = 0;  // J
 };
 
+struct PairList {
+  std::vector<Pair> pair;      // sorted by (a, b, part_a, part_b)
+  double margin = 0.01;        // m, parts closer than this are listed
+  bool valid = false;          // set to false when blocks come loose or pairs are freed: the next search then runs
+  std::vector<Vec3> u;         // m, pose of each block at the last search [nblock]
+  std::vector<Mat3> turn;      //                                          [nblock]
+  long searches = 0;
+};
+
 // Every member that a checkpoint or a hash must hold.
-template <class F>
-void each(PairWrench& w, F&& f) {
-  f(w.force), f(w.moment_a), f(w.moment_b);
+template <class W, class F>
+requires std::is_same_v<std::remove_const_t<W>, PairWrench>
+void each(W& w, F&& f) {
+  f("force", w.force);
+  f("moment_a", w.moment_a);
+  f("moment_b", w.moment_b);
 }
-template <class F>
-void each(Pair& p, F&& f) {
-  f(p.a), f(p.b), f(p.part_a), f(p.part_b);
-  f(p.law.kn), f(p.law.ks), f(p.law.mu), f(p.law.restitution), f(p.impact);
-  f(p.b_is_reference), f(p.touching), f(p.separating);
-  f(p.turn), f(p.shift), f(p.n), f(p.c), f(p.u), f(p.psi), f(p.area), f(p.gyration), f(p.approach);
-  f(p.offset_force), f(p.offset_moment), f(p.offset_left), f(p.offset_time);
-  each(p.friction, f), each(p.damping, f), each(p.offset, f);
-  f(p.tangential);
+template <class P, class F>
+requires std::is_same_v<std::remove_const_t<P>, PairLaw>
+void each(P& p, F&& f) {
+  f("kn", p.kn);
+  f("ks", p.ks);
+  f("mu", p.mu);
+  f("restitution", p.restitution);
+}
+template <class P, class F>
+requires std::is_same_v<std::remove_const_t<P>, Pair>
+void each(P& p, F&& f) {
+  f("a", p.a), f("b", p.b), f("part_a", p.part_a), f("part_b", p.part_b), f("law", p.law);
+  f("b_is_reference", p.b_is_reference), f("touching", p.touching), f("separating", p.separating);
+  f("turn", p.turn), f("shift", p.shift), f("n", p.n), f("c", p.c), f("u", p.u), f("psi", p.psi);
+  f("area", p.area), f("gyration", p.gyration), f("approach", p.approach), f("impact", p.impact);
+  f("offset_force", p.offset_force), f("offset_moment", p.offset_moment);
+  f("offset_left", p.offset_left), f("offset_time", p.offset_time);
+  f("friction", p.friction), f("damping", p.damping), f("offset", p.offset), f("tangential", p.tangential);
+}
+template <class P, class F>
+requires std::is_same_v<std::remove_const_t<P>, PairList>
+void each(P& p, F&& f) {
+  f("pair", p.pair), f("margin", p.margin), f("valid", p.valid), f("u", p.u), f("turn", p.turn), f("searches", p.searches);
 }
 
 }  // namespace erbs

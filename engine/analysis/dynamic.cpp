@@ -1,0 +1,299 @@
+#include "engine/analysis/dynamic.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "engine/analysis/prepare.h"
+#include "engine/record/checkpoint.h"
+#include "engine/record/collapse.h"
+#include "engine/record/run_writer.h"
+#include "engine/scene/effects.h"
+#include "engine/solve/energy.h"
+#include "engine/solve/joint_geometry.h"
+#include "engine/solve/step.h"
+
+namespace erbs {
+namespace {
+
+std::size_t z(int i) { return std::size_t(i); }
+
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+// What has been written, so that a resumed run goes on at the same rows.
+struct Clock {
+  long rows = 0, frames = 0;
+  double first_crack = -1;  // s
+  long opened = 0;
+};
+
+template <class C, class F>
+requires std::is_same_v<std::remove_const_t<C>, Clock>
+void each(C& c, F&& f) {
+  f("rows", c.rows);
+  f("frames", c.frames);
+  f("first_crack", c.first_crack);
+  f("opened", c.opened);
+}
+
+class Run {
+ public:
+  Run(const Scene& scene, const std::string& script, const RunOptions& options);
+  RunOutcome go();
+
+ private:
+  void begin();
+  bool wanted(double t);
+  void sampled();
+  bool stop();
+  Snapshot snapshot() const;
+  void note_cracks(double t);
+  int broken_joints();
+  void save();
+  double gate() const;
+  Metrics metrics() const;
+
+  const Scene& scene_;
+  const std::string& script_;
+  const RunOptions& options_;
+  double born_ = seconds(), setup_ = 0, solve_start_ = 0, record_ = 0, last_save_ = 0, last_progress_ = 0, started_at_ = 0;
+  Prepared run_;
+  CheckpointKey key_;
+  Clock clock_;
+  Collapse collapse_;
+  std::optional<Solver> solver_;
+  std::optional<RunWriter> writer_;
+  RunOutcome out_;
+  bool row_now_ = false, frame_now_ = false;
+  double dt_at_start_ = 0;
+  long steps_at_start_ = 0;
+};
+
+Run::Run(const Scene& scene, const std::string& script, const RunOptions& options) : scene_(scene), script_(script), options_(options) {}
+
+void Run::begin() {
+  check_run_folder(options_.directory, options_.existing);
+  run_ = prepare(scene_, options_.allow_unstable);
+  dt_at_start_ = run_.state.dt;
+  key_ = {scene_hash(scene_, script_), dt_at_start_};
+  const bool resume = options_.existing == Existing::resume;
+  WriterProgress written;
+  if (resume) {
+    read_checkpoint(options_.directory, key_, run_.state, written, collapse_, clock_);
+  } else {
+    start_at_rest(scene_, run_, options_.threads);
+    collapse_ = watch_collapse(run_.model, run_.state);
+  }
+  Manifest manifest = manifest_of(scene_, script_);
+  manifest.threads = options_.threads;
+  manifest.dt = dt_at_start_;
+  manifest.dt_critical = run_.bounds.critical;
+  manifest.dt_block_bound = run_.bounds.block;
+  manifest.dt_rule = run_.dt_rule;
+  for (const Effect& e : effects_of(scene_)) (e.on ? manifest.effects_on : manifest.effects_off).push_back(e.on ? e.name + " (" + e.because + ")" : e.name);
+  create_run_folder(options_.directory, options_.existing, script_, manifest);
+  writer_.emplace(options_.directory, scene_, run_.model, resume ? &written : nullptr);
+  for (const std::string& w : run_.model.warnings) writer_->log("warning: " + w);
+  out_.warnings = run_.model.warnings;
+  solver_.emplace(run_.model, run_.state, options_.threads);
+  steps_at_start_ = run_.state.step;
+  started_at_ = run_.state.t;
+  setup_ = seconds() - born_;
+  solve_start_ = last_save_ = last_progress_ = seconds();
+}
+
+// Rows and frames are due at whole multiples of their interval, at the first step at or after it; the end is a row and a frame.
+bool Run::wanted(double t) {
+  const double slack = 1e-9 * run_.state.dt;
+  const bool end = t >= scene_.analysis.duration - 0.5 * run_.state.dt;
+  row_now_ = end || t + slack >= double(clock_.rows) * scene_.analysis.output_dt;
+  frame_now_ = end || t + slack >= double(clock_.frames) * scene_.analysis.frame_dt;
+  return row_now_ || frame_now_;
+}
+
+Snapshot Run::snapshot() const {
+  const Instant& now = solver_->instant();
+  const Model& m = run_.model;
+  Snapshot s{m, run_.state, now.t, {}, {}, {}, {}};
+  const double kick = now.excitation.kick, half = 0.5 * run_.state.last_dt;
+  for (int b = 0; b < m.nblock; ++b) {
+    const Vec3 a = (now.v_after[z(b)] - now.v_before[z(b)]) / kick, alpha = (now.w_after[z(b)] - now.w_before[z(b)]) / kick;
+    s.a.push_back(a);
+    s.alpha.push_back(alpha);
+    s.v.push_back(now.v_before[z(b)] + half * a);
+    s.w.push_back(now.w_before[z(b)] + half * alpha);
+  }
+  for (const auto& g : m.grounds) {
+    s.ground_a += value(g.wave, now.t) * g.direction;
+    s.ground_v += integral(g.wave, now.t) * g.direction;
+    s.ground_u += second_integral(g.wave, now.t) * g.direction;
+  }
+  const Needs needs = writer_->needs();
+  if (needs.block_wrench)
+    for (int b = 0; b < m.nblock; ++b) s.block_wrench.push_back(solver_->block_wrench(b));
+  if (needs.load_wrench)
+    for (int b = 0; b < m.nblock; ++b) s.load_wrench.push_back(solver_->load_wrench(b));
+  if (needs.joint_force) {
+    for (int j = 0; j < m.njoint; ++j) {
+      std::array<double, 6> f{};
+      if (run_.state.tier[z(j)] == Tier::cracked) std::copy_n(run_.state.memory[z(j)].f, 6, f.begin());
+      if (run_.state.tier[z(j)] == Tier::intact) {
+        joint_q(m, run_.state, j, f.data());
+        for (int i = 0; i < 6; ++i) f[z(i)] *= m.joint[z(j)].stiffness[i];
+      }
+      s.joint_force.push_back(f);
+    }
+  }
+  for (int j = 0; j < m.njoint; ++j)
+    if (run_.state.tier[z(j)] != Tier::open) s.contact_points += m.joint[z(j)].points;
+  s.contact_points += solver_->touching();
+  return s;
+}
+
+// A joint is broken when no point of it bears tension or cohesion any more; dry joints have none to lose.
+int Run::broken_joints() {
+  int broken = 0;
+  for (int j = 0; j < run_.model.njoint; ++j) {
+    const Joint& joint = run_.model.joint[z(j)];
+    if (run_.state.tier[z(j)] == Tier::intact || run_.model.laws[z(joint.law)].dry) continue;
+    const auto first = run_.state.history.begin() + joint.first_point;
+    broken += std::all_of(first, first + joint.points, [](const PointHistory& h) { return h.damage >= 1; });
+  }
+  return broken;
+}
+
+void Run::note_cracks(double t) {
+  for (const int j : solver_->take_cracked()) {
+    if (run_.model.laws[z(run_.model.joint[z(j)].law)].dry) continue;
+    if (clock_.first_crack < 0) clock_.first_crack = t;
+    writer_->event(t, "crack", run_.model.joint_name(j), look_at_joint(run_.model, run_.state, j).damage, "share");
+  }
+}
+
+void Run::sampled() {
+  const double began = seconds();
+  const Snapshot now = snapshot();
+  note_cracks(now.t);
+  for (const int j : solver_->take_opened()) {
+    ++clock_.opened;
+    writer_->event(now.t, "open", run_.model.joint_name(j), look_at_joint(run_.model, run_.state, j).opening, "m");
+  }
+  std::vector<int> fallen;
+  const bool collapse = update(collapse_, run_.model, run_.state, now.t, &fallen);
+  for (const int b : fallen) writer_->event(now.t, "fall", run_.model.block_name[z(b)], -run_.state.u[z(b)].z(), "m");
+  if (collapse) writer_->event(now.t, "collapse", scene_.name, collapse_.fallen_fraction, "share of mass");
+  run_.state.joints_broken = broken_joints();
+  if (row_now_) {
+    writer_->row(now);
+    while (double(clock_.rows) * scene_.analysis.output_dt <= now.t + 1e-9 * run_.state.dt) ++clock_.rows;
+  }
+  if (frame_now_) {
+    writer_->frame(now);
+    while (double(clock_.frames) * scene_.analysis.frame_dt <= now.t + 1e-9 * run_.state.dt) ++clock_.frames;
+  }
+  record_ += seconds() - began;
+}
+
+void Run::save() {
+  const double began = seconds();
+  write_checkpoint(options_.directory, key_, run_.state, writer_->progress(), collapse_, clock_);
+  last_save_ = seconds();
+  record_ += last_save_ - began;
+}
+
+bool Run::stop() {
+  const double now = seconds();
+  const Energy& e = run_.state.energy;
+  if (options_.progress && now - last_progress_ > 0.1) {
+    last_progress_ = now;
+    options_.progress({run_.state.t, scene_.analysis.duration, now - solve_start_, run_.state.step - steps_at_start_, run_.state.joints_broken,
+                       e.residual_relative});
+  }
+  const double sampled_t = run_.state.t - run_.state.last_dt;
+  if (sampled_t >= scene_.analysis.duration - 0.5 * run_.state.dt) return true;
+  if (scene_.analysis.stop_after_collapse >= 0 && collapse_.collapsed && sampled_t >= collapse_.time + scene_.analysis.stop_after_collapse) return true;
+  if (!std::isfinite(e.residual) || (e.residual_relative > 0.5 && e.kinetic > 1e3 * (e.absolute_work + 0.5 * e.height_flux + std::fabs(e.start)) && run_.state.step > 64)) {
+    out_.metrics.status = "diverged";
+    return true;
+  }
+  if (options_.interrupted != nullptr && options_.interrupted->load()) out_.metrics.status = "interrupted";
+  if (options_.until && sampled_t >= *options_.until) out_.metrics.status = "stopped";
+  if (options_.max_wall > 0 && now - born_ > options_.max_wall) out_.metrics.status = "stopped";
+  if (out_.metrics.status != "completed") return true;
+  if (now - last_save_ > options_.checkpoint_every) save();
+  return false;
+}
+
+// 1e-6 while all is elastic, 1e-3 with cracks and friction, 1e-2 once blocks have come loose or fallen.
+double Run::gate() const {
+  if (scene_.analysis.energy_gate > 0) return scene_.analysis.energy_gate;
+  if (collapse_.fallen_fraction > 0 || collapse_.collapsed || clock_.opened > 0) return 1e-2;
+  const auto& tier = run_.state.tier;
+  const bool elastic = std::all_of(tier.begin(), tier.end(), [](Tier t) { return t == Tier::intact; });
+  return elastic ? 1e-6 : 1e-3;
+}
+
+Metrics Run::metrics() const {
+  const State& s = run_.state;
+  Metrics m = out_.metrics;
+  m.time_s = s.t - s.last_dt;
+  m.steps = s.step;
+  m.dt_s = dt_at_start_;
+  m.dt_critical_s = run_.bounds.critical;
+  m.dt_block_bound_s = run_.bounds.block;
+  m.threads = options_.threads;
+  m.blocks = run_.model.nblock;
+  m.joints = run_.model.njoint;
+  m.contact_points = run_.model.npoint;
+  m.joints_broken = s.joints_broken;
+  m.wall_s.total = seconds() - born_;
+  m.wall_s.setup = setup_;
+  m.wall_s.record = record_;
+  m.wall_s.solve = seconds() - solve_start_ - record_;
+  m.simulated_s = m.time_s - started_at_;
+  m.point_updates = std::uint64_t(s.step - steps_at_start_) * std::uint64_t(run_.model.npoint);
+  m.peak_memory_bytes = peak_memory_bytes();
+  for (const Effect& e : effects_of(scene_)) (e.on ? m.effects_on : m.effects_off).push_back(e.name);
+  m.energy = energy_terms(s.energy);
+  m.residual_relative = s.energy.residual_worst;
+  m.momentum_residual = s.momentum_residual;
+  m.max_penetration_relative = s.max_penetration_relative;
+  m.collapse.collapsed = collapse_.collapsed;
+  m.collapse.fallen_fraction = collapse_.fallen_fraction;
+  if (collapse_.collapsed) m.collapse.time_s = collapse_.time;
+  m.collapse.direction = collapse_direction(collapse_, run_.model, s);
+  m.state_hash = state_hash(s);
+  return m;
+}
+
+RunOutcome Run::go() {
+  begin();
+  solver_->run({[this](double t) { return wanted(t); }, [this] { sampled(); }, [this] { return stop(); }});
+  if (solver_->broken()) out_.metrics.status = "diverged";
+  const Energy& e = run_.state.energy;
+  const std::string& status = out_.metrics.status;
+  const std::string where = e.largest_jump_joint >= 0 ? "joint " + run_.model.joint_name(e.largest_jump_joint) : "no joint's own balance";
+  if (status == "diverged") {
+    out_.trouble = fmt::format("the numbers diverged at t = {:.6g} s (dt = {:.4g} s, limit {:.4g} s); nothing after that is to be trusted", run_.state.t,
+                               run_.state.dt, run_.bounds.critical);
+  } else if (e.residual_worst > gate()) {
+    out_.gate_passed = false;
+    out_.trouble = fmt::format("energy residual {:.3g} of what passed through is past its gate {:.0e}; its largest step was {:.3g} J at t = {:.6g} s, {}",
+                               e.residual_worst, gate(), e.largest_jump, e.largest_jump_time, where);
+  }
+  writer_->log(fmt::format("status {}; energy residual {:.3g} (gate {:.0e}), largest step {:.3g} J at t = {:.6g} s, {}", status, e.residual_worst, gate(),
+                           e.largest_jump, e.largest_jump_time, where));
+  if (!out_.trouble.empty()) writer_->log(out_.trouble);
+  if (status == "stopped" || status == "interrupted") save();
+  out_.metrics = metrics();
+  if (clock_.first_crack >= 0) writer_->log(fmt::format("first crack at t = {:.6g} s", clock_.first_crack));
+  writer_->close();
+  write_metrics(options_.directory, out_.metrics);
+  return std::move(out_);
+}
+
+}  // namespace
+
+RunOutcome run_dynamic(const Scene& scene, const std::string& script, const RunOptions& options) { return Run(scene, script, options).go(); }
+
+}  // namespace erbs

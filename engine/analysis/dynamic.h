@@ -1,0 +1,44 @@
+// Time history of a scene: READ THIS FIRST. prepare -> start at rest -> step until the end -> metrics.
+#pragma once
+#include <atomic>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "engine/record/metrics.h"
+#include "engine/record/run_folder.h"
+#include "engine/scene/scene.h"
+
+namespace erbs {
+
+struct Progress {
+  double t = 0, duration = 0;  // s, simulated
+  double wall = 0;             // s, of stepping so far
+  long steps = 0;              // of this call
+  int joints_broken = 0;
+  double residual = 0;         // relative, of the energy ledger
+};
+
+struct RunOptions {
+  std::string directory;
+  Existing existing = Existing::refuse;
+  int threads = 1;
+  std::optional<double> until;        // s, simulated: stop there with a checkpoint
+  double max_wall = 0;                // s; 0: no limit
+  double checkpoint_every = 60;       // s of wall time
+  bool allow_unstable = false;
+  const std::atomic<bool>* interrupted = nullptr;
+  std::function<void(const Progress&)> progress;  // about ten times a second
+};
+
+struct RunOutcome {
+  Metrics metrics;
+  bool gate_passed = true;   // energy ledger within its gate
+  std::string trouble;       // what went wrong with the numbers, and where
+  std::vector<std::string> warnings;
+};
+
+// Throws Error or Errors before anything is written; afterwards always leaves a whole run folder.
+RunOutcome run_dynamic(const Scene& scene, const std::string& script, const RunOptions& options);
+
+}  // namespace erbs

@@ -1,0 +1,133 @@
+#include "engine/analysis/prepare.h"
+
+#include <cmath>
+
+#include "engine/base/units.h"
+#include "engine/solve/islands.h"
+#include "engine/solve/joint_geometry.h"
+#include "engine/solve/step.h"
+
+namespace erbs {
+namespace {
+
+std::size_t z(int i) { return std::size_t(i); }
+
+// A time step for blocks that only meet as debris: a face of the block on a contact spring, sqrt(2 m / K) as for joints, rocking
+// counted by a factor 4 (a thin brick on its face: 1 + 3).
+double debris_bound(const Model& m) {
+  double bound = std::numeric_limits<double>::infinity();
+  for (int b = 0; b < m.nblock; ++b) {
+    if (m.kind[z(b)] != Kind::moving) continue;
+    const double volume = m.mass[z(b)] / m.materials[z(m.material[z(b)])].density;
+    const double k = m.materials[z(m.material[z(b)])].kn * volume / m.smallest_edge[z(b)];
+    bound = std::min(bound, std::sqrt(2 * m.mass[z(b)] / (4 * k)));
+  }
+  return bound;
+}
+
+std::string said(const char* rule, double dt, double fraction) { return fmt::format("{} ({:.4g} s x {:.3g})", rule, dt, fraction); }
+
+void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
+  const Analysis& a = scene.analysis;
+  const StepBounds& b = p.bounds;
+  double limit = b.critical;
+  const bool jointed = std::isfinite(limit);
+  double dt = 0;
+  if (a.dt > 0) {
+    dt = a.dt;
+    p.dt_rule = "given by the scene";
+  } else if (!jointed) {
+    limit = debris_bound(p.model);
+    dt = a.dt_fraction * limit;
+    p.dt_rule = said("bound of debris contacts", limit, a.dt_fraction);
+  } else if (a.dt_rule == "period_tenth") {
+    dt = b.element_period / 10;
+    p.dt_rule = said("T_min / 10, Gu and Miao eq. (3)", b.element_period, 0.1);
+  } else if (a.dt_rule == "hart") {
+    dt = a.dt_fraction * b.element_period / pi;
+    p.dt_rule = said("2 / max omega_i, Hart et al. 1988, eq. (4)", b.element_period / pi, a.dt_fraction);
+  } else if (a.dt_rule == "hakuno" || a.dt_rule == "hakuno_half") {
+    const double part = a.dt_rule == "hakuno" ? 1 : 0.5;
+    dt = part * b.wave_passage;
+    p.dt_rule = said("D_min / v_p, Hakuno and Meguro 1993, eq. (5)", b.wave_passage, part);
+  } else {
+    dt = a.dt_fraction * limit;
+    p.dt_rule = said("2 / omega_max of the joined structure", limit, a.dt_fraction);
+  }
+  if (!(dt > 0) || !std::isfinite(dt))
+    throw Error("no time step can be derived: nothing in the scene is elastic; say analysis{dt = ...}", a.place);
+  if (jointed && dt > b.critical && !a.unstable && !allow_unstable)
+    throw Error(fmt::format("dt = {:.4g} s is {:.3f} times the limit 2 / omega_max = {:.4g} s of this structure; take at most {:.3g} s, or let it "
+                            "diverge with dt = {{ {:.4g}, unstable = true }} or --allow-unstable",
+                            dt, dt / b.critical, b.critical, 0.9 * b.critical, dt),
+                a.place);
+  p.state.dt = dt;
+}
+
+std::vector<double> constant_loads(const Model& m) {
+  std::vector<double> push(6 * z(m.nblock) + 6, 0.0);
+  for (const auto& p : m.pushes) {
+    const Vec3 f = value(p.wave, 0) * p.direction;
+    for (int i = 0; i < 3; ++i) push[6 * z(p.block) + z(p.moment ? 3 + i : i)] += f[i];
+    const Vec3 moment = p.moment ? Vec3(Vec3::Zero()) : Vec3(p.arm.cross(f));
+    for (int i = 0; i < 3; ++i) push[6 * z(p.block) + 3 + z(i)] += moment[i];
+  }
+  return push;
+}
+
+}  // namespace
+
+Prepared prepare(const Scene& scene, bool allow_unstable) {
+  Built built = build(scene);
+  Prepared p{std::move(built.model), std::move(built.state), {}, {}, {}};
+  find_islands(p.model, p.state);
+  refresh_all(p.model, p.state);
+  p.bounds = step_bounds(scene, p.model, p.state);
+  choose_dt(scene, p, allow_unstable);
+  return p;
+}
+
+namespace {
+
+// Gravity grows over the ramp and rests as long again, the blocks damped at about the critical value of the lowest mode, which
+// Rayleigh's quotient of the sagging structure gives. Written as a ground that starts to accelerate upwards.
+void ramp(const Scene& scene, Prepared& p, int threads) {
+  Model slow = p.model;
+  const double time = scene.analysis.ramp_time > 0 ? scene.analysis.ramp_time : 0.2;
+  slow.gravity = Vec3::Zero();
+  slow.grounds = {{make_table({0, time}, {0, 1}, true), -p.model.gravity}};
+  slow.tilts.clear();
+  slow.drives.clear();
+  slow.pushes.clear();
+  slow.damping.mass = 20 / time;
+  slow.damping_all = false;
+  slow.damping_explicit = false;
+  const std::vector<Vec3> v = p.state.v, L = p.state.spin_momentum;
+  for (Vec3& x : p.state.v) x.setZero();
+  for (Vec3& x : p.state.spin_momentum) x.setZero();
+  Solver solver(slow, p.state, threads);
+  solver.run({[](double) { return false; }, [] {}, [&] { return p.state.t >= 2 * time; }});
+  p.state.v = v;
+  p.state.spin_momentum = L;
+  p.state.step = p.state.start_step = 0;
+  p.state.t = p.state.start_t = p.state.last_dt = 0;
+  p.state.energy = Energy{};
+}
+
+}  // namespace
+
+void start_at_rest(const Scene& scene, Prepared& p, int threads) {
+  const bool loaded = p.model.gravity.norm() > 0 || !p.model.pushes.empty();
+  if (scene.analysis.start == "equilibrium" && loaded && p.model.njoint > 0) {
+    p.equilibrium = settle(p.model, p.state, constant_loads(p.model));
+    if (!p.equilibrium.converged) {
+      p.model.warnings.push_back("no equilibrium under gravity: " + p.equilibrium.why + "; gravity is brought on as a damped ramp instead");
+      ramp(scene, p, threads);
+    }
+  } else if (scene.analysis.start == "ramp" && p.model.njoint > 0) {
+    ramp(scene, p, threads);
+  }
+  refresh_all(p.model, p.state);
+}
+
+}  // namespace erbs

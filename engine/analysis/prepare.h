@@ -1,0 +1,24 @@
+// From a scene to a run that can start: model, time step with its reason, equilibrium under gravity.
+#pragma once
+#include "engine/analysis/equilibrium.h"
+#include "engine/model/build.h"
+#include "engine/solve/stiffness.h"
+
+namespace erbs {
+
+struct Prepared {
+  Model model;
+  State state;
+  StepBounds bounds;
+  std::string dt_rule;  // what set dt, in words
+  Equilibrium equilibrium;
+};
+
+// Errors for what only the model shows (overlaps, loose wall blocks, a dt past the limit: refused unless `allow_unstable` or
+// the scene says unstable = true).
+Prepared prepare(const Scene& scene, bool allow_unstable);
+
+// Brings gravity and constant loads on, as Analysis::start says. Leaves velocities as the scene gives them.
+void start_at_rest(const Scene& scene, Prepared& run, int threads);
+
+}  // namespace erbs

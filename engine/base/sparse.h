@@ -1,0 +1,14 @@
+// The one door to Eigen's sparse matrices and factorisations.
+#pragma once
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <vector>
+
+namespace erbs {
+
+using Sparse = Eigen::SparseMatrix<double>;
+using Triplets = std::vector<Eigen::Triplet<double>>;
+using SparseLdlt = Eigen::SimplicialLDLT<Sparse>;
+using VecX = Eigen::VectorXd;
+
+}  // namespace erbs

@@ -1,0 +1,69 @@
+// What a contact point of a joint obeys, compiled from a Law: plain numbers, ready for the loop.
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "engine/laws/laws.h"
+
+namespace erbs {
+
+struct PointLaw {
+  enum class Coupling { coulomb, linear, ellipse };
+  double kn = 0, ks = 0;             // Pa/m
+  double ft = 0, c = 0;              // Pa
+  double mu = 0, mu_residual = 0;
+  double opening_peak = 0;           // m, ft / kn
+  double opening_ultimate = 0;       // m, tension spent; = opening_peak where brittle
+  double slip_ultimate = 0;          // m, plastic slip at which cohesion is spent; 0: brittle
+  double fc = 0;                     // Pa; 0: unlimited
+  double closing_ultimate = 0;       // m; 0: never
+  Coupling coupling = Coupling::coulomb;
+  bool dry = false;                  // nothing to break: no bond from the start
+};
+
+// What a contact point remembers. damage p runs from 0 (sound) to 1 (tension and cohesion spent), once and for all.
+struct PointHistory {
+  double slip_s = 0, slip_t = 0;  // m, plastic
+  double damage = 0;
+  double crushed = 0;             // m, plastic closing (<= 0)
+  double secant = 0, reach = 0;   // Pa/m, m: of the opened point at this damage, kept since they cost divisions; meaningless at 0
+};
+
+// Opening at which damage p goes on.
+inline double reach(const PointLaw& law, double p) { return law.opening_peak + p * (law.opening_ultimate - law.opening_peak); }
+
+// Tensile strength left: linear softening, ft (1 - p).
+// Secant stiffness of an opened point at damage p: the line from the origin to the softening branch (linear softening as in
+// Hillerborg et al. 1976 in the damage form: unloading returns to zero opening, so that a crack closes at zero gap).
+inline double secant(const PointLaw& law, double p) {
+  if (p <= 0) return law.kn;
+  if (p >= 1) return 0;
+  const double opening = reach(law, p);
+  return opening > 0 ? law.ft * (1 - p) / opening : 0;
+}
+
+// Raises the damage of a point, never lowers it.
+inline void damage_to(const PointLaw& law, PointHistory& h, double p) {
+  h.damage = std::min(1.0, p);
+  h.secant = secant(law, h.damage);
+  h.reach = reach(law, h.damage);
+}
+
+inline double friction_at(const PointLaw& law, double p) { return law.mu + p * (law.mu_residual - law.mu); }
+
+// Shear strength of a bonded point from its bond alone, at tension sigma >= 0 (Pa) and damage p; friction under compression is
+// added by the caller. coulomb: c - mu sigma; linear and ellipse reach zero shear at ft.
+inline double bond_shear(const PointLaw& law, double sigma, double p) {
+  const double c = law.c * (1 - p), ft = law.ft * (1 - p);
+  if (sigma <= 0) return c;
+  switch (law.coupling) {
+    case PointLaw::Coupling::coulomb: return std::max(0.0, c - friction_at(law, p) * sigma);
+    case PointLaw::Coupling::linear: return ft > 0 ? std::max(0.0, c * (1 - sigma / ft)) : 0;
+    case PointLaw::Coupling::ellipse: return ft > 0 ? c * std::sqrt(std::max(0.0, 1 - sigma * sigma / (ft * ft))) : 0;
+  }
+  return 0;
+}
+
+PointLaw compile(const Law& law);
+
+}  // namespace erbs

@@ -1,0 +1,59 @@
+// A ground-motion record: acceleration linear between its points, velocity and displacement integrated analytically (piecewise
+// quadratic and cubic), scaled in amplitude and time. At rest before its start, zero acceleration after its end.
+#pragma once
+#include <string>
+
+#include "engine/base/error.h"
+#include "engine/base/field.h"
+#include "engine/loads/polyline.h"
+
+namespace erbs {
+
+struct Record {
+  // What a script says.
+  std::string file;        // path as it can be opened
+  double peak = 0;         // m/s2, largest absolute acceleration wanted; 0: as recorded times scale
+  double scale = 1;        // factor on the acceleration
+  double time_factor = 1;  // factor on time: 0.707 for a model at half scale; displacement goes with its square
+  double start = 0;        // s, when time 0 of the file comes
+  int column = 0;          // of the values in a file of several columns, counted from 1; 0: the one after time
+  double dt = 0;           // s, of a file without time (one column of values)
+  double first_time = 0;   // s, of its first value in such a file
+  std::string unit;        // of the values where the file does not say: g, m/s2, cm/s2, gal, ...
+
+  // What read_record found.
+  std::string title;      // as the file says
+  std::string format;     // "PEER AT2", "CSV", "text, 2 columns", ...
+  std::string hash;       // of the bytes of the file, for the manifest
+  int points = 0;         // values in the file
+  double file_dt = 0;     // s, between values as read; 0 where uneven
+  double file_peak = 0;   // m/s2, largest absolute acceleration as read
+  Polyline acceleration;  // s after `start` and m/s2, both scaled
+
+  static constexpr std::string_view wave_name = "record";
+  static Fields<Record> fields() {
+    return {
+        {"file", &Record::file, "", "PEER AT2, CSV or text of one or two columns", -unbounded, unbounded, true},
+        {"peak", &Record::peak, "m/s2", "largest absolute acceleration wanted (default: as recorded)", 0, 1e4},
+        {"scale", &Record::scale, "", "factor on the acceleration, instead of peak", -1e6, 1e6},
+        {"time_factor", &Record::time_factor, "", "factor on time", 1e-3, 1e3},
+        {"start", &Record::start, "s", "when time 0 of the file comes", -1e9, 1e9},
+        {"column", &Record::column, "", "column of the values, counted from 1 (default: the one after time)", 0, 1000},
+        {"dt", &Record::dt, "s", "step of a file that has one column of values", 0, 1e3},
+        {"first_time", &Record::first_time, "s", "time of the first value of such a file", 0, 1e3},
+        {"unit", &Record::unit, "", "of the values where the file does not say: g, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2"},
+    };
+  }
+};
+
+// Reads wanted.file and applies the rest. `place` is where a script asked for it; mistakes in the file name file and line.
+Record read_record(Record wanted, const Place& place = {});
+
+// For the meaning of the five functions see loads.h. area is the ground's velocity, double_area its displacement.
+double value(const Record& wave, double t);
+double area(const Record& wave, double t);
+double double_area(const Record& wave, double t);
+double mean(const Record& wave, double t0, double t1);
+double end_time(const Record& wave);
+
+}  // namespace erbs

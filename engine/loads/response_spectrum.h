@@ -1,0 +1,21 @@
+// Response of a damped oscillator to a ground-motion record, exact for acceleration linear between points.
+#pragma once
+#include <vector>
+
+#include "engine/loads/polyline.h"
+
+namespace erbs {
+
+struct ResponsePoint {
+  double period = 0;        // s
+  double displacement = 0;  // m, largest relative to the ground
+  double acceleration = 0;  // m/s2, pseudo: displacement times (2 pi / period)^2
+};
+
+// Each period through the record and one period after its end, sampled at least 40 times a period (which finds a peak to 0.3 %).
+std::vector<ResponsePoint> response_spectrum(const Polyline& acceleration, const std::vector<double>& periods, double damping_ratio);
+
+// `count` periods from `low` to `high`, equal ratios apart.
+std::vector<double> spectrum_periods(double low, double high, int count);
+
+}  // namespace erbs

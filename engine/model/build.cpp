@@ -1,0 +1,271 @@
+#include "engine/model/build.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+
+#include "engine/geometry/mass.h"
+#include "engine/geometry/quadrature.h"
+#include "engine/model/interface.h"
+
+namespace erbs {
+namespace {
+
+constexpr int most_points_per_joint = 512;
+constexpr double infinite = std::numeric_limits<double>::infinity();
+std::size_t z(int i) { return std::size_t(i); }
+
+void add_blocks(const Scene& scene, Model& m) {
+  for (const Block& block : scene.blocks) {
+    const Material& material = scene.materials[z(block.material)];
+    const MassProperties p = mass_properties(block.parts);
+    m.block_name.push_back(block.name);
+    m.kind.push_back(block.fixed ? Kind::fixed : Kind::moving);
+    m.mass.push_back(p.volume * material.density);
+    m.inertia.push_back(p.inertia * material.density);
+    m.rest.push_back(p.centroid);
+    double edge = infinite;
+    std::vector<Polyhedron> own;
+    for (const Polyhedron& part : block.parts) {
+      edge = std::min(edge, thickness(part));
+      own.push_back(translated(part, -p.centroid));
+    }
+    m.smallest_edge.push_back(edge);
+    m.parts.push_back(own);
+    m.shapes.push_back(std::move(own));
+    m.material.push_back(block.material);
+  }
+  m.nblock = int(scene.blocks.size());
+}
+
+void add_loads(const Scene& scene, Model& m) {
+  std::map<std::string, int> index;
+  for (int b = 0; b < m.nblock; ++b) index[m.block_name[z(b)]] = b;
+  for (const Load& load : scene.loads) {
+    const int b = load.block.empty() ? -1 : index.at(load.block);
+    switch (load.kind) {
+      case Load::Kind::ground: m.grounds.push_back({load.wave, load.direction}); break;
+      case Load::Kind::tilt: m.tilts.push_back({load.wave, load.direction.normalized()}); break;
+      case Load::Kind::force:
+        m.pushes.push_back({load.wave, load.direction, b, load.has_point ? Vec3(load.point - m.rest[z(b)]) : Vec3(Vec3::Zero()), false});
+        break;
+      case Load::Kind::moment: m.pushes.push_back({load.wave, load.direction, b, Vec3::Zero(), true}); break;
+      case Load::Kind::motion:
+        m.drives.push_back({load.wave, load.direction, b});
+        m.kind[z(b)] = Kind::driven;
+        break;
+    }
+  }
+}
+
+// The joint of one interface: contact points, principal frame, diagonal stiffness.
+void add_joint(const Scene& scene, const Interface& face, Model& m) {
+  const JointRule& rule = scene.joint_rules[z(face.rule)];
+  const Vec3 origin = face.polygon.front(), n = face.normal;
+  const Vec3 e1 = (face.polygon[1] - origin).normalized(), e2 = n.cross(e1);
+  Polygon2 flat;
+  for (const Vec3& p : face.polygon) flat.emplace_back(e1.dot(p - origin), e2.dot(p - origin));
+  const auto points = quadrature(flat, rule.rule, rule.points_long, rule.points_short);
+  const PrincipalAxes axes = principal_axes(points);
+  const double cosine = std::cos(axes.angle), sine = std::sin(axes.angle);
+  const auto local = [&](double x, double y) {
+    const double dx = x - axes.centroid.x(), dy = y - axes.centroid.y();
+    return Vec2(cosine * dx + sine * dy, cosine * dy - sine * dx);
+  };
+  Joint joint;
+  joint.a = face.a;
+  joint.b = face.b;
+  joint.law = joint.rule = face.rule;
+  joint.frame.col(0) = cosine * e1 + sine * e2;
+  joint.frame.col(1) = cosine * e2 - sine * e1;
+  joint.frame.col(2) = n;
+  const Vec3 centre = origin + axes.centroid.x() * e1 + axes.centroid.y() * e2;
+  joint.arm_a = joint.centre = centre - m.rest[z(face.a)];
+  joint.arm_b = centre - m.rest[z(face.b)];
+  joint.gap = face.gap;
+  joint.first_point = int(m.point.size());
+  joint.points = int(points.size());
+  const PointLaw& law = m.laws[z(face.rule)];
+  for (const auto& p : points) {
+    const Vec2 x = local(p.x, p.y);
+    m.point.push_back({x.x(), x.y(), p.weight});
+    joint.area += p.weight;
+    joint.stiffness[3] += law.kn * p.weight * x.y() * x.y();
+    joint.stiffness[4] += law.kn * p.weight * x.x() * x.x();
+    joint.stiffness[5] += law.ks * p.weight * x.squaredNorm();
+  }
+  joint.stiffness[0] = joint.stiffness[1] = law.ks * joint.area;
+  joint.stiffness[2] = law.kn * joint.area;
+  joint.first_corner = int(m.corner.size());
+  joint.corners = int(flat.size());
+  for (const Vec2& p : flat) {
+    const Vec2 x = local(p.x(), p.y());
+    m.corner.push_back(x);
+    joint.half_s = std::max(joint.half_s, std::fabs(x.x()));
+    joint.half_t = std::max(joint.half_t, std::fabs(x.y()));
+    joint.radius = std::max(joint.radius, x.norm());
+  }
+  m.joint.push_back(joint);
+}
+
+// Contact polyhedra: each jointed face moved out by half its bed, so that a stress-free joint is a closed contact.
+void grow_shapes(const Scene& scene, const Interfaces& found, Model& m) {
+  std::map<std::pair<int, int>, std::vector<double>> offsets;  // (block, part) -> per face
+  const auto note = [&](int block, int part, int face, double half) {
+    auto& list = offsets[{block, part}];
+    if (list.empty()) list.assign(scene.blocks[z(block)].parts[z(part)].faces.size(), infinite);
+    list[z(face)] = std::min(list[z(face)], half);
+  };
+  for (const Interface& face : found.all) {
+    note(face.a, face.part_a, face.face_a, 0.5 * face.gap);
+    note(face.b, face.part_b, face.face_b, 0.5 * face.gap);
+  }
+  for (auto& [key, list] : offsets) {
+    for (double& x : list)
+      if (x == infinite) x = 0;
+    auto& shape = m.shapes[z(key.first)][z(key.second)];
+    shape = grown(shape, list);
+  }
+}
+
+void index_rows(Model& m) {
+  m.njoint = int(m.joint.size());
+  m.npoint = int(m.point.size());
+  m.first_row.assign(z(m.nblock) + 1, 0);
+  for (const Joint& j : m.joint) ++m.first_row[z(j.a) + 1], ++m.first_row[z(j.b) + 1];
+  for (int b = 0; b < m.nblock; ++b) m.first_row[z(b) + 1] += m.first_row[z(b)];
+  std::vector<int> next(m.first_row.begin(), m.first_row.end() - 1);
+  for (const Joint& j : m.joint) {
+    m.row_a.push_back(next[z(j.a)]++);
+    m.row_b.push_back(next[z(j.b)]++);
+  }
+}
+
+void check_blocks(const Scene& scene, const Interfaces& found, const Model& m, std::vector<std::string>& errors,
+                  std::vector<std::string>& warnings) {
+  for (const Overlap& o : found.overlaps) {
+    const Block &a = scene.blocks[z(o.a)], &b = scene.blocks[z(o.b)];
+    const std::string what = fmt::format("blocks '{}' ({}) and '{}' ({}) overlap by {:.3g} mm, {:.2g} of their smaller edge", a.name,
+                                         a.place.text(), b.name, b.place.text(), 1e3 * o.depth, o.relative);
+    if (a.fixed && b.fixed) continue;
+    if (o.relative > 1e-3 && scene.analysis.overlap != "stress_free")
+      errors.push_back(fmt::format("{}: {}; part them, or say analysis{{overlap = \"stress_free\"}}", b.place.text(), what));
+    else
+      warnings.push_back(what + "; taken as free of force at rest");
+  }
+  std::vector<int> degree(z(m.nblock), 0);
+  for (const Interface& face : found.all) ++degree[z(face.a)], ++degree[z(face.b)];
+  for (int b = 0; b < m.nblock; ++b) {
+    const Block& block = scene.blocks[z(b)];
+    const bool moves = block.initial.velocity.norm() > 0 || block.initial.spin.norm() > 0;
+    if (degree[z(b)] == 0 && m.kind[z(b)] == Kind::moving && !block.free && !block.initial.given && !moves)
+      errors.push_back(
+          fmt::format("{}: block '{}' has no joint with any other; let a face meet a neighbour within a joint's thickness and tolerance, "
+                      "give a joint{{}} rule for its group, or say free = true",
+                      block.place.text(), block.name));
+  }
+  for (const Interface& face : found.all) {
+    const JointRule& rule = scene.joint_rules[z(face.rule)];
+    if (rule.points_long * rule.points_short > most_points_per_joint) {
+      errors.push_back(fmt::format("{}: {} x {} contact points per joint are more than {}", rule.place.text(), rule.points_long,
+                                   rule.points_short, most_points_per_joint));
+      break;
+    }
+  }
+}
+
+void set_batches(const Model& m, State& s) {
+  s.batch.assign(z((m.njoint + lanes - 1) / lanes), JointBatch{});
+  s.slow.assign(s.batch.size(), 0);
+  for (int j = 0; j < int(s.batch.size()) * lanes; ++j) {
+    JointBatch& batch = s.batch[z(j / lanes)];
+    const int l = j % lanes;
+    batch.open_limit[l] = batch.slip_limit[l] = batch.close_limit[l] = infinite;
+    batch.a[l] = batch.b[l] = m.nblock;
+    batch.row_a[l] = batch.row_b[l] = 2 * m.njoint;
+    if (j >= m.njoint) continue;
+    const Joint& joint = m.joint[z(j)];
+    const PointLaw& law = m.laws[z(joint.law)];
+    for (int i = 0; i < 6; ++i) batch.stiffness[i][l] = joint.stiffness[i];
+    // Couplings that reach zero shear at ft have no straight bound: any tension is looked at point by point.
+    batch.open_limit[l] = law.coupling == PointLaw::Coupling::coulomb ? law.ft / law.kn : 0;
+    batch.slip_limit[l] = law.ks > 0 ? law.c / law.ks : infinite;
+    batch.slip_slope[l] = law.ks > 0 ? law.mu * law.kn / law.ks : 0;
+    if (law.fc > 0) batch.close_limit[l] = law.fc / law.kn;
+    batch.half_s[l] = joint.half_s;
+    batch.half_t[l] = joint.half_t;
+    batch.radius[l] = joint.radius;
+    batch.a[l] = joint.a;
+    batch.b[l] = joint.b;
+    batch.row_a[l] = m.row_a[z(j)];
+    batch.row_b[l] = m.row_b[z(j)];
+  }
+}
+
+State start(const Scene& scene, const Model& m) {
+  State s;
+  const std::size_t n = z(m.nblock) + 1;
+  s.u.assign(n, Vec3::Zero());
+  s.q.assign(n, Quat::Identity());
+  s.v = s.spin_momentum = s.w = s.base_u = s.u;
+  s.base_q = s.q;
+  s.row.assign(8 * n, 0.0);
+  s.island.assign(n, -1);
+  s.grounded.assign(n, 0);
+  s.loose.assign(n, 0);
+  s.joined.assign(n, 0);
+  for (int b = 0; b < m.nblock; ++b) {
+    const Initial& i = scene.blocks[z(b)].initial;
+    if (i.given) {
+      s.q[z(b)] = rotation(i.rotation);
+      const Vec3 arm = i.has_about ? Vec3(m.rest[z(b)] - i.about) : Vec3(Vec3::Zero());
+      s.u[z(b)] = i.position + s.q[z(b)] * arm - arm;
+    }
+    if (m.kind[z(b)] != Kind::moving) continue;
+    s.v[z(b)] = i.velocity;
+    s.w[z(b)] = i.spin;
+    const Mat3 r = s.q[z(b)].toRotationMatrix();
+    s.spin_momentum[z(b)] = r * (m.inertia[z(b)] * (r.transpose() * i.spin));
+  }
+  set_batches(m, s);
+  s.tier.assign(z(m.njoint), Tier::intact);
+  s.memory.assign(z(m.njoint), {});
+  s.history.assign(z(m.npoint), {});
+  s.wrench.assign((2 * z(m.njoint) + 1) * 8, 0.0);
+  return s;
+}
+
+}  // namespace
+
+Built build(const Scene& scene) {
+  Built out;
+  Model& m = out.model;
+  m.materials = scene.materials;
+  m.gravity = scene.gravity;
+  m.damping = scene.damping;
+  if (scene.damping.scope == "none") m.damping.mass = 0;
+  m.damping_explicit = scene.damping.form == "explicit";
+  m.damping_all = scene.damping.scope == "all";
+  m.analysis = scene.analysis;
+  for (const JointRule& rule : scene.joint_rules) m.laws.push_back(rule.none ? PointLaw{} : compile(rule.law));
+  add_blocks(scene, m);
+  add_loads(scene, m);
+  std::vector<InterfaceBlock> faces;
+  for (const Block& b : scene.blocks) faces.push_back({b.parts, b.group, b.fixed});
+  const Interfaces found = find_interfaces(faces, scene.joint_rules);
+  std::vector<std::string> errors;
+  check_blocks(scene, found, m, errors, m.warnings);
+  if (!errors.empty()) throw Errors(errors);
+  for (const Interface& face : found.all) add_joint(scene, face, m);
+  grow_shapes(scene, found, m);
+  index_rows(m);
+  for (int b = 0; b < m.nblock; ++b) {
+    const bool moving = m.kind[z(b)] == Kind::moving;
+    m.inverse_mass.push_back(moving ? 1 / m.mass[z(b)] : 0);
+    m.inverse_inertia.push_back(moving ? Mat3(m.inertia[z(b)].inverse()) : Mat3(Mat3::Zero()));
+  }
+  out.state = start(scene, m);
+  return out;
+}
+
+}  // namespace erbs

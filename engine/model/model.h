@@ -1,0 +1,79 @@
+// The Model: what does not change after build. Everything that changes is in state.h. A step is a function of both.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "engine/laws/point_law.h"
+#include "engine/scene/scene.h"
+
+namespace erbs {
+
+enum class Kind : std::uint8_t { moving, fixed, driven };
+
+// A joint: two faces that touch at rest. Its frame (s, t, n) has n from a to b, s and t along the principal axes of its contact
+// points about their weighted centre, so that the elastic wrench is diagonal in it.
+struct Joint {
+  int a = 0, b = 0;
+  int law = 0;                      // index into Model::laws
+  int rule = 0;                     // index into Scene::joint_rules
+  int first_point = 0, points = 0;  // into Model::point
+  int first_corner = 0, corners = 0;  // into Model::corner
+  Mat3 frame;                       // columns s, t, n at rest
+  Vec3 centre;                      // m, weighted centre of the contact points at rest, relative to the centroid of a
+  Vec3 arm_a, arm_b;                // m, centre relative to the centroids at rest
+  double area = 0;                  // m2
+  double stiffness[6] = {};         // N/m (s, t, n), N m (about s, t, n): elastic resultant = stiffness * q
+  double half_s = 0, half_t = 0;    // m, largest |s| and |t| of its corners
+  double radius = 0;                // m, largest distance of a corner from the centre
+  double gap = 0;                   // m, between the faces at rest
+};
+
+// A contact point in the joint frame: place and share of the area.
+struct Point {
+  double s, t;    // m
+  double weight;  // m2
+};
+
+struct Model {
+  int nblock = 0, njoint = 0, npoint = 0;
+  // blocks                                                              [nblock]
+  std::vector<std::string> block_name;
+  std::vector<Kind> kind;
+  std::vector<double> mass;             // kg
+  std::vector<double> inverse_mass;     // 1/kg; 0 for fixed and driven
+  std::vector<Mat3> inertia;            // kg m2, about the centroid, axes at rest
+  std::vector<Mat3> inverse_inertia;    // 0 for fixed and driven
+  std::vector<Vec3> rest;               // m, centroid at rest
+  std::vector<double> smallest_edge;    // m, thinnest extent, the scale of drift, falling and penetration
+  std::vector<int> material;
+  // joints, sorted by lower block then higher                           [njoint]
+  std::vector<Joint> joint;
+  std::vector<Point> point;             // by joint                      [npoint]
+  std::vector<Eigen::Vector2d> corner;  // m, of the overlap polygon in the joint frame, by joint
+  std::vector<PointLaw> laws;           // one per joint rule
+  // Each block owns consecutive wrench rows, one per joint end: [first_row[b], first_row[b+1])
+  std::vector<int> first_row;           // [nblock + 1]
+  std::vector<int> row_a, row_b;        // wrench row of each end       [njoint]
+  // what the loads do, resolved to block indices
+  struct Push { Wave wave; Vec3 direction; int block; Vec3 arm; bool moment; };      // arm: from the centroid, at rest
+  struct Drive { Wave wave; Vec3 direction; int block; };
+  struct Ground { Wave wave; Vec3 direction; };
+  struct Tilt { Wave wave; Vec3 axis; };
+  std::vector<Push> pushes;
+  std::vector<Drive> drives;
+  std::vector<Ground> grounds;
+  std::vector<Tilt> tilts;
+  Vec3 gravity = Vec3::Zero();          // m/s2
+  Damping damping;
+  Analysis analysis;
+  bool damping_explicit = false, damping_all = false;
+  std::vector<Material> materials;
+  std::vector<std::vector<Polyhedron>> parts;   // drawn shape: m, relative to the centroid, axes at rest [nblock]
+  std::vector<std::vector<Polyhedron>> shapes;  // contact shape: jointed faces moved out by half the bed [nblock]
+  std::vector<std::string> warnings;
+
+  std::string joint_name(int j) const { return block_name[std::size_t(joint[std::size_t(j)].a)] + " | " + block_name[std::size_t(joint[std::size_t(j)].b)]; }
+};
+
+}  // namespace erbs

@@ -1,0 +1,54 @@
+// Every member of the State, once. Checkpoints and state_hash are written from this list: what is not here does not survive a
+// restart. The binding below stops compiling when State gains or loses a member.
+#pragma once
+#include <type_traits>
+
+#include "engine/model/state.h"
+
+namespace erbs {
+
+// What a member means to state_hash: `motion` and `history` are the run's result; `carried` is needed to go on to the very bit
+// (caches, ledger) but says nothing about the result.
+enum class Part { motion, history, carried };
+
+template <class S, class F>
+requires std::is_same_v<std::remove_const_t<S>, State>
+void each(S& state, F&& f) {
+  auto& [step, start_step, start_t, t, dt, last_dt, u, q, v, spin_momentum, w, base_u, base_q, row, island, grounded, joined, loose, batch, slow, tier, memory, history,
+         wrench, debris, dt_goal, calm, joints_broken, energy, gravity_before, moment_before, max_penetration_relative, momentum_residual] = state;
+  f("step", step, Part::carried);
+  f("start_step", start_step, Part::carried);
+  f("start_t", start_t, Part::carried);
+  f("t", t, Part::motion);
+  f("dt", dt, Part::carried);
+  f("last_dt", last_dt, Part::carried);
+  f("u", u, Part::motion);
+  f("q", q, Part::motion);
+  f("v", v, Part::motion);
+  f("spin_momentum", spin_momentum, Part::motion);
+  f("w", w, Part::carried);
+  f("base_u", base_u, Part::carried);
+  f("base_q", base_q, Part::carried);
+  f("row", row, Part::carried);
+  f("island", island, Part::carried);
+  f("grounded", grounded, Part::carried);
+  f("joined", joined, Part::carried);
+  f("loose", loose, Part::carried);
+  f("batch", batch, Part::carried);
+  f("slow", slow, Part::carried);
+  f("tier", tier, Part::history);
+  f("memory", memory, Part::carried);
+  f("history", history, Part::history);
+  f("wrench", wrench, Part::carried);
+  f("debris", debris, Part::history);
+  f("dt_goal", dt_goal, Part::carried);
+  f("calm", calm, Part::carried);
+  f("joints_broken", joints_broken, Part::history);
+  f("energy", energy, Part::carried);
+  f("gravity_before", gravity_before, Part::carried);
+  f("moment_before", moment_before, Part::carried);
+  f("max_penetration_relative", max_penetration_relative, Part::carried);
+  f("momentum_residual", momentum_residual, Part::carried);
+}
+
+}  // namespace erbs

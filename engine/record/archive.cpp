@@ -1,0 +1,47 @@
+#include "engine/record/archive.h"
+
+#include <algorithm>
+
+#include "engine/base/error.h"
+#include "engine/base/hash.h"
+
+namespace erbs {
+
+void ArchiveOut::head(std::string_view name, std::uint64_t size, std::uint64_t count) {
+  const std::uint64_t numbers[3] = {fnv1a(name), size, count};
+  put(numbers, sizeof numbers);
+}
+
+std::size_t ArchiveIn::head(std::string_view name, std::uint64_t size) {
+  std::uint64_t numbers[3];
+  get(numbers, sizeof numbers);
+  if (numbers[0] != fnv1a(name) || numbers[1] != size)
+    throw Error(fmt::format("written by another version of the program (at \"{}\"); start anew with --force", name), {file_, 0});
+  // Each item takes at least its own bytes, or a head.
+  if (numbers[2] > (bytes_.size() - at_) / std::max<std::uint64_t>(size, 1))
+    throw Error(fmt::format("damaged: \"{}\" is longer than the file; start anew with --force", name), {file_, 0});
+  return std::size_t(numbers[2]);
+}
+
+void ArchiveIn::expect_head(std::string_view name, std::uint64_t size, std::uint64_t count) {
+  if (head(name, size) != count)
+    throw Error(fmt::format("written by another version of the program (at \"{}\"); start anew with --force", name), {file_, 0});
+}
+
+void ArchiveIn::get(void* data, std::size_t size) {
+  if (size > bytes_.size() - at_) throw Error("damaged: it ends too early; start anew with --force", {file_, 0});
+  if (size > 0) std::memcpy(data, bytes_.data() + at_, size);
+  at_ += size;
+}
+
+void ArchiveIn::finish() const {
+  if (at_ != bytes_.size())
+    throw Error(fmt::format("written by another version of the program ({} bytes left over); start anew with --force", bytes_.size() - at_),
+                {file_, 0});
+}
+
+void ResultHash::add(const void* data, std::size_t size) {
+  if (size > 0) value = fnv1a({static_cast<const char*>(data), size}, value);
+}
+
+}  // namespace erbs

@@ -1,0 +1,80 @@
+// Motion of blocks: displacement, velocity and acceleration of centroids or material points, rotation and spin.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "engine/record/joint_look.h"
+#include "engine/record/recorder.h"
+
+namespace erbs {
+
+struct BlockMotion {
+  enum class What { displacement, velocity, acceleration, rotation, spin } what;
+  std::vector<int> blocks;
+  std::string name, axis;
+  bool absolute, has_point;
+  Vec3 point;  // m at rest
+
+  static std::vector<Quantity> quantities() {
+    return {{"displacement", "from rest, mean over the blocks (m)"},
+            {"velocity", "mean over the blocks (m/s)"},
+            {"acceleration", "mean over the blocks (m/s2)"},
+            {"rotation", "rotation vector from rest, mean over the blocks (rad)"},
+            {"spin", "angular velocity, mean over the blocks (rad/s)"}};
+  }
+
+  explicit BlockMotion(const Ask& ask)
+      : what(What(quantity_index(quantities(), ask.recorder.quantity))),
+        blocks(ask.blocks),
+        name(ask.recorder.name),
+        axis(ask.recorder.axis),
+        absolute(ask.recorder.frame == "abs"),
+        has_point(ask.recorder.has_point),
+        point(ask.recorder.point) {}
+
+  std::vector<std::string> columns() const {
+    const std::string frame = absolute ? "abs" : "rel";
+    switch (what) {
+      case What::displacement:
+        return axis_columns(name, axis, "u", frame + "_m");
+      case What::velocity:
+        return axis_columns(name, axis, "v", frame + "_m_s");
+      case What::acceleration:
+        return axis_columns(name, axis, "a", frame + "_m_s2");
+      case What::rotation:
+        return axis_columns(name, axis, "r", "rad");
+      case What::spin:
+        return axis_columns(name, axis, "w", "rad_s");
+    }
+    return {};
+  }
+
+  void needs(Needs&) const {}
+
+  void sample(const Snapshot& s, double* out) const {
+    Vec3 sum = Vec3::Zero();
+    for (const int b : blocks) sum += of_block(s, std::size_t(b));
+    put_axes(sum / double(blocks.size()), axis, out);
+  }
+
+ private:
+  Vec3 of_block(const Snapshot& s, std::size_t b) const {
+    const Vec3 rest_arm = has_point ? Vec3(point - s.model.rest[b]) : Vec3(Vec3::Zero());
+    const Vec3 turned = turn_minus(s.state.q[b], rest_arm), arm = rest_arm + turned;
+    switch (what) {
+      case What::displacement:
+        return s.state.u[b] + turned + (absolute ? s.ground_u : Vec3(Vec3::Zero()));
+      case What::velocity:
+        return s.v[b] + s.w[b].cross(arm) + (absolute ? s.ground_v : Vec3(Vec3::Zero()));
+      case What::acceleration:
+        return s.a[b] + s.alpha[b].cross(arm) + s.w[b].cross(s.w[b].cross(arm)) + (absolute ? s.ground_a : Vec3(Vec3::Zero()));
+      case What::rotation:
+        return rotation_vector(s.state.q[b]);
+      case What::spin:
+        return s.w[b];
+    }
+    return Vec3::Zero();
+  }
+};
+
+}  // namespace erbs

@@ -1,0 +1,49 @@
+#include "engine/record/joint_look.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace erbs {
+
+Mat3 joint_frame(const Model& model, const State& state, int j) {
+  const Joint& joint = model.joint[std::size_t(j)];
+  const Quat &qa = state.q[std::size_t(joint.a)], &qb = state.q[std::size_t(joint.b)];
+  const Quat mean = rotation(0.5 * rotation_vector(qb * qa.conjugate())) * qa;
+  return mean.toRotationMatrix() * joint.frame;
+}
+
+JointLook look_at_joint(const Model& model, const State& state, int j) {
+  const Joint& joint = model.joint[std::size_t(j)];
+  const auto a = std::size_t(joint.a), b = std::size_t(joint.b);
+  const Mat3 frame = joint_frame(model, state, j);
+  JointLook look;
+  look.opening = -std::numeric_limits<double>::infinity();
+  for (int i = joint.first_corner; i < joint.first_corner + joint.corners; ++i) {
+    const Eigen::Vector2d& c = model.corner[std::size_t(i)];
+    const Vec3 across = joint.frame.col(0) * c.x() + joint.frame.col(1) * c.y();
+    const Vec3 gap = frame.transpose() * (state.u[b] - state.u[a] + turn_minus(state.q[b], joint.arm_b + across) -
+                                          turn_minus(state.q[a], joint.arm_a + across));
+    look.opening = std::max(look.opening, gap.z());
+    look.slip = std::max(look.slip, std::hypot(gap.x(), gap.y()));
+  }
+  if (joint.corners == 0) look.opening = 0;
+  double damaged = 0, whole = 0;
+  for (int i = joint.first_point; i < joint.first_point + joint.points; ++i) {
+    whole += model.point[std::size_t(i)].weight;
+    if (state.history[std::size_t(i)].damage > 0) damaged += model.point[std::size_t(i)].weight;
+  }
+  look.damage = state.tier[std::size_t(j)] == Tier::open ? 1.0 : whole > 0 ? damaged / whole : 0.0;
+  return look;
+}
+
+bool joint_broken(const Model& model, const State& state, int j) {
+  if (state.tier[std::size_t(j)] == Tier::open) return true;
+  const Joint& joint = model.joint[std::size_t(j)];
+  if (state.tier[std::size_t(j)] == Tier::intact || joint.points == 0 || model.laws[std::size_t(joint.law)].dry) return false;
+  for (int i = joint.first_point; i < joint.first_point + joint.points; ++i)
+    if (state.history[std::size_t(i)].damage < 1) return false;
+  return true;
+}
+
+}  // namespace erbs

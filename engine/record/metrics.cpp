@@ -1,0 +1,81 @@
+#include "engine/record/metrics.h"
+
+#include <sys/resource.h>
+
+#include "engine/model/state.h"
+
+namespace erbs {
+namespace {
+
+Json numbers(const std::vector<std::pair<std::string, double>>& pairs) {
+  Json json = Json::object();
+  for (const auto& [name, value] : pairs) json[name] = value;
+  return json;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, double>> energy_terms(const Energy& e) {
+  return {{"base_work_J", e.base_work},
+          {"external_work_J", e.external_work},
+          {"tilt_work_J", e.tilt_work},
+          {"kinetic_J", e.kinetic},
+          {"gravity_J", e.gravity},
+          {"elastic_J", e.elastic},
+          {"friction_J", e.friction},
+          {"fracture_J", e.fracture},
+          {"crushing_J", e.crushing},
+          {"damping_J", e.damping},
+          {"contact_damping_J", e.contact_damping},
+          {"reset_J", e.reset}};
+}
+
+Json to_json(const Metrics& m) {
+  const double solve = m.wall_s.solve;
+  const double simulated = m.simulated_s < 0 ? m.time_s : m.simulated_s;
+  Json json;
+  json["status"] = m.status;
+  json["time_s"] = m.time_s;
+  json["steps"] = m.steps;
+  json["dt_s"] = m.dt_s;
+  json["dt_critical_s"] = m.dt_critical_s;
+  json["dt_block_bound_s"] = m.dt_block_bound_s;
+  json["threads"] = m.threads;
+  json["blocks"] = m.blocks;
+  json["joints"] = m.joints;
+  json["contact_points"] = m.contact_points;
+  json["joints_broken"] = m.joints_broken;
+  json["wall_s"] = {
+      {"total", m.wall_s.total}, {"setup", m.wall_s.setup}, {"solve", solve}, {"contact", m.wall_s.contact}, {"record", m.wall_s.record}};
+  json["realtime_factor"] = solve > 0 ? simulated / solve : 0.0;
+  json["point_updates"] = m.point_updates;
+  json["point_updates_per_s"] = solve > 0 ? double(m.point_updates) / solve : 0.0;
+  json["peak_memory_bytes"] = m.peak_memory_bytes;
+  json["effects"] = {{"on", m.effects_on}, {"off", m.effects_off}};
+  json["energy"] = {{"frame", m.energy_frame}};
+  json["energy"].update(numbers(m.energy));
+  json["energy"]["residual_relative"] = m.residual_relative;
+  json["momentum_residual"] = m.momentum_residual;
+  json["max_penetration_relative"] = m.max_penetration_relative;
+  Json& collapse = json["collapse"];
+  collapse["collapsed"] = m.collapse.collapsed;
+  collapse["time_s"] = m.collapse.time_s ? Json(*m.collapse.time_s) : Json();
+  collapse["direction"] = m.collapse.direction ? Json(*m.collapse.direction) : Json();
+  collapse["fallen_fraction"] = m.collapse.fallen_fraction;
+  json["state_hash"] = m.state_hash;
+  json["expectations"] = {{"passed", m.expectations_passed}, {"failed", m.expectations_failed}};
+  json["metrics"] = numbers(m.metrics);
+  return json;
+}
+
+void write_metrics(const std::string& dir, const Metrics& metrics) { write_json(dir + "/metrics.json", to_json(metrics)); }
+
+Json read_metrics(const std::string& dir) { return read_json(dir + "/metrics.json"); }
+
+std::uint64_t peak_memory_bytes() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return std::uint64_t(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+}
+
+}  // namespace erbs

@@ -1,0 +1,56 @@
+// metrics.json: the numbers of a run, keys as in the contract. Filled by the analysis, read by scripts and outside checks.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/record/json.h"
+
+namespace erbs {
+
+struct Energy;
+
+struct Metrics {
+  std::string status = "completed";  // completed | diverged | stopped | interrupted
+  double time_s = 0;
+  long steps = 0;
+  double dt_s = 0, dt_critical_s = 0, dt_block_bound_s = 0;
+  int threads = 1;
+  int blocks = 0, joints = 0, contact_points = 0, joints_broken = 0;
+  struct Wall {
+    double total = 0, setup = 0, solve = 0, contact = 0, record = 0;  // s
+  } wall_s;
+  std::uint64_t point_updates = 0;
+  // realtime_factor = time_s / wall_s.solve and point_updates_per_s = point_updates / wall_s.solve are derived when written,
+  // from what this call of the program did (a resumed run simulated less than time_s).
+  double simulated_s = -1;  // s simulated by this call; -1: all of time_s
+  std::uint64_t peak_memory_bytes = 0;
+  std::vector<std::string> effects_on, effects_off;
+  std::string energy_frame = "ground";
+  std::vector<std::pair<std::string, double>> energy;  // J; see energy_terms
+  double residual_relative = 0;
+  double momentum_residual = 0, max_penetration_relative = 0;
+  struct Collapse {
+    bool collapsed = false;
+    std::optional<double> time_s;
+    std::optional<std::array<double, 2>> direction;  // unit, x and y
+    double fallen_fraction = 0;
+  } collapse;
+  std::string state_hash;
+  int expectations_passed = 0, expectations_failed = 0;
+  std::vector<std::pair<std::string, double>> metrics;  // of the scene, in its order
+};
+
+// The ledger's terms with the names they have in metrics.json and energy.csv (base_work_J ... reset_J), in that order.
+std::vector<std::pair<std::string, double>> energy_terms(const Energy& energy);
+
+Json to_json(const Metrics& metrics);
+void write_metrics(const std::string& dir, const Metrics& metrics);  // DIR/metrics.json, atomically
+Json read_metrics(const std::string& dir);
+
+std::uint64_t peak_memory_bytes();  // of this process so far
+
+}  // namespace erbs

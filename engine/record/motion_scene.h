@@ -1,0 +1,11 @@
+// The part of motion.h5 that does not change from frame to frame.
+#pragma once
+#include "engine/record/h5.h"
+#include "engine/record/motion_file.h"
+
+namespace erbs {
+
+void put_scene(const h5::File& store, const MotionScene& scene);
+MotionScene get_scene(const h5::File& store);
+
+}  // namespace erbs

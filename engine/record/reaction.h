@@ -1,0 +1,60 @@
+// Forces on blocks: what the ground receives through joints and contacts, and what the loads bring in.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "engine/record/recorder.h"
+
+namespace erbs {
+
+// Sum over blocks of force and moment; the moment about `point` (the origin where none is given). Without blocks: over all that
+// are fixed or driven, so that `reaction` is what the whole structure does to its supports (a standing house: fz = -weight).
+struct Reaction {
+  enum class What { reaction, reaction_moment, load, load_moment } what;
+  std::vector<int> blocks;
+  std::string name, axis;
+  Vec3 point;  // m
+
+  static std::vector<Quantity> quantities() {
+    return {{"reaction", "force of joints and contacts on the blocks, summed (N); without blocks: on all supports"},
+            {"reaction_moment", "its moment about the point, or the origin (N m)"},
+            {"load", "force of the loads on the blocks, summed (N), gravity and ground motion left out"},
+            {"load_moment", "its moment about the point, or the origin (N m)"}};
+  }
+
+  explicit Reaction(const Ask& ask)
+      : what(What(quantity_index(quantities(), ask.recorder.quantity))),
+        blocks(ask.blocks),
+        name(ask.recorder.name),
+        axis(ask.recorder.axis),
+        point(ask.recorder.point) {
+    if (!blocks.empty()) return;
+    for (int b = 0; b < ask.model.nblock; ++b)
+      if ((ask.model.kind[std::size_t(b)] != Kind::moving) != of_load()) blocks.push_back(b);
+  }
+
+  std::vector<std::string> columns() const {
+    return of_moment() ? axis_columns(name, axis, "m", "N_m") : axis_columns(name, axis, "f", "N");
+  }
+
+  void needs(Needs& n) const { (of_load() ? n.load_wrench : n.block_wrench) = true; }
+
+  void sample(const Snapshot& s, double* out) const {
+    const std::vector<Vec6>& wrench = of_load() ? s.load_wrench : s.block_wrench;
+    ERBS_ASSERT(wrench.size() >= std::size_t(s.model.nblock));
+    Vec3 sum = Vec3::Zero();
+    for (const int i : blocks) {
+      const auto b = std::size_t(i);
+      const Vec3 force = wrench[b].head<3>();
+      if (of_moment()) sum += wrench[b].tail<3>() + Vec3(s.model.rest[b] + s.state.u[b] - point).cross(force);
+      else sum += force;
+    }
+    put_axes(sum, axis, out);
+  }
+
+ private:
+  bool of_load() const { return what == What::load || what == What::load_moment; }
+  bool of_moment() const { return what == What::reaction_moment || what == What::load_moment; }
+};
+
+}  // namespace erbs

@@ -1,0 +1,58 @@
+// Recorders: what is written to histories.csv. Each kind is a struct of its own (see THE LIST in recorders.h) with
+//   quantities()             the names a script may ask for, with what they are
+//   Kind(ask)                resolved against the model
+//   columns()                full names with units
+//   sample(snapshot, out)    one number a column
+//   needs(needs)             what the snapshot must hold
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "engine/record/snapshot.h"
+#include "engine/scene/scene.h"
+
+namespace erbs {
+
+struct Quantity {
+  std::string name;
+  std::string text;  // one sentence: what is written, and its unit
+};
+
+// What a script asks for, resolved: the recorder with block numbers in place of names.
+struct Ask {
+  const Recorder& recorder;
+  const Model& model;
+  std::vector<int> blocks, others;  // block numbers
+};
+
+// Helpers of the kinds.
+int quantity_index(const std::vector<Quantity>& quantities, const std::string& name);  // -1 where it is not among them
+// name_<symbol>x_<unit>, ... for the letters of `axis`
+std::vector<std::string> axis_columns(const std::string& name, const std::string& axis, const std::string& symbol, const std::string& unit);
+void put_axes(const Vec3& value, const std::string& axis, double* out);
+
+class Recorders {
+ public:
+  // Error, all mistakes at once, for an unknown quantity, block or axis, or a column named twice.
+  Recorders(const Scene& scene, const Model& model);
+  ~Recorders();
+  Recorders(Recorders&&) noexcept;
+  Recorders& operator=(Recorders&&) noexcept;
+
+  Needs needs() const;
+  const std::vector<std::string>& columns() const { return columns_; }  // time_s first
+  const std::vector<double>& sample(const Snapshot& snapshot);          // one row
+
+ private:
+  struct Kinds;
+  std::unique_ptr<Kinds> kinds_;
+  std::vector<std::string> columns_;
+  std::vector<double> row_;
+};
+
+// The mistakes in a scene's recorders that can be seen without a model; each names its place and remedy.
+std::vector<std::string> check_recorders(const Scene& scene);
+std::vector<Quantity> recorder_quantities();  // of THE LIST, in its order
+
+}  // namespace erbs

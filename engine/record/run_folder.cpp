@@ -1,0 +1,93 @@
+#include "engine/record/run_folder.h"
+
+#include <filesystem>
+#include <string_view>
+
+namespace erbs {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the programs write into a run folder. --force removes these and nothing else: notes someone put there survive.
+constexpr std::string_view own_files[] = {"scene.lua",  "manifest.json", "metrics.json", "log.txt",      "energy.csv",  "histories.csv",
+                                          "events.csv", "histories.svg", "energy.svg",   "motion.h5",    "motion.xdmf", "checkpoint.bin",
+                                          "frames",     "report.html",   "results.csv",  "accuracy.csv", "modes.csv"};
+constexpr std::string_view own_endings[] = {".mp4", ".tmp"};
+
+bool is_own(const fs::path& path) {
+  const std::string name = path.filename().string();
+  for (const auto own : own_files)
+    if (name == own) return true;
+  for (const auto ending : own_endings)
+    if (name.size() > ending.size() && name.ends_with(ending)) return true;
+  return false;
+}
+
+// The folders of `path` that are not there yet: the first of them, so that all can be taken back; empty where none is missing.
+fs::path first_missing(const fs::path& path) {
+  fs::path missing;
+  for (fs::path at = fs::absolute(path).lexically_normal(); !at.empty() && !fs::exists(at); at = at.parent_path()) missing = at;
+  return missing;
+}
+
+}  // namespace
+
+std::string run_file(const std::string& dir, const std::string& name) { return (fs::path(dir) / name).string(); }
+
+bool is_run_folder(const std::string& dir) {
+  if (!fs::is_regular_file(run_file(dir, "manifest.json"))) return false;
+  try {
+    const Json json = read_json(run_file(dir, "manifest.json"));
+    return json.is_object() && json.value("program", "") == "erbs";
+  } catch (const std::exception&) { return false; }
+}
+
+void check_run_folder(const std::string& dir, Existing existing) {
+  const bool there = fs::exists(fs::symlink_status(dir));
+  const bool checkpoint = there && fs::is_regular_file(run_file(dir, "checkpoint.bin"));
+  switch (existing) {
+    case Existing::refuse:
+      if (there)
+        throw Error(fmt::format("output folder \"{}\" exists; choose another with -o DIR, or overwrite it with --force{}", dir,
+                                checkpoint ? ", or go on with --resume" : ""));
+      return;
+    case Existing::force:
+      if (there && !fs::is_directory(dir)) throw Error(fmt::format("\"{}\" is no folder; choose another with -o DIR", dir));
+      if (there && !fs::is_empty(dir) && !is_run_folder(dir))
+        throw Error(
+            fmt::format("\"{}\" is no run folder (it has no manifest.json of erbs) and is left alone, --force or not; choose another "
+                        "with -o DIR",
+                        dir));
+      return;
+    case Existing::resume:
+      if (!there) throw Error(fmt::format("nothing to resume: there is no folder \"{}\"; run without --resume", dir));
+      if (!is_run_folder(dir) || !checkpoint)
+        throw Error(fmt::format("nothing to resume: \"{}\" holds no checkpoint.bin; start anew with --force", dir));
+      return;
+  }
+}
+
+void create_run_folder(const std::string& dir, Existing existing, const std::string& script, const Manifest& manifest) {
+  check_run_folder(dir, existing);
+  const fs::path missing = first_missing(dir);
+  try {
+    if (existing == Existing::force && missing.empty()) {
+      // The manifest goes last: until then the folder is known for what it is.
+      for (const auto& entry : fs::directory_iterator(dir))
+        if (is_own(entry.path()) && entry.path().filename() != "manifest.json") fs::remove_all(entry.path());
+    }
+    fs::create_directories(dir);
+    write_manifest(dir, manifest);
+    if (existing != Existing::resume) write_text_atomically(run_file(dir, "scene.lua"), script);
+  } catch (const fs::filesystem_error& failed) {
+    std::error_code ignored;
+    if (!missing.empty()) fs::remove_all(missing, ignored);
+    throw Error(fmt::format("output folder \"{}\" cannot be made: {}; choose another with -o DIR", dir, failed.code().message()));
+  } catch (...) {
+    std::error_code ignored;
+    if (!missing.empty()) fs::remove_all(missing, ignored);
+    throw;
+  }
+}
+
+}  // namespace erbs

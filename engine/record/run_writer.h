@@ -1,0 +1,58 @@
+// Writes what a run produces while it goes: histories.csv, energy.csv, events.csv, motion.h5, log.txt.
+#pragma once
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "engine/record/csv.h"
+#include "engine/record/joint_look.h"
+#include "engine/record/motion_file.h"
+#include "engine/record/recorder.h"
+#include "engine/record/snapshot.h"
+
+namespace erbs {
+
+// How far the files of a run are written; part of a checkpoint, so that a resumed run goes on at the very row.
+struct WriterProgress {
+  long history_rows = 0, energy_rows = 0, event_rows = 0;
+  int frames = 0;
+};
+
+template <class P, class F>
+requires std::is_same_v<std::remove_const_t<P>, WriterProgress>
+void each(P& p, F&& f) {
+  f("history_rows", p.history_rows);
+  f("energy_rows", p.energy_rows);
+  f("event_rows", p.event_rows);
+  f("frames", p.frames);
+}
+
+class RunWriter {
+ public:
+  // In a folder made by create_run_folder. `resume`: rows and frames past this progress are cut off, then appended to.
+  RunWriter(const std::string& dir, const Scene& scene, const Model& model, const WriterProgress* resume = nullptr);
+
+  Needs needs() const { return recorders_.needs(); }
+  void row(const Snapshot& snapshot);    // of histories.csv and energy.csv
+  void frame(const Snapshot& snapshot);  // of motion.h5
+  // Of events.csv: what ("crack", "break", "fall", "collapse", ...) befell which block or joint; value with its unit.
+  void event(double t, std::string_view what, std::string_view name, double value, std::string_view unit);
+  void log(std::string_view line);  // to log.txt, flushed
+
+  WriterProgress progress();  // flushed and synced: what a checkpoint may rely on
+  void flush();
+  void close();
+
+ private:
+  std::string dir_;
+  Recorders recorders_;
+  CsvWriter histories_, energy_, events_;
+  MotionWriter motion_;
+  MotionFrame frame_;
+  double flushed_ = 0;  // s, wall clock
+};
+
+// The drawn side of a model: shapes (shared between equal blocks), blocks and joints.
+MotionScene motion_scene(const Scene& scene, const Model& model);
+
+}  // namespace erbs

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <unordered_map>
+
+#include "engine/base/words.h"
+#include "engine/scene/scene.h"
+
+namespace erbs {
+namespace {
+
+struct Report {
+  std::vector<std::string> mistakes;
+  template <class... A>
+  void say(const Place& place, fmt::format_string<A...> text, A&&... values) {
+    const std::string message = fmt::format(text, std::forward<A>(values)...);
+    const std::string whole = place.file.empty() ? message : place.text() + ": " + message;
+    if (std::find(mistakes.begin(), mistakes.end(), whole) == mistakes.end()) mistakes.push_back(whole);
+  }
+};
+
+bool inside(double value, double low, double high) { return value >= low && value <= high; }  // false for NaN
+bool inside(const Vec3& value, double low, double high) {
+  return inside(value.x(), low, high) && inside(value.y(), low, high) && inside(value.z(), low, high);
+}
+
+// Every number of a field list within its range.
+template <class T>
+void check_fields(Report& report, const T& item, const std::string& label, const Place& place) {
+  for (const Field<T>& field : T::fields())
+    std::visit(
+        [&](auto member) {
+          using Value = std::decay_t<decltype(item.*member)>;
+          if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, int> || std::is_same_v<Value, Vec3>)
+            if (!inside(item.*member, field.low, field.high))
+              report.say(place, "{}: {} is out of range; allowed is {:g} to {:g} {}", label, field.name, field.low, field.high, field.unit);
+        },
+        field.member);
+}
+
+void check_materials(Report& report, const Scene& scene) {
+  std::set<std::string> names;
+  for (const Material& material : scene.materials) {
+    check_fields(report, material, fmt::format("material \"{}\"", material.name), material.place);
+    if (!names.insert(material.name).second)
+      report.say(material.place, "material \"{}\" is there twice; give one of them another name", material.name);
+  }
+}
+
+void check_blocks(Report& report, const Scene& scene) {
+  if (scene.blocks.empty()) report.say({scene.file, 0}, "the scene has no blocks; add box{{ ... }}, block{{ ... }} or wall{{ ... }}");
+  std::set<std::string> names;
+  for (const Block& block : scene.blocks) {
+    if (!names.insert(block.name).second) report.say(block.place, "block \"{}\" is there twice; give one of them another name", block.name);
+    if (block.material < 0 || block.material >= static_cast<int>(scene.materials.size()))
+      report.say(block.place, "block \"{}\" has no material; add material = \"...\"", block.name);
+    if (block.parts.empty()) report.say(block.place, "block \"{}\" has no shape; give size, or vertices", block.name);
+    for (size_t i = 0; i < block.parts.size(); ++i) {
+      const std::string problem = problem_of(block.parts[i]);
+      if (!problem.empty())
+        report.say(block.place, "block \"{}\"{}: {}; a block is made of closed convex parts, faces counter-clockwise seen from outside",
+                   block.name, block.parts.size() > 1 ? fmt::format(", part {}", i + 1) : "", problem);
+    }
+    check_fields(report, block.initial, fmt::format("block \"{}\": initial", block.name), block.place);
+    if (block.fixed && block.initial.given)
+      report.say(block.place, "block \"{}\" is fixed and has an initial motion; remove one of them", block.name);
+  }
+}
+
+void check_law(Report&, const DryFriction&, const Place&) {}
+
+void check_law(Report& report, const Mortar& law, const Place& place) {
+  if (law.kn == 0 && (law.E == 0 || law.thickness == 0))
+    report.say(place, "joint: the mortar has no normal stiffness; give kn, or E and the thickness of the bed");
+  const bool shear = law.ks > 0 || (law.thickness > 0 && (law.G > 0 || law.E > 0)) || (law.kn > 0 && law.E > 0);
+  if (!shear) report.say(place, "joint: the mortar has no shear stiffness; give ks, or G or E and the thickness of the bed");
+  if (law.mu_residual != -1 && law.mu_residual < 0)
+    report.say(place, "joint: mu_residual is negative; leave it out for mu, or give 0 and more");
+}
+
+void check_joints(Report& report, const Scene& scene, const std::vector<std::string>& groups) {
+  for (const JointRule& rule : scene.joint_rules) {
+    for (const std::string& group : {rule.group_a, rule.group_b})
+      if (!group.empty() && std::find(groups.begin(), groups.end(), group) == groups.end())
+        report.say(rule.place, "joint: no block is of group \"{}\"{}", group, did_you_mean(group, groups));
+    if (!inside(rule.points_long, 1, 64) || !inside(rule.points_short, 1, 64))
+      report.say(rule.place, "joint: points {} x {} is out of range; allowed is 1 to 64 along a side", rule.points_long, rule.points_short);
+    check_fields(report, rule, "joint", rule.place);
+    if (rule.none) continue;
+    std::visit(
+        [&](const auto& law) {
+          using L = std::decay_t<decltype(law)>;
+          check_fields(report, law, std::string(L::law_name), rule.place);
+          check_law(report, law, rule.place);
+        },
+        rule.law);
+  }
+}
+
+using Index = std::unordered_map<std::string, const Block*>;
+
+// The block of that name; a mistake where there is none.
+const Block* named(Report& report, const Index& index, const std::string& name, const Place& place, const std::string& who) {
+  const auto found = index.find(name);
+  if (found != index.end()) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [known, block] : index) names.push_back(known);
+  std::sort(names.begin(), names.end());
+  report.say(place, "{}: there is no block \"{}\"{}", who, name, did_you_mean(name, names));
+  return nullptr;
+}
+
+void check_loads(Report& report, const Scene& scene, const Index& index) {
+  using Kind = Load::Kind;
+  for (const Load& load : scene.loads) {
+    if (!(std::abs(load.direction.norm() - 1) < 1e-6))
+      report.say(load.place, "load \"{}\": its direction has no length; give a vector", load.name);
+    if (load.kind == Kind::ground || load.kind == Kind::tilt) continue;
+    const char* who = load.kind == Kind::force ? "force" : load.kind == Kind::moment ? "moment" : "motion";
+    const Block* block = named(report, index, load.block, load.place, who);
+    if (block && block->fixed && load.kind != Kind::motion)
+      report.say(load.place, "{}: block \"{}\" is fixed and feels none; name a free block", who, load.block);
+    if (!inside(load.point, -1e6, 1e6)) report.say(load.place, "{}: its point is not a finite place; give numbers", who);
+  }
+}
+
+// Recorders are checked where quantities are known, in engine/record.
+void check_cameras(Report& report, const Scene& scene) {
+  std::set<std::string> cameras;
+  for (const Camera& camera : scene.cameras)
+    if (!cameras.insert(camera.name).second)
+      report.say(camera.place, "camera \"{}\" is there twice; give one of them another name", camera.name);
+}
+
+void check_analysis(Report& report, const Scene& scene) {
+  const Analysis& analysis = scene.analysis;
+  const Place place = analysis.place.file.empty() ? Place{scene.file, 0} : analysis.place;
+  if (analysis.duration == 0) report.say(place, "the run has no duration; add analysis{{ duration = 10 }} (seconds)");
+  else check_fields(report, analysis, "analysis", place);
+  check_fields(report, scene.damping, "damping", scene.damping.place);
+  if (!inside(scene.gravity, -1000, 1000)) report.say({scene.file, 0}, "gravity is out of range; allowed is 0 to 1000 m/s2");
+}
+
+}  // namespace
+
+std::vector<std::string> check(const Scene& scene) {
+  Report report;
+  std::vector<std::string> groups;
+  for (const Block& block : scene.blocks)
+    if (!block.group.empty() && std::find(groups.begin(), groups.end(), block.group) == groups.end()) groups.push_back(block.group);
+  Index index;
+  for (const Block& block : scene.blocks) index.emplace(block.name, &block);
+  check_materials(report, scene);
+  check_blocks(report, scene);
+  check_joints(report, scene, groups);
+  check_loads(report, scene, index);
+  check_cameras(report, scene);
+  check_analysis(report, scene);
+  return report.mistakes;
+}
+
+std::vector<std::string> warnings(const Scene& scene) {
+  Report report;
+  for (const JointRule& rule : scene.joint_rules) {
+    const auto* law = rule.none ? nullptr : std::get_if<Mortar>(&rule.law);
+    if (!law) continue;
+    if (law->coupling == "coulomb" && law->mu > 0 && law->ft > law->c / law->mu)
+      report.say(rule.place, "mortar: ft = {:g} Pa lies above the tip of the Coulomb cone, c / mu = {:g} Pa; it is capped there", law->ft,
+                 law->c / law->mu);
+    const double kn = law->kn > 0 ? law->kn : law->thickness > 0 ? law->E / law->thickness : 0;
+    if (law->Gf1 > 0 && kn > 0 && law->Gf1 < law->ft * law->ft / (2 * kn))
+      report.say(rule.place,
+                 "mortar: Gf1 = {:g} J/m2 is less than the elastic energy at the peak, ft^2 / (2 kn) = {:g} J/m2; the joint snaps back "
+                 "(breaks at once)",
+                 law->Gf1, law->ft * law->ft / (2 * kn));
+  }
+  return report.mistakes;
+}
+
+}  // namespace erbs

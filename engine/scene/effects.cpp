@@ -1,0 +1,42 @@
+#include "engine/scene/effects.h"
+
+namespace erbs {
+namespace {
+
+Effect effect(std::string name, const Place* place) { return {std::move(name), place != nullptr, place != nullptr ? place->text() : ""}; }
+
+const Place* rule_with(const Scene& scene, bool (*has)(const Mortar&)) {
+  for (const JointRule& rule : scene.joint_rules) {
+    const auto* mortar = std::get_if<Mortar>(&rule.law);
+    if (mortar != nullptr && !rule.none && has(*mortar)) return &rule.place;
+  }
+  return nullptr;
+}
+
+const Place* load_with(const Scene& scene, Load::Kind kind, int component = -1) {
+  for (const Load& load : scene.loads)
+    if (load.kind == kind && (component < 0 || load.direction[component] != 0)) return &load.place;
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<Effect> effects_of(const Scene& scene) {
+  std::vector<Effect> out;
+  out.push_back(effect("ground x", load_with(scene, Load::Kind::ground, 0)));
+  out.push_back(effect("ground y", load_with(scene, Load::Kind::ground, 1)));
+  out.push_back(effect("ground z", load_with(scene, Load::Kind::ground, 2)));
+  out.push_back(effect("forces on blocks", load_with(scene, Load::Kind::force)));
+  out.push_back(effect("moments on blocks", load_with(scene, Load::Kind::moment)));
+  out.push_back(effect("tilting gravity", load_with(scene, Load::Kind::tilt)));
+  out.push_back(effect("prescribed motion", load_with(scene, Load::Kind::motion)));
+  const bool damped = scene.damping.mass > 0 && scene.damping.scope != "none";
+  out.push_back(effect("mass damping", damped ? &scene.damping.place : nullptr));
+  out.push_back(effect("softening in tension", rule_with(scene, [](const Mortar& m) { return m.Gf1 > 0 || m.un_ultimate > 0; })));
+  out.push_back(effect("softening in shear", rule_with(scene, [](const Mortar& m) { return m.Gf2 > 0 || m.us_ultimate > 0; })));
+  out.push_back(effect("compression plateau", rule_with(scene, [](const Mortar& m) { return m.fc > 0; })));
+  out.push_back(effect("recorders", scene.recorders.empty() ? nullptr : &scene.recorders.front().place));
+  return out;
+}
+
+}  // namespace erbs

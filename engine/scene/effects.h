@@ -1,0 +1,18 @@
+// Which effects a scene calls for, from the scene alone. A scene does not pay for what it does not call for.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "engine/scene/scene.h"
+
+namespace erbs {
+
+struct Effect {
+  std::string name;
+  bool on = false;
+  std::string because;  // the script line that called for it
+};
+
+std::vector<Effect> effects_of(const Scene& scene);
+
+}  // namespace erbs

@@ -1,0 +1,77 @@
+#include "engine/scene/mesh_file.h"
+
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "engine/base/error.h"
+#include "engine/geometry/mass.h"
+
+namespace erbs {
+namespace {
+
+Vec3 placed(const aiMatrix4x4& where, const aiVector3D& v) {
+  const aiVector3D p = where * v;
+  return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
+}
+
+// Each edge of a closed surface is used once in either direction.
+bool closed(const aiMesh& mesh) {
+  std::map<std::pair<unsigned, unsigned>, int> uses;
+  for (unsigned f = 0; f < mesh.mNumFaces; ++f)
+    for (unsigned i = 0; i < 3; ++i) ++uses[{mesh.mFaces[f].mIndices[i], mesh.mFaces[f].mIndices[(i + 1) % 3]}];
+  for (const auto& [edge, count] : uses) {
+    const auto back = uses.find({edge.second, edge.first});
+    if (count != 1 || back == uses.end() || back->second != 1) return false;
+  }
+  return true;
+}
+
+Polyhedron convex_part(const aiMesh& mesh, const aiMatrix4x4& where, const std::string& what) {
+  Polyhedron triangles;
+  for (unsigned v = 0; v < mesh.mNumVertices; ++v) triangles.vertices.push_back(placed(where, mesh.mVertices[v]));
+  for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+    const auto* i = mesh.mFaces[f].mIndices;
+    triangles.faces.push_back({static_cast<int>(i[0]), static_cast<int>(i[1]), static_cast<int>(i[2])});
+  }
+  if (!closed(mesh)) throw Error(fmt::format("{} is not a closed surface; close its holes", what));
+  const Polyhedron whole = hull(triangles.vertices);
+  const double volume = std::abs(mass_properties(triangles).volume), full = mass_properties(whole).volume;
+  // coordinates in these files are floats: 1e-7 of the size, so 1e-5 of the volume is theirs
+  if (std::abs(volume - full) > 1e-5 * full)
+    throw Error(fmt::format("{} is not convex (its volume is {:.4g} of its hull's); split it into convex meshes", what, volume / full));
+  return whole;
+}
+
+void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above, const std::string& path, std::vector<Polyhedron>& parts) {
+  const aiMatrix4x4 where = above * node.mTransformation;
+  for (unsigned i = 0; i < node.mNumMeshes; ++i) {
+    const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
+    const std::string name = mesh.mName.length > 0 ? mesh.mName.C_Str() : std::to_string(parts.size() + 1);
+    parts.push_back(convex_part(mesh, where, fmt::format("mesh \"{}\" in {}", name, path)));
+  }
+  for (unsigned i = 0; i < node.mNumChildren; ++i) collect(scene, *node.mChildren[i], where, path, parts);
+}
+
+}  // namespace
+
+std::vector<Polyhedron> read_mesh(const std::string& path) {
+  Assimp::Importer importer;
+  // Normals and texture coordinates go first: vertices that differ in them alone would not be joined.
+  importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
+                                                          aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_MATERIALS);
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  const aiScene* scene = importer.ReadFile(path, aiProcess_RemoveComponent | aiProcess_DropNormals | aiProcess_Triangulate |
+                                                     aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
+  if (!scene || !scene->mRootNode) throw Error(fmt::format("cannot read the mesh {}: {}", path, importer.GetErrorString()));
+  std::vector<Polyhedron> parts;
+  collect(*scene, *scene->mRootNode, aiMatrix4x4(), path, parts);
+  if (parts.empty()) throw Error(fmt::format("{} holds no mesh of triangles", path));
+  return parts;
+}
+
+}  // namespace erbs

@@ -1,0 +1,14 @@
+// Meshes from files. The one door to assimp.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "engine/geometry/polyhedron.h"
+
+namespace erbs {
+
+// The meshes of a file (OBJ, STL, PLY, glTF ...), each one convex part with its coplanar triangles merged, in the file's units.
+// Throws Error with the name of the mesh where one is not closed or not convex.
+std::vector<Polyhedron> read_mesh(const std::string& path);
+
+}  // namespace erbs

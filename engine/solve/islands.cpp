@@ -1,0 +1,62 @@
+#include "engine/solve/islands.h"
+
+#include <numeric>
+
+#include "engine/solve/joint_geometry.h"
+
+namespace erbs {
+namespace {
+
+std::size_t z(int i) { return std::size_t(i); }
+
+int root(std::vector<int>& parent, int b) {
+  while (parent[z(b)] != b) b = parent[z(b)] = parent[z(parent[z(b)])];
+  return b;
+}
+
+}  // namespace
+
+void find_islands(const Model& m, State& s) {
+  std::iota(s.island.begin(), s.island.end(), 0);
+  std::fill(s.joined.begin(), s.joined.end(), std::uint8_t(0));
+  std::fill(s.grounded.begin(), s.grounded.end(), std::uint8_t(0));
+  const auto anchors = [&](int b) { return m.kind[z(b)] == Kind::fixed; };
+  for (int j = 0; j < m.njoint; ++j) {
+    if (s.tier[z(j)] == Tier::open) continue;
+    const int a = m.joint[z(j)].a, b = m.joint[z(j)].b;
+    s.joined[z(a)] = s.joined[z(b)] = 1;
+    // the ground does not make one island of all that stands on it: it does not turn
+    if (anchors(a) || anchors(b)) continue;
+    const int ra = root(s.island, a), rb = root(s.island, b);
+    s.island[z(std::max(ra, rb))] = std::min(ra, rb);
+  }
+  for (int b = 0; b < m.nblock; ++b) s.island[z(b)] = root(s.island, b);
+  for (int j = 0; j < m.njoint; ++j) {
+    if (s.tier[z(j)] == Tier::open) continue;
+    const int a = m.joint[z(j)].a, b = m.joint[z(j)].b;
+    if (anchors(a) && !anchors(b)) s.grounded[z(s.island[z(b)])] = 1;
+    if (anchors(b) && !anchors(a)) s.grounded[z(s.island[z(a)])] = 1;
+  }
+  for (int b = 0; b < m.nblock; ++b)
+    if (m.kind[z(b)] == Kind::driven) s.grounded[z(s.island[z(b)])] = 1;
+  for (int b = 0; b < m.nblock; ++b) s.grounded[z(b)] = s.grounded[z(s.island[z(b)])];
+}
+
+void refresh_stale(const Model& m, State& s) {
+  std::vector<std::uint8_t> stale(z(m.nblock) + 1, 0);
+  const double limit = m.analysis.lazy_rotation * m.analysis.lazy_rotation;
+  for (int b = 0; b < m.nblock; ++b) {
+    const double* row = &s.row[z(b) * 8];
+    if (s.joined[z(b)] && row[3] * row[3] + row[4] * row[4] + row[5] * row[5] > limit) stale[z(s.island[z(b)])] = 1;
+  }
+  std::vector<int> blocks, joints;
+  for (int b = 0; b < m.nblock; ++b)
+    if (stale[z(s.island[z(b)])]) blocks.push_back(b);
+  for (int j = 0; j < m.njoint; ++j) {
+    if (s.tier[z(j)] == Tier::open) continue;
+    if (stale[z(s.island[z(m.joint[z(j)].a)])] || stale[z(s.island[z(m.joint[z(j)].b)])]) joints.push_back(j);
+  }
+  refresh(m, s, blocks, joints);
+}
+
+}  // namespace erbs

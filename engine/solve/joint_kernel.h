@@ -1,0 +1,25 @@
+// The hot pass: joint forces of a range of batches, eight joints side by side.
+#pragma once
+#include "engine/model/model.h"
+#include "engine/model/state.h"
+#include "engine/solve/joint_response.h"
+
+namespace erbs {
+
+// What a thread gathers while it goes through its joints, by fixed chunks of batches so that sums do not depend on threads.
+struct JointSums {
+  JointEnergy energy;        // dissipated so far; elastic: stored now, filled on request
+  double largest_error = 0;  // J, of the joints' own energy balance over the step
+  int worst_joint = -1;
+  int cracked_now = 0;       // joints that lost their soundness in this step
+};
+
+// One joint point by point, its own energy balance checked over the step (work of the resultant = stored + dissipated).
+void joint_by_points(const Model& model, State& state, int j, const double q[6], double f[6], JointSums& sums);
+
+// Writes the wrench rows of batches [first, last). Joints near a limit or with history go point by point (joint_response.h).
+// Fills sums.energy.elastic when `sample`.
+inline constexpr int batch_grain = 8;
+void joint_forces(const Model& model, State& state, int first, int last, bool sample, JointSums& sums);
+
+}  // namespace erbs

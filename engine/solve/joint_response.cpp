@@ -1,0 +1,241 @@
+#include "engine/solve/joint_response.h"
+
+#include <array>
+#include <cmath>
+
+namespace erbs {
+namespace {
+
+constexpr int most_points = 512;  // per joint; build refuses more
+
+struct Gap {
+  double s, t, n;  // m
+};
+
+Gap gap_at(const double* q, double s, double t) { return {q[0] - q[5] * t, q[1] + q[5] * s, q[2] + q[3] * t - q[4] * s}; }
+
+// The no-tension integral in closed form over the true overlap polygon (gap linear in s, t):
+// N = kn Int max(-g, 0) dA and its first moments, and the energy 1/2 kn Int min(g, 0)^2 dA.
+// Over a triangle with corner values g_i: Int g s = A/12 (sum g sum s + sum g_i s_i), Int g^2 = A/12 ((sum g)^2 + sum g_i^2).
+struct Compression {
+  double force = 0, moment_s = 0, moment_t = 0, energy = 0;  // moments: Int p s, Int p t
+};
+
+struct Corner {
+  double s, t, p;  // p = depth, m
+};
+
+void add_triangle(const Corner& a, const Corner& b, const Corner& c, Compression& out) {
+  const double area = 0.5 * ((b.s - a.s) * (c.t - a.t) - (c.s - a.s) * (b.t - a.t));
+  const double p = a.p + b.p + c.p;
+  out.force += area / 3 * p;
+  out.moment_s += area / 12 * (p * (a.s + b.s + c.s) + a.p * a.s + b.p * b.s + c.p * c.s);
+  out.moment_t += area / 12 * (p * (a.t + b.t + c.t) + a.p * a.t + b.p * b.t + c.p * c.t);
+  out.energy += area / 12 * (p * p + a.p * a.p + b.p * b.p + c.p * c.p);
+}
+
+Compression compression(const Model& m, const Joint& joint, const double* q, double kn) {
+  Compression sum;
+  // fully closed: the resultants of a linear pressure about the centroid of the points, which integrate it exactly
+  const double reach = std::fabs(q[3]) * joint.half_t + std::fabs(q[4]) * joint.half_s;
+  if (q[2] + reach < 0) {
+    sum.force = -joint.stiffness[2] * q[2];
+    sum.moment_t = -joint.stiffness[3] * q[3];
+    sum.moment_s = joint.stiffness[4] * q[4];
+    sum.energy = 0.5 * (joint.stiffness[2] * q[2] * q[2] + joint.stiffness[3] * q[3] * q[3] + joint.stiffness[4] * q[4] * q[4]);
+    return sum;
+  }
+  if (q[2] - reach >= 0) return sum;
+  std::array<Corner, 3> fan{};
+  int kept = 0;
+  const auto keep = [&](const Corner& c) {
+    if (kept < 2) {
+      fan[std::size_t(kept++)] = c;
+      return;
+    }
+    fan[2] = c;
+    add_triangle(fan[0], fan[1], fan[2], sum);
+    fan[1] = fan[2];
+  };
+  const auto* corner = &m.corner[std::size_t(joint.first_corner)];
+  const auto at = [&](int i) {
+    const auto& c = corner[i];
+    return Corner{c.x(), c.y(), -gap_at(q, c.x(), c.y()).n};
+  };
+  Corner last = at(joint.corners - 1);
+  for (int i = 0; i < joint.corners; ++i) {
+    const Corner now = at(i);
+    if ((last.p > 0) != (now.p > 0)) {
+      const double x = last.p / (last.p - now.p);
+      keep({last.s + x * (now.s - last.s), last.t + x * (now.t - last.t), 0});
+    }
+    if (now.p > 0) keep(now);
+    last = now;
+  }
+  sum.force *= kn;
+  sum.moment_s *= kn;
+  sum.moment_t *= kn;
+  sum.energy *= 0.5 * kn;
+  return sum;
+}
+
+// Compression with a plateau at fc, point by point: perfectly plastic, unloading elastic.
+double crush(const PointLaw& law, double weight, double g0, double g1, PointHistory& h, JointEnergy& energy) {
+  const double before = std::max(0.0, -(g0 - h.crushed)) * law.kn;
+  double pressure = std::max(0.0, -(g1 - h.crushed)) * law.kn;
+  if (pressure > law.fc) {
+    const double more = g1 + law.fc / law.kn - h.crushed;  // < 0
+    energy.crushing += -0.5 * (before + law.fc) * more * weight;
+    h.crushed += more;
+    pressure = law.fc;
+    if (law.closing_ultimate > 0 && -g1 > law.closing_ultimate) damage_to(law, h, 1);
+  }
+  return pressure * weight;
+}
+
+struct Shear {
+  double s, t;  // N
+};
+
+// Radial return of one point. `normal` is its compressive force (N), sigma its tension (Pa).
+Shear shear(const PointLaw& law, const Point& point, double normal, double sigma, const double* q_before, const Gap& g1, PointHistory& h,
+            JointEnergy& energy) {
+  const double weight = point.weight, k = law.ks * weight;
+  Shear now{k * (g1.s - h.slip_s), k * (g1.t - h.slip_t)};
+  const auto limit = [&](double p) { return (p < 1 ? bond_shear(law, sigma, p) * weight : 0) + friction_at(law, p) * normal; };
+  const double cap = limit(h.damage), square = now.s * now.s + now.t * now.t;
+  if (square <= cap * cap || k == 0) return now;
+  const double size = std::sqrt(square);
+  const Gap g0 = gap_at(q_before, point.s, point.t);
+  const Shear before{k * (g0.s - h.slip_s), k * (g0.t - h.slip_t)};
+  const bool bonded = h.damage < 1 && law.c > 0;
+  double slip = (size - cap) / k;
+  if (bonded) {
+    // Softening: the limit falls linearly with the slip it allows, size - k slip = cap + slope slip.
+    const double slope = law.slip_ultimate > 0 ? ((law.mu_residual - law.mu) * normal - law.c * weight) / law.slip_ultimate : -k;
+    damage_to(law, h, k + slope > 0 ? h.damage + (size - cap) / (k + slope) / law.slip_ultimate : 1);
+    slip = (size - limit(h.damage)) / k;
+  }
+  const double ds = slip * now.s / size, dt = slip * now.t / size;
+  h.slip_s += ds;
+  h.slip_t += dt;
+  now.s -= k * ds;
+  now.t -= k * dt;
+  const double work = 0.5 * ((before.s + now.s) * ds + (before.t + now.t) * dt);
+  const double rubbed = bonded ? std::min(work, friction_at(law, h.damage) * normal * slip) : work;
+  energy.friction += rubbed;
+  energy.fracture += work - rubbed;  // what the bond took beyond friction
+  return now;
+}
+
+// A sound joint is one quadratic form; once cracked it is the closed compression and the tension of its points. What the change
+// of form sets free at the crack is part of its fracture energy (zero under uniform tension; either sign where the neutral axis
+// lies between points).
+double change_of_form(const Joint& joint, const PointLaw& law, const Point* point, const Compression& closed, const double* q) {
+  double change = -closed.energy;
+  for (int i = 2; i < 5; ++i) change += 0.5 * joint.stiffness[i] * q[i] * q[i];
+  for (int i = 0; i < joint.points; ++i) {
+    const double opening = std::max(0.0, gap_at(q, point[i].s, point[i].t).n);
+    change -= 0.5 * law.kn * opening * opening * point[i].weight;
+  }
+  return change;
+}
+
+bool passes(const PointLaw& law, const Gap& g) {
+  const double sigma = law.kn * g.n, tau = law.ks * std::sqrt(g.s * g.s + g.t * g.t);
+  if (sigma > law.ft) return true;
+  if (law.fc > 0 && -sigma > law.fc) return true;
+  return tau > bond_shear(law, std::max(0.0, sigma), 0) + law.mu * std::max(0.0, -sigma);
+}
+
+bool stays_sound(const Model& m, const Joint& joint, const PointLaw& law, const double* q) {
+  if (law.dry) {
+    for (int i = 0; i < joint.corners; ++i) {
+      const auto& c = m.corner[std::size_t(joint.first_corner + i)];
+      if (gap_at(q, c.x(), c.y()).n > 0) return false;
+    }
+  }
+  for (int i = 0; i < joint.points; ++i) {
+    const Point& x = m.point[std::size_t(joint.first_point + i)];
+    if (passes(law, gap_at(q, x.s, x.t))) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+bool respond(const Model& m, int j, bool sound, const double* q_before, const double* q, PointHistory* history, double* f,
+             JointEnergy& energy) {
+  const Joint& joint = m.joint[std::size_t(j)];
+  const PointLaw& law = m.laws[std::size_t(joint.law)];
+  if (sound && stays_sound(m, joint, law, q)) {
+    for (int i = 0; i < 6; ++i) {
+      f[i] = joint.stiffness[i] * q[i];
+      energy.elastic += 0.5 * f[i] * q[i];
+    }
+    return true;
+  }
+  const Point* point = &m.point[std::size_t(joint.first_point)];
+  const int n = joint.points;
+  std::array<double, most_points> pressed;  // N, compressive force of each point
+  double share = 0;
+  int deepest = 0;
+  for (int i = 0; i < 6; ++i) f[i] = 0;
+  if (law.fc > 0) {
+    for (int i = 0; i < n; ++i) {
+      const double g0 = gap_at(q_before, point[i].s, point[i].t).n, g1 = gap_at(q, point[i].s, point[i].t).n;
+      const double force = crush(law, point[i].weight, g0, g1, history[i], energy);
+      pressed[std::size_t(i)] = force;
+      f[2] -= force;
+      f[3] -= force * point[i].t;
+      f[4] += force * point[i].s;
+      energy.elastic += 0.5 * force * force / (law.kn * point[i].weight);
+    }
+  } else {
+    const Compression closed = compression(m, joint, q, law.kn);
+    f[2] = -closed.force;
+    f[3] = -closed.moment_t;
+    f[4] = closed.moment_s;
+    energy.elastic += closed.energy;
+    if (sound && !law.dry)  // the mean of both ends: the work of the step is the mean of the two forces
+      energy.fracture += 0.5 * (change_of_form(joint, law, point, closed, q) +
+                                change_of_form(joint, law, point, compression(m, joint, q_before, law.kn), q_before));
+    // Friction needs the pressure at the points: the closed integral, shared out by their own depths.
+    double least = 0;
+    for (int i = 0; i < n; ++i) {
+      const double g = q[2] + q[3] * point[i].t - q[4] * point[i].s;
+      pressed[std::size_t(i)] = std::max(0.0, -g) * point[i].weight;
+      share += pressed[std::size_t(i)];
+      if (i == 0 || g < least) least = g, deepest = i;
+    }
+    const double scale = share > 0 ? closed.force / share : 0;
+    for (int i = 0; i < n; ++i) pressed[std::size_t(i)] *= scale;
+    if (share == 0) pressed[std::size_t(deepest)] = closed.force;
+  }
+  for (int i = 0; i < n; ++i) {
+    PointHistory& h = history[i];
+    const double weight = point[i].weight, damage_before = h.damage;
+    const Gap g = gap_at(q, point[i].s, point[i].t);
+    const bool bonded = damage_before < 1 && !law.dry;
+    const double k0 = damage_before > 0 ? h.secant : law.kn;
+    if (bonded && g.n > (damage_before > 0 ? h.reach : law.opening_peak))
+      damage_to(law, h, law.opening_ultimate > law.opening_peak ? (g.n - law.opening_peak) / (law.opening_ultimate - law.opening_peak) : 1);
+    const double sigma = bonded && g.n > 0 ? (h.damage > 0 ? h.secant : law.kn) * g.n : 0;
+    const Shear tau = shear(law, point[i], pressed[std::size_t(i)], sigma, q_before, g, h, energy);
+    f[0] += tau.s;
+    f[1] += tau.t;
+    f[5] += tau.t * point[i].s - tau.s * point[i].t;
+    energy.elastic += 0.5 * (tau.s * (g.s - h.slip_s) + tau.t * (g.t - h.slip_t));
+    if (!bonded) continue;
+    const double k1 = h.damage > 0 ? h.secant : law.kn, opening = std::max(0.0, g.n);
+    if (k0 != k1) energy.fracture += 0.5 * (k0 - k1) * std::max(0.0, gap_at(q_before, point[i].s, point[i].t).n) * opening * weight;
+    const double pull = k1 * opening * weight;
+    f[2] += pull;
+    f[3] += pull * point[i].t;
+    f[4] -= pull * point[i].s;
+    energy.elastic += 0.5 * pull * opening;
+  }
+  return false;
+}
+
+}  // namespace erbs

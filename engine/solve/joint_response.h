@@ -1,0 +1,21 @@
+// Resultants of one joint from its contact points: what a joint does once its elastic bound is passed.
+#pragma once
+#include "engine/model/model.h"
+#include "engine/model/state.h"
+
+namespace erbs {
+
+// What one evaluation dissipated, and what is stored after it (J).
+struct JointEnergy {
+  double friction = 0, fracture = 0, crushing = 0, elastic = 0;
+};
+
+// Relative displacement q of a joint in its frame: (s, t, n) in m, then the rotation vector about (s, t, n) in rad.
+// Resultant f on block a (N, N m, about the joint's centre), tension positive; block b receives -f.
+// Returns true while the joint is sound: no point has any history and none passes its limit, so that f = stiffness * q exactly.
+// Otherwise the history of its points is carried on from q_before to q, and every joule booked by the point laws' own work:
+// over a step a spring's work is the mean of its two tractions times the change of its gap.
+bool respond(const Model& model, int j, bool sound, const double* q_before, const double* q, PointHistory* history, double* f,
+             JointEnergy& energy);
+
+}  // namespace erbs

@@ -1,0 +1,65 @@
+#include "engine/solve/reference.h"
+
+#include <cmath>
+
+#include "engine/solve/joint_geometry.h"
+
+namespace erbs {
+namespace {
+
+std::size_t z(int i) { return std::size_t(i); }
+
+// Elastic traction of every point of a sound joint, summed about the joint's centre; false as soon as one passes a limit.
+bool sound_resultant(const Model& m, const Joint& joint, const JointPose& pose, Vec3& force, Vec3& moment) {
+  const PointLaw& law = m.laws[z(joint.law)];
+  const Vec3 d(pose.q[0], pose.q[1], pose.q[2]), r(pose.q[3], pose.q[4], pose.q[5]);
+  force = moment = Vec3::Zero();
+  for (int i = 0; i < joint.points; ++i) {
+    const Point& p = m.point[z(joint.first_point + i)];
+    const Vec3 x(p.s, p.t, 0), gap = d + r.cross(x);
+    const Vec3 traction(law.ks * gap.x(), law.ks * gap.y(), law.kn * gap.z());
+    const double sigma = traction.z(), tau = std::hypot(traction.x(), traction.y());
+    if (sigma > law.ft || (law.dry && sigma > 0) || (law.fc > 0 && -sigma > law.fc)) return false;
+    if (tau > bond_shear(law, std::max(0.0, sigma), 0) + law.mu * std::max(0.0, -sigma)) return false;
+    force += p.weight * traction;
+    moment += p.weight * x.cross(traction);
+  }
+  return true;
+}
+
+double stored(const Model& m, const State& s, int j, const JointPose& pose) {
+  if (s.tier[z(j)] == Tier::cracked) return s.memory[z(j)].elastic;
+  double sum = 0;
+  for (int i = 0; i < 6; ++i) sum += 0.5 * m.joint[z(j)].stiffness[i] * pose.q[i] * pose.q[i];
+  return sum;
+}
+
+void add(std::vector<double>& rows, int row, const Vec3& force, const Vec3& moment) {
+  for (int i = 0; i < 3; ++i) rows[z(row) * 8 + z(i)] = force[i], rows[z(row) * 8 + 3 + z(i)] = moment[i];
+}
+
+}  // namespace
+
+void reference_forces(const Model& m, State& s, int first, int last, bool sample, JointSums& sums) {
+  if (sample) sums.energy.elastic = 0;
+  for (int j = first; j < last; ++j) {
+    const Joint& joint = m.joint[z(j)];
+    Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+    const JointPose pose = joint_pose(m, s, j);
+    const bool open = s.tier[z(j)] == Tier::open;
+    if (!open && (s.tier[z(j)] != Tier::intact || !sound_resultant(m, joint, pose, force, moment))) {
+      double f[6];
+      joint_by_points(m, s, j, pose.q, f, sums);
+      force = Vec3(f[0], f[1], f[2]);
+      moment = Vec3(f[3], f[4], f[5]);
+    }
+    if (sample && !open) sums.energy.elastic += stored(m, s, j, pose);
+    force = pose.frame * force;
+    moment = pose.frame * moment;
+    const Vec3 arm_a = 0.5 * (pose.sum + pose.apart), arm_b = 0.5 * (pose.sum - pose.apart);
+    add(s.wrench, m.row_a[z(j)], force, arm_a.cross(force) + moment);
+    add(s.wrench, m.row_b[z(j)], -force, -(arm_b.cross(force) + moment));
+  }
+}
+
+}  // namespace erbs

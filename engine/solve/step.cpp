@@ -1,0 +1,282 @@
+#include "engine/solve/step.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/solve/energy.h"
+#include "engine/solve/islands.h"
+#include "engine/solve/joint_geometry.h"
+#include "engine/solve/reference.h"
+
+namespace erbs {
+namespace {
+
+constexpr int ledger_every = 32;    // steps between two settlings of the ledger
+constexpr int hand_over_every = 8;  // steps between two looks at spent joints
+constexpr int loosen_every = 256;   // steps between two looks at blocks that have moved far
+std::size_t z(int i) { return std::size_t(i); }
+
+int chunks(int n, int grain) { return std::max(1, (n + grain - 1) / grain); }
+
+}  // namespace
+
+Solver::Solver(const Model& model, State& state, int threads)
+    : model_(model),
+      state_(state),
+      threads_(threads),
+      reference_(model.analysis.kernel == "reference"),
+      joint_items_(reference_ ? model.njoint : int(state.batch.size())),
+      debris_(model, state, threads) {
+  if (state.dt_goal == 0) state.dt_goal = state.dt;
+  any_cracked_ = std::any_of(state.tier.begin(), state.tier.end(), [](Tier t) { return t == Tier::cracked; });
+  push_.assign(6 * z(model.nblock) + 6, 0.0);
+  if (!model.pushes.empty()) load_ = push_;
+  joint_sums_.resize(z(chunks(joint_items_, batch_grain)));
+  block_sums_.resize(z(chunks(model.nblock, block_grain)));
+  tier_before_ = state.tier;
+  double weight = 0, low = 1e300, high = -1e300;
+  const Vec3 up = model.gravity.norm() > 0 ? Vec3(-model.gravity.normalized()) : Vec3::UnitZ();
+  for (int b = 0; b < model.nblock; ++b) {
+    low = std::min(low, up.dot(model.rest[z(b)]));
+    high = std::max(high, up.dot(model.rest[z(b)]) + model.smallest_edge[z(b)]);
+    if (model.kind[z(b)] == Kind::moving) weight += model.mass[z(b)] * model.gravity.norm();
+  }
+  floor_ = std::max(1e-300, 1e-12 * weight * (high - low));
+}
+
+void Solver::run(const Hooks& hooks) {
+  Barrier barrier(threads_);
+  stop_ = false;
+  together(threads_, [&](int thread) {
+    for (;;) {
+      if (thread == 0) begin(hooks);
+      barrier.wait();
+      joints(thread);
+      barrier.wait();
+      if (between_) {
+        if (thread == 0) between();
+        barrier.wait();
+      }
+      blocks(thread);
+      barrier.wait();
+      if (thread == 0) {
+        finish(hooks);
+        stop_ = broken_ || (sample_ != Sample::none && hooks.stop());
+      }
+      barrier.wait();
+      if (stop_) return;
+    }
+  });
+}
+
+void Solver::begin(const Hooks& hooks) {
+  sample_ = hooks.wanted(state_.t) ? Sample::full : state_.step % ledger_every == 0 ? Sample::ledger : Sample::none;
+  for (const BlockSums& sums : block_sums_)
+    if (sums.stale) {
+      refresh_stale(model_, state_);
+      for (BlockSums& all : block_sums_) all.stale = false;
+      break;
+    }
+  if (state_.step % loosen_every == 0 && (any_cracked_ || debris_.active() || state_.step == 0)) debris_.loosen();
+  contacts_ = debris_.active();
+  between_ = contacts_ || (any_cracked_ && state_.step % hand_over_every == 0);
+  if (contacts_) debris_.prepare();
+  excite();
+  if (sample_ != Sample::full) return;
+  instant_.t = state_.t;
+  instant_.excitation = now_;
+  instant_.v_before = state_.v;
+  instant_.u = state_.u;
+  instant_.q = state_.q;
+  instant_.w_before = state_.w;
+}
+
+// Loads over the interval of this kick: half the last and half the next drift.
+void Solver::excite() {
+  const Model& m = model_;
+  State& s = state_;
+  const double t0 = s.t - 0.5 * s.last_dt, t1 = s.t + 0.5 * s.dt;
+  now_.kick = 0.5 * (s.last_dt + s.dt);
+  now_.ground = Vec3::Zero();
+  for (const auto& g : m.grounds) now_.ground += mean(g.wave, t0, t1) * g.direction;
+  now_.gravity = m.gravity;
+  for (const auto& tilt : m.tilts) now_.gravity = rotation(mean(tilt.wave, t0, t1) * tilt.axis) * now_.gravity;
+  if (!m.tilts.empty()) {
+    // U_g = -sum m g.u changes with g: that part is the work of tilting
+    Vec3 moment = Vec3::Zero();
+    for (int b = 0; b < m.nblock; ++b)
+      if (m.kind[z(b)] == Kind::moving) moment += m.mass[z(b)] * s.u[z(b)];
+    const double work = s.step > 0 ? -(now_.gravity - s.gravity_before).dot(0.5 * (moment + s.moment_before)) : 0;
+    s.energy.tilt_work += work;
+    s.energy.absolute_work += std::fabs(work);
+    s.gravity_before = now_.gravity;
+    s.moment_before = moment;
+  }
+  std::fill(load_.begin(), load_.end(), 0.0);
+  for (const auto& p : m.pushes) {
+    const Vec3 f = mean(p.wave, t0, t1) * p.direction;
+    const Vec3 moment = p.moment ? f : Vec3((s.q[z(p.block)] * p.arm).cross(f));
+    for (int k = 0; k < 3; ++k) {
+      if (!p.moment) load_[6 * z(p.block) + z(k)] += f[k];
+      load_[6 * z(p.block) + 3 + z(k)] += moment[k];
+    }
+  }
+}
+
+void Solver::joints(int thread) {
+  const Range mine = share_of(joint_items_, batch_grain, thread, threads_);
+  const auto forces = reference_ ? reference_forces : joint_forces;
+  if (contacts_) debris_.forces(thread, threads_, sample_ != Sample::none);
+  for (int first = mine.first; first < mine.last; first += batch_grain)
+    forces(model_, state_, first, std::min(first + batch_grain, mine.last), sample_ != Sample::none, joint_sums_[z(first / batch_grain)]);
+}
+
+// Between forces and drift, on one thread: contact forces are summed, and joints past their range handed over.
+void Solver::between() {
+  if (contacts_) debris_.gather(push_.data(), sample_ != Sample::none);
+  if (!any_cracked_ || state_.step % hand_over_every != 0) return;
+  const std::vector<int> opened = debris_.hand_over_joints();
+  if (opened.empty()) return;
+  opened_.insert(opened_.end(), opened.begin(), opened.end());
+  find_islands(model_, state_);
+  debris_.loosen();
+}
+
+// The step follows the contacts: shorter at once, longer again after a while of calm.
+void Solver::follow_contacts() {
+  State& s = state_;
+  const double allowed = contacts_ ? debris_.allowed_dt() : s.dt_goal;
+  double dt = s.dt;
+  if (allowed < s.dt) {
+    dt = 0.95 * allowed;
+    s.calm = 0;
+  } else if (s.dt < s.dt_goal && ++s.calm > 200) {
+    if (allowed > 1.1 * s.dt) dt = std::min(s.dt_goal, 0.95 * allowed);
+    s.calm = 0;
+  }
+  if (dt == s.dt) return;
+  s.dt = dt;
+  s.start_t = s.t;
+  s.start_step = s.step;
+}
+
+void Solver::blocks(int thread) {
+  const Range mine = share_of(model_.nblock, block_grain, thread, threads_);
+  for (int first = mine.first; first < mine.last; first += block_grain)
+    advance(model_, state_, now_, push_.data(), load_.empty() ? nullptr : load_.data(), first, std::min(first + block_grain, mine.last),
+            sample_ != Sample::none, block_sums_[z(first / block_grain)]);
+}
+
+// Blocks with a prescribed motion: they are where they are told to be; what holds them there works on the system.
+void Solver::drive() {
+  const Model& m = model_;
+  State& s = state_;
+  if (m.drives.empty()) return;
+  Energy& e = s.energy;
+  e.external_work += e.external_next;
+  e.external_next = 0;
+  for (int b = 0; b < m.nblock; ++b) {
+    if (m.kind[z(b)] != Kind::driven) continue;
+    Vec3 to = Vec3::Zero();
+    for (const auto& d : m.drives)
+      if (d.block == b) to += value(d.wave, s.t + s.dt) * d.direction;
+    const Vec3 v = (to - s.u[z(b)]) / s.dt, force = joint_wrench(m, s, b).head<3>() + Eigen::Map<const Vec3>(&push_[6 * z(b)]);
+    const double before = -0.5 * s.last_dt * force.dot(s.v[z(b)]), after = -0.5 * s.dt * force.dot(v);
+    e.external_work += before;
+    e.external_next += after;
+    e.absolute_work += std::fabs(before) + std::fabs(after);
+    s.v[z(b)] = v;
+    s.u[z(b)] = to;
+    for (int i = 0; i < 3; ++i) s.row[z(b) * 8 + z(i)] = to[i] - s.base_u[z(b)][i];
+  }
+}
+
+void Solver::finish(const Hooks& hooks) {
+  State& s = state_;
+  drive();
+  for (const BlockSums& sums : block_sums_) broken_ = broken_ || sums.broken;
+  bool cracked = false;
+  for (JointSums& sums : joint_sums_) {
+    cracked = cracked || sums.cracked_now > 0;
+    sums.cracked_now = 0;
+  }
+  any_cracked_ = any_cracked_ || cracked;
+  if (cracked)
+    for (int j = 0; j < model_.njoint; ++j)
+      if (tier_before_[z(j)] != s.tier[z(j)]) {
+        if (tier_before_[z(j)] == Tier::intact) cracked_.push_back(j);
+        tier_before_[z(j)] = s.tier[z(j)];
+      }
+  if (sample_ != Sample::none) settle_ledger();
+  if (sample_ == Sample::full) {
+    instant_.v_after = s.v;
+    instant_.w_after = s.w;
+    std::swap(instant_.u, s.u);
+    std::swap(instant_.q, s.q);
+    hooks.sampled();
+    std::swap(instant_.u, s.u);
+    std::swap(instant_.q, s.q);
+  }
+  s.t = s.start_t + double(s.step + 1 - s.start_step) * s.dt;
+  ++s.step;
+  s.last_dt = s.dt;
+  follow_contacts();
+}
+
+void Solver::settle_ledger() {
+  Energy& e = state_.energy;
+  const double gravity_before = e.gravity;
+  e.kinetic = e.gravity = e.elastic = 0;
+  int worst = -1;
+  double error = 0;
+  for (JointSums& sums : joint_sums_) {
+    e.elastic += sums.energy.elastic;
+    e.friction += sums.energy.friction;
+    e.fracture += sums.energy.fracture;
+    e.crushing += sums.energy.crushing;
+    if (sums.largest_error > error) error = sums.largest_error, worst = sums.worst_joint;
+    sums = JointSums{};
+  }
+  e.base_work += e.base_next;
+  e.damping += e.damping_next;
+  e.absolute_work += e.absolute_next;
+  e.base_next = e.damping_next = e.absolute_next = 0;
+  if (model_.drives.empty()) {
+    e.external_work += e.external_next;
+    e.external_next = 0;
+  }
+  for (BlockSums& sums : block_sums_) {
+    e.kinetic += sums.kinetic;
+    e.gravity += sums.height;
+    e.base_work += sums.base_work;
+    e.external_work += sums.external_work;
+    e.damping += sums.damping;
+    e.absolute_work += sums.absolute_work;
+    e.base_next += sums.base_after;
+    e.external_next += sums.external_after;
+    e.damping_next += sums.damping_after;
+    e.absolute_next += sums.absolute_after;
+    const bool stale = sums.stale;
+    const double fastest = sums.fastest;
+    sums = BlockSums{};
+    sums.stale = stale;
+    sums.fastest = fastest;
+  }
+  if (contacts_) e.elastic += debris_.elastic();
+  if (e.started) e.height_flux += std::fabs(e.gravity - gravity_before);
+  settle(e, floor_, state_.t, worst);
+}
+
+Vec6 Solver::block_wrench(int b) const { return joint_wrench(model_, state_, b) + Eigen::Map<const Vec6>(&push_[6 * z(b)]); }
+
+Vec6 Solver::load_wrench(int b) const {
+  if (model_.kind[z(b)] == Kind::driven) return -block_wrench(b);
+  return load_.empty() ? Vec6(Vec6::Zero()) : Vec6(Eigen::Map<const Vec6>(&load_[6 * z(b)]));
+}
+
+std::vector<int> Solver::take_opened() { return std::exchange(opened_, {}); }
+
+std::vector<int> Solver::take_cracked() { return std::exchange(cracked_, {}); }
+
+}  // namespace erbs

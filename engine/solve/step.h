@@ -1,0 +1,78 @@
+// One step as a list of named phases, run by a team of threads that stays together:
+//   excite -> (contacts) -> joint forces | barrier | kick and drift of blocks | barrier | settle the ledger, look after topology.
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "engine/base/parallel.h"
+#include "engine/solve/debris.h"
+#include "engine/solve/integrate.h"
+#include "engine/solve/joint_kernel.h"
+
+namespace erbs {
+
+// The instant at which a sample is taken: everything at time t.
+struct Instant {
+  double t = 0;
+  Excitation excitation;          // means over the kick about t
+  std::vector<Vec3> v_before, v_after, w_before, w_after;  // m/s, rad/s, half a step before and after t [nblock]
+  std::vector<Vec3> u;            // m, poses at t while the state has drifted on; swapped with it during sampled()
+  std::vector<Quat> q;
+};
+
+class Solver {
+ public:
+  Solver(const Model& model, State& state, int threads);
+
+  // Steps until `stop` says so, or a number breaks. A step whose time is wanted is a sample: the ledger is settled there, and
+  // sampled() is called with the state as it is at t and the velocities about t in instant(). Every 32nd step the ledger is
+  // settled as well. stop() is called after such steps, when the state is whole: a checkpoint may be taken there.
+  struct Hooks {
+    std::function<bool(double t)> wanted;
+    std::function<void()> sampled;
+    std::function<bool()> stop;
+  };
+  void run(const Hooks& hooks);
+
+  const Instant& instant() const { return instant_; }
+  bool broken() const { return broken_; }
+  Vec6 block_wrench(int b) const;  // N, N m about the centroid: joints and contacts
+  Vec6 load_wrench(int b) const;   // loads; on a driven block what holds it on its course
+  std::vector<int> take_opened();   // joints handed over to contact since the last call
+  int touching() const { return debris_.touching(); }
+  double contact_seconds() const { return contact_seconds_; }
+  std::vector<int> take_cracked();  // joints that cracked since the last call, in the order of their number
+
+ private:
+  enum class Sample { none, ledger, full };
+  void begin(const Hooks& hooks);
+  void excite();
+  void joints(int thread);
+  void between();
+  void blocks(int thread);
+  void follow_contacts();
+  void finish(const Hooks& hooks);
+  void drive();
+  void settle_ledger();
+
+  const Model& model_;
+  State& state_;
+  const int threads_;
+  const bool reference_;
+  const int joint_items_;              // batches, or joints for the reference
+  double floor_ = 0;                   // J, below which the ledger's scale does not go
+  Excitation now_;
+  std::vector<double> push_, load_;    // [6 nblock + 6]
+  std::vector<JointSums> joint_sums_;  // per chunk
+  std::vector<BlockSums> block_sums_;
+  std::vector<int> cracked_, opened_;
+  Debris debris_;
+  bool any_cracked_ = false;
+  double contact_seconds_ = 0;
+  std::vector<Tier> tier_before_;
+  Instant instant_;
+  Sample sample_ = Sample::none;
+  bool broken_ = false, stop_ = false, contacts_ = false, between_ = false;
+};
+
+}  // namespace erbs

@@ -1,0 +1,155 @@
+#include "engine/solve/stiffness.h"
+
+#include <cmath>
+#include <limits>
+
+#include "engine/base/units.h"
+#include "engine/solve/joint_geometry.h"
+
+namespace erbs {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+std::size_t z(int i) { return std::size_t(i); }
+
+// M^-1/2 of a block at rest attitude; world axes.
+Mat6 inverse_root_mass(const Model& m, const State& s, int b) {
+  const Mat3 r = s.q[z(b)].toRotationMatrix();
+  const Eigen::SelfAdjointEigenSolver<Mat3> eigen(Mat3(r * m.inertia[z(b)] * r.transpose()));
+  Mat6 root = Mat6::Zero();
+  root.topLeftCorner<3, 3>() = Mat3::Identity() / std::sqrt(m.mass[z(b)]);
+  root.bottomRightCorner<3, 3>() = eigen.operatorInverseSqrt();
+  return root;
+}
+
+Mat6 diagonal(const Joint& joint) {
+  Mat6 k = Mat6::Zero();
+  for (int i = 0; i < 6; ++i) k(i, i) = joint.stiffness[i];
+  return k;
+}
+
+// Largest eigenvalue of a symmetric matrix by Lanczos with full reorthogonalisation (Paige 1972); its residual is added, since
+// the Ritz value errs from below.
+double largest_eigenvalue(const Sparse& a) {
+  const int n = int(a.rows()), most = std::min(n, 120);
+  Eigen::MatrixXd basis(n, most + 1);
+  VecX alpha = VecX::Zero(most), beta = VecX::Zero(most + 1);
+  for (int i = 0; i < n; ++i) basis(i, 0) = 1 + 0.5 * std::sin(1.7 * i);  // fixed start, no symmetry
+  basis.col(0).normalize();
+  double bound = 0;
+  for (int k = 0; k < most; ++k) {
+    VecX w = a * basis.col(k);
+    alpha[k] = w.dot(basis.col(k));
+    for (int pass = 0; pass < 2; ++pass) w -= basis.leftCols(k + 1) * (basis.leftCols(k + 1).transpose() * w);
+    beta[k + 1] = w.norm();
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+    ritz.computeFromTridiagonal(alpha.head(k + 1), beta.segment(1, k));
+    const double value = ritz.eigenvalues()[k], residual = std::fabs(beta[k + 1] * ritz.eigenvectors()(k, k));
+    bound = value + residual;
+    if (residual < 1e-6 * value || beta[k + 1] < 1e-14 * value) break;
+    basis.col(k + 1) = w / beta[k + 1];
+  }
+  return bound;
+}
+
+}  // namespace
+
+Freedom freedoms(const Model& m) {
+  Freedom f;
+  f.first.assign(z(m.nblock) + 1, -1);
+  for (int b = 0; b < m.nblock; ++b)
+    if (m.kind[z(b)] == Kind::moving) f.first[z(b)] = f.count, f.count += 6;
+  return f;
+}
+
+Freedom grounded_freedoms(const Model& m, const State& s) {
+  Freedom f;
+  f.first.assign(z(m.nblock) + 1, -1);
+  for (int b = 0; b < m.nblock; ++b)
+    if (m.kind[z(b)] == Kind::moving && s.grounded[z(b)]) f.first[z(b)] = f.count, f.count += 6;
+  return f;
+}
+
+JointMap joint_map(const Model& m, const State& s, int j) {
+  const JointPose pose = joint_pose(m, s, j);
+  const Mat3 t = pose.frame.transpose();
+  const Vec3 arm_a = 0.5 * (pose.sum + pose.apart), arm_b = 0.5 * (pose.sum - pose.apart);
+  (void)m;
+  JointMap map{Mat6::Zero(), Mat6::Zero()};
+  map.b.topLeftCorner<3, 3>() = t;
+  map.b.topRightCorner<3, 3>() = -t * cross_matrix(arm_b);
+  map.b.bottomRightCorner<3, 3>() = t;
+  map.a.topLeftCorner<3, 3>() = -t;
+  map.a.topRightCorner<3, 3>() = t * cross_matrix(arm_a);
+  map.a.bottomRightCorner<3, 3>() = -t;
+  return map;
+}
+
+Sparse stiffness(const Model& m, const State& s, const Freedom& f) {
+  Triplets entries;
+  entries.reserve(z(m.njoint) * 144);
+  for (int j = 0; j < m.njoint; ++j) {
+    if (s.tier[z(j)] == Tier::open) continue;
+    const JointMap map = joint_map(m, s, j);
+    const Mat6 k = diagonal(m.joint[z(j)]);
+    const int end[2] = {f.first[z(m.joint[z(j)].a)], f.first[z(m.joint[z(j)].b)]};
+    const Mat6* side[2] = {&map.a, &map.b};
+    for (int p = 0; p < 2; ++p)
+      for (int q = 0; q < 2; ++q) {
+        if (end[p] < 0 || end[q] < 0) continue;
+        const Mat6 block = side[p]->transpose() * k * *side[q];
+        for (int r = 0; r < 6; ++r)
+          for (int c = 0; c < 6; ++c) entries.emplace_back(end[p] + r, end[q] + c, block(r, c));
+      }
+  }
+  Sparse out(f.count, f.count);
+  out.setFromTriplets(entries.begin(), entries.end());
+  return out;
+}
+
+StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
+  StepBounds out{infinite, infinite, infinite, infinite, -1};
+  const Freedom f = freedoms(m);
+  std::vector<Mat6> own(z(m.nblock), Mat6::Zero());
+  for (int j = 0; j < m.njoint; ++j) {
+    if (s.tier[z(j)] == Tier::open) continue;
+    const Joint& joint = m.joint[z(j)];
+    const JointMap map = joint_map(m, s, j);
+    const Mat6 k = diagonal(joint);
+    own[z(joint.a)] += map.a.transpose() * k * map.a;
+    own[z(joint.b)] += map.b.transpose() * k * map.b;
+    if (m.kind[z(joint.a)] != Kind::moving && m.kind[z(joint.b)] != Kind::moving) continue;
+    const int light = m.kind[z(joint.b)] == Kind::moving ? joint.b : joint.a;
+    const double distance = (joint.arm_a - joint.arm_b).norm();
+    const auto* mortar = std::get_if<Mortar>(&scene.joint_rules[z(joint.rule)].law);
+    const double modulus = mortar != nullptr && mortar->E > 0 ? mortar->E : m.laws[z(joint.law)].kn * (joint.gap > 1e-6 ? joint.gap : distance);
+    out.wave_passage = std::min(out.wave_passage, distance / std::sqrt(modulus / m.materials[z(m.material[z(light)])].density));
+  }
+  std::vector<Mat6> root(z(m.nblock));
+  for (int b = 0; b < m.nblock; ++b) {
+    if (m.kind[z(b)] != Kind::moving) continue;
+    root[z(b)] = inverse_root_mass(m, s, b);
+    const Mat6 scaled = root[z(b)] * own[z(b)] * root[z(b)];
+    const double lambda = Eigen::SelfAdjointEigenSolver<Mat6>(scaled).eigenvalues()[5];
+    if (lambda <= 0) continue;
+    if (std::sqrt(2 / lambda) < out.block) out.block = std::sqrt(2 / lambda), out.stiffest_block = b;
+    // Gu and Miao (3): T_i = 2 pi sqrt(m_i / k_i), neighbours fastened, in translation
+    const double k = Eigen::SelfAdjointEigenSolver<Mat3>(Mat3(own[z(b)].topLeftCorner<3, 3>())).eigenvalues()[2];
+    if (k > 0) out.element_period = std::min(out.element_period, 2 * pi * std::sqrt(m.mass[z(b)] / k));
+  }
+  if (f.count == 0 || out.block == infinite) return out;
+  Sparse k = stiffness(m, s, f);
+  Triplets entries;
+  for (int b = 0; b < m.nblock; ++b)
+    if (f.first[z(b)] >= 0)
+      for (int r = 0; r < 6; ++r)
+        for (int c = 0; c < 6; ++c)
+          if (root[z(b)](r, c) != 0) entries.emplace_back(f.first[z(b)] + r, f.first[z(b)] + c, root[z(b)](r, c));
+  Sparse scale(f.count, f.count);
+  scale.setFromTriplets(entries.begin(), entries.end());
+  const Sparse scaled = scale * k * scale;
+  out.critical = 2 / std::sqrt(largest_eigenvalue(scaled));
+  return out;
+}
+
+}  // namespace erbs

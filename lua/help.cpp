@@ -1,0 +1,240 @@
+// erbs help, and the editor file: both from the table of what a script can call.
+#include "lua/help.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "engine/base/words.h"
+#include "engine/record/recorder.h"
+#include "lua/api.h"
+#include "lua/options.h"
+
+namespace erbs {
+namespace {
+
+// A value of a list as a script would write it.
+std::string written(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number()) return erbs::written(value.get<double>());
+  if (!value.is_array()) return value.dump();
+  std::vector<std::string> items;
+  for (const Json& item : value) items.push_back(written(item));
+  return fmt::format("{{ {} }}", fmt::join(items, ", "));
+}
+
+// Keys of functions written in Lua, as their list says them.
+Keys keys_of(const Json& list) {
+  Keys keys;
+  for (const Json& item : list) {
+    Key key;
+    key.name = item.value("name", "");
+    key.type = item.value("type", "any");
+    key.unit = item.value("unit", "");
+    key.text = item.value("help", "");
+    key.required = item.value("required", false);
+    if (item.contains("default")) key.fallback = written(item["default"]);
+    if (item.contains("low") && item["low"].is_number()) key.low = item["low"].get<double>();
+    if (item.contains("above") && item["above"].is_number()) key.low = item["above"].get<double>();
+    if (item.contains("high") && item["high"].is_number()) key.high = item["high"].get<double>();
+    if (item.contains("choice"))
+      for (const Json& word : item["choice"]) key.words += (key.words.empty() ? "" : "|") + word.get<std::string>();
+    for (const char* inner : {"keys", "list"})
+      if (item.contains(inner)) key.inner = keys_of(item[inner]);
+    if (item.contains("list")) key.type = "list";
+    keys.push_back(std::move(key));
+  }
+  return keys;
+}
+
+std::string facts(const Key& key) {
+  std::vector<std::string> facts;
+  if (!key.unit.empty()) facts.push_back(key.unit);
+  if (std::isfinite(key.low) && std::isfinite(key.high) && key.low < key.high)
+    facts.push_back(fmt::format("{} to {}", written(key.low), written(key.high)));
+  else if (std::isfinite(key.low) && std::isinf(key.high)) facts.push_back("at least " + written(key.low));
+  if (!key.words.empty()) facts.push_back(key.words);
+  if (key.required) facts.push_back("required");
+  if (!key.required && !key.fallback.empty()) facts.push_back("default " + key.fallback);
+  return fmt::format("{}", fmt::join(facts, "; "));
+}
+
+std::string shown_type(const Key& key) {
+  static const std::pair<const char*, const char*> names[] = {{"vec3", "{x, y, z}"},
+                                                              {"vec", "{x, y, z}"},
+                                                              {"list", "list of tables"},
+                                                              {"points", "{{x, y, z}, ...}"},
+                                                              {"pairs", "{{u, v}, ...}"},
+                                                              {"strings", "string(s)"},
+                                                              {"numbers", "{number, ...}"},
+                                                              {"faces", "{{1, 2, ...}, ...}"},
+                                                              {"direction", "\"x\" or {x, y, z}"},
+                                                              {"points_per_face", "{int, int} or int"},
+                                                              {"metric", "number or function"},
+                                                              {"expected", "number or word"},
+                                                              {"tolerance", "table"},
+                                                              {"initial", "table"},
+                                                              {"parts", "list of tables"}};
+  for (const auto& [type, shown] : names)
+    if (key.type == type) return shown;
+  return key.type;
+}
+
+std::string line_of(const Key& key, size_t name_width, size_t type_width) {
+  const std::string name = key.name == "1" ? "[1]" : key.name;
+  std::string line = fmt::format("  {:<{}}  {:<{}}  {}", name, name_width, shown_type(key), type_width, key.text);
+  const std::string more = facts(key);
+  if (!more.empty()) line += fmt::format(" ({})", more);
+  return line + "\n";
+}
+
+// The keys of a table inside come after it, as brick.length.
+Keys flat(const Keys& keys, const std::string& before) {
+  Keys all;
+  for (const Key& key : keys) {
+    all.push_back(key);
+    all.back().name = before + key.name;
+    for (Key& inner : flat(key.inner, before + key.name + (key.type == "list" ? "[]." : "."))) all.push_back(std::move(inner));
+  }
+  return all;
+}
+
+std::string keys_text(const Keys& given) {
+  const Keys keys = flat(given, "");
+  size_t name = 4, type = 6;
+  for (const Key& key : keys) name = std::max(name, key.name.size()), type = std::max(type, shown_type(key).size());
+  std::string text;
+  for (const Key& key : keys) text += line_of(key, name, type);
+  return text;
+}
+
+std::string quantities_text() {
+  std::string text = "quantities:\n";
+  for (const Quantity& quantity : recorder_quantities()) text += fmt::format("  {:<20} {}\n", quantity.name, quantity.text);
+  return text;
+}
+
+std::string function_text(const Function& function) {
+  const std::string call =
+      takes_table(function) ? function.name + function.parameters : fmt::format("{}({})", function.name, function.parameters);
+  std::string text = fmt::format("{}\n  {}\n", call, function.text);
+  if (!function.returns.empty()) text += fmt::format("  returns {}\n", function.returns);
+  text += (takes_table(function) ? "keys:\n" : "parameters:\n") + keys_text(function.keys);
+  if (function.name == "recorder") text += quantities_text();
+  if (function.name == "metric") text += std::string(run_help);
+  return text;
+}
+
+// LuaCATS: the type of a key.
+std::string editor_type(const Key& key) {
+  static const std::pair<const char*, const char*> types[] = {{"vec3", "erbs.vec3"},
+                                                              {"vec", "erbs.vec3"},
+                                                              {"points", "erbs.vec3[]"},
+                                                              {"pairs", "number[][]"},
+                                                              {"strings", "string|string[]"},
+                                                              {"numbers", "number[]"},
+                                                              {"faces", "integer[][]"},
+                                                              {"direction", "\"x\"|\"y\"|\"z\"|erbs.vec3"},
+                                                              {"points_per_face", "integer|integer[]"},
+                                                              {"law", "erbs.law"},
+                                                              {"wave", "erbs.wave|number|fun(t: number): number"},
+                                                              {"function", "fun(): any"},
+                                                              {"initial", "erbs.initial"},
+                                                              {"parts", "erbs.part[]"},
+                                                              {"metric", "number|fun(run: erbs.run): number?"},
+                                                              {"expected", "number|string|boolean?"},
+                                                              {"tolerance", "erbs.tolerance"}};
+  if (!key.inner.empty()) {
+    std::vector<std::string> members;
+    for (const Key& inner : key.inner)
+      members.push_back(fmt::format("{}{}: {}", inner.name, inner.required ? "" : "?", editor_type(inner)));
+    return fmt::format("{{ {} }}{}", fmt::join(members, ", "), key.type == "list" ? "[]" : "");
+  }
+  if (key.type == "string" && !key.words.empty()) {
+    std::string words;
+    for (const char c : key.words) words += c == '|' ? std::string("\"|\"") : std::string(1, c);
+    return "\"" + words + "\"";
+  }
+  for (const auto& [type, shown] : types)
+    if (key.type == type) return shown;
+  return key.type;
+}
+
+std::string editor_text(const Key& key) {
+  const std::string more = facts({"", "", key.unit, "", key.low, key.high, false, "", key.fallback, {}});
+  return key.text + (more.empty() ? "" : fmt::format(" [{}]", more));
+}
+
+std::string editor_fields(const Keys& keys) {
+  std::string text;
+  for (const Key& key : keys)
+    text += fmt::format("---@field {}{} {} {}\n", key.name == "1" ? "[1]" : key.name, key.required ? "" : "?", editor_type(key),
+                        editor_text(key));
+  return text;
+}
+
+std::string editor_function(const Function& function) {
+  std::string text;
+  if (takes_table(function)) text += fmt::format("---@class erbs.{}_keys\n{}\n", function.name, editor_fields(function.keys));
+  text += fmt::format("---{}\n", function.text);
+  if (takes_table(function)) {
+    text += fmt::format("---@param keys erbs.{}_keys\n", function.name);
+  } else {
+    for (const Key& key : function.keys)
+      text += fmt::format("---@param {}{} {} {}\n", key.name, key.required ? "" : "?", editor_type(key), editor_text(key));
+  }
+  if (!function.returns.empty()) {
+    const size_t colon = function.returns.find(": ");
+    const std::string type = function.returns.substr(0, colon);
+    text +=
+        fmt::format("---@return {} # {}\n", type == "law" || type == "wave" ? "erbs." + type : type, function.returns.substr(colon + 2));
+  }
+  return text + fmt::format("function {}({}) end\n\n", function.name, takes_table(function) ? "keys" : function.parameters);
+}
+
+Function lua_function(const Json& item) {
+  return {item.value("name", ""), nullptr, "{ ... }", "", item.value("help", ""), keys_of(item.value("keys", Json::array()))};
+}
+
+}  // namespace
+
+std::vector<Function> all_functions() {
+  std::vector<Function> all = api();
+  Script script;
+  for (const Json& item : script.lua_functions())
+    if (item.is_object()) all.push_back(lua_function(item));
+  return all;
+}
+
+std::string function_help(const std::string& name) {
+  std::vector<std::string> known;
+  for (const Function& function : all_functions()) {
+    if (function.name == name) return function_text(function);
+    known.push_back(function.name);
+  }
+  for (const char* verb : {"run", "check", "render", "record", "test", "help", "version"}) known.emplace_back(verb);
+  throw Error(fmt::format("there is no verb and no function {}{}", name, did_you_mean(name, known)));
+}
+
+std::string functions_list() {
+  std::string text = "Scene functions (erbs help FUNCTION):\n";
+  for (const Function& function : all_functions()) text += fmt::format("  {:<14} {}\n", function.name, function.text);
+  return text + "Units: m cm mm km  s ms  kg t  N kN MN  Pa kPa MPa GPa  J Hz  deg g pi, as factors: 5*mm, 0.4*g\n";
+}
+
+std::string editor_file() {
+  std::string text = std::string(editor_head);
+  for (const auto& [name, keys] : {std::pair{"initial", keys_of<Initial>()}, {"part", part_keys()}, {"tolerance", tolerance_keys()}})
+    text += fmt::format("---@class erbs.{}\n{}\n", name, editor_fields(keys));
+  for (const Function& function : all_functions()) text += editor_function(function);
+  return text;
+}
+
+int verb_help(const Options& options, const std::string& usage) {
+  if (options.words.empty()) fmt::print("{}\n{}", usage, functions_list());
+  else if (options.words.front() == "--editor") fmt::print("{}", editor_file());
+  else
+    for (const auto& word : options.words) fmt::print("{}", function_help(word));
+  return exit_ok;
+}
+
+}  // namespace erbs

@@ -1,0 +1,135 @@
+// The program erbs: reads the command line, calls the verb, turns trouble into an exit code. The one door to CLI11.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+
+#include "lua/options.h"
+
+namespace {
+
+using erbs::Options;
+
+struct CommandLine {
+  Options options;
+  std::vector<std::string> defines;
+  std::string until, max_wall, checkpoint_every;
+};
+
+void add_output(CLI::App& verb, CommandLine& line) {
+  verb.add_option("-o", line.options.directory, "folder for the results (default runs/<scene name>)")->type_name("DIR");
+  verb.add_flag("--force", line.options.force, "replace an earlier run there");
+  verb.add_flag("-q,--quiet", line.options.quiet, "print errors only");
+}
+
+void add_scene(CLI::App& verb, CommandLine& line) {
+  verb.add_option("-D", line.defines, "give a param of the scene a value, with units: -D pga=0.8*g")
+      ->type_name("name=value")
+      ->expected(1)
+      ->take_all();
+  verb.add_flag("--allow-unstable", line.options.allow_unstable, "let a time step past the limit run");
+}
+
+void add_run(CLI::App& app, CommandLine& line) {
+  CLI::App& run = *app.add_subcommand("run", "run a scene into a folder of results");
+  run.add_option("SCENE.lua", line.options.words, "the scene")->required()->expected(1);
+  add_output(run, line);
+  add_scene(run, line);
+  run.add_option("--threads", line.options.threads, "threads (default: as many as the machine has)")->check(CLI::Range(1, 1024));
+  run.add_option("--until", line.until, "stop at this simulated time, with a checkpoint")->type_name("T");
+  run.add_flag("--resume", line.options.resume, "go on from the checkpoint in the folder");
+  run.add_option("--max-wall", line.max_wall, "stop after this time of the clock, with a checkpoint")->type_name("30m");
+  run.add_option("--checkpoint-every", line.checkpoint_every, "time of the clock between checkpoints (default 60s)")->type_name("60s");
+  run.add_flag("--video", line.options.video, "draw the run and make its video afterwards");
+  run.add_flag("--log-json", line.options.log_json, "progress as lines of JSON");
+  run.add_flag("--fail-on-collapse", line.options.fail_on_collapse, "exit with 4 when the structure collapses");
+}
+
+void add_others(CLI::App& app, CommandLine& line) {
+  CLI::App& check = *app.add_subcommand("check", "every mistake of a scene at once, and what a run would be; runs nothing");
+  check.add_option("SCENE.lua", line.options.words, "the scenes")->required();
+  check.add_flag("-q,--quiet", line.options.quiet, "print errors only");
+  add_scene(check, line);
+
+  CLI::App& render = *app.add_subcommand("render", "draw a run: frames, video, curves (options: erbs-render --help)");
+  render.prefix_command();
+
+  CLI::App& record = *app.add_subcommand("record", "a ground motion: points, dt, peaks, end values, Arias intensity, spectrum");
+  record.add_option("FILE", line.options.words, "PEER AT2, CSV or text of one or two columns")->required();
+
+  CLI::App& test = *app.add_subcommand("test", "run scenes that carry expectations, and print the table");
+  test.add_option("DIR|SCENE.lua", line.options.words, "folders and scenes")->required();
+  test.add_option("-j", line.options.jobs, "how many at once (default: as many as the machine has)")->check(CLI::Range(1, 1024));
+  test.add_option("--threads", line.options.threads, "threads of each run")->check(CLI::Range(1, 1024));
+  test.add_option("--max-wall", line.max_wall, "stop a run after this time of the clock")->type_name("10m");
+  add_scene(test, line);
+  test.add_option("-o", line.options.directory, "folder for the runs (default runs/test)")->type_name("DIR");
+  test.add_flag("-q,--quiet", line.options.quiet, "no progress");
+
+  CLI::App& help = *app.add_subcommand("help", "this text, or the help of a verb or of a scene function");
+  help.add_option("VERB|FUNCTION", line.options.words, "what to explain");
+  help.prefix_command();
+  app.add_subcommand("version", "the version and the commit it was built from");
+}
+
+// -D name=value, --until and the like, once the words are known.
+void settle(CommandLine& line) {
+  Options& options = line.options;
+  for (const auto& define : line.defines) {
+    const size_t equals = define.find('=');
+    if (equals == std::string::npos || equals == 0) throw erbs::Error("-D " + define + ": write -D name=value, such as -D pga=0.8*g");
+    options.overrides.emplace_back(define.substr(0, equals), define.substr(equals + 1));
+  }
+  if (!line.until.empty()) options.until = erbs::seconds_of(line.until, "--until");
+  if (!line.max_wall.empty()) options.max_wall = erbs::seconds_of(line.max_wall, "--max-wall");
+  if (!line.checkpoint_every.empty()) options.checkpoint_every = erbs::seconds_of(line.checkpoint_every, "--checkpoint-every");
+  if (options.force && options.resume) throw erbs::Error("--force and --resume exclude each other; keep one");
+}
+
+int call(const CLI::App& app, CommandLine& line) {
+  const CLI::App& verb = *app.get_subcommands().front();
+  const std::string name = verb.get_name();
+  settle(line);
+  if (name == "run") return erbs::verb_run(line.options);
+  if (name == "check") return erbs::verb_check(line.options);
+  if (name == "record") return erbs::verb_record(line.options);
+  if (name == "test") return erbs::verb_test(line.options);
+  if (name == "version") return erbs::verb_version();
+  for (const auto& word : verb.remaining()) line.options.words.push_back(word);
+  if (name == "render") return erbs::verb_render(line.options);
+  // help of a verb is CLI11's own
+  if (!line.options.words.empty())
+    for (const CLI::App* other : app.get_subcommands({}))
+      if (other->get_name() == line.options.words.front()) return std::printf("%s", other->help("erbs").c_str()) < 0;
+  // not app.help(), which would explain the verb help
+  return erbs::verb_help(line.options, app.get_formatter()->make_help(&app, "erbs", CLI::AppFormatMode::Normal));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CommandLine line;
+  CLI::App app("ERBS: collapse of masonry by rigid blocks and mortar springs", "erbs");
+  app.require_subcommand(1);
+  add_run(app, line);
+  add_others(app, line);
+  try {
+    app.parse(argc, argv);
+    return call(app, line);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    std::fprintf(stderr, "%s; see erbs help\n", error.what());
+    return erbs::exit_usage;
+  } catch (const erbs::NumbersError& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return erbs::exit_numbers;
+  } catch (const erbs::Errors& errors) {
+    std::fprintf(stderr, "%s\n", errors.what());
+    return erbs::exit_usage;
+  } catch (const erbs::Error& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return erbs::exit_usage;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return erbs::exit_numbers;
+  }
+}

@@ -1,0 +1,139 @@
+-- How one course of one stretch of wall is laid: which pieces, and where the head joints come.
+--
+-- Where whole and half bricks do not fill a stretch, the cheapest of three remedies is taken: a cut closer, a half, or head joints a
+-- little wider. "Cheapest" is the cost below: few cuts, no small ones, and head joints far from those of the course beneath.
+-- Positions u run along the wall, in metres.
+
+local eps = masonry_parts.eps  -- m, lengths closer than this are equal
+
+local function piece_kind(job, length)
+  if math.abs(length - job.full) < eps then return "full" end
+  if math.abs(length - job.half) < eps then return "half" end
+  return "cut"
+end
+
+-- A cut costs 1, a small one up to 2, one away from the ends of its stretch a little more; a half costs 0.4.
+local function piece_cost(job, length, at_end)
+  local kind = piece_kind(job, length)
+  if kind == "full" then return 0 end
+  if kind == "half" then return 0.4 end
+  return 1 + math.max(0, (job.half - length) / job.half) + (at_end and 0 or 0.2)
+end
+
+-- A head joint at u costs by its lap, the distance from the nearest joint beneath: much below a quarter of a brick, little below a half.
+local function lap_cost(masonry, u, below)
+  local lap, quarter, cost = masonry.full, masonry.full / 4, 0
+  for _, b in ipairs(below) do lap = math.min(lap, math.abs(b - u)) end
+  if lap < quarter - eps then cost = 1 + 6 * (quarter - lap) / quarter end
+  if lap < masonry.half then cost = cost + 0.3 * (masonry.half - lap) / masonry.half end
+  return cost
+end
+
+local function joint_cost(job, u)
+  local cost = job.joint_costs[u]
+  if not cost then
+    cost = lap_cost(job, u, job.below)
+    job.joint_costs[u] = cost
+  end
+  return cost
+end
+
+-- The cheapest way to fill [s, job.stop]: a chain { length, joint = {u, width} | nil, rest = chain, cost }. Positions tried for the
+-- next joint: that of the pattern, after a whole or a half brick, and every `step` (for a cut brick).
+local function fill(job, s)
+  local key = math.floor(s * 1e5 + 0.5)
+  local answer = job.memo[key]
+  if answer then return answer end
+  answer = { cost = math.huge }
+  job.memo[key] = answer
+  local rest, first = job.stop - s, math.abs(s - job.start) < eps
+  if rest < job.full + eps and rest > job.closer - eps then
+    answer.cost, answer.length = piece_cost(job, rest, true), rest
+  end
+  local function try(u, width, extra)
+    local length = u - width / 2 - s
+    if length < job.closer - eps or length > job.full + eps or u + width / 2 + job.closer > job.stop + eps then return end
+    local here = piece_cost(job, length, first) + joint_cost(job, u) + extra
+    if here >= answer.cost then return end
+    local after = fill(job, u + width / 2)
+    if here + after.cost < answer.cost - 1e-9 then
+      answer.cost, answer.length, answer.joint, answer.rest = here + after.cost, length, { u = u, width = width }, after
+    end
+  end
+  for _, p in ipairs(job.pattern or {}) do try(p.u, p.width, 0) end
+  local off_pattern = job.pattern and 0.6 or 0
+  try(s + job.full + job.t / 2, job.t, off_pattern)
+  try(s + job.half + job.t / 2, job.t, off_pattern)
+  for k = math.ceil((s + job.closer) / job.step), math.floor((s + job.full) / job.step) do
+    try(k * job.step + job.t / 2, job.t, off_pattern)
+  end
+  return answer
+end
+
+-- The remedy without a cut: n whole bricks (and a half at the end) with equal head joints wider than t.
+local function widened(job, with_half)
+  local span, t = job.stop - job.start - (with_half and job.half or 0), job.t
+  local n = math.floor((span + t + eps) / (job.full + t))
+  local joints = n - (with_half and 0 or 1)
+  if joints < 1 then return nil end
+  local width = (span - n * job.full) / joints
+  if width < t + eps or width > job.joint_max + eps then return nil end
+  local lengths, cost, u, chain, last = {}, 0.4 * joints * (width - t) / math.max(t, eps), job.start, nil, nil
+  for i = 1, n do lengths[i] = job.full end
+  if with_half then lengths[n + 1] = job.half end
+  for i, length in ipairs(lengths) do
+    local link = { length = length }
+    cost = cost + piece_cost(job, length, true)
+    if i < #lengths then
+      link.joint = { u = u + length + width / 2, width = width }
+      cost = cost + joint_cost(job, link.joint.u)
+      u = u + length + width
+    end
+    if last then last.rest = link else chain = link end
+    last = link
+  end
+  chain.cost = cost
+  return chain
+end
+
+-- Pieces and head joints of one stretch [start, stop] (no joint at its ends). below: positions of the head joints beneath.
+-- pattern: joints {u, width} of the solid wall to keep to, or nil where the pattern itself is being chosen.
+local function lay(masonry, start, stop, below, pattern)
+  local near, kept = {}, pattern and {}
+  local signature = { string.format("%.2f %.2f |", start * 1e3, stop * 1e3) }
+  local function within(u) return u > start - masonry.full and u < stop + masonry.full end
+  for _, u in ipairs(below) do
+    if within(u) then near[#near + 1], signature[#signature + 1] = u, string.format("%.2f", u * 1e3) end
+  end
+  for _, p in ipairs(pattern or {}) do
+    if within(p.u) then kept[#kept + 1], signature[#signature + 1] = p, string.format("p%.2f", p.u * 1e3) end
+  end
+  local key = table.concat(signature, " ")
+  local found = masonry.laid[key]
+  if found ~= nil then return found end
+  local job = setmetatable({ start = start, stop = stop, below = near, pattern = kept, memo = {}, joint_costs = {} }, { __index = masonry })
+  local chain = fill(job, start)
+  if not pattern then
+    for _, with_half in ipairs { false, true } do
+      local other = widened(job, with_half)
+      if other and other.cost < chain.cost then chain = other end
+    end
+  end
+  found = false
+  if chain.length then
+    found = { pieces = {}, joints = {}, cost = chain.cost }
+    local u = start
+    while chain do
+      found.pieces[#found.pieces + 1] = { u = u, length = chain.length }
+      if chain.joint then
+        found.joints[#found.joints + 1] = chain.joint
+        u = chain.joint.u + chain.joint.width / 2
+      end
+      chain = chain.rest
+    end
+  end
+  masonry.laid[key] = found
+  return found
+end
+
+masonry_parts.lay, masonry_parts.lap_cost, masonry_parts.piece_kind = lay, lap_cost, piece_kind

@@ -1,0 +1,195 @@
+-- What wall{...} and building{...} take: one table for reading, messages and help; and the reader that reports every mistake at once.
+-- First of four files: masonry_keys, masonry_bond, masonry_runs, masonry. Each adds what the next ones use to masonry_parts.
+
+-- type: number (low, high allowed ends included; `above` excluded), integer, string, boolean, vec (three numbers), table
+
+local brick_keys = {
+  { name = "length", unit = "m", type = "number", above = 0, required = true, help = "along the wall" },
+  { name = "width", unit = "m", type = "number", above = 0, required = true, help = "across the wall: the wall's thickness" },
+  { name = "height", unit = "m", type = "number", above = 0, required = true, help = "of one course without its joint" },
+}
+local opening_keys = {
+  { name = "wall", type = "string", help = "name of the wall it is in (building only)" },
+  { name = "name", type = "string", help = "default: kind and number, e.g. window2" },
+  { name = "kind", type = "string", default = "window", choice = { "window", "door" }, help = "a door starts at the floor" },
+  { name = "storey", type = "any", default = "all", help = "1, 2, ..., a list of them, or \"all\"" },
+  { name = "at", unit = "m", type = "number", low = 0, help = "left jamb, from the wall's left end seen from outside" },
+  { name = "centre", unit = "m", type = "number", low = 0, help = "middle of the opening, instead of `at`" },
+  { name = "width", unit = "m", type = "number", above = 0, required = true, help = "between the jambs" },
+  { name = "sill", unit = "m", type = "number", low = 0, default = 0, help = "above the floor; snapped to courses" },
+  { name = "height", unit = "m", type = "number", above = 0, required = true, help = "clear; snapped to courses" },
+  { name = "lintel", type = "boolean", default = true, help = "false: nothing spans the opening (it must end at the top)" },
+}
+local lintel_keys = {
+  { name = "bearing", unit = "m", type = "number", above = 0, help = "length that rests on either jamb; default half a brick" },
+  { name = "courses", type = "integer", low = 1, default = 1, help = "height in courses" },
+  { name = "material", type = "string", help = "default: that of the bricks" },
+  { name = "group", type = "string", default = "lintel", help = "group of its blocks" },
+}
+local slab_keys = {
+  { name = "thickness", unit = "m", type = "number", above = 0, required = true, help = "without its bed joint" },
+  { name = "overhang", unit = "m", type = "number", low = 0, default = 0, help = "beyond the outer faces of the walls" },
+  { name = "material", type = "string", help = "default: that of the bricks" },
+  { name = "group", type = "string", default = "slab", help = "group of its blocks" },
+}
+local base_keys = {
+  { name = "thickness", unit = "m", type = "number", above = 0, required = true, help = "its top is at `at`" },
+  { name = "margin", unit = "m", type = "number", low = 0, default = 0, help = "beyond the walls on every side" },
+  { name = "material", type = "string", help = "default: that of the bricks" },
+  { name = "group", type = "string", default = "base", help = "group of its block" },
+}
+local common_keys = {
+  { name = "at", unit = "m", type = "vec", default = { 0, 0, 0 }, help = "where the plan's origin stands; z is the top of the support" },
+  { name = "brick", type = "table", keys = brick_keys, required = true, help = "size of a whole brick" },
+  { name = "joint", unit = "m", type = "number", low = 0, required = true, help = "thickness of bed and head joints; 0 is dry masonry" },
+  { name = "closer", unit = "m", type = "number", above = 0, default = 0.04, help = "shortest piece that may be cut" },
+  { name = "joint_max", unit = "m", type = "number", low = 0, help = "widest head joint; default 1.5 joints" },
+  { name = "shift", type = "integer", low = 0, high = 1, default = 0, help = "1: start with the other of the two alternating courses" },
+  { name = "openings", type = "table", list = opening_keys, default = {}, help = "doors and windows" },
+  { name = "lintel", type = "table", keys = lintel_keys, default = {}, help = "the pieces over openings" },
+  { name = "base", type = "table", keys = base_keys, help = "a fixed plate below; default none (stand on ground{} or another block)" },
+  { name = "material", type = "string", default = "brick", help = "of the bricks" },
+  { name = "quiet", type = "boolean", default = false, help = "true: do not print the summary" },
+}
+
+-- Adds the keys both functions have, and to the help of each key that is a table the names of its keys.
+local function with_common(keys)
+  for _, key in ipairs(common_keys) do keys[#keys + 1] = key end
+  local whole = {}
+  for i, key in ipairs(keys) do
+    whole[i] = {}
+    for name, value in pairs(key) do whole[i][name] = value end
+    if key.keys or key.list then
+      local names = {}
+      for n, inner in ipairs(key.keys or key.list) do names[n] = inner.name .. (inner.required and "*" or "") end
+      whole[i].help = string.format("%s: %s{ %s }", key.help, key.list and "a list of " or "", table.concat(names, ", "))
+    end
+  end
+  return whole
+end
+
+--- Everything this file adds to the language: for help, editors and tests.
+masonry_functions = {
+  {
+    name = "wall",
+    help = "A free-standing straight wall in running bond, both ends plain.",
+    keys = with_common {
+      { name = "name", type = "string", default = "wall", help = "first word of its blocks' names, and their group" },
+      { name = "group", type = "string", help = "group of the bricks; default the name" },
+      { name = "length", unit = "m", type = "number", above = 0, required = true, help = "end to end" },
+      { name = "axis", type = "string", default = "x", choice = { "x", "y" }, help = "direction it runs in" },
+      { name = "courses", type = "integer", low = 1, help = "number of courses; or give height" },
+      { name = "height", unit = "m", type = "number", above = 0, help = "instead of courses; snapped to whole ones" },
+    },
+  },
+  {
+    name = "building",
+    help = "Walls along a plan with interlocked corners, storey on storey, with openings, lintels and slabs.",
+    keys = with_common {
+      { name = "name", type = "string", default = "", help = "first word of all block names; default none" },
+      { name = "group", type = "string", default = "wall", help = "groups of the walls are <group>_<wall>" },
+      { name = "plan", unit = "m", type = "table", required = true, help = "outer size {x, y}, or outer corners {{x,y}, ...} counter-clockwise" },
+      { name = "closed", type = "boolean", default = true, help = "false: the last corner is not joined to the first" },
+      { name = "walls", type = "table", help = "names of the runs; default south, east, north, west for a rectangle, else wall1, ..." },
+      { name = "storeys", type = "integer", low = 1, default = 1, help = "number of storeys" },
+      { name = "courses", type = "any", required = true, help = "per storey: a number, or a list with one for each" },
+      { name = "slab", type = "table", keys = slab_keys, help = "a rigid plate on the walls of every storey; default none" },
+    },
+  },
+}
+
+-- ---- reading and messages ------------------------------------------------------------------------------------------------------
+
+local function distance(a, b)  -- letters to change, add or drop (Levenshtein 1966)
+  local row = {}
+  for j = 0, #b do row[j] = j end
+  for i = 1, #a do
+    local diagonal = row[0]
+    row[0] = i
+    for j = 1, #b do
+      local change = diagonal + (a:byte(i) == b:byte(j) and 0 or 1)
+      diagonal = row[j]
+      row[j] = math.min(change, row[j] + 1, row[j - 1] + 1)
+    end
+  end
+  return row[#b]
+end
+
+local function nearest(word, names)
+  local best, least
+  for _, name in ipairs(names) do
+    local d = distance(tostring(word), name)
+    if not least or d < least then best, least = name, d end
+  end
+  return best
+end
+
+local function millimetres(x) return string.format("%g mm", math.floor(x * 1e5 + 0.5) / 100) end
+
+local function is_vec(v) return type(v) == "table" and #v == 3 and type(v[1] + v[2] + v[3]) == "number" end
+
+local read  -- read(what, given, keys, mistakes) -> a table with the defaults filled in
+
+local function read_value(what, key, value, mistakes)
+  local function wrong(...) mistakes[#mistakes + 1] = string.format("%s: %s ", what, key.name) .. string.format(...) end
+  local kind = math.type(value) == "integer" and "integer" or type(value)
+  if key.type == "number" or key.type == "integer" then
+    if type(value) ~= "number" then return wrong("must be a number, not a %s", kind) end
+    if key.type == "integer" and value ~= math.floor(value) then return wrong("= %g must be a whole number", value) end
+    if key.above and not (value > key.above) then return wrong("= %g must be above %g%s", value, key.above, key.unit and " " .. key.unit or "") end
+    if (key.low and not (value >= key.low)) or (key.high and not (value <= key.high)) then
+      return wrong("= %g is out of range; allowed: %s", value, key.high and key.low .. " to " .. key.high or key.low .. " or more")
+    end
+  elseif key.type == "vec" then
+    if not (type(value) == "table" and pcall(is_vec, value) and is_vec(value)) then return wrong("must be three numbers {x, y, z}") end
+  elseif key.type ~= "any" and key.type ~= kind then
+    return wrong("must be a %s, not a %s", key.type, kind)
+  end
+  if key.choice and value ~= key.choice[1] and value ~= key.choice[2] then
+    return wrong("= \"%s\" is not known; allowed: %s", value, table.concat(key.choice, ", "))
+  end
+  if key.type == "integer" then return math.tointeger(value) end  -- a number given by -D is no integer yet
+  if key.keys then return read(what .. "." .. key.name, value, key.keys, mistakes) end
+  if key.list then
+    local all = {}
+    for i, item in ipairs(value) do all[i] = read(string.format("%s.%s[%d]", what, key.name, i), item, key.list, mistakes) end
+    return all
+  end
+  return value
+end
+
+function read(what, given, keys, mistakes)
+  if type(given) ~= "table" then
+    mistakes[#mistakes + 1] = string.format("%s: must be a table of named keys, not a %s", what, type(given))
+    return {}
+  end
+  local out, known, names = {}, {}, {}
+  for i, key in ipairs(keys) do known[key.name], names[i] = key, key.name end
+  local strange = {}
+  for name in pairs(given) do
+    if not known[name] then strange[#strange + 1] = tostring(name) end
+  end
+  table.sort(strange)
+  for _, name in ipairs(strange) do
+    mistakes[#mistakes + 1] = string.format("%s: unknown key \"%s\"; did you mean \"%s\"?", what, name, nearest(name, names))
+  end
+  for _, key in ipairs(keys) do
+    local value = given[key.name]
+    if value == nil then value = key.default end
+    if value ~= nil then
+      out[key.name] = read_value(what, key, value, mistakes)
+    elseif key.required then
+      mistakes[#mistakes + 1] = string.format("%s: %s is missing (%s%s)", what, key.name, key.unit and key.unit .. "; " or "", key.help)
+    end
+  end
+  return out
+end
+
+-- Ends the call with every mistake found so far; `public` below turns it into an error at the user's line.
+local function stop_if(mistakes)
+  if #mistakes > 0 then error({ masonry = table.concat(mistakes, "\n") }, 0) end
+end
+
+local function fail(...) stop_if { string.format(...) } end
+
+masonry_parts = { read = read, stop_if = stop_if, fail = fail, nearest = nearest, millimetres = millimetres, eps = 1e-7 }

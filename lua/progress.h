@@ -1,0 +1,30 @@
+// The progress of a run: one line kept up to date on a terminal, a plain line every 10 s otherwise.
+#pragma once
+#include <chrono>
+#include <string>
+
+#include "engine/analysis/dynamic.h"
+
+namespace erbs {
+
+class ProgressPrinter {
+ public:
+  ProgressPrinter(bool quiet, bool json);
+  ~ProgressPrinter();
+  ProgressPrinter(const ProgressPrinter&) = delete;
+  ProgressPrinter& operator=(const ProgressPrinter&) = delete;
+  void show(const Progress& now);  // cheap to call often: prints when it is due
+  void end();                      // leaves the terminal at the start of a fresh line
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool quiet_, json_, terminal_, open_ = false;
+  Clock::time_point begin_, due_, last_;
+  double first_time_ = -1, last_time_ = 0;  // s, simulated: a resumed run does not begin at zero
+  long first_steps_ = 0, last_steps_ = 0;
+};
+
+std::string duration_text(double seconds);  // "3.2 s", "4 min 05 s", "2 h 10 min"
+bool colors(int file);                      // a terminal, and NO_COLOR not set
+
+}  // namespace erbs

@@ -1,0 +1,278 @@
+#include "lua/script.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <lua5.4/lua.hpp>
+#include <sstream>
+
+#include "engine/base/words.h"
+#include "engine/record/recorder.h"
+#include "lua/api.h"
+#include "lua/embedded.h"
+
+namespace erbs {
+namespace {
+
+const char* const language_key = "erbs.language";  // in the registry: what every scene sees
+const char* const scene_key = "erbs.scene";        // in the registry: the globals of the scene
+
+// Every name of the language, for suggestions.
+std::vector<std::string> known_names(lua_State* lua) {
+  std::vector<std::string> names;
+  lua_getfield(lua, LUA_REGISTRYINDEX, language_key);
+  for (lua_pushnil(lua); lua_next(lua, -2) != 0; lua_pop(lua, 1))
+    if (lua_type(lua, -2) == LUA_TSTRING) names.emplace_back(lua_tostring(lua, -2));
+  lua_pop(lua, 1);
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+// Reading a global that nobody has set.
+int unknown_global(lua_State* lua, Context&) {
+  const std::string name = lua_type(lua, 2) == LUA_TSTRING ? lua_tostring(lua, 2) : described(lua, 2);
+  const std::string near = nearest(name, known_names(lua));
+  throw Error(
+      fmt::format("unknown name \"{}\"{}", name,
+                  near.empty() ? "; set it before, or see erbs help for the names there are" : fmt::format("; did you mean \"{}\"?", near)),
+      current_place(lua));
+}
+
+// Setting a global: names of the language stay what they are.
+int set_global(lua_State* lua, Context&) {
+  lua_getfield(lua, LUA_REGISTRYINDEX, language_key);
+  lua_pushvalue(lua, 2);
+  if (lua_rawget(lua, -2) != LUA_TNIL)
+    throw Error(fmt::format("\"{}\" is a name of the language; write local {} = ..., or take another name", lua_tostring(lua, 2),
+                            lua_tostring(lua, 2)),
+                current_place(lua));
+  lua_settop(lua, 3);
+  lua_rawset(lua, 1);
+  return 0;
+}
+
+void set_metatable(lua_State* lua, int index, Body read, Body write) {
+  index = lua_absindex(lua, index);
+  lua_newtable(lua);
+  if (read) {
+    push_guarded(lua, read);
+  } else {
+    lua_getfield(lua, LUA_REGISTRYINDEX, language_key);
+  }
+  lua_setfield(lua, -2, "__index");
+  if (write) {
+    push_guarded(lua, write);
+    lua_setfield(lua, -2, "__newindex");
+  }
+  lua_pushliteral(lua, "locked");
+  lua_setfield(lua, -2, "__metatable");
+  lua_setmetatable(lua, index);
+}
+
+// The language is the sandbox's globals, the API and the embedded files; the scene's globals lie in a table of their own over it.
+void open_language(lua_State* lua, Context& context) {
+  open_values(lua);
+  open_api(lua);
+  lua_pushglobaltable(lua);
+  lua_pushvalue(lua, -1);
+  lua_setfield(lua, LUA_REGISTRYINDEX, language_key);
+  for (const Embedded& file : embedded()) {
+    const std::string name = "=" + std::string(file.name);
+    if (luaL_loadbufferx(lua, file.text.data(), file.text.size(), name.c_str(), "t") != LUA_OK)
+      throw std::logic_error(fmt::format("internal error: {}", lua_tostring(lua, -1)));
+    call_script(lua, context, 0, 0);
+  }
+  set_metatable(lua, -1, unknown_global, nullptr);
+  lua_newtable(lua);
+  set_metatable(lua, -1, nullptr, set_global);
+  lua_pushvalue(lua, -1);
+  lua_setfield(lua, LUA_REGISTRYINDEX, scene_key);
+  lua_setfield(lua, -2, "_G");
+  lua_pop(lua, 1);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
+// "scene.lua:12" of "scene.lua:12: box: ..."; "" where there is none
+std::string place_of(const std::string& message) {
+  size_t digits = 0;
+  for (size_t colon = message.find(':'); colon != std::string::npos; colon = message.find(':', colon + 1)) {
+    for (digits = 0; std::isdigit(static_cast<unsigned char>(message[colon + 1 + digits])); ++digits) {}
+    if (digits > 0) return message.substr(0, colon + 1 + digits) + ":";
+  }
+  return {};
+}
+
+// One message of several lines (a masonry function that reports all its mistakes) becomes several, each with its place.
+void add_messages(std::vector<std::string>& mistakes, const std::string& message) {
+  const std::string place = place_of(message);
+  for (const auto& line : lines_of(message)) {
+    const std::string whole = place.empty() || line.starts_with(place) ? line : place + " " + line;
+    if (std::find(mistakes.begin(), mistakes.end(), whole) == mistakes.end()) mistakes.push_back(whole);
+  }
+}
+
+void evaluate_overrides(lua_State* lua, Context& context) {
+  for (Override& item : context.overrides) {
+    const std::string name = "-D " + item.name + "=" + item.expression;
+    try {
+      load_chunk(lua, context, "return " + item.expression, name);
+      call_script(lua, context, 0, 1);
+      if (lua_type(lua, -1) != LUA_TNUMBER || !std::isfinite(lua_tonumber(lua, -1)))
+        throw Error(fmt::format("{}: the value must be a number, such as 0.8*g, not {}", name, described(lua, -1)));
+      item.value = lua_tonumber(lua, -1);
+      lua_pop(lua, 1);
+    } catch (const Error& error) { context.mistakes.emplace_back(error.what()); }
+  }
+}
+
+// Samples the waves that are Lua functions, now that the duration is known.
+void sample_waves(lua_State* lua, Context& context) {
+  for (const Sampling& sampling : context.samplings) {
+    const double duration = context.scene.analysis.duration;
+    const auto n = static_cast<size_t>(std::ceil(duration / sampling.sample)) + 1;
+    if (n > 20'000'000) throw Error(fmt::format("a wave sampled {} times is too long; raise sample", n), sampling.place);
+    std::vector<double> times(n), values(n);
+    for (size_t i = 0; i < n; ++i) {
+      times[i] = static_cast<double>(i) * sampling.sample;
+      lua_rawgeti(lua, LUA_REGISTRYINDEX, sampling.function);
+      lua_pushnumber(lua, times[i]);
+      call_script(lua, context, 1, 1);
+      if (lua_type(lua, -1) != LUA_TNUMBER || !std::isfinite(lua_tonumber(lua, -1)))
+        throw Error(
+            fmt::format("the wave's function gave {} at t = {} s; it must return a finite number", described(lua, -1), written(times[i])),
+            sampling.place);
+      values[i] = lua_tonumber(lua, -1);
+      lua_pop(lua, 1);
+    }
+    context.scene.loads[sampling.load].wave = make_table(std::move(times), std::move(values), true);
+  }
+}
+
+void resolve_groups(Context& context) {
+  for (const GroupRecorder& item : context.group_recorders) {
+    Recorder& recorder = context.scene.recorders[item.recorder];
+    std::vector<std::string> groups;
+    for (const Block& block : context.scene.blocks) {
+      if (block.group == item.group) recorder.blocks.push_back(block.name);
+      else if (std::find(groups.begin(), groups.end(), block.group) == groups.end()) groups.push_back(block.group);
+    }
+    if ((item.others ? recorder.others : recorder.blocks).empty())
+      context.mistake(recorder.place, fmt::format("recorder \"{}\": group \"{}\" has no blocks{}", recorder.name, item.group,
+                                                  did_you_mean(item.group, groups)));
+  }
+}
+
+// -D and expect name things that must exist.
+void check_names(Context& context) {
+  std::vector<std::string> params, metrics;
+  for (const Param& param : context.scene.params) params.push_back(param.name);
+  for (const Metric& metric : context.metrics) metrics.push_back("metrics." + metric.name);
+  for (const Override& item : context.overrides)
+    if (!item.used)
+      context.mistake({}, fmt::format("-D {}={}: the scene has no param \"{}\"{}", item.name, item.expression, item.name,
+                                      did_you_mean(item.name, params)));
+  for (const Expectation& item : context.scene.expectations)
+    if (item.key.starts_with("metrics.") && std::find(metrics.begin(), metrics.end(), item.key) == metrics.end())
+      context.mistake(item.place, fmt::format("expect: there is no metric \"{}\"{}", item.key.substr(8), did_you_mean(item.key, metrics)));
+}
+
+}  // namespace
+
+void load_chunk(lua_State* lua, Context& context, const std::string& text, const std::string& name) {
+  // Lua cuts the names of long paths in messages
+  const std::string shown = name.size() > 55 ? std::filesystem::path(name).filename().string() : name;
+  if (std::find(context.files.begin(), context.files.end(), shown) == context.files.end()) context.files.push_back(shown);
+  if (luaL_loadbufferx(lua, text.data(), text.size(), ("@" + shown).c_str(), "t") != LUA_OK) {
+    const std::string message = lua_tostring(lua, -1);
+    lua_pop(lua, 1);
+    throw Error(message);
+  }
+  lua_getfield(lua, LUA_REGISTRYINDEX, scene_key);
+  lua_setupvalue(lua, -2, 1);
+}
+
+Script::Script() : Script(Options{}) {}
+
+Script::Script(const Options& options) : context_(std::make_unique<Context>()) {
+  context_->limits.seconds = options.seconds;
+  context_->limits.bytes = options.bytes;
+  context_->quiet = options.quiet;
+  lua_ = open_sandbox(*context_);
+  const Cap uncapped(context_->limits, false);
+  open_language(lua_, *context_);
+}
+
+Script::~Script() {
+  if (lua_) lua_close(lua_);
+}
+
+const Scene& Script::load(const std::string& path, const Overrides& overrides) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw Error(fmt::format("{} is a folder; name the scene file in it", path));
+  std::ifstream stream(path, std::ios::binary);
+  if (!stream) throw Error(fmt::format("there is no scene {}; check the path", path));
+  stream.close();
+  const std::string text = read_input(*context_, path, {});
+  run(text, path, overrides);
+  return context_->scene;
+}
+
+const Scene& Script::load_text(const std::string& text, const std::string& name, const Overrides& overrides) {
+  run(text, name, overrides);
+  return context_->scene;
+}
+
+void Script::run(const std::string& text, const std::string& name, const Overrides& overrides) {
+  Context& context = *context_;
+  context.scene.file = name;
+  context.scene.name = std::filesystem::path(name).stem().string();
+  context.folder = std::filesystem::path(name).parent_path();
+  for (const auto& [param, expression] : overrides) context.overrides.push_back({param, expression});
+  const Stretch stretch(lua_, context);
+  const Cap uncapped(context.limits, false);
+  bool whole = true;
+  try {
+    evaluate_overrides(lua_, context);
+    load_chunk(lua_, context, text.starts_with("#") ? "--" + text : text, name);
+    call_script(lua_, context, 0, 0);
+  } catch (const std::exception& error) {
+    whole = false;
+    add_messages(context.mistakes, error.what());
+  }
+  finish(whole);
+}
+
+// What is settled when the script has ended, and every mistake at once.
+void Script::finish(bool whole) {
+  Context& context = *context_;
+  if (whole) try {
+      resolve_groups(context);
+      check_names(context);
+      sample_waves(lua_, context);
+    } catch (const std::exception& error) { add_messages(context.mistakes, error.what()); }
+  if (whole) {
+    // What reading has already complained about, checking need not.
+    const std::vector<std::string> read = context.mistakes;
+    std::vector<std::string> found = check(context.scene);
+    for (auto& message : check_recorders(context.scene)) found.push_back(std::move(message));
+    for (const auto& message : found) {
+      const std::string place = place_of(message);
+      const auto same = [&](const std::string& other) { return !place.empty() && place_of(other) == place; };
+      if (std::none_of(read.begin(), read.end(), same)) context.mistakes.push_back(message);
+    }
+  }
+  if (!context.mistakes.empty()) throw Errors(context.mistakes);
+}
+
+const Scene& Script::scene() const { return context_->scene; }
+
+const std::vector<std::string>& Script::output() const { return context_->output; }
+
+}  // namespace erbs

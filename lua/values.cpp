@@ -1,0 +1,81 @@
+// Law and wave values: a script holds a handle, an index into the lists of the context.
+#include <lua5.4/lua.hpp>
+
+#include "lua/read.h"
+
+namespace erbs {
+namespace {
+
+constexpr const char* law_type = "law";
+constexpr const char* wave_type = "wave";
+
+void push_handle(lua_State* lua, const char* type, size_t index) {
+  *static_cast<size_t*>(lua_newuserdatauv(lua, sizeof(size_t), 0)) = index;
+  luaL_setmetatable(lua, type);
+}
+
+// wave(t): its value at time t, so that waves can be added up inside a function.
+int call_wave(lua_State* lua) {
+  const size_t index = *static_cast<size_t*>(luaL_checkudata(lua, 1, wave_type));
+  const double t = luaL_checknumber(lua, 2);
+  lua_pushnumber(lua, value(context_of(lua).waves[index], t));
+  return 1;
+}
+
+// nil where the value at the top is no handle of that type
+const size_t* handle_at_top(lua_State* lua, const char* type) { return static_cast<size_t*>(luaL_testudata(lua, -1, type)); }
+
+}  // namespace
+
+void open_values(lua_State* lua) {
+  for (const char* type : {law_type, wave_type}) {
+    luaL_newmetatable(lua, type);
+    lua_pushliteral(lua, "locked");  // what getmetatable gives
+    lua_setfield(lua, -2, "__metatable");
+    if (type == wave_type) {
+      lua_pushcfunction(lua, call_wave);
+      lua_setfield(lua, -2, "__call");
+    }
+    lua_pop(lua, 1);
+  }
+}
+
+void push_law(lua_State* lua, Context& context, Law law) {
+  context.laws.push_back(std::move(law));
+  push_handle(lua, law_type, context.laws.size() - 1);
+}
+
+void push_wave(lua_State* lua, Context& context, Wave wave) {
+  context.waves.push_back(std::move(wave));
+  push_handle(lua, wave_type, context.waves.size() - 1);
+}
+
+std::optional<Law> Arguments::law(const std::string& key) {
+  std::optional<Law> law;
+  if (!push(key)) return law;
+  if (const size_t* index = handle_at_top(lua_, law_type)) law = context_->laws[*index];
+  else wrong_type(key, key, "a joint law, such as mortar{ ... } or dry{ ... }");
+  lua_pop(lua_, 1);
+  return law;
+}
+
+std::optional<Wave> Arguments::wave(const std::string& key) {
+  std::optional<Wave> wave;
+  if (!push(key)) return wave;
+  if (const size_t* index = handle_at_top(lua_, wave_type)) wave = context_->waves[*index];
+  else if (const auto number = lua_type(lua_, -1) == LUA_TNUMBER ? number_at_top(key, key) : std::nullopt)
+    wave = Pulse{*number, 0, unbounded};
+  else wrong_type(key, key, "a wave, such as sine{ ... } or record{ ... }, a number, or a function of time");
+  lua_pop(lua_, 1);
+  return wave;
+}
+
+int Arguments::function(const std::string& key) {
+  if (!push(key)) return LUA_NOREF;
+  if (lua_isfunction(lua_, -1)) return luaL_ref(lua_, LUA_REGISTRYINDEX);
+  wrong_type(key, key, "a function");
+  lua_pop(lua_, 1);
+  return LUA_NOREF;
+}
+
+}  // namespace erbs

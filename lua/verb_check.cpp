@@ -1,0 +1,77 @@
+// erbs check SCENE.lua: every mistake at once, and what a run would be; runs nothing.
+#include <cmath>
+#include <cstdio>
+#include <set>
+
+#include "engine/analysis/prepare.h"
+#include "engine/scene/effects.h"
+#include "lua/options.h"
+#include "lua/progress.h"
+
+namespace erbs {
+namespace {
+
+// s per contact point and step, for the estimate of time: order of magnitude of one core
+constexpr double point_cost = 5e-9;
+
+size_t bytes_of(const Model& model) {
+  // a point: its place, weight and history; a joint: its record and two wrench rows; a block: model and state with its shapes
+  const auto points = static_cast<size_t>(model.npoint), joints = static_cast<size_t>(model.njoint),
+             blocks = static_cast<size_t>(model.nblock);
+  return points * (sizeof(Point) + 64) + joints * (sizeof(Joint) + 512) + blocks * 4096;
+}
+
+void print_scene(const Scene& scene) {
+  std::set<std::string> groups;
+  size_t fixed = 0;
+  for (const Block& block : scene.blocks) groups.insert(block.group), fixed += block.fixed;
+  fmt::print("{}: {} blocks ({} fixed) in {} groups, {} materials, {} joint rules, {} loads, {} recorders, {} cameras\n", scene.file,
+             scene.blocks.size(), fixed, groups.size(), scene.materials.size(), scene.joint_rules.size(), scene.loads.size(),
+             scene.recorders.size(), scene.cameras.size());
+  for (const Param& param : scene.params)
+    fmt::print("  param {} = {:g} {}{}{}\n", param.name, param.value, param.unit, param.text.empty() ? "" : "  -- ", param.text);
+}
+
+void print_effects(const Scene& scene) {
+  std::string off;
+  fmt::print("effects on:\n");
+  for (const Effect& effect : effects_of(scene)) {
+    if (effect.on) fmt::print("  {:<28} {}\n", effect.name, effect.because);
+    else off += (off.empty() ? "" : ", ") + effect.name;
+  }
+  fmt::print("effects off: {}\n", off.empty() ? "none" : off);
+}
+
+void print_run(const Scene& scene, const Prepared& run) {
+  const Model& model = run.model;
+  const double dt = run.state.dt, steps = std::ceil(scene.analysis.duration / dt);
+  fmt::print("model: {} blocks, {} joints, {} contact points\n", model.nblock, model.njoint, model.npoint);
+  fmt::print("dt = {:.4g} s: {}\n  dt_critical {:.4g} s, dt_block_bound {:.4g} s{}\n", dt, run.dt_rule, run.bounds.critical,
+             run.bounds.block,
+             run.bounds.stiffest_block >= 0 ? ", set by block " + model.block_name[static_cast<size_t>(run.bounds.stiffest_block)] : "");
+  const double seconds = steps * static_cast<double>(std::max(model.npoint, 20 * model.nblock)) * point_cost;
+  fmt::print("estimate: {:g} steps for {:g} s, about {} on one core while intact, {:.0f} MiB\n", steps, scene.analysis.duration,
+             duration_text(seconds), static_cast<double>(bytes_of(model)) / 1048576.0 + 10);
+}
+
+}  // namespace
+
+int verb_check(const Options& options) {
+  if (options.words.empty()) throw Error("check takes a scene; write erbs check SCENE.lua");
+  for (const auto& path : options.words) {
+    Script::Options script_options;
+    script_options.quiet = options.quiet;
+    Script script(script_options);
+    const Scene scene = script.load(path, options.overrides);
+    const Prepared run = prepare(scene, options.allow_unstable);
+    for (const auto& warning : warnings(scene)) fmt::print(stderr, "warning: {}\n", warning);
+    for (const auto& warning : run.model.warnings) fmt::print(stderr, "warning: {}\n", warning);
+    if (options.quiet) continue;
+    print_scene(scene);
+    print_run(scene, run);
+    print_effects(scene);
+  }
+  return exit_ok;
+}
+
+}  // namespace erbs

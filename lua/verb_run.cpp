@@ -1,0 +1,158 @@
+// erbs run SCENE.lua: load, run, ask for the scene's metrics, judge its expectations, say what came out.
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <atomic>
+#include <thread>
+
+#include "engine/analysis/dynamic.h"
+#include "lua/child.h"
+#include "lua/expectations.h"
+#include "lua/options.h"
+#include "lua/progress.h"
+
+namespace erbs {
+namespace {
+
+std::atomic<bool> interrupted = false;
+
+void on_signal(int signal) {
+  interrupted = true;
+  std::signal(signal, SIG_DFL);  // a second one ends the program at once
+}
+
+std::string text_of(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// Evaluates what the scene asks for and writes it into the run folder. Returns the messages of metrics that failed.
+std::vector<std::string> complete_metrics(Script& script, const std::string& directory, bool whole, Json& metrics,
+                                          std::vector<Verdict>& verdicts) {
+  std::vector<std::string> failures;
+  metrics = read_metrics(directory);
+  Json own = Json::object();
+  for (const MetricValue& metric :
+       script.evaluate_metrics({metrics, read_csv(run_file(directory, "histories.csv")), read_csv(run_file(directory, "events.csv"))})) {
+    own[metric.name] = metric.value ? Json(*metric.value) : Json(nullptr);
+    if (!metric.error.empty()) failures.push_back(metric.error);
+  }
+  metrics["metrics"] = own;
+  if (whole) verdicts = judge(script.scene().expectations, metrics);
+  int passed = 0;
+  for (const Verdict& verdict : verdicts) passed += verdict.passed;
+  metrics["expectations"] = {{"passed", passed}, {"failed", static_cast<int>(verdicts.size()) - passed}};
+  write_json(run_file(directory, "metrics.json"), metrics);
+  if (!verdicts.empty()) write_json(run_file(directory, "expectations.json"), to_json(verdicts));
+  return failures;
+}
+
+double number_at(const Json& metrics, const char* key) {
+  const Json* value = find_key(metrics, key);
+  return value && value->is_number() ? value->get<double>() : 0;
+}
+
+std::string collapse_text(const Json& metrics) {
+  const Json* collapsed = find_key(metrics, "collapse.collapsed");
+  const double share = number_at(metrics, "collapse.fallen_fraction");
+  if (!collapsed || !collapsed->is_boolean() || !collapsed->get<bool>())
+    return share > 0 ? fmt::format("no collapse; {:.2g} % of the mass fell", 100 * share) : "no collapse; nothing fell";
+  const Json* direction = find_key(metrics, "collapse.direction");
+  const std::string towards = direction && direction->is_array() && direction->size() >= 2
+                                  ? fmt::format(" towards ({:+.2f}, {:+.2f})", (*direction)[0].get<double>(), (*direction)[1].get<double>())
+                                  : " in no one direction";
+  return fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass fell", number_at(metrics, "collapse.time_s"), towards, 100 * share);
+}
+
+void print_summary(const Scene& scene, const std::string& directory, const Json& metrics, const std::vector<Verdict>& verdicts) {
+  fmt::print("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken\n", scene.name,
+             metrics.value("status", ""), number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")),
+             number_at(metrics, "realtime_factor"), metrics.value("blocks", 0), metrics.value("joints", 0),
+             metrics.value("joints_broken", 0));
+  fmt::print("{}\nenergy residual {:.1e}\n", collapse_text(metrics), number_at(metrics, "energy.residual_relative"));
+  for (const auto& [name, unit] : scene.metric_units) {
+    const Json* value = find_key(metrics, "metrics." + name);
+    fmt::print("  {} = {} {}\n", name, value && value->is_number() ? fmt::format("{:.6g}", value->get<double>()) : "none", unit);
+  }
+  int failed = 0;
+  for (const Verdict& v : verdicts) {
+    if (v.passed) continue;
+    ++failed;
+    fmt::print("  FAILED {}: expected {} {}, got {} ({})\n", v.key, v.expected, v.tolerance, v.got, v.place);
+  }
+  if (!verdicts.empty()) fmt::print("expectations: {} passed, {} failed\n", verdicts.size() - static_cast<size_t>(failed), failed);
+  fmt::print("results in {}\n", directory);
+  std::fflush(stdout);
+}
+
+int exit_code(const Scene& scene, const Options& options, const RunOutcome& outcome, const Json& metrics,
+              const std::vector<Verdict>& verdicts) {
+  const std::string& status = outcome.metrics.status;
+  if (status == "interrupted") return exit_interrupted;
+  const bool welcome = status == "diverged" && expects_divergence(scene);
+  if (!welcome && (!outcome.gate_passed || status == "diverged")) return exit_numbers;
+  if (status == "stopped") return exit_stopped;
+  for (const Verdict& verdict : verdicts)
+    if (!verdict.passed) return exit_expectation;
+  const Json* collapsed = find_key(metrics, "collapse.collapsed");
+  if (options.fail_on_collapse && collapsed && *collapsed == true) return exit_expectation;
+  return exit_ok;
+}
+
+// The seam to the engine: one scene, one run folder.
+RunOutcome run_scene(const Scene& scene, const std::string& script, const std::string& directory, const Options& options) {
+  RunOptions run;
+  run.directory = directory;
+  run.existing = options.resume ? Existing::resume : options.force ? Existing::force : Existing::refuse;
+  run.threads = options.threads > 0 ? options.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  run.until = options.until;
+  run.max_wall = options.max_wall.value_or(0);
+  run.checkpoint_every = options.checkpoint_every.value_or(60);
+  run.allow_unstable = options.allow_unstable;
+  run.interrupted = &interrupted;
+  ProgressPrinter printer(options.quiet, options.log_json);
+  run.progress = [&](const Progress& now) { printer.show(now); };
+  return run_dynamic(scene, script, run);
+}
+
+}  // namespace
+
+int verb_run(const Options& options) {
+  if (options.words.size() != 1) throw Error(fmt::format("run takes one scene, not {}; erbs test runs several", options.words.size()));
+  const std::string path = options.words.front();
+  Script::Options script_options;
+  script_options.quiet = options.quiet;
+  Script script(script_options);
+  Scene scene = script.load(path, options.overrides);
+  if (options.allow_unstable) scene.analysis.unstable = true;
+  for (const auto& warning : warnings(scene)) fmt::print(stderr, "warning: {}\n", warning);
+  const std::string directory = options.directory.empty() ? "runs/" + scene.name : options.directory;
+  std::signal(SIGINT, on_signal);
+  std::signal(SIGTERM, on_signal);
+  const RunOutcome outcome = run_scene(scene, text_of(path), directory, options);
+  for (const auto& warning : outcome.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  if (!outcome.trouble.empty()) fmt::print(stderr, "{}: {}\n", path, outcome.trouble);
+
+  Json metrics;
+  std::vector<Verdict> verdicts;
+  const std::string& status = outcome.metrics.status;
+  const bool whole = status == "completed" || status == "diverged";
+  const auto failures = complete_metrics(script, directory, whole, metrics, verdicts);
+  for (const auto& message : failures) fmt::print(stderr, "{}\n", message);
+  if (!options.quiet) print_summary(scene, directory, metrics, verdicts);
+  int code = exit_code(scene, options, outcome, metrics, verdicts);
+  if (code == exit_ok && !failures.empty()) code = exit_usage;
+  if (options.video && status != "interrupted") {
+    std::vector<std::string> words{directory, "--video"};
+    if (options.force) words.push_back("--force");
+    if (options.quiet) words.push_back("--quiet");
+    const int drawn = run_renderer(words);
+    if (code == exit_ok) code = drawn;
+  }
+  return code;
+}
+
+}  // namespace erbs

@@ -1,0 +1,214 @@
+#include "render/figures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+
+#include "engine/base/error.h"
+#include "engine/base/units.h"
+#include "render/process.h"
+
+namespace erbs::render {
+namespace {
+
+namespace fs = std::filesystem;
+
+// A unit as columns name it, a quantity that has it, and the units it is shown in: the first whose peak is at least `from`.
+struct Shown {
+  double from, factor;
+  const char* unit;
+};
+struct Unit {
+  const char* suffix;
+  const char* quantity;
+  std::vector<Shown> shown;
+};
+// Longer endings first.
+const std::vector<Unit>& units() {
+  static const std::vector<Unit> list{
+      {"rad_s2", "angular acceleration", {{0, 1, "rad/s²"}}},
+      {"m_s2", "acceleration", {{0, 1, "m/s²"}}},
+      {"rad_s", "spin", {{0, 1, "rad/s"}}},
+      {"m_s", "velocity", {{0.5, 1, "m/s"}, {0, 1e3, "mm/s"}}},
+      {"N_m", "moment", {{1e3, 1e-3, "kN m"}, {0, 1, "N m"}}},
+      {"Pa", "stress", {{1e5, 1e-6, "MPa"}, {1e2, 1e-3, "kPa"}, {0, 1, "Pa"}}},
+      {"rad", "rotation", {{0.05, 1, "rad"}, {0, 1e3, "mrad"}}},
+      {"deg", "angle", {{0, 1, "deg"}}},
+      {"Hz", "frequency", {{0, 1, "Hz"}}},
+      {"kg", "mass", {{0, 1, "kg"}}},
+      {"N", "force", {{1e6, 1e-6, "MN"}, {1e3, 1e-3, "kN"}, {0, 1, "N"}}},
+      {"J", "energy", {{1e6, 1e-6, "MJ"}, {1e3, 1e-3, "kJ"}, {1, 1, "J"}, {0, 1e3, "mJ"}}},
+      {"m", "displacement", {{1, 1, "m"}, {1e-4, 1e3, "mm"}, {0, 1e6, "µm"}}},
+  };
+  return list;
+}
+
+const Unit* find_unit(const std::string& suffix) {
+  for (const Unit& u : units())
+    if (suffix == u.suffix) return &u;
+  return nullptr;
+}
+
+double peak_of(const Table& table, const std::vector<int>& columns) {
+  double peak = 0;
+  for (int c : columns)
+    for (double value : table.columns[static_cast<std::size_t>(c)])
+      if (std::isfinite(value)) peak = std::max(peak, std::abs(value));
+  return peak;
+}
+
+void choose_unit(Panel& panel, const Table& table, const std::string& suffix) {
+  const Unit* unit = find_unit(suffix);
+  if (!unit) return;
+  const double peak = peak_of(table, panel.columns);
+  for (const Shown& s : unit->shown) {
+    if (peak < s.from) continue;
+    panel.factor = s.factor;
+    panel.label += fmt::format(" [{}]", s.unit);
+    return;
+  }
+}
+
+constexpr std::array<const char*, 8> colors{"#23527c", "#c0502d", "#4f8a4c", "#8a5a9e", "#b08a1e", "#3b9aa8", "#7d7d7d", "#a33a5a"};
+
+std::string in_quotes(const std::string& text) {
+  std::string safe = "'";
+  for (char c : text) safe += c == '\'' ? std::string("''") : std::string(1, c);
+  return safe + "'";
+}
+
+// Every curve of a panel. `every` rows are skipped between two drawn ones.
+std::string plot(const std::string& file, const Table& table, const Panel& panel, const std::string& value, std::size_t every) {
+  std::string script = "plot ";
+  for (std::size_t i = 0; i < panel.columns.size(); ++i) {
+    const int column = panel.columns[i];
+    const char* style = panel.columns.size() > colors.size() && i >= colors.size() ? " dashtype 2" : "";
+    script += fmt::format("{}{} every {}::1 using 1:({}) with lines lw 1.3 lc rgb '{}'{} title {}", i ? ", " : "", in_quotes(file), every,
+                          fmt::format(fmt::runtime(value), fmt::arg("c", column + 1), fmt::arg("f", panel.factor)),
+                          colors[i % colors.size()], style, in_quotes(words_of(table.names[static_cast<std::size_t>(column)])));
+  }
+  return script + "\n";
+}
+
+std::string opening(const std::string& svg, std::size_t panels, double last_time, const std::string& title) {
+  return fmt::format(
+      "set terminal svg size 1000,{} dynamic enhanced font 'DejaVu Sans,13' background rgb 'white'\n"
+      "set output {}\n"
+      "set encoding utf8\nset datafile separator comma\nset datafile missing 'nan'\n"
+      "set border 3 lc rgb '#707070'\nset tics nomirror out scale 0.6 textcolor rgb '#303030'\n"
+      "set grid xtics ytics lc rgb '#e3e3e3' lt 1 lw 0.8\nset zeroaxis lc rgb '#b0b0b0' lt 1 lw 0.8\n"
+      "set key outside right top samplen 1.6 spacing 1.05 noenhanced\n"
+      "set lmargin 12\nset rmargin 26\nset xrange [0:{}]\n"
+      "set multiplot layout {},1 title {} noenhanced font ',15'\n",
+      70 + 210 * panels, in_quotes(svg), last_time, panels, in_quotes(title));
+}
+
+void run_gnuplot(const std::string& script, const std::string& svg) {
+  Process gnuplot({"gnuplot", "-"}, "install gnuplot-nox, or leave the figures out with --no-figures");
+  gnuplot.write(script.data(), script.size());
+  if (gnuplot.finish() != 0) throw Error("gnuplot could not draw it; its message is above", {svg, 0});
+}
+
+std::string histories_script(const std::string& csv, const std::string& svg, const Table& table, const Run& run) {
+  const std::vector<Panel> panels = history_panels(table);
+  const std::size_t every = std::max<std::size_t>(1, table.rows() / 6000);
+  std::string script = opening(svg, panels.size(), table.columns[0].back(), run.title);
+  for (std::size_t i = 0; i < panels.size(); ++i) {
+    if (i + 1 == panels.size()) script += "set xlabel 'time [s]'\n";
+    script += "set ylabel " + in_quotes(panels[i].label) + " noenhanced\n" + plot(csv, table, panels[i], "column({c})*{f}", every);
+  }
+  return script + "unset multiplot\n";
+}
+
+std::string energy_script(const std::string& csv, const std::string& svg, const Table& table, const Run& run) {
+  Panel terms{"energy", 1, {}};
+  for (std::size_t c = 1; c < table.names.size(); ++c)
+    if (unit_of(table.names[c]) == "J" && peak_of(table, {static_cast<int>(c)}) > 0) terms.columns.push_back(static_cast<int>(c));
+  choose_unit(terms, table, "J");
+  const int residual = table.find("residual_relative");
+  const std::size_t every = std::max<std::size_t>(1, table.rows() / 6000);
+  std::string script = opening(svg, 2, table.columns[0].back(), run.title + ": energy");
+  script += fmt::format("set size 1,0.62\nset origin 0,0.34\nset ylabel {} noenhanced\n", in_quotes(terms.label));
+  script += terms.columns.empty() ? "plot 0 notitle\n" : plot(csv, table, terms, "column({c})*{f}", every);
+  script +=
+      "set size 1,0.34\nset origin 0,0.0\nset xlabel 'time [s]'\nset ylabel 'residual, relative'\nset logscale y\nset format y '10^{%T}'\n";
+  const double worst = residual >= 0 ? peak_of(table, {residual}) : 0;
+  const double top = std::max({worst, run.energy_gate, 1e-12}) * 5;
+  script += fmt::format("set yrange [{}:{}]\n", std::min(1e-12, worst > 0 ? worst * 1e-4 : 1e-12), top);
+  if (run.energy_gate > 0)
+    script += fmt::format(
+        "set arrow from graph 0, first {0} to graph 1, first {0} nohead lc rgb '#b03020' dashtype 2\n"
+        "set label 'gate {0:g}' at graph 0.01, first {0} offset 0,0.6 textcolor rgb '#b03020' noenhanced\n",
+        run.energy_gate);
+  if (worst > 0) script += plot(csv, table, {"", 1, {residual}}, "abs(column({c})) > 1e-16 ? abs(column({c})) : 1e-16", every);
+  else script += "plot 1e-16 notitle\n";
+  return script + "unset multiplot\n";
+}
+
+}  // namespace
+
+std::string unit_of(const std::string& column) {
+  for (const Unit& u : units()) {
+    const std::string end = std::string("_") + u.suffix;
+    if (column.size() > end.size() && column.compare(column.size() - end.size(), end.size(), end) == 0) return u.suffix;
+  }
+  return "";
+}
+
+std::string words_of(const std::string& column) {
+  const std::string unit = unit_of(column);
+  std::string words = column.substr(0, column.size() - (unit.empty() ? 0 : unit.size() + 1));
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+std::vector<Panel> history_panels(const Table& table) {
+  Panel ground{"ground [g]", 1 / standard_g, {}};
+  std::vector<std::pair<std::string, Panel>> by_unit;
+  for (std::size_t c = 1; c < table.names.size(); ++c) {
+    const std::string& name = table.names[c];
+    const int column = static_cast<int>(c);
+    if (name.rfind("ground_a", 0) == 0 && unit_of(name) == "m_s2") {
+      if (peak_of(table, {column}) > 0) ground.columns.push_back(column);
+      continue;
+    }
+    const std::string unit = unit_of(name);
+    // Of one quantity, directions in which much less happens would only be flat lines: each direction has its panel.
+    const std::string words = words_of(name);
+    std::string axis;
+    for (const char* a : {"x", "y", "z"})
+      for (const std::string& end : {std::string(a), a + std::string(" rel"), a + std::string(" abs")})
+        if (words.size() > end.size() + 1 && words.compare(words.size() - end.size(), end.size(), end) == 0) axis = a;
+    const std::string key = unit + "/" + axis;
+    auto known = std::find_if(by_unit.begin(), by_unit.end(), [&](const auto& p) { return p.first == key; });
+    if (known == by_unit.end()) {
+      const Unit* u = find_unit(unit);
+      by_unit.push_back({key, {(u ? u->quantity : std::string("value")) + (axis.empty() ? "" : " " + axis), 1, {}}});
+      known = by_unit.end() - 1;
+    }
+    known->second.columns.push_back(column);
+  }
+  std::vector<Panel> panels;
+  if (!ground.columns.empty()) panels.push_back(ground);
+  for (auto& [key, panel] : by_unit) {
+    choose_unit(panel, table, key.substr(0, key.find('/')));
+    panels.push_back(panel);
+  }
+  return panels;
+}
+
+std::vector<std::string> write_figures(const Run& run) {
+  std::vector<std::string> written;
+  const fs::path dir(run.dir);
+  for (const std::string name : {"histories", "energy"}) {
+    const std::string csv = (dir / (name + ".csv")).string(), svg = (dir / (name + ".svg")).string();
+    const Table table = read_table(csv);
+    if (table.rows() < 2 || table.names.size() < 2 || table.columns[0].back() <= 0) continue;
+    run_gnuplot(name == "energy" ? energy_script(csv, svg, table, run) : histories_script(csv, svg, table, run), svg);
+    written.push_back(svg);
+  }
+  return written;
+}
+
+}  // namespace erbs::render

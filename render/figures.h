@@ -1,0 +1,24 @@
+// histories.svg and energy.svg from the CSV files beside them, by the program gnuplot.
+#pragma once
+#include "render/run.h"
+#include "render/table.h"
+
+namespace erbs::render {
+
+// Writes what there is data for; the paths written.
+std::vector<std::string> write_figures(const Run& run);
+
+// One panel of curves that share a unit.
+struct Panel {
+  std::string label;         // of the vertical axis, with the unit shown
+  double factor = 1;         // from SI to that unit
+  std::vector<int> columns;  // of the table
+};
+// Ground motion first, then the others by unit in the order of the table.
+std::vector<Panel> history_panels(const Table& table);
+
+// The unit at the end of a column's name ("m_s2"), "" where there is none; the rest of the name in plain words.
+std::string unit_of(const std::string& column);
+std::string words_of(const std::string& column);
+
+}  // namespace erbs::render

@@ -1,0 +1,23 @@
+// A picture in memory and as a PNG file. The one door to libpng.
+#pragma once
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace erbs::render {
+
+struct Image {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;  // rows from the top  [height*width*3]
+  Image() = default;
+  Image(int w, int h) : width(w), height(h), rgb(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * 3) {}
+  std::uint8_t* pixel(int x, int y) {
+    return &rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x))];
+  }
+  const std::uint8_t* pixel(int x, int y) const { return const_cast<Image*>(this)->pixel(x, y); }
+};
+
+void write_png(const std::string& path, const Image& image);
+Image read_png(const std::string& path);
+
+}  // namespace erbs::render

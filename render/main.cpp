@@ -1,0 +1,112 @@
+// erbs-render DIR: pictures, videos and figures of a run.
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <charconv>
+#include <csignal>
+#include <cstdio>
+
+#include "engine/base/error.h"
+#include "render/figures.h"
+#include "render/movie.h"
+
+namespace {
+
+using erbs::Error;
+namespace render = erbs::render;
+
+std::atomic<bool> stopped{false};
+void on_interrupt(int) { stopped = true; }
+
+struct Arguments {
+  std::string dir, size = "1280x720", time, stills, color = "material";
+  std::vector<std::string> cameras;
+  bool figures_only = false, no_figures = false;
+  render::Movie movie;
+};
+
+// A number and nothing else; false otherwise.
+bool read_number(std::string_view text, double& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+void read_size(const std::string& text, render::Look& look) {
+  const std::size_t cross = text.find('x');
+  double w = 0, h = 0;
+  const bool good = cross != std::string::npos && read_number(text.substr(0, cross), w) && read_number(text.substr(cross + 1), h);
+  if (!good || w < 64 || h < 64 || w > 8192 || h > 8192 || w != std::floor(w) || h != std::floor(h))
+    throw Error("--size " + text + " is not a width and height of 64 to 8192 pixels; try 1280x720");
+  look.width = static_cast<int>(w);
+  look.height = static_cast<int>(h);
+}
+
+void read_times(const Arguments& a, render::Movie& movie) {
+  if (!a.time.empty()) {
+    const std::size_t colon = a.time.find(':');
+    double from = 0, to = 0;
+    const bool good = colon != std::string::npos && read_number(a.time.substr(0, colon), from) && read_number(a.time.substr(colon + 1), to);
+    if (!good || to < from) throw Error("--time " + a.time + " is not a span of seconds; try 2:4.5");
+    movie.range = {from, to};
+  }
+  for (std::size_t at = 0; at < a.stills.size();) {
+    const std::size_t comma = std::min(a.stills.find(',', at), a.stills.size());
+    double t = 0;
+    if (!read_number(a.stills.substr(at, comma - at), t)) throw Error("--stills " + a.stills + " is not a list of seconds; try 0,2.5,4");
+    movie.stills.push_back(t);
+    at = comma + 1;
+  }
+}
+
+int run(Arguments& a) {
+  render::Movie& movie = a.movie;
+  read_size(a.size, movie.look);
+  read_times(a, movie);
+  movie.cameras = a.cameras;
+  movie.look.coloring = a.color == "damage" ? render::Coloring::damage : render::Coloring::material;
+  const render::Run folder = render::read_run(a.dir);
+  if (!a.no_figures)
+    for (const std::string& path : render::write_figures(folder))
+      if (!movie.quiet) std::printf("%s\n", path.c_str());
+  if (a.figures_only) return 0;
+  std::fflush(stdout);
+  const erbs::MotionReader reader(a.dir);
+  render::prepare_contexts();
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  return render::make_movie(folder, reader, movie, stopped) ? 0 : 130;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Arguments a;
+  CLI::App app("Pictures, videos and figures of a run of erbs.", "erbs-render");
+  app.add_option("DIR", a.dir, "the run folder")->required();
+  app.add_option("--size", a.size, "pixels of a picture")->capture_default_str();
+  app.add_option("--camera", a.cameras, "a camera of the scene by name, or all (default: the first)")->delimiter(',');
+  app.add_option("--fps", a.movie.fps, "pictures a second of the video")->check(CLI::Range(1.0, 240.0))->capture_default_str();
+  app.add_option("--slow", a.movie.slow, "seconds of video for one second of the run")
+      ->check(CLI::Range(0.001, 1000.0))
+      ->capture_default_str();
+  app.add_option("--frames", a.movie.frames, "every: each recorded frame once; N: so many, evenly spread");
+  app.add_option("--time", a.time, "T0:T1, only this span (s)");
+  app.add_option("--stills", a.stills, "t1,t2,..: single pictures at these times (s), no video");
+  app.add_option("--color", a.color, "material or damage")->check(CLI::IsMember({"material", "damage"}))->capture_default_str();
+  app.add_flag("--video,!--no-video", a.movie.video, "an MP4 a camera (default), or pictures alone");
+  app.add_flag("--figures", a.figures_only, "only histories.svg and energy.svg");
+  app.add_flag("--no-figures", a.no_figures, "no figures");
+  app.add_option("--threads", a.movie.threads, "frames drawn at a time (default: one a processor)")->check(CLI::Range(1, 256));
+  app.add_option("--context", a.movie.context, "source of OpenGL: osmesa, egl or auto")->check(CLI::IsMember({"osmesa", "egl", "auto"}));
+  app.add_flag("--force", a.movie.force, "write over pictures and videos that are there");
+  app.add_flag("-q,--quiet", a.movie.quiet, "no progress and no summary");
+  try {
+    app.parse(argc, argv);
+    return run(a);
+  } catch (const CLI::ParseError& e) { return app.exit(e) == 0 ? 0 : 2; } catch (const Error& e) {
+    std::fprintf(stderr, "error: %s\n", e.what());
+    return 2;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "error: %s\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,34 @@
+// What is written over a picture: title, time, ground motion with a moving cursor, scale and legend.
+#pragma once
+#include "render/draw.h"
+#include "render/text.h"
+
+namespace erbs::render {
+
+// Pixels at the top and the bottom that the overlay takes from the picture; the camera looks at what lies between.
+double overlay_top(int height);
+double overlay_bottom(int height, bool with_record);
+
+class Overlay {
+ public:
+  Overlay(const Run& run, const Show& show, const Look& look, double slow);
+  // t: s. pixel: size (m) of a pixel at the distance of the camera's target.
+  void draw(Image& image, double t, const std::string& camera, double pixel) const;
+
+ private:
+  void draw_record(Image& image, double t) const;
+  void draw_legend(Image& image) const;
+  void draw_scale(Image& image, double pixel) const;
+  const Run& run_;
+  const Show& show_;
+  Look look_;
+  double slow_, unit_;  // unit_: pixels of the picture for one of 720 rows
+  Font regular_, bold_;
+  struct Reach {
+    double low, high;
+  };
+  std::vector<Reach> strip_;  // of the record over each column of pixels, in units of its peak
+  double strip_left_, strip_right_, end_time_;
+};
+
+}  // namespace erbs::render

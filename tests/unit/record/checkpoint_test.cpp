@@ -1,0 +1,176 @@
+#include "engine/record/checkpoint.h"
+
+#include <catch2/catch.hpp>
+#include <fstream>
+#include <sstream>
+
+#include "engine/base/error.h"
+#include "engine/model/pair.h"
+#include "engine/record/collapse.h"
+#include "engine/record/run_writer.h"
+#include "tests/unit/record/two_bricks.h"
+
+using namespace erbs;
+
+namespace {
+
+State moved() {
+  State s = test::two_bricks().state;
+  s.step = 7, s.t = 0.1, s.dt = 1e-4, s.joints_broken = 1;
+  s.u[1] = Vec3(1.0 / 3, 2, 3);
+  s.q[1] = rotation(Vec3(0.1, 0.2, 0.3));
+  s.history[2].damage = 0.5;
+  s.tier[0] = Tier::cracked;
+  s.memory[0].f[2] = 12;
+  s.batch[0].q[5][7] = 0.25;
+  s.row = {1, 2, 3};
+  s.energy.friction = 4;
+  s.energy.largest_jump_joint = 3;
+  return s;
+}
+
+std::string slurp(const std::string& path) {
+  std::stringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+struct NestedThing {
+  std::vector<std::vector<double>> lists;
+  std::string word;
+  std::vector<WriterProgress> parts;
+};
+struct Pairs {
+  std::vector<Pair> pairs;
+};
+template <class F>
+void each(Pairs& p, F&& f) {
+  f("pairs", p.pairs, Part::history);
+}
+
+template <class T, class F>
+requires std::is_same_v<std::remove_const_t<T>, NestedThing>
+void each(T& t, F&& f) {
+  f("lists", t.lists, Part::history);
+  f("word", t.word);
+  f("parts", t.parts);
+}
+
+}  // namespace
+
+TEST_CASE("contact pairs are carried and hashed as history", "[record][checkpoint]") {
+  const test::Scratch scratch("pairs");
+  std::filesystem::create_directories(scratch.path);
+  Pairs pairs;
+  pairs.pairs.resize(3);
+  pairs.pairs[1].u = Vec3(1, 2, 3);
+  pairs.pairs[1].friction.moment_b = Vec3(0, 0, 1.0 / 3);
+  write_checkpoint(scratch.path, {1, 1}, pairs);
+  Pairs back;
+  read_checkpoint(scratch.path, {1, 1}, back);
+  REQUIRE(back.pairs.size() == 3);
+  CHECK(back.pairs[1].u == Vec3(1, 2, 3));
+  CHECK(back.pairs[1].friction.moment_b.z() == 1.0 / 3);
+  CHECK(state_hash(back) == state_hash(pairs));
+  back.pairs[1].friction.moment_b.x() = 1e-300;
+  CHECK(state_hash(back) != state_hash(pairs));
+}
+
+TEST_CASE("a checkpoint brings everything back", "[record][checkpoint]") {
+  const test::Scratch scratch("checkpoint");
+  std::filesystem::create_directories(scratch.path);
+  const CheckpointKey key{42, 1e-4};
+  const State s = moved();
+  const NestedThing nested{{{1, 2}, {}, {3}}, "words", {{1, 2, 3, 4}, {5, 6, 7, 8}}};
+  write_checkpoint(scratch.path, key, s, nested);
+  CHECK(has_checkpoint(scratch.path));
+  CHECK_FALSE(std::filesystem::exists(scratch.path + "/checkpoint.bin.tmp"));
+  State back;
+  NestedThing again;
+  read_checkpoint(scratch.path, key, back, again);
+  // Written once more it is the same file: nothing was lost that the visitor names.
+  const std::string first = slurp(scratch.path + "/checkpoint.bin");
+  write_checkpoint(scratch.path, key, back, again);
+  CHECK(slurp(scratch.path + "/checkpoint.bin") == first);
+  CHECK(back.u[1] == s.u[1]);
+  CHECK(back.q[1].coeffs() == s.q[1].coeffs());
+  CHECK(back.batch[0].q[5][7] == 0.25);
+  CHECK(back.energy.largest_jump_joint == 3);
+  CHECK(again.lists == nested.lists);
+  CHECK(again.word == "words");
+  CHECK(again.parts[1].frames == 8);
+  CHECK(state_hash(back, again) == state_hash(s, nested));
+}
+
+TEST_CASE("a checkpoint of another scene or step, cut short or damaged, is refused", "[record][checkpoint]") {
+  const test::Scratch scratch("refused");
+  std::filesystem::create_directories(scratch.path);
+  const std::string path = scratch.path + "/checkpoint.bin";
+  const CheckpointKey key{42, 1e-4};
+  State back;
+  CHECK_THROWS_WITH(read_checkpoint(scratch.path, key, back), Catch::Contains("no checkpoint"));
+  write_checkpoint(scratch.path, key, moved());
+  CHECK_THROWS_WITH(read_checkpoint(scratch.path, {43, 1e-4}, back), Catch::Contains("another scene") && Catch::Contains("--force"));
+  CHECK_THROWS_WITH(read_checkpoint(scratch.path, {42, 2e-4}, back), Catch::Contains("0.0001") && Catch::Contains("0.0002"));
+  const std::string whole = slurp(path);
+  for (const std::size_t length : {std::size_t(0), std::size_t(20), whole.size() / 2, whole.size() - 1}) {
+    std::ofstream(path, std::ios::binary) << whole.substr(0, length);
+    CHECK_THROWS_WITH(read_checkpoint(scratch.path, key, back), Catch::Contains("checkpoint.bin") && Catch::Contains("cut short"));
+  }
+  std::string damaged = whole;
+  damaged[whole.size() / 2] = char(damaged[whole.size() / 2] ^ 1);
+  std::ofstream(path, std::ios::binary) << damaged;
+  CHECK_THROWS_WITH(read_checkpoint(scratch.path, key, back), Catch::Contains("checksum"));
+  std::ofstream(path, std::ios::binary) << whole;
+  WriterProgress extra;
+  CHECK_THROWS_WITH(read_checkpoint(scratch.path, key, back, extra), Catch::Contains("too early"));
+  CHECK_THROWS_WITH(read_checkpoint(scratch.path, key, extra), Catch::Contains("another version"));
+}
+
+TEST_CASE("a failed checkpoint leaves the one before it", "[record][checkpoint]") {
+  const test::Scratch scratch("failed");
+  std::filesystem::create_directories(scratch.path);
+  const CheckpointKey key{42, 1e-4};
+  write_checkpoint(scratch.path, key, moved());
+  std::filesystem::create_directories(scratch.path + "/checkpoint.bin.tmp");  // in the way
+  CHECK_THROWS_AS(write_checkpoint(scratch.path, key, State()), Error);
+  State back;
+  read_checkpoint(scratch.path, key, back);
+  CHECK(back.step == 7);
+}
+
+TEST_CASE("state_hash sees positions, velocities and histories, not caches", "[record][checkpoint]") {
+  const std::string before = state_hash(moved());
+  CHECK(before.size() == 16);
+  const auto changed = [&](auto&& change) {
+    State s = moved();
+    change(s);
+    return state_hash(s) != before;
+  };
+  CHECK(changed([](State& s) { s.u[1].x() = std::nextafter(s.u[1].x(), 1); }));
+  CHECK(changed([](State& s) { s.q[1].z() += 1e-16; }));
+  CHECK(changed([](State& s) { s.v[2].y() = 1e-300; }));
+  CHECK(changed([](State& s) { s.spin_momentum[2].y() = 1e-300; }));
+  CHECK(changed([](State& s) { s.history[0].slip_t = 1e-20; }));
+  CHECK(changed([](State& s) { s.tier[0] = Tier::open; }));
+  CHECK_FALSE(changed([](State& s) { s.batch[0].q[0][0] = 1; }));
+  CHECK_FALSE(changed([](State& s) { s.energy.kinetic = 1; }));
+}
+
+TEST_CASE("the scene's hash follows script, inputs, parameters and blocks", "[record][checkpoint]") {
+  const Scene scene = test::two_bricks().scene;
+  const std::uint64_t before = scene_hash(scene, "a");
+  CHECK(scene_hash(scene, "b") != before);
+  Scene other = scene;
+  other.params.push_back({"pga", 1, 1, "", "", {}});
+  const std::uint64_t with_param = scene_hash(other, "a");
+  CHECK(with_param != before);
+  other.params[0].value = 2;
+  CHECK(scene_hash(other, "a") != with_param);
+  other = scene;
+  other.blocks[1].parts[0].vertices[0].x() += 1e-12;
+  CHECK(scene_hash(other, "a") != before);
+  other = scene;
+  other.inputs["r.csv"] = "1234";
+  CHECK(scene_hash(other, "a") != before);
+}

@@ -1,0 +1,140 @@
+#include "engine/record/motion_file.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "engine/base/error.h"
+
+using namespace erbs;
+
+namespace {
+
+struct Folder {
+  std::filesystem::path path = std::filesystem::temp_directory_path() / ("erbs_motion_" + std::to_string(getpid()));
+  Folder() { std::filesystem::create_directories(path); }
+  ~Folder() { std::filesystem::remove_all(path); }
+};
+
+MotionScene two_blocks() {
+  MotionScene scene;
+  const MotionShape tetrahedron{{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}};
+  const int part = share_shape(scene, tetrahedron);
+  scene.blocks = {{"base", "ground", 0, true, {0, 0, -1}, {part}}, {"a long name of a stone", "wall", 1, false, {1, 2, 3}, {part, part}}};
+  scene.joints = {{0, 1, {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {0, 0, 1}, 0.005}};
+  return scene;
+}
+
+MotionFrame frame_at(int i) {
+  MotionFrame f{0.04 * i, std::vector<float>(14), {static_cast<std::uint8_t>(i)}, {0.001f * static_cast<float>(i)}};
+  for (std::size_t k = 0; k < f.poses.size(); ++k) f.poses[k] = static_cast<float>(i) + 0.01f * static_cast<float>(k);
+  return f;
+}
+
+void check_frames(const std::filesystem::path& dir, int frames) {
+  const MotionReader reader(dir.string());
+  REQUIRE(reader.times().size() == static_cast<std::size_t>(frames));
+  for (int i = 0; i < frames; ++i) {
+    const MotionFrame got = reader.read(i), want = frame_at(i);
+    CHECK(got.t == want.t);
+    CHECK(got.poses == want.poses);
+    CHECK(got.damage == want.damage);
+    CHECK(got.opening == want.opening);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a motion file gives back what was written", "[record][motion_file]") {
+  const Folder dir;
+  const MotionScene scene = two_blocks();
+  CHECK(scene.shapes.size() == 1);
+  MotionWriter writer(dir.path.string(), scene);
+  for (int i = 0; i < 3; ++i) writer.write(frame_at(i));
+  CHECK(writer.frames() == 3);
+  writer.close();
+  check_frames(dir.path, 3);
+
+  const MotionReader reader(dir.path.string());
+  const MotionScene& got = reader.scene();
+  CHECK(got.shapes == scene.shapes);
+  REQUIRE(got.blocks.size() == 2);
+  CHECK(got.blocks[1].name == "a long name of a stone");
+  CHECK(got.blocks[1].group == "wall");
+  CHECK(got.blocks[1].material == 1);
+  CHECK(got.blocks[0].fixed);
+  CHECK_FALSE(got.blocks[1].fixed);
+  CHECK(got.blocks[1].rest == scene.blocks[1].rest);
+  CHECK(got.blocks[1].parts == scene.blocks[1].parts);
+  REQUIRE(got.joints.size() == 1);
+  CHECK(got.joints[0].b == 1);
+  CHECK(got.joints[0].polygon == scene.joints[0].polygon);
+  CHECK(got.joints[0].normal == scene.joints[0].normal);
+  CHECK(got.joints[0].thickness == 0.005);
+}
+
+TEST_CASE("a motion file goes on from a chosen frame", "[record][motion_file]") {
+  const Folder dir;
+  MotionWriter first(dir.path.string(), two_blocks());
+  for (int i = 0; i < 5; ++i) first.write(frame_at(i + 100));
+  first.close();
+  {
+    MotionWriter anew(dir.path.string(), two_blocks());
+    for (int i = 0; i < 2; ++i) anew.write(frame_at(i));
+    for (int i = 0; i < 3; ++i) anew.write(frame_at(50));
+  }
+  MotionWriter again(dir.path.string(), 2);
+  CHECK(again.frames() == 2);
+  for (int i = 2; i < 6; ++i) again.write(frame_at(i));
+  again.close();
+  check_frames(dir.path, 6);
+  CHECK_THROWS_AS(MotionWriter(dir.path.string(), 7), Error);
+
+  std::ifstream in(dir.path / "motion.xdmf");
+  std::stringstream text;
+  text << in.rdbuf();
+  CHECK(text.str().find("frame5") != std::string::npos);
+  CHECK(text.str().find("frame6") == std::string::npos);
+  CHECK(text.str().find("</Xdmf>") != std::string::npos);
+}
+
+TEST_CASE("a killed writer leaves every whole frame, and the file can be gone on with", "[record][motion_file]") {
+  const Folder dir;
+  const pid_t child = fork();
+  if (child == 0) {
+    MotionWriter writer(dir.path.string(), two_blocks());
+    for (int i = 0; i < 600; ++i) writer.write(frame_at(i));  // more than one chunk of times
+    kill(getpid(), SIGKILL);
+  }
+  int status = 0;
+  REQUIRE(waitpid(child, &status, 0) == child);
+  REQUIRE(WIFSIGNALED(status));
+  check_frames(dir.path, 600);
+  MotionWriter writer(dir.path.string(), 400);
+  for (int i = 400; i < 610; ++i) writer.write(frame_at(i));
+  CHECK(MotionReader(dir.path.string()).times().size() == 610);  // read while it is being written
+  writer.close();
+  check_frames(dir.path, 610);
+}
+
+TEST_CASE("a scene without joints and a file that is none", "[record][motion_file]") {
+  const Folder dir;
+  MotionScene scene = two_blocks();
+  scene.joints.clear();
+  MotionFrame f = frame_at(0);
+  f.damage.clear();
+  f.opening.clear();
+  MotionWriter writer(dir.path.string(), scene);
+  writer.write(f);
+  writer.close();
+  CHECK(MotionReader(dir.path.string()).read(0).poses == f.poses);
+  std::ofstream(dir.path / "motion.h5") << "nothing of the kind";
+  CHECK_THROWS_WITH(MotionReader(dir.path.string()), Catch::Contains("motion.h5") && Catch::Contains("run the scene again"));
+  std::filesystem::remove(dir.path / "motion.h5");
+  CHECK_THROWS_WITH(MotionReader(dir.path.string()), Catch::Contains("no such motion file"));
+}
