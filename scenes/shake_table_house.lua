@@ -1,4 +1,4 @@
--- A three-storey brick house on a shaking table: El Centro 1940 NS along x.
+-- A brick house on a shaking table, El Centro 1940
 --
 -- What happens   A model of 1525 x 1830 x 4260 mm, walls half a brick thick with interlocked corners, three pre-cast slabs, a door and
 --                eleven windows, stands on its mortar in equilibrium and is shaken by the whole record, its time pressed by 0.707. At
