@@ -123,8 +123,13 @@ class ResultHash {
   void operator()(const T& member) {
     (*this)("member", member, outer_);
   }
+  // A member without a word of its own counts as the thing it belongs to.
   template <class T>
-  void operator()(std::string_view name, const T& member, Part part = Part::carried) {
+  void operator()(std::string_view name, const T& member) {
+    (*this)(name, member, outer_);
+  }
+  template <class T>
+  void operator()(std::string_view name, const T& member, Part part) {
     if constexpr (is_plain<T>) {
       if (part != Part::carried) add(&member, sizeof(T));
     } else if constexpr (is_vector<T>::value) {

@@ -171,16 +171,16 @@ void Debris::loosen() {
 }
 
 void Debris::prepare() {
-  const bool look = !state_.debris.valid || state_.step % look_every == 0;
-  if (!look) {
+  if (!state_.debris.valid || state_.step % look_every == 0) {
+    // what a loose block may meet is not kept up to date step by step: a look takes all poses
+    for (int b = 0; b < model_.nblock; ++b) place(b);
+    if (!state_.debris.valid || needs_search(state_.debris, shapes_, blocks_)) {
+      state_.energy.reset += search(state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); });
+      list_involved();
+    }
+  } else {
     for (const int b : involved_) place(b);
-    results_.resize(state_.debris.pair.size());
-    return;
   }
-  for (int b = 0; b < model_.nblock; ++b) place(b);
-  if (state_.debris.valid && !needs_search(state_.debris, shapes_, blocks_)) return;
-  state_.energy.reset += search(state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); });
-  list_involved();
   results_.resize(state_.debris.pair.size());
 }
 
