@@ -1,7 +1,6 @@
 #include "engine/solve/joint_kernel.h"
 
 #include <cmath>
-#include <vector>
 
 #include "engine/solve/lanes.h"
 
@@ -27,19 +26,6 @@ void before(const State& s, const JointBatch& B, int l, double q[6], double f[6]
   for (int i = 0; i < 6; ++i) q[i] = o.q[i][l], f[i] = o.f[i][l];
 }
 
-// What a joint loses as it passes from its six sound springs to its points, at the pose before the step: the points store another
-// energy (their compression is integrated over the polygon, their tension summed, so that a bent joint differs even where the rule
-// is exact), and the step's trapezoid begins with another force. Springs along the joint are the same in both.
-double parting(const Model& m, int j, const JointMemory& before, const double q[6]) {
-  std::vector<PointHistory> fresh(z(m.joint[z(j)].points));
-  double f[6];
-  JointEnergy same;
-  respond(m, j, false, before.q, before.q, fresh.data(), f, same);
-  double lost = before.elastic - same.elastic - same.friction - same.fracture - same.crushing;
-  for (int i = 2; i < 5; ++i) lost += 0.5 * (before.f[i] - f[i]) * (q[i] - before.q[i]);
-  return lost;
-}
-
 }  // namespace
 
 void joint_by_points(const Model& m, State& s, int j, const double q[6], double f[6], JointSums& sums) {
@@ -54,7 +40,6 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
   const bool still = respond(m, j, sound, memory.q, q, &s.history[z(m.joint[z(j)].first_point)], f, e);
   if (sound && still) return;
   if (sound) {
-    e.fracture += parting(m, j, memory, q);
     s.tier[z(j)] = Tier::cracked;
     s.slow[z(j / lanes)] = std::uint8_t(s.slow[z(j / lanes)] | 1u << (j % lanes));
     ++sums.cracked_now;
