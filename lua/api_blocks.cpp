@@ -36,6 +36,7 @@ int material(Call& call) {
   call.arguments().read(item);
   item.place = call.place;
   lua_pushstring(call.lua, item.name.c_str());
+  call.context.materials.push_back(static_cast<int>(call.context.scene.materials.size()));
   call.context.scene.materials.push_back(std::move(item));
   return 1;
 }
@@ -50,7 +51,7 @@ int material_of(Call& call, Arguments& arguments) {
   for (size_t i = materials.size(); i-- > 0;)
     if (arguments.has("material") && materials[i].name == name) return static_cast<int>(i);
   if (!arguments.has("material")) {
-    if (materials.size() == 1) return 0;
+    if (call.context.materials.size() == 1) return call.context.materials.front();
     arguments.mistake(materials.empty() ? "there is no material yet; begin with material{ name = \"brick\", density = 1800 }"
                                         : fmt::format("\"material\" is missing; known are {}", fmt::join(known, ", ")));
   } else if (!name.empty()) {

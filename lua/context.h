@@ -54,6 +54,7 @@ struct Context {
   Scene scene;
   std::vector<std::string> mistakes;
   std::vector<Frame> frames{Frame{}};  // of the transform{} calls being built; the last holds
+  std::vector<int> materials;          // those of material{}, not the ones ground{} makes for itself
   std::vector<Law> laws;               // values of mortar{} and dry{}: a script holds an index
   std::vector<Wave> waves;             // values of sine{} ... record{}
   std::vector<Override> overrides;

@@ -12,6 +12,16 @@
 namespace erbs {
 namespace {
 
+// A value of a list as a script would write it.
+std::string written(const Json& value) {
+  if (value.is_string()) return value.get<std::string>();
+  if (value.is_number()) return erbs::written(value.get<double>());
+  if (!value.is_array()) return value.dump();
+  std::vector<std::string> items;
+  for (const Json& item : value) items.push_back(written(item));
+  return fmt::format("{{ {} }}", fmt::join(items, ", "));
+}
+
 // Keys of functions written in Lua, as their list says them.
 Keys keys_of(const Json& list) {
   Keys keys;
@@ -22,12 +32,15 @@ Keys keys_of(const Json& list) {
     key.unit = item.value("unit", "");
     key.text = item.value("help", "");
     key.required = item.value("required", false);
-    if (item.contains("default")) key.fallback = item["default"].is_string() ? item["default"].get<std::string>() : item["default"].dump();
+    if (item.contains("default")) key.fallback = written(item["default"]);
     if (item.contains("low") && item["low"].is_number()) key.low = item["low"].get<double>();
     if (item.contains("above") && item["above"].is_number()) key.low = item["above"].get<double>();
     if (item.contains("high") && item["high"].is_number()) key.high = item["high"].get<double>();
     if (item.contains("choice"))
       for (const Json& word : item["choice"]) key.words += (key.words.empty() ? "" : "|") + word.get<std::string>();
+    for (const char* inner : {"keys", "list"})
+      if (item.contains(inner)) key.inner = keys_of(item[inner]);
+    if (item.contains("list")) key.type = "list";
     keys.push_back(std::move(key));
   }
   return keys;
@@ -47,6 +60,8 @@ std::string facts(const Key& key) {
 
 std::string shown_type(const Key& key) {
   static const std::pair<const char*, const char*> names[] = {{"vec3", "{x, y, z}"},
+                                                              {"vec", "{x, y, z}"},
+                                                              {"list", "list of tables"},
                                                               {"points", "{{x, y, z}, ...}"},
                                                               {"pairs", "{{u, v}, ...}"},
                                                               {"strings", "string(s)"},
@@ -72,7 +87,19 @@ std::string line_of(const Key& key, size_t name_width, size_t type_width) {
   return line + "\n";
 }
 
-std::string keys_text(const Keys& keys) {
+// The keys of a table inside come after it, as brick.length.
+Keys flat(const Keys& keys, const std::string& before) {
+  Keys all;
+  for (const Key& key : keys) {
+    all.push_back(key);
+    all.back().name = before + key.name;
+    for (Key& inner : flat(key.inner, before + key.name + (key.type == "list" ? "[]." : "."))) all.push_back(std::move(inner));
+  }
+  return all;
+}
+
+std::string keys_text(const Keys& given) {
+  const Keys keys = flat(given, "");
   size_t name = 4, type = 6;
   for (const Key& key : keys) name = std::max(name, key.name.size()), type = std::max(type, shown_type(key).size());
   std::string text;
@@ -100,6 +127,7 @@ std::string function_text(const Function& function) {
 // LuaCATS: the type of a key.
 std::string editor_type(const Key& key) {
   static const std::pair<const char*, const char*> types[] = {{"vec3", "erbs.vec3"},
+                                                              {"vec", "erbs.vec3"},
                                                               {"points", "erbs.vec3[]"},
                                                               {"pairs", "number[][]"},
                                                               {"strings", "string|string[]"},
@@ -115,6 +143,12 @@ std::string editor_type(const Key& key) {
                                                               {"metric", "number|fun(run: erbs.run): number?"},
                                                               {"expected", "number|string|boolean?"},
                                                               {"tolerance", "erbs.tolerance"}};
+  if (!key.inner.empty()) {
+    std::vector<std::string> members;
+    for (const Key& inner : key.inner)
+      members.push_back(fmt::format("{}{}: {}", inner.name, inner.required ? "" : "?", editor_type(inner)));
+    return fmt::format("{{ {} }}{}", fmt::join(members, ", "), key.type == "list" ? "[]" : "");
+  }
   if (key.type == "string" && !key.words.empty()) {
     std::string words;
     for (const char c : key.words) words += c == '|' ? std::string("\"|\"") : std::string(1, c);
@@ -126,7 +160,7 @@ std::string editor_type(const Key& key) {
 }
 
 std::string editor_text(const Key& key) {
-  const std::string more = facts({"", "", key.unit, "", key.low, key.high, false, "", key.fallback});
+  const std::string more = facts({"", "", key.unit, "", key.low, key.high, false, "", key.fallback, {}});
   return key.text + (more.empty() ? "" : fmt::format(" [{}]", more));
 }
 

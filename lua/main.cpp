@@ -31,7 +31,7 @@ void add_scene(CLI::App& verb, CommandLine& line) {
 
 void add_run(CLI::App& app, CommandLine& line) {
   CLI::App& run = *app.add_subcommand("run", "run a scene into a folder of results");
-  run.add_option("SCENE.lua", line.options.words, "the scene")->required();
+  run.add_option("SCENE.lua", line.options.words, "the scene")->required()->expected(1);
   add_output(run, line);
   add_scene(run, line);
   run.add_option("--threads", line.options.threads, "threads (default: as many as the machine has)")->check(CLI::Range(1, 1024));
@@ -100,7 +100,8 @@ int call(const CLI::App& app, CommandLine& line) {
   if (!line.options.words.empty())
     for (const CLI::App* other : app.get_subcommands({}))
       if (other->get_name() == line.options.words.front()) return std::printf("%s", other->help("erbs").c_str()) < 0;
-  return erbs::verb_help(line.options, app.help());
+  // not app.help(), which would explain the verb help
+  return erbs::verb_help(line.options, app.get_formatter()->make_help(&app, "erbs", CLI::AppFormatMode::Normal));
 }
 
 }  // namespace

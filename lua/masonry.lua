@@ -126,7 +126,7 @@ local function raise(k, title, corners, closed, names, courses)
     at = k.at, material = k.material, lintel = k.lintel, slab = k.slab, base = k.base, shift = k.shift, courses = courses, laid = {},
     prefix = k.prefix, title = title, plan_box = { lo = lo, hi = hi },
   }
-  if masonry.closer > masonry.half then fail("closer = %s is more than half a brick (%s)", millimetres(masonry.closer), millimetres(masonry.half)) end
+  if masonry.closer > masonry.half then fail("closer = %s is more than half a brick; at most %s is allowed", millimetres(masonry.closer), millimetres(masonry.half)) end
   masonry.out = {
     blocks = {}, slabs = {}, lintels = {}, tops = {}, walls = {},
     report = { pieces = { full = 0, half = 0, cut = 0 }, cuts = {}, head_joints = {}, patterns = {}, openings = {}, stacked = 0, short_laps = 0,
@@ -259,7 +259,7 @@ building = public(function(options)
   parts.stop_if(mistakes)
   local corners, names, p = k.plan, k.walls or {}, k.plan
   if type(p[1]) == "number" and type(p[2]) == "number" and #p == 2 then
-    if math.min(p[1], p[2]) <= 2 * k.brick.width then fail("building: plan {%g, %g} is no wider than two walls", p[1], p[2]) end
+    if math.min(p[1], p[2]) <= 2 * k.brick.width then fail("building: plan {%g, %g} is no wider than two walls; make it larger", p[1], p[2]) end
     corners = { { 0, 0 }, { p[1], 0 }, { p[1], p[2] }, { 0, p[2] } }
     if not k.walls then names = { "south", "east", "north", "west" } end
   elseif #p < 2 then
@@ -270,7 +270,7 @@ building = public(function(options)
   end
   if k.closed and #corners % 2 == 1 then fail("building: a closed plan parallel to x and y has an even number of corners, not %d", #corners) end
   if k.slab and #corners ~= 4 then fail("building: a slab needs a plan of four corners; leave it out and lay plates with box{}") end
-  if type(k.courses) == "table" and #k.courses ~= k.storeys then fail("building: courses has %d numbers for %d storeys", #k.courses, k.storeys) end
+  if type(k.courses) == "table" and #k.courses ~= k.storeys then fail("building: courses has %d numbers for %d storeys; give one for each", #k.courses, k.storeys) end
   local courses = {}
   for s = 1, k.storeys do
     courses[s] = math.tointeger(type(k.courses) == "table" and k.courses[s] or k.courses)  -- a number given by -D is no integer yet

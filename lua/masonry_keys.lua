@@ -52,9 +52,20 @@ local common_keys = {
   { name = "quiet", type = "boolean", default = false, help = "true: do not print the summary" },
 }
 
+-- Adds the keys both functions have, and to the help of each key that is a table the names of its keys.
 local function with_common(keys)
   for _, key in ipairs(common_keys) do keys[#keys + 1] = key end
-  return keys
+  local whole = {}
+  for i, key in ipairs(keys) do
+    whole[i] = {}
+    for name, value in pairs(key) do whole[i][name] = value end
+    if key.keys or key.list then
+      local names = {}
+      for n, inner in ipairs(key.keys or key.list) do names[n] = inner.name .. (inner.required and "*" or "") end
+      whole[i].help = string.format("%s: %s{ %s }", key.help, key.list and "a list of " or "", table.concat(names, ", "))
+    end
+  end
+  return whole
 end
 
 --- Everything this file adds to the language: for help, editors and tests.

@@ -52,7 +52,7 @@ local function make_patterns(masonry, index, run)
     local _, _, below = ends(masonry, index, run, 1 - parity)
     for _, joint in ipairs(run.pattern[1 - parity] or {}) do below[#below + 1] = joint.u end
     local course = lay(masonry, start, stop, below, nil)
-    if not course then fail("wall \"%s\" of %s is too short for a piece of at least %s", run.name, millimetres(stop - start), millimetres(masonry.closer)) end
+    if not course then fail("wall \"%s\" of %s cannot be laid with pieces of at least %s; make it longer", run.name, millimetres(stop - start), millimetres(masonry.closer)) end
     run.pattern[parity] = course.joints
   end
 end
@@ -100,7 +100,7 @@ local function place_opening(masonry, run, opening, storey, name)
   end
   local reach = hole.lintel or hole
   if hole.lo < edge_lo - eps or hole.hi > edge_hi + eps or reach.lo < edge_lo + masonry.t - eps or reach.hi > edge_hi - masonry.t + eps then
-    fail("opening \"%s\" with its lintel reaches from %s to %s along wall \"%s\"; allowed: %s to %s", name, millimetres(reach.lo),
+    fail("opening \"%s\" with its lintel reaches from %s to %s along wall \"%s\"; allowed: %s to %s; move it or make it narrower", name, millimetres(reach.lo),
       millimetres(reach.hi), run.name, millimetres(edge_lo), millimetres(edge_hi))
   end
   return hole
@@ -125,7 +125,7 @@ local function place_openings(masonry, runs, openings)
       elseif #places > 1 then
         name = name .. (name:find("%d$") and "_" or "") .. storey
       end
-      if used[run.name .. name] then fail("two openings of wall \"%s\" are called \"%s\"", run.name, name) end
+      if used[run.name .. name] then fail("two openings of wall \"%s\" are called \"%s\"; rename one", run.name, name) end
       used[run.name .. name] = true
       run.openings[#run.openings + 1] = place_opening(masonry, run, opening, storey, name)
     end
@@ -148,7 +148,7 @@ local function obstacles(masonry, run, storey, course)
   for i = 2, #found do
     local left, right = found[i - 1], found[i]
     if left.hi + left.gap + masonry.closer + right.gap > right.lo + eps then
-      fail("openings \"%s\" and \"%s\" of wall \"%s\" (with their lintels) leave no room for a piece of %s between them",
+      fail("openings \"%s\" and \"%s\" of wall \"%s\" (with their lintels) leave no room for a piece of %s between them; move them apart",
         left.hole.name, right.hole.name, run.name, millimetres(masonry.closer))
     end
   end

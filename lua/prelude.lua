@@ -1,4 +1,4 @@
--- The part of the scene language that is plain Lua: units, as factors to SI, and an order for pairs.
+-- The part of the scene language that is plain Lua: units, as factors to SI; xpcall and pairs as scenes need them.
 
 m, cm, mm, km = 1, 1e-2, 1e-3, 1e3           -- m
 s, ms = 1, 1e-3                              -- s
@@ -8,6 +8,14 @@ Pa, kPa, MPa, GPa = 1, 1e3, 1e6, 1e9         -- Pa
 J, Hz = 1, 1                                 -- J, 1/s
 pi, deg = math.pi, math.pi / 180             -- rad
 g = 9.81                                     -- m/s2
+
+-- Lua calls the handler of xpcall where the error is, out of reach of the time limit when that is what struck; here it comes after.
+local pcall = pcall
+local function finished(handler, sound, ...)
+  if sound then return true, ... end
+  return false, handler((...))
+end
+function xpcall(f, handler, ...) return finished(handler, pcall(f, ...)) end
 
 -- Lua's own order of string keys differs from run to run; a scene must be built the same way every time.
 -- Numbers come first, rising, then strings in the alphabet's order, then the rest as Lua has them.

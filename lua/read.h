@@ -19,8 +19,9 @@ struct Key {
   std::string unit, text;
   double low = -unbounded, high = unbounded;
   bool required = false;
-  std::string words = {};     // of a string: a|b|c
-  std::string fallback = {};  // what holds where the key is absent, as written in a script; "" where nothing does
+  std::string words = {};       // of a string: a|b|c
+  std::string fallback = {};    // what holds where the key is absent, as written in a script; "" where nothing does
+  std::vector<Key> inner = {};  // of a table: its own keys
 };
 
 using Keys = std::vector<Key>;
@@ -34,8 +35,16 @@ Keys keys_of() {
   const T made{};
   Keys keys;
   for (const Field<T>& field : T::fields()) {
-    Key key{std::string(field.name),  "", std::string(field.unit), std::string(field.text), field.low, field.high, field.required,
-            std::string(field.words), ""};
+    Key key{std::string(field.name),
+            "",
+            std::string(field.unit),
+            std::string(field.text),
+            field.low,
+            field.high,
+            field.required,
+            std::string(field.words),
+            "",
+            {}};
     std::visit(
         [&](auto member) {
           using Value = std::decay_t<decltype(made.*member)>;

@@ -48,11 +48,16 @@ int noted(lua_State* lua) {
     const Cap uncapped(limits, false);
     const Place place = current_place(lua);
     const std::lock_guard lock(limits.mutex);
-    limits.doing = place.text() + ": string." + lua_tostring(lua, lua_upvalueindex(2));
+    limits.doing = place.text() + ": " + lua_tostring(lua, lua_upvalueindex(2));
   }
   lua_pushvalue(lua, lua_upvalueindex(1));
   lua_insert(lua, 1);
   lua_call(lua, lua_gettop(lua) - 1, LUA_MULTRET);
+  {
+    Limits& limits = context_of(lua).limits;
+    const std::lock_guard lock(limits.mutex);
+    limits.doing.clear();
+  }
   return lua_gettop(lua);
 }
 
@@ -99,7 +104,7 @@ int print(lua_State* lua) {
 void wrap(lua_State* lua, const char* library, const char* name, lua_CFunction wrapper) {
   lua_getglobal(lua, library);
   lua_getfield(lua, -1, name);
-  lua_pushstring(lua, name);
+  lua_pushfstring(lua, "%s.%s", library, name);
   lua_pushcclosure(lua, wrapper, 2);
   lua_setfield(lua, -2, name);
   lua_pop(lua, 1);
@@ -157,7 +162,7 @@ Stretch::Stretch(lua_State* lua, Context& context) : lua_(lua), context_(context
   lua_sethook(lua, count_hook, LUA_MASKCOUNT, 1000);
   watchdog_ = std::thread([this] {
     std::unique_lock lock(mutex_);
-    const auto latest = context_.limits.deadline + std::chrono::seconds(1);
+    const auto latest = context_.limits.deadline + std::chrono::seconds(3);  // the hook comes first, also on a busy machine
     if (ended_.wait_until(lock, latest, [this] { return done_; })) return;
     std::string doing;
     {

@@ -44,7 +44,7 @@ void print_effects(const Scene& scene) {
 
 void print_run(const Scene& scene, const Prepared& run) {
   const Model& model = run.model;
-  const double dt = model.analysis.dt, steps = std::ceil(scene.analysis.duration / dt);
+  const double dt = run.state.dt, steps = std::ceil(scene.analysis.duration / dt);
   fmt::print("model: {} blocks, {} joints, {} contact points\n", model.nblock, model.njoint, model.npoint);
   fmt::print("dt = {:.4g} s: {}\n  dt_critical {:.4g} s, dt_block_bound {:.4g} s{}\n", dt, run.dt_rule, run.bounds.critical,
              run.bounds.block,

@@ -146,7 +146,10 @@ int verb_run(const Options& options) {
   int code = exit_code(scene, options, outcome, metrics, verdicts);
   if (code == exit_ok && !failures.empty()) code = exit_usage;
   if (options.video && status != "interrupted") {
-    const int drawn = run_renderer({directory, "--video"});
+    std::vector<std::string> words{directory, "--video"};
+    if (options.force) words.push_back("--force");
+    if (options.quiet) words.push_back("--quiet");
+    const int drawn = run_renderer(words);
     if (code == exit_ok) code = drawn;
   }
   return code;

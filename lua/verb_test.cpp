@@ -101,15 +101,18 @@ void run_all(std::vector<Case>& cases, const Options& options) {
   if (live) fmt::print(stderr, "\r\033[K");
 }
 
-// The last words of a run that gave no verdict.
+// Why a run gave no verdict: its first message that names the scene, else its last words.
 std::string reason(const Case& item) {
   if (item.code > 128) return fmt::format("ended by signal {}", item.code - 128);
-  std::string last, line;
+  const std::string name = fs::path(item.scene).filename().string() + ":";
+  std::string first, last, line;
   std::ifstream log(item.log);
-  while (std::getline(log, line))
-    if (!line.empty() && line.find("warning:") == std::string::npos && line.find("results in") == std::string::npos) last = line;
-  if (item.code == exit_stopped) return "stopped by a limit: " + last;
-  return fmt::format("exit code {}: {}", item.code, last);
+  while (std::getline(log, line)) {
+    if (line.empty() || line.starts_with("warning:") || line.starts_with("results in")) continue;
+    if (first.empty() && line.find(name) != std::string::npos) first = line;
+    last = line;
+  }
+  return fmt::format("exit code {}: {}", item.code, first.empty() ? last : first);
 }
 
 struct Row {

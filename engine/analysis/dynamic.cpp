@@ -146,6 +146,7 @@ Snapshot Run::snapshot() const {
   }
   for (int j = 0; j < m.njoint; ++j)
     if (run_.state.tier[z(j)] != Tier::open) s.contact_points += m.joint[z(j)].points;
+  s.contact_points += solver_->touching();
   return s;
 }
 
@@ -173,6 +174,10 @@ void Run::sampled() {
   const double began = seconds();
   const Snapshot now = snapshot();
   note_cracks(now.t);
+  for (const int j : solver_->take_opened()) {
+    ++clock_.opened;
+    writer_->event(now.t, "open", run_.model.joint_name(j), look_at_joint(run_.model, run_.state, j).opening, "m");
+  }
   std::vector<int> fallen;
   const bool collapse = update(collapse_, run_.model, run_.state, now.t, &fallen);
   for (const int b : fallen) writer_->event(now.t, "fall", run_.model.block_name[z(b)], -run_.state.u[z(b)].z(), "m");

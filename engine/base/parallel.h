@@ -1,6 +1,6 @@
 // Threads: a team that stays together for a whole run, with a barrier cheap enough for two of them a step.
 // std::thread and atomics rather than OpenMP: spinning then needs no environment variable set before main, and the thread
-// sanitizer understands it. A waiting thread spins briefly, then yields, so that an oversubscribed core still makes progress.
+// sanitizer understands it. A waiting thread spins for some tens of microseconds, then sleeps, so that an oversubscribed core still makes progress.
 #pragma once
 #include <atomic>
 #include <exception>
@@ -19,10 +19,12 @@ class Barrier {
     if (waiting_.fetch_add(1, std::memory_order_acq_rel) + 1 == count_) {
       waiting_.store(0, std::memory_order_relaxed);
       round_.store(round + 1, std::memory_order_release);
+      round_.notify_all();
       return;
     }
-    for (int spins = 0; round_.load(std::memory_order_acquire) == round; ++spins)
-      if (spins > 2000) std::this_thread::yield();
+    for (int spins = 0; spins < 20000; ++spins)
+      if (round_.load(std::memory_order_acquire) != round) return;
+    while (round_.load(std::memory_order_acquire) == round) round_.wait(round, std::memory_order_acquire);
   }
 
  private:

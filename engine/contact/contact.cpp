@@ -78,13 +78,15 @@ struct Dashpot {
 // (its coefficient is 2 settling sqrt(kn A m)), both kept below what the explicit step bears.
 Dashpot dashpot(Pair& pair, const Patch& patch, double inverse_mass, const ContactSettings& settings, double dt) {
   Dashpot d;
-  pair.approach = std::max({pair.approach * std::exp(-dt / settings.memory), patch.closing, settings.reference_speed});
+  // Forgotten slowly against the time of a soft impact (about 3 depth / speed on a corner).
+  const double memory = pair.approach > 0 ? std::max(settings.memory, 30 * patch.deepest / pair.approach) : settings.memory;
+  pair.approach = std::max({pair.approach * (1 - std::min(1.0, dt / memory)), patch.closing, settings.reference_speed});
   if (!(inverse_mass > 0)) return d;
-  const double kn = pair.law.kn, x = impact_factor(pair.law.restitution);
-  const double settled = 2 * settings.settling * std::sqrt(kn * patch.area / inverse_mass) / (kn * patch.total);
-  d.chi = x / pair.approach + settled;
-  const double bearable = 0.5 / (inverse_mass * kn * patch.total * dt);
-  d.chi = std::min(d.chi, bearable);
+  const double kn = pair.law.kn, x = pair.impact;
+  const double slow = settings.reference_speed / pair.approach,
+               share = settings.settling * slow * slow;  // an impact is left to its restitution
+  d.chi = x / pair.approach + 2 * share * std::sqrt(kn * patch.area / inverse_mass) / (kn * patch.total);
+  if (dt > 0) d.chi = std::min(d.chi, 0.25 / (inverse_mass * kn * patch.total * dt));
   d.limit = 1 + std::max(x, 1.0);
   return d;
 }
@@ -110,13 +112,15 @@ void forget_contact(Pair& pair) {
   pair.psi = pair.area = pair.gyration = pair.tangential = 0;
 }
 
-// Bounds of section 6 of the stability page: the patch resists with at most kn A along and kt across, dashpots weigh 2 c / dt.
-void stability(const Pair& pair, const View& s, const Patch& patch, const Dashpot& d, double viscous, double dt, PairResult& result) {
-  const double kn = pair.law.kn, normal = kn * patch.area + 2 * kn * patch.total * d.chi / dt;
-  const double tangential = pair.law.ks * pair.area + 2 * viscous / dt;
+// The patch resists with at most kn A along its normal and kt across; its spread about its centroid adds the gyration to the arms.
+// Dashpots are not in the sum: they see the velocity of half a step before, and dashpot() and the cap on the tangential one keep
+// each below a quarter of m / dt, which an explicit step bears beside springs at this bound (dt^2 k / m + 2 c dt / m < 4).
+void stability(const Pair& pair, const View& s, const Patch& patch, PairResult& result) {
+  const double normal = pair.law.kn * patch.area, tangential = pair.law.ks * pair.area, spread = pair.gyration * pair.gyration;
   auto rate = [&](const ContactBlock& block, const Vec3& arm) {
-    const double reach = arm.norm() + pair.gyration;
-    return (normal + tangential) * (block.inverse_mass + reach * reach * block.inverse_inertia);
+    const double lever = arm.cross(patch.normal).squaredNorm();
+    return normal * (block.inverse_mass + (lever + spread) * block.inverse_inertia) +
+           tangential * (block.inverse_mass + (arm.squaredNorm() + spread) * block.inverse_inertia);
   };
   const double other = rate(*s.other_block, patch.centroid), reference = rate(*s.reference_block, patch.centroid + s.pose.shift);
   result.rate_a = pair.b_is_reference ? other : reference;
@@ -132,7 +136,8 @@ double power(const PairWrench& w, const ContactBlock& a, const ContactBlock& b) 
 double torsion_radius(double area, double gyration) {
   if (!(gyration > 0)) return 0;
   // Interpolates between the line and the square by the slenderness area / gyration^2 (6 for a square).
-  return gyration * (0.866 + 0.0711 * std::pow(std::min(1.1, area / (6 * gyration * gyration)), 4.0 / 3));
+  const double fill = std::min(1.1, area / (6 * gyration * gyration));
+  return gyration * (0.866 + 0.0711 * fill * std::cbrt(fill));
 }
 
 double impact_factor(double restitution) {
@@ -156,6 +161,7 @@ Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, const Co
   p.part_a = part_a;
   p.part_b = part_b;
   p.law = law;
+  p.impact = impact_factor(law.restitution);
   // Equal volumes up to round-off: the lower block decides.
   p.b_is_reference = shape_of(shapes, b, part_b).volume > shape_of(shapes, a, part_a).volume * (1 + 1e-9);
   return p;
@@ -172,7 +178,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
 
   PairWrench elastic, damping, friction;
   const double stored_before = pair.tangential;
-  double slipped = 0, viscous = 0;
+  double slipped = 0;
   if (touches) {
     const Motion motion = motion_of(s);
     closing_speeds(room, motion.linear, motion.angular, patch);
@@ -180,11 +186,9 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     elastic = to_world(pair, s, kn * patch.force, kn * patch.moment);
     const Dashpot d = dashpot(pair, patch, inverse_mass_at(s, patch.pressure_centre, patch.normal), settings, dt);
     Vec3 damping_force, damping_moment;
-    damping_wrench(room, d.chi, d.limit, damping_force, damping_moment);
+    damping_wrench(room, patch.normal, d.chi, d.limit, damping_force, damping_moment);
     const double inverse_mass = inverse_mass_at(s, patch.centroid, Vec3::Zero());
-    const Friction f =
-        patch_friction(pair, patch, s.pose, motion, kn * patch.force.norm(), inverse_mass, settings.settling_tangential);
-    viscous = inverse_mass > 0 ? 2 * settings.settling_tangential * std::sqrt(pair.law.ks * pair.area / inverse_mass) : 0;
+    const Friction f = patch_friction(pair, patch, s.pose, motion, kn * patch.force.norm(), inverse_mass, settings.settling_tangential);
     damping = to_world(pair, s, kn * damping_force + f.viscous_force, kn * damping_moment + f.viscous_moment);
     friction = to_world(pair, s, f.force, f.moment);
     slipped = f.slipped;
@@ -192,7 +196,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     pair.touching = 1;
     result.touching = true;
     result.depth = patch.deepest;
-    stability(pair, s, patch, d, viscous, dt, result);
+    stability(pair, s, patch, result);
     if (want_energy) result.elastic = kn * energy_integral(*s.reference, *s.other, s.pose, room);
   } else if (pair.touching) {
     forget_contact(pair);
@@ -201,7 +205,6 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
   }
   pair.turn = s.pose.turn;
   pair.shift = s.pose.shift;
-  pair.known = 1;
 
   const PairWrench offset = fading(pair, s, dt);
   const double lost_in_friction = -trapezoid(pair.friction, friction, a, b, dt) - (pair.tangential - stored_before);
@@ -252,7 +255,6 @@ void hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, c
     stiffness = kn * patch.area;
     middle = patch.centroid;
   }
-  pair.known = 1;
   pair.offset_force = old_force - new_force;
   pair.offset_moment = old_moment - new_moment;
   const double inverse_mass = inverse_mass_at(s, middle, Vec3::Zero());

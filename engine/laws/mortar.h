@@ -29,7 +29,7 @@ struct Mortar {
   static constexpr std::string_view law_name = "mortar";
   static Fields<Mortar> fields() {
     return {
-        {"E", &Mortar::E, "Pa", "Young's modulus of the mortar", 1e3, 1e14},
+        {"E", &Mortar::E, "Pa", "Young's modulus of the mortar", 0, 1e14},
         {"nu", &Mortar::nu, "", "Poisson's ratio, G = E / (2 (1 + nu))", -0.99, 0.5},
         {"G", &Mortar::G, "Pa", "shear modulus of the mortar (default from E and nu)", 0, 1e14},
         {"thickness", &Mortar::thickness, "m", "thickness of the bed; kn = E / thickness, ks = G / thickness", 0, 1},

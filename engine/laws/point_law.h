@@ -26,7 +26,11 @@ struct PointHistory {
   double slip_s = 0, slip_t = 0;  // m, plastic
   double damage = 0;
   double crushed = 0;             // m, plastic closing (<= 0)
+  double secant = 0, reach = 0;   // Pa/m, m: of the opened point at this damage, kept since they cost divisions; meaningless at 0
 };
+
+// Opening at which damage p goes on.
+inline double reach(const PointLaw& law, double p) { return law.opening_peak + p * (law.opening_ultimate - law.opening_peak); }
 
 // Tensile strength left: linear softening, ft (1 - p).
 // Secant stiffness of an opened point at damage p: the line from the origin to the softening branch (linear softening as in
@@ -34,8 +38,15 @@ struct PointHistory {
 inline double secant(const PointLaw& law, double p) {
   if (p <= 0) return law.kn;
   if (p >= 1) return 0;
-  const double opening = law.opening_peak + p * (law.opening_ultimate - law.opening_peak);
+  const double opening = reach(law, p);
   return opening > 0 ? law.ft * (1 - p) / opening : 0;
+}
+
+// Raises the damage of a point, never lowers it.
+inline void damage_to(const PointLaw& law, PointHistory& h, double p) {
+  h.damage = std::min(1.0, p);
+  h.secant = secant(law, h.damage);
+  h.reach = reach(law, h.damage);
 }
 
 inline double friction_at(const PointLaw& law, double p) { return law.mu + p * (law.mu_residual - law.mu); }

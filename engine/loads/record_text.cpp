@@ -134,8 +134,8 @@ std::optional<double> acceleration_unit(std::string_view name) {
   std::string unit;
   for (const char c : lower(trim(name)))
     if (c != ' ' && c != '^' && c != '*' && c != '.') unit += c == '_' ? '/' : c;
-  for (size_t at; (at = unit.find("sec")) != std::string::npos;) unit.replace(at, 3, "s");
-  if (const size_t at = unit.find("/s/s"); at != std::string::npos) unit.replace(at, 4, "/s2");
+  for (size_t at; (at = unit.find("sec")) != std::string::npos;) unit.replace(at, 3, 1, 's');
+  if (const size_t at = unit.find("/s/s"); at != std::string::npos) unit.replace(at, 4, std::string("/s2"));
   constexpr double foot = 0.3048;
   static constexpr std::array<std::pair<std::string_view, double>, 8> units{{{"g", standard_g},
                                                                              {"mg", 1e-3 * standard_g},

@@ -34,30 +34,33 @@ void advance(Oscillator& o, const Decay& d, double a0, double slope) {
   o.v = free_v + q;
 }
 
+constexpr int samples = 40;         // of the response, a period
+constexpr int most = 40 * samples;  // of one piece: by then a damped oscillator only follows the ground
+
 double largest_response(const Polyline& a, double period, double damping_ratio) {
   const double omega = 2 * pi / period;
   Oscillator o{omega, damping_ratio, omega * std::sqrt(1 - damping_ratio * damping_ratio)};
-  constexpr double samples = 40;  // a period
+  double peak = 0;
+  const auto go = [&](const Decay& d, double a0, double slope) {
+    advance(o, d, a0, slope);
+    peak = std::max(peak, std::abs(o.u));
+  };
   Decay decay{};
-  double peak = 0, last_h = -1;
-  int last_count = 0;
+  int count = 0;
+  double last_h = -1;
   for (size_t i = 0; i + 1 < a.times.size(); ++i) {
     const double h = a.times[i + 1] - a.times[i], slope = (a.values[i + 1] - a.values[i]) / h;
     if (std::abs(h - last_h) > 1e-13 * a.times.back()) {  // steps of even records differ in round-off only
       last_h = h;
-      last_count = std::max(1, static_cast<int>(std::ceil(h * samples / period)));
-      decay = decay_over(o, h / last_count);
+      count = static_cast<int>(std::clamp(std::ceil(h * samples / period), 1.0, 1.0 * most));
+      decay = decay_over(o, std::min(h / count, period / samples));
     }
-    for (int k = 0; k < last_count; ++k) {
-      advance(o, decay, a.values[i] + slope * decay.h * k, slope);
-      peak = std::max(peak, std::abs(o.u));
-    }
+    for (int k = 0; k < count; ++k) go(decay, a.values[i] + slope * decay.h * k, slope);
+    const double rest = h - count * decay.h;
+    if (count == most && rest > 0) go(decay_over(o, rest), a.values[i] + slope * (h - rest), slope);
   }
   decay = decay_over(o, period / samples);
-  for (int k = 0; k < static_cast<int>(samples); ++k) {
-    advance(o, decay, 0, 0);
-    peak = std::max(peak, std::abs(o.u));
-  }
+  for (int k = 0; k < samples; ++k) go(decay, 0, 0);
   return peak;
 }
 

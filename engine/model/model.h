@@ -9,8 +9,6 @@
 
 namespace erbs {
 
-inline constexpr int lanes = 8;  // joints computed side by side; a multiple of every vector width in use
-
 enum class Kind : std::uint8_t { moving, fixed, driven };
 
 // A joint: two faces that touch at rest. Its frame (s, t, n) has n from a to b, s and t along the principal axes of its contact

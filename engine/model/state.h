@@ -4,24 +4,11 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/model/joint_batch.h"
 #include "engine/model/model.h"
+#include "engine/model/pair.h"
 
 namespace erbs {
-
-// Elastic data of 8 joints side by side, valid since the last refresh of their geometry (joint_geometry.h says how).
-struct alignas(64) JointBatch {
-  double frame[9][lanes];      // columns s, t, n (world) at the refresh; row-major [axis * 3 + component]
-  double sum[3][lanes];        // m, arm_a + arm_b at the refresh
-  double apart[3][lanes];      // m, centroid b - centroid a at the refresh
-  double q[6][lanes];          // m, rad: relative displacement and rotation at the refresh, joint frame
-  double stiffness[6][lanes];  // zero once the joint is handed over to contact
-  double open_limit[lanes];    // m, opening at which tension cracks; 0 for dry joints
-  double slip_limit[lanes];    // m, c / ks
-  double slip_slope[lanes];    // mu kn / ks: limit of slip = slip_limit - slip_slope * largest opening
-  double close_limit[lanes];   // m, closing at which mortar crushes; infinite where it does not
-  double half_s[lanes], half_t[lanes], radius[lanes];
-  int a[lanes], b[lanes], row_a[lanes], row_b[lanes];
-};
 
 enum class Tier : std::uint8_t { intact, cracked, open };
 
@@ -78,6 +65,9 @@ struct State {
   std::vector<JointMemory> memory;     // [njoint]
   std::vector<PointHistory> history;   // [npoint]
   std::vector<double> wrench;          // rows of 8 doubles: force, moment on a block from one joint end [2 njoint + 1]
+  PairList debris;                     // contacts of loose blocks
+  double dt_goal = 0;                  // s, the step the run asks for; dt may be shorter while contacts change
+  int calm = 0;                        // steps since contacts last held dt down
   int joints_broken = 0;
   Energy energy;
   Vec3 gravity_before = Vec3::Zero();  // m/s2, of the last step, and sum of m u then: for the work of tilting

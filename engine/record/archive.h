@@ -1,4 +1,5 @@
-// Turns named members into bytes and back, through the same visitor: each(thing, archive) calls archive(name, member [, part]).
+// Turns named members into bytes and back, through the same visitor: each(thing, archive) calls archive(name, member [, part]),
+// or archive(member) where a name would say nothing; such a member has the part of the thing it belongs to.
 // Takes numbers, enums, Eigen's small vectors, plain structs (by bytes), strings, vectors of these, and structs that have an
 // each() of their own. Names and element sizes are written too, so that a changed layout is refused and not misread.
 #pragma once
@@ -24,10 +25,20 @@ inline constexpr bool is_small_eigen = std::is_same_v<T, Vec3> || std::is_same_v
 template <class T>
 inline constexpr bool is_plain = std::is_trivially_copyable_v<T> || is_small_eigen<T>;
 
+// Visitors that were written for reading take a non-const thing; those below only look.
+template <class T, class F>
+void visit_each(const T& value, F&& f) {
+  each(const_cast<T&>(value), f);
+}
+
 class ArchiveOut {
  public:
   std::string bytes;
 
+  template <class T>
+  void operator()(const T& value) {
+    (*this)("member", value);
+  }
   template <class T>
   void operator()(std::string_view name, const T& value, Part = Part::carried) {
     if constexpr (is_plain<T>) {
@@ -40,7 +51,7 @@ class ArchiveOut {
       vector(name, value);
     } else {
       head(name, 0, 1);
-      each(value, *this);
+      visit_each(value, *this);
     }
   }
 
@@ -63,6 +74,10 @@ class ArchiveIn {
  public:
   ArchiveIn(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
 
+  template <class T>
+  void operator()(T& value) {
+    (*this)("member", value);
+  }
   template <class T>
   void operator()(std::string_view name, T& value, Part = Part::carried) {
     if constexpr (is_plain<T>) {
@@ -105,7 +120,16 @@ class ResultHash {
   std::uint64_t value = 0xcbf29ce484222325u;
 
   template <class T>
-  void operator()(std::string_view name, const T& member, Part part = Part::carried) {
+  void operator()(const T& member) {
+    (*this)("member", member, outer_);
+  }
+  // A member without a word of its own counts as the thing it belongs to.
+  template <class T>
+  void operator()(std::string_view name, const T& member) {
+    (*this)(name, member, outer_);
+  }
+  template <class T>
+  void operator()(std::string_view name, const T& member, Part part) {
     if constexpr (is_plain<T>) {
       if (part != Part::carried) add(&member, sizeof(T));
     } else if constexpr (is_vector<T>::value) {
@@ -117,12 +141,16 @@ class ResultHash {
     } else if constexpr (std::is_same_v<T, std::string>) {
       if (part != Part::carried) add(member.data(), member.size());
     } else {
-      each(member, *this);
+      const Part outside = outer_;
+      outer_ = part;
+      visit_each(member, *this);
+      outer_ = outside;
     }
   }
 
  private:
   void add(const void* data, std::size_t size);
+  Part outer_ = Part::carried;  // of the thing being visited
 };
 
 }  // namespace erbs

@@ -27,7 +27,7 @@ std::string open_checkpoint(const std::string& dir, const CheckpointKey& key);  
 template <class... Parts>
 void write_checkpoint(const std::string& dir, const CheckpointKey& key, const Parts&... parts) {
   ArchiveOut out;
-  (each(parts, out), ...);
+  (visit_each(parts, out), ...);
   commit_checkpoint(dir, key, out.bytes);
 }
 
@@ -44,7 +44,7 @@ void read_checkpoint(const std::string& dir, const CheckpointKey& key, Parts&...
 template <class... Parts>
 std::string state_hash(const Parts&... parts) {
   ResultHash hash;
-  (each(parts, hash), ...);
+  (visit_each(parts, hash), ...);
   return fmt::format("{:016x}", hash.value);
 }
 

@@ -86,6 +86,7 @@ std::vector<std::string> check_recorders(const Scene& scene) {
 
 struct Recorders::Kinds {
   std::vector<AnyRecorder> list;
+  std::vector<std::size_t> width;  // columns of each
 };
 
 Recorders::Recorders(const Scene& scene, const Model& model) : kinds_(std::make_unique<Kinds>()), columns_{"time_s"} {
@@ -113,7 +114,9 @@ Recorders::Recorders(const Scene& scene, const Model& model) : kinds_(std::make_
         mistakes.push_back(mistake.what());
         return;
       }
-      for (std::string& column : std::get<K>(kinds_->list.back()).columns()) {
+      std::vector<std::string> columns = std::get<K>(kinds_->list.back()).columns();
+      kinds_->width.push_back(columns.size());
+      for (std::string& column : columns) {
         if (!taken.insert(column).second)
           mistakes.push_back(
               Error(fmt::format("recorder \"{}\": column \"{}\" is written already; give it another name", recorder.name, column),
@@ -140,13 +143,10 @@ Needs Recorders::needs() const {
 const std::vector<double>& Recorders::sample(const Snapshot& snapshot) {
   row_[0] = snapshot.t;
   double* out = row_.data() + 1;
-  for (const AnyRecorder& any : kinds_->list)
-    std::visit(
-        [&](const auto& kind) {
-          kind.sample(snapshot, out);
-          out += kind.columns().size();
-        },
-        any);
+  for (std::size_t i = 0; i < kinds_->list.size(); ++i) {
+    std::visit([&](const auto& kind) { kind.sample(snapshot, out); }, kinds_->list[i]);
+    out += kinds_->width[i];
+  }
   return row_;
 }
 

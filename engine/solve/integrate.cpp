@@ -1,53 +1,79 @@
 #include "engine/solve/integrate.h"
 
+#include <algorithm>
 #include <cmath>
+
+#include "engine/solve/lanes.h"
+
+// Rotation: implicit midpoint in the body, which keeps |L| and the energy exactly (both are quadratic), with the Cayley map for the
+// attitude, which keeps L in the world (Simo and Wong 1991, Int. J. Numer. Meth. Eng. 31, section 4, in its momentum form).
 
 namespace erbs {
 namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// Free rotation over dt with the momentum L (world) held: implicit midpoint in the body, which keeps |L| and the energy exactly
-// (both are quadratic), with the Cayley map for the attitude, which keeps L in the world (Simo and Wong 1991, Int. J. Numer. Meth.
-// Eng. 31, section 4, in its momentum form). Returns the spin at the middle of the step, world axes.
-Vec3 turn(Quat& q, const Vec3& L, const Mat3& inverse_inertia, double dt) {
-  const Mat3 r = q.toRotationMatrix();
-  const Vec3 p = r.transpose() * L;
-  Vec3 w = inverse_inertia * p;
-  for (int i = 0; i < 30; ++i) {
-    const Vec3 h = 0.5 * dt * w;
-    // middle momentum pm = p + pm x h  ->  (1 + h x) pm = p:  pm = (p + p x h + h (h.p)) / (1 + h.h)
-    const Vec3 next = inverse_inertia * ((p + p.cross(h) + h * h.dot(p)) / (1 + h.squaredNorm()));
-    const double change = (next - w).squaredNorm();
-    w = next;
-    if (change <= 1e-32 * w.squaredNorm()) break;
+// Blocks [first, first + n) into lanes; lanes beyond n, fixed and driven blocks stand still.
+void gather(const Model& m, const State& s, const double* push, const double* load, int first, int n, BlockLanes& o) {
+  for (int l = 0; l < lanes; ++l) {
+    const int b = std::min(first + l, m.nblock - 1);
+    const bool moving = l < n && m.kind[z(b)] == Kind::moving;
+    o.moving[l] = moving ? 1 : 0;
+    o.mass[l] = moving ? m.mass[z(b)] : 0;
+    o.inverse_mass[l] = m.inverse_mass[z(b)];
+    o.damping[l] = m.damping_all || s.grounded[z(b)] ? m.damping.mass : 0;
+    const double* J = m.inverse_inertia[z(b)].data();
+    for (int i = 0; i < 9; ++i) o.inverse_inertia[i][l] = J[i];
+    Vec6 w = moving ? joint_wrench(m, s, b) : Vec6(Vec6::Zero());
+    for (int i = 0; i < 6; ++i) {
+      o.load[i][l] = load != nullptr && moving ? load[6 * b + i] : 0;
+      w[i] += push[6 * b + i] + o.load[i][l];
+    }
+    for (int i = 0; i < 3; ++i) {
+      o.force[i][l] = w[i];
+      o.moment[i][l] = moving ? w[3 + i] : 0;
+      o.u[i][l] = s.u[z(b)][i];
+      o.v[i][l] = moving ? s.v[z(b)][i] : 0;
+      o.momentum[i][l] = moving ? s.spin_momentum[z(b)][i] : 0;
+      o.base_u[i][l] = s.base_u[z(b)][i];
+    }
+    for (int i = 0; i < 4; ++i) o.q[i][l] = s.q[z(b)].coeffs()[i], o.base_q[i][l] = s.base_q[z(b)].coeffs()[i];
   }
-  const Vec3 h = 0.5 * dt * w;
-  q = q * Quat(1, h.x(), h.y(), h.z());
-  q.coeffs() *= 1 / q.norm();
-  return r * w;
 }
 
-// The same for Gu and Miao's scalar equation (1), without the gyroscopic term: the spin in the body stays. For comparison only.
-Vec3 turn_without_gyroscopic(Quat& q, Vec3& L, const Mat3& inverse_inertia, double dt) {
-  const Mat3 r = q.toRotationMatrix();
-  const Vec3 p = r.transpose() * L, w = inverse_inertia * p, h = 0.5 * dt * w;
-  q = q * Quat(1, h.x(), h.y(), h.z());
-  q.coeffs() *= 1 / q.norm();
-  L = q * p;
-  return r * w;
+void scatter(const Model& m, State& s, int first, int n, const BlockLanes& o) {
+  for (int l = 0; l < n; ++l) {
+    const int b = first + l;
+    if (m.kind[z(b)] != Kind::moving) continue;
+    double* row = &s.row[z(b) * 8];
+    for (int i = 0; i < 3; ++i) {
+      s.u[z(b)][i] = o.u[i][l];
+      s.v[z(b)][i] = o.v[i][l];
+      s.w[z(b)][i] = o.w[i][l];
+      s.spin_momentum[z(b)][i] = o.momentum[i][l];
+    }
+    for (int i = 0; i < 4; ++i) s.q[z(b)].coeffs()[i] = o.q[i][l];
+    for (int i = 0; i < 6; ++i) row[i] = o.row[i][l];
+  }
 }
 
-void update_row(State& s, int b, double tolerance, BlockSums& sums) {
-  double* row = &s.row[z(b) * 8];
-  const Quat since = s.q[z(b)] * s.base_q[z(b)].conjugate();
-  double turned = 0;
-  for (int i = 0; i < 3; ++i) {
-    row[i] = s.u[z(b)][i] - s.base_u[z(b)][i];
-    row[3 + i] = 2 * (since.w() < 0 ? -since.vec()[i] : since.vec()[i]);  // angle below the tolerance: its cube is beyond a double
-    turned += row[3 + i] * row[3 + i];
+void add(const Model& m, const State& s, int first, int n, bool sample, const BlockLanes& o, BlockSums& sums) {
+  const double limit = m.analysis.lazy_rotation * m.analysis.lazy_rotation;
+  for (int l = 0; l < n; ++l) {
+    if (o.moving[l] == 0) continue;
+    sums.base_work += o.base0[l];
+    sums.base_after += o.base1[l];
+    sums.damping += o.damped0[l];
+    sums.damping_after += o.damped1[l];
+    sums.external_work += o.loaded0[l];
+    sums.external_after += o.loaded1[l];
+    sums.absolute_work += std::fabs(o.base0[l]) + std::fabs(o.loaded0[l]);
+    sums.absolute_after += std::fabs(o.base1[l]) + std::fabs(o.loaded1[l]);
+    if (sample) sums.kinetic += o.kinetic[l], sums.height += o.height[l];
+    if (!(o.speed[l] < 1e12)) sums.broken = true;
+    sums.fastest = std::max(sums.fastest, o.speed[l]);
+    if (o.turned[l] > limit && s.joined[z(first + l)]) sums.stale = true;
   }
-  if (turned > tolerance * tolerance && s.joined[z(b)]) sums.stale = true;
 }
 
 }  // namespace
@@ -61,7 +87,8 @@ Vec6 joint_wrench(const Model& m, const State& s, int b) {
 
 void advance(const Model& m, State& s, const Excitation& e, const double* push, const double* load, int first, int last, bool sample,
              BlockSums& sums) {
-  const double half_last = 0.5 * s.last_dt, half_next = 0.5 * s.dt;
+  KickDrift step{e.kick, s.dt, 0.5 * s.last_dt, 0.5 * s.dt, {}, {}, s.last_dt == 0, m.damping_explicit, m.analysis.gyroscopic};
+  for (int i = 0; i < 3; ++i) step.ground[i] = e.ground[i], step.gravity[i] = e.gravity[i];
   sums.base_work += sums.base_after;
   sums.external_work += sums.external_after;
   sums.damping += sums.damping_after;
@@ -69,60 +96,14 @@ void advance(const Model& m, State& s, const Excitation& e, const double* push, 
   sums.base_after = sums.external_after = sums.damping_after = sums.absolute_after = 0;
   sums.fastest = 0;
   if (sample) sums.kinetic = sums.height = 0;
-  for (int b = first; b < last; ++b) {
-    if (m.kind[z(b)] != Kind::moving) continue;
-    const double mass = m.mass[z(b)];
-    Vec6 w = joint_wrench(m, s, b) + Eigen::Map<const Vec6>(push + 6 * b);
-    if (load != nullptr) w += Eigen::Map<const Vec6>(load + 6 * b);
-    const Vec3 moment = w.tail<3>();
-    const double a = m.damping.mass > 0 && (m.damping_all || s.grounded[z(b)]) ? m.damping.mass : 0;
-    const Vec3 inertial = -mass * e.ground, force = w.head<3>() + inertial + mass * e.gravity;
-    const Vec3 v0 = s.v[z(b)], L0 = s.spin_momentum[z(b)];
-    Vec3 v1, L1;
-    const Mat3 r = s.q[z(b)].toRotationMatrix();
-    const Mat3 J = r * m.inverse_inertia[z(b)] * r.transpose();
-    // centred: damping on the mean of old and new velocity; explicit: on the old one, unstable past a dt = 2 (to repeat Fig. 6)
-    if (m.damping_explicit) {
-      v1 = v0 + e.kick * (force / mass - a * v0);
-      L1 = L0 + e.kick * (moment - a * L0);
-    } else {
-      const double f = 0.5 * a * e.kick;
-      v1 = ((1 - f) * v0 + e.kick / mass * force) / (1 + f);
-      L1 = ((1 - f) * L0 + e.kick * moment) / (1 + f);
-    }
-    // Work of this step's forces: half the last drift with the old velocity, half the next with the new one.
-    const Vec3 w0 = J * L0, w1 = J * L1;
-    const Vec3 vd = m.damping_explicit ? v0 : Vec3(0.5 * (v0 + v1)), Ld = m.damping_explicit ? L0 : Vec3(0.5 * (L0 + L1));
-    const double base0 = half_last * inertial.dot(v0), base1 = half_next * inertial.dot(v1);
-    sums.base_work += base0;
-    sums.base_after += base1;
-    sums.absolute_work += std::fabs(base0);
-    sums.absolute_after += std::fabs(base1);
-    sums.damping += half_last * a * (mass * vd.dot(v0) + Ld.dot(w0));
-    sums.damping_after += half_next * a * (mass * vd.dot(v1) + Ld.dot(w1));
-    if (load != nullptr) {
-      const Eigen::Map<const Vec3> F(load + 6 * b), M(load + 6 * b + 3);
-      const double out0 = half_last * (F.dot(v0) + M.dot(w0)), out1 = half_next * (F.dot(v1) + M.dot(w1));
-      sums.external_work += out0;
-      sums.external_after += out1;
-      sums.absolute_work += std::fabs(out0);
-      sums.absolute_after += std::fabs(out1);
-    }
-    if (sample) {
-      // before the first drift the old velocity is the mirror image of the new one about the start
-      const Vec3 vm = s.last_dt > 0 ? v0 : Vec3(2 * v0 - v1), wm = s.last_dt > 0 ? w0 : Vec3(2 * w0 - w1);
-      sums.kinetic += 0.5 * (mass * vm.dot(v1) + wm.dot(L1));
-      sums.height -= mass * e.gravity.dot(s.u[z(b)]);
-    }
-    s.v[z(b)] = v1;
-    s.u[z(b)] += s.dt * v1;
-    s.w[z(b)] = m.analysis.gyroscopic ? turn(s.q[z(b)], L1, m.inverse_inertia[z(b)], s.dt)
-                                      : turn_without_gyroscopic(s.q[z(b)], L1, m.inverse_inertia[z(b)], s.dt);
-    s.spin_momentum[z(b)] = L1;
-    const double speed = v1.squaredNorm();
-    if (!(speed < 1e12)) sums.broken = true;
-    sums.fastest = std::max(sums.fastest, speed);
-    update_row(s, b, m.analysis.lazy_rotation, sums);
+  BlockLanes blocks;
+  const LaneKernels& kernels = lane_kernels();
+  for (int at = first; at < last; at += lanes) {
+    const int n = std::min(lanes, last - at);
+    gather(m, s, push, load, at, n, blocks);
+    kernels.advance(step, blocks);
+    scatter(m, s, at, n, blocks);
+    add(m, s, at, n, sample, blocks, sums);
   }
 }
 

@@ -36,6 +36,16 @@ void add_triangle(const Corner& a, const Corner& b, const Corner& c, Compression
 
 Compression compression(const Model& m, const Joint& joint, const double* q, double kn) {
   Compression sum;
+  // fully closed: the resultants of a linear pressure about the centroid of the points, which integrate it exactly
+  const double reach = std::fabs(q[3]) * joint.half_t + std::fabs(q[4]) * joint.half_s;
+  if (q[2] + reach < 0) {
+    sum.force = -joint.stiffness[2] * q[2];
+    sum.moment_t = -joint.stiffness[3] * q[3];
+    sum.moment_s = joint.stiffness[4] * q[4];
+    sum.energy = 0.5 * (joint.stiffness[2] * q[2] * q[2] + joint.stiffness[3] * q[3] * q[3] + joint.stiffness[4] * q[4] * q[4]);
+    return sum;
+  }
+  if (q[2] - reach >= 0) return sum;
   std::array<Corner, 3> fan{};
   int kept = 0;
   const auto keep = [&](const Corner& c) {
@@ -78,7 +88,7 @@ double crush(const PointLaw& law, double weight, double g0, double g1, PointHist
     energy.crushing += -0.5 * (before + law.fc) * more * weight;
     h.crushed += more;
     pressure = law.fc;
-    if (law.closing_ultimate > 0 && -g1 > law.closing_ultimate) h.damage = 1;
+    if (law.closing_ultimate > 0 && -g1 > law.closing_ultimate) damage_to(law, h, 1);
   }
   return pressure * weight;
 }
@@ -88,21 +98,22 @@ struct Shear {
 };
 
 // Radial return of one point. `normal` is its compressive force (N), sigma its tension (Pa).
-Shear shear(const PointLaw& law, double weight, double normal, double sigma, const Gap& g0, const Gap& g1, PointHistory& h,
+Shear shear(const PointLaw& law, const Point& point, double normal, double sigma, const double* q_before, const Gap& g1, PointHistory& h,
             JointEnergy& energy) {
-  const double k = law.ks * weight;
-  const Shear before{k * (g0.s - h.slip_s), k * (g0.t - h.slip_t)};
+  const double weight = point.weight, k = law.ks * weight;
   Shear now{k * (g1.s - h.slip_s), k * (g1.t - h.slip_t)};
-  const double size = std::hypot(now.s, now.t);
   const auto limit = [&](double p) { return (p < 1 ? bond_shear(law, sigma, p) * weight : 0) + friction_at(law, p) * normal; };
-  const double cap = limit(h.damage);
-  if (size <= cap || k == 0) return now;
+  const double cap = limit(h.damage), square = now.s * now.s + now.t * now.t;
+  if (square <= cap * cap || k == 0) return now;
+  const double size = std::sqrt(square);
+  const Gap g0 = gap_at(q_before, point.s, point.t);
+  const Shear before{k * (g0.s - h.slip_s), k * (g0.t - h.slip_t)};
   const bool bonded = h.damage < 1 && law.c > 0;
   double slip = (size - cap) / k;
   if (bonded) {
     // Softening: the limit falls linearly with the slip it allows, size - k slip = cap + slope slip.
     const double slope = law.slip_ultimate > 0 ? ((law.mu_residual - law.mu) * normal - law.c * weight) / law.slip_ultimate : -k;
-    h.damage = k + slope > 0 ? std::min(1.0, h.damage + (size - cap) / (k + slope) / law.slip_ultimate) : 1;
+    damage_to(law, h, k + slope > 0 ? h.damage + (size - cap) / (k + slope) / law.slip_ultimate : 1);
     slip = (size - limit(h.damage)) / k;
   }
   const double ds = slip * now.s / size, dt = slip * now.t / size;
@@ -117,8 +128,21 @@ Shear shear(const PointLaw& law, double weight, double normal, double sigma, con
   return now;
 }
 
+// A sound joint is one quadratic form; once cracked it is the closed compression and the tension of its points. What the change
+// of form sets free at the crack is part of its fracture energy (zero under uniform tension; either sign where the neutral axis
+// lies between points).
+double change_of_form(const Joint& joint, const PointLaw& law, const Point* point, const Compression& closed, const double* q) {
+  double change = -closed.energy;
+  for (int i = 2; i < 5; ++i) change += 0.5 * joint.stiffness[i] * q[i] * q[i];
+  for (int i = 0; i < joint.points; ++i) {
+    const double opening = std::max(0.0, gap_at(q, point[i].s, point[i].t).n);
+    change -= 0.5 * law.kn * opening * opening * point[i].weight;
+  }
+  return change;
+}
+
 bool passes(const PointLaw& law, const Gap& g) {
-  const double sigma = law.kn * g.n, tau = law.ks * std::hypot(g.s, g.t);
+  const double sigma = law.kn * g.n, tau = law.ks * std::sqrt(g.s * g.s + g.t * g.t);
   if (sigma > law.ft) return true;
   if (law.fc > 0 && -sigma > law.fc) return true;
   return tau > bond_shear(law, std::max(0.0, sigma), 0) + law.mu * std::max(0.0, -sigma);
@@ -173,41 +197,43 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
     f[3] = -closed.moment_t;
     f[4] = closed.moment_s;
     energy.elastic += closed.energy;
+    if (sound && !law.dry)  // the mean of both ends: the work of the step is the mean of the two forces
+      energy.fracture += 0.5 * (change_of_form(joint, law, point, closed, q) +
+                                change_of_form(joint, law, point, compression(m, joint, q_before, law.kn), q_before));
     // Friction needs the pressure at the points: the closed integral, shared out by their own depths.
+    double least = 0;
     for (int i = 0; i < n; ++i) {
-      const double depth = std::max(0.0, -gap_at(q, point[i].s, point[i].t).n);
-      pressed[std::size_t(i)] = depth * point[i].weight;
+      const double g = q[2] + q[3] * point[i].t - q[4] * point[i].s;
+      pressed[std::size_t(i)] = std::max(0.0, -g) * point[i].weight;
       share += pressed[std::size_t(i)];
-      if (gap_at(q, point[i].s, point[i].t).n < gap_at(q, point[deepest].s, point[deepest].t).n) deepest = i;
+      if (i == 0 || g < least) least = g, deepest = i;
     }
-    for (int i = 0; i < n; ++i) pressed[std::size_t(i)] *= share > 0 ? closed.force / share : 0;
+    const double scale = share > 0 ? closed.force / share : 0;
+    for (int i = 0; i < n; ++i) pressed[std::size_t(i)] *= scale;
     if (share == 0) pressed[std::size_t(deepest)] = closed.force;
   }
   for (int i = 0; i < n; ++i) {
     PointHistory& h = history[i];
     const double weight = point[i].weight, damage_before = h.damage;
-    const Gap g0 = gap_at(q_before, point[i].s, point[i].t), g1 = gap_at(q, point[i].s, point[i].t);
-    if (h.damage < 1 && g1.n > 0) {
-      const double reach = law.opening_peak + h.damage * (law.opening_ultimate - law.opening_peak);
-      if (g1.n > reach)
-        h.damage = law.opening_ultimate > law.opening_peak
-                       ? std::min(1.0, (g1.n - law.opening_peak) / (law.opening_ultimate - law.opening_peak))
-                       : 1;
-    }
-    const double sigma = g1.n > 0 ? secant(law, h.damage) * g1.n : 0;
-    const Shear tau = shear(law, weight, pressed[std::size_t(i)], sigma, g0, g1, h, energy);
-    const double k0 = secant(law, damage_before), k1 = secant(law, h.damage);
-    const double o0 = std::max(0.0, g0.n), o1 = std::max(0.0, g1.n);
-    if (k0 != k1) energy.fracture += 0.5 * (k0 - k1) * o0 * o1 * weight;
-    const double pull = k1 * o1 * weight;
+    const Gap g = gap_at(q, point[i].s, point[i].t);
+    const bool bonded = damage_before < 1 && !law.dry;
+    const double k0 = damage_before > 0 ? h.secant : law.kn;
+    if (bonded && g.n > (damage_before > 0 ? h.reach : law.opening_peak))
+      damage_to(law, h, law.opening_ultimate > law.opening_peak ? (g.n - law.opening_peak) / (law.opening_ultimate - law.opening_peak) : 1);
+    const double sigma = bonded && g.n > 0 ? (h.damage > 0 ? h.secant : law.kn) * g.n : 0;
+    const Shear tau = shear(law, point[i], pressed[std::size_t(i)], sigma, q_before, g, h, energy);
     f[0] += tau.s;
     f[1] += tau.t;
+    f[5] += tau.t * point[i].s - tau.s * point[i].t;
+    energy.elastic += 0.5 * (tau.s * (g.s - h.slip_s) + tau.t * (g.t - h.slip_t));
+    if (!bonded) continue;
+    const double k1 = h.damage > 0 ? h.secant : law.kn, opening = std::max(0.0, g.n);
+    if (k0 != k1) energy.fracture += 0.5 * (k0 - k1) * std::max(0.0, gap_at(q_before, point[i].s, point[i].t).n) * opening * weight;
+    const double pull = k1 * opening * weight;
     f[2] += pull;
     f[3] += pull * point[i].t;
     f[4] -= pull * point[i].s;
-    f[5] += tau.t * point[i].s - tau.s * point[i].t;
-    energy.elastic += 0.5 * k1 * o1 * o1 * weight;
-    if (weight > 0 && law.ks > 0) energy.elastic += 0.5 * (tau.s * tau.s + tau.t * tau.t) / (law.ks * weight);
+    energy.elastic += 0.5 * pull * opening;
   }
   return false;
 }

@@ -12,7 +12,9 @@
 namespace erbs {
 namespace {
 
-constexpr int ledger_every = 32;  // steps between two settlings of the ledger
+constexpr int ledger_every = 32;    // steps between two settlings of the ledger
+constexpr int hand_over_every = 8;  // steps between two looks at spent joints
+constexpr int loosen_every = 256;   // steps between two looks at blocks that have moved far
 std::size_t z(int i) { return std::size_t(i); }
 
 int chunks(int n, int grain) { return std::max(1, (n + grain - 1) / grain); }
@@ -24,7 +26,10 @@ Solver::Solver(const Model& model, State& state, int threads)
       state_(state),
       threads_(threads),
       reference_(model.analysis.kernel == "reference"),
-      joint_items_(reference_ ? model.njoint : int(state.batch.size())) {
+      joint_items_(reference_ ? model.njoint : int(state.batch.size())),
+      debris_(model, state, threads) {
+  if (state.dt_goal == 0) state.dt_goal = state.dt;
+  any_cracked_ = std::any_of(state.tier.begin(), state.tier.end(), [](Tier t) { return t == Tier::cracked; });
   push_.assign(6 * z(model.nblock) + 6, 0.0);
   if (!model.pushes.empty()) load_ = push_;
   joint_sums_.resize(z(chunks(joint_items_, batch_grain)));
@@ -49,6 +54,10 @@ void Solver::run(const Hooks& hooks) {
       barrier.wait();
       joints(thread);
       barrier.wait();
+      if (between_) {
+        if (thread == 0) between();
+        barrier.wait();
+      }
       blocks(thread);
       barrier.wait();
       if (thread == 0) {
@@ -69,6 +78,10 @@ void Solver::begin(const Hooks& hooks) {
       for (BlockSums& all : block_sums_) all.stale = false;
       break;
     }
+  if (state_.step % loosen_every == 0 && (any_cracked_ || debris_.active() || state_.step == 0)) debris_.loosen();
+  contacts_ = debris_.active();
+  between_ = contacts_ || (any_cracked_ && state_.step % hand_over_every == 0);
+  if (contacts_) debris_.prepare();
   excite();
   if (sample_ != Sample::full) return;
   instant_.t = state_.t;
@@ -114,8 +127,38 @@ void Solver::excite() {
 void Solver::joints(int thread) {
   const Range mine = share_of(joint_items_, batch_grain, thread, threads_);
   const auto forces = reference_ ? reference_forces : joint_forces;
+  if (contacts_) debris_.forces(thread, threads_, sample_ != Sample::none);
   for (int first = mine.first; first < mine.last; first += batch_grain)
     forces(model_, state_, first, std::min(first + batch_grain, mine.last), sample_ != Sample::none, joint_sums_[z(first / batch_grain)]);
+}
+
+// Between forces and drift, on one thread: contact forces are summed, and joints past their range handed over.
+void Solver::between() {
+  if (contacts_) debris_.gather(push_.data(), sample_ != Sample::none);
+  if (!any_cracked_ || state_.step % hand_over_every != 0) return;
+  const std::vector<int> opened = debris_.hand_over_joints();
+  if (opened.empty()) return;
+  opened_.insert(opened_.end(), opened.begin(), opened.end());
+  find_islands(model_, state_);
+  debris_.loosen();
+}
+
+// The step follows the contacts: shorter at once, longer again after a while of calm.
+void Solver::follow_contacts() {
+  State& s = state_;
+  const double allowed = contacts_ ? debris_.allowed_dt() : s.dt_goal;
+  double dt = s.dt;
+  if (allowed < s.dt) {
+    dt = 0.95 * allowed;
+    s.calm = 0;
+  } else if (s.dt < s.dt_goal && ++s.calm > 200) {
+    if (allowed > 1.1 * s.dt) dt = std::min(s.dt_goal, 0.95 * allowed);
+    s.calm = 0;
+  }
+  if (dt == s.dt) return;
+  s.dt = dt;
+  s.start_t = s.t;
+  s.start_step = s.step;
 }
 
 void Solver::blocks(int thread) {
@@ -158,6 +201,7 @@ void Solver::finish(const Hooks& hooks) {
     cracked = cracked || sums.cracked_now > 0;
     sums.cracked_now = 0;
   }
+  any_cracked_ = any_cracked_ || cracked;
   if (cracked)
     for (int j = 0; j < model_.njoint; ++j)
       if (tier_before_[z(j)] != s.tier[z(j)]) {
@@ -177,6 +221,7 @@ void Solver::finish(const Hooks& hooks) {
   s.t = s.start_t + double(s.step + 1 - s.start_step) * s.dt;
   ++s.step;
   s.last_dt = s.dt;
+  follow_contacts();
 }
 
 void Solver::settle_ledger() {
@@ -218,6 +263,7 @@ void Solver::settle_ledger() {
     sums.stale = stale;
     sums.fastest = fastest;
   }
+  if (contacts_) e.elastic += debris_.elastic();
   if (e.started) e.height_flux += std::fabs(e.gravity - gravity_before);
   settle(e, floor_, state_.t, worst);
 }
@@ -228,6 +274,8 @@ Vec6 Solver::load_wrench(int b) const {
   if (model_.kind[z(b)] == Kind::driven) return -block_wrench(b);
   return load_.empty() ? Vec6(Vec6::Zero()) : Vec6(Eigen::Map<const Vec6>(&load_[6 * z(b)]));
 }
+
+std::vector<int> Solver::take_opened() { return std::exchange(opened_, {}); }
 
 std::vector<int> Solver::take_cracked() { return std::exchange(cracked_, {}); }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
+#include "engine/solve/debris.h"
 #include "engine/solve/integrate.h"
 #include "engine/solve/joint_kernel.h"
 
@@ -37,6 +38,9 @@ class Solver {
   bool broken() const { return broken_; }
   Vec6 block_wrench(int b) const;  // N, N m about the centroid: joints and contacts
   Vec6 load_wrench(int b) const;   // loads; on a driven block what holds it on its course
+  std::vector<int> take_opened();   // joints handed over to contact since the last call
+  int touching() const { return debris_.touching(); }
+  double contact_seconds() const { return contact_seconds_; }
   std::vector<int> take_cracked();  // joints that cracked since the last call, in the order of their number
 
  private:
@@ -44,7 +48,9 @@ class Solver {
   void begin(const Hooks& hooks);
   void excite();
   void joints(int thread);
+  void between();
   void blocks(int thread);
+  void follow_contacts();
   void finish(const Hooks& hooks);
   void drive();
   void settle_ledger();
@@ -59,11 +65,14 @@ class Solver {
   std::vector<double> push_, load_;    // [6 nblock + 6]
   std::vector<JointSums> joint_sums_;  // per chunk
   std::vector<BlockSums> block_sums_;
-  std::vector<int> cracked_;
+  std::vector<int> cracked_, opened_;
+  Debris debris_;
+  bool any_cracked_ = false;
+  double contact_seconds_ = 0;
   std::vector<Tier> tier_before_;
   Instant instant_;
   Sample sample_ = Sample::none;
-  bool broken_ = false, stop_ = false;
+  bool broken_ = false, stop_ = false, contacts_ = false, between_ = false;
 };
 
 }  // namespace erbs

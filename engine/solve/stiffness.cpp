@@ -1,6 +1,5 @@
 #include "engine/solve/stiffness.h"
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
 

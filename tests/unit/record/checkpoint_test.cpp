@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "engine/base/error.h"
+#include "engine/model/pair.h"
 #include "engine/record/collapse.h"
 #include "engine/record/run_writer.h"
 #include "tests/unit/record/two_bricks.h"
@@ -39,6 +40,14 @@ struct NestedThing {
   std::string word;
   std::vector<WriterProgress> parts;
 };
+struct Pairs {
+  std::vector<Pair> pairs;
+};
+template <class F>
+void each(Pairs& p, F&& f) {
+  f("pairs", p.pairs, Part::history);
+}
+
 template <class T, class F>
 requires std::is_same_v<std::remove_const_t<T>, NestedThing>
 void each(T& t, F&& f) {
@@ -48,6 +57,24 @@ void each(T& t, F&& f) {
 }
 
 }  // namespace
+
+TEST_CASE("contact pairs are carried and hashed as history", "[record][checkpoint]") {
+  const test::Scratch scratch("pairs");
+  std::filesystem::create_directories(scratch.path);
+  Pairs pairs;
+  pairs.pairs.resize(3);
+  pairs.pairs[1].u = Vec3(1, 2, 3);
+  pairs.pairs[1].friction.moment_b = Vec3(0, 0, 1.0 / 3);
+  write_checkpoint(scratch.path, {1, 1}, pairs);
+  Pairs back;
+  read_checkpoint(scratch.path, {1, 1}, back);
+  REQUIRE(back.pairs.size() == 3);
+  CHECK(back.pairs[1].u == Vec3(1, 2, 3));
+  CHECK(back.pairs[1].friction.moment_b.z() == 1.0 / 3);
+  CHECK(state_hash(back) == state_hash(pairs));
+  back.pairs[1].friction.moment_b.x() = 1e-300;
+  CHECK(state_hash(back) != state_hash(pairs));
+}
 
 TEST_CASE("a checkpoint brings everything back", "[record][checkpoint]") {
   const test::Scratch scratch("checkpoint");

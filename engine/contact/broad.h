@@ -1,0 +1,33 @@
+// Which pairs of parts may touch: a list with a margin, searched again only when bodies have moved far enough to matter.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "engine/contact/contact.h"
+#include "engine/scene/scene.h"
+
+namespace erbs {
+
+inline std::uint64_t pair_key(int a, int b) { return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b); }
+
+// A tenth of the median thickness.
+double suggested_margin(const ContactShapes& shapes);
+
+// True where two bodies may have come closer than the list knows.
+bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks);
+
+// Lists every pair of parts closer than the margin of which at least one block is loose, except pairs of blocks whose pair_key is
+// in `excluded` (sorted) and pairs that cannot move. Pairs that stay keep their memory; what a dropped pair stored in its friction
+// springs is returned (J, to be booked as reset).
+double search(PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
+              std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law);
+
+// Two materials in contact: springs in series (the mean of equal ones is that one), the lesser friction and restitution.
+PairLaw pair_law(const Material& a, const Material& b);
+
+// Index of the pair in the sorted list, -1 if it is not listed.
+int find_pair(const PairList& list, int a, int part_a, int b, int part_b);
+
+}  // namespace erbs

@@ -1,0 +1,23 @@
+// Plain data of joints computed side by side. No Eigen here: files compiled for several instruction sets read it.
+#pragma once
+
+namespace erbs {
+
+inline constexpr int lanes = 8;  // joints or blocks side by side; a multiple of every vector width in use
+
+// Elastic data of 8 joints side by side, valid since the last refresh of their geometry (joint_geometry.h says how).
+struct alignas(64) JointBatch {
+  double frame[9][lanes];      // columns s, t, n (world) at the refresh; row-major [axis * 3 + component]
+  double sum[3][lanes];        // m, arm_a + arm_b at the refresh
+  double apart[3][lanes];      // m, centroid b - centroid a at the refresh
+  double q[6][lanes];          // m, rad: relative displacement and rotation at the refresh, joint frame
+  double stiffness[6][lanes];  // zero once the joint is handed over to contact
+  double open_limit[lanes];    // m, opening at which tension cracks; 0 for dry joints
+  double slip_limit[lanes];    // m, c / ks
+  double slip_slope[lanes];    // mu kn / ks: limit of slip = slip_limit - slip_slope * largest opening
+  double close_limit[lanes];   // m, closing at which mortar crushes; infinite where it does not
+  double half_s[lanes], half_t[lanes], radius[lanes];
+  int a[lanes], b[lanes], row_a[lanes], row_b[lanes];
+};
+
+}  // namespace erbs

@@ -1,0 +1,104 @@
+// A pair of parts that may touch: its law, and all it remembers from step to step.
+#pragma once
+#include <cstdint>
+#include <type_traits>
+#include <vector>
+
+#include "engine/base/vec.h"
+
+namespace erbs {
+
+struct PairLaw {
+  double kn = 0;  // Pa/m
+  double ks = 0;  // Pa/m
+  double mu = 0;
+  double restitution = 0;  // of an impact through the centre
+};
+
+// Dashpots and scales that are choices of the numerics, the same for all pairs.
+struct ContactSettings {
+  double reference_speed = 0.01;      // m/s, restitution is as asked for above it, impacts are softer below
+  double memory = 0.05;               // s, over which the greatest approach speed is forgotten
+  double settling = 0.2;              // share of critical damping of the settled contact, normal; fades with the speed of impact
+  double settling_tangential = 0.05;  // the same of a contact that sticks, tangential
+  double handover_periods = 5;        // contact periods over which the difference to the old joint fades
+};
+
+// Force and moments on the two bodies of a pair, world axes, each moment about the body's own centroid.
+struct PairWrench {
+  Vec3 force = Vec3::Zero();                              // N, on b; on a the opposite
+  Vec3 moment_a = Vec3::Zero(), moment_b = Vec3::Zero();  // N m
+};
+
+struct Pair {
+  int a = 0, b = 0;            // blocks, a < b
+  int part_a = 0, part_b = 0;  // parts of them
+  PairLaw law;
+  double impact = 0;                // impact_factor(law.restitution)
+  std::uint8_t b_is_reference = 0;  // whose inner distance is the potential: the larger part, then the lower block; never changes
+  std::uint8_t touching = 0;
+  int separating = -1;  // cache only
+  // relative pose at the last step, pair axes
+  Mat3 turn = Mat3::Identity();
+  Vec3 shift = Vec3::Zero();  // m
+  // friction, pair axes: slip field u + psi n x (x - c) of the tangential springs
+  Vec3 n = Vec3::Zero();  // unit
+  Vec3 c = Vec3::Zero();  // m, where u is taken, relative to the centroid of the reference
+  Vec3 u = Vec3::Zero();  // m
+  double psi = 0;         // rad
+  double area = 0;        // m2, largest seen in this contact: stiffness of the springs
+  double gyration = 0;    // m, largest seen
+  double approach = 0;    // m/s, greatest recent speed of approach
+  // difference to the joint it was handed over from, pair axes
+  Vec3 offset_force = Vec3::Zero();         // N, on the body that is not the reference
+  Vec3 offset_moment = Vec3::Zero();        // N m, about its centroid
+  double offset_left = 0, offset_time = 0;  // s
+  // wrenches of the last step, whose half step of work is still to be booked
+  PairWrench friction, damping, offset;
+  // what the pair stores now
+  double tangential = 0;  // J
+};
+
+struct PairList {
+  std::vector<Pair> pair;      // sorted by (a, b, part_a, part_b)
+  double margin = 0.01;        // m, parts closer than this are listed
+  bool valid = false;          // set to false when blocks come loose or pairs are freed: the next search then runs
+  std::vector<Vec3> u;         // m, pose of each block at the last search [nblock]
+  std::vector<Mat3> turn;      //                                          [nblock]
+  long searches = 0;
+};
+
+// Every member that a checkpoint or a hash must hold.
+template <class W, class F>
+requires std::is_same_v<std::remove_const_t<W>, PairWrench>
+void each(W& w, F&& f) {
+  f("force", w.force);
+  f("moment_a", w.moment_a);
+  f("moment_b", w.moment_b);
+}
+template <class P, class F>
+requires std::is_same_v<std::remove_const_t<P>, PairLaw>
+void each(P& p, F&& f) {
+  f("kn", p.kn);
+  f("ks", p.ks);
+  f("mu", p.mu);
+  f("restitution", p.restitution);
+}
+template <class P, class F>
+requires std::is_same_v<std::remove_const_t<P>, Pair>
+void each(P& p, F&& f) {
+  f("a", p.a), f("b", p.b), f("part_a", p.part_a), f("part_b", p.part_b), f("law", p.law);
+  f("b_is_reference", p.b_is_reference), f("touching", p.touching), f("separating", p.separating);
+  f("turn", p.turn), f("shift", p.shift), f("n", p.n), f("c", p.c), f("u", p.u), f("psi", p.psi);
+  f("area", p.area), f("gyration", p.gyration), f("approach", p.approach), f("impact", p.impact);
+  f("offset_force", p.offset_force), f("offset_moment", p.offset_moment);
+  f("offset_left", p.offset_left), f("offset_time", p.offset_time);
+  f("friction", p.friction), f("damping", p.damping), f("offset", p.offset), f("tangential", p.tangential);
+}
+template <class P, class F>
+requires std::is_same_v<std::remove_const_t<P>, PairList>
+void each(P& p, F&& f) {
+  f("pair", p.pair), f("margin", p.margin), f("valid", p.valid), f("u", p.u), f("turn", p.turn), f("searches", p.searches);
+}
+
+}  // namespace erbs

@@ -1,0 +1,28 @@
+#include "engine/solve/lanes.h"
+
+#include <cstdlib>
+#include <string_view>
+
+namespace erbs {
+namespace {
+
+const LaneKernels& choose() {
+  const char* asked = std::getenv("ERBS_ISA");
+  const std::string_view name = asked != nullptr ? asked : "";
+#if defined(__x86_64__)
+  const bool has512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+  const bool has2 = __builtin_cpu_supports("avx2");
+  if (has512 && (name.empty() || name == "avx512")) return avx512::kernels;
+  if (has2 && (name.empty() || name == "avx2" || name == "avx512")) return avx2::kernels;
+#endif
+  return sse2::kernels;
+}
+
+}  // namespace
+
+const LaneKernels& lane_kernels() {
+  static const LaneKernels& chosen = choose();
+  return chosen;
+}
+
+}  // namespace erbs

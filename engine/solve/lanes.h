@@ -1,0 +1,56 @@
+// The arithmetic of eight joints or eight blocks side by side, compiled once for each instruction set (lanes_*.cpp) and chosen when
+// the program starts. Plain loops over lanes: -ffp-contract=off and the absence of sums across lanes give the same bits with each.
+// Only plain data passes here: an Eigen function compiled with wider instructions could end up in code meant for any machine.
+#pragma once
+#include "engine/model/joint_batch.h"
+
+namespace erbs {
+
+// Results of the elastic pass of one batch.
+struct alignas(64) JointLanes {
+  double q[6][lanes], f[6][lanes];
+  double y[3][lanes];   // m, turned-back distance of the centroids
+  double th[3][lanes];  // rad, mean rotation since the refresh
+  double near[lanes];   // > 0: the bound on tension, shear or compression is passed
+};
+
+// Eight blocks: what the kick and the drift read and write. Layout of q: x, y, z, w.
+struct alignas(64) BlockLanes {
+  // in
+  double mass[lanes], inverse_mass[lanes], moving[lanes], damping[lanes];  // kg, 1/kg, 0 or 1, 1/s
+  double inverse_inertia[9][lanes];                                        // 1/(kg m2), axes at rest
+  double force[3][lanes], moment[3][lanes];                                // N, N m, of joints, contacts and loads
+  double load[6][lanes];                                                   // N, N m, of loads alone
+  double base_u[3][lanes], base_q[4][lanes];
+  // in and out
+  double u[3][lanes], q[4][lanes], v[3][lanes], momentum[3][lanes];
+  // out
+  double w[3][lanes], row[6][lanes];
+  double base0[lanes], base1[lanes], damped0[lanes], damped1[lanes], loaded0[lanes], loaded1[lanes];  // J
+  double kinetic[lanes], height[lanes], turned[lanes], speed[lanes];                                  // J, J, rad2, m2/s2
+};
+
+struct KickDrift {
+  double kick, dt, half_last, half_next;  // s
+  double ground[3], gravity[3];           // m/s2
+  bool first;                             // no drift has led here
+  bool damping_explicit, gyroscopic;
+};
+
+struct LaneKernels {
+  const char* name;
+  // joint_geometry.h gives the formulas: q, its elastic resultant and the bound that keeps a joint on this path.
+  void (*elastic)(const JointBatch& batch, const double* rows, JointLanes& out);
+  // Resultants to wrenches on both blocks: force at the midpoint of the material points, then everything turned by th.
+  void (*wrenches)(const JointBatch& batch, const JointLanes& in, double* wrench_rows);
+  // integrate.h
+  void (*advance)(const KickDrift& step, BlockLanes& blocks);
+};
+
+const LaneKernels& lane_kernels();  // the widest this processor has; ERBS_ISA=sse2|avx2|avx512 in the environment asks for another
+
+namespace sse2 { extern const LaneKernels kernels; }
+namespace avx2 { extern const LaneKernels kernels; }
+namespace avx512 { extern const LaneKernels kernels; }
+
+}  // namespace erbs

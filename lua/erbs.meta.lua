@@ -1,0 +1,478 @@
+---@meta
+-- The scene language of ERBS for editors (LuaCATS). Written by `erbs help --editor > lua/erbs.meta.lua` from the table of the
+-- program; a test holds the two together. All numbers are SI; units are factors: 5*mm, 0.2*MPa, 30*deg, 0.4*g.
+
+---@alias erbs.vec3 number[] x, y, z
+---@class erbs.law a joint law
+---@class erbs.wave a function of time; wave(t) is its value
+---@operator call(number): number
+
+---@class erbs.run what a metric function is given: the keys of metrics.json, and
+---@field metrics table metrics.json
+---@field time number[] times of the rows of histories.csv [s]
+---@field columns string[] names of the columns of histories.csv
+---@field history fun(column: string): number[] values, one per row
+---@field peak fun(column: string): number largest magnitude
+---@field peak_time fun(column: string): number when it is largest [s]
+---@field max fun(column: string): number
+---@field min fun(column: string): number
+---@field mean fun(column: string): number
+---@field rms fun(column: string): number
+---@field first fun(column: string): number
+---@field last fun(column: string): number
+---@field at fun(column: string, t: number): number value at time t [s], linear between rows
+---@field frequency fun(column: string): number dominant frequency [Hz]
+---@field period fun(column: string): number mean time between rising crossings of zero [s]
+---@field crossings fun(column: string, level?: number, rising?: boolean): number[] times of passing the level [s]
+---@field events { time: number, event: string, name: string, value: number }[] events.csv
+---@field first_crack { time: number, name: string }? the first crack
+
+m, cm, mm, km = 1, 1e-2, 1e-3, 1e3 -- m
+s, ms = 1, 1e-3 -- s
+kg, t = 1, 1e3 -- kg; t is the tonne
+N, kN, MN = 1, 1e3, 1e6 -- N
+Pa, kPa, MPa, GPa = 1, 1e3, 1e6, 1e9 -- Pa
+J, Hz = 1, 1 -- J, 1/s
+pi, deg = math.pi, math.pi / 180 -- rad
+g = 9.81 -- m/s2
+
+---@class erbs.initial
+---@field position? erbs.vec3 displacement from rest [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
+---@field rotation? erbs.vec3 rotation vector (axis times angle) from rest [rad; -100 to 100; default { 0, 0, 0 }]
+---@field velocity? erbs.vec3 velocity of the centroid [m/s; -10000 to 10000; default { 0, 0, 0 }]
+---@field spin? erbs.vec3 angular velocity, world axes [rad/s; -100000 to 100000; default { 0, 0, 0 }]
+---@field about? erbs.vec3 point at rest the rotation is about (default the centroid) [m; -1e+06 to 1e+06]
+
+---@class erbs.part
+---@field vertices erbs.vec3[] corners [m; -1e+06 to 1e+06]
+---@field faces? integer[][] loops of vertex numbers, counter-clockwise seen from outside (default: the hull)
+
+---@class erbs.tolerance
+---@field rel? number largest relative error [0 to 1e+09]
+---@field abs? number largest absolute error [at least 0]
+---@field below? boolean the value is an upper bound
+---@field above? boolean the value is a lower bound
+---@field between? number[] { lowest, highest }
+---@field source? string where the number is from
+
+---@class erbs.material_keys
+---@field name string what blocks call it by
+---@field density number mass per volume of the block [kg/m3; 0.01 to 100000]
+---@field kn? number normal stiffness of debris contacts [Pa/m; 1000 to 1e+16; default 5e+10]
+---@field ks? number shear stiffness of debris contacts [Pa/m; 0 to 1e+16; default 2e+10]
+---@field friction? number coefficient of friction of debris contacts [0 to 10; default 0.6]
+---@field restitution? number speed after over speed before an impact through the centre [0 to 1; default 0.3]
+---@field color? erbs.vec3 red, green, blue for the pictures [0 to 1; default { 0.7, 0.35, 0.25 }]
+
+---What blocks are made of, and how they behave as debris.
+---@param keys erbs.material_keys
+---@return string # its name
+function material(keys) end
+
+---@class erbs.box_keys
+---@field size erbs.vec3 lengths along x, y, z [m; 1e-06 to 1e+06]
+---@field at? erbs.vec3 its lower corner [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
+---@field center? erbs.vec3 its centre, instead of at [m; -1e+06 to 1e+06]
+---@field name? string name, unique (default from the group and a number)
+---@field group? string group, for joint rules and recorders
+---@field fixed? boolean part of the ground [default false]
+---@field free? boolean may stand without any joint [default false]
+---@field material? string name of its material (default: the only one there is)
+---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
+---@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
+
+---A rectangular block.
+---@param keys erbs.box_keys
+---@return string # the name of the block
+function box(keys) end
+
+---@class erbs.block_keys
+---@field vertices? erbs.vec3[] corners of a single part [m; -1e+06 to 1e+06]
+---@field faces? integer[][] loops of vertex numbers, counter-clockwise seen from outside (default: the hull)
+---@field parts? erbs.part[] several convex parts: { { vertices = ..., faces = ... }, ... }
+---@field at? erbs.vec3 moves the shape by this [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
+---@field name? string name, unique (default from the group and a number)
+---@field group? string group, for joint rules and recorders
+---@field fixed? boolean part of the ground [default false]
+---@field free? boolean may stand without any joint [default false]
+---@field material? string name of its material (default: the only one there is)
+---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
+---@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
+
+---A convex polyhedron, or several convex parts that are one rigid block.
+---@param keys erbs.block_keys
+---@return string # the name of the block
+function block(keys) end
+
+---@class erbs.prism_keys
+---@field polygon number[][] corners { u, v }; u and v are the axes after `axis` in the order x, y, z, x, ... [m; -1e+06 to 1e+06]
+---@field height number length along the axis [m; 1e-06 to 1e+06]
+---@field axis? "x"|"y"|"z" direction of extrusion [default z]
+---@field at? erbs.vec3 moves the shape by this [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
+---@field name? string name, unique (default from the group and a number)
+---@field group? string group, for joint rules and recorders
+---@field fixed? boolean part of the ground [default false]
+---@field free? boolean may stand without any joint [default false]
+---@field material? string name of its material (default: the only one there is)
+---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
+---@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
+
+---A convex polygon extruded along an axis.
+---@param keys erbs.prism_keys
+---@return string # the name of the block
+function prism(keys) end
+
+---@class erbs.mesh_keys
+---@field file string path, relative to the scene
+---@field scale? number factor on its coordinates, to metres [1e-09 to 1e+09; default 1]
+---@field at? erbs.vec3 moves the shape by this [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
+---@field name? string name, unique (default from the group and a number)
+---@field group? string group, for joint rules and recorders
+---@field fixed? boolean part of the ground [default false]
+---@field free? boolean may stand without any joint [default false]
+---@field material? string name of its material (default: the only one there is)
+---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
+---@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
+
+---A block from a file (OBJ, STL, PLY, glTF); each mesh in it is one convex part.
+---@param keys erbs.mesh_keys
+---@return string # the name of the block
+function mesh(keys) end
+
+---@class erbs.ground_keys
+---@field z? number height of its top [m; -1e+06 to 1e+06; default 0]
+---@field size? number length of its sides [m; 0.001 to 1e+06; default 20]
+---@field depth? number thickness of the plate [m; 0.001 to 1e+06; default 1]
+---@field material? string name of its material (default: its own, with the defaults of material)
+---@field friction? number coefficient of friction, instead of its material's [0 to 10]
+---@field name? string its name [default ground]
+---@field group? string its group [default ground]
+
+---A fixed plate to stand and fall on.
+---@param keys erbs.ground_keys
+---@return string # the name of the block
+function ground(keys) end
+
+---@class erbs.transform_keys
+---@field [1] fun(): any builds; called at once
+---@field at? erbs.vec3 shift, after the rotation [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
+---@field rotation? erbs.vec3 rotation vector [rad; -100 to 100; default { 0, 0, 0 }]
+---@field about? erbs.vec3 point the rotation leaves in place [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
+
+---Places everything built inside the function rigidly: x -> about + rotation (x - about) + at.
+---@param keys erbs.transform_keys
+---@return any # what the function returns
+function transform(keys) end
+
+---@class erbs.dry_keys
+---@field kn number normal stiffness of the joint [Pa/m; 1000 to 1e+16]
+---@field ks? number shear stiffness of the joint (default 0.4 kn) [Pa/m; 0 to 1e+16]
+---@field mu number coefficient of friction [0 to 10]
+
+---A dry joint: linear in compression, no tension, Coulomb friction.
+---@param keys erbs.dry_keys
+---@return erbs.law # to be given to joint{ law = ... }
+function dry(keys) end
+
+---@class erbs.mortar_keys
+---@field E? number Young's modulus of the mortar [Pa; 0 to 1e+14; default 0]
+---@field nu? number Poisson's ratio, G = E / (2 (1 + nu)) [-0.99 to 0.5; default 0.2]
+---@field G? number shear modulus of the mortar (default from E and nu) [Pa; 0 to 1e+14]
+---@field thickness? number thickness of the bed; kn = E / thickness, ks = G / thickness [m; 0 to 1; default 0]
+---@field kn? number normal stiffness of the joint, instead of E / thickness [Pa/m; 0 to 1e+16; default 0]
+---@field ks? number shear stiffness of the joint, instead of G / thickness [Pa/m; 0 to 1e+16; default 0]
+---@field ft number tensile strength [Pa; 0 to 1e+09]
+---@field c number cohesion [Pa; 0 to 1e+09]
+---@field mu number coefficient of friction [0 to 10]
+---@field mu_residual? number coefficient of friction after failure (default mu) [-1 to 10]
+---@field Gf1? number fracture energy in tension (0: brittle) [J/m2; 0 to 1e+07; default 0]
+---@field Gf2? number fracture energy in shear (0: brittle) [J/m2; 0 to 1e+07; default 0]
+---@field un_ultimate? number opening at which tension is spent (default from Gf1) [m; 0 to 1]
+---@field us_ultimate? number slip at which cohesion is spent (default from Gf2) [m; 0 to 1]
+---@field fc? number compressive strength, a plateau (0: unlimited) [Pa; 0 to 1e+10; default 0]
+---@field uc_ultimate? number closing at which the mortar is crushed and its bond lost (0: never) [m; 0 to 1; default 0]
+---@field coupling? "coulomb"|"linear"|"ellipse" tension-shear coupling: coulomb, linear or ellipse [default coulomb]
+
+---A mortar joint: linear, with tension cut-off, Coulomb shear with cohesion, and softening where asked for.
+---@param keys erbs.mortar_keys
+---@return erbs.law # to be given to joint{ law = ... }
+function mortar(keys) end
+
+---@class erbs.joint_keys
+---@field law? erbs.law a law value: mortar{ ... } or dry{ ... }
+---@field between? string|string[] two groups, { "wall", "slab" }; "" is any (default: any and any)
+---@field name? string name of the rule, for reports
+---@field thickness? number nominal gap at rest (default the thickness of the law) [m; 0 to 1]
+---@field tolerance? number how far faces at rest may be from that gap [m; 0 to 1; default 0.0001]
+---@field rule? "simpson"|"midpoint"|"trapezoid"|"gauss" how contact points and their weights are laid out [default simpson]
+---@field none? boolean pairs that match get no joint [default false]
+---@field points? integer|integer[] contact points: { along the longer side, along the shorter side }, or one square number [1 to 64; default { 3, 3 }]
+
+---Joins faces that face each other at rest by a law; the last rule that matches a pair of blocks wins.
+---@param keys erbs.joint_keys
+function joint(keys) end
+
+---@class erbs.sine_keys
+---@field amplitude number peak value, in the unit of what it drives
+---@field frequency number cycles a second [Hz; 1e-09 to 1e+09]
+---@field phase? number phase at the start [rad; -1000 to 1000; default 0]
+---@field start? number time of the first value [s; -1e+09 to 1e+09; default 0]
+---@field duration? number how long it lasts (default: for ever) [s; at least 0]
+
+---A sine from `start` on, for `duration`: amplitude sin(2 pi frequency (t - start) + phase).
+---@param keys erbs.sine_keys
+---@return erbs.wave # to be given to a load; wave(t) is its value
+function sine(keys) end
+
+---@class erbs.half_sine_keys
+---@field amplitude number peak value, in the unit of what it drives
+---@field frequency number of the whole sine; the lobe lasts 1 / (2 frequency) [Hz; 1e-09 to 1e+09]
+---@field phase? number phase at the start; the pulse ends at pi [rad; 0 to 3.14159; default 0]
+---@field start? number time of the first value [s; -1e+09 to 1e+09; default 0]
+
+---One lobe of a sine, from any phase to its zero at pi.
+---@param keys erbs.half_sine_keys
+---@return erbs.wave # to be given to a load; wave(t) is its value
+function half_sine(keys) end
+
+---@class erbs.full_sine_keys
+---@field amplitude number peak value, in the unit of what it drives
+---@field frequency number the cycle lasts 1 / frequency [Hz; 1e-09 to 1e+09]
+---@field phase? number phase at the start; the pulse ends at 2 pi [rad; 0 to 6.28319; default 0]
+---@field start? number time of the first value [s; -1e+09 to 1e+09; default 0]
+
+---One cycle of a sine, from any phase to its zero at 2 pi.
+---@param keys erbs.full_sine_keys
+---@return erbs.wave # to be given to a load; wave(t) is its value
+function full_sine(keys) end
+
+---@class erbs.pulse_keys
+---@field amplitude number value inside, in the unit of what it drives
+---@field start? number time of the rising edge [s; -1e+09 to 1e+09; default 0]
+---@field duration? number how long it lasts (default: for ever, a step) [s; at least 0]
+
+---A rectangular pulse, exact at its edges whatever the time step.
+---@param keys erbs.pulse_keys
+---@return erbs.wave # to be given to a load; wave(t) is its value
+function pulse(keys) end
+
+---@class erbs.table_wave_keys
+---@field times number[] increasing, at least two [s; -1e+09 to 1e+09]
+---@field values number[] one for each time, in the unit of what it drives
+---@field hold? boolean outside the table the nearest value holds (default: zero)
+
+---Values at times, linear between them.
+---@param keys erbs.table_wave_keys
+---@return erbs.wave # to be given to a load; wave(t) is its value
+function table_wave(keys) end
+
+---@class erbs.record_keys
+---@field file string PEER AT2, CSV or text of one or two columns
+---@field peak? number largest absolute acceleration wanted (default: as recorded) [m/s2; 0 to 10000]
+---@field scale? number factor on the acceleration, instead of peak [-1e+06 to 1e+06; default 1]
+---@field time_factor? number factor on time [0.001 to 1000; default 1]
+---@field start? number when time 0 of the file comes [s; -1e+09 to 1e+09; default 0]
+---@field column? integer column of the values, counted from 1 (default: the one after time) [0 to 1000]
+---@field dt? number step of a file that has one column of values [s; 0 to 1000; default 0]
+---@field first_time? number time of the first value of such a file [s; 0 to 1000; default 0]
+---@field unit? string of the values where the file does not say: g, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2
+
+---A ground-motion record from a file, scaled in amplitude and time.
+---@param keys erbs.record_keys
+---@return erbs.wave # to be given to a load; wave(t) is its value
+function record(keys) end
+
+---@class erbs.ground_motion_keys
+---@field wave erbs.wave|number|fun(t: number): number a wave, a number, or a function of time [m/s2]
+---@field direction? "x"|"y"|"z"|erbs.vec3 "x", "y", "z" or a vector [-1e+09 to 1e+09; default "x"]
+---@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
+---@field name? string name, for reports
+
+---Shakes the ground by an acceleration; several add up.
+---@param keys erbs.ground_motion_keys
+function ground_motion(keys) end
+
+---@class erbs.force_keys
+---@field block string name of the block
+---@field wave erbs.wave|number|fun(t: number): number a wave, a number, or a function of time [N]
+---@field direction? "x"|"y"|"z"|erbs.vec3 "x", "y", "z" or a vector [-1e+09 to 1e+09; default "x"]
+---@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
+---@field name? string name, for reports
+---@field point? erbs.vec3 point of the block at rest where it acts (default the centroid) [m; -1e+06 to 1e+06]
+
+---A force on a block.
+---@param keys erbs.force_keys
+function force(keys) end
+
+---@class erbs.moment_keys
+---@field block string name of the block
+---@field wave erbs.wave|number|fun(t: number): number a wave, a number, or a function of time [N m]
+---@field direction? "x"|"y"|"z"|erbs.vec3 axis of the moment: "x", "y", "z" or a vector [-1e+09 to 1e+09; default "x"]
+---@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
+---@field name? string name, for reports
+
+---A moment on a block.
+---@param keys erbs.moment_keys
+function moment(keys) end
+
+---@class erbs.tilt_keys
+---@field wave erbs.wave|number|fun(t: number): number a wave, a number, or a function of time [rad]
+---@field axis? "x"|"y"|"z"|erbs.vec3 "x", "y", "z" or a vector [-1e+09 to 1e+09; default "x"]
+---@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
+---@field name? string name, for reports
+
+---Turns gravity by an angle about an axis, as a tilting table does.
+---@param keys erbs.tilt_keys
+function tilt(keys) end
+
+---@class erbs.motion_keys
+---@field block string name of the block
+---@field wave erbs.wave|number|fun(t: number): number a wave, a number, or a function of time [m]
+---@field direction? "x"|"y"|"z"|erbs.vec3 "x", "y", "z" or a vector [-1e+09 to 1e+09; default "x"]
+---@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
+---@field name? string name, for reports
+
+---Moves a block by a displacement along a direction; its other degrees of freedom are held.
+---@param keys erbs.motion_keys
+function motion(keys) end
+
+---@class erbs.gravity_keys
+---@field [1] number along x (or the one number: downwards) [m/s2; -1000 to 1000]
+---@field 2 number along y [m/s2; -1000 to 1000]
+---@field 3 number along z [m/s2; -1000 to 1000]
+
+---Gravity as gravity(9.81), downwards, or gravity{ 0, 0, -9.81 }.
+---@param keys erbs.gravity_keys
+function gravity(keys) end
+
+---@class erbs.damping_keys
+---@field mass? number coefficient a of the mass damping c = a m [1/s; 0 to 1e+07; default 0]
+---@field scope? "bonded"|"all"|"none" which blocks feel it [default bonded]
+---@field form? "centred"|"explicit" how a step takes it in [default centred]
+---@field joint_ratio? number viscous ratio of joints, of each joint's own critical value [0 to 10; default 0]
+
+---Damping of blocks and of joints.
+---@param keys erbs.damping_keys
+function damping(keys) end
+
+---@class erbs.analysis_keys
+---@field duration? number simulated time [s; 1e-09 to 1e+06; default 0]
+---@field dt? number time step (0: from dt_rule); { value, unstable = true } lets one past the limit run [s; 0 to 1; default 0]
+---@field dt_fraction? number share of the limit in force [1e-06 to 1; default 0.9]
+---@field dt_rule? "limit"|"period_tenth"|"hart"|"hakuno"|"hakuno_half" where dt comes from [default limit]
+---@field unstable? boolean let a dt past the limit run [default false]
+---@field kernel? "fast"|"reference" which step kernel [default fast]
+---@field start? "equilibrium"|"ramp"|"rest" how gravity comes on [default equilibrium]
+---@field ramp_time? number length of the gravity ramp (0: chosen) [s; 0 to 1e+06; default 0]
+---@field overlap? "error"|"stress_free" what to do with blocks that overlap at rest [default error]
+---@field collapse_fraction? number share of mass fallen that is called a collapse [0 to 1; default 0.05]
+---@field stop_after_collapse? number time to go on after a collapse (-1: to the end) [s; -1 to 1e+06; default -1]
+---@field energy_gate? number relative energy residual that ends a run (0: by the kind of run) [0 to 1e+06; default 0]
+---@field lazy_rotation? number block rotation between refreshes of joint frames [rad; 0 to 0.1; default 1e-05]
+---@field gyroscopic? boolean the gyroscopic term w x (I w) [default true]
+---@field output_dt? number time between rows of histories.csv and energy.csv [s; 1e-09 to 1e+06; default 0.01]
+---@field frame_dt? number time between poses for pictures [s; 1e-09 to 1e+06; default 0.04]
+
+---How long to run, with which step, and when to stop.
+---@param keys erbs.analysis_keys
+function analysis(keys) end
+
+---@class erbs.recorder_keys
+---@field name string stem of its columns in histories.csv
+---@field quantity string what is written
+---@field axis? "x"|"y"|"z"|"xy"|"xz"|"yz"|"xyz" which components [default xyz]
+---@field frame? "rel"|"abs" relative to the ground, or absolute [default rel]
+---@field point? erbs.vec3 material point at rest, instead of the centroid [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
+---@field block? string|string[] name of the block
+---@field blocks? string|string[] names of several blocks
+---@field group? string all blocks of a group
+---@field others? string|string[] of joints: names of the blocks on their other side (default: any)
+---@field other_group? string of joints: all blocks of a group on their other side
+
+---Writes a quantity of one block, or its mean (of forces: the sum) over several, to histories.csv.
+---@param keys erbs.recorder_keys
+function recorder(keys) end
+
+---@class erbs.camera_keys
+---@field name string what the pictures are called
+---@field eye? erbs.vec3 where it stands [m; -1e+06 to 1e+06; default { 8, -8, 5 }]
+---@field target? erbs.vec3 what it looks at [m; -1e+06 to 1e+06; default { 0, 0, 1 }]
+---@field up? erbs.vec3 which way is up [-1 to 1; default { 0, 0, 1 }]
+---@field fov? number vertical angle of view [rad; 0.001 to 3.1; default 0.610865]
+
+---A view for the pictures.
+---@param keys erbs.camera_keys
+function camera(keys) end
+
+---Declares a number that -D and studies may change.
+---@param name string its name
+---@param default number its value where none is given
+---@param text? string what it means or assumes, and its unit at the end: "density of brick, assumed [kg/m3]"
+---@return number # the default, or what -D name=value says
+function param(name, default, text) end
+
+---Adds a number to metrics.json; a function is called after the run with a table `run`.
+---@param name string key under "metrics"
+---@param unit string its unit, "" for none
+---@param value number|fun(run: erbs.run): number? a number, or function(run) that returns one
+function metric(name, unit, value) end
+
+---Says what a key of metrics.json must be; the scene is the test.
+---@param key string dotted key: "metrics.x", "energy.residual_relative", "status"
+---@param value number|string|boolean? a number, a word, true or false
+---@param how? erbs.tolerance { rel = | abs = | below = true | above = true | between = { lo, hi }, source = "..." }
+function expect(key, value, how) end
+
+---Runs another script of the scene's folder in the same scene.
+---@param file string path, relative to the scene
+---@return any # what the file returns
+function include(file) end
+
+---@class erbs.wall_keys
+---@field name? string first word of its blocks' names, and their group [default wall]
+---@field group? string group of the bricks; default the name
+---@field length number end to end [m; at least 0]
+---@field axis? "x"|"y" direction it runs in [default x]
+---@field courses? integer number of courses; or give height [at least 1]
+---@field height? number instead of courses; snapped to whole ones [m; at least 0]
+---@field at? erbs.vec3 where the plan's origin stands; z is the top of the support [m; default { 0, 0, 0 }]
+---@field brick { length: number, width: number, height: number } size of a whole brick: { length*, width*, height* }
+---@field joint number thickness of bed and head joints; 0 is dry masonry [m; at least 0]
+---@field closer? number shortest piece that may be cut [m; at least 0; default 0.04]
+---@field joint_max? number widest head joint; default 1.5 joints [m; at least 0]
+---@field shift? integer 1: start with the other of the two alternating courses [0 to 1; default 0]
+---@field openings? { wall?: string, name?: string, kind?: "window"|"door", storey?: any, at?: number, centre?: number, width: number, sill?: number, height: number, lintel?: boolean }[] doors and windows: a list of { wall, name, kind, storey, at, centre, width*, sill, height*, lintel } [default {  }]
+---@field lintel? { bearing?: number, courses?: integer, material?: string, group?: string } the pieces over openings: { bearing, courses, material, group } [default {  }]
+---@field base? { thickness: number, margin?: number, material?: string, group?: string } a fixed plate below; default none (stand on ground{} or another block): { thickness*, margin, material, group }
+---@field material? string of the bricks [default brick]
+---@field quiet? boolean true: do not print the summary [default false]
+
+---A free-standing straight wall in running bond, both ends plain.
+---@param keys erbs.wall_keys
+function wall(keys) end
+
+---@class erbs.building_keys
+---@field name? string first word of all block names; default none
+---@field group? string groups of the walls are <group>_<wall> [default wall]
+---@field plan table outer size {x, y}, or outer corners {{x,y}, ...} counter-clockwise [m]
+---@field closed? boolean false: the last corner is not joined to the first [default true]
+---@field walls? table names of the runs; default south, east, north, west for a rectangle, else wall1, ...
+---@field storeys? integer number of storeys [at least 1; default 1]
+---@field courses any per storey: a number, or a list with one for each
+---@field slab? { thickness: number, overhang?: number, material?: string, group?: string } a rigid plate on the walls of every storey; default none: { thickness*, overhang, material, group }
+---@field at? erbs.vec3 where the plan's origin stands; z is the top of the support [m; default { 0, 0, 0 }]
+---@field brick { length: number, width: number, height: number } size of a whole brick: { length*, width*, height* }
+---@field joint number thickness of bed and head joints; 0 is dry masonry [m; at least 0]
+---@field closer? number shortest piece that may be cut [m; at least 0; default 0.04]
+---@field joint_max? number widest head joint; default 1.5 joints [m; at least 0]
+---@field shift? integer 1: start with the other of the two alternating courses [0 to 1; default 0]
+---@field openings? { wall?: string, name?: string, kind?: "window"|"door", storey?: any, at?: number, centre?: number, width: number, sill?: number, height: number, lintel?: boolean }[] doors and windows: a list of { wall, name, kind, storey, at, centre, width*, sill, height*, lintel } [default {  }]
+---@field lintel? { bearing?: number, courses?: integer, material?: string, group?: string } the pieces over openings: { bearing, courses, material, group } [default {  }]
+---@field base? { thickness: number, margin?: number, material?: string, group?: string } a fixed plate below; default none (stand on ground{} or another block): { thickness*, margin, material, group }
+---@field material? string of the bricks [default brick]
+---@field quiet? boolean true: do not print the summary [default false]
+
+---Walls along a plan with interlocked corners, storey on storey, with openings, lintels and slabs.
+---@param keys erbs.building_keys
+function building(keys) end
+

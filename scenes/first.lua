@@ -1,0 +1,16 @@
+-- A pier of twelve bricks without mortar stands on the ground, the ground begins to shake, and it falls.
+--   run:  erbs run scenes/first.lua --video          with more shaking:  erbs run scenes/first.lua -D shake=0.6*g -o runs/harder
+--   see:  runs/first/*.mp4, histories.svg, metrics.json (collapse.time_s); try -D shake=0.1*g: it stands
+local shake = param("shake", 0.35*g, "peak acceleration of the ground [m/s2]")
+
+material{ name = "brick", density = 1800, friction = 0.6 }
+ground{ size = 4 }
+for course = 0, 11 do
+  box{ name = "brick" .. course, group = "pier", size = { 30*cm, 12.5*cm, 10*cm }, at = { -15*cm, -6.25*cm, course * 10*cm } }
+end
+joint{ law = dry{ kn = 5*GPa, mu = 0.6 } }
+
+ground_motion{ wave = sine{ amplitude = shake, frequency = 1.5*Hz, duration = 6 }, direction = "y" }
+analysis{ duration = 8 }
+recorder{ name = "top", quantity = "displacement", block = "brick11" }
+camera{ name = "side", eye = { 3.2, -1.6, 1.3 }, target = { 0, 0, 0.5 } }

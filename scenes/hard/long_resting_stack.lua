@@ -1,0 +1,43 @@
+-- Hard case: stacks of many courses at rest on dry joints, straight and leaning, without any damping.
+--
+-- What happens   Round-off must not walk: no block drifts, no kinetic energy gathers. In the leaning stack every course is moved sideways by
+--                the same share, so that the joints at its foot are close to opening; its eccentricity stays inside the core.
+-- How to run     erbs run scenes/hard/long_resting_stack.lua [-D courses=100] [-D duration=60]
+-- What to look at  drift_* (of the block's height), kinetic_per_mass (m2/s2), at the end.
+local courses = param("courses", 50, "")
+local duration = param("duration", 20, "[s]")
+local kn = param("kn", 1e10, "[Pa/m]")
+local lean = param("lean", 0.25, "greatest eccentricity of the weight above, over the core's H/6")
+local size = { 0.3, 0.125, 0.1 }
+
+material { name = "brick", density = 1800 }
+joint { law = dry { kn = kn, mu = 0.6 }, between = { "straight", "straight" } }
+joint { law = dry { kn = kn, mu = 0.6 }, between = { "leaning", "leaning" } }
+local shift = { straight = 0, leaning = 2 * lean * size[1] / 6 / courses }  -- the middle of what stands above moves by half of it
+for name, by in pairs(shift) do
+  local y = name == "straight" and 0 or 2
+  box { name = name .. "_foot", group = name, size = { 1, 1, 0.1 }, at = { -0.5, y - 0.5, -0.1 }, fixed = true }
+  for i = 1, courses do
+    box { name = name .. i, group = name, size = size, at = { by * (i - 1), y, (i - 1) * size[3] } }
+  end
+  recorder { name = name, quantity = "displacement", block = name .. courses }
+  local blocks = {}
+  for i = 1, courses do blocks[i] = name .. i end
+  recorder { name = name .. "_joints", quantity = "slip", blocks = blocks }
+  metric("drift_" .. name, "", function(run)
+    local largest = 0
+    for _, axis in ipairs { "x", "y", "z" } do
+      local column = name .. "_u" .. axis .. "_rel_m"
+      largest = math.max(largest, run.max(column) - run.min(column))
+    end
+    return largest / size[3]
+  end)
+  expect("metrics.drift_" .. name, 1e-6 * duration, { below = true, source = "1e-6 of the smallest edge per second" })
+end
+recorder { name = "base", quantity = "reaction", axis = "z" }
+local weight = 2 * courses * 1800 * size[1] * size[2] * size[3] * g
+metric("reaction_error", "", function(run) return -run.last("base_fz_N") / weight - 1 end)
+metric("kinetic_per_mass", "m2/s2", function(run) return run.energy.kinetic_J / (weight / g) end)
+analysis { duration = duration, start = "equilibrium", output_dt = duration / 50, frame_dt = duration }
+expect("metrics.reaction_error", 0, { abs = 1e-6, source = "weight" })
+expect("metrics.kinetic_per_mass", 1e-12, { below = true, source = "hard case 9: nothing gathers" })

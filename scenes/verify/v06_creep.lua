@@ -1,0 +1,33 @@
+-- V06: blocks at 0.9 of the angle of friction for a minute: nothing creeps.
+--
+-- What happens   Dry joints carry 0.9 of what they can. A law with a ratchet in it (re-made contacts, dropped history, friction applied at
+--                a point that wanders) lets the blocks walk down by round-off.
+-- Source         contact mechanics asks for zero; a brick at .88 of its limit may flutter where the friction acts at the centre of pressure.
+-- How to run     erbs run scenes/verify/v06_creep.lua [-D share=0.98] [-D duration=600] [-D kn=...]
+-- What to look at  creep_* (of the block's size, between a tenth of the run and its end), speed_*.
+local share = param("share", 0.9, "of the angle of friction")
+local duration = param("duration", 60, "[s]")
+local kn = param("kn", 1e8, "soft, for a long step [Pa/m]")
+local size = param("size", 0.3, "longer side [m]")
+
+material { name = "stone", density = 1800, friction = 0.6, kn = kn, ks = 0.4 * kn }
+for i, mu in ipairs { 0.3, 0.6, 0.9 } do
+  for turn = 0, 1 do  -- straight down the slope, and turned by 30 degrees about its normal
+    local name = string.format("mu%d_%d", math.floor(10 * mu + 0.5), turn)
+    local slope, block, angle = "slope_" .. name, "block_" .. name, share * math.atan(mu)
+    transform { at = { 2 * i, 2 * turn, 0 }, rotation = { 0, angle, 0 }, function()
+      box { name = slope, group = slope, size = { 4 * size, 4 * size, 0.1 }, at = { -2 * size, -2 * size, -0.1 }, fixed = true }
+      box { name = block, group = block, size = { size, size / 2.4, size / 10 }, center = { 0, 0, size / 20 }, rotation = { 0, 0, turn * 30 * deg } }
+    end }
+    joint { law = dry { kn = kn, mu = mu }, between = { slope, block } }
+    recorder { name = name, quantity = "displacement", block = block, axis = "x" }
+    recorder { name = name, quantity = "velocity", block = block, axis = "x" }
+    metric("creep_" .. name, "", function(run)
+      return math.abs(run.last(name .. "_ux_rel_m") - run.at(name .. "_ux_rel_m", duration / 10)) / size
+    end)
+    metric("speed_" .. name, "m/s", function(run) return math.abs(run.last(name .. "_vx_rel_m_s")) end)
+    expect("metrics.creep_" .. name, 1e-6, { below = true, source = "V06: sticks for ever" })
+    expect("metrics.speed_" .. name, 1e-6, { below = true, source = "V06: sticks for ever" })
+  end
+end
+analysis { duration = duration, start = "equilibrium", output_dt = duration / 100 }

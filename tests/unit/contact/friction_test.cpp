@@ -1,0 +1,219 @@
+// Friction of the patch: threshold, creep, stop, spin; ledgers of frictional impacts and of rocking; hand-over from a joint.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "tests/unit/contact/bodies.h"
+
+using namespace erbs;
+using namespace erbs::trial;
+
+namespace {
+
+const double stiffness = 1e10;
+double small_step(double part = 0.2) { return part * step_unit(stiffness, 1800 * 0.00375, 0.0375); }
+
+Vec3 random_vector(std::mt19937& random) {
+  std::normal_distribution<double> normal;
+  return {normal(random), normal(random), normal(random)};
+}
+
+// A brick lying on a wide floor with gravity inclined by `slope` about y; noise of 1e-8 so that symmetry hides nothing.
+Bodies on_slope(double slope, double mu, double dt, double direction = 0, double h = 0.1) {
+  Body floor{{box_polyhedron({-5, -5, -1}, {5, 5, 0})}, 0};
+  const double sink = 1800 * h * 9.81 * std::cos(slope) / stiffness;
+  const Polyhedron lying = transformed(brick(0.3, 0.125, h), rotation({1e-8, 2e-8, direction}), {0, 0, h / 2 - sink});
+  Bodies two({floor, {{lying}}}, {stiffness, 0.4 * stiffness, mu, 0.3}, dt);
+  two.gravity = 9.81 * Vec3(std::sin(slope), 0, -std::cos(slope));
+  two.want_energy = false;
+  return two;
+}
+
+}  // namespace
+
+TEST_CASE("the factor of an impact answers for its restitution", "[contact]") {
+  const double e[] = {.9375, .7484, .5936, .4107, .1970}, x[] = {.1, .5, 1, 2, 5};
+  for (int i = 0; i < 5; ++i) CHECK(impact_factor(e[i]) == Approx(x[i]).epsilon(2e-3));
+}
+
+TEST_CASE("the torsion radius is that of Int |x| dA / A", "[contact]") {
+  for (double q : {0.01, 0.0625, 0.15}) {
+    const double p = 0.15, exact = (std::hypot(p, q) + p * p / (2 * q) * std::asinh(q / p) + q * q / (2 * p) * std::asinh(p / q)) / 3;
+    CHECK(torsion_radius(4 * p * q, std::sqrt((p * p + q * q) / 3)) == Approx(exact).epsilon(4e-3));
+  }
+}
+
+// V05.
+TEST_CASE("a brick slides when the slope exceeds the friction angle", "[contact][verify]") {
+  const double mu = 0.6, angle = std::atan(mu);
+  for (double direction : {0.0, 0.7}) {
+    Bodies below = on_slope(angle - 2e-4, mu, small_step(0.3), direction), above = on_slope(angle + 2e-4, mu, small_step(0.3), direction);
+    // Gravity turns slowly from the vertical, so that the start is no shock.
+    for (Bodies* two : {&below, &above}) {
+      const Vec3 end = two->gravity;
+      while (two->t < 0.6) {
+        const double share = std::min(1.0, two->t / 0.2), slope = share * std::atan2(end.x(), -end.z());
+        two->gravity = 9.81 * Vec3(std::sin(slope), 0, -std::cos(slope));
+        two->step(two->t == 0);
+      }
+    }
+    CHECK(below.block[1].u.norm() < 2e-6);
+    CHECK(below.block[1].v.norm() < 2e-5);
+    const double a = 9.81 * (std::sin(angle + 2e-4) - mu * std::cos(angle + 2e-4));
+    CHECK(above.block[1].v.x() == Approx(a * 0.4).epsilon(0.05));
+  }
+}
+
+// V06, shortened: the drift per second is what counts.
+TEST_CASE("a brick that sticks does not creep", "[contact][verify]") {
+  Bodies two = on_slope(0.9 * std::atan(0.6), 0.6, small_step(0.5), 0.3);
+  two.run(0.5);
+  const Vec3 settled = two.block[1].u;
+  two.run(2.0);
+  CHECK((two.block[1].u - settled).norm() < 1e-8 * 0.1);
+  CHECK(two.block[1].v.norm() < 1e-8);
+}
+
+// V07. A thin brick: a tall one that is pushed open at its heel chatters on its elastic bed (also in the limit of small steps).
+TEST_CASE("a sliding brick stops where it must, in 16 directions", "[contact][verify]") {
+  const double mu = 0.6, v0 = 0.5, exact = v0 * v0 / (2 * mu * 9.81);
+  double shortest = 1, longest = 0;
+  for (int i = 0; i < 16; ++i) {
+    const double angle = 2 * M_PI * i / 16;
+    Bodies two = on_slope(0, mu, small_step(0.3), 0, 0.03);
+    two.block[1].v = v0 * Vec3(std::cos(angle), std::sin(angle), 0);
+    two.run(0.12);
+    const double travel = std::hypot(two.block[1].u.x(), two.block[1].u.y());
+    shortest = std::min(shortest, travel);
+    longest = std::max(longest, travel);
+    CHECK(std::abs(std::atan2(std::sin(angle) * two.block[1].u.x() - std::cos(angle) * two.block[1].u.y(), travel)) < 1e-3);
+    CHECK(two.friction + two.tangential + two.damping + two.reset == Approx(0.5 * two.mass[1] * v0 * v0).epsilon(2e-3));
+    CHECK(std::abs(two.reset) < 1e-3 * two.friction);
+  }
+  CHECK(shortest == Approx(exact).epsilon(1e-3));
+  CHECK(longest == Approx(exact).epsilon(1e-3));
+  CHECK(longest - shortest < 1e-3 * exact);
+}
+
+TEST_CASE("a spinning brick stops after I w / (mu N r)", "[contact][verify]") {
+  const double mu = 0.6, w0 = 5, r = 0.08548;
+  Bodies two = on_slope(0, mu, small_step(0.5));
+  const double inertia = two.inertia[1](2, 2), stop = inertia * w0 / (mu * two.mass[1] * 9.81 * r);
+  two.block[1].w = {0, 0, w0};
+  two.spin[1] = {0, 0, inertia * w0};
+  double stopped = 0;
+  while (two.t < 0.1) {
+    two.step(two.t == 0);
+    if (two.block[1].w.z() > 0.01 * w0) stopped = two.t;
+  }
+  CHECK(stopped / 0.99 == Approx(stop).epsilon(0.015));
+}
+
+TEST_CASE("oblique collisions with friction and damping close the ledger and keep momentum", "[contact]") {
+  std::mt19937 random(4);
+  std::vector<double> errors;
+  for (int round = 0; round < 12; ++round) {
+    const Vec3 way = random_vector(random).normalized();
+    Body a{{transformed(brick(), rotation(random_vector(random)), Vec3::Zero())}}, b;
+    b.parts = {transformed(brick(), rotation(random_vector(random)), 0.36 * way)};
+    b.v = -3 * way + random_vector(random);
+    a.w = 3 * random_vector(random);
+    b.w = 3 * random_vector(random);
+    Bodies two({a, b}, {stiffness, 0.4 * stiffness, 0.6, 0.5}, small_step());
+    two.step(true);
+    const double before = two.kinetic;
+    const Vec3 momentum = two.momentum(), angular = two.angular_momentum();
+    two.run(0.15);
+    errors.push_back(std::abs(two.total() / before - 1));
+    CHECK((two.momentum() - momentum).norm() < 1e-12 * momentum.norm());
+    CHECK((two.angular_momentum() - angular).norm() < 1e-11 * (angular.norm() + 0.3 * momentum.norm()));
+    CHECK(two.damping >= -1e-4 * before);
+    CHECK(two.friction >= -1e-4 * before);
+    INFO(round << ": friction " << two.friction << " damping " << two.damping << " reset " << two.reset << " of " << before << " residual "
+               << errors.back());
+    CHECK(std::abs(two.reset) < 0.05 * before);
+    CHECK(errors.back() < 1e-3);
+  }
+  std::sort(errors.begin(), errors.end());
+  CHECK(errors[errors.size() / 2] < 1e-4);
+}
+
+TEST_CASE("rocking with friction closes the ledger", "[contact]") {
+  const double alpha = std::atan(0.25), start = 0.5 * alpha;
+  Body floor{{box_polyhedron({-5, -5, -1}, {5, 5, 0})}, 0};
+  const Vec3 toe(0.125, 0, 0);
+  const Quat lean = rotation({0, start, 0});
+  Polyhedron block = transformed(box_polyhedron({-0.125, -0.375, 0}, {0.125, 0.375, 1}), lean, toe - lean * toe);
+  const double kn = 1e10, dt = 0.2 * step_unit(kn, 1800 * 0.1875, 0.1875);
+  Bodies two({floor, {{block}}}, {kn, 0.4 * kn, 0.7, 1}, dt);
+  two.gravity = {0, 0, -9.81};
+  two.settings.settling = two.settings.settling_tangential = 0;
+  two.step(true);
+  const double before = two.total(),
+               swing = two.mass[1] * 9.81 * 0.5 * std::hypot(0.25, 1) * (std::cos(alpha - start) - std::cos(alpha)) * -1;
+  double worst = 0;
+  while (two.t < 3) {
+    two.step();
+    worst = std::max(worst, std::abs(two.total() - before));
+  }
+  INFO("worst " << worst << " of " << swing << " friction " << two.friction << " reset " << two.reset << " damping " << two.damping);
+  CHECK(worst < 1e-3 * std::abs(swing) * 20);
+  CHECK(std::abs(two.reset) < 0.05 * std::abs(swing));
+}
+
+// Hard case 3.
+TEST_CASE("a loaded contact turned as a whole keeps its force and does no work", "[contact][hard]") {
+  Body lower{{box_polyhedron({-0.5, -0.5, -0.2}, {0.5, 0.5, 0})}};
+  Body upper{{translated(brick(), {0.05, 0.02, 0.05 - 1e-5})}};
+  Bodies two({lower, upper}, {stiffness, 0.4 * stiffness, 0.6, 1}, 1e-4);
+  two.settings.settling = two.settings.settling_tangential = 0;
+  two.t = 1;
+  two.forces();
+  two.block[1].u.x() += 2e-6;  // shear below the limit
+  two.forces();
+  const Vec3 force = two.force[1], moment = two.moment[1];
+  const double stored = two.tangential;
+  REQUIRE(force.x() < -100);
+  const Vec3 centre_a = two.block[0].rest, centre_b = two.block[1].rest + two.block[1].u;
+  for (int i = 1; i <= 3600; ++i) {
+    const Quat turn = rotation(2 * M_PI * i / 3600 * Vec3(0.3, -0.5, 0.8).normalized());
+    two.block[0].turn = two.block[1].turn = turn.toRotationMatrix();
+    two.block[1].u = turn * (centre_b - centre_a) + centre_a - two.block[1].rest;
+    two.list.valid = true;
+    two.forces();
+    if (i % 400 == 0) {
+      CHECK((turn.conjugate() * two.force[1] - force).norm() < 1e-9 * force.norm());
+      CHECK((turn.conjugate() * two.moment[1] - moment).norm() < 1e-9 * force.norm());
+    }
+  }
+  CHECK(two.tangential == Approx(stored).epsilon(1e-7));
+}
+
+// Hard case 14.
+TEST_CASE("a contact takes over from a joint without a jump", "[contact][hard]") {
+  Body lower{{box_polyhedron({-0.5, -0.5, -0.2}, {0.5, 0.5, 0})}, 0};
+  Body upper{{translated(brick(), {0.05, 0.02, 0.05 - 1e-6})}};
+  Bodies two({lower, upper}, {stiffness, 0.4 * stiffness, 0.6, 0.3}, 1e-5);
+  two.list.margin = 0.01;
+  search(two.list, two.shapes, two.block, std::vector<std::uint8_t>{1, 1}, {}, [&](int, int) { return two.law; });
+  const Vec3 force(-50, 20, 300), moment(3, -4, 1);
+  REQUIRE(two.list.pair.size() == 1);
+  hand_over(two.list.pair[0], two.shapes, two.block[0], two.block[1], two.settings, force, moment, 0.0375, two.room);
+  two.t = 1;
+  two.dt = 1e-9;
+  two.forces();
+  CHECK((two.force[1] - force).norm() < 1e-3);
+  CHECK((two.moment[1] - moment).norm() < 1e-4);
+  CHECK(two.tangential > 0);
+  two.dt = 0.05;
+  two.forces();
+  const Vec3 tangential(two.force[1].x(), two.force[1].y(), 0);
+  CHECK((tangential - Vec3(-50, 20, 0)).norm() < 1e-6);
+  CHECK(two.force[1].z() == Approx(stiffness * 0.0375 * 1e-6).epsilon(1e-4));
+}
+
+TEST_CASE("a pair lists its memory for checkpoints", "[contact]") {
+  Pair p;
+  std::size_t bytes = 0;
+  each(p, [&](auto, auto& x) { bytes += sizeof(x); });
+  CHECK(bytes + 16 >= sizeof(Pair));  // padding only
+}

@@ -1,0 +1,161 @@
+// The program as a user meets it: exit codes, where messages go, and that nothing half-written remains.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "lua/child.h"
+#include "tests/unit/lua/load.h"
+
+using namespace erbs;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::string text_of(const fs::path& path) {
+  std::ifstream stream(path);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// A folder of its own, gone at the end.
+struct Bench {
+  fs::path folder = fs::temp_directory_path() / ("erbs_program_" + std::to_string(getpid()));
+  std::string said;  // stdout and stderr of the last call
+  Bench() { fs::create_directories(folder); }
+  ~Bench() { fs::remove_all(folder); }
+
+  std::string scene(const std::string& text) const {
+    std::ofstream(folder / "scene.lua") << text;
+    return (folder / "scene.lua").string();
+  }
+  std::vector<std::string> command(std::vector<std::string> words) const {
+    words.insert(words.begin(), ERBS_BINARY_DIR "/erbs");
+    return words;
+  }
+  int erbs(const std::vector<std::string>& words) {
+    const int code = wait_for(start(command(words), (folder / "log").string()));
+    said = text_of(folder / "log");
+    return code;
+  }
+  int run(const std::string& text, std::vector<std::string> more = {}) {
+    std::vector<std::string> words{"run", scene(text), "-o", out()};
+    words.insert(words.end(), more.begin(), more.end());
+    return erbs(words);
+  }
+  std::string out() const { return (folder / "out").string(); }
+};
+
+const std::string falling = R"(
+material{ name = "brick", density = 1800 }
+box{ name = "b", size = { .3, .2, .1 }, center = { 0, 0, 10 }, free = true }
+analysis{ duration = param("duration", 0.1, "[s]"), dt = 1e-3, start = "rest", output_dt = 0.01 }
+recorder{ name = "b", quantity = "displacement", block = "b", axis = "z" }
+metric("fall", "m", function(run) return -run.last("b_uz_rel_m") end)
+)";
+
+}  // namespace
+
+TEST_CASE("a run ends with 0, writes its metric and judges it", "[program]") {
+  Bench bench;
+  REQUIRE(bench.run(falling + "expect('metrics.fall', 0.5 * g * 0.1^2, { rel = 1e-9 })") == 0);
+  INFO(bench.said);
+  CHECK(contains(bench.said, "expectations: 1 passed, 0 failed"));
+  const Json metrics = read_json(bench.out() + "/metrics.json");
+  CHECK(metrics["metrics"]["fall"].get<double>() == Approx(0.5 * 9.81 * 0.01).epsilon(1e-9));
+  CHECK(metrics["expectations"]["passed"] == 1);
+  CHECK(read_json(bench.out() + "/expectations.json").size() == 1);
+}
+
+TEST_CASE("a failed expectation ends with 4", "[program]") {
+  Bench bench;
+  CHECK(bench.run(falling + "expect('metrics.fall', 1, { rel = 0.1 })") == 4);
+  CHECK(contains(bench.said, "FAILED metrics.fall: expected 1 rel 0.1, got 0.04905"));
+}
+
+TEST_CASE("a folder that exists is refused with the remedy, and --force replaces it", "[program]") {
+  Bench bench;
+  REQUIRE(bench.run(falling, {"-q"}) == 0);
+  CHECK(bench.said.empty());
+  CHECK(bench.run(falling) == 2);
+  CHECK(contains(bench.said, "--force"));
+  CHECK(bench.run(falling, {"--force"}) == 0);
+}
+
+TEST_CASE("bad input ends with 2, names the place, and leaves nothing behind", "[program]") {
+  Bench bench;
+  std::ofstream(bench.folder / "letters.csv") << "0, 0.1\n0.02, 0.2x\n0.04, 0.1\n";
+  std::ofstream(bench.folder / "empty.csv").flush();
+  const std::pair<std::string, std::string> bad[] = {
+      {"box{", "scene.lua:"},
+      {"box{ size = {1,1,1}, at = {5,0,0}, frree = true }", "did you mean \"free\"?"},
+      {"material{ name = 'x', density = -1 }", "density = -1 kg/m3 is out of range"},
+      {"ground_motion{ wave = record{ file = 'nope.csv' } }", "\"nope.csv\" is not there"},
+      {"ground_motion{ wave = record{ file = 'empty.csv' } }", "empty.csv"},
+      {"ground_motion{ wave = record{ file = 'letters.csv', unit = 'g' } }", "letters.csv"},
+      {"box{ size = {.3,.2,.1}, center = {0,0,10.05}, free = true }", "overlap"},
+      {"box{ size = {1,1,1}, at = {5,0,0} }", "joint"},
+      {"analysis{ duration = 0 }", "duration"},
+  };
+  for (const auto& [piece, message] : bad) {
+    INFO(piece);
+    CHECK(bench.run(falling + piece) == 2);
+    INFO(bench.said);
+    CHECK(contains(bench.said, message));
+    CHECK_FALSE(fs::exists(bench.out()));
+  }
+}
+
+TEST_CASE("the command line is checked", "[program]") {
+  Bench bench;
+  CHECK(bench.erbs({}) == 2);
+  CHECK(bench.erbs({"runn"}) == 2);
+  CHECK(bench.erbs({"run", "nope.lua"}) == 2);
+  CHECK(contains(bench.said, "there is no scene nope.lua"));
+  CHECK(bench.run(falling, {"-D", "durration=1"}) == 2);
+  CHECK(contains(bench.said, "-D durration=1: the scene has no param \"durration\"; did you mean \"duration\"?"));
+  CHECK(bench.run(falling, {"--max-wall", "soon"}) == 2);
+  CHECK(bench.erbs({"version"}) == 0);
+  CHECK(contains(bench.said, "erbs "));
+  CHECK(bench.erbs({"help", "mortar"}) == 0);
+  CHECK(contains(bench.said, "tensile strength (Pa; 0 to 1e+09; required)"));
+  CHECK(bench.erbs({"help", "run"}) == 0);
+  CHECK(contains(bench.said, "--max-wall"));
+}
+
+TEST_CASE("--until stops with 3, and --resume ends as one run would", "[program]") {
+  Bench bench;
+  REQUIRE(bench.run(falling) == 0);
+  const Json whole = read_json(bench.out() + "/metrics.json");
+  CHECK(bench.run(falling, {"--force", "--until", "0.05"}) == 3);
+  CHECK(bench.run(falling, {"--resume"}) == 0);
+  INFO(bench.said);
+  CHECK(read_json(bench.out() + "/metrics.json")["state_hash"] == whole["state_hash"]);
+}
+
+TEST_CASE("an interrupt ends with 130 and a checkpoint", "[program]") {
+  Bench bench;
+  const Child child =
+      start(bench.command({"run", bench.scene(falling), "-o", bench.out(), "-D", "duration=100000"}), (bench.folder / "log").string());
+  for (int i = 0; i < 500 && !fs::exists(bench.out() + "/histories.csv"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  kill(child.pid, SIGINT);
+  CHECK(wait_for(child) == 130);
+  CHECK(fs::exists(bench.out() + "/checkpoint.bin"));
+}
+
+TEST_CASE("erbs test prints one row per expectation, and one for a scene that fails to run", "[program]") {
+  Bench bench;
+  fs::create_directories(bench.folder / "cases");
+  std::ofstream(bench.folder / "cases/good.lua") << falling << "expect('metrics.fall', 0.04905, { rel = 1e-6 })";
+  std::ofstream(bench.folder / "cases/wrong.lua") << falling << "expect('metrics.fall', 1, { abs = 0.1 })\nexpect('status', 'completed')";
+  std::ofstream(bench.folder / "cases/broken.lua") << "box{ sise = 3 }\nexpect('steps', 1, { rel = 1 })";
+  std::ofstream(bench.folder / "cases/part.lua") << "-- no expect(...) here";
+  CHECK(bench.erbs({"test", (bench.folder / "cases").string(), "-o", bench.out(), "-j", "2"}) == 4);
+  INFO(bench.said);
+  CHECK(contains(bench.said, "broken.lua:1: box: unknown key \"sise\"; did you mean \"size\"?"));
+  CHECK(contains(bench.said, "4 expectations of 3 cases: 2 passed, 2 failed (2 cases)"));
+  CHECK(bench.erbs({"test", (bench.folder / "cases/good.lua").string(), "-o", bench.out()}) == 0);
+}

@@ -1,0 +1,115 @@
+// A scene can only compute: it cannot reach files, use up the machine, or run for ever.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/unit/lua/load.h"
+
+using namespace erbs;
+
+namespace {
+
+double seconds_since(std::chrono::steady_clock::time_point begin) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
+// Loads in a process of its own; gives its exit code and what it wrote to stderr.
+std::pair<int, std::string> in_a_child(const std::string& text, double limit) {
+  const auto log = std::filesystem::temp_directory_path() / ("erbs_sandbox_" + std::to_string(getpid()));
+  const pid_t pid = fork();
+  if (pid == 0) {
+    if (!std::freopen(log.c_str(), "w", stderr)) _exit(9);
+    mistakes_of(text, {}, quiet(limit));
+    _exit(0);
+  }
+  int status = 0;
+  waitpid(pid, &status, 0);
+  std::ifstream stream(log);
+  std::string said((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  std::filesystem::remove(log);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, said};
+}
+
+}  // namespace
+
+TEST_CASE("a loop without end is stopped, and pcall does not swallow it", "[lua][sandbox]") {
+  for (const char* loop : {"while true do end", "while true do pcall(function() while true do end end) end",
+                           "local function f() return pcall(f) end while true do f() end", "local function f() return f() end f()",
+                           "while true do xpcall(function() while true do end end, function(e) while true do end end) end",
+                           "for i = 1, math.huge do local s = ('x'):rep(10):upper() end", "transform{ function() while true do end end }",
+                           "ground_motion{ wave = function(x) while true do end end }"}) {
+    const auto begin = std::chrono::steady_clock::now();
+    const auto mistakes = mistakes_of(sound + loop, {}, quiet(0.2));
+    INFO(loop);
+    CHECK(mentions(mistakes, "the script ran longer than"));
+    CHECK(mentions(mistakes, "scene.lua:"));
+    CHECK(seconds_since(begin) < 1.0);
+  }
+}
+
+TEST_CASE("a pattern of exponential cost ends the process with code 2", "[lua][sandbox]") {
+  const auto [code, said] = in_a_child("local n = 40\nstring.find(('a'):rep(n), ('a?'):rep(n) .. ('a'):rep(n) .. 'b')", 0.2);
+  CHECK(code == 2);
+  CHECK(contains(said, "scene.lua:2: string.find: the script ran longer than 0.2 s"));
+}
+
+TEST_CASE("a library loop in C ends the process with code 2", "[lua][sandbox]") {
+  const auto [code, said] = in_a_child("table.move({}, 1, 1e15, 2)", 0.2);
+  CHECK(code == 2);
+  CHECK(contains(said, "scene.lua:1: table.move"));
+}
+
+TEST_CASE("memory is capped", "[lua][sandbox]") {
+  for (const char* bomb :
+       {"local s = 'x' while true do s = s .. s end", "local t = {} for i = 1, math.huge do t[i] = { i } end", "local s = ('x'):rep(1e10)",
+        "local t = {} while true do t[#t + 1] = sine{ amplitude = 1, frequency = 1 } end"}) {
+    INFO(bomb);
+    const auto mistakes = mistakes_of(bomb, {}, quiet(10, size_t{32} << 20));
+    CHECK((mentions(mistakes, "MiB of memory") || mentions(mistakes, "too large") || mentions(mistakes, "not enough memory")));
+  }
+}
+
+TEST_CASE("what reaches outside is not there", "[lua][sandbox]") {
+  for (const char* name :
+       {"io", "os", "package", "debug", "coroutine", "require", "load", "loadfile", "dofile", "loadstring", "collectgarbage", "warn"}) {
+    INFO(name);
+    CHECK(mentions(mistakes_in("local x = " + std::string(name)), "unknown name"));
+  }
+  CHECK(mentions(mistakes_in("local x = string.dump(function() end)"), "attempt to call a nil value"));
+  CHECK(mentions(mistakes_in("setmetatable({}, { __gc = function() while true do end end })"), "__gc is not available"));
+  CHECK(mentions(mistakes_in("getmetatable(_G).__index = nil"), "scene.lua:6:"));
+}
+
+TEST_CASE("the language cannot be changed from a scene", "[lua][sandbox]") {
+  CHECK(mentions(mistakes_in("box = nil"), "is a name of the language"));
+  CHECK(mentions(mistakes_in("_G.box = print"), "is a name of the language"));
+  CHECK(mentions(mistakes_in("setmetatable(_G, {})"), "protected metatable"));
+}
+
+TEST_CASE("include stays inside the scene's folder", "[lua][sandbox]") {
+  CHECK(mentions(mistakes_in("include '/etc/passwd'"), "leaves the folder of the scene"));
+  CHECK(mentions(mistakes_in("include '../../etc/passwd'"), "leaves the folder of the scene"));
+  CHECK(mentions(mistakes_in("include 'nope.lua'"), "there is no such file"));
+}
+
+TEST_CASE("bytecode is refused", "[lua][sandbox]") {
+  const std::string bytecode = std::string("\x1bLua") + "T\0\x19\x93\r\n\x1a\n";
+  CHECK(mentions(mistakes_of(bytecode), "attempt to load a binary chunk"));
+}
+
+TEST_CASE("the same script builds the same scene every time", "[lua][sandbox]") {
+  const std::string piece =
+      "local names = {} for i = 1, 40 do names['k' .. i] = i end\n"
+      "for name, i in pairs(names) do box{ name = name, size = {1,1,1}, at = {2*i + math.random(),5,0}, material = 'brick' } end";
+  const Scene a = scene_of(piece), b = scene_of(piece);
+  REQUIRE(a.blocks.size() == 41);
+  REQUIRE(b.blocks.size() == 41);
+  bool same = true;
+  for (size_t i = 0; i < a.blocks.size(); ++i)
+    same = same && a.blocks[i].name == b.blocks[i].name && a.blocks[i].parts[0].vertices[0] == b.blocks[i].parts[0].vertices[0];
+  CHECK(same);
+}

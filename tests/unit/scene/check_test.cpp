@@ -1,0 +1,113 @@
+// Mistakes that are seen without building a model, on scenes made by hand.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/scene/scene.h"
+
+using namespace erbs;
+
+namespace {
+
+bool mentions(const std::vector<std::string>& messages, const std::string& part) {
+  for (const auto& message : messages)
+    if (message.find(part) != std::string::npos) return true;
+  return false;
+}
+
+Scene sound() {
+  Scene scene;
+  scene.file = "s.lua";
+  Material brick;
+  brick.name = "brick";
+  brick.density = 1800;
+  scene.materials = {brick};
+  Block block;
+  block.name = "a";
+  block.group = "wall";
+  block.material = 0;
+  block.parts = {box_polyhedron({0, 0, 0}, {1, 1, 1})};
+  block.place = {"s.lua", 3};
+  scene.blocks = {block};
+  scene.analysis.duration = 1;
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("a sound scene passes the check", "[scene]") { CHECK(check(sound()).empty()); }
+
+TEST_CASE("an empty scene says what is missing", "[scene]") {
+  Scene scene;
+  scene.file = "s.lua";
+  CHECK(mentions(check(scene), "s.lua: the scene has no blocks; add box{"));
+  CHECK(mentions(check(scene), "the run has no duration; add analysis{ duration = 10 }"));
+}
+
+TEST_CASE("names must be unique", "[scene]") {
+  Scene scene = sound();
+  scene.materials.push_back(scene.materials[0]);
+  scene.blocks.push_back(scene.blocks[0]);
+  CHECK(mentions(check(scene), "material \"brick\" is there twice"));
+  CHECK(mentions(check(scene), "s.lua:3: block \"a\" is there twice"));
+}
+
+TEST_CASE("shapes that are no solid are named", "[scene]") {
+  Scene scene = sound();
+  scene.blocks[0].parts[0].vertices[6].x() = NAN;
+  CHECK(mentions(check(scene), "s.lua:3: block \"a\": "));
+  scene = sound();
+  for (Vec3& v : scene.blocks[0].parts[0].vertices) v.z() = 0;  // flat
+  CHECK(mentions(check(scene), "block \"a\": "));
+  scene = sound();
+  for (auto& face : scene.blocks[0].parts[0].faces) std::reverse(face.begin(), face.end());  // inside out
+  CHECK(mentions(check(scene), "block \"a\": "));
+  scene = sound();
+  scene.blocks[0].parts[0].faces.pop_back();  // open
+  CHECK(mentions(check(scene), "block \"a\": "));
+  scene = sound();
+  scene.blocks[0].parts[0].vertices[6] = {0.4, 0.4, 0.4};  // dented
+  CHECK(mentions(check(scene), "block \"a\": "));
+}
+
+TEST_CASE("numbers out of range are named with their range", "[scene]") {
+  Scene scene = sound();
+  scene.materials[0].density = -1;
+  scene.analysis.output_dt = NAN;
+  CHECK(mentions(check(scene), "material \"brick\": density is out of range"));
+  CHECK(mentions(check(scene), "analysis: output_dt is out of range"));
+}
+
+TEST_CASE("loads and joints name what exists", "[scene]") {
+  Scene scene = sound();
+  Load load;
+  load.kind = Load::Kind::force;
+  load.block = "aa";
+  scene.loads = {load};
+  JointRule rule;
+  rule.group_a = "wal";
+  rule.law = DryFriction{1e9, 4e8, 0.6};
+  scene.joint_rules = {rule};
+  CHECK(mentions(check(scene), "force: there is no block \"aa\"; did you mean \"a\"?"));
+  CHECK(mentions(check(scene), "joint: no block is of group \"wal\"; did you mean \"wall\"?"));
+}
+
+TEST_CASE("a mortar without stiffness is a mistake, a capped or snapping one a warning", "[scene]") {
+  Scene scene = sound();
+  JointRule rule;
+  Mortar mortar;
+  mortar.mu = 0.5;
+  rule.law = mortar;
+  scene.joint_rules = {rule};
+  CHECK(mentions(check(scene), "the mortar has no normal stiffness; give kn, or E and the thickness"));
+  mortar.kn = mortar.ks = 1e10;
+  mortar.c = 1e5;
+  mortar.ft = 3e5;  // c / mu = 2e5
+  mortar.Gf1 = 1;   // ft^2 / (2 kn) = 4.5
+  scene.joint_rules[0].law = mortar;
+  CHECK(check(scene).empty());
+  CHECK(mentions(warnings(scene), "it is capped there"));
+  CHECK(mentions(warnings(scene), "snaps back"));
+  mortar.ft = 1e5;  // 0.5 J/m2
+  scene.joint_rules[0].law = mortar;
+  CHECK(warnings(scene).empty());
+}
