@@ -175,7 +175,7 @@ function transform(keys) end
 function dry(keys) end
 
 ---@class erbs.mortar_keys
----@field E? number Young's modulus of the mortar [Pa; 1000 to 1e+14; default 0]
+---@field E? number Young's modulus of the mortar [Pa; 0 to 1e+14; default 0]
 ---@field nu? number Poisson's ratio, G = E / (2 (1 + nu)) [-0.99 to 0.5; default 0.2]
 ---@field G? number shear modulus of the mortar (default from E and nu) [Pa; 0 to 1e+14]
 ---@field thickness? number thickness of the bed; kn = E / thickness, ks = G / thickness [m; 0 to 1; default 0]

@@ -32,8 +32,9 @@ GroundRecord strongest_component(const Table& histories) {
 }
 
 void read_manifest(const Json& j, Run& run) {
-  run.name = j.value("scene", run.name);
-  run.title = j.value("title", run.name);
+  const Json& scene = j.at("scene");
+  run.name = scene.value("name", run.name);
+  run.title = scene.value("title", run.name);
   if (run.title.empty()) run.title = run.name;
   for (const Json& c : j.value("cameras", Json::array())) {
     Camera camera;

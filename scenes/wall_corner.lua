@@ -1,9 +1,9 @@
--- A corner of two brick walls is shaken out of the plane of one of them: does the bond hold it back?
+-- A bonded corner of two walls, shaken out of plane
 --
 -- What happens   Two free-standing walls, 1.5 m long and 1.26 m high, meet in a bonded corner. One sine wave of acceleration along x
 --                pushes the wall that runs along y out of its plane. Bonded, it is held at the corner by every second course of
---                the other wall and breaks away from the free end inwards; with bonded = 0 the same two walls stand side by side
---                with an open gap at the corner, and the wall along y falls as a whole.
+--                the other wall: a crack climbs in steps from its foot to the top of the corner and only the triangle beyond it
+--                swings. With bonded = 0 the same two walls stand side by side with an open gap, and the wall rocks as a whole.
 -- How to run     erbs run scenes/wall_corner.lua --video
 --                erbs run scenes/wall_corner.lua -D bonded=0 -o runs/wall_corner_apart
 --                erbs run scenes/wall_corner.lua -D peak=0.3*g
@@ -13,13 +13,17 @@ local bonded = param("bonded", 1, "1: corner laid in bond, 0: two walls with an 
 local peak = param("peak", 0.8 * g, "amplitude of the one sine wave [m/s2]")
 local frequency = param("frequency", 2 * Hz, "of the wave [Hz]")
 local ft = param("ft", 0.02 * MPa, "tensile strength of a weak lime mortar, assumed [Pa]")
+local Gf1 = param("Gf1", 2, "its fracture energy in tension, assumed; ten times that in shear [J/m2]")
 
 local t, courses, length = 10 * mm, 18, 1.5
 local brick = { length = 240 * mm, width = 115 * mm, height = 60 * mm }
 
 material { name = "brick", density = 1800, friction = 0.6, restitution = 0.2 }
-ground { size = 12 }
-joint { law = mortar { E = 1e9 * Pa, nu = 0.2, thickness = t, ft = ft, c = 1.5 * ft, mu = 0.6 }, thickness = t, tolerance = t / 2 }
+ground {}
+joint {
+  law = mortar { E = 1e9 * Pa, nu = 0.2, thickness = t, ft = ft, c = 1.5 * ft, mu = 0.6, Gf1 = Gf1, Gf2 = 10 * Gf1 },
+  thickness = t, tolerance = t / 2,
+}
 
 -- Seen from above: `side` runs along x from the free end to the corner, `face` from the corner along y to its free end.
 local corners = { { -length, 0 }, { 0, 0 }, { 0, length } }
@@ -46,5 +50,5 @@ metric("free_end_peak_m", "m", function(run) return run.peak("free_end_ux_rel_m"
 metric("corner_peak_m", "m", function(run) return run.peak("corner_ux_rel_m") end)
 metric("height_m", "m", top)
 
-camera { name = "corner", eye = { 3.6, -3.4, 2.4 }, target = { -0.4, 0.4, 0.5 }, fov = 35 * deg }
-camera { name = "along", eye = { -0.05, -4.2, 1.2 }, target = { -0.2, 0.5, 0.55 }, fov = 35 * deg }
+camera { name = "corner", eye = { 2.7, -2.7, 2.0 }, target = { -0.45, 0.45, 0.5 }, fov = 35 * deg }
+camera { name = "along", eye = { 0.3, -3.6, 1.1 }, target = { -0.45, 0.5, 0.5 }, fov = 35 * deg }

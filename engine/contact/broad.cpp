@@ -13,7 +13,7 @@ size_t at(int i) { return static_cast<size_t>(i); }
 
 // A part where it is now, positions relative to block 0 at rest so that 1e4 m from the origin costs no digits.
 struct Placed {
-  Vec3 centre;       // m
+  Vec3 centre;  // m
   const Mat3* turn;
   const ContactShape* shape;
 };
@@ -171,8 +171,7 @@ bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<c
 
 double search(PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
               std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law) {
-  const std::vector<Found> found =
-      shapes.shape.empty() ? std::vector<Found>{} : close_parts(list, shapes, blocks, loose, excluded);
+  const std::vector<Found> found = shapes.shape.empty() ? std::vector<Found>{} : close_parts(list, shapes, blocks, loose, excluded);
   std::vector<Pair> now;
   now.reserve(found.size());
   double dropped = 0;
@@ -202,7 +201,8 @@ PairLaw pair_law(const Material& a, const Material& b) {
 
 int find_pair(const PairList& list, int a, int part_a, int b, int part_b) {
   const Found wanted{a, b, part_a, part_b};
-  auto place = std::lower_bound(list.pair.begin(), list.pair.end(), wanted, [](const Pair& p, const Found& f) { return key_of(p) < f.key(); });
+  auto place =
+      std::lower_bound(list.pair.begin(), list.pair.end(), wanted, [](const Pair& p, const Found& f) { return key_of(p) < f.key(); });
   return place != list.pair.end() && key_of(*place) == wanted.key() ? static_cast<int>(place - list.pair.begin()) : -1;
 }
 

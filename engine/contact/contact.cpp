@@ -78,10 +78,13 @@ struct Dashpot {
 // (its coefficient is 2 settling sqrt(kn A m)), both kept below what the explicit step bears.
 Dashpot dashpot(Pair& pair, const Patch& patch, double inverse_mass, const ContactSettings& settings, double dt) {
   Dashpot d;
-  pair.approach = std::max({pair.approach * std::exp(-dt / settings.memory), patch.closing, settings.reference_speed});
+  // Forgotten slowly against the time of a soft impact (about 3 depth / speed on a corner).
+  const double memory = pair.approach > 0 ? std::max(settings.memory, 30 * patch.deepest / pair.approach) : settings.memory;
+  pair.approach = std::max({pair.approach * (1 - std::min(1.0, dt / memory)), patch.closing, settings.reference_speed});
   if (!(inverse_mass > 0)) return d;
   const double kn = pair.law.kn, x = pair.impact;
-  const double share = settings.settling * settings.reference_speed / pair.approach;  // an impact is left to its restitution
+  const double slow = settings.reference_speed / pair.approach,
+               share = settings.settling * slow * slow;  // an impact is left to its restitution
   d.chi = x / pair.approach + 2 * share * std::sqrt(kn * patch.area / inverse_mass) / (kn * patch.total);
   if (dt > 0) d.chi = std::min(d.chi, 0.25 / (inverse_mass * kn * patch.total * dt));
   d.limit = 1 + std::max(x, 1.0);
@@ -108,7 +111,6 @@ void forget_contact(Pair& pair) {
   pair.u.setZero();
   pair.psi = pair.area = pair.gyration = pair.tangential = 0;
 }
-
 
 // The patch resists with at most kn A along its normal and kt across; its spread about its centroid adds the gyration to the arms.
 // Dashpots are not in the sum: they see the velocity of half a step before, and dashpot() and the cap on the tangential one keep
@@ -184,10 +186,9 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     elastic = to_world(pair, s, kn * patch.force, kn * patch.moment);
     const Dashpot d = dashpot(pair, patch, inverse_mass_at(s, patch.pressure_centre, patch.normal), settings, dt);
     Vec3 damping_force, damping_moment;
-    damping_wrench(room, d.chi, d.limit, damping_force, damping_moment);
+    damping_wrench(room, patch.normal, d.chi, d.limit, damping_force, damping_moment);
     const double inverse_mass = inverse_mass_at(s, patch.centroid, Vec3::Zero());
-    const Friction f =
-        patch_friction(pair, patch, s.pose, motion, kn * patch.force.norm(), inverse_mass, settings.settling_tangential);
+    const Friction f = patch_friction(pair, patch, s.pose, motion, kn * patch.force.norm(), inverse_mass, settings.settling_tangential);
     damping = to_world(pair, s, kn * damping_force + f.viscous_force, kn * damping_moment + f.viscous_moment);
     friction = to_world(pair, s, f.force, f.moment);
     slipped = f.slipped;

@@ -22,8 +22,8 @@ struct PairResult {
   double rate_a = 0, rate_b = 0;
 };
 
-// Evaluates `pair` at the current pose and updates its memory; dt (s) is the step that led here, 0 at the start of a run. Returns false if the bodies are apart
-// and nothing was or is stored (the result is then all zero).
+// Evaluates `pair` at the current pose and updates its memory; dt (s) is the step that led here, 0 at the start of a run. Returns false if
+// the bodies are apart and nothing was or is stored (the result is then all zero).
 bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
                 double dt, bool want_energy, Pieces& room, PairResult& result);
 
@@ -36,7 +36,8 @@ Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, const Co
 void hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
                const Vec3& force_on_b, const Vec3& moment_on_b, double area, Pieces& room);
 
-// X with X - ln(1 + X) = -e X - ln(1 - e X): a pressure kn phi (1 + X v / v_i) returns e of the approach speed v_i (Hunt and Crossley 1975).
+// X with X - ln(1 + X) = -e X - ln(1 - e X): a pressure kn phi (1 + X v / v_i) returns e of the approach speed v_i (Hunt and Crossley
+// 1975).
 double impact_factor(double restitution);
 
 // Radius r of the torsion limit mu N r of a patch of this area and polar radius of gyration; within 0.4 % for rectangles

@@ -85,7 +85,8 @@ Friction patch_friction(Pair& pair, const Patch& patch, const PairPose& pose, co
   const Vec3 trial = t + viscous;
   const double trial_torsion = m + viscous_torsion;
   const double about = trial_torsion + off.cross(trial).dot(n);
-  const double use = limit > 0 ? std::hypot(trial.norm() / limit, r > 0 ? about / (limit * r) : 0.0) : std::numeric_limits<double>::infinity();
+  const double use =
+      limit > 0 ? std::hypot(trial.norm() / limit, r > 0 ? about / (limit * r) : 0.0) : std::numeric_limits<double>::infinity();
   if (use > 1 || (r <= 0 && about != 0)) {
     const double scale = use > 1 ? 1 / use : 1;
     t = scale * trial;

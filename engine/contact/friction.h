@@ -6,16 +6,16 @@
 namespace erbs {
 
 struct Friction {
-  Vec3 force = Vec3::Zero();    // N, on the body that is not the reference, pair axes
-  Vec3 moment = Vec3::Zero();   // N m, about its centroid
+  Vec3 force = Vec3::Zero();                                         // N, on the body that is not the reference, pair axes
+  Vec3 moment = Vec3::Zero();                                        // N m, about its centroid
   Vec3 viscous_force = Vec3::Zero(), viscous_moment = Vec3::Zero();  // dashpot of the sticking contact, part of the limit
-  double stored = 0;            // J
-  double slipped = 0;           // J, lost in plastic slip this step
+  double stored = 0;                                                 // J
+  double slipped = 0;                                                // J, lost in plastic slip this step
 };
 
 // Motion of the other body relative to the reference, as of a body with its centroid at the origin of the pair axes.
 struct Motion {
-  Vec3 linear, angular;         // m/s, rad/s
+  Vec3 linear, angular;  // m/s, rad/s
 };
 
 // Updates the memory of `pair` from the pose it remembers to `pose`. `inverse_mass` (1/kg) of the patch in its plane.

@@ -32,7 +32,8 @@ bool cut(const Loop& in, const Vec3& n, double c, bool keep_zero, Loop& out) {
   out.n = 0;
   if (!positive && (negative || !keep_zero)) return false;
   for (int i = 0, last = in.n - 1; i < in.n; last = i++) {
-    if ((d[last] < 0 && d[i] > 0) || (d[last] > 0 && d[i] < 0)) out.p[out.n++] = in.p[last] + d[last] / (d[last] - d[i]) * (in.p[i] - in.p[last]);
+    if ((d[last] < 0 && d[i] > 0) || (d[last] > 0 && d[i] < 0))
+      out.p[out.n++] = in.p[last] + d[last] / (d[last] - d[i]) * (in.p[i] - in.p[last]);
     if (d[i] >= 0) out.p[out.n++] = in.p[i];
   }
   return out.n >= 3;
@@ -201,22 +202,21 @@ Patch elastic_patch(const Pieces& w) {
 void closing_speeds(Pieces& w, const Vec3& linear, const Vec3& angular, Patch& patch) {
   w.closing.resize(w.vertex.size());
   patch.closing = -std::numeric_limits<double>::infinity();
-  for (const Piece& piece : w.piece) {
-    const Vec3& n = w.n[piece.face];
-    const double along = n.dot(linear);
-    const Vec3 turning = n.cross(angular);  // n . (angular x x) = (n x angular) . x
-    for (int i = piece.first; i < piece.first + piece.count; ++i) {
-      w.closing[at(i)] = along + turning.dot(w.vertex[at(i)]);
-      patch.closing = std::max(patch.closing, w.closing[at(i)]);
-    }
+  const double along = -patch.normal.dot(linear);
+  const Vec3 turning = angular.cross(patch.normal);  // n . (angular x x) = (n x angular) . x
+  for (size_t i = 0; i < w.vertex.size(); ++i) {
+    w.closing[i] = along + turning.dot(w.vertex[i]);
+    patch.closing = std::max(patch.closing, w.closing[i]);
   }
 }
 
-void damping_wrench(const Pieces& w, double chi, double limit, Vec3& force, Vec3& moment) {
-  force.setZero();
-  moment.setZero();
+void damping_wrench(const Pieces& w, const Vec3& normal, double chi, double limit, Vec3& force, Vec3& moment) {
+  double total = 0;
+  Vec3 first = Vec3::Zero();
   for (const Piece& piece : w.piece) {
     const Vec3& n = w.n[piece.face];
+    const double share = -normal.dot(n);  // of its pressure that pushes along the normal of the patch
+    if (share <= 0) continue;
     const Vec3* x = &w.vertex[at(piece.first)];
     const double* phi = &w.depth[at(piece.first)];
     const double* closing = &w.closing[at(piece.first)];
@@ -230,12 +230,15 @@ void damping_wrench(const Pieces& w, double chi, double limit, Vec3& force, Vec3
       const double sf = f0 + f1 + f2, ss = s0 + s1 + s2, sfs = f0 * s0 + f1 * s1 + f2 * s2;
       i0 += dS / 12 * (sf * ss + sfs);
       // Int phi s x over a triangle: products of three linear functions in closed form.
-      i1 += dS / 60 * ((sf * ss + sfs + ss * f0 + sf * s0 + 2 * f0 * s0) * p + (sf * ss + sfs + ss * f1 + sf * s1 + 2 * f1 * s1) * q +
-                       (sf * ss + sfs + ss * f2 + sf * s2 + 2 * f2 * s2) * r);
+      i1 += dS / 60 *
+            ((sf * ss + sfs + ss * f0 + sf * s0 + 2 * f0 * s0) * p + (sf * ss + sfs + ss * f1 + sf * s1 + 2 * f1 * s1) * q +
+             (sf * ss + sfs + ss * f2 + sf * s2 + 2 * f2 * s2) * r);
     }
-    force -= i0 * n;
-    moment -= i1.cross(n);
+    total += share * i0;
+    first += share * i1;
   }
+  force = total * normal;
+  moment = first.cross(normal);
 }
 
 }  // namespace erbs

@@ -28,12 +28,12 @@ struct Piece {
 // Room that is used again from call to call, one per thread.
 struct Pieces {
   std::vector<Piece> piece;
-  std::vector<Vec3> vertex;    // m, pair axes
-  std::vector<double> depth;   // m, phi
-  std::vector<double> closing; // m/s, speed of B into A along the normal of the face
-  Vec3 v[most_vertices];       // m, vertices of B, pair axes
-  Vec3 n[most_faces];          // normals of B, pair axes
-  double c[most_faces];        // m, depth of the origin below the faces of A
+  std::vector<Vec3> vertex;     // m, pair axes
+  std::vector<double> depth;    // m, phi
+  std::vector<double> closing;  // m/s, speed of B into A along the normal of the patch
+  Vec3 v[most_vertices];        // m, vertices of B, pair axes
+  Vec3 n[most_faces];           // normals of B, pair axes
+  double c[most_faces];         // m, depth of the origin below the faces of A
 };
 
 // Finds the pieces. `separating` caches the face that keeps the bodies apart (faces of A, then faces of B after them; -1: none).
@@ -56,11 +56,14 @@ struct Patch {
 };
 Patch elastic_patch(const Pieces& pieces);
 
-// Speed of B into A at every vertex of the pieces; `linear` and `angular` as of a body with its centroid at the origin.
+// Speed of B into A along the normal of the patch at every vertex of the pieces; `linear` and `angular` as of a body with its
+// centroid at the origin.
 void closing_speeds(Pieces& pieces, const Vec3& linear, const Vec3& angular, Patch& patch);
 
-// Damping pressure phi (s - 1), s = 1 + chi closing, clamped at its vertices to [0, limit]: never pulls, power never positive.
-void damping_wrench(const Pieces& pieces, double chi, double limit, Vec3& force, Vec3& moment);
+// Damping pressure phi (s - 1), s = 1 + chi closing, clamped at the vertices to [0, limit]: never pulls, power never positive.
+// It acts along the normal of the patch, not of the faces: an edge that slides over a face must not feel its two flanks plough,
+// which would let a leaning brick creep at a steady speed.
+void damping_wrench(const Pieces& pieces, const Vec3& normal, double chi, double limit, Vec3& force, Vec3& moment);
 
 // E / kn (m4) of the pieces found last for the same bodies.
 double energy_integral(const ContactShape& a, const ContactShape& b, const PairPose& pose, const Pieces& pieces);

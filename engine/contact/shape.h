@@ -12,18 +12,18 @@ inline constexpr int most_vertices = 64;  // of one part: sets of vertices are b
 inline constexpr int most_faces = 64;
 
 struct ContactShape {
-  std::vector<Vec3> vertex;   // m, relative to the centroid of the block, axes at rest [nv]
-  std::vector<Vec3> normal;   // unit, outward                                          [nf]
-  std::vector<double> offset; // m, normal . x of the face                              [nf]
+  std::vector<Vec3> vertex;         // m, relative to the centroid of the block, axes at rest [nv]
+  std::vector<Vec3> normal;         // unit, outward                                          [nf]
+  std::vector<double> offset;       // m, normal . x of the face                              [nf]
   std::vector<std::uint64_t> mask;  // vertices of each face                            [nf]
   std::vector<int> loop_first;      // start of each face's loop in `loop`              [nf + 1]
   std::vector<int> loop;            // vertices counter-clockwise seen from outside
-  double volume = 0;          // m3
-  double thickness = 0;       // m, smallest distance between two parallel planes that hold it
-  double smallest_edge = 0;   // m
-  double radius = 0;          // m, of the sphere about `centre` that holds it
-  double reach = 0;           // m, of the sphere about the block's centroid that holds it
-  Vec3 centre, half;          // m, middle and half sides of its box, axes at rest
+  double volume = 0;                // m3
+  double thickness = 0;             // m, smallest distance between two parallel planes that hold it
+  double smallest_edge = 0;         // m
+  double radius = 0;                // m, of the sphere about `centre` that holds it
+  double reach = 0;                 // m, of the sphere about the block's centroid that holds it
+  Vec3 centre, half;                // m, middle and half sides of its box, axes at rest
 };
 
 // `part` relative to the centroid of its block, axes at rest. Throws Error where it has more than 64 vertices or faces.
@@ -39,13 +39,13 @@ ContactShapes contact_shapes(const std::vector<std::vector<Polyhedron>>& parts_o
 
 // Current pose and motion of a block; fixed blocks have inverse_mass and inverse_inertia 0.
 struct ContactBlock {
-  Vec3 rest = Vec3::Zero();     // m, centroid at rest
-  Vec3 u = Vec3::Zero();        // m, displacement of the centroid
-  Mat3 turn = Mat3::Identity(); // rotation from rest
-  Vec3 v = Vec3::Zero();        // m/s, of the centroid, at the half step before the pose
-  Vec3 w = Vec3::Zero();        // rad/s, world axes, at the same half step
-  double inverse_mass = 0;      // 1/kg
-  double inverse_inertia = 0;   // 1/(kg m2), of the smallest principal inertia
+  Vec3 rest = Vec3::Zero();      // m, centroid at rest
+  Vec3 u = Vec3::Zero();         // m, displacement of the centroid
+  Mat3 turn = Mat3::Identity();  // rotation from rest
+  Vec3 v = Vec3::Zero();         // m/s, of the centroid, at the half step before the pose
+  Vec3 w = Vec3::Zero();         // rad/s, world axes, at the same half step
+  double inverse_mass = 0;       // 1/kg
+  double inverse_inertia = 0;    // 1/(kg m2), of the smallest principal inertia
 };
 
 }  // namespace erbs

@@ -1,5 +1,5 @@
 // Turns named members into bytes and back, through the same visitor: each(thing, archive) calls archive(name, member [, part]),
-// or archive(member) where a name would say nothing; such a member has the part of the thing it belongs to.
+// or archive(member) where a name would say nothing. A member without a part has that of the thing it belongs to.
 // Takes numbers, enums, Eigen's small vectors, plain structs (by bytes), strings, vectors of these, and structs that have an
 // each() of their own. Names and element sizes are written too, so that a changed layout is refused and not misread.
 #pragma once
@@ -123,8 +123,13 @@ class ResultHash {
   void operator()(const T& member) {
     (*this)("member", member, outer_);
   }
+  // A member without a word of its own counts as the thing it belongs to.
   template <class T>
-  void operator()(std::string_view name, const T& member, Part part = Part::carried) {
+  void operator()(std::string_view name, const T& member) {
+    (*this)(name, member, outer_);
+  }
+  template <class T>
+  void operator()(std::string_view name, const T& member, Part part) {
     if constexpr (is_plain<T>) {
       if (part != Part::carried) add(&member, sizeof(T));
     } else if constexpr (is_vector<T>::value) {

@@ -128,6 +128,19 @@ Shear shear(const PointLaw& law, const Point& point, double normal, double sigma
   return now;
 }
 
+// A sound joint is one quadratic form; once cracked it is the closed compression and the tension of its points. What the change
+// of form sets free at the crack is part of its fracture energy (zero under uniform tension; either sign where the neutral axis
+// lies between points).
+double change_of_form(const Joint& joint, const PointLaw& law, const Point* point, const Compression& closed, const double* q) {
+  double change = -closed.energy;
+  for (int i = 2; i < 5; ++i) change += 0.5 * joint.stiffness[i] * q[i] * q[i];
+  for (int i = 0; i < joint.points; ++i) {
+    const double opening = std::max(0.0, gap_at(q, point[i].s, point[i].t).n);
+    change -= 0.5 * law.kn * opening * opening * point[i].weight;
+  }
+  return change;
+}
+
 bool passes(const PointLaw& law, const Gap& g) {
   const double sigma = law.kn * g.n, tau = law.ks * std::sqrt(g.s * g.s + g.t * g.t);
   if (sigma > law.ft) return true;
@@ -184,6 +197,9 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
     f[3] = -closed.moment_t;
     f[4] = closed.moment_s;
     energy.elastic += closed.energy;
+    if (sound && !law.dry)  // the mean of both ends: the work of the step is the mean of the two forces
+      energy.fracture += 0.5 * (change_of_form(joint, law, point, closed, q) +
+                                change_of_form(joint, law, point, compression(m, joint, q_before, law.kn), q_before));
     // Friction needs the pressure at the points: the closed integral, shared out by their own depths.
     double least = 0;
     for (int i = 0; i < n; ++i) {

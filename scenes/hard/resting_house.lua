@@ -14,7 +14,7 @@ material { name = "brick", density = density }
 material { name = "concrete", density = slab_density }
 ground { size = 20, material = "concrete" }
 local whole = full == 1
-local width, length = whole and 1525 * mm or 915 * mm, whole and 1830 * mm or 1220 * mm
+local width, length = whole and 1525 * mm or 1220 * mm, whole and 1830 * mm or 1525 * mm
 local opening = { width = 450 * mm, height = whole and 635 * mm or 315 * mm, sill = whole and 420 * mm or 105 * mm }
 local house = building {
   plan = { width, length },

@@ -17,7 +17,7 @@ local cases, number = {}, 0
 local function plane(name, mu, angle, kind, until_)
   number = number + 1
   local block, slope, height = "block_" .. name, "slope_" .. name, size / 10
-  material { name = "stone" .. number, density = density, friction = mu, kn = kn, ks = 0.4 * kn, restitution = 0 }
+  material { name = "stone" .. number, density = density, friction = mu, kn = kn, ks = 0.4 * kn }
   -- x runs down the slope: turned by +angle about y.
   transform { at = { 0, 1.5 * size * number, 0 }, rotation = { 0, angle, 0 }, function()
     box { name = slope, group = slope, material = "stone" .. number, size = { 2 * size + 1.5 * way, size, 0.1 }, at = { -size, -size / 2, -0.1 }, fixed = true }

@@ -7,11 +7,11 @@
 -- What to look at  distance_largest, distance_smallest, spread, time_error, sideways (path across the throw).
 local v0, mu = param("v0", 2, "[m/s]"), param("mu", 0.5, "")
 local directions = param("directions", 16, "")
-local kn = param("kn", 2e9, "[Pa/m]")
+local kn = param("kn", 1e9, "[Pa/m]")
 local size = param("size", 0.2, "longer side of the blocks, a twentieth of it high: they do not tip [m]")
 local distance, stop_time = v0 ^ 2 / (2 * mu * g), v0 / (mu * g)
 
-material { name = "stone", density = 1800, friction = mu, kn = kn, ks = 0.4 * kn, restitution = 0 }
+material { name = "stone", density = 1800, friction = mu, kn = kn, ks = 0.4 * kn }
 local radius = directions * 1.3 * size / (2 * pi)
 box { name = "floor", group = "floor", size = { 2.6 * (radius + distance + size), 2.6 * (radius + distance + size), 0.2 },
   center = { 0, 0, -0.1 }, fixed = true }

@@ -28,7 +28,7 @@ struct Bodies {
   std::vector<double> mass;
   std::vector<Mat3> inertia, inverse_inertia;  // axes at rest
   std::vector<Quat> q;
-  std::vector<Vec3> spin;   // kg m2/s, world
+  std::vector<Vec3> spin;  // kg m2/s, world
   std::vector<PairResult> result;
   std::vector<Vec3> force, moment;
   Pieces room;
@@ -143,7 +143,8 @@ struct Bodies {
   // v x v.
   Vec3 angular_momentum() const {
     Vec3 p = Vec3::Zero();
-    for (std::size_t i = 0; i < block.size(); ++i) p += spin[i] + mass[i] * ((block[i].rest - block[0].rest) + block[i].u).cross(block[i].v);
+    for (std::size_t i = 0; i < block.size(); ++i)
+      p += spin[i] + mass[i] * ((block[i].rest - block[0].rest) + block[i].u).cross(block[i].v);
     return p;
   }
 };

@@ -128,7 +128,8 @@ TEST_CASE("oblique collisions with friction and damping close the ledger and kee
     CHECK((two.angular_momentum() - angular).norm() < 1e-11 * (angular.norm() + 0.3 * momentum.norm()));
     CHECK(two.damping >= -1e-4 * before);
     CHECK(two.friction >= -1e-4 * before);
-    INFO(round << ": friction " << two.friction << " damping " << two.damping << " reset " << two.reset << " of " << before << " residual " << errors.back());
+    INFO(round << ": friction " << two.friction << " damping " << two.damping << " reset " << two.reset << " of " << before << " residual "
+               << errors.back());
     CHECK(std::abs(two.reset) < 0.05 * before);
     CHECK(errors.back() < 1e-3);
   }
@@ -147,7 +148,8 @@ TEST_CASE("rocking with friction closes the ledger", "[contact]") {
   two.gravity = {0, 0, -9.81};
   two.settings.settling = two.settings.settling_tangential = 0;
   two.step(true);
-  const double before = two.total(), swing = two.mass[1] * 9.81 * 0.5 * std::hypot(0.25, 1) * (std::cos(alpha - start) - std::cos(alpha)) * -1;
+  const double before = two.total(),
+               swing = two.mass[1] * 9.81 * 0.5 * std::hypot(0.25, 1) * (std::cos(alpha - start) - std::cos(alpha)) * -1;
   double worst = 0;
   while (two.t < 3) {
     two.step();

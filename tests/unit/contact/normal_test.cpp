@@ -183,17 +183,26 @@ TEST_CASE("a flat drop stays flat", "[contact]") {
   CHECK(two.block[1].v.norm() < 1e-3);
 }
 
-TEST_CASE("restitution of a flat impact is what was asked for", "[contact]") {
+TEST_CASE("restitution is what was asked for, flat, on an edge and on a corner", "[contact]") {
   const double kn = 1e10, dt = 0.1 * step_unit(kn, 1800 * 0.00375, 0.0375);
+  const Polyhedron cube = box_polyhedron({-0.05, -0.05, -0.05}, {0.05, 0.05, 0.05});
   for (double e : {1.0, 0.8, 0.5, 0.3}) {
     for (double speed : {0.2, 2.0}) {
-      Body floor{{box_polyhedron({-5, -5, -1}, {5, 5, 0})}, 0};
-      Bodies two({floor, {{translated(brick(), {0, 0, 0.0501})}, 1800, {0, 0, -speed}}}, {kn, 0.4 * kn, 0.6, e}, dt);
-      two.settings.settling = 0;
-      two.run(0.004);
-      CHECK(two.block[1].v.z() / speed == Approx(e).margin(0.01));
-      // A face meets a face within a step: the work of the half step before it is k v^2 dt^2 / 8 at most, (omega dt)^2 / 4 of the energy.
-      CHECK(std::abs(two.total() - 0.5 * two.mass[1] * speed * speed) < 0.01 * 0.5 * two.mass[1] * speed * speed);
+      for (int pose = 0; pose < 3; ++pose) {
+        // Each falls with its centroid above the place of contact.
+        const Quat q = pose == 0   ? Quat::Identity()
+                       : pose == 1 ? rotation({M_PI / 4, 0, 0})
+                                   : Quat::FromTwoVectors(Vec3(1, 1, 1), Vec3::UnitZ());
+        Polyhedron p = transformed(cube, q, Vec3::Zero());
+        p = translated(p, {0, 0, 1e-4 - bounding_box(p).low.z()});
+        Body floor{{box_polyhedron({-5, -5, -1}, {5, 5, 0})}, 0};
+        Bodies two({floor, {{p}, 1800, {0, 0, -speed}}}, {kn, 0.4 * kn, 0.6, e}, dt);
+        two.run(speed < 1 ? 0.06 : 0.01);
+        INFO("e " << e << " speed " << speed << " pose " << pose);
+        CHECK(two.block[1].v.z() / speed == Approx(e).margin(0.03));  // the greatest approach is slowly forgotten
+        // A face meets a face within a step: the work of the half step before it is k v^2 dt^2 / 8 at most, (omega dt)^2 / 4 of the energy.
+        CHECK(std::abs(two.total() - 0.5 * two.mass[1] * speed * speed) < 0.01 * 0.5 * two.mass[1] * speed * speed);
+      }
     }
   }
 }
@@ -202,7 +211,9 @@ TEST_CASE("restitution of a flat impact is what was asked for", "[contact]") {
 TEST_CASE("a brick at 20 m/s never passes a slab of 20 mm", "[contact][hard]") {
   for (double kn : {1e11, 1e12}) {
     for (int pose = 0; pose < 3; ++pose) {
-      const Quat q = pose == 0 ? Quat::Identity() : pose == 1 ? rotation({M_PI / 4, 0, 0}) : Quat::FromTwoVectors(Vec3(0.15, 0.0625, 0.05), Vec3::UnitZ());
+      const Quat q = pose == 0   ? Quat::Identity()
+                     : pose == 1 ? rotation({M_PI / 4, 0, 0})
+                                 : Quat::FromTwoVectors(Vec3(0.15, 0.0625, 0.05), Vec3::UnitZ());
       Polyhedron p = transformed(brick(), q, Vec3::Zero());
       p = translated(p, {0.01, 0.02, 0.001 - bounding_box(p).low.z()});
       Body slab{{box_polyhedron({-1, -1, -0.02}, {1, 1, 0})}, 0};
