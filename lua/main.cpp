@@ -34,7 +34,8 @@ void add_run(CLI::App& app, CommandLine& line) {
   run.add_option("SCENE.lua", line.options.words, "the scene")->required()->expected(1);
   add_output(run, line);
   add_scene(run, line);
-  run.add_option("--threads", line.options.threads, "threads (default: as many as the machine has)")->check(CLI::Range(1, 1024));
+  run.add_option("--threads", line.options.threads, "threads (default: as many as the machine has, 1 for few blocks)")
+      ->check(CLI::Range(1, 1024));
   run.add_option("--until", line.until, "stop at this simulated time, with a checkpoint")->type_name("T");
   run.add_flag("--resume", line.options.resume, "go on from the checkpoint in the folder");
   run.add_option("--max-wall", line.max_wall, "stop after this time of the clock, with a checkpoint")->type_name("30m");

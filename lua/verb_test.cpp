@@ -68,7 +68,8 @@ std::vector<Case> cases_of(const Options& options) {
 }
 
 Child launch(const Case& item, const Options& options, int threads) {
-  std::vector<std::string> command{own_path(), "run", item.scene, "-o", item.directory, "--force", "--threads", std::to_string(threads)};
+  std::vector<std::string> command{own_path(), "run", item.scene, "-o", item.directory, "--force"};
+  if (threads > 0) command.insert(command.end(), {"--threads", std::to_string(threads)});
   for (const auto& [name, value] : options.overrides) {
     command.push_back("-D");
     command.push_back(name + "=" + value);
@@ -81,7 +82,8 @@ Child launch(const Case& item, const Options& options, int threads) {
 void run_all(std::vector<Case>& cases, const Options& options) {
   const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   const size_t jobs = static_cast<size_t>(options.jobs > 0 ? options.jobs : machine);
-  const int threads = options.threads > 0 ? options.threads : std::max(1, machine / static_cast<int>(std::min(jobs, cases.size())));
+  // as many runs at once as there are processors: one thread each; fewer: each as it sees fit (0)
+  const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::min(jobs, cases.size())) >= machine ? 1 : 0;
   std::map<int, Case*> running;
   size_t next = 0, done = 0;
   const bool live = isatty(STDERR_FILENO) != 0 && !options.quiet;

@@ -10,7 +10,7 @@ for course = 0, 11 do
 end
 joint{ law = dry{ kn = 5*GPa, mu = 0.6 } }
 
-ground_motion{ wave = sine{ amplitude = shake, frequency = 1.5*Hz, duration = 6 }, direction = "y" }
-analysis{ duration = 8 }
+ground_motion{ wave = sine{ amplitude = shake, frequency = 1.5*Hz, duration = 3 }, direction = "y" }
+analysis{ duration = 4 }
 recorder{ name = "top", quantity = "displacement", block = "brick11" }
 camera{ name = "side", eye = { 3.2, -1.6, 1.3 }, target = { 0, 0, 0.5 } }
