@@ -98,8 +98,8 @@ std::string opening(const std::string& svg, std::size_t panels, double last_time
       "set encoding utf8\nset datafile separator comma\nset datafile missing 'nan'\n"
       "set border 3 lc rgb '#707070'\nset tics nomirror out scale 0.6 textcolor rgb '#303030'\n"
       "set grid xtics ytics lc rgb '#e3e3e3' lt 1 lw 0.8\nset zeroaxis lc rgb '#b0b0b0' lt 1 lw 0.8\n"
-      "set key outside right top samplen 1.6 spacing 1.05 noenhanced\n"
-      "set lmargin 12\nset rmargin 26\nset xrange [0:{}]\n"
+      "set key outside right top Left reverse samplen 1.6 spacing 1.05 noenhanced\n"
+      "set lmargin 12\nset rmargin 24\nset xrange [0:{}]\n"
       "set multiplot layout {},1 title {} noenhanced font ',15'\n",
       70 + 210 * panels, in_quotes(svg), last_time, panels, in_quotes(title));
 }
@@ -128,11 +128,12 @@ std::string energy_script(const std::string& csv, const std::string& svg, const 
   choose_unit(terms, table, "J");
   const int residual = table.find("residual_relative");
   const std::size_t every = std::max<std::size_t>(1, table.rows() / 6000);
-  std::string script = opening(svg, 2, table.columns[0].back(), run.title + ": energy");
-  script += fmt::format("set size 1,0.62\nset origin 0,0.34\nset ylabel {} noenhanced\n", in_quotes(terms.label));
+  std::string script = opening(svg, 3, table.columns[0].back(), run.title + ": energy");
+  script += fmt::format("set size 1,0.60\nset origin 0,0.36\nset ylabel {} noenhanced\n", in_quotes(terms.label));
   script += terms.columns.empty() ? "plot 0 notitle\n" : plot(csv, table, terms, "column({c})*{f}", every);
   script +=
-      "set size 1,0.34\nset origin 0,0.0\nset xlabel 'time [s]'\nset ylabel 'residual, relative'\nset logscale y\nset format y '10^{%T}'\n";
+      "set size 1,0.36\nset origin 0,0.0\nset xlabel 'time [s]'\nset ylabel 'residual, relative'\nset logscale y\nset format y "
+      "'10^{%T}'\nset ytics 1e-18,1e3\nunset mytics\n";
   const double worst = residual >= 0 ? peak_of(table, {residual}) : 0;
   const double top = std::max({worst, run.energy_gate, 1e-12}) * 5;
   script += fmt::format("set yrange [{}:{}]\n", std::min(1e-12, worst > 0 ? worst * 1e-4 : 1e-12), top);

@@ -40,8 +40,8 @@ float sunlight(vec3 p, vec3 n, float facing) {
 vec3 lit(vec3 albedo, vec3 p, vec3 n, float cavity) {
   float direct = max(dot(n, sun), 0.0);
   direct *= sunlight(p, n, direct);
-  vec3 sky = mix(vec3(0.36, 0.33, 0.30), vec3(0.56, 0.62, 0.70), 0.5 + 0.5 * n.z);
-  return albedo * (sky * cavity + vec3(1.02, 0.97, 0.88) * direct);
+  vec3 sky = mix(vec3(0.29, 0.26, 0.24), vec3(0.43, 0.47, 0.53), 0.5 + 0.5 * n.z);
+  return albedo * (sky * cavity + vec3(0.98, 0.93, 0.84) * direct);
 }
 )";
 
@@ -61,7 +61,7 @@ void main() {
   albedo = texelFetch(blocks, b + 2).rgb;
   if (joint != 0xffffffffu) {
     vec4 j = texelFetch(joints, int(joint));
-    albedo = by_damage > 0.5 ? mix(albedo, vec3(0.75), 0.15) : mix(mortar, 0.55 * mortar, j.x);
+    albedo = by_damage > 0.5 ? mix(albedo, vec3(0.75), 0.15) : mix(mortar, mix(mortar, albedo, 0.45), j.x);
   }
   gl_Position = camera * vec4(world, 1.0);
 }
@@ -144,7 +144,7 @@ void main() {
   vec2 p = world.xy;
   float line = max(lines(p.x, grid, 0.016 * grid), lines(p.y, grid, 0.016 * grid));
   float r = distance(world.xy, middle.xy) / fade;
-  vec3 base = mix(vec3(0.47, 0.465, 0.45), vec3(0.30, 0.30, 0.30), line * 0.6 * clamp(1.4 - r, 0.0, 1.0));
+  vec3 base = mix(vec3(0.46, 0.455, 0.44), vec3(0.30, 0.30, 0.30), line * 0.6 * clamp(1.4 - r, 0.0, 1.0));
   vec3 c = lit(base, world, vec3(0.0, 0.0, 1.0), 1.0);
   color = srgb(mix(c, horizon, smoothstep(0.55, 2.2, r)));
 }
@@ -185,6 +185,7 @@ float distance_at(vec2 at) {
   return 2.0 * depth_range.x * depth_range.y / (depth_range.y + depth_range.x - z * (depth_range.y - depth_range.x));
 }
 vec3 point(vec2 at) {
+  at = (floor(at / texel) + 0.5) * texel;  // where the depth was taken
   float d = distance_at(at);
   vec2 ndc = at * 2.0 - 1.0;
   return vec3((ndc + unproject.zw) * unproject.xy * d, -d);

@@ -69,27 +69,35 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
 }
 
 std::vector<Camera> choose_cameras(const Stage& stage, double aspect) {
-  Eigen::AlignedBox3d box = stage.building;
-  // Room for what falls beside it.
-  const double aside = 0.18 * box.sizes().z();
-  box.extend(box.min() - Vec3(aside, aside, 0));
-  box.extend(box.max() + Vec3(aside, aside, 0));
+  // What must be seen: the building, and room on the ground for what falls beside it.
+  std::vector<Vec3> seen;
+  const Vec3 size = stage.building.sizes(), aside = 0.14 * size.z() * Vec3(1, 1, 0);
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 p = stage.building.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+    seen.push_back(p);
+    if (i < 4) seen.push_back(p + aside.cwiseProduct((p - stage.building.center()).cwiseSign()));  // the lower corners
+  }
   std::vector<Camera> cameras(2);
-  const Vec3 directions[2] = {Vec3(0.62, -1, 0.32), Vec3(-1, -0.50, 0.42)};
+  const Vec3 directions[2] = {Vec3(0.62, -1, 0.34), Vec3(-1, -0.50, 0.42)};
   const char* names[2] = {"corner", "side"};
   for (std::size_t k = 0; k < 2; ++k) {
     Camera& c = cameras[k];
     c.name = names[k];
-    c.fov = 30 * pi / 180;
-    c.target = box.center();
+    c.fov = 26 * pi / 180;
+    c.target = stage.building.center();
     const Vec3 back = directions[k].normalized(), right = Vec3(0, 0, 1).cross(back).normalized(), up = back.cross(right);
     const double half = std::tan(0.5 * c.fov);
-    double distance = 0;
-    for (int i = 0; i < 8; ++i) {
-      const Vec3 p = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)) - c.target;
-      distance = std::max({distance, std::abs(p.dot(up)) / half + p.dot(back), std::abs(p.dot(right)) / (half * aspect) + p.dot(back)});
+    double distance = std::max(1e-3, 3 * stage.size());
+    for (int turn = 0; turn < 8; ++turn) {  // closer by turns, the target in the middle of what is seen
+      Eigen::AlignedBox2d shown;
+      for (const Vec3& p : seen) {
+        const Vec3 v = p - c.target;
+        shown.extend(Eigen::Vector2d(v.dot(right) / aspect, v.dot(up)) / (half * (distance - v.dot(back))));
+      }
+      c.target += distance * half * (shown.center().x() * aspect * right + shown.center().y() * up);
+      distance *= 1.06 * 0.5 * shown.sizes().maxCoeff();
     }
-    c.eye = c.target + 1.04 * std::max(distance, 1e-3) * back;
+    c.eye = c.target + distance * back;
   }
   return cameras;
 }

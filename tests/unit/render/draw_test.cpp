@@ -1,0 +1,171 @@
+// Whole pictures: against stored ones, and properties no picture may lose.
+#include "render/draw.h"
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "engine/base/error.h"
+#include "render/compare.h"
+#include "render/movie.h"
+#include "render/video.h"
+#include "tests/unit/render/brick_house.h"
+
+using namespace erbs;
+using namespace erbs::render;
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Folder {
+  fs::path path = fs::temp_directory_path() / ("erbs_draw_" + std::to_string(getpid()));
+  ~Folder() { fs::remove_all(path); }
+};
+
+std::string bytes_of(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+const std::atomic<bool> go_on{false};
+
+Movie stills(std::vector<double> times, int threads) {
+  Movie movie;
+  movie.look.width = 480;
+  movie.look.height = 270;
+  movie.stills = std::move(times);
+  movie.quiet = movie.force = true;
+  movie.threads = threads;
+  return movie;
+}
+
+double dark_fraction(const Image& image) {
+  std::size_t dark = 0;
+  for (std::size_t i = 0; i + 2 < image.rgb.size(); i += 3) dark += image.rgb[i] < 60 && image.rgb[i + 1] < 60 ? 1 : 0;
+  return static_cast<double>(dark) / (static_cast<double>(image.rgb.size()) / 3);
+}
+
+}  // namespace
+
+TEST_CASE("three frames look as they did, from any number of threads", "[render][image_regression]") {
+  prepare_contexts();
+  const Folder dir;
+  write_brick_house(dir.path.string(), {});
+  const Run run = read_run(dir.path.string());
+  const MotionReader reader(dir.path.string());
+  const std::vector<std::string> names{"corner_t0.400s.png", "corner_t1.900s.png", "corner_t2.500s.png"};
+  REQUIRE(make_movie(run, reader, stills({0.4, 1.9, 2.5}, 1), go_on));
+  std::vector<std::string> first;
+  for (const std::string& name : names) first.push_back(bytes_of(dir.path / "frames" / name));
+  REQUIRE(make_movie(run, reader, stills({0.4, 1.9, 2.5}, 3), go_on));
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    INFO(names[i]);
+    CHECK(bytes_of(dir.path / "frames" / names[i]) == first[i]);
+    const fs::path stored = fs::path(ERBS_SOURCE_DIR) / "tests/image" / ("brick_house_" + names[i]);
+    // ERBS_WRITE_IMAGES=1 stores the pictures anew; look at them before they are committed.
+    if (std::getenv("ERBS_WRITE_IMAGES")) fs::copy_file(dir.path / "frames" / names[i], stored, fs::copy_options::overwrite_existing);
+    const Difference d = compare(read_png((dir.path / "frames" / names[i]).string()), read_png(stored.string()));
+    INFO("failed pixels " << d.failed_fraction << ", SSIM " << d.ssim);
+    CHECK(d.alike());
+  }
+}
+
+TEST_CASE("both sources of OpenGL draw the same pixels", "[render][context]") {
+  prepare_contexts();
+  const MotionScene scene = brick_house({1.2, 1.2, 6, 1, 0.5});
+  const MotionFrame frame = brick_house_frame(scene, 0);
+  const Show show = prepare_show(scene, {}, {frame});
+  Look look;
+  look.width = 160, look.height = 120;
+  const Camera camera = choose_cameras(show.stage, 4.0 / 3).front();
+  std::vector<Image> images;
+  for (const std::string kind : {"osmesa", "egl"}) {
+    try {
+      images.push_back(Painter(show, look, kind).draw(frame, camera));
+    } catch (const Error& e) { WARN(kind << ": " << e.what()); }
+  }
+  REQUIRE_FALSE(images.empty());
+  if (images.size() == 2) CHECK(compare(images[0], images[1]).alike());
+}
+
+TEST_CASE("broken joints are seen as dark lines, damage as colour", "[render][draw]") {
+  prepare_contexts();
+  const MotionScene scene = brick_house({1.525, 1.83, 13, 1, 0.5});
+  MotionFrame frame = brick_house_frame(scene, 0);
+  const Show show = prepare_show(scene, {}, {frame});
+  Look look;
+  look.width = 640, look.height = 360;
+  const Camera camera = choose_cameras(show.stage, 16.0 / 9).front();
+  Painter painter(show, look, "auto");
+  const Image intact = painter.draw(frame, camera);
+  std::fill(frame.damage.begin(), frame.damage.end(), 255);
+  const Image broken = painter.draw(frame, camera);
+  CHECK(dark_fraction(broken) > dark_fraction(intact) + 0.01);
+  look.coloring = Coloring::damage;
+  const Image red = Painter(show, look, "auto").draw(frame, camera);
+  double reddish = 0;
+  for (std::size_t i = 0; i + 2 < red.rgb.size(); i += 3) reddish += red.rgb[i] > 2 * red.rgb[i + 1] ? 1 : 0;
+  CHECK(reddish > 0.05 * static_cast<double>(red.rgb.size()) / 3);
+}
+
+TEST_CASE("a video appears whole or not at all", "[render][video]") {
+  const Folder dir;
+  fs::create_directories(dir.path);
+  const std::string path = (dir.path / "v.mp4").string();
+  {
+    Video video(path, 64, 64, 25);
+    for (int i = 0; i < 5; ++i) video.add(Image(64, 64));
+    CHECK_FALSE(fs::exists(path));
+    video.finish();
+  }
+  CHECK(bytes_of(path).find("ftyp") == 4);
+  const std::string other = (dir.path / "w.mp4").string();
+  { Video video(other, 64, 64, 25); }
+  CHECK(fs::is_empty(dir.path) == false);
+  CHECK_FALSE(fs::exists(other));
+  CHECK_FALSE(fs::exists(other + ".part"));
+  CHECK_THROWS_AS(Video(other, 63, 64, 25), Error);
+  const std::string search = std::getenv("PATH");
+  setenv("PATH", "/nowhere", 1);
+  CHECK_THROWS_WITH(Video(other, 64, 64, 25), Catch::Contains("install ffmpeg"));
+  setenv("PATH", search.c_str(), 1);
+}
+
+TEST_CASE("nothing is written over without --force, and names are checked", "[render][movie]") {
+  prepare_contexts();
+  const Folder dir;
+  write_brick_house(dir.path.string(), {1.2, 1.2, 4, 0.2, 0.1});
+  const Run run = read_run(dir.path.string());
+  const MotionReader reader(dir.path.string());
+  Movie movie = stills({0.1}, 1);
+  movie.force = false;
+  REQUIRE(make_movie(run, reader, movie, go_on));
+  CHECK_THROWS_WITH(make_movie(run, reader, movie, go_on), Catch::Contains("--force"));
+  movie.force = true;
+  movie.cameras = {"moon"};
+  CHECK_THROWS_WITH(make_movie(run, reader, movie, go_on), Catch::Contains("corner"));
+  const std::atomic<bool> stop{true};
+  movie.cameras.clear();
+  CHECK_FALSE(make_movie(run, reader, movie, stop));
+}
+
+TEST_CASE("between two recorded frames, blocks move on a straight line and turn evenly", "[render][schedule]") {
+  const Folder dir;
+  fs::create_directories(dir.path);
+  MotionScene scene;
+  scene.blocks = {{"a", "", 0, false, Vec3::Zero(), {}}};
+  MotionWriter writer(dir.path.string(), scene);
+  writer.write({0, {0, 0, 0, 1, 0, 0, 0}, {}, {}});
+  const float h = std::sqrt(0.5F);
+  writer.write({1, {2, 0, 4, h, 0, 0, h}, {}, {}});  // a quarter turn about z
+  writer.close();
+  const MotionFrame f = frame_at(MotionReader(dir.path.string()), 0.5);
+  CHECK(f.poses[0] == Approx(1));
+  CHECK(f.poses[2] == Approx(2));
+  CHECK(f.poses[3] == Approx(std::cos(3.14159265 / 8)));
+  CHECK(f.poses[6] == Approx(std::sin(3.14159265 / 8)));
+}

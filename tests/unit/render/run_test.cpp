@@ -1,0 +1,109 @@
+// What is read from a run folder, and which instants and curves are shown.
+#include "render/run.h"
+
+#include <unistd.h>
+
+#include <catch2/catch.hpp>
+#include <filesystem>
+#include <fstream>
+
+#include "engine/base/error.h"
+#include "render/figures.h"
+#include "render/movie.h"
+#include "render/table.h"
+
+using namespace erbs;
+using namespace erbs::render;
+
+namespace {
+
+struct Folder {
+  std::filesystem::path path = std::filesystem::temp_directory_path() / ("erbs_run_" + std::to_string(getpid()));
+  Folder() { std::filesystem::create_directories(path); }
+  ~Folder() { std::filesystem::remove_all(path); }
+  void write(const std::string& name, const std::string& text) const { std::ofstream(path / name) << text; }
+};
+
+std::vector<double> recorded() {
+  std::vector<double> t;
+  for (int i = 0; i <= 100; ++i) t.push_back(0.04 * i);
+  return t;
+}
+
+}  // namespace
+
+TEST_CASE("a run folder is read", "[render][run]") {
+  const Folder dir;
+  CHECK_THROWS_WITH(read_run(dir.path.string()), Catch::Contains("manifest.json"));
+  dir.write("manifest.json", R"({"scene": "house", "title": "A house", "cameras": [{"name": "front", "eye": [1, 2, 3], "target": [0, 0, 1],
+    "up": [0, 0, 1], "fov_rad": 0.5}], "materials": [{"name": "brick", "color": [0.5, 0.2, 0.1]}], "energy_gate": 1e-3})");
+  dir.write("histories.csv", "time_s,ground_ax_m_s2,ground_ay_m_s2\n0,0,0\n0.1,1,-3\n0.2,2,1\n0.3,5");
+  const Run run = read_run(dir.path.string());
+  CHECK(run.title == "A house");
+  REQUIRE(run.cameras.size() == 1);
+  CHECK(run.cameras[0].eye == Vec3(1, 2, 3));
+  CHECK(run.cameras[0].fov == 0.5);
+  CHECK(run.materials[0].color.z() == 0.1);
+  CHECK(run.record.axis == "y");
+  CHECK(run.record.peak == 3);
+  CHECK(run.record.t.size() == 3);  // the line cut short is left out
+  CHECK(run.energy_gate == 1e-3);
+  dir.write("manifest.json", "{ \"scene\": ");
+  CHECK_THROWS_WITH(read_run(dir.path.string()), Catch::Contains("damaged"));
+  dir.write("manifest.json", R"({"cameras": [{"name": "blind", "eye": [0, 0, 1], "target": [0, 0, 1]}]})");
+  CHECK_THROWS_WITH(read_run(dir.path.string()), Catch::Contains("blind"));
+}
+
+TEST_CASE("a movie shows the instants asked for", "[render][schedule]") {
+  Movie movie;
+  Schedule s = schedule_of(movie, recorded());
+  CHECK(s.times.size() == 101);
+  CHECK(s.times.back() == Approx(4));
+  movie.slow = 4;
+  s = schedule_of(movie, recorded());
+  CHECK(s.times.size() == 401);
+  movie.range = {1, 2};
+  s = schedule_of(movie, recorded());
+  CHECK(s.times.size() == 101);
+  CHECK(s.times.front() == 1);
+  movie.frames = "every";
+  s = schedule_of(movie, recorded());
+  CHECK(s.times.size() == 26);
+  CHECK(s.slow == Approx(1));  // 25 steps of 0.04 s at 25 frames a second
+  movie.frames = "51";
+  s = schedule_of(movie, recorded());
+  CHECK(s.times.size() == 51);
+  CHECK(s.slow == Approx(2));
+  movie.frames = "few";
+  CHECK_THROWS_AS(schedule_of(movie, recorded()), Error);
+  movie.frames = "";
+  movie.range = {5, 6};
+  CHECK_THROWS_AS(schedule_of(movie, recorded()), Error);
+  movie.stills = {0.5, 4.01};
+  CHECK_THROWS_WITH(schedule_of(movie, recorded()), Catch::Contains("4.01"));
+  CHECK_THROWS_AS(schedule_of(movie, {}), Error);
+}
+
+TEST_CASE("columns know their unit", "[render][figures]") {
+  CHECK(unit_of("floor3_ux_rel_m") == "m");
+  CHECK(unit_of("floor3_ax_abs_m_s2") == "m_s2");
+  CHECK(unit_of("base_moment_N_m") == "N_m");
+  CHECK(unit_of("contacts") == "");
+  CHECK(words_of("floor3_ux_rel_m") == "floor3 ux rel");
+}
+
+TEST_CASE("curves share a panel when they share unit and direction", "[render][figures]") {
+  const Folder dir;
+  dir.write("h.csv",
+            "time_s,floor1_ux_rel_m,ground_ax_m_s2,ground_ay_m_s2,floor2_ux_rel_m,floor1_uy_rel_m,base_fx_N\n"
+            "0,0,0,0,0,0,0\n1,0.01,2,0,0.03,0.001,7e3\n");
+  const std::vector<Panel> panels = history_panels(read_table((dir.path / "h.csv").string()));
+  REQUIRE(panels.size() == 4);
+  CHECK(panels[0].label == "ground [g]");
+  CHECK(panels[0].columns == std::vector<int>{2});  // nothing moved along y
+  CHECK(panels[1].label == "displacement x [mm]");
+  CHECK(panels[1].columns == std::vector<int>{1, 4});
+  CHECK(panels[1].factor == 1000);
+  CHECK(panels[2].columns == std::vector<int>{5});
+  CHECK(panels[3].label == "force x [kN]");
+}
