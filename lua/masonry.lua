@@ -2,8 +2,8 @@
 --
 -- A run is a straight stretch of wall seen from outside, its coordinate u growing from left to right. Two patterns of head joints
 -- alternate from course to course; at a corner one wall runs through in one pattern and the other wall in the other. What fills a
--- stretch (whole bricks, halves, cut closers, wider joints) is decided in masonry_bond.lua. Beside an opening the pattern of the solid wall is
--- kept and only the piece at the jamb is cut.
+-- stretch (whole bricks, halves, cut closers, wider joints) is decided in masonry_bond.lua. Beside an opening the pattern of the solid
+-- wall is kept and only the piece at the jamb is cut.
 
 local parts, eps = masonry_parts, masonry_parts.eps
 local fail, millimetres, piece_kind, ends = parts.fail, parts.millimetres, parts.piece_kind, parts.ends
@@ -21,7 +21,9 @@ local function build(masonry, runs)
     end
     for course = 1, courses do
       number, z = number + 1, z + masonry.t
-      for i, run in ipairs(runs) do below[i] = parts.lay_course(masonry, i, run, storey, course, number, z, below[i], course > 1 and below[i] or {}) end
+      for i, run in ipairs(runs) do
+        below[i] = parts.lay_course(masonry, i, run, storey, course, number, z, below[i], course > 1 and below[i] or {})
+      end
       z = z + masonry.height
     end
     if masonry.slab then
@@ -68,7 +70,8 @@ local function describe_pattern(masonry, index, run, parity)
   table.insert(words, 1, count.full .. " whole")
   local role = (run.first or run.last) and (through and "through" or "between corners") or "plain ends"
   return { wall = run.name, parity = parity, role = role, length = stop - start, head_joint = widest,
-    text = string.format("%s, %s, %s: %s, head joints %s", run.name, role, millimetres(stop - start), table.concat(words, " + "), millimetres(widest)) }
+    text = string.format("%s, %s, %s: %s, head joints %s", run.name, role, millimetres(stop - start), table.concat(words, " + "),
+      millimetres(widest)) }
 end
 
 local function sorted_counts(counts)
@@ -93,11 +96,13 @@ local function summarise(masonry, runs)
   line("  closers (cut pieces): %s", sorted_counts(r.cuts))
   line("  head joints: %s", sorted_counts(r.head_joints))
   if r.least_lap < math.huge then
-    line("  shortest lap %s; laps below a quarter brick: %d, of them head joints above each other: %d", millimetres(r.least_lap), r.short_laps, r.stacked)
+    line("  shortest lap %s; laps below a quarter brick: %d, of them head joints above each other: %d", millimetres(r.least_lap), r.short_laps,
+      r.stacked)
   end
   for _, run in ipairs(runs) do
     for _, hole in ipairs(run.openings) do
-      r.openings[#r.openings + 1] = { wall = run.name, name = hole.name, storey = hole.storey, lo = hole.lo, hi = hole.hi, sill = hole.sill, height = hole.height }
+      r.openings[#r.openings + 1] = { wall = run.name, name = hole.name, storey = hole.storey, lo = hole.lo, hi = hole.hi,
+        sill = hole.sill, height = hole.height }
       line("  %s.%s, storey %d: %s to %s, sill %s, height %s", run.name, hole.name, hole.storey, millimetres(hole.lo), millimetres(hole.hi),
         millimetres(hole.sill), millimetres(hole.height))
     end
@@ -126,11 +131,13 @@ local function raise(k, title, corners, closed, names, courses)
     at = k.at, material = k.material, lintel = k.lintel, slab = k.slab, base = k.base, shift = k.shift, courses = courses, laid = {},
     prefix = k.prefix, title = title, plan_box = { lo = lo, hi = hi },
   }
-  if masonry.closer > masonry.half then fail("closer = %s is more than half a brick; at most %s is allowed", millimetres(masonry.closer), millimetres(masonry.half)) end
+  if masonry.closer > masonry.half then
+    fail("closer = %s is more than half a brick; at most %s is allowed", millimetres(masonry.closer), millimetres(masonry.half))
+  end
   masonry.out = {
     blocks = {}, slabs = {}, lintels = {}, tops = {}, walls = {},
-    report = { pieces = { full = 0, half = 0, cut = 0 }, cuts = {}, head_joints = {}, patterns = {}, openings = {}, stacked = 0, short_laps = 0,
-      least_lap = math.huge, shortest = k.brick.length, brick_volume = 0, lintel_volume = 0, slab_volume = 0 },
+    report = { pieces = { full = 0, half = 0, cut = 0 }, cuts = {}, head_joints = {}, patterns = {}, openings = {}, stacked = 0,
+      short_laps = 0, least_lap = math.huge, shortest = k.brick.length, brick_volume = 0, lintel_volume = 0, slab_volume = 0 },
   }
   local runs = parts.make_runs(corners, closed, names, masonry.width)
   for i, run in ipairs(runs) do
@@ -259,7 +266,9 @@ building = public(function(options)
   parts.stop_if(mistakes)
   local corners, names, p = k.plan, k.walls or {}, k.plan
   if type(p[1]) == "number" and type(p[2]) == "number" and #p == 2 then
-    if math.min(p[1], p[2]) <= 2 * k.brick.width then fail("building: plan {%g, %g} is no wider than two walls; make it larger", p[1], p[2]) end
+    if math.min(p[1], p[2]) <= 2 * k.brick.width then
+      fail("building: plan {%g, %g} is no wider than two walls; make it larger", p[1], p[2])
+    end
     corners = { { 0, 0 }, { p[1], 0 }, { p[1], p[2] }, { 0, p[2] } }
     if not k.walls then names = { "south", "east", "north", "west" } end
   elseif #p < 2 then
@@ -268,9 +277,13 @@ building = public(function(options)
   for i, c in ipairs(corners) do
     if type(c) ~= "table" or type(c[1]) ~= "number" or type(c[2]) ~= "number" then fail("building: plan: corner %d must be {x, y}", i) end
   end
-  if k.closed and #corners % 2 == 1 then fail("building: a closed plan parallel to x and y has an even number of corners, not %d", #corners) end
+  if k.closed and #corners % 2 == 1 then
+    fail("building: a closed plan parallel to x and y has an even number of corners, not %d", #corners)
+  end
   if k.slab and #corners ~= 4 then fail("building: a slab needs a plan of four corners; leave it out and lay plates with box{}") end
-  if type(k.courses) == "table" and #k.courses ~= k.storeys then fail("building: courses has %d numbers for %d storeys; give one for each", #k.courses, k.storeys) end
+  if type(k.courses) == "table" and #k.courses ~= k.storeys then
+    fail("building: courses has %d numbers for %d storeys; give one for each", #k.courses, k.storeys)
+  end
   local courses = {}
   for s = 1, k.storeys do
     courses[s] = math.tointeger(type(k.courses) == "table" and k.courses[s] or k.courses)  -- a number given by -D is no integer yet

@@ -64,8 +64,10 @@ local function fill(job, s)
   local off_pattern = job.pattern and 0.6 or 0
   try(s + job.full + job.t / 2, job.t, off_pattern)
   try(s + job.half + job.t / 2, job.t, off_pattern)
-  for k = math.ceil((s + job.closer) / job.step), math.floor((s + job.full) / job.step) do
-    try(k * job.step + job.t / 2, job.t, off_pattern)
+  if s - job.start < job.reach or rest < job.reach + job.full then  -- closers belong near the ends of a stretch
+    for k = math.ceil((s + job.closer) / job.step), math.floor((s + job.full) / job.step) do
+      try(k * job.step + job.t / 2, job.t, off_pattern)
+    end
   end
   return answer
 end
@@ -111,7 +113,9 @@ local function lay(masonry, start, stop, below, pattern)
   local key = table.concat(signature, " ")
   local found = masonry.laid[key]
   if found ~= nil then return found end
-  local job = setmetatable({ start = start, stop = stop, below = near, pattern = kept, memo = {}, joint_costs = {} }, { __index = masonry })
+  local job = setmetatable({
+    start = start, stop = stop, reach = 2 * (masonry.full + masonry.t), below = near, pattern = kept, memo = {}, joint_costs = {},
+  }, { __index = masonry })
   local chain = fill(job, start)
   if not pattern then
     for _, with_half in ipairs { false, true } do

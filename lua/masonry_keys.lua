@@ -88,7 +88,8 @@ masonry_functions = {
     keys = with_common {
       { name = "name", type = "string", default = "", help = "first word of all block names; default none" },
       { name = "group", type = "string", default = "wall", help = "groups of the walls are <group>_<wall>" },
-      { name = "plan", unit = "m", type = "table", required = true, help = "outer size {x, y}, or outer corners {{x,y}, ...} counter-clockwise" },
+      { name = "plan", unit = "m", type = "table", required = true,
+        help = "outer size {x, y}, or outer corners {{x,y}, ...} counter-clockwise" },
       { name = "closed", type = "boolean", default = true, help = "false: the last corner is not joined to the first" },
       { name = "walls", type = "table", help = "names of the runs; default south, east, north, west for a rectangle, else wall1, ..." },
       { name = "storeys", type = "integer", low = 1, default = 1, help = "number of storeys" },
@@ -136,7 +137,9 @@ local function read_value(what, key, value, mistakes)
   if key.type == "number" or key.type == "integer" then
     if type(value) ~= "number" then return wrong("must be a number, not a %s", kind) end
     if key.type == "integer" and value ~= math.floor(value) then return wrong("= %g must be a whole number", value) end
-    if key.above and not (value > key.above) then return wrong("= %g must be above %g%s", value, key.above, key.unit and " " .. key.unit or "") end
+    if key.above and not (value > key.above) then
+      return wrong("= %g must be above %g%s", value, key.above, key.unit and " " .. key.unit or "")
+    end
     if (key.low and not (value >= key.low)) or (key.high and not (value <= key.high)) then
       return wrong("= %g is out of range; allowed: %s", value, key.high and key.low .. " to " .. key.high or key.low .. " or more")
     end

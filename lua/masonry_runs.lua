@@ -15,7 +15,8 @@ local function make_runs(corners, closed, names, width)
     local dx, dy = b[1] - a[1], b[2] - a[2]
     local length = math.abs(dx) + math.abs(dy)
     if length < eps or math.min(math.abs(dx), math.abs(dy)) > eps then
-      fail("plan: the stretch from corner %d to %d is not parallel to x or y; turn the whole building with transform{}", i, i % #corners + 1)
+      fail("plan: the stretch from corner %d to %d is not parallel to x or y; turn the whole building with transform{}", i,
+        i % #corners + 1)
     end
     runs[i] = { name = names[i] or "wall" .. i, origin = a, d = { dx / length, dy / length }, length = length, openings = {} }
     runs[i].n = { -runs[i].d[2], runs[i].d[1] }  -- to the left of d: inward for a counter-clockwise plan
@@ -52,7 +53,10 @@ local function make_patterns(masonry, index, run)
     local _, _, below = ends(masonry, index, run, 1 - parity)
     for _, joint in ipairs(run.pattern[1 - parity] or {}) do below[#below + 1] = joint.u end
     local course = lay(masonry, start, stop, below, nil)
-    if not course then fail("wall \"%s\" of %s cannot be laid with pieces of at least %s; make it longer", run.name, millimetres(stop - start), millimetres(masonry.closer)) end
+    if not course then
+      fail("wall \"%s\" of %s cannot be laid with pieces of at least %s; make it longer", run.name, millimetres(stop - start),
+        millimetres(masonry.closer))
+    end
     run.pattern[parity] = course.joints
   end
 end
@@ -93,15 +97,16 @@ local function place_opening(masonry, run, opening, storey, name)
   local edge_hi = (run.last and run.last.lo - masonry.t or run.length) - masonry.closer
   if hole.top > count then fail("opening \"%s\" ends in course %d, the storey has %d; make it lower", name, hole.top, count) end
   if opening.lintel and hole.top < count then
-    hole.lintel = { lo = hole.lo - masonry.bearing, hi = hole.hi + masonry.bearing, bottom = hole.top + 1, top = hole.top + masonry.lintel.courses }
+    hole.lintel = { lo = hole.lo - masonry.bearing, hi = hole.hi + masonry.bearing }
+    hole.lintel.bottom, hole.lintel.top = hole.top + 1, hole.top + masonry.lintel.courses
     if hole.lintel.top > count then fail("the lintel over \"%s\" ends above the storey's last course; make the opening lower", name) end
   elseif hole.top < count then
     fail("opening \"%s\" has no lintel but masonry above it; let it end at the storey's top or leave lintel = false out", name)
   end
   local reach = hole.lintel or hole
   if hole.lo < edge_lo - eps or hole.hi > edge_hi + eps or reach.lo < edge_lo + masonry.t - eps or reach.hi > edge_hi - masonry.t + eps then
-    fail("opening \"%s\" with its lintel reaches from %s to %s along wall \"%s\"; allowed: %s to %s; move it or make it narrower", name, millimetres(reach.lo),
-      millimetres(reach.hi), run.name, millimetres(edge_lo), millimetres(edge_hi))
+    fail("opening \"%s\" with its lintel reaches from %s to %s along wall \"%s\"; allowed: %s to %s; move it or make it narrower", name,
+      millimetres(reach.lo), millimetres(reach.hi), run.name, millimetres(edge_lo), millimetres(edge_hi))
   end
   return hole
 end

@@ -13,13 +13,17 @@ local bonded = param("bonded", 1, "1: corner laid in bond, 0: two walls with an 
 local peak = param("peak", 0.8 * g, "amplitude of the one sine wave [m/s2]")
 local frequency = param("frequency", 2 * Hz, "of the wave [Hz]")
 local ft = param("ft", 0.02 * MPa, "tensile strength of a weak lime mortar, assumed [Pa]")
+local Gf1 = param("Gf1", 2, "its fracture energy in tension, assumed; ten times that in shear [J/m2]")
 
 local t, courses, length = 10 * mm, 18, 1.5
 local brick = { length = 240 * mm, width = 115 * mm, height = 60 * mm }
 
 material { name = "brick", density = 1800, friction = 0.6, restitution = 0.2 }
 ground {}
-joint { law = mortar { E = 1e9 * Pa, nu = 0.2, thickness = t, ft = ft, c = 1.5 * ft, mu = 0.6 }, thickness = t, tolerance = t / 2 }
+joint {
+  law = mortar { E = 1e9 * Pa, nu = 0.2, thickness = t, ft = ft, c = 1.5 * ft, mu = 0.6, Gf1 = Gf1, Gf2 = 10 * Gf1 },
+  thickness = t, tolerance = t / 2,
+}
 
 -- Seen from above: `side` runs along x from the free end to the corner, `face` from the corner along y to its free end.
 local corners = { { -length, 0 }, { 0, 0 }, { 0, length } }

@@ -10,15 +10,20 @@
 local peak = param("peak", 0.7 * g, "amplitude of the sine [m/s2]")
 local frequency = param("frequency", 4 * Hz, "of the sine [Hz]")
 local plate_thickness = param("plate", 0.25, "concrete plate on top, stands for the storey above [m]")
-local ft = param("ft", 0.05 * MPa, "tensile strength of the mortar, assumed [Pa]")
-local c = param("c", 0.08 * MPa, "cohesion of the mortar, assumed [Pa]")
+local ft = param("ft", 0.1 * MPa, "tensile strength of the mortar, assumed [Pa]")
+local c = param("c", 0.15 * MPa, "cohesion of the mortar, assumed [Pa]")
+local Gf1 = param("Gf1", 10, "fracture energy in tension, assumed; with 0 (brittle) the first crack shatters every joint [J/m2]")
+local Gf2 = param("Gf2", 100, "fracture energy in shear, assumed [J/m2]")
 local shift = param("shift", 0, "1: start with the other of the two alternating courses")
 
 local t = 10 * mm
 material { name = "brick", density = 1800, friction = 0.6, restitution = 0.2 }
 material { name = "concrete", density = 2400, friction = 0.6, restitution = 0.2, color = { 0.62, 0.61, 0.58 } }
 ground {}
-joint { law = mortar { E = 2e9 * Pa, nu = 0.2, thickness = t, ft = ft, c = c, mu = 0.65 }, thickness = t, tolerance = t / 2 }
+joint {
+  law = mortar { E = 2e9 * Pa, nu = 0.2, thickness = t, ft = ft, c = c, mu = 0.65, Gf1 = Gf1, Gf2 = Gf2 },
+  thickness = t, tolerance = t / 2,
+}
 
 local built = wall {
   length = 3, courses = 30, at = { -1.5, 0, 0 }, shift = shift,

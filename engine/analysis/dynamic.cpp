@@ -25,6 +25,8 @@ struct Clock {
   long rows = 0, frames = 0;
   double first_crack = -1;  // s
   long opened = 0;
+  // joints that cracked or went over to contact since the last row, whose events are still to be written
+  std::vector<int> cracked_since, opened_since;
 };
 
 template <class C, class F>
@@ -34,6 +36,8 @@ void each(C& c, F&& f) {
   f("frames", c.frames);
   f("first_crack", c.first_crack);
   f("opened", c.opened);
+  f("cracked_since", c.cracked_since);
+  f("opened_since", c.opened_since);
 }
 
 class Run {
@@ -47,7 +51,8 @@ class Run {
   void sampled();
   bool stop();
   Snapshot snapshot() const;
-  void note_cracks(double t);
+  void note_joints(double t);
+  void take_joints();
   int broken_joints();
   void save();
   double gate() const;
@@ -162,22 +167,32 @@ int Run::broken_joints() {
   return broken;
 }
 
-void Run::note_cracks(double t) {
-  for (const int j : solver_->take_cracked()) {
+void Run::take_joints() {
+  const std::vector<int> cracked = solver_->take_cracked(), opened = solver_->take_opened();
+  clock_.cracked_since.insert(clock_.cracked_since.end(), cracked.begin(), cracked.end());
+  clock_.opened_since.insert(clock_.opened_since.end(), opened.begin(), opened.end());
+}
+
+void Run::note_joints(double t) {
+  take_joints();
+  std::sort(clock_.cracked_since.begin(), clock_.cracked_since.end());
+  for (const int j : clock_.cracked_since) {
     if (run_.model.laws[z(run_.model.joint[z(j)].law)].dry) continue;
     if (clock_.first_crack < 0) clock_.first_crack = t;
     writer_->event(t, "crack", run_.model.joint_name(j), look_at_joint(run_.model, run_.state, j).damage, "share");
   }
+  for (const int j : clock_.opened_since) {
+    ++clock_.opened;
+    writer_->event(t, "open", run_.model.joint_name(j), look_at_joint(run_.model, run_.state, j).opening, "m");
+  }
+  clock_.cracked_since.clear();
+  clock_.opened_since.clear();
 }
 
 void Run::sampled() {
   const double began = seconds();
   const Snapshot now = snapshot();
-  note_cracks(now.t);
-  for (const int j : solver_->take_opened()) {
-    ++clock_.opened;
-    writer_->event(now.t, "open", run_.model.joint_name(j), look_at_joint(run_.model, run_.state, j).opening, "m");
-  }
+  note_joints(now.t);
   std::vector<int> fallen;
   const bool collapse = update(collapse_, run_.model, run_.state, now.t, &fallen);
   for (const int b : fallen) writer_->event(now.t, "fall", run_.model.block_name[z(b)], -run_.state.u[z(b)].z(), "m");
@@ -196,6 +211,7 @@ void Run::sampled() {
 
 void Run::save() {
   const double began = seconds();
+  take_joints();
   write_checkpoint(options_.directory, key_, run_.state, writer_->progress(), collapse_, clock_);
   last_save_ = seconds();
   record_ += last_save_ - began;

@@ -63,6 +63,7 @@ struct PairList {
   std::vector<Pair> pair;      // sorted by (a, b, part_a, part_b)
   double margin = 0.01;        // m, parts closer than this are listed
   bool valid = false;          // set to false when blocks come loose or pairs are freed: the next search then runs
+  std::vector<Vec3> start;     // m, displacement of each block at the start of the run [nblock]
   std::vector<Vec3> u;         // m, pose of each block at the last search [nblock]
   std::vector<Mat3> turn;      //                                          [nblock]
   long searches = 0;
@@ -98,7 +99,7 @@ void each(P& p, F&& f) {
 template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, PairList>
 void each(P& p, F&& f) {
-  f("pair", p.pair), f("margin", p.margin), f("valid", p.valid), f("u", p.u), f("turn", p.turn), f("searches", p.searches);
+  f("pair", p.pair), f("margin", p.margin), f("valid", p.valid), f("start", p.start), f("u", p.u), f("turn", p.turn), f("searches", p.searches);
 }
 
 }  // namespace erbs

@@ -1,5 +1,5 @@
 // Turns named members into bytes and back, through the same visitor: each(thing, archive) calls archive(name, member [, part]),
-// or archive(member) where a name would say nothing; such a member has the part of the thing it belongs to.
+// or archive(member) where a name would say nothing. A member without a part has that of the thing it belongs to.
 // Takes numbers, enums, Eigen's small vectors, plain structs (by bytes), strings, vectors of these, and structs that have an
 // each() of their own. Names and element sizes are written too, so that a changed layout is refused and not misread.
 #pragma once

@@ -43,7 +43,7 @@ Debris::Debris(const Model& model, State& state, int threads) : model_(model), s
     pair_keys_.push_back(key);
     of_pair_.push_back(j);
   }
-  start_.assign(state.u.begin(), state.u.end());
+  if (state.debris.start.empty()) state.debris.start = state.u;
   if (state.debris.u.empty()) state.debris.margin = suggested_margin(shapes_);
   list_involved();
 }
@@ -131,7 +131,8 @@ std::vector<int> Debris::hand_over_joints() {
   if (opened.empty()) return opened;
   for (const int j : opened) open(j);
   list_involved();
-  for (const int b : involved_) place(b);
+  // All of them: poses from the last look would depend on when this run was started or resumed.
+  for (int b = 0; b < model_.nblock; ++b) place(b);
   state_.debris.valid = false;
   state_.energy.reset += search(state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); });
   for (const int j : opened) {
@@ -160,7 +161,7 @@ void Debris::loosen() {
   const double far = 0.5 * state_.debris.margin;
   for (int b = 0; b < model_.nblock; ++b) {
     if (model_.kind[z(b)] == Kind::fixed || state_.loose[z(b)]) continue;
-    if (state_.grounded[z(b)] && (state_.u[z(b)] - start_[z(b)]).squaredNorm() < far * far) continue;
+    if (state_.grounded[z(b)] && (state_.u[z(b)] - state_.debris.start[z(b)]).squaredNorm() < far * far) continue;
     if (model_.kind[z(b)] == Kind::driven && state_.grounded[z(b)] && state_.u[z(b)].norm() < far) continue;
     state_.loose[z(b)] = 1;
     changed = true;

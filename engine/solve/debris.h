@@ -40,7 +40,6 @@ class Debris {
   State& state_;
   ContactShapes shapes_;
   ContactSettings settings_;
-  std::vector<Vec3> start_;              // m, where blocks stood at the start of this run
   std::vector<ContactBlock> blocks_;
   std::vector<int> involved_;            // blocks that are loose or listed in a pair
   std::vector<std::uint64_t> jointed_;   // pairs of blocks still joined, sorted

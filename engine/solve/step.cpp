@@ -34,6 +34,8 @@ Solver::Solver(const Model& model, State& state, int threads)
   if (!model.pushes.empty()) load_ = push_;
   joint_sums_.resize(z(chunks(joint_items_, batch_grain)));
   block_sums_.resize(z(chunks(model.nblock, block_grain)));
+  // A state that was stopped just when a block had turned too far: the next step looks again. Without one it finds nothing.
+  block_sums_.front().stale = true;
   tier_before_ = state.tier;
   double weight = 0, low = 1e300, high = -1e300;
   const Vec3 up = model.gravity.norm() > 0 ? Vec3(-model.gravity.normalized()) : Vec3::UnitZ();

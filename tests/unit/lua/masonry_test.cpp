@@ -28,7 +28,7 @@ std::vector<Brick> bricks_of(const Scene& scene) {
 }
 
 std::vector<Brick> built(const std::string& text) {
-  Script script({.quiet = true});
+  Script script({.seconds = 100, .quiet = true});
   return bricks_of(
       script.load_text("material{ name = 'brick', density = 1800 }\nground{}\nanalysis{ duration = 1 }\n"
                        "joint{ law = dry{ kn = 1e10, mu = 0.6 }, thickness = 5*mm, tolerance = 2.5*mm }\n" +
@@ -175,7 +175,7 @@ TEST_CASE("open and re-entrant plans fit as well", "[lua][masonry]") {
 }
 
 TEST_CASE("the summary says what was cut and widened", "[lua][masonry]") {
-  Script script({.quiet = true});
+  Script script({.seconds = 100, .quiet = true});
   script.load_text(
       "material{ name = 'brick', density = 1800 }\nground{}\nanalysis{ duration = 1 }\njoint{ law = dry{ kn = 1e10, mu = 0.6 }, thickness "
       "= 5*mm, tolerance = 2*mm }\n"
@@ -210,7 +210,7 @@ TEST_CASE("mistakes in masonry are named with line and remedy, all at once", "[l
 }
 
 TEST_CASE("the house of the shaking table has the blocks it should", "[lua][masonry]") {
-  Script script({.quiet = true});
+  Script script({.seconds = 100, .quiet = true});
   const Scene& scene = script.load(ERBS_SOURCE_DIR "/scenes/shake_table_house.lua");
   const auto bricks = bricks_of(scene);
   CHECK(bricks.size() >= 750);

@@ -159,7 +159,7 @@ MotionFrame brick_house_frame(const MotionScene& scene, double t) {
 
 void write_brick_house(const std::string& dir, const BrickHouse& house) {
   std::filesystem::create_directories(dir);
-  std::ofstream(dir + "/manifest.json") << R"({"scene": "brick_house", "title": "Brick house on a shaking table", "energy_gate": 1e-3,
+  std::ofstream(dir + "/manifest.json") << R"({"scene": {"name": "brick_house", "title": "Brick house on a shaking table"}, "energy_gate": 1e-3,
  "materials": [{"name": "brick", "color": [0.55, 0.20, 0.12]}, {"name": "concrete", "color": [0.50, 0.49, 0.46]},
                {"name": "ground", "color": [0.4, 0.4, 0.4]}], "cameras": []})";
   std::ofstream rows(dir + "/histories.csv"), energy(dir + "/energy.csv");

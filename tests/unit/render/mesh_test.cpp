@@ -60,7 +60,7 @@ TEST_CASE("what lies within an intact wall is not drawn", "[render][mesh]") {
   const Show show = prepare_show(scene, {}, {});
   MotionFrame rest = brick_house_frame(scene, 0);
   const FrameTexels intact = texels_of(show, rest, Coloring::material);
-  CHECK(intact.index.size() < 0.55 * static_cast<double>(show.mesh.index.size()));
+  CHECK(static_cast<double>(intact.index.size()) < 0.55 * static_cast<double>(show.mesh.index.size()));
   CHECK(intact.crack_index.empty());
   rest.damage[10] = 255;
   const FrameTexels broken = texels_of(show, rest, Coloring::material);

@@ -1,0 +1,68 @@
+#include <catch2/catch.hpp>
+
+#include "tests/support/small_wall.h"
+
+using namespace erbs;
+
+TEST_CASE("gravity by factorisation and by a damped ramp give the same wall", "[analysis]") {
+  Prepared direct, ramped;
+  const Scene scene = test::small_wall("analysis{duration=1}");
+  direct = prepare(scene, false);
+  start_at_rest(scene, direct, 1);
+  REQUIRE(direct.equilibrium.converged);
+  CHECK(direct.equilibrium.unbalanced < 1e-8);
+  Scene slow = scene;
+  slow.analysis.start = "ramp";
+  ramped = prepare(slow, false);
+  start_at_rest(slow, ramped, 2);
+  double size = 0, difference = 0;
+  for (std::size_t b = 0; b < direct.state.u.size(); ++b) {
+    size = std::max(size, direct.state.u[b].norm());
+    difference = std::max(difference, (direct.state.u[b] - ramped.state.u[b]).norm());
+  }
+  CHECK(size > 0);
+  CHECK(difference < 1e-3 * size);  // what the ramp's damping leaves of its oscillation
+}
+
+TEST_CASE("a wall in equilibrium stays there", "[analysis]") {
+  Prepared run;
+  const Scene scene = test::small_wall("analysis{duration=1}");
+  run = prepare(scene, false);
+  start_at_rest(scene, run, 1);
+  const std::vector<Vec3> start = run.state.u;
+  Solver solver(run.model, run.state, 1);
+  solver.run({[](double) { return false; }, [] {}, [&] { return run.state.t >= 0.5; }});
+  for (std::size_t b = 0; b < start.size(); ++b) CHECK((run.state.u[b] - start[b]).norm() < 0.5e-6 * 0.1);
+  CHECK(std::all_of(run.state.tier.begin(), run.state.tier.end(), [](Tier t) { return t == Tier::intact; }));
+}
+
+TEST_CASE("a step past the limit is refused with the reason", "[analysis]") {
+  Scene scene = test::small_wall("analysis{duration=1}");
+  scene.analysis.dt_fraction = 1.1;
+  CHECK_THROWS_WITH(prepare(scene, false), Catch::Contains("1.100 times the limit") && Catch::Contains("unstable"));
+  CHECK_NOTHROW(prepare(scene, true));
+  for (const char* rule : {"period_tenth", "hart", "limit"}) {
+    scene.analysis.dt_rule = rule;
+    scene.analysis.dt_fraction = 0.5;
+    const Prepared run = prepare(scene, false);
+    CHECK(run.state.dt > 0);
+    CHECK(run.state.dt < run.bounds.critical);
+  }
+}
+
+TEST_CASE("the bounds on the step keep their order", "[analysis]") {
+  const Prepared run = prepare(test::small_wall("analysis{duration=1}"), false);
+  // K <= 2 blockdiag(K_ii) for springs between pairs, and Cauchy's interlacing: the block bound is right or up to sqrt 2 too short
+  CHECK(run.bounds.block <= run.bounds.critical * (1 + 1e-9));
+  CHECK(run.bounds.critical <= std::sqrt(2.0) * run.bounds.block * (1 + 1e-6));
+}
+
+TEST_CASE("overlaps and lonely blocks are found together", "[analysis]") {
+  const std::string more = R"(
+    box{name="inside", size={.25,.125,.1}, at={0.05,0,0.005}, material="brick"}
+    box{name="lonely", size={.25,.125,.1}, at={5,0,0}, material="brick"}
+    analysis{duration=1})";
+  const Scene scene = test::small_wall(more);
+  CHECK_THROWS_WITH(prepare(scene, false), Catch::Contains("'inside'") && Catch::Contains("overlap") && Catch::Contains("'lonely'") &&
+                                               Catch::Contains("has no joint"));
+}

@@ -1,0 +1,107 @@
+#include <catch2/catch.hpp>
+
+#include "engine/record/checkpoint.h"
+#include "engine/solve/energy.h"
+#include "engine/solve/joint_geometry.h"
+#include "engine/solve/lanes.h"
+#include "tests/support/small_wall.h"
+
+using namespace erbs;
+
+namespace {
+
+const std::string shake = "ground_motion{wave=sine{amplitude=0.5*g, frequency=8}, direction={1,0.7,0}} analysis{duration=1, kernel=\"";
+
+double largest_difference(const State& a, const State& b) {
+  double out = 0;
+  for (std::size_t i = 0; i < a.u.size(); ++i) out = std::max(out, (a.u[i] - b.u[i]).norm());
+  return out;
+}
+
+double largest(const State& a) {
+  double out = 0;
+  for (const Vec3& u : a.u) out = std::max(out, u.norm());
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("the fast kernel moves an intact wall as the reference does", "[solve]") {
+  const std::string strong = "mortar{E=1e9, thickness=10*mm, ft=5*MPa, c=8*MPa, mu=0.6}";
+  Prepared fast, finer, plain;
+  test::run_to(test::small_wall(shake + "fast\"}", strong), 1, 0.05, fast);
+  test::run_to(test::small_wall(shake + "fast\", lazy_rotation=1e-9}", strong), 1, 0.05, finer);
+  test::run_to(test::small_wall(shake + "reference\"}", strong), 1, 0.05, plain);
+  REQUIRE(fast.state.step == plain.state.step);
+  CHECK(largest(fast.state) > 1e-8);
+  INFO("carried " << largest_difference(fast.state, plain.state) / largest(plain.state) << " fresh "
+                  << largest_difference(finer.state, plain.state) / largest(plain.state));
+  // forces are carried to first order of the rotation since the refresh: (1e-5)^2 of a static force, against small motions
+  CHECK(largest_difference(fast.state, plain.state) / largest(plain.state) < 1e-6);
+  CHECK(largest_difference(finer.state, plain.state) / largest(plain.state) < 1e-8);
+}
+
+TEST_CASE("threads do not change a bit, cracks and contacts included", "[solve]") {
+  const Scene scene = test::small_wall("ground_motion{wave=sine{amplitude=3*g, frequency=6}, direction=\"y\"} analysis{duration=1}");
+  Prepared one, two, three;
+  test::run_to(scene, 1, 0.25, one);
+  test::run_to(scene, 2, 0.25, two);
+  test::run_to(scene, 3, 0.25, three);
+  const auto cracked = std::count_if(one.state.tier.begin(), one.state.tier.end(), [](Tier t) { return t != Tier::intact; });
+  const auto opened = std::count(one.state.tier.begin(), one.state.tier.end(), Tier::open);
+  CHECK(cracked > 10);
+  CHECK(opened > 0);
+  CHECK(state_hash(one.state) == state_hash(two.state));
+  CHECK(state_hash(one.state) == state_hash(three.state));
+}
+
+TEST_CASE("instruction sets give the same bits", "[solve]") {
+  const Scene scene = test::small_wall(shake + "fast\"}");
+  Prepared run = prepare(scene, false);
+  start_at_rest(scene, run, 1);
+  const JointBatch batch = run.state.batch.front();
+  std::vector<double> rows = run.state.row;
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = 1e-6 * std::sin(double(i));
+  JointLanes narrow{}, wide{};
+  std::vector<double> a(run.state.wrench.size(), 0.0), b = a;
+  sse2::kernels.elastic(batch, rows.data(), narrow);
+  sse2::kernels.wrenches(batch, narrow, a.data());
+  lane_kernels().elastic(batch, rows.data(), wide);
+  lane_kernels().wrenches(batch, wide, b.data());
+  CHECK(std::equal(&narrow.q[0][0], &narrow.q[0][0] + 6 * lanes, &wide.q[0][0]));
+  CHECK(a == b);
+}
+
+TEST_CASE("carried geometry answers as exact geometry within the tolerance of a refresh", "[solve]") {
+  const Scene scene = test::small_wall(shake + "fast\"}");
+  Prepared run = prepare(scene, false);
+  State& s = run.state;
+  for (int b = 1; b < run.model.nblock; ++b) {  // one rigid turn of 1e-5 rad about x for all, and small strains
+    const Vec3 turn(1e-5, 0, 0), arm = run.model.rest[std::size_t(b)];
+    s.q[std::size_t(b)] = rotation(turn + 1e-8 * Vec3(std::sin(b), std::cos(b), 1));
+    s.u[std::size_t(b)] = rotation(turn) * arm - arm + 1e-8 * Vec3(std::cos(3 * b), std::sin(2 * b), 0.3);
+    const Vec3 th = rotation_vector(s.q[std::size_t(b)]);
+    for (int i = 0; i < 3; ++i) s.row[std::size_t(8 * b + i)] = s.u[std::size_t(b)][i], s.row[std::size_t(8 * b + 3 + i)] = th[i];
+  }
+  JointLanes o;
+  for (int j = 0; j < run.model.njoint; ++j) {
+    if (run.model.joint[std::size_t(j)].a == 0) continue;  // the foot does not turn
+    lane_kernels().elastic(s.batch[std::size_t(j / lanes)], s.row.data(), o);
+    double q[6];
+    joint_q(run.model, s, j, q);
+    for (int i = 0; i < 6; ++i) CHECK(o.q[i][j % lanes] == Approx(q[i]).margin(1e-14));
+  }
+}
+
+TEST_CASE("the ledger closes, and a spoiled term opens it", "[solve][energy]") {
+  Prepared run;
+  test::run_to(test::small_wall("ground_motion{wave=sine{amplitude=1.5*g, frequency=6}, direction=\"y\"} analysis{duration=1}"), 2, 0.2, run);
+  Energy e = run.state.energy;
+  CHECK(e.fracture > 0);
+  CHECK(e.friction >= 0);
+  CHECK(e.residual_worst < 1e-3);
+  Energy spoiled = e;
+  spoiled.base_work *= 0.9;
+  settle(spoiled, 0, run.state.t, -1);
+  CHECK(spoiled.residual_relative > 1e-3);
+}
