@@ -7,7 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/units.h"
-#include "render/process.h"
+#include "engine/record/gnuplot.h"
 
 namespace erbs::render {
 namespace {
@@ -50,7 +50,7 @@ const Unit* find_unit(const std::string& suffix) {
   return nullptr;
 }
 
-double peak_of(const Table& table, const std::vector<int>& columns) {
+double peak_of(const CsvTable& table, const std::vector<int>& columns) {
   double peak = 0;
   for (int c : columns)
     for (double value : table.columns[static_cast<std::size_t>(c)])
@@ -58,7 +58,7 @@ double peak_of(const Table& table, const std::vector<int>& columns) {
   return peak;
 }
 
-void choose_unit(Panel& panel, const Table& table, const std::string& suffix) {
+void choose_unit(Panel& panel, const CsvTable& table, const std::string& suffix) {
   const Unit* unit = find_unit(suffix);
   if (!unit) return;
   const double peak = peak_of(table, panel.columns);
@@ -72,76 +72,69 @@ void choose_unit(Panel& panel, const Table& table, const std::string& suffix) {
 
 constexpr std::array<const char*, 8> colors{"#23527c", "#c0502d", "#4f8a4c", "#8a5a9e", "#b08a1e", "#3b9aa8", "#7d7d7d", "#a33a5a"};
 
-std::string in_quotes(const std::string& text) {
-  std::string safe = "'";
-  for (char c : text) safe += c == '\'' ? std::string("''") : std::string(1, c);
-  return safe + "'";
-}
+// Labels are ours, and carry signs (²) that the quoting of foreign text would not let through.
+std::string label(const Panel& panel) { return "'" + panel.label + "'"; }
 
 // Every curve of a panel. `every` rows are skipped between two drawn ones.
-std::string plot(const std::string& file, const Table& table, const Panel& panel, const std::string& value, std::size_t every) {
+std::string plot(const std::string& file, const CsvTable& table, const Panel& panel, const std::string& value, std::size_t every) {
   std::string script = "plot ";
   for (std::size_t i = 0; i < panel.columns.size(); ++i) {
     const int column = panel.columns[i];
     const char* style = panel.columns.size() > colors.size() && i >= colors.size() ? " dashtype 2" : "";
-    script += fmt::format("{}{} every {}::1 using 1:({}) with lines lw 1.3 lc rgb '{}'{} title {}", i ? ", " : "", in_quotes(file), every,
-                          fmt::format(fmt::runtime(value), fmt::arg("c", column + 1), fmt::arg("f", panel.factor)),
-                          colors[i % colors.size()], style, in_quotes(words_of(table.names[static_cast<std::size_t>(column)])));
+    script += fmt::format("{}{} every {}::1 using 1:({}) with lines lw 1.3 lc rgb '{}'{} title {}", i ? ", " : "", gnuplot_quoted(file),
+                          every, fmt::format(fmt::runtime(value), fmt::arg("c", column + 1), fmt::arg("f", panel.factor)),
+                          colors[i % colors.size()], style, gnuplot_quoted(words_of(table.names[static_cast<std::size_t>(column)])));
   }
   return script + "\n";
 }
 
-std::string opening(const std::string& svg, std::size_t panels, double last_time, const std::string& title) {
+std::string opening(std::size_t panels, double last_time, const std::string& title) {
   return fmt::format(
       "set terminal svg size 1000,{} dynamic enhanced font 'DejaVu Sans,13' background rgb 'white'\n"
-      "set output {}\n"
       "set encoding utf8\nset datafile separator comma\nset datafile missing 'nan'\n"
       "set border 3 lc rgb '#707070'\nset tics nomirror out scale 0.6 textcolor rgb '#303030'\n"
       "set grid xtics ytics lc rgb '#e3e3e3' lt 1 lw 0.8\nset zeroaxis lc rgb '#b0b0b0' lt 1 lw 0.8\n"
       "set key outside right top Left reverse samplen 1.6 spacing 1.05 noenhanced\n"
       "set lmargin 12\nset rmargin 24\nset xrange [0:{}]\n"
       "set multiplot layout {},1 title {} noenhanced font ',15'\n",
-      70 + 210 * panels, in_quotes(svg), last_time, panels, in_quotes(title));
+      70 + 210 * panels, last_time, panels, gnuplot_quoted(title));
 }
 
-void run_gnuplot(const std::string& script, const std::string& svg) {
-  Process gnuplot({"gnuplot", "-"}, "install gnuplot-nox, or leave the figures out with --no-figures");
-  gnuplot.write(script.data(), script.size());
-  if (gnuplot.finish() != 0) throw Error("gnuplot could not draw it; its message is above", {svg, 0});
-}
-
-std::string histories_script(const std::string& csv, const std::string& svg, const Table& table, const Run& run) {
+std::string histories_script(const std::string& csv, const CsvTable& table, const Run& run) {
   const std::vector<Panel> panels = history_panels(table);
   const std::size_t every = std::max<std::size_t>(1, table.rows() / 6000);
-  std::string script = opening(svg, panels.size(), table.columns[0].back(), run.title);
+  std::string script = opening(panels.size(), table.columns[0].back(), run.title);
   for (std::size_t i = 0; i < panels.size(); ++i) {
     if (i + 1 == panels.size()) script += "set xlabel 'time [s]'\n";
-    script += "set ylabel " + in_quotes(panels[i].label) + " noenhanced\n" + plot(csv, table, panels[i], "column({c})*{f}", every);
+    script += "set ylabel " + label(panels[i]) + " noenhanced\n" + plot(csv, table, panels[i], "column({c})*{f}", every);
   }
   return script + "unset multiplot\n";
 }
 
-std::string energy_script(const std::string& csv, const std::string& svg, const Table& table, const Run& run) {
+std::string energy_script(const std::string& csv, const CsvTable& table, const Run& run) {
   Panel terms{"energy", 1, {}};
   for (std::size_t c = 1; c < table.names.size(); ++c)
     if (unit_of(table.names[c]) == "J" && peak_of(table, {static_cast<int>(c)}) > 0) terms.columns.push_back(static_cast<int>(c));
   choose_unit(terms, table, "J");
   const int residual = table.find("residual_relative");
   const std::size_t every = std::max<std::size_t>(1, table.rows() / 6000);
-  std::string script = opening(svg, 3, table.columns[0].back(), run.title + ": energy");
-  script += fmt::format("set size 1,0.60\nset origin 0,0.36\nset ylabel {} noenhanced\n", in_quotes(terms.label));
+  std::string script = opening(3, table.columns[0].back(), run.title + ": energy");
+  script += fmt::format("set size 1,0.60\nset origin 0,0.36\nset ylabel {} noenhanced\n", label(terms));
   script += terms.columns.empty() ? "plot 0 notitle\n" : plot(csv, table, terms, "column({c})*{f}", every);
   script +=
       "set size 1,0.36\nset origin 0,0.0\nset xlabel 'time [s]'\nset ylabel 'residual, relative'\nset logscale y\nset format y "
       "'10^{%T}'\nset ytics 1e-18,1e3\nunset mytics\n";
   const double worst = residual >= 0 ? peak_of(table, {residual}) : 0;
-  const double top = std::max({worst, run.energy_gate, 1e-12}) * 5;
-  script += fmt::format("set yrange [{}:{}]\n", std::min(1e-12, worst > 0 ? worst * 1e-4 : 1e-12), top);
-  if (run.energy_gate > 0)
+  // The gate of the run; where the scene leaves it to the kind of run, the three there are.
+  std::vector<std::pair<double, std::string>> gates{{run.energy_gate, "gate"}};
+  if (run.energy_gate <= 0) gates = {{1e-6, "gate, elastic"}, {1e-3, "gate, cracked"}, {1e-2, "gate, collapse"}};
+  script +=
+      fmt::format("set yrange [{}:{}]\n", std::min(1e-12, worst > 0 ? worst * 1e-4 : 1e-12), std::max(worst, gates.back().first) * 10);
+  for (const auto& [gate, name] : gates)
     script += fmt::format(
-        "set arrow from graph 0, first {0} to graph 1, first {0} nohead lc rgb '#b03020' dashtype 2\n"
-        "set label 'gate {0:g}' at graph 0.01, first {0} offset 0,0.6 textcolor rgb '#b03020' noenhanced\n",
-        run.energy_gate);
+        "set arrow from graph 0, first {0} to graph 1, first {0} nohead lc rgb '#c07060' dashtype 2\n"
+        "set label '{1} {0:g}' at graph 0.99, first {0} right offset 0,0.55 textcolor rgb '#b03020' font ',11' noenhanced\n",
+        gate, name);
   if (worst > 0) script += plot(csv, table, {"", 1, {residual}}, "abs(column({c})) > 1e-16 ? abs(column({c})) : 1e-16", every);
   else script += "plot 1e-16 notitle\n";
   return script + "unset multiplot\n";
@@ -164,7 +157,7 @@ std::string words_of(const std::string& column) {
   return words;
 }
 
-std::vector<Panel> history_panels(const Table& table) {
+std::vector<Panel> history_panels(const CsvTable& table) {
   Panel ground{"ground [g]", 1 / standard_g, {}};
   std::vector<std::pair<std::string, Panel>> by_unit;
   for (std::size_t c = 1; c < table.names.size(); ++c) {
@@ -204,9 +197,10 @@ std::vector<std::string> write_figures(const Run& run) {
   const fs::path dir(run.dir);
   for (const std::string name : {"histories", "energy"}) {
     const std::string csv = (dir / (name + ".csv")).string(), svg = (dir / (name + ".svg")).string();
-    const Table table = read_table(csv);
+    if (!fs::exists(csv)) continue;
+    const CsvTable table = read_csv(csv);
     if (table.rows() < 2 || table.names.size() < 2 || table.columns[0].back() <= 0) continue;
-    run_gnuplot(name == "energy" ? energy_script(csv, svg, table, run) : histories_script(csv, svg, table, run), svg);
+    run_gnuplot(name == "energy" ? energy_script(csv, table, run) : histories_script(csv, table, run), svg);
     written.push_back(svg);
   }
   return written;

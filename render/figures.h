@@ -1,7 +1,7 @@
 // histories.svg and energy.svg from the CSV files beside them, by the program gnuplot.
 #pragma once
+#include "engine/record/run_folder.h"
 #include "render/run.h"
-#include "render/table.h"
 
 namespace erbs::render {
 
@@ -15,7 +15,7 @@ struct Panel {
   std::vector<int> columns;  // of the table
 };
 // Ground motion first, then the others by unit in the order of the table.
-std::vector<Panel> history_panels(const Table& table);
+std::vector<Panel> history_panels(const CsvTable& table);
 
 // The unit at the end of a column's name ("m_s2"), "" where there is none; the rest of the name in plain words.
 std::string unit_of(const std::string& column);

@@ -3,20 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include "engine/record/json.h"
 
 #include "engine/base/error.h"
-#include "render/table.h"
+#include "engine/record/run_folder.h"
 
 namespace erbs::render {
 namespace {
 
-using Json = nlohmann::json;
-
-Vec3 vector_of(const Json& j) { return {j.at(0).get<double>(), j.at(1).get<double>(), j.at(2).get<double>()}; }
-
-GroundRecord strongest_component(const Table& histories) {
+GroundRecord strongest_component(const CsvTable& histories) {
   GroundRecord best;
   const int time = histories.find("time_s");
   if (time < 0) return best;
@@ -31,47 +25,24 @@ GroundRecord strongest_component(const Table& histories) {
   return best;
 }
 
-void read_manifest(const Json& j, Run& run) {
-  const Json& scene = j.at("scene");
-  run.name = scene.value("name", run.name);
-  run.title = scene.value("title", run.name);
-  if (run.title.empty()) run.title = run.name;
-  for (const Json& c : j.value("cameras", Json::array())) {
-    Camera camera;
-    camera.name = c.value("name", fmt::format("camera{}", run.cameras.size() + 1));
-    camera.eye = vector_of(c.at("eye"));
-    camera.target = vector_of(c.at("target"));
-    if (c.contains("up")) camera.up = vector_of(c.at("up"));
-    camera.fov = c.value("fov_rad", camera.fov);
-    run.cameras.push_back(camera);
-  }
-  for (const Json& m : j.value("materials", Json::array())) {
-    Paint paint;
-    paint.name = m.value("name", "");
-    if (m.contains("color")) paint.color = vector_of(m.at("color"));
-    run.materials.push_back(paint);
-  }
-  if (j.contains("energy_gate") && j.at("energy_gate").is_number()) run.energy_gate = j.at("energy_gate").get<double>();
-}
-
 }  // namespace
 
 Run read_run(const std::string& dir) {
-  const std::filesystem::path folder(dir), manifest = folder / "manifest.json";
+  const std::string manifest = run_file(dir, "manifest.json"), histories = run_file(dir, "histories.csv");
+  if (!std::filesystem::exists(manifest)) throw Error("no manifest.json in it; give the folder of a run, e.g. runs/first", {dir, 0});
+  const Manifest m = read_manifest(dir);
   Run run;
   run.dir = dir;
-  std::ifstream in(manifest);
-  if (!in) throw Error("no manifest.json in it; give the folder of a run, e.g. runs/first", {dir, 0});
-  // The folder's own name stands in for a scene's: works for "runs/first/" too.
-  run.name = std::filesystem::weakly_canonical(folder).filename().string();
-  try {
-    read_manifest(Json::parse(in), run);
-  } catch (const Json::exception& e) { throw Error(fmt::format("is damaged ({}); run the scene again", e.what()), {manifest.string(), 0}); }
+  run.name = m.scene_name;
+  run.title = m.title.empty() ? m.scene_name : m.title;
+  run.cameras = m.cameras;
   for (const Camera& c : run.cameras)
-    if ((c.eye - c.target).norm() < 1e-9 || c.fov <= 0 || c.fov >= pi)
-      throw Error(fmt::format("camera {} looks nowhere; its eye and target must differ and 0 < fov < 180 deg", c.name),
-                  {manifest.string(), 0});
-  run.record = strongest_component(read_table((folder / "histories.csv").string()));
+    if (!((c.eye - c.target).norm() > 1e-9 && c.fov > 0 && c.fov < pi))
+      throw Error(fmt::format("camera {} looks nowhere; its eye and target must differ and 0 < fov < 180 deg", c.name), {manifest, 0});
+  for (const Material& a : m.materials) run.materials.push_back({a.name, a.color});
+  if (const Json* gate = find_key(m.settings, "analysis.energy_gate.value"); gate && gate->is_number())
+    run.energy_gate = gate->get<double>();
+  if (std::filesystem::exists(histories)) run.record = strongest_component(read_csv(histories));
   return run;
 }
 

@@ -14,6 +14,7 @@ material { name = "brick", density = density }
 material { name = "concrete", density = slab_density }
 ground { size = 20, material = "concrete" }
 local whole = full == 1
+local E = param("E", whole and 1.07e10 or 2e9, "of the mortar; the small house takes a softer one for a longer step [Pa]")
 local width, length = whole and 1525 * mm or 1220 * mm, whole and 1830 * mm or 1525 * mm
 local opening = { width = 450 * mm, height = whole and 635 * mm or 315 * mm, sill = whole and 420 * mm or 105 * mm }
 local house = building {
@@ -32,7 +33,7 @@ local house = building {
     { wall = "east", name = "window", centre = length / 2, width = opening.width, sill = opening.sill, height = opening.height },
   },
 }
-joint { law = mortar { E = 1.07e10, nu = 0.2, thickness = t, ft = 0.2 * MPa, c = 0.3 * MPa, mu = 0.6 }, thickness = t, tolerance = 8 * mm }
+joint { law = mortar { E = E, nu = 0.2, thickness = t, ft = 0.2 * MPa, c = 0.3 * MPa, mu = 0.6 }, thickness = t, tolerance = 8 * mm }
 analysis { duration = duration, start = "equilibrium", output_dt = duration / 20, frame_dt = duration }
 
 local weight = g * (house.report.brick_volume * density + (house.report.lintel_volume + house.report.slab_volume) * slab_density)

@@ -34,7 +34,7 @@ const std::vector<std::pair<std::string, std::string>> doors{
 };
 
 const std::regex seen_by_render(
-    "engine/(base|geometry)/.*|engine/record/(motion_file|motion_scene|run_folder|json)\\.h|engine/scene/scene\\.h|render/.*");
+    "engine/(base|geometry)/.*|engine/record/(motion_file|motion_scene|run_folder|json|gnuplot)\\.h|engine/scene/scene\\.h|render/.*");
 
 std::string room(const std::string& path) {
   static const std::regex folder("(?:engine/)?([^/]+)/.*");

@@ -126,7 +126,7 @@ TEST_CASE("the command line is checked", "[program]") {
   CHECK(contains(bench.said, "--max-wall"));
 }
 
-TEST_CASE("--until stops with 3, and --resume ends as one run would", "[program]") {
+TEST_CASE("a run stopped by --until ends with 3, and --resume ends as one run would", "[program]") {
   Bench bench;
   REQUIRE(bench.run(falling) == 0);
   const Json whole = read_json(bench.out() + "/metrics.json");

@@ -73,7 +73,7 @@ TEST_CASE("names of the language stay what they are", "[lua]") {
   CHECK(mentions(mistakes_in("local x = undefined_thing"), "unknown name \"undefined_thing\""));
 }
 
-TEST_CASE("-D gives params their values and names those it does not find", "[lua]") {
+TEST_CASE("the option -D gives params their values and names those it does not find", "[lua]") {
   const std::string piece = "local pga = param('pga', 0.4*g, 'peak of the record, assumed [m/s2]')\nground_motion{ wave = pga }";
   const Scene plain = scene_of(piece), changed = scene_of(piece, {{"pga", "0.8*g"}});
   CHECK(plain.params.at(0).value == Approx(0.4 * 9.81));

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/units.h"
+#include "engine/record/run_folder.h"
 
 namespace erbs {
 namespace {
@@ -159,9 +160,17 @@ MotionFrame brick_house_frame(const MotionScene& scene, double t) {
 
 void write_brick_house(const std::string& dir, const BrickHouse& house) {
   std::filesystem::create_directories(dir);
-  std::ofstream(dir + "/manifest.json") << R"({"scene": {"name": "brick_house", "title": "Brick house on a shaking table"}, "energy_gate": 1e-3,
- "materials": [{"name": "brick", "color": [0.55, 0.20, 0.12]}, {"name": "concrete", "color": [0.50, 0.49, 0.46]},
-               {"name": "ground", "color": [0.4, 0.4, 0.4]}], "cameras": []})";
+  Manifest manifest;
+  manifest.scene_name = "brick_house";
+  manifest.title = "Brick house on a shaking table";
+  for (const auto& [name, color] :
+       {std::pair{"brick", Vec3(0.55, 0.20, 0.12)}, {"concrete", Vec3(0.50, 0.49, 0.46)}, {"ground", Vec3(0.4, 0.4, 0.4)}}) {
+    manifest.materials.emplace_back();
+    manifest.materials.back().name = name;
+    manifest.materials.back().color = color;
+  }
+  manifest.settings = Json::object();
+  write_manifest(dir, manifest);
   std::ofstream rows(dir + "/histories.csv"), energy(dir + "/energy.csv");
   rows << "time_s,ground_ax_m_s2,ground_ay_m_s2,ground_az_m_s2,floor1_ux_rel_m,floor2_ux_rel_m,floor3_ux_rel_m,floor3_ax_abs_m_s2,base_fx_"
           "N\n";
