@@ -88,24 +88,30 @@ std::string plot(const std::string& file, const CsvTable& table, const Panel& pa
   return script + "\n";
 }
 
-std::string opening(std::size_t panels, double last_time, const std::string& title) {
+// A sheet of `rows` by `columns` panels; room at the right of each for names of `name_length` letters.
+std::string opening(std::size_t rows, std::size_t columns, std::size_t name_length, double last_time, const std::string& title) {
   return fmt::format(
-      "set terminal svg size 1000,{} dynamic enhanced font 'DejaVu Sans,13' background rgb 'white'\n"
+      "set terminal svg size {},{} dynamic enhanced font 'DejaVu Sans,13' background rgb 'white'\n"
       "set encoding utf8\nset datafile separator comma\nset datafile missing 'nan'\n"
       "set border 3 lc rgb '#707070'\nset tics nomirror out scale 0.6 textcolor rgb '#303030'\n"
       "set grid xtics ytics lc rgb '#e3e3e3' lt 1 lw 0.8\nset zeroaxis lc rgb '#b0b0b0' lt 1 lw 0.8\n"
       "set key outside right top Left reverse samplen 1.6 spacing 1.05 noenhanced\n"
-      "set lmargin 12\nset rmargin 24\nset xrange [0:{}]\n"
-      "set multiplot layout {},1 title {} noenhanced font ',15'\n",
-      70 + 210 * panels, last_time, panels, gnuplot_quoted(title));
+      "set lmargin 12\nset rmargin {}\nset xrange [0:{}]\n"
+      "set multiplot layout {},{} columnsfirst title {} noenhanced font ',15'\n",
+      columns == 1 ? 1000 : 850 * columns, 70 + 210 * rows, 8 + name_length * 4 / 5, last_time, rows, columns, gnuplot_quoted(title));
 }
 
 std::string histories_script(const std::string& csv, const CsvTable& table, const Run& run) {
   const std::vector<Panel> panels = history_panels(table);
   const std::size_t every = std::max<std::size_t>(1, table.rows() / 6000);
-  std::string script = opening(panels.size(), table.columns[0].back(), run.title);
+  const std::size_t columns = panels.size() > 6 ? 2 : 1, rows = (panels.size() + columns - 1) / columns;
+  std::size_t longest = 0;
+  for (const Panel& panel : panels)
+    for (int c : panel.columns) longest = std::max(longest, words_of(table.names[static_cast<std::size_t>(c)]).size());
+  std::string script = opening(rows, columns, longest, table.columns[0].back(), run.title);
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    if (i + 1 == panels.size()) script += "set xlabel 'time [s]'\n";
+    if ((i + 1) % rows == 0 || i + 1 == panels.size()) script += "set xlabel 'time [s]'\n";
+    else script += "unset xlabel\n";
     script += "set ylabel " + label(panels[i]) + " noenhanced\n" + plot(csv, table, panels[i], "column({c})*{f}", every);
   }
   return script + "unset multiplot\n";
@@ -114,11 +120,12 @@ std::string histories_script(const std::string& csv, const CsvTable& table, cons
 std::string energy_script(const std::string& csv, const CsvTable& table, const Run& run) {
   Panel terms{"energy", 1, {}};
   for (std::size_t c = 1; c < table.names.size(); ++c)
-    if (unit_of(table.names[c]) == "J" && peak_of(table, {static_cast<int>(c)}) > 0) terms.columns.push_back(static_cast<int>(c));
+    if (unit_of(table.names[c]) == "J" && table.names[c] != "residual_J" && peak_of(table, {static_cast<int>(c)}) > 0)
+      terms.columns.push_back(static_cast<int>(c));
   choose_unit(terms, table, "J");
   const int residual = table.find("residual_relative");
   const std::size_t every = std::max<std::size_t>(1, table.rows() / 6000);
-  std::string script = opening(3, table.columns[0].back(), run.title + ": energy");
+  std::string script = opening(3, 1, 16, table.columns[0].back(), run.title + ": energy");
   script += fmt::format("set size 1,0.60\nset origin 0,0.36\nset ylabel {} noenhanced\n", label(terms));
   script += terms.columns.empty() ? "plot 0 notitle\n" : plot(csv, table, terms, "column({c})*{f}", every);
   script +=
@@ -130,11 +137,14 @@ std::string energy_script(const std::string& csv, const CsvTable& table, const R
   if (run.energy_gate <= 0) gates = {{1e-6, "gate, elastic"}, {1e-3, "gate, cracked"}, {1e-2, "gate, collapse"}};
   script +=
       fmt::format("set yrange [{}:{}]\n", std::min(1e-12, worst > 0 ? worst * 1e-4 : 1e-12), std::max(worst, gates.back().first) * 10);
-  for (const auto& [gate, name] : gates)
+  double at = 0.99;  // labels beside each other, for two gates may be close
+  for (const auto& [gate, name] : gates) {
     script += fmt::format(
         "set arrow from graph 0, first {0} to graph 1, first {0} nohead lc rgb '#c07060' dashtype 2\n"
-        "set label '{1} {0:g}' at graph 0.99, first {0} right offset 0,0.55 textcolor rgb '#b03020' font ',11' noenhanced\n",
-        gate, name);
+        "set label '{1} {0:g}' at graph {2:.2f}, first {0} right offset 0,0.55 textcolor rgb '#b03020' font ',11' noenhanced\n",
+        gate, name, at);
+    at -= 0.2;
+  }
   if (worst > 0) script += plot(csv, table, {"", 1, {residual}}, "abs(column({c})) > 1e-16 ? abs(column({c})) : 1e-16", every);
   else script += "plot 1e-16 notitle\n";
   return script + "unset multiplot\n";
@@ -170,15 +180,18 @@ std::vector<Panel> history_panels(const CsvTable& table) {
     const std::string unit = unit_of(name);
     // Of one quantity, directions in which much less happens would only be flat lines: each direction has its panel.
     const std::string words = words_of(name);
-    std::string axis;
+    std::string axis, frame;
+    for (const char* f : {" rel", " abs"})
+      if (words.size() > 4 && words.compare(words.size() - 4, 4, f) == 0) frame = f;
     for (const char* a : {"x", "y", "z"})
       for (const std::string& end : {std::string(a), a + std::string(" rel"), a + std::string(" abs")})
         if (words.size() > end.size() + 1 && words.compare(words.size() - end.size(), end.size(), end) == 0) axis = a;
-    const std::string key = unit + "/" + axis;
+    // What has no unit shares its axis with nothing.
+    const std::string key = unit + "/" + axis + frame + (unit.empty() ? words : "");
     auto known = std::find_if(by_unit.begin(), by_unit.end(), [&](const auto& p) { return p.first == key; });
     if (known == by_unit.end()) {
       const Unit* u = find_unit(unit);
-      by_unit.push_back({key, {(u ? u->quantity : std::string("value")) + (axis.empty() ? "" : " " + axis), 1, {}}});
+      by_unit.push_back({key, {(u ? u->quantity : words) + (axis.empty() ? "" : " " + axis) + (frame == " abs" ? " abs" : ""), 1, {}}});
       known = by_unit.end() - 1;
     }
     known->second.columns.push_back(column);

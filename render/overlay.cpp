@@ -58,15 +58,24 @@ Overlay::Overlay(const Run& run, const Show& show, const Look& look, double slow
 void Overlay::draw(Image& image, double t, const std::string& camera, double pixel) const {
   const double u = unit_, base = 36 * u;
   fill_fade(image, 0, static_cast<int>(60 * u), {250, 251, 252, 0.75}, 0.0);
-  bold_.draw(image, run_.title, margin * u, base, 21 * u, text_ink);
   const std::string clock = fmt::format("{:.2f} s", t);
-  // Digits keep their place: the clock starts where its widest text would.
-  const double clock_left = image.width - margin * u - bold_.width("00.00 s", 24 * u);
   bold_.draw(image, clock, image.width - margin * u, base, 24 * u, text_ink, Font::Align::right);
   std::string beside = camera;
+  std::replace(beside.begin(), beside.end(), '_', ' ');
   if (std::abs(slow_ - 1) > 0.02)
     beside += slow_ > 1 ? fmt::format("   slow motion {:.3g} : 1", slow_) : fmt::format("   time lapse 1 : {:.3g}", 1 / slow_);
-  regular_.draw(image, beside, clock_left - 18 * u, base, 14 * u, quiet_ink, Font::Align::right);
+  // What is beside the clock keeps its place: it ends where the widest clock would begin.
+  const double right = image.width - margin * u - bold_.width("00.00 s", 24 * u) - 18 * u;
+  regular_.draw(image, beside, right, base, 14 * u, quiet_ink, Font::Align::right);
+  // A long title is written smaller, then cut.
+  const double room = right - regular_.width(beside, 14 * u) - 2 * margin * u;
+  const double size = std::clamp(21 * u * room / std::max(1.0, bold_.width(run_.title, 21 * u)), 13 * u, 21 * u);
+  std::string title = run_.title;
+  while (bold_.width(title, size) > room && title.size() > 4) {
+    const std::size_t space = title.find_last_of(' ', title.size() - 5);
+    title = title.substr(0, space == std::string::npos ? 0 : space) + " ...";
+  }
+  bold_.draw(image, title, margin * u, base, size, text_ink);
   draw_legend(image);
   draw_scale(image, pixel);
   if (!strip_.empty()) draw_record(image, t);
@@ -114,7 +123,7 @@ void Overlay::draw_legend(Image& image) const {
   for (std::size_t m = 0; m < used.size(); ++m)
     if (used[m] && !run_.materials[m].name.empty()) rows.emplace_back(run_.materials[m].name, display(run_.materials[m].color));
   if (rows.size() > 6) rows.clear();
-  if (!show_.scene->joints.empty()) rows.emplace_back("broken joint", Ink{26, 24, 23, 1});
+  if (!show_.scene->joints.empty()) rows.emplace_back("cracked joint", Ink{26, 24, 23, 1});
   for (const auto& [name, ink] : rows) {
     regular_.draw(image, name, right - 20 * u, y + 4.5 * u, size, text_ink, Font::Align::right);
     fill_box(image, right - 12 * u, y - 6 * u, right, y + 6 * u, ink);

@@ -35,6 +35,7 @@ Run read_run(const std::string& dir) {
   run.dir = dir;
   run.name = m.scene_name;
   run.title = m.title.empty() ? m.scene_name : m.title;
+  while (!run.title.empty() && run.title.back() == '.') run.title.pop_back();  // a heading, no sentence
   run.cameras = m.cameras;
   for (const Camera& c : run.cameras)
     if (!((c.eye - c.target).norm() > 1e-9 && c.fov > 0 && c.fov < pi))

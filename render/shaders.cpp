@@ -40,8 +40,8 @@ float sunlight(vec3 p, vec3 n, float facing) {
 vec3 lit(vec3 albedo, vec3 p, vec3 n, float cavity) {
   float direct = max(dot(n, sun), 0.0);
   direct *= sunlight(p, n, direct);
-  vec3 sky = mix(vec3(0.29, 0.26, 0.24), vec3(0.43, 0.47, 0.53), 0.5 + 0.5 * n.z);
-  return albedo * (sky * cavity + vec3(0.98, 0.93, 0.84) * direct);
+  vec3 sky = mix(vec3(0.26, 0.24, 0.22), vec3(0.38, 0.42, 0.47), 0.5 + 0.5 * n.z);
+  return albedo * (sky * cavity + vec3(0.86, 0.81, 0.73) * direct);
 }
 )";
 
@@ -144,7 +144,7 @@ void main() {
   vec2 p = world.xy;
   float line = max(lines(p.x, grid, 0.016 * grid), lines(p.y, grid, 0.016 * grid));
   float r = distance(world.xy, middle.xy) / fade;
-  vec3 base = mix(vec3(0.46, 0.455, 0.44), vec3(0.30, 0.30, 0.30), line * 0.6 * clamp(1.4 - r, 0.0, 1.0));
+  vec3 base = mix(vec3(0.58, 0.575, 0.56), vec3(0.36, 0.36, 0.36), line * 0.6 * clamp(1.4 - r, 0.0, 1.0));
   vec3 c = lit(base, world, vec3(0.0, 0.0, 1.0), 1.0);
   color = srgb(mix(c, horizon, smoothstep(0.55, 2.2, r)));
 }
