@@ -138,6 +138,8 @@ void check_analysis(Report& report, const Scene& scene) {
   if (analysis.duration == 0) report.say(place, "the run has no duration; add analysis{{ duration = 10 }} (seconds)");
   else check_fields(report, analysis, "analysis", place);
   check_fields(report, scene.damping, "damping", scene.damping.place);
+  if (scene.damping.joint_ratio > 0)
+    report.say(scene.damping.place, "damping{{ joint_ratio }}: joints have no dashpots yet; leave it out and use mass damping");
   if (!inside(scene.gravity, -1000, 1000)) report.say({scene.file, 0}, "gravity is out of range; allowed is 0 to 1000 m/s2");
 }
 

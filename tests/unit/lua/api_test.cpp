@@ -147,7 +147,7 @@ TEST_CASE("waves are values, can be called, and drive loads", "[lua]") {
 TEST_CASE("analysis, damping, recorder and camera", "[lua]") {
   const Scene scene = scene_of(
       "analysis{ duration = 3, dt = { 1e-3, unstable = true }, kernel = 'reference', start = 'rest', gyroscopic = false }\n"
-      "damping{ mass = 2, scope = 'all', form = 'explicit', joint_ratio = 0.05 }\n"
+      "damping{ mass = 2, scope = 'all', form = 'explicit' }\n"
       "recorder{ name = 'top', quantity = 'displacement', block = 'b', axis = 'xz', frame = 'abs', point = {.1,.1,.1} }\n"
       "box{ name = 'c', group = 'roof', size = {1,1,1}, at = {3,0,0}, material = 'brick' }\n"
       "box{ name = 'd', group = 'roof', size = {1,1,1}, at = {5,0,0}, material = 'brick' }\n"
@@ -160,7 +160,6 @@ TEST_CASE("analysis, damping, recorder and camera", "[lua]") {
   CHECK_FALSE(scene.analysis.gyroscopic);
   CHECK(scene.damping.mass == 2);
   CHECK(scene.damping.scope == "all");
-  CHECK(scene.damping.joint_ratio == 0.05);
   CHECK(scene.recorders.at(0).blocks == std::vector<std::string>{"b"});
   CHECK(scene.recorders.at(0).axis == "xz");
   CHECK(scene.recorders.at(0).has_point);
