@@ -169,7 +169,6 @@ Equilibrium settle(const Model& m, State& s, const std::vector<double>& push) {
   for (int j = 0; j < m.njoint; ++j) {
     if (s.tier[z(j)] == Tier::open || trial.sound[z(j)]) continue;
     s.tier[z(j)] = Tier::cracked;
-    s.slow[z(j / lanes)] = std::uint8_t(s.slow[z(j / lanes)] | 1u << (j % lanes));
     s.memory[z(j)] = trial.memory[z(j)];
   }
   s.history = trial.history;

@@ -6,12 +6,12 @@
 
 #include "engine/geometry/mass.h"
 #include "engine/geometry/quadrature.h"
+#include "engine/model/batches.h"
 #include "engine/model/interface.h"
 
 namespace erbs {
 namespace {
 
-constexpr int most_points_per_joint = 512;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -171,34 +171,6 @@ void check_blocks(const Scene& scene, const Interfaces& found, const Model& m, s
                                    rule.points_short, most_points_per_joint));
       break;
     }
-  }
-}
-
-void set_batches(const Model& m, State& s) {
-  s.batch.assign(z((m.njoint + lanes - 1) / lanes), JointBatch{});
-  s.slow.assign(s.batch.size(), 0);
-  for (int j = 0; j < int(s.batch.size()) * lanes; ++j) {
-    JointBatch& batch = s.batch[z(j / lanes)];
-    const int l = j % lanes;
-    batch.open_limit[l] = batch.slip_limit[l] = batch.close_limit[l] = infinite;
-    batch.a[l] = batch.b[l] = m.nblock;
-    batch.row_a[l] = batch.row_b[l] = 2 * m.njoint;
-    if (j >= m.njoint) continue;
-    const Joint& joint = m.joint[z(j)];
-    const PointLaw& law = m.laws[z(joint.law)];
-    for (int i = 0; i < 6; ++i) batch.stiffness[i][l] = joint.stiffness[i];
-    // Couplings that reach zero shear at ft have no straight bound: any tension is looked at point by point.
-    batch.open_limit[l] = law.coupling == PointLaw::Coupling::coulomb ? law.ft / law.kn : 0;
-    batch.slip_limit[l] = law.ks > 0 ? law.c / law.ks : infinite;
-    batch.slip_slope[l] = law.ks > 0 ? law.mu * law.kn / law.ks : 0;
-    if (law.fc > 0) batch.close_limit[l] = law.fc / law.kn;
-    batch.half_s[l] = joint.half_s;
-    batch.half_t[l] = joint.half_t;
-    batch.radius[l] = joint.radius;
-    batch.a[l] = joint.a;
-    batch.b[l] = joint.b;
-    batch.row_a[l] = m.row_a[z(j)];
-    batch.row_b[l] = m.row_b[z(j)];
   }
 }
 

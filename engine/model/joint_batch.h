@@ -4,6 +4,7 @@
 namespace erbs {
 
 inline constexpr int lanes = 8;  // joints or blocks side by side; a multiple of every vector width in use
+inline constexpr int most_points_per_joint = 512;
 
 // Elastic data of 8 joints side by side, valid since the last refresh of their geometry (joint_geometry.h says how).
 struct alignas(64) JointBatch {

@@ -59,8 +59,8 @@ struct State {
   std::vector<std::uint8_t> joined;    // has a joint that is not open
   std::vector<std::uint8_t> loose;     // may meet new neighbours
   // joints
-  std::vector<JointBatch> batch;       // [ceil(njoint / lanes)]
-  std::vector<std::uint8_t> slow;      // bit per lane: has history, is computed point by point [batch]
+  std::vector<JointBatch> batch;       // sound joints first [ceil(njoint / lanes)], then those that have cracked (batches.h)
+  std::vector<int> place;              // lane of each joint: batch * lanes + lane, -1 once it is open [njoint]
   std::vector<Tier> tier;              // [njoint]
   std::vector<JointMemory> memory;     // [njoint]
   std::vector<PointHistory> history;   // [npoint]

@@ -14,7 +14,7 @@ enum class Part { motion, history, carried };
 template <class S, class F>
 requires std::is_same_v<std::remove_const_t<S>, State>
 void each(S& state, F&& f) {
-  auto& [step, start_step, start_t, t, dt, last_dt, u, q, v, spin_momentum, w, base_u, base_q, row, island, grounded, joined, loose, batch, slow, tier, memory, history,
+  auto& [step, start_step, start_t, t, dt, last_dt, u, q, v, spin_momentum, w, base_u, base_q, row, island, grounded, joined, loose, batch, place, tier, memory, history,
          wrench, debris, dt_goal, calm, joints_broken, energy, gravity_before, moment_before, max_penetration_relative, momentum_residual] = state;
   f("step", step, Part::carried);
   f("start_step", start_step, Part::carried);
@@ -35,7 +35,7 @@ void each(S& state, F&& f) {
   f("joined", joined, Part::carried);
   f("loose", loose, Part::carried);
   f("batch", batch, Part::carried);
-  f("slow", slow, Part::carried);
+  f("place", place, Part::carried);
   f("tier", tier, Part::history);
   f("memory", memory, Part::carried);
   f("history", history, Part::history);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -88,31 +87,13 @@ PairLaw Debris::law(int a, int b) const {
   return out;
 }
 
-// A joint whose faces have moved so far that its fixed overlap polygon no longer tells the truth: slip of 1 % of its side, a turn of
-// 1e-3, or an opening of 0.2 % of its side. A joint that still has a bond stays.
-bool Debris::spent(int j) const {
-  if (state_.tier[z(j)] != Tier::cracked) return false;
-  const Joint& joint = model_.joint[z(j)];
-  if (!model_.laws[z(joint.law)].dry)
-    for (int i = 0; i < joint.points; ++i)
-      if (state_.history[z(joint.first_point + i)].damage < 1) return false;
-  const double* q = state_.memory[z(j)].q;
-  const double side = std::min(joint.half_s, joint.half_t) * 2;
-  return std::hypot(q[0], q[1]) + std::fabs(q[5]) * joint.radius > 0.01 * side || std::hypot(q[3], q[4]) > 1e-3 || q[2] > 0.002 * side;
-}
-
 void Debris::open(int j) {
-  JointBatch& batch = state_.batch[z(j / lanes)];
-  const int l = j % lanes;
-  for (auto& k : batch.stiffness) k[l] = 0;
-  batch.open_limit[l] = batch.slip_limit[l] = batch.close_limit[l] = std::numeric_limits<double>::infinity();
-  state_.slow[z(j / lanes)] = std::uint8_t(state_.slow[z(j / lanes)] & ~(1u << l));
   state_.tier[z(j)] = Tier::open;
   state_.loose[z(model_.joint[z(j)].a)] = model_.kind[z(model_.joint[z(j)].a)] != Kind::fixed;
   state_.loose[z(model_.joint[z(j)].b)] = model_.kind[z(model_.joint[z(j)].b)] != Kind::fixed;
 }
 
-std::vector<int> Debris::hand_over_joints() {
+std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
   std::vector<int> opened;
   for (int j = 0; j < model_.njoint;) {
     // joints of one pair of blocks lie side by side: they go together, when none holds and one is past its range
@@ -120,7 +101,7 @@ std::vector<int> Debris::hand_over_joints() {
     while (end < model_.njoint && model_.joint[z(end)].a == model_.joint[z(j)].a && model_.joint[z(end)].b == model_.joint[z(j)].b) ++end;
     bool any = false, holds = false;
     for (int k = j; k < end; ++k) {
-      any = any || spent(k);
+      any = any || (state_.tier[z(k)] == Tier::cracked && cracked.spent(k));
       holds = holds || state_.tier[z(k)] == Tier::intact;
     }
     if (any && !holds)
@@ -129,6 +110,7 @@ std::vector<int> Debris::hand_over_joints() {
     j = end;
   }
   if (opened.empty()) return opened;
+  cracked.store();
   for (const int j : opened) open(j);
   list_involved();
   // All of them: poses from the last look would depend on when this run was started or resumed.

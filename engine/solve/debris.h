@@ -6,6 +6,7 @@
 #include "engine/contact/broad.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
+#include "engine/solve/cracked.h"
 
 namespace erbs {
 
@@ -14,9 +15,9 @@ class Debris {
   Debris(const Model& model, State& state, int threads);
 
   bool active() const { return !involved_.empty() || !state_.debris.pair.empty(); }
-  // Joints that are spent and have opened, slid or turned beyond what a joint's fixed faces can tell go over to contact; returns
-  // them. Called between forces and drift: the wrench of this step is still the joint's, the next one the contact's.
-  std::vector<int> hand_over_joints();
+  // Joints that are spent (joint_kernel.h) go over to contact; returns them. Called between forces and drift: the wrench of this
+  // step is still the joint's, the next one the contact's.
+  std::vector<int> hand_over_joints(Cracked& cracked);
   // Blocks that hang on nothing fixed, or have moved far from where they stood, may meet new neighbours.
   void loosen();
   // Before the forces of a step: poses of the blocks involved, and now and then a look whether a new search is due.
@@ -30,7 +31,6 @@ class Debris {
   int touching() const { return touching_; }
 
  private:
-  bool spent(int j) const;
   void open(int j);
   void list_involved();
   void place(int b);

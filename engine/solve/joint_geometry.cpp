@@ -46,9 +46,10 @@ void refresh(const Model& m, State& s, const std::vector<int>& blocks, const std
     set_row(s, b);
   }
   for (const int j : joints) {
+    if (s.place[z(j)] < 0) continue;
     const JointPose p = joint_pose(m, s, j);
-    JointBatch& batch = s.batch[z(j / lanes)];
-    const int l = j % lanes;
+    JointBatch& batch = s.batch[z(s.place[z(j)] / lanes)];
+    const int l = s.place[z(j)] % lanes;
     for (int axis = 0; axis < 3; ++axis)
       for (int i = 0; i < 3; ++i) batch.frame[axis * 3 + i][l] = p.frame(i, axis);
     for (int i = 0; i < 3; ++i) batch.sum[i][l] = p.sum[i], batch.apart[i][l] = p.apart[i];

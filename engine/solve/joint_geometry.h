@@ -6,7 +6,8 @@
 //   displacement  D = X + A_b - A_a            moment arms  c - x_a = (S + X)/2,  c - x_b = (S - X)/2.
 // Between refreshes each block has moved by (du, th), |th| <= Analysis::lazy_rotation. With th_m their mean rotation, d half their
 // difference and d' = d - (th_m x d)/2, turned back by th_m, to second order:
-//   Y = X + du - th_m x (X + du) + th_m x (th_m x (X + du))/2,   D = (Y - X) + D_ref + d' x S,   rotation = rho_ref + 2 d'.
+//   Y = X + du - th_m x (X + du) + th_m x (th_m x (X + du))/2,   D = (Y - X) + D_ref + d' x (S + g/2),   rotation = rho_ref + 2 d',
+// g = d' x (A_b - A_a) being the change of S; forces act with the arms of Y and S + g.
 #pragma once
 #include "engine/model/model.h"
 #include "engine/model/state.h"

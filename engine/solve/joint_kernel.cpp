@@ -1,5 +1,6 @@
 #include "engine/solve/joint_kernel.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/solve/lanes.h"
@@ -41,7 +42,6 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
   if (sound && still) return;
   if (sound) {
     s.tier[z(j)] = Tier::cracked;
-    s.slow[z(j / lanes)] = std::uint8_t(s.slow[z(j / lanes)] | 1u << (j % lanes));
     ++sums.cracked_now;
   }
   double work = 0;
@@ -62,27 +62,41 @@ void joint_forces(const Model& m, State& s, int first, int last, bool sample, Jo
   for (int k = first; k < last; ++k) {
     const JointBatch& B = s.batch[z(k)];
     kernels.elastic(B, s.row.data(), o);
-    unsigned slow = s.slow[z(k)];
-    for (int l = 0; l < lanes; ++l) slow |= unsigned(o.near[l] > 0) << l;
-    if (slow != 0) {
-      for (int l = 0; l < lanes; ++l) {
-        const int j = k * lanes + l;
-        if ((slow >> l & 1u) == 0 || j >= m.njoint || s.tier[z(j)] == Tier::open) continue;
-        double q[6], f[6];
-        for (int i = 0; i < 6; ++i) q[i] = o.q[i][l];
-        joint_by_points(m, s, j, q, f, sums);
-        for (int i = 0; i < 6; ++i) o.f[i][l] = f[i];
-      }
+    unsigned near = 0;
+    for (int l = 0; l < lanes; ++l) near |= unsigned(o.near[l] > 0) << l;
+    for (int l = 0; near != 0 && l < lanes; ++l) {
+      if ((near >> l & 1u) == 0) continue;
+      double q[6], f[6];
+      for (int i = 0; i < 6; ++i) q[i] = o.q[i][l];
+      joint_by_points(m, s, k * lanes + l, q, f, sums);
+      for (int i = 0; i < 6; ++i) o.f[i][l] = f[i];
     }
     kernels.wrenches(B, o, s.wrench.data());
     if (!sample) continue;
     for (int l = 0; l < lanes && k * lanes + l < m.njoint; ++l) {
       const int j = k * lanes + l;
-      if (s.tier[z(j)] == Tier::cracked) sums.energy.elastic += s.memory[z(j)].elastic;
-      if (s.tier[z(j)] != Tier::intact) continue;
+      if (s.place[z(j)] != j) continue;
+      if (s.tier[z(j)] == Tier::cracked) {  // in this step
+        sums.energy.elastic += s.memory[z(j)].elastic;
+        continue;
+      }
       for (int i = 0; i < 6; ++i) sums.energy.elastic += 0.5 * o.f[i][l] * o.q[i][l];
     }
   }
+}
+
+bool beyond_its_faces(const Joint& joint, const double q[6]) {
+  const double side = std::min(joint.half_s, joint.half_t) * 2;
+  return std::hypot(q[0], q[1]) + std::fabs(q[5]) * joint.radius > 0.01 * side || std::hypot(q[3], q[4]) > 1e-3 || q[2] > 0.002 * side;
+}
+
+bool joint_spent(const Model& m, const State& s, int j) {
+  if (s.tier[z(j)] != Tier::cracked) return false;
+  const Joint& joint = m.joint[z(j)];
+  if (!m.laws[z(joint.law)].dry)
+    for (int i = 0; i < joint.points; ++i)
+      if (s.history[z(joint.first_point + i)].damage < 1) return false;
+  return beyond_its_faces(joint, s.memory[z(j)].q);
 }
 
 }  // namespace erbs

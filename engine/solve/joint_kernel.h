@@ -17,9 +17,16 @@ struct JointSums {
 // One joint point by point, its own energy balance checked over the step (work of the resultant = stored + dissipated).
 void joint_by_points(const Model& model, State& state, int j, const double q[6], double f[6], JointSums& sums);
 
-// Writes the wrench rows of batches [first, last). Joints near a limit or with history go point by point (joint_response.h).
+// Writes the wrench rows of the sound batches [first, last). Joints near a limit are looked at point by point (joint_response.h);
+// those that crack go on in cracked.h.
 // Fills sums.energy.elastic when `sample`.
 inline constexpr int batch_grain = 8;
 void joint_forces(const Model& model, State& state, int first, int last, bool sample, JointSums& sums);
+
+// A joint whose faces have moved so far that its fixed overlap polygon no longer tells the truth: slip of 1 % of its side, a turn of
+// 1e-3, or an opening of 0.2 % of its side.
+bool beyond_its_faces(const Joint& joint, const double q[6]);
+// ... and that has no bond left: contact takes over.
+bool joint_spent(const Model& model, const State& state, int j);
 
 }  // namespace erbs

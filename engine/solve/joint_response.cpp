@@ -6,8 +6,6 @@
 namespace erbs {
 namespace {
 
-constexpr int most_points = 512;  // per joint; build refuses more
-
 struct Gap {
   double s, t, n;  // m
 };
@@ -177,7 +175,7 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
   }
   const Point* point = &m.point[std::size_t(joint.first_point)];
   const int n = joint.points;
-  std::array<double, most_points> pressed;  // N, compressive force of each point
+  std::array<double, most_points_per_joint> pressed;  // N, compressive force of each point
   double share = 0;
   int deepest = 0;
   for (int i = 0; i < 6; ++i) f[i] = 0;

@@ -2,6 +2,7 @@
 // the program starts. Plain loops over lanes: -ffp-contract=off and the absence of sums across lanes give the same bits with each.
 // Only plain data passes here: an Eigen function compiled with wider instructions could end up in code meant for any machine.
 #pragma once
+#include "engine/laws/point.h"
 #include "engine/model/joint_batch.h"
 
 namespace erbs {
@@ -10,8 +11,25 @@ namespace erbs {
 struct alignas(64) JointLanes {
   double q[6][lanes], f[6][lanes];
   double y[3][lanes];   // m, turned-back distance of the centroids
+  double sum[3][lanes]; // m, turned-back sum of the arms
   double th[3][lanes];  // rad, mean rotation since the refresh
   double near[lanes];   // > 0: the bound on tension, shear or compression is passed
+};
+
+// Eight joints of one law that have cracked: the corners of their overlap, their points with what these remember, and the joints'
+// own memory and account of the step.
+struct alignas(64) CornerLanes {
+  double s[lanes], t[lanes];  // m
+};
+struct alignas(64) PointLanes {
+  double s[lanes], t[lanes], weight[lanes];                                                             // m, m, m2
+  double slip_s[lanes], slip_t[lanes], damage[lanes], crushed[lanes], secant[lanes], reach[lanes];  // as in PointHistory
+};
+struct alignas(64) CrackedLanes {
+  double q[6][lanes], f[6][lanes], stored[lanes];                   // at the last step
+  double friction[lanes], fracture[lanes], crushing[lanes];         // J, of this step
+  double error[lanes];                                              // J, work of the resultant - stored - dissipated
+  double least_damage[lanes];                                       // of the points; 1 for dry joints
 };
 
 // Eight blocks: what the kick and the drift read and write. Layout of q: x, y, z, w.
@@ -41,6 +59,9 @@ struct LaneKernels {
   const char* name;
   // joint_geometry.h gives the formulas: q, its elastic resultant and the bound that keeps a joint on this path.
   void (*elastic)(const JointBatch& batch, const double* rows, JointLanes& out);
+  // Point laws of joints that have cracked (joint_response.h): q of `io` gives its f; memory and account in `cracked`.
+  void (*respond)(const PointLaw& law, const JointBatch& batch, int corners, const CornerLanes* corner, int points, PointLanes* point,
+                  CrackedLanes& cracked, JointLanes& io);
   // Resultants to wrenches on both blocks: force at the midpoint of the material points, then everything turned by th.
   void (*wrenches)(const JointBatch& batch, const JointLanes& in, double* wrench_rows);
   // integrate.h

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/model/batches.h"
 #include "engine/solve/energy.h"
 #include "engine/solve/islands.h"
 #include "engine/solve/joint_geometry.h"
@@ -26,13 +27,15 @@ Solver::Solver(const Model& model, State& state, int threads)
       state_(state),
       threads_(threads),
       reference_(model.analysis.kernel == "reference"),
-      joint_items_(reference_ ? model.njoint : int(state.batch.size())),
+      joint_items_(reference_ ? model.njoint : sound_batches(model)),
+      cracked_(model, state),
       debris_(model, state, threads) {
   if (state.dt_goal == 0) state.dt_goal = state.dt;
   any_cracked_ = std::any_of(state.tier.begin(), state.tier.end(), [](Tier t) { return t == Tier::cracked; });
   push_.assign(6 * z(model.nblock) + 6, 0.0);
   if (!model.pushes.empty()) load_ = push_;
   joint_sums_.resize(z(chunks(joint_items_, batch_grain)));
+  cracked_sums_.resize(z(chunks(cracked_.groups(), Cracked::grain)));
   block_sums_.resize(z(chunks(model.nblock, block_grain)));
   // A state that was stopped just when a block had turned too far: the next step looks again. Without one it finds nothing.
   block_sums_.front().stale = true;
@@ -132,15 +135,19 @@ void Solver::joints(int thread) {
   if (contacts_) debris_.forces(thread, threads_, sample_ != Sample::none);
   for (int first = mine.first; first < mine.last; first += batch_grain)
     forces(model_, state_, first, std::min(first + batch_grain, mine.last), sample_ != Sample::none, joint_sums_[z(first / batch_grain)]);
+  const Range broken = share_of(cracked_.groups(), Cracked::grain, thread, threads_);
+  for (int first = broken.first; first < broken.last; first += Cracked::grain)
+    cracked_.forces(first, std::min(first + Cracked::grain, broken.last), sample_ != Sample::none, cracked_sums_[z(first / Cracked::grain)]);
 }
 
 // Between forces and drift, on one thread: contact forces are summed, and joints past their range handed over.
 void Solver::between() {
   if (contacts_) debris_.gather(push_.data(), sample_ != Sample::none);
   if (!any_cracked_ || state_.step % hand_over_every != 0) return;
-  const std::vector<int> opened = debris_.hand_over_joints();
+  const std::vector<int> opened = debris_.hand_over_joints(cracked_);
   if (opened.empty()) return;
   opened_.insert(opened_.end(), opened.begin(), opened.end());
+  leaving_ = opened;
   find_islands(model_, state_);
   debris_.loosen();
 }
@@ -198,19 +205,11 @@ void Solver::finish(const Hooks& hooks) {
   State& s = state_;
   drive();
   for (const BlockSums& sums : block_sums_) broken_ = broken_ || sums.broken;
-  bool cracked = false;
-  for (JointSums& sums : joint_sums_) {
-    cracked = cracked || sums.cracked_now > 0;
-    sums.cracked_now = 0;
+  note_cracks();
+  if (sample_ != Sample::none) {
+    settle_ledger();
+    cracked_.store();
   }
-  any_cracked_ = any_cracked_ || cracked;
-  if (cracked)
-    for (int j = 0; j < model_.njoint; ++j)
-      if (tier_before_[z(j)] != s.tier[z(j)]) {
-        if (tier_before_[z(j)] == Tier::intact) cracked_.push_back(j);
-        tier_before_[z(j)] = s.tier[z(j)];
-      }
-  if (sample_ != Sample::none) settle_ledger();
   if (sample_ == Sample::full) {
     instant_.v_after = s.v;
     instant_.w_after = s.w;
@@ -226,20 +225,42 @@ void Solver::finish(const Hooks& hooks) {
   follow_contacts();
 }
 
+// Joints change their lanes here, where all forces of the step are done.
+void Solver::note_cracks() {
+  for (const int j : leaving_) cracked_.drop(j);
+  leaving_.clear();
+  bool cracked = false;
+  for (JointSums& sums : joint_sums_) {
+    cracked = cracked || sums.cracked_now > 0;
+    sums.cracked_now = 0;
+  }
+  if (!cracked) return;
+  any_cracked_ = true;
+  for (int j = 0; j < model_.njoint; ++j) {
+    if (tier_before_[z(j)] == state_.tier[z(j)]) continue;
+    if (tier_before_[z(j)] == Tier::intact) newly_cracked_.push_back(j);
+    if (!reference_ && state_.tier[z(j)] == Tier::cracked) cracked_.take(j);
+    tier_before_[z(j)] = state_.tier[z(j)];
+  }
+  cracked_sums_.resize(z(chunks(cracked_.groups(), Cracked::grain)));
+}
+
 void Solver::settle_ledger() {
   Energy& e = state_.energy;
   const double gravity_before = e.gravity;
   e.kinetic = e.gravity = e.elastic = 0;
   int worst = -1;
   double error = 0;
-  for (JointSums& sums : joint_sums_) {
+  const auto add = [&](JointSums& sums) {
     e.elastic += sums.energy.elastic;
     e.friction += sums.energy.friction;
     e.fracture += sums.energy.fracture;
     e.crushing += sums.energy.crushing;
     if (sums.largest_error > error) error = sums.largest_error, worst = sums.worst_joint;
     sums = JointSums{};
-  }
+  };
+  for (JointSums& sums : joint_sums_) add(sums);
+  for (JointSums& sums : cracked_sums_) add(sums);
   e.base_work += e.base_next;
   e.damping += e.damping_next;
   e.absolute_work += e.absolute_next;
@@ -279,6 +300,6 @@ Vec6 Solver::load_wrench(int b) const {
 
 std::vector<int> Solver::take_opened() { return std::exchange(opened_, {}); }
 
-std::vector<int> Solver::take_cracked() { return std::exchange(cracked_, {}); }
+std::vector<int> Solver::take_cracked() { return std::exchange(newly_cracked_, {}); }
 
 }  // namespace erbs

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
+#include "engine/solve/cracked.h"
 #include "engine/solve/debris.h"
 #include "engine/solve/integrate.h"
 #include "engine/solve/joint_kernel.h"
@@ -54,18 +55,20 @@ class Solver {
   void finish(const Hooks& hooks);
   void drive();
   void settle_ledger();
+  void note_cracks();
 
   const Model& model_;
   State& state_;
   const int threads_;
   const bool reference_;
-  const int joint_items_;              // batches, or joints for the reference
+  const int joint_items_;              // batches of sound joints, or joints for the reference
   double floor_ = 0;                   // J, below which the ledger's scale does not go
   Excitation now_;
   std::vector<double> push_, load_;    // [6 nblock + 6]
-  std::vector<JointSums> joint_sums_;  // per chunk
+  std::vector<JointSums> joint_sums_, cracked_sums_;  // per chunk
   std::vector<BlockSums> block_sums_;
-  std::vector<int> cracked_, opened_;
+  std::vector<int> newly_cracked_, opened_, leaving_;
+  Cracked cracked_;
   Debris debris_;
   bool any_cracked_ = false;
   double contact_seconds_ = 0;

@@ -70,6 +70,7 @@ inline TwoBricks two_bricks() {
   s.memory.resize(1);
   s.history.resize(4);
   s.batch.resize(1);
+  s.place.assign(1, 0);
   return t;
 }
 

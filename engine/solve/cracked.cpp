@@ -1,0 +1,151 @@
+#include "engine/solve/cracked.h"
+
+#include <algorithm>
+
+#include "engine/model/batches.h"
+
+namespace erbs {
+namespace {
+
+std::size_t z(int i) { return std::size_t(i); }
+
+}  // namespace
+
+bool Cracked::Group::empty() const {
+  return std::all_of(joint, joint + lanes, [](int j) { return j < 0; });
+}
+
+Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state) {
+  const int sound = sound_batches(model);
+  // Batches that a stopped run left: the same joint in the same lane, so that sums go on in the same order.
+  for (int k = sound; k < int(state.batch.size()); ++k) {
+    group_.push_back({-1, 0, 0, k, {}, {}, {}, {}});
+    std::fill_n(group_.back().joint, lanes, -1);
+  }
+  for (int j = 0; j < model.njoint; ++j) {
+    const int at = state.place[z(j)] - sound * lanes;
+    if (at < 0) continue;
+    Group& group = group_[z(at / lanes)];
+    const Joint& joint = model.joint[z(j)];
+    if (group.law < 0) {
+      group.law = joint.law, group.points = joint.points, group.corners = joint.corners;
+      group.point.resize(z(group.points));
+      group.corner.resize(z(group.corners));
+      for (int l = 0; l < lanes; ++l) clear(group, l);
+    }
+    fill(group, at % lanes, j);
+  }
+  if (model.analysis.kernel == "reference") return;
+  for (int j = 0; j < model.njoint; ++j)
+    if (state.tier[z(j)] == Tier::cracked && state.place[z(j)] < sound * lanes) take(j);
+}
+
+void Cracked::clear(Group& group, int l) {
+  group.joint[l] = -1;
+  for (int i = 0; i < 6; ++i) group.lane.q[i][l] = group.lane.f[i][l] = 0;
+  group.lane.stored[l] = 0;
+  group.lane.least_damage[l] = 0;
+  for (CornerLanes& c : group.corner) c.s[l] = c.t[l] = 0;
+  for (PointLanes& p : group.point) {
+    p.s[l] = p.t[l] = p.weight[l] = p.slip_s[l] = p.slip_t[l] = p.crushed[l] = p.secant[l] = p.reach[l] = 0;
+    p.damage[l] = 1;  // nothing to hold
+  }
+}
+
+void Cracked::fill(Group& group, int l, int j) {
+  const Joint& joint = model_.joint[z(j)];
+  const JointMemory& memory = state_.memory[z(j)];
+  group.joint[l] = j;
+  for (int i = 0; i < 6; ++i) group.lane.q[i][l] = memory.q[i], group.lane.f[i][l] = memory.f[i];
+  group.lane.stored[l] = memory.elastic;
+  group.lane.least_damage[l] = 0;
+  for (int i = 0; i < joint.corners; ++i) {
+    const auto& c = model_.corner[z(joint.first_corner + i)];
+    group.corner[z(i)].s[l] = c.x(), group.corner[z(i)].t[l] = c.y();
+  }
+  for (int i = 0; i < joint.points; ++i) {
+    const Point& from = model_.point[z(joint.first_point + i)];
+    const PointHistory& h = state_.history[z(joint.first_point + i)];
+    PointLanes& p = group.point[z(i)];
+    p.s[l] = from.s, p.t[l] = from.t, p.weight[l] = from.weight;
+    p.slip_s[l] = h.slip_s, p.slip_t[l] = h.slip_t, p.damage[l] = h.damage, p.crushed[l] = h.crushed, p.secant[l] = h.secant, p.reach[l] = h.reach;
+  }
+}
+
+int Cracked::find_lane(int law, int points, int corners) {
+  for (int g = 0; g < groups(); ++g) {
+    Group& group = group_[z(g)];
+    if (group.law != law || group.points != points || group.corners != corners) continue;
+    for (int l = 0; l < lanes; ++l)
+      if (group.joint[l] < 0) return g * lanes + l;
+  }
+  group_.push_back({law, points, corners, add_empty_batch(model_, state_), {}, {}, {}, {}});
+  Group& group = group_.back();
+  group.point.resize(z(points));
+  group.corner.resize(z(corners));
+  for (int l = 0; l < lanes; ++l) clear(group, l);
+  return (groups() - 1) * lanes;
+}
+
+void Cracked::take(int j) {
+  const Joint& joint = model_.joint[z(j)];
+  const int at = find_lane(joint.law, joint.points, joint.corners);
+  Group& group = group_[z(at / lanes)];
+  fill(group, at % lanes, j);
+  move_joint(model_, state_, j, group.batch * lanes + at % lanes);
+}
+
+void Cracked::drop(int j) {
+  const int at = state_.place[z(j)] - sound_batches(model_) * lanes;
+  if (at >= 0) clear(group_[z(at / lanes)], at % lanes);
+  if (state_.place[z(j)] >= 0) move_joint(model_, state_, j, -1);
+  for (const int row : {model_.row_a[z(j)], model_.row_b[z(j)]}) std::fill_n(&state_.wrench[z(row) * 8], 8, 0.0);
+}
+
+void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
+  const LaneKernels& kernels = lane_kernels();
+  JointLanes o;
+  if (sample) sums.energy.elastic = 0;
+  for (int g = first; g < last; ++g) {
+    Group& group = group_[z(g)];
+    if (group.empty()) continue;
+    const JointBatch& batch = state_.batch[z(group.batch)];
+    CrackedLanes& lane = group.lane;
+    kernels.elastic(batch, state_.row.data(), o);
+    kernels.respond(model_.laws[z(group.law)], batch, group.corners, group.corner.data(), group.points, group.point.data(), lane, o);
+    kernels.wrenches(batch, o, state_.wrench.data());
+    for (int l = 0; l < lanes; ++l) {
+      sums.energy.friction += lane.friction[l];
+      sums.energy.fracture += lane.fracture[l];
+      sums.energy.crushing += lane.crushing[l];
+      if (sample) sums.energy.elastic += lane.stored[l];
+      if (lane.error[l] > sums.largest_error) sums.largest_error = lane.error[l], sums.worst_joint = group.joint[l];
+    }
+  }
+}
+
+void Cracked::store() {
+  for (const Group& group : group_) {
+    for (int l = 0; l < lanes; ++l) {
+      const int j = group.joint[l];
+      if (j < 0) continue;
+      JointMemory& memory = state_.memory[z(j)];
+      for (int i = 0; i < 6; ++i) memory.q[i] = group.lane.q[i][l], memory.f[i] = group.lane.f[i][l];
+      memory.elastic = group.lane.stored[l];
+      PointHistory* h = &state_.history[z(model_.joint[z(j)].first_point)];
+      for (const PointLanes& p : group.point)
+        *h++ = {p.slip_s[l], p.slip_t[l], p.damage[l], p.crushed[l], p.secant[l], p.reach[l]};
+    }
+  }
+}
+
+bool Cracked::spent(int j) const {
+  const int at = state_.place[z(j)] - sound_batches(model_) * lanes;
+  if (at < 0) return joint_spent(model_, state_, j);
+  const CrackedLanes& lane = group_[z(at / lanes)].lane;
+  double q[6];
+  for (int i = 0; i < 6; ++i) q[i] = lane.q[i][at % lanes];
+  return lane.least_damage[at % lanes] >= 1 && beyond_its_faces(model_.joint[z(j)], q);
+}
+
+}  // namespace erbs

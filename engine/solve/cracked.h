@@ -1,0 +1,44 @@
+// Joints that have cracked, eight of one law and size side by side. The point laws' memory lives here while a Solver runs;
+// store() writes it back into the State for all who read it there.
+#pragma once
+#include <utility>
+#include <vector>
+
+#include "engine/solve/joint_kernel.h"
+#include "engine/solve/lanes.h"
+
+namespace erbs {
+
+class Cracked {
+ public:
+  Cracked(const Model& model, State& state);  // takes in the joints that have cracked already
+  int groups() const { return int(group_.size()); }
+  void take(int j);  // a joint that has cracked: out of the sound batches
+  void drop(int j);  // a joint that was handed over to contact
+  // Wrench rows of groups [first, last); fills sums.energy.elastic when `sample`.
+  static constexpr int grain = 2;
+  void forces(int first, int last, bool sample, JointSums& sums);
+  void store();
+  // The joint has no bond left, and has moved beyond what its fixed faces can tell (joint_response.h).
+  bool spent(int j) const;
+
+ private:
+  struct Group {
+    int law, points, corners;
+    int batch;          // of State::batch
+    int joint[lanes];   // -1: empty
+    std::vector<CornerLanes> corner;
+    std::vector<PointLanes> point;
+    CrackedLanes lane;
+    bool empty() const;
+  };
+  int find_lane(int law, int points, int corners);  // group * lanes + lane, in a new group if need be
+  void fill(Group& group, int l, int j);
+  void clear(Group& group, int l);
+
+  const Model& model_;
+  State& state_;
+  std::vector<Group> group_;
+};
+
+}  // namespace erbs
