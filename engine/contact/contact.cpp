@@ -152,8 +152,6 @@ double impact_factor(double restitution) {
   return (low + high) / 2;
 }
 
-double speed_limit(const ContactShape& a, const ContactShape& b, double dt) { return std::min(a.thickness, b.thickness) / 4 / dt; }
-
 Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, const ContactShapes& shapes) {
   Pair p;
   p.a = a;

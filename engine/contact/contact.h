@@ -44,9 +44,6 @@ double impact_factor(double restitution);
 // (.866 gyration for a line, .937 for a square; Int |x| dA / A in closed form).
 double torsion_radius(double area, double gyration);
 
-// Greatest relative speed at which two parts cannot pass through each other unseen: they move a quarter of the thinner per step.
-double speed_limit(const ContactShape& a, const ContactShape& b, double dt);
-
 // Power of a pair's wrench at the given velocities (W).
 double power(const PairWrench& wrench, const ContactBlock& a, const ContactBlock& b);
 

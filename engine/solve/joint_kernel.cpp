@@ -61,6 +61,7 @@ void joint_forces(const Model& m, State& s, int first, int last, bool sample, Jo
   if (sample) sums.energy.elastic = 0;
   for (int k = first; k < last; ++k) {
     const JointBatch& B = s.batch[z(k)];
+    if (std::all_of(B.row_a, B.row_a + lanes, [&](int row) { return row == 2 * m.njoint; })) continue;  // all have cracked
     kernels.elastic(B, s.row.data(), o);
     unsigned near = 0;
     for (int l = 0; l < lanes; ++l) near |= unsigned(o.near[l] > 0) << l;

@@ -215,6 +215,7 @@ void Solver::finish(const Hooks& hooks) {
     instant_.w_after = s.w;
     std::swap(instant_.u, s.u);
     std::swap(instant_.q, s.q);
+    check_momentum();
     hooks.sampled();
     std::swap(instant_.u, s.u);
     std::swap(instant_.q, s.q);
@@ -223,6 +224,23 @@ void Solver::finish(const Hooks& hooks) {
   ++s.step;
   s.last_dt = s.dt;
   follow_contacts();
+}
+
+// Joints and contacts must leave the momentum of all blocks alone, supports included: their forces and moments add up to zero.
+void Solver::check_momentum() {
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  double forces = 0, moments = 0;
+  for (int b = 0; b < model_.nblock; ++b) {
+    const Vec6 w = block_wrench(b);
+    const Vec3 f = w.head<3>(), arm = model_.rest[z(b)] - model_.rest.front() + state_.u[z(b)], m = arm.cross(f) + w.tail<3>();
+    force += f;
+    moment += m;
+    forces += f.norm();
+    moments += m.norm();
+  }
+  double& worst = state_.momentum_residual;
+  if (forces > 0) worst = std::max(worst, force.norm() / forces);
+  if (moments > 0) worst = std::max(worst, moment.norm() / moments);
 }
 
 // Joints change their lanes here, where all forces of the step are done.

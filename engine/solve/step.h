@@ -56,6 +56,7 @@ class Solver {
   void drive();
   void settle_ledger();
   void note_cracks();
+  void check_momentum();
 
   const Model& model_;
   State& state_;
