@@ -89,7 +89,7 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
 
 namespace {
 
-// Gravity grows over the ramp and rests as long again, the blocks damped at about the critical value of the lowest mode, which
+// Gravity and the constant loads grow over the ramp and rests as long again, the blocks damped at about the critical value of the lowest mode, which
 // Rayleigh's quotient of the sagging structure gives. Written as a ground that starts to accelerate upwards.
 void ramp(const Scene& scene, Prepared& p, int threads) {
   Model slow = p.model;
@@ -98,7 +98,7 @@ void ramp(const Scene& scene, Prepared& p, int threads) {
   slow.grounds = {{make_table({0, time}, {0, 1}, true), -p.model.gravity}};
   slow.tilts.clear();
   slow.drives.clear();
-  slow.pushes.clear();
+  for (auto& push : slow.pushes) push.wave = make_table({0, time}, {0, value(push.wave, 0)}, true);
   slow.damping.mass = 20 / time;
   slow.damping_all = false;
   slow.damping_explicit = false;
