@@ -242,7 +242,8 @@ Equilibrium settle(const Model& m, State& s, const std::vector<double>& push) {
     for (const Island& i : islands) earlier.push_back(i.unbalanced);
     out.unbalanced = balance(f, residual, islands);
     for (std::size_t i = 0; i < islands.size(); ++i)
-      islands[i].brake = out.iterations == 0 ? first_brake : std::min(10.0, islands[i].brake * std::clamp(islands[i].unbalanced / earlier[i], 0.1, 2.0));
+      islands[i].brake =
+          out.iterations == 0 ? first_brake : std::min(10.0, islands[i].brake * std::clamp(islands[i].unbalanced / earlier[i], 0.1, 2.0));
     stuck = out.unbalanced < 0.5 * best ? 0 : stuck + 1;
     if (best < accepted && stuck > 0) break;  // what round-off leaves
     best = std::min(best, out.unbalanced);
@@ -251,8 +252,10 @@ Equilibrium settle(const Model& m, State& s, const std::vector<double>& push) {
   out.converged = out.unbalanced < accepted;
   if (!out.converged) {
     if (out.why.empty()) {
-      const Island& worst = *std::max_element(islands.begin(), islands.end(), [](const Island& a, const Island& b) { return a.unbalanced < b.unbalanced; });
-      out.why = fmt::format("the unbalanced force on block {} stays at {:.3g} of the largest load", m.block_name[z(worst.worst)], worst.unbalanced);
+      const Island& worst =
+          *std::max_element(islands.begin(), islands.end(), [](const Island& a, const Island& b) { return a.unbalanced < b.unbalanced; });
+      out.why = fmt::format("the unbalanced force on block {} stays at {:.3g} of the largest load", m.block_name[z(worst.worst)],
+                            worst.unbalanced);
     }
     s.u = before.u;
     s.q = before.q;

@@ -12,7 +12,8 @@ Scene eccentric(const std::string& shares, const std::string& law) {
     H, B, h, rho = 0.3, 0.125, 0.1, 1800
     material{name="brick", density=rho}
     joint{law=)" + law + R"(}
-    for i, e in ipairs{)" + shares + R"(} do
+    for i, e in ipairs{)" + shares +
+                           R"(} do
       box{name="foot"..i, size={H,B,.1}, at={2*H*i,0,-.1}, material="brick", fixed=true}
       box{name="free"..i, size={H,B,h}, at={2*H*i,0,0}, material="brick"}
       if e > 0 then moment{block="free"..i, wave=rho*g*H*B*h*e*H, direction="y"} end
@@ -98,7 +99,8 @@ TEST_CASE("eccentric loads by Newton and by a damped ramp give the same rotation
   const Scene scene = eccentric("0.05,0.2,0.3,0.4", "dry{kn=1e10, mu=0.6}");
   const Prepared direct = started(scene, "equilibrium"), ramped = started(scene, "ramp", 1);
   REQUIRE(direct.equilibrium.converged);
-  for (int i = 1; i <= 4; ++i) CHECK(turn(direct, "free" + std::to_string(i)) == Approx(turn(ramped, "free" + std::to_string(i))).epsilon(2e-3));
+  for (int i = 1; i <= 4; ++i)
+    CHECK(turn(direct, "free" + std::to_string(i)) == Approx(turn(ramped, "free" + std::to_string(i))).epsilon(2e-3));
 }
 
 TEST_CASE("a leaning dry wall comes to rest on its opened joints as the damped ramp does", "[analysis]") {
@@ -115,7 +117,8 @@ TEST_CASE("a leaning dry wall comes to rest on its opened joints as the damped r
 }
 
 TEST_CASE("a mortared wall cracked by an eccentric load is found, and near what the damped ramp finds", "[analysis]") {
-  const Scene scene = test::small_wall("for i=0,3 do force{block='b5_'..i, wave=2000, direction={0,0,-1}, point={i*.26+.2,.1,.65}} end analysis{duration=1}");
+  const Scene scene = test::small_wall(
+      "for i=0,3 do force{block='b5_'..i, wave=2000, direction={0,0,-1}, point={i*.26+.2,.1,.65}} end analysis{duration=1}");
   const Prepared direct = started(scene, "equilibrium");
   REQUIRE(direct.equilibrium.converged);
   CHECK(std::any_of(direct.state.tier.begin(), direct.state.tier.end(), [](Tier t) { return t == Tier::cracked; }));
