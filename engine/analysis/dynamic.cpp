@@ -127,6 +127,7 @@ Snapshot Run::snapshot() const {
     s.alpha.push_back(alpha);
     s.v.push_back(now.v_before[z(b)] + half * a);
     s.w.push_back(now.w_before[z(b)] + half * alpha);
+    s.spin_momentum.push_back(now.spin_before[z(b)] + half / kick * (run_.state.spin_momentum[z(b)] - now.spin_before[z(b)]));
   }
   for (const auto& g : m.grounds) {
     s.ground_a += value(g.wave, now.t) * g.direction;

@@ -8,13 +8,16 @@ namespace erbs {
 struct Equilibrium {
   bool converged = false;
   int iterations = 0;
-  double unbalanced = 0;  // largest unbalanced force / largest applied force
+  double unbalanced = 0;  // largest unbalanced force / largest applied force of its island
   std::string why;        // where not converged
 };
 
-// Newton's method on the joint laws, sparse LDL^T for the tangent (the intact structure at first, then finite differences of the
-// law in joints that open or slide). `push` is force and moment on each block besides gravity (6 doubles a block). Blocks that
-// no joint holds to the ground stay where they are. On success the state holds the equilibrium; otherwise it is unchanged.
+// Newton's method on the joint laws: sparse LDL^T while all joints are sound, LU of the consistent tangent once some open or slide
+// (friction makes it unsymmetric). Each island takes its own part of a step, to where the step's work vanishes: the potential of
+// joints that open is convex, so that this is its lowest point along the step. A part of the sound stiffness, smaller as the
+// balance comes near, brakes blocks that have lost their hold (pseudo-transient continuation, Kelley and Keyes 1998, SIAM J. Numer.
+// Anal. 35, 508). `push` is force and moment on each block besides gravity (6 doubles a block). Blocks that no joint holds to the
+// ground stay where they are. On success the state holds the equilibrium; otherwise it is unchanged.
 Equilibrium settle(const Model& model, State& state, const std::vector<double>& push);
 
 }  // namespace erbs

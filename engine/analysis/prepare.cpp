@@ -64,12 +64,12 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
   p.state.dt = dt;
 }
 
-std::vector<double> constant_loads(const Model& m) {
+std::vector<double> constant_loads(const Model& m, const State& s) {
   std::vector<double> push(6 * z(m.nblock) + 6, 0.0);
   for (const auto& p : m.pushes) {
     const Vec3 f = value(p.wave, 0) * p.direction;
     for (int i = 0; i < 3; ++i) push[6 * z(p.block) + z(p.moment ? 3 + i : i)] += f[i];
-    const Vec3 moment = p.moment ? Vec3(Vec3::Zero()) : Vec3(p.arm.cross(f));
+    const Vec3 moment = p.moment ? Vec3(Vec3::Zero()) : Vec3((s.q[z(p.block)] * p.arm).cross(f));
     for (int i = 0; i < 3; ++i) push[6 * z(p.block) + 3 + z(i)] += moment[i];
   }
   return push;
@@ -89,7 +89,7 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
 
 namespace {
 
-// Gravity grows over the ramp and rests as long again, the blocks damped at about the critical value of the lowest mode, which
+// Gravity and the constant loads grow over the ramp and rests as long again, the blocks damped at about the critical value of the lowest mode, which
 // Rayleigh's quotient of the sagging structure gives. Written as a ground that starts to accelerate upwards.
 void ramp(const Scene& scene, Prepared& p, int threads) {
   Model slow = p.model;
@@ -98,7 +98,7 @@ void ramp(const Scene& scene, Prepared& p, int threads) {
   slow.grounds = {{make_table({0, time}, {0, 1}, true), -p.model.gravity}};
   slow.tilts.clear();
   slow.drives.clear();
-  slow.pushes.clear();
+  for (auto& push : slow.pushes) push.wave = make_table({0, time}, {0, value(push.wave, 0)}, true);
   slow.damping.mass = 20 / time;
   slow.damping_all = false;
   slow.damping_explicit = false;
@@ -119,7 +119,10 @@ void ramp(const Scene& scene, Prepared& p, int threads) {
 void start_at_rest(const Scene& scene, Prepared& p, int threads) {
   const bool loaded = p.model.gravity.norm() > 0 || !p.model.pushes.empty();
   if (scene.analysis.start == "equilibrium" && loaded && p.model.njoint > 0) {
-    p.equilibrium = settle(p.model, p.state, constant_loads(p.model));
+    for (int turn = 0; turn < 3; ++turn) {  // arms of the loads turn with their blocks
+      p.equilibrium = settle(p.model, p.state, constant_loads(p.model, p.state));
+      if (!p.equilibrium.converged || p.model.pushes.empty()) break;
+    }
     if (!p.equilibrium.converged) {
       p.model.warnings.push_back("no equilibrium under gravity: " + p.equilibrium.why + "; gravity is brought on as a damped ramp instead");
       ramp(scene, p, threads);

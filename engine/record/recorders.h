@@ -5,10 +5,11 @@
 #include "engine/record/displacement.h"
 #include "engine/record/ground.h"
 #include "engine/record/joint.h"
+#include "engine/record/momentum.h"
 #include "engine/record/reaction.h"
 
 namespace erbs {
 
-using AnyRecorder = std::variant<BlockMotion, Reaction, JointQuantity, GroundMotion, Count>;
+using AnyRecorder = std::variant<BlockMotion, Momentum, Reaction, JointQuantity, GroundMotion, Count>;
 
 }  // namespace erbs

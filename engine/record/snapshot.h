@@ -21,6 +21,7 @@ struct Snapshot {
   // motion relative to the ground, world axes                                               [nblock]
   std::vector<Vec3> v = {}, w = {};                                                // m/s, rad/s
   std::vector<Vec3> a = {}, alpha = {};                                            // m/s2, rad/s2
+  std::vector<Vec3> spin_momentum = {};                                            // kg m2/s, about each centroid
   Vec3 ground_a = Vec3::Zero(), ground_v = Vec3::Zero(), ground_u = Vec3::Zero();  // m/s2, m/s, m, of the ground
   int contact_points = 0;                                                          // that touch: of joints and of contacts
   // only where needed

@@ -8,7 +8,7 @@ namespace erbs {
 
 // Settles the ledger of state.energy at a sample (all terms filled): residual, its relative size, its largest jump.
 // residual = [T + Ug + Ue] - start + all dissipation - all work; relative to
-// max(1e-12 weight * height, largest (T + |dUe|) + Int |work| + dissipation + half the flux of height energy).
+// max(1e-12 weight * height, 1e-8 of the elastic energy at the start, largest (T + |dUe|) + Int |work| + dissipation + half the flux of height energy).
 void settle(Energy& energy, double floor, double t, int worst_joint);
 
 double dissipated(const Energy& energy);

@@ -95,6 +95,7 @@ void Solver::begin(const Hooks& hooks) {
   instant_.u = state_.u;
   instant_.q = state_.q;
   instant_.w_before = state_.w;
+  instant_.spin_before = state_.spin_momentum;
 }
 
 // Loads over the interval of this kick: half the last and half the next drift.

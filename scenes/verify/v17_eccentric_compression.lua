@@ -50,7 +50,7 @@ expect("metrics.moment_error", 0, { abs = 1e-4, source = "N (H/2 - a/3); 1 % is 
 expect("metrics.force_error", 0, { abs = 1e-4, source = "kn B theta a^2 / 2" })
 expect("metrics.contact_length_error", 0, { abs = 1e-3, source = "a = 3 (H/2 - e)" })
 
-for i, e in ipairs { 0.05, 0.15, 0.2, 0.264, 0.333, 0.382, 0.42 } do
+for i, e in ipairs { 0.05, 0.15, 0.2, 0.264, 0.333, 0.382, 0.42, 0.44, 0.47 } do
   local name, a = string.format("free%d", i), math.min(H, 3 * (0.5 - e) * H)
   local base = "base_" .. name
   box { name = base, group = "base", size = { H, B, 0.1 }, at = { 2 * H * i, 2, -0.1 }, fixed = true }

@@ -167,3 +167,16 @@ TEST_CASE("every mistake in the recorders is told at once", "[record][recorder]"
     CHECK_THAT(errors.messages[1], Catch::Contains("no joint"));
   }
 }
+
+TEST_CASE("momentum is summed over the blocks that move, about a point", "[record][recorder]") {
+  auto t = test::two_bricks();
+  Snapshot s = snapshot_of(t);
+  s.v = {Vec3::Zero(), Vec3(2, 0, 0), Vec3(0, 1, 0)};  // 1 kg at (0, 0, 0.1), 3 kg at (1, 0, 0)
+  s.spin_momentum = {Vec3::Zero(), Vec3(0, 0, 5), Vec3(7, 0, 0)};
+  CHECK(row(t, s, recorder("all", "momentum", {}, "xyz")) == std::vector<double>{2, 3, 0});
+  CHECK(row(t, s, recorder("all", "angular_momentum", {}, "xyz")) == std::vector<double>{7, 0.2, 5 + 3});
+  Recorder r = recorder("one", "angular_momentum", {"stray"}, "z");
+  r.has_point = true, r.point = Vec3(3, 0, 0);
+  t.state.u[2] = Vec3(-1, 0, 0);
+  CHECK(row(t, s, r) == std::vector<double>{3 * -3});
+}

@@ -1,0 +1,50 @@
+// Momentum of blocks: linear, and angular about a point at rest (the origin where none is given), world axes, relative to the ground.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "engine/record/recorder.h"
+
+namespace erbs {
+
+// Sum over the blocks; without blocks over all that move.
+struct Momentum {
+  enum class What { momentum, angular_momentum } what;
+  std::vector<int> blocks;
+  std::string name, axis;
+  Vec3 point;  // m
+
+  static std::vector<Quantity> quantities() {
+    return {{"momentum", "linear momentum relative to the ground, summed over the blocks (kg m/s); without blocks: over all that move"},
+            {"angular_momentum", "angular momentum about the point, or the origin, world axes, summed likewise (kg m2/s)"}};
+  }
+
+  explicit Momentum(const Ask& ask)
+      : what(What(quantity_index(quantities(), ask.recorder.quantity))),
+        blocks(ask.blocks),
+        name(ask.recorder.name),
+        axis(ask.recorder.axis),
+        point(ask.recorder.point) {
+    if (!blocks.empty()) return;
+    for (int b = 0; b < ask.model.nblock; ++b)
+      if (ask.model.kind[std::size_t(b)] == Kind::moving) blocks.push_back(b);
+  }
+
+  std::vector<std::string> columns() const {
+    return what == What::momentum ? axis_columns(name, axis, "p", "kg_m_s") : axis_columns(name, axis, "L", "kg_m2_s");
+  }
+
+  void needs(Needs&) const {}
+
+  void sample(const Snapshot& s, double* out) const {
+    Vec3 sum = Vec3::Zero();
+    for (const int i : blocks) {
+      const auto b = std::size_t(i);
+      const Vec3 p = s.model.mass[b] * s.v[b];
+      sum += what == What::momentum ? p : Vec3(s.spin_momentum[b] + Vec3(s.model.rest[b] + s.state.u[b] - point).cross(p));
+    }
+    put_axes(sum, axis, out);
+  }
+};
+
+}  // namespace erbs
