@@ -155,13 +155,17 @@ std::filesystem::path find_input(const Context& context, const std::string& file
     if (fs::is_regular_file(path)) return path;
   std::vector<std::string> list;
   for (const auto& path : tried) list.push_back(path.string());
-  throw Error(fmt::format("file \"{}\" is not there; looked for {}", file, fmt::join(list, ", ")), place);
+  throw Error(fmt::format("file \"{}\" is not there; looked for {}; correct the name, or put the file beside the scene", file,
+                          fmt::join(list, ", ")),
+              place);
 }
 
 std::string read_input(Context& context, const std::filesystem::path& path, const Place& place) {
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream text;
-  if (!stream || !(text << stream.rdbuf())) throw Error(fmt::format("cannot read {}", path.string()), place);
+  // an empty file sets the failbit of text, and is none of our business here
+  if (!stream || (stream.peek() != std::ifstream::traits_type::eof() && !(text << stream.rdbuf())))
+    throw Error(fmt::format("cannot read {}", path.string()), place);
   context.scene.inputs[path.string()] = hash_text(fnv1a(text.str()));
   return text.str();
 }

@@ -41,8 +41,9 @@ int param(Call& call) {
   bool given = false;
   for (Override& override_ : call.context.overrides)
     if (override_.name == item.name) {
-      item.value = override_.value;
-      given = override_.used = true;
+      given = override_.sound;
+      if (given) item.value = override_.value;
+      override_.used = true;
     }
   if (given) lua_pushnumber(call.lua, item.value);
   else lua_pushvalue(call.lua, 2);  // a whole number stays one

@@ -42,8 +42,9 @@ int make_wave(Call& call) {
   arguments.read(wave);
   try {
     finish(call, arguments, wave);
-  } catch (const Error& error) {  // it names its place; the script goes on with a wave that is zero
-    call.context.mistake({}, error.what());
+  } catch (const Error& error) {  // a mistake in the file names file and line there; the script goes on with a wave that is zero
+    if (error.place.file == call.place.file) call.context.mistake({}, error.what());
+    else call.mistake(error.what());
     push_wave(call.lua, call.context, Pulse{0, 0, 0});
     return 1;
   }

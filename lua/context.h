@@ -37,6 +37,7 @@ struct Sampling {
 struct Override {
   std::string name, expression;  // of -D name=expression
   double value = 0;
+  bool sound = false;  // the expression gave a number; else a mistake is noted and the default holds
   bool used = false;
 };
 

@@ -1,8 +1,9 @@
 // The program erbs: reads the command line, calls the verb, turns trouble into an exit code. The one door to CLI11.
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <map>
+#include <algorithm>
 
+#include "engine/base/words.h"
 #include "lua/options.h"
 
 namespace {
@@ -56,6 +57,10 @@ void add_others(CLI::App& app, CommandLine& line) {
 
   CLI::App& record = *app.add_subcommand("record", "a ground motion: points, dt, peaks, end values, Arias intensity, spectrum");
   record.add_option("FILE", line.options.words, "PEER AT2, CSV or text of one or two columns")->required();
+  add_output(record, line);
+  record.add_option("--dt", line.options.record.dt, "step of a file of values alone, s")->check(CLI::Range(1e-6, 1e3));
+  record.add_option("--unit", line.options.record.unit, "of the values where the file does not say: g, m/s2, cm/s2, gal, ...");
+  record.add_option("--column", line.options.record.column, "column of the values, from 1")->check(CLI::Range(1, 1000));
 
   CLI::App& test = *app.add_subcommand("test", "run scenes that carry expectations, and print the table");
   test.add_option("DIR|SCENE.lua", line.options.words, "folders and scenes")->required();
@@ -82,8 +87,18 @@ void settle(CommandLine& line) {
   }
   if (!line.until.empty()) options.until = erbs::seconds_of(line.until, "--until");
   if (!line.max_wall.empty()) options.max_wall = erbs::seconds_of(line.max_wall, "--max-wall");
+  if (options.max_wall == 0.0) throw erbs::Error("--max-wall " + line.max_wall + ": leaves no time to run; give more, such as 30m");
   if (!line.checkpoint_every.empty()) options.checkpoint_every = erbs::seconds_of(line.checkpoint_every, "--checkpoint-every");
   if (options.force && options.resume) throw erbs::Error("--force and --resume exclude each other; keep one");
+}
+
+void check_verb(const CLI::App& app, int argc, char** argv) {
+  std::vector<std::string> verbs;
+  for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+  if (argc < 2) throw erbs::Error(fmt::format("erbs takes a verb: {}; see erbs help", fmt::join(verbs, ", ")));
+  const std::string word = argv[1];
+  if (!word.starts_with("-") && std::find(verbs.begin(), verbs.end(), word) == verbs.end())
+    throw erbs::Error(fmt::format("there is no verb {}{}; see erbs help", word, erbs::did_you_mean(word, verbs)));
 }
 
 int call(const CLI::App& app, CommandLine& line) {
@@ -114,6 +129,7 @@ int main(int argc, char** argv) {
   add_run(app, line);
   add_others(app, line);
   try {
+    check_verb(app, argc, argv);
     app.parse(argc, argv);
     return call(app, line);
   } catch (const CLI::ParseError& error) {

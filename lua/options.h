@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/loads/record.h"
 #include "lua/script.h"
 
 namespace erbs {
@@ -20,6 +21,7 @@ struct Options {
   std::optional<double> checkpoint_every;  // s, of wall clock
   bool video = false, log_json = false, allow_unstable = false, fail_on_collapse = false;
   int jobs = 0;  // 0: as many as the machine has
+  Record record;  // of erbs record: --dt, --unit, --column
 };
 
 // "30m", "90s", "1.5h", "500ms" or plain seconds; throws Error naming the option.

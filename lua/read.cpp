@@ -50,6 +50,7 @@ namespace {
 std::string in_unit(const Key& key) { return key.unit.empty() ? "" : " " + key.unit; }
 
 std::string range(const Key& key) {
+  if (std::isinf(key.high) && std::isinf(key.low)) return "any finite number" + (key.unit.empty() ? "" : " in " + key.unit);
   if (std::isinf(key.high)) return fmt::format("at least {}{}", written(key.low), in_unit(key));
   if (std::isinf(key.low)) return fmt::format("at most {}{}", written(key.high), in_unit(key));
   return fmt::format("{} to {}{}", written(key.low), written(key.high), in_unit(key));
@@ -64,6 +65,9 @@ std::vector<std::string> split(const std::string& words) {
   }
   return list;
 }
+
+// Only the duration of a wave may be without end.
+bool endless(const Key& key) { return key.name == "duration" && std::isinf(key.high); }
 
 const char* wanted_number(const Key& key) { return key.type == "integer" ? "a whole number" : "a number"; }
 
@@ -85,11 +89,16 @@ Arguments::Arguments(Context& context, lua_State* lua, int index, std::string la
     }
   }
   std::sort(unknown.begin(), unknown.end());
-  for (const auto& name : unknown) mistake(fmt::format("unknown key \"{}\"{}", name, did_you_mean(name, known)));
+  std::vector<std::string> meant;  // by a misspelt key: it is not missing as well
+  for (const auto& name : unknown) {
+    mistake(fmt::format("unknown key \"{}\"{}", name, did_you_mean(name, known)));
+    meant.push_back(nearest(name, known));
+  }
   if (positional > 0)
     mistake(fmt::format("{} value(s) without a key; write them as key = value (keys: {})", positional, fmt::join(known, ", ")));
   for (const Key& k : *keys_)
-    if (k.required && !has(k.name)) mistake(fmt::format("\"{}\" is missing ({}); add {} = ...", k.name, k.text, k.name));
+    if (k.required && !has(k.name) && std::find(meant.begin(), meant.end(), k.name) == meant.end())
+      mistake(fmt::format("\"{}\" is missing ({}); add {} = ...", k.name, k.text, k.name));
 }
 
 void Arguments::mistake(const std::string& what) const { context_->mistake(place_, fmt::format("{}: {}", label_, what)); }
@@ -155,8 +164,8 @@ std::optional<double> Arguments::number_at_top(const std::string& key, const std
     mistake(fmt::format("{} is not a number (0/0?); allowed is {}", path, range(k)));
     return std::nullopt;
   }
-  if (std::isinf(value) && k.name != "duration") {  // only a duration may be without end
-    mistake(fmt::format("{} must be a finite number{}", path, in_unit(k)));
+  if (std::isinf(value) && !endless(k)) {
+    mistake(fmt::format("{} is infinite (1/0?); allowed is {}", path, range(k)));
     return std::nullopt;
   }
   if (value < k.low || value > k.high)

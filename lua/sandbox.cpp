@@ -36,7 +36,7 @@ void count_hook(lua_State* lua, lua_Debug*) {
   limits.expired = true;
   lua_sethook(lua, count_hook, LUA_MASKCOUNT, 1);
   luaL_where(lua, 0);
-  lua_pushfstring(lua, "the script ran longer than %d s; a loop may never end", static_cast<int>(limits.seconds));
+  lua_pushfstring(lua, "the script ran longer than %d s; a loop may never end: look at its condition", static_cast<int>(limits.seconds));
   lua_concat(lua, 2);
   lua_error(lua);
 }

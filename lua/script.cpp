@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
+#include <limits>
 #include <lua5.4/lua.hpp>
 #include <sstream>
 
 #include "engine/base/words.h"
+#include "engine/model/build.h"
+#include "engine/record/metrics.h"
 #include "engine/record/recorder.h"
 #include "lua/api.h"
 #include "lua/embedded.h"
@@ -109,6 +113,16 @@ std::string place_of(const std::string& message) {
   return {};
 }
 
+// whether a message names a block made at "scene.lua:12": ... 'b3' (scene.lua:12) ...
+bool contains_place(const std::string& message, const std::string& place) { return message.find("(" + place + ")") != std::string::npos; }
+
+// 12 of "scene.lua:12: box: ..."; last comes what the file as a whole lacks, first what is of no line (-D).
+int line_in(const std::string& file, const std::string& message) {
+  if (!message.starts_with(file + ":")) return 0;
+  const int line = std::atoi(message.c_str() + file.size() + 1);
+  return line > 0 ? line : std::numeric_limits<int>::max();
+}
+
 // One message of several lines (a masonry function that reports all its mistakes) becomes several, each with its place.
 void add_messages(std::vector<std::string>& mistakes, const std::string& message) {
   const std::string place = place_of(message);
@@ -125,10 +139,14 @@ void evaluate_overrides(lua_State* lua, Context& context) {
       load_chunk(lua, context, "return " + item.expression, name);
       call_script(lua, context, 0, 1);
       if (lua_type(lua, -1) != LUA_TNUMBER || !std::isfinite(lua_tonumber(lua, -1)))
-        throw Error(fmt::format("{}: the value must be a number, such as 0.8*g, not {}", name, described(lua, -1)));
+        throw Error(fmt::format("{}: the value must be a finite number, such as 0.8*g, not {}", name, described(lua, -1)));
       item.value = lua_tonumber(lua, -1);
+      item.sound = true;
       lua_pop(lua, 1);
-    } catch (const Error& error) { context.mistakes.emplace_back(error.what()); }
+    } catch (const Error& error) {
+      const std::string message = error.what(), place = name + ":1:";  // an expression has one line
+      context.mistakes.push_back(message.starts_with(place) ? name + ":" + message.substr(place.size()) : message);
+    }
   }
 }
 
@@ -169,6 +187,13 @@ void resolve_groups(Context& context) {
   }
 }
 
+// "collapse.direction.0" -> "collapse.direction"
+std::string without_index(const std::string& key) {
+  const size_t dot = key.rfind('.');
+  const bool index = dot != std::string::npos && dot + 1 < key.size() && key.find_first_not_of("0123456789", dot + 1) == std::string::npos;
+  return index ? key.substr(0, dot) : key;
+}
+
 // -D and expect name things that must exist.
 void check_names(Context& context) {
   std::vector<std::string> params, metrics;
@@ -178,9 +203,15 @@ void check_names(Context& context) {
     if (!item.used)
       context.mistake({}, fmt::format("-D {}={}: the scene has no param \"{}\"{}", item.name, item.expression, item.name,
                                       did_you_mean(item.name, params)));
-  for (const Expectation& item : context.scene.expectations)
-    if (item.key.starts_with("metrics.") && std::find(metrics.begin(), metrics.end(), item.key) == metrics.end())
-      context.mistake(item.place, fmt::format("expect: there is no metric \"{}\"{}", item.key.substr(8), did_you_mean(item.key, metrics)));
+  const std::vector<std::string> keys = metric_keys();
+  for (const Expectation& item : context.scene.expectations) {
+    if (item.key.starts_with("metrics.")) {
+      if (std::find(metrics.begin(), metrics.end(), item.key) == metrics.end())
+        context.mistake(item.place, fmt::format("expect: there is no metric \"{}\"{}", item.key.substr(8), did_you_mean(item.key, metrics)));
+    } else if (std::find(keys.begin(), keys.end(), without_index(item.key)) == keys.end()) {
+      context.mistake(item.place, fmt::format("expect: metrics.json has no key \"{}\"{}", item.key, did_you_mean(item.key, keys)));
+    }
+  }
 }
 
 }  // namespace
@@ -234,12 +265,18 @@ void Script::run(const std::string& text, const std::string& name, const Overrid
   context.scene.file = name;
   context.scene.name = std::filesystem::path(name).stem().string();
   context.folder = std::filesystem::path(name).parent_path();
-  for (const auto& [param, expression] : overrides) context.overrides.push_back({param, expression});
+  for (const auto& [param, expression] : overrides) {
+    for (const Override& other : context.overrides)
+      if (other.name == param)
+        context.mistake({}, fmt::format("-D {}={}: {} was given before, as {}; keep one", param, expression, param, other.expression));
+    context.overrides.push_back({param, expression});
+  }
   const Stretch stretch(lua_, context);
   const Cap uncapped(context.limits, false);
   bool whole = true;
   try {
     evaluate_overrides(lua_, context);
+    if (context.limits.expired) throw Errors(context.mistakes);  // no time is left for the script
     load_chunk(lua_, context, text.starts_with("#") ? "--" + text : text, name);
     call_script(lua_, context, 0, 0);
   } catch (const std::exception& error) {
@@ -267,8 +304,24 @@ void Script::finish(bool whole) {
       const auto same = [&](const std::string& other) { return !place.empty() && place_of(other) == place; };
       if (std::none_of(read.begin(), read.end(), same)) context.mistakes.push_back(message);
     }
+    // A sound scene is told of its overlaps when it is built; one with mistakes never gets there. Where a line of theirs is already
+    // complained about, the block may not stand where it was meant to.
+    if (!context.mistakes.empty()) {
+      const std::vector<std::string> said = context.mistakes;
+      for (const auto& message : overlap_mistakes(context.scene)) {
+        const auto doubtful = [&](const std::string& other) {
+          const std::string place = place_of(other);
+          return !place.empty() && contains_place(message, place.substr(0, place.size() - 1));
+        };
+        if (std::none_of(said.begin(), said.end(), doubtful)) context.mistakes.push_back(message);
+      }
+    }
   }
-  if (!context.mistakes.empty()) throw Errors(context.mistakes);
+  if (context.mistakes.empty()) return;
+  std::stable_sort(context.mistakes.begin(), context.mistakes.end(), [&](const std::string& a, const std::string& b) {
+    return line_in(context.scene.file, a) < line_in(context.scene.file, b);
+  });
+  throw Errors(context.mistakes);
 }
 
 const Scene& Script::scene() const { return context_->scene; }

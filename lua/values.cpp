@@ -63,9 +63,9 @@ std::optional<Wave> Arguments::wave(const std::string& key) {
   std::optional<Wave> wave;
   if (!push(key)) return wave;
   if (const size_t* index = handle_at_top(lua_, wave_type)) wave = context_->waves[*index];
-  else if (const auto number = lua_type(lua_, -1) == LUA_TNUMBER ? number_at_top(key, key) : std::nullopt)
-    wave = Pulse{*number, 0, unbounded};
-  else wrong_type(key, key, "a wave, such as sine{ ... } or record{ ... }, a number, or a function of time");
+  else if (lua_type(lua_, -1) == LUA_TNUMBER) {
+    if (const auto number = number_at_top(key, key)) wave = Pulse{*number, 0, unbounded};
+  } else wrong_type(key, key, "a wave, such as sine{ ... } or record{ ... }, a number, or a function of time");
   lua_pop(lua_, 1);
   return wave;
 }

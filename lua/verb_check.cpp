@@ -11,15 +11,18 @@
 namespace erbs {
 namespace {
 
-// s of one core for a step and for each joint in it while intact, for the estimate of time; measured on piers of 12 and 1200
-// bricks (erbs run, 1 thread): 7 and 260 us a step
-constexpr double step_cost = 5e-6, joint_cost = 0.23e-6;
+// s of one core for a step and for each joint in it while intact, for the estimate of time; measured on a pier of 12
+// joints and the house of 2130 (erbs run --threads 1): 5.2 and 55 us a step
+constexpr double step_cost = 5e-6, joint_cost = 0.024e-6;
+// of the program and its libraries before there is a model: the peak of the pier
+constexpr double own_memory = 20 * 1048576.0;
 
 size_t bytes_of(const Model& model) {
-  // a point: its place, weight and history; a joint: its record and two wrench rows; a block: model and state with its shapes
+  // a point: its place, weight and history; a joint: its record and two wrench rows; a block: scene, model and state with its
+  // shapes. Fitted to the peaks of walls of 298 and 768 blocks: 26 and 37 MiB
   const auto points = static_cast<size_t>(model.npoint), joints = static_cast<size_t>(model.njoint),
              blocks = static_cast<size_t>(model.nblock);
-  return points * (sizeof(Point) + 64) + joints * (sizeof(Joint) + 512) + blocks * 4096;
+  return points * (sizeof(Point) + 64) + joints * (sizeof(Joint) + 1500) + blocks * 12288;
 }
 
 void print_scene(const Scene& scene) {
@@ -52,27 +55,41 @@ void print_run(const Scene& scene, const Prepared& run) {
              run.bounds.stiffest_block >= 0 ? ", set by block " + model.block_name[static_cast<size_t>(run.bounds.stiffest_block)] : "");
   const double seconds = steps * (step_cost + joint_cost * static_cast<double>(model.njoint));
   fmt::print("estimate: {:g} steps for {:g} s, about {} on one core while intact, {:.0f} MiB\n", steps, scene.analysis.duration,
-             duration_text(seconds), static_cast<double>(bytes_of(model)) / 1048576.0 + 10);
+             duration_text(seconds), (static_cast<double>(bytes_of(model)) + own_memory) / 1048576.0);
+}
+
+void check_scene(const std::string& path, const Options& options) {
+  Script::Options script_options;
+  script_options.quiet = options.quiet;
+  Script script(script_options);
+  const Scene scene = script.load(path, options.overrides);
+  const Prepared run = prepare(scene, options.allow_unstable);
+  for (const auto& warning : warnings(scene)) fmt::print(stderr, "warning: {}\n", warning);
+  for (const auto& warning : run.model.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  if (options.quiet) return;
+  print_scene(scene);
+  print_run(scene, run);
+  print_effects(scene);
 }
 
 }  // namespace
 
 int verb_check(const Options& options) {
   if (options.words.empty()) throw Error("check takes a scene; write erbs check SCENE.lua");
+  int code = exit_ok;
   for (const auto& path : options.words) {
-    Script::Options script_options;
-    script_options.quiet = options.quiet;
-    Script script(script_options);
-    const Scene scene = script.load(path, options.overrides);
-    const Prepared run = prepare(scene, options.allow_unstable);
-    for (const auto& warning : warnings(scene)) fmt::print(stderr, "warning: {}\n", warning);
-    for (const auto& warning : run.model.warnings) fmt::print(stderr, "warning: {}\n", warning);
-    if (options.quiet) continue;
-    print_scene(scene);
-    print_run(scene, run);
-    print_effects(scene);
+    try {
+      check_scene(path, options);
+    } catch (const Errors& mistakes) {
+      fmt::print(stderr, "{}\n", mistakes.what());
+      code = exit_usage;
+    } catch (const Error& mistake) {
+      fmt::print(stderr, "{}\n", mistake.what());
+      code = exit_usage;
+    }
+    std::fflush(stdout);
   }
-  return exit_ok;
+  return code;
 }
 
 }  // namespace erbs

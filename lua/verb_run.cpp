@@ -110,9 +110,11 @@ int default_threads(const Scene& scene) {
 }
 
 // The seam to the engine: one scene, one run folder.
-RunOutcome run_scene(const Scene& scene, const std::string& script, const std::string& directory, const Options& options) {
+RunOutcome run_scene(const Scene& scene, const std::string& script, const std::vector<std::string>& notes, const std::string& directory,
+                     const Options& options) {
   RunOptions run;
   run.directory = directory;
+  run.notes = notes;
   run.existing = options.resume ? Existing::resume : options.force ? Existing::force : Existing::refuse;
   run.threads = options.threads > 0 ? options.threads : default_threads(scene);
   run.until = options.until;
@@ -135,11 +137,15 @@ int verb_run(const Options& options) {
   Script script(script_options);
   Scene scene = script.load(path, options.overrides);
   if (options.allow_unstable) scene.analysis.unstable = true;
-  for (const auto& warning : warnings(scene)) fmt::print(stderr, "warning: {}\n", warning);
+  std::vector<std::string> notes = script.output();
+  for (const auto& warning : warnings(scene)) {
+    fmt::print(stderr, "warning: {}\n", warning);
+    notes.push_back("warning: " + warning);
+  }
   const std::string directory = options.directory.empty() ? "runs/" + scene.name : options.directory;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  const RunOutcome outcome = run_scene(scene, text_of(path), directory, options);
+  const RunOutcome outcome = run_scene(scene, text_of(path), notes, directory, options);
   for (const auto& warning : outcome.warnings) fmt::print(stderr, "warning: {}\n", warning);
   if (!outcome.trouble.empty()) fmt::print(stderr, "{}: {}\n", path, outcome.trouble);
 

@@ -1,23 +1,12 @@
-// The verbs that fit in a few lines: record, render, version.
+// The verbs that fit in a few lines: render, version.
+#include <cmath>
 #include <cstdio>
-#include <iostream>
 
-#include "engine/loads/record_report.h"
 #include "engine/record/manifest.h"
 #include "lua/child.h"
 #include "lua/options.h"
 
 namespace erbs {
-
-int verb_record(const Options& options) {
-  if (options.words.empty()) throw Error("record takes a file; write erbs record FILE");
-  for (const auto& file : options.words) {
-    Record wanted;
-    wanted.file = file;
-    print(std::cout, report(read_record(wanted)));
-  }
-  return exit_ok;
-}
 
 int verb_render(const Options& options) {
   if (options.words.empty()) throw Error("render takes a run folder; write erbs render DIR");
@@ -37,7 +26,7 @@ double seconds_of(const std::string& text, const std::string& option) {
   } catch (const std::exception&) {}
   const std::string unit = text.substr(std::min(used, text.size()));
   const double factor = unit.empty() || unit == "s" ? 1 : unit == "ms" ? 1e-3 : unit == "m" || unit == "min" ? 60 : unit == "h" ? 3600 : 0;
-  if (!(value >= 0) || factor == 0) throw Error(fmt::format("{} {}: not a length of time; write 90s, 30m or 1.5h", option, text));
+  if (!(value >= 0) || !std::isfinite(value) || factor == 0) throw Error(fmt::format("{} {}: not a length of time; write 90s, 30m or 1.5h", option, text));
   return value * factor;
 }
 

@@ -98,6 +98,8 @@ void Run::begin() {
   for (const Effect& e : effects_of(scene_)) (e.on ? manifest.effects_on : manifest.effects_off).push_back(e.on ? e.name + " (" + e.because + ")" : e.name);
   create_run_folder(options_.directory, options_.existing, script_, manifest);
   writer_.emplace(options_.directory, scene_, run_.model, resume ? &written : nullptr);
+  if (!resume)
+    for (const std::string& note : options_.notes) writer_->log(note);
   for (const std::string& w : run_.model.warnings) writer_->log("warning: " + w);
   out_.warnings = run_.model.warnings;
   solver_.emplace(run_.model, run_.state, options_.threads);

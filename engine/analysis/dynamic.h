@@ -21,6 +21,7 @@ struct Progress {
 
 struct RunOptions {
   std::string directory;
+  std::vector<std::string> notes;  // for the head of log.txt: what the script printed, the warnings of its check
   Existing existing = Existing::refuse;
   int threads = 1;
   std::optional<double> until;        // s, simulated: stop there with a checkpoint

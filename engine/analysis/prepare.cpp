@@ -57,7 +57,7 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
   if (!(dt > 0) || !std::isfinite(dt))
     throw Error("no time step can be derived: nothing in the scene is elastic; say analysis{dt = ...}", a.place);
   if (jointed && dt > b.critical && !a.unstable && !allow_unstable)
-    throw Error(fmt::format("dt = {:.4g} s is {:.3f} times the limit 2 / omega_max = {:.4g} s of this structure; take at most {:.3g} s, or let it "
+    throw Error(fmt::format("analysis: dt = {:.4g} s is {:.3f} times the limit 2 / omega_max = {:.4g} s of this structure; take at most {:.3g} s, or let it "
                             "diverge with dt = {{ {:.4g}, unstable = true }} or --allow-unstable",
                             dt, dt / b.critical, b.critical, 0.9 * b.critical, dt),
                 a.place);

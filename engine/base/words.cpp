@@ -46,7 +46,7 @@ std::string nearest(std::string_view word, const std::vector<std::string>& known
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known) {
   const std::string near = nearest(word, known);
   if (!near.empty()) return fmt::format("; did you mean \"{}\"?", near);
-  if (known.empty()) return "; there is none";
+  if (known.empty()) return "; none is known";
   const size_t shown = std::min<size_t>(known.size(), 24);
   const std::vector<std::string> first(known.begin(), known.begin() + static_cast<std::ptrdiff_t>(shown));
   return fmt::format("; known: {}{}", fmt::join(first, ", "), shown < known.size() ? ", ..." : "");

@@ -41,7 +41,7 @@ RecordFile parse_record(const RecordText& text, const Record& wanted) {
 
 double factor_to_si(std::string_view in_file, const Record& wanted, const Place& place) {
   if (in_file.empty() && wanted.unit.empty())
-    throw Error(fmt::format("the file does not say the unit of its values; add unit = \"g\" (or one of {})", known_units), place);
+    throw Error(fmt::format("the file does not say the unit of its values; add unit = \"g\" in the scene, or --unit g to erbs record (one of {})", known_units), place);
   const std::optional<double> said = in_file.empty() ? std::nullopt : acceleration_unit(in_file);
   if (!in_file.empty() && !said)
     throw Error(fmt::format("unknown unit \"{}\" of acceleration; use one of {}", in_file, known_units), place);

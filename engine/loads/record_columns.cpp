@@ -86,7 +86,7 @@ void check_widths(const RecordText& text, const Rows& rows) {
 // Values alone, one or several to a line, read along the lines.
 RecordFile parse_values(const RecordText& text, const Rows& rows, const Record& wanted) {
   const Place place{text.path, rows.lines.front()};
-  if (wanted.dt <= 0) throw Error("the file has no times; say the step between its values, such as dt = 0.01", place);
+  if (wanted.dt <= 0) throw Error("the file has no times; say the step between its values, such as dt = 0.01 in the scene, or --dt 0.01 to erbs record", place);
   const std::string unit = rows.columns.empty() ? "" : rows.columns[0].unit;
   const double factor = factor_to_si(unit, wanted, {text.path, rows.names_line > 0 ? rows.names_line : rows.lines.front()});
   RecordFile file{rows.title, rows.cells.front().size() == 1 ? "text, values" : "text, values along the lines", {}, {}};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <tuple>
 
 #include "engine/geometry/mass.h"
 #include "engine/geometry/quadrature.h"
@@ -12,8 +13,15 @@
 namespace erbs {
 namespace {
 
+constexpr double most_overlap = 1e-3;  // of the smaller edge
 constexpr double infinite = std::numeric_limits<double>::infinity();
 std::size_t z(int i) { return std::size_t(i); }
+
+std::vector<InterfaceBlock> interface_blocks(const Scene& scene) {
+  std::vector<InterfaceBlock> blocks;
+  for (const Block& b : scene.blocks) blocks.push_back({b.parts, b.group, b.fixed});
+  return blocks;
+}
 
 void add_blocks(const Scene& scene, Model& m) {
   for (const Block& block : scene.blocks) {
@@ -141,29 +149,78 @@ void index_rows(Model& m) {
   }
 }
 
-void check_blocks(const Scene& scene, const Interfaces& found, const Model& m, std::vector<std::string>& errors,
-                  std::vector<std::string>& warnings) {
-  for (const Overlap& o : found.overlaps) {
+// Overlaps of blocks made by the same two lines are one mistake: the deepest is named, the others are counted.
+struct Overlapping {
+  const Overlap* deepest = nullptr;
+  int others = 0;
+};
+
+void check_overlaps(const Scene& scene, const std::vector<Overlap>& overlaps, std::vector<std::string>& errors,
+                    std::vector<std::string>& warnings) {
+  std::map<std::tuple<int, std::string, int, std::string, bool>, Overlapping> by_lines;
+  for (const Overlap& o : overlaps) {
     const Block &a = scene.blocks[z(o.a)], &b = scene.blocks[z(o.b)];
-    const std::string what = fmt::format("blocks '{}' ({}) and '{}' ({}) overlap by {:.3g} mm, {:.2g} of their smaller edge", a.name,
-                                         a.place.text(), b.name, b.place.text(), 1e3 * o.depth, o.relative);
     if (a.fixed && b.fixed) continue;
-    if (o.relative > 1e-3 && scene.analysis.overlap != "stress_free")
-      errors.push_back(fmt::format("{}: {}; part them, or say analysis{{overlap = \"stress_free\"}}", b.place.text(), what));
+    const bool wrong = o.relative > most_overlap && scene.analysis.overlap != "stress_free";
+    Overlapping& group = by_lines[{b.place.line, b.place.file, a.place.line, a.place.file, wrong}];
+    if (group.deepest) ++group.others;
+    if (!group.deepest || o.relative > group.deepest->relative) group.deepest = &o;
+  }
+  for (const auto& [key, group] : by_lines) {
+    const Overlap& o = *group.deepest;
+    const Block &a = scene.blocks[z(o.a)], &b = scene.blocks[z(o.b)];
+    const std::string more = group.others > 0 ? fmt::format(" ({} more pair(s) of these lines do so, too)", group.others) : "";
+    const std::string what = fmt::format("blocks '{}' ({}) and '{}' ({}) overlap by {:.3g} mm, {:.2g} of their smaller edge{}", a.name,
+                                         a.place.text(), b.name, b.place.text(), 1e3 * o.depth, o.relative, more);
+    if (std::get<bool>(key))
+      errors.push_back(fmt::format("{}: {}; at most {:g} is allowed: part them, or say analysis{{ overlap = \"stress_free\" }}",
+                                   b.place.text(), what, most_overlap));
     else
       warnings.push_back(what + "; taken as free of force at rest");
   }
+}
+
+// Blocks that no joint holds although they neither start in motion nor say free = true; those of one line are one mistake.
+void check_loose(const Scene& scene, const Interfaces& found, const Model& m, std::vector<std::string>& errors) {
   std::vector<int> degree(z(m.nblock), 0);
   for (const Interface& face : found.all) ++degree[z(face.a)], ++degree[z(face.b)];
+  std::map<std::pair<int, std::string>, std::pair<const Block*, int>> by_line;
   for (int b = 0; b < m.nblock; ++b) {
     const Block& block = scene.blocks[z(b)];
-    const bool moves = block.initial.velocity.norm() > 0 || block.initial.spin.norm() > 0;
-    if (degree[z(b)] == 0 && m.kind[z(b)] == Kind::moving && !block.free && !block.initial.given && !moves)
-      errors.push_back(
-          fmt::format("{}: block '{}' has no joint with any other; let a face meet a neighbour within a joint's thickness and tolerance, "
-                      "give a joint{{}} rule for its group, or say free = true",
-                      block.place.text(), block.name));
+    if (degree[z(b)] > 0 || m.kind[z(b)] != Kind::moving || block.free || block.initial.given) continue;
+    auto& [first, others] = by_line[{block.place.line, block.place.file}];
+    if (first) ++others;
+    else first = &block;
   }
+  for (const auto& [line, group] : by_line) {
+    const auto& [block, others] = group;
+    const std::string who = others > 0 ? fmt::format("block '{}' and {} more of this line have", block->name, others)
+                                       : fmt::format("block '{}' has", block->name);
+    errors.push_back(
+        fmt::format("{}: {} no joint with any other; let a face meet a neighbour within a joint's thickness and tolerance, "
+                    "give a joint{{}} rule for its group, or say free = true",
+                    block->place.text(), who));
+  }
+}
+
+// A rule that joins nothing is legal (a later one may win), but often a slip in its groups or its thickness.
+void check_rules(const Scene& scene, const Interfaces& found, std::vector<std::string>& warnings) {
+  std::vector<int> faces(scene.joint_rules.size(), 0);
+  for (const Interface& face : found.all) ++faces[z(face.rule)];
+  for (size_t r = 0; r < faces.size(); ++r) {
+    const JointRule& rule = scene.joint_rules[r];
+    if (faces[r] > 0 || rule.none) continue;
+    warnings.push_back(fmt::format("{}: this joint rule joins nothing: between \"{}\" and \"{}\" no faces lie at most {:g} mm apart, or later "
+                                   "rules take them; look at between, thickness and tolerance",
+                                   rule.place.text(), rule.group_a, rule.group_b, 1e3 * (rule.thickness + rule.tolerance)));
+  }
+}
+
+void check_blocks(const Scene& scene, const Interfaces& found, const Model& m, std::vector<std::string>& errors,
+                  std::vector<std::string>& warnings) {
+  check_overlaps(scene, found.overlaps, errors, warnings);
+  check_loose(scene, found, m, errors);
+  check_rules(scene, found, warnings);
   for (const Interface& face : found.all) {
     const JointRule& rule = scene.joint_rules[z(face.rule)];
     if (rule.points_long * rule.points_short > most_points_per_joint) {
@@ -222,9 +279,7 @@ Built build(const Scene& scene) {
   for (const JointRule& rule : scene.joint_rules) m.laws.push_back(rule.none ? PointLaw{} : compile(rule.law));
   add_blocks(scene, m);
   add_loads(scene, m);
-  std::vector<InterfaceBlock> faces;
-  for (const Block& b : scene.blocks) faces.push_back({b.parts, b.group, b.fixed});
-  const Interfaces found = find_interfaces(faces, scene.joint_rules);
+  const Interfaces found = find_interfaces(interface_blocks(scene), scene.joint_rules);
   std::vector<std::string> errors;
   check_blocks(scene, found, m, errors, m.warnings);
   if (!errors.empty()) throw Errors(errors);
@@ -238,6 +293,15 @@ Built build(const Scene& scene) {
   }
   out.state = start(scene, m);
   return out;
+}
+
+std::vector<std::string> overlap_mistakes(const Scene& scene) {
+  for (const Block& block : scene.blocks)
+    for (const Polyhedron& part : block.parts)
+      if (!problem_of(part).empty()) return {};
+  std::vector<std::string> errors, warnings;
+  check_overlaps(scene, find_interfaces(interface_blocks(scene), {}).overlaps, errors, warnings);
+  return errors;
 }
 
 }  // namespace erbs

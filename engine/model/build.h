@@ -13,4 +13,7 @@ struct Built {
 // Throws Errors with one message per mistake (overlap, a block without joint, a joint with too many points ...).
 Built build(const Scene& scene);
 
+// The overlaps alone, for a scene with other mistakes, which cannot be built; none where a shape is no solid.
+std::vector<std::string> overlap_mistakes(const Scene& scene);
+
 }  // namespace erbs

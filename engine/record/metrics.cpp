@@ -30,6 +30,20 @@ std::vector<std::pair<std::string, double>> energy_terms(const Energy& e) {
           {"reset_J", e.reset}};
 }
 
+std::vector<std::string> metric_keys() {
+  Metrics all;
+  all.energy = energy_terms(Energy{});
+  std::vector<std::string> keys;
+  const auto add = [&keys](auto& self, const Json& json, const std::string& before) -> void {
+    for (const auto& [key, value] : json.items()) {
+      if (value.is_object() && !value.empty()) self(self, value, before + key + ".");
+      else if (before + key != "metrics") keys.push_back(before + key);
+    }
+  };
+  add(add, to_json(all), "");
+  return keys;
+}
+
 Json to_json(const Metrics& m) {
   const double solve = m.wall_s.solve;
   const double simulated = m.simulated_s < 0 ? m.time_s : m.simulated_s;

@@ -48,6 +48,7 @@ struct Metrics {
 std::vector<std::pair<std::string, double>> energy_terms(const Energy& energy);
 
 Json to_json(const Metrics& metrics);
+std::vector<std::string> metric_keys();  // every dotted key of metrics.json but the scene's own: "collapse.time_s"
 void write_metrics(const std::string& dir, const Metrics& metrics);  // DIR/metrics.json, atomically
 Json read_metrics(const std::string& dir);
 

@@ -47,11 +47,11 @@ std::string spectrum(const RecordReport& r) {
   return text + "END\n";
 }
 
-// The step of 1, 2 or 5 times a power of ten that makes two to five tics up to `reach`.
+// The step of 1, 2 or 5 times a power of ten that makes one to four tics up to `reach`.
 double tic_step(double reach) {
   const double decade = std::pow(10, std::floor(std::log10(reach)));
   const double lead = reach / decade;
-  return decade * (lead < 2 ? 0.5 : lead < 4 ? 1 : 2);
+  return decade * (lead < 2 ? 0.5 : lead < 4 ? 1 : lead < 8 ? 2 : 5);
 }
 
 // A circle at the peak and its value beside it, on the side that has room.
@@ -66,9 +66,10 @@ std::string panel(const Panel& p, const RecordReport& r, bool last) {
   const double reach = std::max(1.28 * std::abs(p.peak.value), 1e-12);  // a record of zeros has a picture too
   std::string text = fmt::format(
       "set lmargin at screen 0.075\nset rmargin at screen 0.6\nset bmargin at screen {}\nset tmargin at screen {}\n"
-      "set title '{}' offset 0,-0.7 tc rgb '{}' font ',14'\nset ylabel '{}' offset 0.6,0 tc rgb '#333333'\n"
+      "set label 4 '{}' at graph 0, graph 1.1 left tc rgb '{}' font ',14'\n"
+      "set label 5 '{}' at screen 0.02,{} center rotate by 90 tc rgb '#333333'\n"  // a ylabel would stand where the tics let it
       "set xrange [0:{:.8g}]\nset yrange [{:.8g}:{:.8g}]\nset format x '{}'\n{}\n",
-      p.bottom, p.top, p.title, p.color, p.label, r.duration, -reach, reach, last ? "%g" : "",
+      p.bottom, p.top, p.title, p.color, p.label, 0.5 * (p.bottom + p.top), r.duration, -reach, reach, last ? "%g" : "",
       last ? "set xlabel 'time (s)' offset 0,0.3 tc rgb '#333333'" : "unset xlabel");
   text += fmt::format("set object 1 rectangle from {:.8g}, graph 0 to {:.8g}, graph 1 fc rgb '#f3efe8' fs solid noborder behind\n",
                       r.time_5, r.time_95);
@@ -82,8 +83,8 @@ std::string spectrum_panel(const RecordReport& r) {
   std::string text =
       "unset object 1\nunset arrow 1\nset lmargin at screen 0.685\nset rmargin at screen 0.975\nset bmargin at screen 0.40\nset tmargin at "
       "screen 0.865\n"
-      "set title 'Response spectrum, 5 % damping' offset 0,-0.7 tc rgb '#5b3a78' font ',14'\n"
-      "set ylabel 'pseudo-acceleration Sa (g)' offset 0.6,0\nset xlabel 'period T (s)' offset 0,0.3 tc rgb '#333333'\n"
+      "unset label 5\nset label 4 'Response spectrum, 5 % damping' at graph 0, graph 1.045 left tc rgb '#5b3a78' font ',14'\n"
+      "set ylabel 'pseudo-acceleration Sa (g)' offset 0.6,0 tc rgb '#333333'\nset xlabel 'period T (s)' offset 0,0.3 tc rgb '#333333'\n"
       "set ytics auto\nset logscale x\nset format x '%g'\nset xtics (0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5)\n";
   text +=
       fmt::format("set xrange [{:.8g}:{:.8g}]\nset yrange [0:{:.8g}]\n", r.spectrum.front().period, r.spectrum.back().period, 1.2 * top);

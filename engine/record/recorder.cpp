@@ -30,7 +30,8 @@ void check_one(const Recorder& r, const std::set<std::string>& blocks, std::vect
   };
   const std::vector<std::string> known = quantity_names();
   if (std::find(known.begin(), known.end(), r.quantity) == known.end())
-    say(fmt::format("there is no quantity \"{}\"{} (allowed: {})", r.quantity, did_you_mean(r.quantity, known), fmt::join(known, ", ")));
+    say(fmt::format("there is no quantity \"{}\"{}; allowed: {}", r.quantity,
+                    nearest(r.quantity, known).empty() ? "" : did_you_mean(r.quantity, known), fmt::join(known, ", ")));
   else if (needs_blocks(r.quantity) && r.blocks.empty()) say(fmt::format("{} of which block? Give block, blocks or group", r.quantity));
   for (const auto* list : {&r.blocks, &r.others})
     for (const std::string& block : *list)

@@ -19,6 +19,31 @@ const Place* load_with(const Scene& scene, Load::Kind kind, int component = -1) 
   return nullptr;
 }
 
+const Place* any_joint(const Scene& scene) {
+  for (const JointRule& rule : scene.joint_rules)
+    if (!rule.none) return &rule.place;
+  return nullptr;
+}
+
+// Blocks meet where a joint can break (every law can), or where one stands or flies without a joint.
+const Place* may_meet(const Scene& scene) {
+  if (scene.blocks.size() < 2) return nullptr;
+  if (const Place* joined = any_joint(scene)) return joined;
+  for (const Block& block : scene.blocks)
+    if (!block.fixed) return &block.place;
+  return nullptr;
+}
+
+// An impact between two materials loses energy where the lesser restitution of both is below 1.
+const Place* dissipating(const Scene& scene) {
+  for (const Block& block : scene.blocks) {
+    if (block.fixed || block.material < 0) continue;
+    const Material& material = scene.materials[static_cast<std::size_t>(block.material)];
+    if (material.restitution < 1) return &material.place;
+  }
+  return nullptr;
+}
+
 }  // namespace
 
 std::vector<Effect> effects_of(const Scene& scene) {
@@ -35,6 +60,13 @@ std::vector<Effect> effects_of(const Scene& scene) {
   out.push_back(effect("softening in tension", rule_with(scene, [](const Mortar& m) { return m.Gf1 > 0 || m.un_ultimate > 0; })));
   out.push_back(effect("softening in shear", rule_with(scene, [](const Mortar& m) { return m.Gf2 > 0 || m.us_ultimate > 0; })));
   out.push_back(effect("compression plateau", rule_with(scene, [](const Mortar& m) { return m.fc > 0; })));
+  const Place* joined = any_joint(scene);
+  const Place* debris = may_meet(scene);
+  out.push_back(effect("rotation of joint frames", joined));
+  out.push_back(effect("debris contact", debris));
+  out.push_back(effect("contact dashpots", debris != nullptr ? dissipating(scene) : nullptr));
+  out.push_back({"gyroscopic term", scene.analysis.gyroscopic, scene.analysis.gyroscopic ? "by default" : ""});
+  out.push_back({"energy ledger", true, "every run"});
   out.push_back(effect("recorders", scene.recorders.empty() ? nullptr : &scene.recorders.front().place));
   return out;
 }

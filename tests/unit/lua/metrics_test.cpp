@@ -74,7 +74,7 @@ TEST_CASE("expectations pass and fail as they say", "[lua]") {
       "expect('energy.residual_relative', 1e-4, { below = true })\nexpect('time_s', 3, { above = true })\nexpect('time_s', nil, { between "
       "= {3.9, 4.0} })\n"
       "expect('status', 'completed')\nexpect('status', 'diverged')\nexpect('collapse.collapsed', false)\nexpect('collapse.time_s', "
-      "'null')\nexpect('nothing', 1, { rel = 1 })\n"
+      "'null')\nexpect('collapse.direction.5', 1, { rel = 1 })\n"
       "expect('collapse.time_s', 1, { rel = 1 })");
   const auto verdicts = judge(scene.expectations, results().metrics);
   std::vector<bool> passed;

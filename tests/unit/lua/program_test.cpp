@@ -1,53 +1,14 @@
 // The program as a user meets it: exit codes, where messages go, and that nothing half-written remains.
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <csignal>
-#include <filesystem>
-#include <fstream>
 #include <thread>
 
-#include "lua/child.h"
-#include "tests/unit/lua/load.h"
+#include "tests/unit/lua/bench.h"
 
 using namespace erbs;
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string text_of(const fs::path& path) {
-  std::ifstream stream(path);
-  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-// A folder of its own, gone at the end.
-struct Bench {
-  fs::path folder = fs::temp_directory_path() / ("erbs_program_" + std::to_string(getpid()));
-  std::string said;  // stdout and stderr of the last call
-  Bench() { fs::create_directories(folder); }
-  ~Bench() { fs::remove_all(folder); }
-
-  std::string scene(const std::string& text) const {
-    std::ofstream(folder / "scene.lua") << text;
-    return (folder / "scene.lua").string();
-  }
-  std::vector<std::string> command(std::vector<std::string> words) const {
-    words.insert(words.begin(), ERBS_BINARY_DIR "/erbs");
-    return words;
-  }
-  int erbs(const std::vector<std::string>& words) {
-    const int code = wait_for(start(command(words), (folder / "log").string()));
-    said = text_of(folder / "log");
-    return code;
-  }
-  int run(const std::string& text, std::vector<std::string> more = {}) {
-    std::vector<std::string> words{"run", scene(text), "-o", out()};
-    words.insert(words.end(), more.begin(), more.end());
-    return erbs(words);
-  }
-  std::string out() const { return (folder / "out").string(); }
-};
 
 const std::string falling = R"(
 material{ name = "brick", density = 1800 }
@@ -83,30 +44,6 @@ TEST_CASE("a folder that exists is refused with the remedy, and --force replaces
   CHECK(bench.run(falling) == 2);
   CHECK(contains(bench.said, "--force"));
   CHECK(bench.run(falling, {"--force"}) == 0);
-}
-
-TEST_CASE("bad input ends with 2, names the place, and leaves nothing behind", "[program]") {
-  Bench bench;
-  std::ofstream(bench.folder / "letters.csv") << "0, 0.1\n0.02, 0.2x\n0.04, 0.1\n";
-  std::ofstream(bench.folder / "empty.csv").flush();
-  const std::pair<std::string, std::string> bad[] = {
-      {"box{", "scene.lua:"},
-      {"box{ size = {1,1,1}, at = {5,0,0}, frree = true }", "did you mean \"free\"?"},
-      {"material{ name = 'x', density = -1 }", "density = -1 kg/m3 is out of range"},
-      {"ground_motion{ wave = record{ file = 'nope.csv' } }", "\"nope.csv\" is not there"},
-      {"ground_motion{ wave = record{ file = 'empty.csv' } }", "empty.csv"},
-      {"ground_motion{ wave = record{ file = 'letters.csv', unit = 'g' } }", "letters.csv"},
-      {"box{ size = {.3,.2,.1}, center = {0,0,10.05}, free = true }", "overlap"},
-      {"box{ size = {1,1,1}, at = {5,0,0} }", "joint"},
-      {"analysis{ duration = 0 }", "duration"},
-  };
-  for (const auto& [piece, message] : bad) {
-    INFO(piece);
-    CHECK(bench.run(falling + piece) == 2);
-    INFO(bench.said);
-    CHECK(contains(bench.said, message));
-    CHECK_FALSE(fs::exists(bench.out()));
-  }
 }
 
 TEST_CASE("the command line is checked", "[program]") {

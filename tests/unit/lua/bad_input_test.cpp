@@ -1,0 +1,275 @@
+// Bad input as a user meets it: code 2, one message for each mistake with place and remedy, and nothing left behind.
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/unit/lua/bench.h"
+
+using namespace erbs;
+namespace fs = std::filesystem;
+
+namespace {
+
+// Six lines, so that what a test adds stands in line 7.
+const std::string pier = R"(material{ name = "brick", density = 1800 }
+ground{ size = 4 }
+for i = 0, 3 do box{ name = "b" .. i, group = "pier", size = { .3, .125, .1 }, at = { 0, 0, i * .1 } } end
+joint{ law = dry{ kn = 1*GPa, mu = .6 } }
+analysis{ duration = param("duration", 0.01, "[s]") }
+local el_centro = ")" ERBS_SOURCE_DIR R"(/scenes/records/elcentro_1940_ns.csv"
+)";
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (size_t at = 0; at < text.size();) {
+    const size_t end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+    at = end + 1;
+  }
+  return lines;
+}
+
+struct Bad {
+  std::string piece;               // in line 7 of the scene
+  std::vector<std::string> parts;  // of the one message: place, name and remedy
+};
+
+void refuses(Bench& bench, const Bad& bad) {
+  INFO(bad.piece);
+  CHECK(bench.run(pier + bad.piece) == 2);
+  INFO(bench.said);
+  CHECK(lines_of(bench.said).size() == 1);
+  for (const auto& part : bad.parts) {
+    INFO(part);
+    CHECK(contains(bench.said, part));
+  }
+  CHECK_FALSE(fs::exists(bench.out()));
+}
+
+}  // namespace
+
+TEST_CASE("the pier is sound", "[bad_input]") {
+  Bench bench;
+  CHECK(bench.run(pier) == 0);
+  INFO(bench.said);
+}
+
+TEST_CASE("what a scene says wrong is one message with its place and remedy", "[bad_input]") {
+  Bench bench;
+  const std::string at = "scene.lua:7: ";
+  const Bad list[] = {
+      {"box{ size = {1, 1, 1}", {"scene.lua:", "'}' expected"}},
+      {"boxx{ size = {1, 1, 1} }", {at, "unknown name \"boxx\"; did you mean \"box\"?"}},
+      {"box{ sise = {1, 1, 1}, at = {5, 5, 5}, free = true }", {at, "box: unknown key \"sise\"; did you mean \"size\"?"}},
+      {"box{ at = {5, 5, 5}, free = true }", {at, "\"size\" is missing"}},
+      {"material{ name = 'm', density = -5 }", {at, "density = -5 kg/m3 is out of range; allowed is 0.01 to 100000 kg/m3"}},
+      {"material{ name = 'm', density = '5' }", {at, "density must be a number in kg/m3"}},
+      {"box{ size = {0, 1, 1}, at = {5, 5, 5}, free = true }", {at, "size[1] = 0 m is out of range; allowed is"}},
+      {"box{ size = {0/0, 1, 1}, at = {5, 5, 5}, free = true }", {at, "size[1] is not a number (0/0?); allowed is"}},
+      {"box{ size = {1, 1, 1}, at = {1/0, 5, 5}, free = true }", {at, "at[1] is infinite (1/0?); allowed is"}},
+      {"box{ size = {1, 1, 1}, at = {5, 5, 5}, material = 'brik', free = true }", {at, "\"brik\" is unknown; did you mean \"brick\"?"}},
+      {"box{ name = 'b1', size = {1, 1, 1}, at = {5, 5, 5}, free = true }", {at, "block \"b1\" is there twice; give one of them"}},
+      {"box{ size = {.3, .125, .1}, at = {0, 0, .399} }", {at, "overlap by 1 mm", "at most 0.001", "part them", "stress_free"}},
+      {"box{ name = 'l', size = {.3, .125, .1}, at = {3, 0, 3} }", {at, "block 'l' has no joint", "free = true"}},
+      {"analysis{ duration = 0 }", {at, "duration = 0 s is out of range; allowed is 1e-09 to 1e+06 s"}},
+      {"analysis{ duration = math.huge }", {at, "duration is infinite (1/0?); allowed is 1e-09 to 1e+06 s"}},
+      {"analysis{ duration = 1, dt = 0.1 }", {at, "analysis: dt = 0.1 s", "times the limit", "take at most", "unstable = true"}},
+      {"recorder{ name = 'r', quantity = 'displacement', block = 'b11' }", {at, "there is no block \"b11\"; did you mean \"b1\"?"}},
+      {"recorder{ name = 'r', quantity = 'displacment', block = 'b1' }", {at, "did you mean \"displacement\"?; allowed: displacement, "}},
+      {"force{ block = 'b11', wave = 1 }", {at, "force: there is no block \"b11\"; did you mean \"b1\"?"}},
+      {"force{ block = 'b1', wave = 0/0 }", {at, "wave is not a number (0/0?); allowed is any finite number in N"}},
+      {"expect('metrics.top', 3, { rel = .1 })", {at, "there is no metric \"top\""}},
+      {"expect('energy.kinetic', 3, { rel = .1 })", {at, "no key \"energy.kinetic\"; did you mean \"energy.kinetic_J\"?"}},
+      {"joint{ between = {'pier', 'wall'}, law = dry{ kn = 1e9, mu = .6 } }", {at, "no block is of group \"wall\"; known: ground, pier"}},
+      {"ground_motion{ wave = 1, direction = {0, 0, 0} }", {at, "direction has no length; give a vector such as { 1, 0, 0 }"}},
+      {"ground_motion{ wave = record{ file = el_centro, peak = -1 } }", {at, "peak = -1 m/s2 is out of range"}},
+      {"mesh{ file = 'no.obj', free = true }", {at, "\"no.obj\" is not there; looked for", "correct the name"}},
+      {"wall{ lenth = 3, joint = .01, courses = 2, brick = { length = .3, width = .1, height = .1 }, length = 2 }",
+       {at, "unknown key \"lenth\"; did you mean \"length\"?"}},
+  };
+  for (const Bad& bad : list) refuses(bench, bad);
+}
+
+TEST_CASE("a record that cannot be read names the scene's line and the file's", "[bad_input]") {
+  Bench bench;
+  bench.write("empty.csv", "");
+  bench.write("names.csv", "time_s,acc_g\n");
+  bench.write("letter.csv", "0, 0.1\n0.02, 0.2x\n0.04, 0.1\n");
+  bench.write("nan.txt", "0.1\nnan\n");
+  bench.write("short.at2", "PEER\nX\nACCELERATION IN UNITS OF G\nNPTS= 10, DT= .01 SEC\n.1 .2 .3\n");
+  const auto wave = [](const std::string& keys) { return "ground_motion{ wave = record{ file = " + keys + " }, direction = 'x' }"; };
+  const Bad list[] = {
+      {wave("'nope.csv'"), {"scene.lua:7: ", "\"nope.csv\" is not there; looked for", "put the file beside the scene"}},
+      {wave("'empty.csv', unit = 'g'"), {"scene.lua:7: record: ", "empty.csv: the record file is empty; give a file with numbers"}},
+      {wave("'names.csv'"), {"scene.lua:7: record: ", "names.csv: ", "holds no numbers"}},
+      {wave("'letter.csv', unit = 'g'"), {"scene.lua:7: record: ", "letter.csv:2: column 7: \"0.2x\" is not a number; correct it"}},
+      {wave("'nan.txt', unit = 'g', dt = .01"), {"scene.lua:7: record: ", "nan.txt:2: ", "\"nan\" is not a number"}},
+      {wave("'short.at2'"), {"scene.lua:7: record: ", "short.at2:4: NPTS promises 10 values, the file holds 3"}},
+      {wave("'letter.csv'"), {"scene.lua:7: record: ", "letter.csv:"}},
+  };
+  for (const Bad& bad : list) refuses(bench, bad);
+}
+
+TEST_CASE("a mesh that is no solid is refused", "[bad_input]") {
+  Bench bench;
+  const std::string corners = "o cube\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 2\nv 1 0 2\nv 0 1 2\n";
+  const std::string sides = "f 4 3 2 1\nf 5 6 8 7\nf 2 3 8 6\nf 3 4 7 8\nf 4 1 5 7\n", front = "f 1 2 6 5\n";
+  bench.write("whole.obj", corners + "v 1 1 2\n" + sides + front);
+  bench.write("open.obj", corners + "v 1 1 2\n" + sides);
+  bench.write("dented.obj", corners + "v 0.4 0.4 1\n" + sides + front);
+  bench.write("junk.obj", "");
+  const auto mesh = [](const std::string& file) { return "mesh{ file = '" + file + "', at = {5, 5, 5}, free = true }"; };
+  CHECK(bench.run(pier + mesh("whole.obj"), {"--force"}) == 0);
+  INFO(bench.said);
+  fs::remove_all(bench.out());
+  refuses(bench, {mesh("open.obj"), {"scene.lua:7: mesh: ", "\"cube\"", "is not a closed surface; close its holes"}});
+  refuses(bench, {mesh("dented.obj"), {"scene.lua:7: mesh: ", "\"cube\"", "is not convex", "split it"}});
+  refuses(bench, {mesh("junk.obj"), {"scene.lua:7: mesh: ", "cannot read the mesh"}});
+}
+
+TEST_CASE("a script without end is stopped", "[bad_input]") {
+  Bench bench;
+  refuses(bench, {"while true do end", {"scene.lua:7: the script ran longer than 10 s; a loop may never end"}});
+}
+
+TEST_CASE("all mistakes come at once, in the order of the lines, overlaps among them", "[bad_input]") {
+  Bench bench;
+  CHECK(bench.run(pier + R"(box{ sise = {1, 1, 1} }
+material{ name = "a", density = "heavy" }
+force{ block = "b77", wave = 1 }
+for i = 1, 3 do box{ group = "pier", material = "brick", size = {.3, .125, .1}, at = {0, 0, .399 + i * .098} } end
+recorder{ name = "q", quantity = "displacement", block = "b9" }
+analysis{ durration = 1 }
+expect("state_hsh", "x"))") == 2);
+  INFO(bench.said);
+  const std::string begins[] = {"box: unknown key",         "material: density must",      "force: there is no block", "blocks '",
+                                "recorder \"q\": there is", "analysis: unknown key \"durr", "expect: metrics.json has"};
+  const auto lines = lines_of(bench.said);
+  REQUIRE(lines.size() == 7);
+  for (size_t i = 0; i < 7; ++i) CHECK(contains(lines[i], fmt::format("scene.lua:{}: {}", i + 7, begins[i])));
+  CHECK(contains(lines[3], "more pair(s) of these lines"));
+}
+
+TEST_CASE("an overlap below a thousandth is warned of and carries no force", "[bad_input]") {
+  Bench bench;
+  const std::string rest = "gravity(0)\n";
+  CHECK(bench.run(pier + rest + "box{ group = 'pier', size = {.3, .125, .1}, at = {0, 0, .39995} }") == 0);
+  CHECK(contains(bench.said, "overlap by 0.05 mm"));
+  CHECK(contains(bench.said, "free of force at rest"));
+  CHECK(read_json(bench.out() + "/metrics.json")["energy"]["elastic_J"].get<double>() < 1e-12);
+  CHECK(bench.run(pier + rest + "box{ group = 'pier', size = {.3, .125, .1}, at = {0, 0, .398} }\nanalysis{ duration = .01, overlap = "
+                                "'stress_free' }",
+                  {"--force"}) == 0);
+  CHECK(read_json(bench.out() + "/metrics.json")["energy"]["elastic_J"].get<double>() < 1e-12);
+}
+
+TEST_CASE("a block without joint is legal where it is free or starts in motion", "[bad_input]") {
+  Bench bench;
+  const std::string box = "box{ size = {.3, .2, .1}, at = {3, 0, 3}, ";
+  CHECK(bench.run(pier + box + "free = true }") == 0);
+  CHECK(bench.run(pier + box + "initial = { velocity = {1, 0, 0} } }", {"--force"}) == 0);
+  INFO(bench.said);
+}
+
+TEST_CASE("a joint rule that joins nothing is warned of", "[bad_input]") {
+  Bench bench;
+  CHECK(bench.run(pier + "joint{ between = {'ground', 'ground'}, law = dry{ kn = 1e9, mu = .6 } }") == 0);
+  CHECK(contains(bench.said, "warning: "));
+  CHECK(contains(bench.said, "scene.lua:7: this joint rule joins nothing"));
+  CHECK(contains(text_of(bench.out() + "/log.txt"), "joins nothing"));
+}
+
+TEST_CASE("-D must name a param of the scene and give a number, once", "[bad_input]") {
+  Bench bench;
+  const std::pair<std::string, std::string> list[] = {
+      {"durtion=1", "-D durtion=1: the scene has no param \"durtion\"; did you mean \"duration\"?"},
+      {"duration=1*furlong", "-D duration=1*furlong: unknown name \"furlong\""},
+      {"duration=1+", "-D duration=1+: unexpected symbol"},
+      {"duration=", "must be a finite number, such as 0.8*g, not nil"},
+      {"duration=0/0", "must be a finite number"},
+      {"duration='1'", "must be a finite number, such as 0.8*g, not the string"},
+      {"duration", "write -D name=value"},
+      {"duration=-1", "scene.lua:5: analysis: duration = -1 s is out of range"},
+  };
+  for (const auto& [define, message] : list) {
+    INFO(define);
+    CHECK(bench.run(pier, {"-D", define}) == 2);
+    INFO(bench.said);
+    CHECK(contains(bench.said, message));
+    CHECK(lines_of(bench.said).size() == 1);
+    CHECK_FALSE(fs::exists(bench.out()));
+  }
+  CHECK(bench.run(pier, {"-D", "duration=1", "-D", "duration=2"}) == 2);
+  CHECK(contains(bench.said, "-D duration=2: duration was given before, as 1; keep one"));
+}
+
+TEST_CASE("options out of range are refused before anything is written", "[bad_input]") {
+  Bench bench;
+  const std::pair<std::vector<std::string>, std::string> list[] = {
+      {{"--threads", "0"}, "not in range 1 to 1024"}, {{"--until", "-1"}, "--until -1: not a length of time"},
+      {{"--until", "inf"}, "not a length of time"},   {{"--max-wall", "0"}, "leaves no time to run"},
+      {{"--max-wall", "x"}, "not a length of time"},  {{"--resume"}, "nothing to resume: there is no folder"},
+      {{"--resume", "--force"}, "exclude each other"}};
+  for (const auto& [words, message] : list) {
+    CHECK(bench.run(pier, words) == 2);
+    INFO(bench.said);
+    CHECK(contains(bench.said, message));
+    CHECK_FALSE(fs::exists(bench.out()));
+  }
+  CHECK(bench.erbs({"frobnicate"}) == 2);
+  CHECK(contains(bench.said, "there is no verb frobnicate; known: run, check"));
+  CHECK(bench.erbs({"chek"}) == 2);
+  CHECK(contains(bench.said, "there is no verb chek; did you mean \"check\"?"));
+}
+
+TEST_CASE("a folder that cannot be written, or is none of ours, is left as it is", "[bad_input]") {
+  Bench bench;
+  bench.write("file", "mine");
+  fs::create_directories(bench.folder / "own");
+  bench.write("own/notes.txt", "mine");
+  const std::string scene = bench.scene(pier);
+  for (const std::string name : {"file", "own"}) {
+    CHECK(bench.erbs({"run", scene, "-o", (bench.folder / name).string()}) == 2);
+    CHECK(contains(bench.said, "exists; choose another with -o DIR"));
+    CHECK(bench.erbs({"run", scene, "-o", (bench.folder / name).string(), "--force"}) == 2);
+    CHECK(contains(bench.said, "choose another with -o DIR"));
+  }
+  CHECK(text_of(bench.folder / "file") == "mine");
+  CHECK(text_of(bench.folder / "own/notes.txt") == "mine");
+  CHECK(bench.erbs({"run", scene, "-o", (bench.folder / "file/below").string()}) == 2);
+  CHECK(contains(bench.said, "cannot be made"));
+  CHECK(bench.erbs({"run", scene, "-o", "/proc/erbs/run"}) == 2);
+  CHECK(contains(bench.said, "cannot be made"));
+}
+
+TEST_CASE("a bad scene does not touch the run of before, --force or not", "[bad_input]") {
+  Bench bench;
+  REQUIRE(bench.run(pier) == 0);
+  const std::string before = text_of(bench.out() + "/metrics.json");
+  CHECK(bench.run(pier + "box{ sise = 1 }", {"--force"}) == 2);
+  CHECK(bench.run(pier + "analysis{ duration = 1, dt = 1 }", {"--force"}) == 2);
+  CHECK(text_of(bench.out() + "/metrics.json") == before);
+}
+
+TEST_CASE("check tells the mistakes of every scene, and writes nothing", "[bad_input]") {
+  Bench bench;
+  const std::string scene = bench.scene(pier);
+  bench.write("bad.lua", "box{ sise = 3 }\n");
+  bench.write("worse.lua", "boxx{}\n");
+  CHECK(bench.erbs({"check", (bench.folder / "bad.lua").string(), (bench.folder / "worse.lua").string(), scene}) == 2);
+  INFO(bench.said);
+  for (const char* part : {"bad.lua:1: box: unknown key", "worse.lua:1: unknown name \"boxx\"", "model: 5 blocks, 4 joints, 36 contact points",
+                           "dt_critical", "estimate: ", "steps for 0.01 s", "debris contact", "scene.lua:4", "energy ledger"}) {
+    INFO(part);
+    CHECK(contains(bench.said, part));
+  }
+  CHECK(std::distance(fs::directory_iterator(bench.folder), {}) == 4);  // three scenes and the log
+}
+
+TEST_CASE("what a script prints stands at the head of the run's log", "[program]") {
+  Bench bench;
+  REQUIRE(bench.run(pier + "print('five bricks whole')", {"-q"}) == 0);
+  CHECK(bench.said.empty());
+  CHECK(text_of(bench.out() + "/log.txt").starts_with("five bricks whole\n"));
+}

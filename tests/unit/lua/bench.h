@@ -1,0 +1,49 @@
+// The program called as a user would, in a folder of its own.
+#pragma once
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "lua/child.h"
+#include "tests/unit/lua/load.h"
+
+namespace erbs {
+
+inline std::string text_of(const std::filesystem::path& path) {
+  std::ifstream stream(path);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// A folder of its own, gone at the end.
+struct Bench {
+  std::filesystem::path folder = std::filesystem::temp_directory_path() / ("erbs_program_" + std::to_string(getpid()));
+  std::string said;  // stdout and stderr of the last call
+  Bench() { std::filesystem::create_directories(folder); }
+  ~Bench() { std::filesystem::remove_all(folder); }
+
+  void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
+  std::string scene(const std::string& text) const {
+    write("scene.lua", text);
+    return (folder / "scene.lua").string();
+  }
+  std::vector<std::string> command(std::vector<std::string> words) const {
+    words.insert(words.begin(), ERBS_BINARY_DIR "/erbs");
+    return words;
+  }
+  int erbs(const std::vector<std::string>& words) {
+    const int code = wait_for(start(command(words), (folder / "log").string()));
+    said = text_of(folder / "log");
+    return code;
+  }
+  int run(const std::string& text, std::vector<std::string> more = {}) {
+    std::vector<std::string> words{"run", scene(text), "-o", out()};
+    words.insert(words.end(), more.begin(), more.end());
+    return erbs(words);
+  }
+  std::string out() const { return (folder / "out").string(); }
+};
+
+}  // namespace erbs

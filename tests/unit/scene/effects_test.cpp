@@ -1,0 +1,52 @@
+// What a scene calls for, and by which line.
+#include "engine/scene/effects.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/unit/lua/load.h"
+
+using namespace erbs;
+
+namespace {
+
+// "scene.lua:9" where the effect is on, "" where it is off
+std::string why(const Scene& scene, const std::string& name) {
+  for (const Effect& effect : effects_of(scene))
+    if (effect.name == name) return effect.on ? effect.because : "";
+  FAIL("no effect " << name);
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("each effect names the line that called for it", "[scene]") {
+  const Scene scene = scene_of(
+      "joint{ law = mortar{ E = 1e9, thickness = .01, ft = 1e5, c = 1e5, mu = .6, Gf1 = 5, fc = 1e6 } }\n"
+      "ground_motion{ wave = 1, direction = {3, 0, 4} }\n"
+      "damping{ mass = 2 }\n"
+      "box{ name = 'c', size = {1, 1, 1}, at = {5, 0, 0}, free = true }\n"
+      "tilt{ wave = .1, axis = 'x' }\n"
+      "recorder{ name = 'c', quantity = 'displacement', block = 'c' }\n");
+  const auto& joint = scene.joint_rules.at(0).place;
+  const auto line = [&](int n) { return Place{joint.file, joint.line + n}.text(); };
+  for (const char* name : {"softening in tension", "compression plateau", "rotation of joint frames", "debris contact"})
+    CHECK(why(scene, name) == line(0));
+  for (const char* name : {"ground x", "ground z"}) CHECK(why(scene, name) == line(1));
+  CHECK(why(scene, "mass damping") == line(2));
+  CHECK(why(scene, "tilting gravity") == line(4));
+  CHECK(why(scene, "recorders") == line(5));
+  CHECK(why(scene, "energy ledger") == "every run");
+  CHECK(why(scene, "contact dashpots") == scene.materials.at(0).place.text());
+  for (const char* name : {"ground y", "softening in shear", "forces on blocks", "moments on blocks", "prescribed motion"})
+    CHECK(why(scene, name).empty());
+}
+
+TEST_CASE("a block alone calls for no contact, a rule of none for no joint", "[scene]") {
+  Scene scene = scene_of("joint{ between = {'', ''}, none = true }\ndamping{ mass = 2, scope = 'none' }");
+  CHECK(why(scene, "rotation of joint frames").empty());
+  CHECK(why(scene, "mass damping").empty());
+  scene.blocks.resize(1);
+  CHECK(why(scene, "debris contact").empty());
+  CHECK(why(scene, "contact dashpots").empty());
+}
