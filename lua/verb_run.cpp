@@ -127,6 +127,14 @@ RunOutcome run_scene(const Scene& scene, const std::string& script, const std::v
   return run_dynamic(scene, script, run);
 }
 
+// histories.svg and energy.svg; a run without them is a run all the same.
+void draw_curves(const std::string& directory) {
+  try {
+    if (run_renderer({directory, "--figures", "--quiet"}) == 0) return;
+  } catch (const Error& error) { fmt::print(stderr, "{}\n", error.what()); }
+  fmt::print(stderr, "warning: the curves are not drawn; erbs render {} --figures tries again\n", directory);
+}
+
 }  // namespace
 
 int verb_run(const Options& options) {
@@ -164,6 +172,8 @@ int verb_run(const Options& options) {
     if (options.quiet) words.push_back("--quiet");
     const int drawn = run_renderer(words);
     if (code == exit_ok) code = drawn;
+  } else if (status != "interrupted") {
+    draw_curves(directory);
   }
   return code;
 }

@@ -61,7 +61,7 @@ struct Painter::Hidden {
   Gl gl;
   std::unique_ptr<Canvas> canvas;
   GLuint solid, shade, crack, ground, sky;
-  Drawable bricks, cracks, plane;
+  Drawable bricks, shades, cracks, plane;
   Texels blocks, joints;
 
   Hidden(const Show& s, const Look& l, const std::string& kind) : show(s), look_(l), context(make_context(kind)), gl(load_gl(*context)) {
@@ -79,7 +79,7 @@ struct Painter::Hidden {
   }
   ~Hidden() {
     for (GLuint program : {solid, shade, crack, ground, sky}) gl.DeleteProgram(program);
-    for (Drawable* d : {&bricks, &cracks, &plane}) {
+    for (Drawable* d : {&bricks, &shades, &cracks, &plane}) {
       gl.DeleteVertexArrays(1, &d->vao);
       gl.DeleteBuffers(1, &d->vertices);
       gl.DeleteBuffers(1, &d->index);
@@ -98,6 +98,10 @@ struct Painter::Hidden {
     floats<Vertex>(gl, 1, 3, offsetof(Vertex, n));
     integers<Vertex>(gl, 2, 1, offsetof(Vertex, block));
     integers<Vertex>(gl, 3, 1, offsetof(Vertex, joint));
+    shades = upload(gl, show.mesh.shades);
+    floats<Vertex>(gl, 0, 3, offsetof(Vertex, p));
+    integers<Vertex>(gl, 2, 1, offsetof(Vertex, block));
+    choose(gl, shades, show.mesh.shade_index);
     cracks = upload(gl, show.mesh.cracks);
     floats<CrackVertex>(gl, 0, 3, offsetof(CrackVertex, pa));
     floats<CrackVertex>(gl, 1, 3, offsetof(CrackVertex, pb));
@@ -156,11 +160,10 @@ struct Painter::Hidden {
     gl.BindTexture(GL_TEXTURE_2D, 0);
     canvas->begin_shadow();
     gl.Enable(GL_CULL_FACE);
-    gl.Enable(GL_POLYGON_OFFSET_FILL);
-    gl.PolygonOffset(1.5F, 2.0F);
+    gl.CullFace(GL_FRONT);  // what is lit cannot then be taken for its own shadow
     use(shade, light, light.to_shadow);
-    draw(bricks);
-    gl.Disable(GL_POLYGON_OFFSET_FILL);
+    draw(shades);
+    gl.CullFace(GL_BACK);
     gl.BindTexture(GL_TEXTURE_2D, canvas->shadow_map());
   }
 
@@ -168,15 +171,17 @@ struct Painter::Hidden {
     const Stage& stage = show.stage;
     canvas->begin_picture();
     use(solid, light, light.camera);
-    vector(solid, "mortar", {0.50F, 0.47F, 0.42F});
+    vector(solid, "mortar", {0.50F, 0.475F, 0.43F});
+    number(solid, "darker_edge", show.mortared ? 0.12 : 0.42);
     number(solid, "by_damage", look_.coloring == Coloring::damage ? 1 : 0);
     draw(bricks);
     gl.Disable(GL_CULL_FACE);
     use(crack, light, light.camera);
     number(crack, "pixel", v.pixel);
-    number(crack, "thinnest", 1.6 * look_.height / 720.0);
+    number(crack, "thinnest", 2.2 * look_.height / 720.0);
     number(crack, "proud", 0.35 * show.chamfer);
-    number(crack, "widest", 12 * show.chamfer);
+    number(crack, "open", show.open_crack);
+    number(crack, "widest", 60 * show.open_crack);
     draw(cracks);
     use(ground, light, light.camera);
     const Vec3 middle(stage.building.center().x(), stage.building.center().y(), stage.ground_z);
@@ -184,6 +189,7 @@ struct Painter::Hidden {
     number(ground, "reach", 12 * (stage.size() + static_cast<double>(v.target_distance)));
     number(ground, "grid", show.grid);
     number(ground, "fade", 1.5 * stage.size());
+    number(ground, "far", std::max(static_cast<double>(v.target_distance), stage.size()));
     draw(plane);
     gl.DepthFunc(GL_LEQUAL);
     use(sky, light, light.camera);

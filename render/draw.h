@@ -23,12 +23,18 @@ struct Show {
   Stage stage;
   Mesh mesh;
   double chamfer = 0;             // m
+  double open_crack = 0;          // m, a hundredth of the thinnest brick: a joint parted by so much is drawn as an open one
+  bool mortared = false;          // joints have a thickness: mortar, not an edge, parts the bricks
   double grid = 1;                // m, distance of the lines on the ground
+  std::vector<float> joint_area;  // m2                                                              [joints]
   std::vector<Vec3> block_color;  // linear, by material with a slight variation from brick to brick  [blocks]
 };
 Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<MotionFrame>& some_frames);
 
-// Colour of damage 0..1 (linear), as in the legend.
+// 1, 2 or 5 times a power of ten, about `size`.
+double round_length(double size);
+
+// Colour of a block by the share of its joints that is broken, 0..1 (linear), as in the legend.
 Vec3 damage_color(double damage);
 
 // What the shaders read, 12 floats a block and 4 a joint, and the triangles that can be seen.

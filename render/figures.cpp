@@ -4,10 +4,12 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <map>
 
 #include "engine/base/error.h"
 #include "engine/base/units.h"
 #include "engine/record/gnuplot.h"
+#include "render/draw.h"
 
 namespace erbs::render {
 namespace {
@@ -88,6 +90,35 @@ std::string plot(const std::string& file, const CsvTable& table, const Panel& pa
   return script + "\n";
 }
 
+// Ticks a fifth of the height apart, and room for the whole of the curves.
+std::string vertical(const CsvTable& table, const Panel& panel) {
+  double low = 0, high = 0;
+  for (int c : panel.columns)
+    for (double value : table.columns[static_cast<std::size_t>(c)])
+      if (std::isfinite(value)) low = std::min(low, value * panel.factor), high = std::max(high, value * panel.factor);
+  if (!(high > low)) return "set yrange [-1:1]\nset ytics 1\n";
+  const double step = round_length((high - low) / 5);
+  return fmt::format("set yrange [{:g}:{:g}]\nset ytics {:g}\n", step * std::floor(low / step), step * std::ceil(high / step), step);
+}
+
+// A line where something happened first, in the next plots; its name only with `named`.
+std::string marks_script(const Run& run, double last_time, bool named) {
+  std::string script = "unset arrow\nunset label\n";
+  double row = 0.7;  // names below each other: they would meet
+  for (const Mark& mark : run.marks) {
+    if (mark.t > last_time) continue;
+    script += fmt::format("set arrow from first {0},graph 0 to first {0},graph 1 nohead back lc rgb '#8a2f20' lw 1 dashtype 3\n", mark.t);
+    if (named) {
+      const bool right = mark.t > 0.75 * last_time;
+      script += fmt::format("set label {} at first {},graph 1 {} offset {},-{} front textcolor rgb '#8a2f20' font ',11' noenhanced\n",
+                            gnuplot_quoted(fmt::format("{} {:.2f} s", mark.name, mark.t)), mark.t, right ? "right" : "left",
+                            right ? -0.6 : 0.6, row);
+      row += 1;
+    }
+  }
+  return script;
+}
+
 // A sheet of `rows` by `columns` panels; room at the right of each for names of `name_length` letters.
 std::string opening(std::size_t rows, std::size_t columns, std::size_t name_length, double last_time, const std::string& title) {
   return fmt::format(
@@ -95,14 +126,15 @@ std::string opening(std::size_t rows, std::size_t columns, std::size_t name_leng
       "set encoding utf8\nset datafile separator comma\nset datafile missing 'nan'\n"
       "set border 3 lc rgb '#707070'\nset tics nomirror out scale 0.6 textcolor rgb '#303030'\n"
       "set grid xtics ytics lc rgb '#e3e3e3' lt 1 lw 0.8\nset zeroaxis lc rgb '#b0b0b0' lt 1 lw 0.8\n"
-      "set key outside right top Left reverse samplen 1.6 spacing 1.05 noenhanced\n"
+      "set key at graph 1.015,1 left top Left reverse samplen 1.6 spacing 1.05 noenhanced\n"
       "set lmargin 12\nset rmargin {}\nset xrange [0:{}]\n"
       "set multiplot layout {},{} columnsfirst title {} noenhanced font ',15'\n",
       columns == 1 ? 1000 : 850 * columns, 70 + 210 * rows, 8 + name_length * 4 / 5, last_time, rows, columns, gnuplot_quoted(title));
 }
 
 std::string histories_script(const std::string& csv, const CsvTable& table, const Run& run) {
-  const std::vector<Panel> panels = history_panels(table);
+  std::vector<std::string> left_out;
+  const std::vector<Panel> panels = history_panels(table, &left_out);
   const std::size_t every = std::max<std::size_t>(1, table.rows() / 6000);
   const std::size_t columns = panels.size() > 6 ? 2 : 1, rows = (panels.size() + columns - 1) / columns;
   std::size_t longest = 0;
@@ -110,9 +142,14 @@ std::string histories_script(const std::string& csv, const CsvTable& table, cons
     for (int c : panel.columns) longest = std::max(longest, words_of(table.names[static_cast<std::size_t>(c)]).size());
   std::string script = opening(rows, columns, longest, table.columns[0].back(), run.title);
   for (std::size_t i = 0; i < panels.size(); ++i) {
+    script += marks_script(run, table.columns[0].back(), i % rows == 0);
     if ((i + 1) % rows == 0 || i + 1 == panels.size()) script += "set xlabel 'time [s]'\n";
     else script += "unset xlabel\n";
-    script += "set ylabel " + label(panels[i]) + " noenhanced\n" + plot(csv, table, panels[i], "column({c})*{f}", every);
+    if (i + 1 == panels.size() && !left_out.empty())
+      script += fmt::format("set label {} at screen 0.99,0.008 right font ',11' textcolor rgb '#606060' noenhanced\n",
+                            gnuplot_quoted(fmt::format("not drawn, below 2 % of the other direction: {}", fmt::join(left_out, ", "))));
+    script += vertical(table, panels[i]) + "set ylabel " + label(panels[i]) + " noenhanced\n" +
+              plot(csv, table, panels[i], "column({c})*{f}", every);
   }
   return script + "unset multiplot\n";
 }
@@ -125,8 +162,9 @@ std::string energy_script(const std::string& csv, const CsvTable& table, const R
   choose_unit(terms, table, "J");
   const int residual = table.find("residual_relative");
   const std::size_t every = std::max<std::size_t>(1, table.rows() / 6000);
-  std::string script = opening(3, 1, 16, table.columns[0].back(), run.title + ": energy");
+  std::string script = opening(3, 1, 18, table.columns[0].back(), run.title + ": energy");
   script += fmt::format("set size 1,0.60\nset origin 0,0.36\nset ylabel {} noenhanced\n", label(terms));
+  script += marks_script(run, table.columns[0].back(), true) + vertical(table, terms);
   script += terms.columns.empty() ? "plot 0 notitle\n" : plot(csv, table, terms, "column({c})*{f}", every);
   script +=
       "set size 1,0.36\nset origin 0,0.0\nset xlabel 'time [s]'\nset ylabel 'residual, relative'\nset logscale y\nset format y "
@@ -137,13 +175,12 @@ std::string energy_script(const std::string& csv, const CsvTable& table, const R
   if (run.energy_gate <= 0) gates = {{1e-6, "gate, elastic"}, {1e-3, "gate, cracked"}, {1e-2, "gate, collapse"}};
   script +=
       fmt::format("set yrange [{}:{}]\n", std::min(1e-12, worst > 0 ? worst * 1e-4 : 1e-12), std::max(worst, gates.back().first) * 10);
-  double at = 0.99;  // labels beside each other, for two gates may be close
+  script += "unset label\nset key off\n";
   for (const auto& [gate, name] : gates) {
     script += fmt::format(
         "set arrow from graph 0, first {0} to graph 1, first {0} nohead lc rgb '#c07060' dashtype 2\n"
-        "set label '{1} {0:g}' at graph {2:.2f}, first {0} right offset 0,0.55 textcolor rgb '#b03020' font ',11' noenhanced\n",
-        gate, name, at);
-    at -= 0.2;
+        "set label '{1} {0:g}' at graph 1.015, first {0} left textcolor rgb '#b03020' font ',11' noenhanced\n",
+        gate, name);
   }
   if (worst > 0) script += plot(csv, table, {"", 1, {residual}}, "abs(column({c})) > 1e-16 ? abs(column({c})) : 1e-16", every);
   else script += "plot 1e-16 notitle\n";
@@ -167,7 +204,7 @@ std::string words_of(const std::string& column) {
   return words;
 }
 
-std::vector<Panel> history_panels(const CsvTable& table) {
+std::vector<Panel> history_panels(const CsvTable& table, std::vector<std::string>* left_out) {
   Panel ground{"ground [g]", 1 / standard_g, {}};
   std::vector<std::pair<std::string, Panel>> by_unit;
   for (std::size_t c = 1; c < table.names.size(); ++c) {
@@ -191,14 +228,29 @@ std::vector<Panel> history_panels(const CsvTable& table) {
     auto known = std::find_if(by_unit.begin(), by_unit.end(), [&](const auto& p) { return p.first == key; });
     if (known == by_unit.end()) {
       const Unit* u = find_unit(unit);
-      by_unit.push_back({key, {(u ? u->quantity : words) + (axis.empty() ? "" : " " + axis) + (frame == " abs" ? " abs" : ""), 1, {}}});
+      by_unit.push_back({key, {(u ? u->quantity : words) + (axis.empty() ? "" : " " + axis) + frame, 1, {}, !axis.empty()}});
       known = by_unit.end() - 1;
     }
     known->second.columns.push_back(column);
   }
   std::vector<Panel> panels;
   if (!ground.columns.empty()) panels.push_back(ground);
+  // What hardly moves beside the same quantity in another direction only takes room.
+  std::map<std::string, double> largest;  // by unit and frame
+  const auto sort_of = [](const std::string& key, bool directed) {
+    const std::size_t slash = key.find('/');
+    return directed ? key.substr(0, slash) + key.substr(slash + 2) : key;
+  };
+  for (const auto& [key, panel] : by_unit)
+    if (panel.directed) {
+      double& most = largest[sort_of(key, true)];
+      most = std::max(most, peak_of(table, panel.columns));
+    }
   for (auto& [key, panel] : by_unit) {
+    if (left_out && panel.directed && peak_of(table, panel.columns) < 0.02 * largest[sort_of(key, true)]) {
+      left_out->push_back(panel.label);
+      continue;
+    }
     choose_unit(panel, table, key.substr(0, key.find('/')));
     panels.push_back(panel);
   }

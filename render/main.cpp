@@ -57,6 +57,13 @@ void read_times(const Arguments& a, render::Movie& movie) {
   }
 }
 
+void write_figures(const render::Run& folder, bool quiet) {
+  try {
+    for (const std::string& path : render::write_figures(folder))
+      if (!quiet) std::printf("figure: %s\n", path.c_str());
+  } catch (const Error& e) { throw Error(std::string(e.what()) + "; --no-figures leaves the figures out"); }
+}
+
 int run(Arguments& a) {
   render::Movie& movie = a.movie;
   read_size(a.size, movie.look);
@@ -64,9 +71,7 @@ int run(Arguments& a) {
   movie.cameras = a.cameras;
   movie.look.coloring = a.color == "damage" ? render::Coloring::damage : render::Coloring::material;
   const render::Run folder = render::read_run(a.dir);
-  if (!a.no_figures)
-    for (const std::string& path : render::write_figures(folder))
-      if (!movie.quiet) std::printf("%s\n", path.c_str());
+  if (!a.no_figures) write_figures(folder, movie.quiet);
   if (a.figures_only) return 0;
   std::fflush(stdout);
   const erbs::MotionReader reader(a.dir);
@@ -95,7 +100,8 @@ int main(int argc, char** argv) {
   app.add_flag("--video,!--no-video", a.movie.video, "an MP4 a camera (default), or pictures alone");
   app.add_flag("--figures", a.figures_only, "only histories.svg and energy.svg");
   app.add_flag("--no-figures", a.no_figures, "no figures");
-  app.add_option("--threads", a.movie.threads, "frames drawn at a time (default: one a processor)")->check(CLI::Range(1, 256));
+  app.add_option("--threads", a.movie.threads, "frames drawn at a time, each by a process (default: one a processor)")
+      ->check(CLI::Range(1, 256));
   app.add_option("--context", a.movie.context, "source of OpenGL: osmesa, egl or auto")->check(CLI::IsMember({"osmesa", "egl", "auto"}));
   app.add_flag("--force", a.movie.force, "write over pictures and videos that are there");
   app.add_flag("-q,--quiet", a.movie.quiet, "no progress and no summary");

@@ -135,6 +135,36 @@ void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double 
   }
 }
 
+void add_shades(Mesh& mesh, const MotionScene& scene, const std::vector<bool>& hidden, double grow) {
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
+    if (hidden[b]) continue;
+    for (int part : scene.blocks[b].parts) {
+      const MotionShape& shape = scene.shapes[static_cast<std::size_t>(part)];
+      const auto first = static_cast<std::uint32_t>(mesh.shades.size());
+      const std::size_t corners = shape.vertices.size() / 3;
+      // A corner moves out so far that each of its faces does by `grow`; where more than three meet, nearly so.
+      std::vector<Mat3> planes(corners, Mat3::Zero());
+      std::vector<Vec3> sums(corners, Vec3::Zero());
+      for (const std::vector<int>& face : shape.faces) {
+        const Vec3 n = area_normal(loop_of(shape, face)).normalized();
+        std::vector<std::uint32_t> loop;
+        for (int i : face) {
+          planes[static_cast<std::size_t>(i)] += n * n.transpose();
+          sums[static_cast<std::size_t>(i)] += n;
+          loop.push_back(first + static_cast<std::uint32_t>(i));
+        }
+        add_fan(mesh.shade_index, loop);
+      }
+      for (std::size_t i = 0; i < corners; ++i) {
+        const Vec3 p = corner(shape, static_cast<int>(i)) + grow * (planes[i] + 1e-6 * Mat3::Identity()).inverse() * sums[i];
+        Vertex v{{}, {}, static_cast<std::uint32_t>(b), no_joint};
+        for (int k = 0; k < 3; ++k) v.p[k] = static_cast<float>(p[k]);
+        mesh.shades.push_back(v);
+      }
+    }
+  }
+}
+
 Mesh build_mesh(const MotionScene& scene, const std::vector<bool>& hidden, double chamfer) {
   Mesh mesh;
   std::vector<std::vector<int>> touching(scene.blocks.size());

@@ -39,6 +39,9 @@ struct Mesh {
   std::vector<Span> open, buried;  // of each block                                           [blocks]
   std::vector<Span> pointing;      // mortar of a closed joint, where it meets the air        [joints]
   std::vector<Span> beds;          // mortar of a moved joint: half of it on either block     [joints]
+  // What throws shadow: bare blocks, grown until they meet across their joints, so that no light seeps through mortar.
+  std::vector<Vertex> shades;
+  std::vector<std::uint32_t> shade_index;
   std::vector<CrackVertex> cracks;
   std::vector<std::uint32_t> crack_index;
   std::vector<Span> crack;  // of each joint, in crack_index                           [joints]
@@ -47,6 +50,9 @@ struct Mesh {
 // `hidden[block]`: not drawn (the ground is a plane of its own). chamfer in m: how much of each edge is cut off. Normals are
 // those of the faces, so a chamfer is shaded round.
 Mesh build_mesh(const MotionScene& scene, const std::vector<bool>& hidden, double chamfer);
+
+// Fills mesh.shades. grow in m: how far each face is moved out.
+void add_shades(Mesh& mesh, const MotionScene& scene, const std::vector<bool>& hidden, double grow);
 
 // Unit normal of the joint from a to b.
 Vec3 joint_normal(const MotionScene& scene, const MotionJoint& joint);

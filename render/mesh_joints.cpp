@@ -108,7 +108,7 @@ void add_joints(Mesh& mesh, const MotionScene& scene, const std::vector<std::vec
       if (area_normal(polygon).dot(n) < 0) std::reverse(polygon.begin(), polygon.end());
       add_crack(mesh, polygon, n, to_b, joint, index);
       if (joint.thickness > 0) {
-        Loop base = inset(polygon, n, 0.5 * chamfer);  // raked a little, so that courses read
+        Loop base = inset(polygon, n, 0.5 * chamfer);  // raked a little
         add_pointing(mesh, scene, touching, joint, base, n, index);
         between = end_of(mesh.index);
         add_bed(mesh, base, n, -0.5 * joint.thickness, static_cast<std::uint32_t>(joint.a), index);

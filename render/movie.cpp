@@ -2,18 +2,17 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
-#include <condition_variable>
 #include <cstdio>
-#include <exception>
 #include <filesystem>
-#include <map>
-#include <mutex>
+#include <memory>
 #include <thread>
 
 #include "engine/base/error.h"
 #include "render/overlay.h"
 #include "render/video.h"
+#include "render/workers.h"
 
 namespace erbs::render {
 namespace {
@@ -72,90 +71,20 @@ Files prepare_files(const Run& run, const Movie& movie, const Camera& camera, co
   return files;
 }
 
-// Threads take frames in turn, each with a context of its own; pictures come out in order.
-class Workshop {
- public:
-  Workshop(const Show& show, const MotionReader& reader, const Movie& movie, const Overlay& overlay, const Camera& camera,
-           const Files& files, const Schedule& schedule, const std::atomic<bool>& stop)
-      : show_(show), reader_(reader), movie_(movie), overlay_(overlay), camera_(camera), files_(files), schedule_(schedule), stop_(stop) {
-    const auto most = static_cast<unsigned>(schedule.times.size());
-    const unsigned wish = movie.threads > 0 ? static_cast<unsigned>(movie.threads) : std::max(1U, std::thread::hardware_concurrency());
-    const unsigned count = std::min(wish, most);
-    ahead_ = 2 * count + 2;
-    for (unsigned i = 0; i < count; ++i) threads_.emplace_back([this] { work(); });
-  }
-  ~Workshop() {
-    {
-      const std::lock_guard lock(mutex_);
-      ended_ = true;
-    }
-    changed_.notify_all();
-    for (std::thread& t : threads_) t.join();
-  }
-  // The picture of the next frame; nothing where the work was stopped.
-  std::optional<Image> next() {
-    std::unique_lock lock(mutex_);
-    // Ctrl-C does not wake a waiting thread, so it looks up now and then.
-    while (!done_.count(wanted_) && !trouble_ && !stop_) changed_.wait_for(lock, std::chrono::milliseconds(200));
-    if (trouble_) std::rethrow_exception(trouble_);
-    const auto found = done_.find(wanted_);
-    if (found == done_.end()) return std::nullopt;
-    std::optional<Image> image = std::move(found->second);
-    done_.erase(found);
-    ++wanted_;
-    changed_.notify_all();
+// Draws one frame after another in a process of its own: the picture, what is written over it, and its file.
+Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const Camera& camera, const Files& files,
+                     const Schedule& schedule) {
+  const Look& l = movie.look;
+  const View view = look(camera, show.stage, l.width, l.height, l.top, l.bottom);
+  const auto painter = std::make_shared<Painter>(show, l, movie.context);
+  const auto overlay = std::make_shared<Overlay>(run, show, l, camera, view, files.stills ? 1 : schedule.slow);
+  return [=, &files](std::size_t index, const MotionFrame& frame) {
+    Image image = painter->draw(frame, camera);
+    overlay->draw(image, frame.t);
+    write_png(files.picture(index, frame.t), image);
     return image;
-  }
-  std::size_t threads() const { return threads_.size(); }
-
- private:
-  void work() {
-    try {
-      Painter painter(show_, movie_.look, movie_.context);
-      const Look& l = movie_.look;
-      const View view = look(camera_, show_.stage, l.width, l.height, l.top, l.bottom);
-      for (std::size_t i = take(); i < schedule_.times.size(); i = take()) {
-        MotionFrame frame;
-        {
-          const std::lock_guard lock(reading_);
-          frame = frame_at(reader_, schedule_.times[i]);
-        }
-        Image image = painter.draw(frame, camera_);
-        overlay_.draw(image, schedule_.times[i], camera_.name, static_cast<double>(view.pixel * view.target_distance));
-        write_png(files_.picture(i, schedule_.times[i]), image);
-        const std::lock_guard lock(mutex_);
-        done_.emplace(i, std::move(image));
-        changed_.notify_all();
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex_);
-      if (!trouble_) trouble_ = std::current_exception();
-      changed_.notify_all();
-    }
-  }
-  // The next frame to draw; past the end when there is none. Waits while the pictures drawn ahead fill the memory.
-  std::size_t take() {
-    std::unique_lock lock(mutex_);
-    changed_.wait(lock, [&] { return ended_ || stop_ || trouble_ || taken_ < wanted_ + ahead_; });
-    return ended_ || stop_ || trouble_ ? schedule_.times.size() : taken_++;
-  }
-
-  const Show& show_;
-  const MotionReader& reader_;
-  const Movie& movie_;
-  const Overlay& overlay_;
-  const Camera& camera_;
-  const Files& files_;
-  const Schedule& schedule_;
-  const std::atomic<bool>& stop_;
-  std::mutex mutex_, reading_;
-  std::condition_variable changed_;
-  std::map<std::size_t, Image> done_;
-  std::size_t wanted_ = 0, taken_ = 0, ahead_ = 0;
-  bool ended_ = false;
-  std::exception_ptr trouble_;
-  std::vector<std::thread> threads_;
-};
+  };
+}
 
 // One line on a terminal, a plain one every ten seconds elsewhere.
 class Progress {
@@ -182,28 +111,38 @@ class Progress {
 bool film(const Run& run, const Show& show, const MotionReader& reader, const Movie& movie, const Camera& camera, const Schedule& schedule,
           const std::atomic<bool>& stop) {
   const Files files = prepare_files(run, movie, camera, schedule);
+  const std::size_t all = schedule.times.size();
+  const auto wish = static_cast<std::size_t>(movie.threads > 0 ? movie.threads : static_cast<int>(std::thread::hardware_concurrency()));
+  const auto start = Clock::now();
+  const auto ordered = [&](std::size_t i) {
+    MotionFrame f = frame_at(reader, schedule.times[i]);
+    f.t = schedule.times[i];
+    return f;
+  };
+  std::size_t made = 0;
+  // Started before ffmpeg, whose input they would else hold open.
+  Workers workers(std::clamp<std::size_t>(wish, 1, all), movie.look.width, movie.look.height, ordered(0),
+                  [&] { return drawer(run, show, movie, camera, files, schedule); });
   std::optional<Video> video;
   if (!files.video.empty()) video.emplace(files.video, movie.look.width, movie.look.height, movie.fps);
-  const Overlay overlay(run, show, movie.look, files.stills ? 1 : schedule.slow);
-  const auto start = Clock::now();
-  std::size_t made = 0, threads = 0;
   {
-    Workshop workshop(show, reader, movie, overlay, camera, files, schedule, stop);
     Progress progress(movie.quiet);
-    threads = workshop.threads();
-    for (; made < schedule.times.size(); ++made) {
-      const std::optional<Image> image = workshop.next();
-      if (!image) break;
-      if (video) video->add(*image);
-      progress.tell(camera.name, made + 1, schedule.times.size());
+    for (std::size_t i = 0; i < workers.count(); ++i) workers.order(i, i, ordered(i));
+    for (; made < all && !stop; ++made) {
+      const std::size_t worker = made % workers.count(), next = made + workers.count();
+      const Image image = workers.collect(worker);
+      if (next < all) workers.order(worker, next, ordered(next));
+      if (video) video->add(image);
+      progress.tell(camera.name, made + 1, all);
     }
   }
   if (video && made > 0) video->finish();
   const double wall = since(start);
   if (!movie.quiet)
-    fmt::print("{}: {} frames {}x{} in {:.1f} s ({:.3f} s each, {} threads)\n", files.video.empty() ? files.frames.string() : files.video,
-               made, movie.look.width, movie.look.height, wall, made ? wall / static_cast<double>(made) : 0, threads);
-  return made == schedule.times.size();
+    fmt::print("{} {} ({} frames {}x{} in {:.1f} s, {:.3f} s each, {} at a time)\n",
+               files.video.empty() ? "pictures:" : "video:", files.video.empty() ? files.frames.string() : files.video, made,
+               movie.look.width, movie.look.height, wall, made ? wall / static_cast<double>(made) : 0, workers.count());
+  return made == all;
 }
 
 }  // namespace

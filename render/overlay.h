@@ -1,6 +1,7 @@
 // What is written over a picture: title, time, ground motion with a moving cursor, scale and legend.
 #pragma once
 #include "render/draw.h"
+#include "render/stage.h"
 #include "render/text.h"
 
 namespace erbs::render {
@@ -11,18 +12,25 @@ double overlay_bottom(int height, bool with_record);
 
 class Overlay {
  public:
-  Overlay(const Run& run, const Show& show, const Look& look, double slow);
-  // t: s. pixel: size (m) of a pixel at the distance of the camera's target.
-  void draw(Image& image, double t, const std::string& camera, double pixel) const;
+  // slow: seconds of video for one of the run.
+  Overlay(const Run& run, const Show& show, const Look& look, const Camera& camera, const View& view, double slow);
+  void draw(Image& image, double t) const;  // t: s
 
  private:
+  void draw_title(Image& image, double t) const;
   void draw_record(Image& image, double t) const;
+  void draw_times(Image& image, double top, double bottom, double now) const;
   void draw_legend(Image& image) const;
-  void draw_scale(Image& image, double pixel) const;
+  void draw_scale(Image& image) const;
+  void draw_axes(Image& image) const;
+  double column(double t) const;  // of the strip, in pixels
   const Run& run_;
   const Show& show_;
   Look look_;
-  double slow_, unit_;  // unit_: pixels of the picture for one of 720 rows
+  std::string camera_;
+  Eigen::Matrix3f turn_;  // world to picture: right, up, towards the eye
+  double pixel_;          // m, size of a pixel at the distance of the camera's target
+  double slow_, unit_;    // unit_: pixels of the picture for one of 720 rows
   Font regular_, bold_;
   struct Reach {
     double low, high;

@@ -25,10 +25,30 @@ GroundRecord strongest_component(const CsvTable& histories) {
   return best;
 }
 
+// The first crack (in dry masonry: the first joint that opened) and the collapse.
+std::vector<Mark> first_events(const CsvTable& events) {
+  std::vector<Mark> marks;
+  const int time = events.find("time_s"), event = events.find("event");
+  if (time < 0 || event < 0) return marks;
+  const std::vector<std::string>& what = events.text[static_cast<std::size_t>(event)];
+  const auto add = [&](const std::string& kind, const std::string& name) {
+    const auto at = std::find(what.begin(), what.end(), kind);
+    if (at == what.end()) return false;
+    marks.push_back({events.columns[static_cast<std::size_t>(time)][static_cast<std::size_t>(at - what.begin())], name});
+    return true;
+  };
+  if (!add("crack", "first crack")) add("open", "first opening");
+  add("collapse", "collapse");
+  return marks;
+}
+
+Vec3 linear(const Vec3& srgb) { return srgb.cwiseMax(0).cwiseMin(1).array().pow(2.2); }  // as the shaders turn it back
+
 }  // namespace
 
 Run read_run(const std::string& dir) {
   const std::string manifest = run_file(dir, "manifest.json"), histories = run_file(dir, "histories.csv");
+  if (!std::filesystem::exists(dir)) throw Error("no such folder; give the folder of a run, e.g. runs/first", {dir, 0});
   if (!std::filesystem::exists(manifest)) throw Error("no manifest.json in it; give the folder of a run, e.g. runs/first", {dir, 0});
   const Manifest m = read_manifest(dir);
   Run run;
@@ -40,10 +60,11 @@ Run read_run(const std::string& dir) {
   for (const Camera& c : run.cameras)
     if (!((c.eye - c.target).norm() > 1e-9 && c.fov > 0 && c.fov < pi))
       throw Error(fmt::format("camera {} looks nowhere; its eye and target must differ and 0 < fov < 180 deg", c.name), {manifest, 0});
-  for (const Material& a : m.materials) run.materials.push_back({a.name, a.color});
+  for (const Material& a : m.materials) run.materials.push_back({a.name, linear(a.color)});
   if (const Json* gate = find_key(m.settings, "analysis.energy_gate.value"); gate && gate->is_number())
     run.energy_gate = gate->get<double>();
   if (std::filesystem::exists(histories)) run.record = strongest_component(read_csv(histories));
+  if (const std::string events = run_file(dir, "events.csv"); std::filesystem::exists(events)) run.marks = first_events(read_csv(events));
   return run;
 }
 

@@ -21,11 +21,18 @@ struct GroundRecord {
   double peak = 0;        // m/s2, largest absolute value
 };
 
+// What happened first of its kind, for figures and the strip below pictures.
+struct Mark {
+  double t = 0;      // s
+  std::string name;  // "first crack", "collapse"
+};
+
 struct Run {
   std::string dir, name, title;
   std::vector<Camera> cameras;   // as the scene gives them; may be empty
   std::vector<Paint> materials;  // by material index
   GroundRecord record;           // the strongest component
+  std::vector<Mark> marks;       // in the order of time
   double energy_gate = 0;        // relative; 0: not known
 };
 

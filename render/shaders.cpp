@@ -40,8 +40,8 @@ float sunlight(vec3 p, vec3 n, float facing) {
 vec3 lit(vec3 albedo, vec3 p, vec3 n, float cavity) {
   float direct = max(dot(n, sun), 0.0);
   direct *= sunlight(p, n, direct);
-  vec3 sky = mix(vec3(0.26, 0.24, 0.22), vec3(0.38, 0.42, 0.47), 0.5 + 0.5 * n.z);
-  return albedo * (sky * cavity + vec3(0.86, 0.81, 0.73) * direct);
+  vec3 sky = mix(vec3(0.31, 0.29, 0.27), vec3(0.42, 0.45, 0.49), 0.5 + 0.5 * n.z);
+  return albedo * (sky * cavity + vec3(1.00, 0.95, 0.87) * direct);
 }
 )";
 
@@ -61,7 +61,7 @@ void main() {
   albedo = texelFetch(blocks, b + 2).rgb;
   if (joint != 0xffffffffu) {
     vec4 j = texelFetch(joints, int(joint));
-    albedo = by_damage > 0.5 ? mix(albedo, vec3(0.75), 0.15) : mix(mortar, mix(mortar, albedo, 0.45), j.x);
+    albedo = by_damage > 0.5 ? mix(albedo, vec3(0.75), 0.15) : mortar;
   }
   gl_Position = camera * vec4(world, 1.0);
 }
@@ -70,10 +70,11 @@ void main() {
 // Across a chamfer the normal turns from one face to the next; its interpolated length tells how far from a face one is.
 const std::string solid_fragment = lighting + R"(
 in vec3 world, n, albedo;
+uniform float darker_edge;
 out vec4 color;
 void main() {
   float edge = clamp((1.0 - dot(n, n)) * 2.2, 0.0, 1.0);
-  color = srgb(lit(albedo * (1.0 - 0.42 * edge), world, normalize(n), 1.0 - 0.25 * edge));
+  color = srgb(lit(albedo * (1.0 - darker_edge * edge), world, normalize(n), 1.0 - 0.25 * edge));
 }
 )";
 
@@ -87,8 +88,9 @@ void main() {
 )";
 const std::string shade_fragment = "void main() {}\n";
 
-// The band spans the gap between the two sides and is at least `thinnest` pixels wide, so that a crack of a tenth of a
-// millimetre is seen from ten metres. A gap too wide to be dark all over lets it sink inwards, then it vanishes.
+// The band spans the gap between the two sides and is at least `thinnest` pixels wide where the joint has parted by `open` or more,
+// and a little more than half of that where it is only cracked: a crack of a tenth of a millimetre is seen from ten metres, and an open one
+// is told from it. A gap too wide to be dark all over lets the band sink inwards, then it vanishes.
 const std::string crack_vertex = R"(
 layout(location = 0) in vec3 at_a;
 layout(location = 1) in vec3 at_b;
@@ -96,19 +98,20 @@ layout(location = 2) in vec3 out_of;
 layout(location = 3) in vec3 normal;
 layout(location = 4) in uvec3 who;
 layout(location = 5) in float side;
-uniform float pixel, thinnest, proud, widest;
+uniform float pixel, thinnest, proud, open, widest;
 out float strength;
 void main() {
   int a = int(who.x) * 3, b = int(who.y) * 3;
   vec4 qa = texelFetch(blocks, a + 1), qb = texelFetch(blocks, b + 1);
   vec3 pa = texelFetch(blocks, a).xyz + turn(qa, at_a), pb = texelFetch(blocks, b).xyz + turn(qb, at_b);
   vec4 j = texelFetch(joints, int(who.z));
-  strength = j.x;
-  float gap = distance(pa, pb);
-  float least = thinnest * pixel * distance(eye, pa) * (0.4 + 0.6 * j.x);
+  float parted = clamp(j.y / open, 0.0, 1.0);
+  strength = j.x * (0.75 + 0.25 * parted);
+  float gap = distance(pa, pb), at_pixel = pixel * distance(eye, pa);
+  float least = thinnest * at_pixel * (0.3 + 0.3 * j.x + 0.4 * parted);
   float half_more = 0.5 * max(0.0, least - gap);
   vec4 q = side < 0.0 ? qa : qb;
-  vec3 p = (side < 0.0 ? pa : pb) + turn(q, normal) * (side * half_more) + turn(q, out_of) * (proud - max(0.0, gap - least));
+  vec3 p = (side < 0.0 ? pa : pb) + turn(q, normal) * (side * half_more) + turn(q, out_of) * (max(proud, 0.15 * at_pixel) - max(0.0, gap - least));
   bool shown = j.x > 0.05 && j.y < widest;
   gl_Position = shown ? camera * vec4(p, 1.0) : vec4(0.0, 0.0, 2.0, 1.0);
 }
@@ -116,7 +119,7 @@ void main() {
 const std::string crack_fragment = R"(
 in float strength;
 out vec4 color;
-void main() { color = srgb(mix(vec3(0.16, 0.13, 0.11), vec3(0.012, 0.010, 0.010), strength)); }
+void main() { color = srgb(mix(vec3(0.17, 0.14, 0.12), vec3(0.008, 0.007, 0.007), strength)); }
 )";
 
 const std::string ground_vertex = R"(
@@ -132,7 +135,7 @@ void main() {
 const std::string ground_fragment = lighting + R"(
 in vec3 world;
 uniform vec3 middle;
-uniform float grid, fade;     // m
+uniform float grid, fade, far;  // m: lines, where they end, where the ground is lost in the haze
 out vec4 color;
 // Coverage of lines of the given width, one each `period`, as a box filter of the pixel would see them.
 float lines(float x, float period, float width) {
@@ -144,9 +147,9 @@ void main() {
   vec2 p = world.xy;
   float line = max(lines(p.x, grid, 0.016 * grid), lines(p.y, grid, 0.016 * grid));
   float r = distance(world.xy, middle.xy) / fade;
-  vec3 base = mix(vec3(0.58, 0.575, 0.56), vec3(0.36, 0.36, 0.36), line * 0.6 * clamp(1.4 - r, 0.0, 1.0));
+  vec3 base = mix(vec3(0.54, 0.535, 0.52), vec3(0.33, 0.31, 0.31), line * 0.6 * clamp(1.8 - r, 0.0, 1.0));
   vec3 c = lit(base, world, vec3(0.0, 0.0, 1.0), 1.0);
-  color = srgb(mix(c, horizon, smoothstep(0.55, 2.2, r)));
+  color = srgb(mix(c, horizon, smoothstep(1.0, 5.0, distance(eye, world) / far)));
 }
 )";
 
@@ -197,11 +200,11 @@ void main() {
   vec3 above = point(uv + vec2(0.0, texel.y)) - p, below = p - point(uv - vec2(0.0, texel.y));
   vec3 n = normalize(cross(abs(right.z) < abs(left.z) ? right : left, abs(above.z) < abs(below.z) ? above : below));
   ivec2 cell = ivec2(gl_FragCoord.xy) & 3;
-  float turn = float((cell.x * 4 + cell.y * 7) & 15) / 16.0 * 6.2831853;
+  float kind = float((cell.x * 4 + cell.y * 7) & 15), turn = kind / 16.0 * 6.2831853, jitter = fract(kind * 0.618034);
   float r = radius_uv / -p.z, aspect = texel.x / texel.y, sum = 0.0;
   const int count = 9;
   for (int i = 0; i < count; ++i) {
-    float along = (float(i) + 0.5) / float(count), angle = turn + 6.2831853 * 3.0 * along;
+    float along = (float(i) + jitter) / float(count), angle = turn + 6.2831853 * 3.0 * along;
     vec3 v = point(uv + vec2(cos(angle) * aspect, sin(angle)) * (r * along)) - p;
     float vv = dot(v, v);
     sum += max(0.0, dot(v, n) + p.z * 0.0012) / (vv + 0.01 * radius * radius) * step(vv, 2.5 * radius * radius);

@@ -18,13 +18,6 @@ double scatter(std::uint32_t x) {
   return static_cast<double>(x & 0xffffU) / 32767.5 - 1.0;
 }
 
-// 1, 2 or 5 times a power of ten, about `size`.
-double round_length(double size) {
-  const double ten = std::pow(10.0, std::floor(std::log10(size)));
-  const double rest = size / ten;
-  return ten * (rest < 1.5 ? 1 : rest < 3.5 ? 2 : rest < 7.5 ? 5 : 10);
-}
-
 Eigen::Quaternionf turn_of(const MotionFrame& f, std::size_t block) {
   const float* p = &f.poses[7 * block];
   return {p[3], p[4], p[5], p[6]};
@@ -46,9 +39,15 @@ float parted(const MotionScene& scene, const MotionJoint& joint, const MotionFra
 
 }  // namespace
 
+double round_length(double size) {
+  const double ten = std::pow(10.0, std::floor(std::log10(size)));
+  const double rest = size / ten;
+  return ten * (rest < 1.5 ? 1 : rest < 3.5 ? 2 : rest < 7.5 ? 5 : 10);
+}
+
 Vec3 damage_color(double damage) {
   // Grey over straw and orange to dark red: rises in strength, reads in grey print and with weak colour vision.
-  static const std::array<Vec3, 4> stops{Vec3(0.62, 0.62, 0.60), Vec3(0.80, 0.62, 0.22), Vec3(0.74, 0.24, 0.06), Vec3(0.26, 0.015, 0.02)};
+  static const std::array<Vec3, 4> stops{Vec3(0.62, 0.62, 0.60), Vec3(0.80, 0.62, 0.22), Vec3(0.78, 0.25, 0.06), Vec3(0.42, 0.02, 0.03)};
   const double x = std::clamp(damage, 0.0, 1.0) * 3;
   const auto k = std::min<std::size_t>(2, static_cast<std::size_t>(x));
   const double t = x - static_cast<double>(k);
@@ -59,15 +58,26 @@ Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<Mo
   Show show;
   show.scene = &scene;
   show.stage = set_stage(scene, some_frames);
-  show.chamfer = 0.0012 * show.stage.size();
-  for (const MotionShape& shape : scene.shapes) {  // no more than a twentieth of the thinnest brick; large plates do not count
+  double thinnest = 0.024 * show.stage.size();
+  for (const MotionShape& shape : scene.shapes) {  // large plates do not count
     Eigen::AlignedBox3f box;
     for (std::size_t i = 0; i + 2 < shape.vertices.size(); i += 3)
       box.extend(Eigen::Vector3f(shape.vertices[i], shape.vertices[i + 1], shape.vertices[i + 2]));
     const Eigen::Vector3f s = box.sizes();
-    if (s.maxCoeff() < 6 * s.minCoeff()) show.chamfer = std::min(show.chamfer, 0.05 * static_cast<double>(s.minCoeff()));
+    if (s.maxCoeff() < 6 * s.minCoeff()) thinnest = std::min(thinnest, static_cast<double>(s.minCoeff()));
+  }
+  show.open_crack = round_length(0.01 * thinnest);
+  show.chamfer = 0.05 * thinnest;
+  double gap = 0;
+  for (const MotionJoint& joint : scene.joints) {
+    if (joint.thickness <= 0) continue;
+    show.mortared = true;
+    show.chamfer = std::min(show.chamfer, 0.3 * joint.thickness);
+    gap = std::max(gap, joint.thickness);
   }
   show.mesh = build_mesh(scene, show.stage.hidden, show.chamfer);
+  add_shades(show.mesh, scene, show.stage.hidden, 0.55 * gap + 0.1 * show.open_crack);
+  for (const MotionJoint& joint : scene.joints) show.joint_area.push_back(static_cast<float>(0.5 * area_normal(joint.polygon).norm()));
   show.grid = round_length(show.stage.size() / 5);
   std::vector<int> uses(run.materials.size() + 1);
   const auto paint = [&](const MotionBlock& b) {
@@ -86,13 +96,13 @@ Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<Mo
 
 namespace {
 
-// Around a joint that is damaged or has moved, everything is drawn.
+// Around a joint that has parted by more than a hair, everything is drawn.
 void choose_triangles(const Show& show, const MotionFrame& frame, FrameTexels& t) {
   const MotionScene& scene = *show.scene;
-  const float moved = static_cast<float>(0.1 * show.chamfer);
+  const float moved = static_cast<float>(0.1 * show.open_crack);
   std::vector<bool> quiet(scene.blocks.size(), true);
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
-    if (frame.damage[j] == 0 && t.joints[4 * j + 1] < moved) continue;
+    if (t.joints[4 * j + 1] < moved) continue;
     quiet[static_cast<std::size_t>(scene.joints[j].a)] = quiet[static_cast<std::size_t>(scene.joints[j].b)] = false;
   }
   const auto add = [](std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from, Span span) {
@@ -118,21 +128,24 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
   FrameTexels t;
   t.blocks.resize(12 * std::max<std::size_t>(1, nb));
   t.joints.resize(4 * std::max<std::size_t>(1, nj));
-  std::vector<float> worst(nb);
+  std::vector<float> broken(nb), area(nb);
   for (std::size_t j = 0; j < nj; ++j) {
     const MotionJoint& joint = scene.joints[j];
     const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
     const float damage = static_cast<float>(frame.damage[j]) / 255.0F;
-    worst[a] = std::max(worst[a], damage);
-    worst[b] = std::max(worst[b], damage);
+    for (std::size_t block : {a, b}) {
+      broken[block] += damage * show.joint_area[j];
+      area[block] += show.joint_area[j];
+    }
     t.joints[4 * j] = damage;
     t.joints[4 * j + 1] = parted(scene, joint, frame);
   }
   for (std::size_t b = 0; b < nb; ++b) {
-    const Vec3 color = coloring == Coloring::damage ? damage_color(static_cast<double>(worst[b])) : show.block_color[b];
+    const float share = area[b] > 0 ? broken[b] / area[b] : 0;
+    const Vec3 color = coloring == Coloring::damage ? damage_color(static_cast<double>(share)) : show.block_color[b];
     const float* p = &frame.poses[7 * b];
     const Eigen::Vector3f c = color.cast<float>();
-    const float values[12] = {p[0], p[1], p[2], worst[b], p[4], p[5], p[6], p[3], c.x(), c.y(), c.z(), 0};
+    const float values[12] = {p[0], p[1], p[2], share, p[4], p[5], p[6], p[3], c.x(), c.y(), c.z(), 0};
     std::copy_n(values, 12, &t.blocks[12 * b]);
   }
   choose_triangles(show, frame, t);

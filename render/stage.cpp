@@ -30,6 +30,23 @@ bool is_ground(const MotionBlock& block, const Eigen::AlignedBox3d& box, const M
   return own.x() > free.x() + 0.5 * base && own.y() > free.y() + 0.5 * base && box.max().z() < rest.center().z();
 }
 
+// Where most blocks are: along each axis all but the outermost 5 % on either side.
+Eigen::AlignedBox3d heap_of(const MotionFrame& frame, const std::vector<bool>& hidden) {
+  Eigen::AlignedBox3d heap(Vec3::Zero(), Vec3::Zero());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> at;
+    for (std::size_t b = 0; b < hidden.size(); ++b)
+      if (const float x = frame.poses[7 * b + static_cast<std::size_t>(axis)]; !hidden[b] && std::isfinite(x))
+        at.push_back(static_cast<double>(x));
+    if (at.empty()) return {};
+    std::sort(at.begin(), at.end());
+    const std::size_t out = at.size() / 20;
+    heap.min()[axis] = at[out];
+    heap.max()[axis] = at[at.size() - 1 - out];
+  }
+  return heap;
+}
+
 }  // namespace
 
 Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_frames) {
@@ -65,6 +82,10 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
       lowest = std::min(lowest, at.z() - 0.5 * boxes[b].sizes().minCoeff());
     }
   if (!ground) stage.ground_z = lowest;
+  if (some_frames.empty()) return stage;
+  // What was thrown far is not worth a view in which the building is small.
+  const Vec3 aside = 0.6 * stage.size() * Vec3(1, 1, 0);
+  stage.heap = heap_of(some_frames.back(), stage.hidden).intersection({stage.building.min() - aside, stage.building.max() + aside});
   return stage;
 }
 
@@ -76,6 +97,7 @@ std::vector<Camera> choose_cameras(const Stage& stage, double aspect) {
     const Vec3 p = stage.building.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
     seen.push_back(p);
     if (i < 4) seen.push_back(p + aside.cwiseProduct((p - stage.building.center()).cwiseSign()));  // the lower corners
+    if (!stage.heap.isEmpty()) seen.push_back(stage.heap.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
   }
   std::vector<Camera> cameras(2);
   const Vec3 directions[2] = {Vec3(0.62, -1, 0.34), Vec3(-1, -0.50, 0.42)};
@@ -143,7 +165,7 @@ View look(const Camera& camera, const Stage& stage, int width, int height, doubl
 
 Eigen::Vector3f sun_of(const Camera& camera) {
   const Vec3 back = camera.eye - camera.target;
-  const double azimuth = std::atan2(back.y(), back.x()) - 52 * pi / 180, height = 50 * pi / 180;
+  const double azimuth = std::atan2(back.y(), back.x()) - 32 * pi / 180, height = 48 * pi / 180;
   return Vec3(std::cos(azimuth) * std::cos(height), std::sin(azimuth) * std::cos(height), std::sin(height)).cast<float>();
 }
 

@@ -10,6 +10,7 @@ namespace erbs::render {
 struct Stage {
   Eigen::AlignedBox3d building;                            // m, all blocks but the ground, at rest
   Eigen::AlignedBox3d reach;                               // m, what may be seen of it over the whole run (for the shadow)
+  Eigen::AlignedBox3d heap;                                // m, where nearly all block centres are at the end
   double ground_z = 0;                                     // m
   std::vector<bool> hidden;                                // blocks that are the ground: drawn as a plane               [blocks]
   double size() const { return building.sizes().norm(); }  // m
@@ -17,7 +18,7 @@ struct Stage {
 
 Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_frames);
 
-// Two views that show the whole building from a corner each, in a picture of this width/height.
+// Two views that show the whole building, and what becomes of it, from a corner each, in a picture of this width/height.
 std::vector<Camera> choose_cameras(const Stage& stage, double aspect);
 
 // What a camera sees. The overlay keeps the uppermost and lowermost part of the picture: the camera's field of view and its

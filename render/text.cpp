@@ -58,6 +58,20 @@ void fill_box(Image& image, double x0, double y0, double x1, double y1, Ink ink)
     for (int x = left; x < right; ++x) blend(image.pixel(x, y), ink, covered(x0, x1, x) * covered(y0, y1, y));
 }
 
+void draw_line(Image& image, double x0, double y0, double x1, double y1, double width, Ink ink) {
+  const double half = 0.5 * width, dx = x1 - x0, dy = y1 - y0, squared = std::max(1e-12, dx * dx + dy * dy);
+  const int top = std::max(0, static_cast<int>(std::floor(std::min(y0, y1) - half - 1)));
+  const int bottom = std::min(image.height, static_cast<int>(std::ceil(std::max(y0, y1) + half + 1)));
+  const int left = std::max(0, static_cast<int>(std::floor(std::min(x0, x1) - half - 1)));
+  const int right = std::min(image.width, static_cast<int>(std::ceil(std::max(x0, x1) + half + 1)));
+  for (int y = top; y < bottom; ++y)
+    for (int x = left; x < right; ++x) {
+      const double px = x + 0.5 - x0, py = y + 0.5 - y0, along = std::clamp((px * dx + py * dy) / squared, 0.0, 1.0);
+      const double away = std::hypot(px - along * dx, py - along * dy);
+      if (away < half + 0.5) blend(image.pixel(x, y), ink, std::clamp(half + 0.5 - away, 0.0, 1.0));
+    }
+}
+
 void fill_fade(Image& image, int y0, int y1, Ink ink, double end) {
   for (int y = std::max(0, y0); y < std::min(image.height, y1); ++y) {
     Ink here = ink;

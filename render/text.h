@@ -18,6 +18,9 @@ void fill_box(Image& image, double x0, double y0, double x1, double y1, Ink ink)
 // A box that fades from the opacity of `ink` at its top edge (y0) to `end` at its bottom edge.
 void fill_fade(Image& image, int y0, int y1, Ink ink, double end);
 
+// A straight stroke with round ends, `width` pixels wide.
+void draw_line(Image& image, double x0, double y0, double x1, double y1, double width, Ink ink);
+
 class Font {
  public:
   enum class Face { regular, bold };

@@ -44,7 +44,7 @@ local after_collapse = param("after_collapse", 4 * s, "how long to watch the deb
 -- The house -------------------------------------------------------------------------------------------------------------------------
 local width, length, storeys, courses, t = 1525 * mm, 1830 * mm, 3, 13, 5 * mm
 
-material { name = "brick", density = brick_density, friction = mu, restitution = 0.2, color = { 0.62, 0.27, 0.17 } }
+material { name = "brick", density = brick_density, friction = mu, restitution = 0.2, color = { 0.74, 0.43, 0.32 } }
 material { name = "concrete", density = concrete_density, friction = mu, restitution = 0.2, color = { 0.62, 0.61, 0.58 } }
 material { name = "table", density = 2400, friction = mu, restitution = 0.2, color = { 0.34, 0.35, 0.36 } }
 ground { z = 0, size = 20, material = "table" }
@@ -122,7 +122,7 @@ metric("collapse_direction_deg", "deg", function(run)  -- of the fallen blocks' 
   return d and math.atan(d[2], d[1]) / deg
 end)
 
-camera { name = "three_quarter", eye = { 6.2, -7.4, 3.9 }, target = { 0, 0, 1.95 }, fov = 35 * deg }
-camera { name = "front", eye = { 0, -9.5, 2.4 }, target = { 0, 0, 2.05 }, fov = 32 * deg }
-camera { name = "side", eye = { 9.5, 0.6, 2.4 }, target = { 0, 0, 2.05 }, fov = 32 * deg }
+camera { name = "three_quarter", eye = { 6.2, -7.4, 3.9 }, target = { 0, 0, 2.02 }, fov = 31 * deg }
+camera { name = "front", eye = { 0, -9.5, 2.4 }, target = { 0, 0, 2.08 }, fov = 30 * deg }
+camera { name = "side", eye = { 9.5, 0.6, 2.4 }, target = { 0, 0, 2.08 }, fov = 30 * deg }
 camera { name = "base", eye = { 2.3, -2.7, 1.25 }, target = { 0.1, -0.4, 0.75 }, fov = 38 * deg }

@@ -23,7 +23,7 @@ struct Material {
   double ks = 2e10;              // Pa/m
   double friction = 0.6;         // of debris
   double restitution = 0.3;      // of an impact through the centre, 0..1
-  Vec3 color{0.70, 0.35, 0.25};  // linear 0..1 for the pictures
+  Vec3 color{0.70, 0.35, 0.25};  // sRGB 0..1 for the pictures
   Place place;
 
   static Fields<Material> fields() {

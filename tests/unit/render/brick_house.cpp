@@ -164,7 +164,7 @@ void write_brick_house(const std::string& dir, const BrickHouse& house) {
   manifest.scene_name = "brick_house";
   manifest.title = "Brick house on a shaking table";
   for (const auto& [name, color] :
-       {std::pair{"brick", Vec3(0.55, 0.20, 0.12)}, {"concrete", Vec3(0.50, 0.49, 0.46)}, {"ground", Vec3(0.4, 0.4, 0.4)}}) {
+       {std::pair{"brick", Vec3(0.74, 0.43, 0.32)}, {"concrete", Vec3(0.62, 0.61, 0.58)}, {"ground", Vec3(0.4, 0.4, 0.4)}}) {
     manifest.materials.emplace_back();
     manifest.materials.back().name = name;
     manifest.materials.back().color = color;

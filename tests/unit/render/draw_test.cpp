@@ -103,9 +103,14 @@ TEST_CASE("broken joints are seen as dark lines, damage as colour", "[render][dr
   Painter painter(show, look, "auto");
   const Image intact = painter.draw(frame, camera);
   std::fill(frame.damage.begin(), frame.damage.end(), 255);
-  const Image broken = painter.draw(frame, camera);
+  const Image closed = painter.draw(frame, camera);
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b)
+    if (!scene.blocks[b].fixed) frame.poses[7 * b + 2] += 0.02F * static_cast<float>(scene.blocks[b].rest.z());  // 2 mm a course
+  const Image open = painter.draw(frame, camera);
   CHECK(dark_fraction(intact) < 0.001);
-  CHECK(dark_fraction(broken) > 0.004);
+  CHECK(compare(intact, closed).failed_fraction > 0.01);  // a hairline is seen
+  CHECK(dark_fraction(open) > 0.004);
+  CHECK(dark_fraction(open) > 3 * dark_fraction(closed));  // and an open crack is told from it
   look.coloring = Coloring::damage;
   const Image red = Painter(show, look, "auto").draw(frame, camera);
   double reddish = 0;

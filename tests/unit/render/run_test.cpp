@@ -34,6 +34,7 @@ std::vector<double> recorded() {
 TEST_CASE("a run folder is read", "[render][run]") {
   const Folder dir;
   CHECK_THROWS_WITH(read_run(dir.path.string()), Catch::Contains("manifest.json"));
+  CHECK_THROWS_WITH(read_run((dir.path / "absent").string()), Catch::Contains("no such folder"));
   Manifest manifest;
   manifest.scene_name = "house";
   manifest.title = "A house";
@@ -51,11 +52,19 @@ TEST_CASE("a run folder is read", "[render][run]") {
   REQUIRE(run.cameras.size() == 1);
   CHECK(run.cameras[0].eye == Vec3(1, 2, 3));
   CHECK(run.cameras[0].fov == 0.5);
-  CHECK(run.materials[0].color.z() == 0.1);
+  CHECK(run.materials[0].color.z() == Approx(std::pow(0.1, 2.2)));  // as light, from a colour as screens have it
   CHECK(run.record.axis == "y");
   CHECK(run.record.peak == 3);
   CHECK(run.record.t.size() == 3);  // the line cut short is left out
   CHECK(run.energy_gate == 1e-3);
+  CHECK(run.marks.empty());
+  dir.write("events.csv",
+            "time_s,event,name,value,unit\n0.1,open,a | b,1e-3,m\n0.2,crack,a | b,0.5,share\n0.3,crack,b | c,0.5,share\n0.4,collapse,,,\n");
+  const std::vector<Mark> marks = read_run(dir.path.string()).marks;
+  REQUIRE(marks.size() == 2);
+  CHECK(marks[0].name == "first crack");
+  CHECK(marks[0].t == 0.2);
+  CHECK(marks[1].name == "collapse");
   manifest.cameras[0].target = manifest.cameras[0].eye;
   write_manifest(dir.path.string(), manifest);
   CHECK_THROWS_WITH(read_run(dir.path.string()), Catch::Contains("camera front looks nowhere"));
@@ -90,6 +99,8 @@ TEST_CASE("a movie shows the instants asked for", "[render][schedule]") {
   CHECK_THROWS_AS(schedule_of(movie, recorded()), Error);
   movie.stills = {0.5, 4.01};
   CHECK_THROWS_WITH(schedule_of(movie, recorded()), Catch::Contains("4.01"));
+  movie.stills = {4.001};  // the last step of a run falls where it falls
+  CHECK(schedule_of(movie, recorded()).times.size() == 1);
   CHECK_THROWS_AS(schedule_of(movie, {}), Error);
 }
 
@@ -110,9 +121,19 @@ TEST_CASE("curves share a panel when they share unit and direction", "[render][f
   REQUIRE(panels.size() == 4);
   CHECK(panels[0].label == "ground [g]");
   CHECK(panels[0].columns == std::vector<int>{2});  // nothing moved along y
-  CHECK(panels[1].label == "displacement x [mm]");
+  CHECK(panels[1].label == "displacement x rel [mm]");
   CHECK(panels[1].columns == std::vector<int>{1, 4});
   CHECK(panels[1].factor == 1000);
   CHECK(panels[2].columns == std::vector<int>{5});
   CHECK(panels[3].label == "force x [kN]");
+}
+
+TEST_CASE("a direction in which next to nothing happens is named, not drawn", "[render][figures]") {
+  const Folder dir;
+  dir.write("h.csv", "time_s,top_ux_rel_m,top_uy_rel_m,top_ux_abs_m,top_uy_abs_m\n0,0,0,0,0\n1,0.03,0.0005,0.1,0.003\n");
+  std::vector<std::string> left_out;
+  const std::vector<Panel> panels = history_panels(read_csv((dir.path / "h.csv").string()), &left_out);
+  CHECK(left_out == std::vector<std::string>{"displacement y rel"});
+  REQUIRE(panels.size() == 3);
+  CHECK(panels[2].label == "displacement y abs [mm]");  // 3 % of x
 }
