@@ -166,11 +166,10 @@ Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, const Co
 }
 
 bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
-                double dt, bool want_energy, Pieces& room, PairResult& result) {
+                double dt, bool want_energy, OverlapRoom& room, PairResult& result) {
   result = PairResult{};
   const View s = view_of(pair, shapes, a, b);
-  Patch patch;
-  if (find_pieces(*s.reference, *s.other, s.pose, pair.separating, room)) patch = elastic_patch(room);
+  Patch patch = find_overlap(*s.reference, *s.other, s.pose, pair.separating, room);
   const bool touches = patch.total > 0;
   if (!touches && !pair.touching && pair.offset_left <= 0) return false;
 
@@ -195,7 +194,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     result.touching = true;
     result.depth = patch.deepest;
     stability(pair, s, patch, result);
-    if (want_energy) result.elastic = kn * energy_integral(*s.reference, *s.other, s.pose, room);
+    if (want_energy) result.elastic = kn * overlap_energy(*s.reference, *s.other, s.pose, room);
   } else if (pair.touching) {
     forget_contact(pair);
     slipped = 0.5 * stored_before;  // the springs go slack: the limit is zero (what the half step of work leaves is in `reset`)
@@ -219,7 +218,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
 }
 
 void hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
-               const Vec3& force_on_b, const Vec3& moment_on_b, double area, Pieces& room) {
+               const Vec3& force_on_b, const Vec3& moment_on_b, double area, OverlapRoom& room) {
   const View s = view_of(pair, shapes, a, b);
   const Mat3 back = s.reference_block->turn.transpose();
   // The old wrench on the body that is not the reference, pair axes.
@@ -228,8 +227,7 @@ void hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, c
     old_moment = -(old_moment - s.pose.shift.cross(old_force));  // about the centroid of a, which lies at +shift from that of b
     old_force = -old_force;
   }
-  Patch patch;
-  if (find_pieces(*s.reference, *s.other, s.pose, pair.separating, room)) patch = elastic_patch(room);
+  Patch patch = find_overlap(*s.reference, *s.other, s.pose, pair.separating, room);
   Vec3 new_force = Vec3::Zero(), new_moment = Vec3::Zero();
   forget_contact(pair);
   double stiffness = pair.law.kn * area;

@@ -1,6 +1,6 @@
 // Force between two parts: elastic inner-distance pressure, impact damping, friction of the patch.
 #pragma once
-#include "engine/contact/narrow.h"
+#include "engine/contact/overlap.h"
 #include "engine/model/pair.h"
 
 namespace erbs {
@@ -25,7 +25,7 @@ struct PairResult {
 // Evaluates `pair` at the current pose and updates its memory; dt (s) is the step that led here, 0 at the start of a run. Returns false if
 // the bodies are apart and nothing was or is stored (the result is then all zero).
 bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
-                double dt, bool want_energy, Pieces& room, PairResult& result);
+                double dt, bool want_energy, OverlapRoom& room, PairResult& result);
 
 // A new pair; fixes its reference body for good.
 Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, const ContactShapes& shapes);
@@ -34,7 +34,7 @@ Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, const Co
 // the force is continuous: friction takes the tangential part, the difference of the rest fades over some contact periods.
 // `area` (m2) of the old joint sets the period where the bodies do not touch yet.
 void hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
-               const Vec3& force_on_b, const Vec3& moment_on_b, double area, Pieces& room);
+               const Vec3& force_on_b, const Vec3& moment_on_b, double area, OverlapRoom& room);
 
 // X with X - ln(1 + X) = -e X - ln(1 - e X): a pressure kn phi (1 + X v / v_i) returns e of the approach speed v_i (Hunt and Crossley
 // 1975).

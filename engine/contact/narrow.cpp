@@ -110,14 +110,28 @@ void split(const ContactShape& a, int j, Loop& g, Loop& h, Pieces& w) {
 
 }  // namespace
 
+bool still_apart(const ContactShape& a, const ContactShape& b, const PairPose& pose, int separating) {
+  const int nfa = static_cast<int>(a.normal.size());
+  if (separating < 0) return false;
+  if (separating >= nfa) return face_of_other_separates(a, b, pose, separating - nfa);
+  const Vec3 n = pose.turn.transpose() * a.normal[at(separating)];
+  const double c = a.offset[at(separating)] - a.normal[at(separating)].dot(pose.shift);
+  return std::none_of(b.vertex.begin(), b.vertex.end(), [&](const Vec3& x) { return c - n.dot(x) > 0; });
+}
+
+int separating_face_of_other(const ContactShape& a, const ContactShape& b, const PairPose& pose) {
+  for (int j = 0; j < static_cast<int>(b.normal.size()); ++j)
+    if (face_of_other_separates(a, b, pose, j)) return static_cast<int>(a.normal.size()) + j;
+  return -1;
+}
+
 bool find_pieces(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, Pieces& w) {
   const int nfa = static_cast<int>(a.normal.size()), nfb = static_cast<int>(b.normal.size()), nv = static_cast<int>(b.vertex.size());
   w.piece.clear();
   w.vertex.clear();
   w.depth.clear();
-  if (separating >= nfa && face_of_other_separates(a, b, pose, separating - nfa)) return false;
+  if (still_apart(a, b, pose, separating)) return false;
   place_other(a, b, pose, w);
-  if (separating >= 0 && separating < nfa && inside(a, nv, separating, w) == 0) return false;
   Bits in[most_faces], crossing = 0;
   const Bits all = nv == 64 ? ~Bits(0) : bit(nv) - 1;
   for (int f = 0; f < nfa; ++f) {
@@ -149,16 +163,14 @@ bool find_pieces(const ContactShape& a, const ContactShape& b, const PairPose& p
   }
   separating = -1;
   if (!w.piece.empty()) return true;
-  for (int j = 0; j < nfb && separating < 0; ++j) {
-    if (face_of_other_separates(a, b, pose, j)) separating = nfa + j;
-  }
+  separating = separating_face_of_other(a, b, pose);
   return false;
 }
 
 Patch elastic_patch(const Pieces& w) {
   Patch out;
   Vec3 pressure = Vec3::Zero(), area = Vec3::Zero();
-  double polar = 0, farthest = 0;
+  double polar = 0;
   for (const Piece& piece : w.piece) {
     const Vec3& n = w.n[piece.face];
     const Vec3* x = &w.vertex[at(piece.first)];
@@ -176,27 +188,26 @@ Patch elastic_patch(const Pieces& w) {
       area += dS / 3 * s;
       polar += dS / 12 * (s.squaredNorm() + p.squaredNorm() + q.squaredNorm() + r.squaredNorm());
     }
-    for (int k = 0; k < piece.count; ++k) {
-      out.deepest = std::max(out.deepest, phi[k]);
-      farthest = std::max(farthest, x[k].squaredNorm());
-    }
+    for (int k = 0; k < piece.count; ++k) out.deepest = std::max(out.deepest, phi[k]);
     out.total += i0;
     pressure += i1;
     out.force -= i0 * n;
     out.moment -= i1.cross(n);
   }
-  if (!(out.total > 0) || !(out.area > 0)) {
+  finish_patch(pressure, area, polar, out);
+  return out;
+}
+
+void finish_patch(const Vec3& pressure, const Vec3& area, double polar, Patch& out) {
+  const double size = out.force.norm();
+  if (!(out.total > 0) || !(out.area > 0) || !(size > 0)) {
     out.total = 0;
-    return out;
+    return;
   }
   out.pressure_centre = pressure / out.total;
   out.centroid = area / out.area;
   out.gyration = std::sqrt(std::max(0.0, polar / out.area - out.centroid.squaredNorm()));
-  out.extent = std::sqrt(farthest);
-  const double size = out.force.norm();
-  if (size > 0) out.normal = out.force / size;
-  else out.total = 0;
-  return out;
+  out.normal = out.force / size;
 }
 
 void closing_speeds(Pieces& w, const Vec3& linear, const Vec3& angular, Patch& patch) {

@@ -36,6 +36,10 @@ struct Pieces {
   double c[most_faces];         // m, depth of the origin below the faces of A
 };
 
+// True while the face that kept the bodies apart (see below) still does.
+bool still_apart(const ContactShape& a, const ContactShape& b, const PairPose& pose, int separating);
+int separating_face_of_other(const ContactShape& a, const ContactShape& b, const PairPose& pose);  // -1: none
+
 // Finds the pieces. `separating` caches the face that keeps the bodies apart (faces of A, then faces of B after them; -1: none).
 // False if they do not overlap.
 bool find_pieces(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, Pieces& out);
@@ -48,13 +52,14 @@ struct Patch {
   double total = 0;            // m3, Int phi dS
   double area = 0;             // m2, surface of B inside A
   double gyration = 0;         // m, polar radius of gyration of that surface
-  double extent = 0;           // m, largest distance of the patch from the centroid of B
   double deepest = 0;          // m
   double closing = 0;          // m/s, greatest
   Vec3 pressure_centre = Vec3::Zero();
   Vec3 centroid = Vec3::Zero();
 };
 Patch elastic_patch(const Pieces& pieces);
+// Centres, gyration and normal from Int phi x dS, Int x dS, Int x.x dS; total becomes 0 where there is no patch to speak of.
+void finish_patch(const Vec3& pressure, const Vec3& area, double polar, Patch& patch);
 
 // Speed of B into A along the normal of the patch at every vertex of the pieces; `linear` and `angular` as of a body with its
 // centroid at the origin.

@@ -19,6 +19,26 @@ bool has_coplanar_faces(const std::vector<Plane>& faces, double size) {
   return false;
 }
 
+void fill_small(ContactShape& s) {
+  const std::size_t nv = s.vertex.size(), nf = s.normal.size();
+  s.is_small = nv <= few && nf <= few;
+  for (std::size_t f = 0; f < nf && s.is_small; ++f) s.is_small = s.loop_first[f + 1] - s.loop_first[f] <= few;
+  if (!s.is_small) return;
+  SmallShape& out = s.small;
+  out.vertices = int(nv);
+  out.faces = int(nf);
+  for (std::size_t i = 0; i < few; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      out.vertex[k][i] = s.vertex[std::min(i, nv - 1)][Eigen::Index(k)];
+      out.normal[k][i] = i < nf ? s.normal[i][Eigen::Index(k)] : 0;
+    }
+    out.offset[i] = i < nf ? s.offset[i] : 1e30;
+    out.count[i] = 0;
+    if (i >= nf) continue;
+    for (int at = s.loop_first[i]; at < s.loop_first[i + 1]; ++at) out.loop[i][out.count[i]++] = static_cast<unsigned char>(s.loop[std::size_t(at)]);
+  }
+}
+
 }  // namespace
 
 ContactShape contact_shape(const Polyhedron& part) {
@@ -53,6 +73,7 @@ ContactShape contact_shape(const Polyhedron& part) {
     s.radius = std::max(s.radius, (v - s.centre).norm());
     s.reach = std::max(s.reach, v.norm());
   }
+  fill_small(s);
   return s;
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/contact/clip.h"
 #include "engine/geometry/polyhedron.h"
 
 namespace erbs {
@@ -23,6 +24,8 @@ struct ContactShape {
   double smallest_edge = 0;         // m
   double radius = 0;                // m, of the sphere about `centre` that holds it
   double reach = 0;                 // m, of the sphere about the block's centroid that holds it
+  bool is_small = false;            // few vertices and faces: `small` holds them too
+  SmallShape small;
   Vec3 centre, half;                // m, middle and half sides of its box, axes at rest
 };
 

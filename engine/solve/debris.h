@@ -46,7 +46,7 @@ class Debris {
   std::vector<double> joint_rate_;       // 1/s2, share of joints in each block's greatest eigenvalue [nblock]
   std::vector<double> rate_;             // 1/s2, joints and contacts [nblock]
   std::vector<PairResult> results_;
-  std::vector<Pieces> room_;             // per thread
+  std::vector<OverlapRoom> room_;        // per thread
   std::vector<int> of_pair_;             // joint that first joined a pair of blocks (sorted keys), for its law
   std::vector<std::uint64_t> pair_keys_;
   double allowed_ = 0, elastic_ = 0;

@@ -1,28 +1,16 @@
 #include "engine/solve/lanes.h"
 
-#include <cstdlib>
-#include <string_view>
+#include "engine/base/isa.h"
 
 namespace erbs {
-namespace {
-
-const LaneKernels& choose() {
-  const char* asked = std::getenv("ERBS_ISA");
-  const std::string_view name = asked != nullptr ? asked : "";
-#if defined(__x86_64__)
-  const bool has512 = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
-  const bool has2 = __builtin_cpu_supports("avx2");
-  if (has512 && (name.empty() || name == "avx512")) return avx512::kernels;
-  if (has2 && (name.empty() || name == "avx2" || name == "avx512")) return avx2::kernels;
-#endif
-  return sse2::kernels;
-}
-
-}  // namespace
 
 const LaneKernels& lane_kernels() {
-  static const LaneKernels& chosen = choose();
-  return chosen;
+  switch (chosen_isa()) {
+    case Isa::avx512: return avx512::kernels;
+    case Isa::avx2: return avx2::kernels;
+    case Isa::sse2: break;
+  }
+  return sse2::kernels;
 }
 
 }  // namespace erbs

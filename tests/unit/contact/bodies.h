@@ -31,7 +31,7 @@ struct Bodies {
   std::vector<Vec3> spin;  // kg m2/s, world
   std::vector<PairResult> result;
   std::vector<Vec3> force, moment;
-  Pieces room;
+  OverlapRoom room;
   Vec3 gravity = Vec3::Zero();
   double dt = 0, t = 0, mass_damping = 0;
   // ledger, J

@@ -1,0 +1,56 @@
+// The overlap of two small bodies (at most 8 vertices and 8 faces each: bricks, voussoirs, wedges) as triangles side by side: what
+// narrow.h computes for any body, fast. Plain data, compiled once for each instruction set; a body that is larger, or an overlap
+// of more triangles, takes the general way.
+#pragma once
+
+namespace erbs {
+
+inline constexpr int few = 8;               // vertices or faces of a small body
+inline constexpr int most_triangles = 128;  // a multiple of 8
+
+struct alignas(64) SmallShape {
+  double vertex[3][few];                // m, as in ContactShape; the last one again and again where there are fewer
+  double normal[3][few], offset[few];  // unit, m; 0 and 1e30 where there are fewer faces: everything is inside of them
+  int vertices, faces;
+  unsigned char count[few], loop[few][few];  // corners of each face, counter-clockwise seen from outside
+};
+
+// Pose of b in the axes of a (row-major turn; shift in m), as PairPose.
+struct SmallPose {
+  double turn[9], shift[3];
+};
+
+struct alignas(64) Triangles {
+  int count;             // filled up to a multiple of 8 with empty ones
+  int separating;        // a face of a with all of b on its outer side, or -1
+  bool overflow;         // more than there is room for
+  double deepest;        // m
+  double corner[3][3][most_triangles];  // m, [corner][axis], pair axes: origin at the centroid of b
+  double depth[3][most_triangles];      // m, phi at the corners
+  double closing[3][most_triangles];    // m/s, filled by approach()
+  double normal[3][most_triangles];     // of the face of b
+  double size[most_triangles];          // m2
+};
+
+// Sums over the triangles, kn = 1 (narrow.h names them).
+struct OverlapSums {
+  double total, pressure[3], area, centroid[3], polar, force[3], moment[3];
+};
+
+struct ClipKernels {
+  const char* name;
+  void (*clip)(const SmallShape& a, const SmallShape& b, const SmallPose& pose, Triangles& out);
+  void (*sum)(const Triangles& triangles, OverlapSums& out);
+  // Speed along - turning . x at the corners (m/s); returns the greatest.
+  double (*approach)(Triangles& triangles, double along, const double turning[3]);
+  // Int phi (s - 1) dS and its first moment over the faces that push along `normal`, s - 1 = chi closing within [-1, limit - 1].
+  void (*damp)(const Triangles& triangles, const double normal[3], double chi, double limit, double& total, double first[3]);
+};
+
+const ClipKernels& clip_kernels();
+
+namespace sse2 { extern const ClipKernels clip_kernels; }
+namespace avx2 { extern const ClipKernels clip_kernels; }
+namespace avx512 { extern const ClipKernels clip_kernels; }
+
+}  // namespace erbs
