@@ -13,7 +13,8 @@
 namespace erbs {
 namespace {
 
-constexpr int ledger_every = 32;    // steps between two settlings of the ledger
+constexpr int ledger_every = 32;    // steps between two settlings of the ledger; ...
+constexpr int ledger_slowly = 128;  // ... while there are contacts, whose energy costs as much as their forces
 constexpr int hand_over_every = 8;  // steps between two looks at spent joints
 constexpr int loosen_every = 256;   // steps between two looks at blocks that have moved far
 std::size_t z(int i) { return std::size_t(i); }
@@ -76,7 +77,7 @@ void Solver::run(const Hooks& hooks) {
 }
 
 void Solver::begin(const Hooks& hooks) {
-  sample_ = hooks.wanted(state_.t) ? Sample::full : state_.step % ledger_every == 0 ? Sample::ledger : Sample::none;
+  sample_ = hooks.wanted(state_.t) ? Sample::full : state_.step % (debris_.active() ? ledger_slowly : ledger_every) == 0 ? Sample::ledger : Sample::none;
   for (const BlockSums& sums : block_sums_)
     if (sums.stale) {
       refresh_stale(model_, state_);
