@@ -236,7 +236,8 @@ void check_names(Context& context) {
   for (const Expectation& item : context.scene.expectations) {
     if (item.key.starts_with("metrics.")) {
       if (std::find(metrics.begin(), metrics.end(), item.key) == metrics.end())
-        context.mistake(item.place, fmt::format("expect: there is no metric \"{}\"{}", item.key.substr(8), did_you_mean(item.key, metrics)));
+        context.mistake(item.place,
+                        fmt::format("expect: there is no metric \"{}\"{}", item.key.substr(8), did_you_mean(item.key, metrics)));
     } else if (std::find(keys.begin(), keys.end(), without_index(item.key)) == keys.end()) {
       context.mistake(item.place, fmt::format("expect: metrics.json has no key \"{}\"{}", item.key, did_you_mean(item.key, keys)));
     }
