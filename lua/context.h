@@ -65,6 +65,7 @@ struct Context {
   std::vector<std::string> output;  // what the script printed
   std::filesystem::path folder;     // of the scene file
   std::vector<std::string> files;   // names of the chunks that are the user's
+  bool incomplete = false;          // masonry with mistakes was left out: what follows from its absence is no mistake
   const RunResults* run = nullptr;  // while metrics are evaluated
   int includes = 0;                 // depth of include at the moment
   bool quiet = false;               // print writes to output only

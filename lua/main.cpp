@@ -1,7 +1,7 @@
 // The program erbs: reads the command line, calls the verb, turns trouble into an exit code. The one door to CLI11.
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <algorithm>
+#include <cstdio>
 
 #include "engine/base/words.h"
 #include "lua/options.h"

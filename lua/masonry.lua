@@ -119,6 +119,11 @@ local function round_step(x)
   return 10 * decade
 end
 
+local function empty_report(brick_length)
+  return { pieces = { full = 0, half = 0, cut = 0 }, cuts = {}, head_joints = {}, patterns = {}, openings = {}, stacked = 0,
+    short_laps = 0, least_lap = math.huge, shortest = brick_length, brick_volume = 0, lintel_volume = 0, slab_volume = 0 }
+end
+
 -- From checked keys to blocks. corners: outer corners of the plan.
 local function raise(k, title, corners, closed, names, courses)
   local lo, hi = { math.huge, math.huge }, { -math.huge, -math.huge }
@@ -136,8 +141,7 @@ local function raise(k, title, corners, closed, names, courses)
   end
   masonry.out = {
     blocks = {}, slabs = {}, lintels = {}, tops = {}, walls = {},
-    report = { pieces = { full = 0, half = 0, cut = 0 }, cuts = {}, head_joints = {}, patterns = {}, openings = {}, stacked = 0,
-      short_laps = 0, least_lap = math.huge, shortest = k.brick.length, brick_volume = 0, lintel_volume = 0, slab_volume = 0 },
+    report = empty_report(k.brick.length),
   }
   local runs = parts.make_runs(corners, closed, names, masonry.width)
   for i, run in ipairs(runs) do
@@ -153,13 +157,16 @@ local function raise(k, title, corners, closed, names, courses)
   return masonry.out
 end
 
--- A function whose mistakes are errors at the line that called it.
+-- A function whose mistakes are noted for the line that called it; the script goes on with masonry of no blocks, so that the
+-- mistakes after it are told as well.
+local note_mistakes = note_mistakes  -- of the program; scenes do not see it
 local function public(body)
   return function(...)
     local ok, result = pcall(body, ...)
     if ok then return result end
-    if type(result) == "table" and result.masonry then error(result.masonry, 2) end
-    error(result, 0)
+    if type(result) ~= "table" or not result.masonry then error(result, 0) end
+    note_mistakes(result.masonry)
+    return { blocks = {}, walls = {}, slabs = {}, lintels = {}, tops = {}, height = 0, report = empty_report(0), summary = "" }
   end
 end
 
@@ -246,7 +253,7 @@ end
 wall = public(function(options)
   local mistakes = {}
   local k = parts.read("wall", options, masonry_functions[1].keys, mistakes)
-  if (k.courses == nil) == (k.height == nil) then mistakes[#mistakes + 1] = "wall: give courses or height, one of them" end
+  if (options.courses == nil) == (options.height == nil) then mistakes[#mistakes + 1] = "wall: give courses or height, one of them" end
   parts.stop_if(mistakes)
   local courses = k.courses or math.max(1, math.floor(0.5 + k.height / (k.brick.height + k.joint)))
   local stop = k.axis == "x" and { k.length, 0 } or { 0, k.length }

@@ -101,29 +101,7 @@ masonry_functions = {
 
 -- ---- reading and messages ------------------------------------------------------------------------------------------------------
 
-local function distance(a, b)  -- letters to change, add or drop (Levenshtein 1966)
-  local row = {}
-  for j = 0, #b do row[j] = j end
-  for i = 1, #a do
-    local diagonal = row[0]
-    row[0] = i
-    for j = 1, #b do
-      local change = diagonal + (a:byte(i) == b:byte(j) and 0 or 1)
-      diagonal = row[j]
-      row[j] = math.min(change, row[j] + 1, row[j - 1] + 1)
-    end
-  end
-  return row[#b]
-end
-
-local function nearest(word, names)
-  local best, least
-  for _, name in ipairs(names) do
-    local d = distance(tostring(word), name)
-    if not least or d < least then best, least = name, d end
-  end
-  return best
-end
+local did_you_mean = did_you_mean  -- of the program; scenes do not see it
 
 local function millimetres(x) return string.format("%g mm", math.floor(x * 1e5 + 0.5) / 100) end
 
@@ -173,15 +151,18 @@ function read(what, given, keys, mistakes)
     if not known[name] then strange[#strange + 1] = tostring(name) end
   end
   table.sort(strange)
+  local meant = {}  -- by a misspelt key: it is not missing as well
   for _, name in ipairs(strange) do
-    mistakes[#mistakes + 1] = string.format("%s: unknown key \"%s\"; did you mean \"%s\"?", what, name, nearest(name, names))
+    local advice = did_you_mean(name, names)
+    mistakes[#mistakes + 1] = string.format("%s: unknown key \"%s\"%s", what, name, advice)
+    meant[advice:match('^; did you mean "(.*)"%?$') or ""] = true
   end
   for _, key in ipairs(keys) do
     local value = given[key.name]
     if value == nil then value = key.default end
     if value ~= nil then
       out[key.name] = read_value(what, key, value, mistakes)
-    elseif key.required then
+    elseif key.required and not meant[key.name] then
       mistakes[#mistakes + 1] = string.format("%s: %s is missing (%s%s)", what, key.name, key.unit and key.unit .. "; " or "", key.help)
     end
   end
@@ -195,4 +176,4 @@ end
 
 local function fail(...) stop_if { string.format(...) } end
 
-masonry_parts = { read = read, stop_if = stop_if, fail = fail, nearest = nearest, millimetres = millimetres, eps = 1e-7 }
+masonry_parts = { read = read, stop_if = stop_if, fail = fail, did_you_mean = did_you_mean, millimetres = millimetres, eps = 1e-7 }

@@ -1,7 +1,7 @@
 -- Runs (the straight stretches of a plan, with their corners), openings, and the courses of bricks and lintels laid along them.
 
 local eps, millimetres = masonry_parts.eps, masonry_parts.millimetres
-local fail, nearest = masonry_parts.fail, masonry_parts.nearest
+local fail, did_you_mean = masonry_parts.fail, masonry_parts.did_you_mean
 local lay, lap_cost, piece_kind = masonry_parts.lay, masonry_parts.lap_cost, masonry_parts.piece_kind
 
 -- ---- runs: the straight stretches of a plan ------------------------------------------------------------------------------------
@@ -117,8 +117,7 @@ local function place_openings(masonry, runs, openings)
   for _, opening in ipairs(openings) do
     local run = by_name[opening.wall or #runs == 1 and runs[1].name or ""]
     if not run then
-      fail("opening: wall = \"%s\" is not known; did you mean \"%s\"? (%s)", tostring(opening.wall), nearest(opening.wall or "", names),
-        table.concat(names, ", "))
+      fail("opening: wall = \"%s\" is not known%s", tostring(opening.wall), did_you_mean(tostring(opening.wall), names))
     end
     local places = storeys_of(opening, #masonry.courses)
     for _, storey in ipairs(places) do

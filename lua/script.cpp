@@ -73,6 +73,35 @@ void set_metatable(lua_State* lua, int index, Body read, Body write) {
   lua_setmetatable(lua, index);
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    if (!line.empty()) lines.push_back(line);
+  return lines;
+}
+
+// did_you_mean(word, names) and note_mistakes(lines): for the parts of the language that are written in Lua.
+int suggest(lua_State* lua, Context&) {
+  std::vector<std::string> names;
+  const auto n = static_cast<lua_Integer>(lua_rawlen(lua, 2));
+  for (lua_Integer i = 1; i <= n; ++i) {
+    lua_rawgeti(lua, 2, i);
+    names.emplace_back(lua_tostring(lua, -1));
+    lua_pop(lua, 1);
+  }
+  lua_pushstring(lua, did_you_mean(lua_tostring(lua, 1), names).c_str());
+  return 1;
+}
+
+int note_mistakes(lua_State* lua, Context& context) {
+  for (const auto& line : lines_of(lua_tostring(lua, 1))) context.mistake(current_place(lua), line);
+  context.incomplete = true;
+  return 0;
+}
+
+constexpr std::pair<const char*, Body> inner_functions[] = {{"did_you_mean", suggest}, {"note_mistakes", note_mistakes}};
+
 // The language is the sandbox's globals, the API and the embedded files; the scene's globals lie in a table of their own over it.
 void open_language(lua_State* lua, Context& context) {
   open_values(lua);
@@ -80,11 +109,19 @@ void open_language(lua_State* lua, Context& context) {
   lua_pushglobaltable(lua);
   lua_pushvalue(lua, -1);
   lua_setfield(lua, LUA_REGISTRYINDEX, language_key);
+  for (const auto& [name, body] : inner_functions) {
+    push_guarded(lua, body);
+    lua_setglobal(lua, name);
+  }
   for (const Embedded& file : embedded()) {
     const std::string name = "=" + std::string(file.name);
     if (luaL_loadbufferx(lua, file.text.data(), file.text.size(), name.c_str(), "t") != LUA_OK)
       throw std::logic_error(fmt::format("internal error: {}", lua_tostring(lua, -1)));
     call_script(lua, context, 0, 0);
+  }
+  for (const auto& [name, body] : inner_functions) {
+    lua_pushnil(lua);
+    lua_setglobal(lua, name);
   }
   set_metatable(lua, -1, unknown_global, nullptr);
   lua_newtable(lua);
@@ -93,14 +130,6 @@ void open_language(lua_State* lua, Context& context) {
   lua_setfield(lua, LUA_REGISTRYINDEX, scene_key);
   lua_setfield(lua, -2, "_G");
   lua_pop(lua, 1);
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);)
-    if (!line.empty()) lines.push_back(line);
-  return lines;
 }
 
 // "scene.lua:12" of "scene.lua:12: box: ..."; "" where there is none
@@ -207,7 +236,8 @@ void check_names(Context& context) {
   for (const Expectation& item : context.scene.expectations) {
     if (item.key.starts_with("metrics.")) {
       if (std::find(metrics.begin(), metrics.end(), item.key) == metrics.end())
-        context.mistake(item.place, fmt::format("expect: there is no metric \"{}\"{}", item.key.substr(8), did_you_mean(item.key, metrics)));
+        context.mistake(item.place,
+                        fmt::format("expect: there is no metric \"{}\"{}", item.key.substr(8), did_you_mean(item.key, metrics)));
     } else if (std::find(keys.begin(), keys.end(), without_index(item.key)) == keys.end()) {
       context.mistake(item.place, fmt::format("expect: metrics.json has no key \"{}\"{}", item.key, did_you_mean(item.key, keys)));
     }
@@ -281,9 +311,9 @@ void Script::run(const std::string& text, const std::string& name, const Overrid
     call_script(lua_, context, 0, 0);
   } catch (const std::exception& error) {
     whole = false;
-    add_messages(context.mistakes, error.what());
+    if (!context.incomplete || context.limits.expired) add_messages(context.mistakes, error.what());
   }
-  finish(whole);
+  finish(whole && !context.incomplete);
 }
 
 // What is settled when the script has ended, and every mistake at once.

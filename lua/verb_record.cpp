@@ -59,7 +59,8 @@ std::string write_folder(const fs::path& folder, const Record& record, const Rec
     if (made) fs::remove_all(folder, ignored);
     const auto* mistake = dynamic_cast<const fs::filesystem_error*>(&trouble);
     if (!mistake) throw;
-    throw Error(fmt::format("output folder \"{}\" cannot be made: {}; choose another with -o DIR", folder.string(), mistake->code().message()));
+    throw Error(
+        fmt::format("output folder \"{}\" cannot be made: {}; choose another with -o DIR", folder.string(), mistake->code().message()));
   }
   return picture;
 }
@@ -69,7 +70,8 @@ std::string write_folder(const fs::path& folder, const Record& record, const Rec
 int verb_record(const Options& options) {
   if (options.words.empty()) throw Error("record takes a file; write erbs record FILE");
   if (options.words.size() > 1 && !options.directory.empty())
-    throw Error(fmt::format("-o {} is one folder for {} records; leave it out, and each gets its own", options.directory, options.words.size()));
+    throw Error(
+        fmt::format("-o {} is one folder for {} records; leave it out, and each gets its own", options.directory, options.words.size()));
   for (const auto& file : options.words) {
     Record wanted = options.record;
     wanted.file = file;

@@ -143,7 +143,7 @@ recorder{ name = "q", quantity = "displacement", block = "b9" }
 analysis{ durration = 1 }
 expect("state_hsh", "x"))") == 2);
   INFO(bench.said);
-  const std::string begins[] = {"box: unknown key",         "material: density must",      "force: there is no block", "blocks '",
+  const std::string begins[] = {"box: unknown key",         "material: density must",       "force: there is no block", "blocks '",
                                 "recorder \"q\": there is", "analysis: unknown key \"durr", "expect: metrics.json has"};
   const auto lines = lines_of(bench.said);
   REQUIRE(lines.size() == 7);
@@ -158,8 +158,9 @@ TEST_CASE("an overlap below a thousandth is warned of and carries no force", "[b
   CHECK(contains(bench.said, "overlap by 0.05 mm"));
   CHECK(contains(bench.said, "free of force at rest"));
   CHECK(read_json(bench.out() + "/metrics.json")["energy"]["elastic_J"].get<double>() < 1e-12);
-  CHECK(bench.run(pier + rest + "box{ group = 'pier', size = {.3, .125, .1}, at = {0, 0, .398} }\nanalysis{ duration = .01, overlap = "
-                                "'stress_free' }",
+  CHECK(bench.run(pier + rest +
+                      "box{ group = 'pier', size = {.3, .125, .1}, at = {0, 0, .398} }\nanalysis{ duration = .01, overlap = "
+                      "'stress_free' }",
                   {"--force"}) == 0);
   CHECK(read_json(bench.out() + "/metrics.json")["energy"]["elastic_J"].get<double>() < 1e-12);
 }
@@ -259,8 +260,9 @@ TEST_CASE("check tells the mistakes of every scene, and writes nothing", "[bad_i
   bench.write("worse.lua", "boxx{}\n");
   CHECK(bench.erbs({"check", (bench.folder / "bad.lua").string(), (bench.folder / "worse.lua").string(), scene}) == 2);
   INFO(bench.said);
-  for (const char* part : {"bad.lua:1: box: unknown key", "worse.lua:1: unknown name \"boxx\"", "model: 5 blocks, 4 joints, 36 contact points",
-                           "dt_critical", "estimate: ", "steps for 0.01 s", "debris contact", "scene.lua:4", "energy ledger"}) {
+  for (const char* part :
+       {"bad.lua:1: box: unknown key", "worse.lua:1: unknown name \"boxx\"", "model: 5 blocks, 4 joints, 36 contact points", "dt_critical",
+        "estimate: ", "steps for 0.01 s", "debris contact", "scene.lua:4", "energy ledger"}) {
     INFO(part);
     CHECK(contains(bench.said, part));
   }

@@ -10,8 +10,9 @@ TEST_CASE("El Centro's numbers are those of the catalogue", "[record][program]")
   Bench bench;
   const std::string file = ERBS_SOURCE_DIR "/scenes/records/elcentro_1940_ns.csv";
   REQUIRE(bench.erbs({"record", file, "-o", bench.out()}) == 0);
-  for (const char* part : {"points                 1559", "0.31882 g", "PGV                    0.3609 m/s", "PGD                    0.2120 m",
-                           "end velocity           6.8e-04 m/s", "end displacement       -5.3 mm", "Arias intensity", "record.svg"}) {
+  for (const char* part :
+       {"points                 1559", "0.31882 g", "PGV                    0.3609 m/s", "PGD                    0.2120 m",
+        "end velocity           6.8e-04 m/s", "end displacement       -5.3 mm", "Arias intensity", "record.svg"}) {
     INFO(part);
     CHECK(contains(bench.said, part));
   }
