@@ -210,7 +210,7 @@ Image Painter::draw(const MotionFrame& frame, const Camera& camera) {
   Hidden::Light light{v.projection * v.view, {}, v.eye, sun_of(camera), 0};
   light.to_shadow = shadow_view(h.show.stage, light.sun);
   light.shadow_texel = 2.0 / Canvas::shadow_side / static_cast<double>(light.to_shadow.row(0).head<3>().norm());
-  const FrameTexels texels = texels_of(h.show, frame, l.coloring);
+  const FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye);
   h.gl.ActiveTexture(GL_TEXTURE0);
   h.fill(h.blocks, texels.blocks);
   h.gl.ActiveTexture(GL_TEXTURE1);

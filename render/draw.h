@@ -42,7 +42,7 @@ struct FrameTexels {
   std::vector<float> blocks, joints;
   std::vector<std::uint32_t> index, crack_index;
 };
-FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring);
+FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye);
 
 class Painter {
  public:

@@ -146,8 +146,9 @@ std::string histories_script(const std::string& csv, const CsvTable& table, cons
     if ((i + 1) % rows == 0 || i + 1 == panels.size()) script += "set xlabel 'time [s]'\n";
     else script += "unset xlabel\n";
     if (i + 1 == panels.size() && !left_out.empty())
-      script += fmt::format("set label {} at screen 0.99,0.008 right font ',11' textcolor rgb '#606060' noenhanced\n",
-                            gnuplot_quoted(fmt::format("not drawn, below 2 % of the other direction: {}", fmt::join(left_out, ", "))));
+      script += fmt::format(
+          "set xlabel {} noenhanced\n",
+          gnuplot_quoted(fmt::format("time [s]     (not drawn, below 2 % of the other direction: {})", fmt::join(left_out, ", "))));
     script += vertical(table, panels[i]) + "set ylabel " + label(panels[i]) + " noenhanced\n" +
               plot(csv, table, panels[i], "column({c})*{f}", every);
   }

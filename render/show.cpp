@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "render/draw.h"
 
@@ -97,7 +98,7 @@ Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<Mo
 namespace {
 
 // Around a joint that has parted by more than a hair, everything is drawn.
-void choose_triangles(const Show& show, const MotionFrame& frame, FrameTexels& t) {
+void choose_triangles(const Show& show, const MotionFrame& frame, const Vec3& eye, FrameTexels& t) {
   const MotionScene& scene = *show.scene;
   const float moved = static_cast<float>(0.1 * show.open_crack);
   std::vector<bool> quiet(scene.blocks.size(), true);
@@ -109,7 +110,14 @@ void choose_triangles(const Show& show, const MotionFrame& frame, FrameTexels& t
     to.insert(to.end(), from.begin() + span.begin, from.begin() + span.end);
   };
   t.index.reserve(show.mesh.index.size());
+  // From near to far: what is hidden is then not shaded.
+  std::vector<std::pair<float, std::size_t>> order;
   for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
+    const float distance = (place_of(frame, b) - eye.cast<float>()).squaredNorm();
+    order.emplace_back(std::isfinite(distance) ? distance : std::numeric_limits<float>::max(), b);
+  }
+  std::sort(order.begin(), order.end());
+  for (const auto& [distance, b] : order) {
     add(t.index, show.mesh.index, show.mesh.open[b]);
     if (!quiet[b]) add(t.index, show.mesh.index, show.mesh.buried[b]);
   }
@@ -122,7 +130,7 @@ void choose_triangles(const Show& show, const MotionFrame& frame, FrameTexels& t
 
 }  // namespace
 
-FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring) {
+FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye) {
   const MotionScene& scene = *show.scene;
   const std::size_t nb = scene.blocks.size(), nj = scene.joints.size();
   FrameTexels t;
@@ -148,7 +156,7 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
     const float values[12] = {p[0], p[1], p[2], share, p[4], p[5], p[6], p[3], c.x(), c.y(), c.z(), 0};
     std::copy_n(values, 12, &t.blocks[12 * b]);
   }
-  choose_triangles(show, frame, t);
+  choose_triangles(show, frame, eye, t);
   return t;
 }
 

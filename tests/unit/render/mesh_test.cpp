@@ -59,17 +59,17 @@ TEST_CASE("what lies within an intact wall is not drawn", "[render][mesh]") {
   const MotionScene scene = brick_house({1.525, 1.83, 8, 1, 0.5});
   const Show show = prepare_show(scene, {}, {});
   MotionFrame rest = brick_house_frame(scene, 0);
-  const FrameTexels intact = texels_of(show, rest, Coloring::material);
+  const FrameTexels intact = texels_of(show, rest, Coloring::material, Vec3(5, -5, 3));
   CHECK(20 * intact.index.size() < 11 * show.mesh.index.size());
   CHECK(intact.crack_index.empty());
   rest.damage[10] = 255;
-  const FrameTexels broken = texels_of(show, rest, Coloring::material);
+  const FrameTexels broken = texels_of(show, rest, Coloring::material, Vec3(5, -5, 3));
   CHECK(broken.index.size() == intact.index.size());  // closed: there is nothing to look into
   CHECK(broken.crack_index.size() == 4 * 6);
   // A joint that parts without a word of damage shows its mortar too.
   rest = brick_house_frame(scene, 0);
   rest.poses[7 * 20 + 1] += 0.02F;
-  CHECK(texels_of(show, rest, Coloring::material).index.size() > intact.index.size());
+  CHECK(texels_of(show, rest, Coloring::material, Vec3(5, -5, 3)).index.size() > intact.index.size());
 }
 
 TEST_CASE("the ground is the wide fixed block, and cameras see the building", "[render][stage]") {
@@ -142,7 +142,7 @@ TEST_CASE("a block has the colour of the broken share of its joints", "[render][
   for (std::size_t j = 0; j < scene.joints.size(); ++j)
     if (scene.joints[j].a == scene.joints[10].a || scene.joints[j].b == scene.joints[10].a) area += static_cast<double>(show.joint_area[j]);
   frame.damage[10] = 255;
-  const FrameTexels t = texels_of(show, frame, Coloring::damage);
+  const FrameTexels t = texels_of(show, frame, Coloring::damage, Vec3(5, -5, 3));
   const Vec3 expected = damage_color(static_cast<double>(show.joint_area[10]) / area);
   for (std::size_t k = 0; k < 3; ++k) CHECK(static_cast<double>(t.blocks[12 * block + 8 + k]) == Approx(expected[static_cast<int>(k)]));
 }
