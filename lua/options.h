@@ -20,6 +20,7 @@ struct Options {
   std::optional<double> checkpoint_every;  // s, of wall clock
   bool video = false, log_json = false, allow_unstable = false, fail_on_collapse = false;
   int jobs = 0;  // 0: as many as the machine has
+  std::string study;  // the study that started this run
 };
 
 // "30m", "90s", "1.5h", "500ms" or plain seconds; throws Error naming the option.

@@ -8,7 +8,7 @@
 #include <fstream>
 #include <thread>
 
-#include "lua/child.h"
+#include "engine/base/process.h"
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;
