@@ -12,7 +12,8 @@ namespace erbs {
 const std::vector<Function>& api() {
   static const std::vector<Function> table = [] {
     std::vector<Function> all;
-    for (auto& topic : {block_functions(), joint_functions(), wave_functions(), load_functions(), analysis_functions(), result_functions()})
+    for (auto& topic : {block_functions(), joint_functions(), wave_functions(), load_functions(), analysis_functions(), result_functions(),
+                        study_functions()})
       all.insert(all.end(), topic.begin(), topic.end());
     return all;
   }();

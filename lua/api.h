@@ -40,6 +40,7 @@ std::vector<Function> wave_functions();
 std::vector<Function> load_functions();
 std::vector<Function> analysis_functions();
 std::vector<Function> result_functions();
+std::vector<Function> study_functions();
 
 const Keys& part_keys();       // of block{ parts = { ... } }
 const Keys& tolerance_keys();  // of expect(key, value, { ... })

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "engine/study/study.h"
 #include "lua/sandbox.h"
 
 namespace erbs {
@@ -61,6 +62,8 @@ struct Context {
   std::vector<Override> overrides;
   std::vector<Metric> metrics;
   std::vector<Sampling> samplings;
+  std::vector<Study> studies;
+  std::string study;                // the one that started this run; "" where none did
   std::vector<GroupRecorder> group_recorders;
   std::vector<std::string> output;  // what the script printed
   std::filesystem::path folder;     // of the scene file

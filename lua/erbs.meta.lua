@@ -428,6 +428,42 @@ function expect(key, value, how) end
 ---@return any # what the file returns
 function include(file) end
 
+---@class erbs.bisect_keys
+---@field param string name of the param the runs change
+---@field lo number where it stands (it may be the larger number) [-1e+300 to 1e+300]
+---@field hi number where it collapses [-1e+300 to 1e+300]
+---@field collapsed_when? fun(run: erbs.run): number|boolean? function(run) that returns true or false (default: collapse.collapsed of the run)
+---@field rel? number width of the last bracket over its larger end [1e-12 to 1; default 0.01]
+---@field points? integer runs between the ends at a time [1 to 1000; default 3]
+---@field name? string of its metrics (default collapse_PARAM)
+
+---Finds the value of a param at which the scene collapses, by runs side by side; metrics NAME, NAME_lo, NAME_hi, NAME_runs, NAME_failed.
+---@param keys erbs.bisect_keys
+function bisect(keys) end
+
+---@class erbs.converge_keys
+---@field param string name of the param the runs change
+---@field values number[] of the param, all above zero
+---@field error? fun(run: erbs.run): number|boolean? function(run) that returns the error against what is known
+---@field value? fun(run: erbs.run): number|boolean? function(run) that returns a number; its error is the distance from the run with the smallest value
+---@field slope? number least slope of ln error over ln value that is expected (default: none is) [0 to 100]
+---@field name? string of its metrics (default converge_PARAM)
+
+---Runs the scene with a param at several values and fits the order of its error; metrics NAME_slope, NAME_error (at the smallest), NAME_runs, NAME_failed.
+---@param keys erbs.converge_keys
+function converge(keys) end
+
+---@class erbs.ensemble_keys
+---@field n integer number of runs [1 to 100000]
+---@field seed number from which the seeds of the runs are drawn: the same again and again [-1e+300 to 1e+300]
+---@field value fun(run: erbs.run): number|boolean? function(run) that returns the number whose scatter is asked for
+---@field param? string name of the param that takes the seeds (whole numbers below 2^31) [default seed]
+---@field name? string of its metrics [default ensemble]
+
+---Runs the scene n times with a param set to seeds drawn from one; metrics NAME_mean, NAME_deviation, NAME_least, NAME_most, NAME_median, NAME_runs, NAME_failed.
+---@param keys erbs.ensemble_keys
+function ensemble(keys) end
+
 ---@class erbs.wall_keys
 ---@field name? string first word of its blocks' names, and their group [default wall]
 ---@field group? string group of the bricks; default the name

@@ -70,6 +70,7 @@ std::string shown_type(const Key& key) {
                                                               {"direction", "\"x\" or {x, y, z}"},
                                                               {"points_per_face", "{int, int} or int"},
                                                               {"metric", "number or function"},
+                                                              {"question", "function(run)"},
                                                               {"expected", "number or word"},
                                                               {"tolerance", "table"},
                                                               {"initial", "table"},
@@ -141,6 +142,7 @@ std::string editor_type(const Key& key) {
                                                               {"initial", "erbs.initial"},
                                                               {"parts", "erbs.part[]"},
                                                               {"metric", "number|fun(run: erbs.run): number?"},
+                                                              {"question", "fun(run: erbs.run): number|boolean?"},
                                                               {"expected", "number|string|boolean?"},
                                                               {"tolerance", "erbs.tolerance"}};
   if (!key.inner.empty()) {

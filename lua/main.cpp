@@ -42,6 +42,7 @@ void add_run(CLI::App& app, CommandLine& line) {
   run.add_option("--max-wall", line.max_wall, "stop after this time of the clock, with a checkpoint")->type_name("30m");
   run.add_option("--checkpoint-every", line.checkpoint_every, "time of the clock between checkpoints (default 60s)")->type_name("60s");
   run.add_flag("--video", line.options.video, "draw the run and make its video afterwards");
+  run.add_option("--study", line.options.study)->group("");  // of the runs a study starts
   run.add_flag("--log-json", line.options.log_json, "progress as lines of JSON");
   run.add_flag("--fail-on-collapse", line.options.fail_on_collapse, "exit with 4 when the structure collapses");
 }

@@ -22,6 +22,7 @@ struct Options {
   bool video = false, log_json = false, allow_unstable = false, fail_on_collapse = false;
   int jobs = 0;  // 0: as many as the machine has
   Record record;  // of erbs record: --dt, --unit, --column
+  std::string study;  // the study that started this run
 };
 
 // "30m", "90s", "1.5h", "500ms" or plain seconds; throws Error naming the option.

@@ -228,6 +228,8 @@ void check_names(Context& context) {
   std::vector<std::string> params, metrics;
   for (const Param& param : context.scene.params) params.push_back(param.name);
   for (const Metric& metric : context.metrics) metrics.push_back("metrics." + metric.name);
+  for (const Study& study : context.studies)
+    for (const std::string& name : metric_names(study)) metrics.push_back("metrics." + name);
   for (const Override& item : context.overrides)
     if (!item.used)
       context.mistake({}, fmt::format("-D {}={}: the scene has no param \"{}\"{}", item.name, item.expression, item.name,
@@ -265,6 +267,7 @@ Script::Script(const Options& options) : context_(std::make_unique<Context>()) {
   context_->limits.seconds = options.seconds;
   context_->limits.bytes = options.bytes;
   context_->quiet = options.quiet;
+  context_->study = options.study;
   lua_ = open_sandbox(*context_);
   const Cap uncapped(context_->limits, false);
   open_language(lua_, *context_);
@@ -347,12 +350,18 @@ void Script::finish(bool whole) {
       }
     }
   }
+  if (!context.study.empty()) {
+    context.scene.expectations.clear();
+    std::erase_if(context.metrics, [](const Metric& metric) { return metric.name != "study"; });
+  }
   if (context.mistakes.empty()) return;
   std::stable_sort(context.mistakes.begin(), context.mistakes.end(), [&](const std::string& a, const std::string& b) {
     return line_in(context.scene.file, a) < line_in(context.scene.file, b);
   });
   throw Errors(context.mistakes);
 }
+
+const std::vector<Study>& Script::studies() const { return context_->studies; }
 
 const Scene& Script::scene() const { return context_->scene; }
 

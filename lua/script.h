@@ -9,6 +9,7 @@
 #include "engine/record/csv.h"
 #include "engine/record/json.h"
 #include "engine/scene/scene.h"
+#include "engine/study/study.h"
 
 struct lua_State;
 
@@ -38,6 +39,7 @@ class Script {
     double seconds = 10;               // a script may run this long
     size_t bytes = size_t{512} << 20;  // and use this much
     bool quiet = false;                // do not echo print to stderr
+    std::string study = {};            // the study that started this run: only its question is asked, nothing expected
   };
   Script();
   explicit Script(const Options& options);
@@ -51,6 +53,7 @@ class Script {
   std::vector<MetricValue> evaluate_metrics(const RunResults& results);
 
   const Scene& scene() const;
+  const std::vector<Study>& studies() const;
   const std::vector<std::string>& output() const;  // what it printed
   // The functions written in Lua (walls, arches): name, line of help, keys; from the list masonry_functions.
   Json lua_functions();

@@ -13,6 +13,7 @@
 #include "lua/expectations.h"
 #include "lua/options.h"
 #include "lua/progress.h"
+#include "lua/studies.h"
 
 namespace erbs {
 namespace {
@@ -30,7 +31,7 @@ std::string text_of(const std::string& path) {
 }
 
 // Evaluates what the scene asks for and writes it into the run folder. Returns the messages of metrics that failed.
-std::vector<std::string> complete_metrics(Script& script, const std::string& directory, bool whole, Json& metrics,
+std::vector<std::string> complete_metrics(Script& script, const std::string& directory, bool whole, const Json& of_studies, Json& metrics,
                                           std::vector<Verdict>& verdicts) {
   std::vector<std::string> failures;
   metrics = read_metrics(directory);
@@ -40,6 +41,7 @@ std::vector<std::string> complete_metrics(Script& script, const std::string& dir
     own[metric.name] = metric.value ? Json(*metric.value) : Json(nullptr);
     if (!metric.error.empty()) failures.push_back(metric.error);
   }
+  for (const auto& [name, value] : of_studies.items()) own[name] = value;
   metrics["metrics"] = own;
   if (whole) verdicts = judge(script.scene().expectations, metrics);
   int passed = 0;
@@ -142,6 +144,7 @@ int verb_run(const Options& options) {
   const std::string path = options.words.front();
   Script::Options script_options;
   script_options.quiet = options.quiet;
+  script_options.study = options.study;
   Script script(script_options);
   Scene scene = script.load(path, options.overrides);
   if (options.allow_unstable) scene.analysis.unstable = true;
@@ -153,7 +156,8 @@ int verb_run(const Options& options) {
   const std::string directory = options.directory.empty() ? "runs/" + scene.name : options.directory;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  const RunOutcome outcome = run_scene(scene, text_of(path), notes, directory, options);
+  RunOutcome outcome;  // of a finished run whose studies alone go on: completed
+  if (!options.resume || !studies_left(script, directory)) outcome = run_scene(scene, text_of(path), notes, directory, options);
   for (const auto& warning : outcome.warnings) fmt::print(stderr, "warning: {}\n", warning);
   if (!outcome.trouble.empty()) fmt::print(stderr, "{}: {}\n", path, outcome.trouble);
 
@@ -161,7 +165,14 @@ int verb_run(const Options& options) {
   std::vector<Verdict> verdicts;
   const std::string& status = outcome.metrics.status;
   const bool whole = status == "completed" || status == "diverged";
-  const auto failures = complete_metrics(script, directory, whole, metrics, verdicts);
+  StudiesOutcome studies;
+  if (whole && options.study.empty()) studies = run_studies(script, path, directory, options, interrupted);
+  if (studies.interrupted) {
+    fmt::print(stderr, "interrupted; the runs of its studies that are done are kept: go on with --resume\n");
+    return exit_interrupted;
+  }
+  auto failures = complete_metrics(script, directory, whole, studies.metrics, metrics, verdicts);
+  for (const auto& trouble : studies.troubles) fmt::print(stderr, "{}\n", trouble);
   for (const auto& message : failures) fmt::print(stderr, "{}\n", message);
   if (!options.quiet) print_summary(scene, directory, metrics, verdicts);
   int code = exit_code(scene, options, outcome, metrics, verdicts);

@@ -93,7 +93,7 @@ void run_all(std::vector<Case>& cases, const Options& options) {
       running[launch(item, options, threads).pid] = &item;
     }
     if (live) fmt::print(stderr, "\r\033[K{} of {} cases, running {}", done, cases.size(), running.begin()->second->name);
-    const Ended ended = wait_for_any();
+    const Ended ended = wait_for_any();  // -1 where a signal came first
     const auto found = running.find(ended.pid);
     if (found == running.end()) continue;
     found->second->code = ended.code;
@@ -101,20 +101,6 @@ void run_all(std::vector<Case>& cases, const Options& options) {
     ++done;
   }
   if (live) fmt::print(stderr, "\r\033[K");
-}
-
-// Why a run gave no verdict: its first message that names the scene, else its last words.
-std::string reason(const Case& item) {
-  if (item.code > 128) return fmt::format("ended by signal {}", item.code - 128);
-  const std::string name = fs::path(item.scene).filename().string() + ":";
-  std::string first, last, line;
-  std::ifstream log(item.log);
-  while (std::getline(log, line)) {
-    if (line.empty() || line.starts_with("warning:") || line.starts_with("results in")) continue;
-    if (first.empty() && line.find(name) != std::string::npos) first = line;
-    last = line;
-  }
-  return fmt::format("exit code {}: {}", item.code, first.empty() ? last : first);
 }
 
 struct Row {
@@ -141,7 +127,7 @@ std::vector<Row> rows_of(const Case& item) {
         {{item.name, v.key, v.expected, v.got, v.error, v.tolerance, v.passed ? "ok" : "FAILED", rows.empty() ? cost : ""}, v.passed});
   const bool wrong_code = item.code != exit_ok && item.code != exit_expectation;
   if (wrong_code || rows.empty()) {
-    const std::string why = wrong_code ? reason(item) : "the scene carries no expectation; add expect(...)";
+    const std::string why = wrong_code ? last_words(item.log, item.code, item.scene) : "the scene carries no expectation; add expect(...)";
     rows.push_back({{item.name, "(run)", "", why, "", "", "FAILED", rows.empty() ? cost : ""}, false});
   }
   return rows;

@@ -11,7 +11,8 @@ namespace fs = std::filesystem;
 // What the programs write into a run folder. --force removes these and nothing else: notes someone put there survive.
 constexpr std::string_view own_files[] = {"scene.lua",  "manifest.json", "metrics.json", "log.txt",      "energy.csv",  "histories.csv",
                                           "events.csv", "histories.svg", "energy.svg",   "motion.h5",    "motion.xdmf", "checkpoint.bin",
-                                          "frames",     "report.html",   "results.csv",  "accuracy.csv", "modes.csv"};
+                                          "frames",     "report.html",   "results.csv",  "accuracy.csv", "modes.csv",
+                                          "studies"};
 constexpr std::string_view own_endings[] = {".mp4", ".tmp"};
 
 bool is_own(const fs::path& path) {

@@ -3,6 +3,7 @@
 #include <csignal>
 #include <thread>
 
+#include "engine/base/process.h"
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;

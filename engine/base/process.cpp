@@ -1,0 +1,85 @@
+#include "engine/base/process.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "engine/base/error.h"
+
+namespace erbs {
+namespace {
+
+int code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
+
+}  // namespace
+
+std::string own_path() {
+  std::error_code trouble;
+  const auto path = std::filesystem::read_symlink("/proc/self/exe", trouble);
+  return trouble ? "erbs" : path.string();
+}
+
+Child start(const std::vector<std::string>& command, const std::string& log) {
+  std::vector<char*> words;
+  for (const auto& word : command) words.push_back(const_cast<char*>(word.c_str()));
+  words.push_back(nullptr);
+  int failure[2];  // closed by a successful exec, else brings errno
+  if (pipe2(failure, O_CLOEXEC) != 0) throw Error(fmt::format("cannot start {}: {}", command.front(), std::strerror(errno)));
+  const pid_t pid = fork();
+  if (pid == 0) {
+    if (!log.empty()) {
+      const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+      if (file >= 0) {
+        dup2(file, STDOUT_FILENO);
+        dup2(file, STDERR_FILENO);
+      }
+    }
+    execvp(words[0], words.data());
+    const int number = errno;
+    [[maybe_unused]] const auto written = write(failure[1], &number, sizeof number);
+    _exit(127);
+  }
+  close(failure[1]);
+  int number = pid < 0 ? errno : 0;
+  if (pid > 0 && read(failure[0], &number, sizeof number) == sizeof number) waitpid(pid, nullptr, 0);
+  close(failure[0]);
+  if (number != 0) throw Error(fmt::format("cannot start {}: {}", command.front(), std::strerror(number)));
+  return {pid};
+}
+
+Ended wait_for_any() {
+  int status = 0;
+  const pid_t pid = waitpid(-1, &status, 0);
+  return {pid, pid < 0 ? 0 : code_of(status)};
+}
+
+int wait_for(const Child& child) {
+  int status = 0;
+  while (waitpid(child.pid, &status, 0) < 0 && errno == EINTR) {}
+  return code_of(status);
+}
+
+void interrupt(const Child& child) {
+  if (child.pid > 0) kill(child.pid, SIGINT);
+}
+
+std::string last_words(const std::string& log, int code, const std::string& file) {
+  if (code > 128 && code != 130) return fmt::format("ended by signal {}", code - 128);
+  const std::string name = std::filesystem::path(file).filename().string() + ":";
+  std::string first, last, line;
+  std::ifstream stream(log);
+  while (std::getline(stream, line)) {
+    if (line.empty() || line.starts_with("warning:") || line.starts_with("results in")) continue;
+    if (first.empty() && line.find(name) != std::string::npos) first = line;
+    last = line;
+  }
+  return fmt::format("exit code {}: {}", code, first.empty() ? last : first);
+}
+
+}  // namespace erbs

@@ -1,0 +1,27 @@
+// Other programs, started and waited for.
+#pragma once
+#include <string>
+#include <vector>
+
+namespace erbs {
+
+std::string own_path();  // of the program that runs
+
+struct Child {
+  int pid = -1;
+};
+// Starts a program; with `log` its stdout and stderr go into that file. Throws Error where it cannot be started.
+Child start(const std::vector<std::string>& command, const std::string& log = "");
+// Waits for any child; gives its pid and its exit code (128 + signal where it was killed). pid = -1: a signal came first, or there is
+// no child.
+struct Ended {
+  int pid = -1, code = 0;
+};
+Ended wait_for_any();
+int wait_for(const Child& child);
+void interrupt(const Child& child);  // as Ctrl-C does
+
+// Why a run of erbs gave nothing: the first line of its log that names `file`, else its last words.
+std::string last_words(const std::string& log, int code, const std::string& file);
+
+}  // namespace erbs

@@ -1,0 +1,144 @@
+#include "engine/study/children.h"
+
+#include <filesystem>
+#include <map>
+#include <thread>
+
+#include "engine/base/hash.h"
+#include "engine/base/process.h"
+#include "engine/record/csv.h"
+#include "engine/record/json.h"
+#include "engine/record/run_folder.h"
+
+namespace erbs {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Interrupted {};
+
+class Runner {
+ public:
+  Runner(const Study& study, const Children& c) : study_(study), c_(c), folder_(run_file(c.directory, "studies/" + study.name)) {
+    fs::create_directories(folder_);
+  }
+
+  std::vector<Answer> run(const std::vector<double>& xs) {
+    std::vector<Answer> answers(xs.size());
+    std::vector<std::size_t> waiting;
+    for (std::size_t i = 0; i < xs.size(); ++i) {
+      answers[i].x = xs[i];
+      if (!finished(answers[i])) waiting.push_back(i);
+    }
+    const int machine = std::max(1, int(std::thread::hardware_concurrency()));
+    const std::size_t jobs = std::size_t(c_.at_once > 0 ? c_.at_once : machine);
+    std::map<int, std::size_t> running;
+    std::size_t next = 0;
+    bool told = false;
+    while (!running.empty() || (next < waiting.size() && !interrupted())) {
+      while (next < waiting.size() && running.size() < jobs && !interrupted()) {
+        running[launch(xs[waiting[next]])] = waiting[next];
+        ++next;
+      }
+      if (interrupted() && !told) {
+        for (const auto& [pid, i] : running) interrupt({pid});
+        told = true;
+      }
+      const Ended ended = wait_for_any();
+      const auto found = running.find(ended.pid);
+      if (found == running.end()) continue;
+      read(answers[found->second], ended.code);
+      running.erase(found);
+      if (c_.progress) c_.progress(study_.name, ++done_, asked_ + int(waiting.size()));
+    }
+    if (interrupted()) throw Interrupted{};
+    asked_ += int(waiting.size());
+    rows_.insert(rows_.end(), answers.begin(), answers.end());
+    write_table();
+    return answers;
+  }
+
+ private:
+  bool interrupted() const { return c_.interrupted != nullptr && c_.interrupted->load(); }
+  std::string folder_of(double x) const { return run_file(folder_, fmt::format("{}={}", study_.param, x)); }
+  std::string file_of(double x) const { return folder_of(x) + ".json"; }
+  std::string log_of(double x) const { return folder_of(x) + ".log"; }
+
+  int launch(double x) {
+    std::vector<std::string> command{own_path(), "run",       c_.scene, "-o",      folder_of(x), "--force",
+                                     "--quiet",  "--threads", "1",      "--study", study_.name};
+    for (const auto& [name, value] : c_.overrides)
+      if (name != study_.param) command.insert(command.end(), {"-D", name + "=" + value});
+    command.insert(command.end(), {"-D", fmt::format("{}={}", study_.param, x)});
+    if (c_.max_wall > 0) command.insert(command.end(), {"--max-wall", fmt::format("{}s", c_.max_wall)});
+    std::error_code ignored;
+    fs::remove_all(folder_of(x), ignored);  // of a run that was interrupted
+    return start(command, log_of(x)).pid;
+  }
+
+  // What the child left. An answer, or the reason why there is none; of both a note is kept, unless the child was interrupted.
+  void read(Answer& a, int code) const {
+    if (code == 130) {
+      a.reason = "interrupted";
+      return;
+    }
+    try {
+      const std::string file = run_file(folder_of(a.x), "metrics.json");
+      const Json metrics = fs::exists(file) ? read_json(file) : Json::object();
+      if (const Json* wall = find_key(metrics, "wall_s.total"); wall != nullptr && wall->is_number()) a.wall_s = wall->get<double>();
+      const std::string status = metrics.value("status", "");
+      const Json* value = find_key(metrics, study_.collapse ? "collapse.collapsed" : "metrics.study");
+      if (status == "diverged" || status == "stopped") a.reason = status + "; " + last_words(log_of(a.x), code, c_.scene);
+      else if (code != 0 || value == nullptr) a.reason = last_words(log_of(a.x), code, c_.scene);
+      else if (value->is_boolean()) a.value = value->get<bool>() ? 1 : 0;
+      else if (value->is_number() && std::isfinite(value->get<double>())) a.value = value->get<double>();
+      else a.reason = "its answer is no finite number";
+    } catch (const std::exception& trouble) { a.reason = trouble.what(); }
+    Json note{{"key", key()}, {"x", a.x}, {"reason", a.reason}, {"wall_s", a.wall_s}};
+    note["value"] = a.value ? Json(*a.value) : Json(nullptr);
+    write_json(file_of(a.x), note);
+  }
+
+  bool finished(Answer& a) const {
+    try {
+      if (!fs::exists(file_of(a.x))) return false;
+      const Json note = read_json(file_of(a.x));
+      if (note.value("key", "") != key()) return false;
+      if (note["value"].is_number()) a.value = note["value"].get<double>();
+      a.reason = note.value("reason", "");
+      a.wall_s = note.value("wall_s", 0.0);
+      return true;
+    } catch (const std::exception&) { return false; }
+  }
+
+  std::string key() const {
+    std::string text = c_.key;
+    for (const auto& [name, value] : c_.overrides)
+      if (name != study_.param) text += "\n" + name + "=" + value;
+    return hash_text(text);
+  }
+
+  void write_table() const {
+    CsvWriter table(folder_ + ".csv", {study_.param, "answer", "reason", "wall_s"});
+    for (const Answer& a : rows_)
+      table.text_row({fmt::format("{}", a.x), a.value ? fmt::format("{}", *a.value) : "nan", a.reason, fmt::format("{:.3f}", a.wall_s)});
+    table.flush();
+  }
+
+  const Study& study_;
+  const Children& c_;
+  std::string folder_;
+  std::vector<Answer> rows_;
+  int done_ = 0, asked_ = 0;
+};
+
+}  // namespace
+
+Carried carry_out(const Study& study, const Children& children) {
+  Runner runner(study, children);
+  try {
+    return {carry_out(study, [&](const std::vector<double>& xs) { return runner.run(xs); }), false};
+  } catch (const Interrupted&) { return {{}, true}; }
+}
+
+}  // namespace erbs

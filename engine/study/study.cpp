@@ -1,0 +1,162 @@
+#include "engine/study/study.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+namespace erbs {
+namespace {
+
+std::string said(const Answer& a) { return fmt::format("{:.6g}: {}", a.x, a.reason); }
+
+std::string first_reason(const std::vector<Answer>& answers) {
+  for (const Answer& a : answers)
+    if (!a.value) return said(a);
+  return "";
+}
+
+struct Tally {
+  int runs = 0, failed = 0;
+  void add(const std::vector<Answer>& answers) {
+    runs += int(answers.size());
+    failed += int(std::count_if(answers.begin(), answers.end(), [](const Answer& a) { return !a.value; }));
+  }
+};
+
+// Sections instead of halves: `points` runs at a time between the ends, of which the smallest that collapses is the new end. A run
+// without an answer leaves the bracket to the others.
+StudyResult bisect(const Study& s, const RunAll& runs) {
+  StudyResult out;
+  Tally tally;
+  std::optional<double> lo, hi;  // shares of the way from s.lo to s.hi
+  const auto at = [&](double t) { return t == 0 ? s.lo : t == 1 ? s.hi : s.lo + t * (s.hi - s.lo); };
+  const std::vector<Answer> ends = runs({s.lo, s.hi});
+  tally.add(ends);
+  if (!ends[0].value || !ends[1].value) out.trouble = "no answer at an end: " + first_reason(ends);
+  else if (*ends[0].value != 0) out.trouble = fmt::format("collapses at lo = {:.6g} already; lower it", s.lo);
+  else if (*ends[1].value == 0) out.trouble = fmt::format("stands at hi = {:.6g} still; raise it", s.hi);
+  else lo = 0, hi = 1;
+  const auto wide = [&] { return std::fabs(at(*hi) - at(*lo)) > s.rel * std::max(std::fabs(at(*lo)), std::fabs(at(*hi))); };
+  while (lo && wide()) {
+    std::vector<double> xs, shares;
+    for (int i = 1; i <= s.points; ++i) {
+      shares.push_back(*lo + (*hi - *lo) * i / (s.points + 1));
+      xs.push_back(at(shares.back()));
+    }
+    const std::vector<Answer> answers = runs(xs);
+    tally.add(answers);
+    const double from = *lo, to = *hi;
+    for (std::size_t i = 0; i < answers.size(); ++i)
+      if (answers[i].value && *answers[i].value != 0) hi = std::min(*hi, shares[i]);
+    for (std::size_t i = 0; i < answers.size(); ++i)
+      if (answers[i].value && *answers[i].value == 0 && shares[i] < *hi) lo = std::max(*lo, shares[i]);
+    if (*lo == from && *hi == to) {
+      out.trouble = "no run between " + fmt::format("{:.6g} and {:.6g}", at(from), at(to)) + " gave an answer: " + first_reason(answers);
+      break;
+    }
+  }
+  const bool found = lo && out.trouble.empty();
+  out.metrics = {{s.name, found ? std::optional(0.5 * (at(*lo) + at(*hi))) : std::nullopt},
+                 {s.name + "_lo", lo ? std::optional(at(*lo)) : std::nullopt},
+                 {s.name + "_hi", lo ? std::optional(at(*hi)) : std::nullopt},
+                 {s.name + "_runs", tally.runs},
+                 {s.name + "_failed", tally.failed}};
+  return out;
+}
+
+// Slope of ln error over ln value, by least squares.
+StudyResult converge(const Study& s, const RunAll& runs) {
+  StudyResult out;
+  Tally tally;
+  const std::vector<Answer> answers = runs(s.values);
+  tally.add(answers);
+  const auto finest = std::min_element(answers.begin(), answers.end(), [](const Answer& a, const Answer& b) { return a.x < b.x; });
+  std::vector<std::pair<double, double>> points;
+  std::optional<double> best;
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const Answer& a : answers) {
+    if (!a.value || (s.finest && (&a == &*finest || !finest->value))) continue;
+    const double error = std::fabs(s.finest ? *a.value - *finest->value : *a.value);
+    if (a.x < smallest) smallest = a.x, best = error;
+    if (error > 0) points.emplace_back(std::log(a.x), std::log(error));
+  }
+  std::optional<double> slope;
+  if (points.size() >= 2) {
+    double x = 0, y = 0, xx = 0, xy = 0;
+    for (const auto& [u, v] : points) x += u, y += v;
+    x /= double(points.size()), y /= double(points.size());
+    for (const auto& [u, v] : points) xx += (u - x) * (u - x), xy += (u - x) * (v - y);
+    slope = xy / xx;
+  } else {
+    out.trouble = "fewer than two errors above zero";
+    if (tally.failed > 0) out.trouble += ": " + first_reason(answers);
+  }
+  out.metrics = {{s.name + "_slope", slope}, {s.name + "_error", best}, {s.name + "_runs", tally.runs}, {s.name + "_failed", tally.failed}};
+  return out;
+}
+
+StudyResult ensemble(const Study& s, const RunAll& runs) {
+  StudyResult out;
+  Tally tally;
+  const std::vector<Answer> answers = runs(seeds(s.seed, s.n));
+  tally.add(answers);
+  std::vector<double> v;
+  for (const Answer& a : answers)
+    if (a.value) v.push_back(*a.value);
+  std::optional<double> mean, deviation, least, most, median;
+  if (!v.empty()) {
+    double sum = 0, square = 0;
+    for (const double x : v) sum += x;
+    mean = sum / double(v.size());
+    for (const double x : v) square += (x - *mean) * (x - *mean);
+    if (v.size() > 1) deviation = std::sqrt(square / double(v.size() - 1));
+    std::sort(v.begin(), v.end());
+    least = v.front(), most = v.back();
+    median = 0.5 * (v[(v.size() - 1) / 2] + v[v.size() / 2]);
+  } else {
+    out.trouble = "no run gave an answer: " + first_reason(answers);
+  }
+  out.metrics = {{s.name + "_mean", mean},          {s.name + "_deviation", deviation}, {s.name + "_least", least},
+                 {s.name + "_most", most},          {s.name + "_median", median},       {s.name + "_runs", tally.runs},
+                 {s.name + "_failed", tally.failed}};
+  return out;
+}
+
+}  // namespace
+
+StudyResult carry_out(const Study& study, const RunAll& runs) {
+  StudyResult out = study.kind == Study::Kind::bisect     ? bisect(study, runs)
+                    : study.kind == Study::Kind::converge ? converge(study, runs)
+                                                          : ensemble(study, runs);
+  if (!out.trouble.empty()) out.trouble = Error(study.name + ": " + out.trouble, study.place).what();
+  return out;
+}
+
+std::vector<std::string> metric_names(const Study& s) {
+  std::vector<std::string> endings{"", "_lo", "_hi"};
+  if (s.kind == Study::Kind::converge) endings = {"_slope", "_error"};
+  if (s.kind == Study::Kind::ensemble) endings = {"_mean", "_deviation", "_least", "_most", "_median"};
+  std::vector<std::string> names;
+  for (const auto& ending : endings) names.push_back(s.name + ending);
+  names.push_back(s.name + "_runs");
+  names.push_back(s.name + "_failed");
+  return names;
+}
+
+std::vector<double> seeds(double seed, int n) {
+  std::uint64_t state = 0;
+  std::memcpy(&state, &seed, sizeof state);
+  std::vector<double> out;
+  for (int i = 0; i < n; ++i) {
+    state += 0x9e3779b97f4a7c15u;
+    std::uint64_t z = state;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    out.push_back(double((z ^ (z >> 31)) >> 33));
+  }
+  return out;
+}
+
+}  // namespace erbs

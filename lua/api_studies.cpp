@@ -1,0 +1,143 @@
+// Many runs of the scene with a parameter changed. In a run that such a study started, only its own question is asked.
+#include <algorithm>
+#include <lua5.4/lua.hpp>
+
+#include "lua/api.h"
+
+namespace erbs {
+namespace {
+
+// Declared before, so that -D of the runs finds it.
+const Param* param_of(const Context& context, const std::string& name) {
+  for (const Param& param : context.scene.params)
+    if (param.name == name) return &param;
+  return nullptr;
+}
+
+// What the runs are asked: a function of the scene's, called in each run as a metric is.
+void question(Call& call, Arguments& arguments, const char* key, const Study& study) {
+  const int function = arguments.function(key);
+  if (call.context.study == study.name && function != LUA_NOREF) call.context.metrics.push_back({"study", "", 0, function, call.place});
+}
+
+int add(Call& call, Arguments& arguments, Study study, const char* key) {
+  Context& context = call.context;
+  const Param* param = param_of(context, study.param);
+  if (!study.param.empty() && !param)
+    arguments.mistake(fmt::format("there is no param \"{}\" yet; write param(\"{}\", ...) above", study.param, study.param));
+  if (param && study.kind == Study::Kind::bisect) study.unit = param->unit;
+  if (study.name.find_first_of("/. \t\n") != std::string::npos || study.name.empty())
+    arguments.mistake(fmt::format("name = \"{}\" becomes that of metrics and a folder: letters, digits and _ only", study.name));
+  for (const Study& other : context.studies)
+    if (other.name == study.name)
+      arguments.mistake(fmt::format("a study \"{}\" was given before, at {}; add name = ...", study.name, other.place.text()));
+  study.place = call.place;
+  question(call, arguments, key, study);
+  for (const std::string& name : metric_names(study))
+    context.scene.metric_units.emplace_back(name, name.ends_with("_runs") || name.ends_with("_failed") ? "" : study.unit);
+  context.studies.push_back(std::move(study));
+  return 0;
+}
+
+int bisect(Call& call) {
+  Arguments arguments = call.arguments();
+  Study study;
+  arguments.read("param", study.param);
+  study.name = "collapse_" + study.param;
+  arguments.read("name", study.name);
+  arguments.read("lo", study.lo);
+  arguments.read("hi", study.hi);
+  arguments.read("rel", study.rel);
+  arguments.read("points", study.points);
+  study.collapse = !arguments.has("collapsed_when");
+  if (study.lo == study.hi) arguments.mistake("lo and hi are the same; nothing lies between");
+  return add(call, arguments, std::move(study), "collapsed_when");
+}
+
+int converge(Call& call) {
+  Arguments arguments = call.arguments();
+  Study study;
+  study.kind = Study::Kind::converge;
+  arguments.read("param", study.param);
+  study.name = "converge_" + study.param;
+  arguments.read("name", study.name);
+  arguments.read("values", study.values);
+  study.finest = arguments.has("value");
+  if (study.finest == arguments.has("error"))
+    arguments.mistake("give one of error = function(run) (against what is known) and value = function(run) (against the finest run)");
+  std::vector<double> sorted = study.values;
+  std::sort(sorted.begin(), sorted.end());
+  if (sorted.size() < 2 || sorted.front() <= 0 || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+    arguments.mistake("values must be two or more different numbers above zero");
+  Expectation least;
+  if (arguments.has("slope")) {
+    arguments.read("slope", least.value);
+    least.key = "metrics." + study.name + "_slope";
+    least.kind = Expectation::Kind::above;
+    least.source = "least order of convergence";
+    least.place = call.place;
+    call.context.scene.expectations.push_back(least);
+  }
+  const char* key = study.finest ? "value" : "error";
+  return add(call, arguments, std::move(study), key);
+}
+
+int ensemble(Call& call) {
+  Arguments arguments = call.arguments();
+  Study study;
+  study.kind = Study::Kind::ensemble;
+  study.name = "ensemble";
+  study.param = "seed";
+  arguments.read("name", study.name);
+  arguments.read("param", study.param);
+  arguments.read("n", study.n);
+  arguments.read("seed", study.seed);
+  return add(call, arguments, std::move(study), "value");
+}
+
+}  // namespace
+
+std::vector<Function> study_functions() {
+  const Key param{"param", "string", "", "name of the param the runs change", -unbounded, unbounded, true};
+  return {
+      {"bisect",
+       bisect,
+       "{ ... }",
+       "",
+       "Finds the value of a param at which the scene collapses, by runs side by side; metrics NAME, NAME_lo, NAME_hi, NAME_runs, "
+       "NAME_failed.",
+       {param,
+        {"lo", "number", "", "where it stands (it may be the larger number)", -1e300, 1e300, true},
+        {"hi", "number", "", "where it collapses", -1e300, 1e300, true},
+        {"collapsed_when", "question", "", "function(run) that returns true or false (default: collapse.collapsed of the run)"},
+        {"rel", "number", "", "width of the last bracket over its larger end", 1e-12, 1, false, "", "0.01"},
+        {"points", "integer", "", "runs between the ends at a time", 1, 1000, false, "", "3"},
+        {"name", "string", "", "of its metrics (default collapse_PARAM)"}}},
+      {"converge",
+       converge,
+       "{ ... }",
+       "",
+       "Runs the scene with a param at several values and fits the order of its error; metrics NAME_slope, NAME_error (at the smallest), "
+       "NAME_runs, NAME_failed.",
+       {param,
+        {"values", "numbers", "", "of the param, all above zero", -unbounded, unbounded, true},
+        {"error", "question", "", "function(run) that returns the error against what is known"},
+        {"value", "question", "", "function(run) that returns a number; its error is the distance from the run with the smallest value"},
+        {"slope", "number", "", "least slope of ln error over ln value that is expected (default: none is)", 0, 100},
+        {"name", "string", "", "of its metrics (default converge_PARAM)"}}},
+      {"ensemble",
+       ensemble,
+       "{ ... }",
+       "",
+       "Runs the scene n times with a param set to seeds drawn from one; metrics NAME_mean, NAME_deviation, NAME_least, NAME_most, "
+       "NAME_median, NAME_runs, NAME_failed.",
+       {{"n", "integer", "", "number of runs", 1, 100000, true},
+        {"seed", "number", "", "from which the seeds of the runs are drawn: the same again and again", -1e300, 1e300, true},
+        {"value", "question", "", "function(run) that returns the number whose scatter is asked for", -unbounded, unbounded, true},
+        {"param", "string", "", "name of the param that takes the seeds (whole numbers below 2^31)", -unbounded, unbounded, false, "",
+         "seed"},
+        {"name", "string", "", "of its metrics", -unbounded, unbounded, false, "", "ensemble"}}},
+  };
+}
+
+}  // namespace erbs
