@@ -181,7 +181,7 @@ TEST_CASE("a joint rule that joins nothing is warned of", "[bad_input]") {
   CHECK(contains(text_of(bench.out() + "/log.txt"), "joins nothing"));
 }
 
-TEST_CASE("-D must name a param of the scene and give a number, once", "[bad_input]") {
+TEST_CASE("an option -D must name a param of the scene and give a number, once", "[bad_input]") {
   Bench bench;
   const std::pair<std::string, std::string> list[] = {
       {"durtion=1", "-D durtion=1: the scene has no param \"durtion\"; did you mean \"duration\"?"},
