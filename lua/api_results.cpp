@@ -1,4 +1,5 @@
 // What may be varied, what is asked for, what is expected; files that belong to a scene.
+#include <algorithm>
 #include <lua5.4/lua.hpp>
 
 #include "lua/api.h"
@@ -120,6 +121,26 @@ int expect(Call& call) {
   return 0;
 }
 
+int label(Call& call) {
+  const int n = lua_gettop(call.lua);
+  if (n == 0) call.mistake("name at least one label, such as label(\"quick\")");
+  auto& labels = call.context.scene.labels;
+  for (int i = 1; i <= n; ++i) {
+    std::string name = call.text(i, "a label");
+    const bool sound = !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
+    if (!sound) call.mistake(fmt::format("\"{}\" must be small letters, digits and _ only, such as \"quick\"", name));
+    if (sound && std::find(labels.begin(), labels.end(), name) == labels.end()) labels.push_back(std::move(name));
+  }
+  return 0;
+}
+
+int use_limit(Call& call) {
+  Arguments arguments = call.arguments();
+  call.context.scene.use_limit.place = call.place;
+  arguments.read(call.context.scene.use_limit);
+  return 0;
+}
+
 int include(Call& call) {
   namespace fs = std::filesystem;
   Context& context = call.context;
@@ -172,6 +193,18 @@ std::vector<Function> result_functions() {
        {{"key", "string", "", "dotted key: \"metrics.x\", \"energy.residual_relative\", \"status\"", -unbounded, unbounded, true},
         {"value", "expected", "", "a number, a word, true or false", -unbounded, unbounded, true},
         {"how", "tolerance", "", "{ rel = | abs = | below = true | above = true | between = { lo, hi }, source = \"...\" }"}}},
+      {"label",
+       label,
+       "...",
+       "",
+       "Labels by which scenes are chosen: \"quick\" belongs to erbs test --quick, \"fixed_dt\" keeps its time step in erbs test --grid.",
+       {{"...", "string", "", "one label or several", -unbounded, unbounded, true}}},
+      {"use_limit",
+       use_limit,
+       "{ ... }",
+       "",
+       "Beyond which the scene is not good; erbs check and erbs run refuse a coarser one.",
+       keys_of<UseLimit>()},
       {"include",
        include,
        "file",

@@ -423,6 +423,19 @@ function metric(name, unit, value) end
 ---@param how? erbs.tolerance { rel = | abs = | below = true | above = true | between = { lo, hi }, source = "..." }
 function expect(key, value, how) end
 
+---Labels by which scenes are chosen: "quick" belongs to erbs test --quick, "fixed_dt" keeps its time step in erbs test --grid.
+---@param ... string one label or several
+function label(...) end
+
+---@class erbs.use_limit_keys
+---@field dt_fraction? number largest dt, as a share of dt_critical [1e-06 to 1; default 1]
+---@field points? integer fewest contact points of a joint [1 to 1000; default 1]
+---@field reason string what goes wrong beyond
+
+---Beyond which the scene is not good; erbs check and erbs run refuse a coarser one.
+---@param keys erbs.use_limit_keys
+function use_limit(keys) end
+
 ---Runs another script of the scene's folder in the same scene.
 ---@param file string path, relative to the scene
 ---@return any # what the file returns

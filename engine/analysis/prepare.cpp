@@ -64,6 +64,22 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
   p.state.dt = dt;
 }
 
+// The scene's own limit of use: past it the run is refused, for the reason the scene gives.
+void hold_use_limit(const Scene& scene, const Prepared& p) {
+  const UseLimit& use = scene.use_limit;
+  const double limit = std::isfinite(p.bounds.critical) ? p.bounds.critical : debris_bound(p.model);
+  if (p.state.dt > (1 + 1e-9) * use.dt_fraction * limit)
+    throw Error(fmt::format("use_limit: dt = {:.4g} s is {:.3f} of the limit {:.4g} s, and this scene is good up to {:g} of it ({}); say analysis{{ dt_fraction "
+                            "= {:g} }}",
+                            p.state.dt, p.state.dt / limit, limit, use.dt_fraction, use.reason, use.dt_fraction),
+                use.place);
+  for (int j = 0; j < p.model.njoint; ++j)
+    if (p.model.joint[z(j)].points < use.points)
+      throw Error(fmt::format("use_limit: joint {} has {} contact points, and this scene is good from {} on ({}); ask for more in its joint rule",
+                              p.model.joint_name(j), p.model.joint[z(j)].points, use.points, use.reason),
+                  use.place);
+}
+
 std::vector<double> constant_loads(const Model& m, const State& s) {
   std::vector<double> push(6 * z(m.nblock) + 6, 0.0);
   for (const auto& p : m.pushes) {
@@ -84,6 +100,7 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
   refresh_all(p.model, p.state);
   p.bounds = step_bounds(scene, p.model, p.state);
   choose_dt(scene, p, allow_unstable);
+  if (!allow_unstable) hold_use_limit(scene, p);
   return p;
 }
 

@@ -78,7 +78,7 @@ Vec3 vec3(const Json& json) { return {number(json.at(0)), number(json.at(1)), nu
 Json json_of_manifest(const Manifest& m) {
   Json j = {{"program", "erbs"}, {"version", m.version}, {"git_hash", m.git_hash}, {"compiler", m.compiler},
             {"isa", m.isa},      {"threads", m.threads}, {"started", m.started}};
-  j["scene"] = {{"name", m.scene_name}, {"title", m.title}, {"file", m.scene_file}, {"hash", m.scene_hash}};
+  j["scene"] = {{"name", m.scene_name}, {"title", m.title}, {"file", m.scene_file}, {"hash", m.scene_hash}, {"labels", m.labels}};
   j["params"] = Json::array();
   for (const Param& p : m.params)
     j["params"].push_back({{"name", p.name}, {"value", p.value}, {"default", p.fallback}, {"unit", p.unit}, {"text", p.text}});
@@ -119,6 +119,7 @@ Manifest manifest_of_json(const Json& j) {
   m.threads = j.at("threads"), m.started = j.at("started");
   const Json& scene = j.at("scene");
   m.scene_name = scene.at("name"), m.title = scene.at("title"), m.scene_file = scene.at("file"), m.scene_hash = scene.at("hash");
+  if (scene.contains("labels")) m.labels = scene["labels"].get<std::vector<std::string>>();
   for (const Json& p : j.at("params"))
     m.params.push_back({p.at("name"), number(p.at("value")), number(p.at("default")), p.at("text"), p.at("unit"), {}});
   m.inputs = j.at("inputs").get<std::map<std::string, std::string>>();
@@ -156,6 +157,7 @@ Manifest manifest_of(const Scene& scene, const std::string& script) {
   m.scene_name = scene.name;
   m.scene_file = scene.file;
   m.title = title_of(script);
+  m.labels = scene.labels;
   m.params = scene.params;
   m.inputs = scene.inputs;
   m.duration = scene.analysis.duration;

@@ -15,6 +15,7 @@ struct Manifest {
   int threads = 1;
   std::string started;                                    // UTC, ISO 8601
   std::string scene_name, scene_file, scene_hash, title;  // title: the first comment line of the script
+  std::vector<std::string> labels;
   std::vector<Param> params;
   std::map<std::string, std::string> inputs;  // path of each file read -> its hash
   std::vector<std::string> effects_on, effects_off;

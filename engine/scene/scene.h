@@ -221,6 +221,22 @@ struct Expectation {
   Place place;
 };
 
+// Beyond which a scene is not good, and why: a coarser run of it is refused.
+struct UseLimit {
+  double dt_fraction = 1;  // largest dt over dt_critical
+  int points = 1;          // fewest contact points of a joint
+  std::string reason;
+  Place place;
+
+  static Fields<UseLimit> fields() {
+    return {
+        {"dt_fraction", &UseLimit::dt_fraction, "", "largest dt, as a share of dt_critical", 1e-6, 1},
+        {"points", &UseLimit::points, "", "fewest contact points of a joint", 1, 1000},
+        {"reason", &UseLimit::reason, "", "what goes wrong beyond", 0, 0, true},
+    };
+  }
+};
+
 // What a load acts through.
 struct Load {
   enum class Kind { ground, force, moment, tilt, motion } kind = Kind::ground;
@@ -238,6 +254,8 @@ struct Load {
 struct Scene {
   std::string name;  // file name without folder and ending
   std::string file;
+  std::vector<std::string> labels;  // by which scenes are chosen: quick, fixed_dt, ...
+  UseLimit use_limit;
   Vec3 gravity{0, 0, -standard_g};
   std::vector<Material> materials;
   std::vector<JointRule> joint_rules;

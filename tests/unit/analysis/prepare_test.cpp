@@ -66,3 +66,14 @@ TEST_CASE("overlaps and lonely blocks are found together", "[analysis]") {
   CHECK_THROWS_WITH(prepare(scene, false), Catch::Contains("'inside'") && Catch::Contains("overlap") && Catch::Contains("'lonely'") &&
                                                Catch::Contains("has no joint"));
 }
+
+TEST_CASE("a limit of use is held: a coarser step or fewer points are refused with the scene's own reason", "[analysis]") {
+  Scene scene = test::small_wall("analysis{duration=1}");
+  scene.use_limit.dt_fraction = 0.5;
+  scene.use_limit.reason = "it walks";
+  CHECK_THROWS_WITH(prepare(scene, false), Catch::Contains("0.900 of the limit") && Catch::Contains("it walks"));
+  scene.analysis.dt_fraction = 0.5;
+  CHECK_NOTHROW(prepare(scene, false));
+  scene.use_limit.points = 1000;
+  CHECK_THROWS_WITH(prepare(scene, false), Catch::Contains("good from 1000 on"));
+}

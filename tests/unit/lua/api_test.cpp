@@ -238,3 +238,15 @@ TEST_CASE("include runs a file of the folder and gives what it returns", "[lua]"
   CHECK(mentions(mistakes("calls_bad.lua"), "bad.lua:2: box: size must be a vector"));
   fs::remove_all(folder);
 }
+
+TEST_CASE("labels are kept once each, and a limit of use with its reason", "[lua]") {
+  const Scene scene = scene_of("label('quick', 'fixed_dt')\nlabel('quick')\nuse_limit{ dt_fraction = 0.5, points = 9, reason = 'it walks' }");
+  CHECK(scene.labels == std::vector<std::string>{"quick", "fixed_dt"});
+  CHECK(scene.use_limit.dt_fraction == 0.5);
+  CHECK(scene.use_limit.points == 9);
+  CHECK(scene.use_limit.place.line == 8);
+  CHECK(mentions(mistakes_in("label()"), "at least one label"));
+  CHECK(mentions(mistakes_in("label('Quick one')"), "small letters"));
+  CHECK(mentions(mistakes_in("label(3)"), "must be a string"));
+  CHECK(mentions(mistakes_in("use_limit{ points = 4 }"), "reason"));
+}
