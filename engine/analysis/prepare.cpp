@@ -67,6 +67,7 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
 // The scene's own limit of use: past it the run is refused, for the reason the scene gives.
 void hold_use_limit(const Scene& scene, const Prepared& p) {
   const UseLimit& use = scene.use_limit;
+  if (use.reason.empty()) return;  // the scene states none
   const double limit = std::isfinite(p.bounds.critical) ? p.bounds.critical : debris_bound(p.model);
   if (p.state.dt > (1 + 1e-9) * use.dt_fraction * limit)
     throw Error(fmt::format("use_limit: dt = {:.4g} s is {:.3f} of the limit {:.4g} s, and this scene is good up to {:g} of it ({}); say analysis{{ dt_fraction "
