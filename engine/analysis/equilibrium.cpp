@@ -142,8 +142,8 @@ double balance(const Freedom& f, const VecX& residual, std::vector<Island>& isla
 }
 
 struct Pose {
-  std::vector<Vec3> u;
-  std::vector<Quat> q;
+  BlockVec3 u;
+  BlockQuat q;
 };
 
 void move(State& s, const Freedom& f, const Pose& from, const VecX& by, const std::vector<Island>& islands) {

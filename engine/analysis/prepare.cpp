@@ -120,9 +120,9 @@ void ramp(const Scene& scene, Prepared& p, int threads) {
   slow.damping.mass = 20 / time;
   slow.damping_all = false;
   slow.damping_explicit = false;
-  const std::vector<Vec3> v = p.state.v, L = p.state.spin_momentum;
-  for (Vec3& x : p.state.v) x.setZero();
-  for (Vec3& x : p.state.spin_momentum) x.setZero();
+  const BlockVec3 v = p.state.v, L = p.state.spin_momentum;
+  p.state.v.assign(v.size(), Vec3::Zero());
+  p.state.spin_momentum.assign(v.size(), Vec3::Zero());
   Solver solver(slow, p.state, threads);
   solver.run({[](double) { return false; }, [] {}, [&] { return p.state.t >= 2 * time; }});
   p.state.v = v;

@@ -6,6 +6,12 @@ namespace erbs {
 inline constexpr int lanes = 8;  // joints or blocks side by side; a multiple of every vector width in use
 inline constexpr int most_points_per_joint = 512;
 
+// One number for each of 8 blocks, N times.
+template <int N>
+struct alignas(64) RowLanes {
+  double x[N][lanes];
+};
+
 // Elastic data of 8 joints side by side, valid since the last refresh of their geometry (joint_geometry.h says how).
 struct alignas(64) JointBatch {
   double frame[9][lanes];      // columns s, t, n (world) at the refresh; row-major [axis * 3 + component]

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/model/block_field.h"
 #include "engine/model/joint_batch.h"
 #include "engine/model/model.h"
 #include "engine/model/pair.h"
@@ -46,13 +47,13 @@ struct State {
   double dt = 0;                // s, of the next drift
   double last_dt = 0;           // s, of the drift that led here; 0 at the start
   // blocks [nblock + 1]: the last is a block at rest for unused lanes
-  std::vector<Vec3> u;          // m, of the centroid from rest, relative to the ground
-  std::vector<Quat> q;          // rotation from rest
-  std::vector<Vec3> v;          // m/s, at the half step
-  std::vector<Vec3> spin_momentum;  // kg m2/s, about the centroid, world axes
-  std::vector<Vec3> w;          // rad/s, world axes, of the last drift
-  std::vector<Vec3> base_u;     // pose at the last refresh of the block's island
-  std::vector<Quat> base_q;
+  BlockVec3 u;                  // m, of the centroid from rest, relative to the ground
+  BlockQuat q;                  // rotation from rest
+  BlockVec3 v;                  // m/s, at the half step
+  BlockVec3 spin_momentum;      // kg m2/s, about the centroid, world axes
+  BlockVec3 w;                  // rad/s, world axes, of the last drift
+  BlockVec3 base_u;             // pose at the last refresh of the block's island
+  BlockQuat base_q;
   std::vector<double> row;      // displacement and rotation since the refresh (m, rad), 8 doubles a block: one cache line
   std::vector<int> island;      // blocks joined to each other, named by their lowest block
   std::vector<std::uint8_t> grounded;  // the island holds a fixed or driven block

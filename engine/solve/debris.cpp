@@ -42,7 +42,8 @@ Debris::Debris(const Model& model, State& state, int threads) : model_(model), s
     pair_keys_.push_back(key);
     of_pair_.push_back(j);
   }
-  if (state.debris.start.empty()) state.debris.start = state.u;
+  if (state.debris.start.empty())
+    for (std::size_t b = 0; b < state.u.size(); ++b) state.debris.start.push_back(state.u[b]);
   if (state.debris.u.empty()) state.debris.margin = suggested_margin(shapes_);
   list_involved();
 }

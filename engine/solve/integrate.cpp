@@ -52,7 +52,7 @@ void scatter(const Model& m, State& s, int first, int n, const BlockLanes& o) {
       s.w[z(b)][i] = o.w[i][l];
       s.spin_momentum[z(b)][i] = o.momentum[i][l];
     }
-    for (int i = 0; i < 4; ++i) s.q[z(b)].coeffs()[i] = o.q[i][l];
+    s.q[z(b)] = Quat(o.q[3][l], o.q[0][l], o.q[1][l], o.q[2][l]);
     for (int i = 0; i < 6; ++i) row[i] = o.row[i][l];
   }
 }

@@ -16,10 +16,10 @@ namespace erbs {
 struct Instant {
   double t = 0;
   Excitation excitation;          // means over the kick about t
-  std::vector<Vec3> v_before, v_after, w_before, w_after;  // m/s, rad/s, half a step before and after t [nblock]
-  std::vector<Vec3> spin_before;  // kg m2/s, State::spin_momentum half a step before t; after it: in the state [nblock + 1]
-  std::vector<Vec3> u;            // m, poses at t while the state has drifted on; swapped with it during sampled()
-  std::vector<Quat> q;
+  BlockVec3 v_before, v_after, w_before, w_after;  // m/s, rad/s, half a step before and after t [nblock]
+  BlockVec3 spin_before;          // kg m2/s, State::spin_momentum half a step before t; after it: in the state [nblock + 1]
+  BlockVec3 u;                    // m, poses at t while the state has drifted on; swapped with it during sampled()
+  BlockQuat q;
 };
 
 class Solver {

@@ -29,7 +29,7 @@ TEST_CASE("a wall in equilibrium stays there", "[analysis]") {
   const Scene scene = test::small_wall("analysis{duration=1}");
   run = prepare(scene, false);
   start_at_rest(scene, run, 1);
-  const std::vector<Vec3> start = run.state.u;
+  const BlockVec3 start = run.state.u;
   Solver solver(run.model, run.state, 1);
   solver.run({[](double) { return false; }, [] {}, [&] { return run.state.t >= 0.5; }});
   for (std::size_t b = 0; b < start.size(); ++b) CHECK((run.state.u[b] - start[b]).norm() < 0.5e-6 * 0.1);

@@ -148,7 +148,7 @@ TEST_CASE("state_hash sees positions, velocities and histories, not caches", "[r
     return state_hash(s) != before;
   };
   CHECK(changed([](State& s) { s.u[1].x() = std::nextafter(s.u[1].x(), 1); }));
-  CHECK(changed([](State& s) { s.q[1].z() += 1e-16; }));
+  CHECK(changed([](State& s) { s.q[1] = Quat(s.q[1].w(), s.q[1].x(), s.q[1].y(), s.q[1].z() + 1e-16); }));
   CHECK(changed([](State& s) { s.v[2].y() = 1e-300; }));
   CHECK(changed([](State& s) { s.spin_momentum[2].y() = 1e-300; }));
   CHECK(changed([](State& s) { s.history[0].slip_t = 1e-20; }));

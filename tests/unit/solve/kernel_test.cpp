@@ -21,7 +21,7 @@ double largest_difference(const State& a, const State& b) {
 
 double largest(const State& a) {
   double out = 0;
-  for (const Vec3& u : a.u) out = std::max(out, u.norm());
+  for (std::size_t i = 0; i < a.u.size(); ++i) out = std::max(out, a.u[i].norm());
   return out;
 }
 

@@ -1,0 +1,95 @@
+// A vector or a rotation of every block, stored as the step reads it: components of eight blocks side by side. Reads and writes like
+// a std::vector<Vec3> or std::vector<Quat>.
+#pragma once
+#include <cstddef>
+#include <type_traits>
+#include <vector>
+
+#include "engine/base/vec.h"
+#include "engine/model/joint_batch.h"
+
+namespace erbs {
+
+class BlockVec3 {
+ public:
+  using Row = RowLanes<3>;
+  using Ref = Eigen::Map<Vec3, Eigen::Unaligned, Eigen::InnerStride<lanes>>;
+  using ConstRef = Eigen::Map<const Vec3, Eigen::Unaligned, Eigen::InnerStride<lanes>>;
+
+  BlockVec3() = default;
+  BlockVec3(std::size_t n, const Vec3& value) { assign(n, value); }
+  void assign(std::size_t n, const Vec3& value) {
+    size_ = n;
+    row_.assign((n + lanes - 1) / lanes, Row{});
+    for (std::size_t b = 0; b < n; ++b) (*this)[b] = value;
+  }
+  std::size_t size() const { return size_; }
+  Ref operator[](std::size_t b) { return Ref(&row_[b / lanes].x[0][b % lanes]); }
+  ConstRef operator[](std::size_t b) const { return ConstRef(&row_[b / lanes].x[0][b % lanes]); }
+  Row* data() { return row_.data(); }
+  const Row* data() const { return row_.data(); }
+
+  template <class F>
+  friend void each(BlockVec3& field, F&& f) {
+    f("size", field.size_), f("rows", field.row_);
+  }
+
+ private:
+  std::size_t size_ = 0;
+  std::vector<Row> row_;  // lanes beyond the last block are zero
+};
+
+class BlockQuat {
+ public:
+  using Row = RowLanes<4>;
+  // A copy that writes back what is assigned to it as a whole; its parts can only be read.
+  class Ref : public Quat {
+   public:
+    double x() const { return Quat::x(); }
+    double y() const { return Quat::y(); }
+    double z() const { return Quat::z(); }
+    double w() const { return Quat::w(); }
+    const Coefficients& coeffs() const { return Quat::coeffs(); }
+    void normalize() { *this = normalized(); }
+    Ref(Row& row, int l) : Quat(row.x[3][l], row.x[0][l], row.x[1][l], row.x[2][l]), row_(row), lane_(l) {}
+    Ref(const Ref&) = default;
+    Ref& operator=(const Quat& to) {
+      Quat::operator=(to);
+      for (int i = 0; i < 4; ++i) row_.x[i][lane_] = to.coeffs()[i];
+      return *this;
+    }
+    Ref& operator=(const Ref& to) { return *this = static_cast<const Quat&>(to); }
+
+   private:
+    Row& row_;
+    int lane_;
+  };
+
+  BlockQuat() = default;
+  BlockQuat(std::size_t n, const Quat& value) { assign(n, value); }
+  void assign(std::size_t n, const Quat& value) {
+    size_ = n;
+    row_.resize((n + lanes - 1) / lanes);
+    for (std::size_t b = 0; b < row_.size() * lanes; ++b) Ref(row_[b / lanes], int(b % lanes)) = b < n ? value : Quat::Identity();
+  }
+  std::size_t size() const { return size_; }
+  Ref operator[](std::size_t b) { return Ref(row_[b / lanes], int(b % lanes)); }
+  Quat operator[](std::size_t b) const {
+    const Row& r = row_[b / lanes];
+    const std::size_t l = b % lanes;
+    return Quat(r.x[3][l], r.x[0][l], r.x[1][l], r.x[2][l]);
+  }
+  Row* data() { return row_.data(); }
+  const Row* data() const { return row_.data(); }
+
+  template <class F>
+  friend void each(BlockQuat& field, F&& f) {
+    f("size", field.size_), f("rows", field.row_);
+  }
+
+ private:
+  std::size_t size_ = 0;
+  std::vector<Row> row_;  // x, y, z, w; lanes beyond the last block are the identity
+};
+
+}  // namespace erbs
