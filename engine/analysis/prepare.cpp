@@ -100,6 +100,7 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
   find_islands(p.model, p.state);
   refresh_all(p.model, p.state);
   p.bounds = step_bounds(scene, p.model, p.state);
+  p.model.dt_critical = p.bounds.critical;
   choose_dt(scene, p, allow_unstable);
   if (!allow_unstable) hold_use_limit(scene, p);
   return p;

@@ -1,6 +1,7 @@
 // The Model: what does not change after build. Everything that changes is in state.h. A step is a function of both.
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -65,6 +66,7 @@ struct Model {
   std::vector<Ground> grounds;
   std::vector<Tilt> tilts;
   Vec3 gravity = Vec3::Zero();          // m/s2
+  double dt_critical = std::numeric_limits<double>::infinity();  // s, 2 / omega_max of the sound structure at rest; infinite without joints
   Damping damping;
   Analysis analysis;
   bool damping_explicit = false, damping_all = false;

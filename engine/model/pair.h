@@ -37,6 +37,7 @@ struct Pair {
   double impact = 0;                // impact_factor(law.restitution)
   std::uint8_t b_is_reference = 0;  // whose inner distance is the potential: the larger part, then the lower block; never changes
   std::uint8_t touching = 0;
+  std::uint8_t bed = 0;  // still the faces of a former joint, and its stiffness; once parted they meet as debris
   int separating = -1;  // cache only
   // relative pose at the last step, pair axes
   Mat3 turn = Mat3::Identity();
@@ -89,7 +90,7 @@ template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, Pair>
 void each(P& p, F&& f) {
   f("a", p.a), f("b", p.b), f("part_a", p.part_a), f("part_b", p.part_b), f("law", p.law);
-  f("b_is_reference", p.b_is_reference), f("touching", p.touching), f("separating", p.separating);
+  f("b_is_reference", p.b_is_reference), f("touching", p.touching), f("bed", p.bed), f("separating", p.separating);
   f("turn", p.turn), f("shift", p.shift), f("n", p.n), f("c", p.c), f("u", p.u), f("psi", p.psi);
   f("area", p.area), f("gyration", p.gyration), f("approach", p.approach), f("impact", p.impact);
   f("offset_force", p.offset_force), f("offset_moment", p.offset_moment);

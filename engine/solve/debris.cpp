@@ -4,17 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/base/parallel.h"
-#include "engine/solve/integrate.h"
-#include "engine/solve/joint_geometry.h"
-#include "engine/solve/stiffness.h"
-
 namespace erbs {
 namespace {
 
-constexpr double safe_share = 0.9;  // of the bound of a block in contact
-constexpr int pair_grain = 8;
-constexpr int look_every = 16;  // steps between two looks, while no block comes far in that time
+constexpr double parted = 0.05;  // of a bed's side, and rad
 std::size_t z(int i) { return std::size_t(i); }
 
 double largest_inverse_inertia(const Mat3& inverse) {
@@ -27,7 +20,6 @@ double largest_inverse_inertia(const Mat3& inverse) {
 Debris::Debris(const Model& model, State& state, int threads) : model_(model), state_(state), shapes_(contact_shapes(model.shapes)) {
   blocks_.resize(z(model.nblock));
   rate_.assign(z(model.nblock), 0.0);
-  joint_rate_.assign(z(model.nblock), 0.0);
   room_.resize(z(threads));
   for (int b = 0; b < model.nblock; ++b) {
     ContactBlock& block = blocks_[z(b)];
@@ -56,7 +48,6 @@ void Debris::place(int b) {
   block.w = state_.w[z(b)];
 }
 
-// Blocks whose joints still hold keep their share of stiffness, by the trace bound of each joint (lambda_max <= trace of K_ii / m).
 void Debris::list_involved() {
   std::vector<std::uint8_t> in(state_.loose.begin(), state_.loose.end());
   for (const Pair& p : state_.debris.pair) in[z(p.a)] = in[z(p.b)] = 1;
@@ -65,27 +56,52 @@ void Debris::list_involved() {
   for (int b = 0; b < model_.nblock; ++b)
     if (in[z(b)]) involved_.push_back(b);
   jointed_.clear();
-  for (int b : involved_) joint_rate_[z(b)] = 0;
-  for (int j = 0; j < model_.njoint; ++j) {
-    if (state_.tier[z(j)] == Tier::open) continue;
-    const Joint& joint = model_.joint[z(j)];
-    jointed_.push_back(pair_key(joint.a, joint.b));
-    const double k = std::max(joint.stiffness[2], joint.stiffness[0]);
-    if (in[z(joint.a)]) joint_rate_[z(joint.a)] += k * (model_.inverse_mass[z(joint.a)] + joint.arm_a.squaredNorm() * blocks_[z(joint.a)].inverse_inertia);
-    if (in[z(joint.b)]) joint_rate_[z(joint.b)] += k * (model_.inverse_mass[z(joint.b)] + joint.arm_b.squaredNorm() * blocks_[z(joint.b)].inverse_inertia);
+  for (int j = 0; j < model_.njoint; ++j)
+    if (state_.tier[z(j)] != Tier::open) jointed_.push_back(pair_key(model_.joint[z(j)].a, model_.joint[z(j)].b));
+  find_beds();
+}
+
+// What the joints of a bed were counted with, in the terms that a contact on the same faces is counted with (contact.cpp).
+void Debris::find_beds() {
+  bed_.assign(state_.debris.pair.size(), Bed{});
+  for (std::size_t i = 0; i < bed_.size(); ++i) {
+    const Pair& p = state_.debris.pair[i];
+    if (!p.bed) continue;
+    const auto at = std::lower_bound(pair_keys_.begin(), pair_keys_.end(), pair_key(p.a, p.b));
+    bed_[i].joint = of_pair_[std::size_t(at - pair_keys_.begin())];
+    for (int j = bed_[i].joint; j < model_.njoint && model_.joint[z(j)].a == p.a && model_.joint[z(j)].b == p.b; ++j) {
+      const Joint& joint = model_.joint[z(j)];
+      const double *k = joint.stiffness, turning = k[3] + k[4] + k[5];
+      const auto rate = [&](int b, const Vec3& arm) {
+        const ContactBlock& block = blocks_[z(b)];
+        const double lever = k[2] * arm.cross(joint.frame.col(2)).squaredNorm() + std::max(k[0], k[1]) * arm.squaredNorm();
+        return (k[2] + std::max(k[0], k[1])) * block.inverse_mass + (lever + turning) * block.inverse_inertia;
+      };
+      bed_[i].rate_a += rate(p.a, joint.arm_a);
+      bed_[i].rate_b += rate(p.b, joint.arm_b);
+    }
+  }
+}
+
+// Faces that have let go of each other and moved on are a bed no more: where these blocks meet next, they meet as debris. Nothing is
+// stored while they are apart, so that the change costs no energy.
+void Debris::part_beds() {
+  for (std::size_t i = 0; i < bed_.size(); ++i) {
+    Pair& p = state_.debris.pair[i];
+    if (!p.bed || p.touching || p.offset_left > 0) continue;
+    const Joint& joint = model_.joint[z(bed_[i].joint)];
+    const ContactBlock &a = blocks_[z(p.a)], &b = blocks_[z(p.b)];
+    const Vec3 moved = (b.u - a.u) + (b.turn * joint.arm_b - joint.arm_b) - (a.turn * joint.arm_a - joint.arm_a);
+    if (moved.norm() < parted * 2 * std::min(joint.half_s, joint.half_t) && (a.turn - b.turn).norm() < parted * std::sqrt(2.0)) continue;
+    p.bed = 0;
+    p.law = law(p.a, p.b);
+    p.impact = impact_factor(p.law.restitution);
+    bed_[i] = {};
   }
 }
 
 PairLaw Debris::law(int a, int b) const {
-  PairLaw out = pair_law(model_.materials[z(model_.material[z(a)])], model_.materials[z(model_.material[z(b)])]);
-  const auto key = pair_key(std::min(a, b), std::max(a, b));
-  const auto at = std::lower_bound(pair_keys_.begin(), pair_keys_.end(), key);
-  if (at == pair_keys_.end() || *at != key) return out;
-  const PointLaw& joint = model_.laws[z(model_.joint[z(of_pair_[std::size_t(at - pair_keys_.begin())])].law)];
-  out.kn = joint.kn;
-  out.ks = joint.ks;
-  out.mu = joint.mu_residual;
-  return out;
+  return pair_law(model_.materials[z(model_.material[z(a)])], model_.materials[z(model_.material[z(b)])]);
 }
 
 void Debris::open(int j) {
@@ -117,27 +133,49 @@ std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
   // All of them: poses from the last look would depend on when this run was started or resumed.
   for (int b = 0; b < model_.nblock; ++b) place(b);
   state_.debris.valid = false;
-  state_.energy.reset += search(state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); });
-  for (const int j : opened) {
-    const Joint& joint = model_.joint[z(j)];
-    const double* row = &state_.wrench[z(model_.row_b[z(j)]) * 8];
-    double stored = state_.memory[z(j)].elastic;
-    const int at = find_pair(state_.debris, joint.a, 0, joint.b, 0);
-    if (at >= 0 && (row[0] != 0 || row[1] != 0 || row[2] != 0)) {
-      Pair& pair = state_.debris.pair[z(at)];
-      hand_over(pair, shapes_, blocks_[z(joint.a)], blocks_[z(joint.b)], settings_, Vec3(row[0], row[1], row[2]), Vec3(row[3], row[4], row[5]),
-                joint.area, room_.front());
-      PairResult now;
-      Pair copy = pair;
-      pair_force(copy, shapes_, blocks_[z(joint.a)], blocks_[z(joint.b)], settings_, 0.0, true, room_.front(), now);
-      stored -= now.elastic + now.tangential;
-    }
-    state_.energy.reset += stored;
-    state_.memory[z(j)] = JointMemory{};
+  released_ += search(state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); });
+  for (std::size_t i = 0; i < opened.size();) {
+    std::size_t end = i + 1;
+    while (end < opened.size() && model_.joint[z(opened[end])].a == model_.joint[z(opened[i])].a &&
+           model_.joint[z(opened[end])].b == model_.joint[z(opened[i])].b)
+      ++end;
+    hand_over_pair(&opened[i], &opened[i] + (end - i));
+    i = end;
   }
   list_involved();
   return opened;
 }
+
+// The joints [first, last) of one pair of blocks go over to its contact, with all that they carry.
+void Debris::hand_over_pair(const int* first, const int* last) {
+  const Joint& one = model_.joint[z(*first)];
+  Vec6 wrench = Vec6::Zero();  // on b
+  double area = 0;
+  for (const int* j = first; j < last; ++j) {
+    wrench += Eigen::Map<const Vec6>(&state_.wrench[z(model_.row_b[z(*j)]) * 8]);
+    area += model_.joint[z(*j)].area;
+    released_ += state_.memory[z(*j)].elastic;
+    state_.memory[z(*j)] = JointMemory{};
+  }
+  const PointLaw& joint_law = model_.laws[z(one.law)];
+  for (Pair& p : state_.debris.pair) {
+    if (p.a != one.a || p.b != one.b) continue;
+    p.bed = 1;
+    p.law.kn = joint_law.kn;
+    p.law.ks = joint_law.ks;
+    p.law.mu = joint_law.mu_residual;
+  }
+  const int at = find_pair(state_.debris, one.a, 0, one.b, 0);
+  if (at < 0 || wrench.head<3>().isZero(0)) return;
+  Pair& pair = state_.debris.pair[z(at)];
+  hand_over(pair, shapes_, blocks_[z(one.a)], blocks_[z(one.b)], settings_, wrench.head<3>(), wrench.tail<3>(), area, room_.front());
+  PairResult now;
+  Pair copy = pair;
+  pair_force(copy, shapes_, blocks_[z(one.a)], blocks_[z(one.b)], settings_, 0.0, true, room_.front(), now);
+  released_ -= now.elastic + now.tangential;
+}
+
+void Debris::book_hand_over() { state_.energy.reset += std::exchange(released_, 0.0); }
 
 void Debris::loosen() {
   bool changed = false;
@@ -152,74 +190,6 @@ void Debris::loosen() {
   if (!changed) return;
   state_.debris.valid = false;
   list_involved();
-}
-
-void Debris::prepare() {
-  double fastest = 0;
-  for (const int b : involved_) {
-    place(b);
-    fastest = std::max(fastest, blocks_[z(b)].v.squaredNorm());
-  }
-  const bool far = std::sqrt(fastest) * state_.dt * look_every > 0.25 * state_.debris.margin;
-  if (!state_.debris.valid || far || state_.step % look_every == 0) {
-    // what a loose block may meet is not kept up to date step by step: a look takes all poses
-    for (int b = 0; b < model_.nblock; ++b) place(b);
-    if (!state_.debris.valid || needs_search(state_.debris, shapes_, blocks_)) {
-      state_.energy.reset += search(state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); });
-      list_involved();
-    }
-  }
-  results_.resize(state_.debris.pair.size());
-}
-
-void Debris::forces(int thread, int threads, bool sample) {
-  const int n = int(state_.debris.pair.size());
-  const Range mine = share_of(n, pair_grain, thread, threads);
-  for (int i = mine.first; i < mine.last; ++i) {
-    Pair& pair = state_.debris.pair[z(i)];
-    PairResult& out = results_[z(i)];
-    if (!pair_force(pair, shapes_, blocks_[z(pair.a)], blocks_[z(pair.b)], settings_, state_.last_dt, sample, room_[z(thread)], out)) out = PairResult{};
-  }
-}
-
-void Debris::gather(double* push, bool sample) {
-  State& s = state_;
-  if (std::exchange(relisted_, false)) std::fill(push, push + 6 * z(model_.nblock), 0.0);
-  for (const int b : involved_) {
-    std::fill(push + 6 * b, push + 6 * b + 6, 0.0);
-    rate_[z(b)] = joint_rate_[z(b)];
-  }
-  touching_ = 0;
-  allowed_ = s.dt_goal;
-  if (sample) elastic_ = 0;
-  for (std::size_t i = 0; i < s.debris.pair.size(); ++i) {
-    const Pair& pair = s.debris.pair[i];
-    const PairResult& r = results_[i];
-    const PairWrench& w = r.wrench;
-    double *a = push + 6 * pair.a, *b = push + 6 * pair.b;
-    for (int k = 0; k < 3; ++k) {
-      a[k] -= w.force[k];
-      b[k] += w.force[k];
-      a[3 + k] += w.moment_a[k];
-      b[3 + k] += w.moment_b[k];
-    }
-    s.energy.friction += r.friction;
-    s.energy.contact_damping += r.damping + r.handover;
-    s.energy.reset += r.reset;
-    if (sample) elastic_ += r.elastic + r.tangential;
-    rate_[z(pair.a)] += r.rate_a;
-    rate_[z(pair.b)] += r.rate_b;
-    touching_ += r.touching;
-    const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
-    // no body passes through another unseen: a quarter of the thinner one per step
-    const double speed = (blocks_[z(pair.a)].v - blocks_[z(pair.b)].v).norm();
-    if (speed * allowed_ > 0.25 * thin) allowed_ = 0.25 * thin / speed;
-    if (r.depth > 0) {
-      s.max_penetration_relative = std::max(s.max_penetration_relative, r.depth / thin);
-    }
-  }
-  for (const int b : involved_)
-    if (rate_[z(b)] > joint_rate_[z(b)] && model_.kind[z(b)] == Kind::moving) allowed_ = std::min(allowed_, safe_share * std::sqrt(2 / rate_[z(b)]));
 }
 
 }  // namespace erbs

@@ -15,9 +15,11 @@ class Debris {
   Debris(const Model& model, State& state, int threads);
 
   bool active() const { return !involved_.empty() || !state_.debris.pair.empty(); }
-  // Joints that are spent (joint_kernel.h) go over to contact; returns them. Called between forces and drift: the wrench of this
-  // step is still the joint's, the next one the contact's.
+  // Joints that are spent (joint_kernel.h) go over to contact; returns them. Called between forces and drift: the wrench and the
+  // stored energy of this step are still the joint's, those of the next one the contact's.
   std::vector<int> hand_over_joints(Cracked& cracked);
+  // Once the ledger of this step is settled: books what the last hand-over set free.
+  void book_hand_over();
   // Blocks that hang on nothing fixed, or have moved far from where they stood, may meet new neighbours.
   void loosen();
   // Before the forces of a step: poses of the blocks involved, and now and then a look whether a new search is due.
@@ -32,8 +34,12 @@ class Debris {
 
  private:
   void open(int j);
+  void hand_over_pair(const int* first, const int* last);
   void list_involved();
+  void find_beds();
+  void part_beds();
   void place(int b);
+  void look();
   PairLaw law(int a, int b) const;
 
   const Model& model_;
@@ -41,14 +47,19 @@ class Debris {
   ContactShapes shapes_;
   ContactSettings settings_;
   std::vector<ContactBlock> blocks_;
-  std::vector<int> involved_;            // blocks that are loose or listed in a pair
-  std::vector<std::uint64_t> jointed_;   // pairs of blocks still joined, sorted
-  std::vector<double> joint_rate_;       // 1/s2, share of joints in each block's greatest eigenvalue [nblock]
-  std::vector<double> rate_;             // 1/s2, joints and contacts [nblock]
+  std::vector<int> involved_;           // blocks that are loose or listed in a pair
+  std::vector<std::uint64_t> jointed_;  // pairs of blocks still joined, sorted
+  struct Bed {
+    int joint = -1;                 // first of the joints that this pair took over from, -1: none
+    double rate_a = 0, rate_b = 0;  // 1/s2, what they were counted with in dt_critical
+  };
+  std::vector<Bed> bed_;      // of each pair
+  std::vector<double> rate_;  // 1/s2, of contacts beyond that [nblock]
   std::vector<PairResult> results_;
-  std::vector<OverlapRoom> room_;        // per thread
-  std::vector<int> of_pair_;             // joint that first joined a pair of blocks (sorted keys), for its law
-  std::vector<std::uint64_t> pair_keys_;
+  std::vector<OverlapRoom> room_;         // per thread
+  std::vector<std::uint64_t> pair_keys_;  // pairs of blocks that are jointed at rest, sorted, ...
+  std::vector<int> of_pair_;              // ... and the first of their joints
+  double released_ = 0;                   // J, set free by the last hand-over and still in this step's sums
   double allowed_ = 0, elastic_ = 0;
   bool relisted_ = true;
   int touching_ = 0;

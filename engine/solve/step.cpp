@@ -212,6 +212,7 @@ void Solver::finish(const Hooks& hooks) {
     settle_ledger();
     cracked_.store();
   }
+  debris_.book_hand_over();
   if (sample_ == Sample::full) {
     instant_.v_after = s.v;
     instant_.w_after = s.w;

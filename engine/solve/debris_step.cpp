@@ -1,0 +1,99 @@
+// The part of Debris that runs every step: poses, forces, their sum, and the step that they allow.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "engine/base/parallel.h"
+#include "engine/solve/debris.h"
+
+namespace erbs {
+namespace {
+
+constexpr double safe_share = 0.9;  // of the bound of a block in contact
+constexpr int pair_grain = 8;
+constexpr int look_every = 16;  // steps between two looks, while no block comes far in that time
+std::size_t z(int i) { return std::size_t(i); }
+
+// omega^2 of joints and contacts together, by Weyl's inequality: that of the sound structure at rest (4 / dt_critical^2; a cracked
+// joint, or the contact on its bed, is no stiffer), plus that of the other contacts. Theirs is at most twice the greatest sum of
+// rates over a block, since (x - y) k (x - y) <= 2 (x k x + y k y). Stable while dt^2 omega^2 < 4; the share of the bound that the
+// run asked for (at least 0.9) is kept for joints.
+double step_for(double rate, double goal, double critical) {
+  const double share = std::clamp(goal / critical, safe_share, 1.0) * critical;
+  return std::min(goal, 1 / std::sqrt(1 / (share * share) + rate / (2 * safe_share * safe_share)));
+}
+
+}  // namespace
+
+void Debris::prepare() {
+  double fastest = 0;
+  for (const int b : involved_) {
+    place(b);
+    fastest = std::max(fastest, blocks_[z(b)].v.squaredNorm());
+  }
+  const bool far = std::sqrt(fastest) * state_.dt * look_every > 0.25 * state_.debris.margin;
+  if (!state_.debris.valid || far || state_.step % look_every == 0) look();
+  results_.resize(state_.debris.pair.size());
+}
+
+// What a loose block may meet is not kept up to date step by step: a look takes all poses.
+void Debris::look() {
+  for (int b = 0; b < model_.nblock; ++b) place(b);
+  part_beds();
+  if (state_.debris.valid && !needs_search(state_.debris, shapes_, blocks_)) return;
+  state_.energy.reset += search(state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); });
+  list_involved();
+}
+
+void Debris::forces(int thread, int threads, bool sample) {
+  const int n = int(state_.debris.pair.size());
+  const Range mine = share_of(n, pair_grain, thread, threads);
+  for (int i = mine.first; i < mine.last; ++i) {
+    Pair& pair = state_.debris.pair[z(i)];
+    PairResult& out = results_[z(i)];
+    if (!pair_force(pair, shapes_, blocks_[z(pair.a)], blocks_[z(pair.b)], settings_, state_.last_dt, sample, room_[z(thread)], out))
+      out = PairResult{};
+  }
+}
+
+void Debris::gather(double* push, bool sample) {
+  State& s = state_;
+  if (std::exchange(relisted_, false)) std::fill(push, push + 6 * z(model_.nblock), 0.0);
+  for (const int b : involved_) {
+    std::fill(push + 6 * b, push + 6 * b + 6, 0.0);
+    rate_[z(b)] = 0;
+  }
+  touching_ = 0;
+  allowed_ = s.dt_goal;
+  if (sample) elastic_ = 0;
+  for (std::size_t i = 0; i < s.debris.pair.size(); ++i) {
+    const Pair& pair = s.debris.pair[i];
+    const PairResult& r = results_[i];
+    const PairWrench& w = r.wrench;
+    double *a = push + 6 * pair.a, *b = push + 6 * pair.b;
+    for (int k = 0; k < 3; ++k) {
+      a[k] -= w.force[k];
+      b[k] += w.force[k];
+      a[3 + k] += w.moment_a[k];
+      b[3 + k] += w.moment_b[k];
+    }
+    s.energy.friction += r.friction;
+    s.energy.contact_damping += r.damping + r.handover;
+    s.energy.reset += r.reset;
+    if (sample) elastic_ += r.elastic + r.tangential;
+    rate_[z(pair.a)] += std::max(0.0, r.rate_a - bed_[i].rate_a);
+    rate_[z(pair.b)] += std::max(0.0, r.rate_b - bed_[i].rate_b);
+    touching_ += r.touching;
+    const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
+    // no body passes through another unseen: a quarter of the thinner one per step
+    const double speed = (blocks_[z(pair.a)].v - blocks_[z(pair.b)].v).norm();
+    if (speed * allowed_ > 0.25 * thin) allowed_ = 0.25 * thin / speed;
+    if (r.depth > 0) { s.max_penetration_relative = std::max(s.max_penetration_relative, r.depth / thin); }
+  }
+  double rate = 0;
+  for (const int b : involved_)
+    if (model_.kind[z(b)] == Kind::moving) rate = std::max(rate, rate_[z(b)]);
+  allowed_ = std::min(allowed_, step_for(rate, s.dt_goal, model_.dt_critical));
+}
+
+}  // namespace erbs
