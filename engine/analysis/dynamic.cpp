@@ -305,6 +305,7 @@ RunOutcome Run::go() {
   if (!out_.trouble.empty()) writer_->log(out_.trouble);
   if (status == "stopped" || status == "interrupted") save();
   out_.metrics = metrics();
+  if (solver_->touched() > 0) writer_->log(fmt::format("contact: {} forces of touching pairs in {} steps", solver_->touched(), run_.state.step - steps_at_start_));
   if (clock_.first_crack >= 0) writer_->log(fmt::format("first crack at t = {:.6g} s", clock_.first_crack));
   writer_->close();
   write_metrics(options_.directory, out_.metrics);

@@ -6,9 +6,12 @@ namespace erbs {
 
 const ClipKernels& clip_kernels() {
   switch (chosen_isa()) {
-    case Isa::avx512: return avx512::clip_kernels;
-    case Isa::avx2: return avx2::clip_kernels;
-    case Isa::sse2: break;
+    case Isa::avx512:
+      return avx512::clip_kernels;
+    case Isa::avx2:
+      return avx2::clip_kernels;
+    case Isa::sse2:
+      break;
   }
   return sse2::clip_kernels;
 }

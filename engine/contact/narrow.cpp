@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/contact/ramp.h"
+
 namespace erbs {
 namespace {
 
@@ -68,8 +70,14 @@ void append(Pieces& w, int face, int nearest, const Loop& loop, const Vec3& n, d
   }
 }
 
-// Splits face j of B, already clipped to A, where another face of A is the nearest.
-void split(const ContactShape& a, int j, Loop& g, Loop& h, Pieces& w) {
+double area(const Loop& g, const Vec3& n) {
+  double sum = 0;
+  for (int k = 1; k + 1 < g.n; ++k) sum += n.dot((g.p[k] - g.p[0]).cross(g.p[k + 1] - g.p[0]));
+  return sum / 2;
+}
+
+// Splits face j of B, already clipped to A, where another face of A is the nearest; `edge`: the smallest of B (clip.h, sliver).
+void split(const ContactShape& a, double edge, int j, Loop& g, Loop& h, Pieces& w) {
   const int nf = static_cast<int>(a.normal.size());
   double least[most_faces];
   // A face of A is nearest somewhere on the loop only if its least depth is below the smallest of the greatest depths.
@@ -84,6 +92,7 @@ void split(const ContactShape& a, int j, Loop& g, Loop& h, Pieces& w) {
     least[f] = low;
     bound = std::min(bound, high);
   }
+  if (bound < sliver * edge && area(g, w.n[j]) < sliver * edge * edge) return;
   int near[most_faces], count = 0;
   for (int f = 0; f < nf; ++f) {
     if (least[f] <= bound) near[count++] = f;
@@ -159,7 +168,7 @@ bool find_pieces(const ContactShape& a, const ContactShape& b, const PairPose& p
     }
     if (!left) continue;
     w.n[j] = pose.turn * b.normal[at(j)];
-    split(a, j, *g, *h, w);
+    split(a, b.smallest_edge, j, *g, *h, w);
   }
   separating = -1;
   if (!w.piece.empty()) return true;
@@ -231,22 +240,28 @@ void damping_wrench(const Pieces& w, const Vec3& normal, double chi, double limi
     const Vec3* x = &w.vertex[at(piece.first)];
     const double* phi = &w.depth[at(piece.first)];
     const double* closing = &w.closing[at(piece.first)];
-    auto extra = [&](int k) { return std::clamp(chi * closing[k], -1.0, limit - 1); };
-    double i0 = 0;
-    Vec3 i1 = Vec3::Zero();
+    double i0 = 0, i1[3] = {};
     for (int k = 1; k + 1 < piece.count; ++k) {
-      const Vec3 &p = x[0], &q = x[k], &r = x[k + 1];
-      const double dS = 0.5 * n.dot((q - p).cross(r - p));
-      const double s0 = extra(0), s1 = extra(k), s2 = extra(k + 1), f0 = phi[0], f1 = phi[k], f2 = phi[k + 1];
-      const double sf = f0 + f1 + f2, ss = s0 + s1 + s2, sfs = f0 * s0 + f1 * s1 + f2 * s2;
-      i0 += dS / 12 * (sf * ss + sfs);
-      // Int phi s x over a triangle: products of three linear functions in closed form.
-      i1 += dS / 60 *
-            ((sf * ss + sfs + ss * f0 + sf * s0 + 2 * f0 * s0) * p + (sf * ss + sfs + ss * f1 + sf * s1 + 2 * f1 * s1) * q +
-             (sf * ss + sfs + ss * f2 + sf * s2 + 2 * f2 * s2) * r);
+      const int corner[3] = {0, k, k + 1};
+      const double dS = 0.5 * n.dot((x[k] - x[0]).cross(x[k + 1] - x[0]));
+      // s - 1 clamped: chi v where above -1, less what is above limit - 1.
+      double f[3], above[3], over[3], held[3], place[3][3], pulled = 0, first_pulled[3] = {}, capped = 0, first_capped[3] = {};
+      for (int c = 0; c < 3; ++c) {
+        const double extra = chi * closing[corner[c]];
+        f[c] = phi[corner[c]];
+        above[c] = extra + 1;
+        over[c] = extra - (limit - 1);
+        held[c] = 1;
+        for (int i = 0; i < 3; ++i) place[c][i] = x[corner[c]][i];
+      }
+      add_ramp(f, above, place, dS, i0, i1);
+      add_ramp(f, held, place, dS, pulled, first_pulled);
+      add_ramp(f, over, place, dS, capped, first_capped);
+      i0 -= pulled + capped;
+      for (int i = 0; i < 3; ++i) i1[i] -= first_pulled[i] + first_capped[i];
     }
     total += share * i0;
-    first += share * i1;
+    first += share * Vec3(i1[0], i1[1], i1[2]);
   }
   force = total * normal;
   moment = first.cross(normal);

@@ -65,7 +65,7 @@ void finish_patch(const Vec3& pressure, const Vec3& area, double polar, Patch& p
 // centroid at the origin.
 void closing_speeds(Pieces& pieces, const Vec3& linear, const Vec3& angular, Patch& patch);
 
-// Damping pressure phi (s - 1), s = 1 + chi closing, clamped at the vertices to [0, limit]: never pulls, power never positive.
+// Damping pressure phi (s - 1), s = 1 + chi closing clamped to [0, limit], the clamp integrated exactly: never pulls, power never positive.
 // It acts along the normal of the patch, not of the faces: an edge that slides over a face must not feel its two flanks plough,
 // which would let a leaning brick creep at a steady speed.
 void damping_wrench(const Pieces& pieces, const Vec3& normal, double chi, double limit, Vec3& force, Vec3& moment);

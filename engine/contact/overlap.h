@@ -10,7 +10,7 @@ namespace erbs {
 struct OverlapRoom {
   Triangles triangles;
   Pieces pieces;
-  bool fast = false;       // which of the two holds the overlap found last
+  bool fast = false;          // which of the two holds the overlap found last
   bool only_general = false;  // for tests: the general way for all
 };
 

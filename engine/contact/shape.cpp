@@ -25,6 +25,7 @@ void fill_small(ContactShape& s) {
   for (std::size_t f = 0; f < nf && s.is_small; ++f) s.is_small = s.loop_first[f + 1] - s.loop_first[f] <= few;
   if (!s.is_small) return;
   SmallShape& out = s.small;
+  out.edge = s.smallest_edge;
   out.vertices = int(nv);
   out.faces = int(nf);
   for (std::size_t i = 0; i < few; ++i) {
@@ -35,7 +36,8 @@ void fill_small(ContactShape& s) {
     out.offset[i] = i < nf ? s.offset[i] : 1e30;
     out.count[i] = 0;
     if (i >= nf) continue;
-    for (int at = s.loop_first[i]; at < s.loop_first[i + 1]; ++at) out.loop[i][out.count[i]++] = static_cast<unsigned char>(s.loop[std::size_t(at)]);
+    for (int at = s.loop_first[i]; at < s.loop_first[i + 1]; ++at)
+      out.loop[i][out.count[i]++] = static_cast<unsigned char>(s.loop[std::size_t(at)]);
   }
 }
 

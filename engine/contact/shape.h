@@ -26,7 +26,7 @@ struct ContactShape {
   double reach = 0;                 // m, of the sphere about the block's centroid that holds it
   bool is_small = false;            // few vertices and faces: `small` holds them too
   SmallShape small;
-  Vec3 centre, half;                // m, middle and half sides of its box, axes at rest
+  Vec3 centre, half;  // m, middle and half sides of its box, axes at rest
 };
 
 // `part` relative to the centroid of its block, axes at rest. Throws Error where it has more than 64 vertices or faces.

@@ -31,6 +31,7 @@ class Debris {
   double allowed_dt() const { return allowed_; }
   double elastic() const { return elastic_; }  // J, stored in contacts at the last sample
   int touching() const { return touching_; }
+  long touched() const { return touched_; }  // pairs, summed over the steps of this Solver
 
  private:
   void open(int j);
@@ -63,6 +64,7 @@ class Debris {
   double allowed_ = 0, elastic_ = 0;
   bool relisted_ = true;
   int touching_ = 0;
+  long touched_ = 0;
 };
 
 }  // namespace erbs

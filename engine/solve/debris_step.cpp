@@ -84,6 +84,7 @@ void Debris::gather(double* push, bool sample) {
     rate_[z(pair.a)] += std::max(0.0, r.rate_a - bed_[i].rate_a);
     rate_[z(pair.b)] += std::max(0.0, r.rate_b - bed_[i].rate_b);
     touching_ += r.touching;
+    touched_ += r.touching;
     const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
     // no body passes through another unseen: a quarter of the thinner one per step
     const double speed = (blocks_[z(pair.a)].v - blocks_[z(pair.b)].v).norm();

@@ -88,7 +88,8 @@ void joint_forces(const Model& m, State& s, int first, int last, bool sample, Jo
 
 bool beyond_its_faces(const Joint& joint, const double q[6]) {
   const double side = std::min(joint.half_s, joint.half_t) * 2;
-  return std::hypot(q[0], q[1]) + std::fabs(q[5]) * joint.radius > 0.01 * side || std::hypot(q[3], q[4]) > 1e-3 || q[2] > 0.002 * side;
+  return std::hypot(q[0], q[1]) + std::fabs(q[5]) * joint.radius > 0.01 * side || std::hypot(q[3], q[4]) > 0.03 ||
+         q[2] > 0.03 * joint.radius + 0.002 * side;
 }
 
 bool joint_spent(const Model& m, const State& s, int j) {

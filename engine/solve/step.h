@@ -42,6 +42,7 @@ class Solver {
   Vec6 load_wrench(int b) const;   // loads; on a driven block what holds it on its course
   std::vector<int> take_opened();   // joints handed over to contact since the last call
   int touching() const { return debris_.touching(); }
+  long touched() const { return debris_.touched(); }
   double contact_seconds() const { return contact_seconds_; }
   std::vector<int> take_cracked();  // joints that cracked since the last call, in the order of their number
 

@@ -1,0 +1,38 @@
+// The exact share of a clamp in an integral over triangles. Internal to each file that includes it: clip.inc is compiled once per
+// instruction set, and a shared copy could be one that this machine cannot run.
+#pragma once
+
+namespace erbs {
+
+// Adds to i0 and i1 the integrals of f max(g, 0) and f max(g, 0) x over the triangle of area dS with corners x[corner][axis];
+// f and g are linear with the corner values given. Where one corner differs in sign from the others, the part of it is a triangle
+// of its own; max(g, 0) = g + max(-g, 0) brings the other case back to that.
+static inline void add_ramp(const double f[3], const double g[3], const double x[3][3], double dS, double& i0, double i1[3]) {
+  const int up = (g[0] > 0) + (g[1] > 0) + (g[2] > 0);
+  if (up == 0) return;
+  const auto add = [&](const double F[3], const double G[3], const double X[3][3], double size) {
+    const double sf = F[0] + F[1] + F[2], sg = G[0] + G[1] + G[2], even = sf * sg + F[0] * G[0] + F[1] * G[1] + F[2] * G[2];
+    i0 += size / 12 * even;
+    for (int k = 0; k < 3; ++k) {
+      const double weight = size / 60 * (even + sg * F[k] + sf * G[k] + 2 * F[k] * G[k]);
+      for (int i = 0; i < 3; ++i) i1[i] += weight * X[k][i];
+    }
+  };
+  if (up > 1) add(f, g, x, dS);
+  if (up == 3) return;
+  const double sign = up == 1 ? 1 : -1;
+  int lone = 0;
+  while ((g[lone] > 0) != (up == 1)) ++lone;
+  double F[3] = {f[lone]}, G[3] = {sign * g[lone], 0, 0}, X[3][3], size = dS;
+  for (int i = 0; i < 3; ++i) X[0][i] = x[lone][i];
+  for (int k = 1; k < 3; ++k) {
+    const int to = (lone + k) % 3;
+    const double share = g[lone] / (g[lone] - g[to]);
+    F[k] = f[lone] + share * (f[to] - f[lone]);
+    for (int i = 0; i < 3; ++i) X[k][i] = x[lone][i] + share * (x[to][i] - x[lone][i]);
+    size *= share;
+  }
+  add(F, G, X, size);
+}
+
+}  // namespace erbs
