@@ -3,7 +3,7 @@
 -- What happens   Ten seconds under its own weight, from the static start. Any force that is not in balance, any history lost or refreshed
 --                with a jump, any energy pumped by the steps shows as drift. A small house by default; full = 1 is the house of
 --                scenes/shake_table_house.lua.
--- How to run     erbs run scenes/hard/resting_house.lua [-D full=1] [-D duration=60]
+-- How to run     erbs run scenes/hard/h02_resting_house.lua [-D full=1] [-D duration=60]
 -- What to look at  drift_per_second (of the smallest edge), reaction_error, joints_broken, tremor.
 local full = param("full", 0, "1: the whole three-storey house")
 local duration = param("duration", 10, "[s]")

@@ -4,7 +4,7 @@
 --                must come out right after many thousand steps, and a light block on the heavy one must ride along without drift.
 -- Source         period of two springs in series under the heavy mass: T = 2 pi sqrt(M (1/k1 + 1/k2)), the light mass between them shifts it
 --                by m / M.
--- How to run     erbs run scenes/hard/extreme_mass_ratio.lua [-D ratio=1e7] [-D kn=...]
+-- How to run     erbs run scenes/hard/h01_extreme_mass_ratio.lua [-D ratio=1e7] [-D kn=...]
 -- What to look at  period_ratio, steps, rider_drift.
 local ratio = param("ratio", 1e5, "heavy over light mass")
 local kn = param("kn", 1e9, "[Pa/m]")
