@@ -245,7 +245,14 @@ Equilibrium settle(const Model& m, State& s, const std::vector<double>& push) {
       islands[i].brake =
           out.iterations == 0 ? first_brake : std::min(10.0, islands[i].brake * std::clamp(islands[i].unbalanced / earlier[i], 0.1, 2.0));
     stuck = out.unbalanced < 0.5 * best ? 0 : stuck + 1;
-    if (best < accepted && stuck > 0) break;  // what round-off leaves
+    if (best < accepted && stuck > 0) {  // what round-off leaves
+      if (out.unbalanced > best) {
+        s.u = from.u, s.q = from.q;
+        residual = force - internal_force(m, s, f, trial);
+        out.unbalanced = balance(f, residual, islands);
+      }
+      break;
+    }
     best = std::min(best, out.unbalanced);
     if (!std::isfinite(out.unbalanced)) break;
   }

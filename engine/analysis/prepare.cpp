@@ -53,14 +53,24 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
   } else {
     dt = a.dt_fraction * limit;
     p.dt_rule = said("2 / omega_max of the joined structure", limit, a.dt_fraction);
+    if (b.cracked < b.critical && dt <= b.critical && dt > 0.9 * b.cracked) {
+      dt = 0.9 * b.cracked;
+      p.dt_rule = said("2 / omega_max once joints have cracked, their points being too few to bend as stiff", b.cracked, 0.9);
+    }
   }
   if (!(dt > 0) || !std::isfinite(dt))
     throw Error("no time step can be derived: nothing in the scene is elastic; say analysis{dt = ...}", a.place);
   if (jointed && dt > b.critical && !a.unstable && !allow_unstable)
-    throw Error(fmt::format("analysis: dt = {:.4g} s is {:.3f} times the limit 2 / omega_max = {:.4g} s of this structure; take at most {:.3g} s, or let it "
+    throw Error(fmt::format("analysis: dt = {:.4g} s is {:.3f} times the limit 2 / omega_max = {:.4g} s of this structure; take at most "
+                            "{:.3g} s, or let it "
                             "diverge with dt = {{ {:.4g}, unstable = true }} or --allow-unstable",
                             dt, dt / b.critical, b.critical, 0.9 * b.critical, dt),
                 a.place);
+  if (jointed && dt <= b.critical && dt > b.cracked)
+    p.model.warnings.push_back(
+        fmt::format("dt = {:.4g} s is below the limit {:.4g} s of the sound structure but above {:.4g} s, the limit once joints have "
+                    "cracked: their rule of points bends softer than their faces; take at most {:.3g} s",
+                    dt, b.critical, b.cracked, 0.9 * b.cracked));
   p.state.dt = dt;
 }
 
@@ -100,7 +110,7 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
   find_islands(p.model, p.state);
   refresh_all(p.model, p.state);
   p.bounds = step_bounds(scene, p.model, p.state);
-  p.model.dt_critical = p.bounds.critical;
+  p.model.dt_critical = p.bounds.cracked;
   choose_dt(scene, p, allow_unstable);
   if (!allow_unstable) hold_use_limit(scene, p);
   return p;
@@ -108,8 +118,8 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
 
 namespace {
 
-// Gravity and the constant loads grow over the ramp and rests as long again, the blocks damped at about the critical value of the lowest mode, which
-// Rayleigh's quotient of the sagging structure gives. Written as a ground that starts to accelerate upwards.
+// Gravity and the constant loads grow over the ramp and rests as long again, the blocks damped at about the critical value of the lowest
+// mode, which Rayleigh's quotient of the sagging structure gives. Written as a ground that starts to accelerate upwards.
 void ramp(const Scene& scene, Prepared& p, int threads) {
   Model slow = p.model;
   const double time = scene.analysis.ramp_time > 0 ? scene.analysis.ramp_time : 0.2;

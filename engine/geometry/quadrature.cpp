@@ -70,6 +70,14 @@ bool is_rectangle(const Polygon2& p) {
   return true;
 }
 
+// Borders of the cells on a line: cumulated weights.
+std::vector<double> borders(const LineRule& r) {
+  std::vector<double> at{-0.5};
+  for (const double w : r.weight) at.push_back(at.back() + w);
+  at.back() = 0.5;
+  return at;
+}
+
 std::vector<QuadraturePoint> on_rectangle(const Polygon2& p, const LineRule& longer, const LineRule& shorter) {
   Vec2 u = (p[1] - p[0] + p[2] - p[3]) / 2, v = (p[3] - p[0] + p[2] - p[1]) / 2;
   const Vec2 centre = (p[0] + p[1] + p[2] + p[3]) / 4;
@@ -79,44 +87,85 @@ std::vector<QuadraturePoint> on_rectangle(const Polygon2& p, const LineRule& lon
     v = -old;
   }
   const double area = cross2(u, v);
+  const std::vector<double> across = borders(shorter), along = borders(longer);
   std::vector<QuadraturePoint> points;
   for (size_t j = 0; j < shorter.at.size(); ++j) {
     for (size_t i = 0; i < longer.at.size(); ++i) {
       const Vec2 x = centre + longer.at[i] * u + shorter.at[j] * v;
-      points.push_back({x.x(), x.y(), area * longer.weight[i] * shorter.weight[j]});
+      const auto corner = [&](size_t k, size_t l) { return Vec2(centre + along[i + k] * u + across[j + l] * v); };
+      points.push_back(
+          {x.x(), x.y(), area * longer.weight[i] * shorter.weight[j], {corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1)}, {}});
     }
   }
   return points;
 }
 
+// Cells of the fan: in each triangle the triangle shrunk about its centroid by `inner` belongs to the centroid, kites from the
+// corners to its corners, which start at the fraction `cut` of the sides, to the corners, and what is left to the mid-sides. With
+// the areas 9/20, 1/20 and 2/15: inner^2 = 9/20, and a kite is 2 cut (1 - inner) / 3 of its triangle. inner = 0 and cut = 1/2 cut
+// it into three equal kites.
+struct FanCells {
+  const Polygon2& p;
+  Vec2 c;
+  double inner, cut;
+  size_t next(size_t i) const { return (i + 1) % p.size(); }
+  size_t last(size_t i) const { return (i + p.size() - 1) % p.size(); }
+  Vec2 middle(size_t i) const { return (p[i] + p[next(i)] + c) / 3; }
+  Vec2 within(size_t i, const Vec2& v) const { return middle(i) + inner * (v - middle(i)); }  // in triangle i, towards its corner v
+  Vec2 part(const Vec2& from, const Vec2& to) const { return from + cut * (to - from); }
+  std::vector<Vec2> corner(size_t i) const {
+    const Vec2& v = p[i];
+    return {v, part(v, p[next(i)]), within(i, v), part(v, c), within(last(i), v), part(v, p[last(i)])};
+  }
+  std::vector<Vec2> side(size_t i) const {
+    const Vec2 &v = p[i], &w = p[next(i)];
+    return {part(v, w), part(w, v), within(i, w), within(i, v)};
+  }
+  std::vector<Vec2> spoke(size_t i) const {
+    const Vec2& v = p[i];
+    return {part(c, v), within(last(i), c), within(last(i), v), part(v, c), within(i, v), within(i, c)};
+  }
+  std::vector<Vec2> inside(size_t i) const { return {within(i, p[i]), within(i, p[next(i)]), within(i, c)}; }
+  std::vector<Vec2> centre() const {
+    std::vector<Vec2> loop;
+    for (size_t i = 0; i < p.size(); ++i) loop.insert(loop.end(), {part(c, p[i]), within(i, c)});
+    return loop;
+  }
+};
+
 // Fan triangles about the centroid; corners, mid-sides and centroids of the fan are shared between neighbours.
 std::vector<QuadraturePoint> fan(const Polygon2& p, const std::string& rule) {
   const Vec2 c = moments(p).centroid;
   const size_t n = p.size();
-  std::vector<QuadraturePoint> centre{{c.x(), c.y(), 0}}, corner, spoke, side, inside;
-  for (const Vec2& v : p) {
-    corner.push_back({v.x(), v.y(), 0});
-    spoke.push_back({(v.x() + c.x()) / 2, (v.y() + c.y()) / 2, 0});
+  const bool simpson = rule == "simpson";
+  const double shrunk = std::sqrt(9.0 / 20);
+  const FanCells cells{p, c, simpson ? shrunk : 0.0, simpson ? 3 / (40 * (1 - shrunk)) : 0.5};
+  std::vector<QuadraturePoint> centre{{c.x(), c.y(), 0, cells.centre(), {}}}, corner, spoke, side, inside;
+  for (size_t i = 0; i < n; ++i) {
+    const Vec2 half = (p[i] + c) / 2;
+    corner.push_back({p[i].x(), p[i].y(), 0, cells.corner(i), {}});
+    spoke.push_back({half.x(), half.y(), 0, cells.spoke(i), {}});
   }
   for (size_t i = 0; i < n; ++i) {
     const size_t k = (i + 1) % n;
     const double area = cross2(p[i] - c, p[k] - c) / 2;
-    const Vec2 m = (p[i] + p[k]) / 2, g = (p[i] + p[k] + c) / 3;
+    const Vec2 m = (p[i] + p[k]) / 2, g = cells.middle(i);
     if (rule == "gauss") {  // three interior points, exact for quadratics
-      for (const Vec2& v : {p[i], p[k], c}) {
-        const Vec2 x = v / 2 + g / 2;
-        inside.push_back({x.x(), x.y(), area / 3});
+      const Vec2 v[3] = {p[i], p[k], c};
+      for (size_t e = 0; e < 3; ++e) {
+        const Vec2 x = v[e] / 2 + g / 2;
+        inside.push_back({x.x(), x.y(), area / 3, {v[e], (v[e] + v[(e + 1) % 3]) / 2, g, (v[e] + v[(e + 2) % 3]) / 2}, {}});
       }
       continue;
     }
-    const double at_vertex = rule == "simpson" ? 1.0 / 20 : 1.0 / 3, at_side = rule == "simpson" ? 2.0 / 15 : 0.0;
+    const double at_vertex = simpson ? 1.0 / 20 : 1.0 / 3, at_side = simpson ? 2.0 / 15 : 0.0;
     centre[0].weight += area * at_vertex;
     corner[i].weight += area * at_vertex;
     corner[k].weight += area * at_vertex;
     spoke[i].weight += area * at_side;
     spoke[k].weight += area * at_side;
-    side.push_back({m.x(), m.y(), area * at_side});
-    inside.push_back({g.x(), g.y(), rule == "simpson" ? area * 9.0 / 20 : 0.0});
+    side.push_back({m.x(), m.y(), area * at_side, cells.side(i), {}});
+    inside.push_back({g.x(), g.y(), simpson ? area * 9.0 / 20 : 0.0, cells.inside(i), {}});
   }
   std::vector<QuadraturePoint> points;
   for (const auto* set : {&corner, &side, &spoke, &inside, &centre}) {
@@ -146,10 +195,51 @@ std::vector<QuadraturePoint> cells(const Polygon2& p, int n_long, int n_short) {
       Polygon2 cell = clip_half_plane(row, e, low.x() + (high.x() - low.x()) * (i + 1) / n_long);
       cell = clip_half_plane(cell, -e, -(low.x() + (high.x() - low.x()) * i / n_long));
       const PolygonMoments part = moments(cell);
-      if (part.area > 1e-12 * m.area) points.push_back({part.centroid.x(), part.centroid.y(), part.area});
+      if (part.area > 1e-12 * m.area) points.push_back({part.centroid.x(), part.centroid.y(), part.area, cell, {}});
     }
   }
   return points;
+}
+
+// Convex hull, counter-clockwise (Andrew 1979); one or two corners where the points lie on one place or line.
+std::vector<Vec2> convex_hull(const std::vector<QuadraturePoint>& points, double weld) {
+  std::vector<Vec2> sorted, hull;
+  for (const QuadraturePoint& p : points) sorted.emplace_back(p.x, p.y);
+  std::sort(sorted.begin(), sorted.end(), [&](const Vec2& a, const Vec2& b) { return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y(); });
+  for (int pass = 0; pass < 2; ++pass) {
+    const size_t first = hull.size();
+    for (const Vec2& x : sorted) {
+      while (hull.size() >= first + 2 &&
+             cross2(hull.back() - hull[hull.size() - 2], x - hull.back()) <= weld * (x - hull[hull.size() - 2]).norm())
+        hull.pop_back();
+      hull.push_back(x);
+    }
+    hull.pop_back();
+    std::reverse(sorted.begin(), sorted.end());
+  }
+  if (hull.empty()) hull.push_back(sorted.front());
+  return hull;
+}
+
+Vec2 nearest(const std::vector<Vec2>& hull, const Vec2& x, double weld) {
+  bool inside = hull.size() > 2;
+  Vec2 best = hull.front();
+  for (size_t i = 0; i < hull.size(); ++i) {
+    const Vec2 &a = hull[i], edge = hull[(i + 1) % hull.size()] - a;
+    if (cross2(edge, x - a) < -weld * edge.norm()) inside = false;
+    const double square = edge.squaredNorm(), at = square > 0 ? std::clamp((x - a).dot(edge) / square, 0.0, 1.0) : 0.0;
+    const Vec2 y = a + at * edge;
+    if ((x - y).squaredNorm() < (x - best).squaredNorm()) best = y;
+  }
+  return inside || (x - best).norm() < weld ? x : best;
+}
+
+void set_watch(std::vector<QuadraturePoint>& points, double weld) {
+  const std::vector<Vec2> hull = convex_hull(points, weld);
+  for (QuadraturePoint& p : points) {
+    p.watch.clear();
+    for (const Vec2& x : p.cell) p.watch.push_back(nearest(hull, x, weld));
+  }
 }
 
 }  // namespace
@@ -177,8 +267,11 @@ LineRule line_rule(const std::string& rule, int n) {
 
 std::vector<QuadraturePoint> quadrature(const Polygon2& polygon, const std::string& rule, int n_long, int n_short) {
   const LineRule longer = line_rule(rule, n_long), shorter = line_rule(rule, n_short);
-  if (is_rectangle(polygon)) return on_rectangle(polygon, longer, shorter);
-  return rule == "midpoint" ? cells(polygon, n_long, n_short) : fan(polygon, rule);
+  auto points = is_rectangle(polygon) ? on_rectangle(polygon, longer, shorter)
+                : rule == "midpoint"  ? cells(polygon, n_long, n_short)
+                                      : fan(polygon, rule);
+  set_watch(points, 1e-9 * std::sqrt(moments(polygon).area));
+  return points;
 }
 
 PrincipalAxes principal_axes(const std::vector<QuadraturePoint>& points) {

@@ -10,6 +10,11 @@ namespace erbs {
 struct QuadraturePoint {
   double x, y;    // m
   double weight;  // m2
+  // The point's cell: a counter-clockwise loop of that area. Cells fill the polygon without overlap.
+  std::vector<Vec2> cell{};
+  // Corners of the cell brought into the convex hull of all points: where the point watches a linear field. Over all points its
+  // extremes are those at the points.
+  std::vector<Vec2> watch{};
 };
 
 // rule:

@@ -52,18 +52,55 @@ void add_loads(const Scene& scene, Model& m) {
   for (const Load& load : scene.loads) {
     const int b = load.block.empty() ? -1 : index.at(load.block);
     switch (load.kind) {
-      case Load::Kind::ground: m.grounds.push_back({load.wave, load.direction}); break;
-      case Load::Kind::tilt: m.tilts.push_back({load.wave, load.direction.normalized()}); break;
+      case Load::Kind::ground:
+        m.grounds.push_back({load.wave, load.direction});
+        break;
+      case Load::Kind::tilt:
+        m.tilts.push_back({load.wave, load.direction.normalized()});
+        break;
       case Load::Kind::force:
         m.pushes.push_back({load.wave, load.direction, b, load.has_point ? Vec3(load.point - m.rest[z(b)]) : Vec3(Vec3::Zero()), false});
         break;
-      case Load::Kind::moment: m.pushes.push_back({load.wave, load.direction, b, Vec3::Zero(), true}); break;
+      case Load::Kind::moment:
+        m.pushes.push_back({load.wave, load.direction, b, Vec3::Zero(), true});
+        break;
       case Load::Kind::motion:
         m.drives.push_back({load.wave, load.direction, b});
         m.kind[z(b)] = Kind::driven;
         break;
     }
   }
+}
+
+// Integrals over a loop, by triangles about the origin: Int s s = A/12 ((sum s)^2 + sum s^2) over each.
+Cell cell_of(const std::vector<Vec2>& loop) {
+  Cell c;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec2 &a = loop[i], &b = loop[(i + 1) % loop.size()];
+    const double area = 0.5 * (a.x() * b.y() - b.x() * a.y());
+    c.s += area / 3 * (a.x() + b.x());
+    c.t += area / 3 * (a.y() + b.y());
+    c.ss += area / 6 * (a.x() * a.x() + a.x() * b.x() + b.x() * b.x());
+    c.tt += area / 6 * (a.y() * a.y() + a.y() * b.y() + b.y() * b.y());
+    c.st += area / 12 * (2 * a.x() * a.y() + a.x() * b.y() + b.x() * a.y() + 2 * b.x() * b.y());
+  }
+  return c;
+}
+
+// Bending of the true overlap, against that of its points.
+void set_face(const Model& m, const PointLaw& law, Joint& joint) {
+  const Cell whole = cell_of({m.corner.begin() + joint.first_corner, m.corner.end()});
+  const double face[3] = {law.kn * whole.tt, law.kn * whole.ss, law.kn * whole.st}, round_off = 1e-9 * (face[0] + face[1]);
+  const bool exact = std::fabs(face[0] - joint.stiffness[3]) + std::fabs(face[1] - joint.stiffness[4]) + std::fabs(face[2]) < round_off;
+  for (int i = 0; i < 3; ++i) joint.face[i] = !exact ? face[i] : i < 2 ? joint.stiffness[3 + i] : 0;
+}
+
+void add_cell(const std::vector<Vec2>& loop, Model& m) {
+  Cell cell = cell_of(loop);
+  cell.first = int(m.cell_corner.size());
+  cell.corners = int(loop.size());
+  m.cell.push_back(cell);
+  m.cell_corner.insert(m.cell_corner.end(), loop.begin(), loop.end());
 }
 
 // The joint of one interface: contact points, principal frame, diagonal stiffness.
@@ -97,6 +134,11 @@ void add_joint(const Scene& scene, const Interface& face, Model& m) {
   for (const auto& p : points) {
     const Vec2 x = local(p.x, p.y);
     m.point.push_back({x.x(), x.y(), p.weight});
+    std::vector<Vec2> loop;
+    for (const Vec2& v : p.cell) loop.push_back(local(v.x(), v.y()));
+    add_cell(loop, m);
+    for (const Vec2& v : p.watch) m.cell_watch.push_back(local(v.x(), v.y()));
+    joint.inset = joint.inset || p.watch != p.cell;
     joint.area += p.weight;
     joint.stiffness[3] += law.kn * p.weight * x.y() * x.y();
     joint.stiffness[4] += law.kn * p.weight * x.x() * x.x();
@@ -113,6 +155,7 @@ void add_joint(const Scene& scene, const Interface& face, Model& m) {
     joint.half_t = std::max(joint.half_t, std::fabs(x.y()));
     joint.radius = std::max(joint.radius, x.norm());
   }
+  set_face(m, law, joint);
   m.joint.push_back(joint);
 }
 
@@ -175,8 +218,7 @@ void check_overlaps(const Scene& scene, const std::vector<Overlap>& overlaps, st
     if (std::get<bool>(key))
       errors.push_back(fmt::format("{}: {}; at most {:g} is allowed: part them, or say analysis{{ overlap = \"stress_free\" }}",
                                    b.place.text(), what, most_overlap));
-    else
-      warnings.push_back(what + "; taken as free of force at rest");
+    else warnings.push_back(what + "; taken as free of force at rest");
   }
 }
 
@@ -210,9 +252,10 @@ void check_rules(const Scene& scene, const Interfaces& found, std::vector<std::s
   for (size_t r = 0; r < faces.size(); ++r) {
     const JointRule& rule = scene.joint_rules[r];
     if (faces[r] > 0 || rule.none) continue;
-    warnings.push_back(fmt::format("{}: this joint rule joins nothing: between \"{}\" and \"{}\" no faces lie at most {:g} mm apart, or later "
-                                   "rules take them; look at between, thickness and tolerance",
-                                   rule.place.text(), rule.group_a, rule.group_b, 1e3 * (rule.thickness + rule.tolerance)));
+    warnings.push_back(
+        fmt::format("{}: this joint rule joins nothing: between \"{}\" and \"{}\" no faces lie at most {:g} mm apart, or later "
+                    "rules take them; look at between, thickness and tolerance",
+                    rule.place.text(), rule.group_a, rule.group_b, 1e3 * (rule.thickness + rule.tolerance)));
   }
 }
 

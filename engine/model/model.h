@@ -25,6 +25,10 @@ struct Joint {
   Vec3 arm_a, arm_b;                // m, centre relative to the centroids at rest
   double area = 0;                  // m2
   double stiffness[6] = {};         // N/m (s, t, n), N m (about s, t, n): elastic resultant = stiffness * q
+  // N m, kn times Int t2, Int s2, Int s t over the overlap: bending of the joint pressed all over, once it has cracked. For rules
+  // that are exact in bending: stiffness[3], stiffness[4] and 0.
+  double face[3] = {};
+  bool inset = false;               // its cells watch elsewhere than at their corners: points that stay off the edge
   double half_s = 0, half_t = 0;    // m, largest |s| and |t| of its corners
   double radius = 0;                // m, largest distance of a corner from the centre
   double gap = 0;                   // m, between the faces at rest
@@ -34,6 +38,12 @@ struct Joint {
 struct Point {
   double s, t;    // m
   double weight;  // m2
+};
+
+// The part of the overlap that a contact point stands for (geometry/quadrature.h), joint frame.
+struct Cell {
+  int first = 0, corners = 0;                  // into Model::cell_corner and cell_watch
+  double s = 0, t = 0, ss = 0, st = 0, tt = 0;  // m3, m4: integrals of s, t, s2, s t, t2 over it
 };
 
 struct Model {
@@ -52,6 +62,8 @@ struct Model {
   std::vector<Joint> joint;
   std::vector<Point> point;             // by joint                      [npoint]
   std::vector<Eigen::Vector2d> corner;  // m, of the overlap polygon in the joint frame, by joint
+  std::vector<Cell> cell;               // by point                      [npoint]
+  std::vector<Eigen::Vector2d> cell_corner, cell_watch;  // m, joint frame: loops of the cells, and where they watch for tension
   std::vector<PointLaw> laws;           // one per joint rule
   // Each block owns consecutive wrench rows, one per joint end: [first_row[b], first_row[b+1])
   std::vector<int> first_row;           // [nblock + 1]

@@ -19,7 +19,8 @@ Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state
   const int sound = sound_batches(model);
   // Batches that a stopped run left: the same joint in the same lane, so that sums go on in the same order.
   for (int k = sound; k < int(state.batch.size()); ++k) {
-    group_.push_back({-1, 0, 0, k, {}, {}, {}, {}});
+    group_.push_back({});
+    group_.back().law = -1, group_.back().batch = k;
     std::fill_n(group_.back().joint, lanes, -1);
   }
   for (int j = 0; j < model.njoint; ++j) {
@@ -27,12 +28,7 @@ Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state
     if (at < 0) continue;
     Group& group = group_[z(at / lanes)];
     const Joint& joint = model.joint[z(j)];
-    if (group.law < 0) {
-      group.law = joint.law, group.points = joint.points, group.corners = joint.corners;
-      group.point.resize(z(group.points));
-      group.corner.resize(z(group.corners));
-      for (int l = 0; l < lanes; ++l) clear(group, l);
-    }
+    if (group.law < 0) group = empty_group(joint, group.batch);
     fill(group, at % lanes, j);
   }
   if (model.analysis.kernel == "reference") return;
@@ -45,7 +41,10 @@ void Cracked::clear(Group& group, int l) {
   for (int i = 0; i < 6; ++i) group.lane.q[i][l] = group.lane.f[i][l] = 0;
   group.lane.stored[l] = 0;
   group.lane.least_damage[l] = 0;
-  for (CornerLanes& c : group.corner) c.s[l] = c.t[l] = 0;
+  for (auto* corners : {&group.corner, &group.loop, &group.watch})
+    for (CornerLanes& c : *corners) c.s[l] = c.t[l] = 0;
+  for (CellLanes& c : group.cell) c.s[l] = c.t[l] = c.ss[l] = c.st[l] = c.tt[l] = 0;
+  group.face.bend_s[l] = group.face.bend_t[l] = group.face.twist[l] = 0;
   for (PointLanes& p : group.point) {
     p.s[l] = p.t[l] = p.weight[l] = p.slip_s[l] = p.slip_t[l] = p.crushed[l] = p.secant[l] = p.reach[l] = 0;
     p.damage[l] = 1;  // nothing to hold
@@ -63,33 +62,62 @@ void Cracked::fill(Group& group, int l, int j) {
     const auto& c = model_.corner[z(joint.first_corner + i)];
     group.corner[z(i)].s[l] = c.x(), group.corner[z(i)].t[l] = c.y();
   }
+  group.face.bend_s[l] = joint.face[0], group.face.bend_t[l] = joint.face[1], group.face.twist[l] = joint.face[2];
+  const int first = model_.cell[z(joint.first_point)].first;
+  for (int i = 0; i < int(group.loop.size()); ++i) {
+    const auto &c = model_.cell_corner[z(first + i)], &w = model_.cell_watch[z(first + i)];
+    group.loop[z(i)].s[l] = c.x(), group.loop[z(i)].t[l] = c.y();
+    if (!group.watch.empty()) group.watch[z(i)].s[l] = w.x(), group.watch[z(i)].t[l] = w.y();
+  }
   for (int i = 0; i < joint.points; ++i) {
     const Point& from = model_.point[z(joint.first_point + i)];
     const PointHistory& h = state_.history[z(joint.first_point + i)];
+    const Cell& cell = model_.cell[z(joint.first_point + i)];
+    CellLanes& k = group.cell[z(i)];
+    k.s[l] = cell.s, k.t[l] = cell.t, k.ss[l] = cell.ss, k.st[l] = cell.st, k.tt[l] = cell.tt;
     PointLanes& p = group.point[z(i)];
     p.s[l] = from.s, p.t[l] = from.t, p.weight[l] = from.weight;
-    p.slip_s[l] = h.slip_s, p.slip_t[l] = h.slip_t, p.damage[l] = h.damage, p.crushed[l] = h.crushed, p.secant[l] = h.secant, p.reach[l] = h.reach;
+    p.slip_s[l] = h.slip_s, p.slip_t[l] = h.slip_t, p.damage[l] = h.damage, p.crushed[l] = h.crushed, p.secant[l] = h.secant,
+    p.reach[l] = h.reach;
   }
 }
 
-int Cracked::find_lane(int law, int points, int corners) {
+Cracked::Group Cracked::empty_group(const Joint& joint, int batch) const {
+  Group group{};
+  group.law = joint.law, group.points = joint.points, group.corners = joint.corners, group.batch = batch;
+  group.point.resize(z(group.points));
+  group.corner.resize(z(group.corners));
+  group.cell.resize(z(group.points));
+  group.first.push_back(0);
+  for (int i = joint.first_point; i < joint.first_point + joint.points; ++i)
+    group.first.push_back(group.first.back() + model_.cell[z(i)].corners);
+  group.loop.resize(z(group.first.back()));
+  if (joint.inset) group.watch.resize(group.loop.size());
+  for (int l = 0; l < lanes; ++l) clear(group, l);
+  return group;
+}
+
+bool Cracked::fits(const Group& group, const Joint& joint) const {
+  if (group.law != joint.law || group.points != joint.points || group.corners != joint.corners || group.watch.empty() == joint.inset)
+    return false;
+  for (int i = 0; i < joint.points; ++i)
+    if (group.first[z(i + 1)] - group.first[z(i)] != model_.cell[z(joint.first_point + i)].corners) return false;
+  return true;
+}
+
+int Cracked::find_lane(const Joint& joint) {
   for (int g = 0; g < groups(); ++g) {
     Group& group = group_[z(g)];
-    if (group.law != law || group.points != points || group.corners != corners) continue;
-    for (int l = 0; l < lanes; ++l)
-      if (group.joint[l] < 0) return g * lanes + l;
+    const int* free = std::find(group.joint, group.joint + lanes, -1);
+    if (free != group.joint + lanes && fits(group, joint)) return g * lanes + int(free - group.joint);
   }
-  group_.push_back({law, points, corners, add_empty_batch(model_, state_), {}, {}, {}, {}});
-  Group& group = group_.back();
-  group.point.resize(z(points));
-  group.corner.resize(z(corners));
-  for (int l = 0; l < lanes; ++l) clear(group, l);
+  group_.push_back(empty_group(joint, add_empty_batch(model_, state_)));
   return (groups() - 1) * lanes;
 }
 
 void Cracked::take(int j) {
   const Joint& joint = model_.joint[z(j)];
-  const int at = find_lane(joint.law, joint.points, joint.corners);
+  const int at = find_lane(joint);
   Group& group = group_[z(at / lanes)];
   fill(group, at % lanes, j);
   move_joint(model_, state_, j, group.batch * lanes + at % lanes);
@@ -112,7 +140,10 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
     const JointBatch& batch = state_.batch[z(group.batch)];
     CrackedLanes& lane = group.lane;
     kernels.elastic(batch, state_.row.data(), o);
-    kernels.respond(model_.laws[z(group.law)], batch, group.corners, group.corner.data(), group.points, group.point.data(), lane, o);
+    const CrackedShape shape{
+        group.corners,     group.points,       &group.face,       group.corner.data(),
+        group.cell.data(), group.first.data(), group.loop.data(), group.watch.empty() ? group.loop.data() : group.watch.data()};
+    kernels.respond(model_.laws[z(group.law)], batch, shape, group.point.data(), lane, o);
     kernels.wrenches(batch, o, state_.wrench.data());
     for (int l = 0; l < lanes; ++l) {
       sums.energy.friction += lane.friction[l];
@@ -133,8 +164,7 @@ void Cracked::store() {
       for (int i = 0; i < 6; ++i) memory.q[i] = group.lane.q[i][l], memory.f[i] = group.lane.f[i][l];
       memory.elastic = group.lane.stored[l];
       PointHistory* h = &state_.history[z(model_.joint[z(j)].first_point)];
-      for (const PointLanes& p : group.point)
-        *h++ = {p.slip_s[l], p.slip_t[l], p.damage[l], p.crushed[l], p.secant[l], p.reach[l]};
+      for (const PointLanes& p : group.point) *h++ = {p.slip_s[l], p.slip_t[l], p.damage[l], p.crushed[l], p.secant[l], p.reach[l]};
     }
   }
 }

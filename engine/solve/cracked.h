@@ -25,16 +25,22 @@ class Cracked {
  private:
   struct Group {
     int law, points, corners;
-    int batch;          // of State::batch
-    int joint[lanes];   // -1: empty
+    int batch;         // of State::batch
+    int joint[lanes];  // -1: empty
+    FaceLanes face;
     std::vector<CornerLanes> corner;
     std::vector<PointLanes> point;
+    std::vector<CellLanes> cell;           // [points]
+    std::vector<int> first;                // [points + 1]
+    std::vector<CornerLanes> loop, watch;  // of the cells; watch empty where it is loop
     CrackedLanes lane;
     bool empty() const;
   };
-  int find_lane(int law, int points, int corners);  // group * lanes + lane, in a new group if need be
+  Group empty_group(const Joint& joint, int batch) const;
+  bool fits(const Group& group, const Joint& joint) const;  // the same law and numbers of everything
+  int find_lane(const Joint& joint);                        // group * lanes + lane, in a new group if need be
   void fill(Group& group, int l, int j);
-  void clear(Group& group, int l);
+  static void clear(Group& group, int l);
 
   const Model& model_;
   State& state_;

@@ -12,38 +12,28 @@ struct Gap {
 
 Gap gap_at(const double* q, double s, double t) { return {q[0] - q[5] * t, q[1] + q[5] * s, q[2] + q[3] * t - q[4] * s}; }
 
-// The no-tension integral in closed form over the true overlap polygon (gap linear in s, t):
-// N = kn Int max(-g, 0) dA and its first moments, and the energy 1/2 kn Int min(g, 0)^2 dA.
-// Over a triangle with corner values g_i: Int g s = A/12 (sum g sum s + sum g_i s_i), Int g^2 = A/12 ((sum g)^2 + sum g_i^2).
-struct Compression {
-  double force = 0, moment_s = 0, moment_t = 0, energy = 0;  // moments: Int p s, Int p t
+// Integrals of max(p, 0), p = sign times the gap (linear in s, t), over a polygon in closed form, and of its square. Over a triangle
+// with corner values p_i: Int p s = A/12 (sum p sum s + sum p_i s_i), Int p^2 = A/12 ((sum p)^2 + sum p_i^2).
+struct Positive {
+  double p = 0, s = 0, t = 0, square = 0;  // m3; m4: Int p s, Int p t; m4: Int p^2
 };
 
 struct Corner {
-  double s, t, p;  // p = depth, m
+  double s, t, p;  // m
 };
 
-void add_triangle(const Corner& a, const Corner& b, const Corner& c, Compression& out) {
+void add_triangle(const Corner& a, const Corner& b, const Corner& c, Positive& out) {
   const double area = 0.5 * ((b.s - a.s) * (c.t - a.t) - (c.s - a.s) * (b.t - a.t));
   const double p = a.p + b.p + c.p;
-  out.force += area / 3 * p;
-  out.moment_s += area / 12 * (p * (a.s + b.s + c.s) + a.p * a.s + b.p * b.s + c.p * c.s);
-  out.moment_t += area / 12 * (p * (a.t + b.t + c.t) + a.p * a.t + b.p * b.t + c.p * c.t);
-  out.energy += area / 12 * (p * p + a.p * a.p + b.p * b.p + c.p * c.p);
+  out.p += area / 3 * p;
+  out.s += area / 12 * (p * (a.s + b.s + c.s) + a.p * a.s + b.p * b.s + c.p * c.s);
+  out.t += area / 12 * (p * (a.t + b.t + c.t) + a.p * a.t + b.p * b.t + c.p * c.t);
+  out.square += area / 12 * (p * p + a.p * a.p + b.p * b.p + c.p * c.p);
 }
 
-Compression compression(const Model& m, const Joint& joint, const double* q, double kn) {
-  Compression sum;
-  // fully closed: the resultants of a linear pressure about the centroid of the points, which integrate it exactly
-  const double reach = std::fabs(q[3]) * joint.half_t + std::fabs(q[4]) * joint.half_s;
-  if (q[2] + reach < 0) {
-    sum.force = -joint.stiffness[2] * q[2];
-    sum.moment_t = -joint.stiffness[3] * q[3];
-    sum.moment_s = joint.stiffness[4] * q[4];
-    sum.energy = 0.5 * (joint.stiffness[2] * q[2] * q[2] + joint.stiffness[3] * q[3] * q[3] + joint.stiffness[4] * q[4] * q[4]);
-    return sum;
-  }
-  if (q[2] - reach >= 0) return sum;
+// Over any simple loop: triangles from its first corner, signed.
+Positive positive_part(const Eigen::Vector2d* corner, int corners, const double* q, double sign) {
+  Positive sum;
   std::array<Corner, 3> fan{};
   int kept = 0;
   const auto keep = [&](const Corner& c) {
@@ -55,13 +45,9 @@ Compression compression(const Model& m, const Joint& joint, const double* q, dou
     add_triangle(fan[0], fan[1], fan[2], sum);
     fan[1] = fan[2];
   };
-  const auto* corner = &m.corner[std::size_t(joint.first_corner)];
-  const auto at = [&](int i) {
-    const auto& c = corner[i];
-    return Corner{c.x(), c.y(), -gap_at(q, c.x(), c.y()).n};
-  };
-  Corner last = at(joint.corners - 1);
-  for (int i = 0; i < joint.corners; ++i) {
+  const auto at = [&](int i) { return Corner{corner[i].x(), corner[i].y(), sign * gap_at(q, corner[i].x(), corner[i].y()).n}; };
+  Corner last = at(corners - 1);
+  for (int i = 0; i < corners; ++i) {
     const Corner now = at(i);
     if ((last.p > 0) != (now.p > 0)) {
       const double x = last.p / (last.p - now.p);
@@ -70,11 +56,58 @@ Compression compression(const Model& m, const Joint& joint, const double* q, dou
     if (now.p > 0) keep(now);
     last = now;
   }
-  sum.force *= kn;
-  sum.moment_s *= kn;
-  sum.moment_t *= kn;
-  sum.energy *= 0.5 * kn;
   return sum;
+}
+
+// The no-tension integral over the true overlap polygon: N = kn Int max(-g, 0) dA and its first moments, and its energy.
+struct Compression {
+  double force = 0, moment_s = 0, moment_t = 0, energy = 0;  // moments: Int p s, Int p t
+};
+
+Compression compression(const Model& m, const Joint& joint, const double* q, double kn) {
+  // closed all over: a linear pressure about the centroid
+  const double reach = std::fabs(q[3]) * joint.half_t + std::fabs(q[4]) * joint.half_s;
+  if (q[2] - reach >= 0) return {};
+  if (q[2] + reach < 0) {
+    const Compression c{-joint.stiffness[2] * q[2], joint.face[1] * q[4] - joint.face[2] * q[3],
+                        joint.face[2] * q[4] - joint.face[0] * q[3], 0};
+    return {c.force, c.moment_s, c.moment_t, 0.5 * (c.moment_s * q[4] - c.force * q[2] - c.moment_t * q[3])};
+  }
+  const Positive p = positive_part(&m.corner[std::size_t(joint.first_corner)], joint.corners, q, -1);
+  return {kn * p.p, kn * p.s, kn * p.t, 0.5 * kn * p.square};
+}
+
+// What the cell of point i pulls with at unit stiffness: Int max(g, 0) dA and its first moments. With the closed compression the
+// cells of sound points add up to the sound joint, so that a crack changes no other part of it, and no tangent is stiffer than the
+// sound one. Laws with a compression plateau press and pull at the points themselves.
+struct Pull {
+  double n = 0, s = 0, t = 0;  // m3, m4, m4
+};
+
+Pull pull_of(const Model& m, const PointLaw& law, int i, const double* q) {
+  if (law.fc > 0) {
+    const Point& x = m.point[std::size_t(i)];
+    const double opening = x.weight * std::max(0.0, gap_at(q, x.s, x.t).n);
+    return {opening, opening * x.s, opening * x.t};
+  }
+  const Cell& cell = m.cell[std::size_t(i)];
+  const Positive p = positive_part(&m.cell_corner[std::size_t(cell.first)], cell.corners, q, 1);
+  return {p.p, p.s, p.t};
+}
+
+double work_of(const Pull& p, const double* q) { return p.n * q[2] + p.t * q[3] - p.s * q[4]; }
+
+// The widest opening of the cell of point i: what wears its bond. The point's own would let a crack stop at the cell's border and
+// the cell pull with any stress beyond it.
+double widest(const Model& m, const PointLaw& law, int i, const double* q, double at_point) {
+  if (law.fc > 0) return at_point;
+  const Cell& cell = m.cell[std::size_t(i)];
+  double most = at_point;
+  for (int k = cell.first; k < cell.first + cell.corners; ++k) {
+    const auto& c = m.cell_watch[std::size_t(k)];
+    most = std::max(most, gap_at(q, c.x(), c.y()).n);
+  }
+  return most;
 }
 
 // Compression with a plateau at fc, point by point: perfectly plastic, unloading elastic.
@@ -126,17 +159,12 @@ Shear shear(const PointLaw& law, const Point& point, double normal, double sigma
   return now;
 }
 
-// A sound joint is one quadratic form; once cracked it is the closed compression and the tension of its points. What the change
-// of form sets free at the crack is part of its fracture energy (zero under uniform tension; either sign where the neutral axis
-// lies between points).
-double change_of_form(const Joint& joint, const PointLaw& law, const Point* point, const Compression& closed, const double* q) {
-  double change = -closed.energy;
-  for (int i = 2; i < 5; ++i) change += 0.5 * joint.stiffness[i] * q[i] * q[i];
-  for (int i = 0; i < joint.points; ++i) {
-    const double opening = std::max(0.0, gap_at(q, point[i].s, point[i].t).n);
-    change -= 0.5 * law.kn * opening * opening * point[i].weight;
-  }
-  return change;
+// Rules that are not exact in bending: a sound joint is stiff as its points are, a cracked one as its true faces. What the change
+// sets free (or takes) is booked with the crack: the difference of the mixed energies q0 K q1 / 2, as the work of the step is the
+// mean of its two forces.
+double change_of_form(const Joint& joint, const double* q0, const double* q1) {
+  return 0.5 * ((joint.stiffness[3] - joint.face[0]) * q0[3] * q1[3] + (joint.stiffness[4] - joint.face[1]) * q0[4] * q1[4] +
+                joint.face[2] * (q0[3] * q1[4] + q0[4] * q1[3]));
 }
 
 bool passes(const PointLaw& law, const Gap& g) {
@@ -195,9 +223,7 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
     f[3] = -closed.moment_t;
     f[4] = closed.moment_s;
     energy.elastic += closed.energy;
-    if (sound && !law.dry)  // the mean of both ends: the work of the step is the mean of the two forces
-      energy.fracture += 0.5 * (change_of_form(joint, law, point, closed, q) +
-                                change_of_form(joint, law, point, compression(m, joint, q_before, law.kn), q_before));
+    if (sound) energy.fracture += change_of_form(joint, q_before, q);
     // Friction needs the pressure at the points: the closed integral, shared out by their own depths.
     double least = 0;
     for (int i = 0; i < n; ++i) {
@@ -212,12 +238,14 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
   }
   for (int i = 0; i < n; ++i) {
     PointHistory& h = history[i];
-    const double weight = point[i].weight, damage_before = h.damage;
+    const double damage_before = h.damage;
     const Gap g = gap_at(q, point[i].s, point[i].t);
     const bool bonded = damage_before < 1 && !law.dry;
     const double k0 = damage_before > 0 ? h.secant : law.kn;
-    if (bonded && g.n > (damage_before > 0 ? h.reach : law.opening_peak))
-      damage_to(law, h, law.opening_ultimate > law.opening_peak ? (g.n - law.opening_peak) / (law.opening_ultimate - law.opening_peak) : 1);
+    const double wide = bonded ? widest(m, law, joint.first_point + i, q, g.n) : 0;
+    if (bonded && wide > (damage_before > 0 ? h.reach : law.opening_peak))
+      damage_to(law, h,
+                law.opening_ultimate > law.opening_peak ? (wide - law.opening_peak) / (law.opening_ultimate - law.opening_peak) : 1);
     const double sigma = bonded && g.n > 0 ? (h.damage > 0 ? h.secant : law.kn) * g.n : 0;
     const Shear tau = shear(law, point[i], pressed[std::size_t(i)], sigma, q_before, g, h, energy);
     f[0] += tau.s;
@@ -225,13 +253,16 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
     f[5] += tau.t * point[i].s - tau.s * point[i].t;
     energy.elastic += 0.5 * (tau.s * (g.s - h.slip_s) + tau.t * (g.t - h.slip_t));
     if (!bonded) continue;
-    const double k1 = h.damage > 0 ? h.secant : law.kn, opening = std::max(0.0, g.n);
-    if (k0 != k1) energy.fracture += 0.5 * (k0 - k1) * std::max(0.0, gap_at(q_before, point[i].s, point[i].t).n) * opening * weight;
-    const double pull = k1 * opening * weight;
-    f[2] += pull;
-    f[3] += pull * point[i].t;
-    f[4] -= pull * point[i].s;
-    energy.elastic += 0.5 * pull * opening;
+    const double k1 = h.damage > 0 ? h.secant : law.kn;
+    const Pull pull = pull_of(m, law, joint.first_point + i, q);
+    if (k0 != k1) {  // half the loss of stiffness times Int g0 g1 over the opened cell, the mean from both ends
+      const double both = work_of(pull, q_before) + work_of(pull_of(m, law, joint.first_point + i, q_before), q);
+      energy.fracture += 0.25 * (k0 - k1) * std::max(0.0, both);
+    }
+    f[2] += k1 * pull.n;
+    f[3] += k1 * pull.t;
+    f[4] -= k1 * pull.s;
+    energy.elastic += 0.5 * k1 * work_of(pull, q);
   }
   return false;
 }

@@ -25,6 +25,22 @@ struct alignas(64) PointLanes {
   double s[lanes], t[lanes], weight[lanes];                                                             // m, m, m2
   double slip_s[lanes], slip_t[lanes], damage[lanes], crushed[lanes], secant[lanes], reach[lanes];  // as in PointHistory
 };
+struct alignas(64) CellLanes {
+  double s[lanes], t[lanes], ss[lanes], st[lanes], tt[lanes];  // as in Cell
+};
+struct alignas(64) FaceLanes {
+  double bend_s[lanes], bend_t[lanes], twist[lanes];  // N m, Joint::face
+};
+// The shapes of eight joints of one law with the same numbers of everything: corners of the overlap, points, corners of their cells.
+struct CrackedShape {
+  int corners, points;
+  const FaceLanes* face;
+  const CornerLanes* corner;
+  const CellLanes* cell;         // [points]
+  const int* first;              // corners of cell i: [first[i], first[i + 1])
+  const CornerLanes* loop;       // corners of the cells
+  const CornerLanes* watch;      // where the cells watch for tension; = loop for rules with points on the edge
+};
 struct alignas(64) CrackedLanes {
   double q[6][lanes], f[6][lanes], stored[lanes];                   // at the last step
   double friction[lanes], fracture[lanes], crushing[lanes];         // J, of this step
@@ -60,8 +76,8 @@ struct LaneKernels {
   // joint_geometry.h gives the formulas: q, its elastic resultant and the bound that keeps a joint on this path.
   void (*elastic)(const JointBatch& batch, const double* rows, JointLanes& out);
   // Point laws of joints that have cracked (joint_response.h): q of `io` gives its f; memory and account in `cracked`.
-  void (*respond)(const PointLaw& law, const JointBatch& batch, int corners, const CornerLanes* corner, int points, PointLanes* point,
-                  CrackedLanes& cracked, JointLanes& io);
+  void (*respond)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, PointLanes* point, CrackedLanes& cracked,
+                  JointLanes& io);
   // Resultants to wrenches on both blocks: force at the midpoint of the material points, then everything turned by th.
   void (*wrenches)(const JointBatch& batch, const JointLanes& in, double* wrench_rows);
   // integrate.h

@@ -1,5 +1,6 @@
 #include "engine/solve/stiffness.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -26,6 +27,21 @@ Mat6 diagonal(const Joint& joint) {
   Mat6 k = Mat6::Zero();
   for (int i = 0; i < 6; ++i) k(i, i) = joint.stiffness[i];
   return k;
+}
+
+// A bound on every form the joint may take, cracked or sound: the sound form and the positive part of what the other has beyond it.
+Mat6 stiffest(const Joint& joint) {
+  Eigen::Matrix2d more;
+  more << joint.face[0] - joint.stiffness[3], -joint.face[2], -joint.face[2], joint.face[1] - joint.stiffness[4];
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(more);
+  Mat6 k = diagonal(joint);
+  k.block<2, 2>(3, 3) += eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+  return k;
+}
+
+// Laws with a compression plateau go on by their points alone.
+bool stiffens(const Model& m, const Joint& joint) {
+  return m.laws[z(joint.law)].fc <= 0 && (joint.face[0] > joint.stiffness[3] || joint.face[1] > joint.stiffness[4] || joint.face[2] != 0);
 }
 
 // Largest eigenvalue of a symmetric matrix by Lanczos with full reorthogonalisation (Paige 1972); its residual is added, since
@@ -85,13 +101,16 @@ JointMap joint_map(const Model& m, const State& s, int j) {
   return map;
 }
 
-Sparse stiffness(const Model& m, const State& s, const Freedom& f) {
+namespace {
+
+template <class Form>
+Sparse assembled(const Model& m, const State& s, const Freedom& f, const Form& form) {
   Triplets entries;
   entries.reserve(z(m.njoint) * 144);
   for (int j = 0; j < m.njoint; ++j) {
     if (s.tier[z(j)] == Tier::open) continue;
     const JointMap map = joint_map(m, s, j);
-    const Mat6 k = diagonal(m.joint[z(j)]);
+    const Mat6 k = form(m.joint[z(j)]);
     const int end[2] = {f.first[z(m.joint[z(j)].a)], f.first[z(m.joint[z(j)].b)]};
     const Mat6* side[2] = {&map.a, &map.b};
     for (int p = 0; p < 2; ++p)
@@ -107,8 +126,12 @@ Sparse stiffness(const Model& m, const State& s, const Freedom& f) {
   return out;
 }
 
+}  // namespace
+
+Sparse stiffness(const Model& m, const State& s, const Freedom& f) { return assembled(m, s, f, diagonal); }
+
 StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
-  StepBounds out{infinite, infinite, infinite, infinite, -1};
+  StepBounds out{infinite, infinite, infinite, infinite, infinite, -1};
   const Freedom f = freedoms(m);
   std::vector<Mat6> own(z(m.nblock), Mat6::Zero());
   for (int j = 0; j < m.njoint; ++j) {
@@ -122,7 +145,8 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
     const int light = m.kind[z(joint.b)] == Kind::moving ? joint.b : joint.a;
     const double distance = (joint.arm_a - joint.arm_b).norm();
     const auto* mortar = std::get_if<Mortar>(&scene.joint_rules[z(joint.rule)].law);
-    const double modulus = mortar != nullptr && mortar->E > 0 ? mortar->E : m.laws[z(joint.law)].kn * (joint.gap > 1e-6 ? joint.gap : distance);
+    const double modulus =
+        mortar != nullptr && mortar->E > 0 ? mortar->E : m.laws[z(joint.law)].kn * (joint.gap > 1e-6 ? joint.gap : distance);
     out.wave_passage = std::min(out.wave_passage, distance / std::sqrt(modulus / m.materials[z(m.material[z(light)])].density));
   }
   std::vector<Mat6> root(z(m.nblock));
@@ -148,7 +172,11 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
   Sparse scale(f.count, f.count);
   scale.setFromTriplets(entries.begin(), entries.end());
   const Sparse scaled = scale * k * scale;
-  out.critical = 2 / std::sqrt(largest_eigenvalue(scaled));
+  out.critical = out.cracked = 2 / std::sqrt(largest_eigenvalue(scaled));
+  if (std::none_of(m.joint.begin(), m.joint.end(), [&](const Joint& joint) { return stiffens(m, joint); })) return out;
+  k = assembled(m, s, f, [&](const Joint& joint) { return stiffens(m, joint) ? stiffest(joint) : diagonal(joint); });
+  const Sparse bound = scale * k * scale;
+  out.cracked = 2 / std::sqrt(largest_eigenvalue(bound));
   return out;
 }
 

@@ -1,6 +1,6 @@
 -- R01, a regression: a small wall of bricks on mortar under two seconds of El Centro (time factor 0.707, so that its peak is among them), in its plane.
 --
--- What happens   Ten courses in running bond, free at the top, are shaken along their plane hard enough to crack some joints and not hard
+-- What happens   Ten courses in running bond, free at the top, are shaken along their plane hard enough to crack a few joints and not hard
 --                enough to fall. Nothing here has a closed form: the expected numbers come from a run of this scene and hold the
 --                program to itself; kernel = "reference" must give the same: r01_small_wall_reference.lua.
 -- How to run     erbs run scenes/verify/r01_small_wall_record.lua [-D reference=1] [-D pga=0.8*g]
@@ -41,11 +41,11 @@ metric("base_shear_peak_of_weight", "", function(run) return run.peak("base_fx_N
 metric("damage_end", "", function(run) return run.last("wall_damage") end)
 metric("first_crack_s", "s", function(run) return run.first_crack and run.first_crack.time end)
 
--- A regression, from a run of the fast kernel. Round-off reaches the numbers through some twenty cracks: the two
--- kernels differ by 1e-4 in drift and 2 % in the peak shear, which is one sample of a swing at the joints' own frequency.
+-- A regression, from a run of the fast kernel. Round-off reaches the numbers through its cracks, the
+-- peak shear being one sample of a swing at the joints' own frequency.
 expect("metrics.bricks", 45, { abs = 0, source = "regression" })
-expect("metrics.drift_peak", 1.1806e-4, { rel = 0.01, source = "regression" })
-expect("metrics.base_shear_peak_of_weight", 0.744, { rel = 0.04, source = "regression" })
-expect("metrics.damage_end", 0.22996, { abs = 0.01, source = "regression" })
+expect("metrics.drift_peak", 2.237e-5, { rel = 0.01, source = "regression" })
+expect("metrics.base_shear_peak_of_weight", 0.79257, { rel = 0.04, source = "regression" })
+expect("metrics.damage_end", 0.06201, { abs = 0.01, source = "regression" })
 expect("metrics.first_crack_s", 1.18602, { abs = 1e-3, source = "regression" })  -- a step is 8e-5 s, a row 2e-3 s
-expect("joints_broken", 16, { abs = 1, source = "regression" })
+expect("joints_broken", 3, { abs = 1, source = "regression" })

@@ -70,6 +70,36 @@ TEST_CASE("points on polygons integrate polynomials as their rule promises", "[g
   }
 }
 
+TEST_CASE("cells have their points' weights, fill the polygon, and watch no wider than the points", "[geometry]") {
+  for (const Polygon2& p : {rectangle, Polygon2{{0, 0}, {2, 0}, {0.5, 1}}, heptagon()}) {
+    for (const char* rule : {"simpson", "gauss", "midpoint", "trapezoid"}) {
+      const auto points = quadrature(p, rule, 5, 2);
+      PolygonMoments sum;
+      for (const QuadraturePoint& q : points) {
+        const PolygonMoments own = moments(q.cell);
+        INFO(rule << " point at " << q.x << ", " << q.y);
+        CHECK(own.area == Approx(q.weight).epsilon(1e-12));
+        sum.area += own.area;
+        sum.centroid += own.area * own.centroid;
+        sum.xx += own.xx + own.area * own.centroid.x() * own.centroid.x();
+      }
+      const PolygonMoments whole = moments(p);
+      CHECK(sum.area == Approx(whole.area).epsilon(1e-12));
+      CHECK((sum.centroid / sum.area - whole.centroid).norm() < 1e-12);
+      CHECK(sum.xx == Approx(whole.xx + whole.area * whole.centroid.x() * whole.centroid.x()).epsilon(1e-11));
+      for (int i = 0; i < 12; ++i) {
+        const Vec2 n(std::cos(0.5 * i), std::sin(0.5 * i));
+        double at_points = -1e300, watched = -1e300;
+        for (const QuadraturePoint& q : points) {
+          at_points = std::max(at_points, n.dot(Vec2(q.x, q.y)));
+          for (const Vec2& x : q.watch) watched = std::max(watched, n.dot(x));
+        }
+        CHECK(watched <= at_points + 1e-9);
+      }
+    }
+  }
+}
+
 TEST_CASE("the longer side takes the points of the longer side", "[geometry]") {
   CHECK(quadrature(rectangle, "simpson", 5, 3).size() == 15);
   const auto points = quadrature({{0, 0}, {1, 0}, {1, 3}, {0, 3}}, "simpson", 5, 2);

@@ -1,0 +1,157 @@
+// A joint that cracks grows softer in every direction, whatever its rule, damage and neutral line: the default time step rests on it.
+#include <catch2/catch.hpp>
+
+#include <random>
+
+#include "engine/solve/joint_response.h"
+#include "tests/support/small_wall.h"
+
+using namespace erbs;
+
+namespace {
+
+Mat6 sound_form(const Joint& joint) {
+  Mat6 k = Mat6::Zero();
+  for (int i = 0; i < 6; ++i) k(i, i) = joint.stiffness[i];
+  return k;
+}
+
+// Above the sound form and that of the true faces, for rules not exact in bending.
+Mat6 stiffer_form(const Joint& joint) {
+  Eigen::Matrix2d more;
+  more << joint.face[0] - joint.stiffness[3], -joint.face[2], -joint.face[2], joint.face[1] - joint.stiffness[4];
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(more);
+  Mat6 k = sound_form(joint);
+  k.block<2, 2>(3, 3) += eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+  return k;
+}
+
+// Tangent by central differences at fixed history: displacements too small to wear anything.
+Mat6 tangent(const Model& m, int j, const std::vector<PointHistory>& history, const Vec6& q, double length) {
+  const Joint& joint = m.joint[std::size_t(j)];
+  Mat6 k;
+  for (int c = 0; c < 6; ++c) {
+    Vec6 f[2];
+    const double h = 1e-6 * length / (c < 3 ? 1 : joint.radius);
+    for (int side = 0; side < 2; ++side) {
+      Vec6 at = q;
+      at[c] += side == 0 ? -h : h;
+      std::vector<PointHistory> copy = history;
+      JointEnergy e;
+      respond(m, j, false, q.data(), at.data(), &copy[std::size_t(joint.first_point)], f[side].data(), e);
+    }
+    k.col(c) = (f[1] - f[0]) / (2 * h);
+  }
+  return k;
+}
+
+// Largest eigenvalue of the cracked tangent against a stiffness that should bound it: at most 1.
+double against(const Mat6& k, const Mat6& bound) {
+  return Eigen::GeneralizedSelfAdjointEigenSolver<Mat6>(Mat6(0.5 * (k + k.transpose())), bound).eigenvalues()[5];
+}
+
+const char* law = "mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=5*MPa, mu=0.6, Gf1=1}";  // too much cohesion to slide here
+
+Scene two_blocks(const std::string& rule, const std::string& shape) {
+  Script script(Script::Options{.quiet = true});
+  return script.load_text(R"(
+    material{name="brick", density=1800}
+    joint{law=)" + std::string(law) +
+                              R"(, thickness=10*mm, tolerance=0.1*mm, )" + rule + R"(}
+    box{name="foot", size={.5,.5,.1}, at={-.1,-.1,-.11}, material="brick", fixed=true}
+    analysis{duration=1}
+  )" + shape,
+                          "two_blocks.lua");
+}
+
+}  // namespace
+
+TEST_CASE("a cracked joint is nowhere stiffer than a sound one", "[solve][cracked]") {
+  const std::string rule = GENERATE("rule=\"simpson\", points={3,3}", "rule=\"simpson\", points={5,4}", "rule=\"gauss\", points={2,2}",
+                                    "rule=\"gauss\", points={1,3}", "rule=\"trapezoid\", points={3,2}", "rule=\"midpoint\", points={2,1}",
+                                    "rule=\"midpoint\", points={4,4}");
+  const std::string shape = GENERATE("box{name=\"b\", size={.25,.125,.1}, at={0,0,0}, material=\"brick\"}",
+                                     "prism{name=\"b\", polygon={{0,0},{.3,0},{.25,.2},{.05,.15}}, height=.1, material=\"brick\"}");
+  const Prepared run = prepare(two_blocks(rule, shape), false);
+  const Model& m = run.model;
+  REQUIRE(m.njoint == 1);
+  const Joint& joint = m.joint[0];
+  const PointLaw& point_law = m.laws[std::size_t(joint.law)];
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> any(-1, 1);
+  double worst = 0;
+  for (int turn = 0; turn < 300; ++turn) {
+    const double length = 0.2 * point_law.opening_peak;
+    Vec6 q = Vec6::Zero();
+    q[2] = turn % 3 == 0 ? 0 : length * any(random);
+    q[3] = length * any(random) / joint.half_t, q[4] = length * any(random) / joint.half_s;
+    std::vector<PointHistory> history(std::size_t(m.npoint));
+    for (PointHistory& h : history) {
+      const double kind = any(random);
+      if (kind < -0.3) damage_to(point_law, h, 1);
+      else if (kind < 0.3) damage_to(point_law, h, 0.5 + 0.5 * any(random));
+    }
+    worst = std::max(worst, against(tangent(m, 0, history, q, length), stiffer_form(joint)));
+  }
+  INFO(rule << " " << shape);
+  CHECK(worst <= 1 + 1e-6);
+  CHECK(worst > 0.5);
+}
+
+TEST_CASE("cells of sound points and the closed compression make the sound joint", "[solve][cracked]") {
+  const std::string rule = GENERATE("rule=\"simpson\", points={3,3}", "rule=\"simpson\", points={6,5}", "rule=\"gauss\", points={2,3}");
+  const std::string shape = GENERATE("box{name=\"b\", size={.25,.125,.1}, at={0,0,0}, material=\"brick\"}",
+                                     "prism{name=\"b\", polygon={{0,0},{.3,0},{.25,.2},{.05,.15}}, height=.1, material=\"brick\"}");
+  const Prepared run = prepare(two_blocks(rule, shape), false);
+  const Model& m = run.model;
+  const Joint& joint = m.joint[0];
+  const double length = 0.2 * m.laws[std::size_t(joint.law)].opening_peak;
+  for (int turn = 0; turn < 50; ++turn) {
+    Vec6 q, f;
+    for (int i = 0; i < 6; ++i) q[i] = length * std::sin(2.3 * turn + 1.7 * i) / (i < 3 ? 1 : joint.radius);
+    std::vector<PointHistory> history(std::size_t(m.npoint));
+    JointEnergy e;
+    respond(m, 0, false, q.data(), q.data(), history.data(), f.data(), e);
+    const Vec6 sound = sound_form(joint) * q;
+    INFO(rule << " " << shape);
+    for (int i = 0; i < 6; ++i) CHECK(std::fabs(f[i] - sound[i]) * (i < 3 ? 1 : 1 / joint.radius) < 1e-12 * joint.stiffness[2] * length);
+    CHECK(e.elastic == Approx(0.5 * sound.dot(q)).epsilon(1e-12));
+    CHECK(e.fracture == 0);
+  }
+}
+
+TEST_CASE("over a crack the work of a joint is stored or booked", "[solve][cracked][energy]") {
+  // bending and pull grow until all points have gone; steps are small against the opening at the peak
+  const std::string kind = GENERATE("", ", Gf1=1");
+  Script script(Script::Options{.quiet = true});
+  const Prepared run = prepare(script.load_text(R"(
+    material{name="brick", density=1800}
+    joint{law=mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=5*MPa, mu=0.6)" +
+                                                    kind + R"(}, thickness=10*mm, tolerance=0.1*mm}
+    box{name="foot", size={.5,.5,.1}, at={-.1,-.1,-.11}, material="brick", fixed=true}
+    box{name="b", size={.25,.125,.1}, at={0,0,0}, material="brick"} analysis{duration=1})",
+                                                "crack.lua"),
+                               false);
+  const Model& m = run.model;
+  const Joint& joint = m.joint[0];
+  const double peak = m.laws[std::size_t(joint.law)].opening_peak, end = kind.empty() ? 10 : 90;
+  std::vector<PointHistory> history(std::size_t(m.npoint));
+  Vec6 before = Vec6::Zero(), f_before = Vec6::Zero();
+  double work = 0, booked = 0, elastic = 0;
+  bool sound = true;
+  const int steps = 20000;
+  for (int step = 1; step <= steps; ++step) {
+    const double x = end * peak * step / steps;
+    Vec6 q = Vec6::Zero(), f;
+    q[2] = 0.3 * x, q[3] = 0.4 * x / joint.half_t, q[4] = x / joint.half_s;
+    JointEnergy e;
+    sound = respond(m, 0, sound, before.data(), q.data(), history.data(), f.data(), e) && sound;
+    work += 0.5 * (f + f_before).dot(q - before);
+    booked += e.fracture + e.friction;
+    elastic = e.elastic;
+    before = q, f_before = f;
+  }
+  CHECK(!sound);
+  CHECK(booked > 0);
+  CHECK(std::fabs(work - elastic - booked) < 1e-5 * work);
+}
