@@ -63,7 +63,7 @@ struct Context {
   std::vector<Metric> metrics;
   std::vector<Sampling> samplings;
   std::vector<Study> studies;
-  std::string study;                // the one that started this run; "" where none did
+  std::string study;  // the one that started this run; "" where none did
   std::vector<GroupRecorder> group_recorders;
   std::vector<std::string> output;  // what the script printed
   std::filesystem::path folder;     // of the scene file

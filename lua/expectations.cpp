@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace erbs {
 namespace {
@@ -10,6 +11,31 @@ std::string short_number(double value) { return fmt::format("{:.6g}", value); }
 
 // A word of metrics.json as an expectation writes it: completed, true, null.
 std::string word(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
+
+constexpr double without_end = std::numeric_limits<double>::infinity();
+
+double share(double error, double tolerance) { return error == 0 ? 0 : tolerance > 0 ? error / tolerance : without_end; }
+
+// How much of what is allowed is taken. Bounds are ratios where their sign allows one: 0 where far within, 1 at the bound.
+double used_of(const Expectation& item, double got) {
+  using Kind = Expectation::Kind;
+  if (!std::isfinite(got)) return without_end;
+  switch (item.kind) {
+    case Kind::rel:
+      return share(std::abs(got - item.value), item.tolerance * std::abs(item.value));
+    case Kind::abs:
+      return share(std::abs(got - item.value), item.tolerance);
+    case Kind::below:
+      return item.value > 0 ? std::max(0.0, got) / item.value : got < item.value ? 0 : without_end;
+    case Kind::above:
+      return item.value > 0 && got > 0 ? item.value / got : got > item.value ? 0 : without_end;
+    case Kind::between:
+      return share(std::abs(got - 0.5 * (item.low + item.high)), 0.5 * (item.high - item.low));
+    case Kind::equal:
+      break;
+  }
+  return without_end;
+}
 
 void judge_number(const Expectation& item, double got, Verdict& verdict) {
   using Kind = Expectation::Kind;
@@ -52,14 +78,17 @@ Verdict judge(const Expectation& item, const Json& metrics) {
   verdict.place = item.place.text();
   verdict.expected = item.kind == Expectation::Kind::equal ? item.text_value : short_number(item.value);
   const Json* value = find_key(metrics, item.key);
+  verdict.used = without_end;
   if (!value) {
     verdict.got = "no such key";
   } else if (item.kind == Expectation::Kind::equal) {
     verdict.got = word(*value);
     verdict.passed = verdict.got == item.text_value;
+    if (verdict.passed) verdict.used = 0;
   } else if (value->is_number()) {
     verdict.got = short_number(value->get<double>());
     judge_number(item, value->get<double>(), verdict);
+    verdict.used = used_of(item, value->get<double>());
   } else {
     verdict.got = word(*value);
   }
@@ -83,6 +112,7 @@ Json to_json(const std::vector<Verdict>& verdicts) {
                     {"error", v.error},
                     {"tolerance", v.tolerance},
                     {"passed", v.passed},
+                    {"used", v.used},
                     {"source", v.source},
                     {"place", v.place}});
   return list;
@@ -93,6 +123,7 @@ std::vector<Verdict> verdicts_of(const Json& json) {
   for (const auto& item : json) {
     Verdict v;
     v.passed = item.value("passed", false);
+    v.used = item.contains("used") && item["used"].is_number() ? item["used"].get<double>() : without_end;  // JSON has no infinity
     for (const auto& [key, into] : {std::pair{"key", &v.key},
                                     {"expected", &v.expected},
                                     {"got", &v.got},

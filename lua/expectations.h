@@ -11,6 +11,7 @@ namespace erbs {
 struct Verdict {
   bool passed = false;
   std::string key, expected, got, error, tolerance, source, place;  // as written in tables
+  double used = 0;  // share of the tolerance that the error takes; 1 at its end, infinite where there is no answer
 };
 
 std::vector<Verdict> judge(const std::vector<Expectation>& expectations, const Json& metrics);

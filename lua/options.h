@@ -20,13 +20,38 @@ struct Options {
   std::optional<double> max_wall;          // s, of wall clock
   std::optional<double> checkpoint_every;  // s, of wall clock
   bool video = false, log_json = false, allow_unstable = false, fail_on_collapse = false;
-  int jobs = 0;  // 0: as many as the machine has
-  Record record;  // of erbs record: --dt, --unit, --column
-  std::string study;  // the study that started this run
+  int jobs = 0;         // 0: as many as the machine has
+  Record record;        // of erbs record: --dt, --unit, --column
+  std::string study;    // the study that started this run
+  bool figures = true;  // curves of a run
+
+  // of erbs run: how it departs from its scene
+  std::optional<double> dt_fraction;  // of dt_critical
+  int points = 0;                     // contact points of a joint, a square; 0: as the scene says
+  std::string rule;                   // how they are laid out; "": as the scene says
+  std::vector<std::string> settings;  // key=value of analysis{}
+  double noise = 0;                   // m and rad, in the start of every free block
+  double twin_noise = 0;              // the same again from another seed: what makes a twin
+  bool twin = false;
+
+  // of erbs test
+  bool quick = false, grid = false;
+  std::string book;   // file; "": none is written
+  double budget = 0;  // s: of test, of the clock for all runs together; of accuracy, of a run; 0: none
+
+  // of erbs accuracy
+  double target = 0;         // relative error asked for; 0: none
+  std::string quantity;      // the metric the figure is about; "": the first
+  bool whole_study = false;  // every problem of a folder
 };
+
+// The words that make another run of erbs depart from its scene as this one does.
+std::vector<std::string> departures(const Options& options);
 
 // "30m", "90s", "1.5h", "500ms" or plain seconds; throws Error naming the option.
 double seconds_of(const std::string& text, const std::string& option);
+// "1%" or "0.01"; throws Error naming the option.
+double share_of(const std::string& text, const std::string& option);
 
 // The verbs; each returns the exit code of the program.
 int verb_run(const Options& options);
@@ -34,6 +59,7 @@ int verb_check(const Options& options);
 int verb_record(const Options& options);
 int verb_render(const Options& options);
 int verb_test(const Options& options);
+int verb_accuracy(const Options& options);
 int verb_help(const Options& options, const std::string& usage);
 int verb_version();
 

@@ -1,4 +1,5 @@
 // erbs run SCENE.lua: load, run, ask for the scene's metrics, judge its expectations, say what came out.
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
@@ -9,11 +10,14 @@
 #include <thread>
 
 #include "engine/analysis/dynamic.h"
+#include "engine/analysis/trust.h"
+#include "engine/base/words.h"
 #include "lua/child.h"
 #include "lua/expectations.h"
 #include "lua/options.h"
 #include "lua/progress.h"
 #include "lua/studies.h"
+#include "engine/study/twin.h"
 
 namespace erbs {
 namespace {
@@ -74,7 +78,8 @@ void print_summary(const Scene& scene, const std::string& directory, const Json&
              metrics.value("status", ""), number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")),
              number_at(metrics, "realtime_factor"), metrics.value("blocks", 0), metrics.value("joints", 0),
              metrics.value("joints_broken", 0));
-  fmt::print("{}\nenergy residual {:.1e}\n", collapse_text(metrics), number_at(metrics, "energy.residual_relative"));
+  fmt::print("{}\nenergy residual {:.1e}\n{}\n", collapse_text(metrics), number_at(metrics, "energy.residual_relative"),
+             trust_line(trust_of(metrics)));
   for (const auto& [name, unit] : scene.metric_units) {
     const Json* value = find_key(metrics, "metrics." + name);
     fmt::print("  {} = {} {}\n", name, value && value->is_number() ? fmt::format("{:.6g}", value->get<double>()) : "none", unit);
@@ -104,6 +109,100 @@ int exit_code(const Scene& scene, const Options& options, const RunOutcome& outc
   return exit_ok;
 }
 
+// --set key=value: a number or a word of analysis{}.
+void set_analysis(Analysis& analysis, const std::string& setting) {
+  const size_t equals = setting.find('=');
+  const std::string key = setting.substr(0, equals), value = equals == std::string::npos ? "" : setting.substr(equals + 1);
+  std::vector<std::string> known;
+  for (const auto& field : Analysis::fields()) {
+    known.emplace_back(field.name);
+    if (field.name != key) continue;
+    std::visit(
+        [&](auto member) {
+          using T = std::decay_t<decltype(analysis.*member)>;
+          if constexpr (std::is_same_v<T, std::string>) {
+            if (!field.words.empty() && ("|" + std::string(field.words) + "|").find("|" + value + "|") == std::string::npos)
+              throw Error(fmt::format("--set {}: must be one of {}", setting, field.words));
+            analysis.*member = value;
+          } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, int> || std::is_same_v<T, bool>) {
+            double number = 0;
+            size_t used = 0;
+            try {
+              number = std::stod(value, &used);
+            } catch (const std::exception&) {}
+            if (value.empty() || used != value.size() || (field.low < field.high && (number < field.low || number > field.high)))
+              throw Error(fmt::format("--set {}: must be a number from {:g} to {:g}", setting, field.low, field.high));
+            analysis.*member = static_cast<T>(number);
+          } else {
+            throw Error(fmt::format("--set {}: only numbers and words can be set", setting));
+          }
+        },
+        field.member);
+    return;
+  }
+  throw Error(fmt::format("--set {}: analysis has no key \"{}\"{}", setting, key, did_you_mean(key, known)));
+}
+
+// How the command line departs from the scene: a share of the time step's limit, other numbers of contact points.
+std::vector<std::string> depart(Scene& scene, const Options& options) {
+  std::vector<std::string> notes;
+  if (options.dt_fraction) {
+    scene.analysis.dt = 0;
+    scene.analysis.dt_rule = "limit";
+    scene.analysis.dt_fraction = *options.dt_fraction;
+    notes.push_back(fmt::format("--dt-fraction {:g}", *options.dt_fraction));
+  }
+  for (const auto& setting : options.settings) {
+    set_analysis(scene.analysis, setting);
+    notes.push_back("--set " + setting);
+  }
+  if (!options.rule.empty()) {
+    for (JointRule& rule : scene.joint_rules) rule.rule = options.rule;
+    notes.push_back("--rule " + options.rule);
+  }
+  if (options.points > 0) {
+    const int side = static_cast<int>(std::lround(std::sqrt(options.points)));
+    if (side * side != options.points)
+      throw Error(fmt::format("--points {}: not a square number; write 4, 9, 16 or 25, of which half lie along each side", options.points));
+    for (JointRule& rule : scene.joint_rules) rule.points_long = rule.points_short = side;
+    notes.push_back(fmt::format("--points {}", options.points));
+  }
+  if (options.allow_unstable) scene.analysis.unstable = true;
+  if (options.noise > 0) notes.push_back(fmt::format("--noise {:g}", options.noise));
+  return notes;
+}
+
+constexpr double twin_noise = 1e-9, twin_apart = 1e-3;  // m
+
+// The same run once more with a hair of noise, beside it.
+class Twin {
+ public:
+  Twin(const std::string& scene, const std::string& directory, const Options& options) : run_(directory), twin_(run_file(directory, "twin")) {
+    command_ = {own_path(), "run", scene, "-o", twin_, "--quiet", "--no-figures", "--study", "twin", "--twin-noise", fmt::format("{:g}", twin_noise)};
+    for (const auto& [name, value] : options.overrides) command_.insert(command_.end(), {"-D", name + "=" + value});
+    const std::vector<std::string> more = departures(options);
+    command_.insert(command_.end(), more.begin(), more.end());
+    if (options.until) command_.insert(command_.end(), {"--until", fmt::format("{}", *options.until)});
+    if (options.max_wall) command_.insert(command_.end(), {"--max-wall", fmt::format("{}s", *options.max_wall)});
+    if (options.threads > 0) command_.insert(command_.end(), {"--threads", std::to_string(options.threads)});
+    command_.emplace_back(options.resume && std::filesystem::exists(run_file(twin_, "checkpoint.bin")) ? "--resume" : "--force");
+  }
+
+  // Runs it and tells when it parts; "" or why it cannot be told.
+  std::string compare(Json& metrics) const {
+    const int code = wait_for(start(command_, twin_ + ".log"));
+    if (code != exit_ok) return "the twin gave nothing: " + last_words(twin_ + ".log", code, "");
+    const std::optional<double> parted = parting_time(run_, twin_, twin_apart);
+    metrics["trust"]["twin"] = true;
+    metrics["trust"]["chaos_horizon_s"] = parted ? Json(*parted) : Json();
+    return "";
+  }
+
+ private:
+  std::string run_, twin_;
+  std::vector<std::string> command_;
+};
+
 // All processors, but one for few blocks: a step of 12 bricks takes 7 us, about what two threads need to meet twice. The numbers of
 // a run do not depend on it.
 int default_threads(const Scene& scene) {
@@ -123,6 +222,8 @@ RunOutcome run_scene(const Scene& scene, const std::string& script, const std::v
   run.max_wall = options.max_wall.value_or(0);
   run.checkpoint_every = options.checkpoint_every.value_or(60);
   run.allow_unstable = options.allow_unstable;
+  run.noise = options.noise;
+  run.twin_noise = options.twin_noise;
   run.interrupted = &interrupted;
   ProgressPrinter printer(options.quiet, options.log_json);
   run.progress = [&](const Progress& now) { printer.show(now); };
@@ -147,8 +248,8 @@ int verb_run(const Options& options) {
   script_options.study = options.study;
   Script script(script_options);
   Scene scene = script.load(path, options.overrides);
-  if (options.allow_unstable) scene.analysis.unstable = true;
   std::vector<std::string> notes = script.output();
+  for (const auto& note : depart(scene, options)) notes.push_back(note);
   for (const auto& warning : warnings(scene)) {
     fmt::print(stderr, "warning: {}\n", warning);
     notes.push_back("warning: " + warning);
@@ -171,6 +272,13 @@ int verb_run(const Options& options) {
     fmt::print(stderr, "interrupted; the runs of its studies that are done are kept: go on with --resume\n");
     return exit_interrupted;
   }
+  if (whole && options.twin) {
+    Json now = read_metrics(directory);
+    const std::string trouble = Twin(path, directory, options).compare(now);
+    if (interrupted) return exit_interrupted;
+    if (!trouble.empty()) fmt::print(stderr, "{}: {}\n", path, trouble);
+    write_json(run_file(directory, "metrics.json"), now);
+  }
   auto failures = complete_metrics(script, directory, whole, studies.metrics, metrics, verdicts);
   for (const auto& trouble : studies.troubles) fmt::print(stderr, "{}\n", trouble);
   for (const auto& message : failures) fmt::print(stderr, "{}\n", message);
@@ -183,7 +291,7 @@ int verb_run(const Options& options) {
     if (options.quiet) words.push_back("--quiet");
     const int drawn = run_renderer(words);
     if (code == exit_ok) code = drawn;
-  } else if (status != "interrupted") {
+  } else if (status != "interrupted" && options.figures) {
     draw_curves(directory);
   }
   return code;

@@ -18,6 +18,17 @@ int verb_version() {
   return exit_ok;
 }
 
+std::vector<std::string> departures(const Options& options) {
+  std::vector<std::string> words;
+  if (options.dt_fraction) words.insert(words.end(), {"--dt-fraction", fmt::format("{}", *options.dt_fraction)});
+  if (options.points > 0) words.insert(words.end(), {"--points", std::to_string(options.points)});
+  if (!options.rule.empty()) words.insert(words.end(), {"--rule", options.rule});
+  for (const auto& setting : options.settings) words.insert(words.end(), {"--set", setting});
+  if (options.noise > 0) words.insert(words.end(), {"--noise", fmt::format("{}", options.noise)});
+  if (options.allow_unstable) words.emplace_back("--allow-unstable");
+  return words;
+}
+
 double seconds_of(const std::string& text, const std::string& option) {
   size_t used = 0;
   double value = -1;
@@ -28,6 +39,18 @@ double seconds_of(const std::string& text, const std::string& option) {
   const double factor = unit.empty() || unit == "s" ? 1 : unit == "ms" ? 1e-3 : unit == "m" || unit == "min" ? 60 : unit == "h" ? 3600 : 0;
   if (!(value >= 0) || !std::isfinite(value) || factor == 0) throw Error(fmt::format("{} {}: not a length of time; write 90s, 30m or 1.5h", option, text));
   return value * factor;
+}
+
+double share_of(const std::string& text, const std::string& option) {
+  size_t used = 0;
+  double value = -1;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::exception&) {}
+  const std::string unit = text.substr(std::min(used, text.size()));
+  if (!(value > 0) || !std::isfinite(value) || (unit != "%" && !unit.empty()))
+    throw Error(fmt::format("{} {}: not a share above zero; write 1% or 0.01", option, text));
+  return unit == "%" ? value / 100 : value;
 }
 
 }  // namespace erbs

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/analysis/prepare.h"
+#include "engine/analysis/trust.h"
 #include "engine/record/checkpoint.h"
 #include "engine/record/collapse.h"
 #include "engine/record/run_writer.h"
@@ -66,6 +67,7 @@ class Run {
   CheckpointKey key_;
   Clock clock_;
   Collapse collapse_;
+  TrustWatch trust_;
   std::optional<Solver> solver_;
   std::optional<RunWriter> writer_;
   RunOutcome out_;
@@ -84,9 +86,11 @@ void Run::begin() {
   const bool resume = options_.existing == Existing::resume;
   WriterProgress written;
   if (resume) {
-    read_checkpoint(options_.directory, key_, run_.state, written, collapse_, clock_);
+    read_checkpoint(options_.directory, key_, run_.state, written, collapse_, clock_, trust_);
   } else {
     start_at_rest(scene_, run_, options_.threads);
+    add_noise(run_, options_.noise, 1);
+    add_noise(run_, options_.twin_noise, 2);
     collapse_ = watch_collapse(run_.model, run_.state);
   }
   Manifest manifest = manifest_of(scene_, script_);
@@ -215,7 +219,7 @@ void Run::sampled() {
 void Run::save() {
   const double began = seconds();
   take_joints();
-  write_checkpoint(options_.directory, key_, run_.state, writer_->progress(), collapse_, clock_);
+  write_checkpoint(options_.directory, key_, run_.state, writer_->progress(), collapse_, clock_, trust_);
   last_save_ = seconds();
   record_ += last_save_ - began;
 }
@@ -223,6 +227,7 @@ void Run::save() {
 bool Run::stop() {
   const double now = seconds();
   const Energy& e = run_.state.energy;
+  look(trust_, run_.state, run_.bounds.critical, solver_->contact_dt(), gate());
   if (options_.progress && now - last_progress_ > 0.1) {
     last_progress_ = now;
     options_.progress({run_.state.t, scene_.analysis.duration, now - solve_start_, run_.state.step - steps_at_start_, run_.state.joints_broken,
@@ -281,6 +286,7 @@ Metrics Run::metrics() const {
   m.collapse.fallen_fraction = collapse_.fallen_fraction;
   if (collapse_.collapsed) m.collapse.time_s = collapse_.time;
   m.collapse.direction = collapse_direction(collapse_, run_.model, s);
+  m.trust = trust_of(trust_, run_.model, s);
   m.state_hash = state_hash(s);
   return m;
 }
@@ -306,6 +312,7 @@ RunOutcome Run::go() {
   if (status == "stopped" || status == "interrupted") save();
   out_.metrics = metrics();
   if (solver_->touched() > 0) writer_->log(fmt::format("contact: {} forces of touching pairs in {} steps", solver_->touched(), run_.state.step - steps_at_start_));
+  writer_->log(trust_line(out_.metrics.trust));
   if (clock_.first_crack >= 0) writer_->log(fmt::format("first crack at t = {:.6g} s", clock_.first_crack));
   writer_->close();
   write_metrics(options_.directory, out_.metrics);

@@ -28,6 +28,7 @@ struct RunOptions {
   double max_wall = 0;                // s; 0: no limit
   double checkpoint_every = 60;       // s of wall time
   bool allow_unstable = false;
+  double noise = 0, twin_noise = 0;   // m and rad, in the start of every block that may move; from one seed each
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(const Progress&)> progress;  // about ten times a second
 };

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/base/random.h"
 #include "engine/base/units.h"
 #include "engine/solve/islands.h"
 #include "engine/solve/joint_geometry.h"
@@ -160,6 +161,20 @@ void start_at_rest(const Scene& scene, Prepared& p, int threads) {
     ramp(scene, p, threads);
   }
   refresh_all(p.model, p.state);
+}
+
+void add_noise(Prepared& run, double reach, unsigned seed) {
+  if (reach == 0) return;
+  Random random{seed};
+  for (int b = 0; b < run.model.nblock; ++b) {
+    if (run.model.kind[z(b)] != Kind::moving) continue;
+    Vec3 shift, turn;
+    for (int i = 0; i < 3; ++i) shift[i] = random.within(reach);
+    for (int i = 0; i < 3; ++i) turn[i] = random.within(reach);
+    run.state.u[z(b)] += shift;
+    run.state.q[z(b)] = rotation(turn) * run.state.q[z(b)];
+  }
+  refresh_all(run.model, run.state);
 }
 
 }  // namespace erbs

@@ -21,4 +21,8 @@ Prepared prepare(const Scene& scene, bool allow_unstable);
 // Brings gravity and constant loads on, as Analysis::start says. Leaves velocities as the scene gives them.
 void start_at_rest(const Scene& scene, Prepared& run, int threads);
 
+// Moves and turns every block that may move by up to `reach` (m about each axis, rad about each), from a seed: what exact symmetry
+// would hide shows.
+void add_noise(Prepared& run, double reach, unsigned seed);
+
 }  // namespace erbs

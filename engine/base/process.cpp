@@ -1,14 +1,17 @@
 #include "engine/base/process.h"
 
 #include <fcntl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <thread>
 
 #include "engine/base/error.h"
 
@@ -16,6 +19,10 @@ namespace erbs {
 namespace {
 
 int code_of(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
+
+double seconds_of(const rusage& used) {
+  return double(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1e-6 * double(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
+}
 
 }  // namespace
 
@@ -55,8 +62,22 @@ Child start(const std::vector<std::string>& command, const std::string& log) {
 
 Ended wait_for_any() {
   int status = 0;
-  const pid_t pid = waitpid(-1, &status, 0);
-  return {pid, pid < 0 ? 0 : code_of(status)};
+  rusage used{};
+  const pid_t pid = wait4(-1, &status, 0, &used);
+  if (pid < 0) return {};
+  return {pid, code_of(status), seconds_of(used)};
+}
+
+Ended wait_for_any(double seconds) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+  for (;;) {
+    int status = 0;
+    rusage used{};
+    const pid_t pid = wait4(-1, &status, WNOHANG, &used);
+    if (pid > 0) return {pid, code_of(status), seconds_of(used)};
+    if (std::chrono::steady_clock::now() >= end) return {};
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
 }
 
 int wait_for(const Child& child) {
@@ -67,6 +88,10 @@ int wait_for(const Child& child) {
 
 void interrupt(const Child& child) {
   if (child.pid > 0) kill(child.pid, SIGINT);
+}
+
+void stop_hard(const Child& child) {
+  if (child.pid > 0) kill(child.pid, SIGKILL);
 }
 
 std::string last_words(const std::string& log, int code, const std::string& file) {

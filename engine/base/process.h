@@ -16,10 +16,13 @@ Child start(const std::vector<std::string>& command, const std::string& log = ""
 // no child.
 struct Ended {
   int pid = -1, code = 0;
+  double cpu = 0;  // s of processor, of the child and of all it waited for
 };
 Ended wait_for_any();
+Ended wait_for_any(double seconds);  // at most this long: pid = -1 where none has ended by then
 int wait_for(const Child& child);
 void interrupt(const Child& child);  // as Ctrl-C does
+void stop_hard(const Child& child);  // where it does not heed that
 
 // Why a run of erbs gave nothing: the first line of its log that names `file`, else its last words.
 std::string last_words(const std::string& log, int code, const std::string& file);

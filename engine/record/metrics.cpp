@@ -76,10 +76,37 @@ Json to_json(const Metrics& m) {
   collapse["time_s"] = m.collapse.time_s ? Json(*m.collapse.time_s) : Json();
   collapse["direction"] = m.collapse.direction ? Json(*m.collapse.direction) : Json();
   collapse["fallen_fraction"] = m.collapse.fallen_fraction;
+  json["trust"] = {{"energy_residual", m.trust.energy_residual},
+                   {"energy_residual_time_s", m.trust.energy_residual_time},
+                   {"energy_residual_where", m.trust.energy_residual_where},
+                   {"max_penetration_relative", m.trust.penetration},
+                   {"dt_margin", m.trust.dt_margin},
+                   {"warned_share", m.trust.warned_share},
+                   {"momentum_residual", m.trust.momentum_residual},
+                   {"twin", m.trust.twin},
+                   {"chaos_horizon_s", m.trust.chaos_horizon ? Json(*m.trust.chaos_horizon) : Json()}};
   json["state_hash"] = m.state_hash;
   json["expectations"] = {{"passed", m.expectations_passed}, {"failed", m.expectations_failed}};
   json["metrics"] = numbers(m.metrics);
   return json;
+}
+
+Metrics::Trust trust_of(const Json& metrics) {
+  Metrics::Trust t;
+  const auto number = [&](const char* key) {
+    const Json* value = find_key(metrics, key);
+    return value != nullptr && value->is_number() ? value->get<double>() : 0.0;
+  };
+  t.energy_residual = number("trust.energy_residual");
+  t.energy_residual_time = number("trust.energy_residual_time_s");
+  if (const Json* where = find_key(metrics, "trust.energy_residual_where"); where != nullptr && where->is_string()) t.energy_residual_where = *where;
+  t.penetration = number("trust.max_penetration_relative");
+  t.dt_margin = number("trust.dt_margin");
+  t.warned_share = number("trust.warned_share");
+  t.momentum_residual = number("trust.momentum_residual");
+  if (const Json* twin = find_key(metrics, "trust.twin"); twin != nullptr && twin->is_boolean()) t.twin = *twin;
+  if (const Json* horizon = find_key(metrics, "trust.chaos_horizon_s"); horizon != nullptr && horizon->is_number()) t.chaos_horizon = horizon->get<double>();
+  return t;
 }
 
 void write_metrics(const std::string& dir, const Metrics& metrics) { write_json(dir + "/metrics.json", to_json(metrics)); }

@@ -39,6 +39,17 @@ struct Metrics {
     std::optional<std::array<double, 2>> direction;  // unit, x and y
     double fallen_fraction = 0;
   } collapse;
+  // How far the run is to be trusted (analysis/trust.h).
+  struct Trust {
+    double energy_residual = 0, energy_residual_time = 0;  // worst relative residual, and when (s)
+    std::string energy_residual_where;                     // the joint whose own balance jumped most until then; "" for none
+    double penetration = 0;                                // deepest overlap over smallest edge
+    double dt_margin = 0;                                  // largest step over the limit in force
+    double warned_share = 0;                               // of the steps
+    double momentum_residual = 0;
+    bool twin = false;                   // a twin was run
+    std::optional<double> chaos_horizon;  // s; none: they stay together to the end
+  } trust;
   std::string state_hash;
   int expectations_passed = 0, expectations_failed = 0;
   std::vector<std::pair<std::string, double>> metrics;  // of the scene, in its order
@@ -49,6 +60,7 @@ std::vector<std::pair<std::string, double>> energy_terms(const Energy& energy);
 
 Json to_json(const Metrics& metrics);
 std::vector<std::string> metric_keys();  // every dotted key of metrics.json but the scene's own: "collapse.time_s"
+Metrics::Trust trust_of(const Json& metrics);  // of a metrics.json
 void write_metrics(const std::string& dir, const Metrics& metrics);  // DIR/metrics.json, atomically
 Json read_metrics(const std::string& dir);
 

@@ -2,6 +2,7 @@
 //   excite -> (contacts) -> joint forces | barrier | kick and drift of blocks | barrier | settle the ledger, look after topology.
 #pragma once
 #include <functional>
+#include <limits>
 #include <vector>
 
 #include "engine/base/parallel.h"
@@ -41,6 +42,10 @@ class Solver {
   Vec6 block_wrench(int b) const;  // N, N m about the centroid: joints and contacts
   Vec6 load_wrench(int b) const;   // loads; on a driven block what holds it on its course
   std::vector<int> take_opened();   // joints handed over to contact since the last call
+  // s, what contacts allow at present; infinite where there are none or the goal is shorter
+  double contact_dt() const {
+    return contacts_ && debris_.allowed_dt() < state_.dt_goal ? debris_.allowed_dt() : std::numeric_limits<double>::infinity();
+  }
   int touching() const { return debris_.touching(); }
   long touched() const { return debris_.touched(); }
   double contact_seconds() const { return contact_seconds_; }

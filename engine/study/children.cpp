@@ -1,5 +1,6 @@
 #include "engine/study/children.h"
 
+#include <chrono>
 #include <filesystem>
 #include <map>
 #include <thread>
@@ -8,6 +9,7 @@
 #include "engine/base/process.h"
 #include "engine/record/csv.h"
 #include "engine/record/json.h"
+#include "engine/record/manifest.h"
 #include "engine/record/run_folder.h"
 
 namespace erbs {
@@ -32,22 +34,23 @@ class Runner {
     }
     const int machine = std::max(1, int(std::thread::hardware_concurrency()));
     const std::size_t jobs = std::size_t(c_.at_once > 0 ? c_.at_once : machine);
-    std::map<int, std::size_t> running;
+    std::map<int, Running> running;
     std::size_t next = 0;
     bool told = false;
     while (!running.empty() || (next < waiting.size() && !interrupted())) {
       while (next < waiting.size() && running.size() < jobs && !interrupted()) {
-        running[launch(xs[waiting[next]])] = waiting[next];
+        running[launch(xs[waiting[next]])] = {waiting[next], Clock::now()};
         ++next;
       }
       if (interrupted() && !told) {
-        for (const auto& [pid, i] : running) interrupt({pid});
+        for (const auto& [pid, run] : running) interrupt({pid});
         told = true;
       }
-      const Ended ended = wait_for_any();
+      const Ended ended = wait_for_any(1.0);
+      stop_overdue(running);
       const auto found = running.find(ended.pid);
       if (found == running.end()) continue;
-      read(answers[found->second], ended.code);
+      read(answers[found->second.index], ended.code, found->second.overdue);
       running.erase(found);
       if (c_.progress) c_.progress(study_.name, ++done_, asked_ + int(waiting.size()));
     }
@@ -59,6 +62,23 @@ class Runner {
   }
 
  private:
+  using Clock = std::chrono::steady_clock;
+  struct Running {
+    std::size_t index = 0;  // into the values asked for
+    Clock::time_point begin;
+    bool overdue = false;
+  };
+
+  // A run stops itself at its limit of time, with what it has; one that does not, however it hangs, is ended.
+  void stop_overdue(std::map<int, Running>& running) const {
+    if (c_.max_wall <= 0) return;
+    for (auto& [pid, run] : running) {
+      if (run.overdue || std::chrono::duration<double>(Clock::now() - run.begin).count() < c_.max_wall + 15) continue;
+      run.overdue = true;
+      stop_hard({pid});
+    }
+  }
+
   bool interrupted() const { return c_.interrupted != nullptr && c_.interrupted->load(); }
   std::string folder_of(double x) const { return run_file(folder_, fmt::format("{}={}", study_.param, x)); }
   std::string file_of(double x) const { return folder_of(x) + ".json"; }
@@ -66,10 +86,11 @@ class Runner {
 
   int launch(double x) {
     std::vector<std::string> command{own_path(), "run",       c_.scene, "-o",      folder_of(x), "--force",
-                                     "--quiet",  "--threads", "1",      "--study", study_.name};
+                                     "--quiet",  "--threads", "1",      "--study", study_.name, "--no-figures"};
     for (const auto& [name, value] : c_.overrides)
       if (name != study_.param) command.insert(command.end(), {"-D", name + "=" + value});
     command.insert(command.end(), {"-D", fmt::format("{}={}", study_.param, x)});
+    command.insert(command.end(), c_.words.begin(), c_.words.end());
     if (c_.max_wall > 0) command.insert(command.end(), {"--max-wall", fmt::format("{}s", c_.max_wall)});
     std::error_code ignored;
     fs::remove_all(folder_of(x), ignored);  // of a run that was interrupted
@@ -77,18 +98,20 @@ class Runner {
   }
 
   // What the child left. An answer, or the reason why there is none; of both a note is kept, unless the child was interrupted.
-  void read(Answer& a, int code) const {
+  void read(Answer& a, int code, bool overdue) const {
     if (code == 130) {
       a.reason = "interrupted";
       return;
     }
+    if (overdue) code = 128 + 9;
     try {
       const std::string file = run_file(folder_of(a.x), "metrics.json");
       const Json metrics = fs::exists(file) ? read_json(file) : Json::object();
       if (const Json* wall = find_key(metrics, "wall_s.total"); wall != nullptr && wall->is_number()) a.wall_s = wall->get<double>();
       const std::string status = metrics.value("status", "");
       const Json* value = find_key(metrics, study_.collapse ? "collapse.collapsed" : "metrics.study");
-      if (status == "diverged" || status == "stopped") a.reason = status + "; " + last_words(log_of(a.x), code, c_.scene);
+      if (overdue) a.reason = fmt::format("took longer than {:g} s and was ended", c_.max_wall);
+      else if (status == "diverged" || status == "stopped") a.reason = status + "; " + last_words(log_of(a.x), code, c_.scene);
       else if (code != 0 || value == nullptr) a.reason = last_words(log_of(a.x), code, c_.scene);
       else if (value->is_boolean()) a.value = value->get<bool>() ? 1 : 0;
       else if (value->is_number() && std::isfinite(value->get<double>())) a.value = value->get<double>();
@@ -112,9 +135,10 @@ class Runner {
   }
 
   std::string key() const {
-    std::string text = c_.key;
+    std::string text = c_.key + program_version();
     for (const auto& [name, value] : c_.overrides)
       if (name != study_.param) text += "\n" + name + "=" + value;
+    for (const auto& word : c_.words) text += "\n" + word;
     return hash_text(text);
   }
 

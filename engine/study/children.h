@@ -14,6 +14,7 @@ struct Children {
   std::string directory;  // run folder of the scene: children go to studies/NAME/, the table to studies/NAME.csv
   std::string key;        // of the scene and all it reads: a finished child of another key is run again
   std::vector<std::pair<std::string, std::string>> overrides;  // -D of the run that asks
+  std::vector<std::string> words = {};                         // its other words: --points 4
   double max_wall = 0;                                         // s, of each run; 0: none
   int at_once = 0;                                             // 0: as many as the machine has processors
   std::atomic<bool>* interrupted = nullptr;

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
 #include <limits>
+
+#include "engine/base/random.h"
 
 namespace erbs {
 namespace {
@@ -146,16 +147,10 @@ std::vector<std::string> metric_names(const Study& s) {
 }
 
 std::vector<double> seeds(double seed, int n) {
-  std::uint64_t state = 0;
-  std::memcpy(&state, &seed, sizeof state);
+  Random random;
+  std::memcpy(&random.state, &seed, sizeof random.state);
   std::vector<double> out;
-  for (int i = 0; i < n; ++i) {
-    state += 0x9e3779b97f4a7c15u;
-    std::uint64_t z = state;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-    out.push_back(double((z ^ (z >> 31)) >> 33));
-  }
+  for (int i = 0; i < n; ++i) out.push_back(double(random.next() >> 33));
   return out;
 }
 

@@ -6,6 +6,7 @@
 --                by m / M.
 -- How to run     erbs run scenes/hard/h01_extreme_mass_ratio.lua [-D ratio=1e7] [-D kn=...]
 -- What to look at  period_ratio, steps, rider_drift.
+label("quick")
 local ratio = param("ratio", 1e5, "heavy over light mass")
 local kn = param("kn", 1e9, "[Pa/m]")
 local cycles = param("cycles", 20, "")

@@ -5,6 +5,7 @@
 --                scenes/shake_table_house.lua.
 -- How to run     erbs run scenes/hard/h02_resting_house.lua [-D full=1] [-D duration=60]
 -- What to look at  drift_per_second (of the smallest edge), reaction_error, joints_broken, tremor.
+label("quick")
 local full = param("full", 0, "1: the whole three-storey house")
 local duration = param("duration", 10, "[s]")
 local density, slab_density = param("density", 1800, "bricks [kg/m3]"), param("slab_density", 2400, "slabs and lintels [kg/m3]")

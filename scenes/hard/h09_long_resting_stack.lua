@@ -4,6 +4,7 @@
 --                the same share, so that the joints at its foot are close to opening; its eccentricity stays inside the core.
 -- How to run     erbs run scenes/hard/h09_long_resting_stack.lua [-D courses=100] [-D duration=60]
 -- What to look at  drift_* (of the block's height), kinetic_per_mass (m2/s2), at the end.
+label("quick")
 local courses = param("courses", 50, "")
 local duration = param("duration", 20, "[s]")
 local kn = param("kn", 1e10, "[Pa/m]")

@@ -8,6 +8,7 @@
 -- Tolerance      1e-9: the mean of each force over a step is taken exactly. A velocity written while the force still changes errs by
 --                F' dt^2 / (8 m), and a Lua function is sampled every millisecond: 2e-6 m/s for 3 t^2. The midpoint rule turns by
 --                (w dt)^2 / 12 too little: 6.7e-7 of 2 rad.
+label("quick")
 material { name = "unit", density = 1000 }
 gravity(0)
 analysis { duration = 1, dt = 1 * ms, output_dt = 0.1, start = "rest" }

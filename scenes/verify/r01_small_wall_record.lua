@@ -5,6 +5,7 @@
 --                program to itself; kernel = "reference" must give the same: r01_small_wall_reference.lua.
 -- How to run     erbs run scenes/verify/r01_small_wall_record.lua [-D reference=1] [-D pga=0.8*g]
 -- What to look at  drift_peak, base_shear_peak_of_weight, joints_broken; the same with -D reference=1.
+label("quick")
 local pga = param("pga", 0.7 * g, "peak of the record [m/s2]")
 local asked, plain = pcall(function() return plain_kernel end)  -- set by r01_small_wall_reference.lua
 local reference = param("reference", asked and plain or 0, "1: the plain kernel")

@@ -2,6 +2,7 @@
 --
 -- How to run     erbs run scenes/verify/r01_small_wall_reference.lua
 -- What to look at  the numbers beside those of r01_small_wall_record.lua; tolerances and their causes are there.
+label("quick")
 plain_kernel = 1
 include "r01_small_wall_record.lua"
 expect("status", "completed")

@@ -5,6 +5,7 @@
 -- Source         Hairer, Lubich and Wanner 2003, Acta Numerica 12, section 1: kick-drift-kick is exact for a constant force.
 -- How to run     erbs run scenes/verify/v01_free_fall.lua [-D dt=1e-4] [-D h0=50] [-D size=2]
 -- What to look at  metrics worst_relative_error (over all blocks and all rows), and the energy residual.
+label("quick")
 local dt = param("dt", 1e-3, "time step [s]")
 local h0 = param("h0", 10, "height of the lowest block [m]")
 local size = param("size", 0.3, "longest edge of the smallest block [m]")

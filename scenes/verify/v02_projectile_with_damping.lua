@@ -4,6 +4,7 @@
 --                e^(-a dt): its rate is a (1 + (a dt)^2 / 12), second order.
 -- How to run     erbs run scenes/verify/v02_projectile_with_damping.lua [-D dt=...] [-D a=...]; half the dt, a quarter of the error
 -- What to look at  metrics error_over_adt2_*: the error of path and speed in units of (a dt)^2, the same number at any dt.
+label("quick")
 local dt = param("dt", 2e-3, "time step [s]")
 local a = param("a", 5, "mass damping [1/s]")
 local fall_time = param("fall_time", 1, "length of the flight [s]")

@@ -5,6 +5,7 @@
 -- Source         Euler's equations, e.g. Goldstein, Classical Mechanics, section 5.6.
 -- How to run     erbs run scenes/verify/v03_symmetric_top.lua [-D dt=...] [-D slender=5] [-D spin=20]
 -- What to look at  metrics body_rate_error_* and axis_rate_error_* over `turns` turns.
+label("quick")
 local spin = param("spin", 10, "about the body's axis [rad/s]")
 local across = param("across", 3, "across the axis [rad/s]")
 local slender = param("slender", 3, "length over width of the slender block; the flat one has its inverse")

@@ -6,6 +6,7 @@
 --                (Carlson 1979, Numer. Math. 33, 1).
 -- How to run     erbs run scenes/verify/v04_dzhanibekov.lua [-D flips=200] [-D spin=5] [-D dt=...]
 -- What to look at  first_flip_s and half_period_s beside the formula, flips counted, the energy residual.
+label("quick")
 local length, width, height = param("length", 0.30, "[m]"), param("width", 0.125, "[m]"), param("height", 0.10, "[m]")
 local density = param("density", 1900, "[kg/m3]")
 local spin = param("spin", 10, "about the middle axis [rad/s]")

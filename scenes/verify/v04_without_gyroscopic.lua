@@ -3,6 +3,7 @@
 -- What happens   The brick of v04_dzhanibekov.lua keeps its spin in the body for ever. The option exists for comparison only.
 -- How to run     erbs run scenes/verify/v04_without_gyroscopic.lua
 -- What to look at  smallest_spin: the component about the middle axis of the world stays where it was put.
+label("quick")
 local spin = param("spin", 10, "about the middle axis [rad/s]")
 local nudge = param("nudge", 0.05, "about the other two [rad/s]")
 gravity(0)

@@ -6,6 +6,7 @@
 -- Source         Coulomb; the blocks are thin, so that they slide and do not topple.
 -- How to run     erbs run scenes/verify/v05_incline.lua [-D size=...] [-D kn=...] [-D steeper=10*deg] [-D way=2]
 -- What to look at  slip_<mu>_below, _above, _steep: metres, and over the formula.
+label("quick")
 local size = param("size", 0.3, "longer side of the blocks [m]")
 local kn = param("kn", 2e9, "[Pa/m]")
 local steeper = param("steeper", 6 * deg, "of the third plane, over the angle of friction [rad]")

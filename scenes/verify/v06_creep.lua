@@ -5,6 +5,7 @@
 -- Source         contact mechanics asks for zero; a brick at .88 of its limit may flutter where the friction acts at the centre of pressure.
 -- How to run     erbs run scenes/verify/v06_creep.lua [-D share=0.98] [-D duration=600] [-D kn=...]
 -- What to look at  creep_* (of the block's size, between a tenth of the run and its end), speed_*.
+label("quick")
 local share = param("share", 0.9, "of the angle of friction")
 local duration = param("duration", 60, "[s]")
 local kn = param("kn", 1e8, "soft, for a long step [Pa/m]")

@@ -5,6 +5,7 @@
 -- Source         Coulomb: stop distance v0^2 / (2 mu g), stop time v0 / (mu g).
 -- How to run     erbs run scenes/verify/v07_stopping.lua [-D v0=3] [-D mu=0.3] [-D kn=...] [-D directions=32]
 -- What to look at  distance_largest, distance_smallest, spread, time_error, sideways (path across the throw).
+label("quick")
 local v0, mu = param("v0", 2, "[m/s]"), param("mu", 0.5, "")
 local directions = param("directions", 16, "")
 local kn = param("kn", 1e9, "[Pa/m]")

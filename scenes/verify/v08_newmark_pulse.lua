@@ -5,6 +5,7 @@
 -- Source         Newmark 1965, Geotechnique 15, 139. mu .3, a .5, t0 .4 s: .26160 m.
 -- How to run     erbs run scenes/verify/v08_newmark_pulse.lua [-D a=0.8] [-D t0=0.2] [-D kn=...]
 -- What to look at  slip_mu*: final slip over the formula (of the block that is carried along: metres).
+label("quick")
 local a, t0 = param("a", 0.5, "pulse of the ground, of g"), param("t0", 0.4, "its length [s]")
 local kn = param("kn", 1e10, "the shear spring delays friction by about 1 / omega, a part 2 / (omega t0 (a / mu - 1)) of the slip [Pa/m]")
 local size = param("size", 0.3, "longer side of the blocks [m]")

@@ -5,6 +5,7 @@
 -- Source         Hairer, Lubich and Wanner 2003, Acta Numerica 12, section 5 (leapfrog applied to the oscillator).
 -- How to run     erbs run scenes/verify/v11_vertical_spring.lua [-D kn=...] [-D density=...] [-D share=0.9]
 -- What to look at  coefficient_*: (T'/T - 1) / (w dt)^2, which the series puts at -1/24 = -0.041667.
+label("quick")
 local kn = param("kn", 1e9, "normal stiffness of the bed [Pa/m]")
 local density = param("density", 1800, "[kg/m3]")
 local height = param("height", 0.1, "of the lightest block [m]")

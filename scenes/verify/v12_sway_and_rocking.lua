@@ -4,6 +4,7 @@
 -- Source         exact eigenvalues of the 2 x 2 problem; the leapfrog's shift of the period by sin(w' dt / 2) = w dt / 2 (V11).
 -- How to run     erbs run scenes/verify/v12_sway_and_rocking.lua [-D kn=...] [-D ks=...] [-D height=...]
 -- What to look at  period_ratio_*: measured over exact.
+label("quick")
 local kn, ks = param("kn", 1e9, "[Pa/m]"), param("ks", 0.4e9, "[Pa/m]")
 local length, width = param("length", 0.3, "along the motion [m]"), param("width", 0.125, "[m]")
 local height = param("height", 0.2, "of the tall block [m]")

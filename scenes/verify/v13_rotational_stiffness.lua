@@ -8,6 +8,7 @@
 -- How to run     erbs run scenes/verify/v13_rotational_stiffness.lua [-D long=0.3] [-D short=0.125] [-D kn=...]
 -- What to look at  ratio_<rule>_<points>_<axis>. One point a half brick has no rotational stiffness: never use it.
 --                A moment on a free block of the default rule, brought to rest by the static start, gives the same stiffness.
+label("quick")
 local long, short = param("long", 0.3, "side of the face along x [m]"), param("short", 0.125, "along y [m]")
 local kn, ks = param("kn", 1e11, "[Pa/m]"), param("ks", 0.4e11, "[Pa/m]")
 local angle = param("angle", 1e-7, "rotation, small against sqrt(1e-10): the arms turn by its square [rad]")

@@ -5,6 +5,7 @@
 -- Source         Hillerborg, Modeer and Petersson 1976, Cement Concrete Res. 6, 773 (linear softening, Gf = ft w / 2).
 -- How to run     erbs run scenes/verify/v14_pure_tension.lua [-D ft=...] [-D kn=...] [-D Gf=...] [-D steps=...]
 -- What to look at  peak_* and work_*: force at failure and work of the pull over their formulas; fracture of the whole run.
+label("quick")
 local ft, kn = param("ft", 0.2 * MPa, "tensile strength [Pa]"), param("kn", 2e11, "[Pa/m]")
 local Gf = param("Gf", 10, "fracture energy of the softening joints [J/m2]")
 local steps = param("steps", 4000, "steps from rest to the peak of the brittle joints")

@@ -5,6 +5,7 @@
 -- Source         Coulomb with a tension cut-off; the couplings as documented in the mortar law.
 -- How to run     erbs run scenes/verify/v15_pure_shear.lua [-D c=...] [-D ft=...] [-D mu=...] [-D mu_residual=...] [-D kn=...]
 -- What to look at  peak_* and rest_*: shear force over the formula.
+label("quick")
 local c, ft = param("c", 0.3 * MPa, "cohesion [Pa]"), param("ft", 0.2 * MPa, "tensile strength, at most c / mu [Pa]")
 local mu, mu_residual = param("mu", 0.6, "before failure"), param("mu_residual", 0.5, "after failure")
 local kn, ks = param("kn", 2e11, "[Pa/m]"), param("ks", 0.8e11, "[Pa/m]")

@@ -5,6 +5,7 @@
 -- Source         M = sigma I_rule / s_outermost.
 -- How to run     erbs run scenes/verify/v16_bending_to_cracking.lua [-D ft=...] [-D prestress=...] [-D kn=...] [-D side=0.5]
 -- What to look at  moment_*: bending moment at the first damage over (ft + s0) B H^2 / 6.
+label("quick")
 local ft, prestress = param("ft", 0.2 * MPa, "tensile strength [Pa]"), param("prestress", 0.3 * MPa, "compression s0 [Pa]")
 local kn = param("kn", 2e11, "[Pa/m]")
 local H, B = param("side", 0.3, "side of the face along the bending [m]"), param("width", 0.125, "the other side [m]")

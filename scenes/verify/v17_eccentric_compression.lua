@@ -6,6 +6,7 @@
 -- Source         no-tension bed of springs; e.g. Heyman 1966, Int. J. Solids Struct. 2, 249 for the limit.
 -- How to run     erbs run scenes/verify/v17_eccentric_compression.lua [-D side=...] [-D kn=...] [-D height=...]
 -- What to look at  moment_error (largest over all held blocks) and turn_* (free blocks: rotation over the formula).
+label("quick")
 local H, B = param("side", 0.3, "side along the eccentricity [m]"), param("width", 0.125, "the other side [m]")
 local kn, height = param("kn", 1e11, "[Pa/m]"), param("height", 0.1, "of the free blocks, whose weight is their N [m]")
 local angle = param("angle", 1e-6, "rotation of the held blocks: arms turn by it [rad]")

@@ -5,6 +5,7 @@
 -- Source         no-tension bed of springs; rigid-plastic limit N H/2 of rocking.
 -- How to run     erbs run scenes/verify/v18_ultimate_moment.lua [-D side=...] [-D kn=...] [-D load=...]
 -- What to look at  moment_*: M over N H/2, towards 1; the last of each rule is the rocking limit.
+label("quick")
 local H, B = param("side", 0.3, "side along the bending [m]"), param("width", 0.125, "the other side [m]")
 local kn, load = param("kn", 1e11, "[Pa/m]"), param("load", 50 * N, "compression N [N]")
 

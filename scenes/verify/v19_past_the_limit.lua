@@ -3,6 +3,7 @@
 -- What happens   Each step multiplies the fastest mode by exp(2 acosh(1.001)) = 1.094; the run must end as "diverged", not as a result.
 -- How to run     erbs run scenes/verify/v19_past_the_limit.lua [-D excess=1.01]; without unstable = true such a step is refused.
 -- What to look at  status, and the time it took to see it.
+label("quick")
 local n, kn, excess = param("n", 30, "blocks of the chain"), param("kn", 1e10, "[Pa/m]"), param("excess", 1.001, "dt over its limit")
 local density, edge = param("density", 1800, "[kg/m3]"), param("edge", 0.1, "of the cubes [m]")
 gravity(0)

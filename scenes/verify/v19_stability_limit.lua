@@ -6,6 +6,7 @@
 -- Source         Courant, Friedrichs and Lewy 1928; eigenvalues of the uniform chain, e.g. Rayleigh, Theory of Sound, section 120.
 -- How to run     erbs run scenes/verify/v19_stability_limit.lua [-D n=100] [-D kn=...] [-D fraction=0.999]
 -- What to look at  dt_critical_s beside the formula, largest_over_start.
+label("quick")
 local n = param("n", 30, "blocks of the chain")
 local kn = param("kn", 1e10, "[Pa/m]")
 local fraction = param("fraction", 0.999, "of the limit")

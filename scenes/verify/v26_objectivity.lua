@@ -5,6 +5,7 @@
 --                enters the path of a force.
 -- How to run     erbs run scenes/verify/v26_objectivity.lua [-D seed=7] [-D distance=1e5] [-D steps=1000]
 -- What to look at  rotated_error, moved_error (over the largest displacement), cracked (joints that cracked in the first copy).
+label("quick")
 local seed = param("seed", 1, "of the rotation")
 local distance = param("distance", 1e4, "of the copy that is moved [m]")
 local steps = param("steps", 400, "")

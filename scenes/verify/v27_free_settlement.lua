@@ -5,6 +5,7 @@
 -- Source         equilibrium: N_i = weight above; settlement of block i = sum over the joints below of N / (kn A).
 -- How to run     erbs run scenes/verify/v27_free_settlement.lua [-D n=50] [-D kn=...] [-D density=...]
 -- What to look at  force_error, settlement_error, reaction_error, drift (largest motion during the run over the settlement).
+label("quick")
 local n = param("n", 10, "blocks of a stack")
 local kn = param("kn", 1e10, "[Pa/m]")
 local density = param("density", 1800, "[kg/m3]")

@@ -131,6 +131,7 @@ TEST_CASE("metrics.json has the keys of the contract, unknown numbers are null",
                         "momentum_residual",
                         "max_penetration_relative",
                         "collapse",
+                        "trust",
                         "state_hash",
                         "expectations",
                         "metrics"};

@@ -1,0 +1,40 @@
+// What a run tells about itself while it goes, so that its user knows how far to trust it.
+#pragma once
+#include <string>
+#include <type_traits>
+
+#include "engine/model/model.h"
+#include "engine/model/state.h"
+#include "engine/record/metrics.h"
+
+namespace erbs {
+
+struct TrustWatch {
+  double residual = 0, residual_time = 0;  // worst relative residual of the energy ledger, and when (s)
+  int residual_joint = -1;                 // whose own balance jumped most up to then
+  double dt_margin = 0;                    // largest step over the limit then in force
+  double deepest = 0;                      // relative penetration at the last look
+  long warned = 0, looked = 0;             // steps; at the last look
+};
+
+template <class T, class F>
+requires std::is_same_v<std::remove_const_t<T>, TrustWatch>
+void each(T& t, F&& f) {
+  f("trust_residual", t.residual);
+  f("trust_residual_time", t.residual_time);
+  f("trust_residual_joint", t.residual_joint);
+  f("trust_dt_margin", t.dt_margin);
+  f("trust_deepest", t.deepest);
+  f("trust_warned", t.warned);
+  f("trust_looked", t.looked);
+}
+
+// A look, after every settling of the ledger. `critical`: s, the limit at rest (infinite where nothing is joined); `allowed`: s, what
+// contacts allow (infinite where there are none). The steps since the last look count as warned where the residual is past
+// `gate`, the step past its limit, or blocks sink deeper into each other beyond a hundredth of their smallest edge.
+void look(TrustWatch& watch, const State& state, double critical, double allowed, double gate);
+
+Metrics::Trust trust_of(const TrustWatch& watch, const Model& model, const State& state);
+std::string trust_line(const Metrics::Trust& trust);
+
+}  // namespace erbs

@@ -1,0 +1,134 @@
+// Work-precision figures: error over cost, one line a knob.
+#include <algorithm>
+#include <cmath>
+
+#include "engine/record/gnuplot.h"
+#include "lua/accuracy.h"
+
+namespace erbs {
+namespace {
+
+constexpr double least = 1e-13;  // drawn where an error is zero
+constexpr const char* colors[] = {"#1b4f8a", "#c0502d", "#3f8f46", "#8a5a9e", "#b08a1e", "#2f9aa8", "#666666", "#a33a5a", "#d08a70"};
+constexpr int marks[] = {7, 5, 9, 11, 13, 7, 5, 9, 11};
+
+struct Picture {
+  std::string script, plots;
+  int block = 0, curve = 0;
+  void add(const std::string& data, const std::string& style) {
+    if (data.empty()) return;
+    script += fmt::format("$d{} << END\n{}END\n", block, data);
+    plots += fmt::format("{}$d{} using 1:2 {}", plots.empty() ? "" : ", ", block++, style);
+  }
+};
+
+std::string row(const AccuracyStudy& s, std::size_t i, bool by_updates) {
+  const double cost = by_updates ? s.all[i].updates : s.all[i].cpu;
+  return cost > 0 ? fmt::format("{:.6g} {:.6g}\n", cost, std::max(least, *error_of(s.quantity(), s.all[i].values[s.main]))) : "";
+}
+
+std::string legend(const Curve& c) {
+  if (!c.slope) return c.knob;
+  if (c.knob == "time step") return fmt::format("time step: dt^{{{:.2f}}}", *c.slope);
+  if (c.knob.starts_with("points")) return fmt::format("{}: n^{{-{:.2f}}}", c.knob, *c.slope);
+  if (c.knob.starts_with("sequential")) return fmt::format("{}: 1/n^{{{:.2f}}}", c.knob, *c.slope);
+  return fmt::format("{}: slope {:.2f}", c.knob, *c.slope);
+}
+
+// The curves of one panel; titles only where a legend is wanted.
+std::string panel(const AccuracyStudy& s, bool by_updates, bool titles, Picture& picture) {
+  picture.plots.clear();
+  std::string front;
+  for (const std::size_t i : pareto(s.quantity(), s.main, s.all, by_updates)) front += row(s, i, by_updates);
+  picture.add(front, fmt::format("with linespoints lw 7 pt 6 ps 2.2 lc rgb '#f0c75e' {}", titles ? "title 'Pareto front'" : "notitle"));
+  int k = 0;
+  for (const Curve& c : curves_of(s.quantity(), s.main, s.all)) {
+    std::string data;
+    for (const std::size_t i : c.at) data += row(s, i, by_updates);
+    const auto color = std::size_t(k) % std::size(colors);
+    picture.add(data, fmt::format("with linespoints lw 1.8 pt {} ps 1.0 lc rgb '{}' {}", marks[color], colors[color],
+                                  titles ? "title \"" + legend(c) + "\"" : "notitle"));
+    ++k;
+  }
+  for (std::size_t i = 0; i < s.all.size(); ++i)
+    if (s.all[i].setting.knob.empty() && error_of(s.quantity(), s.all[i].values[s.main]))
+      picture.add(row(s, i, by_updates),
+                  fmt::format("with points pt 3 ps 1.8 lw 2 lc rgb '#000000' {}", titles ? "title 'the scene as it is'" : "notitle"));
+  return picture.plots;
+}
+
+std::string head(const std::string& path, int width, int height) {
+  const bool svg = path.ends_with(".svg");
+  return fmt::format(
+      "set terminal {} size {},{} {} font 'DejaVu Sans,{}' background '#ffffff'\n"
+      "set encoding utf8\nset multiplot\nset border 3 lc rgb '#5a5a5a' lw 1\nset tics out nomirror scale 0.6 tc rgb '#222222'\n"
+      "set grid lc rgb '#e3e3e3' lw 1 lt 1\nset logscale xy\nset format x '10^{{%T}}'\nset format y '10^{{%T}}'\n",
+      svg ? "svg" : "pngcairo", width, height, svg ? "dynamic enhanced" : "enhanced", svg ? 14 : 12);
+}
+
+std::string words_of(std::string name) {
+  if (name.starts_with("metrics.")) name = name.substr(8);
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
+}
+
+std::string error_label(const Goal& q) {
+  return q.reference != 0 ? fmt::format("relative error of {}", words_of(q.name))
+                          : fmt::format("error of {} [{}]", words_of(q.name), q.unit.empty() ? "-" : q.unit);
+}
+
+}  // namespace
+
+void draw_accuracy(const AccuracyStudy& s, const std::string& path) {
+  Picture picture;
+  const std::string left = panel(s, false, false, picture), right = panel(s, true, true, picture);
+  if (left.empty() && right.empty()) return;
+  std::string script = head(path, 1500, 720) + picture.script;
+  const Goal& q = s.quantity();
+  script += fmt::format("set label 1 {} at screen 0.03,0.965 left font ',18' noenhanced tc rgb '#111111'\n",
+                        gnuplot_quoted(fmt::format("What accuracy costs: {}", s.name)));
+  script += fmt::format("set label 2 {} at screen 0.03,0.925 left noenhanced tc rgb '#555555'\n",
+                        gnuplot_quoted(fmt::format("{} = {:.6g} {} by {}{}", words_of(q.name), q.reference, q.unit, q.from,
+                                                   q.uncertainty > 0 ? fmt::format(", uncertain by {:.1g}", q.uncertainty) : "")));
+  const auto place = [&](double from, double to, const char* x, const std::string& y) {
+    return fmt::format(
+        "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen 0.11\nset tmargin at screen 0.88\nset xlabel '{}'\n"
+        "set ylabel {} noenhanced\n",
+        from, to, x, gnuplot_quoted(y));
+  };
+  if (!left.empty())
+    script += place(0.075, 0.39, "seconds of processor", error_label(q)) + "unset key\nplot " + left + "\nunset label 1\nunset label 2\n";
+  if (!right.empty())
+    script += place(0.46, 0.775, "contact points evaluated", "") +
+              "set key at screen 0.79,0.88 left top Left reverse samplen 2 spacing 1.25\nplot " + right + "\n";
+  run_gnuplot(script + "unset multiplot\n", path);
+}
+
+void draw_accuracies(const std::vector<AccuracyStudy>& studies, const std::string& path) {
+  const int columns = studies.size() > 4 ? 4 : int(std::max<std::size_t>(1, studies.size())),
+            rows = (int(studies.size()) + columns - 1) / columns;
+  const int width = 470 * columns, height = 430 * rows + 60;
+  Picture picture;
+  std::string script = head(path, width, height), panels;
+  for (std::size_t k = 0; k < studies.size(); ++k) {
+    const AccuracyStudy& s = studies[k];
+    const std::string plots = panel(s, true, true, picture);
+    const double x = double(int(k) % columns), y = double(int(k) / columns), w = 1.0 / columns, h = 430.0 / height, top = 1 - 45.0 / height;
+    panels += fmt::format(
+        "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\nset tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",
+        (x + 0.17) * w, (x + 0.97) * w, top - y * h - 0.09 * h, top - y * h - 0.80 * h);
+    panels += fmt::format(
+        "set title {} noenhanced font ',12'\nset xlabel 'contact points evaluated' font ',10'\nset ylabel {} noenhanced font ',10'\n"
+        "set key bottom left Left reverse samplen 1.2 spacing 0.95 font ',8' opaque\n",
+        gnuplot_quoted(s.name), gnuplot_quoted(error_label(s.quantity())));
+    if (!plots.empty()) panels += "plot " + plots + "\n";
+  }
+  script += picture.script +
+            fmt::format("set label 1 'What accuracy costs: error over work, one line a knob' at screen 0.5,{:.4f} center font ',16'\n",
+                        1 - 22.0 / height);
+  const std::size_t first = panels.find("plot ");
+  if (first != std::string::npos) panels.insert(panels.find('\n', first) + 1, "unset label 1\n");
+  run_gnuplot(script + panels + "unset multiplot\n", path);
+}
+
+}  // namespace erbs

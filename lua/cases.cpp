@@ -1,0 +1,174 @@
+#include "lua/cases.h"
+
+#include <unistd.h>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <thread>
+
+#include "engine/record/run_folder.h"
+#include "lua/child.h"
+
+namespace erbs {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+bool carries_expectations(const fs::path& path) {
+  const std::string text = text_of(path);
+  for (size_t at = text.find("expect"); at != std::string::npos; at = text.find("expect", at + 1)) {
+    const size_t next = text.find_first_not_of(" \t", at + 6);
+    const size_t line = text.rfind('\n', at) + 1;  // npos + 1 is 0
+    if (next != std::string::npos && text[next] == '(' && text.substr(line, at - line).find("--") == std::string::npos) return true;
+  }
+  return false;
+}
+
+std::vector<std::string> scenes_of(const std::string& word) {
+  std::vector<std::string> found;
+  if (fs::is_regular_file(word)) return {word};
+  if (!fs::is_directory(word)) throw Error(fmt::format("there is no scene and no folder {}; check the path", word));
+  for (const auto& entry : fs::recursive_directory_iterator(word))
+    if (entry.is_regular_file() && entry.path().extension() == ".lua" && carries_expectations(entry.path()))
+      found.push_back(entry.path().string());
+  std::sort(found.begin(), found.end());
+  if (found.empty()) throw Error(fmt::format("{} holds no scene with expectations; add expect(...) to one", word));
+  return found;
+}
+
+// A scene that cannot be read is kept: its case then tells the mistake.
+bool carries(const std::string& scene, const std::string& label, const Overrides& overrides) {
+  try {
+    Script::Options quiet;
+    quiet.quiet = true;
+    Script script(quiet);
+    const auto& labels = script.load(scene, overrides).labels;
+    return std::find(labels.begin(), labels.end(), label) != labels.end();
+  } catch (const std::exception&) { return true; }
+}
+
+struct Running {
+  Case* item;
+  Clock::time_point begin;
+  int asked = 0;  // to stop: 1 as Ctrl-C, 2 hard
+};
+
+// A case that outlives its time is asked to stop, and ended where it does not heed that for ten seconds.
+void hurry(std::map<int, Running>& running, const Options& options) {
+  if (!options.max_wall) return;
+  for (auto& [pid, run] : running) {
+    const double wall = std::chrono::duration<double>(Clock::now() - run.begin).count();
+    // a run stops itself at its limit, with what it has written; its studies may not
+    if (run.asked == 0 && wall > *options.max_wall + 2) run.asked = 1, run.item->overdue = true, interrupt({pid});
+    if (run.asked == 1 && wall > *options.max_wall + 12) run.asked = 2, stop_hard({pid});
+  }
+}
+
+Child launch(const Case& item, const Options& options, int threads) {
+  std::vector<std::string> command{own_path(), "run", item.scene, "-o", item.directory, "--force", "--no-figures"};
+  if (threads > 0) command.insert(command.end(), {"--threads", std::to_string(threads)});
+  for (const auto& [name, value] : options.overrides) command.insert(command.end(), {"-D", name + "=" + value});
+  if (options.max_wall) command.insert(command.end(), {"--max-wall", fmt::format("{}s", *options.max_wall)});
+  command.insert(command.end(), item.extra.begin(), item.extra.end());
+  for (const char* old : {"expectations.json", "metrics.json"}) fs::remove(run_file(item.directory, old));
+  return start(command, item.log);
+}
+
+double number_at(const Json& json, const char* key) {
+  const Json* value = find_key(json, key);
+  return value && value->is_number() ? value->get<double>() : 0;
+}
+
+}  // namespace
+
+bool CaseResult::passed() const {
+  return trouble.empty() && std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.passed; });
+}
+
+std::vector<Case> find_cases(const Options& options, const std::string& out, const std::string& label) {
+  std::vector<Case> cases;
+  std::set<std::string> names, files;
+  for (const auto& word : options.words)
+    for (const auto& scene : scenes_of(word)) {
+      if (!files.insert(fs::weakly_canonical(scene).string()).second) continue;
+      if (!label.empty() && !carries(scene, label, options.overrides)) continue;
+      const std::string stem = fs::path(scene).stem().string();
+      std::string name = stem;
+      for (int i = 2; !names.insert(name).second; ++i) name = fmt::format("{}_{}", stem, i);
+      cases.push_back({scene, name, out + "/" + name, out + "/" + name + ".log", {}});
+    }
+  if (cases.empty()) throw Error(fmt::format("no scene carries the label \"{}\"; write label(\"{}\") in one", label, label));
+  return cases;
+}
+
+void run_cases(std::vector<Case>& cases, const Options& options, const std::function<void(const Case&)>& ended) {
+  const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const size_t jobs = static_cast<size_t>(options.jobs > 0 ? options.jobs : machine);
+  // as many runs at once as there are processors: one thread each; fewer: each as it sees fit (0)
+  const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::min(jobs, cases.size())) >= machine ? 1 : 0;
+  std::map<int, Running> running;
+  size_t next = 0, done = 0;
+  const bool live = isatty(STDERR_FILENO) != 0 && !options.quiet;
+  const auto begin = Clock::now();
+  const auto in_time = [&] { return options.budget <= 0 || std::chrono::duration<double>(Clock::now() - begin).count() < options.budget; };
+  while (!running.empty() || (next < cases.size() && in_time())) {
+    while (next < cases.size() && running.size() < jobs && in_time()) {
+      Case& item = cases[next++];
+      fs::create_directories(fs::path(item.directory).parent_path());
+      running[launch(item, options, threads).pid] = {&item, Clock::now()};
+    }
+    if (live) {
+      const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
+      const double left = done > 0 ? spent / static_cast<double>(done) * static_cast<double>(cases.size() - done) : 0;
+      fmt::print(stderr, "\r\033[K{} of {} cases, about {:.0f} s left, running {}", done, cases.size(), left,
+                 running.begin()->second.item->name);
+    }
+    const Ended child = wait_for_any(1.0);
+    hurry(running, options);
+    const auto found = running.find(child.pid);
+    if (found == running.end()) continue;
+    found->second.item->code = child.code;
+    found->second.item->cpu = child.cpu;
+    if (ended) ended(*found->second.item);
+    running.erase(found);
+    ++done;
+  }
+  if (live) fmt::print(stderr, "\r\033[K");
+}
+
+CaseResult result_of(const Case& item) {
+  CaseResult result;
+  result.scene = item.scene;
+  result.name = item.name;
+  result.cpu = item.cpu;
+  result.title = title_of(text_of(item.scene));
+  try {
+    if (fs::exists(run_file(item.directory, "metrics.json"))) {
+      const Json metrics = read_metrics(item.directory);
+      result.updates = number_at(metrics, "point_updates");
+      const double limit = number_at(metrics, "dt_critical_s");
+      if (limit > 0) result.dt_share = number_at(metrics, "dt_s") / limit;
+    }
+    if (fs::exists(run_file(item.directory, "expectations.json")))
+      result.verdicts = verdicts_of(read_json(run_file(item.directory, "expectations.json")));
+  } catch (const std::exception& error) { result.trouble = error.what(); }
+  const bool wrong_code = item.code != exit_ok && item.code != exit_expectation;
+  if (item.overdue) result.trouble = "stopped: it took longer than --max-wall allows";
+  else if (wrong_code) result.trouble = last_words(item.log, item.code, item.scene);
+  else if (result.verdicts.empty() && result.trouble.empty()) result.trouble = "the scene carries no expectation; add expect(...)";
+  return result;
+}
+
+std::string cost_text(const CaseResult& result) { return fmt::format("{:.2f} s, {:.2g} pt", result.cpu, result.updates); }
+
+}  // namespace erbs

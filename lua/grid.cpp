@@ -1,0 +1,230 @@
+#include "lua/grid.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+
+#include "engine/base/hash.h"
+#include "engine/record/manifest.h"
+#include "lua/book.h"
+#include "lua/cases.h"
+#include "lua/progress.h"
+
+namespace erbs {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double dt_fractions[] = {0.2, 0.5, 0.9};  // of dt_critical
+constexpr int point_numbers[] = {4, 9, 25};         // per joint
+constexpr double noise = 1e-8;                      // m and rad
+
+struct Variant {
+  Case run;
+  std::string scene_name, words;  // "dt 0.2, 9 points"
+  std::string note, key;
+  bool done = false;
+  CaseResult result;
+};
+
+// Scenes that fix their step keep it, those without joints their points.
+std::vector<Variant> variants_of(const Case& scene, const Overrides& overrides) {
+  bool fixed_dt = false, joints = true;
+  std::string key = program_version();
+  for (const auto& [name, value] : overrides) key += "\n" + name + "=" + value;
+  try {
+    Script::Options quiet;
+    quiet.quiet = true;
+    Script script(quiet);
+    const Scene& s = script.load(scene.scene, overrides);
+    fixed_dt = std::find(s.labels.begin(), s.labels.end(), "fixed_dt") != s.labels.end();
+    joints = std::any_of(s.joint_rules.begin(), s.joint_rules.end(), [](const JointRule& rule) { return !rule.none; });
+    for (const auto& [file, hash] : s.inputs) key += "\n" + hash;
+  } catch (const std::exception&) {}  // its run tells the mistake
+  std::vector<Variant> all;
+  for (size_t i = 0; i < (fixed_dt ? 1 : std::size(dt_fractions)); ++i)
+    for (size_t k = 0; k < (joints ? std::size(point_numbers) : 1); ++k) {
+      Variant v;
+      v.scene_name = scene.name;
+      v.run = scene;
+      std::string stem;
+      v.run.extra = {"--noise", fmt::format("{:g}", noise)};
+      if (!fixed_dt) {
+        v.run.extra.insert(v.run.extra.end(), {"--dt-fraction", fmt::format("{}", dt_fractions[i])});
+        stem += fmt::format("_dt{}", dt_fractions[i]), v.words = fmt::format("dt {}", dt_fractions[i]);
+      }
+      if (joints) {
+        v.run.extra.insert(v.run.extra.end(), {"--points", std::to_string(point_numbers[k])});
+        stem += fmt::format("_p{}", point_numbers[k]), v.words += fmt::format("{}{} points", v.words.empty() ? "" : ", ", point_numbers[k]);
+      }
+      if (v.words.empty()) v.words = "as it is";
+      v.run.name = scene.name + stem;
+      v.run.directory = scene.directory + "/run" + stem;
+      v.run.log = v.run.directory + ".log";
+      v.note = v.run.directory + ".json";
+      v.key = hash_text(fnv1a(key + stem));
+      all.push_back(std::move(v));
+    }
+  return all;
+}
+
+Json json_of(const Variant& v) {
+  return {{"key", v.key},
+          {"verdicts", to_json(v.result.verdicts)},
+          {"trouble", v.result.trouble},
+          {"cpu_s", v.result.cpu},
+          {"updates", v.result.updates},
+          {"dt_share", v.result.dt_share}};
+}
+
+bool read_note(Variant& v) {
+  try {
+    if (!fs::exists(v.note)) return false;
+    const Json note = read_json(v.note);
+    if (note.value("key", "") != v.key) return false;
+    v.result.name = v.run.name;
+    v.result.scene = v.run.scene;
+    v.result.verdicts = verdicts_of(note.at("verdicts"));
+    v.result.trouble = note.value("trouble", "");
+    v.result.cpu = note.value("cpu_s", 0.0), v.result.updates = note.value("updates", 0.0), v.result.dt_share = note.value("dt_share", 0.0);
+    return v.done = true;
+  } catch (const std::exception&) { return false; }
+}
+
+// The worst value of one invariant over the variants of a scene.
+struct Worst {
+  std::string scene, key, expected, got, tolerance, at;
+  double used = 0;
+  int runs = 0, failed = 0;
+};
+
+struct Grid {
+  std::vector<Worst> rows;
+  std::vector<std::string> refused;  // by a limit of use that the scene states
+  int runs = 0, missing = 0;
+  double cpu = 0;
+};
+
+void add(Worst& row, const Variant& v, const Verdict& verdict) {
+  const double used = verdict.passed ? verdict.used : std::max(verdict.used, 1.0);
+  if (row.runs++ == 0 || used > row.used)
+    row.used = used, row.expected = verdict.expected, row.got = verdict.got, row.tolerance = verdict.tolerance, row.at = v.words;
+  row.failed += !verdict.passed;
+}
+
+Grid worst_of(const std::vector<Variant>& variants) {
+  Grid grid;
+  std::map<std::pair<std::string, std::string>, size_t> index;
+  const auto row_of = [&](const std::string& scene, const std::string& key) -> Worst& {
+    const auto [at, fresh] = index.emplace(std::pair{scene, key}, grid.rows.size());
+    if (fresh) grid.rows.push_back({scene, key, "", "", "", "", 0, 0, 0});
+    return grid.rows[at->second];
+  };
+  for (const Variant& v : variants) {
+    if (!v.done) {
+      ++grid.missing;
+      continue;
+    }
+    ++grid.runs;
+    grid.cpu += v.result.cpu;
+    if (v.result.trouble.find("use_limit:") != std::string::npos) {
+      grid.refused.push_back(fmt::format("{} at {}: {}", v.scene_name, v.words, v.result.trouble));
+      continue;
+    }
+    for (const Verdict& verdict : v.result.verdicts) add(row_of(v.scene_name, verdict.key), v, verdict);
+    Verdict run;
+    run.expected = "ends well";
+    run.passed = v.result.trouble.empty();
+    run.got = run.passed ? "it does" : v.result.trouble;
+    run.used = run.passed ? 0 : 1e300;
+    add(row_of(v.scene_name, "(run)"), v, run);
+  }
+  return grid;
+}
+
+std::string summary_of(const Grid& grid) {
+  const auto failed = std::count_if(grid.rows.begin(), grid.rows.end(), [](const Worst& w) { return w.failed > 0; });
+  std::string text = fmt::format("{} runs, {} invariants: {} hold on the whole grid, {} do not", grid.runs, grid.rows.size(),
+                                 grid.rows.size() - static_cast<size_t>(failed), failed);
+  if (!grid.refused.empty()) text += fmt::format("; {} runs refused by a limit of use that the scene states", grid.refused.size());
+  if (grid.missing > 0) text += fmt::format("; {} runs are still to be made", grid.missing);
+  return text;
+}
+
+std::string share_text(const Worst& w) { return std::isfinite(w.used) && w.used < 1e100 ? fmt::format("{:.2g}", w.used) : "-"; }
+
+void print(const Grid& grid) {
+  size_t a = 4, b = 9, c = 5, d = 5, e = 2;
+  for (const Worst& w : grid.rows)
+    a = std::max(a, w.scene.size()), b = std::max(b, w.key.size()), c = std::max(c, w.expected.size() + w.tolerance.size() + 1),
+    d = std::max(d, std::min<size_t>(w.got.size(), 40)), e = std::max(e, w.at.size());
+  fmt::print("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {:<6}  {:<{}}  {:<9}  runs\n", "case", a, "invariant", b, "bound", c, "worst", d, "share",
+             "at", e, "verdict");
+  for (const Worst& w : grid.rows)
+    fmt::print("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {:<6}  {:<{}}  {:<9}  {}\n", w.scene, a, w.key, b, w.expected + " " + w.tolerance, c, w.got,
+               d, share_text(w), w.at, e, w.failed > 0 ? fmt::format("FAILED {}", w.failed) : "ok", w.runs);
+  for (const auto& text : grid.refused) fmt::print("refused: {}\n", text);
+  fmt::print("{} ({} of processor)\n", summary_of(grid), duration_text(grid.cpu));
+  std::fflush(stdout);
+}
+
+void write_page(const Grid& grid, const Options& options, double wall) {
+  std::string text = "# The hard cases over a grid of settings\n\n";
+  text += fmt::format(
+      "Written by `erbs test {} --grid --book {}`, never typed: {} of processor, {} of the clock, erbs {}. Every scene is run at 0.2, 0.5 "
+      "and 0.9 of the limit of the time step, with 4, 9 and 25 contact points per joint, and with noise of {:g} (m, rad) in the start of "
+      "every free block, since exact symmetry hides instabilities. Scenes that fix their step keep it, those without joints their points. "
+      "Each row is the worst value of one invariant over these runs.\n\n**{}**\n\n",
+      fmt::join(options.words, " "), fs::path(options.book).lexically_normal().generic_string(), duration_text(grid.cpu),
+      duration_text(wall), program_version(), noise, summary_of(grid));
+  text += "| case | invariant | bound | worst | share of the bound | at | runs | verdict |\n|---|---|---|---|---|---|---|---|\n";
+  std::string last;
+  for (const Worst& w : grid.rows) {
+    text += fmt::format("| {} | {} | {} {} | {} | {} | {} | {} | {} |\n", w.scene == last ? "" : code_cell(w.scene), code_cell(w.key),
+                        cell(w.expected), cell(w.tolerance), cell(w.got), share_text(w), w.at, w.runs,
+                        w.failed > 0 ? fmt::format("**failed in {}**", w.failed) : "ok");
+    last = w.scene;
+  }
+  if (!grid.refused.empty()) text += "\nRefused by a limit of use that the scene states:\n\n";
+  for (const auto& refused : grid.refused) text += "- " + refused + "\n";
+  write_text_atomically(options.book, text);
+}
+
+}  // namespace
+
+int run_grid(const Options& given) {
+  Options options = given;
+  if (!options.max_wall) options.max_wall = 300;
+  if (options.budget <= 0) options.budget = 3600;
+  const std::string out = options.directory.empty() ? "runs/grid" : options.directory;
+  const auto begin = std::chrono::steady_clock::now();
+  std::vector<Variant> variants;
+  for (const Case& scene : find_cases(options, out, ""))
+    for (Variant& v : variants_of(scene, options.overrides)) variants.push_back(std::move(v));
+  std::vector<Case> runs;
+  std::map<std::string, Variant*> of_name;
+  for (Variant& v : variants) {
+    if (options.resume && read_note(v)) continue;
+    runs.push_back(v.run);
+    of_name[v.run.name] = &v;
+  }
+  run_cases(runs, options, [&](const Case& run) {
+    Variant& v = *of_name.at(run.name);
+    v.result = result_of(run);
+    v.done = true;
+    write_json(v.note, json_of(v));
+  });
+  const Grid grid = worst_of(variants);
+  print(grid);
+  if (!options.book.empty()) write_page(grid, options, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+  if (grid.missing > 0) {
+    fmt::print("out of time; the same command with --resume makes the runs that are left\n");
+    return exit_stopped;
+  }
+  return std::any_of(grid.rows.begin(), grid.rows.end(), [](const Worst& w) { return w.failed > 0; }) ? exit_expectation : exit_ok;
+}
+
+}  // namespace erbs

@@ -1,0 +1,9 @@
+// erbs test --grid: every scene again at other time steps and numbers of contact points, with noise in its start.
+#pragma once
+#include "lua/options.h"
+
+namespace erbs {
+
+int run_grid(const Options& options);
+
+}  // namespace erbs
