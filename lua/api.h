@@ -41,6 +41,7 @@ std::vector<Function> load_functions();
 std::vector<Function> analysis_functions();
 std::vector<Function> result_functions();
 std::vector<Function> study_functions();
+std::vector<Function> companion_functions();
 
 const Keys& part_keys();       // of block{ parts = { ... } }
 const Keys& tolerance_keys();  // of expect(key, value, { ... })

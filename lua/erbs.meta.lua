@@ -477,6 +477,44 @@ function converge(keys) end
 ---@param keys erbs.ensemble_keys
 function ensemble(keys) end
 
+---@class erbs.rocking_keys
+---@field width? number base of the block; with `height` it gives alpha, p and mu of a homogeneous one [m; 1e-06 to 1e+06]
+---@field height? number of the block [m; 1e-06 to 1e+06]
+---@field alpha? number slenderness, atan(width / height) (default from width and height) [rad; 1e-06 to 1.5]
+---@field p? number sqrt(m g R / I0) (default from width and height: sqrt(3 g / (4 R))) [rad/s; 1e-06 to 1e+06]
+---@field mu? number spin after an impact over the spin before (default Housner's: 1 - 3/2 sin^2 alpha) [0 to 1]
+---@field gravity? number strength of gravity (default: the scene's) [m/s2; 1e-06 to 1000]
+---@field linear? boolean small angles: sin x = x, cos x = 1 [default false]
+---@field wave? erbs.wave|number|fun(t: number): number acceleration of the ground (default: none, free rocking) [m/s2]
+---@field theta? number tilt at the start [rad; -1.5 to 1.5; default 0]
+---@field spin? number at the start [rad/s; -1000 to 1000; default 0]
+---@field duration number how long [s; 1e-09 to 100000]
+
+---A rigid block rocking on its edges after Housner: what theory says beside a scene of one block.
+---@param keys erbs.rocking_keys
+---@return table # alpha, p, mu, threshold (m/s2), t, theta (rad), impacts (s), amplitudes (of alpha, before each impact), overturned, overturned_at
+function rocking(keys) end
+
+---@class erbs.rocking_overturning_keys
+---@field width? number base of the block; with `height` it gives alpha, p and mu of a homogeneous one [m; 1e-06 to 1e+06]
+---@field height? number of the block [m; 1e-06 to 1e+06]
+---@field alpha? number slenderness, atan(width / height) (default from width and height) [rad; 1e-06 to 1.5]
+---@field p? number sqrt(m g R / I0) (default from width and height: sqrt(3 g / (4 R))) [rad/s; 1e-06 to 1e+06]
+---@field mu? number spin after an impact over the spin before (default Housner's: 1 - 3/2 sin^2 alpha) [0 to 1]
+---@field gravity? number strength of gravity (default: the scene's) [m/s2; 1e-06 to 1000]
+---@field linear? boolean small angles: sin x = x, cos x = 1 [default false]
+---@field wave erbs.wave|number|fun(t: number): number acceleration of the ground for a factor of 1 [m/s2]
+---@field criterion? "overturning"|"alpha_at_end" overturning: it falls; alpha_at_end: |theta| has come to alpha when the wave ends [default overturning]
+---@field from? number smallest factor looked at [0 to 1e+09; default 0.9]
+---@field to? number largest factor looked at [0 to 1e+09; default 20]
+---@field points? integer factors looked at between; no safe island is narrower [1 to 100000; default 1000]
+---@field duration? number how long to watch (default: 12 / p after the wave) [s; 1e-09 to 100000]
+
+---By which factors on a wave a rigid rocking block overturns from rest.
+---@param keys erbs.rocking_overturning_keys
+---@return table # alpha, p, mu, threshold (m/s2), lowest (factor), bands { { from, to, impacts }, ... } whose gaps are safe islands
+function rocking_overturning(keys) end
+
 ---@class erbs.wall_keys
 ---@field name? string first word of its blocks' names, and their group [default wall]
 ---@field group? string group of the bricks; default the name
