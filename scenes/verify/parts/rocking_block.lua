@@ -1,0 +1,50 @@
+-- A block that rocks on two narrow feet, as test blocks with a slightly hollow base do, beside what Housner's equations say of it.
+--
+-- A flat full base on springs does not give Housner's impact: the blow is spread over the face (measured: phi_1 .454 to .488 of the
+-- Pena block for any dashpot, Housner .386). Feet of a hundredth of the width bring the blow to the edges.
+-- Stiffness: `settlement` is that of the full base under the block's weight over half the width, d0 / b, and kn = density g height / d0.
+-- While the block rocks, its toe is pressed in over a length of sqrt(2 N / (kn depth theta)); its centre of pressure is that inside the edge.
+local rocking_blocks = 0
+
+return function(keys)
+  rocking_blocks = rocking_blocks + 1
+  local name, width, height = keys.name, keys.width, keys.height
+  local b, depth, density = width / 2, keys.depth or width, keys.density or 2500
+  local foot, hollow = (keys.foot or 0.008) * width, 1e-3 * height
+  local kn = density * g * height / ((keys.settlement or 1.7e-6) * b)
+  local at = keys.at or { 0, rocking_blocks * 2 * depth }
+  local theory = rocking { width = width, height = height, theta = keys.theta or 0, duration = keys.duration, wave = keys.wave }
+  local stone = "stone_" .. name
+  material { name = stone, density = density, kn = kn, ks = 0.4 * kn, friction = 2, restitution = keys.restitution or 0.24 }
+  box { name = "base_" .. name, material = stone, fixed = true, size = { 6 * height, 1.5 * depth, height / 2 }, at = { at[1] - 3 * height, at[2] - 0.75 * depth, -height / 2 } }
+  local function part(x0, x1, z0, z1)
+    local v = {}
+    for _, x in ipairs { x0, x1 } do
+      for _, y in ipairs { -depth / 2, depth / 2 } do
+        for _, z in ipairs { z0, z1 } do v[#v + 1] = { at[1] + x, at[2] + y, z } end
+      end
+    end
+    return { vertices = v }
+  end
+  local turned = keys.theta and { rotation = { 0, keys.theta, 0 }, about = { at[1] + b, at[2], 0 } }
+  block { name = name, material = stone, free = true, initial = turned,
+    parts = { part(-b, -b + foot, 0, hollow), part(b - foot, b, 0, hollow), part(-b, b, hollow, height) } }
+  recorder { name = name, quantity = "rotation", block = name, axis = "y" }
+  local column = name .. "_ry_rad"
+
+  -- Times of impacts, and the greatest |theta| / alpha before the first, between the first and the second, ...
+  local function impacts(run)
+    local theta, t, times, peaks, peak = run.history(column), run.time, {}, {}, 0
+    for i = 1, #theta do
+      if i > 1 and theta[i - 1] * theta[i] < 0 then
+        times[#times + 1] = t[i - 1] + (t[i] - t[i - 1]) * theta[i - 1] / (theta[i - 1] - theta[i])
+        peaks[#peaks + 1], peak = peak / theory.alpha, 0
+      end
+      peak = math.max(peak, math.abs(theta[i]))
+    end
+    peaks[#peaks + 1] = peak / theory.alpha
+    return times, peaks
+  end
+  local function overturned(run) return run.peak(column) > 1.2 end  -- rad: nothing of these widths returns from there
+  return { name = name, theory = theory, column = column, impacts = impacts, overturned = overturned, kn = kn }
+end
