@@ -248,12 +248,12 @@ bool Run::stop() {
   return false;
 }
 
-// 1e-6 while all is elastic, 1e-3 with cracks and friction, 1e-2 once blocks have come loose or fallen.
+// 1e-6 while all is elastic, 1e-3 with cracks, friction and contacts, 1e-2 once blocks have come loose or fallen.
 double Run::gate() const {
   if (scene_.analysis.energy_gate > 0) return scene_.analysis.energy_gate;
   if (collapse_.fallen_fraction > 0 || collapse_.collapsed || clock_.opened > 0 || run_.state.max_penetration_relative > 0) return 1e-2;
   const auto& tier = run_.state.tier;
-  const bool elastic = std::all_of(tier.begin(), tier.end(), [](Tier t) { return t == Tier::intact; });
+  const bool elastic = run_.state.debris.pair.empty() && std::all_of(tier.begin(), tier.end(), [](Tier t) { return t == Tier::intact; });
   return elastic ? 1e-6 : 1e-3;
 }
 

@@ -162,7 +162,7 @@ class Rocker {
   }
 
   void step() {
-    static constexpr double tolerance = 1e-11;
+    const double tolerance = verdict_only_ ? 1e-9 : 1e-11;
     const double theta_scale = tolerance * b_.alpha, spin_scale = tolerance * b_.alpha * b_.p;
     h_ = std::min({h_ > 0 ? h_ : 1e-3 * longest_, longest_, duration_ - t_});
     if (t_ < load_end_ && load_end_ < t_ + h_) h_ = load_end_ - t_;  // a kink or a jump

@@ -4,7 +4,7 @@
 --                Bisection finds its least amplitude: `falls_*`, where the block falls, and `alpha_*`, where it has come to theta = alpha by the
 --                end of the pulse. Housner's sqrt(1 + (w/p)^2) is neither: it is their limit for long pulses, 0 to 24 % unsafe up to w/p = 2.
 -- Source         True overturning: Shao and Tung 1999, Zhang and Makris 2001; closed forms of linear theory in tests/unit/analysis/rocking_test.cpp,
---                here the exact equation by rocking_overturning{}. Makris block .4 x 1.2 m: 1.3680, 1.8667, 2.3824 g tan alpha for w/p = 1, 2, 3.
+--                here the exact equation by rocking_overturning{}. Makris block .4 x 1.2 m: 1.3680, 1.8667, 2.3824 g alpha for w/p = 1, 2, 3.
 -- How to run     erbs run scenes/verify/v31_half_sine_overturning.lua [-D width=...] [-D height=...] [-D falls_2=1.2]
 -- What to look at  falls_w, alpha_w: amplitude over theory's.
 local width, height = param("width", 0.4, "[m]"), param("height", 1.2, "[m]")
@@ -16,9 +16,9 @@ for _, criterion in ipairs { "falls", "alpha" } do
   for _, w in ipairs { 1, 2, 3, 5 } do
     local name = criterion .. "_" .. w
     local case = { name = name, w = w, criterion = criterion == "falls" and "overturning" or "alpha_at_end" }
-    case.factor = param(name, 1.04, "amplitude over that of theory")
+    case.factor = param(name, 1.05, "amplitude over that of theory")
     cases[#cases + 1] = case
-    if case.factor ~= 1.04 then chosen = case end
+    if case.factor ~= 1.05 then chosen = case end
   end
 end
 chosen = chosen or cases[2]
@@ -33,9 +33,9 @@ ground_motion { wave = pulse, direction = "x" }
 metric("theory", "g tan alpha", theory.lowest)
 metric("housner", "g alpha", math.sqrt(1 + chosen.w ^ 2))
 for _, case in ipairs(cases) do
-  bisect { param = case.name, name = case.name .. "_over_theory", lo = 0.95, hi = 1.04, rel = 0.003,
+  bisect { param = case.name, name = case.name .. "_over_theory", lo = 0.96, hi = 1.04, rel = 0.003,
     collapsed_when = function(run)
-      if case.criterion == "overturning" then return block.overturned(run) end
+      if case.criterion == "overturning" then return run.collapse.collapsed end
       return math.abs(run.at(block.column, 0.5 / frequency)) >= block.theory.alpha
     end }
   -- 2 %: the toe is pressed into the bed and takes about 1 % of half the width away.

@@ -45,6 +45,5 @@ return function(keys)
     peaks[#peaks + 1] = peak / theory.alpha
     return times, peaks
   end
-  local function overturned(run) return run.peak(column) > 1.2 end  -- rad: nothing of these widths returns from there
-  return { name = name, theory = theory, column = column, impacts = impacts, overturned = overturned, kn = kn }
+  return { name = name, theory = theory, column = column, impacts = impacts, kn = kn }
 end
