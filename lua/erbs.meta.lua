@@ -563,3 +563,39 @@ function wall(keys) end
 ---@param keys erbs.building_keys
 function building(keys) end
 
+---@class erbs.arch_keys
+---@field name? string first word of its blocks' names [default arch]
+---@field group? string group of the voussoirs; default the name; abutments are in <group>_abutment
+---@field at? erbs.vec3 middle of the span, at the height of the centre of the circle [m; default { 0, 0, 0 }]
+---@field radius number of the centre line [m; at least 0]
+---@field thickness number of the ring, radially [m; at least 0]
+---@field width number across the span [m; at least 0]
+---@field voussoirs integer their number (of a pointed arch: even) [at least 1]
+---@field embrace? number angle of a round arch from springing to springing [rad; 0 to 4.71239; default 3.14159]
+---@field offset? number of a pointed arch: of the centres of its two arcs beyond the middle; 0 is round [m; at least 0; default 0]
+---@field axis? "x"|"y" direction of the span [default x]
+---@field abutments? boolean fixed blocks at the springings [default true]
+---@field material? string of all its blocks; default the only one there is
+
+---An arch of voussoirs with radial joints and straight sides: round, or pointed of two arcs. Blocks are called arch.v01, ... from the left.
+---@param keys erbs.arch_keys
+---@return table # blocks, abutments, volume (m3), centre_line (m)
+function arch(keys) end
+
+---@class erbs.column_keys
+---@field name? string first word of its blocks' names, and their group [default column]
+---@field group? string group of the blocks; default the name
+---@field at? erbs.vec3 middle of its foot [m; default { 0, 0, 0 }]
+---@field blocks integer their number [at least 1]
+---@field size? erbs.vec3 of one block along x, y, z [m]
+---@field diameter? number of round drums, instead of size [m; at least 0]
+---@field height? number of one drum [m; at least 0]
+---@field sides? integer of a drum's prism, whose corners lie on the circle [at least 3; default 24]
+---@field joint? number thickness of the joints, also below the first block; 0 is dry [m; at least 0; default 0]
+---@field material? string default the only one there is
+
+---A stack of equal blocks, square or round (a prism of many sides). Blocks are called column.b01, ... from the bottom.
+---@param keys erbs.column_keys
+---@return table # blocks, height (m)
+function column(keys) end
+

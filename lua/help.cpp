@@ -194,7 +194,9 @@ std::string editor_function(const Function& function) {
 }
 
 Function lua_function(const Json& item) {
-  return {item.value("name", ""), nullptr, "{ ... }", "", item.value("help", ""), keys_of(item.value("keys", Json::array()))};
+  const std::string returns = item.value("returns", "");
+  return {item.value("name", ""), nullptr, "{ ... }", returns.empty() ? "" : "table: " + returns, item.value("help", ""),
+          keys_of(item.value("keys", Json::array()))};
 }
 
 }  // namespace

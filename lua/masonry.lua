@@ -7,7 +7,7 @@
 
 local parts, eps = masonry_parts, masonry_parts.eps
 local fail, millimetres, piece_kind, ends = parts.fail, parts.millimetres, parts.piece_kind, parts.ends
-masonry_parts = nil  -- scenes see only wall, building and masonry_functions
+masonry_parts = nil  -- scenes see only wall, building, arch, column and masonry_functions
 
 -- Everything from the support up: storeys of courses, each with its slab.
 local function build(masonry, runs)

@@ -1,5 +1,5 @@
 -- What wall{...} and building{...} take: one table for reading, messages and help; and the reader that reports every mistake at once.
--- First of four files: masonry_keys, masonry_bond, masonry_runs, masonry. Each adds what the next ones use to masonry_parts.
+-- First of five files: masonry_keys, masonry_bond, masonry_runs, masonry_arch, masonry. Each adds what the next ones use to masonry_parts.
 
 -- type: number (low, high allowed ends included; `above` excluded), integer, string, boolean, vec (three numbers), table
 

@@ -70,7 +70,11 @@ std::string collapse_text(const Json& metrics) {
   const std::string towards = direction && direction->is_array() && direction->size() >= 2
                                   ? fmt::format(" towards ({:+.2f}, {:+.2f})", (*direction)[0].get<double>(), (*direction)[1].get<double>())
                                   : " in no one direction";
-  return fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass fell", number_at(metrics, "collapse.time_s"), towards, 100 * share);
+  std::string text =
+      fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass fell", number_at(metrics, "collapse.time_s"), towards, 100 * share);
+  const Json* mechanism = find_key(metrics, "collapse.mechanism.summary");
+  if (mechanism && mechanism->is_string() && *mechanism != "") text += "\nmechanism: " + mechanism->get<std::string>();
+  return text;
 }
 
 void print_summary(const Scene& scene, const std::string& directory, const Json& metrics, const std::vector<Verdict>& verdicts) {

@@ -203,7 +203,12 @@ void Run::sampled() {
   std::vector<int> fallen;
   const bool collapse = update(collapse_, run_.model, run_.state, now.t, &fallen);
   for (const int b : fallen) writer_->event(now.t, "fall", run_.model.block_name[z(b)], -run_.state.u[z(b)].z(), "m");
-  if (collapse) writer_->event(now.t, "collapse", scene_.name, collapse_.fallen_fraction, "share of mass");
+  if (collapse) {
+    writer_->event(now.t, "collapse", scene_.name, collapse_.fallen_fraction, "share of mass");
+    for (const MovedJoint& moved : collapse_.mechanism.moved)
+      writer_->event(now.t, word(moved.kind), run_.model.joint_name(moved.joint), std::max({moved.opening, moved.slip, moved.gap}), "m");
+    writer_->log(fmt::format("collapse at t = {:.6g} s; {}", now.t, summary(collapse_.mechanism, run_.model, 1000)));
+  }
   run_.state.joints_broken = broken_joints();
   if (row_now_) {
     writer_->row(now);
@@ -287,6 +292,7 @@ Metrics Run::metrics() const {
   if (collapse_.collapsed) m.collapse.time_s = collapse_.time;
   m.collapse.direction = collapse_direction(collapse_, run_.model, s);
   m.trust = trust_of(trust_, run_.model, s);
+  m.collapse.mechanism = mechanism_metrics(collapse_.collapsed ? collapse_.mechanism : mechanism_of(run_.model, s, m.time_s), run_.model);
   m.state_hash = state_hash(s);
   return m;
 }

@@ -33,6 +33,7 @@ bool update(Collapse& collapse, const Model& model, const State& state, double t
   if (collapse.collapsed || fallen == 0 || collapse.fallen_fraction < model.analysis.collapse_fraction) return false;
   collapse.collapsed = true;
   collapse.time = t;
+  collapse.mechanism = mechanism_of(model, state, t);
   return true;
 }
 

@@ -9,6 +9,7 @@
 
 #include "engine/model/model.h"
 #include "engine/model/state.h"
+#include "engine/record/mechanism.h"
 
 namespace erbs {
 
@@ -18,6 +19,7 @@ struct Collapse {
   double fallen_fraction = 0;        // share of the moving mass that is down now
   bool collapsed = false;            // the share has reached Analysis::collapse_fraction once
   double time = 0;                   // s, when it did
+  Mechanism mechanism;               // as it was then
 };
 
 template <class C, class F>
@@ -28,6 +30,7 @@ void each(C& c, F&& f) {
   f("collapse_fraction", c.fallen_fraction);
   f("collapse_collapsed", c.collapsed);
   f("collapse_time", c.time);
+  f("collapse_mechanism", c.mechanism);
 }
 
 Collapse watch_collapse(const Model& model, const State& start);

@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 
 #include "engine/model/state.h"
+#include "engine/record/mechanism.h"
 
 namespace erbs {
 namespace {
@@ -42,6 +43,25 @@ std::vector<std::string> metric_keys() {
   };
   add(add, to_json(all), "");
   return keys;
+}
+
+Metrics::Collapse::Mechanism mechanism_metrics(const Mechanism& mechanism, const Model& model) {
+  Metrics::Collapse::Mechanism out;
+  if (mechanism.time < 0) return out;
+  out.time_s = mechanism.time;
+  out.summary = summary(mechanism, model);
+  out.hinges = count(mechanism, Movement::hinge);
+  out.slides = count(mechanism, Movement::slide);
+  out.parted = count(mechanism, Movement::part);
+  for (const MovedJoint& moved : mechanism.moved)
+    out.joints.push_back({{"joint", model.joint_name(moved.joint)},
+                          {"kind", word(moved.kind)},
+                          {"opening_m", moved.opening},
+                          {"slip_m", moved.slip},
+                          {"gap_m", moved.gap},
+                          {"rotation_rad", moved.rotation},
+                          {"at_m", {moved.at[0], moved.at[1], moved.at[2]}}});
+  return out;
 }
 
 Json to_json(const Metrics& m) {
@@ -85,6 +105,13 @@ Json to_json(const Metrics& m) {
                    {"momentum_residual", m.trust.momentum_residual},
                    {"twin", m.trust.twin},
                    {"chaos_horizon_s", m.trust.chaos_horizon ? Json(*m.trust.chaos_horizon) : Json()}};
+  const auto& mechanism = m.collapse.mechanism;
+  collapse["mechanism"] = {{"time_s", mechanism.time_s ? Json(*mechanism.time_s) : Json()},
+                           {"summary", mechanism.summary},
+                           {"hinges", mechanism.hinges},
+                           {"slides", mechanism.slides},
+                           {"parted", mechanism.parted},
+                           {"joints", mechanism.joints}};
   json["state_hash"] = m.state_hash;
   json["expectations"] = {{"passed", m.expectations_passed}, {"failed", m.expectations_failed}};
   json["metrics"] = numbers(m.metrics);

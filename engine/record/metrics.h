@@ -12,6 +12,8 @@
 namespace erbs {
 
 struct Energy;
+struct Mechanism;
+struct Model;
 
 struct Metrics {
   std::string status = "completed";  // completed | diverged | stopped | interrupted
@@ -38,6 +40,12 @@ struct Metrics {
     std::optional<double> time_s;
     std::optional<std::array<double, 2>> direction;  // unit, x and y
     double fallen_fraction = 0;
+    struct Mechanism {  // at the collapse; without one, at the end
+      std::optional<double> time_s;
+      std::string summary;
+      int hinges = 0, slides = 0, parted = 0;
+      Json joints = Json::array();  // { joint, kind, opening_m, slip_m, gap_m, rotation_rad, at_m }
+    } mechanism;
   } collapse;
   // How far the run is to be trusted (analysis/trust.h).
   struct Trust {
@@ -57,6 +65,8 @@ struct Metrics {
 
 // The ledger's terms with the names they have in metrics.json and energy.csv (base_work_J ... reset_J), in that order.
 std::vector<std::pair<std::string, double>> energy_terms(const Energy& energy);
+
+Metrics::Collapse::Mechanism mechanism_metrics(const Mechanism& mechanism, const Model& model);
 
 Json to_json(const Metrics& metrics);
 std::vector<std::string> metric_keys();  // every dotted key of metrics.json but the scene's own: "collapse.time_s"

@@ -1,0 +1,30 @@
+-- Several structures in one scene, each with the value on paper at which it begins to move, found again by bisection.
+--
+-- cases { { name, value, build = function(value) ... return moved end, lo, hi, rel, expect = { ... } }, ... }
+--   name, value   metric <name>_over_paper is the value found over this one
+--   build         builds the structure under `value` of its load; returns function(run) that tells whether it moved (nil: it collapsed)
+--   lo, hi        shares of `value` where it stands and where it moves (default .95 and 1.05)
+--   rel           width of the last bracket (default .004)
+--   expect        tolerance of <name>_over_paper, as in expect{}
+-- The run of the scene itself shows the first structure at `show` of its value. A study changes the param of its own name, by which
+-- its runs know what to build.
+local unchanged = -1
+
+return function(cases)
+  local chosen
+  for _, case in ipairs(cases) do
+    case.share = param(case.name, unchanged, "load, of the value on paper")
+    if case.share ~= unchanged then chosen = case end
+  end
+  local asked = chosen or cases[1]
+  local moved = asked.build((chosen and chosen.share or asked.show or 1.05) * asked.value)
+  for _, case in ipairs(cases) do
+    bisect { param = case.name, name = case.name .. "_over_paper", lo = case.lo or 0.95, hi = case.hi or 1.05, rel = case.rel or 0.004,
+      collapsed_when = function(run)
+        if moved then return moved(run) end
+        return run.collapse.collapsed
+      end }
+    metric(case.name .. "_on_paper", case.unit or "", case.value)
+    expect("metrics." .. case.name .. "_over_paper", 1, case.expect)
+  end
+end
