@@ -241,6 +241,7 @@ bool Run::stop() {
   const double sampled_t = run_.state.t - run_.state.last_dt;
   if (sampled_t >= scene_.analysis.duration - 0.5 * run_.state.dt) return true;
   if (scene_.analysis.stop_after_collapse >= 0 && collapse_.collapsed && sampled_t >= collapse_.time + scene_.analysis.stop_after_collapse) return true;
+  if (collapse_.moved) return true;
   if (!std::isfinite(e.residual) || (e.residual_relative > 0.5 && e.kinetic > 1e3 * (e.absolute_work + 0.5 * e.height_flux + std::fabs(e.start)) && run_.state.step > 64)) {
     out_.metrics.status = "diverged";
     return true;
@@ -289,6 +290,7 @@ Metrics Run::metrics() const {
   m.max_penetration_relative = s.max_penetration_relative;
   m.collapse.collapsed = collapse_.collapsed;
   m.collapse.fallen_fraction = collapse_.fallen_fraction;
+  m.collapse.moved = collapse_.moved;
   if (collapse_.collapsed) m.collapse.time_s = collapse_.time;
   m.collapse.direction = collapse_direction(collapse_, run_.model, s);
   m.trust = trust_of(trust_, run_.model, s);

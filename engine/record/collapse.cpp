@@ -21,8 +21,10 @@ Collapse watch_collapse(const Model& model, const State& start) {
 
 bool update(Collapse& collapse, const Model& model, const State& state, double t, std::vector<int>* newly) {
   double fallen = 0, moving = 0;  // kg
+  const double far = model.analysis.stop_when_moved;
   for (std::size_t b = 0; b < collapse.start.size(); ++b) {
     if (model.kind[b] != Kind::moving) continue;
+    if (far > 0 && state.u[b].squaredNorm() > far * far) collapse.moved = true;
     moving += model.mass[b];
     if (!down(collapse, model, state, b)) continue;
     fallen += model.mass[b];

@@ -105,6 +105,7 @@ Json to_json(const Metrics& m) {
                    {"momentum_residual", m.trust.momentum_residual},
                    {"twin", m.trust.twin},
                    {"chaos_horizon_s", m.trust.chaos_horizon ? Json(*m.trust.chaos_horizon) : Json()}};
+  collapse["moved"] = m.collapse.moved;
   const auto& mechanism = m.collapse.mechanism;
   collapse["mechanism"] = {{"time_s", mechanism.time_s ? Json(*mechanism.time_s) : Json()},
                            {"summary", mechanism.summary},

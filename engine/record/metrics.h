@@ -40,6 +40,7 @@ struct Metrics {
     std::optional<double> time_s;
     std::optional<std::array<double, 2>> direction;  // unit, x and y
     double fallen_fraction = 0;
+    bool moved = false;  // the run was ended by Analysis::stop_when_moved
     struct Mechanism {  // at the collapse; without one, at the end
       std::optional<double> time_s;
       std::string summary;

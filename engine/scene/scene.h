@@ -134,6 +134,7 @@ struct Analysis {
   std::string overlap = "error";      // error | stress_free
   double collapse_fraction = 0.05;    // share of mass that has fallen
   double stop_after_collapse = -1;    // s of simulated time after collapse; -1: go on to duration
+  double stop_when_moved = 0;         // m; a block that has moved this far from rest ends the run; 0: none does
   double energy_gate = 0;             // relative; 0: by the kind of run (1e-6 elastic, 1e-3 bonded, 1e-2 collapse)
   double lazy_rotation = 1e-5;        // rad of block rotation between refreshes of joint frames
   bool gyroscopic = true;             // false: the scalar Euler equation of Gu and Miao eq. (1), for comparison only
@@ -154,6 +155,7 @@ struct Analysis {
         {"overlap", &Analysis::overlap, "", "what to do with blocks that overlap at rest", 0, 0, false, "error|stress_free"},
         {"collapse_fraction", &Analysis::collapse_fraction, "", "share of mass fallen that is called a collapse", 0, 1},
         {"stop_after_collapse", &Analysis::stop_after_collapse, "s", "time to go on after a collapse (-1: to the end)", -1, 1e6},
+        {"stop_when_moved", &Analysis::stop_when_moved, "m", "a block that has moved this far from rest ends the run, collapse.moved (0: none does)", 0, 1e6},
         {"energy_gate", &Analysis::energy_gate, "", "relative energy residual that ends a run (0: by the kind of run)", 0, 1e6},
         {"lazy_rotation", &Analysis::lazy_rotation, "rad", "block rotation between refreshes of joint frames", 0, 0.1},
         {"gyroscopic", &Analysis::gyroscopic, "", "the gyroscopic term w x (I w)"},

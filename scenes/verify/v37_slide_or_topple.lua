@@ -18,24 +18,17 @@ local function floor(mu)
   box { name = "floor", size = { 20, 2, 1 }, at = { -10, -1, -1 }, fixed = true, material = "stone" }
   joint { law = dry { kn = kn, ks = 0.4 * kn, mu = mu } }
 end
--- Has a block come off by more than `way`?
-local function moved(block, way)
-  recorder { name = "watched", quantity = "displacement", block = block }
-  return function(run) return run.peak("watched_ux_rel_m") > way end
-end
 local function single(width, height, mu)
   return function(lambda)
     floor(mu)
     box { name = "block", size = { width, 1, height }, at = { -width / 2, -0.5, 0 }, material = "stone" }
-    slow_load { lambda = lambda }
-    return moved("block", 0.01)
+    slow_load { lambda = lambda, moved = 0.01 }
   end
 end
 local function pile(lambda)
   floor(0.7)
-  local made = column { blocks = blocks, size = { 1.0, 1.0, 0.5 }, material = "stone" }
-  slow_load { lambda = lambda, hold = 3 }
-  return moved(made.blocks[blocks], 0.1)
+  column { blocks = blocks, size = { 1.0, 1.0, 0.5 }, material = "stone" }
+  slow_load { lambda = lambda, hold = 3, moved = 0.1 }
 end
 local function portal(beam_density)
   return function(lambda)
@@ -43,8 +36,7 @@ local function portal(beam_density)
     material { name = "beam", density = beam_density }
     for i, x in ipairs { -2, 2 } do box { name = "column" .. i, size = { 1, 1, 5 }, at = { x - 0.5, -0.5, 0 }, material = "stone" } end
     box { name = "beam", size = { 5, 1, 1 }, at = { -2.5, -0.5, 5 }, material = "beam" }
-    slow_load { lambda = lambda, hold = 3 }
-    return moved("beam", 0.1)
+    slow_load { lambda = lambda, hold = 3, moved = 0.1 }
   end
 end
 local soft = { rel = 0.02, source = "limit analysis" }  -- the bed, see above

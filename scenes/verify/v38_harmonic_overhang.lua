@@ -8,7 +8,7 @@
 --
 -- The last stable pose has the weight N above an edge pressed in over a length a with a^3 = 12 h N / (kn depth), h the height of the weight
 -- over the edge; its resultant is a/3 inside, and the lowest of n joints feels 2n times that: thin light blocks on a stiff bed keep it below 0.2 %.
-local kn = param("kn", 1e13, "[Pa/m]")
+local kn = param("kn", 4e12, "[Pa/m]")
 local length, height, depth, density = 1, 0.05, 0.5, 1000
 material { name = "stone", density = density, kn = kn, ks = 0.4 * kn, friction = 0.7 }
 
@@ -21,14 +21,12 @@ local function stack(n)
       reach = reach + scale / (2 * (n - level + 1)) * length
       box { name = "block" .. level, size = { length, depth, height }, at = { reach - length, -depth / 2, (level - 1) * height }, material = "stone" }
     end
-    analysis { duration = 2.5, output_dt = 0.02, frame_dt = 0.05, stop_after_collapse = 0 }
-    recorder { name = "tip", quantity = "displacement", block = "block" .. n }
-    return function(run) return run.min("tip_uz_rel_m") < -0.02 * length end
+    analysis { duration = 2.5, output_dt = 0.02, frame_dt = 0.05, stop_when_moved = 0.02 * length }
   end
 end
 -- 0.2 %: the edge pressed in.
 local cases = {}
-for _, n in ipairs { 2, 4, 5 } do
+for _, n in ipairs { 4, 5 } do
   cases[#cases + 1] = { name = "blocks_" .. n, value = 1, build = stack(n), lo = 0.997, hi = 1.003, rel = 1e-3, show = 1.01, expect = { rel = 0.002, source = "sum 1/(2k)" } }
 end
 (include "parts/cases.lua")(cases)

@@ -7,7 +7,7 @@
 -- How to run     erbs run scenes/verify/v39_arch_thickness.lua [-D round_10=1.01] [-D kn=...]
 -- What to look at  *_over_paper; hinges_*; the mechanism of the run (at .97 of the least thickness): five hinges.
 local R = param("R", 10, "radius of the centre line [m]")
-local kn = param("kn", 1e13, "[Pa/m]")
+local kn = param("kn", 6e12, "[Pa/m]")
 local density, width = 2000, 1
 
 local thrust_line = include "parts/thrust_line.lua"
@@ -16,9 +16,7 @@ local function build(n, embrace, offset)
   return function(thickness)
     arch { radius = R, thickness = thickness * R, width = width, voussoirs = n, embrace = embrace, offset = offset * R, material = "stone" }
     joint { law = dry { kn = kn, ks = 0.4 * kn, mu = 2 } }
-    recorder { name = "crown", quantity = "displacement", block = string.format("arch.v%02d", n // 2 + 1), axis = "z" }
-    analysis { duration = param("duration", 6, "[s]"), output_dt = 0.02, frame_dt = 0.1, stop_after_collapse = 0 }
-    return function(run) return run.min("crown_uz_rel_m") < -0.01 * R or run.max("crown_uz_rel_m") > 0.01 * R end
+    analysis { duration = 5, output_dt = 0.02, frame_dt = 0.1, stop_when_moved = 0.01 * R }
   end
 end
 local cases = {}
@@ -26,7 +24,7 @@ for _, row in ipairs { { 10, 180, 0 }, { 27, 180, 0 }, { 15, 150, 0 }, { 14, 180
   local n, embrace, offset = row[1], row[2] * deg, row[3]
   local kind = offset > 0 and "pointed" or row[2] == 180 and "round" or "segment"
   local least = thrust_line.least_thickness(n, embrace, offset)
-  cases[#cases + 1] = { name = kind .. "_" .. n, value = least, build = build(n, embrace, offset), lo = 1.03, hi = 0.97, show = 0.97, rel = 0.003, unit = "t/R",
+  cases[#cases + 1] = { name = kind .. "_" .. n, value = least, build = build(n, embrace, offset), lo = 1.03, hi = 0.97, show = 0.97, rel = 0.005, unit = "t/R",
     expect = { between = { 0.999, 1.02 }, source = "thrust line" } }
 end
 (include "parts/cases.lua")(cases)

@@ -1,8 +1,9 @@
 -- Several structures in one scene, each with the value on paper at which it begins to move, found again by bisection.
 --
--- cases { { name, value, build = function(value) ... return moved end, lo, hi, rel, expect = { ... } }, ... }
+-- cases { { name, value, build = function(value) ... ... end, lo, hi, rel, expect = { ... } }, ... }
 --   name, value   metric <name>_over_paper is the value found over this one
---   build         builds the structure under `value` of its load; returns function(run) that tells whether it moved (nil: it collapsed)
+--   build         builds the structure under `value` of its load, and says in analysis{} when it has moved (stop_when_moved); it may return
+--                 a function(run) that tells so instead
 --   lo, hi        shares of `value` where it stands and where it moves (default .95 and 1.05)
 --   rel           width of the last bracket (default .004)
 --   expect        tolerance of <name>_over_paper, as in expect{}
@@ -22,7 +23,7 @@ return function(cases)
     bisect { param = case.name, name = case.name .. "_over_paper", lo = case.lo or 0.95, hi = case.hi or 1.05, rel = case.rel or 0.004,
       collapsed_when = function(run)
         if moved then return moved(run) end
-        return run.collapse.collapsed
+        return run.collapse.collapsed or run.collapse.moved
       end }
     metric(case.name .. "_on_paper", case.unit or "", case.value)
     expect("metrics." .. case.name .. "_over_paper", 1, case.expect)

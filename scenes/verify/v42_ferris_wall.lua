@@ -1,0 +1,27 @@
+-- V42: the dry wall of Ferris and Tin-Loi under a horizontal load in its plane, in both bonds.
+--
+-- What happens   Blocks .4 x .175 m, five wide and six courses high, mu .65; each is pushed by lambda times its weight. With halves at the ends
+--                of the lowest course a corner turns off along a stepped crack; with five whole blocks there the wall slides at mu.
+-- Source         Ferris and Tin-Loi 2001 (Int. J. Mech. Sci. 43, 209): .6429 associative, about .640 not; linear programming .64286 and, without
+--                friction in the head joints, .63997.
+-- How to run     erbs run scenes/verify/v42_ferris_wall.lua [-D halves=1.02] [-D kn=...]
+-- What to look at  *_over_paper; the mechanism of the run.
+local kn = param("kn", 2e12, "[Pa/m]")
+local courses, wide, mu = 6, 5, 0.65
+
+local slow_load = include "parts/slow_load.lua"
+local function build(halves)
+  return function(lambda)
+    material { name = "brick", density = 2000, kn = kn, ks = 0.4 * kn, friction = mu }
+    box { name = "floor", size = { 8, 1, 0.5 }, at = { -4, -0.5, -0.5 }, fixed = true, material = "brick" }
+    wall { brick = { length = 0.4, width = 0.2, height = 0.175 }, length = wide * 0.4, courses = courses, joint = 0, shift = halves and 1 or 0, closer = 0.1,
+      at = { -wide * 0.2, -0.1, 0 }, material = "brick", quiet = true }
+    joint { law = dry { kn = kn, ks = 0.4 * kn, mu = mu } }
+    slow_load { lambda = lambda, grow = 1, hold = 2, moved = 0.01 }
+  end
+end
+(include "parts/cases.lua") {
+  -- 2 %: between associative and not; toes pressed in.
+  { name = "halves", value = 0.64, build = build(true), expect = { rel = 0.02, source = "Ferris and Tin-Loi 2001, non-associative" } },
+  { name = "whole", value = mu, build = build(false), expect = { rel = 0.02, source = "slides at mu" } },
+}

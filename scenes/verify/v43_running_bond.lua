@@ -1,0 +1,27 @@
+-- V43: running-bond walls of dry bricks under a horizontal load in their plane.
+--
+-- What happens   Walls 4 bricks wide of bricks .3 x .1 m, mu .6, pushed by lambda times their weight: tall ones (16 courses) turn off along a
+--                stepped crack below mu, low ones (8 and 12 courses) slide at mu. Both bonds: whole bricks or halves at the ends of the lowest course.
+-- Source         Limit analysis by linear programming, with and without friction in the head joints: whole .57950 / .57546, halves .56562 / .56087.
+-- How to run     erbs run scenes/verify/v43_running_bond.lua [-D whole_16=1.02] [-D kn=...]
+-- What to look at  *_over_paper; the mechanism of the run.
+local kn = param("kn", 4e12, "[Pa/m]")
+local mu = 0.6
+
+local slow_load = include "parts/slow_load.lua"
+local function build(courses, halves)
+  return function(lambda)
+    material { name = "brick", density = 2000, kn = kn, ks = 0.4 * kn, friction = mu }
+    box { name = "floor", size = { 8, 1, 0.5 }, at = { -4, -0.5, -0.5 }, fixed = true, material = "brick" }
+    wall { brick = { length = 0.3, width = 0.15, height = 0.1 }, length = 1.2, courses = courses, joint = 0, shift = halves and 1 or 0, closer = 0.1,
+      at = { -0.6, -0.075, 0 }, material = "brick", quiet = true }
+    joint { law = dry { kn = kn, ks = 0.4 * kn, mu = mu } }
+    slow_load { lambda = lambda, grow = 1, hold = 1.5, moved = 0.01 }
+  end
+end
+(include "parts/cases.lua") {
+  -- Of its own bond: between without and with friction in the head joints, 1 % on either side.
+  { name = "whole_16", value = 0.57748, build = build(16, false), expect = { between = { 0.57546 * 0.99 / 0.57748, 0.57950 * 1.01 / 0.57748 }, source = "limit analysis" } },
+  { name = "halves_16", value = 0.56325, build = build(16, true), expect = { between = { 0.56087 * 0.99 / 0.56325, 0.56562 * 1.01 / 0.56325 }, source = "limit analysis" } },
+  { name = "whole_8", value = mu, build = build(8, false), lo = 0.98, hi = 1.02, expect = { rel = 0.01, source = "slides at mu" } },
+}
