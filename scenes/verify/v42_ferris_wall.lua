@@ -6,7 +6,8 @@
 --                friction in the head joints, .63997.
 -- How to run     erbs run scenes/verify/v42_ferris_wall.lua [-D halves=1.02] [-D kn=...]
 -- What to look at  *_over_paper; the mechanism of the run.
-local kn = param("kn", 2e12, "[Pa/m]")
+local kn = param("kn", 4e11, "[Pa/m]")
+damping { mass = param("damping", 100, "see v43_running_bond.lua [1/s]") }
 local courses, wide, mu = 6, 5, 0.65
 
 local slow_load = include "parts/slow_load.lua"
@@ -14,10 +15,10 @@ local function build(halves)
   return function(lambda)
     material { name = "brick", density = 2000, kn = kn, ks = 0.4 * kn, friction = mu }
     box { name = "floor", size = { 8, 1, 0.5 }, at = { -4, -0.5, -0.5 }, fixed = true, material = "brick" }
-    wall { brick = { length = 0.4, width = 0.2, height = 0.175 }, length = wide * 0.4, courses = courses, joint = 0, shift = halves and 1 or 0, closer = 0.1,
+    wall { brick = { length = 0.4, width = 0.2, height = 0.175 }, length = wide * 0.4, courses = courses, joint = 0, shift = halves and 0 or 1, closer = 0.1,
       at = { -wide * 0.2, -0.1, 0 }, material = "brick", quiet = true }
     joint { law = dry { kn = kn, ks = 0.4 * kn, mu = mu } }
-    slow_load { lambda = lambda, grow = 1, hold = 2, moved = 0.01 }
+    slow_load { lambda = lambda, grow = 1, hold = 2, moved = 0.002 }
   end
 end
 (include "parts/cases.lua") {

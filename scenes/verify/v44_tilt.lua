@@ -15,7 +15,7 @@ local function tilt_to(angle, moved)
     times[i + 1], values[i + 1] = 2 * x, angle * x * x * (3 - 2 * x)
   end
   tilt { wave = table_wave { times = times, values = values, hold = true }, axis = "y" }
-  analysis { duration = 5, output_dt = 0.02, frame_dt = 0.05, stop_when_moved = moved }
+  analysis { duration = 4, output_dt = 0.02, frame_dt = 0.05, stop_when_moved = moved }
 end
 -- The bed takes 1.89 (4/9 d0 h/b^2)^(1/3) off (V30): a wall of one piece on a bed of 2e14 Pa/m loses .3 %.
 local function wall_of(courses, thickness, kn)
@@ -41,7 +41,7 @@ local function lune(corners)
 end
 local pieces, R = 15, 10  -- of the two lunes, the keystone shared
 local function dome(thickness)
-  local kn, spread = 2e13, math.tan(10 * deg)
+  local kn, spread = 5e12, math.tan(10 * deg)
   material { name = "stone", density = 2000, kn = kn, ks = 0.4 * kn, friction = 2 }
   joint { law = dry { kn = kn, ks = 0.4 * kn, mu = 2 } }
   local joints = thrust_line.half_arch(pieces, pi, 0, thickness)
@@ -72,12 +72,12 @@ local function dome(thickness)
     for _, p in ipairs(corners(last, side)) do below[#below + 1] = { p[1], p[2], p[3] - t } end
     block { name = name .. "_foot", fixed = true, material = "stone", vertices = below }
   end
-  analysis { duration = 5, output_dt = 0.02, frame_dt = 0.1, stop_when_moved = 0.005 * R }
+  analysis { duration = 4, output_dt = 0.02, frame_dt = 0.1, stop_when_moved = 0.005 * R }
 end
 (include "parts/cases.lua") {
-  { name = "wall", value = math.atan(0.3 / H), build = wall_of(1, 0.3, 2e14), lo = 0.99, hi = 1.005, rel = 0.002, unit = "rad", expect = { rel = 0.005, source = "atan(t/H); toe of the bed -.3 %" } },
-  { name = "thick_wall", value = math.atan(0.6 / H), build = wall_of(1, 0.6, 1e14), lo = 0.99, hi = 1.005, rel = 0.002, unit = "rad", expect = { rel = 0.005, source = "atan(t/H); toe of the bed -.3 %" } },
+  { name = "wall", value = math.atan(0.3 / H), build = wall_of(1, 0.3, 2e14), lo = 0.99, hi = 1.005, rel = 0.003, unit = "rad", expect = { rel = 0.005, source = "atan(t/H); toe of the bed -.3 %" } },
+  { name = "thick_wall", value = math.atan(0.6 / H), build = wall_of(1, 0.6, 5e13), lo = 0.99, hi = 1.005, rel = 0.003, unit = "rad", expect = { rel = 0.005, source = "atan(t/H); toe of the bed -.3 %" } },
   -- 2 %: the toes of ten softer beds.
-  { name = "courses", value = math.atan(0.3 / H), build = wall_of(10, 0.3, 4e12), lo = 0.97, hi = 1.01, rel = 0.003, unit = "rad", expect = { rel = 0.02, source = "atan(t/H)" } },
-  { name = "dome", value = thrust_line.least_thickness(pieces, pi, 0, lune), build = dome, lo = 1.05, hi = 0.97, rel = 0.006, unit = "t/R", expect = { between = { 0.999, 1.04 }, source = "thrust line of a lune" } },
+  { name = "courses", value = math.atan(0.3 / H), build = wall_of(10, 0.3, 3e12), lo = 0.97, hi = 1.01, rel = 0.005, unit = "rad", expect = { rel = 0.02, source = "atan(t/H)" } },
+  { name = "dome", value = thrust_line.least_thickness(pieces, pi, 0, lune), build = dome, lo = 1.05, hi = 0.98, rel = 0.01, unit = "t/R", expect = { between = { 0.999, 1.04 }, source = "thrust line of a lune" } },
 }

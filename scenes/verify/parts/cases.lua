@@ -20,7 +20,7 @@ return function(cases)
   local asked = chosen or cases[1]
   local moved = asked.build((chosen and chosen.share or asked.show or 1.05) * asked.value)
   for _, case in ipairs(cases) do
-    bisect { param = case.name, name = case.name .. "_over_paper", lo = case.lo or 0.95, hi = case.hi or 1.05, rel = case.rel or 0.004,
+    bisect { param = case.name, name = case.name .. "_over_paper", lo = case.lo or 0.95, hi = case.hi or 1.05, rel = case.rel or 0.004, points = 2,
       collapsed_when = function(run)
         if moved then return moved(run) end
         return run.collapse.collapsed or run.collapse.moved

@@ -7,7 +7,7 @@ return function(keys)
     times[i + 1], values[i + 1] = grow * x, keys.lambda * g * x * x * (3 - 2 * x)
   end
   ground_motion { wave = table_wave { times = times, values = values, hold = true }, direction = keys.direction or "x" }
-  analysis { duration = grow + (keys.hold or 2), output_dt = 0.01, frame_dt = 0.05, stop_when_moved = keys.moved,
+  analysis { duration = grow + (keys.hold or 2), output_dt = 0.01, frame_dt = 0.05, dt_fraction = keys.dt_fraction, stop_when_moved = keys.moved,
     -- 1 %: little energy passes through a structure that is loaded slowly, and the ledger is a share of it.
     energy_gate = 1e-2 }
 end
