@@ -6,6 +6,7 @@
 --                .25 x 1.0 m at phi0 = .5: 1.39423 s (linear); .6 x 3 m at .05 rad: 1.46278 s (linear), 1.46576 s (exact).
 -- How to run     erbs run scenes/verify/v28_rocking_period.lua [-D settlement=...] [-D foot=...]
 -- What to look at  period_<block>_<phi>: over the exact one; linear_*: over Housner's formula (for information).
+label("quick")
 local settlement, foot = param("settlement", 1.7e-6, "of the full base over half the width"), param("foot", 0.008, "width of a foot over that of the block")
 
 local rocking_block = include "parts/rocking_block.lua"

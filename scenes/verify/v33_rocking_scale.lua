@@ -6,6 +6,7 @@
 -- Source         Housner 1963: p = sqrt(3 g / (4 R)), and nothing else in the dimensionless equation.
 -- How to run     erbs run scenes/verify/v33_rocking_scale.lua [-D scale=4] [-D w=3] [-D share=0.97]
 -- What to look at  difference_*: largest difference of theta / alpha; time_ratio: of the first impacts over sqrt(scale).
+label("quick")
 local scale, w = param("scale", 2, "of the larger block"), param("w", 2, "omega / p of the pulse")
 local share = param("share", 0.97, "amplitude over the one that overturns")
 local width, height, density, depth = 0.4, 1.2, 2500, 0.4

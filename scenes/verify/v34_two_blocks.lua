@@ -6,6 +6,7 @@
 -- Source         Psycharis 1990 (EESD 19, 555): patterns 1 both the same way, 2 opposite, 3 the upper alone, 4 both as one on the lower's edge.
 -- How to run     erbs run scenes/verify/v34_two_blocks.lua [-D amplitude=0.5] [-D frequency=1.2]
 -- What to look at  mirror; pattern_1..4: share of the time in each; changes: number of changes of pattern.
+label("quick")
 local amplitude, frequency = param("amplitude", 0.42, "[g]"), param("frequency", 1.0, "[Hz]")
 local kn = param("kn", 2e10, "[Pa/m]")
 local width, depth, density, heights = 0.5, 0.5, 2400, { 1.0, 1.2 }

@@ -6,6 +6,7 @@
 -- Source         Makris and Vassiliou 2013 (EESD 42, 371); exact equation by rocking{ p = p_hat }.
 -- How to run     erbs run scenes/verify/v35_rocking_frame.lua [-D phi=0.3] [-D columns=4]
 -- What to look at  quarter_*: time of the first impact over the formula, for several masses of the beam.
+label("quick")
 local width, height, phi = param("width", 0.5, "of a column [m]"), param("height", 3, "[m]"), param("phi", 0.5, "tilt over alpha")
 local columns = param("columns", 2, "their number")
 local kn = param("kn", 5e10, "[Pa/m]")

@@ -5,6 +5,7 @@
 -- Source         Symmetry; the ledger.
 -- How to run     erbs run scenes/verify/v36_drum.lua [-D sides=48] [-D tilt=0.2]
 -- What to look at  mirror: largest |x_1 + x_2| over the radius; aside: out of plane; losses; energy.residual_relative.
+label("quick")
 local sides, tilted = param("sides", 32, "of a drum"), param("tilt", 0.15, "[rad]")
 local radius, height, kn = 0.5, 1.5, param("kn", 2e9, "[Pa/m]")
 material { name = "stone", density = 2500, kn = kn, ks = 0.4 * kn, friction = 0.8, restitution = 0.2 }

@@ -4,6 +4,7 @@
 -- Source         Statics: half = 45 degrees .70711 W.
 -- How to run     erbs run scenes/verify/v45_wedge.lua [-D kn=...]
 -- What to look at  left_*, right_*: normal force over W.
+label("quick")
 local kn = param("kn", 1e10, "[Pa/m]")
 local density, d, length, cut = 2000, 0.2, 0.5, 0.2
 
