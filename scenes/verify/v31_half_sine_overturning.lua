@@ -33,7 +33,7 @@ ground_motion { wave = pulse, direction = "x" }
 metric("theory", "g tan alpha", theory.lowest)
 metric("housner", "g alpha", math.sqrt(1 + chosen.w ^ 2))
 for _, case in ipairs(cases) do
-  bisect { param = case.name, name = case.name .. "_over_theory", lo = 0.96, hi = 1.04, rel = 0.003,
+  bisect { param = case.name, name = case.name .. "_over_theory", lo = 0.96, hi = 1.04, rel = 0.004, points = 2,
     collapsed_when = function(run)
       if case.criterion == "overturning" then return run.collapse.collapsed end
       return math.abs(run.at(block.column, 0.5 / frequency)) >= block.theory.alpha

@@ -15,7 +15,7 @@ material { name = "stone", density = density, kn = kn, ks = 0.4 * kn, friction =
 local cases = {}
 for _, row in ipairs { { 7, 0.15, 157.5 }, { 27, 0.15, 157.5 }, { 11, 0.2, 140 } } do
   local n, t, embrace = row[1], row[2], row[3] * deg
-  cases[#cases + 1] = { name = "voussoirs_" .. n, value = hinges.multiplier(n, t, embrace), unit = "g", lo = 0.96, hi = 1.02, rel = 0.005,
+  cases[#cases + 1] = { name = "voussoirs_" .. n, value = hinges.multiplier(n, t, embrace), unit = "g", lo = 0.96, hi = 1.02, rel = 0.007,
     build = function(lambda)
       arch { radius = R, thickness = t * R, width = 1, voussoirs = n, embrace = embrace, material = "stone" }
       joint { law = dry { kn = kn, ks = 0.4 * kn, mu = 3 } }
