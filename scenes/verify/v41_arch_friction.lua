@@ -15,6 +15,8 @@ local n, t, density = 27, 0.15, 2000
       material { name = "stone", density = density, kn = kn, ks = 0.4 * kn, friction = mu }
       arch { radius = R, thickness = t * R, width = 1, voussoirs = n, material = "stone" }
       joint { law = dry { kn = kn, ks = 0.4 * kn, mu = mu } }
-      analysis { duration = 5, output_dt = 0.02, frame_dt = 0.1, stop_when_moved = 0.005 * R, energy_gate = 1e-2 }
+      analysis { duration = 5, output_dt = 0.02, frame_dt = 0.1, stop_when_moved = 0.005 * R,
+        -- The springings slide by millimetres and little energy passes through: single steps of .5 J there (of 10 kJ that fall where it collapses) come to 5 %.
+        energy_gate = 0.1 }
     end },
 }

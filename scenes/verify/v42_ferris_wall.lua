@@ -7,7 +7,7 @@
 -- How to run     erbs run scenes/verify/v42_ferris_wall.lua [-D halves=1.02] [-D kn=...]
 -- What to look at  *_over_paper; the mechanism of the run.
 local kn = param("kn", 4e11, "[Pa/m]")
-damping { mass = param("damping", 100, "see v43_running_bond.lua [1/s]") }
+damping { mass = param("damping", 300, "see v43_running_bond.lua [1/s]") }
 local courses, wide, mu = 6, 5, 0.65
 
 local slow_load = include "parts/slow_load.lua"
@@ -18,7 +18,7 @@ local function build(halves)
     wall { brick = { length = 0.4, width = 0.2, height = 0.175 }, length = wide * 0.4, courses = courses, joint = 0, shift = halves and 0 or 1, closer = 0.1,
       at = { -wide * 0.2, -0.1, 0 }, material = "brick", quiet = true }
     joint { law = dry { kn = kn, ks = 0.4 * kn, mu = mu } }
-    slow_load { lambda = lambda, grow = 1, hold = 2, moved = 0.002 }
+    slow_load { lambda = lambda, grow = 1, hold = 2.5, moved = 0.001 }
   end
 end
 (include "parts/cases.lua") {

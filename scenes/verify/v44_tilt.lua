@@ -15,16 +15,16 @@ local function tilt_to(angle, moved)
     times[i + 1], values[i + 1] = 2 * x, angle * x * x * (3 - 2 * x)
   end
   tilt { wave = table_wave { times = times, values = values, hold = true }, axis = "y" }
-  analysis { duration = 4, output_dt = 0.02, frame_dt = 0.05, stop_when_moved = moved }
+  analysis { duration = 5, output_dt = 0.02, frame_dt = 0.05, stop_when_moved = moved }
 end
--- The bed takes 1.89 (4/9 d0 h/b^2)^(1/3) off (V30): a wall of one piece on a bed of 2e14 Pa/m loses .3 %.
+-- The bed takes 1.89 (4/9 d0 h/b^2)^(1/3) off (V30): a wall of one piece on a bed of 4e14 Pa/m loses .2 %.
 local function wall_of(courses, thickness, kn)
   return function(angle)
     material { name = "brick", density = density, kn = kn, ks = 0.4 * kn, friction = 0.8 }
     box { name = "floor", size = { 10, 2, 0.5 }, at = { -5, -1, -0.5 }, fixed = true, material = "brick" }
     column { name = "wall", blocks = courses, size = { thickness, 1, H / courses }, material = "brick" }
     joint { law = dry { kn = kn, ks = 0.4 * kn, mu = 0.8 } }
-    tilt_to(angle, 0.03 * H)
+    tilt_to(angle, 0.01 * H)
   end
 end
 
@@ -75,8 +75,8 @@ local function dome(thickness)
   analysis { duration = 4, output_dt = 0.02, frame_dt = 0.1, stop_when_moved = 0.005 * R }
 end
 (include "parts/cases.lua") {
-  { name = "wall", value = math.atan(0.3 / H), build = wall_of(1, 0.3, 2e14), lo = 0.99, hi = 1.005, rel = 0.003, unit = "rad", expect = { rel = 0.005, source = "atan(t/H); toe of the bed -.3 %" } },
-  { name = "thick_wall", value = math.atan(0.6 / H), build = wall_of(1, 0.6, 5e13), lo = 0.99, hi = 1.005, rel = 0.003, unit = "rad", expect = { rel = 0.005, source = "atan(t/H); toe of the bed -.3 %" } },
+  { name = "wall", value = math.atan(0.3 / H), build = wall_of(1, 0.3, 4e14), lo = 0.99, hi = 1.005, rel = 0.003, unit = "rad", expect = { rel = 0.005, source = "atan(t/H); toe of the bed -.2 %" } },
+  { name = "thick_wall", value = math.atan(0.6 / H), build = wall_of(1, 0.6, 1.5e14), lo = 0.99, hi = 1.005, rel = 0.003, unit = "rad", expect = { rel = 0.005, source = "atan(t/H); toe of the bed -.2 %" } },
   -- 2 %: the toes of ten softer beds.
   { name = "courses", value = math.atan(0.3 / H), build = wall_of(10, 0.3, 3e12), lo = 0.97, hi = 1.01, rel = 0.005, unit = "rad", expect = { rel = 0.02, source = "atan(t/H)" } },
   { name = "dome", value = thrust_line.least_thickness(pieces, pi, 0, lune), build = dome, lo = 1.05, hi = 0.98, rel = 0.01, unit = "t/R", expect = { between = { 0.999, 1.04 }, source = "thrust line of a lune" } },
