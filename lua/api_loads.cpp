@@ -28,10 +28,12 @@ int add_load(Call& call, Load::Kind kind, const char* direction) {
   read_wave(call, arguments, load);
   arguments.direction(direction, load.direction);
   load.direction = frame.vector(load.direction);
-  if (kind == Load::Kind::force || kind == Load::Kind::moment || kind == Load::Kind::motion) arguments.read("block", load.block);
-  if (kind == Load::Kind::force) {
-    load.has_point = arguments.has("point");
-    arguments.read("point", load.point);
+  if (kind == Load::Kind::force || kind == Load::Kind::moment || kind == Load::Kind::motion || kind == Load::Kind::turning)
+    arguments.read("block", load.block);
+  if (kind == Load::Kind::force || kind == Load::Kind::turning) {
+    const char* point = kind == Load::Kind::force ? "point" : "about";
+    load.has_point = arguments.has(point);
+    arguments.read(point, load.point);
     load.point = frame.point(load.point);
   }
   call.context.scene.loads.push_back(std::move(load));
@@ -43,6 +45,8 @@ int force(Call& call) { return add_load(call, Load::Kind::force, "direction"); }
 int moment(Call& call) { return add_load(call, Load::Kind::moment, "direction"); }
 int tilt(Call& call) { return add_load(call, Load::Kind::tilt, "axis"); }
 int motion(Call& call) { return add_load(call, Load::Kind::motion, "direction"); }
+
+int turning(Call& call) { return add_load(call, Load::Kind::turning, "axis"); }
 
 int gravity(Call& call) {
   Scene& scene = call.context.scene;
@@ -79,6 +83,8 @@ Keys load_keys(const std::string& unit, const std::string& direction, const std:
 std::vector<Function> load_functions() {
   Keys force_keys = load_keys("N", "direction", "\"x\", \"y\", \"z\" or a vector", true);
   force_keys.push_back({"point", "vec3", "m", "point of the block at rest where it acts (default the centroid)", -1e6, 1e6});
+  Keys turning_keys = load_keys("rad", "axis", "\"x\", \"y\", \"z\" or a vector", true);
+  turning_keys.push_back({"about", "vec3", "m", "point at rest that stays where it is (default the centroid)", -1e6, 1e6});
   return {
       {"ground_motion", ground_motion, "{ ... }", "", "Shakes the ground by an acceleration; several add up.",
        load_keys("m/s2", "direction", "\"x\", \"y\", \"z\" or a vector", false)},
@@ -89,6 +95,7 @@ std::vector<Function> load_functions() {
        load_keys("rad", "axis", "\"x\", \"y\", \"z\" or a vector", false)},
       {"motion", motion, "{ ... }", "", "Moves a block by a displacement along a direction; its other degrees of freedom are held.",
        load_keys("m", "direction", "\"x\", \"y\", \"z\" or a vector", true)},
+      {"turning", turning, "{ ... }", "", "Turns a block by an angle about an axis; with motion both are held, without it its place too.", turning_keys},
       {"gravity",
        gravity,
        "{ ... }",

@@ -21,7 +21,7 @@
 ---@field first fun(column: string): number
 ---@field last fun(column: string): number
 ---@field at fun(column: string, t: number): number value at time t [s], linear between rows
----@field frequency fun(column: string): number dominant frequency [Hz]
+---@field frequency fun(column: string, from?: number, to?: number): number dominant frequency, of a band if one is given [Hz]
 ---@field period fun(column: string): number mean time between rising crossings of zero [s]
 ---@field crossings fun(column: string, level?: number, rising?: boolean): number[] times of passing the level [s]
 ---@field events { time: number, event: string, name: string, value: number }[] events.csv
@@ -336,6 +336,18 @@ function tilt(keys) end
 ---@param keys erbs.motion_keys
 function motion(keys) end
 
+---@class erbs.turning_keys
+---@field block string name of the block
+---@field wave erbs.wave|number|fun(t: number): number a wave, a number, or a function of time [rad]
+---@field axis? "x"|"y"|"z"|erbs.vec3 "x", "y", "z" or a vector [-1e+09 to 1e+09; default "x"]
+---@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
+---@field name? string name, for reports
+---@field about? erbs.vec3 point at rest that stays where it is (default the centroid) [m; -1e+06 to 1e+06]
+
+---Turns a block by an angle about an axis; with motion both are held, without it its place too.
+---@param keys erbs.turning_keys
+function turning(keys) end
+
 ---@class erbs.gravity_keys
 ---@field [1] number along x (or the one number: downwards) [m/s2; -1000 to 1000]
 ---@field 2 number along y [m/s2; -1000 to 1000]
@@ -360,8 +372,13 @@ function damping(keys) end
 ---@field dt? number time step (0: from dt_rule); { value, unstable = true } lets one past the limit run [s; 0 to 1; default 0]
 ---@field dt_fraction? number share of the limit in force [1e-06 to 1; default 0.9]
 ---@field dt_rule? "limit"|"period_tenth"|"hart"|"hakuno"|"hakuno_half" where dt comes from [default limit]
----@field unstable? boolean let a dt past the limit run [default false]
+---@field unstable? boolean let a dt past the limit run, or a sequential solver that feeds energy [default false]
 ---@field kernel? "fast"|"reference" which step kernel [default fast]
+---@field solver? "leapfrog"|"sequential" all blocks at once, or one after the other as Gu and Miao (it feeds energy: for studies) [default leapfrog]
+---@field variant? "literal"|"centred" sequential: forces where a block is, or half a step ahead on its path [default literal]
+---@field order? "random"|"fixed"|"coloured" sequential: which block is let go next [default random]
+---@field iterations? integer sequential: sweeps per step, each over its share of dt [1 to 1e+06; default 1]
+---@field seed? integer sequential: of the random order [0 to 2.14748e+09; default 1]
 ---@field start? "equilibrium"|"ramp"|"rest" how gravity comes on [default equilibrium]
 ---@field ramp_time? number length of the gravity ramp (0: chosen) [s; 0 to 1e+06; default 0]
 ---@field overlap? "error"|"stress_free" what to do with blocks that overlap at rest [default error]

@@ -182,7 +182,7 @@ void Arguments::read(const std::string& key, double& into) {
 void Arguments::read(const std::string& key, int& into) {
   if (!push(key)) return;
   if (const auto value = number_at_top(key, key)) {
-    if (*value == std::floor(*value) && std::abs(*value) < 1e9) into = static_cast<int>(*value);
+    if (*value == std::floor(*value) && std::abs(*value) < 2147483648.0) into = static_cast<int>(*value);
     else mistake(fmt::format("{} = {} must be a whole number", key, written(*value)));
   }
   lua_pop(lua_, 1);

@@ -65,7 +65,11 @@ void add_loads(const Scene& scene, Model& m) {
         m.pushes.push_back({load.wave, load.direction, b, Vec3::Zero(), true});
         break;
       case Load::Kind::motion:
-        m.drives.push_back({load.wave, load.direction, b});
+        m.drives.push_back({load.wave, load.direction, b, false, Vec3::Zero()});
+        m.kind[z(b)] = Kind::driven;
+        break;
+      case Load::Kind::turning:
+        m.drives.push_back({load.wave, load.direction.normalized(), b, true, load.has_point ? Vec3(m.rest[z(b)] - load.point) : Vec3(Vec3::Zero())});
         m.kind[z(b)] = Kind::driven;
         break;
     }

@@ -70,7 +70,7 @@ struct Model {
   std::vector<int> row_a, row_b;        // wrench row of each end       [njoint]
   // what the loads do, resolved to block indices
   struct Push { Wave wave; Vec3 direction; int block; Vec3 arm; bool moment; };      // arm: from the centroid, at rest
-  struct Drive { Wave wave; Vec3 direction; int block; };
+  struct Drive { Wave wave; Vec3 direction; int block; bool turns; Vec3 arm; };      // arm: from what it turns about to the centroid, at rest
   struct Ground { Wave wave; Vec3 direction; };
   struct Tilt { Wave wave; Vec3 axis; };
   std::vector<Push> pushes;

@@ -25,6 +25,7 @@ struct Energy {
   double kinetic = 0, gravity = 0, elastic = 0;
   double friction = 0, fracture = 0, crushing = 0, damping = 0, contact_damping = 0, reset = 0;
   double base_next = 0, external_next = 0, damping_next = 0, absolute_next = 0;  // of the half drift after the sample
+  double friction_next = 0, fracture_next = 0, crushing_next = 0;  // lost by laws that a sequential sweep has already moved on
   double start = 0;             // kinetic + gravity + elastic at the first sample
   double elastic_at_start = 0;
   double absolute_work = 0;     // Int |power| of base, external and tilt

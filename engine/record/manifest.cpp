@@ -55,7 +55,7 @@ Json json_of_rule(const JointRule& rule) {
 }
 
 Json json_of_load(const Load& load) {
-  static constexpr const char* kinds[] = {"ground_motion", "force", "moment", "tilt", "motion"};
+  static constexpr const char* kinds[] = {"ground_motion", "force", "moment", "tilt", "motion", "turning"};
   Json json = {{"kind", kinds[int(load.kind)]}, {"name", load.name}, {"at", load.place.text()}};
   if (!load.block.empty()) json["block"] = load.block;
   json["direction"] = json_of(load.direction);

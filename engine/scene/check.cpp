@@ -116,9 +116,9 @@ void check_loads(Report& report, const Scene& scene, const Index& index) {
     if (!(std::abs(load.direction.norm() - 1) < 1e-6))
       report.say(load.place, "load \"{}\": its direction has no length; give a vector", load.name);
     if (load.kind == Kind::ground || load.kind == Kind::tilt) continue;
-    const char* who = load.kind == Kind::force ? "force" : load.kind == Kind::moment ? "moment" : "motion";
+    const char* who = load.kind == Kind::force ? "force" : load.kind == Kind::moment ? "moment" : load.kind == Kind::turning ? "turning" : "motion";
     const Block* block = named(report, index, load.block, load.place, who);
-    if (block && block->fixed && load.kind != Kind::motion)
+    if (block && block->fixed && load.kind != Kind::motion && load.kind != Kind::turning)
       report.say(load.place, "{}: block \"{}\" is fixed and feels none; name a free block", who, load.block);
     if (!inside(load.point, -1e6, 1e6)) report.say(load.place, "{}: its point is not a finite place; give numbers", who);
   }

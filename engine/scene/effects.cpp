@@ -55,11 +55,13 @@ std::vector<Effect> effects_of(const Scene& scene) {
   out.push_back(effect("moments on blocks", load_with(scene, Load::Kind::moment)));
   out.push_back(effect("tilting gravity", load_with(scene, Load::Kind::tilt)));
   out.push_back(effect("prescribed motion", load_with(scene, Load::Kind::motion)));
+  out.push_back(effect("prescribed turning", load_with(scene, Load::Kind::turning)));
   const bool damped = scene.damping.mass > 0 && scene.damping.scope != "none";
   out.push_back(effect("mass damping", damped ? &scene.damping.place : nullptr));
   out.push_back(effect("softening in tension", rule_with(scene, [](const Mortar& m) { return m.Gf1 > 0 || m.un_ultimate > 0; })));
   out.push_back(effect("softening in shear", rule_with(scene, [](const Mortar& m) { return m.Gf2 > 0 || m.us_ultimate > 0; })));
   out.push_back(effect("compression plateau", rule_with(scene, [](const Mortar& m) { return m.fc > 0; })));
+  out.push_back(effect("sequential sweep", scene.analysis.solver == "sequential" ? &scene.analysis.place : nullptr));
   const Place* joined = any_joint(scene);
   const Place* debris = may_meet(scene);
   out.push_back(effect("rotation of joint frames", joined));

@@ -129,6 +129,11 @@ struct Analysis {
   std::string dt_rule = "limit";      // limit | period_tenth (3) | hart (4) | hakuno (5) | hakuno_half
   bool unstable = false;              // let a dt past the limit run: divergence is then expected and detected
   std::string kernel = "fast";        // fast | reference
+  std::string solver = "leapfrog";    // leapfrog | sequential: one block at a time, as Gu and Miao; for studies of that scheme
+  std::string variant = "literal";    // of the sequential solver: literal | centred
+  std::string order = "random";       // of its blocks: random | fixed | coloured
+  int iterations = 1;                 // sweeps per step, each over its share of dt
+  int seed = 1;                       // of the random order
   std::string start = "equilibrium";  // equilibrium | ramp | rest (how gravity comes on)
   double ramp_time = 0;               // s, for start = "ramp"; 0: chosen
   std::string overlap = "error";      // error | stress_free
@@ -148,8 +153,14 @@ struct Analysis {
         {"dt", &Analysis::dt, "s", "time step (0: from dt_rule); { value, unstable = true } lets one past the limit run", 0, 1},
         {"dt_fraction", &Analysis::dt_fraction, "", "share of the limit in force", 1e-6, 1},
         {"dt_rule", &Analysis::dt_rule, "", "where dt comes from", 0, 0, false, "limit|period_tenth|hart|hakuno|hakuno_half"},
-        {"unstable", &Analysis::unstable, "", "let a dt past the limit run"},
+        {"unstable", &Analysis::unstable, "", "let a dt past the limit run, or a sequential solver that feeds energy"},
         {"kernel", &Analysis::kernel, "", "which step kernel", 0, 0, false, "fast|reference"},
+        {"solver", &Analysis::solver, "", "all blocks at once, or one after the other as Gu and Miao (it feeds energy: for studies)", 0, 0, false,
+         "leapfrog|sequential"},
+        {"variant", &Analysis::variant, "", "sequential: forces where a block is, or half a step ahead on its path", 0, 0, false, "literal|centred"},
+        {"order", &Analysis::order, "", "sequential: which block is let go next", 0, 0, false, "random|fixed|coloured"},
+        {"iterations", &Analysis::iterations, "", "sequential: sweeps per step, each over its share of dt", 1, 1e6},
+        {"seed", &Analysis::seed, "", "sequential: of the random order", 0, 2147483647},
         {"start", &Analysis::start, "", "how gravity comes on", 0, 0, false, "equilibrium|ramp|rest"},
         {"ramp_time", &Analysis::ramp_time, "s", "length of the gravity ramp (0: chosen)", 0, 1e6},
         {"overlap", &Analysis::overlap, "", "what to do with blocks that overlap at rest", 0, 0, false, "error|stress_free"},
@@ -241,13 +252,13 @@ struct UseLimit {
 
 // What a load acts through.
 struct Load {
-  enum class Kind { ground, force, moment, tilt, motion } kind = Kind::ground;
+  enum class Kind { ground, force, moment, tilt, motion, turning } kind = Kind::ground;
   // ground: acceleration of the ground (m/s2) along direction; force (N) or moment (N m) on a block; tilt: angle (rad) by which
-  // gravity turns about direction; motion: displacement (m) of a block along direction, its other degrees of freedom held
+  // gravity turns about direction; motion: displacement (m) of a block along direction, its other degrees of freedom held; turning: its angle (rad) about direction
   Wave wave;
   Vec3 direction{1, 0, 0};
   std::string block;
-  Vec3 point = Vec3::Zero();  // m at rest, where a force acts (moves with the block)
+  Vec3 point = Vec3::Zero();  // m at rest, where a force acts (moves with the block), or what a turning is about
   bool has_point = false;
   std::string name;
   Place place;

@@ -31,7 +31,7 @@ Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state
     if (group.law < 0) group = empty_group(joint, group.batch);
     fill(group, at % lanes, j);
   }
-  if (model.analysis.kernel == "reference") return;
+  if (model.analysis.kernel == "reference" || model.analysis.solver == "sequential") return;
   for (int j = 0; j < model.njoint; ++j)
     if (state.tier[z(j)] == Tier::cracked && state.place[z(j)] < sound * lanes) take(j);
 }

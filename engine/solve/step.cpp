@@ -27,8 +27,8 @@ Solver::Solver(const Model& model, State& state, int threads)
     : model_(model),
       state_(state),
       threads_(threads),
-      reference_(model.analysis.kernel == "reference"),
-      joint_items_(reference_ ? model.njoint : sound_batches(model)),
+      reference_(model.analysis.kernel == "reference" || model.analysis.solver == "sequential"),
+      joint_items_(model.analysis.solver == "sequential" ? 0 : reference_ ? model.njoint : sound_batches(model)),
       cracked_(model, state),
       debris_(model, state, threads) {
   if (state.dt_goal == 0) state.dt_goal = state.dt;
@@ -38,6 +38,10 @@ Solver::Solver(const Model& model, State& state, int threads)
   joint_sums_.resize(z(chunks(joint_items_, batch_grain)));
   cracked_sums_.resize(z(chunks(cracked_.groups(), Cracked::grain)));
   block_sums_.resize(z(chunks(model.nblock, block_grain)));
+  if (model.analysis.solver == "sequential") {
+    sequential_.emplace(model, state);
+    block_sums_.resize(z(model.nblock));
+  }
   // A state that was stopped just when a block had turned too far: the next step looks again. Without one it finds nothing.
   block_sums_.front().stale = true;
   tier_before_ = state.tier;
@@ -173,6 +177,11 @@ void Solver::follow_contacts() {
 }
 
 void Solver::blocks(int thread) {
+  if (sequential_) {
+    if (thread == 0)
+      sequential_->sweep(now_, push_.data(), load_.empty() ? nullptr : load_.data(), sample_ != Sample::none, joint_sums_.front(), block_sums_);
+    return;
+  }
   const Range mine = share_of(model_.nblock, block_grain, thread, threads_);
   for (int first = mine.first; first < mine.last; first += block_grain)
     advance(model_, state_, now_, push_.data(), load_.empty() ? nullptr : load_.data(), first, std::min(first + block_grain, mine.last),
@@ -190,22 +199,42 @@ void Solver::drive() {
   for (int b = 0; b < m.nblock; ++b) {
     if (m.kind[z(b)] != Kind::driven) continue;
     Vec3 to = Vec3::Zero();
-    for (const auto& d : m.drives)
-      if (d.block == b) to += value(d.wave, s.t + s.dt) * d.direction;
-    const Vec3 v = (to - s.u[z(b)]) / s.dt, force = joint_wrench(m, s, b).head<3>() + Eigen::Map<const Vec3>(&push_[6 * z(b)]);
-    const double before = -0.5 * s.last_dt * force.dot(s.v[z(b)]), after = -0.5 * s.dt * force.dot(v);
+    Quat turned = Quat::Identity();
+    bool turns = false;
+    for (const auto& d : m.drives) {
+      if (d.block != b) continue;
+      const double x = value(d.wave, s.t + s.dt);
+      if (!d.turns) {
+        to += x * d.direction;
+        continue;
+      }
+      const Quat turn = rotation(x * d.direction);
+      to += turn * d.arm - d.arm;
+      turned = turn * turned;
+      turns = true;
+    }
+    if (!turns) turned = s.q[z(b)];  // held as it was put
+    const Vec3 v = (to - s.u[z(b)]) / s.dt, w = rotation_vector(turned * s.q[z(b)].conjugate()) / s.dt;
+    const Vec6 wrench = block_wrench(b);
+    const Vec3 force = wrench.head<3>(), moment = wrench.tail<3>();
+    const double before = -0.5 * s.last_dt * (force.dot(s.v[z(b)]) + moment.dot(s.w[z(b)])), after = -0.5 * s.dt * (force.dot(v) + moment.dot(w));
     e.external_work += before;
     e.external_next += after;
     e.absolute_work += std::fabs(before) + std::fabs(after);
     s.v[z(b)] = v;
     s.u[z(b)] = to;
-    for (int i = 0; i < 3; ++i) s.row[z(b) * 8 + z(i)] = to[i] - s.base_u[z(b)][i];
+    s.w[z(b)] = w;
+    s.q[z(b)] = turned;
+    const Vec3 since = rotation_vector(turned * s.base_q[z(b)].conjugate());
+    for (int i = 0; i < 3; ++i) s.row[z(b) * 8 + z(i)] = to[i] - s.base_u[z(b)][i], s.row[z(b) * 8 + 3 + z(i)] = since[i];
+    if (since.norm() > m.analysis.lazy_rotation) block_sums_.front().stale = true;
   }
 }
 
 void Solver::finish(const Hooks& hooks) {
   State& s = state_;
   drive();
+  if (sequential_) s.momentum_residual = std::max(s.momentum_residual, sequential_->momentum_residual());
   for (const BlockSums& sums : block_sums_) broken_ = broken_ || sums.broken;
   note_cracks();
   if (sample_ != Sample::none) {
@@ -218,8 +247,10 @@ void Solver::finish(const Hooks& hooks) {
     instant_.w_after = s.w;
     std::swap(instant_.u, s.u);
     std::swap(instant_.q, s.q);
-    check_momentum();
+    if (sequential_) std::swap(sequential_->wrench_before(), s.wrench);
+    else check_momentum();
     hooks.sampled();
+    if (sequential_) std::swap(sequential_->wrench_before(), s.wrench);
     std::swap(instant_.u, s.u);
     std::swap(instant_.q, s.q);
   }

@@ -3,6 +3,7 @@
 #pragma once
 #include <functional>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include "engine/base/parallel.h"
@@ -10,6 +11,7 @@
 #include "engine/solve/debris.h"
 #include "engine/solve/integrate.h"
 #include "engine/solve/joint_kernel.h"
+#include "engine/solve/sequential.h"
 
 namespace erbs {
 
@@ -78,6 +80,7 @@ class Solver {
   std::vector<int> newly_cracked_, opened_, leaving_;
   Cracked cracked_;
   Debris debris_;
+  std::optional<Sequential> sequential_;  // in place of joints and blocks
   bool any_cracked_ = false;
   double contact_seconds_ = 0;
   std::vector<Tier> tier_before_;
