@@ -16,13 +16,14 @@ std::string editor_file();  // the text of erbs.meta.lua
 // What a metric function can ask of `run`.
 inline constexpr std::string_view run_help = R"(the table run:
   the keys of metrics.json (run.time_s, run.energy, run.collapse ...), and all of them in run.metrics
+  run.metrics.metrics      answers of the scene's studies, by the names of their metrics
   run.time                 times of the rows of histories.csv (s)
   run.columns              names of its columns
   run.history(column)      its values, one per row
   run.peak(column)         largest magnitude;  run.peak_time(column) when (s)
   run.max(column), run.min(column), run.mean(column), run.rms(column), run.first(column), run.last(column)
   run.at(column, t)        value at time t, linear between rows
-  run.frequency(column)    dominant frequency (Hz): Hann window, spectrum, parabola through its peak
+  run.frequency(column, from, to)  dominant frequency (Hz), of a band if given: Hann window, spectrum, parabola through its peak
   run.period(column)       mean time between rising crossings of zero (s)
   run.crossings(column, level, rising)   times at which it passes the level
   run.events               { { time, event, name, value }, ... } of events.csv; run.first_crack is the first crack, or nil
@@ -51,7 +52,7 @@ inline constexpr std::string_view editor_head = R"(---@meta
 ---@field first fun(column: string): number
 ---@field last fun(column: string): number
 ---@field at fun(column: string, t: number): number value at time t [s], linear between rows
----@field frequency fun(column: string): number dominant frequency [Hz]
+---@field frequency fun(column: string, from?: number, to?: number): number dominant frequency, of a band if one is given [Hz]
 ---@field period fun(column: string): number mean time between rising crossings of zero [s]
 ---@field crossings fun(column: string, level?: number, rising?: boolean): number[] times of passing the level [s]
 ---@field events { time: number, event: string, name: string, value: number }[] events.csv

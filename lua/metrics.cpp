@@ -1,6 +1,7 @@
 // What the scene asks for after the run: metric functions and the table `run` they are given.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <lua5.4/lua.hpp>
 
 #include "engine/base/words.h"
@@ -124,9 +125,12 @@ int crossings(lua_State* lua, Context& context) {
 int last(lua_State* lua, Context& context) { return number(lua, column_of(lua, context).back()); }
 int first(lua_State* lua, Context& context) { return number(lua, column_of(lua, context).front()); }
 
+// run.frequency(column, from, to): the highest peak of the spectrum, in a band if one is given.
 int frequency(lua_State* lua, Context& context) {
   const auto& column = column_of(lua, context);
-  return number(lua, dominant_frequency(times_of(lua, context), column));
+  const double from = lua_type(lua, 2) == LUA_TNUMBER ? lua_tonumber(lua, 2) : 0;
+  const double to = lua_type(lua, 3) == LUA_TNUMBER ? lua_tonumber(lua, 3) : std::numeric_limits<double>::infinity();
+  return number(lua, dominant_frequency(times_of(lua, context), column, from, to));
 }
 
 // run.at(column, t): between rows, linear.

@@ -110,13 +110,16 @@ Spectrum spectrum(const std::vector<double>& t, const std::vector<double>& y) {
   return s;
 }
 
-double dominant_frequency(const std::vector<double>& t, const std::vector<double>& y) {
+double dominant_frequency(const std::vector<double>& t, const std::vector<double>& y, double from, double to) {
   const Spectrum s = spectrum(t, y);
   if (s.amplitude.empty()) return unknown;
   const auto [low, high] = std::minmax_element(y.begin(), y.end());
   const double largest = std::max(std::abs(*low), std::abs(*high));
   if (!(*high - *low > 1e-13 * largest)) return unknown;  // constant but for round-off
-  const std::size_t k = std::size_t(std::max_element(s.amplitude.begin(), s.amplitude.end()) - s.amplitude.begin());
+  const auto bin = [&](double f) { return std::lower_bound(s.frequency.begin(), s.frequency.end(), f) - s.frequency.begin(); };
+  const auto first = bin(from), last = bin(to);
+  if (first >= last) return unknown;
+  const std::size_t k = std::size_t(std::max_element(s.amplitude.begin() + first, s.amplitude.begin() + last) - s.amplitude.begin());
   if (!std::isfinite(s.amplitude[k])) return unknown;
   if (k == 0 || k + 1 == s.amplitude.size()) return s.frequency[k];
   const double a = std::log(s.amplitude[k - 1]), b = std::log(s.amplitude[k]), c = std::log(s.amplitude[k + 1]);

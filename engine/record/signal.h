@@ -1,5 +1,6 @@
 // Numbers drawn from a recorded column: y[i] at times t[i] (s).
 #pragma once
+#include <limits>
 #include <vector>
 
 namespace erbs {
@@ -16,7 +17,9 @@ double mean(const std::vector<double>& t, const std::vector<double>& y);
 // Hz, of the highest peak of the amplitude spectrum: mean removed, Hann window, zeros appended to at least 4 times the length,
 // parabola through the logarithms of the three highest bins (exact for a Gaussian, 1e-3 of a bin for Hann so padded). Columns of
 // uneven time are first made even by linear interpolation. NaN where there are fewer than 8 rows or the column is constant.
-double dominant_frequency(const std::vector<double>& t, const std::vector<double>& y);
+// Only frequencies of at least `from` and below `to` are looked at.
+double dominant_frequency(const std::vector<double>& t, const std::vector<double>& y, double from = 0,
+                          double to = std::numeric_limits<double>::infinity());
 
 struct Spectrum {
   std::vector<double> frequency;  // Hz

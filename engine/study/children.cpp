@@ -111,6 +111,8 @@ class Runner {
       const std::string status = metrics.value("status", "");
       const Json* value = find_key(metrics, study_.collapse ? "collapse.collapsed" : "metrics.study");
       if (overdue) a.reason = fmt::format("took longer than {:g} s and was ended", c_.max_wall);
+      // A bisection for a limit of stability asks for divergence: its own question may say yes to such a run, never no.
+      else if (status == "diverged" && study_.kind == Study::Kind::bisect && !study_.collapse && value != nullptr && (*value == true || *value == 1)) a.value = 1;
       else if (status == "diverged" || status == "stopped") a.reason = status + "; " + last_words(log_of(a.x), code, c_.scene);
       else if (code != 0 || value == nullptr) a.reason = last_words(log_of(a.x), code, c_.scene);
       else if (value->is_boolean()) a.value = value->get<bool>() ? 1 : 0;
