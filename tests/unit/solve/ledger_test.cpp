@@ -1,0 +1,100 @@
+// The ledger is worth something only if a wrong term shows: each term is spoiled in turn, and the gate must fail.
+#include <catch2/catch.hpp>
+#include <string>
+
+#include "engine/solve/energy.h"
+#include "tests/support/small_wall.h"
+
+using namespace erbs;
+
+namespace {
+
+constexpr double gate = 1e-2;  // the widest of the gates of a run (analysis/dynamic.cpp)
+
+const std::string head = R"(
+material{ name = "stone", density = 2000, restitution = 0.3, friction = 0.4 }
+box{ name = "base", group = "base", size = {2, 2, 0.1}, center = {0, 0, -0.05}, fixed = true }
+)";
+const std::string block = R"(box{ name = "block", group = "block", size = {0.4, 0.4, 0.04}, center = {0, 0, 0.02} })";
+const std::string dry = R"( joint{ law = dry{ kn = 1e9, mu = 0.4 } })";
+
+struct Term {
+  const char* name;
+  double Energy::*member;
+  std::string scene;
+};
+
+const Term terms[] = {
+    {"friction", &Energy::friction, head + block + dry + "ground_motion{ wave = 8, direction = 'x' } analysis{ duration = 0.1 }"},
+    {"base_work", &Energy::base_work, head + block + dry + "ground_motion{ wave = 8, direction = 'x' } analysis{ duration = 0.1 }"},
+    {"external_work", &Energy::external_work, head + block + dry + "force{ block = 'block', wave = pulse{ amplitude = 80, start = 0.01, duration = 0.2 } } analysis{ duration = 0.1 }"},
+    {"motion's work", &Energy::external_work,
+     head + block +
+         " joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e8, c = 1e8, mu = 0.6 } }"
+         "motion{ block = 'block', wave = table_wave{ times = {0, 0.1}, values = {0, 1e-3} } } analysis{ duration = 0.1, dt = 1e-5 }"},
+    {"turning's work", &Energy::external_work,
+     head + block +
+         " joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e8, c = 1e8, mu = 0.6 } }"
+         "turning{ block = 'block', axis = {1, 2, 3}, wave = table_wave{ times = {0, 0.1}, values = {0, 1e-3} } } analysis{ duration = 0.1, dt = 1e-5 }"},
+    {"tilt_work", &Energy::tilt_work,
+     head + block + dry + "tilt{ axis = 'y', wave = table_wave{ times = {0, 0.2}, values = {0, 0.8} } } analysis{ duration = 0.2 }"},
+    {"fracture", &Energy::fracture,
+     head + block +
+         " joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e4, c = 1e4, mu = 0.6, Gf1 = 5 } } gravity(0)"
+         "motion{ block = 'block', direction = 'z', wave = table_wave{ times = {0, 0.1}, values = {0, 5e-4} } } analysis{ duration = 0.1, dt = 1e-5 }"},
+    {"crushing", &Energy::crushing,
+     head + block +
+         " joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e4, c = 1e4, mu = 0.6, fc = 1e5 } }"
+         "motion{ block = 'block', direction = 'z', wave = table_wave{ times = {0, 0.1}, values = {0, -5e-4} } } analysis{ duration = 0.1, dt = 1e-5 }"},
+    {"damping", &Energy::damping,
+     head + "box{ name = 'block', size = {1, 1, 1}, center = {0, 0, 9}, free = true } damping{ mass = 2, scope = 'all' } analysis{ duration = 0.3, dt = 1e-3 }"},
+    {"contact_damping", &Energy::contact_damping,
+     head + "box{ name = 'block', size = {0.4, 0.4, 0.04}, center = {0, 0, 0.03}, free = true } analysis{ duration = 0.1, dt_fraction = 0.05 }"},
+};
+
+Energy energy_of(const Term& term, double share) {
+  Script script(Script::Options{.quiet = true});
+  const Scene scene = script.load_text(term.scene, "ledger.lua", {});
+  Prepared run = prepare(scene, false);
+  start_at_rest(scene, run, 1);
+  Solver solver(run.model, run.state, 1);
+  // Whatever the term has gathered is made less by (1 - share) at every settling, as a law that books too little would.
+  double kept = 0;
+  const auto spoil = [&] {
+    double& now = run.state.energy.*term.member;
+    now = kept = kept + share * (now - kept);
+  };
+  solver.run({[](double) { return true; }, spoil, [&] { return run.state.t >= scene.analysis.duration; }});
+  return run.state.energy;
+}
+
+}  // namespace
+
+TEST_CASE("the gate fails as soon as one term of the ledger books a tenth too little", "[solve][ledger]") {
+  for (const Term& term : terms) {
+    INFO(term.name);
+    const Energy sound = energy_of(term, 1), spoiled = energy_of(term, 0.9);
+    CHECK(std::abs(sound.*term.member) > 0);
+    CHECK(sound.residual_worst < gate);
+    CHECK(spoiled.residual_worst > gate);
+  }
+}
+
+TEST_CASE("the gate fails when a tenth of what is stored is lost, or anything appears in reset", "[solve][ledger]") {
+  // A wall in full swing under its pulse: kinetic and elastic energy, height and the ground's work.
+  const Scene scene = test::small_wall("ground_motion{wave=pulse{amplitude=0.5, duration=0.02}, direction='y'} analysis{duration=0.05}");
+  Prepared run;
+  test::run_to(scene, 1, 0.012, run);
+  const Energy sound = run.state.energy;
+  CHECK(sound.residual_worst < 1e-6);
+  for (double Energy::*member : {&Energy::kinetic, &Energy::elastic, &Energy::gravity, &Energy::base_work}) {
+    Energy spoiled = sound;
+    spoiled.*member *= 0.9;
+    settle(spoiled, 0, run.state.t, -1);
+    CHECK(spoiled.residual_relative > 1e-6);
+  }
+  Energy spoiled = sound;
+  spoiled.reset += 0.1 * sound.kinetic;
+  settle(spoiled, 0, run.state.t, -1);
+  CHECK(spoiled.residual_relative > 1e-6);
+}
