@@ -1,0 +1,8 @@
+-- V20 at .50 of the leapfrog's limit: the growth is beyond the first-order value by then, the characteristic equation still holds.
+--
+-- How to run     erbs run scenes/verify/v20_growth_50.lua
+-- What to look at  as in v20_sequential_growth.lua, where the numbers are explained.
+label("fixed_dt")
+growth_share = 0.50
+include "v20_sequential_growth.lua"
+expect("metrics.random_mean", 1, { abs = 0.15, source = "random orders grow a little slower than a fixed one; 20 of them" })

@@ -1,0 +1,33 @@
+-- V20: the limit of the literal sequential scheme is 2 / w_block, sqrt(2) above the leapfrog's.
+--
+-- What happens   Below it the slow modes grow without damping (v20_sequential_growth.lua), so that a limit shows only with at least the
+--                neutral mass damping, here 1.2 of it and centred: then the chain calms down below 2 / w_block and bursts above, whatever
+--                the damping. Bisected for the fixed order and for a random one.
+-- Source         characteristic equation in lib_spring_chain.lua: the zig-zag modes feel + dt D / 2, and only a block against its held
+--                neighbours is left to diverge.
+-- How to run     erbs run scenes/verify/v20_sequential_limit.lua [-D damped=1.5]
+-- What to look at  collapse_share, collapse_share_random: dt over 2 / omega_max at the limit; growth of this run, at .98 of it.
+label("fixed_dt")
+include "lib_spring_chain.lua"
+local n = param("n", 30, "blocks")
+local limit = math.sqrt(2) * math.sin(pi / 2 * n / (n + 1))  -- 2 / w_block over 2 / omega_max
+local share = param("share", 0.98 * limit, "dt over 2 / omega_max, fixed order")
+local share_random = param("share_random", 0, "the same with a random order, where it is above 0")
+local damped = param("damped", 1.2, "mass damping over dt w_b^2 / 2")
+
+local random = share_random > 0
+local chain = spring_chain { n = n, share = random and share_random or share }
+damping { mass = damped * chain.dt * chain.block_w2 / 2 }
+local duration = 2000 * chain.tau
+analysis { duration = duration, dt = chain.dt, unstable = true, start = "rest", output_dt = duration / 40, frame_dt = duration,
+  solver = "sequential", order = random and "random" or "fixed" }
+local function grows(run) return run.status == "diverged" or chain.growth(run) > 0 end
+metric("growth", "", chain.growth)
+metric("limit", "", limit)
+bisect { param = "share", lo = 1.2, hi = 1.6, rel = 0.005, collapsed_when = grows }
+bisect { param = "share_random", lo = 1.2, hi = 1.6, rel = 0.005, collapsed_when = grows }
+expect("metrics.growth", 0, { below = true, source = "bounded below 2 / w_block" })
+-- Half the last bracket, and growth of less than one part in 2000 tau that the run cannot see.
+expect("metrics.collapse_share", limit, { rel = 0.01, source = "2 / w_block" })
+-- What one order makes grow the next may take away: 1.42 to 1.52 measured, by damping and length of the run.
+expect("metrics.collapse_share_random", 0, { between = { 0.99 * limit, 1.1 * limit }, source = "2 / w_block and a little above" })
