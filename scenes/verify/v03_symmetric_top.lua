@@ -84,4 +84,12 @@ for name, top in pairs(tops) do
   expect("metrics.body_rate_error_" .. name, 0, { abs = 1e-6, source = "(I3 - I1) w3 / I1" })
   expect("metrics.axis_rate_error_" .. name, 0, { abs = 1e-6, source = "L / I1" })
 end
+converge { param = "dt", values = { 16e-4, 8e-4, 4e-4 }, slope = 1.95, name = "order", error = function(run)
+  local row = rows(run, "slender")
+  return mean_rate(run, function(i)
+    local w, r = row(i)
+    local body = turn({ -r[1], -r[2], -r[3] }, w)
+    return math.atan(body[2], body[1])
+  end, tops.slender.rate) / tops.slender.rate - 1
+end }
 expect("energy.residual_relative", 1e-10, { below = true, source = "the implicit midpoint keeps the energy; round-off of the steps" })

@@ -98,6 +98,7 @@ end)
 metric("expected_first_flip_s", "s", first_flip)
 metric("expected_half_period_s", "s", half_period)
 
+converge { param = "dt", values = { 64e-4, 32e-4, 16e-4 }, slope = 1.9, name = "order", error = function(run) return flip_times(run)[1] / first_flip - 1 end }
 expect("metrics.flips", flips, { abs = 0, source = "2 K(k) / lambda" })
 -- The implicit midpoint turns slower by (w dt)^2 / 12 (2e-6 at w dt = 5e-3), which near the separatrix costs about ln(16 / k'^2) / 2 = 6 times
 -- that; the rows' linear crossing adds (half_period / 400)^2 of curvature.

@@ -33,4 +33,5 @@ for i = 1, 3 do
 end
 joint { law = mortar { kn = kn, ks = 0.4 * kn, ft = 1e9, c = 1e9, mu = 0.6 } }
 analysis { duration = cycles * 2 * pi / w1, dt = dt, start = "rest", output_dt = dt }
+converge { param = "share", values = { 0.4, 0.2, 0.1 }, slope = 1.95, name = "order", error = function(run) return run.period("block1_uz_rel_m") * w1 / (2 * pi) - 1 end }
 expect("energy.residual_relative", 1e-10, { below = true, source = "exact for a linear spring (discrete identity of the ledger)" })

@@ -1,0 +1,54 @@
+-- Rigid sliding on paper: Coulomb friction, one block on a base, integrated piece by piece. No case by itself.
+--
+-- sliding{ drive, limit, ends, steps } follows the relative motion x'' = -drive(t) with friction limit `limit` (m/s2): stuck while
+-- |drive| <= limit, else x'' = -drive(t) + limit against the motion. Between events 4th-order steps; events by bisection.
+-- Returns { largest, at_end, speed, stops = {times at which it comes to rest}, x(t) for times in `ask` }.
+function sliding(o)
+  local t, x, v, way = 0, 0, 0, 0  -- way: sign of the sliding, 0 stuck
+  local h = o.ends / (o.steps or 20000)
+  local out = { largest = 0, speed = 0, stops = {}, at = {} }
+  local next_ask = 1
+  local function acceleration(time, s) return -o.drive(time) - s * o.limit end
+  local function step(time, dt, s)  -- Simpson's rule: exact enough for a smooth drive
+    local a0, a1, a2 = acceleration(time, s), acceleration(time + dt / 2, s), acceleration(time + dt, s)
+    return x + v * dt + dt * dt * (a0 + 2 * a1) / 6, v + dt * (a0 + 4 * a1 + a2) / 6
+  end
+  while t < o.ends - 1e-12 do
+    local dt = math.min(h, o.ends - t)
+    if way == 0 then
+      if math.abs(o.drive(t + dt)) > o.limit then  -- slips within this step: where |drive| passes the limit
+        local lo, hi = 0, dt
+        if math.abs(o.drive(t)) > o.limit then hi = 0 end
+        for _ = 1, 60 do
+          if hi == 0 then break end
+          local middle = (lo + hi) / 2
+          if math.abs(o.drive(t + middle)) > o.limit then hi = middle else lo = middle end
+        end
+        t = t + hi
+        way = o.drive(t + 1e-12) > 0 and -1 or 1
+      else
+        t = t + dt
+      end
+    else
+      local x1, v1 = step(t, dt, way)
+      if v1 * way < 0 then
+        local lo, hi = 0, dt
+        for _ = 1, 60 do
+          local middle = (lo + hi) / 2
+          local _, vm = step(t, middle, way)
+          if vm * way < 0 then hi = middle else lo = middle end
+        end
+        x1, v1, dt = (step(t, hi, way)), 0, hi
+        t = t + hi
+        if math.abs(o.drive(t)) > o.limit then way = o.drive(t) > 0 and -1 or 1
+        else way = 0 out.stops[#out.stops + 1] = t end
+      else
+        t = t + dt
+      end
+      x, v = x1, v1
+      out.largest, out.speed = math.max(out.largest, math.abs(x)), math.max(out.speed, math.abs(v))
+    end
+  end
+  out.at_end = x
+  return out
+end

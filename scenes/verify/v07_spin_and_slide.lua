@@ -1,0 +1,81 @@
+-- V07: plates that spin, or spin and slide, on a rough floor until they rest, against the exact integral of Coulomb friction over their face.
+--
+-- What happens   Friction acts against the local slip everywhere under a plate: a spinning plate slides farther than one that does not spin. The
+--                exact motion (pressure even, mu g against the slip, integrated over a grid of the face) is computed here. The program
+--                condenses the face into one patch with an elliptic limit surface for force and torque, which is stronger than the
+--                true one between its axes: pure sliding and pure spin are right, mixed motion stops a little early.
+-- Source         Coulomb over the face; limit surface of Goyal, Ruina and Papadopoulos 1991, Wear 143, 307; Howe and Cutkosky 1996 (ellipse).
+-- How to run     erbs run scenes/verify/v07_spin_and_slide.lua [-D v0=2] [-D spin=5] [-D mu=0.4]
+-- What to look at  stop_time_*, path_*, turn_*: over the exact integral.
+label("quick")
+local v0, spin, mu = param("v0", 1, "[m/s]"), param("spin", 10, "[rad/s]"), param("mu", 0.5, "")
+local kn = param("kn", 5e8, "[Pa/m]")
+local long, short, high = param("long", 0.3, "[m]"), param("short", 0.2, "[m]"), 0.01
+
+material { name = "stone", density = 1800, friction = mu, kn = kn, ks = 0.4 * kn, restitution = 0 }
+box { name = "floor", group = "floor", size = { 12, 6, 0.2 }, center = { 0, 0, -0.1 }, fixed = true }
+joint { law = dry { kn = kn, mu = mu } }
+-- Exact: v' = -mu g mean(s), w' = -mu g mean(r x s) / (I / m), s the unit slip at each cell of the face, midpoints n x n.
+local function exact(v, w)
+  local n, h, time, turn = 10, 2e-4, 0, 0
+  local gyration = (long ^ 2 + short ^ 2) / 12
+  local along, across = v, 0  -- velocity in the world: along x; the plate's axes turn by `turn`
+  local x, y = 0, 0
+  while math.sqrt(along ^ 2 + across ^ 2) + 0.3 * long * math.abs(w) > 3 * mu * g * h do
+    local fx, fy, moment, c, s = 0, 0, 0, math.cos(turn), math.sin(turn)
+    for i = 1, n do
+      local p = ((i - 0.5) / n - 0.5) * long
+      for k = 1, n do
+        local q = ((k - 0.5) / n - 0.5) * short
+        local rx, ry = c * p - s * q, s * p + c * q
+        local sx, sy = along - w * ry, across + w * rx
+        local size = math.sqrt(sx * sx + sy * sy) + 1e-12
+        fx, fy, moment = fx - sx / size, fy - sy / size, moment - (rx * sy - ry * sx) / size
+      end
+    end
+    local factor = mu * g / n ^ 2 * h
+    x, y = x + h * (along + factor * fx / 2), y + h * (across + factor * fy / 2)
+    along, across, w = along + factor * fx, across + factor * fy, w + factor * moment / gyration
+    turn, time = turn + h * (w - factor * moment / gyration / 2), time + h
+  end
+  return time, math.sqrt(x * x + y * y), turn
+end
+local cases = { slide = { v0, 0 }, spin = { 0, spin }, both = { v0, spin }, slow_spin = { v0, spin / 4 }, fast_spin = { v0 / 4, spin } }
+local longest, number = 0, 0
+-- Stop time, path, turn: steps and grid where one of both acts; else the gap between the ellipse and the true limit surface, the most of it in the
+-- lesser of the two motions: up to 8 %, 12 % and 17 %. Where a path with much spin matters, give the plate more blocks.
+local mixed = { 0.08, 0.12, 0.17 }
+local tolerance = { slide = { 5e-3, 2e-3, 0 }, spin = { 0.02, 0, 0.02 }, both = mixed, slow_spin = mixed, fast_spin = mixed }
+for _, name in ipairs { "slide", "spin", "both", "slow_spin", "fast_spin" } do
+  local v, w = cases[name][1], cases[name][2]
+  local time, path, turn = exact(v, w)
+  longest = math.max(longest, time)
+  number = number + 1
+  box { name = name, group = "plate", size = { long, short, high }, center = { -2, number - 3, high / 2 }, initial = { velocity = { v, 0, 0 }, spin = { 0, 0, w } } }
+  recorder { name = name, quantity = "displacement", block = name, axis = "xy" }
+  recorder { name = name, quantity = "velocity", block = name, axis = "xy" }
+  recorder { name = name, quantity = "spin", block = name, axis = "z" }
+  metric("stop_time_" .. name, "", function(run)
+    local vx, vy, wz, last = run.history(name .. "_vx_rel_m_s"), run.history(name .. "_vy_rel_m_s"), run.history(name .. "_wz_rad_s"), 0
+    for i, t in ipairs(run.time) do
+      if vx[i] ^ 2 + vy[i] ^ 2 + (0.3 * long * wz[i]) ^ 2 > (0.005 * (math.abs(v) + 0.3 * long * math.abs(w))) ^ 2 then last = t end
+    end
+    return last / time
+  end)
+  expect("metrics.stop_time_" .. name, 1, { abs = tolerance[name][1] + 0.01, source = "exact integral; 1 %: read at 0.5 % of the speed" })
+  if v > 0 then
+    metric("path_" .. name, "", function(run)
+      return math.sqrt(run.last(name .. "_ux_rel_m") ^ 2 + run.last(name .. "_uy_rel_m") ^ 2) / path
+    end)
+    expect("metrics.path_" .. name, 1, { abs = tolerance[name][2], source = "exact integral" })
+  end
+  if w > 0 then
+    metric("turn_" .. name, "", function(run)
+      local wz, sum = run.history(name .. "_wz_rad_s"), 0
+      for i = 2, #wz do sum = sum + (wz[i] + wz[i - 1]) / 2 * (run.time[i] - run.time[i - 1]) end
+      return sum / turn
+    end)
+    expect("metrics.turn_" .. name, 1, { abs = tolerance[name][3], source = "exact integral" })
+  end
+end
+analysis { duration = 1.15 * longest, start = "equilibrium", output_dt = longest / 400, frame_dt = longest / 20 }

@@ -1,0 +1,40 @@
+-- V10: a block on rough ground under an oscillating force that just exceeds friction: stick, slip, and a slow walk.
+--
+-- What happens   8 cos(t) N act on 1 kg held by at most mu m g = 7.848 N: for a moment each half cycle the block slips a few millimetres.
+--                The rigid answer for any force, mass and friction is integrated piece by piece in lib_sliding.lua.
+-- Source         Potra, Anitescu, Gavrea and Trinkle 2006, Int. J. Numer. Meth. Eng. 66, 1079 (also a validation case of Solfec):
+--                x(10 s) = -.008697 m, largest speed .039545 m/s for .3 x .3 x .1 m, mu .8.
+-- How to run     erbs run scenes/verify/v10_stick_slip.lua [-D F=9] [-D mass=5] [-D spring=300*Hz]
+-- What to look at  x_end, v_largest beside rigid_x_end, rigid_v_largest.
+label("quick")
+include "lib_sliding.lua"
+local F, mu = param("F", 8, "amplitude of the force [N]"), param("mu", 0.8, "")
+local mass = param("mass", 1, "[kg]")
+local omega = param("omega", 1, "of the force [rad/s]")
+local duration = param("duration", 10, "[s]")
+local spring = param("spring", 300, "frequency of the block on its shear spring [Hz]")
+local size = { 0.3, 0.3, 0.1 }
+local area = size[1] * size[2]
+local ks = mass * (2 * pi * spring) ^ 2 / area
+local kn = 2.5 * ks
+
+material { name = "stone", density = mass / (area * size[3]), friction = mu, kn = kn, ks = ks }
+box { name = "plate", group = "plate", size = { 1, 1, 0.1 }, at = { -0.5, -0.5, -0.1 }, fixed = true }
+box { name = "block", group = "block", size = size, at = { -0.15, -0.15, 0 } }
+joint { law = dry { kn = kn, ks = ks, mu = mu }, between = { "plate", "block" } }
+force { block = "block", wave = sine { amplitude = F, frequency = omega / (2 * pi), phase = 90 * deg }, direction = "x" }
+recorder { name = "block", quantity = "displacement", block = "block", axis = "x" }
+recorder { name = "block", quantity = "velocity", block = "block", axis = "x" }
+-- start = "ramp" would bring the force on slowly; "rest" lets gravity and the force act at once: the bed swings by W / k, 3e-6 m.
+analysis { duration = duration, start = "ramp", output_dt = duration / 2000, frame_dt = duration / 50 }
+local rigid = sliding { drive = function(t) return -F / mass * math.cos(omega * t) end, limit = mu * g, ends = duration }
+metric("x_end", "m", function(run) return run.last("block_ux_rel_m") - run.first("block_ux_rel_m") end)
+metric("v_largest", "m/s", function(run) return run.peak("block_vx_rel_m_s") end)
+metric("rigid_x_end", "m", rigid.at_end)
+metric("rigid_v_largest", "m/s", rigid.speed)
+expect("metrics.x_end", rigid.at_end, { abs = 0.01 * rigid.largest, source = "rigid sliding, 1 % of the peak" })
+expect("metrics.v_largest", rigid.speed, { rel = 0.01, source = "rigid sliding" })
+if F == 8 and mu == 0.8 and mass == 1 and omega == 1 and duration == 10 then
+  expect("metrics.rigid_x_end", -0.008697, { abs = 2e-6, source = "Potra et al. 2006" })
+  expect("metrics.rigid_v_largest", 0.039545, { abs = 2e-6, source = "Potra et al. 2006" })
+end

@@ -1,0 +1,67 @@
+-- V25: the same wall on a table that turns, and under gravity that turns: both overturn at the same angle.
+--
+-- What happens   A free-standing wall of dry courses on a base that is turned (turning{}), and the same in a child run where gravity is turned
+--                back instead (tilt{}); both slowly, at `rate`. Seen from the wall the two are one, but for the slow base's own accelerations
+--                (rate squared times the height: 1e-5 g). A rigid wall on its edge overturns at atan(t / H).
+-- Source         relative motion: a body on a table at angle b feels g turned by -b.
+-- How to run     erbs run scenes/verify/v25_tilt_equivalence.lua [-D rate=0.2*deg] [-D courses=10]
+-- What to look at  angle_deg: of the table where the top has moved, seen from the table, by 2 % of the thickness; difference_deg; rigid_angle_deg.
+label("quick")
+local turned = param("gravity_turns", 0, "above 0: gravity turns instead of the base")
+local courses = param("courses", 5, "")
+local width, thick, height = param("width", 0.6, "[m]"), param("thick", 0.2, "[m]"), param("height", 0.24, "of a course [m]")
+local kn = param("kn", 2e10, "[Pa/m]")
+local rate = param("rate", 1 * deg, "of the table [rad/s]")
+local from = param("from", 0.9, "of the rigid wall's angle: where the slow part begins")
+
+material { name = "stone", density = 1800, friction = 0.8, kn = kn, ks = 0.4 * kn }
+local H = courses * height
+local rigid = math.atan(thick / H)
+-- Quickly and smoothly to `from`, then at a steady rate: an angle as a table of times. Angles are those of the table.
+local angles, times, n = {}, {}, 200
+local fast = 6.0
+local function smooth(s) return s ^ 3 * (10 - 15 * s + 6 * s ^ 2) end
+for i = 0, n do times[#times + 1], angles[#angles + 1] = fast * i / n, from * rigid * smooth(i / n) end
+local rest = 0.3
+times[#times + 1], angles[#angles + 1] = fast + rest, from * rigid
+-- the corner to the steady rate rounded off
+for i = 1, 20 do times[#times + 1], angles[#angles + 1] = fast + rest + 0.05 * i, from * rigid + rate * 0.5 * (0.05 * i) ^ 2 / 1.0 end
+local t0, a0 = times[#times], angles[#angles]
+local t1 = t0 + (1.15 * rigid - a0) / rate
+times[#times + 1], angles[#angles + 1] = t1, 1.15 * rigid
+local function angle_at(time)
+  for i = 2, #times do
+    if time <= times[i] then return angles[i - 1] + (angles[i] - angles[i - 1]) * (time - times[i - 1]) / (times[i] - times[i - 1]) end
+  end
+  return angles[#angles]
+end
+local table_of_angles = table_wave { times = times, values = angles, hold = true }
+-- The wall leans towards +x: the table turns by +angle about y through the wall's foot, or gravity by -angle.
+box { name = "base", group = "base", size = { 3 * thick, 2 * width, 0.2 }, at = { -1.5 * thick, -width, -0.2 }, fixed = turned > 0 }
+for i = 1, courses do
+  box { name = "course" .. i, group = "wall", size = { thick, width, height }, at = { -thick / 2, -width / 2, (i - 1) * height } }
+end
+joint { law = dry { kn = kn, mu = 0.8 } }
+if turned > 0 then tilt { wave = table_wave { times = times, values = (function() local v = {} for i, a in ipairs(angles) do v[i] = -a end return v end)(), hold = true }, axis = "y" }
+else turning { block = "base", wave = table_of_angles, axis = "y", about = { 0, 0, 0 } } end
+local top = "course" .. courses
+recorder { name = "top", quantity = "displacement", block = top, axis = "xz" }
+damping { mass = 0 }
+analysis { duration = t1, output_dt = 0.01, frame_dt = 0.5, collapse_fraction = 0.3, stop_after_collapse = 0.05 }
+-- Displacement of the top seen from the table: x' = R(-angle) (rest + u) - rest, across the wall.
+local function overturning(run)
+  local x, z = run.history("top_ux_rel_m"), run.history("top_uz_rel_m")
+  local high = (courses - 0.5) * height
+  for i, time in ipairs(run.time) do
+    local b = turned > 0 and 0 or angle_at(time)
+    local across = x[i] * math.cos(b) - (high + z[i]) * math.sin(b)
+    if across > 0.02 * thick then return angle_at(time) / deg end
+  end
+end
+metric("angle_deg", "deg", overturning)
+ensemble { n = 1, seed = 1, param = "gravity_turns", name = "gravity", value = overturning }
+metric("difference_deg", "deg", function(run) return overturning(run) - run.metrics.metrics.gravity_mean end)
+metric("rigid_angle_deg", "deg", rigid / deg)
+expect("metrics.difference_deg", 0, { abs = 0.1, source = "relative motion" })
+-- The elastic toe takes 1.89 (4/9 d0 h / b^2)^(1/3) of the angle for one block (contact.md, section 4), and more for several courses.
+expect("metrics.angle_deg", rigid / deg, { rel = 0.1, source = "atan(t / H), softened by the bed" })
