@@ -7,6 +7,8 @@
 -- What to look at  metrics worst_relative_error (over all blocks and all rows), and the energy residual.
 label("quick")
 local dt = param("dt", 1e-3, "time step [s]")
+local fine = param("fine", 0, "above 0: a tenth of the step")
+if fine > 0 then dt = dt / 10 end
 local h0 = param("h0", 10, "height of the lowest block [m]")
 local size = param("size", 0.3, "longest edge of the smallest block [m]")
 local fall_time = param("fall_time", 1, "length of the fall [s]")
@@ -32,7 +34,7 @@ end
 analysis { duration = fall_time, dt = dt, start = "rest", output_dt = fall_time / 50 }
 
 -- Error over the largest distance of the block from the ground, so that no row divides by zero.
-metric("worst_relative_error", "", function(run)
+local function worst_error(run)
   local worst = 0
   for _, case in ipairs(cases) do
     for k, axis in ipairs { "x", "y", "z" } do
@@ -44,12 +46,15 @@ metric("worst_relative_error", "", function(run)
     end
   end
   return worst
-end)
+end
+metric("worst_relative_error", "", worst_error)
+ensemble { n = 1, seed = 1, param = "fine", name = "fine", value = worst_error }
 metric("fallen_m", "m", function(run) return -run.last("block1_uz_rel_m") end)
 metric("end_time_s", "s", function(run) return run.time[#run.time] end)
 
 -- Round-off only: n sums of eps each, n = fall_time / dt steps.
 expect("metrics.worst_relative_error", 1e-12, { below = true, source = "h0 + v0 t - g t^2 / 2" })
+expect("metrics.fine_most", 1e-11, { below = true, source = "the same at a tenth of the step: ten times the round-off" })
 -- The run ends at a whole step; dt must divide the time of the fall for this line.
 expect("metrics.fallen_m", acceleration * fall_time ^ 2 / 2, { rel = 1e-12 * math.max(1, 1e-3 / dt), source = "g t^2 / 2" })
 expect("energy.residual_relative", 1e-12, { below = true, source = "a constant force: the ledger's identity is exact" })

@@ -1,0 +1,24 @@
+-- V19: the step D_min / v_p of Hakuno and Meguro, even halved, is past the limit of bricks on stiff thin mortar, and the run says so.
+--
+-- What happens   A wall of the bricks of Gu and Miao (5 mm of mortar, E = 10.7 GPa) with half of rule (5), which takes the wave's passage
+--                between two centres for the limit. The mass sits in the bricks and the spring in the thin joint, so that the true
+--                limit is shorter by 3.6 (2.7 was estimated from one block). Without unstable = true the step is refused; with it the run ends as "diverged".
+-- Source         Hakuno and Meguro 1993; Gu and Miao eq. (5): "not always convergent, use half of it".
+-- How to run     erbs run scenes/verify/v19_hakuno_rule.lua
+-- What to look at  over_limit: the rule's step over 2 / omega_max; status.
+label("quick", "fixed_dt")
+local E, t, density = param("E", 1.07e10, "of the mortar [Pa]"), param("thickness", 5 * mm, "[m]"), 1900
+material { name = "brick", density = density }
+local l, w, h = 0.3, 0.125, 0.1
+box { name = "foot", size = { 1.5, w, h }, at = { -0.1, 0, -h - t }, fixed = true }
+for course = 0, 4 do
+  for i = 0, 3 do
+    box { name = course .. "_" .. i, size = { l, w, h }, at = { i * (l + t) + course % 2 * (l + t) / 2, 0, course * (h + t) } }
+  end
+end
+joint { law = mortar { E = E, nu = 0.2, thickness = t, ft = 0.3 * MPa, c = 0.5 * MPa, mu = 0.7 }, tolerance = 0.1 * mm }
+ground_motion { wave = sine { amplitude = 0.1 * g, frequency = 5 }, direction = "x" }
+analysis { duration = 0.5, dt_rule = "hakuno_half", unstable = true }
+metric("over_limit", "", function(run) return run.dt_s / run.dt_critical_s end)
+expect("status", "diverged")
+expect("metrics.over_limit", 0, { between = { 1.5, 4 }, source = "an estimate from one block has 2.7" })
