@@ -20,10 +20,12 @@ struct PairResult {
   // Upper bounds of the pair's share in the greatest eigenvalue of M^-1/2 K M^-1/2 of each block, dashpots included (1/s2):
   // stable while dt^2 <= 2 / (sum over the pairs and joints of a block), for every block.
   double rate_a = 0, rate_b = 0;
+  // The same of a face that may land within the next steps, where the bodies are apart still but approach.
+  double landing_a = 0, landing_b = 0;
 };
 
 // Evaluates `pair` at the current pose and updates its memory; dt (s) is the step that led here, 0 at the start of a run. Returns false if
-// the bodies are apart and nothing was or is stored (the result is then all zero).
+// the bodies are apart and nothing was or is stored (the result is then zero but for `landing`).
 bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
                 double dt, bool want_energy, OverlapRoom& room, PairResult& result);
 

@@ -119,13 +119,20 @@ void split(const ContactShape& a, double edge, int j, Loop& g, Loop& h, Pieces& 
 
 }  // namespace
 
-bool still_apart(const ContactShape& a, const ContactShape& b, const PairPose& pose, int separating) {
+double distance(const ContactShape& a, const ContactShape& b, const PairPose& pose, int separating) {
   const int nfa = static_cast<int>(a.normal.size());
-  if (separating < 0) return false;
-  if (separating >= nfa) return face_of_other_separates(a, b, pose, separating - nfa);
+  if (separating < 0) return -1;
+  double least = std::numeric_limits<double>::infinity();
+  if (separating >= nfa) {
+    const Vec3 n = pose.turn * b.normal[at(separating - nfa)];
+    const double c = b.offset[at(separating - nfa)] + n.dot(pose.shift);
+    for (const Vec3& x : a.vertex) least = std::min(least, n.dot(x) - c);
+    return least;
+  }
   const Vec3 n = pose.turn.transpose() * a.normal[at(separating)];
   const double c = a.offset[at(separating)] - a.normal[at(separating)].dot(pose.shift);
-  return std::none_of(b.vertex.begin(), b.vertex.end(), [&](const Vec3& x) { return c - n.dot(x) > 0; });
+  for (const Vec3& x : b.vertex) least = std::min(least, n.dot(x) - c);
+  return least;
 }
 
 int separating_face_of_other(const ContactShape& a, const ContactShape& b, const PairPose& pose) {
@@ -139,7 +146,7 @@ bool find_pieces(const ContactShape& a, const ContactShape& b, const PairPose& p
   w.piece.clear();
   w.vertex.clear();
   w.depth.clear();
-  if (still_apart(a, b, pose, separating)) return false;
+  if (distance(a, b, pose, separating) >= 0) return false;
   place_other(a, b, pose, w);
   Bits in[most_faces], crossing = 0;
   const Bits all = nv == 64 ? ~Bits(0) : bit(nv) - 1;

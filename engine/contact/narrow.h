@@ -36,8 +36,8 @@ struct Pieces {
   double c[most_faces];         // m, depth of the origin below the faces of A
 };
 
-// True while the face that kept the bodies apart (see below) still does.
-bool still_apart(const ContactShape& a, const ContactShape& b, const PairPose& pose, int separating);
+// Distance (m) that the face that kept the bodies apart (see below) still shows between them; below zero where it shows none.
+double distance(const ContactShape& a, const ContactShape& b, const PairPose& pose, int separating);
 int separating_face_of_other(const ContactShape& a, const ContactShape& b, const PairPose& pose);  // -1: none
 
 // Finds the pieces. `separating` caches the face that keeps the bodies apart (faces of A, then faces of B after them; -1: none).

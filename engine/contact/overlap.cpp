@@ -21,7 +21,8 @@ Vec3 vec(const double* x) { return {x[0], x[1], x[2]}; }
 
 Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, OverlapRoom& room) {
   room.fast = false;
-  if (still_apart(a, b, pose, separating)) return {};
+  room.apart = distance(a, b, pose, separating);
+  if (room.apart >= 0) return {};
   room.fast = a.is_small && b.is_small && !room.only_general;
   if (room.fast) {
     const ClipKernels& kernels = clip_kernels();

@@ -12,6 +12,7 @@ struct OverlapRoom {
   Pieces pieces;
   bool fast = false;          // which of the two holds the overlap found last
   bool only_general = false;  // for tests: the general way for all
+  double apart = 0;           // m, distance of the bodies asked for last, at least; below zero where not known
 };
 
 // The elastic patch; its total is 0 where the bodies do not overlap. `separating` caches the face that keeps them apart (faces of

@@ -66,6 +66,13 @@ ContactShape contact_shape(const Polyhedron& part) {
     s.loop.insert(s.loop.end(), face.begin(), face.end());
   }
   s.loop_first.push_back(static_cast<int>(s.loop.size()));
+  for (std::size_t f = 0; f < s.normal.size(); ++f) {
+    Vec3 twice = Vec3::Zero();
+    const auto corner = [&](int i) -> const Vec3& { return s.vertex[std::size_t(s.loop[std::size_t(i)])]; };
+    for (int i = s.loop_first[f] + 1; i + 1 < s.loop_first[f + 1]; ++i)
+      twice += (corner(i) - corner(s.loop_first[f])).cross(corner(i + 1) - corner(s.loop_first[f]));
+    s.largest_face = std::max(s.largest_face, twice.norm() / 2);
+  }
   s.volume = mass_properties(p).volume;
   s.thickness = thickness(p);
   s.smallest_edge = smallest_edge(p);

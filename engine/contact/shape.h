@@ -22,6 +22,7 @@ struct ContactShape {
   double volume = 0;                // m3
   double thickness = 0;             // m, smallest distance between two parallel planes that hold it
   double smallest_edge = 0;         // m
+  double largest_face = 0;          // m2
   double radius = 0;                // m, of the sphere about `centre` that holds it
   double reach = 0;                 // m, of the sphere about the block's centroid that holds it
   bool is_small = false;            // few vertices and faces: `small` holds them too

@@ -20,6 +20,7 @@ double largest_inverse_inertia(const Mat3& inverse) {
 Debris::Debris(const Model& model, State& state, int threads) : model_(model), state_(state), shapes_(contact_shapes(model.shapes)) {
   blocks_.resize(z(model.nblock));
   rate_.assign(z(model.nblock), 0.0);
+  landing_.assign(z(model.nblock), 0.0);
   room_.resize(z(threads));
   for (int b = 0; b < model.nblock; ++b) {
     ContactBlock& block = blocks_[z(b)];

@@ -54,8 +54,9 @@ class Debris {
     int joint = -1;                 // first of the joints that this pair took over from, -1: none
     double rate_a = 0, rate_b = 0;  // 1/s2, what they were counted with in dt_critical
   };
-  std::vector<Bed> bed_;      // of each pair
-  std::vector<double> rate_;  // 1/s2, of contacts beyond that [nblock]
+  std::vector<Bed> bed_;         // of each pair
+  std::vector<double> rate_;     // 1/s2, of contacts beyond that [nblock]
+  std::vector<double> landing_;  // 1/s2, of the stiffest face that may land on the block next; one face has room for no more
   std::vector<PairResult> results_;
   std::vector<OverlapRoom> room_;         // per thread
   std::vector<std::uint64_t> pair_keys_;  // pairs of blocks that are jointed at rest, sorted, ...

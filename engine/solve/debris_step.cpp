@@ -51,8 +51,7 @@ void Debris::forces(int thread, int threads, bool sample) {
   for (int i = mine.first; i < mine.last; ++i) {
     Pair& pair = state_.debris.pair[z(i)];
     PairResult& out = results_[z(i)];
-    if (!pair_force(pair, shapes_, blocks_[z(pair.a)], blocks_[z(pair.b)], settings_, state_.last_dt, sample, room_[z(thread)], out))
-      out = PairResult{};
+    pair_force(pair, shapes_, blocks_[z(pair.a)], blocks_[z(pair.b)], settings_, state_.last_dt, sample, room_[z(thread)], out);
   }
 }
 
@@ -61,7 +60,7 @@ void Debris::gather(double* push, bool sample) {
   if (std::exchange(relisted_, false)) std::fill(push, push + 6 * z(model_.nblock), 0.0);
   for (const int b : involved_) {
     std::fill(push + 6 * b, push + 6 * b + 6, 0.0);
-    rate_[z(b)] = 0;
+    rate_[z(b)] = landing_[z(b)] = 0;
   }
   touching_ = 0;
   allowed_ = s.dt_goal;
@@ -83,6 +82,8 @@ void Debris::gather(double* push, bool sample) {
     if (sample) elastic_ += r.elastic + r.tangential;
     rate_[z(pair.a)] += std::max(0.0, r.rate_a - bed_[i].rate_a);
     rate_[z(pair.b)] += std::max(0.0, r.rate_b - bed_[i].rate_b);
+    landing_[z(pair.a)] = std::max(landing_[z(pair.a)], r.landing_a);
+    landing_[z(pair.b)] = std::max(landing_[z(pair.b)], r.landing_b);
     touching_ += r.touching;
     touched_ += r.touching;
     const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
@@ -93,7 +94,7 @@ void Debris::gather(double* push, bool sample) {
   }
   double rate = 0;
   for (const int b : involved_)
-    if (model_.kind[z(b)] == Kind::moving) rate = std::max(rate, rate_[z(b)]);
+    if (model_.kind[z(b)] == Kind::moving) rate = std::max(rate, rate_[z(b)] + landing_[z(b)]);
   allowed_ = std::min(allowed_, step_for(rate, s.dt_goal, model_.dt_critical));
 }
 

@@ -22,7 +22,8 @@ struct JointPose {
 
 JointPose joint_pose(const Model& model, const State& state, int j);
 
-// Takes the present pose of every block of the marked islands as the new reference, and the geometry of their joints with it.
+// Takes the present pose of the blocks as their new reference, and the geometry of their joints with it: `joints` are all that end
+// at one of them.
 void refresh(const Model& model, State& state, const std::vector<int>& blocks, const std::vector<int>& joints);
 void refresh_all(const Model& model, State& state);
 

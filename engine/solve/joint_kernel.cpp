@@ -88,8 +88,9 @@ void joint_forces(const Model& m, State& s, int first, int last, bool sample, Jo
 
 bool beyond_its_faces(const Joint& joint, const double q[6]) {
   const double side = std::min(joint.half_s, joint.half_t) * 2;
+  const double least_gap = q[2] - std::fabs(q[3]) * joint.half_t - std::fabs(q[4]) * joint.half_s;
   return std::hypot(q[0], q[1]) + std::fabs(q[5]) * joint.radius > 0.01 * side || std::hypot(q[3], q[4]) > 0.03 ||
-         q[2] > 0.03 * joint.radius + 0.002 * side;
+         least_gap > 0.002 * side;
 }
 
 bool joint_spent(const Model& m, const State& s, int j) {

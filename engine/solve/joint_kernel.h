@@ -25,8 +25,8 @@ void joint_forces(const Model& model, State& state, int first, int last, bool sa
 
 // A joint whose faces have moved so far that its fixed overlap polygon no longer tells the truth: slip of 1 % of its side (that much
 // of the polygon is wrong), a turn of 0.03 (the gap of a turned face, 2 sin(turn / 2) for turn, errs by turn^3 / 24 of the side,
-// 1e-6; the pairing of moment and rotation rate about the mean frame by turn^2 / 12, 8e-5), or an opening at its middle beyond what
-// that turn about an edge gives and 0.2 % of its side.
+// 1e-6; the pairing of moment and rotation rate about the mean frame by turn^2 / 12, 8e-5), or faces that are nowhere closer than 0.2 %
+// of its side.
 bool beyond_its_faces(const Joint& joint, const double q[6]);
 // ... and that has no bond left: contact takes over.
 bool joint_spent(const Model& model, const State& state, int j);

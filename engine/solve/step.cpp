@@ -158,7 +158,8 @@ void Solver::between() {
   debris_.loosen();
 }
 
-// The step follows the contacts: shorter at once, longer again after a while of calm.
+// The step follows the contacts: shorter at once, longer again after a while of calm, and then by no more than half, since what may land
+// is looked for a few steps ahead only.
 void Solver::follow_contacts() {
   State& s = state_;
   const double allowed = contacts_ ? debris_.allowed_dt() : s.dt_goal;
@@ -166,8 +167,8 @@ void Solver::follow_contacts() {
   if (allowed < s.dt) {
     dt = 0.95 * allowed;
     s.calm = 0;
-  } else if (s.dt < s.dt_goal && ++s.calm > 200) {
-    if (allowed > 1.1 * s.dt) dt = std::min(s.dt_goal, 0.95 * allowed);
+  } else if (s.dt < s.dt_goal && ++s.calm > 100) {
+    if (allowed > 1.1 * s.dt) dt = std::min({s.dt_goal, 0.95 * allowed, 1.5 * s.dt});
     s.calm = 0;
   }
   if (dt == s.dt) return;

@@ -5,11 +5,11 @@
 --                flank to the other as the edges pass, at the rate at which they do.
 -- Source         hard case 5: the direction of the force turns by less than 1 degree a step
 -- How to run     erbs run scenes/hard/h05_parallel_edges.lua
--- What to look at  turn_* (largest change of direction in a step, degrees), mirror_* (before and after, of the greatest force)
+-- What to look at  turn_* (largest change of direction in a step, degrees)
 -- Tolerance      Sunk by d the edges pass within 2 d, and the direction turns by 90 degrees in that: 0.09 degrees a step at the speed here.
 label("quick", "fixed_dt")
 local d = param("depth", 0.5 * mm, "of edge below edge [m]")
-local dt, steps = 1e-5, 4000
+local dt, down, steps = 1e-5, 500, 4000  -- s, steps to come down beside the edge, and to pass over it
 gravity(0)
 material { name = "stone", density = 2000, kn = 1e9, ks = 0, friction = 0, restitution = 1 }
 material { name = "anvil", density = 1e5, kn = 1e9, ks = 0, friction = 0, restitution = 1 }  -- so heavy that it stays where it is
@@ -25,8 +25,8 @@ for i, angle in ipairs { 0, 1e-12, 1e-9, 1e-6, 1e-3, 0.1 } do
   local name, at = "angle" .. i, { 0, i, 0 }
   block { name = name .. "_below", material = "anvil", vertices = bar(0.4), at = at, free = true }
   block { name = name, material = "stone", vertices = bar(0.3), at = { 0, i, 2 * r + d }, rotation = { 0, 0, angle }, free = true }
-  motion { block = name, wave = function(t) return 4 * d * (2 * t / (steps * dt) - 1) end, direction = "y" }
-  motion { block = name, wave = -2 * d, direction = "z" }
+  motion { block = name, wave = function(t) return 4 * d * (2 * math.max(0, t / dt - down) / steps - 1) end, direction = "y" }
+  motion { block = name, wave = function(t) return -2 * d * math.min(1, t / dt / down) end, direction = "z" }
   recorder { name = name, quantity = "reaction", block = name .. "_below" }
   metric("turn_" .. name, "deg", function(run)
     local y, z, worst, last = run.history(name .. "_fy_N"), run.history(name .. "_fz_N"), 0, nil
@@ -40,10 +40,6 @@ for i, angle in ipairs { 0, 1e-12, 1e-9, 1e-6, 1e-3, 0.1 } do
     return worst
   end)
   expect("metrics.turn_" .. name, 1, { below = true, source = "hard case 5" })
-  metric("mirror_" .. name, "", function(run)  -- the force before and after is mirrored
-    local y, z, worst = run.history(name .. "_fy_N"), run.history(name .. "_fz_N"), 0
-    for k = 2, #y do worst = math.max(worst, math.abs(y[k] + y[#y + 2 - k]), math.abs(z[k] - z[#y + 2 - k])) end
-    return worst / run.peak(name .. "_fz_N")
-  end)
 end
-analysis { duration = steps * dt, dt = dt, start = "rest", output_dt = dt, frame_dt = 1 }
+-- The gate is of runs with more energy than a first touch, which is all there is when the edges meet.
+analysis { duration = (down + steps) * dt, dt = dt, start = "rest", output_dt = dt, frame_dt = 1, energy_gate = 0.5 }
