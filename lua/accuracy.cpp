@@ -24,8 +24,8 @@ bool has_setting(const std::string& key) {
   return std::any_of(fields.begin(), fields.end(), [&](const auto& field) { return field.name == key; });
 }
 
-void add_steps(std::vector<Setting>& all) {
-  for (const double f : {1.0 / 32, 1.0 / 16, 1.0 / 8, 1.0 / 4, 1.0 / 2, 0.9})
+void add_steps(std::vector<Setting>& all, double finest) {
+  for (double f = finest; f < 1; f = f < 0.5 ? 2 * f : f + 0.4)
     all.push_back({"time step",
                    fmt::format("dt {:g} of the limit", f),
                    fmt::format("analysis {{ dt_fraction = {} }}", f),
@@ -59,19 +59,17 @@ void add_lazy(std::vector<Setting>& all) {
 
 // Gu and Miao's solver and its repairs; for comparison, never to be recommended.
 void add_sequential(std::vector<Setting>& all) {
-  const bool repeats = has_setting("iterations");
-  for (const char* variant : {"literal", "centred"})
-    for (const int n : {1, 2, 4, 8}) {
-      if (n > 1 && !repeats) break;
-      Setting s{fmt::format("sequential, {}", variant),
-                fmt::format("sequential {}, {} iterations", variant, n),
-                fmt::format("analysis {{ solver = \"sequential\", variant = \"{}\"{} }}", variant,
-                            n > 1 ? fmt::format(", iterations = {}", n) : ""),
-                {"--allow-unstable", "--set", "solver=sequential", "--set", fmt::format("variant={}", variant)},
-                1.0 / n};
-      if (repeats) s.words.insert(s.words.end(), {"--set", fmt::format("iterations={}", n)});
-      all.push_back(std::move(s));
-    }
+  static const struct {
+    const char *name, *variant, *order;
+  } kinds[] = {{"literal", "literal", "random"}, {"centred", "centred", "random"}, {"coloured", "literal", "coloured"}};
+  for (const auto& kind : kinds)
+    for (const int n : {1, 2, 4, 8})
+      all.push_back({fmt::format("sequential, {}", kind.name), fmt::format("sequential {}, {} iterations", kind.name, n),
+                     fmt::format("analysis {{ solver = \"sequential\", variant = \"{}\", order = \"{}\", iterations = {} }}", kind.variant,
+                                 kind.order, n),
+                     {"--allow-unstable", "--set", "solver=sequential", "--set", fmt::format("variant={}", kind.variant), "--set",
+                      fmt::format("order={}", kind.order), "--set", fmt::format("iterations={}", n)},
+                     1.0 / n});
 }
 
 void add_units(std::vector<Setting>& all) {
@@ -88,9 +86,9 @@ struct Plan {
 Plan plan_of(const Scene& scene) {
   Plan plan;
   plan.settings.push_back({"", "the scene as it is", "", {}, 0});
-  const bool fixed = std::find(scene.labels.begin(), scene.labels.end(), "fixed_dt") != scene.labels.end();
-  if (fixed) plan.not_applicable.emplace_back("time step: the scene fixes it (label \"fixed_dt\")");
-  else add_steps(plan.settings);
+  const auto labelled = [&](const char* label) { return std::find(scene.labels.begin(), scene.labels.end(), label) != scene.labels.end(); };
+  if (labelled("fixed_dt")) plan.not_applicable.emplace_back("time step: the scene fixes it (label \"fixed_dt\")");
+  else add_steps(plan.settings, labelled("coarse_study") ? 1.0 / 8 : 1.0 / 32);
   const bool joints = std::any_of(scene.joint_rules.begin(), scene.joint_rules.end(), [](const JointRule& rule) { return !rule.none; });
   if (joints) {
     add_points(plan.settings);
@@ -98,7 +96,7 @@ Plan plan_of(const Scene& scene) {
   } else {
     plan.not_applicable.emplace_back("points, lazy rotation: the scene has no joints");
   }
-  if (has_setting("solver") && has_setting("variant") && joints) add_sequential(plan.settings);
+  if (has_setting("solver") && joints) add_sequential(plan.settings);
   else plan.not_applicable.emplace_back(joints ? "solver: this program has one" : "solver: the scene has no joints");
   const bool unit = std::any_of(scene.params.begin(), scene.params.end(), [](const Param& p) { return p.name == "unit"; });
   if (unit) add_units(plan.settings);

@@ -13,6 +13,25 @@ int damping(Call& call) {
   return 0;
 }
 
+// Three settings of the study of accuracy (engine/README.md): its errors and costs are there.
+struct Quality {
+  const char* name;
+  double dt_fraction;
+  int points;  // along each side of a joint
+};
+constexpr Quality qualities[] = {{"draft", 0.9, 2}, {"standard", 0.9, 3}, {"reference", 0.25, 5}};
+
+// What the scene says of its own, before or after, comes first.
+void take_quality(Call& call, Arguments& arguments) {
+  std::string name;
+  arguments.read("quality", name);
+  for (const Quality& quality : qualities) {
+    if (name != quality.name) continue;
+    if (!arguments.has("dt") && !arguments.has("dt_fraction")) call.context.scene.analysis.dt_fraction = quality.dt_fraction;
+    call.context.quality_points = quality.points;
+  }
+}
+
 int analysis(Call& call) {
   static const Keys step_keys = {{"1", "number", "s", "time step", 0, 1, true}, {"unstable", "boolean", "", "let it run past the limit"}};
   Arguments arguments = call.arguments();
@@ -20,6 +39,7 @@ int analysis(Call& call) {
   into.place = call.place;
   for (const auto& field : Analysis::fields())
     if (field.name != "dt") std::visit([&](auto member) { arguments.read(std::string(field.name), into.*member); }, field.member);
+  take_quality(call, arguments);
   if (!arguments.is_table("dt")) {
     arguments.read("dt", into.dt);
   } else if (auto step = arguments.table("dt", step_keys)) {
@@ -71,7 +91,10 @@ int camera(Call& call) {
 std::vector<Function> analysis_functions() {
   return {
       {"damping", damping, "{ ... }", "", "Damping of blocks and of joints.", keys_of<Damping>()},
-      {"analysis", analysis, "{ ... }", "", "How long to run, with which step, and when to stop.", keys_of<Analysis>()},
+      {"analysis", analysis, "{ ... }", "", "How long to run, with which step, and when to stop.",
+       joined({keys_of<Analysis>(),
+               {{"quality", "string", "", "a measured pair of step and points, for what the scene does not say: dt 0.9 and 2 x 2, 0.9 and 3 x 3, 0.25 and 5 x 5",
+                 -unbounded, unbounded, false, "draft|standard|reference"}}})},
       {"recorder", recorder, "{ ... }", "",
        "Writes a quantity of one block, or its mean (of forces: the sum) over several, to histories.csv.",
        joined({keys_of<Recorder>(),

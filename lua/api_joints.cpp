@@ -90,6 +90,7 @@ int joint(Call& call) {
     if (mortar->kn == 0 && mortar->E > 0 && mortar->thickness == 0)
       arguments.mistake("the mortar has E but no thickness; give thickness = 5*mm here or in mortar{}");
   }
+  if (!arguments.has("points") && !arguments.has("rule")) call.context.plain_rules.push_back(call.context.scene.joint_rules.size());
   call.context.scene.joint_rules.push_back(std::move(rule));
   return 0;
 }

@@ -155,7 +155,7 @@ CaseResult result_of(const Case& item) {
   try {
     if (fs::exists(run_file(item.directory, "metrics.json"))) {
       const Json metrics = read_metrics(item.directory);
-      result.updates = number_at(metrics, "point_updates");
+      result.updates = number_at(metrics, "point_updates") + number_at(metrics, "study_point_updates");
       const double limit = number_at(metrics, "dt_critical_s");
       if (limit > 0) result.dt_share = number_at(metrics, "dt_s") / limit;
     }

@@ -65,6 +65,8 @@ struct Context {
   std::vector<Study> studies;
   std::string study;  // the one that started this run; "" where none did
   std::vector<GroupRecorder> group_recorders;
+  int quality_points = 0;           // along each side of a joint, of analysis{ quality = ... }; 0: none is asked for
+  std::vector<size_t> plain_rules;  // joint rules that say neither rule nor points
   std::vector<std::string> output;  // what the script printed
   std::filesystem::path folder;     // of the scene file
   std::vector<std::string> files;   // names of the chunks that are the user's

@@ -390,6 +390,7 @@ function damping(keys) end
 ---@field gyroscopic? boolean the gyroscopic term w x (I w) [default true]
 ---@field output_dt? number time between rows of histories.csv and energy.csv [s; 1e-09 to 1e+06; default 0.01]
 ---@field frame_dt? number time between poses for pictures [s; 1e-09 to 1e+06; default 0.04]
+---@field quality? "draft"|"standard"|"reference" a measured pair of step and points, for what the scene does not say: dt 0.9 and 2 x 2, 0.9 and 3 x 3, 0.25 and 5 x 5
 
 ---How long to run, with which step, and when to stop.
 ---@param keys erbs.analysis_keys

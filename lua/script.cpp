@@ -322,6 +322,9 @@ void Script::run(const std::string& text, const std::string& name, const Overrid
 // What is settled when the script has ended, and every mistake at once.
 void Script::finish(bool whole) {
   Context& context = *context_;
+  if (context.quality_points > 0)
+    for (const size_t i : context.plain_rules)
+      context.scene.joint_rules[i].points_long = context.scene.joint_rules[i].points_short = context.quality_points;
   if (whole) try {
       resolve_groups(context);
       check_names(context);

@@ -38,6 +38,7 @@ StudiesOutcome run_studies(const Script& script, const std::string& path, const 
       return out;
     }
     for (const auto& [name, value] : carried.result.metrics) out.metrics[name] = value ? Json(*value) : Json(nullptr);
+    out.updates += carried.result.updates;
     if (!carried.result.trouble.empty()) out.troubles.push_back(carried.result.trouble);
   }
   return out;

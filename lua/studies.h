@@ -11,6 +11,7 @@ namespace erbs {
 struct StudiesOutcome {
   Json metrics = Json::object();      // to stand beside the scene's own
   std::vector<std::string> troubles;  // why one has no value
+  double updates = 0;                 // contact points their runs evaluated
   bool interrupted = false;
 };
 

@@ -35,7 +35,7 @@ std::string text_of(const std::string& path) {
 }
 
 // Evaluates what the scene asks for and writes it into the run folder. Returns the messages of metrics that failed.
-std::vector<std::string> complete_metrics(Script& script, const std::string& directory, bool whole, const Json& of_studies, Json& metrics,
+std::vector<std::string> complete_metrics(Script& script, const std::string& directory, bool whole, const StudiesOutcome& studies, Json& metrics,
                                           std::vector<Verdict>& verdicts) {
   std::vector<std::string> failures;
   metrics = read_metrics(directory);
@@ -46,8 +46,9 @@ std::vector<std::string> complete_metrics(Script& script, const std::string& dir
     own[metric.name] = metric.value ? Json(*metric.value) : Json(nullptr);
     if (!metric.error.empty()) failures.push_back(metric.error);
   }
-  for (const auto& [name, value] : of_studies.items()) own[name] = value;
+  for (const auto& [name, value] : studies.metrics.items()) own[name] = value;
   metrics["metrics"] = own;
+  if (!script.studies().empty()) metrics["study_point_updates"] = studies.updates;
   if (whole) verdicts = judge(script.scene().expectations, metrics);
   int passed = 0;
   for (const Verdict& verdict : verdicts) passed += verdict.passed;
@@ -284,7 +285,7 @@ int verb_run(const Options& options) {
     if (!trouble.empty()) fmt::print(stderr, "{}: {}\n", path, trouble);
     write_json(run_file(directory, "metrics.json"), now);
   }
-  auto failures = complete_metrics(script, directory, whole, studies.metrics, metrics, verdicts);
+  auto failures = complete_metrics(script, directory, whole, studies, metrics, verdicts);
   for (const auto& trouble : studies.troubles) fmt::print(stderr, "{}\n", trouble);
   for (const auto& message : failures) fmt::print(stderr, "{}\n", message);
   if (!options.quiet) print_summary(scene, directory, metrics, verdicts);

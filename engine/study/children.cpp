@@ -61,6 +61,12 @@ class Runner {
     return answers;
   }
 
+  double updates() const {
+    double sum = 0;
+    for (const Answer& a : rows_) sum += a.updates;
+    return sum;
+  }
+
  private:
   using Clock = std::chrono::steady_clock;
   struct Running {
@@ -108,6 +114,7 @@ class Runner {
       const std::string file = run_file(folder_of(a.x), "metrics.json");
       const Json metrics = fs::exists(file) ? read_json(file) : Json::object();
       if (const Json* wall = find_key(metrics, "wall_s.total"); wall != nullptr && wall->is_number()) a.wall_s = wall->get<double>();
+      if (const Json* updates = find_key(metrics, "point_updates"); updates != nullptr && updates->is_number()) a.updates = updates->get<double>();
       const std::string status = metrics.value("status", "");
       const Json* value = find_key(metrics, study_.collapse ? "collapse.collapsed" : "metrics.study");
       if (overdue) a.reason = fmt::format("took longer than {:g} s and was ended", c_.max_wall);
@@ -119,7 +126,7 @@ class Runner {
       else if (value->is_number() && std::isfinite(value->get<double>())) a.value = value->get<double>();
       else a.reason = "its answer is no finite number";
     } catch (const std::exception& trouble) { a.reason = trouble.what(); }
-    Json note{{"key", key()}, {"x", a.x}, {"reason", a.reason}, {"wall_s", a.wall_s}};
+    Json note{{"key", key()}, {"x", a.x}, {"reason", a.reason}, {"wall_s", a.wall_s}, {"updates", a.updates}};
     note["value"] = a.value ? Json(*a.value) : Json(nullptr);
     write_json(file_of(a.x), note);
   }
@@ -132,6 +139,7 @@ class Runner {
       if (note["value"].is_number()) a.value = note["value"].get<double>();
       a.reason = note.value("reason", "");
       a.wall_s = note.value("wall_s", 0.0);
+      a.updates = note.value("updates", 0.0);
       return true;
     } catch (const std::exception&) { return false; }
   }
@@ -163,7 +171,9 @@ class Runner {
 Carried carry_out(const Study& study, const Children& children) {
   Runner runner(study, children);
   try {
-    return {carry_out(study, [&](const std::vector<double>& xs) { return runner.run(xs); }), false};
+    Carried carried{carry_out(study, [&](const std::vector<double>& xs) { return runner.run(xs); }), false};
+    carried.result.updates = runner.updates();
+    return carried;
   } catch (const Interrupted&) { return {{}, true}; }
 }
 

@@ -33,6 +33,7 @@ struct Answer {
   std::optional<double> value;
   std::string reason;
   double wall_s = 0;
+  double updates = 0;  // contact points evaluated
 };
 
 // Runs the scene at each x, side by side; the answers in the order asked.
@@ -41,6 +42,7 @@ using RunAll = std::function<std::vector<Answer>(const std::vector<double>&)>;
 struct StudyResult {
   std::vector<std::pair<std::string, std::optional<double>>> metrics;  // names as metric_names
   std::string trouble;                                                 // why a metric has no value; "" where all do
+  double updates = 0;                                                  // contact points its runs evaluated
 };
 
 StudyResult carry_out(const Study& study, const RunAll& runs);

@@ -250,3 +250,16 @@ TEST_CASE("labels are kept once each, and a limit of use with its reason", "[lua
   CHECK(mentions(mistakes_in("label(3)"), "must be a string"));
   CHECK(mentions(mistakes_in("use_limit{ points = 4 }"), "reason"));
 }
+
+TEST_CASE("a quality sets what the scene does not say: the step, and the points of plain joint rules", "[lua]") {
+  const std::string rules = "joint{ law = dry{ kn = 1e9, mu = 0.6 } }\njoint{ law = dry{ kn = 1e9, mu = 0.6 }, points = 16 }\n";
+  const Scene plain = scene_of(rules), reference = scene_of(rules + "analysis{ duration = 1, quality = 'reference' }"),
+              draft = scene_of("analysis{ duration = 1, quality = 'draft', dt_fraction = 0.7 }\n" + rules);
+  CHECK(plain.joint_rules[0].points_long == 3);
+  CHECK(reference.joint_rules[0].points_long == 5);
+  CHECK(reference.joint_rules[1].points_long == 4);
+  CHECK(reference.analysis.dt_fraction == 0.25);
+  CHECK(draft.joint_rules[0].points_short == 2);
+  CHECK(draft.analysis.dt_fraction == 0.7);
+  CHECK_FALSE(mistakes_in("analysis{ duration = 1, quality = 'best' }").empty());
+}

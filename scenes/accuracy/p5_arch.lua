@@ -1,0 +1,45 @@
+-- P5: the sideways load that turns an arch into a mechanism.
+--
+-- What happens   An arch of seven voussoirs on dry joints of high friction stands while the ground accelerates more and more, slowly against its
+--                own time. The share of gravity at which a voussoir has moved by a hundredth of the radius is read.
+-- Source         Limit analysis: .37361 (Oppenheim 1992: .37) for t/R = .15 and an embrace of 157.5 degrees. The hinges are pressed in, which
+--                lowers it; the mechanism takes time to move, which raises what is read.
+-- How to run     erbs accuracy scenes/accuracy/p5_arch.lua [-D rate=0.01]
+-- What to look at  neither step nor points: the rate of loading and the stiffness of the joints are the error.
+label("coarse_study")
+local R, n, embrace = param("R", 10, "of the centre line [m]"), 7, 157.5 * deg
+local t, kn = 0.15 * R, param("kn", 1e11, "[Pa/m]")
+local rate = param("rate", 0.02, "growth of the load [g/s]")
+local from = 0.30
+material { name = "stone", density = 2000, kn = kn, ks = 0.4 * kn, friction = 3 }
+local function at(angle, radius, y) return { radius * math.sin(angle), y, radius * math.cos(angle) } end
+local function voussoir(name, a, b, fixed)
+  local points = {}
+  for _, y in ipairs { -0.5, 0.5 } do
+    for _, angle in ipairs { a, b } do
+      points[#points + 1] = at(angle, R - t / 2, y)
+      points[#points + 1] = at(angle, R + t / 2, y)
+    end
+  end
+  block { name = name, vertices = points, material = "stone", fixed = fixed }
+end
+local step = embrace / n
+voussoir("left", -embrace / 2 - step, -embrace / 2, true)
+voussoir("right", embrace / 2, embrace / 2 + step, true)
+for i = 1, n do voussoir("v" .. i, -embrace / 2 + (i - 1) * step, -embrace / 2 + i * step) end
+joint { law = dry { kn = kn, ks = 0.4 * kn, mu = 3 }, tolerance = 1e-3 }
+local grow = 2  -- s, in which the load comes to its first value, smoothly
+local function load(time)
+  if time < grow then return from * 0.5 * (1 - math.cos(pi * time / grow)) end
+  return from + rate * (time - grow)
+end
+ground_motion { wave = function(time) return g * load(time) end, direction = "x" }
+damping { mass = 1 }
+recorder { name = "crown", quantity = "displacement", block = "v4", axis = "x" }
+metric("multiplier", "g", function(run)
+  local at = run.crossings("crown_ux_rel_m", -0.01 * R, false)[1]
+  return at and load(at)
+end)
+-- It moves R / 100 in about the time sqrt(2 * 0.1 m / (0.03 g)) = 0.8 s, in which the load grows by 0.016 g.
+expect("metrics.multiplier", 0.37361, { rel = 0.06, source = "limit analysis" })
+analysis { duration = grow + (0.42 - from) / rate, output_dt = 2e-3, frame_dt = 1, energy_gate = 1 }

@@ -1,0 +1,79 @@
+// erbs accuracy as a user meets it.
+#include <catch2/catch.hpp>
+
+#include "engine/record/csv.h"
+#include "tests/unit/lua/bench.h"
+
+using namespace erbs;
+
+namespace {
+
+// A block on a bed, swinging: its period is known, and errs with dt^2.
+const std::string oscillator = R"(-- A block on a bed.
+gravity(0)
+material { name = "stone", density = 2000 }
+box { name = "foot", size = { .4, .4, .1 }, at = { 0, 0, -.1 }, fixed = true }
+local w, v0 = math.sqrt(1e8 / 200), 1e-3
+box { name = "block", size = { .4, .4, .1 }, at = { 0, 0, 0 }, initial = { velocity = { 0, 0, v0 } } }
+joint { law = mortar { kn = 1e8, ks = 4e7, ft = 1e9, c = 1e9, mu = .6 } }
+recorder { name = "block", quantity = "displacement", block = "block", axis = "z" }
+analysis { duration = 65 / w, output_dt = 1e-9, start = "rest" @ }
+)";
+const std::string period = "metric('period', 's', function(run) return run.period 'block_uz_rel_m' end)\n";
+const std::string known = "expect('metrics.period', 2 * pi / w, { rel = 0.1 })\n";
+
+std::string with(const std::string& analysis) {
+  std::string text = oscillator;
+  return text.replace(text.find('@'), 1, analysis);
+}
+
+}  // namespace
+
+TEST_CASE("accuracy tells slopes, a target's setting and what it costs; its table is reproducible", "[program]") {
+  Bench bench;
+  const std::string scene = bench.scene(with("") + period + known);
+  REQUIRE(bench.erbs({"accuracy", scene, "-o", bench.out(), "--target", "0.1%"}) == 0);
+  INFO(bench.said);
+  CHECK(contains(bench.said, "analysis { dt_fraction = 0.125 }"));  // (w dt)^2 / 24 with w dt <= 1.1: 0.25 still errs by 0.3 %
+  CHECK(contains(bench.said, "metrics.period costs"));
+  CHECK(contains(bench.said, "param(\"unit\", 1)  not applicable"));
+  for (const char* name : {"accuracy.csv", "accuracy.svg", "accuracy.png"}) CHECK(std::filesystem::file_size(bench.folder / "out" / name) > 1000);
+  const CsvTable table = read_csv(bench.out() + "/accuracy.csv");
+  int steps = 0;
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const double value = table.column("value")[i], reference = table.column("reference")[i], error = table.column("error")[i];
+    if (std::isfinite(error) && reference != 0) CHECK(error == std::fabs(value - reference) / std::fabs(reference));
+    steps += table.text[0][i] == "time step" && table.text[2][i] == "metrics.period";
+  }
+  CHECK(steps == 6);
+  const size_t at = bench.said.find("time step: its own error falls with the power ");
+  REQUIRE(at != std::string::npos);
+  CHECK(std::stod(bench.said.substr(at + 46)) == Approx(2).margin(0.15));
+  CHECK(bench.erbs({"accuracy", scene, "-o", bench.out()}) == 2);
+  CHECK(contains(bench.said, "--resume"));
+  CHECK(bench.erbs({"accuracy", scene, "-o", bench.out(), "--resume", "--target", "1e-9%"}) == 4);
+  CHECK(contains(bench.said, "no setting reaches it"));
+}
+
+TEST_CASE("accuracy of a scene without a number says what to add", "[program]") {
+  Bench bench;
+  CHECK(bench.erbs({"accuracy", bench.scene(with("")), "-o", bench.out()}) == 2);
+  CHECK(contains(bench.said, "add a metric"));
+  CHECK(bench.erbs({"accuracy", bench.scene(with("") + period), "-o", bench.out(), "--target", "often"}) == 2);
+}
+
+// In evaluations of contact points, the cost that no machine changes.
+TEST_CASE("draft is cheaper than standard, and reference ten times as accurate on a smooth quantity", "[program]") {
+  Bench bench;
+  double cost[3], error[3];
+  const char* names[] = {"draft", "standard", "reference"};
+  for (int i = 0; i < 3; ++i) {
+    REQUIRE(bench.run(with(std::string(", quality = '") + names[i] + "'") + period, {"--force", "--no-figures"}) == 0);
+    const Json metrics = read_json(bench.out() + "/metrics.json");
+    cost[i] = metrics["point_updates"].get<double>();
+    error[i] = std::fabs(metrics["metrics"]["period"].get<double>() / (2 * pi / std::sqrt(1e8 / 200)) - 1);
+  }
+  CHECK(cost[0] < cost[1]);
+  CHECK(cost[1] < cost[2]);
+  CHECK(error[2] < 0.1 * error[1]);
+}
