@@ -44,7 +44,7 @@ void add_points(std::vector<Setting>& all) {
                      fmt::format("{} points, {}", n, rule),
                      fmt::format("joint {{ rule = \"{}\", points = {} }}", rule, n),
                      {"--rule", rule, "--points", std::to_string(n)},
-                     1.0 / side});
+                     name == "trapezoid" ? 1.0 / (side - 1) : 1.0 / side});  // of what the error is a power
     }
 }
 
@@ -64,7 +64,8 @@ void add_sequential(std::vector<Setting>& all) {
   } kinds[] = {{"literal", "literal", "random"}, {"centred", "centred", "random"}, {"coloured", "literal", "coloured"}};
   for (const auto& kind : kinds)
     for (const int n : {1, 2, 4, 8})
-      all.push_back({fmt::format("sequential, {}", kind.name), fmt::format("sequential {}, {} iterations", kind.name, n),
+      all.push_back({fmt::format("sequential, {}", kind.name),
+                     fmt::format("sequential {}, {} iterations", kind.name, n),
                      fmt::format("analysis {{ solver = \"sequential\", variant = \"{}\", order = \"{}\", iterations = {} }}", kind.variant,
                                  kind.order, n),
                      {"--allow-unstable", "--set", "solver=sequential", "--set", fmt::format("variant={}", kind.variant), "--set",
@@ -88,7 +89,7 @@ Plan plan_of(const Scene& scene) {
   plan.settings.push_back({"", "the scene as it is", "", {}, 0});
   const auto labelled = [&](const char* label) { return std::find(scene.labels.begin(), scene.labels.end(), label) != scene.labels.end(); };
   if (labelled("fixed_dt")) plan.not_applicable.emplace_back("time step: the scene fixes it (label \"fixed_dt\")");
-  else add_steps(plan.settings, labelled("coarse_study") ? 1.0 / 8 : 1.0 / 32);
+  else add_steps(plan.settings, labelled("coarse_study") ? 1.0 / 8 : labelled("fine_study") ? 1.0 / 128 : 1.0 / 32);
   const bool joints = std::any_of(scene.joint_rules.begin(), scene.joint_rules.end(), [](const JointRule& rule) { return !rule.none; });
   if (joints) {
     add_points(plan.settings);

@@ -9,8 +9,22 @@ namespace erbs {
 namespace {
 
 constexpr double least = 1e-13;  // drawn where an error is zero
-constexpr const char* colors[] = {"#1b4f8a", "#c0502d", "#3f8f46", "#8a5a9e", "#b08a1e", "#2f9aa8", "#666666", "#a33a5a", "#d08a70"};
-constexpr int marks[] = {7, 5, 9, 11, 13, 7, 5, 9, 11};
+// A knob looks the same in every panel.
+struct Look {
+  const char *knob, *color;
+  int mark;
+};
+constexpr Look looks[] = {{"time step", "#1b4f8a", 7},           {"points, simpson", "#c0502d", 5},
+                          {"points, midpoint", "#3f8f46", 9},    {"points, trapezoid", "#8a5a9e", 11},
+                          {"points, gauss", "#a07810", 13},      {"lazy rotation", "#2f9aa8", 4},
+                          {"block size", "#111111", 15},         {"sequential, literal", "#a33a5a", 6},
+                          {"sequential, centred", "#d08a70", 8}, {"sequential, coloured", "#7d7d7d", 12}};
+
+const Look& look_of(const std::string& knob) {
+  for (const Look& look : looks)
+    if (knob == look.knob) return look;
+  return looks[std::size(looks) - 1];
+}
 
 struct Picture {
   std::string script, plots;
@@ -41,14 +55,12 @@ std::string panel(const AccuracyStudy& s, bool by_updates, bool titles, Picture&
   std::string front;
   for (const std::size_t i : pareto(s.quantity(), s.main, s.all, by_updates)) front += row(s, i, by_updates);
   picture.add(front, fmt::format("with linespoints lw 7 pt 6 ps 2.2 lc rgb '#f0c75e' {}", titles ? "title 'Pareto front'" : "notitle"));
-  int k = 0;
   for (const Curve& c : curves_of(s.quantity(), s.main, s.all)) {
     std::string data;
     for (const std::size_t i : c.at) data += row(s, i, by_updates);
-    const auto color = std::size_t(k) % std::size(colors);
-    picture.add(data, fmt::format("with linespoints lw 1.8 pt {} ps 1.0 lc rgb '{}' {}", marks[color], colors[color],
+    const Look& look = look_of(c.knob);
+    picture.add(data, fmt::format("with linespoints lw 1.8 pt {} ps 1.0 lc rgb '{}' {}", look.mark, look.color,
                                   titles ? "title \"" + legend(c) + "\"" : "notitle"));
-    ++k;
   }
   for (std::size_t i = 0; i < s.all.size(); ++i)
     if (s.all[i].setting.knob.empty() && error_of(s.quantity(), s.all[i].values[s.main]))
@@ -104,30 +116,76 @@ void draw_accuracy(const AccuracyStudy& s, const std::string& path) {
   run_gnuplot(script + "unset multiplot\n", path);
 }
 
+namespace {
+
+// Of one panel: the orders its curves show, in short.
+std::string orders(const AccuracyStudy& s) {
+  std::string text;
+  for (const Curve& c : curves_of(s.quantity(), s.main, s.all))
+    if (c.slope && c.knob != "lazy rotation")
+      text += fmt::format("{}{} {:.2f}", text.empty() ? "orders: " : ", ", c.knob.starts_with("points, ") ? c.knob.substr(8) : c.knob,
+                          *c.slope);
+  return text.empty() ? "no knob shows an order" : text;
+}
+
+// A decade at least, and room beyond the curves.
+std::string error_range(const AccuracyStudy& s) {
+  double low = 1e300, high = 0;
+  for (const Measured& m : s.all)
+    if (const auto error = error_of(s.quantity(), m.values[s.main]))
+      low = std::min(low, std::max(least, *error)), high = std::max(high, std::max(least, *error));
+  if (high == 0) return "set yrange [*:*]\n";
+  const double middle = std::sqrt(low * high), reach = std::max(std::sqrt(10.0), 2 * std::sqrt(high / low));
+  return fmt::format("set yrange [{:.4g}:{:.4g}]\n", middle / reach, middle * reach);
+}
+
+// One legend for all panels, in rows of five at the foot.
+std::string common_legend(const std::vector<AccuracyStudy>& studies, double height) {
+  std::vector<std::string> knobs;
+  for (const AccuracyStudy& s : studies)
+    for (const Curve& c : curves_of(s.quantity(), s.main, s.all))
+      if (std::find(knobs.begin(), knobs.end(), c.knob) == knobs.end()) knobs.push_back(c.knob);
+  std::string script;
+  int tag = 100;
+  const auto add = [&](const std::string& name, const char* color, int mark, double size) {
+    const int k = tag - 100;
+    script += fmt::format(
+        "set label {} {} at screen {:.4f},{:.4f} left offset 1.5,0 noenhanced point pt {} ps {} lw 2 lc rgb '{}' tc rgb '#222222'\n", tag++,
+        gnuplot_quoted(name), 0.06 + 0.19 * (k % 5), (48.0 - 24 * (k / 5)) / height, mark, size, color);
+  };
+  add("the scene as it is", "#000000", 3, 1.6);
+  add("Pareto front", "#f0c75e", 7, 2.2);
+  for (const auto& knob : knobs) add(knob, look_of(knob).color, look_of(knob).mark, 1.1);
+  return script;
+}
+
+}  // namespace
+
 void draw_accuracies(const std::vector<AccuracyStudy>& studies, const std::string& path) {
-  const int columns = studies.size() > 4 ? 4 : int(std::max<std::size_t>(1, studies.size())),
-            rows = (int(studies.size()) + columns - 1) / columns;
-  const int width = 470 * columns, height = 430 * rows + 60;
+  const int columns = studies.size() > 4 ? 4 : int(std::max<std::size_t>(1, studies.size()));
+  const int rows = (int(studies.size()) + columns - 1) / columns, width = 470 * columns, height = 430 * rows + 110;
   Picture picture;
-  std::string script = head(path, width, height), panels;
+  std::string panels;
   for (std::size_t k = 0; k < studies.size(); ++k) {
     const AccuracyStudy& s = studies[k];
-    const std::string plots = panel(s, true, true, picture);
+    const std::string plots = panel(s, true, false, picture);
+    if (plots.empty()) continue;
     const double x = double(int(k) % columns), y = double(int(k) / columns), w = 1.0 / columns, h = 430.0 / height, top = 1 - 45.0 / height;
     panels += fmt::format(
         "set lmargin at screen {:.4f}\nset rmargin at screen {:.4f}\nset tmargin at screen {:.4f}\nset bmargin at screen {:.4f}\n",
-        (x + 0.17) * w, (x + 0.97) * w, top - y * h - 0.09 * h, top - y * h - 0.80 * h);
+        (x + 0.17) * w, (x + 0.97) * w, top - y * h - 0.13 * h, top - y * h - 0.84 * h);
     panels += fmt::format(
-        "set title {} noenhanced font ',12'\nset xlabel 'contact points evaluated' font ',10'\nset ylabel {} noenhanced font ',10'\n"
-        "set key bottom left Left reverse samplen 1.2 spacing 0.95 font ',8' opaque\n",
-        gnuplot_quoted(s.name), gnuplot_quoted(error_label(s.quantity())));
-    if (!plots.empty()) panels += "plot " + plots + "\n";
+        "set label 2 {} at graph 0, graph 1.12 left noenhanced font ',13'\nset label 3 {} at graph 0, graph 1.05 left noenhanced font ',9' "
+        "tc rgb '#555555'\n",
+        gnuplot_quoted(s.name), gnuplot_quoted(orders(s)));
+    panels += fmt::format("set xlabel 'contact points evaluated' font ',10'\nset ylabel {} noenhanced font ',10'\n{}unset key\n",
+                          gnuplot_quoted(error_label(s.quantity())), error_range(s));
+    panels += "plot " + plots + "\n" + (k == 0 ? "unset label\n" : "");
   }
-  script += picture.script +
-            fmt::format("set label 1 'What accuracy costs: error over work, one line a knob' at screen 0.5,{:.4f} center font ',16'\n",
+  if (panels.empty()) return;
+  std::string script = head(path, width, height) + picture.script + common_legend(studies, height);
+  script += fmt::format("set label 1 'What accuracy costs: error over work, one line a knob' at screen 0.5,{:.4f} center font ',16'\n",
                         1 - 22.0 / height);
-  const std::size_t first = panels.find("plot ");
-  if (first != std::string::npos) panels.insert(panels.find('\n', first) + 1, "unset label 1\n");
   run_gnuplot(script + panels + "unset multiplot\n", path);
 }
 

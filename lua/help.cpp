@@ -114,6 +114,26 @@ std::string quantities_text() {
   return text;
 }
 
+// How a study is written, from the param to what is expected of it.
+std::string example_of(const std::string& name) {
+  if (name == "bisect")
+    return "  local pga = param(\"pga\", 0.5 * g, \"peak of the ground [m/s2]\")\n"
+           "  bisect { param = \"pga\", lo = 0.1 * g, hi = 1.5 * g, rel = 0.01 }  -- where collapse.collapsed turns true\n"
+           "  bisect { param = \"pga\", name = \"slides\", lo = 0, hi = g, collapsed_when = function(run) return run.last \"b_ux_rel_m\" > "
+           "1*mm end }\n"
+           "  expect(\"metrics.collapse_pga\", 0.37 * g, { rel = 0.02, source = \"limit analysis\" })\n";
+  if (name == "converge")
+    return "  local share = param(\"share\", 0.2, \"dt over its limit\")\n"
+           "  analysis { duration = 1, dt_fraction = share }\n"
+           "  converge { param = \"share\", values = { .4, .2, .1 }, slope = 1.9,  -- at least\n"
+           "    error = function(run) return math.abs(run.period \"b_uz_rel_m\" / known - 1) end }\n";
+  if (name == "ensemble")
+    return "  local seed = param(\"seed\", 1)\n"
+           "  ensemble { n = 20, seed = 1, name = \"falls_at\", value = function(run) return run.collapse.time_s end }\n"
+           "  expect(\"metrics.falls_at_mean\", 1.2, { abs = 0.1, source = \"twenty twins\" })\n";
+  return "";
+}
+
 std::string function_text(const Function& function) {
   const std::string call =
       takes_table(function) ? function.name + function.parameters : fmt::format("{}({})", function.name, function.parameters);
@@ -122,6 +142,8 @@ std::string function_text(const Function& function) {
   text += (takes_table(function) ? "keys:\n" : "parameters:\n") + keys_text(function.keys);
   if (function.name == "recorder") text += quantities_text();
   if (function.name == "metric") text += std::string(run_help);
+  if (const std::string example = example_of(function.name); !example.empty())
+    text += "example:\n" + example + "A run that crashes, diverges or gives no number is a row of studies/NAME.csv with its reason.\n";
   return text;
 }
 

@@ -55,7 +55,7 @@ int answer(const AccuracyStudy& s, const Options& options) {
     fmt::print("  {}\n", m.setting.line.empty() ? "nothing needs to be changed" : m.setting.line);
   };
   int code = exit_ok;
-  const std::vector<std::size_t> front = pareto(q, s.main, s.all, false);
+  const std::vector<std::size_t> front = pareto(q, s.main, s.all, true);
   if (options.target > 0) {
     fmt::print("target {:g} %:\n", 100 * options.target);
     if (const auto found = cheapest(q, s.main, s.all, options.target)) {
@@ -64,7 +64,7 @@ int answer(const AccuracyStudy& s, const Options& options) {
       fmt::print("  no run gave a value\n");
       code = exit_expectation;
     } else {
-      fmt::print("  no setting reaches it; {} are what limits it. The best:\n", what_limits(q, s.main, s.all));
+      fmt::print("  no setting reaches it; {}. The best:\n", what_limits(q, s.main, s.all));
       say(front.back());
       code = exit_expectation;
     }

@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
+#include <utility>
 
 #include "engine/base/error.h"
 
@@ -25,6 +26,16 @@ const Measured* as_it_is(const std::vector<Measured>& all) {
     if (m.setting.knob.empty()) return &m;
   return nullptr;
 }
+
+// By least squares.
+double slope_of(const std::vector<std::pair<double, double>>& points) {
+  double x = 0, y = 0, xx = 0, xy = 0;
+  const double n = double(points.size());
+  for (const auto& [u, v] : points) x += u, y += v, xx += u * u, xy += u * v;
+  return (n * xy - x * y) / (n * xx - x * x);
+}
+
+constexpr double worth_telling = 0.9;  // an error that is no less than this share of a cheaper setting's is luck
 
 std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
@@ -99,84 +110,90 @@ std::vector<Curve> curves_of(const Goal& q, std::size_t index, const std::vector
     if (series.size() < 3) continue;
     const Limit limit = richardson(series, 2);
     const double scale = q.reference != 0 ? std::fabs(q.reference) : 1;
-    double x = 0, y = 0, xx = 0, xy = 0, n = 0;
+    std::vector<std::pair<double, double>> points;  // ln size, ln error, from fine to coarse
+    bool falls = true;
     for (std::size_t i = 1; i < series.size(); ++i) {  // the finest made the limit
       const double error = std::fabs(series[i].second - limit.value) / scale;
       if (!(error > 1e-11) || series[i].first <= 0) continue;  // round-off
-      const double u = std::log(series[i].first), v = std::log(error);
-      x += u, y += v, xx += u * u, xy += u * v, ++n;
+      if (!points.empty() && std::log(error) <= points.back().second) falls = false;
+      points.emplace_back(std::log(series[i].first), std::log(error));
     }
-    const double spread = n * xx - x * x;
-    if (n >= 2 && spread > 0) c.slope = (n * xy - x * y) / spread;
+    // An error that does not fall step by step is not this knob's: no order is told.
+    if (falls && points.size() >= 2) c.slope = slope_of(points);
   }
   return curves;
 }
 
 std::vector<std::size_t> pareto(const Goal& q, std::size_t index, const std::vector<Measured>& all, bool by_updates) {
-  const auto cost = [&](std::size_t i) { return by_updates ? all[i].updates : all[i].cpu; };
+  const auto cost = [&](std::size_t i) { return by_updates && all[i].updates > 0 ? all[i].updates : all[i].cpu; };
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < all.size(); ++i)
     if (error_of(q, all[i].values[index])) order.push_back(i);
   const auto error = [&](std::size_t i) { return *error_of(q, all[i].values[index]); };
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return cost(a) != cost(b) ? cost(a) < cost(b) : error(a) < error(b); });
+  // of equal cost the scene as it is comes first
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    if (cost(a) != cost(b)) return cost(a) < cost(b);
+    const bool first = all[a].setting.knob.empty(), second = all[b].setting.knob.empty();
+    return first != second ? first : error(a) < error(b);
+  });
   std::vector<std::size_t> front;
   for (const std::size_t i : order)
-    if (front.empty() || error(i) < error(front.back())) front.push_back(i);
+    if (front.empty() || error(i) < worth_telling * error(front.back())) front.push_back(i);
   return front;
 }
 
 std::optional<std::size_t> cheapest(const Goal& q, std::size_t index, const std::vector<Measured>& all, double target) {
-  for (const std::size_t i : pareto(q, index, all, false))
+  for (const std::size_t i : pareto(q, index, all, true))
     if (*error_of(q, all[i].values[index]) <= target) return i;
   return std::nullopt;
 }
 
 std::optional<std::size_t> best_within(const Goal& q, std::size_t index, const std::vector<Measured>& all, double budget) {
   std::optional<std::size_t> best;
-  for (const std::size_t i : pareto(q, index, all, false))
+  for (const std::size_t i : pareto(q, index, all, true))
     if (all[i].cpu <= budget) best = i;
   return best;
 }
 
 std::string what_limits(const Goal& q, std::size_t index, const std::vector<Measured>& all) {
-  std::string worst;
-  double most = -1;
-  for (const auto& [knob, word] : {std::pair{"time step", "the step"}, {"points, simpson", "the points"}}) {
+  const std::vector<std::size_t> front = pareto(q, index, all, true);
+  const Measured* base = as_it_is(all);
+  if (front.empty() || base == nullptr || !base->values[index]) return "the runs that failed are the error";
+  const Measured& best = all[front.back()];
+  double most = -1, rest = q.reference - *best.values[index];
+  std::string phrase;
+  for (const auto& [knob, words] : {std::pair{"time step", "the step, not the points, is the error"},
+                                    {"points, simpson", "the points, not the step, are the error"},
+                                    {"block size", "the size of the blocks, not step or points, is the error"}}) {
     const Series series = series_of(knob, index, all);
     if (series.size() < 2) continue;
-    // what the other knobs leave when this one is at its limit
-    Goal own = q;
-    const auto left = error_of(own, richardson(series, 2).value);
-    if (left && *left > most) most = *left, worst = word;
+    const double left = richardson(series, 2).value - (best.setting.knob == knob ? *best.values[index] : *base->values[index]);
+    rest -= left;
+    if (std::fabs(left) > most) most = std::fabs(left), phrase = words;
   }
-  if (worst.empty()) return "the scene itself: no knob moves the answer";
-  // With one knob at its limit the rest is the other's: name that one.
-  const bool both = !series_of("time step", index, all).empty() && !series_of("points, simpson", index, all).empty();
-  if (!both) return q.expected ? "what the scene is made of, not " + worst : worst;
-  return worst == "the step" ? "the points, not the step," : "the step, not the points,";
+  // what no knob explains
+  if (phrase.empty() || std::fabs(rest) > most) return "the scene itself (its stiffnesses, its loading), not step or points, is the error";
+  return phrase;
 }
 
 std::string plain_sentence(const Goal& q, std::size_t index, const std::vector<Measured>& all) {
-  const std::vector<std::size_t> front = pareto(q, index, all, false);
+  const std::vector<std::size_t> front = pareto(q, index, all, true);
   if (front.empty()) return fmt::format("{}: no run gave a value.", q.name);
   std::string text;
   double told = std::numeric_limits<double>::infinity();
-  std::vector<std::string> parts;
+  int parts = 0;
   for (const std::size_t i : front) {
     const double error = *error_of(q, all[i].values[index]);
-    if (!parts.empty() && error > 0.3 * told) continue;  // only what is worth another sentence
+    if (parts > 0 && error > 0.3 * told) continue;  // only what is worth another clause
     told = error;
     const std::string with = all[i].setting.knob.empty() ? "as the scene is" : "with " + all[i].setting.name;
-    parts.push_back(parts.empty() ? fmt::format("{} in {} costs {} {}", error_text(q, error), q.name, seconds_text(all[i].cpu), with)
-                                  : fmt::format("{} costs {} {}", error_text(q, error), seconds_text(all[i].cpu), with));
-    if (parts.size() == 4) break;
+    text += parts == 0 ? fmt::format("{} in {}", error_text(q, error), q.name) : fmt::format("; {}", error_text(q, error));
+    text += fmt::format(" costs {} {}", seconds_text(all[i].cpu), with);
+    if (++parts == 4) break;
   }
-  for (const auto& part : parts) text += (text.empty() ? "" : "; ") + part;
   const double least = *error_of(q, all[front.back()].values[index]);
-  return text + fmt::format("; below {} {} are the error.",
-                            error_text(q, std::max(least, q.reference != 0 ? q.uncertainty / std::fabs(q.reference) : q.uncertainty)),
-                            what_limits(q, index, all));
+  const double uncertain = q.reference != 0 ? q.uncertainty / std::fabs(q.reference) : q.uncertainty;
+  return text + fmt::format("; below {} {}.", error_text(q, std::max(least, uncertain)), what_limits(q, index, all));
 }
 
 }  // namespace erbs

@@ -4,6 +4,7 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace erbs {
@@ -53,16 +54,17 @@ struct Curve {
 };
 std::vector<Curve> curves_of(const Goal& quantity, std::size_t index, const std::vector<Measured>& all);
 
-// Those that no other beats in both error and cost, from cheap to dear. `by_updates`: cost in evaluations, else in seconds.
+// Those that no other beats in both error and cost, from cheap to dear. `by_updates`: cost in evaluations (where there are any),
+// which no machine changes, else in seconds.
 std::vector<std::size_t> pareto(const Goal& quantity, std::size_t index, const std::vector<Measured>& all, bool by_updates);
 
 // "2 % in the collapse multiplier costs 3.1 s with ...; below 0.1 % the points, not the step, are the error."
 std::string plain_sentence(const Goal& quantity, std::size_t index, const std::vector<Measured>& all);
 
-// The cheapest (in seconds) that is at least as accurate as `target`; the most accurate within `budget` seconds. None: there is none.
+// The cheapest (in evaluations) that is at least as accurate as `target`; the most accurate within `budget` seconds. None: there is none.
 std::optional<std::size_t> cheapest(const Goal& quantity, std::size_t index, const std::vector<Measured>& all, double target);
 std::optional<std::size_t> best_within(const Goal& quantity, std::size_t index, const std::vector<Measured>& all, double budget);
-// What keeps the errors from falling further: the knob whose finest run is still the furthest from its own limit.
+// What is left of the error of the best setting, by its largest part: "the points, not the step, are the error".
 std::string what_limits(const Goal& quantity, std::size_t index, const std::vector<Measured>& all);
 
 }  // namespace erbs
