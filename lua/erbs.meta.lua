@@ -442,7 +442,7 @@ function metric(name, unit, value) end
 ---@param how? erbs.tolerance { rel = | abs = | below = true | above = true | between = { lo, hi }, source = "..." }
 function expect(key, value, how) end
 
----Labels by which scenes are chosen: "quick" belongs to erbs test --quick, "fixed_dt" keeps its time step in erbs test --grid.
+---Labels by which scenes are chosen: "quick" belongs to erbs test --quick, "fixed_dt" keeps its time step in erbs test --grid and erbs accuracy; there "coarse_study" begins at 1/8 of the limit, "fine_study" at 1/128.
 ---@param ... string one label or several
 function label(...) end
 
