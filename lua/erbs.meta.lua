@@ -361,7 +361,9 @@ function gravity(keys) end
 ---@field mass? number coefficient a of the mass damping c = a m [1/s; 0 to 1e+07; default 0]
 ---@field scope? "bonded"|"all"|"none" which blocks feel it [default bonded]
 ---@field form? "centred"|"explicit" how a step takes it in [default centred]
----@field joint_ratio? number viscous ratio of joints, of each joint's own critical value [0 to 10; default 0]
+---@field stiffness? number coefficient b of the dashpots of joints, c = b k [s; 0 to 1000; default 0]
+---@field joint_ratio? number viscous ratio of joints: of each joint's own critical value, or of motions of the frequency `at` [0 to 10; default 0]
+---@field at? number frequency at which motions have the ratio joint_ratio (b = joint_ratio / (pi at)) [Hz; 0 to 1e+06; default 0]
 
 ---Damping of blocks and of joints.
 ---@param keys erbs.damping_keys

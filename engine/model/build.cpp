@@ -5,6 +5,7 @@
 #include <map>
 #include <tuple>
 
+#include "engine/base/units.h"
 #include "engine/geometry/mass.h"
 #include "engine/geometry/quadrature.h"
 #include "engine/model/batches.h"
@@ -99,6 +100,14 @@ void set_face(const Model& m, const PointLaw& law, Joint& joint) {
   for (int i = 0; i < 3; ++i) joint.face[i] = !exact ? face[i] : i < 2 ? joint.stiffness[3 + i] : 0;
 }
 
+// b = 2 xi / omega: of the frequency asked for, or of the joint's own, both its blocks moving against each other.
+void set_viscous(const Damping& damping, const Model& m, Joint& joint) {
+  const auto inverse = [&](int b) { return m.kind[z(b)] == Kind::moving ? 1 / m.mass[z(b)] : 0.0; };
+  const double own = std::sqrt(joint.stiffness[2] * (inverse(joint.a) + inverse(joint.b)));
+  const double omega = damping.at > 0 ? 2 * pi * damping.at : own;
+  joint.viscous = damping.stiffness + (omega > 0 ? 2 * damping.joint_ratio / omega : 0);
+}
+
 void add_cell(const std::vector<Vec2>& loop, Model& m) {
   Cell cell = cell_of(loop);
   cell.first = int(m.cell_corner.size());
@@ -160,6 +169,7 @@ void add_joint(const Scene& scene, const Interface& face, Model& m) {
     joint.radius = std::max(joint.radius, x.norm());
   }
   set_face(m, law, joint);
+  set_viscous(scene.damping, m, joint);
   m.joint.push_back(joint);
 }
 
@@ -307,6 +317,7 @@ State start(const Scene& scene, const Model& m) {
   s.tier.assign(z(m.njoint), Tier::intact);
   s.memory.assign(z(m.njoint), {});
   s.history.assign(z(m.npoint), {});
+  if (m.dashpots) s.viscous.assign(6 * z(m.njoint), 0.0);
   s.wrench.assign((2 * z(m.njoint) + 1) * 8, 0.0);
   return s;
 }
@@ -331,6 +342,7 @@ Built build(const Scene& scene) {
   check_blocks(scene, found, m, errors, m.warnings);
   if (!errors.empty()) throw Errors(errors);
   for (const Interface& face : found.all) add_joint(scene, face, m);
+  m.dashpots = std::any_of(m.joint.begin(), m.joint.end(), [](const Joint& joint) { return joint.viscous > 0; });
   grow_shapes(scene, found, m);
   index_rows(m);
   for (int b = 0; b < m.nblock; ++b) {

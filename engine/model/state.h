@@ -67,6 +67,7 @@ struct State {
   std::vector<JointMemory> memory;     // [njoint]
   std::vector<PointHistory> history;   // [npoint]
   std::vector<double> wrench;          // rows of 8 doubles: force, moment on a block from one joint end [2 njoint + 1]
+  std::vector<double> viscous;         // N, N m, resultants of the dashpots of the last step; empty without [6 njoint]
   PairList debris;                     // contacts of loose blocks
   double dt_goal = 0;                  // s, the step the run asks for; dt may be shorter while contacts change
   int calm = 0;                        // steps since contacts last held dt down

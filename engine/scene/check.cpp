@@ -4,6 +4,7 @@
 #include <unordered_map>
 
 #include "engine/base/words.h"
+#include "engine/laws/point_law.h"
 #include "engine/scene/scene.h"
 
 namespace erbs {
@@ -138,8 +139,8 @@ void check_analysis(Report& report, const Scene& scene) {
   if (analysis.duration == 0) report.say(place, "the run has no duration; add analysis{{ duration = 10 }} (seconds)");
   else check_fields(report, analysis, "analysis", place);
   check_fields(report, scene.damping, "damping", scene.damping.place);
-  if (scene.damping.joint_ratio > 0)
-    report.say(scene.damping.place, "damping{{ joint_ratio }}: joints have no dashpots yet; leave it out and use mass damping");
+  if (scene.damping.at > 0 && scene.damping.joint_ratio <= 0)
+    report.say(scene.damping.place, "damping: at = {:g} Hz is the frequency of a ratio that is not given; add joint_ratio = 0.02, say", scene.damping.at);
   if (!inside(scene.gravity, -1000, 1000)) report.say({scene.file, 0}, "gravity is out of range; allowed is 0 to 1000 m/s2");
 }
 
@@ -175,6 +176,12 @@ std::vector<std::string> warnings(const Scene& scene) {
                  "mortar: Gf1 = {:g} J/m2 is less than the elastic energy at the peak, ft^2 / (2 kn) = {:g} J/m2; the joint snaps back "
                  "(breaks at once)",
                  law->Gf1, law->ft * law->ft / (2 * kn));
+    const double ks = kn > 0 ? compile(rule.law).ks : 0;
+    if (law->Gf2 > 0 && ks > 0 && law->Gf2 < law->c * law->c / (2 * ks))
+      report.say(rule.place,
+                 "mortar: Gf2 = {:g} J/m2 is less than the elastic energy at the peak, c^2 / (2 ks) = {:g} J/m2; the joint snaps back in shear "
+                 "(its bond goes at once)",
+                 law->Gf2, law->c * law->c / (2 * ks));
   }
   return report.mistakes;
 }

@@ -58,6 +58,8 @@ std::vector<Effect> effects_of(const Scene& scene) {
   out.push_back(effect("prescribed turning", load_with(scene, Load::Kind::turning)));
   const bool damped = scene.damping.mass > 0 && scene.damping.scope != "none";
   out.push_back(effect("mass damping", damped ? &scene.damping.place : nullptr));
+  const bool dashpots = scene.damping.stiffness > 0 || scene.damping.joint_ratio > 0;
+  out.push_back(effect("dashpots of joints", dashpots ? &scene.damping.place : nullptr));
   out.push_back(effect("softening in tension", rule_with(scene, [](const Mortar& m) { return m.Gf1 > 0 || m.un_ultimate > 0; })));
   out.push_back(effect("softening in shear", rule_with(scene, [](const Mortar& m) { return m.Gf2 > 0 || m.us_ultimate > 0; })));
   out.push_back(effect("compression plateau", rule_with(scene, [](const Mortar& m) { return m.fc > 0; })));

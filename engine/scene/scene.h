@@ -109,7 +109,9 @@ struct Damping {
   double mass = 0;               // 1/s, coefficient a of c = a m
   std::string scope = "bonded";  // bonded | all | none
   std::string form = "centred";  // centred | explicit
-  double joint_ratio = 0;        // viscous ratio of joints, of each joint's own critical value
+  double stiffness = 0;          // s, coefficient b of the dashpots of joints, c = b k
+  double joint_ratio = 0;        // viscous ratio of joints, of each joint's own critical value or at the frequency `at`
+  double at = 0;                 // Hz; 0: of each joint's own
   Place place;
 
   static Fields<Damping> fields() {
@@ -117,7 +119,9 @@ struct Damping {
         {"mass", &Damping::mass, "1/s", "coefficient a of the mass damping c = a m", 0, 1e7},
         {"scope", &Damping::scope, "", "which blocks feel it", 0, 0, false, "bonded|all|none"},
         {"form", &Damping::form, "", "how a step takes it in", 0, 0, false, "centred|explicit"},
-        {"joint_ratio", &Damping::joint_ratio, "", "viscous ratio of joints, of each joint's own critical value", 0, 10},
+        {"stiffness", &Damping::stiffness, "s", "coefficient b of the dashpots of joints, c = b k", 0, 1e3},
+        {"joint_ratio", &Damping::joint_ratio, "", "viscous ratio of joints: of each joint's own critical value, or of motions of the frequency `at`", 0, 10},
+        {"at", &Damping::at, "Hz", "frequency at which motions have the ratio joint_ratio (b = joint_ratio / (pi at))", 0, 1e6},
     };
   }
 };

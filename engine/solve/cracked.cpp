@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/model/batches.h"
+#include "engine/solve/dashpots.h"
 
 namespace erbs {
 namespace {
@@ -127,6 +128,7 @@ void Cracked::drop(int j) {
   const int at = state_.place[z(j)] - sound_batches(model_) * lanes;
   if (at >= 0) clear(group_[z(at / lanes)], at % lanes);
   if (state_.place[z(j)] >= 0) move_joint(model_, state_, j, -1);
+  if (model_.dashpots) std::fill_n(&state_.viscous[6 * z(j)], 6, 0.0);
   for (const int row : {model_.row_a[z(j)], model_.row_b[z(j)]}) std::fill_n(&state_.wrench[z(row) * 8], 8, 0.0);
 }
 
@@ -140,9 +142,21 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
     const JointBatch& batch = state_.batch[z(group.batch)];
     CrackedLanes& lane = group.lane;
     kernels.elastic(batch, state_.row.data(), o);
-    const CrackedShape shape{
-        group.corners,     group.points,       &group.face,       group.corner.data(),
-        group.cell.data(), group.first.data(), group.loop.data(), group.watch.empty() ? group.loop.data() : group.watch.data()};
+    alignas(64) double rate[lanes], dq[6][lanes];
+    const bool damped = model_.dashpots && state_.last_dt > 0;
+    for (int l = 0; damped && l < lanes; ++l) {
+      rate[l] = group.joint[l] >= 0 ? model_.joint[z(group.joint[l])].viscous / state_.last_dt : 0;
+      for (int i = 0; i < 6; ++i) dq[i][l] = o.q[i][l] - lane.q[i][l];
+    }
+    const CrackedShape shape{group.corners,
+                             group.points,
+                             &group.face,
+                             group.corner.data(),
+                             group.cell.data(),
+                             group.first.data(),
+                             group.loop.data(),
+                             damped ? rate : nullptr,
+                             group.watch.empty() ? group.loop.data() : group.watch.data()};
     kernels.respond(model_.laws[z(group.law)], batch, shape, group.point.data(), lane, o);
     kernels.wrenches(batch, o, state_.wrench.data());
     for (int l = 0; l < lanes; ++l) {
@@ -150,6 +164,11 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
       sums.energy.fracture += lane.fracture[l];
       sums.energy.crushing += lane.crushing[l];
       if (sample) sums.energy.elastic += lane.stored[l];
+      if (damped && group.joint[l] >= 0) {
+        double f[6], d[6];
+        for (int i = 0; i < 6; ++i) f[i] = lane.drag[i][l], d[i] = dq[i][l];
+        book_dashpots(state_, group.joint[l], f, d, sums);
+      }
       if (lane.error[l] > sums.largest_error) sums.largest_error = lane.error[l], sums.worst_joint = group.joint[l];
     }
   }

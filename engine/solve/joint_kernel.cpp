@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/solve/dashpots.h"
 #include "engine/solve/lanes.h"
 
 namespace erbs {
@@ -38,7 +39,13 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
     for (int i = 0; i < 6; ++i) memory.elastic += 0.5 * memory.f[i] * memory.q[i];
   }
   JointEnergy e;
-  const bool still = respond(m, j, sound, memory.q, q, &s.history[z(m.joint[z(j)].first_point)], f, e);
+  const Joint& joint = m.joint[z(j)];
+  PointHistory* history = &s.history[z(joint.first_point)];
+  std::vector<PointHistory> before_it;
+  const bool damped = joint.viscous > 0 && !sound;
+  if (damped) before_it.assign(history, history + joint.points);
+  std::vector<double> limit(damped ? z(joint.points) : 0);
+  const bool still = respond(m, j, sound, memory.q, q, history, f, e, damped ? limit.data() : nullptr);
   if (sound && still) return;
   if (sound) {
     s.tier[z(j)] = Tier::cracked;
@@ -48,11 +55,33 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
   for (int i = 0; i < 6; ++i) work += 0.5 * (memory.f[i] + f[i]) * (q[i] - memory.q[i]);
   const double error = std::fabs(work - (e.elastic - memory.elastic) - e.friction - e.fracture - e.crushing);
   if (error > sums.largest_error) sums.largest_error = error, sums.worst_joint = j;
-  for (int i = 0; i < 6; ++i) memory.q[i] = q[i], memory.f[i] = f[i];
+  double dq[6], drag[6];
+  for (int i = 0; i < 6; ++i) dq[i] = q[i] - memory.q[i], memory.f[i] = f[i];
+  if (damped && s.last_dt > 0) {
+    viscous_response(m, j, memory.q, q, before_it.data(), history, limit.data(), joint.viscous / s.last_dt, drag);
+    book_dashpots(s, j, drag, dq, sums);
+    for (int i = 0; i < 6; ++i) f[i] += drag[i];
+  }
+  for (int i = 0; i < 6; ++i) memory.q[i] = q[i];
   memory.elastic = e.elastic;
   sums.energy.friction += e.friction;
   sums.energy.fracture += e.fracture;
   sums.energy.crushing += e.crushing;
+}
+
+// Energy of the joints of batch k, before dashpots join their resultants.
+static double stored(const Model& m, const State& s, int k, const JointLanes& o) {
+  double sum = 0;
+  for (int l = 0; l < lanes && k * lanes + l < m.njoint; ++l) {
+    const int j = k * lanes + l;
+    if (s.place[z(j)] != j) continue;
+    if (s.tier[z(j)] == Tier::cracked) {  // in this step
+      sum += s.memory[z(j)].elastic;
+      continue;
+    }
+    for (int i = 0; i < 6; ++i) sum += 0.5 * o.f[i][l] * o.q[i][l];
+  }
+  return sum;
 }
 
 void joint_forces(const Model& m, State& s, int first, int last, bool sample, JointSums& sums) {
@@ -72,17 +101,9 @@ void joint_forces(const Model& m, State& s, int first, int last, bool sample, Jo
       joint_by_points(m, s, k * lanes + l, q, f, sums);
       for (int i = 0; i < 6; ++i) o.f[i][l] = f[i];
     }
+    if (sample) sums.energy.elastic += stored(m, s, k, o);
+    if (m.dashpots) add_dashpots(m, s, k, o, sums);
     kernels.wrenches(B, o, s.wrench.data());
-    if (!sample) continue;
-    for (int l = 0; l < lanes && k * lanes + l < m.njoint; ++l) {
-      const int j = k * lanes + l;
-      if (s.place[z(j)] != j) continue;
-      if (s.tier[z(j)] == Tier::cracked) {  // in this step
-        sums.energy.elastic += s.memory[z(j)].elastic;
-        continue;
-      }
-      for (int i = 0; i < 6; ++i) sums.energy.elastic += 0.5 * o.f[i][l] * o.q[i][l];
-    }
   }
 }
 

@@ -11,7 +11,7 @@ struct JointSums {
   JointEnergy energy;        // dissipated so far; elastic: stored now, filled on request
   double largest_error = 0;  // J, of the joints' own energy balance over the step
   int worst_joint = -1;
-  int cracked_now = 0;       // joints that lost their soundness in this step
+  int cracked_now = 0;  // joints that lost their soundness in this step
 };
 
 // One joint point by point, its own energy balance checked over the step (work of the resultant = stored + dissipated).

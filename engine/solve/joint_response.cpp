@@ -188,10 +188,16 @@ bool stays_sound(const Model& m, const Joint& joint, const PointLaw& law, const 
   return true;
 }
 
+// The share x <= 1 of (ds, dt) that (s, t) + x (ds, dt) can take within the limit.
+double share_within(double s, double t, double ds, double dt, double limit) {
+  const double a = ds * ds + dt * dt, b = s * ds + t * dt, c = std::max(0.0, limit * limit - s * s - t * t);
+  return a + 2 * b > c ? (std::sqrt(b * b + a * c) - b) / a : 1;
+}
+
 }  // namespace
 
 bool respond(const Model& m, int j, bool sound, const double* q_before, const double* q, PointHistory* history, double* f,
-             JointEnergy& energy) {
+             JointEnergy& energy, double* shear_limit) {
   const Joint& joint = m.joint[std::size_t(j)];
   const PointLaw& law = m.laws[std::size_t(joint.law)];
   if (sound && stays_sound(m, joint, law, q)) {
@@ -248,6 +254,9 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
                 law.opening_ultimate > law.opening_peak ? (wide - law.opening_peak) / (law.opening_ultimate - law.opening_peak) : 1);
     const double sigma = bonded && g.n > 0 ? (h.damage > 0 ? h.secant : law.kn) * g.n : 0;
     const Shear tau = shear(law, point[i], pressed[std::size_t(i)], sigma, q_before, g, h, energy);
+    if (shear_limit != nullptr)
+      shear_limit[i] =
+          (h.damage < 1 ? bond_shear(law, sigma, h.damage) * point[i].weight : 0) + friction_at(law, h.damage) * pressed[std::size_t(i)];
     f[0] += tau.s;
     f[1] += tau.t;
     f[5] += tau.t * point[i].s - tau.s * point[i].t;
@@ -265,6 +274,43 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
     energy.elastic += 0.5 * k1 * work_of(pull, q);
   }
   return false;
+}
+
+void viscous_response(const Model& m, int j, const double* q0, const double* q, const PointHistory* before, const PointHistory* after,
+                      const double* shear_limit, double rate, double* f) {
+  const Joint& joint = m.joint[std::size_t(j)];
+  const PointLaw& law = m.laws[std::size_t(joint.law)];
+  Compression now, then;
+  for (int i = 0; i < 6; ++i) f[i] = 0;
+  for (int i = 0; i < joint.points; ++i) {
+    const Point& point = m.point[std::size_t(joint.first_point + i)];
+    const PointHistory& h = after[i];
+    const Gap g0 = gap_at(q0, point.s, point.t), g1 = gap_at(q, point.s, point.t);
+    const bool holds = h.damage < 1 && !law.dry;
+    if (law.fc > 0) {
+      const double k = law.kn * point.weight, p0 = k * std::max(0.0, h.crushed - g0.n), p1 = k * std::max(0.0, h.crushed - g1.n);
+      now.force += p1, now.moment_s += p1 * point.s, now.moment_t += p1 * point.t;
+      then.force += p0, then.moment_s += p0 * point.s, then.moment_t += p0 * point.t;
+    }
+    if ((holds || g1.n < 0) && h.slip_s == before[i].slip_s && h.slip_t == before[i].slip_t) {
+      const double k = law.ks * point.weight, s = rate * k * (g1.s - g0.s), t = rate * k * (g1.t - g0.t);
+      const double x = share_within(k * (g1.s - h.slip_s), k * (g1.t - h.slip_t), s, t, shear_limit[i]);
+      f[0] += x * s;
+      f[1] += x * t;
+      f[5] += x * (t * point.s - s * point.t);
+    }
+    if (!holds) continue;
+    const double k = rate * (h.damage > 0 ? h.secant : law.kn);
+    const Pull p0 = pull_of(m, law, joint.first_point + i, q0), p1 = pull_of(m, law, joint.first_point + i, q);
+    f[2] += k * (p1.n - p0.n);
+    f[3] += k * (p1.t - p0.t);
+    f[4] -= k * (p1.s - p0.s);
+  }
+  if (law.fc <= 0) now = compression(m, joint, q, law.kn), then = compression(m, joint, q0, law.kn);
+  const double pull = rate * (then.force - now.force), share = pull > now.force ? rate * now.force / pull : rate;
+  f[2] += share * (then.force - now.force);
+  f[3] += share * (then.moment_t - now.moment_t);
+  f[4] -= share * (then.moment_s - now.moment_s);
 }
 
 }  // namespace erbs

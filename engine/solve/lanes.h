@@ -39,11 +39,13 @@ struct CrackedShape {
   const CellLanes* cell;         // [points]
   const int* first;              // corners of cell i: [first[i], first[i + 1])
   const CornerLanes* loop;       // corners of the cells
+  const double* rate;            // of dashpots, b over the last step; null without [lanes]
   const CornerLanes* watch;      // where the cells watch for tension; = loop for rules with points on the edge
 };
 struct alignas(64) CrackedLanes {
   double q[6][lanes], f[6][lanes], stored[lanes];                   // at the last step
   double friction[lanes], fracture[lanes], crushing[lanes];         // J, of this step
+  double drag[6][lanes];                                            // of the dashpots now, with `rate` only; part of f of the JointLanes
   double error[lanes];                                              // J, work of the resultant - stored - dissipated
   double least_damage[lanes];                                       // of the points; 1 for dry joints
 };

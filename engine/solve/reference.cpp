@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "engine/solve/dashpots.h"
 #include "engine/solve/joint_geometry.h"
 
 namespace erbs {
@@ -54,9 +55,15 @@ void reference_forces(const Model& m, State& s, int first, int last, bool sample
       moment = Vec3(f[3], f[4], f[5]);
     }
     if (sample && !open) sums.energy.elastic += stored(m, s, j, pose);
+    const Vec3 arm_a = 0.5 * (pose.sum + pose.apart), arm_b = 0.5 * (pose.sum - pose.apart);
+    if (m.dashpots && s.tier[z(j)] == Tier::intact) {
+      double f[6] = {force.x(), force.y(), force.z(), moment.x(), moment.y(), moment.z()};
+      add_dashpots(m, s, j, pose.frame, arm_a, arm_b, f, sums);
+      force = Vec3(f[0], f[1], f[2]);
+      moment = Vec3(f[3], f[4], f[5]);
+    }
     force = pose.frame * force;
     moment = pose.frame * moment;
-    const Vec3 arm_a = 0.5 * (pose.sum + pose.apart), arm_b = 0.5 * (pose.sum - pose.apart);
     add(s.wrench, m.row_a[z(j)], force, arm_a.cross(force) + moment);
     add(s.wrench, m.row_b[z(j)], -force, -(arm_b.cross(force) + moment));
   }

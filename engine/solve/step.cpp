@@ -309,6 +309,7 @@ void Solver::settle_ledger() {
     e.friction += sums.energy.friction;
     e.fracture += sums.energy.fracture;
     e.crushing += sums.energy.crushing;
+    e.damping += sums.energy.damping;
     if (sums.largest_error > error) error = sums.largest_error, worst = sums.worst_joint;
     sums = JointSums{};
   };

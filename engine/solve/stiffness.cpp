@@ -23,6 +23,23 @@ Mat6 inverse_root_mass(const Model& m, const State& s, int b) {
   return root;
 }
 
+// The joint at a step dt with its dashpots: dt^2 K + 2 dt C, over dt^2, which leapfrog keeps bounded while it is below 4 M / dt^2
+// (velocities lag by half a step). dt = 0: without them.
+Mat6 with_dashpots(const Mat6& k, const Joint& joint, double dt) { return dt > 0 ? Mat6((1 + 2 * joint.viscous / dt) * k) : k; }
+
+// The step at which dt^2 lambda(dt) comes to `most`, lambda(dt) being the largest eigenvalue with dashpots. dt^2 lambda grows like
+// a power of dt between 1 and 2, so that each correction leaves at most a third of the error.
+template <class Lambda>
+double longest_step(bool dashpots, double most, const Lambda& lambda) {
+  double dt = std::sqrt(most / lambda(0.0));
+  for (int turn = 0; dashpots && turn < 14; ++turn) {
+    const double share = dt * dt * lambda(dt) / most;
+    dt *= std::pow(share, -1 / 1.5);
+    if (std::fabs(share - 1) < 1e-7) break;
+  }
+  return dt;
+}
+
 Mat6 diagonal(const Joint& joint) {
   Mat6 k = Mat6::Zero();
   for (int i = 0; i < 6; ++i) k(i, i) = joint.stiffness[i];
@@ -133,7 +150,7 @@ Sparse stiffness(const Model& m, const State& s, const Freedom& f) { return asse
 StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
   StepBounds out{infinite, infinite, infinite, infinite, infinite, -1};
   const Freedom f = freedoms(m);
-  std::vector<Mat6> own(z(m.nblock), Mat6::Zero());
+  std::vector<Mat6> own(z(m.nblock), Mat6::Zero()), damping = own;
   for (int j = 0; j < m.njoint; ++j) {
     if (s.tier[z(j)] == Tier::open) continue;
     const Joint& joint = m.joint[z(j)];
@@ -141,6 +158,8 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
     const Mat6 k = diagonal(joint);
     own[z(joint.a)] += map.a.transpose() * k * map.a;
     own[z(joint.b)] += map.b.transpose() * k * map.b;
+    damping[z(joint.a)] += joint.viscous * map.a.transpose() * k * map.a;
+    damping[z(joint.b)] += joint.viscous * map.b.transpose() * k * map.b;
     if (m.kind[z(joint.a)] != Kind::moving && m.kind[z(joint.b)] != Kind::moving) continue;
     const int light = m.kind[z(joint.b)] == Kind::moving ? joint.b : joint.a;
     const double distance = (joint.arm_a - joint.arm_b).norm();
@@ -153,16 +172,17 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
   for (int b = 0; b < m.nblock; ++b) {
     if (m.kind[z(b)] != Kind::moving) continue;
     root[z(b)] = inverse_root_mass(m, s, b);
-    const Mat6 scaled = root[z(b)] * own[z(b)] * root[z(b)];
-    const double lambda = Eigen::SelfAdjointEigenSolver<Mat6>(scaled).eigenvalues()[5];
-    if (lambda <= 0) continue;
-    if (std::sqrt(2 / lambda) < out.block) out.block = std::sqrt(2 / lambda), out.stiffest_block = b;
+    const double limit = longest_step(m.dashpots, 2, [&](double dt) {
+      const Mat6 both = dt > 0 ? Mat6(own[z(b)] + 2 / dt * damping[z(b)]) : own[z(b)];
+      return std::max(0.0, Eigen::SelfAdjointEigenSolver<Mat6>(Mat6(root[z(b)] * both * root[z(b)])).eigenvalues()[5]);
+    });
+    if (!std::isfinite(limit)) continue;
+    if (limit < out.block) out.block = limit, out.stiffest_block = b;
     // Gu and Miao (3): T_i = 2 pi sqrt(m_i / k_i), neighbours fastened, in translation
     const double k = Eigen::SelfAdjointEigenSolver<Mat3>(Mat3(own[z(b)].topLeftCorner<3, 3>())).eigenvalues()[2];
     if (k > 0) out.element_period = std::min(out.element_period, 2 * pi * std::sqrt(m.mass[z(b)] / k));
   }
   if (f.count == 0 || out.block == infinite) return out;
-  Sparse k = stiffness(m, s, f);
   Triplets entries;
   for (int b = 0; b < m.nblock; ++b)
     if (f.first[z(b)] >= 0)
@@ -171,12 +191,15 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
           if (root[z(b)](r, c) != 0) entries.emplace_back(f.first[z(b)] + r, f.first[z(b)] + c, root[z(b)](r, c));
   Sparse scale(f.count, f.count);
   scale.setFromTriplets(entries.begin(), entries.end());
-  const Sparse scaled = scale * k * scale;
-  out.critical = out.cracked = 2 / std::sqrt(largest_eigenvalue(scaled));
-  if (std::none_of(m.joint.begin(), m.joint.end(), [&](const Joint& joint) { return stiffens(m, joint); })) return out;
-  k = assembled(m, s, f, [&](const Joint& joint) { return stiffens(m, joint) ? stiffest(joint) : diagonal(joint); });
-  const Sparse bound = scale * k * scale;
-  out.cracked = 2 / std::sqrt(largest_eigenvalue(bound));
+  const auto limit = [&](const auto& form) {
+    return longest_step(m.dashpots, 4, [&](double dt) {
+      const Sparse k = assembled(m, s, f, [&](const Joint& joint) { return with_dashpots(form(joint), joint, dt); });
+      return largest_eigenvalue(Sparse(scale * k * scale));
+    });
+  };
+  out.critical = out.cracked = limit(diagonal);
+  if (std::any_of(m.joint.begin(), m.joint.end(), [&](const Joint& joint) { return stiffens(m, joint); }))
+    out.cracked = limit([&](const Joint& joint) { return stiffens(m, joint) ? stiffest(joint) : diagonal(joint); });
   return out;
 }
 

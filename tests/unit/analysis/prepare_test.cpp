@@ -57,6 +57,23 @@ TEST_CASE("the bounds on the step keep their order", "[analysis]") {
   CHECK(run.bounds.critical <= std::sqrt(2.0) * run.bounds.block * (1 + 1e-6));
 }
 
+TEST_CASE("dashpots of joints shorten the step to the limit of explicit damping", "[analysis]") {
+  const double free = prepare(test::small_wall("analysis{duration=1}"), false).bounds.critical, omega = 2 / free;
+  for (const double xi : {0.01, 0.3, 3.0}) {
+    const double limit = 2 / omega * (std::sqrt(1 + xi * xi) - xi);
+    const Prepared run = prepare(test::small_wall(fmt::format("damping{{stiffness={}}} analysis{{duration=1}}", 2 * xi / omega)), false);
+    CHECK(run.bounds.critical == Approx(limit).epsilon(1e-5));
+    CHECK(run.bounds.block <= run.bounds.critical * (1 + 1e-6));
+    CHECK(run.state.dt == Approx(0.9 * run.bounds.critical));
+  }
+  // of each joint's own ratio: b = 2 xi / omega_j
+  const Prepared own = prepare(test::small_wall("damping{joint_ratio=0.1} analysis{duration=1}"), false);
+  CHECK(own.bounds.critical < free);
+  CHECK(own.bounds.critical > 0.5 * free);
+  const Prepared at = prepare(test::small_wall("damping{joint_ratio=0.1, at=100} analysis{duration=1}"), false);
+  CHECK(at.model.joint.front().viscous == Approx(0.1 / (pi * 100)));
+}
+
 TEST_CASE("overlaps and lonely blocks are found together", "[analysis]") {
   const std::string more = R"(
     box{name="inside", size={.25,.125,.1}, at={0.05,0,0.005}, material="brick"}

@@ -107,6 +107,10 @@ TEST_CASE("a mortar without stiffness is a mistake, a capped or snapping one a w
   CHECK(check(scene).empty());
   CHECK(mentions(warnings(scene), "it is capped there"));
   CHECK(mentions(warnings(scene), "snaps back"));
+  mortar.Gf2 = 0.4;  // c^2 / (2 ks) = 0.5
+  scene.joint_rules[0].law = mortar;
+  CHECK(mentions(warnings(scene), "snaps back in shear"));
+  mortar.Gf2 = 0.6;
   mortar.ft = 1e5;  // 0.5 J/m2
   scene.joint_rules[0].law = mortar;
   CHECK(warnings(scene).empty());

@@ -1,0 +1,55 @@
+#include "engine/solve/dashpots.h"
+
+namespace erbs {
+namespace {
+
+std::size_t z(int i) { return std::size_t(i); }
+
+}  // namespace
+
+void book_dashpots(State& s, int j, const double f[6], const double dq[6], JointSums& sums) {
+  double* last = &s.viscous[6 * z(j)];
+  for (int i = 0; i < 6; ++i) {
+    sums.energy.damping += 0.5 * (last[i] + f[i]) * dq[i];
+    last[i] = f[i];
+  }
+}
+
+void add_dashpots(const Model& m, State& s, int j, const Mat3& frame, const Vec3& arm_a, const Vec3& arm_b, double force[6],
+                  JointSums& sums) {
+  const Joint& joint = m.joint[z(j)];
+  if (joint.viscous <= 0) return;
+  const Vec3 wa = s.w[z(joint.a)], wb = s.w[z(joint.b)];
+  const Vec3 apart = Vec3(s.v[z(joint.b)]) + wb.cross(arm_b) - Vec3(s.v[z(joint.a)]) - wa.cross(arm_a);
+  const Vec3 rate[2] = {frame.transpose() * apart, frame.transpose() * (wb - wa)};
+  double f[6], dq[6];
+  for (int i = 0; i < 6; ++i) {
+    f[i] = joint.viscous * joint.stiffness[i] * rate[i / 3][i % 3];
+    dq[i] = s.last_dt * rate[i / 3][i % 3];
+  }
+  if (m.laws[z(joint.law)].dry && f[2] > -force[2]) {
+    const double share = std::max(0.0, -force[2]) / f[2];
+    for (int i = 2; i < 5; ++i) f[i] *= share;
+  }
+  for (int i = 0; i < 6; ++i) force[i] += f[i];
+  book_dashpots(s, j, f, dq, sums);
+}
+
+void add_dashpots(const Model& m, State& s, int k, JointLanes& o, JointSums& sums) {
+  const JointBatch& B = s.batch[z(k)];
+  for (int l = 0; l < lanes && k * lanes + l < m.njoint; ++l) {
+    const int j = k * lanes + l;
+    if (s.place[z(j)] != j || s.tier[z(j)] != Tier::intact) continue;
+    const Vec3 th(o.th[0][l], o.th[1][l], o.th[2][l]), sum(o.sum[0][l], o.sum[1][l], o.sum[2][l]), apart(o.y[0][l], o.y[1][l], o.y[2][l]);
+    const auto turned = [&](const Vec3& x) { return Vec3(x + th.cross(x)); };
+    Mat3 frame;
+    for (int axis = 0; axis < 3; ++axis)
+      frame.col(axis) = turned(Vec3(B.frame[3 * axis][l], B.frame[3 * axis + 1][l], B.frame[3 * axis + 2][l]));
+    double f[6];
+    for (int i = 0; i < 6; ++i) f[i] = o.f[i][l];
+    add_dashpots(m, s, j, frame, turned(0.5 * (sum + apart)), turned(0.5 * (sum - apart)), f, sums);
+    for (int i = 0; i < 6; ++i) o.f[i][l] = f[i];
+  }
+}
+
+}  // namespace erbs
