@@ -39,7 +39,7 @@ std::vector<std::string> complete_metrics(Script& script, const std::string& dir
                                           std::vector<Verdict>& verdicts) {
   std::vector<std::string> failures;
   metrics = read_metrics(directory);
-  metrics["metrics"] = of_studies;  // answers of the studies: a metric may be made of them
+  metrics["metrics"] = studies.metrics;  // answers of the studies: a metric may be made of them
   Json own = Json::object();
   for (const MetricValue& metric :
        script.evaluate_metrics({metrics, read_csv(run_file(directory, "histories.csv")), read_csv(run_file(directory, "events.csv"))})) {
