@@ -29,7 +29,7 @@ local p, threshold = block.theory.p, g * math.tan(block.theory.alpha)
 local known = {}
 local function theory_of(w)
   if known[w] then return known[w] end
-  local bands = rocking_overturning { width = width, height = height, from = 0.9, to = 12, points = 600,
+  local bands = rocking_overturning { width = width, height = height, from = 0.9, to = 12, points = chosen and 250 or 600,  -- in the runs of a study no narrow island is asked for
     wave = full_sine { amplitude = threshold, frequency = w * p / (2 * pi) } }.bands
   local edges, last = { first = bands[1].from }, bands[#bands]
   if last.impacts == 0 and #bands > 1 and bands[#bands - 1].to < last.from * (1 - 1e-6) then
