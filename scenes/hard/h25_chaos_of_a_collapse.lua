@@ -3,13 +3,13 @@
 -- What happens   A pillar of dry blocks is shaken down. A start that differs by 1e-9 of a block's size ends elsewhere; what holds is the
 --                statistics of many such starts, and that one start ends with the same bits each time, whatever else changes.
 -- Source         verification.md, hard case 25.
--- How to run     erbs run scenes/hard/h25_chaos_of_a_collapse.lua [-D noise=1e-6] [-D amplitude=0.8]
+-- How to run     erbs run scenes/hard/h25_chaos_of_a_collapse.lua [-D noise=1e-6] [-D amplitude=1]
 -- What to look at  time_mean, time_deviation: time of the collapse over the ensemble; place_deviation: of the top block's end place;
 --                same_deviation: of a fingerprint of all bits over runs that differ in nothing, 0.
 local seed = param("seed", 0, "of the noise; 0: none")
 local again = param("again", 0, "changes nothing: runs that must end alike")
 local noise = param("noise", 1e-9, "of the start, of a block's size")
-local amplitude = param("amplitude", 0.6, "of the ground, of g")
+local amplitude = param("amplitude", 0.8, "of the ground, of g")
 local courses = param("courses", 6, "")
 local kn = param("kn", 2e9, "[Pa/m]")
 
