@@ -117,7 +117,10 @@ void check_loads(Report& report, const Scene& scene, const Index& index) {
     if (!(std::abs(load.direction.norm() - 1) < 1e-6))
       report.say(load.place, "load \"{}\": its direction has no length; give a vector", load.name);
     if (load.kind == Kind::ground || load.kind == Kind::tilt) continue;
-    const char* who = load.kind == Kind::force ? "force" : load.kind == Kind::moment ? "moment" : load.kind == Kind::turning ? "turning" : "motion";
+    const char* who = load.kind == Kind::force     ? "force"
+                      : load.kind == Kind::moment  ? "moment"
+                      : load.kind == Kind::turning ? "turning"
+                                                   : "motion";
     const Block* block = named(report, index, load.block, load.place, who);
     if (block && block->fixed && load.kind != Kind::motion && load.kind != Kind::turning)
       report.say(load.place, "{}: block \"{}\" is fixed and feels none; name a free block", who, load.block);
@@ -140,7 +143,10 @@ void check_analysis(Report& report, const Scene& scene) {
   else check_fields(report, analysis, "analysis", place);
   check_fields(report, scene.damping, "damping", scene.damping.place);
   if (scene.damping.at > 0 && scene.damping.joint_ratio <= 0)
-    report.say(scene.damping.place, "damping: at = {:g} Hz is the frequency of a ratio that is not given; add joint_ratio = 0.02, say", scene.damping.at);
+    report.say(scene.damping.place, "damping: at = {:g} Hz is the frequency of a ratio that is not given; add joint_ratio = 0.02, say",
+               scene.damping.at);
+  if (analysis.solver == "sequential" && (scene.damping.stiffness > 0 || scene.damping.joint_ratio > 0))
+    report.say(scene.damping.place, "damping: the sequential solver knows no dashpots of joints; use mass, or solver = \"leapfrog\"");
   if (!inside(scene.gravity, -1000, 1000)) report.say({scene.file, 0}, "gravity is out of range; allowed is 0 to 1000 m/s2");
 }
 
@@ -178,10 +184,11 @@ std::vector<std::string> warnings(const Scene& scene) {
                  law->Gf1, law->ft * law->ft / (2 * kn));
     const double ks = kn > 0 ? compile(rule.law).ks : 0;
     if (law->Gf2 > 0 && ks > 0 && law->Gf2 < law->c * law->c / (2 * ks))
-      report.say(rule.place,
-                 "mortar: Gf2 = {:g} J/m2 is less than the elastic energy at the peak, c^2 / (2 ks) = {:g} J/m2; the joint snaps back in shear "
-                 "(its bond goes at once)",
-                 law->Gf2, law->c * law->c / (2 * ks));
+      report.say(
+          rule.place,
+          "mortar: Gf2 = {:g} J/m2 is less than the elastic energy at the peak, c^2 / (2 ks) = {:g} J/m2; the joint snaps back in shear "
+          "(its bond goes at once)",
+          law->Gf2, law->c * law->c / (2 * ks));
   }
   return report.mistakes;
 }

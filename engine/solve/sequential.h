@@ -38,11 +38,11 @@ class Sequential {
   State& state_;
   const bool centred_;
   std::vector<int> order_;
-  std::vector<int> first_end_;    // joints of each block: end_[first_end_[b] .. first_end_[b + 1])
+  std::vector<int> first_end_;  // joints of each block: end_[first_end_[b] .. first_end_[b + 1])
   std::vector<int> end_;
   std::vector<PointHistory> trial_;
   std::vector<double> wrench_before_;
-  Vec3 force_, moment_;           // N, N m about the first block at rest
+  Vec3 force_, moment_;  // N, N m about the first block at rest
   double forces_ = 0, moments_ = 0;
 };
 

@@ -27,7 +27,9 @@ struct Term {
 const Term terms[] = {
     {"friction", &Energy::friction, head + block + dry + "ground_motion{ wave = 8, direction = 'x' } analysis{ duration = 0.1 }"},
     {"base_work", &Energy::base_work, head + block + dry + "ground_motion{ wave = 8, direction = 'x' } analysis{ duration = 0.1 }"},
-    {"external_work", &Energy::external_work, head + block + dry + "force{ block = 'block', wave = pulse{ amplitude = 80, start = 0.01, duration = 0.2 } } analysis{ duration = 0.1 }"},
+    {"external_work", &Energy::external_work,
+     head + block + dry +
+         "force{ block = 'block', wave = pulse{ amplitude = 80, start = 0.01, duration = 0.2 } } analysis{ duration = 0.1 }"},
     {"motion's work", &Energy::external_work,
      head + block +
          " joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e8, c = 1e8, mu = 0.6 } }"
@@ -35,21 +37,26 @@ const Term terms[] = {
     {"turning's work", &Energy::external_work,
      head + block +
          " joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e8, c = 1e8, mu = 0.6 } }"
-         "turning{ block = 'block', axis = {1, 2, 3}, wave = table_wave{ times = {0, 0.1}, values = {0, 1e-3} } } analysis{ duration = 0.1, dt = 1e-5 }"},
+         "turning{ block = 'block', axis = {1, 2, 3}, wave = table_wave{ times = {0, 0.1}, values = {0, 1e-3} } } analysis{ duration = "
+         "0.1, dt = 1e-5 }"},
     {"tilt_work", &Energy::tilt_work,
      head + block + dry + "tilt{ axis = 'y', wave = table_wave{ times = {0, 0.2}, values = {0, 0.8} } } analysis{ duration = 0.2 }"},
     {"fracture", &Energy::fracture,
      head + block +
          " joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e4, c = 1e4, mu = 0.6, Gf1 = 5 } } gravity(0)"
-         "motion{ block = 'block', direction = 'z', wave = table_wave{ times = {0, 0.1}, values = {0, 5e-4} } } analysis{ duration = 0.1, dt = 1e-5 }"},
+         "motion{ block = 'block', direction = 'z', wave = table_wave{ times = {0, 0.1}, values = {0, 5e-4} } } analysis{ duration = 0.1, "
+         "dt = 1e-5 }"},
     {"crushing", &Energy::crushing,
      head + block +
          " joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e4, c = 1e4, mu = 0.6, fc = 1e5 } }"
-         "motion{ block = 'block', direction = 'z', wave = table_wave{ times = {0, 0.1}, values = {0, -5e-4} } } analysis{ duration = 0.1, dt = 1e-5 }"},
+         "motion{ block = 'block', direction = 'z', wave = table_wave{ times = {0, 0.1}, values = {0, -5e-4} } } analysis{ duration = 0.1, "
+         "dt = 1e-5 }"},
     {"damping", &Energy::damping,
-     head + "box{ name = 'block', size = {1, 1, 1}, center = {0, 0, 9}, free = true } damping{ mass = 2, scope = 'all' } analysis{ duration = 0.3, dt = 1e-3 }"},
+     head + "box{ name = 'block', size = {1, 1, 1}, center = {0, 0, 9}, free = true } damping{ mass = 2, scope = 'all' } analysis{ "
+            "duration = 0.3, dt = 1e-3 }"},
     {"contact_damping", &Energy::contact_damping,
-     head + "box{ name = 'block', size = {0.4, 0.4, 0.04}, center = {0, 0, 0.03}, free = true } analysis{ duration = 0.1, dt_fraction = 0.05 }"},
+     head + "box{ name = 'block', size = {0.4, 0.4, 0.04}, center = {0, 0, 0.03}, free = true } analysis{ duration = 0.1, dt_fraction = "
+            "0.05 }"},
 };
 
 Energy energy_of(const Term& term, double share) {

@@ -1,6 +1,6 @@
 // The sequential scheme as a solver of the program: reproducible, resumable, and honest in its ledger.
-#include <catch2/catch.hpp>
 #include <algorithm>
+#include <catch2/catch.hpp>
 #include <numeric>
 
 #include "engine/analysis/dynamic.h"
@@ -48,7 +48,7 @@ TEST_CASE("a sequential run depends on its seed alone, and one stopped and resum
     INFO(kind);
     const Metrics expected = run(pillar(kind), whole.path);
     CHECK(expected.status == "completed");
-    CHECK(expected.energy.at(7).second > 0);  // fracture: joints have cracked
+    CHECK(expected.energy.at(7).second > 0);   // fracture: joints have cracked
     CHECK(expected.momentum_residual > 1e-6);  // action is not reaction, and it says so
     CHECK(run(pillar(kind), whole.path).state_hash == expected.state_hash);
     CHECK(run(pillar(kind), parts.path, Existing::force, 0.11).status == "stopped");
@@ -95,7 +95,8 @@ joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1*MPa, c = 1*MPa, mu = 0.6 } }
   const test::Scratch one("sequential_one"), other("sequential_other");
   const Metrics swept = run(text + "analysis{ duration = 0.05, solver = 'sequential', lazy_rotation = 0 }", one.path);
   const Metrics leapt = run(text + "analysis{ duration = 0.05, kernel = 'reference', lazy_rotation = 0 }", other.path);
-  for (std::size_t i = 0; i < leapt.energy.size(); ++i) CHECK(swept.energy[i].second == Approx(leapt.energy[i].second).epsilon(1e-6).margin(1e-12));
+  for (std::size_t i = 0; i < leapt.energy.size(); ++i)
+    CHECK(swept.energy[i].second == Approx(leapt.energy[i].second).epsilon(1e-6).margin(1e-12));
   CHECK(swept.residual_relative == Approx(leapt.residual_relative).epsilon(0.01));
   CHECK(swept.momentum_residual == 0);
 }
