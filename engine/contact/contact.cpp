@@ -141,16 +141,6 @@ void landing(const Pair& pair, const View& s, const ContactSettings& settings, d
   result.landing_b = pair.b_is_reference ? reference : other;
 }
 
-// Share of its force that a contact exerts in the step in which it begins. The bodies met `met` of a step ago: of the half step
-// before, the force acted for that part only. Exact for a linear spring (energy after one step equal to that before), so for faces;
-// a patch that grows from an edge or a corner starts smoothly and needs none.
-double beginning(const Pair& pair, const Patch& patch, double dt) {
-  if (pair.touching || !(dt > 0) || !(patch.closing > 0)) return 1;
-  const double met = std::min(1.0, patch.deepest / (patch.closing * dt));
-  const double flat = std::clamp(2 * patch.total / (patch.area * patch.deepest) - 1, 0.0, 1.0);  // 1 face, 0 edge and corner
-  return 1 - flat * (1 - met) / 2;
-}
-
 }  // namespace
 
 double power(const PairWrench& w, const ContactBlock& a, const ContactBlock& b) {
@@ -205,9 +195,9 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     const Motion motion = motion_of(s);
     closing_speeds(room, motion.linear, motion.angular, patch);
     const double kn = pair.law.kn;
-    const double k = kn * beginning(pair, patch, dt);
-    elastic = to_world(pair, s, k * patch.force, k * patch.moment);
-    const Dashpot d = dashpot(pair, patch, inverse_mass_at(s, patch.pressure_centre, patch.normal), settings, dt);
+    const double along = inverse_mass_at(s, patch.pressure_centre, patch.normal);
+    elastic = to_world(pair, s, kn * patch.force, kn * patch.moment);
+    const Dashpot d = dashpot(pair, patch, along, settings, dt);
     Vec3 damping_force, damping_moment;
     damping_wrench(room, patch.normal, d.chi, d.limit, damping_force, damping_moment);
     const double inverse_mass = inverse_mass_at(s, patch.centroid, Vec3::Zero());
