@@ -104,6 +104,11 @@ void add_others(CLI::App& app, CommandLine& line) {
   accuracy.add_option("--max-wall", line.max_wall, "of each run (default 5m)")->type_name("5m");
   accuracy.add_flag("--study", line.options.whole_study, "every problem of the folder, media/accuracy.png and the table of engine/README.md");
 
+  CLI::App& bench = *app.add_subcommand("bench", "the step kernel against the reference and the machine's limits, in one run");
+  bench.add_option("SCENE.lua", line.options.words, "scenes to time (default: those of scenes/bench, into a folder)");
+  add_output(bench, line);
+  add_scene(bench, line);
+
   CLI::App& help = *app.add_subcommand("help", "this text, or the help of a verb or of a scene function");
   help.add_option("VERB|FUNCTION", line.options.words, "what to explain");
   help.prefix_command();
@@ -145,6 +150,7 @@ int call(const CLI::App& app, CommandLine& line) {
   if (name == "record") return erbs::verb_record(line.options);
   if (name == "accuracy") return erbs::verb_accuracy(line.options);
   if (name == "test") return erbs::verb_test(line.options);
+  if (name == "bench") return erbs::verb_bench(line.options);
   if (name == "version") return erbs::verb_version();
   for (const auto& word : verb.remaining()) line.options.words.push_back(word);
   if (name == "render") return erbs::verb_render(line.options);

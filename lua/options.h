@@ -60,6 +60,7 @@ int verb_record(const Options& options);
 int verb_render(const Options& options);
 int verb_test(const Options& options);
 int verb_accuracy(const Options& options);
+int verb_bench(const Options& options);
 int verb_help(const Options& options, const std::string& usage);
 int verb_version();
 

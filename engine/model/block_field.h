@@ -92,4 +92,31 @@ class BlockQuat {
   std::vector<Row> row_;  // x, y, z, w; lanes beyond the last block are the identity
 };
 
+// Rows of eight doubles, each in a cache line of its own: what one block or one joint end is read or written by.
+class Rows {
+ public:
+  void assign(std::size_t rows, double value) {
+    row_.resize(rows);
+    for (auto& r : row_)
+      for (double& x : r.x[0]) x = value;
+  }
+  std::size_t size() const { return row_.size() * lanes; }  // doubles
+  bool empty() const { return row_.empty(); }
+  double& operator[](std::size_t i) { return row_[i / lanes].x[0][i % lanes]; }
+  const double& operator[](std::size_t i) const { return row_[i / lanes].x[0][i % lanes]; }
+  double* data() { return row_.empty() ? nullptr : row_.data()->x[0]; }
+  const double* data() const { return row_.empty() ? nullptr : row_.data()->x[0]; }
+
+  template <class F>
+  friend void each(Rows& rows, F&& f) {
+    f("rows", rows.row_);
+  }
+
+ private:
+  std::vector<RowLanes<1>> row_;
+};
+
+// Blocks and the one at rest behind them, in whole groups of lanes.
+inline std::size_t block_groups(int nblock) { return (std::size_t(nblock) + lanes) / lanes; }
+
 }  // namespace erbs

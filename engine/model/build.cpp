@@ -295,7 +295,7 @@ State start(const Scene& scene, const Model& m) {
   s.q.assign(n, Quat::Identity());
   s.v = s.spin_momentum = s.w = s.base_u = s.u;
   s.base_q = s.q;
-  s.row.assign(8 * n, 0.0);
+  s.row.assign(block_groups(m.nblock) * lanes, 0.0);
   s.island.assign(n, -1);
   s.grounded.assign(n, 0);
   s.loose.assign(n, 0);
@@ -318,7 +318,7 @@ State start(const Scene& scene, const Model& m) {
   s.memory.assign(z(m.njoint), {});
   s.history.assign(z(m.npoint), {});
   if (m.dashpots) s.viscous.assign(6 * z(m.njoint), 0.0);
-  s.wrench.assign((2 * z(m.njoint) + 1) * 8, 0.0);
+  s.wrench.assign(2 * z(m.njoint) + 1, 0.0);
   return s;
 }
 

@@ -55,7 +55,7 @@ struct State {
   BlockVec3 w;                  // rad/s, world axes, of the last drift
   BlockVec3 base_u;             // pose at the last refresh of the block's island
   BlockQuat base_q;
-  std::vector<double> row;      // displacement and rotation since the refresh (m, rad), 8 doubles a block: one cache line
+  Rows row;                     // displacement and rotation since the refresh (m, rad), 8 doubles a block: one cache line
   std::vector<int> island;      // blocks joined to each other, named by their lowest block
   std::vector<std::uint8_t> grounded;  // the island holds a fixed or driven block
   std::vector<std::uint8_t> joined;    // has a joint that is not open
@@ -66,7 +66,7 @@ struct State {
   std::vector<Tier> tier;              // [njoint]
   std::vector<JointMemory> memory;     // [njoint]
   std::vector<PointHistory> history;   // [npoint]
-  std::vector<double> wrench;          // rows of 8 doubles: force, moment on a block from one joint end [2 njoint + 1]
+  Rows wrench;                         // rows of 8 doubles: force, moment on a block from one joint end [2 njoint + 1]
   std::vector<double> viscous;         // N, N m, resultants of the dashpots of the last step; empty without [6 njoint]
   PairList debris;                     // contacts of loose blocks
   double dt_goal = 0;                  // s, the step the run asks for; dt may be shorter while contacts change

@@ -44,7 +44,56 @@ const Place* dissipating(const Scene& scene) {
   return nullptr;
 }
 
+void drop_ground(Scene& scene, int component) {
+  for (Load& load : scene.loads)
+    if (load.kind == Load::Kind::ground) load.direction[component] = 0;
+  std::erase_if(scene.loads, [](const Load& load) { return load.kind == Load::Kind::ground && load.direction.norm() == 0; });
+}
+
+void drop(Scene& scene, Load::Kind kind) {
+  std::erase_if(scene.loads, [=](const Load& load) { return load.kind == kind; });
+}
+
+void change_mortars(Scene& scene, void (*change)(Mortar&)) {
+  for (JointRule& rule : scene.joint_rules)
+    if (auto* mortar = std::get_if<Mortar>(&rule.law)) change(*mortar);
+}
+
+struct Switch {
+  const char* name;
+  void (*off)(Scene&);
+};
+
+const Switch switches[] = {
+    {"ground x", [](Scene& s) { drop_ground(s, 0); }},
+    {"ground y", [](Scene& s) { drop_ground(s, 1); }},
+    {"ground z", [](Scene& s) { drop_ground(s, 2); }},
+    {"forces on blocks", [](Scene& s) { drop(s, Load::Kind::force); }},
+    {"moments on blocks", [](Scene& s) { drop(s, Load::Kind::moment); }},
+    {"tilting gravity", [](Scene& s) { drop(s, Load::Kind::tilt); }},
+    {"prescribed motion", [](Scene& s) { drop(s, Load::Kind::motion); }},
+    {"mass damping", [](Scene& s) { s.damping.mass = 0; }},
+    {"softening in tension", [](Scene& s) { change_mortars(s, [](Mortar& m) { m.Gf1 = m.un_ultimate = 0; }); }},
+    {"softening in shear", [](Scene& s) { change_mortars(s, [](Mortar& m) { m.Gf2 = m.us_ultimate = 0; }); }},
+    {"compression plateau", [](Scene& s) { change_mortars(s, [](Mortar& m) { m.fc = m.uc_ultimate = 0; }); }},
+    {"rotation of joint frames", [](Scene& s) { s.analysis.lazy_rotation = 1e9; }},  // small rotations about the start
+    {"debris contact", [](Scene& s) { s.analysis.debris = false; }},
+    {"contact dashpots",
+     [](Scene& s) {
+       for (Material& m : s.materials) m.restitution = 1;
+     }},
+    {"gyroscopic term", [](Scene& s) { s.analysis.gyroscopic = false; }},
+    {"energy ledger", [](Scene& s) { s.analysis.ledger = false; }},
+    {"recorders", [](Scene& s) { s.recorders.clear(); }},
+};
+
 }  // namespace
+
+void switch_off(Scene& scene, const std::string& name) {
+  for (const Switch& item : switches)
+    if (name == item.name) return item.off(scene);
+  throw Error("there is no effect \"" + name + "\"; erbs check lists those of a scene");
+}
 
 std::vector<Effect> effects_of(const Scene& scene) {
   std::vector<Effect> out;

@@ -15,4 +15,7 @@ struct Effect {
 
 std::vector<Effect> effects_of(const Scene& scene);
 
+// Takes an effect out of the scene, to see what it costs and how much it matters. Error for a name that is none of effects_of.
+void switch_off(Scene& scene, const std::string& name);
+
 }  // namespace erbs

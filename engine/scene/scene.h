@@ -145,6 +145,8 @@ struct Analysis {
   double stop_after_collapse = -1;    // s of simulated time after collapse; -1: go on to duration
   double stop_when_moved = 0;         // m; a block that has moved this far from rest ends the run; 0: none does
   double energy_gate = 0;             // relative; 0: by the kind of run (1e-6 elastic, 1e-3 bonded, 1e-2 collapse)
+  bool debris = true;                 // contacts of blocks that have come loose; false only to see what they cost
+  bool ledger = true;                 // the energy ledger between rows; false likewise
   double lazy_rotation = 1e-5;        // rad of block rotation between refreshes of joint frames
   bool gyroscopic = true;             // false: the scalar Euler equation of Gu and Miao eq. (1), for comparison only
   double output_dt = 0.01;            // s, rows of histories.csv and energy.csv

@@ -57,9 +57,9 @@ void Debris::forces(int thread, int threads, bool sample) {
 
 void Debris::gather(double* push, bool sample) {
   State& s = state_;
-  if (std::exchange(relisted_, false)) std::fill(push, push + 6 * z(model_.nblock), 0.0);
+  if (std::exchange(relisted_, false)) std::fill(push, push + 8 * z(model_.nblock), 0.0);
   for (const int b : involved_) {
-    std::fill(push + 6 * b, push + 6 * b + 6, 0.0);
+    std::fill_n(push + 8 * b, 8, 0.0);
     rate_[z(b)] = landing_[z(b)] = 0;
   }
   touching_ = 0;
@@ -69,7 +69,7 @@ void Debris::gather(double* push, bool sample) {
     const Pair& pair = s.debris.pair[i];
     const PairResult& r = results_[i];
     const PairWrench& w = r.wrench;
-    double *a = push + 6 * pair.a, *b = push + 6 * pair.b;
+    double *a = push + 8 * pair.a, *b = push + 8 * pair.b;
     for (int k = 0; k < 3; ++k) {
       a[k] -= w.force[k];
       b[k] += w.force[k];

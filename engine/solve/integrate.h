@@ -1,7 +1,11 @@
 // Kick and drift of blocks: simultaneous leapfrog for translation, momentum- and energy-conserving midpoint for rotation.
 #pragma once
+#include <span>
+#include <vector>
+
 #include "engine/model/model.h"
 #include "engine/model/state.h"
+#include "engine/solve/lanes.h"
 
 namespace erbs {
 
@@ -12,25 +16,40 @@ struct Excitation {
   double kick = 0;              // s: half the last and half the next drift
 };
 
+// A block that external loads act on: its inverse inertia in world axes at the step's positions.
+struct LoadedBlock {
+  int block = 0;
+  Mat3 inverse_inertia = Mat3::Zero();  // 1/(kg m2)
+};
+
 // Sums over one fixed chunk of blocks; kept apart per chunk, so that totals do not depend on threads. The work of a step's forces
 // is split at its positions: half the last drift with the old velocity (counted at once), half the next drift with the new one
 // (`after`, counted when the next step is taken). Sums then close exactly at every position: energy.h.
 struct BlockSums {
-  double base_work = 0, external_work = 0, damping = 0, absolute_work = 0;  // J
-  double base_after = 0, external_after = 0, damping_after = 0, absolute_after = 0;
-  double kinetic = 0, height = 0;  // J, filled on request: T_n = v- m v+ / 2 and -sum m g.u
-  double fastest = 0;              // m2/s2, largest squared speed of a block that moves
-  bool stale = false;              // a joined block turned past the tolerance since its refresh
-  bool broken = false;             // not a number
+  BlockWork work{};
+  double external_work = 0, external_after = 0, external_absolute = 0, external_absolute_after = 0;  // J
+  bool stale = false;   // a joined block turned past the tolerance since its refresh
+  bool broken = false;  // not a number
 };
 
-inline constexpr int block_grain = 32;
+inline constexpr int block_grain = 4;  // groups of eight blocks to a chunk
 
-// Blocks [first, last): sum their wrench rows and pushes, kick by e.kick, drift by s.dt. Six doubles a block (force, moment):
-// `push` from contacts, `load` from external loads (null where there are none), whose work is booked as external.
-// Fills kinetic and height when `sample`.
-void advance(const Model& model, State& state, const Excitation& e, const double* push, const double* load, int first, int last,
-             bool sample, BlockSums& sums);
+// Masses and inertias in lanes; what follows from the state's islands (who is damped, who must not turn far) as it is now.
+std::vector<BlockConstants> block_constants(const Model& model, const State& state);
+
+// What pushes blocks beside their joints: rows of eight doubles (force, moment), `contacts` from contacts and `loads` from external
+// loads, whose work is booked as external; null where there are none. `loaded`: the blocks that loads act on, in order.
+struct Pushes {
+  const double *contacts = nullptr, *loads = nullptr;
+  std::span<LoadedBlock> loaded = {};
+};
+
+// Groups [first, last) of blocks: sum their wrench rows and pushes, kick by e.kick, drift by s.dt.
+void advance(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes,
+             int first, int last, bool sample, BlockSums& sums);
+
+// One block alone, for a sweep from block to block; the others stay as they are.
+void advance_one(const Model& model, State& state, const Excitation& e, const Pushes& pushes, int b, bool sample, BlockSums& sums);
 
 // Sum of the wrench rows of a block's joints: force, moment.
 Vec6 joint_wrench(const Model& model, const State& state, int b);

@@ -1,4 +1,4 @@
-// The hot pass: joint forces of a range of batches, eight joints side by side.
+// What all joints have in common, sound (sound.h) or cracked (cracked.h): their account, and one of them point by point.
 #pragma once
 #include "engine/model/model.h"
 #include "engine/model/state.h"
@@ -17,10 +17,8 @@ struct JointSums {
 // One joint point by point, its own energy balance checked over the step (work of the resultant = stored + dissipated).
 void joint_by_points(const Model& model, State& state, int j, const double q[6], double f[6], JointSums& sums);
 
-// Writes the wrench rows of the sound batches [first, last). Joints near a limit are looked at point by point (joint_response.h);
-// those that crack go on in cracked.h.
-// Fills sums.energy.elastic when `sample`.
-inline constexpr int batch_grain = 8;
+inline constexpr int batch_grain = 8;  // batches, or joints of the reference, to a chunk
+// Sound joints with dashpots: writes the wrench rows of batches [first, last), as sound.h does without.
 void joint_forces(const Model& model, State& state, int first, int last, bool sample, JointSums& sums);
 
 // A joint whose faces have moved so far that its fixed overlap polygon no longer tells the truth: slip of 1 % of its side (that much

@@ -10,10 +10,10 @@ namespace erbs {
 // Results of the elastic pass of one batch.
 struct alignas(64) JointLanes {
   double q[6][lanes], f[6][lanes];
-  double y[3][lanes];   // m, turned-back distance of the centroids
-  double sum[3][lanes]; // m, turned-back sum of the arms
-  double th[3][lanes];  // rad, mean rotation since the refresh
-  double near[lanes];   // > 0: the bound on tension, shear or compression is passed
+  double y[3][lanes];    // m, turned-back distance of the centroids
+  double sum[3][lanes];  // m, turned-back sum of the arms
+  double th[3][lanes];   // rad, mean rotation since the refresh
+  double near[lanes];    // > 0: the bound on tension, shear or compression is passed
 };
 
 // Eight joints of one law that have cracked: the corners of their overlap, their points with what these remember, and the joints'
@@ -22,7 +22,7 @@ struct alignas(64) CornerLanes {
   double s[lanes], t[lanes];  // m
 };
 struct alignas(64) PointLanes {
-  double s[lanes], t[lanes], weight[lanes];                                                             // m, m, m2
+  double s[lanes], t[lanes], weight[lanes];                                                         // m, m, m2
   double slip_s[lanes], slip_t[lanes], damage[lanes], crushed[lanes], secant[lanes], reach[lanes];  // as in PointHistory
 };
 struct alignas(64) CellLanes {
@@ -50,27 +50,51 @@ struct alignas(64) CrackedLanes {
   double least_damage[lanes];                                       // of the points; 1 for dry joints
 };
 
-// Eight blocks: what the kick and the drift read and write. Layout of q: x, y, z, w.
-struct alignas(64) BlockLanes {
-  // in
-  double mass[lanes], inverse_mass[lanes], moving[lanes], damping[lanes];  // kg, 1/kg, 0 or 1, 1/s
-  double inverse_inertia[9][lanes];                                        // 1/(kg m2), axes at rest
-  double force[3][lanes], moment[3][lanes];                                // N, N m, of joints, contacts and loads
-  double load[6][lanes];                                                   // N, N m, of loads alone
-  double base_u[3][lanes], base_q[4][lanes];
-  // in and out
-  double u[3][lanes], q[4][lanes], v[3][lanes], momentum[3][lanes];
-  // out
-  double w[3][lanes], row[6][lanes];
-  double base0[lanes], base1[lanes], damped0[lanes], damped1[lanes], loaded0[lanes], loaded1[lanes];  // J
-  double kinetic[lanes], height[lanes], turned[lanes], speed[lanes];                                  // J, J, rad2, m2/s2
+// Eight sound joints in world axes at the last refresh: what a step reads of them, and nothing else (lanes_sound.inc).
+struct alignas(64) SoundBatch {
+  double gap[3][lanes], turn[3][lanes];      // m, rad: relative displacement and rotation
+  double arm_a[3][lanes], arm_b[3][lanes];   // m, from the centroids to the joint
+  double stretch[6][lanes], bend[6][lanes];  // N/m, N m: symmetric stiffness, xx yy zz yz xz xy
+  double normal[3][lanes];
+  double open_limit[lanes], slip_limit[lanes], slip_slope[lanes], close_limit[lanes], radius[lanes];  // as in JointBatch
+  int a[lanes], b[lanes], row_a[lanes], row_b[lanes];  // where the rows of blocks and joint ends begin, in doubles
+  int used;                                            // joints in it
+};
+
+// Eight blocks: what does not change from step to step.
+struct alignas(64) BlockConstants {
+  double mass[lanes], inverse_mass[lanes];  // kg, 1/kg; 0 for blocks that are held
+  double moving[lanes], damped[lanes];      // 0 or 1
+  double inverse_inertia[6][lanes];         // 1/(kg m2), axes at rest: xx yy zz yz xz xy
+  double turn_limit[lanes];                 // rad2, of joined blocks between refreshes
+  int first_row[lanes], rows[lanes];        // wrench rows: the first, in doubles, and how many
+};
+
+// All blocks, by groups of eight; the rows of eight doubles by blocks, `push` and `load` null where there is nothing.
+struct BlockArrays {
+  const BlockConstants* constant;
+  RowLanes<3>*u, *v, *momentum, *w;
+  RowLanes<4>* q;
+  const RowLanes<3>* base_u;
+  const RowLanes<4>* base_q;
+  double* row;
+  const double *wrench, *push, *load;
+};
+
+// What blocks did in this step, added up lane by lane: every lane its own sum, so that totals do not depend on the width of registers.
+struct alignas(64) BlockWork {
+  double base[lanes], damping[lanes], absolute[lanes];                    // J
+  double base_after[lanes], damping_after[lanes], absolute_after[lanes];  // J, of the half drift after a sample
+  double kinetic[lanes], height[lanes];                                   // J, at a sample
+  double stale[lanes];                                                    // joined blocks past their turn_limit
 };
 
 struct KickDrift {
-  double kick, dt, half_last, half_next;  // s
-  double ground[3], gravity[3];           // m/s2
-  bool first;                             // no drift has led here
-  bool damping_explicit, gyroscopic;
+  double kick, dt, half_last, half_next;     // s
+  double damping, damped_keep, damped_kick;  // 1/s; a damped kick is (1 + damped_keep) v + kick (1 + damped_kick) push
+  double ground[3], gravity[3];              // m/s2
+  bool first;                                // no drift has led here
+  bool damping_explicit, gyroscopic, shaken;
 };
 
 struct LaneKernels {
@@ -82,14 +106,25 @@ struct LaneKernels {
                   JointLanes& io);
   // Resultants to wrenches on both blocks: force at the midpoint of the material points, then everything turned by th.
   void (*wrenches)(const JointBatch& batch, const JointLanes& in, double* wrench_rows);
-  // integrate.h
-  void (*advance)(const KickDrift& step, BlockLanes& blocks);
+  // Batches [first, last) of sound joints, rows of blocks to wrench rows; the energy they store is added to stored[lanes], if wanted.
+  // Returns how many batches hold a joint whose limits may be near, and which.
+  int (*sound)(const SoundBatch* batch, int first, int last, const double* rows, double* wrench_rows, double* stored, int* near);
+  // Kick and drift of groups [first, last) of blocks (integrate.h); true where a number broke.
+  bool (*advance)(const KickDrift& step, const BlockArrays& blocks, int first, int last, bool sample, BlockWork& work);
+  // Keeps the arithmetic units busy from registers alone; returns how many operations that took. For comparison with their peak.
+  double (*work_registers)(long rounds);
 };
 
 const LaneKernels& lane_kernels();  // the widest this processor has; ERBS_ISA=sse2|avx2|avx512 in the environment asks for another
 
-namespace sse2 { extern const LaneKernels kernels; }
-namespace avx2 { extern const LaneKernels kernels; }
-namespace avx512 { extern const LaneKernels kernels; }
+namespace sse2 {
+extern const LaneKernels kernels;
+}
+namespace avx2 {
+extern const LaneKernels kernels;
+}
+namespace avx512 {
+extern const LaneKernels kernels;
+}
 
 }  // namespace erbs

@@ -35,7 +35,7 @@ double stored(const Model& m, const State& s, int j, const JointPose& pose) {
   return sum;
 }
 
-void add(std::vector<double>& rows, int row, const Vec3& force, const Vec3& moment) {
+void add(Rows& rows, int row, const Vec3& force, const Vec3& moment) {
   for (int i = 0; i < 3; ++i) rows[z(row) * 8 + z(i)] = force[i], rows[z(row) * 8 + 3 + z(i)] = moment[i];
 }
 

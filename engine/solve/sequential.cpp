@@ -42,7 +42,7 @@ void colour(const Model& m, std::vector<int>& order) {
   std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return colour_of[z(a)] < colour_of[z(b)]; });
 }
 
-void write(std::vector<double>& rows, int row, const Vec3& force, const Vec3& moment) {
+void write(Rows& rows, int row, const Vec3& force, const Vec3& moment) {
   for (int i = 0; i < 3; ++i) rows[z(row) * 8 + z(i)] = force[i], rows[z(row) * 8 + 3 + z(i)] = moment[i];
 }
 
@@ -140,8 +140,7 @@ void Sequential::note_momentum(int b) {
   }
 }
 
-void Sequential::sweep(const Excitation& e, const double* push, const double* load, bool sample, JointSums& joints,
-                       std::vector<BlockSums>& sums) {
+void Sequential::sweep(const Excitation& e, const Pushes& pushes, bool sample, JointSums& joints, std::vector<BlockSums>& sums) {
   State& s = state_;
   Energy& ledger = s.energy;
   // What the laws lost since the last sweep began belongs to the positions that this one starts from.
@@ -166,7 +165,7 @@ void Sequential::sweep(const Excitation& e, const double* push, const double* lo
     if (model_.kind[z(b)] != Kind::moving) continue;
     if (centred_) predict(b);
     note_momentum(b);
-    advance(model_, s, e, push, load, b, b + 1, sample, sums[z(b)]);
+    advance_one(model_, s, e, pushes, b, sample, sums[z(b)]);
     for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k) update(end_[z(k)], joints);
   }
 }

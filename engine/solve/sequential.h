@@ -21,13 +21,13 @@ class Sequential {
 
   // One sweep over all blocks: the place of joints() and blocks() of a leapfrog step. `push` and `load` as for advance(), held as they
   // were at the start of the sweep; `sums` one a block. The ledger's state terms are those at the start of the sweep.
-  void sweep(const Excitation& e, const double* push, const double* load, bool sample, JointSums& joints, std::vector<BlockSums>& sums);
+  void sweep(const Excitation& e, const Pushes& pushes, bool sample, JointSums& joints, std::vector<BlockSums>& sums);
 
   // What the joints' forces of the last sweep add up to over all pairs of moving blocks, of the sum of their sizes: 0 where action is
   // reaction.
   double momentum_residual() const;
   // State::wrench as it was at the start of a sampled sweep, for what is recorded then.
-  std::vector<double>& wrench_before() { return wrench_before_; }
+  Rows& wrench_before() { return wrench_before_; }
 
  private:
   void update(int j, JointSums& sums);
@@ -41,7 +41,7 @@ class Sequential {
   std::vector<int> first_end_;  // joints of each block: end_[first_end_[b] .. first_end_[b + 1])
   std::vector<int> end_;
   std::vector<PointHistory> trial_;
-  std::vector<double> wrench_before_;
+  Rows wrench_before_;
   Vec3 force_, moment_;  // N, N m about the first block at rest
   double forces_ = 0, moments_ = 0;
 };

@@ -13,10 +13,11 @@
 namespace erbs {
 namespace {
 
-constexpr int ledger_every = 32;    // steps between two settlings of the ledger; ...
-constexpr int ledger_slowly = 128;  // ... while there are contacts, whose energy costs as much as their forces
-constexpr int hand_over_every = 8;  // steps between two looks at spent joints
-constexpr int loosen_every = 256;   // steps between two looks at blocks that have moved far
+constexpr int ledger_every = 32;     // steps between two settlings of the ledger; ...
+constexpr int ledger_slowly = 128;   // ... while there are contacts, whose energy costs as much as their forces
+constexpr int ledger_seldom = 4096;  // ... where a scene does without
+constexpr int hand_over_every = 8;   // steps between two looks at spent joints
+constexpr int loosen_every = 256;    // steps between two looks at blocks that have moved far
 std::size_t z(int i) { return std::size_t(i); }
 
 int chunks(int n, int grain) { return std::max(1, (n + grain - 1) / grain); }
@@ -29,15 +30,23 @@ Solver::Solver(const Model& model, State& state, int threads)
       threads_(threads),
       reference_(model.analysis.kernel == "reference" || model.analysis.solver == "sequential"),
       joint_items_(model.analysis.solver == "sequential" ? 0 : reference_ ? model.njoint : sound_batches(model)),
+      sound_(model, state),
       cracked_(model, state),
       debris_(model, state, threads) {
   if (state.dt_goal == 0) state.dt_goal = state.dt;
   any_cracked_ = std::any_of(state.tier.begin(), state.tier.end(), [](Tier t) { return t == Tier::cracked; });
-  push_.assign(6 * z(model.nblock) + 6, 0.0);
+  sound_.update();  // of what the cracked ones have taken in
+  constants_ = block_constants(model, state);
+  push_.assign(constants_.size() * lanes, 0.0);
   if (!model.pushes.empty()) load_ = push_;
+  for (const auto& p : model.pushes)
+    if (model.kind[z(p.block)] == Kind::moving) loaded_.push_back({p.block, Mat3::Zero()});
+  std::sort(loaded_.begin(), loaded_.end(), [](const LoadedBlock& a, const LoadedBlock& b) { return a.block < b.block; });
+  loaded_.erase(std::unique(loaded_.begin(), loaded_.end(), [](const LoadedBlock& a, const LoadedBlock& b) { return a.block == b.block; }),
+                loaded_.end());
   joint_sums_.resize(z(chunks(joint_items_, batch_grain)));
   cracked_sums_.resize(z(chunks(cracked_.groups(), Cracked::grain)));
-  block_sums_.resize(z(chunks(model.nblock, block_grain)));
+  block_sums_.resize(z(chunks(int(constants_.size()), block_grain)));
   if (model.analysis.solver == "sequential") {
     sequential_.emplace(model, state);
     block_sums_.resize(z(model.nblock));
@@ -59,9 +68,10 @@ void Solver::run(const Hooks& hooks) {
   Barrier barrier(threads_);
   stop_ = false;
   together(threads_, [&](int thread) {
+    if (thread == 0) begin(hooks);
     for (;;) {
-      if (thread == 0) begin(hooks);
       barrier.wait();
+      if (stop_) return;
       joints(thread);
       barrier.wait();
       if (between_) {
@@ -70,27 +80,28 @@ void Solver::run(const Hooks& hooks) {
       }
       blocks(thread);
       barrier.wait();
-      if (thread == 0) {
-        finish(hooks);
-        stop_ = broken_ || (sample_ != Sample::none && hooks.stop());
-      }
-      barrier.wait();
-      if (stop_) return;
+      if (thread != 0) continue;
+      finish(hooks);
+      stop_ = broken_ || (sample_ != Sample::none && hooks.stop());
+      if (!stop_) begin(hooks);
     }
   });
 }
 
 void Solver::begin(const Hooks& hooks) {
-  sample_ = hooks.wanted(state_.t) ? Sample::full : state_.step % (debris_.active() ? ledger_slowly : ledger_every) == 0 ? Sample::ledger : Sample::none;
+  const Analysis& how = model_.analysis;
+  const int every = !how.ledger ? ledger_seldom : debris_.active() ? ledger_slowly : ledger_every;
+  sample_ = hooks.wanted(state_.t) ? Sample::full : state_.step % every == 0 ? Sample::ledger : Sample::none;
   for (const BlockSums& sums : block_sums_)
     if (sums.stale) {
       refresh_stale(model_, state_);
+      sound_.update();
       for (BlockSums& all : block_sums_) all.stale = false;
       break;
     }
-  if (state_.step % loosen_every == 0 && (any_cracked_ || debris_.active() || state_.step == 0)) debris_.loosen();
+  if (how.debris && state_.step % loosen_every == 0 && (any_cracked_ || debris_.active() || state_.step == 0)) debris_.loosen();
   contacts_ = debris_.active();
-  between_ = contacts_ || (any_cracked_ && state_.step % hand_over_every == 0);
+  between_ = contacts_ || (how.debris && any_cracked_ && state_.step % hand_over_every == 0);
   if (contacts_) debris_.prepare();
   excite();
   if (sample_ != Sample::full) return;
@@ -124,37 +135,43 @@ void Solver::excite() {
     s.gravity_before = now_.gravity;
     s.moment_before = moment;
   }
-  std::fill(load_.begin(), load_.end(), 0.0);
+  for (const auto& p : m.pushes) std::fill_n(&load_[8 * z(p.block)], 8, 0.0);
   for (const auto& p : m.pushes) {
     const Vec3 f = mean(p.wave, t0, t1) * p.direction;
     const Vec3 moment = p.moment ? f : Vec3((s.q[z(p.block)] * p.arm).cross(f));
     for (int k = 0; k < 3; ++k) {
-      if (!p.moment) load_[6 * z(p.block) + z(k)] += f[k];
-      load_[6 * z(p.block) + 3 + z(k)] += moment[k];
+      if (!p.moment) load_[8 * z(p.block) + z(k)] += f[k];
+      load_[8 * z(p.block) + 3 + z(k)] += moment[k];
     }
   }
 }
 
 void Solver::joints(int thread) {
   const Range mine = share_of(joint_items_, batch_grain, thread, threads_);
-  const auto forces = reference_ ? reference_forces : joint_forces;
   if (contacts_) debris_.forces(thread, threads_, sample_ != Sample::none);
-  for (int first = mine.first; first < mine.last; first += batch_grain)
-    forces(model_, state_, first, std::min(first + batch_grain, mine.last), sample_ != Sample::none, joint_sums_[z(first / batch_grain)]);
+  for (int first = mine.first; first < mine.last; first += batch_grain) {
+    const int last = std::min(first + batch_grain, mine.last);
+    JointSums& sums = joint_sums_[z(first / batch_grain)];
+    if (reference_) reference_forces(model_, state_, first, last, sample_ != Sample::none, sums);
+    else if (model_.dashpots) joint_forces(model_, state_, first, last, sample_ != Sample::none, sums);
+    else sound_.forces(first, last, sample_ != Sample::none, sums);
+  }
   const Range broken = share_of(cracked_.groups(), Cracked::grain, thread, threads_);
   for (int first = broken.first; first < broken.last; first += Cracked::grain)
-    cracked_.forces(first, std::min(first + Cracked::grain, broken.last), sample_ != Sample::none, cracked_sums_[z(first / Cracked::grain)]);
+    cracked_.forces(first, std::min(first + Cracked::grain, broken.last), sample_ != Sample::none,
+                    cracked_sums_[z(first / Cracked::grain)]);
 }
 
 // Between forces and drift, on one thread: contact forces are summed, and joints past their range handed over.
 void Solver::between() {
   if (contacts_) debris_.gather(push_.data(), sample_ != Sample::none);
-  if (!any_cracked_ || state_.step % hand_over_every != 0) return;
+  if (!model_.analysis.debris || !any_cracked_ || state_.step % hand_over_every != 0) return;
   const std::vector<int> opened = debris_.hand_over_joints(cracked_);
   if (opened.empty()) return;
   opened_.insert(opened_.end(), opened.begin(), opened.end());
   leaving_ = opened;
   find_islands(model_, state_);
+  constants_ = block_constants(model_, state_);
   debris_.loosen();
 }
 
@@ -178,15 +195,15 @@ void Solver::follow_contacts() {
 }
 
 void Solver::blocks(int thread) {
+  const Pushes pushes{contacts_ ? push_.data() : nullptr, load_.data(), loaded_};
   if (sequential_) {
-    if (thread == 0)
-      sequential_->sweep(now_, push_.data(), load_.empty() ? nullptr : load_.data(), sample_ != Sample::none, joint_sums_.front(), block_sums_);
+    if (thread == 0) sequential_->sweep(now_, pushes, sample_ != Sample::none, joint_sums_.front(), block_sums_);
     return;
   }
-  const Range mine = share_of(model_.nblock, block_grain, thread, threads_);
+  const Range mine = share_of(int(constants_.size()), block_grain, thread, threads_);
   for (int first = mine.first; first < mine.last; first += block_grain)
-    advance(model_, state_, now_, push_.data(), load_.empty() ? nullptr : load_.data(), first, std::min(first + block_grain, mine.last),
-            sample_ != Sample::none, block_sums_[z(first / block_grain)]);
+    advance(model_, state_, constants_, now_, pushes, first, std::min(first + block_grain, mine.last), sample_ != Sample::none,
+            block_sums_[z(first / block_grain)]);
 }
 
 // Blocks with a prescribed motion: they are where they are told to be; what holds them there works on the system.
@@ -296,6 +313,7 @@ void Solver::note_cracks() {
     tier_before_[z(j)] = state_.tier[z(j)];
   }
   cracked_sums_.resize(z(chunks(cracked_.groups(), Cracked::grain)));
+  sound_.update();
 }
 
 void Solver::settle_ledger() {
@@ -324,32 +342,36 @@ void Solver::settle_ledger() {
     e.external_next = 0;
   }
   for (BlockSums& sums : block_sums_) {
-    e.kinetic += sums.kinetic;
-    e.gravity += sums.height;
-    e.base_work += sums.base_work;
+    const BlockWork& w = sums.work;
+    for (int l = 0; l < lanes; ++l) {
+      e.kinetic += w.kinetic[l];
+      e.gravity += w.height[l];
+      e.base_work += w.base[l];
+      e.damping += w.damping[l];
+      e.absolute_work += w.absolute[l];
+      e.base_next += w.base_after[l];
+      e.damping_next += w.damping_after[l];
+      e.absolute_next += w.absolute_after[l];
+    }
     e.external_work += sums.external_work;
-    e.damping += sums.damping;
-    e.absolute_work += sums.absolute_work;
-    e.base_next += sums.base_after;
+    e.absolute_work += sums.external_absolute;
     e.external_next += sums.external_after;
-    e.damping_next += sums.damping_after;
-    e.absolute_next += sums.absolute_after;
-    const bool stale = sums.stale;
-    const double fastest = sums.fastest;
+    e.absolute_next += sums.external_absolute_after;
+    const bool stale = sums.stale, broken = sums.broken;
     sums = BlockSums{};
     sums.stale = stale;
-    sums.fastest = fastest;
+    sums.broken = broken;
   }
   if (contacts_) e.elastic += debris_.elastic();
   if (e.started) e.height_flux += std::fabs(e.gravity - gravity_before);
   settle(e, floor_, state_.t, worst);
 }
 
-Vec6 Solver::block_wrench(int b) const { return joint_wrench(model_, state_, b) + Eigen::Map<const Vec6>(&push_[6 * z(b)]); }
+Vec6 Solver::block_wrench(int b) const { return joint_wrench(model_, state_, b) + Eigen::Map<const Vec6>(&push_[8 * z(b)]); }
 
 Vec6 Solver::load_wrench(int b) const {
   if (model_.kind[z(b)] == Kind::driven) return -block_wrench(b);
-  return load_.empty() ? Vec6(Vec6::Zero()) : Vec6(Eigen::Map<const Vec6>(&load_[6 * z(b)]));
+  return load_.empty() ? Vec6(Vec6::Zero()) : Vec6(Eigen::Map<const Vec6>(&load_[8 * z(b)]));
 }
 
 std::vector<int> Solver::take_opened() { return std::exchange(opened_, {}); }

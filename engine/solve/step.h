@@ -12,16 +12,17 @@
 #include "engine/solve/integrate.h"
 #include "engine/solve/joint_kernel.h"
 #include "engine/solve/sequential.h"
+#include "engine/solve/sound.h"
 
 namespace erbs {
 
 // The instant at which a sample is taken: everything at time t.
 struct Instant {
   double t = 0;
-  Excitation excitation;          // means over the kick about t
+  Excitation excitation;                           // means over the kick about t
   BlockVec3 v_before, v_after, w_before, w_after;  // m/s, rad/s, half a step before and after t [nblock]
-  BlockVec3 spin_before;          // kg m2/s, State::spin_momentum half a step before t; after it: in the state [nblock + 1]
-  BlockVec3 u;                    // m, poses at t while the state has drifted on; swapped with it during sampled()
+  BlockVec3 spin_before;  // kg m2/s, State::spin_momentum half a step before t; after it: in the state [nblock + 1]
+  BlockVec3 u;            // m, poses at t while the state has drifted on; swapped with it during sampled()
   BlockQuat q;
 };
 
@@ -71,13 +72,16 @@ class Solver {
   State& state_;
   const int threads_;
   const bool reference_;
-  const int joint_items_;              // batches of sound joints, or joints for the reference
-  double floor_ = 0;                   // J, below which the ledger's scale does not go
+  const int joint_items_;  // batches of sound joints, or joints for the reference
+  double floor_ = 0;       // J, below which the ledger's scale does not go
   Excitation now_;
-  std::vector<double> push_, load_;    // [6 nblock + 6]
+  Rows push_, load_;  // N, N m: of contacts and of loads, a row a block
+  std::vector<LoadedBlock> loaded_;
+  std::vector<BlockConstants> constants_;
   std::vector<JointSums> joint_sums_, cracked_sums_;  // per chunk
   std::vector<BlockSums> block_sums_;
   std::vector<int> newly_cracked_, opened_, leaving_;
+  Sound sound_;
   Cracked cracked_;
   Debris debris_;
   std::optional<Sequential> sequential_;  // in place of joints and blocks

@@ -1,10 +1,13 @@
 #include <catch2/catch.hpp>
 
+#include "engine/model/batches.h"
 #include "engine/record/checkpoint.h"
-#include "engine/solve/energy.h"
-#include "engine/solve/joint_geometry.h"
 #include "engine/solve/cracked.h"
+#include "engine/solve/energy.h"
+#include "engine/solve/integrate.h"
+#include "engine/solve/joint_geometry.h"
 #include "engine/solve/lanes.h"
+#include "engine/solve/sound.h"
 #include "tests/support/small_wall.h"
 
 using namespace erbs;
@@ -56,21 +59,68 @@ TEST_CASE("threads do not change a bit, cracks and contacts included", "[solve]"
   CHECK(state_hash(one.state) == state_hash(three.state));
 }
 
+// Rows of blocks set by hand: some 1e-6 m and rad.
+Rows swaying(const State& s) {
+  Rows rows = s.row;
+  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = 1e-6 * std::sin(double(i));
+  return rows;
+}
+
 TEST_CASE("instruction sets give the same bits", "[solve]") {
+  const Scene scene = test::small_wall(shake + "fast\"} damping{mass=3}");
+  Prepared run = prepare(scene, false);
+  start_at_rest(scene, run, 1);
+  run.state.row = swaying(run.state);
+  const auto answer = [&](const LaneKernels& kernels) {
+    State s = run.state;
+    for (std::size_t b = 0; b < s.u.size(); ++b) s.spin_momentum[b] = Vec3(1e-3, -2e-3, 3e-3);
+    JointLanes o{};
+    kernels.elastic(s.batch.front(), s.row.data(), o);
+    std::vector<double> out(&o.q[0][0], &o.q[0][0] + 6 * lanes);
+    alignas(64) double stored[lanes] = {};
+    std::vector<int> near(std::size_t(sound_batches(run.model)));
+    Sound(run.model, s).forces(0, sound_batches(run.model), kernels, stored, near.data());
+    out.insert(out.end(), stored, stored + lanes);
+    BlockWork work{};
+    const std::vector<BlockConstants> constants = block_constants(run.model, s);
+    BlockArrays arrays{constants.data(), s.u.data(),      s.v.data(),   s.spin_momentum.data(), s.w.data(), s.q.data(),
+                       s.base_u.data(),  s.base_q.data(), s.row.data(), s.wrench.data(),        nullptr,    nullptr};
+    const KickDrift step{1e-5, 1e-5, 5e-6, 5e-6, 3, -3e-5, -1.5e-5, {0.1, 0, 0}, {0, 0, -9.81}, false, false, true, true};
+    for (const bool sample : {false, true}) kernels.advance(step, arrays, 0, int(constants.size()), sample, work);
+    for (std::size_t i = 0; i < s.wrench.size(); ++i)
+      if (i % 8 < 6) out.push_back(s.wrench[i]);
+    for (std::size_t i = 0; i < s.row.size(); ++i)
+      if (i % 8 < 6) out.push_back(s.row[i]);
+    for (std::size_t b = 0; b < s.u.size(); ++b)
+      for (int i = 0; i < 3; ++i) out.insert(out.end(), {s.v[b][i], s.w[b][i], s.spin_momentum[b][i]});
+    out.insert(out.end(), work.base, work.base + 8 * lanes);
+    return out;
+  };
+  CHECK(answer(sse2::kernels) == answer(lane_kernels()));
+}
+
+TEST_CASE("sound joints in one pass answer as step by step", "[solve]") {
   const Scene scene = test::small_wall(shake + "fast\"}");
   Prepared run = prepare(scene, false);
   start_at_rest(scene, run, 1);
-  const JointBatch batch = run.state.batch.front();
-  std::vector<double> rows = run.state.row;
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = 1e-6 * std::sin(double(i));
-  JointLanes narrow{}, wide{};
-  std::vector<double> a(run.state.wrench.size(), 0.0), b = a;
-  sse2::kernels.elastic(batch, rows.data(), narrow);
-  sse2::kernels.wrenches(batch, narrow, a.data());
-  lane_kernels().elastic(batch, rows.data(), wide);
-  lane_kernels().wrenches(batch, wide, b.data());
-  CHECK(std::equal(&narrow.q[0][0], &narrow.q[0][0] + 6 * lanes, &wide.q[0][0]));
-  CHECK(a == b);
+  State& s = run.state;
+  s.row = swaying(s);
+  std::vector<int> near(std::size_t(sound_batches(run.model)));
+  Sound(run.model, s).forces(0, sound_batches(run.model), lane_kernels(), nullptr, near.data());
+  Rows one_by_one = s.wrench;
+  for (int k = 0; k < sound_batches(run.model); ++k) {
+    JointLanes o;
+    lane_kernels().elastic(s.batch[std::size_t(k)], s.row.data(), o);
+    lane_kernels().wrenches(s.batch[std::size_t(k)], o, one_by_one.data());
+  }
+  double largest_row = 0, worst = 0;
+  for (std::size_t i = 0; i < 16 * std::size_t(run.model.njoint); ++i) {
+    if (i % 8 > 5) continue;
+    largest_row = std::max(largest_row, std::fabs(one_by_one[i]));
+    worst = std::max(worst, std::fabs(one_by_one[i] - s.wrench[i]));
+  }
+  CHECK(largest_row > 0);
+  CHECK(worst < 1e-11 * largest_row);  // both are right to second order in turns of 1e-6
 }
 
 TEST_CASE("cracked joints side by side answer as one by one", "[solve]") {
@@ -90,7 +140,8 @@ TEST_CASE("cracked joints side by side answer as one by one", "[solve]") {
   for (int step = 0; step < 60; ++step) {
     for (int b = 1; b < m.nblock; ++b)  // the rows of blocks are set by hand: amplitudes that pass every limit
       for (int i = 0; i < 6; ++i)
-        run.state.row[std::size_t(8 * b + i)] = (i < 3 ? 2e-6 : 6e-6) * (std::sin(0.2 * step + 1.7 * b + i) + (i == 2 ? -0.3 : 0) + 0.02 * step * std::cos(b + i));
+        run.state.row[std::size_t(8 * b + i)] =
+            (i < 3 ? 2e-6 : 6e-6) * (std::sin(0.2 * step + 1.7 * b + i) + (i == 2 ? -0.3 : 0) + 0.02 * step * std::cos(b + i));
     cracked.forces(0, cracked.groups(), true, all);
     for (int j = 0; j < m.njoint; ++j) {
       const int at = run.state.place[std::size_t(j)];
@@ -114,7 +165,8 @@ TEST_CASE("cracked joints side by side answer as one by one", "[solve]") {
     INFO(law << " step " << step);
     REQUIRE(worst <= 1e-11 * largest_force);
     REQUIRE(worst_drag <= 1e-10 * largest_drag);  // differences of two responses
-    for (int i = 0; i < m.npoint; ++i) REQUIRE(run.state.history[std::size_t(i)].damage == Approx(plain.history[std::size_t(i)].damage).margin(1e-10));
+    for (int i = 0; i < m.npoint; ++i)
+      REQUIRE(run.state.history[std::size_t(i)].damage == Approx(plain.history[std::size_t(i)].damage).margin(1e-10));
   }
   CHECK(all.energy.friction > 0);
   CHECK(all.energy.friction == Approx(lone.energy.friction).epsilon(1e-10));
@@ -147,7 +199,8 @@ TEST_CASE("carried geometry answers as exact geometry within the tolerance of a 
 
 TEST_CASE("the ledger closes, and a spoiled term opens it", "[solve][energy]") {
   Prepared run;
-  test::run_to(test::small_wall("ground_motion{wave=sine{amplitude=1.5*g, frequency=6}, direction=\"y\"} analysis{duration=1}"), 2, 0.2, run);
+  test::run_to(test::small_wall("ground_motion{wave=sine{amplitude=1.5*g, frequency=6}, direction=\"y\"} analysis{duration=1}"), 2, 0.2,
+               run);
   Energy e = run.state.energy;
   CHECK(e.fracture > 0);
   CHECK(e.friction >= 0);

@@ -1,0 +1,28 @@
+// Sound joints as the step reads them: world axes, no point of theirs. A function of State::batch, made anew whenever that changes.
+#pragma once
+#include <vector>
+
+#include "engine/solve/joint_kernel.h"
+#include "engine/solve/lanes.h"
+
+namespace erbs {
+
+class Sound {
+ public:
+  Sound(const Model& model, State& state);
+  void update();  // after a refresh, or when joints have changed their lanes
+  // Writes the wrench rows of batches [first, last). Joints near a limit are looked at point by point (joint_response.h); those that
+  // crack go on in cracked.h. Fills sums.energy.elastic when `sample`.
+  void forces(int first, int last, bool sample, JointSums& sums);
+  // The wrench rows alone, by the arithmetic of `kernels`; how many batches may be near a limit, and which in `near`.
+  int forces(int first, int last, const LaneKernels& kernels, double* stored, int* near);
+
+ private:
+  void look_closer(int k, bool sample, JointSums& sums);
+
+  const Model& model_;
+  State& state_;
+  std::vector<SoundBatch> batch_;
+};
+
+}  // namespace erbs

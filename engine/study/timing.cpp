@@ -1,0 +1,98 @@
+#include "engine/study/timing.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "engine/base/hash.h"
+#include "engine/solve/joint_geometry.h"
+#include "engine/solve/step.h"
+#include "engine/study/machine.h"
+
+namespace erbs {
+namespace {
+
+constexpr int stretches = 7;
+constexpr long hash_steps = 256;
+std::size_t z(int i) { return std::size_t(i); }
+
+double median(std::vector<double> x) {
+  std::sort(x.begin(), x.end());
+  return x[x.size() / 2];
+}
+
+std::uint64_t hash_of(const State& s) {
+  std::uint64_t value = fnv1a("");
+  for (std::size_t b = 0; b < s.u.size(); ++b) {
+    const Vec3 u = s.u[b], v = s.v[b];
+    value = fnv1a({reinterpret_cast<const char*>(u.data()), sizeof u}, value);
+    value = fnv1a({reinterpret_cast<const char*>(v.data()), sizeof v}, value);
+  }
+  return value;
+}
+
+}  // namespace
+
+Timing time_steps(const Model& model, State state, const std::string& kernel, int threads, double seconds) {
+  Model m = model;
+  m.analysis.kernel = kernel;
+  Timing out;
+  Solver solver(m, state, threads);
+  long next = hash_steps;
+  const auto run_to = [&](long step) {
+    next = step;
+    solver.run({[](double) { return false; }, [] {}, [&] { return state.step >= next; }});
+  };
+  // The ledger is settled, and stop asked, every 32nd step (128th with contacts): stretches are whole multiples of that.
+  const double first = processor_seconds();
+  run_to(state.step + hash_steps);
+  out.hash = hash_of(state);
+  const double each = std::max(1e-7, (processor_seconds() - first) / hash_steps);
+  const long length = std::max(256L, long(seconds / stretches / each) / 128 * 128);
+  std::vector<double> user, wall;
+  double touching = 0;
+  const double t0 = state.t;
+  for (int i = 0; i < stretches; ++i) {
+    const double user0 = processor_seconds(), wall0 = wall_seconds();
+    const long before = state.step;
+    run_to(before + length);
+    const double steps = double(state.step - before);
+    user.push_back((processor_seconds() - user0) / steps);
+    wall.push_back((wall_seconds() - wall0) / steps);
+    out.steps += state.step - before;
+    touching += solver.touching();
+  }
+  out.user = median(user);
+  out.wall = median(wall);
+  out.touching = touching / stretches;
+  out.dt = (state.t - t0) / double(out.steps);
+  return out;
+}
+
+State all_broken(const Model& m, State s) {
+  for (int j = 0; j < m.njoint; ++j) {
+    s.tier[z(j)] = Tier::cracked;
+    JointMemory& memory = s.memory[z(j)];
+    joint_q(m, s, j, memory.q);
+    memory.elastic = 0;
+    for (int i = 0; i < 6; ++i) {
+      memory.f[i] = m.joint[z(j)].stiffness[i] * memory.q[i];
+      memory.elastic += 0.5 * memory.f[i] * memory.q[i];
+    }
+  }
+  for (PointHistory& h : s.history) h.damage = 1;
+  return s;
+}
+
+Demand demand(const Model& m) {
+  // lanes_sound.inc and lanes_blocks.inc, multiplications and additions counted by hand
+  constexpr double joint_flop = 217, block_flop = 260, row = 64;
+  const double joints = m.njoint, blocks = m.nblock;
+  Demand out;
+  out.flop = joint_flop * joints + block_flop * blocks + 6 * 2 * joints;
+  const double batch = double(sizeof(SoundBatch)) / lanes, constants = double(sizeof(BlockConstants)) / lanes;
+  // a joint: its data, two rows of blocks read, two wrench rows written and read again; a block: constants, motion, row
+  out.bytes = joints * (batch + 2 * row + 4 * row) + blocks * (constants + 8.0 * (7 + 2 * 16) + row);
+  return out;
+}
+
+}  // namespace erbs

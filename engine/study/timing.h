@@ -1,0 +1,31 @@
+// How long a step of a scene takes: the kernel against the reference, sound and broken, by threads; and the bytes it touches.
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "engine/model/model.h"
+#include "engine/model/state.h"
+
+namespace erbs {
+
+struct Timing {
+  double user = 0, wall = 0;  // s a step, medians of several stretches; user: of all threads together
+  long steps = 0;             // timed
+  double touching = 0;        // pairs in contact, mean
+  double dt = 0;              // s, mean
+  std::uint64_t hash = 0;     // of the motion after `hash_steps` steps from the given state
+};
+
+// Steps a copy of `state` for about `seconds` of processor time.
+Timing time_steps(const Model& model, State state, const std::string& kernel, int threads, double seconds);
+
+// Every joint cracked, without bond or cohesion, as it stands.
+State all_broken(const Model& model, State state);
+
+// What one step of a sound structure reads and writes (bytes) and computes (flop): from the layout and the formulas, not measured.
+struct Demand {
+  double bytes = 0, flop = 0;
+};
+Demand demand(const Model& model);
+
+}  // namespace erbs

@@ -1,0 +1,142 @@
+// erbs bench: the step kernel against the reference implementation and the machine's limits, in one run. Without scenes it times those
+// of scenes/bench, each in a process of its own so that memory is its own too; with scenes, those.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "engine/analysis/prepare.h"
+#include "engine/base/process.h"
+#include "engine/record/json.h"
+#include "engine/record/metrics.h"
+#include "engine/study/machine.h"
+#include "engine/study/timing.h"
+#include "lua/bench_report.h"
+#include "lua/options.h"
+
+namespace erbs {
+namespace {
+
+namespace fs = std::filesystem;
+size_t z(int i) { return static_cast<size_t>(i); }
+
+Json to_json(const Timing& t, double per) {
+  return {{"user_us_per_step", 1e6 * t.user},
+          {"wall_us_per_step", 1e6 * t.wall},
+          {"steps", t.steps},
+          {"steps_per_s", 1 / t.wall},
+          {"ns_per_point", per > 0 ? Json(1e9 * t.user / per) : Json(nullptr)},
+          {"cpu_s_per_s", t.user / t.dt},
+          {"touching", t.touching},
+          {"pairs_per_s", t.touching / t.user}};
+}
+
+// Blocks free to look for neighbours: the re-detection that other codes do at every step.
+void loosen(const Model& m, State& s) {
+  for (int b = 0; b < m.nblock; ++b) s.loose[z(b)] = m.kind[z(b)] == Kind::moving;
+}
+
+// What one scene costs. `seconds` is spent on each way of running it.
+Json measure(const std::string& path, const Options& options, double seconds) {
+  Script::Options script_options;
+  script_options.quiet = true;
+  Script script(script_options);
+  const Scene scene = script.load(path, options.overrides);
+  Prepared run = prepare(scene, true);
+  const Model& m = run.model;
+  start_at_rest(scene, run, 1);
+  const bool mortared = m.njoint > 0 && !m.laws[z(m.joint.front().law)].dry;
+  if (!mortared && m.njoint > 0) loosen(m, run.state);
+  const double points = m.npoint;
+  Json out{
+      {"scene", fs::path(path).stem().string()}, {"blocks", m.nblock}, {"joints", m.njoint}, {"points", m.npoint}, {"dt_s", run.state.dt}};
+  const Timing one = time_steps(m, run.state, "fast", 1, seconds);
+  out["one_thread"] = to_json(one, points);
+  const Timing two = time_steps(m, run.state, "fast", 2, 2 * seconds);
+  out["two_threads"] = to_json(two, points);
+  out["same_bits_with_two_threads"] = one.hash == two.hash;
+  out["two_threads_over_one"] = one.wall / two.wall;
+  if (m.njoint > 0) {
+    const Demand d = demand(m);
+    const double bandwidth = triad(static_cast<size_t>(d.bytes)), peak = flop_peak();
+    const double least = std::max(d.bytes / bandwidth, d.flop / peak);
+    out["roofline"] = {{"bytes_per_point", d.bytes / points},         {"flop_per_point", d.flop / points},
+                       {"triad_of_that_size_bytes_per_s", bandwidth}, {"flop_peak_per_s", peak},
+                       {"least_ns_per_point", 1e9 * least / points},  {"share", least / one.user}};
+    out["bytes_per_point"] = double(peak_memory_bytes()) / points;
+  }
+  if (mortared && m.nblock < 5000) {
+    const Timing reference = time_steps(m, run.state, "reference", 1, seconds);
+    const State broken = all_broken(m, run.state);
+    const Timing broken_fast = time_steps(m, broken, "fast", 1, seconds), broken_reference = time_steps(m, broken, "reference", 1, seconds);
+    out["reference"] = to_json(reference, points);
+    out["broken"] = to_json(broken_fast, points);
+    out["broken_reference"] = to_json(broken_reference, points);
+    out["intact_vs_reference"] = reference.user / one.user;
+    out["broken_vs_reference"] = broken_reference.user / broken_fast.user;
+  }
+  return out;
+}
+
+struct Case {
+  const char* name;
+  const char* scene;
+  std::vector<std::string> defines;
+};
+
+const std::vector<Case>& cases() {
+  static const std::vector<Case> all{{"house_951", "house_951.lua", {}},
+                                     {"dry_wall_100", "dry_wall.lua", {"bricks=10", "courses=10"}},
+                                     {"dry_wall_1012", "dry_wall.lua", {"bricks=40", "courses=25"}},
+                                     {"dry_wall_10012", "dry_wall.lua", {"bricks=400", "courses=25"}},
+                                     {"house_10000", "house_951.lua", {"x=12.39", "y=12.39", "courses=20"}},
+                                     {"aqueduct", "aqueduct.lua", {}},
+                                     {"pile", "pile.lua", {}}};
+  return all;
+}
+
+std::string folder_of_scenes() {
+  for (const char* place : {"scenes/bench", "../scenes/bench", "../../scenes/bench"})
+    if (fs::is_directory(place)) return place;
+  throw Error("the folder scenes/bench is not here; start erbs bench where the project lies, or name scenes: erbs bench SCENE.lua");
+}
+
+Json child(const Case& item, const std::string& scenes, const std::string& directory) {
+  const std::string file = directory + "/" + item.name + ".json", log = directory + "/" + item.name + ".log";
+  std::vector<std::string> command{own_path(), "bench", scenes + "/" + item.scene, "-o", file, "--force", "-q"};
+  for (const auto& define : item.defines) command.insert(command.end(), {"-D", define});
+  const int code = wait_for(start(command, log));
+  if (code == 0) return read_json(file).at(0);
+  return {{"scene", item.name}, {"failed", last_words(log, code, item.scene)}};
+}
+
+int bench_scenes(const Options& options) {
+  Json rows = Json::array();
+  for (const auto& path : options.words) rows.push_back(measure(path, options, 1.5));
+  for (const Json& row : rows)
+    if (!options.quiet) print_bench_row(row);
+  if (!options.directory.empty()) write_json(options.directory, rows);
+  return exit_ok;
+}
+
+}  // namespace
+
+int verb_bench(const Options& options) {
+  if (!options.words.empty()) return bench_scenes(options);
+  const std::string directory = options.directory.empty() ? "runs/bench" : options.directory, scenes = folder_of_scenes();
+  if (fs::exists(directory + "/bench.json") && !options.force)
+    throw Error(fmt::format("\"{}\" holds an earlier bench; overwrite it with --force, or choose another folder with -o DIR", directory));
+  fs::create_directories(directory);
+  Json rows = Json::object();
+  for (const Case& item : cases()) {
+    rows[item.name] = child(item, scenes, directory);
+    if (!options.quiet) print_bench_row(rows[item.name]);
+  }
+  const Json all = bench_summary(rows);
+  write_json(directory + "/bench.json", all);
+  print_bench_summary(all);
+  write_bench_figure(rows, directory + "/bench.svg");
+  if (!options.quiet) fmt::print("{}\n{}\n", directory + "/bench.json", directory + "/bench.svg");
+  return exit_ok;
+}
+
+}  // namespace erbs

@@ -1,0 +1,22 @@
+-- A dry wall in running bond, shaken out of its plane: the wall that other codes are timed on
+--
+-- What happens   Bricks of .30 x .125 x .10 m without mortar stand on a plate that moves by a sine of 2 Hz and 0.3 g across the wall. It
+--                rocks and slides a little; joints open and close.
+-- How to run     erbs bench scenes/bench/dry_wall.lua -D bricks=40 -D courses=25
+--                erbs run scenes/bench/dry_wall.lua -D duration=2
+-- What to look at  Processor seconds per simulated second; tests/bench/peers runs the same wall in other codes.
+
+local bricks = param("bricks", 40, "in a course")
+local courses = param("courses", 25, "")
+local loose = param("loose", 1, "1: every joint has been handed over to contact and every brick looks for new neighbours")
+local kn = 5e9
+
+material { name = "brick", density = 1800, friction = 0.6, restitution = 0.2, kn = kn, ks = 0.4 * kn }
+wall {
+  length = bricks * 0.3, courses = courses, brick = { length = 0.3, width = 0.125, height = 0.1 }, joint = 0,
+  base = { thickness = 0.1, margin = 0.1 }, quiet = true,
+}
+joint { law = dry { kn = kn, ks = 0.4 * kn, mu = 0.6 }, points = { 2, 2 }, rule = "trapezoid" }
+gravity(g)
+ground_motion { wave = sine { amplitude = 0.3 * g, frequency = 2 }, direction = "y" }
+analysis { duration = param("duration", 1, "[s]"), dt = { 5e-5, unstable = true } }
