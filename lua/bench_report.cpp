@@ -58,7 +58,7 @@ Json bench_summary(const Json& rows) {
           {"scaling_30k", of(rows, "aqueduct", "one_thread.ns_per_point") / house},
           {"bytes_per_point_30k", of(rows, "aqueduct", "bytes_per_point")},
           {"pile_pairs_per_s", of(rows, "pile", "one_thread.pairs_per_s")},
-          {"effects_off_instructions", nullptr},
+          {"effects_off_instructions", of(rows, "house_951", "effects_off_instructions")},
           {"cases", rows}};
 }
 

@@ -57,6 +57,7 @@ void add_run(CLI::App& app, CommandLine& line) {
   run.add_flag("!--no-figures", line.options.figures, "draw no curves");
   run.add_flag("--video", line.options.video, "draw the run and make its video afterwards");
   run.add_option("--study", line.options.study)->group("");  // of the runs a study starts
+  run.add_option("--without", line.options.without, "run without an effect of the scene, by its name in erbs check")->type_name("EFFECT")->take_all();
   run.add_flag("--log-json", line.options.log_json, "progress as lines of JSON");
   run.add_flag("--fail-on-collapse", line.options.fail_on_collapse, "exit with 4 when the structure collapses");
 }
@@ -109,6 +110,11 @@ void add_others(CLI::App& app, CommandLine& line) {
   add_output(bench, line);
   add_scene(bench, line);
 
+  CLI::App& effects = *app.add_subcommand("effects", "what each effect of a scene costs, and how much the answer moves without it");
+  effects.add_option("SCENE.lua", line.options.words, "the scene")->required()->expected(1);
+  add_output(effects, line);
+  add_scene(effects, line);
+
   CLI::App& help = *app.add_subcommand("help", "this text, or the help of a verb or of a scene function");
   help.add_option("VERB|FUNCTION", line.options.words, "what to explain");
   help.prefix_command();
@@ -151,6 +157,7 @@ int call(const CLI::App& app, CommandLine& line) {
   if (name == "accuracy") return erbs::verb_accuracy(line.options);
   if (name == "test") return erbs::verb_test(line.options);
   if (name == "bench") return erbs::verb_bench(line.options);
+  if (name == "effects") return erbs::verb_effects(line.options);
   if (name == "version") return erbs::verb_version();
   for (const auto& word : verb.remaining()) line.options.words.push_back(word);
   if (name == "render") return erbs::verb_render(line.options);

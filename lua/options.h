@@ -30,6 +30,7 @@ struct Options {
   int points = 0;                     // contact points of a joint, a square; 0: as the scene says
   std::string rule;                   // how they are laid out; "": as the scene says
   std::vector<std::string> settings;  // key=value of analysis{}
+  std::vector<std::string> without;   // effects switched off
   double noise = 0;                   // m and rad, in the start of every free block
   double twin_noise = 0;              // the same again from another seed: what makes a twin
   bool twin = false;
@@ -61,6 +62,7 @@ int verb_render(const Options& options);
 int verb_test(const Options& options);
 int verb_accuracy(const Options& options);
 int verb_bench(const Options& options);
+int verb_effects(const Options& options);
 int verb_help(const Options& options, const std::string& usage);
 int verb_version();
 

@@ -71,6 +71,8 @@ Json measure(const std::string& path, const Options& options, double seconds) {
     out["reference"] = to_json(reference, points);
     out["broken"] = to_json(broken_fast, points);
     out["broken_reference"] = to_json(broken_reference, points);
+    const double over = instructions_over_bare(m, run.state);
+    if (over > 0) out["effects_off_instructions"] = over;
     out["intact_vs_reference"] = reference.user / one.user;
     out["broken_vs_reference"] = broken_reference.user / broken_fast.user;
   }

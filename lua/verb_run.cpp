@@ -12,6 +12,7 @@
 #include "engine/analysis/dynamic.h"
 #include "engine/analysis/trust.h"
 #include "engine/base/words.h"
+#include "engine/scene/effects.h"
 #include "lua/child.h"
 #include "lua/expectations.h"
 #include "lua/options.h"
@@ -254,6 +255,7 @@ int verb_run(const Options& options) {
   script_options.study = options.study;
   Script script(script_options);
   Scene scene = script.load(path, options.overrides);
+  for (const auto& effect : options.without) switch_off(scene, effect);
   std::vector<std::string> notes = script.output();
   for (const auto& note : depart(scene, options)) notes.push_back(note);
   for (const auto& warning : warnings(scene)) {

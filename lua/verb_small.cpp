@@ -24,6 +24,7 @@ std::vector<std::string> departures(const Options& options) {
   if (options.points > 0) words.insert(words.end(), {"--points", std::to_string(options.points)});
   if (!options.rule.empty()) words.insert(words.end(), {"--rule", options.rule});
   for (const auto& setting : options.settings) words.insert(words.end(), {"--set", setting});
+  for (const auto& effect : options.without) words.insert(words.end(), {"--without", effect});
   if (options.noise > 0) words.insert(words.end(), {"--noise", fmt::format("{}", options.noise)});
   if (options.allow_unstable) words.emplace_back("--allow-unstable");
   return words;

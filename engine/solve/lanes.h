@@ -54,8 +54,9 @@ struct alignas(64) CrackedLanes {
 struct alignas(64) SoundBatch {
   double gap[3][lanes], turn[3][lanes];      // m, rad: relative displacement and rotation
   double arm_a[3][lanes], arm_b[3][lanes];   // m, from the centroids to the joint
-  double stretch[6][lanes], bend[6][lanes];  // N/m, N m: symmetric stiffness, xx yy zz yz xz xy
   double normal[3][lanes];
+  double shear[lanes], across[lanes];        // N/m: stiffness along the faces, and how much more it is across them
+  double bend[6][lanes];                     // N m: symmetric, xx yy zz yz xz xy
   double open_limit[lanes], slip_limit[lanes], slip_slope[lanes], close_limit[lanes], radius[lanes];  // as in JointBatch
   int a[lanes], b[lanes], row_a[lanes], row_b[lanes];  // where the rows of blocks and joint ends begin, in doubles
   int used;                                            // joints in it

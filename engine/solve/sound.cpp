@@ -9,13 +9,12 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// Sum of k_i e_i e_i over the axes e_i of the joint's frame.
-void rotate_stiffness(const JointBatch& B, int first, double out[6][lanes], int l) {
+// Sum of k_i e_i e_i over the axes e_i of the joint's frame, k_i against rotation about it.
+void bending_stiffness(const JointBatch& B, int l, double out[6][lanes]) {
   constexpr int row[6] = {0, 1, 2, 1, 0, 0}, column[6] = {0, 1, 2, 2, 2, 1};
   for (int i = 0; i < 6; ++i) {
     out[i][l] = 0;
-    for (int axis = 0; axis < 3; ++axis)
-      out[i][l] += B.stiffness[first + axis][l] * B.frame[3 * axis + row[i]][l] * B.frame[3 * axis + column[i]][l];
+    for (int axis = 0; axis < 3; ++axis) out[i][l] += B.stiffness[3 + axis][l] * B.frame[3 * axis + row[i]][l] * B.frame[3 * axis + column[i]][l];
   }
 }
 
@@ -32,8 +31,9 @@ void fill(const JointBatch& B, int nothing, SoundBatch& out) {
       out.arm_b[i][l] = 0.5 * (B.sum[i][l] - (B.apart[i][l] - out.gap[i][l]));
       out.normal[i][l] = B.frame[6 + i][l];
     }
-    rotate_stiffness(B, 0, out.stretch, l);
-    rotate_stiffness(B, 3, out.bend, l);
+    out.shear[l] = B.stiffness[0][l];
+    out.across[l] = B.stiffness[2][l] - B.stiffness[0][l];
+    bending_stiffness(B, l, out.bend);
     out.open_limit[l] = B.open_limit[l];
     out.slip_limit[l] = B.slip_limit[l];
     out.slip_slope[l] = B.slip_slope[l];

@@ -1,9 +1,13 @@
 #include "engine/study/machine.h"
 
+#include <linux/perf_event.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cstdint>
 #include <vector>
 
 #include "engine/solve/lanes.h"
@@ -48,6 +52,25 @@ double flop_peak() {
   }
   std::sort(rates.begin(), rates.end());
   return rates[2];
+}
+
+InstructionCounter::InstructionCounter() {
+  perf_event_attr what{};
+  what.type = PERF_TYPE_HARDWARE;
+  what.size = sizeof what;
+  what.config = PERF_COUNT_HW_INSTRUCTIONS;
+  what.exclude_kernel = what.exclude_hv = 1;
+  file_ = static_cast<int>(syscall(SYS_perf_event_open, &what, 0, -1, -1, 0));
+}
+
+InstructionCounter::~InstructionCounter() {
+  if (file_ >= 0) close(file_);
+}
+
+double InstructionCounter::read() const {
+  std::uint64_t count = 0;
+  if (file_ < 0 || ::read(file_, &count, sizeof count) != sizeof count) return 0;
+  return double(count);
 }
 
 }  // namespace erbs

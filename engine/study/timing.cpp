@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/base/hash.h"
+#include "engine/model/batches.h"
 #include "engine/solve/joint_geometry.h"
 #include "engine/solve/step.h"
 #include "engine/study/machine.h"
@@ -12,7 +13,7 @@ namespace erbs {
 namespace {
 
 constexpr int stretches = 7;
-constexpr long hash_steps = 256;
+constexpr long hash_steps = 128;
 std::size_t z(int i) { return std::size_t(i); }
 
 double median(std::vector<double> x) {
@@ -43,11 +44,11 @@ Timing time_steps(const Model& model, State state, const std::string& kernel, in
     solver.run({[](double) { return false; }, [] {}, [&] { return state.step >= next; }});
   };
   // The ledger is settled, and stop asked, every 32nd step (128th with contacts): stretches are whole multiples of that.
-  const double first = processor_seconds();
+  const double first = processor_seconds(), first_wall = wall_seconds();
   run_to(state.step + hash_steps);
   out.hash = hash_of(state);
-  const double each = std::max(1e-7, (processor_seconds() - first) / hash_steps);
-  const long length = std::max(256L, long(seconds / stretches / each) / 128 * 128);
+  const double each = std::max({1e-7, processor_seconds() - first, wall_seconds() - first_wall}) / hash_steps;
+  const long length = std::max(128L, long(seconds / stretches / each) / 128 * 128);
   std::vector<double> user, wall;
   double touching = 0;
   const double t0 = state.t;
@@ -66,6 +67,38 @@ Timing time_steps(const Model& model, State state, const std::string& kernel, in
   out.touching = touching / stretches;
   out.dt = (state.t - t0) / double(out.steps);
   return out;
+}
+
+double instructions_over_bare(const Model& model, const State& state) {
+  const InstructionCounter counter;
+  if (!counter.works()) return 0;
+  Model m = model;
+  m.analysis.kernel = "fast";
+  m.analysis.ledger = m.analysis.debris = false;
+  m.grounds.clear();
+  m.pushes.clear();
+  m.drives.clear();
+  m.tilts.clear();
+  m.damping.mass = 0;
+  constexpr long steps = 2000;
+  State stepped = state, bare = state;
+  Solver solver(m, stepped, 1);
+  const double before = counter.read();
+  solver.run({[](double) { return false; }, [] {}, [&] { return stepped.step >= state.step + steps; }});
+  const double between = counter.read();
+  const double each = (between - before) / double(stepped.step - state.step);
+  Sound sound(m, bare);
+  const std::vector<BlockConstants> constants = block_constants(m, bare);
+  std::vector<int> near(z(sound_batches(m)));
+  BlockSums sums;
+  const Excitation e{Vec3::Zero(), m.gravity, bare.dt};
+  bare.last_dt = bare.dt;
+  const double start = counter.read();
+  for (long k = 0; k < steps; ++k) {
+    sound.forces(0, sound_batches(m), lane_kernels(), nullptr, near.data());
+    advance(m, bare, constants, e, {}, 0, int(constants.size()), false, sums);
+  }
+  return each / ((counter.read() - start) / double(steps));
 }
 
 State all_broken(const Model& m, State s) {

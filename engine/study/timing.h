@@ -19,6 +19,10 @@ struct Timing {
 // Steps a copy of `state` for about `seconds` of processor time.
 Timing time_steps(const Model& model, State state, const std::string& kernel, int threads, double seconds);
 
+// Instructions of a step of the intact structure with every effect off, over those of the bare passes over joints and blocks, which
+// know of no effect; 0 where instructions cannot be counted.
+double instructions_over_bare(const Model& model, const State& state);
+
 // Every joint cracked, without bond or cohesion, as it stands.
 State all_broken(const Model& model, State state);
 

@@ -23,7 +23,7 @@ State moved() {
   s.tier[0] = Tier::cracked;
   s.memory[0].f[2] = 12;
   s.batch[0].q[5][7] = 0.25;
-  s.row = {1, 2, 3};
+  s.row.assign(3, 2.5);
   s.energy.friction = 4;
   s.energy.largest_jump_joint = 3;
   return s;
