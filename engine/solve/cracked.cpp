@@ -128,6 +128,7 @@ void Cracked::drop(int j) {
   const int at = state_.place[z(j)] - sound_batches(model_) * lanes;
   if (at >= 0) clear(group_[z(at / lanes)], at % lanes);
   if (state_.place[z(j)] >= 0) move_joint(model_, state_, j, -1);
+  state_.memory[z(j)] = JointMemory{};
   if (model_.dashpots) std::fill_n(&state_.viscous[6 * z(j)], 6, 0.0);
   for (const int row : {model_.row_a[z(j)], model_.row_b[z(j)]}) std::fill_n(&state_.wrench[z(row) * 8], 8, 0.0);
 }

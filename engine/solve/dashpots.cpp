@@ -31,6 +31,10 @@ void add_dashpots(const Model& m, State& s, int j, const Mat3& frame, const Vec3
     const double share = std::max(0.0, -force[2]) / f[2];
     for (int i = 2; i < 5; ++i) f[i] *= share;
   }
+  const PointLaw& law = m.laws[z(joint.law)];
+  const double strength = law.c * joint.area + law.mu * std::max(0.0, -force[2]);
+  const double share = share_within(force[0], force[1], f[0], f[1], strength);
+  for (const int i : {0, 1, 5}) f[i] *= share;
   for (int i = 0; i < 6; ++i) force[i] += f[i];
   book_dashpots(s, j, f, dq, sums);
 }

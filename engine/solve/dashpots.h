@@ -10,7 +10,7 @@ namespace erbs {
 void add_dashpots(const Model& model, State& state, int k, JointLanes& io, JointSums& sums);
 
 // The same for one sound joint with its frame and arms as they stand (world axes). `force` is its resultant: a dry joint is not
-// pulled on.
+// pulled on, and no joint is sheared past its strength.
 void add_dashpots(const Model& model, State& state, int j, const Mat3& frame, const Vec3& arm_a, const Vec3& arm_b, double force[6],
                   JointSums& sums);
 

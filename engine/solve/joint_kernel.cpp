@@ -57,6 +57,10 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
   if (error > sums.largest_error) sums.largest_error = error, sums.worst_joint = j;
   double dq[6], drag[6];
   for (int i = 0; i < 6; ++i) dq[i] = q[i] - memory.q[i], memory.f[i] = f[i];
+  if (sound && m.dashpots) {
+    const double none[6] = {};
+    book_dashpots(s, j, none, dq, sums);  // what they did since the last step
+  }
   if (damped && s.last_dt > 0) {
     viscous_response(m, j, memory.q, q, before_it.data(), history, limit.data(), joint.viscous / s.last_dt, drag);
     book_dashpots(s, j, drag, dq, sums);

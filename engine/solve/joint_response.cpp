@@ -188,13 +188,12 @@ bool stays_sound(const Model& m, const Joint& joint, const PointLaw& law, const 
   return true;
 }
 
-// The share x <= 1 of (ds, dt) that (s, t) + x (ds, dt) can take within the limit.
+}  // namespace
+
 double share_within(double s, double t, double ds, double dt, double limit) {
   const double a = ds * ds + dt * dt, b = s * ds + t * dt, c = std::max(0.0, limit * limit - s * s - t * t);
   return a + 2 * b > c ? (std::sqrt(b * b + a * c) - b) / a : 1;
 }
-
-}  // namespace
 
 bool respond(const Model& m, int j, bool sound, const double* q_before, const double* q, PointHistory* history, double* f,
              JointEnergy& energy, double* shear_limit) {

@@ -20,6 +20,9 @@ struct JointEnergy {
 bool respond(const Model& model, int j, bool sound, const double* q_before, const double* q, PointHistory* history, double* f,
              JointEnergy& energy, double* shear_limit = nullptr);
 
+// The share x <= 1 of (ds, dt) that (s, t) + x (ds, dt) can take within the limit.
+double share_within(double s, double t, double ds, double dt, double limit);
+
 // Dashpots of a joint that has cracked, from q_before to q: the springs' own change over the step, what slid or gave way in it left
 // out, times `rate` (b over the step, 1/s s). What is closed does not pull by them, and no point is sheared beyond its limit (N, from
 // respond). Resultant f as above.

@@ -272,6 +272,8 @@ void Solver::finish(const Hooks& hooks) {
     std::swap(instant_.u, s.u);
     std::swap(instant_.q, s.q);
   }
+  for (const int j : leaving_) cracked_.drop(j);  // only now: theirs are forces of the instant that was sampled
+  leaving_.clear();
   s.t = s.start_t + double(s.step + 1 - s.start_step) * s.dt;
   ++s.step;
   s.last_dt = s.dt;
@@ -297,8 +299,6 @@ void Solver::check_momentum() {
 
 // Joints change their lanes here, where all forces of the step are done.
 void Solver::note_cracks() {
-  for (const int j : leaving_) cracked_.drop(j);
-  leaving_.clear();
   bool cracked = false;
   for (JointSums& sums : joint_sums_) {
     cracked = cracked || sums.cracked_now > 0;
