@@ -243,10 +243,11 @@ bool Run::stop() {
   if (sampled_t >= scene_.analysis.duration - 0.5 * run_.state.dt) return true;
   if (scene_.analysis.stop_after_collapse >= 0 && collapse_.collapsed && sampled_t >= collapse_.time + scene_.analysis.stop_after_collapse) return true;
   if (collapse_.moved) return true;
-  // Past its limit explicit damping feeds the motion: a ledger that closes shows it as a negative loss.
-  const bool wrong = e.residual_relative > 0.5 || e.damping < -0.5 * e.kinetic;
+  // Past its limit explicit damping feeds the motion while the ledger closes; its velocities change sign in every step, so that
+  // T = v- m v+ / 2 is negative.
+  const bool wrong = e.residual_relative > 0.5 || e.kinetic < 0;
   const double passed = e.absolute_work + 0.5 * e.height_flux + std::fabs(e.start);
-  if (!std::isfinite(e.residual) || (wrong && !growth_allowed() && e.kinetic > 1e3 * passed && run_.state.step > 64)) {
+  if (!std::isfinite(e.residual) || (wrong && !growth_allowed() && std::fabs(e.kinetic) > 1e3 * passed && run_.state.step > 64)) {
     out_.metrics.status = "diverged";
     return true;
   }
