@@ -29,7 +29,9 @@ bool carries_expectations(const fs::path& path) {
   for (size_t at = text.find("expect"); at != std::string::npos; at = text.find("expect", at + 1)) {
     const size_t next = text.find_first_not_of(" \t", at + 6);
     const size_t line = text.rfind('\n', at) + 1;  // npos + 1 is 0
-    if (next != std::string::npos && text[next] == '(' && text.substr(line, at - line).find("--") == std::string::npos) return true;
+    if (next != std::string::npos && (text[next] == '(' || text[next] == '=') &&
+        text.substr(line, at - line).find("--") == std::string::npos)
+      return true;
   }
   return false;
 }
