@@ -5,8 +5,9 @@
 -- Source         Potra, Anitescu, Gavrea and Trinkle 2006, Int. J. Numer. Meth. Eng. 66, 1079 (also a validation case of Solfec):
 --                x(10 s) = -.008697 m, largest speed .039545 m/s for .3 x .3 x .1 m, mu .8.
 -- How to run     erbs run scenes/verify/v10_stick_slip.lua [-D F=9] [-D mass=5] [-D spring=300*Hz]
--- Limit of use  half the limit of the step: friction couples sway and rocking of a block that slides (its pressure lies at one edge here), and at
---                .7 and more of the limit the two swing up together and the block walks; measured -.0087 at .05 to .5, -.06 at .7, .07 at .9.
+-- Limit of use  .7 of the limit of the step: friction couples sway and rocking of a block that slides (its pressure lies near one edge here).
+--                While anything touches the step stays below .55 of the limit by itself; but here the force acts in full while gravity is still
+--                coming on, and at .9 the joint has swung up before it is handed over: measured -.00874 m at .5 to .7 of the limit, .018 m at .9.
 -- What to look at  x_end, v_largest beside rigid_x_end, rigid_v_largest.
 label("quick")
 include "lib_sliding.lua"
@@ -29,7 +30,7 @@ recorder { name = "block", quantity = "displacement", block = "block", axis = "x
 recorder { name = "block", quantity = "velocity", block = "block", axis = "x" }
 -- start = "ramp" would bring the force on slowly; "rest" lets gravity and the force act at once: the bed swings by W / k, 3e-6 m.
 analysis { duration = duration, start = "ramp", dt_fraction = 0.5, output_dt = duration / 2000, frame_dt = duration / 50 }
-use_limit { dt_fraction = 0.5, reason = "a block that slides on a face pressed at one edge flutters at longer steps, and walks" }
+use_limit { dt_fraction = 0.7, reason = "a block that slides on a face pressed at one edge flutters at longer steps, and walks" }
 local rigid = sliding { drive = function(t) return -F / mass * math.cos(omega * t) end, limit = mu * g, ends = duration }
 metric("x_end", "m", function(run) return run.last("block_ux_rel_m") - run.first("block_ux_rel_m") end)
 metric("v_largest", "m/s", function(run) return run.peak("block_vx_rel_m_s") end)

@@ -34,7 +34,7 @@ TEST_CASE("accuracy tells slopes, a target's setting and what it costs; its tabl
   const std::string scene = bench.scene(with("") + period + known);
   REQUIRE(bench.erbs({"accuracy", scene, "-o", bench.out(), "--target", "0.1%"}) == 0);
   INFO(bench.said);
-  CHECK(contains(bench.said, "analysis { dt_fraction = 0.125 }"));  // (w dt)^2 / 24 with w dt <= 1.1: 0.25 still errs by 0.3 %
+  CHECK(contains(bench.said, "analysis { dt_fraction = 0.0625 }"));  // (w dt)^2 / 24 with w dt = 2 x the fraction: 0.125 still errs by 0.25 %
   CHECK(contains(bench.said, "metrics.period costs"));
   CHECK(contains(bench.said, "param(\"unit\", 1)  not applicable"));
   for (const char* name : {"accuracy.csv", "accuracy.svg", "accuracy.png"}) CHECK(std::filesystem::file_size(bench.folder / "out" / name) > 1000);
