@@ -131,7 +131,13 @@ void stability(const Pair& pair, const View& s, const Patch& patch, PairResult& 
 // face before it may land: when the bodies could meet within five steps, at a speed at which that energy matters.
 void landing(const Pair& pair, const View& s, const ContactSettings& settings, double apart, double dt, PairResult& result) {
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
-  const double speed = (o.v - r.v).norm() + o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach;
+  // along the normal of the face that keeps them apart, where there is one: a body that flies off lands nowhere
+  const Vec3 v = r.turn.transpose() * (o.v - r.v);
+  const int face = pair.separating, own = static_cast<int>(s.reference->normal.size());
+  const double along = face < 0     ? v.norm()
+                       : face < own ? -v.dot(s.reference->normal[std::size_t(face)])
+                                    : v.dot(s.pose.turn * s.other->normal[std::size_t(face - own)]);
+  const double speed = along + o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach;
   if (!(speed > settings.reference_speed) || apart > 5 * speed * dt) return;
   const double k = (pair.law.kn + pair.law.ks) * std::min(s.reference->largest_face, s.other->largest_face);
   // of a face about the centroid above it: Int r^2 dA / A is reach^2 / 3 at most for a rectangle

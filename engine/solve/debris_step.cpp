@@ -10,7 +10,7 @@ namespace erbs {
 namespace {
 
 constexpr double safe_share = 0.9;  // of the bound of a block in contact
-// Of dt_critical, while anything touches: friction makes the stiffness unsymmetric, so that the bound of the springs alone is not enough.
+// Of dt_critical, while any contact slips: friction makes the stiffness unsymmetric, so that the bound of the springs alone is not enough.
 // A block that slides with its pressure near an edge keeps rubbing at .55 and swings itself up from about .6 on (measured on V10).
 constexpr double rubbing_share = 0.55;
 constexpr int pair_grain = 8;
@@ -68,6 +68,7 @@ void Debris::gather(double* push, bool sample) {
   touching_ = 0;
   allowed_ = s.dt_goal;
   if (sample) elastic_ = 0;
+  bool rubs = false;
   for (std::size_t i = 0; i < s.debris.pair.size(); ++i) {
     const Pair& pair = s.debris.pair[i];
     const PairResult& r = results_[i];
@@ -80,6 +81,7 @@ void Debris::gather(double* push, bool sample) {
       b[3 + k] += w.moment_b[k];
     }
     s.energy.friction += r.friction;
+    rubs = rubs || (r.touching && r.friction > 0);
     s.energy.contact_damping += r.damping + r.handover;
     s.energy.reset += r.reset;
     if (sample) elastic_ += r.elastic + r.tangential;
@@ -99,7 +101,7 @@ void Debris::gather(double* push, bool sample) {
   for (const int b : involved_)
     if (model_.kind[z(b)] == Kind::moving) rate = std::max(rate, rate_[z(b)] + landing_[z(b)]);
   allowed_ = std::min(allowed_, step_for(rate, s.dt_goal, model_.dt_critical));
-  if (touching_ > 0) allowed_ = std::min(allowed_, rubbing_share * model_.dt_critical);
+  if (rubs) allowed_ = std::min(allowed_, rubbing_share * model_.dt_critical);
 }
 
 }  // namespace erbs
