@@ -6,7 +6,7 @@
 --                x(10 s) = -.008697 m, largest speed .039545 m/s for .3 x .3 x .1 m, mu .8.
 -- How to run     erbs run scenes/verify/v10_stick_slip.lua [-D F=9] [-D mass=5] [-D spring=300*Hz]
 -- Limit of use  .7 of the limit of the step: friction couples sway and rocking of a block that slides (its pressure lies near one edge here).
---                While anything touches the step stays below .55 of the limit by itself; but here the force acts in full while gravity is still
+--                While a contact slips the step stays below .55 of the limit by itself; but here the force acts in full while gravity is still
 --                coming on, and at .9 the joint has swung up before it is handed over: measured -.00874 m at .5 to .7 of the limit, .018 m at .9.
 -- What to look at  x_end, v_largest beside rigid_x_end, rigid_v_largest.
 label("quick")

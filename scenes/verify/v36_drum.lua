@@ -32,6 +32,7 @@ end)
 metric("aside", "radius", function(run) return math.max(run.peak("drum1_uy_rel_m"), run.peak("drum2_uy_rel_m")) / radius end)
 metric("losses", "J", function(run) return run.energy.contact_damping_J + run.energy.friction_J end)
 -- An impact on a side of the prism is one on a line, and grows what differs; a millimetre or two are left of the round-off after ten.
+-- 7e-3 was measured first: the drums part by 3e-4 m at their first impact, from a cause that is not known. This holds that gap, no theory.
 expect("metrics.mirror", 1e-2, { below = true, source = "mirror symmetry" })
 expect("metrics.aside", 1e-2, { below = true, source = "mirror symmetry" })
 expect("metrics.losses", 0, { above = true, source = "no energy appears" })
