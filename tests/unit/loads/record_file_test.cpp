@@ -5,22 +5,19 @@
 #include "engine/base/error.h"
 #include "engine/base/units.h"
 #include "engine/loads/record.h"
+#include "tests/support/folder.h"
 
 using namespace erbs;
 namespace fs = std::filesystem;
 
 namespace {
 
-// A file in a folder of its own, gone with the test.
 struct Input {
-  fs::path folder = fs::temp_directory_path() / fmt::format("erbs_record_{}", fs::hash_value(ERBS_BINARY_DIR));
+  test::Folder folder;
   std::string path;
-  explicit Input(const std::string& text, const std::string& name = "motion.txt") {
-    fs::create_directories(folder);
-    path = (folder / name).string();
+  explicit Input(const std::string& text, const std::string& name = "motion.txt") : path(folder.file(name)) {
     std::ofstream(path, std::ios::binary) << text;
   }
-  ~Input() { fs::remove(path); }
 };
 
 Record read(const std::string& text, const std::string& unit = "", double dt = 0, int column = 0) {

@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "engine/geometry/mass.h"
+#include "tests/support/folder.h"
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;
@@ -189,8 +190,8 @@ TEST_CASE("expectations of every kind", "[lua]") {
 
 TEST_CASE("a mesh file becomes a block, an open or concave one is refused", "[lua]") {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / "erbs_mesh_test";
-  fs::create_directories(folder);
+  const test::Folder own;
+  const fs::path& folder = own.path;
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n";
   const std::string sides = "f 1 4 3 2\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n", top = "f 5 6 7 8\n";
   std::ofstream(folder / "cube.obj") << corners << sides << top;
@@ -208,13 +209,12 @@ TEST_CASE("a mesh file becomes a block, an open or concave one is refused", "[lu
   CHECK(scene.inputs.size() == 1);
   CHECK(mentions(load("open.obj"), "is not a closed surface; close its holes"));
   CHECK(mentions(load("dent.obj"), "is not convex"));
-  fs::remove_all(folder);
 }
 
 TEST_CASE("include runs a file of the folder and gives what it returns", "[lua]") {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::temp_directory_path() / "erbs_include_test";
-  fs::create_directories(folder);
+  const test::Folder own;
+  const fs::path& folder = own.path;
   std::ofstream(folder / "part.lua") << "material{ name = 'm', density = 1000 }\nreturn 7";
   std::ofstream(folder / "main.lua") << "local n = include 'part.lua'\nbox{ size = {n,1,1} }\nanalysis{ duration = 1 }";
   std::ofstream(folder / "self.lua") << "include 'self.lua'";
@@ -236,7 +236,6 @@ TEST_CASE("include runs a file of the folder and gives what it returns", "[lua]"
   };
   CHECK(mentions(mistakes("self.lua"), "does a file include itself?"));
   CHECK(mentions(mistakes("calls_bad.lua"), "bad.lua:2: box: size must be a vector"));
-  fs::remove_all(folder);
 }
 
 TEST_CASE("labels are kept once each, and a limit of use with its reason", "[lua]") {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "lua/child.h"
+#include "tests/support/folder.h"
 #include "tests/unit/lua/load.h"
 
 namespace erbs {
@@ -17,12 +18,10 @@ inline std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-// A folder of its own, gone at the end.
 struct Bench {
-  std::filesystem::path folder = std::filesystem::temp_directory_path() / ("erbs_program_" + std::to_string(getpid()));
+  test::Folder own;
+  std::filesystem::path folder = own.path;
   std::string said;  // stdout and stderr of the last call
-  Bench() { std::filesystem::create_directories(folder); }
-  ~Bench() { std::filesystem::remove_all(folder); }
 
   void write(const std::string& name, const std::string& text) const { std::ofstream(folder / name) << text; }
   std::string scene(const std::string& text) const {

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/support/folder.h"
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;
@@ -19,7 +20,8 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 
 // Loads in a process of its own; gives its exit code and what it wrote to stderr.
 std::pair<int, std::string> in_a_child(const std::string& text, double limit) {
-  const auto log = std::filesystem::temp_directory_path() / ("erbs_sandbox_" + std::to_string(getpid()));
+  const test::Folder folder;
+  const std::string log = folder.file("log");
   const pid_t pid = fork();
   if (pid == 0) {
     if (!std::freopen(log.c_str(), "w", stderr)) _exit(9);
@@ -30,7 +32,6 @@ std::pair<int, std::string> in_a_child(const std::string& text, double limit) {
   waitpid(pid, &status, 0);
   std::ifstream stream(log);
   std::string said((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  std::filesystem::remove(log);
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, said};
 }
 

@@ -8,6 +8,7 @@
 #include "engine/base/process.h"
 #include "engine/record/csv.h"
 #include "engine/record/json.h"
+#include "tests/support/folder.h"
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;
@@ -16,10 +17,9 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Bench {
-  fs::path folder = fs::temp_directory_path() / ("erbs_studies_" + std::to_string(getpid()));
+  test::Folder own;
+  fs::path folder = own.path;
   std::string said;
-  Bench() { fs::create_directories(folder); }
-  ~Bench() { fs::remove_all(folder); }
   std::string out() const { return (folder / "out").string(); }
   int run(const std::string& text, const std::vector<std::string>& more = {}) {
     std::ofstream(folder / "scene.lua") << text;

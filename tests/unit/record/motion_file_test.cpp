@@ -10,16 +10,13 @@
 #include <sstream>
 
 #include "engine/base/error.h"
+#include "tests/support/folder.h"
 
 using namespace erbs;
 
 namespace {
 
-struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / ("erbs_motion_" + std::to_string(getpid()));
-  Folder() { std::filesystem::create_directories(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
-};
+using test::Folder;
 
 MotionScene two_blocks() {
   MotionScene scene;

@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/record/gnuplot.h"
+#include "tests/support/folder.h"
 
 using namespace erbs;
 namespace fs = std::filesystem;
@@ -27,8 +28,8 @@ Record el_centro() {
 }  // namespace
 
 TEST_CASE("a record is drawn whole, with its numbers in words", "[record]") {
-  const fs::path folder = fs::temp_directory_path() / "erbs record's plot";  // a name that must be quoted
-  fs::remove_all(folder);
+  const test::Folder own;
+  const fs::path folder = own.path / "erbs record's plot";  // a name that must be quoted
   fs::create_directories(folder);
   const Record record = el_centro();
   write_record_plot(record, report(record), (folder / "record.svg").string());
@@ -40,17 +41,14 @@ TEST_CASE("a record is drawn whole, with its numbers in words", "[record]") {
     CHECK(svg.find(text) != std::string::npos);
   }
   CHECK(std::distance(fs::directory_iterator(folder), {}) == 1);  // no leftovers
-  fs::remove_all(folder);
 }
 
 TEST_CASE("a picture that cannot be drawn leaves nothing behind", "[record]") {
-  const fs::path folder = fs::temp_directory_path() / "erbs_gnuplot_test";
-  fs::remove_all(folder);
-  fs::create_directories(folder);
+  const test::Folder own;
+  const fs::path& folder = own.path;
   CHECK_THROWS_WITH(run_gnuplot("set terminal svg\nplot nonsense(\n", (folder / "a.svg").string()), Catch::Contains("gnuplot ended"));
   CHECK(fs::is_empty(folder));
   CHECK_THROWS_WITH(run_gnuplot("", (folder / "absent" / "a.svg").string()), Catch::Contains("folder"));
-  fs::remove_all(folder);
 }
 
 TEST_CASE("text for gnuplot cannot leave its quotes", "[record]") {

@@ -1,13 +1,12 @@
 // A model small enough to know by heart: brick 1 (1 kg) stands on brick 0 (fixed), joined over 0.2 m x 0.1 m; brick 2 (3 kg) is
 // free. Joint axes are the world's.
 #pragma once
-#include <unistd.h>
-
 #include <filesystem>
 #include <string>
 
 #include "engine/model/model.h"
 #include "engine/model/state.h"
+#include "tests/support/folder.h"
 
 namespace erbs::test {
 
@@ -74,17 +73,11 @@ inline TwoBricks two_bricks() {
   return t;
 }
 
-// A folder of its own, gone with the test.
+// A name in a folder of its own, not yet taken.
 struct Scratch {
+  Folder own;
   std::string path;
-  explicit Scratch(const std::string& name) : path((std::filesystem::temp_directory_path() / ("erbs_" + name)).string()) {
-    path += "_" + std::to_string(::getpid());
-    std::filesystem::remove_all(path);
-  }
-  ~Scratch() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path, ignored);
-  }
+  explicit Scratch(const std::string& name) : path(own.file(name)) {}
 };
 
 }  // namespace erbs::test

@@ -13,6 +13,7 @@
 #include "render/compare.h"
 #include "render/movie.h"
 #include "render/video.h"
+#include "tests/support/folder.h"
 #include "tests/unit/render/brick_house.h"
 
 using namespace erbs;
@@ -21,10 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Folder {
-  fs::path path = fs::temp_directory_path() / ("erbs_draw_" + std::to_string(getpid()));
-  ~Folder() { fs::remove_all(path); }
-};
+using test::Folder;
 
 std::string bytes_of(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);

@@ -9,6 +9,7 @@
 #include "render/compare.h"
 #include "render/image.h"
 #include "render/text.h"
+#include "tests/support/folder.h"
 
 using namespace erbs;
 using namespace erbs::render;
@@ -29,7 +30,8 @@ Image pattern(int w, int h) {
 }  // namespace
 
 TEST_CASE("a PNG gives back its pixels", "[render][image]") {
-  const std::string path = (std::filesystem::temp_directory_path() / ("erbs_" + std::to_string(getpid()) + ".png")).string();
+  const test::Folder folder;
+  const std::string path = folder.file("pattern.png");
   const Image image = pattern(61, 33);
   write_png(path, image);
   const Image again = read_png(path);
@@ -38,7 +40,6 @@ TEST_CASE("a PNG gives back its pixels", "[render][image]") {
   CHECK(again.rgb == image.rgb);
   std::ofstream(path) << "no picture";
   CHECK_THROWS_AS(read_png(path), Error);
-  std::filesystem::remove(path);
   CHECK_THROWS_AS(write_png("/nowhere/at/all.png", image), Error);
 }
 

@@ -10,16 +10,14 @@
 #include "engine/base/error.h"
 #include "render/figures.h"
 #include "render/movie.h"
+#include "tests/support/folder.h"
 
 using namespace erbs;
 using namespace erbs::render;
 
 namespace {
 
-struct Folder {
-  std::filesystem::path path = std::filesystem::temp_directory_path() / ("erbs_run_" + std::to_string(getpid()));
-  Folder() { std::filesystem::create_directories(path); }
-  ~Folder() { std::filesystem::remove_all(path); }
+struct Folder : test::Folder {
   void write(const std::string& name, const std::string& text) const { std::ofstream(path / name) << text; }
 };
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "engine/record/motion_file.h"
+#include "tests/support/folder.h"
 
 using namespace erbs;
 
@@ -27,7 +28,8 @@ void write_run(const std::string& dir, double rate, double end) {
 }  // namespace
 
 TEST_CASE("two runs part when a block stands further apart than asked for", "[study]") {
-  const std::string dir = (std::filesystem::temp_directory_path() / ("erbs_twin_" + std::to_string(getpid()))).string();
+  const test::Folder folder;
+  const std::string dir = folder.path.string();
   write_run(dir + "/a", 0, 2);
   write_run(dir + "/b", 10, 2);
   const auto parted = parting_time(dir + "/a", dir + "/b", 1e-3);
@@ -36,5 +38,4 @@ TEST_CASE("two runs part when a block stands further apart than asked for", "[st
   CHECK_FALSE(parting_time(dir + "/a", dir + "/a", 1e-3));
   write_run(dir + "/c", 10, 1);
   CHECK_FALSE(parting_time(dir + "/a", dir + "/c", 1e-3));
-  std::filesystem::remove_all(dir);
 }
