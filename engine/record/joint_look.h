@@ -2,6 +2,7 @@
 #pragma once
 #include "engine/model/model.h"
 #include "engine/model/state.h"
+#include "engine/solve/joint_geometry.h"
 
 namespace erbs {
 
@@ -14,11 +15,5 @@ struct JointLook {
 JointLook look_at_joint(const Model& model, const State& state, int j);
 bool joint_broken(const Model& model, const State& state, int j);  // every point has spent its bond
 Mat3 joint_frame(const Model& model, const State& state, int j);   // columns s, t, n, turned with the mean of its blocks
-
-// (R - I) a without losing digits where the rotation is tiny: 2 w (v x a) + 2 v x (v x a) for q = (w, v).
-inline Vec3 turn_minus(const Quat& q, const Vec3& a) {
-  const Vec3 v = q.vec(), va = v.cross(a);
-  return 2 * q.w() * va + 2 * v.cross(va);
-}
 
 }  // namespace erbs

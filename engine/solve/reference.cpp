@@ -13,18 +13,20 @@ std::size_t z(int i) { return std::size_t(i); }
 // Elastic traction of every point of a sound joint, summed about the joint's centre; false as soon as one passes a limit.
 bool sound_resultant(const Model& m, const Joint& joint, const JointPose& pose, Vec3& force, Vec3& moment) {
   const PointLaw& law = m.laws[z(joint.law)];
-  const Vec3 d(pose.q[0], pose.q[1], pose.q[2]), r(pose.q[3], pose.q[4], pose.q[5]);
-  force = moment = Vec3::Zero();
+  const double* q = pose.q;
+  double fs = 0, ft = 0, fn = 0, ms = 0, mt = 0, mn = 0;
   for (int i = 0; i < joint.points; ++i) {
     const Point& p = m.point[z(joint.first_point + i)];
-    const Vec3 x(p.s, p.t, 0), gap = d + r.cross(x);
-    const Vec3 traction(law.ks * gap.x(), law.ks * gap.y(), law.kn * gap.z());
-    const double sigma = traction.z(), tau = std::hypot(traction.x(), traction.y());
+    const double shear_s = law.ks * (q[0] - q[5] * p.t), shear_t = law.ks * (q[1] + q[5] * p.s);  // Pa
+    const double sigma = law.kn * (q[2] + q[3] * p.t - q[4] * p.s);
     if (sigma > law.ft || (law.dry && sigma > 0) || (law.fc > 0 && -sigma > law.fc)) return false;
-    if (tau > bond_shear(law, std::max(0.0, sigma), 0) + law.mu * std::max(0.0, -sigma)) return false;
-    force += p.weight * traction;
-    moment += p.weight * x.cross(traction);
+    const double most = bond_shear(law, std::max(0.0, sigma), 0) + law.mu * std::max(0.0, -sigma);
+    if (shear_s * shear_s + shear_t * shear_t > most * most) return false;
+    fs += p.weight * shear_s, ft += p.weight * shear_t, fn += p.weight * sigma;
+    ms += p.weight * p.t * sigma, mt -= p.weight * p.s * sigma, mn += p.weight * (p.s * shear_t - p.t * shear_s);
   }
+  force = Vec3(fs, ft, fn);
+  moment = Vec3(ms, mt, mn);
   return true;
 }
 
