@@ -1,8 +1,8 @@
 // How a joint looks now: for recorders and pictures, exact at any rotation of its blocks.
 #pragma once
+#include "engine/base/turn.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
-#include "engine/solve/joint_geometry.h"
 
 namespace erbs {
 

@@ -9,6 +9,7 @@
 //   Y = X + du - th_m x (X + du) + th_m x (th_m x (X + du))/2,   D = (Y - X) + D_ref + d' x (S + g/2),   rotation = rho_ref + 2 d',
 // g = d' x (A_b - A_a) being the change of S; forces act with the arms of Y and S + g.
 #pragma once
+#include "engine/base/turn.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
 
@@ -19,12 +20,6 @@ struct JointPose {
   Vec3 apart, sum;  // m, X and S
   double q[6];      // m, rad in the frame
 };
-
-// (R - I) a without losing digits where the rotation is tiny: 2 w (v x a) + 2 v x (v x a) for q = (w, v).
-inline Vec3 turn_minus(const Quat& q, const Vec3& a) {
-  const Vec3 v = q.vec(), va = v.cross(a);
-  return 2 * q.w() * va + 2 * v.cross(va);
-}
 
 // Rotation vector of a quaternion (v, w): 2 asin(|v|) / |v| v, by its series where the next term is below round-off.
 inline Vec3 small_rotation_vector(const Quat& q) {
