@@ -15,6 +15,7 @@ std::size_t z(int i) { return std::size_t(i); }
 struct Trial {
   std::vector<JointMemory> memory;
   std::vector<PointHistory> history;
+  std::vector<CrushedFace> crushed;
   std::vector<std::uint8_t> sound;
 };
 
@@ -22,6 +23,7 @@ struct Trial {
 VecX internal_force(const Model& m, const State& s, const Freedom& f, Trial& trial) {
   VecX out = VecX::Zero(f.count);
   trial.history = s.history;
+  trial.crushed = s.crushed;
   for (int j = 0; j < m.njoint; ++j) {
     if (s.tier[z(j)] == Tier::open) continue;
     const Joint& joint = m.joint[z(j)];
@@ -30,7 +32,8 @@ VecX internal_force(const Model& m, const State& s, const Freedom& f, Trial& tri
     JointMemory& now = trial.memory[z(j)];
     const bool sound = s.tier[z(j)] == Tier::intact;
     const double rest[6] = {};
-    trial.sound[z(j)] = respond(m, j, sound, sound ? rest : s.memory[z(j)].q, pose.q, &trial.history[z(joint.first_point)], now.f, e);
+    const JointPast past(&trial.history[z(joint.first_point)], s.crushed.empty() ? nullptr : &trial.crushed[z(j)]);
+    trial.sound[z(j)] = respond(m, j, sound, sound ? rest : s.memory[z(j)].q, pose.q, past, now.f, e);
     std::copy(pose.q, pose.q + 6, now.q);
     now.elastic = e.elastic;
     const JointMap map = joint_map(m, s, j);
@@ -61,8 +64,9 @@ Mat6 tangent(const Model& m, const State& s, int j, const Trial& trial) {
       std::copy(at, at + 6, q);
       q[c] += side == 0 ? -h : h;
       std::copy_n(&s.history[z(joint.first_point)], joint.points, history.begin());
+      CrushedFace crushed = s.crushed.empty() ? CrushedFace{} : s.crushed[z(j)];
       JointEnergy e;
-      respond(m, j, sound, sound ? rest : s.memory[z(j)].q, q, history.data(), f[side], e);
+      respond(m, j, sound, sound ? rest : s.memory[z(j)].q, q, {history.data(), s.crushed.empty() ? nullptr : &crushed}, f[side], e);
     }
     for (int r = 0; r < 6; ++r) k(r, c) = (f[1][r] - f[0][r]) / (2 * h);
   }
@@ -190,7 +194,7 @@ Equilibrium settle(const Model& m, State& s, const std::vector<double>& push) {
   }
   const Pose before{s.u, s.q};
   std::vector<Island> islands = islands_of(m, s, f, force);
-  Trial trial{std::vector<JointMemory>(z(m.njoint)), {}, std::vector<std::uint8_t>(z(m.njoint), 1)};
+  Trial trial{std::vector<JointMemory>(z(m.njoint)), {}, {}, std::vector<std::uint8_t>(z(m.njoint), 1)};
   SparseLdlt ldlt;
   bool factored_sound = false;
   VecX residual = force - internal_force(m, s, f, trial);
@@ -274,6 +278,7 @@ Equilibrium settle(const Model& m, State& s, const std::vector<double>& push) {
     s.memory[z(j)] = trial.memory[z(j)];
   }
   s.history = trial.history;
+  s.crushed = trial.crushed;
   return out;
 }
 

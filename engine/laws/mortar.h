@@ -1,6 +1,6 @@
 // Mortar joint: linear compression, tension cut-off, Coulomb shear with cohesion and residual friction, tension and shear
 // coupled and irreversible; optional linear softening with fracture energies and ultimate deformations, and a compression
-// plateau to an ultimate deformation. This is the ASSUMED reading of Fig. 5 of Gu and Miao, whose curves are lost: elastic to
+// plateau to an ultimate deformation (crushing.h). This is the ASSUMED reading of Fig. 5 of Gu and Miao, whose curves are lost: elastic to
 // the peak, then softening (or brittle drop) to the ultimate deformation, then a unilateral frictional contact.
 #pragma once
 #include "engine/base/field.h"

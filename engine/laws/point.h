@@ -21,7 +21,6 @@ struct PointLaw {
 struct PointHistory {
   double slip_s = 0, slip_t = 0;  // m, plastic
   double damage = 0;
-  double crushed = 0;             // m, plastic closing (<= 0)
   double secant = 0, reach = 0;   // Pa/m, m: of the opened point at this damage, kept since they cost divisions; meaningless at 0
 };
 

@@ -70,7 +70,8 @@ void add_loads(const Scene& scene, Model& m) {
         m.kind[z(b)] = Kind::driven;
         break;
       case Load::Kind::turning:
-        m.drives.push_back({load.wave, load.direction.normalized(), b, true, load.has_point ? Vec3(m.rest[z(b)] - load.point) : Vec3(Vec3::Zero())});
+        m.drives.push_back(
+            {load.wave, load.direction.normalized(), b, true, load.has_point ? Vec3(m.rest[z(b)] - load.point) : Vec3(Vec3::Zero())});
         m.kind[z(b)] = Kind::driven;
         break;
     }
@@ -161,6 +162,9 @@ void add_joint(const Scene& scene, const Interface& face, Model& m) {
   joint.stiffness[2] = law.kn * joint.area;
   joint.first_corner = int(m.corner.size());
   joint.corners = int(flat.size());
+  if (law.fc > 0 && joint.corners > Bed::most_corners)
+    throw Error(fmt::format("the joint between {} and {} has {} corners; a law with fc takes up to {}", m.block_name[z(face.a)],
+                            m.block_name[z(face.b)], joint.corners, Bed::most_corners));
   for (const Vec2& p : flat) {
     const Vec2 x = local(p.x(), p.y());
     m.corner.push_back(x);
@@ -317,6 +321,7 @@ State start(const Scene& scene, const Model& m) {
   s.tier.assign(z(m.njoint), Tier::intact);
   s.memory.assign(z(m.njoint), {});
   s.history.assign(z(m.npoint), {});
+  if (std::any_of(m.laws.begin(), m.laws.end(), [](const PointLaw& law) { return law.fc > 0; })) s.crushed.assign(z(m.njoint), {});
   if (m.dashpots) s.viscous.assign(6 * z(m.njoint), 0.0);
   s.wrench.assign(2 * z(m.njoint) + 1, 0.0);
   return s;

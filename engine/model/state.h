@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/laws/crushing.h"
 #include "engine/model/block_field.h"
 #include "engine/model/joint_batch.h"
 #include "engine/model/model.h"
@@ -66,6 +67,7 @@ struct State {
   std::vector<Tier> tier;              // [njoint]
   std::vector<JointMemory> memory;     // [njoint]
   std::vector<PointHistory> history;   // [npoint]
+  std::vector<CrushedFace> crushed;    // empty where no law has a plateau in compression [njoint]
   Rows wrench;                         // rows of 8 doubles: force, moment on a block from one joint end [2 njoint + 1]
   std::vector<double> viscous;         // N, N m, resultants of the dashpots of the last step; empty without [6 njoint]
   PairList debris;                     // contacts of loose blocks

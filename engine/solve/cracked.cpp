@@ -39,6 +39,8 @@ Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state
 
 void Cracked::clear(Group& group, int l) {
   group.joint[l] = -1;
+  group.crushed[l] = nullptr;
+  group.face_corner[l] = nullptr;
   for (int i = 0; i < 6; ++i) group.lane.q[i][l] = group.lane.f[i][l] = 0;
   group.lane.stored[l] = 0;
   group.lane.least_damage[l] = 0;
@@ -47,7 +49,7 @@ void Cracked::clear(Group& group, int l) {
   for (CellLanes& c : group.cell) c.s[l] = c.t[l] = c.ss[l] = c.st[l] = c.tt[l] = 0;
   group.face.bend_s[l] = group.face.bend_t[l] = group.face.twist[l] = 0;
   for (PointLanes& p : group.point) {
-    p.s[l] = p.t[l] = p.weight[l] = p.slip_s[l] = p.slip_t[l] = p.crushed[l] = p.secant[l] = p.reach[l] = 0;
+    p.s[l] = p.t[l] = p.weight[l] = p.slip_s[l] = p.slip_t[l] = p.secant[l] = p.reach[l] = 0;
     p.damage[l] = 1;  // nothing to hold
   }
 }
@@ -56,6 +58,8 @@ void Cracked::fill(Group& group, int l, int j) {
   const Joint& joint = model_.joint[z(j)];
   const JointMemory& memory = state_.memory[z(j)];
   group.joint[l] = j;
+  if (model_.laws[z(joint.law)].fc > 0)
+    group.crushed[l] = &state_.crushed[z(j)], group.face_corner[l] = model_.corner[z(joint.first_corner)].data();
   for (int i = 0; i < 6; ++i) group.lane.q[i][l] = memory.q[i], group.lane.f[i][l] = memory.f[i];
   group.lane.stored[l] = memory.elastic;
   group.lane.least_damage[l] = 0;
@@ -78,8 +82,7 @@ void Cracked::fill(Group& group, int l, int j) {
     k.s[l] = cell.s, k.t[l] = cell.t, k.ss[l] = cell.ss, k.st[l] = cell.st, k.tt[l] = cell.tt;
     PointLanes& p = group.point[z(i)];
     p.s[l] = from.s, p.t[l] = from.t, p.weight[l] = from.weight;
-    p.slip_s[l] = h.slip_s, p.slip_t[l] = h.slip_t, p.damage[l] = h.damage, p.crushed[l] = h.crushed, p.secant[l] = h.secant,
-    p.reach[l] = h.reach;
+    p.slip_s[l] = h.slip_s, p.slip_t[l] = h.slip_t, p.damage[l] = h.damage, p.secant[l] = h.secant, p.reach[l] = h.reach;
   }
 }
 
@@ -157,7 +160,9 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
                              group.first.data(),
                              group.loop.data(),
                              damped ? rate : nullptr,
-                             group.watch.empty() ? group.loop.data() : group.watch.data()};
+                             group.watch.empty() ? group.loop.data() : group.watch.data(),
+                             group.crushed,
+                             group.face_corner};
     kernels.respond(model_.laws[z(group.law)], batch, shape, group.point.data(), lane, o);
     kernels.wrenches(batch, o, state_.wrench.data());
     for (int l = 0; l < lanes; ++l) {
@@ -184,7 +189,7 @@ void Cracked::store() {
       for (int i = 0; i < 6; ++i) memory.q[i] = group.lane.q[i][l], memory.f[i] = group.lane.f[i][l];
       memory.elastic = group.lane.stored[l];
       PointHistory* h = &state_.history[z(model_.joint[z(j)].first_point)];
-      for (const PointLanes& p : group.point) *h++ = {p.slip_s[l], p.slip_t[l], p.damage[l], p.crushed[l], p.secant[l], p.reach[l]};
+      for (const PointLanes& p : group.point) *h++ = {p.slip_s[l], p.slip_t[l], p.damage[l], p.secant[l], p.reach[l]};
     }
   }
 }

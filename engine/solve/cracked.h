@@ -25,8 +25,10 @@ class Cracked {
  private:
   struct Group {
     int law, points, corners;
-    int batch;         // of State::batch
-    int joint[lanes];  // -1: empty
+    int batch;                    // of State::batch
+    int joint[lanes];             // -1: empty
+    CrushedFace* crushed[lanes];  // null without a plateau
+    const double* face_corner[lanes];
     FaceLanes face;
     std::vector<CornerLanes> corner;
     std::vector<PointLanes> point;

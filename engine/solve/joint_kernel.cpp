@@ -40,12 +40,12 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
   }
   JointEnergy e;
   const Joint& joint = m.joint[z(j)];
-  PointHistory* history = &s.history[z(joint.first_point)];
+  const JointPast past = past_of(m, s, j);
   std::vector<PointHistory> before_it;
   const bool damped = joint.viscous > 0 && !sound;
-  if (damped) before_it.assign(history, history + joint.points);
+  if (damped) before_it.assign(past.point, past.point + joint.points);
   std::vector<double> limit(damped ? z(joint.points) : 0);
-  const bool still = respond(m, j, sound, memory.q, q, history, f, e, damped ? limit.data() : nullptr);
+  const bool still = respond(m, j, sound, memory.q, q, past, f, e, damped ? limit.data() : nullptr);
   if (sound && still) return;
   if (sound) {
     s.tier[z(j)] = Tier::cracked;
@@ -62,7 +62,7 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
     book_dashpots(s, j, none, dq, sums);  // what they did since the last step
   }
   if (damped && s.last_dt > 0) {
-    viscous_response(m, j, memory.q, q, before_it.data(), history, limit.data(), joint.viscous / s.last_dt, drag);
+    viscous_response(m, j, memory.q, q, before_it.data(), past, limit.data(), joint.viscous / s.last_dt, drag);
     book_dashpots(s, j, drag, dq, sums);
     for (int i = 0; i < 6; ++i) f[i] += drag[i];
   }
@@ -114,8 +114,7 @@ void joint_forces(const Model& m, State& s, int first, int last, bool sample, Jo
 bool beyond_its_faces(const Joint& joint, const double q[6]) {
   const double side = std::min(joint.half_s, joint.half_t) * 2;
   const double least_gap = q[2] - std::fabs(q[3]) * joint.half_t - std::fabs(q[4]) * joint.half_s;
-  return std::hypot(q[0], q[1]) + std::fabs(q[5]) * joint.radius > 0.01 * side || std::hypot(q[3], q[4]) > 0.03 ||
-         least_gap > 0.002 * side;
+  return std::hypot(q[0], q[1]) + std::fabs(q[5]) * joint.radius > 0.01 * side || std::hypot(q[3], q[4]) > 0.03 || least_gap > 0.002 * side;
 }
 
 bool joint_spent(const Model& m, const State& s, int j) {

@@ -60,36 +60,36 @@ Positive positive_part(const Eigen::Vector2d* corner, int corners, const double*
 }
 
 // The no-tension integral over the true overlap polygon: N = kn Int max(-g, 0) dA and its first moments, and its energy.
-struct Compression {
-  double force = 0, moment_s = 0, moment_t = 0, energy = 0;  // moments: Int p s, Int p t
-};
-
-Compression compression(const Model& m, const Joint& joint, const double* q, double kn) {
+Pressed compression(const Model& m, const Joint& joint, const double* q, double kn) {
   // closed all over: a linear pressure about the centroid
   const double reach = std::fabs(q[3]) * joint.half_t + std::fabs(q[4]) * joint.half_s;
   if (q[2] - reach >= 0) return {};
   if (q[2] + reach < 0) {
-    const Compression c{-joint.stiffness[2] * q[2], joint.face[1] * q[4] - joint.face[2] * q[3],
-                        joint.face[2] * q[4] - joint.face[0] * q[3], 0};
-    return {c.force, c.moment_s, c.moment_t, 0.5 * (c.moment_s * q[4] - c.force * q[2] - c.moment_t * q[3])};
+    const Pressed c{-joint.stiffness[2] * q[2], joint.face[1] * q[4] - joint.face[2] * q[3], joint.face[2] * q[4] - joint.face[0] * q[3],
+                    0};
+    return {c.force, c.s, c.t, 0.5 * (c.s * q[4] - c.force * q[2] - c.t * q[3])};
   }
   const Positive p = positive_part(&m.corner[std::size_t(joint.first_corner)], joint.corners, q, -1);
   return {kn * p.p, kn * p.s, kn * p.t, 0.5 * kn * p.square};
 }
 
+// The gap as a plane over s, t.
+std::array<double, 3> gap_plane(const double* q) { return {q[2], -q[4], q[3]}; }
+
+// ... of a face that has been crushed, if it has.
+Pressed compression(const Model& m, const Joint& joint, const CrushedFace* crushed, const double* q, double kn) {
+  if (crushed == nullptr || crushed->planes == 0) return compression(m, joint, q, kn);
+  return pressed(bed_of(m, joint), *crushed, gap_plane(q).data());
+}
+
 // What the cell of point i pulls with at unit stiffness: Int max(g, 0) dA and its first moments. With the closed compression the
 // cells of sound points add up to the sound joint, so that a crack changes no other part of it, and no tangent is stiffer than the
-// sound one. Laws with a compression plateau press and pull at the points themselves.
+// sound one.
 struct Pull {
   double n = 0, s = 0, t = 0;  // m3, m4, m4
 };
 
-Pull pull_of(const Model& m, const PointLaw& law, int i, const double* q) {
-  if (law.fc > 0) {
-    const Point& x = m.point[std::size_t(i)];
-    const double opening = x.weight * std::max(0.0, gap_at(q, x.s, x.t).n);
-    return {opening, opening * x.s, opening * x.t};
-  }
+Pull pull_of(const Model& m, int i, const double* q) {
   const Cell& cell = m.cell[std::size_t(i)];
   const Positive p = positive_part(&m.cell_corner[std::size_t(cell.first)], cell.corners, q, 1);
   return {p.p, p.s, p.t};
@@ -98,30 +98,15 @@ Pull pull_of(const Model& m, const PointLaw& law, int i, const double* q) {
 double work_of(const Pull& p, const double* q) { return p.n * q[2] + p.t * q[3] - p.s * q[4]; }
 
 // The widest opening of the cell of point i: what wears its bond. The point's own would let a crack stop at the cell's border and
-// the cell pull with any stress beyond it.
-double widest(const Model& m, const PointLaw& law, int i, const double* q, double at_point) {
-  if (law.fc > 0) return at_point;
+// the cell pull with any stress beyond it. sign = -1: its deepest closing.
+double widest(const Model& m, int i, const double* q, double at_point, double sign = 1) {
   const Cell& cell = m.cell[std::size_t(i)];
-  double most = at_point;
+  double most = sign * at_point;
   for (int k = cell.first; k < cell.first + cell.corners; ++k) {
     const auto& c = m.cell_watch[std::size_t(k)];
-    most = std::max(most, gap_at(q, c.x(), c.y()).n);
+    most = std::max(most, sign * gap_at(q, c.x(), c.y()).n);
   }
   return most;
-}
-
-// Compression with a plateau at fc, point by point: perfectly plastic, unloading elastic.
-double crush(const PointLaw& law, double weight, double g0, double g1, PointHistory& h, JointEnergy& energy) {
-  const double before = std::max(0.0, -(g0 - h.crushed)) * law.kn;
-  double pressure = std::max(0.0, -(g1 - h.crushed)) * law.kn;
-  if (pressure > law.fc) {
-    const double more = g1 + law.fc / law.kn - h.crushed;  // < 0
-    energy.crushing += -0.5 * (before + law.fc) * more * weight;
-    h.crushed += more;
-    pressure = law.fc;
-    if (law.closing_ultimate > 0 && -g1 > law.closing_ultimate) damage_to(law, h, 1);
-  }
-  return pressure * weight;
 }
 
 struct Shear {
@@ -169,17 +154,15 @@ double change_of_form(const Joint& joint, const double* q0, const double* q1) {
 
 bool passes(const PointLaw& law, const Gap& g) {
   const double sigma = law.kn * g.n, tau = law.ks * std::sqrt(g.s * g.s + g.t * g.t);
-  if (sigma > law.ft) return true;
-  if (law.fc > 0 && -sigma > law.fc) return true;
-  return tau > bond_shear(law, std::max(0.0, sigma), 0) + law.mu * std::max(0.0, -sigma);
+  return sigma > law.ft || tau > bond_shear(law, std::max(0.0, sigma), 0) + law.mu * std::max(0.0, -sigma);
 }
 
 bool stays_sound(const Model& m, const Joint& joint, const PointLaw& law, const double* q) {
-  if (law.dry) {
-    for (int i = 0; i < joint.corners; ++i) {
-      const auto& c = m.corner[std::size_t(joint.first_corner + i)];
-      if (gap_at(q, c.x(), c.y()).n > 0) return false;
-    }
+  for (int i = 0; (law.dry || law.fc > 0) && i < joint.corners; ++i) {
+    const auto& c = m.corner[std::size_t(joint.first_corner + i)];
+    const double gap = gap_at(q, c.x(), c.y()).n;
+    if (law.dry && gap > 0) return false;
+    if (law.fc > 0 && -law.kn * gap > law.fc) return false;
   }
   for (int i = 0; i < joint.points; ++i) {
     const Point& x = m.point[std::size_t(joint.first_point + i)];
@@ -195,8 +178,41 @@ double share_within(double s, double t, double ds, double dt, double limit) {
   return a + 2 * b > c ? (std::sqrt(b * b + a * c) - b) / a : 1;
 }
 
-bool respond(const Model& m, int j, bool sound, const double* q_before, const double* q, PointHistory* history, double* f,
-             JointEnergy& energy, double* shear_limit) {
+JointPast past_of(const Model& m, State& s, int j) {
+  return {&s.history[std::size_t(m.joint[std::size_t(j)].first_point)], s.crushed.empty() ? nullptr : &s.crushed[std::size_t(j)]};
+}
+
+Bed bed_of(const Model& m, const Joint& joint) {
+  const PointLaw& law = m.laws[std::size_t(joint.law)];
+  return {law.kn, law.fc / law.kn, joint.corners, m.corner[std::size_t(joint.first_corner)].data()};
+}
+
+namespace {
+
+// Friction needs the pressure at the points: the closed integral, shared out by their own depths; all of it to the deepest where no
+// point is pressed.
+void share_out(const Model& m, const Joint& joint, const CrushedFace* crushed, const double* q, double force, double* at_points) {
+  const Point* point = &m.point[std::size_t(joint.first_point)];
+  const bool flattened = crushed != nullptr && crushed->planes > 0;
+  const Bed bed = bed_of(m, joint);
+  double share = 0, least = 0;
+  int deepest = 0;
+  for (int i = 0; i < joint.points; ++i) {
+    const double g = gap_at(q, point[i].s, point[i].t).n;
+    const double depth = flattened ? pressed_depth(bed, *crushed, gap_plane(q).data(), point[i].s, point[i].t) : std::max(0.0, -g);
+    at_points[i] = depth * point[i].weight;
+    share += at_points[i];
+    if (i == 0 || g < least) least = g, deepest = i;
+  }
+  const double scale = share > 0 ? force / share : 0;
+  for (int i = 0; i < joint.points; ++i) at_points[i] *= scale;
+  if (share == 0) at_points[deepest] = force;
+}
+
+}  // namespace
+
+bool respond(const Model& m, int j, bool sound, const double* q_before, const double* q, JointPast past, double* f, JointEnergy& energy,
+             double* shear_limit) {
   const Joint& joint = m.joint[std::size_t(j)];
   const PointLaw& law = m.laws[std::size_t(joint.law)];
   if (sound && stays_sound(m, joint, law, q)) {
@@ -207,64 +223,44 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
     return true;
   }
   const Point* point = &m.point[std::size_t(joint.first_point)];
-  const int n = joint.points;
-  std::array<double, most_points_per_joint> pressed;  // N, compressive force of each point
-  double share = 0;
-  int deepest = 0;
-  for (int i = 0; i < 6; ++i) f[i] = 0;
-  if (law.fc > 0) {
-    for (int i = 0; i < n; ++i) {
-      const double g0 = gap_at(q_before, point[i].s, point[i].t).n, g1 = gap_at(q, point[i].s, point[i].t).n;
-      const double force = crush(law, point[i].weight, g0, g1, history[i], energy);
-      pressed[std::size_t(i)] = force;
-      f[2] -= force;
-      f[3] -= force * point[i].t;
-      f[4] += force * point[i].s;
-      energy.elastic += 0.5 * force * force / (law.kn * point[i].weight);
-    }
-  } else {
-    const Compression closed = compression(m, joint, q, law.kn);
-    f[2] = -closed.force;
-    f[3] = -closed.moment_t;
-    f[4] = closed.moment_s;
-    energy.elastic += closed.energy;
-    if (sound) energy.fracture += change_of_form(joint, q_before, q);
-    // Friction needs the pressure at the points: the closed integral, shared out by their own depths.
-    double least = 0;
-    for (int i = 0; i < n; ++i) {
-      const double g = q[2] + q[3] * point[i].t - q[4] * point[i].s;
-      pressed[std::size_t(i)] = std::max(0.0, -g) * point[i].weight;
-      share += pressed[std::size_t(i)];
-      if (i == 0 || g < least) least = g, deepest = i;
-    }
-    const double scale = share > 0 ? closed.force / share : 0;
-    for (int i = 0; i < n; ++i) pressed[std::size_t(i)] *= scale;
-    if (share == 0) pressed[std::size_t(deepest)] = closed.force;
-  }
-  for (int i = 0; i < n; ++i) {
-    PointHistory& h = history[i];
+  std::array<double, most_points_per_joint> pressure;  // N, compressive force of each point
+  if (law.fc > 0) energy.crushing += crush(bed_of(m, joint), *past.crushed, gap_plane(q_before).data(), gap_plane(q).data());
+  const CrushedFace* crushed = law.fc > 0 ? past.crushed : nullptr;
+  const Pressed closed = compression(m, joint, crushed, q, law.kn);
+  f[0] = f[1] = f[5] = 0;
+  f[2] = -closed.force;
+  f[3] = -closed.t;
+  f[4] = closed.s;
+  energy.elastic += closed.energy;
+  if (sound) energy.fracture += change_of_form(joint, q_before, q);
+  share_out(m, joint, crushed, q, closed.force, pressure.data());
+  for (int i = 0; i < joint.points; ++i) {
+    PointHistory& h = past.point[i];
     const double damage_before = h.damage;
     const Gap g = gap_at(q, point[i].s, point[i].t);
     const bool bonded = damage_before < 1 && !law.dry;
     const double k0 = damage_before > 0 ? h.secant : law.kn;
-    const double wide = bonded ? widest(m, law, joint.first_point + i, q, g.n) : 0;
+    const double wide = bonded ? widest(m, joint.first_point + i, q, g.n) : 0;
     if (bonded && wide > (damage_before > 0 ? h.reach : law.opening_peak))
       damage_to(law, h,
                 law.opening_ultimate > law.opening_peak ? (wide - law.opening_peak) / (law.opening_ultimate - law.opening_peak) : 1);
+    if (bonded && law.closing_ultimate > 0 &&
+        widest(m, joint.first_point + i, q, g.n, -1) > std::max(law.closing_ultimate, law.fc / law.kn))
+      damage_to(law, h, 1);
     const double sigma = bonded && g.n > 0 ? (h.damage > 0 ? h.secant : law.kn) * g.n : 0;
-    const Shear tau = shear(law, point[i], pressed[std::size_t(i)], sigma, q_before, g, h, energy);
+    const Shear tau = shear(law, point[i], pressure[std::size_t(i)], sigma, q_before, g, h, energy);
     if (shear_limit != nullptr)
       shear_limit[i] =
-          (h.damage < 1 ? bond_shear(law, sigma, h.damage) * point[i].weight : 0) + friction_at(law, h.damage) * pressed[std::size_t(i)];
+          (h.damage < 1 ? bond_shear(law, sigma, h.damage) * point[i].weight : 0) + friction_at(law, h.damage) * pressure[std::size_t(i)];
     f[0] += tau.s;
     f[1] += tau.t;
     f[5] += tau.t * point[i].s - tau.s * point[i].t;
     energy.elastic += 0.5 * (tau.s * (g.s - h.slip_s) + tau.t * (g.t - h.slip_t));
     if (!bonded) continue;
     const double k1 = h.damage > 0 ? h.secant : law.kn;
-    const Pull pull = pull_of(m, law, joint.first_point + i, q);
+    const Pull pull = pull_of(m, joint.first_point + i, q);
     if (k0 != k1) {  // half the loss of stiffness times Int g0 g1 over the opened cell, the mean from both ends
-      const double both = work_of(pull, q_before) + work_of(pull_of(m, law, joint.first_point + i, q_before), q);
+      const double both = work_of(pull, q_before) + work_of(pull_of(m, joint.first_point + i, q_before), q);
       energy.fracture += 0.25 * (k0 - k1) * std::max(0.0, both);
     }
     f[2] += k1 * pull.n;
@@ -275,22 +271,16 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
   return false;
 }
 
-void viscous_response(const Model& m, int j, const double* q0, const double* q, const PointHistory* before, const PointHistory* after,
+void viscous_response(const Model& m, int j, const double* q0, const double* q, const PointHistory* before, JointPast after,
                       const double* shear_limit, double rate, double* f) {
   const Joint& joint = m.joint[std::size_t(j)];
   const PointLaw& law = m.laws[std::size_t(joint.law)];
-  Compression now, then;
   for (int i = 0; i < 6; ++i) f[i] = 0;
   for (int i = 0; i < joint.points; ++i) {
     const Point& point = m.point[std::size_t(joint.first_point + i)];
-    const PointHistory& h = after[i];
+    const PointHistory& h = after.point[i];
     const Gap g0 = gap_at(q0, point.s, point.t), g1 = gap_at(q, point.s, point.t);
     const bool holds = h.damage < 1 && !law.dry;
-    if (law.fc > 0) {
-      const double k = law.kn * point.weight, p0 = k * std::max(0.0, h.crushed - g0.n), p1 = k * std::max(0.0, h.crushed - g1.n);
-      now.force += p1, now.moment_s += p1 * point.s, now.moment_t += p1 * point.t;
-      then.force += p0, then.moment_s += p0 * point.s, then.moment_t += p0 * point.t;
-    }
     if ((holds || g1.n < 0) && h.slip_s == before[i].slip_s && h.slip_t == before[i].slip_t) {
       const double k = law.ks * point.weight, s = rate * k * (g1.s - g0.s), t = rate * k * (g1.t - g0.t);
       const double x = share_within(k * (g1.s - h.slip_s), k * (g1.t - h.slip_t), s, t, shear_limit[i]);
@@ -300,16 +290,17 @@ void viscous_response(const Model& m, int j, const double* q0, const double* q, 
     }
     if (!holds) continue;
     const double k = rate * (h.damage > 0 ? h.secant : law.kn);
-    const Pull p0 = pull_of(m, law, joint.first_point + i, q0), p1 = pull_of(m, law, joint.first_point + i, q);
+    const Pull p0 = pull_of(m, joint.first_point + i, q0), p1 = pull_of(m, joint.first_point + i, q);
     f[2] += k * (p1.n - p0.n);
     f[3] += k * (p1.t - p0.t);
     f[4] -= k * (p1.s - p0.s);
   }
-  if (law.fc <= 0) now = compression(m, joint, q, law.kn), then = compression(m, joint, q0, law.kn);
+  const CrushedFace* crushed = law.fc > 0 ? after.crushed : nullptr;
+  const Pressed now = compression(m, joint, crushed, q, law.kn), then = compression(m, joint, crushed, q0, law.kn);
   const double pull = rate * (then.force - now.force), share = pull > now.force ? rate * now.force / pull : rate;
   f[2] += share * (then.force - now.force);
-  f[3] += share * (then.moment_t - now.moment_t);
-  f[4] -= share * (then.moment_s - now.moment_s);
+  f[3] += share * (then.t - now.t);
+  f[4] -= share * (then.s - now.s);
 }
 
 }  // namespace erbs

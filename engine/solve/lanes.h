@@ -2,6 +2,7 @@
 // the program starts. Plain loops over lanes: -ffp-contract=off and the absence of sums across lanes give the same bits with each.
 // Only plain data passes here: an Eigen function compiled with wider instructions could end up in code meant for any machine.
 #pragma once
+#include "engine/laws/crushing.h"
 #include "engine/laws/point.h"
 #include "engine/model/joint_batch.h"
 
@@ -23,7 +24,7 @@ struct alignas(64) CornerLanes {
 };
 struct alignas(64) PointLanes {
   double s[lanes], t[lanes], weight[lanes];                                                         // m, m, m2
-  double slip_s[lanes], slip_t[lanes], damage[lanes], crushed[lanes], secant[lanes], reach[lanes];  // as in PointHistory
+  double slip_s[lanes], slip_t[lanes], damage[lanes], secant[lanes], reach[lanes];  // as in PointHistory
 };
 struct alignas(64) CellLanes {
   double s[lanes], t[lanes], ss[lanes], st[lanes], tt[lanes];  // as in Cell
@@ -41,6 +42,9 @@ struct CrackedShape {
   const CornerLanes* loop;       // corners of the cells
   const double* rate;            // of dashpots, b over the last step; null without [lanes]
   const CornerLanes* watch;      // where the cells watch for tension; = loop for rules with points on the edge
+  // of laws with a plateau in compression: what has been crushed, and the corners as in Bed; null in empty lanes  [lanes]
+  CrushedFace* const* crushed;
+  const double* const* face_corner;
 };
 struct alignas(64) CrackedLanes {
   double q[6][lanes], f[6][lanes], stored[lanes];                   // at the last step

@@ -14,12 +14,16 @@ std::size_t z(int i) { return std::size_t(i); }
 bool sound_resultant(const Model& m, const Joint& joint, const JointPose& pose, Vec3& force, Vec3& moment) {
   const PointLaw& law = m.laws[z(joint.law)];
   const double* q = pose.q;
+  for (int i = 0; law.fc > 0 && i < joint.corners; ++i) {
+    const auto& x = m.corner[z(joint.first_corner + i)];
+    if (-law.kn * (q[2] + q[3] * x.y() - q[4] * x.x()) > law.fc) return false;
+  }
   double fs = 0, ft = 0, fn = 0, ms = 0, mt = 0, mn = 0;
   for (int i = 0; i < joint.points; ++i) {
     const Point& p = m.point[z(joint.first_point + i)];
     const double shear_s = law.ks * (q[0] - q[5] * p.t), shear_t = law.ks * (q[1] + q[5] * p.s);  // Pa
     const double sigma = law.kn * (q[2] + q[3] * p.t - q[4] * p.s);
-    if (sigma > law.ft || (law.dry && sigma > 0) || (law.fc > 0 && -sigma > law.fc)) return false;
+    if (sigma > law.ft || (law.dry && sigma > 0)) return false;
     const double most = bond_shear(law, std::max(0.0, sigma), 0) + law.mu * std::max(0.0, -sigma);
     if (shear_s * shear_s + shear_t * shear_t > most * most) return false;
     fs += p.weight * shear_s, ft += p.weight * shear_t, fn += p.weight * sigma;

@@ -86,7 +86,7 @@ void Sequential::update(int j, JointSums& sums) {
   const bool sound = s.tier[z(j)] == Tier::intact;
   JointEnergy e;
   double f[6];
-  if (!respond(model_, j, sound, memory.q, pose.q, &s.history[z(model_.joint[z(j)].first_point)], f, e) && sound) {
+  if (!respond(model_, j, sound, memory.q, pose.q, past_of(model_, s, j), f, e) && sound) {
     s.tier[z(j)] = Tier::cracked;
     ++sums.cracked_now;
   }
@@ -115,9 +115,11 @@ void Sequential::predict(int b) {
     const Joint& joint = model_.joint[z(j)];
     const JointPose pose = joint_pose(model_, s, j);
     trial_.assign(&s.history[z(joint.first_point)], &s.history[z(joint.first_point)] + joint.points);
+    CrushedFace crushed = s.crushed.empty() ? CrushedFace{} : s.crushed[z(j)];
     JointEnergy unused;
     double f[6];
-    respond(model_, j, s.tier[z(j)] == Tier::intact, s.memory[z(j)].q, pose.q, trial_.data(), f, unused);
+    respond(model_, j, s.tier[z(j)] == Tier::intact, s.memory[z(j)].q, pose.q, {trial_.data(), s.crushed.empty() ? nullptr : &crushed}, f,
+            unused);
     write_wrench(model_, s, j, pose, f);
   }
   s.u[z(b)] = u;

@@ -46,20 +46,7 @@ Mat6 diagonal(const Joint& joint) {
   return k;
 }
 
-// A bound on every form the joint may take, cracked or sound: the sound form and the positive part of what the other has beyond it.
-Mat6 stiffest(const Joint& joint) {
-  Eigen::Matrix2d more;
-  more << joint.face[0] - joint.stiffness[3], -joint.face[2], -joint.face[2], joint.face[1] - joint.stiffness[4];
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(more);
-  Mat6 k = diagonal(joint);
-  k.block<2, 2>(3, 3) += eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
-  return k;
-}
-
-// Laws with a compression plateau go on by their points alone.
-bool stiffens(const Model& m, const Joint& joint) {
-  return m.laws[z(joint.law)].fc <= 0 && (joint.face[0] > joint.stiffness[3] || joint.face[1] > joint.stiffness[4] || joint.face[2] != 0);
-}
+bool stiffens(const Joint& joint) { return joint.face[0] > joint.stiffness[3] || joint.face[1] > joint.stiffness[4] || joint.face[2] != 0; }
 
 // Largest eigenvalue of a symmetric matrix by Lanczos with full reorthogonalisation (Paige 1972); its residual is added, since
 // the Ritz value errs from below.
@@ -86,6 +73,15 @@ double largest_eigenvalue(const Sparse& a) {
 }
 
 }  // namespace
+
+Mat6 stiffest(const Joint& joint) {
+  Eigen::Matrix2d more;
+  more << joint.face[0] - joint.stiffness[3], -joint.face[2], -joint.face[2], joint.face[1] - joint.stiffness[4];
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(more);
+  Mat6 k = diagonal(joint);
+  k.block<2, 2>(3, 3) += eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
+  return k;
+}
 
 Freedom freedoms(const Model& m) {
   Freedom f;
@@ -198,8 +194,8 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
     });
   };
   out.critical = out.cracked = limit(diagonal);
-  if (std::any_of(m.joint.begin(), m.joint.end(), [&](const Joint& joint) { return stiffens(m, joint); }))
-    out.cracked = limit([&](const Joint& joint) { return stiffens(m, joint) ? stiffest(joint) : diagonal(joint); });
+  if (std::any_of(m.joint.begin(), m.joint.end(), stiffens))
+    out.cracked = limit([&](const Joint& joint) { return stiffens(joint) ? stiffest(joint) : diagonal(joint); });
   return out;
 }
 

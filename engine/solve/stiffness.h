@@ -20,6 +20,9 @@ struct JointMap {
 };
 JointMap joint_map(const Model& model, const State& state, int j);
 
+// A bound on every form the joint may take, cracked or sound: the sound form and the positive part of what the other has beyond it.
+Mat6 stiffest(const Joint& joint);
+
 // K of all joints that are not open, with the stiffness of sound joints.
 Sparse stiffness(const Model& model, const State& state, const Freedom& freedom);
 

@@ -125,11 +125,13 @@ TEST_CASE("sound joints in one pass answer as step by step", "[solve]") {
 
 TEST_CASE("cracked joints side by side answer as one by one", "[solve]") {
   // laws of every kind, points driven through softening, slip, closing and opening again
-  const std::string law = GENERATE("mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=80*kPa, mu=0.6}", "dry{kn=1e10, mu=0.5}",
-                                   "mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=80*kPa, mu=0.6, mu_residual=0.4, Gf1=1, Gf2=5}",
-                                   "mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=80*kPa, mu=0.6, Gf1=1, coupling=\"ellipse\"}",
-                                   "mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=80*kPa, mu=0.6, Gf2=5, coupling=\"linear\"}",
-                                   "mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=80*kPa, mu=0.6, Gf1=1, Gf2=2, fc=200*kPa}");
+  const std::string law =
+      GENERATE("mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=80*kPa, mu=0.6}", "dry{kn=1e10, mu=0.5}",
+               "mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=80*kPa, mu=0.6, mu_residual=0.4, Gf1=1, Gf2=5}",
+               "mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=80*kPa, mu=0.6, Gf1=1, coupling=\"ellipse\"}",
+               "mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=80*kPa, mu=0.6, Gf2=5, coupling=\"linear\"}",
+               "mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=80*kPa, mu=0.6, Gf1=1, Gf2=2, fc=200*kPa}",
+               "mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=80*kPa, mu=0.6, Gf1=1, Gf2=2, fc=100*kPa, uc_ultimate=4e-6}");
   Prepared run = prepare(test::small_wall(shake + "fast\"} damping{stiffness=2e-6}", law), false);
   const Model& m = run.model;
   run.state.last_dt = 1e-5;  // for the dashpots
