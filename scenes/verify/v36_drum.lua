@@ -3,7 +3,7 @@
 -- What happens   Two drums of a column (prisms of many sides) are let go tilted, one towards +x, the other towards -x, and a third is tilted and
 --                spun. No closed form: the first two must be mirror images, stay in their plane, and no energy may appear.
 -- Source         Symmetry; the ledger.
--- How to run     erbs run scenes/verify/v36_drum.lua [-D sides=48] [-D tilt=0.2]
+-- How to run     erbs run scenes/verify/v36_drum.lua [-D sides=24] [-D tilt=0.2]
 -- What to look at  mirror: largest |x_1 + x_2| over the radius; aside: out of plane; losses; energy.residual_relative.
 label("quick")
 local sides, tilted = param("sides", 32, "of a drum"), param("tilt", 0.15, "[rad]")
@@ -31,10 +31,10 @@ metric("mirror", "radius", function(run)
 end)
 metric("aside", "radius", function(run) return math.max(run.peak("drum1_uy_rel_m"), run.peak("drum2_uy_rel_m")) / radius end)
 metric("losses", "J", function(run) return run.energy.contact_damping_J + run.energy.friction_J end)
--- An impact on a side of the prism is one on a line, and grows what differs; a millimetre or two are left of the round-off after ten.
--- 7e-3 was measured first: the drums part by 3e-4 m at their first impact, from a cause that is not known. This holds that gap, no theory.
-expect("metrics.mirror", 1e-2, { below = true, source = "mirror symmetry" })
-expect("metrics.aside", 1e-2, { below = true, source = "mirror symmetry" })
+-- Round-off of the places (1e-17 m after 10 ms) grows about tenfold at each impact on a side, the smaller the swing the faster they follow each
+-- other: 1e-9 to 1e-8 after ten. A hundred times that is allowed.
+expect("metrics.mirror", 1e-6, { below = true, source = "mirror symmetry" })
+expect("metrics.aside", 1e-9, { below = true, source = "mirror symmetry" })
 expect("metrics.losses", 0, { above = true, source = "no energy appears" })
 expect("energy.residual_relative", 1e-3, { below = true, source = "ledger" })
 analysis { duration = param("duration", 2.5, "[s]"), start = "rest", dt = 1e-4, output_dt = 5e-3, frame_dt = 0.04 }
