@@ -42,21 +42,26 @@ void find_islands(const Model& m, State& s) {
   for (int b = 0; b < m.nblock; ++b) s.grounded[z(b)] = s.grounded[z(s.island[z(b)])];
 }
 
-void refresh_stale(const Model& m, State& s) {
+std::vector<int> refresh_stale(const Model& m, State& s) {
   // Block by block: a joint takes its geometry from the poses its two blocks had at their own last refresh, and what has happened since
   // is carried to second order, 1e-15 of the arm at the default tolerance.
   std::vector<std::uint8_t> stale(z(m.nblock) + 1, 0);
   const double limit = m.analysis.lazy_rotation * m.analysis.lazy_rotation;
+  bool past = false;
   for (int b = 0; b < m.nblock; ++b) {
     const double* row = &s.row[z(b) * 8];
-    stale[z(b)] = s.joined[z(b)] && row[3] * row[3] + row[4] * row[4] + row[5] * row[5] > limit;
+    const double turned = row[3] * row[3] + row[4] * row[4] + row[5] * row[5];
+    stale[z(b)] = s.joined[z(b)] && turned > 0.25 * limit;
+    past = past || (s.joined[z(b)] && turned > limit);
   }
+  if (!past) return {};
   std::vector<int> blocks, joints;
   for (int b = 0; b < m.nblock; ++b)
     if (stale[z(b)]) blocks.push_back(b);
   for (int j = 0; j < m.njoint; ++j)
     if (s.tier[z(j)] != Tier::open && (stale[z(m.joint[z(j)].a)] || stale[z(m.joint[z(j)].b)])) joints.push_back(j);
   refresh(m, s, blocks, joints);
+  return joints;
 }
 
 }  // namespace erbs

@@ -55,6 +55,16 @@ void Sound::update() {
   for (std::size_t k = 0; k < batch_.size(); ++k) fill(state_.batch[k], 2 * model_.njoint, batch_[k]);
 }
 
+void Sound::update(const std::vector<int>& joints) {
+  int last = -1;
+  for (const int j : joints) {
+    const int k = j / lanes;
+    if (k == last || state_.place[z(j)] != j) continue;
+    fill(state_.batch[z(k)], 2 * model_.njoint, batch_[z(k)]);
+    last = k;
+  }
+}
+
 // A joint that may be past a limit. What it answers is changed only where it cracks.
 void Sound::look_closer(int k, bool sample, JointSums& sums) {
   JointLanes o;

@@ -10,7 +10,8 @@ namespace erbs {
 class Sound {
  public:
   Sound(const Model& model, State& state);
-  void update();  // after a refresh, or when joints have changed their lanes
+  void update();  // when joints have changed their lanes
+  void update(const std::vector<int>& joints);  // after a refresh of these, in ascending order
   // Writes the wrench rows of batches [first, last). Joints near a limit are looked at point by point (joint_response.h); those that
   // crack go on in cracked.h. Fills sums.energy.elastic when `sample`.
   void forces(int first, int last, bool sample, JointSums& sums);

@@ -94,8 +94,7 @@ void Solver::begin(const Hooks& hooks) {
   sample_ = hooks.wanted(state_.t) ? Sample::full : state_.step % every == 0 ? Sample::ledger : Sample::none;
   for (const BlockSums& sums : block_sums_)
     if (sums.stale) {
-      refresh_stale(model_, state_);
-      sound_.update();
+      sound_.update(refresh_stale(model_, state_));
       for (BlockSums& all : block_sums_) all.stale = false;
       break;
     }

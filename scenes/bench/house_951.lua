@@ -6,7 +6,7 @@
 -- What to look at  Nanoseconds a point and step against the reference kernel, while sound and with every joint broken.
 
 material { name = "brick", density = 1800, friction = 0.6, restitution = 0.2 }
-ground { z = 0, size = 20 }
+ground { z = 0, size = 60 }
 building {
   plan = { param("x", 2.47), param("y", 2.47) }, storeys = 3, courses = param("courses", 10),
   brick = { length = 0.30, width = 0.125, height = 0.10 }, joint = 10 * mm, quiet = true,
