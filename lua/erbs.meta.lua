@@ -35,6 +35,7 @@ Pa, kPa, MPa, GPa = 1, 1e3, 1e6, 1e9 -- Pa
 J, Hz = 1, 1 -- J, 1/s
 pi, deg = math.pi, math.pi / 180 -- rad
 g = 9.81 -- m/s2
+start_noise = 0 -- by up to how much the start of every free block is off: erbs run --noise, erbs test --grid [m and rad]
 
 ---@class erbs.initial
 ---@field position? erbs.vec3 displacement from rest [m; -1e+06 to 1e+06; default { 0, 0, 0 }]

@@ -244,7 +244,7 @@ std::string function_help(const std::string& name) {
 std::string functions_list() {
   std::string text = "Scene functions (erbs help FUNCTION):\n";
   for (const Function& function : all_functions()) text += fmt::format("  {:<14} {}\n", function.name, function.text);
-  return text + "Units: m cm mm km  s ms  kg t  N kN MN  Pa kPa MPa GPa  J Hz  deg g pi, as factors: 5*mm, 0.4*g\n";
+  return text + "Units: m cm mm km  s ms  kg t  N kN MN  Pa kPa MPa GPa  J Hz  deg g pi, as factors: 5*mm, 0.4*g\nstart_noise: what erbs run --noise and erbs test --grid put into the start of every free block (m and rad), 0 without them\n";
 }
 
 std::string editor_file() {

@@ -103,8 +103,10 @@ int note_mistakes(lua_State* lua, Context& context) {
 constexpr std::pair<const char*, Body> inner_functions[] = {{"did_you_mean", suggest}, {"note_mistakes", note_mistakes}};
 
 // The language is the sandbox's globals, the API and the embedded files; the scene's globals lie in a table of their own over it.
-void open_language(lua_State* lua, Context& context) {
+void open_language(lua_State* lua, Context& context, double noise) {
   open_values(lua);
+  lua_pushnumber(lua, noise);
+  lua_setglobal(lua, "start_noise");
   open_api(lua);
   lua_pushglobaltable(lua);
   lua_pushvalue(lua, -1);
@@ -270,7 +272,7 @@ Script::Script(const Options& options) : context_(std::make_unique<Context>()) {
   context_->study = options.study;
   lua_ = open_sandbox(*context_);
   const Cap uncapped(context_->limits, false);
-  open_language(lua_, *context_);
+  open_language(lua_, *context_, options.noise);
 }
 
 Script::~Script() {

@@ -253,6 +253,7 @@ int verb_run(const Options& options) {
   Script::Options script_options;
   script_options.quiet = options.quiet;
   script_options.study = options.study;
+  script_options.noise = options.noise;
   Script script(script_options);
   Scene scene = script.load(path, options.overrides);
   for (const auto& effect : options.without) switch_off(scene, effect);

@@ -54,6 +54,7 @@ metric("rider_error", "", function(run)
 end)
 -- Rows read by straight lines, 200 a cycle, over `cycles` cycles; the step is a thousandth of the period and less.
 expect("metrics.period_ratio", 1, { abs = 1e-5, source = "slow mode of the three masses" })
--- The rider lags by m w^2 / k of the way, and starts from exactly the same place: twice that.
-expect("metrics.rider_error", 4 * m_light * w ^ 2 / k + 1e-9, { below = true, source = "m w^2 / k" })
+-- The rider lags by m w^2 / k of the way, and starts from exactly the same place: twice that. Noise in the start puts it off by twice as
+-- much as it moves one block, and it swings on its own spring by as much, for ever.
+expect("metrics.rider_error", 4 * m_light * w ^ 2 / k + 1e-9 + 2 * start_noise / 1e-6, { below = true, source = "m w^2 / k" })
 expect("energy.residual_relative", 1e-6, { below = true, source = "elastic gate" })

@@ -57,10 +57,15 @@ metric("reaction_error", "", function(run)
 end)
 metric("sideways_reaction", "", function(run) return math.max(run.peak("base_fx_N"), run.peak("base_fy_N")) / weight end)
 metric("tremor", "m/s", function(run) return run.peak("bricks_vz_rel_m_s") end)
--- The static start leaves 1e-11 of the load; the house swings within that.
+-- The static start leaves 1e-11 of the load; the house swings within that. Noise in the start puts every half bed off by sqrt(2/3) of it
+-- (root of the mean square of a difference) with signs of their own: the n half beds of the lowest course swing by kn A sqrt(n) of
+-- that, and five times it is not met in twenty rows. Whatever grew would leave this within ten seconds.
+local half_bed = 150 * mm * 125 * mm
+local beds = 2 * (width + length) * 125 * mm / half_bed
+local swing = 5 * math.sqrt(2 / 3 * beds) * start_noise * E / t * half_bed / weight
 expect("metrics.drift_per_second", 1e-6, { below = true, source = "at rest" })
-expect("metrics.reaction_error", 1e-6, { below = true, source = "reaction = weight" })
-expect("metrics.sideways_reaction", 1e-6, { below = true, source = "no load sideways" })
+expect("metrics.reaction_error", 1e-6 + swing, { below = true, source = "reaction = weight" })
+expect("metrics.sideways_reaction", 1e-6 + swing, { below = true, source = "no load sideways" })
 expect("joints_broken", 0, { abs = 0, source = "stresses are a tenth of the strengths" })
 expect("energy.residual_relative", 1e-6, { below = true, source = "elastic gate" })
 expect("collapse.collapsed", false)

@@ -6,8 +6,11 @@
 -- How to run     erbs run scenes/hard/h08_symmetric_impacts.lua [-D fraction=0.9]
 -- What to look at  spin_* (over sqrt(g / l)), cradle_across (m/s, of the row's speed), mirror_error (m)
 -- Tolerance      1e-9 of the angular speed sqrt(g / l); across the row nothing but round-off. The heap is chaotic: the mirror image is followed
---                until round-off, 1e-16, has grown by no more than 1e4.
+--                until round-off, 1e-16, has grown by no more than 1e4. Noise in the start is no symmetry: a face that lands askew by it is thrown
+--                back by its springs, w = sqrt(kn / (density height)), and w times the flight makes a hundredfold and more of it before the next
+--                touch. Bodies that drop are then watched until they fly back, where the noise times w is all they may spin with.
 label("quick")
+local drop = math.sqrt(2 * 0.1 / g)  -- s
 local fraction = param("fraction", 0.5, "of the step's bound")
 local e = param("restitution", 0.5, "")
 local kn = param("kn", 2e9, "[Pa/m]")
@@ -19,11 +22,16 @@ for i, size in ipairs { { 0.3, 0.125, 0.1 }, { 0.1, 0.1, 0.1 }, { 0.4, 0.3, 0.03
   box { name = name, size = size, at = { 2 * i, -size[2] / 2, 0.1 }, free = true }
   recorder { name = name, quantity = "spin", block = name }
   metric("spin_" .. name, "", function(run)
-    local worst = 0
-    for _, axis in ipairs { "x", "y", "z" } do worst = math.max(worst, run.peak(name .. "_w" .. axis .. "_rad_s")) end
+    local worst, noisy = 0, start_noise > 0
+    for _, axis in ipairs { "x", "y", "z" } do
+      for k, spin in ipairs(run.history(name .. "_w" .. axis .. "_rad_s")) do
+        if not noisy or run.time[k] < drop * (1 + e) then worst = math.max(worst, math.abs(spin)) end
+      end
+    end
     return worst / math.sqrt(g / size[1])
   end)
-  expect("metrics.spin_" .. name, 1e-9, { below = true, source = "hard case 8" })
+  -- Turns about two axes, and as much again from the shift that friction feels.
+  expect("metrics.spin_" .. name, 1e-9 + 2 * math.sqrt(2) * start_noise * math.sqrt(kn / (2000 * size[3])) / math.sqrt(g / size[1]), { below = true, source = "hard case 8" })
 end
 local row = {}
 for i = 0, 5 do
@@ -37,7 +45,8 @@ metric("cradle_across", "", function(run)
   for _, name in ipairs(row) do worst = math.max(worst, run.peak(name .. "_vy_rel_m_s")) end
   return worst
 end)
-expect("metrics.cradle_across", 1e-9, { below = true, source = "symmetry about the plane of the row" })
+-- Faces off by noise push with kn A of it: a speed of w times it.
+expect("metrics.cradle_across", 1e-9 + start_noise * math.sqrt(kn / (2000 * 0.1)), { below = true, source = "symmetry about the plane of the row" })
 -- The heap, and its mirror image in the plane x = 0: places and turns mirrored, block by block.
 local heap = {}
 for i = 1, 6 do
@@ -59,6 +68,6 @@ metric("mirror_error", "m", function(run)
   end
   return worst
 end)
-expect("metrics.mirror_error", 1e-12, { below = true, source = "mirrored scene, mirrored result" })
+expect("metrics.mirror_error", 1e-12 + 2e4 * start_noise, { below = true, source = "mirrored scene, mirrored result" })
 analysis { duration = 0.6, dt_fraction = fraction, start = "rest", output_dt = 0.005, frame_dt = 0.6 }
 expect("energy.residual_relative", 1e-2, { below = true, source = "gate" })

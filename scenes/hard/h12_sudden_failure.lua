@@ -6,7 +6,7 @@
 --                none may follow, whatever the step and the number of points.
 -- Source         wave of unloading in a bar: d'Alembert; in a row of masses: Brillouin 1946; the release of a joint is A ft^2 / (2 kn).
 -- How to run     erbs run scenes/hard/h12_sudden_failure.lua [-D n=20] [-D margin=1.03] [-D kn=...]
--- What to look at  joints_broken; release_over_formula; first_crack_over_formula: force at the crack over ft A.
+-- What to look at  joints_broken; release_over_formula; release_error: its error over what is allowed; first_crack_over_formula: force at the crack over ft A.
 local n, kn = param("n", 10, "blocks"), param("kn", 1e10, "[Pa/m]")
 local ft, margin = param("ft", 0.2 * MPa, "of the weakest joint [Pa]"), param("margin", 2, "strength of the others over it")
 local density = param("density", 1800, "[kg/m3]")
@@ -23,11 +23,17 @@ joint { law = mortar { kn = kn, ks = 0.4 * kn, ft = ft, c = 10 * ft, mu = 0.6 },
 -- The pull is taken away soon after the crack, which comes at 1 / 1.01 of the ramp.
 force { block = "block" .. n, direction = "x", wave = table_wave { times = { 0, ramp, 1.0001 * ramp }, values = { 0, 1.01 * ft * w * h, 0 } } }
 metric("release_over_formula", "", function(run) return run.energy.fracture_J / (w * h * ft ^ 2 / (2 * kn)) end)
+-- Bent by noise in the start, the joint parts point by point. When a share q of it has gone, each of the two blocks gains q ft A / m dt of
+-- speed in a step and what is left of the joint 2 q (w dt)^2 of ft, w = sqrt(kn A / m), before it is seen to be past it: half of that on
+-- average. It releases (1 - q) ((1 + q (w dt)^2)^2 - 1) too much, the most of it at q = 1/2. In a row of blocks w dt is dt over its limit.
+metric("release_error", "", function(run)
+  local late = start_noise > 0 and (1 + (run.dt_s / run.dt_critical_s) ^ 2 / 2) ^ 2 - 1 or 0
+  return math.abs(run.energy.fracture_J / (w * h * ft ^ 2 / (2 * kn)) - 1) / (0.01 + late / 2)
+end)
 metric("first_crack_over_formula", "", function(run) return run.first_crack.time / ramp * 1.01 end)
 analysis { duration = 1.1 * ramp, start = "rest", output_dt = ramp / 2000 }
 expect("joints_broken", 1, { abs = 0, source = "no cascade" })
--- The slow pull leaves a swing of 1 / (slowest ramp) = 1/400 at the joint: twice that in the energy. The bond is worn by its widest
--- opening: bending by noise of the start adds as much again.
-expect("metrics.release_over_formula", 1, { rel = 0.01, source = "A ft^2 / (2 kn)" })
+-- The slow pull leaves a swing of 1 / (slowest ramp) = 1/400 at the joint: twice that in the energy, and as much again from the step.
+expect("metrics.release_error", 1, { below = true, source = "A ft^2 / (2 kn) within 1 %, and what a step can miss where noise bends the joint" })
 expect("metrics.first_crack_over_formula", 1, { rel = 5e-3, source = "ft A" })
 expect("energy.residual_relative", 1e-3, { below = true, source = "ledger with cracks" })

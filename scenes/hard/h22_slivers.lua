@@ -31,7 +31,8 @@ metric("mirror_error", "m", function(run)
   return worst
 end)
 metric("slid", "m", function(run) return math.sqrt(run.at("right_ux_rel_m", 0.15) ^ 2 + run.at("right_uz_rel_m", 0.15) ^ 2) end)
-expect("metrics.mirror_error", 1e-12, { below = true, source = "symmetry" })
+-- Noise in the start differs on both sides by up to twice itself, and its turns move the centre by a part of that as faces meet.
+expect("metrics.mirror_error", 1e-12 + 4 * start_noise, { below = true, source = "symmetry" })
 expect("metrics.slid", 0.5 * g * math.sin(45 * deg) * 0.15 ^ 2, { rel = 0.01, source = "g sin 45 t^2 / 2, from a face that bounces" })
 -- A wedge of 90 degrees in its groove.
 for _, side in ipairs { 1, -1 } do

@@ -57,8 +57,8 @@ local function reaction_error(run)
   local b = turned > 0 and angle or 0
   return math.max(math.abs(fy + mass * g * math.sin(b)), math.abs(fz + mass * g * math.cos(b))) / (mass * g)
 end
--- What still swings at the end of the smooth ramp, and kn A 1e-8 of a noise of 1e-8 m in the start (erbs test --grid).
-local allowed = 1e-4 + 1e-8 * across * E / t * l * w / (mass * g)
+-- What still swings at the end of the smooth ramp, and kn A of the noise in the start.
+local allowed = 1e-4 + start_noise * across * E / t * l * w / (mass * g)
 metric("reaction_error", "", reaction_error)
 ensemble { n = 1, seed = 1, param = "gravity_turns", name = "gravity", value = function(run)
   return math.max(reaction_error(run) / allowed, run.energy.residual_relative / 1e-3)  -- both over what is allowed
