@@ -39,7 +39,7 @@ struct alignas(64) Triangles {
 
 // Sums over the triangles, kn = 1 (narrow.h names them).
 struct OverlapSums {
-  double total, pressure[3], area, centroid[3], polar, force[3], moment[3];
+  double total, pressure[3], area, centroid[3], second[6], force[3], moment[3];
 };
 
 struct ClipKernels {

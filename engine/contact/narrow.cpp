@@ -186,7 +186,7 @@ bool find_pieces(const ContactShape& a, const ContactShape& b, const PairPose& p
 Patch elastic_patch(const Pieces& w) {
   Patch out;
   Vec3 pressure = Vec3::Zero(), area = Vec3::Zero();
-  double polar = 0;
+  double second[6] = {};
   for (const Piece& piece : w.piece) {
     const Vec3& n = w.n[piece.face];
     const Vec3* x = &w.vertex[at(piece.first)];
@@ -202,7 +202,11 @@ Patch elastic_patch(const Pieces& w) {
       i1 += dS / 12 * (sum * s + phi[0] * p + phi[k] * q + phi[k + 1] * r);
       out.area += dS;
       area += dS / 3 * s;
-      polar += dS / 12 * (s.squaredNorm() + p.squaredNorm() + q.squaredNorm() + r.squaredNorm());
+      for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3;
+        second[i] += dS / 12 * (s[i] * s[i] + p[i] * p[i] + q[i] * q[i] + r[i] * r[i]);
+        second[3 + i] += dS / 12 * (s[i] * s[j] + p[i] * p[j] + q[i] * q[j] + r[i] * r[j]);
+      }
     }
     for (int k = 0; k < piece.count; ++k) out.deepest = std::max(out.deepest, phi[k]);
     out.total += i0;
@@ -210,11 +214,17 @@ Patch elastic_patch(const Pieces& w) {
     out.force -= i0 * n;
     out.moment -= i1.cross(n);
   }
-  finish_patch(pressure, area, polar, out);
+  finish_patch(pressure, area, symmetric(second), out);
   return out;
 }
 
-void finish_patch(const Vec3& pressure, const Vec3& area, double polar, Patch& out) {
+Mat3 symmetric(const double* s) {
+  Mat3 m;
+  m << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+  return m;
+}
+
+void finish_patch(const Vec3& pressure, const Vec3& area, const Mat3& second, Patch& out) {
   const double size = out.force.norm();
   if (!(out.total > 0) || !(out.area > 0) || !(size > 0)) {
     out.total = 0;
@@ -222,7 +232,8 @@ void finish_patch(const Vec3& pressure, const Vec3& area, double polar, Patch& o
   }
   out.pressure_centre = pressure / out.total;
   out.centroid = area / out.area;
-  out.gyration = std::sqrt(std::max(0.0, polar / out.area - out.centroid.squaredNorm()));
+  out.second = second;
+  out.gyration = std::sqrt(std::max(0.0, second.trace() / out.area - out.centroid.squaredNorm()));
   out.normal = out.force / size;
 }
 

@@ -52,14 +52,16 @@ struct Patch {
   double total = 0;            // m3, Int phi dS
   double area = 0;             // m2, surface of B inside A
   double gyration = 0;         // m, polar radius of gyration of that surface
+  Mat3 second;                 // m4, Int x x^T dS over that surface
   double deepest = 0;          // m
   double closing = 0;          // m/s, greatest
   Vec3 pressure_centre = Vec3::Zero();
   Vec3 centroid = Vec3::Zero();
 };
 Patch elastic_patch(const Pieces& pieces);
-// Centres, gyration and normal from Int phi x dS, Int x dS, Int x.x dS; total becomes 0 where there is no patch to speak of.
-void finish_patch(const Vec3& pressure, const Vec3& area, double polar, Patch& patch);
+// Centres, gyration and normal from Int phi x dS, Int x dS, Int x x^T dS; total becomes 0 where there is no patch to speak of.
+void finish_patch(const Vec3& pressure, const Vec3& area, const Mat3& second, Patch& patch);
+Mat3 symmetric(const double* six);  // xx, yy, zz, xy, yz, zx
 
 // Speed of B into A along the normal of the patch at every vertex of the pieces; `linear` and `angular` as of a body with its
 // centroid at the origin.

@@ -42,7 +42,7 @@ Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose&
       out.force = vec(sums.force);
       out.moment = vec(sums.moment);
       out.deepest = t.deepest;
-      finish_patch(vec(sums.pressure), vec(sums.centroid), sums.polar, out);
+      finish_patch(vec(sums.pressure), vec(sums.centroid), symmetric(sums.second), out);
       return out;
     }
     room.fast = false;
