@@ -34,6 +34,14 @@ struct Loop {
   static constexpr int most = Bed::most_corners + 2 * (CrushedFace::most + 2) + 2;
   int count = 0;
   double s[most], t[most];
+  Loop() = default;
+  Loop(const Loop& other) { *this = other; }
+  Loop& operator=(const Loop& other) {  // of what is there only
+    count = other.count;
+    std::copy_n(other.s, count, s);
+    std::copy_n(other.t, count, t);
+    return *this;
+  }
   void add(double x, double y) {
     s[count] = x;
     t[count++] = y;
@@ -43,7 +51,6 @@ struct Loop {
 // The part of a convex loop where f >= 0.
 void clip(const Loop& in, const Plane& f, Loop& out) {
   out.count = 0;
-  if (in.count == 0) return;
   double s0 = in.s[in.count - 1], t0 = in.t[in.count - 1], f0 = f.at(s0, t0);
   for (int i = 0; i < in.count; ++i) {
     const double s1 = in.s[i], t1 = in.t[i], f1 = f.at(s1, t1);
@@ -58,11 +65,16 @@ void clip(const Loop& in, const Plane& f, Loop& out) {
 }
 
 void keep(Loop& loop, const Plane& f) {
+  int inside = 0;
+  for (int i = 0; i < loop.count; ++i) inside += f.at(loop.s[i], loop.t[i]) >= 0;
+  if (inside == loop.count) return;
+  if (inside == 0) {
+    loop.count = 0;
+    return;
+  }
   Loop part;
   clip(loop, f, part);
-  loop.count = part.count;
-  std::copy_n(part.s, part.count, loop.s);
-  std::copy_n(part.t, part.count, loop.t);
+  loop = part;
 }
 
 // What of the loop is plane k's.
