@@ -146,3 +146,54 @@ TEST_CASE("over a crack the work of a joint is stored or booked", "[solve][crack
   CHECK(booked > 0);
   CHECK(std::fabs(work - elastic - booked) < 1e-5 * work);
 }
+
+TEST_CASE("a joint that was crushed is nowhere stiffer than a sound one, and past its ultimate closing bears no tension",
+          "[solve][cracked]") {
+  Script script(Script::Options{.quiet = true});
+  const Prepared run = prepare(script.load_text(R"(
+    material{name="brick", density=1800}
+    joint{law=mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=5*MPa, mu=0.6, Gf1=1, fc=200*kPa, uc_ultimate=8e-6}, thickness=10*mm, tolerance=0.1*mm}
+    box{name="foot", size={.5,.5,.1}, at={-.1,-.1,-.11}, material="brick", fixed=true}
+    prism{name="b", polygon={{0,0},{.3,0},{.25,.2},{.05,.15}}, height=.1, material="brick"} analysis{duration=1})",
+                                                "crushed.lua"),
+                               false);
+  const Model& m = run.model;
+  const Joint& joint = m.joint[0];
+  const double limit = 2e-6;  // fc / kn
+  std::vector<PointHistory> history(std::size_t(m.npoint));
+  CrushedFace crushed;
+  const auto answer = [&](const Vec6& from, const Vec6& to, CrushedFace& face, std::vector<PointHistory>& points) {
+    Vec6 f;
+    JointEnergy e;
+    respond(m, 0, false, from.data(), to.data(), {points.data(), &face}, f.data(), e);
+    return f;
+  };
+  Vec6 rest = Vec6::Zero(), pressed = rest, pulled = rest;
+  pressed[2] = -2 * limit, pressed[3] = 0.8 * limit / joint.half_t, pressed[4] = -0.4 * limit / joint.half_s;
+  pulled[2] = 0.1 * limit;
+  answer(rest, pressed, crushed, history);
+  REQUIRE(crushed.planes == 1);
+  for (int turn = 0; turn < 40; ++turn) {
+    Vec6 at = pressed * (0.9 - 0.02 * turn);
+    at[4] += 0.3 * limit * std::sin(turn) / joint.half_s;
+    Mat6 k;
+    for (int c = 0; c < 6; ++c) {
+      const double h = 1e-5 * limit / (c < 3 ? 1 : joint.radius);
+      Vec6 f[2];
+      for (int side = 0; side < 2; ++side) {
+        CrushedFace face = crushed;
+        std::vector<PointHistory> points = history;
+        Vec6 to = at;
+        to[c] += side == 0 ? -h : h;
+        f[side] = answer(at, to, face, points);
+      }
+      k.col(c) = (f[1] - f[0]) / (2 * h);
+    }
+    CHECK(against(k, stiffest(joint)) <= 1 + 1e-6);
+  }
+  CHECK(answer(pressed, pulled, crushed, history)[2] > 0.9 * joint.stiffness[2] * pulled[2]);
+  Vec6 deep = rest;
+  deep[2] = -5 * limit;
+  answer(pulled, deep, crushed, history);
+  CHECK(answer(deep, pulled, crushed, history)[2] == 0);
+}
