@@ -169,6 +169,7 @@ function transform(keys) end
 ---@field kn number normal stiffness of the joint [Pa/m; 1000 to 1e+16]
 ---@field ks? number shear stiffness of the joint (default 0.4 kn) [Pa/m; 0 to 1e+16]
 ---@field mu number coefficient of friction [0 to 10]
+---@field damping? number viscous ratio of the joint once it has opened or slid, of its critical value [0 to 1; default 0.1]
 
 ---A dry joint: linear in compression, no tension, Coulomb friction.
 ---@param keys erbs.dry_keys

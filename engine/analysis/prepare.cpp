@@ -59,9 +59,10 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
   } else {
     dt = a.dt_fraction * limit;
     p.dt_rule = said("2 / omega_max of the joined structure", limit, a.dt_fraction);
-    if (b.cracked < b.critical && dt <= b.critical && dt > 0.9 * b.cracked) {
-      dt = 0.9 * b.cracked;
-      p.dt_rule = said("2 / omega_max once joints have cracked, their points being too few to bend as stiff", b.cracked, 0.9);
+    const double share = std::max(0.9, a.dt_fraction);
+    if (b.cracked < b.critical && dt <= b.critical && dt > share * b.cracked) {
+      dt = share * b.cracked;
+      p.dt_rule = said("2 / omega_max once joints have cracked, stiffer in bending than their points or damped", b.cracked, share);
     }
   }
   if (!(dt > 0) || !std::isfinite(dt))
@@ -72,14 +73,16 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
   }
   const double allowed = stability_limit(a, b);
   if (jointed && dt > allowed && !a.unstable && !allow_unstable)
-    throw Error(fmt::format("analysis: dt = {:.4g} s is {:.3f} times the limit {} = {:.4g} s of this structure; take at most {:.3g} s, or let it "
-                            "diverge with dt = {{ {:.4g}, unstable = true }} or --allow-unstable",
-                            dt, dt / allowed, allowed == b.critical ? "2 / omega_max" : "2 / omega_block of the sequential sweep", allowed, 0.9 * allowed, dt),
-                a.place);
+    throw Error(
+        fmt::format("analysis: dt = {:.4g} s is {:.3f} times the limit {} = {:.4g} s of this structure; take at most {:.3g} s, or let it "
+                    "diverge with dt = {{ {:.4g}, unstable = true }} or --allow-unstable",
+                    dt, dt / allowed, allowed == b.critical ? "2 / omega_max" : "2 / omega_block of the sequential sweep", allowed,
+                    0.9 * allowed, dt),
+        a.place);
   if (jointed && dt <= b.critical && dt > b.cracked)
     p.model.warnings.push_back(
         fmt::format("dt = {:.4g} s is below the limit {:.4g} s of the sound structure but above {:.4g} s, the limit once joints have "
-                    "cracked: their rule of points bends softer than their faces; take at most {:.3g} s",
+                    "cracked, which are stiffer in bending than their points or damped; take at most {:.3g} s",
                     dt, b.critical, b.cracked, 0.9 * b.cracked));
   p.state.dt = dt;
 }
@@ -90,15 +93,17 @@ void hold_use_limit(const Scene& scene, const Prepared& p) {
   if (use.reason.empty()) return;  // the scene states none
   const double limit = std::isfinite(p.bounds.critical) ? p.bounds.critical : debris_bound(p.model);
   if (p.state.dt > (1 + 1e-9) * use.dt_fraction * limit)
-    throw Error(fmt::format("use_limit: dt = {:.4g} s is {:.3f} of the limit {:.4g} s, and this scene is good up to {:g} of it ({}); say analysis{{ dt_fraction "
+    throw Error(fmt::format("use_limit: dt = {:.4g} s is {:.3f} of the limit {:.4g} s, and this scene is good up to {:g} of it ({}); say "
+                            "analysis{{ dt_fraction "
                             "= {:g} }}",
                             p.state.dt, p.state.dt / limit, limit, use.dt_fraction, use.reason, use.dt_fraction),
                 use.place);
   for (int j = 0; j < p.model.njoint; ++j)
     if (p.model.joint[z(j)].points < use.points)
-      throw Error(fmt::format("use_limit: joint {} has {} contact points, and this scene is good from {} on ({}); ask for more in its joint rule",
-                              p.model.joint_name(j), p.model.joint[z(j)].points, use.points, use.reason),
-                  use.place);
+      throw Error(
+          fmt::format("use_limit: joint {} has {} contact points, and this scene is good from {} on ({}); ask for more in its joint rule",
+                      p.model.joint_name(j), p.model.joint[z(j)].points, use.points, use.reason),
+          use.place);
 }
 
 std::vector<double> constant_loads(const Model& m, const State& s) {

@@ -1,4 +1,8 @@
 // Dry joint: linear in compression, no tension, Coulomb friction.
+//
+// A block that slides on an elastic bed is unstable in itself where its pressure lies off the middle: friction follows the pressure, which
+// makes the stiffness unsymmetric, and two modes of the bed may then merge and grow (flutter by mode coupling: Martins, Oden and Simoes
+// 1990; Hoffmann et al. 2002; scenes/verify/v10_flutter.lua has it on paper). What real joints lose at their asperities ends it.
 #pragma once
 #include "engine/base/field.h"
 
@@ -8,6 +12,7 @@ struct DryFriction {
   double kn = 0;  // Pa/m
   double ks = 0;  // Pa/m
   double mu = 0;
+  double damping = 0.1;  // of critical, once the joint has opened or slid; until then it is as damping{} says
 
   static constexpr std::string_view law_name = "dry";
   static Fields<DryFriction> fields() {
@@ -15,6 +20,7 @@ struct DryFriction {
         {"kn", &DryFriction::kn, "Pa/m", "normal stiffness of the joint", 1e3, 1e16, true},
         {"ks", &DryFriction::ks, "Pa/m", "shear stiffness of the joint (default 0.4 kn)", 0, 1e16},
         {"mu", &DryFriction::mu, "", "coefficient of friction", 0, 10, true},
+        {"damping", &DryFriction::damping, "", "viscous ratio of the joint once it has opened or slid, of its critical value", 0, 1},
     };
   }
 };

@@ -13,6 +13,7 @@ struct PointLaw {
   double slip_ultimate = 0;          // m, plastic slip at which cohesion is spent; 0: brittle
   double fc = 0;                     // Pa; 0: unlimited
   double closing_ultimate = 0;       // m; 0: never
+  double damping = 0;                // viscous ratio once cracked, of the joint's own critical value
   Coupling coupling = Coupling::coulomb;
   bool dry = false;                  // nothing to break: no bond from the start
 };

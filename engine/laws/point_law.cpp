@@ -8,6 +8,7 @@ PointLaw compile_law(const DryFriction& dry) {
   p.kn = dry.kn;
   p.ks = dry.ks > 0 ? dry.ks : 0.4 * dry.kn;
   p.mu = p.mu_residual = dry.mu;
+  p.damping = dry.damping;
   p.dry = true;
   return p;
 }

@@ -107,6 +107,8 @@ void set_viscous(const Damping& damping, const Model& m, Joint& joint) {
   const double own = std::sqrt(joint.stiffness[2] * (inverse(joint.a) + inverse(joint.b)));
   const double omega = damping.at > 0 ? 2 * pi * damping.at : own;
   joint.viscous = damping.stiffness + (omega > 0 ? 2 * damping.joint_ratio / omega : 0);
+  const bool sequential = m.analysis.solver == "sequential";  // knows no dashpots
+  joint.viscous_cracked = std::max(joint.viscous, own > 0 && !sequential ? 2 * m.laws[z(joint.law)].damping / own : 0);
 }
 
 void add_cell(const std::vector<Vec2>& loop, Model& m) {
@@ -322,7 +324,7 @@ State start(const Scene& scene, const Model& m) {
   s.memory.assign(z(m.njoint), {});
   s.history.assign(z(m.npoint), {});
   if (std::any_of(m.laws.begin(), m.laws.end(), [](const PointLaw& law) { return law.fc > 0; })) s.crushed.assign(z(m.njoint), {});
-  if (m.dashpots) s.viscous.assign(6 * z(m.njoint), 0.0);
+  if (m.dashpots_cracked) s.viscous.assign(6 * z(m.njoint), 0.0);
   s.wrench.assign(2 * z(m.njoint) + 1, 0.0);
   return s;
 }
@@ -348,6 +350,7 @@ Built build(const Scene& scene) {
   if (!errors.empty()) throw Errors(errors);
   for (const Interface& face : found.all) add_joint(scene, face, m);
   m.dashpots = std::any_of(m.joint.begin(), m.joint.end(), [](const Joint& joint) { return joint.viscous > 0; });
+  m.dashpots_cracked = std::any_of(m.joint.begin(), m.joint.end(), [](const Joint& joint) { return joint.viscous_cracked > 0; });
   grow_shapes(scene, found, m);
   index_rows(m);
   for (int b = 0; b < m.nblock; ++b) {

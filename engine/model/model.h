@@ -29,6 +29,7 @@ struct Joint {
   // that are exact in bending: stiffness[3], stiffness[4] and 0.
   double face[3] = {};
   double viscous = 0;               // s, coefficient b of its dashpots, c = b k
+  double viscous_cracked = 0;       // s, the same once it has cracked
   bool inset = false;               // its cells watch elsewhere than at their corners: points that stay off the edge
   double half_s = 0, half_t = 0;    // m, largest |s| and |t| of its corners
   double radius = 0;                // m, largest distance of a corner from the centre
@@ -81,7 +82,8 @@ struct Model {
   Vec3 gravity = Vec3::Zero();          // m/s2
   double dt_critical = std::numeric_limits<double>::infinity();  // s, 2 / omega_max of the sound structure at rest; infinite without joints
   Damping damping;
-  bool dashpots = false;                // some joint has
+  bool dashpots = false;                // some sound joint has, ...
+  bool dashpots_cracked = false;        // ... some cracked joint would have
   Analysis analysis;
   bool damping_explicit = false, damping_all = false;
   std::vector<Material> materials;

@@ -5,10 +5,11 @@ namespace {
 
 Effect effect(std::string name, const Place* place) { return {std::move(name), place != nullptr, place != nullptr ? place->text() : ""}; }
 
-const Place* rule_with(const Scene& scene, bool (*has)(const Mortar&)) {
+template <class Law>
+const Place* rule_with(const Scene& scene, bool (*has)(const Law&)) {
   for (const JointRule& rule : scene.joint_rules) {
-    const auto* mortar = std::get_if<Mortar>(&rule.law);
-    if (mortar != nullptr && !rule.none && has(*mortar)) return &rule.place;
+    const auto* law = std::get_if<Law>(&rule.law);
+    if (law != nullptr && !rule.none && has(*law)) return &rule.place;
   }
   return nullptr;
 }
@@ -54,9 +55,10 @@ void drop(Scene& scene, Load::Kind kind) {
   std::erase_if(scene.loads, [=](const Load& load) { return load.kind == kind; });
 }
 
-void change_mortars(Scene& scene, void (*change)(Mortar&)) {
+template <class Law>
+void change_laws(Scene& scene, void (*change)(Law&)) {
   for (JointRule& rule : scene.joint_rules)
-    if (auto* mortar = std::get_if<Mortar>(&rule.law)) change(*mortar);
+    if (auto* law = std::get_if<Law>(&rule.law)) change(*law);
 }
 
 struct Switch {
@@ -73,9 +75,10 @@ const Switch switches[] = {
     {"tilting gravity", [](Scene& s) { drop(s, Load::Kind::tilt); }},
     {"prescribed motion", [](Scene& s) { drop(s, Load::Kind::motion); }},
     {"mass damping", [](Scene& s) { s.damping.mass = 0; }},
-    {"softening in tension", [](Scene& s) { change_mortars(s, [](Mortar& m) { m.Gf1 = m.un_ultimate = 0; }); }},
-    {"softening in shear", [](Scene& s) { change_mortars(s, [](Mortar& m) { m.Gf2 = m.us_ultimate = 0; }); }},
-    {"compression plateau", [](Scene& s) { change_mortars(s, [](Mortar& m) { m.fc = m.uc_ultimate = 0; }); }},
+    {"damping of dry joints", [](Scene& s) { change_laws<DryFriction>(s, [](DryFriction& d) { d.damping = 0; }); }},
+    {"softening in tension", [](Scene& s) { change_laws<Mortar>(s, [](Mortar& m) { m.Gf1 = m.un_ultimate = 0; }); }},
+    {"softening in shear", [](Scene& s) { change_laws<Mortar>(s, [](Mortar& m) { m.Gf2 = m.us_ultimate = 0; }); }},
+    {"compression plateau", [](Scene& s) { change_laws<Mortar>(s, [](Mortar& m) { m.fc = m.uc_ultimate = 0; }); }},
     {"rotation of joint frames", [](Scene& s) { s.analysis.lazy_rotation = 1e9; }},  // small rotations about the start
     {"debris contact", [](Scene& s) { s.analysis.debris = false; }},
     {"contact dashpots",
@@ -109,10 +112,13 @@ std::vector<Effect> effects_of(const Scene& scene) {
   out.push_back(effect("mass damping", damped ? &scene.damping.place : nullptr));
   const bool dashpots = scene.damping.stiffness > 0 || scene.damping.joint_ratio > 0;
   out.push_back(effect("dashpots of joints", dashpots ? &scene.damping.place : nullptr));
-  out.push_back(effect("softening in tension", rule_with(scene, [](const Mortar& m) { return m.Gf1 > 0 || m.un_ultimate > 0; })));
-  out.push_back(effect("softening in shear", rule_with(scene, [](const Mortar& m) { return m.Gf2 > 0 || m.us_ultimate > 0; })));
-  out.push_back(effect("compression plateau", rule_with(scene, [](const Mortar& m) { return m.fc > 0; })));
-  out.push_back(effect("sequential sweep", scene.analysis.solver == "sequential" ? &scene.analysis.place : nullptr));
+  const bool sweeps = scene.analysis.solver == "sequential";  // it knows no dashpots
+  out.push_back(effect("damping of dry joints",
+                       sweeps ? nullptr : rule_with<DryFriction>(scene, [](const DryFriction& d) { return d.damping > 0; })));
+  out.push_back(effect("softening in tension", rule_with<Mortar>(scene, [](const Mortar& m) { return m.Gf1 > 0 || m.un_ultimate > 0; })));
+  out.push_back(effect("softening in shear", rule_with<Mortar>(scene, [](const Mortar& m) { return m.Gf2 > 0 || m.us_ultimate > 0; })));
+  out.push_back(effect("compression plateau", rule_with<Mortar>(scene, [](const Mortar& m) { return m.fc > 0; })));
+  out.push_back(effect("sequential sweep", sweeps ? &scene.analysis.place : nullptr));
   const Place* joined = any_joint(scene);
   const Place* debris = may_meet(scene);
   out.push_back(effect("rotation of joint frames", joined));

@@ -132,7 +132,7 @@ void Cracked::drop(int j) {
   if (at >= 0) clear(group_[z(at / lanes)], at % lanes);
   if (state_.place[z(j)] >= 0) move_joint(model_, state_, j, -1);
   state_.memory[z(j)] = JointMemory{};
-  if (model_.dashpots) std::fill_n(&state_.viscous[6 * z(j)], 6, 0.0);
+  if (model_.dashpots_cracked) std::fill_n(&state_.viscous[6 * z(j)], 6, 0.0);
   for (const int row : {model_.row_a[z(j)], model_.row_b[z(j)]}) std::fill_n(&state_.wrench[z(row) * 8], 8, 0.0);
 }
 
@@ -147,9 +147,9 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
     CrackedLanes& lane = group.lane;
     kernels.elastic(batch, state_.row.data(), o);
     alignas(64) double rate[lanes], dq[6][lanes];
-    const bool damped = model_.dashpots && state_.last_dt > 0;
+    const bool damped = model_.dashpots_cracked && state_.last_dt > 0;
     for (int l = 0; damped && l < lanes; ++l) {
-      rate[l] = group.joint[l] >= 0 ? model_.joint[z(group.joint[l])].viscous / state_.last_dt : 0;
+      rate[l] = group.joint[l] >= 0 ? model_.joint[z(group.joint[l])].viscous_cracked / state_.last_dt : 0;
       for (int i = 0; i < 6; ++i) dq[i][l] = o.q[i][l] - lane.q[i][l];
     }
     const CrackedShape shape{group.corners,

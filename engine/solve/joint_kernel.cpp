@@ -42,7 +42,7 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
   const Joint& joint = m.joint[z(j)];
   const JointPast past = past_of(m, s, j);
   std::vector<PointHistory> before_it;
-  const bool damped = joint.viscous > 0 && !sound;
+  const bool damped = joint.viscous_cracked > 0 && !sound;
   if (damped) before_it.assign(past.point, past.point + joint.points);
   std::vector<double> limit(damped ? z(joint.points) : 0);
   const bool still = respond(m, j, sound, memory.q, q, past, f, e, damped ? limit.data() : nullptr);
@@ -62,7 +62,7 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
     book_dashpots(s, j, none, dq, sums);  // what they did since the last step
   }
   if (damped && s.last_dt > 0) {
-    viscous_response(m, j, memory.q, q, before_it.data(), past, limit.data(), joint.viscous / s.last_dt, drag);
+    viscous_response(m, j, memory.q, q, before_it.data(), past, limit.data(), joint.viscous_cracked / s.last_dt, drag);
     book_dashpots(s, j, drag, dq, sums);
     for (int i = 0; i < 6; ++i) f[i] += drag[i];
   }

@@ -24,20 +24,22 @@ Mat6 inverse_root_mass(const Model& m, const State& s, int b) {
 }
 
 // The joint at a step dt with its dashpots: dt^2 K + 2 dt C, over dt^2, which leapfrog keeps bounded while it is below 4 M / dt^2
-// (velocities lag by half a step). dt = 0: without them.
-Mat6 with_dashpots(const Mat6& k, const Joint& joint, double dt) { return dt > 0 ? Mat6((1 + 2 * joint.viscous / dt) * k) : k; }
+// (velocities lag by half a step).
+Mat6 with_dashpots(const Mat6& k, double viscous, double dt) { return (1 + 2 * viscous / dt) * k; }
 
-// The step at which dt^2 lambda(dt) comes to `most`, lambda(dt) being the largest eigenvalue with dashpots. dt^2 lambda grows like
-// a power of dt between 1 and 2, so that each correction leaves at most a third of the error.
+// The step at which dt^2 lambda(dt) comes to `most`, lambda(dt) being the largest eigenvalue with dashpots; `free`: the one without them,
+// `viscous` the greatest b of them. Starts from the answer for equal ones, dt^2 + 2 b dt = free^2; dt^2 lambda grows like a power of
+// dt between 1 and 2, so that each correction leaves at most a third of the error. The answer errs to the safe side.
 template <class Lambda>
-double longest_step(bool dashpots, double most, const Lambda& lambda) {
-  double dt = std::sqrt(most / lambda(0.0));
-  for (int turn = 0; dashpots && turn < 14; ++turn) {
+double longest_step(double free, double viscous, double most, double tolerance, const Lambda& lambda) {
+  if (!(viscous > 0) || !std::isfinite(free)) return free;
+  double dt = std::sqrt(viscous * viscous + free * free) - viscous;
+  for (int turn = 0; turn < 14; ++turn) {
     const double share = dt * dt * lambda(dt) / most;
     dt *= std::pow(share, -1 / 1.5);
-    if (std::fabs(share - 1) < 1e-7) break;
+    if (std::fabs(share - 1) < tolerance) break;
   }
-  return dt;
+  return (1 - tolerance) * dt;
 }
 
 Mat6 diagonal(const Joint& joint) {
@@ -139,6 +141,30 @@ Sparse assembled(const Model& m, const State& s, const Freedom& f, const Form& f
   return out;
 }
 
+double greatest(const Model& m, double Joint::*viscous) {
+  double most = 0;
+  for (const Joint& joint : m.joint) most = std::max(most, joint.*viscous);
+  return most;
+}
+
+// The steps that all joints together allow, sound and cracked; scale = M^-1/2.
+void set_critical(const Model& m, const State& s, const Freedom& f, const Sparse& scale, StepBounds& out) {
+  const double sound = greatest(m, &Joint::viscous), broken = greatest(m, &Joint::viscous_cracked);
+  const auto lambda = [&](const auto& form) { return largest_eigenvalue(Sparse(scale * assembled(m, s, f, form) * scale)); };
+  const double free = 2 / std::sqrt(lambda(diagonal));
+  out.critical = out.cracked = longest_step(free, sound, 4, 1e-7, [&](double dt) {
+    return lambda([&](const Joint& joint) { return with_dashpots(diagonal(joint), joint.viscous, dt); });
+  });
+  const bool stiffer = std::any_of(m.joint.begin(), m.joint.end(), stiffens);
+  if (!stiffer && broken <= sound) return;
+  const auto cracked = [&](const Joint& joint) { return stiffens(joint) ? stiffest(joint) : diagonal(joint); };
+  // A thousandth is enough: each turn is another Lanczos run.
+  out.cracked = longest_step(stiffer ? 2 / std::sqrt(lambda(cracked)) : free, broken, 4, 1e-3, [&](double dt) {
+    return lambda([&](const Joint& joint) { return with_dashpots(cracked(joint), joint.viscous_cracked, dt); });
+  });
+  out.cracked = std::min(out.cracked, out.critical);
+}
+
 }  // namespace
 
 Sparse stiffness(const Model& m, const State& s, const Freedom& f) { return assembled(m, s, f, diagonal); }
@@ -154,8 +180,8 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
     const Mat6 k = diagonal(joint);
     own[z(joint.a)] += map.a.transpose() * k * map.a;
     own[z(joint.b)] += map.b.transpose() * k * map.b;
-    damping[z(joint.a)] += joint.viscous * map.a.transpose() * k * map.a;
-    damping[z(joint.b)] += joint.viscous * map.b.transpose() * k * map.b;
+    damping[z(joint.a)] += joint.viscous_cracked * map.a.transpose() * k * map.a;
+    damping[z(joint.b)] += joint.viscous_cracked * map.b.transpose() * k * map.b;
     if (m.kind[z(joint.a)] != Kind::moving && m.kind[z(joint.b)] != Kind::moving) continue;
     const int light = m.kind[z(joint.b)] == Kind::moving ? joint.b : joint.a;
     const double distance = (joint.arm_a - joint.arm_b).norm();
@@ -164,14 +190,16 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
         mortar != nullptr && mortar->E > 0 ? mortar->E : m.laws[z(joint.law)].kn * (joint.gap > 1e-6 ? joint.gap : distance);
     out.wave_passage = std::min(out.wave_passage, distance / std::sqrt(modulus / m.materials[z(m.material[z(light)])].density));
   }
+  const double viscous = greatest(m, &Joint::viscous_cracked);
   std::vector<Mat6> root(z(m.nblock));
   for (int b = 0; b < m.nblock; ++b) {
     if (m.kind[z(b)] != Kind::moving) continue;
     root[z(b)] = inverse_root_mass(m, s, b);
-    const double limit = longest_step(m.dashpots, 2, [&](double dt) {
-      const Mat6 both = dt > 0 ? Mat6(own[z(b)] + 2 / dt * damping[z(b)]) : own[z(b)];
-      return std::max(0.0, Eigen::SelfAdjointEigenSolver<Mat6>(Mat6(root[z(b)] * both * root[z(b)])).eigenvalues()[5]);
-    });
+    const auto largest = [&](const Mat6& k) {
+      return std::max(0.0, Eigen::SelfAdjointEigenSolver<Mat6>(Mat6(root[z(b)] * k * root[z(b)])).eigenvalues()[5]);
+    };
+    const double limit = longest_step(std::sqrt(2 / largest(own[z(b)])), viscous, 2, 1e-7,
+                                      [&](double dt) { return largest(own[z(b)] + 2 / dt * damping[z(b)]); });
     if (!std::isfinite(limit)) continue;
     if (limit < out.block) out.block = limit, out.stiffest_block = b;
     // Gu and Miao (3): T_i = 2 pi sqrt(m_i / k_i), neighbours fastened, in translation
@@ -187,15 +215,7 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
           if (root[z(b)](r, c) != 0) entries.emplace_back(f.first[z(b)] + r, f.first[z(b)] + c, root[z(b)](r, c));
   Sparse scale(f.count, f.count);
   scale.setFromTriplets(entries.begin(), entries.end());
-  const auto limit = [&](const auto& form) {
-    return longest_step(m.dashpots, 4, [&](double dt) {
-      const Sparse k = assembled(m, s, f, [&](const Joint& joint) { return with_dashpots(form(joint), joint, dt); });
-      return largest_eigenvalue(Sparse(scale * k * scale));
-    });
-  };
-  out.critical = out.cracked = limit(diagonal);
-  if (std::any_of(m.joint.begin(), m.joint.end(), stiffens))
-    out.cracked = limit([&](const Joint& joint) { return stiffens(joint) ? stiffest(joint) : diagonal(joint); });
+  set_critical(m, s, f, scale, out);
   return out;
 }
 

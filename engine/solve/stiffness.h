@@ -28,7 +28,7 @@ Sparse stiffness(const Model& model, const State& state, const Freedom& freedom)
 
 struct StepBounds {
   double critical = 0;        // s, 2 / omega_max of M^-1 K (Lanczos, its residual added), less with dashpots; infinite without joints
-  double cracked = 0;         // s, the same with the stiffer of a joint's sound and cracked forms: differs for rules not exact in bending
+  double cracked = 0;         // s, the same with the stiffer of a joint's sound and cracked forms and the dashpots of cracked ones
   double block = 0;           // s, min over blocks of sqrt(2 / lambda_max(M^-1/2 K_ii M^-1/2)): rigorous
   double element_period = 0;  // s, shortest 2 pi sqrt(m / k) of a block with its neighbours fastened: rules (3) and (4)
   double wave_passage = 0;    // s, min distance of joined centres / sqrt(E / rho): rule (5)

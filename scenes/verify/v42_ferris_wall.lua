@@ -7,7 +7,6 @@
 -- How to run     erbs run scenes/verify/v42_ferris_wall.lua [-D halves=1.02] [-D kn=...]
 -- What to look at  *_over_paper; the mechanism of the run.
 local kn = param("kn", 4e11, "[Pa/m]")
-damping { mass = param("damping", 300, "see v43_running_bond.lua [1/s]") }
 local courses, wide, mu = 6, 5, 0.65
 
 local slow_load = include "parts/slow_load.lua"

@@ -6,14 +6,11 @@
 -- How to run     erbs run scenes/verify/v43_running_bond.lua [-D whole_16=1.02] [-D kn=...]
 -- What to look at  *_over_paper; the mechanism of the run.
 --
--- Damping: without any, blocks that slide on each other under load flutter (friction feeds the swing of half-opened joints), and the wall
--- walks apart as low as at .95 of the load, at random; a mass damping of 300/s ends that, 100/s does not for certain. It lets a wall 1 % past its limit
--- creep at some .2 mm/s, which sets the 1.5 mm and the time it is watched. Stiffness: at 5e11 the toes cost less than 1 %.
--- Measured for 16 courses, whole and halves: .5775 and .5670 here; .5698 and .5557 at 3e11 where the first millimetre counts, in which the wall
--- only leans on its pressed toes.
-local kn = param("kn", 5e11, "[Pa/m]")
+-- Damping: without any, blocks that slide on each other under load flutter (v10_flutter.lua), and the wall walks apart as low as at .95 of the load,
+-- at random. The dashpots of dry joints that have opened or slid end that. A wall that moves goes a way before it stands again (at .98 and 3 mm),
+-- so a centimetre counts. Stiffness: at 5e11 the pressed toes cost 1.7 % of the load.
+local kn = param("kn", 1e12, "[Pa/m]")
 local mu = 0.6
-damping { mass = param("damping", 300, "[1/s]") }
 
 local slow_load = include "parts/slow_load.lua"
 local function build(courses, halves)
@@ -23,12 +20,12 @@ local function build(courses, halves)
     wall { brick = { length = 0.3, width = 0.15, height = 0.1 }, length = 1.2, courses = courses, joint = 0, shift = halves and 0 or 1, closer = 0.1,
       at = { -0.6, -0.075, 0 }, material = "brick", quiet = true }
     joint { law = dry { kn = kn, ks = 0.4 * kn, mu = mu } }
-    slow_load { lambda = lambda, grow = 1, hold = 2, moved = 0.0015 }
+    slow_load { lambda = lambda, grow = 0.7, hold = 1.3, moved = 0.01 }
   end
 end
 (include "parts/cases.lua") {
   -- Of its own bond: between without and with friction in the head joints, 1 % on either side.
-  { name = "whole_16", value = 0.57748, build = build(16, false), lo = 0.97, hi = 1.03, rel = 0.008, expect = { between = { 0.57546 * 0.99 / 0.57748, 0.57950 * 1.01 / 0.57748 }, source = "limit analysis" } },
-  { name = "halves_16", value = 0.56325, build = build(16, true), lo = 0.97, hi = 1.03, rel = 0.008, expect = { between = { 0.56087 * 0.99 / 0.56325, 0.56562 * 1.01 / 0.56325 }, source = "limit analysis" } },
+  { name = "whole_16", value = 0.57748, build = build(16, false), lo = 0.97, hi = 1.03, rel = 0.01, expect = { between = { 0.57546 * 0.99 / 0.57748, 0.57950 * 1.01 / 0.57748 }, source = "limit analysis" } },
+  { name = "halves_16", value = 0.56325, build = build(16, true), lo = 0.97, hi = 1.03, rel = 0.01, expect = { between = { 0.56087 * 0.99 / 0.56325, 0.56562 * 1.01 / 0.56325 }, source = "limit analysis" } },
   { name = "whole_8", value = mu, build = build(8, false), lo = 0.985, hi = 1.01, rel = 0.005, expect = { rel = 0.01, source = "slides at mu" } },
 }
