@@ -1,7 +1,6 @@
 // A Lua state that can only compute: base, table, string, math and utf8 without what reaches outside, memory and time capped.
 #pragma once
 #include <atomic>
-#include <chrono>
 #include <condition_variable>
 #include <mutex>
 #include <string>
@@ -14,12 +13,12 @@ namespace erbs {
 struct Context;
 
 struct Limits {
-  double seconds = 10;  // wall clock, of one stretch of script
+  double seconds = 10;  // processor time of one stretch of script: a busy machine takes nothing from it
   size_t bytes = size_t{512} << 20;
   // State of the limits
   size_t used = 0;
   bool capped = true;  // lifted while C++ objects are alive, so that no memory error of Lua jumps over them
-  std::chrono::steady_clock::time_point deadline{};
+  double deadline = 0;  // s, processor time of this process
   std::atomic<bool> expired = false;
   std::mutex mutex;   // guards `doing`
   std::string doing;  // the library function (and its line) that runs outside the reach of the hook

@@ -78,7 +78,7 @@ TEST_CASE("an interrupt ends with 130 and a checkpoint", "[program]") {
   Bench bench;
   const Child child =
       start(bench.command({"run", bench.scene(falling), "-o", bench.out(), "-D", "duration=100000"}), (bench.folder / "log").string());
-  for (int i = 0; i < 500 && !fs::exists(bench.out() + "/histories.csv"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  for (int i = 0; i < 3000 && !fs::exists(bench.out() + "/histories.csv"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
   kill(child.pid, SIGINT);
   CHECK(wait_for(child) == 130);
   CHECK(fs::exists(bench.out() + "/checkpoint.bin"));
