@@ -1,5 +1,6 @@
 // What may be varied, what is asked for, what is expected; files that belong to a scene.
 #include <algorithm>
+#include <cmath>
 #include <lua5.4/lua.hpp>
 
 #include "lua/api.h"
@@ -46,8 +47,11 @@ int param(Call& call) {
       if (given) item.value = override_.value;
       override_.used = true;
     }
-  if (given) lua_pushnumber(call.lua, item.value);
-  else lua_pushvalue(call.lua, 2);  // a whole number stays one
+  // a whole number stays one: names are made of it
+  const bool whole = lua_isinteger(call.lua, 2) && item.value == std::floor(item.value) && std::fabs(item.value) < 1e15;
+  if (given && whole) lua_pushinteger(call.lua, static_cast<lua_Integer>(item.value));
+  else if (given) lua_pushnumber(call.lua, item.value);
+  else lua_pushvalue(call.lua, 2);
   params.push_back(std::move(item));
   return 1;
 }

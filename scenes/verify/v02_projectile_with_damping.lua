@@ -44,6 +44,6 @@ end)
 expect("metrics.error_over_adt2_velocity", 0.25, { below = true, source = "Cayley: (a dt)^2 (1/12 a t e^(-at) + 1/8)" })
 expect("metrics.error_over_adt2_path", 0.25, { below = true, source = "the same, integrated" })
 -- The order itself: the error of the speeds when the step is halved again and again.
-converge { param = "dt", values = { 16e-3, 8e-3, 4e-3, 2e-3 }, slope = 1.9, name = "order",
+converge { param = "dt", values = { 0.08 / a, 0.04 / a, 0.02 / a, 0.01 / a }, slope = 1.9, name = "order",
   error = function(run) return worst(run, "v%s_rel_m_s", function(v0, f, time) return v0 * math.exp(-a * time) + f / a * (1 - math.exp(-a * time)) end) * dt ^ 2 end }
 expect("energy.residual_relative", 1e-12, { below = true, source = "centred damping is booked with the mean velocity it acts on" })

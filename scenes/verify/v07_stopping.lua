@@ -55,9 +55,11 @@ metric("time_error", "", function(run)  -- the straight line of the speed at 0.2
   return math.max(math.abs(low - stop_time), math.abs(high - stop_time)) / stop_time
 end)
 analysis { duration = 1.2 * stop_time, start = "equilibrium", output_dt = stop_time / 200 }
--- 0.1 %: the swing of the bed at the start, and the shear spring's give at the stop (mu g / omega^2, 1e-6 of the distance).
-expect("metrics.distance_smallest", 1, { abs = 1e-3, source = "v0^2 / (2 mu g)" })
-expect("metrics.distance_largest", 1, { abs = 1e-3, source = "v0^2 / (2 mu g)" })
+-- Friction answers to slip, so nothing brakes in the first half step: v0 dt / 2 more of the way, a step being 1.8 / omega of the bed. And .05 %:
+-- the swing of the bed at the start, and the shear spring's give at the stop.
+local late = 5e-4 + mu * g * 1.8 * math.sqrt(1800 * size / 20 / kn) / v0
+expect("metrics.distance_smallest", 1, { abs = late, source = "v0^2 / (2 mu g)" })
+expect("metrics.distance_largest", 1, { abs = late, source = "v0^2 / (2 mu g)" })
 expect("metrics.spread", 1e-3, { below = true, source = "isotropy" })
 expect("metrics.sideways", 1e-3, { below = true, source = "isotropy" })
-expect("metrics.time_error", 1e-3, { below = true, source = "v0 / (mu g)" })
+expect("metrics.time_error", late, { below = true, source = "v0 / (mu g)" })

@@ -22,7 +22,7 @@ for _, h in ipairs { height, 0.01 * length } do
   local root = math.sqrt(gap ^ 2 + k12 ^ 2 / (mass * inertia))
   for sign = -1, 1, 2 do
     local w2 = mean + sign * root
-    local case = { w = math.sqrt(w2), h = h, name = string.format("h%g_mode%d", h * 1000, sign < 0 and 1 or 2) }
+    local case = { w = math.sqrt(w2), h = h, name = string.format("h%d_mode%d", math.floor(h * 1000 + 0.5), sign < 0 and 1 or 2) }
     local across = (k11 - w2 * mass) / -k12  -- rotation per displacement of the centroid
     local amplitude = 1e-7 / math.max(1, math.abs(across) * length)
     case.u, case.turn = amplitude, across * amplitude
@@ -40,11 +40,11 @@ for i, case in ipairs(cases) do
   metric("period_ratio_" .. case.name, "", function(run) return run.period(case.name .. "_ux_rel_m") / exact end)
   -- Crossings read off straight lines over ten cycles and more, and the other mode's share of a start that is linear in the turn.
   expect("metrics.period_ratio_" .. case.name, 1, { abs = 2e-5, source = "2 x 2 eigenvalue" })
-  if case.flat then
+  if case.flat and math.abs(ks / kn - 1) > 0.05 then  -- else sway and rocking are as fast as each other and any mix of them is a mode
     local leapfrog = (case.w * dt / 2) / math.asin(case.w * dt / 2)
     metric("flat_shear_ratio", "", function(run) return run.period(case.name .. "_ux_rel_m") * case.flat / (2 * pi) / leapfrog end)
-    -- Rocking softens sway by (h/2)^2 ks A / (kn Iy) = 3 (ks/kn) (h/length)^2, half of it in the period: 6e-5 here.
-    expect("metrics.flat_shear_ratio", 1, { abs = 3 * ks / kn * (case.h / length) ^ 2 + 2e-5, source = "T = 2 pi sqrt(m / (ks A))" })
+    -- Rocking softens sway by (h/2)^2 ks A / (kn Iy) = 3 (ks/kn) (h/length)^2, half of it in the period, over 1 - ks/kn as the modes come near: 1e-4 here.
+    expect("metrics.flat_shear_ratio", 1, { abs = 3 * ks / kn * (case.h / length) ^ 2 / math.abs(1 - ks / kn) + 2e-5, source = "T = 2 pi sqrt(m / (ks A))" })
   end
 end
 analysis { duration = 10.5 * 2 * pi / slowest, dt = dt, start = "rest", output_dt = dt }

@@ -34,7 +34,7 @@ local function case(name, rule, n, ratio, s0)
   -- Lag of the ramp and one row (5e-4 of it).
   expect("metrics.moment_" .. name, ratio, { rel = 5e-3, source = "M_cr = sigma I / s of the rule" })
 end
-for _, s0 in ipairs { 0, prestress } do
+for _, s0 in ipairs(prestress > 0 and { 0, prestress } or { 0 }) do
   local tag = s0 == 0 and "_bare" or "_pressed"
   case("simpson3" .. tag, "simpson", 3, 1, s0)
   case("simpson5" .. tag, "simpson", 5, 1, s0)

@@ -29,13 +29,15 @@ local function pair(name, e, size_a, size_b, density_b)
   local m_a, m_b = 2000 * size_a[1] * size_a[2] * size_a[3], density_b * size_b[1] * size_b[2] * size_b[3]
   local reduced, area = m_a * m_b / (m_a + m_b), math.min(size_a[2], size_b[2]) * math.min(size_a[3], size_b[3])
   local omega = math.sqrt(kn * area / reduced)
+  -- A rim as wide as the blocks are pressed in lies nearer to the sides than to the face and bears less.
+  local rim = 2 * speed / omega / math.sqrt(area)
   slowest = math.max(slowest, pi / omega)
   local a, b = name .. "a_vx_rel_m_s", name .. "b_vx_rel_m_s"
   metric("restitution_" .. name, "", function(run) return (run.last(b) - run.last(a)) / (2 * speed) end)
   metric("momentum_error_" .. name, "", function(run)
     return math.abs(m_a * (run.last(a) - speed) + m_b * (run.last(b) + speed)) / ((m_a + m_b) * speed)
   end)
-  expect("metrics.restitution_" .. name, e, { abs = 0.005, source = "restitution asked for; steps of the run" })
+  expect("metrics.restitution_" .. name, e, { abs = 0.005 + rim * e, source = "restitution asked for; steps of the run, and the rim" })
   expect("metrics.momentum_error_" .. name, 1e-13, { below = true, source = "action and reaction" })
   if e < 1 then return end
   metric("duration_" .. name, "", function(run)  -- twice the time from touch to rest, from the moment the relative velocity turns
@@ -45,7 +47,7 @@ local function pair(name, e, size_a, size_b, density_b)
       if u < 0 and v >= 0 then return 2 * (t[i - 1] + (t[i] - t[i - 1]) * u / (u - v) - gap / (2 * speed)) / (pi / omega) end
     end
   end)
-  expect("metrics.duration_" .. name, 1, { abs = 0.01, source = "pi / omega; the first touch falls inside a step" })
+  expect("metrics.duration_" .. name, 1, { abs = 0.01 + rim, source = "pi / omega; the first touch falls inside a step" })
 end
 local cube, brick, slab = { 0.1, 0.1, 0.1 }, { 0.3, 0.125, 0.1 }, { 0.05, 0.6, 0.4 }
 pair("a", 1, cube, cube, 2000)

@@ -18,22 +18,26 @@ material { name = "stone", density = 1800, friction = 0.8, kn = kn, ks = 0.4 * k
 local H = courses * height
 local rigid = math.atan(thick / H)
 -- Quickly and smoothly to `from`, then at a steady rate: an angle as a table of times. Angles are those of the table.
-local angles, times, n = {}, {}, 200
+-- Its corners lie about a step apart: a coarser one knocks at every corner, at the base alone.
+local angles, times, n = {}, {}, 30000
 local fast = 6.0
 local function smooth(s) return s ^ 3 * (10 - 15 * s + 6 * s ^ 2) end
 for i = 0, n do times[#times + 1], angles[#angles + 1] = fast * i / n, from * rigid * smooth(i / n) end
 local rest = 0.3
 times[#times + 1], angles[#angles + 1] = fast + rest, from * rigid
 -- the corner to the steady rate rounded off
-for i = 1, 20 do times[#times + 1], angles[#angles + 1] = fast + rest + 0.05 * i, from * rigid + rate * 0.5 * (0.05 * i) ^ 2 / 1.0 end
+for i = 1, 5000 do times[#times + 1], angles[#angles + 1] = fast + rest + i / 5000, from * rigid + rate * 0.5 * (i / 5000) ^ 2 end
 local t0, a0 = times[#times], angles[#angles]
 local t1 = t0 + (1.15 * rigid - a0) / rate
 times[#times + 1], angles[#angles + 1] = t1, 1.15 * rigid
 local function angle_at(time)
-  for i = 2, #times do
-    if time <= times[i] then return angles[i - 1] + (angles[i] - angles[i - 1]) * (time - times[i - 1]) / (times[i] - times[i - 1]) end
+  local low, high = 2, #times
+  while low < high do
+    local middle = (low + high) // 2
+    if time <= times[middle] then high = middle else low = middle + 1 end
   end
-  return angles[#angles]
+  local part = math.min(1, (time - times[low - 1]) / (times[low] - times[low - 1]))
+  return angles[low - 1] + (angles[low] - angles[low - 1]) * part
 end
 local table_of_angles = table_wave { times = times, values = angles, hold = true }
 -- The wall leans towards +x: the table turns by +angle about y through the wall's foot, or gravity by -angle.
