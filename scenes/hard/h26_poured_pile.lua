@@ -7,7 +7,7 @@
 -- What to look at  median_speed (m/s), height_loss (of the height energy, per second, over the last second), max_penetration_relative,
 --                energy.residual_relative; pours_most: worst of these over what is allowed, of the other starts
 local seed = param("seed", 1, "of the pour")
-local pours = param("pours", 2, "other starts")
+local pours = param("pours", start_noise > 0 and 0 or 2, "other starts; noise makes one by itself")
 local n = param("bricks", 200, "")
 local duration = param("duration", 10, "[s]")
 local kn = param("kn", 5e9, "[Pa/m]")

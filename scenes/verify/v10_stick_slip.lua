@@ -22,7 +22,9 @@ local ks = mass * (2 * pi * spring) ^ 2 / area
 local kn = 2.5 * ks
 
 material { name = "stone", density = mass / (area * size[3]), friction = mu, kn = kn, ks = ks }
-box { name = "plate", group = "plate", size = { 1, 1, 0.1 }, at = { -0.5, -0.5, -0.1 }, fixed = true }
+local rigid = sliding { drive = function(t) return -F / mass * math.cos(omega * t) end, limit = mu * g, ends = duration }
+local reach = 0.5 + rigid.largest
+box { name = "plate", group = "plate", size = { 2 * reach, 1, 0.1 }, at = { -reach, -0.5, -0.1 }, fixed = true }
 box { name = "block", group = "block", size = size, at = { -0.15, -0.15, 0 } }
 joint { law = dry { kn = kn, ks = ks, mu = mu }, between = { "plate", "block" } }
 force { block = "block", wave = sine { amplitude = F, frequency = omega / (2 * pi), phase = 90 * deg }, direction = "x" }
@@ -31,13 +33,14 @@ recorder { name = "block", quantity = "velocity", block = "block", axis = "x" }
 -- start = "ramp" would bring the force on slowly; "rest" lets gravity and the force act at once: the bed swings by W / k, 3e-6 m.
 analysis { duration = duration, start = "ramp", dt_fraction = 0.5, output_dt = duration / 2000, frame_dt = duration / 50 }
 use_limit { dt_fraction = 0.7, reason = "a block that slides on a face pressed at one edge flutters at longer steps, and walks" }
-local rigid = sliding { drive = function(t) return -F / mass * math.cos(omega * t) end, limit = mu * g, ends = duration }
 metric("x_end", "m", function(run) return run.last("block_ux_rel_m") - run.first("block_ux_rel_m") end)
 metric("v_largest", "m/s", function(run) return run.peak("block_vx_rel_m_s") end)
 metric("rigid_x_end", "m", rigid.at_end)
 metric("rigid_v_largest", "m/s", rigid.speed)
-expect("metrics.x_end", rigid.at_end, { abs = 0.01 * rigid.largest, source = "rigid sliding, 1 % of the peak" })
-expect("metrics.v_largest", rigid.speed, { rel = 0.01, source = "rigid sliding" })
+-- And the spring's own give, which is all there is while F stays below mu m g; speeds once more with its swing from the start.
+local give = F / (mass * (2 * pi * spring) ^ 2)
+expect("metrics.x_end", rigid.at_end, { abs = 0.01 * rigid.largest + 2.5 * give, source = "rigid sliding, 1 % of the peak" })
+expect("metrics.v_largest", rigid.speed, { abs = 0.01 * rigid.speed + 2.5 * give * omega, source = "rigid sliding" })
 if F == 8 and mu == 0.8 and mass == 1 and omega == 1 and duration == 10 then
   expect("metrics.rigid_x_end", -0.008697, { abs = 2e-6, source = "Potra et al. 2006" })
   expect("metrics.rigid_v_largest", 0.039545, { abs = 2e-6, source = "Potra et al. 2006" })
