@@ -191,6 +191,10 @@ void write_page(const Grid& grid, const Options& options, double wall) {
   if (!grid.refused.empty()) text += "\nRefused by a limit of use that the scene states:\n\n";
   for (const auto& refused : grid.refused) text += "- " + refused + "\n";
   write_text_atomically(options.book, text);
+  const std::string readme = (fs::absolute(options.book).parent_path().parent_path() / "README.md").string();
+  if (fs::exists(readme))
+    replace_marked(readme, "grid",
+                   fmt::format("[The hard cases over a grid of settings]({}): {}.", relative_link(readme, options.book), summary_of(grid)));
 }
 
 }  // namespace

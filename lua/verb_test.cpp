@@ -78,6 +78,7 @@ int verb_test(const Options& options) {
   const auto failed_cases = std::count_if(results.begin(), results.end(), [](const CaseResult& r) { return !r.passed(); });
   fmt::print("{} expectations of {} cases: {} passed, {} failed ({} cases) in {}\n", rows.size(), cases.size(),
              rows.size() - static_cast<size_t>(failed), failed, failed_cases, duration_text(wall));
+  fmt::print("{}\n", summary_line(families_of(results)));
   std::fflush(stdout);
   if (!options.book.empty()) write_book(results, options, wall);
   return failed == 0 ? exit_ok : exit_expectation;
