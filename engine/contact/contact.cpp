@@ -59,14 +59,17 @@ void add(PairWrench& to, const PairWrench& w) {
   to.moment_b += w.moment_b;
 }
 
-// Inverse of the mass that both bodies present at x (pair axes, from the centroid of the other) along n; a bound for any direction
-// where n is zero (1/kg).
-double inverse_mass_at(const View& s, const Vec3& x, const Vec3& n) {
-  const Vec3 arm = x + s.pose.shift;
-  const bool along = n.squaredNorm() > 0;
-  const double r2 = along ? arm.cross(n).squaredNorm() : arm.squaredNorm(), o2 = along ? x.cross(n).squaredNorm() : x.squaredNorm();
-  return s.reference_block->inverse_mass + s.other_block->inverse_mass + r2 * s.reference_block->inverse_inertia +
-         o2 * s.other_block->inverse_inertia;
+// Inverse of the mass that both bodies present at x (pair axes, from the centroid of the other) along the unit vector n (1/kg).
+double inverse_mass_along(const View& s, const Vec3& x, const Vec3& n) {
+  const Vec3 r = (x + s.pose.shift).cross(n), o = s.pose.turn.transpose() * x.cross(n);
+  return s.reference_block->inverse_mass + s.other_block->inverse_mass + r.dot(s.reference_block->inverse_tensor * r) +
+         o.dot(s.other_block->inverse_tensor * o);
+}
+
+// A bound of it for any direction.
+double inverse_mass_at(const View& s, const Vec3& x) {
+  return s.reference_block->inverse_mass + s.other_block->inverse_mass +
+         (x + s.pose.shift).squaredNorm() * s.reference_block->inverse_inertia + x.squaredNorm() * s.other_block->inverse_inertia;
 }
 
 struct Dashpot {
@@ -117,12 +120,13 @@ void forget_contact(Pair& pair) {
 // each below a quarter of m / dt, which an explicit step bears beside springs at this bound (dt^2 k / m + 2 c dt / m < 4).
 void stability(const Pair& pair, const View& s, const Patch& patch, PairResult& result) {
   const double normal = pair.law.kn * patch.area, tangential = pair.law.ks * pair.area, spread = pair.gyration * pair.gyration;
-  auto rate = [&](const ContactBlock& block, const Vec3& arm) {
-    const double lever = arm.cross(patch.normal).squaredNorm();
-    return normal * (block.inverse_mass + (lever + spread) * block.inverse_inertia) +
+  auto rate = [&](const ContactBlock& block, const Vec3& arm, const Vec3& lever) {
+    return normal * (block.inverse_mass + lever.dot(block.inverse_tensor * lever) + spread * block.inverse_inertia) +
            tangential * (block.inverse_mass + (arm.squaredNorm() + spread) * block.inverse_inertia);
   };
-  const double other = rate(*s.other_block, patch.centroid), reference = rate(*s.reference_block, patch.centroid + s.pose.shift);
+  const Vec3 arm = patch.centroid + s.pose.shift;
+  const double other = rate(*s.other_block, patch.centroid, s.pose.turn.transpose() * patch.centroid.cross(patch.normal));
+  const double reference = rate(*s.reference_block, arm, arm.cross(patch.normal));
   result.rate_a = pair.b_is_reference ? other : reference;
   result.rate_b = pair.b_is_reference ? reference : other;
 }
@@ -201,16 +205,17 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     const Motion motion = motion_of(s);
     closing_speeds(room, motion.linear, motion.angular, patch);
     const double kn = pair.law.kn;
-    const double along = inverse_mass_at(s, patch.pressure_centre, patch.normal);
+    const double along = inverse_mass_along(s, patch.pressure_centre, patch.normal);
     elastic = to_world(pair, s, kn * patch.force, kn * patch.moment);
     const Dashpot d = dashpot(pair, patch, along, settings, dt);
     Vec3 damping_force, damping_moment;
     damping_wrench(room, patch.normal, d.chi, d.limit, damping_force, damping_moment);
-    const double inverse_mass = inverse_mass_at(s, patch.centroid, Vec3::Zero());
+    const double inverse_mass = inverse_mass_at(s, patch.centroid);
     const Friction f = patch_friction(pair, patch, s.pose, motion, kn * patch.force.norm(), inverse_mass, settings.settling_tangential);
     damping = to_world(pair, s, kn * damping_force + f.viscous_force, kn * damping_moment + f.viscous_moment);
     friction = to_world(pair, s, f.force, f.moment);
     slipped = f.slipped;
+    if (slipped > 0) result.rubbing = kn * patch.area * along;
     pair.tangential = f.stored;
     pair.touching = 1;
     result.touching = true;
@@ -275,7 +280,7 @@ void hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, c
   }
   pair.offset_force = old_force - new_force;
   pair.offset_moment = old_moment - new_moment;
-  const double inverse_mass = inverse_mass_at(s, middle, Vec3::Zero());
+  const double inverse_mass = inverse_mass_at(s, middle);
   pair.offset_time = inverse_mass > 0 && stiffness > 0 ? settings.handover_periods * 2 * pi / std::sqrt(stiffness * inverse_mass) : 0;
   pair.offset_left = pair.offset_time;
   pair.offset = to_world(pair, s, pair.offset_force, pair.offset_moment);

@@ -20,6 +20,8 @@ struct PairResult {
   // Upper bounds of the pair's share in the greatest eigenvalue of M^-1/2 K M^-1/2 of each block, dashpots included (1/s2):
   // stable while dt^2 <= 2 / (sum over the pairs and joints of a block), for every block.
   double rate_a = 0, rate_b = 0;
+  // omega^2 of a patch that slips, along its normal (1/s2); 0 where it holds.
+  double rubbing = 0;
   // The same of a face that may land within the next steps, where the bodies are apart still but approach.
   double landing_a = 0, landing_b = 0;
 };

@@ -50,6 +50,7 @@ struct ContactBlock {
   Vec3 w = Vec3::Zero();         // rad/s, world axes, at the same half step
   double inverse_mass = 0;       // 1/kg
   double inverse_inertia = 0;    // 1/(kg m2), of the smallest principal inertia
+  Mat3 inverse_tensor = Mat3::Zero();  // 1/(kg m2), axes at rest
 };
 
 }  // namespace erbs

@@ -27,6 +27,7 @@ Debris::Debris(const Model& model, State& state, int threads) : model_(model), s
     block.rest = model.rest[z(b)];
     block.inverse_mass = model.inverse_mass[z(b)];
     block.inverse_inertia = largest_inverse_inertia(model.inverse_inertia[z(b)]);
+    block.inverse_tensor = model.inverse_inertia[z(b)];
     place(b);
   }
   for (int j = 0; j < model.njoint; ++j) {
@@ -75,8 +76,10 @@ void Debris::find_beds() {
       const double *k = joint.stiffness, turning = k[3] + k[4] + k[5];
       const auto rate = [&](int b, const Vec3& arm) {
         const ContactBlock& block = blocks_[z(b)];
-        const double lever = k[2] * arm.cross(joint.frame.col(2)).squaredNorm() + std::max(k[0], k[1]) * arm.squaredNorm();
-        return (k[2] + std::max(k[0], k[1])) * block.inverse_mass + (lever + turning) * block.inverse_inertia;
+        const Vec3 lever = arm.cross(joint.frame.col(2));
+        const double across = std::max(k[0], k[1]);
+        return (k[2] + across) * block.inverse_mass + k[2] * lever.dot(block.inverse_tensor * lever) +
+               (across * arm.squaredNorm() + turning) * block.inverse_inertia;
       };
       bed_[i].rate_a += rate(p.a, joint.arm_a);
       bed_[i].rate_b += rate(p.b, joint.arm_b);

@@ -10,9 +10,10 @@ namespace erbs {
 namespace {
 
 constexpr double safe_share = 0.9;  // of the bound of a block in contact
-// Of dt_critical, while any contact slips: friction makes the stiffness unsymmetric, so that the bound of the springs alone is not enough.
-// A block that slides with its pressure near an edge keeps rubbing at .55 and swings itself up from about .6 on (measured on V10).
-constexpr double rubbing_share = 0.55;
+// Largest omega dt of a patch that slips, omega along its normal. Friction makes the stiffness unsymmetric, and what ends the flutter of a
+// patch pressed near its edge (dry_friction.h) is the dashpot of the contact, which an explicit step bears up to c dt / m = 1/4 only
+// (contact.cpp): a viscous ratio of 1 / (8 omega dt), .12 here. At 1.1 the block of V10 swings itself up with mu = .9, at .8 not.
+constexpr double rubbing_angle = 1.0;
 constexpr int pair_grain = 8;
 constexpr int look_every = 16;  // steps between two looks, while no block comes far in that time
 std::size_t z(int i) { return std::size_t(i); }
@@ -68,7 +69,7 @@ void Debris::gather(double* push, bool sample) {
   touching_ = 0;
   allowed_ = s.dt_goal;
   if (sample) elastic_ = 0;
-  bool rubs = false;
+  double rubbing = 0;
   for (std::size_t i = 0; i < s.debris.pair.size(); ++i) {
     const Pair& pair = s.debris.pair[i];
     const PairResult& r = results_[i];
@@ -81,14 +82,16 @@ void Debris::gather(double* push, bool sample) {
       b[3 + k] += w.moment_b[k];
     }
     s.energy.friction += r.friction;
-    rubs = rubs || (r.touching && r.friction > 0);
+    rubbing = std::max(rubbing, r.rubbing);
     s.energy.contact_damping += r.damping + r.handover;
     s.energy.reset += r.reset;
     if (sample) elastic_ += r.elastic + r.tangential;
     rate_[z(pair.a)] += std::max(0.0, r.rate_a - bed_[i].rate_a);
     rate_[z(pair.b)] += std::max(0.0, r.rate_b - bed_[i].rate_b);
-    landing_[z(pair.a)] = std::max(landing_[z(pair.a)], r.landing_a);
-    landing_[z(pair.b)] = std::max(landing_[z(pair.b)], r.landing_b);
+    if (bed_[i].joint < 0) {  // a bed that closes again is no stiffer than its joint was
+      landing_[z(pair.a)] = std::max(landing_[z(pair.a)], r.landing_a);
+      landing_[z(pair.b)] = std::max(landing_[z(pair.b)], r.landing_b);
+    }
     touching_ += r.touching;
     touched_ += r.touching;
     const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
@@ -101,7 +104,7 @@ void Debris::gather(double* push, bool sample) {
   for (const int b : involved_)
     if (model_.kind[z(b)] == Kind::moving) rate = std::max(rate, rate_[z(b)] + landing_[z(b)]);
   allowed_ = std::min(allowed_, step_for(rate, s.dt_goal, model_.dt_critical));
-  if (rubs) allowed_ = std::min(allowed_, rubbing_share * model_.dt_critical);
+  if (rubbing > 0) allowed_ = std::min(allowed_, rubbing_angle / std::sqrt(rubbing));
 }
 
 }  // namespace erbs

@@ -5,9 +5,8 @@
 -- Source         Potra, Anitescu, Gavrea and Trinkle 2006, Int. J. Numer. Meth. Eng. 66, 1079 (also a validation case of Solfec):
 --                x(10 s) = -.008697 m, largest speed .039545 m/s for .3 x .3 x .1 m, mu .8.
 -- How to run     erbs run scenes/verify/v10_stick_slip.lua [-D F=9] [-D mass=5] [-D spring=300*Hz]
--- Limit of use  .7 of the limit of the step: friction couples sway and rocking of a block that slides (its pressure lies near one edge here).
---                While a contact slips the step stays below .55 of the limit by itself; but here the force acts in full while gravity is still
---                coming on, and at .9 the joint has swung up before it is handed over: measured -.00874 m at .5 to .7 of the limit, .018 m at .9.
+-- Step           any up to .9 of the limit: -.0087 m, with and without the dashpots of the joint. While a contact slips the step stays below 1/omega of its patch:
+--                friction couples sway and rocking of a block whose pressure lies near an edge (v10_flutter.lua); without that bound it swings up.
 -- What to look at  x_end, v_largest beside rigid_x_end, rigid_v_largest.
 label("quick")
 include "lib_sliding.lua"
@@ -31,8 +30,7 @@ force { block = "block", wave = sine { amplitude = F, frequency = omega / (2 * p
 recorder { name = "block", quantity = "displacement", block = "block", axis = "x" }
 recorder { name = "block", quantity = "velocity", block = "block", axis = "x" }
 -- start = "ramp" would bring the force on slowly; "rest" lets gravity and the force act at once: the bed swings by W / k, 3e-6 m.
-analysis { duration = duration, start = "ramp", dt_fraction = 0.5, output_dt = duration / 2000, frame_dt = duration / 50 }
-use_limit { dt_fraction = 0.7, reason = "a block that slides on a face pressed at one edge flutters at longer steps, and walks" }
+analysis { duration = duration, start = "ramp", output_dt = duration / 2000, frame_dt = duration / 50 }
 metric("x_end", "m", function(run) return run.last("block_ux_rel_m") - run.first("block_ux_rel_m") end)
 metric("v_largest", "m/s", function(run) return run.peak("block_vx_rel_m_s") end)
 metric("rigid_x_end", "m", rigid.at_end)

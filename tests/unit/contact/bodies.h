@@ -55,6 +55,7 @@ struct Bodies {
       inverse_inertia.push_back(b.density > 0 ? Mat3(inertia.back().inverse()) : Mat3(Mat3::Zero()));
       if (b.density > 0) {
         c.inverse_mass = 1 / mass.back();
+        c.inverse_tensor = inverse_inertia.back();
         c.inverse_inertia = 1 / Eigen::SelfAdjointEigenSolver<Mat3>(inertia.back()).eigenvalues()[0];
       }
       block.push_back(c);
