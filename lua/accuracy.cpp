@@ -13,6 +13,7 @@
 #include "engine/record/run_folder.h"
 #include "engine/scene/scene.h"
 #include "lua/cases.h"
+#include "lua/quality.h"
 
 namespace erbs {
 namespace {
@@ -33,10 +34,11 @@ void add_steps(std::vector<Setting>& all, double finest) {
                    f});
 }
 
-void add_points(std::vector<Setting>& all) {
+void add_points(std::vector<Setting>& all, bool fine, bool all_rules) {
   for (const char* rule : {"simpson", "midpoint", "trapezoid", "gauss"})
-    for (const int side : {7, 5, 3, 2, 1}) {
+    for (const int side : {13, 9, 7, 5, 3, 2, 1}) {
       const std::string_view name = rule;
+      if ((side > 7 && !fine) || (name != "simpson" && !all_rules)) continue;
       if (side == 1 && name != "midpoint") continue;  // the others have none with one point
       if (side > 3 && name == "gauss") continue;      // exact in bending from two on: nothing more to be had
       const int n = side * side;
@@ -79,6 +81,20 @@ void add_units(std::vector<Setting>& all) {
         {"block size", fmt::format("unit {:g}", unit), fmt::format("-D unit={:g}", unit), {"-D", fmt::format("unit={:g}", unit)}, unit});
 }
 
+// What the words of quality stand for, where the scene does not say otherwise.
+void add_qualities(std::vector<Setting>& all, bool steps, bool points) {
+  for (const Quality& q : qualities) {
+    Setting s{quality_knob,
+              fmt::format("quality {}", q.name),
+              fmt::format("analysis {{ quality = \"{}\" }}", q.name),
+              {},
+              q.dt_fraction / (q.points * q.points)};
+    if (steps) s.words.insert(s.words.end(), {"--dt-fraction", fmt::format("{}", q.dt_fraction)});
+    if (points) s.words.insert(s.words.end(), {"--rule", "simpson", "--points", std::to_string(q.points * q.points)});
+    all.push_back(std::move(s));
+  }
+}
+
 struct Plan {
   std::vector<Setting> settings;
   std::vector<std::string> not_applicable;
@@ -88,15 +104,18 @@ Plan plan_of(const Scene& scene) {
   Plan plan;
   plan.settings.push_back({"", "the scene as it is", "", {}, 0});
   const auto labelled = [&](const char* label) { return std::find(scene.labels.begin(), scene.labels.end(), label) != scene.labels.end(); };
-  if (labelled("fixed_dt")) plan.not_applicable.emplace_back("time step: the scene fixes it (label \"fixed_dt\")");
-  else add_steps(plan.settings, labelled("coarse_study") ? 1.0 / 8 : labelled("fine_study") ? 1.0 / 128 : 1.0 / 32);
+  const bool steps = !labelled("fixed_dt"), brief = labelled("quality_only");
+  if (!steps) plan.not_applicable.emplace_back("time step: the scene fixes it (label \"fixed_dt\")");
+  else add_steps(plan.settings, labelled("coarse_study") ? 1.0 / 8 : labelled("fine_study") ? 1.0 / 512 : 1.0 / 32);
   const bool joints = std::any_of(scene.joint_rules.begin(), scene.joint_rules.end(), [](const JointRule& rule) { return !rule.none; });
   if (joints) {
-    add_points(plan.settings);
-    add_lazy(plan.settings);
+    add_points(plan.settings, labelled("fine_points"), !brief);
+    if (!brief) add_lazy(plan.settings);
   } else {
     plan.not_applicable.emplace_back("points, lazy rotation: the scene has no joints");
   }
+  if (steps || joints) add_qualities(plan.settings, steps, joints);
+  if (brief) return plan;
   if (has_setting("solver") && joints) add_sequential(plan.settings);
   else plan.not_applicable.emplace_back(joints ? "solver: this program has one" : "solver: the scene has no joints");
   const bool unit = std::any_of(scene.params.begin(), scene.params.end(), [](const Param& p) { return p.name == "unit"; });
@@ -210,6 +229,7 @@ bool read_note(const std::string& path, const std::string& key, Measured& m) {
 double dearness(const Setting& s) {
   if (s.knob == "time step") return 1 / s.size;
   if (s.knob == "block size") return 2 / s.size;
+  if (s.knob == quality_knob) return 0.9 / s.size;
   return s.knob.starts_with("points") ? 0.2 / (s.size * s.size) : 1.5;
 }
 
@@ -230,6 +250,9 @@ AccuracyStudy carry_out_accuracy(const std::string& scene, const std::string& di
   script.load(scene, options.overrides);
   AccuracyStudy study;
   study.scene = scene, study.directory = directory, study.name = script.scene().name, study.title = title_of(text_of(scene));
+  study.command = "erbs run " + scene + " --threads 1";
+  for (const auto& [name, value] : options.overrides) study.command += fmt::format(" -D '{}={}'", name, value);
+  if (options.allow_unstable) study.command += " --allow-unstable";
   study.quantities = quantities_of(script);
   study.main = main_of(study.quantities, options.quantity);
   Plan plan = plan_of(script.scene());
@@ -274,7 +297,7 @@ void write_accuracy_csv(const AccuracyStudy& study, const std::string& path) {
       const Goal& q = study.quantities[i];
       table.text_row({m.setting.knob, m.setting.name, q.name, q.unit, number(m.values[i]), number(q.reference), number(q.uncertainty),
                       number(error_of(q, m.values[i])), fmt::format("{:.3f}", m.cpu), fmt::format("{:.0f}", m.updates),
-                      fmt::format("erbs run {} {}", study.scene, fmt::join(m.setting.words, " ")), m.reason});
+                      fmt::format("{} {}", study.command, fmt::join(m.setting.words, " ")), m.reason});
     }
   table.flush();
 }

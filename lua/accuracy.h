@@ -6,7 +6,7 @@
 namespace erbs {
 
 struct AccuracyStudy {
-  std::string scene, name, title, directory;
+  std::string scene, name, title, directory, command;  // command: of a run, but for its setting
   std::vector<Goal> quantities;
   std::size_t main = 0;  // the quantity of the figure
   std::vector<Measured> all;

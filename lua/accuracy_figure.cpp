@@ -32,7 +32,7 @@ struct Picture {
   void add(const std::string& data, const std::string& style) {
     if (data.empty()) return;
     script += fmt::format("$d{} << END\n{}END\n", block, data);
-    plots += fmt::format("{}$d{} using 1:2 {}", plots.empty() ? "" : ", ", block++, style);
+    plots += fmt::format("{}$d{} {}{}", plots.empty() ? "" : ", ", block++, style.starts_with("using") ? "" : "using 1:2 ", style);
   }
 };
 
@@ -62,6 +62,14 @@ std::string panel(const AccuracyStudy& s, bool by_updates, bool titles, Picture&
     picture.add(data, fmt::format("with linespoints lw 1.8 pt {} ps 1.0 lc rgb '{}' {}", look.mark, look.color,
                                   titles ? "title \"" + legend(c) + "\"" : "notitle"));
   }
+  for (std::size_t i = 0; i < s.all.size(); ++i)
+    if (s.all[i].setting.knob == quality_knob && titles && error_of(s.quantity(), s.all[i].values[s.main])) {
+      std::string data = row(s, i, by_updates);
+      if (data.empty()) continue;
+      data.back() = ' ';
+      picture.add(data + s.all[i].setting.name.substr(8) + "\n",
+                  "using 1:2:3 with labels point pt 2 ps 1.2 lw 2 lc rgb '#000000' offset 0,-0.9 font ',10' notitle");
+    }
   for (std::size_t i = 0; i < s.all.size(); ++i)
     if (s.all[i].setting.knob.empty() && error_of(s.quantity(), s.all[i].values[s.main]))
       picture.add(row(s, i, by_updates),

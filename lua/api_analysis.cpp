@@ -2,6 +2,7 @@
 #include <lua5.4/lua.hpp>
 
 #include "lua/api.h"
+#include "lua/quality.h"
 
 namespace erbs {
 namespace {
@@ -12,14 +13,6 @@ int damping(Call& call) {
   arguments.read(call.context.scene.damping);
   return 0;
 }
-
-// Three settings of the study of accuracy (engine/README.md): its errors and costs are there.
-struct Quality {
-  const char* name;
-  double dt_fraction;
-  int points;  // along each side of a joint
-};
-constexpr Quality qualities[] = {{"draft", 0.9, 2}, {"standard", 0.9, 3}, {"reference", 0.25, 5}};
 
 // What the scene says of its own, before or after, comes first.
 void take_quality(Call& call, Arguments& arguments) {

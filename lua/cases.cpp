@@ -77,9 +77,12 @@ void hurry(std::map<int, Running>& running, const Options& options) {
 }
 
 Child launch(const Case& item, const Options& options, int threads) {
-  std::vector<std::string> command{own_path(), "run", item.scene, "-o", item.directory, "--force", "--no-figures"};
+  std::vector<std::string> command{own_path(),    "run", item.scene, "-o", item.directory, item.resume ? "--resume" : "--force",
+                                   "--no-figures"};
   if (threads > 0) command.insert(command.end(), {"--threads", std::to_string(threads)});
   for (const auto& [name, value] : options.overrides) command.insert(command.end(), {"-D", name + "=" + value});
+  if (options.allow_unstable) command.emplace_back("--allow-unstable");
+  if (options.allow_unstable) command.emplace_back("--allow-unstable");
   if (options.max_wall) command.insert(command.end(), {"--max-wall", fmt::format("{}s", *options.max_wall)});
   command.insert(command.end(), item.extra.begin(), item.extra.end());
   for (const char* old : {"expectations.json", "metrics.json"}) fs::remove(run_file(item.directory, old));
@@ -122,6 +125,7 @@ void run_cases(std::vector<Case>& cases, const Options& options, const std::func
   size_t next = 0, done = 0;
   const bool live = isatty(STDERR_FILENO) != 0 && !options.quiet;
   const auto begin = Clock::now();
+  auto told = begin;
   const auto in_time = [&] { return options.budget <= 0 || std::chrono::duration<double>(Clock::now() - begin).count() < options.budget; };
   while (!running.empty() || (next < cases.size() && in_time())) {
     while (next < cases.size() && running.size() < jobs && in_time()) {
@@ -134,6 +138,12 @@ void run_cases(std::vector<Case>& cases, const Options& options, const std::func
       const double left = done > 0 ? spent / static_cast<double>(done) * static_cast<double>(cases.size() - done) : 0;
       fmt::print(stderr, "\r\033[K{} of {} cases, about {:.0f} s left, running {}", done, cases.size(), left,
                  running.begin()->second.item->name);
+    }
+    if (!live && !options.quiet && done > 0 && Clock::now() - told > std::chrono::seconds(10)) {
+      told = Clock::now();
+      const double spent = std::chrono::duration<double>(told - begin).count();
+      fmt::print(stderr, "{} of {} cases, about {:.0f} s left\n", done, cases.size(),
+                 spent / static_cast<double>(done) * static_cast<double>(cases.size() - done));
     }
     const Ended child = wait_for_any(1.0);
     hurry(running, options);

@@ -13,7 +13,7 @@ using erbs::Options;
 struct CommandLine {
   Options options;
   std::vector<std::string> defines;
-  std::string until, max_wall, checkpoint_every, budget, target;
+  std::string until, max_wall, checkpoint_every, budget, target, from, window;
 };
 
 void add_output(CLI::App& verb, CommandLine& line) {
@@ -43,13 +43,19 @@ void add_run(CLI::App& app, CommandLine& line) {
   run.add_option("--checkpoint-every", line.checkpoint_every, "time of the clock between checkpoints (default 60s)")->type_name("60s");
   run.add_option("--dt-fraction", line.options.dt_fraction, "time step as a share of dt_critical, whatever the scene says")
       ->check(CLI::Range(1e-6, 1e3));
-  run.add_option("--points", line.options.points, "contact points of every joint: 4, 9, 16, 25 (a square on each face)")->check(CLI::Range(1, 10000));
+  run.add_option("--points", line.options.points, "contact points of every joint: 4, 9, 16, 25 (a square on each face)")
+      ->check(CLI::Range(1, 10000));
   run.add_option("--rule", line.options.rule, "how the contact points of every joint are laid out")
       ->check(CLI::IsMember({"simpson", "midpoint", "trapezoid", "gauss"}));
   run.add_option("--set", line.options.settings, "another value for a key of analysis{}: --set lazy_rotation=1e-4")
       ->type_name("key=value")
       ->expected(1)
       ->take_all();
+  run.add_option("--stiffness", line.options.stiffness, "times that of every joint the scene says")->check(CLI::Range(1e-6, 1e6));
+  run.add_option("--damping", line.options.damping, "mass damping c/m instead of the scene's, 1/s")->check(CLI::Range(0.0, 1e7));
+  run.add_option("--damping-form", line.options.damping_form, "how a step takes mass damping in")
+      ->check(CLI::IsMember({"centred", "explicit"}));
+  run.add_option("--from", line.from, "let the loads begin here, the structure at rest: a window of a long record")->type_name("T");
   run.add_option("--noise", line.options.noise, "perturb the start of every free block by up to this (m and rad), seeded")
       ->check(CLI::Range(0.0, 1.0));
   run.add_option("--twin-noise", line.options.twin_noise)->group("");  // of a twin
@@ -57,7 +63,9 @@ void add_run(CLI::App& app, CommandLine& line) {
   run.add_flag("!--no-figures", line.options.figures, "draw no curves");
   run.add_flag("--video", line.options.video, "draw the run and make its video afterwards");
   run.add_option("--study", line.options.study)->group("");  // of the runs a study starts
-  run.add_option("--without", line.options.without, "run without an effect of the scene, by its name in erbs check")->type_name("EFFECT")->take_all();
+  run.add_option("--without", line.options.without, "run without an effect of the scene, by its name in erbs check")
+      ->type_name("EFFECT")
+      ->take_all();
   run.add_flag("--log-json", line.options.log_json, "progress as lines of JSON");
   run.add_flag("--fail-on-collapse", line.options.fail_on_collapse, "exit with 4 when the structure collapses");
 }
@@ -87,7 +95,8 @@ void add_others(CLI::App& app, CommandLine& line) {
   test.add_option("-o", line.options.directory, "folder for the runs (default runs/test)")->type_name("DIR");
   test.add_flag("-q,--quiet", line.options.quiet, "no progress");
   test.add_flag("--quick", line.options.quick, "only scenes that say label(\"quick\")");
-  test.add_option("--book", line.options.book, "write the verification book here, its figures, and its summary in README.md")->type_name("FILE.md");
+  test.add_option("--book", line.options.book, "write the verification book here, its figures, and its summary in README.md")
+      ->type_name("FILE.md");
   test.add_flag("--grid", line.options.grid,
                 "every scene at dt 0.2, 0.5, 0.9 of the limit, with 4, 9, 25 points a joint and noise: the worst value of each invariant");
   test.add_flag("--resume", line.options.resume, "of --grid: keep the runs that are done");
@@ -100,10 +109,20 @@ void add_others(CLI::App& app, CommandLine& line) {
   accuracy.add_option("-j", line.options.jobs, "how many runs at once (default: as many as the machine has)")->check(CLI::Range(1, 1024));
   accuracy.add_flag("--resume", line.options.resume, "keep the runs that are done");
   accuracy.add_option("--target", line.target, "find the cheapest setting with this error, and the line for the scene")->type_name("1%");
-  accuracy.add_option("--budget", line.budget, "find the most accurate setting that runs within this time")->type_name("60s");
-  accuracy.add_option("--quantity", line.options.quantity, "the metric it is about (default: the first with an expectation, else the first)");
+  accuracy
+      .add_option("--budget", line.budget,
+                  "find the most accurate setting that runs within this time; of --map: of all runs together, by the clock (default 60m)")
+      ->type_name("60s");
+  accuracy.add_option("--quantity", line.options.quantity,
+                      "the metric it is about (default: the first with an expectation, else the first)");
   accuracy.add_option("--max-wall", line.max_wall, "of each run (default 5m)")->type_name("5m");
-  accuracy.add_flag("--study", line.options.whole_study, "every problem of the folder, media/accuracy.png and the table of engine/README.md");
+  accuracy.add_flag("--study", line.options.whole_study,
+                    "every problem of the folder, media/accuracy.png and the table of engine/README.md");
+
+  accuracy.add_flag(
+      "--map", line.options.map,
+      "instead: which time steps, stiffnesses and dampings converge, which diverge, for both solvers, over a window around the peak");
+  accuracy.add_option("--window", line.window, "of --map: its length (default 2s)")->type_name("2s");
 
   CLI::App& bench = *app.add_subcommand("bench", "the step kernel against the reference and the machine's limits, in one run");
   bench.add_option("SCENE.lua", line.options.words, "scenes to time (default: those of scenes/bench, into a folder)");
@@ -133,6 +152,8 @@ void settle(CommandLine& line) {
   if (!line.max_wall.empty()) options.max_wall = erbs::seconds_of(line.max_wall, "--max-wall");
   if (!line.target.empty()) options.target = erbs::share_of(line.target, "--target");
   if (!line.budget.empty()) options.budget = erbs::seconds_of(line.budget, "--budget");
+  if (!line.from.empty()) options.from = erbs::seconds_of(line.from, "--from");
+  if (!line.window.empty()) options.window = erbs::seconds_of(line.window, "--window");
   if (options.max_wall == 0.0) throw erbs::Error("--max-wall " + line.max_wall + ": leaves no time to run; give more, such as 30m");
   if (!line.checkpoint_every.empty()) options.checkpoint_every = erbs::seconds_of(line.checkpoint_every, "--checkpoint-every");
   if (options.force && options.resume) throw erbs::Error("--force and --resume exclude each other; keep one");
@@ -154,6 +175,7 @@ int call(const CLI::App& app, CommandLine& line) {
   if (name == "run") return erbs::verb_run(line.options);
   if (name == "check") return erbs::verb_check(line.options);
   if (name == "record") return erbs::verb_record(line.options);
+  if (name == "accuracy" && line.options.map) return erbs::verb_map(line.options);
   if (name == "accuracy") return erbs::verb_accuracy(line.options);
   if (name == "test") return erbs::verb_test(line.options);
   if (name == "bench") return erbs::verb_bench(line.options);

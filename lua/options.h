@@ -30,6 +30,10 @@ struct Options {
   int points = 0;                     // contact points of a joint, a square; 0: as the scene says
   std::string rule;                   // how they are laid out; "": as the scene says
   std::vector<std::string> settings;  // key=value of analysis{}
+  std::optional<double> stiffness;    // factor on that of every joint
+  std::optional<double> damping;      // 1/s, mass damping
+  std::string damping_form;           // "": as the scene says
+  std::optional<double> from;         // s: the loads begin there
   std::vector<std::string> without;   // effects switched off
   double noise = 0;                   // m and rad, in the start of every free block
   double twin_noise = 0;              // the same again from another seed: what makes a twin
@@ -44,6 +48,8 @@ struct Options {
   double target = 0;         // relative error asked for; 0: none
   std::string quantity;      // the metric the figure is about; "": the first
   bool whole_study = false;  // every problem of a folder
+  bool map = false;          // of step, stiffness and damping
+  double window = 0;         // s around the peak of the ground, of a map; 0: 2
 };
 
 // The words that make another run of erbs depart from its scene as this one does.
@@ -61,6 +67,7 @@ int verb_record(const Options& options);
 int verb_render(const Options& options);
 int verb_test(const Options& options);
 int verb_accuracy(const Options& options);
+int verb_map(const Options& options);
 int verb_bench(const Options& options);
 int verb_effects(const Options& options);
 int verb_help(const Options& options, const std::string& usage);

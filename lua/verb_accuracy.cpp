@@ -8,6 +8,7 @@
 #include "lua/accuracy.h"
 #include "lua/book.h"
 #include "lua/progress.h"
+#include "lua/quality.h"
 
 namespace erbs {
 namespace {
@@ -106,6 +107,26 @@ std::string study_row(const AccuracyStudy& s) {
                      cost(0.01), cost(0.001), front.empty() ? "-" : error_text(q, error_of(q, s.all[front.back()].values[s.main])));
 }
 
+// The row of the table of quality: what each errs by, and its evaluations over those of standard.
+std::string quality_row(const AccuracyStudy& s) {
+  const auto find = [&](const Quality& q) {
+    return std::find_if(s.all.begin(), s.all.end(),
+                        [&](const Measured& m) { return m.setting.knob == quality_knob && m.setting.name.ends_with(q.name); });
+  };
+  std::string errors, costs;
+  const auto standard = find(qualities[1]);
+  for (const Quality& q : qualities) {
+    const auto m = find(q);
+    if (m == s.all.end() || standard == s.all.end()) return "";
+    errors += " " + error_text(s.quantity(), error_of(s.quantity(), m->values[s.main])) + " |";
+    costs += m->updates > 0 && standard->updates > 0 ? fmt::format(" {:.2g} |", m->updates / standard->updates)
+                                                     : fmt::format(" {:.2g} (s) |", m->cpu / standard->cpu);
+  }
+  const double uncertain = s.quantity().reference != 0 ? s.quantity().uncertainty / std::fabs(s.quantity().reference) : 0;
+  return fmt::format("| `{}` | {} |{} {} |{}\n", s.name, code_cell(s.quantity().name), errors,
+                     uncertain > 0 ? fmt::format("{:.2g} %", 100 * uncertain) : "exact", costs);
+}
+
 int whole_study(const Options& options) {
   const std::string folder = options.words.empty() ? "scenes/accuracy" : options.words.front();
   if (!fs::is_directory(folder)) throw Error(fmt::format("there is no folder {}; the study needs its problems", folder));
@@ -113,28 +134,38 @@ int whole_study(const Options& options) {
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".lua" && entry.path().filename().string().starts_with("p")) scenes.push_back(entry.path().string());
   std::sort(scenes.begin(), scenes.end());
-  if (scenes.empty()) throw Error(fmt::format("{} holds no problem p1_... of the study", folder));
+  const size_t problems = scenes.size();
+  for (const auto& entry : fs::directory_iterator(fs::absolute(folder).lexically_normal().parent_path()))  // for the table of quality alone
+    if (entry.path().filename().string().ends_with("_quality.lua")) scenes.push_back(fs::relative(entry.path()).string());
+  std::sort(scenes.begin() + static_cast<std::ptrdiff_t>(problems), scenes.end());
+  if (problems == 0) throw Error(fmt::format("{} holds no problem p1_... of the study", folder));
   const std::string out = options.directory.empty() ? "runs/accuracy" : options.directory;
   check_folder(out, options);
   std::vector<AccuracyStudy> all;
   std::string table =
       "| problem | | quantity | order of the error in | cheapest for 1 % | cheapest for 0.1 % | best |\n|---|---|---|---|---|---|---|\n";
+  std::string quality =
+      "| problem | quantity | error of draft | standard | reference | what it is measured by, uncertain | cost of draft | standard | "
+      "reference |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
   double wall = 0;
   for (const auto& scene : scenes) {
     all.push_back(carry_out_accuracy(scene, out + "/" + fs::path(scene).stem().string(), options));
     const AccuracyStudy& s = all.back();
     write_study(s);
-    table += study_row(s);
+    quality += quality_row(s);
+    if (s.name.starts_with("p")) table += study_row(s);
     wall += s.wall;
     fmt::print("{}\n\n", plain_sentence(s.quantity(), s.main, s.all));
     std::fflush(stdout);
   }
-  const fs::path home = fs::weakly_canonical(folder).parent_path().parent_path();  // of scenes/accuracy
+  std::erase_if(all, [](const AccuracyStudy& s) { return !s.name.starts_with("p"); });  // those of quality alone
+  const fs::path home = fs::weakly_canonical(folder).parent_path().parent_path();       // of scenes/accuracy
   const std::string picture = fs::is_directory(home / "media") ? (home / "media/accuracy.png").string() : out + "/accuracy.png";
   draw_accuracies(all, picture);
   const std::string readme = (home / "engine/README.md").string();
-  if (fs::exists(readme)) replace_marked(readme, "accuracy", table);
-  fmt::print("{}{} problems in {}; figure {}\n", table, all.size(), duration_text(wall), picture);
+  if (fs::exists(readme)) replace_marked(readme, "accuracy", table), replace_marked(readme, "quality", quality);
+  fmt::print("{}\n{}{} problems in {}; figure {}\n", table, quality, all.size(), duration_text(wall), picture);
   return exit_ok;
 }
 

@@ -11,9 +11,9 @@
 
 #include "engine/analysis/dynamic.h"
 #include "engine/analysis/trust.h"
-#include "engine/base/words.h"
 #include "engine/scene/effects.h"
 #include "lua/child.h"
+#include "lua/depart.h"
 #include "lua/expectations.h"
 #include "lua/options.h"
 #include "lua/progress.h"
@@ -114,69 +114,6 @@ int exit_code(const Scene& scene, const Options& options, const RunOutcome& outc
   const Json* collapsed = find_key(metrics, "collapse.collapsed");
   if (options.fail_on_collapse && collapsed && *collapsed == true) return exit_expectation;
   return exit_ok;
-}
-
-// --set key=value: a number or a word of analysis{}.
-void set_analysis(Analysis& analysis, const std::string& setting) {
-  const size_t equals = setting.find('=');
-  const std::string key = setting.substr(0, equals), value = equals == std::string::npos ? "" : setting.substr(equals + 1);
-  std::vector<std::string> known;
-  for (const auto& field : Analysis::fields()) {
-    known.emplace_back(field.name);
-    if (field.name != key) continue;
-    std::visit(
-        [&](auto member) {
-          using T = std::decay_t<decltype(analysis.*member)>;
-          if constexpr (std::is_same_v<T, std::string>) {
-            if (!field.words.empty() && ("|" + std::string(field.words) + "|").find("|" + value + "|") == std::string::npos)
-              throw Error(fmt::format("--set {}: must be one of {}", setting, field.words));
-            analysis.*member = value;
-          } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, int> || std::is_same_v<T, bool>) {
-            double number = 0;
-            size_t used = 0;
-            try {
-              number = std::stod(value, &used);
-            } catch (const std::exception&) {}
-            if (value.empty() || used != value.size() || (field.low < field.high && (number < field.low || number > field.high)))
-              throw Error(fmt::format("--set {}: must be a number from {:g} to {:g}", setting, field.low, field.high));
-            analysis.*member = static_cast<T>(number);
-          } else {
-            throw Error(fmt::format("--set {}: only numbers and words can be set", setting));
-          }
-        },
-        field.member);
-    return;
-  }
-  throw Error(fmt::format("--set {}: analysis has no key \"{}\"{}", setting, key, did_you_mean(key, known)));
-}
-
-// How the command line departs from the scene: a share of the time step's limit, other numbers of contact points.
-std::vector<std::string> depart(Scene& scene, const Options& options) {
-  std::vector<std::string> notes;
-  if (options.dt_fraction) {
-    scene.analysis.dt = 0;
-    scene.analysis.dt_rule = "limit";
-    scene.analysis.dt_fraction = *options.dt_fraction;
-    notes.push_back(fmt::format("--dt-fraction {:g}", *options.dt_fraction));
-  }
-  for (const auto& setting : options.settings) {
-    set_analysis(scene.analysis, setting);
-    notes.push_back("--set " + setting);
-  }
-  if (!options.rule.empty()) {
-    for (JointRule& rule : scene.joint_rules) rule.rule = options.rule;
-    notes.push_back("--rule " + options.rule);
-  }
-  if (options.points > 0) {
-    const int side = static_cast<int>(std::lround(std::sqrt(options.points)));
-    if (side * side != options.points)
-      throw Error(fmt::format("--points {}: not a square number; write 4, 9, 16 or 25, of which half lie along each side", options.points));
-    for (JointRule& rule : scene.joint_rules) rule.points_long = rule.points_short = side;
-    notes.push_back(fmt::format("--points {}", options.points));
-  }
-  if (options.allow_unstable) scene.analysis.unstable = true;
-  if (options.noise > 0) notes.push_back(fmt::format("--noise {:g}", options.noise));
-  return notes;
 }
 
 constexpr double twin_noise = 1e-9, twin_apart = 1e-3;  // m

@@ -18,18 +18,6 @@ int verb_version() {
   return exit_ok;
 }
 
-std::vector<std::string> departures(const Options& options) {
-  std::vector<std::string> words;
-  if (options.dt_fraction) words.insert(words.end(), {"--dt-fraction", fmt::format("{}", *options.dt_fraction)});
-  if (options.points > 0) words.insert(words.end(), {"--points", std::to_string(options.points)});
-  if (!options.rule.empty()) words.insert(words.end(), {"--rule", options.rule});
-  for (const auto& setting : options.settings) words.insert(words.end(), {"--set", setting});
-  for (const auto& effect : options.without) words.insert(words.end(), {"--without", effect});
-  if (options.noise > 0) words.insert(words.end(), {"--noise", fmt::format("{}", options.noise)});
-  if (options.allow_unstable) words.emplace_back("--allow-unstable");
-  return words;
-}
-
 double seconds_of(const std::string& text, const std::string& option) {
   size_t used = 0;
   double value = -1;

@@ -35,6 +35,13 @@ double slope_of(const std::vector<std::pair<double, double>>& points) {
   return (n * xy - x * y) / (n * xx - x * x);
 }
 
+double correlation_of(const std::vector<std::pair<double, double>>& points) {
+  double x = 0, y = 0, xx = 0, yy = 0, xy = 0;
+  const double n = double(points.size());
+  for (const auto& [u, v] : points) x += u, y += v, xx += u * u, yy += v * v, xy += u * v;
+  return (n * xy - x * y) / std::sqrt((n * xx - x * x) * (n * yy - y * y));
+}
+
 constexpr double worth_telling = 0.9;  // an error that is no less than this share of a cheaper setting's is luck
 
 std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
@@ -98,7 +105,7 @@ std::optional<double> error_of(const Goal& q, const std::optional<double>& value
 std::vector<Curve> curves_of(const Goal& q, std::size_t index, const std::vector<Measured>& all) {
   std::vector<Curve> curves;
   for (std::size_t i = 0; i < all.size(); ++i) {
-    if (all[i].setting.knob.empty() || !error_of(q, all[i].values[index])) continue;
+    if (all[i].setting.knob.empty() || all[i].setting.knob == quality_knob || !error_of(q, all[i].values[index])) continue;
     auto found = std::find_if(curves.begin(), curves.end(), [&](const Curve& c) { return c.knob == all[i].setting.knob; });
     if (found == curves.end()) found = curves.insert(curves.end(), {all[i].setting.knob, {}, {}});
     found->at.push_back(i);
@@ -110,16 +117,20 @@ std::vector<Curve> curves_of(const Goal& q, std::size_t index, const std::vector
     if (series.size() < 3) continue;
     const Limit limit = richardson(series, 2);
     const double scale = q.reference != 0 ? std::fabs(q.reference) : 1;
-    std::vector<std::pair<double, double>> points;  // ln size, ln error, from fine to coarse
-    bool falls = true;
+    std::vector<std::pair<double, double>> points;     // ln size, ln error, from fine to coarse
     for (std::size_t i = 1; i < series.size(); ++i) {  // the finest made the limit
       const double error = std::fabs(series[i].second - limit.value) / scale;
       if (!(error > 1e-11) || series[i].first <= 0) continue;  // round-off
-      if (!points.empty() && std::log(error) <= points.back().second) falls = false;
       points.emplace_back(std::log(series[i].first), std::log(error));
     }
-    // An error that does not fall step by step is not this knob's: no order is told.
-    if (falls && points.size() >= 2) c.slope = slope_of(points);
+    // Orders are of small errors and small steps.
+    const auto coarse = [&](const auto& p) { return c.knob == "time step" && p.first > std::log(1.01 / 8); };
+    if (points.size() >= 4 && !coarse(points[3])) std::erase_if(points, coarse);
+    while (points.size() > 2 && points.back().second > std::log(0.1)) points.pop_back();
+    // An error that neither falls step by step nor follows a line is not this knob's: no order is told.
+    const bool falls = std::is_sorted(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.second <= b.second; });
+    const bool told = points.size() >= 2 && (falls || (points.size() >= 6 && correlation_of(points) > 0.9));
+    if (told) c.slope = slope_of(points);
   }
   return curves;
 }

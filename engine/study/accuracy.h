@@ -25,6 +25,9 @@ struct Measured {
   double cpu = 0, updates = 0;                // s of processor; contact points evaluated
 };
 
+// Step and points together, for comparison with the knobs turned alone: no curve is drawn through its stops.
+constexpr const char* quality_knob = "quality";
+
 // A number the study is about, and what it should be.
 struct Goal {
   std::string name, unit;

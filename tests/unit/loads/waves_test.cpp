@@ -3,7 +3,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/units.h"
-#include "engine/loads/loads.h"
+#include "engine/loads/earlier.h"
 
 using namespace erbs;
 
@@ -126,4 +126,9 @@ TEST_CASE("a segment is found in uneven tables", "[loads]") {
   }
   CHECK(segment(line, -1) == 0);
   CHECK(segment(line, 1000) == 4);
+}
+
+TEST_CASE("an earlier wave is the same one, moved", "[loads]") {
+  for (const Wave& wave : examples())
+    for (const double t : {-0.3, 0.05, 0.2, 0.41, 0.7, 1.3}) CHECK(value(earlier(wave, 0.25), t) == Approx(value(wave, t + 0.25)).margin(1e-12));
 }

@@ -62,6 +62,29 @@ TEST_CASE("accuracy of a scene without a number says what to add", "[program]") 
   CHECK(bench.erbs({"accuracy", bench.scene(with("") + period), "-o", bench.out(), "--target", "often"}) == 2);
 }
 
+TEST_CASE("a map of a scene tells what converged and where it goes on", "[program]") {
+  Bench bench;
+  CHECK(bench.erbs({"accuracy", bench.scene(with("")), "--map", "-o", bench.out()}) == 2);
+  CHECK(contains(bench.said, "add one"));
+  const std::string scene = bench.scene(with(", unstable = false") + period);
+  REQUIRE(bench.erbs({"accuracy", scene, "--map", "--budget", "1s", "-o", bench.out()}) == 0);
+  INFO(bench.said);
+  CHECK(contains(bench.said, "--resume --budget 60m goes on"));
+  CHECK(contains(bench.said, "; 0 where theory says otherwise"));
+  for (const char* name : {"map.csv", "map.svg", "map.png"}) CHECK(std::filesystem::file_size(bench.folder / "out" / name) > 1000);
+  CHECK(bench.erbs({"accuracy", scene, "--map", "-o", bench.out()}) == 2);
+  CHECK(bench.erbs({"accuracy", scene, "--map", "--resume", "--budget", "1s", "-o", bench.out()}) == 0);
+  CHECK(contains(text_of(bench.folder / "out/map.csv"), "bounded to the end"));
+}
+
+TEST_CASE("a window of a record, other stiffness and other damping from the command line", "[program]") {
+  Bench bench;
+  REQUIRE(bench.run(with("") + period, {"--force", "--no-figures", "--stiffness", "4", "--damping", "0", "--damping-form", "explicit", "--from", "1"}) == 0);
+  const Json metrics = read_json(bench.out() + "/metrics.json");
+  CHECK(metrics["metrics"]["period"].get<double>() == Approx(pi / std::sqrt(1e8 / 200)).epsilon(0.05));
+  CHECK(contains(text_of(bench.folder / "out/log.txt"), "--stiffness 4"));
+}
+
 // In evaluations of contact points, the cost that no machine changes.
 TEST_CASE("draft is cheaper than standard, and reference ten times as accurate on a smooth quantity", "[program]") {
   Bench bench;

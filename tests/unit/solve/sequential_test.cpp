@@ -1,9 +1,11 @@
 // The sequential scheme as a solver of the program: reproducible, resumable, and honest in its ledger.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <numeric>
 
 #include "engine/analysis/dynamic.h"
+#include "engine/solve/sweep_feed.h"
 #include "lua/script.h"
 #include "tests/support/small_wall.h"
 #include "tests/unit/record/two_bricks.h"
@@ -125,4 +127,25 @@ joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1*GPa, c = 1*GPa, mu = 0.6 } }
     CHECK_FALSE(outcome.trouble.empty());
     CHECK(outcome.metrics.residual_relative > 0.1);
   }
+}
+
+// Of a chain between walls D - K couples neighbours by k alone: 2 k / m cos(pi / (n + 1)).
+TEST_CASE("what a sweep feeds a chain by", "[solve][sequential]") {
+  std::string chain = "gravity(0)\nmaterial{ name = 'stone', density = 2000 }\n";
+  for (int i = 0; i <= 11; ++i)
+    chain += fmt::format("box{{ name = 'b{0}', size = {{.1, .1, .1}}, center = {{.1 * {0}, 0, 0}}, fixed = {1} }}\n", i, i == 0 || i == 11 ? "true" : "false");
+  chain += "joint{ law = mortar{ kn = 1e9, ks = 1e8, ft = 1e9, c = 1e9, mu = 0.6 } }\nanalysis{ duration = 1 }\n";
+  Script script(Script::Options{.quiet = true});
+  const Prepared run = prepare(script.load_text(chain, "chain.lua", {}), false);
+  CHECK(sweep_feed(run.model, run.state) == Approx(2 * 1e7 / 2 * std::cos(3.14159265358979 / 11)).epsilon(1e-6));
+}
+
+// The wall is shaken far less than what its own scheme makes of it.
+TEST_CASE("a sequential run that makes more energy than there is ends as diverged", "[solve][sequential]") {
+  const test::Scratch scratch("sequential_runaway");
+  std::string text = pillar("seed = 1");
+  text.replace(text.find("duration = 0.25, dt_fraction = 0.02"), 35, "duration = 20, dt_fraction = 0.5");
+  const Metrics got = run(text, scratch.path);
+  CHECK(got.status == "diverged");
+  CHECK(got.time_s < 2);
 }

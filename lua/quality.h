@@ -1,0 +1,13 @@
+// Three settings of step and points, measured by the study of accuracy (engine/README.md: errors and costs).
+#pragma once
+
+namespace erbs {
+
+struct Quality {
+  const char* name;
+  double dt_fraction;  // of the limit
+  int points;          // along each side of a joint, Simpson's
+};
+constexpr Quality qualities[] = {{"draft", 0.9, 2}, {"standard", 0.9, 3}, {"reference", 0.25, 5}};
+
+}  // namespace erbs
