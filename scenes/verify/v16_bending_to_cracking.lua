@@ -42,4 +42,4 @@ for _, s0 in ipairs(prestress > 0 and { 0, prestress } or { 0 }) do
   for _, n in ipairs { 2, 3, 5 } do case("trapezoid" .. n .. tag, "trapezoid", n, 1 + 2 / (n - 1) ^ 2, s0) end
   case("gauss2" .. tag, "gauss", 2, math.sqrt(3), s0)
 end
-analysis { duration = ramp, start = "equilibrium", output_dt = ramp / 2000, dt_fraction = 0.5 }
+analysis { duration = ramp, start = "equilibrium", output_dt = ramp / 2000, dt_fraction = 0.25 }
