@@ -30,13 +30,13 @@ for _, row in ipairs { { "pena1", 0.25, 1.0, 0.754, 2670 }, { "pena2", 0.17, 1.0
     expect("metrics." .. name .. "_phi_" .. n, 1, { rel = 0.03, source = "Housner, exact equation" })
     expect("metrics." .. name .. "_t_" .. n, 1, { rel = 0.02, source = "Housner, exact equation" })
   end
-  if name == "pena1" and phi == 0.5 and restitution == 0.24 then  -- fitted there, and kept for other starts
+  if name == "pena1" and phi == 0.5 then  -- fitted there, and kept for other starts
     bisect { param = "restitution", name = "fit", lo = 0.1, hi = 0.5, rel = 0.1, collapsed_when = function(run)
       local _, peaks = it.impacts(run)
       return peaks[2] > theory.amplitudes[2]
     end }
     -- The scene carries what its own fit gives; 15 %: the width of the last bracket and the step's.
-    expect("metrics.fit", restitution, { rel = 0.15, source = "first impact of pena1" })
+    if restitution == 0.24 then expect("metrics.fit", restitution, { rel = 0.15, source = "first impact of pena1" }) end
   end
 end
 analysis { duration = duration, start = "rest", dt = param("dt", 4e-5), output_dt = 1e-3, frame_dt = 0.1 }
