@@ -164,6 +164,10 @@ void Solver::joints(int thread) {
 // Between forces and drift, on one thread: contact forces are summed, and joints past their range handed over.
 void Solver::between() {
   if (contacts_) debris_.gather(push_.data(), sample_ != Sample::none);
+  if (state_.step == 0 && contacts_ && debris_.allowed_dt() < state_.dt) {  // the first drift already waits for what touches at the start
+    follow_contacts();
+    excite();
+  }
   if (!model_.analysis.debris || !any_cracked_ || state_.step % hand_over_every != 0) return;
   const std::vector<int> opened = debris_.hand_over_joints(cracked_);
   if (opened.empty()) return;

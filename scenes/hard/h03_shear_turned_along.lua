@@ -17,7 +17,7 @@ local settle = 2  -- s: the block on contact sinks in and comes to rest
 local duration = settle + time + 1
 local weight = density * l * w * h * g
 local ks = 0.4 * kn
-local soft = param("soft", 16, "kn of the joints over that of the contact: its first step is taken before it is known to touch")
+local soft = param("soft", 1, "kn of the joints over that of the contact")
 
 material { name = "stone", density = density, kn = kn / soft, ks = ks / soft, friction = mu, restitution = 0 }
 joint { law = mortar { kn = kn, ks = ks, ft = 1 * MPa, c = 1 * MPa, mu = mu }, between = { "bonded", "bonded" } }
