@@ -7,6 +7,8 @@
 -- How to run     erbs run scenes/verify/v10_stick_slip.lua [-D F=9] [-D mass=5] [-D spring=300*Hz]
 -- Step           any up to .9 of the limit: -.0087 m, with and without the dashpots of the joint. While a contact slips the step stays below 1/omega of its patch:
 --                friction couples sway and rocking of a block whose pressure lies near an edge (v10_flutter.lua); without that bound it swings up.
+-- Limit          mu H / 2 < L / 6: past that the trailing edge of the bed opens, the pressure at the other follows friction, and the block flutters as
+--                it slides and walks faster than a rigid one. The scene refuses such a block.
 -- What to look at  x_end, v_largest beside rigid_x_end, rigid_v_largest.
 label("quick")
 include "lib_sliding.lua"
@@ -17,6 +19,7 @@ local duration = param("duration", 10, "[s]")
 local spring = param("spring", 300, "frequency of the block on its shear spring [Hz]")
 local size = { 0.3, 0.3, 0.1 }
 local area = size[1] * size[2]
+if mu * size[3] / 2 > size[1] / 6 then error("mu = " .. mu .. " opens the bed under the trailing edge; keep it below " .. size[1] / 3 / size[3], 0) end
 local ks = mass * (2 * pi * spring) ^ 2 / area
 local kn = 2.5 * ks
 
