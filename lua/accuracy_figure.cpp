@@ -126,13 +126,17 @@ void draw_accuracy(const AccuracyStudy& s, const std::string& path) {
 
 namespace {
 
-// Of one panel: the orders its curves show, in short.
+// Of one panel: the orders its curves show, in words short enough for its width.
 std::string orders(const AccuracyStudy& s) {
   std::string text;
-  for (const Curve& c : curves_of(s.quantity(), s.main, s.all))
-    if (c.slope && c.knob != "lazy rotation")
-      text += fmt::format("{}{} {:.2f}", text.empty() ? "orders: " : ", ", c.knob.starts_with("points, ") ? c.knob.substr(8) : c.knob,
-                          *c.slope);
+  for (const Curve& c : curves_of(s.quantity(), s.main, s.all)) {
+    if (!c.slope || c.knob == "lazy rotation") continue;
+    std::string name = c.knob == "time step" ? "step" : c.knob == "block size" ? "size" : c.knob;
+    for (const char* kind : {"points, ", "sequential, "})
+      if (name.starts_with(kind)) name = name.substr(std::string_view(kind).size());
+    if (c.knob.starts_with("points, ")) name.resize(std::min<std::size_t>(name.size(), 4));
+    text += fmt::format("{}{} {:.1f}", text.empty() ? "" : ", ", name, *c.slope);
+  }
   return text.empty() ? "no knob shows an order" : text;
 }
 
@@ -159,7 +163,7 @@ std::string common_legend(const std::vector<AccuracyStudy>& studies, double heig
     const int k = tag - 100;
     script += fmt::format(
         "set label {} {} at screen {:.4f},{:.4f} left offset 1.5,0 noenhanced point pt {} ps {} lw 2 lc rgb '{}' tc rgb '#222222'\n", tag++,
-        gnuplot_quoted(name), 0.06 + 0.19 * (k % 5), (48.0 - 24 * (k / 5)) / height, mark, size, color);
+        gnuplot_quoted(name), 0.06 + 0.19 * (k % 5), (66.0 - 22 * (k / 5)) / height, mark, size, color);
   };
   add("the scene as it is", "#000000", 3, 1.6);
   add("Pareto front", "#f0c75e", 7, 2.2);
@@ -171,7 +175,7 @@ std::string common_legend(const std::vector<AccuracyStudy>& studies, double heig
 
 void draw_accuracies(const std::vector<AccuracyStudy>& studies, const std::string& path) {
   const int columns = studies.size() > 4 ? 4 : int(std::max<std::size_t>(1, studies.size()));
-  const int rows = (int(studies.size()) + columns - 1) / columns, width = 470 * columns, height = 430 * rows + 110;
+  const int rows = (int(studies.size()) + columns - 1) / columns, width = 470 * columns, height = 430 * rows + 125;
   Picture picture;
   std::string panels;
   for (std::size_t k = 0; k < studies.size(); ++k) {
