@@ -62,28 +62,28 @@ bool carries(const std::string& scene, const std::string& label, const Overrides
 struct Running {
   Case* item;
   Clock::time_point begin;
-  int asked = 0;  // to stop: 1 as Ctrl-C, 2 hard
+  std::optional<double> max_wall;  // s
+  int asked = 0;                   // to stop: 1 as Ctrl-C, 2 hard
 };
 
 // A case that outlives its time is asked to stop, and ended where it does not heed that for ten seconds.
-void hurry(std::map<int, Running>& running, const Options& options) {
-  if (!options.max_wall) return;
+void hurry(std::map<int, Running>& running) {
   for (auto& [pid, run] : running) {
+    if (!run.max_wall) continue;
     const double wall = std::chrono::duration<double>(Clock::now() - run.begin).count();
     // a run stops itself at its limit, with what it has written; its studies may not
-    if (run.asked == 0 && wall > *options.max_wall + 2) run.asked = 1, run.item->overdue = true, interrupt({pid});
-    if (run.asked == 1 && wall > *options.max_wall + 12) run.asked = 2, stop_hard({pid});
+    if (run.asked == 0 && wall > *run.max_wall + 2) run.asked = 1, run.item->overdue = true, interrupt({pid});
+    if (run.asked == 1 && wall > *run.max_wall + 12) run.asked = 2, stop_hard({pid});
   }
 }
 
-Child launch(const Case& item, const Options& options, int threads) {
+Child launch(const Case& item, const Options& options, int threads, std::optional<double> max_wall) {
   std::vector<std::string> command{own_path(),    "run", item.scene, "-o", item.directory, item.resume ? "--resume" : "--force",
                                    "--no-figures"};
   if (threads > 0) command.insert(command.end(), {"--threads", std::to_string(threads)});
   for (const auto& [name, value] : options.overrides) command.insert(command.end(), {"-D", name + "=" + value});
   if (options.allow_unstable) command.emplace_back("--allow-unstable");
-  if (options.allow_unstable) command.emplace_back("--allow-unstable");
-  if (options.max_wall) command.insert(command.end(), {"--max-wall", fmt::format("{}s", *options.max_wall)});
+  if (max_wall) command.insert(command.end(), {"--max-wall", fmt::format("{}s", *max_wall)});
   command.insert(command.end(), item.extra.begin(), item.extra.end());
   for (const char* old : {"expectations.json", "metrics.json"}) fs::remove(run_file(item.directory, old));
   return start(command, item.log);
@@ -126,12 +126,15 @@ void run_cases(std::vector<Case>& cases, const Options& options, const std::func
   const bool live = isatty(STDERR_FILENO) != 0 && !options.quiet;
   const auto begin = Clock::now();
   auto told = begin;
-  const auto in_time = [&] { return options.budget <= 0 || std::chrono::duration<double>(Clock::now() - begin).count() < options.budget; };
+  const auto left_of_budget = [&] { return options.budget - std::chrono::duration<double>(Clock::now() - begin).count(); };
+  const auto in_time = [&] { return options.budget <= 0 || left_of_budget() > 0; };
   while (!running.empty() || (next < cases.size() && in_time())) {
     while (next < cases.size() && running.size() < jobs && in_time()) {
       Case& item = cases[next++];
       fs::create_directories(fs::path(item.directory).parent_path());
-      running[launch(item, options, threads).pid] = {&item, Clock::now()};
+      std::optional<double> max_wall = options.max_wall;
+      if (item.within_budget && options.budget > 0) max_wall = std::min(max_wall.value_or(1e9), std::max(1.0, left_of_budget()));
+      running[launch(item, options, threads, max_wall).pid] = {&item, Clock::now(), max_wall};
     }
     if (live) {
       const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
@@ -146,7 +149,7 @@ void run_cases(std::vector<Case>& cases, const Options& options, const std::func
                  spent / static_cast<double>(done) * static_cast<double>(cases.size() - done));
     }
     const Ended child = wait_for_any(1.0);
-    hurry(running, options);
+    hurry(running);
     const auto found = running.find(child.pid);
     if (found == running.end()) continue;
     found->second.item->code = child.code;

@@ -13,6 +13,7 @@ struct Case {
   std::string scene, name, directory, log;  // name: of the scene, made unique
   std::vector<std::string> extra;           // words for erbs run besides those of every case
   bool resume = false;                      // goes on from its checkpoint
+  bool within_budget = false;               // stops itself, with a checkpoint, once the budget of all is spent
   int code = 0;
   double cpu = 0;        // s, of the run and its studies
   bool overdue = false;  // had to be stopped

@@ -34,7 +34,7 @@ std::string points(const MapStudy& s, const Scheme& scheme, double factor, Verdi
     if (r.scheme.sequential != scheme.sequential || r.scheme.explicit_damping != scheme.explicit_damping || r.factor != factor ||
         r.verdict != verdict)
       continue;
-    if (verdict == Verdict::converged && r.ratio.has_value() != rated) continue;
+    if ((verdict == Verdict::converged || verdict == Verdict::bounded) && r.ratio.has_value() != rated) continue;
     const double shade = r.ratio ? std::clamp(std::log10(std::max(1e-9, std::fabs(*r.ratio))), -2.0, 2.0) : 0;
     text += fmt::format("{:.6g} {:.6g} {:.4g}\n", at_damping(s, r.damping), r.dt, shade);
   }
@@ -78,6 +78,7 @@ std::string panel(const MapStudy& s, const Scheme& scheme, double factor, int& n
   add(points(s, scheme, factor, Verdict::ledger, false), " with points pt 1 ps 1.1 lw 2 lc rgb '#d07a1e'");
   add(points(s, scheme, factor, Verdict::failed, false), " with points pt 3 ps 0.9 lw 1 lc rgb '#777777'");
   add(points(s, scheme, factor, Verdict::bounded, false), " with points pt 6 ps 1.3 lw 1.6 lc rgb '#1b4f8a'");
+  add(points(s, scheme, factor, Verdict::bounded, true), ":3 with points pt 6 ps 1.4 lw 2.5 lc palette");
   add(points(s, scheme, factor, Verdict::converged, false), " with points pt 7 ps 1.3 lc rgb '#777777'");
   add(points(s, scheme, factor, Verdict::converged, true), ":3 with points pt 7 ps 1.5 lc palette");
   return plot.substr(0, plot.size() - 2) + "\n";
@@ -96,7 +97,7 @@ std::string legend(const MapStudy& s) {
     const char* color;
   };
   const Mark marks[] = {{"bounded to the end, coloured by its peak", 7, 1.5, "#2b8cbe"},
-                        {"bounded so far, its time was up", 6, 1.3, "#1b4f8a"},
+                        {"bounded so far, its time was up: coloured by its peak so far", 6, 1.4, "#2b8cbe"},
                         {"diverged, and the run said so", 2, 0.9, "#b3261e"},
                         {"tame, but its energy is wrong, and the run said so", 1, 1.1, "#d07a1e"}};
   std::string text;

@@ -97,8 +97,8 @@ void choose_dampings(MapStudy& study, const Scene& scene) {
   }
 }
 
-// To be done, the scene as it is and the shortest first: a sequential step costs some 25 of leapfrog (768 blocks, one thread).
-double work(const MapRun& r) { return (r.factor == 1 ? 1e-6 : 1) * (r.scheme.sequential ? 25 : 1) / r.dt; }
+// To be done, the scene as it is and the shortest first: a sequential step costs some 6 of leapfrog (768 blocks, one thread).
+double work(const MapRun& r) { return (r.factor == 1 ? 1e-6 : 1) * (r.scheme.sequential ? 6 : 1) / r.dt; }
 
 std::string stem(const MapRun& r) {
   return fmt::format("{}{}_k{:g}_dt{:.4g}_c{:.4g}", r.scheme.sequential ? "sequential" : "leapfrog",
@@ -141,6 +141,7 @@ void read(MapRun& r, const Case& run, const std::string& quantity) {
     r.until = number("time_s").value_or(0), r.value = number("metrics." + quantity),
     r.residual = number("energy.residual_relative").value_or(0);
     r.broken = int(number("joints_broken").value_or(0));
+    if (r.value) r.seen.push_back({r.until, *r.value});
     const bool gate = run.code == exit_numbers && !r.scheme.sequential;
     r.verdict = status == "diverged"    ? Verdict::diverged
                 : gate                  ? Verdict::ledger
@@ -152,7 +153,10 @@ void read(MapRun& r, const Case& run, const std::string& quantity) {
 }
 
 Json json_of(const MapRun& r, const std::string& key) {
+  Json seen = Json::array();
+  for (const MapRun::Seen& one : r.seen) seen.push_back({one.until, one.value});
   return {{"key", key},
+          {"seen", seen},
           {"verdict", int(r.verdict)},
           {"until", r.until},
           {"value", r.value ? Json(*r.value) : Json()},
@@ -168,18 +172,19 @@ void read_note(MapRun& r, const std::string& path, const std::string& key) {
     const Json note = read_json(path);
     if (note.value("key", "") != key) return;
     r.verdict = Verdict(note.value("verdict", 0)), r.until = note.value("until", 0.0), r.residual = note.value("residual", 0.0);
+    for (const Json& one : note.at("seen")) r.seen.push_back({one.at(0).get<double>(), one.at(1).get<double>()});
     if (note["value"].is_number()) r.value = note["value"].get<double>();
     r.broken = note.value("broken", 0), r.cpu = note.value("cpu_s", 0.0), r.reason = note.value("reason", "");
   } catch (const std::exception&) { r.verdict = Verdict::waiting; }
 }
 
 void settle_ratios(MapStudy& study) {
+  const auto tame = [](const MapRun& r) { return r.verdict == Verdict::converged || r.verdict == Verdict::bounded; };
   for (MapRun& r : study.all)
     for (const MapRun& reference : study.all)
       if (!reference.scheme.sequential && reference.factor == r.factor && reference.dt == study.steps.front().second &&
-          reference.damping == study.dampings.front() && reference.verdict == Verdict::converged && r.verdict == Verdict::converged &&
-          reference.value && r.value && *reference.value != 0)
-        r.ratio = *r.value / *reference.value;
+          reference.damping == study.dampings.front() && tame(reference) && tame(r))
+        r.ratio = ratio_of(r, reference);
 }
 
 void carry_out(MapStudy& study, const Options& given, const std::string& key) {
@@ -191,7 +196,7 @@ void carry_out(MapStudy& study, const Options& given, const std::string& key) {
   const auto folder_of = [&](const MapRun& r) { return study.directory + "/runs/" + stem(r); };
   for (MapRun& r : study.all) {
     if (given.resume) read_note(r, folder_of(r) + ".json", key);
-    if (r.verdict == Verdict::bounded && !fs::exists(folder_of(r) + "/checkpoint.bin")) r.verdict = Verdict::waiting;
+    if (r.verdict == Verdict::bounded && !fs::exists(folder_of(r) + "/checkpoint.bin")) r.verdict = Verdict::waiting, r.seen.clear();
   }
   for (const double share : shares) {
     std::vector<std::size_t> which;
@@ -206,6 +211,7 @@ void carry_out(MapStudy& study, const Options& given, const std::string& key) {
       Case run;
       run.scene = study.scene, run.name = stem(r), run.directory = folder_of(r), run.log = run.directory + ".log", run.extra = r.words;
       run.resume = r.verdict == Verdict::bounded;
+      run.within_budget = true;
       if (share < 1) run.extra.insert(run.extra.end(), {"--until", fmt::format("{}", share * study.window)});
       cases.push_back(std::move(run));
     }
@@ -213,7 +219,7 @@ void carry_out(MapStudy& study, const Options& given, const std::string& key) {
     if (spent() >= budget) break;
     fmt::print(stderr, "{} runs up to {:.3g} s of the window, {} left\n", cases.size(), share * study.window,
                duration_text(budget - spent()));
-    options.max_wall = options.budget = budget - spent();
+    options.budget = budget - spent();
     run_cases(cases, options, [&](const Case& run) {
       MapRun& r = study.all[which[std::size_t(&run - cases.data())]];
       read(r, run, study.quantity);

@@ -40,11 +40,10 @@ double power(const State& s, const double* loads, const LoadedBlock& l) {
   return load.head<3>().dot(s.v[z(l.block)]) + load.tail<3>().dot(l.inverse_inertia * s.spin_momentum[z(l.block)]);
 }
 
-// The loaded blocks of a chunk.
+// The loaded ones among blocks [first, last).
 std::span<LoadedBlock> within(std::span<LoadedBlock> all, int first, int last) {
   const auto before = [](const LoadedBlock& l, int b) { return l.block < b; };
-  const auto from = std::lower_bound(all.begin(), all.end(), first * lanes, before),
-             to = std::lower_bound(from, all.end(), last * lanes, before);
+  const auto from = std::lower_bound(all.begin(), all.end(), first, before), to = std::lower_bound(from, all.end(), last, before);
   return {from, to};
 }
 
@@ -77,7 +76,8 @@ void set_constants(const Model& m, const State& s, int b, bool moving, BlockCons
   c.inverse_mass[l] = moving ? m.inverse_mass[z(b)] : 0;
   c.damped[l] = moving && (m.damping_all || s.grounded[z(b)]);
   for (int i = 0; i < 6; ++i) c.inverse_inertia[i][l] = moving ? m.inverse_inertia[z(b)](row[i], column[i]) : 0;
-  c.turn_limit[l] = moving && s.joined[z(b)] ? m.analysis.lazy_rotation * m.analysis.lazy_rotation : std::numeric_limits<double>::infinity();
+  c.turn_limit[l] =
+      moving && s.joined[z(b)] ? m.analysis.lazy_rotation * m.analysis.lazy_rotation : std::numeric_limits<double>::infinity();
   c.first_row[l] = moving ? 8 * m.first_row[z(b)] : 0;
   c.rows[l] = moving ? m.first_row[z(b) + 1] - m.first_row[z(b)] : 0;
 }
@@ -99,7 +99,7 @@ Vec6 joint_wrench(const Model& m, const State& s, int b) {
 
 void advance(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes, int first,
              int last, bool sample, BlockSums& sums) {
-  const auto loaded = within(pushes.loaded, first, last);
+  const auto loaded = within(pushes.loaded, first * lanes, last * lanes);
   if (!loaded.empty()) work_before(m, s, pushes, loaded, sums);
   if (lane_kernels().advance(kick_of(m, s, e), arrays(s, constants, pushes), first, last, sample, sums.work)) sums.broken = true;
   if (!loaded.empty()) work_after(s, pushes, loaded, sums);
@@ -109,33 +109,67 @@ void advance(const Model& m, State& s, const std::vector<BlockConstants>& consta
   }
 }
 
-void advance_one(const Model& m, State& s, const Excitation& e, const Pushes& pushes, int b, bool sample, BlockSums& sums) {
-  const int k = b / lanes, l = b % lanes;
-  BlockConstants alone;
-  for (int i = 0; i < lanes; ++i) set_constants(m, s, k * lanes + i, i == l, alone);
-  BlockArrays group = arrays(s, {}, pushes);
-  group.constant = &alone;
-  group.u += k, group.v += k, group.momentum += k, group.w += k, group.q += k, group.base_u += k, group.base_q += k;
-  group.row += 64L * k;
-  if (group.push != nullptr) group.push += 64L * k;
-  if (group.load != nullptr) group.load += 64L * k;
-  const RowLanes<3> u = *group.u, v = *group.v, momentum = *group.momentum, w = *group.w;
-  const RowLanes<4> q = *group.q;
-  double row[64];
-  std::copy_n(group.row, 64, row);
-  LoadedBlock loaded{b, Mat3::Zero()};
-  const std::span<LoadedBlock> mine(&loaded, pushes.loads != nullptr ? 1 : 0);
-  if (!mine.empty()) work_before(m, s, pushes, mine, sums);
-  if (lane_kernels().advance(kick_of(m, s, e), group, 0, 1, sample, sums.work)) sums.broken = true;
-  if (!mine.empty()) work_after(s, pushes, mine, sums);
-  for (int i = 0; i < lanes; ++i) {
-    if (i == l) continue;
-    for (int c = 0; c < 3; ++c) group.u->x[c][i] = u.x[c][i], group.v->x[c][i] = v.x[c][i], group.momentum->x[c][i] = momentum.x[c][i], group.w->x[c][i] = w.x[c][i];
-    for (int c = 0; c < 4; ++c) group.q->x[c][i] = q.x[c][i];
-    std::copy_n(row + 8 * i, 8, group.row + 8 * i);
+Picked::Picked(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes)
+    : model_(m), state_(s), constants_(constants), pushes_(pushes), kernels_(lane_kernels()), step_(kick_of(m, s, e)) {}
+
+void Picked::copy_in(int b, int lane) {
+  const std::size_t k = z(b / lanes), to = z(lane);
+  const int l = b % lanes;
+  const BlockConstants& c = constants_[k];
+  constant_.mass[to] = c.mass[l], constant_.inverse_mass[to] = c.inverse_mass[l];
+  constant_.moving[to] = c.moving[l], constant_.damped[to] = c.damped[l];
+  for (int i = 0; i < 6; ++i) constant_.inverse_inertia[i][to] = c.inverse_inertia[i][l];
+  constant_.turn_limit[to] = c.turn_limit[l];
+  constant_.first_row[to] = c.first_row[l], constant_.rows[to] = c.rows[l];
+  const State& s = state_;
+  for (int i = 0; i < 3; ++i) {
+    u_.x[i][to] = s.u.data()[k].x[i][l];
+    v_.x[i][to] = s.v.data()[k].x[i][l];
+    momentum_.x[i][to] = s.spin_momentum.data()[k].x[i][l];
+    base_u_.x[i][to] = s.base_u.data()[k].x[i][l];
   }
-  sums.stale = sums.stale || sums.work.stale[l] > 0;
-  std::fill_n(sums.work.stale, lanes, 0.0);
+  for (int i = 0; i < 4; ++i) {
+    q_.x[i][to] = s.q.data()[k].x[i][l];
+    base_q_.x[i][to] = s.base_q.data()[k].x[i][l];
+  }
+  if (pushes_.contacts != nullptr) std::copy_n(pushes_.contacts + 8 * z(b), 8, push_ + 8 * to);
+  if (pushes_.loads != nullptr) std::copy_n(pushes_.loads + 8 * z(b), 8, load_ + 8 * to);
+}
+
+void Picked::copy_out(int b, int lane) {
+  const std::size_t k = z(b / lanes), from = z(lane);
+  const int l = b % lanes;
+  State& s = state_;
+  for (int i = 0; i < 3; ++i) {
+    s.u.data()[k].x[i][l] = u_.x[i][from];
+    s.v.data()[k].x[i][l] = v_.x[i][from];
+    s.spin_momentum.data()[k].x[i][l] = momentum_.x[i][from];
+    s.w.data()[k].x[i][l] = w_.x[i][from];
+  }
+  for (int i = 0; i < 4; ++i) s.q.data()[k].x[i][l] = q_.x[i][from];
+  std::copy_n(row_ + 8 * from, 8, &s.row[8 * z(b)]);
+}
+
+template <class F>
+void Picked::each_loaded(const int* blocks, int count, F&& f) const {
+  for (int i = 0; i < count && !pushes_.loaded.empty(); ++i)
+    if (const auto one = within(pushes_.loaded, blocks[i], blocks[i] + 1); !one.empty())
+      f(one, z(int(one.data() - pushes_.loaded.data())) + 1);
+}
+
+void Picked::advance(const int* blocks, int count, bool sample, std::vector<BlockSums>& sums) {
+  for (int l = 0; l < lanes; ++l) copy_in(l < count ? blocks[l] : model_.nblock, l);  // beside them the one at rest
+  each_loaded(blocks, count, [&](auto one, std::size_t i) { work_before(model_, state_, pushes_, one, sums[i]); });
+  const double *push = pushes_.contacts != nullptr ? push_ : nullptr, *load = pushes_.loads != nullptr ? load_ : nullptr;
+  const BlockArrays group{&constant_, &u_, &v_, &momentum_, &w_, &q_, &base_u_, &base_q_, row_, state_.wrench.data(), push, load};
+  BlockSums& all = sums.front();
+  if (kernels_.advance(step_, group, 0, 1, sample, all.work)) all.broken = true;
+  for (int l = 0; l < count; ++l) copy_out(blocks[l], l);
+  each_loaded(blocks, count, [&](auto one, std::size_t i) { work_after(state_, pushes_, one, sums[i]); });
+  for (double& stale : all.work.stale) {
+    all.stale = all.stale || stale > 0;
+    stale = 0;
+  }
 }
 
 }  // namespace erbs

@@ -48,8 +48,33 @@ struct Pushes {
 void advance(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes,
              int first, int last, bool sample, BlockSums& sums);
 
-// One block alone, for a sweep from block to block; the others stay as they are.
-void advance_one(const Model& model, State& state, const Excitation& e, const Pushes& pushes, int b, bool sample, BlockSums& sums);
+// Blocks picked from anywhere, up to eight at a time, for a sweep in which each meets those that have gone before it where they have
+// arrived.
+class Picked {
+ public:
+  // For one sweep: what acts in it is taken once.
+  Picked(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes);
+  // Kick and drift of blocks[0 .. count), count <= lanes, as advance() does. `sums`: the first of all, but what loads do is summed
+  // up block by block, in the order of pushes.loaded, behind it.
+  void advance(const int* blocks, int count, bool sample, std::vector<BlockSums>& sums);
+
+ private:
+  void copy_in(int b, int lane);
+  void copy_out(int b, int lane);
+  template <class F>
+  void each_loaded(const int* blocks, int count, F&& f) const;
+
+  const Model& model_;
+  State& state_;
+  const std::vector<BlockConstants>& constants_;
+  const Pushes& pushes_;
+  const LaneKernels& kernels_;
+  KickDrift step_;
+  BlockConstants constant_{};
+  RowLanes<3> u_{}, v_{}, momentum_{}, w_{}, base_u_{};
+  RowLanes<4> q_{}, base_q_{};
+  alignas(64) double row_[64] = {}, push_[64] = {}, load_[64] = {};
+};
 
 // Sum of the wrench rows of a block's joints: force, moment.
 Vec6 joint_wrench(const Model& model, const State& state, int b);

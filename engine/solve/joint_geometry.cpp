@@ -7,14 +7,14 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
+}  // namespace
+
 void set_row(State& s, int b) {
   const Vec3 du = s.u[z(b)] - s.base_u[z(b)];
   const Vec3 th = rotation_vector(s.q[z(b)] * s.base_q[z(b)].conjugate());
   double* row = &s.row[z(b) * 8];
   for (int i = 0; i < 3; ++i) row[i] = du[i], row[3 + i] = th[i];
 }
-
-}  // namespace
 
 void refresh(const Model& m, State& s, const std::vector<int>& blocks, const std::vector<int>& joints) {
   for (const int b : blocks) {

@@ -56,6 +56,8 @@ inline Vec3 small_rotation_vector(const Quat& q) {
 // Takes the present pose of the blocks as their new reference, and the geometry of their joints with it: `joints` are all that end
 // at one of them.
 void refresh(const Model& model, State& state, const std::vector<int>& blocks, const std::vector<int>& joints);
+// State::row of block b from its pose.
+void set_row(State& state, int b);
 void refresh_all(const Model& model, State& state);
 
 // The relative displacement of joint j as the step sees it: carried since the refresh.

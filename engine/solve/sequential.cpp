@@ -5,8 +5,10 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/model/batches.h"
 #include "engine/solve/joint_geometry.h"
 #include "engine/solve/joint_response.h"
+#include "engine/solve/sound.h"
 
 namespace erbs {
 namespace {
@@ -56,6 +58,13 @@ void write_wrench(const Model& m, State& s, int j, const JointPose& pose, const 
 
 bool open(const State& s, int j) { return s.tier[z(j)] == Tier::open; }
 
+// The bound of lanes.inc that keeps a joint sound, for one of them.
+bool near_limits(const JointBatch& B, int l, const double q[6]) {
+  const double bend = std::fabs(q[3]) * B.half_t[l] + std::fabs(q[4]) * B.half_s[l], opening = q[2] + bend;
+  const double slip = std::hypot(q[0], q[1]) + std::fabs(q[5]) * B.radius[l];
+  return opening > B.open_limit[l] || bend - q[2] > B.close_limit[l] || slip + B.slip_slope[l] * opening > B.slip_limit[l];
+}
+
 }  // namespace
 
 std::vector<int> sweep_order(const Model& model, std::uint64_t seed, std::uint64_t step) {
@@ -67,18 +76,99 @@ std::vector<int> sweep_order(const Model& model, std::uint64_t seed, std::uint64
 }
 
 Sequential::Sequential(const Model& model, State& state)
-    : model_(model), state_(state), centred_(model.analysis.variant == "centred"), first_end_(z(model.nblock) + 1, 0) {
-  order_ = sweep_order(model, std::uint64_t(model.analysis.seed), 0);
+    : model_(model),
+      state_(state),
+      centred_(model.analysis.variant == "centred"),
+      plain_(model.analysis.kernel == "reference"),
+      first_end_(z(model.nblock) + 1, 0),
+      lane_(z(model.njoint)),
+      broken_(z(model.nblock), 0) {
+  for (int b = 0; b < model.nblock; ++b)
+    if (model.kind[z(b)] == Kind::driven) driven_.push_back(b);
   for (const Joint& j : model.joint) ++first_end_[z(j.a) + 1], ++first_end_[z(j.b) + 1];
   std::partial_sum(first_end_.begin(), first_end_.end(), first_end_.begin());
   end_.resize(2 * z(model.njoint));
   std::vector<int> next(first_end_.begin(), first_end_.end() - 1);
   for (int j = 0; j < model.njoint; ++j)
     for (const int b : {model.joint[z(j)].a, model.joint[z(j)].b}) end_[z(next[z(b)]++)] = j;
+  for (int b = 0; b < model.nblock; ++b) {
+    first_neighbour_.push_back(int(neighbour_.size()));
+    for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k) {
+      const Joint& joint = model.joint[z(end_[z(k)])];
+      const int other = joint.a == b ? joint.b : joint.a;
+      const auto mine = neighbour_.begin() + first_neighbour_.back();
+      if (model.kind[z(other)] == Kind::moving && std::find(mine, neighbour_.end(), other) == neighbour_.end()) neighbour_.push_back(other);
+    }
+  }
+  first_neighbour_.push_back(int(neighbour_.size()));
+  for (int b = 0; b < model.nblock; ++b) {
+    first_batch_.push_back(int(batch_.size()));
+    int taken = 0;
+    for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1] && model.kind[z(b)] != Kind::fixed; ++k) {
+      const int j = end_[z(k)];
+      if (state.tier[z(j)] != Tier::intact || plain_) {
+        ++broken_[z(b)];
+        continue;
+      }
+      if (taken++ % lanes == 0) {
+        batch_.emplace_back();
+        for (int l = 0; l < lanes; ++l) clear_sound_lane(model, batch_.back(), l);
+        joint_.resize(batch_.size() * lanes, -1);
+      }
+      const int lane = (int(batch_.size()) - 1) * lanes + (taken - 1) % lanes;
+      joint_[z(lane)] = j;
+      ++batch_.back().used;
+      (model.joint[z(j)].a == b ? lane_[z(j)].of_a : lane_[z(j)].of_b) = lane;
+    }
+  }
+  first_batch_.push_back(int(batch_.size()));
+  near_.resize(batch_.size() + 1);
+  std::vector<int> all(z(model.njoint));
+  std::iota(all.begin(), all.end(), 0);
+  update(all);
+  deal_order();
+}
+
+// Each block into the round after the last of its neighbours that precede it.
+void Sequential::deal_order() {
+  const std::vector<int> order = sweep_order(model_, std::uint64_t(model_.analysis.seed), std::uint64_t(state_.step));
+  level_.assign(z(model_.nblock), -1);
+  round_.assign(1, 0);
+  for (const int b : order) {
+    if (model_.kind[z(b)] != Kind::moving) continue;
+    int last = -1;
+    for (int k = first_neighbour_[z(b)]; k < first_neighbour_[z(b) + 1]; ++k) last = std::max(last, level_[z(neighbour_[z(k)])]);
+    level_[z(b)] = last + 1;
+    if (last + 3 > int(round_.size())) round_.push_back(0);
+    ++round_[z(last) + 2];
+  }
+  std::partial_sum(round_.begin(), round_.end(), round_.begin());
+  order_.resize(z(round_.back()));
+  next_ = round_;
+  for (const int b : order)
+    if (level_[z(b)] >= 0) order_[z(next_[z(level_[z(b)])]++)] = b;
+}
+
+void Sequential::update(const std::vector<int>& joints) {
+  for (const int j : joints)
+    for (const int lane : {lane_[z(j)].of_a, lane_[z(j)].of_b})
+      if (lane >= 0) set_sound_lane(state_.batch[z(j / lanes)], j % lanes, batch_[z(lane / lanes)], lane % lanes);
+}
+
+// Joint j is no longer sound: it leaves the lanes of its blocks.
+void Sequential::leave(int j) {
+  for (const int b : {model_.joint[z(j)].a, model_.joint[z(j)].b}) ++broken_[z(b)];
+  for (int* lane : {&lane_[z(j)].of_a, &lane_[z(j)].of_b}) {
+    if (*lane < 0) continue;
+    clear_sound_lane(model_, batch_[z(*lane / lanes)], *lane % lanes);
+    --batch_[z(*lane / lanes)].used;
+    joint_[z(*lane)] = -1;
+    *lane = -1;
+  }
 }
 
 // The law of joint j follows the present poses of its blocks; both blocks meet its new force.
-void Sequential::update(int j, JointSums& sums) {
+void Sequential::follow(int j, JointSums& sums) {
   State& s = state_;
   if (open(s, j)) return;
   const JointPose pose = joint_pose(model_, s, j);
@@ -86,7 +176,9 @@ void Sequential::update(int j, JointSums& sums) {
   const bool sound = s.tier[z(j)] == Tier::intact;
   JointEnergy e;
   double f[6];
-  if (!respond(model_, j, sound, memory.q, pose.q, past_of(model_, s, j), f, e) && sound) {
+  const bool still = respond(model_, j, sound, memory.q, pose.q, past_of(model_, s, j), f, e);
+  if (still && !plain_) return;
+  if (sound && !still) {
     s.tier[z(j)] = Tier::cracked;
     ++sums.cracked_now;
   }
@@ -102,28 +194,105 @@ void Sequential::update(int j, JointSums& sums) {
   write_wrench(model_, s, j, pose, f);
 }
 
-// Forces on block b where it would be after half a step at its present speed; the laws' memory is not touched.
+// Joints of a batch of block b, which has moved for `moved` seconds, that may be past a limit. The answer of one that holds stays.
+void Sequential::look_closer(int batch, int b, double moved, JointSums& sums) {
+  State& s = state_;
+  for (int l = 0; l < lanes; ++l) {
+    const int j = joint_[z(batch * lanes + l)];
+    if (j < 0 || !near_limits(s.batch[z(j / lanes)], j % lanes, joint_pose(model_, s, j).q)) continue;
+    const Vec3 u = s.u[z(b)];
+    const Quat q = s.q[z(b)];
+    s.u[z(b)] = Vec3(u - moved * Vec3(s.v[z(b)]));
+    s.q[z(b)] = Quat(rotation(-moved * Vec3(s.w[z(b)])) * q);
+    const JointPose before = joint_pose(model_, s, j);
+    s.u[z(b)] = u;
+    s.q[z(b)] = q;
+    JointMemory& memory = s.memory[z(j)];
+    memory.elastic = 0;
+    for (int i = 0; i < 6; ++i) {
+      memory.q[i] = before.q[i];
+      memory.f[i] = model_.joint[z(j)].stiffness[i] * before.q[i];
+      memory.elastic += 0.5 * memory.f[i] * before.q[i];
+    }
+    follow(j, sums);
+    if (s.tier[z(j)] != Tier::intact) leave(j);
+  }
+}
+
+bool Sequential::turned_far(int b) const {
+  const double *row = &state_.row[z(b) * 8], limit = model_.analysis.lazy_rotation;
+  return state_.joined[z(b)] != 0 && !plain_ && row[3] * row[3] + row[4] * row[4] + row[5] * row[5] > limit * limit;
+}
+
+// All joints of block b, which has moved for `moved` seconds while its neighbours were held.
+void Sequential::visit(int b, double moved, JointSums& sums) {
+  State& s = state_;
+  if (turned_far(b)) {  // what is carried from the last refresh would err
+    its_joints_.assign(end_.begin() + first_end_[z(b)], end_.begin() + first_end_[z(b) + 1]);
+    refresh(model_, s, {b}, its_joints_);
+    update(its_joints_);
+  }
+  if (broken_[z(b)] > 0)
+    for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k)
+      if (plain_ || s.tier[z(end_[z(k)])] == Tier::cracked) follow(end_[z(k)], sums);
+  const int near =
+      lane_kernels().sound(batch_.data(), first_batch_[z(b)], first_batch_[z(b) + 1], s.row.data(), s.wrench.data(), nullptr, near_.data());
+  for (int i = 0; i < near; ++i) look_closer(near_[z(i)], b, moved, sums);
+}
+
+// What joint j would answer to the present poses; the law's memory is not touched.
+void Sequential::try_out(int j) {
+  State& s = state_;
+  const Joint& joint = model_.joint[z(j)];
+  const JointPose pose = joint_pose(model_, s, j);
+  trial_.assign(&s.history[z(joint.first_point)], &s.history[z(joint.first_point)] + joint.points);
+  CrushedFace crushed = s.crushed.empty() ? CrushedFace{} : s.crushed[z(j)];
+  JointEnergy unused;
+  double f[6];
+  respond(model_, j, s.tier[z(j)] == Tier::intact, s.tier[z(j)] == Tier::intact && !plain_ ? pose.q : s.memory[z(j)].q, pose.q,
+          {trial_.data(), s.crushed.empty() ? nullptr : &crushed}, f, unused);
+  write_wrench(model_, s, j, pose, f);
+}
+
+// Forces on block b where it would be after half a step at its present speed.
 void Sequential::predict(int b) {
   State& s = state_;
   const Vec3 u = s.u[z(b)];
   const Quat q = s.q[z(b)];
+  alignas(64) double row[8];
+  std::copy_n(&s.row[8 * z(b)], 8, row);
   s.u[z(b)] = Vec3(u + 0.5 * s.dt * Vec3(s.v[z(b)]));
   s.q[z(b)] = Quat(rotation(0.5 * s.dt * Vec3(s.w[z(b)])) * q);
-  for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k) {
-    const int j = end_[z(k)];
-    if (open(s, j)) continue;
-    const Joint& joint = model_.joint[z(j)];
-    const JointPose pose = joint_pose(model_, s, j);
-    trial_.assign(&s.history[z(joint.first_point)], &s.history[z(joint.first_point)] + joint.points);
-    CrushedFace crushed = s.crushed.empty() ? CrushedFace{} : s.crushed[z(j)];
-    JointEnergy unused;
-    double f[6];
-    respond(model_, j, s.tier[z(j)] == Tier::intact, s.memory[z(j)].q, pose.q, {trial_.data(), s.crushed.empty() ? nullptr : &crushed}, f,
-            unused);
-    write_wrench(model_, s, j, pose, f);
-  }
+  set_row(s, b);
+  const bool all = plain_ || turned_far(b);
+  if (all || broken_[z(b)] > 0)
+    for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k)
+      if (all ? !open(s, end_[z(k)]) : s.tier[z(end_[z(k)])] == Tier::cracked) try_out(end_[z(k)]);
+  const int near = all ? 0
+                       : lane_kernels().sound(batch_.data(), first_batch_[z(b)], first_batch_[z(b) + 1], s.row.data(), s.wrench.data(),
+                                              nullptr, near_.data());
+  for (int i = 0; i < near; ++i)
+    for (int l = 0; l < lanes; ++l) {
+      const int j = joint_[z(near_[z(i)] * lanes + l)];
+      if (j >= 0 && near_limits(s.batch[z(j / lanes)], j % lanes, joint_pose(model_, s, j).q)) try_out(j);
+    }
   s.u[z(b)] = u;
   s.q[z(b)] = q;
+  std::copy_n(row, 8, &s.row[8 * z(b)]);
+}
+
+// J, of all joints where they are.
+double Sequential::stored() const {
+  JointLanes o;
+  double sum = 0;
+  for (int k = 0; k < sound_batches(model_); ++k) {
+    lane_kernels().elastic(state_.batch[z(k)], state_.row.data(), o);
+    for (int j = k * lanes; j < std::min((k + 1) * lanes, model_.njoint); ++j)
+      if (state_.tier[z(j)] == Tier::intact && !plain_)
+        for (int i = 0; i < 6; ++i) sum += 0.5 * o.f[i][j % lanes] * o.q[i][j % lanes];
+      else if (!open(state_, j)) sum += state_.memory[z(j)].elastic;
+  }
+  return sum;
 }
 
 // The wrench that block b is about to be moved by, of its joints with other moving blocks.
@@ -142,34 +311,38 @@ void Sequential::note_momentum(int b) {
   }
 }
 
-void Sequential::sweep(const Excitation& e, const Pushes& pushes, bool sample, JointSums& joints, std::vector<BlockSums>& sums) {
+void Sequential::sweep(const Excitation& e, const Pushes& pushes, const std::vector<BlockConstants>& constants, bool sample,
+                       JointSums& joints, std::vector<BlockSums>& sums) {
   State& s = state_;
   Energy& ledger = s.energy;
   // What the laws lost since the last sweep began belongs to the positions that this one starts from.
   joints.energy.friction += std::exchange(ledger.friction_next, 0);
   joints.energy.fracture += std::exchange(ledger.fracture_next, 0);
   joints.energy.crushing += std::exchange(ledger.crushing_next, 0);
-  for (int j = 0; j < model_.njoint; ++j) {
-    const Joint& joint = model_.joint[z(j)];
-    if (s.step == 0 && s.tier[z(j)] == Tier::intact) joint_q(model_, s, j, s.memory[z(j)].q);
-    if (s.step == 0 || model_.kind[z(joint.a)] == Kind::driven || model_.kind[z(joint.b)] == Kind::driven) update(j, joints);
-  }
-  if (sample) {
-    joints.energy.elastic = 0;
+  if (s.step == 0) {
     for (int j = 0; j < model_.njoint; ++j)
-      if (!open(s, j)) joints.energy.elastic += s.memory[z(j)].elastic;
+      if (s.tier[z(j)] == Tier::intact) joint_q(model_, s, j, s.memory[z(j)].q);
+    for (int b = 0; b < model_.nblock; ++b)
+      if (model_.kind[z(b)] == Kind::moving) visit(b, 0, joints);
+  }
+  for (const int b : driven_) visit(b, s.last_dt, joints);
+  if (sample) {
+    joints.energy.elastic = stored();
     wrench_before_ = s.wrench;
+    force_ = moment_ = Vec3::Zero();
+    forces_ = moments_ = 0;
   }
-  force_ = moment_ = Vec3::Zero();
-  forces_ = moments_ = 0;
-  if (model_.analysis.order == "random") order_ = sweep_order(model_, std::uint64_t(model_.analysis.seed), std::uint64_t(s.step));
-  for (const int b : order_) {
-    if (model_.kind[z(b)] != Kind::moving) continue;
-    if (centred_) predict(b);
-    note_momentum(b);
-    advance_one(model_, s, e, pushes, b, sample, sums[z(b)]);
-    for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k) update(end_[z(k)], joints);
-  }
+  if (model_.analysis.order == "random") deal_order();
+  Picked blocks(model_, s, constants, e, pushes);
+  for (std::size_t round = 0; round + 1 < round_.size(); ++round)
+    for (int first = round_[round]; first < round_[round + 1]; first += lanes) {
+      const int* some = &order_[z(first)];
+      const int count = std::min(lanes, round_[round + 1] - first);
+      for (int i = 0; i < count && centred_; ++i) predict(some[i]);
+      for (int i = 0; i < count && sample; ++i) note_momentum(some[i]);
+      blocks.advance(some, count, sample, sums);
+      for (int i = 0; i < count; ++i) visit(some[i], s.dt, joints);
+    }
 }
 
 double Sequential::momentum_residual() const {

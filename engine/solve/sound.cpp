@@ -1,6 +1,7 @@
 #include "engine/solve/sound.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "engine/model/batches.h"
 
@@ -10,44 +11,59 @@ namespace {
 std::size_t z(int i) { return std::size_t(i); }
 
 // Sum of k_i e_i e_i over the axes e_i of the joint's frame, k_i against rotation about it.
-void bending_stiffness(const JointBatch& B, int l, double out[6][lanes]) {
+void set_bending_stiffness(const JointBatch& B, int from, double out[6][lanes], int to) {
   constexpr int row[6] = {0, 1, 2, 1, 0, 0}, column[6] = {0, 1, 2, 2, 2, 1};
   for (int i = 0; i < 6; ++i) {
-    out[i][l] = 0;
-    for (int axis = 0; axis < 3; ++axis) out[i][l] += B.stiffness[3 + axis][l] * B.frame[3 * axis + row[i]][l] * B.frame[3 * axis + column[i]][l];
+    out[i][to] = 0;
+    for (int axis = 0; axis < 3; ++axis)
+      out[i][to] += B.stiffness[3 + axis][from] * B.frame[3 * axis + row[i]][from] * B.frame[3 * axis + column[i]][from];
   }
 }
 
 void fill(const JointBatch& B, int nothing, SoundBatch& out) {
   out.used = 0;
   for (int l = 0; l < lanes; ++l) {
-    for (int i = 0; i < 3; ++i) {
-      out.gap[i][l] = out.turn[i][l] = 0;
-      for (int axis = 0; axis < 3; ++axis) {
-        out.gap[i][l] += B.frame[3 * axis + i][l] * B.q[axis][l];
-        out.turn[i][l] += B.frame[3 * axis + i][l] * B.q[3 + axis][l];
-      }
-      out.arm_a[i][l] = 0.5 * (B.sum[i][l] + (B.apart[i][l] - out.gap[i][l]));
-      out.arm_b[i][l] = 0.5 * (B.sum[i][l] - (B.apart[i][l] - out.gap[i][l]));
-      out.normal[i][l] = B.frame[6 + i][l];
-    }
-    out.shear[l] = B.stiffness[0][l];
-    out.across[l] = B.stiffness[2][l] - B.stiffness[0][l];
-    bending_stiffness(B, l, out.bend);
-    out.open_limit[l] = B.open_limit[l];
-    out.slip_limit[l] = B.slip_limit[l];
-    out.slip_slope[l] = B.slip_slope[l];
-    out.close_limit[l] = B.close_limit[l];
-    out.radius[l] = B.radius[l];
-    out.a[l] = 8 * B.a[l];
-    out.b[l] = 8 * B.b[l];
-    out.row_a[l] = 8 * B.row_a[l];
-    out.row_b[l] = 8 * B.row_b[l];
+    set_sound_lane(B, l, out, l);
     out.used += B.row_a[l] != nothing;
   }
 }
 
 }  // namespace
+
+void set_sound_lane(const JointBatch& B, int from, SoundBatch& out, int to) {
+  for (int i = 0; i < 3; ++i) {
+    out.gap[i][to] = out.turn[i][to] = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      out.gap[i][to] += B.frame[3 * axis + i][from] * B.q[axis][from];
+      out.turn[i][to] += B.frame[3 * axis + i][from] * B.q[3 + axis][from];
+    }
+    out.arm_a[i][to] = 0.5 * (B.sum[i][from] + (B.apart[i][from] - out.gap[i][to]));
+    out.arm_b[i][to] = 0.5 * (B.sum[i][from] - (B.apart[i][from] - out.gap[i][to]));
+    out.normal[i][to] = B.frame[6 + i][from];
+  }
+  out.shear[to] = B.stiffness[0][from];
+  out.across[to] = B.stiffness[2][from] - B.stiffness[0][from];
+  set_bending_stiffness(B, from, out.bend, to);
+  out.open_limit[to] = B.open_limit[from];
+  out.slip_limit[to] = B.slip_limit[from];
+  out.slip_slope[to] = B.slip_slope[from];
+  out.close_limit[to] = B.close_limit[from];
+  out.radius[to] = B.radius[from];
+  out.a[to] = 8 * B.a[from];
+  out.b[to] = 8 * B.b[from];
+  out.row_a[to] = 8 * B.row_a[from];
+  out.row_b[to] = 8 * B.row_b[from];
+}
+
+void clear_sound_lane(const Model& m, SoundBatch& out, int lane) {
+  for (auto* field : {out.gap, out.turn, out.arm_a, out.arm_b, out.normal})
+    for (int i = 0; i < 3; ++i) field[i][lane] = 0;
+  for (auto& k : out.bend) k[lane] = 0;
+  out.shear[lane] = out.across[lane] = out.slip_slope[lane] = out.radius[lane] = 0;
+  out.open_limit[lane] = out.slip_limit[lane] = out.close_limit[lane] = std::numeric_limits<double>::infinity();
+  out.a[lane] = out.b[lane] = 8 * m.nblock;
+  out.row_a[lane] = out.row_b[lane] = 8 * 2 * m.njoint;
+}
 
 Sound::Sound(const Model& model, State& state) : model_(model), state_(state), batch_(z(sound_batches(model))) { update(); }
 

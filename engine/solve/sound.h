@@ -7,6 +7,10 @@
 
 namespace erbs {
 
+// Lane `from` of `batch` as lane `to` of `out`; a lane of no joint.
+void set_sound_lane(const JointBatch& batch, int from, SoundBatch& out, int to);
+void clear_sound_lane(const Model& model, SoundBatch& out, int lane);
+
 class Sound {
  public:
   Sound(const Model& model, State& state);

@@ -49,7 +49,7 @@ Solver::Solver(const Model& model, State& state, int threads)
   block_sums_.resize(z(chunks(int(constants_.size()), block_grain)));
   if (model.analysis.solver == "sequential") {
     sequential_.emplace(model, state);
-    block_sums_.resize(z(model.nblock));
+    block_sums_.resize(1 + loaded_.size());
   }
   // A state that was stopped just when a block had turned too far: the next step looks again. Without one it finds nothing.
   block_sums_.front().stale = true;
@@ -94,7 +94,8 @@ void Solver::begin(const Hooks& hooks) {
   sample_ = hooks.wanted(state_.t) ? Sample::full : state_.step % every == 0 ? Sample::ledger : Sample::none;
   for (const BlockSums& sums : block_sums_)
     if (sums.stale) {
-      sound_.update(refresh_stale(model_, state_));
+      const std::vector<int> fresh = refresh_stale(model_, state_);
+      sequential_ ? sequential_->update(fresh) : sound_.update(fresh);
       for (BlockSums& all : block_sums_) all.stale = false;
       break;
     }
@@ -200,7 +201,7 @@ void Solver::follow_contacts() {
 void Solver::blocks(int thread) {
   const Pushes pushes{contacts_ ? push_.data() : nullptr, load_.data(), loaded_};
   if (sequential_) {
-    if (thread == 0) sequential_->sweep(now_, pushes, sample_ != Sample::none, joint_sums_.front(), block_sums_);
+    if (thread == 0) sequential_->sweep(now_, pushes, constants_, sample_ != Sample::none, joint_sums_.front(), block_sums_);
     return;
   }
   const Range mine = share_of(int(constants_.size()), block_grain, thread, threads_);
@@ -316,7 +317,7 @@ void Solver::note_cracks() {
     tier_before_[z(j)] = state_.tier[z(j)];
   }
   cracked_sums_.resize(z(chunks(cracked_.groups(), Cracked::grain)));
-  sound_.update();
+  if (!reference_) sound_.update();
 }
 
 void Solver::settle_ledger() {

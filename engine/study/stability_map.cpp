@@ -23,6 +23,13 @@ bool foretold(const MapRun& run, const Stiffness& nominal) {
   return room && run.damping >= room->least && run.damping <= room->most;
 }
 
+std::optional<double> ratio_of(const MapRun& run, const MapRun& reference) {
+  for (auto mine = run.seen.rbegin(); mine != run.seen.rend(); ++mine)
+    for (const MapRun::Seen& other : reference.seen)  // a step more or less
+      if (std::fabs(other.until - mine->until) <= 0.01 * mine->until && other.value != 0) return mine->value / other.value;
+  return std::nullopt;
+}
+
 const char* word(MapRun::Verdict verdict) {
   switch (verdict) {
     case MapRun::Verdict::waiting:

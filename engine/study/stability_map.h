@@ -40,12 +40,19 @@ struct MapRun {
   enum class Verdict { waiting, converged, bounded, diverged, ledger, failed } verdict = Verdict::waiting;
   double until = 0;             // s of the window
   std::optional<double> value;  // of the quantity
-  std::optional<double> ratio;  // of it over that of leapfrog at this stiffness
+  struct Seen {
+    double until = 0, value = 0;  // s, and the quantity then
+  };
+  std::vector<Seen> seen;       // where the run was looked at on its way
+  std::optional<double> ratio;  // of the quantity over that of leapfrog at this stiffness, the last time both were looked at
   double residual = 0, cpu = 0;
   int broken = 0;  // joints
   std::string reason;
 };
 const char* word(MapRun::Verdict verdict);
+
+// The quantity over that of `reference` at the latest time at which both were looked at.
+std::optional<double> ratio_of(const MapRun& run, const MapRun& reference);
 
 // Theory's answer: bounded or not.
 bool foretold(const MapRun& run, const Stiffness& nominal);

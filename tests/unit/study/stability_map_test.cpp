@@ -49,3 +49,13 @@ TEST_CASE("the sweep needs what it feeds, up to the limit of a block between hel
   run.damping = 0.3;
   CHECK(foretold(run, one));
 }
+
+TEST_CASE("runs of a map are compared at the last time at which both were looked at", "[study][map]") {
+  MapRun run, reference;
+  CHECK_FALSE(ratio_of(run, reference));
+  reference.seen = {{0.01, 2}, {0.1, 4}, {0.5, 8}};
+  run.seen = {{0.01001, 1}, {0.1001, 3}};
+  CHECK(*ratio_of(run, reference) == Approx(0.75));
+  run.seen.push_back({0.3, 1e3});  // its time was up
+  CHECK(*ratio_of(run, reference) == Approx(0.75));
+}
