@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "engine/model/batches.h"
-#include "engine/solve/dashpots.h"
 
 namespace erbs {
 namespace {
@@ -11,6 +10,12 @@ namespace {
 std::size_t z(int i) { return std::size_t(i); }
 
 }  // namespace
+
+void Cracked::Group::look_for_bonds(const PointLaw& of) {
+  bare = of.dry || std::all_of(bond.begin(), bond.end(), [](const BondLanes& b) {
+           return std::all_of(b.damage, b.damage + lanes, [](double damage) { return damage >= 1; });
+         });
+}
 
 bool Cracked::Group::empty() const {
   return std::all_of(joint, joint + lanes, [](int j) { return j < 0; });
@@ -37,21 +42,22 @@ Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state
     if (state.tier[z(j)] == Tier::cracked && state.place[z(j)] < sound * lanes) take(j);
 }
 
-void Cracked::clear(Group& group, int l) {
+void Cracked::clear(Group& group, int l) const {
   group.joint[l] = -1;
   group.crushed[l] = nullptr;
   group.face_corner[l] = nullptr;
   for (int i = 0; i < 6; ++i) group.lane.q[i][l] = group.lane.f[i][l] = 0;
   group.lane.stored[l] = 0;
-  group.lane.least_damage[l] = 0;
+  group.lane.least_damage[l] = 1;
   for (auto* corners : {&group.corner, &group.loop, &group.watch})
     for (CornerLanes& c : *corners) c.s[l] = c.t[l] = 0;
   for (CellLanes& c : group.cell) c.s[l] = c.t[l] = c.ss[l] = c.st[l] = c.tt[l] = 0;
   group.face.bend_s[l] = group.face.bend_t[l] = group.face.twist[l] = 0;
-  for (PointLanes& p : group.point) {
-    p.s[l] = p.t[l] = p.weight[l] = p.slip_s[l] = p.slip_t[l] = p.secant[l] = p.reach[l] = 0;
-    p.damage[l] = 1;  // nothing to hold
-  }
+  for (int i = 0; i < 6; ++i) group.lane.drag[i][l] = 0;
+  for (SpotLanes& p : group.spot) p.s[l] = p.t[l] = p.weight[l] = 0;
+  for (SlipLanes& p : group.slip) p.s[l] = p.t[l] = 0;
+  for (BondLanes& p : group.bond) p.secant[l] = p.reach[l] = 0, p.damage[l] = 1;  // nothing to hold
+  group.look_for_bonds(model_.laws[z(group.law)]);
 }
 
 void Cracked::fill(Group& group, int l, int j) {
@@ -62,7 +68,9 @@ void Cracked::fill(Group& group, int l, int j) {
     group.crushed[l] = &state_.crushed[z(j)], group.face_corner[l] = model_.corner[z(joint.first_corner)].data();
   for (int i = 0; i < 6; ++i) group.lane.q[i][l] = memory.q[i], group.lane.f[i][l] = memory.f[i];
   group.lane.stored[l] = memory.elastic;
-  group.lane.least_damage[l] = 0;
+  group.lane.least_damage[l] = 1;
+  if (model_.dashpots_cracked)
+    for (int i = 0; i < 6; ++i) group.lane.drag[i][l] = state_.viscous[6 * z(j) + z(i)];
   for (int i = 0; i < joint.corners; ++i) {
     const auto& c = model_.corner[z(joint.first_corner + i)];
     group.corner[z(i)].s[l] = c.x(), group.corner[z(i)].t[l] = c.y();
@@ -80,16 +88,22 @@ void Cracked::fill(Group& group, int l, int j) {
     const Cell& cell = model_.cell[z(joint.first_point + i)];
     CellLanes& k = group.cell[z(i)];
     k.s[l] = cell.s, k.t[l] = cell.t, k.ss[l] = cell.ss, k.st[l] = cell.st, k.tt[l] = cell.tt;
-    PointLanes& p = group.point[z(i)];
+    SpotLanes& p = group.spot[z(i)];
     p.s[l] = from.s, p.t[l] = from.t, p.weight[l] = from.weight;
-    p.slip_s[l] = h.slip_s, p.slip_t[l] = h.slip_t, p.damage[l] = h.damage, p.secant[l] = h.secant, p.reach[l] = h.reach;
+    group.slip[z(i)].s[l] = h.slip_s, group.slip[z(i)].t[l] = h.slip_t;
+    BondLanes& b = group.bond[z(i)];
+    b.damage[l] = h.damage, b.secant[l] = h.secant, b.reach[l] = h.reach;
+    if (!model_.laws[z(joint.law)].dry) group.lane.least_damage[l] = std::min(group.lane.least_damage[l], h.damage);
   }
+  group.look_for_bonds(model_.laws[z(joint.law)]);
 }
 
 Cracked::Group Cracked::empty_group(const Joint& joint, int batch) const {
   Group group{};
   group.law = joint.law, group.points = joint.points, group.corners = joint.corners, group.batch = batch;
-  group.point.resize(z(group.points));
+  group.spot.resize(z(group.points));
+  group.slip.resize(z(group.points));
+  group.bond.resize(z(group.points));
   group.corner.resize(z(group.corners));
   group.cell.resize(z(group.points));
   group.first.push_back(0);
@@ -146,16 +160,15 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
     const JointBatch& batch = state_.batch[z(group.batch)];
     CrackedLanes& lane = group.lane;
     kernels.elastic(batch, state_.row.data(), o);
-    alignas(64) double rate[lanes], dq[6][lanes];
+    alignas(64) double rate[lanes];
     const bool damped = model_.dashpots_cracked && state_.last_dt > 0;
-    for (int l = 0; damped && l < lanes; ++l) {
+    for (int l = 0; damped && l < lanes; ++l)
       rate[l] = group.joint[l] >= 0 ? model_.joint[z(group.joint[l])].viscous_cracked / state_.last_dt : 0;
-      for (int i = 0; i < 6; ++i) dq[i][l] = o.q[i][l] - lane.q[i][l];
-    }
     const CrackedShape shape{group.corners,
                              group.points,
                              &group.face,
                              group.corner.data(),
+                             group.spot.data(),
                              group.cell.data(),
                              group.first.data(),
                              group.loop.data(),
@@ -163,18 +176,20 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
                              group.watch.empty() ? group.loop.data() : group.watch.data(),
                              group.crushed,
                              group.face_corner};
-    kernels.respond(model_.laws[z(group.law)], batch, shape, group.point.data(), lane, o);
+    const PointLaw& law = model_.laws[z(group.law)];
+    if (group.bare) {
+      kernels.rub(law, batch, shape, group.slip.data(), lane, o);
+    } else {
+      kernels.respond(law, batch, shape, group.slip.data(), group.bond.data(), lane, o);
+      group.bare = std::all_of(lane.least_damage, lane.least_damage + lanes, [](double damage) { return damage >= 1; });
+    }
     kernels.wrenches(batch, o, state_.wrench.data());
     for (int l = 0; l < lanes; ++l) {
       sums.energy.friction += lane.friction[l];
       sums.energy.fracture += lane.fracture[l];
       sums.energy.crushing += lane.crushing[l];
+      sums.energy.damping += lane.damping[l];
       if (sample) sums.energy.elastic += lane.stored[l];
-      if (damped && group.joint[l] >= 0) {
-        double f[6], d[6];
-        for (int i = 0; i < 6; ++i) f[i] = lane.drag[i][l], d[i] = dq[i][l];
-        book_dashpots(state_, group.joint[l], f, d, sums);
-      }
       if (lane.error[l] > sums.largest_error) sums.largest_error = lane.error[l], sums.worst_joint = group.joint[l];
     }
   }
@@ -188,8 +203,14 @@ void Cracked::store() {
       JointMemory& memory = state_.memory[z(j)];
       for (int i = 0; i < 6; ++i) memory.q[i] = group.lane.q[i][l], memory.f[i] = group.lane.f[i][l];
       memory.elastic = group.lane.stored[l];
+      if (model_.dashpots_cracked)
+        for (int i = 0; i < 6; ++i) state_.viscous[6 * z(j) + z(i)] = group.lane.drag[i][l];
       PointHistory* h = &state_.history[z(model_.joint[z(j)].first_point)];
-      for (const PointLanes& p : group.point) *h++ = {p.slip_s[l], p.slip_t[l], p.damage[l], p.secant[l], p.reach[l]};
+      for (int i = 0; i < group.points; ++i) {
+        const SlipLanes& p = group.slip[z(i)];
+        const BondLanes& b = group.bond[z(i)];
+        h[i] = {p.s[l], p.t[l], b.damage[l], b.secant[l], b.reach[l]};
+      }
     }
   }
 }

@@ -31,18 +31,22 @@ class Cracked {
     const double* face_corner[lanes];
     FaceLanes face;
     std::vector<CornerLanes> corner;
-    std::vector<PointLanes> point;
-    std::vector<CellLanes> cell;           // [points]
+    std::vector<SpotLanes> spot;  // [points], and so are the next three
+    std::vector<SlipLanes> slip;
+    std::vector<BondLanes> bond;
+    std::vector<CellLanes> cell;
     std::vector<int> first;                // [points + 1]
     std::vector<CornerLanes> loop, watch;  // of the cells; watch empty where it is loop
     CrackedLanes lane;
+    bool bare = true;  // no point of any lane has a bond left
     bool empty() const;
+    void look_for_bonds(const PointLaw& law);
   };
   Group empty_group(const Joint& joint, int batch) const;
   bool fits(const Group& group, const Joint& joint) const;  // the same law and numbers of everything
   int find_lane(const Joint& joint);                        // group * lanes + lane, in a new group if need be
   void fill(Group& group, int l, int j);
-  static void clear(Group& group, int l);
+  void clear(Group& group, int l) const;
 
   const Model& model_;
   State& state_;

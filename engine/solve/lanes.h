@@ -22,9 +22,14 @@ struct alignas(64) JointLanes {
 struct alignas(64) CornerLanes {
   double s[lanes], t[lanes];  // m
 };
-struct alignas(64) PointLanes {
-  double s[lanes], t[lanes], weight[lanes];                                                         // m, m, m2
-  double slip_s[lanes], slip_t[lanes], damage[lanes], secant[lanes], reach[lanes];  // as in PointHistory
+struct alignas(64) SpotLanes {
+  double s[lanes], t[lanes], weight[lanes];  // m, m, m2
+};
+struct alignas(64) SlipLanes {
+  double s[lanes], t[lanes];  // as in PointHistory
+};
+struct alignas(64) BondLanes {
+  double damage[lanes], secant[lanes], reach[lanes];  // as in PointHistory
 };
 struct alignas(64) CellLanes {
   double s[lanes], t[lanes], ss[lanes], st[lanes], tt[lanes];  // as in Cell
@@ -37,30 +42,31 @@ struct CrackedShape {
   int corners, points;
   const FaceLanes* face;
   const CornerLanes* corner;
-  const CellLanes* cell;         // [points]
-  const int* first;              // corners of cell i: [first[i], first[i + 1])
-  const CornerLanes* loop;       // corners of the cells
-  const double* rate;            // of dashpots, b over the last step; null without [lanes]
-  const CornerLanes* watch;      // where the cells watch for tension; = loop for rules with points on the edge
+  const SpotLanes* spot;     // [points]
+  const CellLanes* cell;     // [points]
+  const int* first;          // corners of cell i: [first[i], first[i + 1])
+  const CornerLanes* loop;   // corners of the cells
+  const double* rate;        // of dashpots, b over the last step; null without [lanes]
+  const CornerLanes* watch;  // where the cells watch for tension; = loop for rules with points on the edge
   // of laws with a plateau in compression: what has been crushed, and the corners as in Bed; null in empty lanes  [lanes]
   CrushedFace* const* crushed;
   const double* const* face_corner;
 };
 struct alignas(64) CrackedLanes {
-  double q[6][lanes], f[6][lanes], stored[lanes];                   // at the last step
-  double friction[lanes], fracture[lanes], crushing[lanes];         // J, of this step
-  double drag[6][lanes];                                            // of the dashpots now, with `rate` only; part of f of the JointLanes
-  double error[lanes];                                              // J, work of the resultant - stored - dissipated
-  double least_damage[lanes];                                       // of the points; 1 for dry joints
+  double q[6][lanes], f[6][lanes], stored[lanes];                            // at the last step
+  double friction[lanes], fracture[lanes], crushing[lanes], damping[lanes];  // J, of this step
+  double drag[6][lanes];                                                     // of the dashpots now; part of f of the JointLanes
+  double error[lanes];                                                       // J, work of the resultant - stored - dissipated
+  double least_damage[lanes];                                                // of the points; 1 for dry joints
 };
 
 // Eight sound joints in world axes at the last refresh: what a step reads of them, and nothing else (lanes_sound.inc).
 struct alignas(64) SoundBatch {
-  double gap[3][lanes], turn[3][lanes];      // m, rad: relative displacement and rotation
-  double arm_a[3][lanes], arm_b[3][lanes];   // m, from the centroids to the joint
+  double gap[3][lanes], turn[3][lanes];     // m, rad: relative displacement and rotation
+  double arm_a[3][lanes], arm_b[3][lanes];  // m, from the centroids to the joint
   double normal[3][lanes];
-  double shear[lanes], across[lanes];        // N/m: stiffness along the faces, and how much more it is across them
-  double bend[6][lanes];                     // N m: symmetric, xx yy zz yz xz xy
+  double shear[lanes], across[lanes];  // N/m: stiffness along the faces, and how much more it is across them
+  double bend[6][lanes];               // N m: symmetric, xx yy zz yz xz xy
   double open_limit[lanes], slip_limit[lanes], slip_slope[lanes], close_limit[lanes], radius[lanes];  // as in JointBatch
   int a[lanes], b[lanes], row_a[lanes], row_b[lanes];  // where the rows of blocks and joint ends begin, in doubles
   int used;                                            // joints in it
@@ -107,8 +113,11 @@ struct LaneKernels {
   // joint_geometry.h gives the formulas: q, its elastic resultant and the bound that keeps a joint on this path.
   void (*elastic)(const JointBatch& batch, const double* rows, JointLanes& out);
   // Point laws of joints that have cracked (joint_response.h): q of `io` gives its f; memory and account in `cracked`.
-  void (*respond)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, PointLanes* point, CrackedLanes& cracked,
-                  JointLanes& io);
+  void (*respond)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, BondLanes* bond,
+                  CrackedLanes& cracked, JointLanes& io);
+  // The same where no point has a bond left.
+  void (*rub)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, CrackedLanes& cracked,
+              JointLanes& io);
   // Resultants to wrenches on both blocks: force at the midpoint of the material points, then everything turned by th.
   void (*wrenches)(const JointBatch& batch, const JointLanes& in, double* wrench_rows);
   // Batches [first, last) of sound joints, rows of blocks to wrench rows; the energy they store is added to stored[lanes], if wanted.
