@@ -134,8 +134,8 @@ void add_joint(const Scene& scene, const Interface& face, Model& m) {
     return Vec2(cosine * dx + sine * dy, cosine * dy - sine * dx);
   };
   Joint joint;
-  joint.a = face.a;
-  joint.b = face.b;
+  joint.a = face.a, joint.part_a = face.part_a;
+  joint.b = face.b, joint.part_b = face.part_b;
   joint.law = joint.rule = face.rule;
   joint.frame.col(0) = cosine * e1 + sine * e2;
   joint.frame.col(1) = cosine * e2 - sine * e1;

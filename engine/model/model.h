@@ -16,6 +16,7 @@ enum class Kind : std::uint8_t { moving, fixed, driven };
 // points about their weighted centre, so that the elastic wrench is diagonal in it.
 struct Joint {
   int a = 0, b = 0;
+  int part_a = 0, part_b = 0;       // of the blocks
   int law = 0;                      // index into Model::laws
   int rule = 0;                     // index into Scene::joint_rules
   int first_point = 0, points = 0;  // into Model::point
@@ -60,7 +61,7 @@ struct Model {
   std::vector<Vec3> rest;               // m, centroid at rest
   std::vector<double> smallest_edge;    // m, thinnest extent, the scale of drift, falling and penetration
   std::vector<int> material;
-  // joints, sorted by lower block then higher                           [njoint]
+  // joints, sorted by lower block, higher block and their parts         [njoint]
   std::vector<Joint> joint;
   std::vector<Point> point;             // by joint                      [npoint]
   std::vector<Eigen::Vector2d> corner;  // m, of the overlap polygon in the joint frame, by joint

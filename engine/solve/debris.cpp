@@ -10,6 +10,16 @@ namespace {
 constexpr double parted = 0.05;  // of a bed's side, and rad
 std::size_t z(int i) { return std::size_t(i); }
 
+// Joints [first, end) between the same parts as `first`.
+int end_of_bed(const Model& model, int first, int end) {
+  const Joint& one = model.joint[z(first)];
+  int last = first + 1;
+  while (last < end && model.joint[z(last)].a == one.a && model.joint[z(last)].b == one.b && model.joint[z(last)].part_a == one.part_a &&
+         model.joint[z(last)].part_b == one.part_b)
+    ++last;
+  return last;
+}
+
 double largest_inverse_inertia(const Mat3& inverse) {
   // a bound by rows (Gershgorin) that is exact for a block along its principal axes
   return inverse.cwiseAbs().rowwise().sum().maxCoeff();
@@ -70,8 +80,10 @@ void Debris::find_beds() {
     const Pair& p = state_.debris.pair[i];
     if (!p.bed) continue;
     const auto at = std::lower_bound(pair_keys_.begin(), pair_keys_.end(), pair_key(p.a, p.b));
-    bed_[i].joint = of_pair_[std::size_t(at - pair_keys_.begin())];
-    for (int j = bed_[i].joint; j < model_.njoint && model_.joint[z(j)].a == p.a && model_.joint[z(j)].b == p.b; ++j) {
+    int first = of_pair_[std::size_t(at - pair_keys_.begin())];
+    while (model_.joint[z(first)].part_a != p.part_a || model_.joint[z(first)].part_b != p.part_b) first = end_of_bed(model_, first, model_.njoint);
+    bed_[i].joint = first;
+    for (int j = first; j < end_of_bed(model_, first, model_.njoint); ++j) {
       const Joint& joint = model_.joint[z(j)];
       const double *k = joint.stiffness, turning = k[3] + k[4] + k[5];
       const auto rate = [&](int b, const Vec3& arm) {
@@ -139,10 +151,9 @@ std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
   state_.debris.valid = false;
   released_ += search(state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); });
   for (std::size_t i = 0; i < opened.size();) {
+    const int bed_end = end_of_bed(model_, opened[i], model_.njoint);
     std::size_t end = i + 1;
-    while (end < opened.size() && model_.joint[z(opened[end])].a == model_.joint[z(opened[i])].a &&
-           model_.joint[z(opened[end])].b == model_.joint[z(opened[i])].b)
-      ++end;
+    while (end < opened.size() && opened[end] < bed_end) ++end;
     hand_over_pair(&opened[i], &opened[i] + (end - i));
     i = end;
   }
@@ -150,7 +161,7 @@ std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
   return opened;
 }
 
-// The joints [first, last) of one pair of blocks go over to its contact, with all that they carry.
+// The joints [first, last) of one pair of parts go over to its contact, with all that they carry.
 void Debris::hand_over_pair(const int* first, const int* last) {
   const Joint& one = model_.joint[z(*first)];
   Vec6 wrench = Vec6::Zero();  // on b
@@ -162,16 +173,14 @@ void Debris::hand_over_pair(const int* first, const int* last) {
     state_.memory[z(*j)] = JointMemory{};
   }
   const PointLaw& joint_law = model_.laws[z(one.law)];
-  for (Pair& p : state_.debris.pair) {
-    if (p.a != one.a || p.b != one.b) continue;
-    p.bed = 1;
-    p.law.kn = joint_law.kn;
-    p.law.ks = joint_law.ks;
-    p.law.mu = joint_law.mu_residual;
-  }
-  const int at = find_pair(state_.debris, one.a, 0, one.b, 0);
-  if (at < 0 || wrench.head<3>().isZero(0)) return;
+  const int at = find_pair(state_.debris, one.a, one.part_a, one.b, one.part_b);
+  if (at < 0) return;
   Pair& pair = state_.debris.pair[z(at)];
+  pair.bed = 1;
+  pair.law.kn = joint_law.kn;
+  pair.law.ks = joint_law.ks;
+  pair.law.mu = joint_law.mu_residual;
+  if (wrench.head<3>().isZero(0)) return;
   hand_over(pair, shapes_, blocks_[z(one.a)], blocks_[z(one.b)], settings_, wrench.head<3>(), wrench.tail<3>(), area, room_.front());
   PairResult now;
   Pair copy = pair;
