@@ -69,65 +69,101 @@ double reach(const Share& s, double bulge) {
   return p > 0 ? std::sqrt(2 / (p + std::sqrt(p * p + 4 * q))) : std::numeric_limits<double>::infinity();
 }
 
-Share scaled(const Share& s, double bulge) {
-  const double a = reach(s, bulge);
-  return {a * s.t, a * s.m};
-}
+// What the patch bears at this instant. Its springs sit at its centroid, the limit is about its centre of pressure, where the torsion
+// is m + lever . t.
+struct Bearing {
+  double limit = 0, r = 0;  // N, m: force alone is borne up to limit, torsion alone up to limit r
+  double bulge = 0;
+  double gyration2 = 0;       // m2, of the springs: kr / kt
+  Vec3 lever = Vec3::Zero();  // m, n x (centroid - centre of pressure)
+};
 
-// The point of the surface from which plastic slip, normal to it, leads to `trial` (t, m >= 0, outside): springs of the patch stretch by
-// t and by ratio m, ratio = (gyration / r)^2, for the same part of the limits. Newton along the surface from the radial point, kept
-// between the points known to lie on either side.
-Share returned(const Share& trial, double ratio, double bulge) {
-  Share s = scaled(trial, bulge);
-  double low = 0, high = 1;  // of m / (t + m)
-  for (int i = 0; i < 60; ++i) {
-    const double et = trial.t - s.t, em = trial.m - s.m;
-    const double nt = s.t * (1 + bulge * s.m * s.m), nm = s.m * (1 + bulge * s.t * s.t) * ratio;
-    const double miss = et * nm - em * nt;  // 0 where the way back is normal; grows along the surface towards m
-    const double size = trial.t * nm + trial.m * nt;
-    if (std::fabs(miss) <= 1e-12 * size) break;
-    (miss < 0 ? low : high) = s.m / (s.t + s.m);
-    const double dt = -nm / ratio, dm = nt, cross = 2 * bulge * s.t * s.m;
-    const double slope =
-        dm * nt - dt * nm + et * ratio * (dm * (1 + bulge * s.t * s.t) + cross * dt) - em * (dt * (1 + bulge * s.m * s.m) + cross * dm);
-    const double t = s.t - miss / slope * dt, m = s.m - miss / slope * dm;
-    const bool between = slope > 0 && t >= 0 && m > low * (t + m) && m < high * (t + m);
-    s = scaled(between ? Share{t, m} : Share{1 - (low + high) / 2, (low + high) / 2}, bulge);
-    if (between && std::fabs(miss) <= 1e-5 * size) break;  // the square of that is left
-  }
-  return s;
+Share share_of(const Bearing& b, const Vec3& force, double about) {
+  return {force.norm() / b.limit, b.r > 0 ? std::fabs(about) / (b.limit * b.r) : 0.0};
 }
 
 struct Held {
-  bool slips = false;
   Vec3 force = Vec3::Zero();
-  double torsion = 0;  // about the centre of pressure
+  double torsion = 0, about = 0;  // N m, about the centroid and the centre of pressure
 };
 
-// What of `trial` and its torsion `about` the patch bears that resists with `limit` (N) and limit r (N m).
-Held hold(const Patch& patch, const Vec3& trial, double about, double limit, double r, double gyration) {
+// Where slip leads to from `trial` and `torsion` that is normal to the surface where it ends, as Coulomb's law over the face makes it:
+// x p t / kt at the centre of pressure and x q M / (kt r^2) of turn, p and q the slopes of f over 2 t and 2 m. Then
+//   t (1 + x p) + x q M lever / r^2 = trial,   M (1 + x q gyration^2 / r^2) = torsion + lever . t.
+// Such slip never gives energy, however far the two centres lie apart; a return of t and M each for itself does.
+Held slipped(const Bearing& b, const Vec3& trial, double torsion, double x, double p, double q) {
+  const double across = b.lever.squaredNorm(), soft = 1 + x * p, driving = torsion + b.lever.dot(trial) / soft;
   Held out;
-  if (!(limit > 0)) {
-    out.slips = true;
-    return out;
+  double turn = 0;  // x q M / r^2
+  if (b.r > 0) {
+    const double weight = x * q / (b.r * b.r);
+    out.about = driving / (1 + weight * (b.gyration2 + across / soft));
+    turn = weight * out.about;
+  } else if (const double stiff = b.gyration2 + across / soft; stiff > 0) {  // a point bears no torsion
+    turn = driving / stiff;
   }
-  const double pull = trial.norm();
-  const Share share{pull / limit, r > 0 ? std::fabs(about) / (limit * r) : 0.0};
-  if (share.t * share.t + share.m * share.m <= surely_within && (r > 0 || about == 0)) return out;
-  double bulge = 0, ratio = 1;
-  if (pull > 0 && r > 0) {
-    const Vec3 e = trial / pull;
-    const double middle = patch.centroid.dot(e);
-    bulge = bulge_of((e.dot(patch.second * e) / patch.area - middle * middle) / (r * r));
-    ratio = gyration * gyration / (r * r);
-  }
-  const bool over = reach(share, bulge) < 1;
-  if (!over && (r > 0 || about == 0)) return out;
-  const Share left = over ? returned(share, ratio, bulge) : share;
-  out.slips = true;
-  if (pull > 0) out.force = left.t * limit / pull * trial;
-  out.torsion = std::copysign(left.m * limit * r, about);
+  out.force = (trial - turn * b.lever) / soft;
+  out.torsion = out.about - b.lever.dot(out.force);
   return out;
+}
+
+// ... and ends on the surface: the secant rule for 1 / sqrt(f) - 1, which is linear in x where force acts alone, while p and q follow.
+Held returned(const Bearing& b, const Vec3& trial, double torsion) {
+  Share s = share_of(b, trial, torsion + b.lever.dot(trial));
+  const double start = s.t - 1;
+  double a = reach(s, b.bulge), p = 1 + b.bulge * a * a * s.m * s.m, q = 1 + b.bulge * a * a * s.t * s.t;
+  double low = 0, high = std::numeric_limits<double>::infinity(), x = 0, x_before = 0, h_before = 0;
+  Held out;
+  for (int i = 0; i < 60; ++i) {
+    out = slipped(b, trial, torsion, x, p, q);
+    s = share_of(b, out.force, out.about);
+    a = reach(s, b.bulge);
+    const double h = a - 1, p_now = 1 + b.bulge * a * a * s.m * s.m, q_now = 1 + b.bulge * a * a * s.t * s.t;
+    const double moved = std::fabs(p_now - p) + std::fabs(q_now - q);
+    p = p_now, q = q_now;
+    if ((std::fabs(h) < 1e-10 && moved < 1e-7) || (x == 0 && h >= 0)) break;
+    if (moved > 1e-4) low = 0, high = std::numeric_limits<double>::infinity();  // bounds of another surface
+    (h < 0 ? low : high) = x;
+    double next = i == 0 ? start : x - h * (x - x_before) / (h - h_before);
+    if (!(next > low && next < high)) next = std::isinf(high) ? 2 * x + 1 : (low + high) / 2;
+    x_before = x, h_before = h, x = next;
+  }
+  const double left = std::min(1.0, reach(share_of(b, out.force, out.about), b.bulge));  // what the iteration missed
+  out.force *= left;
+  out.about *= left;
+  out.torsion = out.about - b.lever.dot(out.force);
+  return out;
+}
+
+void set_bulge(Bearing& b, const Patch& patch, const Vec3& force) {
+  const double pull = force.norm();
+  if (!(pull > 0) || !(b.r > 0)) return;
+  const Vec3 e = force / pull;
+  const double middle = patch.centroid.dot(e);
+  b.bulge = bulge_of((e.dot(patch.second * e) / patch.area - middle * middle) / (b.r * b.r));
+}
+
+// True where the springs hold; fixes the bulge where it matters.
+bool holds(Bearing& b, const Patch& patch, const Vec3& force, double about) {
+  if (!(b.limit > 0) || (!(b.r > 0) && about != 0)) return false;
+  const Share s = share_of(b, force, about);
+  if (s.t * s.t + s.m * s.m <= surely_within) return true;
+  set_bulge(b, patch, force);
+  return reach(s, b.bulge) >= 1;
+}
+
+// The share of the dashpots that the patch can bear beside springs that hold.
+double bearable(Bearing& b, const Patch& patch, const Vec3& force, double about, const Vec3& viscous, double viscous_about) {
+  const Share all = share_of(b, force + viscous, about + viscous_about);
+  if (all.t * all.t + all.m * all.m <= surely_within) return 1;
+  set_bulge(b, patch, force);
+  if (reach(all, b.bulge) >= 1) return 1;
+  double low = 0, high = 1;
+  for (int i = 0; i < 30; ++i) {
+    const double middle = (low + high) / 2;
+    (reach(share_of(b, force + middle * viscous, about + middle * viscous_about), b.bulge) >= 1 ? low : high) = middle;
+  }
+  return low;
 }
 
 }  // namespace
@@ -157,31 +193,30 @@ Friction patch_friction(Pair& pair, const Patch& patch, const PairPose& pose, co
   const double ct = inverse_mass > 0 ? 2 * settling * std::sqrt(kt / inverse_mass) : 0;
   Vec3 at_centre = motion.linear + motion.angular.cross(patch.centroid);
   at_centre -= at_centre.dot(n) * n;
-  Vec3 viscous = -ct * at_centre;
-  double viscous_torsion = -ct * pair.gyration * pair.gyration * motion.angular.dot(n);
   Vec3 t = -kt * pair.u;
   double m = -kr * pair.psi;
-  const Vec3 off = patch.centroid - patch.pressure_centre;
-  const double limit = pair.law.mu * normal_force, r = torsion_radius(patch.area, patch.gyration);
-  const Vec3 trial = t + viscous;
-  const double trial_torsion = m + viscous_torsion;
-  const double about = trial_torsion + off.cross(trial).dot(n);
-  const Held held = hold(patch, trial, about, limit, r, pair.gyration);
-  if (held.slips) {
+  Bearing bearing{pair.law.mu * normal_force, torsion_radius(patch.area, patch.gyration), 0, pair.gyration * pair.gyration,
+                  n.cross(patch.centroid - patch.pressure_centre)};
+  if (!holds(bearing, patch, t, m + bearing.lever.dot(t))) {
+    const Held held = bearing.limit > 0 ? returned(bearing, t, m) : Held{};
     t = held.force;
-    m = held.torsion - off.cross(t).dot(n);
-    viscous.setZero();
-    viscous_torsion = 0;
+    m = kr > 0 ? held.torsion : 0.0;
     pair.u = kt > 0 ? Vec3(-t / kt) : Vec3(Vec3::Zero());
     pair.psi = kr > 0 ? -m / kr : 0.0;
-    if (!(kr > 0)) m = 0;
+  } else if (ct > 0 && bearing.limit > 0) {
+    // Dashpots take what the springs leave of the limit. Slip is the springs' alone: were it to begin where both together reach the
+    // limit, springs would be stretched to it by no motion, and a contact that trembles near its limit would gain energy.
+    Vec3 viscous = -ct * at_centre;
+    const double turning = -ct * pair.gyration * pair.gyration * motion.angular.dot(n);
+    const double x = bearable(bearing, patch, t, m + bearing.lever.dot(t), viscous, turning + bearing.lever.dot(viscous));
+    viscous *= x;
+    out.viscous_force = viscous;
+    out.viscous_moment = patch.centroid.cross(viscous) + x * turning * n;
   }
   out.slipped = 0.5 * kt * (u0 + pair.u).dot(u1 - pair.u) + 0.5 * kr * (psi0 + pair.psi) * (psi1 - pair.psi);
   out.stored = 0.5 * kt * pair.u.squaredNorm() + 0.5 * kr * pair.psi * pair.psi;
   out.force = t;
   out.moment = patch.centroid.cross(t) + m * n;
-  out.viscous_force = viscous;
-  out.viscous_moment = patch.centroid.cross(viscous) + viscous_torsion * n;
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "engine/contact/friction.h"
 #include "tests/unit/contact/bodies.h"
 
 using namespace erbs;
@@ -106,6 +107,51 @@ TEST_CASE("a spinning brick stops after I w / (mu N r)", "[contact][verify]") {
     if (two.block[1].w.z() > 0.01 * w0) stopped = two.t;
   }
   CHECK(stopped / 0.99 == Approx(stop).epsilon(0.015));
+}
+
+// Pressed evenly and constantly, but with its pressure off the middle of the face, and shaken at random within and beyond its limit.
+TEST_CASE("slip of a patch takes energy in every step, wherever its pressure lies", "[contact]") {
+  std::mt19937 random(7);
+  for (const double off : {0.0, 0.02, 0.3}) {
+    const double a = 0.3, b = 0.1;
+    Patch patch;
+    patch.normal = Vec3::UnitZ();
+    patch.area = a * b;
+    patch.second = patch.area / 12 * Vec3(a * a, b * b, 0).asDiagonal();
+    patch.gyration = std::sqrt((a * a + b * b) / 12);
+    patch.pressure_centre = {off, 0.7 * off, 0};
+    Pair pair;
+    pair.law = {stiffness, 0.4 * stiffness, 0.6, 0.3};
+    const double normal = 100, reach = pair.law.mu * normal / (pair.law.ks * patch.area);
+    PairPose pose{Mat3::Identity(), Vec3::Zero()};
+    double least = 0, sum = 0, stored = 0, work = 0;
+    Vec3 force = Vec3::Zero();
+    double torsion = 0;
+    Vec3 moved = Vec3::Zero(), speed = Vec3::Zero();
+    for (int step = 0; step < 20000; ++step) {
+      const Vec3 kick = random_vector(random);
+      speed = 0.9 * speed + 0.2 * reach * kick;  // slip x, slip y, turn times the gyration
+      moved += speed;
+      const double turn = moved.z() / patch.gyration;
+      pose.shift = {moved.x(), moved.y(), 0};
+      pose.turn = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
+      const Motion motion{1e3 * Vec3(speed.x(), speed.y(), 0), {0, 0, 1e3 * speed.z() / patch.gyration}};
+      const Friction f = patch_friction(pair, patch, pose, motion, normal, 1e-3, 0.05);
+      work += -0.5 * ((f.force + force).head<2>().dot(speed.head<2>()) + (f.moment.z() + torsion) * speed.z() / patch.gyration);
+      force = f.force, torsion = f.moment.z();
+      pair.touching = 1, pair.turn = pose.turn, pair.shift = pose.shift;
+      least = std::min(least, f.slipped);
+      sum += f.slipped;
+      stored = f.stored;
+      const Vec3 whole = f.force + f.viscous_force;
+      CHECK(whole.norm() <= pair.law.mu * normal * (1 + 1e-9));
+    }
+    const double scale = pair.law.mu * normal * reach;
+    INFO("off " << off << ": least " << least / scale << " sum " << sum / scale);
+    CHECK(least > -1e-9 * scale);
+    CHECK(sum > 1000 * scale);
+    CHECK(work == Approx(sum + stored).epsilon(1e-3));
+  }
 }
 
 TEST_CASE("oblique collisions with friction and damping close the ledger and keep momentum", "[contact]") {
