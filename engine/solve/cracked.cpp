@@ -152,14 +152,14 @@ void Cracked::drop(int j) {
 
 void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
   const LaneKernels& kernels = lane_kernels();
-  JointLanes o;
+  const double* rows = state_.row.data();
+  double* wrench_rows = state_.wrench.data();
   if (sample) sums.energy.elastic = 0;
   for (int g = first; g < last; ++g) {
     Group& group = group_[z(g)];
     if (group.empty()) continue;
     const JointBatch& batch = state_.batch[z(group.batch)];
     CrackedLanes& lane = group.lane;
-    kernels.elastic(batch, state_.row.data(), o);
     alignas(64) double rate[lanes];
     const bool damped = model_.dashpots_cracked && state_.last_dt > 0;
     for (int l = 0; damped && l < lanes; ++l)
@@ -178,12 +178,11 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
                              group.face_corner};
     const PointLaw& law = model_.laws[z(group.law)];
     if (group.bare) {
-      kernels.rub(law, batch, shape, group.slip.data(), lane, o);
+      kernels.rub(law, batch, shape, group.slip.data(), lane, rows, wrench_rows);
     } else {
-      kernels.respond(law, batch, shape, group.slip.data(), group.bond.data(), lane, o);
+      kernels.respond(law, batch, shape, group.slip.data(), group.bond.data(), lane, rows, wrench_rows);
       group.bare = std::all_of(lane.least_damage, lane.least_damage + lanes, [](double damage) { return damage >= 1; });
     }
-    kernels.wrenches(batch, o, state_.wrench.data());
     for (int l = 0; l < lanes; ++l) {
       sums.energy.friction += lane.friction[l];
       sums.energy.fracture += lane.fracture[l];

@@ -112,12 +112,12 @@ struct LaneKernels {
   const char* name;
   // joint_geometry.h gives the formulas: q, its elastic resultant and the bound that keeps a joint on this path.
   void (*elastic)(const JointBatch& batch, const double* rows, JointLanes& out);
-  // Point laws of joints that have cracked (joint_response.h): q of `io` gives its f; memory and account in `cracked`.
+  // Joints that have cracked, rows of blocks to wrench rows by the point laws (joint_response.h); memory and account in `cracked`.
   void (*respond)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, BondLanes* bond,
-                  CrackedLanes& cracked, JointLanes& io);
+                  CrackedLanes& cracked, const double* rows, double* wrench_rows);
   // The same where no point has a bond left.
   void (*rub)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, CrackedLanes& cracked,
-              JointLanes& io);
+              const double* rows, double* wrench_rows);
   // Resultants to wrenches on both blocks: force at the midpoint of the material points, then everything turned by th.
   void (*wrenches)(const JointBatch& batch, const JointLanes& in, double* wrench_rows);
   // Batches [first, last) of sound joints, rows of blocks to wrench rows; the energy they store is added to stored[lanes], if wanted.
