@@ -1,16 +1,16 @@
 // Largest eigenvalues of M^-1/2 A M^-1/2: what the bounds on time steps are made of.
 #pragma once
+#include <functional>
+
 #include "engine/base/sparse.h"
-#include "engine/model/model.h"
-#include "engine/model/state.h"
 
 namespace erbs {
 
-// M^-1/2 of a block at rest attitude; world axes.
-Mat6 inverse_root_mass(const Model& model, const State& state, int block);
-
-// Largest eigenvalue of a symmetric matrix by Lanczos with full reorthogonalisation (Paige 1972); its residual is added, since
+// Largest eigenvalue of a symmetric operator of size n, times(x, y) giving y = A x, by Lanczos' recurrence of three vectors. No basis is
+// kept: orthogonality is lost only along Ritz vectors that have converged, copies of which then appear, but the largest Ritz value and
+// its residual stay right to round-off (Paige 1980, Linear Algebra Appl. 34, theorem 3.1 and section 4). The residual is added, since
 // the Ritz value errs from below.
+double largest_eigenvalue(int n, const std::function<void(const VecX& x, VecX& y)>& times);
 double largest_eigenvalue(const Sparse& a);
 
 }  // namespace erbs

@@ -14,10 +14,6 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 std::size_t z(int i) { return std::size_t(i); }
 
-// The joint at a step dt with its dashpots: dt^2 K + 2 dt C, over dt^2, which leapfrog keeps bounded while it is below 4 M / dt^2
-// (velocities lag by half a step).
-Mat6 with_dashpots(const Mat6& k, double viscous, double dt) { return (1 + 2 * viscous / dt) * k; }
-
 // The step at which dt^2 lambda(dt) comes to `most`, lambda(dt) being the largest eigenvalue with dashpots; `free`: the one without them,
 // `viscous` the greatest b of them. Starts from the answer for equal ones, dt^2 + 2 b dt = free^2; dt^2 lambda grows like a power of
 // dt between 1 and 2, so that each correction leaves at most a third of the error. The answer errs to the safe side.
@@ -52,22 +48,6 @@ Mat6 stiffest(const Joint& joint) {
   return k;
 }
 
-Freedom freedoms(const Model& m) {
-  Freedom f;
-  f.first.assign(z(m.nblock) + 1, -1);
-  for (int b = 0; b < m.nblock; ++b)
-    if (m.kind[z(b)] == Kind::moving) f.first[z(b)] = f.count, f.count += 6;
-  return f;
-}
-
-Freedom grounded_freedoms(const Model& m, const State& s) {
-  Freedom f;
-  f.first.assign(z(m.nblock) + 1, -1);
-  for (int b = 0; b < m.nblock; ++b)
-    if (m.kind[z(b)] == Kind::moving && s.grounded[z(b)]) f.first[z(b)] = f.count, f.count += 6;
-  return f;
-}
-
 JointMap joint_map(const Model& m, const State& s, int j) {
   const JointPose pose = joint_pose(m, s, j);
   const Mat3 t = pose.frame.transpose();
@@ -85,14 +65,65 @@ JointMap joint_map(const Model& m, const State& s, int j) {
 
 namespace {
 
-template <class Form>
-Sparse assembled(const Model& m, const State& s, const Freedom& f, const Form& form) {
+double greatest(const Model& m, double Joint::*viscous) {
+  double most = 0;
+  for (const Joint& joint : m.joint) most = std::max(most, joint.*viscous);
+  return most;
+}
+
+// The form of a joint at a step dt with its dashpots: dt^2 K + 2 dt C, over dt^2, which leapfrog keeps bounded while it is below
+// 4 M / dt^2 (velocities lag by half a step).
+JointForm with_dashpots(JointForm form, double viscous, double dt) {
+  const double factor = 1 + 2 * viscous / dt;
+  for (double& k : form.diagonal) k *= factor;
+  form.coupling *= factor;
+  return form;
+}
+
+JointForm cracked_form(const Joint& joint) {
+  if (!stiffens(joint)) return sound_form(joint);
+  const Mat6 k = stiffest(joint);
+  return {{k(0, 0), k(1, 1), k(2, 2), k(3, 3), k(4, 4), k(5, 5)}, k(3, 4)};
+}
+
+// The steps that all joints together allow, sound and cracked.
+void set_critical(const Model& m, const State& s, const Freedom& f, const RootMass& root, StepBounds& out) {
+  const double sound = greatest(m, &Joint::viscous), broken = greatest(m, &Joint::viscous_cracked);
+  const JointOperator joints(m, s, f);
+  VecX scaled(f.count);
+  const auto lambda = [&](const auto& form) {
+    return largest_eigenvalue(f.count, [&](const VecX& x, VecX& y) {
+      scaled = x;
+      root.apply(scaled);
+      joints.apply(form, scaled, y);
+      root.apply(y);
+    });
+  };
+  const double free = 2 / std::sqrt(lambda(sound_form));
+  out.critical = out.cracked = longest_step(free, sound, 4, 1e-7, [&](double dt) {
+    return lambda([&](const Joint& joint) { return with_dashpots(sound_form(joint), joint.viscous, dt); });
+  });
+  const bool stiffer = std::any_of(m.joint.begin(), m.joint.end(), stiffens);
+  if (!stiffer && broken <= sound) return;
+  std::vector<JointForm> cracked;
+  for (const Joint& joint : m.joint) cracked.push_back(cracked_form(joint));
+  const auto of = [&](const Joint& joint) -> const JointForm& { return cracked[std::size_t(&joint - m.joint.data())]; };
+  // A thousandth is enough: each turn is another Lanczos run.
+  out.cracked = longest_step(stiffer ? 2 / std::sqrt(lambda(of)) : free, broken, 4, 1e-3, [&](double dt) {
+    return lambda([&](const Joint& joint) { return with_dashpots(of(joint), joint.viscous_cracked, dt); });
+  });
+  out.cracked = std::min(out.cracked, out.critical);
+}
+
+}  // namespace
+
+Sparse stiffness(const Model& m, const State& s, const Freedom& f) {
   Triplets entries;
   entries.reserve(z(m.njoint) * 144);
   for (int j = 0; j < m.njoint; ++j) {
     if (s.tier[z(j)] == Tier::open) continue;
     const JointMap map = joint_map(m, s, j);
-    const Mat6 k = form(m.joint[z(j)]);
+    const Mat6 k = diagonal(m.joint[z(j)]);
     const int end[2] = {f.first[z(m.joint[z(j)].a)], f.first[z(m.joint[z(j)].b)]};
     const Mat6* side[2] = {&map.a, &map.b};
     for (int p = 0; p < 2; ++p)
@@ -108,38 +139,11 @@ Sparse assembled(const Model& m, const State& s, const Freedom& f, const Form& f
   return out;
 }
 
-double greatest(const Model& m, double Joint::*viscous) {
-  double most = 0;
-  for (const Joint& joint : m.joint) most = std::max(most, joint.*viscous);
-  return most;
-}
-
-// The steps that all joints together allow, sound and cracked; scale = M^-1/2.
-void set_critical(const Model& m, const State& s, const Freedom& f, const Sparse& scale, StepBounds& out) {
-  const double sound = greatest(m, &Joint::viscous), broken = greatest(m, &Joint::viscous_cracked);
-  const auto lambda = [&](const auto& form) { return largest_eigenvalue(Sparse(scale * assembled(m, s, f, form) * scale)); };
-  const double free = 2 / std::sqrt(lambda(diagonal));
-  out.critical = out.cracked = longest_step(free, sound, 4, 1e-7, [&](double dt) {
-    return lambda([&](const Joint& joint) { return with_dashpots(diagonal(joint), joint.viscous, dt); });
-  });
-  const bool stiffer = std::any_of(m.joint.begin(), m.joint.end(), stiffens);
-  if (!stiffer && broken <= sound) return;
-  const auto cracked = [&](const Joint& joint) { return stiffens(joint) ? stiffest(joint) : diagonal(joint); };
-  // A thousandth is enough: each turn is another Lanczos run.
-  out.cracked = longest_step(stiffer ? 2 / std::sqrt(lambda(cracked)) : free, broken, 4, 1e-3, [&](double dt) {
-    return lambda([&](const Joint& joint) { return with_dashpots(cracked(joint), joint.viscous_cracked, dt); });
-  });
-  out.cracked = std::min(out.cracked, out.critical);
-}
-
-}  // namespace
-
-Sparse stiffness(const Model& m, const State& s, const Freedom& f) { return assembled(m, s, f, diagonal); }
-
 StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
   StepBounds out{infinite, infinite, infinite, infinite, infinite, -1};
   const Freedom f = freedoms(m);
-  std::vector<Mat6> own(z(m.nblock), Mat6::Zero()), damping = own;
+  const double viscous = greatest(m, &Joint::viscous_cracked);
+  std::vector<Mat6> own(z(m.nblock), Mat6::Zero()), damping(viscous > 0 ? own.size() : 0, Mat6::Zero());
   for (int j = 0; j < m.njoint; ++j) {
     if (s.tier[z(j)] == Tier::open) continue;
     const Joint& joint = m.joint[z(j)];
@@ -147,8 +151,10 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
     const Mat6 k = diagonal(joint);
     own[z(joint.a)] += map.a.transpose() * k * map.a;
     own[z(joint.b)] += map.b.transpose() * k * map.b;
-    damping[z(joint.a)] += joint.viscous_cracked * map.a.transpose() * k * map.a;
-    damping[z(joint.b)] += joint.viscous_cracked * map.b.transpose() * k * map.b;
+    if (viscous > 0) {
+      damping[z(joint.a)] += joint.viscous_cracked * map.a.transpose() * k * map.a;
+      damping[z(joint.b)] += joint.viscous_cracked * map.b.transpose() * k * map.b;
+    }
     if (m.kind[z(joint.a)] != Kind::moving && m.kind[z(joint.b)] != Kind::moving) continue;
     const int light = m.kind[z(joint.b)] == Kind::moving ? joint.b : joint.a;
     const double distance = (joint.arm_a - joint.arm_b).norm();
@@ -157,13 +163,12 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
         mortar != nullptr && mortar->E > 0 ? mortar->E : m.laws[z(joint.law)].kn * (joint.gap > 1e-6 ? joint.gap : distance);
     out.wave_passage = std::min(out.wave_passage, distance / std::sqrt(modulus / m.materials[z(m.material[z(light)])].density));
   }
-  const double viscous = greatest(m, &Joint::viscous_cracked);
-  std::vector<Mat6> root(z(m.nblock));
+  const RootMass roots(m, s, f);
   for (int b = 0; b < m.nblock; ++b) {
     if (m.kind[z(b)] != Kind::moving) continue;
-    root[z(b)] = inverse_root_mass(m, s, b);
+    const Mat6 root = roots.of(b);
     const auto largest = [&](const Mat6& k) {
-      return std::max(0.0, Eigen::SelfAdjointEigenSolver<Mat6>(Mat6(root[z(b)] * k * root[z(b)])).eigenvalues()[5]);
+      return std::max(0.0, Eigen::SelfAdjointEigenSolver<Mat6>(Mat6(root * k * root)).eigenvalues()[5]);
     };
     const double limit = longest_step(std::sqrt(2 / largest(own[z(b)])), viscous, 2, 1e-7,
                                       [&](double dt) { return largest(own[z(b)] + 2 / dt * damping[z(b)]); });
@@ -174,15 +179,8 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
     if (k > 0) out.element_period = std::min(out.element_period, 2 * pi * std::sqrt(m.mass[z(b)] / k));
   }
   if (f.count == 0 || out.block == infinite) return out;
-  Triplets entries;
-  for (int b = 0; b < m.nblock; ++b)
-    if (f.first[z(b)] >= 0)
-      for (int r = 0; r < 6; ++r)
-        for (int c = 0; c < 6; ++c)
-          if (root[z(b)](r, c) != 0) entries.emplace_back(f.first[z(b)] + r, f.first[z(b)] + c, root[z(b)](r, c));
-  Sparse scale(f.count, f.count);
-  scale.setFromTriplets(entries.begin(), entries.end());
-  set_critical(m, s, f, scale, out);
+  own = damping = {};
+  set_critical(m, s, f, roots, out);
   return out;
 }
 

@@ -3,16 +3,9 @@
 #include "engine/base/sparse.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
+#include "engine/solve/joint_operator.h"
 
 namespace erbs {
-
-// Degrees of freedom: 6 per moving block (displacement, rotation; world axes), -1 for fixed, driven and the dummy.
-struct Freedom {
-  std::vector<int> first;  // [nblock + 1]
-  int count = 0;
-};
-Freedom freedoms(const Model& model);
-Freedom grounded_freedoms(const Model& model, const State& state);  // without blocks that no joint holds to the ground
 
 // Relative displacement of joint j per motion of block a and block b (6 x 6 each), joint frame, present pose.
 struct JointMap {
