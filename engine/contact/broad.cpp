@@ -143,10 +143,11 @@ std::vector<Found> close_parts(const PairList& list, const ContactShapes& shapes
 
 }  // namespace
 
-double suggested_margin(const ContactShapes& shapes) {
-  if (shapes.shape.empty()) return 0.01;
+double suggested_margin(const std::vector<std::vector<Polyhedron>>& parts_of_blocks) {
   std::vector<double> t;
-  for (const ContactShape& s : shapes.shape) t.push_back(s.thickness);
+  for (const auto& parts : parts_of_blocks)
+    for (const Polyhedron& part : parts) t.push_back(contact_shape(part).thickness);
+  if (t.empty()) return 0.01;
   std::nth_element(t.begin(), t.begin() + static_cast<long>(t.size() / 2), t.end());
   return 0.1 * t[t.size() / 2];
 }

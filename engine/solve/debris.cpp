@@ -27,29 +27,36 @@ double largest_inverse_inertia(const Mat3& inverse) {
 
 }  // namespace
 
-Debris::Debris(const Model& model, State& state, int threads) : model_(model), state_(state), shapes_(contact_shapes(model.shapes)) {
-  blocks_.resize(z(model.nblock));
-  rate_.assign(z(model.nblock), 0.0);
-  landing_.assign(z(model.nblock), 0.0);
+Debris::Debris(const Model& model, State& state, int threads) : model_(model), state_(state) {
   room_.resize(z(threads));
-  for (int b = 0; b < model.nblock; ++b) {
+  if (state.debris.start.empty()) {
+    state.debris.start.reserve(state.u.size());
+    for (std::size_t b = 0; b < state.u.size(); ++b) state.debris.start.push_back(state.u[b]);
+  }
+  if (state.debris.u.empty()) state.debris.margin = suggested_margin(model.shapes);
+  list_involved();
+}
+
+void Debris::wake() {
+  if (!blocks_.empty()) return;
+  shapes_ = contact_shapes(model_.shapes);
+  blocks_.resize(z(model_.nblock));
+  rate_.assign(z(model_.nblock), 0.0);
+  landing_.assign(z(model_.nblock), 0.0);
+  for (int b = 0; b < model_.nblock; ++b) {
     ContactBlock& block = blocks_[z(b)];
-    block.rest = model.rest[z(b)];
-    block.inverse_mass = model.inverse_mass[z(b)];
-    block.inverse_inertia = largest_inverse_inertia(model.inverse_inertia[z(b)]);
-    block.inverse_tensor = model.inverse_inertia[z(b)];
+    block.rest = model_.rest[z(b)];
+    block.inverse_mass = model_.inverse_mass[z(b)];
+    block.inverse_inertia = largest_inverse_inertia(model_.inverse_inertia[z(b)]);
+    block.inverse_tensor = model_.inverse_inertia[z(b)];
     place(b);
   }
-  for (int j = 0; j < model.njoint; ++j) {
-    const auto key = pair_key(model.joint[z(j)].a, model.joint[z(j)].b);
+  for (int j = 0; j < model_.njoint; ++j) {
+    const auto key = pair_key(model_.joint[z(j)].a, model_.joint[z(j)].b);
     if (!pair_keys_.empty() && pair_keys_.back() == key) continue;
     pair_keys_.push_back(key);
     of_pair_.push_back(j);
   }
-  if (state.debris.start.empty())
-    for (std::size_t b = 0; b < state.u.size(); ++b) state.debris.start.push_back(state.u[b]);
-  if (state.debris.u.empty()) state.debris.margin = suggested_margin(shapes_);
-  list_involved();
 }
 
 void Debris::place(int b) {
@@ -68,6 +75,9 @@ void Debris::list_involved() {
   for (int b = 0; b < model_.nblock; ++b)
     if (in[z(b)]) involved_.push_back(b);
   jointed_.clear();
+  bed_.clear();
+  if (!active()) return;
+  wake();
   for (int j = 0; j < model_.njoint; ++j)
     if (state_.tier[z(j)] != Tier::open) jointed_.push_back(pair_key(model_.joint[z(j)].a, model_.joint[z(j)].b));
   find_beds();
@@ -145,6 +155,7 @@ std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
   if (opened.empty()) return opened;
   cracked.store();
   for (const int j : opened) open(j);
+  wake();
   list_involved();
   // All of them: poses from the last look would depend on when this run was started or resumed.
   for (int b = 0; b < model_.nblock; ++b) place(b);

@@ -1,5 +1,5 @@
 // What happens once blocks come loose: joints are handed over to contact, loose blocks meet new neighbours, and the time step
-// follows the contacts. An intact structure does not come here.
+// follows the contacts. An intact structure does not come here: what contacts need is made when the first block comes loose.
 #pragma once
 #include <vector>
 
@@ -34,6 +34,7 @@ class Debris {
   long touched() const { return touched_; }  // pairs, summed over the steps of this Solver
 
  private:
+  void wake();
   void open(int j);
   void hand_over_pair(const int* first, const int* last);
   void list_involved();
@@ -45,7 +46,7 @@ class Debris {
 
   const Model& model_;
   State& state_;
-  ContactShapes shapes_;
+  ContactShapes shapes_;  // empty until wake(), as what follows
   ContactSettings settings_;
   std::vector<ContactBlock> blocks_;
   std::vector<int> involved_;           // blocks that are loose or listed in a pair

@@ -63,7 +63,7 @@ struct Bodies {
       spin.push_back(inertia.back() * b.w);
     }
     shapes = contact_shapes(parts);
-    list.margin = suggested_margin(shapes);
+    list.margin = suggested_margin(parts);
     force.resize(block.size());
     moment.resize(block.size());
   }
