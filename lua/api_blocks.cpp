@@ -99,6 +99,8 @@ int add_block(Call& call, Arguments& arguments, std::vector<Polyhedron> parts, c
         vertex = frame.point(turned);
       }
   }
+  for (size_t i = 0; !context.scene.blocks.empty() && i < std::min(parts.size(), context.scene.blocks.back().parts.size()); ++i)
+    if (const Faces& last = context.scene.blocks.back().parts[i].faces; parts[i].faces == last) parts[i].faces = last;
   block.parts = std::move(parts);
   if (block.name.empty()) block.name = fmt::format("{}_{}", block.group.empty() ? kind : block.group, context.scene.blocks.size() + 1);
   read_initial(arguments, context.frame(), block.initial);
@@ -124,7 +126,9 @@ int box(Call& call) {
 std::vector<Polyhedron> read_part(Arguments& arguments) {
   Polyhedron part;
   arguments.read("vertices", part.vertices);
-  arguments.read("faces", part.faces);
+  Faces::Loops loops;
+  arguments.read("faces", loops);
+  part.faces = std::move(loops);
   const int n = static_cast<int>(part.vertices.size());
   if (n < 4) {
     arguments.mistake(fmt::format("vertices has {} point(s); a block needs at least 4", n));
@@ -177,14 +181,16 @@ Polyhedron extruded(const std::vector<Eigen::Vector2d>& polygon, double height, 
       vertex[axis] = z;
       prism.vertices.push_back(vertex);
     }
+  Faces::Loops loops;
   std::vector<int> bottom, top;
   for (int i = 0; i < n; ++i) {
     bottom.push_back(n - 1 - i);
     top.push_back(n + i);
-    prism.faces.push_back({i, (i + 1) % n, n + (i + 1) % n, n + i});
+    loops.push_back({i, (i + 1) % n, n + (i + 1) % n, n + i});
   }
-  prism.faces.push_back(bottom);
-  prism.faces.push_back(top);
+  loops.push_back(bottom);
+  loops.push_back(top);
+  prism.faces = std::move(loops);
   return prism;
 }
 

@@ -13,9 +13,9 @@ namespace {
 std::size_t z(int i) { return std::size_t(i); }
 
 struct Trial {
-  std::vector<JointMemory> memory;
-  std::vector<PointHistory> history;
-  std::vector<CrushedFace> crushed;
+  Cold<JointMemory> memory;  // of those that are not sound
+  Cold<PointHistory> history;
+  Cold<CrushedFace> crushed;
   std::vector<std::uint8_t> sound;
 };
 
@@ -29,13 +29,14 @@ VecX internal_force(const Model& m, const State& s, const Freedom& f, Trial& tri
     const Joint& joint = m.joint[z(j)];
     const JointPose pose = joint_pose(m, s, j);
     JointEnergy e;
-    JointMemory& now = trial.memory[z(j)];
+    JointMemory now;
     const bool sound = s.tier[z(j)] == Tier::intact;
     const double rest[6] = {};
     const JointPast past(&trial.history[z(joint.first_point)], s.crushed.empty() ? nullptr : &trial.crushed[z(j)]);
     trial.sound[z(j)] = respond(m, j, sound, sound ? rest : s.memory[z(j)].q, pose.q, past, now.f, e);
     std::copy(pose.q, pose.q + 6, now.q);
     now.elastic = e.elastic;
+    if (!trial.sound[z(j)]) trial.memory[z(j)] = now;
     const JointMap map = joint_map(m, s, j);
     const Vec6 resultant = Eigen::Map<const Vec6>(now.f);
     if (const int a = f.first[z(joint.a)]; a >= 0) out.segment<6>(a) += map.a.transpose() * resultant;
@@ -194,7 +195,7 @@ Equilibrium settle(const Model& m, State& s, const std::vector<double>& push) {
   }
   const Pose before{s.u, s.q};
   std::vector<Island> islands = islands_of(m, s, f, force);
-  Trial trial{std::vector<JointMemory>(z(m.njoint)), {}, {}, std::vector<std::uint8_t>(z(m.njoint), 1)};
+  Trial trial{Cold<JointMemory>(z(m.njoint)), {}, {}, std::vector<std::uint8_t>(z(m.njoint), 1)};
   SparseLdlt ldlt;
   bool factored_sound = false;
   VecX residual = force - internal_force(m, s, f, trial);

@@ -207,6 +207,16 @@ Polyhedron grown(const Polyhedron& p, const std::vector<double>& offsets) {
   return translated(result, centre);
 }
 
+const Faces::Loops& Faces::loops() const {
+  static const Loops none;
+  return loops_ ? *loops_ : none;
+}
+
+Faces::Loops& Faces::edit() {
+  if (!loops_ || loops_.use_count() > 1) loops_ = std::make_shared<Loops>(loops());
+  return *loops_;
+}
+
 Polyhedron translated(const Polyhedron& p, const Vec3& by) {
   Polyhedron r = p;
   for (Vec3& v : r.vertices) v += by;
@@ -255,10 +265,12 @@ double thickness(const Polyhedron& p) {
 
 Polyhedron box_polyhedron(const Vec3& low, const Vec3& high) {
   Polyhedron p;
+  p.vertices.reserve(8);
   for (int k = 0; k < 8; ++k) {
     p.vertices.emplace_back(k & 1 ? high.x() : low.x(), k & 2 ? high.y() : low.y(), k & 4 ? high.z() : low.z());
   }
-  p.faces = {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  static const Faces faces{{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}};
+  p.faces = faces;
   return p;
 }
 

@@ -1,10 +1,14 @@
 #include "engine/model/build.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <map>
+#include <string_view>
 #include <tuple>
+#include <unordered_map>
 
+#include "engine/base/hash.h"
 #include "engine/base/units.h"
 #include "engine/geometry/mass.h"
 #include "engine/geometry/quadrature.h"
@@ -40,7 +44,6 @@ void add_blocks(const Scene& scene, Model& m) {
       own.push_back(translated(part, -p.centroid));
     }
     m.smallest_edge.push_back(edge);
-    m.parts.push_back(own);
     m.shapes.push_back(std::move(own));
     m.material.push_back(block.material);
   }
@@ -119,8 +122,53 @@ void add_cell(const std::vector<Vec2>& loop, Model& m) {
   m.cell_corner.insert(m.cell_corner.end(), loop.begin(), loop.end());
 }
 
+// Flat geometry that joints share: bricks of one bond give the same numbers again and again. By a hash of them, joints that have them.
+using Places = std::unordered_multimap<std::uint64_t, int>;
+
+template <class T>
+std::string_view bytes_of(const std::vector<T>& items, int first, int count) {
+  return {reinterpret_cast<const char*>(items.data() + first), z(count) * sizeof(T)};
+}
+
+int loops(const Model& m, const Joint& joint) {  // corners of its cells
+  int sum = 0;
+  for (int i = 0; i < joint.points; ++i) sum += m.cell[z(joint.first_place + i)].corners;
+  return sum;
+}
+
+// What says all of a joint's flat geometry, in pieces; cells follow from their loops.
+std::array<std::string_view, 4> flat_geometry(const Model& m, const Joint& joint) {
+  const int first = m.cell[z(joint.first_place)].first, count = loops(m, joint);
+  return {bytes_of(m.point, joint.first_place, joint.points), bytes_of(m.corner, joint.first_corner, joint.corners),
+          bytes_of(m.cell_corner, first, count), bytes_of(m.cell_watch, first, count)};
+}
+
+// Takes away the geometry just added for this joint if an earlier one has the same to the last bit.
+void share_geometry(Model& m, Joint& joint, Places& places) {
+  const auto own = flat_geometry(m, joint);
+  std::uint64_t key = z(joint.points);
+  for (const std::string_view piece : own) key = fnv1a(piece, key);
+  for (auto [at, end] = places.equal_range(key); at != end; ++at) {
+    const Joint& other = m.joint[z(at->second)];
+    if (other.points != joint.points || flat_geometry(m, other) != own) continue;
+    bool same = true;
+    for (int i = 0; i < joint.points; ++i) same = same && m.cell[z(joint.first_place + i)].corners == m.cell[z(other.first_place + i)].corners;
+    if (!same) continue;
+    const auto first_loop = m.cell[z(joint.first_place)].first;
+    m.point.resize(z(joint.first_place));
+    m.cell_corner.resize(z(first_loop));
+    m.cell_watch.resize(z(first_loop));
+    m.cell.resize(z(joint.first_place));
+    m.corner.resize(z(joint.first_corner));
+    joint.first_place = other.first_place;
+    joint.first_corner = other.first_corner;
+    return;
+  }
+  places.emplace(key, int(m.joint.size()));
+}
+
 // The joint of one interface: contact points, principal frame, diagonal stiffness.
-void add_joint(const Scene& scene, const Interface& face, Model& m) {
+void add_joint(const Scene& scene, const Interface& face, Model& m, Places& places) {
   const JointRule& rule = scene.joint_rules[z(face.rule)];
   const Vec3 origin = face.polygon.front(), n = face.normal;
   const Vec3 e1 = (face.polygon[1] - origin).normalized(), e2 = n.cross(e1);
@@ -141,11 +189,13 @@ void add_joint(const Scene& scene, const Interface& face, Model& m) {
   joint.frame.col(1) = cosine * e2 - sine * e1;
   joint.frame.col(2) = n;
   const Vec3 centre = origin + axes.centroid.x() * e1 + axes.centroid.y() * e2;
-  joint.arm_a = joint.centre = centre - m.rest[z(face.a)];
+  joint.arm_a = centre - m.rest[z(face.a)];
   joint.arm_b = centre - m.rest[z(face.b)];
   joint.gap = face.gap;
-  joint.first_point = int(m.point.size());
+  joint.first_point = m.npoint;
+  joint.first_place = int(m.point.size());
   joint.points = int(points.size());
+  m.npoint += joint.points;
   const PointLaw& law = m.laws[z(face.rule)];
   for (const auto& p : points) {
     const Vec2 x = local(p.x, p.y);
@@ -176,6 +226,7 @@ void add_joint(const Scene& scene, const Interface& face, Model& m) {
   }
   set_face(m, law, joint);
   set_viscous(scene.damping, m, joint);
+  share_geometry(m, joint, places);
   m.joint.push_back(joint);
 }
 
@@ -201,7 +252,6 @@ void grow_shapes(const Scene& scene, const Interfaces& found, Model& m) {
 
 void index_rows(Model& m) {
   m.njoint = int(m.joint.size());
-  m.npoint = int(m.point.size());
   m.first_row.assign(z(m.nblock) + 1, 0);
   for (const Joint& j : m.joint) ++m.first_row[z(j.a) + 1], ++m.first_row[z(j.b) + 1];
   for (int b = 0; b < m.nblock; ++b) m.first_row[z(b) + 1] += m.first_row[z(b)];
@@ -321,9 +371,9 @@ State start(const Scene& scene, const Model& m) {
   }
   set_batches(m, s);
   s.tier.assign(z(m.njoint), Tier::intact);
-  s.memory.assign(z(m.njoint), {});
-  s.history.assign(z(m.npoint), {});
-  if (std::any_of(m.laws.begin(), m.laws.end(), [](const PointLaw& law) { return law.fc > 0; })) s.crushed.assign(z(m.njoint), {});
+  s.memory.clear(z(m.njoint));
+  s.history.clear(z(m.npoint));
+  if (std::any_of(m.laws.begin(), m.laws.end(), [](const PointLaw& law) { return law.fc > 0; })) s.crushed.clear(z(m.njoint));
   if (m.dashpots_cracked) s.viscous.assign(6 * z(m.njoint), 0.0);
   s.wrench.assign(2 * z(m.njoint) + 1, 0.0);
   return s;
@@ -348,7 +398,9 @@ Built build(const Scene& scene) {
   std::vector<std::string> errors;
   check_blocks(scene, found, m, errors, m.warnings);
   if (!errors.empty()) throw Errors(errors);
-  for (const Interface& face : found.all) add_joint(scene, face, m);
+  Places places;
+  m.joint.reserve(found.all.size());
+  for (const Interface& face : found.all) add_joint(scene, face, m, places);
   m.dashpots = std::any_of(m.joint.begin(), m.joint.end(), [](const Joint& joint) { return joint.viscous > 0; });
   m.dashpots_cracked = std::any_of(m.joint.begin(), m.joint.end(), [](const Joint& joint) { return joint.viscous_cracked > 0; });
   grow_shapes(scene, found, m);

@@ -19,11 +19,11 @@ struct Joint {
   int part_a = 0, part_b = 0;       // of the blocks
   int law = 0;                      // index into Model::laws
   int rule = 0;                     // index into Scene::joint_rules
-  int first_point = 0, points = 0;  // into Model::point
+  int first_point = 0, points = 0;  // into State::history
+  int first_place = 0;              // of its points, into Model::point and cell; joints of one bond share them
   int first_corner = 0, corners = 0;  // into Model::corner
   Mat3 frame;                       // columns s, t, n at rest
-  Vec3 centre;                      // m, weighted centre of the contact points at rest, relative to the centroid of a
-  Vec3 arm_a, arm_b;                // m, centre relative to the centroids at rest
+  Vec3 arm_a, arm_b;                // m, weighted centre of its contact points at rest, relative to the centroids
   double area = 0;                  // m2
   double stiffness[6] = {};         // N/m (s, t, n), N m (about s, t, n): elastic resultant = stiffness * q
   // N m, kn times Int t2, Int s2, Int s t over the overlap: bending of the joint pressed all over, once it has cracked. For rules
@@ -63,9 +63,9 @@ struct Model {
   std::vector<int> material;
   // joints, sorted by lower block, higher block and their parts         [njoint]
   std::vector<Joint> joint;
-  std::vector<Point> point;             // by joint                      [npoint]
-  std::vector<Eigen::Vector2d> corner;  // m, of the overlap polygon in the joint frame, by joint
-  std::vector<Cell> cell;               // by point                      [npoint]
+  std::vector<Point> point;             // of joints that differ; others share them
+  std::vector<Eigen::Vector2d> corner;  // m, of the overlap polygon in the joint frame
+  std::vector<Cell> cell;               // of each of `point`
   std::vector<Eigen::Vector2d> cell_corner, cell_watch;  // m, joint frame: loops of the cells, and where they watch for tension
   std::vector<PointLaw> laws;           // one per joint rule
   // Each block owns consecutive wrench rows, one per joint end: [first_row[b], first_row[b+1])
@@ -88,7 +88,6 @@ struct Model {
   Analysis analysis;
   bool damping_explicit = false, damping_all = false;
   std::vector<Material> materials;
-  std::vector<std::vector<Polyhedron>> parts;   // drawn shape: m, relative to the centroid, axes at rest [nblock]
   std::vector<std::vector<Polyhedron>> shapes;  // contact shape: jointed faces moved out by half the bed [nblock]
   std::vector<std::string> warnings;
 

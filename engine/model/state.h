@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/base/cold.h"
 #include "engine/laws/crushing.h"
 #include "engine/model/block_field.h"
 #include "engine/model/joint_batch.h"
@@ -65,9 +66,9 @@ struct State {
   std::vector<JointBatch> batch;       // sound joints first [ceil(njoint / lanes)], then those that have cracked (batches.h)
   std::vector<int> place;              // lane of each joint: batch * lanes + lane, -1 once it is open [njoint]
   std::vector<Tier> tier;              // [njoint]
-  std::vector<JointMemory> memory;     // [njoint]
-  std::vector<PointHistory> history;   // [npoint]
-  std::vector<CrushedFace> crushed;    // empty where no law has a plateau in compression [njoint]
+  Cold<JointMemory> memory;            // [njoint]
+  Cold<PointHistory> history;          // [npoint]
+  Cold<CrushedFace> crushed;           // empty where no law has a plateau in compression [njoint]
   Rows wrench;                         // rows of 8 doubles: force, moment on a block from one joint end [2 njoint + 1]
   std::vector<double> viscous;         // N, N m, resultants of the dashpots of the last step; empty without [6 njoint]
   PairList debris;                     // contacts of loose blocks

@@ -28,10 +28,15 @@ void ArchiveIn::expect_head(std::string_view name, std::uint64_t size, std::uint
     throw Error(fmt::format("written by another version of the program (at \"{}\"); start anew with --force", name), {file_, 0});
 }
 
-void ArchiveIn::get(void* data, std::size_t size) {
+const char* ArchiveIn::get(std::size_t size) {
   if (size > bytes_.size() - at_) throw Error("damaged: it ends too early; start anew with --force", {file_, 0});
-  if (size > 0) std::memcpy(data, bytes_.data() + at_, size);
   at_ += size;
+  return bytes_.data() + (at_ - size);
+}
+
+void ArchiveIn::get(void* data, std::size_t size) {
+  const char* from = get(size);
+  if (size > 0) std::memcpy(data, from, size);
 }
 
 void ArchiveIn::finish() const {

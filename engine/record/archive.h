@@ -20,6 +20,8 @@ struct is_vector : std::false_type {};
 template <class T>
 struct is_vector<std::vector<T>> : std::true_type {};
 template <class T>
+struct is_vector<Cold<T>> : std::true_type {};
+template <class T>
 inline constexpr bool is_small_eigen = std::is_same_v<T, Vec3> || std::is_same_v<T, Quat> || std::is_same_v<T, Mat3> ||
                                        std::is_same_v<T, Vec6> || std::is_same_v<T, Eigen::Vector2d>;
 template <class T>
@@ -56,8 +58,9 @@ class ArchiveOut {
   }
 
  private:
-  template <class T>
-  void vector(std::string_view name, const std::vector<T>& values) {
+  template <class V>
+  void vector(std::string_view name, const V& values) {
+    using T = typename V::value_type;
     if constexpr (is_plain<T>) {
       head(name, sizeof(T), values.size());
       put(values.data(), values.size() * sizeof(T));
@@ -97,6 +100,11 @@ class ArchiveIn {
 
  private:
   template <class T>
+  void vector(std::string_view name, Cold<T>& values) {
+    values.clear(head(name, sizeof(T)));
+    values.put(get(values.size() * sizeof(T)));
+  }
+  template <class T>
   void vector(std::string_view name, std::vector<T>& values) {
     if constexpr (is_plain<T>) {
       values.resize(head(name, sizeof(T)));
@@ -109,6 +117,7 @@ class ArchiveIn {
   std::size_t head(std::string_view name, std::uint64_t size);  // the count
   void expect_head(std::string_view name, std::uint64_t size, std::uint64_t count);
   void get(void* data, std::size_t size);
+  const char* get(std::size_t size);  // where the next bytes are
   std::string_view bytes_;
   std::size_t at_ = 0;
   std::string file_;

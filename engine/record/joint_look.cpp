@@ -29,9 +29,10 @@ JointLook look_at_joint(const Model& model, const State& state, int j) {
   }
   if (joint.corners == 0) look.opening = 0;
   double damaged = 0, whole = 0;
-  for (int i = joint.first_point; i < joint.first_point + joint.points; ++i) {
-    whole += model.point[std::size_t(i)].weight;
-    if (state.history[std::size_t(i)].damage > 0) damaged += model.point[std::size_t(i)].weight;
+  for (int i = 0; i < joint.points; ++i) {
+    const double weight = model.point[std::size_t(joint.first_place + i)].weight;
+    whole += weight;
+    if (state.history[std::size_t(joint.first_point + i)].damage > 0) damaged += weight;
   }
   look.damage = state.tier[std::size_t(j)] == Tier::open ? 1.0 : whole > 0 ? damaged / whole : 0.0;
   return look;

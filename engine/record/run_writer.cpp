@@ -31,7 +31,7 @@ MotionShape shape_of(const Polyhedron& part) {
   MotionShape shape;
   for (const Vec3& vertex : part.vertices)
     for (int i = 0; i < 3; ++i) shape.vertices.push_back(float(vertex[i]));
-  shape.faces = part.faces;
+  shape.faces = part.faces.loops();
   return shape;
 }
 
@@ -64,7 +64,8 @@ MotionScene motion_scene(const Scene& scene, const Model& model) {
     block.material = model.material[b];
     block.fixed = model.kind[b] == Kind::fixed;
     block.rest = model.rest[b];
-    for (const Polyhedron& part : model.parts[b]) block.parts.push_back(share_shape(drawn, shape_of(part)));
+    for (const Polyhedron& part : scene.blocks[b].parts)
+      block.parts.push_back(share_shape(drawn, shape_of(translated(part, -model.rest[b]))));
     drawn.blocks.push_back(std::move(block));
   }
   for (const Joint& joint : model.joint) drawn.joints.push_back(joint_of(scene, model, joint));

@@ -33,11 +33,13 @@ bool closed(const aiMesh& mesh) {
 
 Polyhedron convex_part(const aiMesh& mesh, const aiMatrix4x4& where, const std::string& what) {
   Polyhedron triangles;
+  Faces::Loops loops;
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) triangles.vertices.push_back(placed(where, mesh.mVertices[v]));
   for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
     const auto* i = mesh.mFaces[f].mIndices;
-    triangles.faces.push_back({static_cast<int>(i[0]), static_cast<int>(i[1]), static_cast<int>(i[2])});
+    loops.push_back({static_cast<int>(i[0]), static_cast<int>(i[1]), static_cast<int>(i[2])});
   }
+  triangles.faces = std::move(loops);
   if (!closed(mesh)) throw Error(fmt::format("{} is not a closed surface; close its holes", what));
   const Polyhedron whole = hull(triangles.vertices);
   const double volume = std::abs(mass_properties(triangles).volume), full = mass_properties(whole).volume;

@@ -76,16 +76,16 @@ void Cracked::fill(Group& group, int l, int j) {
     group.corner[z(i)].s[l] = c.x(), group.corner[z(i)].t[l] = c.y();
   }
   group.face.bend_s[l] = joint.face[0], group.face.bend_t[l] = joint.face[1], group.face.twist[l] = joint.face[2];
-  const int first = model_.cell[z(joint.first_point)].first;
+  const int first = model_.cell[z(joint.first_place)].first;
   for (int i = 0; i < int(group.loop.size()); ++i) {
     const auto &c = model_.cell_corner[z(first + i)], &w = model_.cell_watch[z(first + i)];
     group.loop[z(i)].s[l] = c.x(), group.loop[z(i)].t[l] = c.y();
     if (!group.watch.empty()) group.watch[z(i)].s[l] = w.x(), group.watch[z(i)].t[l] = w.y();
   }
   for (int i = 0; i < joint.points; ++i) {
-    const Point& from = model_.point[z(joint.first_point + i)];
+    const Point& from = model_.point[z(joint.first_place + i)];
     const PointHistory& h = state_.history[z(joint.first_point + i)];
-    const Cell& cell = model_.cell[z(joint.first_point + i)];
+    const Cell& cell = model_.cell[z(joint.first_place + i)];
     CellLanes& k = group.cell[z(i)];
     k.s[l] = cell.s, k.t[l] = cell.t, k.ss[l] = cell.ss, k.st[l] = cell.st, k.tt[l] = cell.tt;
     SpotLanes& p = group.spot[z(i)];
@@ -107,7 +107,7 @@ Cracked::Group Cracked::empty_group(const Joint& joint, int batch) const {
   group.corner.resize(z(group.corners));
   group.cell.resize(z(group.points));
   group.first.push_back(0);
-  for (int i = joint.first_point; i < joint.first_point + joint.points; ++i)
+  for (int i = joint.first_place; i < joint.first_place + joint.points; ++i)
     group.first.push_back(group.first.back() + model_.cell[z(i)].corners);
   group.loop.resize(z(group.first.back()));
   if (joint.inset) group.watch.resize(group.loop.size());
@@ -119,7 +119,7 @@ bool Cracked::fits(const Group& group, const Joint& joint) const {
   if (group.law != joint.law || group.points != joint.points || group.corners != joint.corners || group.watch.empty() == joint.inset)
     return false;
   for (int i = 0; i < joint.points; ++i)
-    if (group.first[z(i + 1)] - group.first[z(i)] != model_.cell[z(joint.first_point + i)].corners) return false;
+    if (group.first[z(i + 1)] - group.first[z(i)] != model_.cell[z(joint.first_place + i)].corners) return false;
   return true;
 }
 

@@ -165,7 +165,7 @@ bool stays_sound(const Model& m, const Joint& joint, const PointLaw& law, const 
     if (law.fc > 0 && -law.kn * gap > law.fc) return false;
   }
   for (int i = 0; i < joint.points; ++i) {
-    const Point& x = m.point[std::size_t(joint.first_point + i)];
+    const Point& x = m.point[std::size_t(joint.first_place + i)];
     if (passes(law, gap_at(q, x.s, x.t))) return false;
   }
   return true;
@@ -192,7 +192,7 @@ namespace {
 // Friction needs the pressure at the points: the closed integral, shared out by their own depths; all of it to the deepest where no
 // point is pressed.
 void share_out(const Model& m, const Joint& joint, const CrushedFace* crushed, const double* q, double force, double* at_points) {
-  const Point* point = &m.point[std::size_t(joint.first_point)];
+  const Point* point = &m.point[std::size_t(joint.first_place)];
   const bool flattened = crushed != nullptr && crushed->planes > 0;
   const Bed bed = bed_of(m, joint);
   double share = 0, least = 0;
@@ -222,7 +222,7 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
     }
     return true;
   }
-  const Point* point = &m.point[std::size_t(joint.first_point)];
+  const Point* point = &m.point[std::size_t(joint.first_place)];
   std::array<double, most_points_per_joint> pressure;  // N, compressive force of each point
   if (law.fc > 0) energy.crushing += crush(bed_of(m, joint), *past.crushed, gap_plane(q_before).data(), gap_plane(q).data());
   const CrushedFace* crushed = law.fc > 0 ? past.crushed : nullptr;
@@ -240,12 +240,12 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
     const Gap g = gap_at(q, point[i].s, point[i].t);
     const bool bonded = damage_before < 1 && !law.dry;
     const double k0 = damage_before > 0 ? h.secant : law.kn;
-    const double wide = bonded ? widest(m, joint.first_point + i, q, g.n) : 0;
+    const double wide = bonded ? widest(m, joint.first_place + i, q, g.n) : 0;
     if (bonded && wide > (damage_before > 0 ? h.reach : law.opening_peak))
       damage_to(law, h,
                 law.opening_ultimate > law.opening_peak ? (wide - law.opening_peak) / (law.opening_ultimate - law.opening_peak) : 1);
     if (bonded && law.closing_ultimate > 0 &&
-        widest(m, joint.first_point + i, q, g.n, -1) > std::max(law.closing_ultimate, law.fc / law.kn))
+        widest(m, joint.first_place + i, q, g.n, -1) > std::max(law.closing_ultimate, law.fc / law.kn))
       damage_to(law, h, 1);
     const double sigma = bonded && g.n > 0 ? (h.damage > 0 ? h.secant : law.kn) * g.n : 0;
     const Shear tau = shear(law, point[i], pressure[std::size_t(i)], sigma, q_before, g, h, energy);
@@ -258,9 +258,9 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
     energy.elastic += 0.5 * (tau.s * (g.s - h.slip_s) + tau.t * (g.t - h.slip_t));
     if (!bonded) continue;
     const double k1 = h.damage > 0 ? h.secant : law.kn;
-    const Pull pull = pull_of(m, joint.first_point + i, q);
+    const Pull pull = pull_of(m, joint.first_place + i, q);
     if (k0 != k1) {  // half the loss of stiffness times Int g0 g1 over the opened cell, the mean from both ends
-      const double both = work_of(pull, q_before) + work_of(pull_of(m, joint.first_point + i, q_before), q);
+      const double both = work_of(pull, q_before) + work_of(pull_of(m, joint.first_place + i, q_before), q);
       energy.fracture += 0.25 * (k0 - k1) * std::max(0.0, both);
     }
     f[2] += k1 * pull.n;
@@ -277,7 +277,7 @@ void viscous_response(const Model& m, int j, const double* q0, const double* q, 
   const PointLaw& law = m.laws[std::size_t(joint.law)];
   for (int i = 0; i < 6; ++i) f[i] = 0;
   for (int i = 0; i < joint.points; ++i) {
-    const Point& point = m.point[std::size_t(joint.first_point + i)];
+    const Point& point = m.point[std::size_t(joint.first_place + i)];
     const PointHistory& h = after.point[i];
     const Gap g0 = gap_at(q0, point.s, point.t), g1 = gap_at(q, point.s, point.t);
     const bool holds = h.damage < 1 && !law.dry;
@@ -290,7 +290,7 @@ void viscous_response(const Model& m, int j, const double* q0, const double* q, 
     }
     if (!holds) continue;
     const double k = rate * (h.damage > 0 ? h.secant : law.kn);
-    const Pull p0 = pull_of(m, joint.first_point + i, q0), p1 = pull_of(m, joint.first_point + i, q);
+    const Pull p0 = pull_of(m, joint.first_place + i, q0), p1 = pull_of(m, joint.first_place + i, q);
     f[2] += k * (p1.n - p0.n);
     f[3] += k * (p1.t - p0.t);
     f[4] -= k * (p1.s - p0.s);

@@ -20,7 +20,7 @@ bool sound_resultant(const Model& m, const Joint& joint, const JointPose& pose, 
   }
   double fs = 0, ft = 0, fn = 0, ms = 0, mt = 0, mn = 0;
   for (int i = 0; i < joint.points; ++i) {
-    const Point& p = m.point[z(joint.first_point + i)];
+    const Point& p = m.point[z(joint.first_place + i)];
     const double shear_s = law.ks * (q[0] - q[5] * p.t), shear_t = law.ks * (q[1] + q[5] * p.s);  // Pa
     const double sigma = law.kn * (q[2] + q[3] * p.t - q[4] * p.s);
     if (sigma > law.ft || (law.dry && sigma > 0)) return false;

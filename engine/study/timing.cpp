@@ -33,6 +33,12 @@ std::uint64_t hash_of(const State& s) {
 
 }  // namespace
 
+void run_in(const Model& m, State& state, int threads) {
+  Solver solver(m, state, threads);
+  const long end = state.step + hash_steps;
+  solver.run({[](double) { return false; }, [] {}, [&] { return state.step >= end; }});
+}
+
 Timing time_steps(const Model& model, State state, const std::string& kernel, int threads, double seconds) {
   Model m = model;
   m.analysis.kernel = kernel;

@@ -16,6 +16,9 @@ struct Timing {
   std::uint64_t hash = 0;     // of the motion after `hash_steps` steps from the given state
 };
 
+// The first steps of a run, in place, as a run takes them.
+void run_in(const Model& model, State& state, int threads);
+
 // Steps a copy of `state` for about `seconds` of processor time.
 Timing time_steps(const Model& model, State state, const std::string& kernel, int threads, double seconds);
 

@@ -55,13 +55,13 @@ TEST_CASE("what is wrong with a body is named", "[geometry]") {
   p.vertices[3].x() = std::nan("");
   CHECK(problem_of(p) == "vertex 4 is not a number");
   p = brick();
-  p.faces.pop_back();
+  p.faces.edit().pop_back();
   CHECK(problem_of(p).find("not closed") != std::string::npos);
   p = brick();
-  for (auto& f : p.faces) std::reverse(f.begin(), f.end());
+  for (auto& f : p.faces.edit()) std::reverse(f.begin(), f.end());
   CHECK(problem_of(p).find("inside out") != std::string::npos);
   p = brick();
-  std::reverse(p.faces[2].begin(), p.faces[2].end());
+  std::reverse(p.faces.edit()[2].begin(), p.faces.edit()[2].end());
   CHECK(problem_of(p).find("inside out") != std::string::npos);
   p = hull({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 1}});
   p.vertices[4] = Vec3(0.2, 0.2, 0.2);

@@ -39,12 +39,11 @@ inline TwoBricks two_bricks() {
   m.rest = {Vec3(0, 0, 0), Vec3(0, 0, 0.1), Vec3(1, 0, 0)};
   m.smallest_edge = {0.1, 0.1, 0.1};
   m.material = {0, 0, 0};
-  m.parts = {{brick()}, {brick()}, {brick()}};
   for (const auto& name : m.block_name) {
     Block block;
     block.name = name;
     block.group = "wall";
-    block.parts = {brick()};
+    block.parts = {translated(brick(), m.rest[t.scene.blocks.size()])};
     block.material = 0;
     t.scene.blocks.push_back(block);
   }
@@ -52,7 +51,7 @@ inline TwoBricks two_bricks() {
   joint.a = 0, joint.b = 1;
   joint.points = joint.corners = 4;
   joint.frame = Mat3::Identity();
-  joint.centre = joint.arm_a = Vec3(0, 0, 0.05);
+  joint.arm_a = Vec3(0, 0, 0.05);
   joint.arm_b = Vec3(0, 0, -0.05);
   joint.area = 0.02;
   m.joint = {joint};

@@ -59,10 +59,10 @@ TEST_CASE("shapes that are no solid are named", "[scene]") {
   for (Vec3& v : scene.blocks[0].parts[0].vertices) v.z() = 0;  // flat
   CHECK(mentions(check(scene), "block \"a\": "));
   scene = sound();
-  for (auto& face : scene.blocks[0].parts[0].faces) std::reverse(face.begin(), face.end());  // inside out
+  for (auto& face : scene.blocks[0].parts[0].faces.edit()) std::reverse(face.begin(), face.end());  // inside out
   CHECK(mentions(check(scene), "block \"a\": "));
   scene = sound();
-  scene.blocks[0].parts[0].faces.pop_back();  // open
+  scene.blocks[0].parts[0].faces.edit().pop_back();  // open
   CHECK(mentions(check(scene), "block \"a\": "));
   scene = sound();
   scene.blocks[0].parts[0].vertices[6] = {0.4, 0.4, 0.4};  // dented
