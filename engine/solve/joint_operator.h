@@ -23,7 +23,7 @@ struct JointForm {
   std::array<double, 6> diagonal{};  // N/m (s, t, n), N m (about s, t, n)
   double coupling = 0;               // N m
 };
-inline JointForm sound_form(const Joint& joint) {
+inline JointForm elastic_form(const Joint& joint) {
   const double* k = joint.stiffness;
   return {{k[0], k[1], k[2], k[3], k[4], k[5]}, 0};
 }

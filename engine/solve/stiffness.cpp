@@ -81,7 +81,7 @@ JointForm with_dashpots(JointForm form, double viscous, double dt) {
 }
 
 JointForm cracked_form(const Joint& joint) {
-  if (!stiffens(joint)) return sound_form(joint);
+  if (!stiffens(joint)) return elastic_form(joint);
   const Mat6 k = stiffest(joint);
   return {{k(0, 0), k(1, 1), k(2, 2), k(3, 3), k(4, 4), k(5, 5)}, k(3, 4)};
 }
@@ -99,9 +99,9 @@ void set_critical(const Model& m, const State& s, const Freedom& f, const RootMa
       root.apply(y);
     });
   };
-  const double free = 2 / std::sqrt(lambda(sound_form));
+  const double free = 2 / std::sqrt(lambda(elastic_form));
   out.critical = out.cracked = longest_step(free, sound, 4, 1e-7, [&](double dt) {
-    return lambda([&](const Joint& joint) { return with_dashpots(sound_form(joint), joint.viscous, dt); });
+    return lambda([&](const Joint& joint) { return with_dashpots(elastic_form(joint), joint.viscous, dt); });
   });
   const bool stiffer = std::any_of(m.joint.begin(), m.joint.end(), stiffens);
   if (!stiffer && broken <= sound) return;
