@@ -28,11 +28,11 @@ Range range_of(const MapStudy& s) {
 // Dampings without a logarithm stand at the left edge.
 double at_damping(const MapStudy& s, double c) { return c > 0 ? c : s.dampings.size() > 1 ? 0.1 * s.dampings[1] : 1; }
 
-std::string points(const MapStudy& s, const Scheme& scheme, double factor, Verdict verdict, bool rated) {
+std::string points(const MapStudy& s, const Scheme& scheme, double factor, Verdict verdict, bool rated, bool whole = true) {
   std::string text;
   for (const MapRun& r : s.all) {
     if (r.scheme.sequential != scheme.sequential || r.scheme.explicit_damping != scheme.explicit_damping || r.factor != factor ||
-        r.verdict != verdict)
+        r.verdict != verdict || (verdict == Verdict::converged && whole != (r.until >= 0.999 * s.window)))
       continue;
     if ((verdict == Verdict::converged || verdict == Verdict::bounded) && r.ratio.has_value() != rated) continue;
     const double shade = r.ratio ? std::clamp(std::log10(std::max(1e-9, std::fabs(*r.ratio))), -2.0, 2.0) : 0;
@@ -77,10 +77,14 @@ std::string panel(const MapStudy& s, const Scheme& scheme, double factor, int& n
   add(points(s, scheme, factor, Verdict::diverged, false), " with points pt 2 ps 0.9 lw 2 lc rgb '#b3261e'");
   add(points(s, scheme, factor, Verdict::ledger, false), " with points pt 1 ps 1.1 lw 2 lc rgb '#d07a1e'");
   add(points(s, scheme, factor, Verdict::failed, false), " with points pt 3 ps 0.9 lw 1 lc rgb '#777777'");
-  add(points(s, scheme, factor, Verdict::bounded, false), " with points pt 6 ps 1.3 lw 1.6 lc rgb '#1b4f8a'");
-  add(points(s, scheme, factor, Verdict::bounded, true), ":3 with points pt 6 ps 1.4 lw 2.5 lc palette");
-  add(points(s, scheme, factor, Verdict::converged, false), " with points pt 7 ps 1.3 lc rgb '#777777'");
-  add(points(s, scheme, factor, Verdict::converged, true), ":3 with points pt 7 ps 1.5 lc palette");
+  add(points(s, scheme, factor, Verdict::bounded, false), " with points pt 8 ps 1.3 lw 2 lc rgb '#777777'");
+  add(points(s, scheme, factor, Verdict::bounded, true), ":3 with points pt 8 ps 1.3 lw 2 lc palette");
+  for (const bool whole : {false, true}) {
+    const int mark = whole ? 7 : 6;
+    add(points(s, scheme, factor, Verdict::converged, false, whole),
+        fmt::format(" with points pt {} ps 1.4 lw 2.5 lc rgb '#777777'", mark));
+    add(points(s, scheme, factor, Verdict::converged, true, whole), fmt::format(":3 with points pt {} ps 1.4 lw 2.5 lc palette", mark));
+  }
   return plot.substr(0, plot.size() - 2) + "\n";
 }
 
@@ -96,20 +100,23 @@ std::string legend(const MapStudy& s) {
     double size;
     const char* color;
   };
-  const Mark marks[] = {{"bounded to the end, coloured by its peak", 7, 1.5, "#2b8cbe"},
-                        {"bounded so far, its time was up: coloured by its peak so far", 6, 1.4, "#2b8cbe"},
-                        {"diverged, and the run said so", 2, 0.9, "#b3261e"},
-                        {"tame, but its energy is wrong, and the run said so", 1, 1.1, "#d07a1e"}};
+  const auto any = [&](Verdict verdict, bool whole) {
+    return std::any_of(s.all.begin(), s.all.end(),
+                       [&](const MapRun& r) { return r.verdict == verdict && whole == (r.until >= 0.999 * s.window); });
+  };
+  std::vector<Mark> marks;
+  if (any(Verdict::converged, true)) marks.push_back({"bounded over the window", 7, 1.4, "#2b8cbe"});
+  if (any(Verdict::converged, false)) marks.push_back({"bounded over its beginning, all it was given", 6, 1.4, "#2b8cbe"});
+  if (any(Verdict::bounded, false)) marks.push_back({"bounded so far, the map's time was up", 8, 1.3, "#2b8cbe"});
+  marks.push_back({"diverged, and the run said so", 2, 0.9, "#b3261e"});
+  marks.push_back({"tame, but its energy is the scheme's own", 1, 1.1, "#d07a1e"});
   std::string text;
   double x = 0.045;
   int tag = 20;
   for (const Mark& m : marks) {
-    if (std::string(m.text).starts_with("bounded so") &&
-        std::none_of(s.all.begin(), s.all.end(), [](const MapRun& r) { return r.verdict == Verdict::bounded; }))
-      continue;
     text += label(tag++, m.text, x, 0.038,
                   fmt::format("left offset 1.2,0 noenhanced point pt {} ps {} lw 2 lc rgb '{}'", m.mark, m.size, m.color));
-    x += 0.05 + 0.0054 * double(std::string(m.text).size());
+    x += 0.035 + 0.0052 * double(std::string(m.text).size());
   }
   return text + label(tag, "green: bounded by theory", 0.045, 0.014, "left offset 1.2,0 noenhanced point pt 5 ps 1.6 lc rgb '#9cc797'") +
          label(tag + 1, "dashed: C_c / m of eq. (6); the step that a rule gives is written at the right", 0.2, 0.014,

@@ -35,7 +35,7 @@ const char* word(MapRun::Verdict verdict) {
     case MapRun::Verdict::waiting:
       return "not run";
     case MapRun::Verdict::converged:
-      return "bounded to the end";
+      return "bounded";
     case MapRun::Verdict::bounded:
       return "bounded so far";
     case MapRun::Verdict::diverged:
