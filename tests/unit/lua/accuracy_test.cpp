@@ -87,19 +87,3 @@ TEST_CASE("a window of a record, other stiffness and other damping from the comm
   CHECK(metrics["metrics"]["period"].get<double>() == Approx(pi / std::sqrt(1e8 / 200)).epsilon(0.05));
   CHECK(contains(text_of(bench.folder / "out/log.txt"), "--stiffness 4"));
 }
-
-// In evaluations of contact points, the cost that no machine changes.
-TEST_CASE("draft is cheaper than standard, and reference ten times as accurate on a smooth quantity", "[program]") {
-  Bench bench;
-  double cost[3], error[3];
-  const char* names[] = {"draft", "standard", "reference"};
-  for (int i = 0; i < 3; ++i) {
-    REQUIRE(bench.run(with(std::string(", quality = '") + names[i] + "'") + period, {"--force", "--no-figures"}) == 0);
-    const Json metrics = read_json(bench.out() + "/metrics.json");
-    cost[i] = metrics["point_updates"].get<double>();
-    error[i] = std::fabs(metrics["metrics"]["period"].get<double>() / (2 * pi / std::sqrt(1e8 / 200)) - 1);
-  }
-  CHECK(cost[0] < cost[1]);
-  CHECK(cost[1] < cost[2]);
-  CHECK(error[2] < 0.1 * error[1]);
-}
