@@ -56,8 +56,8 @@ Timing time_steps(const Model& model, State state, const std::string& kernel, in
   const double each = std::max({1e-7, processor_seconds() - first, wall_seconds() - first_wall}) / hash_steps;
   const long length = std::max(128L, long(seconds / stretches / each) / 128 * 128);
   std::vector<double> user, wall;
-  double touching = 0;
   const double t0 = state.t;
+  const long touched = solver.touched();
   for (int i = 0; i < stretches; ++i) {
     const double user0 = processor_seconds(), wall0 = wall_seconds();
     const long before = state.step;
@@ -66,11 +66,27 @@ Timing time_steps(const Model& model, State state, const std::string& kernel, in
     user.push_back((processor_seconds() - user0) / steps);
     wall.push_back((wall_seconds() - wall0) / steps);
     out.steps += state.step - before;
-    touching += solver.touching();
   }
   out.user = median(user);
   out.wall = median(wall);
-  out.touching = touching / stretches;
+  out.touching = double(solver.touched() - touched) / double(out.steps);
+  out.dt = (state.t - t0) / double(out.steps);
+  return out;
+}
+
+Timing time_course(const Model& model, State state, int threads, double until) {
+  Timing out;
+  Solver solver(model, state, threads);
+  const double t0 = state.t, user = processor_seconds(), wall = wall_seconds();
+  const long first = state.step;
+  const auto run_while = [&](const auto& more) { solver.run({[](double) { return false; }, [] {}, [&] { return !more(); }}); };
+  run_while([&] { return state.step < first + hash_steps; });
+  out.hash = hash_of(state);
+  run_while([&] { return state.t < until; });
+  out.steps = state.step - first;
+  out.user = (processor_seconds() - user) / double(out.steps);
+  out.wall = (wall_seconds() - wall) / double(out.steps);
+  out.touching = double(solver.touched()) / double(out.steps);
   out.dt = (state.t - t0) / double(out.steps);
   return out;
 }

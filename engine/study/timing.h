@@ -9,7 +9,7 @@
 namespace erbs {
 
 struct Timing {
-  double user = 0, wall = 0;  // s a step, medians of several stretches; user: of all threads together
+  double user = 0, wall = 0;  // s a step, of all threads together and by the clock
   long steps = 0;             // timed
   double touching = 0;        // pairs in contact, mean
   double dt = 0;              // s, mean
@@ -19,8 +19,11 @@ struct Timing {
 // The first steps of a run, in place, as a run takes them.
 void run_in(const Model& model, State& state, int threads);
 
-// Steps a copy of `state` for about `seconds` of processor time.
+// Steps a copy of `state` for about `seconds` of processor time; times are medians of several stretches, as of a structure that only sways.
 Timing time_steps(const Model& model, State state, const std::string& kernel, int threads, double seconds);
+
+// Steps a copy of `state` to the time `until` (s); times are means. For structures that come apart: the same work whatever the speed.
+Timing time_course(const Model& model, State state, int threads, double until);
 
 // Instructions of a step of the intact structure with every effect off, over those of the bare passes over joints and blocks, which
 // know of no effect; 0 where instructions cannot be counted.
