@@ -95,6 +95,43 @@ int ensemble(Call& call) {
   return add(call, arguments, std::move(study), "value");
 }
 
+const Keys& curve_keys() {
+  static const Keys keys = {{"label", "string", "", "what the curve is", -unbounded, unbounded, true},
+                            {"study", "string", "", "a study given before: its answers over its param, as points"},
+                            {"x", "numbers", "", "or numbers, with y or metrics"},
+                            {"y", "numbers", "", "as many as x: a line"},
+                            {"metrics", "strings", "", "as many as x: names of metrics, as points"}};
+  return keys;
+}
+
+int figure(Call& call) {
+  Context& context = call.context;
+  Arguments arguments = call.arguments();
+  Figure item;
+  item.place = call.place;
+  arguments.read("name", item.name);
+  arguments.read("title", item.title);
+  arguments.read("x", item.x);
+  arguments.read("y", item.y);
+  if (item.name.find_first_of("/. \t\n") != std::string::npos || item.name.empty())
+    arguments.mistake(fmt::format("name = \"{}\" becomes that of a file: letters, digits and _ only", item.name));
+  for (Arguments& table : arguments.tables("curves", curve_keys())) {
+    Curve curve;
+    table.read("label", curve.label);
+    table.read("study", curve.study);
+    table.read("x", curve.x);
+    table.read("y", curve.y);
+    table.read("metrics", curve.metrics);
+    const bool known = std::any_of(context.studies.begin(), context.studies.end(), [&](const Study& s) { return s.name == curve.study; });
+    if (!curve.study.empty() && !known) table.mistake(fmt::format("there is no study \"{}\" yet; give it above", curve.study));
+    if (curve.study.empty() == curve.x.empty() || curve.x.size() != curve.y.size() + curve.metrics.size())
+      table.mistake("give study = ..., or x with as many y or metrics");
+    item.curves.push_back(std::move(curve));
+  }
+  context.figures.push_back(std::move(item));
+  return 0;
+}
+
 }  // namespace
 
 std::vector<Function> study_functions() {
@@ -118,7 +155,7 @@ std::vector<Function> study_functions() {
        "{ ... }",
        "",
        "Runs the scene with a param at several values and fits the order of its error; metrics NAME_slope, NAME_error (at the smallest), "
-       "NAME_runs, NAME_failed.",
+       "NAME_least and NAME_most (answers), NAME_runs, NAME_failed.",
        {param,
         {"values", "numbers", "", "of the param, all above zero", -unbounded, unbounded, true},
         {"error", "question", "", "function(run) that returns the error against what is known"},
@@ -137,6 +174,16 @@ std::vector<Function> study_functions() {
         {"param", "string", "", "name of the param that takes the seeds (whole numbers below 2^31)", -unbounded, unbounded, false, "",
          "seed"},
         {"name", "string", "", "of its metrics", -unbounded, unbounded, false, "", "ensemble"}}},
+      {"figure",
+       figure,
+       "{ ... }",
+       "",
+       "Draws the answers of studies beside what is known: figures/NAME.svg of the run, and in the book of erbs test.",
+       {{"name", "string", "", "of the file", -unbounded, unbounded, true},
+        {"title", "string", "", "what it shows", -unbounded, unbounded, true},
+        {"x", "string", "", "the axis along: quantity and unit", -unbounded, unbounded, true},
+        {"y", "string", "", "the axis up: quantity and unit", -unbounded, unbounded, true},
+        {"curves", "list", "", "one table each", -unbounded, unbounded, true, "", "", curve_keys()}}},
   };
 }
 

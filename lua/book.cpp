@@ -7,6 +7,7 @@
 #include <iterator>
 #include <thread>
 
+#include "engine/record/gnuplot.h"
 #include "engine/record/manifest.h"
 #include "lua/progress.h"
 
@@ -115,6 +116,18 @@ std::string sources_of(const Family& family, const std::string& book) {
     if (!causes.empty()) text += " *Tolerance:* " + sentences(causes);
     text += "\n";
   }
+  return text;
+}
+
+// What scenes draw of their studies.
+std::string figures_of(const Family& family, const std::string& book, const fs::path& media) {
+  std::string text;
+  for (const CaseResult* result : family.cases)
+    for (const LeftFigure& figure : result->figures) {
+      const std::string file = (media / fmt::format("{}_{}.svg", result->name, figure.name)).string();
+      run_gnuplot(figure.script, file);
+      text += fmt::format("![{}]({})\n\n*{}*: {}.\n\n", figure.title, relative_link(book, file), cell(result->name), figure.title);
+    }
   return text;
 }
 
@@ -228,8 +241,9 @@ void write_book(const std::vector<CaseResult>& results, const Options& options, 
   for (const Family& f : families) {
     const std::string figure = (media / ("book_" + f.key + ".svg")).string();
     draw_family(f, figure);
-    text += fmt::format("\n<a name=\"{}\"></a>\n## {}\n{}\n\n![{}]({})\n\n{}\n### Sources, and causes of the tolerances\n{}", f.key,
-                        f.title, f.about, "error over tolerance by case", relative_link(book, figure), table_of(f), sources_of(f, book));
+    text += fmt::format("\n<a name=\"{}\"></a>\n## {}\n{}\n\n![{}]({})\n\n{}\n{}### Sources, and causes of the tolerances\n{}", f.key,
+                        f.title, f.about, "error over tolerance by case", relative_link(book, figure), table_of(f),
+                        figures_of(f, book, media), sources_of(f, book));
   }
   write_text_atomically(book, text);
   const std::string readme = (folder.parent_path() / "README.md").string();

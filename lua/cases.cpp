@@ -176,6 +176,7 @@ CaseResult result_of(const Case& item) {
     }
     if (fs::exists(run_file(item.directory, "expectations.json")))
       result.verdicts = verdicts_of(read_json(run_file(item.directory, "expectations.json")));
+    result.figures = figures_of(item.directory);
   } catch (const std::exception& error) { result.trouble = error.what(); }
   const bool wrong_code = item.code != exit_ok && item.code != exit_expectation;
   if (item.overdue) result.trouble = "stopped: it took longer than --max-wall allows";

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "lua/expectations.h"
+#include "lua/figures.h"
 #include "lua/options.h"
 
 namespace erbs {
@@ -23,6 +24,7 @@ struct Case {
 struct CaseResult {
   std::string scene, name, title;  // title: the first comment line of the scene
   std::vector<Verdict> verdicts;
+  std::vector<LeftFigure> figures;
   std::string trouble;  // why it ended badly, or gave nothing to judge; "" where neither
   double cpu = 0;       // s of processor
   double updates = 0;   // contact points evaluated

@@ -27,6 +27,19 @@ struct Metric {
   Place place;
 };
 
+// Curves that a scene draws of its studies, beside what is known.
+struct Curve {
+  std::string label, study;          // the answers of a study over its param, ...
+  std::vector<std::string> metrics;  // ... or metrics over x, ...
+  std::vector<double> x, y;          // ... or numbers
+  bool measured() const { return y.empty(); }
+};
+struct Figure {
+  std::string name, title, x, y;  // x, y: of the axes
+  std::vector<Curve> curves;
+  Place place;
+};
+
 // A load whose wave is a Lua function, sampled once the duration of the run is known.
 struct Sampling {
   size_t load = 0;       // index into Scene::loads
@@ -63,6 +76,7 @@ struct Context {
   std::vector<Metric> metrics;
   std::vector<Sampling> samplings;
   std::vector<Study> studies;
+  std::vector<Figure> figures;
   std::string study;  // the one that started this run; "" where none did
   std::vector<GroupRecorder> group_recorders;
   int quality_points = 0;           // along each side of a joint, of analysis{ quality = ... }; 0: none is asked for

@@ -485,7 +485,7 @@ function bisect(keys) end
 ---@field slope? number least slope of ln error over ln value that is expected (default: none is) [0 to 100]
 ---@field name? string of its metrics (default converge_PARAM)
 
----Runs the scene with a param at several values and fits the order of its error; metrics NAME_slope, NAME_error (at the smallest), NAME_runs, NAME_failed.
+---Runs the scene with a param at several values and fits the order of its error; metrics NAME_slope, NAME_error (at the smallest), NAME_least and NAME_most (answers), NAME_runs, NAME_failed.
 ---@param keys erbs.converge_keys
 function converge(keys) end
 
@@ -499,6 +499,17 @@ function converge(keys) end
 ---Runs the scene n times with a param set to seeds drawn from one; metrics NAME_mean, NAME_deviation, NAME_least, NAME_most, NAME_median, NAME_runs, NAME_failed.
 ---@param keys erbs.ensemble_keys
 function ensemble(keys) end
+
+---@class erbs.figure_keys
+---@field name string of the file
+---@field title string what it shows
+---@field x string the axis along: quantity and unit
+---@field y string the axis up: quantity and unit
+---@field curves { label: string, study?: string, x?: number[], y?: number[], metrics?: string|string[] }[] one table each
+
+---Draws the answers of studies beside what is known: figures/NAME.svg of the run, and in the book of erbs test.
+---@param keys erbs.figure_keys
+function figure(keys) end
 
 ---@class erbs.rocking_keys
 ---@field width? number base of the block; with `height` it gives alpha, p and mu of a homogeneous one [m; 1e-06 to 1e+06]

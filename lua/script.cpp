@@ -368,6 +368,8 @@ void Script::finish(bool whole) {
 
 const std::vector<Study>& Script::studies() const { return context_->studies; }
 
+const std::vector<Figure>& Script::figures() const { return context_->figures; }
+
 const Scene& Script::scene() const { return context_->scene; }
 
 const std::vector<std::string>& Script::output() const { return context_->output; }

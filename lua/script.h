@@ -16,6 +16,7 @@ struct lua_State;
 namespace erbs {
 
 struct Context;
+struct Figure;
 
 // What -D name=expression says.
 using Overrides = std::vector<std::pair<std::string, std::string>>;
@@ -55,6 +56,7 @@ class Script {
 
   const Scene& scene() const;
   const std::vector<Study>& studies() const;
+  const std::vector<Figure>& figures() const;
   const std::vector<std::string>& output() const;  // what it printed
   // The functions written in Lua (walls, arches): name, line of help, keys; from the list masonry_functions.
   Json lua_functions();

@@ -17,6 +17,7 @@
 #include "lua/expectations.h"
 #include "lua/options.h"
 #include "lua/progress.h"
+#include "lua/figures.h"
 #include "lua/studies.h"
 #include "engine/study/twin.h"
 
@@ -226,6 +227,7 @@ int verb_run(const Options& options) {
     write_json(run_file(directory, "metrics.json"), now);
   }
   auto failures = complete_metrics(script, directory, whole, studies, metrics, verdicts);
+  if (whole && options.study.empty()) write_figures(script, directory, options.figures);
   for (const auto& trouble : studies.troubles) fmt::print(stderr, "{}\n", trouble);
   for (const auto& message : failures) fmt::print(stderr, "{}\n", message);
   if (!options.quiet) print_summary(scene, directory, metrics, verdicts);

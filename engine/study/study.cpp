@@ -75,9 +75,10 @@ StudyResult converge(const Study& s, const RunAll& runs) {
   tally.add(answers);
   const auto finest = std::min_element(answers.begin(), answers.end(), [](const Answer& a, const Answer& b) { return a.x < b.x; });
   std::vector<std::pair<double, double>> points;
-  std::optional<double> best;
+  std::optional<double> best, least, most;
   double smallest = std::numeric_limits<double>::infinity();
   for (const Answer& a : answers) {
+    if (a.value) least = std::min(least.value_or(*a.value), *a.value), most = std::max(most.value_or(*a.value), *a.value);
     if (!a.value || (s.finest && (&a == &*finest || !finest->value))) continue;
     const double error = std::fabs(s.finest ? *a.value - *finest->value : *a.value);
     if (a.x < smallest) smallest = a.x, best = error;
@@ -94,7 +95,8 @@ StudyResult converge(const Study& s, const RunAll& runs) {
     out.trouble = "fewer than two errors above zero";
     if (tally.failed > 0) out.trouble += ": " + first_reason(answers);
   }
-  out.metrics = {{s.name + "_slope", slope}, {s.name + "_error", best}, {s.name + "_runs", tally.runs}, {s.name + "_failed", tally.failed}};
+  out.metrics = {{s.name + "_slope", slope}, {s.name + "_error", best},      {s.name + "_least", least},
+                 {s.name + "_most", most},   {s.name + "_runs", tally.runs}, {s.name + "_failed", tally.failed}};
   return out;
 }
 
@@ -137,7 +139,7 @@ StudyResult carry_out(const Study& study, const RunAll& runs) {
 
 std::vector<std::string> metric_names(const Study& s) {
   std::vector<std::string> endings{"", "_lo", "_hi"};
-  if (s.kind == Study::Kind::converge) endings = {"_slope", "_error"};
+  if (s.kind == Study::Kind::converge) endings = {"_slope", "_error", "_least", "_most"};
   if (s.kind == Study::Kind::ensemble) endings = {"_mean", "_deviation", "_least", "_most", "_median"};
   std::vector<std::string> names;
   for (const auto& ending : endings) names.push_back(s.name + ending);

@@ -1,6 +1,6 @@
 -- A chain of n cubes joined by springs, without gravity: what the cases of the sequential scheme (V20, V20b) share. No case by itself.
 --
--- spring_chain{ n, share, free, first_mode, drift, rows } makes the blocks b1..bn along x, held between two fixed cubes unless `free`,
+-- spring_chain{ n, share, free, first_mode, drift, speed } makes the blocks b1..bn along x, held between two fixed cubes unless `free`,
 -- and returns mass, k, tau = sqrt(m / k), dt = share * 2 / omega_max, block_w2 = K_ii / m of an inner block and energy(run, row).
 -- Only the springs along x carry anything: the shear stiffness is a tenth, so that no other mode sets the step.
 function spring_chain(o)
@@ -23,7 +23,7 @@ function spring_chain(o)
   for i = 1, o.n do
     for _ = 1, 3 do number = 16807 * number % 2147483647 end
     local noise = 0.1 * (number / 2147483647 - 0.5)
-    local v = o.drift or 1e-9 * (noise + math.sin(pi * i / (o.n + 1)))
+    local v = o.drift or (o.speed or 1e-9) * (noise + (o.first_mode or 1) * math.sin(pi * i / (o.n + 1)))
     box { name = "b" .. i, size = { a, a, a }, center = { a * i, 0, 0 }, initial = { velocity = { v, 0, 0 } } }
     recorder { name = "b" .. i, quantity = "velocity", block = "b" .. i, axis = "x" }
     recorder { name = "b" .. i, quantity = "displacement", block = "b" .. i, axis = "x" }
@@ -47,8 +47,9 @@ function spring_chain(o)
   -- Exact growth rate (times tau) of the literal sweep in a fixed order, ends held. With z the factor of a step, s^2 = z and
   -- h = dt / tau, a = c dt of centred damping, the tridiagonal sweep has the eigenvalues (1 + a/2) z - 2 + (1 - a/2) / z
   -- + 2 h^2 (1 - s cos(j pi / (n + 1))) = 0 (as Young's of successive over-relaxation, 1954, Trans. AMS 76, 92): a quartic in s.
-  function chain.exact_growth(c)
-    local h, damped, largest = chain.dt / chain.tau, (c or 0) * chain.dt, 0
+  function chain.exact_growth(c, dt)
+    dt = dt or chain.dt
+    local h, damped, largest = dt / chain.tau, (c or 0) * dt, 0
     for j = 1, o.n do
       local p = { 1 + damped / 2, -2 * h * h * math.cos(j * pi / (o.n + 1)), 2 * h * h - 2, 0, 1 - damped / 2 }
       local zr, zi = { 1, 0.4, -0.65, -0.62 }, { 0, 0.9, 0.72, -0.3 }  -- Durand and Kerner's iteration, complex by hand

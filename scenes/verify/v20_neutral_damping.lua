@@ -4,7 +4,7 @@
 --                which the amplitude neither grows nor falls. It is thousands of times any structural damping: this is why Gu and Miao
 --                found that the damping ratio of the structure diverges, and why more iterations a step help.
 -- Source         mean over orders of dt (K - D) / 2 on slow motion: - dt D / 2.
--- Measured       .99, .95 and .87 of dt w_b^2 / 2 at .1, .25 and .5 of the leapfrog's limit (the fixed order: .995 at each).
+-- Measured       .99, .95 and .87 of dt w_b^2 / 2 at .1, .25 and .5 of the leapfrog's limit (the fixed order: .995 at each); figures/neutral.svg
 -- How to run     erbs run scenes/verify/v20_neutral_damping.lua [-D n=100]; studies/ holds every run of the bisections
 -- What to look at  collapse_c10, collapse_c25, collapse_c50: neutral damping over dt w_b^2 / 2.
 label("fixed_dt")
@@ -25,4 +25,20 @@ for _, key in ipairs { 10, 25, 50 } do
   bisect { param = "c" .. key, lo = 1.3, hi = 0.6, rel = 0.01, collapsed_when = function(run) return chain.growth(run) > 0 end }
   -- 15 %: the law is the first order in dt.
   expect("metrics.collapse_c" .. key, 1, { rel = 0.15, source = "c / m = dt w_b^2 / 2" })
+end
+-- What the characteristic equation has for the fixed order: growth falls with the damping, found by halves. Only the scene's own run draws.
+if c[10] == 0 and c[25] == 0 and c[50] == 0 then
+  local x, neutral = {}, {}
+  for i = 1, 9 do
+    local dt, lo, hi = 0.11 * i * chain.dt_critical, 0.9, 1.1
+    for _ = 1, 8 do
+      local middle = (lo + hi) / 2
+      if chain.exact_growth(middle * dt * chain.block_w2 / 2, dt) > 0 then lo = middle else hi = middle end
+    end
+    x[i], neutral[i] = 0.11 * i, (lo + hi) / 2
+  end
+  figure { name = "neutral", title = "Mass damping that just cancels what the sequential sweep feeds", x = "dt over the limit of the leapfrog",
+    y = "c/m over dt w_b^2 / 2", curves = { { label = "c/m = dt w_b^2 / 2", x = { 0, 1 }, y = { 1, 1 } },
+      { label = "fixed order, characteristic equation", x = x, y = neutral },
+      { label = "random order, measured", x = { 0.1, 0.25, 0.5 }, metrics = { "collapse_c10", "collapse_c25", "collapse_c50" } } } }
 end
