@@ -11,6 +11,7 @@ struct AccuracyStudy {
   std::size_t main = 0;  // the quantity of the figure
   std::vector<Measured> all;
   std::vector<std::string> not_applicable;  // knobs the scene does not have, with the reason
+  int waiting = 0;                          // runs that did not fit in the time of all
   double wall = 0, cpu = 0;                 // s
   const Goal& quantity() const { return quantities[main]; }
 };

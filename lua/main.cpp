@@ -13,7 +13,7 @@ using erbs::Options;
 struct CommandLine {
   Options options;
   std::vector<std::string> defines;
-  std::string until, max_wall, checkpoint_every, budget, target, from, window;
+  std::string until, max_wall, checkpoint_every, budget, target, within, from, window;
 };
 
 void add_output(CLI::App& verb, CommandLine& line) {
@@ -116,6 +116,11 @@ void add_others(CLI::App& app, CommandLine& line) {
   accuracy.add_option("--quantity", line.options.quantity,
                       "the metric it is about (default: the first with an expectation, else the first)");
   accuracy.add_option("--max-wall", line.max_wall, "of each run (default 5m)")->type_name("5m");
+  accuracy
+      .add_option("--within", line.within,
+                  "of the clock for all runs of the scene, cheap ones first; those that do not fit are told, and --resume makes them "
+                  "(default 2m; 0: no limit, as with --study)")
+      ->type_name("2m");
   accuracy.add_flag("--study", line.options.whole_study,
                     "every problem of the folder, media/accuracy.png and the table of engine/README.md");
 
@@ -152,6 +157,7 @@ void settle(CommandLine& line) {
   if (!line.max_wall.empty()) options.max_wall = erbs::seconds_of(line.max_wall, "--max-wall");
   if (!line.target.empty()) options.target = erbs::share_of(line.target, "--target");
   if (!line.budget.empty()) options.budget = erbs::seconds_of(line.budget, "--budget");
+  if (!line.within.empty()) options.within = erbs::seconds_of(line.within, "--within");
   if (!line.from.empty()) options.from = erbs::seconds_of(line.from, "--from");
   if (!line.window.empty()) options.window = erbs::seconds_of(line.window, "--window");
   if (options.max_wall == 0.0) throw erbs::Error("--max-wall " + line.max_wall + ": leaves no time to run; give more, such as 30m");

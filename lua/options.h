@@ -46,6 +46,7 @@ struct Options {
 
   // of erbs accuracy
   double target = 0;         // relative error asked for; 0: none
+  double within = 120;       // s, of the clock for all runs of a scene together; 0: no limit
   std::string quantity;      // the metric the figure is about; "": the first
   bool whole_study = false;  // every problem of a folder
   bool map = false;          // of step, stiffness and damping

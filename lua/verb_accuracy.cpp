@@ -185,6 +185,9 @@ int verb_accuracy(const Options& options) {
   const int code = answer(s, options);
   fmt::print("{} runs, {} of processor, {} of the clock; {}/accuracy.csv, accuracy.svg, accuracy.png\n", s.all.size(), duration_text(s.cpu),
              duration_text(s.wall), directory);
+  if (s.waiting > 0)
+    fmt::print("{} of them did not fit into {}; --resume makes them, --within 10m gives all more time\n", s.waiting,
+               duration_text(options.within));
   const bool any = std::any_of(s.all.begin(), s.all.end(), [&](const Measured& m) { return m.values[s.main].has_value(); });
   return any ? code : exit_numbers;
 }

@@ -55,6 +55,17 @@ TEST_CASE("accuracy tells slopes, a target's setting and what it costs; its tabl
   CHECK(contains(bench.said, "--resume"));
   CHECK(bench.erbs({"accuracy", scene, "-o", bench.out(), "--resume", "--target", "1e-9%"}) == 4);
   CHECK(contains(bench.said, "no setting reaches it"));
+  CHECK_FALSE(contains(bench.said, "did not fit"));
+}
+
+TEST_CASE("runs of accuracy that do not fit into the time of all are told, and made later", "[program]") {
+  Bench bench;
+  const std::string scene = bench.scene(with("") + period + known);
+  REQUIRE(bench.erbs({"accuracy", scene, "-o", bench.out(), "--within", "1ms"}) == 0);  // the first two have begun by then
+  CHECK(contains(bench.said, "not run: the time of all was up"));
+  CHECK(contains(bench.said, "--resume makes them"));
+  REQUIRE(bench.erbs({"accuracy", scene, "-o", bench.out(), "--resume", "--within", "0"}) == 0);
+  CHECK_FALSE(contains(bench.said, "not run"));
 }
 
 TEST_CASE("accuracy of a scene without a number says what to add", "[program]") {
