@@ -17,7 +17,8 @@ struct alignas(64) SmallShape {
   double normal[3][few], offset[few];  // unit, m; 0 and 1e30 where there are fewer faces: everything is inside of them
   double edge;                         // m, smallest
   int vertices, faces;
-  unsigned char count[few], loop[few][few];  // corners of each face, counter-clockwise seen from outside
+  // corners of each face, counter-clockwise seen from outside, the first again and again after the last; as bits
+  unsigned char count[few], loop[few][few], mask[few];
 };
 
 // Pose of b in the axes of a (row-major turn; shift in m), as PairPose.
@@ -26,15 +27,16 @@ struct SmallPose {
 };
 
 struct alignas(64) Triangles {
-  int count;                            // filled up to a multiple of 8 with empty ones
-  int separating;                       // a face of a with all of b on its outer side, or -1
-  bool overflow;                        // more than there is room for
-  double deepest;                       // m
-  double corner[3][3][most_triangles];  // m, [corner][axis], pair axes: origin at the centroid of b
-  double depth[3][most_triangles];      // m, phi at the corners
-  double closing[3][most_triangles];    // m/s, filled by approach()
-  double normal[3][most_triangles];     // of the face of b
-  double size[most_triangles];          // m2
+  int count;                                // filled up to a multiple of 8 with empty ones
+  int separating;                           // a face of a with all of b on its outer side, or -1
+  bool overflow;                            // more than there is room for
+  double deepest;                           // m
+  double deepest_of[8];                     // m, the same of each lane
+  double corner[3][3][most_triangles + 8];  // m, [corner][axis], pair axes: origin at the centroid of b
+  double depth[3][most_triangles + 8];      // m, phi at the corners
+  double closing[3][most_triangles + 8];    // m/s, filled by approach()
+  double normal[3][most_triangles + 8];     // of the face of b
+  double size[most_triangles + 8];          // m2, filled by sum()
 };
 
 // Sums over the triangles, kn = 1 (narrow.h names them).
@@ -45,7 +47,7 @@ struct OverlapSums {
 struct ClipKernels {
   const char* name;
   void (*clip)(const SmallShape& a, const SmallShape& b, const SmallPose& pose, Triangles& out);
-  void (*sum)(const Triangles& triangles, OverlapSums& out);
+  void (*sum)(Triangles& triangles, OverlapSums& out);
   // Speed along - turning . x at the corners (m/s); returns the greatest.
   double (*approach)(Triangles& triangles, double along, const double turning[3]);
   // Int phi (s - 1) dS and its first moment over the faces that push along `normal`, s - 1 = chi closing within [-1, limit - 1].

@@ -132,23 +132,34 @@ void stability(const Pair& pair, const View& s, const Patch& patch, PairResult& 
 }
 
 // A body that strikes deeper in its first step than the step can bear gains energy. So the step is short enough for the largest
-// face before it may land: when the bodies could meet within five steps, at a speed at which that energy matters.
+// face before it may land: when the bodies could meet within the next few steps, at a speed at which that energy matters.
 void landing(const Pair& pair, const View& s, const ContactSettings& settings, double apart, double dt, PairResult& result) {
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
+  const int face = pair.separating, own = static_cast<int>(s.reference->normal.size());
   // along the normal of the face that keeps them apart, where there is one: a body that flies off lands nowhere
   const Vec3 v = r.turn.transpose() * (o.v - r.v);
-  const int face = pair.separating, own = static_cast<int>(s.reference->normal.size());
   const double along = face < 0     ? v.norm()
                        : face < own ? -v.dot(s.reference->normal[std::size_t(face)])
                                     : v.dot(s.pose.turn * s.other->normal[std::size_t(face - own)]);
   const double speed = along + o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach;
-  if (!(speed > settings.reference_speed) || apart > 5 * speed * dt) return;
+  if (!(speed > settings.reference_speed) || apart > look_ahead * speed * dt) return;
   const double k = (pair.law.kn + pair.law.ks) * std::min(s.reference->largest_face, s.other->largest_face);
   // of a face about the centroid above it: Int r^2 dA / A is reach^2 / 3 at most for a rectangle
   auto rate = [&](const ContactBlock& block, double reach) { return k * (block.inverse_mass + reach * reach / 3 * block.inverse_inertia); };
   const double other = rate(o, s.other->reach), reference = rate(r, s.reference->reach);
   result.landing_a = pair.b_is_reference ? other : reference;
   result.landing_b = pair.b_is_reference ? reference : other;
+}
+
+// How the distance that the separating face shows may fall: its normal turns with its body, seen from as far as the other's corners.
+void note_apart(const Pair& pair, const View& s, double apart, PairResult& result) {
+  result.apart = apart;
+  const bool on_reference = pair.separating < static_cast<int>(s.reference->normal.size());
+  const double far = s.pose.shift.norm(), reference = s.reference->reach, other = s.other->reach;
+  const double lever_reference = on_reference ? std::max(reference, far + other) : reference;
+  const double lever_other = on_reference ? other : std::max(other, far + reference);
+  result.lever_a = pair.b_is_reference ? lever_other : lever_reference;
+  result.lever_b = pair.b_is_reference ? lever_reference : lever_other;
 }
 
 }  // namespace
@@ -196,6 +207,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
   Patch patch = find_overlap(*s.reference, *s.other, s.pose, pair.separating, room);
   const bool touches = patch.total > 0;
   if (!touches) landing(pair, s, settings, room.apart, dt, result);
+  if (!touches && room.apart >= 0) note_apart(pair, s, room.apart, result);
   if (!touches && !pair.touching && pair.offset_left <= 0) return false;
 
   PairWrench elastic, damping, friction;

@@ -5,6 +5,8 @@
 
 namespace erbs {
 
+inline constexpr double look_ahead = 5;  // steps within which bodies that approach each other are reckoned with
+
 // What one evaluation gives besides the wrench. Losses belong to the step that ends at the pose given: each is the work of its
 // own wrench by the trapezoid of the leapfrog, (F_n + F_n+1) / 2 . v_n+1/2 dt.
 struct PairResult {
@@ -17,6 +19,8 @@ struct PairResult {
   double reset = 0;       // J, lost where the springs of friction are carried to a larger or moved patch; near zero
   double handover = 0;    // J, lost to the fading difference to an old joint
   double depth = 0;       // m, deepest overlap
+  double apart = -1;      // m, distance of the bodies, at least; below zero where they touch or it is not known
+  double lever_a = 0, lever_b = 0;  // m, by how much that falls at most for each radian that the block turns; for each metre by 1
   // Upper bounds of the pair's share in the greatest eigenvalue of M^-1/2 K M^-1/2 of each block, dashpots included (1/s2):
   // stable while dt^2 <= 2 / (sum over the pairs and joints of a block), for every block.
   double rate_a = 0, rate_b = 0;

@@ -38,6 +38,8 @@ void fill_small(ContactShape& s) {
     if (i >= nf) continue;
     for (int at = s.loop_first[i]; at < s.loop_first[i + 1]; ++at)
       out.loop[i][out.count[i]++] = static_cast<unsigned char>(s.loop[std::size_t(at)]);
+    out.mask[i] = static_cast<unsigned char>(s.mask[i]);
+    for (std::size_t k = out.count[i]; k < few; ++k) out.loop[i][k] = out.loop[i][0];
   }
 }
 

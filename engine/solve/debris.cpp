@@ -28,6 +28,7 @@ double largest_inverse_inertia(const Mat3& inverse) {
 }  // namespace
 
 Debris::Debris(const Model& model, State& state, int threads) : model_(model), state_(state) {
+  active_.resize(z(threads));
   room_.resize(z(threads));
   if (state.debris.start.empty()) {
     state.debris.start.reserve(state.u.size());
@@ -41,6 +42,7 @@ void Debris::wake() {
   if (!blocks_.empty()) return;
   shapes_ = contact_shapes(model_.shapes);
   blocks_.resize(z(model_.nblock));
+  way_.resize(z(model_.nblock));
   rate_.assign(z(model_.nblock), 0.0);
   landing_.assign(z(model_.nblock), 0.0);
   for (int b = 0; b < model_.nblock; ++b) {
@@ -61,10 +63,17 @@ void Debris::wake() {
 
 void Debris::place(int b) {
   ContactBlock& block = blocks_[z(b)];
+  const Mat3 turn = state_.q[z(b)].toRotationMatrix();
+  Way& way = way_[z(b)];
+  way.moved += (state_.u[z(b)] - block.u).norm();
+  way.turned += std::sqrt(0.5) * (turn - block.turn).norm();  // the chord: |R - R0| of Frobenius is 2 sqrt 2 sin(angle / 2)
   block.u = state_.u[z(b)];
-  block.turn = state_.q[z(b)].toRotationMatrix();
+  block.turn = turn;
   block.v = state_.v[z(b)];
   block.w = state_.w[z(b)];
+  const double soon = look_ahead * std::max(state_.dt_goal, state_.last_dt);
+  way.moved_soon = way.moved + soon * block.v.norm();
+  way.turned_soon = way.turned + soon * block.w.norm();
 }
 
 void Debris::list_involved() {
@@ -81,6 +90,8 @@ void Debris::list_involved() {
   for (int j = 0; j < model_.njoint; ++j)
     if (state_.tier[z(j)] != Tier::open) jointed_.push_back(pair_key(model_.joint[z(j)].a, model_.joint[z(j)].b));
   find_beds();
+  apart_.clear();
+  for (const Pair& p : state_.debris.pair) apart_.push_back({p.a, p.b});
 }
 
 // What the joints of a bed were counted with, in the terms that a contact on the same faces is counted with (contact.cpp).

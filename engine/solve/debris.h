@@ -58,11 +58,27 @@ class Debris {
   std::vector<Bed> bed_;         // of each pair
   std::vector<double> rate_;     // 1/s2, of contacts beyond that [nblock]
   std::vector<double> landing_;  // 1/s2, of the stiffest face that may land on the block next; one face has room for no more
-  std::vector<PairResult> results_;
-  std::vector<OverlapRoom> room_;         // per thread
-  std::vector<std::uint64_t> pair_keys_;  // pairs of blocks that are jointed at rest, sorted, ...
-  std::vector<int> of_pair_;              // ... and the first of their joints
-  double released_ = 0;                   // J, set free by the last hand-over and still in this step's sums
+  // A pair known to be apart needs no look until its blocks have moved by that distance together. How far each has come is summed up
+  // along its way, so that the pairs concerned are found without a look at the pairs themselves.
+  struct Apart {
+    int a = 0, b = 0;
+    double lever_a = 0, lever_b = 0, until = 0;  // m; no look while way[a] + way[b] + lever_a turned[a] + lever_b turned[b] < until
+  };
+  std::vector<Apart> apart_;  // of each pair
+  struct Way {
+    double moved = 0, turned = 0;            // m, rad since the start of this Solver
+    double moved_soon = 0, turned_soon = 0;  // the same with what the next steps may add
+  };
+  std::vector<Way> way_;  // [nblock]
+  struct Active {
+    int pair;
+    PairResult result;
+  };
+  std::vector<std::vector<Active>> active_;  // per thread, in the order of the pairs: those that were looked at in this step
+  std::vector<OverlapRoom> room_;            // per thread
+  std::vector<std::uint64_t> pair_keys_;     // pairs of blocks that are jointed at rest, sorted, ...
+  std::vector<int> of_pair_;                 // ... and the first of their joints
+  double released_ = 0;                      // J, set free by the last hand-over and still in this step's sums
   double allowed_ = 0, elastic_ = 0;
   bool relisted_ = true;
   int touching_ = 0;

@@ -15,8 +15,16 @@ constexpr double safe_share = 0.9;  // of the bound of a block in contact
 // (contact.cpp): a viscous ratio of 1 / (8 omega dt), .12 here. At 1.1 the block of V10 swings itself up with mu = .9, at .8 not.
 constexpr double rubbing_angle = 1.0;
 constexpr int pair_grain = 8;
-constexpr int look_every = 16;  // steps between two looks, while no block comes far in that time
+constexpr double round_off = 1e-9;  // of a distance and of the way behind: more than sums of some 1e6 steps lose
+constexpr int look_every = 16;      // steps between two looks, while no block comes far in that time
 std::size_t z(int i) { return std::size_t(i); }
+
+// Asks for what the next pair needs while this one is worked on.
+template <class T>
+void fetch(const T& x) {
+  const char* first = reinterpret_cast<const char*>(&x);
+  for (std::size_t i = 0; i < sizeof(T); i += 64) __builtin_prefetch(first + i);
+}
 
 // omega^2 of joints and contacts together, by Weyl's inequality: that of the sound structure at rest (4 / dt_critical^2; a cracked
 // joint, or the contact on its bed, is no stiffer), plus that of the other contacts. Theirs is at most twice the greatest sum of
@@ -37,7 +45,6 @@ void Debris::prepare() {
   }
   const bool far = std::sqrt(fastest) * state_.dt * look_every > 0.25 * state_.debris.margin;
   if (!state_.debris.valid || far || state_.step % look_every == 0) look();
-  results_.resize(state_.debris.pair.size());
 }
 
 // What a loose block may meet is not kept up to date step by step: a look takes all poses.
@@ -52,10 +59,33 @@ void Debris::look() {
 void Debris::forces(int thread, int threads, bool sample) {
   const int n = int(state_.debris.pair.size());
   const Range mine = share_of(n, pair_grain, thread, threads);
+  std::vector<Active>& active = active_[z(thread)];
+  active.clear();
   for (int i = mine.first; i < mine.last; ++i) {
-    Pair& pair = state_.debris.pair[z(i)];
-    PairResult& out = results_[z(i)];
-    pair_force(pair, shapes_, blocks_[z(pair.a)], blocks_[z(pair.b)], settings_, state_.last_dt, sample, room_[z(thread)], out);
+    Apart& known = apart_[z(i)];
+    const Way &a = way_[z(known.a)], &b = way_[z(known.b)];
+    if (a.moved_soon + b.moved_soon + known.lever_a * a.turned_soon + known.lever_b * b.turned_soon < known.until) continue;
+    active.push_back({i, {}});
+  }
+  for (std::size_t k = 0; k < active.size(); ++k) {
+    if (k + 1 < active.size()) {
+      const Pair& next = state_.debris.pair[z(active[k + 1].pair)];
+      const Apart& blocks = apart_[z(active[k + 1].pair)];
+      fetch(next);
+      fetch(blocks_[z(blocks.a)]);
+      fetch(blocks_[z(blocks.b)]);
+    }
+    Apart& known = apart_[z(active[k].pair)];
+    const Way &a = way_[z(known.a)], &b = way_[z(known.b)];
+    Pair& pair = state_.debris.pair[z(active[k].pair)];
+    PairResult& r = active[k].result;
+    const bool counts =
+        pair_force(pair, shapes_, blocks_[z(pair.a)], blocks_[z(pair.b)], settings_, state_.last_dt, sample, room_[z(thread)], r);
+    known.until = 0;
+    if (counts || !(r.apart > 0)) continue;
+    known.lever_a = r.lever_a;
+    known.lever_b = r.lever_b;
+    known.until = (r.apart + a.moved + b.moved + r.lever_a * a.turned + r.lever_b * b.turned) * (1 - round_off);
   }
 }
 
@@ -70,36 +100,39 @@ void Debris::gather(double* push, bool sample) {
   allowed_ = s.dt_goal;
   if (sample) elastic_ = 0;
   double rubbing = 0;
-  for (std::size_t i = 0; i < s.debris.pair.size(); ++i) {
-    const Pair& pair = s.debris.pair[i];
-    const PairResult& r = results_[i];
-    const PairWrench& w = r.wrench;
-    double *a = push + 8 * pair.a, *b = push + 8 * pair.b;
-    for (int k = 0; k < 3; ++k) {
-      a[k] -= w.force[k];
-      b[k] += w.force[k];
-      a[3 + k] += w.moment_a[k];
-      b[3 + k] += w.moment_b[k];
+  const double soon = look_ahead * std::max(s.dt_goal, s.last_dt);
+  for (const std::vector<Active>& active : active_)
+    for (const Active& one : active) {
+      const std::size_t i = z(one.pair);
+      const Apart& pair = apart_[i];
+      const PairResult& r = one.result;
+      const PairWrench& w = r.wrench;
+      double *a = push + 8 * pair.a, *b = push + 8 * pair.b;
+      for (int k = 0; k < 3; ++k) {
+        a[k] -= w.force[k];
+        b[k] += w.force[k];
+        a[3 + k] += w.moment_a[k];
+        b[3 + k] += w.moment_b[k];
+      }
+      s.energy.friction += r.friction;
+      rubbing = std::max(rubbing, r.rubbing);
+      s.energy.contact_damping += r.damping + r.handover;
+      s.energy.reset += r.reset;
+      if (sample) elastic_ += r.elastic + r.tangential;
+      rate_[z(pair.a)] += std::max(0.0, r.rate_a - bed_[i].rate_a);
+      rate_[z(pair.b)] += std::max(0.0, r.rate_b - bed_[i].rate_b);
+      if (bed_[i].joint < 0) {  // a bed that closes again is no stiffer than its joint was
+        landing_[z(pair.a)] = std::max(landing_[z(pair.a)], r.landing_a);
+        landing_[z(pair.b)] = std::max(landing_[z(pair.b)], r.landing_b);
+      }
+      touching_ += r.touching;
+      touched_ += r.touching;
+      const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
+      // no body passes through another unseen: a quarter of the thinner one per step
+      const double speed = (blocks_[z(pair.a)].v - blocks_[z(pair.b)].v).norm();
+      if (r.apart <= soon * speed && speed * allowed_ > 0.25 * thin) allowed_ = 0.25 * thin / speed;
+      if (r.depth > 0) { s.max_penetration_relative = std::max(s.max_penetration_relative, r.depth / thin); }
     }
-    s.energy.friction += r.friction;
-    rubbing = std::max(rubbing, r.rubbing);
-    s.energy.contact_damping += r.damping + r.handover;
-    s.energy.reset += r.reset;
-    if (sample) elastic_ += r.elastic + r.tangential;
-    rate_[z(pair.a)] += std::max(0.0, r.rate_a - bed_[i].rate_a);
-    rate_[z(pair.b)] += std::max(0.0, r.rate_b - bed_[i].rate_b);
-    if (bed_[i].joint < 0) {  // a bed that closes again is no stiffer than its joint was
-      landing_[z(pair.a)] = std::max(landing_[z(pair.a)], r.landing_a);
-      landing_[z(pair.b)] = std::max(landing_[z(pair.b)], r.landing_b);
-    }
-    touching_ += r.touching;
-    touched_ += r.touching;
-    const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
-    // no body passes through another unseen: a quarter of the thinner one per step
-    const double speed = (blocks_[z(pair.a)].v - blocks_[z(pair.b)].v).norm();
-    if (speed * allowed_ > 0.25 * thin) allowed_ = 0.25 * thin / speed;
-    if (r.depth > 0) { s.max_penetration_relative = std::max(s.max_penetration_relative, r.depth / thin); }
-  }
   double rate = 0;
   for (const int b : involved_)
     if (model_.kind[z(b)] == Kind::moving) rate = std::max(rate, rate_[z(b)] + landing_[z(b)]);
