@@ -40,8 +40,8 @@ struct alignas(64) Triangles {
 };
 
 // Sums over the triangles, kn = 1 (narrow.h names them).
-struct OverlapSums {
-  double total, pressure[3], area, centroid[3], second[6], force[3], moment[3];
+struct alignas(64) OverlapSums {
+  double total, pressure[3], area, centroid[3], second[6], force[3], moment[3], unused[4];
 };
 
 struct ClipKernels {

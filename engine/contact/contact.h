@@ -11,23 +11,23 @@ inline constexpr double look_ahead = 5;  // steps within which bodies that appro
 // own wrench by the trapezoid of the leapfrog, (F_n + F_n+1) / 2 . v_n+1/2 dt.
 struct PairResult {
   PairWrench wrench;
-  bool touching = false;
-  double elastic = 0;     // J, normal, stored (only where asked for)
   double tangential = 0;  // J, stored by the friction springs
   double friction = 0;    // J, lost in slip
   double damping = 0;     // J, lost in dashpots
   double reset = 0;       // J, lost where the springs of friction are carried to a larger or moved patch; near zero
-  double handover = 0;    // J, lost to the fading difference to an old joint
   double depth = 0;       // m, deepest overlap
-  double apart = -1;      // m, distance of the bodies, at least; below zero where they touch or it is not known
-  double lever_a = 0, lever_b = 0;  // m, by how much that falls at most for each radian that the block turns; for each metre by 1
   // Upper bounds of the pair's share in the greatest eigenvalue of M^-1/2 K M^-1/2 of each block, dashpots included (1/s2):
   // stable while dt^2 <= 2 / (sum over the pairs and joints of a block), for every block.
   double rate_a = 0, rate_b = 0;
   // omega^2 of a patch that slips, along its normal (1/s2); 0 where it holds.
   double rubbing = 0;
-  // The same of a face that may land within the next steps, where the bodies are apart still but approach.
+  double handover = 0;  // J, lost to the fading difference to an old joint
+  double elastic = 0;   // J, normal, stored (only where asked for)
+  // The rates of a face that may land within the next steps, where the bodies are apart still but approach.
   double landing_a = 0, landing_b = 0;
+  double apart = -1;                // m, distance of the bodies, at least; below zero where they touch or it is not known
+  double lever_a = 0, lever_b = 0;  // m, by how much that falls at most for each radian that the block turns; for each metre by 1
+  bool touching = false;
 };
 
 // Evaluates `pair` at the current pose and updates its memory; dt (s) is the step that led here, 0 at the start of a run. Returns false if

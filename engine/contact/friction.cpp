@@ -61,22 +61,13 @@ struct Share {
 // How far the surface lies inside the ellipse, from the patch's second moment along the slip over r^2. From Coulomb friction over
 // rectangles 1:1 to 3:1 along, across and at 45 degrees, and the disc, where v = r w: 1.29 - 1.25 x meets all of them within .05.
 double bulge_of(double along) { return std::clamp(1.29 - 1.25 * along, -0.4, 1.3); }
-constexpr double surely_within = 0.79;  // t^2 + m^2 where no bulge reaches the surface: x + 1.3 x^2 / 4 < 1
+static_assert(surely_within + 1.3 * surely_within * surely_within / 4 < 1);  // t^2 + m^2 where no bulge reaches the surface
 
 // Where the surface is met on the way from nothing to s: a^2 (t^2 + m^2) + bulge a^4 t^2 m^2 = 1.
 double reach(const Share& s, double bulge) {
   const double p = s.t * s.t + s.m * s.m, q = bulge * s.t * s.t * s.m * s.m;
   return p > 0 ? std::sqrt(2 / (p + std::sqrt(p * p + 4 * q))) : std::numeric_limits<double>::infinity();
 }
-
-// What the patch bears at this instant. Its springs sit at its centroid, the limit is about its centre of pressure, where the torsion
-// is m + lever . t.
-struct Bearing {
-  double limit = 0, r = 0;  // N, m: force alone is borne up to limit, torsion alone up to limit r
-  double bulge = 0;
-  double gyration2 = 0;       // m2, of the springs: kr / kt
-  Vec3 lever = Vec3::Zero();  // m, n x (centroid - centre of pressure)
-};
 
 Share share_of(const Bearing& b, const Vec3& force, double about) {
   return {force.norm() / b.limit, b.r > 0 ? std::fabs(about) / (b.limit * b.r) : 0.0};
@@ -168,6 +159,19 @@ double bearable(Bearing& b, const Patch& patch, const Vec3& force, double about,
 
 }  // namespace
 
+Borne borne(Bearing b, const Patch& patch, const Pull& springs, const Pull& dashpots) {
+  const double about = springs.torsion + b.lever.dot(springs.force);
+  if (!holds(b, patch, springs.force, about)) {
+    if (!(b.limit > 0)) return {{}, 0, true};
+    const Held left = returned(b, springs.force, springs.torsion);
+    return {{left.force, left.torsion}, 0, true};
+  }
+  if (!(b.limit > 0)) return {springs, 0, false};
+  // Dashpots take what the springs leave of the limit. Slip is the springs' alone: were it to begin where both together reach the
+  // limit, springs would be stretched to it by no motion, and a contact that trembles near its limit would gain energy.
+  return {springs, bearable(b, patch, springs.force, about, dashpots.force, dashpots.torsion + b.lever.dot(dashpots.force)), false};
+}
+
 Friction patch_friction(Pair& pair, const Patch& patch, const PairPose& pose, const Motion& motion, double normal_force,
                         double inverse_mass, double settling) {
   Friction out;
@@ -193,26 +197,19 @@ Friction patch_friction(Pair& pair, const Patch& patch, const PairPose& pose, co
   const double ct = inverse_mass > 0 ? 2 * settling * std::sqrt(kt / inverse_mass) : 0;
   Vec3 at_centre = motion.linear + motion.angular.cross(patch.centroid);
   at_centre -= at_centre.dot(n) * n;
-  Vec3 t = -kt * pair.u;
-  double m = -kr * pair.psi;
-  Bearing bearing{pair.law.mu * normal_force, torsion_radius(patch.area, patch.gyration), 0, pair.gyration * pair.gyration,
-                  n.cross(patch.centroid - patch.pressure_centre)};
-  if (!holds(bearing, patch, t, m + bearing.lever.dot(t))) {
-    const Held held = bearing.limit > 0 ? returned(bearing, t, m) : Held{};
-    t = held.force;
-    m = kr > 0 ? held.torsion : 0.0;
+  const double turning = motion.angular.dot(n);
+  const Pull springs{-kt * pair.u, -kr * pair.psi}, dashpots{-ct * at_centre, -ct * pair.gyration * pair.gyration * turning};
+  const Bearing bearing{pair.law.mu * normal_force, torsion_radius(patch.area, patch.gyration), 0, pair.gyration * pair.gyration,
+                        n.cross(patch.centroid - patch.pressure_centre)};
+  const Borne held = borne(bearing, patch, springs, dashpots);
+  const Vec3 t = held.springs.force;
+  const double m = kr > 0 ? held.springs.torsion : 0.0;
+  if (held.slips) {
     pair.u = kt > 0 ? Vec3(-t / kt) : Vec3(Vec3::Zero());
     pair.psi = kr > 0 ? -m / kr : 0.0;
-  } else if (ct > 0 && bearing.limit > 0) {
-    // Dashpots take what the springs leave of the limit. Slip is the springs' alone: were it to begin where both together reach the
-    // limit, springs would be stretched to it by no motion, and a contact that trembles near its limit would gain energy.
-    Vec3 viscous = -ct * at_centre;
-    const double turning = -ct * pair.gyration * pair.gyration * motion.angular.dot(n);
-    const double x = bearable(bearing, patch, t, m + bearing.lever.dot(t), viscous, turning + bearing.lever.dot(viscous));
-    viscous *= x;
-    out.viscous_force = viscous;
-    out.viscous_moment = patch.centroid.cross(viscous) + x * turning * n;
   }
+  out.viscous_force = held.share * dashpots.force;
+  out.viscous_moment = patch.centroid.cross(out.viscous_force) + held.share * dashpots.torsion * n;
   out.slipped = 0.5 * kt * (u0 + pair.u).dot(u1 - pair.u) + 0.5 * kr * (psi0 + pair.psi) * (psi1 - pair.psi);
   out.stored = 0.5 * kt * pair.u.squaredNorm() + 0.5 * kr * pair.psi * pair.psi;
   out.force = t;

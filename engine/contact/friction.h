@@ -5,6 +5,31 @@
 
 namespace erbs {
 
+// What a patch bears at an instant. Its springs sit at its centroid, the limit is about its centre of pressure, where the torsion
+// is m + lever . t.
+struct Bearing {
+  double limit = 0, r = 0;  // N, m: force alone is borne up to limit, torsion alone up to limit r
+  double bulge = 0;
+  double gyration2 = 0;       // m2, of the springs: kr / kt
+  Vec3 lever = Vec3::Zero();  // m, n x (centroid - centre of pressure)
+};
+
+struct Pull {
+  Vec3 force = Vec3::Zero();  // N, tangential
+  double torsion = 0;         // N m, about the centroid
+};
+
+struct Borne {
+  Pull springs;      // what they carry
+  double share = 0;  // of the dashpots that is borne beside them
+  bool slips = false;
+};
+
+// Within this share of the limits, force and torsion squared and summed, springs hold whatever the shape of the patch.
+inline constexpr double surely_within = 0.79;
+// The law of friction: what `springs` would pull with and what dashpots would add, held to the limit.
+Borne borne(Bearing bearing, const Patch& patch, const Pull& springs, const Pull& dashpots);
+
 struct Friction {
   Vec3 force = Vec3::Zero();                                         // N, on the body that is not the reference, pair axes
   Vec3 moment = Vec3::Zero();                                        // N m, about its centroid

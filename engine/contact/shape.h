@@ -42,14 +42,14 @@ struct ContactShapes {
 ContactShapes contact_shapes(const std::vector<std::vector<Polyhedron>>& parts_of_blocks);
 
 // Current pose and motion of a block; fixed blocks have inverse_mass and inverse_inertia 0.
-struct ContactBlock {
-  Vec3 rest = Vec3::Zero();      // m, centroid at rest
-  Vec3 u = Vec3::Zero();         // m, displacement of the centroid
-  Mat3 turn = Mat3::Identity();  // rotation from rest
-  Vec3 v = Vec3::Zero();         // m/s, of the centroid, at the half step before the pose
-  Vec3 w = Vec3::Zero();         // rad/s, world axes, at the same half step
-  double inverse_mass = 0;       // 1/kg
-  double inverse_inertia = 0;    // 1/(kg m2), of the smallest principal inertia
+struct alignas(64) ContactBlock {
+  Vec3 rest = Vec3::Zero();            // m, centroid at rest
+  Vec3 u = Vec3::Zero();               // m, displacement of the centroid
+  Mat3 turn = Mat3::Identity();        // rotation from rest
+  Vec3 v = Vec3::Zero();               // m/s, of the centroid, at the half step before the pose
+  Vec3 w = Vec3::Zero();               // rad/s, world axes, at the same half step
+  double inverse_mass = 0;             // 1/kg
+  double inverse_inertia = 0;          // 1/(kg m2), of the smallest principal inertia
   Mat3 inverse_tensor = Mat3::Zero();  // 1/(kg m2), axes at rest
 };
 

@@ -30,15 +30,10 @@ struct PairWrench {
   Vec3 moment_a = Vec3::Zero(), moment_b = Vec3::Zero();  // N m
 };
 
-struct Pair {
-  int a = 0, b = 0;            // blocks, a < b
-  int part_a = 0, part_b = 0;  // parts of them
+// What a step reads of a touching pair comes first, without gaps: rows of eight numbers (pair_lanes.h).
+struct alignas(64) Pair {
   PairLaw law;
-  double impact = 0;                // impact_factor(law.restitution)
-  std::uint8_t b_is_reference = 0;  // whose inner distance is the potential: the larger part, then the lower block; never changes
-  std::uint8_t touching = 0;
-  std::uint8_t bed = 0;  // still the faces of a former joint, and its stiffness; once parted they meet as debris
-  int separating = -1;  // cache only
+  double impact = 0;  // impact_factor(law.restitution)
   // relative pose at the last step, pair axes
   Mat3 turn = Mat3::Identity();
   Vec3 shift = Vec3::Zero();  // m
@@ -50,14 +45,20 @@ struct Pair {
   double area = 0;        // m2, largest seen in this contact: stiffness of the springs
   double gyration = 0;    // m, largest seen
   double approach = 0;    // m/s, greatest recent speed of approach
+  // what the pair stores now
+  double tangential = 0;  // J
+  // wrenches of the last step, whose half step of work is still to be booked
+  PairWrench friction, damping, offset;
   // difference to the joint it was handed over from, pair axes
   Vec3 offset_force = Vec3::Zero();         // N, on the body that is not the reference
   Vec3 offset_moment = Vec3::Zero();        // N m, about its centroid
   double offset_left = 0, offset_time = 0;  // s
-  // wrenches of the last step, whose half step of work is still to be booked
-  PairWrench friction, damping, offset;
-  // what the pair stores now
-  double tangential = 0;  // J
+  int a = 0, b = 0;                         // blocks, a < b
+  int part_a = 0, part_b = 0;               // parts of them
+  int separating = -1;                      // cache only
+  std::uint8_t b_is_reference = 0;  // whose inner distance is the potential: the larger part, then the lower block; never changes
+  std::uint8_t touching = 0;
+  std::uint8_t bed = 0;  // still the faces of a former joint, and its stiffness; once parted they meet as debris
 };
 
 struct PairList {

@@ -41,6 +41,7 @@ Debris::Debris(const Model& model, State& state, int threads) : model_(model), s
 void Debris::wake() {
   if (!blocks_.empty()) return;
   shapes_ = contact_shapes(model_.shapes);
+  for (std::size_t i = 0; i < room_.size(); ++i) batch_.push_back(std::make_unique<Batch>());
   blocks_.resize(z(model_.nblock));
   way_.resize(z(model_.nblock));
   rate_.assign(z(model_.nblock), 0.0);
@@ -102,7 +103,8 @@ void Debris::find_beds() {
     if (!p.bed) continue;
     const auto at = std::lower_bound(pair_keys_.begin(), pair_keys_.end(), pair_key(p.a, p.b));
     int first = of_pair_[std::size_t(at - pair_keys_.begin())];
-    while (model_.joint[z(first)].part_a != p.part_a || model_.joint[z(first)].part_b != p.part_b) first = end_of_bed(model_, first, model_.njoint);
+    while (model_.joint[z(first)].part_a != p.part_a || model_.joint[z(first)].part_b != p.part_b)
+      first = end_of_bed(model_, first, model_.njoint);
     bed_[i].joint = first;
     for (int j = first; j < end_of_bed(model_, first, model_.njoint); ++j) {
       const Joint& joint = model_.joint[z(j)];

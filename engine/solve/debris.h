@@ -3,6 +3,7 @@
 #pragma once
 #include <vector>
 
+#include "engine/contact/batch.h"
 #include "engine/contact/broad.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
@@ -74,11 +75,12 @@ class Debris {
     int pair;
     PairResult result;
   };
-  std::vector<std::vector<Active>> active_;  // per thread, in the order of the pairs: those that were looked at in this step
-  std::vector<OverlapRoom> room_;            // per thread
-  std::vector<std::uint64_t> pair_keys_;     // pairs of blocks that are jointed at rest, sorted, ...
-  std::vector<int> of_pair_;                 // ... and the first of their joints
-  double released_ = 0;                      // J, set free by the last hand-over and still in this step's sums
+  std::vector<std::vector<Active>> active_;    // per thread, in the order of the pairs: those that were looked at in this step
+  std::vector<OverlapRoom> room_;              // per thread
+  std::vector<std::unique_ptr<Batch>> batch_;  // per thread
+  std::vector<std::uint64_t> pair_keys_;       // pairs of blocks that are jointed at rest, sorted, ...
+  std::vector<int> of_pair_;                   // ... and the first of their joints
+  double released_ = 0;                        // J, set free by the last hand-over and still in this step's sums
   double allowed_ = 0, elastic_ = 0;
   bool relisted_ = true;
   int touching_ = 0;

@@ -67,26 +67,48 @@ void Debris::forces(int thread, int threads, bool sample) {
     if (a.moved_soon + b.moved_soon + known.lever_a * a.turned_soon + known.lever_b * b.turned_soon < known.until) continue;
     active.push_back({i, {}});
   }
-  for (std::size_t k = 0; k < active.size(); ++k) {
-    if (k + 1 < active.size()) {
-      const Pair& next = state_.debris.pair[z(active[k + 1].pair)];
-      const Apart& blocks = apart_[z(active[k + 1].pair)];
-      fetch(next);
-      fetch(blocks_[z(blocks.a)]);
-      fetch(blocks_[z(blocks.b)]);
-    }
-    Apart& known = apart_[z(active[k].pair)];
-    const Way &a = way_[z(known.a)], &b = way_[z(known.b)];
-    Pair& pair = state_.debris.pair[z(active[k].pair)];
-    PairResult& r = active[k].result;
+  OverlapRoom& room = room_[z(thread)];
+  Batch& batch = *batch_[z(thread)];
+  const double dt = state_.last_dt;
+  const auto alone = [&](Active& one) {
+    Apart& known = apart_[z(one.pair)];
+    PairResult& r = one.result;
     const bool counts =
-        pair_force(pair, shapes_, blocks_[z(pair.a)], blocks_[z(pair.b)], settings_, state_.last_dt, sample, room_[z(thread)], r);
+        pair_force(state_.debris.pair[z(one.pair)], shapes_, blocks_[z(known.a)], blocks_[z(known.b)], settings_, dt, sample, room, r);
     known.until = 0;
-    if (counts || !(r.apart > 0)) continue;
+    if (counts || !(r.apart > 0)) return;
+    const Way &a = way_[z(known.a)], &b = way_[z(known.b)];
     known.lever_a = r.lever_a;
     known.lever_b = r.lever_b;
     known.until = (r.apart + a.moved + b.moved + r.lever_a * a.turned + r.lever_b * b.turned) * (1 - round_off);
+  };
+  PairJob job[8];
+  int at[8], count = 0;
+  const auto together = [&] {
+    const unsigned left_out = pair_forces(job, count, shapes_, settings_, dt, sample, batch, room);
+    for (int l = 0; l < count; ++l)
+      if ((left_out >> l & 1u) != 0) alone(active[z(at[l])]);
+    count = 0;
+  };
+  const int n_active = int(active.size());
+  for (int k = 0; k < n_active; ++k) {
+    if (k + 1 < n_active) {
+      const Apart& next = apart_[z(active[z(k + 1)].pair)];
+      fetch(state_.debris.pair[z(active[z(k + 1)].pair)]);
+      fetch(blocks_[z(next.a)]);
+      fetch(blocks_[z(next.b)]);
+    }
+    Active& one = active[z(k)];
+    Pair& pair = state_.debris.pair[z(one.pair)];
+    if (!goes_in_lanes(pair, shapes_)) {
+      alone(one);
+      continue;
+    }
+    job[count] = {&pair, &blocks_[z(pair.a)], &blocks_[z(pair.b)], &one.result};
+    at[count++] = k;
+    if (count == 8) together();
   }
+  if (count > 0) together();
 }
 
 void Debris::gather(double* push, bool sample) {

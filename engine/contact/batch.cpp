@@ -1,0 +1,155 @@
+#include "engine/contact/batch.h"
+
+#include <cstddef>
+
+#include "engine/contact/friction.h"
+
+namespace erbs {
+namespace {
+
+const ContactShape& shape_of(const ContactShapes& shapes, int block, int part) {
+  return shapes.shape[static_cast<std::size_t>(shapes.first[static_cast<std::size_t>(block)] + part)];
+}
+
+struct Bodies {
+  const ContactShape *reference, *other;
+};
+Bodies bodies_of(const Pair& p, const ContactShapes& shapes) {
+  const ContactShape &a = shape_of(shapes, p.a, p.part_a), &b = shape_of(shapes, p.b, p.part_b);
+  return p.b_is_reference ? Bodies{&b, &a} : Bodies{&a, &b};
+}
+
+static_assert(offsetof(Pair, tangential) == 30 * sizeof(double) && sizeof(Pair) >= 8 * pair_rows * sizeof(double));
+static_assert(sizeof(ContactBlock) == 8 * block_rows * sizeof(double));
+static_assert(offsetof(PairResult, rubbing) == 8 * result_rows * sizeof(double));
+
+Vec3 vec(const Lane* x, int l) { return {x[0][l], x[1][l], x[2][l]}; }
+
+PairPose pose_of(const PairLanes& w, int l) {
+  PairPose pose;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) pose.turn(i, k) = w.turn[3 * i + k][l];
+  pose.shift = vec(w.shift, l);
+  return pose;
+}
+
+void fill(const PairJob* job, int count, PairLanes& w) {
+  for (int l = 0; l < 8; ++l) {
+    const PairJob& j = job[l < count ? l : 0];
+    const bool swapped = j.pair->b_is_reference != 0;
+    w.pair[l] = &j.pair->law.kn;
+    w.reference[l] = (swapped ? j.b : j.a)->rest.data();
+    w.other[l] = (swapped ? j.a : j.b)->rest.data();
+    w.swapped[l] = swapped;
+    w.touched[l] = j.pair->touching;
+  }
+}
+
+// Overlaps of the pairs; returns those that have none, or too many pieces.
+unsigned overlaps(const PairJob* job, int count, const ContactShapes& shapes, Batch& batch) {
+  const ClipKernels& kernels = clip_kernels();
+  PairLanes& w = batch.lanes;
+  unsigned left_out = 0;
+  for (int l = 0; l < 8; ++l) {
+    Triangles& t = batch.triangles[l];
+    w.sums[l] = {};
+    w.deepest[l] = w.closing[l] = 0;
+    if (l >= count) continue;
+    const Bodies bodies = bodies_of(*job[l].pair, shapes);
+    SmallPose pose;
+    for (int i = 0; i < 9; ++i) pose.turn[i] = w.turn[i][l];
+    for (int i = 0; i < 3; ++i) pose.shift[i] = w.shift[i][l];
+    kernels.clip(bodies.reference->small, bodies.other->small, pose, t);
+    if (t.overflow || t.count == 0) {
+      left_out |= 1u << l;
+      continue;
+    }
+    kernels.sum(t, w.sums[l]);
+    w.deepest[l] = t.deepest;
+  }
+  return left_out;
+}
+
+// Where springs and dashpots may reach the limit: one pair after the other.
+void bear(PairLanes& w, int l) {
+  Patch patch;
+  patch.area = w.area[l];
+  patch.centroid = vec(w.centroid, l);
+  const double second[6] = {w.second[0][l], w.second[1][l], w.second[2][l], w.second[3][l], w.second[4][l], w.second[5][l]};
+  patch.second = symmetric(second);
+  const double gyration = w.p[28][l];
+  const Bearing bearing{w.most[l], w.radius[l], 0, gyration * gyration, vec(w.lever, l)};
+  const Borne held = borne(bearing, patch, {vec(w.springs, l), w.torsion[l]}, {vec(w.dashpots, l), w.dashpot_torsion[l]});
+  for (int i = 0; i < 3; ++i) w.springs[i][l] = held.springs.force[i];
+  w.torsion[l] = held.springs.torsion;
+  w.share[l] = held.share;
+  w.slips[l] = held.slips;
+}
+
+void write_back(const PairJob* job, int count, unsigned left_out, const PairLanes& w) {
+  alignas(64) double nowhere[8 * pair_rows];
+  double *pair[8], *result[8];
+  for (int l = 0; l < 8; ++l) {
+    const bool is_in = l < count && (left_out >> l & 1u) == 0;
+    pair[l] = is_in ? &job[l].pair->law.kn : nowhere;
+    result[l] = is_in ? job[l].result->wrench.force.data() : nowhere;
+  }
+  pair_kernels().write(w.p, pair_rows, pair);
+  pair_kernels().write(w.result, result_rows, result);
+  for (int l = 0; l < count; ++l) {
+    if ((left_out >> l & 1u) != 0) continue;
+    job[l].pair->touching = 1;
+    job[l].result->touching = true;
+    job[l].result->rubbing = w.result[8 * result_rows][l];
+  }
+}
+
+}  // namespace
+
+bool goes_in_lanes(const Pair& pair, const ContactShapes& shapes) {
+  if (pair.separating >= 0 || pair.offset_left > 0) return false;
+  if (!pair.offset.force.isZero(0) || !pair.offset.moment_a.isZero(0) || !pair.offset.moment_b.isZero(0)) return false;
+  const Bodies bodies = bodies_of(pair, shapes);
+  return bodies.reference->is_small && bodies.other->is_small;
+}
+
+unsigned pair_forces(const PairJob* job, int count, const ContactShapes& shapes, const ContactSettings& settings, double dt,
+                     bool want_energy, Batch& batch, OverlapRoom& room) {
+  const ClipKernels& clips = clip_kernels();
+  const PairKernels& kernels = pair_kernels();
+  const PairSettings set{dt, settings.memory, settings.reference_speed, settings.settling, settings.settling_tangential, surely_within};
+  PairLanes& w = batch.lanes;
+  fill(job, count, w);
+  kernels.place(w);
+  unsigned left_out = overlaps(job, count, shapes, batch);
+  kernels.patch(w);
+  for (int l = 0; l < count; ++l) {
+    if (!(w.total[l] > 0)) left_out |= 1u << l;
+    if ((left_out >> l & 1u) != 0) continue;
+    const double turning[3] = {w.turning[0][l], w.turning[1][l], w.turning[2][l]};
+    w.closing[l] = clips.approach(batch.triangles[l], w.along[l], turning);
+  }
+  kernels.dashpot(w, set);
+  for (int l = 0; l < 8; ++l) {
+    w.radius[l] = torsion_radius(w.area[l], w.gyration[l]);
+    double total = 0, first[3] = {};
+    const double normal[3] = {w.normal[0][l], w.normal[1][l], w.normal[2][l]};
+    if (l < count && (left_out >> l & 1u) == 0) clips.damp(batch.triangles[l], normal, w.chi[l], w.limit[l], total, first);
+    w.damping[0][l] = total;
+    for (int i = 0; i < 3; ++i) w.damping[1 + i][l] = first[i];
+  }
+  kernels.springs(w, set);
+  for (int l = 0; l < count; ++l)
+    if ((left_out >> l & 1u) == 0 && !(w.holds[l] > 0)) bear(w, l);
+  kernels.finish(w, set);
+  write_back(job, count, left_out, w);
+  for (int l = 0; l < count && want_energy; ++l) {
+    if ((left_out >> l & 1u) != 0) continue;
+    const Bodies bodies = bodies_of(*job[l].pair, shapes);
+    room.fast = true;
+    job[l].result->elastic = job[l].pair->law.kn * overlap_energy(*bodies.reference, *bodies.other, pose_of(w, l), room);
+  }
+  return left_out;
+}
+
+}  // namespace erbs

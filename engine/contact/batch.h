@@ -1,0 +1,30 @@
+// Pairs that touch, eight at a time: the same as pair_force, to round-off, in lanes (pair_lanes.h).
+#pragma once
+#include <memory>
+
+#include "engine/contact/contact.h"
+#include "engine/contact/pair_lanes.h"
+
+namespace erbs {
+
+struct Batch {
+  PairLanes lanes;
+  Triangles triangles[8];
+};
+
+// One pair to work on.
+struct PairJob {
+  Pair* pair;
+  const ContactBlock *a, *b;
+  PairResult* result;  // as constructed
+};
+
+// True for a pair of small bodies that touched when it was looked at last and has nothing left of an old joint.
+bool goes_in_lanes(const Pair& pair, const ContactShapes& shapes);
+
+// Evaluates up to eight pairs and updates their memory. Those of the bits returned have been left as they were, for pair_force: bodies
+// that have parted, or whose overlap has more pieces than there is room for.
+unsigned pair_forces(const PairJob* job, int count, const ContactShapes& shapes, const ContactSettings& settings, double dt,
+                     bool want_energy, Batch& batch, OverlapRoom& room);
+
+}  // namespace erbs
