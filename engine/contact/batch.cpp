@@ -70,7 +70,7 @@ unsigned overlaps(const PairJob* job, int count, const ContactShapes& shapes, Ba
   return left_out;
 }
 
-// Where springs and dashpots may reach the limit: one pair after the other.
+// Where a patch without size, or without pressure, is to bear friction: one pair after the other.
 void bear(PairLanes& w, int l) {
   Patch patch;
   patch.area = w.area[l];
@@ -139,6 +139,7 @@ unsigned pair_forces(const PairJob* job, int count, const ContactShapes& shapes,
     for (int i = 0; i < 3; ++i) w.damping[1 + i][l] = first[i];
   }
   kernels.springs(w, set);
+  kernels.bear(w);
   for (int l = 0; l < count; ++l)
     if ((left_out >> l & 1u) == 0 && !(w.holds[l] > 0)) bear(w, l);
   kernels.finish(w, set);
