@@ -82,43 +82,63 @@ struct Held {
 // x p t / kt at the centre of pressure and x q M / (kt r^2) of turn, p and q the slopes of f over 2 t and 2 m. Then
 //   t (1 + x p) + x q M lever / r^2 = trial,   M (1 + x q gyration^2 / r^2) = torsion + lever . t.
 // Such slip never gives energy, however far the two centres lie apart; a return of t and M each for itself does.
-Held slipped(const Bearing& b, const Vec3& trial, double torsion, double x, double p, double q) {
-  const double across = b.lever.squaredNorm(), soft = 1 + x * p, driving = torsion + b.lever.dot(trial) / soft;
+Held slipped(const Bearing& b, const Vec3& trial, double torsion, double x) {
+  const double soft = 1 + x, stiff = b.gyration2 + b.lever.squaredNorm() / soft;
+  const double turn = stiff > 0 ? (torsion + b.lever.dot(trial) / soft) / stiff : 0;  // that leaves no torsion
   Held out;
-  double turn = 0;  // x q M / r^2
-  if (b.r > 0) {
-    const double weight = x * q / (b.r * b.r);
-    out.about = driving / (1 + weight * (b.gyration2 + across / soft));
-    turn = weight * out.about;
-  } else if (const double stiff = b.gyration2 + across / soft; stiff > 0) {  // a point bears no torsion
-    turn = driving / stiff;
-  }
   out.force = (trial - turn * b.lever) / soft;
-  out.torsion = out.about - b.lever.dot(out.force);
   return out;
 }
 
-// ... and ends on the surface: the secant rule for 1 / sqrt(f) - 1, which is linear in x where force acts alone, while p and q follow.
-Held returned(const Bearing& b, const Vec3& trial, double torsion) {
-  Share s = share_of(b, trial, torsion + b.lever.dot(trial));
-  const double start = s.t - 1;
-  double a = reach(s, b.bulge), p = 1 + b.bulge * a * a * s.m * s.m, q = 1 + b.bulge * a * a * s.t * s.t;
+// ... and ends on the surface: Newton's rule for A = x p and B = x q, with A q = B p and the surface reached. Slopes and surface are taken
+// of the point scaled to the surface, F being the square of the scale, and F = 1 in the form that is exact in one step where force acts
+// alone; so it converges from any trial in some five steps, where a secant rule with p and q of the step before may cycle.
+Held returned_to_patch(const Bearing& b, const Vec3& trial, double torsion) {
+  const double pulled = b.lever.dot(trial), size2 = trial.squaredNorm(), lever2 = b.lever.squaredNorm(), per_r2 = 1 / (b.r * b.r);
+  const double per_t = 1 / (b.limit * b.limit), per_m = per_t * per_r2;
+  double A = 0, B = 0;
+  Held out;
+  for (int i = 0; i < 12; ++i) {
+    const double S = 1 / (1 + A), weight = B * per_r2, stiff = b.gyration2 + lever2 * S, per_n = 1 / (1 + weight * stiff);
+    const double M = (torsion + pulled * S) * per_n, turn = weight * M, across = pulled - turn * lever2;
+    const double t2 = S * S * (size2 - turn * (pulled + across)) * per_t, m2 = M * M * per_m;
+    const double root = std::sqrt((t2 + m2) * (t2 + m2) + 4 * b.bulge * t2 * m2), F = (t2 + m2 + root) / 2;
+    const double t = t2 / F, m = m2 / F, p = 1 + b.bulge * m, q = 1 + b.bulge * t, miss = 2 * F * (std::sqrt(F) - 1), g = A * q - B * p;
+    out.force = S * (trial - turn * b.lever);
+    out.about = M;
+    if (std::fabs(miss) < 2e-11 && std::fabs(g) <= 1e-9 * (A + B)) break;
+    const double M_A = -S * S * across * per_n, M_B = -M * stiff * per_r2 * per_n;
+    const double t_A = -2 * (S * t2 + S * S * across * weight * M_A * per_t), m_A = 2 * M * M_A * per_m;
+    const double t_B = -2 * S * S * across * (M * per_r2 + weight * M_B) * per_t, m_B = 2 * M * M_B * per_m;
+    const double F_A = F * (t_A * p + m_A * q) / root, F_B = F * (t_B * p + m_B * q) / root;
+    const double g_A = q + b.bulge * (A * (t_A - t * F_A) - B * (m_A - m * F_A)) / F;
+    const double g_B = b.bulge * (A * (t_B - t * F_B) - B * (m_B - m * F_B)) / F - p;
+    const double whole = F_A * g_B - F_B * g_A;
+    if (whole == 0) break;
+    A = std::max(0.0, A - (miss * g_B - g * F_B) / whole);
+    B = std::max(0.0, B - (F_A * g - g_A * miss) / whole);
+  }
+  return out;
+}
+
+// The same of a point, which bears no torsion: the secant rule for 1 / sqrt(f) - 1, linear in x where the lever is zero.
+Held returned_to_point(const Bearing& b, const Vec3& trial, double torsion) {
   double low = 0, high = std::numeric_limits<double>::infinity(), x = 0, x_before = 0, h_before = 0;
   Held out;
   for (int i = 0; i < 60; ++i) {
-    out = slipped(b, trial, torsion, x, p, q);
-    s = share_of(b, out.force, out.about);
-    a = reach(s, b.bulge);
-    const double h = a - 1, p_now = 1 + b.bulge * a * a * s.m * s.m, q_now = 1 + b.bulge * a * a * s.t * s.t;
-    const double moved = std::fabs(p_now - p) + std::fabs(q_now - q);
-    p = p_now, q = q_now;
-    if ((std::fabs(h) < 1e-10 && moved < 1e-7) || (x == 0 && h >= 0)) break;
-    if (moved > 1e-4) low = 0, high = std::numeric_limits<double>::infinity();  // bounds of another surface
+    out = slipped(b, trial, torsion, x);
+    const double t = out.force.norm() / b.limit, h = t > 0 ? 1 / t - 1 : 1;
+    if (std::fabs(h) < 1e-10 || (x == 0 && h >= 0)) break;
     (h < 0 ? low : high) = x;
-    double next = i == 0 ? start : x - h * (x - x_before) / (h - h_before);
+    double next = i == 0 ? t - 1 : x - h * (x - x_before) / (h - h_before);
     if (!(next > low && next < high)) next = std::isinf(high) ? 2 * x + 1 : (low + high) / 2;
     x_before = x, h_before = h, x = next;
   }
+  return out;
+}
+
+Held returned(const Bearing& b, const Vec3& trial, double torsion) {
+  Held out = b.r > 0 ? returned_to_patch(b, trial, torsion) : returned_to_point(b, trial, torsion);
   const double left = std::min(1.0, reach(share_of(b, out.force, out.about), b.bulge));  // what the iteration missed
   out.force *= left;
   out.about *= left;

@@ -86,12 +86,12 @@ void Debris::list_involved() {
     if (in[z(b)]) involved_.push_back(b);
   jointed_.clear();
   bed_.clear();
+  apart_.clear();
   if (!active()) return;
   wake();
   for (int j = 0; j < model_.njoint; ++j)
     if (state_.tier[z(j)] != Tier::open) jointed_.push_back(pair_key(model_.joint[z(j)].a, model_.joint[z(j)].b));
   find_beds();
-  apart_.clear();
   for (const Pair& p : state_.debris.pair) apart_.push_back({p.a, p.b});
 }
 

@@ -13,7 +13,7 @@ using trial::brick;
 
 namespace {
 
-void check_near(const Vec3& x, const Vec3& y, double scale) { CHECK((x - y).norm() <= 1e-9 * scale); }
+void check_near(const Vec3& x, const Vec3& y, double scale) { CHECK((x - y).norm() <= 1e-8 * scale); }
 
 // What one evaluation of the pair alone gave, and left in its memory, against lane `lane` of eight.
 void check_same(const Pair& p, const PairResult& r, const Pair& q, const PairResult& s) {
@@ -22,9 +22,9 @@ void check_same(const Pair& p, const PairResult& r, const Pair& q, const PairRes
   check_near(r.wrench.moment_a, s.wrench.moment_a, force);
   check_near(r.wrench.moment_b, s.wrench.moment_b, force);
   CHECK(r.touching == s.touching);
-  CHECK(r.tangential == Approx(s.tangential).epsilon(1e-8).margin(energy));
-  CHECK(r.friction == Approx(s.friction).epsilon(1e-8).margin(energy));
-  CHECK(r.damping == Approx(s.damping).epsilon(1e-8).margin(energy));
+  CHECK(r.tangential == Approx(s.tangential).epsilon(1e-7).margin(energy));
+  CHECK(r.friction == Approx(s.friction).epsilon(1e-7).margin(energy));
+  CHECK(r.damping == Approx(s.damping).epsilon(1e-7).margin(energy));
   CHECK(r.reset == Approx(s.reset).margin(energy));
   CHECK(r.depth == Approx(s.depth));
   CHECK(r.rate_a == Approx(s.rate_a));
@@ -35,8 +35,8 @@ void check_same(const Pair& p, const PairResult& r, const Pair& q, const PairRes
   CHECK(p.area == Approx(q.area));
   CHECK(p.gyration == Approx(q.gyration).margin(1e-9));
   CHECK(p.approach == Approx(q.approach));
-  CHECK(p.tangential == Approx(q.tangential).epsilon(1e-8).margin(energy));
-  CHECK(p.psi == Approx(q.psi).epsilon(1e-8).margin(1e-10));
+  CHECK(p.tangential == Approx(q.tangential).epsilon(1e-7).margin(energy));
+  CHECK(p.psi == Approx(q.psi).epsilon(1e-7).margin(1e-10));
   check_near(p.u, q.u, 1e-3);
   check_near(p.c, q.c, 1);
   check_near(p.n, q.n, 1);
@@ -108,7 +108,10 @@ TEST_CASE("a pair's numbers do not depend on its neighbours in the lanes", "[con
   Body slab{{box_polyhedron({-1, -1, -0.2}, {1, 1, 0})}, 0};
   std::vector<Body> bodies{slab};
   for (int i = 0; i < 8; ++i)
-    bodies.push_back({{translated(brick(), {0.4 * (i % 4) - 0.6, 0.3 * (i / 4), 0.05 - 1e-5 * (i + 1)})}, 1800, Vec3(0.01 * i, 0, -0.1), Vec3(0.1 * i, 0.02, 0)});
+    bodies.push_back({{translated(brick(), {0.4 * (i % 4) - 0.6, 0.3 * (i / 4), 0.05 - 1e-5 * (i + 1)})},
+                      1800,
+                      Vec3(0.01 * i, 0, -0.1),
+                      Vec3(0.1 * i, 0.02, 0)});
   Bodies many(bodies, {1e9, 4e8, 0.6, 0.2}, 2e-5);
   many.step(true);
   many.step();
