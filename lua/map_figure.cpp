@@ -114,7 +114,9 @@ std::string legend(const MapStudy& s) {
   double x = 0.045;
   int tag = 20;
   for (const Mark& m : marks) {
-    text += label(tag++, m.text, x, 0.038,
+    // the last, on other figures one too many for the row, stands in the second
+    const bool last = &m == &marks.back();
+    text += label(tag++, m.text, last ? 0.5975 : x, last ? 0.014 : 0.038,
                   fmt::format("left offset 1.2,0 noenhanced point pt {} ps {} lw 2 lc rgb '{}'", m.mark, m.size, m.color));
     x += 0.035 + 0.0052 * double(std::string(m.text).size());
   }
