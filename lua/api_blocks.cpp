@@ -103,7 +103,9 @@ int add_block(Call& call, Arguments& arguments, std::vector<Polyhedron> parts, c
     if (const Faces& last = context.scene.blocks.back().parts[i].faces; parts[i].faces == last) parts[i].faces = last;
   block.parts = std::move(parts);
   if (block.name.empty()) block.name = fmt::format("{}_{}", block.group.empty() ? kind : block.group, context.scene.blocks.size() + 1);
-  read_initial(arguments, context.frame(), block.initial);
+  Initial initial;
+  read_initial(arguments, context.frame(), initial);
+  if (initial.given) block.started = std::make_shared<const Initial>(initial);
   lua_pushstring(call.lua, block.name.c_str());
   context.scene.blocks.push_back(std::move(block));
   return 1;
@@ -126,7 +128,7 @@ int box(Call& call) {
 std::vector<Polyhedron> read_part(Arguments& arguments) {
   Polyhedron part;
   arguments.read("vertices", part.vertices);
-  Faces::Loops loops;
+  Faces::List loops;
   arguments.read("faces", loops);
   part.faces = std::move(loops);
   const int n = static_cast<int>(part.vertices.size());
@@ -181,7 +183,7 @@ Polyhedron extruded(const std::vector<Eigen::Vector2d>& polygon, double height, 
       vertex[axis] = z;
       prism.vertices.push_back(vertex);
     }
-  Faces::Loops loops;
+  Faces::List loops;
   std::vector<int> bottom, top;
   for (int i = 0; i < n; ++i) {
     bottom.push_back(n - 1 - i);
@@ -267,7 +269,7 @@ int ground(Call& call) {
     scene.materials.push_back(own);
   }
   if (size > 0 && depth > 0) block.parts = {box_polyhedron({-size / 2, -size / 2, z - depth}, {size / 2, size / 2, z})};
-  for (auto& part : block.parts)
+  for (auto& part : block.parts.edit())
     for (Vec3& vertex : part.vertices) vertex = call.context.frame().point(vertex);
   lua_pushstring(call.lua, block.name.c_str());
   scene.blocks.push_back(std::move(block));

@@ -51,7 +51,7 @@ Json measure(const std::string& path, const Options& options, double seconds) {
   Prepared run = prepare(scene, true);
   const Model& m = run.model;
   start_at_rest(scene, run, 1);
-  const bool mortared = m.njoint > 0 && !m.laws[z(m.joint.front().law)].dry;
+  const bool mortared = m.njoint > 0 && !m.laws[z(m.joint.front().type->law)].dry;
   if (!mortared && m.njoint > 0) loosen(m, run.state);
   const double points = m.npoint;
   // Memory of what a run has: set up, and on its way; before the copies that timing takes.

@@ -107,7 +107,8 @@ void Run::begin() {
   manifest.dt_critical = run_.bounds.critical;
   manifest.dt_block_bound = run_.bounds.block;
   manifest.dt_rule = run_.dt_rule;
-  for (const Effect& e : effects_of(scene_)) (e.on ? manifest.effects_on : manifest.effects_off).push_back(e.on ? e.name + " (" + e.because + ")" : e.name);
+  for (const Effect& e : effects_of(scene_))
+    (e.on ? manifest.effects_on : manifest.effects_off).push_back(e.on ? e.name + " (" + e.because + ")" : e.name);
   create_run_folder(options_.directory, options_.existing, script_, manifest);
   writer_.emplace(options_.directory, scene_, run_.model, resume ? &written : nullptr);
   if (!resume)
@@ -166,13 +167,13 @@ Snapshot Run::snapshot() const {
       if (run_.state.tier[z(j)] == Tier::cracked) std::copy_n(run_.state.memory[z(j)].f, 6, f.begin());
       if (run_.state.tier[z(j)] == Tier::intact) {
         joint_q(m, run_.state, j, f.data());
-        for (int i = 0; i < 6; ++i) f[z(i)] *= m.joint[z(j)].stiffness[i];
+        for (int i = 0; i < 6; ++i) f[z(i)] *= m.joint[z(j)].type->stiffness[i];
       }
       s.joint_force.push_back(f);
     }
   }
   for (int j = 0; j < m.njoint; ++j)
-    if (run_.state.tier[z(j)] != Tier::open) s.contact_points += m.joint[z(j)].points;
+    if (run_.state.tier[z(j)] != Tier::open) s.contact_points += m.joint[z(j)].type->points;
   s.contact_points += solver_->touching();
   return s;
 }
@@ -182,9 +183,9 @@ int Run::broken_joints() {
   int broken = 0;
   for (int j = 0; j < run_.model.njoint; ++j) {
     const Joint& joint = run_.model.joint[z(j)];
-    if (run_.state.tier[z(j)] == Tier::intact || run_.model.laws[z(joint.law)].dry) continue;
+    if (run_.state.tier[z(j)] == Tier::intact || run_.model.laws[z(joint.type->law)].dry) continue;
     const auto first = run_.state.history.begin() + joint.first_point;
-    broken += std::all_of(first, first + joint.points, [](const PointHistory& h) { return h.damage >= 1; });
+    broken += std::all_of(first, first + joint.type->points, [](const PointHistory& h) { return h.damage >= 1; });
   }
   return broken;
 }
@@ -199,7 +200,7 @@ void Run::note_joints(double t) {
   take_joints();
   std::sort(clock_.cracked_since.begin(), clock_.cracked_since.end());
   for (const int j : clock_.cracked_since) {
-    if (run_.model.laws[z(run_.model.joint[z(j)].law)].dry) continue;
+    if (run_.model.laws[z(run_.model.joint[z(j)].type->law)].dry) continue;
     if (clock_.first_crack < 0) clock_.first_crack = t;
     writer_->event(t, "crack", run_.model.joint_name(j), look_at_joint(run_.model, run_.state, j).damage, "share");
   }
@@ -250,12 +251,13 @@ bool Run::stop() {
   look(trust_, run_.state, run_.bounds.critical, solver_->contact_dt(), gate());
   if (options_.progress && now - last_progress_ > 0.1) {
     last_progress_ = now;
-    options_.progress({run_.state.t, scene_.analysis.duration, now - solve_start_, run_.state.step - steps_at_start_, run_.state.joints_broken,
-                       e.residual_relative});
+    options_.progress({run_.state.t, scene_.analysis.duration, now - solve_start_, run_.state.step - steps_at_start_,
+                       run_.state.joints_broken, e.residual_relative});
   }
   const double sampled_t = run_.state.t - run_.state.last_dt;
   if (sampled_t >= scene_.analysis.duration - 0.5 * run_.state.dt) return true;
-  if (scene_.analysis.stop_after_collapse >= 0 && collapse_.collapsed && sampled_t >= collapse_.time + scene_.analysis.stop_after_collapse) return true;
+  if (scene_.analysis.stop_after_collapse >= 0 && collapse_.collapsed && sampled_t >= collapse_.time + scene_.analysis.stop_after_collapse)
+    return true;
   if (collapse_.moved) return true;
   if (diverges()) out_.metrics.status = "diverged";
   if (out_.metrics.status != "completed") return true;
@@ -337,19 +339,21 @@ RunOutcome Run::go() {
   const std::string& status = out_.metrics.status;
   const std::string where = e.largest_jump_joint >= 0 ? "joint " + run_.model.joint_name(e.largest_jump_joint) : "no joint's own balance";
   if (status == "diverged") {
-    out_.trouble = fmt::format("the numbers diverged at t = {:.6g} s (dt = {:.4g} s, limit {:.4g} s); nothing after that is to be trusted", run_.state.t,
-                               run_.state.dt, run_.bounds.critical);
+    out_.trouble = fmt::format("the numbers diverged at t = {:.6g} s (dt = {:.4g} s, limit {:.4g} s); nothing after that is to be trusted",
+                               run_.state.t, run_.state.dt, run_.bounds.critical);
   } else if (e.residual_worst > gate()) {
     out_.gate_passed = growth_allowed();
-    out_.trouble = fmt::format("energy residual {:.3g} of what passed through is past its gate {:.0e}; its largest step was {:.3g} J at t = {:.6g} s, {}",
-                               e.residual_worst, gate(), e.largest_jump, e.largest_jump_time, where);
+    out_.trouble = fmt::format(
+        "energy residual {:.3g} of what passed through is past its gate {:.0e}; its largest step was {:.3g} J at t = {:.6g} s, {}",
+        e.residual_worst, gate(), e.largest_jump, e.largest_jump_time, where);
   }
-  writer_->log(fmt::format("status {}; energy residual {:.3g} (gate {:.0e}), largest step {:.3g} J at t = {:.6g} s, {}", status, e.residual_worst, gate(),
-                           e.largest_jump, e.largest_jump_time, where));
+  writer_->log(fmt::format("status {}; energy residual {:.3g} (gate {:.0e}), largest step {:.3g} J at t = {:.6g} s, {}", status,
+                           e.residual_worst, gate(), e.largest_jump, e.largest_jump_time, where));
   if (!out_.trouble.empty()) writer_->log(out_.trouble);
   if (status == "stopped" || status == "interrupted") save();
   out_.metrics = metrics();
-  if (solver_->touched() > 0) writer_->log(fmt::format("contact: {} forces of touching pairs in {} steps", solver_->touched(), run_.state.step - steps_at_start_));
+  if (solver_->touched() > 0)
+    writer_->log(fmt::format("contact: {} forces of touching pairs in {} steps", solver_->touched(), run_.state.step - steps_at_start_));
   writer_->log(trust_line(out_.metrics.trust));
   if (clock_.first_crack >= 0) writer_->log(fmt::format("first crack at t = {:.6g} s", clock_.first_crack));
   writer_->close();
@@ -359,6 +363,8 @@ RunOutcome Run::go() {
 
 }  // namespace
 
-RunOutcome run_dynamic(const Scene& scene, const std::string& script, const RunOptions& options) { return Run(scene, script, options).go(); }
+RunOutcome run_dynamic(const Scene& scene, const std::string& script, const RunOptions& options) {
+  return Run(scene, script, options).go();
+}
 
 }  // namespace erbs

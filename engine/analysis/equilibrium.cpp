@@ -52,26 +52,26 @@ Mat6 tangent(const Model& m, const State& s, int j, const Trial& trial) {
   const Joint& joint = m.joint[z(j)];
   const double* at = trial.memory[z(j)].q;
   Mat6 k;
-  std::vector<PointHistory> history(z(joint.points));
-  const double moved = std::max(Vec3(at[0], at[1], at[2]).norm(), joint.radius * Vec3(at[3], at[4], at[5]).norm());
+  std::vector<PointHistory> history(z(joint.type->points));
+  const double moved = std::max(Vec3(at[0], at[1], at[2]).norm(), joint.type->radius * Vec3(at[3], at[4], at[5]).norm());
   const double step = std::max(1e-5 * moved, 1e-14);
   const bool sound = s.tier[z(j)] == Tier::intact;
   const double rest[6] = {};
   for (int c = 0; c < 6; ++c) {
     double f[2][6];
-    const double h = c < 3 ? step : step / joint.radius;
+    const double h = c < 3 ? step : step / joint.type->radius;
     for (int side = 0; side < 2; ++side) {
       double q[6];
       std::copy(at, at + 6, q);
       q[c] += side == 0 ? -h : h;
-      std::copy_n(&s.history[z(joint.first_point)], joint.points, history.begin());
+      std::copy_n(&s.history[z(joint.first_point)], joint.type->points, history.begin());
       CrushedFace crushed = s.crushed.empty() ? CrushedFace{} : s.crushed[z(j)];
       JointEnergy e;
       respond(m, j, sound, sound ? rest : s.memory[z(j)].q, q, {history.data(), s.crushed.empty() ? nullptr : &crushed}, f[side], e);
     }
     for (int r = 0; r < 6; ++r) k(r, c) = (f[1][r] - f[0][r]) / (2 * h);
   }
-  for (int i = 0; i < 6; ++i) k(i, i) += 1e-7 * joint.stiffness[i];
+  for (int i = 0; i < 6; ++i) k(i, i) += 1e-7 * joint.type->stiffness[i];
   return k;
 }
 
@@ -81,7 +81,7 @@ void add_changes(const Model& m, const State& s, const Freedom& f, const Trial& 
     const Joint& joint = m.joint[z(j)];
     const JointMap map = joint_map(m, s, j);
     Mat6 change = tangent(m, s, j, trial);
-    for (int i = 0; i < 6; ++i) change(i, i) -= joint.stiffness[i];
+    for (int i = 0; i < 6; ++i) change(i, i) -= joint.type->stiffness[i];
     const int end[2] = {f.first[z(joint.a)], f.first[z(joint.b)]};
     const Mat6* side[2] = {&map.a, &map.b};
     for (int p = 0; p < 2; ++p)

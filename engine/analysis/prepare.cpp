@@ -99,10 +99,10 @@ void hold_use_limit(const Scene& scene, const Prepared& p) {
                             p.state.dt, p.state.dt / limit, limit, use.dt_fraction, use.reason, use.dt_fraction),
                 use.place);
   for (int j = 0; j < p.model.njoint; ++j)
-    if (p.model.joint[z(j)].points < use.points)
+    if (p.model.joint[z(j)].type->points < use.points)
       throw Error(
           fmt::format("use_limit: joint {} has {} contact points, and this scene is good from {} on ({}); ask for more in its joint rule",
-                      p.model.joint_name(j), p.model.joint[z(j)].points, use.points, use.reason),
+                      p.model.joint_name(j), p.model.joint[z(j)].type->points, use.points, use.reason),
           use.place);
 }
 

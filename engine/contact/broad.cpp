@@ -143,10 +143,7 @@ std::vector<Found> close_parts(const PairList& list, const ContactShapes& shapes
 
 }  // namespace
 
-double suggested_margin(const std::vector<std::vector<Polyhedron>>& parts_of_blocks) {
-  std::vector<double> t;
-  for (const auto& parts : parts_of_blocks)
-    for (const Polyhedron& part : parts) t.push_back(contact_shape(part).thickness);
+double suggested_margin(std::vector<double> t) {
   if (t.empty()) return 0.01;
   std::nth_element(t.begin(), t.begin() + static_cast<long>(t.size() / 2), t.end());
   return 0.1 * t[t.size() / 2];

@@ -12,8 +12,8 @@ namespace erbs {
 
 inline std::uint64_t pair_key(int a, int b) { return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b); }
 
-// A tenth of the median thickness of all parts. Throws Error where a part has more vertices or faces than contact takes.
-double suggested_margin(const std::vector<std::vector<Polyhedron>>& parts_of_blocks);
+// A tenth of the median of the parts' thickness (m).
+double suggested_margin(std::vector<double> thickness);
 
 // True where two bodies may have come closer than the list knows.
 bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks);

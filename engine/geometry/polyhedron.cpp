@@ -207,16 +207,6 @@ Polyhedron grown(const Polyhedron& p, const std::vector<double>& offsets) {
   return translated(result, centre);
 }
 
-const Faces::Loops& Faces::loops() const {
-  static const Loops none;
-  return loops_ ? *loops_ : none;
-}
-
-Faces::Loops& Faces::edit() {
-  if (!loops_ || loops_.use_count() > 1) loops_ = std::make_shared<Loops>(loops());
-  return *loops_;
-}
-
 Polyhedron translated(const Polyhedron& p, const Vec3& by) {
   Polyhedron r = p;
   for (Vec3& v : r.vertices) v += by;

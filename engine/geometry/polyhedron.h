@@ -1,40 +1,20 @@
 // A convex polyhedron: what a block is made of.
 #pragma once
-#include <initializer_list>
-#include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "engine/base/shared.h"
 #include "engine/base/vec.h"
 
 namespace erbs {
 
-// Vertex loops, counter-clockwise seen from outside [nf]. Copies share them until one is edited: all bricks have the same.
-class Faces {
- public:
-  using Loops = std::vector<std::vector<int>>;
-  Faces() = default;
-  Faces(Loops loops) : loops_(std::make_shared<Loops>(std::move(loops))) {}
-  Faces(std::initializer_list<std::vector<int>> loops) : Faces(Loops(loops)) {}
-  const Loops& loops() const;
-  std::size_t size() const { return loops().size(); }
-  bool empty() const { return loops().empty(); }
-  const std::vector<int>& operator[](std::size_t i) const { return loops()[i]; }
-  Loops::const_iterator begin() const { return loops().begin(); }
-  Loops::const_iterator end() const { return loops().end(); }
-  Loops& edit();  // of its own
-  void push_back(std::vector<int> loop) { edit().push_back(std::move(loop)); }
-  friend bool operator==(const Faces& a, const Faces& b) { return a.loops() == b.loops(); }
-
- private:
-  std::shared_ptr<Loops> loops_;
-};
+using Faces = Shared<std::vector<int>>;  // vertex loops, counter-clockwise seen from outside
 
 struct Polyhedron {
   std::vector<Vec3> vertices;  // m [nv]
-  Faces faces;
+  Faces faces;                 // [nf]
 };
+using Parts = Shared<Polyhedron>;  // convex, of one rigid block
 
 // Plane n.x = d, n unit and outward.
 struct Plane {

@@ -19,16 +19,16 @@ void clear(const Model& m, JointBatch& batch, int l) {
 
 void fill(const Model& m, JointBatch& batch, int l, int j) {
   const Joint& joint = m.joint[z(j)];
-  const PointLaw& law = m.laws[z(joint.law)];
-  for (int i = 0; i < 6; ++i) batch.stiffness[i][l] = joint.stiffness[i];
+  const PointLaw& law = m.laws[z(joint.type->law)];
+  for (int i = 0; i < 6; ++i) batch.stiffness[i][l] = joint.type->stiffness[i];
   // Couplings that reach zero shear at ft have no straight bound: any tension is looked at point by point.
   batch.open_limit[l] = law.coupling == PointLaw::Coupling::coulomb ? law.ft / law.kn : 0;
   batch.slip_limit[l] = law.ks > 0 ? law.c / law.ks : std::numeric_limits<double>::infinity();
   batch.slip_slope[l] = law.ks > 0 ? law.mu * law.kn / law.ks : 0;
   if (law.fc > 0) batch.close_limit[l] = law.fc / law.kn;
-  batch.half_s[l] = joint.half_s;
-  batch.half_t[l] = joint.half_t;
-  batch.radius[l] = joint.radius;
+  batch.half_s[l] = joint.type->half_s;
+  batch.half_t[l] = joint.type->half_t;
+  batch.radius[l] = joint.type->radius;
   batch.a[l] = joint.a;
   batch.b[l] = joint.b;
   batch.row_a[l] = m.row_a[z(j)];

@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -14,27 +15,32 @@ enum class Kind : std::uint8_t { moving, fixed, driven };
 
 // A joint: two faces that touch at rest. Its frame (s, t, n) has n from a to b, s and t along the principal axes of its contact
 // points about their weighted centre, so that the elastic wrench is diagonal in it.
-struct Joint {
-  int a = 0, b = 0;
-  int part_a = 0, part_b = 0;       // of the blocks
-  int law = 0;                      // index into Model::laws
-  int rule = 0;                     // index into Scene::joint_rules
-  int first_point = 0, points = 0;  // into State::history
-  int first_place = 0;              // of its points, into Model::point and cell; joints of one bond share them
+// What it shares with all joints that have the same numbers to the last bit, as bricks of one bond have, is its JointType.
+struct JointType {
+  int law = 0;                        // index into Model::laws
+  int rule = 0;                       // index into Scene::joint_rules
+  int first_place = 0, points = 0;    // into Model::point and cell
   int first_corner = 0, corners = 0;  // into Model::corner
-  Mat3 frame;                       // columns s, t, n at rest
-  Vec3 arm_a, arm_b;                // m, weighted centre of its contact points at rest, relative to the centroids
-  double area = 0;                  // m2
-  double stiffness[6] = {};         // N/m (s, t, n), N m (about s, t, n): elastic resultant = stiffness * q
+  Mat3 frame;                         // columns s, t, n at rest
+  double area = 0;                    // m2
+  double stiffness[6] = {};           // N/m (s, t, n), N m (about s, t, n): elastic resultant = stiffness * q
   // N m, kn times Int t2, Int s2, Int s t over the overlap: bending of the joint pressed all over, once it has cracked. For rules
   // that are exact in bending: stiffness[3], stiffness[4] and 0.
   double face[3] = {};
-  double viscous = 0;               // s, coefficient b of its dashpots, c = b k
-  double viscous_cracked = 0;       // s, the same once it has cracked
-  bool inset = false;               // its cells watch elsewhere than at their corners: points that stay off the edge
-  double half_s = 0, half_t = 0;    // m, largest |s| and |t| of its corners
-  double radius = 0;                // m, largest distance of a corner from the centre
-  double gap = 0;                   // m, between the faces at rest
+  bool inset = false;             // its cells watch elsewhere than at their corners: points that stay off the edge
+  double half_s = 0, half_t = 0;  // m, largest |s| and |t| of its corners
+  double radius = 0;              // m, largest distance of a corner from the centre
+};
+struct Joint {
+  const JointType* type = nullptr;  // one of Model::joint_types
+  int a = 0, b = 0;
+  int part_a = 0, part_b = 0;  // of the blocks
+  int face_a = 0, face_b = 0;  // of the parts
+  int first_point = 0;         // of its type's points, into State::history
+  Vec3 arm_a, arm_b;           // m, weighted centre of its contact points at rest, relative to the centroids
+  double viscous = 0;          // s, coefficient b of its dashpots, c = b k
+  double viscous_cracked = 0;  // s, the same once it has cracked
+  double gap = 0;              // m, between the faces at rest
 };
 
 // A contact point in the joint frame: place and share of the area.
@@ -45,7 +51,7 @@ struct Point {
 
 // The part of the overlap that a contact point stands for (geometry/quadrature.h), joint frame.
 struct Cell {
-  int first = 0, corners = 0;                  // into Model::cell_corner and cell_watch
+  int first = 0, corners = 0;                   // into Model::cell_corner and cell_watch
   double s = 0, t = 0, ss = 0, st = 0, tt = 0;  // m3, m4: integrals of s, t, s2, s t, t2 over it
 };
 
@@ -54,44 +60,65 @@ struct Model {
   // blocks                                                              [nblock]
   std::vector<std::string> block_name;
   std::vector<Kind> kind;
-  std::vector<double> mass;             // kg
-  std::vector<double> inverse_mass;     // 1/kg; 0 for fixed and driven
-  std::vector<Mat3> inertia;            // kg m2, about the centroid, axes at rest
-  std::vector<Mat3> inverse_inertia;    // 0 for fixed and driven
-  std::vector<Vec3> rest;               // m, centroid at rest
-  std::vector<double> smallest_edge;    // m, thinnest extent, the scale of drift, falling and penetration
+  std::vector<double> mass;           // kg
+  std::vector<double> inverse_mass;   // 1/kg; 0 for fixed and driven
+  std::vector<Mat3> inertia;          // kg m2, about the centroid, axes at rest
+  std::vector<Mat3> inverse_inertia;  // 0 for fixed and driven
+  std::vector<Vec3> rest;             // m, centroid at rest
+  std::vector<double> smallest_edge;  // m, thinnest extent, the scale of drift, falling and penetration
   std::vector<int> material;
   // joints, sorted by lower block, higher block and their parts         [njoint]
   std::vector<Joint> joint;
-  std::vector<Point> point;             // of joints that differ; others share them
-  std::vector<Eigen::Vector2d> corner;  // m, of the overlap polygon in the joint frame
-  std::vector<Cell> cell;               // of each of `point`
+  std::vector<std::shared_ptr<const JointType>> joint_types;
+  std::vector<Point> point;                              // of joints that differ; others share them
+  std::vector<Eigen::Vector2d> corner;                   // m, of the overlap polygon in the joint frame
+  std::vector<Cell> cell;                                // of each of `point`
   std::vector<Eigen::Vector2d> cell_corner, cell_watch;  // m, joint frame: loops of the cells, and where they watch for tension
-  std::vector<PointLaw> laws;           // one per joint rule
+  std::vector<PointLaw> laws;                            // one per joint rule
   // Each block owns consecutive wrench rows, one per joint end: [first_row[b], first_row[b+1])
-  std::vector<int> first_row;           // [nblock + 1]
-  std::vector<int> row_a, row_b;        // wrench row of each end       [njoint]
+  std::vector<int> first_row;     // [nblock + 1]
+  std::vector<int> row_a, row_b;  // wrench row of each end       [njoint]
   // what the loads do, resolved to block indices
-  struct Push { Wave wave; Vec3 direction; int block; Vec3 arm; bool moment; };      // arm: from the centroid, at rest
-  struct Drive { Wave wave; Vec3 direction; int block; bool turns; Vec3 arm; };      // arm: from what it turns about to the centroid, at rest
-  struct Ground { Wave wave; Vec3 direction; };
-  struct Tilt { Wave wave; Vec3 axis; };
+  struct Push {
+    Wave wave;
+    Vec3 direction;
+    int block;
+    Vec3 arm;
+    bool moment;
+  };  // arm: from the centroid, at rest
+  struct Drive {
+    Wave wave;
+    Vec3 direction;
+    int block;
+    bool turns;
+    Vec3 arm;
+  };  // arm: from what it turns about to the centroid, at rest
+  struct Ground {
+    Wave wave;
+    Vec3 direction;
+  };
+  struct Tilt {
+    Wave wave;
+    Vec3 axis;
+  };
   std::vector<Push> pushes;
   std::vector<Drive> drives;
   std::vector<Ground> grounds;
   std::vector<Tilt> tilts;
-  Vec3 gravity = Vec3::Zero();          // m/s2
+  Vec3 gravity = Vec3::Zero();                                   // m/s2
   double dt_critical = std::numeric_limits<double>::infinity();  // s, 2 / omega_max of the sound structure at rest; infinite without joints
   Damping damping;
-  bool dashpots = false;                // some sound joint has, ...
-  bool dashpots_cracked = false;        // ... some cracked joint would have
+  bool dashpots = false;          // some sound joint has, ...
+  bool dashpots_cracked = false;  // ... some cracked joint would have
   Analysis analysis;
   bool damping_explicit = false, damping_all = false;
   std::vector<Material> materials;
-  std::vector<std::vector<Polyhedron>> shapes;  // contact shape: jointed faces moved out by half the bed [nblock]
+  std::vector<Parts> parts;  // m, world axes at rest, the scene's own [nblock]
   std::vector<std::string> warnings;
 
-  std::string joint_name(int j) const { return block_name[std::size_t(joint[std::size_t(j)].a)] + " | " + block_name[std::size_t(joint[std::size_t(j)].b)]; }
+  std::string joint_name(int j) const {
+    return block_name[std::size_t(joint[std::size_t(j)].a)] + " | " + block_name[std::size_t(joint[std::size_t(j)].b)];
+  }
 };
 
 }  // namespace erbs

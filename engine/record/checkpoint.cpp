@@ -75,7 +75,7 @@ std::uint64_t scene_hash(const Scene& scene, const std::string& script) {
     feed(block.name);
     feed(double(block.material));
     feed(block.fixed ? 1.0 : 0.0);
-    feed(block.initial.position), feed(block.initial.rotation), feed(block.initial.velocity), feed(block.initial.spin);
+    feed(block.initial().position), feed(block.initial().rotation), feed(block.initial().velocity), feed(block.initial().spin);
     for (const Polyhedron& part : block.parts)
       for (const Vec3& vertex : part.vertices) feed(vertex);
   }

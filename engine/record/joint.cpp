@@ -15,8 +15,8 @@ JointQuantity::JointQuantity(const Ask& ask)
     if (!forth && !back) continue;
     joints.push_back(j);
     sign.push_back(forth ? 1.0 : -1.0);
-    centre += joint.area * (ask.model.rest[std::size_t(joint.a)] + joint.arm_a);
-    area += joint.area;
+    centre += joint.type->area * (ask.model.rest[std::size_t(joint.a)] + joint.arm_a);
+    area += joint.type->area;
   }
   if (joints.empty())
     throw Error(fmt::format("recorder \"{}\": no joint between the blocks it names; check `blocks` and `between`", name),
@@ -38,8 +38,8 @@ void JointQuantity::sample(const Snapshot& s, double* out) const {
         largest = std::max(largest, look_at_joint(s.model, s.state, j).slip);
         break;
       case What::damage:
-        damaged += joint.area * look_at_joint(s.model, s.state, j).damage;
-        area += joint.area;
+        damaged += joint.type->area * look_at_joint(s.model, s.state, j).damage;
+        area += joint.type->area;
         break;
       case What::broken:
         broken += joint_broken(s.model, s.state, j) ? 1 : 0;

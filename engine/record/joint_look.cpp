@@ -10,7 +10,7 @@ Mat3 joint_frame(const Model& model, const State& state, int j) {
   const Joint& joint = model.joint[std::size_t(j)];
   const Quat &qa = state.q[std::size_t(joint.a)], &qb = state.q[std::size_t(joint.b)];
   const Quat mean = rotation(0.5 * rotation_vector(qb * qa.conjugate())) * qa;
-  return mean.toRotationMatrix() * joint.frame;
+  return mean.toRotationMatrix() * joint.type->frame;
 }
 
 JointLook look_at_joint(const Model& model, const State& state, int j) {
@@ -19,18 +19,18 @@ JointLook look_at_joint(const Model& model, const State& state, int j) {
   const Mat3 frame = joint_frame(model, state, j);
   JointLook look;
   look.opening = -std::numeric_limits<double>::infinity();
-  for (int i = joint.first_corner; i < joint.first_corner + joint.corners; ++i) {
+  for (int i = joint.type->first_corner; i < joint.type->first_corner + joint.type->corners; ++i) {
     const Eigen::Vector2d& c = model.corner[std::size_t(i)];
-    const Vec3 across = joint.frame.col(0) * c.x() + joint.frame.col(1) * c.y();
+    const Vec3 across = joint.type->frame.col(0) * c.x() + joint.type->frame.col(1) * c.y();
     const Vec3 gap = frame.transpose() * (state.u[b] - state.u[a] + turn_minus(state.q[b], joint.arm_b + across) -
                                           turn_minus(state.q[a], joint.arm_a + across));
     look.opening = std::max(look.opening, gap.z());
     look.slip = std::max(look.slip, std::hypot(gap.x(), gap.y()));
   }
-  if (joint.corners == 0) look.opening = 0;
+  if (joint.type->corners == 0) look.opening = 0;
   double damaged = 0, whole = 0;
-  for (int i = 0; i < joint.points; ++i) {
-    const double weight = model.point[std::size_t(joint.first_place + i)].weight;
+  for (int i = 0; i < joint.type->points; ++i) {
+    const double weight = model.point[std::size_t(joint.type->first_place + i)].weight;
     whole += weight;
     if (state.history[std::size_t(joint.first_point + i)].damage > 0) damaged += weight;
   }
@@ -41,8 +41,8 @@ JointLook look_at_joint(const Model& model, const State& state, int j) {
 bool joint_broken(const Model& model, const State& state, int j) {
   if (state.tier[std::size_t(j)] == Tier::open) return true;
   const Joint& joint = model.joint[std::size_t(j)];
-  if (state.tier[std::size_t(j)] == Tier::intact || joint.points == 0 || model.laws[std::size_t(joint.law)].dry) return false;
-  for (int i = joint.first_point; i < joint.first_point + joint.points; ++i)
+  if (state.tier[std::size_t(j)] == Tier::intact || joint.type->points == 0 || model.laws[std::size_t(joint.type->law)].dry) return false;
+  for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i)
     if (state.history[std::size_t(i)].damage < 1) return false;
   return true;
 }

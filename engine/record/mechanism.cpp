@@ -20,9 +20,9 @@ MovedJoint look(const Model& model, const State& state, int j) {
   MovedJoint moved;
   moved.joint = j;
   std::vector<Vec3> gap, place;
-  for (int i = joint.first_corner; i < joint.first_corner + joint.corners; ++i) {
+  for (int i = joint.type->first_corner; i < joint.type->first_corner + joint.type->corners; ++i) {
     const Eigen::Vector2d& c = model.corner[std::size_t(i)];
-    const Vec3 across = joint.frame.col(0) * c.x() + joint.frame.col(1) * c.y();
+    const Vec3 across = joint.type->frame.col(0) * c.x() + joint.type->frame.col(1) * c.y();
     gap.push_back(frame.transpose() *
                   (state.u[b] - state.u[a] + turn_minus(state.q[b], joint.arm_b + across) - turn_minus(state.q[a], joint.arm_a + across)));
     place.push_back(model.rest[a] + joint.arm_a + across);
@@ -62,7 +62,7 @@ Mechanism mechanism_of(const Model& model, const State& state, double t) {
   double most = 0;
   for (int j = 0; j < model.njoint; ++j) {
     MovedJoint moved = look(model, state, j);
-    if (movement(moved) <= share_of_size * 2 * model.joint[std::size_t(j)].radius) continue;
+    if (movement(moved) <= share_of_size * 2 * model.joint[std::size_t(j)].type->radius) continue;
     most = std::max(most, movement(moved));
     out.moved.push_back(moved);
   }

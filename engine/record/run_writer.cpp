@@ -31,7 +31,7 @@ MotionShape shape_of(const Polyhedron& part) {
   MotionShape shape;
   for (const Vec3& vertex : part.vertices)
     for (int i = 0; i < 3; ++i) shape.vertices.push_back(float(vertex[i]));
-  shape.faces = part.faces.loops();
+  shape.faces = part.faces.list();
   return shape;
 }
 
@@ -39,13 +39,13 @@ MotionJoint joint_of(const Scene& scene, const Model& model, const Joint& joint)
   MotionJoint drawn;
   drawn.a = joint.a;
   drawn.b = joint.b;
-  drawn.normal = joint.frame.col(2);
+  drawn.normal = joint.type->frame.col(2);
   // Laws are compiled one per joint rule; a dry joint has no mortar to draw.
-  if (!model.laws[std::size_t(joint.law)].dry && std::size_t(joint.rule) < scene.joint_rules.size())
-    drawn.thickness = scene.joint_rules[std::size_t(joint.rule)].thickness;
-  for (int i = joint.first_corner; i < joint.first_corner + joint.corners; ++i) {
+  if (!model.laws[std::size_t(joint.type->law)].dry && std::size_t(joint.type->rule) < scene.joint_rules.size())
+    drawn.thickness = scene.joint_rules[std::size_t(joint.type->rule)].thickness;
+  for (int i = joint.type->first_corner; i < joint.type->first_corner + joint.type->corners; ++i) {
     const Eigen::Vector2d& corner = model.corner[std::size_t(i)];
-    drawn.polygon.push_back(joint.arm_a + joint.frame.col(0) * corner.x() + joint.frame.col(1) * corner.y());
+    drawn.polygon.push_back(joint.arm_a + joint.type->frame.col(0) * corner.x() + joint.type->frame.col(1) * corner.y());
   }
   return drawn;
 }
@@ -64,8 +64,7 @@ MotionScene motion_scene(const Scene& scene, const Model& model) {
     block.material = model.material[b];
     block.fixed = model.kind[b] == Kind::fixed;
     block.rest = model.rest[b];
-    for (const Polyhedron& part : scene.blocks[b].parts)
-      block.parts.push_back(share_shape(drawn, shape_of(translated(part, -model.rest[b]))));
+    for (const Polyhedron& part : model.parts[b]) block.parts.push_back(share_shape(drawn, shape_of(translated(part, -model.rest[b]))));
     drawn.blocks.push_back(std::move(block));
   }
   for (const Joint& joint : model.joint) drawn.joints.push_back(joint_of(scene, model, joint));

@@ -62,8 +62,8 @@ void check_blocks(Report& report, const Scene& scene) {
         report.say(block.place, "block \"{}\"{}: {}; a block is made of closed convex parts, faces counter-clockwise seen from outside",
                    block.name, block.parts.size() > 1 ? fmt::format(", part {}", i + 1) : "", problem);
     }
-    check_fields(report, block.initial, fmt::format("block \"{}\": initial", block.name), block.place);
-    if (block.fixed && block.initial.given)
+    check_fields(report, block.initial(), fmt::format("block \"{}\": initial", block.name), block.place);
+    if (block.fixed && block.initial().given)
       report.say(block.place, "block \"{}\" is fixed and has an initial motion; remove one of them", block.name);
   }
 }

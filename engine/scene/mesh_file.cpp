@@ -33,7 +33,7 @@ bool closed(const aiMesh& mesh) {
 
 Polyhedron convex_part(const aiMesh& mesh, const aiMatrix4x4& where, const std::string& what) {
   Polyhedron triangles;
-  Faces::Loops loops;
+  Faces::List loops;
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) triangles.vertices.push_back(placed(where, mesh.mVertices[v]));
   for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
     const auto* i = mesh.mFaces[f].mIndices;

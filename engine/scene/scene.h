@@ -1,6 +1,7 @@
 // The Scene: what a script says, as plain data in SI units. No behaviour. Each item knows the script line that made it.
 #pragma once
 #include <map>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -62,13 +63,18 @@ struct Initial {
 
 struct Block {
   std::string name;
-  std::string group;              // for joint rules and recorders, e.g. "wall_south"
-  std::vector<Polyhedron> parts;  // m, world axes at rest; usually one; several convex parts are one rigid block
-  int material = -1;              // index into Scene::materials
-  bool fixed = false;             // part of the ground
-  bool free = false;              // allowed to have no joint
-  Initial initial;
+  std::string group;                       // for joint rules and recorders, e.g. "wall_south"
+  Parts parts;                             // m, world axes at rest; usually one; several convex parts are one rigid block
+  int material = -1;                       // index into Scene::materials
+  bool fixed = false;                      // part of the ground
+  bool free = false;                       // allowed to have no joint
+  std::shared_ptr<const Initial> started;  // null: as it is built
   Place place;
+
+  const Initial& initial() const {
+    static const Initial rest;
+    return started ? *started : rest;
+  }
 
   static Fields<Block> fields() {  // the keys every kind of block has; its shape is read by its maker
     return {
@@ -120,7 +126,8 @@ struct Damping {
         {"scope", &Damping::scope, "", "which blocks feel it", 0, 0, false, "bonded|all|none"},
         {"form", &Damping::form, "", "how a step takes it in", 0, 0, false, "centred|explicit"},
         {"stiffness", &Damping::stiffness, "s", "coefficient b of the dashpots of joints, c = b k", 0, 1e3},
-        {"joint_ratio", &Damping::joint_ratio, "", "viscous ratio of joints: of each joint's own critical value, or of motions of the frequency `at`", 0, 10},
+        {"joint_ratio", &Damping::joint_ratio, "",
+         "viscous ratio of joints: of each joint's own critical value, or of motions of the frequency `at`", 0, 10},
         {"at", &Damping::at, "Hz", "frequency at which motions have the ratio joint_ratio (b = joint_ratio / (pi at))", 0, 1e6},
     };
   }
@@ -161,9 +168,10 @@ struct Analysis {
         {"dt_rule", &Analysis::dt_rule, "", "where dt comes from", 0, 0, false, "limit|period_tenth|hart|hakuno|hakuno_half"},
         {"unstable", &Analysis::unstable, "", "let a dt past the limit run, or a sequential solver that feeds energy"},
         {"kernel", &Analysis::kernel, "", "which step kernel", 0, 0, false, "fast|reference"},
-        {"solver", &Analysis::solver, "", "all blocks at once, or one after the other as Gu and Miao (it feeds energy: for studies)", 0, 0, false,
-         "leapfrog|sequential"},
-        {"variant", &Analysis::variant, "", "sequential: forces where a block is, or half a step ahead on its path", 0, 0, false, "literal|centred"},
+        {"solver", &Analysis::solver, "", "all blocks at once, or one after the other as Gu and Miao (it feeds energy: for studies)", 0, 0,
+         false, "leapfrog|sequential"},
+        {"variant", &Analysis::variant, "", "sequential: forces where a block is, or half a step ahead on its path", 0, 0, false,
+         "literal|centred"},
         {"order", &Analysis::order, "", "sequential: which block is let go next", 0, 0, false, "random|fixed|coloured"},
         {"iterations", &Analysis::iterations, "", "sequential: sweeps per step, each over its share of dt", 1, 1e6},
         {"seed", &Analysis::seed, "", "sequential: of the random order", 0, 2147483647},
@@ -172,7 +180,8 @@ struct Analysis {
         {"overlap", &Analysis::overlap, "", "what to do with blocks that overlap at rest", 0, 0, false, "error|stress_free"},
         {"collapse_fraction", &Analysis::collapse_fraction, "", "share of mass fallen that is called a collapse", 0, 1},
         {"stop_after_collapse", &Analysis::stop_after_collapse, "s", "time to go on after a collapse (-1: to the end)", -1, 1e6},
-        {"stop_when_moved", &Analysis::stop_when_moved, "m", "a block that has moved this far from rest ends the run, collapse.moved (0: none does)", 0, 1e6},
+        {"stop_when_moved", &Analysis::stop_when_moved, "m",
+         "a block that has moved this far from rest ends the run, collapse.moved (0: none does)", 0, 1e6},
         {"energy_gate", &Analysis::energy_gate, "", "relative energy residual that ends a run (0: by the kind of run)", 0, 1e6},
         {"lazy_rotation", &Analysis::lazy_rotation, "rad", "block rotation between refreshes of joint frames", 0, 0.1},
         {"gyroscopic", &Analysis::gyroscopic, "", "the gyroscopic term w x (I w)"},
@@ -260,7 +269,8 @@ struct UseLimit {
 struct Load {
   enum class Kind { ground, force, moment, tilt, motion, turning } kind = Kind::ground;
   // ground: acceleration of the ground (m/s2) along direction; force (N) or moment (N m) on a block; tilt: angle (rad) by which
-  // gravity turns about direction; motion: displacement (m) of a block along direction, its other degrees of freedom held; turning: its angle (rad) about direction
+  // gravity turns about direction; motion: displacement (m) of a block along direction, its other degrees of freedom held; turning: its
+  // angle (rad) about direction
   Wave wave;
   Vec3 direction{1, 0, 0};
   std::string block;
@@ -287,7 +297,7 @@ struct Scene {
   std::vector<Param> params;
   std::vector<Expectation> expectations;
   std::vector<std::pair<std::string, std::string>> metric_units;  // of the scene's own metrics: name, unit
-  std::map<std::string, std::string> inputs;  // path of each file read -> its hash
+  std::map<std::string, std::string> inputs;                      // path of each file read -> its hash
 };
 
 // Every mistake that can be seen without building a model; empty when there is none. Messages carry place and remedy.

@@ -64,28 +64,28 @@ void Cracked::fill(Group& group, int l, int j) {
   const Joint& joint = model_.joint[z(j)];
   const JointMemory& memory = state_.memory[z(j)];
   group.joint[l] = j;
-  if (model_.laws[z(joint.law)].fc > 0)
-    group.crushed[l] = &state_.crushed[z(j)], group.face_corner[l] = model_.corner[z(joint.first_corner)].data();
+  if (model_.laws[z(joint.type->law)].fc > 0)
+    group.crushed[l] = &state_.crushed[z(j)], group.face_corner[l] = model_.corner[z(joint.type->first_corner)].data();
   for (int i = 0; i < 6; ++i) group.lane.q[i][l] = memory.q[i], group.lane.f[i][l] = memory.f[i];
   group.lane.stored[l] = memory.elastic;
   group.lane.least_damage[l] = 1;
   if (model_.dashpots_cracked)
     for (int i = 0; i < 6; ++i) group.lane.drag[i][l] = state_.viscous[6 * z(j) + z(i)];
-  for (int i = 0; i < joint.corners; ++i) {
-    const auto& c = model_.corner[z(joint.first_corner + i)];
+  for (int i = 0; i < joint.type->corners; ++i) {
+    const auto& c = model_.corner[z(joint.type->first_corner + i)];
     group.corner[z(i)].s[l] = c.x(), group.corner[z(i)].t[l] = c.y();
   }
-  group.face.bend_s[l] = joint.face[0], group.face.bend_t[l] = joint.face[1], group.face.twist[l] = joint.face[2];
-  const int first = model_.cell[z(joint.first_place)].first;
+  group.face.bend_s[l] = joint.type->face[0], group.face.bend_t[l] = joint.type->face[1], group.face.twist[l] = joint.type->face[2];
+  const int first = model_.cell[z(joint.type->first_place)].first;
   for (int i = 0; i < int(group.loop.size()); ++i) {
     const auto &c = model_.cell_corner[z(first + i)], &w = model_.cell_watch[z(first + i)];
     group.loop[z(i)].s[l] = c.x(), group.loop[z(i)].t[l] = c.y();
     if (!group.watch.empty()) group.watch[z(i)].s[l] = w.x(), group.watch[z(i)].t[l] = w.y();
   }
-  for (int i = 0; i < joint.points; ++i) {
-    const Point& from = model_.point[z(joint.first_place + i)];
+  for (int i = 0; i < joint.type->points; ++i) {
+    const Point& from = model_.point[z(joint.type->first_place + i)];
     const PointHistory& h = state_.history[z(joint.first_point + i)];
-    const Cell& cell = model_.cell[z(joint.first_place + i)];
+    const Cell& cell = model_.cell[z(joint.type->first_place + i)];
     CellLanes& k = group.cell[z(i)];
     k.s[l] = cell.s, k.t[l] = cell.t, k.ss[l] = cell.ss, k.st[l] = cell.st, k.tt[l] = cell.tt;
     SpotLanes& p = group.spot[z(i)];
@@ -93,33 +93,34 @@ void Cracked::fill(Group& group, int l, int j) {
     group.slip[z(i)].s[l] = h.slip_s, group.slip[z(i)].t[l] = h.slip_t;
     BondLanes& b = group.bond[z(i)];
     b.damage[l] = h.damage, b.secant[l] = h.secant, b.reach[l] = h.reach;
-    if (!model_.laws[z(joint.law)].dry) group.lane.least_damage[l] = std::min(group.lane.least_damage[l], h.damage);
+    if (!model_.laws[z(joint.type->law)].dry) group.lane.least_damage[l] = std::min(group.lane.least_damage[l], h.damage);
   }
-  group.look_for_bonds(model_.laws[z(joint.law)]);
+  group.look_for_bonds(model_.laws[z(joint.type->law)]);
 }
 
 Cracked::Group Cracked::empty_group(const Joint& joint, int batch) const {
   Group group{};
-  group.law = joint.law, group.points = joint.points, group.corners = joint.corners, group.batch = batch;
+  group.law = joint.type->law, group.points = joint.type->points, group.corners = joint.type->corners, group.batch = batch;
   group.spot.resize(z(group.points));
   group.slip.resize(z(group.points));
   group.bond.resize(z(group.points));
   group.corner.resize(z(group.corners));
   group.cell.resize(z(group.points));
   group.first.push_back(0);
-  for (int i = joint.first_place; i < joint.first_place + joint.points; ++i)
+  for (int i = joint.type->first_place; i < joint.type->first_place + joint.type->points; ++i)
     group.first.push_back(group.first.back() + model_.cell[z(i)].corners);
   group.loop.resize(z(group.first.back()));
-  if (joint.inset) group.watch.resize(group.loop.size());
+  if (joint.type->inset) group.watch.resize(group.loop.size());
   for (int l = 0; l < lanes; ++l) clear(group, l);
   return group;
 }
 
 bool Cracked::fits(const Group& group, const Joint& joint) const {
-  if (group.law != joint.law || group.points != joint.points || group.corners != joint.corners || group.watch.empty() == joint.inset)
+  if (group.law != joint.type->law || group.points != joint.type->points || group.corners != joint.type->corners ||
+      group.watch.empty() == joint.type->inset)
     return false;
-  for (int i = 0; i < joint.points; ++i)
-    if (group.first[z(i + 1)] - group.first[z(i)] != model_.cell[z(joint.first_place + i)].corners) return false;
+  for (int i = 0; i < joint.type->points; ++i)
+    if (group.first[z(i + 1)] - group.first[z(i)] != model_.cell[z(joint.type->first_place + i)].corners) return false;
   return true;
 }
 

@@ -24,15 +24,15 @@ void add_dashpots(const Model& m, State& s, int j, const Mat3& frame, const Vec3
   const Vec3 rate[2] = {frame.transpose() * apart, frame.transpose() * (wb - wa)};
   double f[6], dq[6];
   for (int i = 0; i < 6; ++i) {
-    f[i] = joint.viscous * joint.stiffness[i] * rate[i / 3][i % 3];
+    f[i] = joint.viscous * joint.type->stiffness[i] * rate[i / 3][i % 3];
     dq[i] = s.last_dt * rate[i / 3][i % 3];
   }
-  if (m.laws[z(joint.law)].dry && f[2] > -force[2]) {
+  if (m.laws[z(joint.type->law)].dry && f[2] > -force[2]) {
     const double share = std::max(0.0, -force[2]) / f[2];
     for (int i = 2; i < 5; ++i) f[i] *= share;
   }
-  const PointLaw& law = m.laws[z(joint.law)];
-  const double strength = law.c * joint.area + law.mu * std::max(0.0, -force[2]);
+  const PointLaw& law = m.laws[z(joint.type->law)];
+  const double strength = law.c * joint.type->area + law.mu * std::max(0.0, -force[2]);
   const double share = share_within(force[0], force[1], f[0], f[1], strength);
   for (const int i : {0, 1, 5}) f[i] *= share;
   for (int i = 0; i < 6; ++i) force[i] += f[i];

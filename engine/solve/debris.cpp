@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/model/add_joints.h"
+
 namespace erbs {
 namespace {
 
@@ -34,13 +36,19 @@ Debris::Debris(const Model& model, State& state, int threads) : model_(model), s
     state.debris.start.reserve(state.u.size());
     for (std::size_t b = 0; b < state.u.size(); ++b) state.debris.start.push_back(state.u[b]);
   }
-  if (state.debris.u.empty()) state.debris.margin = suggested_margin(model.shapes);
+  if (state.debris.u.empty()) {
+    std::vector<double> thickness;
+    each_contact_part(model, [&](int, const Polyhedron& part) { thickness.push_back(contact_shape(part).thickness); });
+    state.debris.margin = suggested_margin(std::move(thickness));
+  }
   list_involved();
 }
 
 void Debris::wake() {
   if (!blocks_.empty()) return;
-  shapes_ = contact_shapes(model_.shapes);
+  std::vector<std::vector<Polyhedron>> parts(z(model_.nblock));
+  each_contact_part(model_, [&](int b, const Polyhedron& part) { parts[z(b)].push_back(part); });
+  shapes_ = contact_shapes(parts);
   for (std::size_t i = 0; i < room_.size(); ++i) batch_.push_back(std::make_unique<Batch>());
   blocks_.resize(z(model_.nblock));
   way_.resize(z(model_.nblock));
@@ -108,10 +116,10 @@ void Debris::find_beds() {
     bed_[i].joint = first;
     for (int j = first; j < end_of_bed(model_, first, model_.njoint); ++j) {
       const Joint& joint = model_.joint[z(j)];
-      const double *k = joint.stiffness, turning = k[3] + k[4] + k[5];
+      const double *k = joint.type->stiffness, turning = k[3] + k[4] + k[5];
       const auto rate = [&](int b, const Vec3& arm) {
         const ContactBlock& block = blocks_[z(b)];
-        const Vec3 lever = arm.cross(joint.frame.col(2));
+        const Vec3 lever = arm.cross(joint.type->frame.col(2));
         const double across = std::max(k[0], k[1]);
         return (k[2] + across) * block.inverse_mass + k[2] * lever.dot(block.inverse_tensor * lever) +
                (across * arm.squaredNorm() + turning) * block.inverse_inertia;
@@ -131,7 +139,8 @@ void Debris::part_beds() {
     const Joint& joint = model_.joint[z(bed_[i].joint)];
     const ContactBlock &a = blocks_[z(p.a)], &b = blocks_[z(p.b)];
     const Vec3 moved = (b.u - a.u) + (b.turn * joint.arm_b - joint.arm_b) - (a.turn * joint.arm_a - joint.arm_a);
-    if (moved.norm() < parted * 2 * std::min(joint.half_s, joint.half_t) && (a.turn - b.turn).norm() < parted * std::sqrt(2.0)) continue;
+    if (moved.norm() < parted * 2 * std::min(joint.type->half_s, joint.type->half_t) && (a.turn - b.turn).norm() < parted * std::sqrt(2.0))
+      continue;
     p.bed = 0;
     p.law = law(p.a, p.b);
     p.impact = impact_factor(p.law.restitution);
@@ -192,11 +201,11 @@ void Debris::hand_over_pair(const int* first, const int* last) {
   double area = 0;
   for (const int* j = first; j < last; ++j) {
     wrench += Eigen::Map<const Vec6>(&state_.wrench[z(model_.row_b[z(*j)]) * 8]);
-    area += model_.joint[z(*j)].area;
+    area += model_.joint[z(*j)].type->area;
     released_ += state_.memory[z(*j)].elastic;
     state_.memory[z(*j)] = JointMemory{};
   }
-  const PointLaw& joint_law = model_.laws[z(one.law)];
+  const PointLaw& joint_law = model_.laws[z(one.type->law)];
   const int at = find_pair(state_.debris, one.a, one.part_a, one.b, one.part_b);
   if (at < 0) return;
   Pair& pair = state_.debris.pair[z(at)];

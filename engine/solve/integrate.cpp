@@ -97,15 +97,32 @@ Vec6 joint_wrench(const Model& m, const State& s, int b) {
   return Eigen::Map<const Vec6>(sum);
 }
 
-void advance(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes, int first,
-             int last, bool sample, BlockSums& sums) {
-  const auto loaded = within(pushes.loaded, first * lanes, last * lanes);
-  if (!loaded.empty()) work_before(m, s, pushes, loaded, sums);
-  if (lane_kernels().advance(kick_of(m, s, e), arrays(s, constants, pushes), first, last, sample, sums.work)) sums.broken = true;
-  if (!loaded.empty()) work_after(s, pushes, loaded, sums);
+namespace {
+
+void gather_stale(BlockSums& sums) {
   for (double& stale : sums.work.stale) {
     sums.stale = sums.stale || stale > 0;
     stale = 0;
+  }
+}
+
+}  // namespace
+
+void advance(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes,
+             Range groups, bool sample, std::vector<BlockSums>& all) {
+  const KickDrift step = kick_of(m, s, e);
+  const BlockArrays blocks = arrays(s, constants, pushes);
+  const LaneKernels& kernels = lane_kernels();
+  const bool summed = sample || step.shaken || step.damping > 0 || !pushes.loaded.empty();
+  const int piece = summed ? block_grain : std::max(1, groups.last - groups.first);
+  for (int first = groups.first; first < groups.last; first += piece) {
+    const int last = std::min(first + piece, groups.last);
+    BlockSums& sums = all[z(first / block_grain)];
+    const auto loaded = within(pushes.loaded, first * lanes, last * lanes);
+    if (!loaded.empty()) work_before(m, s, pushes, loaded, sums);
+    if (kernels.advance(step, blocks, first, last, sample, sums.work)) sums.broken = true;
+    if (!loaded.empty()) work_after(s, pushes, loaded, sums);
+    gather_stale(sums);
   }
 }
 
@@ -166,10 +183,7 @@ void Picked::advance(const int* blocks, int count, bool sample, std::vector<Bloc
   if (kernels_.advance(step_, group, 0, 1, sample, all.work)) all.broken = true;
   for (int l = 0; l < count; ++l) copy_out(blocks[l], l);
   each_loaded(blocks, count, [&](auto one, std::size_t i) { work_after(state_, pushes_, one, sums[i]); });
-  for (double& stale : all.work.stale) {
-    all.stale = all.stale || stale > 0;
-    stale = 0;
-  }
+  gather_stale(all);
 }
 
 }  // namespace erbs

@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/parallel.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
 #include "engine/solve/lanes.h"
@@ -44,9 +45,10 @@ struct Pushes {
   std::span<LoadedBlock> loaded = {};
 };
 
-// Groups [first, last) of blocks: sum their wrench rows and pushes, kick by e.kick, drift by s.dt.
+// Groups of blocks: sum their wrench rows and pushes, kick by e.kick, drift by s.dt. `sums`: one for each chunk of block_grain groups of
+// all; where nothing is summed the range is one piece.
 void advance(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes,
-             int first, int last, bool sample, BlockSums& sums);
+             Range groups, bool sample, std::vector<BlockSums>& sums);
 
 // Blocks picked from anywhere, up to eight at a time, for a sweep in which each meets those that have gone before it where they have
 // arrived.

@@ -36,7 +36,7 @@ inline Vec3 small_rotation_vector(const Quat& q) {
   // half way between two unit quaternions of one sign is their sum
   const Quat mean = Quat(qa.coeffs() + (qa.dot(qb) < 0 ? -1 : 1) * qb.coeffs()).normalized();
   JointPose p;
-  p.frame = mean.toRotationMatrix() * joint.frame;
+  p.frame = mean.toRotationMatrix() * joint.type->frame;
   const Vec3 turned_a = turn_minus(qa, joint.arm_a), turned_b = turn_minus(qb, joint.arm_b);
   const Vec3 du = ub - ua;
   p.apart = (joint.arm_a - joint.arm_b) + du;

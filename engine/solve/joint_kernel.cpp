@@ -43,8 +43,8 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
   const JointPast past = past_of(m, s, j);
   std::vector<PointHistory> before_it;
   const bool damped = joint.viscous_cracked > 0 && !sound;
-  if (damped) before_it.assign(past.point, past.point + joint.points);
-  std::vector<double> limit(damped ? z(joint.points) : 0);
+  if (damped) before_it.assign(past.point, past.point + joint.type->points);
+  std::vector<double> limit(damped ? z(joint.type->points) : 0);
   const bool still = respond(m, j, sound, memory.q, q, past, f, e, damped ? limit.data() : nullptr);
   if (sound && still) return;
   if (sound) {
@@ -112,16 +112,17 @@ void joint_forces(const Model& m, State& s, int first, int last, bool sample, Jo
 }
 
 bool beyond_its_faces(const Joint& joint, const double q[6]) {
-  const double side = std::min(joint.half_s, joint.half_t) * 2;
-  const double least_gap = q[2] - std::fabs(q[3]) * joint.half_t - std::fabs(q[4]) * joint.half_s;
-  return std::hypot(q[0], q[1]) + std::fabs(q[5]) * joint.radius > 0.01 * side || std::hypot(q[3], q[4]) > 0.03 || least_gap > 0.002 * side;
+  const double side = std::min(joint.type->half_s, joint.type->half_t) * 2;
+  const double least_gap = q[2] - std::fabs(q[3]) * joint.type->half_t - std::fabs(q[4]) * joint.type->half_s;
+  return std::hypot(q[0], q[1]) + std::fabs(q[5]) * joint.type->radius > 0.01 * side || std::hypot(q[3], q[4]) > 0.03 ||
+         least_gap > 0.002 * side;
 }
 
 bool joint_spent(const Model& m, const State& s, int j) {
   if (s.tier[z(j)] != Tier::cracked) return false;
   const Joint& joint = m.joint[z(j)];
-  if (!m.laws[z(joint.law)].dry)
-    for (int i = 0; i < joint.points; ++i)
+  if (!m.laws[z(joint.type->law)].dry)
+    for (int i = 0; i < joint.type->points; ++i)
       if (s.history[z(joint.first_point + i)].damage < 1) return false;
   return beyond_its_faces(joint, s.memory[z(j)].q);
 }

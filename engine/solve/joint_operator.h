@@ -24,7 +24,7 @@ struct JointForm {
   double coupling = 0;               // N m
 };
 inline JointForm elastic_form(const Joint& joint) {
-  const double* k = joint.stiffness;
+  const double* k = joint.type->stiffness;
   return {{k[0], k[1], k[2], k[3], k[4], k[5]}, 0};
 }
 

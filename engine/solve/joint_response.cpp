@@ -62,14 +62,14 @@ Positive positive_part(const Eigen::Vector2d* corner, int corners, const double*
 // The no-tension integral over the true overlap polygon: N = kn Int max(-g, 0) dA and its first moments, and its energy.
 Pressed compression(const Model& m, const Joint& joint, const double* q, double kn) {
   // closed all over: a linear pressure about the centroid
-  const double reach = std::fabs(q[3]) * joint.half_t + std::fabs(q[4]) * joint.half_s;
+  const double reach = std::fabs(q[3]) * joint.type->half_t + std::fabs(q[4]) * joint.type->half_s;
   if (q[2] - reach >= 0) return {};
   if (q[2] + reach < 0) {
-    const Pressed c{-joint.stiffness[2] * q[2], joint.face[1] * q[4] - joint.face[2] * q[3], joint.face[2] * q[4] - joint.face[0] * q[3],
-                    0};
+    const Pressed c{-joint.type->stiffness[2] * q[2], joint.type->face[1] * q[4] - joint.type->face[2] * q[3],
+                    joint.type->face[2] * q[4] - joint.type->face[0] * q[3], 0};
     return {c.force, c.s, c.t, 0.5 * (c.s * q[4] - c.force * q[2] - c.t * q[3])};
   }
-  const Positive p = positive_part(&m.corner[std::size_t(joint.first_corner)], joint.corners, q, -1);
+  const Positive p = positive_part(&m.corner[std::size_t(joint.type->first_corner)], joint.type->corners, q, -1);
   return {kn * p.p, kn * p.s, kn * p.t, 0.5 * kn * p.square};
 }
 
@@ -148,8 +148,8 @@ Shear shear(const PointLaw& law, const Point& point, double normal, double sigma
 // sets free (or takes) is booked with the crack: the difference of the mixed energies q0 K q1 / 2, as the work of the step is the
 // mean of its two forces.
 double change_of_form(const Joint& joint, const double* q0, const double* q1) {
-  return 0.5 * ((joint.stiffness[3] - joint.face[0]) * q0[3] * q1[3] + (joint.stiffness[4] - joint.face[1]) * q0[4] * q1[4] +
-                joint.face[2] * (q0[3] * q1[4] + q0[4] * q1[3]));
+  return 0.5 * ((joint.type->stiffness[3] - joint.type->face[0]) * q0[3] * q1[3] +
+                (joint.type->stiffness[4] - joint.type->face[1]) * q0[4] * q1[4] + joint.type->face[2] * (q0[3] * q1[4] + q0[4] * q1[3]));
 }
 
 bool passes(const PointLaw& law, const Gap& g) {
@@ -158,14 +158,14 @@ bool passes(const PointLaw& law, const Gap& g) {
 }
 
 bool stays_sound(const Model& m, const Joint& joint, const PointLaw& law, const double* q) {
-  for (int i = 0; (law.dry || law.fc > 0) && i < joint.corners; ++i) {
-    const auto& c = m.corner[std::size_t(joint.first_corner + i)];
+  for (int i = 0; (law.dry || law.fc > 0) && i < joint.type->corners; ++i) {
+    const auto& c = m.corner[std::size_t(joint.type->first_corner + i)];
     const double gap = gap_at(q, c.x(), c.y()).n;
     if (law.dry && gap > 0) return false;
     if (law.fc > 0 && -law.kn * gap > law.fc) return false;
   }
-  for (int i = 0; i < joint.points; ++i) {
-    const Point& x = m.point[std::size_t(joint.first_place + i)];
+  for (int i = 0; i < joint.type->points; ++i) {
+    const Point& x = m.point[std::size_t(joint.type->first_place + i)];
     if (passes(law, gap_at(q, x.s, x.t))) return false;
   }
   return true;
@@ -183,8 +183,8 @@ JointPast past_of(const Model& m, State& s, int j) {
 }
 
 Bed bed_of(const Model& m, const Joint& joint) {
-  const PointLaw& law = m.laws[std::size_t(joint.law)];
-  return {law.kn, law.fc / law.kn, joint.corners, m.corner[std::size_t(joint.first_corner)].data()};
+  const PointLaw& law = m.laws[std::size_t(joint.type->law)];
+  return {law.kn, law.fc / law.kn, joint.type->corners, m.corner[std::size_t(joint.type->first_corner)].data()};
 }
 
 namespace {
@@ -192,12 +192,12 @@ namespace {
 // Friction needs the pressure at the points: the closed integral, shared out by their own depths; all of it to the deepest where no
 // point is pressed.
 void share_out(const Model& m, const Joint& joint, const CrushedFace* crushed, const double* q, double force, double* at_points) {
-  const Point* point = &m.point[std::size_t(joint.first_place)];
+  const Point* point = &m.point[std::size_t(joint.type->first_place)];
   const bool flattened = crushed != nullptr && crushed->planes > 0;
   const Bed bed = bed_of(m, joint);
   double share = 0, least = 0;
   int deepest = 0;
-  for (int i = 0; i < joint.points; ++i) {
+  for (int i = 0; i < joint.type->points; ++i) {
     const double g = gap_at(q, point[i].s, point[i].t).n;
     const double depth = flattened ? pressed_depth(bed, *crushed, gap_plane(q).data(), point[i].s, point[i].t) : std::max(0.0, -g);
     at_points[i] = depth * point[i].weight;
@@ -205,7 +205,7 @@ void share_out(const Model& m, const Joint& joint, const CrushedFace* crushed, c
     if (i == 0 || g < least) least = g, deepest = i;
   }
   const double scale = share > 0 ? force / share : 0;
-  for (int i = 0; i < joint.points; ++i) at_points[i] *= scale;
+  for (int i = 0; i < joint.type->points; ++i) at_points[i] *= scale;
   if (share == 0) at_points[deepest] = force;
 }
 
@@ -214,15 +214,15 @@ void share_out(const Model& m, const Joint& joint, const CrushedFace* crushed, c
 bool respond(const Model& m, int j, bool sound, const double* q_before, const double* q, JointPast past, double* f, JointEnergy& energy,
              double* shear_limit) {
   const Joint& joint = m.joint[std::size_t(j)];
-  const PointLaw& law = m.laws[std::size_t(joint.law)];
+  const PointLaw& law = m.laws[std::size_t(joint.type->law)];
   if (sound && stays_sound(m, joint, law, q)) {
     for (int i = 0; i < 6; ++i) {
-      f[i] = joint.stiffness[i] * q[i];
+      f[i] = joint.type->stiffness[i] * q[i];
       energy.elastic += 0.5 * f[i] * q[i];
     }
     return true;
   }
-  const Point* point = &m.point[std::size_t(joint.first_place)];
+  const Point* point = &m.point[std::size_t(joint.type->first_place)];
   std::array<double, most_points_per_joint> pressure;  // N, compressive force of each point
   if (law.fc > 0) energy.crushing += crush(bed_of(m, joint), *past.crushed, gap_plane(q_before).data(), gap_plane(q).data());
   const CrushedFace* crushed = law.fc > 0 ? past.crushed : nullptr;
@@ -234,18 +234,18 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
   energy.elastic += closed.energy;
   if (sound) energy.fracture += change_of_form(joint, q_before, q);
   share_out(m, joint, crushed, q, closed.force, pressure.data());
-  for (int i = 0; i < joint.points; ++i) {
+  for (int i = 0; i < joint.type->points; ++i) {
     PointHistory& h = past.point[i];
     const double damage_before = h.damage;
     const Gap g = gap_at(q, point[i].s, point[i].t);
     const bool bonded = damage_before < 1 && !law.dry;
     const double k0 = damage_before > 0 ? h.secant : law.kn;
-    const double wide = bonded ? widest(m, joint.first_place + i, q, g.n) : 0;
+    const double wide = bonded ? widest(m, joint.type->first_place + i, q, g.n) : 0;
     if (bonded && wide > (damage_before > 0 ? h.reach : law.opening_peak))
       damage_to(law, h,
                 law.opening_ultimate > law.opening_peak ? (wide - law.opening_peak) / (law.opening_ultimate - law.opening_peak) : 1);
     if (bonded && law.closing_ultimate > 0 &&
-        widest(m, joint.first_place + i, q, g.n, -1) > std::max(law.closing_ultimate, law.fc / law.kn))
+        widest(m, joint.type->first_place + i, q, g.n, -1) > std::max(law.closing_ultimate, law.fc / law.kn))
       damage_to(law, h, 1);
     const double sigma = bonded && g.n > 0 ? (h.damage > 0 ? h.secant : law.kn) * g.n : 0;
     const Shear tau = shear(law, point[i], pressure[std::size_t(i)], sigma, q_before, g, h, energy);
@@ -258,9 +258,9 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
     energy.elastic += 0.5 * (tau.s * (g.s - h.slip_s) + tau.t * (g.t - h.slip_t));
     if (!bonded) continue;
     const double k1 = h.damage > 0 ? h.secant : law.kn;
-    const Pull pull = pull_of(m, joint.first_place + i, q);
+    const Pull pull = pull_of(m, joint.type->first_place + i, q);
     if (k0 != k1) {  // half the loss of stiffness times Int g0 g1 over the opened cell, the mean from both ends
-      const double both = work_of(pull, q_before) + work_of(pull_of(m, joint.first_place + i, q_before), q);
+      const double both = work_of(pull, q_before) + work_of(pull_of(m, joint.type->first_place + i, q_before), q);
       energy.fracture += 0.25 * (k0 - k1) * std::max(0.0, both);
     }
     f[2] += k1 * pull.n;
@@ -274,10 +274,10 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
 void viscous_response(const Model& m, int j, const double* q0, const double* q, const PointHistory* before, JointPast after,
                       const double* shear_limit, double rate, double* f) {
   const Joint& joint = m.joint[std::size_t(j)];
-  const PointLaw& law = m.laws[std::size_t(joint.law)];
+  const PointLaw& law = m.laws[std::size_t(joint.type->law)];
   for (int i = 0; i < 6; ++i) f[i] = 0;
-  for (int i = 0; i < joint.points; ++i) {
-    const Point& point = m.point[std::size_t(joint.first_place + i)];
+  for (int i = 0; i < joint.type->points; ++i) {
+    const Point& point = m.point[std::size_t(joint.type->first_place + i)];
     const PointHistory& h = after.point[i];
     const Gap g0 = gap_at(q0, point.s, point.t), g1 = gap_at(q, point.s, point.t);
     const bool holds = h.damage < 1 && !law.dry;
@@ -290,7 +290,7 @@ void viscous_response(const Model& m, int j, const double* q0, const double* q, 
     }
     if (!holds) continue;
     const double k = rate * (h.damage > 0 ? h.secant : law.kn);
-    const Pull p0 = pull_of(m, joint.first_place + i, q0), p1 = pull_of(m, joint.first_place + i, q);
+    const Pull p0 = pull_of(m, joint.type->first_place + i, q0), p1 = pull_of(m, joint.type->first_place + i, q);
     f[2] += k * (p1.n - p0.n);
     f[3] += k * (p1.t - p0.t);
     f[4] -= k * (p1.s - p0.s);

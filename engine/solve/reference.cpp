@@ -12,15 +12,15 @@ std::size_t z(int i) { return std::size_t(i); }
 
 // Elastic traction of every point of a sound joint, summed about the joint's centre; false as soon as one passes a limit.
 bool sound_resultant(const Model& m, const Joint& joint, const JointPose& pose, Vec3& force, Vec3& moment) {
-  const PointLaw& law = m.laws[z(joint.law)];
+  const PointLaw& law = m.laws[z(joint.type->law)];
   const double* q = pose.q;
-  for (int i = 0; law.fc > 0 && i < joint.corners; ++i) {
-    const auto& x = m.corner[z(joint.first_corner + i)];
+  for (int i = 0; law.fc > 0 && i < joint.type->corners; ++i) {
+    const auto& x = m.corner[z(joint.type->first_corner + i)];
     if (-law.kn * (q[2] + q[3] * x.y() - q[4] * x.x()) > law.fc) return false;
   }
   double fs = 0, ft = 0, fn = 0, ms = 0, mt = 0, mn = 0;
-  for (int i = 0; i < joint.points; ++i) {
-    const Point& p = m.point[z(joint.first_place + i)];
+  for (int i = 0; i < joint.type->points; ++i) {
+    const Point& p = m.point[z(joint.type->first_place + i)];
     const double shear_s = law.ks * (q[0] - q[5] * p.t), shear_t = law.ks * (q[1] + q[5] * p.s);  // Pa
     const double sigma = law.kn * (q[2] + q[3] * p.t - q[4] * p.s);
     if (sigma > law.ft || (law.dry && sigma > 0)) return false;
@@ -37,7 +37,7 @@ bool sound_resultant(const Model& m, const Joint& joint, const JointPose& pose, 
 double stored(const Model& m, const State& s, int j, const JointPose& pose) {
   if (s.tier[z(j)] == Tier::cracked) return s.memory[z(j)].elastic;
   double sum = 0;
-  for (int i = 0; i < 6; ++i) sum += 0.5 * m.joint[z(j)].stiffness[i] * pose.q[i] * pose.q[i];
+  for (int i = 0; i < 6; ++i) sum += 0.5 * m.joint[z(j)].type->stiffness[i] * pose.q[i] * pose.q[i];
   return sum;
 }
 

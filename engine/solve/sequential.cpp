@@ -211,7 +211,7 @@ void Sequential::look_closer(int batch, int b, double moved, JointSums& sums) {
     memory.elastic = 0;
     for (int i = 0; i < 6; ++i) {
       memory.q[i] = before.q[i];
-      memory.f[i] = model_.joint[z(j)].stiffness[i] * before.q[i];
+      memory.f[i] = model_.joint[z(j)].type->stiffness[i] * before.q[i];
       memory.elastic += 0.5 * memory.f[i] * before.q[i];
     }
     follow(j, sums);
@@ -245,7 +245,7 @@ void Sequential::try_out(int j) {
   State& s = state_;
   const Joint& joint = model_.joint[z(j)];
   const JointPose pose = joint_pose(model_, s, j);
-  trial_.assign(&s.history[z(joint.first_point)], &s.history[z(joint.first_point)] + joint.points);
+  trial_.assign(&s.history[z(joint.first_point)], &s.history[z(joint.first_point)] + joint.type->points);
   CrushedFace crushed = s.crushed.empty() ? CrushedFace{} : s.crushed[z(j)];
   JointEnergy unused;
   double f[6];

@@ -106,15 +106,20 @@ int Sound::forces(int first, int last, const LaneKernels& kernels, double* store
   return kernels.sound(batch_.data(), first, last, state_.row.data(), state_.wrench.data(), stored, near);
 }
 
-void Sound::forces(int first, int last, bool sample, JointSums& sums) {
-  alignas(64) double stored[lanes] = {};
-  int near[batch_grain];
-  const int count = forces(first, last, lane_kernels(), sample ? stored : nullptr, near);
-  if (sample) {
-    sums.energy.elastic = 0;
-    for (const double e : stored) sums.energy.elastic += e;
+void Sound::forces(Range batches, bool sample, std::vector<JointSums>& all) {
+  constexpr int most = 32 * batch_grain;
+  int near[most];
+  const LaneKernels& kernels = lane_kernels();
+  const int piece = sample ? batch_grain : most;  // only energies are summed
+  for (int first = batches.first; first < batches.last; first += piece) {
+    alignas(64) double stored[lanes] = {};
+    const int count = forces(first, std::min(first + piece, batches.last), kernels, sample ? stored : nullptr, near);
+    if (sample) {
+      double& elastic = all[z(first / batch_grain)].energy.elastic = 0;
+      for (const double e : stored) elastic += e;
+    }
+    for (int i = 0; i < count; ++i) look_closer(near[i], sample, all[z(near[i] / batch_grain)]);
   }
-  for (int i = 0; i < count; ++i) look_closer(near[i], sample, sums);
 }
 
 }  // namespace erbs

@@ -2,6 +2,7 @@
 #pragma once
 #include <vector>
 
+#include "engine/base/parallel.h"
 #include "engine/solve/joint_kernel.h"
 #include "engine/solve/lanes.h"
 
@@ -14,11 +15,11 @@ void clear_sound_lane(const Model& model, SoundBatch& out, int lane);
 class Sound {
  public:
   Sound(const Model& model, State& state);
-  void update();  // when joints have changed their lanes
+  void update();                                // when joints have changed their lanes
   void update(const std::vector<int>& joints);  // after a refresh of these, in ascending order
-  // Writes the wrench rows of batches [first, last). Joints near a limit are looked at point by point (joint_response.h); those that
-  // crack go on in cracked.h. Fills sums.energy.elastic when `sample`.
-  void forces(int first, int last, bool sample, JointSums& sums);
+  // Writes the wrench rows of these batches. Joints near a limit are looked at point by point (joint_response.h); those that crack go on
+  // in cracked.h. `sums`: one for each chunk of batch_grain batches of all; fills their energy.elastic when `sample`.
+  void forces(Range batches, bool sample, std::vector<JointSums>& sums);
   // The wrench rows alone, by the arithmetic of `kernels`; how many batches may be near a limit, and which in `near`.
   int forces(int first, int last, const LaneKernels& kernels, double* stored, int* near);
 

@@ -29,7 +29,9 @@ Solver::Solver(const Model& model, State& state, int threads)
       state_(state),
       threads_(threads),
       reference_(model.analysis.kernel == "reference" || model.analysis.solver == "sequential"),
-      joint_items_(model.analysis.solver == "sequential" ? 0 : reference_ ? model.njoint : sound_batches(model)),
+      joint_items_(model.analysis.solver == "sequential" ? 0
+                   : reference_                          ? model.njoint
+                                                         : sound_batches(model)),
       sound_(model, state),
       cracked_(model, state),
       debris_(model, state, threads) {
@@ -37,8 +39,7 @@ Solver::Solver(const Model& model, State& state, int threads)
   any_cracked_ = std::any_of(state.tier.begin(), state.tier.end(), [](Tier t) { return t == Tier::cracked; });
   sound_.update();  // of what the cracked ones have taken in
   constants_ = block_constants(model, state);
-  push_.assign(constants_.size() * lanes, 0.0);
-  if (!model.pushes.empty()) load_ = push_;
+  if (!model.pushes.empty()) load_.assign(constants_.size() * lanes, 0.0);
   for (const auto& p : model.pushes)
     if (model.kind[z(p.block)] == Kind::moving) loaded_.push_back({p.block, Mat3::Zero()});
   std::sort(loaded_.begin(), loaded_.end(), [](const LoadedBlock& a, const LoadedBlock& b) { return a.block < b.block; });
@@ -103,6 +104,7 @@ void Solver::begin(const Hooks& hooks) {
   contacts_ = debris_.active();
   between_ = contacts_ || (how.debris && any_cracked_ && state_.step % hand_over_every == 0);
   if (contacts_) debris_.prepare();
+  if (contacts_ && push_.empty()) push_.assign(constants_.size() * lanes, 0.0);
   excite();
   if (sample_ != Sample::full) return;
   instant_.t = state_.t;
@@ -149,13 +151,14 @@ void Solver::excite() {
 void Solver::joints(int thread) {
   const Range mine = share_of(joint_items_, batch_grain, thread, threads_);
   if (contacts_) debris_.forces(thread, threads_, sample_ != Sample::none);
-  for (int first = mine.first; first < mine.last; first += batch_grain) {
-    const int last = std::min(first + batch_grain, mine.last);
-    JointSums& sums = joint_sums_[z(first / batch_grain)];
-    if (reference_) reference_forces(model_, state_, first, last, sample_ != Sample::none, sums);
-    else if (model_.dashpots) joint_forces(model_, state_, first, last, sample_ != Sample::none, sums);
-    else sound_.forces(first, last, sample_ != Sample::none, sums);
-  }
+  if (!reference_ && !model_.dashpots) sound_.forces(mine, sample_ != Sample::none, joint_sums_);
+  else
+    for (int first = mine.first; first < mine.last; first += batch_grain) {
+      const int last = std::min(first + batch_grain, mine.last);
+      JointSums& sums = joint_sums_[z(first / batch_grain)];
+      if (reference_) reference_forces(model_, state_, first, last, sample_ != Sample::none, sums);
+      else joint_forces(model_, state_, first, last, sample_ != Sample::none, sums);
+    }
   const Range broken = share_of(cracked_.groups(), Cracked::grain, thread, threads_);
   for (int first = broken.first; first < broken.last; first += Cracked::grain)
     cracked_.forces(first, std::min(first + Cracked::grain, broken.last), sample_ != Sample::none,
@@ -205,9 +208,7 @@ void Solver::blocks(int thread) {
     return;
   }
   const Range mine = share_of(int(constants_.size()), block_grain, thread, threads_);
-  for (int first = mine.first; first < mine.last; first += block_grain)
-    advance(model_, state_, constants_, now_, pushes, first, std::min(first + block_grain, mine.last), sample_ != Sample::none,
-            block_sums_[z(first / block_grain)]);
+  advance(model_, state_, constants_, now_, pushes, mine, sample_ != Sample::none, block_sums_);
 }
 
 // Blocks with a prescribed motion: they are where they are told to be; what holds them there works on the system.
@@ -239,7 +240,8 @@ void Solver::drive() {
     const Vec3 v = (to - s.u[z(b)]) / s.dt, w = rotation_vector(turned * s.q[z(b)].conjugate()) / s.dt;
     const Vec6 wrench = block_wrench(b);
     const Vec3 force = wrench.head<3>(), moment = wrench.tail<3>();
-    const double before = -0.5 * s.last_dt * (force.dot(s.v[z(b)]) + moment.dot(s.w[z(b)])), after = -0.5 * s.dt * (force.dot(v) + moment.dot(w));
+    const double before = -0.5 * s.last_dt * (force.dot(s.v[z(b)]) + moment.dot(s.w[z(b)])),
+                 after = -0.5 * s.dt * (force.dot(v) + moment.dot(w));
     e.external_work += before;
     e.external_next += after;
     e.absolute_work += std::fabs(before) + std::fabs(after);
@@ -371,7 +373,10 @@ void Solver::settle_ledger() {
   settle(e, floor_, state_.t, worst);
 }
 
-Vec6 Solver::block_wrench(int b) const { return joint_wrench(model_, state_, b) + Eigen::Map<const Vec6>(&push_[8 * z(b)]); }
+Vec6 Solver::block_wrench(int b) const {
+  const Vec6 joints = joint_wrench(model_, state_, b);
+  return push_.empty() ? joints : Vec6(joints + Eigen::Map<const Vec6>(&push_[8 * z(b)]));
+}
 
 Vec6 Solver::load_wrench(int b) const {
   if (model_.kind[z(b)] == Kind::driven) return -block_wrench(b);

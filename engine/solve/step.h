@@ -44,7 +44,7 @@ class Solver {
   bool broken() const { return broken_; }
   Vec6 block_wrench(int b) const;  // N, N m about the centroid: joints and contacts
   Vec6 load_wrench(int b) const;   // loads; on a driven block what holds it on its course
-  std::vector<int> take_opened();   // joints handed over to contact since the last call
+  std::vector<int> take_opened();  // joints handed over to contact since the last call
   // s, what contacts allow at present; infinite where there are none or the goal is shorter
   double contact_dt() const {
     return contacts_ && debris_.allowed_dt() < state_.dt_goal ? debris_.allowed_dt() : std::numeric_limits<double>::infinity();
@@ -75,7 +75,7 @@ class Solver {
   const int joint_items_;  // batches of sound joints, or joints for the reference
   double floor_ = 0;       // J, below which the ledger's scale does not go
   Excitation now_;
-  Rows push_, load_;  // N, N m: of contacts and of loads, a row a block
+  Rows push_, load_;  // N, N m: of contacts (once there are any) and of loads, a row a block
   std::vector<LoadedBlock> loaded_;
   std::vector<BlockConstants> constants_;
   std::vector<JointSums> joint_sums_, cracked_sums_;  // per chunk

@@ -31,17 +31,20 @@ double longest_step(double free, double viscous, double most, double tolerance, 
 
 Mat6 diagonal(const Joint& joint) {
   Mat6 k = Mat6::Zero();
-  for (int i = 0; i < 6; ++i) k(i, i) = joint.stiffness[i];
+  for (int i = 0; i < 6; ++i) k(i, i) = joint.type->stiffness[i];
   return k;
 }
 
-bool stiffens(const Joint& joint) { return joint.face[0] > joint.stiffness[3] || joint.face[1] > joint.stiffness[4] || joint.face[2] != 0; }
+bool stiffens(const Joint& joint) {
+  return joint.type->face[0] > joint.type->stiffness[3] || joint.type->face[1] > joint.type->stiffness[4] || joint.type->face[2] != 0;
+}
 
 }  // namespace
 
 Mat6 stiffest(const Joint& joint) {
   Eigen::Matrix2d more;
-  more << joint.face[0] - joint.stiffness[3], -joint.face[2], -joint.face[2], joint.face[1] - joint.stiffness[4];
+  more << joint.type->face[0] - joint.type->stiffness[3], -joint.type->face[2], -joint.type->face[2],
+      joint.type->face[1] - joint.type->stiffness[4];
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> eigen(more);
   Mat6 k = diagonal(joint);
   k.block<2, 2>(3, 3) += eigen.eigenvectors() * eigen.eigenvalues().cwiseMax(0).asDiagonal() * eigen.eigenvectors().transpose();
@@ -158,9 +161,9 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
     if (m.kind[z(joint.a)] != Kind::moving && m.kind[z(joint.b)] != Kind::moving) continue;
     const int light = m.kind[z(joint.b)] == Kind::moving ? joint.b : joint.a;
     const double distance = (joint.arm_a - joint.arm_b).norm();
-    const auto* mortar = std::get_if<Mortar>(&scene.joint_rules[z(joint.rule)].law);
+    const auto* mortar = std::get_if<Mortar>(&scene.joint_rules[z(joint.type->rule)].law);
     const double modulus =
-        mortar != nullptr && mortar->E > 0 ? mortar->E : m.laws[z(joint.law)].kn * (joint.gap > 1e-6 ? joint.gap : distance);
+        mortar != nullptr && mortar->E > 0 ? mortar->E : m.laws[z(joint.type->law)].kn * (joint.gap > 1e-6 ? joint.gap : distance);
     out.wave_passage = std::min(out.wave_passage, distance / std::sqrt(modulus / m.materials[z(m.material[z(light)])].density));
   }
   const RootMass roots(m, s, f);

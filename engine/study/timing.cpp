@@ -112,13 +112,13 @@ double instructions_over_bare(const Model& model, const State& state) {
   Sound sound(m, bare);
   const std::vector<BlockConstants> constants = block_constants(m, bare);
   std::vector<int> near(z(sound_batches(m)));
-  BlockSums sums;
+  std::vector<BlockSums> sums(1);
   const Excitation e{Vec3::Zero(), m.gravity, bare.dt};
   bare.last_dt = bare.dt;
   const double start = counter.read();
   for (long k = 0; k < steps; ++k) {
     sound.forces(0, sound_batches(m), lane_kernels(), nullptr, near.data());
-    advance(m, bare, constants, e, {}, 0, int(constants.size()), false, sums);
+    advance(m, bare, constants, e, {}, {0, int(constants.size())}, false, sums);
   }
   return each / ((counter.read() - start) / double(steps));
 }
@@ -130,7 +130,7 @@ State all_broken(const Model& m, State s) {
     joint_q(m, s, j, memory.q);
     memory.elastic = 0;
     for (int i = 0; i < 6; ++i) {
-      memory.f[i] = m.joint[z(j)].stiffness[i] * memory.q[i];
+      memory.f[i] = m.joint[z(j)].type->stiffness[i] * memory.q[i];
       memory.elastic += 0.5 * memory.f[i] * memory.q[i];
     }
   }

@@ -63,7 +63,9 @@ struct Bodies {
       spin.push_back(inertia.back() * b.w);
     }
     shapes = contact_shapes(parts);
-    list.margin = suggested_margin(parts);
+    std::vector<double> thickness;
+    for (const ContactShape& s : shapes.shape) thickness.push_back(s.thickness);
+    list.margin = suggested_margin(thickness);
     force.resize(block.size());
     moment.resize(block.size());
   }

@@ -56,8 +56,8 @@ TEST_CASE("a box turns about its centre, a transform turns all inside it", "[lua
   for (const Vec3& v : scene.blocks.at(1).parts[0].vertices) extent = extent.cwiseMax((v - Vec3(5, 0, 0)).cwiseAbs());
   CHECK(near(extent, {0.5, 1, 0.5}));
   CHECK(near(centroid(scene.blocks.at(2)), {1, 2, 10}));
-  CHECK(near(scene.blocks.at(2).initial.velocity, {0, 1, 0}));
-  CHECK(near(scene.blocks.at(2).initial.about, {1, 2, 10}));
+  CHECK(near(scene.blocks.at(2).initial().velocity, {0, 1, 0}));
+  CHECK(near(scene.blocks.at(2).initial().about, {1, 2, 10}));
   CHECK(near(centroid(scene.blocks.at(3)), {1, 1, 10}));
   CHECK(near(scene.loads.at(0).direction, {0, 1, 0}));
   CHECK(near(scene.loads.at(0).point, {1, 1, 10}));

@@ -168,7 +168,7 @@ TEST_CASE("the scene's hash follows script, inputs, parameters and blocks", "[re
   other.params[0].value = 2;
   CHECK(scene_hash(other, "a") != with_param);
   other = scene;
-  other.blocks[1].parts[0].vertices[0].x() += 1e-12;
+  other.blocks[1].parts.edit()[0].vertices[0].x() += 1e-12;
   CHECK(scene_hash(other, "a") != before);
   other = scene;
   other.inputs["r.csv"] = "1234";

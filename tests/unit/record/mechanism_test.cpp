@@ -14,7 +14,6 @@ test::TwoBricks turned(double angle, const Vec3& shift) {
   const Vec3 edge(0.1, 0, 0.05), arm = t.model.rest[1] - edge;
   t.state.q[1] = rotation(Vec3(0, angle, 0));
   t.state.u[1] = t.state.q[1] * arm - arm + shift;
-  t.model.joint[0].radius = 0.112;
   return t;
 }
 

@@ -44,16 +44,21 @@ inline TwoBricks two_bricks() {
     block.name = name;
     block.group = "wall";
     block.parts = {translated(brick(), m.rest[t.scene.blocks.size()])};
+    m.parts.push_back(block.parts);
     block.material = 0;
     t.scene.blocks.push_back(block);
   }
+  JointType type;
+  type.points = type.corners = 4;
+  type.frame = Mat3::Identity();
+  type.area = 0.02;
+  type.radius = 0.112;
+  m.joint_types = {std::make_shared<const JointType>(type)};
   Joint joint;
+  joint.type = m.joint_types.front().get();
   joint.a = 0, joint.b = 1;
-  joint.points = joint.corners = 4;
-  joint.frame = Mat3::Identity();
   joint.arm_a = Vec3(0, 0, 0.05);
   joint.arm_b = Vec3(0, 0, -0.05);
-  joint.area = 0.02;
   m.joint = {joint};
   m.point = {{-0.1, -0.05, 0.005}, {0.1, -0.05, 0.005}, {0.1, 0.05, 0.005}, {-0.1, 0.05, 0.005}};
   m.corner = {{-0.1, -0.05}, {0.1, -0.05}, {0.1, 0.05}, {-0.1, 0.05}};

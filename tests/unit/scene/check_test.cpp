@@ -53,19 +53,19 @@ TEST_CASE("names must be unique", "[scene]") {
 
 TEST_CASE("shapes that are no solid are named", "[scene]") {
   Scene scene = sound();
-  scene.blocks[0].parts[0].vertices[6].x() = NAN;
+  scene.blocks[0].parts.edit()[0].vertices[6].x() = NAN;
   CHECK(mentions(check(scene), "s.lua:3: block \"a\": "));
   scene = sound();
-  for (Vec3& v : scene.blocks[0].parts[0].vertices) v.z() = 0;  // flat
+  for (Vec3& v : scene.blocks[0].parts.edit()[0].vertices) v.z() = 0;  // flat
   CHECK(mentions(check(scene), "block \"a\": "));
   scene = sound();
-  for (auto& face : scene.blocks[0].parts[0].faces.edit()) std::reverse(face.begin(), face.end());  // inside out
+  for (auto& face : scene.blocks[0].parts.edit()[0].faces.edit()) std::reverse(face.begin(), face.end());  // inside out
   CHECK(mentions(check(scene), "block \"a\": "));
   scene = sound();
-  scene.blocks[0].parts[0].faces.edit().pop_back();  // open
+  scene.blocks[0].parts.edit()[0].faces.edit().pop_back();  // open
   CHECK(mentions(check(scene), "block \"a\": "));
   scene = sound();
-  scene.blocks[0].parts[0].vertices[6] = {0.4, 0.4, 0.4};  // dented
+  scene.blocks[0].parts.edit()[0].vertices[6] = {0.4, 0.4, 0.4};  // dented
   CHECK(mentions(check(scene), "block \"a\": "));
 }
 

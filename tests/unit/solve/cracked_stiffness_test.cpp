@@ -13,7 +13,7 @@ namespace {
 
 Mat6 sound_form(const Joint& joint) {
   Mat6 k = Mat6::Zero();
-  for (int i = 0; i < 6; ++i) k(i, i) = joint.stiffness[i];
+  for (int i = 0; i < 6; ++i) k(i, i) = joint.type->stiffness[i];
   return k;
 }
 
@@ -23,7 +23,7 @@ Mat6 tangent(const Model& m, int j, const std::vector<PointHistory>& history, co
   Mat6 k;
   for (int c = 0; c < 6; ++c) {
     Vec6 f[2];
-    const double h = 1e-6 * length / (c < 3 ? 1 : joint.radius);
+    const double h = 1e-6 * length / (c < 3 ? 1 : joint.type->radius);
     for (int side = 0; side < 2; ++side) {
       Vec6 at = q;
       at[c] += side == 0 ? -h : h;
@@ -67,7 +67,7 @@ TEST_CASE("a cracked joint is nowhere stiffer than a sound one", "[solve][cracke
   const Model& m = run.model;
   REQUIRE(m.njoint == 1);
   const Joint& joint = m.joint[0];
-  const PointLaw& point_law = m.laws[std::size_t(joint.law)];
+  const PointLaw& point_law = m.laws[std::size_t(joint.type->law)];
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1, 1);
   double worst = 0;
@@ -75,7 +75,7 @@ TEST_CASE("a cracked joint is nowhere stiffer than a sound one", "[solve][cracke
     const double length = 0.2 * point_law.opening_peak;
     Vec6 q = Vec6::Zero();
     q[2] = turn % 3 == 0 ? 0 : length * any(random);
-    q[3] = length * any(random) / joint.half_t, q[4] = length * any(random) / joint.half_s;
+    q[3] = length * any(random) / joint.type->half_t, q[4] = length * any(random) / joint.type->half_s;
     std::vector<PointHistory> history(std::size_t(m.npoint));
     for (PointHistory& h : history) {
       const double kind = any(random);
@@ -96,16 +96,16 @@ TEST_CASE("cells of sound points and the closed compression make the sound joint
   const Prepared run = prepare(two_blocks(rule, shape), false);
   const Model& m = run.model;
   const Joint& joint = m.joint[0];
-  const double length = 0.2 * m.laws[std::size_t(joint.law)].opening_peak;
+  const double length = 0.2 * m.laws[std::size_t(joint.type->law)].opening_peak;
   for (int turn = 0; turn < 50; ++turn) {
     Vec6 q, f;
-    for (int i = 0; i < 6; ++i) q[i] = length * std::sin(2.3 * turn + 1.7 * i) / (i < 3 ? 1 : joint.radius);
+    for (int i = 0; i < 6; ++i) q[i] = length * std::sin(2.3 * turn + 1.7 * i) / (i < 3 ? 1 : joint.type->radius);
     std::vector<PointHistory> history(std::size_t(m.npoint));
     JointEnergy e;
     respond(m, 0, false, q.data(), q.data(), history.data(), f.data(), e);
     const Vec6 sound = sound_form(joint) * q;
     INFO(rule << " " << shape);
-    for (int i = 0; i < 6; ++i) CHECK(std::fabs(f[i] - sound[i]) * (i < 3 ? 1 : 1 / joint.radius) < 1e-12 * joint.stiffness[2] * length);
+    for (int i = 0; i < 6; ++i) CHECK(std::fabs(f[i] - sound[i]) * (i < 3 ? 1 : 1 / joint.type->radius) < 1e-12 * joint.type->stiffness[2] * length);
     CHECK(e.elastic == Approx(0.5 * sound.dot(q)).epsilon(1e-12));
     CHECK(e.fracture == 0);
   }
@@ -125,7 +125,7 @@ TEST_CASE("over a crack the work of a joint is stored or booked", "[solve][crack
                                false);
   const Model& m = run.model;
   const Joint& joint = m.joint[0];
-  const double peak = m.laws[std::size_t(joint.law)].opening_peak, end = kind.empty() ? 10 : 90;
+  const double peak = m.laws[std::size_t(joint.type->law)].opening_peak, end = kind.empty() ? 10 : 90;
   std::vector<PointHistory> history(std::size_t(m.npoint));
   Vec6 before = Vec6::Zero(), f_before = Vec6::Zero();
   double work = 0, booked = 0, elastic = 0;
@@ -134,7 +134,7 @@ TEST_CASE("over a crack the work of a joint is stored or booked", "[solve][crack
   for (int step = 1; step <= steps; ++step) {
     const double x = end * peak * step / steps;
     Vec6 q = Vec6::Zero(), f;
-    q[2] = 0.3 * x, q[3] = 0.4 * x / joint.half_t, q[4] = x / joint.half_s;
+    q[2] = 0.3 * x, q[3] = 0.4 * x / joint.type->half_t, q[4] = x / joint.type->half_s;
     JointEnergy e;
     sound = respond(m, 0, sound, before.data(), q.data(), history.data(), f.data(), e) && sound;
     work += 0.5 * (f + f_before).dot(q - before);
@@ -169,16 +169,16 @@ TEST_CASE("a joint that was crushed is nowhere stiffer than a sound one, and pas
     return f;
   };
   Vec6 rest = Vec6::Zero(), pressed = rest, pulled = rest;
-  pressed[2] = -2 * limit, pressed[3] = 0.8 * limit / joint.half_t, pressed[4] = -0.4 * limit / joint.half_s;
+  pressed[2] = -2 * limit, pressed[3] = 0.8 * limit / joint.type->half_t, pressed[4] = -0.4 * limit / joint.type->half_s;
   pulled[2] = 0.1 * limit;
   answer(rest, pressed, crushed, history);
   REQUIRE(crushed.planes == 1);
   for (int turn = 0; turn < 40; ++turn) {
     Vec6 at = pressed * (0.9 - 0.02 * turn);
-    at[4] += 0.3 * limit * std::sin(turn) / joint.half_s;
+    at[4] += 0.3 * limit * std::sin(turn) / joint.type->half_s;
     Mat6 k;
     for (int c = 0; c < 6; ++c) {
-      const double h = 1e-5 * limit / (c < 3 ? 1 : joint.radius);
+      const double h = 1e-5 * limit / (c < 3 ? 1 : joint.type->radius);
       Vec6 f[2];
       for (int side = 0; side < 2; ++side) {
         CrushedFace face = crushed;
@@ -191,7 +191,7 @@ TEST_CASE("a joint that was crushed is nowhere stiffer than a sound one, and pas
     }
     CHECK(against(k, stiffest(joint)) <= 1 + 1e-6);
   }
-  CHECK(answer(pressed, pulled, crushed, history)[2] > 0.9 * joint.stiffness[2] * pulled[2]);
+  CHECK(answer(pressed, pulled, crushed, history)[2] > 0.9 * joint.type->stiffness[2] * pulled[2]);
   Vec6 deep = rest;
   deep[2] = -5 * limit;
   answer(pulled, deep, crushed, history);

@@ -158,7 +158,7 @@ TEST_CASE("cracked joints side by side answer as one by one", "[solve]") {
     double largest_force = 0, worst = 0, largest_drag = 0, worst_drag = 0;
     for (int j = 0; j < m.njoint; ++j)
       for (int i = 0; i < 6; ++i) {
-        const double scale = i < 3 ? 1 : 1 / m.joint[std::size_t(j)].radius, f = plain.memory[std::size_t(j)].f[i];
+        const double scale = i < 3 ? 1 : 1 / m.joint[std::size_t(j)].type->radius, f = plain.memory[std::size_t(j)].f[i];
         largest_force = std::max(largest_force, scale * std::fabs(f));
         worst = std::max(worst, scale * std::fabs(f - run.state.memory[std::size_t(j)].f[i]));
         const double drag = plain.viscous[std::size_t(6 * j + i)];
