@@ -227,7 +227,7 @@ void write_book(const std::vector<CaseResult>& results, const Options& options, 
   const std::string summary = summary_line(families);
   std::string text = "# Verification book\n\n";
   text += fmt::format("Written by `erbs test {}{} --book {}`, never typed: {}, {}, {} on {} processors, with erbs {}.\n\n",
-                      fmt::join(options.words, " "), options.quick ? " --quick" : "", fs::path(book).lexically_normal().generic_string(),
+                      fmt::join(options.words, " "), options.quick ? " --quick" : "", fs::proximate(book).generic_string(),
                       duration_text(wall), machine_isa(),
                       options.jobs > 0 ? fmt::format("{} runs at a time", options.jobs) : "as many runs at a time as there are",
                       std::thread::hardware_concurrency(), program_version());

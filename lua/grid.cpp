@@ -178,7 +178,7 @@ void write_page(const Grid& grid, const Options& options, double wall) {
       "and 0.9 of the limit of the time step, with 4, 9 and 25 contact points per joint, and with noise of {:g} (m, rad) in the start of "
       "every free block, since exact symmetry hides instabilities. Scenes that fix their step keep it, those without joints their points. "
       "Each row is the worst value of one invariant over these runs.\n\n**{}**\n\n",
-      fmt::join(options.words, " "), fs::path(options.book).lexically_normal().generic_string(), duration_text(grid.cpu),
+      fmt::join(options.words, " "), fs::proximate(options.book).generic_string(), duration_text(grid.cpu),
       wall > 0 ? fmt::format(", {} of the clock", duration_text(wall)) : "", program_version(), noise, summary_of(grid));
   text += "| case | invariant | bound | worst | share of the bound | at | runs | verdict |\n|---|---|---|---|---|---|---|---|\n";
   std::string last;
