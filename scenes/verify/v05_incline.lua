@@ -13,6 +13,7 @@ local steeper = param("steeper", 6 * deg, "of the third plane, over the angle of
 local margin = param("margin", 0.02 * deg, "of the planes just below and above [rad]")
 local way = param("way", 1.05, "slid on the steep planes [m]")
 local density = param("density", 1800, "[kg/m3]")
+if steeper <= 0 or math.atan(0.9) + steeper >= pi / 2 then error("steeper must be above 0 and below 48 degrees: the third plane of the roughest blocks", 0) end
 
 local cases, number = {}, 0
 local function plane(name, mu, angle, kind, until_)

@@ -10,6 +10,7 @@ local share = param("share", 0.9, "of the angle of friction")
 local duration = param("duration", 60, "[s]")
 local kn = param("kn", 1e8, "soft, for a long step [Pa/m]")
 local size = param("size", 0.3, "longer side [m]")
+if share >= 1 then error("share must be below 1: past the angle of friction blocks slide", 0) end
 
 material { name = "stone", density = 1800, friction = 0.6, kn = kn, ks = 0.4 * kn }
 for i, mu in ipairs { 0.3, 0.6, 0.9 } do

@@ -11,6 +11,7 @@ local spring = param("spring", 2000, "frequency of the block on its shear spring
 local share = param("share", 0.5, "dt over the limit")
 local size = param("size", 0.3, "longer side of the blocks, a twentieth of it high [m]")
 local density = 1800
+if A <= 0.45 then error("A must be above 0.45, the coefficient of friction of the roughest block, or nothing slips", 0) end
 include "lib_sliding.lua"
 
 local height = size / 20

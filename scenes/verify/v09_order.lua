@@ -10,6 +10,7 @@ local f, A, mu, size, density = 2, 0.6, 0.3, 0.3, 1800
 local spring = param("spring", 200, "frequency of the block on its shear spring [Hz]")
 local share = param("share", 1 / 64, "dt over the limit")
 local height = size / 20
+if spring < 150 then error("spring must be at least 150 Hz: a softer one still swings when the slip is read, and its phase is what the step errs in", 0) end
 local ks = density * height * (2 * pi * spring) ^ 2
 material { name = "stone", density = density, friction = mu, kn = 2.5 * ks, ks = ks }
 box { name = "plate", group = "plate", size = { 1, 1, 0.1 }, at = { -0.5, -0.5, -0.1 }, fixed = true }
