@@ -3,6 +3,8 @@
 -- What happens   The block of v09_newmark_sine.lua (mu .3, A .6, 2 Hz) on a spring of 200 Hz. Slip starts where the acceleration is continuous,
 --                so that the error falls by four when the step is halved; against the run's own finest step, since the spring itself
 --                changes the slip from .047179 to about .0472 m.
+--                By which factor depends on where within a step the slip starts: with other springs, where that place wanders as the step
+--                is halved, slopes from .3 to 2.3 are read.
 -- How to run     erbs run scenes/verify/v09_order.lua
 -- What to look at  converge_share_slope; largest: the slip with the spring.
 label("fixed_dt")
@@ -10,7 +12,6 @@ local f, A, mu, size, density = 2, 0.6, 0.3, 0.3, 1800
 local spring = param("spring", 200, "frequency of the block on its shear spring [Hz]")
 local share = param("share", 1 / 64, "dt over the limit")
 local height = size / 20
-if spring < 150 then error("spring must be at least 150 Hz: a softer one still swings when the slip is read, and its phase is what the step errs in", 0) end
 local ks = density * height * (2 * pi * spring) ^ 2
 material { name = "stone", density = density, friction = mu, kn = 2.5 * ks, ks = ks }
 box { name = "plate", group = "plate", size = { 1, 1, 0.1 }, at = { -0.5, -0.5, -0.1 }, fixed = true }
