@@ -5,28 +5,8 @@
 
 namespace erbs {
 
-const ClipKernels& clip_kernels() {
-  switch (chosen_isa()) {
-    case Isa::avx512:
-      return avx512::clip_kernels;
-    case Isa::avx2:
-      return avx2::clip_kernels;
-    case Isa::sse2:
-      break;
-  }
-  return sse2::clip_kernels;
-}
+const ClipKernels& clip_kernels() { return by_isa(sse2::clip_kernels, avx2::clip_kernels, avx512::clip_kernels); }
 
-const PairKernels& pair_kernels() {
-  switch (chosen_isa()) {
-    case Isa::avx512:
-      return avx512::pair_kernels;
-    case Isa::avx2:
-      return avx2::pair_kernels;
-    case Isa::sse2:
-      break;
-  }
-  return sse2::pair_kernels;
-}
+const PairKernels& pair_kernels() { return by_isa(sse2::pair_kernels, avx2::pair_kernels, avx512::pair_kernels); }
 
 }  // namespace erbs

@@ -4,13 +4,6 @@
 
 namespace erbs {
 
-const LaneKernels& lane_kernels() {
-  switch (chosen_isa()) {
-    case Isa::avx512: return avx512::kernels;
-    case Isa::avx2: return avx2::kernels;
-    case Isa::sse2: break;
-  }
-  return sse2::kernels;
-}
+const LaneKernels& lane_kernels() { return by_isa(sse2::kernels, avx2::kernels, avx512::kernels); }
 
 }  // namespace erbs

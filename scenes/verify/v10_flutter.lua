@@ -8,8 +8,8 @@
 --                the motion grows as exp(growth t), whatever the step: friction drives it, no error of the numbers does.
 -- Source         Mode coupling: Hoffmann, Fischer, Allgaier and Gaul 2002, Mech. Res. Commun. 29, 197; steady sliding that is unstable at constant
 --                friction: Martins, Oden and Simoes 1990, Int. J. Eng. Sci. 28, 29. The two equations above are integrated here.
---                Read off a few crests while the push still grows: within 10 % for mu from .7 to .9 at this offset; at offsets of .03 to .08 the
---                push shakes the block as much as it grows in that time, and what is read is up to 30 % off.
+--                Read off a few crests while the push still grows: within 10 % for mu from .7 to .9 at this offset; at offsets of .03 to .08 up to
+--                30 % off, which was not looked into.
 -- How to run     erbs run scenes/verify/v10_flutter.lua [-D mu=0.7] [-D kn=...] [-D ratio=...]
 -- What to look at  growth over exact_growth, of the block without dashpots; swing_*: the block with dashpots stays still.
 label("quick")

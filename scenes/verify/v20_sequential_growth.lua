@@ -9,7 +9,7 @@
 -- Measured       random orders .0491 at .1 dt_crit, .192 at .25, .46 at .5 (times sqrt(k/m)); fixed .0495, .2013, .51. The first-order
 --                value is .0501, .125, .250: it holds up to .2, where faster modes take over, and is half the truth at .5. An earlier estimate
 --                had .059 at .1. v20_over_the_step.lua draws it.
---                In a chain of 60 blocks twice as many modes grow nearly as fast and still mix at the end: 12 % low.
+--                A chain of 60 blocks comes out 12 % low, over twice the time 11 % high; why was not looked into.
 -- How to run     erbs run scenes/verify/v20_sequential_growth.lua [-D share=0.05] [-D order=1] [-D iterations=4] [-D centred=1]
 -- What to look at  growth_over_exact, growth_over_first_order; momentum_residual, energy.residual_relative: the ledger says what the scheme does.
 label("fixed_dt")
