@@ -25,10 +25,6 @@ using Verdict = MapRun::Verdict;
 
 // Of the window, one after the other: what diverges does so early, and a map whose time is up has tried everything.
 constexpr double shares[] = {0.001, 0.005, 0.05, 0.25, 1};
-// Of the window, what runs besides those of the scene's own stiffness with centred damping are given: whether they are bounded is clear
-// by then, for a damping c that is a tenth too small lets a sweep's motion grow by exp(c t / 20).
-constexpr double share_of_others = 0.05;
-constexpr double least_steps = 5000;  // ... unless its steps are few: past a limit an error that is amplified at all is so in every step
 // What a sweep moves is its own doing where its ledger lacks half of what passed through, or where a thousand times what the structure
 // holds and was given is lost: past a limit joints may crack and rub so much of it away that the ledger looks better again.
 constexpr double wrong_ledger = 0.5, too_much_lost = 1000;
@@ -121,9 +117,7 @@ std::vector<MapRun> plan(const MapStudy& study) {
           const double c = study.dampings[i];
           MapRun r;
           r.scheme = scheme, r.factor = factor, r.step = step, r.dt = dt, r.damping = c;
-          r.length = factor == 1 && !scheme.explicit_damping
-                         ? study.window
-                         : std::min(study.window, std::max(share_of_others * study.window, least_steps * dt));
+          r.length = study.window;
           const auto set = [&](const std::string& text) { r.words.insert(r.words.end(), {"--set", text}); };
           set(fmt::format("dt={}", dt));
           set(fmt::format("solver={}", scheme.sequential ? "sequential" : "leapfrog"));
