@@ -202,7 +202,7 @@ void Run::note_joints(double t) {
   for (const int j : clock_.cracked_since) {
     if (run_.model.laws[z(run_.model.joint[z(j)].type->law)].dry) continue;
     if (clock_.first_crack < 0) clock_.first_crack = t;
-    writer_->event(t, "crack", run_.model.joint_name(j), look_at_joint(run_.model, run_.state, j).damage, "share");
+    writer_->event(t, "crack", run_.model.joint_name(j), joint_damage(run_.model, run_.state, j), "share");
   }
   for (const int j : clock_.opened_since) {
     ++clock_.opened;

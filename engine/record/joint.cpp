@@ -38,7 +38,7 @@ void JointQuantity::sample(const Snapshot& s, double* out) const {
         largest = std::max(largest, look_at_joint(s.model, s.state, j).slip);
         break;
       case What::damage:
-        damaged += joint.type->area * look_at_joint(s.model, s.state, j).damage;
+        damaged += joint.type->area * joint_damage(s.model, s.state, j);
         area += joint.type->area;
         break;
       case What::broken:

@@ -19,23 +19,31 @@ JointLook look_at_joint(const Model& model, const State& state, int j) {
   const Mat3 frame = joint_frame(model, state, j);
   JointLook look;
   look.opening = -std::numeric_limits<double>::infinity();
+  double farthest = 0;  // m2
   for (int i = joint.type->first_corner; i < joint.type->first_corner + joint.type->corners; ++i) {
     const Eigen::Vector2d& c = model.corner[std::size_t(i)];
     const Vec3 across = joint.type->frame.col(0) * c.x() + joint.type->frame.col(1) * c.y();
     const Vec3 gap = frame.transpose() * (state.u[b] - state.u[a] + turn_minus(state.q[b], joint.arm_b + across) -
                                           turn_minus(state.q[a], joint.arm_a + across));
     look.opening = std::max(look.opening, gap.z());
-    look.slip = std::max(look.slip, std::hypot(gap.x(), gap.y()));
+    farthest = std::max(farthest, gap.head<2>().squaredNorm());
   }
+  look.slip = std::sqrt(farthest);
   if (joint.type->corners == 0) look.opening = 0;
+  look.damage = joint_damage(model, state, j);
+  return look;
+}
+
+double joint_damage(const Model& model, const State& state, int j) {
+  if (state.tier[std::size_t(j)] == Tier::open) return 1;
+  const Joint& joint = model.joint[std::size_t(j)];
   double damaged = 0, whole = 0;
   for (int i = 0; i < joint.type->points; ++i) {
     const double weight = model.point[std::size_t(joint.type->first_place + i)].weight;
     whole += weight;
     if (state.history[std::size_t(joint.first_point + i)].damage > 0) damaged += weight;
   }
-  look.damage = state.tier[std::size_t(j)] == Tier::open ? 1.0 : whole > 0 ? damaged / whole : 0.0;
-  return look;
+  return whole > 0 ? damaged / whole : 0.0;
 }
 
 bool joint_broken(const Model& model, const State& state, int j) {

@@ -13,6 +13,7 @@ struct JointLook {
 };
 
 JointLook look_at_joint(const Model& model, const State& state, int j);
+double joint_damage(const Model& model, const State& state, int j);  // JointLook::damage alone
 bool joint_broken(const Model& model, const State& state, int j);  // every point has spent its bond
 Mat3 joint_frame(const Model& model, const State& state, int j);   // columns s, t, n, turned with the mean of its blocks
 

@@ -219,9 +219,10 @@ bool Cracked::spent(int j) const {
   const int at = state_.place[z(j)] - sound_batches(model_) * lanes;
   if (at < 0) return joint_spent(model_, state_, j);
   const CrackedLanes& lane = group_[z(at / lanes)].lane;
+  if (lane.least_damage[at % lanes] < 1) return false;
   double q[6];
   for (int i = 0; i < 6; ++i) q[i] = lane.q[i][at % lanes];
-  return lane.least_damage[at % lanes] >= 1 && beyond_its_faces(model_.joint[z(j)], q);
+  return beyond_its_faces(model_.joint[z(j)], q);
 }
 
 }  // namespace erbs

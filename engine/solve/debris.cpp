@@ -160,6 +160,9 @@ void Debris::open(int j) {
 
 std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
   std::vector<int> opened;
+  int first = 0;
+  while (first < model_.njoint && !(state_.tier[z(first)] == Tier::cracked && cracked.spent(first))) ++first;
+  if (first == model_.njoint) return opened;
   for (int j = 0; j < model_.njoint;) {
     // joints of one pair of blocks lie side by side: they go together, when none holds and one is past its range
     int end = j + 1;
