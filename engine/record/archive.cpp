@@ -18,7 +18,7 @@ std::size_t ArchiveIn::head(std::string_view name, std::uint64_t size) {
   if (numbers[0] != fnv1a(name) || numbers[1] != size)
     throw Error(fmt::format("written by another version of the program (at \"{}\"); start anew with --force", name), {file_, 0});
   // Each item takes at least its own bytes, or a head.
-  if (numbers[2] > (bytes_.size() - at_) / std::max<std::uint64_t>(size, 1))
+  if (numbers[2] > left_ / std::max<std::uint64_t>(size, 1))
     throw Error(fmt::format("damaged: \"{}\" is longer than the file; start anew with --force", name), {file_, 0});
   return std::size_t(numbers[2]);
 }
@@ -28,21 +28,25 @@ void ArchiveIn::expect_head(std::string_view name, std::uint64_t size, std::uint
     throw Error(fmt::format("written by another version of the program (at \"{}\"); start anew with --force", name), {file_, 0});
 }
 
-const char* ArchiveIn::get(std::size_t size) {
-  if (size > bytes_.size() - at_) throw Error("damaged: it ends too early; start anew with --force", {file_, 0});
-  at_ += size;
-  return bytes_.data() + (at_ - size);
+void ArchiveIn::get(void* data, std::size_t size) {
+  if (size > left_ || !in_.read(static_cast<char*>(data), std::streamsize(size)))
+    throw Error("damaged: it ends too early; start anew with --force", {file_, 0});
+  left_ -= size;
 }
 
-void ArchiveIn::get(void* data, std::size_t size) {
-  const char* from = get(size);
-  if (size > 0) std::memcpy(data, from, size);
+void ArchiveIn::get_cold(void* zeros, std::size_t size) {
+  constexpr std::size_t page = 4096;
+  char bytes[page];
+  for (std::size_t at = 0; at < size; at += page) {
+    const std::size_t n = std::min(page, size - at);
+    get(bytes, n);
+    if (std::any_of(bytes, bytes + n, [](char c) { return c != 0; })) std::memcpy(static_cast<char*>(zeros) + at, bytes, n);
+  }
 }
 
 void ArchiveIn::finish() const {
-  if (at_ != bytes_.size())
-    throw Error(fmt::format("written by another version of the program ({} bytes left over); start anew with --force", bytes_.size() - at_),
-                {file_, 0});
+  if (left_ != 0)
+    throw Error(fmt::format("written by another version of the program ({} bytes left over); start anew with --force", left_), {file_, 0});
 }
 
 void ResultHash::add(const void* data, std::size_t size) {

@@ -5,6 +5,8 @@
 #pragma once
 #include <cstdint>
 #include <cstring>
+#include <functional>
+#include <istream>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -35,7 +37,8 @@ void visit_each(const T& value, F&& f) {
 
 class ArchiveOut {
  public:
-  std::string bytes;
+  // The bytes go to `sink` piece by piece.
+  explicit ArchiveOut(std::function<void(std::string_view)> sink) : sink_(std::move(sink)) {}
 
   template <class T>
   void operator()(const T& value) {
@@ -70,12 +73,14 @@ class ArchiveOut {
     }
   }
   void head(std::string_view name, std::uint64_t size, std::uint64_t count);
-  void put(const void* data, std::size_t size) { bytes.append(static_cast<const char*>(data), size); }
+  void put(const void* data, std::size_t size) { sink_({static_cast<const char*>(data), size}); }
+  std::function<void(std::string_view)> sink_;
 };
 
 class ArchiveIn {
  public:
-  ArchiveIn(std::string_view bytes, std::string file) : bytes_(bytes), file_(std::move(file)) {}
+  // `size` bytes of a stream, from where it is.
+  ArchiveIn(std::istream& in, std::uint64_t size, std::string file) : in_(in), left_(size), file_(std::move(file)) {}
 
   template <class T>
   void operator()(T& value) {
@@ -102,7 +107,7 @@ class ArchiveIn {
   template <class T>
   void vector(std::string_view name, Cold<T>& values) {
     values.clear(head(name, sizeof(T)));
-    values.put(get(values.size() * sizeof(T)));
+    get_cold(values.data(), values.size() * sizeof(T));
   }
   template <class T>
   void vector(std::string_view name, std::vector<T>& values) {
@@ -117,9 +122,9 @@ class ArchiveIn {
   std::size_t head(std::string_view name, std::uint64_t size);  // the count
   void expect_head(std::string_view name, std::uint64_t size, std::uint64_t count);
   void get(void* data, std::size_t size);
-  const char* get(std::size_t size);  // where the next bytes are
-  std::string_view bytes_;
-  std::size_t at_ = 0;
+  void get_cold(void* zeros, std::size_t size);  // zeros are not written
+  std::istream& in_;
+  std::uint64_t left_;
   std::string file_;
 };
 

@@ -3,11 +3,10 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 
 #include "engine/base/hash.h"
 
@@ -17,7 +16,7 @@ namespace {
 // The file: this head, then the bytes, then FNV-1a of both.
 struct Head {
   char magic[8] = {'E', 'R', 'B', 'S', 'C', 'K', 'P', 'T'};
-  std::uint64_t format = 1;  // raised when the meaning of the bytes changes and their names and sizes do not
+  std::uint64_t format = 2;  // raised when the meaning of the bytes changes and their names and sizes do not
   std::uint64_t scene = 0;
   double dt = 0;
   std::uint64_t size = 0;
@@ -38,16 +37,47 @@ struct Descriptor {
   }
 };
 
-void write_synced(const std::string& path, const std::string& text) {
-  const Descriptor file{::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)};
-  if (file.fd < 0) fail(path, "cannot be written");
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t n = ::write(file.fd, text.data() + done, text.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) fail(path, "cannot be written");
-    done += std::size_t(n);
+// A file and the FNV-1a of what has been written to it.
+class SummedFile {
+ public:
+  explicit SummedFile(const std::string& path) : path_(path), file_{::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)} {
+    if (file_.fd < 0) fail(path, "cannot be written");
+    waiting_.reserve(most);
   }
-  if (::fsync(file.fd) != 0) fail(path, "cannot be written");
+  void write(std::string_view bytes) {
+    sum_ = fnv1a(bytes, sum_);
+    if (waiting_.size() + bytes.size() > most) flush();
+    if (bytes.size() < most) waiting_ += bytes;
+    else put(bytes);
+  }
+  std::uint64_t sum() const { return sum_; }
+  void sync() {
+    flush();
+    if (::fsync(file_.fd) != 0) fail(path_, "cannot be written");
+  }
+
+ private:
+  static constexpr std::size_t most = 1 << 16;
+  void flush() {
+    put(waiting_);
+    waiting_.clear();
+  }
+  void put(std::string_view bytes) {
+    while (!bytes.empty()) {
+      const ssize_t n = ::write(file_.fd, bytes.data(), bytes.size());
+      if (n < 0 && errno == EINTR) continue;
+      if (n <= 0) fail(path_, "cannot be written");
+      bytes.remove_prefix(std::size_t(n));
+    }
+  }
+  std::string path_, waiting_;
+  Descriptor file_;
+  std::uint64_t sum_ = fnv1a("");
+};
+
+template <class T>
+std::string_view bytes_of(const T& item) {
+  return {reinterpret_cast<const char*>(&item), sizeof item};
 }
 
 // Feeds numbers and words to FNV-1a; lengths too, so that "ab","c" differs from "a","bc".
@@ -84,19 +114,21 @@ std::uint64_t scene_hash(const Scene& scene, const std::string& script) {
 
 bool has_checkpoint(const std::string& dir) { return std::filesystem::is_regular_file(path_of(dir)); }
 
-void commit_checkpoint(const std::string& dir, const CheckpointKey& key, const std::string& bytes) {
+void commit_checkpoint(const std::string& dir, const CheckpointKey& key, const std::function<void(ArchiveOut&)>& parts) {
   Head head;
   head.scene = key.scene;
   head.dt = key.dt;
-  head.size = bytes.size();
-  std::string text(sizeof head, '\0');
-  std::memcpy(text.data(), &head, sizeof head);
-  text += bytes;
-  const std::uint64_t sum = fnv1a(text);
-  text.append(reinterpret_cast<const char*>(&sum), sizeof sum);
+  ArchiveOut counted([&](std::string_view bytes) { head.size += bytes.size(); });
+  parts(counted);
   const std::string path = path_of(dir), beside = path + ".tmp";
   try {
-    write_synced(beside, text);
+    SummedFile file(beside);
+    file.write(bytes_of(head));
+    ArchiveOut written([&](std::string_view bytes) { file.write(bytes); });
+    parts(written);
+    const std::uint64_t sum = file.sum();
+    file.write(bytes_of(sum));
+    file.sync();
     if (std::rename(beside.c_str(), path.c_str()) != 0) fail(path, "cannot be replaced");
   } catch (const Error&) {
     std::remove(beside.c_str());
@@ -107,30 +139,35 @@ void commit_checkpoint(const std::string& dir, const CheckpointKey& key, const s
   if (folder.fd >= 0) ::fsync(folder.fd);
 }
 
-std::string open_checkpoint(const std::string& dir, const CheckpointKey& key) {
+CheckpointBytes open_checkpoint(const std::string& dir, const CheckpointKey& key) {
   const std::string path = path_of(dir);
   const Place place{path, 0};
-  std::ifstream in(path, std::ios::binary);
+  CheckpointBytes out{std::ifstream(path, std::ios::binary | std::ios::ate), 0};
+  std::ifstream& in = out.in;
   if (!in) throw Error("there is no checkpoint to resume from; start anew with --force", place);
-  std::stringstream stream;
-  stream << in.rdbuf();
-  std::string text = stream.str();
+  const auto length = std::uint64_t(in.tellg());
+  in.seekg(0);
   Head head;
-  std::uint64_t sum = 0;
-  if (text.size() < sizeof head + sizeof sum || std::memcmp(text.data(), head.magic, sizeof head.magic) != 0)
+  const Head own;
+  std::uint64_t sum = 0, stored = 0;
+  if (length < sizeof head + sizeof sum || !in.read(reinterpret_cast<char*>(&head), sizeof head) ||
+      std::memcmp(head.magic, own.magic, sizeof head.magic) != 0)
     throw Error("is no checkpoint of erbs, or was cut short; start anew with --force", place);
-  const std::uint64_t format = head.format;
-  std::memcpy(&head, text.data(), sizeof head);
-  if (head.format != format)
+  if (head.format != own.format)
     throw Error(fmt::format("has format {}, this program reads {}; resume with the program that wrote it, or start anew with --force",
-                            head.format, format),
+                            head.format, own.format),
                 place);
-  const std::size_t whole = text.size() - sizeof sum;
-  if (head.size != whole - sizeof head)
-    throw Error(fmt::format("was cut short: {} bytes of {}; start anew with --force", text.size(), head.size + sizeof head + sizeof sum),
-                place);
-  std::memcpy(&sum, text.data() + whole, sizeof sum);
-  if (fnv1a({text.data(), whole}) != sum) throw Error("is damaged: its checksum does not hold; start anew with --force", place);
+  if (head.size != length - sizeof sum - sizeof head)
+    throw Error(fmt::format("was cut short: {} bytes of {}; start anew with --force", length, head.size + sizeof head + sizeof sum), place);
+  sum = fnv1a(bytes_of(head));
+  std::string piece(std::min<std::uint64_t>(head.size, 1 << 16), '\0');
+  for (std::uint64_t left = head.size; left > 0; left -= piece.size()) {
+    piece.resize(std::min<std::uint64_t>(left, piece.size()));
+    in.read(piece.data(), std::streamsize(piece.size()));
+    sum = fnv1a(piece, sum);
+  }
+  in.read(reinterpret_cast<char*>(&stored), sizeof stored);
+  if (!in || stored != sum) throw Error("is damaged: its checksum does not hold; start anew with --force", place);
   if (head.scene != key.scene)
     throw Error(
         "belongs to another scene: the script, a file it reads or a parameter (-D) has changed; resume with those of the run "
@@ -140,9 +177,9 @@ std::string open_checkpoint(const std::string& dir, const CheckpointKey& key) {
     throw Error(fmt::format("was written with dt = {} s, this run has dt = {} s; resume with the same, or start anew with --force", head.dt,
                             key.dt),
                 place);
-  text.erase(whole);
-  text.erase(0, sizeof head);
-  return text;
+  in.seekg(sizeof head);
+  out.size = head.size;
+  return out;
 }
 
 }  // namespace erbs

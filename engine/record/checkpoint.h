@@ -2,6 +2,8 @@
 // whole checkpoint; read back only for the same scene, parameters and step, and only if its checksum holds.
 #pragma once
 #include <cstdint>
+#include <fstream>
+#include <functional>
 #include <string>
 
 #include "engine/record/archive.h"
@@ -19,22 +21,26 @@ struct CheckpointKey {
 std::uint64_t scene_hash(const Scene& scene, const std::string& script);
 
 bool has_checkpoint(const std::string& dir);
-void commit_checkpoint(const std::string& dir, const CheckpointKey& key, const std::string& bytes);
-std::string open_checkpoint(const std::string& dir, const CheckpointKey& key);  // the bytes; Error with reason and remedy
+// `parts` gives its bytes to the archive, the same ones each time: they are counted first, then written. They never stand in memory.
+void commit_checkpoint(const std::string& dir, const CheckpointKey& key, const std::function<void(ArchiveOut&)>& parts);
+// A whole checkpoint whose bytes are `size` from where `in` is. Error with reason and remedy.
+struct CheckpointBytes {
+  std::ifstream in;
+  std::uint64_t size = 0;
+};
+CheckpointBytes open_checkpoint(const std::string& dir, const CheckpointKey& key);
 
 // Each part is a struct with an each() visitor: State, the contacts, WriterProgress, Collapse, ...; same parts in the same order
 // when read.
 template <class... Parts>
 void write_checkpoint(const std::string& dir, const CheckpointKey& key, const Parts&... parts) {
-  ArchiveOut out;
-  (visit_each(parts, out), ...);
-  commit_checkpoint(dir, key, out.bytes);
+  commit_checkpoint(dir, key, [&](ArchiveOut& out) { (visit_each(parts, out), ...); });
 }
 
 template <class... Parts>
 void read_checkpoint(const std::string& dir, const CheckpointKey& key, Parts&... parts) {
-  const std::string bytes = open_checkpoint(dir, key);
-  ArchiveIn in(bytes, dir + "/checkpoint.bin");
+  CheckpointBytes bytes = open_checkpoint(dir, key);
+  ArchiveIn in(bytes.in, bytes.size, dir + "/checkpoint.bin");
   (each(parts, in), ...);
   in.finish();
 }

@@ -1,6 +1,8 @@
 #include "engine/record/checkpoint.h"
 
+#include <sys/mman.h>
 #include <catch2/catch.hpp>
+
 #include <fstream>
 #include <sstream>
 
@@ -100,6 +102,26 @@ TEST_CASE("a checkpoint brings everything back", "[record][checkpoint]") {
   CHECK(again.word == "words");
   CHECK(again.parts[1].frames == 8);
   CHECK(state_hash(back, again) == state_hash(s, nested));
+}
+
+TEST_CASE("what is longer than the writer's pieces comes back, and zeros stay unwritten", "[record][checkpoint]") {
+  const test::Scratch scratch("long");
+  std::filesystem::create_directories(scratch.path);
+  State s = moved();
+  s.history.clear(300000);
+  s.history[123456].damage = 0.25;
+  s.history[299999].reach = 3;
+  s.place.assign(50001, 7);
+  write_checkpoint(scratch.path, {1, 1}, s);
+  State back;
+  read_checkpoint(scratch.path, {1, 1}, back);
+  unsigned char there[3] = {};  // pages in memory around an item that is zero
+  const auto page = reinterpret_cast<std::uintptr_t>(&back.history[60000]) / 4096 * 4096;
+  REQUIRE(mincore(reinterpret_cast<void*>(page), 3 * 4096, there) == 0);
+  CHECK((there[0] & 1) == 0);
+  CHECK(state_hash(back) == state_hash(s));
+  CHECK(back.place == s.place);
+  CHECK(back.history[299999].reach == 3);
 }
 
 TEST_CASE("a checkpoint of another scene or step, cut short or damaged, is refused", "[record][checkpoint]") {
