@@ -1,5 +1,7 @@
 // The program erbs: reads the command line, calls the verb, turns trouble into an exit code. The one door to CLI11.
 #include <CLI/CLI.hpp>
+#include <malloc.h>
+
 #include <algorithm>
 #include <cstdio>
 
@@ -200,6 +202,7 @@ int call(const CLI::App& app, CommandLine& line) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);  // large arrays go back to the system when they end, not into a heap of holes
   CommandLine line;
   CLI::App app("ERBS: collapse of masonry by rigid blocks and mortar springs", "erbs");
   app.require_subcommand(1);

@@ -7,6 +7,7 @@
 #include <limits>
 #include <lua5.4/lua.hpp>
 #include <sstream>
+#include <utility>
 
 #include "engine/base/words.h"
 #include "engine/model/build.h"
@@ -319,6 +320,7 @@ void Script::run(const std::string& text, const std::string& name, const Overrid
     if (!context.incomplete || context.limits.expired) add_messages(context.mistakes, error.what());
   }
   finish(whole && !context.incomplete);
+  lua_gc(lua_, LUA_GCCOLLECT, 0);  // what reading left; functions of metrics stay
 }
 
 // What is settled when the script has ended, and every mistake at once.
@@ -371,6 +373,13 @@ const std::vector<Study>& Script::studies() const { return context_->studies; }
 const std::vector<Figure>& Script::figures() const { return context_->figures; }
 
 const Scene& Script::scene() const { return context_->scene; }
+
+Scene Script::take_scene() {
+  std::vector<Block> blocks = std::exchange(context_->scene.blocks, {});
+  Scene scene = context_->scene;
+  scene.blocks = std::move(blocks);
+  return scene;
+}
 
 const std::vector<std::string>& Script::output() const { return context_->output; }
 

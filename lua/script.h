@@ -55,6 +55,7 @@ class Script {
   std::vector<MetricValue> evaluate_metrics(const RunResults& results);
 
   const Scene& scene() const;
+  Scene take_scene();  // scene() with its blocks, of which the script keeps none
   const std::vector<Study>& studies() const;
   const std::vector<Figure>& figures() const;
   const std::vector<std::string>& output() const;  // what it printed

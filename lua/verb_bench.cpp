@@ -47,10 +47,12 @@ Json measure(const std::string& path, const Options& options, double seconds) {
   Script::Options script_options;
   script_options.quiet = true;
   Script script(script_options);
-  const Scene scene = script.load(path, options.overrides);
+  script.load(path, options.overrides);
+  Scene scene = script.take_scene();
   Prepared run = prepare(scene, true);
   const Model& m = run.model;
   start_at_rest(scene, run, 1);
+  scene.blocks = std::vector<Block>();  // as a run does
   const bool mortared = m.njoint > 0 && !m.laws[z(m.joint.front().type->law)].dry;
   if (!mortared && m.njoint > 0) loosen(m, run.state);
   const double points = m.npoint;

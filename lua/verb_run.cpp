@@ -156,7 +156,7 @@ int default_threads(const Scene& scene) {
 }
 
 // The seam to the engine: one scene, one run folder.
-RunOutcome run_scene(const Scene& scene, const std::string& script, const std::vector<std::string>& notes, const std::string& directory,
+RunOutcome run_scene(Scene scene, const std::string& script, const std::vector<std::string>& notes, const std::string& directory,
                      const Options& options) {
   RunOptions run;
   run.directory = directory;
@@ -172,7 +172,7 @@ RunOutcome run_scene(const Scene& scene, const std::string& script, const std::v
   run.interrupted = &interrupted;
   ProgressPrinter printer(options.quiet, options.log_json);
   run.progress = [&](const Progress& now) { printer.show(now); };
-  return run_dynamic(scene, script, run);
+  return run_dynamic(std::move(scene), script, run);
 }
 
 // histories.svg and energy.svg; a run without them is a run all the same.
@@ -193,7 +193,8 @@ int verb_run(const Options& options) {
   script_options.study = options.study;
   script_options.noise = options.noise;
   Script script(script_options);
-  Scene scene = script.load(path, options.overrides);
+  script.load(path, options.overrides);
+  Scene scene = script.take_scene();
   for (const auto& effect : options.without) switch_off(scene, effect);
   std::vector<std::string> notes = script.output();
   for (const auto& note : depart(scene, options)) notes.push_back(note);
@@ -205,7 +206,7 @@ int verb_run(const Options& options) {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
   RunOutcome outcome;  // of a finished run whose studies alone go on: completed
-  if (!options.resume || !studies_left(script, directory)) outcome = run_scene(scene, text_of(path), notes, directory, options);
+  if (!options.resume || !studies_left(script, directory)) outcome = run_scene(std::move(scene), text_of(path), notes, directory, options);
   for (const auto& warning : outcome.warnings) fmt::print(stderr, "warning: {}\n", warning);
   if (!outcome.trouble.empty()) fmt::print(stderr, "{}: {}\n", path, outcome.trouble);
 
@@ -230,8 +231,8 @@ int verb_run(const Options& options) {
   if (whole && options.study.empty()) write_figures(script, directory, options.figures);
   for (const auto& trouble : studies.troubles) fmt::print(stderr, "{}\n", trouble);
   for (const auto& message : failures) fmt::print(stderr, "{}\n", message);
-  if (!options.quiet) print_summary(scene, directory, metrics, verdicts);
-  int code = exit_code(scene, options, outcome, metrics, verdicts);
+  if (!options.quiet) print_summary(script.scene(), directory, metrics, verdicts);
+  int code = exit_code(script.scene(), options, outcome, metrics, verdicts);
   if (code == exit_ok && !failures.empty()) code = exit_usage;
   if (options.video && status != "interrupted") {
     std::vector<std::string> words{directory, "--video"};

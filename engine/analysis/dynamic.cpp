@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "engine/analysis/prepare.h"
 #include "engine/analysis/trust.h"
@@ -48,7 +49,7 @@ constexpr long wrong_steps = 5000;  // that a run goes on with a ledger that has
 
 class Run {
  public:
-  Run(const Scene& scene, const std::string& script, const RunOptions& options);
+  Run(Scene scene, const std::string& script, const RunOptions& options);
   RunOutcome go();
 
  private:
@@ -66,7 +67,8 @@ class Run {
   bool diverges();
   Metrics metrics() const;
 
-  const Scene& scene_;
+  Scene scene_;
+  std::vector<Effect> effects_;
   const std::string& script_;
   const RunOptions& options_;
   double born_ = seconds(), setup_ = 0, solve_start_ = 0, record_ = 0, last_save_ = 0, last_progress_ = 0, started_at_ = 0;
@@ -84,7 +86,8 @@ class Run {
   long steps_at_start_ = 0;
 };
 
-Run::Run(const Scene& scene, const std::string& script, const RunOptions& options) : scene_(scene), script_(script), options_(options) {}
+Run::Run(Scene scene, const std::string& script, const RunOptions& options)
+    : scene_(std::move(scene)), effects_(effects_of(scene_)), script_(script), options_(options) {}
 
 void Run::begin() {
   check_run_folder(options_.directory, options_.existing);
@@ -107,10 +110,12 @@ void Run::begin() {
   manifest.dt_critical = run_.bounds.critical;
   manifest.dt_block_bound = run_.bounds.block;
   manifest.dt_rule = run_.dt_rule;
-  for (const Effect& e : effects_of(scene_))
+  for (const Effect& e : effects_)
     (e.on ? manifest.effects_on : manifest.effects_off).push_back(e.on ? e.name + " (" + e.because + ")" : e.name);
   create_run_folder(options_.directory, options_.existing, script_, manifest);
   writer_.emplace(options_.directory, scene_, run_.model, resume ? &written : nullptr);
+  scene_.blocks = std::vector<Block>();
+  return_free_memory();
   if (!resume)
     for (const std::string& note : options_.notes) writer_->log(note);
   for (const std::string& w : run_.model.warnings) writer_->log("warning: " + w);
@@ -123,6 +128,7 @@ void Run::begin() {
   }
   height_energy_ = weights > 0 ? moments - weights * low : 0;
   solver_.emplace(run_.model, run_.state, options_.threads);
+  return_free_memory();
   steps_at_start_ = run_.state.step;
   started_at_ = run_.state.t;
   setup_ = seconds() - born_;
@@ -141,16 +147,16 @@ bool Run::wanted(double t) {
 Snapshot Run::snapshot() const {
   const Instant& now = solver_->instant();
   const Model& m = run_.model;
-  Snapshot s{m, run_.state, now.t, {}, {}, {}, {}};
-  const double kick = now.excitation.kick, half = 0.5 * run_.state.last_dt;
-  for (int b = 0; b < m.nblock; ++b) {
-    const Vec3 a = (now.v_after[z(b)] - now.v_before[z(b)]) / kick, alpha = (now.w_after[z(b)] - now.w_before[z(b)]) / kick;
-    s.a.push_back(a);
-    s.alpha.push_back(alpha);
-    s.v.push_back(now.v_before[z(b)] + half * a);
-    s.w.push_back(now.w_before[z(b)] + half * alpha);
-    s.spin_momentum.push_back(now.spin_before[z(b)] + half / kick * (run_.state.spin_momentum[z(b)] - now.spin_before[z(b)]));
-  }
+  Snapshot s{.model = m, .state = run_.state, .t = now.t};
+  s.motion = [this, &now, kick = now.excitation.kick, half = 0.5 * run_.state.last_dt](std::size_t b) {
+    MovingBlock o;
+    o.a = (run_.state.v[b] - now.v_before[b]) / kick;
+    o.alpha = (run_.state.w[b] - now.w_before[b]) / kick;
+    o.v = now.v_before[b] + half * o.a;
+    o.w = now.w_before[b] + half * o.alpha;
+    o.spin_momentum = now.spin_before[b] + half / kick * (run_.state.spin_momentum[b] - now.spin_before[b]);
+    return o;
+  };
   for (const auto& g : m.grounds) {
     s.ground_a += value(g.wave, now.t) * g.direction;
     s.ground_v += integral(g.wave, now.t) * g.direction;
@@ -162,6 +168,7 @@ Snapshot Run::snapshot() const {
   if (needs.load_wrench)
     for (int b = 0; b < m.nblock; ++b) s.load_wrench.push_back(solver_->load_wrench(b));
   if (needs.joint_force) {
+    s.joint_force.reserve(z(m.njoint));
     for (int j = 0; j < m.njoint; ++j) {
       std::array<double, 6> f{};
       if (run_.state.tier[z(j)] == Tier::cracked) std::copy_n(run_.state.memory[z(j)].f, 6, f.begin());
@@ -315,7 +322,7 @@ Metrics Run::metrics() const {
   m.simulated_s = m.time_s - started_at_;
   m.point_updates = std::uint64_t(s.step - steps_at_start_) * std::uint64_t(run_.model.npoint);
   m.peak_memory_bytes = peak_memory_bytes();
-  for (const Effect& e : effects_of(scene_)) (e.on ? m.effects_on : m.effects_off).push_back(e.name);
+  for (const Effect& e : effects_) (e.on ? m.effects_on : m.effects_off).push_back(e.name);
   m.energy = energy_terms(s.energy);
   m.residual_relative = s.energy.residual_worst;
   m.momentum_residual = s.momentum_residual;
@@ -350,10 +357,11 @@ RunOutcome Run::go() {
   writer_->log(fmt::format("status {}; energy residual {:.3g} (gate {:.0e}), largest step {:.3g} J at t = {:.6g} s, {}", status,
                            e.residual_worst, gate(), e.largest_jump, e.largest_jump_time, where));
   if (!out_.trouble.empty()) writer_->log(out_.trouble);
-  if (status == "stopped" || status == "interrupted") save();
-  out_.metrics = metrics();
   if (solver_->touched() > 0)
     writer_->log(fmt::format("contact: {} forces of touching pairs in {} steps", solver_->touched(), run_.state.step - steps_at_start_));
+  if (status == "stopped" || status == "interrupted") save();
+  solver_.reset();
+  out_.metrics = metrics();
   writer_->log(trust_line(out_.metrics.trust));
   if (clock_.first_crack >= 0) writer_->log(fmt::format("first crack at t = {:.6g} s", clock_.first_crack));
   writer_->close();
@@ -363,8 +371,8 @@ RunOutcome Run::go() {
 
 }  // namespace
 
-RunOutcome run_dynamic(const Scene& scene, const std::string& script, const RunOptions& options) {
-  return Run(scene, script, options).go();
+RunOutcome run_dynamic(Scene scene, const std::string& script, const RunOptions& options) {
+  return Run(std::move(scene), script, options).go();
 }
 
 }  // namespace erbs

@@ -41,6 +41,7 @@ struct RunOutcome {
 };
 
 // Throws Error or Errors before anything is written; afterwards always leaves a whole run folder.
-RunOutcome run_dynamic(const Scene& scene, const std::string& script, const RunOptions& options);
+// The scene's blocks are let go once the model is made of them.
+RunOutcome run_dynamic(Scene scene, const std::string& script, const RunOptions& options);
 
 }  // namespace erbs

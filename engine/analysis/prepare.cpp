@@ -4,6 +4,7 @@
 
 #include "engine/base/random.h"
 #include "engine/base/units.h"
+#include "engine/record/metrics.h"
 #include "engine/solve/islands.h"
 #include "engine/solve/joint_geometry.h"
 #include "engine/solve/step.h"
@@ -175,6 +176,7 @@ void start_at_rest(const Scene& scene, Prepared& p, int threads) {
     ramp(scene, p, threads);
   }
   refresh_all(p.model, p.state);
+  return_free_memory();
 }
 
 void add_noise(Prepared& run, double reach, unsigned seed) {

@@ -1,5 +1,6 @@
-// Joints in lanes: which batch holds which joint. Sound joints lie in the order of their number; a joint that cracks moves to a
-// batch of joints that have cracked, one that is handed over to contact leaves its lane empty.
+// Joints in lanes: which batch holds which joint. Sound joints lie in the order of their number; what their batches hold follows from
+// the poses of the last refresh and is not kept in the State (sound_batch of joint_geometry.h makes one). A joint that cracks moves
+// to a batch of State::batch, one that is handed over to contact leaves its lane empty.
 #pragma once
 #include "engine/model/model.h"
 #include "engine/model/state.h"
@@ -8,8 +9,9 @@ namespace erbs {
 
 inline int sound_batches(const Model& model) { return (model.njoint + lanes - 1) / lanes; }
 
-void set_batches(const Model& model, State& state);  // every joint sound, in its place
-int add_empty_batch(const Model& model, State& state);  // its number
-void move_joint(const Model& model, State& state, int j, int lane);  // lane: batch * lanes + lane, or -1 to take it out for good
+void set_places(const Model& model, State& state);      // every joint sound, in its place
+int add_empty_batch(const Model& model, State& state);  // its index in State::batch
+void clear_lane(const Model& model, JointBatch& batch, int lane);
+void set_constants(const Model& model, int j, JointBatch& batch, int lane);  // all of joint j that no refresh changes
 
 }  // namespace erbs

@@ -192,7 +192,7 @@ State start(const Scene& scene, const Model& m) {
     const Mat3 r = s.q[z(b)].toRotationMatrix();
     s.spin_momentum[z(b)] = r * (m.inertia[z(b)] * (r.transpose() * i.spin));
   }
-  set_batches(m, s);
+  set_places(m, s);
   s.tier.assign(z(m.njoint), Tier::intact);
   s.memory.clear(z(m.njoint));
   s.history.clear(z(m.npoint));

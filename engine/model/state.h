@@ -63,8 +63,9 @@ struct State {
   std::vector<std::uint8_t> joined;    // has a joint that is not open
   std::vector<std::uint8_t> loose;     // may meet new neighbours
   // joints
-  std::vector<JointBatch> batch;       // sound joints first [ceil(njoint / lanes)], then those that have cracked (batches.h)
-  std::vector<int> place;              // lane of each joint: batch * lanes + lane, -1 once it is open [njoint]
+  std::vector<JointBatch> batch;       // of joints that have cracked (batches.h)
+  // lane of each joint: batch * lanes + lane, the batches of sound joints counted first; -1 once it is open [njoint]
+  std::vector<int> place;
   std::vector<Tier> tier;              // [njoint]
   Cold<JointMemory> memory;            // [njoint]
   Cold<PointHistory> history;          // [npoint]

@@ -61,17 +61,18 @@ struct BlockMotion {
   Vec3 of_block(const Snapshot& s, std::size_t b) const {
     const Vec3 rest_arm = has_point ? Vec3(point - s.model.rest[b]) : Vec3(Vec3::Zero());
     const Vec3 turned = turn_minus(s.state.q[b], rest_arm), arm = rest_arm + turned;
+    const MovingBlock m = what == What::displacement || what == What::rotation ? MovingBlock{} : s.motion(b);
     switch (what) {
       case What::displacement:
         return s.state.u[b] + turned + (absolute ? s.ground_u : Vec3(Vec3::Zero()));
       case What::velocity:
-        return s.v[b] + s.w[b].cross(arm) + (absolute ? s.ground_v : Vec3(Vec3::Zero()));
+        return m.v + m.w.cross(arm) + (absolute ? s.ground_v : Vec3(Vec3::Zero()));
       case What::acceleration:
-        return s.a[b] + s.alpha[b].cross(arm) + s.w[b].cross(s.w[b].cross(arm)) + (absolute ? s.ground_a : Vec3(Vec3::Zero()));
+        return m.a + m.alpha.cross(arm) + m.w.cross(m.w.cross(arm)) + (absolute ? s.ground_a : Vec3(Vec3::Zero()));
       case What::rotation:
         return rotation_vector(s.state.q[b]);
       case What::spin:
-        return s.w[b];
+        return m.w;
     }
     return Vec3::Zero();
   }

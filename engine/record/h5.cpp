@@ -34,6 +34,8 @@ hid_t type_of<std::uint8_t>() {
   return H5T_NATIVE_UINT8;
 }
 
+constexpr std::size_t most_cached = 1 << 18;  // bytes of a chunk that is kept while rows are added to it; longer rows fill theirs
+
 Handle property(hid_t kind) { return Handle(H5Pcreate(kind), H5Pclose); }
 Handle space(const Shape& dims, const hsize_t* most = nullptr) {
   return Handle(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), most), H5Sclose);
@@ -179,7 +181,9 @@ Rows<T>::Rows(const File& file, const std::string& name, std::vector<std::size_t
   H5Pset_chunk(how.id(), static_cast<int>(chunk.size()), chunk.data());
   H5Pset_shuffle(how.id());
   H5Pset_deflate(how.id(), 1);
-  set_ = Handle(H5Dcreate2(file.id(), name.c_str(), type_of<T>(), s.id(), H5P_DEFAULT, how.id(), H5P_DEFAULT), H5Dclose);
+  const Handle access = property(H5P_DATASET_ACCESS);
+  H5Pset_chunk_cache(access.id(), 521, most_cached, 1);
+  set_ = Handle(H5Dcreate2(file.id(), name.c_str(), type_of<T>(), s.id(), H5P_DEFAULT, how.id(), access.id()), H5Dclose);
   if (!set_.ok()) file.unwritable(name);
 }
 

@@ -1,5 +1,6 @@
 #include "engine/record/metrics.h"
 
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include "engine/model/state.h"
@@ -146,5 +147,7 @@ std::uint64_t peak_memory_bytes() {
   getrusage(RUSAGE_SELF, &usage);
   return std::uint64_t(usage.ru_maxrss) * 1024;  // Linux counts in KiB
 }
+
+void return_free_memory() { ::malloc_trim(0); }
 
 }  // namespace erbs

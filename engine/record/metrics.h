@@ -76,5 +76,6 @@ void write_metrics(const std::string& dir, const Metrics& metrics);  // DIR/metr
 Json read_metrics(const std::string& dir);
 
 std::uint64_t peak_memory_bytes();  // of this process so far
+void return_free_memory();          // to the system: what was needed for a while lies about in the heap
 
 }  // namespace erbs

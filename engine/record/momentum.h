@@ -40,8 +40,9 @@ struct Momentum {
     Vec3 sum = Vec3::Zero();
     for (const int i : blocks) {
       const auto b = std::size_t(i);
-      const Vec3 p = s.model.mass[b] * s.v[b];
-      sum += what == What::momentum ? p : Vec3(s.spin_momentum[b] + Vec3(s.model.rest[b] + s.state.u[b] - point).cross(p));
+      const MovingBlock m = s.motion(b);
+      const Vec3 p = s.model.mass[b] * m.v;
+      sum += what == What::momentum ? p : Vec3(m.spin_momentum + Vec3(s.model.rest[b] + s.state.u[b] - point).cross(p));
     }
     put_axes(sum, axis, out);
   }

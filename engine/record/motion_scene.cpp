@@ -84,21 +84,26 @@ void put_blocks(const h5::File& store, const MotionScene& scene) {
   store.put("/block_part_start", parts.start);
 }
 
+// One array at a time: there may be very many.
 void put_joints(const h5::File& store, const MotionScene& scene) {
-  std::vector<int> blocks;
-  std::vector<double> normal, thickness;
+  const auto put = [&](const char* name, std::size_t columns, auto item, const auto& append) {
+    std::vector<decltype(item)> items;
+    items.reserve(columns * scene.joints.size());
+    for (const MotionJoint& joint : scene.joints) append(joint, items);
+    store.put(name, items, columns);
+  };
+  put("/joint_blocks", 2, 0, [](const MotionJoint& joint, auto& out) { out.insert(out.end(), {joint.a, joint.b}); });
+  put("/joint_normal", 3, 0.0,
+      [](const MotionJoint& joint, auto& out) { out.insert(out.end(), joint.normal.data(), joint.normal.data() + 3); });
+  put("/joint_thickness", 1, 0.0, [](const MotionJoint& joint, auto& out) { out.push_back(joint.thickness); });
   Ragged<double> polygon;
+  std::size_t corners = 0;
+  for (const MotionJoint& joint : scene.joints) corners += joint.polygon.size();
+  polygon.items.reserve(3 * corners);
   for (const MotionJoint& joint : scene.joints) {
-    blocks.push_back(joint.a);
-    blocks.push_back(joint.b);
-    normal.insert(normal.end(), joint.normal.data(), joint.normal.data() + 3);
-    thickness.push_back(joint.thickness);
     for (const Vec3& p : joint.polygon) polygon.items.insert(polygon.items.end(), p.data(), p.data() + 3);
     polygon.end_list(3);
   }
-  store.put("/joint_blocks", blocks, 2);
-  store.put("/joint_normal", normal, 3);
-  store.put("/joint_thickness", thickness);
   store.put("/joint_polygon", polygon.items, 3);
   store.put("/joint_polygon_start", polygon.start);
 }

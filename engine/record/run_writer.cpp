@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <fstream>
-#include <map>
 
 #include "engine/record/metrics.h"
 #include "engine/record/run_folder.h"
@@ -43,6 +42,7 @@ MotionJoint joint_of(const Scene& scene, const Model& model, const Joint& joint)
   // Laws are compiled one per joint rule; a dry joint has no mortar to draw.
   if (!model.laws[std::size_t(joint.type->law)].dry && std::size_t(joint.type->rule) < scene.joint_rules.size())
     drawn.thickness = scene.joint_rules[std::size_t(joint.type->rule)].thickness;
+  drawn.polygon.reserve(std::size_t(joint.type->corners));
   for (int i = joint.type->first_corner; i < joint.type->first_corner + joint.type->corners; ++i) {
     const Eigen::Vector2d& corner = model.corner[std::size_t(i)];
     drawn.polygon.push_back(joint.arm_a + joint.type->frame.col(0) * corner.x() + joint.type->frame.col(1) * corner.y());
@@ -54,13 +54,13 @@ MotionJoint joint_of(const Scene& scene, const Model& model, const Joint& joint)
 
 MotionScene motion_scene(const Scene& scene, const Model& model) {
   MotionScene drawn;
-  std::map<std::string, std::string> group;
-  for (const Block& block : scene.blocks) group[block.name] = block.group;
+  drawn.blocks.reserve(model.block_name.size());
+  drawn.joints.reserve(model.joint.size());
   for (int i = 0; i < model.nblock; ++i) {
     const auto b = std::size_t(i);
     MotionBlock block;
     block.name = model.block_name[b];
-    block.group = group[block.name];
+    block.group = scene.blocks[b].group;
     block.material = model.material[b];
     block.fixed = model.kind[b] == Kind::fixed;
     block.rest = model.rest[b];

@@ -2,6 +2,8 @@
 // half steps of the scheme meet.
 #pragma once
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "engine/model/model.h"
@@ -14,14 +16,18 @@ struct Needs {
   bool block_wrench = false, load_wrench = false, joint_force = false;
 };
 
+// Of one block at t, relative to the ground, world axes.
+struct MovingBlock {
+  Vec3 v = Vec3::Zero(), w = Vec3::Zero();      // m/s, rad/s
+  Vec3 a = Vec3::Zero(), alpha = Vec3::Zero();  // m/s2, rad/s2
+  Vec3 spin_momentum = Vec3::Zero();            // kg m2/s, about its centroid
+};
+
 struct Snapshot {
   const Model& model;
   const State& state;
-  double t = 0;  // s
-  // motion relative to the ground, world axes                                               [nblock]
-  std::vector<Vec3> v = {}, w = {};                                                // m/s, rad/s
-  std::vector<Vec3> a = {}, alpha = {};                                            // m/s2, rad/s2
-  std::vector<Vec3> spin_momentum = {};                                            // kg m2/s, about each centroid
+  double t = 0;                                                                    // s
+  std::function<MovingBlock(std::size_t block)> motion = {};                       // worked out where a recorder asks
   Vec3 ground_a = Vec3::Zero(), ground_v = Vec3::Zero(), ground_u = Vec3::Zero();  // m/s2, m/s, m, of the ground
   int contact_points = 0;                                                          // that touch: of joints and of contacts
   // only where needed

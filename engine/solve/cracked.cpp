@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/model/batches.h"
+#include "engine/solve/joint_geometry.h"
 
 namespace erbs {
 namespace {
@@ -24,7 +25,7 @@ bool Cracked::Group::empty() const {
 Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state) {
   const int sound = sound_batches(model);
   // Batches that a stopped run left: the same joint in the same lane, so that sums go on in the same order.
-  for (int k = sound; k < int(state.batch.size()); ++k) {
+  for (int k = 0; k < int(state.batch.size()); ++k) {
     group_.push_back({});
     group_.back().law = -1, group_.back().batch = k;
     std::fill_n(group_.back().joint, lanes, -1);
@@ -139,13 +140,17 @@ void Cracked::take(int j) {
   const int at = find_lane(joint);
   Group& group = group_[z(at / lanes)];
   fill(group, at % lanes, j);
-  move_joint(model_, state_, j, group.batch * lanes + at % lanes);
+  state_.place[z(j)] = (sound_batches(model_) + group.batch) * lanes + at % lanes;
+  set_lane(model_, state_, j, state_.batch[z(group.batch)], at % lanes);
 }
 
 void Cracked::drop(int j) {
   const int at = state_.place[z(j)] - sound_batches(model_) * lanes;
-  if (at >= 0) clear(group_[z(at / lanes)], at % lanes);
-  if (state_.place[z(j)] >= 0) move_joint(model_, state_, j, -1);
+  if (at >= 0) {
+    clear(group_[z(at / lanes)], at % lanes);
+    clear_lane(model_, state_.batch[z(at / lanes)], at % lanes);
+  }
+  state_.place[z(j)] = -1;
   state_.memory[z(j)] = JointMemory{};
   if (model_.dashpots_cracked) std::fill_n(&state_.viscous[6 * z(j)], 6, 0.0);
   for (const int row : {model_.row_a[z(j)], model_.row_b[z(j)]}) std::fill_n(&state_.wrench[z(row) * 8], 8, 0.0);

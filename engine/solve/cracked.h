@@ -25,7 +25,7 @@ class Cracked {
  private:
   struct Group {
     int law, points, corners;
-    int batch;                    // of State::batch
+    int batch;                    // in State::batch
     int joint[lanes];             // -1: empty
     CrushedFace* crushed[lanes];  // null without a plateau
     const double* face_corner[lanes];

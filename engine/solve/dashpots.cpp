@@ -39,8 +39,7 @@ void add_dashpots(const Model& m, State& s, int j, const Mat3& frame, const Vec3
   book_dashpots(s, j, f, dq, sums);
 }
 
-void add_dashpots(const Model& m, State& s, int k, JointLanes& o, JointSums& sums) {
-  const JointBatch& B = s.batch[z(k)];
+void add_dashpots(const Model& m, State& s, int k, const JointBatch& B, JointLanes& o, JointSums& sums) {
   for (int l = 0; l < lanes && k * lanes + l < m.njoint; ++l) {
     const int j = k * lanes + l;
     if (s.place[z(j)] != j || s.tier[z(j)] != Tier::intact) continue;

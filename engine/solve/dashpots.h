@@ -6,8 +6,8 @@
 
 namespace erbs {
 
-// Adds those of the sound joints of batch k to their resultants.
-void add_dashpots(const Model& model, State& state, int k, JointLanes& io, JointSums& sums);
+// Adds those of the sound joints of batch k, `batch`, to their resultants.
+void add_dashpots(const Model& model, State& state, int k, const JointBatch& batch, JointLanes& io, JointSums& sums);
 
 // The same for one sound joint with its frame and arms as they stand (world axes). `force` is its resultant: a dry joint is not
 // pulled on, and no joint is sheared past its strength.

@@ -2,10 +2,22 @@
 
 #include <numeric>
 
+#include "engine/model/batches.h"
+
 namespace erbs {
 namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
+
+void set_geometry(const Model& m, const State& s, int j, JointBatch& batch, int l) {
+  const Joint& joint = m.joint[z(j)];
+  const std::size_t a = z(joint.a), b = z(joint.b);
+  const JointPose p = pose_of(joint, s.base_u[a], s.base_q[a], s.base_u[b], s.base_q[b]);
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < 3; ++i) batch.frame[axis * 3 + i][l] = p.frame(i, axis);
+  for (int i = 0; i < 3; ++i) batch.sum[i][l] = p.sum[i], batch.apart[i][l] = p.apart[i];
+  for (int i = 0; i < 6; ++i) batch.q[i][l] = p.q[i];
+}
 
 }  // namespace
 
@@ -22,17 +34,24 @@ void refresh(const Model& m, State& s, const std::vector<int>& blocks, const std
     s.base_q[z(b)] = s.q[z(b)];
     set_row(s, b);
   }
-  for (const int j : joints) {
-    if (s.place[z(j)] < 0) continue;
-    const std::size_t a = z(m.joint[z(j)].a), b = z(m.joint[z(j)].b);
-    const JointPose p = pose_of(m.joint[z(j)], s.base_u[a], s.base_q[a], s.base_u[b], s.base_q[b]);
-    JointBatch& batch = s.batch[z(s.place[z(j)] / lanes)];
-    const int l = s.place[z(j)] % lanes;
-    for (int axis = 0; axis < 3; ++axis)
-      for (int i = 0; i < 3; ++i) batch.frame[axis * 3 + i][l] = p.frame(i, axis);
-    for (int i = 0; i < 3; ++i) batch.sum[i][l] = p.sum[i], batch.apart[i][l] = p.apart[i];
-    for (int i = 0; i < 6; ++i) batch.q[i][l] = p.q[i];
+  const int sound = sound_batches(m);
+  for (const int j : joints)
+    if (const int at = s.place[z(j)] - sound * lanes; at >= 0) set_geometry(m, s, j, s.batch[z(at / lanes)], at % lanes);
+}
+
+void set_lane(const Model& m, const State& s, int j, JointBatch& batch, int l) {
+  set_constants(m, j, batch, l);
+  set_geometry(m, s, j, batch, l);
+}
+
+JointBatch sound_batch(const Model& m, const State& s, int k) {
+  JointBatch batch{};
+  for (int l = 0; l < lanes; ++l) {
+    const int j = k * lanes + l;
+    if (j < m.njoint && s.place[z(j)] == j) set_lane(m, s, j, batch, l);
+    else clear_lane(m, batch, l);
   }
+  return batch;
 }
 
 void refresh_all(const Model& m, State& s) {

@@ -59,6 +59,10 @@ void refresh(const Model& model, State& state, const std::vector<int>& blocks, c
 // State::row of block b from its pose.
 void set_row(State& state, int b);
 void refresh_all(const Model& model, State& state);
+// Joint j as lane `lane` of `batch`, with its geometry at the last refresh of its blocks.
+void set_lane(const Model& model, const State& state, int j, JointBatch& batch, int lane);
+// The joints of batch k that are still in their place; the other lanes are empty.
+JointBatch sound_batch(const Model& model, const State& state, int k);
 
 // The relative displacement of joint j as the step sees it: carried since the refresh.
 void joint_q(const Model& model, const State& state, int j, double q[6]);

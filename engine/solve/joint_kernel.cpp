@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/solve/dashpots.h"
+#include "engine/solve/joint_geometry.h"
 #include "engine/solve/lanes.h"
 
 namespace erbs {
@@ -11,12 +12,13 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// q of lane l one step ago, for the joint that cracks now: the same pass with the rows of its blocks taken back by dt.
-void before(const State& s, const JointBatch& B, int l, double q[6], double f[6]) {
-  JointBatch one = B;
+// q of sound joint j one step ago, for one that cracks now: the same pass with the rows of its blocks taken back by dt.
+void before(const Model& m, const State& s, int j, double q[6], double f[6]) {
+  JointBatch one{};
+  set_lane(m, s, j, one, 0);
   alignas(64) double rows[2 * 8];
   for (int end = 0; end < 2; ++end) {
-    const int b = end == 0 ? B.a[l] : B.b[l];
+    const int b = end == 0 ? one.a[0] : one.b[0];
     for (int i = 0; i < 3; ++i) {
       rows[8 * end + i] = s.row[z(b) * 8 + z(i)] - s.last_dt * s.v[z(b)][i];
       rows[8 * end + 3 + i] = s.row[z(b) * 8 + 3 + z(i)] - s.last_dt * s.w[z(b)][i];
@@ -25,7 +27,7 @@ void before(const State& s, const JointBatch& B, int l, double q[6], double f[6]
   for (int k = 0; k < lanes; ++k) one.a[k] = 0, one.b[k] = 1;
   JointLanes o;
   lane_kernels().elastic(one, rows, o);
-  for (int i = 0; i < 6; ++i) q[i] = o.q[i][l], f[i] = o.f[i][l];
+  for (int i = 0; i < 6; ++i) q[i] = o.q[i][0], f[i] = o.f[i][0];
 }
 
 }  // namespace
@@ -34,7 +36,7 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
   const bool sound = s.tier[z(j)] == Tier::intact;
   JointMemory& memory = s.memory[z(j)];
   if (sound) {
-    before(s, s.batch[z(j / lanes)], j % lanes, memory.q, memory.f);
+    before(m, s, j, memory.q, memory.f);
     memory.elastic = 0;
     for (int i = 0; i < 6; ++i) memory.elastic += 0.5 * memory.f[i] * memory.q[i];
   }
@@ -88,12 +90,12 @@ static double stored(const Model& m, const State& s, int k, const JointLanes& o)
   return sum;
 }
 
-void joint_forces(const Model& m, State& s, int first, int last, bool sample, JointSums& sums) {
+void joint_forces(const Model& m, State& s, const std::vector<JointBatch>& batch, int first, int last, bool sample, JointSums& sums) {
   JointLanes o;
   const LaneKernels& kernels = lane_kernels();
   if (sample) sums.energy.elastic = 0;
   for (int k = first; k < last; ++k) {
-    const JointBatch& B = s.batch[z(k)];
+    const JointBatch& B = batch[z(k)];
     if (std::all_of(B.row_a, B.row_a + lanes, [&](int row) { return row == 2 * m.njoint; })) continue;  // all have cracked
     kernels.elastic(B, s.row.data(), o);
     unsigned near = 0;
@@ -106,7 +108,7 @@ void joint_forces(const Model& m, State& s, int first, int last, bool sample, Jo
       for (int i = 0; i < 6; ++i) o.f[i][l] = f[i];
     }
     if (sample) sums.energy.elastic += stored(m, s, k, o);
-    if (m.dashpots) add_dashpots(m, s, k, o, sums);
+    if (m.dashpots) add_dashpots(m, s, k, B, o, sums);
     kernels.wrenches(B, o, s.wrench.data());
   }
 }

@@ -1,5 +1,7 @@
 // What all joints have in common, sound (sound.h) or cracked (cracked.h): their account, and one of them point by point.
 #pragma once
+#include <vector>
+
 #include "engine/model/model.h"
 #include "engine/model/state.h"
 #include "engine/solve/joint_response.h"
@@ -18,8 +20,9 @@ struct JointSums {
 void joint_by_points(const Model& model, State& state, int j, const double q[6], double f[6], JointSums& sums);
 
 inline constexpr int batch_grain = 8;  // batches, or joints of the reference, to a chunk
-// Sound joints with dashpots: writes the wrench rows of batches [first, last), as sound.h does without.
-void joint_forces(const Model& model, State& state, int first, int last, bool sample, JointSums& sums);
+// Sound joints with dashpots: writes the wrench rows of batches [first, last) of `batch`, as sound.h does without.
+void joint_forces(const Model& model, State& state, const std::vector<JointBatch>& batch, int first, int last, bool sample,
+                  JointSums& sums);
 
 // A joint whose faces have moved so far that its fixed overlap polygon no longer tells the truth: slip of 1 % of its side (that much
 // of the polygon is wrong), a turn of 0.03 (the gap of a turned face, 2 sin(turn / 2) for turn, errs by turn^3 / 24 of the side,

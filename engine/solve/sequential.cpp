@@ -59,10 +59,12 @@ void write_wrench(const Model& m, State& s, int j, const JointPose& pose, const 
 bool open(const State& s, int j) { return s.tier[z(j)] == Tier::open; }
 
 // The bound of lanes.inc that keeps a joint sound, for one of them.
-bool near_limits(const JointBatch& B, int l, const double q[6]) {
-  const double bend = std::fabs(q[3]) * B.half_t[l] + std::fabs(q[4]) * B.half_s[l], opening = q[2] + bend;
-  const double slip = std::hypot(q[0], q[1]) + std::fabs(q[5]) * B.radius[l];
-  return opening > B.open_limit[l] || bend - q[2] > B.close_limit[l] || slip + B.slip_slope[l] * opening > B.slip_limit[l];
+bool near_limits(const Model& m, int j, const double q[6]) {
+  JointBatch B;
+  set_constants(m, j, B, 0);
+  const double bend = std::fabs(q[3]) * B.half_t[0] + std::fabs(q[4]) * B.half_s[0], opening = q[2] + bend;
+  const double slip = std::hypot(q[0], q[1]) + std::fabs(q[5]) * B.radius[0];
+  return opening > B.open_limit[0] || bend - q[2] > B.close_limit[0] || slip + B.slip_slope[0] * opening > B.slip_limit[0];
 }
 
 }  // namespace
@@ -150,9 +152,13 @@ void Sequential::deal_order() {
 }
 
 void Sequential::update(const std::vector<int>& joints) {
-  for (const int j : joints)
+  JointBatch one;
+  for (const int j : joints) {
+    if (lane_[z(j)].of_a < 0 && lane_[z(j)].of_b < 0) continue;
+    set_lane(model_, state_, j, one, 0);
     for (const int lane : {lane_[z(j)].of_a, lane_[z(j)].of_b})
-      if (lane >= 0) set_sound_lane(state_.batch[z(j / lanes)], j % lanes, batch_[z(lane / lanes)], lane % lanes);
+      if (lane >= 0) set_sound_lane(one, 0, batch_[z(lane / lanes)], lane % lanes);
+  }
 }
 
 // Joint j is no longer sound: it leaves the lanes of its blocks.
@@ -199,7 +205,7 @@ void Sequential::look_closer(int batch, int b, double moved, JointSums& sums) {
   State& s = state_;
   for (int l = 0; l < lanes; ++l) {
     const int j = joint_[z(batch * lanes + l)];
-    if (j < 0 || !near_limits(s.batch[z(j / lanes)], j % lanes, joint_pose(model_, s, j).q)) continue;
+    if (j < 0 || !near_limits(model_, j, joint_pose(model_, s, j).q)) continue;
     const Vec3 u = s.u[z(b)];
     const Quat q = s.q[z(b)];
     s.u[z(b)] = Vec3(u - moved * Vec3(s.v[z(b)]));
@@ -274,7 +280,7 @@ void Sequential::predict(int b) {
   for (int i = 0; i < near; ++i)
     for (int l = 0; l < lanes; ++l) {
       const int j = joint_[z(near_[z(i)] * lanes + l)];
-      if (j >= 0 && near_limits(s.batch[z(j / lanes)], j % lanes, joint_pose(model_, s, j).q)) try_out(j);
+      if (j >= 0 && near_limits(model_, j, joint_pose(model_, s, j).q)) try_out(j);
     }
   s.u[z(b)] = u;
   s.q[z(b)] = q;
@@ -286,7 +292,7 @@ double Sequential::stored() const {
   JointLanes o;
   double sum = 0;
   for (int k = 0; k < sound_batches(model_); ++k) {
-    lane_kernels().elastic(state_.batch[z(k)], state_.row.data(), o);
+    lane_kernels().elastic(sound_batch(model_, state_, k), state_.row.data(), o);
     for (int j = k * lanes; j < std::min((k + 1) * lanes, model_.njoint); ++j)
       if (state_.tier[z(j)] == Tier::intact && !plain_)
         for (int i = 0; i < 6; ++i) sum += 0.5 * o.f[i][j % lanes] * o.q[i][j % lanes];

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "engine/model/batches.h"
+#include "engine/solve/joint_geometry.h"
 
 namespace erbs {
 namespace {
@@ -65,27 +66,41 @@ void clear_sound_lane(const Model& m, SoundBatch& out, int lane) {
   out.row_a[lane] = out.row_b[lane] = 8 * 2 * m.njoint;
 }
 
-Sound::Sound(const Model& model, State& state) : model_(model), state_(state), batch_(z(sound_batches(model))) { update(); }
-
-void Sound::update() {
-  for (std::size_t k = 0; k < batch_.size(); ++k) fill(state_.batch[k], 2 * model_.njoint, batch_[k]);
+Sound::Sound(const Model& model, State& state) : model_(model), state_(state) {
+  if (model.analysis.kernel == "reference" || model.analysis.solver == "sequential") return;  // have their own
+  const int count = sound_batches(model);
+  if (model.dashpots) damped_.resize(z(count));
+  else batch_.resize(z(count));
+  for (int k = 0; k < count; ++k) {
+    const JointBatch batch = sound_batch(model, state, k);
+    if (model.dashpots) damped_[z(k)] = batch;
+    else fill(batch, 2 * model.njoint, batch_[z(k)]);
+  }
 }
 
 void Sound::update(const std::vector<int>& joints) {
-  int last = -1;
+  JointBatch one;
   for (const int j : joints) {
-    const int k = j / lanes;
-    if (k == last || state_.place[z(j)] != j) continue;
-    fill(state_.batch[z(k)], 2 * model_.njoint, batch_[z(k)]);
-    last = k;
+    if (state_.place[z(j)] != j) continue;
+    if (!damped_.empty()) set_lane(model_, state_, j, damped_[z(j / lanes)], j % lanes);
+    if (batch_.empty()) continue;
+    set_lane(model_, state_, j, one, 0);
+    set_sound_lane(one, 0, batch_[z(j / lanes)], j % lanes);
   }
+}
+
+void Sound::leave(int j) {
+  if (!damped_.empty()) clear_lane(model_, damped_[z(j / lanes)], j % lanes);
+  if (batch_.empty()) return;
+  clear_sound_lane(model_, batch_[z(j / lanes)], j % lanes);
+  --batch_[z(j / lanes)].used;
 }
 
 // A joint that may be past a limit. What it answers is changed only where it cracks.
 void Sound::look_closer(int k, bool sample, JointSums& sums) {
   JointLanes o;
   const LaneKernels& kernels = lane_kernels();
-  const JointBatch& B = state_.batch[z(k)];
+  const JointBatch B = sound_batch(model_, state_, k);
   kernels.elastic(B, state_.row.data(), o);
   bool changed = false;
   for (int l = 0; l < lanes; ++l) {

@@ -32,12 +32,11 @@ Solver::Solver(const Model& model, State& state, int threads)
       joint_items_(model.analysis.solver == "sequential" ? 0
                    : reference_                          ? model.njoint
                                                          : sound_batches(model)),
-      sound_(model, state),
       cracked_(model, state),
+      sound_(model, state),
       debris_(model, state, threads) {
   if (state.dt_goal == 0) state.dt_goal = state.dt;
   any_cracked_ = std::any_of(state.tier.begin(), state.tier.end(), [](Tier t) { return t == Tier::cracked; });
-  sound_.update();  // of what the cracked ones have taken in
   constants_ = block_constants(model, state);
   if (!model.pushes.empty()) load_.assign(constants_.size() * lanes, 0.0);
   for (const auto& p : model.pushes)
@@ -157,7 +156,7 @@ void Solver::joints(int thread) {
       const int last = std::min(first + batch_grain, mine.last);
       JointSums& sums = joint_sums_[z(first / batch_grain)];
       if (reference_) reference_forces(model_, state_, first, last, sample_ != Sample::none, sums);
-      else joint_forces(model_, state_, first, last, sample_ != Sample::none, sums);
+      else joint_forces(model_, state_, sound_.damped(), first, last, sample_ != Sample::none, sums);
     }
   const Range broken = share_of(cracked_.groups(), Cracked::grain, thread, threads_);
   for (int first = broken.first; first < broken.last; first += Cracked::grain)
@@ -267,8 +266,6 @@ void Solver::finish(const Hooks& hooks) {
   }
   debris_.book_hand_over();
   if (sample_ == Sample::full) {
-    instant_.v_after = s.v;
-    instant_.w_after = s.w;
     std::swap(instant_.u, s.u);
     std::swap(instant_.q, s.q);
     if (sequential_) std::swap(sequential_->wrench_before(), s.wrench);
@@ -315,11 +312,10 @@ void Solver::note_cracks() {
   for (int j = 0; j < model_.njoint; ++j) {
     if (tier_before_[z(j)] == state_.tier[z(j)]) continue;
     if (tier_before_[z(j)] == Tier::intact) newly_cracked_.push_back(j);
-    if (!reference_ && state_.tier[z(j)] == Tier::cracked) cracked_.take(j);
+    if (!reference_ && state_.tier[z(j)] == Tier::cracked) cracked_.take(j), sound_.leave(j);
     tier_before_[z(j)] = state_.tier[z(j)];
   }
   cracked_sums_.resize(z(chunks(cracked_.groups(), Cracked::grain)));
-  if (!reference_) sound_.update();
 }
 
 void Solver::settle_ledger() {

@@ -19,10 +19,10 @@ namespace erbs {
 // The instant at which a sample is taken: everything at time t.
 struct Instant {
   double t = 0;
-  Excitation excitation;                           // means over the kick about t
-  BlockVec3 v_before, v_after, w_before, w_after;  // m/s, rad/s, half a step before and after t [nblock]
-  BlockVec3 spin_before;  // kg m2/s, State::spin_momentum half a step before t; after it: in the state [nblock + 1]
-  BlockVec3 u;            // m, poses at t while the state has drifted on; swapped with it during sampled()
+  Excitation excitation;  // means over the kick about t
+  // Velocities and spin momenta half a step before t; those half a step after it are in the state during sampled().  [nblock + 1]
+  BlockVec3 v_before, w_before, spin_before;  // m/s, rad/s, kg m2/s
+  BlockVec3 u;                                // m, poses at t while the state has drifted on; swapped with it during sampled()
   BlockQuat q;
 };
 
@@ -81,8 +81,8 @@ class Solver {
   std::vector<JointSums> joint_sums_, cracked_sums_;  // per chunk
   std::vector<BlockSums> block_sums_;
   std::vector<int> newly_cracked_, opened_, leaving_;
-  Sound sound_;
   Cracked cracked_;
+  Sound sound_;  // what the cracked ones have left
   Debris debris_;
   std::optional<Sequential> sequential_;  // in place of joints and blocks
   bool any_cracked_ = false;

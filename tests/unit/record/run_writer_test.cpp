@@ -36,7 +36,7 @@ void step(RunWriter& writer, test::TwoBricks& t, int i) {
   t.state.energy.friction = i;
   Snapshot s{.model = t.model, .state = t.state};
   s.t = 0.01 * i;
-  s.v = s.w = s.a = s.alpha = std::vector<Vec3>(3, Vec3::Zero());
+  s.motion = [](std::size_t) { return MovingBlock{}; };
   writer.row(s);
   if (i % 10 == 0) writer.frame(s);
   if (i % 3 == 0) writer.event(s.t, "crack", "base | top", 0.1 * i, "mm");
