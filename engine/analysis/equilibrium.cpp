@@ -3,96 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/solve/joint_geometry.h"
-#include "engine/solve/joint_response.h"
-#include "engine/solve/stiffness.h"
+#include "engine/analysis/newton.h"
+#include "engine/base/error.h"
 
 namespace erbs {
 namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
-
-struct Trial {
-  Cold<JointMemory> memory;  // of those that are not sound
-  Cold<PointHistory> history;
-  Cold<CrushedFace> crushed;
-  std::vector<std::uint8_t> sound;
-};
-
-// Internal forces at the present pose, joints answering from the history of `s` to where they are now.
-VecX internal_force(const Model& m, const State& s, const Freedom& f, Trial& trial) {
-  VecX out = VecX::Zero(f.count);
-  trial.history = s.history;
-  trial.crushed = s.crushed;
-  for (int j = 0; j < m.njoint; ++j) {
-    if (s.tier[z(j)] == Tier::open) continue;
-    const Joint& joint = m.joint[z(j)];
-    const JointPose pose = joint_pose(m, s, j);
-    JointEnergy e;
-    JointMemory now;
-    const bool sound = s.tier[z(j)] == Tier::intact;
-    const double rest[6] = {};
-    const JointPast past(&trial.history[z(joint.first_point)], s.crushed.empty() ? nullptr : &trial.crushed[z(j)]);
-    trial.sound[z(j)] = respond(m, j, sound, sound ? rest : s.memory[z(j)].q, pose.q, past, now.f, e);
-    std::copy(pose.q, pose.q + 6, now.q);
-    now.elastic = e.elastic;
-    if (!trial.sound[z(j)]) trial.memory[z(j)] = now;
-    const JointMap map = joint_map(m, s, j);
-    const Vec6 resultant = Eigen::Map<const Vec6>(now.f);
-    if (const int a = f.first[z(joint.a)]; a >= 0) out.segment<6>(a) += map.a.transpose() * resultant;
-    if (const int b = f.first[z(joint.b)]; b >= 0) out.segment<6>(b) += map.b.transpose() * resultant;
-  }
-  return out;
-}
-
-// Tangent of a joint that is no longer sound, by central differences of its law over a small part of what it has moved, so that
-// the difference sees the branch it is on. Not symmetric: friction follows the pressure, and Newton's method without that part
-// goes round in circles on walls that lean. A floor keeps an open joint from vanishing.
-Mat6 tangent(const Model& m, const State& s, int j, const Trial& trial) {
-  const Joint& joint = m.joint[z(j)];
-  const double* at = trial.memory[z(j)].q;
-  Mat6 k;
-  std::vector<PointHistory> history(z(joint.type->points));
-  const double moved = std::max(Vec3(at[0], at[1], at[2]).norm(), joint.type->radius * Vec3(at[3], at[4], at[5]).norm());
-  const double step = std::max(1e-5 * moved, 1e-14);
-  const bool sound = s.tier[z(j)] == Tier::intact;
-  const double rest[6] = {};
-  for (int c = 0; c < 6; ++c) {
-    double f[2][6];
-    const double h = c < 3 ? step : step / joint.type->radius;
-    for (int side = 0; side < 2; ++side) {
-      double q[6];
-      std::copy(at, at + 6, q);
-      q[c] += side == 0 ? -h : h;
-      std::copy_n(&s.history[z(joint.first_point)], joint.type->points, history.begin());
-      CrushedFace crushed = s.crushed.empty() ? CrushedFace{} : s.crushed[z(j)];
-      JointEnergy e;
-      respond(m, j, sound, sound ? rest : s.memory[z(j)].q, q, {history.data(), s.crushed.empty() ? nullptr : &crushed}, f[side], e);
-    }
-    for (int r = 0; r < 6; ++r) k(r, c) = (f[1][r] - f[0][r]) / (2 * h);
-  }
-  for (int i = 0; i < 6; ++i) k(i, i) += 1e-7 * joint.type->stiffness[i];
-  return k;
-}
-
-void add_changes(const Model& m, const State& s, const Freedom& f, const Trial& trial, Triplets& entries) {
-  for (int j = 0; j < m.njoint; ++j) {
-    if (s.tier[z(j)] == Tier::open || trial.sound[z(j)]) continue;
-    const Joint& joint = m.joint[z(j)];
-    const JointMap map = joint_map(m, s, j);
-    Mat6 change = tangent(m, s, j, trial);
-    for (int i = 0; i < 6; ++i) change(i, i) -= joint.type->stiffness[i];
-    const int end[2] = {f.first[z(joint.a)], f.first[z(joint.b)]};
-    const Mat6* side[2] = {&map.a, &map.b};
-    for (int p = 0; p < 2; ++p)
-      for (int q = 0; q < 2; ++q) {
-        if (end[p] < 0 || end[q] < 0) continue;
-        const Mat6 block = side[p]->transpose() * change * *side[q];
-        for (int r = 0; r < 6; ++r)
-          for (int c = 0; c < 6; ++c) entries.emplace_back(end[p] + r, end[q] + c, block(r, c));
-      }
-  }
-}
 
 VecX applied(const Model& m, const Freedom& f, const std::vector<double>& push) {
   VecX out = VecX::Zero(f.count);
@@ -183,7 +100,7 @@ void search(Island& i, double work) {
 
 }  // namespace
 
-Equilibrium settle(const Model& m, State& s, const std::vector<double>& push) {
+Equilibrium settle(const Model& m, State& s, const std::vector<double>& push, Linear how) {
   constexpr double target = 1e-11, accepted = 1e-8;  // of the largest load of the island
   constexpr double first_brake = 0.1;
   Equilibrium out;
@@ -196,34 +113,22 @@ Equilibrium settle(const Model& m, State& s, const std::vector<double>& push) {
   const Pose before{s.u, s.q};
   std::vector<Island> islands = islands_of(m, s, f, force);
   Trial trial{Cold<JointMemory>(z(m.njoint)), {}, {}, std::vector<std::uint8_t>(z(m.njoint), 1)};
-  SparseLdlt ldlt;
-  bool factored_sound = false;
+  NewtonSteps steps(m, s, f, how);
   VecX residual = force - internal_force(m, s, f, trial);
   double best = out.unbalanced = balance(f, residual, islands);
   int stuck = 0;
   for (out.iterations = 0; out.iterations < 200 && out.unbalanced > target && stuck < 40; ++out.iterations) {
     VecX step;
     if (std::all_of(trial.sound.begin(), trial.sound.end(), [](std::uint8_t x) { return x != 0; })) {
-      if (!factored_sound) ldlt.compute(stiffness(m, s, f));
-      factored_sound = true;
-      if (ldlt.info() != Eigen::Success || (ldlt.vectorD().array() <= 0).any()) {
+      if (!steps.sound(residual, step)) {
         out.why = "the structure has a mechanism";
         break;
       }
-      step = ldlt.solve(residual);
     } else {
-      Sparse k = stiffness(m, s, f);
-      Triplets changes;
-      add_changes(m, s, f, trial, changes);
+      VecX brake = VecX::Zero(f.count);
       for (const Island& i : islands)
-        for (const int b : i.blocks)
-          for (int c = f.first[z(b)]; c < f.first[z(b)] + 6; ++c) changes.emplace_back(c, c, i.brake * k.coeff(c, c));
-      Sparse d(f.count, f.count);
-      d.setFromTriplets(changes.begin(), changes.end());
-      k += d;
-      SparseLu lu(k);
-      if (lu.info() != Eigen::Success) break;
-      step = lu.solve(residual);
+        for (const int b : i.blocks) brake.segment<6>(f.first[z(b)]).setConstant(i.brake);
+      if (!steps.cracked(trial, brake, residual, step)) break;
     }
     const auto work = [&](const Island& i) {
       double sum = 0;

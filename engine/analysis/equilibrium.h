@@ -12,12 +12,16 @@ struct Equilibrium {
   std::string why;        // where not converged
 };
 
+// How the linear systems of Newton's method are solved: by sparse factors, or, where those would take more than 100 MiB, by iterations
+// that need no matrix (two_level.h) and fall back on factors where they do not converge.
+enum class Linear { by_size, direct, iterative };
+
 // Newton's method on the joint laws: sparse LDL^T while all joints are sound, LU of the consistent tangent once some open or slide
 // (friction makes it unsymmetric). Each island takes its own part of a step, to where the step's work vanishes: the potential of
 // joints that open is convex, so that this is its lowest point along the step. A part of the sound stiffness, smaller as the
 // balance comes near, brakes blocks that have lost their hold (pseudo-transient continuation, Kelley and Keyes 1998, SIAM J. Numer.
 // Anal. 35, 508). `push` is force and moment on each block besides gravity (6 doubles a block). Blocks that no joint holds to the
 // ground stay where they are. On success the state holds the equilibrium; otherwise it is unchanged.
-Equilibrium settle(const Model& model, State& state, const std::vector<double>& push);
+Equilibrium settle(const Model& model, State& state, const std::vector<double>& push, Linear how = Linear::by_size);
 
 }  // namespace erbs

@@ -1,0 +1,204 @@
+#include "engine/analysis/newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/solve/joint_geometry.h"
+#include "engine/solve/joint_response.h"
+#include "engine/solve/stiffness.h"
+
+namespace erbs {
+namespace {
+
+constexpr double most_bytes = 100 * 1048576.0;  // of factors
+constexpr double tolerance = 1e-10;             // of one step by iterations; the next makes it good
+constexpr int turns = 3000;
+
+std::size_t z(int i) { return std::size_t(i); }
+
+// Tangent of a joint that is no longer sound, by central differences of its law over a small part of what it has moved, so that
+// the difference sees the branch it is on. Not symmetric: friction follows the pressure, and Newton's method without that part
+// goes round in circles on walls that lean. A floor keeps an open joint from vanishing.
+Mat6 tangent(const Model& m, const State& s, int j, const Trial& trial) {
+  const Joint& joint = m.joint[z(j)];
+  const double* at = trial.memory[z(j)].q;
+  Mat6 k;
+  std::vector<PointHistory> history(z(joint.type->points));
+  const double moved = std::max(Vec3(at[0], at[1], at[2]).norm(), joint.type->radius * Vec3(at[3], at[4], at[5]).norm());
+  const double step = std::max(1e-5 * moved, 1e-14);
+  const bool sound = s.tier[z(j)] == Tier::intact;
+  const double rest[6] = {};
+  for (int c = 0; c < 6; ++c) {
+    double f[2][6];
+    const double h = c < 3 ? step : step / joint.type->radius;
+    for (int side = 0; side < 2; ++side) {
+      double q[6];
+      std::copy(at, at + 6, q);
+      q[c] += side == 0 ? -h : h;
+      std::copy_n(&s.history[z(joint.first_point)], joint.type->points, history.begin());
+      CrushedFace crushed = s.crushed.empty() ? CrushedFace{} : s.crushed[z(j)];
+      JointEnergy e;
+      respond(m, j, sound, sound ? rest : s.memory[z(j)].q, q, {history.data(), s.crushed.empty() ? nullptr : &crushed}, f[side], e);
+    }
+    for (int r = 0; r < 6; ++r) k(r, c) = (f[1][r] - f[0][r]) / (2 * h);
+  }
+  for (int i = 0; i < 6; ++i) k(i, i) += 1e-7 * joint.type->stiffness[i];
+  return k;
+}
+
+// Diagonal of the sound stiffness.
+VecX diagonal(const Model& m, const State& s, const Freedom& f) {
+  VecX out = VecX::Zero(f.count);
+  for (int j = 0; j < m.njoint; ++j) {
+    if (s.tier[z(j)] == Tier::open) continue;
+    const JointMap map = joint_map(m, s, j);
+    const Mat6 k = Vec6(Eigen::Map<const Vec6>(m.joint[z(j)].type->stiffness)).asDiagonal();
+    if (const int a = f.first[z(m.joint[z(j)].a)]; a >= 0) out.segment<6>(a) += Vec6(Mat6(map.a.transpose() * k * map.a).diagonal());
+    if (const int b = f.first[z(m.joint[z(j)].b)]; b >= 0) out.segment<6>(b) += Vec6(Mat6(map.b.transpose() * k * map.b).diagonal());
+  }
+  return out;
+}
+
+VecX elastic(const JointOperator& joints, const VecX& x) {
+  VecX y;
+  joints.apply(elastic_form, x, y);
+  return y;
+}
+
+}  // namespace
+
+// Internal forces at the present pose, joints answering from the history of `s` to where they are now.
+VecX internal_force(const Model& m, const State& s, const Freedom& f, Trial& trial) {
+  VecX out = VecX::Zero(f.count);
+  trial.history = s.history;
+  trial.crushed = s.crushed;
+  for (int j = 0; j < m.njoint; ++j) {
+    if (s.tier[z(j)] == Tier::open) continue;
+    const Joint& joint = m.joint[z(j)];
+    const JointPose pose = joint_pose(m, s, j);
+    JointEnergy e;
+    JointMemory now;
+    const bool sound = s.tier[z(j)] == Tier::intact;
+    const double rest[6] = {};
+    const JointPast past(&trial.history[z(joint.first_point)], s.crushed.empty() ? nullptr : &trial.crushed[z(j)]);
+    trial.sound[z(j)] = respond(m, j, sound, sound ? rest : s.memory[z(j)].q, pose.q, past, now.f, e);
+    std::copy(pose.q, pose.q + 6, now.q);
+    now.elastic = e.elastic;
+    if (!trial.sound[z(j)]) trial.memory[z(j)] = now;
+    const JointMap map = joint_map(m, s, j);
+    const Vec6 resultant = Eigen::Map<const Vec6>(now.f);
+    if (const int a = f.first[z(joint.a)]; a >= 0) out.segment<6>(a) += map.a.transpose() * resultant;
+    if (const int b = f.first[z(joint.b)]; b >= 0) out.segment<6>(b) += map.b.transpose() * resultant;
+  }
+  return out;
+}
+
+// A joint that is no longer sound, in the tangent: what its stiffness is beyond the sound one.
+struct NewtonSteps::Change {
+  int a, b;  // first degrees of freedom of its blocks
+  JointMap map;
+  Mat6 more;
+};
+
+NewtonSteps::NewtonSteps(const Model& m, const State& s, const Freedom& f, Linear how)
+    : m_(m), s_(s), f_(f), iterative_(how == Linear::by_size ? factor_bytes() > most_bytes : how == Linear::iterative) {}
+
+std::vector<NewtonSteps::Change> NewtonSteps::changes_of(const Trial& trial) const {
+  const Model& m = m_;
+  const State& s = s_;
+  std::vector<Change> out;
+  for (int j = 0; j < m.njoint; ++j) {
+    if (s.tier[z(j)] == Tier::open || trial.sound[z(j)]) continue;
+    const Joint& joint = m.joint[z(j)];
+    Change c{f_.first[z(joint.a)], f_.first[z(joint.b)], joint_map(m, s, j), tangent(m, s, j, trial)};
+    for (int i = 0; i < 6; ++i) c.more(i, i) -= joint.type->stiffness[i];
+    out.push_back(c);
+  }
+  return out;
+}
+
+bool NewtonSteps::sound(const VecX& residual, VecX& step) {
+  if (iterative_ && sound_iterative(residual, step)) return true;
+  if (!factored_) ldlt_.compute(stiffness(m_, s_, f_));
+  factored_ = true;
+  if (ldlt_.info() != Eigen::Success || (ldlt_.vectorD().array() <= 0).any()) return false;
+  step = ldlt_.solve(residual);
+  return true;
+}
+
+bool NewtonSteps::cracked(const Trial& trial, const VecX& brake, const VecX& residual, VecX& step) {
+  const std::vector<Change> changes = changes_of(trial);
+  const VecX held = brake.cwiseProduct(diagonal(m_, s_, f_));
+  if (iterative_ && cracked_iterative(trial, changes, held, residual, step)) return true;
+  Triplets entries;
+  for (const Change& c : changes) {
+    const int end[2] = {c.a, c.b};
+    const Mat6* side[2] = {&c.map.a, &c.map.b};
+    for (int p = 0; p < 2; ++p)
+      for (int q = 0; q < 2; ++q) {
+        if (end[p] < 0 || end[q] < 0) continue;
+        const Mat6 block = side[p]->transpose() * c.more * *side[q];
+        for (int row = 0; row < 6; ++row)
+          for (int column = 0; column < 6; ++column) entries.emplace_back(end[p] + row, end[q] + column, block(row, column));
+      }
+  }
+  for (int i = 0; i < f_.count; ++i) entries.emplace_back(i, i, held[i]);
+  Sparse more(f_.count, f_.count), k = stiffness(m_, s_, f_);
+  more.setFromTriplets(entries.begin(), entries.end());
+  k += more;
+  const SparseLu lu(k);
+  if (lu.info() != Eigen::Success) return false;
+  step = lu.solve(residual);
+  return true;
+}
+
+// Nested dissection of a mesh of n nodes in the plane leaves 31/8 n log2 n numbers (George 1973, SIAM J. Numer. Anal. 10, 345), here
+// 6 x 6 blocks of numbers with their row; before that come the entries of each joint.
+double NewtonSteps::factor_bytes() const {
+  const double n = std::max(2, f_.count / 6);
+  return 31.0 / 8 * n * std::log2(n) * 36 * 12 + 144.0 * 16 * m_.njoint;
+}
+
+bool NewtonSteps::sound_iterative(const VecX& residual, VecX& step) {
+  if (!joints_) {
+    joints_.emplace(m_, s_, f_);
+    near_.emplace(
+        m_, s_, f_, [&](int j) { return elastic_form(m_.joint[z(j)]).diagonal; }, VecX());
+  }
+  return near_->definite() &&
+         conjugate_gradients([&](const VecX& x) { return elastic(*joints_, x); }, *near_, residual, tolerance, turns, step);
+}
+
+bool NewtonSteps::cracked_iterative(const Trial& trial, const std::vector<Change>& changes, const VecX& held, const VecX& residual,
+                                    VecX& step) {
+  joints_.reset();
+  near_.reset();
+  std::vector<int> change(z(m_.njoint), -1);
+  for (int j = 0, next = 0; j < m_.njoint; ++j)
+    if (s_.tier[z(j)] != Tier::open && !trial.sound[z(j)]) change[z(j)] = next++;
+  const JointOperator joints(m_, s_, f_);
+  const TwoLevel near(
+      m_, s_, f_,
+      [&](int j) {
+        std::array<double, 6> k = elastic_form(m_.joint[z(j)]).diagonal;
+        if (const int c = change[z(j)]; c >= 0)
+          for (int i = 0; i < 6; ++i) k[z(i)] = std::max(1e-7 * k[z(i)], k[z(i)] + changes[z(c)].more(i, i));
+        return k;
+      },
+      held);
+  const auto times = [&](const VecX& x) {
+    VecX y = elastic(joints, x) + held.cwiseProduct(x);
+    for (const Change& c : changes) {
+      Vec6 q = Vec6::Zero();
+      if (c.a >= 0) q += c.map.a * x.segment<6>(c.a);
+      if (c.b >= 0) q += c.map.b * x.segment<6>(c.b);
+      const Vec6 w = c.more * q;
+      if (c.a >= 0) y.segment<6>(c.a) += c.map.a.transpose() * w;
+      if (c.b >= 0) y.segment<6>(c.b) += c.map.b.transpose() * w;
+    }
+    return y;
+  };
+  return near.definite() && stabilised_gradients(times, near, residual, tolerance, turns, step);
+}
+
+}  // namespace erbs
