@@ -64,9 +64,11 @@ unsigned overlaps(const PairJob* job, int count, const ContactShapes& shapes, Ba
       left_out |= 1u << l;
       continue;
     }
-    kernels.sum(t, w.sums[l]);
     w.deepest[l] = t.deepest;
   }
+  // not at once: the triangles were written in other pieces than they are read in, and first have to arrive in the cache
+  for (int l = 0; l < count; ++l)
+    if ((left_out >> l & 1u) == 0) kernels.sum(batch.triangles[l], w.sums[l]);
   return left_out;
 }
 

@@ -27,11 +27,11 @@ struct SmallPose {
 };
 
 struct alignas(64) Triangles {
+  double deepest_of[8];                     // m, deepest of each lane
   int count;                                // filled up to a multiple of 8 with empty ones
   int separating;                           // a face of a with all of b on its outer side, or -1
   bool overflow;                            // more than there is room for
   double deepest;                           // m
-  double deepest_of[8];                     // m, the same of each lane
   double corner[3][3][most_triangles + 8];  // m, [corner][axis], pair axes: origin at the centroid of b
   double depth[3][most_triangles + 8];      // m, phi at the corners
   double closing[3][most_triangles + 8];    // m/s, filled by approach()
