@@ -60,15 +60,11 @@ unsigned overlaps(const PairJob* job, int count, const ContactShapes& shapes, Ba
     for (int i = 0; i < 9; ++i) pose.turn[i] = w.turn[i][l];
     for (int i = 0; i < 3; ++i) pose.shift[i] = w.shift[i][l];
     kernels.clip(bodies.reference->small, bodies.other->small, pose, t);
-    if (t.overflow || t.count == 0) {
-      left_out |= 1u << l;
-      continue;
-    }
-    w.deepest[l] = t.deepest;
+    if (t.overflow || t.count == 0) left_out |= 1u << l;
   }
   // not at once: the triangles were written in other pieces than they are read in, and first have to arrive in the cache
   for (int l = 0; l < count; ++l)
-    if ((left_out >> l & 1u) == 0) kernels.sum(batch.triangles[l], w.sums[l]);
+    if ((left_out >> l & 1u) == 0) kernels.sum(batch.triangles[l], w.sums[l]), w.deepest[l] = batch.triangles[l].deepest;
   return left_out;
 }
 

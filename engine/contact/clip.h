@@ -27,16 +27,15 @@ struct SmallPose {
 };
 
 struct alignas(64) Triangles {
-  double deepest_of[8];                     // m, deepest of each lane
-  int count;                                // filled up to a multiple of 8 with empty ones
-  int separating;                           // a face of a with all of b on its outer side, or -1
-  bool overflow;                            // more than there is room for
-  double deepest;                           // m
   double corner[3][3][most_triangles + 8];  // m, [corner][axis], pair axes: origin at the centroid of b
   double depth[3][most_triangles + 8];      // m, phi at the corners
   double closing[3][most_triangles + 8];    // m/s, filled by approach()
   double normal[3][most_triangles + 8];     // of the face of b
   double size[most_triangles + 8];          // m2, filled by sum()
+  double deepest;                           // m, filled by sum()
+  int count;                                // filled up to a multiple of 8 with empty ones
+  int separating;                           // a face of a with all of b on its outer side, or -1
+  bool overflow;                            // more than there is room for
 };
 
 // Sums over the triangles, kn = 1 (narrow.h names them).
