@@ -1,22 +1,51 @@
 #include "engine/solve/joint_geometry.h"
 
 #include <numeric>
+#include <utility>
 
 #include "engine/model/batches.h"
+#include "engine/solve/lanes.h"
 
 namespace erbs {
 namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-void set_geometry(const Model& m, const State& s, int j, JointBatch& batch, int l) {
-  const Joint& joint = m.joint[z(j)];
-  const std::size_t a = z(joint.a), b = z(joint.b);
-  const JointPose p = pose_of(joint, s.base_u[a], s.base_q[a], s.base_u[b], s.base_q[b]);
-  for (int axis = 0; axis < 3; ++axis)
-    for (int i = 0; i < 3; ++i) batch.frame[axis * 3 + i][l] = p.frame(i, axis);
-  for (int i = 0; i < 3; ++i) batch.sum[i][l] = p.sum[i], batch.apart[i][l] = p.apart[i];
-  for (int i = 0; i < 6; ++i) batch.q[i][l] = p.q[i];
+// A joint, and the lane that its geometry goes to.
+struct InLane {
+  int joint, lane;
+  JointBatch* batch;
+};
+
+// Eight at most. In lanes whatever their number, so that a joint's geometry does not depend on when and with which others it is made.
+void set_geometry(const Model& m, const State& s, const InLane* to, int count) {
+  PoseLanes p;
+  for (int l = 0; l < lanes; ++l) {
+    const Joint& joint = m.joint[z(to[l < count ? l : 0].joint)];
+    for (int end = 0; end < 2; ++end) {
+      const int b = end == 0 ? joint.a : joint.b, from = b % lanes;
+      const auto& u = s.base_u.data()[b / lanes].x;
+      const auto& q = s.base_q.data()[b / lanes].x;
+      for (int i = 0; i < 3; ++i) (end == 0 ? p.ua : p.ub)[i][l] = u[i][from];
+      for (int i = 0; i < 4; ++i) (end == 0 ? p.qa : p.qb)[i][l] = q[i][from];
+    }
+    for (int i = 0; i < 3; ++i) p.arm_a[i][l] = joint.arm_a[i], p.arm_b[i][l] = joint.arm_b[i];
+    for (int i = 0; i < 9; ++i) p.rest[i][l] = joint.type->frame(i % 3, i / 3);
+  }
+  lane_kernels().pose(p);
+  for (int l = 0; l < count; ++l) {
+    JointBatch& batch = *to[l].batch;
+    const int lane = to[l].lane;
+    if (p.far[l] > 0) {
+      const Joint& joint = m.joint[z(to[l].joint)];
+      const Vec3 rho = rotation_vector(s.base_q[z(joint.b)] * s.base_q[z(joint.a)].conjugate());
+      for (int i = 0; i < 3; ++i)
+        p.q[3 + i][l] = p.frame[3 * i][l] * rho.x() + p.frame[3 * i + 1][l] * rho.y() + p.frame[3 * i + 2][l] * rho.z();
+    }
+    for (int i = 0; i < 9; ++i) batch.frame[i][lane] = p.frame[i][l];
+    for (int i = 0; i < 3; ++i) batch.sum[i][lane] = p.sum[i][l], batch.apart[i][lane] = p.apart[i][l];
+    for (int i = 0; i < 6; ++i) batch.q[i][lane] = p.q[i][l];
+  }
 }
 
 }  // namespace
@@ -35,22 +64,46 @@ void refresh(const Model& m, State& s, const std::vector<int>& blocks, const std
     set_row(s, b);
   }
   const int sound = sound_batches(m);
-  for (const int j : joints)
-    if (const int at = s.place[z(j)] - sound * lanes; at >= 0) set_geometry(m, s, j, s.batch[z(at / lanes)], at % lanes);
+  InLane to[lanes];
+  int count = 0;
+  for (const int j : joints) {
+    const int at = s.place[z(j)] - sound * lanes;
+    if (at < 0) continue;
+    to[count++] = {j, at % lanes, &s.batch[z(at / lanes)]};
+    if (count == lanes) set_geometry(m, s, to, std::exchange(count, 0));
+  }
+  if (count > 0) set_geometry(m, s, to, count);
 }
 
 void set_lane(const Model& m, const State& s, int j, JointBatch& batch, int l) {
   set_constants(m, j, batch, l);
-  set_geometry(m, s, j, batch, l);
+  const InLane to{j, l, &batch};
+  set_geometry(m, s, &to, 1);
+}
+
+void set_lanes(const Model& m, const State& s, const int* joints, int count, JointBatch& batch) {
+  InLane to[lanes];
+  for (int l = 0; l < count; ++l) {
+    set_constants(m, joints[l], batch, l);
+    to[l] = {joints[l], l, &batch};
+  }
+  set_geometry(m, s, to, count);
 }
 
 JointBatch sound_batch(const Model& m, const State& s, int k) {
   JointBatch batch{};
+  InLane to[lanes];
+  int count = 0;
   for (int l = 0; l < lanes; ++l) {
     const int j = k * lanes + l;
-    if (j < m.njoint && s.place[z(j)] == j) set_lane(m, s, j, batch, l);
-    else clear_lane(m, batch, l);
+    if (j >= m.njoint || s.place[z(j)] != j) {
+      clear_lane(m, batch, l);
+      continue;
+    }
+    set_constants(m, j, batch, l);
+    to[count++] = {j, l, &batch};
   }
+  if (count > 0) set_geometry(m, s, to, count);
   return batch;
 }
 

@@ -61,6 +61,8 @@ void set_row(State& state, int b);
 void refresh_all(const Model& model, State& state);
 // Joint j as lane `lane` of `batch`, with its geometry at the last refresh of its blocks.
 void set_lane(const Model& model, const State& state, int j, JointBatch& batch, int lane);
+// Eight joints at most as the first lanes of `batch`.
+void set_lanes(const Model& model, const State& state, const int* joints, int count, JointBatch& batch);
 // The joints of batch k that are still in their place; the other lanes are empty.
 JointBatch sound_batch(const Model& model, const State& state, int k);
 

@@ -108,6 +108,14 @@ struct KickDrift {
   bool damping_explicit, gyroscopic, shaken;
 };
 
+// Eight joints: poses of their blocks, what they are at rest, and what follows.
+struct alignas(64) PoseLanes {
+  double ua[3][lanes], ub[3][lanes], qa[4][lanes], qb[4][lanes];        // m, unit quaternions x y z w
+  double arm_a[3][lanes], arm_b[3][lanes], rest[9][lanes];              // m, at rest; frame as in JointBatch
+  double frame[9][lanes], sum[3][lanes], apart[3][lanes], q[6][lanes];  // as in JointBatch
+  double far[lanes];  // 1: the blocks have turned so far against each other that the series for q does not hold
+};
+
 struct LaneKernels {
   const char* name;
   // joint_geometry.h gives the formulas: q, its elastic resultant and the bound that keeps a joint on this path.
@@ -125,6 +133,8 @@ struct LaneKernels {
   int (*sound)(const SoundBatch* batch, int first, int last, const double* rows, double* wrench_rows, double* stored, int* near);
   // Kick and drift of groups [first, last) of blocks (integrate.h); true where a number broke.
   bool (*advance)(const KickDrift& step, const BlockArrays& blocks, int first, int last, bool sample, BlockWork& work);
+  // Geometry of joints from the poses of their blocks.
+  void (*pose)(PoseLanes& joints);
   // Keeps the arithmetic units busy from registers alone; returns how many operations that took. For comparison with their peak.
   double (*work_registers)(long rounds);
 };

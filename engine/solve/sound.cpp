@@ -79,14 +79,21 @@ Sound::Sound(const Model& model, State& state) : model_(model), state_(state) {
 }
 
 void Sound::update(const std::vector<int>& joints) {
-  JointBatch one;
+  JointBatch eight;
+  int fresh[lanes], count = 0;
+  const auto take = [&] {
+    set_lanes(model_, state_, fresh, count, eight);
+    for (int l = 0; l < count; ++l) set_sound_lane(eight, l, batch_[z(fresh[l] / lanes)], fresh[l] % lanes);
+    count = 0;
+  };
   for (const int j : joints) {
     if (state_.place[z(j)] != j) continue;
     if (!damped_.empty()) set_lane(model_, state_, j, damped_[z(j / lanes)], j % lanes);
     if (batch_.empty()) continue;
-    set_lane(model_, state_, j, one, 0);
-    set_sound_lane(one, 0, batch_[z(j / lanes)], j % lanes);
+    fresh[count++] = j;
+    if (count == lanes) take();
   }
+  if (count > 0) take();
 }
 
 void Sound::leave(int j) {
