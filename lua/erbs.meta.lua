@@ -389,6 +389,7 @@ function damping(keys) end
 ---@field collapse_fraction? number share of mass fallen that is called a collapse [0 to 1; default 0.05]
 ---@field stop_after_collapse? number time to go on after a collapse (-1: to the end) [s; -1 to 1e+06; default -1]
 ---@field stop_when_moved? number a block that has moved this far from rest ends the run, collapse.moved (0: none does) [m; 0 to 1e+06; default 0]
+---@field sleep? boolean debris that has come to rest is left alone until something stirs it [default false]
 ---@field energy_gate? number relative energy residual that ends a run (0: by the kind of run) [0 to 1e+06; default 0]
 ---@field lazy_rotation? number block rotation between refreshes of joint frames [rad; 0 to 0.1; default 1e-05]
 ---@field gyroscopic? boolean the gyroscopic term w x (I w) [default true]

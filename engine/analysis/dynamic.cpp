@@ -315,6 +315,7 @@ Metrics Run::metrics() const {
   m.joints = run_.model.njoint;
   m.contact_points = run_.model.npoint;
   m.joints_broken = s.joints_broken;
+  m.blocks_asleep = s.rest.count;
   m.wall_s.total = seconds() - born_;
   m.wall_s.setup = setup_;
   m.wall_s.record = record_;
@@ -359,6 +360,10 @@ RunOutcome Run::go() {
   if (!out_.trouble.empty()) writer_->log(out_.trouble);
   if (solver_->touched() > 0)
     writer_->log(fmt::format("contact: {} forces of touching pairs in {} steps", solver_->touched(), run_.state.step - steps_at_start_));
+  if (solver_->slept() > 0)
+    writer_->log(fmt::format("sleep: {:.1f} of {} blocks asleep in the mean, {} at the end",
+                             double(solver_->slept()) / double(std::max(1L, run_.state.step - steps_at_start_)), run_.model.nblock,
+                             run_.state.rest.count));
   if (status == "stopped" || status == "interrupted") save();
   solver_.reset();
   out_.metrics = metrics();

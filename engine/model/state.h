@@ -10,6 +10,7 @@
 #include "engine/model/joint_batch.h"
 #include "engine/model/model.h"
 #include "engine/model/pair.h"
+#include "engine/model/rest.h"
 
 namespace erbs {
 
@@ -26,6 +27,7 @@ struct Energy {
   double base_work = 0, external_work = 0, tilt_work = 0;
   double kinetic = 0, gravity = 0, elastic = 0;
   double friction = 0, fracture = 0, crushing = 0, damping = 0, contact_damping = 0, reset = 0;
+  double sleep = 0;             // kinetic, taken from blocks that fell asleep
   double base_next = 0, external_next = 0, damping_next = 0, absolute_next = 0;  // of the half drift after the sample
   double friction_next = 0, fracture_next = 0, crushing_next = 0;  // lost by laws that a sequential sweep has already moved on
   double start = 0;             // kinetic + gravity + elastic at the first sample
@@ -73,6 +75,7 @@ struct State {
   Rows wrench;                         // rows of 8 doubles: force, moment on a block from one joint end [2 njoint + 1]
   std::vector<double> viscous;         // N, N m, resultants of the dashpots of the last step; empty without [6 njoint]
   PairList debris;                     // contacts of loose blocks
+  Rest rest;                           // those of them that sleep
   double dt_goal = 0;                  // s, the step the run asks for; dt may be shorter while contacts change
   int calm = 0;                        // steps since contacts last held dt down
   int joints_broken = 0;

@@ -29,7 +29,8 @@ std::vector<std::pair<std::string, double>> energy_terms(const Energy& e) {
           {"crushing_J", e.crushing},
           {"damping_J", e.damping},
           {"contact_damping_J", e.contact_damping},
-          {"reset_J", e.reset}};
+          {"reset_J", e.reset},
+          {"sleep_J", e.sleep}};
 }
 
 std::vector<std::string> metric_keys() {
@@ -80,6 +81,7 @@ Json to_json(const Metrics& m) {
   json["joints"] = m.joints;
   json["contact_points"] = m.contact_points;
   json["joints_broken"] = m.joints_broken;
+  json["blocks_asleep"] = m.blocks_asleep;
   json["wall_s"] = {
       {"total", m.wall_s.total}, {"setup", m.wall_s.setup}, {"solve", solve}, {"contact", m.wall_s.contact}, {"record", m.wall_s.record}};
   json["realtime_factor"] = solve > 0 ? simulated / solve : 0.0;

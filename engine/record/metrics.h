@@ -21,7 +21,7 @@ struct Metrics {
   long steps = 0;
   double dt_s = 0, dt_critical_s = 0, dt_block_bound_s = 0;
   int threads = 1;
-  int blocks = 0, joints = 0, contact_points = 0, joints_broken = 0;
+  int blocks = 0, joints = 0, contact_points = 0, joints_broken = 0, blocks_asleep = 0;
   struct Wall {
     double total = 0, setup = 0, solve = 0, contact = 0, record = 0;  // s
   } wall_s;
@@ -64,7 +64,7 @@ struct Metrics {
   std::vector<std::pair<std::string, double>> metrics;  // of the scene, in its order
 };
 
-// The ledger's terms with the names they have in metrics.json and energy.csv (base_work_J ... reset_J), in that order.
+// The ledger's terms with the names they have in metrics.json and energy.csv (base_work_J ... sleep_J), in that order.
 std::vector<std::pair<std::string, double>> energy_terms(const Energy& energy);
 
 Metrics::Collapse::Mechanism mechanism_metrics(const Mechanism& mechanism, const Model& model);

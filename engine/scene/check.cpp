@@ -147,6 +147,8 @@ void check_analysis(Report& report, const Scene& scene) {
                scene.damping.at);
   if (analysis.solver == "sequential" && (scene.damping.stiffness > 0 || scene.damping.joint_ratio > 0))
     report.say(scene.damping.place, "damping: the sequential solver knows no dashpots of joints; use mass, or solver = \"leapfrog\"");
+  if (analysis.solver == "sequential" && analysis.sleep)
+    report.say(place, "analysis: the sequential solver lets no debris sleep; leave sleep out, or take solver = \"leapfrog\"");
   if (!inside(scene.gravity, -1000, 1000)) report.say({scene.file, 0}, "gravity is out of range; allowed is 0 to 1000 m/s2");
 }
 

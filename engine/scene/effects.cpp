@@ -85,6 +85,7 @@ const Switch switches[] = {
      [](Scene& s) {
        for (Material& m : s.materials) m.restitution = 1;
      }},
+    {"sleep of debris", [](Scene& s) { s.analysis.sleep = false; }},
     {"gyroscopic term", [](Scene& s) { s.analysis.gyroscopic = false; }},
     {"energy ledger", [](Scene& s) { s.analysis.ledger = false; }},
     {"recorders", [](Scene& s) { s.recorders.clear(); }},
@@ -124,6 +125,8 @@ std::vector<Effect> effects_of(const Scene& scene) {
   out.push_back(effect("rotation of joint frames", joined));
   out.push_back(effect("debris contact", debris));
   out.push_back(effect("contact dashpots", debris != nullptr ? dissipating(scene) : nullptr));
+  const bool sleeps = scene.analysis.sleep && debris != nullptr && !sweeps && scene.gravity.norm() > 0;
+  out.push_back(effect("sleep of debris", sleeps ? &scene.analysis.place : nullptr));
   out.push_back({"gyroscopic term", scene.analysis.gyroscopic, scene.analysis.gyroscopic ? "by default" : ""});
   out.push_back({"energy ledger", true, "every run"});
   out.push_back(effect("recorders", scene.recorders.empty() ? nullptr : &scene.recorders.front().place));

@@ -153,6 +153,7 @@ struct Analysis {
   double stop_when_moved = 0;         // m; a block that has moved this far from rest ends the run; 0: none does
   double energy_gate = 0;             // relative; 0: by the kind of run (1e-6 elastic, 1e-3 bonded, 1e-2 collapse)
   bool debris = true;                 // contacts of blocks that have come loose; false only to see what they cost
+  bool sleep = false;                 // debris that has come to rest is left alone until something stirs it
   bool ledger = true;                 // the energy ledger between rows; false likewise
   double lazy_rotation = 1e-5;        // rad of block rotation between refreshes of joint frames
   bool gyroscopic = true;             // false: the scalar Euler equation of Gu and Miao eq. (1), for comparison only
@@ -182,6 +183,7 @@ struct Analysis {
         {"stop_after_collapse", &Analysis::stop_after_collapse, "s", "time to go on after a collapse (-1: to the end)", -1, 1e6},
         {"stop_when_moved", &Analysis::stop_when_moved, "m",
          "a block that has moved this far from rest ends the run, collapse.moved (0: none does)", 0, 1e6},
+        {"sleep", &Analysis::sleep, "", "debris that has come to rest is left alone until something stirs it"},
         {"energy_gate", &Analysis::energy_gate, "", "relative energy residual that ends a run (0: by the kind of run)", 0, 1e6},
         {"lazy_rotation", &Analysis::lazy_rotation, "rad", "block rotation between refreshes of joint frames", 0, 0.1},
         {"gyroscopic", &Analysis::gyroscopic, "", "the gyroscopic term w x (I w)"},

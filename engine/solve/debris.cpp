@@ -29,7 +29,7 @@ double largest_inverse_inertia(const Mat3& inverse) {
 
 }  // namespace
 
-Debris::Debris(const Model& model, State& state, int threads) : model_(model), state_(state) {
+Debris::Debris(const Model& model, State& state, int threads) : model_(model), state_(state), sleep_(model, state) {
   active_.resize(z(threads));
   room_.resize(z(threads));
   if (state.debris.start.empty()) {
@@ -89,7 +89,7 @@ void Debris::list_involved() {
   std::vector<std::uint8_t> in(state_.loose.begin(), state_.loose.end());
   for (const Pair& p : state_.debris.pair) in[z(p.a)] = in[z(p.b)] = 1;
   involved_.clear();
-  relisted_ = true;
+  unsorted_ = true;
   for (int b = 0; b < model_.nblock; ++b)
     if (in[z(b)]) involved_.push_back(b);
   jointed_.clear();

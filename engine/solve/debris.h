@@ -8,6 +8,7 @@
 #include "engine/model/model.h"
 #include "engine/model/state.h"
 #include "engine/solve/cracked.h"
+#include "engine/solve/sleep.h"
 
 namespace erbs {
 
@@ -28,10 +29,13 @@ class Debris {
   // Forces of the pairs of this thread; afterwards gather() sums them on one thread in the order of the pairs.
   void forces(int thread, int threads, bool sample);
   void gather(double* push, bool sample);
+  // Then: lets blocks fall asleep and wakes sleepers (sleep.h). True where the set of those asleep has changed.
+  bool sleep(const Excitation& now, const double* push);
   // The step that the contacts allow now (s), no longer than the goal.
   double allowed_dt() const { return allowed_; }
   double elastic() const { return elastic_; }  // J, stored in contacts at the last sample
   int touching() const { return touching_; }
+  long slept() const { return sleep_.slept(); }  // steps of blocks asleep, likewise
   long touched() const { return touched_; }  // pairs, summed over the steps of this Solver
 
  private:
@@ -43,6 +47,7 @@ class Debris {
   void part_beds();
   void place(int b);
   void look();
+  void sort();
   PairLaw law(int a, int b) const;
 
   const Model& model_;
@@ -50,6 +55,7 @@ class Debris {
   ContactShapes shapes_;  // empty until wake(), as what follows
   ContactSettings settings_;
   std::vector<ContactBlock> blocks_;
+  Sleep sleep_;
   std::vector<int> involved_;           // blocks that are loose or listed in a pair
   std::vector<std::uint64_t> jointed_;  // pairs of blocks still joined, sorted
   struct Bed {
@@ -82,7 +88,7 @@ class Debris {
   std::vector<int> of_pair_;                   // ... and the first of their joints
   double released_ = 0;                        // J, set free by the last hand-over and still in this step's sums
   double allowed_ = 0, elastic_ = 0;
-  bool relisted_ = true;
+  bool relisted_ = true, unsorted_ = true;
   int touching_ = 0;
   long touched_ = 0;
 };

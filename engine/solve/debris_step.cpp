@@ -39,17 +39,41 @@ double step_for(double rate, double goal, double critical) {
 
 void Debris::prepare() {
   double fastest = 0;
-  for (const int b : involved_) {
+  for (const int b : unsorted_ ? involved_ : sleep_.awake()) {
     place(b);
     fastest = std::max(fastest, blocks_[z(b)].v.squaredNorm());
   }
   const bool far = std::sqrt(fastest) * state_.dt * look_every > 0.25 * state_.debris.margin;
   if (!state_.debris.valid || far || state_.step % look_every == 0) look();
+  if (unsorted_) sort();
+}
+
+// Pairs between sleepers, or of one with what is fixed, are evaluated once more, without dashpots since nothing moves, and left alone.
+void Debris::sort() {
+  sleep_.sort(involved_, [this](int i) {
+    Pair& pair = state_.debris.pair[z(i)];
+    pair.damping = PairWrench{};
+    Pair copy = pair;
+    PairResult r;
+    pair_force(copy, shapes_, blocks_[z(pair.a)], blocks_[z(pair.b)], settings_, 0.0, true, room_.front(), r);
+    r.rate_a = std::max(0.0, r.rate_a - bed_[z(i)].rate_a);
+    r.rate_b = std::max(0.0, r.rate_b - bed_[z(i)].rate_b);
+    return r;
+  });
+  unsorted_ = false;
+  relisted_ = true;
+}
+
+bool Debris::sleep(const Excitation& now, const double* push) {
+  const bool changed = sleep_.turn(now, push, shapes_, blocks_);
+  unsorted_ = unsorted_ || changed;
+  return changed;
 }
 
 // What a loose block may meet is not kept up to date step by step: a look takes all poses.
 void Debris::look() {
-  for (int b = 0; b < model_.nblock; ++b) place(b);
+  for (int b = 0; b < model_.nblock; ++b)
+    if (!sleep_.asleep(b)) place(b);
   part_beds();
   if (state_.debris.valid && !needs_search(state_.debris, shapes_, blocks_)) return;
   state_.energy.reset += search(state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); });
@@ -57,12 +81,13 @@ void Debris::look() {
 }
 
 void Debris::forces(int thread, int threads, bool sample) {
-  const int n = int(state_.debris.pair.size());
-  const Range mine = share_of(n, pair_grain, thread, threads);
+  const std::vector<int>& live = sleep_.live();
+  const Range mine = share_of(int(live.size()), pair_grain, thread, threads);
   std::vector<Active>& active = active_[z(thread)];
   active.clear();
-  for (int i = mine.first; i < mine.last; ++i) {
-    Apart& known = apart_[z(i)];
+  for (int k = mine.first; k < mine.last; ++k) {
+    const int i = live[z(k)];
+    const Apart& known = apart_[z(i)];
     const Way &a = way_[z(known.a)], &b = way_[z(known.b)];
     if (a.moved_soon + b.moved_soon + known.lever_a * a.turned_soon + known.lever_b * b.turned_soon < known.until) continue;
     active.push_back({i, {}});
@@ -113,14 +138,20 @@ void Debris::forces(int thread, int threads, bool sample) {
 
 void Debris::gather(double* push, bool sample) {
   State& s = state_;
-  if (std::exchange(relisted_, false)) std::fill(push, push + 8 * z(model_.nblock), 0.0);
-  for (const int b : involved_) {
-    std::fill_n(push + 8 * b, 8, 0.0);
-    rate_[z(b)] = landing_[z(b)] = 0;
+  const bool rested = sleep_.holds();
+  if (std::exchange(relisted_, false)) {
+    if (rested) std::copy_n(sleep_.push(0), 8 * z(model_.nblock), push);
+    else std::fill_n(push, 8 * z(model_.nblock), 0.0);
   }
-  touching_ = 0;
+  for (const int b : sleep_.pushed()) {
+    if (rested) std::copy_n(sleep_.push(b), 8, push + 8 * b);
+    else std::fill_n(push + 8 * b, 8, 0.0);
+    rate_[z(b)] = rested ? sleep_.rate(b) : 0;
+    landing_[z(b)] = 0;
+  }
+  touching_ = sleep_.touching();
   allowed_ = s.dt_goal;
-  if (sample) elastic_ = 0;
+  if (sample) elastic_ = sleep_.elastic();
   double rubbing = 0;
   const double soon = look_ahead * std::max(s.dt_goal, s.last_dt);
   for (const std::vector<Active>& active : active_)
@@ -155,8 +186,8 @@ void Debris::gather(double* push, bool sample) {
       if (r.apart <= soon * speed && speed * allowed_ > 0.25 * thin) allowed_ = 0.25 * thin / speed;
       if (r.depth > 0) { s.max_penetration_relative = std::max(s.max_penetration_relative, r.depth / thin); }
     }
-  double rate = 0;
-  for (const int b : involved_)
+  double rate = sleep_.largest_rate();  // as if all were awake: a step in which some wake finds it right
+  for (const int b : sleep_.pushed())
     if (model_.kind[z(b)] == Kind::moving) rate = std::max(rate, rate_[z(b)] + landing_[z(b)]);
   allowed_ = std::min(allowed_, step_for(rate, s.dt_goal, model_.dt_critical));
   if (rubbing > 0) allowed_ = std::min(allowed_, rubbing_angle / std::sqrt(rubbing));

@@ -4,7 +4,7 @@
 
 namespace erbs {
 
-double dissipated(const Energy& e) { return e.friction + e.fracture + e.crushing + e.damping + e.contact_damping + e.reset; }
+double dissipated(const Energy& e) { return e.friction + e.fracture + e.crushing + e.damping + e.contact_damping + e.reset + e.sleep; }
 
 double worked(const Energy& e) { return e.base_work + e.external_work + e.tilt_work; }
 
@@ -19,7 +19,7 @@ void settle(Energy& e, double floor, double t, int worst_joint) {
   e.residual = stored - e.start + dissipated(e) - worked(e);
   e.largest_moving = std::max(e.largest_moving, std::fabs(e.kinetic) + std::fabs(e.elastic - e.elastic_at_start));
   const double loss = std::fabs(e.friction) + std::fabs(e.fracture) + std::fabs(e.crushing) + std::fabs(e.damping) +
-                      std::fabs(e.contact_damping) + std::fabs(e.reset);
+                      std::fabs(e.contact_damping) + std::fabs(e.reset) + std::fabs(e.sleep);
   // A stressed structure at rest without gravity has nothing else to be measured by. Round-off of its elastic energy is some 1e-16 of
   // it, a few times that in sums over many joints: 1e-8 keeps it below the elastic gate of 1e-6. Kinetic energy at the start is in
   // largest_moving already.

@@ -71,8 +71,9 @@ void work_after(const State& s, const Pushes& pushes, std::span<LoadedBlock> loa
 void set_constants(const Model& m, const State& s, int b, bool moving, BlockConstants& c) {
   constexpr int row[6] = {0, 1, 2, 1, 0, 0}, column[6] = {0, 1, 2, 2, 2, 1};
   const int l = b % lanes;
-  c.moving[l] = moving;
   c.mass[l] = moving ? m.mass[z(b)] : 0;
+  if (moving && !s.rest.asleep.empty() && s.rest.asleep[z(b)]) moving = false;  // but it has a height
+  c.moving[l] = moving;
   c.inverse_mass[l] = moving ? m.inverse_mass[z(b)] : 0;
   c.damped[l] = moving && (m.damping_all || s.grounded[z(b)]);
   for (int i = 0; i < 6; ++i) c.inverse_inertia[i][l] = moving ? m.inverse_inertia[z(b)](row[i], column[i]) : 0;
@@ -88,6 +89,20 @@ std::vector<BlockConstants> block_constants(const Model& m, const State& s) {
   std::vector<BlockConstants> out(block_groups(m.nblock));
   for (int b = 0; b < int(out.size()) * lanes; ++b) set_constants(m, s, b, b < m.nblock && m.kind[z(b)] == Kind::moving, out[z(b / lanes)]);
   return out;
+}
+
+std::vector<std::uint8_t> idle_groups(const Model& m, const State& s) {
+  if (s.rest.count == 0) return {};
+  std::vector<std::uint8_t> idle(block_groups(m.nblock), 0);
+  for (int k = 0; k < int(idle.size()); ++k) {
+    int asleep = 0, awake = 0;
+    for (int b = k * lanes; b < std::min((k + 1) * lanes, m.nblock); ++b) {
+      if (m.kind[z(b)] == Kind::fixed) continue;
+      ++(s.rest.asleep[z(b)] ? asleep : awake);
+    }
+    idle[z(k)] = asleep > 0 && awake == 0;
+  }
+  return idle;
 }
 
 Vec6 joint_wrench(const Model& m, const State& s, int b) {
@@ -109,7 +124,7 @@ void gather_stale(BlockSums& sums) {
 }  // namespace
 
 void advance(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes,
-             Range groups, bool sample, std::vector<BlockSums>& all) {
+             Range groups, bool sample, std::vector<BlockSums>& all, std::span<const std::uint8_t> idle) {
   const KickDrift step = kick_of(m, s, e);
   const BlockArrays blocks = arrays(s, constants, pushes);
   const LaneKernels& kernels = lane_kernels();
@@ -120,7 +135,17 @@ void advance(const Model& m, State& s, const std::vector<BlockConstants>& consta
     BlockSums& sums = all[z(first / block_grain)];
     const auto loaded = within(pushes.loaded, first * lanes, last * lanes);
     if (!loaded.empty()) work_before(m, s, pushes, loaded, sums);
-    if (kernels.advance(step, blocks, first, last, sample, sums.work)) sums.broken = true;
+    if (idle.empty() || sample) {
+      if (kernels.advance(step, blocks, first, last, sample, sums.work)) sums.broken = true;
+    } else {
+      for (int from = first; from < last; ++from) {
+        if (idle[z(from)]) continue;
+        int to = from + 1;
+        while (to < last && !idle[z(to)]) ++to;
+        if (kernels.advance(step, blocks, from, to, sample, sums.work)) sums.broken = true;
+        from = to;
+      }
+    }
     if (!loaded.empty()) work_after(s, pushes, loaded, sums);
     gather_stale(sums);
   }

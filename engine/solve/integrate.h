@@ -46,9 +46,12 @@ struct Pushes {
 };
 
 // Groups of blocks: sum their wrench rows and pushes, kick by e.kick, drift by s.dt. `sums`: one for each chunk of block_grain groups of
-// all; where nothing is summed the range is one piece.
+// all; where nothing is summed the range is one piece. `idle`: of each group, 1 where nothing moves; empty: none.
 void advance(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes,
-             Range groups, bool sample, std::vector<BlockSums>& sums);
+             Range groups, bool sample, std::vector<BlockSums>& sums, std::span<const std::uint8_t> idle = {});
+
+// Groups in which all that could move sleep (Rest); empty where none does. But for samples, which count their height, a step may pass by.
+std::vector<std::uint8_t> idle_groups(const Model& model, const State& state);
 
 // Blocks picked from anywhere, up to eight at a time, for a sweep in which each meets those that have gone before it where they have
 // arrived.

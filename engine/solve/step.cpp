@@ -37,7 +37,7 @@ Solver::Solver(const Model& model, State& state, int threads)
       debris_(model, state, threads) {
   if (state.dt_goal == 0) state.dt_goal = state.dt;
   any_cracked_ = std::any_of(state.tier.begin(), state.tier.end(), [](Tier t) { return t == Tier::cracked; });
-  constants_ = block_constants(model, state);
+  note_sleep();
   if (!model.pushes.empty()) load_.assign(constants_.size() * lanes, 0.0);
   for (const auto& p : model.pushes)
     if (model.kind[z(p.block)] == Kind::moving) loaded_.push_back({p.block, Mat3::Zero()});
@@ -171,14 +171,21 @@ void Solver::between() {
     follow_contacts();
     excite();
   }
+  if (contacts_ && debris_.sleep(now_, push_.data())) note_sleep();
   if (!model_.analysis.debris || !any_cracked_ || state_.step % hand_over_every != 0) return;
   const std::vector<int> opened = debris_.hand_over_joints(cracked_);
   if (opened.empty()) return;
   opened_.insert(opened_.end(), opened.begin(), opened.end());
   leaving_ = opened;
   find_islands(model_, state_);
-  constants_ = block_constants(model_, state_);
+  note_sleep();
   debris_.loosen();
+}
+
+// Who is held, and which groups of blocks a step may pass by.
+void Solver::note_sleep() {
+  constants_ = block_constants(model_, state_);
+  idle_ = idle_groups(model_, state_);
 }
 
 // The step follows the contacts: shorter at once, longer again after a while of calm, and then by no more than half, since what may land
@@ -207,7 +214,7 @@ void Solver::blocks(int thread) {
     return;
   }
   const Range mine = share_of(int(constants_.size()), block_grain, thread, threads_);
-  advance(model_, state_, constants_, now_, pushes, mine, sample_ != Sample::none, block_sums_);
+  advance(model_, state_, constants_, now_, pushes, mine, sample_ != Sample::none, block_sums_, idle_);
 }
 
 // Blocks with a prescribed motion: they are where they are told to be; what holds them there works on the system.

@@ -51,6 +51,7 @@ class Solver {
   }
   int touching() const { return debris_.touching(); }
   long touched() const { return debris_.touched(); }
+  long slept() const { return debris_.slept(); }
   double contact_seconds() const { return contact_seconds_; }
   std::vector<int> take_cracked();  // joints that cracked since the last call, in the order of their number
 
@@ -61,6 +62,7 @@ class Solver {
   void joints(int thread);
   void between();
   void blocks(int thread);
+  void note_sleep();
   void follow_contacts();
   void finish(const Hooks& hooks);
   void drive();
@@ -78,6 +80,7 @@ class Solver {
   Rows push_, load_;  // N, N m: of contacts (once there are any) and of loads, a row a block
   std::vector<LoadedBlock> loaded_;
   std::vector<BlockConstants> constants_;
+  std::vector<std::uint8_t> idle_;  // groups of blocks that sleep, all of them
   std::vector<JointSums> joint_sums_, cracked_sums_;  // per chunk
   std::vector<BlockSums> block_sums_;
   std::vector<int> newly_cracked_, opened_, leaving_;

@@ -63,6 +63,8 @@ TEST_CASE("what a scene says wrong is one message with its place and remedy", "[
       {"boxx{ size = {1, 1, 1} }", {at, "unknown name \"boxx\"; did you mean \"box\"?"}},
       {"box{ sise = {1, 1, 1}, at = {5, 5, 5}, free = true }", {at, "box: unknown key \"sise\"; did you mean \"size\"?"}},
       {"box{ at = {5, 5, 5}, free = true }", {at, "\"size\" is missing"}},
+      {"analysis{ sleep = 'deep' }", {at, "sleep must be true or false"}},
+      {"analysis{ sleep = true, solver = 'sequential' }", {at, "lets no debris sleep", "leave sleep out", "leapfrog"}},
       {"material{ name = 'm', density = -5 }", {at, "density = -5 kg/m3 is out of range; allowed is 0.01 to 100000 kg/m3"}},
       {"material{ name = 'm', density = '5' }", {at, "density must be a number in kg/m3"}},
       {"box{ size = {0, 1, 1}, at = {5, 5, 5}, free = true }", {at, "size[1] = 0 m is out of range; allowed is"}},

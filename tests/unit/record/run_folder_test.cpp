@@ -121,6 +121,7 @@ TEST_CASE("metrics.json has the keys of the contract, unknown numbers are null",
                         "joints",
                         "contact_points",
                         "joints_broken",
+                        "blocks_asleep",
                         "wall_s",
                         "realtime_factor",
                         "point_updates",
@@ -142,7 +143,7 @@ TEST_CASE("metrics.json has the keys of the contract, unknown numbers are null",
   for (const auto& item : json["energy"].items()) found.push_back(item.key());
   CHECK(found == std::vector<std::string>{"frame", "base_work_J", "external_work_J", "tilt_work_J", "kinetic_J", "gravity_J", "elastic_J",
                                           "friction_J", "fracture_J", "crushing_J", "damping_J", "contact_damping_J", "reset_J",
-                                          "residual_relative"});
+                                          "sleep_J", "residual_relative"});
   CHECK(json["energy"]["friction_J"] == 3.0);
   CHECK(json["realtime_factor"] == 2.0);
   CHECK(json["point_updates_per_s"] == 50.0);

@@ -42,6 +42,20 @@ TEST_CASE("each effect names the line that called for it", "[scene]") {
     CHECK(why(scene, name).empty());
 }
 
+TEST_CASE("debris sleeps where the scene says so, and there is any", "[scene][sleep]") {
+  const std::string two = "box{ name = 'c', size = {1, 1, 1}, at = {5, 0, 0}, free = true }\n";
+  CHECK(why(scene_of(two), "sleep of debris").empty());
+  Scene scene = scene_of(two + "analysis{ duration = 1, sleep = true }\n");
+  CHECK(why(scene, "sleep of debris") == Place{scene.file, 7}.text());
+  Scene without = scene;
+  switch_off(without, "sleep of debris");
+  CHECK(why(without, "sleep of debris").empty());
+  CHECK_FALSE(without.analysis.sleep);
+  CHECK(why(scene_of(two + "gravity(0) analysis{ duration = 1, sleep = true }\n"), "sleep of debris").empty());
+  scene.blocks.resize(1);
+  CHECK(why(scene, "sleep of debris").empty());
+}
+
 TEST_CASE("a block alone calls for no contact, a rule of none for no joint", "[scene]") {
   Scene scene = scene_of("joint{ between = {'', ''}, none = true }\ndamping{ mass = 2, scope = 'none' }");
   CHECK(why(scene, "rotation of joint frames").empty());

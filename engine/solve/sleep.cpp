@@ -1,0 +1,233 @@
+#include "engine/solve/sleep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace erbs {
+namespace {
+
+constexpr double still_speed = 1e-6;  // of sqrt(g L); a poured heap (hard case 26) falls below it and on to 1e-12
+constexpr double still_pull = 1e-4;   // of g
+constexpr double woken_pull = 1e-3;   // of g; more than the dashpots of a contact at still_speed let go of when it stops
+constexpr double still_time = 0.5;    // of sqrt(L / g)
+constexpr int look_every = 16;        // steps between two looks at who is still
+std::size_t z(int i) { return std::size_t(i); }
+
+auto key_of(const Pair& p) { return std::tie(p.a, p.b, p.part_a, p.part_b); }
+
+// A quaternion that the step leaves as it is while nothing turns (lanes_blocks.inc scales it in each step by how far it is from 1).
+Quat settled(Quat q) {
+  for (int round = 0; round < 32; ++round) {
+    const double e = q.x() * q.x() + q.y() * q.y() + q.z() * q.z() + q.w() * q.w() - 1, scale = 1 - e * (0.5 - 0.375 * e);
+    const Quat next(q.w() * scale, q.x() * scale, q.y() * scale, q.z() * scale);
+    if (next.coeffs() == q.coeffs()) break;
+    q = next;
+  }
+  return q;
+}
+
+// What a contact at rest remembers of its greatest speed of approach after a while, as contact.cpp forgets it from step to step: by
+// approach' = -approach / memory, memory = max(settings.memory, 30 depth / approach), down to the reference speed.
+double forgotten(double approach, double depth, double time) {
+  const ContactSettings settings;
+  const double slow = 30 * depth, least = std::max(slow / settings.memory, settings.reference_speed);
+  if (approach > least) {
+    const double until = settings.memory * std::log(approach / least);
+    if (time < until) return approach * std::exp(-time / settings.memory);
+    time -= until;
+    approach = least;
+  }
+  if (slow > 0) approach /= 1 + approach * time / slow;
+  return std::max(approach, settings.reference_speed);
+}
+
+}  // namespace
+
+Sleep::Sleep(const Model& model, State& state) : model_(model), state_(state), g_(model.gravity.norm()) {
+  on_ = model.analysis.sleep && model.analysis.debris && model.analysis.solver != "sequential" && g_ > 0;
+  if (!on_) return;
+  if (state.rest.asleep.empty()) {
+    state.rest.asleep.assign(z(model.nblock), 0);
+    state.rest.slept_at.assign(z(model.nblock), 0.0);
+    state.rest.stirred.assign(z(model.nblock), std::numeric_limits<double>::infinity());
+  }
+  loaded_.assign(z(model.nblock), 0);
+  for (const auto& push : model.pushes) loaded_[z(push.block)] = 1;
+}
+
+bool Sleep::may_sleep(int b) const {
+  return model_.kind[z(b)] == Kind::moving && state_.loose[z(b)] && !state_.joined[z(b)] && !loaded_[z(b)];
+}
+
+bool Sleep::rests(const Pair& p) const {
+  const bool a = asleep(p.a), b = asleep(p.b);
+  return (a || b) && (a || model_.kind[z(p.a)] == Kind::fixed) && (b || model_.kind[z(p.b)] == Kind::fixed);
+}
+
+void Sleep::hold(const Resting& one) {
+  const PairResult& r = one.result;
+  double *a = &held_[8 * z(one.a)], *b = &held_[8 * z(one.b)];
+  for (int k = 0; k < 3; ++k) {
+    a[k] -= r.wrench.force[k];
+    b[k] += r.wrench.force[k];
+    a[3 + k] += r.wrench.moment_a[k];
+    b[3 + k] += r.wrench.moment_b[k];
+  }
+  rate_[z(one.a)] += r.rate_a;
+  rate_[z(one.b)] += r.rate_b;
+  elastic_ += r.elastic + r.tangential;
+  ++touching_;
+}
+
+void Sleep::sort(const std::vector<int>& involved, const std::function<PairResult(int i)>& evaluate) {
+  const std::vector<Pair>& pair = state_.debris.pair;
+  live_.clear();
+  pushed_.clear();
+  awake_.clear();
+  mark_.assign(z(model_.nblock), 0);
+  std::vector<Resting> before = std::exchange(resting_, {});
+  auto old = before.begin();
+  for (int i = 0; i < int(pair.size()); ++i) {
+    const Pair& p = pair[z(i)];
+    if (!rests(p)) {
+      live_.push_back(i);
+      for (const int b : {p.a, p.b})
+        if (!std::exchange(mark_[z(b)], std::uint8_t(1))) pushed_.push_back(b);
+      continue;
+    }
+    if (!p.touching) continue;
+    const auto key = [](const Resting& r) { return std::tie(r.a, r.b, r.part_a, r.part_b); };
+    while (old != before.end() && key(*old) < key_of(p)) ++old;
+    if (old != before.end() && key(*old) == key_of(p)) resting_.push_back(*old);
+    else resting_.push_back({p.a, p.b, p.part_a, p.part_b, i, evaluate(i)});
+    resting_.back().pair = i;
+  }
+  for (const int b : involved)
+    if (model_.kind[z(b)] != Kind::fixed && !asleep(b)) awake_.push_back(b);
+  if (!on_) return;
+  std::fill(mark_.begin(), mark_.end(), std::uint8_t(0));
+  for (const int b : involved) mark_[z(b)] = 1;
+  for (int b = 0; b < model_.nblock; ++b)
+    if (!mark_[z(b)]) state_.rest.stirred[z(b)] = std::numeric_limits<double>::infinity();
+  held_.assign(z(model_.nblock), 0.0);
+  rate_.assign(z(model_.nblock), 0.0);
+  elastic_ = largest_rate_ = touching_ = 0;
+  for (const Resting& one : resting_) hold(one);
+  for (const int b : involved)
+    if (asleep(b)) largest_rate_ = std::max(largest_rate_, rate_[z(b)]);
+}
+
+bool Sleep::turn(const Excitation& e, const double* push, const ContactShapes& shapes, std::span<const ContactBlock> blocks) {
+  if (!on_) return false;
+  if (reach_.empty())
+    for (std::size_t b = 0; b + 1 < shapes.first.size(); ++b) {
+      reach_.push_back(0);
+      for (int s = shapes.first[b]; s < shapes.first[b + 1]; ++s) reach_.back() = std::max(reach_.back(), shapes.shape[z(s)].reach);
+    }
+  pull_ = e.gravity - e.ground;
+  bool changed = wake_all();
+  changed = wake_pressed(push, blocks) || changed;
+  if (state_.step % look_every == 0) changed = lay_down(e.kick, push, blocks) || changed;
+  slept_ += state_.rest.count;
+  return changed;
+}
+
+// True where gravity or the ground's acceleration has changed: all that sleeps wakes.
+bool Sleep::wake_all() {
+  Rest& rest = state_.rest;
+  if ((pull_ - rest.pull).norm() <= still_pull * g_) return false;
+  rest.pull = pull_;
+  for (double& at : rest.stirred)
+    if (at < state_.t) at = state_.t;
+  std::vector<int> woken;
+  for (int b = 0; b < model_.nblock && rest.count > 0; ++b)
+    if (asleep(b)) woken.push_back(b);
+  wake(woken);
+  return !woken.empty();
+}
+
+bool Sleep::wake_pressed(const double* push, std::span<const ContactBlock> blocks) {
+  if (state_.rest.count == 0) return false;
+  std::vector<int> woken;
+  for (const int b : pushed_)
+    if (asleep(b) && motion_of(b, push, blocks[z(b)]).acceleration > woken_pull * g_) woken.push_back(b);
+  wake(woken);
+  return !woken.empty();
+}
+
+void Sleep::wake(const std::vector<int>& blocks) {
+  if (blocks.empty()) return;
+  Rest& rest = state_.rest;
+  mark_.assign(z(model_.nblock), 0);
+  for (const int b : blocks) mark_[z(b)] = 1;
+  const auto since = [&](int b) { return asleep(b) ? rest.slept_at[z(b)] : 0.0; };
+  for (const Resting& r : resting_)
+    if (mark_[z(r.a)] || mark_[z(r.b)]) {
+      double& approach = state_.debris.pair[z(r.pair)].approach;
+      approach = forgotten(approach, r.result.depth, state_.t - std::max(since(r.a), since(r.b)));
+    }
+  for (const int b : blocks) {
+    rest.asleep[z(b)] = 0;
+    rest.stirred[z(b)] = state_.t;
+    --rest.count;
+  }
+}
+
+Sleep::Motion Sleep::motion_of(int b, const double* push, const ContactBlock& block) const {
+  const double* row = push + 8 * z(b);
+  const Vec3 force(row[0], row[1], row[2]), moment(row[3], row[4], row[5]);
+  const Vec3 spin_up = block.turn * (block.inverse_tensor * (block.turn.transpose() * moment));
+  return {block.v.norm() + block.w.norm() * reach_[z(b)], (force * block.inverse_mass + pull_).norm() + spin_up.norm() * reach_[z(b)]};
+}
+
+bool Sleep::lay_down(double kick, const double* push, std::span<const ContactBlock> blocks) {
+  const double t = state_.t;
+  std::vector<double>& stirred = state_.rest.stirred;
+  for (const int b : awake_) {
+    const Motion motion = motion_of(b, push, blocks[z(b)]);
+    bool still = motion.speed <= still_speed * std::sqrt(g_ * model_.smallest_edge[z(b)]);
+    if (may_sleep(b)) still = still && motion.acceleration <= still_pull * g_;
+    if (!still || stirred[z(b)] > t) stirred[z(b)] = t;
+  }
+  const auto calm = [&](int b) {
+    return model_.kind[z(b)] == Kind::fixed || asleep(b) || t - stirred[z(b)] >= still_time * std::sqrt(model_.smallest_edge[z(b)] / g_);
+  };
+  for (const int b : awake_) mark_[z(b)] = may_sleep(b) && calm(b);
+  for (const int i : live_) {
+    const Pair& p = state_.debris.pair[z(i)];
+    if (p.offset_left > 0) mark_[z(p.a)] = mark_[z(p.b)] = 0;
+    if (!p.touching) continue;
+    if (!calm(p.a)) mark_[z(p.b)] = 0;
+    if (!calm(p.b)) mark_[z(p.a)] = 0;
+  }
+  bool any = false;
+  for (const int b : awake_) {
+    if (!mark_[z(b)] || asleep(b)) continue;
+    put_to_sleep(b, kick, push);
+    any = true;
+  }
+  return any;
+}
+
+// Its kick of this step would have made v1 of v0: v0 m v1 / 2 is the energy of this instant (energy.h), and all that goes.
+void Sleep::put_to_sleep(int b, double kick, const double* push) {
+  State& s = state_;
+  const double* row = push + 8 * z(b);
+  const Vec3 force(row[0], row[1], row[2]), moment(row[3], row[4], row[5]);
+  const Vec3 v0 = s.v[z(b)], v1 = v0 + kick * (force * model_.inverse_mass[z(b)] + pull_);
+  const Mat3 back = s.q[z(b)].toRotationMatrix().transpose();
+  const Vec3 spin = s.spin_momentum[z(b)], p0 = back * spin, p1 = back * (spin + kick * moment);
+  s.energy.sleep += 0.5 * (model_.mass[z(b)] * v0.dot(v1) + p1.dot(model_.inverse_inertia[z(b)] * p0));
+  s.v[z(b)].setZero();
+  s.w[z(b)].setZero();
+  s.spin_momentum[z(b)].setZero();
+  s.q[z(b)] = settled(s.q[z(b)]);
+  s.rest.asleep[z(b)] = 1;
+  s.rest.slept_at[z(b)] = s.t;
+  ++s.rest.count;
+}
+
+}  // namespace erbs

@@ -1,0 +1,171 @@
+// Debris that sleeps: what it leaves as it is, what wakes it and when, and that the ledger, threads and a restart do not notice.
+#include <catch2/catch.hpp>
+
+#include "engine/analysis/dynamic.h"
+#include "engine/record/checkpoint.h"
+#include "tests/support/small_wall.h"
+#include "tests/unit/record/two_bricks.h"
+
+using namespace erbs;
+
+namespace {
+
+// Nine bricks fall in a heap, and a tenth on a tray beside it that is drawn away at 4 s; `more`: loads, analysis.
+std::string heap(const std::string& more) {
+  return R"(
+    material{ name = "brick", density = 1800, kn = 2e9, ks = 8e8, friction = 0.6, restitution = 0.2 }
+    material{ name = "ice", density = 1800, kn = 2e9, ks = 8e8, friction = 0.02 }
+    ground{ size = 20, material = "brick" }
+    local state = 12345
+    local function random() state = (state * 1103515245 + 12345) % 2147483648 return state / 2147483648 end
+    for k = 0, 8 do
+      box{ name = "b" .. k, material = "brick", free = true, size = {.3, .125, .1}, center = {.36 * (k % 2), .22 * (k // 2 % 2), .12 + .22 * (k // 4)},
+        initial = { rotation = {.2 * random(), .2 * random(), .5 * random()} } }
+    end
+    box{ name = "tray", material = "ice", free = true, size = {.4, .3, .02}, center = {.18, .11, 1.2} }
+    box{ name = "top", material = "ice", free = true, size = {.3, .125, .1}, center = {.18, .11, 1.26} }
+    motion{ block = "tray", direction = "x", wave = table_wave{ times = {0, 4, 4.1, 99}, values = {0, 0, 1, 1} } }
+  )" + more;
+}
+
+const std::string awake = "analysis{ duration = 5, start = 'rest' }", asleep = "analysis{ duration = 5, start = 'rest', sleep = true }";
+
+struct Ran {
+  Prepared run;
+  std::optional<Solver> solver;
+  std::vector<std::pair<double, int>> count;  // of those asleep, at samples
+};
+
+// Runs to `until`; samples are taken at each step from `from` on.
+void go(Ran& r, const std::string& script, double until, double from = 1e9, int threads = 1) {
+  Script loaded(Script::Options{.quiet = true});
+  const Scene scene = loaded.load_text(heap(script), "heap.lua");
+  r.run = prepare(scene, false);
+  start_at_rest(scene, r.run, threads);
+  r.solver.emplace(r.run.model, r.run.state, threads);
+  const State& s = r.run.state;
+  r.solver->run({[&](double t) { return t >= from; },
+                 [&] {
+                   r.count.push_back({r.solver->instant().t, s.rest.count});
+                 },
+                 [&] { return s.t >= until; }});
+}
+
+int block(const Model& m, const std::string& name) {
+  return int(std::find(m.block_name.begin(), m.block_name.end(), name) - m.block_name.begin());
+}
+
+double apart(const Ran& a, const Ran& b) {
+  double out = 0;
+  for (std::size_t i = 0; i < a.run.state.u.size(); ++i) out = std::max(out, (a.run.state.u[i] - b.run.state.u[i]).norm());
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a heap that sleeps lies where the one that does not lies", "[solve][sleep]") {
+  Ran still, lively;
+  go(still, asleep, 3.95, 3.9);
+  go(lively, awake, 3.95, 3.9);
+  const State &s = still.run.state, &l = lively.run.state;
+  CHECK(s.rest.count == 10);
+  CHECK(l.rest.count == 0);
+  INFO("apart " << apart(still, lively) << " m");
+  CHECK(apart(still, lively) < 1e-6);  // m: what it might have crept, 1e-6 m/s for a second, had it not come to rest by itself
+  CHECK(s.v[std::size_t(block(still.run.model, "b3"))].norm() == 0);
+  CHECK(s.energy.sleep > 0);
+  CHECK(s.energy.sleep < 10 * 0.5 * 6.75 * 1e-12);  // ten bricks at the bound of speed
+  CHECK(s.energy.residual_worst < 1.01 * l.energy.residual_worst);
+  CHECK(s.energy.elastic == Approx(l.energy.elastic).epsilon(1e-4));  // of springs that go on swinging below the bounds
+  CHECK(s.momentum_residual < 1e-9);
+  CHECK(s.max_penetration_relative == l.max_penetration_relative);
+  CHECK(still.solver->touching() == lively.solver->touching());
+  const Model& m = still.run.model;
+  double weight = 0;
+  for (int b = 0; b < m.nblock; ++b)
+    if (m.kind[std::size_t(b)] == Kind::moving && m.block_name[std::size_t(b)] != "top") weight += m.mass[std::size_t(b)] * standard_g;
+  CHECK(-still.solver->block_wrench(block(m, "ground")).z() == Approx(weight).epsilon(1e-3));
+  CHECK(still.solver->slept() > 0);
+}
+
+TEST_CASE("a sleeper whose support is drawn away falls, and wakes the heap that it falls on", "[solve][sleep]") {
+  Ran still, lively;
+  go(still, asleep, 4.6, 3.99);
+  go(lively, awake, 4.6, 3.99);
+  int least = 10;
+  double falls = 0, lands = 0;
+  for (const auto& [t, count] : still.count) {
+    if (falls == 0 && count < 10) falls = t;
+    if (lands == 0 && count < 9) lands = t;
+    least = std::min(least, count);
+  }
+  CHECK(falls == Approx(4).margin(2 * still.run.state.dt_goal));
+  CHECK(lands - falls > 0.2);
+  CHECK(least == 0);
+  INFO("apart " << apart(still, lively) << " m, at least " << least << " asleep");
+  CHECK(apart(still, lively) < 1e-6);
+  CHECK(still.run.state.energy.residual_worst < 1e-2);
+}
+
+TEST_CASE("all wake in the step in which the ground begins to shake, and none sleeps while it does", "[solve][sleep]") {
+  const std::string shake = "ground_motion{ direction = 'x', wave = sine{ amplitude = 3, frequency = 5, start = 3.5, duration = 0.4 } }";
+  Ran still, lively;
+  go(still, shake + asleep, 3.6, 3.48);
+  go(lively, shake + awake, 3.6, 3.48);
+  for (const auto& [t, count] : still.count) {
+    INFO(t);
+    if (t < 3.5 - still.run.state.dt_goal) CHECK(count == 10);
+    if (t > 3.5 + still.run.state.dt_goal) CHECK(count == 0);
+  }
+  INFO("apart " << apart(still, lively) << " m");
+  CHECK(apart(still, lively) < 1e-6);
+}
+
+TEST_CASE("a turn of gravity wakes all", "[solve][sleep]") {
+  Ran still;
+  go(still, "tilt{ axis = 'y', wave = table_wave{ times = {0, 3.5, 3.6, 99}, values = {0, 0, 1e-3, 1e-3} } }" + asleep, 3.55, 3.48);
+  CHECK(still.count.front().second == 10);
+  CHECK(still.count.back().second == 0);
+}
+
+TEST_CASE("threads and samples do not change a bit of debris that sleeps and wakes", "[solve][sleep]") {
+  Ran one, two, sampled;
+  go(one, asleep, 4.6);
+  go(two, asleep, 4.6, 1e9, 2);
+  go(sampled, asleep, 4.6, 0);
+  CHECK(one.solver->slept() > 0);
+  CHECK(state_hash(one.run.state) == state_hash(two.run.state));
+  CHECK(one.run.state.step <= sampled.run.state.step + 128);
+  go(sampled, asleep, one.run.state.t - 0.5 * one.run.state.dt, 0);
+  REQUIRE(one.run.state.step == sampled.run.state.step);
+  CHECK(state_hash(one.run.state) == state_hash(sampled.run.state));
+}
+
+TEST_CASE("a run stopped while debris sleeps and resumed ends as if never stopped, to the bit", "[analysis][resume][sleep]") {
+  const std::string script =
+      heap("recorder{ name = 'ground', quantity = 'reaction', axis = 'z' } analysis{ duration = 4.7, start = 'rest', sleep = true }");
+  const auto run = [&](const std::string& dir, Existing existing, std::optional<double> until) {
+    Script loaded(Script::Options{.quiet = true});
+    const Scene scene = loaded.load_text(script, "heap.lua");
+    RunOptions options;
+    options.directory = dir;
+    options.existing = existing;
+    options.until = until;
+    return run_dynamic(scene, script, options).metrics;
+  };
+  const test::Scratch whole("sleep_whole"), parts("sleep_parts");
+  const Metrics expected = run(whole.path, Existing::refuse, {});
+  Existing existing = Existing::refuse;
+  int asleep_then = 0;
+  for (const double until : {0.7, 3.7, 4.45}) {
+    const Metrics stopped = run(parts.path, existing, until);
+    CHECK(stopped.status == "stopped");
+    asleep_then = std::max(asleep_then, stopped.blocks_asleep);
+    existing = Existing::resume;
+  }
+  CHECK(asleep_then == 10);
+  const Metrics got = run(parts.path, Existing::resume, {});
+  CHECK(got.state_hash == expected.state_hash);
+  CHECK(got.energy == expected.energy);
+  CHECK(got.blocks_asleep == expected.blocks_asleep);
+}
