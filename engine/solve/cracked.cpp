@@ -1,6 +1,7 @@
 #include "engine/solve/cracked.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/model/batches.h"
 #include "engine/solve/joint_geometry.h"
@@ -9,6 +10,14 @@ namespace erbs {
 namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
+
+// Beds bear and stick, upright joints hang open and slide freely: eight of a kind seldom need the other's arithmetic.
+bool bears(const Model& model, const Joint& joint) {
+  const Vec3 normal = joint.type->frame.col(2), down = model.gravity.norm() > 0 ? Vec3(model.gravity.normalized()) : Vec3::UnitZ();
+  return std::fabs(normal.dot(down)) > 0.5;
+}
+
+double total(const double* x) { return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7])); }
 
 }  // namespace
 
@@ -101,7 +110,8 @@ void Cracked::fill(Group& group, int l, int j) {
 
 Cracked::Group Cracked::empty_group(const Joint& joint, int batch) const {
   Group group{};
-  group.law = joint.type->law, group.points = joint.type->points, group.corners = joint.type->corners, group.batch = batch;
+  group.law = joint.type->law, group.points = joint.type->points, group.corners = joint.type->corners, group.batch = batch,
+  group.bears = bears(model_, joint);
   group.spot.resize(z(group.points));
   group.slip.resize(z(group.points));
   group.bond.resize(z(group.points));
@@ -118,7 +128,7 @@ Cracked::Group Cracked::empty_group(const Joint& joint, int batch) const {
 
 bool Cracked::fits(const Group& group, const Joint& joint) const {
   if (group.law != joint.type->law || group.points != joint.type->points || group.corners != joint.type->corners ||
-      group.watch.empty() == joint.type->inset)
+      group.watch.empty() == joint.type->inset || group.bears != bears(model_, joint))
     return false;
   for (int i = 0; i < joint.type->points; ++i)
     if (group.first[z(i + 1)] - group.first[z(i)] != model_.cell[z(joint.type->first_place + i)].corners) return false;
@@ -189,12 +199,12 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
       kernels.respond(law, batch, shape, group.slip.data(), group.bond.data(), lane, rows, wrench_rows);
       group.bare = std::all_of(lane.least_damage, lane.least_damage + lanes, [](double damage) { return damage >= 1; });
     }
+    sums.energy.friction += total(lane.friction);
+    sums.energy.fracture += total(lane.fracture);
+    sums.energy.crushing += total(lane.crushing);
+    sums.energy.damping += total(lane.damping);
+    if (sample) sums.energy.elastic += total(lane.stored);
     for (int l = 0; l < lanes; ++l) {
-      sums.energy.friction += lane.friction[l];
-      sums.energy.fracture += lane.fracture[l];
-      sums.energy.crushing += lane.crushing[l];
-      sums.energy.damping += lane.damping[l];
-      if (sample) sums.energy.elastic += lane.stored[l];
       if (lane.error[l] > sums.largest_error) sums.largest_error = lane.error[l], sums.worst_joint = group.joint[l];
     }
   }

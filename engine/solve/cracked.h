@@ -38,12 +38,13 @@ class Cracked {
     std::vector<int> first;                // [points + 1]
     std::vector<CornerLanes> loop, watch;  // of the cells; watch empty where it is loop
     CrackedLanes lane;
-    bool bare = true;  // no point of any lane has a bond left
+    bool bears = false;  // joints that gravity presses
+    bool bare = true;    // no point of any lane has a bond left
     bool empty() const;
     void look_for_bonds(const PointLaw& law);
   };
   Group empty_group(const Joint& joint, int batch) const;
-  bool fits(const Group& group, const Joint& joint) const;  // the same law and numbers of everything
+  bool fits(const Group& group, const Joint& joint) const;  // the same law and numbers of everything, and pressed alike
   int find_lane(const Joint& joint);                        // group * lanes + lane, in a new group if need be
   void fill(Group& group, int l, int j);
   void clear(Group& group, int l) const;
