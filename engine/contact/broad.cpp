@@ -149,10 +149,12 @@ double suggested_margin(std::vector<double> t) {
   return 0.1 * t[t.size() / 2];
 }
 
-bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks) {
+bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks,
+                  std::span<const std::uint8_t> still) {
   if (!list.valid || list.u.size() != blocks.size()) return true;
   double greatest = 0, second = 0;
   for (size_t b = 0; b < blocks.size(); ++b) {
+    if (!still.empty() && still[b]) continue;
     double reach = 0;
     for (int s = shapes.first[b]; s < shapes.first[b + 1]; ++s) reach = std::max(reach, shapes.shape[at(s)].reach);
     // |R - R0| of Frobenius is 2 sqrt 2 sin(angle / 2): the chord of the farthest point is reach times that / sqrt 2.
@@ -168,18 +170,25 @@ bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<c
 }
 
 double search(PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
-              std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law) {
-  const std::vector<Found> found = shapes.shape.empty() ? std::vector<Found>{} : close_parts(list, shapes, blocks, loose, excluded);
+              std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law, std::span<const std::uint8_t> still) {
+  std::vector<std::uint8_t> looking(loose.begin(), loose.end());
+  for (size_t b = 0; b < still.size(); ++b) looking[b] = looking[b] && !still[b];
+  const std::vector<Found> found = shapes.shape.empty() ? std::vector<Found>{} : close_parts(list, shapes, blocks, looking, excluded);
   std::vector<Pair> now;
   now.reserve(found.size());
   double dropped = 0;
   auto old = list.pair.begin();
+  const auto leave = [&](const Pair& p) {
+    const bool stays = !looking[at(p.a)] && !looking[at(p.b)] && (loose[at(p.a)] || loose[at(p.b)]);
+    if (stays) now.push_back(p);
+    else dropped += p.tangential;
+  };
   for (const Found& f : found) {
-    for (; old != list.pair.end() && key_of(*old) < f.key(); ++old) dropped += old->tangential;
+    for (; old != list.pair.end() && key_of(*old) < f.key(); ++old) leave(*old);
     if (old != list.pair.end() && key_of(*old) == f.key()) now.push_back(*old++);
     else now.push_back(new_pair(f.a, f.part_a, f.b, f.part_b, law(f.a, f.b), shapes));
   }
-  for (; old != list.pair.end(); ++old) dropped += old->tangential;
+  for (; old != list.pair.end(); ++old) leave(*old);
   list.pair = std::move(now);
   list.u.resize(blocks.size());
   list.turn.resize(blocks.size());

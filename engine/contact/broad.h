@@ -15,14 +15,18 @@ inline std::uint64_t pair_key(int a, int b) { return static_cast<std::uint64_t>(
 // A tenth of the median of the parts' thickness (m).
 double suggested_margin(std::vector<double> thickness);
 
-// True where two bodies may have come closer than the list knows.
-bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks);
+// True where two bodies may have come closer than the list knows. `still`: of each block, 1 where it lies as at the last search; empty: not
+// known of any.
+bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks,
+                  std::span<const std::uint8_t> still = {});
 
 // Lists every pair of parts closer than the margin of which at least one block is loose, except pairs of blocks whose pair_key is
 // in `excluded` (sorted) and pairs that cannot move. Pairs that stay keep their memory; what a dropped pair stored in its friction
-// springs is returned (J, to be booked as reset).
+// springs is returned (J, to be booked as reset). Blocks that are `still` look for nobody, but are found: what is listed between them, or
+// with such as are not loose, stays.
 double search(PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
-              std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law);
+              std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law,
+              std::span<const std::uint8_t> still = {});
 
 // Two materials in contact: springs in series (the mean of equal ones is that one), the lesser friction and restitution.
 PairLaw pair_law(const Material& a, const Material& b);

@@ -48,6 +48,7 @@ class Debris {
   void place(int b);
   void look();
   void sort();
+  void find_still();
   PairLaw law(int a, int b) const;
 
   const Model& model_;
@@ -88,6 +89,7 @@ class Debris {
   std::vector<int> of_pair_;                   // ... and the first of their joints
   double released_ = 0;                        // J, set free by the last hand-over and still in this step's sums
   double allowed_ = 0, elastic_ = 0;
+  std::vector<std::uint8_t> still_;            // sleepers that lie as at the last search [nblock], empty without
   bool relisted_ = true, unsorted_ = true;
   int touching_ = 0;
   long touched_ = 0;

@@ -60,6 +60,7 @@ void Debris::sort() {
     r.rate_b = std::max(0.0, r.rate_b - bed_[z(i)].rate_b);
     return r;
   });
+  find_still();
   unsorted_ = false;
   relisted_ = true;
 }
@@ -75,9 +76,21 @@ void Debris::look() {
   for (int b = 0; b < model_.nblock; ++b)
     if (!sleep_.asleep(b)) place(b);
   part_beds();
-  if (state_.debris.valid && !needs_search(state_.debris, shapes_, blocks_)) return;
-  state_.energy.reset += search(state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); });
+  if (unsorted_) find_still();
+  if (state_.debris.valid && !needs_search(state_.debris, shapes_, blocks_, still_)) return;
+  state_.energy.reset += search(state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); }, still_);
   list_involved();
+  find_still();
+}
+
+// Sleepers that have been looked at where they lie: the list knows all that is near them.
+void Debris::find_still() {
+  const PairList& list = state_.debris;
+  still_.clear();
+  if (state_.rest.count == 0 || list.u.size() != blocks_.size()) return;
+  still_.assign(blocks_.size(), 0);
+  for (int b = 0; b < model_.nblock; ++b)
+    still_[z(b)] = sleep_.asleep(b) && blocks_[z(b)].u == list.u[z(b)] && blocks_[z(b)].turn == list.turn[z(b)];
 }
 
 void Debris::forces(int thread, int threads, bool sample) {

@@ -1,0 +1,34 @@
+// Blocks that lie still look for nobody, and are found.
+#include <catch2/catch.hpp>
+
+#include "tests/unit/contact/bodies.h"
+
+using namespace erbs;
+using namespace erbs::trial;
+
+TEST_CASE("a search that leaves out what lies still lists what a whole one lists", "[contact]") {
+  std::vector<Body> row;
+  for (int i = 0; i < 6; ++i) row.push_back({{translated(brick(), Vec3(0.305 * i, 0, 0))}});
+  Bodies one(row, {1e9, 4e8, 0.5, 0.2}, 1e-5), other(row, {1e9, 4e8, 0.5, 0.2}, 1e-5);
+  const std::vector<std::uint8_t> loose(6, 1), still = {0, 1, 1, 1, 0, 0};
+  const auto law = [&](int, int) { return one.law; };
+  for (Bodies* b : {&one, &other}) {
+    search(b->list, b->shapes, b->block, loose, {}, law);
+    REQUIRE(b->list.pair.size() == 5);
+    for (Pair& p : b->list.pair) p.tangential = 1 + p.a;  // what they remember
+    b->block[4].u = Vec3(0, 0, 1);                        // leaves its neighbours
+    b->block[5].u = Vec3(-0.305 * 3, 0, 0.105);           // comes to lie on one that is still
+  }
+  CHECK(needs_search(one.list, one.shapes, one.block, still));
+  const double dropped = search(one.list, one.shapes, one.block, loose, {}, law, still);
+  CHECK(dropped == search(other.list, other.shapes, other.block, loose, {}, law));
+  CHECK(dropped == 4 + 5);
+  REQUIRE(one.list.pair.size() == other.list.pair.size());
+  for (std::size_t i = 0; i < one.list.pair.size(); ++i) {
+    CHECK(one.list.pair[i].a == other.list.pair[i].a);
+    CHECK(one.list.pair[i].b == other.list.pair[i].b);
+    CHECK(one.list.pair[i].tangential == other.list.pair[i].tangential);
+  }
+  CHECK(find_pair(one.list, 2, 0, 5, 0) >= 0);
+  CHECK_FALSE(needs_search(one.list, one.shapes, one.block, still));
+}
