@@ -9,7 +9,7 @@
 namespace erbs {
 namespace {
 
-constexpr int piece_size = 10;  // blocks
+constexpr int piece_size = 20;  // blocks
 
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -90,7 +90,8 @@ void TwoLevel::group(const Model& m, const State& s, const Freedom& f) {
 
 TwoLevel::TwoLevel(const Model& m, const State& s, const Freedom& f, const Form& form, const VecX& more) {
   group(m, s, f);
-  inverse_.assign(piece_.size(), Mat6::Zero());
+  std::vector<Mat6> own(piece_.size(), Mat6::Zero());
+  inverse_.reserve(own.size());
   Coupled coupled;
   const auto add = [&](int p, int q, const Mat6& k) {
     if (p >= q) coupled.try_emplace({p, q}, Mat6::Zero()).first->second += k;
@@ -105,7 +106,7 @@ TwoLevel::TwoLevel(const Model& m, const State& s, const Freedom& f, const Form&
     Mat6 of_piece[2];
     for (int e = 0; e < 2; ++e) {
       if (end[e] < 0) continue;
-      inverse_[z(end[e])] += side[e]->transpose() * k * *side[e];
+      own[z(end[e])] += side[e]->transpose() * k * *side[e];
       of_piece[e] = *side[e] * carried(arm_[z(end[e])]);
     }
     if (end[0] >= 0 && end[1] >= 0 && piece_[z(end[0])] == piece_[z(end[1])]) continue;  // it moves as one
@@ -115,14 +116,15 @@ TwoLevel::TwoLevel(const Model& m, const State& s, const Freedom& f, const Form&
   }
   for (std::size_t i = 0; more.size() > 0 && i < piece_.size(); ++i) {
     const Mat6 held = Vec6(more.segment<6>(6 * Eigen::Index(i))).asDiagonal(), r = carried(arm_[i]);
-    inverse_[i] += held;
+    own[i] += held;
     add(piece_[i], piece_[i], r.transpose() * held * r);
   }
-  for (Mat6& k : inverse_) {
-    const Eigen::LLT<Mat6> own(k);
-    definite_ = definite_ && own.info() == Eigen::Success;
-    k = own.solve(Mat6::Identity());
+  for (const Mat6& k : own) {
+    const Eigen::LLT<Mat6> factors(k);
+    definite_ = definite_ && factors.info() == Eigen::Success;
+    inverse_.push_back(Mat6(factors.solve(Mat6::Identity())).cast<float>());
   }
+  own = std::vector<Mat6>();
   coarse_.compute(lower_half(coupled, 6 * pieces_));
   definite_ = definite_ && coarse_.info() == Eigen::Success && (coarse_.vectorD().array() > 0).all();
 }
@@ -131,7 +133,7 @@ VecX TwoLevel::apply(const VecX& residual) const {
   VecX out(residual.size()), whole = VecX::Zero(6 * pieces_);
   for (std::size_t i = 0; i < piece_.size(); ++i) {
     const Vec6 r = residual.segment<6>(6 * Eigen::Index(i));
-    out.segment<6>(6 * Eigen::Index(i)) = inverse_[i] * r;
+    out.segment<6>(6 * Eigen::Index(i)) = inverse_[i].cast<double>() * r;
     whole.segment<6>(6 * piece_[i]) += r;
     whole.segment<3>(6 * piece_[i] + 3) += arm_[i].cross(Vec3(r.head<3>()));
   }

@@ -8,7 +8,7 @@
 
 namespace erbs {
 
-// Approximates K^-1 as the sum of two answers: every block alone, all others held (its own 6 x 6), and every group of about ten
+// Approximates K^-1 as the sum of two answers: every block alone, all others held (its own 6 x 6), and every group of about twenty
 // neighbours as one rigid piece (Galerkin: R^T K R, R the rigid motions of the pieces, factored). The pieces carry what bends or
 // sways a tall structure as a whole, so that the iterations grow with the pieces' size and not with the structure's (two-level additive
 // Schwarz with aggregates: Toselli and Widlund 2005, Domain Decomposition Methods, 3.2; rigid motions as a coarse space for elasticity:
@@ -27,8 +27,8 @@ class TwoLevel {
 
   // of each block that may move, in order                                [freedom.count / 6]
   std::vector<int> piece_;
-  std::vector<Vec3> arm_;  // m, from the middle of its piece
-  std::vector<Mat6> inverse_;
+  std::vector<Vec3> arm_;                            // m, from the middle of its piece
+  std::vector<Eigen::Matrix<float, 6, 6>> inverse_;  // near enough
   int pieces_ = 0;
   SparseLdlt coarse_;
   bool definite_ = true;
