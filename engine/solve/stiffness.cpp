@@ -182,7 +182,8 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
     if (k > 0) out.element_period = std::min(out.element_period, 2 * pi * std::sqrt(m.mass[z(b)] / k));
   }
   if (f.count == 0 || out.block == infinite) return out;
-  own = damping = {};
+  own = std::vector<Mat6>();  // {} would keep the room
+  damping = std::vector<Mat6>();
   set_critical(m, s, f, roots, out);
   return out;
 }
