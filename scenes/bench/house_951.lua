@@ -3,6 +3,8 @@
 -- What happens   Three storeys of walls half a brick thick with interlocked corners, on mortar beds of 10 mm that never give way, sway
 --                under a weak ground motion.
 -- How to run     erbs bench scenes/bench/house_951.lua
+--                erbs run scenes/bench/house_951.lua -D peak=0.3*g -D duration=20 --threads 2        El Centro, standing
+--                erbs run scenes/bench/house_951.lua -D peak=2*g -D ft=0.2*MPa -D c=0.3*MPa -D duration=20 --threads 2   falling
 -- What to look at  Nanoseconds a point and step against the reference kernel, while sound and with every joint broken.
 
 material { name = "brick", density = 1800, friction = 0.6, restitution = 0.2 }
@@ -13,7 +15,16 @@ building {
   openings = { { wall = "south", storey = 1, centre = 1.2, width = 0.6, sill = 0.2, height = 0.5, kind = "window" } },
   lintel = { bearing = 0.15 },
 }
-joint { law = mortar { E = 1.07e10, nu = 0.2, thickness = 10 * mm, ft = 20 * MPa, c = 30 * MPa, mu = 0.6 }, thickness = 10 * mm, tolerance = 5 * mm }
+joint {
+  law = mortar {
+    E = 1.07e10, nu = 0.2, thickness = 10 * mm, mu = 0.6,
+    ft = param("ft", 20 * MPa, "tensile strength, by default such that nothing gives way [Pa]"),
+    c = param("c", 30 * MPa, "cohesion, likewise [Pa]"),
+  },
+  thickness = 10 * mm, tolerance = 5 * mm,
+}
 gravity(g)
-ground_motion { wave = sine { amplitude = 0.1 * g, frequency = 5 }, direction = "x" }
-analysis { duration = 1 }
+local peak = param("peak", 0, "of El Centro along x; 0: a sine of 0.1 g and 5 Hz instead [m/s2]")
+local wave = peak > 0 and record { file = "../records/elcentro_1940_ns.csv", peak = peak } or sine { amplitude = 0.1 * g, frequency = 5 }
+ground_motion { wave = wave, direction = "x" }
+analysis { duration = param("duration", 1, "[s]") }
