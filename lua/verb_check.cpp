@@ -11,9 +11,9 @@
 namespace erbs {
 namespace {
 
-// s of one core for a step and for each joint in it while intact, for the estimate of time; measured on a pier of 12
-// joints and the house of 2130 (erbs run --threads 1): 5.2 and 55 us a step
-constexpr double step_cost = 5e-6, joint_cost = 0.024e-6;
+// s of one core for a step and for each joint in it while intact, for the estimate of time; measured on walls of 43 and 262
+// joints and the bench's house of 2812 (erbs run --threads 1): 0.47, 2.35 and 22 to 25 us a step
+constexpr double step_cost = 0.1e-6, joint_cost = 0.0086e-6;
 // of the program and its libraries before there is a model: the peak of the pier
 constexpr double own_memory = 20 * 1048576.0;
 
