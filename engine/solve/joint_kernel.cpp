@@ -12,13 +12,12 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// q of sound joint j one step ago, for one that cracks now: the same pass with the rows of its blocks taken back by dt.
-void before(const Model& m, const State& s, int j, double q[6], double f[6]) {
-  JointBatch one{};
-  set_lane(m, s, j, one, 0);
+// q of lane l one step ago, for one that cracks now: the same pass with the rows of its blocks taken back by dt.
+void before(const State& s, const JointBatch& B, int l, double q[6], double f[6]) {
+  JointBatch one = B;
   alignas(64) double rows[2 * 8];
   for (int end = 0; end < 2; ++end) {
-    const int b = end == 0 ? one.a[0] : one.b[0];
+    const int b = end == 0 ? B.a[l] : B.b[l];
     for (int i = 0; i < 3; ++i) {
       rows[8 * end + i] = s.row[z(b) * 8 + z(i)] - s.last_dt * s.v[z(b)][i];
       rows[8 * end + 3 + i] = s.row[z(b) * 8 + 3 + z(i)] - s.last_dt * s.w[z(b)][i];
@@ -27,16 +26,16 @@ void before(const Model& m, const State& s, int j, double q[6], double f[6]) {
   for (int k = 0; k < lanes; ++k) one.a[k] = 0, one.b[k] = 1;
   JointLanes o;
   lane_kernels().elastic(one, rows, o);
-  for (int i = 0; i < 6; ++i) q[i] = o.q[i][0], f[i] = o.f[i][0];
+  for (int i = 0; i < 6; ++i) q[i] = o.q[i][l], f[i] = o.f[i][l];
 }
 
 }  // namespace
 
-void joint_by_points(const Model& m, State& s, int j, const double q[6], double f[6], JointSums& sums) {
+void joint_by_points(const Model& m, State& s, int j, const double q[6], double f[6], JointSums& sums, const JointBatch* batch) {
   const bool sound = s.tier[z(j)] == Tier::intact;
   JointMemory& memory = s.memory[z(j)];
   if (sound) {
-    before(m, s, j, memory.q, memory.f);
+    before(s, batch ? *batch : sound_batch(m, s, j / lanes), j % lanes, memory.q, memory.f);
     memory.elastic = 0;
     for (int i = 0; i < 6; ++i) memory.elastic += 0.5 * memory.f[i] * memory.q[i];
   }
@@ -104,7 +103,7 @@ void joint_forces(const Model& m, State& s, const std::vector<JointBatch>& batch
       if ((near >> l & 1u) == 0) continue;
       double q[6], f[6];
       for (int i = 0; i < 6; ++i) q[i] = o.q[i][l];
-      joint_by_points(m, s, k * lanes + l, q, f, sums);
+      joint_by_points(m, s, k * lanes + l, q, f, sums, &B);
       for (int i = 0; i < 6; ++i) o.f[i][l] = f[i];
     }
     if (sample) sums.energy.elastic += stored(m, s, k, o);

@@ -16,8 +16,10 @@ struct JointSums {
   int cracked_now = 0;  // joints that lost their soundness in this step
 };
 
-// One joint point by point, its own energy balance checked over the step (work of the resultant = stored + dissipated).
-void joint_by_points(const Model& model, State& state, int j, const double q[6], double f[6], JointSums& sums);
+// One joint point by point, its own energy balance checked over the step (work of the resultant = stored + dissipated). `batch`: that
+// of a sound joint, where it is at hand.
+void joint_by_points(const Model& model, State& state, int j, const double q[6], double f[6], JointSums& sums,
+                     const JointBatch* batch = nullptr);
 
 inline constexpr int batch_grain = 8;  // batches, or joints of the reference, to a chunk
 // Sound joints with dashpots: writes the wrench rows of batches [first, last) of `batch`, as sound.h does without.

@@ -70,7 +70,7 @@ Sound::Sound(const Model& model, State& state) : model_(model), state_(state) {
   if (model.analysis.kernel == "reference" || model.analysis.solver == "sequential") return;  // have their own
   const int count = sound_batches(model);
   if (model.dashpots) damped_.resize(z(count));
-  else batch_.resize(z(count));
+  else batch_.resize(z(count)), looked_at_.resize(z(count));
   for (int k = 0; k < count; ++k) {
     const JointBatch batch = sound_batch(model, state, k);
     if (model.dashpots) damped_[z(k)] = batch;
@@ -90,6 +90,7 @@ void Sound::update(const std::vector<int>& joints) {
     if (state_.place[z(j)] != j) continue;
     if (!damped_.empty()) set_lane(model_, state_, j, damped_[z(j / lanes)], j % lanes);
     if (batch_.empty()) continue;
+    looked_at_[z(j / lanes)].reset();
     fresh[count++] = j;
     if (count == lanes) take();
   }
@@ -99,6 +100,7 @@ void Sound::update(const std::vector<int>& joints) {
 void Sound::leave(int j) {
   if (!damped_.empty()) clear_lane(model_, damped_[z(j / lanes)], j % lanes);
   if (batch_.empty()) return;
+  looked_at_[z(j / lanes)].reset();
   clear_sound_lane(model_, batch_[z(j / lanes)], j % lanes);
   --batch_[z(j / lanes)].used;
 }
@@ -107,7 +109,8 @@ void Sound::leave(int j) {
 void Sound::look_closer(int k, bool sample, JointSums& sums) {
   JointLanes o;
   const LaneKernels& kernels = lane_kernels();
-  const JointBatch B = sound_batch(model_, state_, k);
+  if (!looked_at_[z(k)]) looked_at_[z(k)] = std::make_unique<JointBatch>(sound_batch(model_, state_, k));
+  const JointBatch& B = *looked_at_[z(k)];
   kernels.elastic(B, state_.row.data(), o);
   bool changed = false;
   for (int l = 0; l < lanes; ++l) {
@@ -115,7 +118,7 @@ void Sound::look_closer(int k, bool sample, JointSums& sums) {
     if (!(o.near[l] > 0) || j >= model_.njoint || state_.place[z(j)] != j) continue;
     double q[6], f[6], stored = 0;
     for (int i = 0; i < 6; ++i) q[i] = o.q[i][l], stored += 0.5 * o.f[i][l] * o.q[i][l];
-    joint_by_points(model_, state_, j, q, f, sums);
+    joint_by_points(model_, state_, j, q, f, sums, &B);
     if (state_.tier[z(j)] == Tier::intact) continue;
     changed = true;
     for (int i = 0; i < 6; ++i) o.f[i][l] = f[i];

@@ -1,5 +1,6 @@
 // Sound joints as the step reads them: world axes, no point of theirs. A function of the poses of the last refresh.
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "engine/base/parallel.h"
@@ -32,6 +33,8 @@ class Sound {
   State& state_;
   std::vector<SoundBatch> batch_;  // one of the two: empty where nothing reads it
   std::vector<JointBatch> damped_;
+  // Batches that were looked at since their last refresh: some laws want it in every step. Each is one thread's own.
+  std::vector<std::unique_ptr<JointBatch>> looked_at_;
 };
 
 }  // namespace erbs
