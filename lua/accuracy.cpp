@@ -74,7 +74,8 @@ void add_sequential(std::vector<Setting>& all) {
                                  kind.order, n),
                      {"--allow-unstable", "--set", "solver=sequential", "--set", fmt::format("variant={}", kind.variant), "--set",
                       fmt::format("order={}", kind.order), "--set", fmt::format("iterations={}", n)},
-                     1.0 / n});
+                     1.0 / n,
+                     false});
 }
 
 void add_units(std::vector<Setting>& all) {

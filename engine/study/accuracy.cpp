@@ -139,7 +139,7 @@ std::vector<std::size_t> pareto(const Goal& q, std::size_t index, const std::vec
   const auto cost = [&](std::size_t i) { return by_updates && all[i].updates > 0 ? all[i].updates : all[i].cpu; };
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (error_of(q, all[i].values[index])) order.push_back(i);
+    if (all[i].setting.advised && error_of(q, all[i].values[index])) order.push_back(i);
   const auto error = [&](std::size_t i) { return *error_of(q, all[i].values[index]); };
   // of equal cost the scene as it is comes first
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {

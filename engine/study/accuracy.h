@@ -16,6 +16,7 @@ struct Setting {
   std::string line;                // what to put into the scene for it
   std::vector<std::string> words;  // what to say to erbs run for it
   double size = 0;                 // error is expected to fall with a power of it: dt over its limit, 1 / points along a side, ...
+  bool advised = true;             // false: run for comparison only, such as a solver that feeds itself energy
 };
 
 struct Measured {
@@ -57,7 +58,7 @@ struct Curve {
 };
 std::vector<Curve> curves_of(const Goal& quantity, std::size_t index, const std::vector<Measured>& all);
 
-// Those that no other beats in both error and cost, from cheap to dear. `by_updates`: cost in evaluations (where there are any),
+// Of those advised the ones that no other beats in both error and cost, from cheap to dear. `by_updates`: cost in evaluations (where there are any),
 // which no machine changes, else in seconds.
 std::vector<std::size_t> pareto(const Goal& quantity, std::size_t index, const std::vector<Measured>& all, bool by_updates);
 

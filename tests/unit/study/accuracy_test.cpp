@@ -81,3 +81,18 @@ TEST_CASE("the front holds what nothing beats; target and budget find their sett
         "the points, not the step, are the error");  // the best has the finest step: 0.0016 of it, 0.0022 of the points
   CHECK_THAT(plain_sentence(q, 0, all), Catch::Contains("x costs") && Catch::Contains("the error."));
 }
+
+TEST_CASE("what is run for comparison only is never advised, however well it does", "[study]") {
+  std::vector<Measured> all = study();
+  Goal q{"x", "m", 1.0, 0, 0, ""};
+  settle_reference(q, 0, all);
+  const auto before = pareto(q, 0, all, true);
+  Measured lucky = run("sequential, literal", 1, 0.01, 100);
+  lucky.updates = 1, lucky.cpu = 1e-6;
+  all.push_back(lucky);
+  CHECK(pareto(q, 0, all, true) == std::vector<std::size_t>{all.size() - 1});
+  all.back().setting.advised = false;
+  CHECK(pareto(q, 0, all, true) == before);
+  CHECK(cheapest(q, 0, all, 0.01) != all.size() - 1);
+  CHECK(best_within(q, 0, all, 1e9) != all.size() - 1);
+}
