@@ -12,23 +12,24 @@ namespace erbs {
 
 class Barrier {
  public:
-  explicit Barrier(int count) : count_(count), waiting_(0), round_(0) {}
+  explicit Barrier(int count, int spins = 20000) : count_(count), spins_(spins), waiting_(0), round_(0) {}
   void wait() {
     if (count_ == 1) return;
     const unsigned round = round_.load(std::memory_order_acquire);
     if (waiting_.fetch_add(1, std::memory_order_acq_rel) + 1 == count_) {
       waiting_.store(0, std::memory_order_relaxed);
-      round_.store(round + 1, std::memory_order_release);
+      // in one order with the count of sleepers that notify_all reads next: a weaker store may still be on its way when one goes to sleep
+      round_.store(round + 1, std::memory_order_seq_cst);
       round_.notify_all();
       return;
     }
-    for (int spins = 0; spins < 20000; ++spins)
+    for (int spins = 0; spins < spins_; ++spins)
       if (round_.load(std::memory_order_acquire) != round) return;
     while (round_.load(std::memory_order_acquire) == round) round_.wait(round, std::memory_order_acquire);
   }
 
  private:
-  const int count_;
+  const int count_, spins_;
   alignas(64) std::atomic<int> waiting_;
   alignas(64) std::atomic<unsigned> round_;
 };
