@@ -117,7 +117,6 @@ std::vector<MapRun> plan(const MapStudy& study) {
           const double c = study.dampings[i];
           MapRun r;
           r.scheme = scheme, r.factor = factor, r.step = step, r.dt = dt, r.damping = c;
-          r.length = study.window;
           const auto set = [&](const std::string& text) { r.words.insert(r.words.end(), {"--set", text}); };
           set(fmt::format("dt={}", dt));
           set(fmt::format("solver={}", scheme.sequential ? "sequential" : "leapfrog"));
@@ -159,11 +158,11 @@ void read(MapRun& r, const Case& run, const std::string& quantity) {
     r.broken = int(number("joints_broken").value_or(0));
     if (r.value) r.seen.push_back({r.until, *r.value});
     const bool gate = r.scheme.sequential ? r.residual > wrong_ledger || own_doing(metrics) : run.code == exit_numbers;
-    r.verdict = status == "diverged"                                                            ? Verdict::diverged
-                : gate                                                                          ? Verdict::ledger
-                : status == "completed" || (status == "stopped" && r.until >= 0.999 * r.length) ? Verdict::converged
-                : status == "stopped"                                                           ? Verdict::bounded
-                                                                                                : Verdict::failed;
+    r.verdict = status == "diverged"    ? Verdict::diverged
+                : gate                  ? Verdict::ledger
+                : status == "completed" ? Verdict::converged
+                : status == "stopped"   ? Verdict::bounded
+                                        : Verdict::failed;
   } catch (const std::exception&) { r.verdict = Verdict::failed; }
   const bool tame = r.verdict == Verdict::converged || r.verdict == Verdict::bounded;
   r.reason = tame ? "" : last_words(run.log, run.code, run.scene);
@@ -219,8 +218,7 @@ void carry_out(MapStudy& study, const Options& given, const std::string& key) {
     std::vector<std::size_t> which;
     for (std::size_t i = 0; i < study.all.size(); ++i) {
       const MapRun& r = study.all[i];
-      if (r.verdict == Verdict::waiting || (r.verdict == Verdict::bounded && r.until < 0.999 * std::min(share * study.window, r.length)))
-        which.push_back(i);
+      if (r.verdict == Verdict::waiting || (r.verdict == Verdict::bounded && r.until < 0.999 * share * study.window)) which.push_back(i);
     }
     std::stable_sort(which.begin(), which.end(), [&](std::size_t a, std::size_t b) { return work(study.all[a]) < work(study.all[b]); });
     std::vector<Case> cases;
@@ -230,8 +228,7 @@ void carry_out(MapStudy& study, const Options& given, const std::string& key) {
       run.scene = study.scene, run.name = stem(r), run.directory = folder_of(r), run.log = run.directory + ".log", run.extra = r.words;
       run.resume = r.verdict == Verdict::bounded;
       run.within_budget = true;
-      if (const double end = std::min(share * study.window, r.length); end < study.window)
-        run.extra.insert(run.extra.end(), {"--until", fmt::format("{}", end)});
+      if (share < 1) run.extra.insert(run.extra.end(), {"--until", fmt::format("{}", share * study.window)});
       cases.push_back(std::move(run));
     }
     if (cases.empty()) continue;

@@ -38,7 +38,6 @@ struct MapRun {
   double damping = 0;  // 1/s
   std::vector<std::string> words;
   enum class Verdict { waiting, converged, bounded, diverged, ledger, failed } verdict = Verdict::waiting;
-  double length = 0;            // s of the window, what is asked of it
   double until = 0;             // s of the window
   std::optional<double> value;  // of the quantity
   struct Seen {
