@@ -66,6 +66,7 @@ void Cracked::clear(Group& group, int l) const {
   for (int i = 0; i < 6; ++i) group.lane.drag[i][l] = 0;
   for (SpotLanes& p : group.spot) p.s[l] = p.t[l] = p.weight[l] = 0;
   for (SlipLanes& p : group.slip) p.s[l] = p.t[l] = 0;
+  for (auto* x : {group.common.s, group.common.t, group.common.turn, group.common.apart, group.common.stored, group.common.stale}) x[l] = 0;
   for (BondLanes& p : group.bond) p.secant[l] = p.reach[l] = 0, p.damage[l] = 1;  // nothing to hold
   group.look_for_bonds(model_.laws[z(group.law)]);
 }
@@ -79,6 +80,7 @@ void Cracked::fill(Group& group, int l, int j) {
   for (int i = 0; i < 6; ++i) group.lane.q[i][l] = memory.q[i], group.lane.f[i][l] = memory.f[i];
   group.lane.stored[l] = memory.elastic;
   group.lane.least_damage[l] = 1;
+  group.common.stale[l] = 1;
   if (model_.dashpots_cracked)
     for (int i = 0; i < 6; ++i) group.lane.drag[i][l] = state_.viscous[6 * z(j) + z(i)];
   for (int i = 0; i < joint.type->corners; ++i) {
@@ -194,9 +196,10 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
                              group.face_corner};
     const PointLaw& law = model_.laws[z(group.law)];
     if (group.bare) {
-      kernels.rub(law, batch, shape, group.slip.data(), lane, rows, wrench_rows);
+      kernels.rub(law, batch, shape, group.slip.data(), group.common, lane, rows, wrench_rows);
     } else {
       kernels.respond(law, batch, shape, group.slip.data(), group.bond.data(), lane, rows, wrench_rows);
+      std::fill_n(group.common.stale, lanes, 1.0);
       group.bare = std::all_of(lane.least_damage, lane.least_damage + lanes, [](double damage) { return damage >= 1; });
     }
     sums.energy.friction += total(lane.friction);

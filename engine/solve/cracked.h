@@ -31,9 +31,10 @@ class Cracked {
     const double* face_corner[lanes];
     FaceLanes face;
     std::vector<CornerLanes> corner;
-    std::vector<SpotLanes> spot;  // [points], and so are the next three
+    std::vector<SpotLanes> spot;  // [points], and so are the next
     std::vector<SlipLanes> slip;
     std::vector<BondLanes> bond;
+    CommonLanes common;
     std::vector<CellLanes> cell;
     std::vector<int> first;                // [points + 1]
     std::vector<CornerLanes> loop, watch;  // of the cells; watch empty where it is loop

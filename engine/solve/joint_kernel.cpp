@@ -115,8 +115,8 @@ void joint_forces(const Model& m, State& s, const std::vector<JointBatch>& batch
 bool beyond_its_faces(const Joint& joint, const double q[6]) {
   const double side = std::min(joint.type->half_s, joint.type->half_t) * 2;
   const double least_gap = q[2] - std::fabs(q[3]) * joint.type->half_t - std::fabs(q[4]) * joint.type->half_s;
-  return std::hypot(q[0], q[1]) + std::fabs(q[5]) * joint.type->radius > 0.01 * side || std::hypot(q[3], q[4]) > 0.03 ||
-         least_gap > 0.002 * side;
+  return std::sqrt(q[0] * q[0] + q[1] * q[1]) + std::fabs(q[5]) * joint.type->radius > 0.01 * side ||
+         q[3] * q[3] + q[4] * q[4] > 0.03 * 0.03 || least_gap > 0.002 * side;
 }
 
 bool joint_spent(const Model& m, const State& s, int j) {

@@ -28,6 +28,12 @@ struct alignas(64) SpotLanes {
 struct alignas(64) SlipLanes {
   double s[lanes], t[lanes];  // as in PointHistory
 };
+// The rigid motion nearest to the slips of all points, and what is left of them: functions of the slips, `stale` where these have changed.
+struct alignas(64) CommonLanes {
+  double s[lanes], t[lanes], turn[lanes];  // m, rad
+  double apart[lanes], stored[lanes];      // m, the greatest; J, of the springs when the joint is where its slips are
+  double stale[lanes];                     // 0 or 1
+};
 struct alignas(64) BondLanes {
   double damage[lanes], secant[lanes], reach[lanes];  // as in PointHistory
 };
@@ -124,8 +130,8 @@ struct LaneKernels {
   void (*respond)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, BondLanes* bond,
                   CrackedLanes& cracked, const double* rows, double* wrench_rows);
   // The same where no point has a bond left.
-  void (*rub)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, CrackedLanes& cracked,
-              const double* rows, double* wrench_rows);
+  void (*rub)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, CommonLanes& common,
+              CrackedLanes& cracked, const double* rows, double* wrench_rows);
   // Resultants to wrenches on both blocks: force at the midpoint of the material points, then everything turned by th.
   void (*wrenches)(const JointBatch& batch, const JointLanes& in, double* wrench_rows);
   // Batches [first, last) of sound joints, rows of blocks to wrench rows; the energy they store is added to stored[lanes], if wanted.
