@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 #include "engine/model/batches.h"
 #include "engine/solve/joint_geometry.h"
@@ -48,8 +49,16 @@ Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state
     fill(group, at % lanes, j);
   }
   if (model.analysis.kernel == "reference" || model.analysis.solver == "sequential") return;
+  std::vector<int> joints;
   for (int j = 0; j < model.njoint; ++j)
-    if (state.tier[z(j)] == Tier::cracked && state.place[z(j)] < sound * lanes) take(j);
+    if (state.tier[z(j)] == Tier::cracked && state.place[z(j)] < sound * lanes) joints.push_back(j);
+  take_all(joints);
+}
+
+void Cracked::take_all(std::vector<int>& joints) {
+  const auto key = [&](int j) { return std::tuple(model_.joint[z(j)].type->first_place, j); };
+  std::sort(joints.begin(), joints.end(), [&](int a, int b) { return key(a) < key(b); });
+  for (const int j : joints) put(j);
 }
 
 void Cracked::clear(Group& group, int l) const {
@@ -59,21 +68,65 @@ void Cracked::clear(Group& group, int l) const {
   for (int i = 0; i < 6; ++i) group.lane.q[i][l] = group.lane.f[i][l] = 0;
   group.lane.stored[l] = 0;
   group.lane.least_damage[l] = 1;
-  for (auto* corners : {&group.corner, &group.loop, &group.watch})
-    for (CornerLanes& c : *corners) c.s[l] = c.t[l] = 0;
-  for (CellLanes& c : group.cell) c.s[l] = c.t[l] = c.ss[l] = c.st[l] = c.tt[l] = 0;
-  group.face.bend_s[l] = group.face.bend_t[l] = group.face.twist[l] = 0;
   for (int i = 0; i < 6; ++i) group.lane.drag[i][l] = 0;
-  for (SpotLanes& p : group.spot) p.s[l] = p.t[l] = p.weight[l] = 0;
   for (SlipLanes& p : group.slip) p.s[l] = p.t[l] = 0;
   for (auto* x : {group.common.s, group.common.t, group.common.turn, group.common.apart, group.common.stored, group.common.stale}) x[l] = 0;
   for (BondLanes& p : group.bond) p.secant[l] = p.reach[l] = 0, p.damage[l] = 1;  // nothing to hold
   group.look_for_bonds(model_.laws[z(group.law)]);
 }
 
+// The shape of one type as lane l; all numbers of everything are those of `shapes` already.
+void Cracked::set_shape(Shapes& shapes, int l, const JointType& type) const {
+  for (int i = 0; i < type.corners; ++i) {
+    const auto& c = model_.corner[z(type.first_corner + i)];
+    shapes.corner[z(i)].s[l] = c.x(), shapes.corner[z(i)].t[l] = c.y();
+  }
+  shapes.face.bend_s[l] = type.face[0], shapes.face.bend_t[l] = type.face[1], shapes.face.twist[l] = type.face[2];
+  const int first = model_.cell[z(type.first_place)].first;
+  for (int i = 0; i < int(shapes.loop.size()); ++i) {
+    const auto &c = model_.cell_corner[z(first + i)], &w = model_.cell_watch[z(first + i)];
+    shapes.loop[z(i)].s[l] = c.x(), shapes.loop[z(i)].t[l] = c.y();
+    if (!shapes.watch.empty()) shapes.watch[z(i)].s[l] = w.x(), shapes.watch[z(i)].t[l] = w.y();
+  }
+  for (int i = 0; i < type.points; ++i) {
+    const Point& from = model_.point[z(type.first_place + i)];
+    const Cell& cell = model_.cell[z(type.first_place + i)];
+    CellLanes& k = shapes.cell[z(i)];
+    k.s[l] = cell.s, k.t[l] = cell.t, k.ss[l] = cell.ss, k.st[l] = cell.st, k.tt[l] = cell.tt;
+    SpotLanes& p = shapes.spot[z(i)];
+    p.s[l] = from.s, p.t[l] = from.t, p.weight[l] = from.weight;
+  }
+}
+
+// Lanes without a joint have whatever shape: they neither move nor bear.
+void Cracked::add_shape(Group& group, int l, const JointType& type) {
+  if (group.empty()) {
+    std::shared_ptr<Shapes>& shared = of_type_[&type];
+    if (!shared) {
+      shared = std::make_shared<Shapes>();
+      shared->corner.resize(z(type.corners));
+      shared->spot.resize(z(type.points));
+      shared->cell.resize(z(type.points));
+      shared->first.push_back(0);
+      for (int i = type.first_place; i < type.first_place + type.points; ++i)
+        shared->first.push_back(shared->first.back() + model_.cell[z(i)].corners);
+      shared->loop.resize(z(shared->first.back()));
+      if (type.inset) shared->watch.resize(shared->loop.size());
+      for (int k = 0; k < lanes; ++k) set_shape(*shared, k, type);
+    }
+    group.type = &type;
+    group.shapes = shared;
+  } else if (group.type != &type) {
+    if (group.type != nullptr) group.shapes = std::make_shared<Shapes>(*group.shapes);
+    group.type = nullptr;
+    set_shape(*group.shapes, l, type);
+  }
+}
+
 void Cracked::fill(Group& group, int l, int j) {
   const Joint& joint = model_.joint[z(j)];
   const JointMemory& memory = state_.memory[z(j)];
+  add_shape(group, l, *joint.type);
   group.joint[l] = j;
   if (model_.laws[z(joint.type->law)].fc > 0)
     group.crushed[l] = &state_.crushed[z(j)], group.face_corner[l] = model_.corner[z(joint.type->first_corner)].data();
@@ -83,25 +136,8 @@ void Cracked::fill(Group& group, int l, int j) {
   group.common.stale[l] = 1;
   if (model_.dashpots_cracked)
     for (int i = 0; i < 6; ++i) group.lane.drag[i][l] = state_.viscous[6 * z(j) + z(i)];
-  for (int i = 0; i < joint.type->corners; ++i) {
-    const auto& c = model_.corner[z(joint.type->first_corner + i)];
-    group.corner[z(i)].s[l] = c.x(), group.corner[z(i)].t[l] = c.y();
-  }
-  group.face.bend_s[l] = joint.type->face[0], group.face.bend_t[l] = joint.type->face[1], group.face.twist[l] = joint.type->face[2];
-  const int first = model_.cell[z(joint.type->first_place)].first;
-  for (int i = 0; i < int(group.loop.size()); ++i) {
-    const auto &c = model_.cell_corner[z(first + i)], &w = model_.cell_watch[z(first + i)];
-    group.loop[z(i)].s[l] = c.x(), group.loop[z(i)].t[l] = c.y();
-    if (!group.watch.empty()) group.watch[z(i)].s[l] = w.x(), group.watch[z(i)].t[l] = w.y();
-  }
   for (int i = 0; i < joint.type->points; ++i) {
-    const Point& from = model_.point[z(joint.type->first_place + i)];
     const PointHistory& h = state_.history[z(joint.first_point + i)];
-    const Cell& cell = model_.cell[z(joint.type->first_place + i)];
-    CellLanes& k = group.cell[z(i)];
-    k.s[l] = cell.s, k.t[l] = cell.t, k.ss[l] = cell.ss, k.st[l] = cell.st, k.tt[l] = cell.tt;
-    SpotLanes& p = group.spot[z(i)];
-    p.s[l] = from.s, p.t[l] = from.t, p.weight[l] = from.weight;
     group.slip[z(i)].s[l] = h.slip_s, group.slip[z(i)].t[l] = h.slip_t;
     BondLanes& b = group.bond[z(i)];
     b.damage[l] = h.damage, b.secant[l] = h.secant, b.reach[l] = h.reach;
@@ -114,40 +150,38 @@ Cracked::Group Cracked::empty_group(const Joint& joint, int batch) const {
   Group group{};
   group.law = joint.type->law, group.points = joint.type->points, group.corners = joint.type->corners, group.batch = batch,
   group.bears = bears(model_, joint);
-  group.spot.resize(z(group.points));
   group.slip.resize(z(group.points));
   group.bond.resize(z(group.points));
-  group.corner.resize(z(group.corners));
-  group.cell.resize(z(group.points));
-  group.first.push_back(0);
-  for (int i = joint.type->first_place; i < joint.type->first_place + joint.type->points; ++i)
-    group.first.push_back(group.first.back() + model_.cell[z(i)].corners);
-  group.loop.resize(z(group.first.back()));
-  if (joint.type->inset) group.watch.resize(group.loop.size());
   for (int l = 0; l < lanes; ++l) clear(group, l);
   return group;
 }
 
 bool Cracked::fits(const Group& group, const Joint& joint) const {
   if (group.law != joint.type->law || group.points != joint.type->points || group.corners != joint.type->corners ||
-      group.watch.empty() == joint.type->inset || group.bears != bears(model_, joint))
+      group.bears != bears(model_, joint))
     return false;
+  if (group.empty() || group.type == joint.type) return true;
+  if (group.shapes->watch.empty() == joint.type->inset) return false;
   for (int i = 0; i < joint.type->points; ++i)
-    if (group.first[z(i + 1)] - group.first[z(i)] != model_.cell[z(joint.type->first_place + i)].corners) return false;
+    if (group.shapes->first[z(i + 1)] - group.shapes->first[z(i)] != model_.cell[z(joint.type->first_place + i)].corners) return false;
   return true;
 }
 
 int Cracked::find_lane(const Joint& joint) {
+  int other = -1;
   for (int g = 0; g < groups(); ++g) {
-    Group& group = group_[z(g)];
+    const Group& group = group_[z(g)];
     const int* free = std::find(group.joint, group.joint + lanes, -1);
-    if (free != group.joint + lanes && fits(group, joint)) return g * lanes + int(free - group.joint);
+    if (free == group.joint + lanes || (other >= 0 && group.type != joint.type) || !fits(group, joint)) continue;
+    other = g * lanes + int(free - group.joint);
+    if (group.type == joint.type) return other;
   }
+  if (other >= 0) return other;
   group_.push_back(empty_group(joint, add_empty_batch(model_, state_)));
   return (groups() - 1) * lanes;
 }
 
-void Cracked::take(int j) {
+void Cracked::put(int j) {
   const Joint& joint = model_.joint[z(j)];
   const int at = find_lane(joint);
   Group& group = group_[z(at / lanes)];
@@ -155,6 +189,8 @@ void Cracked::take(int j) {
   state_.place[z(j)] = (sound_batches(model_) + group.batch) * lanes + at % lanes;
   set_lane(model_, state_, j, state_.batch[z(group.batch)], at % lanes);
 }
+
+void Cracked::take(int j) { put(j); }
 
 void Cracked::drop(int j) {
   const int at = state_.place[z(j)] - sound_batches(model_) * lanes;
@@ -182,16 +218,17 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
     const bool damped = model_.dashpots_cracked && state_.last_dt > 0;
     for (int l = 0; damped && l < lanes; ++l)
       rate[l] = group.joint[l] >= 0 ? model_.joint[z(group.joint[l])].viscous_cracked / state_.last_dt : 0;
+    const Shapes& shapes = *group.shapes;
     const CrackedShape shape{group.corners,
                              group.points,
-                             &group.face,
-                             group.corner.data(),
-                             group.spot.data(),
-                             group.cell.data(),
-                             group.first.data(),
-                             group.loop.data(),
+                             &shapes.face,
+                             shapes.corner.data(),
+                             shapes.spot.data(),
+                             shapes.cell.data(),
+                             shapes.first.data(),
+                             shapes.loop.data(),
                              damped ? rate : nullptr,
-                             group.watch.empty() ? group.loop.data() : group.watch.data(),
+                             shapes.watch.empty() ? shapes.loop.data() : shapes.watch.data(),
                              group.crushed,
                              group.face_corner};
     const PointLaw& law = model_.laws[z(group.law)];

@@ -1,6 +1,8 @@
 // Joints that have cracked, eight of one law and size side by side. The point laws' memory lives here while a Solver runs;
 // store() writes it back into the State for all who read it there.
 #pragma once
+#include <map>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -23,21 +25,26 @@ class Cracked {
   bool spent(int j) const;
 
  private:
+  // Shapes of eight joints side by side. Groups of joints of one type share theirs, which then stays near the processor.
+  struct Shapes {
+    FaceLanes face;
+    std::vector<CornerLanes> corner;
+    std::vector<SpotLanes> spot;           // [points], and so is cell
+    std::vector<CellLanes> cell;
+    std::vector<int> first;                // [points + 1]
+    std::vector<CornerLanes> loop, watch;  // of the cells; watch empty where it is loop
+  };
   struct Group {
     int law, points, corners;
     int batch;                    // in State::batch
     int joint[lanes];             // -1: empty
     CrushedFace* crushed[lanes];  // null without a plateau
     const double* face_corner[lanes];
-    FaceLanes face;
-    std::vector<CornerLanes> corner;
-    std::vector<SpotLanes> spot;  // [points], and so are the next
-    std::vector<SlipLanes> slip;
+    const JointType* type = nullptr;  // null: of several
+    std::shared_ptr<Shapes> shapes;
+    std::vector<SlipLanes> slip;  // [points]
     std::vector<BondLanes> bond;
     CommonLanes common;
-    std::vector<CellLanes> cell;
-    std::vector<int> first;                // [points + 1]
-    std::vector<CornerLanes> loop, watch;  // of the cells; watch empty where it is loop
     CrackedLanes lane;
     bool bears = false;  // joints that gravity presses
     bool bare = true;    // no point of any lane has a bond left
@@ -49,10 +56,15 @@ class Cracked {
   int find_lane(const Joint& joint);                        // group * lanes + lane, in a new group if need be
   void fill(Group& group, int l, int j);
   void clear(Group& group, int l) const;
+  void set_shape(Shapes& shapes, int l, const JointType& type) const;
+  void add_shape(Group& group, int l, const JointType& type);
+  void put(int j);                          // into a lane of its own
+  void take_all(std::vector<int>& joints);  // by types
 
   const Model& model_;
   State& state_;
   std::vector<Group> group_;
+  std::map<const JointType*, std::shared_ptr<Shapes>> of_type_;
 };
 
 }  // namespace erbs
