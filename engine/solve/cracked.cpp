@@ -209,6 +209,7 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
   const double* rows = state_.row.data();
   double* wrench_rows = state_.wrench.data();
   if (sample) sums.energy.elastic = 0;
+  CrackedSums done{};
   for (int g = first; g < last; ++g) {
     Group& group = group_[z(g)];
     if (group.empty()) continue;
@@ -221,6 +222,7 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
     const Shapes& shapes = *group.shapes;
     const CrackedShape shape{group.corners,
                              group.points,
+                             double(g),
                              &shapes.face,
                              shapes.corner.data(),
                              shapes.spot.data(),
@@ -233,21 +235,20 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
                              group.face_corner};
     const PointLaw& law = model_.laws[z(group.law)];
     if (group.bare) {
-      kernels.rub(law, batch, shape, group.slip.data(), group.common, lane, rows, wrench_rows);
+      kernels.rub(law, batch, shape, group.slip.data(), group.common, lane, rows, wrench_rows, done);
     } else {
-      kernels.respond(law, batch, shape, group.slip.data(), group.bond.data(), lane, rows, wrench_rows);
+      kernels.respond(law, batch, shape, group.slip.data(), group.bond.data(), lane, rows, wrench_rows, done);
       std::fill_n(group.common.stale, lanes, 1.0);
       group.bare = std::all_of(lane.least_damage, lane.least_damage + lanes, [](double damage) { return damage >= 1; });
     }
-    sums.energy.friction += total(lane.friction);
-    sums.energy.fracture += total(lane.fracture);
-    sums.energy.crushing += total(lane.crushing);
-    sums.energy.damping += total(lane.damping);
     if (sample) sums.energy.elastic += total(lane.stored);
-    for (int l = 0; l < lanes; ++l) {
-      if (lane.error[l] > sums.largest_error) sums.largest_error = lane.error[l], sums.worst_joint = group.joint[l];
-    }
   }
+  sums.energy.friction += total(done.friction);
+  sums.energy.fracture += total(done.fracture);
+  sums.energy.crushing += total(done.crushing);
+  sums.energy.damping += total(done.damping);
+  for (int l = 0; l < lanes; ++l)
+    if (done.error[l] > sums.largest_error) sums.largest_error = done.error[l], sums.worst_joint = group_[std::size_t(done.worst[l])].joint[l];
 }
 
 void Cracked::store() {

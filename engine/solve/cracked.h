@@ -18,7 +18,7 @@ class Cracked {
   void take(int j);  // a joint that has cracked: out of the sound batches
   void drop(int j);  // a joint that was handed over to contact
   // Wrench rows of groups [first, last); fills sums.energy.elastic when `sample`.
-  static constexpr int grain = 2;
+  static constexpr int grain = 4;
   void forces(int first, int last, bool sample, JointSums& sums);
   void store();
   // The joint has no bond left, and has moved beyond what its fixed faces can tell (joint_response.h).

@@ -46,6 +46,7 @@ struct alignas(64) FaceLanes {
 // The shapes of eight joints of one law with the same numbers of everything: corners of the overlap, points, corners of their cells.
 struct CrackedShape {
   int corners, points;
+  double number;  // by which sums name it
   const FaceLanes* face;
   const CornerLanes* corner;
   const SpotLanes* spot;     // [points]
@@ -59,11 +60,15 @@ struct CrackedShape {
   const double* const* face_corner;
 };
 struct alignas(64) CrackedLanes {
-  double q[6][lanes], f[6][lanes], stored[lanes];                            // at the last step
-  double friction[lanes], fracture[lanes], crushing[lanes], damping[lanes];  // J, of this step
-  double drag[6][lanes];                                                     // of the dashpots now; part of f of the JointLanes
-  double error[lanes];                                                       // J, work of the resultant - stored - dissipated
-  double least_damage[lanes];                                                // of the points; 1 for dry joints
+  double q[6][lanes], f[6][lanes], stored[lanes];  // at the last step
+  double drag[6][lanes];                           // of the dashpots now; part of f of the JointLanes
+  double least_damage[lanes];                      // of the points; 1 for dry joints
+};
+// What several such did in their steps, lane by lane.
+struct alignas(64) CrackedSums {
+  double friction[lanes], fracture[lanes], crushing[lanes], damping[lanes];  // J
+  double error[lanes];                                                       // J, the greatest |work of the resultant - stored - dissipated|
+  double worst[lanes];                                                       // whose that is: `number` of the shape
 };
 
 // Eight sound joints in world axes at the last refresh: what a step reads of them, and nothing else (lanes_sound.inc).
@@ -126,12 +131,12 @@ struct LaneKernels {
   const char* name;
   // joint_geometry.h gives the formulas: q, its elastic resultant and the bound that keeps a joint on this path.
   void (*elastic)(const JointBatch& batch, const double* rows, JointLanes& out);
-  // Joints that have cracked, rows of blocks to wrench rows by the point laws (joint_response.h); memory and account in `cracked`.
+  // Joints that have cracked, rows of blocks to wrench rows by the point laws (joint_response.h); memory in `cracked`, account in `sums`.
   void (*respond)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, BondLanes* bond,
-                  CrackedLanes& cracked, const double* rows, double* wrench_rows);
+                  CrackedLanes& cracked, const double* rows, double* wrench_rows, CrackedSums& sums);
   // The same where no point has a bond left.
   void (*rub)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, CommonLanes& common,
-              CrackedLanes& cracked, const double* rows, double* wrench_rows);
+              CrackedLanes& cracked, const double* rows, double* wrench_rows, CrackedSums& sums);
   // Resultants to wrenches on both blocks: force at the midpoint of the material points, then everything turned by th.
   void (*wrenches)(const JointBatch& batch, const JointLanes& in, double* wrench_rows);
   // Batches [first, last) of sound joints, rows of blocks to wrench rows; the energy they store is added to stored[lanes], if wanted.
