@@ -28,10 +28,6 @@ void Cracked::Group::look_for_bonds(const PointLaw& of) {
          });
 }
 
-bool Cracked::Group::empty() const {
-  return std::all_of(joint, joint + lanes, [](int j) { return j < 0; });
-}
-
 Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state) {
   const int sound = sound_batches(model);
   // Batches that a stopped run left: the same joint in the same lane, so that sums go on in the same order.
@@ -128,6 +124,8 @@ void Cracked::fill(Group& group, int l, int j) {
   const JointMemory& memory = state_.memory[z(j)];
   add_shape(group, l, *joint.type);
   group.joint[l] = j;
+  ++group.used;
+  group.beyond = true;
   if (model_.laws[z(joint.type->law)].fc > 0)
     group.crushed[l] = &state_.crushed[z(j)], group.face_corner[l] = model_.corner[z(joint.type->first_corner)].data();
   for (int i = 0; i < 6; ++i) group.lane.q[i][l] = memory.q[i], group.lane.f[i][l] = memory.f[i];
@@ -195,6 +193,7 @@ void Cracked::take(int j) { put(j); }
 void Cracked::drop(int j) {
   const int at = state_.place[z(j)] - sound_batches(model_) * lanes;
   if (at >= 0) {
+    --group_[z(at / lanes)].used;
     clear(group_[z(at / lanes)], at % lanes);
     clear_lane(model_, state_.batch[z(at / lanes)], at % lanes);
   }
@@ -217,8 +216,9 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
     CrackedLanes& lane = group.lane;
     alignas(64) double rate[lanes];
     const bool damped = model_.dashpots_cracked && state_.last_dt > 0;
-    for (int l = 0; damped && l < lanes; ++l)
-      rate[l] = group.joint[l] >= 0 ? model_.joint[z(group.joint[l])].viscous_cracked / state_.last_dt : 0;
+    if (damped)
+      for (int l = 0; l < lanes; ++l)
+        rate[l] = group.joint[l] >= 0 ? model_.joint[z(group.joint[l])].viscous_cracked / state_.last_dt : 0;
     const Shapes& shapes = *group.shapes;
     const CrackedShape shape{group.corners,
                              group.points,
@@ -235,9 +235,9 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
                              group.face_corner};
     const PointLaw& law = model_.laws[z(group.law)];
     if (group.bare) {
-      kernels.rub(law, batch, shape, group.slip.data(), group.common, lane, rows, wrench_rows, done);
+      group.beyond = kernels.rub(law, batch, shape, group.slip.data(), group.common, lane, rows, wrench_rows, done);
     } else {
-      kernels.respond(law, batch, shape, group.slip.data(), group.bond.data(), lane, rows, wrench_rows, done);
+      group.beyond = kernels.respond(law, batch, shape, group.slip.data(), group.bond.data(), lane, rows, wrench_rows, done);
       std::fill_n(group.common.stale, lanes, 1.0);
       group.bare = std::all_of(lane.least_damage, lane.least_damage + lanes, [](double damage) { return damage >= 1; });
     }
@@ -274,7 +274,9 @@ void Cracked::store() {
 bool Cracked::spent(int j) const {
   const int at = state_.place[z(j)] - sound_batches(model_) * lanes;
   if (at < 0) return joint_spent(model_, state_, j);
-  const CrackedLanes& lane = group_[z(at / lanes)].lane;
+  const Group& group = group_[z(at / lanes)];
+  if (!group.beyond) return false;
+  const CrackedLanes& lane = group.lane;
   if (lane.least_damage[at % lanes] < 1) return false;
   double q[6];
   for (int i = 0; i < 6; ++i) q[i] = lane.q[i][at % lanes];

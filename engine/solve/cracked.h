@@ -37,6 +37,7 @@ class Cracked {
   struct Group {
     int law, points, corners;
     int batch;                    // in State::batch
+    int used = 0;                 // lanes
     int joint[lanes];             // -1: empty
     CrushedFace* crushed[lanes];  // null without a plateau
     const double* face_corner[lanes];
@@ -47,8 +48,9 @@ class Cracked {
     CommonLanes common;
     CrackedLanes lane;
     bool bears = false;  // joints that gravity presses
+    bool beyond = true;  // some may be beyond their faces
     bool bare = true;    // no point of any lane has a bond left
-    bool empty() const;
+    bool empty() const { return used == 0; }
     void look_for_bonds(const PointLaw& law);
   };
   Group empty_group(const Joint& joint, int batch) const;

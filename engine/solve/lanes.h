@@ -132,10 +132,11 @@ struct LaneKernels {
   // joint_geometry.h gives the formulas: q, its elastic resultant and the bound that keeps a joint on this path.
   void (*elastic)(const JointBatch& batch, const double* rows, JointLanes& out);
   // Joints that have cracked, rows of blocks to wrench rows by the point laws (joint_response.h); memory in `cracked`, account in `sums`.
-  void (*respond)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, BondLanes* bond,
+  // True where a joint may be beyond its faces (beyond_its_faces of joint_kernel.h).
+  bool (*respond)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, BondLanes* bond,
                   CrackedLanes& cracked, const double* rows, double* wrench_rows, CrackedSums& sums);
   // The same where no point has a bond left.
-  void (*rub)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, CommonLanes& common,
+  bool (*rub)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, CommonLanes& common,
               CrackedLanes& cracked, const double* rows, double* wrench_rows, CrackedSums& sums);
   // Resultants to wrenches on both blocks: force at the midpoint of the material points, then everything turned by th.
   void (*wrenches)(const JointBatch& batch, const JointLanes& in, double* wrench_rows);
