@@ -203,8 +203,7 @@ void Cracked::drop(int j) {
   for (const int row : {model_.row_a[z(j)], model_.row_b[z(j)]}) std::fill_n(&state_.wrench[z(row) * 8], 8, 0.0);
 }
 
-void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
-  const LaneKernels& kernels = lane_kernels();
+void Cracked::forces(int first, int last, bool sample, JointSums& sums, const LaneKernels& kernels) {
   const double* rows = state_.row.data();
   double* wrench_rows = state_.wrench.data();
   if (sample) sums.energy.elastic = 0;
@@ -217,8 +216,7 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
     alignas(64) double rate[lanes];
     const bool damped = model_.dashpots_cracked && state_.last_dt > 0;
     if (damped)
-      for (int l = 0; l < lanes; ++l)
-        rate[l] = group.joint[l] >= 0 ? model_.joint[z(group.joint[l])].viscous_cracked / state_.last_dt : 0;
+      for (int l = 0; l < lanes; ++l) rate[l] = group.joint[l] >= 0 ? model_.joint[z(group.joint[l])].viscous_cracked / state_.last_dt : 0;
     const Shapes& shapes = *group.shapes;
     const CrackedShape shape{group.corners,
                              group.points,
@@ -248,7 +246,8 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums) {
   sums.energy.crushing += total(done.crushing);
   sums.energy.damping += total(done.damping);
   for (int l = 0; l < lanes; ++l)
-    if (done.error[l] > sums.largest_error) sums.largest_error = done.error[l], sums.worst_joint = group_[std::size_t(done.worst[l])].joint[l];
+    if (done.error[l] > sums.largest_error)
+      sums.largest_error = done.error[l], sums.worst_joint = group_[std::size_t(done.worst[l])].joint[l];
 }
 
 void Cracked::store() {

@@ -19,7 +19,7 @@ class Cracked {
   void drop(int j);  // a joint that was handed over to contact
   // Wrench rows of groups [first, last); fills sums.energy.elastic when `sample`.
   static constexpr int grain = 4;
-  void forces(int first, int last, bool sample, JointSums& sums);
+  void forces(int first, int last, bool sample, JointSums& sums, const LaneKernels& kernels = lane_kernels());
   void store();
   // The joint has no bond left, and has moved beyond what its fixed faces can tell (joint_response.h).
   bool spent(int j) const;
@@ -29,7 +29,7 @@ class Cracked {
   struct Shapes {
     FaceLanes face;
     std::vector<CornerLanes> corner;
-    std::vector<SpotLanes> spot;           // [points], and so is cell
+    std::vector<SpotLanes> spot;  // [points], and so is cell
     std::vector<CellLanes> cell;
     std::vector<int> first;                // [points + 1]
     std::vector<CornerLanes> loop, watch;  // of the cells; watch empty where it is loop

@@ -67,8 +67,8 @@ struct alignas(64) CrackedLanes {
 // What several such did in their steps, lane by lane.
 struct alignas(64) CrackedSums {
   double friction[lanes], fracture[lanes], crushing[lanes], damping[lanes];  // J
-  double error[lanes];                                                       // J, the greatest |work of the resultant - stored - dissipated|
-  double worst[lanes];                                                       // whose that is: `number` of the shape
+  double error[lanes];  // J, the greatest |work of the resultant - stored - dissipated|
+  double worst[lanes];  // whose that is: `number` of the shape
 };
 
 // Eight sound joints in world axes at the last refresh: what a step reads of them, and nothing else (lanes_sound.inc).
