@@ -49,22 +49,26 @@ void fill(const PairJob* job, int count, PairLanes& w) {
 unsigned overlaps(const PairJob* job, int count, const ContactShapes& shapes, Batch& batch) {
   const ClipKernels& kernels = clip_kernels();
   PairLanes& w = batch.lanes;
+  ClipJob clips[8];
+  for (int l = 0; l < count; ++l) {
+    const Bodies bodies = bodies_of(*job[l].pair, shapes);
+    clips[l] = {&bodies.reference->small, &bodies.other->small, {}, &batch.triangles[l]};
+    for (int i = 0; i < 9; ++i) clips[l].pose.turn[i] = w.turn[i][l];
+    for (int i = 0; i < 3; ++i) clips[l].pose.shift[i] = w.shift[i][l];
+  }
+  kernels.clip_all(clips, count);
   unsigned left_out = 0;
   for (int l = 0; l < 8; ++l) {
     Triangles& t = batch.triangles[l];
-    w.sums[l] = {};
-    w.deepest[l] = w.closing[l] = 0;
-    if (l >= count) continue;
-    const Bodies bodies = bodies_of(*job[l].pair, shapes);
-    SmallPose pose;
-    for (int i = 0; i < 9; ++i) pose.turn[i] = w.turn[i][l];
-    for (int i = 0; i < 3; ++i) pose.shift[i] = w.shift[i][l];
-    kernels.clip(bodies.reference->small, bodies.other->small, pose, t);
-    if (t.overflow || t.count == 0) left_out |= 1u << l;
+    if (l < count && !t.overflow && t.count > 0) {
+      kernels.sum(t, w.sums[l]);
+      w.deepest[l] = t.deepest;
+    } else {
+      w.sums[l] = {};
+      w.deepest[l] = w.closing[l] = 0;
+      left_out |= static_cast<unsigned>(l < count) << l;
+    }
   }
-  // not at once: the triangles were written in other pieces than they are read in, and first have to arrive in the cache
-  for (int l = 0; l < count; ++l)
-    if ((left_out >> l & 1u) == 0) kernels.sum(batch.triangles[l], w.sums[l]), w.deepest[l] = batch.triangles[l].deepest;
   return left_out;
 }
 
@@ -129,7 +133,6 @@ unsigned pair_forces(const PairJob* job, int count, const ContactShapes& shapes,
   }
   kernels.dashpot(w, set);
   for (int l = 0; l < 8; ++l) {
-    w.radius[l] = torsion_radius(w.area[l], w.gyration[l]);
     double total = 0, first[3] = {};
     const double normal[3] = {w.normal[0][l], w.normal[1][l], w.normal[2][l]};
     if (l < count && (left_out >> l & 1u) == 0) clips.damp(batch.triangles[l], normal, w.chi[l], w.limit[l], total, first);

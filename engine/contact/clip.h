@@ -27,15 +27,23 @@ struct SmallPose {
 };
 
 struct alignas(64) Triangles {
+  double plane[4][few];                     // faces of a seen from b: normal . x <= the fourth
+  double normal[3][few];                    // of the faces of b
   double corner[3][3][most_triangles + 8];  // m, [corner][axis], pair axes: origin at the centroid of b
-  double depth[3][most_triangles + 8];      // m, phi at the corners
+  double depth[3][most_triangles + 8];      // m, phi at the corners, filled by sum()
   double closing[3][most_triangles + 8];    // m/s, filled by approach()
-  double normal[3][most_triangles + 8];     // of the face of b
   double size[most_triangles + 8];          // m2, filled by sum()
+  unsigned char faces[most_triangles + 8];  // of b, and few times that of a below which phi is measured
   double deepest;                           // m, filled by sum()
   int count;                                // filled up to a multiple of 8 with empty ones
   int separating;                           // a face of a with all of b on its outer side, or -1
   bool overflow;                            // more than there is room for
+};
+
+struct ClipJob {
+  const SmallShape *a, *b;
+  SmallPose pose;
+  Triangles* out;
 };
 
 // Sums over the triangles, kn = 1 (narrow.h names them).
@@ -46,6 +54,7 @@ struct alignas(64) OverlapSums {
 struct ClipKernels {
   const char* name;
   void (*clip)(const SmallShape& a, const SmallShape& b, const SmallPose& pose, Triangles& out);
+  void (*clip_all)(const ClipJob* job, int count);  // up to eight; what comes out for one does not depend on the others
   void (*sum)(Triangles& triangles, OverlapSums& out);
   // Speed along - turning . x at the corners (m/s); returns the greatest.
   double (*approach)(Triangles& triangles, double along, const double turning[3]);

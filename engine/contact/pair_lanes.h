@@ -40,7 +40,7 @@ struct PairKernels {
   void (*place)(PairLanes&);                         // reads the rows; fills turn and shift
   void (*patch)(PairLanes&);                         // from sums to turning; total = 0 where there is no patch to speak of
   void (*dashpot)(PairLanes&, const PairSettings&);  // from closing
-  void (*springs)(PairLanes&, const PairSettings&);  // up to holds; `radius` is filled by the caller before, from area and gyration
+  void (*springs)(PairLanes&, const PairSettings&);  // up to holds
   void (*bear)(PairLanes&);                          // what reaches the limit; `holds` then is 0 where that is left to the caller
   void (*finish)(PairLanes&, const PairSettings&);   // rows of pairs and results
   void (*write)(const Lane* rows, int count, double* const to[8]);

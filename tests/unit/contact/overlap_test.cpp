@@ -85,26 +85,52 @@ TEST_CASE("small bodies overlap the fast way as the general way", "[contact]") {
   CHECK(met > 800);
 }
 
-TEST_CASE("instruction sets clip to the same bits", "[contact]") {
-  const ContactShape a = contact_shape(trial::brick()), b = contact_shape(wedge());
-  const auto narrow = std::make_unique<Triangles>(), wide = std::make_unique<Triangles>();
+TEST_CASE("instruction sets clip to the same bits, and a pair to the same whatever is clipped beside it", "[contact]") {
+  const std::vector<ContactShape> shapes{contact_shape(trial::brick()), contact_shape(wedge()), contact_shape(frustum(6))};
+  const auto narrow = std::make_unique<Triangles[]>(8), wide = std::make_unique<Triangles[]>(8);
+  const auto alone = std::make_unique<Triangles>();
   Scatter scatter;
+  int met = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    SmallPose pose;
-    const Mat3 turn = rotation(Vec3(scatter(2), scatter(2), scatter(2))).toRotationMatrix();
-    for (int i = 0; i < 9; ++i) pose.turn[i] = turn(i / 3, i % 3);
-    for (double& x : pose.shift) x = scatter(0.1);
-    sse2::clip_kernels.clip(a.small, b.small, pose, *narrow);
-    clip_kernels().clip(a.small, b.small, pose, *wide);
-    REQUIRE(narrow->count == wide->count);
-    if (narrow->count == 0) continue;
-    OverlapSums x, y;
-    sse2::clip_kernels.sum(*narrow, x);
-    clip_kernels().sum(*wide, y);
-    CHECK(x.total == y.total);
-    CHECK(std::equal(x.moment, x.moment + 3, y.moment));
-    CHECK(std::equal(x.second, x.second + 6, y.second));
+    ClipJob job[8];
+    for (std::size_t l = 0; l < 8; ++l) {
+      const bool resting = (trial + int(l)) % 3 == 0;
+      const Mat3 turn = rotation(Vec3(scatter(resting ? 1e-6 : 2), scatter(resting ? 1e-6 : 2), scatter(2))).toRotationMatrix();
+      job[l] = {&shapes[l % 3].small, &shapes[(l / 3) % 3].small, {}, &wide[l]};
+      for (int i = 0; i < 9; ++i) job[l].pose.turn[i] = turn(i / 3, i % 3);
+      for (double& x : job[l].pose.shift) x = scatter(0.1);
+      if (resting) job[l].pose.shift[2] = 0.0999;
+    }
+    clip_kernels().clip_all(job, 8);
+    for (std::size_t l = 0; l < 8; ++l) job[l].out = &narrow[l];
+    sse2::clip_kernels.clip_all(job, 8);
+    for (std::size_t l = 0; l < 8; ++l) {
+      clip_kernels().clip(*job[l].a, *job[l].b, job[l].pose, *alone);
+      REQUIRE(narrow[l].count == wide[l].count);
+      REQUIRE(narrow[l].count == alone->count);
+      REQUIRE(narrow[l].separating == wide[l].separating);
+      if (narrow[l].count == 0) continue;
+      ++met;
+      OverlapSums sums[3];
+      double damped[3][4], closing[3];
+      int k = 0;
+      for (Triangles* t : {&narrow[l], &wide[l], alone.get()}) {
+        const ClipKernels& kernels = k == 0 ? sse2::clip_kernels : clip_kernels();
+        const double turning[3] = {0.3, -2, 1};
+        kernels.sum(*t, sums[k]);
+        closing[k] = kernels.approach(*t, 0.2, turning);
+        const double n[3] = {0.6, 0, -0.8};
+        kernels.damp(*t, n, 1.5, 1.6, damped[k][0], &damped[k][1]);
+        ++k;
+      }
+      for (k = 1; k < 3; ++k) {
+        CHECK(std::equal(&sums[0].total, &sums[0].unused[0], &sums[k].total));
+        CHECK(closing[0] == closing[k]);
+        CHECK(std::equal(damped[0], damped[0] + 4, damped[k]));
+      }
+    }
   }
+  CHECK(met > 1000);
 }
 
 TEST_CASE("the share of a clamp in a triangle is exact", "[contact]") {
