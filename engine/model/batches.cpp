@@ -1,5 +1,6 @@
 #include "engine/model/batches.h"
 
+#include <algorithm>
 #include <limits>
 #include <numeric>
 
@@ -9,7 +10,67 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 std::size_t z(int i) { return std::size_t(i); }
 
+struct Keeping {
+  Model& m;
+  std::vector<int> kept, rounds;            // by blocks; by groups of eight
+  std::vector<std::vector<int>> joints_of;  // blocks
+  std::vector<int> moved;
+
+  int other(int j) const { return m.joint[z(j)].kept_by_b ? m.joint[z(j)].a : m.joint[z(j)].b; }
+  bool has_room(int b) const { return kept[z(b)] < rounds[z(b / lanes)]; }
+  void turn_over(int j) {
+    --kept[z(m.keeper(j))], ++kept[z(other(j))];
+    m.joint[z(j)].kept_by_b = !m.joint[z(j)].kept_by_b;
+    moved.push_back(j);
+  }
+  // One of the joints that b keeps goes to a neighbour with room, or to one that can make room in the same way.
+  bool pass_on(int b, bool through_others) {
+    for (const int j : joints_of[z(b)])
+      if (m.keeper(j) == b && has_room(other(j))) {
+        turn_over(j);
+        return true;
+      }
+    if (!through_others) return false;
+    for (const int j : joints_of[z(b)])
+      if (m.keeper(j) == b && pass_on(other(j), false)) {
+        turn_over(j);
+        return true;
+      }
+    return false;
+  }
+  // Group g does with a round less, if it can.
+  bool shorten(int g) {
+    if (rounds[z(g)] == 0) return false;
+    --rounds[z(g)];
+    moved.clear();
+    for (int b = g * lanes; b < std::min((g + 1) * lanes, m.nblock); ++b)
+      while (kept[z(b)] > rounds[z(g)])
+        if (!pass_on(b, true)) {
+          const std::vector<int> back = moved;
+          std::for_each(back.rbegin(), back.rend(), [&](int j) { turn_over(j); });
+          ++rounds[z(g)];
+          return false;
+        }
+    return true;
+  }
+};
+
 }  // namespace
+
+void choose_keepers(Model& m) {
+  Keeping all{m, std::vector<int>(z(m.nblock), 0), std::vector<int>(block_groups(m.nblock), 0), {}, {}};
+  all.joints_of.resize(z(m.nblock));
+  for (int j = 0; j < int(m.joint.size()); ++j) {
+    Joint& joint = m.joint[z(j)];
+    const bool a_has_room = all.has_room(joint.a), b_has_room = all.has_room(joint.b);
+    joint.kept_by_b = a_has_room != b_has_room ? b_has_room : all.kept[z(joint.b)] < all.kept[z(joint.a)];
+    int& rounds = all.rounds[z(m.keeper(j) / lanes)];
+    rounds = std::max(rounds, ++all.kept[z(m.keeper(j))]);
+    for (const int b : {joint.a, joint.b}) all.joints_of[z(b)].push_back(j);
+  }
+  for (int g = 0; g < int(all.rounds.size()); ++g)
+    while (all.shorten(g)) {}
+}
 
 // An empty lane answers nothing: no stiffness, limits out of reach, the block at rest, a wrench row that nobody reads.
 void clear_lane(const Model& m, JointBatch& batch, int l) {
@@ -18,7 +79,7 @@ void clear_lane(const Model& m, JointBatch& batch, int l) {
   batch.open_limit[l] = batch.slip_limit[l] = batch.close_limit[l] = infinite;
   batch.slip_slope[l] = 0;
   batch.a[l] = batch.b[l] = m.nblock;
-  batch.row_a[l] = batch.row_b[l] = 2 * m.njoint;
+  batch.row_a[l] = batch.row_b[l] = m.spare_row();
 }
 
 void set_constants(const Model& m, int j, JointBatch& batch, int l) {

@@ -7,6 +7,13 @@
 
 namespace erbs {
 
+// Sets Joint::kept_by_b. Eight blocks side by side go through the joints they keep in rounds, the first of each, then the second: as many
+// as the busiest of them keeps. Few rounds in all mean few empty lanes.
+void choose_keepers(Model& model);
+// Sound joints are computed in the lanes of the blocks that keep them (sound.h).
+inline bool keepers(const Model& model) {
+  return model.analysis.kernel != "reference" && model.analysis.solver != "sequential" && !model.dashpots;
+}
 inline int sound_batches(const Model& model) { return (model.njoint + lanes - 1) / lanes; }
 
 void set_places(const Model& model, State& state);      // every joint sound, in its place

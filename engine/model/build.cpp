@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <tuple>
+#include <utility>
 
 #include "engine/base/units.h"
 #include "engine/geometry/mass.h"
@@ -75,13 +76,34 @@ void add_loads(const Scene& scene, Model& m) {
 
 void index_rows(Model& m) {
   m.njoint = int(m.joint.size());
-  m.first_row.assign(z(m.nblock) + 1, 0);
-  for (const Joint& j : m.joint) ++m.first_row[z(j.a) + 1], ++m.first_row[z(j.b) + 1];
-  for (int b = 0; b < m.nblock; ++b) m.first_row[z(b) + 1] += m.first_row[z(b)];
-  std::vector<int> next(m.first_row.begin(), m.first_row.end() - 1);
-  for (const Joint& j : m.joint) {
-    m.row_a.push_back(next[z(j.a)]++);
-    m.row_b.push_back(next[z(j.b)]++);
+  m.row_a.resize(z(m.njoint)), m.row_b.resize(z(m.njoint));
+  const auto moving = [&](int b) { return m.kind[z(b)] == Kind::moving; };
+  std::vector<int> others(z(m.nblock), 0), kept(z(m.nblock), 0);  // ends of joints that others keep, and of its own
+  for (const Joint& j : m.joint) ++(j.kept_by_b ? others : kept)[z(j.a)], ++(j.kept_by_b ? kept : others)[z(j.b)];
+  const int groups = int(block_groups(m.nblock));
+  std::vector<int> of_others(z(groups), 0), of_kept(z(groups), 0);
+  for (int b = 0; b < m.nblock; ++b) {
+    if (!moving(b)) continue;
+    of_others[z(b / lanes)] = std::max(of_others[z(b / lanes)], others[z(b)]);
+    of_kept[z(b / lanes)] = std::max(of_kept[z(b / lanes)], kept[z(b)]);
+  }
+  m.first_slot.assign(1, 0);
+  for (int g = 0; g < groups; ++g) {
+    m.first_kept.push_back(m.first_slot.back() + of_others[z(g)]);
+    m.first_slot.push_back(m.first_kept.back() + of_kept[z(g)]);
+  }
+  m.first_row.assign(1, lanes * m.first_slot.back());
+  for (int b = 0; b < m.nblock; ++b) m.first_row.push_back(m.first_row.back() + (moving(b) ? 0 : others[z(b)] + kept[z(b)]));
+  std::vector<int> next_other(z(m.nblock)), next_kept(z(m.nblock));
+  for (int b = 0; b < m.nblock; ++b) {
+    next_other[z(b)] = moving(b) ? m.first_slot[z(b / lanes)] * lanes + b % lanes : m.first_row[z(b)];
+    next_kept[z(b)] = moving(b) ? m.first_kept[z(b / lanes)] * lanes + b % lanes : m.first_row[z(b)] + others[z(b)];
+  }
+  const auto take = [&](int& next, int b) { return std::exchange(next, next + (moving(b) ? lanes : 1)); };
+  for (int j = 0; j < m.njoint; ++j) {
+    const Joint& joint = m.joint[z(j)];
+    m.row_a[z(j)] = take((joint.kept_by_b ? next_other : next_kept)[z(joint.a)], joint.a);
+    m.row_b[z(j)] = take((joint.kept_by_b ? next_kept : next_other)[z(joint.b)], joint.b);
   }
 }
 
@@ -198,7 +220,8 @@ State start(const Scene& scene, const Model& m) {
   s.history.clear(z(m.npoint));
   if (std::any_of(m.laws.begin(), m.laws.end(), [](const PointLaw& law) { return law.fc > 0; })) s.crushed.clear(z(m.njoint));
   if (m.dashpots_cracked) s.viscous.assign(6 * z(m.njoint), 0.0);
-  s.wrench.assign(2 * z(m.njoint) + 1, 0.0);
+  s.wrench.assign(z(m.spare_row()) + 1, 0.0);
+  s.kept.assign(block_groups(m.nblock), {});
   return s;
 }
 
@@ -226,6 +249,7 @@ Built build(const Scene& scene) {
   each_contact_part(m, [](int, const Polyhedron&) {});  // finds parts of which nothing is left
   m.dashpots = std::any_of(m.joint.begin(), m.joint.end(), [](const Joint& joint) { return joint.viscous > 0; });
   m.dashpots_cracked = std::any_of(m.joint.begin(), m.joint.end(), [](const Joint& joint) { return joint.viscous_cracked > 0; });
+  choose_keepers(m);
   index_rows(m);
   for (int b = 0; b < m.nblock; ++b) {
     const bool moving = m.kind[z(b)] == Kind::moving;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/laws/point_law.h"
+#include "engine/model/joint_batch.h"
 #include "engine/scene/scene.h"
 
 namespace erbs {
@@ -37,6 +38,7 @@ struct Joint {
   int part_a = 0, part_b = 0;  // of the blocks
   int face_a = 0, face_b = 0;  // of the parts
   int first_point = 0;         // of its type's points, into State::history
+  bool kept_by_b = false;      // the block whose lane computes it while it is sound: b rather than a (build.cpp, choose_keepers)
   Vec3 arm_a, arm_b;           // m, weighted centre of its contact points at rest, relative to the centroids
   double viscous = 0;          // s, coefficient b of its dashpots, c = b k
   double viscous_cracked = 0;  // s, the same once it has cracked
@@ -75,8 +77,12 @@ struct Model {
   std::vector<Cell> cell;                                // of each of `point`
   std::vector<Eigen::Vector2d> cell_corner, cell_watch;  // m, joint frame: loops of the cells, and where they watch for tension
   std::vector<PointLaw> laws;                            // one per joint rule
-  // Each block owns consecutive wrench rows, one per joint end: [first_row[b], first_row[b+1])
-  std::vector<int> first_row;     // [nblock + 1]
+  // Wrench rows, one per joint end. Eight moving blocks side by side own slots [first_slot[g], first_slot[g+1]) of eight rows, a row for
+  // each of them; from first_kept[g] on there are those of the joints that they keep. Other blocks have theirs behind all slots, and behind
+  // those one that nobody reads.
+  std::vector<int> first_slot;    // [groups + 1]
+  std::vector<int> first_kept;    // [groups]
+  std::vector<int> first_row;     // of other blocks [nblock + 1]
   std::vector<int> row_a, row_b;  // wrench row of each end       [njoint]
   // what the loads do, resolved to block indices
   struct Push {
@@ -116,6 +122,17 @@ struct Model {
   std::vector<Parts> parts;  // m, world axes at rest, the scene's own [nblock]
   std::vector<std::string> warnings;
 
+  int spare_row() const { return first_row.back(); }
+  template <class F>
+  void each_row(int b, F&& f) const {
+    const std::size_t g = std::size_t(b / lanes);
+    for (int slot = first_slot[g]; kind[std::size_t(b)] == Kind::moving && slot < first_slot[g + 1]; ++slot) f(slot * lanes + b % lanes);
+    for (int row = first_row[std::size_t(b)]; row < first_row[std::size_t(b) + 1]; ++row) f(row);
+  }
+  int keeper(int j) const {
+    const Joint& one = joint[std::size_t(j)];
+    return one.kept_by_b ? one.b : one.a;
+  }
   std::string joint_name(int j) const {
     return block_name[std::size_t(joint[std::size_t(j)].a)] + " | " + block_name[std::size_t(joint[std::size_t(j)].b)];
   }

@@ -72,7 +72,8 @@ struct State {
   Cold<JointMemory> memory;            // [njoint]
   Cold<PointHistory> history;          // [npoint]
   Cold<CrushedFace> crushed;           // empty where no law has a plateau in compression [njoint]
-  Rows wrench;                         // rows of 8 doubles: force, moment on a block from one joint end [2 njoint + 1]
+  Rows wrench;                         // rows of 8 doubles: force, moment on a block from one joint end; which: Model::row_a, row_b
+  std::vector<RowLanes<6>> kept;       // force, moment on a block from all the sound joints that it keeps: no rows of theirs
   std::vector<double> viscous;         // N, N m, resultants of the dashpots of the last step; empty without [6 njoint]
   PairList debris;                     // contacts of loose blocks
   Rest rest;                           // those of them that sleep

@@ -272,7 +272,7 @@ void Cracked::store() {
 
 bool Cracked::spent(int j) const {
   const int at = state_.place[z(j)] - sound_batches(model_) * lanes;
-  if (at < 0) return joint_spent(model_, state_, j);
+  if (at < 0) return !keepers(model_) && joint_spent(model_, state_, j);  // one that has just cracked is taken in after the step
   const Group& group = group_[z(at / lanes)];
   if (!group.beyond) return false;
   const CrackedLanes& lane = group.lane;

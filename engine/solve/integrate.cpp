@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/model/batches.h"
+
 // Rotation: implicit midpoint in the body, which keeps |L| and the energy exactly (both are quadratic), with the Cayley map for the
 // attitude, which keeps L in the world (Simo and Wong 1991, Int. J. Numer. Meth. Eng. 31, section 4, in its momentum form).
 
@@ -31,8 +33,8 @@ KickDrift kick_of(const Model& m, const State& s, const Excitation& e) {
 }
 
 BlockArrays arrays(State& s, const std::vector<BlockConstants>& constants, const Pushes& pushes) {
-  return {constants.data(), s.u.data(),      s.v.data(),   s.spin_momentum.data(), s.w.data(),      s.q.data(),
-          s.base_u.data(),  s.base_q.data(), s.row.data(), s.wrench.data(),        pushes.contacts, pushes.loads};
+  return {constants.data(), s.u.data(),   s.v.data(),    s.spin_momentum.data(), s.w.data(),      s.q.data(),  s.base_u.data(),
+          s.base_q.data(),  s.row.data(), s.kept.data(), s.wrench.data(),        pushes.contacts, pushes.loads};
 }
 
 double power(const State& s, const double* loads, const LoadedBlock& l) {
@@ -79,8 +81,6 @@ void set_constants(const Model& m, const State& s, int b, bool moving, BlockCons
   for (int i = 0; i < 6; ++i) c.inverse_inertia[i][l] = moving ? m.inverse_inertia[z(b)](row[i], column[i]) : 0;
   c.turn_limit[l] =
       moving && s.joined[z(b)] ? m.analysis.lazy_rotation * m.analysis.lazy_rotation : std::numeric_limits<double>::infinity();
-  c.first_row[l] = moving ? 8 * m.first_row[z(b)] : 0;
-  c.rows[l] = moving ? m.first_row[z(b) + 1] - m.first_row[z(b)] : 0;
 }
 
 }  // namespace
@@ -88,7 +88,18 @@ void set_constants(const Model& m, const State& s, int b, bool moving, BlockCons
 std::vector<BlockConstants> block_constants(const Model& m, const State& s) {
   std::vector<BlockConstants> out(block_groups(m.nblock));
   for (int b = 0; b < int(out.size()) * lanes; ++b) set_constants(m, s, b, b < m.nblock && m.kind[z(b)] == Kind::moving, out[z(b / lanes)]);
+  for (int g = 0; g < int(out.size()); ++g) {
+    out[z(g)].first_slot = m.first_slot[z(g)];
+    out[z(g)].slots = (keepers(m) ? m.first_kept : m.first_slot)[z(g) + (keepers(m) ? 0 : 1)] - m.first_slot[z(g)];
+  }
+  for (int j = 0; j < m.njoint; ++j)
+    if (s.tier[z(j)] != Tier::intact) sum_all_rows(m, m.keeper(j), out);
   return out;
+}
+
+void sum_all_rows(const Model& m, int b, std::vector<BlockConstants>& constants) {
+  const std::size_t g = z(b / lanes);
+  constants[g].slots = m.first_slot[g + 1] - m.first_slot[g];
 }
 
 std::vector<std::uint8_t> idle_groups(const Model& m, const State& s) {
@@ -107,8 +118,10 @@ std::vector<std::uint8_t> idle_groups(const Model& m, const State& s) {
 
 Vec6 joint_wrench(const Model& m, const State& s, int b) {
   alignas(64) double sum[8] = {};
-  for (int row = m.first_row[z(b)]; row < m.first_row[z(b) + 1]; ++row)
+  m.each_row(b, [&](int row) {
     for (int i = 0; i < 6; ++i) sum[i] += s.wrench[z(row) * 8 + z(i)];
+  });
+  for (int i = 0; i < 6; ++i) sum[i] += s.kept[z(b / lanes)].x[i][b % lanes];
   return Eigen::Map<const Vec6>(sum);
 }
 
@@ -162,8 +175,9 @@ void Picked::copy_in(int b, int lane) {
   constant_.moving[to] = c.moving[l], constant_.damped[to] = c.damped[l];
   for (int i = 0; i < 6; ++i) constant_.inverse_inertia[i][to] = c.inverse_inertia[i][l];
   constant_.turn_limit[to] = c.turn_limit[l];
-  constant_.first_row[to] = c.first_row[l], constant_.rows[to] = c.rows[l];
   const State& s = state_;
+  const Vec6 wrench = b < model_.nblock ? joint_wrench(model_, s, b) : Vec6(Vec6::Zero());
+  for (int i = 0; i < 6; ++i) wrench_.x[i][to] = wrench[i];
   for (int i = 0; i < 3; ++i) {
     u_.x[i][to] = s.u.data()[k].x[i][l];
     v_.x[i][to] = s.v.data()[k].x[i][l];
@@ -203,7 +217,7 @@ void Picked::advance(const int* blocks, int count, bool sample, std::vector<Bloc
   for (int l = 0; l < lanes; ++l) copy_in(l < count ? blocks[l] : model_.nblock, l);  // beside them the one at rest
   each_loaded(blocks, count, [&](auto one, std::size_t i) { work_before(model_, state_, pushes_, one, sums[i]); });
   const double *push = pushes_.contacts != nullptr ? push_ : nullptr, *load = pushes_.loads != nullptr ? load_ : nullptr;
-  const BlockArrays group{&constant_, &u_, &v_, &momentum_, &w_, &q_, &base_u_, &base_q_, row_, state_.wrench.data(), push, load};
+  const BlockArrays group{&constant_, &u_, &v_, &momentum_, &w_, &q_, &base_u_, &base_q_, row_, &wrench_, nullptr, push, load};
   BlockSums& all = sums.front();
   if (kernels_.advance(step_, group, 0, 1, sample, all.work)) all.broken = true;
   for (int l = 0; l < count; ++l) copy_out(blocks[l], l);

@@ -90,21 +90,29 @@ void set_lanes(const Model& m, const State& s, const int* joints, int count, Joi
   set_geometry(m, s, to, count);
 }
 
-JointBatch sound_batch(const Model& m, const State& s, int k) {
+JointBatch batch_of(const Model& m, const State& s, const int* joints) {
   JointBatch batch{};
   InLane to[lanes];
   int count = 0;
   for (int l = 0; l < lanes; ++l) {
-    const int j = k * lanes + l;
-    if (j >= m.njoint || s.place[z(j)] != j) {
+    if (joints[l] < 0) {
       clear_lane(m, batch, l);
       continue;
     }
-    set_constants(m, j, batch, l);
-    to[count++] = {j, l, &batch};
+    set_constants(m, joints[l], batch, l);
+    to[count++] = {joints[l], l, &batch};
   }
   if (count > 0) set_geometry(m, s, to, count);
   return batch;
+}
+
+JointBatch sound_batch(const Model& m, const State& s, int k) {
+  int joints[lanes];
+  for (int l = 0; l < lanes; ++l) {
+    const int j = k * lanes + l;
+    joints[l] = j < m.njoint && s.place[z(j)] == j ? j : -1;
+  }
+  return batch_of(m, s, joints);
 }
 
 void refresh_all(const Model& m, State& s) {

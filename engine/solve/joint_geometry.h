@@ -63,6 +63,8 @@ void refresh_all(const Model& model, State& state);
 void set_lane(const Model& model, const State& state, int j, JointBatch& batch, int lane);
 // Eight joints at most as the first lanes of `batch`.
 void set_lanes(const Model& model, const State& state, const int* joints, int count, JointBatch& batch);
+// Eight joints in their lanes, -1 for an empty one.
+JointBatch batch_of(const Model& model, const State& state, const int* joints);
 // The joints of batch k that are still in their place; the other lanes are empty.
 JointBatch sound_batch(const Model& model, const State& state, int k);
 

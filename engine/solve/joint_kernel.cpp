@@ -31,11 +31,12 @@ void before(const State& s, const JointBatch& B, int l, double q[6], double f[6]
 
 }  // namespace
 
-void joint_by_points(const Model& m, State& s, int j, const double q[6], double f[6], JointSums& sums, const JointBatch* batch) {
+void joint_by_points(const Model& m, State& s, int j, const double q[6], double f[6], JointSums& sums, const JointBatch* batch, int lane) {
   const bool sound = s.tier[z(j)] == Tier::intact;
   JointMemory& memory = s.memory[z(j)];
   if (sound) {
-    before(s, batch ? *batch : sound_batch(m, s, j / lanes), j % lanes, memory.q, memory.f);
+    if (batch) before(s, *batch, lane, memory.q, memory.f);
+    else before(s, sound_batch(m, s, j / lanes), j % lanes, memory.q, memory.f);
     memory.elastic = 0;
     for (int i = 0; i < 6; ++i) memory.elastic += 0.5 * memory.f[i] * memory.q[i];
   }
@@ -95,7 +96,7 @@ void joint_forces(const Model& m, State& s, const std::vector<JointBatch>& batch
   if (sample) sums.energy.elastic = 0;
   for (int k = first; k < last; ++k) {
     const JointBatch& B = batch[z(k)];
-    if (std::all_of(B.row_a, B.row_a + lanes, [&](int row) { return row == 2 * m.njoint; })) continue;  // all have cracked
+    if (std::all_of(B.row_a, B.row_a + lanes, [&](int row) { return row == m.spare_row(); })) continue;  // all have cracked
     kernels.elastic(B, s.row.data(), o);
     unsigned near = 0;
     for (int l = 0; l < lanes; ++l) near |= unsigned(o.near[l] > 0) << l;
@@ -103,7 +104,7 @@ void joint_forces(const Model& m, State& s, const std::vector<JointBatch>& batch
       if ((near >> l & 1u) == 0) continue;
       double q[6], f[6];
       for (int i = 0; i < 6; ++i) q[i] = o.q[i][l];
-      joint_by_points(m, s, k * lanes + l, q, f, sums, &B);
+      joint_by_points(m, s, k * lanes + l, q, f, sums, &B, l);
       for (int i = 0; i < 6; ++i) o.f[i][l] = f[i];
     }
     if (sample) sums.energy.elastic += stored(m, s, k, o);

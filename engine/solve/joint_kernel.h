@@ -17,9 +17,9 @@ struct JointSums {
 };
 
 // One joint point by point, its own energy balance checked over the step (work of the resultant = stored + dissipated). `batch`: that
-// of a sound joint, where it is at hand.
+// of a sound joint, where it is at hand, and its lane there.
 void joint_by_points(const Model& model, State& state, int j, const double q[6], double f[6], JointSums& sums,
-                     const JointBatch* batch = nullptr);
+                     const JointBatch* batch = nullptr, int lane = 0);
 
 inline constexpr int batch_grain = 8;  // batches, or joints of the reference, to a chunk
 // Sound joints with dashpots: writes the wrench rows of batches [first, last) of `batch`, as sound.h does without.

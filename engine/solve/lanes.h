@@ -73,14 +73,19 @@ struct alignas(64) CrackedSums {
 
 // Eight sound joints in world axes at the last refresh: what a step reads of them, and nothing else (lanes_sound.inc).
 struct alignas(64) SoundBatch {
-  double gap[3][lanes], turn[3][lanes];     // m, rad: relative displacement and rotation
+  double gap[3][lanes], turn[3][lanes];     // m, rad: relative displacement and half the relative rotation
   double arm_a[3][lanes], arm_b[3][lanes];  // m, from the centroids to the joint
   double normal[3][lanes];
+  // the resultant on b: so all are negative
   double shear[lanes], across[lanes];  // N/m: stiffness along the faces, and how much more it is across them
-  double bend[6][lanes];               // N m: symmetric, xx yy zz yz xz xy
-  double open_limit[lanes], slip_limit[lanes], slip_slope[lanes], close_limit[lanes], radius[lanes];  // as in JointBatch
-  int a[lanes], b[lanes], row_a[lanes], row_b[lanes];  // where the rows of blocks and joint ends begin, in doubles
-  int used;                                            // joints in it
+  double bend[6][lanes];               // N m: symmetric, xx yy zz yz xz xy; against half rotations
+  double open_limit[lanes], slip_limit[lanes], slip_slope[lanes], close_limit[lanes];  // as in JointBatch
+  double diameter[lanes];                                                              // m, twice the radius of JointBatch
+  int b[lanes], row_b[lanes];  // where the rows of blocks and joint ends begin, in doubles; block a is its keeper
+  int used;                    // joints in it
+};
+struct SoundEnds {
+  int a[lanes], row_a[lanes];  // likewise, where no lane belongs to a keeper
 };
 
 // Eight blocks: what does not change from step to step.
@@ -89,7 +94,7 @@ struct alignas(64) BlockConstants {
   double moving[lanes], damped[lanes];      // 0 or 1
   double inverse_inertia[6][lanes];         // 1/(kg m2), axes at rest: xx yy zz yz xz xy
   double turn_limit[lanes];                 // rad2, of joined blocks between refreshes
-  int first_row[lanes], rows[lanes];        // wrench rows: the first, in doubles, and how many
+  int first_slot, slots;                    // of eight wrench rows
 };
 
 // All blocks, by groups of eight; the rows of eight doubles by blocks, `push` and `load` null where there is nothing.
@@ -100,6 +105,7 @@ struct BlockArrays {
   const RowLanes<3>* base_u;
   const RowLanes<4>* base_q;
   double* row;
+  const RowLanes<6>* kept;
   const double *wrench, *push, *load;
 };
 
@@ -140,9 +146,15 @@ struct LaneKernels {
               CrackedLanes& cracked, const double* rows, double* wrench_rows, CrackedSums& sums);
   // Resultants to wrenches on both blocks: force at the midpoint of the material points, then everything turned by th.
   void (*wrenches)(const JointBatch& batch, const JointLanes& in, double* wrench_rows);
-  // Batches [first, last) of sound joints, rows of blocks to wrench rows; the energy they store is added to stored[lanes], if wanted.
-  // Returns how many batches hold a joint whose limits may be near, and which.
-  int (*sound)(const SoundBatch* batch, int first, int last, const double* rows, double* wrench_rows, double* stored, int* near);
+  // Sound joints, rows of blocks to wrenches. Groups [first, last) of eight blocks: lane l of batches [first_batch[g], first_batch[g + 1])
+  // holds joints that block l of group g keeps. What acts on keepers is summed up in `kept`, what acts on the other ends goes to
+  // their rows; the energy they store is added to stored[lanes], if wanted. Returns how many batches hold a joint whose limits may be
+  // near, and which.
+  int (*sound)(const SoundBatch* batch, const int* first_batch, int first, int last, const double* rows, double* wrench_rows,
+               RowLanes<6>* kept, double* stored, int* near);
+  // Batches [first, last) of any sound joints; both ends go to their rows.
+  int (*sound_ends)(const SoundBatch* batch, const SoundEnds* ends, int first, int last, const double* rows, double* wrench_rows,
+                    int* near);
   // Kick and drift of groups [first, last) of blocks (integrate.h); true where a number broke.
   bool (*advance)(const KickDrift& step, const BlockArrays& blocks, int first, int last, bool sample, BlockWork& work);
   // Geometry of joints from the poses of their blocks.

@@ -114,7 +114,8 @@ Sequential::Sequential(const Model& model, State& state)
       }
       if (taken++ % lanes == 0) {
         batch_.emplace_back();
-        for (int l = 0; l < lanes; ++l) clear_sound_lane(model, batch_.back(), l);
+        ends_.emplace_back();
+        for (int l = 0; l < lanes; ++l) clear_lane(int(batch_.size() - 1) * lanes + l);
         joint_.resize(batch_.size() * lanes, -1);
       }
       const int lane = (int(batch_.size()) - 1) * lanes + (taken - 1) % lanes;
@@ -157,8 +158,18 @@ void Sequential::update(const std::vector<int>& joints) {
     if (lane_[z(j)].of_a < 0 && lane_[z(j)].of_b < 0) continue;
     set_lane(model_, state_, j, one, 0);
     for (const int lane : {lane_[z(j)].of_a, lane_[z(j)].of_b})
-      if (lane >= 0) set_sound_lane(one, 0, batch_[z(lane / lanes)], lane % lanes);
+      if (lane >= 0) {
+        set_sound_lane(one, 0, batch_[z(lane / lanes)], lane % lanes);
+        ends_[z(lane / lanes)].a[lane % lanes] = 8 * one.a[0];
+        ends_[z(lane / lanes)].row_a[lane % lanes] = 8 * one.row_a[0];
+      }
   }
+}
+
+void Sequential::clear_lane(int lane) {
+  clear_sound_lane(model_, batch_[z(lane / lanes)], lane % lanes);
+  ends_[z(lane / lanes)].a[lane % lanes] = 8 * model_.nblock;
+  ends_[z(lane / lanes)].row_a[lane % lanes] = 8 * model_.spare_row();
 }
 
 // Joint j is no longer sound: it leaves the lanes of its blocks.
@@ -166,7 +177,7 @@ void Sequential::leave(int j) {
   for (const int b : {model_.joint[z(j)].a, model_.joint[z(j)].b}) ++broken_[z(b)];
   for (int* lane : {&lane_[z(j)].of_a, &lane_[z(j)].of_b}) {
     if (*lane < 0) continue;
-    clear_sound_lane(model_, batch_[z(*lane / lanes)], *lane % lanes);
+    clear_lane(*lane);
     --batch_[z(*lane / lanes)].used;
     joint_[z(*lane)] = -1;
     *lane = -1;
@@ -241,8 +252,8 @@ void Sequential::visit(int b, double moved, JointSums& sums) {
   if (broken_[z(b)] > 0)
     for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k)
       if (plain_ || s.tier[z(end_[z(k)])] == Tier::cracked) follow(end_[z(k)], sums);
-  const int near =
-      lane_kernels().sound(batch_.data(), first_batch_[z(b)], first_batch_[z(b) + 1], s.row.data(), s.wrench.data(), nullptr, near_.data());
+  const int near = lane_kernels().sound_ends(batch_.data(), ends_.data(), first_batch_[z(b)], first_batch_[z(b) + 1], s.row.data(),
+                                             s.wrench.data(), near_.data());
   for (int i = 0; i < near; ++i) look_closer(near_[z(i)], b, moved, sums);
 }
 
@@ -275,8 +286,8 @@ void Sequential::predict(int b) {
     for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k)
       if (all ? !open(s, end_[z(k)]) : s.tier[z(end_[z(k)])] == Tier::cracked) try_out(end_[z(k)]);
   const int near = all ? 0
-                       : lane_kernels().sound(batch_.data(), first_batch_[z(b)], first_batch_[z(b) + 1], s.row.data(), s.wrench.data(),
-                                              nullptr, near_.data());
+                       : lane_kernels().sound_ends(batch_.data(), ends_.data(), first_batch_[z(b)], first_batch_[z(b) + 1], s.row.data(),
+                                                   s.wrench.data(), near_.data());
   for (int i = 0; i < near; ++i)
     for (int l = 0; l < lanes; ++l) {
       const int j = joint_[z(near_[z(i)] * lanes + l)];

@@ -43,6 +43,7 @@ class Sequential {
   void predict(int b);
   void try_out(int j);
   void leave(int j);
+  void clear_lane(int lane);
   double stored() const;
   bool turned_far(int b) const;
   void note_momentum(int b);
@@ -58,6 +59,7 @@ class Sequential {
   std::vector<int> end_;
   std::vector<int> first_batch_;  // its sound joints: batch_[first_batch_[b] .. first_batch_[b + 1]), each block its own copy
   std::vector<SoundBatch> batch_;
+  std::vector<SoundEnds> ends_;
   std::vector<int> joint_;  // of a lane of batch_; -1 none
   struct Lanes {
     int of_a = -1, of_b = -1;  // in batch_: batch * lanes + lane; -1 none

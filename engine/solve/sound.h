@@ -1,4 +1,6 @@
 // Sound joints as the step reads them: world axes, no point of theirs. A function of the poses of the last refresh.
+// Every joint is kept by one of its blocks (Joint::kept_by_b) and computed in that block's lane. So the displacements of eight blocks side
+// by side are read once for all they keep, what acts on them is summed up in registers (State::kept), and only the other ends write rows.
 #pragma once
 #include <memory>
 #include <vector>
@@ -9,8 +11,8 @@
 
 namespace erbs {
 
-// Lane `from` of `batch` as lane `to` of `out`; a lane of no joint.
-void set_sound_lane(const JointBatch& batch, int from, SoundBatch& out, int to);
+// Lane `from` of `batch` as lane `to` of `out`, seen from its other end where `turned`; a lane of no joint.
+void set_sound_lane(const JointBatch& batch, int from, SoundBatch& out, int to, bool turned = false);
 void clear_sound_lane(const Model& model, SoundBatch& out, int lane);
 
 class Sound {
@@ -18,21 +20,32 @@ class Sound {
   Sound(const Model& model, State& state);
   void update(const std::vector<int>& joints);  // after a refresh of these
   void leave(int j);                            // a joint that has cracked
-  // Writes the wrench rows of these batches. Joints near a limit are looked at point by point (joint_response.h); those that crack go on
-  // in cracked.h. `sums`: one for each chunk of batch_grain batches of all; fills their energy.elastic when `sample`.
-  void forces(Range batches, bool sample, std::vector<JointSums>& sums);
+  // What the joints kept by these groups of eight blocks do to all. Those near a limit are looked at point by point
+  // (joint_response.h); those that crack go on in cracked.h. `sums`: one for each chunk of `grain` groups of all; fills their
+  // energy.elastic when `sample`.
+  static constexpr int grain = 2;
+  void forces(Range groups, bool sample, std::vector<JointSums>& sums);
   // Those of joints with dashpots (joint_kernel.h); empty where no sound joint has any.
   const std::vector<JointBatch>& damped() const { return damped_; }
-  // The wrench rows alone, by the arithmetic of `kernels`; how many batches may be near a limit, and which in `near`.
-  int forces(int first, int last, const LaneKernels& kernels, double* stored, int* near);
+  // The forces alone, by the arithmetic of `kernels`; how many batches may be near a limit.
+  int forces(int first, int last, const LaneKernels& kernels, double* stored);
+  int groups() const { return int(first_batch_.size()) - 1; }
 
  private:
+  void deal_lanes();
+  JointBatch batch_of_lanes(int k) const;
+  void set(const JointBatch& batch, int from, int j);  // the lane of joint j
   void look_closer(int k, bool sample, JointSums& sums);
+  void take_over(int j, int lane, const JointBatch& batch, const JointLanes& before, const JointLanes& now);
 
   const Model& model_;
   State& state_;
   std::vector<SoundBatch> batch_;  // one of the two: empty where nothing reads it
   std::vector<JointBatch> damped_;
+  std::vector<int> first_batch_ = {0};  // of each group [groups + 1]
+  std::vector<int> joint_;              // in each lane; -1: none        [batches * lanes]
+  std::vector<int> lane_;               // batch * lanes + lane          [njoint]
+  std::vector<int> near_;               // batches that may be near a limit, from first_batch_ of the groups looked at on
   // Batches that were looked at since their last refresh: some laws want it in every step. Each is one thread's own.
   std::vector<std::unique_ptr<JointBatch>> looked_at_;
 };

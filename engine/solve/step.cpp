@@ -31,7 +31,9 @@ Solver::Solver(const Model& model, State& state, int threads)
       reference_(model.analysis.kernel == "reference" || model.analysis.solver == "sequential"),
       joint_items_(model.analysis.solver == "sequential" ? 0
                    : reference_                          ? model.njoint
+                   : keepers(model)                      ? int(block_groups(model.nblock))
                                                          : sound_batches(model)),
+      joint_grain_(keepers(model) ? Sound::grain : batch_grain),
       cracked_(model, state),
       sound_(model, state),
       debris_(model, state, threads) {
@@ -44,7 +46,7 @@ Solver::Solver(const Model& model, State& state, int threads)
   std::sort(loaded_.begin(), loaded_.end(), [](const LoadedBlock& a, const LoadedBlock& b) { return a.block < b.block; });
   loaded_.erase(std::unique(loaded_.begin(), loaded_.end(), [](const LoadedBlock& a, const LoadedBlock& b) { return a.block == b.block; }),
                 loaded_.end());
-  joint_sums_.resize(z(chunks(joint_items_, batch_grain)));
+  joint_sums_.resize(z(chunks(joint_items_, joint_grain_)));
   cracked_sums_.resize(z(chunks(cracked_.groups(), Cracked::grain)));
   block_sums_.resize(z(chunks(int(constants_.size()), block_grain)));
   if (model.analysis.solver == "sequential") {
@@ -148,9 +150,9 @@ void Solver::excite() {
 }
 
 void Solver::joints(int thread) {
-  const Range mine = share_of(joint_items_, batch_grain, thread, threads_);
+  const Range mine = share_of(joint_items_, joint_grain_, thread, threads_);
   if (contacts_) debris_.forces(thread, threads_, sample_ != Sample::none);
-  if (!reference_ && !model_.dashpots) sound_.forces(mine, sample_ != Sample::none, joint_sums_);
+  if (keepers(model_)) sound_.forces(mine, sample_ != Sample::none, joint_sums_);
   else
     for (int first = mine.first; first < mine.last; first += batch_grain) {
       const int last = std::min(first + batch_grain, mine.last);
@@ -320,6 +322,7 @@ void Solver::note_cracks() {
     if (tier_before_[z(j)] == state_.tier[z(j)]) continue;
     if (tier_before_[z(j)] == Tier::intact) newly_cracked_.push_back(j);
     if (!reference_ && state_.tier[z(j)] == Tier::cracked) cracked_.take(j), sound_.leave(j);
+    if (keepers(model_)) sum_all_rows(model_, model_.keeper(j), constants_);
     tier_before_[z(j)] = state_.tier[z(j)];
   }
   cracked_sums_.resize(z(chunks(cracked_.groups(), Cracked::grain)));

@@ -74,13 +74,14 @@ class Solver {
   State& state_;
   const int threads_;
   const bool reference_;
-  const int joint_items_;  // batches of sound joints, or joints for the reference
-  double floor_ = 0;       // J, below which the ledger's scale does not go
+  const int joint_items_,
+      joint_grain_;   // groups of blocks with the sound joints they keep, batches of damped ones, joints for the reference
+  double floor_ = 0;  // J, below which the ledger's scale does not go
   Excitation now_;
   Rows push_, load_;  // N, N m: of contacts (once there are any) and of loads, a row a block
   std::vector<LoadedBlock> loaded_;
   std::vector<BlockConstants> constants_;
-  std::vector<std::uint8_t> idle_;  // groups of blocks that sleep, all of them
+  std::vector<std::uint8_t> idle_;                    // groups of blocks that sleep, all of them
   std::vector<JointSums> joint_sums_, cracked_sums_;  // per chunk
   std::vector<BlockSums> block_sums_;
   std::vector<int> newly_cracked_, opened_, leaving_;

@@ -111,13 +111,12 @@ double instructions_over_bare(const Model& model, const State& state) {
   const double each = (between - before) / double(stepped.step - state.step);
   Sound sound(m, bare);
   const std::vector<BlockConstants> constants = block_constants(m, bare);
-  std::vector<int> near(z(sound_batches(m)));
   std::vector<BlockSums> sums(1);
   const Excitation e{Vec3::Zero(), m.gravity, bare.dt};
   bare.last_dt = bare.dt;
   const double start = counter.read();
   for (long k = 0; k < steps; ++k) {
-    sound.forces(0, sound_batches(m), lane_kernels(), nullptr, near.data());
+    sound.forces(0, sound.groups(), lane_kernels(), nullptr);
     advance(m, bare, constants, e, {}, {0, int(constants.size())}, false, sums);
   }
   return each / ((counter.read() - start) / double(steps));
@@ -145,8 +144,9 @@ Demand demand(const Model& m) {
   Demand out;
   out.flop = joint_flop * joints + block_flop * blocks + 6 * 2 * joints;
   const double batch = double(sizeof(SoundBatch)) / lanes, constants = double(sizeof(BlockConstants)) / lanes;
-  // a joint: its data, two rows of blocks read, two wrench rows written and read again; a block: constants, motion, row
-  out.bytes = joints * (batch + 2 * row + 4 * row) + blocks * (constants + 8.0 * (7 + 2 * 16) + row);
+  // a joint: its data, a row of a block read, a wrench row written and read again; a block: constants, motion, a row written and
+  // read, what acts on it written and read
+  out.bytes = joints * (batch + 3 * row) + blocks * (constants + 8.0 * (7 + 2 * 16) + 2 * row + 2 * 48);
   return out;
 }
 
