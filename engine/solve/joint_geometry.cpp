@@ -23,14 +23,11 @@ void set_geometry(const Model& m, const State& s, const InLane* to, int count) {
   for (int l = 0; l < lanes; ++l) {
     const Joint& joint = m.joint[z(to[l < count ? l : 0].joint)];
     for (int end = 0; end < 2; ++end) {
-      const int b = end == 0 ? joint.a : joint.b, from = b % lanes;
-      const auto& u = s.base_u.data()[b / lanes].x;
-      const auto& q = s.base_q.data()[b / lanes].x;
-      for (int i = 0; i < 3; ++i) (end == 0 ? p.ua : p.ub)[i][l] = u[i][from];
-      for (int i = 0; i < 4; ++i) (end == 0 ? p.qa : p.qb)[i][l] = q[i][from];
+      const int b = end == 0 ? joint.a : joint.b;
+      (end == 0 ? p.ua : p.ub)[l] = &s.base_u.data()[b / lanes].x[0][b % lanes];
+      (end == 0 ? p.qa : p.qb)[l] = &s.base_q.data()[b / lanes].x[0][b % lanes];
     }
-    for (int i = 0; i < 3; ++i) p.arm_a[i][l] = joint.arm_a[i], p.arm_b[i][l] = joint.arm_b[i];
-    for (int i = 0; i < 9; ++i) p.rest[i][l] = joint.type->frame(i % 3, i / 3);
+    p.arm_a[l] = joint.arm_a.data(), p.arm_b[l] = joint.arm_b.data(), p.rest[l] = joint.type->frame.data();  // columns
   }
   lane_kernels().pose(p);
   for (int l = 0; l < count; ++l) {

@@ -125,10 +125,10 @@ struct KickDrift {
   bool damping_explicit, gyroscopic, shaken;
 };
 
-// Eight joints: poses of their blocks, what they are at rest, and what follows.
+// Eight joints: where the poses of their blocks and what they are at rest lie, and what follows.
 struct alignas(64) PoseLanes {
-  double ua[3][lanes], ub[3][lanes], qa[4][lanes], qb[4][lanes];        // m, unit quaternions x y z w
-  double arm_a[3][lanes], arm_b[3][lanes], rest[9][lanes];              // m, at rest; frame as in JointBatch
+  const double *ua[lanes], *ub[lanes], *qa[lanes], *qb[lanes];          // m, unit quaternions x y z w: components `lanes` doubles apart
+  const double *arm_a[lanes], *arm_b[lanes], *rest[lanes];              // m, at rest; frame as in JointBatch: components side by side
   double frame[9][lanes], sum[3][lanes], apart[3][lanes], q[6][lanes];  // as in JointBatch
   double far[lanes];  // 1: the blocks have turned so far against each other that the series for q does not hold
 };
