@@ -85,7 +85,10 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
         fmt::format("dt = {:.4g} s is below the limit {:.4g} s of the sound structure but above {:.4g} s, the limit once joints have "
                     "cracked, which are stiffer in bending than their points or damped; take at most {:.3g} s",
                     dt, b.critical, b.cracked, 0.9 * b.cracked));
-  p.state.dt = dt;
+  p.state.dt = p.model.dt_most = dt;
+  // A step derived from joints may become what it would be without them, once they are gone.
+  if (a.dt == 0 && jointed && a.solver != "sequential" && a.dt_rule == Analysis{}.dt_rule)
+    p.model.dt_most = std::max(dt, a.dt_fraction * debris_bound(p.model));
 }
 
 // The scene's own limit of use: past it the run is refused, for the reason the scene gives.

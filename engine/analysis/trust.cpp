@@ -5,14 +5,14 @@
 
 namespace erbs {
 
-void look(TrustWatch& watch, const State& s, double critical, double allowed, double gate) {
+void look(TrustWatch& watch, const State& s, double allowed, double gate) {
   const double residual = s.energy.residual_relative;
   if (residual > watch.residual) {
     watch.residual = residual;
     watch.residual_time = s.t - s.last_dt;
     watch.residual_joint = s.energy.largest_jump_joint;
   }
-  const double margin = s.last_dt / std::min(critical, allowed);
+  const double margin = s.last_dt / allowed;
   watch.dt_margin = std::max(watch.dt_margin, margin);
   const bool sinking = s.max_penetration_relative > std::max(0.01, watch.deepest);
   watch.deepest = s.max_penetration_relative;

@@ -29,10 +29,10 @@ void each(T& t, F&& f) {
   f("trust_looked", t.looked);
 }
 
-// A look, after every settling of the ledger. `critical`: s, the limit at rest (infinite where nothing is joined); `allowed`: s, what
-// contacts allow (infinite where there are none). The steps since the last look count as warned where the residual is past
+// A look, after every settling of the ledger. `allowed`: s, the limit on the step now (infinite where nothing is joined or touches).
+// The steps since the last look count as warned where the residual is past
 // `gate`, the step past its limit, or blocks sink deeper into each other beyond a hundredth of their smallest edge.
-void look(TrustWatch& watch, const State& state, double critical, double allowed, double gate);
+void look(TrustWatch& watch, const State& state, double allowed, double gate);
 
 Metrics::Trust trust_of(const TrustWatch& watch, const Model& model, const State& state);
 std::string trust_line(const Metrics::Trust& trust);

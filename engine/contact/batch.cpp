@@ -3,13 +3,10 @@
 #include <cstddef>
 
 #include "engine/contact/friction.h"
+#include "engine/contact/view.h"
 
 namespace erbs {
 namespace {
-
-const ContactShape& shape_of(const ContactShapes& shapes, int block, int part) {
-  return shapes.shape[static_cast<std::size_t>(shapes.first[static_cast<std::size_t>(block)] + part)];
-}
 
 struct Bodies {
   const ContactShape *reference, *other;

@@ -5,36 +5,10 @@
 
 #include "engine/base/units.h"
 #include "engine/contact/friction.h"
+#include "engine/contact/view.h"
 
 namespace erbs {
 namespace {
-
-using std::size_t;
-
-const ContactShape& shape_of(const ContactShapes& shapes, int block, int part) {
-  return shapes.shape[static_cast<size_t>(shapes.first[static_cast<size_t>(block)] + part)];
-}
-
-// The pair seen from its reference body.
-struct View {
-  const ContactShape *reference, *other;
-  const ContactBlock *reference_block, *other_block;
-  PairPose pose;
-};
-
-View view_of(const Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b) {
-  View s;
-  const ContactShape &shape_a = shape_of(shapes, pair.a, pair.part_a), &shape_b = shape_of(shapes, pair.b, pair.part_b);
-  s.reference = pair.b_is_reference ? &shape_b : &shape_a;
-  s.other = pair.b_is_reference ? &shape_a : &shape_b;
-  s.reference_block = pair.b_is_reference ? &b : &a;
-  s.other_block = pair.b_is_reference ? &a : &b;
-  // Relative positions first: a shift of the whole scene by 1e4 m must not cost digits.
-  const Vec3 apart = (s.other_block->rest - s.reference_block->rest) + (s.other_block->u - s.reference_block->u);
-  s.pose.shift = s.reference_block->turn.transpose() * apart;
-  s.pose.turn = s.reference_block->turn.transpose() * s.other_block->turn;
-  return s;
-}
 
 Motion motion_of(const View& s) {
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;

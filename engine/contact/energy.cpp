@@ -3,6 +3,7 @@
 // the faces of A add nothing since d_f = 0 there.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/contact/narrow.h"
 
@@ -21,15 +22,42 @@ double square_integral(const Vec3* x, const double* d, size_t count, const Vec3&
   return sum;
 }
 
-void cut_by(std::vector<Vec3>& loop, const Vec3& n, double c) {
-  std::vector<Vec3> kept;
-  for (size_t i = 0; i < loop.size(); ++i) {
-    const Vec3 p = loop[i], q = loop[(i + 1) % loop.size()];
-    const double dp = c - n.dot(p), dq = c - n.dot(q);
-    if (dp >= 0) kept.push_back(p);
-    if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) kept.push_back(p + dp / (dp - dq) * (q - p));
+// A convex loop, cut in place; each of the planes may add a corner.
+struct Loop {
+  Vec3 x[4 + 2 * most_faces];
+  size_t size = 0;
+
+  void cut_by(const Vec3& n, double c) {
+    Vec3 kept[4 + 2 * most_faces];
+    size_t count = 0;
+    for (size_t i = 0; i < size; ++i) {
+      const Vec3 &p = x[i], &q = x[i + 1 < size ? i + 1 : 0];
+      const double dp = c - n.dot(p), dq = c - n.dot(q);
+      if (dp >= 0) kept[count++] = p;
+      if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) kept[count++] = p + dp / (dp - dq) * (q - p);
+    }
+    std::copy_n(kept, count, x);
+    size = count;
   }
-  loop = std::move(kept);
+};
+
+// The faces of A that may be nearest somewhere in the overlap, as bits: nothing in it is deeper than the deepest corner of B below any
+// one face.
+std::uint64_t nearest_faces(const ContactShape& a, const ContactShape& b, const Pieces& w) {
+  double least[most_faces], bound = std::numeric_limits<double>::infinity();
+  for (size_t f = 0; f < a.normal.size(); ++f) {
+    double most = least[f] = w.c[f] - a.normal[f].dot(w.v[0]);
+    for (size_t i = 1; i < b.vertex.size(); ++i) {
+      const double d = w.c[f] - a.normal[f].dot(w.v[i]);
+      least[f] = std::min(least[f], d);
+      most = std::max(most, d);
+    }
+    bound = std::min(bound, most);
+  }
+  std::uint64_t near = 0;
+  for (size_t f = 0; f < a.normal.size(); ++f)
+    if (least[f] <= bound) near |= std::uint64_t(1) << f;
+  return near;
 }
 
 // The wall where faces e and f of A are equally near, inside both bodies.
@@ -41,16 +69,17 @@ double wall_integral(const ContactShape& a, const ContactShape& b, const PairPos
   const Vec3 n = across / length, t = n.unitOrthogonal(), s = n.cross(t);
   if (std::abs(w.c[e] - w.c[f]) > length * b.reach) return 0;
   const Vec3 middle = (w.c[e] - w.c[f]) / length * n;
-  std::vector<Vec3> loop{middle - reach * t - reach * s, middle + reach * t - reach * s, middle + reach * t + reach * s,
-                         middle - reach * t + reach * s};
-  for (size_t j = 0; j < b.normal.size() && !loop.empty(); ++j) cut_by(loop, pose.turn * b.normal[j], b.offset[j]);
-  if (!loop.empty()) cut_by(loop, a.normal[f], w.c[f]);
-  for (size_t g = 0; g < a.normal.size() && !loop.empty(); ++g) {
-    if (g != e && g != f) cut_by(loop, a.normal[g] - a.normal[f], w.c[g] - w.c[f]);
+  Loop loop;
+  for (const Vec3& corner : {Vec3(-t - s), Vec3(t - s), Vec3(t + s), Vec3(s - t)}) loop.x[loop.size++] = middle + reach * corner;
+  for (size_t j = 0; j < b.normal.size() && loop.size > 0; ++j) loop.cut_by(pose.turn * b.normal[j], b.offset[j]);
+  if (loop.size > 0) loop.cut_by(a.normal[f], w.c[f]);
+  for (size_t g = 0; g < a.normal.size() && loop.size > 0; ++g) {
+    if (g != e && g != f) loop.cut_by(a.normal[g] - a.normal[f], w.c[g] - w.c[f]);
   }
-  std::vector<double> d;
-  for (const Vec3& x : loop) d.push_back(w.c[f] - a.normal[f].dot(x));
-  return loop.size() < 3 ? 0 : length * std::abs(square_integral(loop.data(), d.data(), loop.size(), n)) / 2;
+  if (loop.size < 3) return 0;
+  double d[4 + 2 * most_faces];
+  for (size_t i = 0; i < loop.size; ++i) d[i] = w.c[f] - a.normal[f].dot(loop.x[i]);
+  return length * std::abs(square_integral(loop.x, d, loop.size, n)) / 2;
 }
 
 }  // namespace
@@ -62,9 +91,10 @@ double energy_integral(const ContactShape& a, const ContactShape& b, const PairP
     const double square = square_integral(&w.vertex[first], &w.depth[first], static_cast<size_t>(p.count), w.n[p.face]);
     sum -= a.normal[static_cast<size_t>(p.nearest)].dot(w.n[p.face]) * square / 2;
   }
-  for (size_t f = 0; f < a.normal.size(); ++f) {
-    for (size_t e = 0; e < f; ++e) sum += wall_integral(a, b, pose, w, e, f);
-  }
+  const std::uint64_t near = nearest_faces(a, b, w);
+  for (size_t f = 0; f < a.normal.size(); ++f)
+    for (size_t e = 0; e < f; ++e)
+      if ((near >> e & near >> f & 1u) != 0) sum += wall_integral(a, b, pose, w, e, f);
   return sum;
 }
 

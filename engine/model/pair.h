@@ -53,22 +53,27 @@ struct alignas(64) Pair {
   Vec3 offset_force = Vec3::Zero();         // N, on the body that is not the reference
   Vec3 offset_moment = Vec3::Zero();        // N m, about its centroid
   double offset_left = 0, offset_time = 0;  // s
+  double counted_a = 0, counted_b = 0;      // 1/s2, its share in PairList::counted
   int a = 0, b = 0;                         // blocks, a < b
   int part_a = 0, part_b = 0;               // parts of them
   int separating = -1;                      // cache only
-  std::uint8_t b_is_reference = 0;  // whose inner distance is the potential: the larger part, then the lower block; never changes
+  std::uint8_t b_is_reference = 0;          // whose inner distance is the potential: the larger part, then the lower block; never changes
   std::uint8_t touching = 0;
   std::uint8_t bed = 0;  // still the faces of a former joint, and its stiffness; once parted they meet as debris
 };
 
 struct PairList {
-  std::vector<Pair> pair;      // sorted by (a, b, part_a, part_b)
-  double margin = 0.01;        // m, parts closer than this are listed
-  bool valid = false;          // set to false when blocks come loose or pairs are freed: the next search then runs
-  std::vector<Vec3> start;     // m, displacement of each block at the start of the run [nblock]
-  std::vector<Vec3> u;         // m, pose of each block at the last search [nblock]
-  std::vector<Mat3> turn;      //                                          [nblock]
+  std::vector<Pair> pair;   // sorted by (a, b, part_a, part_b)
+  double margin = 0.01;     // m, parts closer than this are listed
+  bool valid = false;       // set to false when blocks come loose or pairs are freed: the next search then runs
+  std::vector<Vec3> start;  // m, displacement of each block at the start of the run [nblock]
+  std::vector<Vec3> u;      // m, pose of each block at the last search [nblock]
+  std::vector<Mat3> turn;   //                                          [nblock]
   long searches = 0;
+  // the step that is allowed (contact_limit.h)
+  double counted = 0;               // 1/s2, 1 / dt^2 for what was counted last
+  long counts = 0, counted_at = 0;  // how often, in which step
+  bool by_blocks = false;           // joints were counted block by block too
 };
 
 // Every member that a checkpoint or a hash must hold.
@@ -95,13 +100,15 @@ void each(P& p, F&& f) {
   f("turn", p.turn), f("shift", p.shift), f("n", p.n), f("c", p.c), f("u", p.u), f("psi", p.psi);
   f("area", p.area), f("gyration", p.gyration), f("approach", p.approach), f("impact", p.impact);
   f("offset_force", p.offset_force), f("offset_moment", p.offset_moment);
-  f("offset_left", p.offset_left), f("offset_time", p.offset_time);
+  f("offset_left", p.offset_left), f("offset_time", p.offset_time), f("counted_a", p.counted_a), f("counted_b", p.counted_b);
   f("friction", p.friction), f("damping", p.damping), f("offset", p.offset), f("tangential", p.tangential);
 }
 template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, PairList>
 void each(P& p, F&& f) {
-  f("pair", p.pair), f("margin", p.margin), f("valid", p.valid), f("start", p.start), f("u", p.u), f("turn", p.turn), f("searches", p.searches);
+  f("pair", p.pair), f("margin", p.margin), f("valid", p.valid), f("start", p.start), f("u", p.u), f("turn", p.turn),
+      f("searches", p.searches);
+  f("counted", p.counted), f("counts", p.counts), f("counted_at", p.counted_at), f("by_blocks", p.by_blocks);
 }
 
 }  // namespace erbs

@@ -29,7 +29,7 @@ double largest_inverse_inertia(const Mat3& inverse) {
 
 }  // namespace
 
-Debris::Debris(const Model& model, State& state, int threads) : model_(model), state_(state), sleep_(model, state) {
+Debris::Debris(const Model& model, State& state, int threads) : model_(model), state_(state), sleep_(model, state), limit_(model, state) {
   active_.resize(z(threads));
   room_.resize(z(threads));
   if (state.debris.start.empty()) {
@@ -80,7 +80,7 @@ void Debris::place(int b) {
   block.turn = turn;
   block.v = state_.v[z(b)];
   block.w = state_.w[z(b)];
-  const double soon = look_ahead * std::max(state_.dt_goal, state_.last_dt);
+  const double soon = look_ahead * std::max(state_.dt, state_.last_dt);
   way.moved_soon = way.moved + soon * block.v.norm();
   way.turned_soon = way.turned + soon * block.w.norm();
 }
@@ -103,30 +103,36 @@ void Debris::list_involved() {
   for (const Pair& p : state_.debris.pair) apart_.push_back({p.a, p.b});
 }
 
-// What the joints of a bed were counted with, in the terms that a contact on the same faces is counted with (contact.cpp).
 void Debris::find_beds() {
-  bed_.assign(state_.debris.pair.size(), Bed{});
-  for (std::size_t i = 0; i < bed_.size(); ++i) {
-    const Pair& p = state_.debris.pair[i];
-    if (!p.bed) continue;
-    const auto at = std::lower_bound(pair_keys_.begin(), pair_keys_.end(), pair_key(p.a, p.b));
-    int first = of_pair_[std::size_t(at - pair_keys_.begin())];
-    while (model_.joint[z(first)].part_a != p.part_a || model_.joint[z(first)].part_b != p.part_b)
-      first = end_of_bed(model_, first, model_.njoint);
-    bed_[i].joint = first;
-    for (int j = first; j < end_of_bed(model_, first, model_.njoint); ++j) {
-      const Joint& joint = model_.joint[z(j)];
-      const double *k = joint.type->stiffness, turning = k[3] + k[4] + k[5];
-      const auto rate = [&](int b, const Vec3& arm) {
-        const ContactBlock& block = blocks_[z(b)];
-        const Vec3 lever = arm.cross(joint.type->frame.col(2));
-        const double across = std::max(k[0], k[1]);
-        return (k[2] + across) * block.inverse_mass + k[2] * lever.dot(block.inverse_tensor * lever) +
-               (across * arm.squaredNorm() + turning) * block.inverse_inertia;
-      };
-      bed_[i].rate_a += rate(p.a, joint.arm_a);
-      bed_[i].rate_b += rate(p.b, joint.arm_b);
-    }
+  bed_.clear();
+  for (const Pair& p : state_.debris.pair) bed_.push_back({p.bed ? bed_joint(p) : -1, p.counted_a, p.counted_b});
+}
+
+// The first of the joints that a bed took over from.
+int Debris::bed_joint(const Pair& p) const {
+  const auto at = std::lower_bound(pair_keys_.begin(), pair_keys_.end(), pair_key(p.a, p.b));
+  int first = of_pair_[std::size_t(at - pair_keys_.begin())];
+  while (model_.joint[z(first)].part_a != p.part_a || model_.joint[z(first)].part_b != p.part_b)
+    first = end_of_bed(model_, first, model_.njoint);
+  return first;
+}
+
+// What the joints of a bed were counted with, in the terms that a contact on the same faces is counted with (contact.cpp).
+void Debris::count_bed(Pair& p) {
+  const int first = bed_joint(p);
+  p.counted_a = p.counted_b = 0;
+  for (int j = first; j < end_of_bed(model_, first, model_.njoint); ++j) {
+    const Joint& joint = model_.joint[z(j)];
+    const double *k = joint.type->stiffness, turning = k[3] + k[4] + k[5];
+    const auto rate = [&](int b, const Vec3& arm) {
+      const ContactBlock& block = blocks_[z(b)];
+      const Vec3 lever = arm.cross(joint.type->frame.col(2));
+      const double across = std::max(k[0], k[1]);
+      return (k[2] + across) * block.inverse_mass + k[2] * lever.dot(block.inverse_tensor * lever) +
+             (across * arm.squaredNorm() + turning) * block.inverse_inertia;
+    };
+    p.counted_a += rate(p.a, joint.arm_a);
+    p.counted_b += rate(p.b, joint.arm_b);
   }
 }
 
@@ -142,6 +148,7 @@ void Debris::part_beds() {
     if (moved.norm() < parted * 2 * std::min(joint.type->half_s, joint.type->half_t) && (a.turn - b.turn).norm() < parted * std::sqrt(2.0))
       continue;
     p.bed = 0;
+    p.counted_a = p.counted_b = 0;
     p.law = law(p.a, p.b);
     p.impact = impact_factor(p.law.restitution);
     bed_[i] = {};
@@ -213,6 +220,7 @@ void Debris::hand_over_pair(const int* first, const int* last) {
   if (at < 0) return;
   Pair& pair = state_.debris.pair[z(at)];
   pair.bed = 1;
+  count_bed(pair);
   pair.law.kn = joint_law.kn;
   pair.law.ks = joint_law.ks;
   pair.law.mu = joint_law.mu_residual;

@@ -7,6 +7,7 @@
 #include "engine/contact/broad.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
+#include "engine/solve/contact_limit.h"
 #include "engine/solve/cracked.h"
 #include "engine/solve/sleep.h"
 
@@ -31,12 +32,12 @@ class Debris {
   void gather(double* push, bool sample);
   // Then: lets blocks fall asleep and wakes sleepers (sleep.h). True where the set of those asleep has changed.
   bool sleep(const Excitation& now, const double* push);
-  // The step that the contacts allow now (s), no longer than the goal.
+  // The step that joints and contacts allow now (s), no longer than the run may take.
   double allowed_dt() const { return allowed_; }
   double elastic() const { return elastic_; }  // J, stored in contacts at the last sample
   int touching() const { return touching_; }
   long slept() const { return sleep_.slept(); }  // steps of blocks asleep, likewise
-  long touched() const { return touched_; }  // pairs, summed over the steps of this Solver
+  long touched() const { return touched_; }      // pairs, summed over the steps of this Solver
 
  private:
   void wake();
@@ -44,6 +45,10 @@ class Debris {
   void hand_over_pair(const int* first, const int* last);
   void list_involved();
   void find_beds();
+  int bed_joint(const Pair& pair) const;
+  void count_bed(Pair& pair);
+  void count();
+  double largest_rate() const;
   void part_beds();
   void place(int b);
   void look();
@@ -61,9 +66,10 @@ class Debris {
   std::vector<std::uint64_t> jointed_;  // pairs of blocks still joined, sorted
   struct Bed {
     int joint = -1;                 // first of the joints that this pair took over from, -1: none
-    double rate_a = 0, rate_b = 0;  // 1/s2, what they were counted with in dt_critical
+    double rate_a = 0, rate_b = 0;  // 1/s2, as counted (Pair)
   };
-  std::vector<Bed> bed_;         // of each pair
+  std::vector<Bed> bed_;  // of each pair
+  ContactLimit limit_;
   std::vector<double> rate_;     // 1/s2, of contacts beyond that [nblock]
   std::vector<double> landing_;  // 1/s2, of the stiffest face that may land on the block next; one face has room for no more
   // A pair known to be apart needs no look until its blocks have moved by that distance together. How far each has come is summed up
@@ -89,7 +95,7 @@ class Debris {
   std::vector<int> of_pair_;                   // ... and the first of their joints
   double released_ = 0;                        // J, set free by the last hand-over and still in this step's sums
   double allowed_ = 0, elastic_ = 0;
-  std::vector<std::uint8_t> still_;            // sleepers that lie as at the last search [nblock], empty without
+  std::vector<std::uint8_t> still_;  // sleepers that lie as at the last search [nblock], empty without
   bool relisted_ = true, unsorted_ = true;
   int touching_ = 0;
   long touched_ = 0;

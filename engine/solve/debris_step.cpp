@@ -9,7 +9,6 @@
 namespace erbs {
 namespace {
 
-constexpr double safe_share = 0.9;  // of the bound of a block in contact
 // Largest omega dt of a patch that slips, omega along its normal. Friction makes the stiffness unsymmetric, and what ends the flutter of a
 // patch pressed near its edge (dry_friction.h) is the dashpot of the contact, which an explicit step bears up to c dt / m = 1/4 only
 // (contact.cpp): a viscous ratio of 1 / (8 omega dt), .12 here. At 1.1 the block of V10 swings itself up with mu = .9, at .8 not.
@@ -24,15 +23,6 @@ template <class T>
 void fetch(const T& x) {
   const char* first = reinterpret_cast<const char*>(&x);
   for (std::size_t i = 0; i < sizeof(T); i += 64) __builtin_prefetch(first + i);
-}
-
-// omega^2 of joints and contacts together, by Weyl's inequality: that of the sound structure at rest (4 / dt_critical^2; a cracked
-// joint, or the contact on its bed, is no stiffer), plus that of the other contacts. Theirs is at most twice the greatest sum of
-// rates over a block, since (x - y) k (x - y) <= 2 (x k x + y k y). Stable while dt^2 omega^2 < 4; the share of the bound that the
-// run asked for (at least 0.9) is kept for joints.
-double step_for(double rate, double goal, double critical) {
-  const double share = std::clamp(goal / critical, safe_share, 1.0) * critical;
-  return std::min(goal, 1 / std::sqrt(1 / (share * share) + rate / (2 * safe_share * safe_share)));
 }
 
 }  // namespace
@@ -56,8 +46,6 @@ void Debris::sort() {
     Pair copy = pair;
     PairResult r;
     pair_force(copy, shapes_, blocks_[z(pair.a)], blocks_[z(pair.b)], settings_, 0.0, true, room_.front(), r);
-    r.rate_a = std::max(0.0, r.rate_a - bed_[z(i)].rate_a);
-    r.rate_b = std::max(0.0, r.rate_b - bed_[z(i)].rate_b);
     return r;
   });
   find_still();
@@ -78,7 +66,8 @@ void Debris::look() {
   part_beds();
   if (unsorted_) find_still();
   if (state_.debris.valid && !needs_search(state_.debris, shapes_, blocks_, still_)) return;
-  state_.energy.reset += search(state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); }, still_);
+  state_.energy.reset += search(
+      state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); }, still_);
   list_involved();
   find_still();
 }
@@ -149,6 +138,33 @@ void Debris::forces(int thread, int threads, bool sample) {
   if (count > 0) together();
 }
 
+// Counts all contacts: what they have now is what they are counted with. Beds keep what their joints were counted with.
+void Debris::count() {
+  for (int b = 0; b < model_.nblock; ++b)
+    if (!sleep_.asleep(b)) place(b);
+  limit_.count(shapes_, blocks_, room_.front());
+  std::vector<Pair>& pair = state_.debris.pair;
+  const auto note = [&](int i, double a, double b) {
+    if (pair[z(i)].bed) return;
+    pair[z(i)].counted_a = bed_[z(i)].rate_a = a;
+    pair[z(i)].counted_b = bed_[z(i)].rate_b = b;
+  };
+  for (int i = 0; i < int(pair.size()); ++i) note(i, 0, 0);
+  sleep_.each_resting([&](int i, const PairResult& r) { note(i, r.rate_a, r.rate_b); });
+  sleep_.add_rates();
+  for (const int b : sleep_.pushed()) rate_[z(b)] = sleep_.holds() ? sleep_.rate(b) : 0;
+  for (const std::vector<Active>& active : active_)
+    for (const Active& one : active) note(one.pair, one.result.rate_a, one.result.rate_b);
+}
+
+// The largest sum over a block of what contacts have beyond what was counted (1/s2).
+double Debris::largest_rate() const {
+  double rate = sleep_.largest_rate();  // as if all were awake: a step in which some wake finds it right
+  for (const int b : sleep_.pushed())
+    if (model_.kind[z(b)] == Kind::moving) rate = std::max(rate, rate_[z(b)] + landing_[z(b)]);
+  return rate;
+}
+
 void Debris::gather(double* push, bool sample) {
   State& s = state_;
   const bool rested = sleep_.holds();
@@ -163,10 +179,10 @@ void Debris::gather(double* push, bool sample) {
     landing_[z(b)] = 0;
   }
   touching_ = sleep_.touching();
-  allowed_ = s.dt_goal;
+  allowed_ = model_.dt_most;
   if (sample) elastic_ = sleep_.elastic();
   double rubbing = 0;
-  const double soon = look_ahead * std::max(s.dt_goal, s.last_dt);
+  const double soon = look_ahead * std::max(s.dt, s.last_dt);
   for (const std::vector<Active>& active : active_)
     for (const Active& one : active) {
       const std::size_t i = z(one.pair);
@@ -199,10 +215,12 @@ void Debris::gather(double* push, bool sample) {
       if (r.apart <= soon * speed && speed * allowed_ > 0.25 * thin) allowed_ = 0.25 * thin / speed;
       if (r.depth > 0) { s.max_penetration_relative = std::max(s.max_penetration_relative, r.depth / thin); }
     }
-  double rate = sleep_.largest_rate();  // as if all were awake: a step in which some wake finds it right
-  for (const int b : sleep_.pushed())
-    if (model_.kind[z(b)] == Kind::moving) rate = std::max(rate, rate_[z(b)] + landing_[z(b)]);
-  allowed_ = std::min(allowed_, step_for(rate, s.dt_goal, model_.dt_critical));
+  double limit = limit_.allowed(largest_rate());
+  if (limit_.due(limit)) {
+    count();
+    limit = limit_.allowed(largest_rate());
+  }
+  allowed_ = std::min(allowed_, limit);
   if (rubbing > 0) allowed_ = std::min(allowed_, rubbing_angle / std::sqrt(rubbing));
 }
 

@@ -76,8 +76,6 @@ void Sleep::hold(const Resting& one) {
     a[3 + k] += r.wrench.moment_a[k];
     b[3 + k] += r.wrench.moment_b[k];
   }
-  rate_[z(one.a)] += r.rate_a;
-  rate_[z(one.b)] += r.rate_b;
   elastic_ += r.elastic + r.tangential;
   ++touching_;
 }
@@ -113,10 +111,22 @@ void Sleep::sort(const std::vector<int>& involved, const std::function<PairResul
   for (int b = 0; b < model_.nblock; ++b)
     if (!mark_[z(b)]) state_.rest.stirred[z(b)] = std::numeric_limits<double>::infinity();
   held_.assign(z(model_.nblock), 0.0);
-  rate_.assign(z(model_.nblock), 0.0);
-  elastic_ = largest_rate_ = touching_ = 0;
+  elastic_ = touching_ = 0;
   for (const Resting& one : resting_) hold(one);
-  for (const int b : involved)
+  add_rates();
+}
+
+// What pairs at rest have beyond what they were counted with.
+void Sleep::add_rates() {
+  if (!on_) return;
+  rate_.assign(z(model_.nblock), 0.0);
+  largest_rate_ = 0;
+  for (const Resting& one : resting_) {
+    const Pair& pair = state_.debris.pair[z(one.pair)];
+    rate_[z(one.a)] += std::max(0.0, one.result.rate_a - pair.counted_a);
+    rate_[z(one.b)] += std::max(0.0, one.result.rate_b - pair.counted_b);
+  }
+  for (int b = 0; b < model_.nblock; ++b)
     if (asleep(b)) largest_rate_ = std::max(largest_rate_, rate_[z(b)]);
 }
 

@@ -33,6 +33,11 @@ class Sleep {
   const std::vector<int>& live() const { return live_; }      // pairs with a block that is awake, in order
   const std::vector<int>& awake() const { return awake_; }    // blocks involved that move by themselves or are driven
   const std::vector<int>& pushed() const { return pushed_; }  // blocks of live pairs
+  void add_rates();                                           // again, after the pairs' counts have changed
+  template <class F>
+  void each_resting(F&& f) const {  // f(i, what it gives): touching pairs at rest
+    for (const Resting& one : resting_) f(one.pair, one.result);
+  }
   // What pairs at rest leave on a block: a row of eight doubles (force, moment), and their share in the rate of the step (1/s2).
   const double* push(int b) const { return held_.data() + 8 * std::size_t(b); }
   double rate(int b) const { return rate_.empty() ? 0 : rate_[std::size_t(b)]; }

@@ -20,6 +20,9 @@ constexpr int hand_over_every = 8;   // steps between two looks at spent joints
 constexpr int loosen_every = 256;    // steps between two looks at blocks that have moved far
 std::size_t z(int i) { return std::size_t(i); }
 
+// The next step below on a scale of 32 to the octave: what differs in its last digits, as with blocks that sleep, then makes no difference.
+double on_scale(double dt) { return std::exp2(std::floor(32 * std::log2(dt)) / 32); }
+
 int chunks(int n, int grain) { return std::max(1, (n + grain - 1) / grain); }
 
 }  // namespace
@@ -197,10 +200,10 @@ void Solver::follow_contacts() {
   const double allowed = contacts_ ? debris_.allowed_dt() : s.dt_goal;
   double dt = s.dt;
   if (allowed < s.dt) {
-    dt = 0.95 * allowed;
+    dt = on_scale(0.95 * allowed);
     s.calm = 0;
-  } else if (s.dt < s.dt_goal && ++s.calm > 100) {
-    if (allowed > 1.1 * s.dt) dt = std::min({s.dt_goal, 0.95 * allowed, 1.5 * s.dt});
+  } else if (s.dt < std::max(allowed, s.dt_goal) && ++s.calm > 100) {
+    if (allowed > 1.1 * s.dt) dt = std::min(on_scale(0.95 * allowed), 1.5 * s.dt);
     s.calm = 0;
   }
   if (dt == s.dt) return;

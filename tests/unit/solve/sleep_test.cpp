@@ -101,7 +101,7 @@ TEST_CASE("a sleeper whose support is drawn away falls, and wakes the heap that 
   }
   CHECK(falls == Approx(4).margin(2 * still.run.state.dt_goal));
   CHECK(lands - falls > 0.2);
-  CHECK(least == 0);
+  CHECK(least <= 2);  // two lie apart from the heap
   INFO("apart " << apart(still, lively) << " m, at least " << least << " asleep");
   CHECK(apart(still, lively) < 1e-6);
   CHECK(still.run.state.energy.residual_worst < 1e-2);

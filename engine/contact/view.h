@@ -1,0 +1,32 @@
+// A pair seen from its reference body.
+#pragma once
+#include "engine/contact/narrow.h"
+#include "engine/model/pair.h"
+
+namespace erbs {
+
+inline const ContactShape& shape_of(const ContactShapes& shapes, int block, int part) {
+  return shapes.shape[static_cast<std::size_t>(shapes.first[static_cast<std::size_t>(block)] + part)];
+}
+
+struct View {
+  const ContactShape *reference, *other;
+  const ContactBlock *reference_block, *other_block;
+  PairPose pose;
+};
+
+inline View view_of(const Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b) {
+  View s;
+  const ContactShape &shape_a = shape_of(shapes, pair.a, pair.part_a), &shape_b = shape_of(shapes, pair.b, pair.part_b);
+  s.reference = pair.b_is_reference ? &shape_b : &shape_a;
+  s.other = pair.b_is_reference ? &shape_a : &shape_b;
+  s.reference_block = pair.b_is_reference ? &b : &a;
+  s.other_block = pair.b_is_reference ? &a : &b;
+  // Relative positions first: a shift of the whole scene by 1e4 m must not cost digits.
+  const Vec3 apart = (s.other_block->rest - s.reference_block->rest) + (s.other_block->u - s.reference_block->u);
+  s.pose.shift = s.reference_block->turn.transpose() * apart;
+  s.pose.turn = s.reference_block->turn.transpose() * s.other_block->turn;
+  return s;
+}
+
+}  // namespace erbs

@@ -1,0 +1,102 @@
+#include "engine/solve/contact_limit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/sparse.h"
+#include "engine/contact/broad.h"
+#include "engine/contact/patch_stiffness.h"
+#include "engine/solve/stiffness.h"
+
+namespace erbs {
+namespace {
+
+constexpr double safe_share = 0.9;  // of the bound of a block, where it is of joints or of bounds by scalars
+// Of the bound by matrices, which is close: dashpots of contacts lag by half a step, so that what they do errs in proportion to the step.
+// A block that lies on a turning slope by contact alone (hard case 3) strays by 9, 11 and 15 % of what it moves at .4, .5 and .9.
+constexpr double contact_share = 0.4;
+constexpr int count_every = 256;  // steps, while the step could be longer; ...
+constexpr int count_soon = 32;    // ... before it becomes shorter
+constexpr int joints_every = 8;   // counts, before joints that are left are tried as matrices again
+std::size_t z(int i) { return std::size_t(i); }
+
+// 1 / dt^2 for a bound on the sum over a block.
+double inverse_square(double on_a_block, double share) { return on_a_block / (2 * share * share); }
+
+}  // namespace
+
+// The share of the bound that the run asked for (at least 0.9) is kept for joints.
+double ContactLimit::sound() const {
+  const double share = std::clamp(state_.dt_goal / model_.dt_critical, safe_share, 1.0) * model_.dt_critical;
+  return 1 / (share * share);
+}
+
+bool ContactLimit::due(double allowed) const {
+  const PairList& list = state_.debris;
+  if (list.pair.empty() || allowed >= model_.dt_most) return false;
+  return state_.step - list.counted_at >= (allowed < state_.dt ? count_soon : count_every);
+}
+
+void ContactLimit::count(const ContactShapes& shapes, std::span<const ContactBlock> blocks, OverlapRoom& room) {
+  PairList& list = state_.debris;
+  std::vector<Mat6> k(blocks.size(), Mat6::Zero());
+  for (const Pair& p : list.pair) {
+    PatchStiffness patch;
+    if (!p.touching || p.bed || !patch_stiffness(p, shapes, blocks[z(p.a)], blocks[z(p.b)], room, patch)) continue;
+    k[z(p.a)] += patch.on_a;
+    k[z(p.b)] += patch.on_b;
+  }
+  list.counted = sound() + inverse_square(largest(blocks, k), contact_share);
+  if (list.counts % joints_every == 0 || list.by_blocks) {
+    add_joints(k);
+    const double by_blocks = inverse_square(largest(blocks, k), contact_share);
+    list.by_blocks = by_blocks < list.counted;
+    list.counted = std::min(list.counted, by_blocks);
+  }
+  ++list.counts;
+  list.counted_at = state_.step;
+}
+
+// Joints that are left, and beds, as stiff as they may become, with their dashpots (see stiffness.cpp).
+void ContactLimit::add_joints(std::span<Mat6> to) const {
+  for (int j = 0; j < model_.njoint; ++j) {
+    const Joint& joint = model_.joint[z(j)];
+    if (state_.tier[z(j)] == Tier::open) {
+      const int pair = find_pair(state_.debris, joint.a, joint.part_a, joint.b, joint.part_b);
+      if (pair < 0 || !state_.debris.pair[z(pair)].bed) continue;
+    }
+    const JointMap map = joint_map(model_, state_, j);
+    constexpr double other_share = contact_share * contact_share / (safe_share * safe_share);
+    const Mat6 k = other_share * (1 + 2 * std::max(joint.viscous, joint.viscous_cracked) / state_.dt) * stiffest(joint);
+    to[z(joint.a)] += map.a.transpose() * k * map.a;
+    to[z(joint.b)] += map.b.transpose() * k * map.b;
+  }
+}
+
+// Largest eigenvalue of M^-1/2 K M^-1/2 over the blocks that move (1/s2).
+double ContactLimit::largest(std::span<const ContactBlock> blocks, std::span<const Mat6> stiffness) const {
+  double most = 0;
+  for (int b = 0; b < model_.nblock; ++b) {
+    const Mat6& k = stiffness[z(b)];
+    if (model_.kind[z(b)] != Kind::moving || k(0, 0) + k(1, 1) + k(2, 2) == 0) continue;
+    const ContactBlock& block = blocks[z(b)];
+    Mat6 root = Mat6::Zero();  // root root^T = M^-1
+    root.topLeftCorner<3, 3>() = std::sqrt(block.inverse_mass) * Mat3::Identity();
+    root.bottomRightCorner<3, 3>() = block.turn * Mat3(block.inverse_tensor.llt().matrixL());
+    const Mat6 scaled = root.transpose() * k * root;
+    if (scaled.trace() <= most) continue;
+    most = std::max(most, Eigen::SelfAdjointEigenSolver<Mat6>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[5]);
+  }
+  return most;
+}
+
+double ContactLimit::allowed(double rate) const {
+  const PairList& list = state_.debris;
+  const double counted = list.counts > 0 ? list.counted : sound();
+  const double bound = 1 / std::sqrt(counted + inverse_square(rate, safe_share));
+  // past the step that the run asked for, the share of the limit that it asked for is kept
+  const double share = std::isfinite(model_.dt_critical) ? std::min(1.0, state_.dt_goal / model_.dt_critical / safe_share) : 1.0;
+  return std::max(std::min(state_.dt_goal, bound), std::min(model_.dt_most, share * bound));
+}
+
+}  // namespace erbs

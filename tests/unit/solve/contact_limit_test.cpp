@@ -1,0 +1,74 @@
+// The step in debris: longer than the joints allowed once they are gone, never longer than a step that the scene names.
+#include <catch2/catch.hpp>
+
+#include "engine/analysis/dynamic.h"
+#include "tests/support/small_wall.h"
+#include "tests/unit/record/two_bricks.h"
+
+using namespace erbs;
+
+namespace {
+
+// A brick glued to another by a mortar of 1e12 Pa/m leaps off it and comes to rest on the ground beside it. Debris has 2e10 Pa/m.
+const std::string leap = R"(
+  material{ name = "brick", density = 1800, kn = 2e10, ks = 8e9, friction = 0.6, restitution = 0.4 }
+  ground{ size = 20, material = "brick" }
+  box{ name = "foot", material = "brick", fixed = true, size = {.3, .125, .1}, center = {0, 0, .05} }
+  box{ name = "leaper", material = "brick", size = {.3, .125, .1}, center = {0, 0, .16}, initial = { velocity = {0, 1.5, 1} } }
+  joint{ law = mortar{ E = 1e10, nu = .2, thickness = .01, ft = 1e4, c = 1e4, mu = .6 }, thickness = .01 }
+  gravity(g)
+)";
+
+struct Ran {
+  Prepared run;
+  double longest = 0, shortest = 1e9;  // s
+};
+
+Ran go(const std::string& script, double until, int threads = 1) {
+  Script loaded(Script::Options{.quiet = true});
+  const Scene scene = loaded.load_text(script, "leap.lua");
+  Ran r{prepare(scene, false)};
+  start_at_rest(scene, r.run, threads);
+  Solver solver(r.run.model, r.run.state, threads);
+  const State& s = r.run.state;
+  solver.run({[](double) { return false; }, [] {},
+              [&] {
+                r.longest = std::max(r.longest, s.dt);
+                r.shortest = std::min(r.shortest, s.dt);
+                return s.t >= until;
+              }});
+  return r;
+}
+
+}  // namespace
+
+TEST_CASE("once the stiff joint is gone the step grows to what debris bears", "[solve][step]") {
+  const Ran r = go(leap + "analysis{ duration = 9, start = 'rest' }", 1.5);
+  const State& s = r.run.state;
+  // The step of debris counts a face four times (rocking): 0.9 sqrt(2 m / (4 kn A)). Alone on its face a brick bears 0.4 sqrt(2 m / (kn
+  // A)), beside what is held ready for its joint and for a face that may land.
+  const double m = 6.75, k = 2e10 * 0.3 * 0.125, most = 0.9 * std::sqrt(2 * m / (4 * k));
+  CHECK(r.run.model.dt_most == Approx(most).epsilon(1e-9));
+  CHECK(s.dt_goal < 0.4 * most);
+  CHECK(r.longest <= most);
+  CHECK(s.dt > 2 * s.dt_goal);
+  CHECK(s.dt < 0.4 * std::sqrt(2 * m / k));
+  CHECK(s.energy.residual_worst < 1e-2);
+  CHECK(s.v[2].norm() < 1e-6);
+  CHECK(s.u[2].z() == Approx(-0.11).margin(1e-6));
+}
+
+TEST_CASE("a step that the scene names is not exceeded, and a share of the limit is kept", "[solve][step]") {
+  const Ran named = go(leap + "analysis{ duration = 9, start = 'rest', dt = 2e-6 }", 0.8);
+  CHECK(named.longest == 2e-6);
+  const Ran fifth = go(leap + "analysis{ duration = 9, start = 'rest', dt_fraction = 0.2 }", 1.2);
+  const Ran whole = go(leap + "analysis{ duration = 9, start = 'rest' }", 1.2);
+  CHECK(fifth.longest == Approx(whole.longest * 0.2 / 0.9).epsilon(0.1));
+}
+
+TEST_CASE("the step grows alike with any number of threads", "[solve][step]") {
+  const Ran one = go(leap + "analysis{ duration = 9, start = 'rest' }", 0.6),
+            two = go(leap + "analysis{ duration = 9, start = 'rest' }", 0.6, 2);
+  CHECK(one.run.state.step == two.run.state.step);
+  CHECK(one.run.state.u[2] == two.run.state.u[2]);
+}
