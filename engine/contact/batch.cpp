@@ -1,5 +1,6 @@
 #include "engine/contact/batch.h"
 
+#include <cmath>
 #include <cstddef>
 
 #include "engine/contact/friction.h"
@@ -107,9 +108,13 @@ void write_back(const PairJob* job, int count, unsigned left_out, const PairLane
 
 bool goes_in_lanes(const Pair& pair, const ContactShapes& shapes) {
   if (pair.separating >= 0 || pair.offset_left > 0) return false;
-  if (!pair.offset.force.isZero(0) || !pair.offset.moment_a.isZero(0) || !pair.offset.moment_b.isZero(0)) return false;
+  static_assert(sizeof(PairWrench) == 9 * sizeof(double));
+  const double* offset = pair.offset.force.data();
+  double left = 0;
+  for (int i = 0; i < 9; ++i) left += std::abs(offset[i]);
+  if (left != 0) return false;
   const Bodies bodies = bodies_of(pair, shapes);
-  return bodies.reference->is_small && bodies.other->is_small;
+  return bodies.reference->small.faces > 0 && bodies.other->small.faces > 0;  // where clipping will look next
 }
 
 unsigned pair_forces(const PairJob* job, int count, const ContactShapes& shapes, const ContactSettings& settings, double dt,

@@ -16,7 +16,7 @@ struct alignas(64) SmallShape {
   double vertex[3][few];               // m, as in ContactShape; the last one again and again where there are fewer
   double normal[3][few], offset[few];  // unit, m; 0 and 1e30 where there are fewer faces: everything is inside of them
   double edge;                         // m, smallest
-  int vertices, faces;
+  int vertices = 0, faces = 0;  // none where the body is larger
   // corners of each face, counter-clockwise seen from outside, the first again and again after the last; as bits
   unsigned char count[few], loop[few][few], mask[few];
 };
