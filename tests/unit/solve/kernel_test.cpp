@@ -101,6 +101,33 @@ TEST_CASE("instruction sets give the same bits", "[solve]") {
   CHECK(answer(sse2::kernels) == answer(lane_kernels()));
 }
 
+TEST_CASE("every end of a joint has a row of its own, and blocks share out the joints they keep", "[solve]") {
+  const Prepared run = prepare(test::small_wall(shake + "fast\"}"), false);
+  const Model& m = run.model;
+  std::vector<int> ends(std::size_t(m.spare_row()), 0), kept(std::size_t(m.nblock), 0);
+  for (int j = 0; j < m.njoint; ++j) {
+    ++ends[std::size_t(m.row_a[std::size_t(j)])], ++ends[std::size_t(m.row_b[std::size_t(j)])];
+    ++kept[std::size_t(m.keeper(j))];
+  }
+  CHECK(*std::max_element(ends.begin(), ends.end()) == 1);
+  std::vector<int> of_block(ends.size(), 0);
+  for (int b = 0; b < m.nblock; ++b) m.each_row(b, [&](int row) { ++of_block[std::size_t(row)]; });
+  CHECK(*std::max_element(of_block.begin(), of_block.end()) == 1);
+  for (int j = 0; j < m.njoint; ++j) {
+    bool found = false;
+    m.each_row(m.joint[std::size_t(j)].a, [&](int row) { found = found || row == m.row_a[std::size_t(j)]; });
+    CHECK(found);
+  }
+  // rounds of eight joints each, with one to spare for every group of blocks
+  int rounds = 0;
+  for (std::size_t g = 0; g + 1 < m.first_slot.size(); ++g) {
+    int most = 0;
+    for (int b = int(g) * lanes; b < std::min(int(g + 1) * lanes, m.nblock); ++b) most = std::max(most, kept[std::size_t(b)]);
+    rounds += most;
+  }
+  CHECK(rounds <= m.njoint / lanes + int(m.first_slot.size()));
+}
+
 TEST_CASE("sound joints in one pass answer as step by step", "[solve]") {
   const Scene scene = test::small_wall(shake + "fast\"}");
   Prepared run = prepare(scene, false);
