@@ -196,4 +196,10 @@ void Sound::forces(Range groups, bool sample, std::vector<JointSums>& all) {
   }
 }
 
+void forget_other_kernel(const Model& m, State& s) {
+  if (!keepers(m)) return std::fill(s.kept.begin(), s.kept.end(), RowLanes<6>{});
+  for (int j = 0; j < m.njoint; ++j)
+    if (s.tier[z(j)] == Tier::intact) std::fill_n(&s.wrench[8 * z((m.joint[z(j)].kept_by_b ? m.row_b : m.row_a)[z(j)])], 8, 0.0);
+}
+
 }  // namespace erbs

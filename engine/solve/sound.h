@@ -50,4 +50,7 @@ class Sound {
   std::vector<std::unique_ptr<JointBatch>> looked_at_;
 };
 
+// A state that another kernel has brought to where it is holds what keepers summed up, or rows that they do not write: neither is to act.
+void forget_other_kernel(const Model& model, State& state);
+
 }  // namespace erbs

@@ -41,6 +41,7 @@ Solver::Solver(const Model& model, State& state, int threads)
       sound_(model, state),
       debris_(model, state, threads) {
   if (state.dt_goal == 0) state.dt_goal = state.dt;
+  forget_other_kernel(model, state);
   any_cracked_ = std::any_of(state.tier.begin(), state.tier.end(), [](Tier t) { return t == Tier::cracked; });
   note_sleep();
   if (!model.pushes.empty()) load_.assign(constants_.size() * lanes, 0.0);
