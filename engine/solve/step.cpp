@@ -74,22 +74,18 @@ void Solver::run(const Hooks& hooks) {
   Barrier barrier(threads_);
   stop_ = false;
   together(threads_, [&](int thread) {
-    if (thread == 0) begin(hooks);
-    for (;;) {
-      barrier.wait();
-      if (stop_) return;
+    if (!barrier.wait(thread, [&] { begin(hooks); })) return;
+    while (!stop_) {
       joints(thread);
-      barrier.wait();
-      if (between_) {
-        if (thread == 0) between();
-        barrier.wait();
-      }
+      if (!between_) barrier.wait();
+      else if (!barrier.wait(thread, [this] { between(); })) return;
       blocks(thread);
-      barrier.wait();
-      if (thread != 0) continue;
-      finish(hooks);
-      stop_ = broken_ || (sample_ != Sample::none && hooks.stop());
-      if (!stop_) begin(hooks);
+      const auto turn = [&] {
+        finish(hooks);
+        stop_ = broken_ || (sample_ != Sample::none && hooks.stop());
+        if (!stop_) begin(hooks);
+      };
+      if (!barrier.wait(thread, turn)) return;
     }
   });
 }

@@ -63,6 +63,16 @@ TEST_CASE("a state may go from one kernel to the other", "[solve]") {
   CHECK(largest_difference(fast.state, changed.state) / largest(fast.state) < 1e-8);
 }
 
+TEST_CASE("a hook that throws ends the run on any number of threads", "[solve]") {
+  const Scene scene = test::small_wall(shake + "fast\"}");
+  const int threads = GENERATE(1, 2, 3);
+  Prepared run = prepare(scene, false);
+  Solver solver(run.model, run.state, threads);
+  const auto full = [] { throw Error("no space left"); };
+  CHECK_THROWS_AS(solver.run({[](double t) { return t > 1e-3; }, full, [] { return false; }}), Error);
+  CHECK_THROWS_AS(solver.run({[](double) { return false; }, [] {}, [&] { return full(), false; }}), Error);
+}
+
 TEST_CASE("threads do not change a bit, cracks and contacts included", "[solve]") {
   const Scene scene = test::small_wall("ground_motion{wave=sine{amplitude=3*g, frequency=6}, direction=\"y\"} analysis{duration=1}");
   Prepared one, two, three;
