@@ -37,7 +37,7 @@ bool ContactLimit::due(double allowed) const {
   return state_.step - list.counted_at >= (allowed < state_.dt ? count_soon : count_every);
 }
 
-void ContactLimit::count(const ContactShapes& shapes, std::span<const ContactBlock> blocks, OverlapRoom& room) {
+void ContactLimit::count(const ContactShapes& shapes, std::span<const ContactBlock> blocks, double scalars, OverlapRoom& room) {
   PairList& list = state_.debris;
   std::vector<Mat6> k(blocks.size(), Mat6::Zero());
   for (const Pair& p : list.pair) {
@@ -46,7 +46,7 @@ void ContactLimit::count(const ContactShapes& shapes, std::span<const ContactBlo
     k[z(p.a)] += patch.on_a;
     k[z(p.b)] += patch.on_b;
   }
-  list.counted = sound() + inverse_square(largest(blocks, k), contact_share);
+  list.counted = sound() + std::min(inverse_square(largest(blocks, k), contact_share), inverse_square(scalars, safe_share));
   if (list.counts % joints_every == 0 || list.by_blocks) {
     add_joints(k);
     const double by_blocks = inverse_square(largest(blocks, k), contact_share);

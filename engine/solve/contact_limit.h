@@ -25,8 +25,9 @@ class ContactLimit {
   double allowed(double rate) const;
   // Whether another count is due, `allowed` being the step as it was last counted.
   bool due(double allowed) const;
-  // Counts joints, and contacts as they lie. Beds count as the joints they were.
-  void count(const ContactShapes& shapes, std::span<const ContactBlock> blocks, OverlapRoom& room);
+  // Counts joints, and contacts as they lie. Beds count as the joints they were. `scalars` (1/s2): the largest sum over a block of the
+  // rates of all other contacts, a bound that may turn out the better one.
+  void count(const ContactShapes& shapes, std::span<const ContactBlock> blocks, double scalars, OverlapRoom& room);
 
  private:
   double sound() const;

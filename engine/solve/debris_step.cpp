@@ -142,19 +142,25 @@ void Debris::forces(int thread, int threads, bool sample) {
 void Debris::count() {
   for (int b = 0; b < model_.nblock; ++b)
     if (!sleep_.asleep(b)) place(b);
-  limit_.count(shapes_, blocks_, room_.front());
   std::vector<Pair>& pair = state_.debris.pair;
+  std::vector<double> sum(z(model_.nblock), 0.0);
   const auto note = [&](int i, double a, double b) {
     if (pair[z(i)].bed) return;
     pair[z(i)].counted_a = bed_[z(i)].rate_a = a;
     pair[z(i)].counted_b = bed_[z(i)].rate_b = b;
+    sum[z(pair[z(i)].a)] += a;
+    sum[z(pair[z(i)].b)] += b;
   };
   for (int i = 0; i < int(pair.size()); ++i) note(i, 0, 0);
   sleep_.each_resting([&](int i, const PairResult& r) { note(i, r.rate_a, r.rate_b); });
-  sleep_.add_rates();
-  for (const int b : sleep_.pushed()) rate_[z(b)] = sleep_.holds() ? sleep_.rate(b) : 0;
   for (const std::vector<Active>& active : active_)
     for (const Active& one : active) note(one.pair, one.result.rate_a, one.result.rate_b);
+  double scalars = 0;
+  for (int b = 0; b < model_.nblock; ++b)
+    if (model_.kind[z(b)] == Kind::moving) scalars = std::max(scalars, sum[z(b)]);
+  limit_.count(shapes_, blocks_, scalars, room_.front());
+  sleep_.add_rates();
+  for (const int b : sleep_.pushed()) rate_[z(b)] = sleep_.holds() ? sleep_.rate(b) : 0;
 }
 
 // The largest sum over a block of what contacts have beyond what was counted (1/s2).
