@@ -102,13 +102,7 @@ struct NewtonSteps::Change {
 };
 
 NewtonSteps::NewtonSteps(const Model& m, const State& s, const Freedom& f, Linear how)
-    : m_(m),
-      s_(s),
-      f_(f),
-      iterative_(std::getenv("TL")        ? true
-                 : std::getenv("DI")      ? false
-                 : how == Linear::by_size ? factor_bytes() > most_bytes
-                                          : how == Linear::iterative) {}
+    : m_(m), s_(s), f_(f), iterative_(how == Linear::by_size ? factor_bytes() > most_bytes : how == Linear::iterative) {}
 
 std::vector<NewtonSteps::Change> NewtonSteps::changes_of(const Trial& trial) const {
   const Model& m = m_;
