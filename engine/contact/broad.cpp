@@ -170,7 +170,8 @@ bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<c
 }
 
 double search(PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
-              std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law, std::span<const std::uint8_t> still) {
+              std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law, std::span<const std::uint8_t> still,
+              std::vector<int>* fresh) {
   std::vector<std::uint8_t> looking(loose.begin(), loose.end());
   for (size_t b = 0; b < still.size(); ++b) looking[b] = looking[b] && !still[b];
   const std::vector<Found> found = shapes.shape.empty() ? std::vector<Found>{} : close_parts(list, shapes, blocks, looking, excluded);
@@ -185,8 +186,12 @@ double search(PairList& list, const ContactShapes& shapes, std::span<const Conta
   };
   for (const Found& f : found) {
     for (; old != list.pair.end() && key_of(*old) < f.key(); ++old) leave(*old);
-    if (old != list.pair.end() && key_of(*old) == f.key()) now.push_back(*old++);
-    else now.push_back(new_pair(f.a, f.part_a, f.b, f.part_b, law(f.a, f.b), shapes));
+    if (old != list.pair.end() && key_of(*old) == f.key()) {
+      now.push_back(*old++);
+      continue;
+    }
+    if (fresh != nullptr) fresh->push_back(static_cast<int>(now.size()));
+    now.push_back(new_pair(f.a, f.part_a, f.b, f.part_b, law(f.a, f.b), shapes));
   }
   for (; old != list.pair.end(); ++old) leave(*old);
   list.pair = std::move(now);

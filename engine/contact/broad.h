@@ -23,10 +23,10 @@ bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<c
 // Lists every pair of parts closer than the margin of which at least one block is loose, except pairs of blocks whose pair_key is
 // in `excluded` (sorted) and pairs that cannot move. Pairs that stay keep their memory; what a dropped pair stored in its friction
 // springs is returned (J, to be booked as reset). Blocks that are `still` look for nobody, but are found: what is listed between them, or
-// with such as are not loose, stays.
+// with such as are not loose, stays. `fresh` gets the places of pairs that were not listed before.
 double search(PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
               std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law,
-              std::span<const std::uint8_t> still = {});
+              std::span<const std::uint8_t> still = {}, std::vector<int>* fresh = nullptr);
 
 // Two materials in contact: springs in series (the mean of equal ones is that one), the lesser friction and restitution.
 PairLaw pair_law(const Material& a, const Material& b);

@@ -192,7 +192,9 @@ std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
   // All of them: poses from the last look would depend on when this run was started or resumed.
   for (int b = 0; b < model_.nblock; ++b) place(b);
   state_.debris.valid = false;
-  released_ += search(state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); });
+  std::vector<int> fresh;
+  released_ += search(
+      state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); }, {}, &fresh);
   for (std::size_t i = 0; i < opened.size();) {
     const int bed_end = end_of_bed(model_, opened[i], model_.njoint);
     std::size_t end = i + 1;
@@ -200,6 +202,8 @@ std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
     hand_over_pair(&opened[i], &opened[i] + (end - i));
     i = end;
   }
+  std::erase_if(fresh, [this](int i) { return state_.debris.pair[z(i)].bed != 0; });
+  released_ -= start_fresh(fresh);
   list_involved();
   return opened;
 }
@@ -224,12 +228,29 @@ void Debris::hand_over_pair(const int* first, const int* last) {
   pair.law.kn = joint_law.kn;
   pair.law.ks = joint_law.ks;
   pair.law.mu = joint_law.mu_residual;
-  if (wrench.head<3>().isZero(0)) return;
-  hand_over(pair, shapes_, blocks_[z(one.a)], blocks_[z(one.b)], settings_, wrench.head<3>(), wrench.tail<3>(), area, room_.front());
+  released_ -= start(pair, wrench, area);
+}
+
+// A contact begins with what a joint bore on b until now; returns what its springs store then (J). Faces of contact reach round the edges
+// of a brick, over the mortar beside it, and may press where the joint had no face left: also where it bore nothing.
+double Debris::start(Pair& pair, const Vec6& wrench, double area) {
+  const ContactBlock &a = blocks_[z(pair.a)], &b = blocks_[z(pair.b)];
   PairResult now;
   Pair copy = pair;
-  pair_force(copy, shapes_, blocks_[z(one.a)], blocks_[z(one.b)], settings_, 0.0, true, room_.front(), now);
-  released_ -= now.elastic + now.tangential;
+  const bool touches = pair_force(copy, shapes_, a, b, settings_, 0.0, true, room_.front(), now);
+  if (!touches && wrench.isZero(0)) return 0;
+  hand_over(pair, shapes_, a, b, settings_, wrench.head<3>(), wrench.tail<3>(), area, room_.front());
+  copy = pair;
+  pair_force(copy, shapes_, a, b, settings_, 0.0, true, room_.front(), now);
+  return now.elastic + now.tangential;
+}
+
+// While joints hold them, blocks without a joint between them do not see each other, and may overlap by then: as if a joint that bore
+// nothing went over to contact. Returns what the springs store (J).
+double Debris::start_fresh(const std::vector<int>& fresh) {
+  double stored = 0;
+  for (const int i : fresh) stored += start(state_.debris.pair[z(i)], Vec6::Zero(), 0);
+  return stored;
 }
 
 void Debris::book_hand_over() { state_.energy.reset += std::exchange(released_, 0.0); }

@@ -43,6 +43,8 @@ class Debris {
   void wake();
   void open(int j);
   void hand_over_pair(const int* first, const int* last);
+  double start(Pair& pair, const Vec6& wrench, double area);
+  double start_fresh(const std::vector<int>& fresh);
   void list_involved();
   void find_beds();
   int bed_joint(const Pair& pair) const;

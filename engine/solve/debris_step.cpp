@@ -66,8 +66,19 @@ void Debris::look() {
   part_beds();
   if (unsorted_) find_still();
   if (state_.debris.valid && !needs_search(state_.debris, shapes_, blocks_, still_)) return;
+  const bool came_loose = !state_.debris.valid && state_.step > 0;  // what overlaps at the start is meant to press from then on
+  std::vector<int> fresh;
   state_.energy.reset += search(
-      state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); }, still_);
+      state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); }, still_, &fresh);
+  if (came_loose) {
+    state_.energy.reset -= start_fresh(fresh);
+    for (const int i : fresh) {  // forces are still to be taken at this very pose, and over the step that led here nothing acted
+      Pair& pair = state_.debris.pair[z(i)];
+      if (!(pair.offset_left > 0)) continue;
+      pair.offset_left += state_.last_dt;
+      pair.offset.force *= -1, pair.offset.moment_a *= -1, pair.offset.moment_b *= -1;
+    }
+  }
   list_involved();
   find_still();
 }
@@ -204,8 +215,8 @@ void Debris::gather(double* push, bool sample) {
       }
       s.energy.friction += r.friction;
       rubbing = std::max(rubbing, r.rubbing);
-      s.energy.contact_damping += r.damping + r.handover;
-      s.energy.reset += r.reset;
+      s.energy.contact_damping += r.damping;
+      s.energy.reset += r.reset + r.handover;
       if (sample) elastic_ += r.elastic + r.tangential;
       rate_[z(pair.a)] += std::max(0.0, r.rate_a - bed_[i].rate_a);
       rate_[z(pair.b)] += std::max(0.0, r.rate_b - bed_[i].rate_b);

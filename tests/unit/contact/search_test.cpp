@@ -21,7 +21,13 @@ TEST_CASE("a search that leaves out what lies still lists what a whole one lists
   }
   CHECK(needs_search(one.list, one.shapes, one.block, still));
   const double dropped = search(one.list, one.shapes, one.block, loose, {}, law, still);
-  CHECK(dropped == search(other.list, other.shapes, other.block, loose, {}, law));
+  std::vector<int> fresh;
+  CHECK(dropped == search(other.list, other.shapes, other.block, loose, {}, law, {}, &fresh));
+  REQUIRE(!fresh.empty());
+  for (const int i : fresh) {  // what stays is not new: it remembers
+    CHECK(other.list.pair[std::size_t(i)].b == 5);
+    CHECK(other.list.pair[std::size_t(i)].tangential == 0);
+  }
   CHECK(dropped == 4 + 5);
   REQUIRE(one.list.pair.size() == other.list.pair.size());
   for (std::size_t i = 0; i < one.list.pair.size(); ++i) {

@@ -1,0 +1,66 @@
+-- H14, second part: bodies that overlap by the time contact takes over must not press at once, nor store what nobody has put in.
+--
+-- What happens   rocker: a block turns about the end of its joint, which stays open by `ajar` all along. Its contact body reaches half a joint
+--                round that end, over the mortar of the joint beside it, and dips into the block below: at the hand-over (.03 rad) by
+--                some .14 mm, where the joint bears nothing. pusher: a block comes down on one it has no joint with. While it is held in its
+--                place they do not see each other; it is let loose when it has moved, and lies millimetres deep in the other by then.
+-- Source         continuity, as in H14. Force of the contact on paper: kn times the overlap of the lower face, w d^2 / sin 2a of a corner
+--                d deep that is turned by a, A d of a flat face.
+-- How to run     erbs run scenes/hard/h14_overlap_from_nothing.lua [-D kn=...] [-D ajar=...] [-D deep=...]
+-- What to look at  jump_*: largest change of force in one step over the force; force_*: of the contact in the end over that on paper;
+--                energy.residual_relative: what contact stores from nothing, and loses while the difference to nothing fades, is in reset_J.
+label("quick")
+local kn = param("kn", 1e9, "of joints [Pa/m]")
+local ajar, angle = param("ajar", 0.01 * mm, "[m]"), param("angle", 0.035, "[rad]")
+local deep = param("deep", 8 * mm, "of the pusher in the end [m]")
+local soft = param("soft", 1e9, "kn of the pusher [Pa/m]")
+local l, w, h, t, density = 0.12, 0.125, 0.1, 10 * mm, 1800
+local duration = 0.5
+material { name = "brick", density = density, friction = 0.6, restitution = 1, kn = soft, ks = 0.4 * soft }
+local strong = mortar { kn = 20 * kn, ks = 8 * kn, ft = 1 * GPa, c = 1 * GPa, mu = 0.6 }
+damping { joint_ratio = 0.5 }  -- what lies below comes to rest before the end
+gravity(0)
+joint { none = true }
+-- What lies below is free, on a strong bed.
+for i, name in ipairs { "rocker", "pusher" } do
+  box { name = "bed_" .. name, group = "bed_" .. name, size = { 0.3, 0.3, 0.1 }, center = { 2 * i, 0, -0.1 }, fixed = true }
+  box { name = "under_" .. name, group = "under_" .. name, size = { 0.3, 0.3, 0.05 }, center = { 2 * i, 0, -0.025 } }
+  joint { law = strong, between = { "bed_" .. name, "under_" .. name } }
+  recorder { name = "under_" .. name, quantity = "displacement", block = "under_" .. name, axis = "z" }
+  recorder { name = name, quantity = "reaction", blocks = { "bed_" .. name }, axis = "z" }
+end
+
+local ramp = { 0, 0.1 * duration, 0.6 * duration, duration }
+box { name = "rocker", group = "rocker", size = { l, w, h }, center = { 2 - l / 2, 0, t + h / 2 } }
+box { name = "beside", group = "beside", size = { l, w, h }, center = { 2 + l / 2 + t, 0, t + h / 2 } }
+joint { law = dry { kn = kn, ks = 0.4 * kn, mu = 0.6 }, between = { "under_rocker", "rocker" }, thickness = t }
+joint { law = dry { kn = kn, ks = 0.4 * kn, mu = 0.6 }, between = { "rocker", "beside" }, thickness = t }
+motion { block = "beside", direction = "x", wave = table_wave { times = ramp, values = { 0, 0.05, 0.05, 0.05 }, hold = true } }
+motion { block = "rocker", direction = "z", wave = table_wave { times = ramp, values = { 0, ajar, ajar, ajar }, hold = true } }
+turning { block = "rocker", about = { 2, 0, t / 2 }, axis = "y", wave = table_wave { times = ramp, values = { 0, 0, angle, angle }, hold = true } }
+
+local a, gap = 0.05, 0.3 * mm
+box { name = "pusher", group = "pusher", size = { a, a, h }, center = { 4, 0, gap + h / 2 } }
+motion { block = "pusher", direction = "z", wave = table_wave { times = ramp, values = { 0, 0, -gap - deep, -gap - deep }, hold = true } }
+
+local function end_force(run, name, of_depth, depth) return -run.last(name .. "_fz_N") / of_depth(depth + run.last("under_" .. name .. "_uz_rel_m")) end
+local law = {
+  rocker = function(d) return kn * w * d ^ 2 / math.sin(2 * angle) end,
+  pusher = function(d) return soft * a * a * d end,
+}
+local depth = { rocker = t / 2 * math.sin(angle) - ajar, pusher = deep }
+for name, of_depth in pairs(law) do
+  metric("force_" .. name, "", function(run) return end_force(run, name, of_depth, depth[name]) end)
+  metric("jump_" .. name, "", function(run)
+    local F, most = run.history(name .. "_fz_N"), 0
+    for k = 2, #F do most = math.max(most, math.abs(F[k] - F[k - 1])) end
+    return -most / run.last(name .. "_fz_N")
+  end)
+  expect("metrics.force_" .. name, 1, { rel = 1e-3, source = "kn times the overlap" })
+  -- The difference fades evenly over five periods of the contact, a hundred steps and more; dashpots of the contact, which the joint had not,
+  -- add theirs.
+  expect("metrics.jump_" .. name, 0.03, { below = true, source = "no force from nothing" })
+end
+analysis { duration = duration, output_dt = 1e-7, frame_dt = duration / 10 }
+expect("energy.residual_relative", 1e-3, { below = true, source = "ledger with friction and a hand-over" })
+expect("status", "completed")
