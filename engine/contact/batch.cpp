@@ -50,7 +50,7 @@ unsigned overlaps(const PairJob* job, int count, const ContactShapes& shapes, Ba
   ClipJob clips[8];
   for (int l = 0; l < count; ++l) {
     const Bodies bodies = bodies_of(*job[l].pair, shapes);
-    clips[l] = {&bodies.reference->small, &bodies.other->small, {}, &batch.triangles[l]};
+    clips[l] = {&bodies.reference->small, &bodies.other->small, {}, &batch.triangles[l], &job[l].pair->corners};
     for (int i = 0; i < 9; ++i) clips[l].pose.turn[i] = w.turn[i][l];
     for (int i = 0; i < 3; ++i) clips[l].pose.shift[i] = w.shift[i][l];
   }
@@ -107,7 +107,7 @@ void write_back(const PairJob* job, int count, unsigned left_out, const PairLane
 }  // namespace
 
 bool goes_in_lanes(const Pair& pair, const ContactShapes& shapes) {
-  if (pair.separating >= 0 || pair.offset_left > 0) return false;
+  if (!pair.touching || pair.separating >= 0 || pair.offset_left > 0) return false;
   static_assert(sizeof(PairWrench) == 9 * sizeof(double));
   const double* offset = pair.offset.force.data();
   double left = 0;

@@ -2,15 +2,12 @@
 // narrow.h computes for any body, fast. Plain data, compiled once for each instruction set; a body that is larger, or an overlap
 // of more triangles, takes the general way.
 #pragma once
+#include "engine/model/corners.h"
 
 namespace erbs {
 
 inline constexpr int few = 8;               // vertices or faces of a small body
 inline constexpr int most_triangles = 128;  // a multiple of 8
-// Pieces thinner than this share of the body's smallest edge s, and smaller than this share of its square, are left out: the strips
-// of upright faces that a resting face has sunk by. What is dropped is at most kn s (sliver s)^2 / 2, half of 1e-6 of what a
-// face presses with at that depth, and some 1e-12 kn s^3 of a corner or an edge.
-inline constexpr double sliver = 1e-6;
 
 struct alignas(64) SmallShape {
   double vertex[3][few];               // m, as in ContactShape; the last one again and again where there are fewer
@@ -44,6 +41,7 @@ struct ClipJob {
   const SmallShape *a, *b;
   SmallPose pose;
   Triangles* out;
+  Corners* known = nullptr;  // of the same two bodies a while ago; then now. None: neither used nor kept
 };
 
 // Sums over the triangles, kn = 1 (narrow.h names them).

@@ -110,11 +110,12 @@ void stability(const Pair& pair, const View& s, const Patch& patch, PairResult& 
 void landing(const Pair& pair, const View& s, const ContactSettings& settings, double apart, double dt, PairResult& result) {
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
   const int face = pair.separating, own = static_cast<int>(s.reference->normal.size());
+  const int faces = own + static_cast<int>(s.other->normal.size());
   // along the normal of the face that keeps them apart, where there is one: a body that flies off lands nowhere
   const Vec3 v = r.turn.transpose() * (o.v - r.v);
-  const double along = face < 0     ? v.norm()
-                       : face < own ? -v.dot(s.reference->normal[std::size_t(face)])
-                                    : v.dot(s.pose.turn * s.other->normal[std::size_t(face - own)]);
+  const double along = face < 0 || face >= faces ? v.norm()
+                       : face < own              ? -v.dot(s.reference->normal[std::size_t(face)])
+                                                 : v.dot(s.pose.turn * s.other->normal[std::size_t(face - own)]);
   const double speed = along + o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach;
   if (!(speed > settings.reference_speed) || apart > look_ahead * speed * dt) return;
   const double k = (pair.law.kn + pair.law.ks) * std::min(s.reference->largest_face, s.other->largest_face);
@@ -125,15 +126,11 @@ void landing(const Pair& pair, const View& s, const ContactSettings& settings, d
   result.landing_b = pair.b_is_reference ? reference : other;
 }
 
-// How the distance that the separating face shows may fall: its normal turns with its body, seen from as far as the other's corners.
+// Bodies come closer by no more than their farthest points move.
 void note_apart(const Pair& pair, const View& s, double apart, PairResult& result) {
   result.apart = apart;
-  const bool on_reference = pair.separating < static_cast<int>(s.reference->normal.size());
-  const double far = s.pose.shift.norm(), reference = s.reference->reach, other = s.other->reach;
-  const double lever_reference = on_reference ? std::max(reference, far + other) : reference;
-  const double lever_other = on_reference ? other : std::max(other, far + reference);
-  result.lever_a = pair.b_is_reference ? lever_other : lever_reference;
-  result.lever_b = pair.b_is_reference ? lever_reference : lever_other;
+  result.lever_a = pair.b_is_reference ? s.other->reach : s.reference->reach;
+  result.lever_b = pair.b_is_reference ? s.reference->reach : s.other->reach;
 }
 
 }  // namespace

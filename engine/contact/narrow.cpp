@@ -70,14 +70,8 @@ void append(Pieces& w, int face, int nearest, const Loop& loop, const Vec3& n, d
   }
 }
 
-double area(const Loop& g, const Vec3& n) {
-  double sum = 0;
-  for (int k = 1; k + 1 < g.n; ++k) sum += n.dot((g.p[k] - g.p[0]).cross(g.p[k + 1] - g.p[0]));
-  return sum / 2;
-}
-
-// Splits face j of B, already clipped to A, where another face of A is the nearest; `edge`: the smallest of B (clip.h, sliver).
-void split(const ContactShape& a, double edge, int j, Loop& g, Loop& h, Pieces& w) {
+// Splits face j of B, already clipped to A, where another face of A is the nearest.
+void split(const ContactShape& a, int j, Loop& g, Loop& h, Pieces& w) {
   const int nf = static_cast<int>(a.normal.size());
   double least[most_faces];
   // A face of A is nearest somewhere on the loop only if its least depth is below the smallest of the greatest depths.
@@ -92,7 +86,6 @@ void split(const ContactShape& a, double edge, int j, Loop& g, Loop& h, Pieces& 
     least[f] = low;
     bound = std::min(bound, high);
   }
-  if (bound < sliver * edge && area(g, w.n[j]) < sliver * edge * edge) return;
   int near[most_faces], count = 0;
   for (int f = 0; f < nf; ++f) {
     if (least[f] <= bound) near[count++] = f;
@@ -117,11 +110,27 @@ void split(const ContactShape& a, double edge, int j, Loop& g, Loop& h, Pieces& 
   }
 }
 
+double distance_along_edges(const ContactShape& a, const ContactShape& b, const PairPose& pose, int k) {
+  constexpr double parallel = 1e-6;
+  const int nb = static_cast<int>(b.edge.size());
+  Vec3 n = a.edge[at(k / nb)].cross(pose.turn * b.edge[at(k % nb)]);
+  const double length = n.norm(), between = n.dot(pose.shift) / length;
+  if (length < parallel) return -1;
+  n /= length;
+  const Vec3 m = pose.turn.transpose() * n;
+  double low_a = std::numeric_limits<double>::infinity(), high_a = -low_a, low_b = low_a, high_b = -low_a;
+  for (const Vec3& x : a.vertex) low_a = std::min(low_a, n.dot(x)), high_a = std::max(high_a, n.dot(x));
+  for (const Vec3& x : b.vertex) low_b = std::min(low_b, m.dot(x)), high_b = std::max(high_b, m.dot(x));
+  return std::max(low_b + between - high_a, low_a - (high_b + between));
+}
+
 }  // namespace
 
 double distance(const ContactShape& a, const ContactShape& b, const PairPose& pose, int separating) {
   const int nfa = static_cast<int>(a.normal.size());
   if (separating < 0) return -1;
+  const int faces = nfa + static_cast<int>(b.normal.size());
+  if (separating >= faces) return distance_along_edges(a, b, pose, separating - faces);
   double least = std::numeric_limits<double>::infinity();
   if (separating >= nfa) {
     const Vec3 n = pose.turn * b.normal[at(separating - nfa)];
@@ -139,6 +148,19 @@ int separating_face_of_other(const ContactShape& a, const ContactShape& b, const
   for (int j = 0; j < static_cast<int>(b.normal.size()); ++j)
     if (face_of_other_separates(a, b, pose, j)) return static_cast<int>(a.normal.size()) + j;
   return -1;
+}
+
+int separating_edges(const ContactShape& a, const ContactShape& b, const PairPose& pose) {
+  constexpr int most_axes = 256;
+  const int na = static_cast<int>(a.edge.size()), nb = static_cast<int>(b.edge.size());
+  if (na * nb > most_axes) return -1;
+  int best = -1;
+  double most = 0;
+  for (int k = 0; k < na * nb; ++k) {
+    const double shown = distance_along_edges(a, b, pose, k);
+    if (shown > most) most = shown, best = k;
+  }
+  return best < 0 ? -1 : static_cast<int>(a.normal.size() + b.normal.size()) + best;
 }
 
 bool find_pieces(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, Pieces& w) {
@@ -175,7 +197,7 @@ bool find_pieces(const ContactShape& a, const ContactShape& b, const PairPose& p
     }
     if (!left) continue;
     w.n[j] = pose.turn * b.normal[at(j)];
-    split(a, b.smallest_edge, j, *g, *h, w);
+    split(a, j, *g, *h, w);
   }
   separating = -1;
   if (!w.piece.empty()) return true;

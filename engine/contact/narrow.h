@@ -36,11 +36,15 @@ struct Pieces {
   double c[most_faces];         // m, depth of the origin below the faces of A
 };
 
-// Distance (m) that the face that kept the bodies apart (see below) still shows between them; below zero where it shows none.
+// What keeps two bodies apart, as a number: a face of A, after those a face of B, after those a plane along an edge of each (directions
+// i, j of ContactShape::edge: i times those of B plus j); -1: nothing known.
+// Distance (m) that it still shows between them; below zero where it shows none.
 double distance(const ContactShape& a, const ContactShape& b, const PairPose& pose, int separating);
-int separating_face_of_other(const ContactShape& a, const ContactShape& b, const PairPose& pose);  // -1: none
+int separating_face_of_other(const ContactShape& a, const ContactShape& b, const PairPose& pose);
+// The edges that show the greatest distance; found, but for round-off, where bodies without a face between them do not overlap.
+int separating_edges(const ContactShape& a, const ContactShape& b, const PairPose& pose);
 
-// Finds the pieces. `separating` caches the face that keeps the bodies apart (faces of A, then faces of B after them; -1: none).
+// Finds the pieces. `separating` caches what keeps the bodies apart.
 // False if they do not overlap.
 bool find_pieces(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, Pieces& out);
 

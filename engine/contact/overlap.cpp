@@ -17,6 +17,13 @@ SmallPose small_pose(const PairPose& pose) {
 
 Vec3 vec(const double* x) { return {x[0], x[1], x[2]}; }
 
+// Bodies that do not overlap: what keeps them apart, and by how much.
+double find_distance(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating) {
+  if (separating < 0) separating = separating_face_of_other(a, b, pose);
+  if (separating < 0) separating = separating_edges(a, b, pose);
+  return distance(a, b, pose, separating);
+}
+
 }  // namespace
 
 Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, OverlapRoom& room) {
@@ -31,7 +38,7 @@ Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose&
     separating = t.separating;
     if (!t.overflow) {
       if (t.count == 0) {
-        if (separating < 0) separating = separating_face_of_other(a, b, pose);
+        room.apart = find_distance(a, b, pose, separating);
         return {};
       }
       OverlapSums sums;
@@ -47,7 +54,10 @@ Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose&
     }
     room.fast = false;
   }
-  if (!find_pieces(a, b, pose, separating, room.pieces)) return {};
+  if (!find_pieces(a, b, pose, separating, room.pieces)) {
+    room.apart = find_distance(a, b, pose, separating);
+    return {};
+  }
   return elastic_patch(room.pieces);
 }
 

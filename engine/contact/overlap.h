@@ -15,8 +15,7 @@ struct OverlapRoom {
   double apart = 0;           // m, distance of the bodies asked for last, at least; below zero where not known
 };
 
-// The elastic patch; its total is 0 where the bodies do not overlap. `separating` caches the face that keeps them apart (faces of
-// A, then faces of B after them; -1: none).
+// The elastic patch; its total is 0 where the bodies do not overlap. `separating` caches what keeps them apart (narrow.h).
 Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, OverlapRoom& room);
 
 // As in narrow.h, of the overlap found last.

@@ -19,6 +19,18 @@ bool has_coplanar_faces(const std::vector<Plane>& faces, double size) {
   return false;
 }
 
+std::vector<Vec3> edge_directions(const ContactShape& s) {
+  std::vector<Vec3> out;
+  for (std::size_t f = 0; f + 1 < s.loop_first.size(); ++f) {
+    for (int i = s.loop_first[f]; i < s.loop_first[f + 1]; ++i) {
+      const int to = i + 1 < s.loop_first[f + 1] ? i + 1 : s.loop_first[f];
+      const Vec3 e = (s.vertex[std::size_t(s.loop[std::size_t(to)])] - s.vertex[std::size_t(s.loop[std::size_t(i)])]).normalized();
+      if (std::none_of(out.begin(), out.end(), [&](const Vec3& x) { return x.cross(e).squaredNorm() < 1e-20; })) out.push_back(e);
+    }
+  }
+  return out;
+}
+
 void fill_small(ContactShape& s) {
   const std::size_t nv = s.vertex.size(), nf = s.normal.size();
   s.is_small = nv <= few && nf <= few;
@@ -75,6 +87,7 @@ ContactShape contact_shape(const Polyhedron& part) {
       twice += (corner(i) - corner(s.loop_first[f])).cross(corner(i + 1) - corner(s.loop_first[f]));
     s.largest_face = std::max(s.largest_face, twice.norm() / 2);
   }
+  s.edge = edge_directions(s);
   s.volume = mass_properties(p).volume;
   s.thickness = thickness(p);
   s.smallest_edge = smallest_edge(p);

@@ -19,6 +19,7 @@ struct ContactShape {
   std::vector<std::uint64_t> mask;  // vertices of each face                            [nf]
   std::vector<int> loop_first;      // start of each face's loop in `loop`              [nf + 1]
   std::vector<int> loop;            // vertices counter-clockwise seen from outside
+  std::vector<Vec3> edge;           // unit, directions of the edges, parallel ones once
   double volume = 0;                // m3
   double thickness = 0;             // m, smallest distance between two parallel planes that hold it
   double smallest_edge = 0;         // m

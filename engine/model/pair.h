@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/vec.h"
+#include "engine/model/corners.h"
 
 namespace erbs {
 
@@ -60,6 +61,7 @@ struct alignas(64) Pair {
   std::uint8_t b_is_reference = 0;          // whose inner distance is the potential: the larger part, then the lower block; never changes
   std::uint8_t touching = 0;
   std::uint8_t bed = 0;  // still the faces of a former joint, and its stiffness; once parted they meet as debris
+  Corners corners;        // cache only
 };
 
 struct PairList {

@@ -15,11 +15,12 @@ namespace {
 Polyhedron wedge() {
   return hull({{-0.2, -0.1, -0.05}, {0.2, -0.1, -0.05}, {0.2, 0.1, -0.05}, {-0.2, 0.1, -0.05}, {0.1, -0.1, 0.08}, {0.1, 0.1, 0.08}});
 }
-Polyhedron frustum(int n) {  // more faces than a small body has where n > 6
+// More faces than a small body has where n > 6; sides that are not plane, and so two faces each, unless `top` is .0875.
+Polyhedron frustum(int n, double top = 0.1) {
   std::vector<Vec3> v;
   for (int i = 0; i < n; ++i)
     for (const double z : {-0.06, 0.07})
-      v.push_back(Vec3((z < 0 ? 0.16 : 0.1) * std::cos(2 * pi * i / n), (z < 0 ? 0.14 : 0.1) * std::sin(2 * pi * i / n), z));
+      v.push_back(Vec3((z < 0 ? 0.16 : 0.1) * std::cos(2 * pi * i / n), (z < 0 ? 0.14 : top) * std::sin(2 * pi * i / n), z));
   return hull(v);
 }
 
@@ -86,7 +87,8 @@ TEST_CASE("small bodies overlap the fast way as the general way", "[contact]") {
 }
 
 TEST_CASE("instruction sets clip to the same bits, and a pair to the same whatever is clipped beside it", "[contact]") {
-  const std::vector<ContactShape> shapes{contact_shape(trial::brick()), contact_shape(wedge()), contact_shape(frustum(4))};
+  const std::vector<ContactShape> shapes{contact_shape(trial::brick()), contact_shape(wedge()), contact_shape(frustum(4, 0.0875))};
+  for (const ContactShape& shape : shapes) REQUIRE(shape.is_small);
   const auto narrow = std::make_unique<Triangles[]>(8), wide = std::make_unique<Triangles[]>(8);
   const auto alone = std::make_unique<Triangles>();
   Scatter scatter;
@@ -148,24 +150,119 @@ TEST_CASE("the share of a clamp in a triangle is exact", "[contact]") {
   CHECK(j1[0] == Approx(4.0 / 3 - 9.0 / 4));
 }
 
-TEST_CASE("strips that a face has sunk by are left out at an error of a millionth", "[contact]") {
-  const ContactShape brick = contact_shape(trial::brick());
+namespace {
+
+// Two bodies that rest on each other, cross at edges or meet at a corner, and then move.
+struct Walk {
+  explicit Walk(const ContactShape& a, const ContactShape& b, Scatter& scatter, int kind)
+      : spin(scatter(1), scatter(1), scatter(1)), speed(scatter(1), scatter(1), scatter(1)) {
+    const bool resting = kind % 3 == 0;
+    turn = rotation(Vec3(scatter(resting ? 1e-6 : 2), scatter(resting ? 1e-6 : 2), scatter(2))).toRotationMatrix();
+    shift = resting ? Vec3(scatter(0.1), scatter(0.05), a.centre.z() + a.half.z() - b.centre.z() + b.half.z() - 1e-6)
+                    : Vec3(scatter(0.2), scatter(0.1), scatter(0.15));
+    step = resting ? 1e-7 : std::pow(10.0, -3 - kind % 4);
+    const auto room = std::make_unique<OverlapRoom>();
+    for (int i = 0; i < 20; ++i) {  // at most some millimetres deep
+      int none = -1;
+      const Patch patch = find_overlap(a, b, {turn, shift}, none, *room);
+      if (!(patch.total > 0) || patch.deepest < 0.005) break;
+      shift += 0.7 * patch.deepest * patch.normal;
+    }
+  }
+  void go() {
+    turn = rotation(Vec3(step * spin)).toRotationMatrix() * turn;
+    shift += 0.1 * step * speed;
+  }
+  SmallPose pose() const {
+    SmallPose out;
+    for (int i = 0; i < 9; ++i) out.turn[i] = turn(i / 3, i % 3);
+    for (int i = 0; i < 3; ++i) out.shift[i] = shift[i];
+    return out;
+  }
+  Vec3 spin, speed, shift;
+  Mat3 turn;
+  double step;
+};
+
+bool same(const Triangles& p, const Triangles& q) {
+  if (p.count != q.count || p.separating != q.separating) return false;
+  bool is_same = std::equal(p.faces, p.faces + p.count, q.faces);
+  for (int k = 0; k < 3; ++k)
+    for (int i = 0; i < 3; ++i) is_same = is_same && std::equal(p.corner[k][i], p.corner[k][i] + p.count, q.corner[k][i]);
+  return is_same;
+}
+
+}  // namespace
+
+TEST_CASE("an overlap known by its corners is the one that clipping finds, and the same bits whenever they were found", "[contact]") {
+  const std::vector<ContactShape> shapes{contact_shape(trial::brick()), contact_shape(wedge()), contact_shape(frustum(3)),
+                                         contact_shape(frustum(4, 0.0875))};
+  for (const ContactShape& shape : shapes) REQUIRE(shape.is_small);
+  const auto kept = std::make_unique<Triangles>(), anew = std::make_unique<Triangles>(), clipped = std::make_unique<Triangles>(),
+             narrow = std::make_unique<Triangles>();
+  Scatter scatter;
+  int met = 0, known_before = 0, without = 0;
+  for (int trial = 0; trial < 600; ++trial) {
+    const ContactShape &a = shapes[std::size_t(trial) % 4], &b = shapes[std::size_t(trial / 4) % 4];
+    Walk walk(a, b, scatter, trial);
+    Corners corners, corners_narrow;
+    for (int step = 0; step < 40; ++step, walk.go()) {
+      INFO("trial " << trial << " step " << step);
+      Corners none;
+      const ClipJob job{&a.small, &b.small, walk.pose(), kept.get(), &corners};
+      ClipJob fresh = job, plain = job, other = job;
+      fresh.out = anew.get(), fresh.known = &none;
+      plain.out = clipped.get(), plain.known = nullptr;
+      other.out = narrow.get(), other.known = &corners_narrow;
+      known_before += corners.count > 0;
+      clip_kernels().clip_all(&job, 1);
+      clip_kernels().clip_all(&fresh, 1);
+      clip_kernels().clip_all(&plain, 1);
+      sse2::clip_kernels.clip_all(&other, 1);
+      REQUIRE(same(*kept, *anew));
+      REQUIRE(same(*kept, *narrow));
+      REQUIRE(corners.count == none.count);
+      REQUIRE((kept->count > 0) == (clipped->count > 0));
+      if (kept->count == 0) continue;
+      ++met;
+      without += corners.count == 0;
+      OverlapSums p, q;
+      clip_kernels().sum(*kept, p);
+      clip_kernels().sum(*clipped, q);
+      const double near = 1e-9, deep = kept->deepest;  // of sums whose corners may be off by round-off over the sine of two planes
+      CHECK(p.total == Approx(q.total).epsilon(near).margin(1e-16 * deep));
+      CHECK(p.area == Approx(q.area).epsilon(1e-7).margin(1e-10));
+      for (int i = 0; i < 3; ++i) {
+        CHECK(p.force[i] == Approx(q.force[i]).epsilon(near).margin(near * std::abs(q.total)));
+        CHECK(p.moment[i] == Approx(q.moment[i]).epsilon(near).margin(near * 0.3 * std::abs(q.total)));
+        CHECK(p.pressure[i] == Approx(q.pressure[i]).epsilon(near).margin(near * 0.3 * std::abs(q.total)));
+      }
+      CHECK(kept->deepest == Approx(clipped->deepest).epsilon(near));
+    }
+  }
+  CHECK(met > 5000);
+  CHECK(known_before > met * 8 / 10);
+  CHECK(without < met / 30);  // too many corners, or four planes in one
+}
+
+TEST_CASE("bodies whose edges cross are as far apart as the edges", "[contact]") {
+  const double s = 0.1, gap = 3e-4;
+  std::vector<Vec3> corners;
+  for (int i = 0; i < 8; ++i) corners.push_back(Vec3(i & 1 ? s : -s, i & 2 ? s : -s, i & 4 ? s : -s) / 2);
+  const ContactShape cube = contact_shape(hull(corners));
+  CHECK(cube.edge.size() == 3);
+  const Mat3 a = rotation(Vec3(pi / 4, 0, 0)).toRotationMatrix(), b = rotation(Vec3(0, pi / 4, 0)).toRotationMatrix();
   const auto room = std::make_unique<OverlapRoom>();
   for (const bool general : {false, true}) {
     room->only_general = general;
-    const double edge = 0.1, just = sliver * edge;
-    double force[2], across[2];
-    int i = 0;
-    for (const double depth : {just * (1 - 1e-9), just * (1 + 1e-9)}) {  // without the strips, and with them
-      int none = -1;
-      // a corner on a corner: the strips do not cancel, and are short
-      const Patch p = find_overlap(brick, brick, {Mat3::Identity(), Vec3(0.25, 0.1, 0.1 - depth)}, none, *room);
-      force[i] = p.force.z();
-      across[i++] = p.force.head<2>().norm();
-    }
-    CHECK(across[0] < 1e-12 * force[0]);
-    CHECK(across[1] > 0);
-    CHECK(across[1] < 1e-5 * force[1]);
-    CHECK(force[0] == Approx(force[1]).epsilon(1e-8));
+    // the edges cross at right angles, each s / sqrt 2 from its centre
+    const PairPose pose{a.transpose() * b, a.transpose() * Vec3(0.01, -0.02, std::sqrt(2.0) * s + gap)};
+    int separating = -1;
+    CHECK(find_overlap(cube, cube, pose, separating, *room).total == 0);
+    CHECK(separating >= 12);
+    CHECK(room->apart == Approx(gap).epsilon(1e-9));
+    CHECK(distance(cube, cube, pose, separating) == Approx(gap).epsilon(1e-9));
+    const PairPose closer{pose.turn, a.transpose() * Vec3(0.01, -0.02, std::sqrt(2.0) * s - gap)};
+    CHECK(find_overlap(cube, cube, closer, separating, *room).total > 0);
   }
 }
