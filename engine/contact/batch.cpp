@@ -126,7 +126,7 @@ unsigned pair_forces(const PairJob* job, int count, const ContactShapes& shapes,
   fill(job, count, w);
   kernels.place(w);
   unsigned left_out = overlaps(job, count, shapes, batch);
-  kernels.patch(w);
+  kernels.patch(w, set);
   for (int l = 0; l < count; ++l) {
     if (!(w.total[l] > 0)) left_out |= 1u << l;
     if ((left_out >> l & 1u) != 0) continue;

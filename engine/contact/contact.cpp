@@ -10,10 +10,12 @@
 namespace erbs {
 namespace {
 
-Motion motion_of(const View& s) {
+// Velocities are those of half a step before the pose: so is the way from one body to the other that they are seen over, or a pair that
+// turns as one would seem to part with dt / 2 w x (w x r).
+Motion motion_of(const View& s, double dt) {
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
-  const Vec3 apart = r.turn * s.pose.shift;
-  return {r.turn.transpose() * (o.v - r.v - r.w.cross(apart)), r.turn.transpose() * (o.w - r.w)};
+  const Vec3 away = o.v - r.v, apart = r.turn * s.pose.shift - 0.5 * dt * away;
+  return {r.turn.transpose() * (away - r.w.cross(apart)), r.turn.transpose() * (o.w - r.w)};
 }
 
 // A wrench on the other body in pair axes, as forces and moments on a and b in world axes.
@@ -185,7 +187,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
   const double stored_before = pair.tangential;
   double slipped = 0;
   if (touches) {
-    const Motion motion = motion_of(s);
+    const Motion motion = motion_of(s, dt);
     closing_speeds(room, motion.linear, motion.angular, patch);
     const double kn = pair.law.kn;
     const double along = inverse_mass_along(s, patch.pressure_centre, patch.normal);

@@ -38,7 +38,7 @@ struct PairSettings {
 
 struct PairKernels {
   void (*place)(PairLanes&);                         // reads the rows; fills turn and shift
-  void (*patch)(PairLanes&);                         // from sums to turning; total = 0 where there is no patch to speak of
+  void (*patch)(PairLanes&, const PairSettings&);    // from sums to turning; total = 0 where there is no patch to speak of
   void (*dashpot)(PairLanes&, const PairSettings&);  // from closing
   void (*springs)(PairLanes&, const PairSettings&);  // up to holds
   void (*bear)(PairLanes&);                          // what reaches the limit; `holds` then is 0 where that is left to the caller

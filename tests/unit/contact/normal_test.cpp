@@ -256,3 +256,26 @@ TEST_CASE("contact is the same wherever the scene stands and however it is turne
   CHECK((u - u0).norm() < 1e-6 * u0.norm());
   CHECK((w - w0).norm() < 1e-6 * w0.norm());
 }
+
+TEST_CASE("a pair that turns as one feels no dashpot", "[contact]") {
+  const double kn = 1e9, ks = 4e8, dt = 1e-4, omega = 3;
+  Bodies two({{{brick()}}, {{translated(brick(), Vec3(0.02, 0.01, 0.1 - 1e-5))}}}, {kn, ks, 0.6, 0.5}, dt);
+  two.forces();
+  REQUIRE(two.result.size() == 1);
+  REQUIRE(two.result[0].touching);
+  // One step about an axis at the distance of some half a metre: chords and Cayley's rotation, as a step goes.
+  const Vec3 axis = Vec3(1, 2, 3).normalized(), centre(0.5, -0.4, 0.2);
+  const Quat turn = rotation(omega * dt * axis);
+  for (ContactBlock& b : two.block) {
+    b.u = turn * (b.rest - centre) + centre - b.rest;
+    b.turn = turn.toRotationMatrix();
+    b.v = b.u / dt;
+    b.w = 2 / dt * std::tan(omega * dt / 2) * axis;
+  }
+  two.t = dt;
+  two.forces();
+  const double lagging = 0.5 * dt * omega * omega * 0.1;  // m/s: what the way at the end of the step would let them part with
+  const double dashpot = 2 * two.settings.settling_tangential * std::sqrt(ks * 0.03 * two.mass[0] / 4);
+  CHECK(two.list.pair[0].damping.force.norm() < 1e-6 * dashpot * lagging);
+  CHECK(std::abs(two.damping) < 1e-6 * dashpot * lagging * lagging * dt);
+}
