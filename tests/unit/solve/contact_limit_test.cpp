@@ -45,14 +45,14 @@ Ran go(const std::string& script, double until, int threads = 1) {
 TEST_CASE("once the stiff joint is gone the step grows to what debris bears", "[solve][step]") {
   const Ran r = go(leap + "analysis{ duration = 9, start = 'rest' }", 1.5);
   const State& s = r.run.state;
-  // The step of debris counts a face four times (rocking): 0.9 sqrt(2 m / (4 kn A)). Alone on its face a brick bears 0.4 sqrt(2 m / (kn
+  // The step of debris counts a face four times (rocking): 0.9 sqrt(2 m / (4 kn A)). Alone on its face a brick bears 0.7 sqrt(2 m / (kn
   // A)), beside what is held ready for its joint and for a face that may land.
   const double m = 6.75, k = 2e10 * 0.3 * 0.125, most = 0.9 * std::sqrt(2 * m / (4 * k));
   CHECK(r.run.model.dt_most == Approx(most).epsilon(1e-9));
   CHECK(s.dt_goal < 0.4 * most);
   CHECK(r.longest <= most);
   CHECK(s.dt > 2 * s.dt_goal);
-  CHECK(s.dt < 0.4 * std::sqrt(2 * m / k));
+  CHECK(s.dt < 0.7 * std::sqrt(2 * m / k));
   CHECK(s.energy.residual_worst < 1e-2);
   CHECK(s.v[2].norm() < 1e-6);
   CHECK(s.u[2].z() == Approx(-0.11).margin(1e-6));
