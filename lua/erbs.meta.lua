@@ -391,7 +391,7 @@ function damping(keys) end
 ---@field stop_when_moved? number a block that has moved this far from rest ends the run, collapse.moved (0: none does) [m; 0 to 1e+06; default 0]
 ---@field sleep? boolean debris that has come to rest is left alone until something stirs it [default false]
 ---@field energy_gate? number relative energy residual that ends a run (0: by the kind of run) [0 to 1e+06; default 0]
----@field lazy_rotation? number block rotation between refreshes of joint frames [rad; 0 to 0.1; default 1e-05]
+---@field lazy_rotation? number block rotation between refreshes of joint frames [rad; 0 to 0.1; default 0.0001]
 ---@field gyroscopic? boolean the gyroscopic term w x (I w) [default true]
 ---@field output_dt? number time between rows of histories.csv and energy.csv [s; 1e-09 to 1e+06; default 0.01]
 ---@field frame_dt? number time between poses for pictures [s; 1e-09 to 1e+06; default 0.04]

@@ -75,7 +75,8 @@ void choose_keepers(Model& m) {
 // An empty lane answers nothing: no stiffness, limits out of reach, the block at rest, a wrench row that nobody reads.
 void clear_lane(const Model& m, JointBatch& batch, int l) {
   for (auto& k : batch.stiffness) k[l] = 0;
-  for (auto& q : batch.q) q[l] = 0;
+  for (auto* field : {batch.arm_a, batch.arm_b, batch.gap, batch.turn})
+    for (int i = 0; i < 3; ++i) field[i][l] = 0;
   batch.open_limit[l] = batch.slip_limit[l] = batch.close_limit[l] = infinite;
   batch.slip_slope[l] = 0;
   batch.a[l] = batch.b[l] = m.nblock;

@@ -15,9 +15,10 @@ struct alignas(64) RowLanes {
 // Elastic data of 8 joints side by side, valid since the last refresh of their geometry (joint_geometry.h says how).
 struct alignas(64) JointBatch {
   double frame[9][lanes];      // columns s, t, n (world) at the refresh; row-major [axis * 3 + component]
-  double sum[3][lanes];        // m, arm_a + arm_b at the refresh
-  double apart[3][lanes];      // m, centroid b - centroid a at the refresh
-  double q[6][lanes];          // m, rad: relative displacement and rotation at the refresh, joint frame
+  double arm_a[3][lanes];      // m, from the centroids to the joint's material points at the refresh, world
+  double arm_b[3][lanes];
+  double gap[3][lanes];        // m, relative displacement at the refresh, world
+  double turn[3][lanes];       // rad, relative rotation at the refresh, world
   double stiffness[6][lanes];  // zero once the joint is handed over to contact
   double open_limit[lanes];    // m, opening at which tension cracks; 0 for dry joints
   double slip_limit[lanes];    // m, c / ks

@@ -59,7 +59,7 @@ struct State {
   BlockVec3 w;                  // rad/s, world axes, of the last drift
   BlockVec3 base_u;             // pose at the last refresh of the block's island
   BlockQuat base_q;
-  Rows row;                     // displacement and rotation since the refresh (m, rad), 8 doubles a block: one cache line
+  Rows row;                     // displacement and rotation (joint_geometry.h) since the refresh (m, rad), 8 doubles a block: one cache line
   std::vector<int> island;      // blocks joined to each other, named by their lowest block
   std::vector<std::uint8_t> grounded;  // the island holds a fixed or driven block
   std::vector<std::uint8_t> joined;    // has a joint that is not open

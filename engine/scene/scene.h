@@ -155,7 +155,7 @@ struct Analysis {
   bool debris = true;                 // contacts of blocks that have come loose; false only to see what they cost
   bool sleep = false;                 // debris that has come to rest is left alone until something stirs it
   bool ledger = true;                 // the energy ledger between rows; false likewise
-  double lazy_rotation = 1e-5;        // rad of block rotation between refreshes of joint frames
+  double lazy_rotation = 1e-4;        // rad of block rotation between refreshes of joint frames
   bool gyroscopic = true;             // false: the scalar Euler equation of Gu and Miao eq. (1), for comparison only
   double output_dt = 0.01;            // s, rows of histories.csv and energy.csv
   double frame_dt = 0.04;             // s, poses for pictures

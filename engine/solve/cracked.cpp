@@ -203,6 +203,17 @@ void Cracked::drop(int j) {
   for (const int row : {model_.row_a[z(j)], model_.row_b[z(j)]}) std::fill_n(&state_.wrench[z(row) * 8], 8, 0.0);
 }
 
+// By whole batches: what does not change is found again to the same bits.
+void Cracked::refresh(const std::vector<std::uint8_t>& stale) {
+  for (const Group& group : group_) {
+    if (group.empty()) continue;
+    JointBatch& batch = state_.batch[z(group.batch)];
+    const auto is_stale = [&](int b) { return stale[z(b)] != 0; };
+    if (std::any_of(batch.a, batch.a + lanes, is_stale) || std::any_of(batch.b, batch.b + lanes, is_stale))
+      set_geometry(model_, state_, group.joint, batch);
+  }
+}
+
 void Cracked::forces(int first, int last, bool sample, JointSums& sums, const LaneKernels& kernels) {
   const double* rows = state_.row.data();
   double* wrench_rows = state_.wrench.data();

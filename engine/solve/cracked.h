@@ -17,6 +17,7 @@ class Cracked {
   int groups() const { return int(group_.size()); }
   void take(int j);  // a joint that has cracked: out of the sound batches
   void drop(int j);  // a joint that was handed over to contact
+  void refresh(const std::vector<std::uint8_t>& stale);  // geometry of the joints of blocks whose reference has changed
   // Wrench rows of groups [first, last); fills sums.energy.elastic when `sample`.
   static constexpr int grain = 4;
   void forces(int first, int last, bool sample, JointSums& sums, const LaneKernels& kernels = lane_kernels());

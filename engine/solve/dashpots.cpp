@@ -43,14 +43,15 @@ void add_dashpots(const Model& m, State& s, int k, const JointBatch& B, JointLan
   for (int l = 0; l < lanes && k * lanes + l < m.njoint; ++l) {
     const int j = k * lanes + l;
     if (s.place[z(j)] != j || s.tier[z(j)] != Tier::intact) continue;
-    const Vec3 th(o.th[0][l], o.th[1][l], o.th[2][l]), sum(o.sum[0][l], o.sum[1][l], o.sum[2][l]), apart(o.y[0][l], o.y[1][l], o.y[2][l]);
+    const Vec3 th(o.th[0][l], o.th[1][l], o.th[2][l]), arm_a(o.arm_a[0][l], o.arm_a[1][l], o.arm_a[2][l]),
+        arm_b(o.arm_b[0][l], o.arm_b[1][l], o.arm_b[2][l]);
     const auto turned = [&](const Vec3& x) { return Vec3(x + th.cross(x)); };
     Mat3 frame;
     for (int axis = 0; axis < 3; ++axis)
       frame.col(axis) = turned(Vec3(B.frame[3 * axis][l], B.frame[3 * axis + 1][l], B.frame[3 * axis + 2][l]));
     double f[6];
     for (int i = 0; i < 6; ++i) f[i] = o.f[i][l];
-    add_dashpots(m, s, j, frame, turned(0.5 * (sum + apart)), turned(0.5 * (sum - apart)), f, sums);
+    add_dashpots(m, s, j, frame, arm_a, arm_b, f, sums);
     for (int i = 0; i < 6; ++i) o.f[i][l] = f[i];
   }
 }

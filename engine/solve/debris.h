@@ -65,6 +65,7 @@ class Debris {
   std::vector<ContactBlock> blocks_;
   Sleep sleep_;
   std::vector<int> involved_;           // blocks that are loose or listed in a pair
+  std::vector<int> placed_;             // those of live pairs that move
   std::vector<std::uint64_t> jointed_;  // pairs of blocks still joined, sorted
   struct Bed {
     int joint = -1;                 // first of the joints that this pair took over from, -1: none

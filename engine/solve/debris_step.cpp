@@ -27,12 +27,11 @@ void fetch(const T& x) {
 
 }  // namespace
 
+// Poses are for pairs: a block that has none waits for a look.
 void Debris::prepare() {
   double fastest = 0;
-  for (const int b : unsorted_ ? involved_ : sleep_.awake()) {
-    place(b);
-    fastest = std::max(fastest, blocks_[z(b)].v.squaredNorm());
-  }
+  for (const int b : unsorted_ ? involved_ : sleep_.awake()) fastest = std::max(fastest, Vec3(state_.v[z(b)]).squaredNorm());
+  for (const int b : unsorted_ ? involved_ : placed_) place(b);
   const bool far = std::sqrt(fastest) * state_.dt * look_every > 0.25 * state_.debris.margin;
   if (!state_.debris.valid || far || state_.step % look_every == 0) look();
   if (unsorted_) sort();
@@ -48,6 +47,9 @@ void Debris::sort() {
     pair_force(copy, shapes_, blocks_[z(pair.a)], blocks_[z(pair.b)], settings_, 0.0, true, room_.front(), r);
     return r;
   });
+  placed_.clear();
+  for (const int b : sleep_.pushed())
+    if (model_.kind[z(b)] != Kind::fixed && !sleep_.asleep(b)) placed_.push_back(b);
   find_still();
   unsorted_ = false;
   relisted_ = true;

@@ -42,10 +42,9 @@ void find_islands(const Model& m, State& s) {
   for (int b = 0; b < m.nblock; ++b) s.grounded[z(b)] = s.grounded[z(s.island[z(b)])];
 }
 
-std::vector<int> refresh_stale(const Model& m, State& s) {
-  // Block by block: a joint takes its geometry from the poses its two blocks had at their own last refresh, and what has happened since
-  // is carried to second order, 1e-15 of the arm at the default tolerance.
-  std::vector<std::uint8_t> stale(z(m.nblock) + 1, 0);
+// Block by block: a joint takes its geometry from the poses its two blocks had at their own last refresh.
+bool take_stale_poses(const Model& m, State& s, std::vector<std::uint8_t>& stale) {
+  stale.assign(z(m.nblock) + 1, 0);
   const double limit = m.analysis.lazy_rotation * m.analysis.lazy_rotation;
   bool past = false;
   for (int b = 0; b < m.nblock; ++b) {
@@ -54,14 +53,10 @@ std::vector<int> refresh_stale(const Model& m, State& s) {
     stale[z(b)] = s.joined[z(b)] && turned > 0.25 * limit;
     past = past || (s.joined[z(b)] && turned > limit);
   }
-  if (!past) return {};
-  std::vector<int> blocks, joints;
+  if (!past) return false;
   for (int b = 0; b < m.nblock; ++b)
-    if (stale[z(b)]) blocks.push_back(b);
-  for (int j = 0; j < m.njoint; ++j)
-    if (s.tier[z(j)] != Tier::open && (stale[z(m.joint[z(j)].a)] || stale[z(m.joint[z(j)].b)])) joints.push_back(j);
-  refresh(m, s, blocks, joints);
-  return joints;
+    if (stale[z(b)]) take_pose(s, b);
+  return true;
 }
 
 }  // namespace erbs

@@ -1,7 +1,7 @@
 #include "engine/solve/joint_geometry.h"
 
+#include <algorithm>
 #include <numeric>
-#include <utility>
 
 #include "engine/model/batches.h"
 #include "engine/solve/lanes.h"
@@ -11,95 +11,84 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// A joint, and the lane that its geometry goes to.
-struct InLane {
-  int joint, lane;
-  JointBatch* batch;
-};
-
-// Eight at most. In lanes whatever their number, so that a joint's geometry does not depend on when and with which others it is made.
-void set_geometry(const Model& m, const State& s, const InLane* to, int count) {
-  PoseLanes p;
-  for (int l = 0; l < lanes; ++l) {
-    const Joint& joint = m.joint[z(to[l < count ? l : 0].joint)];
-    for (int end = 0; end < 2; ++end) {
-      const int b = end == 0 ? joint.a : joint.b;
-      (end == 0 ? p.ua : p.ub)[l] = &s.base_u.data()[b / lanes].x[0][b % lanes];
-      (end == 0 ? p.qa : p.qb)[l] = &s.base_q.data()[b / lanes].x[0][b % lanes];
-    }
-    p.arm_a[l] = joint.arm_a.data(), p.arm_b[l] = joint.arm_b.data(), p.rest[l] = joint.type->frame.data();  // columns
+// Where lane l of a pose lies.
+void set_source(const Model& m, const State& s, int j, int l, PoseLanes& p) {
+  const Joint& joint = m.joint[z(j)];
+  for (int end = 0; end < 2; ++end) {
+    const int b = end == 0 ? joint.a : joint.b;
+    (end == 0 ? p.ua : p.ub)[l] = &s.base_u.data()[b / lanes].x[0][b % lanes];
+    (end == 0 ? p.qa : p.qb)[l] = &s.base_q.data()[b / lanes].x[0][b % lanes];
   }
-  lane_kernels().pose(p);
-  for (int l = 0; l < count; ++l) {
-    JointBatch& batch = *to[l].batch;
-    const int lane = to[l].lane;
-    if (p.far[l] > 0) {
-      const Joint& joint = m.joint[z(to[l].joint)];
-      const Vec3 rho = rotation_vector(s.base_q[z(joint.b)] * s.base_q[z(joint.a)].conjugate());
-      for (int i = 0; i < 3; ++i)
-        p.q[3 + i][l] = p.frame[3 * i][l] * rho.x() + p.frame[3 * i + 1][l] * rho.y() + p.frame[3 * i + 2][l] * rho.z();
-    }
-    for (int i = 0; i < 9; ++i) batch.frame[i][lane] = p.frame[i][l];
-    for (int i = 0; i < 3; ++i) batch.sum[i][lane] = p.sum[i][l], batch.apart[i][lane] = p.apart[i][l];
-    for (int i = 0; i < 6; ++i) batch.q[i][lane] = p.q[i][l];
-  }
+  p.arm_a[l] = joint.arm_a.data(), p.arm_b[l] = joint.arm_b.data(), p.rest[l] = joint.type->frame.data();  // columns
 }
 
 }  // namespace
 
+void take_pose(State& s, int b) {
+  s.base_u[z(b)] = s.u[z(b)];
+  s.base_q[z(b)] = s.q[z(b)];
+  std::fill_n(&s.row[z(b) * 8], 6, 0.0);
+}
+
+Vec3 rotation_since(const Quat& q, const Quat& base) {
+  const Quat turn = q * base.conjugate();
+  const Vec3 t = (turn.w() < 0 ? -2 : 2) * turn.vec();
+  return (1 + 0.375 * t.squaredNorm()) * t;
+}
+
 void set_row(State& s, int b) {
-  const Vec3 du = s.u[z(b)] - s.base_u[z(b)];
-  const Vec3 th = rotation_vector(s.q[z(b)] * s.base_q[z(b)].conjugate());
+  const Vec3 du = s.u[z(b)] - s.base_u[z(b)], th = rotation_since(s.q[z(b)], s.base_q[z(b)]);
   double* row = &s.row[z(b) * 8];
   for (int i = 0; i < 3; ++i) row[i] = du[i], row[3 + i] = th[i];
 }
 
 void refresh(const Model& m, State& s, const std::vector<int>& blocks, const std::vector<int>& joints) {
-  for (const int b : blocks) {
-    s.base_u[z(b)] = s.u[z(b)];
-    s.base_q[z(b)] = s.q[z(b)];
-    set_row(s, b);
-  }
-  const int sound = sound_batches(m);
-  InLane to[lanes];
-  int count = 0;
+  for (const int b : blocks) take_pose(s, b);
   for (const int j : joints) {
-    const int at = s.place[z(j)] - sound * lanes;
-    if (at < 0) continue;
-    to[count++] = {j, at % lanes, &s.batch[z(at / lanes)]};
-    if (count == lanes) set_geometry(m, s, to, std::exchange(count, 0));
+    const int at = s.place[z(j)] - sound_batches(m) * lanes;
+    if (at >= 0) set_lane(m, s, j, s.batch[z(at / lanes)], at % lanes);
   }
-  if (count > 0) set_geometry(m, s, to, count);
 }
 
-void set_lane(const Model& m, const State& s, int j, JointBatch& batch, int l) {
-  set_constants(m, j, batch, l);
-  const InLane to{j, l, &batch};
-  set_geometry(m, s, &to, 1);
+// In lanes whatever their number, so that a joint's geometry does not depend on when and with which others it is made. Lanes without a joint
+// stand still wherever another's frame is.
+void set_geometry(const Model& m, const State& s, const int* joints, JointBatch& batch) {
+  const int* first = std::find_if(joints, joints + lanes, [](int j) { return j >= 0; });
+  if (first == joints + lanes) return;
+  PoseLanes p;
+  for (int l = 0; l < lanes; ++l) set_source(m, s, joints[l] >= 0 ? joints[l] : *first, l, p);
+  lane_kernels().pose(p, batch);
+  for (int l = 0; l < lanes; ++l) {
+    if (joints[l] < 0) {
+      for (auto* field : {batch.arm_a, batch.arm_b, batch.gap, batch.turn})
+        for (int i = 0; i < 3; ++i) field[i][l] = 0;
+    } else if (p.far[l] > 0) {
+      const Joint& joint = m.joint[z(joints[l])];
+      const Vec3 rho = rotation_vector(s.base_q[z(joint.b)] * s.base_q[z(joint.a)].conjugate());
+      for (int i = 0; i < 3; ++i) batch.turn[i][l] = rho[i];
+    }
+  }
 }
 
-void set_lanes(const Model& m, const State& s, const int* joints, int count, JointBatch& batch) {
-  InLane to[lanes];
-  for (int l = 0; l < count; ++l) {
-    set_constants(m, joints[l], batch, l);
-    to[l] = {joints[l], l, &batch};
+void set_lane(const Model& m, const State& s, int j, JointBatch& batch, int lane) {
+  set_constants(m, j, batch, lane);
+  JointBatch own;
+  int joints[lanes] = {-1, -1, -1, -1, -1, -1, -1, -1};
+  joints[0] = j;
+  set_geometry(m, s, joints, own);
+  for (int i = 0; i < 9; ++i) batch.frame[i][lane] = own.frame[i][0];
+  for (int i = 0; i < 3; ++i) {
+    batch.arm_a[i][lane] = own.arm_a[i][0], batch.arm_b[i][lane] = own.arm_b[i][0];
+    batch.gap[i][lane] = own.gap[i][0], batch.turn[i][lane] = own.turn[i][0];
   }
-  set_geometry(m, s, to, count);
 }
 
 JointBatch batch_of(const Model& m, const State& s, const int* joints) {
   JointBatch batch{};
-  InLane to[lanes];
-  int count = 0;
-  for (int l = 0; l < lanes; ++l) {
-    if (joints[l] < 0) {
-      clear_lane(m, batch, l);
-      continue;
-    }
-    set_constants(m, joints[l], batch, l);
-    to[count++] = {joints[l], l, &batch};
-  }
-  if (count > 0) set_geometry(m, s, to, count);
+  for (int l = 0; l < lanes; ++l)
+    if (joints[l] >= 0) set_constants(m, joints[l], batch, l);
+    else clear_lane(m, batch, l);
+  set_geometry(m, s, joints, batch);
   return batch;
 }
 

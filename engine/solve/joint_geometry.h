@@ -4,10 +4,14 @@
 // that coincided at rest, so that a rigid motion leaves it without strain and momentum is conserved to round-off whichever block
 // is called a. With X the distance of the centroids, A_a and A_b the turned arms, S = A_a + A_b:
 //   displacement  D = X + A_b - A_a            moment arms  c - x_a = (S + X)/2,  c - x_b = (S - X)/2.
-// Between refreshes each block has moved by (du, th), |th| <= Analysis::lazy_rotation. With th_m their mean rotation, d half their
-// difference and d' = d - (th_m x d)/2, turned back by th_m, to second order:
-//   Y = X + du - th_m x (X + du) + th_m x (th_m x (X + du))/2,   D = (Y - X) + D_ref + d' x (S + g/2),   rotation = rho_ref + 2 d',
-// g = d' x (A_b - A_a) being the change of S; forces act with the arms of Y and S + g.
+// Between refreshes each block has moved by (du, th), th = tan(angle) about its axis. With r(th, A) = (1 - th.th/2) th x A + th x (th x A)/2
+// the change of an arm to third order, th_m the mean of th_a and th_b, d half their difference:
+//   D = D_ref + du + r(th_b, A_b) - r(th_a, A_a),   rotation = rho_ref + 2 d - th_m x d,
+// D turned back by th_m to second order; resultants turn forward by r(th_m, .) and act on a with the arm A_a + r(th_a, A_a) + D/2, on b with
+// A_b + r(th_b, A_b) - D/2. A rigid motion by th strains a joint by some th^4 of its arms. What errs first is the coupling of d with
+// rho_ref, by d rho_ref^2/6: it is put right by the next refresh.
+// lanes_sound.inc does with less: second order, and resultants turned forward to first. Its third order of a rigid motion would be
+// 3/8 th.th th x X, X the distance of the centroids, with th = 2 sin(angle / 2); tan(angle) is what takes it away.
 #pragma once
 #include "engine/base/turn.h"
 #include "engine/model/model.h"
@@ -53,17 +57,20 @@ inline Vec3 small_rotation_vector(const Quat& q) {
   return pose_of(joint, s.u[a], s.q[a], s.u[b], s.q[b]);
 }
 
-// Takes the present pose of the blocks as their new reference, and the geometry of their joints with it: `joints` are all that end
-// at one of them.
+// tan(angle) about its axis of the turn from `base` to q, to fourth order, as rows of blocks have it.
+Vec3 rotation_since(const Quat& q, const Quat& base);
+// The present pose of block b becomes its reference.
+void take_pose(State& state, int b);
+// The same for some blocks; the geometry of their cracked joints follows: `joints` are all that end at one of them.
 void refresh(const Model& model, State& state, const std::vector<int>& blocks, const std::vector<int>& joints);
 // State::row of block b from its pose.
 void set_row(State& state, int b);
 void refresh_all(const Model& model, State& state);
 // Joint j as lane `lane` of `batch`, with its geometry at the last refresh of its blocks.
 void set_lane(const Model& model, const State& state, int j, JointBatch& batch, int lane);
-// Eight joints at most as the first lanes of `batch`.
-void set_lanes(const Model& model, const State& state, const int* joints, int count, JointBatch& batch);
-// Eight joints in their lanes, -1 for an empty one.
+// Frames, arms, gaps and turns of eight joints in their lanes, -1 for an empty one.
+void set_geometry(const Model& model, const State& state, const int* joints, JointBatch& batch);
+// ... with all that no refresh changes.
 JointBatch batch_of(const Model& model, const State& state, const int* joints);
 // The joints of batch k that are still in their place; the other lanes are empty.
 JointBatch sound_batch(const Model& model, const State& state, int k);

@@ -11,10 +11,9 @@ namespace erbs {
 // Results of the elastic pass of one batch.
 struct alignas(64) JointLanes {
   double q[6][lanes], f[6][lanes];
-  double y[3][lanes];    // m, turned-back distance of the centroids
-  double sum[3][lanes];  // m, turned-back sum of the arms
-  double th[3][lanes];   // rad, mean rotation since the refresh
-  double near[lanes];    // > 0: the bound on tension, shear or compression is passed
+  double arm_a[3][lanes], arm_b[3][lanes];  // m, from the centroids to where the force acts, world
+  double th[3][lanes];                      // rad, mean rotation since the refresh
+  double near[lanes];                       // > 0: the bound on tension, shear or compression is passed
 };
 
 // Eight joints of one law that have cracked: the corners of their overlap, their points with what these remember, and the joints'
@@ -84,6 +83,11 @@ struct alignas(64) SoundBatch {
   int b[lanes], row_b[lanes];  // where the rows of blocks and joint ends begin, in doubles; block a is its keeper
   int used;                    // joints in it
 };
+// Of its joints: whether they are seen from their other end (-1) or not (1), and where the stiffnesses against rotation (N m) lie.
+struct SoundLanes {
+  double sign[lanes];
+  const double* bending[lanes];  // about s, t, n; of nothing in a lane without a joint
+};
 struct SoundEnds {
   int a[lanes], row_a[lanes];  // likewise, where no lane belongs to a keeper
 };
@@ -127,10 +131,9 @@ struct KickDrift {
 
 // Eight joints: where the poses of their blocks and what they are at rest lie, and what follows.
 struct alignas(64) PoseLanes {
-  const double *ua[lanes], *ub[lanes], *qa[lanes], *qb[lanes];          // m, unit quaternions x y z w: components `lanes` doubles apart
-  const double *arm_a[lanes], *arm_b[lanes], *rest[lanes];              // m, at rest; frame as in JointBatch: components side by side
-  double frame[9][lanes], sum[3][lanes], apart[3][lanes], q[6][lanes];  // as in JointBatch
-  double far[lanes];  // 1: the blocks have turned so far against each other that the series for q does not hold
+  const double *ua[lanes], *ub[lanes], *qa[lanes], *qb[lanes];  // m, unit quaternions x y z w: components `lanes` doubles apart
+  const double *arm_a[lanes], *arm_b[lanes], *rest[lanes];      // m, at rest; frame as in JointBatch: components side by side
+  double far[lanes];  // 1: the blocks have turned so far against each other that the series for `turn` does not hold
 };
 
 struct LaneKernels {
@@ -157,8 +160,10 @@ struct LaneKernels {
                     int* near);
   // Kick and drift of groups [first, last) of blocks (integrate.h); true where a number broke.
   bool (*advance)(const KickDrift& step, const BlockArrays& blocks, int first, int last, bool sample, BlockWork& work);
-  // Geometry of joints from the poses of their blocks.
-  void (*pose)(PoseLanes& joints);
+  // Geometry of joints from the poses of their blocks: frame, arms, gap and turn of `out`.
+  void (*pose)(PoseLanes& joints, JointBatch& out);
+  // The geometry of sound joints in world axes from that of the batch; what no refresh changes stays.
+  void (*sound_pose)(const JointBatch& batch, const SoundLanes& lane, SoundBatch& out);
   // Keeps the arithmetic units busy from registers alone; returns how many operations that took. For comparison with their peak.
   double (*work_registers)(long rounds);
 };

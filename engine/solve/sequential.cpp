@@ -152,6 +152,13 @@ void Sequential::deal_order() {
     if (level_[z(b)] >= 0) order_[z(next_[z(level_[z(b)])]++)] = b;
 }
 
+void Sequential::refresh(const std::vector<std::uint8_t>& stale) {
+  std::vector<int> joints;
+  for (int j = 0; j < model_.njoint; ++j)
+    if (!open(state_, j) && (stale[z(model_.joint[z(j)].a)] || stale[z(model_.joint[z(j)].b)])) joints.push_back(j);
+  update(joints);
+}
+
 void Sequential::update(const std::vector<int>& joints) {
   JointBatch one;
   for (const int j : joints) {
@@ -246,7 +253,7 @@ void Sequential::visit(int b, double moved, JointSums& sums) {
   State& s = state_;
   if (turned_far(b)) {  // what is carried from the last refresh would err
     its_joints_.assign(end_.begin() + first_end_[z(b)], end_.begin() + first_end_[z(b) + 1]);
-    refresh(model_, s, {b}, its_joints_);
+    take_pose(s, b);
     update(its_joints_);
   }
   if (broken_[z(b)] > 0)

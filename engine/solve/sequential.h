@@ -27,7 +27,7 @@ class Sequential {
   // sweep. `sums` as for Picked::advance(). The ledger's state terms are those at the start of the sweep.
   void sweep(const Excitation& e, const Pushes& pushes, const std::vector<BlockConstants>& constants, bool sample, JointSums& joints,
              std::vector<BlockSums>& sums);
-  void update(const std::vector<int>& joints);  // after a refresh of these
+  void refresh(const std::vector<std::uint8_t>& stale);  // of blocks
 
   // What the joints' forces of the last sampled sweep add up to over all pairs of moving blocks, of the sum of their sizes: 0 where
   // action is reaction.
@@ -37,6 +37,7 @@ class Sequential {
 
  private:
   void deal_order();
+  void update(const std::vector<int>& joints);  // after a refresh of these
   void visit(int b, double moved, JointSums& sums);
   void look_closer(int batch, int b, double moved, JointSums& sums);
   void follow(int j, JointSums& sums);

@@ -26,16 +26,11 @@ void set_bending_stiffness(const JointBatch& B, int from, double out[6][lanes], 
 void set_sound_lane(const JointBatch& B, int from, SoundBatch& out, int to, bool turned) {
   const double sign = turned ? -1 : 1;
   for (int i = 0; i < 3; ++i) {
-    double gap = 0, turn = 0;
-    for (int axis = 0; axis < 3; ++axis) {
-      gap += B.frame[3 * axis + i][from] * B.q[axis][from];
-      turn += B.frame[3 * axis + i][from] * B.q[3 + axis][from];
-    }
-    out.gap[i][to] = sign * gap;
-    out.turn[i][to] = 0.5 * sign * turn;
+    out.gap[i][to] = sign * B.gap[i][from];
+    out.turn[i][to] = 0.5 * sign * B.turn[i][from];
     out.normal[i][to] = sign * B.frame[6 + i][from];
-    (turned ? out.arm_b : out.arm_a)[i][to] = 0.5 * (B.sum[i][from] + (B.apart[i][from] - gap));
-    (turned ? out.arm_a : out.arm_b)[i][to] = 0.5 * (B.sum[i][from] - (B.apart[i][from] - gap));
+    (turned ? out.arm_b : out.arm_a)[i][to] = B.arm_a[i][from];
+    (turned ? out.arm_a : out.arm_b)[i][to] = B.arm_b[i][from];
   }
   out.shear[to] = -B.stiffness[0][from];
   out.across[to] = B.stiffness[0][from] - B.stiffness[2][from];
@@ -68,14 +63,15 @@ Sound::Sound(const Model& model, State& state) : model_(model), state_(state) {
   deal_lanes();
   batch_.resize(joint_.size() / lanes);
   looked_at_.resize(batch_.size());
+  stale_.resize(batch_.size());
   near_.resize(batch_.size() + 1);
   for (int k = 0; k < int(batch_.size()); ++k) {
-    const JointBatch batch = batch_of_lanes(k);
-    for (int l = 0; l < lanes; ++l) {
-      const int j = joint_[z(k * lanes + l)];
-      if (j >= 0 && state.place[z(j)] == j) set(batch, l, j), ++batch_[z(k)].used;
+    int joints[lanes];
+    joints_in_place(k, joints);
+    const JointBatch batch = batch_of(model, state, joints);
+    for (int l = 0; l < lanes; ++l)
+      if (joints[l] >= 0) set_sound_lane(batch, l, batch_[z(k)], l, model.joint[z(joints[l])].kept_by_b), ++batch_[z(k)].used;
       else clear_sound_lane(model, batch_[z(k)], l);
-    }
   }
 }
 
@@ -97,37 +93,45 @@ void Sound::deal_lanes() {
   }
 }
 
-JointBatch Sound::batch_of_lanes(int k) const {
-  int joints[lanes];
+void Sound::joints_in_place(int k, int joints[lanes]) const {
   for (int l = 0; l < lanes; ++l) {
     const int j = joint_[z(k * lanes + l)];
     joints[l] = j >= 0 && state_.place[z(j)] == j ? j : -1;
   }
-  return batch_of(model_, state_, joints);
 }
 
-void Sound::set(const JointBatch& batch, int from, int j) {
-  const int to = lane_[z(j)];
-  set_sound_lane(batch, from, batch_[z(to / lanes)], to % lanes, model_.joint[z(j)].kept_by_b);
-}
-
-void Sound::update(const std::vector<int>& joints) {
-  JointBatch eight;
-  int fresh[lanes], count = 0;
-  const auto take = [&] {
-    set_lanes(model_, state_, fresh, count, eight);
-    for (int l = 0; l < count; ++l) set(eight, l, fresh[l]);
-    count = 0;
-  };
-  for (const int j : joints) {
-    if (state_.place[z(j)] != j) continue;
-    if (!damped_.empty()) set_lane(model_, state_, j, damped_[z(j / lanes)], j % lanes);
-    if (batch_.empty()) continue;
-    looked_at_[z(lane_[z(j)] / lanes)].reset();
-    fresh[count++] = j;
-    if (count == lanes) take();
+// By whole batches: what does not change is found again to the same bits.
+void Sound::refresh(const std::vector<std::uint8_t>& stale) {
+  for (int k = 0; k < int(damped_.size()); ++k) {
+    const JointBatch& b = damped_[z(k)];
+    bool any = false;
+    for (int l = 0; l < lanes; ++l) any = any || stale[z(b.a[l])] || stale[z(b.b[l])];
+    if (any) damped_[z(k)] = sound_batch(model_, state_, k);
   }
-  if (count > 0) take();
+  for (int g = 0; g < int(first_batch_.size()) - 1; ++g)
+    for (int k = first_batch_[z(g)]; k < first_batch_[z(g) + 1]; ++k) {
+      const SoundBatch& batch = batch_[z(k)];
+      bool any = false;
+      for (int l = 0; l < lanes; ++l)  // a lane without a joint has the block at rest
+        any = any || stale[z(batch.b[l] / 8)] || (batch.b[l] != 8 * model_.nblock && stale[z(g * lanes + l)]);
+      if (batch.used > 0 && any) set_lanes(k);
+    }
+}
+
+// The geometry of batch k as it is at the last refresh, eight lanes at a time what set_sound_lane does in one.
+void Sound::set_lanes(int k) {
+  int joints[lanes];
+  joints_in_place(k, joints);
+  JointBatch geometry;
+  set_geometry(model_, state_, joints, geometry);
+  constexpr double nothing[3] = {};
+  SoundLanes lane;
+  for (int l = 0; l < lanes; ++l) {
+    lane.sign[l] = joints[l] >= 0 && model_.joint[z(joints[l])].kept_by_b ? -1 : 1;
+    lane.bending[l] = joints[l] >= 0 ? model_.joint[z(joints[l])].type->stiffness + 3 : nothing;
+  }
+  lane_kernels().sound_pose(geometry, lane, batch_[z(k)]);
+  stale_[z(k)] = 1;
 }
 
 void Sound::leave(int j) {
@@ -157,12 +161,16 @@ void Sound::take_over(int j, int lane, const JointBatch& batch, const JointLanes
 // A joint that may be past a limit. What it answers is changed only where it cracks.
 void Sound::look_closer(int k, bool sample, JointSums& sums) {
   JointLanes o;
-  if (!looked_at_[z(k)]) looked_at_[z(k)] = std::make_unique<JointBatch>(batch_of_lanes(k));
+  int joints[lanes];
+  joints_in_place(k, joints);
+  if (!looked_at_[z(k)]) looked_at_[z(k)] = std::make_unique<JointBatch>(batch_of(model_, state_, joints));
+  else if (stale_[z(k)]) set_geometry(model_, state_, joints, *looked_at_[z(k)]);
+  stale_[z(k)] = 0;
   const JointBatch& B = *looked_at_[z(k)];
   lane_kernels().elastic(B, state_.row.data(), o);
   for (int l = 0; l < lanes; ++l) {
-    const int j = joint_[z(k * lanes + l)];
-    if (!(o.near[l] > 0) || j < 0 || state_.place[z(j)] != j) continue;
+    const int j = joints[l];
+    if (!(o.near[l] > 0) || j < 0) continue;
     double q[6], f[6], stored = 0;
     for (int i = 0; i < 6; ++i) q[i] = o.q[i][l], stored += 0.5 * o.f[i][l] * o.q[i][l];
     joint_by_points(model_, state_, j, q, f, sums, &B, l);

@@ -18,7 +18,7 @@ void clear_sound_lane(const Model& model, SoundBatch& out, int lane);
 class Sound {
  public:
   Sound(const Model& model, State& state);
-  void update(const std::vector<int>& joints);  // after a refresh of these
+  void refresh(const std::vector<std::uint8_t>& stale);  // geometry of the joints of blocks whose reference has changed
   void leave(int j);                            // a joint that has cracked
   // What the joints kept by these groups of eight blocks do to all. Those near a limit are looked at point by point
   // (joint_response.h); those that crack go on in cracked.h. `sums`: one for each chunk of `grain` groups of all; fills their
@@ -33,8 +33,8 @@ class Sound {
 
  private:
   void deal_lanes();
-  JointBatch batch_of_lanes(int k) const;
-  void set(const JointBatch& batch, int from, int j);  // the lane of joint j
+  void set_lanes(int k);
+  void joints_in_place(int k, int joints[lanes]) const;  // -1: none, or one that has cracked
   void look_closer(int k, bool sample, JointSums& sums);
   void take_over(int j, int lane, const JointBatch& batch, const JointLanes& before, const JointLanes& now);
 
@@ -46,8 +46,9 @@ class Sound {
   std::vector<int> joint_;              // in each lane; -1: none        [batches * lanes]
   std::vector<int> lane_;               // batch * lanes + lane          [njoint]
   std::vector<int> near_;               // batches that may be near a limit, from first_batch_ of the groups looked at on
-  // Batches that were looked at since their last refresh: some laws want it in every step. Each is one thread's own.
+  // Batches that have been looked at: some laws want it in every step. Each is one thread's own. Null where lanes have changed since.
   std::vector<std::unique_ptr<JointBatch>> looked_at_;
+  std::vector<std::uint8_t> stale_;  // those whose geometry is older than that of batch_
 };
 
 // A state that another kernel has brought to where it is holds what keepers summed up, or rows that they do not write: neither is to act.

@@ -94,13 +94,7 @@ void Solver::begin(const Hooks& hooks) {
   const Analysis& how = model_.analysis;
   const int every = !how.ledger ? ledger_seldom : debris_.active() ? ledger_slowly : ledger_every;
   sample_ = hooks.wanted(state_.t) ? Sample::full : state_.step % every == 0 ? Sample::ledger : Sample::none;
-  for (const BlockSums& sums : block_sums_)
-    if (sums.stale) {
-      const std::vector<int> fresh = refresh_stale(model_, state_);
-      sequential_ ? sequential_->update(fresh) : sound_.update(fresh);
-      for (BlockSums& all : block_sums_) all.stale = false;
-      break;
-    }
+  if (std::any_of(block_sums_.begin(), block_sums_.end(), [](const BlockSums& sums) { return sums.stale; })) refresh_stale();
   if (how.debris && state_.step % loosen_every == 0 && (any_cracked_ || debris_.active() || state_.step == 0)) debris_.loosen();
   contacts_ = debris_.active();
   between_ = contacts_ || (how.debris && any_cracked_ && state_.step % hand_over_every == 0);
@@ -115,6 +109,14 @@ void Solver::begin(const Hooks& hooks) {
   instant_.q = state_.q;
   instant_.w_before = state_.w;
   instant_.spin_before = state_.spin_momentum;
+}
+
+void Solver::refresh_stale() {
+  for (BlockSums& sums : block_sums_) sums.stale = false;
+  if (!take_stale_poses(model_, state_, stale_)) return;
+  if (sequential_) return sequential_->refresh(stale_);
+  cracked_.refresh(stale_);
+  sound_.refresh(stale_);
 }
 
 // Loads over the interval of this kick: half the last and half the next drift.
@@ -257,9 +259,8 @@ void Solver::drive() {
     s.u[z(b)] = to;
     s.w[z(b)] = w;
     s.q[z(b)] = turned;
-    const Vec3 since = rotation_vector(turned * s.base_q[z(b)].conjugate());
-    for (int i = 0; i < 3; ++i) s.row[z(b) * 8 + z(i)] = to[i] - s.base_u[z(b)][i], s.row[z(b) * 8 + 3 + z(i)] = since[i];
-    if (since.norm() > m.analysis.lazy_rotation) block_sums_.front().stale = true;
+    set_row(s, b);
+    if (rotation_since(turned, s.base_q[z(b)]).norm() > m.analysis.lazy_rotation) block_sums_.front().stale = true;
   }
 }
 
@@ -320,8 +321,8 @@ void Solver::note_cracks() {
   any_cracked_ = true;
   for (int j = 0; j < model_.njoint; ++j) {
     if (tier_before_[z(j)] == state_.tier[z(j)]) continue;
-    if (tier_before_[z(j)] == Tier::intact) newly_cracked_.push_back(j);
     if (!reference_ && state_.tier[z(j)] == Tier::cracked) cracked_.take(j), sound_.leave(j);
+    if (tier_before_[z(j)] == Tier::intact) newly_cracked_.push_back(j);
     if (keepers(model_)) sum_all_rows(model_, model_.keeper(j), constants_);
     tier_before_[z(j)] = state_.tier[z(j)];
   }

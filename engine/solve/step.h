@@ -63,6 +63,7 @@ class Solver {
   void joints(int thread);
   void between();
   void blocks(int thread);
+  void refresh_stale();
   void note_sleep();
   void follow_contacts();
   void finish(const Hooks& hooks);
@@ -82,6 +83,7 @@ class Solver {
   Rows push_, load_;  // N, N m: of contacts (once there are any) and of loads, a row a block
   std::vector<LoadedBlock> loaded_;
   std::vector<BlockConstants> constants_;
+  std::vector<std::uint8_t> stale_;                   // blocks that were refreshed last
   std::vector<std::uint8_t> idle_;                    // groups of blocks that sleep, all of them
   std::vector<JointSums> joint_sums_, cracked_sums_;  // per chunk
   std::vector<BlockSums> block_sums_;

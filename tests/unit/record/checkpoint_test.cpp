@@ -24,7 +24,7 @@ State moved() {
   s.history[2].damage = 0.5;
   s.tier[0] = Tier::cracked;
   s.memory[0].f[2] = 12;
-  s.batch[0].q[5][7] = 0.25;
+  s.batch[0].turn[2][7] = 0.25;
   s.row.assign(3, 2.5);
   s.energy.friction = 4;
   s.energy.largest_jump_joint = 3;
@@ -96,7 +96,7 @@ TEST_CASE("a checkpoint brings everything back", "[record][checkpoint]") {
   CHECK(slurp(scratch.path + "/checkpoint.bin") == first);
   CHECK(back.u[1] == s.u[1]);
   CHECK(back.q[1].coeffs() == s.q[1].coeffs());
-  CHECK(back.batch[0].q[5][7] == 0.25);
+  CHECK(back.batch[0].turn[2][7] == 0.25);
   CHECK(back.energy.largest_jump_joint == 3);
   CHECK(again.lists == nested.lists);
   CHECK(again.word == "words");
@@ -175,7 +175,7 @@ TEST_CASE("state_hash sees positions, velocities and histories, not caches", "[r
   CHECK(changed([](State& s) { s.spin_momentum[2].y() = 1e-300; }));
   CHECK(changed([](State& s) { s.history[0].slip_t = 1e-20; }));
   CHECK(changed([](State& s) { s.tier[0] = Tier::open; }));
-  CHECK_FALSE(changed([](State& s) { s.batch[0].q[0][0] = 1; }));
+  CHECK_FALSE(changed([](State& s) { s.batch[0].gap[0][0] = 1; }));
   CHECK_FALSE(changed([](State& s) { s.energy.kinetic = 1; }));
 }
 

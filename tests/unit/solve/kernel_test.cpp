@@ -264,24 +264,44 @@ TEST_CASE("cracked joints side by side answer as one by one, with the same bits 
   CHECK(all.energy.damping == Approx(lone.energy.damping).epsilon(1e-9));
 }
 
+// One rigid turn of 1e-4 rad, as far as a refresh lets it come, and strains.
+void turn_rigidly(const Model& m, State& s, double strain) {
+  for (int b = 1; b < m.nblock; ++b) {
+    const Vec3 turn = 1e-4 * Vec3(0.6, -0.48, 0.64), arm = m.rest[std::size_t(b)];
+    s.q[std::size_t(b)] = rotation(turn + strain * Vec3(std::sin(b), std::cos(b), 1));
+    s.u[std::size_t(b)] = rotation(turn) * arm - arm + strain * Vec3(std::cos(3 * b), std::sin(2 * b), 0.3);
+    set_row(s, b);
+  }
+}
+
 TEST_CASE("carried geometry answers as exact geometry within the tolerance of a refresh", "[solve]") {
   const Scene scene = test::small_wall(shake + "fast\"}");
   Prepared run = prepare(scene, false);
   State& s = run.state;
-  for (int b = 1; b < run.model.nblock; ++b) {  // one rigid turn of 1e-5 rad about x for all, and small strains
-    const Vec3 turn(1e-5, 0, 0), arm = run.model.rest[std::size_t(b)];
-    s.q[std::size_t(b)] = rotation(turn + 1e-8 * Vec3(std::sin(b), std::cos(b), 1));
-    s.u[std::size_t(b)] = rotation(turn) * arm - arm + 1e-8 * Vec3(std::cos(3 * b), std::sin(2 * b), 0.3);
-    const Vec3 th = rotation_vector(s.q[std::size_t(b)]);
-    for (int i = 0; i < 3; ++i) s.row[std::size_t(8 * b + i)] = s.u[std::size_t(b)][i], s.row[std::size_t(8 * b + 3 + i)] = th[i];
-  }
+  turn_rigidly(run.model, s, 1e-8);
   JointLanes o;
   for (int j = 0; j < run.model.njoint; ++j) {
     if (run.model.joint[std::size_t(j)].a == 0) continue;  // the foot does not turn
     lane_kernels().elastic(sound_batch(run.model, s, j / lanes), s.row.data(), o);
     double q[6];
     joint_q(run.model, s, j, q);
-    for (int i = 0; i < 6; ++i) CHECK(o.q[i][j % lanes] == Approx(q[i]).margin(1e-14));
+    for (int i = 0; i < 6; ++i) CHECK(o.q[i][j % lanes] == Approx(q[i]).margin(1e-15));
+  }
+}
+
+TEST_CASE("a rigid turn between refreshes strains no joint", "[solve]") {
+  Prepared run = prepare(test::small_wall(shake + "fast\"}"), false);
+  const Model& m = run.model;
+  State& s = run.state;
+  turn_rigidly(m, s, 0);
+  Sound sound(m, s);
+  sound.forces(0, sound.groups(), lane_kernels(), nullptr);
+  double stiffest = 0;
+  for (const auto& type : m.joint_types) stiffest = std::max({stiffest, type->stiffness[0], type->stiffness[2]});
+  for (int b = 1; b < m.nblock; ++b) {
+    bool on_foot = false;  // which does not turn
+    for (const Joint& joint : m.joint) on_foot = on_foot || (joint.a == 0 && joint.b == b);
+    if (!on_foot) CHECK(joint_wrench(m, s, b).lpNorm<Eigen::Infinity>() < 1e-15 * stiffest);
   }
 }
 

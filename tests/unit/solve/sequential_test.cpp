@@ -63,8 +63,8 @@ TEST_CASE("a sequential run depends on its seed alone, and one stopped and resum
   CHECK(run(pillar("seed = 1"), whole.path).state_hash != run(pillar("seed = 2"), whole.path).state_hash);
 }
 
-// Sound joints are carried between refreshes to second order in the lanes, exact in the plain sweep: 1e-15 of the arm, which the swaying
-// of the pillar keeps below 1e-9 of every energy until its first bricks are loose.
+// Sound joints are carried between refreshes in the lanes, exact in the plain sweep. What errs most is that resultants are turned forward to
+// first order: by th^2/2 = 5e-9 of them at a turn of 1e-4, and so do energies until the first bricks are loose.
 TEST_CASE("joints side by side and blocks in rounds give what the plain sweep gives one by one", "[solve][sequential]") {
   const test::Scratch quick("sequential_quick"), plain("sequential_plain");
   for (const char* kind : {"seed = 5", "variant = 'centred', order = 'coloured'", "order = 'fixed', iterations = 3"}) {
@@ -74,8 +74,8 @@ TEST_CASE("joints side by side and blocks in rounds give what the plain sweep gi
     CHECK(got.energy.at(7).second > 0);  // fracture
     CHECK(got.joints_broken == expected.joints_broken);
     for (std::size_t i = 0; i < got.energy.size(); ++i)
-      CHECK(got.energy[i].second == Approx(expected.energy[i].second).epsilon(1e-9).margin(1e-9 * expected.energy[3].second));
-    CHECK(got.momentum_residual == Approx(expected.momentum_residual).epsilon(1e-9));
+      CHECK(got.energy[i].second == Approx(expected.energy[i].second).epsilon(1e-8).margin(1e-8 * expected.energy[3].second));
+    CHECK(got.momentum_residual == Approx(expected.momentum_residual).epsilon(1e-8));
   }
 }
 
