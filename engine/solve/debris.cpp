@@ -30,7 +30,7 @@ double largest_inverse_inertia(const Mat3& inverse) {
 }  // namespace
 
 Debris::Debris(const Model& model, State& state, int threads) : model_(model), state_(state), sleep_(model, state), limit_(model, state) {
-  active_.resize(z(threads));
+  looked_.resize(z(threads));
   room_.resize(z(threads));
   if (state.debris.start.empty()) {
     state.debris.start.reserve(state.u.size());

@@ -51,6 +51,7 @@ class Debris {
   void count_bed(Pair& pair);
   void count();
   double largest_rate() const;
+  void land(int i, double apart, double landing_a, double landing_b);
   void part_beds();
   void place(int b);
   void look();
@@ -87,11 +88,21 @@ class Debris {
     double moved_soon = 0, turned_soon = 0;  // the same with what the next steps may add
   };
   std::vector<Way> way_;  // [nblock]
+  // What a thread found in this step, in the order of the pairs.
   struct Active {
     int pair;
     PairResult result;
   };
-  std::vector<std::vector<Active>> active_;    // per thread, in the order of the pairs: those that were looked at in this step
+  struct Near {
+    int pair;
+    double apart, landing_a, landing_b;  // as in PairResult
+  };
+  struct Looked {
+    std::vector<int> at;         // pairs that could not be left out
+    std::vector<Active> active;  // those with forces
+    std::vector<Near> near;      // those apart
+  };
+  std::vector<Looked> looked_;                 // per thread
   std::vector<OverlapRoom> room_;              // per thread
   std::vector<std::unique_ptr<Batch>> batch_;  // per thread
   std::vector<std::uint64_t> pair_keys_;       // pairs of blocks that are jointed at rest, sorted, ...

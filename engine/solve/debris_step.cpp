@@ -98,55 +98,59 @@ void Debris::find_still() {
 void Debris::forces(int thread, int threads, bool sample) {
   const std::vector<int>& live = sleep_.live();
   const Range mine = share_of(int(live.size()), pair_grain, thread, threads);
-  std::vector<Active>& active = active_[z(thread)];
-  active.clear();
+  Looked& looked = looked_[z(thread)];
+  looked.at.clear(), looked.active.clear(), looked.near.clear();
   for (int k = mine.first; k < mine.last; ++k) {
     const int i = live[z(k)];
     const Apart& known = apart_[z(i)];
     const Way &a = way_[z(known.a)], &b = way_[z(known.b)];
     if (a.moved_soon + b.moved_soon + known.lever_a * a.turned_soon + known.lever_b * b.turned_soon < known.until) continue;
-    active.push_back({i, {}});
+    looked.at.push_back(i);
   }
+  const int n = int(looked.at.size());
+  looked.active.reserve(z(n));  // results stay where they are
   OverlapRoom& room = room_[z(thread)];
   Batch& batch = *batch_[z(thread)];
   const double dt = state_.last_dt;
-  const auto alone = [&](Active& one) {
-    Apart& known = apart_[z(one.pair)];
-    PairResult& r = one.result;
+  const auto alone = [&](int i, PairResult& r) {
+    Apart& known = apart_[z(i)];
     const bool counts =
-        pair_force(state_.debris.pair[z(one.pair)], shapes_, blocks_[z(known.a)], blocks_[z(known.b)], settings_, dt, sample, room, r);
+        pair_force(state_.debris.pair[z(i)], shapes_, blocks_[z(known.a)], blocks_[z(known.b)], settings_, dt, sample, room, r);
     known.until = 0;
-    if (counts || !(r.apart > 0)) return;
+    if (counts || !(r.apart > 0)) return counts;
     const Way &a = way_[z(known.a)], &b = way_[z(known.b)];
     known.lever_a = r.lever_a;
     known.lever_b = r.lever_b;
     known.until = (r.apart + a.moved + b.moved + r.lever_a * a.turned + r.lever_b * b.turned) * (1 - round_off);
+    return counts;
   };
   PairJob job[8];
   int at[8], count = 0;
   const auto together = [&] {
     const unsigned left_out = pair_forces(job, count, shapes_, settings_, dt, sample, batch, room);
     for (int l = 0; l < count; ++l)
-      if ((left_out >> l & 1u) != 0) alone(active[z(at[l])]);
+      if ((left_out >> l & 1u) != 0) alone(at[l], *job[l].result);
     count = 0;
   };
-  const int n_active = int(active.size());
-  for (int k = 0; k < n_active; ++k) {
-    if (k + 1 < n_active) {
-      const Apart& next = apart_[z(active[z(k + 1)].pair)];
-      fetch(state_.debris.pair[z(active[z(k + 1)].pair)]);
+  for (int k = 0; k < n; ++k) {
+    if (k + 1 < n) {
+      const Apart& next = apart_[z(looked.at[z(k + 1)])];
+      fetch(state_.debris.pair[z(looked.at[z(k + 1)])]);
       fetch(blocks_[z(next.a)]);
       fetch(blocks_[z(next.b)]);
     }
-    Active& one = active[z(k)];
-    Pair& pair = state_.debris.pair[z(one.pair)];
-    if (!goes_in_lanes(pair, shapes_)) {
-      alone(one);
+    const int i = looked.at[z(k)];
+    Pair& pair = state_.debris.pair[z(i)];
+    if (goes_in_lanes(pair, shapes_)) {
+      looked.active.push_back({i, {}});
+      job[count] = {&pair, &blocks_[z(pair.a)], &blocks_[z(pair.b)], &looked.active.back().result};
+      at[count++] = i;
+      if (count == 8) together();
       continue;
     }
-    job[count] = {&pair, &blocks_[z(pair.a)], &blocks_[z(pair.b)], &one.result};
-    at[count++] = k;
-    if (count == 8) together();
+    PairResult r;
+    if (alone(i, r)) looked.active.push_back({i, r});
+    else looked.near.push_back({i, r.apart, r.landing_a, r.landing_b});
   }
   if (count > 0) together();
 }
@@ -166,8 +170,8 @@ void Debris::count() {
   };
   for (int i = 0; i < int(pair.size()); ++i) note(i, 0, 0);
   sleep_.each_resting([&](int i, const PairResult& r) { note(i, r.rate_a, r.rate_b); });
-  for (const std::vector<Active>& active : active_)
-    for (const Active& one : active) note(one.pair, one.result.rate_a, one.result.rate_b);
+  for (const Looked& looked : looked_)
+    for (const Active& one : looked.active) note(one.pair, one.result.rate_a, one.result.rate_b);
   double scalars = 0;
   for (int b = 0; b < model_.nblock; ++b)
     if (model_.kind[z(b)] == Kind::moving) scalars = std::max(scalars, sum[z(b)]);
@@ -182,6 +186,20 @@ double Debris::largest_rate() const {
   for (const int b : sleep_.pushed())
     if (model_.kind[z(b)] == Kind::moving) rate = std::max(rate, rate_[z(b)] + landing_[z(b)]);
   return rate;
+}
+
+// What a pair asks of the next step, besides its stiffness.
+void Debris::land(int i, double apart, double landing_a, double landing_b) {
+  const Apart& pair = apart_[z(i)];
+  if (bed_[z(i)].joint < 0) {  // a bed that closes again is no stiffer than its joint was
+    landing_[z(pair.a)] = std::max(landing_[z(pair.a)], landing_a);
+    landing_[z(pair.b)] = std::max(landing_[z(pair.b)], landing_b);
+  }
+  // no body passes through another unseen: a quarter of the thinner one per step
+  const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
+  const double speed = (blocks_[z(pair.a)].v - blocks_[z(pair.b)].v).norm();
+  const double soon = look_ahead * std::max(state_.dt, state_.last_dt);
+  if (apart <= soon * speed && speed * allowed_ > 0.25 * thin) allowed_ = 0.25 * thin / speed;
 }
 
 void Debris::gather(double* push, bool sample) {
@@ -201,9 +219,8 @@ void Debris::gather(double* push, bool sample) {
   allowed_ = model_.dt_most;
   if (sample) elastic_ = sleep_.elastic();
   double rubbing = 0;
-  const double soon = look_ahead * std::max(s.dt, s.last_dt);
-  for (const std::vector<Active>& active : active_)
-    for (const Active& one : active) {
+  for (const Looked& looked : looked_) {
+    for (const Active& one : looked.active) {
       const std::size_t i = z(one.pair);
       const Apart& pair = apart_[i];
       const PairResult& r = one.result;
@@ -222,18 +239,14 @@ void Debris::gather(double* push, bool sample) {
       if (sample) elastic_ += r.elastic + r.tangential;
       rate_[z(pair.a)] += std::max(0.0, r.rate_a - bed_[i].rate_a);
       rate_[z(pair.b)] += std::max(0.0, r.rate_b - bed_[i].rate_b);
-      if (bed_[i].joint < 0) {  // a bed that closes again is no stiffer than its joint was
-        landing_[z(pair.a)] = std::max(landing_[z(pair.a)], r.landing_a);
-        landing_[z(pair.b)] = std::max(landing_[z(pair.b)], r.landing_b);
-      }
       touching_ += r.touching;
       touched_ += r.touching;
+      land(one.pair, r.apart, r.landing_a, r.landing_b);
       const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
-      // no body passes through another unseen: a quarter of the thinner one per step
-      const double speed = (blocks_[z(pair.a)].v - blocks_[z(pair.b)].v).norm();
-      if (r.apart <= soon * speed && speed * allowed_ > 0.25 * thin) allowed_ = 0.25 * thin / speed;
-      if (r.depth > 0) { s.max_penetration_relative = std::max(s.max_penetration_relative, r.depth / thin); }
+      if (r.depth > 0) s.max_penetration_relative = std::max(s.max_penetration_relative, r.depth / thin);
     }
+    for (const Near& one : looked.near) land(one.pair, one.apart, one.landing_a, one.landing_b);
+  }
   double limit = limit_.allowed(largest_rate());
   if (limit_.due(limit)) {
     count();
