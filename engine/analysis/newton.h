@@ -33,6 +33,7 @@ class NewtonSteps {
  private:
   struct Change;
   std::vector<Change> changes_of(const Trial& trial) const;
+  bool by_symmetric_part(const Sparse& tangent, const VecX& residual, VecX& step);
   double factor_bytes() const;
   bool sound_iterative(const VecX& residual, VecX& step);
   bool cracked_iterative(const Trial& trial, const std::vector<Change>& changes, const VecX& held, const VecX& residual, VecX& step);
@@ -43,6 +44,8 @@ class NewtonSteps {
   const bool iterative_;
   SparseLdlt ldlt_;
   bool factored_ = false;
+  SparseLdlt symmetric_;         // part of the tangent
+  Eigen::Index analysed_ = -1;  // numbers in the pattern that its order was found for
   std::optional<JointOperator> joints_;  // where they were at the first step
   std::optional<TwoLevel> near_;
 };

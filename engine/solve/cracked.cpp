@@ -61,6 +61,7 @@ void Cracked::clear(Group& group, int l) const {
   group.joint[l] = -1;
   group.crushed[l] = nullptr;
   group.face_corner[l] = nullptr;
+  group.viscous[l] = 0;
   for (int i = 0; i < 6; ++i) group.lane.q[i][l] = group.lane.f[i][l] = 0;
   group.lane.stored[l] = 0;
   group.lane.least_damage[l] = 1;
@@ -124,6 +125,7 @@ void Cracked::fill(Group& group, int l, int j) {
   const JointMemory& memory = state_.memory[z(j)];
   add_shape(group, l, *joint.type);
   group.joint[l] = j;
+  group.viscous[l] = joint.viscous_cracked;
   ++group.used;
   group.beyond = true;
   if (model_.laws[z(joint.type->law)].fc > 0)
@@ -227,7 +229,7 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums, const La
     alignas(64) double rate[lanes];
     const bool damped = model_.dashpots_cracked && state_.last_dt > 0;
     if (damped)
-      for (int l = 0; l < lanes; ++l) rate[l] = group.joint[l] >= 0 ? model_.joint[z(group.joint[l])].viscous_cracked / state_.last_dt : 0;
+      for (int l = 0; l < lanes; ++l) rate[l] = group.viscous[l] / state_.last_dt;
     const Shapes& shapes = *group.shapes;
     const CrackedShape shape{group.corners,
                              group.points,

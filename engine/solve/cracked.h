@@ -42,6 +42,7 @@ class Cracked {
     int joint[lanes];             // -1: empty
     CrushedFace* crushed[lanes];  // null without a plateau
     const double* face_corner[lanes];
+    double viscous[lanes];  // s, Joint::viscous_cracked; 0 in empty lanes
     const JointType* type = nullptr;  // null: of several
     std::shared_ptr<Shapes> shapes;
     std::vector<SlipLanes> slip;  // [points]

@@ -164,17 +164,17 @@ bool conjugate_gradients(const Times& times, const TwoLevel& near, const VecX& b
   return energy <= enough;
 }
 
-bool stabilised_gradients(const Times& times, const TwoLevel& near, const VecX& b, double tolerance, int most, VecX& x) {
+bool stabilised_gradients(const Times& times, const Times& near, const VecX& b, double tolerance, int most, VecX& x) {
   x = VecX::Zero(b.size());
   VecX residual = b, way = b;
   const VecX shadow = b;
   double rho = b.dot(b);
   const double enough = tolerance * b.norm();
   for (int turn = 0; turn < most && residual.norm() > enough; ++turn) {
-    const VecX along = near.apply(way), answer = times(along);
+    const VecX along = near(way), answer = times(along);
     const double part = rho / shadow.dot(answer);
     residual -= part * answer;
-    const VecX aside = near.apply(residual), second = times(aside);
+    const VecX aside = near(residual), second = times(aside);
     const double share = second.dot(residual) / second.squaredNorm();
     x += part * along + share * aside;
     residual -= share * second;

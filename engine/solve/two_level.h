@@ -40,6 +40,7 @@ using Times = std::function<VecX(const VecX&)>;
 // has it, has fallen by tolerance^2. True if it has within `most` turns.
 bool conjugate_gradients(const Times& times, const TwoLevel& near, const VecX& b, double tolerance, int most, VecX& x);
 // The same for any K: BiCGSTAB (van der Vorst 1992, SIAM J. Sci. Stat. Comput. 13, 631), until the residual has fallen by `tolerance`.
-bool stabilised_gradients(const Times& times, const TwoLevel& near, const VecX& b, double tolerance, int most, VecX& x);
+// `near` approximates K^-1.
+bool stabilised_gradients(const Times& times, const Times& near, const VecX& b, double tolerance, int most, VecX& x);
 
 }  // namespace erbs
