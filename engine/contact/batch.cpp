@@ -9,14 +9,6 @@
 namespace erbs {
 namespace {
 
-struct Bodies {
-  const ContactShape *reference, *other;
-};
-Bodies bodies_of(const Pair& p, const ContactShapes& shapes) {
-  const ContactShape &a = shape_of(shapes, p.a, p.part_a), &b = shape_of(shapes, p.b, p.part_b);
-  return p.b_is_reference ? Bodies{&b, &a} : Bodies{&a, &b};
-}
-
 static_assert(offsetof(Pair, tangential) == 30 * sizeof(double) && sizeof(Pair) >= 8 * pair_rows * sizeof(double));
 static_assert(sizeof(ContactBlock) == 8 * block_rows * sizeof(double));
 static_assert(offsetof(PairResult, rubbing) == 8 * result_rows * sizeof(double));
@@ -34,22 +26,21 @@ PairPose pose_of(const PairLanes& w, int l) {
 void fill(const PairJob* job, int count, PairLanes& w) {
   for (int l = 0; l < 8; ++l) {
     const PairJob& j = job[l < count ? l : 0];
-    const bool swapped = j.pair->b_is_reference != 0;
+    const bool swapped = j.bodies.swapped;
     w.pair[l] = &j.pair->law.kn;
     w.reference[l] = (swapped ? j.b : j.a)->rest.data();
     w.other[l] = (swapped ? j.a : j.b)->rest.data();
     w.swapped[l] = swapped;
-    w.touched[l] = j.pair->touching;
   }
 }
 
 // Overlaps of the pairs; returns those that have none, or too many pieces.
-unsigned overlaps(const PairJob* job, int count, const ContactShapes& shapes, Batch& batch) {
+unsigned overlaps(const PairJob* job, int count, Batch& batch) {
   const ClipKernels& kernels = clip_kernels();
   PairLanes& w = batch.lanes;
   ClipJob clips[8];
   for (int l = 0; l < count; ++l) {
-    const Bodies bodies = bodies_of(*job[l].pair, shapes);
+    const PairBodies& bodies = job[l].bodies;
     clips[l] = {&bodies.reference->small, &bodies.other->small, {}, &batch.triangles[l], &job[l].pair->corners};
     for (int i = 0; i < 9; ++i) clips[l].pose.turn[i] = w.turn[i][l];
     for (int i = 0; i < 3; ++i) clips[l].pose.shift[i] = w.shift[i][l];
@@ -106,26 +97,30 @@ void write_back(const PairJob* job, int count, unsigned left_out, const PairLane
 
 }  // namespace
 
-bool goes_in_lanes(const Pair& pair, const ContactShapes& shapes) {
+PairBodies bodies_of(const Pair& p, const ContactShapes& shapes) {
+  const ContactShape &a = shape_of(shapes, p.a, p.part_a), &b = shape_of(shapes, p.b, p.part_b);
+  return p.b_is_reference ? PairBodies{&b, &a, true} : PairBodies{&a, &b, false};
+}
+
+bool goes_in_lanes(const Pair& pair, const PairBodies& bodies) {
   if (!pair.touching || pair.separating >= 0 || pair.offset_left > 0) return false;
   static_assert(sizeof(PairWrench) == 9 * sizeof(double));
   const double* offset = pair.offset.force.data();
   double left = 0;
   for (int i = 0; i < 9; ++i) left += std::abs(offset[i]);
   if (left != 0) return false;
-  const Bodies bodies = bodies_of(pair, shapes);
   return bodies.reference->small.faces > 0 && bodies.other->small.faces > 0;  // where clipping will look next
 }
 
-unsigned pair_forces(const PairJob* job, int count, const ContactShapes& shapes, const ContactSettings& settings, double dt,
-                     bool want_energy, Batch& batch, OverlapRoom& room) {
+unsigned pair_forces(const PairJob* job, int count, const ContactSettings& settings, double dt, bool want_energy, Batch& batch,
+                     OverlapRoom& room) {
   const ClipKernels& clips = clip_kernels();
   const PairKernels& kernels = pair_kernels();
   const PairSettings set{dt, settings.memory, settings.reference_speed, settings.settling, settings.settling_tangential, surely_within};
   PairLanes& w = batch.lanes;
   fill(job, count, w);
   kernels.place(w);
-  unsigned left_out = overlaps(job, count, shapes, batch);
+  unsigned left_out = overlaps(job, count, batch);
   kernels.patch(w, set);
   for (int l = 0; l < count; ++l) {
     if (!(w.total[l] > 0)) left_out |= 1u << l;
@@ -149,7 +144,7 @@ unsigned pair_forces(const PairJob* job, int count, const ContactShapes& shapes,
   write_back(job, count, left_out, w);
   for (int l = 0; l < count && want_energy; ++l) {
     if ((left_out >> l & 1u) != 0) continue;
-    const Bodies bodies = bodies_of(*job[l].pair, shapes);
+    const PairBodies& bodies = job[l].bodies;
     room.fast = true;
     job[l].result->elastic = job[l].pair->law.kn * overlap_energy(*bodies.reference, *bodies.other, pose_of(w, l), room);
   }

@@ -15,7 +15,6 @@ struct alignas(64) PairLanes {
   const double *pair[8], *reference[8], *other[8];  // where they are read from
   Lane p[8 * pair_rows], r[8 * block_rows], o[8 * block_rows];
   Lane swapped;  // 1 where the reference is block b, else 0
-  Lane touched;  // 1 where the pair touched before
   Lane turn[9], shift[3];
   OverlapSums sums[8];
   Lane deepest;  // m

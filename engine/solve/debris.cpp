@@ -89,7 +89,7 @@ void Debris::list_involved() {
   std::vector<std::uint8_t> in(state_.loose.begin(), state_.loose.end());
   for (const Pair& p : state_.debris.pair) in[z(p.a)] = in[z(p.b)] = 1;
   involved_.clear();
-  unsorted_ = true;
+  unsorted_ = lanes_changed_ = true;
   for (int b = 0; b < model_.nblock; ++b)
     if (in[z(b)]) involved_.push_back(b);
   jointed_.clear();
@@ -235,6 +235,7 @@ void Debris::hand_over_pair(const int* first, const int* last) {
 // of a brick, over the mortar beside it, and may press where the joint had no face left: also where it bore nothing.
 double Debris::start(Pair& pair, const Vec6& wrench, double area) {
   const ContactBlock &a = blocks_[z(pair.a)], &b = blocks_[z(pair.b)];
+  lanes_changed_ = true;
   PairResult now;
   Pair copy = pair;
   const bool touches = pair_force(copy, shapes_, a, b, settings_, 0.0, true, room_.front(), now);

@@ -102,6 +102,12 @@ class Debris {
     std::vector<Active> active;  // those with forces
     std::vector<Near> near;      // those apart
   };
+  struct Lane {
+    PairBodies bodies;
+    bool known = false, fits = false;  // goes_in_lanes()
+  };
+  std::vector<Lane> lane_;  // of each pair: what a step asks first
+  bool lanes_changed_ = true;
   std::vector<Looked> looked_;                 // per thread
   std::vector<OverlapRoom> room_;              // per thread
   std::vector<std::unique_ptr<Batch>> batch_;  // per thread

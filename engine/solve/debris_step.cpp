@@ -35,6 +35,7 @@ void Debris::prepare() {
   const bool far = std::sqrt(fastest) * state_.dt * look_every > 0.25 * state_.debris.margin;
   if (!state_.debris.valid || far || state_.step % look_every == 0) look();
   if (unsorted_) sort();
+  if (std::exchange(lanes_changed_, false)) lane_.assign(state_.debris.pair.size(), {});
 }
 
 // Pairs between sleepers, or of one with what is fixed, are evaluated once more, without dashpots since nothing moves, and left alone.
@@ -117,6 +118,7 @@ void Debris::forces(int thread, int threads, bool sample) {
     const bool counts =
         pair_force(state_.debris.pair[z(i)], shapes_, blocks_[z(known.a)], blocks_[z(known.b)], settings_, dt, sample, room, r);
     known.until = 0;
+    lane_[z(i)].fits = goes_in_lanes(state_.debris.pair[z(i)], lane_[z(i)].bodies);
     if (counts || !(r.apart > 0)) return counts;
     const Way &a = way_[z(known.a)], &b = way_[z(known.b)];
     known.lever_a = r.lever_a;
@@ -127,7 +129,7 @@ void Debris::forces(int thread, int threads, bool sample) {
   PairJob job[8];
   int at[8], count = 0;
   const auto together = [&] {
-    const unsigned left_out = pair_forces(job, count, shapes_, settings_, dt, sample, batch, room);
+    const unsigned left_out = pair_forces(job, count, settings_, dt, sample, batch, room);
     for (int l = 0; l < count; ++l)
       if ((left_out >> l & 1u) != 0) alone(at[l], *job[l].result);
     count = 0;
@@ -141,9 +143,15 @@ void Debris::forces(int thread, int threads, bool sample) {
     }
     const int i = looked.at[z(k)];
     Pair& pair = state_.debris.pair[z(i)];
-    if (goes_in_lanes(pair, shapes_)) {
+    const Apart& known = apart_[z(i)];
+    Lane& lane = lane_[z(i)];
+    if (!lane.known) {
+      lane.bodies = bodies_of(pair, shapes_);
+      lane = {lane.bodies, true, goes_in_lanes(pair, lane.bodies)};
+    }
+    if (lane.fits) {
       looked.active.push_back({i, {}});
-      job[count] = {&pair, &blocks_[z(pair.a)], &blocks_[z(pair.b)], &looked.active.back().result};
+      job[count] = {&pair, lane.bodies, &blocks_[z(known.a)], &blocks_[z(known.b)], &looked.active.back().result};
       at[count++] = i;
       if (count == 8) together();
       continue;

@@ -74,17 +74,17 @@ TEST_CASE("eight pairs side by side press as each does alone", "[contact]") {
     pile.step();
     std::vector<Pair> pair;
     for (const Pair& p : before)
-      if (goes_in_lanes(p, pile.shapes) && find_pair(pile.list, p.a, p.part_a, p.b, p.part_b) >= 0) pair.push_back(p);
+      if (goes_in_lanes(p, bodies_of(p, pile.shapes)) && find_pair(pile.list, p.a, p.part_a, p.b, p.part_b) >= 0) pair.push_back(p);
     for (std::size_t first = 0; first < pair.size(); first += 8) {
       const int count = int(std::min<std::size_t>(8, pair.size() - first));
       PairResult result[8];
       PairJob job[8];
       for (int l = 0; l < count; ++l) {
         Pair& p = pair[first + std::size_t(l)];
-        job[l] = {&p, &blocks[std::size_t(p.a)], &blocks[std::size_t(p.b)], &result[l]};
+        job[l] = {&p, bodies_of(p, pile.shapes), &blocks[std::size_t(p.a)], &blocks[std::size_t(p.b)], &result[l]};
       }
       const Pair untouched = pair[first];
-      const unsigned left_out = pair_forces(job, count, pile.shapes, pile.settings, pile.dt, pile.want_energy, *batch, *room);
+      const unsigned left_out = pair_forces(job, count, pile.settings, pile.dt, pile.want_energy, *batch, *room);
       for (int l = 0; l < count; ++l) {
         const Pair& p = *job[l].pair;
         const int at = find_pair(pile.list, p.a, p.part_a, p.b, p.part_b);
@@ -121,12 +121,14 @@ TEST_CASE("a pair's numbers do not depend on its neighbours in the lanes", "[con
   const auto room = std::make_unique<OverlapRoom>();
   PairResult result[8], one[8];
   PairJob job[8];
-  const auto job_of = [&](Pair& p, PairResult& r) { return PairJob{&p, &many.block[std::size_t(p.a)], &many.block[std::size_t(p.b)], &r}; };
+  const auto job_of = [&](Pair& p, PairResult& r) {
+    return PairJob{&p, bodies_of(p, many.shapes), &many.block[std::size_t(p.a)], &many.block[std::size_t(p.b)], &r};
+  };
   for (std::size_t l = 0; l < 8; ++l) job[l] = job_of(together[l], result[l]);
-  CHECK(pair_forces(job, 8, many.shapes, many.settings, many.dt, false, *batch, *room) == 0);
+  CHECK(pair_forces(job, 8, many.settings, many.dt, false, *batch, *room) == 0);
   for (std::size_t l = 0; l < 8; ++l) {
     const PairJob single = job_of(alone[l], one[l]);
-    CHECK(pair_forces(&single, 1, many.shapes, many.settings, many.dt, false, *batch, *room) == 0);
+    CHECK(pair_forces(&single, 1, many.settings, many.dt, false, *batch, *room) == 0);
     CHECK(one[l].wrench.force == result[l].wrench.force);
     CHECK(one[l].wrench.moment_b == result[l].wrench.moment_b);
     CHECK(one[l].damping == result[l].damping);
