@@ -216,7 +216,8 @@ bool NewtonSteps::cracked_iterative(const Trial& trial, const std::vector<Change
     }
     return y;
   };
-  return near.definite() && stabilised_gradients(times, [&](const VecX& x) { return near.apply(x); }, residual, tolerance, turns, step);
+  return near.definite() && stabilised_gradients(
+                                times, [&](const VecX& x) { return near.apply(x); }, residual, tolerance, turns, step);
 }
 
 }  // namespace erbs

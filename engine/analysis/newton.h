@@ -44,8 +44,8 @@ class NewtonSteps {
   const bool iterative_;
   SparseLdlt ldlt_;
   bool factored_ = false;
-  SparseLdlt symmetric_;         // part of the tangent
-  Eigen::Index analysed_ = -1;  // numbers in the pattern that its order was found for
+  SparseLdlt symmetric_;                 // part of the tangent
+  Eigen::Index analysed_ = -1;           // numbers in the pattern that its order was found for
   std::optional<JointOperator> joints_;  // where they were at the first step
   std::optional<TwoLevel> near_;
 };

@@ -50,8 +50,8 @@ void refresh(const Model& m, State& s, const std::vector<int>& blocks, const std
   }
 }
 
-// In lanes whatever their number, so that a joint's geometry does not depend on when and with which others it is made. Lanes without a joint
-// stand still wherever another's frame is.
+// In lanes whatever their number, so that a joint's geometry does not depend on when and with which others it is made. Lanes without a
+// joint stand still wherever another's frame is.
 void set_geometry(const Model& m, const State& s, const int* joints, JointBatch& batch) {
   const int* first = std::find_if(joints, joints + lanes, [](int j) { return j >= 0; });
   if (first == joints + lanes) return;

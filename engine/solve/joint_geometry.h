@@ -4,11 +4,11 @@
 // that coincided at rest, so that a rigid motion leaves it without strain and momentum is conserved to round-off whichever block
 // is called a. With X the distance of the centroids, A_a and A_b the turned arms, S = A_a + A_b:
 //   displacement  D = X + A_b - A_a            moment arms  c - x_a = (S + X)/2,  c - x_b = (S - X)/2.
-// Between refreshes each block has moved by (du, th), th = tan(angle) about its axis. With r(th, A) = (1 - th.th/2) th x A + th x (th x A)/2
-// the change of an arm to third order, th_m the mean of th_a and th_b, d half their difference:
+// Between refreshes each block has moved by (du, th), th = tan(angle) about its axis. With r(th, A) = (1 - th.th/2) th x A + th x (th x
+// A)/2 the change of an arm to third order, th_m the mean of th_a and th_b, d half their difference:
 //   D = D_ref + du + r(th_b, A_b) - r(th_a, A_a),   rotation = rho_ref + 2 d - th_m x d,
-// D turned back by th_m to second order; resultants turn forward by r(th_m, .) and act on a with the arm A_a + r(th_a, A_a) + D/2, on b with
-// A_b + r(th_b, A_b) - D/2. A rigid motion by th strains a joint by some th^4 of its arms. What errs first is the coupling of d with
+// D turned back by th_m to second order; resultants turn forward by r(th_m, .) and act on a with the arm A_a + r(th_a, A_a) + D/2, on b
+// with A_b + r(th_b, A_b) - D/2. A rigid motion by th strains a joint by some th^4 of its arms. What errs first is the coupling of d with
 // rho_ref, by d rho_ref^2/6: it is put right by the next refresh.
 // lanes_sound.inc does with less: second order, and resultants turned forward to first. Its third order of a rigid motion would be
 // 3/8 th.th th x X, X the distance of the centroids, with th = 2 sin(angle / 2); tan(angle) is what takes it away.

@@ -19,7 +19,7 @@ class Sound {
  public:
   Sound(const Model& model, State& state);
   void refresh(const std::vector<std::uint8_t>& stale);  // geometry of the joints of blocks whose reference has changed
-  void leave(int j);                            // a joint that has cracked
+  void leave(int j);                                     // a joint that has cracked
   // What the joints kept by these groups of eight blocks do to all. Those near a limit are looked at point by point
   // (joint_response.h); those that crack go on in cracked.h. `sums`: one for each chunk of `grain` groups of all; fills their
   // energy.elastic when `sample`.
