@@ -1,10 +1,12 @@
 // A vector or a rotation of every block, stored as the step reads it: components of eight blocks side by side. Reads and writes like
 // a std::vector<Vec3> or std::vector<Quat>.
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <type_traits>
 #include <vector>
 
+#include "engine/base/cold.h"
 #include "engine/base/vec.h"
 #include "engine/model/joint_batch.h"
 
@@ -92,13 +94,12 @@ class BlockQuat {
   std::vector<Row> row_;  // x, y, z, w; lanes beyond the last block are the identity
 };
 
-// Rows of eight doubles, each in a cache line of its own: what one block or one joint end is read or written by.
+// Rows of eight doubles, each in a cache line of its own: what one block or one joint end is read or written by where that goes by rows.
 class Rows {
  public:
   void assign(std::size_t rows, double value) {
-    row_.resize(rows);
-    for (auto& r : row_)
-      for (double& x : r.x[0]) x = value;
+    row_.clear(rows);
+    if (value != 0) std::fill_n(data(), size(), value);
   }
   std::size_t size() const { return row_.size() * lanes; }  // doubles
   bool empty() const { return row_.empty(); }
@@ -113,7 +114,7 @@ class Rows {
   }
 
  private:
-  std::vector<RowLanes<1>> row_;
+  Cold<RowLanes<1>> row_;
 };
 
 // Blocks and the one at rest behind them, in whole groups of lanes.

@@ -11,6 +11,7 @@
 #include "engine/model/add_joints.h"
 #include "engine/model/batches.h"
 #include "engine/model/interface.h"
+#include "engine/model/kept_lanes.h"
 
 namespace erbs {
 namespace {
@@ -78,32 +79,23 @@ void index_rows(Model& m) {
   m.njoint = int(m.joint.size());
   m.row_a.resize(z(m.njoint)), m.row_b.resize(z(m.njoint));
   const auto moving = [&](int b) { return m.kind[z(b)] == Kind::moving; };
-  std::vector<int> others(z(m.nblock), 0), kept(z(m.nblock), 0);  // ends of joints that others keep, and of its own
-  for (const Joint& j : m.joint) ++(j.kept_by_b ? others : kept)[z(j.a)], ++(j.kept_by_b ? kept : others)[z(j.b)];
-  const int groups = int(block_groups(m.nblock));
-  std::vector<int> of_others(z(groups), 0), of_kept(z(groups), 0);
-  for (int b = 0; b < m.nblock; ++b) {
-    if (!moving(b)) continue;
-    of_others[z(b / lanes)] = std::max(of_others[z(b / lanes)], others[z(b)]);
-    of_kept[z(b / lanes)] = std::max(of_kept[z(b / lanes)], kept[z(b)]);
-  }
+  std::vector<int> ends(z(m.nblock), 0);
+  for (const Joint& j : m.joint) ++ends[z(j.a)], ++ends[z(j.b)];
   m.first_slot.assign(1, 0);
-  for (int g = 0; g < groups; ++g) {
-    m.first_kept.push_back(m.first_slot.back() + of_others[z(g)]);
-    m.first_slot.push_back(m.first_kept.back() + of_kept[z(g)]);
+  for (int g = 0; g < int(block_groups(m.nblock)); ++g) {
+    int most = 0;
+    for (int b = g * lanes; b < std::min((g + 1) * lanes, m.nblock); ++b)
+      if (moving(b)) most = std::max(most, ends[z(b)]);
+    m.first_slot.push_back(m.first_slot.back() + most);
   }
   m.first_row.assign(1, lanes * m.first_slot.back());
-  for (int b = 0; b < m.nblock; ++b) m.first_row.push_back(m.first_row.back() + (moving(b) ? 0 : others[z(b)] + kept[z(b)]));
-  std::vector<int> next_other(z(m.nblock)), next_kept(z(m.nblock));
-  for (int b = 0; b < m.nblock; ++b) {
-    next_other[z(b)] = moving(b) ? m.first_slot[z(b / lanes)] * lanes + b % lanes : m.first_row[z(b)];
-    next_kept[z(b)] = moving(b) ? m.first_kept[z(b / lanes)] * lanes + b % lanes : m.first_row[z(b)] + others[z(b)];
-  }
-  const auto take = [&](int& next, int b) { return std::exchange(next, next + (moving(b) ? lanes : 1)); };
+  for (int b = 0; b < m.nblock; ++b) m.first_row.push_back(m.first_row.back() + (moving(b) ? 0 : ends[z(b)]));
+  std::vector<int> next(z(m.nblock));
+  for (int b = 0; b < m.nblock; ++b) next[z(b)] = moving(b) ? m.first_slot[z(b / lanes)] * lanes + b % lanes : m.first_row[z(b)];
+  const auto take = [&](int b) { return std::exchange(next[z(b)], next[z(b)] + (moving(b) ? lanes : 1)); };
   for (int j = 0; j < m.njoint; ++j) {
-    const Joint& joint = m.joint[z(j)];
-    m.row_a[z(j)] = take((joint.kept_by_b ? next_other : next_kept)[z(joint.a)], joint.a);
-    m.row_b[z(j)] = take((joint.kept_by_b ? next_kept : next_other)[z(joint.b)], joint.b);
+    m.row_a[z(j)] = take(m.joint[z(j)].a);
+    m.row_b[z(j)] = take(m.joint[z(j)].b);
   }
 }
 
@@ -197,6 +189,7 @@ State start(const Scene& scene, const Model& m) {
   s.v = s.spin_momentum = s.w = s.base_u = s.u;
   s.base_q = s.q;
   s.row.assign(block_groups(m.nblock) * lanes, 0.0);
+  s.shift.assign(block_groups(m.nblock), {});
   s.island.assign(n, -1);
   s.grounded.assign(n, 0);
   s.loose.assign(n, 0);
@@ -222,6 +215,7 @@ State start(const Scene& scene, const Model& m) {
   if (m.dashpots_cracked) s.viscous.assign(6 * z(m.njoint), 0.0);
   s.wrench.assign(z(m.spare_row()) + 1, 0.0);
   s.kept.assign(block_groups(m.nblock), {});
+  s.given.assign(m.kept.other.size() + 1, {});
   return s;
 }
 
@@ -251,6 +245,7 @@ Built build(const Scene& scene) {
   m.dashpots_cracked = std::any_of(m.joint.begin(), m.joint.end(), [](const Joint& joint) { return joint.viscous_cracked > 0; });
   choose_keepers(m);
   index_rows(m);
+  m.kept = deal_lanes(m);
   for (int b = 0; b < m.nblock; ++b) {
     const bool moving = m.kind[z(b)] == Kind::moving;
     m.inverse_mass.push_back(moving ? 1 / m.mass[z(b)] : 0);

@@ -1,5 +1,6 @@
 // Plain data of joints computed side by side. No Eigen here: files compiled for several instruction sets read it.
 #pragma once
+#include <cstdint>
 
 namespace erbs {
 
@@ -10,6 +11,14 @@ inline constexpr int most_points_per_joint = 512;
 template <int N>
 struct alignas(64) RowLanes {
   double x[N][lanes];
+};
+
+// Eight lanes that take their numbers from lanes of other RowLanes<6>, mostly of one or two. The same numbers whichever way they are read:
+// lane by lane, or by permutations of whole records.
+struct Crossing {
+  int at[lanes];  // where they begin, in doubles: 48 record + lane, and 8 more in the lanes that read the second record
+  std::uint8_t first[lanes], who[lanes];  // of each record read: a lane that does, and all of them as bits; who[0] has those of who[1], too
+  int records;
 };
 
 // Elastic data of 8 joints side by side, valid since the last refresh of their geometry (joint_geometry.h says how).

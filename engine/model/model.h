@@ -8,6 +8,7 @@
 
 #include "engine/laws/point_law.h"
 #include "engine/model/joint_batch.h"
+#include "engine/model/kept_lanes.h"
 #include "engine/scene/scene.h"
 
 namespace erbs {
@@ -77,11 +78,10 @@ struct Model {
   std::vector<Cell> cell;                                // of each of `point`
   std::vector<Eigen::Vector2d> cell_corner, cell_watch;  // m, joint frame: loops of the cells, and where they watch for tension
   std::vector<PointLaw> laws;                            // one per joint rule
+  KeptLanes kept;                                        // of sound joints
   // Wrench rows, one per joint end. Eight moving blocks side by side own slots [first_slot[g], first_slot[g+1]) of eight rows, a row for
-  // each of them; from first_kept[g] on there are those of the joints that they keep. Other blocks have theirs behind all slots, and behind
-  // those one that nobody reads.
+  // each of them. Other blocks have theirs behind all slots, and behind those one that nobody reads.
   std::vector<int> first_slot;    // [groups + 1]
-  std::vector<int> first_kept;    // [groups]
   std::vector<int> first_row;     // of other blocks [nblock + 1]
   std::vector<int> row_a, row_b;  // wrench row of each end       [njoint]
   // what the loads do, resolved to block indices

@@ -59,7 +59,8 @@ struct State {
   BlockVec3 w;                  // rad/s, world axes, of the last drift
   BlockVec3 base_u;             // pose at the last refresh of the block's island
   BlockQuat base_q;
-  Rows row;                     // displacement and rotation (joint_geometry.h) since the refresh (m, rad), 8 doubles a block: one cache line
+  std::vector<RowLanes<6>> shift;      // displacement and rotation (joint_geometry.h) since the refresh (m, rad)
+  Rows row;                     // the same, 8 doubles a block: one cache line; where some joint is not sound, or reads rows even so
   std::vector<int> island;      // blocks joined to each other, named by their lowest block
   std::vector<std::uint8_t> grounded;  // the island holds a fixed or driven block
   std::vector<std::uint8_t> joined;    // has a joint that is not open
@@ -73,7 +74,9 @@ struct State {
   Cold<PointHistory> history;          // [npoint]
   Cold<CrushedFace> crushed;           // empty where no law has a plateau in compression [njoint]
   Rows wrench;                         // rows of 8 doubles: force, moment on a block from one joint end; which: Model::row_a, row_b
-  std::vector<RowLanes<6>> kept;       // force, moment on a block from all the sound joints that it keeps: no rows of theirs
+  // Sound joints write no rows (joints with dashpots and the other kernels do): force, moment on a block from all those that it keeps, and
+  // on the other blocks of those in a batch (KeptLanes), behind which is one of nothing
+  std::vector<RowLanes<6>> kept, given;
   std::vector<double> viscous;         // N, N m, resultants of the dashpots of the last step; empty without [6 njoint]
   PairList debris;                     // contacts of loose blocks
   Rest rest;                           // those of them that sleep

@@ -14,8 +14,8 @@ enum class Part { motion, history, carried };
 template <class S, class F>
 requires std::is_same_v<std::remove_const_t<S>, State>
 void each(S& state, F&& f) {
-  auto& [step, start_step, start_t, t, dt, last_dt, u, q, v, spin_momentum, w, base_u, base_q, row, island, grounded, joined, loose, batch, place, tier, memory, history,
-         crushed, wrench, kept, viscous, debris, rest, dt_goal, calm, joints_broken, energy, gravity_before, moment_before, max_penetration_relative, momentum_residual] = state;
+  auto& [step, start_step, start_t, t, dt, last_dt, u, q, v, spin_momentum, w, base_u, base_q, row, shift, island, grounded, joined, loose, batch, place, tier, memory, history,
+         crushed, wrench, kept, given, viscous, debris, rest, dt_goal, calm, joints_broken, energy, gravity_before, moment_before, max_penetration_relative, momentum_residual] = state;
   f("step", step, Part::carried);
   f("start_step", start_step, Part::carried);
   f("start_t", start_t, Part::carried);
@@ -30,6 +30,7 @@ void each(S& state, F&& f) {
   f("base_u", base_u, Part::carried);
   f("base_q", base_q, Part::carried);
   f("row", row, Part::carried);
+  f("shift", shift, Part::carried);
   f("island", island, Part::carried);
   f("grounded", grounded, Part::carried);
   f("joined", joined, Part::carried);
@@ -42,6 +43,7 @@ void each(S& state, F&& f) {
   f("crushed", crushed, Part::history);
   f("wrench", wrench, Part::carried);
   f("kept", kept, Part::carried);
+  f("given", given, Part::carried);
   f("viscous", viscous, Part::carried);
   f("debris", debris, Part::history);
   f("rest", rest, Part::carried);

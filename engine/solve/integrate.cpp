@@ -32,9 +32,10 @@ KickDrift kick_of(const Model& m, const State& s, const Excitation& e) {
   return k;
 }
 
-BlockArrays arrays(State& s, const std::vector<BlockConstants>& constants, const Pushes& pushes) {
-  return {constants.data(), s.u.data(),   s.v.data(),    s.spin_momentum.data(), s.w.data(),      s.q.data(),  s.base_u.data(),
-          s.base_q.data(),  s.row.data(), s.kept.data(), s.wrench.data(),        pushes.contacts, pushes.loads};
+BlockArrays arrays(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Pushes& pushes) {
+  return {constants.data(), s.u.data(),   s.v.data(),     s.spin_momentum.data(), s.w.data(),     s.q.data(),          s.base_u.data(),
+          s.base_q.data(),  s.row.data(), s.shift.data(), s.kept.data(),          s.given.data(), m.kept.taken.data(), s.wrench.data(),
+          pushes.contacts,  pushes.loads};
 }
 
 double power(const State& s, const double* loads, const LoadedBlock& l) {
@@ -83,6 +84,11 @@ void set_constants(const Model& m, const State& s, int b, bool moving, BlockCons
       moving && s.joined[z(b)] ? m.analysis.lazy_rotation * m.analysis.lazy_rotation : std::numeric_limits<double>::infinity();
 }
 
+void sum_rows(const Model& m, int b, std::vector<BlockConstants>& constants) {
+  const std::size_t g = z(b / lanes);
+  constants[g].slots = m.first_slot[g + 1] - m.first_slot[g];
+}
+
 }  // namespace
 
 std::vector<BlockConstants> block_constants(const Model& m, const State& s) {
@@ -90,16 +96,22 @@ std::vector<BlockConstants> block_constants(const Model& m, const State& s) {
   for (int b = 0; b < int(out.size()) * lanes; ++b) set_constants(m, s, b, b < m.nblock && m.kind[z(b)] == Kind::moving, out[z(b / lanes)]);
   for (int g = 0; g < int(out.size()); ++g) {
     out[z(g)].first_slot = m.first_slot[z(g)];
-    out[z(g)].slots = (keepers(m) ? m.first_kept : m.first_slot)[z(g) + (keepers(m) ? 0 : 1)] - m.first_slot[z(g)];
+    if (!keepers(m)) {
+      sum_rows(m, g * lanes, out);
+      continue;
+    }
+    out[z(g)].first_taken = m.kept.first_taken[z(g)];
+    out[z(g)].taken = m.kept.first_taken[z(g) + 1] - out[z(g)].first_taken;
   }
   for (int j = 0; j < m.njoint; ++j)
-    if (s.tier[z(j)] != Tier::intact) sum_all_rows(m, m.keeper(j), out);
+    if (s.tier[z(j)] != Tier::intact) sum_rows(m, m.joint[z(j)].a, out), sum_rows(m, m.joint[z(j)].b, out);
   return out;
 }
 
-void sum_all_rows(const Model& m, int b, std::vector<BlockConstants>& constants) {
-  const std::size_t g = z(b / lanes);
-  constants[g].slots = m.first_slot[g + 1] - m.first_slot[g];
+void go_by_rows(const Model& m, State& s, int b, std::vector<BlockConstants>& constants) {
+  sum_rows(m, b, constants);
+  for (int of_group = b / lanes * lanes; of_group < std::min((b / lanes + 1) * lanes, m.nblock); ++of_group)
+    for (int i = 0; i < 6; ++i) s.row[z(8 * of_group + i)] = s.shift[z(b / lanes)].x[i][of_group % lanes];
 }
 
 std::vector<std::uint8_t> idle_groups(const Model& m, const State& s) {
@@ -122,6 +134,8 @@ Vec6 joint_wrench(const Model& m, const State& s, int b) {
     for (int i = 0; i < 6; ++i) sum[i] += s.wrench[z(row) * 8 + z(i)];
   });
   for (int i = 0; i < 6; ++i) sum[i] += s.kept[z(b / lanes)].x[i][b % lanes];
+  for (int k = m.kept.first_end[z(b)]; k < m.kept.first_end[z(b) + 1]; ++k)
+    for (int i = 0; i < 6; ++i) sum[i] += s.given.front().x[0][m.kept.end[z(k)] + lanes * i];
   return Eigen::Map<const Vec6>(sum);
 }
 
@@ -139,7 +153,7 @@ void gather_stale(BlockSums& sums) {
 void advance(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes,
              Range groups, bool sample, std::vector<BlockSums>& all, std::span<const std::uint8_t> idle) {
   const KickDrift step = kick_of(m, s, e);
-  const BlockArrays blocks = arrays(s, constants, pushes);
+  const BlockArrays blocks = arrays(m, s, constants, pushes);
   const LaneKernels& kernels = lane_kernels();
   const bool summed = sample || step.shaken || step.damping > 0 || !pushes.loaded.empty();
   const int piece = summed ? block_grain : std::max(1, groups.last - groups.first);
@@ -203,7 +217,7 @@ void Picked::copy_out(int b, int lane) {
     s.w.data()[k].x[i][l] = w_.x[i][from];
   }
   for (int i = 0; i < 4; ++i) s.q.data()[k].x[i][l] = q_.x[i][from];
-  std::copy_n(row_ + 8 * from, 8, &s.row[8 * z(b)]);
+  for (int i = 0; i < 6; ++i) s.shift[k].x[i][l] = s.row[8 * z(b) + z(i)] = shift_.x[i][from];
 }
 
 template <class F>
@@ -217,7 +231,8 @@ void Picked::advance(const int* blocks, int count, bool sample, std::vector<Bloc
   for (int l = 0; l < lanes; ++l) copy_in(l < count ? blocks[l] : model_.nblock, l);  // beside them the one at rest
   each_loaded(blocks, count, [&](auto one, std::size_t i) { work_before(model_, state_, pushes_, one, sums[i]); });
   const double *push = pushes_.contacts != nullptr ? push_ : nullptr, *load = pushes_.loads != nullptr ? load_ : nullptr;
-  const BlockArrays group{&constant_, &u_, &v_, &momentum_, &w_, &q_, &base_u_, &base_q_, row_, &wrench_, nullptr, push, load};
+  const BlockArrays group{&constant_, &u_,     &v_,      &momentum_, &w_,     &q_,     &base_u_, &base_q_,
+                          nullptr,    &shift_, &wrench_, nullptr,    nullptr, nullptr, push,     load};
   BlockSums& all = sums.front();
   if (kernels_.advance(step_, group, 0, 1, sample, all.work)) all.broken = true;
   for (int l = 0; l < count; ++l) copy_out(blocks[l], l);

@@ -37,8 +37,8 @@ inline constexpr int block_grain = 4;  // groups of eight blocks to a chunk
 
 // Masses and inertias in lanes; what follows from the state's islands (who is damped, who must not turn far) as it is now.
 std::vector<BlockConstants> block_constants(const Model& model, const State& state);
-// A joint that block b keeps is sound no more: from now on it writes to its own rows.
-void sum_all_rows(const Model& model, int b, std::vector<BlockConstants>& constants);
+// A joint of block b is sound no more: from now on it reads and writes rows. Those of the group may not have been written in this step.
+void go_by_rows(const Model& model, State& state, int b, std::vector<BlockConstants>& constants);
 
 // What pushes blocks beside their joints: rows of eight doubles (force, moment), `contacts` from contacts and `loads` from external
 // loads, whose work is booked as external; null where there are none. `loaded`: the blocks that loads act on, in order.
@@ -80,8 +80,8 @@ class Picked {
   BlockConstants constant_{};
   RowLanes<3> u_{}, v_{}, momentum_{}, w_{}, base_u_{};
   RowLanes<4> q_{}, base_q_{};
-  RowLanes<6> wrench_{};
-  alignas(64) double row_[64] = {}, push_[64] = {}, load_[64] = {};
+  RowLanes<6> wrench_{}, shift_{};
+  alignas(64) double push_[64] = {}, load_[64] = {};
 };
 
 // Sum of what a block's joints do to it: force, moment.

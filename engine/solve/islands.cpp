@@ -48,8 +48,8 @@ bool take_stale_poses(const Model& m, State& s, std::vector<std::uint8_t>& stale
   const double limit = m.analysis.lazy_rotation * m.analysis.lazy_rotation;
   bool past = false;
   for (int b = 0; b < m.nblock; ++b) {
-    const double* row = &s.row[z(b) * 8];
-    const double turned = row[3] * row[3] + row[4] * row[4] + row[5] * row[5];
+    double turned = 0;
+    for (int i = 3; i < 6; ++i) turned += s.shift[z(b / lanes)].x[i][b % lanes] * s.shift[z(b / lanes)].x[i][b % lanes];
     stale[z(b)] = s.joined[z(b)] && turned > 0.25 * limit;
     past = past || (s.joined[z(b)] && turned > limit);
   }

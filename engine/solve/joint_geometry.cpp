@@ -27,7 +27,8 @@ void set_source(const Model& m, const State& s, int j, int l, PoseLanes& p) {
 void take_pose(State& s, int b) {
   s.base_u[z(b)] = s.u[z(b)];
   s.base_q[z(b)] = s.q[z(b)];
-  std::fill_n(&s.row[z(b) * 8], 6, 0.0);
+  constexpr double none[6] = {};
+  put_row(s, b, none);
 }
 
 Vec3 rotation_since(const Quat& q, const Quat& base) {
@@ -38,8 +39,12 @@ Vec3 rotation_since(const Quat& q, const Quat& base) {
 
 void set_row(State& s, int b) {
   const Vec3 du = s.u[z(b)] - s.base_u[z(b)], th = rotation_since(s.q[z(b)], s.base_q[z(b)]);
-  double* row = &s.row[z(b) * 8];
-  for (int i = 0; i < 3; ++i) row[i] = du[i], row[3 + i] = th[i];
+  const double row[6] = {du.x(), du.y(), du.z(), th.x(), th.y(), th.z()};
+  put_row(s, b, row);
+}
+
+void put_row(State& s, int b, const double row[6]) {
+  for (int i = 0; i < 6; ++i) s.shift[z(b / lanes)].x[i][b % lanes] = s.row[z(8 * b + i)] = row[i];
 }
 
 void refresh(const Model& m, State& s, const std::vector<int>& blocks, const std::vector<int>& joints) {

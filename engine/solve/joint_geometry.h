@@ -63,8 +63,9 @@ Vec3 rotation_since(const Quat& q, const Quat& base);
 void take_pose(State& state, int b);
 // The same for some blocks; the geometry of their cracked joints follows: `joints` are all that end at one of them.
 void refresh(const Model& model, State& state, const std::vector<int>& blocks, const std::vector<int>& joints);
-// State::row of block b from its pose.
+// State::row and State::shift of block b, from its pose or as they are given.
 void set_row(State& state, int b);
+void put_row(State& state, int b, const double row[6]);
 void refresh_all(const Model& model, State& state);
 // Joint j as lane `lane` of `batch`, with its geometry at the last refresh of its blocks.
 void set_lane(const Model& model, const State& state, int j, JointBatch& batch, int lane);

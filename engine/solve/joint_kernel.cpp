@@ -12,15 +12,16 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// q of lane l one step ago, for one that cracks now: the same pass with the rows of its blocks taken back by dt.
-void before(const State& s, const JointBatch& B, int l, double q[6], double f[6]) {
+// q of joint j in lane l one step ago, for one that cracks now: the same pass with the rows of its blocks taken back by dt.
+void before(const State& s, const Joint& j, const JointBatch& B, int l, double q[6], double f[6]) {
   JointBatch one = B;
   alignas(64) double rows[2 * 8];
   for (int end = 0; end < 2; ++end) {
-    const int b = end == 0 ? B.a[l] : B.b[l];
+    const int b = end == 0 ? j.a : j.b;
+    const auto& shift = s.shift[z(b / lanes)].x;
     for (int i = 0; i < 3; ++i) {
-      rows[8 * end + i] = s.row[z(b) * 8 + z(i)] - s.last_dt * s.v[z(b)][i];
-      rows[8 * end + 3 + i] = s.row[z(b) * 8 + 3 + z(i)] - s.last_dt * s.w[z(b)][i];
+      rows[8 * end + i] = shift[i][b % lanes] - s.last_dt * s.v[z(b)][i];
+      rows[8 * end + 3 + i] = shift[3 + i][b % lanes] - s.last_dt * s.w[z(b)][i];
     }
   }
   for (int k = 0; k < lanes; ++k) one.a[k] = 0, one.b[k] = 1;
@@ -35,8 +36,8 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
   const bool sound = s.tier[z(j)] == Tier::intact;
   JointMemory& memory = s.memory[z(j)];
   if (sound) {
-    if (batch) before(s, *batch, lane, memory.q, memory.f);
-    else before(s, sound_batch(m, s, j / lanes), j % lanes, memory.q, memory.f);
+    if (batch) before(s, m.joint[z(j)], *batch, lane, memory.q, memory.f);
+    else before(s, m.joint[z(j)], sound_batch(m, s, j / lanes), j % lanes, memory.q, memory.f);
     memory.elastic = 0;
     for (int i = 0; i < 6; ++i) memory.elastic += 0.5 * memory.f[i] * memory.q[i];
   }

@@ -80,8 +80,8 @@ struct alignas(64) SoundBatch {
   double bend[6][lanes];               // N m: symmetric, xx yy zz yz xz xy; against half rotations
   double open_limit[lanes], slip_limit[lanes], slip_slope[lanes], close_limit[lanes];  // as in JointBatch
   double diameter[lanes];                                                              // m, twice the radius of JointBatch
-  int b[lanes], row_b[lanes];  // where the rows of blocks and joint ends begin, in doubles; block a is its keeper
-  int used;                    // joints in it
+  Crossing other;                                                                      // where blocks b are; blocks a are their keepers
+  int used;                                                                            // joints in it
 };
 // Of its joints: whether they are seen from their other end (-1) or not (1), and where the stiffnesses against rotation (N m) lie.
 struct SoundLanes {
@@ -89,7 +89,7 @@ struct SoundLanes {
   const double* bending[lanes];  // about s, t, n; of nothing in a lane without a joint
 };
 struct SoundEnds {
-  int a[lanes], row_a[lanes];  // likewise, where no lane belongs to a keeper
+  int a[lanes], b[lanes], row_a[lanes], row_b[lanes];  // where rows of blocks and joint ends begin, in doubles, where no lane is a keeper's
 };
 
 // Eight blocks: what does not change from step to step.
@@ -98,7 +98,8 @@ struct alignas(64) BlockConstants {
   double moving[lanes], damped[lanes];      // 0 or 1
   double inverse_inertia[6][lanes];         // 1/(kg m2), axes at rest: xx yy zz yz xz xy
   double turn_limit[lanes];                 // rad2, of joined blocks between refreshes
-  int first_slot, slots;                    // of eight wrench rows
+  int first_slot, slots;                    // of eight wrench rows; none: nobody reads rows of these blocks either
+  int first_taken, taken;                   // of BlockArrays::taken
 };
 
 // All blocks, by groups of eight; the rows of eight doubles by blocks, `push` and `load` null where there is nothing.
@@ -109,7 +110,9 @@ struct BlockArrays {
   const RowLanes<3>* base_u;
   const RowLanes<4>* base_q;
   double* row;
-  const RowLanes<6>* kept;
+  RowLanes<6>* shift;
+  const RowLanes<6>*kept, *given;
+  const Crossing* taken;
   const double *wrench, *push, *load;
 };
 
@@ -149,13 +152,13 @@ struct LaneKernels {
               CrackedLanes& cracked, const double* rows, double* wrench_rows, CrackedSums& sums);
   // Resultants to wrenches on both blocks: force at the midpoint of the material points, then everything turned by th.
   void (*wrenches)(const JointBatch& batch, const JointLanes& in, double* wrench_rows);
-  // Sound joints, rows of blocks to wrenches. Groups [first, last) of eight blocks: lane l of batches [first_batch[g], first_batch[g + 1])
-  // holds joints that block l of group g keeps. What acts on keepers is summed up in `kept`, what acts on the other ends goes to
-  // their rows; the energy they store is added to stored[lanes], if wanted. Returns how many batches hold a joint whose limits may be
-  // near, and which.
-  int (*sound)(const SoundBatch* batch, const int* first_batch, int first, int last, const double* rows, double* wrench_rows,
-               RowLanes<6>* kept, double* stored, int* near);
-  // Batches [first, last) of any sound joints; both ends go to their rows.
+  // Sound joints, displacements of blocks to wrenches. Groups [first, last) of eight blocks: lane l of batches
+  // [first_batch[g], first_batch[g + 1]) holds joints that block l of group g keeps. What acts on keepers is summed up in `kept`, what
+  // acts on the other blocks goes to `given` of the batch; the energy they store is added to stored[lanes], if wanted. Returns how many
+  // batches hold a joint whose limits may be near, and which.
+  int (*sound)(const SoundBatch* batch, const int* first_batch, int first, int last, const RowLanes<6>* shift, RowLanes<6>* kept,
+               RowLanes<6>* given, double* stored, int* near);
+  // Batches [first, last) of any sound joints, rows of blocks to wrench rows of both ends.
   int (*sound_ends)(const SoundBatch* batch, const SoundEnds* ends, int first, int last, const double* rows, double* wrench_rows,
                     int* near);
   // Kick and drift of groups [first, last) of blocks (integrate.h); true where a number broke.

@@ -167,16 +167,18 @@ void Sequential::update(const std::vector<int>& joints) {
     for (const int lane : {lane_[z(j)].of_a, lane_[z(j)].of_b})
       if (lane >= 0) {
         set_sound_lane(one, 0, batch_[z(lane / lanes)], lane % lanes);
-        ends_[z(lane / lanes)].a[lane % lanes] = 8 * one.a[0];
-        ends_[z(lane / lanes)].row_a[lane % lanes] = 8 * one.row_a[0];
+        SoundEnds& ends = ends_[z(lane / lanes)];
+        ends.a[lane % lanes] = 8 * one.a[0], ends.row_a[lane % lanes] = 8 * one.row_a[0];
+        ends.b[lane % lanes] = 8 * one.b[0], ends.row_b[lane % lanes] = 8 * one.row_b[0];
       }
   }
 }
 
 void Sequential::clear_lane(int lane) {
-  clear_sound_lane(model_, batch_[z(lane / lanes)], lane % lanes);
-  ends_[z(lane / lanes)].a[lane % lanes] = 8 * model_.nblock;
-  ends_[z(lane / lanes)].row_a[lane % lanes] = 8 * model_.spare_row();
+  clear_sound_lane(batch_[z(lane / lanes)], lane % lanes);
+  SoundEnds& ends = ends_[z(lane / lanes)];
+  ends.a[lane % lanes] = ends.b[lane % lanes] = 8 * model_.nblock;
+  ends.row_a[lane % lanes] = ends.row_b[lane % lanes] = 8 * model_.spare_row();
 }
 
 // Joint j is no longer sound: it leaves the lanes of its blocks.
@@ -283,8 +285,8 @@ void Sequential::predict(int b) {
   State& s = state_;
   const Vec3 u = s.u[z(b)];
   const Quat q = s.q[z(b)];
-  alignas(64) double row[8];
-  std::copy_n(&s.row[8 * z(b)], 8, row);
+  double row[6];
+  std::copy_n(&s.row[8 * z(b)], 6, row);
   s.u[z(b)] = Vec3(u + 0.5 * s.dt * Vec3(s.v[z(b)]));
   s.q[z(b)] = Quat(rotation(0.5 * s.dt * Vec3(s.w[z(b)])) * q);
   set_row(s, b);
@@ -302,7 +304,7 @@ void Sequential::predict(int b) {
     }
   s.u[z(b)] = u;
   s.q[z(b)] = q;
-  std::copy_n(row, 8, &s.row[8 * z(b)]);
+  put_row(s, b, row);
 }
 
 // J, of all joints where they are.

@@ -1,6 +1,7 @@
 // Sound joints as the step reads them: world axes, no point of theirs. A function of the poses of the last refresh.
 // Every joint is kept by one of its blocks (Joint::kept_by_b) and computed in that block's lane. So the displacements of eight blocks side
-// by side are read once for all they keep, what acts on them is summed up in registers (State::kept), and only the other ends write rows.
+// by side are read once for all they keep, what acts on them is summed up in registers (State::kept), and what acts on the other blocks is
+// left in the lanes of the joints (State::given).
 #pragma once
 #include <memory>
 #include <vector>
@@ -13,7 +14,7 @@ namespace erbs {
 
 // Lane `from` of `batch` as lane `to` of `out`, seen from its other end where `turned`; a lane of no joint.
 void set_sound_lane(const JointBatch& batch, int from, SoundBatch& out, int to, bool turned = false);
-void clear_sound_lane(const Model& model, SoundBatch& out, int lane);
+void clear_sound_lane(SoundBatch& out, int lane);
 
 class Sound {
  public:
@@ -29,29 +30,26 @@ class Sound {
   const std::vector<JointBatch>& damped() const { return damped_; }
   // The forces alone, by the arithmetic of `kernels`; how many batches may be near a limit.
   int forces(int first, int last, const LaneKernels& kernels, double* stored);
-  int groups() const { return int(first_batch_.size()) - 1; }
+  int groups() const { return batch_.empty() ? 0 : int(model_.kept.first_batch.size()) - 1; }
 
  private:
-  void deal_lanes();
   void set_lanes(int k);
   void joints_in_place(int k, int joints[lanes]) const;  // -1: none, or one that has cracked
   void look_closer(int k, bool sample, JointSums& sums);
-  void take_over(int j, int lane, const JointBatch& batch, const JointLanes& before, const JointLanes& now);
+  void take_over(int j, const JointBatch& batch, const JointLanes& before, const JointLanes& now);
 
   const Model& model_;
   State& state_;
   std::vector<SoundBatch> batch_;  // one of the two: empty where nothing reads it
   std::vector<JointBatch> damped_;
-  std::vector<int> first_batch_ = {0};  // of each group [groups + 1]
-  std::vector<int> joint_;              // in each lane; -1: none        [batches * lanes]
-  std::vector<int> lane_;               // batch * lanes + lane          [njoint]
-  std::vector<int> near_;               // batches that may be near a limit, from first_batch_ of the groups looked at on
+  std::vector<int> near_;  // batches that may be near a limit, from the first batch of the groups looked at on
   // Batches that have been looked at: some laws want it in every step. Each is one thread's own. Null where lanes have changed since.
   std::vector<std::unique_ptr<JointBatch>> looked_at_;
   std::vector<std::uint8_t> stale_;  // those whose geometry is older than that of batch_
 };
 
 // A state that another kernel has brought to where it is holds what keepers summed up, or rows that they do not write: neither is to act.
+// And rows of blocks may not have been written where they are read from now on.
 void forget_other_kernel(const Model& model, State& state);
 
 }  // namespace erbs

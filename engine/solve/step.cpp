@@ -323,7 +323,7 @@ void Solver::note_cracks() {
     if (tier_before_[z(j)] == state_.tier[z(j)]) continue;
     if (!reference_ && state_.tier[z(j)] == Tier::cracked) cracked_.take(j), sound_.leave(j);
     if (tier_before_[z(j)] == Tier::intact) newly_cracked_.push_back(j);
-    if (keepers(model_)) sum_all_rows(model_, model_.keeper(j), constants_);
+    for (const int b : {model_.joint[z(j)].a, model_.joint[z(j)].b}) go_by_rows(model_, state_, b, constants_);
     tier_before_[z(j)] = state_.tier[z(j)];
   }
   cracked_sums_.resize(z(chunks(cracked_.groups(), Cracked::grain)));

@@ -1,4 +1,5 @@
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "engine/model/batches.h"
 #include "engine/record/checkpoint.h"
@@ -87,18 +88,21 @@ TEST_CASE("threads do not change a bit, cracks and contacts included", "[solve]"
   CHECK(state_hash(one.state) == state_hash(three.state));
 }
 
-// Rows of blocks set by hand: some 1e-6 m and rad.
-Rows swaying(const State& s) {
-  Rows rows = s.row;
-  for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = 1e-6 * std::sin(double(i));
-  return rows;
+// Displacements of blocks set by hand: some 1e-6 m and rad.
+void sway(const Model& m, State& s) {
+  for (std::size_t b = 0; b < std::size_t(m.nblock); ++b)
+    for (std::size_t i = 0; i < 6; ++i) s.shift[b / lanes].x[i][b % lanes] = s.row[8 * b + i] = 1e-6 * std::sin(double(8 * b + i));
+}
+
+void add_lanes(const std::vector<RowLanes<6>>& sums, std::vector<double>& out) {
+  for (const RowLanes<6>& one : sums) out.insert(out.end(), one.x[0], one.x[0] + 6 * lanes);
 }
 
 TEST_CASE("instruction sets give the same bits", "[solve]") {
   const Scene scene = test::small_wall(shake + "fast\"} damping{mass=3}");
   Prepared run = prepare(scene, false);
   start_at_rest(scene, run, 1);
-  run.state.row = swaying(run.state);
+  sway(run.model, run.state);
   const auto answer = [&](const LaneKernels& kernels) {
     State s = run.state;
     // swaying blocks beside some that spin fast, each with rounds of its own
@@ -112,15 +116,29 @@ TEST_CASE("instruction sets give the same bits", "[solve]") {
     out.insert(out.end(), stored, stored + lanes);
     BlockWork work{};
     const std::vector<BlockConstants> constants = block_constants(run.model, s);
-    BlockArrays arrays{constants.data(), s.u.data(),   s.v.data(),    s.spin_momentum.data(), s.w.data(), s.q.data(), s.base_u.data(),
-                       s.base_q.data(),  s.row.data(), s.kept.data(), s.wrench.data(),        nullptr,    nullptr};
+    const BlockArrays arrays{constants.data(),
+                             s.u.data(),
+                             s.v.data(),
+                             s.spin_momentum.data(),
+                             s.w.data(),
+                             s.q.data(),
+                             s.base_u.data(),
+                             s.base_q.data(),
+                             s.row.data(),
+                             s.shift.data(),
+                             s.kept.data(),
+                             s.given.data(),
+                             run.model.kept.taken.data(),
+                             s.wrench.data(),
+                             nullptr,
+                             nullptr};
     const KickDrift step{1e-5, 1e-5, 5e-6, 5e-6, 3, -3e-5, -1.5e-5, {0.1, 0, 0}, {0, 0, -9.81}, false, false, true, true};
     for (const bool sample : {false, true}) kernels.advance(step, arrays, 0, int(constants.size()), sample, work);
     for (std::size_t i = 0; i < s.wrench.size(); ++i)
       if (i % 8 < 6) out.push_back(s.wrench[i]);
     for (std::size_t i = 0; i < s.row.size(); ++i)
       if (i % 8 < 6) out.push_back(s.row[i]);
-    for (const RowLanes<6>& kept : s.kept) out.insert(out.end(), kept.x[0], kept.x[0] + 6 * lanes);
+    for (const auto* sums : {&s.shift, &s.kept, &s.given}) add_lanes(*sums, out);
     for (std::size_t b = 0; b < s.u.size(); ++b)
       for (int i = 0; i < 3; ++i) out.insert(out.end(), {s.v[b][i], s.w[b][i], s.spin_momentum[b][i]});
     out.insert(out.end(), work.base, work.base + 8 * lanes);
@@ -156,12 +174,38 @@ TEST_CASE("every end of a joint has a row of its own, and blocks share out the j
   CHECK(rounds <= m.njoint / lanes + int(m.first_slot.size()));
 }
 
+TEST_CASE("what crosses over between lanes comes from the joint's other block and goes there", "[solve]") {
+  const Prepared run = prepare(test::small_wall(shake + "fast\"}"), false);
+  const Model& m = run.model;
+  const KeptLanes& kept = m.kept;
+  const auto place = [](int lane) { return lane / lanes * 6 * lanes + lane % lanes; };
+  std::vector<std::multiset<int>> taken(std::size_t(m.nblock)), ends(std::size_t(m.nblock));
+  for (int j = 0; j < m.njoint; ++j) {
+    const Joint& joint = m.joint[std::size_t(j)];
+    const int lane = kept.lane[std::size_t(j)], k = lane / lanes, g = m.keeper(j) / lanes, other = joint.kept_by_b ? joint.a : joint.b;
+    CHECK(kept.joint[std::size_t(lane)] == j);
+    CHECK(lane % lanes == m.keeper(j) % lanes);
+    CHECK((kept.first_batch[std::size_t(g)] <= k && k < kept.first_batch[std::size_t(g) + 1]));
+    CHECK((kept.other[std::size_t(k)].at[lane % lanes] & ~lanes) == place(other));
+    ends[std::size_t(other)].insert(place(lane));
+  }
+  const int none = place(int(kept.joint.size()));
+  for (int b = 0; b < m.nblock; ++b) {
+    const std::size_t g = std::size_t(b / lanes);
+    for (int k = kept.first_taken[g]; k < kept.first_taken[g + 1]; ++k)
+      if (const int at = kept.taken[std::size_t(k)].at[b % lanes] & ~lanes; at != none) taken[std::size_t(b)].insert(at);
+    if (m.kind[std::size_t(b)] == Kind::moving) CHECK(taken[std::size_t(b)] == ends[std::size_t(b)]);
+    const int *first = &kept.end[std::size_t(kept.first_end[std::size_t(b)])], *last = first + int(ends[std::size_t(b)].size());
+    CHECK(std::multiset<int>(first, last) == ends[std::size_t(b)]);
+  }
+}
+
 TEST_CASE("sound joints in one pass answer as step by step", "[solve]") {
   const Scene scene = test::small_wall(shake + "fast\"}");
   Prepared run = prepare(scene, false);
   start_at_rest(scene, run, 1);
   State& s = run.state;
-  s.row = swaying(s);
+  sway(run.model, s);
   State one_by_one = s;
   Sound sound(run.model, s);
   sound.forces(0, sound.groups(), lane_kernels(), nullptr);
@@ -184,12 +228,11 @@ TEST_CASE("sound joints in one pass answer as step by step", "[solve]") {
 TEST_CASE("a joint that leaves its lane leaves the others as they are", "[solve]") {
   Prepared run = prepare(test::small_wall(shake + "fast\"}"), false);
   State& s = run.state;
-  s.row = swaying(s);
+  sway(run.model, s);
   const auto answer = [&](Sound& sound) {
-    s.wrench.assign(std::size_t(run.model.spare_row()) + 1, 0.0);
     sound.forces(0, sound.groups(), lane_kernels(), nullptr);
-    std::vector<double> out(s.wrench.data(), s.wrench.data() + 8 * run.model.spare_row());
-    for (const RowLanes<6>& kept : s.kept) out.insert(out.end(), kept.x[0], kept.x[0] + 6 * lanes);
+    std::vector<double> out;
+    add_lanes(s.kept, out), add_lanes(s.given, out);
     return out;
   };
   Sound sound(run.model, s);
