@@ -9,7 +9,7 @@
 namespace erbs {
 namespace {
 
-constexpr double parted = 0.05;  // of a bed's side, and rad
+constexpr double parted = 0.02;  // of a bed's side, and rad
 std::size_t z(int i) { return std::size_t(i); }
 
 // Joints [first, end) between the same parts as `first`.
@@ -136,17 +136,46 @@ void Debris::count_bed(Pair& p) {
   }
 }
 
+// Whether the faces of a bed have moved on from where they were joined.
+bool Debris::displaced(const Pair& p, int j) const {
+  const Joint& joint = model_.joint[z(j)];
+  const ContactBlock &a = blocks_[z(p.a)], &b = blocks_[z(p.b)];
+  const Vec3 moved = (b.u - a.u) + (b.turn * joint.arm_b - joint.arm_b) - (a.turn * joint.arm_a - joint.arm_a);
+  if (!(moved.norm() < parted * 2 * std::min(joint.type->half_s, joint.type->half_t))) return true;
+  return !p.touching && !((a.turn - b.turn).norm() < parted * std::sqrt(2.0));  // a block that rocks turns, and comes back to its place
+}
+
+// A bed has the stiffness of a layer of mortar between faces that match. Faces that have moved on while they touch match no more: they get
+// that of debris, where it is less, and go on bearing what they bear, the difference fading as at a hand-over. They rub as before. So no
+// bed holds the step of a fall for as long as its blocks drag each other along.
+void Debris::soften_beds() {
+  for (std::size_t i = 0; i < bed_.size(); ++i) {
+    Pair& p = state_.debris.pair[i];
+    if (!p.bed || !p.touching || p.offset_left > 0 || sleep_.asleep(p.a) || sleep_.asleep(p.b) || !displaced(p, bed_[i].joint)) continue;
+    const PairLaw to = law(p.a, p.b);
+    if (to.kn >= p.law.kn || to.ks >= p.law.ks) continue;
+    ContactBlock a = blocks_[z(p.a)], b = blocks_[z(p.b)];  // at rest: dashpots are not handed over
+    a.v = a.w = b.v = b.w = Vec3::Zero();
+    PairResult now;
+    Pair copy = p;
+    if (!pair_force(copy, shapes_, a, b, settings_, 0.0, true, room_.front(), now)) continue;
+    Vec6 wrench;
+    wrench << now.wrench.force, now.wrench.moment_b;
+    p.law.kn = to.kn;
+    p.law.ks = to.ks;
+    p.bed = 0;
+    p.counted_a = p.counted_b = 0;
+    bed_[i] = {};
+    released_ += now.elastic + now.tangential - start(p, wrench, 0);
+  }
+}
+
 // Faces that have let go of each other and moved on are a bed no more: where these blocks meet next, they meet as debris. Nothing is
 // stored while they are apart, so that the change costs no energy.
 void Debris::part_beds() {
   for (std::size_t i = 0; i < bed_.size(); ++i) {
     Pair& p = state_.debris.pair[i];
-    if (!p.bed || p.touching || p.offset_left > 0) continue;
-    const Joint& joint = model_.joint[z(bed_[i].joint)];
-    const ContactBlock &a = blocks_[z(p.a)], &b = blocks_[z(p.b)];
-    const Vec3 moved = (b.u - a.u) + (b.turn * joint.arm_b - joint.arm_b) - (a.turn * joint.arm_a - joint.arm_a);
-    if (moved.norm() < parted * 2 * std::min(joint.type->half_s, joint.type->half_t) && (a.turn - b.turn).norm() < parted * std::sqrt(2.0))
-      continue;
+    if (!p.bed || p.touching || p.offset_left > 0 || !displaced(p, bed_[i].joint)) continue;
     p.bed = 0;
     p.counted_a = p.counted_b = 0;
     p.law = law(p.a, p.b);

@@ -21,6 +21,8 @@ class Debris {
   // Joints that are spent (joint_kernel.h) go over to contact; returns them. Called between forces and drift: the wrench and the
   // stored energy of this step are still the joint's, those of the next one the contact's.
   std::vector<int> hand_over_joints(Cracked& cracked);
+  // Beds that lie on each other no longer as their joint lay get the stiffness of debris; called at the same place.
+  void soften_beds();
   // Once the ledger of this step is settled: books what the last hand-over set free.
   void book_hand_over();
   // Blocks that hang on nothing fixed, or have moved far from where they stood, may meet new neighbours.
@@ -52,6 +54,7 @@ class Debris {
   void count();
   double largest_rate() const;
   void land(int i, double apart, double landing_a, double landing_b);
+  bool displaced(const Pair& pair, int joint) const;
   void part_beds();
   void place(int b);
   void look();

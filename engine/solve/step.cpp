@@ -17,6 +17,7 @@ constexpr int ledger_every = 32;     // steps between two settlings of the ledge
 constexpr int ledger_slowly = 128;   // ... while there are contacts, whose energy costs as much as their forces
 constexpr int ledger_seldom = 4096;  // ... where a scene does without
 constexpr int hand_over_every = 8;   // steps between two looks at spent joints
+constexpr int soften_every = 64;     // steps between two looks at beds of former joints
 constexpr int loosen_every = 256;    // steps between two looks at blocks that have moved far
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -175,6 +176,7 @@ void Solver::between() {
     follow_contacts();
     excite();
   }
+  if (contacts_ && state_.step % soften_every == 0) debris_.soften_beds();
   if (contacts_ && debris_.sleep(now_, push_.data())) note_sleep();
   if (!model_.analysis.debris || !any_cracked_ || state_.step % hand_over_every != 0) return;
   const std::vector<int> opened = debris_.hand_over_joints(cracked_);
