@@ -7,11 +7,11 @@
 // Between refreshes each block has moved by (du, th), th = tan(angle) about its axis. With r(th, A) = (1 - th.th/2) th x A + th x (th x
 // A)/2 the change of an arm to third order, th_m the mean of th_a and th_b, d half their difference:
 //   D = D_ref + du + r(th_b, A_b) - r(th_a, A_a),   rotation = rho_ref + 2 d - th_m x d,
-// D turned back by th_m to second order; resultants turn forward by r(th_m, .) and act on a with the arm A_a + r(th_a, A_a) + D/2, on b
-// with A_b + r(th_b, A_b) - D/2. A rigid motion by th strains a joint by some th^4 of its arms. What errs first is the coupling of d with
-// rho_ref, by d rho_ref^2/6: it is put right by the next refresh.
-// lanes_sound.inc does with less: second order, and resultants turned forward to first. Its third order of a rigid motion would be
-// 3/8 th.th th x X, X the distance of the centroids, with th = 2 sin(angle / 2); tan(angle) is what takes it away.
+// D turned back by th_m; resultants turn forward by it and act on a with the arm A_a + r(th_a, A_a) + D/2, on b with A_b + r(th_b, A_b) -
+// D/2. A rigid motion by th strains a joint by some th^4 of its arms. D, small itself, and resultants turn to first order: amiss by th^2/2
+// of themselves, 5e-9 at the default tolerance. The coupling of d with rho_ref is left out, d rho_ref^2/6; the next refresh puts it right.
+// lanes_sound.inc does with second order in r. Its third order of a rigid motion would be 3/8 th.th th x X, X the distance of the
+// centroids, with th = 2 sin(angle / 2); tan(angle) is what takes it away.
 #pragma once
 #include "engine/base/turn.h"
 #include "engine/model/model.h"
