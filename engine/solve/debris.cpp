@@ -31,6 +31,7 @@ double largest_inverse_inertia(const Mat3& inverse) {
 
 Debris::Debris(const Model& model, State& state, int threads) : model_(model), state_(state), sleep_(model, state), limit_(model, state) {
   looked_.resize(z(threads));
+  fastest_.resize(z(threads));
   room_.resize(z(threads));
   if (state.debris.start.empty()) {
     state.debris.start.reserve(state.u.size());
@@ -80,7 +81,7 @@ void Debris::place(int b) {
   block.turn = turn;
   block.v = state_.v[z(b)];
   block.w = state_.w[z(b)];
-  const double soon = look_ahead * std::max(state_.dt, state_.last_dt);
+  const double soon = look_ahead * 1.5 * std::max(state_.dt, state_.last_dt);  // the next step may be half as long again
   way.moved_soon = way.moved + soon * block.v.norm();
   way.turned_soon = way.turned + soon * block.w.norm();
 }

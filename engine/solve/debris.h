@@ -27,7 +27,9 @@ class Debris {
   void book_hand_over();
   // Blocks that hang on nothing fixed, or have moved far from where they stood, may meet new neighbours.
   void loosen();
-  // Before the forces of a step: poses of the blocks involved, and now and then a look whether a new search is due.
+  // Poses of the blocks from `first` to `last` that a drift has just moved. Each thread its own.
+  void follow(int thread, int first, int last);
+  // Before the forces of a step: other poses, and now and then a look whether a new search is due.
   void prepare();
   // Forces of the pairs of this thread; afterwards gather() sums them on one thread in the order of the pairs.
   void forces(int thread, int threads, bool sample);
@@ -69,6 +71,7 @@ class Debris {
   std::vector<ContactBlock> blocks_;
   Sleep sleep_;
   std::vector<int> involved_;           // blocks that are loose or listed in a pair
+  std::vector<double> fastest_;         // m2/s2, squared speed of the fastest block that each thread has followed
   std::vector<int> placed_;             // those of live pairs that move
   std::vector<std::uint64_t> jointed_;  // pairs of blocks still joined, sorted
   struct Bed {

@@ -1,6 +1,7 @@
 // The part of Debris that runs every step: poses, forces, their sum, and the step that they allow.
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -28,10 +29,27 @@ void fetch(const T& x) {
 }  // namespace
 
 // Poses are for pairs: a block that has none waits for a look.
+void Debris::follow(int thread, int first, int last) {
+  const auto of = [first, last](const std::vector<int>& blocks) {
+    return std::ranges::subrange(std::ranges::lower_bound(blocks, first), std::ranges::lower_bound(blocks, last));
+  };
+  double& fastest = fastest_[z(thread)];
+  fastest = 0;
+  for (const int b : of(sleep_.awake())) fastest = std::max(fastest, Vec3(state_.v[z(b)]).squaredNorm());
+  for (const int b : of(placed_)) place(b);
+}
+
 void Debris::prepare() {
-  double fastest = 0;
-  for (const int b : unsorted_ ? involved_ : sleep_.awake()) fastest = std::max(fastest, Vec3(state_.v[z(b)]).squaredNorm());
-  for (const int b : unsorted_ ? involved_ : placed_) place(b);
+  double fastest = *std::ranges::max_element(fastest_);
+  if (unsorted_) {
+    for (const int b : involved_) {
+      place(b);
+      fastest = std::max(fastest, blocks_[z(b)].v.squaredNorm());
+    }
+  } else {
+    for (const int b : placed_)
+      if (model_.kind[z(b)] == Kind::driven) place(b);  // the drift does not move it
+  }
   const bool far = std::sqrt(fastest) * state_.dt * look_every > 0.25 * state_.debris.margin;
   if (!state_.debris.valid || far || state_.step % look_every == 0) look();
   if (unsorted_) sort();
@@ -51,6 +69,7 @@ void Debris::sort() {
   placed_.clear();
   for (const int b : sleep_.pushed())
     if (model_.kind[z(b)] != Kind::fixed && !sleep_.asleep(b)) placed_.push_back(b);
+  std::ranges::sort(placed_);
   find_still();
   unsorted_ = false;
   relisted_ = true;

@@ -215,12 +215,15 @@ void Solver::follow_contacts() {
 
 void Solver::blocks(int thread) {
   const Pushes pushes{contacts_ ? push_.data() : nullptr, load_.data(), loaded_};
-  if (sequential_) {
+  const int groups = int(constants_.size());
+  Range mine = share_of(groups, block_grain, thread, threads_);
+  if (sequential_) {  // one block after the other
+    mine = thread == 0 ? Range{0, groups} : Range{};
     if (thread == 0) sequential_->sweep(now_, pushes, constants_, sample_ != Sample::none, joint_sums_.front(), block_sums_);
-    return;
+  } else {
+    advance(model_, state_, constants_, now_, pushes, mine, sample_ != Sample::none, block_sums_, idle_);
   }
-  const Range mine = share_of(int(constants_.size()), block_grain, thread, threads_);
-  advance(model_, state_, constants_, now_, pushes, mine, sample_ != Sample::none, block_sums_, idle_);
+  if (contacts_) debris_.follow(thread, mine.first * lanes, mine.last * lanes);
 }
 
 // Blocks with a prescribed motion: they are where they are told to be; what holds them there works on the system.
