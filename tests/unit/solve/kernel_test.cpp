@@ -244,46 +244,6 @@ TEST_CASE("a joint that leaves its lane leaves the others as they are", "[solve]
   CHECK(left != whole);
 }
 
-TEST_CASE("a refresh by whole batches gives what all joints anew would", "[solve]") {
-  Prepared run = prepare(test::small_wall(shake + "fast\"}"), false);
-  const Model& m = run.model;
-  State& s = run.state;
-  for (int j = 0; j < m.njoint; j += 3) s.tier[std::size_t(j)] = Tier::cracked;
-  Cracked cracked(m, s);
-  Sound sound(m, s);
-  std::vector<std::uint8_t> stale(s.u.size(), 0);
-  for (int b = 1; b < m.nblock; b += 2) {
-    s.q[std::size_t(b)] = rotation(1e-3 * Vec3(std::sin(b), std::cos(b), 1));
-    s.u[std::size_t(b)] = 1e-3 * Vec3(std::cos(3 * b), std::sin(2 * b), 0.3);
-    take_pose(s, b);
-    stale[std::size_t(b)] = 1;
-  }
-  State all = s;
-  cracked.refresh(stale);
-  sound.refresh(stale);
-  refresh_all(m, all);
-  Sound anew(m, all);
-  sound.forces(0, sound.groups(), lane_kernels(), nullptr);
-  anew.forces(0, anew.groups(), lane_kernels(), nullptr);
-  for (int j = 0; j < m.njoint; ++j) {
-    const int at = s.place[std::size_t(j)] - sound_batches(m) * lanes;
-    if (at < 0) continue;
-    const JointBatch &one = s.batch[std::size_t(at / lanes)], &other = all.batch[std::size_t(at / lanes)];
-    for (int i = 0; i < 9; ++i) CHECK(one.frame[i][at % lanes] == other.frame[i][at % lanes]);
-    for (int i = 0; i < 3; ++i) {
-      CHECK(one.arm_a[i][at % lanes] == other.arm_a[i][at % lanes]);
-      CHECK(one.gap[i][at % lanes] == other.gap[i][at % lanes]);
-      CHECK(one.turn[i][at % lanes] == other.turn[i][at % lanes]);
-    }
-  }
-  double largest_wrench = 0;
-  for (int b = 0; b < m.nblock; ++b) {
-    CHECK(joint_wrench(m, s, b) == joint_wrench(m, all, b));
-    largest_wrench = std::max(largest_wrench, joint_wrench(m, s, b).lpNorm<Eigen::Infinity>());
-  }
-  CHECK(largest_wrench > 0);
-}
-
 TEST_CASE("cracked joints side by side answer as one by one, with the same bits however many", "[solve]") {
   // laws of every kind, points driven through softening, slip, closing and opening again
   const std::string law =
@@ -345,47 +305,6 @@ TEST_CASE("cracked joints side by side answer as one by one, with the same bits 
   CHECK(all.energy.crushing == Approx(lone.energy.crushing).epsilon(1e-10));
   CHECK(all.energy.damping > 0);
   CHECK(all.energy.damping == Approx(lone.energy.damping).epsilon(1e-9));
-}
-
-// One rigid turn of 1e-4 rad, as far as a refresh lets it come, and strains.
-void turn_rigidly(const Model& m, State& s, double strain) {
-  for (int b = 1; b < m.nblock; ++b) {
-    const Vec3 turn = 1e-4 * Vec3(0.6, -0.48, 0.64), arm = m.rest[std::size_t(b)];
-    s.q[std::size_t(b)] = rotation(turn + strain * Vec3(std::sin(b), std::cos(b), 1));
-    s.u[std::size_t(b)] = rotation(turn) * arm - arm + strain * Vec3(std::cos(3 * b), std::sin(2 * b), 0.3);
-    set_row(s, b);
-  }
-}
-
-TEST_CASE("carried geometry answers as exact geometry within the tolerance of a refresh", "[solve]") {
-  const Scene scene = test::small_wall(shake + "fast\"}");
-  Prepared run = prepare(scene, false);
-  State& s = run.state;
-  turn_rigidly(run.model, s, 1e-8);
-  JointLanes o;
-  for (int j = 0; j < run.model.njoint; ++j) {
-    if (run.model.joint[std::size_t(j)].a == 0) continue;  // the foot does not turn
-    lane_kernels().elastic(sound_batch(run.model, s, j / lanes), s.row.data(), o);
-    double q[6];
-    joint_q(run.model, s, j, q);
-    for (int i = 0; i < 6; ++i) CHECK(o.q[i][j % lanes] == Approx(q[i]).margin(1e-15));
-  }
-}
-
-TEST_CASE("a rigid turn between refreshes strains no joint", "[solve]") {
-  Prepared run = prepare(test::small_wall(shake + "fast\"}"), false);
-  const Model& m = run.model;
-  State& s = run.state;
-  turn_rigidly(m, s, 0);
-  Sound sound(m, s);
-  sound.forces(0, sound.groups(), lane_kernels(), nullptr);
-  double stiffest = 0;
-  for (const auto& type : m.joint_types) stiffest = std::max({stiffest, type->stiffness[0], type->stiffness[2]});
-  for (int b = 1; b < m.nblock; ++b) {
-    bool on_foot = false;  // which does not turn
-    for (const Joint& joint : m.joint) on_foot = on_foot || (joint.a == 0 && joint.b == b);
-    if (!on_foot) CHECK(joint_wrench(m, s, b).lpNorm<Eigen::Infinity>() < 1e-15 * stiffest);
-  }
 }
 
 TEST_CASE("the ledger closes, and a spoiled term opens it", "[solve][energy]") {
