@@ -95,24 +95,28 @@ void Cracked::set_shape(Shapes& shapes, int l, const JointType& type) const {
   }
 }
 
+std::shared_ptr<Cracked::Shapes> Cracked::shared_shapes(const JointType& type) {
+  std::shared_ptr<Shapes>& shared = of_type_[&type];
+  if (!shared) {
+    shared = std::make_shared<Shapes>();
+    shared->corner.resize(z(type.corners));
+    shared->spot.resize(z(type.points));
+    shared->cell.resize(z(type.points));
+    shared->first.push_back(0);
+    for (int i = type.first_place; i < type.first_place + type.points; ++i)
+      shared->first.push_back(shared->first.back() + model_.cell[z(i)].corners);
+    shared->loop.resize(z(shared->first.back()));
+    if (type.inset) shared->watch.resize(shared->loop.size());
+    for (int k = 0; k < lanes; ++k) set_shape(*shared, k, type);
+  }
+  return shared;
+}
+
 // Lanes without a joint have whatever shape: they neither move nor bear.
 void Cracked::add_shape(Group& group, int l, const JointType& type) {
   if (group.empty()) {
-    std::shared_ptr<Shapes>& shared = of_type_[&type];
-    if (!shared) {
-      shared = std::make_shared<Shapes>();
-      shared->corner.resize(z(type.corners));
-      shared->spot.resize(z(type.points));
-      shared->cell.resize(z(type.points));
-      shared->first.push_back(0);
-      for (int i = type.first_place; i < type.first_place + type.points; ++i)
-        shared->first.push_back(shared->first.back() + model_.cell[z(i)].corners);
-      shared->loop.resize(z(shared->first.back()));
-      if (type.inset) shared->watch.resize(shared->loop.size());
-      for (int k = 0; k < lanes; ++k) set_shape(*shared, k, type);
-    }
     group.type = &type;
-    group.shapes = shared;
+    group.shapes = shared_shapes(type);
   } else if (group.type != &type) {
     if (group.type != nullptr) group.shapes = std::make_shared<Shapes>(*group.shapes);
     group.type = nullptr;
@@ -157,10 +161,11 @@ Cracked::Group Cracked::empty_group(const Joint& joint, int batch) const {
 }
 
 bool Cracked::fits(const Group& group, const Joint& joint) const {
+  if (group.empty()) return true;
   if (group.law != joint.type->law || group.points != joint.type->points || group.corners != joint.type->corners ||
       group.bears != bears(model_, joint))
     return false;
-  if (group.empty() || group.type == joint.type) return true;
+  if (group.type == joint.type) return true;
   if (group.shapes->watch.empty() == joint.type->inset) return false;
   for (int i = 0; i < joint.type->points; ++i)
     if (group.shapes->first[z(i + 1)] - group.shapes->first[z(i)] != model_.cell[z(joint.type->first_place + i)].corners) return false;
@@ -172,9 +177,9 @@ int Cracked::find_lane(const Joint& joint) {
   for (int g = 0; g < groups(); ++g) {
     const Group& group = group_[z(g)];
     const int* free = std::find(group.joint, group.joint + lanes, -1);
-    if (free == group.joint + lanes || (other >= 0 && group.type != joint.type) || !fits(group, joint)) continue;
+    if (free == group.joint + lanes || (other >= 0 && (group.empty() || group.type != joint.type)) || !fits(group, joint)) continue;
     other = g * lanes + int(free - group.joint);
-    if (group.type == joint.type) return other;
+    if (!group.empty() && group.type == joint.type) return other;
   }
   if (other >= 0) return other;
   group_.push_back(empty_group(joint, add_empty_batch(model_, state_)));
@@ -185,6 +190,7 @@ void Cracked::put(int j) {
   const Joint& joint = model_.joint[z(j)];
   const int at = find_lane(joint);
   Group& group = group_[z(at / lanes)];
+  if (group.empty()) group = empty_group(joint, group.batch);
   fill(group, at % lanes, j);
   state_.place[z(j)] = (sound_batches(model_) + group.batch) * lanes + at % lanes;
   set_lane(model_, state_, j, state_.batch[z(group.batch)], at % lanes);
@@ -192,11 +198,26 @@ void Cracked::put(int j) {
 
 void Cracked::take(int j) { put(j); }
 
+// Where the next joint finds room must not depend on joints that have gone: a run that was stopped and resumed knows nothing of them.
+void Cracked::look_at_types(Group& group) {
+  if (group.type != nullptr || group.empty()) return;
+  const JointType* type = nullptr;
+  for (const int j : group.joint) {
+    if (j < 0) continue;
+    if (type != nullptr && model_.joint[z(j)].type != type) return;
+    type = model_.joint[z(j)].type;
+  }
+  group.type = type;
+  group.shapes = shared_shapes(*type);
+}
+
 void Cracked::drop(int j) {
   const int at = state_.place[z(j)] - sound_batches(model_) * lanes;
   if (at >= 0) {
-    --group_[z(at / lanes)].used;
-    clear(group_[z(at / lanes)], at % lanes);
+    Group& group = group_[z(at / lanes)];
+    --group.used;
+    clear(group, at % lanes);
+    look_at_types(group);
     clear_lane(model_, state_.batch[z(at / lanes)], at % lanes);
   }
   state_.place[z(j)] = -1;

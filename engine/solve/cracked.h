@@ -61,7 +61,9 @@ class Cracked {
   void fill(Group& group, int l, int j);
   void clear(Group& group, int l) const;
   void set_shape(Shapes& shapes, int l, const JointType& type) const;
+  std::shared_ptr<Shapes> shared_shapes(const JointType& type);  // of eight joints of it
   void add_shape(Group& group, int l, const JointType& type);
+  void look_at_types(Group& group);
   void put(int j);                          // into a lane of its own
   void take_all(std::vector<int>& joints);  // by types
 
