@@ -94,6 +94,9 @@ void sum_rows(const Model& m, int b, std::vector<BlockConstants>& constants) {
 std::vector<BlockConstants> block_constants(const Model& m, const State& s) {
   std::vector<BlockConstants> out(block_groups(m.nblock));
   for (int b = 0; b < int(out.size()) * lanes; ++b) set_constants(m, s, b, b < m.nblock && m.kind[z(b)] == Kind::moving, out[z(b / lanes)]);
+  std::vector<std::uint8_t> sound(out.size(), 0);  // groups on which some sound joint acts
+  for (int j = 0; j < m.njoint; ++j)
+    if (s.tier[z(j)] == Tier::intact) sound[z(m.joint[z(j)].a / lanes)] = sound[z(m.joint[z(j)].b / lanes)] = 1;
   for (int g = 0; g < int(out.size()); ++g) {
     out[z(g)].first_slot = m.first_slot[z(g)];
     if (!keepers(m)) {
@@ -101,7 +104,7 @@ std::vector<BlockConstants> block_constants(const Model& m, const State& s) {
       continue;
     }
     out[z(g)].first_taken = m.kept.first_taken[z(g)];
-    out[z(g)].taken = m.kept.first_taken[z(g) + 1] - out[z(g)].first_taken;
+    if (sound[z(g)]) out[z(g)].taken = m.kept.first_taken[z(g) + 1] - out[z(g)].first_taken;
   }
   for (int j = 0; j < m.njoint; ++j)
     if (s.tier[z(j)] != Tier::intact) sum_rows(m, m.joint[z(j)].a, out), sum_rows(m, m.joint[z(j)].b, out);

@@ -81,7 +81,7 @@ struct alignas(64) SoundBatch {
   double open_limit[lanes], slip_limit[lanes], slip_slope[lanes], close_limit[lanes];  // as in JointBatch
   double diameter[lanes];                                                              // m, twice the radius of JointBatch
   Crossing other;                                                                      // where blocks b are; blocks a are their keepers
-  int used;                                                                            // joints in it
+  int used;                                                                            // joints in it; -1: none, and nothing left of them
 };
 // Of its joints: whether they are seen from their other end (-1) or not (1), and where the stiffnesses against rotation (N m) lie.
 struct SoundLanes {
@@ -156,7 +156,7 @@ struct LaneKernels {
   // [first_batch[g], first_batch[g + 1]) holds joints that block l of group g keeps. What acts on keepers is summed up in `kept`, what
   // acts on the other blocks goes to `given` of the batch; the energy they store is added to stored[lanes], if wanted. Returns how many
   // batches hold a joint whose limits may be near, and which.
-  int (*sound)(const SoundBatch* batch, const int* first_batch, int first, int last, const RowLanes<6>* shift, RowLanes<6>* kept,
+  int (*sound)(SoundBatch* batch, const int* first_batch, int first, int last, const RowLanes<6>* shift, RowLanes<6>* kept,
                RowLanes<6>* given, double* stored, int* near);
   // Batches [first, last) of any sound joints, rows of blocks to wrench rows of both ends.
   int (*sound_ends)(const SoundBatch* batch, const SoundEnds* ends, int first, int last, const double* rows, double* wrench_rows,
