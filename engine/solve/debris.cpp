@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/model/add_joints.h"
@@ -32,6 +33,8 @@ double largest_inverse_inertia(const Mat3& inverse) {
 Debris::Debris(const Model& model, State& state, int threads) : model_(model), state_(state), sleep_(model, state), limit_(model, state) {
   looked_.resize(z(threads));
   fastest_.resize(z(threads));
+  first_pair_.assign(z(threads) + 1, 0);
+  first_pair_.back() = std::numeric_limits<int>::max();
   room_.resize(z(threads));
   if (state.debris.start.empty()) {
     state.debris.start.reserve(state.u.size());

@@ -32,7 +32,7 @@ class Debris {
   // Before the forces of a step: other poses, and now and then a look whether a new search is due.
   void prepare();
   // Forces of the pairs of this thread; afterwards gather() sums them on one thread in the order of the pairs.
-  void forces(int thread, int threads, bool sample);
+  void forces(int thread, bool sample);
   void gather(double* push, bool sample);
   // Then: lets blocks fall asleep and wakes sleepers (sleep.h). True where the set of those asleep has changed.
   bool sleep(const Excitation& now, const double* push);
@@ -55,6 +55,7 @@ class Debris {
   void count_bed(Pair& pair);
   void count();
   double largest_rate() const;
+  void share_out();
   void land(int i, double apart, double landing_a, double landing_b);
   bool displaced(const Pair& pair, int joint) const;
   void part_beds();
@@ -114,6 +115,7 @@ class Debris {
   };
   std::vector<Lane> lane_;  // of each pair: what a step asks first
   bool lanes_changed_ = true;
+  std::vector<int> first_pair_;                // of each thread, so that each has as many to look at as in the step before
   std::vector<Looked> looked_;                 // per thread
   std::vector<OverlapRoom> room_;              // per thread
   std::vector<std::unique_ptr<Batch>> batch_;  // per thread

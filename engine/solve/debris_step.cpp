@@ -14,7 +14,6 @@ namespace {
 // patch pressed near its edge (dry_friction.h) is the dashpot of the contact, which an explicit step bears up to c dt / m = 1/4 only
 // (contact.cpp): a viscous ratio of 1 / (8 omega dt), .12 here. At 1.1 the block of V10 swings itself up with mu = .9, at .8 not.
 constexpr double rubbing_angle = 1.0;
-constexpr int pair_grain = 8;
 constexpr double round_off = 1e-9;  // of a distance and of the way behind: more than sums of some 1e6 steps lose
 constexpr int look_every = 16;      // steps between two looks, while no block comes far in that time
 std::size_t z(int i) { return std::size_t(i); }
@@ -115,13 +114,13 @@ void Debris::find_still() {
     still_[z(b)] = sleep_.asleep(b) && blocks_[z(b)].u == list.u[z(b)] && blocks_[z(b)].turn == list.turn[z(b)];
 }
 
-void Debris::forces(int thread, int threads, bool sample) {
+void Debris::forces(int thread, bool sample) {
   const std::vector<int>& live = sleep_.live();
-  const Range mine = share_of(int(live.size()), pair_grain, thread, threads);
+  const auto mine = std::ranges::subrange(std::ranges::lower_bound(live, first_pair_[z(thread)]),
+                                          std::ranges::lower_bound(live, first_pair_[z(thread + 1)]));
   Looked& looked = looked_[z(thread)];
   looked.at.clear(), looked.active.clear(), looked.near.clear();
-  for (int k = mine.first; k < mine.last; ++k) {
-    const int i = live[z(k)];
+  for (const int i : mine) {
     const Apart& known = apart_[z(i)];
     const Way &a = way_[z(known.a)], &b = way_[z(known.b)];
     if (a.moved_soon + b.moved_soon + known.lever_a * a.turned_soon + known.lever_b * b.turned_soon < known.until) continue;
@@ -215,6 +214,19 @@ double Debris::largest_rate() const {
   return rate;
 }
 
+// Which pairs a thread takes does not matter to what comes out: they are gone through in their order.
+void Debris::share_out() {
+  std::size_t all = 0, before = 0;
+  for (const Looked& looked : looked_) all += looked.at.size();
+  const std::size_t threads = looked_.size();
+  std::size_t next = 1;
+  for (const Looked& looked : looked_) {
+    for (; next < threads && all * next < (before + looked.at.size()) * threads; ++next)
+      first_pair_[next] = looked.at[all * next / threads - before];
+    before += looked.at.size();
+  }
+}
+
 // What a pair asks of the next step, besides its stiffness.
 void Debris::land(int i, double apart, double landing_a, double landing_b) {
   const Apart& pair = apart_[z(i)];
@@ -274,6 +286,7 @@ void Debris::gather(double* push, bool sample) {
     }
     for (const Near& one : looked.near) land(one.pair, one.apart, one.landing_a, one.landing_b);
   }
+  share_out();
   double limit = limit_.allowed(largest_rate());
   if (limit_.due(limit)) {
     count();

@@ -154,7 +154,7 @@ void Solver::excite() {
 
 void Solver::joints(int thread) {
   const Range mine = share_of(joint_items_, joint_grain_, thread, threads_);
-  if (contacts_) debris_.forces(thread, threads_, sample_ != Sample::none);
+  if (contacts_) debris_.forces(thread, sample_ != Sample::none);
   if (keepers(model_)) sound_.forces(mine, sample_ != Sample::none, joint_sums_);
   else
     for (int first = mine.first; first < mine.last; first += batch_grain) {
