@@ -215,14 +215,10 @@ void Solver::follow_contacts() {
 
 void Solver::blocks(int thread) {
   const Pushes pushes{contacts_ ? push_.data() : nullptr, load_.data(), loaded_};
-  const int groups = int(constants_.size());
-  Range mine = share_of(groups, block_grain, thread, threads_);
-  if (sequential_) {  // one block after the other
-    mine = thread == 0 ? Range{0, groups} : Range{};
-    if (thread == 0) sequential_->sweep(now_, pushes, constants_, sample_ != Sample::none, joint_sums_.front(), block_sums_);
-  } else {
-    advance(model_, state_, constants_, now_, pushes, mine, sample_ != Sample::none, block_sums_, idle_);
-  }
+  const int groups = int(constants_.size()), grain = sequential_ ? groups : block_grain;  // a sweep is one thread's
+  const Range mine = share_of(groups, grain, thread, threads_);
+  if (!sequential_) advance(model_, state_, constants_, now_, pushes, mine, sample_ != Sample::none, block_sums_, idle_);
+  else if (mine.first < mine.last) sequential_->sweep(now_, pushes, constants_, sample_ != Sample::none, joint_sums_.front(), block_sums_);
   if (contacts_) debris_.follow(thread, mine.first * lanes, mine.last * lanes);
 }
 
