@@ -94,9 +94,13 @@ void sum_rows(const Model& m, int b, std::vector<BlockConstants>& constants) {
 std::vector<BlockConstants> block_constants(const Model& m, const State& s) {
   std::vector<BlockConstants> out(block_groups(m.nblock));
   for (int b = 0; b < int(out.size()) * lanes; ++b) set_constants(m, s, b, b < m.nblock && m.kind[z(b)] == Kind::moving, out[z(b / lanes)]);
-  std::vector<std::uint8_t> sound(out.size(), 0);  // groups on which some sound joint acts
+  // Groups on which some sound joint acts: also one that cracked in this step, and answers in its lane until the next.
+  std::vector<std::uint8_t> sound(out.size(), 0);
   for (int j = 0; j < m.njoint; ++j)
     if (s.tier[z(j)] == Tier::intact) sound[z(m.joint[z(j)].a / lanes)] = sound[z(m.joint[z(j)].b / lanes)] = 1;
+  for (int b = 0; keepers(m) && b < m.nblock; ++b)
+    for (int k = m.kept.first_end[z(b)]; k < m.kept.first_end[z(b) + 1]; ++k)
+      for (int i = 0; i < 6; ++i) sound[z(b / lanes)] |= s.given.front().x[0][m.kept.end[z(k)] + lanes * i] != 0;
   for (int g = 0; g < int(out.size()); ++g) {
     out[z(g)].first_slot = m.first_slot[z(g)];
     if (!keepers(m)) {
