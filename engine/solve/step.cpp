@@ -78,7 +78,7 @@ void Solver::run(const Hooks& hooks) {
     if (!barrier.wait(thread, [&] { begin(hooks); })) return;
     while (!stop_) {
       joints(thread);
-      if (!between_) barrier.wait();
+      if (!between_) barrier.wait(thread);
       else if (!barrier.wait(thread, [this] { between(); })) return;
       blocks(thread);
       const auto turn = [&] {
