@@ -28,8 +28,8 @@ void fill(const PairJob* job, int count, PairLanes& w) {
     const PairJob& j = job[l < count ? l : 0];
     const bool swapped = j.bodies.swapped;
     w.pair[l] = &j.pair->law.kn;
-    w.reference[l] = (swapped ? j.b : j.a)->rest.data();
-    w.other[l] = (swapped ? j.a : j.b)->rest.data();
+    w.reference[l] = (swapped ? j.b : j.a)->u.data();
+    w.other[l] = (swapped ? j.a : j.b)->u.data();
     w.swapped[l] = swapped;
   }
 }

@@ -109,15 +109,9 @@ void stability(const Pair& pair, const View& s, const Patch& patch, PairResult& 
 
 // A body that strikes deeper in its first step than the step can bear gains energy. So the step is short enough for the largest
 // face before it may land: when the bodies could meet within the next few steps, at a speed at which that energy matters.
-void landing(const Pair& pair, const View& s, const ContactSettings& settings, double apart, double dt, PairResult& result) {
+// `along`: the speed of their centroids towards each other.
+void landing(const Pair& pair, const View& s, const ContactSettings& settings, double along, double apart, double dt, PairResult& result) {
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
-  const int face = pair.separating, own = static_cast<int>(s.reference->normal.size());
-  const int faces = own + static_cast<int>(s.other->normal.size());
-  // along the normal of the face that keeps them apart, where there is one: a body that flies off lands nowhere
-  const Vec3 v = r.turn.transpose() * (o.v - r.v);
-  const double along = face < 0 || face >= faces ? v.norm()
-                       : face < own              ? -v.dot(s.reference->normal[std::size_t(face)])
-                                                 : v.dot(s.pose.turn * s.other->normal[std::size_t(face - own)]);
   const double speed = along + o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach;
   if (!(speed > settings.reference_speed) || apart > look_ahead * speed * dt) return;
   const double k = (pair.law.kn + pair.law.ks) * std::min(s.reference->largest_face, s.other->largest_face);
@@ -128,11 +122,38 @@ void landing(const Pair& pair, const View& s, const ContactSettings& settings, d
   result.landing_b = pair.b_is_reference ? reference : other;
 }
 
-// Bodies come closer by no more than their farthest points move.
-void note_apart(const Pair& pair, const View& s, double apart, PairResult& result) {
-  result.apart = apart;
-  result.lever_a = pair.b_is_reference ? s.other->reach : s.reference->reach;
-  result.lever_b = pair.b_is_reference ? s.reference->reach : s.other->reach;
+// What keeps a pair apart: a face of the reference, one of the other, or a plane along an edge of each.
+struct Keeper {
+  enum Kind { face, other_face, edges } kind;
+  std::size_t face_or_a, b;
+};
+Keeper keeper(const Pair& pair, const View& s) {
+  const std::size_t at = std::size_t(pair.separating), own = s.reference->normal.size(), faces = own + s.other->normal.size();
+  if (at < own) return {Keeper::face, at, 0};
+  if (at < faces) return {Keeper::other_face, at - own, 0};
+  const std::size_t edges = s.other->edge.size();
+  return {Keeper::edges, (at - faces) / edges, (at - faces) % edges};
+}
+
+// Along the normal of the face that keeps them apart, where there is one: a body that flies off lands nowhere.
+double closing_along(const Pair& pair, const View& s) {
+  const Vec3 v = s.reference_block->turn.transpose() * (s.other_block->v - s.reference_block->v);
+  const Keeper by = pair.separating < 0 ? Keeper{Keeper::edges, 0, 0} : keeper(pair, s);
+  return by.kind == Keeper::edges  ? v.norm()
+         : by.kind == Keeper::face ? -v.dot(s.reference->normal[by.face_or_a])
+                                   : v.dot(s.pose.turn * s.other->normal[by.face_or_a]);
+}
+
+// The least of n . x over the corners of a body, and the greatest.
+struct Extent {
+  double least, most;
+};
+Extent extent(const SmallShape& body, const Vec3& n) {
+  double x[few];
+  for (int i = 0; i < few; ++i) x[i] = n[0] * body.vertex[0][i] + n[1] * body.vertex[1][i] + n[2] * body.vertex[2][i];
+  Extent e{x[0], x[0]};
+  for (int i = 1; i < few; ++i) e.least = std::min(e.least, x[i]), e.most = std::max(e.most, x[i]);
+  return e;
 }
 
 }  // namespace
@@ -179,8 +200,8 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
   const View s = view_of(pair, shapes, a, b);
   Patch patch = find_overlap(*s.reference, *s.other, s.pose, pair.separating, room);
   const bool touches = patch.total > 0;
-  if (!touches) landing(pair, s, settings, room.apart, dt, result);
-  if (!touches && room.apart >= 0) note_apart(pair, s, room.apart, result);
+  if (!touches) landing(pair, s, settings, closing_along(pair, s), room.apart, dt, result);
+  if (!touches && room.apart >= 0) result.apart = room.apart;
   if (!touches && !pair.touching && pair.offset_left <= 0) return false;
 
   PairWrench elastic, damping, friction;
@@ -226,6 +247,38 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
   add(result.wrench, damping);
   add(result.wrench, friction);
   add(result.wrench, offset);
+  return true;
+}
+
+bool stands_apart(const Pair& pair, const View& s, const ContactSettings& settings, double dt, PairResult& result) {
+  constexpr double parallel = 1e-6, sure = 1e-12;
+  const ContactShape &reference = *s.reference, &other = *s.other;
+  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
+  if (pair.separating < 0 || pair.touching || pair.offset_left > 0 || !(reference.small.faces > 0 && other.small.faces > 0)) return false;
+  const Keeper by = keeper(pair, s);
+  const Vec3 between = (o.rest - r.rest) + (o.u - r.u), v = o.v - r.v;
+  double apart = 0, along = 0;
+  if (by.kind == Keeper::face) {
+    const Vec3 n = r.turn * reference.normal[by.face_or_a];
+    apart = extent(other.small, o.turn.transpose() * n).least + n.dot(between) - reference.offset[by.face_or_a];
+    along = -v.dot(n);
+  } else if (by.kind == Keeper::other_face) {
+    const Vec3 n = o.turn * other.normal[by.face_or_a];
+    apart = extent(reference.small, r.turn.transpose() * n).least - n.dot(between) - other.offset[by.face_or_a];
+    along = v.dot(n);
+  } else {
+    Vec3 n = (r.turn * reference.edge[by.face_or_a]).cross(o.turn * other.edge[by.b]);
+    const double sine = n.norm();
+    if (sine < parallel) return false;
+    n /= sine;
+    const Extent one = extent(reference.small, r.turn.transpose() * n), two = extent(other.small, o.turn.transpose() * n);
+    const double way = n.dot(between);
+    apart = std::max(two.least + way - one.most, one.least - (two.most + way));
+    along = v.norm();
+  }
+  if (!(apart > sure * (reference.reach + other.reach))) return false;
+  result.apart = apart;
+  landing(pair, s, settings, along, apart, dt, result);
   return true;
 }
 

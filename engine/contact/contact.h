@@ -5,6 +5,8 @@
 
 namespace erbs {
 
+struct View;  // view.h
+
 inline constexpr double look_ahead = 5;  // steps within which bodies that approach each other are reckoned with
 
 // What one evaluation gives besides the wrench. Losses belong to the step that ends at the pose given: each is the work of its
@@ -25,8 +27,7 @@ struct PairResult {
   double elastic = 0;   // J, normal, stored (only where asked for)
   // The rates of a face that may land within the next steps, where the bodies are apart still but approach.
   double landing_a = 0, landing_b = 0;
-  double apart = -1;                // m, distance of the bodies, at least; below zero where they touch or it is not known
-  double lever_a = 0, lever_b = 0;  // m, by how much that falls at most for each radian that the block turns; for each metre by 1
+  double apart = -1;  // m, distance of the bodies, at least; below zero where they touch or it is not known
   bool touching = false;
 };
 
@@ -34,6 +35,10 @@ struct PairResult {
 // the bodies are apart and nothing was or is stored (the result is then zero but for `landing`).
 bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
                 double dt, bool want_energy, OverlapRoom& room, PairResult& result);
+
+// A pair of small bodies that did not touch, in short: true where what kept them apart surely keeps them apart still. `result` then has
+// what pair_force() gives, to round-off. The pose of the view is not asked for.
+bool stands_apart(const Pair& pair, const View& view, const ContactSettings& settings, double dt, PairResult& result);
 
 // A new pair; fixes its reference body for good.
 Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, const ContactShapes& shapes);

@@ -35,7 +35,19 @@ struct PairSettings {
   double dt, memory, reference_speed, settling, settling_tangential, surely_within;
 };
 
+// Eight blocks side by side in State, and the rows by which pairs see them.
+struct BlockLanes {
+  const Lane *u, *q, *v, *w;  // m, x y z w, m/s, rad/s, as in State
+  Lane *last_u, *last_q;      // where they were when they were followed last
+  const double* reach;        // m, farthest point of each from its centroid
+  double *spun, *spin;        // m, that point's way as the block turned from step to step, at most; m/s, its speed
+  double *way, *way_soon;     // m, the same with the way of the centroid; with what the next steps may add
+  double* row[8];             // ContactBlock
+};
+
 struct PairKernels {
+  // Pose, motion and way of the blocks marked; `soon` (s): the next steps. `fastest` (m/s): of any block so far, lane by lane.
+  void (*follow)(const BlockLanes&, unsigned which, double soon, Lane& fastest);
   void (*place)(PairLanes&);                         // reads the rows; fills turn and shift
   void (*patch)(PairLanes&, const PairSettings&);    // from sums to turning; total = 0 where there is no patch to speak of
   void (*dashpot)(PairLanes&, const PairSettings&);  // from closing

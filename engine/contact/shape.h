@@ -44,13 +44,14 @@ ContactShapes contact_shapes(const std::vector<std::vector<Polyhedron>>& parts_o
 
 // Current pose and motion of a block; fixed blocks have inverse_mass and inverse_inertia 0.
 struct alignas(64) ContactBlock {
-  Vec3 rest = Vec3::Zero();            // m, centroid at rest
-  Vec3 u = Vec3::Zero();               // m, displacement of the centroid
-  Mat3 turn = Mat3::Identity();        // rotation from rest
-  Vec3 v = Vec3::Zero();               // m/s, of the centroid, at the half step before the pose
-  Vec3 w = Vec3::Zero();               // rad/s, world axes, at the same half step
+  Vec3 u = Vec3::Zero();         // m, displacement of the centroid
+  Mat3 turn = Mat3::Identity();  // rotation from rest
+  Vec3 v = Vec3::Zero();         // m/s, of the centroid, at the half step before the pose
+  Vec3 w = Vec3::Zero();         // rad/s, world axes, at the same half step
+  // what stays: follow() of pair_lanes.h writes what is above
   double inverse_mass = 0;             // 1/kg
   double inverse_inertia = 0;          // 1/(kg m2), of the smallest principal inertia
+  Vec3 rest = Vec3::Zero();            // m, centroid at rest
   Mat3 inverse_tensor = Mat3::Zero();  // 1/(kg m2), axes at rest
 };
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/vec.h"
+#include "engine/model/block_field.h"
 #include "engine/model/corners.h"
 
 namespace erbs {
@@ -78,6 +79,19 @@ struct PairList {
   bool by_blocks = false;           // joints were counted block by block too
 };
 
+// A pair that is apart needs no look until its bodies may have come closer by their distance.
+struct Apart {
+  double distance = 0;          // m, at least, when they were looked at last; 0: not known
+  double spun = 0;              // m, of both blocks by then
+  Vec3 between = Vec3::Zero();  // m, displacement of b less that of a then
+};
+// All of them. Looking sooner may find another plane between two bodies, by which they are judged from then on: so it is part of the State.
+struct Parting {
+  std::vector<Apart> pair;   // as PairList::pair
+  BlockQuat q;               // of each block, where it was followed last           [nblock]
+  std::vector<double> spun;  // m, way of its farthest point as it turned from step to step, since the list was made, at most [whole groups]
+};
+
 // Every member that a checkpoint or a hash must hold.
 template <class W, class F>
 requires std::is_same_v<std::remove_const_t<W>, PairWrench>
@@ -111,6 +125,17 @@ void each(P& p, F&& f) {
   f("pair", p.pair), f("margin", p.margin), f("valid", p.valid), f("start", p.start), f("u", p.u), f("turn", p.turn),
       f("searches", p.searches);
   f("counted", p.counted), f("counts", p.counts), f("counted_at", p.counted_at), f("by_blocks", p.by_blocks);
+}
+
+template <class P, class F>
+requires std::is_same_v<std::remove_const_t<P>, Apart>
+void each(P& p, F&& f) {
+  f("distance", p.distance), f("spun", p.spun), f("between", p.between);
+}
+template <class P, class F>
+requires std::is_same_v<std::remove_const_t<P>, Parting>
+void each(P& p, F&& f) {
+  f("pair", p.pair), f("q", p.q), f("spun", p.spun);
 }
 
 }  // namespace erbs

@@ -79,6 +79,7 @@ struct State {
   std::vector<RowLanes<6>> kept, given;
   std::vector<double> viscous;         // N, N m, resultants of the dashpots of the last step; empty without [6 njoint]
   PairList debris;                     // contacts of loose blocks
+  Parting parting;                     // those of their pairs that are apart
   Rest rest;                           // those of them that sleep
   double dt_goal = 0;                  // s, the step the run asks for; dt may be shorter while contacts change
   int calm = 0;                        // steps since contacts last held dt down

@@ -33,6 +33,7 @@ double largest_inverse_inertia(const Mat3& inverse) {
 Debris::Debris(const Model& model, State& state, int threads) : model_(model), state_(state), sleep_(model, state), limit_(model, state) {
   looked_.resize(z(threads));
   fastest_.resize(z(threads));
+  fastest_loose_.resize(z(threads));
   first_pair_.assign(z(threads) + 1, 0);
   first_pair_.back() = std::numeric_limits<int>::max();
   room_.resize(z(threads));
@@ -55,7 +56,17 @@ void Debris::wake() {
   shapes_ = contact_shapes(parts);
   for (std::size_t i = 0; i < room_.size(); ++i) batch_.push_back(std::make_unique<Batch>());
   blocks_.resize(z(model_.nblock));
-  way_.resize(z(model_.nblock));
+  const std::size_t groups = block_groups(model_.nblock);
+  last_u_.resize(groups);
+  for (std::size_t g = 0; g < groups; ++g) last_u_[g] = state_.u.data()[g];
+  Parting& parting = state_.parting;
+  if (parting.q.size() == 0) parting.q = state_.q;
+  for (std::vector<double>* x : {&reach_, &spin_, &way_, &way_soon_}) x->assign(groups * lanes, 0.0);
+  parting.spun.resize(groups * lanes, 0.0);
+  for (std::size_t i = 0; i < shapes_.shape.size(); ++i) {
+    double& reach = reach_[z(shapes_.block[i])];
+    reach = std::max(reach, shapes_.shape[i].reach);
+  }
   rate_.assign(z(model_.nblock), 0.0);
   landing_.assign(z(model_.nblock), 0.0);
   for (int b = 0; b < model_.nblock; ++b) {
@@ -64,8 +75,9 @@ void Debris::wake() {
     block.inverse_mass = model_.inverse_mass[z(b)];
     block.inverse_inertia = largest_inverse_inertia(model_.inverse_inertia[z(b)]);
     block.inverse_tensor = model_.inverse_inertia[z(b)];
-    place(b);
   }
+  place_all(true);
+  thinnest_ = *std::ranges::min_element(model_.smallest_edge);
   for (int j = 0; j < model_.njoint; ++j) {
     const auto key = pair_key(model_.joint[z(j)].a, model_.joint[z(j)].b);
     if (!pair_keys_.empty() && pair_keys_.back() == key) continue;
@@ -74,19 +86,36 @@ void Debris::wake() {
   }
 }
 
-void Debris::place(int b) {
-  ContactBlock& block = blocks_[z(b)];
-  const Mat3 turn = state_.q[z(b)].toRotationMatrix();
-  Way& way = way_[z(b)];
-  way.moved += (state_.u[z(b)] - block.u).norm();
-  way.turned += std::sqrt(0.5) * (turn - block.turn).norm();  // the chord: |R - R0| of Frobenius is 2 sqrt 2 sin(angle / 2)
-  block.u = state_.u[z(b)];
-  block.turn = turn;
-  block.v = state_.v[z(b)];
-  block.w = state_.w[z(b)];
-  const double soon = look_ahead * 1.5 * std::max(state_.dt, state_.last_dt);  // the next step may be half as long again
-  way.moved_soon = way.moved + soon * block.v.norm();
-  way.turned_soon = way.turned + soon * block.w.norm();
+void Debris::mark(std::vector<Eight>& groups, int b) {
+  if (groups.empty() || groups.back().group != b / lanes) groups.push_back({b / lanes, 0});
+  groups.back().which |= 1u << b % lanes;
+}
+
+void Debris::place(Eight blocks, Fastest& fastest) {
+  const std::size_t g = z(blocks.group), first = g * lanes;
+  BlockLanes at{};
+  at.u = state_.u.data()[g].x, at.q = state_.q.data()[g].x, at.v = state_.v.data()[g].x, at.w = state_.w.data()[g].x;
+  at.last_u = last_u_[g].x, at.last_q = state_.parting.q.data()[g].x;
+  at.reach = &reach_[first], at.spun = &state_.parting.spun[first], at.spin = &spin_[first];
+  at.way = &way_[first], at.way_soon = &way_soon_[first];
+  for (int l = 0; l < lanes; ++l) at.row[l] = (blocks.which >> l & 1u) != 0 ? blocks_[first + z(l)].u.data() : nullptr;
+  pair_kernels().follow(at, blocks.which, look_ahead * 1.5 * std::max(state_.dt, state_.last_dt), fastest.speed);
+}
+
+// Sleepers lie where they are.
+void Debris::place_all(bool sleepers) {
+  Fastest any;  // of no interest: what pairs have moves in follow() and prepare()
+  std::vector<Eight> all;
+  for (int b = 0; b < model_.nblock; ++b)
+    if (sleepers || !sleep_.asleep(b)) mark(all, b);
+  for (const Eight& blocks : all) place(blocks, any);
+}
+
+// After a search: nothing is known of the pairs that it lists.
+void Debris::list_anew() {
+  state_.parting.pair.clear();
+  std::fill(state_.parting.spun.begin(), state_.parting.spun.end(), 0.0);
+  list_involved();
 }
 
 void Debris::list_involved() {
@@ -98,13 +127,14 @@ void Debris::list_involved() {
     if (in[z(b)]) involved_.push_back(b);
   jointed_.clear();
   bed_.clear();
-  apart_.clear();
+  waiting_.clear();
   if (!active()) return;
   wake();
   for (int j = 0; j < model_.njoint; ++j)
     if (state_.tier[z(j)] != Tier::open) jointed_.push_back(pair_key(model_.joint[z(j)].a, model_.joint[z(j)].b));
   find_beds();
-  for (const Pair& p : state_.debris.pair) apart_.push_back({p.a, p.b});
+  for (const Pair& p : state_.debris.pair) waiting_.push_back({p.a, p.b});
+  state_.parting.pair.resize(waiting_.size());
 }
 
 void Debris::find_beds() {
@@ -223,7 +253,7 @@ std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
   wake();
   list_involved();
   // All of them: poses from the last look would depend on when this run was started or resumed.
-  for (int b = 0; b < model_.nblock; ++b) place(b);
+  place_all(true);
   state_.debris.valid = false;
   std::vector<int> fresh;
   released_ += search(
@@ -237,7 +267,7 @@ std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
   }
   std::erase_if(fresh, [this](int i) { return state_.debris.pair[z(i)].bed != 0; });
   released_ -= start_fresh(fresh);
-  list_involved();
+  list_anew();
   return opened;
 }
 

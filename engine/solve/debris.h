@@ -50,17 +50,31 @@ class Debris {
   double start(Pair& pair, const Vec6& wrench, double area);
   double start_fresh(const std::vector<int>& fresh);
   void list_involved();
+  void list_anew();
   void find_beds();
   int bed_joint(const Pair& pair) const;
   void count_bed(Pair& pair);
   void count();
   double largest_rate() const;
   void share_out();
-  void land(int i, double apart, double landing_a, double landing_b);
+  void land(int i, double landing_a, double landing_b);
+  void limit_passing();
   bool displaced(const Pair& pair, int joint) const;
   void part_beds();
-  void place(int b);
+  // Eight blocks side by side; of them those marked.
+  struct Eight {
+    int group;
+    unsigned which;
+  };
+  struct alignas(64) Fastest {
+    double speed[lanes] = {};  // m/s, of many groups, lane by lane
+  };
+  static void mark(std::vector<Eight>& groups, int b);
+  void place(Eight blocks, Fastest& fastest);
+  void place_all(bool sleepers);
   void look();
+  bool keeps_apart(int i);
+  void note_apart(int i, double distance);
   void sort();
   void find_still();
   PairLaw law(int a, int b) const;
@@ -72,8 +86,9 @@ class Debris {
   std::vector<ContactBlock> blocks_;
   Sleep sleep_;
   std::vector<int> involved_;           // blocks that are loose or listed in a pair
-  std::vector<double> fastest_;         // m2/s2, squared speed of the fastest block that each thread has followed
-  std::vector<int> placed_;             // those of live pairs that move
+  std::vector<double> fastest_loose_;   // m2/s2, squared speed of the fastest block that each thread has followed
+  std::vector<Eight> placed_;           // those of live pairs that move
+  std::vector<Eight> driven_;           // of these those that no drift moves
   std::vector<std::uint64_t> jointed_;  // pairs of blocks still joined, sorted
   struct Bed {
     int joint = -1;                 // first of the joints that this pair took over from, -1: none
@@ -83,18 +98,20 @@ class Debris {
   ContactLimit limit_;
   std::vector<double> rate_;     // 1/s2, of contacts beyond that [nblock]
   std::vector<double> landing_;  // 1/s2, of the stiffest face that may land on the block next; one face has room for no more
-  // A pair known to be apart needs no look until its blocks have moved by that distance together. How far each has come is summed up
-  // along its way, so that the pairs concerned are found without a look at the pairs themselves.
-  struct Apart {
+  // How far each block has come is summed up along its way, so that most pairs that are apart need not even be asked whether their bodies
+  // may have met (State::parting).
+  struct Waiting {
     int a = 0, b = 0;
-    double lever_a = 0, lever_b = 0, until = 0;  // m; no look while way[a] + way[b] + lever_a turned[a] + lever_b turned[b] < until
+    double until = 0;  // m; no look while way_soon_[a] + way_soon_[b] < until
   };
-  std::vector<Apart> apart_;  // of each pair
-  struct Way {
-    double moved = 0, turned = 0;            // m, rad since the start of this Solver
-    double moved_soon = 0, turned_soon = 0;  // the same with what the next steps may add
-  };
-  std::vector<Way> way_;  // [nblock]
+  std::vector<Waiting> waiting_;        // of each pair
+  std::vector<RowLanes<3>> last_u_;     // m, where blocks were when they were placed last, by groups of eight as in State
+  std::vector<double> reach_;           // m, of each block's farthest point, to whole groups as what follows
+  std::vector<double> spin_;            // m/s, BlockLanes
+  std::vector<double> way_, way_soon_;  // m, likewise
+  std::vector<Fastest> fastest_;        // m/s, of the blocks that each thread has placed
+  double fastest_pair_ = 0;             // m/s, faster than that no two blocks meet
+  double thinnest_ = 0;                 // m, of all blocks
   // What a thread found in this step, in the order of the pairs.
   struct Active {
     int pair;

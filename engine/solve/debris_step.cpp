@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/contact/view.h"
 #include "engine/solve/debris.h"
 
 namespace erbs {
@@ -32,27 +33,33 @@ void Debris::follow(int thread, int first, int last) {
   const auto of = [first, last](const std::vector<int>& blocks) {
     return std::ranges::subrange(std::ranges::lower_bound(blocks, first), std::ranges::lower_bound(blocks, last));
   };
-  double& fastest = fastest_[z(thread)];
+  double& fastest = fastest_loose_[z(thread)];
+  fastest_[z(thread)] = {};
   fastest = 0;
   for (const int b : of(sleep_.awake())) fastest = std::max(fastest, Vec3(state_.v[z(b)]).squaredNorm());
-  for (const int b : of(placed_)) place(b);
+  const auto before = [](const Eight& blocks, int group) { return blocks.group < group; };
+  const auto end = std::lower_bound(placed_.begin(), placed_.end(), (last + lanes - 1) / lanes, before);
+  for (auto at = std::lower_bound(placed_.begin(), end, first / lanes, before); at != end; ++at) place(*at, fastest_[z(thread)]);
 }
 
 void Debris::prepare() {
-  double fastest = *std::ranges::max_element(fastest_);
+  double fastest = *std::ranges::max_element(fastest_loose_);
+  Fastest late;
   if (unsorted_) {
-    for (const int b : involved_) {
-      place(b);
-      fastest = std::max(fastest, blocks_[z(b)].v.squaredNorm());
-    }
+    std::vector<Eight> involved;
+    for (const int b : involved_) mark(involved, b);
+    for (const Eight& blocks : involved) place(blocks, late);
+    for (const int b : involved_) fastest = std::max(fastest, blocks_[z(b)].v.squaredNorm());
   } else {
-    for (const int b : placed_)
-      if (model_.kind[z(b)] == Kind::driven) place(b);  // the drift does not move it
+    for (const Eight& blocks : driven_) place(blocks, late);  // the drift does not move them
   }
   const bool far = std::sqrt(fastest) * state_.dt * look_every > 0.25 * state_.debris.margin;
   if (!state_.debris.valid || far || state_.step % look_every == 0) look();
   if (unsorted_) sort();
   if (std::exchange(lanes_changed_, false)) lane_.assign(state_.debris.pair.size(), {});
+  double speed = *std::ranges::max_element(late.speed);
+  for (const Fastest& one : fastest_) speed = std::max(speed, *std::ranges::max_element(one.speed));
+  fastest_pair_ = 2 * speed;
 }
 
 // Pairs between sleepers, or of one with what is fixed, are evaluated once more, without dashpots since nothing moves, and left alone.
@@ -66,9 +73,14 @@ void Debris::sort() {
     return r;
   });
   placed_.clear();
-  for (const int b : sleep_.pushed())
-    if (model_.kind[z(b)] != Kind::fixed && !sleep_.asleep(b)) placed_.push_back(b);
-  std::ranges::sort(placed_);
+  driven_.clear();
+  std::vector<int> pushed = sleep_.pushed();
+  std::ranges::sort(pushed);
+  for (const int b : pushed) {
+    if (model_.kind[z(b)] == Kind::fixed || sleep_.asleep(b)) continue;
+    mark(placed_, b);
+    if (model_.kind[z(b)] == Kind::driven) mark(driven_, b);
+  }
   find_still();
   unsorted_ = false;
   relisted_ = true;
@@ -82,8 +94,7 @@ bool Debris::sleep(const Excitation& now, const double* push) {
 
 // What a loose block may meet is not kept up to date step by step: a look takes all poses.
 void Debris::look() {
-  for (int b = 0; b < model_.nblock; ++b)
-    if (!sleep_.asleep(b)) place(b);
+  place_all(false);
   part_beds();
   if (unsorted_) find_still();
   if (state_.debris.valid && !needs_search(state_.debris, shapes_, blocks_, still_)) return;
@@ -100,7 +111,7 @@ void Debris::look() {
       pair.offset.force *= -1, pair.offset.moment_a *= -1, pair.offset.moment_b *= -1;
     }
   }
-  list_involved();
+  list_anew();
   find_still();
 }
 
@@ -114,6 +125,32 @@ void Debris::find_still() {
     still_[z(b)] = sleep_.asleep(b) && blocks_[z(b)].u == list.u[z(b)] && blocks_[z(b)].turn == list.turn[z(b)];
 }
 
+// Whether a pair that was apart needs no look, as far as its two blocks have come since.
+bool Debris::keeps_apart(int i) {
+  const Apart& known = state_.parting.pair[z(i)];
+  if (!(known.distance > 0)) return false;
+  Waiting& pair = waiting_[z(i)];
+  const ContactBlock &a = blocks_[z(pair.a)], &b = blocks_[z(pair.b)];
+  const std::vector<double>& spun = state_.parting.spun;
+  const double soon = look_ahead * 1.5 * std::max(state_.dt, state_.last_dt);  // the next step may be half as long again
+  const double left = known.distance - ((b.u - a.u) - known.between).norm() - (spun[z(pair.a)] + spun[z(pair.b)] - known.spun) -
+                      round_off * state_.debris.margin;
+  if (!(soon * ((b.v - a.v).norm() + spin_[z(pair.a)] + spin_[z(pair.b)]) < left)) return false;
+  pair.until = (way_[z(pair.a)] + way_[z(pair.b)] + left) * (1 - round_off);
+  return true;
+}
+
+// Of a pair that has been looked at.
+void Debris::note_apart(int i, double distance) {
+  Apart& known = state_.parting.pair[z(i)];
+  Waiting& pair = waiting_[z(i)];
+  const int a = pair.a, b = pair.b;
+  known.distance = pair.until = 0;
+  if (!(distance > 0)) return;
+  known = {distance, state_.parting.spun[z(a)] + state_.parting.spun[z(b)], blocks_[z(b)].u - blocks_[z(a)].u};
+  pair.until = (way_[z(a)] + way_[z(b)] + distance - round_off * state_.debris.margin) * (1 - round_off);
+}
+
 void Debris::forces(int thread, bool sample) {
   const std::vector<int>& live = sleep_.live();
   const auto mine = std::ranges::subrange(std::ranges::lower_bound(live, first_pair_[z(thread)]),
@@ -121,9 +158,8 @@ void Debris::forces(int thread, bool sample) {
   Looked& looked = looked_[z(thread)];
   looked.at.clear(), looked.active.clear(), looked.near.clear();
   for (const int i : mine) {
-    const Apart& known = apart_[z(i)];
-    const Way &a = way_[z(known.a)], &b = way_[z(known.b)];
-    if (a.moved_soon + b.moved_soon + known.lever_a * a.turned_soon + known.lever_b * b.turned_soon < known.until) continue;
+    const Waiting& pair = waiting_[z(i)];
+    if (way_soon_[z(pair.a)] + way_soon_[z(pair.b)] < pair.until || keeps_apart(i)) continue;
     looked.at.push_back(i);
   }
   const int n = int(looked.at.size());
@@ -132,16 +168,17 @@ void Debris::forces(int thread, bool sample) {
   Batch& batch = *batch_[z(thread)];
   const double dt = state_.last_dt;
   const auto alone = [&](int i, PairResult& r) {
-    Apart& known = apart_[z(i)];
-    const bool counts =
-        pair_force(state_.debris.pair[z(i)], shapes_, blocks_[z(known.a)], blocks_[z(known.b)], settings_, dt, sample, room, r);
-    known.until = 0;
-    lane_[z(i)].fits = goes_in_lanes(state_.debris.pair[z(i)], lane_[z(i)].bodies);
-    if (counts || !(r.apart > 0)) return counts;
-    const Way &a = way_[z(known.a)], &b = way_[z(known.b)];
-    known.lever_a = r.lever_a;
-    known.lever_b = r.lever_b;
-    known.until = (r.apart + a.moved + b.moved + r.lever_a * a.turned + r.lever_b * b.turned) * (1 - round_off);
+    Pair& pair = state_.debris.pair[z(i)];
+    const ContactBlock &a = blocks_[z(waiting_[z(i)].a)], &b = blocks_[z(waiting_[z(i)].b)];
+    const PairBodies& bodies = lane_[z(i)].bodies;
+    const View view{bodies.reference, bodies.other, bodies.swapped ? &b : &a, bodies.swapped ? &a : &b, {}};
+    if (stands_apart(pair, view, settings_, dt, r)) {
+      note_apart(i, r.apart);
+      return false;
+    }
+    const bool counts = pair_force(pair, shapes_, a, b, settings_, dt, sample, room, r);
+    lane_[z(i)].fits = goes_in_lanes(pair, bodies);
+    note_apart(i, counts ? 0 : r.apart);
     return counts;
   };
   PairJob job[8];
@@ -154,14 +191,14 @@ void Debris::forces(int thread, bool sample) {
   };
   for (int k = 0; k < n; ++k) {
     if (k + 1 < n) {
-      const Apart& next = apart_[z(looked.at[z(k + 1)])];
+      const Waiting& next = waiting_[z(looked.at[z(k + 1)])];
       fetch(state_.debris.pair[z(looked.at[z(k + 1)])]);
       fetch(blocks_[z(next.a)]);
       fetch(blocks_[z(next.b)]);
     }
     const int i = looked.at[z(k)];
     Pair& pair = state_.debris.pair[z(i)];
-    const Apart& known = apart_[z(i)];
+    const Waiting& known = waiting_[z(i)];
     Lane& lane = lane_[z(i)];
     if (!lane.known) {
       lane.bodies = bodies_of(pair, shapes_);
@@ -183,8 +220,7 @@ void Debris::forces(int thread, bool sample) {
 
 // Counts all contacts: what they have now is what they are counted with. Beds keep what their joints were counted with.
 void Debris::count() {
-  for (int b = 0; b < model_.nblock; ++b)
-    if (!sleep_.asleep(b)) place(b);
+  place_all(false);
   std::vector<Pair>& pair = state_.debris.pair;
   std::vector<double> sum(z(model_.nblock), 0.0);
   const auto note = [&](int i, double a, double b) {
@@ -227,18 +263,28 @@ void Debris::share_out() {
   }
 }
 
-// What a pair asks of the next step, besides its stiffness.
-void Debris::land(int i, double apart, double landing_a, double landing_b) {
-  const Apart& pair = apart_[z(i)];
-  if (bed_[z(i)].joint < 0) {  // a bed that closes again is no stiffer than its joint was
-    landing_[z(pair.a)] = std::max(landing_[z(pair.a)], landing_a);
-    landing_[z(pair.b)] = std::max(landing_[z(pair.b)], landing_b);
-  }
-  // no body passes through another unseen: a quarter of the thinner one per step
-  const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
-  const double speed = (blocks_[z(pair.a)].v - blocks_[z(pair.b)].v).norm();
+// A bed that closes again is no stiffer than its joint was.
+void Debris::land(int i, double landing_a, double landing_b) {
+  if (!(landing_a > 0 || landing_b > 0) || bed_[z(i)].joint >= 0) return;
+  const Waiting& pair = waiting_[z(i)];
+  landing_[z(pair.a)] = std::max(landing_[z(pair.a)], landing_a);
+  landing_[z(pair.b)] = std::max(landing_[z(pair.b)], landing_b);
+}
+
+// No body passes through another unseen: a quarter of the thinner one per step.
+void Debris::limit_passing() {
+  if (fastest_pair_ * allowed_ <= 0.25 * (1 - round_off) * thinnest_) return;
   const double soon = look_ahead * std::max(state_.dt, state_.last_dt);
-  if (apart <= soon * speed && speed * allowed_ > 0.25 * thin) allowed_ = 0.25 * thin / speed;
+  const auto pass = [&](int i, double apart) {
+    const Waiting& pair = waiting_[z(i)];
+    const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
+    const double speed = (blocks_[z(pair.a)].v - blocks_[z(pair.b)].v).norm();
+    if (apart <= soon * speed && speed * allowed_ > 0.25 * thin) allowed_ = 0.25 * thin / speed;
+  };
+  for (const Looked& looked : looked_) {
+    for (const Active& one : looked.active) pass(one.pair, one.result.apart);
+    for (const Near& one : looked.near) pass(one.pair, one.apart);
+  }
 }
 
 void Debris::gather(double* push, bool sample) {
@@ -261,7 +307,7 @@ void Debris::gather(double* push, bool sample) {
   for (const Looked& looked : looked_) {
     for (const Active& one : looked.active) {
       const std::size_t i = z(one.pair);
-      const Apart& pair = apart_[i];
+      const Waiting& pair = waiting_[i];
       const PairResult& r = one.result;
       const PairWrench& w = r.wrench;
       double *a = push + 8 * pair.a, *b = push + 8 * pair.b;
@@ -280,11 +326,11 @@ void Debris::gather(double* push, bool sample) {
       rate_[z(pair.b)] += std::max(0.0, r.rate_b - bed_[i].rate_b);
       touching_ += r.touching;
       touched_ += r.touching;
-      land(one.pair, r.apart, r.landing_a, r.landing_b);
+      land(one.pair, r.landing_a, r.landing_b);
       const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
       if (r.depth > 0) s.max_penetration_relative = std::max(s.max_penetration_relative, r.depth / thin);
     }
-    for (const Near& one : looked.near) land(one.pair, one.apart, one.landing_a, one.landing_b);
+    for (const Near& one : looked.near) land(one.pair, one.landing_a, one.landing_b);
   }
   share_out();
   double limit = limit_.allowed(largest_rate());
@@ -294,6 +340,7 @@ void Debris::gather(double* push, bool sample) {
   }
   allowed_ = std::min(allowed_, limit);
   if (rubbing > 0) allowed_ = std::min(allowed_, rubbing_angle / std::sqrt(rubbing));
+  limit_passing();
 }
 
 }  // namespace erbs
