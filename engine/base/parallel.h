@@ -1,9 +1,9 @@
 // Threads: a team that stays together for a whole run, with a barrier cheap enough for two of them a step.
 // std::thread and atomics rather than OpenMP: spinning then needs no environment variable set before main, and the thread
-// sanitizer understands it. A waiting thread spins for some microseconds, then for about a millisecond gives its core to whoever wants
-// it, so that an oversubscribed core still makes progress, and only then sleeps: to be woken takes longer than a phase of a step, the
-// others would go to sleep meanwhile, and so on in turn. Two that find themselves on one core part, since no scheduler does it for them:
-// where they take turns, the load is that of one.
+// sanitizer understands it. A waiting thread spins for some tens of microseconds, then sleeps, so that an oversubscribed core still makes
+// progress. No less: to be woken takes longer than a phase of a step, the others would go to sleep meanwhile, and so on in turn. And no
+// yielding: to whom a core is yielded keeps it for milliseconds. Two that find themselves on one core part, since no scheduler does it for
+// them: where they take turns, the load is that of one.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -18,8 +18,7 @@ namespace erbs {
 
 class Barrier {
  public:
-  explicit Barrier(int count, int spins = 5000, int yields = 3000)
-      : count_(count), spins_(spins), yields_(yields), waiting_(0), round_(0), seat_(std::size_t(count)) {}
+  explicit Barrier(int count, int spins = 60000) : count_(count), spins_(spins), waiting_(0), round_(0), seat_(std::size_t(count)) {}
   void wait(int thread) {
     if (count_ == 1) return;
     sit_down(thread);
@@ -74,8 +73,7 @@ class Barrier {
   void watch(int thread, Condition&& holds) {
     for (int i = 0; i < spins_; ++i)
       if (!holds()) return;
-    if (yields_ > 0 && holds()) part(thread);
-    for (int i = 0; i < yields_ && holds(); ++i) std::this_thread::yield();
+    part(thread);
   }
   void sit_down(int thread) { seat_[std::size_t(thread)].core.store(this_core(), std::memory_order_relaxed); }
   // Of two on one core the later one goes; ever more seldom where it is back soon, since there are too few cores then.
@@ -93,7 +91,7 @@ class Barrier {
     }
   }
 
-  const int count_, spins_, yields_;
+  const int count_, spins_;
   bool failed_ = false;
   alignas(64) std::atomic<int> waiting_;
   alignas(64) std::atomic<unsigned> round_;
