@@ -70,18 +70,22 @@ struct alignas(64) CrackedSums {
   double worst[lanes];  // whose that is: `number` of the shape
 };
 
+// What no refresh changes of eight sound joints. Joints of the same types side by side share one, which then stays near the processor.
+struct alignas(64) SoundLaw {
+  // the resultant on b: so both are negative
+  double shear[lanes], across[lanes];  // N/m: stiffness along the faces, and how much more it is across them
+  double open_limit[lanes], slip_limit[lanes], slip_slope[lanes], close_limit[lanes];  // as in JointBatch
+  double diameter[lanes];                                                              // m, twice the radius of JointBatch
+};
 // Eight sound joints in world axes at the last refresh: what a step reads of them, and nothing else (lanes_sound.inc).
 struct alignas(64) SoundBatch {
   double gap[3][lanes], turn[3][lanes];     // m, rad: relative displacement and half the relative rotation
   double arm_a[3][lanes], arm_b[3][lanes];  // m, from the centroids to the joint
   double normal[3][lanes];
-  // the resultant on b: so all are negative
-  double shear[lanes], across[lanes];  // N/m: stiffness along the faces, and how much more it is across them
-  double bend[6][lanes];               // N m: symmetric, xx yy zz yz xz xy; against half rotations
-  double open_limit[lanes], slip_limit[lanes], slip_slope[lanes], close_limit[lanes];  // as in JointBatch
-  double diameter[lanes];                                                              // m, twice the radius of JointBatch
-  Crossing other;                                                                      // where blocks b are; blocks a are their keepers
-  int used;                                                                            // joints in it; -1: none, and nothing left of them
+  double bend[6][lanes];  // N m: symmetric, xx yy zz yz xz xy; against half rotations, the resultant on b: negative
+  const SoundLaw* law;
+  Crossing other;  // where blocks b are; blocks a are their keepers
+  int used;        // joints in it; -1: none, and nothing left of them
 };
 // Of its joints: whether they are seen from their other end (-1) or not (1), and where the stiffnesses against rotation (N m) lie.
 struct SoundLanes {

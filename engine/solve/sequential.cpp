@@ -115,6 +115,7 @@ Sequential::Sequential(const Model& model, State& state)
       if (taken++ % lanes == 0) {
         batch_.emplace_back();
         ends_.emplace_back();
+        batch_.back().law = &law_.emplace_back();
         for (int l = 0; l < lanes; ++l) clear_lane(int(batch_.size() - 1) * lanes + l);
         joint_.resize(batch_.size() * lanes, -1);
       }
@@ -166,7 +167,7 @@ void Sequential::update(const std::vector<int>& joints) {
     set_lane(model_, state_, j, one, 0);
     for (const int lane : {lane_[z(j)].of_a, lane_[z(j)].of_b})
       if (lane >= 0) {
-        set_sound_lane(one, 0, batch_[z(lane / lanes)], lane % lanes);
+        set_sound_lane(one, 0, batch_[z(lane / lanes)], law_[z(lane / lanes)], lane % lanes);
         SoundEnds& ends = ends_[z(lane / lanes)];
         ends.a[lane % lanes] = 8 * one.a[0], ends.row_a[lane % lanes] = 8 * one.row_a[0];
         ends.b[lane % lanes] = 8 * one.b[0], ends.row_b[lane % lanes] = 8 * one.row_b[0];
@@ -175,7 +176,7 @@ void Sequential::update(const std::vector<int>& joints) {
 }
 
 void Sequential::clear_lane(int lane) {
-  clear_sound_lane(batch_[z(lane / lanes)], lane % lanes);
+  clear_sound_lane(batch_[z(lane / lanes)], law_[z(lane / lanes)], lane % lanes);
   SoundEnds& ends = ends_[z(lane / lanes)];
   ends.a[lane % lanes] = ends.b[lane % lanes] = 8 * model_.nblock;
   ends.row_a[lane % lanes] = ends.row_b[lane % lanes] = 8 * model_.spare_row();

@@ -11,6 +11,7 @@
 // in the mean dt K / 2, nothing on rigid motion.
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "engine/solve/integrate.h"
@@ -60,6 +61,7 @@ class Sequential {
   std::vector<int> end_;
   std::vector<int> first_batch_;  // its sound joints: batch_[first_batch_[b] .. first_batch_[b + 1]), each block its own copy
   std::vector<SoundBatch> batch_;
+  std::deque<SoundLaw> law_;  // each batch's own
   std::vector<SoundEnds> ends_;
   std::vector<int> joint_;  // of a lane of batch_; -1 none
   struct Lanes {

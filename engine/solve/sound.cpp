@@ -23,7 +23,7 @@ void set_bending_stiffness(const JointBatch& B, int from, double out[6][lanes], 
 
 }  // namespace
 
-void set_sound_lane(const JointBatch& B, int from, SoundBatch& out, int to, bool turned) {
+void set_sound_lane(const JointBatch& B, int from, SoundBatch& out, SoundLaw& law, int to, bool turned) {
   const double sign = turned ? -1 : 1;
   for (int i = 0; i < 3; ++i) {
     out.gap[i][to] = sign * B.gap[i][from];
@@ -32,22 +32,22 @@ void set_sound_lane(const JointBatch& B, int from, SoundBatch& out, int to, bool
     (turned ? out.arm_b : out.arm_a)[i][to] = B.arm_a[i][from];
     (turned ? out.arm_a : out.arm_b)[i][to] = B.arm_b[i][from];
   }
-  out.shear[to] = -B.stiffness[0][from];
-  out.across[to] = B.stiffness[0][from] - B.stiffness[2][from];
   set_bending_stiffness(B, from, out.bend, to);
-  out.open_limit[to] = B.open_limit[from];
-  out.slip_limit[to] = B.slip_limit[from];
-  out.slip_slope[to] = B.slip_slope[from];
-  out.close_limit[to] = B.close_limit[from];
-  out.diameter[to] = 2 * B.radius[from];
+  law.shear[to] = -B.stiffness[0][from];
+  law.across[to] = B.stiffness[0][from] - B.stiffness[2][from];
+  law.open_limit[to] = B.open_limit[from];
+  law.slip_limit[to] = B.slip_limit[from];
+  law.slip_slope[to] = B.slip_slope[from];
+  law.close_limit[to] = B.close_limit[from];
+  law.diameter[to] = 2 * B.radius[from];
 }
 
-void clear_sound_lane(SoundBatch& out, int lane) {
+void clear_sound_lane(SoundBatch& out, SoundLaw& law, int lane) {
   for (auto* field : {out.gap, out.turn, out.arm_a, out.arm_b, out.normal})
     for (int i = 0; i < 3; ++i) field[i][lane] = 0;
   for (auto& k : out.bend) k[lane] = 0;
-  out.shear[lane] = out.across[lane] = out.slip_slope[lane] = out.diameter[lane] = 0;
-  out.open_limit[lane] = out.slip_limit[lane] = out.close_limit[lane] = std::numeric_limits<double>::infinity();
+  law.shear[lane] = law.across[lane] = law.slip_slope[lane] = law.diameter[lane] = 0;
+  law.open_limit[lane] = law.slip_limit[lane] = law.close_limit[lane] = std::numeric_limits<double>::infinity();
 }
 
 Sound::Sound(const Model& model, State& state) : model_(model), state_(state) {
@@ -65,10 +65,13 @@ Sound::Sound(const Model& model, State& state) : model_(model), state_(state) {
     int joints[lanes];
     joints_in_place(k, joints);
     const JointBatch batch = batch_of(model, state, joints);
+    SoundBatch& out = batch_[z(k)];
+    SoundLaw law;
     for (int l = 0; l < lanes; ++l)
-      if (joints[l] >= 0) set_sound_lane(batch, l, batch_[z(k)], l, model.joint[z(joints[l])].kept_by_b), ++batch_[z(k)].used;
-      else clear_sound_lane(batch_[z(k)], l);
-    batch_[z(k)].other = kept.other[z(k)];
+      if (joints[l] >= 0) set_sound_lane(batch, l, out, law, l, model.joint[z(joints[l])].kept_by_b), ++out.used;
+      else clear_sound_lane(out, law, l);
+    out.law = &*law_.insert(law).first;
+    out.other = kept.other[z(k)];
   }
 }
 
@@ -117,8 +120,11 @@ void Sound::leave(int j) {
   if (batch_.empty()) return;
   const int lane = model_.kept.lane[z(j)], k = lane / lanes;
   looked_at_[z(k)].reset();
-  clear_sound_lane(batch_[z(k)], lane % lanes);
-  --batch_[z(k)].used;
+  SoundBatch& out = batch_[z(k)];
+  SoundLaw law = *out.law;
+  clear_sound_lane(out, law, lane % lanes);
+  out.law = &*law_.insert(law).first;
+  --out.used;
 }
 
 // Joint j answers otherwise than the pass has it, in its lane until the next step.

@@ -3,7 +3,9 @@
 // by side are read once for all they keep, what acts on them is summed up in registers (State::kept), and what acts on the other blocks is
 // left in the lanes of the joints (State::given).
 #pragma once
+#include <cstring>
 #include <memory>
+#include <set>
 #include <vector>
 
 #include "engine/base/parallel.h"
@@ -12,9 +14,9 @@
 
 namespace erbs {
 
-// Lane `from` of `batch` as lane `to` of `out`, seen from its other end where `turned`; a lane of no joint.
-void set_sound_lane(const JointBatch& batch, int from, SoundBatch& out, int to, bool turned = false);
-void clear_sound_lane(SoundBatch& out, int lane);
+// Lane `from` of `batch` as lane `to` of `out` and its `law`, seen from its other end where `turned`; a lane of no joint.
+void set_sound_lane(const JointBatch& batch, int from, SoundBatch& out, SoundLaw& law, int to, bool turned = false);
+void clear_sound_lane(SoundBatch& out, SoundLaw& law, int lane);
 
 class Sound {
  public:
@@ -41,6 +43,10 @@ class Sound {
   const Model& model_;
   State& state_;
   std::vector<SoundBatch> batch_;  // one of the two: empty where nothing reads it
+  struct Bytes {
+    bool operator()(const SoundLaw& a, const SoundLaw& b) const { return std::memcmp(&a, &b, sizeof(SoundLaw)) < 0; }
+  };
+  std::set<SoundLaw, Bytes> law_;  // each once
   std::vector<JointBatch> damped_;
   std::vector<int> near_;  // batches that may be near a limit, from the first batch of the groups looked at on
   // Batches that have been looked at: some laws want it in every step. Each is one thread's own. Null where lanes have changed since.
