@@ -7,7 +7,8 @@
 --                erbs run scenes/bench/house_951.lua -D peak=2*g -D ft=0.2*MPa -D c=0.3*MPa -D duration=20 --threads 2   falling
 -- What to look at  Nanoseconds a point and step against the reference kernel, while sound and with every joint broken.
 
-material { name = "brick", density = 1800, friction = 0.6, restitution = 0.2 }
+local debris = param("debris", 5e10, "normal stiffness of contacts; softer debris takes longer steps and overlaps more [Pa/m]")
+material { name = "brick", density = 1800, friction = 0.6, restitution = 0.2, kn = debris, ks = 0.4 * debris }
 ground { z = 0, size = 60 }
 building {
   plan = { param("x", 2.47), param("y", 2.47) }, storeys = 3, courses = param("courses", 10),
