@@ -5,18 +5,13 @@
 #include <cmath>
 #include <tuple>
 
+#include "engine/contact/pair_lanes.h"
+
 namespace erbs {
 namespace {
 
 using std::size_t;
 size_t at(int i) { return static_cast<size_t>(i); }
-
-// A part where it is now, positions relative to block 0 at rest so that 1e4 m from the origin costs no digits.
-struct Placed {
-  Vec3 centre;  // m
-  const Mat3* turn;
-  const ContactShape* shape;
-};
 
 struct Found {
   int a, b, part_a, part_b;
@@ -25,30 +20,11 @@ struct Found {
 
 auto key_of(const Pair& p) { return std::tie(p.a, p.b, p.part_a, p.part_b); }
 
-// Separating axes of two oriented boxes grown by the margin: the three faces of each and the nine products of edges.
-bool boxes_apart(const Placed& p, const Placed& q, double margin) {
-  const Mat3 turn = p.turn->transpose() * *q.turn;
-  const Mat3 size = turn.cwiseAbs();
-  const Vec3 d = p.turn->transpose() * (q.centre - p.centre);
-  const Vec3 a = p.shape->half, b = q.shape->half;
-  if (((d.cwiseAbs() - a - size * b).array() > margin).any()) return true;
-  if ((((turn.transpose() * d).cwiseAbs() - b - size.transpose() * a).array() > margin).any()) return true;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
-      const Vec3 axis = Vec3::Unit(i).cross(turn.col(j));
-      const double length = axis.norm();
-      if (length < 1e-6) continue;
-      const double reach = axis.cwiseAbs().dot(a) + (turn.transpose() * axis).cwiseAbs().dot(b);
-      if (std::abs(axis.dot(d)) - reach > margin * length) return true;
-    }
-  }
-  return false;
-}
-
 // Parts of ordinary size sorted by the cell that holds their centre; huge ones (ground, floor slabs) stand apart.
 struct Grid {
   double cell = 1;
   std::vector<std::pair<std::uint64_t, int>> sorted;  // (cell, shape)
+  std::vector<double> x, y, z, radius;                // m, of these, and seven more
   std::vector<int> huge;
   std::vector<std::uint8_t> is_huge;
 };
@@ -59,21 +35,21 @@ std::uint64_t cell_key(long x, long y, long z) {
   return part(x) << 42 | part(y) << 21 | part(z);
 }
 
-std::array<long, 3> cell_of(const Vec3& x, double cell) {
+std::array<long, 3> cell_of(const double* x, double cell) {
   auto index = [&](double v) { return static_cast<long>(std::floor(std::clamp(v / cell, -1e6, 1e6))); };
-  return {index(x.x()), index(x.y()), index(x.z())};
+  return {index(x[0]), index(x[1]), index(x[2])};
 }
 
-Grid make_grid(const std::vector<Placed>& parts, double margin) {
+Grid make_grid(const std::vector<OrientedBox>& parts, double margin) {
   Grid g;
   std::vector<double> radii;
-  for (const Placed& p : parts) radii.push_back(p.shape->radius);
+  for (const OrientedBox& p : parts) radii.push_back(p.radius);
   std::nth_element(radii.begin(), radii.begin() + static_cast<long>(radii.size() / 2), radii.end());
   const double ordinary = 3 * radii[radii.size() / 2];
   double largest = 0;
-  for (const Placed& p : parts) {
-    g.is_huge.push_back(p.shape->radius > ordinary);
-    if (p.shape->radius <= ordinary) largest = std::max(largest, p.shape->radius);
+  for (const OrientedBox& p : parts) {
+    g.is_huge.push_back(p.radius > ordinary);
+    if (p.radius <= ordinary) largest = std::max(largest, p.radius);
   }
   g.cell = 2 * largest + margin;
   for (size_t i = 0; i < parts.size(); ++i) {
@@ -85,61 +61,129 @@ Grid make_grid(const std::vector<Placed>& parts, double margin) {
     g.sorted.emplace_back(cell_key(c[0], c[1], c[2]), static_cast<int>(i));
   }
   std::sort(g.sorted.begin(), g.sorted.end());
+  for (const auto& [cell, i] : g.sorted) {
+    const OrientedBox& p = parts[at(i)];
+    g.x.push_back(p.centre[0]), g.y.push_back(p.centre[1]), g.z.push_back(p.centre[2]), g.radius.push_back(p.radius);
+  }
+  for (std::vector<double>* v : {&g.x, &g.y, &g.z, &g.radius}) v->resize(g.sorted.size() + 7);
   return g;
 }
 
-// Calls visit(i, j) for candidates of part i: its 27 cells and the huge parts, or every part if i is huge itself.
-template <class Visit>
-void candidates(const Grid& g, const std::vector<Placed>& parts, int i, Visit&& visit) {
-  if (g.is_huge[at(i)]) {
-    for (size_t j = 0; j < parts.size(); ++j) visit(static_cast<int>(j));
-    return;
-  }
-  for (int j : g.huge) visit(j);
-  const auto c = cell_of(parts[at(i)].centre, g.cell);
-  for (long x = c[0] - 1; x <= c[0] + 1; ++x) {
-    for (long y = c[1] - 1; y <= c[1] + 1; ++y) {
-      // Cells along z are consecutive keys: one look-up for three cells.
-      const std::uint64_t last = cell_key(x, y, c[2] + 1);
-      auto place = std::lower_bound(g.sorted.begin(), g.sorted.end(), std::make_pair(cell_key(x, y, c[2] - 1), -1));
-      for (; place != g.sorted.end() && place->first <= last; ++place) visit(place->second);
-    }
-  }
-}
-
-std::vector<Placed> place(const ContactShapes& shapes, std::span<const ContactBlock> blocks) {
-  std::vector<Placed> parts;
-  parts.reserve(shapes.shape.size());
-  for (size_t i = 0; i < shapes.shape.size(); ++i) {
+std::vector<OrientedBox> place(const ContactShapes& shapes, std::span<const ContactBlock> blocks) {
+  std::vector<OrientedBox> parts(shapes.shape.size());
+  for (size_t i = 0; i < parts.size(); ++i) {
     const ContactBlock& b = blocks[at(shapes.block[i])];
-    parts.push_back({(b.rest - blocks[0].rest) + b.u + b.turn * shapes.shape[i].centre, &b.turn, &shapes.shape[i]});
+    const ContactShape& shape = shapes.shape[i];
+    // relative to block 0 at rest, so that 1e4 m from the origin costs no digits
+    const Vec3 centre = (b.rest - blocks[0].rest) + b.u + b.turn * shape.centre;
+    std::copy_n(centre.data(), 3, parts[i].centre);
+    std::copy_n(b.turn.data(), 9, parts[i].turn);
+    std::copy_n(shape.half.data(), 3, parts[i].half);
+    parts[i].radius = shape.radius;
   }
   return parts;
 }
 
-std::vector<Found> close_parts(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks,
-                               std::span<const std::uint8_t> loose, std::span<const std::uint64_t> excluded) {
-  const std::vector<Placed> parts = place(shapes, blocks);
-  const Grid grid = make_grid(parts, list.margin);
-  std::vector<Found> found;
-  for (int i = 0; i < static_cast<int>(parts.size()); ++i) {
-    const int bi = shapes.block[at(i)];
-    if (!loose[at(bi)]) continue;
-    candidates(grid, parts, i, [&](int j) {
-      const int bj = shapes.block[at(j)];
-      if (bi == bj || (loose[at(bj)] && j < i)) return;  // two loose parts are met twice: once is enough
-      if (blocks[at(bi)].inverse_mass == 0 && blocks[at(bj)].inverse_mass == 0) return;
-      const Placed &p = parts[at(i)], &q = parts[at(j)];
-      const double reach = p.shape->radius + q.shape->radius + list.margin;
-      if ((p.centre - q.centre).squaredNorm() > reach * reach || boxes_apart(p, q, list.margin)) return;
-      const int pi = i - shapes.first[at(bi)], pj = j - shapes.first[at(bj)];
-      const Found f = bi < bj ? Found{bi, bj, pi, pj} : Found{bj, bi, pj, pi};
-      if (!std::binary_search(excluded.begin(), excluded.end(), pair_key(f.a, f.b))) found.push_back(f);
-    });
+// Gathers the pairs of parts that are close.
+class Finder {
+ public:
+  Finder(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
+         std::span<const std::uint64_t> excluded)
+      : margin_(list.margin), shapes_(shapes), blocks_(blocks), loose_(loose), excluded_(excluded), parts_(place(shapes, blocks)) {}
+
+  std::vector<Found> find() {
+    const Grid grid = make_grid(parts_, margin_);
+    for (size_t first = 0; first < grid.sorted.size();) {
+      size_t last = first + 1;
+      while (last < grid.sorted.size() && grid.sorted[last].first == grid.sorted[first].first) ++last;
+      around(grid, first, last);
+      first = last;
+    }
+    for (const int i : grid.huge) {
+      if (!is_loose(i)) continue;
+      for (size_t j = 0; j < parts_.size(); ++j) visit_if_near(i, static_cast<int>(j));
+      judge(i);
+    }
+    std::sort(found_.begin(), found_.end(), [](const Found& x, const Found& y) { return x.key() < y.key(); });
+    return std::move(found_);
   }
-  std::sort(found.begin(), found.end(), [](const Found& x, const Found& y) { return x.key() < y.key(); });
-  return found;
-}
+
+ private:
+  bool is_loose(int i) const { return loose_[at(shapes_.block[at(i)])] != 0; }
+
+  // What parts [first, last) of one cell meet in it, in the 26 about it, and among the huge.
+  void around(const Grid& g, size_t first, size_t last) {
+    const auto some = [&](size_t k) { return is_loose(g.sorted[k].second); };
+    while (first < last && !some(first)) ++first;
+    if (first == last) return;
+    const auto c = cell_of(parts_[at(g.sorted[first].second)].centre, g.cell);
+    std::pair<int, int> runs[9];
+    int count = 0;
+    for (long x = c[0] - 1; x <= c[0] + 1; ++x) {
+      for (long y = c[1] - 1; y <= c[1] + 1; ++y) {
+        // Cells along z are consecutive keys: one look-up for three cells.
+        const auto from = std::lower_bound(g.sorted.begin(), g.sorted.end(), std::make_pair(cell_key(x, y, c[2] - 1), -1));
+        const std::uint64_t end = cell_key(x, y, c[2] + 1);
+        auto to = from;
+        while (to != g.sorted.end() && to->first <= end) ++to;
+        runs[count++] = {static_cast<int>(from - g.sorted.begin()), static_cast<int>(to - g.sorted.begin())};
+      }
+    }
+    const Balls balls{g.x.data(), g.y.data(), g.z.data(), g.radius.data()};
+    close_.resize(g.sorted.size());
+    for (; first < last; ++first) {
+      if (!some(first)) continue;
+      const int i = g.sorted[first].second;
+      const OrientedBox& part = parts_[at(i)];
+      const double one[4] = {part.centre[0], part.centre[1], part.centre[2], part.radius};
+      for (const auto& [from, to] : runs) {
+        const int near = pair_kernels().close_balls(balls, from, to, one, margin_, close_.data());
+        for (int k = 0; k < near; ++k) visit(i, g.sorted[at(close_[at(k)])].second);
+      }
+      for (const int j : g.huge) visit_if_near(i, j);
+      judge(i);
+    }
+  }
+
+  void visit_if_near(int i, int j) {
+    const OrientedBox &p = parts_[at(i)], &q = parts_[at(j)];
+    const double reach = p.radius + q.radius + margin_;
+    if (!((Vec3::Map(p.centre) - Vec3::Map(q.centre)).squaredNorm() > reach * reach)) visit(i, j);
+  }
+
+  void visit(int i, int j) {
+    const int bi = shapes_.block[at(i)], bj = shapes_.block[at(j)];
+    if (bi == bj || (loose_[at(bj)] && j < i)) return;  // two loose parts are met twice: once is enough
+    if (blocks_[at(bi)].inverse_mass == 0 && blocks_[at(bj)].inverse_mass == 0) return;
+    eight_[waiting_++] = j;
+    if (waiting_ == 8) judge(i);
+  }
+
+  void judge(int i) {
+    if (waiting_ == 0) return;
+    const OrientedBox* other[8];
+    for (int l = 0; l < 8; ++l) other[l] = &parts_[at(eight_[l < waiting_ ? l : 0])];
+    const unsigned close = pair_kernels().close_boxes(parts_[at(i)], other, margin_);
+    for (int l = 0; l < waiting_; ++l) {
+      if ((close >> l & 1u) == 0) continue;
+      const int j = eight_[l], bi = shapes_.block[at(i)], bj = shapes_.block[at(j)];
+      const int pi = i - shapes_.first[at(bi)], pj = j - shapes_.first[at(bj)];
+      const Found f = bi < bj ? Found{bi, bj, pi, pj} : Found{bj, bi, pj, pi};
+      if (!std::binary_search(excluded_.begin(), excluded_.end(), pair_key(f.a, f.b))) found_.push_back(f);
+    }
+    waiting_ = 0;
+  }
+
+  double margin_;
+  const ContactShapes& shapes_;
+  std::span<const ContactBlock> blocks_;
+  std::span<const std::uint8_t> loose_;
+  std::span<const std::uint64_t> excluded_;
+  std::vector<OrientedBox> parts_;
+  std::vector<Found> found_;
+  std::vector<int> close_;
+  int eight_[8], waiting_ = 0;
+};
 
 }  // namespace
 
@@ -174,7 +218,7 @@ double search(PairList& list, const ContactShapes& shapes, std::span<const Conta
               std::vector<int>* fresh) {
   std::vector<std::uint8_t> looking(loose.begin(), loose.end());
   for (size_t b = 0; b < still.size(); ++b) looking[b] = looking[b] && !still[b];
-  const std::vector<Found> found = shapes.shape.empty() ? std::vector<Found>{} : close_parts(list, shapes, blocks, looking, excluded);
+  const std::vector<Found> found = shapes.shape.empty() ? std::vector<Found>{} : Finder(list, shapes, blocks, looking, excluded).find();
   std::vector<Pair> now;
   now.reserve(found.size());
   double dropped = 0;

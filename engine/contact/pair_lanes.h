@@ -45,6 +45,14 @@ struct BlockLanes {
   double* row[8];             // ContactBlock
 };
 
+// What a search looks at. Balls side by side, with room for seven more behind the last; an oriented box as two rows of eight.
+struct Balls {
+  const double *x, *y, *z, *radius;  // m
+};
+struct alignas(64) OrientedBox {
+  double centre[3], turn[9], half[3], radius;  // m, by column, m, m: of the ball about it
+};
+
 struct PairKernels {
   // Pose, motion and way of the blocks marked; `soon` (s): the next steps. `fastest` (m/s): of any block so far, lane by lane.
   void (*follow)(const BlockLanes&, unsigned which, double soon, Lane& fastest);
@@ -55,6 +63,8 @@ struct PairKernels {
   void (*bear)(PairLanes&);                          // what reaches the limit; `holds` then is 0 where that is left to the caller
   void (*finish)(PairLanes&, const PairSettings&);   // rows of pairs and results
   void (*write)(const Lane* rows, int count, double* const to[8]);
+  int (*close_balls)(const Balls&, int from, int to, const double one[4], double margin, int* found);
+  unsigned (*close_boxes)(const OrientedBox& one, const OrientedBox* const other[8], double margin);
 };
 
 const PairKernels& pair_kernels();
