@@ -1,5 +1,4 @@
-// The exact share of a clamp in an integral over triangles. Internal to each file that includes it: clip.inc is compiled once per
-// instruction set, and a shared copy could be one that this machine cannot run.
+// The exact share of a clamp in an integral over triangles; ramp.inc does eight of them side by side.
 #pragma once
 
 namespace erbs {
