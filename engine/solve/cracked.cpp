@@ -5,7 +5,6 @@
 #include <tuple>
 
 #include "engine/model/batches.h"
-#include "engine/solve/joint_geometry.h"
 
 namespace erbs {
 namespace {
@@ -43,6 +42,7 @@ Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state
     const Joint& joint = model.joint[z(j)];
     if (group.law < 0) group = empty_group(joint, group.batch);
     fill(group, at % lanes, j);
+    set_ends(j);
   }
   if (model.analysis.kernel == "reference" || model.analysis.solver == "sequential") return;
   std::vector<int> joints;
@@ -78,6 +78,10 @@ void Cracked::set_shape(Shapes& shapes, int l, const JointType& type) const {
     const auto& c = model_.corner[z(type.first_corner + i)];
     shapes.corner[z(i)].s[l] = c.x(), shapes.corner[z(i)].t[l] = c.y();
   }
+  const Quat frame(type.frame);
+  for (int i = 0; i < 4; ++i) shapes.face.frame[i][l] = frame.coeffs()[i];
+  for (int i = 0; i < 6; ++i) shapes.face.stiffness[i][l] = type.stiffness[i];
+  shapes.face.half_s[l] = type.half_s, shapes.face.half_t[l] = type.half_t, shapes.face.radius[l] = type.radius;
   shapes.face.bend_s[l] = type.face[0], shapes.face.bend_t[l] = type.face[1], shapes.face.twist[l] = type.face[2];
   const int first = model_.cell[z(type.first_place)].first;
   for (int i = 0; i < int(shapes.loop.size()); ++i) {
@@ -193,7 +197,29 @@ void Cracked::put(int j) {
   if (group.empty()) group = empty_group(joint, group.batch);
   fill(group, at % lanes, j);
   state_.place[z(j)] = (sound_batches(model_) + group.batch) * lanes + at % lanes;
-  set_lane(model_, state_, j, state_.batch[z(group.batch)], at % lanes);
+  set_ends(j);
+}
+
+void Cracked::set_ends(int j) {
+  const Joint& joint = model_.joint[z(j)];
+  const int at = state_.place[z(j)] - sound_batches(model_) * lanes;
+  JointBatch& batch = state_.batch[z(at / lanes)];
+  set_constants(model_, j, batch, at % lanes);
+  for (int i = 0; i < 3; ++i) batch.arm_a[i][at % lanes] = joint.arm_a[i], batch.arm_b[i][at % lanes] = joint.arm_b[i];
+  if (pose_.empty()) {
+    pose_.assign(block_groups(model_.nblock) * 8 * lanes, 0.0);
+    take_pose(model_.nblock);  // of lanes without a joint
+  }
+  take_pose(joint.a);
+  take_pose(joint.b);
+}
+
+void Cracked::take_pose(int b) {
+  if (pose_.empty()) return;
+  const Vec3 u = state_.u[z(b)];
+  const Quat q = state_.q[z(b)];
+  const double row[8] = {u.x(), u.y(), u.z(), q.x(), q.y(), q.z(), q.w(), 0};
+  std::copy_n(row, 8, &pose_[8 * z(b)]);
 }
 
 void Cracked::take(int j) { put(j); }
@@ -226,31 +252,18 @@ void Cracked::drop(int j) {
   for (const int row : {model_.row_a[z(j)], model_.row_b[z(j)]}) std::fill_n(&state_.wrench[z(row) * 8], 8, 0.0);
 }
 
-// By whole batches: what does not change is found again to the same bits.
-void Cracked::refresh(const std::vector<std::uint8_t>& stale) {
-  for (const Group& group : group_) {
-    if (group.empty()) continue;
-    JointBatch& batch = state_.batch[z(group.batch)];
-    const auto is_stale = [&](int b) { return stale[z(b)] != 0; };
-    if (std::any_of(batch.a, batch.a + lanes, is_stale) || std::any_of(batch.b, batch.b + lanes, is_stale))
-      set_geometry(model_, state_, group.joint, batch);
-  }
-}
-
 void Cracked::forces(int first, int last, bool sample, JointSums& sums, const LaneKernels& kernels) {
-  const double* rows = state_.row.data();
+  const double* poses = pose_.data();
   double* wrench_rows = state_.wrench.data();
   if (sample) sums.energy.elastic = 0;
+  const bool damped = model_.dashpots_cracked && state_.last_dt > 0;
+  const double per_step = damped ? 1 / state_.last_dt : 0;
   CrackedSums done{};
   for (int g = first; g < last; ++g) {
     Group& group = group_[z(g)];
     if (group.empty()) continue;
     const JointBatch& batch = state_.batch[z(group.batch)];
     CrackedLanes& lane = group.lane;
-    alignas(64) double rate[lanes];
-    const bool damped = model_.dashpots_cracked && state_.last_dt > 0;
-    if (damped)
-      for (int l = 0; l < lanes; ++l) rate[l] = group.viscous[l] / state_.last_dt;
     const Shapes& shapes = *group.shapes;
     const CrackedShape shape{group.corners,
                              group.points,
@@ -261,15 +274,16 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums, const La
                              shapes.cell.data(),
                              shapes.first.data(),
                              shapes.loop.data(),
-                             damped ? rate : nullptr,
+                             damped ? group.viscous : nullptr,
+                             per_step,
                              shapes.watch.empty() ? shapes.loop.data() : shapes.watch.data(),
                              group.crushed,
                              group.face_corner};
     const PointLaw& law = model_.laws[z(group.law)];
     if (group.bare) {
-      group.beyond = kernels.rub(law, batch, shape, group.slip.data(), group.common, lane, rows, wrench_rows, done);
+      group.beyond = kernels.rub(law, batch, shape, group.slip.data(), group.common, lane, poses, wrench_rows, done);
     } else {
-      group.beyond = kernels.respond(law, batch, shape, group.slip.data(), group.bond.data(), lane, rows, wrench_rows, done);
+      group.beyond = kernels.respond(law, batch, shape, group.slip.data(), group.bond.data(), lane, poses, wrench_rows, done);
       std::fill_n(group.common.stale, lanes, 1.0);
       group.bare = std::all_of(lane.least_damage, lane.least_damage + lanes, [](double damage) { return damage >= 1; });
     }

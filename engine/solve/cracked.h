@@ -17,7 +17,9 @@ class Cracked {
   int groups() const { return int(group_.size()); }
   void take(int j);  // a joint that has cracked: out of the sound batches
   void drop(int j);  // a joint that was handed over to contact
-  void refresh(const std::vector<std::uint8_t>& stale);  // geometry of the joints of blocks whose reference has changed
+  // Where blocks are, rows of eight doubles: displacement and attitude, as the drift leaves them; of those that have cracked joints.
+  double* poses() { return pose_.empty() ? nullptr : pose_.data(); }
+  void take_pose(int b);
   // Wrench rows of groups [first, last); fills sums.energy.elastic when `sample`.
   static constexpr int grain = 4;
   void forces(int first, int last, bool sample, JointSums& sums, const LaneKernels& kernels = lane_kernels());
@@ -42,8 +44,8 @@ class Cracked {
     int joint[lanes];             // -1: empty
     CrushedFace* crushed[lanes];  // null without a plateau
     const double* face_corner[lanes];
-    double viscous[lanes];  // s, Joint::viscous_cracked; 0 in empty lanes
-    const JointType* type = nullptr;  // null: of several
+    alignas(64) double viscous[lanes];  // s, Joint::viscous_cracked; 0 in empty lanes
+    const JointType* type = nullptr;    // null: of several
     std::shared_ptr<Shapes> shapes;
     std::vector<SlipLanes> slip;  // [points]
     std::vector<BondLanes> bond;
@@ -65,11 +67,13 @@ class Cracked {
   void add_shape(Group& group, int l, const JointType& type);
   void look_at_types(Group& group);
   void put(int j);                          // into a lane of its own
+  void set_ends(int j);                     // its lane's blocks, rows and arms
   void take_all(std::vector<int>& joints);  // by types
 
   const Model& model_;
   State& state_;
   std::vector<Group> group_;
+  Rows pose_;
   std::map<const JointType*, std::shared_ptr<Shapes>> of_type_;
 };
 

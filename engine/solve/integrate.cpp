@@ -32,10 +32,24 @@ KickDrift kick_of(const Model& m, const State& s, const Excitation& e) {
   return k;
 }
 
-BlockArrays arrays(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Pushes& pushes) {
-  return {constants.data(), s.u.data(),   s.v.data(),     s.spin_momentum.data(), s.w.data(),     s.q.data(),          s.base_u.data(),
-          s.base_q.data(),  s.row.data(), s.shift.data(), s.kept.data(),          s.given.data(), m.kept.taken.data(), s.wrench.data(),
-          pushes.contacts,  pushes.loads};
+BlockArrays arrays(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Pushes& pushes, double* poses) {
+  return {constants.data(),
+          s.u.data(),
+          s.v.data(),
+          s.spin_momentum.data(),
+          s.w.data(),
+          s.q.data(),
+          s.base_u.data(),
+          s.base_q.data(),
+          keepers(m) ? nullptr : s.row.data(),
+          poses,
+          s.shift.data(),
+          s.kept.data(),
+          s.given.data(),
+          m.kept.taken.data(),
+          s.wrench.data(),
+          pushes.contacts,
+          pushes.loads};
 }
 
 double power(const State& s, const double* loads, const LoadedBlock& l) {
@@ -80,8 +94,6 @@ void set_constants(const Model& m, const State& s, int b, bool moving, BlockCons
   c.inverse_mass[l] = moving ? m.inverse_mass[z(b)] : 0;
   c.damped[l] = moving && (m.damping_all || s.grounded[z(b)]);
   for (int i = 0; i < 6; ++i) c.inverse_inertia[i][l] = moving ? m.inverse_inertia[z(b)](row[i], column[i]) : 0;
-  c.turn_limit[l] =
-      moving && s.joined[z(b)] ? m.analysis.lazy_rotation * m.analysis.lazy_rotation : std::numeric_limits<double>::infinity();
 }
 
 void sum_rows(const Model& m, int b, std::vector<BlockConstants>& constants) {
@@ -112,11 +124,24 @@ std::vector<BlockConstants> block_constants(const Model& m, const State& s) {
   }
   for (int j = 0; j < m.njoint; ++j)
     if (s.tier[z(j)] != Tier::intact) sum_rows(m, m.joint[z(j)].a, out), sum_rows(m, m.joint[z(j)].b, out);
+  let_turn(m, s, out);
   return out;
+}
+
+void let_turn(const Model& m, const State& s, std::vector<BlockConstants>& constants) {
+  for (BlockConstants& c : constants) std::fill_n(c.turn_limit, lanes, std::numeric_limits<double>::infinity());
+  for (int j = 0; j < m.njoint; ++j) {
+    if (s.tier[z(j)] != Tier::intact) continue;
+    for (const int b : {m.joint[z(j)].a, m.joint[z(j)].b}) {
+      BlockConstants& c = constants[z(b / lanes)];
+      if (c.moving[b % lanes] > 0) c.turn_limit[b % lanes] = m.analysis.lazy_rotation * m.analysis.lazy_rotation;
+    }
+  }
 }
 
 void go_by_rows(const Model& m, State& s, int b, std::vector<BlockConstants>& constants) {
   sum_rows(m, b, constants);
+  if (keepers(m)) return;  // nobody reads these
   for (int of_group = b / lanes * lanes; of_group < std::min((b / lanes + 1) * lanes, m.nblock); ++of_group)
     for (int i = 0; i < 6; ++i) s.row[z(8 * of_group + i)] = s.shift[z(b / lanes)].x[i][of_group % lanes];
 }
@@ -158,9 +183,9 @@ void gather_stale(BlockSums& sums) {
 }  // namespace
 
 void advance(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes,
-             Range groups, bool sample, std::vector<BlockSums>& all, std::span<const std::uint8_t> idle) {
+             Range groups, bool sample, std::vector<BlockSums>& all, std::span<const std::uint8_t> idle, double* poses) {
   const KickDrift step = kick_of(m, s, e);
-  const BlockArrays blocks = arrays(m, s, constants, pushes);
+  const BlockArrays blocks = arrays(m, s, constants, pushes, poses);
   const LaneKernels& kernels = lane_kernels();
   const bool summed = sample || step.shaken || step.damping > 0 || !pushes.loaded.empty();
   const int piece = summed ? block_grain : std::max(1, groups.last - groups.first);
@@ -238,7 +263,7 @@ void Picked::advance(const int* blocks, int count, bool sample, std::vector<Bloc
   for (int l = 0; l < lanes; ++l) copy_in(l < count ? blocks[l] : model_.nblock, l);  // beside them the one at rest
   each_loaded(blocks, count, [&](auto one, std::size_t i) { work_before(model_, state_, pushes_, one, sums[i]); });
   const double *push = pushes_.contacts != nullptr ? push_ : nullptr, *load = pushes_.loads != nullptr ? load_ : nullptr;
-  const BlockArrays group{&constant_, &u_,     &v_,      &momentum_, &w_,     &q_,     &base_u_, &base_q_,
+  const BlockArrays group{&constant_, &u_,     &v_,      &momentum_, &w_,     &q_,     &base_u_, &base_q_, nullptr,
                           nullptr,    &shift_, &wrench_, nullptr,    nullptr, nullptr, push,     load};
   BlockSums& all = sums.front();
   if (kernels_.advance(step_, group, 0, 1, sample, all.work)) all.broken = true;

@@ -39,6 +39,8 @@ inline constexpr int block_grain = 4;  // groups of eight blocks to a chunk
 std::vector<BlockConstants> block_constants(const Model& model, const State& state);
 // A joint of block b is sound no more: from now on it reads and writes rows. Those of the group may not have been written in this step.
 void go_by_rows(const Model& model, State& state, int b, std::vector<BlockConstants>& constants);
+// Blocks that no sound joint holds may turn as they like.
+void let_turn(const Model& model, const State& state, std::vector<BlockConstants>& constants);
 
 // What pushes blocks beside their joints: rows of eight doubles (force, moment), `contacts` from contacts and `loads` from external
 // loads, whose work is booked as external; null where there are none. `loaded`: the blocks that loads act on, in order.
@@ -48,9 +50,10 @@ struct Pushes {
 };
 
 // Groups of blocks: sum their wrench rows and pushes, kick by e.kick, drift by s.dt. `sums`: one for each chunk of block_grain groups of
-// all; where nothing is summed the range is one piece. `idle`: of each group, 1 where nothing moves; empty: none.
+// all; where nothing is summed the range is one piece. `idle`: of each group, 1 where nothing moves; empty: none. `poses`: what Cracked
+// reads of blocks.
 void advance(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes,
-             Range groups, bool sample, std::vector<BlockSums>& sums, std::span<const std::uint8_t> idle = {});
+             Range groups, bool sample, std::vector<BlockSums>& sums, std::span<const std::uint8_t> idle = {}, double* poses = nullptr);
 
 // Groups in which all that could move sleep (Rest); empty where none does. But for samples, which count their height, a step may pass by.
 std::vector<std::uint8_t> idle_groups(const Model& model, const State& state);

@@ -45,13 +45,15 @@ void find_islands(const Model& m, State& s) {
 // Block by block: a joint takes its geometry from the poses its two blocks had at their own last refresh.
 bool take_stale_poses(const Model& m, State& s, std::vector<std::uint8_t>& stale) {
   stale.assign(z(m.nblock) + 1, 0);
+  for (int j = 0; j < m.njoint; ++j)  // those that a sound joint holds: others are looked at where they are
+    if (s.tier[z(j)] == Tier::intact) stale[z(m.joint[z(j)].a)] = stale[z(m.joint[z(j)].b)] = 1;
   const double limit = m.analysis.lazy_rotation * m.analysis.lazy_rotation;
   bool past = false;
   for (int b = 0; b < m.nblock; ++b) {
     double turned = 0;
     for (int i = 3; i < 6; ++i) turned += s.shift[z(b / lanes)].x[i][b % lanes] * s.shift[z(b / lanes)].x[i][b % lanes];
-    stale[z(b)] = s.joined[z(b)] && turned > 0.25 * limit;
-    past = past || (s.joined[z(b)] && turned > limit);
+    past = past || (stale[z(b)] && turned > limit);
+    stale[z(b)] = stale[z(b)] && turned > 0.25 * limit;
   }
   if (!past) return false;
   for (int b = 0; b < m.nblock; ++b)

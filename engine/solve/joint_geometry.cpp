@@ -1,7 +1,6 @@
 #include "engine/solve/joint_geometry.h"
 
 #include <algorithm>
-#include <numeric>
 
 #include "engine/model/batches.h"
 #include "engine/solve/lanes.h"
@@ -45,14 +44,6 @@ void set_row(State& s, int b) {
 
 void put_row(State& s, int b, const double row[6]) {
   for (int i = 0; i < 6; ++i) s.shift[z(b / lanes)].x[i][b % lanes] = s.row[z(8 * b + i)] = row[i];
-}
-
-void refresh(const Model& m, State& s, const std::vector<int>& blocks, const std::vector<int>& joints) {
-  for (const int b : blocks) take_pose(s, b);
-  for (const int j : joints) {
-    const int at = s.place[z(j)] - sound_batches(m) * lanes;
-    if (at >= 0) set_lane(m, s, j, s.batch[z(at / lanes)], at % lanes);
-  }
 }
 
 // In lanes whatever their number, so that a joint's geometry does not depend on when and with which others it is made. Lanes without a
@@ -107,10 +98,7 @@ JointBatch sound_batch(const Model& m, const State& s, int k) {
 }
 
 void refresh_all(const Model& m, State& s) {
-  std::vector<int> blocks(z(m.nblock)), joints(z(m.njoint));
-  std::iota(blocks.begin(), blocks.end(), 0);
-  std::iota(joints.begin(), joints.end(), 0);
-  refresh(m, s, blocks, joints);
+  for (int b = 0; b < m.nblock; ++b) take_pose(s, b);
 }
 
 void joint_q(const Model& m, const State& s, int j, double q[6]) {

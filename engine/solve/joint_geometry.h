@@ -4,7 +4,8 @@
 // that coincided at rest, so that a rigid motion leaves it without strain and momentum is conserved to round-off whichever block
 // is called a. With X the distance of the centroids, A_a and A_b the turned arms, S = A_a + A_b:
 //   displacement  D = X + A_b - A_a            moment arms  c - x_a = (S + X)/2,  c - x_b = (S - X)/2.
-// Between refreshes each block has moved by (du, th), th = tan(angle) about its axis. With r(th, A) = (1 - th.th/2) th x A + th x (th x
+// Joints that have cracked are looked at so in every step (lanes_pose.inc). Sound ones are carried between refreshes of their geometry:
+// each block has moved by (du, th), th = tan(angle) about its axis. With r(th, A) = (1 - th.th/2) th x A + th x (th x
 // A)/2 the change of an arm to third order, th_m the mean of th_a and th_b, d half their difference:
 //   D = D_ref + du + r(th_b, A_b) - r(th_a, A_a),   rotation = rho_ref + 2 d - th_m x d,
 // D turned back by th_m; resultants turn forward by it and act on a with the arm A_a + r(th_a, A_a) + D/2, on b with A_b + r(th_b, A_b) -
@@ -61,8 +62,6 @@ inline Vec3 small_rotation_vector(const Quat& q) {
 Vec3 rotation_since(const Quat& q, const Quat& base);
 // The present pose of block b becomes its reference.
 void take_pose(State& state, int b);
-// The same for some blocks; the geometry of their cracked joints follows: `joints` are all that end at one of them.
-void refresh(const Model& model, State& state, const std::vector<int>& blocks, const std::vector<int>& joints);
 // State::row and State::shift of block b, from its pose or as they are given.
 void set_row(State& state, int b);
 void put_row(State& state, int b, const double row[6]);

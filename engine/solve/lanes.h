@@ -40,7 +40,9 @@ struct alignas(64) CellLanes {
   double s[lanes], t[lanes], ss[lanes], st[lanes], tt[lanes];  // as in Cell
 };
 struct alignas(64) FaceLanes {
-  double bend_s[lanes], bend_t[lanes], twist[lanes];  // N m, Joint::face
+  double frame[4][lanes];  // at rest, as a quaternion x y z w
+  double stiffness[6][lanes], half_s[lanes], half_t[lanes], radius[lanes];  // as in JointBatch
+  double bend_s[lanes], bend_t[lanes], twist[lanes];                        // N m, Joint::face
 };
 // The shapes of eight joints of one law with the same numbers of everything: corners of the overlap, points, corners of their cells.
 struct CrackedShape {
@@ -52,7 +54,8 @@ struct CrackedShape {
   const CellLanes* cell;     // [points]
   const int* first;          // corners of cell i: [first[i], first[i + 1])
   const CornerLanes* loop;   // corners of the cells
-  const double* rate;        // of dashpots, b over the last step; null without [lanes]
+  const double* viscous;     // s, b of dashpots; null without [lanes]
+  double per_step;           // 1/s, over the last step
   const CornerLanes* watch;  // where the cells watch for tension; = loop for rules with points on the edge
   // of laws with a plateau in compression: what has been crushed, and the corners as in Bed; null in empty lanes  [lanes]
   CrushedFace* const* crushed;
@@ -106,14 +109,15 @@ struct alignas(64) BlockConstants {
   int first_taken, taken;                   // of BlockArrays::taken
 };
 
-// All blocks, by groups of eight; the rows of eight doubles by blocks, `push` and `load` null where there is nothing.
+// All blocks, by groups of eight; the rows of eight doubles by blocks, `push` and `load` null where there is nothing, `row` and `pose`
+// where nobody reads them.
 struct BlockArrays {
   const BlockConstants* constant;
   RowLanes<3>*u, *v, *momentum, *w;
   RowLanes<4>* q;
   const RowLanes<3>* base_u;
   const RowLanes<4>* base_q;
-  double* row;
+  double *row, *pose;
   RowLanes<6>* shift;
   const RowLanes<6>*kept, *given;
   const Crossing* taken;
@@ -147,13 +151,14 @@ struct LaneKernels {
   const char* name;
   // joint_geometry.h gives the formulas: q, its elastic resultant and the bound that keeps a joint on this path.
   void (*elastic)(const JointBatch& batch, const double* rows, JointLanes& out);
-  // Joints that have cracked, rows of blocks to wrench rows by the point laws (joint_response.h); memory in `cracked`, account in `sums`.
+  // Joints that have cracked, poses of blocks to wrench rows by the point laws (joint_response.h); memory in `cracked`, account in `sums`.
+  // `poses`: rows of eight doubles, displacement and attitude x y z w; the arms of `batch` are those at rest.
   // True where a joint may be beyond its faces (beyond_its_faces of joint_kernel.h).
   bool (*respond)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, BondLanes* bond,
-                  CrackedLanes& cracked, const double* rows, double* wrench_rows, CrackedSums& sums);
+                  CrackedLanes& cracked, const double* poses, double* wrench_rows, CrackedSums& sums);
   // The same where no point has a bond left.
   bool (*rub)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, CommonLanes& common,
-              CrackedLanes& cracked, const double* rows, double* wrench_rows, CrackedSums& sums);
+              CrackedLanes& cracked, const double* poses, double* wrench_rows, CrackedSums& sums);
   // Resultants to wrenches on both blocks: force at the midpoint of the material points, then everything turned by th.
   void (*wrenches)(const JointBatch& batch, const JointLanes& in, double* wrench_rows);
   // Sound joints, displacements of blocks to wrenches. Groups [first, last) of eight blocks: lane l of batches

@@ -201,9 +201,9 @@ void Sound::forces(Range groups, bool sample, std::vector<JointSums>& all) {
 }
 
 void forget_other_kernel(const Model& m, State& s) {
-  for (int b = 0; b < m.nblock; ++b)
-    for (int i = 0; i < 6; ++i) s.row[z(8 * b + i)] = s.shift[z(b / lanes)].x[i][b % lanes];
   if (!keepers(m)) {
+    for (int b = 0; b < m.nblock; ++b)
+      for (int i = 0; i < 6; ++i) s.row[z(8 * b + i)] = s.shift[z(b / lanes)].x[i][b % lanes];
     for (auto* sums : {&s.kept, &s.given}) std::fill(sums->begin(), sums->end(), RowLanes<6>{});
     return;
   }

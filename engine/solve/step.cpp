@@ -116,7 +116,6 @@ void Solver::refresh_stale() {
   for (BlockSums& sums : block_sums_) sums.stale = false;
   if (!take_stale_poses(model_, state_, stale_)) return;
   if (sequential_) return sequential_->refresh(stale_);
-  cracked_.refresh(stale_);
   sound_.refresh(stale_);
 }
 
@@ -217,7 +216,7 @@ void Solver::blocks(int thread) {
   const Pushes pushes{contacts_ ? push_.data() : nullptr, load_.data(), loaded_};
   const int groups = int(constants_.size()), grain = sequential_ ? groups : block_grain;  // a sweep is one thread's
   const Range mine = share_of(groups, grain, thread, threads_);
-  if (!sequential_) advance(model_, state_, constants_, now_, pushes, mine, sample_ != Sample::none, block_sums_, idle_);
+  if (!sequential_) advance(model_, state_, constants_, now_, pushes, mine, sample_ != Sample::none, block_sums_, idle_, cracked_.poses());
   else if (mine.first < mine.last) sequential_->sweep(now_, pushes, constants_, sample_ != Sample::none, joint_sums_.front(), block_sums_);
   if (contacts_) debris_.follow(thread, mine.first * lanes, mine.last * lanes);
 }
@@ -261,6 +260,7 @@ void Solver::drive() {
     s.w[z(b)] = w;
     s.q[z(b)] = turned;
     set_row(s, b);
+    cracked_.take_pose(b);
     if (rotation_since(turned, s.base_q[z(b)]).norm() > m.analysis.lazy_rotation) block_sums_.front().stale = true;
   }
 }
@@ -327,6 +327,7 @@ void Solver::note_cracks() {
     for (const int b : {model_.joint[z(j)].a, model_.joint[z(j)].b}) go_by_rows(model_, state_, b, constants_);
     tier_before_[z(j)] = state_.tier[z(j)];
   }
+  let_turn(model_, state_, constants_);
   cracked_sums_.resize(z(chunks(cracked_.groups(), Cracked::grain)));
 }
 

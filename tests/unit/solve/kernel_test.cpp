@@ -116,6 +116,8 @@ TEST_CASE("instruction sets give the same bits", "[solve]") {
     out.insert(out.end(), stored, stored + lanes);
     BlockWork work{};
     const std::vector<BlockConstants> constants = block_constants(run.model, s);
+    Rows poses;
+    poses.assign(s.row.size(), 0.0);
     const BlockArrays arrays{constants.data(),
                              s.u.data(),
                              s.v.data(),
@@ -125,6 +127,7 @@ TEST_CASE("instruction sets give the same bits", "[solve]") {
                              s.base_u.data(),
                              s.base_q.data(),
                              s.row.data(),
+                             poses.data(),
                              s.shift.data(),
                              s.kept.data(),
                              s.given.data(),
@@ -136,8 +139,10 @@ TEST_CASE("instruction sets give the same bits", "[solve]") {
     for (const bool sample : {false, true}) kernels.advance(step, arrays, 0, int(constants.size()), sample, work);
     for (std::size_t i = 0; i < s.wrench.size(); ++i)
       if (i % 8 < 6) out.push_back(s.wrench[i]);
-    for (std::size_t i = 0; i < s.row.size(); ++i)
+    for (std::size_t i = 0; i < s.row.size(); ++i) {
       if (i % 8 < 6) out.push_back(s.row[i]);
+      if (i % 8 < 7) out.push_back(poses[i]);
+    }
     for (const auto* sums : {&s.shift, &s.kept, &s.given}) add_lanes(*sums, out);
     for (std::size_t b = 0; b < s.u.size(); ++b)
       for (int i = 0; i < 3; ++i) out.insert(out.end(), {s.v[b][i], s.w[b][i], s.spin_momentum[b][i]});
@@ -261,22 +266,20 @@ TEST_CASE("cracked joints side by side answer as one by one, with the same bits 
   Cracked cracked(m, run.state), in_pairs(m, narrow);
   JointSums all, lone, pairs;
   for (int step = 0; step < 60; ++step) {
-    for (int b = 1; b < m.nblock; ++b)  // the rows of blocks are set by hand: amplitudes that pass every limit
-      for (int i = 0; i < 6; ++i)
-        run.state.row[std::size_t(8 * b + i)] =
-            (i < 3 ? 2e-6 : 6e-6) * (std::sin(0.2 * step + 1.7 * b + i) + (i == 2 ? -0.3 : 0) + 0.02 * step * std::cos(b + i));
-    narrow.row = run.state.row;
+    for (int b = 1; b < m.nblock; ++b) {  // blocks are moved by hand: amplitudes that pass every limit
+      const auto moved = [&](int i) { return std::sin(0.2 * step + 1.7 * b + i) + (i == 2 ? -0.3 : 0) + 0.02 * step * std::cos(b + i); };
+      const Vec3 u = 2e-6 * Vec3(moved(0), moved(1), moved(2)), turn = 6e-6 * Vec3(moved(3), moved(4), moved(5));
+      for (State* s : {&run.state, &narrow, &plain}) s->u[std::size_t(b)] = u, s->q[std::size_t(b)] = rotation(turn);
+      cracked.take_pose(b), in_pairs.take_pose(b);
+    }
     cracked.forces(0, cracked.groups(), true, all);
     in_pairs.forces(0, in_pairs.groups(), true, pairs, sse2::kernels);
     bool same = true;
     for (std::size_t i = 0; i < 16 * std::size_t(m.njoint); ++i) same = same && (i % 8 > 5 || run.state.wrench[i] == narrow.wrench[i]);
     REQUIRE(same);
     for (int j = 0; j < m.njoint; ++j) {
-      const int at = run.state.place[std::size_t(j)] - sound_batches(m) * lanes;
-      JointLanes o;
-      lane_kernels().elastic(run.state.batch[std::size_t(at / lanes)], run.state.row.data(), o);
       double q[6], f[6];
-      for (int i = 0; i < 6; ++i) q[i] = o.q[i][at % lanes];
+      joint_q(m, plain, j, q);
       joint_by_points(m, plain, j, q, f, lone);
     }
     cracked.store();
