@@ -40,7 +40,7 @@ struct alignas(64) CellLanes {
   double s[lanes], t[lanes], ss[lanes], st[lanes], tt[lanes];  // as in Cell
 };
 struct alignas(64) FaceLanes {
-  double frame[4][lanes];  // at rest, as a quaternion x y z w
+  double frame[4][lanes];                                                   // at rest, as a quaternion x y z w
   double stiffness[6][lanes], half_s[lanes], half_t[lanes], radius[lanes];  // as in JointBatch
   double bend_s[lanes], bend_t[lanes], twist[lanes];                        // N m, Joint::face
 };
@@ -89,6 +89,12 @@ struct alignas(64) SoundBatch {
   const SoundLaw* law;
   Crossing other;  // where blocks b are; blocks a are their keepers
   int used;        // joints in it; -1: none, and nothing left of them
+};
+// Batches of sound joints that have come near their limits, with all that tells how near; null for others. By `carried` times the distance
+// of their blocks joints may be amiss for what they are carried from the last refresh.
+struct SoundCloser {
+  const JointBatch* const* batch;
+  double carried;
 };
 // Of its joints: whether they are seen from their other end (-1) or not (1), and where the stiffnesses against rotation (N m) lie.
 struct SoundLanes {
@@ -165,8 +171,8 @@ struct LaneKernels {
   // [first_batch[g], first_batch[g + 1]) holds joints that block l of group g keeps. What acts on keepers is summed up in `kept`, what
   // acts on the other blocks goes to `given` of the batch; the energy they store is added to stored[lanes], if wanted. Returns how many
   // batches hold a joint whose limits may be near, and which.
-  int (*sound)(SoundBatch* batch, const int* first_batch, int first, int last, const RowLanes<6>* shift, RowLanes<6>* kept,
-               RowLanes<6>* given, double* stored, int* near);
+  int (*sound)(SoundBatch* batch, const SoundCloser& closer, const int* first_batch, int first, int last, const RowLanes<6>* shift,
+               RowLanes<6>* kept, RowLanes<6>* given, double* stored, int* near);
   // Batches [first, last) of any sound joints, rows of blocks to wrench rows of both ends.
   int (*sound_ends)(const SoundBatch* batch, const SoundEnds* ends, int first, int last, const double* rows, double* wrench_rows,
                     int* near);

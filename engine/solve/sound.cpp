@@ -1,6 +1,7 @@
 #include "engine/solve/sound.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "engine/model/batches.h"
@@ -59,7 +60,7 @@ Sound::Sound(const Model& model, State& state) : model_(model), state_(state) {
   const KeptLanes& kept = model.kept;
   batch_.resize(kept.other.size());
   looked_at_.resize(batch_.size());
-  stale_.resize(batch_.size());
+  closer_.assign(batch_.size(), nullptr);
   near_.resize(batch_.size() + 1);
   for (int k = 0; k < int(batch_.size()); ++k) {
     int joints[lanes];
@@ -103,7 +104,7 @@ void Sound::refresh(const std::vector<std::uint8_t>& stale) {
 void Sound::set_lanes(int k) {
   int joints[lanes];
   joints_in_place(k, joints);
-  JointBatch geometry;
+  JointBatch aside, &geometry = looked_at_[z(k)] ? *looked_at_[z(k)] : aside;
   set_geometry(model_, state_, joints, geometry);
   constexpr double nothing[3] = {};
   SoundLanes lane;
@@ -112,7 +113,6 @@ void Sound::set_lanes(int k) {
     lane.bending[l] = joints[l] >= 0 ? model_.joint[z(joints[l])].type->stiffness + 3 : nothing;
   }
   lane_kernels().sound_pose(geometry, lane, batch_[z(k)]);
-  stale_[z(k)] = 1;
 }
 
 void Sound::leave(int j) {
@@ -120,6 +120,7 @@ void Sound::leave(int j) {
   if (batch_.empty()) return;
   const int lane = model_.kept.lane[z(j)], k = lane / lanes;
   looked_at_[z(k)].reset();
+  closer_[z(k)] = nullptr;
   SoundBatch& out = batch_[z(k)];
   SoundLaw law = *out.law;
   clear_sound_lane(out, law, lane % lanes);
@@ -151,8 +152,8 @@ void Sound::look_closer(int k, bool sample, JointSums& sums) {
   if (!looked_at_[z(k)]) {  // which reads rows of its own
     looked_at_[z(k)] = std::make_unique<JointBatch>(batch_of(model_, state_, joints));
     for (int l = 0; l < lanes; ++l) looked_at_[z(k)]->a[l] = l, looked_at_[z(k)]->b[l] = lanes + l;
-  } else if (stale_[z(k)]) set_geometry(model_, state_, joints, *looked_at_[z(k)]);
-  stale_[z(k)] = 0;
+    closer_[z(k)] = looked_at_[z(k)].get();
+  }
   const JointBatch& B = *looked_at_[z(k)];
   alignas(64) double rows[2 * 8 * lanes] = {};
   for (int l = 0; l < lanes; ++l) {
@@ -178,8 +179,9 @@ void Sound::look_closer(int k, bool sample, JointSums& sums) {
 
 int Sound::forces(int first, int last, const LaneKernels& kernels, double* stored) {
   const int* first_batch = model_.kept.first_batch.data();
-  return kernels.sound(batch_.data(), first_batch, first, last, state_.shift.data(), state_.kept.data(), state_.given.data(), stored,
-                       &near_[z(first_batch[first])]);
+  const SoundCloser closer{closer_.data(), std::pow(model_.analysis.lazy_rotation, 3)};
+  return kernels.sound(batch_.data(), closer, first_batch, first, last, state_.shift.data(), state_.kept.data(), state_.given.data(),
+                       stored, &near_[z(first_batch[first])]);
 }
 
 void Sound::forces(Range groups, bool sample, std::vector<JointSums>& all) {

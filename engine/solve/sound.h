@@ -51,7 +51,7 @@ class Sound {
   std::vector<int> near_;  // batches that may be near a limit, from the first batch of the groups looked at on
   // Batches that have been looked at: some laws want it in every step. Each is one thread's own. Null where lanes have changed since.
   std::vector<std::unique_ptr<JointBatch>> looked_at_;
-  std::vector<std::uint8_t> stale_;  // those whose geometry is older than that of batch_
+  std::vector<const JointBatch*> closer_;  // the same for the kernel
 };
 
 // A state that another kernel has brought to where it is holds what keepers summed up, or rows that they do not write: neither is to act.
