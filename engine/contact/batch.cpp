@@ -31,6 +31,7 @@ void fill(const PairJob* job, int count, PairLanes& w) {
     w.reference[l] = (swapped ? j.b : j.a)->u.data();
     w.other[l] = (swapped ? j.a : j.b)->u.data();
     w.swapped[l] = swapped;
+    w.crowd[l] = j.crowd;
   }
 }
 

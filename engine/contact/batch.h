@@ -24,7 +24,8 @@ struct PairJob {
   Pair* pair;
   PairBodies bodies;
   const ContactBlock *a, *b;
-  PairResult* result;  // as constructed
+  PairResult* result;         // as constructed
+  double crowd = full_crowd;  // as in pair_force()
 };
 
 // True for a pair of small bodies that touched when it was looked at last and has nothing left of an old joint.

@@ -7,6 +7,7 @@ namespace erbs {
 
 struct View;  // view.h
 
+inline constexpr double full_crowd = 3;  // from so many contacts on dashpots take least
 inline constexpr double look_ahead = 5;  // steps within which bodies that approach each other are reckoned with
 
 // What one evaluation gives besides the wrench. Losses belong to the step that ends at the pose given: each is the work of its
@@ -33,8 +34,9 @@ struct PairResult {
 
 // Evaluates `pair` at the current pose and updates its memory; dt (s) is the step that led here, 0 at the start of a run. Returns false if
 // the bodies are apart and nothing was or is stored (the result is then zero but for `landing`).
+// `crowd`: how many contacts touch either body, at least 1; what dashpots may take depends on it (dashpot() of contact.cpp).
 bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
-                double dt, bool want_energy, OverlapRoom& room, PairResult& result);
+                double dt, bool want_energy, OverlapRoom& room, PairResult& result, double crowd = full_crowd);
 
 // A pair of small bodies that did not touch, in short: true where what kept them apart surely keeps them apart still. `result` then has
 // what pair_force() gives, to round-off. The pose of the view is not asked for.

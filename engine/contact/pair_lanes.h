@@ -15,6 +15,7 @@ struct alignas(64) PairLanes {
   const double *pair[8], *reference[8], *other[8];  // where they are read from
   Lane p[8 * pair_rows], r[8 * block_rows], o[8 * block_rows];
   Lane swapped;  // 1 where the reference is block b, else 0
+  Lane crowd;    // as in pair_force()
   Lane turn[9], shift[3];
   OverlapSums sums[8];
   Lane deepest;  // m

@@ -62,7 +62,7 @@ struct alignas(64) Pair {
   std::uint8_t b_is_reference = 0;          // whose inner distance is the potential: the larger part, then the lower block; never changes
   std::uint8_t touching = 0;
   std::uint8_t bed = 0;  // still the faces of a former joint, and its stiffness; once parted they meet as debris
-  Corners corners;        // cache only
+  Corners corners;       // cache only
 };
 
 struct PairList {
@@ -73,6 +73,7 @@ struct PairList {
   std::vector<Vec3> u;      // m, pose of each block at the last search [nblock]
   std::vector<Mat3> turn;   //                                          [nblock]
   long searches = 0;
+  std::vector<int> contacts;  // of each block that moves, in the last step, and as many for its joints as make a crowd [nblock]
   // the step that is allowed (contact_limit.h)
   double counted = 0;               // 1/s2, 1 / dt^2 for what was counted last
   long counts = 0, counted_at = 0;  // how often, in which step
@@ -124,18 +125,14 @@ requires std::is_same_v<std::remove_const_t<P>, PairList>
 void each(P& p, F&& f) {
   f("pair", p.pair), f("margin", p.margin), f("valid", p.valid), f("start", p.start), f("u", p.u), f("turn", p.turn),
       f("searches", p.searches);
-  f("counted", p.counted), f("counts", p.counts), f("counted_at", p.counted_at), f("by_blocks", p.by_blocks);
+  f("contacts", p.contacts), f("counted", p.counted), f("counts", p.counts), f("counted_at", p.counted_at), f("by_blocks", p.by_blocks);
 }
 
 template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, Apart>
-void each(P& p, F&& f) {
-  f("distance", p.distance), f("spun", p.spun), f("between", p.between);
-}
+void each(P& p, F&& f) { f("distance", p.distance), f("spun", p.spun), f("between", p.between); }
 template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, Parting>
-void each(P& p, F&& f) {
-  f("pair", p.pair), f("q", p.q), f("spun", p.spun);
-}
+void each(P& p, F&& f) { f("pair", p.pair), f("q", p.q), f("spun", p.spun); }
 
 }  // namespace erbs

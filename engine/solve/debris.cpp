@@ -69,6 +69,7 @@ void Debris::wake() {
   }
   rate_.assign(z(model_.nblock), 0.0);
   landing_.assign(z(model_.nblock), 0.0);
+  state_.debris.contacts.resize(z(model_.nblock));
   for (int b = 0; b < model_.nblock; ++b) {
     ContactBlock& block = blocks_[z(b)];
     block.rest = model_.rest[z(b)];

@@ -56,6 +56,7 @@ class Debris {
   void count_bed(Pair& pair);
   void count();
   double largest_rate() const;
+  double crowd(int a, int b) const;  // pair_force()
   void share_out();
   void land(int i, double landing_a, double landing_b);
   void limit_passing();

@@ -151,6 +151,11 @@ void Debris::note_apart(int i, double distance) {
   pair.until = (way_[z(a)] + way_[z(b)] + distance - round_off * state_.debris.margin) * (1 - round_off);
 }
 
+double Debris::crowd(int a, int b) const {
+  const std::vector<int>& contacts = state_.debris.contacts;
+  return std::clamp(double(std::max(contacts[z(a)], contacts[z(b)])), 1.0, full_crowd);
+}
+
 void Debris::forces(int thread, bool sample) {
   const std::vector<int>& live = sleep_.live();
   const auto mine = std::ranges::subrange(std::ranges::lower_bound(live, first_pair_[z(thread)]),
@@ -176,7 +181,7 @@ void Debris::forces(int thread, bool sample) {
       note_apart(i, r.apart);
       return false;
     }
-    const bool counts = pair_force(pair, shapes_, a, b, settings_, dt, sample, room, r);
+    const bool counts = pair_force(pair, shapes_, a, b, settings_, dt, sample, room, r, crowd(waiting_[z(i)].a, waiting_[z(i)].b));
     lane_[z(i)].fits = goes_in_lanes(pair, bodies);
     note_apart(i, counts ? 0 : r.apart);
     return counts;
@@ -206,7 +211,7 @@ void Debris::forces(int thread, bool sample) {
     }
     if (lane.fits) {
       looked.active.push_back({i, {}});
-      job[count] = {&pair, lane.bodies, &blocks_[z(known.a)], &blocks_[z(known.b)], &looked.active.back().result};
+      job[count] = {&pair, lane.bodies, &blocks_[z(known.a)], &blocks_[z(known.b)], &looked.active.back().result, crowd(known.a, known.b)};
       at[count++] = i;
       if (count == 8) together();
       continue;
@@ -299,6 +304,7 @@ void Debris::gather(double* push, bool sample) {
     else std::fill_n(push + 8 * b, 8, 0.0);
     rate_[z(b)] = rested ? sleep_.rate(b) : 0;
     landing_[z(b)] = 0;
+    s.debris.contacts[z(b)] = 0;
   }
   touching_ = sleep_.touching();
   allowed_ = model_.dt_most;
@@ -326,12 +332,17 @@ void Debris::gather(double* push, bool sample) {
       rate_[z(pair.b)] += std::max(0.0, r.rate_b - bed_[i].rate_b);
       touching_ += r.touching;
       touched_ += r.touching;
+      s.debris.contacts[z(pair.a)] += r.touching;
+      s.debris.contacts[z(pair.b)] += r.touching;
       land(one.pair, r.landing_a, r.landing_b);
       const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
       if (r.depth > 0) s.max_penetration_relative = std::max(s.max_penetration_relative, r.depth / thin);
     }
     for (const Near& one : looked.near) land(one.pair, one.landing_a, one.landing_b);
   }
+  for (const int b : sleep_.pushed())
+    if (model_.kind[z(b)] != Kind::moving) s.debris.contacts[z(b)] = 0;   // what is held bears any number
+    else if (s.joined[z(b)]) s.debris.contacts[z(b)] += int(full_crowd);  // joints take their share
   share_out();
   double limit = limit_.allowed(largest_rate());
   if (limit_.due(limit)) {
