@@ -55,10 +55,10 @@ struct Dashpot {
 
 // Hunt and Crossley's factor for the impact at hand, a small linear one for the settled contact written in the same form
 // (its coefficient is 2 settling sqrt(kn A m)), both kept below what the explicit step bears. A pair alone, x = dt^2 kn A / m: with the
-// velocity of half a step before, x + 2 c dt / m < 4. Where n such contacts press on each block, of either sign in turn, n times that: c dt
-// / m < (4 / n - x) / 2, of which 0.9 is taken; never less than a quarter, which a heap bears (contact_limit.cpp), and no more than 1 / (1
-// + n), since others may land in the same step. What is missing is missing of the restitution asked for: a quarter gives at least .44 where
-// a brick lies flat, a half .22.
+// velocity of half a step before, x + 2 c dt / m < 4. Where n such contacts press on each block n times that in the worst mode: c dt / m <
+// (4 / n - x) / 2, of which 0.9 is taken; never less than a quarter, which a heap bears (contact_limit.cpp), and no more than 1 / (1 + n),
+// since others may land in the same step. What is missing is missing of the restitution asked for: with a quarter bricks that fall
+// flat come back with 0.43 at least, with a half with 0.2 to 0.3 (V22).
 Dashpot dashpot(Pair& pair, const Patch& patch, double inverse_mass, const ContactSettings& settings, double dt, double crowd) {
   Dashpot d;
   // Forgotten slowly against the time of a soft impact (about 3 depth / speed on a corner).

@@ -8,7 +8,7 @@
 --                is X - ln(1 + X) = -e X - ln(1 - e X), X = chi v0, whatever kn and m; chi is chosen so that e is as asked for.
 -- How to run     erbs run scenes/verify/v22_central_collision.lua [-D speed=...] [-D kn=...] [-D fraction=0.9]
 -- What to look at  restitution_* (as asked for), duration_* (of contact over pi / omega), momentum_error.
-label("quick", "fixed_dt")  -- at coarser steps the dashpot of a strongly damped impact is capped for stability: e = .05 then becomes .15
+label("quick", "fixed_dt")  -- at coarser steps the dashpot of a strongly damped impact is capped for stability: see v22_restitution_at_the_step
 local speed = param("speed", 1, "of each towards the other [m/s]")
 local kn = param("kn", 1e10, "[Pa/m]")
 local fraction = param("fraction", 0.1, "of the step's bound")
