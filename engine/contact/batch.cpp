@@ -1,5 +1,6 @@
 #include "engine/contact/batch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -36,20 +37,19 @@ void fill(const PairJob* job, int count, PairLanes& w) {
 }
 
 // Overlaps of the pairs; returns those that have none, or too many pieces.
-unsigned overlaps(const PairJob* job, int count, Batch& batch) {
+unsigned overlaps(const PairJob* job, int count, PairLanes& w, Triangles* triangles) {
   const ClipKernels& kernels = clip_kernels();
-  PairLanes& w = batch.lanes;
   ClipJob clips[8];
   for (int l = 0; l < count; ++l) {
     const PairBodies& bodies = job[l].bodies;
-    clips[l] = {&bodies.reference->small, &bodies.other->small, {}, &batch.triangles[l], &job[l].pair->corners};
+    clips[l] = {&bodies.reference->small, &bodies.other->small, {}, &triangles[l], &job[l].pair->corners};
     for (int i = 0; i < 9; ++i) clips[l].pose.turn[i] = w.turn[i][l];
     for (int i = 0; i < 3; ++i) clips[l].pose.shift[i] = w.shift[i][l];
   }
   kernels.clip_all(clips, count);
   unsigned left_out = 0;
   for (int l = 0; l < 8; ++l) {
-    Triangles& t = batch.triangles[l];
+    Triangles& t = triangles[l];
     if (l < count && !t.overflow && t.count > 0) {
       kernels.sum(t, w.sums[l]);
       w.deepest[l] = t.deepest;
@@ -76,6 +76,32 @@ void bear(PairLanes& w, int l) {
   w.torsion[l] = held.springs.torsion;
   w.share[l] = held.share;
   w.slips[l] = held.slips;
+}
+
+// From the poses of eight pairs to the springs of their friction; returns those left out.
+unsigned up_to_springs(const PairJob* job, int count, const PairSettings& set, PairLanes& w, Triangles* triangles) {
+  const ClipKernels& clips = clip_kernels();
+  const PairKernels& kernels = pair_kernels();
+  fill(job, count, w);
+  kernels.place(w);
+  unsigned left_out = overlaps(job, count, w, triangles);
+  kernels.patch(w, set);
+  for (int l = 0; l < count; ++l) {
+    if (!(w.total[l] > 0)) left_out |= 1u << l;
+    if ((left_out >> l & 1u) != 0) continue;
+    const double turning[3] = {w.turning[0][l], w.turning[1][l], w.turning[2][l]};
+    w.closing[l] = clips.approach(triangles[l], w.along[l], turning);
+  }
+  kernels.dashpot(w, set);
+  for (int l = 0; l < 8; ++l) {
+    double total = 0, first[3] = {};
+    const double normal[3] = {w.normal[0][l], w.normal[1][l], w.normal[2][l]};
+    if (l < count && (left_out >> l & 1u) == 0) clips.damp(triangles[l], normal, w.chi[l], w.limit[l], total, first);
+    w.damping[0][l] = total;
+    for (int i = 0; i < 3; ++i) w.damping[1 + i][l] = first[i];
+  }
+  kernels.springs(w, set);
+  return left_out;
 }
 
 void write_back(const PairJob* job, int count, unsigned left_out, const PairLanes& w) {
@@ -115,41 +141,31 @@ bool goes_in_lanes(const Pair& pair, const PairBodies& bodies) {
 
 unsigned pair_forces(const PairJob* job, int count, const ContactSettings& settings, double dt, bool want_energy, Batch& batch,
                      OverlapRoom& room) {
-  const ClipKernels& clips = clip_kernels();
-  const PairKernels& kernels = pair_kernels();
   const PairSettings set{dt, settings.memory, settings.reference_speed, settings.settling, settings.settling_tangential, surely_within};
-  PairLanes& w = batch.lanes;
-  fill(job, count, w);
-  kernels.place(w);
-  unsigned left_out = overlaps(job, count, batch);
-  kernels.patch(w, set);
-  for (int l = 0; l < count; ++l) {
-    if (!(w.total[l] > 0)) left_out |= 1u << l;
-    if ((left_out >> l & 1u) != 0) continue;
-    const double turning[3] = {w.turning[0][l], w.turning[1][l], w.turning[2][l]};
-    w.closing[l] = clips.approach(batch.triangles[l], w.along[l], turning);
+  unsigned left_out[2] = {};
+  const int of[2] = {std::min(count, 8), std::max(count - 8, 0)};
+  for (int k = 0; k < 2; ++k) {
+    if (of[k] > 0) left_out[k] = up_to_springs(job + 8 * k, of[k], set, batch.lanes[k], batch.triangles);
+    else std::fill_n(batch.lanes[k].total, 8, 0.0);  // nobody has a patch
   }
-  kernels.dashpot(w, set);
-  for (int l = 0; l < 8; ++l) {
-    double total = 0, first[3] = {};
-    const double normal[3] = {w.normal[0][l], w.normal[1][l], w.normal[2][l]};
-    if (l < count && (left_out >> l & 1u) == 0) clips.damp(batch.triangles[l], normal, w.chi[l], w.limit[l], total, first);
-    w.damping[0][l] = total;
-    for (int i = 0; i < 3; ++i) w.damping[1 + i][l] = first[i];
+  pair_kernels().bear(batch.lanes[0], batch.lanes[1]);
+  for (int k = 0; k < 2; ++k) {
+    PairLanes& w = batch.lanes[k];
+    const PairJob* jobs = job + 8 * k;
+    const auto stays = [&](int l) { return (left_out[k] >> l & 1u) == 0; };
+    if (of[k] == 0) continue;
+    for (int l = 0; l < of[k]; ++l)
+      if (stays(l) && !(w.holds[l] > 0)) bear(w, l);
+    pair_kernels().finish(w, set);
+    write_back(jobs, of[k], left_out[k], w);
+    for (int l = 0; l < of[k] && want_energy; ++l) {
+      if (!stays(l)) continue;
+      const PairBodies& bodies = jobs[l].bodies;
+      room.fast = true;
+      jobs[l].result->elastic = jobs[l].pair->law.kn * overlap_energy(*bodies.reference, *bodies.other, pose_of(w, l), room);
+    }
   }
-  kernels.springs(w, set);
-  kernels.bear(w);
-  for (int l = 0; l < count; ++l)
-    if ((left_out >> l & 1u) == 0 && !(w.holds[l] > 0)) bear(w, l);
-  kernels.finish(w, set);
-  write_back(job, count, left_out, w);
-  for (int l = 0; l < count && want_energy; ++l) {
-    if ((left_out >> l & 1u) != 0) continue;
-    const PairBodies& bodies = job[l].bodies;
-    room.fast = true;
-    job[l].result->elastic = job[l].pair->law.kn * overlap_energy(*bodies.reference, *bodies.other, pose_of(w, l), room);
-  }
-  return left_out;
+  return left_out[0] | left_out[1] << 8;
 }
 
 }  // namespace erbs

@@ -7,8 +7,10 @@
 
 namespace erbs {
 
+inline constexpr int most_together = 16;  // pairs worked on together, in two batches of eight
+
 struct Batch {
-  PairLanes lanes;
+  PairLanes lanes[most_together / 8];
   Triangles triangles[8];
 };
 
@@ -31,8 +33,8 @@ struct PairJob {
 // True for a pair of small bodies that touched when it was looked at last and has nothing left of an old joint.
 bool goes_in_lanes(const Pair& pair, const PairBodies& bodies);
 
-// Evaluates up to eight pairs and updates their memory. Those of the bits returned have been left as they were, for pair_force: bodies
-// that have parted, or whose overlap has more pieces than there is room for. Pairs as goes_in_lanes() takes them.
+// Evaluates up to `most_together` pairs and updates their memory. Those of the bits returned have been left as they were, for pair_force:
+// bodies that have parted, or whose overlap has more pieces than there is room for. Pairs as goes_in_lanes() takes them.
 unsigned pair_forces(const PairJob* job, int count, const ContactSettings& settings, double dt, bool want_energy, Batch& batch,
                      OverlapRoom& room);
 

@@ -61,8 +61,8 @@ struct PairKernels {
   void (*patch)(PairLanes&, const PairSettings&);    // from sums to turning; total = 0 where there is no patch to speak of
   void (*dashpot)(PairLanes&, const PairSettings&);  // from closing
   void (*springs)(PairLanes&, const PairSettings&);  // up to holds
-  void (*bear)(PairLanes&);                          // what reaches the limit; `holds` then is 0 where that is left to the caller
-  void (*finish)(PairLanes&, const PairSettings&);   // rows of pairs and results
+  void (*bear)(PairLanes&, PairLanes&);  // of two batches, what reaches the limit; `holds` then is 0 where that is left to the caller
+  void (*finish)(PairLanes&, const PairSettings&);  // rows of pairs and results
   void (*write)(const Lane* rows, int count, double* const to[8]);
   int (*close_balls)(const Balls&, int from, int to, const double one[4], double margin, int* found);
   unsigned (*close_boxes)(const OrientedBox& one, const OrientedBox* const other[8], double margin);

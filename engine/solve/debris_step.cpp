@@ -186,8 +186,8 @@ void Debris::forces(int thread, bool sample) {
     note_apart(i, counts ? 0 : r.apart);
     return counts;
   };
-  PairJob job[8];
-  int at[8], count = 0;
+  PairJob job[most_together];
+  int at[most_together], count = 0;
   const auto together = [&] {
     const unsigned left_out = pair_forces(job, count, settings_, dt, sample, batch, room);
     for (int l = 0; l < count; ++l)
@@ -213,7 +213,7 @@ void Debris::forces(int thread, bool sample) {
       looked.active.push_back({i, {}});
       job[count] = {&pair, lane.bodies, &blocks_[z(known.a)], &blocks_[z(known.b)], &looked.active.back().result, crowd(known.a, known.b)};
       at[count++] = i;
-      if (count == 8) together();
+      if (count == most_together) together();
       continue;
     }
     PairResult r;
