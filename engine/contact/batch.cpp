@@ -42,7 +42,8 @@ unsigned overlaps(const PairJob* job, int count, PairLanes& w, Triangles* triang
   ClipJob clips[8];
   for (int l = 0; l < count; ++l) {
     const PairBodies& bodies = job[l].bodies;
-    clips[l] = {&bodies.reference->small, &bodies.other->small, {}, &triangles[l], &job[l].pair->corners};
+    clips[l].a = &bodies.reference->small, clips[l].b = &bodies.other->small;
+    clips[l].out = &triangles[l], clips[l].known = &job[l].pair->corners;
     for (int i = 0; i < 9; ++i) clips[l].pose.turn[i] = w.turn[i][l];
     for (int i = 0; i < 3; ++i) clips[l].pose.shift[i] = w.shift[i][l];
   }
