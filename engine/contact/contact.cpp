@@ -133,8 +133,8 @@ struct Keeper {
   enum Kind { face, other_face, edges } kind;
   std::size_t face_or_a, b;
 };
-Keeper keeper(const Pair& pair, const View& s) {
-  const std::size_t at = std::size_t(pair.separating), own = s.reference->normal.size(), faces = own + s.other->normal.size();
+Keeper keeper(int separating, const View& s) {
+  const std::size_t at = std::size_t(separating), own = s.reference->normal.size(), faces = own + s.other->normal.size();
   if (at < own) return {Keeper::face, at, 0};
   if (at < faces) return {Keeper::other_face, at - own, 0};
   const std::size_t edges = s.other->edge.size();
@@ -144,7 +144,7 @@ Keeper keeper(const Pair& pair, const View& s) {
 // Along the normal of the face that keeps them apart, where there is one: a body that flies off lands nowhere.
 double closing_along(const Pair& pair, const View& s) {
   const Vec3 v = s.reference_block->turn.transpose() * (s.other_block->v - s.reference_block->v);
-  const Keeper by = pair.separating < 0 ? Keeper{Keeper::edges, 0, 0} : keeper(pair, s);
+  const Keeper by = pair.separating < 0 ? Keeper{Keeper::edges, 0, 0} : keeper(pair.separating, s);
   return by.kind == Keeper::edges  ? v.norm()
          : by.kind == Keeper::face ? -v.dot(s.reference->normal[by.face_or_a])
                                    : v.dot(s.pose.turn * s.other->normal[by.face_or_a]);
@@ -256,12 +256,16 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
   return true;
 }
 
-bool stands_apart(const Pair& pair, const View& s, const ContactSettings& settings, double dt, PairResult& result) {
+int short_keeper(const Pair& pair, const ContactShape& a, const ContactShape& b) {
+  return pair.touching || pair.offset_left > 0 || !(a.small.faces > 0 && b.small.faces > 0) ? -1 : pair.separating;
+}
+
+bool stands_apart(int separating, const Pair& pair, const View& s, const ContactSettings& settings, double dt, PairResult& result) {
   constexpr double parallel = 1e-6, sure = 1e-12;
   const ContactShape &reference = *s.reference, &other = *s.other;
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
-  if (pair.separating < 0 || pair.touching || pair.offset_left > 0 || !(reference.small.faces > 0 && other.small.faces > 0)) return false;
-  const Keeper by = keeper(pair, s);
+  if (separating < 0) return false;
+  const Keeper by = keeper(separating, s);
   const Vec3 between = (o.rest - r.rest) + (o.u - r.u), v = o.v - r.v;
   double apart = 0, along = 0;
   if (by.kind == Keeper::face) {

@@ -38,9 +38,11 @@ struct PairResult {
 bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
                 double dt, bool want_energy, OverlapRoom& room, PairResult& result, double crowd = full_crowd);
 
-// A pair of small bodies that did not touch, in short: true where what kept them apart surely keeps them apart still. `result` then has
-// what pair_force() gives, to round-off. The pose of the view is not asked for.
-bool stands_apart(const Pair& pair, const View& view, const ContactSettings& settings, double dt, PairResult& result);
+// What keeps a pair of small bodies apart that touch no more and bear nothing (Pair::separating), -1 where it is to go to pair_force().
+int short_keeper(const Pair& pair, const ContactShape& a, const ContactShape& b);
+// Such a pair in short: true where that surely keeps them apart still. `result` then has what pair_force() gives, to round-off. The pose of
+// the view is not asked for, and the pair only where the bodies may land.
+bool stands_apart(int keeper, const Pair& pair, const View& view, const ContactSettings& settings, double dt, PairResult& result);
 
 // A new pair; fixes its reference body for good.
 Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, const ContactShapes& shapes);

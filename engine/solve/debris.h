@@ -76,6 +76,7 @@ class Debris {
   void look();
   bool keeps_apart(int i);
   void note_apart(int i, double distance);
+  void fetch_pair(int i) const;
   void sort();
   void find_still();
   PairLaw law(int a, int b) const;
@@ -130,6 +131,7 @@ class Debris {
   struct Lane {
     PairBodies bodies;
     bool known = false, fits = false;  // goes_in_lanes()
+    int keeper = -1;                   // short_keeper()
   };
   std::vector<Lane> lane_;  // of each pair: what a step asks first
   bool lanes_changed_ = true;

@@ -156,6 +156,20 @@ double Debris::crowd(int a, int b) const {
   return std::clamp(double(std::max(contacts[z(a)], contacts[z(b)])), 1.0, full_crowd);
 }
 
+void Debris::fetch_pair(int i) const {
+  const Lane& lane = lane_[z(i)];
+  const Pair& pair = state_.debris.pair[z(i)];
+  if (lane.keeper >= 0) {  // little is asked of it
+    fetch(pair.law);
+    fetch(lane.bodies.reference->small.vertex);
+    fetch(lane.bodies.other->small.vertex);
+  } else {
+    fetch(pair);
+  }
+  fetch(blocks_[z(waiting_[z(i)].a)]);
+  fetch(blocks_[z(waiting_[z(i)].b)]);
+}
+
 void Debris::forces(int thread, bool sample) {
   const std::vector<int>& live = sleep_.live();
   const auto mine = std::ranges::subrange(std::ranges::lower_bound(live, first_pair_[z(thread)]),
@@ -164,7 +178,7 @@ void Debris::forces(int thread, bool sample) {
   looked.at.clear(), looked.active.clear(), looked.near.clear();
   for (const int i : mine) {
     const Waiting& pair = waiting_[z(i)];
-    if (way_soon_[z(pair.a)] + way_soon_[z(pair.b)] < pair.until || keeps_apart(i)) continue;
+    if (way_soon_[z(pair.a)] + way_soon_[z(pair.b)] < pair.until || (!lane_[z(i)].fits && keeps_apart(i))) continue;
     looked.at.push_back(i);
   }
   const int n = int(looked.at.size());
@@ -175,14 +189,16 @@ void Debris::forces(int thread, bool sample) {
   const auto alone = [&](int i, PairResult& r) {
     Pair& pair = state_.debris.pair[z(i)];
     const ContactBlock &a = blocks_[z(waiting_[z(i)].a)], &b = blocks_[z(waiting_[z(i)].b)];
-    const PairBodies& bodies = lane_[z(i)].bodies;
+    Lane& lane = lane_[z(i)];
+    const PairBodies& bodies = lane.bodies;
     const View view{bodies.reference, bodies.other, bodies.swapped ? &b : &a, bodies.swapped ? &a : &b, {}};
-    if (stands_apart(pair, view, settings_, dt, r)) {
+    if (stands_apart(lane.keeper, pair, view, settings_, dt, r)) {
       note_apart(i, r.apart);
       return false;
     }
     const bool counts = pair_force(pair, shapes_, a, b, settings_, dt, sample, room, r, crowd(waiting_[z(i)].a, waiting_[z(i)].b));
-    lane_[z(i)].fits = goes_in_lanes(pair, bodies);
+    lane.fits = goes_in_lanes(pair, bodies);
+    lane.keeper = short_keeper(pair, *bodies.reference, *bodies.other);
     note_apart(i, counts ? 0 : r.apart);
     return counts;
   };
@@ -195,19 +211,14 @@ void Debris::forces(int thread, bool sample) {
     count = 0;
   };
   for (int k = 0; k < n; ++k) {
-    if (k + 1 < n) {
-      const Waiting& next = waiting_[z(looked.at[z(k + 1)])];
-      fetch(state_.debris.pair[z(looked.at[z(k + 1)])]);
-      fetch(blocks_[z(next.a)]);
-      fetch(blocks_[z(next.b)]);
-    }
+    if (k + 1 < n) fetch_pair(looked.at[z(k + 1)]);
     const int i = looked.at[z(k)];
     Pair& pair = state_.debris.pair[z(i)];
     const Waiting& known = waiting_[z(i)];
     Lane& lane = lane_[z(i)];
     if (!lane.known) {
       lane.bodies = bodies_of(pair, shapes_);
-      lane = {lane.bodies, true, goes_in_lanes(pair, lane.bodies)};
+      lane = {lane.bodies, true, goes_in_lanes(pair, lane.bodies), short_keeper(pair, *lane.bodies.reference, *lane.bodies.other)};
     }
     if (lane.fits) {
       looked.active.push_back({i, {}});

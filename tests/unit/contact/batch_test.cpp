@@ -107,8 +107,8 @@ TEST_CASE("eight pairs side by side press as each does alone", "[contact]") {
 TEST_CASE("a pair's numbers do not depend on its neighbours in the lanes", "[contact]") {
   Body slab{{box_polyhedron({-1, -1, -0.2}, {1, 1, 0})}, 0};
   std::vector<Body> bodies{slab};
-  for (int i = 0; i < 8; ++i)
-    bodies.push_back({{translated(brick(), {0.4 * (i % 4) - 0.6, 0.3 * (i / 4), 0.05 - 1e-5 * (i + 1)})},
+  for (int i = 0; i < most_together; ++i)
+    bodies.push_back({{translated(brick(), {0.4 * (i % 4) - 0.6, 0.3 * (i / 4) - 0.3, 0.05 - 1e-5 * (i + 1)})},
                       1800,
                       Vec3(0.01 * i, 0, -0.1),
                       Vec3(0.1 * i, 0.02, 0)});
@@ -116,17 +116,17 @@ TEST_CASE("a pair's numbers do not depend on its neighbours in the lanes", "[con
   many.step(true);
   many.step();
   std::vector<Pair> together = many.list.pair, alone = together;
-  REQUIRE(together.size() == 8);
+  REQUIRE(together.size() == std::size_t(most_together));
   const auto batch = std::make_unique<Batch>();
   const auto room = std::make_unique<OverlapRoom>();
-  PairResult result[8], one[8];
-  PairJob job[8];
+  PairResult result[most_together], one[most_together];
+  PairJob job[most_together];
   const auto job_of = [&](Pair& p, PairResult& r) {
     return PairJob{&p, bodies_of(p, many.shapes), &many.block[std::size_t(p.a)], &many.block[std::size_t(p.b)], &r};
   };
-  for (std::size_t l = 0; l < 8; ++l) job[l] = job_of(together[l], result[l]);
-  CHECK(pair_forces(job, 8, many.settings, many.dt, false, *batch, *room) == 0);
-  for (std::size_t l = 0; l < 8; ++l) {
+  for (std::size_t l = 0; l < std::size_t(most_together); ++l) job[l] = job_of(together[l], result[l]);
+  CHECK(pair_forces(job, most_together, many.settings, many.dt, false, *batch, *room) == 0);
+  for (std::size_t l = 0; l < std::size_t(most_together); ++l) {
     const PairJob single = job_of(alone[l], one[l]);
     CHECK(pair_forces(&single, 1, many.settings, many.dt, false, *batch, *room) == 0);
     CHECK(one[l].wrench.force == result[l].wrench.force);
