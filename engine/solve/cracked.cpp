@@ -285,6 +285,7 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums, const La
     } else {
       group.beyond = kernels.respond(law, batch, shape, group.slip.data(), group.bond.data(), lane, poses, wrench_rows, done);
       std::fill_n(group.common.stale, lanes, 1.0);
+      group.worn = true;
       group.bare = std::all_of(lane.least_damage, lane.least_damage + lanes, [](double damage) { return damage >= 1; });
     }
     if (sample) sums.energy.elastic += total(lane.stored);
@@ -299,7 +300,8 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums, const La
 }
 
 void Cracked::store() {
-  for (const Group& group : group_) {
+  for (Group& group : group_) {
+    const bool worn = std::exchange(group.worn, false);
     for (int l = 0; l < lanes; ++l) {
       const int j = group.joint[l];
       if (j < 0) continue;
@@ -310,12 +312,17 @@ void Cracked::store() {
         for (int i = 0; i < 6; ++i) state_.viscous[6 * z(j) + z(i)] = group.lane.drag[i][l];
       PointHistory* h = &state_.history[z(model_.joint[z(j)].first_point)];
       for (int i = 0; i < group.points; ++i) {
-        const SlipLanes& p = group.slip[z(i)];
+        h[i].slip_s = group.slip[z(i)].s[l], h[i].slip_t = group.slip[z(i)].t[l];
+        if (!worn) continue;
         const BondLanes& b = group.bond[z(i)];
-        h[i] = {p.s[l], p.t[l], b.damage[l], b.secant[l], b.reach[l]};
+        h[i].damage = b.damage[l], h[i].secant = b.secant[l], h[i].reach = b.reach[l];
       }
     }
   }
+}
+
+bool Cracked::none_spent() const {
+  return keepers(model_) && std::none_of(group_.begin(), group_.end(), [](const Group& group) { return group.beyond && !group.empty(); });
 }
 
 bool Cracked::spent(int j) const {

@@ -21,9 +21,10 @@ class Cracked {
   double* poses() { return pose_.empty() ? nullptr : pose_.data(); }
   void take_pose(int b);
   // Wrench rows of groups [first, last); fills sums.energy.elastic when `sample`.
-  static constexpr int grain = 4;
+  static constexpr int grain = 8;
   void forces(int first, int last, bool sample, JointSums& sums, const LaneKernels& kernels = lane_kernels());
   void store();
+  bool none_spent() const;  // surely
   // The joint has no bond left, and has moved beyond what its fixed faces can tell (joint_response.h).
   bool spent(int j) const;
 
@@ -54,6 +55,7 @@ class Cracked {
     bool bears = false;  // joints that gravity presses
     bool beyond = true;  // some may be beyond their faces
     bool bare = true;    // no point of any lane has a bond left
+    bool worn = false;   // bonds have changed since the State knew of them
     bool empty() const { return used == 0; }
     void look_for_bonds(const PointLaw& law);
   };

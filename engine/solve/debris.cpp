@@ -231,6 +231,7 @@ void Debris::open(int j) {
 
 std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
   std::vector<int> opened;
+  if (cracked.none_spent()) return opened;
   int first = 0;
   while (first < model_.njoint && !(state_.tier[z(first)] == Tier::cracked && cracked.spent(first))) ++first;
   if (first == model_.njoint) return opened;

@@ -74,6 +74,10 @@ Sound::Sound(const Model& model, State& state) : model_(model), state_(state) {
     out.law = &*law_.insert(law).first;
     out.other = kept.other[z(k)];
   }
+  for (int g = 0; g + 1 < int(kept.first_batch.size()); ++g) {
+    held_.push_back(0);
+    for (int k = kept.first_batch[z(g)]; k < kept.first_batch[z(g) + 1]; ++k) held_.back() += batch_[z(k)].used;
+  }
 }
 
 void Sound::joints_in_place(int k, int joints[lanes]) const {
@@ -126,6 +130,7 @@ void Sound::leave(int j) {
   clear_sound_lane(out, law, lane % lanes);
   out.law = &*law_.insert(law).first;
   --out.used;
+  --held_[z(model_.keeper(j) / lanes)];
 }
 
 // Joint j answers otherwise than the pass has it, in its lane until the next step.
@@ -186,18 +191,25 @@ int Sound::forces(int first, int last, const LaneKernels& kernels, double* store
 
 void Sound::forces(Range groups, bool sample, std::vector<JointSums>& all) {
   const int piece = sample ? grain : std::max(1, groups.last - groups.first);  // only energies are summed
+  const std::vector<int>& first_batch = model_.kept.first_batch;
   for (int first = groups.first; first < groups.last; first += piece) {
-    alignas(64) double stored[lanes] = {};
-    const int count = forces(first, std::min(first + piece, groups.last), lane_kernels(), sample ? stored : nullptr);
-    if (sample) {
-      double& elastic = all[z(first / grain)].energy.elastic = 0;
-      for (const double e : stored) elastic += e;
-    }
-    const std::vector<int>& first_batch = model_.kept.first_batch;
-    int group = first;
-    for (int k = first_batch[z(first)]; k < first_batch[z(first)] + count; ++k) {
-      while (first_batch[z(group) + 1] <= near_[z(k)]) ++group;
-      look_closer(near_[z(k)], sample, all[z(group / grain)]);
+    const int last = std::min(first + piece, groups.last);
+    double& elastic = all[z(first / grain)].energy.elastic;
+    if (sample) elastic = 0;
+    for (int from = first, to; from < last; from = to) {
+      to = from + 1;
+      if (held_[z(from)] < 0) continue;
+      while (to < last && held_[z(to)] >= 0) ++to;
+      alignas(64) double stored[lanes] = {};
+      const int count = forces(from, to, lane_kernels(), sample ? stored : nullptr);
+      for (int l = 0; sample && l < lanes; ++l) elastic += stored[l];
+      int group = from;
+      for (int k = first_batch[z(from)]; k < first_batch[z(from)] + count; ++k) {
+        while (first_batch[z(group) + 1] <= near_[z(k)]) ++group;
+        look_closer(near_[z(k)], sample, all[z(group / grain)]);
+      }
+      for (group = from; group < to; ++group)
+        if (held_[z(group)] == 0) held_[z(group)] = -1;
     }
   }
 }
