@@ -129,11 +129,15 @@ std::vector<BlockConstants> block_constants(const Model& m, const State& s) {
 }
 
 void let_turn(const Model& m, const State& s, std::vector<BlockConstants>& constants) {
-  for (BlockConstants& c : constants) std::fill_n(c.turn_limit, lanes, std::numeric_limits<double>::infinity());
+  for (BlockConstants& c : constants) {
+    std::fill_n(c.turn_limit, lanes, std::numeric_limits<double>::infinity());
+    c.carried = !keepers(m);
+  }
   for (int j = 0; j < m.njoint; ++j) {
     if (s.tier[z(j)] != Tier::intact) continue;
     for (const int b : {m.joint[z(j)].a, m.joint[z(j)].b}) {
       BlockConstants& c = constants[z(b / lanes)];
+      c.carried = true;
       if (c.moving[b % lanes] > 0) c.turn_limit[b % lanes] = m.analysis.lazy_rotation * m.analysis.lazy_rotation;
     }
   }
@@ -211,7 +215,9 @@ void advance(const Model& m, State& s, const std::vector<BlockConstants>& consta
 }
 
 Picked::Picked(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes)
-    : model_(m), state_(s), constants_(constants), pushes_(pushes), kernels_(lane_kernels()), step_(kick_of(m, s, e)) {}
+    : model_(m), state_(s), constants_(constants), pushes_(pushes), kernels_(lane_kernels()), step_(kick_of(m, s, e)) {
+  constant_.carried = true;
+}
 
 void Picked::copy_in(int b, int lane) {
   const std::size_t k = z(b / lanes), to = z(lane);

@@ -39,7 +39,7 @@ inline constexpr int block_grain = 4;  // groups of eight blocks to a chunk
 std::vector<BlockConstants> block_constants(const Model& model, const State& state);
 // A joint of block b is sound no more: from now on it reads and writes rows. Those of the group may not have been written in this step.
 void go_by_rows(const Model& model, State& state, int b, std::vector<BlockConstants>& constants);
-// Blocks that no sound joint holds may turn as they like.
+// Blocks that no sound joint holds may turn as they like, and State::shift of them may stand still.
 void let_turn(const Model& model, const State& state, std::vector<BlockConstants>& constants);
 
 // What pushes blocks beside their joints: rows of eight doubles (force, moment), `contacts` from contacts and `loads` from external

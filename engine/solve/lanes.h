@@ -90,8 +90,8 @@ struct alignas(64) SoundBatch {
   Crossing other;  // where blocks b are; blocks a are their keepers
   int used;        // joints in it; -1: none, and nothing left of them
 };
-// Batches of sound joints that have come near their limits, with all that tells how near; null for others. By `carried` times the distance
-// of their blocks joints may be amiss for what they are carried from the last refresh.
+// Batches of sound joints that have come near their limits, with all that tells how near; null for others, and for all if none has. By
+// `carried` times the distance of their blocks joints may be amiss for what they are carried from the last refresh.
 struct SoundCloser {
   const JointBatch* const* batch;
   double carried;
@@ -113,6 +113,7 @@ struct alignas(64) BlockConstants {
   double turn_limit[lanes];                 // rad2, of joined blocks between refreshes
   int first_slot, slots;                    // of eight wrench rows; none: nobody reads rows of these blocks either
   int first_taken, taken;                   // of BlockArrays::taken
+  bool carried;                             // somebody reads what they have done since their refresh
 };
 
 // All blocks, by groups of eight; the rows of eight doubles by blocks, `push` and `load` null where there is nothing, `row` and `pose`

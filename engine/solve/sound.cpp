@@ -51,7 +51,7 @@ void clear_sound_lane(SoundBatch& out, SoundLaw& law, int lane) {
   law.open_limit[lane] = law.slip_limit[lane] = law.close_limit[lane] = std::numeric_limits<double>::infinity();
 }
 
-Sound::Sound(const Model& model, State& state) : model_(model), state_(state) {
+Sound::Sound(const Model& model, State& state) : model_(model), state_(state), carried_(std::pow(model.analysis.lazy_rotation, 3)) {
   if (model.analysis.kernel == "reference" || model.analysis.solver == "sequential") return;  // have their own
   if (model.dashpots) {
     for (int k = 0; k < sound_batches(model); ++k) damped_.push_back(sound_batch(model, state, k));
@@ -158,6 +158,7 @@ void Sound::look_closer(int k, bool sample, JointSums& sums) {
     looked_at_[z(k)] = std::make_unique<JointBatch>(batch_of(model_, state_, joints));
     for (int l = 0; l < lanes; ++l) looked_at_[z(k)]->a[l] = l, looked_at_[z(k)]->b[l] = lanes + l;
     closer_[z(k)] = looked_at_[z(k)].get();
+    closely_.store(true, std::memory_order_relaxed);
   }
   const JointBatch& B = *looked_at_[z(k)];
   alignas(64) double rows[2 * 8 * lanes] = {};
@@ -184,7 +185,7 @@ void Sound::look_closer(int k, bool sample, JointSums& sums) {
 
 int Sound::forces(int first, int last, const LaneKernels& kernels, double* stored) {
   const int* first_batch = model_.kept.first_batch.data();
-  const SoundCloser closer{closer_.data(), std::pow(model_.analysis.lazy_rotation, 3)};
+  const SoundCloser closer{closely_.load(std::memory_order_relaxed) ? closer_.data() : nullptr, carried_};
   return kernels.sound(batch_.data(), closer, first_batch, first, last, state_.shift.data(), state_.kept.data(), state_.given.data(),
                        stored, &near_[z(first_batch[first])]);
 }
@@ -216,6 +217,11 @@ void Sound::forces(Range groups, bool sample, std::vector<JointSums>& all) {
 
 void forget_other_kernel(const Model& m, State& s) {
   if (!keepers(m)) {
+    std::vector<std::uint8_t> sound(z(m.nblock), 0);
+    for (int j = 0; j < m.njoint; ++j)
+      if (s.tier[z(j)] == Tier::intact) sound[z(m.joint[z(j)].a)] = sound[z(m.joint[z(j)].b)] = 1;
+    for (int b = 0; b < m.nblock; ++b)
+      if (!sound[z(b)]) set_row(s, b);
     for (int b = 0; b < m.nblock; ++b)
       for (int i = 0; i < 6; ++i) s.row[z(8 * b + i)] = s.shift[z(b / lanes)].x[i][b % lanes];
     for (auto* sums : {&s.kept, &s.given}) std::fill(sums->begin(), sums->end(), RowLanes<6>{});

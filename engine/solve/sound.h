@@ -3,6 +3,7 @@
 // by side are read once for all they keep, what acts on them is summed up in registers (State::kept), and what acts on the other blocks is
 // left in the lanes of the joints (State::given).
 #pragma once
+#include <atomic>
 #include <cstring>
 #include <memory>
 #include <set>
@@ -42,6 +43,7 @@ class Sound {
 
   const Model& model_;
   State& state_;
+  const double carried_;           // SoundCloser
   std::vector<SoundBatch> batch_;  // one of the two: empty where nothing reads it
   struct Bytes {
     bool operator()(const SoundLaw& a, const SoundLaw& b) const { return std::memcmp(&a, &b, sizeof(SoundLaw)) < 0; }
@@ -52,6 +54,7 @@ class Sound {
   std::vector<int> near_;  // batches that may be near a limit, from the first batch of the groups looked at on
   // Batches that have been looked at: some laws want it in every step. Each is one thread's own. Null where lanes have changed since.
   std::vector<std::unique_ptr<JointBatch>> looked_at_;
+  std::atomic<bool> closely_ = false;      // whether there are any
   std::vector<const JointBatch*> closer_;  // the same for the kernel
 };
 
