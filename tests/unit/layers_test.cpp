@@ -30,7 +30,7 @@ const std::vector<std::pair<std::string, std::string>> doors{
     {"GL/.*|EGL/.*", "render/context_.*\\.cpp"},
     {"png\\.h", "render/image\\.cpp"},
     {"stb.*", "render/.*"},
-    {"sys/.*|linux/.*|(unistd|fcntl|spawn|signal|poll|dlfcn|termios|malloc|immintrin)\\.h|[a-z_0-9]+", ".*"},  // the system's and the language's own
+    {"sys/.*|linux/.*|(unistd|fcntl|sched|spawn|signal|poll|dlfcn|termios|malloc|immintrin)\\.h|[a-z_0-9]+", ".*"},  // the system's and the language's own
 };
 
 const std::regex seen_by_render(
