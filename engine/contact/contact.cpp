@@ -114,16 +114,21 @@ void stability(const Pair& pair, const View& s, const Patch& patch, PairResult& 
 }
 
 // A body that strikes deeper in its first step than the step can bear gains energy. So the step is short enough for the largest
-// face before it may land: when the bodies could meet within the next few steps, at a speed at which that energy matters.
-// `along`: the speed of their centroids towards each other.
+// face before it may land: when the bodies could meet within the next few steps, at a speed at which that energy matters. The patch lies
+// within a face of either body and has the smaller one's area at most: both bound what a body then resists with. `along`: the speed of
+// their centroids towards each other.
 void landing(const Pair& pair, const View& s, const ContactSettings& settings, double along, double apart, double dt, PairResult& result) {
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
   const double speed = along + o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach;
   if (!(speed > settings.reference_speed) || apart > look_ahead * speed * dt) return;
   const double k = (pair.law.kn + pair.law.ks) * std::min(s.reference->largest_face, s.other->largest_face);
   // of a face about the centroid above it: Int r^2 dA / A is reach^2 / 3 at most for a rectangle
-  auto rate = [&](const ContactBlock& block, double reach) { return k * (block.inverse_mass + reach * reach / 3 * block.inverse_inertia); };
-  const double other = rate(o, s.other->reach), reference = rate(r, s.reference->reach);
+  const auto rate = [&](const ContactBlock& block, const ContactShape& part) {
+    const double by_area = k * (block.inverse_mass + part.reach * part.reach / 3 * block.inverse_inertia);
+    const double by_face = pair.law.kn * part.face_across + pair.law.ks * part.face_along;
+    return by_face > 0 ? std::min(by_area, by_face) : by_area;
+  };
+  const double other = rate(o, *s.other), reference = rate(r, *s.reference);
   result.landing_a = pair.b_is_reference ? other : reference;
   result.landing_b = pair.b_is_reference ? reference : other;
 }

@@ -101,6 +101,38 @@ ContactShape contact_shape(const Polyhedron& part) {
   return s;
 }
 
+// Largest eigenvalues of M^-1/2 K M^-1/2, K = Int over the face of r r^T dA, r how a motion of the block moves a point of it: across the
+// face (n, x * n), along it (t, x * t) in two directions. Any patch within the face resists with no more.
+void set_face_rates(ContactShape& s, const ContactBlock& block) {
+  s.face_across = s.face_along = 0;
+  if (!(block.inverse_mass > 0)) return;
+  Mat6 root = Mat6::Zero();  // root root^T = M^-1
+  root.topLeftCorner<3, 3>() = std::sqrt(block.inverse_mass) * Mat3::Identity();
+  root.bottomRightCorner<3, 3>() = block.inverse_tensor.llt().matrixL();
+  const auto largest = [](const Mat6& k) { return Eigen::SelfAdjointEigenSolver<Mat6>(k, Eigen::EigenvaluesOnly).eigenvalues()[5]; };
+  for (std::size_t f = 0; f < s.normal.size(); ++f) {
+    Mat6 across = Mat6::Zero(), along = Mat6::Zero();
+    const Vec3 n = s.normal[f], t = n.unitOrthogonal(), b = n.cross(t);
+    const auto corner = [&](int i) -> const Vec3& { return s.vertex[std::size_t(s.loop[std::size_t(i)])]; };
+    for (int i = s.loop_first[f] + 1; i + 1 < s.loop_first[f + 1]; ++i) {
+      const Vec3 p[3] = {corner(s.loop_first[f]), corner(i), corner(i + 1)};
+      const double third = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 6;  // quadratic: exact from the middles of the sides
+      for (int k = 0; k < 3; ++k) {
+        const Vec3 x = (p[k] + p[(k + 1) % 3]) / 2;
+        const auto add = [&](const Vec3& e, Mat6& to) {
+          Vec6 r;
+          r << e, x.cross(e);
+          r = root.transpose() * r;
+          to += third * r * r.transpose();
+        };
+        add(n, across), add(t, along), add(b, along);
+      }
+    }
+    s.face_across = std::max(s.face_across, largest(across));
+    s.face_along = std::max(s.face_along, largest(along));
+  }
+}
+
 ContactShapes contact_shapes(const std::vector<std::vector<Polyhedron>>& parts_of_blocks) {
   ContactShapes all;
   for (const auto& parts : parts_of_blocks) {

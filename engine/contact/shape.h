@@ -12,6 +12,8 @@ namespace erbs {
 inline constexpr int most_vertices = 64;  // of one part: sets of vertices are bits of one word
 inline constexpr int most_faces = 64;
 
+struct ContactBlock;
+
 struct ContactShape {
   std::vector<Vec3> vertex;         // m, relative to the centroid of the block, axes at rest [nv]
   std::vector<Vec3> normal;         // unit, outward                                          [nf]
@@ -24,9 +26,11 @@ struct ContactShape {
   double thickness = 0;             // m, smallest distance between two parallel planes that hold it
   double smallest_edge = 0;         // m
   double largest_face = 0;          // m2
-  double radius = 0;                // m, of the sphere about `centre` that holds it
-  double reach = 0;                 // m, of the sphere about the block's centroid that holds it
-  bool is_small = false;            // few vertices and faces: `small` holds them too
+  // 1/kg m2: what a face resists with at most, for each Pa/m across and along it, against the mass of the block, as omega^2; 0: not known
+  double face_across = 0, face_along = 0;
+  double radius = 0;      // m, of the sphere about `centre` that holds it
+  double reach = 0;       // m, of the sphere about the block's centroid that holds it
+  bool is_small = false;  // few vertices and faces: `small` holds them too
   SmallShape small;
   Vec3 centre, half;  // m, middle and half sides of its box, axes at rest
 };
@@ -40,6 +44,8 @@ struct ContactShapes {
   std::vector<int> first;  // [nblock + 1]
   std::vector<int> block;  // of each shape
 };
+// Sets face_across and face_along of a part of `block`.
+void set_face_rates(ContactShape& part, const ContactBlock& block);
 ContactShapes contact_shapes(const std::vector<std::vector<Polyhedron>>& parts_of_blocks);
 
 // Current pose and motion of a block; fixed blocks have inverse_mass and inverse_inertia 0.

@@ -75,7 +75,8 @@ struct PairList {
   long searches = 0;
   std::vector<int> contacts;  // of each block that moves, in the last step, and as many for its joints as make a crowd [nblock]
   // the step that is allowed (contact_limit.h)
-  double counted = 0;               // 1/s2, 1 / dt^2 for what was counted last
+  double counted = 0;               // 1/s2, of 1 / dt^2 what all blocks share, as counted last, ...
+  std::vector<double> counted_of;   // ... and what each adds to it                         [nblock]
   long counts = 0, counted_at = 0;  // how often, in which step
   bool by_blocks = false;           // joints were counted block by block too
 };
@@ -125,7 +126,8 @@ requires std::is_same_v<std::remove_const_t<P>, PairList>
 void each(P& p, F&& f) {
   f("pair", p.pair), f("margin", p.margin), f("valid", p.valid), f("start", p.start), f("u", p.u), f("turn", p.turn),
       f("searches", p.searches);
-  f("contacts", p.contacts), f("counted", p.counted), f("counts", p.counts), f("counted_at", p.counted_at), f("by_blocks", p.by_blocks);
+  f("contacts", p.contacts), f("counted", p.counted), f("counted_of", p.counted_of), f("counts", p.counts), f("counted_at", p.counted_at),
+      f("by_blocks", p.by_blocks);
 }
 
 template <class P, class F>

@@ -14,7 +14,7 @@ namespace {
 constexpr double safe_share = 0.9;  // of the bound of a block, where it is of joints or of bounds by scalars
 // Of the bound by matrices, which is close. In a long row of blocks where each presses on the next it is met: springs then take 4 share^2
 // of the 4 that a step bears (dt^2 k / m + 2 c dt / m < 4 where dashpots see the velocity of half a step before), and dashpots at their cap
-// of m / (4 dt) between two blocks (contact.cpp) up to 1. Below .86 that is sure; at .7 a quarter is left.
+// between two blocks (contact.cpp) up to 4/3 with two contacts on each, 1 in a heap. Below .81 that is sure; at .7 a sixth is left.
 constexpr double contact_share = 0.7;
 constexpr int count_every = 256;  // steps, while the step could be longer; ...
 constexpr int count_soon = 32;    // ... before it becomes shorter
@@ -38,7 +38,8 @@ bool ContactLimit::due(double allowed) const {
   return state_.step - list.counted_at >= (allowed < state_.dt ? count_soon : count_every);
 }
 
-void ContactLimit::count(const ContactShapes& shapes, std::span<const ContactBlock> blocks, double scalars, OverlapRoom& room) {
+void ContactLimit::count(const ContactShapes& shapes, std::span<const ContactBlock> blocks, const std::vector<double>& scalars,
+                         OverlapRoom& room) {
   PairList& list = state_.debris;
   std::vector<Mat6> k(blocks.size(), Mat6::Zero());
   for (const Pair& p : list.pair) {
@@ -47,12 +48,15 @@ void ContactLimit::count(const ContactShapes& shapes, std::span<const ContactBlo
     k[z(p.a)] += patch.on_a;
     k[z(p.b)] += patch.on_b;
   }
-  list.counted = sound() + std::min(inverse_square(largest(blocks, k), contact_share), inverse_square(scalars, safe_share));
+  list.counted = sound();
+  list.counted_of = by_matrices(blocks, k);
+  for (std::size_t b = 0; b < scalars.size(); ++b)
+    list.counted_of[b] = std::min(list.counted_of[b], inverse_square(scalars[b], safe_share));
   if (list.counts % joints_every == 0 || list.by_blocks) {
     add_joints(k);
-    const double by_blocks = inverse_square(largest(blocks, k), contact_share);
-    list.by_blocks = by_blocks < list.counted;
-    list.counted = std::min(list.counted, by_blocks);
+    std::vector<double> of = by_matrices(blocks, k);
+    list.by_blocks = *std::ranges::max_element(of) < list.counted + *std::ranges::max_element(list.counted_of);
+    if (list.by_blocks) list.counted = 0, list.counted_of = std::move(of);
   }
   ++list.counts;
   list.counted_at = state_.step;
@@ -74,8 +78,9 @@ void ContactLimit::add_joints(std::span<Mat6> to) const {
   }
 }
 
-// Largest eigenvalue of M^-1/2 K M^-1/2 over the blocks that move (1/s2).
-double ContactLimit::largest(std::span<const ContactBlock> blocks, std::span<const Mat6> stiffness) const {
+// Of each block that moves the largest eigenvalue of M^-1/2 K M^-1/2, or a bound of it where others have twice that, as 1 / dt^2.
+std::vector<double> ContactLimit::by_matrices(std::span<const ContactBlock> blocks, std::span<const Mat6> stiffness) const {
+  std::vector<double> out(blocks.size(), 0.0);
   double most = 0;
   for (int b = 0; b < model_.nblock; ++b) {
     const Mat6& k = stiffness[z(b)];
@@ -85,16 +90,24 @@ double ContactLimit::largest(std::span<const ContactBlock> blocks, std::span<con
     root.topLeftCorner<3, 3>() = std::sqrt(block.inverse_mass) * Mat3::Identity();
     root.bottomRightCorner<3, 3>() = block.turn * Mat3(block.inverse_tensor.llt().matrixL());
     const Mat6 scaled = root.transpose() * k * root;
-    if (scaled.trace() <= most) continue;
-    most = std::max(most, Eigen::SelfAdjointEigenSolver<Mat6>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[5]);
+    double largest = scaled.trace();
+    if (largest > 0.5 * most) {
+      largest = Eigen::SelfAdjointEigenSolver<Mat6>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[5];
+      most = std::max(most, largest);
+    }
+    out[z(b)] = inverse_square(largest, contact_share);
   }
-  return most;
+  return out;
 }
 
-double ContactLimit::allowed(double rate) const {
+double ContactLimit::on_block(int b, double rate, double landing) const {
   const PairList& list = state_.debris;
-  const double counted = list.counts > 0 ? list.counted : sound();
-  const double bound = 1 / std::sqrt(counted + inverse_square(rate, safe_share));
+  return (list.counts > 0 ? list.counted_of[z(b)] : 0) + inverse_square(rate, safe_share) + inverse_square(landing, contact_share);
+}
+
+double ContactLimit::allowed(double most) const {
+  const PairList& list = state_.debris;
+  const double bound = 1 / std::sqrt((list.counts > 0 ? list.counted : sound()) + most);
   // past the step that the run asked for, the share of the limit that it asked for is kept
   const double share = std::isfinite(model_.dt_critical) ? std::min(1.0, state_.dt_goal / model_.dt_critical / safe_share) : 1.0;
   return std::max(std::min(state_.dt_goal, bound), std::min(model_.dt_most, share * bound));

@@ -77,6 +77,7 @@ void Debris::wake() {
     block.inverse_inertia = largest_inverse_inertia(model_.inverse_inertia[z(b)]);
     block.inverse_tensor = model_.inverse_inertia[z(b)];
   }
+  for (std::size_t i = 0; i < shapes_.shape.size(); ++i) set_face_rates(shapes_.shape[i], blocks_[z(shapes_.block[i])]);
   place_all(true);
   thinnest_ = *std::ranges::min_element(model_.smallest_edge);
   for (int j = 0; j < model_.njoint; ++j) {

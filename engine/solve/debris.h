@@ -55,7 +55,8 @@ class Debris {
   int bed_joint(const Pair& pair) const;
   void count_bed(Pair& pair);
   void count();
-  double largest_rate() const;
+  double limit() const;  // s, the step that contacts and joints bear
+  void ask_elsewhere();
   double crowd(int a, int b) const;  // pair_force()
   void share_out();
   void land(int i, double landing_a, double landing_b);
@@ -100,6 +101,7 @@ class Debris {
   ContactLimit limit_;
   std::vector<double> rate_;     // 1/s2, of contacts beyond that [nblock]
   std::vector<double> landing_;  // 1/s2, of the stiffest face that may land on the block next; one face has room for no more
+  double elsewhere_ = 0;         // 1/s2, on_block() of blocks that no live pair touches, at most
   // How far each block has come is summed up along its way, so that most pairs that are apart need not even be asked whether their bodies
   // may have met (State::parting).
   struct Waiting {

@@ -82,6 +82,7 @@ void Debris::sort() {
     if (model_.kind[z(b)] == Kind::driven) mark(driven_, b);
   }
   find_still();
+  ask_elsewhere();
   unsorted_ = false;
   relisted_ = true;
 }
@@ -250,20 +251,27 @@ void Debris::count() {
   sleep_.each_resting([&](int i, const PairResult& r) { note(i, r.rate_a, r.rate_b); });
   for (const Looked& looked : looked_)
     for (const Active& one : looked.active) note(one.pair, one.result.rate_a, one.result.rate_b);
-  double scalars = 0;
-  for (int b = 0; b < model_.nblock; ++b)
-    if (model_.kind[z(b)] == Kind::moving) scalars = std::max(scalars, sum[z(b)]);
-  limit_.count(shapes_, blocks_, scalars, room_.front());
+  limit_.count(shapes_, blocks_, sum, room_.front());
   sleep_.add_rates();
+  ask_elsewhere();
   for (const int b : sleep_.pushed()) rate_[z(b)] = sleep_.holds() ? sleep_.rate(b) : 0;
 }
 
-// The largest sum over a block of what contacts have beyond what was counted (1/s2).
-double Debris::largest_rate() const {
-  double rate = sleep_.largest_rate();  // as if all were awake: a step in which some wake finds it right
+double Debris::limit() const {
+  double most = elsewhere_;
   for (const int b : sleep_.pushed())
-    if (model_.kind[z(b)] == Kind::moving) rate = std::max(rate, rate_[z(b)] + landing_[z(b)]);
-  return rate;
+    if (model_.kind[z(b)] == Kind::moving) most = std::max(most, limit_.on_block(b, rate_[z(b)], landing_[z(b)]));
+  return limit_.allowed(most);
+}
+
+// What blocks ask for that no live pair touches: held by joints, or asleep, as if all were awake, so that a step in which some wake finds
+// it right.
+void Debris::ask_elsewhere() {
+  std::vector<std::uint8_t> here(z(model_.nblock), 0);
+  for (const int b : sleep_.pushed()) here[z(b)] = 1;
+  elsewhere_ = 0;
+  for (int b = 0; b < model_.nblock; ++b)
+    if (!here[z(b)] && model_.kind[z(b)] == Kind::moving) elsewhere_ = std::max(elsewhere_, limit_.on_block(b, sleep_.rate(b), 0));
 }
 
 // Which pairs a thread takes does not matter to what comes out: they are gone through in their order.
@@ -315,7 +323,7 @@ void Debris::gather(double* push, bool sample) {
     else std::fill_n(push + 8 * b, 8, 0.0);
     rate_[z(b)] = rested ? sleep_.rate(b) : 0;
     landing_[z(b)] = 0;
-    s.debris.contacts[z(b)] = 0;
+    s.debris.contacts[z(b)] = rested ? sleep_.contacts(b) : 0;
   }
   touching_ = sleep_.touching();
   allowed_ = model_.dt_most;
@@ -355,12 +363,12 @@ void Debris::gather(double* push, bool sample) {
     if (model_.kind[z(b)] != Kind::moving) s.debris.contacts[z(b)] = 0;   // what is held bears any number
     else if (s.joined[z(b)]) s.debris.contacts[z(b)] += int(full_crowd);  // joints take their share
   share_out();
-  double limit = limit_.allowed(largest_rate());
-  if (limit_.due(limit)) {
+  double bears = limit();
+  if (limit_.due(bears)) {
     count();
-    limit = limit_.allowed(largest_rate());
+    bears = limit();
   }
-  allowed_ = std::min(allowed_, limit);
+  allowed_ = std::min(allowed_, bears);
   if (rubbing > 0) allowed_ = std::min(allowed_, rubbing_angle / std::sqrt(rubbing));
   limit_passing();
 }

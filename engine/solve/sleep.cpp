@@ -78,6 +78,7 @@ void Sleep::hold(const Resting& one) {
   }
   elastic_ += r.elastic + r.tangential;
   ++touching_;
+  ++contacts_[z(one.a)], ++contacts_[z(one.b)];
 }
 
 void Sleep::sort(const std::vector<int>& involved, const std::function<PairResult(int i)>& evaluate) {
@@ -111,6 +112,7 @@ void Sleep::sort(const std::vector<int>& involved, const std::function<PairResul
   for (int b = 0; b < model_.nblock; ++b)
     if (!mark_[z(b)]) state_.rest.stirred[z(b)] = std::numeric_limits<double>::infinity();
   held_.assign(z(model_.nblock), 0.0);
+  contacts_.assign(z(model_.nblock), 0);
   elastic_ = touching_ = 0;
   for (const Resting& one : resting_) hold(one);
   add_rates();
@@ -120,14 +122,11 @@ void Sleep::sort(const std::vector<int>& involved, const std::function<PairResul
 void Sleep::add_rates() {
   if (!on_) return;
   rate_.assign(z(model_.nblock), 0.0);
-  largest_rate_ = 0;
   for (const Resting& one : resting_) {
     const Pair& pair = state_.debris.pair[z(one.pair)];
     rate_[z(one.a)] += std::max(0.0, one.result.rate_a - pair.counted_a);
     rate_[z(one.b)] += std::max(0.0, one.result.rate_b - pair.counted_b);
   }
-  for (int b = 0; b < model_.nblock; ++b)
-    if (asleep(b)) largest_rate_ = std::max(largest_rate_, rate_[z(b)]);
 }
 
 bool Sleep::turn(const Excitation& e, const double* push, const ContactShapes& shapes, std::span<const ContactBlock> blocks) {

@@ -40,11 +40,11 @@ class Sleep {
   }
   // What pairs at rest leave on a block: a row of eight doubles (force, moment), and their share in the rate of the step (1/s2).
   const double* push(int b) const { return held_.data() + 8 * std::size_t(b); }
+  int contacts(int b) const { return contacts_[std::size_t(b)]; }  // at rest, where holds()
   double rate(int b) const { return rate_.empty() ? 0 : rate_[std::size_t(b)]; }
   bool holds() const { return !resting_.empty(); }
-  double largest_rate() const { return largest_rate_; }  // 1/s2, of those asleep
-  double elastic() const { return elastic_; }            // J, stored in pairs at rest
-  int touching() const { return touching_; }             // of them
+  double elastic() const { return elastic_; }  // J, stored in pairs at rest
+  int touching() const { return touching_; }   // of them
 
   // Between forces and drift, `push` being what contacts do to blocks: wakes those that are pressed on, and now and then lets fall asleep
   // those that are still. True where somebody woke or fell asleep: the pairs are to be sorted again before the next step.
@@ -80,9 +80,10 @@ class Sleep {
   std::vector<Resting> resting_;    // pairs at rest that touch, in order
   Rows held_;                       // N, N m
   std::vector<double> rate_;        // 1/s2 [nblock]
+  std::vector<int> contacts_;       // [nblock]
   std::vector<double> reach_;       // m, of the block's farthest corner [nblock]
   std::vector<std::uint8_t> mark_;  // [nblock]
-  double largest_rate_ = 0, elastic_ = 0;
+  double elastic_ = 0;
   int touching_ = 0;
   long slept_ = 0;
 };

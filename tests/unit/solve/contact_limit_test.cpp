@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/analysis/dynamic.h"
+#include "engine/contact/shape.h"
 #include "tests/support/small_wall.h"
 #include "tests/unit/record/two_bricks.h"
 
@@ -53,8 +54,8 @@ TEST_CASE("once the stiff joint is gone the step grows to what debris bears", "[
   CHECK(r.longest <= most);
   CHECK(s.dt > 2 * s.dt_goal);
   CHECK(s.dt < 0.7 * std::sqrt(2 * m / k));
-  // One blow of a face on a face is all that passes: 0.1 to 1.3 % by where in a step it begins, of launches at 1 to 1.2 m/s and restitutions
-  // of 0.2 to 1.
+  // One blow of a face on a face is all that passes: 0.1 to 1.3 % by where in a step it begins, of launches at 1 to 1.2 m/s and
+  // restitutions of 0.2 to 1.
   CHECK(s.energy.residual_worst < 1.5e-2);
   CHECK(s.v[2].norm() < 1e-6);
   CHECK(s.u[2].z() == Approx(-0.11).margin(1e-6));
@@ -73,4 +74,20 @@ TEST_CASE("the step grows alike with any number of threads", "[solve][step]") {
             two = go(leap + "analysis{ duration = 9, start = 'rest' }", 0.6, 2);
   CHECK(one.run.state.step == two.run.state.step);
   CHECK(one.run.state.u[2] == two.run.state.u[2]);
+}
+
+// A cube of side a, I = m a^2 / 6. Across a face: sinking a^2 / m, rocking Int x^2 dA / I half of that. Along it: a^2 / m of sliding and
+// a^2 (a / 2)^2 / I of the roll that goes with it, 2.5 a^2 / m together.
+TEST_CASE("the stiffest that may land on a cube is a face of its own", "[contact][step]") {
+  const double a = 0.2, m = 16;
+  const Vec3 half = Vec3::Constant(a / 2);
+  ContactShape shape = contact_shape(box_polyhedron(-half, half));
+  ContactBlock block;
+  block.inverse_mass = 1 / m;
+  block.inverse_tensor = 6 / (m * a * a) * Mat3::Identity();
+  set_face_rates(shape, block);
+  CHECK(shape.face_across == Approx(a * a / m));
+  CHECK(shape.face_along == Approx(2.5 * a * a / m));
+  set_face_rates(shape, ContactBlock{});  // one that is held
+  CHECK(shape.face_across == 0);
 }
