@@ -3,7 +3,7 @@
 // sanitizer understands it. A waiting thread spins for some tens of microseconds, then sleeps, so that an oversubscribed core still makes
 // progress. No less: to be woken takes longer than a phase of a step, the others would go to sleep meanwhile, and so on in turn. And no
 // yielding: to whom a core is yielded keeps it for milliseconds. Two that find themselves on one core part, since no scheduler does it for
-// them: where they take turns, the load is that of one.
+// them: where they take turns, the load is that of one. Where there are as many cores as threads each keeps its own.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -30,7 +30,7 @@ class Barrier {
   // on thread 0 and the others are told by a false.
   template <class F>
   bool wait(int thread, F&& alone) {
-    sit_down(thread);
+    if (count_ > 1) sit_down(thread);
     if (thread != 0) return wait_for_first(thread);
     const auto missing = [this] { return waiting_.load(std::memory_order_acquire) != count_ - 1; };
     watch(0, missing);
@@ -109,6 +109,7 @@ class Barrier {
 inline void together(int threads, const std::function<void(int)>& body) {
   std::vector<std::exception_ptr> failed(std::size_t(threads), nullptr);
   const auto guarded = [&](int i) {
+    const OwnCore core(i, threads);
     try {
       body(i);
     } catch (...) { failed[std::size_t(i)] = std::current_exception(); }

@@ -3,6 +3,8 @@
 
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+
 using namespace erbs;
 
 TEST_CASE("nobody sleeps on at a barrier that has opened, however waits and arrivals meet", "[parallel]") {
@@ -28,4 +30,20 @@ TEST_CASE("nobody sleeps on at a barrier that has opened, however waits and arri
       CHECK(behind == 0);
       for (const long n : done) CHECK(n == rounds);
     }
+}
+
+TEST_CASE("as many threads as there are cores have one each, and give it back", "[parallel]") {
+  const auto cores_of_this_thread = [] {
+    cpu_set_t allowed;
+    REQUIRE(::sched_getaffinity(0, sizeof(allowed), &allowed) == 0);
+    return CPU_COUNT(&allowed);
+  };
+  const int cores = cores_of_this_thread();
+  std::vector<int> core(std::size_t(cores), -1);
+  together(cores, [&](int thread) { core[std::size_t(thread)] = this_core(); });
+  std::sort(core.begin(), core.end());
+  if (cores > 1) CHECK(std::adjacent_find(core.begin(), core.end()) == core.end());
+  CHECK(cores_of_this_thread() == cores);
+  together(cores + 1, [&](int) {});
+  CHECK(cores_of_this_thread() == cores);
 }
