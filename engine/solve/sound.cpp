@@ -77,6 +77,7 @@ Sound::Sound(const Model& model, State& state) : model_(model), state_(state), c
   for (int g = 0; g + 1 < int(kept.first_batch.size()); ++g) {
     held_.push_back(0);
     for (int k = kept.first_batch[z(g)]; k < kept.first_batch[z(g) + 1]; ++k) held_.back() += batch_[z(k)].used;
+    if (held_.back() == 0 && kept.first_batch[z(g)] < kept.first_batch[z(g) + 1]) all_held_ = false;
   }
 }
 
@@ -130,7 +131,7 @@ void Sound::leave(int j) {
   clear_sound_lane(out, law, lane % lanes);
   out.law = &*law_.insert(law).first;
   --out.used;
-  --held_[z(model_.keeper(j) / lanes)];
+  if (--held_[z(model_.keeper(j) / lanes)] == 0) all_held_ = false;
 }
 
 // Joint j answers otherwise than the pass has it, in its lane until the next step.
@@ -198,7 +199,7 @@ void Sound::forces(Range groups, bool sample, std::vector<JointSums>& all) {
     double& elastic = all[z(first / grain)].energy.elastic;
     if (sample) elastic = 0;
     for (int from = first, to; from < last; from = to) {
-      to = from + 1;
+      to = all_held_ ? last : from + 1;
       if (held_[z(from)] < 0) continue;
       while (to < last && held_[z(to)] >= 0) ++to;
       alignas(64) double stored[lanes] = {};
@@ -209,7 +210,7 @@ void Sound::forces(Range groups, bool sample, std::vector<JointSums>& all) {
         while (first_batch[z(group) + 1] <= near_[z(k)]) ++group;
         look_closer(near_[z(k)], sample, all[z(group / grain)]);
       }
-      for (group = from; group < to; ++group)
+      for (group = from; !all_held_ && group < to; ++group)
         if (held_[z(group)] == 0) held_[z(group)] = -1;
     }
   }

@@ -51,6 +51,7 @@ class Sound {
   std::set<SoundLaw, Bytes> law_;  // each once
   std::vector<JointBatch> damped_;
   std::vector<int> held_;  // of each group of blocks, sound joints that they keep; -1: none, and nothing left of them
+  bool all_held_ = true;   // no group has lost its last one
   std::vector<int> near_;  // batches that may be near a limit, from the first batch of the groups looked at on
   // Batches that have been looked at: some laws want it in every step. Each is one thread's own. Null where lanes have changed since.
   std::vector<std::unique_ptr<JointBatch>> looked_at_;
