@@ -58,7 +58,7 @@ struct Dashpot {
 // velocity of half a step before, x + 2 c dt / m < 4. Where n such contacts press on each block n times that in the worst mode: c dt / m <
 // (4 / n - x) / 2, of which 0.9 is taken; never less than a quarter, which a heap bears (contact_limit.cpp), and no more than 1 / (1 + n),
 // since others may land in the same step. What is missing is missing of the restitution asked for: with a quarter bricks that fall
-// flat come back with 0.43 at least, with a half with 0.2 to 0.3 (V22).
+// flat come back with 0.43 at least, with a half with 0.19 to 0.33 (V22).
 Dashpot dashpot(Pair& pair, const Patch& patch, double inverse_mass, const ContactSettings& settings, double dt, double crowd) {
   Dashpot d;
   // Forgotten slowly against the time of a soft impact (about 3 depth / speed on a corner).

@@ -16,6 +16,8 @@ constexpr double safe_share = 0.9;  // of the bound of a block, where it is of j
 // of the 4 that a step bears (dt^2 k / m + 2 c dt / m < 4 where dashpots see the velocity of half a step before), and dashpots at their cap
 // between two blocks (contact.cpp) up to 4/3 with two contacts on each, 1 in a heap. Below .81 that is sure; at .7 a sixth is left.
 constexpr double contact_share = 0.7;
+// Of what a face that lands would bear: a blow begins somewhere within a step, and errs by up to (omega dt)^2 / 4 of its energy for that.
+constexpr double landing_share = 0.5;
 constexpr int count_every = 256;  // steps, while the step could be longer; ...
 constexpr int count_soon = 32;    // ... before it becomes shorter
 constexpr int joints_every = 8;   // counts, before joints that are left are tried as matrices again
@@ -102,7 +104,7 @@ std::vector<double> ContactLimit::by_matrices(std::span<const ContactBlock> bloc
 
 double ContactLimit::on_block(int b, double rate, double landing) const {
   const PairList& list = state_.debris;
-  return (list.counts > 0 ? list.counted_of[z(b)] : 0) + inverse_square(rate, safe_share) + inverse_square(landing, contact_share);
+  return (list.counts > 0 ? list.counted_of[z(b)] : 0) + inverse_square(rate, safe_share) + inverse_square(landing, landing_share);
 }
 
 double ContactLimit::allowed(double most) const {
