@@ -17,8 +17,8 @@ template <class T>
 struct Field {
   std::string_view name;
   std::variant<double T::*, int T::*, bool T::*, std::string T::*, Vec3 T::*> member;
-  std::string_view unit;                      // "" where the number has none
-  std::string_view text;                      // one sentence
+  std::string_view unit;  // "" where the number has none
+  std::string_view text;  // one sentence
   double low = -unbounded, high = unbounded;  // allowed range, ends included
   bool required = false;
   std::string_view words = {};  // of a text: the words allowed, "a|b|c"; empty is any
