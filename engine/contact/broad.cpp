@@ -70,10 +70,10 @@ Grid make_grid(const std::vector<OrientedBox>& parts, double margin) {
 }
 
 std::vector<OrientedBox> place(const ContactShapes& shapes, std::span<const ContactBlock> blocks) {
-  std::vector<OrientedBox> parts(shapes.shape.size());
+  std::vector<OrientedBox> parts(shapes.of.size());
   for (size_t i = 0; i < parts.size(); ++i) {
     const ContactBlock& b = blocks[at(shapes.block[i])];
-    const ContactShape& shape = shapes.shape[i];
+    const ContactShape& shape = shapes.part(i);
     // relative to block 0 at rest, so that 1e4 m from the origin costs no digits
     const Vec3 centre = (b.rest - blocks[0].rest) + b.u + b.turn * shape.centre;
     std::copy_n(centre.data(), 3, parts[i].centre);
@@ -200,7 +200,7 @@ bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<c
   for (size_t b = 0; b < blocks.size(); ++b) {
     if (!still.empty() && still[b]) continue;
     double reach = 0;
-    for (int s = shapes.first[b]; s < shapes.first[b + 1]; ++s) reach = std::max(reach, shapes.shape[at(s)].reach);
+    for (int s = shapes.first[b]; s < shapes.first[b + 1]; ++s) reach = std::max(reach, shapes.part(at(s)).reach);
     // |R - R0| of Frobenius is 2 sqrt 2 sin(angle / 2): the chord of the farthest point is reach times that / sqrt 2.
     const double moved = (blocks[b].u - list.u[b]).norm() + reach * std::sqrt(0.5) * (blocks[b].turn - list.turn[b]).norm();
     if (!(moved <= greatest)) {

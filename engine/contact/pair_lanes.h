@@ -44,6 +44,7 @@ struct BlockLanes {
   double *spun, *spin;        // m, that point's way as the block turned from step to step, at most; m/s, its speed
   double *way, *way_soon;     // m, the same with the way of the centroid; with what the next steps may add
   double* row[8];             // ContactBlock
+  const Lane* axes;           // of their shapes at rest, row by row; none: those of the world
 };
 
 // What a search looks at. Balls side by side, with room for seven more behind the last; an oriented box as two rows of eight.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <unordered_map>
 
 #include "engine/base/error.h"
 #include "engine/geometry/mass.h"
@@ -53,6 +55,21 @@ void fill_small(ContactShape& s) {
     out.mask[i] = static_cast<unsigned char>(s.mask[i]);
     for (std::size_t k = out.count[i]; k < few; ++k) out.loop[i][k] = out.loop[i][0];
   }
+}
+
+// But for round-off.
+bool equal(const ContactShape& a, const ContactShape& b) {
+  if (a.vertex.size() != b.vertex.size() || a.edge.size() != b.edge.size() || a.loop_first != b.loop_first || a.loop != b.loop)
+    return false;
+  const auto near = [](const auto& x, const auto& y, double error) {
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (!((x[i] - y[i]).norm() <= error)) return false;
+    return true;
+  };
+  const auto same_rate = [](double x, double y) { return std::abs(x - y) <= 1e-9 * std::abs(x); };
+  constexpr double round_off = 1e-12;
+  return near(a.vertex, b.vertex, round_off * a.reach) && near(a.normal, b.normal, round_off) && near(a.edge, b.edge, round_off) &&
+         same_rate(a.face_across, b.face_across) && same_rate(a.face_along, b.face_along);
 }
 
 }  // namespace
@@ -133,17 +150,55 @@ void set_face_rates(ContactShape& s, const ContactBlock& block) {
   }
 }
 
-ContactShapes contact_shapes(const std::vector<std::vector<Polyhedron>>& parts_of_blocks) {
+ContactShapes contact_shapes(const std::vector<std::vector<Polyhedron>>& parts_of_blocks, std::span<const ContactBlock> blocks) {
   ContactShapes all;
-  for (const auto& parts : parts_of_blocks) {
-    all.first.push_back(static_cast<int>(all.shape.size()));
-    for (const Polyhedron& p : parts) {
-      all.block.push_back(static_cast<int>(all.first.size()) - 1);
-      all.shape.push_back(contact_shape(p));
+  std::unordered_multimap<long, int> known;
+  for (std::size_t b = 0; b < parts_of_blocks.size(); ++b) {
+    all.first.push_back(static_cast<int>(all.of.size()));
+    for (const Polyhedron& p : parts_of_blocks[b]) {
+      ContactShape s = contact_shape(p);
+      if (!blocks.empty()) set_face_rates(s, blocks[b]);
+      // Next to all equal ones have this key; those that have another are only not shared.
+      const long key = std::lround(std::log(s.volume) * 1e7 + 0.37);
+      const auto [from, to] = known.equal_range(key);
+      const auto same = std::find_if(from, to, [&](const auto& one) { return equal(all.shape[std::size_t(one.second)], s); });
+      all.block.push_back(static_cast<int>(b));
+      all.of.push_back(same == to ? static_cast<int>(all.shape.size()) : same->second);
+      if (same != to) continue;
+      known.emplace(key, all.of.back());
+      all.shape.push_back(std::move(s));
     }
   }
-  all.first.push_back(static_cast<int>(all.shape.size()));
+  all.first.push_back(static_cast<int>(all.of.size()));
   return all;
+}
+
+Mat3 contact_axes(const std::vector<Polyhedron>& parts) {
+  constexpr double as_small = 1 + 1e-9;  // not smaller by more than round-off
+  const auto box = [&](const Mat3& axes) {
+    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+    for (const Polyhedron& p : parts) {
+      for (const Vec3& v : p.vertices) {
+        const Vec3 x = axes.transpose() * v;
+        low = low.cwiseMin(x), high = high.cwiseMax(x);
+      }
+    }
+    return (high - low).prod();
+  };
+  Mat3 best = Mat3::Identity();
+  double least = box(best);
+  for (const Polyhedron& p : parts) {
+    for (const auto& face : p.faces) {
+      const auto corner = [&](std::size_t i) -> const Vec3& { return p.vertices[std::size_t(face[i])]; };
+      const Vec3 along = (corner(1) - corner(0)).normalized(), across = along.cross(corner(2) - corner(1)).normalized();
+      Mat3 axes;
+      axes << along, across.cross(along), across;
+      if (!(axes.determinant() > 0.5)) continue;  // its first corners lie in a line
+      const double size = box(axes);
+      if (size * as_small < least) least = size, best = axes;
+    }
+  }
+  return best;
 }
 
 }  // namespace erbs

@@ -6,7 +6,7 @@
 namespace erbs {
 
 inline const ContactShape& shape_of(const ContactShapes& shapes, int block, int part) {
-  return shapes.shape[static_cast<std::size_t>(shapes.first[static_cast<std::size_t>(block)] + part)];
+  return shapes.part(static_cast<std::size_t>(shapes.first[static_cast<std::size_t>(block)] + part));
 }
 
 struct View {

@@ -53,7 +53,6 @@ void Debris::wake() {
   if (!blocks_.empty()) return;
   std::vector<std::vector<Polyhedron>> parts(z(model_.nblock));
   each_contact_part(model_, [&](int b, const Polyhedron& part) { parts[z(b)].push_back(part); });
-  shapes_ = contact_shapes(parts);
   for (std::size_t i = 0; i < room_.size(); ++i) batch_.push_back(std::make_unique<Batch>());
   blocks_.resize(z(model_.nblock));
   const std::size_t groups = block_groups(model_.nblock);
@@ -63,10 +62,6 @@ void Debris::wake() {
   if (parting.q.size() == 0) parting.q = state_.q;
   for (std::vector<double>* x : {&reach_, &spin_, &way_, &way_soon_}) x->assign(groups * lanes, 0.0);
   parting.spun.resize(groups * lanes, 0.0);
-  for (std::size_t i = 0; i < shapes_.shape.size(); ++i) {
-    double& reach = reach_[z(shapes_.block[i])];
-    reach = std::max(reach, shapes_.shape[i].reach);
-  }
   rate_.assign(z(model_.nblock), 0.0);
   landing_.assign(z(model_.nblock), 0.0);
   state_.debris.contacts.resize(z(model_.nblock));
@@ -75,9 +70,18 @@ void Debris::wake() {
     block.rest = model_.rest[z(b)];
     block.inverse_mass = model_.inverse_mass[z(b)];
     block.inverse_inertia = largest_inverse_inertia(model_.inverse_inertia[z(b)]);
-    block.inverse_tensor = model_.inverse_inertia[z(b)];
+    const Mat3 axes = contact_axes(parts[z(b)]);
+    block.inverse_tensor = axes.transpose() * model_.inverse_inertia[z(b)] * axes;
+    if (axes == Mat3::Identity()) continue;
+    set_axes(b, axes);
+    for (Polyhedron& part : parts[z(b)])
+      for (Vec3& v : part.vertices) v = axes.transpose() * v;
   }
-  for (std::size_t i = 0; i < shapes_.shape.size(); ++i) set_face_rates(shapes_.shape[i], blocks_[z(shapes_.block[i])]);
+  shapes_ = contact_shapes(parts, blocks_);
+  for (std::size_t i = 0; i < shapes_.of.size(); ++i) {
+    double& reach = reach_[z(shapes_.block[i])];
+    reach = std::max(reach, shapes_.part(i).reach);
+  }
   place_all(true);
   thinnest_ = *std::ranges::min_element(model_.smallest_edge);
   for (int j = 0; j < model_.njoint; ++j) {
@@ -86,6 +90,23 @@ void Debris::wake() {
     pair_keys_.push_back(key);
     of_pair_.push_back(j);
   }
+}
+
+void Debris::set_axes(int b, const Mat3& axes) {
+  axes_.resize(block_groups(model_.nblock));
+  Axes& group = axes_[z(b / lanes)];
+  for (int l = 0; l < lanes && !group.any; ++l)
+    for (int i = 0; i < 3; ++i) group.row.x[4 * i][l] = 1;
+  group.any = true;
+  for (int i = 0; i < 9; ++i) group.row.x[i][b % lanes] = axes(i / 3, i % 3);
+}
+
+Mat3 Debris::rotation(int b) const {
+  const Mat3& turn = blocks_[z(b)].turn;
+  if (axes_.empty() || !axes_[z(b / lanes)].any) return turn;
+  Mat3 axes;
+  for (int i = 0; i < 9; ++i) axes(i / 3, i % 3) = axes_[z(b / lanes)].row.x[i][b % lanes];
+  return turn * axes.transpose();
 }
 
 void Debris::mark(std::vector<Eight>& groups, int b) {
@@ -100,6 +121,7 @@ void Debris::place(Eight blocks, Fastest& fastest) {
   at.last_u = last_u_[g].x, at.last_q = state_.parting.q.data()[g].x;
   at.reach = &reach_[first], at.spun = &state_.parting.spun[first], at.spin = &spin_[first];
   at.way = &way_[first], at.way_soon = &way_soon_[first];
+  at.axes = !axes_.empty() && axes_[g].any ? axes_[g].row.x : nullptr;
   for (int l = 0; l < lanes; ++l) at.row[l] = (blocks.which >> l & 1u) != 0 ? blocks_[first + z(l)].u.data() : nullptr;
   pair_kernels().follow(at, blocks.which, look_ahead * 1.5 * std::max(state_.dt, state_.last_dt), fastest.speed);
 }
@@ -164,7 +186,7 @@ void Debris::count_bed(Pair& p) {
       const ContactBlock& block = blocks_[z(b)];
       const Vec3 lever = arm.cross(joint.type->frame.col(2));
       const double across = std::max(k[0], k[1]);
-      return (k[2] + across) * block.inverse_mass + k[2] * lever.dot(block.inverse_tensor * lever) +
+      return (k[2] + across) * block.inverse_mass + k[2] * lever.dot(model_.inverse_inertia[z(b)] * lever) +
              (across * arm.squaredNorm() + turning) * block.inverse_inertia;
     };
     p.counted_a += rate(p.a, joint.arm_a);
@@ -175,10 +197,10 @@ void Debris::count_bed(Pair& p) {
 // Whether the faces of a bed have moved on from where they were joined.
 bool Debris::displaced(const Pair& p, int j) const {
   const Joint& joint = model_.joint[z(j)];
-  const ContactBlock &a = blocks_[z(p.a)], &b = blocks_[z(p.b)];
-  const Vec3 moved = (b.u - a.u) + (b.turn * joint.arm_b - joint.arm_b) - (a.turn * joint.arm_a - joint.arm_a);
+  const Mat3 a = rotation(p.a), b = rotation(p.b);
+  const Vec3 moved = (blocks_[z(p.b)].u - blocks_[z(p.a)].u) + (b * joint.arm_b - joint.arm_b) - (a * joint.arm_a - joint.arm_a);
   if (!(moved.norm() < parted * 2 * std::min(joint.type->half_s, joint.type->half_t))) return true;
-  return !p.touching && !((a.turn - b.turn).norm() < parted * std::sqrt(2.0));  // a block that rocks turns, and comes back to its place
+  return !p.touching && !((a - b).norm() < parted * std::sqrt(2.0));  // a block that rocks turns, and comes back to its place
 }
 
 // A bed has the stiffness of a layer of mortar between faces that match. Faces that have moved on while they touch match no more: they get

@@ -71,6 +71,8 @@ class Debris {
   struct alignas(64) Fastest {
     double speed[lanes] = {};  // m/s, of many groups, lane by lane
   };
+  void set_axes(int b, const Mat3& axes);  // contact_axes()
+  Mat3 rotation(int b) const;              // from rest, where it was placed last
   static void mark(std::vector<Eight>& groups, int b);
   void place(Eight blocks, Fastest& fastest);
   void place_all(bool sleepers);
@@ -87,6 +89,11 @@ class Debris {
   ContactShapes shapes_;  // empty until wake(), as what follows
   ContactSettings settings_;
   std::vector<ContactBlock> blocks_;
+  struct Axes {
+    RowLanes<9> row{};  // by row
+    bool any = false;   // other than those of the world
+  };
+  std::vector<Axes> axes_;  // those of the shapes at rest, by groups of eight blocks; empty where all are the world's
   Sleep sleep_;
   std::vector<int> involved_;           // blocks that are loose or listed in a pair
   std::vector<double> fastest_loose_;   // m2/s2, squared speed of the fastest block that each thread has followed

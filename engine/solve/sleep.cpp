@@ -134,7 +134,7 @@ bool Sleep::turn(const Excitation& e, const double* push, const ContactShapes& s
   if (reach_.empty())
     for (std::size_t b = 0; b + 1 < shapes.first.size(); ++b) {
       reach_.push_back(0);
-      for (int s = shapes.first[b]; s < shapes.first[b + 1]; ++s) reach_.back() = std::max(reach_.back(), shapes.shape[z(s)].reach);
+      for (int s = shapes.first[b]; s < shapes.first[b + 1]; ++s) reach_.back() = std::max(reach_.back(), shapes.part(z(s)).reach);
     }
   pull_ = e.gravity - e.ground;
   bool changed = wake_all();

@@ -38,3 +38,30 @@ TEST_CASE("a search that leaves out what lies still lists what a whole one lists
   CHECK(find_pair(one.list, 2, 0, 5, 0) >= 0);
   CHECK_FALSE(needs_search(one.list, one.shapes, one.block, still));
 }
+
+TEST_CASE("blocks that are equal but for where and how they lie share a shape", "[contact]") {
+  const auto turned = [](Polyhedron p, const Quat& q) {
+    for (Vec3& v : p.vertices) v = q * v;
+    return p;
+  };
+  const Polyhedron frustum = hull({{-.2, -.1, 0}, {.2, -.1, 0}, {.2, .1, 0}, {-.2, .1, 0}, {-.1, -.1, .2}, {.1, -.1, .2}, {.1, .05, .2}});
+  std::vector<std::vector<Polyhedron>> parts;
+  for (const Polyhedron& p : {brick(), frustum}) {
+    for (int i = 0; i < 5; ++i) {
+      const Polyhedron lies = turned(p, Quat(Eigen::AngleAxisd(0.3 * i, Vec3(1, -2, i).normalized())));
+      const Vec3 far(3.1 * i, -7, 0.3);
+      parts.push_back({translated(translated(lies, far), -far)});  // with the round-off of a place
+      const Mat3 axes = contact_axes(parts.back());
+      CHECK((axes * axes.transpose() - Mat3::Identity()).norm() < 1e-14);
+      for (Vec3& v : parts.back()[0].vertices) v = axes.transpose() * v;
+    }
+  }
+  const ContactShapes shapes = contact_shapes(parts);
+  REQUIRE(shapes.of.size() == 10);
+  for (std::size_t i = 2; i < 5; ++i) CHECK(shapes.of[i] == shapes.of[1]);  // the first lies in the axes of the world
+  CHECK(shapes.shape.size() <= 4);
+  // The box in these axes is the brick itself.
+  const ContactShape& s = shapes.part(3);
+  CHECK(8 * s.half.prod() == Approx(s.volume));
+  CHECK(contact_axes({brick()}) == Mat3::Identity());
+}
