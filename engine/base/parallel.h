@@ -1,9 +1,10 @@
 // Threads: a team that stays together for a whole run, with a barrier cheap enough for two of them a step.
 // std::thread and atomics rather than OpenMP: spinning then needs no environment variable set before main, and the thread
 // sanitizer understands it. A waiting thread spins for some tens of microseconds, then sleeps, so that an oversubscribed core still makes
-// progress. No less: to be woken takes longer than a phase of a step, the others would go to sleep meanwhile, and so on in turn. And no
-// yielding: to whom a core is yielded keeps it for milliseconds. Two that find themselves on one core part, since no scheduler does it for
-// them: where they take turns, the load is that of one. Where there are as many cores as threads each keeps its own.
+// progress. To be woken takes longer than a phase of a step, on a virtual core much longer; meanwhile the others would go to sleep, and so
+// on in turn. So after a sleep that was short the next wait is longer, up to milliseconds. And no yielding: to whom a core is yielded keeps
+// it for milliseconds. Two that find themselves on one core part, since no scheduler does it for them: where they take turns, the load is
+// that of one. Where there are as many cores as threads each keeps its own.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -18,64 +19,72 @@ namespace erbs {
 
 class Barrier {
  public:
-  explicit Barrier(int count, int spins = 60000) : count_(count), spins_(spins), waiting_(0), round_(0), seat_(std::size_t(count)) {}
+  explicit Barrier(int count, int spins = 60000) : count_(count), spins_(spins), seat_(std::size_t(count)) {}
   void wait(int thread) {
     if (count_ == 1) return;
-    sit_down(thread);
-    const unsigned round = round_.load(std::memory_order_acquire);
-    if (waiting_.fetch_add(1, std::memory_order_acq_rel) + 1 == count_) open(round);
-    else wait_for(thread, round);
+    const unsigned round = arrive(thread);
+    for (int other = 0; other < count_; ++other)
+      if (other != thread) wait_for(thread, seat_[std::size_t(other)].arrived, round);
   }
   // As wait(), but thread 0 runs `alone` while all others wait: one barrier where two would stand about it. Where that throws, it throws
   // on thread 0 and the others are told by a false.
   template <class F>
   bool wait(int thread, F&& alone) {
-    if (count_ > 1) sit_down(thread);
-    if (thread != 0) return wait_for_first(thread);
-    const auto missing = [this] { return waiting_.load(std::memory_order_acquire) != count_ - 1; };
-    watch(0, missing);
-    while (missing()) {
-      const int arrived = waiting_.load(std::memory_order_acquire);
-      if (arrived != count_ - 1) waiting_.wait(arrived, std::memory_order_acquire);
+    const unsigned round = arrive(thread);
+    if (thread != 0) {
+      wait_for(thread, opened_, round);
+      return !failed_;
     }
+    for (int other = 1; other < count_; ++other) wait_for(0, seat_[std::size_t(other)].arrived, round);
     try {
       alone();
     } catch (...) {
       failed_ = true;
-      open(round_.load(std::memory_order_relaxed));
+      say(opened_, round);
       throw;
     }
-    if (count_ > 1) open(round_.load(std::memory_order_relaxed));
+    say(opened_, round);
     return true;
   }
 
  private:
-  void open(unsigned round) {
-    waiting_.store(0, std::memory_order_relaxed);
+  using Clock = std::chrono::steady_clock;
+  // A thread's own. What others wait for has a cache line to itself: between caches lines are what takes time, so each is written by one
+  // thread, and by one only.
+  struct Seat {
+    alignas(64) std::atomic<unsigned> arrived{0};  // at how many barriers
+    alignas(64) std::atomic<int> core{-1};
+    Clock::time_point left{};
+    Clock::duration pause{};
+    int patience = 0;
+  };
+
+  unsigned arrive(int thread) {
+    Seat& mine = seat_[std::size_t(thread)];
+    if (const int core = this_core(); core != mine.core.load(std::memory_order_relaxed)) mine.core.store(core, std::memory_order_relaxed);
+    const unsigned round = mine.arrived.load(std::memory_order_relaxed) + 1;
+    say(mine.arrived, round);
+    return round;
+  }
+  static void say(std::atomic<unsigned>& to, unsigned round) {
     // in one order with the count of sleepers that notify_all reads next: a weaker store may still be on its way when one goes to sleep
-    round_.store(round + 1, std::memory_order_seq_cst);
-    round_.notify_all();
+    to.store(round, std::memory_order_seq_cst);
+    to.notify_all();
   }
-  bool wait_for_first(int thread) {
-    const unsigned round = round_.load(std::memory_order_acquire);
-    waiting_.fetch_add(1, std::memory_order_seq_cst);
-    waiting_.notify_one();
-    wait_for(thread, round);
-    return !failed_;
-  }
-  void wait_for(int thread, unsigned round) {
-    const auto closed = [this, round] { return round_.load(std::memory_order_acquire) == round; };
-    watch(thread, closed);
-    while (closed()) round_.wait(round, std::memory_order_acquire);
-  }
-  // Awake, until something is no longer so or for as long as it may soon change.
-  template <class Condition>
-  void watch(int thread, Condition&& holds) {
-    for (int i = 0; i < spins_; ++i)
-      if (!holds()) return;
+  // Until `what` says so: awake for as long as it may soon, then asleep.
+  void wait_for(int thread, const std::atomic<unsigned>& what, unsigned round) {
+    using namespace std::chrono_literals;
+    Seat& mine = seat_[std::size_t(thread)];
+    const auto behind = [round](unsigned said) { return int(said - round) < 0; };
+    for (int left = spins_ << mine.patience; left >= 0; --left)
+      if (!behind(what.load(std::memory_order_acquire))) return;
     part(thread);
+    const auto since = Clock::now();
+    for (unsigned said; behind(said = what.load(std::memory_order_acquire));) what.wait(said, std::memory_order_acquire);
+    const auto slept = Clock::now() - since;
+    if (slept < 1ms) mine.patience = std::min(mine.patience + 1, most_patience);
+    else if (slept > 8ms) mine.patience = std::max(mine.patience - 1, 0);
   }
-  void sit_down(int thread) { seat_[std::size_t(thread)].core.store(this_core(), std::memory_order_relaxed); }
   // Of two on one core the later one goes; ever more seldom where it is back soon, since there are too few cores then.
   void part(int thread) {
     using namespace std::chrono_literals;
@@ -83,7 +92,7 @@ class Barrier {
     const int core = this_core();
     for (int other = 0; other < thread; ++other) {
       if (seat_[std::size_t(other)].core.load(std::memory_order_relaxed) != core) continue;
-      const auto since = std::chrono::steady_clock::now() - mine.left;
+      const auto since = Clock::now() - mine.left;
       if (since < mine.pause) return;
       mine.pause = since > 16 * mine.pause ? 4ms : std::min(2 * mine.pause, Clock::duration(4s));
       mine.left += since;
@@ -91,17 +100,11 @@ class Barrier {
     }
   }
 
+  static constexpr int most_patience = 6;  // 64 times as long
   const int count_, spins_;
   bool failed_ = false;
-  alignas(64) std::atomic<int> waiting_;
-  alignas(64) std::atomic<unsigned> round_;
-  using Clock = std::chrono::steady_clock;
-  struct alignas(64) Seat {
-    std::atomic<int> core{-1};
-    Clock::time_point left{};
-    Clock::duration pause{};
-  };
   std::vector<Seat> seat_;
+  alignas(64) std::atomic<unsigned> opened_{0};
 };
 
 // Runs body(thread) on `threads` threads at once, the caller among them; an exception of any is rethrown after all have ended.
