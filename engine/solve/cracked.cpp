@@ -40,7 +40,7 @@ Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state
     if (at < 0) continue;
     Group& group = group_[z(at / lanes)];
     const Joint& joint = model.joint[z(j)];
-    if (group.law < 0) group = empty_group(joint, group.batch);
+    if (group.law < 0) set_empty(group, joint);
     fill(group, at % lanes, j);
     set_ends(j);
   }
@@ -57,17 +57,18 @@ void Cracked::take_all(std::vector<int>& joints) {
   for (const int j : joints) put(j);
 }
 
-void Cracked::clear(Group& group, int l) const {
+void Cracked::clear(Group& group, int l) {
   group.joint[l] = -1;
   group.crushed[l] = nullptr;
   group.face_corner[l] = nullptr;
-  group.viscous[l] = 0;
-  for (int i = 0; i < 6; ++i) group.lane.q[i][l] = group.lane.f[i][l] = 0;
-  group.lane.stored[l] = 0;
-  group.lane.least_damage[l] = 1;
-  for (int i = 0; i < 6; ++i) group.lane.drag[i][l] = 0;
-  for (SlipLanes& p : group.slip) p.s[l] = p.t[l] = 0;
-  for (auto* x : {group.common.s, group.common.t, group.common.turn, group.common.apart, group.common.stored, group.common.stale}) x[l] = 0;
+  CrackedLanes& lane = memory_of(group);
+  lane.viscous[l] = 0;
+  for (int i = 0; i < 6; ++i) lane.q[i][l] = lane.f[i][l] = lane.drag[i][l] = 0;
+  lane.stored[l] = 0;
+  lane.least_damage[l] = 1;
+  for (int i = 0; i < group.points; ++i) lane.slip()[i].s[l] = lane.slip()[i].t[l] = 0;
+  CommonLanes& common = lane.common;
+  for (auto* x : {common.s, common.t, common.turn, common.apart, common.stored, common.stale}) x[l] = 0;
   for (BondLanes& p : group.bond) p.secant[l] = p.reach[l] = 0, p.damage[l] = 1;  // nothing to hold
   group.look_for_bonds(model_.laws[z(group.law)]);
 }
@@ -132,36 +133,43 @@ void Cracked::fill(Group& group, int l, int j) {
   const Joint& joint = model_.joint[z(j)];
   const JointMemory& memory = state_.memory[z(j)];
   add_shape(group, l, *joint.type);
+  CrackedLanes& lane = memory_of(group);
   group.joint[l] = j;
-  group.viscous[l] = joint.viscous_cracked;
-  ++group.used;
+  lane.viscous[l] = joint.viscous_cracked;
+  group.used |= 1U << l;
   group.beyond = true;
   if (model_.laws[z(joint.type->law)].fc > 0)
     group.crushed[l] = &state_.crushed[z(j)], group.face_corner[l] = model_.corner[z(joint.type->first_corner)].data();
-  for (int i = 0; i < 6; ++i) group.lane.q[i][l] = memory.q[i], group.lane.f[i][l] = memory.f[i];
-  group.lane.stored[l] = memory.elastic;
-  group.lane.least_damage[l] = 1;
-  group.common.stale[l] = 1;
+  for (int i = 0; i < 6; ++i) lane.q[i][l] = memory.q[i], lane.f[i][l] = memory.f[i];
+  lane.stored[l] = memory.elastic;
+  lane.least_damage[l] = 1;
+  lane.common.stale[l] = 1;
   if (model_.dashpots_cracked)
-    for (int i = 0; i < 6; ++i) group.lane.drag[i][l] = state_.viscous[6 * z(j) + z(i)];
+    for (int i = 0; i < 6; ++i) lane.drag[i][l] = state_.viscous[6 * z(j) + z(i)];
   for (int i = 0; i < joint.type->points; ++i) {
     const PointHistory& h = state_.history[z(joint.first_point + i)];
-    group.slip[z(i)].s[l] = h.slip_s, group.slip[z(i)].t[l] = h.slip_t;
+    lane.slip()[i].s[l] = h.slip_s, lane.slip()[i].t[l] = h.slip_t;
     BondLanes& b = group.bond[z(i)];
     b.damage[l] = h.damage, b.secant[l] = h.secant, b.reach[l] = h.reach;
-    if (!model_.laws[z(joint.type->law)].dry) group.lane.least_damage[l] = std::min(group.lane.least_damage[l], h.damage);
+    if (!model_.laws[z(joint.type->law)].dry) lane.least_damage[l] = std::min(lane.least_damage[l], h.damage);
   }
   group.look_for_bonds(model_.laws[z(joint.type->law)]);
 }
 
-Cracked::Group Cracked::empty_group(const Joint& joint, int batch) const {
-  Group group{};
-  group.law = joint.type->law, group.points = joint.type->points, group.corners = joint.type->corners, group.batch = batch,
-  group.bears = bears(model_, joint);
-  group.slip.resize(z(group.points));
-  group.bond.resize(z(group.points));
-  for (int l = 0; l < lanes; ++l) clear(group, l);
-  return group;
+void Cracked::set_empty(Group& group, const Joint& joint) {
+  Group fresh{};
+  fresh.law = joint.type->law, fresh.points = joint.type->points, fresh.corners = joint.type->corners, fresh.batch = group.batch,
+  fresh.bears = bears(model_, joint);
+  fresh.bond.resize(z(fresh.points));
+  fresh.at = group.at, fresh.room = group.room;
+  if (fresh.room < fresh.points) {
+    fresh.at = memory_.size(), fresh.room = fresh.points;
+    memory_.resize(memory_.size() + (sizeof(CrackedLanes) + z(fresh.points) * sizeof(SlipLanes)) / sizeof(Line));
+    new (&memory_of(fresh)) CrackedLanes;
+    new (memory_of(fresh).slip()) SlipLanes[z(fresh.points)];
+  }
+  group = std::move(fresh);
+  for (int l = 0; l < lanes; ++l) clear(group, l), copy_ends(group, l);
 }
 
 bool Cracked::fits(const Group& group, const Joint& joint) const {
@@ -186,7 +194,9 @@ int Cracked::find_lane(const Joint& joint) {
     if (!group.empty() && group.type == joint.type) return other;
   }
   if (other >= 0) return other;
-  group_.push_back(empty_group(joint, add_empty_batch(model_, state_)));
+  group_.push_back({});
+  group_.back().batch = add_empty_batch(model_, state_);
+  set_empty(group_.back(), joint);
   return (groups() - 1) * lanes;
 }
 
@@ -194,7 +204,7 @@ void Cracked::put(int j) {
   const Joint& joint = model_.joint[z(j)];
   const int at = find_lane(joint);
   Group& group = group_[z(at / lanes)];
-  if (group.empty()) group = empty_group(joint, group.batch);
+  if (group.empty()) set_empty(group, joint);
   fill(group, at % lanes, j);
   state_.place[z(j)] = (sound_batches(model_) + group.batch) * lanes + at % lanes;
   set_ends(j);
@@ -206,12 +216,20 @@ void Cracked::set_ends(int j) {
   JointBatch& batch = state_.batch[z(at / lanes)];
   set_constants(model_, j, batch, at % lanes);
   for (int i = 0; i < 3; ++i) batch.arm_a[i][at % lanes] = joint.arm_a[i], batch.arm_b[i][at % lanes] = joint.arm_b[i];
+  copy_ends(group_[z(at / lanes)], at % lanes);
   if (pose_.empty()) {
     pose_.assign(block_groups(model_.nblock) * 8 * lanes, 0.0);
     take_pose(model_.nblock);  // of lanes without a joint
   }
   take_pose(joint.a);
   take_pose(joint.b);
+}
+
+void Cracked::copy_ends(const Group& group, int l) {
+  const JointBatch& from = state_.batch[z(group.batch)];
+  CrackedLanes& to = memory_of(group);
+  to.a[l] = from.a[l], to.b[l] = from.b[l], to.row_a[l] = from.row_a[l], to.row_b[l] = from.row_b[l];
+  for (int i = 0; i < 3; ++i) to.arm_a[i][l] = from.arm_a[i][l], to.arm_b[i][l] = from.arm_b[i][l];
 }
 
 void Cracked::take_pose(int b) {
@@ -241,10 +259,11 @@ void Cracked::drop(int j) {
   const int at = state_.place[z(j)] - sound_batches(model_) * lanes;
   if (at >= 0) {
     Group& group = group_[z(at / lanes)];
-    --group.used;
+    group.used &= ~(1U << at % lanes);
     clear(group, at % lanes);
     look_at_types(group);
     clear_lane(model_, state_.batch[z(at / lanes)], at % lanes);
+    copy_ends(group, at % lanes);
   }
   state_.place[z(j)] = -1;
   state_.memory[z(j)] = JointMemory{};
@@ -262,29 +281,19 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums, const La
   for (int g = first; g < last; ++g) {
     Group& group = group_[z(g)];
     if (group.empty()) continue;
-    const JointBatch& batch = state_.batch[z(group.batch)];
-    CrackedLanes& lane = group.lane;
+    CrackedLanes& lane = memory_of(group);
     const Shapes& shapes = *group.shapes;
-    const CrackedShape shape{group.corners,
-                             group.points,
-                             double(g),
-                             &shapes.face,
-                             shapes.corner.data(),
-                             shapes.spot.data(),
-                             shapes.cell.data(),
-                             shapes.first.data(),
-                             shapes.loop.data(),
-                             damped ? group.viscous : nullptr,
-                             per_step,
-                             shapes.watch.empty() ? shapes.loop.data() : shapes.watch.data(),
-                             group.crushed,
-                             group.face_corner};
+    const CrackedShape shape{group.corners,      group.points,       group.used,
+                             double(g),          &shapes.face,       shapes.corner.data(),
+                             shapes.spot.data(), shapes.cell.data(), shapes.first.data(),
+                             shapes.loop.data(), per_step,           shapes.watch.empty() ? shapes.loop.data() : shapes.watch.data(),
+                             group.crushed,      group.face_corner};
     const PointLaw& law = model_.laws[z(group.law)];
     if (group.bare) {
-      group.beyond = kernels.rub(law, batch, shape, group.slip.data(), group.common, lane, poses, wrench_rows, done);
+      group.beyond = kernels.rub(law, shape, lane, poses, wrench_rows, done);
     } else {
-      group.beyond = kernels.respond(law, batch, shape, group.slip.data(), group.bond.data(), lane, poses, wrench_rows, done);
-      std::fill_n(group.common.stale, lanes, 1.0);
+      group.beyond = kernels.respond(law, shape, group.bond.data(), lane, poses, wrench_rows, done);
+      std::fill_n(lane.common.stale, lanes, 1.0);
       group.worn = true;
       group.bare = std::all_of(lane.least_damage, lane.least_damage + lanes, [](double damage) { return damage >= 1; });
     }
@@ -301,18 +310,20 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums, const La
 
 void Cracked::store() {
   for (Group& group : group_) {
+    if (group.empty()) continue;
     const bool worn = std::exchange(group.worn, false);
+    const CrackedLanes& lane = memory_of(group);
     for (int l = 0; l < lanes; ++l) {
       const int j = group.joint[l];
       if (j < 0) continue;
       JointMemory& memory = state_.memory[z(j)];
-      for (int i = 0; i < 6; ++i) memory.q[i] = group.lane.q[i][l], memory.f[i] = group.lane.f[i][l];
-      memory.elastic = group.lane.stored[l];
+      for (int i = 0; i < 6; ++i) memory.q[i] = lane.q[i][l], memory.f[i] = lane.f[i][l];
+      memory.elastic = lane.stored[l];
       if (model_.dashpots_cracked)
-        for (int i = 0; i < 6; ++i) state_.viscous[6 * z(j) + z(i)] = group.lane.drag[i][l];
+        for (int i = 0; i < 6; ++i) state_.viscous[6 * z(j) + z(i)] = lane.drag[i][l];
       PointHistory* h = &state_.history[z(model_.joint[z(j)].first_point)];
       for (int i = 0; i < group.points; ++i) {
-        h[i].slip_s = group.slip[z(i)].s[l], h[i].slip_t = group.slip[z(i)].t[l];
+        h[i].slip_s = lane.slip()[i].s[l], h[i].slip_t = lane.slip()[i].t[l];
         if (!worn) continue;
         const BondLanes& b = group.bond[z(i)];
         h[i].damage = b.damage[l], h[i].secant = b.secant[l], h[i].reach = b.reach[l];
@@ -330,7 +341,7 @@ bool Cracked::spent(int j) const {
   if (at < 0) return !keepers(model_) && joint_spent(model_, state_, j);  // one that has just cracked is taken in after the step
   const Group& group = group_[z(at / lanes)];
   if (!group.beyond) return false;
-  const CrackedLanes& lane = group.lane;
+  const CrackedLanes& lane = memory_of(group);
   if (lane.least_damage[at % lanes] < 1) return false;
   double q[6];
   for (int i = 0; i < 6; ++i) q[i] = lane.q[i][at % lanes];

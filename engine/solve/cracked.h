@@ -1,6 +1,7 @@
 // Joints that have cracked, eight of one law and size side by side. The point laws' memory lives here while a Solver runs;
 // store() writes it back into the State for all who read it there.
 #pragma once
+#include <cstddef>
 #include <map>
 #include <memory>
 #include <utility>
@@ -41,40 +42,45 @@ class Cracked {
   struct Group {
     int law, points, corners;
     int batch;                    // in State::batch
-    int used = 0;                 // lanes
+    unsigned used = 0;            // lanes, as bits
     int joint[lanes];             // -1: empty
     CrushedFace* crushed[lanes];  // null without a plateau
     const double* face_corner[lanes];
-    alignas(64) double viscous[lanes];  // s, Joint::viscous_cracked; 0 in empty lanes
-    const JointType* type = nullptr;    // null: of several
+    const JointType* type = nullptr;  // null: of several
     std::shared_ptr<Shapes> shapes;
-    std::vector<SlipLanes> slip;  // [points]
-    std::vector<BondLanes> bond;
-    CommonLanes common;
-    CrackedLanes lane;
-    bool bears = false;  // joints that gravity presses
-    bool beyond = true;  // some may be beyond their faces
-    bool bare = true;    // no point of any lane has a bond left
-    bool worn = false;   // bonds have changed since the State knew of them
+    std::vector<BondLanes> bond;  // [points]
+    std::size_t at = 0;           // in memory_
+    int room = -1;                // there, for points
+    bool bears = false;           // joints that gravity presses
+    bool beyond = true;           // some may be beyond their faces
+    bool bare = true;             // no point of any lane has a bond left
+    bool worn = false;            // bonds have changed since the State knew of them
     bool empty() const { return used == 0; }
     void look_for_bonds(const PointLaw& law);
   };
-  Group empty_group(const Joint& joint, int batch) const;
+  void set_empty(Group& group, const Joint& joint);
+  CrackedLanes& memory_of(const Group& group) { return *reinterpret_cast<CrackedLanes*>(&memory_[group.at]); }
+  const CrackedLanes& memory_of(const Group& group) const { return *reinterpret_cast<const CrackedLanes*>(&memory_[group.at]); }
   bool fits(const Group& group, const Joint& joint) const;  // the same law and numbers of everything, and pressed alike
   int find_lane(const Joint& joint);                        // group * lanes + lane, in a new group if need be
   void fill(Group& group, int l, int j);
-  void clear(Group& group, int l) const;
+  void clear(Group& group, int l);
   void set_shape(Shapes& shapes, int l, const JointType& type) const;
   std::shared_ptr<Shapes> shared_shapes(const JointType& type);  // of eight joints of it
   void add_shape(Group& group, int l, const JointType& type);
   void look_at_types(Group& group);
-  void put(int j);                          // into a lane of its own
-  void set_ends(int j);                     // its lane's blocks, rows and arms
-  void take_all(std::vector<int>& joints);  // by types
+  void put(int j);                            // into a lane of its own
+  void set_ends(int j);                       // its lane's blocks, rows and arms
+  void copy_ends(const Group& group, int l);  // from its batch
+  void take_all(std::vector<int>& joints);    // by types
 
   const Model& model_;
   State& state_;
+  struct alignas(64) Line {
+    std::byte of[64];
+  };
   std::vector<Group> group_;
+  std::vector<Line> memory_;  // of all groups: CrackedLanes and the slips of their points
   Rows pose_;
   std::map<const JointType*, std::shared_ptr<Shapes>> of_type_;
 };

@@ -28,7 +28,7 @@ struct alignas(64) SlipLanes {
   double s[lanes], t[lanes];  // as in PointHistory
 };
 // The rigid motion nearest to the slips of all points, and what is left of them: functions of the slips, `stale` where these have changed.
-struct alignas(64) CommonLanes {
+struct CommonLanes {
   double s[lanes], t[lanes], turn[lanes];  // m, rad
   double apart[lanes], stored[lanes];      // m, the greatest; J, of the springs when the joint is where its slips are
   double stale[lanes];                     // 0 or 1
@@ -47,6 +47,7 @@ struct alignas(64) FaceLanes {
 // The shapes of eight joints of one law with the same numbers of everything: corners of the overlap, points, corners of their cells.
 struct CrackedShape {
   int corners, points;
+  unsigned used;  // lanes with a joint, as bits
   double number;  // by which sums name it
   const FaceLanes* face;
   const CornerLanes* corner;
@@ -54,17 +55,24 @@ struct CrackedShape {
   const CellLanes* cell;     // [points]
   const int* first;          // corners of cell i: [first[i], first[i + 1])
   const CornerLanes* loop;   // corners of the cells
-  const double* viscous;     // s, b of dashpots; null without [lanes]
-  double per_step;           // 1/s, over the last step
+  double per_step;           // 1/s, of dashpots, over the last step; 0 without
   const CornerLanes* watch;  // where the cells watch for tension; = loop for rules with points on the edge
   // of laws with a plateau in compression: what has been crushed, and the corners as in Bed; null in empty lanes  [lanes]
   CrushedFace* const* crushed;
   const double* const* face_corner;
 };
+// All that a step reads and writes of them beside their shapes and bonds, in the order in which it does and in one piece.
 struct alignas(64) CrackedLanes {
-  double q[6][lanes], f[6][lanes], stored[lanes];  // at the last step
-  double drag[6][lanes];                           // of the dashpots now; part of f of the JointLanes
-  double least_damage[lanes];                      // of the points; 1 for dry joints
+  int a[lanes], b[lanes], row_a[lanes], row_b[lanes];
+  double arm_a[3][lanes], arm_b[3][lanes];  // m, from the centroids to the joint, world, at rest
+  double viscous[lanes];                    // s, b of dashpots; 0 in empty lanes
+  double q[6][lanes];                       // at the last step, and so are f and stored
+  CommonLanes common;
+  double f[6][lanes], stored[lanes];
+  double least_damage[lanes];                                           // of the points; 1 for dry joints
+  double drag[6][lanes];                                                // of the dashpots now; part of f of the JointLanes
+  SlipLanes* slip() { return reinterpret_cast<SlipLanes*>(this + 1); }  // behind it [points]
+  const SlipLanes* slip() const { return reinterpret_cast<const SlipLanes*>(this + 1); }
 };
 // What several such did in their steps, lane by lane.
 struct alignas(64) CrackedSums {
@@ -159,13 +167,13 @@ struct LaneKernels {
   // joint_geometry.h gives the formulas: q, its elastic resultant and the bound that keeps a joint on this path.
   void (*elastic)(const JointBatch& batch, const double* rows, JointLanes& out);
   // Joints that have cracked, poses of blocks to wrench rows by the point laws (joint_response.h); memory in `cracked`, account in `sums`.
-  // `poses`: rows of eight doubles, displacement and attitude x y z w; the arms of `batch` are those at rest.
+  // `poses`: rows of eight doubles, displacement and attitude x y z w.
   // True where a joint may be beyond its faces (beyond_its_faces of joint_kernel.h).
-  bool (*respond)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, BondLanes* bond,
-                  CrackedLanes& cracked, const double* poses, double* wrench_rows, CrackedSums& sums);
+  bool (*respond)(const PointLaw& law, const CrackedShape& shape, BondLanes* bond, CrackedLanes& cracked, const double* poses,
+                  double* wrench_rows, CrackedSums& sums);
   // The same where no point has a bond left.
-  bool (*rub)(const PointLaw& law, const JointBatch& batch, const CrackedShape& shape, SlipLanes* slip, CommonLanes& common,
-              CrackedLanes& cracked, const double* poses, double* wrench_rows, CrackedSums& sums);
+  bool (*rub)(const PointLaw& law, const CrackedShape& shape, CrackedLanes& cracked, const double* poses, double* wrench_rows,
+              CrackedSums& sums);
   // Resultants to wrenches on both blocks: force at the midpoint of the material points, then everything turned by th.
   void (*wrenches)(const JointBatch& batch, const JointLanes& in, double* wrench_rows);
   // Sound joints, displacements of blocks to wrenches. Groups [first, last) of eight blocks: lane l of batches
