@@ -99,10 +99,12 @@ struct alignas(64) SoundBatch {
   int used;        // joints in it; -1: none, and nothing left of them
 };
 // Batches of sound joints that have come near their limits, with all that tells how near; null for others, and for all if none has. By
-// `carried` times the distance of their blocks joints may be amiss for what they are carried from the last refresh.
+// `carried` times the distance of their blocks joints may be amiss for what they are carried from the last refresh. While one batch is
+// computed, the one `ahead` of it is asked for; 0: all lie near.
 struct SoundCloser {
   const JointBatch* const* batch;
   double carried;
+  int ahead;
 };
 // Of its joints: whether they are seen from their other end (-1) or not (1), and where the stiffnesses against rotation (N m) lie.
 struct SoundLanes {

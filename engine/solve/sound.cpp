@@ -12,6 +12,11 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
+// Batches of more bytes than this come from afar. Measured for 951, 9,700, 15,000 and 29,900 blocks (0.5, 5, 7.7, 15 MB): to ask for the
+// fourth one ahead costs 1 % and 3 %, and saves 7 % and 30 % of a step. What the processor foresees by itself ends at every page.
+constexpr std::size_t near_bytes = 6 << 20;
+constexpr int batches_ahead = 4;
+
 // Minus twice the sum of k_i e_i e_i over the axes e_i of the joint's frame, k_i against rotation about it.
 void set_bending_stiffness(const JointBatch& B, int from, double out[6][lanes], int to) {
   constexpr int row[6] = {0, 1, 2, 1, 0, 0}, column[6] = {0, 1, 2, 2, 2, 1};
@@ -59,6 +64,7 @@ Sound::Sound(const Model& model, State& state) : model_(model), state_(state), c
   }
   const KeptLanes& kept = model.kept;
   batch_.resize(kept.other.size());
+  ahead_ = batch_.size() * sizeof(SoundBatch) > near_bytes ? batches_ahead : 0;
   looked_at_.resize(batch_.size());
   closer_.assign(batch_.size(), nullptr);
   near_.resize(batch_.size() + 1);
@@ -186,7 +192,7 @@ void Sound::look_closer(int k, bool sample, JointSums& sums) {
 
 int Sound::forces(int first, int last, const LaneKernels& kernels, double* stored) {
   const int* first_batch = model_.kept.first_batch.data();
-  const SoundCloser closer{closely_.load(std::memory_order_relaxed) ? closer_.data() : nullptr, carried_};
+  const SoundCloser closer{closely_.load(std::memory_order_relaxed) ? closer_.data() : nullptr, carried_, ahead_};
   return kernels.sound(batch_.data(), closer, first_batch, first, last, state_.shift.data(), state_.kept.data(), state_.given.data(),
                        stored, &near_[z(first_batch[first])]);
 }

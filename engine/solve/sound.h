@@ -43,7 +43,8 @@ class Sound {
 
   const Model& model_;
   State& state_;
-  const double carried_;           // SoundCloser
+  const double carried_;  // SoundCloser, and so is ahead_
+  int ahead_ = 0;
   std::vector<SoundBatch> batch_;  // one of the two: empty where nothing reads it
   struct Bytes {
     bool operator()(const SoundLaw& a, const SoundLaw& b) const { return std::memcmp(&a, &b, sizeof(SoundLaw)) < 0; }
