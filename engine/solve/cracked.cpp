@@ -35,9 +35,12 @@ Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state
     group_.back().law = -1, group_.back().batch = k;
     std::fill_n(group_.back().joint, lanes, -1);
   }
-  for (int j = 0; j < model.njoint; ++j) {
+  std::vector<int> held;  // in the order of their lanes, in which steps go through memory
+  for (int j = 0; j < model.njoint; ++j)
+    if (state.place[z(j)] >= sound * lanes) held.push_back(j);
+  std::sort(held.begin(), held.end(), [&](int a, int b) { return state.place[z(a)] < state.place[z(b)]; });
+  for (const int j : held) {
     const int at = state.place[z(j)] - sound * lanes;
-    if (at < 0) continue;
     Group& group = group_[z(at / lanes)];
     const Joint& joint = model.joint[z(j)];
     if (group.law < 0) set_empty(group, joint);

@@ -123,7 +123,7 @@ struct alignas(64) BlockConstants {
   double turn_limit[lanes];                 // rad2, of joined blocks between refreshes
   int first_slot, slots;                    // of eight wrench rows; none: nobody reads rows of these blocks either
   int first_taken, taken;                   // of BlockArrays::taken
-  bool carried;                             // somebody reads what they have done since their refresh
+  bool carried;  // somebody reads what they have done since their refresh: else no sound joint acts on them either
 };
 
 // All blocks, by groups of eight; the rows of eight doubles by blocks, `push` and `load` null where there is nothing, `row` and `pose`
