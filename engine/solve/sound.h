@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/parallel.h"
+#include "engine/base/wide_pages.h"
 #include "engine/solve/joint_kernel.h"
 #include "engine/solve/lanes.h"
 
@@ -45,7 +46,7 @@ class Sound {
   State& state_;
   const double carried_;  // SoundCloser, and so is ahead_
   int ahead_ = 0;
-  std::vector<SoundBatch> batch_;  // one of the two: empty where nothing reads it
+  std::vector<SoundBatch, WidePages<SoundBatch>> batch_;  // one of the two: empty where nothing reads it
   struct Bytes {
     bool operator()(const SoundLaw& a, const SoundLaw& b) const { return std::memcmp(&a, &b, sizeof(SoundLaw)) < 0; }
   };
