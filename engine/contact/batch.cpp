@@ -140,14 +140,20 @@ bool goes_in_lanes(const Pair& pair, const PairBodies& bodies) {
   return bodies.reference->small.faces > 0 && bodies.other->small.faces > 0;  // where clipping will look next
 }
 
-unsigned pair_forces(const PairJob* job, int count, const ContactSettings& settings, double dt, bool want_energy, Batch& batch,
-                     OverlapRoom& room) {
+unsigned pair_forces(const PairJob* job, int count, const ContactSettings& settings, double dt, bool want_energy, Batch& batch) {
   const PairSettings set{dt, settings.memory, settings.reference_speed, settings.settling, settings.settling_tangential, surely_within};
   unsigned left_out[2] = {};
   const int of[2] = {std::min(count, 8), std::max(count - 8, 0)};
   for (int k = 0; k < 2; ++k) {
     if (of[k] > 0) left_out[k] = up_to_springs(job + 8 * k, of[k], set, batch.lanes[k], batch.triangles);
     else std::fill_n(batch.lanes[k].total, 8, 0.0);  // nobody has a patch
+    for (int l = 0; l < of[k] && want_energy; ++l) {
+      if ((left_out[k] >> l & 1u) != 0) continue;
+      const PairJob& one = job[8 * k + l];
+      const PairBodies& bodies = one.bodies;
+      one.result->elastic =
+          one.pair->law.kn * energy_integral(*bodies.reference, *bodies.other, pose_of(batch.lanes[k], l), batch.triangles[l]);
+    }
   }
   pair_kernels().bear(batch.lanes[0], batch.lanes[1]);
   for (int k = 0; k < 2; ++k) {
@@ -159,12 +165,6 @@ unsigned pair_forces(const PairJob* job, int count, const ContactSettings& setti
       if (stays(l) && !(w.holds[l] > 0)) bear(w, l);
     pair_kernels().finish(w, set);
     write_back(jobs, of[k], left_out[k], w);
-    for (int l = 0; l < of[k] && want_energy; ++l) {
-      if (!stays(l)) continue;
-      const PairBodies& bodies = jobs[l].bodies;
-      room.fast = true;
-      jobs[l].result->elastic = jobs[l].pair->law.kn * overlap_energy(*bodies.reference, *bodies.other, pose_of(w, l), room);
-    }
   }
   return left_out[0] | left_out[1] << 8;
 }

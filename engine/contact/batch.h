@@ -35,7 +35,6 @@ bool goes_in_lanes(const Pair& pair, const PairBodies& bodies);
 
 // Evaluates up to `most_together` pairs and updates their memory. Those of the bits returned have been left as they were, for pair_force:
 // bodies that have parted, or whose overlap has more pieces than there is room for. Pairs as goes_in_lanes() takes them.
-unsigned pair_forces(const PairJob* job, int count, const ContactSettings& settings, double dt, bool want_energy, Batch& batch,
-                     OverlapRoom& room);
+unsigned pair_forces(const PairJob* job, int count, const ContactSettings& settings, double dt, bool want_energy, Batch& batch);
 
 }  // namespace erbs

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <tuple>
+#include <utility>
 
 #include "engine/contact/pair_lanes.h"
 
@@ -185,6 +187,17 @@ class Finder {
   int eight_[8], waiting_ = 0;
 };
 
+// The two greatest of many numbers.
+struct Farthest {
+  double greatest = 0, second = 0;
+
+  void take(double x) {
+    if (!(x <= greatest)) second = std::exchange(greatest, x);
+    else second = std::max(second, x);
+  }
+  double two() const { return greatest + second; }
+};
+
 }  // namespace
 
 double suggested_margin(std::vector<double> t) {
@@ -196,21 +209,26 @@ double suggested_margin(std::vector<double> t) {
 bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks,
                   std::span<const std::uint8_t> still) {
   if (!list.valid || list.u.size() != blocks.size()) return true;
-  double greatest = 0, second = 0;
+  // How far two bodies have come towards each other does not ask how far all have come together.
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  const auto is_still = [&](size_t b) { return !still.empty() && still[b] != 0; };
+  const auto come = [&](size_t b) -> Vec3 { return is_still(b) ? Vec3(Vec3::Zero()) : Vec3(blocks[b].u - list.u[b]); };
+  for (size_t b = 0; b < blocks.size(); ++b) low = low.cwiseMin(come(b)), high = high.cwiseMax(come(b));
+  const Vec3 together = (low + high) / 2;
+  Farthest all, apart;
   for (size_t b = 0; b < blocks.size(); ++b) {
-    if (!still.empty() && still[b]) continue;
-    double reach = 0;
-    for (int s = shapes.first[b]; s < shapes.first[b + 1]; ++s) reach = std::max(reach, shapes.part(at(s)).reach);
-    // |R - R0| of Frobenius is 2 sqrt 2 sin(angle / 2): the chord of the farthest point is reach times that / sqrt 2.
-    const double moved = (blocks[b].u - list.u[b]).norm() + reach * std::sqrt(0.5) * (blocks[b].turn - list.turn[b]).norm();
-    if (!(moved <= greatest)) {
-      second = greatest;
-      greatest = moved;
-    } else {
-      second = std::max(second, moved);
+    const Vec3 moved = come(b);
+    double turned = 0;
+    if (!is_still(b)) {
+      double reach = 0;
+      for (int s = shapes.first[b]; s < shapes.first[b + 1]; ++s) reach = std::max(reach, shapes.part(at(s)).reach);
+      // |R - R0| of Frobenius is 2 sqrt 2 sin(angle / 2): the chord of the farthest point is reach times that / sqrt 2.
+      turned = reach * std::sqrt(0.5) * (blocks[b].turn - list.turn[b]).norm();
     }
+    all.take(moved.norm() + turned);
+    apart.take((moved - together).norm() + turned);
   }
-  return !(greatest + second <= list.margin);
+  return !(std::min(all.two(), apart.two()) <= list.margin);
 }
 
 double search(PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
@@ -222,6 +240,7 @@ double search(PairList& list, const ContactShapes& shapes, std::span<const Conta
   std::vector<Pair> now;
   now.reserve(found.size());
   double dropped = 0;
+  double restitution = std::numeric_limits<double>::quiet_NaN(), impact = 0;  // of the last new pair: mostly all have the same
   auto old = list.pair.begin();
   const auto leave = [&](const Pair& p) {
     const bool stays = !looking[at(p.a)] && !looking[at(p.b)] && (loose[at(p.a)] || loose[at(p.b)]);
@@ -235,7 +254,9 @@ double search(PairList& list, const ContactShapes& shapes, std::span<const Conta
       continue;
     }
     if (fresh != nullptr) fresh->push_back(static_cast<int>(now.size()));
-    now.push_back(new_pair(f.a, f.part_a, f.b, f.part_b, law(f.a, f.b), shapes));
+    const PairLaw of = law(f.a, f.b);
+    if (of.restitution != restitution) restitution = of.restitution, impact = impact_factor(restitution);
+    now.push_back(new_pair(f.a, f.part_a, f.b, f.part_b, of, impact, shapes));
   }
   for (; old != list.pair.end(); ++old) leave(*old);
   list.pair = std::move(now);

@@ -192,14 +192,14 @@ double impact_factor(double restitution) {
   return (low + high) / 2;
 }
 
-Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, const ContactShapes& shapes) {
+Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, double impact, const ContactShapes& shapes) {
   Pair p;
   p.a = a;
   p.b = b;
   p.part_a = part_a;
   p.part_b = part_b;
   p.law = law;
-  p.impact = impact_factor(law.restitution);
+  p.impact = impact;
   // Equal volumes up to round-off: the lower block decides.
   p.b_is_reference = shape_of(shapes, b, part_b).volume > shape_of(shapes, a, part_a).volume * (1 + 1e-9);
   return p;

@@ -44,8 +44,8 @@ int short_keeper(const Pair& pair, const ContactShape& a, const ContactShape& b)
 // the view is not asked for, and the pair only where the bodies may land.
 bool stands_apart(int keeper, const Pair& pair, const View& view, const ContactSettings& settings, double dt, PairResult& result);
 
-// A new pair; fixes its reference body for good.
-Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, const ContactShapes& shapes);
+// A new pair; fixes its reference body for good. `impact`: impact_factor() of its restitution.
+Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, double impact, const ContactShapes& shapes);
 
 // Starts `pair` with what an old joint carries at this instant (world axes, on block b, moment about the centroid of b), so that
 // the force is continuous: friction takes the tangential part, the difference of the rest fades over some contact periods.

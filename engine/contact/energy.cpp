@@ -3,7 +3,6 @@
 // the faces of A add nothing since d_f = 0 there.
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "engine/contact/narrow.h"
 
@@ -41,61 +40,83 @@ struct Loop {
   }
 };
 
-// The faces of A that may be nearest somewhere in the overlap, as bits: nothing in it is deeper than the deepest corner of B below any
-// one face.
-std::uint64_t nearest_faces(const ContactShape& a, const ContactShape& b, const Pieces& w) {
-  double least[most_faces], bound = std::numeric_limits<double>::infinity();
-  for (size_t f = 0; f < a.normal.size(); ++f) {
-    double most = least[f] = w.c[f] - a.normal[f].dot(w.v[0]);
-    for (size_t i = 1; i < b.vertex.size(); ++i) {
-      const double d = w.c[f] - a.normal[f].dot(w.v[i]);
-      least[f] = std::min(least[f], d);
-      most = std::max(most, d);
-    }
-    bound = std::min(bound, most);
+// The faces of A whose part of it lies inside of B altogether, as bits.
+std::uint64_t faces_inside(const ContactShape& a, const ContactShape& b, const PairPose& pose) {
+  std::uint64_t inside = ~std::uint64_t(0), faces = 0;
+  for (size_t j = 0; j < b.normal.size() && inside != 0; ++j) {
+    const Vec3 n = pose.turn * b.normal[j];
+    const double c = b.offset[j] + n.dot(pose.shift);
+    std::uint64_t below = 0;
+    for (size_t i = 0; i < a.vertex.size(); ++i) below |= std::uint64_t(n.dot(a.vertex[i]) <= c) << i;
+    inside &= below;
   }
-  std::uint64_t near = 0;
   for (size_t f = 0; f < a.normal.size(); ++f)
-    if (least[f] <= bound) near |= std::uint64_t(1) << f;
-  return near;
+    if ((a.mask[f] & ~inside) == 0) faces |= std::uint64_t(1) << f;
+  return faces;
 }
 
 // The wall where faces e and f of A are equally near, inside both bodies.
-double wall_integral(const ContactShape& a, const ContactShape& b, const PairPose& pose, const Pieces& w, size_t e, size_t f) {
+double wall_integral(const ContactShape& a, const ContactShape& b, const PairPose& pose, const double* c, size_t e, size_t f) {
   const double reach = 4 * b.reach;
   const Vec3 across = a.normal[e] - a.normal[f];
   const double length = across.norm();
   if (length < 1e-9) return 0;
   const Vec3 n = across / length, t = n.unitOrthogonal(), s = n.cross(t);
-  if (std::abs(w.c[e] - w.c[f]) > length * b.reach) return 0;
-  const Vec3 middle = (w.c[e] - w.c[f]) / length * n;
+  if (std::abs(c[e] - c[f]) > length * b.reach) return 0;
+  const Vec3 middle = (c[e] - c[f]) / length * n;
   Loop loop;
   for (const Vec3& corner : {Vec3(-t - s), Vec3(t - s), Vec3(t + s), Vec3(s - t)}) loop.x[loop.size++] = middle + reach * corner;
   for (size_t j = 0; j < b.normal.size() && loop.size > 0; ++j) loop.cut_by(pose.turn * b.normal[j], b.offset[j]);
-  if (loop.size > 0) loop.cut_by(a.normal[f], w.c[f]);
+  if (loop.size > 0) loop.cut_by(a.normal[f], c[f]);
   for (size_t g = 0; g < a.normal.size() && loop.size > 0; ++g) {
-    if (g != e && g != f) loop.cut_by(a.normal[g] - a.normal[f], w.c[g] - w.c[f]);
+    if (g != e && g != f) loop.cut_by(a.normal[g] - a.normal[f], c[g] - c[f]);
   }
   if (loop.size < 3) return 0;
   double d[4 + 2 * most_faces];
-  for (size_t i = 0; i < loop.size; ++i) d[i] = w.c[f] - a.normal[f].dot(loop.x[i]);
+  for (size_t i = 0; i < loop.size; ++i) d[i] = c[f] - a.normal[f].dot(loop.x[i]);
   return length * std::abs(square_integral(loop.x, d, loop.size, n)) / 2;
+}
+
+// All of them. `near`: the faces of A below which B's surface passes. One that is nearest somewhere in the overlap is one of these, or all
+// of its part of A is inside of B, and the face too.
+double walls(const ContactShape& a, const ContactShape& b, const PairPose& pose, std::uint64_t near) {
+  double c[most_faces], sum = 0;
+  for (size_t f = 0; f < a.normal.size(); ++f) c[f] = a.offset[f] - a.normal[f].dot(pose.shift);
+  near |= faces_inside(a, b, pose);
+  for (size_t f = 0; f < a.normal.size(); ++f)
+    for (size_t e = 0; e < f; ++e)
+      if ((near >> e & near >> f & 1u) != 0) sum += wall_integral(a, b, pose, c, e, f);
+  return sum;
 }
 
 }  // namespace
 
 double energy_integral(const ContactShape& a, const ContactShape& b, const PairPose& pose, const Pieces& w) {
   double sum = 0;
+  std::uint64_t near = 0;
   for (const Piece& p : w.piece) {
     const auto first = static_cast<size_t>(p.first);
     const double square = square_integral(&w.vertex[first], &w.depth[first], static_cast<size_t>(p.count), w.n[p.face]);
     sum -= a.normal[static_cast<size_t>(p.nearest)].dot(w.n[p.face]) * square / 2;
+    near |= std::uint64_t(1) << p.nearest;
   }
-  const std::uint64_t near = nearest_faces(a, b, w);
-  for (size_t f = 0; f < a.normal.size(); ++f)
-    for (size_t e = 0; e < f; ++e)
-      if ((near >> e & near >> f & 1u) != 0) sum += wall_integral(a, b, pose, w, e, f);
-  return sum;
+  return sum + walls(a, b, pose, near);
+}
+
+double energy_integral(const ContactShape& a, const ContactShape& b, const PairPose& pose, const Triangles& w) {
+  double sum = 0;
+  std::uint64_t near = 0;
+  for (int t = 0; t < w.count; ++t) {
+    if (!(w.size[t] > 0)) continue;
+    const int of_b = w.faces[t] % few, of_a = w.faces[t] / few;
+    const double p = w.depth[0][t], q = w.depth[1][t], r = w.depth[2][t];
+    const double square = w.size[t] / 6 * (p * p + q * q + r * r + p * q + q * r + r * p);
+    double along = 0;
+    for (int i = 0; i < 3; ++i) along += w.plane[i][of_a] * w.normal[i][of_b];
+    sum -= along * square / 2;
+    near |= std::uint64_t(1) << of_a;
+  }
+  return sum + walls(a, b, pose, near);
 }
 
 }  // namespace erbs

@@ -76,7 +76,8 @@ void closing_speeds(Pieces& pieces, const Vec3& linear, const Vec3& angular, Pat
 // which would let a leaning brick creep at a steady speed.
 void damping_wrench(const Pieces& pieces, const Vec3& normal, double chi, double limit, Vec3& force, Vec3& moment);
 
-// E / kn (m4) of the pieces found last for the same bodies.
+// E / kn (m4) of the pieces, or summed triangles, found last for the same bodies.
 double energy_integral(const ContactShape& a, const ContactShape& b, const PairPose& pose, const Pieces& pieces);
+double energy_integral(const ContactShape& a, const ContactShape& b, const PairPose& pose, const Triangles& triangles);
 
 }  // namespace erbs

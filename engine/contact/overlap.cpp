@@ -26,7 +26,7 @@ double find_distance(const ContactShape& a, const ContactShape& b, const PairPos
 
 }  // namespace
 
-Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, OverlapRoom& room) {
+Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, OverlapRoom& room, Corners* known) {
   room.fast = false;
   room.apart = distance(a, b, pose, separating);
   if (room.apart >= 0) return {};
@@ -34,7 +34,8 @@ Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose&
   if (room.fast) {
     const ClipKernels& kernels = clip_kernels();
     Triangles& t = room.triangles;
-    kernels.clip(a.small, b.small, small_pose(pose), t);
+    const ClipJob job{&a.small, &b.small, small_pose(pose), &t, known};
+    kernels.clip_all(&job, 1);
     separating = t.separating;
     if (!t.overflow) {
       if (t.count == 0) {
@@ -76,9 +77,7 @@ void damping_wrench(const OverlapRoom& room, const Vec3& normal, double chi, dou
 }
 
 double overlap_energy(const ContactShape& a, const ContactShape& b, const PairPose& pose, OverlapRoom& room) {
-  int none = -1;
-  if (room.fast && !find_pieces(a, b, pose, none, room.pieces)) return 0;
-  return energy_integral(a, b, pose, room.pieces);
+  return room.fast ? energy_integral(a, b, pose, room.triangles) : energy_integral(a, b, pose, room.pieces);
 }
 
 }  // namespace erbs

@@ -15,8 +15,10 @@ struct OverlapRoom {
   double apart = 0;           // m, distance of the bodies asked for last, at least; below zero where not known
 };
 
-// The elastic patch; its total is 0 where the bodies do not overlap. `separating` caches what keeps them apart (narrow.h).
-Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, OverlapRoom& room);
+// The elastic patch; its total is 0 where the bodies do not overlap. `separating` caches what keeps them apart (narrow.h), `known`
+// its corners (clip.h).
+Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, OverlapRoom& room,
+                   Corners* known = nullptr);
 
 // As in narrow.h, of the overlap found last.
 void closing_speeds(OverlapRoom& room, const Vec3& linear, const Vec3& angular, Patch& patch);

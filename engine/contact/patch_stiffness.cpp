@@ -21,11 +21,11 @@ Mat6 stiffness_on(const Vec3& arm, const Vec3& n, double normal, const Mat3& sec
 
 }  // namespace
 
-bool patch_stiffness(const Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, OverlapRoom& room,
+bool patch_stiffness(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, OverlapRoom& room,
                      PatchStiffness& out) {
   const View s = view_of(pair, shapes, a, b);
   int separating = -1;
-  const Patch patch = find_overlap(*s.reference, *s.other, s.pose, separating, room);
+  const Patch patch = find_overlap(*s.reference, *s.other, s.pose, separating, room, &pair.corners);
   if (!(patch.total > 0)) return false;
   const Mat3& turn = s.reference_block->turn;
   const Vec3 n = turn * patch.normal, arm = turn * patch.centroid, arm_reference = turn * (patch.centroid + s.pose.shift);

@@ -11,8 +11,8 @@ struct PatchStiffness {
 };
 
 // As `pair` lies now; false if the bodies do not overlap. The springs of friction are those of the pair's memory, which keeps the
-// largest patch seen. Reads the pair only.
-bool patch_stiffness(const Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, OverlapRoom& room,
+// largest patch seen. Of the pair only `corners` may change.
+bool patch_stiffness(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, OverlapRoom& room,
                      PatchStiffness& out);
 
 }  // namespace erbs

@@ -24,7 +24,7 @@ constexpr int joints_every = 8;   // counts, before joints that are left are tri
 std::size_t z(int i) { return std::size_t(i); }
 
 // 1 / dt^2 for a bound on the sum over a block.
-double inverse_square(double on_a_block, double share) { return on_a_block / (2 * share * share); }
+double inverse_square(double on_a_block, double share) { return on_a_block * (1 / (2 * share * share)); }
 
 }  // namespace
 
@@ -44,7 +44,7 @@ void ContactLimit::count(const ContactShapes& shapes, std::span<const ContactBlo
                          OverlapRoom& room) {
   PairList& list = state_.debris;
   std::vector<Mat6> k(blocks.size(), Mat6::Zero());
-  for (const Pair& p : list.pair) {
+  for (Pair& p : list.pair) {
     PatchStiffness patch;
     if (!p.touching || p.bed || !patch_stiffness(p, shapes, blocks[z(p.a)], blocks[z(p.b)], room, patch)) continue;
     k[z(p.a)] += patch.on_a;
@@ -88,15 +88,17 @@ std::vector<double> ContactLimit::by_matrices(std::span<const ContactBlock> bloc
     const Mat6& k = stiffness[z(b)];
     if (model_.kind[z(b)] != Kind::moving || k(0, 0) + k(1, 1) + k(2, 2) == 0) continue;
     const ContactBlock& block = blocks[z(b)];
+    // the trace of root^T k root first
+    const Mat3 tensor = block.turn * block.inverse_tensor * block.turn.transpose();
+    double largest = block.inverse_mass * (k(0, 0) + k(1, 1) + k(2, 2)) + (tensor.array() * k.bottomRightCorner<3, 3>().array()).sum();
+    out[z(b)] = inverse_square(largest, contact_share);
+    if (!(largest > 0.5 * most)) continue;
     Mat6 root = Mat6::Zero();  // root root^T = M^-1
     root.topLeftCorner<3, 3>() = std::sqrt(block.inverse_mass) * Mat3::Identity();
     root.bottomRightCorner<3, 3>() = block.turn * Mat3(block.inverse_tensor.llt().matrixL());
     const Mat6 scaled = root.transpose() * k * root;
-    double largest = scaled.trace();
-    if (largest > 0.5 * most) {
-      largest = Eigen::SelfAdjointEigenSolver<Mat6>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[5];
-      most = std::max(most, largest);
-    }
+    largest = Eigen::SelfAdjointEigenSolver<Mat6>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[5];
+    most = std::max(most, largest);
     out[z(b)] = inverse_square(largest, contact_share);
   }
   return out;
@@ -105,6 +107,13 @@ std::vector<double> ContactLimit::by_matrices(std::span<const ContactBlock> bloc
 double ContactLimit::on_block(int b, double rate, double landing) const {
   const PairList& list = state_.debris;
   return (list.counts > 0 ? list.counted_of[z(b)] : 0) + inverse_square(rate, safe_share) + inverse_square(landing, landing_share);
+}
+
+double ContactLimit::on_most(std::span<const int> blocks, std::span<const double> rate, std::span<const double> landing) const {
+  double most = 0;
+  for (const int b : blocks)
+    if (model_.kind[z(b)] == Kind::moving) most = std::max(most, on_block(b, rate[z(b)], landing[z(b)]));
+  return most;
 }
 
 double ContactLimit::allowed(double most) const {

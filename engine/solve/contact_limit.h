@@ -24,6 +24,8 @@ class ContactLimit {
 
   // 1/s2, what block b adds to 1 / dt^2: its contacts have `rate` (1/s2) beyond what was counted, and a face of `landing` may come to it.
   double on_block(int b, double rate, double landing) const;
+  // The most of it on `blocks` that move; rate and landing of each block of the model.
+  double on_most(std::span<const int> blocks, std::span<const double> rate, std::span<const double> landing) const;
   // The step allowed where the block that adds most adds `most`.
   double allowed(double most) const;
   // Whether another count is due, `allowed` being the step as it was last counted.

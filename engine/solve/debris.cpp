@@ -110,8 +110,9 @@ Mat3 Debris::rotation(int b) const {
 }
 
 void Debris::mark(std::vector<Eight>& groups, int b) {
-  if (groups.empty() || groups.back().group != b / lanes) groups.push_back({b / lanes, 0});
+  if (groups.empty() || groups.back().group != b / lanes) groups.push_back({b / lanes, 0, {}});
   groups.back().which |= 1u << b % lanes;
+  groups.back().is_in[b % lanes] = 1;
 }
 
 void Debris::place(Eight blocks, Fastest& fastest) {

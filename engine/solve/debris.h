@@ -1,6 +1,7 @@
 // What happens once blocks come loose: joints are handed over to contact, loose blocks meet new neighbours, and the time step
 // follows the contacts. An intact structure does not come here: what contacts need is made when the first block comes loose.
 #pragma once
+#include <span>
 #include <vector>
 
 #include "engine/contact/batch.h"
@@ -59,6 +60,8 @@ class Debris {
   void ask_elsewhere();
   double crowd(int a, int b) const;  // pair_force()
   void share_out();
+  struct Active;
+  double add_up(std::span<const Active> active, double* push, bool sample);
   void land(int i, double landing_a, double landing_b);
   void limit_passing();
   bool displaced(const Pair& pair, int joint) const;
@@ -67,6 +70,7 @@ class Debris {
   struct Eight {
     int group;
     unsigned which;
+    double is_in[lanes] = {};  // 1 for those marked, else 0
   };
   struct alignas(64) Fastest {
     double speed[lanes] = {};  // m/s, of many groups, lane by lane
@@ -79,7 +83,6 @@ class Debris {
   void look();
   bool keeps_apart(int i);
   void note_apart(int i, double distance);
-  void fetch_pair(int i) const;
   void sort();
   void find_still();
   PairLaw law(int a, int b) const;
@@ -97,6 +100,7 @@ class Debris {
   Sleep sleep_;
   std::vector<int> involved_;           // blocks that are loose or listed in a pair
   std::vector<double> fastest_loose_;   // m2/s2, squared speed of the fastest block that each thread has followed
+  std::vector<Eight> awake_;            // loose blocks that do not sleep
   std::vector<Eight> placed_;           // those of live pairs that move
   std::vector<Eight> driven_;           // of these those that no drift moves
   std::vector<std::uint64_t> jointed_;  // pairs of blocks still joined, sorted

@@ -19,27 +19,26 @@ constexpr double round_off = 1e-9;  // of a distance and of the way behind: more
 constexpr int look_every = 16;      // steps between two looks, while no block comes far in that time
 std::size_t z(int i) { return std::size_t(i); }
 
-// Asks for what the next pair needs while this one is worked on.
-template <class T>
-void fetch(const T& x) {
-  const char* first = reinterpret_cast<const char*>(&x);
-  for (std::size_t i = 0; i < sizeof(T); i += 64) __builtin_prefetch(first + i);
-}
-
 }  // namespace
 
 // Poses are for pairs: a block that has none waits for a look.
 void Debris::follow(int thread, int first, int last) {
-  const auto of = [first, last](const std::vector<int>& blocks) {
-    return std::ranges::subrange(std::ranges::lower_bound(blocks, first), std::ranges::lower_bound(blocks, last));
-  };
-  double& fastest = fastest_loose_[z(thread)];
   fastest_[z(thread)] = {};
-  fastest = 0;
-  for (const int b : of(sleep_.awake())) fastest = std::max(fastest, Vec3(state_.v[z(b)]).squaredNorm());
   const auto before = [](const Eight& blocks, int group) { return blocks.group < group; };
-  const auto end = std::lower_bound(placed_.begin(), placed_.end(), (last + lanes - 1) / lanes, before);
-  for (auto at = std::lower_bound(placed_.begin(), end, first / lanes, before); at != end; ++at) place(*at, fastest_[z(thread)]);
+  const auto of = [&](const std::vector<Eight>& groups) {
+    const auto end = std::lower_bound(groups.begin(), groups.end(), (last + lanes - 1) / lanes, before);
+    return std::ranges::subrange(std::lower_bound(groups.begin(), end, first / lanes, before), end);
+  };
+  double fastest[lanes] = {};
+  for (const Eight& blocks : of(awake_)) {
+    const auto& v = state_.v.data()[blocks.group].x;
+    for (int l = 0; l < lanes; ++l) {
+      const double square = v[0][l] * v[0][l] + v[1][l] * v[1][l] + v[2][l] * v[2][l];
+      fastest[l] = std::max(fastest[l], blocks.is_in[l] * square);
+    }
+  }
+  fastest_loose_[z(thread)] = *std::ranges::max_element(fastest);
+  for (const Eight& blocks : of(placed_)) place(blocks, fastest_[z(thread)]);
 }
 
 void Debris::prepare() {
@@ -74,6 +73,8 @@ void Debris::sort() {
   });
   placed_.clear();
   driven_.clear();
+  awake_.clear();
+  for (const int b : sleep_.awake()) mark(awake_, b);
   std::vector<int> pushed = sleep_.pushed();
   std::ranges::sort(pushed);
   for (const int b : pushed) {
@@ -157,32 +158,26 @@ double Debris::crowd(int a, int b) const {
   return std::clamp(double(std::max(contacts[z(a)], contacts[z(b)])), 1.0, full_crowd);
 }
 
-void Debris::fetch_pair(int i) const {
-  const Lane& lane = lane_[z(i)];
-  const Pair& pair = state_.debris.pair[z(i)];
-  if (lane.keeper >= 0) {  // little is asked of it
-    fetch(pair.law);
-    fetch(lane.bodies.reference->small.vertex);
-    fetch(lane.bodies.other->small.vertex);
-  } else {
-    fetch(pair);
-  }
-  fetch(blocks_[z(waiting_[z(i)].a)]);
-  fetch(blocks_[z(waiting_[z(i)].b)]);
-}
-
 void Debris::forces(int thread, bool sample) {
   const std::vector<int>& live = sleep_.live();
   const auto mine = std::ranges::subrange(std::ranges::lower_bound(live, first_pair_[z(thread)]),
                                           std::ranges::lower_bound(live, first_pair_[z(thread + 1)]));
   Looked& looked = looked_[z(thread)];
   looked.at.clear(), looked.active.clear(), looked.near.clear();
-  for (const int i : mine) {
+  looked.at.resize(std::size_t(mine.size()));
+  std::size_t due = 0, stay = 0;
+  for (const int i : mine) {  // no jump: which are due follows no rule
     const Waiting& pair = waiting_[z(i)];
-    if (way_soon_[z(pair.a)] + way_soon_[z(pair.b)] < pair.until || (!lane_[z(i)].fits && keeps_apart(i))) continue;
-    looked.at.push_back(i);
+    looked.at[due] = i;
+    due += !(way_soon_[z(pair.a)] + way_soon_[z(pair.b)] < pair.until);
   }
-  const int n = int(looked.at.size());
+  for (std::size_t k = 0; k < due; ++k) {
+    const int i = looked.at[k];
+    looked.at[stay] = i;
+    stay += lane_[z(i)].fits || !keeps_apart(i);
+  }
+  looked.at.resize(stay);
+  const int n = int(stay);
   looked.active.reserve(z(n));  // results stay where they are
   OverlapRoom& room = room_[z(thread)];
   Batch& batch = *batch_[z(thread)];
@@ -206,13 +201,12 @@ void Debris::forces(int thread, bool sample) {
   PairJob job[most_together];
   int at[most_together], count = 0;
   const auto together = [&] {
-    const unsigned left_out = pair_forces(job, count, settings_, dt, sample, batch, room);
+    const unsigned left_out = pair_forces(job, count, settings_, dt, sample, batch);
     for (int l = 0; l < count; ++l)
       if ((left_out >> l & 1u) != 0) alone(at[l], *job[l].result);
     count = 0;
   };
   for (int k = 0; k < n; ++k) {
-    if (k + 1 < n) fetch_pair(looked.at[z(k + 1)]);
     const int i = looked.at[z(k)];
     Pair& pair = state_.debris.pair[z(i)];
     const Waiting& known = waiting_[z(i)];
@@ -258,9 +252,7 @@ void Debris::count() {
 }
 
 double Debris::limit() const {
-  double most = elsewhere_;
-  for (const int b : sleep_.pushed())
-    if (model_.kind[z(b)] == Kind::moving) most = std::max(most, limit_.on_block(b, rate_[z(b)], landing_[z(b)]));
+  const double most = std::max(elsewhere_, limit_.on_most(sleep_.pushed(), rate_, landing_));
   return limit_.allowed(most);
 }
 
@@ -311,6 +303,45 @@ void Debris::limit_passing() {
   }
 }
 
+// Returns the greatest PairResult::rubbing.
+double Debris::add_up(std::span<const Active> active, double* push, bool sample) {
+  static_assert(sizeof(PairWrench) == 9 * sizeof(double));
+  static const Vec6 from_a = (Vec6() << -1, -1, -1, 1, 1, 1).finished();
+  const double* const edge = model_.smallest_edge.data();
+  double *const rate = rate_.data(), rubbing = 0, friction = state_.energy.friction, damping = state_.energy.contact_damping,
+                reset = state_.energy.reset, deepest = state_.max_penetration_relative;
+  int *const contacts = state_.debris.contacts.data(), touching = 0;
+  for (const Active& one : active) {
+    const std::size_t i = z(one.pair);
+    const Waiting& pair = waiting_[i];
+    const Bed& bed = bed_[i];
+    const PairResult& r = one.result;
+    const double* w = r.wrench.force.data();
+    const std::size_t a = z(pair.a), b = z(pair.b);
+    Vec6::Map(push + 8 * a) += from_a.cwiseProduct(Vec6::Map(w));
+    Vec3::Map(push + 8 * b) += Vec3::Map(w);
+    Vec3::Map(push + 8 * b + 3) += Vec3::Map(w + 6);
+    friction += r.friction;
+    rubbing = std::max(rubbing, r.rubbing);
+    damping += r.damping;
+    reset += r.reset + r.handover;
+    if (sample) elastic_ += r.elastic + r.tangential;
+    rate[a] += std::max(0.0, r.rate_a - bed.rate_a);
+    rate[b] += std::max(0.0, r.rate_b - bed.rate_b);
+    touching += r.touching;
+    contacts[a] += r.touching;
+    contacts[b] += r.touching;
+    land(one.pair, r.landing_a, r.landing_b);
+    const double thin = std::min(edge[a], edge[b]);
+    if (r.depth > deepest * thin) deepest = std::max(deepest, r.depth / thin);
+  }
+  state_.energy.friction = friction, state_.energy.contact_damping = damping, state_.energy.reset = reset;
+  state_.max_penetration_relative = deepest;
+  touching_ += touching;
+  touched_ += touching;
+  return rubbing;
+}
+
 void Debris::gather(double* push, bool sample) {
   State& s = state_;
   const bool rested = sleep_.holds();
@@ -330,33 +361,7 @@ void Debris::gather(double* push, bool sample) {
   if (sample) elastic_ = sleep_.elastic();
   double rubbing = 0;
   for (const Looked& looked : looked_) {
-    for (const Active& one : looked.active) {
-      const std::size_t i = z(one.pair);
-      const Waiting& pair = waiting_[i];
-      const PairResult& r = one.result;
-      const PairWrench& w = r.wrench;
-      double *a = push + 8 * pair.a, *b = push + 8 * pair.b;
-      for (int k = 0; k < 3; ++k) {
-        a[k] -= w.force[k];
-        b[k] += w.force[k];
-        a[3 + k] += w.moment_a[k];
-        b[3 + k] += w.moment_b[k];
-      }
-      s.energy.friction += r.friction;
-      rubbing = std::max(rubbing, r.rubbing);
-      s.energy.contact_damping += r.damping;
-      s.energy.reset += r.reset + r.handover;
-      if (sample) elastic_ += r.elastic + r.tangential;
-      rate_[z(pair.a)] += std::max(0.0, r.rate_a - bed_[i].rate_a);
-      rate_[z(pair.b)] += std::max(0.0, r.rate_b - bed_[i].rate_b);
-      touching_ += r.touching;
-      touched_ += r.touching;
-      s.debris.contacts[z(pair.a)] += r.touching;
-      s.debris.contacts[z(pair.b)] += r.touching;
-      land(one.pair, r.landing_a, r.landing_b);
-      const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
-      if (r.depth > 0) s.max_penetration_relative = std::max(s.max_penetration_relative, r.depth / thin);
-    }
+    rubbing = std::max(rubbing, add_up(looked.active, push, sample));
     for (const Near& one : looked.near) land(one.pair, one.landing_a, one.landing_b);
   }
   for (const int b : sleep_.pushed())

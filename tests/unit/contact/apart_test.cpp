@@ -27,7 +27,7 @@ TEST_CASE("a pair judged in short is as far apart, and lands as hard, as one jud
   for (int trial = 0; trial < 4000; ++trial) {
     Bodies two({{{trial % 2 ? brick() : wedge()}}, {{trial % 3 ? brick(0.2, 0.2, 0.2) : wedge()}}}, {1e9, 4e8, 0.6, 0.2}, 2e-5);
     ContactBlock &a = two.block[0], &b = two.block[1];
-    Pair pair = new_pair(0, 0, 1, 0, two.law, two.shapes);
+    Pair pair = new_pair(0, 0, 1, 0, two.law, impact_factor(two.law.restitution), two.shapes);
     for (ContactBlock* block : {&a, &b}) {
       block->turn = Quat(draw(1), draw(1), draw(1), draw(1)).normalized().toRotationMatrix();
       block->u = Vec3(draw(0.16), draw(0.16), draw(0.16));
