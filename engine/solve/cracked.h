@@ -39,22 +39,23 @@ class Cracked {
     std::vector<int> first;                // [points + 1]
     std::vector<CornerLanes> loop, watch;  // of the cells; watch empty where it is loop
   };
-  struct Group {
+  struct alignas(64) Group {
     int law, points, corners;
-    int batch;                    // in State::batch
-    unsigned used = 0;            // lanes, as bits
+    int batch;           // in State::batch
+    unsigned used = 0;   // lanes, as bits
+    bool bears = false;  // joints that gravity presses
+    bool beyond = true;  // some may be beyond their faces
+    bool bare = true;    // no point of any lane has a bond left
+    bool worn = false;   // bonds have changed since the State knew of them
+    std::size_t at = 0;  // in memory_
+    std::shared_ptr<Shapes> shapes;
+    int room = -1;  // at `at`, for points
+    // a step reads what stands above, and only of joints that crush or have bonds what follows
     int joint[lanes];             // -1: empty
     CrushedFace* crushed[lanes];  // null without a plateau
     const double* face_corner[lanes];
     const JointType* type = nullptr;  // null: of several
-    std::shared_ptr<Shapes> shapes;
-    std::vector<BondLanes> bond;  // [points]
-    std::size_t at = 0;           // in memory_
-    int room = -1;                // there, for points
-    bool bears = false;           // joints that gravity presses
-    bool beyond = true;           // some may be beyond their faces
-    bool bare = true;             // no point of any lane has a bond left
-    bool worn = false;            // bonds have changed since the State knew of them
+    std::vector<BondLanes> bond;      // [points]
     bool empty() const { return used == 0; }
     void look_for_bonds(const PointLaw& law);
   };
