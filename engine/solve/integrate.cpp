@@ -110,9 +110,10 @@ std::vector<BlockConstants> block_constants(const Model& m, const State& s) {
   std::vector<std::uint8_t> sound(out.size(), 0);
   for (int j = 0; j < m.njoint; ++j)
     if (s.tier[z(j)] == Tier::intact) sound[z(m.joint[z(j)].a / lanes)] = sound[z(m.joint[z(j)].b / lanes)] = 1;
+  const double* const given = keepers(m) ? s.given.front().x[0] : nullptr;
   for (int b = 0; keepers(m) && b < m.nblock; ++b)
     for (int k = m.kept.first_end[z(b)]; k < m.kept.first_end[z(b) + 1]; ++k)
-      for (int i = 0; i < 6; ++i) sound[z(b / lanes)] |= s.given.front().x[0][m.kept.end[z(k)] + lanes * i] != 0;
+      for (int i = 0; i < 6; ++i) sound[z(b / lanes)] |= given[m.kept.end[z(k)] + lanes * i] != 0;
   for (int g = 0; g < int(out.size()); ++g) {
     out[z(g)].first_slot = m.first_slot[z(g)];
     if (!keepers(m)) {
@@ -170,8 +171,9 @@ Vec6 joint_wrench(const Model& m, const State& s, int b) {
     for (int i = 0; i < 6; ++i) sum[i] += s.wrench[z(row) * 8 + z(i)];
   });
   for (int i = 0; i < 6; ++i) sum[i] += s.kept[z(b / lanes)].x[i][b % lanes];
+  const double* const given = s.given.front().x[0];
   for (int k = m.kept.first_end[z(b)]; k < m.kept.first_end[z(b) + 1]; ++k)
-    for (int i = 0; i < 6; ++i) sum[i] += s.given.front().x[0][m.kept.end[z(k)] + lanes * i];
+    for (int i = 0; i < 6; ++i) sum[i] += given[m.kept.end[z(k)] + lanes * i];
   return Eigen::Map<const Vec6>(sum);
 }
 

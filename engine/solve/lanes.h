@@ -107,7 +107,7 @@ struct SoundCloser {
   int ahead;
 };
 // Of its joints: whether they are seen from their other end (-1) or not (1), and where the stiffnesses against rotation (N m) lie.
-struct SoundLanes {
+struct alignas(64) SoundLanes {
   double sign[lanes];
   const double* bending[lanes];  // about s, t, n; of nothing in a lane without a joint
 };
