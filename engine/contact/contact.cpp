@@ -113,14 +113,15 @@ void stability(const Pair& pair, const View& s, const Patch& patch, PairResult& 
   result.rate_b = pair.b_is_reference ? reference : other;
 }
 
-// A body that strikes deeper in its first step than the step can bear gains energy. So the step is short enough for the largest
-// face before it may land: when the bodies could meet within the next few steps, at a speed at which that energy matters. The patch lies
-// within a face of either body and has the smaller one's area at most: both bound what a body then resists with. `along`: the speed of
-// their centroids towards each other.
-void landing(const Pair& pair, const View& s, const ContactSettings& settings, double along, double apart, double dt, PairResult& result) {
-  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
-  const double speed = along + o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach;
-  if (!(speed > settings.reference_speed) || apart > look_ahead * speed * dt) return;
+// event_bound.h for a spring of stiffness k (N/m) that opens or closes at `speed` (m/s) after the way `left` (m).
+double haste(double k, double speed, double left, const ContactSettings& settings) {
+  if (!(settings.event_budget > 0 && speed > 0)) return 0;
+  return std::min(speed * std::sqrt(event_share * k / settings.event_budget), left > 0 ? event_steps * speed / left : 1e300);
+}
+
+// What a body resists with where a face lies flat on the other: the patch lies within a face of either body and has the smaller one's area
+// at most, and both bound it.
+void face_rates(const Pair& pair, const View& s, PairResult& result) {
   const double k = (pair.law.kn + pair.law.ks) * std::min(s.reference->largest_face, s.other->largest_face);
   // of a face about the centroid above it: Int r^2 dA / A is reach^2 / 3 at most for a rectangle
   const auto rate = [&](const ContactBlock& block, const ContactShape& part) {
@@ -128,9 +129,20 @@ void landing(const Pair& pair, const View& s, const ContactSettings& settings, d
     const double by_face = pair.law.kn * part.face_across + pair.law.ks * part.face_along;
     return by_face > 0 ? std::min(by_area, by_face) : by_area;
   };
-  const double other = rate(o, *s.other), reference = rate(r, *s.reference);
+  const double other = rate(*s.other_block, *s.other), reference = rate(*s.reference_block, *s.reference);
   result.landing_a = pair.b_is_reference ? other : reference;
   result.landing_b = pair.b_is_reference ? reference : other;
+}
+
+// A body that strikes deeper in its first step than the step can bear gains energy. So the step is short enough for the largest
+// face before it may land: when the bodies could meet within the next few steps, at a speed at which that energy matters. `along`: the
+// speed of their centroids towards each other.
+void landing(const Pair& pair, const View& s, const ContactSettings& settings, double along, double apart, double dt, PairResult& result) {
+  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
+  const double speed = along + o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach;
+  result.haste = haste(pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face), speed, apart, settings);
+  if (!(speed > settings.reference_speed) || apart > look_ahead * speed * dt) return;
+  face_rates(pair, s, result);
 }
 
 // What keeps a pair apart: a face of the reference, one of the other, or a plane along an edge of each.
@@ -203,6 +215,33 @@ Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, double i
   // Equal volumes up to round-off: the lower block decides.
   p.b_is_reference = shape_of(shapes, b, part_b).volume > shape_of(shapes, a, part_a).volume * (1 + 1e-9);
   return p;
+}
+
+void foresee(const Pair& pair, const View& s, const ContactSettings& settings, double dt, PairResult& result) {
+  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
+  const Vec3 apart = (o.rest - r.rest) + (o.u - r.u), v = o.v - r.v, w = o.w - r.w, at = r.turn * pair.c, n = r.turn * pair.n;
+  const double parting = n.dot(v + o.w.cross(at - apart) - r.w.cross(at));
+  if (parting > 0) result.haste = std::max(result.haste, haste(pair.law.kn * pair.area, parting, result.depth, settings));
+  constexpr double facing = 0.9;  // cosine: faces that are further from flat are left to later steps
+  const double lever = std::min(s.reference->reach, s.other->reach), thin = std::min(s.reference->thickness, s.other->thickness);
+  bool soon = false;
+  for (std::size_t f = 0; f < s.reference->normal.size(); ++f) {
+    const Vec3 nf = r.turn * s.reference->normal[f];
+    for (std::size_t g = 0; g < s.other->normal.size(); ++g) {
+      const Vec3 ng = o.turn * s.other->normal[g];
+      if (-nf.dot(ng) < facing) continue;
+      const Vec3 across = nf.cross(ng);
+      const double sine = across.norm(), closes = w.dot(across);  // rate of the angle between them, times its sine
+      if (!(closes > 0) || !(sine > 1e-9)) continue;
+      const Vec3 corner = o.turn * s.other->vertex[std::size_t(s.other->loop[std::size_t(s.other->loop_first[g])])];
+      if (std::abs(nf.dot(apart + corner) - s.reference->offset[f]) > 2 * sine * s.other->reach + 0.01 * thin) continue;
+      const double rate = closes / sine, time = sine / rate;
+      const double k = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
+      result.haste = std::max(result.haste, haste(0.5 * k, rate * lever, sine * lever, settings));
+      soon = soon || (rate * lever > settings.reference_speed && time <= look_ahead * dt);
+    }
+  }
+  if (soon) face_rates(pair, s, result);
 }
 
 bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,

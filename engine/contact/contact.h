@@ -29,6 +29,7 @@ struct PairResult {
   // The rates of a face that may land within the next steps, where the bodies are apart still but approach.
   double landing_a = 0, landing_b = 0;
   double apart = -1;  // m, distance of the bodies, at least; below zero where they touch or it is not known
+  double haste = 0;   // 1/s, over the step that what opens and closes next allows (foresee())
   bool touching = false;
 };
 
@@ -43,6 +44,10 @@ int short_keeper(const Pair& pair, const ContactShape& a, const ContactShape& b)
 // Such a pair in short: true where that surely keeps them apart still. `result` then has what pair_force() gives, to round-off. The pose of
 // the view is not asked for, and the pair only where the bodies may land.
 bool stands_apart(int keeper, const Pair& pair, const View& view, const ContactSettings& settings, double dt, PairResult& result);
+
+// Of a pair that touches and has been evaluated: its patch may let go, and a face that is about to fall flat meets all of it within a step or
+// two. Sets `haste` and, where that is near, the rates of landing of `result`. dt (s): the next step at most.
+void foresee(const Pair& pair, const View& view, const ContactSettings& settings, double dt, PairResult& result);
 
 // A new pair; fixes its reference body for good. `impact`: impact_factor() of its restitution.
 Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, double impact, const ContactShapes& shapes);

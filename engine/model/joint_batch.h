@@ -4,6 +4,10 @@
 
 namespace erbs {
 
+// solve/event_bound.h
+inline constexpr double event_share = 1.0 / 8;
+inline constexpr double event_steps = 8;  // an event is met with as many steps to go
+
 inline constexpr int lanes = 8;  // joints or blocks side by side; a multiple of every vector width in use
 inline constexpr int most_points_per_joint = 512;
 

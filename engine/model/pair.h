@@ -24,6 +24,7 @@ struct ContactSettings {
   double settling = 0.2;              // share of critical damping of the settled contact, normal; fades with the speed of impact
   double settling_tangential = 0.05;  // the same of a contact that sticks, tangential
   double handover_periods = 5;        // contact periods over which the difference to the old joint fades
+  double event_budget = 0;            // J, by which a blow may err (event_bound.h); 0: any
 };
 
 // Force and moments on the two bodies of a pair, world axes, each moment about the body's own centroid.

@@ -35,6 +35,7 @@ struct Energy {
   double absolute_work = 0;     // Int |power| of base, external and tilt
   double largest_moving = 0;    // largest kinetic + |elastic change| so far
   double height_flux = 0;       // Int |d gravity|
+  double reference = 0;         // J, what events are measured by: what passed, and what could have (energy.h)
   double residual = 0;          // J, now
   double residual_relative = 0; // now
   double residual_worst = 0;    // largest residual_relative so far
@@ -83,6 +84,7 @@ struct State {
   Rest rest;                           // those of them that sleep
   double dt_goal = 0;                  // s, the step the run asks for; dt may be shorter while contacts change
   int calm = 0;                        // steps since contacts last held dt down
+  double event_dt = 0;                 // s, the step that what opens and closes next allows (event_bound.h); 0: any
   int joints_broken = 0;
   Energy energy;
   Vec3 gravity_before = Vec3::Zero();  // m/s2, of the last step, and sum of m u then: for the work of tilting

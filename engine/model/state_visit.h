@@ -15,7 +15,7 @@ template <class S, class F>
 requires std::is_same_v<std::remove_const_t<S>, State>
 void each(S& state, F&& f) {
   auto& [step, start_step, start_t, t, dt, last_dt, u, q, v, spin_momentum, w, base_u, base_q, row, shift, island, grounded, joined, loose, batch, place, tier, memory, history,
-         crushed, wrench, kept, given, viscous, debris, parting, rest, dt_goal, calm, joints_broken, energy, gravity_before, moment_before, max_penetration_relative, momentum_residual] = state;
+         crushed, wrench, kept, given, viscous, debris, parting, rest, dt_goal, calm, event_dt, joints_broken, energy, gravity_before, moment_before, max_penetration_relative, momentum_residual] = state;
   f("step", step, Part::carried);
   f("start_step", start_step, Part::carried);
   f("start_t", start_t, Part::carried);
@@ -50,6 +50,7 @@ void each(S& state, F&& f) {
   f("rest", rest, Part::carried);
   f("dt_goal", dt_goal, Part::carried);
   f("calm", calm, Part::carried);
+  f("event_dt", event_dt, Part::carried);
   f("joints_broken", joints_broken, Part::history);
   f("energy", energy, Part::carried);
   f("gravity_before", gravity_before, Part::carried);

@@ -274,7 +274,7 @@ void Cracked::drop(int j) {
   for (const int row : {model_.row_a[z(j)], model_.row_b[z(j)]}) std::fill_n(&state_.wrench[z(row) * 8], 8, 0.0);
 }
 
-void Cracked::forces(int first, int last, bool sample, JointSums& sums, const LaneKernels& kernels) {
+void Cracked::forces(int first, int last, bool sample, double budget, JointSums& sums, const LaneKernels& kernels) {
   const double* poses = pose_.data();
   double* wrench_rows = state_.wrench.data();
   if (sample) sums.energy.elastic = 0;
@@ -290,7 +290,7 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums, const La
                              double(g),          &shapes.face,       shapes.corner.data(),
                              shapes.spot.data(), shapes.cell.data(), shapes.first.data(),
                              shapes.loop.data(), per_step,           shapes.watch.empty() ? shapes.loop.data() : shapes.watch.data(),
-                             group.crushed,      group.face_corner};
+                             group.crushed,      group.face_corner,    budget};
     const PointLaw& law = model_.laws[z(group.law)];
     if (group.bare) {
       group.beyond = kernels.rub(law, shape, lane, poses, wrench_rows, done);
@@ -309,6 +309,7 @@ void Cracked::forces(int first, int last, bool sample, JointSums& sums, const La
   for (int l = 0; l < lanes; ++l)
     if (done.error[l] > sums.largest_error)
       sums.largest_error = done.error[l], sums.worst_joint = group_[std::size_t(done.worst[l])].joint[l];
+  sums.haste = std::max(sums.haste, *std::max_element(done.haste, done.haste + lanes));
 }
 
 void Cracked::store() {

@@ -23,7 +23,8 @@ class Cracked {
   void take_pose(int b);
   // Wrench rows of groups [first, last); fills sums.energy.elastic when `sample`.
   static constexpr int grain = 8;
-  void forces(int first, int last, bool sample, JointSums& sums, const LaneKernels& kernels = lane_kernels());
+  // `budget`: J, for event_bound.h.
+  void forces(int first, int last, bool sample, double budget, JointSums& sums, const LaneKernels& kernels = lane_kernels());
   void store();
   bool none_spent() const;  // surely
   // The joint has no bond left, and has moved beyond what its fixed faces can tell (joint_response.h).

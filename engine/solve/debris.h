@@ -39,6 +39,9 @@ class Debris {
   bool sleep(const Excitation& now, const double* push);
   // The step that joints and contacts allow now (s), no longer than the run may take.
   double allowed_dt() const { return allowed_; }
+  // 1/s, over the step that what opens and closes next allows (event_bound.h); `budget` (J) is that of the next forces()
+  double haste() const { return haste_; }
+  void set_budget(double budget) { settings_.event_budget = budget; }
   double elastic() const { return elastic_; }  // J, stored in contacts at the last sample
   int touching() const { return touching_; }
   long slept() const { return sleep_.slept(); }  // steps of blocks asleep, likewise
@@ -62,7 +65,8 @@ class Debris {
   void share_out();
   struct Active;
   double add_up(std::span<const Active> active, double* push, bool sample);
-  void land(int i, double landing_a, double landing_b);
+  void land(int i, double landing_a, double landing_b, bool touching);
+  void foresee_touching(int thread);
   void limit_passing();
   bool displaced(const Pair& pair, int joint) const;
   void part_beds();
@@ -134,7 +138,7 @@ class Debris {
   };
   struct Near {
     int pair;
-    double apart, landing_a, landing_b;  // as in PairResult
+    double apart, landing_a, landing_b, haste;  // as in PairResult
   };
   struct Looked {
     std::vector<int> at;         // pairs that could not be left out
@@ -155,7 +159,7 @@ class Debris {
   std::vector<std::uint64_t> pair_keys_;       // pairs of blocks that are jointed at rest, sorted, ...
   std::vector<int> of_pair_;                   // ... and the first of their joints
   double released_ = 0;                        // J, set free by the last hand-over and still in this step's sums
-  double allowed_ = 0, elastic_ = 0;
+  double allowed_ = 0, elastic_ = 0, haste_ = 0;
   std::vector<std::uint8_t> still_;  // sleepers that lie as at the last search [nblock], empty without
   bool relisted_ = true, unsorted_ = true;
   int touching_ = 0;

@@ -16,6 +16,7 @@ namespace {
 // (contact.cpp): a viscous ratio of 1 / (8 omega dt), .12 here. At 1.1 the block of V10 swings itself up with mu = .9, at .8 not.
 constexpr double rubbing_angle = 1.0;
 constexpr double round_off = 1e-9;  // of a distance and of the way behind: more than sums of some 1e6 steps lose
+constexpr double worth_a_look = 2;  // times its budget: the energy of two blocks against each other, m v^2, from which blows are foreseen
 constexpr int look_every = 16;      // steps between two looks, while no block comes far in that time
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -224,9 +225,25 @@ void Debris::forces(int thread, bool sample) {
     }
     PairResult r;
     if (alone(i, r)) looked.active.push_back({i, r});
-    else looked.near.push_back({i, r.apart, r.landing_a, r.landing_b});
+    else looked.near.push_back({i, r.apart, r.landing_a, r.landing_b, r.haste});
   }
   if (count > 0) together();
+  foresee_touching(thread);
+}
+
+// Of pairs that touch, where the energy of their motion is worth it: what errs by less than the budget whatever the step is left alone.
+void Debris::foresee_touching(int thread) {
+  if (!(settings_.event_budget > 0)) return;
+  const double soon = 1.5 * std::max(state_.dt, state_.last_dt);
+  for (Active& one : looked_[z(thread)].active) {
+    const Waiting& pair = waiting_[z(one.pair)];
+    const ContactBlock &a = blocks_[z(pair.a)], &b = blocks_[z(pair.b)];
+    const double square = (b.v - a.v).squaredNorm() + spin_[z(pair.a)] * spin_[z(pair.a)] + spin_[z(pair.b)] * spin_[z(pair.b)];
+    if (!(square > worth_a_look * settings_.event_budget * std::max(a.inverse_mass, b.inverse_mass))) continue;
+    const PairBodies& bodies = lane_[z(one.pair)].bodies;
+    const View view{bodies.reference, bodies.other, bodies.swapped ? &b : &a, bodies.swapped ? &a : &b, {}};
+    foresee(state_.debris.pair[z(one.pair)], view, settings_, soon, one.result);
+  }
 }
 
 // Counts all contacts: what they have now is what they are counted with. Beds keep what their joints were counted with.
@@ -279,9 +296,9 @@ void Debris::share_out() {
   }
 }
 
-// A bed that closes again is no stiffer than its joint was.
-void Debris::land(int i, double landing_a, double landing_b) {
-  if (!(landing_a > 0 || landing_b > 0) || bed_[z(i)].joint >= 0) return;
+// A bed that closes again is no stiffer than its joint was; its blocks may fall flat on other faces.
+void Debris::land(int i, double landing_a, double landing_b, bool touching) {
+  if (!(landing_a > 0 || landing_b > 0) || (bed_[z(i)].joint >= 0 && !touching)) return;
   const Waiting& pair = waiting_[z(i)];
   landing_[z(pair.a)] = std::max(landing_[z(pair.a)], landing_a);
   landing_[z(pair.b)] = std::max(landing_[z(pair.b)], landing_b);
@@ -331,7 +348,8 @@ double Debris::add_up(std::span<const Active> active, double* push, bool sample)
     touching += r.touching;
     contacts[a] += r.touching;
     contacts[b] += r.touching;
-    land(one.pair, r.landing_a, r.landing_b);
+    land(one.pair, r.landing_a, r.landing_b, r.touching);
+    haste_ = std::max(haste_, r.haste);
     const double thin = std::min(edge[a], edge[b]);
     if (r.depth > deepest * thin) deepest = std::max(deepest, r.depth / thin);
   }
@@ -358,11 +376,12 @@ void Debris::gather(double* push, bool sample) {
   }
   touching_ = sleep_.touching();
   allowed_ = model_.dt_most;
+  haste_ = 0;
   if (sample) elastic_ = sleep_.elastic();
   double rubbing = 0;
   for (const Looked& looked : looked_) {
     rubbing = std::max(rubbing, add_up(looked.active, push, sample));
-    for (const Near& one : looked.near) land(one.pair, one.landing_a, one.landing_b);
+    for (const Near& one : looked.near) land(one.pair, one.landing_a, one.landing_b, false), haste_ = std::max(haste_, one.haste);
   }
   for (const int b : sleep_.pushed())
     if (model_.kind[z(b)] != Kind::moving) s.debris.contacts[z(b)] = 0;   // what is held bears any number

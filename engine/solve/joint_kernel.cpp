@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/solve/dashpots.h"
+#include "engine/solve/event_bound.h"
 #include "engine/solve/joint_geometry.h"
 #include "engine/solve/lanes.h"
 
@@ -41,6 +42,7 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
     memory.elastic = 0;
     for (int i = 0; i < 6; ++i) memory.elastic += 0.5 * memory.f[i] * memory.q[i];
   }
+  else sums.haste = std::max(sums.haste, foresee(m, m.joint[z(j)], memory.q, q, event_budget(m, s)));
   JointEnergy e;
   const Joint& joint = m.joint[z(j)];
   const JointPast past = past_of(m, s, j);

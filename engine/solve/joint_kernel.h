@@ -14,6 +14,7 @@ struct JointSums {
   double largest_error = 0;  // J, of the joints' own energy balance over the step
   int worst_joint = -1;
   int cracked_now = 0;  // joints that lost their soundness in this step
+  double haste = 0;     // the greatest of event_bound.h, over the last step
 };
 
 // One joint point by point, its own energy balance checked over the step (work of the resultant = stored + dissipated). `batch`: that

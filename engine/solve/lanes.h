@@ -60,6 +60,7 @@ struct CrackedShape {
   // of laws with a plateau in compression: what has been crushed, and the corners as in Bed; null in empty lanes  [lanes]
   CrushedFace* const* crushed;
   const double* const* face_corner;
+  double event_budget;  // J, for event_bound.h; 0: not asked for
 };
 // All that a step reads and writes of them beside their shapes and bonds, in the order in which it does and in one piece.
 struct alignas(64) CrackedLanes {
@@ -79,6 +80,7 @@ struct alignas(64) CrackedSums {
   double friction[lanes], fracture[lanes], crushing[lanes], damping[lanes];  // J
   double error[lanes];  // J, the greatest |work of the resultant - stored - dissipated|
   double worst[lanes];  // whose that is: `number` of the shape
+  double haste[lanes];  // the greatest of event_bound.h, over the last step
 };
 
 // What no refresh changes of eight sound joints. Joints of the same types side by side share one, which then stays near the processor.

@@ -6,6 +6,7 @@
 
 #include "engine/model/batches.h"
 #include "engine/solve/energy.h"
+#include "engine/solve/event_bound.h"
 #include "engine/solve/islands.h"
 #include "engine/solve/joint_geometry.h"
 #include "engine/solve/reference.h"
@@ -64,11 +65,16 @@ Solver::Solver(const Model& model, State& state, int threads)
   double weight = 0, low = 1e300, high = -1e300;
   const Vec3 up = model.gravity.norm() > 0 ? Vec3(-model.gravity.normalized()) : Vec3::UnitZ();
   for (int b = 0; b < model.nblock; ++b) {
-    low = std::min(low, up.dot(model.rest[z(b)]));
-    high = std::max(high, up.dot(model.rest[z(b)]) + model.smallest_edge[z(b)]);
-    if (model.kind[z(b)] == Kind::moving) weight += model.mass[z(b)] * model.gravity.norm();
+    if (model.kind[z(b)] != Kind::moving) continue;
+    low = std::min(low, up.dot(model.rest[z(b)]) - 0.5 * model.smallest_edge[z(b)]);
+    high = std::max(high, up.dot(model.rest[z(b)]) + 0.5 * model.smallest_edge[z(b)]);
+    mass_ += model.mass[z(b)];
   }
+  weight = mass_ * model.gravity.norm();
+  high = std::max(high, low);
   floor_ = std::max(1e-300, 1e-12 * weight * (high - low));
+  lift_ = 1e-3 * weight * (high - low);
+  state.energy.reference = std::max(state.energy.reference, lift_);
 }
 
 void Solver::run(const Hooks& hooks) {
@@ -98,8 +104,9 @@ void Solver::begin(const Hooks& hooks) {
   if (std::any_of(block_sums_.begin(), block_sums_.end(), [](const BlockSums& sums) { return sums.stale; })) refresh_stale();
   if (how.debris && state_.step % loosen_every == 0 && (any_cracked_ || debris_.active() || state_.step == 0)) debris_.loosen();
   contacts_ = debris_.active();
+  budget_ = event_budget(model_, state_);
   between_ = contacts_ || (how.debris && any_cracked_ && state_.step % hand_over_every == 0);
-  if (contacts_) debris_.prepare();
+  if (contacts_) debris_.set_budget(budget_), debris_.prepare();
   if (contacts_ && push_.empty()) push_.assign(constants_.size() * lanes, 0.0);
   excite();
   if (sample_ != Sample::full) return;
@@ -164,7 +171,7 @@ void Solver::joints(int thread) {
     }
   const Range broken = share_of(cracked_.groups(), Cracked::grain, thread, threads_);
   for (int first = broken.first; first < broken.last; first += Cracked::grain)
-    cracked_.forces(first, std::min(first + Cracked::grain, broken.last), sample_ != Sample::none,
+    cracked_.forces(first, std::min(first + Cracked::grain, broken.last), sample_ != Sample::none, budget_,
                     cracked_sums_[z(first / Cracked::grain)]);
 }
 
@@ -197,19 +204,50 @@ void Solver::note_sleep() {
 // is looked for a few steps ahead only.
 void Solver::follow_contacts() {
   State& s = state_;
-  const double allowed = contacts_ ? debris_.allowed_dt() : s.dt_goal;
+  double allowed = contacts_ ? debris_.allowed_dt() : s.dt_goal;
+  if (s.event_dt > 0) allowed = std::min(allowed, s.event_dt);
   double dt = s.dt;
   if (allowed < s.dt) {
     dt = on_scale(0.95 * allowed);
     s.calm = 0;
   } else if (s.dt < std::max(allowed, s.dt_goal) && ++s.calm > 100) {
     if (allowed > 1.1 * s.dt) dt = std::min(on_scale(0.95 * allowed), 1.5 * s.dt);
+    if (!may_grow(dt)) dt = s.dt;
     s.calm = 0;
   }
   if (dt == s.dt) return;
   s.dt = dt;
   s.start_t = s.t;
   s.start_step = s.step;
+}
+
+// The step that what opens and closes next allows (event_bound.h).
+void Solver::foresee_events() {
+  double haste = 0;
+  for (std::vector<JointSums>* of : {&joint_sums_, &cracked_sums_})
+    for (JointSums& sums : *of) haste = std::max(haste, std::exchange(sums.haste, 0.0));
+  if (!(budget_ > 0)) return;
+  haste = state_.last_dt > 0 ? haste / state_.last_dt : 0;
+  if (contacts_) haste = std::max(haste, debris_.haste());
+  const double fall = (now_.gravity - now_.ground).norm();  // in flight the net force is weight
+  if (any_cracked_ || contacts_) haste = std::max(haste, fall * std::sqrt(mass_ / (8 * budget_)));
+  state_.event_dt = haste > 0 ? 1 / haste : 0;
+}
+
+// What vibrates against its springs errs by F^2 dt^2 / (8 m) less of its energy in longer steps.
+bool Solver::may_grow(double dt) const {
+  const double budget = event_tolerance * state_.energy.reference, more = (dt * dt - state_.dt * state_.dt) / 8;
+  if (!(dt > state_.dt) || !(budget > 0) || model_.analysis.unstable || sequential_) return true;
+  double errs = 0;
+  for (int b = 0; b < model_.nblock; ++b) {
+    if (model_.kind[z(b)] != Kind::moving) continue;
+    const Vec6 w = block_wrench(b) + load_wrench(b);
+    const Vec3 f = w.head<3>() + model_.mass[z(b)] * (now_.gravity - now_.ground);
+    const Quat& q = state_.q[z(b)];
+    const Vec3 m = q.conjugate() * Vec3(w.tail<3>());
+    errs += model_.inverse_mass[z(b)] * f.squaredNorm() + m.dot(model_.inverse_inertia[z(b)] * m);
+  }
+  return more * errs <= budget;
 }
 
 void Solver::blocks(int thread) {
@@ -271,6 +309,7 @@ void Solver::finish(const Hooks& hooks) {
   if (sequential_) s.momentum_residual = std::max(s.momentum_residual, sequential_->momentum_residual());
   for (const BlockSums& sums : block_sums_) broken_ = broken_ || sums.broken;
   note_cracks();
+  foresee_events();
   if (sample_ != Sample::none) {
     settle_ledger();
     cracked_.store();
@@ -379,7 +418,7 @@ void Solver::settle_ledger() {
   }
   if (contacts_) e.elastic += debris_.elastic();
   if (e.started) e.height_flux += std::fabs(e.gravity - gravity_before);
-  settle(e, floor_, state_.t, worst);
+  settle(e, any_cracked_ || contacts_ ? std::max(floor_, lift_) : floor_, state_.t, worst);
 }
 
 Vec6 Solver::block_wrench(int b) const {

@@ -66,6 +66,8 @@ class Solver {
   void refresh_stale();
   void note_sleep();
   void follow_contacts();
+  void foresee_events();
+  bool may_grow(double dt) const;
   void finish(const Hooks& hooks);
   void drive();
   void settle_ledger();
@@ -78,7 +80,10 @@ class Solver {
   const bool reference_;
   const int joint_items_,
       joint_grain_;   // groups of blocks with the sound joints they keep, batches of damped ones, joints for the reference
-  double floor_ = 0;  // J, below which the ledger's scale does not go
+  double floor_ = 0;   // J, below which the ledger's scale does not go
+  double lift_ = 0;    // J, that lifts all blocks by a thousandth of the structure's height
+  double budget_ = 0;  // J, event_budget() of this step
+  double mass_ = 0;    // kg, of all blocks that move
   Excitation now_;
   Rows push_, load_;  // N, N m: of contacts (once there are any) and of loads, a row a block
   std::vector<LoadedBlock> loaded_;

@@ -1,0 +1,27 @@
+#include "engine/solve/event_bound.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace erbs {
+
+double event_budget(const Model& m, const State& s) {
+  if (m.analysis.unstable || m.analysis.solver == "sequential" || s.step % foresee_every != 0) return 0;
+  return event_tolerance * s.energy.reference;
+}
+
+double foresee(const Model& m, const Joint& joint, const double* q0, const double* q, double budget) {
+  if (!(budget > 0)) return 0;
+  double square = 0, soon = 0;
+  const auto gap_at = [](const double* x, const Eigen::Vector2d& c) { return x[2] + x[3] * c.y() - x[4] * c.x(); };
+  for (int i = 0; i < joint.type->corners; ++i) {
+    const auto& c = m.corner[std::size_t(joint.type->first_corner + i)];
+    const double gap = gap_at(q, c), rate = gap - gap_at(q0, c);
+    if (!(gap * rate < 0)) continue;
+    square += rate * rate;
+    soon = std::max(soon, std::fabs(rate / gap));
+  }
+  return std::min(std::sqrt(event_share / (joint.type->corners * budget) * joint.type->stiffness[2] * square), event_steps * soon);
+}
+
+}  // namespace erbs
