@@ -123,6 +123,21 @@ std::vector<double> constant_loads(const Model& m, const State& s) {
 
 }  // namespace
 
+// Of n courses on springs k, each of mass m: n (n + 1) / 2 m g / k, where the block bound of the step tells k / m = 2 / dt^2.
+double settlement_of(const Model& m, double block_bound) {
+  const double g = m.gravity.norm();
+  if (!(g > 0) || !std::isfinite(block_bound)) return 0;
+  const Vec3 up = -m.gravity / g;
+  double low = 1e300, high = -1e300, edges = 0, blocks = 0;
+  for (int b = 0; b < m.nblock; ++b) {
+    if (m.kind[z(b)] != Kind::moving) continue;
+    const double at = up.dot(m.rest[z(b)]), edge = m.smallest_edge[z(b)];
+    low = std::min(low, at - edge / 2), high = std::max(high, at + edge / 2), edges += edge, ++blocks;
+  }
+  const double courses = blocks > 0 ? std::max(1.0, (high - low) * blocks / edges) : 1;
+  return 0.5 * courses * (courses + 1) * g * block_bound * block_bound / 2;
+}
+
 Prepared prepare(const Scene& scene, bool allow_unstable) {
   Built built = build(scene);
   Prepared p{std::move(built.model), std::move(built.state), {}, {}, {}};
@@ -130,6 +145,7 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
   refresh_all(p.model, p.state);
   p.bounds = step_bounds(scene, p.model, p.state);
   p.model.dt_critical = p.bounds.cracked;
+  p.model.settlement = settlement_of(p.model, p.bounds.block);
   choose_dt(scene, p, allow_unstable);
   if (!allow_unstable) hold_use_limit(scene, p);
   return p;

@@ -23,6 +23,7 @@ struct PointHistory {
   double slip_s = 0, slip_t = 0;  // m, plastic
   double damage = 0;
   double secant = 0, reach = 0;   // Pa/m, m: of the opened point at this damage, kept since they cost divisions; meaningless at 0
+  double bearing = 0;             // Pa, mean of what presses it (interlock.h)
 };
 
 }  // namespace erbs

@@ -113,6 +113,7 @@ struct Model {
   std::vector<Tilt> tilts;
   Vec3 gravity = Vec3::Zero();                                   // m/s2
   double dt_critical = std::numeric_limits<double>::infinity();  // s, 2 / omega_max of the sound structure at rest; infinite without joints
+  double settlement = 0;  // m, of the structure's top under its own weight, about (laws/interlock.h)
   double dt_most = 0;  // s, the longest step a run may take once contacts allow more than the joints did
   Damping damping;
   bool dashpots = false;          // some sound joint has, ...

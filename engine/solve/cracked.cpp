@@ -69,7 +69,7 @@ void Cracked::clear(Group& group, int l) {
   for (int i = 0; i < 6; ++i) lane.q[i][l] = lane.f[i][l] = lane.drag[i][l] = 0;
   lane.stored[l] = 0;
   lane.least_damage[l] = 1;
-  for (int i = 0; i < group.points; ++i) lane.slip()[i].s[l] = lane.slip()[i].t[l] = 0;
+  for (int i = 0; i < group.points; ++i) lane.slip()[i].s[l] = lane.slip()[i].t[l] = lane.slip()[i].bearing[l] = 0;
   CommonLanes& common = lane.common;
   for (auto* x : {common.s, common.t, common.turn, common.apart, common.stored, common.stale}) x[l] = 0;
   for (BondLanes& p : group.bond) p.secant[l] = p.reach[l] = 0, p.damage[l] = 1;  // nothing to hold
@@ -151,7 +151,7 @@ void Cracked::fill(Group& group, int l, int j) {
     for (int i = 0; i < 6; ++i) lane.drag[i][l] = state_.viscous[6 * z(j) + z(i)];
   for (int i = 0; i < joint.type->points; ++i) {
     const PointHistory& h = state_.history[z(joint.first_point + i)];
-    lane.slip()[i].s[l] = h.slip_s, lane.slip()[i].t[l] = h.slip_t;
+    lane.slip()[i].s[l] = h.slip_s, lane.slip()[i].t[l] = h.slip_t, lane.slip()[i].bearing[l] = h.bearing;
     BondLanes& b = group.bond[z(i)];
     b.damage[l] = h.damage, b.secant[l] = h.secant, b.reach[l] = h.reach;
     if (!model_.laws[z(joint.type->law)].dry) lane.least_damage[l] = std::min(lane.least_damage[l], h.damage);
@@ -281,6 +281,7 @@ void Cracked::forces(int first, int last, bool sample, double budget, JointSums&
   const bool damped = model_.dashpots_cracked && state_.last_dt > 0;
   const double per_step = damped ? 1 / state_.last_dt : 0;
   CrackedSums done{};
+  const Interlock interlock = interlock_now(model_, state_);
   for (int g = first; g < last; ++g) {
     Group& group = group_[z(g)];
     if (group.empty()) continue;
@@ -290,7 +291,8 @@ void Cracked::forces(int first, int last, bool sample, double budget, JointSums&
                              double(g),          &shapes.face,       shapes.corner.data(),
                              shapes.spot.data(), shapes.cell.data(), shapes.first.data(),
                              shapes.loop.data(), per_step,           shapes.watch.empty() ? shapes.loop.data() : shapes.watch.data(),
-                             group.crushed,      group.face_corner,    budget};
+                             group.crushed,      group.face_corner,    budget,
+                             interlock};
     const PointLaw& law = model_.laws[z(group.law)];
     if (group.bare) {
       group.beyond = kernels.rub(law, shape, lane, poses, wrench_rows, done);
@@ -327,7 +329,7 @@ void Cracked::store() {
         for (int i = 0; i < 6; ++i) state_.viscous[6 * z(j) + z(i)] = lane.drag[i][l];
       PointHistory* h = &state_.history[z(model_.joint[z(j)].first_point)];
       for (int i = 0; i < group.points; ++i) {
-        h[i].slip_s = lane.slip()[i].s[l], h[i].slip_t = lane.slip()[i].t[l];
+        h[i].slip_s = lane.slip()[i].s[l], h[i].slip_t = lane.slip()[i].t[l], h[i].bearing = lane.slip()[i].bearing[l];
         if (!worn) continue;
         const BondLanes& b = group.bond[z(i)];
         h[i].damage = b.damage[l], h[i].secant = b.secant[l], h[i].reach = b.reach[l];

@@ -45,7 +45,8 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
   else sums.haste = std::max(sums.haste, foresee(m, m.joint[z(j)], memory.q, q, event_budget(m, s)));
   JointEnergy e;
   const Joint& joint = m.joint[z(j)];
-  const JointPast past = past_of(m, s, j);
+  JointPast past = past_of(m, s, j);
+  if (!sound) past.interlock = interlock_now(m, s);
   std::vector<PointHistory> before_it;
   const bool damped = joint.viscous_cracked > 0 && !sound;
   if (damped) before_it.assign(past.point, past.point + joint.type->points);

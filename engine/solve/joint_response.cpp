@@ -209,7 +209,31 @@ void share_out(const Model& m, const Joint& joint, const CrushedFace* crushed, c
   if (share == 0) at_points[deepest] = force;
 }
 
+// interlock.h: more than the pressures of the moment, where there is.
+void hold(const Model& m, const Joint& joint, const double* q0, const double* q, const JointPast& past, double* pressure) {
+  const Interlock& now = past.interlock;
+  if (!(now.gap > 0)) return;
+  const Point* point = &m.point[std::size_t(joint.type->first_place)];
+  const double ds = q[0] - q0[0], dt = q[1] - q0[1], turn = (q[5] - q0[5]) * joint.type->radius;
+  const bool slow = ds * ds + dt * dt + turn * turn < now.slow;
+  for (int i = 0; i < joint.type->points; ++i) {
+    double& bearing = past.point[i].bearing;
+    const double stress = pressure[i] / point[i].weight;
+    const bool near = gap_at(q, point[i].s, point[i].t).n < now.gap;
+    if (now.rate > 0) bearing = !near ? 0 : bearing > 0 ? bearing + (stress - bearing) * now.rate : stress;
+    if (near && slow && bearing > stress) pressure[i] = bearing * point[i].weight;
+  }
+}
+
 }  // namespace
+
+Interlock interlock_now(const Model& m, const State& s) {
+  const double g = m.gravity.norm();
+  if (!(g > 0 && m.settlement > 0)) return {};
+  const double way = interlock_speed * std::sqrt(g * m.settlement) * s.last_dt, since = interlock_every * s.last_dt,
+               time = interlock_time * std::sqrt(m.settlement / g);
+  return {interlock_gap * m.settlement, way * way, s.step % interlock_every == 0 && since > 0 ? since / (since + time) : 0};
+}
 
 bool respond(const Model& m, int j, bool sound, const double* q_before, const double* q, JointPast past, double* f, JointEnergy& energy,
              double* shear_limit) {
@@ -234,6 +258,7 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
   energy.elastic += closed.energy;
   if (sound) energy.fracture += change_of_form(joint, q_before, q);
   share_out(m, joint, crushed, q, closed.force, pressure.data());
+  hold(m, joint, q_before, q, past, pressure.data());
   for (int i = 0; i < joint.type->points; ++i) {
     PointHistory& h = past.point[i];
     const double damage_before = h.damage;

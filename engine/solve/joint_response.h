@@ -1,5 +1,6 @@
 // Resultants of one joint from its contact points: what a joint does once its elastic bound is passed.
 #pragma once
+#include "engine/laws/interlock.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
 
@@ -16,8 +17,11 @@ struct JointPast {
   JointPast(PointHistory* of_points, CrushedFace* of_face = nullptr) : point(of_points), crushed(of_face) {}
   PointHistory* point;   // [points]
   CrushedFace* crushed;  // null where no law has a plateau in compression
+  Interlock interlock;   // none where nothing moves
 };
 JointPast past_of(const Model& model, State& state, int j);
+
+Interlock interlock_now(const Model& model, const State& state);  // of the step that has led to the present pose
 
 // The face of joint j as its compression sees it.
 Bed bed_of(const Model& model, const Joint& joint);

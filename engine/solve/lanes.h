@@ -3,6 +3,7 @@
 // Only plain data passes here: an Eigen function compiled with wider instructions could end up in code meant for any machine.
 #pragma once
 #include "engine/laws/crushing.h"
+#include "engine/laws/interlock.h"
 #include "engine/laws/point.h"
 #include "engine/model/joint_batch.h"
 
@@ -25,7 +26,7 @@ struct alignas(64) SpotLanes {
   double s[lanes], t[lanes], weight[lanes];  // m, m, m2
 };
 struct alignas(64) SlipLanes {
-  double s[lanes], t[lanes];  // as in PointHistory
+  double s[lanes], t[lanes], bearing[lanes];  // as in PointHistory
 };
 // The rigid motion nearest to the slips of all points, and what is left of them: functions of the slips, `stale` where these have changed.
 struct CommonLanes {
@@ -61,6 +62,7 @@ struct CrackedShape {
   CrushedFace* const* crushed;
   const double* const* face_corner;
   double event_budget;  // J, for event_bound.h; 0: not asked for
+  Interlock interlock;
 };
 // All that a step reads and writes of them beside their shapes and bonds, in the order in which it does and in one piece.
 struct alignas(64) CrackedLanes {
