@@ -61,7 +61,8 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
     dt = a.dt_fraction * limit;
     p.dt_rule = said("2 / omega_max of the joined structure", limit, a.dt_fraction);
     const double share = std::max(0.9, a.dt_fraction);
-    if (b.cracked < b.critical && dt <= b.critical && dt > share * b.cracked) {
+    constexpr double near = 0.95;  // of the limit: small dashpots of mortar that has cracked leave the step as it is
+    if (b.cracked < b.critical && dt <= b.critical && dt > std::max(share, near) * b.cracked) {
       dt = share * b.cracked;
       p.dt_rule = said("2 / omega_max once joints have cracked, stiffer in bending than their points or damped", b.cracked, share);
     }
@@ -126,6 +127,7 @@ std::vector<double> constant_loads(const Model& m, const State& s) {
 // Of n courses on springs k, each of mass m: n (n + 1) / 2 m g / k, where the block bound of the step tells k / m = 2 / dt^2.
 double settlement_of(const Model& m, double block_bound) {
   const double g = m.gravity.norm();
+  if (!std::isfinite(block_bound)) block_bound = debris_bound(m);
   if (!(g > 0) || !std::isfinite(block_bound)) return 0;
   const Vec3 up = -m.gravity / g;
   double low = 1e300, high = -1e300, edges = 0, blocks = 0;

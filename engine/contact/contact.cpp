@@ -252,7 +252,10 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
   const bool touches = patch.total > 0;
   if (!touches) landing(pair, s, settings, closing_along(pair, s), room.apart, dt, result);
   if (!touches && room.apart >= 0) result.apart = room.apart;
-  if (!touches && !pair.touching && pair.offset_left <= 0) return false;
+  if (!touches && !pair.touching && pair.offset_left <= 0) {
+    if (room.apart > settings.interlock.gap) pair.bearing = 0;
+    return false;
+  }
 
   PairWrench elastic, damping, friction;
   const double stored_before = pair.tangential;
@@ -267,7 +270,8 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     Vec3 damping_force, damping_moment;
     damping_wrench(room, patch.normal, d.chi, d.limit, damping_force, damping_moment);
     const double inverse_mass = inverse_mass_at(s, patch.centroid);
-    const Friction f = patch_friction(pair, patch, s.pose, motion, kn * patch.force.norm(), inverse_mass, settings.settling_tangential);
+    const Friction f = patch_friction(pair, patch, s.pose, motion, kn * patch.force.norm(), inverse_mass, settings.settling_tangential,
+                                      settings.interlock);
     damping = to_world(pair, s, kn * damping_force + f.viscous_force, kn * damping_moment + f.viscous_moment);
     friction = to_world(pair, s, f.force, f.moment);
     slipped = f.slipped;
@@ -283,6 +287,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     slipped = 0.5 * stored_before;  // the springs go slack: the limit is zero (what the half step of work leaves is in `reset`)
     pair.approach = 0;
   }
+  if (!touches && room.apart > settings.interlock.gap) pair.bearing = 0;
   pair.turn = s.pose.turn;
   pair.shift = s.pose.shift;
 

@@ -193,7 +193,7 @@ Borne borne(Bearing b, const Patch& patch, const Pull& springs, const Pull& dash
 }
 
 Friction patch_friction(Pair& pair, const Patch& patch, const PairPose& pose, const Motion& motion, double normal_force,
-                        double inverse_mass, double settling) {
+                        double inverse_mass, double settling, const Interlock& interlock) {
   Friction out;
   const Vec3 centre = patch.centroid + pose.shift, n = patch.normal;
   Vec3 slip = Vec3::Zero();
@@ -218,6 +218,8 @@ Friction patch_friction(Pair& pair, const Patch& patch, const PairPose& pose, co
   Vec3 at_centre = motion.linear + motion.angular.cross(patch.centroid);
   at_centre -= at_centre.dot(n) * n;
   const double turning = motion.angular.dot(n);
+  pair.bearing = pair.bearing > 0 ? pair.bearing + (normal_force - pair.bearing) * interlock.rate : normal_force;
+  if (pair.bearing > normal_force && at_centre.squaredNorm() < interlock.slow) normal_force = pair.bearing;
   const Pull springs{-kt * pair.u, -kr * pair.psi}, dashpots{-ct * at_centre, -ct * pair.gyration * pair.gyration * turning};
   const Bearing bearing{pair.law.mu * normal_force, torsion_radius(patch.area, patch.gyration), 0, pair.gyration * pair.gyration,
                         n.cross(patch.centroid - patch.pressure_centre)};

@@ -44,7 +44,8 @@ struct Motion {
 };
 
 // Updates the memory of `pair` from the pose it remembers to `pose`. `inverse_mass` (1/kg) of the patch in its plane.
+// `interlock`: that of ContactSettings.
 Friction patch_friction(Pair& pair, const Patch& patch, const PairPose& pose, const Motion& motion, double normal_force,
-                        double inverse_mass, double settling);
+                        double inverse_mass, double settling, const Interlock& interlock = {});
 
 }  // namespace erbs

@@ -13,6 +13,7 @@ struct DryFriction {
   double ks = 0;  // Pa/m
   double mu = 0;
   double damping = 0.1;  // of critical, once the joint has opened or slid; until then it is as damping{} says
+  double interlock = 1;  // 0: friction goes by the pressure of the moment alone (interlock.h)
 
   static constexpr std::string_view law_name = "dry";
   static Fields<DryFriction> fields() {
@@ -21,6 +22,8 @@ struct DryFriction {
         {"ks", &DryFriction::ks, "Pa/m", "shear stiffness of the joint (default 0.4 kn)", 0, 1e16},
         {"mu", &DryFriction::mu, "", "coefficient of friction", 0, 10, true},
         {"damping", &DryFriction::damping, "", "viscous ratio of the joint once it has opened or slid, of its critical value", 0, 1},
+        {"interlock", &DryFriction::interlock, "",
+         "1: while faces slide slowly and hop by next to nothing, friction goes by their mean pressure; 0: by that of the moment, as in theory", 0, 1},
     };
   }
 };

@@ -24,6 +24,7 @@ struct Mortar {
   double us_ultimate = 0;  // m, slip at which cohesion is spent; 0: from Gf2
   double fc = 0;         // Pa, compression plateau; 0: none (elastic, unlimited)
   double uc_ultimate = 0;  // m, closing at which the mortar is crushed (bond lost); 0: never
+  double damping = 0.05;   // of critical, once the joint has cracked; until then it is as damping{} says
   std::string coupling = "coulomb";  // coulomb | linear | ellipse
 
   static constexpr std::string_view law_name = "mortar";
@@ -45,6 +46,7 @@ struct Mortar {
         {"us_ultimate", &Mortar::us_ultimate, "m", "slip at which cohesion is spent (default from Gf2)", 0, 1},
         {"fc", &Mortar::fc, "Pa", "compressive strength, a plateau (0: unlimited)", 0, 1e10},
         {"uc_ultimate", &Mortar::uc_ultimate, "m", "closing at which the mortar is crushed and its bond lost (0: never)", 0, 1},
+        {"damping", &Mortar::damping, "", "viscous ratio of the joint once it has cracked, of its critical value", 0, 1},
         {"coupling", &Mortar::coupling, "", "tension-shear coupling: coulomb, linear or ellipse", 0, 0, false, "coulomb|linear|ellipse"},
     };
   }

@@ -14,6 +14,7 @@ struct PointLaw {
   double fc = 0;                     // Pa; 0: unlimited
   double closing_ultimate = 0;       // m; 0: never
   double damping = 0;                // viscous ratio once cracked, of the joint's own critical value
+  bool interlock = true;             // interlock.h
   Coupling coupling = Coupling::coulomb;
   bool dry = false;                  // nothing to break: no bond from the start
 };

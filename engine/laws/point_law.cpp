@@ -9,6 +9,7 @@ PointLaw compile_law(const DryFriction& dry) {
   p.ks = dry.ks > 0 ? dry.ks : 0.4 * dry.kn;
   p.mu = p.mu_residual = dry.mu;
   p.damping = dry.damping;
+  p.interlock = dry.interlock > 0;
   p.dry = true;
   return p;
 }
@@ -33,6 +34,7 @@ PointLaw compile_law(const Mortar& m) {
   p.slip_ultimate = m.us_ultimate > 0 ? std::max(0.0, m.us_ultimate - m.c / p.ks) : (m.c > 0 ? 2 * m.Gf2 / m.c : 0);
   p.fc = m.fc;
   p.closing_ultimate = m.uc_ultimate;
+  p.damping = m.damping;
   p.dry = p.ft == 0 && p.c == 0;
   return p;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/vec.h"
+#include "engine/laws/interlock.h"
 #include "engine/model/block_field.h"
 #include "engine/model/corners.h"
 
@@ -25,6 +26,7 @@ struct ContactSettings {
   double settling_tangential = 0.05;  // the same of a contact that sticks, tangential
   double handover_periods = 5;        // contact periods over which the difference to the old joint fades
   double event_budget = 0;            // J, by which a blow may err (event_bound.h); 0: any
+  Interlock interlock;                // of contacts, in m, m2/s2 and shares of a step (interlock.h)
 };
 
 // Force and moments on the two bodies of a pair, world axes, each moment about the body's own centroid.
@@ -50,6 +52,7 @@ struct alignas(64) Pair {
   double approach = 0;    // m/s, greatest recent speed of approach
   // what the pair stores now
   double tangential = 0;  // J
+  double bearing = 0;     // N, mean of what presses it (interlock.h)
   // wrenches of the last step, whose half step of work is still to be booked
   PairWrench friction, damping, offset;
   // difference to the joint it was handed over from, pair axes
@@ -117,7 +120,7 @@ void each(P& p, F&& f) {
   f("a", p.a), f("b", p.b), f("part_a", p.part_a), f("part_b", p.part_b), f("law", p.law);
   f("b_is_reference", p.b_is_reference), f("touching", p.touching), f("bed", p.bed), f("separating", p.separating);
   f("turn", p.turn), f("shift", p.shift), f("n", p.n), f("c", p.c), f("u", p.u), f("psi", p.psi);
-  f("area", p.area), f("gyration", p.gyration), f("approach", p.approach), f("impact", p.impact);
+  f("area", p.area), f("gyration", p.gyration), f("bearing", p.bearing), f("approach", p.approach), f("impact", p.impact);
   f("offset_force", p.offset_force), f("offset_moment", p.offset_moment);
   f("offset_left", p.offset_left), f("offset_time", p.offset_time), f("counted_a", p.counted_a), f("counted_b", p.counted_b);
   f("friction", p.friction), f("damping", p.damping), f("offset", p.offset), f("tangential", p.tangential);

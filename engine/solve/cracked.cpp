@@ -287,13 +287,13 @@ void Cracked::forces(int first, int last, bool sample, double budget, JointSums&
     if (group.empty()) continue;
     CrackedLanes& lane = memory_of(group);
     const Shapes& shapes = *group.shapes;
+    const PointLaw& law = model_.laws[z(group.law)];
     const CrackedShape shape{group.corners,      group.points,       group.used,
                              double(g),          &shapes.face,       shapes.corner.data(),
                              shapes.spot.data(), shapes.cell.data(), shapes.first.data(),
                              shapes.loop.data(), per_step,           shapes.watch.empty() ? shapes.loop.data() : shapes.watch.data(),
                              group.crushed,      group.face_corner,    budget,
-                             interlock};
-    const PointLaw& law = model_.laws[z(group.law)];
+                             law.interlock ? interlock : Interlock{}};
     if (group.bare) {
       group.beyond = kernels.rub(law, shape, lane, poses, wrench_rows, done);
     } else {

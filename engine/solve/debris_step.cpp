@@ -191,6 +191,7 @@ void Debris::forces(int thread, bool sample) {
     const View view{bodies.reference, bodies.other, bodies.swapped ? &b : &a, bodies.swapped ? &a : &b, {}};
     if (stands_apart(lane.keeper, pair, view, settings_, dt, r)) {
       note_apart(i, r.apart);
+      if (r.apart > settings_.interlock.gap) pair.bearing = 0;
       return false;
     }
     const bool counts = pair_force(pair, shapes_, a, b, settings_, dt, sample, room, r, crowd(waiting_[z(i)].a, waiting_[z(i)].b));

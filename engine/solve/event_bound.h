@@ -17,6 +17,8 @@ namespace erbs {
 inline constexpr int foresee_every = 4;  // steps
 // Of Energy::reference, by which one event may err: some ten of them, of either sign, leave a third of the gate of 1e-3.
 inline constexpr double event_tolerance = 1e-4;
+// ... and all of them: as their sum comes near it, each may err by less.
+inline constexpr double event_sum = 5e-4;
 
 // J, by which an event of this step may err; 0 where none is to be looked for in this step.
 double event_budget(const Model& model, const State& state);

@@ -46,7 +46,7 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
   JointEnergy e;
   const Joint& joint = m.joint[z(j)];
   JointPast past = past_of(m, s, j);
-  if (!sound) past.interlock = interlock_now(m, s);
+  if (!sound && m.laws[z(m.joint[z(j)].type->law)].interlock) past.interlock = interlock_now(m, s);
   std::vector<PointHistory> before_it;
   const bool damped = joint.viscous_cracked > 0 && !sound;
   if (damped) before_it.assign(past.point, past.point + joint.type->points);

@@ -235,6 +235,12 @@ Interlock interlock_now(const Model& m, const State& s) {
   return {interlock_gap * m.settlement, way * way, s.step % interlock_every == 0 && since > 0 ? since / (since + time) : 0};
 }
 
+Interlock contact_interlock(const Model& m, const State& s) {
+  const double g = m.gravity.norm(), d = m.settlement;
+  if (!(g > 0 && d > 0)) return {};
+  return {interlock_gap * d, interlock_speed * interlock_speed * g * d, s.last_dt / (s.last_dt + interlock_time * std::sqrt(d / g))};
+}
+
 bool respond(const Model& m, int j, bool sound, const double* q_before, const double* q, JointPast past, double* f, JointEnergy& energy,
              double* shear_limit) {
   const Joint& joint = m.joint[std::size_t(j)];

@@ -22,6 +22,7 @@ struct JointPast {
 JointPast past_of(const Model& model, State& state, int j);
 
 Interlock interlock_now(const Model& model, const State& state);  // of the step that has led to the present pose
+Interlock contact_interlock(const Model& model, const State& state);  // the same as contacts take it, in every step: `slow` in m2/s2
 
 // The face of joint j as its compression sees it.
 Bed bed_of(const Model& model, const Joint& joint);

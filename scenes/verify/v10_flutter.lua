@@ -59,7 +59,7 @@ for i, damped in ipairs { 0, ratio } do
   local plinth, block = "plinth" .. i, "block" .. i
   box { name = plinth, group = plinth, size = { bed, W, 0.1 }, at = { e - bed / 2, 2 * i, -0.1 }, fixed = true }
   box { name = block, group = block, size = { L, W, H }, at = { -L / 2, 2 * i, 0 } }
-  joint { law = dry { kn = kn, ks = 0.4 * kn, mu = mu, damping = damped }, between = { plinth, block } }
+  joint { law = dry { kn = kn, ks = 0.4 * kn, mu = mu, damping = damped, interlock = 0 }, between = { plinth, block } }
   -- towards +x: friction holds the base back, and the pressure moves to that side of the centroid
   force { block = block, direction = "x", wave = table_wave { times = times, values = values, hold = true } }
   recorder { name = block, quantity = "spin", block = block, axis = "y" }
