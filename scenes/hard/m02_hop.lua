@@ -1,0 +1,65 @@
+-- Hard case: the base drops away under a block faster than it can fall
+--
+-- What happens   A half sine of 1.2 g downwards, 50 ms long: while the base falls faster than g the block flies, then it lands and bounces out.
+-- Source         They part where the base reaches g; from there on the block flies freely above it: v = A/w (cos w t1 - cos w t) - g (t - t1).
+--                A dashpot of ratio z returns exp(-pi z / sqrt(1 - z^2)) of the speed of a blow, somewhat more where it cannot pull.
+-- How to run     erbs run scenes/hard/m02_hop.lua [-D kn=...] [-D height=...] [-D amplitude=2*g]
+-- What to look at  hop (over the free flight's), rebound (over the hop), returned (speed of the first blow), landing (s, late by).
+label("quick")
+local kn = param("kn", 1e11, "[Pa/m]")
+local length, height = param("length", 0.4, "[m]"), param("height", 0.05, "[m]")
+local amplitude = param("amplitude", 1.2 * g, "of the base, downwards [m/s2]")
+local ratio = param("ratio", 0.1, "of the dashpot of the joint")
+local frequency, density = 10, 2000
+local settled = density * g * height / kn  -- m, and what lifts it into flight
+local w = 2 * pi * frequency
+if amplitude <= g then error("amplitude must be above g, or nothing parts", 0) end
+
+local t1, over = math.asin(g / amplitude) / w, pi / w
+local function flight(t)  -- height and speed above the base
+  local s = math.min(t, over)
+  local v = amplitude / w * (math.cos(w * t1) - math.cos(w * s)) - g * (s - t1)
+  local z = amplitude / w * ((s - t1) * math.cos(w * t1) - (math.sin(w * s) - math.sin(w * t1)) / w) - g * (s - t1) ^ 2 / 2
+  local rest = t - s
+  return z + v * rest - g * rest ^ 2 / 2, v - g * rest
+end
+local function zero(lo, hi, what)
+  for _ = 1, 100 do
+    local mid = (lo + hi) / 2
+    if what(mid) > 0 then lo = mid else hi = mid end
+  end
+  return lo
+end
+local top = zero(t1 + 1e-9, t1 + 10 * over, function(t) local _, v = flight(t) return v end)
+local lands = zero(top, top + 10 * over, function(t) return (flight(t)) end)
+local hop, speed = flight(top), select(2, flight(lands))
+
+material { name = "stone", density = density, friction = 0.6 }
+box { name = "base", size = { 3 * length, 1, 0.2 }, center = { 0, 0, -0.1 }, fixed = true }
+box { name = "block", size = { length, 0.2, height }, center = { 0, 0, height / 2 } }
+joint { law = dry { kn = kn, mu = 0.6, damping = ratio } }
+ground_motion { wave = half_sine { amplitude = -amplitude, frequency = frequency }, direction = "z" }
+recorder { name = "block", quantity = "displacement", block = "block", axis = "z" }
+local column = "block_uz_rel_m"
+-- The highest point between two times.
+local function highest(run, from, to)
+  local most, times = -math.huge, run.time
+  for i, z in ipairs(run.history(column)) do
+    if times[i] >= from and times[i] <= to then most = math.max(most, z - settled) end
+  end
+  return most
+end
+local again = 2 * math.abs(speed) / g  -- s, of a flight that starts as fast as this one ends
+local function rebound(run) return highest(run, lands + 0.1 * (lands - t1), lands + again) end
+metric("hop", "", function(run) return highest(run, 0, lands) / hop end)
+metric("rebound", "", function(run) return rebound(run) / hop end)
+metric("returned", "", function(run) return math.sqrt(2 * g * math.max(0, rebound(run))) / math.abs(speed) end)
+metric("later", "", function(run) return highest(run, lands + again, 1e9) / hop end)
+metric("damped", "J", function(run) return run.energy.damping_J + run.energy.contact_damping_J end)
+analysis { duration = lands + 4 * again + 0.1, output_dt = 1e-4, frame_dt = 1 }
+expect("metrics.hop", 1, { abs = 0.01 + 2 * settled / hop, source = "free flight above a base that drops" })
+expect("metrics.rebound", 1, { below = true, source = "dashpots take" })
+expect("metrics.later", 1, { below = true, source = "dashpots take" })
+expect("metrics.returned", math.exp(-pi * ratio / math.sqrt(1 - ratio ^ 2)), { abs = 0.05, source = "half a swing of a damped spring" })
+expect("metrics.damped", 0, { above = true, source = "dashpots take" })
+expect("energy.residual_relative", 1e-3, { below = true, source = "nothing is made" })

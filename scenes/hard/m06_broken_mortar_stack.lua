@@ -1,0 +1,38 @@
+-- Hard case: a stack whose mortar breaks at a bump comes to rest
+--
+-- What happens   Bricks in weak mortar stand on a slope. A bump breaks every bed; what is left is friction, and the stack comes to rest on it.
+-- Source         m04_stack_after_bump, where nothing was bonded: a joint that broke sticks as a dry one does.
+-- How to run     erbs run scenes/hard/m06_broken_mortar_stack.lua [-D bricks=12] [-D share=0.8] [-D Gf=1] [-D kn=...]
+-- What to look at  broken (share of the beds), drift (of the length, per second, in the last half second), energy.residual_relative.
+local bricks, share, mu = param("bricks", 6, ""), param("share", 0.5, "of the angle of friction"), param("mu", 0.7, "")
+local kn, Gf = param("kn", 2e10, "[Pa/m]"), param("Gf", 0, "fracture energy in tension and in shear [J/m2]")
+local ft = param("ft", 300, "tensile strength and cohesion [Pa]")
+local amplitude, rest = param("amplitude", 2 * g, "[m/s2]"), param("rest", 2.5, "[s]")
+local size, slope = { 0.3, 0.15, 0.08 }, share * math.atan(mu)
+if math.tan(slope) * bricks * size[3] > 0.9 * size[1] then error("the weight of the stack passes beside its foot; take fewer bricks or lower share", 0) end
+material { name = "brick", density = 1800, friction = mu }
+transform { rotation = { 0, slope, 0 }, function()
+  box { name = "base", size = { 1.5, 0.5, 0.2 }, center = { 0, 0, -0.1 }, fixed = true }
+  for i = 1, bricks do box { name = "brick" .. i, group = "stack", size = size, center = { 0, 0, (i - 0.5) * size[3] } } end
+end }
+joint { law = mortar { kn = kn, ks = 0.4 * kn, ft = ft, c = ft, mu = mu, Gf1 = Gf, Gf2 = Gf } }
+ground_motion { wave = half_sine { amplitude = -amplitude, frequency = 10, start = 0.1 }, direction = "z" }
+for i = 1, bricks do recorder { name = "brick" .. i, quantity = "displacement", block = "brick" .. i } end
+local tail = 0.5
+metric("broken", "", function(run) return run.joints_broken / bricks end)
+metric("drift", "1/s", function(run)
+  local most = 0
+  for i = 1, bricks do
+    local square = 0
+    for _, axis in ipairs { "x", "y", "z" } do
+      local column = ("brick%d_u%s_rel_m"):format(i, axis)
+      square = square + (run.last(column) - run.at(column, run.time_s - tail)) ^ 2
+    end
+    most = math.max(most, math.sqrt(square))
+  end
+  return most / tail / size[1]
+end)
+analysis { duration = 0.15 + rest, output_dt = 5e-3, frame_dt = 1 }
+expect("metrics.broken", 0.5, { above = true, source = "the bump asks for more than the mortar bears" })
+expect("metrics.drift", 1e-6, { below = true, source = "below the angle of friction it sticks" })
+expect("energy.residual_relative", 1e-3, { below = true, source = "nothing is made" })

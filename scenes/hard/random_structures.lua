@@ -1,0 +1,202 @@
+-- Hard case: small structures drawn by chance, shaken once and then left alone
+--
+-- What happens   A seed draws a stack on a slope, a pier, an arch, a corbel, a wall or a portal of up to 60 blocks, dry or in mortar that may
+--                crack, and a bump or a few cycles of the base in any direction. Then nothing moves any more but the structure itself.
+-- Source         No paper is needed: energy is neither made nor lost, friction and dashpots only take, blocks do not sink into each other,
+--                momentum is kept, and what neither fell nor still rocks has come to rest.
+-- How to run     erbs run scenes/hard/random_structures.lua -D seed=17 [-D kind=3] [-D duration=5]
+--                erbs test scenes/hard/random_structures.lua --seeds 500
+-- What to look at  drift (m/s, of the block that walks fastest, between means over the last two thirds of the wait, swings cancelled out; -1 where
+--                blocks fell or still rock), taken (least of what friction, cracks and dashpots took), reset, max_penetration_relative, energy.residual_relative.
+-- Measure        Still rocks: the widest joint opens and closes by more than 20 um within the last quarter of a second.
+local seed = param("seed", 1, "of the draw")
+local kind = param("kind", 0, "1 stack, 2 pier, 3 arch, 4 corbel, 5 wall, 6 portal; 0: drawn")
+local wait = param("wait", 1.5, "after the shaking [s]")
+local kn_given = param("kn", 0, "0: drawn [Pa/m]")
+local still = 20e-6  -- m
+local drift_most = 1e-5  -- m/s
+
+-- splitmix64: neighbouring seeds have nothing in common
+local state = seed * 0x632be59bd9b4e019
+local function uniform(lo, hi)
+  state = state + 0x9e3779b97f4a7c15
+  local z = state
+  z = (z ~ (z >> 30)) * 0xbf58476d1ce4e5b9
+  z = (z ~ (z >> 27)) * 0x94d049bb133111eb
+  z = z ~ (z >> 31)
+  return lo + (hi - lo) * ((z >> 11) * 2.0 ^ -53)
+end
+local function log_uniform(lo, hi) return math.exp(uniform(math.log(lo), math.log(hi))) end
+local function whole(lo, hi) return lo + math.floor(uniform(0, 1) * (hi - lo + 1)) end
+local function chance(p) return uniform(0, 1) < p end
+
+local drawn = whole(1, 6)
+if kind == 0 then kind = drawn end
+local kn = log_uniform(1e9, 1e12)
+if kn_given > 0 then kn = kn_given end
+local mu = uniform(0.3, 1)
+local density = uniform(1600, 2600)
+material { name = "brick", density = density, friction = mu, kn = math.min(kn, 5e10), ks = 0.4 * math.min(kn, 5e10) }
+
+-- Every builder leaves its blocks' names here.
+local blocks, height = {}, 0
+local function lay(name, size, center)
+  box { name = name, group = "s", size = size, center = center, material = "brick" }
+  blocks[#blocks + 1] = name
+  height = math.max(height, center[3] + size[3] / 2)
+end
+local function base(lx, ly) box { name = "base", group = "base", size = { lx, ly, 0.2 }, center = { 0, 0, -0.1 }, fixed = true, material = "brick" } end
+
+local slope = 0
+local builders = {
+  function()  -- a stack of plates, none quite like the next, on a slope that would hold it
+    local n, l, d, h = whole(1, 12), uniform(0.2, 0.8), uniform(0.15, 0.5), uniform(0.05, 0.25)
+    slope = math.min(uniform(0, 0.9) * math.atan(mu), math.atan(0.5 * l / (n * h)))
+    transform { rotation = { 0, slope, 0 }, function()
+      base(4 * l, 4 * d)
+      local z = 0
+      for i = 1, n do
+        local hi = h * uniform(0.8, 1.2)
+        lay("b" .. i, { l * uniform(0.85, 1.15), d * uniform(0.85, 1.15), hi }, { l * uniform(-0.05, 0.05), d * uniform(-0.05, 0.05), z + hi / 2 })
+        z = z + hi
+      end
+    end }
+  end,
+  function()  -- a pier of two bricks a course, laid across each other
+    local courses, l, h = whole(2, 9), uniform(0.2, 0.5), uniform(0.06, 0.2)
+    base(3 * l, 3 * l)
+    for c = 1, courses do
+      for side = -1, 1, 2 do
+        local along = c % 2 == 0
+        local size = along and { l, l / 2, h } or { l / 2, l, h }
+        lay(("b%d_%d"):format(c, side), size, { along and 0 or side * l / 4, along and side * l / 4 or 0, (c - 0.5) * h })
+      end
+    end
+  end,
+  function()  -- an arch
+    local radius = uniform(0.4, 1.5)
+    local made = arch { name = "a", radius = radius, thickness = radius * uniform(0.16, 0.35), width = uniform(0.2, 0.5), voussoirs = whole(5, 17),
+      embrace = uniform(100, 180) * deg, material = "brick" }
+    blocks, height = made.blocks, 1.3 * radius
+  end,
+  function()  -- a stack that leans out, by a share of the harmonic series
+    local n, l, d, h, share = whole(2, 9), uniform(0.3, 0.8), uniform(0.15, 0.4), uniform(0.06, 0.15), uniform(0.2, 0.8)
+    base(4 * l, 2 * d)
+    local x = 0
+    for i = 1, n do
+      lay("b" .. i, { l, d, h }, { x, 0, (i - 0.5) * h })
+      x = x + share * l / (2 * (n + 1 - i))
+    end
+  end,
+  function()  -- a wall in running bond
+    local l, w, h = uniform(0.2, 0.4), uniform(0.1, 0.25), uniform(0.06, 0.15)
+    local courses, bricks = whole(2, 8), whole(2, 6)
+    base((bricks + 2) * l, 4 * w)
+    for c = 1, courses do
+      local from = -bricks / 2 * l
+      while from < bricks / 2 * l - 0.01 do
+        local to = math.min(from + ((c % 2 == 0 and from < -bricks / 2 * l + 0.01) and l / 2 or l), bricks / 2 * l)
+        lay(("b%d_%d"):format(c, #blocks), { to - from, w, h }, { (from + to) / 2, 0, (c - 0.5) * h })
+        from = to
+      end
+    end
+  end,
+  function()  -- two legs and a lintel
+    local n, a, d, h, clear = whole(1, 5), uniform(0.15, 0.4), uniform(0.15, 0.4), uniform(0.1, 0.4), uniform(0.3, 1)
+    base(2 * clear + 4 * a, 3 * d)
+    for side = -1, 1, 2 do
+      for i = 1, n do lay(("leg%d_%d"):format(side, i), { a, d, h }, { side * (clear + a) / 2, 0, (i - 0.5) * h }) end
+    end
+    local thick = uniform(0.1, 0.3)
+    lay("lintel", { clear + uniform(1, 2) * a, d, thick }, { 0, 0, n * h + thick / 2 })
+  end,
+}
+builders[kind]()
+
+-- Mortar that a bump may crack: its strength lies about the stresses the structure meets.
+local cracks = chance(0.3)
+local law
+if cracks then
+  local ft = density * g * height * log_uniform(0.1, 3)
+  local brittle = chance(0.5)
+  law = mortar { kn = kn, ks = 0.4 * kn, ft = ft, c = ft * uniform(1, 2), mu = mu, Gf1 = brittle and 0 or ft ^ 2 / kn * uniform(1, 5), Gf2 = brittle and 0 or 4 * ft ^ 2 / kn * uniform(1, 5) }
+else
+  law = dry { kn = kn, mu = mu }
+end
+joint { law = law }
+
+local heading, up, over = uniform(0, 2 * pi), uniform(-1, 1), nil
+if chance(0.5) then  -- a bump, in any direction
+  local flat = math.sqrt(1 - up ^ 2)
+  local frequency = log_uniform(4, 25)
+  over = 0.05 + 0.5 / frequency
+  ground_motion { wave = half_sine { amplitude = uniform(0.3, 1.6) * g, frequency = frequency, start = 0.05 }, direction = { flat * math.cos(heading), flat * math.sin(heading), up } }
+else
+  local frequency, cycles = log_uniform(4, 15), whole(1, 3)
+  over = 0.05 + cycles / frequency
+  ground_motion { wave = sine { amplitude = uniform(0.1, 0.8) * g, frequency = frequency, start = 0.05, duration = cycles / frequency }, direction = { math.cos(heading), math.sin(heading), 0.3 * up } }
+end
+local start = chance(0.15) and "rest" or chance(0.15) and "ramp" or "equilibrium"
+
+for _, name in ipairs(blocks) do recorder { name = name, quantity = "displacement", block = name } end
+recorder { name = "all", quantity = "opening", blocks = blocks }
+local function after(t, times)
+  for i, value in ipairs(times) do if value >= t then return i end end
+end
+local function fell(run) return run.collapse.collapsed or run.collapse.fallen_fraction > 0 end
+metric("fell", "", function(run) return fell(run) and 1 or 0 end)
+local function swing(run)  -- of the widest joint, while nothing shakes it any more
+  local opening, least, most = run.history "all_opening_m", math.huge, -math.huge
+  for i = after(run.time[#run.time] - 0.25, run.time), #opening do least, most = math.min(least, opening[i]), math.max(most, opening[i]) end
+  return most - least
+end
+metric("swing", "m", swing)
+-- Means of two neighbouring windows, weighted as Hann did, so that what only swings to and fro cancels out.
+local window = wait / 3
+local function middle(times, u, from)
+  local sum, weights = 0, 0
+  for i = after(from, times), #times do
+    if times[i] > from + window then break end
+    local weight = math.sin(pi * (times[i] - from) / window) ^ 2
+    sum, weights = sum + weight * u[i], weights + weight
+  end
+  return sum / weights
+end
+local function drift(run)
+  local times, most = run.time, 0
+  local last = times[#times]
+  for _, name in ipairs(blocks) do
+    local way = 0
+    for _, axis in ipairs { "x", "y", "z" } do
+      local u = run.history(name .. "_u" .. axis .. "_rel_m")
+      way = way + (middle(times, u, last - window) - middle(times, u, last - 2 * window)) ^ 2
+    end
+    most = math.max(most, math.sqrt(way) / window)
+  end
+  return most
+end
+metric("drift_any", "m/s", drift)
+metric("drift", "m/s", function(run) return (fell(run) or swing(run) > still) and -1 or drift(run) end)
+local function passed(run)
+  local e = run.energy
+  return math.abs(e.base_work_J) + math.abs(e.gravity_J) + math.abs(e.friction_J) + math.abs(e.damping_J) + math.abs(e.contact_damping_J) + 1e-12
+end
+metric("reset", "", function(run) return math.abs(run.energy.reset_J) / passed(run) end)
+metric("taken", "", function(run)
+  local e = run.energy
+  return math.min(e.friction_J, e.damping_J, e.contact_damping_J, e.fracture_J) / passed(run)
+end)
+metric("residual", "", function(run) return run.energy.residual_relative / (fell(run) and 1e-2 or 1e-3) end)
+metric("kind", "", kind)
+metric("slope", "rad", slope)
+metric("blocks", "", #blocks)
+metric("kn", "Pa/m", kn)
+metric("mortar", "", cracks and 1 or 0)
+analysis { duration = over + wait, start = start, output_dt = 2e-3, frame_dt = 10 }
+expect("status", "completed")
+expect("metrics.residual", 1, { below = true, source = "of 1e-3, of 1e-2 once blocks fell" })
+expect("metrics.drift", drift_most, { below = true, source = "what has come to rest stays" })
+expect("metrics.reset", 2e-3, { below = true, source = "no energy by re-made contacts" })
+expect("metrics.taken", -1e-9, { above = true, source = "friction, cracks and dashpots take" })
+expect("max_penetration_relative", 0.05, { below = true, source = "of the block's size" })
+expect("momentum_residual", 1e-9, { below = true, source = "action and reaction" })
