@@ -70,12 +70,15 @@ std::string collapse_text(const Json& metrics) {
   const double share = number_at(metrics, "collapse.fallen_fraction");
   if (!collapsed || !collapsed->is_boolean() || !collapsed->get<bool>())
     return share > 0 ? fmt::format("no collapse; {:.2g} % of the mass fell", 100 * share) : "no collapse; nothing fell";
+  const Json* weight = find_key(metrics, "collapse.under_gravity");
+  const bool under_gravity = weight && weight->is_boolean() && weight->get<bool>();
   const Json* direction = find_key(metrics, "collapse.direction");
   const std::string towards = direction && direction->is_array() && direction->size() >= 2
                                   ? fmt::format(" towards ({:+.2f}, {:+.2f})", (*direction)[0].get<double>(), (*direction)[1].get<double>())
                                   : " in no one direction";
-  std::string text =
-      fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass fell", number_at(metrics, "collapse.time_s"), towards, 100 * share);
+  std::string text = under_gravity ? fmt::format("does not stand under its own weight; {:.0f} % of the mass fell by the end", 100 * share)
+                                   : fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass fell",
+                                                 number_at(metrics, "collapse.time_s"), towards, 100 * share);
   const Json* mechanism = find_key(metrics, "collapse.mechanism.summary");
   if (mechanism && mechanism->is_string() && *mechanism != "") text += "\nmechanism: " + mechanism->get<std::string>();
   return text;

@@ -54,6 +54,7 @@ class Run {
 
  private:
   void begin();
+  void watch(const BlockVec3& built);
   bool wanted(double t);
   void sampled();
   bool stop();
@@ -99,10 +100,11 @@ void Run::begin() {
   if (resume) {
     read_checkpoint(options_.directory, key_, run_.state, written, collapse_, clock_, trust_);
   } else {
+    const BlockVec3 built = run_.state.u;
     start_at_rest(scene_, run_, options_.threads);
     add_noise(run_, options_.noise, 1);
     add_noise(run_, options_.twin_noise, 2);
-    collapse_ = watch_collapse(run_.model, run_.state);
+    watch(built);
   }
   Manifest manifest = manifest_of(scene_, script_);
   manifest.threads = options_.threads;
@@ -119,6 +121,9 @@ void Run::begin() {
   if (!resume)
     for (const std::string& note : options_.notes) writer_->log(note);
   for (const std::string& w : run_.model.warnings) writer_->log("warning: " + w);
+  if (!resume && collapse_.under_gravity)
+    writer_->log(fmt::format("does not stand under its own weight: {:.3g} % of the mass; {}", 100 * falling_share(run_),
+                             summary(collapse_.mechanism, run_.model, 1000)));
   out_.warnings = run_.model.warnings;
   double low = std::numeric_limits<double>::infinity(), weights = 0, moments = 0;
   for (int b = 0; b < run_.model.nblock; ++b) {
@@ -133,6 +138,15 @@ void Run::begin() {
   started_at_ = run_.state.t;
   setup_ = seconds() - born_;
   solve_start_ = last_save_ = last_progress_ = seconds();
+}
+
+// What does not stand under its own weight has collapsed before the run begins, as far as the share of it makes a collapse.
+void Run::watch(const BlockVec3& built) {
+  collapse_ = watch_collapse(run_.model, run_.state);
+  for (const int b : run_.fallers) collapse_.start[z(b)] = built[z(b)].z();
+  if (run_.fallers.empty() || falling_share(run_) < scene_.analysis.collapse_fraction) return;
+  collapse_.collapsed = collapse_.under_gravity = true;
+  collapse_.mechanism = mechanism_of(run_.model, run_.state, 0);
 }
 
 // Rows and frames are due at whole multiples of their interval, at the first step at or after it; the end is a row and a frame.
@@ -331,7 +345,8 @@ Metrics Run::metrics() const {
   m.collapse.collapsed = collapse_.collapsed;
   m.collapse.fallen_fraction = collapse_.fallen_fraction;
   m.collapse.moved = collapse_.moved;
-  if (collapse_.collapsed) m.collapse.time_s = collapse_.time;
+  m.collapse.under_gravity = collapse_.under_gravity;
+  if (collapse_.collapsed && !collapse_.under_gravity) m.collapse.time_s = collapse_.time;
   m.collapse.direction = collapse_direction(collapse_, run_.model, s);
   m.trust = trust_of(trust_, run_.model, s);
   m.collapse.mechanism = mechanism_metrics(collapse_.collapsed ? collapse_.mechanism : mechanism_of(run_.model, s, m.time_s), run_.model);

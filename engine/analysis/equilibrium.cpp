@@ -22,18 +22,23 @@ VecX applied(const Model& m, const Freedom& f, const std::vector<double>& push) 
   return out;
 }
 
-// Islands meet only through what is fixed, so each has its own line search and its own measure of balance: a block that has to
-// open most of its joint does not hold up the others, nor a slab hide a brick.
+// Islands meet only through what is fixed, so each has its own line search, its own measure of balance and its own end: a block that
+// has to open most of its joint does not hold up the others, nor a slab hide a brick, nor one that falls keep others from resting.
 struct Island {
+  enum class Now : std::uint8_t { sought, found, given_up };
   std::vector<int> blocks;
   double size = 0;        // N, N m: largest load
   double unbalanced = 0;  // of size
+  double best = 0;        // the least of that so far
+  int stuck = 0;          // steps without a new best
   int worst = -1;         // block
   double brake = 0;       // share of the sound stiffness put on the diagonal: less and less as the balance comes near
   // the line search along a step: work = step . residual at `part` of it, falling from `start`; a root lies in (low, high)
   double part = 1, start = 0, low = 0, low_work = 0, high = 0, high_work = 0;
   int side = 0;
   bool settled = true;
+  Now now = Now::sought;
+  bool sought() const { return now == Now::sought; }
 };
 
 std::vector<Island> islands_of(const Model& m, const State& s, const Freedom& f, const VecX& force) {
@@ -50,17 +55,12 @@ std::vector<Island> islands_of(const Model& m, const State& s, const Freedom& f,
   return out;
 }
 
-double balance(const Freedom& f, const VecX& residual, std::vector<Island>& islands) {
-  double worst = 0;
-  for (Island& i : islands) {
-    i.unbalanced = 0;
-    for (const int b : i.blocks) {
-      const double now = residual.segment<6>(f.first[z(b)]).lpNorm<Eigen::Infinity>() / i.size;
-      if (!(now <= i.unbalanced)) i.unbalanced = now, i.worst = b;
-    }
-    if (!(i.unbalanced <= worst)) worst = i.unbalanced;
+void balance(const Freedom& f, const VecX& residual, Island& i) {
+  i.unbalanced = 0;
+  for (const int b : i.blocks) {
+    const double now = residual.segment<6>(f.first[z(b)]).lpNorm<Eigen::Infinity>() / i.size;
+    if (!(now <= i.unbalanced)) i.unbalanced = now, i.worst = b;
   }
-  return worst;
 }
 
 struct Pose {
@@ -71,10 +71,15 @@ struct Pose {
 void move(State& s, const Freedom& f, const Pose& from, const VecX& by, const std::vector<Island>& islands) {
   for (const Island& i : islands)
     for (const int b : i.blocks) {
+      if (!i.sought()) continue;
       const int first = f.first[z(b)];
       s.u[z(b)] = from.u[z(b)] + i.part * by.segment<3>(first);
       s.q[z(b)] = (rotation(i.part * Vec3(by.segment<3>(first + 3))) * from.q[z(b)]).normalized();
     }
+}
+
+void put_back(State& s, const Pose& from, const Island& island) {
+  for (const int b : island.blocks) s.u[z(b)] = from.u[z(b)], s.q[z(b)] = from.q[z(b)];
 }
 
 // Where the search goes next: twice as far while there is work to gain, else into the bracket (regula falsi with the Illinois
@@ -98,93 +103,180 @@ void search(Island& i, double work) {
   else i.part = i.low + (i.high - i.low) * std::clamp(i.low_work / (i.low_work - i.high_work), 1e-9, 0.9);
 }
 
+constexpr double target = 1e-11, accepted = 1e-8;  // of the largest load of the island
+constexpr double first_brake = 0.1;
+
+// Newton's method on all islands of a freedom at once.
+class Search {
+ public:
+  Search(const Model& m, State& s, const Freedom& f, const std::vector<double>& push, Linear how)
+      : m_(m),
+        s_(s),
+        f_(f),
+        force_(applied(m, f, push)),
+        islands_(islands_of(m, s, f, force_)),
+        before_{s.u, s.q},
+        trial_{Cold<JointMemory>(z(m.njoint)), {}, {}, std::vector<std::uint8_t>(z(m.njoint), 1)},
+        steps_(m, s, f, how) {}
+
+  // False where no step could be found for what is still sought.
+  bool go() {
+    residual_ = force_ - internal_force(m_, s_, f_, trial_);
+    for (Island& i : islands_) {
+      balance(f_, residual_, i);
+      i.best = i.unbalanced;
+      if (i.unbalanced <= target) i.now = Island::Now::found;
+    }
+    while (std::any_of(islands_.begin(), islands_.end(), [](const Island& i) { return i.sought(); })) {
+      VecX step;
+      if (!find(step)) return false;
+      const Pose from{s_.u, s_.q};
+      follow(step, from);
+      for (Island& i : islands_)
+        if (i.sought()) judge(i, from);
+      ++iterations_;
+    }
+    return true;
+  }
+
+  // What joints of the islands found have become; the others are as they were.
+  void keep(Equilibrium& out) {
+    for (Island& i : islands_)
+      if (i.now != Island::Now::found) put_back(s_, before_, i);
+    internal_force(m_, s_, f_, trial_);
+    for (const Island& i : islands_) {
+      if (i.now != Island::Now::found) continue;
+      out.unbalanced = std::max(out.unbalanced, i.unbalanced);
+      for (const int b : i.blocks) out.found[z(b)] = 1;
+    }
+    out.iterations = std::max(out.iterations, iterations_);
+    for (int j = 0; j < m_.njoint; ++j) {
+      const Joint& joint = m_.joint[z(j)];
+      const auto found = [&](int b) { return f_.first[z(b)] >= 0 && out.found[z(b)]; };
+      if (s_.tier[z(j)] == Tier::open || trial_.sound[z(j)] || !(found(joint.a) || found(joint.b))) continue;
+      s_.tier[z(j)] = Tier::cracked;
+      s_.memory[z(j)] = trial_.memory[z(j)];
+      for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i) s_.history[z(i)] = trial_.history[z(i)];
+      if (!s_.crushed.empty()) s_.crushed[z(j)] = trial_.crushed[z(j)];
+    }
+  }
+
+  const std::vector<Island>& islands() const { return islands_; }
+  const std::string& why() const { return why_; }
+
+ private:
+  bool find(VecX& step) {
+    if (std::all_of(trial_.sound.begin(), trial_.sound.end(), [](std::uint8_t x) { return x != 0; })) {
+      if (steps_.sound(residual_, step)) return true;
+      why_ = "the structure has a mechanism";
+      return false;
+    }
+    VecX brake = VecX::Zero(f_.count);
+    for (const Island& i : islands_)
+      for (const int b : i.blocks) brake.segment<6>(f_.first[z(b)]).setConstant(i.brake);
+    return steps_.cracked(trial_, brake, residual_, step);
+  }
+
+  // Each island as far as its own work along the step goes.
+  void follow(const VecX& step, const Pose& from) {
+    const auto work = [&](const Island& i) {
+      double sum = 0;
+      for (const int b : i.blocks) sum += step.segment<6>(f_.first[z(b)]).dot(residual_.segment<6>(f_.first[z(b)]));
+      return sum;
+    };
+    for (Island& i : islands_) {
+      i.part = 1, i.low = i.high = i.high_work = 0, i.side = 0;
+      i.start = i.low_work = work(i);
+      i.settled = !i.sought();
+      // Friction can turn the step against the residual: a stronger brake turns it back.
+      if (!(i.start > 0)) i.part = 0, i.settled = true;
+    }
+    for (int trials = 0; trials < 30; ++trials) {
+      move(s_, f_, from, step, islands_);
+      residual_ = force_ - internal_force(m_, s_, f_, trial_);
+      for (Island& i : islands_)
+        if (!i.settled) search(i, work(i));
+      if (std::all_of(islands_.begin(), islands_.end(), [](const Island& i) { return i.settled; })) break;
+    }
+  }
+
+  // Whether an island has come to its equilibrium, or never will.
+  void judge(Island& i, const Pose& from) {
+    const double earlier = i.unbalanced;
+    balance(f_, residual_, i);
+    i.brake = iterations_ == 0 ? first_brake
+              : i.part == 0    ? 4 * i.brake
+                               : std::min(10.0, i.brake * std::clamp(i.unbalanced / earlier, 0.1, 2.0));
+    i.stuck = i.unbalanced < 0.5 * i.best ? 0 : i.stuck + 1;
+    if (i.unbalanced <= target) {
+      i.now = Island::Now::found;
+    } else if (i.best < accepted && i.stuck > 0) {  // what round-off leaves
+      if (i.unbalanced > i.best) put_back(s_, from, i), i.unbalanced = earlier;
+      i.now = i.unbalanced < accepted ? Island::Now::found : Island::Now::given_up;
+    } else if (i.stuck >= 40 || iterations_ >= 200 || !std::isfinite(i.unbalanced)) {
+      put_back(s_, before_, i);
+      i.now = i.unbalanced < accepted ? Island::Now::found : Island::Now::given_up;
+    }
+    i.best = std::min(i.best, i.unbalanced);
+  }
+
+  const Model& m_;
+  State& s_;
+  const Freedom& f_;
+  const VecX force_;
+  std::vector<Island> islands_;
+  const Pose before_;
+  Trial trial_;
+  NewtonSteps steps_;
+  VecX residual_;
+  int iterations_ = 0;
+  std::string why_;
+};
+
+// Of the blocks of one island alone.
+Freedom freedom_of(const Island& island, int nblock) {
+  Freedom f;
+  f.first.assign(z(nblock) + 1, -1);
+  for (const int b : island.blocks) f.first[z(b)] = f.count, f.count += 6;
+  return f;
+}
+
+void note_failures(const Model& m, const std::vector<Island>& islands, const std::string& why, Equilibrium& out) {
+  for (const Island& i : islands) {
+    if (i.now == Island::Now::found) continue;
+    ++out.given_up;
+    if (!(i.unbalanced > out.unbalanced || out.why.empty())) continue;
+    out.unbalanced = i.unbalanced;
+    out.why = !why.empty() ? why
+                           : fmt::format("the unbalanced force on block {} stays at {:.3g} of the largest load", m.block_name[z(i.worst)],
+                                         i.unbalanced);
+  }
+}
+
 }  // namespace
 
 Equilibrium settle(const Model& m, State& s, const std::vector<double>& push, Linear how) {
-  constexpr double target = 1e-11, accepted = 1e-8;  // of the largest load of the island
-  constexpr double first_brake = 0.1;
   Equilibrium out;
+  out.found.assign(z(m.nblock), 0);
   const Freedom f = grounded_freedoms(m, s);
-  const VecX force = applied(m, f, push);
-  if (f.count == 0 || force.lpNorm<Eigen::Infinity>() == 0) {
+  if (f.count == 0 || applied(m, f, push).lpNorm<Eigen::Infinity>() == 0) {
     out.converged = true;
     return out;
   }
-  const Pose before{s.u, s.q};
-  std::vector<Island> islands = islands_of(m, s, f, force);
-  Trial trial{Cold<JointMemory>(z(m.njoint)), {}, {}, std::vector<std::uint8_t>(z(m.njoint), 1)};
-  NewtonSteps steps(m, s, f, how);
-  VecX residual = force - internal_force(m, s, f, trial);
-  double best = out.unbalanced = balance(f, residual, islands);
-  int stuck = 0;
-  for (out.iterations = 0; out.iterations < 200 && out.unbalanced > target && stuck < 40; ++out.iterations) {
-    VecX step;
-    if (std::all_of(trial.sound.begin(), trial.sound.end(), [](std::uint8_t x) { return x != 0; })) {
-      if (!steps.sound(residual, step)) {
-        out.why = "the structure has a mechanism";
-        break;
-      }
-    } else {
-      VecX brake = VecX::Zero(f.count);
-      for (const Island& i : islands)
-        for (const int b : i.blocks) brake.segment<6>(f.first[z(b)]).setConstant(i.brake);
-      if (!steps.cracked(trial, brake, residual, step)) break;
+  Search all(m, s, f, push, how);
+  const bool whole = all.go();
+  all.keep(out);
+  if (whole) note_failures(m, all.islands(), "", out);
+  else  // one of them has a tangent that cannot be solved: each on its own
+    for (const Island& i : all.islands()) {
+      if (i.now == Island::Now::found) continue;
+      const Freedom own = freedom_of(i, m.nblock);
+      Search alone(m, s, own, push, how);
+      const bool solved = alone.go();
+      alone.keep(out);
+      note_failures(m, alone.islands(), solved ? "" : alone.why(), out);
     }
-    const auto work = [&](const Island& i) {
-      double sum = 0;
-      for (const int b : i.blocks) sum += step.segment<6>(f.first[z(b)]).dot(residual.segment<6>(f.first[z(b)]));
-      return sum;
-    };
-    for (Island& i : islands) {
-      i.part = 1, i.low = i.high = i.high_work = 0, i.side = 0;
-      i.start = i.low_work = work(i);
-      i.settled = i.unbalanced < target;
-    }
-    const Pose from{s.u, s.q};
-    for (int trials = 0; trials < 30; ++trials) {
-      move(s, f, from, step, islands);
-      residual = force - internal_force(m, s, f, trial);
-      for (Island& i : islands)
-        if (!i.settled) search(i, work(i));
-      if (std::all_of(islands.begin(), islands.end(), [](const Island& i) { return i.settled; })) break;
-    }
-    std::vector<double> earlier;
-    for (const Island& i : islands) earlier.push_back(i.unbalanced);
-    out.unbalanced = balance(f, residual, islands);
-    for (std::size_t i = 0; i < islands.size(); ++i)
-      islands[i].brake =
-          out.iterations == 0 ? first_brake : std::min(10.0, islands[i].brake * std::clamp(islands[i].unbalanced / earlier[i], 0.1, 2.0));
-    stuck = out.unbalanced < 0.5 * best ? 0 : stuck + 1;
-    if (best < accepted && stuck > 0) {  // what round-off leaves
-      if (out.unbalanced > best) {
-        s.u = from.u, s.q = from.q;
-        residual = force - internal_force(m, s, f, trial);
-        out.unbalanced = balance(f, residual, islands);
-      }
-      break;
-    }
-    best = std::min(best, out.unbalanced);
-    if (!std::isfinite(out.unbalanced)) break;
-  }
-  out.converged = out.unbalanced < accepted;
-  if (!out.converged) {
-    if (out.why.empty()) {
-      const Island& worst =
-          *std::max_element(islands.begin(), islands.end(), [](const Island& a, const Island& b) { return a.unbalanced < b.unbalanced; });
-      out.why = fmt::format("the unbalanced force on block {} stays at {:.3g} of the largest load", m.block_name[z(worst.worst)],
-                            worst.unbalanced);
-    }
-    s.u = before.u;
-    s.q = before.q;
-    return out;
-  }
-  for (int j = 0; j < m.njoint; ++j) {
-    if (s.tier[z(j)] == Tier::open || trial.sound[z(j)]) continue;
-    s.tier[z(j)] = Tier::cracked;
-    s.memory[z(j)] = trial.memory[z(j)];
-  }
-  s.history = trial.history;
-  s.crushed = trial.crushed;
+  out.converged = out.given_up == 0;
   return out;
 }
 

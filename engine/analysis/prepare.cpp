@@ -1,6 +1,7 @@
 #include "engine/analysis/prepare.h"
 
 #include <cmath>
+#include <optional>
 
 #include "engine/base/random.h"
 #include "engine/base/units.h"
@@ -142,7 +143,7 @@ double settlement_of(const Model& m, double block_bound) {
 
 Prepared prepare(const Scene& scene, bool allow_unstable) {
   Built built = build(scene);
-  Prepared p{std::move(built.model), std::move(built.state), {}, {}, {}};
+  Prepared p{std::move(built.model), std::move(built.state), {}, {}, {}, {}};
   find_islands(p.model, p.state);
   refresh_all(p.model, p.state);
   p.bounds = step_bounds(scene, p.model, p.state);
@@ -155,13 +156,71 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
 
 namespace {
 
-// Gravity and the constant loads grow over the ramp and rests as long again, the blocks damped at about the critical value of the lowest
-// mode, which Rayleigh's quotient of the sagging structure gives. Written as a ground that starts to accelerate upwards.
-void ramp(const Scene& scene, Prepared& p, int threads) {
+constexpr double ramp_seconds = 0.2, ramp_limit = 25;  // s, by default; ramps until what still moves is said not to stand
+// Kinetic energy of a block at rest over the work of its weight along the structure's height. One that slides at 1.001 of its friction
+// goes at 5e-4 m/s against the ramp's damping of 100 1/s, a structure of 1 m is at rest below 4e-4 m/s: what is slower than that falls by
+// less than a tenth of a millimetre in the time of a shock.
+constexpr double rest_energy = 1e-8;
+
+// Who is still on his way, and who falls: lower than at the start by half his smallest edge, as Collapse counts it.
+class Unrest {
+ public:
+  Unrest(const Model& m, const State& s) : model_(m), state_(s), start_(s.u), down_(m.gravity.normalized()) {
+    double low = 1e300, high = -1e300;
+    for (int b = 0; b < m.nblock; ++b) {
+      if (m.kind[z(b)] != Kind::moving) continue;
+      const double at = down_.dot(m.rest[z(b)]), edge = m.smallest_edge[z(b)];
+      low = std::min(low, at - edge / 2), high = std::max(high, at + edge / 2);
+    }
+    const double g = m.gravity.norm() > 0 ? m.gravity.norm() : standard_g;  // other loads are measured by what gravity would do
+    square_ = 2 * rest_energy * g * std::max(0.0, high - low);
+  }
+  bool falls(int b) const { return down_.dot(state_.u[z(b)] - start_[z(b)]) > 0.5 * model_.smallest_edge[z(b)]; }
+  bool moves(int b) const {
+    const double turning = state_.w[z(b)].dot(state_.spin_momentum[z(b)]) / model_.mass[z(b)];
+    return state_.v[z(b)].squaredNorm() + turning > square_;
+  }
+  // All that does not fall is at rest.
+  bool ended() const {
+    for (int b = 0; b < model_.nblock; ++b)
+      if (model_.kind[z(b)] == Kind::moving && moves(b) && !falls(b)) return false;
+    return true;
+  }
+
+ private:
+  const Model& model_;
+  const State& state_;
+  const BlockVec3 start_;
+  const Vec3 down_;
+  double square_ = 0;  // m2/s2, of the speed below which a block rests
+};
+
+// What the ramp must leave as it is: blocks that have their equilibrium already, and joints that hang on nothing else.
+struct Held {
+  std::vector<std::uint8_t> block;  // [nblock], empty for none
+  State state;
+
+  void give_back(const Model& m, State& s) const {
+    const auto holds = [&](int b) { return block[z(b)] || m.kind[z(b)] != Kind::moving; };
+    for (int b = 0; b < m.nblock; ++b)
+      if (block[z(b)]) s.u[z(b)] = state.u[z(b)], s.q[z(b)] = state.q[z(b)];
+    for (int j = 0; j < m.njoint; ++j) {
+      const Joint& joint = m.joint[z(j)];
+      if (!holds(joint.a) || !holds(joint.b)) continue;
+      s.memory[z(j)] = state.memory[z(j)];
+      for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i) s.history[z(i)] = state.history[z(i)];
+      if (!s.crushed.empty()) s.crushed[z(j)] = state.crushed[z(j)];
+    }
+  }
+};
+
+// Gravity and the constant loads grow over the ramp, the blocks damped at about the critical value of the lowest mode, which Rayleigh's
+// quotient of the sagging structure gives; then they stay until all that does not fall has come to rest. Written as a ground that falls
+// less and less. Blocks of `held` stay where they are.
+void ramp(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& found, int threads) {
   Model slow = p.model;
-  const double time = scene.analysis.ramp_time > 0 ? scene.analysis.ramp_time : 0.2;
-  slow.gravity = Vec3::Zero();
-  slow.grounds = {{make_table({0, time}, {0, 1}, true), -p.model.gravity}};
+  const double time = scene.analysis.ramp_time > 0 ? scene.analysis.ramp_time : ramp_seconds;
+  slow.grounds = {{make_table({0, time}, {1, 0}, true), p.model.gravity}};
   slow.tilts.clear();
   slow.drives.clear();
   for (auto& push : slow.pushes) push.wave = make_table({0, time}, {0, value(push.wave, 0)}, true);
@@ -171,13 +230,44 @@ void ramp(const Scene& scene, Prepared& p, int threads) {
   const BlockVec3 v = p.state.v, L = p.state.spin_momentum;
   p.state.v.assign(v.size(), Vec3::Zero());
   p.state.spin_momentum.assign(v.size(), Vec3::Zero());
+  std::optional<Held> held;
+  if (!found.empty()) {
+    held.emplace(Held{found, p.state});
+    for (int b = 0; b < slow.nblock; ++b)
+      if (found[z(b)]) slow.kind[z(b)] = Kind::fixed;
+  }
+  find_islands(slow, p.state);
+  const Unrest unrest(slow, p.state);
   Solver solver(slow, p.state, threads);
-  solver.run({[](double) { return false; }, [] {}, [&] { return p.state.t >= 2 * time; }});
+  solver.run({[](double) { return false; },
+              [] {},
+              [&] { return p.state.t >= time && (unrest.ended() || p.state.t >= ramp_limit * time); }});
+  for (int b = 0; b < slow.nblock; ++b)
+    if (slow.kind[z(b)] == Kind::moving && (unrest.moves(b) || unrest.falls(b))) p.fallers.push_back(b);
+  if (held) held->give_back(p.model, p.state);
   p.state.v = v;
   p.state.spin_momentum = L;
+  p.state.w.assign(p.state.w.size(), Vec3::Zero());
+  find_islands(p.model, p.state);
   p.state.step = p.state.start_step = 0;
   p.state.t = p.state.start_t = p.state.last_dt = 0;
   p.state.energy = Energy{};
+}
+
+// Blocks that stay where they are in the ramp that the rest still needs: those found, and those that no joint holds to the ground.
+std::vector<std::uint8_t> kept_still(const Prepared& p) {
+  std::vector<std::uint8_t> still = p.equilibrium.found;
+  for (int b = 0; b < p.model.nblock; ++b) still[z(b)] = still[z(b)] || !p.state.grounded[z(b)];
+  return still;
+}
+
+void warn_of_fallers(Prepared& p) {
+  if (p.fallers.empty()) return;
+  std::string names;
+  for (std::size_t i = 0; i < std::min<std::size_t>(5, p.fallers.size()); ++i)
+    names += (i == 0 ? " " : ", ") + p.model.block_name[z(p.fallers[i])];
+  if (p.fallers.size() > 5) names += fmt::format(" and {} more", p.fallers.size() - 5);
+  p.model.warnings.push_back(fmt::format("not at rest under its own weight:{}", names));
 }
 
 }  // namespace
@@ -187,17 +277,27 @@ void start_at_rest(const Scene& scene, Prepared& p, int threads) {
   if (scene.analysis.start == "equilibrium" && loaded && p.model.njoint > 0) {
     for (int turn = 0; turn < 3; ++turn) {  // arms of the loads turn with their blocks
       p.equilibrium = settle(p.model, p.state, constant_loads(p.model, p.state));
-      if (!p.equilibrium.converged || p.model.pushes.empty()) break;
+      if (p.model.pushes.empty()) break;
     }
     if (!p.equilibrium.converged) {
-      p.model.warnings.push_back("no equilibrium under gravity: " + p.equilibrium.why + "; gravity is brought on as a damped ramp instead");
-      ramp(scene, p, threads);
+      p.model.warnings.push_back("no equilibrium under gravity: " + p.equilibrium.why +
+                                 "; gravity is brought on there as a damped ramp instead");
+      ramp(scene, p, kept_still(p), threads);
     }
   } else if (scene.analysis.start == "ramp" && p.model.njoint > 0) {
-    ramp(scene, p, threads);
+    ramp(scene, p, {}, threads);
   }
+  warn_of_fallers(p);
   refresh_all(p.model, p.state);
   return_free_memory();
+}
+
+double falling_share(const Prepared& p) {
+  double all = 0, falls = 0;
+  for (int b = 0; b < p.model.nblock; ++b)
+    if (p.model.kind[z(b)] == Kind::moving) all += p.model.mass[z(b)];
+  for (const int b : p.fallers) falls += p.model.mass[z(b)];
+  return all > 0 ? falls / all : 0;
 }
 
 void add_noise(Prepared& run, double reach, unsigned seed) {

@@ -19,6 +19,7 @@ struct Collapse {
   double fallen_fraction = 0;        // share of the moving mass that is down now
   bool collapsed = false;            // the share has reached Analysis::collapse_fraction once
   double time = 0;                   // s, when it did
+  bool under_gravity = false;        // it did not stand under its own weight to begin with: no shock did that, and at no time
   bool moved = false;                // a block has come Analysis::stop_when_moved away from rest
   Mechanism mechanism;               // as it was at the collapse
 };
@@ -31,6 +32,7 @@ void each(C& c, F&& f) {
   f("collapse_fraction", c.fallen_fraction);
   f("collapse_collapsed", c.collapsed);
   f("collapse_time", c.time);
+  f("collapse_under_gravity", c.under_gravity);
   f("collapse_moved", c.moved);
   f("collapse_mechanism", c.mechanism);
 }

@@ -37,6 +37,7 @@ struct Metrics {
   double momentum_residual = 0, max_penetration_relative = 0;
   struct Collapse {
     bool collapsed = false;
+    bool under_gravity = false;  // it does not stand under its own weight
     std::optional<double> time_s;
     std::optional<std::array<double, 2>> direction;  // unit, x and y
     double fallen_fraction = 0;

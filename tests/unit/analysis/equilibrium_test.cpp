@@ -92,7 +92,13 @@ TEST_CASE("a load past the edge of its joint has no equilibrium, and says which 
   const Equilibrium found = settle(run.model, state, push);
   CHECK_FALSE(found.converged);
   CHECK_THAT(found.why, Catch::Contains("free2"));
-  for (std::size_t b = 0; b < state.u.size(); ++b) CHECK(state.u[b] == run.state.u[b]);
+  CHECK(found.given_up == 1);
+  for (std::size_t b = 0; b < state.u.size(); ++b) {  // its neighbours have theirs all the same
+    CAPTURE(run.model.block_name[b]);
+    const bool rests = run.model.block_name[b] == "free1" || run.model.block_name[b] == "free3";
+    CHECK((state.u[b] != run.state.u[b]) == rests);
+    CHECK(bool(found.found[b]) == rests);
+  }
 }
 
 TEST_CASE("eccentric loads by Newton and by a damped ramp give the same rotation", "[analysis]") {
@@ -193,4 +199,67 @@ TEST_CASE("without equilibrium iterations say what factors say", "[analysis]") {
   CHECK_THAT(iterated.found.why, Catch::Contains("block over"));
   CHECK_THAT(direct.found.why, Catch::Contains("block over"));
   CHECK(iterated.run.state.u[1] == Vec3::Zero());
+}
+
+namespace {
+
+// Stacks of five plates, each on a slope of its own at a share of the friction limit, falling towards `way` (deg).
+Scene slopes(const std::string& shares, double way) {
+  return scene_of(fmt::format(R"(
+    local way = {} * math.pi / 180
+    for i, share in ipairs{{{}}} do
+      local slope, id = math.atan(share * .6), 's' .. i
+      transform{{ rotation = {{ math.sin(way) * slope, math.cos(way) * slope, 0 }}, at = {{ 2 * i, 0, 0 }}, function()
+        box{{ name=id..'_base', group=id, size={{.6,.4,.1}}, at={{-.1,-.1,-.1}}, material='brick', fixed=true }}
+        for c = 0, 4 do box{{ name=id..'_'..c, group=id, size={{.4,.2,.05}}, at={{0,0,c*.05}}, material='brick' }} end
+      end }}
+      joint{{ between={{id,id}}, law=dry{{ kn=1e10, mu=.6 }} }}
+    end)",
+                              way, shares));
+}
+
+}  // namespace
+
+TEST_CASE("a step that friction turns against the residual is braked, not halved to nothing", "[analysis]") {
+  for (const double way : {0., 30., 45., 60., 90., 180., 270.}) {
+    CAPTURE(way);
+    const Settled stack = settled(slopes("0.985", way), Linear::direct);
+    CHECK(stack.found.why == "");
+    CHECK(stack.found.converged);
+  }
+}
+
+TEST_CASE("of many stacks only the one past its friction limit is not at rest, and the others keep their equilibrium to the bit",
+          "[analysis]") {
+  const Scene scene = slopes("0.985,0.985,1.02,0.985,0.985,0.985", 90);
+  const Settled direct = settled(scene, Linear::by_size);
+  const Prepared run = started(scene, "equilibrium");
+  CHECK(direct.found.given_up == 1);
+  CHECK(run.fallers.size() == 5);
+  for (const int b : run.fallers) CHECK_THAT(run.model.block_name[std::size_t(b)], Catch::StartsWith("s3_"));
+  CHECK(falling_share(run) == Approx(1.0 / 6));
+  for (std::size_t b = 0; b < run.state.u.size(); ++b) {
+    if (run.model.block_name[b].starts_with("s3_")) continue;
+    CHECK(run.state.u[b] == direct.run.state.u[b]);
+    CHECK(run.state.q[b].coeffs() == direct.run.state.q[b].coeffs());
+  }
+  for (int j = 0; j < run.model.njoint; ++j) {
+    const Joint& joint = run.model.joint[std::size_t(j)];
+    if (run.model.joint_name(j).starts_with("s3_")) continue;
+    CHECK(run.state.tier[std::size_t(j)] == direct.run.state.tier[std::size_t(j)]);
+    for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i)
+      CHECK(run.state.history[std::size_t(i)].slip_s == direct.run.state.history[std::size_t(i)].slip_s);
+  }
+}
+
+TEST_CASE("what no ramp brings to rest is told, what it does is not", "[analysis]") {
+  const Prepared falls = started(scene_of("joint{law=dry{kn=1e9, mu=0.6}}"
+                                          "box{name='foot', size={.3,.1,.1}, at={0,0,-.1}, material='brick', fixed=true}"
+                                          "box{name='over', size={.7,.1,.1}, at={0,0,0}, material='brick'}"
+                                          "box{name='other', size={.3,.1,.1}, at={0,3,-.1}, material='brick', fixed=true}"
+                                          "box{name='fine', size={.3,.1,.1}, at={0,3,0}, material='brick'}"),
+                                 "ramp");
+  REQUIRE(falls.fallers.size() == 1);
+  CHECK(falls.model.block_name[std::size_t(falls.fallers[0])] == "over");
+  CHECK(started(eccentric("0.05,0.2,0.3,0.4", "dry{kn=1e10, mu=0.6}"), "ramp").fallers.empty());
 }

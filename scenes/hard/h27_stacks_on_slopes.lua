@@ -1,0 +1,36 @@
+-- Hard case: stacks of plates just below the limit of friction, each on a slope of its own
+--
+-- What happens   28 stacks of five plates stand on slopes at 0.985 of the friction limit, which fall towards all points of the compass, on joints from
+--                soft to stiff. Along and across the plates Newton's method finds the equilibrium, askew friction leaves it none in one step
+--                from nothing: those stacks come to rest in a damped ramp, while the others keep what they have. Then nothing may move.
+-- Source         Coulomb: a stack below the limit stays
+-- How to run     erbs run scenes/hard/h27_stacks_on_slopes.lua [-D share=1.02] [-D past=9: that one alone slides]
+-- What to look at  drift, of the top plates over their size, 1/s
+local mu, share, past = param("mu", 0.6), param("share", 0.985, "of the friction limit"), param("past", 0, "number of a stack at 1.02 of it")
+local stacks, length = 28, 0.4
+material { name = "brick", density = 1800 }
+for i = 1, stacks do
+  local id, way = "s" .. i, 2 * math.pi * (i - 1) / stacks
+  local slope = math.atan(mu * (i == past and 1.02 or share))
+  transform { rotation = { math.sin(way) * slope, math.cos(way) * slope, 0 }, at = { 2 * (i % 7), 2 * (i // 7), 0 }, function()
+    box { name = id .. "_base", group = id, size = { 0.6, 0.4, 0.1 }, at = { -0.1, -0.1, -0.1 }, fixed = true, material = "brick" }
+    for c = 1, 5 do box { name = id .. "_" .. c, group = id, size = { length, 0.2, 0.05 }, at = { 0, 0, (c - 1) * 0.05 }, material = "brick" } end
+  end }
+  joint { between = { id, id }, law = dry { kn = 10 ^ (10 + (i - 1) / (stacks - 1)), mu = mu } }
+  recorder { name = "top" .. i, quantity = "displacement", block = id .. "_5" }
+end
+metric("drift", "1/s", function(run)
+  local most = 0
+  for i = 1, stacks do
+    for _, axis in ipairs { "x", "y", "z" } do
+      local column = "top" .. i .. "_u" .. axis .. "_rel_m"
+      if i ~= past then most = math.max(most, math.abs(run.last(column) - run.first(column)) / (run.time_s * length)) end
+    end
+  end
+  return most
+end)
+analysis { duration = 2, frame_dt = 0.2 }
+expect("metrics.drift", 1e-6, { below = true, source = "Coulomb" })
+expect("collapse.under_gravity", false)
+expect("collapse.fallen_fraction", past > 0 and 1 / stacks or 0, { abs = 1e-9, source = "the one that is past its limit" })
+expect("status", "completed")
