@@ -137,9 +137,9 @@ std::vector<Verdict> verdicts_of(const Json& json) {
   return verdicts;
 }
 
-bool expects_divergence(const Scene& scene) {
+bool expects_status(const Scene& scene, const std::string& status) {
   return std::any_of(scene.expectations.begin(), scene.expectations.end(),
-                     [](const Expectation& item) { return item.key == "status" && item.text_value == "diverged"; });
+                     [&](const Expectation& item) { return item.key == "status" && item.text_value == status; });
 }
 
 }  // namespace erbs

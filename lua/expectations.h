@@ -17,6 +17,6 @@ struct Verdict {
 std::vector<Verdict> judge(const std::vector<Expectation>& expectations, const Json& metrics);
 Json to_json(const std::vector<Verdict>& verdicts);
 std::vector<Verdict> verdicts_of(const Json& json);  // of expectations.json
-bool expects_divergence(const Scene& scene);
+bool expects_status(const Scene& scene, const std::string& status);
 
 }  // namespace erbs

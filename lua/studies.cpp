@@ -47,7 +47,8 @@ StudiesOutcome run_studies(const Script& script, const std::string& path, const 
 bool studies_left(const Script& script, const std::string& directory) {
   const std::string metrics = run_file(directory, "metrics.json");
   if (script.studies().empty() || !is_run_folder(directory) || !std::filesystem::exists(metrics)) return false;
-  return read_json(metrics).value("status", "") == "completed";
+  const std::string status = read_json(metrics).value("status", "");
+  return status == "completed" || status == "inaccurate";
 }
 
 }  // namespace erbs

@@ -162,7 +162,7 @@ void read(MapRun& r, const Case& run, const std::string& quantity) {
     const bool gate = r.scheme.sequential ? r.residual > wrong_ledger || own_doing(metrics) : run.code == exit_numbers;
     r.verdict = status == "diverged"    ? Verdict::diverged
                 : gate                  ? Verdict::ledger
-                : status == "completed" ? Verdict::converged
+                : status == "completed" || status == "inaccurate" ? Verdict::converged
                 : status == "stopped"   ? Verdict::bounded
                                         : Verdict::failed;
   } catch (const std::exception&) { r.verdict = Verdict::failed; }

@@ -102,7 +102,9 @@ void print_summary(const Scene& scene, const std::string& directory, const Json&
     fmt::print("  FAILED {}: expected {} {}, got {} ({})\n", v.key, v.expected, v.tolerance, v.got, v.place);
   }
   if (!verdicts.empty()) fmt::print("expectations: {} passed, {} failed\n", verdicts.size() - static_cast<size_t>(failed), failed);
-  fmt::print("results in {}\n", directory);
+  const std::string status = metrics.value("status", "");
+  fmt::print("{}results in {}\n", status == "completed" ? "" : fmt::format("{}{}; ", status, status == "inaccurate" ? ": not to be relied on" : ""),
+             directory);
   std::fflush(stdout);
 }
 
@@ -110,9 +112,8 @@ int exit_code(const Scene& scene, const Options& options, const RunOutcome& outc
               const std::vector<Verdict>& verdicts) {
   const std::string& status = outcome.metrics.status;
   if (status == "interrupted") return exit_interrupted;
-  const bool welcome = status == "diverged" && expects_divergence(scene);
-  if (!welcome && (!outcome.gate_passed || status == "diverged")) return exit_numbers;
   if (status == "stopped") return exit_stopped;
+  if (status != "completed" && !expects_status(scene, status)) return exit_numbers;
   for (const Verdict& verdict : verdicts)
     if (!verdict.passed) return exit_expectation;
   const Json* collapsed = find_key(metrics, "collapse.collapsed");
@@ -208,15 +209,16 @@ int verb_run(const Options& options) {
   const std::string directory = options.directory.empty() ? "runs/" + scene.name : options.directory;
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
-  RunOutcome outcome;  // of a finished run whose studies alone go on: completed
-  if (!options.resume || !studies_left(script, directory)) outcome = run_scene(std::move(scene), text_of(path), notes, directory, options);
+  RunOutcome outcome;  // of a finished run whose studies alone go on: its status
+  if (options.resume && studies_left(script, directory)) outcome.metrics.status = read_metrics(directory).value("status", "");
+  else outcome = run_scene(std::move(scene), text_of(path), notes, directory, options);
   for (const auto& warning : outcome.warnings) fmt::print(stderr, "warning: {}\n", warning);
   if (!outcome.trouble.empty()) fmt::print(stderr, "{}: {}\n", path, outcome.trouble);
 
   Json metrics;
   std::vector<Verdict> verdicts;
   const std::string& status = outcome.metrics.status;
-  const bool whole = status == "completed" || status == "diverged";
+  const bool whole = status == "completed" || status == "inaccurate" || status == "diverged";
   StudiesOutcome studies;
   if (whole && options.study.empty()) studies = run_studies(script, path, directory, options, interrupted);
   if (studies.interrupted) {

@@ -77,7 +77,7 @@ void Overlay::draw_title(Image& image, double t) const {
   const double u = unit_, base = 36 * u;
   fill_fade(image, 0, static_cast<int>(60 * u), {250, 251, 252, 0.75}, 0.0);
   bold_.draw(image, fmt::format("{:.2f} s", t), image.width - margin * u, base, 24 * u, text_ink, Font::Align::right);
-  std::string beside = camera_;
+  std::string beside = run_.status.empty() ? camera_ : run_.status + "   " + camera_;
   if (std::abs(slow_ - 1) > 0.02)
     beside += slow_ > 1 ? fmt::format("   slow motion {:.3g} : 1", slow_) : fmt::format("   time lapse 1 : {:.3g}", 1 / slow_);
   // What is beside the clock keeps its place: it ends where the widest clock would begin.

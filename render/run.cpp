@@ -63,6 +63,9 @@ Run read_run(const std::string& dir) {
   for (const Material& a : m.materials) run.materials.push_back({a.name, linear(a.color)});
   if (const Json* gate = find_key(m.settings, "analysis.energy_gate.value"); gate && gate->is_number())
     run.energy_gate = gate->get<double>();
+  if (const std::string metrics = run_file(dir, "metrics.json"); std::filesystem::exists(metrics))
+    run.status = read_json(metrics).value("status", "");
+  if (run.status == "completed") run.status.clear();
   if (std::filesystem::exists(histories)) run.record = strongest_component(read_csv(histories));
   if (const std::string events = run_file(dir, "events.csv"); std::filesystem::exists(events)) run.marks = first_events(read_csv(events));
   return run;

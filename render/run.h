@@ -34,6 +34,7 @@ struct Run {
   GroundRecord record;           // the strongest component
   std::vector<Mark> marks;       // in the order of time
   double energy_gate = 0;        // relative; 0: not known
+  std::string status;            // of a run that is not to be relied on as it stands; "" where it was completed, or still goes
 };
 
 // Error where DIR is no run folder.

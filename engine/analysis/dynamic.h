@@ -35,8 +35,7 @@ struct RunOptions {
 
 struct RunOutcome {
   Metrics metrics;
-  bool gate_passed = true;   // energy ledger within its gate
-  std::string trouble;       // what went wrong with the numbers, and where
+  std::string trouble;       // what went wrong with the numbers, where, and which knob cures it
   std::vector<std::string> warnings;
 };
 

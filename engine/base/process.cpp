@@ -100,7 +100,7 @@ std::string last_words(const std::string& log, int code, const std::string& file
   std::string first, last, line;
   std::ifstream stream(log);
   while (std::getline(stream, line)) {
-    if (line.empty() || line.starts_with("warning:") || line.starts_with("results in")) continue;
+    if (line.empty() || line.starts_with("warning:") || line.find("results in ") != std::string::npos) continue;
     if (first.empty() && line.find(name) != std::string::npos) first = line;
     last = line;
   }

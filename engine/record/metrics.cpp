@@ -105,7 +105,11 @@ Json to_json(const Metrics& m) {
                    {"energy_residual_where", m.trust.energy_residual_where},
                    {"max_penetration_relative", m.trust.penetration},
                    {"dt_margin", m.trust.dt_margin},
+                   {"reset_share", m.trust.reset_share},
                    {"warned_share", m.trust.warned_share},
+                   {"past_gate_share", m.trust.past_gate_share},
+                   {"past_step_share", m.trust.past_step_share},
+                   {"sinking_share", m.trust.sinking_share},
                    {"momentum_residual", m.trust.momentum_residual},
                    {"twin", m.trust.twin},
                    {"chaos_horizon_s", m.trust.chaos_horizon ? Json(*m.trust.chaos_horizon) : Json()}};
@@ -134,7 +138,11 @@ Metrics::Trust trust_of(const Json& metrics) {
   if (const Json* where = find_key(metrics, "trust.energy_residual_where"); where != nullptr && where->is_string()) t.energy_residual_where = *where;
   t.penetration = number("trust.max_penetration_relative");
   t.dt_margin = number("trust.dt_margin");
+  t.reset_share = number("trust.reset_share");
   t.warned_share = number("trust.warned_share");
+  t.past_gate_share = number("trust.past_gate_share");
+  t.past_step_share = number("trust.past_step_share");
+  t.sinking_share = number("trust.sinking_share");
   t.momentum_residual = number("trust.momentum_residual");
   if (const Json* twin = find_key(metrics, "trust.twin"); twin != nullptr && twin->is_boolean()) t.twin = *twin;
   if (const Json* horizon = find_key(metrics, "trust.chaos_horizon_s"); horizon != nullptr && horizon->is_number()) t.chaos_horizon = horizon->get<double>();

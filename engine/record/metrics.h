@@ -16,7 +16,7 @@ struct Mechanism;
 struct Model;
 
 struct Metrics {
-  std::string status = "completed";  // completed | diverged | stopped | interrupted
+  std::string status = "completed";  // completed | inaccurate | diverged | stopped | interrupted
   double time_s = 0;
   long steps = 0;
   double dt_s = 0, dt_critical_s = 0, dt_block_bound_s = 0;
@@ -55,7 +55,9 @@ struct Metrics {
     std::string energy_residual_where;                     // the joint whose own balance jumped most until then; "" for none
     double penetration = 0;                                // deepest overlap over smallest edge
     double dt_margin = 0;                                  // largest step over the limit in force
-    double warned_share = 0;                               // of the steps
+    double reset_share = 0;                                // of all energy that passed: what was booked away where joints turn to contacts
+    double warned_share = 0;                               // of the steps, for any of the three:
+    double past_gate_share = 0, past_step_share = 0, sinking_share = 0;
     double momentum_residual = 0;
     bool twin = false;                   // a twin was run
     std::optional<double> chaos_horizon;  // s; none: they stay together to the end

@@ -120,7 +120,7 @@ class Runner {
       if (overdue) a.reason = fmt::format("took longer than {:g} s and was ended", c_.max_wall);
       // A bisection for a limit of stability asks for divergence: its own question may say yes to such a run, never no.
       else if (status == "diverged" && study_.kind == Study::Kind::bisect && !study_.collapse && value != nullptr && (*value == true || *value == 1)) a.value = 1;
-      else if (status == "diverged" || status == "stopped") a.reason = status + "; " + last_words(log_of(a.x), code, c_.scene);
+      else if (status == "diverged" || status == "inaccurate" || status == "stopped") a.reason = status + "; " + last_words(log_of(a.x), code, c_.scene);
       else if (code != 0 || value == nullptr) a.reason = last_words(log_of(a.x), code, c_.scene);
       else if (value->is_boolean()) a.value = value->get<bool>() ? 1 : 0;
       else if (value->is_number() && std::isfinite(value->get<double>())) a.value = value->get<double>();

@@ -82,7 +82,7 @@ TEST_CASE("expectations pass and fail as they say", "[lua]") {
   CHECK(passed == std::vector<bool>{true, false, true, false, true, true, true, true, false, true, true, false, false});
   CHECK(verdicts.at(11).got == "no such key");
   CHECK(verdicts.at(12).got == "null");
-  CHECK(expects_divergence(scene));
+  CHECK(expects_status(scene, "diverged"));
   const auto back = verdicts_of(Json::parse(to_json(verdicts).dump()));
   CHECK(back.at(1).tolerance == "rel 0.02");
   CHECK(back.at(1).error == "-0.024");
