@@ -1,7 +1,9 @@
 // Many runs of the scene with a parameter changed. In a run that such a study started, only its own question is asked.
 #include <algorithm>
+#include <cmath>
 #include <lua5.4/lua.hpp>
 
+#include "engine/base/words.h"
 #include "lua/api.h"
 
 namespace erbs {
@@ -132,6 +134,54 @@ int figure(Call& call) {
   return 0;
 }
 
+// The values under each name of the table on top; `known`: the params.
+std::vector<std::pair<std::string, std::vector<double>>> lists_of(Call& call, const std::vector<std::string>& known) {
+  std::vector<std::pair<std::string, std::vector<double>>> lists;
+  lua_pushnil(call.lua);
+  for (; lua_next(call.lua, 1) != 0; lua_pop(call.lua, 1)) {
+    if (lua_type(call.lua, -2) != LUA_TSTRING) {
+      call.mistake("it takes the names of params, each with a list of values, such as { kn = { 1e9, 1e10 } }");
+      continue;
+    }
+    const std::string name = lua_tostring(call.lua, -2);
+    if (std::find(known.begin(), known.end(), name) == known.end()) {
+      call.mistake(fmt::format("there is no param \"{}\" yet{}; write param(\"{}\", ...) above", name, did_you_mean(name, known), name));
+      continue;
+    }
+    std::vector<double> values;
+    bool sound = lua_istable(call.lua, -1) && lua_rawlen(call.lua, -1) > 0;
+    for (lua_Integer i = 1; sound && i <= static_cast<lua_Integer>(lua_rawlen(call.lua, -1)); ++i) {
+      sound = lua_rawgeti(call.lua, -1, i) == LUA_TNUMBER && std::isfinite(lua_tonumber(call.lua, -1));
+      values.push_back(lua_tonumber(call.lua, -1));
+      lua_pop(call.lua, 1);
+    }
+    if (sound) lists.emplace_back(name, values);
+    else call.mistake(fmt::format("{} must be a list of finite numbers, such as {{ 1, 3, 8 }}", name));
+  }
+  return lists;
+}
+
+int family(Call& call) {
+  static const Keys keys = {{"combinations", "integer", "", "", 0, 1000}, {"seed", "number", "", "", -1e15, 1e15}};
+  ParamFamily& into = call.context.family;
+  if (!lua_istable(call.lua, 1))
+    throw Error(fmt::format("family takes a table of lists, such as family {{ kn = {{ 1e9, 1e10 }} }}, not {}", described(call.lua, 1)), call.place);
+  if (into.place.line > 0) call.mistake(fmt::format("one was given before, at {}; put all params into it", into.place.text()));
+  into.place = call.place;
+  if (!lua_isnoneornil(call.lua, 2)) {
+    Arguments how(call.context, call.lua, 2, "family", call.place, keys);
+    how.read("combinations", into.combinations);
+    how.read("seed", into.seed);
+  }
+  std::vector<std::string> known;
+  for (const Param& param : call.context.scene.params) known.push_back(param.name);
+  into.values = lists_of(call, known);
+  // a table of Lua has no order
+  const auto place = [&](const auto& list) { return std::find(known.begin(), known.end(), list.first); };
+  std::sort(into.values.begin(), into.values.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
+  return 0;
+}
+
 }  // namespace
 
 std::vector<Function> study_functions() {
@@ -174,6 +224,13 @@ std::vector<Function> study_functions() {
         {"param", "string", "", "name of the param that takes the seeds (whole numbers below 2^31)", -unbounded, unbounded, false, "",
          "seed"},
         {"name", "string", "", "of its metrics", -unbounded, unbounded, false, "", "ensemble"}}},
+      {"family",
+       family,
+       "params, how",
+       "",
+       "Params that erbs test --grid varies: each value alone, and some combinations; erbs run leaves them be.",
+       {{"params", "family", "", "lists of values by the names of params given above", -unbounded, unbounded, true},
+        {"how", "family_how", "", "{ combinations = how many (default 4), seed = of their draw (default 1) }"}}},
       {"figure",
        figure,
        "{ ... }",

@@ -7,6 +7,7 @@
 
 #include "engine/scene/scene.h"
 #include "engine/study/study.h"
+#include "lua/family.h"
 #include "lua/sandbox.h"
 
 namespace erbs {
@@ -77,6 +78,7 @@ struct Context {
   std::vector<Sampling> samplings;
   std::vector<Study> studies;
   std::vector<Figure> figures;
+  ParamFamily family;
   std::string study;  // the one that started this run; "" where none did
   std::vector<GroupRecorder> group_recorders;
   int quality_points = 0;           // along each side of a joint, of analysis{ quality = ... }; 0: none is asked for

@@ -501,6 +501,11 @@ function converge(keys) end
 ---@param keys erbs.ensemble_keys
 function ensemble(keys) end
 
+---Params that erbs test --grid varies: each value alone, and some combinations; erbs run leaves them be.
+---@param params table<string, number[]> lists of values by the names of params given above
+---@param how? { combinations?: integer, seed?: number } { combinations = how many (default 4), seed = of their draw (default 1) }
+function family(params, how) end
+
 ---@class erbs.figure_keys
 ---@field name string of the file
 ---@field title string what it shows

@@ -6,12 +6,15 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "engine/base/hash.h"
 #include "engine/record/manifest.h"
 #include "lua/book.h"
 #include "lua/cases.h"
+#include "lua/family.h"
 #include "lua/progress.h"
+#include "lua/read.h"
 
 namespace erbs {
 namespace {
@@ -21,52 +24,125 @@ namespace fs = std::filesystem;
 constexpr double dt_fractions[] = {0.2, 0.5, 0.9};  // of dt_critical
 constexpr int point_numbers[] = {4, 9, 25};         // per joint
 constexpr double noise = 1e-8;                      // m and rad
+constexpr double family_fractions[] = {0.25, 0.5, 0.9};
+constexpr int draws = 100;  // of one combination, until the scene takes it
 
 struct Variant {
   Case run;
   std::string scene_name, words;  // "dt 0.2, 9 points"
   std::string note, key;
+  std::string refused;  // by the scene itself, and why
   bool done = false;
   CaseResult result;
 };
 
-// Scenes that fix their step keep it, those without joints their points.
+Variant variant_of(const Case& scene, const std::string& key, const std::string& stem, const std::string& words, std::vector<std::string> extra) {
+  Variant v;
+  v.scene_name = scene.name;
+  v.words = words.empty() ? "as it is" : words;
+  v.run = scene;
+  v.run.extra = std::move(extra);
+  v.run.name = scene.name + stem;
+  v.run.directory = scene.directory + "/run" + stem;
+  v.run.log = v.run.directory + ".log";
+  v.note = v.run.directory + ".json";
+  v.key = hash_text(fnv1a(key + stem));
+  return v;
+}
+
+Variant variant_of(const Case& scene, const std::string& key, const Choice& choice) {
+  std::string stem, words;
+  std::vector<std::string> extra;
+  for (const auto& [name, value] : choice) {
+    stem += fmt::format("_{}{}", name, written(value));
+    words += fmt::format("{}{} {}", words.empty() ? "" : ", ", name, written(value));
+    extra.insert(extra.end(), {"-D", fmt::format("{}={:.17g}", name, value)});
+  }
+  return variant_of(scene, key, stem, words, std::move(extra));
+}
+
+Script::Options quietly() {
+  Script::Options options;
+  options.quiet = true;
+  return options;
+}
+
+// Why the scene cannot be built so; "" where it can.
+std::string refusal(const Case& scene, Overrides overrides, const Choice& choice) {
+  for (const auto& [name, value] : choice) overrides.emplace_back(name, fmt::format("{:.17g}", value));
+  try {
+    Script(quietly()).load(scene.scene, overrides);
+    return "";
+  } catch (const std::exception& error) { return error.what(); }
+}
+
+// At the steps of a family, with its values alone and drawn together; what -D says stays.
+std::vector<Variant> family_of(const Case& scene, const Overrides& overrides, ParamFamily family, const std::string& key, bool fixed_dt) {
+  std::erase_if(family.values, [&](const auto& list) {
+    return std::any_of(overrides.begin(), overrides.end(), [&](const auto& given) { return given.first == list.first; });
+  });
+  std::vector<Variant> all;
+  for (const double share : family_fractions)
+    if (!fixed_dt)
+      all.push_back(variant_of(scene, key, fmt::format("_dt{}", share), fmt::format("dt {}", share), {"--dt-fraction", fmt::format("{}", share)}));
+  for (const Choice& choice : one_at_a_time(family)) {
+    all.push_back(variant_of(scene, key, choice));
+    if (const std::string why = refusal(scene, overrides, choice); !why.empty()) all.back().refused = why;
+  }
+  std::set<Choice> drawn;
+  const int n = family.values.size() > 1 ? family.combinations : 0;
+  for (int i = 0; static_cast<int>(drawn.size()) < n && i < draws * n; ++i) {
+    const Choice choice = combination(family, i);
+    if (drawn.contains(choice) || !refusal(scene, overrides, choice).empty()) continue;
+    drawn.insert(choice);
+    all.push_back(variant_of(scene, key, choice));
+  }
+  return all;
+}
+
+std::string key_of(const Script& script, const Overrides& overrides) {
+  std::string key = program_version();
+  for (const auto& [name, value] : overrides) key += "\n" + name + "=" + value;
+  for (const auto& [file, hash] : script.scene().inputs) key += "\n" + hash;
+  return key;
+}
+
+std::vector<Variant> seeds_of(const Case& scene, const Overrides& overrides, int n) {
+  Script script(quietly());
+  const auto& params = script.load(scene.scene, overrides).params;
+  if (std::none_of(params.begin(), params.end(), [](const Param& param) { return param.name == "seed"; }))
+    throw Error(fmt::format("{} has no param \"seed\"; write param(\"seed\", 1, \"\") in it, or leave --seeds out", scene.scene));
+  std::vector<Variant> all;
+  for (int i = 1; i <= n; ++i) all.push_back(variant_of(scene, key_of(script, overrides), {{"seed", i}}));
+  return all;
+}
+
+// Scenes that fix their step keep it, those without joints their points; those that declare a family are run over it.
 std::vector<Variant> variants_of(const Case& scene, const Overrides& overrides) {
   bool fixed_dt = false, joints = true;
   std::string key = program_version();
-  for (const auto& [name, value] : overrides) key += "\n" + name + "=" + value;
   try {
-    Script::Options quiet;
-    quiet.quiet = true;
-    Script script(quiet);
+    Script script(quietly());
     const Scene& s = script.load(scene.scene, overrides);
+    key = key_of(script, overrides);
     fixed_dt = std::find(s.labels.begin(), s.labels.end(), "fixed_dt") != s.labels.end();
     joints = std::any_of(s.joint_rules.begin(), s.joint_rules.end(), [](const JointRule& rule) { return !rule.none; });
-    for (const auto& [file, hash] : s.inputs) key += "\n" + hash;
+    if (!script.family().values.empty()) return family_of(scene, overrides, script.family(), key, fixed_dt);
   } catch (const std::exception&) {}  // its run tells the mistake
   std::vector<Variant> all;
   for (size_t i = 0; i < (fixed_dt ? 1 : std::size(dt_fractions)); ++i)
     for (size_t k = 0; k < (joints ? std::size(point_numbers) : 1); ++k) {
-      Variant v;
-      v.scene_name = scene.name;
-      v.run = scene;
-      std::string stem;
-      v.run.extra = {"--noise", fmt::format("{:g}", noise)};
+      std::string stem, words;
+      std::vector<std::string> extra = {"--noise", fmt::format("{:g}", noise)};
       if (!fixed_dt) {
-        v.run.extra.insert(v.run.extra.end(), {"--dt-fraction", fmt::format("{}", dt_fractions[i])});
-        stem += fmt::format("_dt{}", dt_fractions[i]), v.words = fmt::format("dt {}", dt_fractions[i]);
+        extra.insert(extra.end(), {"--dt-fraction", fmt::format("{}", dt_fractions[i])});
+        stem += fmt::format("_dt{}", dt_fractions[i]), words = fmt::format("dt {}", dt_fractions[i]);
       }
       if (joints) {
-        v.run.extra.insert(v.run.extra.end(), {"--points", std::to_string(point_numbers[k])});
-        stem += fmt::format("_p{}", point_numbers[k]), v.words += fmt::format("{}{} points", v.words.empty() ? "" : ", ", point_numbers[k]);
+        extra.insert(extra.end(), {"--points", std::to_string(point_numbers[k])});
+        stem += fmt::format("_p{}", point_numbers[k]), words += fmt::format("{}{} points", words.empty() ? "" : ", ", point_numbers[k]);
       }
-      if (v.words.empty()) v.words = "as it is";
-      v.run.name = scene.name + stem;
-      v.run.directory = scene.directory + "/run" + stem;
-      v.run.log = v.run.directory + ".log";
-      v.note = v.run.directory + ".json";
-      v.key = hash_text(fnv1a(key + stem));
-      all.push_back(std::move(v));
+      all.push_back(variant_of(scene, key, stem, words, std::move(extra)));
     }
   return all;
 }
@@ -98,12 +174,13 @@ bool read_note(Variant& v) {
 struct Worst {
   std::string scene, key, expected, got, tolerance, at;
   double used = 0;
-  int runs = 0, failed = 0;
+  int runs = 0;
+  std::vector<std::string> failed;  // at which settings
 };
 
 struct Grid {
   std::vector<Worst> rows;
-  std::vector<std::string> refused;  // by a limit of use that the scene states
+  std::vector<std::string> refused;  // by a limit of use that the scene states, or by the scene itself
   int runs = 0, missing = 0;
   double cpu = 0;
 };
@@ -112,7 +189,7 @@ void add(Worst& row, const Variant& v, const Verdict& verdict) {
   const double used = verdict.passed ? verdict.used : std::max(verdict.used, 1.0);
   if (row.runs++ == 0 || used > row.used)
     row.used = used, row.expected = verdict.expected, row.got = verdict.got, row.tolerance = verdict.tolerance, row.at = v.words;
-  row.failed += !verdict.passed;
+  if (!verdict.passed) row.failed.push_back(v.words);
 }
 
 Grid worst_of(const std::vector<Variant>& variants) {
@@ -120,10 +197,14 @@ Grid worst_of(const std::vector<Variant>& variants) {
   std::map<std::pair<std::string, std::string>, size_t> index;
   const auto row_of = [&](const std::string& scene, const std::string& key) -> Worst& {
     const auto [at, fresh] = index.emplace(std::pair{scene, key}, grid.rows.size());
-    if (fresh) grid.rows.push_back({scene, key, "", "", "", "", 0, 0, 0});
+    if (fresh) grid.rows.push_back({scene, key, "", "", "", "", 0, 0, {}});
     return grid.rows[at->second];
   };
   for (const Variant& v : variants) {
+    if (!v.refused.empty()) {
+      grid.refused.push_back(fmt::format("{} at {}: {}", v.scene_name, v.words, v.refused));
+      continue;
+    }
     if (!v.done) {
       ++grid.missing;
       continue;
@@ -146,10 +227,10 @@ Grid worst_of(const std::vector<Variant>& variants) {
 }
 
 std::string summary_of(const Grid& grid) {
-  const auto failed = std::count_if(grid.rows.begin(), grid.rows.end(), [](const Worst& w) { return w.failed > 0; });
+  const auto failed = std::count_if(grid.rows.begin(), grid.rows.end(), [](const Worst& w) { return !w.failed.empty(); });
   std::string text = fmt::format("{} runs, {} invariants: {} hold on the whole grid, {} do not", grid.runs, grid.rows.size(),
                                  grid.rows.size() - static_cast<size_t>(failed), failed);
-  if (!grid.refused.empty()) text += fmt::format("; {} runs refused by a limit of use that the scene states", grid.refused.size());
+  if (!grid.refused.empty()) text += fmt::format("; {} runs refused by a limit that the scene states", grid.refused.size());
   if (grid.missing > 0) text += fmt::format("; {} runs are still to be made", grid.missing);
   return text;
 }
@@ -165,7 +246,9 @@ void print(const Grid& grid) {
              "at", e, "verdict");
   for (const Worst& w : grid.rows)
     fmt::print("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {:<6}  {:<{}}  {:<9}  {}\n", w.scene, a, w.key, b, w.expected + " " + w.tolerance, c, w.got,
-               d, share_text(w), w.at, e, w.failed > 0 ? fmt::format("FAILED {}", w.failed) : "ok", w.runs);
+               d, share_text(w), w.at, e, !w.failed.empty() ? fmt::format("FAILED {}", w.failed.size()) : "ok", w.runs);
+  for (const Worst& w : grid.rows)
+    if (!w.failed.empty()) fmt::print("{} {} fails at {}\n", w.scene, w.key, fmt::join(w.failed, "; "));
   for (const auto& text : grid.refused) fmt::print("refused: {}\n", text);
   fmt::print("{} ({} of processor)\n", summary_of(grid), duration_text(grid.cpu));
   std::fflush(stdout);
@@ -177,6 +260,8 @@ void write_page(const Grid& grid, const Options& options, double wall) {
       "Written by `erbs test {} --grid --book {}`, never typed: {} of processor{}, erbs {}. Every scene is run at 0.2, 0.5 "
       "and 0.9 of the limit of the time step, with 4, 9 and 25 contact points per joint, and with noise of {:g} (m, rad) in the start of "
       "every free block, since exact symmetry hides instabilities. Scenes that fix their step keep it, those without joints their points. "
+      "A scene that declares a family is run at 0.25, 0.5 and 0.9 of the limit, and at its default step with each value of the family and "
+      "some combinations. "
       "Each row is the worst value of one invariant over these runs.\n\n**{}**\n\n",
       fmt::join(options.words, " "), fs::proximate(options.book).generic_string(), duration_text(grid.cpu),
       wall > 0 ? fmt::format(", {} of the clock", duration_text(wall)) : "", program_version(), noise, summary_of(grid));
@@ -185,10 +270,10 @@ void write_page(const Grid& grid, const Options& options, double wall) {
   for (const Worst& w : grid.rows) {
     text += fmt::format("| {} | {} | {} {} | {} | {} | {} | {} | {} |\n", w.scene == last ? "" : code_cell(w.scene), code_cell(w.key),
                         cell(w.expected), cell(w.tolerance), cell(w.got), share_text(w), w.at, w.runs,
-                        w.failed > 0 ? fmt::format("**failed in {}**", w.failed) : "ok");
+                        !w.failed.empty() ? fmt::format("**failed in {}**", w.failed.size()) : "ok");
     last = w.scene;
   }
-  if (!grid.refused.empty()) text += "\nRefused by a limit of use that the scene states:\n\n";
+  if (!grid.refused.empty()) text += "\nRefused by a limit that the scene states:\n\n";
   for (const auto& refused : grid.refused) text += "- " + refused + "\n";
   write_text_atomically(options.book, text);
   const std::string readme = (fs::absolute(options.book).parent_path().parent_path() / "README.md").string();
@@ -203,15 +288,16 @@ int run_grid(const Options& given) {
   Options options = given;
   if (!options.max_wall) options.max_wall = 900;  // three poured piles at .2 of the limit, on processors that others use
   if (options.budget <= 0) options.budget = 3600;
-  const std::string out = options.directory.empty() ? "runs/grid" : options.directory;
+  const std::string out = options.directory.empty() ? (options.seeds > 0 ? "runs/seeds" : "runs/grid") : options.directory;
   const auto begin = std::chrono::steady_clock::now();
   std::vector<Variant> variants;
   for (const Case& scene : find_cases(options, out, ""))
-    for (Variant& v : variants_of(scene, options.overrides)) variants.push_back(std::move(v));
+    for (Variant& v : options.seeds > 0 ? seeds_of(scene, options.overrides, options.seeds) : variants_of(scene, options.overrides))
+      variants.push_back(std::move(v));
   std::vector<Case> runs;
   std::map<std::string, Variant*> of_name;
   for (Variant& v : variants) {
-    if (options.resume && read_note(v)) continue;
+    if (!v.refused.empty() || (options.resume && read_note(v))) continue;
     runs.push_back(v.run);
     of_name[v.run.name] = &v;
   }
@@ -229,7 +315,7 @@ int run_grid(const Options& given) {
     fmt::print("out of time; the same command with --resume makes the runs that are left\n");
     return exit_stopped;
   }
-  return std::any_of(grid.rows.begin(), grid.rows.end(), [](const Worst& w) { return w.failed > 0; }) ? exit_expectation : exit_ok;
+  return std::any_of(grid.rows.begin(), grid.rows.end(), [](const Worst& w) { return !w.failed.empty(); }) ? exit_expectation : exit_ok;
 }
 
 }  // namespace erbs

@@ -73,6 +73,8 @@ std::string shown_type(const Key& key) {
                                                               {"question", "function(run)"},
                                                               {"expected", "number or word"},
                                                               {"tolerance", "table"},
+                                                              {"family", "table"},
+                                                              {"family_how", "table"},
                                                               {"initial", "table"},
                                                               {"parts", "list of tables"}};
   for (const auto& [type, shown] : names)
@@ -131,6 +133,11 @@ std::string example_of(const std::string& name) {
     return "  local seed = param(\"seed\", 1)\n"
            "  ensemble { n = 20, seed = 1, name = \"falls_at\", value = function(run) return run.collapse.time_s end }\n"
            "  expect(\"metrics.falls_at_mean\", 1.2, { abs = 0.1, source = \"twenty twins\" })\n";
+  if (name == "family")
+    return "  local kn, plates = param(\"kn\", 1e10, \"[Pa/m]\"), param(\"plates\", 8, \"\")\n"
+           "  family { kn = { 1e9, 1e11, 1e12 }, plates = { 1, 3, 40 } }  -- six runs, and four drawn combinations\n"
+           "  family({ kn = { 1e9, 1e12 } }, { combinations = 0 })\n"
+           "A combination that the scene refuses by error(...) is drawn anew; a value it refuses alone is told.\n";
   return "";
 }
 
@@ -143,7 +150,9 @@ std::string function_text(const Function& function) {
   if (function.name == "recorder") text += quantities_text();
   if (function.name == "metric") text += std::string(run_help);
   if (const std::string example = example_of(function.name); !example.empty())
-    text += "example:\n" + example + "A run that crashes, diverges or gives no number is a row of studies/NAME.csv with its reason.\n";
+    text += "example:\n" + example;
+  if (function.name == "bisect" || function.name == "converge" || function.name == "ensemble")
+    text += "A run that crashes, diverges or gives no number is a row of studies/NAME.csv with its reason.\n";
   return text;
 }
 
@@ -166,6 +175,8 @@ std::string editor_type(const Key& key) {
                                                               {"metric", "number|fun(run: erbs.run): number?"},
                                                               {"question", "fun(run: erbs.run): number|boolean?"},
                                                               {"expected", "number|string|boolean?"},
+                                                              {"family", "table<string, number[]>"},
+                                                              {"family_how", "{ combinations?: integer, seed?: number }"},
                                                               {"tolerance", "erbs.tolerance"}};
   if (!key.inner.empty()) {
     std::vector<std::string> members;

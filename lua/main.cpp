@@ -100,8 +100,13 @@ void add_others(CLI::App& app, CommandLine& line) {
   test.add_option("--book", line.options.book, "write the verification book here, its figures, and its summary in README.md")
       ->type_name("FILE.md");
   test.add_flag("--grid", line.options.grid,
-                "every scene at dt 0.2, 0.5, 0.9 of the limit, with 4, 9, 25 points a joint and noise: the worst value of each invariant");
-  test.add_flag("--resume", line.options.resume, "of --grid: keep the runs that are done");
+                "every scene at dt 0.2, 0.5, 0.9 of the limit, with 4, 9, 25 points a joint and noise, or over its family{}: the worst value of "
+                "each invariant");
+  test.add_option("--seeds", line.options.seeds,
+                  "every scene with its param seed at 1, 2, ... N: the worst value of each invariant, and the seeds that fail it")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1000000));
+  test.add_flag("--resume", line.options.resume, "of --grid and --seeds: keep the runs that are done");
   test.add_option("--budget", line.budget, "of all runs together, by the clock; none is started later (--grid: 60m)")->type_name("60m");
 
   CLI::App& accuracy = *app.add_subcommand("accuracy", "what accuracy costs: the scene with each of its knobs turned, errors over cost");

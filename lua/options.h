@@ -41,6 +41,7 @@ struct Options {
 
   // of erbs test
   bool quick = false, grid = false;
+  int seeds = 0;      // of every scene: 1 to this many; 0: as the scene says
   std::string book;   // file; "": none is written
   double budget = 0;  // s: of test, of the clock for all runs together; of accuracy, of a run; 0: none
 

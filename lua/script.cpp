@@ -371,6 +371,7 @@ void Script::finish(bool whole) {
 const std::vector<Study>& Script::studies() const { return context_->studies; }
 
 const std::vector<Figure>& Script::figures() const { return context_->figures; }
+const ParamFamily& Script::family() const { return context_->family; }
 
 const Scene& Script::scene() const { return context_->scene; }
 

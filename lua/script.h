@@ -16,6 +16,7 @@ struct lua_State;
 namespace erbs {
 
 struct Context;
+struct ParamFamily;
 struct Figure;
 
 // What -D name=expression says.
@@ -58,6 +59,7 @@ class Script {
   Scene take_scene();  // scene() with its blocks, of which the script keeps none
   const std::vector<Study>& studies() const;
   const std::vector<Figure>& figures() const;
+  const ParamFamily& family() const;  // no values: the scene declares none
   const std::vector<std::string>& output() const;  // what it printed
   // The functions written in Lua (walls, arches): name, line of help, keys; from the list masonry_functions.
   Json lua_functions();

@@ -62,7 +62,7 @@ void print_table(const std::vector<Row>& rows) {
 
 int verb_test(const Options& options) {
   if (options.words.empty()) throw Error("test takes scenes or folders; write erbs test scenes/verify");
-  if (options.grid) return run_grid(options);
+  if (options.grid || options.seeds > 0) return run_grid(options);
   std::vector<Case> cases = find_cases(options, options.directory.empty() ? "runs/test" : options.directory, options.quick ? "quick" : "");
   const auto begin = std::chrono::steady_clock::now();
   run_cases(cases, options);

@@ -10,6 +10,8 @@ local width, depth, height = param("width", 0.3, "[m]"), param("depth", 0.5, "[m
 local kn, mu = param("kn", 5e9, "[Pa/m]"), param("mu", 0.6, "")
 local by = param("by", 1, "1: a half sine of the ground, 2: a tilting table")
 local amplitude = param("amplitude", 1.7, "of g tan alpha, or of alpha: 1.37 and 1 are the least that can do it")
+family({ width = { 0.1, 0.2, 0.35 }, depth = { 0.1, 2 }, height = { 1.5, 2, 6 }, kn = { 1e9, 1e10, 1e11, 1e12 }, mu = { 0.55, 1 },
+  by = { 1, 2 }, amplitude = { 1.5, 1.9 } }, { combinations = 8 })
 if amplitude * width / height > mu then error("a block as stocky as this slides before it falls; lower width or amplitude, or raise mu", 0) end
 
 local alpha, radius = math.atan(width / height), math.sqrt(width ^ 2 + height ^ 2) / 2
@@ -28,7 +30,9 @@ recorder { name = "w", quantity = "spin", block = "block" }
 metric("rise", "", function(run) return run.max "centre_uz_rel_m" / (radius - height / 2) end)
 metric("speed", "m/s", function(run)
   local square = 0
-  for _, axis in ipairs { "x", "y", "z" } do square = square + run.last("v_v" .. axis .. "_rel_m_s") ^ 2 + (radius * run.last("w_w" .. axis .. "_rad_s")) ^ 2 end
+  for _, axis in ipairs { "x", "y", "z" } do
+    square = square + run.last("v_v" .. axis .. "_rel_m_s") ^ 2 + (radius * run.last("w_w" .. axis .. "_rad_s")) ^ 2
+  end
   return math.sqrt(square)
 end)
 metric("lies", "", function(run) return (run.last "centre_uz_rel_m" + height / 2) / (width / 2) end)

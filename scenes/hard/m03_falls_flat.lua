@@ -8,6 +8,8 @@
 local width, depth, height = param("width", 0.3, "[m]"), param("depth", 1, "[m]"), param("height", 3, "[m]")
 local kn = param("kn", 5e9, "[Pa/m]")
 local amplitude = param("amplitude", 3, "of g tan alpha")
+family({ width = { 0.05, 0.1, 1 }, depth = { 0.1, 4 }, height = { 1, 4, 6 }, kn = { 1e9, 1e10, 1e11, 1e12 },
+  amplitude = { 2 } }, { combinations = 8 })
 if amplitude * width / height > 1 then error("a column as stocky as this slides before it falls; lower width or amplitude", 0) end
 local radius = math.sqrt(width ^ 2 + height ^ 2) / 2
 local p = math.sqrt(3 * g / (4 * radius))
@@ -21,7 +23,9 @@ recorder { name = "v", quantity = "velocity", block = "column" }
 recorder { name = "w", quantity = "spin", block = "column" }
 metric("speed", "m/s", function(run)
   local square = 0
-  for _, axis in ipairs { "x", "y", "z" } do square = square + run.last("v_v" .. axis .. "_rel_m_s") ^ 2 + (radius * run.last("w_w" .. axis .. "_rad_s")) ^ 2 end
+  for _, axis in ipairs { "x", "y", "z" } do
+    square = square + run.last("v_v" .. axis .. "_rel_m_s") ^ 2 + (radius * run.last("w_w" .. axis .. "_rad_s")) ^ 2
+  end
   return math.sqrt(square)
 end)
 metric("rise", "", function(run) return run.max "centre_uz_rel_m" / (radius - height / 2) end)

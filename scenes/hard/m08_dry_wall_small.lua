@@ -9,6 +9,7 @@ local copy = param("copy", 1, "1 as it is, 2 mirrored, 3 turned by a quarter, 4 
 local pga, frequency = param("pga", 0.3 * g, "[m/s2]"), param("frequency", 2, "[Hz]")
 local kn, mu = param("kn", 5e9, "[Pa/m]"), param("mu", 0.6, "")
 local courses, bricks, size = param("courses", 12, ""), param("bricks", 5, "in a course"), { 0.3, 0.125, 0.1 }
+family({ pga = { 0.2 * g, 0.5 * g }, kn = { 1e9, 1e10 } }, { combinations = 0 })
 local turn = ({ 0, 0, 90 * deg, 37 * deg, 180 * deg })[copy]
 local hand = copy == 2 and -1 or 1
 material { name = "brick", density = 1800, friction = mu, restitution = 0.2, kn = kn, ks = 0.4 * kn }

@@ -100,6 +100,32 @@ metric("points", "", function(run) return run.contact_points end)
   CHECK(std::filesystem::last_write_time(bench.folder / "out/stack/run_dt0.2_p4/metrics.json") == made);
 }
 
+TEST_CASE("the grid runs a scene over its family, or over seeds, and says where an invariant fails", "[program]") {
+  Bench bench;
+  const std::string family = R"(
+local h = param('height', 1, '')
+if h > 10 then error('too high', 0) end
+metric('size', '', h + param('seed', 1, ''))
+family({ height = { 2, 7, 11 }, seed = { 3 } }, { combinations = 1 })
+)";
+  bench.write("drop.lua", "-- A brick falls.\n" + falling + family + "expect('metrics.size', 7, { below = true })\n");
+  const std::string scene = (bench.folder / "drop.lua").string();
+  CHECK(bench.erbs({"test", scene, "--grid", "-o", bench.out()}) == 4);
+  INFO(bench.said);
+  CHECK(contains(bench.said, "7 runs, "));  // three steps, heights of 2 and 7, a seed, a combination
+  CHECK(contains(bench.said, "1 runs refused"));
+  CHECK(contains(bench.said, "drop at height 11: too high"));
+  CHECK(contains(bench.said, "drop metrics.size fails at height 7"));
+  CHECK(bench.erbs({"test", scene, "--seeds", "7", "-o", bench.out()}) == 4);
+  INFO(bench.said);
+  CHECK(contains(bench.said, "7 runs, "));
+  CHECK(contains(bench.said, "drop metrics.size fails at seed 6; seed 7"));
+  CHECK(bench.erbs({"test", scene, "--seeds", "2", "-D", "height=2", "-o", bench.out()}) == 0);
+  bench.write("still.lua", "-- A brick falls.\n" + falling + good);
+  CHECK(bench.erbs({"test", (bench.folder / "still.lua").string(), "--seeds", "2", "-o", bench.out()}) == 2);
+  CHECK(contains(bench.said, "has no param \"seed\"; write param"));
+}
+
 TEST_CASE("a run may depart from its scene, and tells how far to trust it", "[program]") {
   Bench bench;
   const std::string column = R"(

@@ -4,10 +4,12 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <set>
 
 #include "engine/base/process.h"
 #include "engine/record/csv.h"
 #include "engine/record/json.h"
+#include "lua/family.h"
 #include "tests/support/folder.h"
 #include "tests/unit/lua/load.h"
 
@@ -145,4 +147,31 @@ TEST_CASE("mistakes of a study name their place and remedy", "[lua][study]") {
       mentions(mistakes_in("param('x', 1) bisect { param = 'x', lo = 0, hi = 1 } bisect { param = 'x', lo = 0, hi = 1 }"), "given before"));
   CHECK(mentions(mistakes_in("param('seed', 1) ensemble { n = 3, seed = 1 }"), "\"value\" is missing"));
   CHECK(mistakes_in("param('x', 1) bisect { param = 'x', lo = 0, hi = 1 } expect('metrics.collapse_x', 1, { rel = 1 })").empty());
+}
+
+TEST_CASE("a family is lists of values of params, taken alone and drawn together, the same again and again", "[lua][study]") {
+  Script script(quiet());
+  script.load_text(sound + "param('kn', 1) param('n', 2) family({ n = { 1, 3 }, kn = { 5, 6, 7 } }, { combinations = 2, seed = 9 })", "scene.lua");
+  const ParamFamily& family = script.family();
+  REQUIRE(family.values.size() == 2);
+  CHECK(family.values[0].first == "kn");  // as declared
+  CHECK(family.values[1].second == std::vector<double>{1, 3});
+  CHECK(family.combinations == 2);
+  CHECK(one_at_a_time(family).size() == 5);
+  CHECK(one_at_a_time(family)[4] == Choice{{"n", 3}});
+  CHECK(combination(family, 4) == combination(family, 4));
+  std::set<Choice> drawn;
+  for (int i = 0; i < 100; ++i) drawn.insert(combination(family, i));
+  CHECK(drawn.size() == 6);
+}
+
+TEST_CASE("a family that names no param, or no numbers, is refused with place and remedy", "[lua][study]") {
+  CHECK(mentions(mistakes_in("param('kn', 1) family { nk = { 1 } }"), "scene.lua:6: family: there is no param \"nk\" yet; did you mean \"kn\"?"));
+  CHECK(mentions(mistakes_in("param('kn', 1) family { kn = 3 }"), "kn must be a list of finite numbers, such as"));
+  CHECK(mentions(mistakes_in("param('kn', 1) family { kn = {} }"), "kn must be a list of finite numbers"));
+  CHECK(mentions(mistakes_in("param('kn', 1) family { kn = { 1, 0/0 } }"), "kn must be a list of finite numbers"));
+  CHECK(mentions(mistakes_in("param('kn', 1) family { { 1, 2 } }"), "it takes the names of params"));
+  CHECK(mentions(mistakes_in("family(3)"), "family takes a table of lists"));
+  CHECK(mentions(mistakes_in("param('kn', 1) family { kn = { 1 } } family { kn = { 2 } }"), "one was given before, at scene.lua:6"));
+  CHECK(mentions(mistakes_in("param('kn', 1) family({ kn = { 1 } }, { combination = 3 })"), "did you mean \"combinations\"?"));
 }
