@@ -65,15 +65,24 @@ void describe(lua_State* lua, const RockingBlock& block) {
   set(lua, "threshold", block.gravity * (block.linear ? block.alpha : std::tan(block.alpha)));
 }
 
+// A wave, or a Lua function, whose values are taken as far as one watches.
+std::optional<Wave> read_wave(Arguments& arguments, double duration) {
+  double sample = 1e-3;
+  arguments.read("sample", sample);
+  if (arguments.has("sample") && !arguments.is_function("wave"))
+    arguments.mistake("\"sample\" is for a wave that is a Lua function; remove it");
+  return arguments.wave("wave", duration, sample);
+}
+
 int rocking(Call& call) {
   Arguments arguments = call.arguments();
   const RockingBlock block = read_block(call, arguments);
-  const auto wave = arguments.wave("wave");
   RockingStart start;
   double duration = 0;
   arguments.read("theta", start.theta);
   arguments.read("spin", start.spin);
   arguments.read("duration", duration);
+  const auto wave = read_wave(arguments, duration);
   if (std::fabs(start.theta) >= block.alpha)
     arguments.mistake(fmt::format("theta = {} rad is past alpha = {:.4g} rad: the block falls at once", start.theta, block.alpha));
   RockingRun run;
@@ -93,7 +102,6 @@ int rocking(Call& call) {
 int rocking_overturning(Call& call) {
   Arguments arguments = call.arguments();
   const RockingBlock block = read_block(call, arguments);
-  const auto wave = arguments.wave("wave");
   std::string criterion = "overturning";
   double low = 0.9, high = 20;
   int points = 1000;
@@ -103,9 +111,11 @@ int rocking_overturning(Call& call) {
   arguments.read("points", points);
   if (low >= high) arguments.mistake("from must be below to");
   double duration = 0;
-  if (wave && std::isfinite(end_time(*wave))) duration = end_time(*wave) + 12 / block.p;
   arguments.read("duration", duration);
-  if (wave && duration == 0) arguments.mistake("the wave does not end; say how long to watch: duration = ...");
+  const auto wave = read_wave(arguments, duration);
+  if (wave && duration == 0 && std::isfinite(end_time(*wave))) duration = end_time(*wave) + 12 / block.p;
+  if (duration == 0 && (wave || arguments.is_function("wave")))
+    arguments.mistake("the wave does not end; say how long to watch: duration = ...");
   std::vector<OverturningBand> bands;
   const Criterion asked = criterion == "alpha_at_end" ? Criterion::alpha_at_end : Criterion::overturning;
   if (wave && low < high && duration > 0) bands = overturning_bands(block, *wave, asked, low, high, points, duration);
@@ -127,6 +137,7 @@ int rocking_overturning(Call& call) {
 }  // namespace
 
 std::vector<Function> companion_functions() {
+  const Key sample{"sample", "number", "s", "step at which a Lua function is sampled", 1e-6, 10, false, "", "0.001"};
   return {
       {"rocking", rocking, "{ ... }",
        "table: alpha, p, mu, threshold (m/s2), t, theta (rad), impacts (s), amplitudes (of alpha, before each impact), overturned, "
@@ -134,20 +145,23 @@ std::vector<Function> companion_functions() {
        "A rigid block rocking on its edges after Housner: what theory says beside a scene of one block.",
        joined({block_keys(),
                {{"wave", "wave", "m/s2", "acceleration of the ground (default: none, free rocking)"},
+                sample,
                 {"theta", "number", "rad", "tilt at the start", -1.5, 1.5, false, "", "0"},
                 {"spin", "number", "rad/s", "at the start", -1e3, 1e3, false, "", "0"},
                 {"duration", "number", "s", "how long", 1e-9, 1e5, true}}})},
       {"rocking_overturning", rocking_overturning, "{ ... }",
        "table: alpha, p, mu, threshold (m/s2), lowest (factor), bands { { from, to, impacts }, ... } whose gaps are safe islands",
        "By which factors on a wave a rigid rocking block overturns from rest.",
-       joined({block_keys(),
-               {{"wave", "wave", "m/s2", "acceleration of the ground for a factor of 1", -unbounded, unbounded, true},
-                {"criterion", "string", "", "overturning: it falls; alpha_at_end: |theta| has come to alpha when the wave ends", 0, 0,
-                 false, "overturning|alpha_at_end", "overturning"},
-                {"from", "number", "", "smallest factor looked at", 0, 1e9, false, "", "0.9"},
-                {"to", "number", "", "largest factor looked at", 0, 1e9, false, "", "20"},
-                {"points", "integer", "", "factors looked at between; no safe island is narrower", 1, 100000, false, "", "1000"},
-                {"duration", "number", "s", "how long to watch (default: 12 / p after the wave)", 1e-9, 1e5}}})},
+       joined(
+           {block_keys(),
+            {{"wave", "wave", "m/s2", "acceleration of the ground for a factor of 1", -unbounded, unbounded, true},
+             sample,
+             {"criterion", "string", "", "overturning: it falls; alpha_at_end: |theta| has come to alpha when the wave ends", 0, 0, false,
+              "overturning|alpha_at_end", "overturning"},
+             {"from", "number", "", "smallest factor looked at", 0, 1e9, false, "", "0.9"},
+             {"to", "number", "", "largest factor looked at", 0, 1e9, false, "", "20"},
+             {"points", "integer", "", "factors looked at between; no safe island is narrower", 1, 100000, false, "", "1000"},
+             {"duration", "number", "s", "how long to watch (default: 12 / p after the wave; of a function: to be given)", 1e-9, 1e5}}})},
   };
 }
 

@@ -87,6 +87,7 @@ class Arguments {
   void direction(const std::string& key, Vec3& into);                           // "x", "y", "z" or a vector; made a unit vector
   std::optional<Law> law(const std::string& key);
   std::optional<Wave> wave(const std::string& key);  // a wave value, or a number that holds for ever
+  std::optional<Wave> wave(const std::string& key, double duration, double sample);  // or a function, sampled up to `duration` (s)
   int function(const std::string& key);              // reference in the registry, LUA_NOREF where there is none
   bool is_function(const std::string& key) const;
   bool is_table(const std::string& key) const;
@@ -118,6 +119,9 @@ class Arguments {
 void push_law(lua_State* lua, Context& context, Law law);
 void push_wave(lua_State* lua, Context& context, Wave wave);
 void open_values(lua_State* lua);
+
+// The values of a Lua function of time (a reference in the registry) from 0 to `duration`, linear between; throws Error.
+Table sampled(lua_State* lua, Context& context, int function, double duration, double sample, const Place& place);
 
 // The name of what is at `index`, for messages: 'a string ("1800")'.
 std::string described(lua_State* lua, int index);

@@ -184,25 +184,8 @@ void evaluate_overrides(lua_State* lua, Context& context) {
 
 // Samples the waves that are Lua functions, now that the duration is known.
 void sample_waves(lua_State* lua, Context& context) {
-  for (const Sampling& sampling : context.samplings) {
-    const double duration = context.scene.analysis.duration;
-    const auto n = static_cast<size_t>(std::ceil(duration / sampling.sample)) + 1;
-    if (n > 20'000'000) throw Error(fmt::format("a wave sampled {} times is too long; raise sample", n), sampling.place);
-    std::vector<double> times(n), values(n);
-    for (size_t i = 0; i < n; ++i) {
-      times[i] = static_cast<double>(i) * sampling.sample;
-      lua_rawgeti(lua, LUA_REGISTRYINDEX, sampling.function);
-      lua_pushnumber(lua, times[i]);
-      call_script(lua, context, 1, 1);
-      if (lua_type(lua, -1) != LUA_TNUMBER || !std::isfinite(lua_tonumber(lua, -1)))
-        throw Error(
-            fmt::format("the wave's function gave {} at t = {} s; it must return a finite number", described(lua, -1), written(times[i])),
-            sampling.place);
-      values[i] = lua_tonumber(lua, -1);
-      lua_pop(lua, 1);
-    }
-    context.scene.loads[sampling.load].wave = make_table(std::move(times), std::move(values), true);
-  }
+  for (const Sampling& one : context.samplings)
+    context.scene.loads[one.load].wave = sampled(lua, context, one.function, context.scene.analysis.duration, one.sample, one.place);
 }
 
 void resolve_groups(Context& context) {

@@ -1,7 +1,8 @@
 // Law and wave values: a script holds a handle, an index into the lists of the context.
+#include <cmath>
 #include <lua5.4/lua.hpp>
 
-#include "lua/read.h"
+#include "lua/api.h"
 
 namespace erbs {
 namespace {
@@ -68,6 +69,35 @@ std::optional<Wave> Arguments::wave(const std::string& key) {
   } else wrong_type(key, key, "a wave, such as sine{ ... } or record{ ... }, a number, or a function of time");
   lua_pop(lua_, 1);
   return wave;
+}
+
+std::optional<Wave> Arguments::wave(const std::string& key, double duration, double sample) {
+  if (!is_function(key)) return wave(key);
+  const int reference = function(key);
+  if (!(duration > 0)) return std::nullopt;  // which is a mistake already
+  const Table table = sampled(lua_, *context_, reference, duration, sample, place_);
+  luaL_unref(lua_, LUA_REGISTRYINDEX, reference);
+  return table;
+}
+
+Table sampled(lua_State* lua, Context& context, int function, double duration, double sample, const Place& place) {
+  const double steps = std::max(1.0, std::ceil(duration / sample));
+  if (steps > 20e6) throw Error(fmt::format("a wave sampled {:g} times is too long; raise sample", steps), place);
+  const auto n = static_cast<size_t>(steps) + 1;
+  std::vector<double> times(n), values(n);
+  for (size_t i = 0; i < n; ++i) {
+    times[i] = static_cast<double>(i) * sample;
+    lua_rawgeti(lua, LUA_REGISTRYINDEX, function);
+    lua_pushnumber(lua, times[i]);
+    call_script(lua, context, 1, 1);
+    if (lua_type(lua, -1) != LUA_TNUMBER || !std::isfinite(lua_tonumber(lua, -1)))
+      throw Error(
+          fmt::format("the wave's function gave {} at t = {} s; it must return a finite number", described(lua, -1), written(times[i])),
+          place);
+    values[i] = lua_tonumber(lua, -1);
+    lua_pop(lua, 1);
+  }
+  return make_table(std::move(times), std::move(values), true);
 }
 
 int Arguments::function(const std::string& key) {

@@ -11,7 +11,7 @@
 -- How to run     erbs run scenes/verify/v32_full_sine_overturning.lua [-D width=...] [-D height=...] [-D first_3=0.9]
 -- What to look at  first_w, island_w, above_w: amplitude over theory's.
 local width, height = param("width", 0.4, "[m]"), param("height", 1.2, "[m]")
-if width / height < 0.2 or width / height > 0.55 then error("width over height must lie between 0.2 and 0.55: of other blocks no edge was found in the brackets", 0) end
+if width / height < 0.2 - 1e-9 or width / height > 0.55 + 1e-9 then error("width over height must lie between 0.2 and 0.55: of other blocks no edge was found in the brackets", 0) end
 local settlement, foot = param("settlement", 1.7e-6, "of the full base over half the width"), param("foot", 0.008, "width of a foot over that of the block")
 local mark = 1.5  -- of a param no run has changed
 
