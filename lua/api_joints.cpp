@@ -21,8 +21,7 @@ void complete(Call&, Arguments& arguments, DryFriction& law) {
 
 void complete(Call&, Arguments& arguments, Mortar& law) {
   if (law.kn == 0 && law.E == 0) arguments.mistake("there is no stiffness; give E (with the thickness of the bed) or kn");
-  if (law.kn > 0 && law.ks == 0 && law.G == 0 && law.E == 0)
-    arguments.mistake("kn alone leaves the shear stiffness open; give ks, G with thickness, or E with thickness");
+  if (law.kn > 0 && law.ks == 0 && law.G == 0 && law.E == 0) law.ks = 0.4 * law.kn;
 }
 
 template <class L>

@@ -35,7 +35,7 @@ struct Mortar {
         {"G", &Mortar::G, "Pa", "shear modulus of the mortar (default from E and nu)", 0, 1e14},
         {"thickness", &Mortar::thickness, "m", "thickness of the bed; kn = E / thickness, ks = G / thickness", 0, 1},
         {"kn", &Mortar::kn, "Pa/m", "normal stiffness of the joint, instead of E / thickness", 0, 1e16},
-        {"ks", &Mortar::ks, "Pa/m", "shear stiffness of the joint, instead of G / thickness", 0, 1e16},
+        {"ks", &Mortar::ks, "Pa/m", "shear stiffness of the joint, instead of G / thickness (default with neither G nor E: 0.4 kn)", 0, 1e16},
         {"ft", &Mortar::ft, "Pa", "tensile strength", 0, 1e9, true},
         {"c", &Mortar::c, "Pa", "cohesion", 0, 1e9, true},
         {"mu", &Mortar::mu, "", "coefficient of friction", 0, 10, true},
