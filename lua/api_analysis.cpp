@@ -2,7 +2,6 @@
 #include <lua5.4/lua.hpp>
 
 #include "lua/api.h"
-#include "lua/quality.h"
 
 namespace erbs {
 namespace {
@@ -14,17 +13,6 @@ int damping(Call& call) {
   return 0;
 }
 
-// What the scene says of its own, before or after, comes first.
-void take_quality(Call& call, Arguments& arguments) {
-  std::string name;
-  arguments.read("quality", name);
-  for (const Quality& quality : qualities) {
-    if (name != quality.name) continue;
-    if (!arguments.has("dt") && !arguments.has("dt_fraction")) call.context.scene.analysis.dt_fraction = quality.dt_fraction;
-    call.context.quality_points = quality.points;
-  }
-}
-
 int analysis(Call& call) {
   static const Keys step_keys = {{"1", "number", "s", "time step", 0, 1, true}, {"unstable", "boolean", "", "let it run past the limit"}};
   Arguments arguments = call.arguments();
@@ -32,7 +20,10 @@ int analysis(Call& call) {
   into.place = call.place;
   for (const auto& field : Analysis::fields())
     if (field.name != "dt") std::visit([&](auto member) { arguments.read(std::string(field.name), into.*member); }, field.member);
-  take_quality(call, arguments);
+  std::string quality;
+  arguments.read("quality", quality);
+  if (!quality.empty() && !call.context.quality_set) call.context.quality = quality;
+  if (arguments.has("dt") || arguments.has("dt_fraction")) call.context.own_step = true;
   if (!arguments.is_table("dt")) {
     arguments.read("dt", into.dt);
   } else if (auto step = arguments.table("dt", step_keys)) {

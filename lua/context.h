@@ -81,7 +81,9 @@ struct Context {
   ParamFamily family;
   std::string study;  // the one that started this run; "" where none did
   std::vector<GroupRecorder> group_recorders;
-  int quality_points = 0;           // along each side of a joint, of analysis{ quality = ... }; 0: none is asked for
+  std::string quality;              // of analysis{}, or of the command line, which comes first; "": none is asked for
+  bool quality_set = false;         // by the command line
+  bool own_step = false;            // analysis{} says dt or dt_fraction
   std::vector<size_t> plain_rules;  // joint rules that say neither rule nor points
   std::vector<std::string> output;  // what the script printed
   std::filesystem::path folder;     // of the scene file

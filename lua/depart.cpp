@@ -1,19 +1,24 @@
 // How the command line departs from the scene: in a study every run does.
 #include "lua/depart.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "engine/base/words.h"
 #include "engine/loads/earlier.h"
+#include "lua/quality.h"
 
 namespace erbs {
 namespace {
+
+constexpr std::string_view quality_is = "quality=";
 
 // --set key=value: a number or a word of analysis{}.
 void set_analysis(Analysis& analysis, const std::string& setting) {
   const size_t equals = setting.find('=');
   const std::string key = setting.substr(0, equals), value = equals == std::string::npos ? "" : setting.substr(equals + 1);
-  std::vector<std::string> known;
+  std::vector<std::string> known{"quality"};
   for (const auto& field : Analysis::fields()) {
     known.emplace_back(field.name);
     if (field.name != key) continue;
@@ -66,7 +71,7 @@ std::vector<std::string> depart(Scene& scene, const Options& options) {
     notes.push_back(fmt::format("--dt-fraction {:g}", *options.dt_fraction));
   }
   for (const auto& setting : options.settings) {
-    set_analysis(scene.analysis, setting);
+    if (!setting.starts_with(quality_is)) set_analysis(scene.analysis, setting);
     notes.push_back("--set " + setting);
   }
   if (!options.rule.empty()) {
@@ -99,6 +104,17 @@ std::vector<std::string> depart(Scene& scene, const Options& options) {
   if (options.allow_unstable) scene.analysis.unstable = true;
   if (options.noise > 0) notes.push_back(fmt::format("--noise {:g}", options.noise));
   return notes;
+}
+
+std::string quality_of(const Options& options) {
+  std::string quality;
+  for (const auto& setting : options.settings) {
+    if (!setting.starts_with(quality_is)) continue;
+    quality = setting.substr(quality_is.size());
+    if (std::none_of(std::begin(qualities), std::end(qualities), [&](const Quality& q) { return quality == q.name; }))
+      throw Error(fmt::format("--set {}: must be draft, standard or reference", setting));
+  }
+  return quality;
 }
 
 std::vector<std::string> departures(const Options& options) {

@@ -15,6 +15,7 @@
 #include "engine/record/recorder.h"
 #include "lua/api.h"
 #include "lua/embedded.h"
+#include "lua/quality.h"
 
 namespace erbs {
 namespace {
@@ -232,6 +233,16 @@ void check_names(Context& context) {
   }
 }
 
+// What the scene says of its own, before or after, comes first.
+void take_quality(Context& context) {
+  for (const Quality& quality : qualities) {
+    if (context.quality != quality.name) continue;
+    if (!context.own_step) context.scene.analysis.dt_fraction = quality.dt_fraction;
+    for (const size_t i : context.plain_rules)
+      context.scene.joint_rules[i].points_long = context.scene.joint_rules[i].points_short = quality.points;
+  }
+}
+
 }  // namespace
 
 void load_chunk(lua_State* lua, Context& context, const std::string& text, const std::string& name) {
@@ -254,6 +265,8 @@ Script::Script(const Options& options) : context_(std::make_unique<Context>()) {
   context_->limits.bytes = options.bytes;
   context_->quiet = options.quiet;
   context_->study = options.study;
+  context_->quality = options.quality;
+  context_->quality_set = !options.quality.empty();
   lua_ = open_sandbox(*context_);
   const Cap uncapped(context_->limits, false);
   open_language(lua_, *context_, options.noise);
@@ -309,9 +322,7 @@ void Script::run(const std::string& text, const std::string& name, const Overrid
 // What is settled when the script has ended, and every mistake at once.
 void Script::finish(bool whole) {
   Context& context = *context_;
-  if (context.quality_points > 0)
-    for (const size_t i : context.plain_rules)
-      context.scene.joint_rules[i].points_long = context.scene.joint_rules[i].points_short = context.quality_points;
+  take_quality(context);
   if (whole) try {
       resolve_groups(context);
       check_names(context);

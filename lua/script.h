@@ -42,6 +42,7 @@ class Script {
     size_t bytes = size_t{512} << 20;  // and use this much
     bool quiet = false;                // do not echo print to stderr
     std::string study = {};            // the study that started this run: only its question is asked, nothing expected
+    std::string quality = {};          // instead of that of analysis{}; "": as the scene says
     double noise = 0;                  // in the start of every free block [m and rad]: start_noise of the script
   };
   Script();

@@ -196,6 +196,7 @@ int verb_run(const Options& options) {
   script_options.quiet = options.quiet;
   script_options.study = options.study;
   script_options.noise = options.noise;
+  script_options.quality = quality_of(options);
   Script script(script_options);
   script.load(path, options.overrides);
   Scene scene = script.take_scene();
