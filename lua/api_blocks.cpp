@@ -309,7 +309,9 @@ std::vector<Function> block_functions() {
   const Key at{"at", "vec3", "m", "moves the shape by this", -far, far, false, "", "{ 0, 0, 0 }"};
   const std::string name = "string: the name of the block";
   return {
-      {"material", material, "{ ... }", "string: its name", "What blocks are made of, and how they behave as debris.", keys_of<Material>()},
+      {"material", material, "{ ... }", "string: its name",
+       "What blocks are made of, and how they behave as debris: where two meet the lesser friction and the lesser restitution count.",
+       keys_of<Material>()},
       {"box", box, "{ ... }", name, "A rectangular block.",
        joined({{{"size", "vec3", "m", "lengths along x, y, z", 1e-6, far, true, "", ""},
                 {"at", "vec3", "m", "its lower corner", -far, far, false, "", "{ 0, 0, 0 }"},
@@ -349,7 +351,8 @@ std::vector<Function> block_functions() {
        transform,
        "{ ..., function() ... end }",
        "any: what the function returns",
-       "Places everything built inside the function rigidly: x -> about + rotation (x - about) + at.",
+       "Places everything built inside the function rigidly: x -> about + rotation (x - about) + at; initial velocities, spins and "
+       "directions of loads turn with it.",
        {{"1", "function", "", "builds; called at once", -unbounded, unbounded, true, "", ""},
         {"at", "vec3", "m", "shift, after the rotation", -far, far, false, "", "{ 0, 0, 0 }"},
         {"rotation", "vec3", "rad", "rotation vector", -100, 100, false, "", "{ 0, 0, 0 }"},
