@@ -136,7 +136,11 @@ struct Model {
     return one.kept_by_b ? one.b : one.a;
   }
   std::string joint_name(int j) const {
-    return block_name[std::size_t(joint[std::size_t(j)].a)] + " | " + block_name[std::size_t(joint[std::size_t(j)].b)];
+  // "lower | upper"; further joints of the same two blocks, which follow it, are "lower | upper #2", ...
+    const Joint& one = joint[std::size_t(j)];
+    int number = 1;
+    for (int i = j; i > 0 && joint[std::size_t(i - 1)].a == one.a && joint[std::size_t(i - 1)].b == one.b; --i) ++number;
+    return block_name[std::size_t(one.a)] + " | " + block_name[std::size_t(one.b)] + (number > 1 ? " #" + std::to_string(number) : "");
   }
 };
 
