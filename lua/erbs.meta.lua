@@ -65,7 +65,7 @@ start_noise = 0 -- by up to how much the start of every free block is off: erbs 
 ---@field restitution? number speed after over speed before an impact through the centre [0 to 1; default 0.3]
 ---@field color? erbs.vec3 red, green, blue for the pictures [0 to 1; default { 0.7, 0.35, 0.25 }]
 
----What blocks are made of, and how they behave as debris.
+---What blocks are made of, and how they behave as debris: where two meet the lesser friction and the lesser restitution count.
 ---@param keys erbs.material_keys
 ---@return string # its name
 function material(keys) end
@@ -77,7 +77,7 @@ function material(keys) end
 ---@field name? string name, unique (default from the group and a number)
 ---@field group? string group, for joint rules and recorders
 ---@field fixed? boolean part of the ground [default false]
----@field free? boolean may stand without any joint [default false]
+---@field free? boolean may stand without any joint, or be joined to others with no way to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
 ---@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
@@ -95,7 +95,7 @@ function box(keys) end
 ---@field name? string name, unique (default from the group and a number)
 ---@field group? string group, for joint rules and recorders
 ---@field fixed? boolean part of the ground [default false]
----@field free? boolean may stand without any joint [default false]
+---@field free? boolean may stand without any joint, or be joined to others with no way to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
 ---@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
@@ -113,7 +113,7 @@ function block(keys) end
 ---@field name? string name, unique (default from the group and a number)
 ---@field group? string group, for joint rules and recorders
 ---@field fixed? boolean part of the ground [default false]
----@field free? boolean may stand without any joint [default false]
+---@field free? boolean may stand without any joint, or be joined to others with no way to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
 ---@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
@@ -130,7 +130,7 @@ function prism(keys) end
 ---@field name? string name, unique (default from the group and a number)
 ---@field group? string group, for joint rules and recorders
 ---@field fixed? boolean part of the ground [default false]
----@field free? boolean may stand without any joint [default false]
+---@field free? boolean may stand without any joint, or be joined to others with no way to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
 ---@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
@@ -142,7 +142,7 @@ function mesh(keys) end
 
 ---@class erbs.ground_keys
 ---@field z? number height of its top [m; -1e+06 to 1e+06; default 0]
----@field size? number length of its sides [m; 0.001 to 1e+06; default 20]
+---@field size? number length of its sides; what falls beyond them falls for ever [m; 0.001 to 1e+06; default 20]
 ---@field depth? number thickness of the plate [m; 0.001 to 1e+06; default 1]
 ---@field material? string name of its material (default: its own, with the defaults of material)
 ---@field friction? number coefficient of friction, instead of its material's [0 to 10]
@@ -160,7 +160,7 @@ function ground(keys) end
 ---@field rotation? erbs.vec3 rotation vector [rad; -100 to 100; default { 0, 0, 0 }]
 ---@field about? erbs.vec3 point the rotation leaves in place [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
 
----Places everything built inside the function rigidly: x -> about + rotation (x - about) + at.
+---Places everything built inside the function rigidly: x -> about + rotation (x - about) + at; initial velocities, spins and directions of loads turn with it.
 ---@param keys erbs.transform_keys
 ---@return any # what the function returns
 function transform(keys) end
@@ -182,7 +182,7 @@ function dry(keys) end
 ---@field G? number shear modulus of the mortar (default from E and nu) [Pa; 0 to 1e+14]
 ---@field thickness? number thickness of the bed; kn = E / thickness, ks = G / thickness [m; 0 to 1; default 0]
 ---@field kn? number normal stiffness of the joint, instead of E / thickness [Pa/m; 0 to 1e+16; default 0]
----@field ks? number shear stiffness of the joint, instead of G / thickness [Pa/m; 0 to 1e+16; default 0]
+---@field ks? number shear stiffness of the joint, instead of G / thickness (default with neither G nor E: 0.4 kn) [Pa/m; 0 to 1e+16]
 ---@field ft number tensile strength [Pa; 0 to 1e+09]
 ---@field c number cohesion [Pa; 0 to 1e+09]
 ---@field mu number coefficient of friction [0 to 10]
@@ -204,8 +204,8 @@ function mortar(keys) end
 ---@field law? erbs.law a law value: mortar{ ... } or dry{ ... }
 ---@field between? string|string[] two groups, { "wall", "slab" }; "" is any (default: any and any)
 ---@field name? string name of the rule, for reports
----@field thickness? number nominal gap at rest (default the thickness of the law) [m; 0 to 1]
----@field tolerance? number how far faces at rest may be from that gap [m; 0 to 1; default 0.0001]
+---@field thickness? number nominal gap at rest: faces that touch or lie no further apart are joined (default the thickness of the law) [m; 0 to 1]
+---@field tolerance? number how much wider than that a gap may be; one narrower by more is joined, with a warning [m; 0 to 1; default 0.0001]
 ---@field rule? "simpson"|"midpoint"|"trapezoid"|"gauss" how contact points and their weights are laid out [default simpson]
 ---@field none? boolean pairs that match get no joint [default false]
 ---@field points? integer|integer[] contact points: { along the longer side, along the shorter side }, or one square number [1 to 64; default { 3, 3 }]
@@ -526,6 +526,7 @@ function figure(keys) end
 ---@field gravity? number strength of gravity (default: the scene's) [m/s2; 1e-06 to 1000]
 ---@field linear? boolean small angles: sin x = x, cos x = 1 [default false]
 ---@field wave? erbs.wave|number|fun(t: number): number acceleration of the ground (default: none, free rocking) [m/s2]
+---@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
 ---@field theta? number tilt at the start [rad; -1.5 to 1.5; default 0]
 ---@field spin? number at the start [rad/s; -1000 to 1000; default 0]
 ---@field duration number how long [s; 1e-09 to 100000]
@@ -544,11 +545,12 @@ function rocking(keys) end
 ---@field gravity? number strength of gravity (default: the scene's) [m/s2; 1e-06 to 1000]
 ---@field linear? boolean small angles: sin x = x, cos x = 1 [default false]
 ---@field wave erbs.wave|number|fun(t: number): number acceleration of the ground for a factor of 1 [m/s2]
+---@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
 ---@field criterion? "overturning"|"alpha_at_end" overturning: it falls; alpha_at_end: |theta| has come to alpha when the wave ends [default overturning]
 ---@field from? number smallest factor looked at [0 to 1e+09; default 0.9]
 ---@field to? number largest factor looked at [0 to 1e+09; default 20]
 ---@field points? integer factors looked at between; no safe island is narrower [1 to 100000; default 1000]
----@field duration? number how long to watch (default: 12 / p after the wave) [s; 1e-09 to 100000]
+---@field duration? number how long to watch (default: 12 / p after the wave; of a function: to be given) [s; 1e-09 to 100000]
 
 ---By which factors on a wave a rigid rocking block overturns from rest.
 ---@param keys erbs.rocking_overturning_keys

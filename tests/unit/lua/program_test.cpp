@@ -97,3 +97,45 @@ TEST_CASE("erbs test prints one row per expectation, and one for a scene that fa
   CHECK(contains(bench.said, "4 expectations of 3 cases: 2 passed, 2 failed (2 cases)"));
   CHECK(bench.erbs({"test", (bench.folder / "cases/good.lua").string(), "-o", bench.out()}) == 0);
 }
+
+namespace {
+
+const std::string overhanging = R"(
+  material { name = "brick", density = 1800 }
+  joint { law = dry { kn = 1e9, mu = 0.6 } }
+  box { name = "foot", size = { .3, .1, .1 }, at = { 0, 0, -.1 }, material = "brick", fixed = true }
+  box { name = "over", size = { .7, .1, .1 }, at = { 0, 0, 0 }, material = "brick" }
+)";
+
+}  // namespace
+
+TEST_CASE("what does not stand under its own weight has that as its verdict, with the mechanism and no time", "[program]") {
+  Bench bench;
+  CHECK(bench.run(overhanging + "analysis { duration = 0.3 }") == 0);
+  INFO(bench.said);
+  CHECK(contains(bench.said, "does not stand under its own weight"));
+  CHECK(contains(bench.said, "1 hinge: foot | over"));
+  CHECK(contains(text_of(bench.out() + "/log.txt"), "does not stand under its own weight: 100 % of the mass; 1 hinge: foot | over"));
+  const Json collapse = read_json(bench.out() + "/metrics.json")["collapse"];
+  CHECK(collapse["under_gravity"] == true);
+  CHECK(collapse["collapsed"] == true);
+  CHECK(collapse["time_s"].is_null());
+  CHECK(bench.run(overhanging + "analysis { duration = 0.3, start = 'rest' }", {"--force"}) == 0);
+  CHECK(read_json(bench.out() + "/metrics.json")["collapse"]["under_gravity"] == false);
+}
+
+TEST_CASE("a run past its gate is inaccurate in status, exit code and last line, and names the knob", "[program]") {
+  Bench bench;
+  const std::string strict = overhanging + "analysis { duration = 0.5, start = 'rest', energy_gate = 1e-12 }";
+  CHECK(bench.run(strict) == 1);
+  INFO(bench.said);
+  CHECK(read_json(bench.out() + "/metrics.json")["status"] == "inaccurate");
+  CHECK(contains(bench.said, "is past its gate 1e-12"));
+  CHECK(contains(bench.said, "take --dt-fraction 0."));
+  CHECK(contains(bench.said, "energy_gate = "));
+  CHECK(contains(bench.said, "inaccurate: not to be relied on; results in"));
+  CHECK(bench.run(strict + "expect('status', 'inaccurate')", {"--force"}) == 0);
+  CHECK(bench.run(strict + "param('x', 1) bisect { param = 'x', lo = 1, hi = 2 }", {"--force"}) == 1);
+  CHECK(contains(bench.said, "inaccurate; exit code 1"));
+  CHECK(contains(bench.said, "no answer at an end"));
+}

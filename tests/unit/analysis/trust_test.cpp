@@ -1,0 +1,40 @@
+#include <catch2/catch.hpp>
+
+#include "engine/analysis/trust.h"
+
+using namespace erbs;
+
+namespace {
+
+// Looks at `past` of 1000 steps that were `ratio` times their limit, the others half of it.
+TrustWatch watched(long past, double ratio, State& s) {
+  TrustWatch watch;
+  s.last_dt = 1e-4;
+  s.step = past;
+  look(watch, s, s.last_dt / ratio, 1e-3);
+  s.step = 1000;
+  look(watch, s, 2 * s.last_dt, 1e-3);
+  return watch;
+}
+
+}  // namespace
+
+TEST_CASE("steps past their limit count by how many they are and how far out", "[analysis][trust]") {
+  State s;
+  CHECK_FALSE(stepped_too_far(watched(900, 1.04, s), s));  // within what a step adapts by
+  CHECK_FALSE(stepped_too_far(watched(900, 1.25, s), s));
+  CHECK_FALSE(stepped_too_far(watched(5, 1.6, s), s));
+  CHECK(stepped_too_far(watched(20, 1.6, s), s));
+  CHECK(stepped_too_far(watched(2, 2.45, s), s));
+  CHECK_FALSE(stepped_too_far(watched(1, 2.45, s), s));
+}
+
+TEST_CASE("the line of trust names each warning with its share, and what was booked as reset", "[analysis][trust]") {
+  State s;
+  s.energy.reference = 2, s.energy.reset = 3e-4;
+  const std::string line = trust_line(trust_of(watched(20, 1.6, s), Model{}, s));
+  CHECK_THAT(line, Catch::Contains("reset 1.5e-04 of what passed"));
+  CHECK_THAT(line, Catch::Contains("steps with a warning: 2 % step past its limit"));
+  CHECK_THAT(line, !Catch::Contains("sinking"));
+  CHECK_THAT(trust_line(Metrics::Trust{}), Catch::Contains("no step with a warning"));
+}
