@@ -45,7 +45,8 @@ void each(C& c, F&& f) {
   f("opened_since", c.opened_since);
 }
 
-constexpr long wrong_steps = 512;  // that a run goes on with a ledger that has lost half of what passed
+constexpr long wrong_steps = 512;       // that a run goes on with a ledger that has lost half of what passed; ...
+constexpr long negative_steps = 160000;  // ... with a kinetic energy below zero, as modes at the limit of the step have it
 
 // What has come off beyond the ground and falls on for ever; "" where nothing has.
 std::string lost_blocks(const Model& m, const State& s) {
@@ -320,10 +321,10 @@ bool Run::diverges() {
   if (growth_allowed()) return height_energy_ > 0 && e.kinetic > 2 * (passed + height_energy_);
   // Past its limit explicit damping feeds the motion while the ledger closes; its velocities change sign in every step, so that
   // T = v- m v+ / 2 is negative.
-  const bool wrong = e.residual_relative > std::max(0.5, scene_.analysis.energy_gate) || e.kinetic < 0;
+  const bool lost = e.residual_relative > std::max(0.5, scene_.analysis.energy_gate), wrong = lost || e.kinetic < 0;
   if (!wrong) clock_.right = run_.state.step;
   // Where a few light blocks alone are past their limit their joints crack and hold the growth back: it ends by its length.
-  return wrong && ((std::fabs(e.kinetic) > 1e3 * passed && run_.state.step > 64) || run_.state.step - clock_.right > wrong_steps);
+  return wrong && ((std::fabs(e.kinetic) > 1e3 * passed && run_.state.step > 64) || run_.state.step - clock_.right > (lost ? wrong_steps : negative_steps));
 }
 
 // A sequential scheme feeds energy at any dt: a study of it says unstable = true, and only numbers that break end the run.

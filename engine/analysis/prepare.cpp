@@ -255,6 +255,7 @@ void ramp(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& foun
   slow.damping_all = false;
   slow.damping_explicit = false;
   const BlockVec3 v = p.state.v, L = p.state.spin_momentum;
+  const double dt = p.state.dt;
   p.state.v.assign(v.size(), Vec3::Zero());
   p.state.spin_momentum.assign(v.size(), Vec3::Zero());
   std::optional<Held> held;
@@ -277,7 +278,9 @@ void ramp(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& foun
   p.state.w.assign(p.state.w.size(), Vec3::Zero());
   find_islands(p.model, p.state);
   p.state.step = p.state.start_step = 0;
-  p.state.t = p.state.start_t = p.state.last_dt = 0;
+  p.state.t = p.state.start_t = p.state.last_dt = p.state.event_dt = 0;
+  p.state.dt = dt;
+  p.state.calm = 0;
   p.state.energy = Energy{};
 }
 

@@ -15,8 +15,8 @@
 namespace erbs {
 
 inline constexpr int foresee_every = 4;  // steps
-// Of Energy::reference, by which one event may err: some ten of them, of either sign, leave a third of the gate of 1e-3.
-inline constexpr double event_tolerance = 1e-4;
+// Of Energy::reference, by which one event may err: a hundred of them, of either sign, leave a third of the gate of 1e-3.
+inline constexpr double event_tolerance = 3e-5;
 // ... and all of them: as their sum comes near it, each may err by less.
 inline constexpr double event_sum = 5e-4;
 

@@ -230,7 +230,7 @@ void Solver::foresee_events() {
   haste = state_.last_dt > 0 ? haste / state_.last_dt : 0;
   if (contacts_) haste = std::max(haste, debris_.haste());
   const double fall = (now_.gravity - now_.ground).norm();  // in flight the net force is weight
-  if (any_cracked_ || contacts_) haste = std::max(haste, fall * std::sqrt(mass_ / (8 * budget_)));
+  if (haste > 0) haste = std::max(haste, fall * std::sqrt(mass_ / (8 * budget_)));
   state_.event_dt = haste > 0 ? 1 / haste : 0;
 }
 

@@ -118,7 +118,7 @@ TEST_CASE("a leaning dry wall comes to rest on its opened joints as the damped r
     CHECK(direct.equilibrium.why == "");
     CAPTURE(direct.equilibrium.iterations);
     REQUIRE(direct.equilibrium.converged);
-    CHECK(difference(direct, started(scene, "ramp", 1)) < 0.02);
+    CHECK(difference(direct, started(scene, "ramp", 1)) < 0.03);  // where joints stick depends on the way there
   }
 }
 
@@ -238,7 +238,7 @@ TEST_CASE("of many stacks only the one past its friction limit is not at rest, a
   CHECK(run.fallers.size() == 5);
   for (const int b : run.fallers) CHECK_THAT(run.model.block_name[std::size_t(b)], Catch::StartsWith("s3_"));
   CHECK(falling_share(run) == Approx(1.0 / 6));
-  for (std::size_t b = 0; b < run.state.u.size(); ++b) {
+  for (std::size_t b = 0; b < run.model.block_name.size(); ++b) {
     if (run.model.block_name[b].starts_with("s3_")) continue;
     CHECK(run.state.u[b] == direct.run.state.u[b]);
     CHECK(run.state.q[b].coeffs() == direct.run.state.q[b].coeffs());

@@ -272,8 +272,8 @@ TEST_CASE("cracked joints side by side answer as one by one, with the same bits 
       for (State* s : {&run.state, &narrow, &plain}) s->u[std::size_t(b)] = u, s->q[std::size_t(b)] = rotation(turn);
       cracked.take_pose(b), in_pairs.take_pose(b);
     }
-    cracked.forces(0, cracked.groups(), true, all);
-    in_pairs.forces(0, in_pairs.groups(), true, pairs, sse2::kernels);
+    cracked.forces(0, cracked.groups(), true, 0.0, all);
+    in_pairs.forces(0, in_pairs.groups(), true, 0.0, pairs, sse2::kernels);
     bool same = true;
     for (std::size_t i = 0; i < 16 * std::size_t(m.njoint); ++i) same = same && (i % 8 > 5 || run.state.wrench[i] == narrow.wrench[i]);
     REQUIRE(same);

@@ -75,7 +75,7 @@ TEST_CASE("cracked joints see their blocks exactly, however far these have turne
   for (const LaneKernels* kernels : {&lane_kernels(), &sse2::kernels}) {
     Cracked cracked(m, s);
     JointSums sums;
-    cracked.forces(0, cracked.groups(), true, sums, *kernels);
+    cracked.forces(0, cracked.groups(), true, 0.0, sums, *kernels);
     cracked.store();
     for (int j = 0; j < m.njoint; ++j) {
       double q[6];
