@@ -107,6 +107,7 @@ local h = param('height', 1, '')
 if h > 10 then error('too high', 0) end
 metric('size', '', h + param('seed', 1, ''))
 family({ height = { 2, 7, 11 }, seed = { 3 } }, { combinations = 1 })
+analysis{ energy_gate = 1 }
 )";
   bench.write("drop.lua", "-- A brick falls.\n" + falling + family + "expect('metrics.size', 7, { below = true })\n");
   const std::string scene = (bench.folder / "drop.lua").string();
