@@ -24,7 +24,7 @@ struct Mortar {
   double us_ultimate = 0;  // m, slip at which cohesion is spent; 0: from Gf2
   double fc = 0;         // Pa, compression plateau; 0: none (elastic, unlimited)
   double uc_ultimate = 0;  // m, closing at which the mortar is crushed (bond lost); 0: never
-  double damping = 0.05;   // of critical, once the joint has cracked; until then it is as damping{} says
+  double damping = 0;      // of critical, once the joint has cracked; until then it is as damping{} says
   std::string coupling = "coulomb";  // coulomb | linear | ellipse
 
   static constexpr std::string_view law_name = "mortar";

@@ -35,7 +35,9 @@ struct Energy {
   double absolute_work = 0;     // Int |power| of base, external and tilt
   double largest_moving = 0;    // largest kinetic + |elastic change| so far
   double height_flux = 0;       // Int |d gravity|
-  double reference = 0;         // J, what events are measured by: what passed, and what could have (energy.h)
+  // J, what events are measured by: what moved and was lost, and what could have; and the residual: at the ledger's own steps, which the
+  // output of a run does not move (event_bound.h)
+  double reference = 0, event_residual = 0;
   double residual = 0;          // J, now
   double residual_relative = 0; // now
   double residual_worst = 0;    // largest residual_relative so far

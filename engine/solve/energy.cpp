@@ -25,7 +25,6 @@ void settle(Energy& e, double floor, double t, int worst_joint) {
   // largest_moving already.
   floor = std::max(floor, 1e-8 * std::fabs(e.elastic_at_start));
   const double scale = std::max(floor, e.largest_moving + e.absolute_work + loss + 0.5 * e.height_flux);
-  e.reference = std::max(e.reference, scale);
   e.residual_relative = std::fabs(e.residual) / scale;
   e.residual_worst = std::max(e.residual_worst, e.residual_relative);
   const double jump = std::fabs(e.residual - before);

@@ -7,7 +7,7 @@ namespace erbs {
 
 double event_budget(const Model& m, const State& s) {
   if (m.analysis.unstable || m.analysis.solver == "sequential" || s.step % foresee_every != 0) return 0;
-  return event_tolerance * s.energy.reference * std::max(0.01, 1 - std::fabs(s.energy.residual) / (event_sum * s.energy.reference));
+  return event_tolerance * s.energy.reference * std::max(0.01, 1 - std::fabs(s.energy.event_residual) / (event_sum * s.energy.reference));
 }
 
 double foresee(const Model& m, const Joint& joint, const double* q0, const double* q, double budget) {

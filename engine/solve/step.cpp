@@ -99,8 +99,8 @@ void Solver::run(const Hooks& hooks) {
 
 void Solver::begin(const Hooks& hooks) {
   const Analysis& how = model_.analysis;
-  const int every = !how.ledger ? ledger_seldom : debris_.active() ? ledger_slowly : ledger_every;
-  sample_ = hooks.wanted(state_.t) ? Sample::full : state_.step % every == 0 ? Sample::ledger : Sample::none;
+  ledger_steps_ = !how.ledger ? ledger_seldom : debris_.active() ? ledger_slowly : ledger_every;
+  sample_ = hooks.wanted(state_.t) ? Sample::full : state_.step % ledger_steps_ == 0 ? Sample::ledger : Sample::none;
   if (std::any_of(block_sums_.begin(), block_sums_.end(), [](const BlockSums& sums) { return sums.stale; })) refresh_stale();
   if (how.debris && state_.step % loosen_every == 0 && (any_cracked_ || debris_.active() || state_.step == 0)) debris_.loosen();
   contacts_ = debris_.active();
@@ -419,6 +419,10 @@ void Solver::settle_ledger() {
   if (contacts_) e.elastic += debris_.elastic();
   if (e.started) e.height_flux += std::fabs(e.gravity - gravity_before);
   settle(e, any_cracked_ || contacts_ ? std::max(floor_, lift_) : floor_, state_.t, worst);
+  if (state_.step % ledger_steps_ != 0) return;
+  const double loss = e.friction + e.fracture + e.crushing + e.damping + e.contact_damping;
+  e.reference = std::max(e.reference, std::fabs(e.kinetic) + std::fabs(e.elastic - e.elastic_at_start) + std::max(0.0, loss));
+  e.event_residual = e.residual;
 }
 
 Vec6 Solver::block_wrench(int b) const {

@@ -83,6 +83,7 @@ class Solver {
   double floor_ = 0;   // J, below which the ledger's scale does not go
   double lift_ = 0;    // J, that lifts all blocks by a thousandth of the structure's height
   double budget_ = 0;  // J, event_budget() of this step
+  int ledger_steps_ = 1;  // from one settling of the ledger to the next
   double mass_ = 0;    // kg, of all blocks that move
   Excitation now_;
   Rows push_, load_;  // N, N m: of contacts (once there are any) and of loads, a row a block

@@ -10,7 +10,6 @@
 -- Limit          mu H / 2 < L / 6: past that the trailing edge of the bed opens, the pressure at the other follows friction, and the block flutters as
 --                it slides and walks faster than a rigid one. The scene refuses such a block.
 -- What to look at  x_end, v_largest beside rigid_x_end, rigid_v_largest.
-label("quick")
 include "lib_sliding.lua"
 local F, mu = param("F", 8, "amplitude of the force [N]"), param("mu", 0.8, "")
 local mass = param("mass", 1, "[kg]")
@@ -28,10 +27,10 @@ local rigid = sliding { drive = function(t) return -F / mass * math.cos(omega * 
 local reach = 0.5 + rigid.largest
 box { name = "plate", group = "plate", size = { 2 * reach, 1, 0.1 }, at = { -reach, -0.5, -0.1 }, fixed = true }
 box { name = "block", group = "block", size = size, at = { -0.15, -0.15, 0 } }
-joint { law = dry { kn = kn, ks = ks, mu = mu }, between = { "plate", "block" } }
+joint { law = dry { kn = kn, ks = ks, mu = mu, interlock = 0 }, between = { "plate", "block" } }
 force { block = "block", wave = sine { amplitude = F, frequency = omega / (2 * pi), phase = 90 * deg, start = 1e-9 }, direction = "x" }
 -- The ramp waits for what slides: at the start it bears a little less than slides, so that the spring is stretched when the force sets in.
-force { block = "block", wave = table_wave { t = { 0, 1e-9, 2e-9 }, value = { math.min(F, 0.99 * mu * mass * g), 0, 0 } }, direction = "x" }
+force { block = "block", wave = table_wave { times = { 0, 1e-9, 2e-9 }, values = { math.min(F, 0.999 * mu * mass * g), 0, 0 } }, direction = "x" }
 recorder { name = "block", quantity = "displacement", block = "block", axis = "x" }
 recorder { name = "block", quantity = "velocity", block = "block", axis = "x" }
 -- start = "ramp" would bring the force on slowly; "rest" lets gravity and the force act at once: the bed swings by W / k, 3e-6 m.

@@ -75,7 +75,8 @@ metric("damage", "", function(run) return run.max("home_damage") end)
 metric("largest_displacement_m", "m", function(run) return run.peak(home[#home] .. "_uy_rel_m") end)
 
 local dt = 2.5e-5
-analysis { duration = steps * dt, dt = dt, start = "equilibrium", output_dt = 10 * dt }
+analysis { duration = steps * dt, dt = dt, start = "equilibrium", output_dt = 10 * dt,
+  energy_gate = 2e-3 }  -- it ends amid blows: what their springs hold back when the step changes is not given back yet
 -- Round-off, magnified by the cracks' events.
 expect("metrics.rotated_error", 1e-9, { below = true, source = "objectivity" })
 -- An ulp at 10 km is 1.8e-12 m, taken once, in the shapes at rest.

@@ -115,7 +115,8 @@ analysis{ energy_gate = 1 }
   INFO(bench.said);
   CHECK(contains(bench.said, "7 runs, "));  // three steps, heights of 2 and 7, a seed, a combination
   CHECK(contains(bench.said, "1 runs refused"));
-  CHECK(contains(bench.said, "drop at height 11: too high"));
+  CHECK(contains(bench.said, "refused: drop at height 11: "));
+  CHECK(contains(bench.said, ":11: too high"));
   CHECK(contains(bench.said, "drop metrics.size fails at height 7"));
   CHECK(bench.erbs({"test", scene, "--seeds", "7", "-o", bench.out()}) == 4);
   INFO(bench.said);

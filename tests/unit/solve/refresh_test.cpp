@@ -113,8 +113,7 @@ TEST_CASE("a refresh by whole batches gives what all joints anew would", "[solve
 
 TEST_CASE("sound joints that have been looked at once are passed by only where they hold", "[solve]") {
   Prepared run = prepare(test::small_wall(shake + "fast\"} gravity(g)", "dry{kn=1e10, mu=0.5}"), false);
-  start_at_rest(test::small_wall(shake + "fast\"} gravity(g)", "dry{kn=1e10, mu=0.5}"), run, 1);
-  const Model& m = run.model;
+  const Model& m = run.model;  // as laid: its corners hang over and would fall
   const State rest = run.state;
   State s = rest;
   Sound sound(m, s);
