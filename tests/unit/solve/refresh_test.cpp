@@ -113,7 +113,12 @@ TEST_CASE("a refresh by whole batches gives what all joints anew would", "[solve
 
 TEST_CASE("sound joints that have been looked at once are passed by only where they hold", "[solve]") {
   Prepared run = prepare(test::small_wall(shake + "fast\"} gravity(g)", "dry{kn=1e10, mu=0.5}"), false);
-  const Model& m = run.model;  // as laid: its corners hang over and would fall
+  const Model& m = run.model;  // its corners hang over and would fall: it is left to itself only until its beds bear
+  {
+    Solver solver(m, run.state, 1);
+    solver.run({[](double) { return false; }, [] {}, [&] { return run.state.t >= 4e-4; }});
+    refresh_all(run.model, run.state);
+  }
   const State rest = run.state;
   State s = rest;
   Sound sound(m, s);
