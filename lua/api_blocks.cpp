@@ -341,7 +341,7 @@ std::vector<Function> block_functions() {
        name,
        "A fixed plate to stand and fall on.",
        {{"z", "number", "m", "height of its top", -far, far, false, "", "0"},
-        {"size", "number", "m", "length of its sides", 1e-3, far, false, "", "20"},
+        {"size", "number", "m", "length of its sides; what falls beyond them falls for ever", 1e-3, far, false, "", "20"},
         {"depth", "number", "m", "thickness of the plate", 1e-3, far, false, "", "1"},
         {"material", "string", "", "name of its material (default: its own, with the defaults of material)"},
         {"friction", "number", "", "coefficient of friction, instead of its material's", 0, 10, false, "", ""},

@@ -68,6 +68,7 @@ int joint(Call& call) {
   JointRule rule;
   rule.place = call.place;
   arguments.read(rule);
+  rule.has_thickness = arguments.has("thickness");
   read_points(arguments, rule);
   if (arguments.has("between")) {
     std::vector<std::string> groups;
@@ -84,7 +85,7 @@ int joint(Call& call) {
   else if (!arguments.has("law") && !rule.none)
     arguments.mistake("\"law\" is missing; give law = mortar{ ... } or dry{ ... }, or none = true");
   if (auto* mortar = std::get_if<Mortar>(&rule.law)) {
-    if (!arguments.has("thickness")) rule.thickness = mortar->thickness;
+    if (!rule.has_thickness) rule.thickness = mortar->thickness;
     if (mortar->thickness == 0) mortar->thickness = rule.thickness;
     if (mortar->kn == 0 && mortar->E > 0 && mortar->thickness == 0)
       arguments.mistake("the mortar has E but no thickness; give thickness = 5*mm here or in mortar{}");

@@ -77,7 +77,7 @@ function material(keys) end
 ---@field name? string name, unique (default from the group and a number)
 ---@field group? string group, for joint rules and recorders
 ---@field fixed? boolean part of the ground [default false]
----@field free? boolean may stand without any joint [default false]
+---@field free? boolean may stand without any joint, or be joined to others with no way to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
 ---@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
@@ -95,7 +95,7 @@ function box(keys) end
 ---@field name? string name, unique (default from the group and a number)
 ---@field group? string group, for joint rules and recorders
 ---@field fixed? boolean part of the ground [default false]
----@field free? boolean may stand without any joint [default false]
+---@field free? boolean may stand without any joint, or be joined to others with no way to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
 ---@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
@@ -113,7 +113,7 @@ function block(keys) end
 ---@field name? string name, unique (default from the group and a number)
 ---@field group? string group, for joint rules and recorders
 ---@field fixed? boolean part of the ground [default false]
----@field free? boolean may stand without any joint [default false]
+---@field free? boolean may stand without any joint, or be joined to others with no way to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
 ---@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
@@ -130,7 +130,7 @@ function prism(keys) end
 ---@field name? string name, unique (default from the group and a number)
 ---@field group? string group, for joint rules and recorders
 ---@field fixed? boolean part of the ground [default false]
----@field free? boolean may stand without any joint [default false]
+---@field free? boolean may stand without any joint, or be joined to others with no way to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
 ---@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
@@ -142,7 +142,7 @@ function mesh(keys) end
 
 ---@class erbs.ground_keys
 ---@field z? number height of its top [m; -1e+06 to 1e+06; default 0]
----@field size? number length of its sides [m; 0.001 to 1e+06; default 20]
+---@field size? number length of its sides; what falls beyond them falls for ever [m; 0.001 to 1e+06; default 20]
 ---@field depth? number thickness of the plate [m; 0.001 to 1e+06; default 1]
 ---@field material? string name of its material (default: its own, with the defaults of material)
 ---@field friction? number coefficient of friction, instead of its material's [0 to 10]
@@ -206,8 +206,8 @@ function mortar(keys) end
 ---@field law? erbs.law a law value: mortar{ ... } or dry{ ... }
 ---@field between? string|string[] two groups, { "wall", "slab" }; "" is any (default: any and any)
 ---@field name? string name of the rule, for reports
----@field thickness? number nominal gap at rest (default the thickness of the law) [m; 0 to 1]
----@field tolerance? number how far faces at rest may be from that gap [m; 0 to 1; default 0.0001]
+---@field thickness? number nominal gap at rest: faces that touch or lie no further apart are joined (default the thickness of the law) [m; 0 to 1]
+---@field tolerance? number how much wider than that a gap may be; one narrower by more is joined, with a warning [m; 0 to 1; default 0.0001]
 ---@field rule? "simpson"|"midpoint"|"trapezoid"|"gauss" how contact points and their weights are laid out [default simpson]
 ---@field none? boolean pairs that match get no joint [default false]
 ---@field points? integer|integer[] contact points: { along the longer side, along the shorter side }, or one square number [1 to 64; default { 3, 3 }]

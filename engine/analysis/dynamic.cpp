@@ -48,6 +48,26 @@ void each(C& c, F&& f) {
 constexpr long wrong_steps = 512;       // that a run goes on with a ledger that has lost half of what passed; ...
 constexpr long negative_steps = 160000;  // ... with a kinetic energy below zero, as modes at the limit of the step have it
 
+// What has come off beyond the ground and falls on for ever; "" where nothing has.
+std::string lost_blocks(const Model& m, const State& s) {
+  const double g = m.gravity.norm();
+  if (!(g > 0) || std::find(m.kind.begin(), m.kind.end(), Kind::fixed) == m.kind.end()) return {};
+  const Vec3 up = -m.gravity / g;
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (int b = 0; b < m.nblock; ++b) low = std::min(low, up.dot(m.rest[z(b)])), high = std::max(high, up.dot(m.rest[z(b)]));
+  int count = 0, first = -1;
+  for (int b = 0; b < m.nblock; ++b) {
+    if (m.kind[z(b)] != Kind::moving || !(up.dot(m.rest[z(b)] + s.u[z(b)]) < low - (high - low))) continue;
+    if (first < 0) first = b;
+    ++count;
+  }
+  if (count == 0) return {};
+  return fmt::format(
+      "{} block{} fell past the ground by more than the height of the structure, '{}' the first of the scene; if what comes off "
+      "should land, make the ground larger: ground{{ size = ... }}",
+      count, count > 1 ? "s" : "", m.block_name[z(first)]);
+}
+
 class Run {
  public:
   Run(Scene scene, const std::string& script, const RunOptions& options);
@@ -126,6 +146,7 @@ void Run::begin() {
   if (!resume && collapse_.under_gravity)
     writer_->log(fmt::format("does not stand under its own weight: {:.3g} % of the mass; {}", 100 * falling_share(run_),
                              summary(collapse_.mechanism, run_.model, 1000)));
+  for (const std::string& note : run_.model.notes) writer_->log(note);
   out_.warnings = run_.model.warnings;
   double low = std::numeric_limits<double>::infinity(), weights = 0, moments = 0;
   for (int b = 0; b < run_.model.nblock; ++b) {
@@ -404,6 +425,10 @@ RunOutcome Run::go() {
     writer_->log(fmt::format("sleep: {:.1f} of {} blocks asleep in the mean, {} at the end",
                              double(solver_->slept()) / double(std::max(1L, run_.state.step - steps_at_start_)), run_.model.nblock,
                              run_.state.rest.count));
+  if (const std::string lost = lost_blocks(run_.model, run_.state); !lost.empty()) {
+    out_.warnings.push_back(lost);
+    writer_->log("warning: " + lost);
+  }
   if (status == "stopped" || status == "interrupted") save();
   solver_.reset();
   out_.metrics = metrics();

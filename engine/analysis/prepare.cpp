@@ -1,10 +1,13 @@
 #include "engine/analysis/prepare.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "engine/base/random.h"
 #include "engine/base/units.h"
+#include "engine/contact/shape.h"
+#include "engine/model/add_joints.h"
 #include "engine/record/metrics.h"
 #include "engine/solve/islands.h"
 #include "engine/solve/joint_geometry.h"
@@ -74,6 +77,12 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
     dt /= a.iterations;
     p.dt_rule += fmt::format(", in {} sweeps", a.iterations);
   }
+  if (dt > a.duration)
+    throw Error(
+        fmt::format("analysis: the time step {:.4g} s ({}) is longer than the duration {:g} s: nothing would be computed; say a longer "
+                    "duration or a shorter dt",
+                    dt, p.dt_rule, a.duration),
+        a.place);
   const double allowed = stability_limit(a, b);
   if (jointed && dt > allowed && !a.unstable && !allow_unstable)
     throw Error(
@@ -123,6 +132,23 @@ std::vector<double> constant_loads(const Model& m, const State& s) {
   return push;
 }
 
+// What the shapes of contact cannot hold: here and not when the run begins, so that check refuses what run would.
+void check_shapes(const Scene& scene, const Model& m) {
+  const auto large = [](const Polyhedron& part) { return part.vertices.size() > most_vertices / 2 || part.faces.size() > most_faces / 2; };
+  const bool any =
+      std::any_of(m.parts.begin(), m.parts.end(), [&](const Parts& parts) { return std::any_of(parts.begin(), parts.end(), large); });
+  if (!any || !scene.analysis.debris) return;
+  std::vector<std::string> errors;
+  each_contact_part(m, [&](int b, const Polyhedron& part) {
+    if (!large(part)) return;
+    const Block& block = scene.blocks[z(b)];
+    try {
+      contact_shape(part);
+    } catch (const Error& error) { errors.push_back(fmt::format("{}: block '{}': {}", block.place.text(), block.name, error.what())); }
+  });
+  if (!errors.empty()) throw Errors(errors);
+}
+
 }  // namespace
 
 // Of n courses on springs k, each of mass m: n (n + 1) / 2 m g / k, where the block bound of the step tells k / m = 2 / dt^2.
@@ -144,6 +170,7 @@ double settlement_of(const Model& m, double block_bound) {
 Prepared prepare(const Scene& scene, bool allow_unstable) {
   Built built = build(scene);
   Prepared p{std::move(built.model), std::move(built.state), {}, {}, {}, {}};
+  check_shapes(scene, p.model);
   find_islands(p.model, p.state);
   refresh_all(p.model, p.state);
   p.bounds = step_bounds(scene, p.model, p.state);

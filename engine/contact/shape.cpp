@@ -80,7 +80,7 @@ ContactShape contact_shape(const Polyhedron& part) {
   const Polyhedron p = has_coplanar_faces(planes(part), size) ? hull(part.vertices) : part;
   if (p.vertices.size() > std::size_t(most_vertices) || p.faces.size() > std::size_t(most_faces)) {
     throw Error(
-        fmt::format("a block has {} vertices and {} faces; contact takes up to {} and {} per convex part: simplify the mesh or split it",
+        fmt::format("a convex part of it has {} corners and {} faces; contact takes up to {} and {}: give it fewer, or split it into parts",
                     p.vertices.size(), p.faces.size(), most_vertices, most_faces));
   }
   ContactShape s;

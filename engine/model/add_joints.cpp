@@ -156,7 +156,8 @@ void add_joint(const Scene& scene, const Interface& face, Model& m, Types& types
   type.corners = int(flat.size());
   if (law.fc > 0 && type.corners > Bed::most_corners)
     throw Error(fmt::format("the joint between {} and {} has {} corners; a law with fc takes up to {}", m.block_name[z(face.a)],
-                            m.block_name[z(face.b)], type.corners, Bed::most_corners));
+                            m.block_name[z(face.b)], type.corners, Bed::most_corners),
+                scene.blocks[z(face.a)].place);
   for (const Vec2& p : flat) {
     const Vec2 x = local(p.x(), p.y());
     m.corner.push_back(x);
@@ -199,7 +200,7 @@ void each_contact_part(const Model& m, const std::function<void(int, const Polyh
   }
   for (int b = 0; b < m.nblock; ++b)
     for (int i = 0; i < int(m.parts[z(b)].size()); ++i) {
-      const Polyhedron part = translated(m.parts[z(b)][z(i)], -m.rest[z(b)]);
+      Polyhedron part = translated(m.parts[z(b)][z(i)], -m.rest[z(b)]);
       const auto at = offsets.find({b, i});
       if (at == offsets.end()) {
         use(b, part);
@@ -207,7 +208,12 @@ void each_contact_part(const Model& m, const std::function<void(int, const Polyh
       }
       for (double& x : at->second)
         if (x == infinite) x = 0;
-      use(b, grown(part, at->second));
+      try {
+        part = grown(part, at->second);
+      } catch (const Error& error) {
+        throw Error(fmt::format("block '{}', grown to the middle of its joints: {}", m.block_name[z(b)], error.what()));
+      }
+      use(b, part);
     }
 }
 

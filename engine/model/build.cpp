@@ -10,6 +10,7 @@
 #include "engine/geometry/mass.h"
 #include "engine/model/add_joints.h"
 #include "engine/model/batches.h"
+#include "engine/model/check_joined.h"
 #include "engine/model/interface.h"
 #include "engine/model/kept_lanes.h"
 
@@ -106,7 +107,7 @@ struct Overlapping {
 };
 
 void check_overlaps(const Scene& scene, const std::vector<Overlap>& overlaps, std::vector<std::string>& errors,
-                    std::vector<std::string>& warnings) {
+                    std::vector<std::string>& warnings, std::vector<std::string>& notes) {
   std::map<std::tuple<int, std::string, int, std::string, bool>, Overlapping> by_lines;
   for (const Overlap& o : overlaps) {
     const Block &a = scene.blocks[z(o.a)], &b = scene.blocks[z(o.b)];
@@ -116,61 +117,35 @@ void check_overlaps(const Scene& scene, const std::vector<Overlap>& overlaps, st
     if (group.deepest) ++group.others;
     if (!group.deepest || o.relative > group.deepest->relative) group.deepest = &o;
   }
+  std::vector<std::string> borne;  // overlaps that are let be
+  int pairs = 0;
+  std::string worst;
+  double deepest = 0;  // of the smaller edge
   for (const auto& [key, group] : by_lines) {
     const Overlap& o = *group.deepest;
     const Block &a = scene.blocks[z(o.a)], &b = scene.blocks[z(o.b)];
     const std::string more = group.others > 0 ? fmt::format(" ({} more pair(s) of these lines do so, too)", group.others) : "";
-    const std::string what = fmt::format("blocks '{}' ({}) and '{}' ({}) overlap by {:.3g} mm, {:.2g} of their smaller edge{}", a.name,
-                                         a.place.text(), b.name, b.place.text(), 1e3 * o.depth, o.relative, more);
+    const std::string pair = fmt::format("blocks '{}' ({}) and '{}' ({}) overlap by {:.3g} mm, {:.2g} of their smaller edge", a.name,
+                                         a.place.text(), b.name, b.place.text(), 1e3 * o.depth, o.relative);
+    const std::string what = pair + more;
     if (std::get<bool>(key))
       errors.push_back(fmt::format("{}: {}; at most {:g} is allowed: part them, or say analysis{{ overlap = \"stress_free\" }}",
                                    b.place.text(), what, most_overlap));
-    else warnings.push_back(what + "; taken as free of force at rest");
+    if (std::get<bool>(key)) continue;
+    pairs += 1 + group.others;
+    if (o.relative > deepest) deepest = o.relative, worst = pair;
+    borne.push_back(what);
   }
+  if (borne.empty()) return;
+  const std::string taken = "; taken as free of force at rest";
+  if (borne.size() == 1) return warnings.push_back(borne.front() + taken);
+  warnings.push_back(fmt::format("{} pairs of blocks overlap{}; the deepest: {}; log.txt of a run lists all", pairs, taken, worst));
+  notes.insert(notes.end(), borne.begin(), borne.end());
 }
 
-// Blocks that no joint holds although they neither start in motion nor say free = true; those of one line are one mistake.
-void check_loose(const Scene& scene, const Interfaces& found, const Model& m, std::vector<std::string>& errors) {
-  std::vector<int> degree(z(m.nblock), 0);
-  for (const Interface& face : found.all) ++degree[z(face.a)], ++degree[z(face.b)];
-  std::map<std::pair<int, std::string>, std::pair<const Block*, int>> by_line;
-  for (int b = 0; b < m.nblock; ++b) {
-    const Block& block = scene.blocks[z(b)];
-    if (degree[z(b)] > 0 || m.kind[z(b)] != Kind::moving || block.free || block.initial().given) continue;
-    auto& [first, others] = by_line[{block.place.line, block.place.file}];
-    if (first) ++others;
-    else first = &block;
-  }
-  for (const auto& [line, group] : by_line) {
-    const auto& [block, others] = group;
-    const std::string who = others > 0 ? fmt::format("block '{}' and {} more of this line have", block->name, others)
-                                       : fmt::format("block '{}' has", block->name);
-    errors.push_back(
-        fmt::format("{}: {} no joint with any other; let a face meet a neighbour within a joint's thickness and tolerance, "
-                    "give a joint{{}} rule for its group, or say free = true",
-                    block->place.text(), who));
-  }
-}
-
-// A rule that joins nothing is legal (a later one may win), but often a slip in its groups or its thickness.
-void check_rules(const Scene& scene, const Interfaces& found, std::vector<std::string>& warnings) {
-  std::vector<int> faces(scene.joint_rules.size(), 0);
-  for (const Interface& face : found.all) ++faces[z(face.rule)];
-  for (size_t r = 0; r < faces.size(); ++r) {
-    const JointRule& rule = scene.joint_rules[r];
-    if (faces[r] > 0 || rule.none) continue;
-    warnings.push_back(
-        fmt::format("{}: this joint rule joins nothing: between \"{}\" and \"{}\" no faces lie at most {:g} mm apart, or later "
-                    "rules take them; look at between, thickness and tolerance",
-                    rule.place.text(), rule.group_a, rule.group_b, 1e3 * (rule.thickness + rule.tolerance)));
-  }
-}
-
-void check_blocks(const Scene& scene, const Interfaces& found, const Model& m, std::vector<std::string>& errors,
-                  std::vector<std::string>& warnings) {
-  check_overlaps(scene, found.overlaps, errors, warnings);
-  check_loose(scene, found, m, errors);
-  check_rules(scene, found, warnings);
+void check_blocks(const Scene& scene, const Interfaces& found, Model& m, std::vector<std::string>& errors) {
+  check_overlaps(scene, found.overlaps, errors, m.warnings, m.notes);
+  check_joined(scene, found, m.kind, errors, m.warnings);
   for (const Interface& face : found.all) {
     const JointRule& rule = scene.joint_rules[z(face.rule)];
     if (rule.points_long * rule.points_short > most_points_per_joint) {
@@ -236,7 +211,7 @@ Built build(const Scene& scene) {
   add_loads(scene, m);
   Interfaces found = find_interfaces(interface_blocks(scene), scene.joint_rules);
   std::vector<std::string> errors;
-  check_blocks(scene, found, m, errors, m.warnings);
+  check_blocks(scene, found, m, errors);
   if (!errors.empty()) throw Errors(errors);
   add_joints(scene, found.all, m);
   found = {};
@@ -259,8 +234,8 @@ std::vector<std::string> overlap_mistakes(const Scene& scene) {
   for (const Block& block : scene.blocks)
     for (const Polyhedron& part : block.parts)
       if (!problem_of(part).empty()) return {};
-  std::vector<std::string> errors, warnings;
-  check_overlaps(scene, find_interfaces(interface_blocks(scene), {}).overlaps, errors, warnings);
+  std::vector<std::string> errors, warnings, notes;
+  check_overlaps(scene, find_interfaces(interface_blocks(scene), {}).overlaps, errors, warnings, notes);
   return errors;
 }
 

@@ -17,6 +17,8 @@ namespace {
 using std::size_t;
 constexpr double facing = 1e-3;          // rad
 constexpr double least_fraction = 1e-4;  // of the smaller face: less overlap is no interface
+constexpr double least_facing = 0.1;     // of the smaller face: less is no gap someone forgot to fill
+constexpr double most_beyond = 0.25;     // of the smaller edge: a wider gap is meant
 constexpr double least_overlap = 1e-6;   // of the smaller edge: less is round-off
 
 size_t at(int i) { return static_cast<size_t>(i); }
@@ -92,8 +94,11 @@ class RuleTable {
   std::map<std::pair<std::string_view, std::string_view>, int> known_;
 };
 
+// How far beyond what the rule joins a gap is still worth a word.
+double forgotten(const JointRule& rule) { return rule.none ? 0 : std::max(2 * rule.thickness, 0.03); }
+
 // The overlap of face fa of p and face fb of q in the plane of n, as a polygon midway between them; empty where there is none.
-bool overlap_polygon(const Part& p, int fa, const Part& q, int fb, Interface& out) {
+bool overlap_polygon(const Part& p, int fa, const Part& q, int fb, double fraction, Interface& out) {
   const Plane& pa = p.planes[at(fa)];
   const Plane& pb = q.planes[at(fb)];
   const Vec3 n = (pa.n - pb.n).normalized();
@@ -113,7 +118,7 @@ bool overlap_polygon(const Part& p, int fa, const Part& q, int fb, Interface& ou
   const Polygon2 common = simplified(clip_convex(flat_a, flat_b), 1e-9 * std::sqrt(smaller));
   if (common.size() < 3) return false;
   const PolygonMoments m = moments(common);
-  if (m.area < least_fraction * smaller) return false;
+  if (m.area < fraction * smaller) return false;
   // Height of both planes above a point of the flat polygon, along n.
   auto height = [&](const Plane& plane, const Vec2& x) {
     const Vec3 r = origin + x.x() * t + x.y() * s;
@@ -127,10 +132,11 @@ bool overlap_polygon(const Part& p, int fa, const Part& q, int fb, Interface& ou
   return true;
 }
 
-// Every pair of faces of two parts that qualifies.
-void find_faces(const Part& p, const Part& q, const JointRule& rule, int rule_index, double overlap, std::vector<Interface>& all) {
+// Every pair of faces of two parts that qualifies, and the nearest that are too far apart.
+void find_faces(const Part& p, const Part& q, const JointRule& rule, int rule_index, double overlap, Interfaces& result) {
   const double cosine = -std::cos(facing);
   const double least = -std::max(rule.tolerance, overlap * std::min(p.edge, q.edge)), most = rule.thickness + rule.tolerance;
+  const double far = most + std::min(forgotten(rule), most_beyond * std::min(p.edge, q.edge));
   const double slack = facing * std::max((p.box.high - p.box.low).norm(), (q.box.high - q.box.low).norm());
   for (size_t fa = 0; fa < p.planes.size(); ++fa) {
     const Vec3 on_a = p.shape->vertices[at(p.shape->faces[fa][0])];
@@ -138,10 +144,12 @@ void find_faces(const Part& p, const Part& q, const JointRule& rule, int rule_in
       if (p.planes[fa].n.dot(q.planes[fb].n) > cosine) continue;
       const Vec3 on_b = q.shape->vertices[at(q.shape->faces[fb][0])];
       const double distance = p.planes[fa].n.dot(on_b - on_a);
-      if (distance < least - slack || distance > most + slack) continue;
+      if (distance < least - slack || distance > far + slack) continue;
       Interface found{p.block, q.block, p.part, q.part, static_cast<int>(fa), static_cast<int>(fb), {}, Vec3::Zero(), 0, 0, rule_index};
-      if (overlap_polygon(p, found.face_a, q, found.face_b, found) && found.gap >= least && found.gap <= most)
-        all.push_back(std::move(found));
+      if (!overlap_polygon(p, found.face_a, q, found.face_b, least_fraction, found) || found.gap < least || found.gap > far) continue;
+      if (found.gap <= most) result.all.push_back(std::move(found));
+      else if (overlap_polygon(p, found.face_a, q, found.face_b, least_facing, found))
+        result.unjoined.push_back({p.block, q.block, found.gap, rule_index});
     }
   }
 }
@@ -150,17 +158,35 @@ bool boxes_overlap(const Box& a, const Box& b, double depth) {
   return ((a.high - b.low).array() > depth).all() && ((b.high - a.low).array() > depth).all();
 }
 
+// Of the pairs without any joint the smallest gap; `all` is sorted.
+void keep_pairs_without_joint(Interfaces& found) {
+  std::sort(found.unjoined.begin(), found.unjoined.end(),
+            [](const Unjoined& x, const Unjoined& y) { return std::tie(x.a, x.b, x.gap) < std::tie(y.a, y.b, y.gap); });
+  const auto again = [](const Unjoined& x, const Unjoined& y) { return x.a == y.a && x.b == y.b; };
+  found.unjoined.erase(std::unique(found.unjoined.begin(), found.unjoined.end(), again), found.unjoined.end());
+  std::erase_if(found.unjoined, [&](const Unjoined& x) {
+    const auto first = std::lower_bound(found.all.begin(), found.all.end(), x, [](const Interface& y, const Unjoined& wanted) {
+      return std::tie(y.a, y.b) < std::tie(wanted.a, wanted.b);
+    });
+    return first != found.all.end() && first->a == x.a && first->b == x.b;
+  });
+}
+
 }  // namespace
 
 Interfaces find_interfaces(std::span<const InterfaceBlock> blocks, std::span<const JointRule> rules, double overlap) {
   const std::vector<Part> parts = parts_of(blocks);
   RuleTable table(rules);
-  double margin = 0;
-  for (const JointRule& r : rules) margin = std::max(margin, r.none ? 0 : r.thickness + r.tolerance);
+  double joined = 0, beyond = 0;
+  for (const JointRule& r : rules) {
+    if (r.none) continue;
+    joined = std::max(joined, r.thickness + r.tolerance);
+    beyond = std::max(beyond, forgotten(r));
+  }
   Interfaces result;
   if (parts.empty()) return result;
   std::map<std::pair<int, int>, Overlap> deepest;
-  near_pairs(parts, margin, [&](int i, int j) {
+  near_pairs(parts, joined + beyond, [&](int i, int j) {
     const bool in_order = std::make_pair(parts[at(i)].block, parts[at(i)].part) < std::make_pair(parts[at(j)].block, parts[at(j)].part);
     const Part& p = parts[at(in_order ? i : j)];
     const Part& q = parts[at(in_order ? j : i)];
@@ -175,13 +201,15 @@ Interfaces find_interfaces(std::span<const InterfaceBlock> blocks, std::span<con
         if (depth / edge > o.relative) o = {p.block, q.block, depth, depth / edge};
       }
     }
+    if (!boxes_overlap(p.box, q.box, -joined - std::min(beyond, most_beyond * edge))) return;
     const int rule = table.find(a.group, b.group);
     if (rule < 0 || rules[at(rule)].none) return;
-    find_faces(p, q, rules[at(rule)], rule, overlap, result.all);
+    find_faces(p, q, rules[at(rule)], rule, overlap, result);
   });
   std::sort(result.all.begin(), result.all.end(), [](const Interface& x, const Interface& y) {
     return std::tie(x.a, x.b, x.part_a, x.part_b, x.face_a, x.face_b) < std::tie(y.a, y.b, y.part_a, y.part_b, y.face_a, y.face_b);
   });
+  keep_pairs_without_joint(result);
   for (const auto& [key, o] : deepest) result.overlaps.push_back(o);
   return result;
 }

@@ -33,8 +33,16 @@ struct Overlap {
   double relative;  // of the smallest edge of both
 };
 
+// Two blocks with faces that face each other across a gap wider than their rule joins; they have no joint.
+struct Unjoined {
+  int a, b;
+  double gap;  // m, the smallest
+  int rule;
+};
+
 struct Interfaces {
   std::vector<Interface> all;     // sorted by (a, b, part_a, part_b, face_a, face_b)
+  std::vector<Unjoined> unjoined;       // sorted by (a, b); gaps up to three thicknesses or 30 mm beyond one, a quarter of the smaller edge at most
   std::vector<Overlap> overlaps;  // relative depth above 1e-6, sorted by (a, b)
 };
 

@@ -123,6 +123,7 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Parts> parts;  // m, world axes at rest, the scene's own [nblock]
   std::vector<std::string> warnings;
+  std::vector<std::string> notes;  // what a warning sums up, for log.txt
 
   int spare_row() const { return first_row.back(); }
   template <class F>
@@ -135,8 +136,8 @@ struct Model {
     const Joint& one = joint[std::size_t(j)];
     return one.kept_by_b ? one.b : one.a;
   }
-  std::string joint_name(int j) const {
   // "lower | upper"; further joints of the same two blocks, which follow it, are "lower | upper #2", ...
+  std::string joint_name(int j) const {
     const Joint& one = joint[std::size_t(j)];
     int number = 1;
     for (int i = j; i > 0 && joint[std::size_t(i - 1)].a == one.a && joint[std::size_t(i - 1)].b == one.b; --i) ++number;

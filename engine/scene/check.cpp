@@ -152,6 +152,68 @@ void check_analysis(Report& report, const Scene& scene) {
   if (!inside(scene.gravity, -1000, 1000)) report.say({scene.file, 0}, "gravity is out of range; allowed is 0 to 1000 m/s2");
 }
 
+// Things of one kind that are hardly meant: the first is named, the others are counted.
+class Doubts {
+ public:
+  template <class... A>
+  void add(const std::string& kind, const Place& place, fmt::format_string<A...> text, A&&... values) {
+    for (Doubt& doubt : all_)
+      if (doubt.kind == kind) return void(++doubt.others);
+    all_.push_back({kind, place, fmt::format(text, std::forward<A>(values)...), 0});
+  }
+  void tell(Report& report) const {
+    for (const Doubt& doubt : all_)
+      report.say(doubt.place, "{}{}; {}", doubt.text, doubt.others > 0 ? fmt::format(" (and {} more like it)", doubt.others) : "",
+                 doubt.kind);
+  }
+
+ private:
+  struct Doubt {
+    std::string kind;
+    Place place;
+    std::string text;
+    int others;
+  };
+  std::vector<Doubt> all_;
+};
+
+// Numbers within their range that no masonry has: mostly a unit is missing.
+void doubt_units(Report& report, const Scene& scene) {
+  Doubts doubts;
+  std::set<int> moving;  // materials
+  for (const Block& block : scene.blocks) {
+    if (block.fixed) continue;
+    moving.insert(block.material);
+    Vec3 low = Vec3::Constant(unbounded), high = -low;
+    for (const Polyhedron& part : block.parts)
+      for (const Vec3& v : part.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+    if (const double longest = (high - low).maxCoeff(); longest > 100)
+      doubts.add("lengths are in m: write 300*mm", block.place, "block \"{}\" is {:.4g} m long", block.name, longest);
+  }
+  for (const int i : moving) {
+    if (i < 0 || i >= static_cast<int>(scene.materials.size())) continue;
+    const Material& material = scene.materials[static_cast<size_t>(i)];
+    if (material.density < 200 || material.density > 20000)
+      doubts.add("masonry has 1000 to 3000 kg/m3", material.place, "material \"{}\" has a density of {:g} kg/m3", material.name,
+                 material.density);
+    if (material.kn < 1e6)
+      doubts.add("stiffnesses are in Pa/m: write 10*MPa/mm", material.place, "material \"{}\" has a contact stiffness of {:g} Pa/m",
+                 material.name, material.kn);
+  }
+  for (const JointRule& rule : scene.joint_rules) {
+    if (rule.none) continue;
+    const PointLaw law = compile(rule.law);
+    if (law.kn > 0 && law.kn < 1e6)
+      doubts.add("stiffnesses are in Pa/m: write 10*MPa/mm", rule.place, "joint: its normal stiffness is {:g} Pa/m", law.kn);
+    const auto* mortar = std::get_if<Mortar>(&rule.law);
+    if (!mortar) continue;
+    for (const auto& [name, strength] : {std::pair{"ft", mortar->ft}, std::pair{"c", mortar->c}, std::pair{"fc", mortar->fc}})
+      if ((strength > 0 && strength < 1000) || strength > 1e9)
+        doubts.add("strengths are in Pa: write 0.1*MPa", rule.place, "mortar: {} = {:g} Pa", name, strength);
+  }
+  doubts.tell(report);
+}
+
 }  // namespace
 
 std::vector<std::string> check(const Scene& scene) {
@@ -172,6 +234,7 @@ std::vector<std::string> check(const Scene& scene) {
 
 std::vector<std::string> warnings(const Scene& scene) {
   Report report;
+  doubt_units(report, scene);
   for (const JointRule& rule : scene.joint_rules) {
     const auto* law = rule.none ? nullptr : std::get_if<Mortar>(&rule.law);
     if (!law) continue;

@@ -67,7 +67,7 @@ struct Block {
   Parts parts;                             // m, world axes at rest; usually one; several convex parts are one rigid block
   int material = -1;                       // index into Scene::materials
   bool fixed = false;                      // part of the ground
-  bool free = false;                       // allowed to have no joint
+  bool free = false;                       // allowed to have no joint, or none that leads to the ground
   std::shared_ptr<const Initial> started;  // null: as it is built
   Place place;
 
@@ -81,7 +81,7 @@ struct Block {
         {"name", &Block::name, "", "name, unique (default from the group and a number)"},
         {"group", &Block::group, "", "group, for joint rules and recorders"},
         {"fixed", &Block::fixed, "", "part of the ground"},
-        {"free", &Block::free, "", "may stand without any joint"},
+        {"free", &Block::free, "", "may stand without any joint, or be joined to others with no way to the ground"},
     };
   }
 };
@@ -93,6 +93,7 @@ struct JointRule {
   std::string group_a, group_b;
   Law law;
   double thickness = 0;                   // m, nominal gap at rest
+  bool has_thickness = false;             // the script says it; else it is that of the law
   double tolerance = 1e-4;                // m
   std::string rule = "simpson";           // simpson | midpoint | trapezoid | gauss
   int points_long = 3, points_short = 3;  // contact points along the longer and the shorter side of a rectangle
@@ -102,8 +103,8 @@ struct JointRule {
   static Fields<JointRule> fields() {
     return {
         {"name", &JointRule::name, "", "name of the rule, for reports"},
-        {"thickness", &JointRule::thickness, "m", "nominal gap at rest (default the thickness of the law)", 0, 1},
-        {"tolerance", &JointRule::tolerance, "m", "how far faces at rest may be from that gap", 0, 1},
+        {"thickness", &JointRule::thickness, "m", "nominal gap at rest: faces that touch or lie no further apart are joined (default the thickness of the law)", 0, 1},
+        {"tolerance", &JointRule::tolerance, "m", "how much wider than that a gap may be; one narrower by more is joined, with a warning", 0, 1},
         {"rule", &JointRule::rule, "", "how contact points and their weights are laid out", 0, 0, false,
          "simpson|midpoint|trapezoid|gauss"},
         {"none", &JointRule::none, "", "pairs that match get no joint"},

@@ -64,4 +64,4 @@ for k, axis in ipairs { "x", "y" } do
   expect("metrics.ratio_" .. name, 1, { abs = 1e-6, source = "kn B H^3 / 12, Simpson 3 x 3" })
 end
 joint { law = law, between = { "base", "free" } }
-analysis { duration = 1e-5, start = "equilibrium", output_dt = 1e-6 }
+analysis { duration = 1e-4, start = "equilibrium", output_dt = 1e-6 }

@@ -262,3 +262,42 @@ TEST_CASE("a quality sets what the scene does not say: the step, and the points 
   CHECK(draft.analysis.dt_fraction == 0.7);
   CHECK_FALSE(mistakes_in("analysis{ duration = 1, quality = 'best' }").empty());
 }
+
+TEST_CASE("a rocking block takes a Lua function for its ground, as a load does", "[lua]") {
+  const std::string block = "{ width = .6, height = 3, from = .1, to = 2, points = 40, duration = 5, wave = ";
+  const Scene scene = scene_of(
+      "local pulse = half_sine{ amplitude = g, frequency = 1 }\n"
+      "local told = rocking_overturning" +
+      block +
+      "pulse }\n"
+      "local asked = rocking_overturning" +
+      block +
+      "function(t) return pulse(t) end }\n"
+      "param('told', told.lowest) param('asked', asked.lowest)\n"
+      "param('steps', #rocking{ width = .6, height = 3, duration = 1, wave = function(t) return 3 end, sample = .01 }.t)");
+  CHECK(scene.params.at(0).fallback == Approx(scene.params.at(1).fallback).epsilon(1e-5));  // 1 ms between its values
+  CHECK(scene.params.at(2).fallback > 10);
+  CHECK(mentions(mistakes_in("rocking_overturning{ width = 1, height = 4, wave = function(t) return 1 end }"), "say how long to watch"));
+  CHECK(mentions(mistakes_in("rocking{ width = 1, height = 4, duration = 1, wave = function(t) return 'a' end }"),
+                 "must return a finite number"));
+}
+
+TEST_CASE("mortar given by kn alone takes .4 of it along the joint, as a dry joint does", "[lua]") {
+  const Scene scene = scene_of("joint{ law = mortar{ kn = 1e10, ft = 1e5, c = 1e5, mu = .6 } }\njoint{ law = dry{ kn = 1e10, mu = .6 } }");
+  CHECK(std::get<Mortar>(scene.joint_rules.at(0).law).ks == 4e9);
+  CHECK(std::get<DryFriction>(scene.joint_rules.at(1).law).ks == 4e9);
+}
+
+TEST_CASE("the quality of the command line comes before that of the scene, and after its own step and points", "[lua]") {
+  const std::string text = sound + "joint{ law = dry{ kn = 1e10, mu = .6 } }\nanalysis{ quality = 'draft' }\n";
+  const auto loaded = [&](const std::string& more, const char* quality) {
+    Script::Options options = quiet();
+    options.quality = quality;
+    Script script(options);
+    return script.load_text(text + more, "scene.lua");
+  };
+  CHECK(loaded("", "").joint_rules[0].points_long == 2);
+  CHECK(loaded("", "reference").joint_rules[0].points_long == 5);
+  CHECK(loaded("", "reference").analysis.dt_fraction == 0.25);
+  CHECK(loaded("analysis{ dt_fraction = .5 }", "reference").analysis.dt_fraction == 0.5);
+}

@@ -115,3 +115,23 @@ TEST_CASE("a mortar without stiffness is a mistake, a capped or snapping one a w
   scene.joint_rules[0].law = mortar;
   CHECK(warnings(scene).empty());
 }
+
+TEST_CASE("numbers whose unit is hardly meant are warned of, a kind once with a count", "[scene]") {
+  Scene scene = sound();
+  CHECK(warnings(scene).empty());
+  scene.blocks[0].parts = {box_polyhedron({0, 0, 0}, {300, 125, 65})};
+  scene.blocks.push_back(scene.blocks[0]);
+  scene.materials[0].density = 1.8;
+  Mortar mortar;
+  mortar.kn = 5000, mortar.ft = 0.1, mortar.c = 0.2, mortar.fc = 2e9;
+  JointRule rule;
+  rule.law = mortar;
+  scene.joint_rules = {rule};
+  const std::vector<std::string> said = warnings(scene);
+  CHECK(mentions(said, "s.lua:3: block \"a\" is 300 m long (and 1 more like it)"));
+  CHECK(mentions(said, "a density of 1.8 kg/m3"));
+  CHECK(mentions(said, "normal stiffness is 5000 Pa/m"));
+  CHECK(mentions(said, "ft = 0.1 Pa (and 2 more like it)"));
+  scene.blocks[0].fixed = scene.blocks[1].fixed = true;
+  CHECK_FALSE(mentions(warnings(scene), "m long"));
+}

@@ -1,0 +1,99 @@
+// What is joined at rest and what is not, on scenes of a few bricks.
+#include <catch2/catch.hpp>
+
+#include "engine/analysis/prepare.h"
+#include "engine/model/build.h"
+#include "tests/unit/lua/load.h"
+
+using namespace erbs;
+
+namespace {
+
+Scene scene_with(const std::string& piece) {
+  Script script(quiet());
+  return script.load_text(
+      "material{ name = 'brick', density = 1800 }\nanalysis{ duration = 1 }\n"
+      "ground{ size = 4 }\n"
+      "joint{ law = dry{ kn = 1e9, mu = .6 }, thickness = param('t', 0) }\n" +
+          piece,
+      "scene.lua");
+}
+
+std::vector<std::string> refused(const Scene& scene) {
+  try {
+    build(scene);
+  } catch (const Errors& errors) { return errors.messages; }
+  return {};
+}
+
+const std::string stack = "for i = 0, 2 do box{ name = 'b' .. i, size = {.3, .2, .1}, at = {0, 0, lift + .1 * i}, free = loose } end\n";
+
+}  // namespace
+
+TEST_CASE("a joined stack above the ground is refused, unless it says that it is free", "[model]") {
+  const auto messages = refused(scene_with("lift, loose = 3*mm, false\n" + stack));
+  REQUIRE(messages.size() == 1);
+  CHECK(contains(messages[0], "scene.lua:6: the 3 blocks joined to 'b0' have no way to the ground"));
+  CHECK(contains(messages[0], "'b0' lies 3 mm above 'ground'"));
+  CHECK(refused(scene_with("lift, loose = 3*mm, true\n" + stack)).empty());
+  CHECK(refused(scene_with("lift, loose = 0, false\n" + stack)).empty());
+  CHECK(refused(scene_with("gravity(0)\nlift, loose = 3*mm, false\n" + stack)).empty());
+}
+
+TEST_CASE("joints across a gap that is not the rule's are counted", "[model]") {
+  const auto told = [](const std::string& rule) {
+    return build(scene_with(rule + "box{ name = 'a', size = {.3, .2, .1}, at = {0, 0, 4*mm} }\n"
+                                   "box{ name = 'b', size = {.3, .2, .1}, at = {0, 0, 106*mm} }\n"))
+        .model.warnings;
+  };
+  const auto said = told("joint{ law = dry{ kn = 1e9, mu = .6 }, thickness = 4*mm }\n");
+  CHECK(mentions(said, "scene.lua:5: 1 joint of this rule bridges gaps of 2 to 2 mm, not the 4 mm it says (first between 'a' and 'b')"));
+  CHECK_FALSE(mentions(told("joint{ law = dry{ kn = 1e9, mu = .6 }, thickness = 4*mm, tolerance = 2*mm }\n"), "bridge"));
+}
+
+TEST_CASE("faces that miss their joint by a little are counted", "[model]") {
+  const auto said =
+      build(scene_with("for i = 0, 2 do box{ name = 'b' .. i, size = {.3, .2, .1}, at = {i * .303, 0, 0} } end\n")).model.warnings;
+  CHECK(mentions(said, "2 pairs of blocks face each other across gaps of 3 to 3 mm and are not joined (first 'b0' and 'b1')"));
+}
+
+TEST_CASE("overlaps that are let be are one warning, their list is for the log", "[model]") {
+  const Model model = build(scene_with("analysis{ overlap = 'stress_free' }\n"
+                                       "for i = 0, 2 do\n"
+                                       "  box{ name = 'a' .. i, size = {.3, .2, .1}, at = {i, 0, 0} }\n"
+                                       "  box{ name = 'b' .. i, size = {.3, .2, .1}, at = {i, 0, .099} }\n"
+                                       "end\nbox{ name = 'c', size = {.3, .2, .1}, at = {0, 0, .197} }\n"))
+                          .model;
+  REQUIRE(model.warnings.size() == 1);
+  CHECK(contains(model.warnings[0], "4 pairs of blocks overlap"));
+  CHECK(contains(model.warnings[0], "'b0' (scene.lua:8) and 'c' (scene.lua:10) overlap by 2 mm"));
+  CHECK(model.notes.size() == 2);
+}
+
+TEST_CASE("two joints of the same blocks have names of their own", "[model]") {
+  const Model model =
+      build(scene_with("block{ name = 'n', parts = { { vertices = { "
+                       "{0,0,0},{.1,0,0},{.1,.1,0},{0,.1,0},{0,0,.1},{.1,0,.1},{.1,.1,.1},{0,.1,.1} } },\n"
+                       "  { vertices = { {.2,0,0},{.3,0,0},{.3,.1,0},{.2,.1,0},{.2,0,.1},{.3,0,.1},{.3,.1,.1},{.2,.1,.1} } } } }\n"))
+          .model;
+  REQUIRE(model.njoint == 2);
+  CHECK(model.joint_name(0) == "ground | n");
+  CHECK(model.joint_name(1) == "ground | n #2");
+}
+
+TEST_CASE("a part with too many corners is refused before the run, with its block and line", "[model]") {
+  const Scene scene = scene_with(
+      "local ring = {}\nfor i = 1, 40 do ring[i] = { math.cos(i * pi / 20), math.sin(i * pi / 20) } end\n"
+      "prism{ name = 'drum', polygon = ring, height = 1 }\n");
+  try {
+    prepare(scene, false);
+    FAIL("it was taken");
+  } catch (const Errors& errors) {
+    CHECK(contains(errors.messages.at(0), "scene.lua:7: block 'drum': a convex part of it has 80 corners and 42 faces"));
+  }
+}
+
+TEST_CASE("a time step longer than the run is refused", "[model]") {
+  CHECK_THROWS_WITH(prepare(scene_with("box{ size = {.3, .2, .1}, at = {0, 0, 0} }\nanalysis{ duration = 1e-9 }\n"), false),
+                    Catch::Contains("is longer than the duration"));
+}
