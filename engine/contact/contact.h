@@ -39,16 +39,6 @@ struct PairResult {
 bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
                 double dt, bool want_energy, OverlapRoom& room, PairResult& result, double crowd = full_crowd);
 
-// What keeps a pair of small bodies apart that touch no more and bear nothing (Pair::separating), -1 where it is to go to pair_force().
-int short_keeper(const Pair& pair, const ContactShape& a, const ContactShape& b);
-// Such a pair in short: true where that surely keeps them apart still. `result` then has what pair_force() gives, to round-off. The pose of
-// the view is not asked for, and the pair only where the bodies may land.
-bool stands_apart(int keeper, const Pair& pair, const View& view, const ContactSettings& settings, double dt, PairResult& result);
-
-// Of a pair that touches and has been evaluated: its patch may let go, and a face that is about to fall flat meets all of it within a step or
-// two. Sets `haste` and, where that is near, the rates of landing of `result`. dt (s): the next step at most.
-void foresee(const Pair& pair, const View& view, const ContactSettings& settings, double dt, PairResult& result);
-
 // A new pair; fixes its reference body for good. `impact`: impact_factor() of its restitution.
 Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, double impact, const ContactShapes& shapes);
 

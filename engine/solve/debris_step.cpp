@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/contact/landing.h"
 #include "engine/contact/view.h"
 #include "engine/solve/debris.h"
 
