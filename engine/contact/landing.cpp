@@ -116,7 +116,7 @@ void landing(const Pair& pair, const View& s, const ContactSettings& settings, c
   const double k = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
   result.haste = haste(k, speed, way.apart, settings);
   if (result.haste * dt > 0.5 && !way.n.isZero(0) && corners_known(s)) {
-    const double depth = speed * dt, turns = 2 * spin * way.apart / speed;
+    const double depth = look_ahead * speed * dt, turns = 2 * spin * way.apart / speed;  // it is looked at every few steps only
     double share = 1;
     if (way.by != Keeper::other_face) share *= pressed_share(s.other->small, o.turn.transpose() * way.n, depth, turns);
     if (way.by != Keeper::face) share *= pressed_share(s.reference->small, -(r.turn.transpose() * way.n), depth, turns);

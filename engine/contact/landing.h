@@ -1,7 +1,7 @@
 // How long a step may be for bodies that are about to meet, to meet with more of their faces, or to part (solve/event_bound.h).
 //
 // A corner that strikes presses with a triangle of its face, an edge with a strip: what a step errs by is a small part of what it would
-// err by had the whole face landed flat. So the stiffness of what lands is that of the share of the face that one step sinks in.
+// err by had the whole face landed flat. So the stiffness of what lands is that of the share of the face that sinks in within the next steps.
 #pragma once
 #include "engine/contact/contact.h"
 

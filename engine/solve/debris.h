@@ -39,6 +39,8 @@ class Debris {
   bool sleep(const Excitation& now, const double* push);
   // The step that joints and contacts allow now (s), no longer than the run may take.
   double allowed_dt() const { return allowed_; }
+  // ... and what touches alone, without what may land next (s): the step that was taken is judged by it.
+  double borne_dt() const;
   // 1/s, over the step that what opens and closes next allows (event_bound.h); `budget` (J) is that of the next forces()
   double haste() const { return haste_; }
   void set_step(double budget, const Interlock& interlock) { settings_.event_budget = budget, settings_.interlock = interlock; }
@@ -159,7 +161,7 @@ class Debris {
   std::vector<std::uint64_t> pair_keys_;       // pairs of blocks that are jointed at rest, sorted, ...
   std::vector<int> of_pair_;                   // ... and the first of their joints
   double released_ = 0;                        // J, set free by the last hand-over and still in this step's sums
-  double allowed_ = 0, elastic_ = 0, haste_ = 0;
+  double allowed_ = 0, elastic_ = 0, haste_ = 0, rubbing_ = 0;
   std::vector<std::uint8_t> still_;  // sleepers that lie as at the last search [nblock], empty without
   bool relisted_ = true, unsorted_ = true;
   int touching_ = 0;

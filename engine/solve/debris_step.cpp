@@ -275,6 +275,15 @@ double Debris::limit() const {
   return limit_.allowed(most);
 }
 
+double Debris::borne_dt() const {
+  if (allowed_ >= state_.last_dt) return allowed_;
+  double most = elsewhere_;
+  for (const int b : sleep_.pushed())
+    if (model_.kind[z(b)] == Kind::moving) most = std::max(most, limit_.on_block(b, rate_[z(b)], 0));
+  const double bears = std::min(model_.dt_most, limit_.allowed(most));
+  return rubbing_ > 0 ? std::min(bears, rubbing_angle / std::sqrt(rubbing_)) : bears;
+}
+
 // What blocks ask for that no live pair touches: held by joints, or asleep, as if all were awake, so that a step in which some wake finds
 // it right.
 void Debris::ask_elsewhere() {
@@ -380,9 +389,9 @@ void Debris::gather(double* push, bool sample) {
   allowed_ = model_.dt_most;
   haste_ = 0;
   if (sample) elastic_ = sleep_.elastic();
-  double rubbing = 0;
+  rubbing_ = 0;
   for (const Looked& looked : looked_) {
-    rubbing = std::max(rubbing, add_up(looked.active, push, sample));
+    rubbing_ = std::max(rubbing_, add_up(looked.active, push, sample));
     for (const Near& one : looked.near) land(one.pair, one.landing_a, one.landing_b, false), haste_ = std::max(haste_, one.haste);
   }
   for (const int b : sleep_.pushed())
@@ -395,7 +404,7 @@ void Debris::gather(double* push, bool sample) {
     bears = limit();
   }
   allowed_ = std::min(allowed_, bears);
-  if (rubbing > 0) allowed_ = std::min(allowed_, rubbing_angle / std::sqrt(rubbing));
+  if (rubbing_ > 0) allowed_ = std::min(allowed_, rubbing_angle / std::sqrt(rubbing_));
   limit_passing();
 }
 
