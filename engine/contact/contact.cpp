@@ -167,7 +167,6 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
 
   PairWrench elastic, damping, friction;
   const double stored_before = pair.tangential;
-  double slipped = 0;
   if (touches) {
     const Motion motion = motion_of(s, dt);
     closing_speeds(room, motion.linear, motion.angular, patch);
@@ -182,8 +181,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
                                       settings.interlock);
     damping = to_world(pair, s, kn * damping_force + f.viscous_force, kn * damping_moment + f.viscous_moment);
     friction = to_world(pair, s, f.force, f.moment);
-    slipped = f.slipped;
-    if (slipped > 0) result.rubbing = kn * patch.area * along;
+    if (f.slipped > 0) result.rubbing = kn * patch.area * along;
     pair.tangential = f.stored;
     pair.touching = 1;
     result.touching = true;
@@ -192,7 +190,6 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     if (want_energy) result.elastic = kn * overlap_energy(*s.reference, *s.other, s.pose, room);
   } else if (pair.touching) {
     forget_contact(pair);
-    slipped = 0.5 * stored_before;  // the springs go slack: the limit is zero (what the half step of work leaves is in `reset`)
     pair.approach = 0;
   }
   if (!touches && room.apart > settings.interlock.gap) pair.bearing = 0;
@@ -200,9 +197,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
   pair.shift = s.pose.shift;
 
   const PairWrench offset = fading(pair, s, dt);
-  const double lost_in_friction = -trapezoid(pair.friction, friction, a, b, dt) - (pair.tangential - stored_before);
-  result.friction = slipped;
-  result.reset = lost_in_friction - slipped;
+  result.friction = -trapezoid(pair.friction, friction, a, b, dt) - (pair.tangential - stored_before);
   result.damping = -trapezoid(pair.damping, damping, a, b, dt);
   result.handover = -trapezoid(pair.offset, offset, a, b, dt);
   result.tangential = pair.tangential;

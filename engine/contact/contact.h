@@ -15,15 +15,13 @@ inline constexpr double look_ahead = 5;  // steps within which bodies that appro
 struct PairResult {
   PairWrench wrench;
   double tangential = 0;  // J, stored by the friction springs
-  double friction = 0;    // J, lost in slip
+  double friction = 0;    // J, that friction took of the bodies and does not store: in slip, and where its springs are carried to another patch
   double damping = 0;     // J, lost in dashpots
-  double reset = 0;       // J, lost where the springs of friction are carried to a larger or moved patch; near zero
+  double rubbing = 0;     // 1/s2, omega^2 of a patch that slips, along its normal; 0 where it holds
   double depth = 0;       // m, deepest overlap
   // Upper bounds of the pair's share in the greatest eigenvalue of M^-1/2 K M^-1/2 of each block, dashpots included (1/s2):
   // stable while dt^2 <= 2 / (sum over the pairs and joints of a block), for every block.
   double rate_a = 0, rate_b = 0;
-  // omega^2 of a patch that slips, along its normal (1/s2); 0 where it holds.
-  double rubbing = 0;
   double handover = 0;  // J, lost to the fading difference to an old joint
   double elastic = 0;   // J, normal, stored (only where asked for)
   // The rates of a face that may land within the next steps, where the bodies are apart still but approach.

@@ -352,7 +352,7 @@ double Debris::add_up(std::span<const Active> active, double* push, bool sample)
     friction += r.friction;
     rubbing = std::max(rubbing, r.rubbing);
     damping += r.damping;
-    reset += r.reset + r.handover;
+    reset += r.handover;
     if (sample) elastic_ += r.elastic + r.tangential;
     rate[a] += std::max(0.0, r.rate_a - bed.rate_a);
     rate[b] += std::max(0.0, r.rate_b - bed.rate_b);
