@@ -84,12 +84,17 @@ double trapezoid(PairWrench& last, const PairWrench& now, const ContactBlock& a,
   return work;
 }
 
-// The fading difference to the joint the pair was handed over from.
-PairWrench fading(Pair& pair, const View& s, double dt) {
+// The fading difference to the joint the pair was handed over from. It only ever takes: where it would drive the bodies, or they part, it
+// ends at once.
+PairWrench fading(Pair& pair, const View& s, bool touches, const ContactBlock& a, const ContactBlock& b, double dt) {
+  if (!touches) pair.offset_left = 0;
   if (pair.offset_left <= 0) return {};
   pair.offset_left = std::max(0.0, pair.offset_left - dt);
   const double share = pair.offset_left / pair.offset_time;
-  return to_world(pair, s, share * pair.offset_force, share * pair.offset_moment);
+  const PairWrench w = to_world(pair, s, share * pair.offset_force, share * pair.offset_moment);
+  if (dt == 0 || power(w, a, b) <= 0) return w;
+  pair.offset_left = 0;
+  return {};
 }
 
 void forget_contact(Pair& pair) {
@@ -196,7 +201,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
   pair.turn = s.pose.turn;
   pair.shift = s.pose.shift;
 
-  const PairWrench offset = fading(pair, s, dt);
+  const PairWrench offset = fading(pair, s, touches, a, b, dt);
   result.friction = -trapezoid(pair.friction, friction, a, b, dt) - (pair.tangential - stored_before);
   result.damping = -trapezoid(pair.damping, damping, a, b, dt);
   result.handover = -trapezoid(pair.offset, offset, a, b, dt);
@@ -244,6 +249,11 @@ void hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, c
   }
   pair.offset_force = old_force - new_force;
   pair.offset_moment = old_moment - new_moment;
+  if (patch.total > 0) {  // friction is left to friction: what it bears less from now on would drive what slides, or brake it
+    const Vec3 along = pair.offset_force - pair.offset_force.dot(pair.n) * pair.n, moment = patch.centroid.cross(along);
+    pair.offset_force -= along;
+    pair.offset_moment -= moment + (pair.offset_moment - moment).dot(pair.n) * pair.n;
+  }
   const double inverse_mass = inverse_mass_at(s, middle);
   pair.offset_time = inverse_mass > 0 && stiffness > 0 ? settings.handover_periods * 2 * pi / std::sqrt(stiffness * inverse_mass) : 0;
   pair.offset_left = pair.offset_time;

@@ -41,7 +41,8 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
 Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, double impact, const ContactShapes& shapes);
 
 // Starts `pair` with what an old joint carries at this instant (world axes, on block b, moment about the centroid of b), so that
-// the force is continuous: friction takes the tangential part, the difference of the rest fades over some contact periods.
+// the force across the faces is continuous: friction takes the tangential part as far as it bears it, the difference of the rest fades
+// over some contact periods.
 // `area` (m2) of the old joint sets the period where the bodies do not touch yet.
 void hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
                const Vec3& force_on_b, const Vec3& moment_on_b, double area, OverlapRoom& room);

@@ -224,7 +224,8 @@ void Debris::soften_beds() {
     p.law.ks = to.ks;
     p.bed = 0;
     p.counted_a = p.counted_b = 0;
-    note_hand_over(std::exchange(bed_[i], {}).joint, now.elastic + now.tangential - start(p, wrench, 0));
+    const double stored = now.elastic + now.tangential;
+    note_hand_over(std::exchange(bed_[i], {}).joint, stored - start(p, wrench, 0, stored));
   }
 }
 
@@ -316,7 +317,7 @@ void Debris::hand_over_pair(const int* first, const int* last) {
   pair.law.kn = joint_law.kn;
   pair.law.ks = joint_law.ks;
   pair.law.mu = joint_law.mu_residual;
-  note_hand_over(*first, stored - start(pair, wrench, area));
+  note_hand_over(*first, stored - start(pair, wrench, area, stored));
 }
 
 void Debris::note_hand_over(int joint, double energy) {
@@ -325,8 +326,10 @@ void Debris::note_hand_over(int joint, double energy) {
 }
 
 // A contact begins with what a joint bore on b until now; returns what its springs store then (J). Faces of contact reach round the edges
-// of a brick, over the mortar beside it, and may press where the joint had no face left: also where it bore nothing.
-double Debris::start(Pair& pair, const Vec6& wrench, double area) {
+// of a brick, over the mortar beside it, and may press where the joint had no face left: also where it bore nothing. What was
+// there before, `stored` (J), is kept: what the face stores more or less of it, the springs of friction begin with less or more, as far
+// as friction bears it.
+double Debris::start(Pair& pair, const Vec6& wrench, double area, double stored) {
   const ContactBlock &a = blocks_[z(pair.a)], &b = blocks_[z(pair.b)];
   lanes_changed_ = true;
   PairResult now;
@@ -336,14 +339,22 @@ double Debris::start(Pair& pair, const Vec6& wrench, double area) {
   hand_over(pair, shapes_, a, b, settings_, wrench.head<3>(), wrench.tail<3>(), area, room_.front());
   copy = pair;
   pair_force(copy, shapes_, a, b, settings_, 0.0, true, room_.front(), now);
-  return now.elastic + now.tangential;
+  const double face = now.elastic, springs = pair.tangential, pull = pair.friction.force.norm();
+  if (!(springs > 0 && pull > 0) || wrench.isZero(0)) return face + springs;
+  const Vec3 n = (pair.b_is_reference ? b : a).turn * pair.n;
+  const double most = pair.law.mu * std::abs(now.wrench.force.dot(n)) / pull;  // what friction bears
+  const double share = std::min(std::sqrt(std::max(0.0, (stored - face) / springs)), std::max(1.0, most));
+  pair.u *= share, pair.psi *= share;
+  for (Vec3* w : {&pair.friction.force, &pair.friction.moment_a, &pair.friction.moment_b}) *w *= share;
+  pair.tangential *= share * share;
+  return face + pair.tangential;
 }
 
 // While joints hold them, blocks without a joint between them do not see each other, and may overlap by then: as if a joint that bore
 // nothing went over to contact. Returns what the springs store (J).
 double Debris::start_fresh(const std::vector<int>& fresh) {
   double stored = 0;
-  for (const int i : fresh) stored += start(state_.debris.pair[z(i)], Vec6::Zero(), 0);
+  for (const int i : fresh) stored += start(state_.debris.pair[z(i)], Vec6::Zero(), 0, 0);
   return stored;
 }
 

@@ -62,7 +62,7 @@ class Debris {
   void open(int j);
   void hand_over_pair(const int* first, const int* last);
   void note_hand_over(int joint, double energy);
-  double start(Pair& pair, const Vec6& wrench, double area);
+  double start(Pair& pair, const Vec6& wrench, double area, double stored);
   double start_fresh(const std::vector<int>& fresh);
   void list_involved();
   void list_anew();
