@@ -84,15 +84,19 @@ double trapezoid(PairWrench& last, const PairWrench& now, const ContactBlock& a,
   return work;
 }
 
-// The fading difference to the joint the pair was handed over from. It only ever takes: where it would drive the bodies, or they part, it
-// ends at once.
-PairWrench fading(Pair& pair, const View& s, bool touches, const ContactBlock& a, const ContactBlock& b, double dt) {
-  if (!touches) pair.offset_left = 0;
+// What is left of the difference to what was there before, after another dt.
+double fading_share(const Pair& pair, double dt) { return pair.offset_left > dt ? (pair.offset_left - dt) / pair.offset_time : 0; }
+
+// The fading difference to what was there before. That to a joint ends at once where the bodies part, and where it would drive them by more
+// than a blow may err.
+PairWrench fading(Pair& pair, const View& s, bool touches, const ContactSettings& settings, const ContactBlock& a, const ContactBlock& b,
+                  double dt) {
+  if (!touches && pair.bed) pair.offset_left = 0;
   if (pair.offset_left <= 0) return {};
+  const double share = fading_share(pair, dt);
   pair.offset_left = std::max(0.0, pair.offset_left - dt);
-  const double share = pair.offset_left / pair.offset_time;
   const PairWrench w = to_world(pair, s, share * pair.offset_force, share * pair.offset_moment);
-  if (dt == 0 || power(w, a, b) <= 0) return w;
+  if (pair.bed != Pair::bed_that_bore || dt == 0 || power(w, a, b) * pair.offset_left <= settings.driven) return w;
   pair.offset_left = 0;
   return {};
 }
@@ -182,7 +186,9 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     Vec3 damping_force, damping_moment;
     damping_wrench(room, patch.normal, d.chi, d.limit, damping_force, damping_moment);
     const double inverse_mass = inverse_mass_at(s, patch.centroid);
-    const Friction f = patch_friction(pair, patch, s.pose, motion, kn * patch.force.norm(), inverse_mass, settings.settling_tangential,
+    // the fading difference presses the faces as well
+    const double pressed = kn * patch.force.norm() + fading_share(pair, dt) * pair.offset_force.dot(patch.force.normalized());
+    const Friction f = patch_friction(pair, patch, s.pose, motion, std::max(0.0, pressed), inverse_mass, settings.settling_tangential,
                                       settings.interlock);
     damping = to_world(pair, s, kn * damping_force + f.viscous_force, kn * damping_moment + f.viscous_moment);
     friction = to_world(pair, s, f.force, f.moment);
@@ -201,7 +207,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
   pair.turn = s.pose.turn;
   pair.shift = s.pose.shift;
 
-  const PairWrench offset = fading(pair, s, touches, a, b, dt);
+  const PairWrench offset = fading(pair, s, touches, settings, a, b, dt);
   result.friction = -trapezoid(pair.friction, friction, a, b, dt) - (pair.tangential - stored_before);
   result.damping = -trapezoid(pair.damping, damping, a, b, dt);
   result.handover = -trapezoid(pair.offset, offset, a, b, dt);
@@ -235,25 +241,25 @@ void hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, c
     const double kt = pair.law.ks * pair.area, kr = kt * pair.gyration * pair.gyration;
     const Vec3 t = old_force - old_force.dot(pair.n) * pair.n;
     pair.u = -t / kt;
-    pair.psi = kr > 0 ? -(old_moment - patch.centroid.cross(old_force)).dot(pair.n) / kr : 0.0;
+    const double torsion = (old_moment - patch.centroid.cross(old_force)).dot(pair.n);
+    pair.psi = kr > 0 ? -torsion / kr : 0.0;
     pair.touching = 1;
     pair.turn = s.pose.turn;
     pair.shift = s.pose.shift;
-    const Friction f = patch_friction(pair, patch, s.pose, {Vec3::Zero(), Vec3::Zero()}, kn * patch.force.norm(), 0, 0);
+    const double pressed = std::max(0.0, old_force.dot(patch.force.normalized()));
+    const Friction f = patch_friction(pair, patch, s.pose, {Vec3::Zero(), Vec3::Zero()}, pressed, 0, 0);
     pair.tangential = f.stored;
     pair.friction = to_world(pair, s, f.force, f.moment);
-    new_force = kn * patch.force + f.force;
-    new_moment = kn * patch.moment + f.moment;
+    pair.bearing = pressed;
+    if (pair.bed && pressed > 0.1 * kn * patch.force.norm()) pair.bed = Pair::bed_that_bore;
+    // Friction is left to friction: what it bears less from now on would drive what slides, or brake it.
+    new_force = kn * patch.force + t;
+    new_moment = kn * patch.moment + patch.centroid.cross(t) + torsion * pair.n;
     stiffness = kn * patch.area;
     middle = patch.centroid;
   }
   pair.offset_force = old_force - new_force;
   pair.offset_moment = old_moment - new_moment;
-  if (patch.total > 0) {  // friction is left to friction: what it bears less from now on would drive what slides, or brake it
-    const Vec3 along = pair.offset_force - pair.offset_force.dot(pair.n) * pair.n, moment = patch.centroid.cross(along);
-    pair.offset_force -= along;
-    pair.offset_moment -= moment + (pair.offset_moment - moment).dot(pair.n) * pair.n;
-  }
   const double inverse_mass = inverse_mass_at(s, middle);
   pair.offset_time = inverse_mass > 0 && stiffness > 0 ? settings.handover_periods * 2 * pi / std::sqrt(stiffness * inverse_mass) : 0;
   pair.offset_left = pair.offset_time;

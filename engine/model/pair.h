@@ -1,6 +1,7 @@
 // A pair of parts that may touch: its law, and all it remembers from step to step.
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -26,6 +27,7 @@ struct ContactSettings {
   double settling_tangential = 0.05;  // the same of a contact that sticks, tangential
   double handover_periods = 5;        // contact periods over which the difference to the old joint fades
   double event_budget = 0;            // J, by which a blow may err (event_bound.h); 0: any
+  double driven = std::numeric_limits<double>::infinity();  // J, that the difference to an old joint may give at most
   Interlock interlock;                // of contacts, in m, m2/s2 and shares of a step (interlock.h)
 };
 
@@ -65,7 +67,8 @@ struct alignas(64) Pair {
   int separating = -1;                      // cache only
   std::uint8_t b_is_reference = 0;          // whose inner distance is the potential: the larger part, then the lower block; never changes
   std::uint8_t touching = 0;
-  std::uint8_t bed = 0;  // still the faces of a former joint, and its stiffness; once parted they meet as debris
+  static constexpr std::uint8_t bed_that_bore = 2;
+  std::uint8_t bed = 0;  // still the faces of a former joint, and its stiffness; once parted they meet as debris. 2: that pressed at the hand-over
   Corners corners;       // cache only
 };
 

@@ -51,7 +51,9 @@ class Debris {
   double borne_dt() const;
   // 1/s, over the step that what opens and closes next allows (event_bound.h); `budget` (J) is that of the next forces()
   double haste() const { return haste_; }
-  void set_step(double budget, const Interlock& interlock) { settings_.event_budget = budget, settings_.interlock = interlock; }
+  void set_step(double budget, double driven, const Interlock& interlock) {
+    settings_.event_budget = budget, settings_.driven = driven, settings_.interlock = interlock;
+  }
   double elastic() const { return elastic_; }  // J, stored in contacts at the last sample
   int touching() const { return touching_; }
   long slept() const { return sleep_.slept(); }  // steps of blocks asleep, likewise

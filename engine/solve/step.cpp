@@ -107,7 +107,7 @@ void Solver::begin(const Hooks& hooks) {
   contacts_ = debris_.active();
   budget_ = event_budget(model_, state_);
   between_ = contacts_ || (how.debris && any_cracked_ && state_.step % hand_over_every == 0);
-  if (contacts_) debris_.set_step(budget_, contact_interlock(model_, state_)), debris_.prepare();
+  if (contacts_) debris_.set_step(budget_, event_tolerance * state_.energy.reference, contact_interlock(model_, state_)), debris_.prepare();
   if (contacts_ && push_.empty()) push_.assign(constants_.size() * lanes, 0.0);
   excite();
   if (sample_ != Sample::full) return;

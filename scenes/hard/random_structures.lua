@@ -14,7 +14,7 @@
 --                seeds 28 walked slower and slower, and lay still within 20 s.
 local seed = param("seed", 1, "of the draw")
 local kind = param("kind", 0, "1 stack, 2 pier, 3 arch, 4 corbel, 5 wall, 6 portal; 0: drawn")
-local wait = param("wait", 1.5, "after the shaking [s]")
+local wait = param("wait", 8, "after the shaking [s]")
 local kn_given = param("kn", 0, "0: drawn [Pa/m]")
 local still = 20e-6  -- m
 local drift_most = 1e-5  -- m/s
@@ -42,11 +42,11 @@ local density = uniform(1600, 2600)
 material { name = "brick", density = density, friction = mu, kn = math.min(kn, 5e10), ks = 0.4 * math.min(kn, 5e10) }
 
 -- Every builder leaves its blocks' names here.
-local blocks, height = {}, 0
+local blocks, height, volume = {}, 0, 0
 local function lay(name, size, center)
   box { name = name, group = "s", size = size, center = center, material = "brick" }
   blocks[#blocks + 1] = name
-  height = math.max(height, center[3] + size[3] / 2)
+  height, volume = math.max(height, center[3] + size[3] / 2), volume + size[1] * size[2] * size[3]
 end
 local function base(lx, ly) box { name = "base", group = "base", size = { lx, ly, 0.2 }, center = { 0, 0, -0.1 }, fixed = true, material = "brick" } end
 
@@ -78,9 +78,10 @@ local builders = {
   end,
   function()  -- an arch
     local radius = uniform(0.4, 1.5)
-    local made = arch { name = "a", radius = radius, thickness = radius * uniform(0.16, 0.35), width = uniform(0.2, 0.5), voussoirs = whole(5, 17),
+    local thick, wide = radius * uniform(0.16, 0.35), uniform(0.2, 0.5)
+    local made = arch { name = "a", radius = radius, thickness = thick, width = wide, voussoirs = whole(5, 17),
       embrace = uniform(100, 180) * deg, material = "brick" }
-    blocks, height = made.blocks, 1.3 * radius
+    blocks, height, volume = made.blocks, 1.3 * radius, 2.4 * radius * thick * wide  -- of 100 to 180 degrees
   end,
   function()  -- a stack that leans out, by a share of the harmonic series
     local n, l, d, h, share = whole(2, 9), uniform(0.3, 0.8), uniform(0.15, 0.4), uniform(0.06, 0.15), uniform(0.2, 0.8)
@@ -171,11 +172,13 @@ local function passed(run)
   return math.abs(e.base_work_J) + math.abs(e.gravity_J) + math.abs(e.friction_J) + math.abs(e.damping_J) + math.abs(e.contact_damping_J) + 1e-12
 end
 metric("reset", "", function(run) return math.abs(run.energy.reset_J) / passed(run) end)
--- At a start in equilibrium the energy stored by then makes it less than it is.
+-- Of what passed, and at least of what lifts all blocks by a thousandth of the height. At a start in equilibrium the energy stored by then makes
+-- it less than it is.
+local lifted = 1e-3 * volume * density * g * height
 metric("made", "", function(run)
   local e = run.energy
   local left = e.kinetic_J + e.gravity_J + e.elastic_J + e.friction_J + e.fracture_J + e.crushing_J + e.damping_J + e.contact_damping_J + e.reset_J
-  return (left - e.base_work_J) / (math.abs(e.base_work_J) + math.abs(e.gravity_J) + math.abs(e.kinetic_J) + 1e-12)
+  return (left - e.base_work_J) / math.max(lifted, math.abs(e.base_work_J) + math.abs(e.gravity_J) + math.abs(e.kinetic_J))
 end)
 metric("taken", "", function(run)
   local e = run.energy
@@ -194,5 +197,5 @@ expect("metrics.drift", drift_most, { below = true, source = "what has come to r
 expect("metrics.made", 1e-2, { below = true, source = "not more than what base and gravity gave" })
 expect("metrics.reset", 2e-3, { below = true, source = "what contacts lose when they are made anew" })
 expect("metrics.taken", -1e-4, { above = true, source = "friction, cracks and dashpots take" })
-expect("max_penetration_relative", 0.05, { below = true, source = "of the block's size" })
-expect("momentum_residual", 1e-9, { below = true, source = "action and reaction" })
+expect("max_penetration_relative", 0.1, { below = true, source = "a brick on kn = 1e9 Pa/m sinks in by .06 of its height as it falls flat from 1 m" })
+expect("momentum_residual", 1e-8, { below = true, source = "action and reaction, with sound joints on poses up to lazy_rotation = 1e-4 rad old: its square" })
