@@ -262,9 +262,9 @@ std::vector<std::string> write_figures(const Run& run) {
   std::vector<std::string> written;
   const fs::path dir(run.dir);
   for (const std::string name : {"histories", "energy"}) {
-    const std::string csv = (dir / (name + ".csv")).string(), svg = (dir / (name + ".svg")).string();
-    if (!fs::exists(csv)) continue;
-    const CsvTable table = read_csv(csv);
+    const std::string csv = name + ".csv", svg = (dir / (name + ".svg")).string();
+    if (!fs::exists(dir / csv)) continue;
+    const CsvTable table = read_csv((dir / csv).string());
     if (table.rows() < 2 || table.names.size() < 2 || table.columns[0].back() <= 0) continue;
     run_gnuplot(name == "energy" ? energy_script(csv, table, run) : histories_script(csv, table, run), svg);
     written.push_back(svg);
