@@ -3,11 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
 #include "engine/analysis/prepare.h"
+#include "engine/analysis/resume.h"
 #include "engine/analysis/trust.h"
+#include "engine/base/hash.h"
 #include "engine/record/checkpoint.h"
 #include "engine/record/collapse.h"
 #include "engine/record/run_writer.h"
@@ -114,13 +117,17 @@ Run::Run(Scene scene, const std::string& script, const RunOptions& options)
 
 void Run::begin() {
   check_run_folder(options_.directory, options_.existing);
+  if (std::filesystem::is_directory(options_.directory)) out_.lock = std::make_shared<FolderLock>(options_.directory);
+  if (options_.existing == Existing::resume) check_departures(options_.directory, options_.departures);
   run_ = prepare(scene_, options_.allow_unstable);
   dt_at_start_ = run_.state.dt;
-  key_ = {scene_hash(scene_, script_), dt_at_start_};
+  key_ = {scene_hash(scene_, script_), dt_at_start_, fnv1a(fmt::format("{}", fmt::join(options_.departures, "\n")))};
   const bool resume = options_.existing == Existing::resume;
   WriterProgress written;
   if (resume) {
+    const std::vector<std::size_t> sizes = sizes_of(run_.state);
     read_checkpoint(options_.directory, key_, run_.state, written, collapse_, clock_, trust_);
+    check_sizes(options_.directory, sizes, run_.state);
   } else {
     const BlockVec3 built = run_.state.u;
     start_at_rest(scene_, run_, options_.threads);
@@ -134,9 +141,12 @@ void Run::begin() {
   manifest.dt_critical = run_.bounds.critical;
   manifest.dt_block_bound = run_.bounds.block;
   manifest.dt_rule = run_.dt_rule;
+  manifest.departures = options_.departures;
   for (const Effect& e : effects_)
     (e.on ? manifest.effects_on : manifest.effects_off).push_back(e.on ? e.name + " (" + e.because + ")" : e.name);
+  const Recorders wanted(scene_, run_.model);  // finds columns of one name before anything is written
   create_run_folder(options_.directory, options_.existing, script_, manifest);
+  if (!out_.lock) out_.lock = std::make_shared<FolderLock>(options_.directory);
   writer_.emplace(options_.directory, scene_, run_.model, resume ? &written : nullptr);
   scene_.blocks = std::vector<Block>();
   return_free_memory();
