@@ -7,6 +7,7 @@
 #include <iterator>
 #include <thread>
 
+#include "engine/base/core.h"
 #include "engine/record/gnuplot.h"
 #include "engine/record/manifest.h"
 #include "lua/progress.h"
@@ -230,7 +231,7 @@ void write_book(const std::vector<CaseResult>& results, const Options& options, 
                       fmt::join(options.words, " "), options.quick ? " --quick" : "", fs::proximate(book).generic_string(),
                       duration_text(wall), machine_isa(),
                       options.jobs > 0 ? fmt::format("{} runs at a time", options.jobs) : "as many runs at a time as there are",
-                      std::thread::hardware_concurrency(), program_version());
+                      usable_processors(), program_version());
   text += "**" + summary + "**\n\n" + overview(families) + "\n";
   text +=
       "The share is the error over its tolerance: 1 is the end of what is allowed. Cost: seconds of processor and contact points "

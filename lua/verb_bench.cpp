@@ -44,9 +44,7 @@ double span(const Model& m, const State& s) {
 
 // What one scene costs. `seconds` is spent on each way of running it.
 Json measure(const std::string& path, const Options& options, double seconds) {
-  Script::Options script_options;
-  script_options.quiet = true;
-  Script script(script_options);
+  Script script(script_options(options, true));
   script.load(path, options.overrides);
   Scene scene = script.take_scene();
   Prepared run = prepare(scene, true);

@@ -43,6 +43,8 @@ Measured run_without(const std::string& scene, const Options& options, const std
   std::vector<std::string> command{own_path(), "run", scene, "-o", folder, "--force", "--quiet", "--threads", "1", "--no-figures"};
   if (!effect.empty()) command.insert(command.end(), {"--without", effect});
   for (const auto& [key, value] : options.overrides) command.insert(command.end(), {"-D", key + "=" + value});
+  const std::vector<std::string> more = permissions(options);
+  command.insert(command.end(), more.begin(), more.end());
   Measured out;
   out.effect = effect;
   const double before = children_seconds();
@@ -123,9 +125,7 @@ void draw(const std::vector<Row>& rows, const std::string& scene, const std::str
 int verb_effects(const Options& options) {
   if (options.words.size() != 1) throw Error("effects takes one scene; write erbs effects SCENE.lua");
   const std::string path = options.words.front();
-  Script::Options script_options;
-  script_options.quiet = true;
-  Script script(script_options);
+  Script script(script_options(options, true));
   const Scene scene = script.load(path, options.overrides);
   const std::string directory = options.directory.empty() ? "runs/" + scene.name + "_effects" : options.directory;
   if (fs::exists(directory + "/effects.csv") && !options.force)

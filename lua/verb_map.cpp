@@ -276,9 +276,7 @@ int verb_map(const Options& options) {
   MapStudy study;
   study.scene = options.words.front();
   if (!fs::is_regular_file(study.scene)) throw Error(fmt::format("there is no scene {}; check the path", study.scene));
-  Script::Options quiet;
-  quiet.quiet = true;
-  Script script(quiet);
+  Script script(script_options(options, true));
   const Scene scene = script.load(study.scene, options.overrides);
   study.name = scene.name;
   study.directory = options.directory.empty() ? "runs/map_" + scene.name : options.directory;

@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "engine/base/text.h"
 #include "lua/book.h"
 #include "lua/cases.h"
 #include "lua/grid.h"
@@ -23,7 +24,8 @@ std::vector<Row> rows_of(const CaseResult& result) {
     rows.push_back(
         {{result.name, v.key, v.expected, v.got, v.error, v.tolerance, v.passed ? "ok" : "FAILED", rows.empty() ? cost_text(result) : ""},
          v.passed});
-  if (!result.trouble.empty())
+  if (!result.started) rows.push_back({{result.name, "(run)", "", result.trouble, "", "", "not run", ""}, true});
+  else if (!result.trouble.empty())
     rows.push_back({{result.name, "(run)", "", result.trouble, "", "", "FAILED", rows.empty() ? cost_text(result) : ""}, false});
   return rows;
 }
@@ -45,7 +47,7 @@ void print_table(const std::vector<Row>& rows) {
   const auto line = [&](const std::vector<std::string>& cells, const char* before, const char* after) {
     std::string text;
     for (size_t c = 0; c < cells.size(); ++c) {
-      std::string cell = cells[c];
+      std::string cell = shown(cells[c], 2000);
       const size_t width = width_of(cell);
       if (width < widths[c]) cell.append(widths[c] - width, ' ');
       if (c == 6) cell = before + cell + after;
@@ -81,7 +83,9 @@ int verb_test(const Options& options) {
   fmt::print("{}\n", summary_line(families_of(results)));
   std::fflush(stdout);
   if (!options.book.empty()) write_book(results, options, wall);
-  return failed == 0 ? exit_ok : exit_expectation;
+  const auto left = std::count_if(results.begin(), results.end(), [](const CaseResult& r) { return !r.started; });
+  if (left > 0) tell(stderr, fmt::format("{} of {} cases were not started: the time of --budget was over; give more", left, cases.size()));
+  return failed > 0 ? exit_expectation : left > 0 ? exit_stopped : exit_ok;
 }
 
 }  // namespace erbs
