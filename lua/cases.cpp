@@ -12,6 +12,7 @@
 
 #include "engine/base/core.h"
 #include "engine/base/interrupt.h"
+#include "engine/base/text.h"
 #include "engine/record/run_folder.h"
 #include "lua/child.h"
 
@@ -147,7 +148,7 @@ void run_cases(std::vector<Case>& cases, const Options& options, const std::func
       const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
       const double left = done > 0 ? spent / static_cast<double>(done) * static_cast<double>(cases.size() - done) : 0;
       fmt::print(stderr, "\r\033[K{} of {} cases, about {:.0f} s left, running {}", done, cases.size(), left,
-                 running.begin()->second.item->name);
+                 shown(running.begin()->second.item->name, 60));
     }
     if (!live && !options.quiet && done > 0 && Clock::now() - told > std::chrono::seconds(10)) {
       told = Clock::now();

@@ -15,6 +15,7 @@
 #include "lua/family.h"
 #include "lua/progress.h"
 #include "lua/read.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -240,15 +241,15 @@ void print(const Grid& grid) {
   for (const Worst& w : grid.rows)
     a = std::max(a, w.scene.size()), b = std::max(b, w.key.size()), c = std::max(c, w.expected.size() + w.tolerance.size() + 1),
     d = std::max(d, std::min<size_t>(w.got.size(), 40)), e = std::max(e, w.at.size());
-  fmt::print("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {:<6}  {:<{}}  {:<9}  runs\n", "case", a, "invariant", b, "bound", c, "worst", d, "share",
+  say("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {:<6}  {:<{}}  {:<9}  runs\n", "case", a, "invariant", b, "bound", c, "worst", d, "share",
              "at", e, "verdict");
   for (const Worst& w : grid.rows)
-    fmt::print("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {:<6}  {:<{}}  {:<9}  {}\n", w.scene, a, w.key, b, w.expected + " " + w.tolerance, c, w.got,
+    say("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {:<6}  {:<{}}  {:<9}  {}\n", w.scene, a, w.key, b, w.expected + " " + w.tolerance, c, w.got,
                d, share_text(w), w.at, e, !w.failed.empty() ? fmt::format("FAILED {}", w.failed.size()) : "ok", w.runs);
   for (const Worst& w : grid.rows)
-    if (!w.failed.empty()) fmt::print("{} {} fails at {}\n", w.scene, w.key, fmt::join(w.failed, "; "));
-  for (const auto& text : grid.refused) fmt::print("refused: {}\n", text);
-  fmt::print("{} ({} of processor)\n", summary_of(grid), duration_text(grid.cpu));
+    if (!w.failed.empty()) say("{} {} fails at {}\n", w.scene, w.key, fmt::join(w.failed, "; "));
+  for (const auto& text : grid.refused) say("refused: {}\n", text);
+  say("{} ({} of processor)\n", summary_of(grid), duration_text(grid.cpu));
   std::fflush(stdout);
 }
 
@@ -310,7 +311,7 @@ int run_grid(const Options& given) {
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!options.book.empty()) write_page(grid, options, options.resume ? 0 : wall);  // of runs that were kept nobody knows it
   if (grid.missing > 0) {
-    fmt::print("out of time; the same command with --resume makes the runs that are left\n");
+    say("out of time; the same command with --resume makes the runs that are left\n");
     return exit_stopped;
   }
   return std::any_of(grid.rows.begin(), grid.rows.end(), [](const Worst& w) { return !w.failed.empty(); }) ? exit_expectation : exit_ok;

@@ -8,6 +8,7 @@
 #include "engine/record/recorder.h"
 #include "lua/api.h"
 #include "lua/options.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -267,10 +268,10 @@ std::string editor_file() {
 }
 
 int verb_help(const Options& options, const std::string& usage) {
-  if (options.words.empty()) fmt::print("{}\n{}", usage, functions_list());
-  else if (options.words.front() == "--editor") fmt::print("{}", editor_file());
+  if (options.words.empty()) say("{}\n{}", usage, functions_list());
+  else if (options.words.front() == "--editor") say("{}", editor_file());
   else
-    for (const auto& word : options.words) fmt::print("{}", function_help(word));
+    for (const auto& word : options.words) say("{}", function_help(word));
   return exit_ok;
 }
 

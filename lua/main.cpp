@@ -14,6 +14,7 @@
 #include "engine/base/words.h"
 #include "engine/record/manifest.h"
 #include "lua/options.h"
+#include "lua/say.h"
 
 namespace {
 
@@ -233,7 +234,7 @@ int call(const CLI::App& app, CommandLine& line) {
   // help of a verb is CLI11's own
   if (!line.options.words.empty())
     for (const CLI::App* other : app.get_subcommands({}))
-      if (other->get_name() == line.options.words.front()) return (fmt::print("{}", other->help("erbs")), erbs::exit_ok);
+      if (other->get_name() == line.options.words.front()) return (erbs::say("{}", other->help("erbs")), erbs::exit_ok);
   // not app.help(), which would explain the verb help
   return erbs::verb_help(line.options, app.get_formatter()->make_help(&app, "erbs", CLI::AppFormatMode::Normal));
 }
@@ -254,6 +255,7 @@ int answer(CLI::App& app, CommandLine& line, int argc, char** argv) {
   } catch (const erbs::Interrupted& error) { return wrong(error.what(), erbs::exit_interrupted); } catch (const erbs::NumbersError& error) { return wrong(error.what(), erbs::exit_numbers); } catch (const std::filesystem::filesystem_error& error) {
     return wrong(fmt::format("{}: {}; check the path", error.path1().string(), error.code().message()));
   } catch (const std::system_error& error) {
+    if (std::ferror(stdout) != 0) return erbs::exit_ok;  // which finish_streams() tells
     return wrong(fmt::format("the system refuses: {}; is a limit of memory, threads or files (ulimit) reached?", error.what()));
   } catch (const std::bad_alloc&) {
     return wrong("there is not enough memory; build a smaller model, or raise the limit (ulimit -v)");

@@ -13,6 +13,7 @@
 #include "engine/study/timing.h"
 #include "lua/bench_report.h"
 #include "lua/options.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -150,7 +151,7 @@ int verb_bench(const Options& options) {
   write_json(directory + "/bench.json", all);
   print_bench_summary(all);
   write_bench_figure(rows, directory + "/bench.svg");
-  if (!options.quiet) fmt::print("{}\n{}\n", directory + "/bench.json", directory + "/bench.svg");
+  if (!options.quiet) say("{}\n{}\n", directory + "/bench.json", directory + "/bench.svg");
   return exit_ok;
 }
 

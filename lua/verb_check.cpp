@@ -10,6 +10,7 @@
 #include "engine/scene/effects.h"
 #include "lua/options.h"
 #include "lua/progress.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -30,37 +31,32 @@ size_t bytes_of(const Model& model) {
   return joints * (sizeof(Joint) + 400) + blocks * 1500;
 }
 
-template <class... A>
-void print_line(fmt::format_string<A...> text, A&&... values) {
-  tell(stdout, fmt::format(text, std::forward<A>(values)...));
-}
-
 void print_scene(const Scene& scene) {
   std::set<std::string> groups;
   size_t fixed = 0;
   for (const Block& block : scene.blocks) groups.insert(block.group), fixed += block.fixed;
-  print_line("{}: {} blocks ({} fixed) in {} groups, {} materials, {} joint rules, {} loads, {} recorders, {} cameras", scene.file,
+  say("{}: {} blocks ({} fixed) in {} groups, {} materials, {} joint rules, {} loads, {} recorders, {} cameras\n", scene.file,
              scene.blocks.size(), fixed, groups.size(), scene.materials.size(), scene.joint_rules.size(), scene.loads.size(),
              scene.recorders.size(), scene.cameras.size());
   for (const Param& param : scene.params)
-    print_line("  param {} = {:g} {}{}{}", param.name, param.value, param.unit, param.text.empty() ? "" : "  -- ", param.text);
+    say("  param {} = {:g} {}{}{}\n", param.name, param.value, param.unit, param.text.empty() ? "" : "  -- ", param.text);
 }
 
 void print_effects(const Scene& scene) {
   std::string off;
-  print_line("effects on:");
+  say("effects on:\n");
   for (const Effect& effect : effects_of(scene)) {
-    if (effect.on) print_line("  {:<28} {}", effect.name, effect.because);
+    if (effect.on) say("  {:<28} {}\n", effect.name, effect.because);
     else off += (off.empty() ? "" : ", ") + effect.name;
   }
-  print_line("effects off: {}", off.empty() ? "none" : off);
+  say("effects off: {}\n", off.empty() ? "none" : off);
 }
 
 void print_run(const Scene& scene, const Prepared& run) {
   const Model& model = run.model;
   const double dt = run.state.dt, steps = std::ceil(scene.analysis.duration / dt);
-  print_line("model: {} blocks, {} joints, {} contact points", model.nblock, model.njoint, model.npoint);
-  print_line("dt = {:.4g} s: {}\n  dt_critical {:.4g} s, dt_block_bound {:.4g} s{}", dt, run.dt_rule, run.bounds.critical,
+  say("model: {} blocks, {} joints, {} contact points\n", model.nblock, model.njoint, model.npoint);
+  say("dt = {:.4g} s: {}\n  dt_critical {:.4g} s, dt_block_bound {:.4g} s{}\n", dt, run.dt_rule, run.bounds.critical,
              run.bounds.block,
              run.bounds.stiffest_block >= 0 ? ", set by block " + model.block_name[static_cast<size_t>(run.bounds.stiffest_block)] : "");
   const auto time = [&](double each) { return duration_text(steps * (step_cost + each)); };
@@ -72,9 +68,9 @@ void print_run(const Scene& scene, const Prepared& run) {
   const auto moving = std::count(model.kind.begin(), model.kind.end(), Kind::moving);
   if (scene.analysis.debris)
     times.push_back(time(contact_cost * heap_pairs * static_cast<double>(moving)) + " if all blocks lie loose in a heap");
-  fmt::print("estimate: {:g} steps for {:g} s, {:.0f} MiB; on one core about {}", steps, scene.analysis.duration,
+  say("estimate: {:g} steps for {:g} s, {:.0f} MiB; on one core about {}", steps, scene.analysis.duration,
              (static_cast<double>(bytes_of(model)) + own_memory) / 1048576.0, fmt::join(times, ", "));
-  print_line("");
+  say("\n");
 }
 
 void check_scene(const std::string& path, const Options& options) {

@@ -13,6 +13,7 @@
 #include "engine/record/run_folder.h"
 #include "engine/scene/effects.h"
 #include "lua/options.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -86,10 +87,10 @@ struct Row {
 
 void print_row(const Row& r) {
   if (!r.without.trouble.empty()) {
-    fmt::print("{:<26} without it: {}\n", r.without.effect, r.without.trouble);
+    say("{:<26} without it: {}\n", r.without.effect, r.without.trouble);
     return;
   }
-  fmt::print("{:<26} {:9.4f} {:7.1f} {:9.1f}  {:>10.3g}  {:<28} {}\n", r.without.effect, r.ns, r.percent, r.bytes, r.moved.second,
+  say("{:<26} {:9.4f} {:7.1f} {:9.1f}  {:>10.3g}  {:<28} {}\n", r.without.effect, r.ns, r.percent, r.bytes, r.moved.second,
              r.moved.first, r.without.because);
   std::fflush(stdout);
 }
@@ -134,9 +135,9 @@ int verb_effects(const Options& options) {
   const Measured all = run_without(path, options, directory, "");
   if (!all.trouble.empty()) throw Error(path + ": " + all.trouble);
   const double updates = std::max(1.0, all.points) * all.steps;
-  fmt::print("{}: {:.3g} s of one core, {:g} steps, {:g} points: {:.4f} ns per point and step, {:.1f} bytes per point\n\n", scene.name,
+  say("{}: {:.3g} s of one core, {:g} steps, {:g} points: {:.4f} ns per point and step, {:.1f} bytes per point\n\n", scene.name,
              all.user, all.steps, all.points, 1e9 * all.user / updates, all.memory / std::max(1.0, all.points));
-  fmt::print("{:<26} {:>9} {:>7} {:>9}  {:>10}  {:<28} {}\n", "effect", "ns/point", "%", "B/point", "moves", "metric", "called for by");
+  say("{:<26} {:>9} {:>7} {:>9}  {:>10}  {:<28} {}\n", "effect", "ns/point", "%", "B/point", "moves", "metric", "called for by");
   std::vector<Row> rows;
   for (const Effect& effect : effects_of(scene)) {
     if (!effect.on) continue;
@@ -153,7 +154,7 @@ int verb_effects(const Options& options) {
   }
   write_table(rows, directory + "/effects.csv");
   draw(rows, scene.name, directory + "/effects.svg");
-  fmt::print("\n{}\n{}\n", directory + "/effects.csv", directory + "/effects.svg");
+  say("\n{}\n{}\n", directory + "/effects.csv", directory + "/effects.svg");
   return exit_ok;
 }
 

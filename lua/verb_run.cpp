@@ -22,6 +22,7 @@
 #include "lua/figures.h"
 #include "lua/studies.h"
 #include "engine/study/twin.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -79,31 +80,26 @@ std::string collapse_text(const Json& metrics) {
   return text;
 }
 
-template <class... A>
-void print_line(fmt::format_string<A...> text, A&&... values) {
-  tell(stdout, fmt::format(text, std::forward<A>(values)...));
-}
-
 void print_summary(const Scene& scene, const std::string& directory, const Json& metrics, const std::vector<Verdict>& verdicts) {
-  print_line("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken", scene.name,
+  say("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken\n", scene.name,
              metrics.value("status", ""), number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")),
              number_at(metrics, "realtime_factor"), metrics.value("blocks", 0), metrics.value("joints", 0),
              metrics.value("joints_broken", 0));
-  print_line("{}\nenergy residual {:.1e}\n{}", collapse_text(metrics), number_at(metrics, "energy.residual_relative"),
+  say("{}\nenergy residual {:.1e}\n{}\n", collapse_text(metrics), number_at(metrics, "energy.residual_relative"),
              trust_line(trust_of(metrics)));
   for (const auto& [name, unit] : scene.metric_units) {
     const Json* value = find_key(metrics, "metrics." + name);
-    print_line("  {} = {} {}", name, value && value->is_number() ? fmt::format("{:.6g}", value->get<double>()) : "none", unit);
+    say("  {} = {} {}\n", name, value && value->is_number() ? fmt::format("{:.6g}", value->get<double>()) : "none", unit);
   }
   int failed = 0;
   for (const Verdict& v : verdicts) {
     if (v.passed) continue;
     ++failed;
-    print_line("  FAILED {}: expected {} {}, got {} ({})", v.key, v.expected, v.tolerance, v.got, v.place);
+    say("  FAILED {}: expected {} {}, got {} ({})\n", v.key, v.expected, v.tolerance, v.got, v.place);
   }
-  if (!verdicts.empty()) print_line("expectations: {} passed, {} failed", verdicts.size() - static_cast<size_t>(failed), failed);
+  if (!verdicts.empty()) say("expectations: {} passed, {} failed\n", verdicts.size() - static_cast<size_t>(failed), failed);
   const std::string status = metrics.value("status", "");
-  print_line("{}results in {}", status == "completed" ? "" : fmt::format("{}{}; ", status, status == "inaccurate" ? ": not to be relied on" : ""),
+  say("{}results in {}\n", status == "completed" ? "" : fmt::format("{}{}; ", status, status == "inaccurate" ? ": not to be relied on" : ""),
              directory);
   std::fflush(stdout);
 }

@@ -7,6 +7,7 @@
 #include "engine/record/manifest.h"
 #include "lua/child.h"
 #include "lua/options.h"
+#include "lua/say.h"
 
 namespace erbs {
 
@@ -17,7 +18,7 @@ int verb_render(const Options& options) {
 }
 
 int verb_version() {
-  fmt::print("erbs {}\n", program_version());
+  say("erbs {}\n", program_version());
   return exit_ok;
 }
 

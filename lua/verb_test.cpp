@@ -9,6 +9,7 @@
 #include "lua/cases.h"
 #include "lua/grid.h"
 #include "lua/progress.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -54,7 +55,8 @@ void print_table(const std::vector<Row>& rows) {
       text += (c ? "  " : "") + cell;
     }
     while (text.ends_with(' ')) text.pop_back();
-    fmt::print("{}\n", text);
+    text += '\n';
+    std::fwrite(text.data(), 1, text.size(), stdout);  // with our own colours
   };
   line(head, "", "");
   for (const Row& row : rows) line(row.cells, color ? (row.passed ? "\033[32m" : "\033[31m") : "", color ? "\033[0m" : "");
@@ -78,9 +80,9 @@ int verb_test(const Options& options) {
   print_table(rows);
   const auto failed = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.passed; });
   const auto failed_cases = std::count_if(results.begin(), results.end(), [](const CaseResult& r) { return !r.passed(); });
-  fmt::print("{} expectations of {} cases: {} passed, {} failed ({} cases) in {}\n", rows.size(), cases.size(),
+  say("{} expectations of {} cases: {} passed, {} failed ({} cases) in {}\n", rows.size(), cases.size(),
              rows.size() - static_cast<size_t>(failed), failed, failed_cases, duration_text(wall));
-  fmt::print("{}\n", summary_line(families_of(results)));
+  say("{}\n", summary_line(families_of(results)));
   std::fflush(stdout);
   if (!options.book.empty()) write_book(results, options, wall);
   const auto left = std::count_if(results.begin(), results.end(), [](const CaseResult& r) { return !r.started; });

@@ -27,7 +27,7 @@ static_assert(sizeof(Head) == 48, "no padding: its bytes are part of the checksu
 std::string path_of(const std::string& dir) { return dir + "/checkpoint.bin"; }
 
 [[noreturn]] void fail(const std::string& path, const char* what) {
-  throw WriteError(fmt::format("{}: {}; the checkpoint before it is intact", what, std::strerror(errno)), {path, 0});
+  throw WriteError(fmt::format("{}: {}; a checkpoint before it is intact", what, std::strerror(errno)), {path, 0});
 }
 
 // Closes what it opened, whatever happens.

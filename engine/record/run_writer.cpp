@@ -125,7 +125,7 @@ void RunWriter::event(double t, std::string_view what, std::string_view name, do
 void RunWriter::log(std::string_view line) {
   std::ofstream out(run_file(dir_, "log.txt"), std::ios::app);
   out << printable(line) << '\n' << std::flush;
-  if (!out) throw WriteError("cannot be written; is the disk full or the folder read-only?", {run_file(dir_, "log.txt"), 0});
+  if (!out) throw WriteError("cannot be written", {run_file(dir_, "log.txt"), 0});
 }
 
 WriterProgress RunWriter::progress() {
