@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "engine/analysis/crew.h"
 #include "engine/analysis/prepare.h"
 #include "engine/analysis/resume.h"
 #include "engine/analysis/trust.h"
@@ -78,6 +79,7 @@ class Run {
 
  private:
   void begin();
+  void step_on();
   void watch(const BlockVec3& built);
   bool wanted(double t);
   void sampled();
@@ -104,6 +106,8 @@ class Run {
   Collapse collapse_;
   TrustWatch trust_;
   std::optional<Solver> solver_;
+  std::optional<Crew> crew_;
+  long touched_ = 0, slept_ = 0;
   std::optional<RunWriter> writer_;
   RunOutcome out_;
   bool row_now_ = false, frame_now_ = false;
@@ -166,6 +170,7 @@ void Run::begin() {
   }
   height_energy_ = weights > 0 ? moments - weights * low : 0;
   solver_.emplace(run_.model, run_.state, options_.threads);
+  crew_.emplace(options_.threads);
   return_free_memory();
   steps_at_start_ = run_.state.step;
   started_at_ = run_.state.t;
@@ -422,18 +427,32 @@ void Run::judge() {
                            e.residual_worst, gate(), e.largest_jump, e.largest_jump_time, where));
 }
 
+// To the end, with as many threads as are fast at the moment: another number goes on from the state as a resumed run does.
+void Run::step_on() {
+  for (bool ended = false; !ended && !solver_->broken();) {
+    solver_->run({[this](double t) { return wanted(t); }, [this] { sampled(); },
+                  [&] { return (ended = stop()) || crew_->turns(run_.state.step); }});
+    touched_ += solver_->touched(), slept_ += solver_->slept();
+    if (ended || solver_->broken()) return;
+    const double began = seconds();
+    take_joints();
+    solver_.emplace(run_.model, run_.state, crew_->threads());
+    crew_->took(seconds() - began);
+  }
+}
+
 RunOutcome Run::go() {
   begin();
-  solver_->run({[this](double t) { return wanted(t); }, [this] { sampled(); }, [this] { return stop(); }});
+  step_on();
   if (solver_->broken()) out_.metrics.status = "diverged";
   judge();
   const std::string& status = out_.metrics.status;
   if (!out_.trouble.empty()) writer_->log(out_.trouble);
-  if (solver_->touched() > 0)
-    writer_->log(fmt::format("contact: {} forces of touching pairs in {} steps", solver_->touched(), run_.state.step - steps_at_start_));
-  if (solver_->slept() > 0)
+  if (touched_ > 0)
+    writer_->log(fmt::format("contact: {} forces of touching pairs in {} steps", touched_, run_.state.step - steps_at_start_));
+  if (slept_ > 0)
     writer_->log(fmt::format("sleep: {:.1f} of {} blocks asleep in the mean, {} at the end",
-                             double(solver_->slept()) / double(std::max(1L, run_.state.step - steps_at_start_)), run_.model.nblock,
+                             double(slept_) / double(std::max(1L, run_.state.step - steps_at_start_)), run_.model.nblock,
                              run_.state.rest.count));
   if (const std::string lost = lost_blocks(run_.model, run_.state); !lost.empty()) {
     out_.warnings.push_back(lost);
