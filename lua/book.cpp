@@ -1,4 +1,5 @@
 #include "lua/book.h"
+#include "lua/book_endings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -238,7 +239,7 @@ void write_book(const std::vector<CaseResult>& results, const Options& options, 
       "evaluated.\n";
   if (fs::exists(folder / "grid.md"))
     text += "The hard cases at other steps, other numbers of contact points and with noise in the start: [the grid](grid.md).\n";
-  text += "\n## What fails\n" + failures(families);
+  text += "\n## What fails\n" + failures(families) + "\n" + endings_table;
   for (const Family& f : families) {
     const std::string figure = (media / ("book_" + f.key + ".svg")).string();
     draw_family(f, figure);

@@ -292,7 +292,7 @@ function record(keys) end
 ---@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
 ---@field name? string name, for reports
 
----Shakes the ground by an acceleration; several add up.
+---Shakes the ground by an acceleration; several add up. A positive one moves the ground along its direction and throws what stands on it the other way.
 ---@param keys erbs.ground_motion_keys
 function ground_motion(keys) end
 
@@ -325,7 +325,7 @@ function moment(keys) end
 ---@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
 ---@field name? string name, for reports
 
----Turns gravity by an angle about an axis, as a tilting table does.
+---Turns gravity by an angle about an axis, as a tilting table does: right-handed, so that a positive one about x pulls towards +y, about y towards -x.
 ---@param keys erbs.tilt_keys
 function tilt(keys) end
 

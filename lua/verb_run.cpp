@@ -73,7 +73,7 @@ std::string collapse_text(const Json& metrics) {
                                   ? fmt::format(" towards ({:+.2f}, {:+.2f})", (*direction)[0].get<double>(), (*direction)[1].get<double>())
                                   : " in no one direction";
   std::string text = under_gravity ? fmt::format("does not stand under its own weight; {:.0f} % of the mass fell by the end", 100 * share)
-                                   : fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass fell",
+                                   : fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass lies fallen at the end",
                                                  number_at(metrics, "collapse.time_s"), towards, 100 * share);
   const Json* mechanism = find_key(metrics, "collapse.mechanism.summary");
   if (mechanism && mechanism->is_string() && *mechanism != "") text += "\nmechanism: " + mechanism->get<std::string>();
