@@ -78,7 +78,7 @@ void write_bench_figure(const Json& rows, const std::string& path) {
       "set ylabel 'ns per contact point and step, one thread'\nset key top left\nset yrange [0.05:*]\n$bench << END\n";
   for (const auto& [name, row] : rows.items()) {
     if (!row.contains("points") || row["points"].get<int>() == 0) continue;
-    const auto value = [&](const char* key) {
+    const auto value = [&row = row](const char* key) {
       return std::isfinite(number(row, key)) ? fmt::format("{:.5g}", number(row, key)) : std::string("-");
     };
     text += fmt::format("\"{}\" {} {} {} {}\n", name, value("reference.ns_per_point"), value("one_thread.ns_per_point"),

@@ -37,6 +37,8 @@ pi, deg = math.pi, math.pi / 180 -- rad
 g = 9.81 -- m/s2
 start_noise = 0 -- by up to how much the start of every free block is off: erbs run --noise, erbs test --grid [m and rad]
 
+---@alias erbs.quantity "displacement"|"velocity"|"acceleration"|"rotation"|"spin"|"momentum"|"angular_momentum"|"reaction"|"reaction_moment"|"load"|"load_moment"|"opening"|"slip"|"normal_force"|"shear_force"|"joint_moment"|"damage"|"broken"|"ground_acceleration"|"ground_velocity"|"ground_displacement"|"contact_points"|"joints_broken"
+
 ---@class erbs.initial
 ---@field position? erbs.vec3 displacement from rest [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
 ---@field rotation? erbs.vec3 rotation vector (axis times angle) from rest [rad; -100 to 100; default { 0, 0, 0 }]
@@ -405,7 +407,7 @@ function analysis(keys) end
 
 ---@class erbs.recorder_keys
 ---@field name string stem of its columns in histories.csv
----@field quantity string what is written
+---@field quantity erbs.quantity what is written
 ---@field axis? "x"|"y"|"z"|"xy"|"xz"|"yz"|"xyz" which components [default xyz]
 ---@field frame? "rel"|"abs" relative to the ground, or absolute [default rel]
 ---@field point? erbs.vec3 material point at rest, instead of the centroid [m; -1e+06 to 1e+06; default { 0, 0, 0 }]

@@ -178,7 +178,8 @@ std::string editor_type(const Key& key) {
                                                               {"expected", "number|string|boolean?"},
                                                               {"family", "table<string, number[]>"},
                                                               {"family_how", "{ combinations?: integer, seed?: number }"},
-                                                              {"tolerance", "erbs.tolerance"}};
+                                                              {"tolerance", "erbs.tolerance"},
+                                                              {"quantity", "erbs.quantity"}};
   if (!key.inner.empty()) {
     std::vector<std::string> members;
     for (const Key& inner : key.inner)
@@ -261,6 +262,9 @@ std::string functions_list() {
 
 std::string editor_file() {
   std::string text = std::string(editor_head);
+  std::vector<std::string> quantities;
+  for (const Quantity& quantity : recorder_quantities()) quantities.push_back(fmt::format("\"{}\"", quantity.name));
+  text += fmt::format("---@alias erbs.quantity {}\n\n", fmt::join(quantities, "|"));
   for (const auto& [name, keys] : {std::pair{"initial", keys_of<Initial>()}, {"part", part_keys()}, {"tolerance", tolerance_keys()}})
     text += fmt::format("---@class erbs.{}\n{}\n", name, editor_fields(keys));
   for (const Function& function : all_functions()) text += editor_function(function);

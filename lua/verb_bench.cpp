@@ -127,9 +127,12 @@ Json child(const Case& item, const std::string& scenes, const std::string& direc
 
 int bench_scenes(const Options& options) {
   Json rows = Json::array();
-  for (const auto& path : options.words) rows.push_back(measure(path, options, 1.5));
-  for (const Json& row : rows)
-    if (!options.quiet) print_bench_row(row);
+  for (const auto& path : options.words) {
+    if (!options.quiet) tell(stderr, path + ": timing kernel and reference, sound and broken, with one thread and two; some minutes where blocks are many");
+    rows.push_back(measure(path, options, 1.5));
+    if (!options.quiet) print_bench_row(rows.back());
+    std::fflush(stdout);
+  }
   if (!options.directory.empty()) write_json(options.directory, rows);
   return exit_ok;
 }

@@ -31,7 +31,7 @@ std::string in_lua(const std::string& text) {
 const std::vector<std::string> controls{"a\nsystem('touch pwned')\n#", "a\x1b[31m", "a\0b"s, "a\xff\xfe", "a\rb", "a\xe2\x80\xae"};
 const std::vector<std::string> signs{"it's \"so\"", "system('touch pwned')", "`touch pwned`", "$(touch pwned)", "<b>&amp;", "]]>", "<touch pwned", "%s%n", "a\\", "Häuschen"};
 
-bool is_text(const Key& key) { return key.type == "string" || key.type == "strings"; }
+bool is_text(const Key& key) { return key.type == "string" || key.type == "strings" || key.type == "quantity"; }
 
 // Every sentence that hands `text` to one string of the language.
 std::vector<std::string> sentences(const std::string& text) {
