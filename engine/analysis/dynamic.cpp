@@ -35,6 +35,8 @@ struct Clock {
   long right = 0;  // the last step at which the ledger knew half of what passed through
   // joints that cracked or went over to contact since the last row, whose events are still to be written
   std::vector<int> cracked_since, opened_since;
+  std::vector<HandOver> handed_since;
+  double listed = 0;  // J, of reset_J, in rows of events.csv
 };
 
 template <class C, class F>
@@ -47,6 +49,8 @@ void each(C& c, F&& f) {
   f("right", c.right);
   f("cracked_since", c.cracked_since);
   f("opened_since", c.opened_since);
+  f("handed_since", c.handed_since);
+  f("listed", c.listed);
 }
 
 constexpr long wrong_steps = 512;       // that a run goes on with a ledger that has lost half of what passed; ...
@@ -86,6 +90,8 @@ class Run {
   bool stop();
   Snapshot snapshot() const;
   void note_joints(double t);
+  void note_reset(double t);
+  void note_faded(double t);
   void take_joints();
   int broken_joints();
   void save();
@@ -251,8 +257,28 @@ int Run::broken_joints() {
 
 void Run::take_joints() {
   const std::vector<int> cracked = solver_->take_cracked(), opened = solver_->take_opened();
+  const std::vector<HandOver> handed = solver_->take_handed();
   clock_.cracked_since.insert(clock_.cracked_since.end(), cracked.begin(), cracked.end());
   clock_.opened_since.insert(clock_.opened_since.end(), opened.begin(), opened.end());
+  clock_.handed_since.insert(clock_.handed_since.end(), handed.begin(), handed.end());
+}
+
+// reset_J, row by row: what was set free where contacts took over from joints, and what they did while the difference of forces faded.
+void Run::note_reset(double t) {
+  if (!clock_.handed_since.empty()) note_faded(t);
+  for (const HandOver& h : clock_.handed_since) {
+    writer_->event(t, "hand over", run_.model.joint_name(h.joint), h.energy, "J");
+    clock_.listed += h.energy;
+  }
+  clock_.handed_since.clear();
+}
+
+void Run::note_faded(double t) {
+  double faded = run_.state.energy.reset - clock_.listed;
+  for (const HandOver& h : clock_.handed_since) faded -= h.energy;
+  if (!(std::fabs(faded) > 1e-15 * run_.state.energy.reference)) return;
+  writer_->event(t, "fade", "contacts begun", faded, "J");
+  clock_.listed += faded;
 }
 
 void Run::note_joints(double t) {
@@ -269,6 +295,7 @@ void Run::note_joints(double t) {
   }
   clock_.cracked_since.clear();
   clock_.opened_since.clear();
+  note_reset(t);
 }
 
 void Run::sampled() {
@@ -307,7 +334,7 @@ void Run::save() {
 bool Run::stop() {
   const double now = seconds();
   const Energy& e = run_.state.energy;
-  look(trust_, run_.state, solver_->allowed_dt(run_.bounds.critical), gate());
+  look(trust_, run_.state, solver_->borne_dt(run_.bounds.critical), gate());
   if (options_.progress && now - last_progress_ > 0.1) {
     last_progress_ = now;
     options_.progress({run_.state.t, scene_.analysis.duration, now - solve_start_, run_.state.step - steps_at_start_,
@@ -459,6 +486,7 @@ RunOutcome Run::go() {
     writer_->log("warning: " + lost);
   }
   if (status == "stopped" || status == "interrupted") save();
+  else note_reset(run_.state.t - run_.state.last_dt), note_faded(run_.state.t - run_.state.last_dt);
   solver_.reset();
   out_.metrics = metrics();
   writer_->log(trust_line(out_.metrics.trust));

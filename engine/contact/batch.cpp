@@ -12,7 +12,7 @@ namespace {
 
 static_assert(offsetof(Pair, tangential) == 30 * sizeof(double) && sizeof(Pair) >= 8 * pair_rows * sizeof(double));
 static_assert(sizeof(ContactBlock) == 8 * block_rows * sizeof(double));
-static_assert(offsetof(PairResult, rubbing) == 8 * result_rows * sizeof(double));
+static_assert(offsetof(PairResult, handover) == 8 * result_rows * sizeof(double));
 
 Vec3 vec(const Lane* x, int l) { return {x[0][l], x[1][l], x[2][l]}; }
 
@@ -119,7 +119,6 @@ void write_back(const PairJob* job, int count, unsigned left_out, const PairLane
     if ((left_out >> l & 1u) != 0) continue;
     job[l].pair->touching = 1;
     job[l].result->touching = true;
-    job[l].result->rubbing = w.result[8 * result_rows][l];
   }
 }
 

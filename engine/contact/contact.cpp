@@ -5,6 +5,7 @@
 
 #include "engine/base/units.h"
 #include "engine/contact/friction.h"
+#include "engine/contact/landing.h"
 #include "engine/contact/view.h"
 
 namespace erbs {
@@ -113,72 +114,6 @@ void stability(const Pair& pair, const View& s, const Patch& patch, PairResult& 
   result.rate_b = pair.b_is_reference ? reference : other;
 }
 
-// event_bound.h for a spring of stiffness k (N/m) that opens or closes at `speed` (m/s) after the way `left` (m).
-double haste(double k, double speed, double left, const ContactSettings& settings) {
-  if (!(settings.event_budget > 0 && speed > 0)) return 0;
-  return std::min(speed * std::sqrt(event_share * k / settings.event_budget), left > 0 ? event_steps * speed / left : 1e300);
-}
-
-// What a body resists with where a face lies flat on the other: the patch lies within a face of either body and has the smaller one's area
-// at most, and both bound it.
-void face_rates(const Pair& pair, const View& s, PairResult& result) {
-  const double k = (pair.law.kn + pair.law.ks) * std::min(s.reference->largest_face, s.other->largest_face);
-  // of a face about the centroid above it: Int r^2 dA / A is reach^2 / 3 at most for a rectangle
-  const auto rate = [&](const ContactBlock& block, const ContactShape& part) {
-    const double by_area = k * (block.inverse_mass + part.reach * part.reach / 3 * block.inverse_inertia);
-    const double by_face = pair.law.kn * part.face_across + pair.law.ks * part.face_along;
-    return by_face > 0 ? std::min(by_area, by_face) : by_area;
-  };
-  const double other = rate(*s.other_block, *s.other), reference = rate(*s.reference_block, *s.reference);
-  result.landing_a = pair.b_is_reference ? other : reference;
-  result.landing_b = pair.b_is_reference ? reference : other;
-}
-
-// A body that strikes deeper in its first step than the step can bear gains energy. So the step is short enough for the largest
-// face before it may land: when the bodies could meet within the next few steps, at a speed at which that energy matters. `along`: the
-// speed of their centroids towards each other.
-void landing(const Pair& pair, const View& s, const ContactSettings& settings, double along, double apart, double dt, PairResult& result) {
-  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
-  const double speed = along + o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach;
-  result.haste = haste(pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face), speed, apart, settings);
-  if (!(speed > settings.reference_speed) || apart > look_ahead * speed * dt) return;
-  face_rates(pair, s, result);
-}
-
-// What keeps a pair apart: a face of the reference, one of the other, or a plane along an edge of each.
-struct Keeper {
-  enum Kind { face, other_face, edges } kind;
-  std::size_t face_or_a, b;
-};
-Keeper keeper(int separating, const View& s) {
-  const std::size_t at = std::size_t(separating), own = s.reference->normal.size(), faces = own + s.other->normal.size();
-  if (at < own) return {Keeper::face, at, 0};
-  if (at < faces) return {Keeper::other_face, at - own, 0};
-  const std::size_t edges = s.other->edge.size();
-  return {Keeper::edges, (at - faces) / edges, (at - faces) % edges};
-}
-
-// Along the normal of the face that keeps them apart, where there is one: a body that flies off lands nowhere.
-double closing_along(const Pair& pair, const View& s) {
-  const Vec3 v = s.reference_block->turn.transpose() * (s.other_block->v - s.reference_block->v);
-  const Keeper by = pair.separating < 0 ? Keeper{Keeper::edges, 0, 0} : keeper(pair.separating, s);
-  return by.kind == Keeper::edges  ? v.norm()
-         : by.kind == Keeper::face ? -v.dot(s.reference->normal[by.face_or_a])
-                                   : v.dot(s.pose.turn * s.other->normal[by.face_or_a]);
-}
-
-// The least of n . x over the corners of a body, and the greatest.
-struct Extent {
-  double least, most;
-};
-Extent extent(const SmallShape& body, const Vec3& n) {
-  double x[few];
-  for (int i = 0; i < few; ++i) x[i] = n[0] * body.vertex[0][i] + n[1] * body.vertex[1][i] + n[2] * body.vertex[2][i];
-  Extent e{x[0], x[0]};
-  for (int i = 1; i < few; ++i) e.least = std::min(e.least, x[i]), e.most = std::max(e.most, x[i]);
-  return e;
-}
-
 }  // namespace
 
 double power(const PairWrench& w, const ContactBlock& a, const ContactBlock& b) {
@@ -217,40 +152,13 @@ Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, double i
   return p;
 }
 
-void foresee(const Pair& pair, const View& s, const ContactSettings& settings, double dt, PairResult& result) {
-  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
-  const Vec3 apart = (o.rest - r.rest) + (o.u - r.u), v = o.v - r.v, w = o.w - r.w, at = r.turn * pair.c, n = r.turn * pair.n;
-  const double parting = n.dot(v + o.w.cross(at - apart) - r.w.cross(at));
-  if (parting > 0) result.haste = std::max(result.haste, haste(pair.law.kn * pair.area, parting, result.depth, settings));
-  constexpr double facing = 0.9;  // cosine: faces that are further from flat are left to later steps
-  const double lever = std::min(s.reference->reach, s.other->reach), thin = std::min(s.reference->thickness, s.other->thickness);
-  bool soon = false;
-  for (std::size_t f = 0; f < s.reference->normal.size(); ++f) {
-    const Vec3 nf = r.turn * s.reference->normal[f];
-    for (std::size_t g = 0; g < s.other->normal.size(); ++g) {
-      const Vec3 ng = o.turn * s.other->normal[g];
-      if (-nf.dot(ng) < facing) continue;
-      const Vec3 across = nf.cross(ng);
-      const double sine = across.norm(), closes = w.dot(across);  // rate of the angle between them, times its sine
-      if (!(closes > 0) || !(sine > 1e-9)) continue;
-      const Vec3 corner = o.turn * s.other->vertex[std::size_t(s.other->loop[std::size_t(s.other->loop_first[g])])];
-      if (std::abs(nf.dot(apart + corner) - s.reference->offset[f]) > 2 * sine * s.other->reach + 0.01 * thin) continue;
-      const double rate = closes / sine, time = sine / rate;
-      const double k = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
-      result.haste = std::max(result.haste, haste(0.5 * k, rate * lever, sine * lever, settings));
-      soon = soon || (rate * lever > settings.reference_speed && time <= look_ahead * dt);
-    }
-  }
-  if (soon) face_rates(pair, s, result);
-}
-
 bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
                 double dt, bool want_energy, OverlapRoom& room, PairResult& result, double crowd) {
   result = PairResult{};
   const View s = view_of(pair, shapes, a, b);
   Patch patch = find_overlap(*s.reference, *s.other, s.pose, pair.separating, room);
   const bool touches = patch.total > 0;
-  if (!touches) landing(pair, s, settings, closing_along(pair, s), room.apart, dt, result);
+  if (!touches) landing(pair, s, settings, room.apart, dt, result);
   if (!touches && room.apart >= 0) result.apart = room.apart;
   if (!touches && !pair.touching && pair.offset_left <= 0) {
     if (room.apart > settings.interlock.gap) pair.bearing = 0;
@@ -259,7 +167,6 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
 
   PairWrench elastic, damping, friction;
   const double stored_before = pair.tangential;
-  double slipped = 0;
   if (touches) {
     const Motion motion = motion_of(s, dt);
     closing_speeds(room, motion.linear, motion.angular, patch);
@@ -274,8 +181,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
                                       settings.interlock);
     damping = to_world(pair, s, kn * damping_force + f.viscous_force, kn * damping_moment + f.viscous_moment);
     friction = to_world(pair, s, f.force, f.moment);
-    slipped = f.slipped;
-    if (slipped > 0) result.rubbing = kn * patch.area * along;
+    if (f.slipped > 0) result.rubbing = kn * patch.area * along;
     pair.tangential = f.stored;
     pair.touching = 1;
     result.touching = true;
@@ -284,7 +190,6 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     if (want_energy) result.elastic = kn * overlap_energy(*s.reference, *s.other, s.pose, room);
   } else if (pair.touching) {
     forget_contact(pair);
-    slipped = 0.5 * stored_before;  // the springs go slack: the limit is zero (what the half step of work leaves is in `reset`)
     pair.approach = 0;
   }
   if (!touches && room.apart > settings.interlock.gap) pair.bearing = 0;
@@ -292,9 +197,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
   pair.shift = s.pose.shift;
 
   const PairWrench offset = fading(pair, s, dt);
-  const double lost_in_friction = -trapezoid(pair.friction, friction, a, b, dt) - (pair.tangential - stored_before);
-  result.friction = slipped;
-  result.reset = lost_in_friction - slipped;
+  result.friction = -trapezoid(pair.friction, friction, a, b, dt) - (pair.tangential - stored_before);
   result.damping = -trapezoid(pair.damping, damping, a, b, dt);
   result.handover = -trapezoid(pair.offset, offset, a, b, dt);
   result.tangential = pair.tangential;
@@ -302,42 +205,6 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
   add(result.wrench, damping);
   add(result.wrench, friction);
   add(result.wrench, offset);
-  return true;
-}
-
-int short_keeper(const Pair& pair, const ContactShape& a, const ContactShape& b) {
-  return pair.touching || pair.offset_left > 0 || !(a.small.faces > 0 && b.small.faces > 0) ? -1 : pair.separating;
-}
-
-bool stands_apart(int separating, const Pair& pair, const View& s, const ContactSettings& settings, double dt, PairResult& result) {
-  constexpr double parallel = 1e-6, sure = 1e-12;
-  const ContactShape &reference = *s.reference, &other = *s.other;
-  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
-  if (separating < 0) return false;
-  const Keeper by = keeper(separating, s);
-  const Vec3 between = (o.rest - r.rest) + (o.u - r.u), v = o.v - r.v;
-  double apart = 0, along = 0;
-  if (by.kind == Keeper::face) {
-    const Vec3 n = r.turn * reference.normal[by.face_or_a];
-    apart = extent(other.small, o.turn.transpose() * n).least + n.dot(between) - reference.offset[by.face_or_a];
-    along = -v.dot(n);
-  } else if (by.kind == Keeper::other_face) {
-    const Vec3 n = o.turn * other.normal[by.face_or_a];
-    apart = extent(reference.small, r.turn.transpose() * n).least - n.dot(between) - other.offset[by.face_or_a];
-    along = v.dot(n);
-  } else {
-    Vec3 n = (r.turn * reference.edge[by.face_or_a]).cross(o.turn * other.edge[by.b]);
-    const double sine = n.norm();
-    if (sine < parallel) return false;
-    n /= sine;
-    const Extent one = extent(reference.small, r.turn.transpose() * n), two = extent(other.small, o.turn.transpose() * n);
-    const double way = n.dot(between);
-    apart = std::max(two.least + way - one.most, one.least - (two.most + way));
-    along = v.norm();
-  }
-  if (!(apart > sure * (reference.reach + other.reach))) return false;
-  result.apart = apart;
-  landing(pair, s, settings, along, apart, dt, result);
   return true;
 }
 

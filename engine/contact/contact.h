@@ -15,15 +15,13 @@ inline constexpr double look_ahead = 5;  // steps within which bodies that appro
 struct PairResult {
   PairWrench wrench;
   double tangential = 0;  // J, stored by the friction springs
-  double friction = 0;    // J, lost in slip
+  double friction = 0;    // J, that friction took of the bodies and does not store: in slip, and where its springs are carried to another patch
   double damping = 0;     // J, lost in dashpots
-  double reset = 0;       // J, lost where the springs of friction are carried to a larger or moved patch; near zero
+  double rubbing = 0;     // 1/s2, omega^2 of a patch that slips, along its normal; 0 where it holds
   double depth = 0;       // m, deepest overlap
   // Upper bounds of the pair's share in the greatest eigenvalue of M^-1/2 K M^-1/2 of each block, dashpots included (1/s2):
   // stable while dt^2 <= 2 / (sum over the pairs and joints of a block), for every block.
   double rate_a = 0, rate_b = 0;
-  // omega^2 of a patch that slips, along its normal (1/s2); 0 where it holds.
-  double rubbing = 0;
   double handover = 0;  // J, lost to the fading difference to an old joint
   double elastic = 0;   // J, normal, stored (only where asked for)
   // The rates of a face that may land within the next steps, where the bodies are apart still but approach.
@@ -38,16 +36,6 @@ struct PairResult {
 // `crowd`: how many contacts touch either body, at least 1; what dashpots may take depends on it (dashpot() of contact.cpp).
 bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
                 double dt, bool want_energy, OverlapRoom& room, PairResult& result, double crowd = full_crowd);
-
-// What keeps a pair of small bodies apart that touch no more and bear nothing (Pair::separating), -1 where it is to go to pair_force().
-int short_keeper(const Pair& pair, const ContactShape& a, const ContactShape& b);
-// Such a pair in short: true where that surely keeps them apart still. `result` then has what pair_force() gives, to round-off. The pose of
-// the view is not asked for, and the pair only where the bodies may land.
-bool stands_apart(int keeper, const Pair& pair, const View& view, const ContactSettings& settings, double dt, PairResult& result);
-
-// Of a pair that touches and has been evaluated: its patch may let go, and a face that is about to fall flat meets all of it within a step or
-// two. Sets `haste` and, where that is near, the rates of landing of `result`. dt (s): the next step at most.
-void foresee(const Pair& pair, const View& view, const ContactSettings& settings, double dt, PairResult& result);
 
 // A new pair; fixes its reference body for good. `impact`: impact_factor() of its restitution.
 Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, double impact, const ContactShapes& shapes);

@@ -29,7 +29,7 @@ struct alignas(64) PairLanes {
   Lane u0[3], psi0, u1[3], psi1, kt, kr, springs[3], torsion, dashpots[3], dashpot_torsion, lever[3], most, radius, share;
   Lane holds;  // 1 where springs and dashpots are borne surely
   Lane slips;
-  Lane result[8 * result_rows + 1];  // the last: PairResult::rubbing
+  Lane result[8 * result_rows];
 };
 
 struct PairSettings {

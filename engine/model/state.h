@@ -67,6 +67,7 @@ struct State {
   std::vector<int> island;      // blocks joined to each other, named by their lowest block
   std::vector<std::uint8_t> grounded;  // the island holds a fixed or driven block
   std::vector<std::uint8_t> joined;    // has a joint that is not open
+  int unjoined = 0;                    // moving blocks that have none
   std::vector<std::uint8_t> loose;     // may meet new neighbours
   // joints
   std::vector<JointBatch> batch;       // of joints that have cracked (batches.h)

@@ -14,7 +14,7 @@ enum class Part { motion, history, carried };
 template <class S, class F>
 requires std::is_same_v<std::remove_const_t<S>, State>
 void each(S& state, F&& f) {
-  auto& [step, start_step, start_t, t, dt, last_dt, u, q, v, spin_momentum, w, base_u, base_q, row, shift, island, grounded, joined, loose, batch, place, tier, memory, history,
+  auto& [step, start_step, start_t, t, dt, last_dt, u, q, v, spin_momentum, w, base_u, base_q, row, shift, island, grounded, joined, unjoined, loose, batch, place, tier, memory, history,
          crushed, wrench, kept, given, viscous, debris, parting, rest, dt_goal, calm, event_dt, joints_broken, energy, gravity_before, moment_before, max_penetration_relative, momentum_residual] = state;
   f("step", step, Part::carried);
   f("start_step", start_step, Part::carried);
@@ -34,6 +34,7 @@ void each(S& state, F&& f) {
   f("island", island, Part::carried);
   f("grounded", grounded, Part::carried);
   f("joined", joined, Part::carried);
+  f("unjoined", unjoined, Part::carried);
   f("loose", loose, Part::carried);
   f("batch", batch, Part::carried);
   f("place", place, Part::carried);

@@ -224,8 +224,7 @@ void Debris::soften_beds() {
     p.law.ks = to.ks;
     p.bed = 0;
     p.counted_a = p.counted_b = 0;
-    bed_[i] = {};
-    released_ += now.elastic + now.tangential - start(p, wrench, 0);
+    note_hand_over(std::exchange(bed_[i], {}).joint, now.elastic + now.tangential - start(p, wrench, 0));
   }
 }
 
@@ -301,23 +300,28 @@ std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
 void Debris::hand_over_pair(const int* first, const int* last) {
   const Joint& one = model_.joint[z(*first)];
   Vec6 wrench = Vec6::Zero();  // on b
-  double area = 0;
+  double area = 0, stored = 0;
   for (const int* j = first; j < last; ++j) {
     wrench += Eigen::Map<const Vec6>(&state_.wrench[z(model_.row_b[z(*j)]) * 8]);
     area += model_.joint[z(*j)].type->area;
-    released_ += state_.memory[z(*j)].elastic;
+    stored += state_.memory[z(*j)].elastic;
     state_.memory[z(*j)] = JointMemory{};
   }
   const PointLaw& joint_law = model_.laws[z(one.type->law)];
   const int at = find_pair(state_.debris, one.a, one.part_a, one.b, one.part_b);
-  if (at < 0) return;
+  if (at < 0) return note_hand_over(*first, stored);
   Pair& pair = state_.debris.pair[z(at)];
   pair.bed = 1;
   count_bed(pair);
   pair.law.kn = joint_law.kn;
   pair.law.ks = joint_law.ks;
   pair.law.mu = joint_law.mu_residual;
-  released_ -= start(pair, wrench, area);
+  note_hand_over(*first, stored - start(pair, wrench, area));
+}
+
+void Debris::note_hand_over(int joint, double energy) {
+  released_ += energy;
+  handed_.push_back({joint, energy});
 }
 
 // A contact begins with what a joint bore on b until now; returns what its springs store then (J). Faces of contact reach round the edges

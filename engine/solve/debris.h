@@ -14,6 +14,12 @@
 
 namespace erbs {
 
+// Where a contact took over from a joint, or a bed took another stiffness: what is stored less than before.
+struct HandOver {
+  int joint;
+  double energy;  // J
+};
+
 class Debris {
  public:
   Debris(const Model& model, State& state, int threads);
@@ -22,6 +28,8 @@ class Debris {
   // Joints that are spent (joint_kernel.h) go over to contact; returns them. Called between forces and drift: the wrench and the
   // stored energy of this step are still the joint's, those of the next one the contact's.
   std::vector<int> hand_over_joints(Cracked& cracked);
+  // Since the last call.
+  std::vector<HandOver> take_handed() { return std::exchange(handed_, {}); }
   // Beds that lie on each other no longer as their joint lay get the stiffness of debris; called at the same place.
   void soften_beds();
   // Once the ledger of this step is settled: books what the last hand-over set free.
@@ -39,6 +47,8 @@ class Debris {
   bool sleep(const Excitation& now, const double* push);
   // The step that joints and contacts allow now (s), no longer than the run may take.
   double allowed_dt() const { return allowed_; }
+  // ... and what touches alone, without what may land next (s): the step that was taken is judged by it.
+  double borne_dt() const;
   // 1/s, over the step that what opens and closes next allows (event_bound.h); `budget` (J) is that of the next forces()
   double haste() const { return haste_; }
   void set_step(double budget, const Interlock& interlock) { settings_.event_budget = budget, settings_.interlock = interlock; }
@@ -51,6 +61,7 @@ class Debris {
   void wake();
   void open(int j);
   void hand_over_pair(const int* first, const int* last);
+  void note_hand_over(int joint, double energy);
   double start(Pair& pair, const Vec6& wrench, double area);
   double start_fresh(const std::vector<int>& fresh);
   void list_involved();
@@ -158,8 +169,9 @@ class Debris {
   std::vector<std::unique_ptr<Batch>> batch_;  // per thread
   std::vector<std::uint64_t> pair_keys_;       // pairs of blocks that are jointed at rest, sorted, ...
   std::vector<int> of_pair_;                   // ... and the first of their joints
+  std::vector<HandOver> handed_;
   double released_ = 0;                        // J, set free by the last hand-over and still in this step's sums
-  double allowed_ = 0, elastic_ = 0, haste_ = 0;
+  double allowed_ = 0, elastic_ = 0, haste_ = 0, rubbing_ = 0;
   std::vector<std::uint8_t> still_;  // sleepers that lie as at the last search [nblock], empty without
   bool relisted_ = true, unsorted_ = true;
   int touching_ = 0;

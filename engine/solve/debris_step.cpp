@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "engine/base/parallel.h"
+#include "engine/contact/landing.h"
 #include "engine/contact/view.h"
 #include "engine/solve/debris.h"
 
@@ -274,6 +275,15 @@ double Debris::limit() const {
   return limit_.allowed(most);
 }
 
+double Debris::borne_dt() const {
+  if (allowed_ >= state_.last_dt) return allowed_;
+  double most = elsewhere_;
+  for (const int b : sleep_.pushed())
+    if (model_.kind[z(b)] == Kind::moving) most = std::max(most, limit_.on_block(b, rate_[z(b)], 0));
+  const double bears = std::min(model_.dt_most, limit_.allowed(most));
+  return rubbing_ > 0 ? std::min(bears, rubbing_angle / std::sqrt(rubbing_)) : bears;
+}
+
 // What blocks ask for that no live pair touches: held by joints, or asleep, as if all were awake, so that a step in which some wake finds
 // it right.
 void Debris::ask_elsewhere() {
@@ -342,7 +352,7 @@ double Debris::add_up(std::span<const Active> active, double* push, bool sample)
     friction += r.friction;
     rubbing = std::max(rubbing, r.rubbing);
     damping += r.damping;
-    reset += r.reset + r.handover;
+    reset += r.handover;
     if (sample) elastic_ += r.elastic + r.tangential;
     rate[a] += std::max(0.0, r.rate_a - bed.rate_a);
     rate[b] += std::max(0.0, r.rate_b - bed.rate_b);
@@ -379,9 +389,9 @@ void Debris::gather(double* push, bool sample) {
   allowed_ = model_.dt_most;
   haste_ = 0;
   if (sample) elastic_ = sleep_.elastic();
-  double rubbing = 0;
+  rubbing_ = 0;
   for (const Looked& looked : looked_) {
-    rubbing = std::max(rubbing, add_up(looked.active, push, sample));
+    rubbing_ = std::max(rubbing_, add_up(looked.active, push, sample));
     for (const Near& one : looked.near) land(one.pair, one.landing_a, one.landing_b, false), haste_ = std::max(haste_, one.haste);
   }
   for (const int b : sleep_.pushed())
@@ -394,7 +404,7 @@ void Debris::gather(double* push, bool sample) {
     bears = limit();
   }
   allowed_ = std::min(allowed_, bears);
-  if (rubbing > 0) allowed_ = std::min(allowed_, rubbing_angle / std::sqrt(rubbing));
+  if (rubbing_ > 0) allowed_ = std::min(allowed_, rubbing_angle / std::sqrt(rubbing_));
   limit_passing();
 }
 

@@ -5,27 +5,40 @@
 
 namespace erbs {
 
+// The greatest Ritz value of the first k + 1 Lanczos vectors, and by how much it may err.
+struct Ritz {
+  double value, residual;
+};
+static Ritz ritz_of(const VecX& alpha, const VecX& beta, int k) {
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+  ritz.computeFromTridiagonal(alpha.head(k + 1), beta.segment(1, k));
+  return {ritz.eigenvalues()[k], std::fabs(beta[k + 1] * ritz.eigenvectors()(k, k))};
+}
+
 double largest_eigenvalue(int n, const std::function<void(const VecX&, VecX&)>& times) {
+  constexpr int test_every = 8;  // Ritz values take longer than products: they are asked for now and then, and the first that is good is looked up
+  if (n == 0) return 0;
   const int most = std::min(n, 120);
   VecX alpha = VecX::Zero(most), beta = VecX::Zero(most + 1), before = VecX::Zero(n), now(n), next(n);
   for (int i = 0; i < n; ++i) now[i] = 1 + 0.5 * std::sin(1.7 * i);  // fixed start, no symmetry
   now.normalize();
-  double bound = 0;
-  for (int k = 0; k < most; ++k) {
+  for (int k = 0;; ++k) {
     times(now, next);
     next -= beta[k] * before;
     alpha[k] = next.dot(now);
     next -= alpha[k] * now;
     beta[k + 1] = next.norm();
-    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-    ritz.computeFromTridiagonal(alpha.head(k + 1), beta.segment(1, k));
-    const double value = ritz.eigenvalues()[k], residual = std::fabs(beta[k + 1] * ritz.eigenvectors()(k, k));
-    bound = value + residual;
-    if (residual < 1e-6 * value || beta[k + 1] < 1e-14 * value) break;
+    const auto good = [&](const Ritz& r, int at) { return r.residual < 1e-6 * r.value || beta[at + 1] < 1e-14 * r.value; };
+    const bool last = k + 1 == most || !(beta[k + 1] > 0);
+    if (last || k % test_every == test_every - 1) {
+      const Ritz end = ritz_of(alpha, beta, k);
+      for (int i = k - k % test_every; i < k && (last || good(end, k)); ++i)
+        if (const Ritz r = ritz_of(alpha, beta, i); good(r, i)) return r.value + r.residual;
+      if (last || good(end, k)) return end.value + end.residual;
+    }
     before.swap(now);
     now = next / beta[k + 1];
   }
-  return bound;
 }
 
 double largest_eigenvalue(const Sparse& a) {

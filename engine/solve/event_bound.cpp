@@ -7,7 +7,9 @@ namespace erbs {
 
 double event_budget(const Model& m, const State& s) {
   if (m.analysis.unstable || m.analysis.solver == "sequential" || s.step % foresee_every != 0) return 0;
-  return event_tolerance * s.energy.reference * std::max(0.01, 1 - std::fabs(s.energy.event_residual) / (event_sum * s.energy.reference));
+  const double many = std::clamp(std::sqrt(s.unjoined / 16.0), 1.0, most_for_many);
+  const double used = std::fabs(s.energy.event_residual) / (many * event_sum * s.energy.reference);
+  return many * event_tolerance * s.energy.reference * std::max(0.01, 1 - used);
 }
 
 double foresee(const Model& m, const Joint& joint, const double* q0, const double* q, double budget) {

@@ -30,7 +30,11 @@ void find_islands(const Model& m, State& s) {
     const int ra = root(s.island, a), rb = root(s.island, b);
     s.island[z(std::max(ra, rb))] = std::min(ra, rb);
   }
-  for (int b = 0; b < m.nblock; ++b) s.island[z(b)] = root(s.island, b);
+  s.unjoined = 0;
+  for (int b = 0; b < m.nblock; ++b) {
+    s.island[z(b)] = root(s.island, b);
+    s.unjoined += m.kind[z(b)] == Kind::moving && !s.joined[z(b)];
+  }
   for (int j = 0; j < m.njoint; ++j) {
     if (s.tier[z(j)] == Tier::open) continue;
     const int a = m.joint[z(j)].a, b = m.joint[z(j)].b;

@@ -20,6 +20,7 @@ constexpr int ledger_seldom = 4096;  // ... where a scene does without
 constexpr int hand_over_every = 8;   // steps between two looks at spent joints
 constexpr int soften_every = 64;     // steps between two looks at beds of former joints
 constexpr int loosen_every = 256;    // steps between two looks at blocks that have moved far
+constexpr double still = 0.1;  // of the haste of what falls: what rests and trembles below the bounds of sleep is no event
 std::size_t z(int i) { return std::size_t(i); }
 
 // The next step below on a scale of 32 to the octave: what differs in its last digits, as with blocks that sleep, then makes no difference.
@@ -229,8 +230,8 @@ void Solver::foresee_events() {
   if (!(budget_ > 0)) return;
   haste = state_.last_dt > 0 ? haste / state_.last_dt : 0;
   if (contacts_) haste = std::max(haste, debris_.haste());
-  const double fall = (now_.gravity - now_.ground).norm();  // in flight the net force is weight
-  if (haste > 0) haste = std::max(haste, fall * std::sqrt(mass_ / (8 * budget_)));
+  const double falls = (now_.gravity - now_.ground).norm() * std::sqrt(mass_ / (8 * budget_));  // in flight the net force is weight
+  if (haste > still * falls) haste = std::max(haste, falls);
   state_.event_dt = haste > 0 ? 1 / haste : 0;
 }
 

@@ -45,9 +45,10 @@ class Solver {
   Vec6 block_wrench(int b) const;  // N, N m about the centroid: joints and contacts
   Vec6 load_wrench(int b) const;   // loads; on a driven block what holds it on its course
   std::vector<int> take_opened();  // joints handed over to contact since the last call
-  // s, the step allowed at present, `critical` being that of the sound structure
-  double allowed_dt(double critical) const {
-    const double contacts = contacts_ ? debris_.allowed_dt() : state_.dt_goal, goal = state_.dt_goal;
+  std::vector<HandOver> take_handed() { return debris_.take_handed(); }
+  // s, the step that what touches bears at present, `critical` being that of the sound structure
+  double borne_dt(double critical) const {
+    const double contacts = contacts_ ? debris_.borne_dt() : state_.dt_goal, goal = state_.dt_goal;
     return contacts < goal ? std::min(contacts, critical) : contacts > goal ? std::max(contacts, critical) : critical;
   }
   int touching() const { return debris_.touching(); }

@@ -3,6 +3,7 @@
 #include <random>
 
 #include "engine/contact/batch.h"
+#include "engine/contact/landing.h"
 #include "engine/contact/view.h"
 #include "tests/unit/contact/bodies.h"
 

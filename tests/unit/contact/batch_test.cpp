@@ -25,7 +25,6 @@ void check_same(const Pair& p, const PairResult& r, const Pair& q, const PairRes
   CHECK(r.tangential == Approx(s.tangential).epsilon(1e-7).margin(energy));
   CHECK(r.friction == Approx(s.friction).epsilon(1e-7).margin(energy));
   CHECK(r.damping == Approx(s.damping).epsilon(1e-7).margin(energy));
-  CHECK(r.reset == Approx(s.reset).margin(energy));
   CHECK(r.depth == Approx(s.depth));
   CHECK(r.rate_a == Approx(s.rate_a));
   CHECK(r.rate_b == Approx(s.rate_b));

@@ -92,7 +92,6 @@ struct Bodies {
       moment[b] += r.wrench.moment_b;
       friction += r.friction;
       damping += r.damping;
-      reset += r.reset;
       handover += r.handover;
       least_friction = std::min(least_friction, r.friction);
       elastic += r.elastic;

@@ -60,8 +60,8 @@ TEST_CASE("faces that miss their joint by a little are counted", "[model]") {
 TEST_CASE("overlaps that are let be are one warning, their list is for the log", "[model]") {
   const Model model = build(scene_with("analysis{ overlap = 'stress_free' }\n"
                                        "for i = 0, 2 do\n"
-                                       "  box{ name = 'a' .. i, size = {.3, .2, .1}, at = {i, 0, 0} }\n"
-                                       "  box{ name = 'b' .. i, size = {.3, .2, .1}, at = {i, 0, .099} }\n"
+                                       "  box{ name = 'a' .. i, size = {.3, .2, .1}, at = {.5*i, 0, 0} }\n"
+                                       "  box{ name = 'b' .. i, size = {.3, .2, .1}, at = {.5*i, 0, .099} }\n"
                                        "end\nbox{ name = 'c', size = {.3, .2, .1}, at = {0, 0, .197} }\n"))
                           .model;
   REQUIRE(model.warnings.size() == 1);

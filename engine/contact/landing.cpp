@@ -1,0 +1,178 @@
+#include "engine/contact/landing.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/contact/view.h"
+#include "engine/model/joint_batch.h"
+
+namespace erbs {
+namespace {
+
+// event_bound.h for a spring of stiffness k (N/m) that opens or closes at `speed` (m/s) after the way `left` (m).
+double haste(double k, double speed, double left, const ContactSettings& settings) {
+  if (!(settings.event_budget > 0 && speed > 0)) return 0;
+  return std::min(speed * std::sqrt(event_share * k / settings.event_budget), left > 0 ? event_steps * speed / left : 1e300);
+}
+
+// What a body resists with where a face lies flat on the other: the patch lies within a face of either body and has the smaller one's area
+// at most, and both bound it.
+void face_rates(const Pair& pair, const View& s, PairResult& result) {
+  const double k = (pair.law.kn + pair.law.ks) * std::min(s.reference->largest_face, s.other->largest_face);
+  // of a face about the centroid above it: Int r^2 dA / A is reach^2 / 3 at most for a rectangle
+  const auto rate = [&](const ContactBlock& block, const ContactShape& part) {
+    const double by_area = k * (block.inverse_mass + part.reach * part.reach / 3 * block.inverse_inertia);
+    const double by_face = pair.law.kn * part.face_across + pair.law.ks * part.face_along;
+    return by_face > 0 ? std::min(by_area, by_face) : by_area;
+  };
+  const double other = rate(*s.other_block, *s.other), reference = rate(*s.reference_block, *s.reference);
+  result.landing_a = pair.b_is_reference ? other : reference;
+  result.landing_b = pair.b_is_reference ? reference : other;
+}
+
+// What keeps a pair apart: a face of the reference, one of the other, or a plane along an edge of each.
+struct Keeper {
+  enum Kind { face, other_face, edges } kind;
+  std::size_t face_or_a, b;
+};
+Keeper keeper(int separating, const View& s) {
+  const std::size_t at = std::size_t(separating), own = s.reference->normal.size(), faces = own + s.other->normal.size();
+  if (at < own) return {Keeper::face, at, 0};
+  if (at < faces) return {Keeper::other_face, at - own, 0};
+  const std::size_t edges = s.other->edge.size();
+  return {Keeper::edges, (at - faces) / edges, (at - faces) % edges};
+}
+
+// How two bodies come closer: along the normal of the face that keeps them apart, where there is one. A body that flies off lands nowhere.
+struct Approach {
+  Keeper::Kind by = Keeper::edges;
+  Vec3 n = Vec3::Zero();  // unit, from the reference to the other; zero: not known
+  double apart = 0, along = 0;
+};
+
+// The least of n . x over the corners of a body, and the greatest.
+struct Extent {
+  double least, most;
+};
+Extent extent(const SmallShape& body, const Vec3& n) {
+  double x[few];
+  for (int i = 0; i < few; ++i) x[i] = n[0] * body.vertex[0][i] + n[1] * body.vertex[1][i] + n[2] * body.vertex[2][i];
+  Extent e{x[0], x[0]};
+  for (int i = 1; i < few; ++i) e.least = std::min(e.least, x[i]), e.most = std::max(e.most, x[i]);
+  return e;
+}
+
+bool corners_known(const View& s) { return s.reference->small.faces > 0 && s.other->small.faces > 0; }
+
+// By what `separating` names; `apart` only where all corners are known.
+Approach approach(int separating, const View& s) {
+  constexpr double parallel = 1e-6;
+  const ContactShape &reference = *s.reference, &other = *s.other;
+  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
+  const Keeper by = keeper(separating, s);
+  const Vec3 between = (o.rest - r.rest) + (o.u - r.u), v = o.v - r.v;
+  const bool measured = corners_known(s);
+  Approach way{by.kind, Vec3::Zero(), 0, v.norm()};
+  if (by.kind == Keeper::face) {
+    way.n = r.turn * reference.normal[by.face_or_a];
+    if (measured) way.apart = extent(other.small, o.turn.transpose() * way.n).least + way.n.dot(between) - reference.offset[by.face_or_a];
+    way.along = -v.dot(way.n);
+  } else if (by.kind == Keeper::other_face) {
+    const Vec3 n = o.turn * other.normal[by.face_or_a];
+    if (measured) way.apart = extent(reference.small, r.turn.transpose() * n).least - n.dot(between) - other.offset[by.face_or_a];
+    way.along = v.dot(n);
+    way.n = -n;
+  } else if (measured) {
+    Vec3 n = (r.turn * reference.edge[by.face_or_a]).cross(o.turn * other.edge[by.b]);
+    const double sine = n.norm();
+    if (sine < parallel) return way;
+    n /= sine;
+    const Extent one = extent(reference.small, r.turn.transpose() * n), two = extent(other.small, o.turn.transpose() * n);
+    const double gap = n.dot(between), above = two.least + gap - one.most, below = one.least - (two.most + gap);
+    way.n = above > below ? n : Vec3(-n);
+    way.apart = std::max(above, below);
+  }
+  return way;
+}
+
+// The share of a face that presses once a body has sunk in by `depth` along n: a face that lands flat presses as a whole, an edge along a
+// strip, a corner with a triangle. `turns` (m): what its corners may still move against each other until then.
+double pressed_share(const SmallShape& body, const Vec3& n, double depth, double turns) {
+  double low[3] = {1e300, 1e300, 1e300};
+  for (int i = 0; i < few; ++i) {
+    double x = n[0] * body.vertex[0][i] + n[1] * body.vertex[1][i] + n[2] * body.vertex[2][i];
+    for (double& l : low)
+      if (x < l) std::swap(x, l);
+  }
+  const auto part = [&](double rise) { return rise > depth + turns ? depth / (rise - turns) : 1.0; };
+  return part(low[1] - low[0]) * part(low[2] - low[0]);
+}
+
+// A body that strikes deeper in its first step than the step can bear gains energy. So the step is short enough for the largest
+// face before it may land: when the bodies could meet within the next few steps, at a speed at which that energy matters.
+void landing(const Pair& pair, const View& s, const ContactSettings& settings, const Approach& way, double dt, PairResult& result) {
+  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
+  const double spin = o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach, speed = way.along + spin;
+  const double k = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
+  result.haste = haste(k, speed, way.apart, settings);
+  if (result.haste * dt > 0.5 && !way.n.isZero(0) && corners_known(s)) {
+    const double depth = look_ahead * speed * dt, turns = 2 * spin * way.apart / speed;  // it is looked at every few steps only
+    double share = 1;
+    if (way.by != Keeper::other_face) share *= pressed_share(s.other->small, o.turn.transpose() * way.n, depth, turns);
+    if (way.by != Keeper::face) share *= pressed_share(s.reference->small, -(r.turn.transpose() * way.n), depth, turns);
+    result.haste = haste(share * k, speed, way.apart, settings);
+  }
+  if (!(speed > settings.reference_speed) || way.apart > look_ahead * speed * dt) return;
+  face_rates(pair, s, result);
+}
+
+}  // namespace
+
+void landing(const Pair& pair, const View& s, const ContactSettings& settings, double apart, double dt, PairResult& result) {
+  Approach way = pair.separating < 0 ? Approach{} : approach(pair.separating, s);
+  if (pair.separating < 0) way.along = (s.other_block->v - s.reference_block->v).norm();
+  way.apart = apart;
+  landing(pair, s, settings, way, dt, result);
+}
+
+void foresee(const Pair& pair, const View& s, const ContactSettings& settings, double dt, PairResult& result) {
+  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
+  const Vec3 apart = (o.rest - r.rest) + (o.u - r.u), v = o.v - r.v, w = o.w - r.w, at = r.turn * pair.c, n = r.turn * pair.n;
+  const double parting = n.dot(v + o.w.cross(at - apart) - r.w.cross(at));
+  if (parting > 0) result.haste = std::max(result.haste, haste(pair.law.kn * pair.area, parting, result.depth, settings));
+  constexpr double facing = 0.9;  // cosine: faces that are further from flat are left to later steps
+  const double lever = std::min(s.reference->reach, s.other->reach), thin = std::min(s.reference->thickness, s.other->thickness);
+  bool soon = false;
+  for (std::size_t f = 0; f < s.reference->normal.size(); ++f) {
+    const Vec3 nf = r.turn * s.reference->normal[f];
+    for (std::size_t g = 0; g < s.other->normal.size(); ++g) {
+      const Vec3 ng = o.turn * s.other->normal[g];
+      if (-nf.dot(ng) < facing) continue;
+      const Vec3 across = nf.cross(ng);
+      const double sine = across.norm(), closes = w.dot(across);  // rate of the angle between them, times its sine
+      if (!(closes > 0) || !(sine > 1e-9)) continue;
+      const Vec3 corner = o.turn * s.other->vertex[std::size_t(s.other->loop[std::size_t(s.other->loop_first[g])])];
+      if (std::abs(nf.dot(apart + corner) - s.reference->offset[f]) > 2 * sine * s.other->reach + 0.01 * thin) continue;
+      const double rate = closes / sine, time = sine / rate;
+      const double k = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
+      result.haste = std::max(result.haste, haste(0.5 * k, rate * lever, sine * lever, settings));
+      soon = soon || (rate * lever > settings.reference_speed && time <= look_ahead * dt);
+    }
+  }
+  if (soon) face_rates(pair, s, result);
+}
+
+int short_keeper(const Pair& pair, const ContactShape& a, const ContactShape& b) {
+  return pair.touching || pair.offset_left > 0 || !(a.small.faces > 0 && b.small.faces > 0) ? -1 : pair.separating;
+}
+
+bool stands_apart(int separating, const Pair& pair, const View& s, const ContactSettings& settings, double dt, PairResult& result) {
+  constexpr double sure = 1e-12;
+  const Approach way = separating < 0 ? Approach{} : approach(separating, s);
+  if (!(way.apart > sure * (s.reference->reach + s.other->reach))) return false;
+  result.apart = way.apart;
+  landing(pair, s, settings, way, dt, result);
+  return true;
+}
+
+}  // namespace erbs
