@@ -96,11 +96,11 @@ void print_row(const Row& r) {
 }
 
 void write_table(const std::vector<Row>& rows, const std::string& path) {
-  std::string text = "effect,called_for_by,ns_per_point_step,percent,bytes_per_point,moves,metric\n";
+  CsvWriter table(path, {"effect", "called_for_by", "ns_per_point_step", "percent", "bytes_per_point", "moves", "metric"});
   for (const Row& r : rows)
-    text += fmt::format("\"{}\",\"{}\",{},{},{},{},\"{}\"\n", r.without.effect, r.without.because, r.ns, r.percent, r.bytes, r.moved.second,
-                        r.moved.first);
-  write_text_atomically(path, text);
+    table.text_row({r.without.effect, r.without.because, fmt::format("{}", r.ns), fmt::format("{}", r.percent), fmt::format("{}", r.bytes),
+                    fmt::format("{}", r.moved.second), r.moved.first});
+  table.flush();
 }
 
 void draw(const std::vector<Row>& rows, const std::string& scene, const std::string& path) {

@@ -74,8 +74,8 @@ void choose_unit(Panel& panel, const CsvTable& table, const std::string& suffix)
 
 constexpr std::array<const char*, 8> colors{"#23527c", "#c0502d", "#4f8a4c", "#8a5a9e", "#b08a1e", "#3b9aa8", "#7d7d7d", "#a33a5a"};
 
-// Labels are ours, and carry signs (²) that the quoting of foreign text would not let through.
-std::string label(const Panel& panel) { return "'" + panel.label + "'"; }
+// What has no unit is labelled by the name of its column, and a run folder may be from anywhere.
+std::string label(const Panel& panel) { return gnuplot_quoted(panel.label); }
 
 // Every curve of a panel. `every` rows are skipped between two drawn ones.
 std::string plot(const std::string& file, const CsvTable& table, const Panel& panel, const std::string& value, std::size_t every) {

@@ -241,6 +241,15 @@ TEST_CASE("NaN and what has no end is outside of every range", "[attack]") {
   CHECK(bench.erbs({"record", ERBS_SOURCE_DIR "/scenes/records/elcentro_1940_ns.csv", "--dt", "nan"}) == 2);
 }
 
+TEST_CASE("what only the model shows wrong is told before there is a folder", "[attack]") {
+  Bench bench;
+  const std::string twice = "recorder{ name = 'r', quantity = 'displacement', block = 'b1' } recorder{ name = 'r', quantity = 'displacement', block = 'b2' }";
+  CHECK(bench.run(pier + twice) == 2);
+  CHECK(contains(bench.said, "scene.lua:7: "));
+  CHECK_FALSE(fs::exists(bench.out()));
+  CHECK(bench.erbs({"check", "-q", bench.scene(pier + twice)}) == 2);
+}
+
 TEST_CASE("texts of editors are read, others refused with a remedy", "[attack]") {
   Bench bench;
   bench.write("bom.lua", "\xEF\xBB\xBF" + pier);
