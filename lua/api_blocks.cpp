@@ -344,7 +344,7 @@ std::vector<Function> block_functions() {
                 at},
                placed})},
       {"mesh", mesh, "{ ... }", name, "A block from a file (OBJ, STL, PLY, glTF); each mesh in it is one convex part.",
-       joined({{{"file", "string", "", "path, relative to the scene", -unbounded, unbounded, true, "", ""},
+       joined({{{"file", "string", "", "path in the folder of the scene, or in one of --allow", -unbounded, unbounded, true, "", ""},
                 {"scale", "number", "", "factor on its coordinates, to metres", 1e-9, 1e9, false, "", "1"},
                 at},
                placed})},

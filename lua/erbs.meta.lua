@@ -126,7 +126,7 @@ function block(keys) end
 function prism(keys) end
 
 ---@class erbs.mesh_keys
----@field file string path, relative to the scene
+---@field file string path in the folder of the scene, or in one of --allow
 ---@field scale? number factor on its coordinates, to metres [1e-09 to 1e+09; default 1]
 ---@field at? erbs.vec3 moves the shape by this [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
 ---@field name? string name, unique (default from the group and a number)

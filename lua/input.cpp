@@ -14,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t most_bytes = std::uintmax_t{256} << 20;
+constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20;  // what is read of it takes ten times as much
 
 // Without links and dots; empty where that cannot be told (a name too long, a ring of links).
 fs::path real(const fs::path& path) {

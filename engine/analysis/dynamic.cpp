@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "engine/analysis/crew.h"
+#include "engine/analysis/lost_blocks.h"
 #include "engine/analysis/prepare.h"
 #include "engine/analysis/resume.h"
 #include "engine/analysis/trust.h"
@@ -55,26 +56,6 @@ void each(C& c, F&& f) {
 
 constexpr long wrong_steps = 512;       // that a run goes on with a ledger that has lost half of what passed; ...
 constexpr long negative_steps = 160000;  // ... with a kinetic energy below zero, as modes at the limit of the step have it
-
-// What has come off beyond the ground and falls on for ever; "" where nothing has.
-std::string lost_blocks(const Model& m, const State& s) {
-  const double g = m.gravity.norm();
-  if (!(g > 0) || std::find(m.kind.begin(), m.kind.end(), Kind::fixed) == m.kind.end()) return {};
-  const Vec3 up = -m.gravity / g;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (int b = 0; b < m.nblock; ++b) low = std::min(low, up.dot(m.rest[z(b)])), high = std::max(high, up.dot(m.rest[z(b)]));
-  int count = 0, first = -1;
-  for (int b = 0; b < m.nblock; ++b) {
-    if (m.kind[z(b)] != Kind::moving || !(up.dot(m.rest[z(b)] + s.u[z(b)]) < low - (high - low))) continue;
-    if (first < 0) first = b;
-    ++count;
-  }
-  if (count == 0) return {};
-  return fmt::format(
-      "{} block{} fell past the ground by more than the height of the structure, '{}' the first of the scene; if what comes off "
-      "should land, make the ground larger: ground{{ size = ... }}",
-      count, count > 1 ? "s" : "", m.block_name[z(first)]);
-}
 
 class Run {
  public:

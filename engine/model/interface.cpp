@@ -43,8 +43,8 @@ std::vector<Part> parts_of(std::span<const InterfaceBlock> blocks) {
   return parts;
 }
 
-// Calls visit(i, j), as long as it gives true, for parts whose boxes come closer than `margin`: sorted along the axis of greatest spread, so that one huge
-// slab costs one pass and not a full grid.
+// Calls visit(i, j), as long as it gives true, for parts whose boxes come closer than `margin`: sorted along the axis of greatest spread, so
+// that one huge slab costs one pass and not a full grid.
 template <class Visit>
 void near_pairs(const std::vector<Part>& parts, double margin, Visit&& visit) {
   Vec3 mean = Vec3::Zero(), spread = Vec3::Zero();
