@@ -249,9 +249,7 @@ AccuracyStudy carry_out_accuracy(const std::string& scene, const std::string& di
   Options options = given;
   if (!options.max_wall) options.max_wall = 300;
   options.budget = options.whole_study ? 0 : options.within;
-  Script::Options quiet;
-  quiet.quiet = true;
-  Script script(quiet);
+  Script script(script_options(options, true));
   script.load(scene, options.overrides);
   AccuracyStudy study;
   study.scene = scene, study.directory = directory, study.name = script.scene().name, study.title = title_of(text_of(scene));

@@ -60,7 +60,7 @@ std::string panel(const AccuracyStudy& s, bool by_updates, bool titles, Picture&
     for (const std::size_t i : c.at) data += row(s, i, by_updates);
     const Look& look = look_of(c.knob);
     picture.add(data, fmt::format("with linespoints lw 1.8 pt {} ps 1.0 lc rgb '{}' {}", look.mark, look.color,
-                                  titles ? "title \"" + legend(c) + "\"" : "notitle"));
+                                  titles ? "title " + gnuplot_quoted(legend(c)) : "notitle"));
   }
   for (std::size_t i = 0; i < s.all.size(); ++i)
     if (s.all[i].setting.knob == quality_knob && titles && error_of(s.quantity(), s.all[i].values[s.main])) {

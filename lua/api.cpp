@@ -1,11 +1,11 @@
 #include "lua/api.h"
 
-#include <algorithm>
-#include <fstream>
-#include <lua5.4/lua.hpp>
-#include <sstream>
+#include <malloc.h>
 
-#include "engine/base/hash.h"
+#include <algorithm>
+#include <lua5.4/lua.hpp>
+
+#include "engine/base/text.h"
 
 namespace erbs {
 
@@ -30,9 +30,22 @@ bool takes_table(const Function& function) { return function.parameters.starts_w
 
 void Context::mistake(const Place& place, const std::string& message) {
   const std::string whole = place.file.empty() ? message : place.text() + ": " + message;
-  if (std::find(mistakes.begin(), mistakes.end(), whole) != mistakes.end()) return;  // the same line in a loop
+  if (std::find(mistakes.begin(), mistakes.end(), whole) != mistakes.end()) {  // the same line in a loop
+    if (++repeated >= 1000) throw Error("the same mistakes come again and again, more than 1000 times; the rest of the script was not read");
+    return;
+  }
   mistakes.push_back(whole);
   if (mistakes.size() >= 50) throw Error("more than 50 mistakes; the rest of the script was not read");
+}
+
+void Context::took(size_t bytes) {
+  taken += bytes;
+  if (++calls < 4096 && taken < (size_t{64} << 20)) return;
+  calls = taken = 0;
+  const auto heap = mallinfo2();
+  if (heap.uordblks + heap.hblkhd > limits.all_bytes)
+    throw Error(fmt::format("what the scene builds needs more than {} MiB of memory; build less, or is a loop without end?",
+                            limits.all_bytes >> 20));
 }
 
 Place current_place(lua_State* lua) {
@@ -58,9 +71,11 @@ std::string Call::text(int index, const char* what) const {
     throw Error(fmt::format("{}: {} must be a string, not {}; write {}({})", function.name, what, described(lua, index), function.name,
                             function.parameters),
                 place);
-  const std::string text = lua_tostring(lua, index);
-  if (text.size() > 1000)
-    throw Error(fmt::format("{}: {} is {} characters long; at most 1000 are allowed", function.name, what, text.size()), place);
+  size_t length = 0;
+  const char* first = lua_tolstring(lua, index, &length);
+  if (length > 1000) throw Error(fmt::format("{}: {} is {} characters long; at most 1000 are allowed", function.name, what, length), place);
+  const std::string text(first, length);
+  if (!is_plain(text)) throw Error(fmt::format("{}: {} {}", function.name, what, not_plain(text)), place);
   return text;
 }
 
@@ -86,19 +101,27 @@ int guarded(lua_State* lua) {
 int call_api(lua_State* lua, Context& context) {
   const auto* function = static_cast<const Function*>(lua_touserdata(lua, lua_upvalueindex(2)));
   Call call{context, lua, *function, current_place(lua)};
+  const Doing doing(context.limits, call.place.text() + ": " + function->name, true);
+  context.took(0);
   return function->call(call);
 }
 
 // Gives an error message its place in the user's files.
 int place_error(lua_State* lua) {
-  if (lua_type(lua, 1) != LUA_TSTRING) luaL_tolstring(lua, 1, nullptr);
+  // an error may be any value; what Lua writes for a table is its address, another one in every run
+  if (lua_type(lua, 1) != LUA_TSTRING && luaL_getmetafield(lua, 1, "__tostring") == LUA_TNIL && !lua_isnumber(lua, 1))
+    lua_pushfstring(lua, "an error that is a %s, not a message", luaL_typename(lua, 1));
+  else if (lua_type(lua, 1) != LUA_TSTRING) luaL_tolstring(lua, 1, nullptr);
   {
     Context& context = context_of(lua);
     const Cap uncapped(context.limits, false);
-    const std::string message = lua_tostring(lua, -1);
+    size_t length = 0;
+    const char* text = lua_tolstring(lua, -1, &length);
+    const std::string message(text, length);
     bool placed = false;
     for (const auto& file : context.files) placed = placed || message.starts_with(file + ":");
-    if (!placed) lua_pushstring(lua, (current_place(lua).text() + ": " + message).c_str());
+    const std::string whole = current_place(lua).text() + ": " + message;
+    if (!placed) lua_pushlstring(lua, whole.data(), whole.size());
   }
   return 1;
 }
@@ -123,7 +146,13 @@ void call_script(lua_State* lua, Context& context, int arguments, int results) {
   const Cap uncapped(context.limits, false);
   lua_remove(lua, function);
   if (status == LUA_OK) return;
-  std::string message = lua_type(lua, -1) == LUA_TSTRING ? lua_tostring(lua, -1) : "an error without a message";
+  constexpr size_t most = 20000;  // bytes of a message: every mistake of a large building fits
+  std::string message = "an error without a message";
+  if (lua_type(lua, -1) == LUA_TSTRING) {
+    size_t length = 0;
+    const char* text = lua_tolstring(lua, -1, &length);
+    message = printable({text, std::min(length, most)}) + (length > most ? "..." : "");
+  }
   lua_pop(lua, 1);
   if (status == LUA_ERRMEM)
     message = fmt::format("{}: the script needs more than {} MiB of memory; is a table or a string growing without end?",
@@ -136,39 +165,6 @@ void open_api(lua_State* lua) {
     push_guarded(lua, call_api, &function);
     lua_setglobal(lua, function.name.c_str());
   }
-}
-
-std::filesystem::path find_input(const Context& context, const std::string& file, const Place& place) {
-  namespace fs = std::filesystem;
-  const fs::path name(file);
-  std::vector<fs::path> tried;
-  if (name.is_absolute()) {
-    tried = {name};
-  } else {
-    tried = {context.folder / name};
-    std::error_code ignored;
-    for (fs::path above = fs::weakly_canonical(context.folder.empty() ? fs::path(".") : context.folder, ignored);
-         above != above.root_path(); above = above.parent_path())
-      if (above.filename() == "scenes") tried.push_back(above / name);
-    tried.push_back(fs::path("scenes") / name);
-  }
-  for (const auto& path : tried)
-    if (fs::is_regular_file(path)) return path;
-  std::vector<std::string> list;
-  for (const auto& path : tried) list.push_back(path.string());
-  throw Error(fmt::format("file \"{}\" is not there; looked for {}; correct the name, or put the file beside the scene", file,
-                          fmt::join(list, ", ")),
-              place);
-}
-
-std::string read_input(Context& context, const std::filesystem::path& path, const Place& place) {
-  std::ifstream stream(path, std::ios::binary);
-  std::ostringstream text;
-  // an empty file sets the failbit of text, and is none of our business here
-  if (!stream || (stream.peek() != std::ifstream::traits_type::eof() && !(text << stream.rdbuf())))
-    throw Error(fmt::format("cannot read {}", path.string()), place);
-  context.scene.inputs[path.string()] = hash_text(fnv1a(text.str()));
-  return text.str();
 }
 
 }  // namespace erbs

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "lua/input.h"
 #include "lua/read.h"
 
 namespace erbs {
@@ -58,10 +59,5 @@ void call_script(lua_State* lua, Context& context, int arguments, int results);
 void load_chunk(lua_State* lua, Context& context, const std::string& text, const std::string& name);
 
 void open_api(lua_State* lua);
-
-// Reads and remembers a file a script names: as given if absolute, else beside the scene, then in a folder `scenes` above it, then
-// in scenes/ of the current folder. Throws Error.
-std::filesystem::path find_input(const Context& context, const std::string& file, const Place& place);
-std::string read_input(Context& context, const std::filesystem::path& path, const Place& place);
 
 }  // namespace erbs

@@ -72,6 +72,14 @@ int camera(Call& call) {
 
 }  // namespace
 
+// Of a recorder: its quantity is a word of a list that help and editors show whole.
+Keys recorder_keys() {
+  Keys keys = keys_of<Recorder>();
+  for (Key& key : keys)
+    if (key.name == "quantity") key.type = "quantity";
+  return keys;
+}
+
 std::vector<Function> analysis_functions() {
   return {
       {"damping", damping, "{ ... }", "", "Damping of blocks and of joints.", keys_of<Damping>()},
@@ -81,7 +89,7 @@ std::vector<Function> analysis_functions() {
                  -unbounded, unbounded, false, "draft|standard|reference"}}})},
       {"recorder", recorder, "{ ... }", "",
        "Writes a quantity of one block, or its mean (of forces: the sum) over several, to histories.csv.",
-       joined({keys_of<Recorder>(),
+       joined({recorder_keys(),
                {{"block", "strings", "", "name of the block"},
                 {"blocks", "strings", "", "names of several blocks"},
                 {"group", "string", "", "all blocks of a group"},

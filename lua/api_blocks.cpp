@@ -10,6 +10,7 @@
 namespace erbs {
 
 static constexpr double far = 1e6;  // m, no coordinate lies further out
+static constexpr int most_given_vertices = 5000;  // the work of a hull grows with their square
 
 const Keys& part_keys() {
   static const Keys keys = {{"vertices", "points", "m", "corners", -far, far, true, "", ""},
@@ -82,7 +83,10 @@ Vec3 centroid_of(const std::vector<Polyhedron>& parts) {
 // Reads the keys all blocks share, puts the shape where it belongs and adds the block.
 int add_block(Call& call, Arguments& arguments, std::vector<Polyhedron> parts, const char* kind) {
   Context& context = call.context;
-  if (context.scene.blocks.size() >= 300000) throw Error("a scene holds at most 300000 blocks", call.place);
+  if (context.scene.blocks.size() >= static_cast<size_t>(context.scene.most_blocks))
+    throw Error(fmt::format("a scene holds at most {} blocks; build fewer, or say --max-blocks with what the memory bears (about 4 KiB each)",
+                            context.scene.most_blocks),
+                call.place);
   Block block;
   block.place = call.place;
   arguments.read(block);
@@ -106,6 +110,9 @@ int add_block(Call& call, Arguments& arguments, std::vector<Polyhedron> parts, c
   Initial initial;
   read_initial(arguments, context.frame(), initial);
   if (initial.given) block.started = std::make_shared<const Initial>(initial);
+  size_t bytes = sizeof(Block);
+  for (const Polyhedron& part : block.parts) bytes += sizeof(Polyhedron) + part.vertices.size() * sizeof(Vec3);
+  context.took(bytes);
   lua_pushstring(call.lua, block.name.c_str());
   context.scene.blocks.push_back(std::move(block));
   return 1;
@@ -132,6 +139,10 @@ std::vector<Polyhedron> read_part(Arguments& arguments) {
   arguments.read("faces", loops);
   part.faces = std::move(loops);
   const int n = static_cast<int>(part.vertices.size());
+  if (n > most_given_vertices) {
+    arguments.mistake(fmt::format("vertices has {} points; at most {} are allowed, of which 64 may be corners", n, most_given_vertices));
+    return {};
+  }
   if (n < 4) {
     arguments.mistake(fmt::format("vertices has {} point(s); a block needs at least 4", n));
     return {};
@@ -229,10 +240,12 @@ int mesh(Call& call) {
   arguments.read("scale", scale);
   arguments.read("at", at);
   std::vector<Polyhedron> parts;
+  if (file.empty() && arguments.has("file")) arguments.mistake("file = \"\" names no file");
   if (!file.empty()) try {
       const auto path = find_input(call.context, file, {});
       read_input(call.context, path, {});
-      parts = read_mesh(path.string());
+      const auto folders = readable_folders(call.context);
+      parts = read_mesh(path.string(), [&](const std::string& other) { return may_read(folders, other); });
       for (auto& part : parts) {
         for (auto& vertex : part.vertices) vertex *= scale;
         part = translated(part, at);
@@ -331,7 +344,7 @@ std::vector<Function> block_functions() {
                 at},
                placed})},
       {"mesh", mesh, "{ ... }", name, "A block from a file (OBJ, STL, PLY, glTF); each mesh in it is one convex part.",
-       joined({{{"file", "string", "", "path, relative to the scene", -unbounded, unbounded, true, "", ""},
+       joined({{{"file", "string", "", "path in the folder of the scene, or in one of --allow", -unbounded, unbounded, true, "", ""},
                 {"scale", "number", "", "factor on its coordinates, to metres", 1e-9, 1e9, false, "", "1"},
                 at},
                placed})},

@@ -86,12 +86,12 @@ std::vector<Function> load_functions() {
   Keys turning_keys = load_keys("rad", "axis", "\"x\", \"y\", \"z\" or a vector", true);
   turning_keys.push_back({"about", "vec3", "m", "point at rest that stays where it is (default the centroid)", -1e6, 1e6});
   return {
-      {"ground_motion", ground_motion, "{ ... }", "", "Shakes the ground by an acceleration; several add up.",
+      {"ground_motion", ground_motion, "{ ... }", "", "Shakes the ground by an acceleration; several add up. A positive one moves the ground along its direction and throws what stands on it the other way.",
        load_keys("m/s2", "direction", "\"x\", \"y\", \"z\" or a vector", false)},
       {"force", force, "{ ... }", "", "A force on a block.", force_keys},
       {"moment", moment, "{ ... }", "", "A moment on a block.",
        load_keys("N m", "direction", "axis of the moment: \"x\", \"y\", \"z\" or a vector", true)},
-      {"tilt", tilt, "{ ... }", "", "Turns gravity by an angle about an axis, as a tilting table does.",
+      {"tilt", tilt, "{ ... }", "", "Turns gravity by an angle about an axis, as a tilting table does: right-handed, so that a positive one about x pulls towards +y, about y towards -x.",
        load_keys("rad", "axis", "\"x\", \"y\", \"z\" or a vector", false)},
       {"motion", motion, "{ ... }", "", "Moves a block by a displacement along a direction; its other degrees of freedom are held.",
        load_keys("m", "direction", "\"x\", \"y\", \"z\" or a vector", true)},

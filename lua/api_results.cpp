@@ -3,6 +3,7 @@
 #include <cmath>
 #include <lua5.4/lua.hpp>
 
+#include "engine/base/text.h"
 #include "lua/api.h"
 
 namespace erbs {
@@ -35,6 +36,9 @@ int param(Call& call) {
   if (lua_type(call.lua, 2) != LUA_TNUMBER)
     throw Error(fmt::format("param \"{}\": the default must be a number, not {}", item.name, described(call.lua, 2)), call.place);
   item.value = item.fallback = lua_tonumber(call.lua, 2);
+  if (!is_name(item.name)) call.mistake(fmt::format("name = \"{}\" becomes a word of -D: letters, digits, _, + and - only", item.name));
+  if (!std::isfinite(item.value))
+    call.mistake(fmt::format("\"{}\" is {} (0/0? 1/0?); the default must be a finite number", item.name, written(item.value)));
   if (!lua_isnoneornil(call.lua, 3)) split_unit(call.text(3, "text"), item);
   auto& params = call.context.scene.params;
   for (const Param& other : params)
@@ -61,6 +65,8 @@ int metric(Call& call) {
   item.name = call.text(1, "name");
   item.unit = call.text(2, "unit");
   item.place = call.place;
+  if (!is_name(item.name))
+    call.mistake(fmt::format("name = \"{}\" becomes a key of metrics.json: letters, digits, _, + and - only", item.name));
   for (const Metric& other : call.context.metrics)
     if (other.name == item.name)
       call.mistake(fmt::format("\"{}\" was given before, at {}; use another name", item.name, other.place.text()));
@@ -106,9 +112,10 @@ int expect(Call& call) {
   const int type = lua_type(call.lua, 2);
   if (type == LUA_TNUMBER) {
     item.value = lua_tonumber(call.lua, 2);
+    if (std::isnan(item.value)) call.mistake(fmt::format("of \"{}\": the value is not a number (0/0?)", item.key));
   } else if (type == LUA_TSTRING || type == LUA_TBOOLEAN) {
     item.kind = Expectation::Kind::equal;
-    item.text_value = type == LUA_TSTRING ? lua_tostring(call.lua, 2) : lua_toboolean(call.lua, 2) ? "true" : "false";
+    item.text_value = type == LUA_TSTRING ? call.text(2, "the value") : lua_toboolean(call.lua, 2) ? "true" : "false";
   } else if (type != LUA_TNIL) {
     throw Error(fmt::format("expect \"{}\": the value must be a number, a word, true or false, not {}", item.key, described(call.lua, 2)),
                 call.place);
@@ -149,12 +156,12 @@ int include(Call& call) {
   namespace fs = std::filesystem;
   Context& context = call.context;
   const std::string file = call.text(1, "file");
-  const fs::path folder = fs::weakly_canonical(context.folder.empty() ? fs::path(".") : context.folder);
-  const fs::path path = fs::weakly_canonical(folder / file);
-  if (std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first != folder.end())
+  const fs::path folder = readable_folders(context).front(), path = folder / file;
+  std::error_code failed;
+  if (!may_read({folder}, path))
     throw Error(fmt::format("include \"{}\" leaves the folder of the scene; put the file beside the scene", file), call.place);
-  if (!fs::is_regular_file(path))
-    throw Error(fmt::format("include \"{}\": there is no such file in {}", file, folder.string()), call.place);
+  if (!fs::is_regular_file(path, failed))
+    throw Error(fmt::format("include \"{}\": there is no such file in {}; correct the name", file, folder.string()), call.place);
   if (context.includes >= 20)
     throw Error(fmt::format("include \"{}\" is nested more than 20 deep; does a file include itself?", file), call.place);
   const std::string text = read_input(context, path, call.place);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <lua5.4/lua.hpp>
 
+#include "engine/base/text.h"
 #include "engine/base/words.h"
 #include "lua/api.h"
 
@@ -28,8 +29,8 @@ int add(Call& call, Arguments& arguments, Study study, const char* key) {
   if (!study.param.empty() && !param)
     arguments.mistake(fmt::format("there is no param \"{}\" yet; write param(\"{}\", ...) above", study.param, study.param));
   if (param && study.kind == Study::Kind::bisect) study.unit = param->unit;
-  if (study.name.find_first_of("/. \t\n") != std::string::npos || study.name.empty())
-    arguments.mistake(fmt::format("name = \"{}\" becomes that of metrics and a folder: letters, digits and _ only", study.name));
+  if (!is_name(study.name))
+    arguments.mistake(fmt::format("name = \"{}\" becomes that of metrics and a folder: letters, digits, _, + and - only", study.name));
   for (const Study& other : context.studies)
     if (other.name == study.name)
       arguments.mistake(fmt::format("a study \"{}\" was given before, at {}; add name = ...", study.name, other.place.text()));
@@ -115,8 +116,8 @@ int figure(Call& call) {
   arguments.read("title", item.title);
   arguments.read("x", item.x);
   arguments.read("y", item.y);
-  if (item.name.find_first_of("/. \t\n") != std::string::npos || item.name.empty())
-    arguments.mistake(fmt::format("name = \"{}\" becomes that of a file: letters, digits and _ only", item.name));
+  if (!is_name(item.name))
+    arguments.mistake(fmt::format("name = \"{}\" becomes that of a file: letters, digits, _, + and - only", item.name));
   for (Arguments& table : arguments.tables("curves", curve_keys())) {
     Curve curve;
     table.read("label", curve.label);
@@ -143,7 +144,7 @@ std::vector<std::pair<std::string, std::vector<double>>> lists_of(Call& call, co
       call.mistake("it takes the names of params, each with a list of values, such as { kn = { 1e9, 1e10 } }");
       continue;
     }
-    const std::string name = lua_tostring(call.lua, -2);
+    const std::string name = shown(lua_tostring(call.lua, -2), 60);
     if (std::find(known.begin(), known.end(), name) == known.end()) {
       call.mistake(fmt::format("there is no param \"{}\" yet{}; write param(\"{}\", ...) above", name, did_you_mean(name, known), name));
       continue;

@@ -29,11 +29,18 @@ void finish(Call&, Arguments& arguments, Table& wave) {
 
 void finish(Call& call, Arguments& arguments, Record& wave) {
   if (arguments.has("peak") && arguments.has("scale")) arguments.mistake("\"peak\" and \"scale\" exclude each other; keep one");
-  if (wave.file.empty()) return;
+  if (wave.file.empty()) {
+    if (arguments.has("file")) arguments.mistake("file = \"\" names no file");
+    wave.acceleration = make_polyline({0, 1}, {0, 0});
+    return;
+  }
   wave.file = find_input(call.context, wave.file, call.place).string();
   wave = read_record(std::move(wave), call.place);
   call.context.scene.inputs[wave.file] = wave.hash;
 }
+
+size_t points_of(const Record& wave) { return wave.acceleration.times.size(); }
+size_t points_of(const Table& wave) { return wave.line.times.size(); }
 
 template <class W>
 int make_wave(Call& call) {
@@ -48,6 +55,7 @@ int make_wave(Call& call) {
     push_wave(call.lua, call.context, Pulse{0, 0, 0});
     return 1;
   }
+  if constexpr (std::is_same_v<W, Table> || std::is_same_v<W, Record>) call.context.took(4 * sizeof(double) * points_of(wave));
   push_wave(call.lua, call.context, std::move(wave));
   return 1;
 }

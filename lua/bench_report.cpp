@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/record/gnuplot.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -24,21 +25,21 @@ double of(const Json& rows, const char* name, const char* key) {
 
 void print_bench_row(const Json& row) {
   if (row.contains("failed")) {
-    fmt::print("{:<12} failed: {}\n", row["scene"].get<std::string>(), row["failed"].get<std::string>());
+    say("{:<12} failed: {}\n", row["scene"].get<std::string>(), row["failed"].get<std::string>());
     return;
   }
-  fmt::print("{:<12} {:>6} blocks {:>7} points  {:9.2f} us/step  {:8.0f} steps/s", row["scene"].get<std::string>(),
+  say("{:<12} {:>6} blocks {:>7} points  {:9.2f} us/step  {:8.0f} steps/s", row["scene"].get<std::string>(),
              row["blocks"].get<int>(), row["points"].get<int>(), number(row, "one_thread.user_us_per_step"),
              number(row, "one_thread.steps_per_s"));
   if (row["points"].get<int>() > 0)
-    fmt::print("  {:6.3f} ns/point  {:5.1f} B/point  roofline {:.0f} %", number(row, "one_thread.ns_per_point"),
+    say("  {:6.3f} ns/point  {:5.1f} B/point  roofline {:.0f} %", number(row, "one_thread.ns_per_point"),
                number(row, "roofline.bytes_per_point"), 100 * number(row, "roofline.share"));
   if (row.contains("intact_vs_reference"))
-    fmt::print("  {:.1f}x reference (broken {:.1f}x)", number(row, "intact_vs_reference"), number(row, "broken_vs_reference"));
+    say("  {:.1f}x reference (broken {:.1f}x)", number(row, "intact_vs_reference"), number(row, "broken_vs_reference"));
   if (number(row, "one_thread.touching") > 0)
-    fmt::print("  {:.2f} million pairs/s, {:.3g} CPU s a simulated s", 1e-6 * number(row, "one_thread.pairs_per_s"),
+    say("  {:.2f} million pairs/s, {:.3g} CPU s a simulated s", 1e-6 * number(row, "one_thread.pairs_per_s"),
                number(row, "one_thread.cpu_s_per_s"));
-  fmt::print("  two threads {:.2f}x{}\n", number(row, "two_threads_over_one"),
+  say("  two threads {:.2f}x{}\n", number(row, "two_threads_over_one"),
              row["same_bits_with_two_threads"].get<bool>() ? "" : ", OTHER BITS");
   std::fflush(stdout);
 }
@@ -65,7 +66,7 @@ Json bench_summary(const Json& rows) {
 void print_bench_summary(const Json& summary) {
   for (const auto& [key, value] : summary.items())
     if (key != "cases")
-      fmt::print("{:<28} {}\n", key, value.is_number() ? fmt::format("{:.4g}", value.get<double>()) : "not measured here");
+      say("{:<28} {}\n", key, value.is_number() ? fmt::format("{:.4g}", value.get<double>()) : "not measured here");
 }
 
 // Nanoseconds a point and step of every case, and below them what the machine allows.
@@ -77,7 +78,7 @@ void write_bench_figure(const Json& rows, const std::string& path) {
       "set ylabel 'ns per contact point and step, one thread'\nset key top left\nset yrange [0.05:*]\n$bench << END\n";
   for (const auto& [name, row] : rows.items()) {
     if (!row.contains("points") || row["points"].get<int>() == 0) continue;
-    const auto value = [&](const char* key) {
+    const auto value = [&row = row](const char* key) {
       return std::isfinite(number(row, key)) ? fmt::format("{:.5g}", number(row, key)) : std::string("-");
     };
     text += fmt::format("\"{}\" {} {} {} {}\n", name, value("reference.ns_per_point"), value("one_thread.ns_per_point"),

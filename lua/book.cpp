@@ -1,4 +1,5 @@
 #include "lua/book.h"
+#include "lua/book_endings.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,6 +8,8 @@
 #include <iterator>
 #include <thread>
 
+#include "engine/base/core.h"
+#include "engine/base/text.h"
 #include "engine/record/gnuplot.h"
 #include "engine/record/manifest.h"
 #include "lua/progress.h"
@@ -105,15 +108,22 @@ std::string table_of(const Family& family) {
   return text;
 }
 
+// Words of a scene in the running text: no tags of HTML.
+std::string plain(const std::string& words) {
+  std::string out;
+  for (const char c : for_files(words)) out += c == '<' ? std::string("&lt;") : std::string(1, c);
+  return out;
+}
+
 std::string sources_of(const Family& family, const std::string& book) {
   std::string text;
   std::map<std::string, std::vector<std::string>> files;
   for (const CaseResult* result : family.cases) {
     std::vector<std::string> sources, causes;
     for (const Verdict& v : result->verdicts) add_once(sources, v.source), add_once(causes, cause_of(v, files));
-    text += fmt::format("- [{}]({}): {}", result->name, relative_link(book, result->scene), sentences({result->title}));
-    if (!sources.empty()) text += " *Source:* " + sentences(sources);
-    if (!causes.empty()) text += " *Tolerance:* " + sentences(causes);
+    text += fmt::format("- [{}]({}): {}", result->name, relative_link(book, result->scene), plain(sentences({result->title})));
+    if (!sources.empty()) text += " *Source:* " + plain(sentences(sources));
+    if (!causes.empty()) text += " *Tolerance:* " + plain(sentences(causes));
     text += "\n";
   }
   return text;
@@ -126,7 +136,7 @@ std::string figures_of(const Family& family, const std::string& book, const fs::
     for (const LeftFigure& figure : result->figures) {
       const std::string file = (media / fmt::format("{}_{}.svg", result->name, figure.name)).string();
       run_gnuplot(figure.script, file);
-      text += fmt::format("![{}]({})\n\n*{}*: {}.\n\n", figure.title, relative_link(book, file), cell(result->name), figure.title);
+      text += fmt::format("![{0}]({1})\n\n*{2}*: {0}.\n\n", plain(figure.title), relative_link(book, file), cell(result->name));
     }
   return text;
 }
@@ -190,22 +200,33 @@ std::string summary_line(const std::vector<Family>& families) {
                      expectations - failed, failed, fmt::join(worst, ", "));
 }
 
+// Of a link: what ends it is written as its number.
+static std::string in_link(const std::string& path) {
+  std::string out;
+  for (const char c : path) {
+    const bool sound = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '/' || c == '.' || c == '_' || c == '-';
+    out += sound ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return out;
+}
+
 std::string relative_link(const std::string& from, const std::string& to) {
-  return fs::weakly_canonical(to).lexically_relative(fs::weakly_canonical(from).parent_path()).generic_string();
+  return in_link(fs::weakly_canonical(to).lexically_relative(fs::weakly_canonical(from).parent_path()).generic_string());
 }
 
 std::string cell(const std::string& text) {
   std::string out;
   for (const char c : text) {
     if (c == '|' || c == '<' || c == '*' || c == '_') out += '\\';
-    out += c == '\n' ? ' ' : c;
+    out += c;
   }
-  return out;
+  return for_files(out);
 }
 
 std::string code_cell(const std::string& name) {
-  std::string out = name;
+  std::string out = for_files(name);
   std::replace(out.begin(), out.end(), '|', '/');
+  std::replace(out.begin(), out.end(), '`', '\'');
   return out.empty() ? "" : "`" + out + "`";
 }
 
@@ -230,14 +251,14 @@ void write_book(const std::vector<CaseResult>& results, const Options& options, 
                       fmt::join(options.words, " "), options.quick ? " --quick" : "", fs::proximate(book).generic_string(),
                       duration_text(wall), machine_isa(),
                       options.jobs > 0 ? fmt::format("{} runs at a time", options.jobs) : "as many runs at a time as there are",
-                      std::thread::hardware_concurrency(), program_version());
+                      usable_processors(), program_version());
   text += "**" + summary + "**\n\n" + overview(families) + "\n";
   text +=
       "The share is the error over its tolerance: 1 is the end of what is allowed. Cost: seconds of processor and contact points "
       "evaluated.\n";
   if (fs::exists(folder / "grid.md"))
     text += "The hard cases at other steps, other numbers of contact points and with noise in the start: [the grid](grid.md).\n";
-  text += "\n## What fails\n" + failures(families);
+  text += "\n## What fails\n" + failures(families) + "\n" + endings_table;
   for (const Family& f : families) {
     const std::string figure = (media / ("book_" + f.key + ".svg")).string();
     draw_family(f, figure);

@@ -10,6 +10,9 @@
 #include <set>
 #include <thread>
 
+#include "engine/base/core.h"
+#include "engine/base/interrupt.h"
+#include "engine/base/text.h"
 #include "engine/record/run_folder.h"
 #include "lua/child.h"
 
@@ -49,12 +52,10 @@ std::vector<std::string> scenes_of(const std::string& word) {
 }
 
 // A scene that cannot be read is kept: its case then tells the mistake.
-bool carries(const std::string& scene, const std::string& label, const Overrides& overrides) {
+bool carries(const std::string& scene, const std::string& label, const Options& options) {
   try {
-    Script::Options quiet;
-    quiet.quiet = true;
-    Script script(quiet);
-    const auto& labels = script.load(scene, overrides).labels;
+    Script script(script_options(options, true));
+    const auto& labels = script.load(scene, options.overrides).labels;
     return std::find(labels.begin(), labels.end(), label) != labels.end();
   } catch (const std::exception&) { return true; }
 }
@@ -84,7 +85,7 @@ Child launch(const Case& item, const Options& options, int threads, std::optiona
   for (const auto& [name, value] : options.overrides) command.insert(command.end(), {"-D", name + "=" + value});
   if (options.allow_unstable) command.emplace_back("--allow-unstable");
   if (max_wall) command.insert(command.end(), {"--max-wall", fmt::format("{}s", *max_wall)});
-  command.insert(command.end(), item.extra.begin(), item.extra.end());
+  for (const auto& more : {item.extra, permissions(options)}) command.insert(command.end(), more.begin(), more.end());
   for (const char* old : {"expectations.json", "metrics.json"}) fs::remove(run_file(item.directory, old));
   return start(command, item.log);
 }
@@ -106,7 +107,7 @@ std::vector<Case> find_cases(const Options& options, const std::string& out, con
   for (const auto& word : options.words)
     for (const auto& scene : scenes_of(word)) {
       if (!files.insert(fs::weakly_canonical(scene).string()).second) continue;
-      if (!label.empty() && !carries(scene, label, options.overrides)) continue;
+      if (!label.empty() && !carries(scene, label, options)) continue;
       const std::string stem = fs::path(scene).stem().string();
       std::string name = stem;
       for (int i = 2; !names.insert(name).second; ++i) name = fmt::format("{}_{}", stem, i);
@@ -117,7 +118,7 @@ std::vector<Case> find_cases(const Options& options, const std::string& out, con
 }
 
 void run_cases(std::vector<Case>& cases, const Options& options, const std::function<void(const Case&)>& ended) {
-  const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int machine = usable_processors();
   const size_t jobs = static_cast<size_t>(options.jobs > 0 ? options.jobs : machine);
   // as many runs at once as there are processors: one thread each; fewer: each as it sees fit (0)
   const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::min(jobs, cases.size())) >= machine ? 1 : 0;
@@ -128,9 +129,16 @@ void run_cases(std::vector<Case>& cases, const Options& options, const std::func
   auto told = begin;
   const auto left_of_budget = [&] { return options.budget - std::chrono::duration<double>(Clock::now() - begin).count(); };
   const auto in_time = [&] { return options.budget <= 0 || left_of_budget() > 0; };
-  while (!running.empty() || (next < cases.size() && in_time())) {
-    while (next < cases.size() && running.size() < jobs && in_time()) {
+  const std::atomic<bool>& interrupted = catch_interrupts();
+  bool told_all = false;
+  while (!running.empty() || (next < cases.size() && in_time() && !interrupted)) {
+    if (interrupted && !told_all) {
+      for (const auto& [pid, run] : running) interrupt({pid});
+      told_all = true;
+    }
+    while (next < cases.size() && running.size() < jobs && in_time() && !interrupted) {
       Case& item = cases[next++];
+      item.started = true;
       fs::create_directories(fs::path(item.directory).parent_path());
       std::optional<double> max_wall = options.max_wall;
       if (item.within_budget && options.budget > 0) max_wall = std::min(max_wall.value_or(1e9), std::max(1.0, left_of_budget()));
@@ -140,7 +148,7 @@ void run_cases(std::vector<Case>& cases, const Options& options, const std::func
       const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
       const double left = done > 0 ? spent / static_cast<double>(done) * static_cast<double>(cases.size() - done) : 0;
       fmt::print(stderr, "\r\033[K{} of {} cases, about {:.0f} s left, running {}", done, cases.size(), left,
-                 running.begin()->second.item->name);
+                 shown(running.begin()->second.item->name, 60));
     }
     if (!live && !options.quiet && done > 0 && Clock::now() - told > std::chrono::seconds(10)) {
       told = Clock::now();
@@ -159,6 +167,7 @@ void run_cases(std::vector<Case>& cases, const Options& options, const std::func
     ++done;
   }
   if (live) fmt::print(stderr, "\r\033[K");
+  if (interrupted) throw Interrupted(fmt::format("interrupted; {} of {} runs are done", done, cases.size()));
 }
 
 CaseResult result_of(const Case& item) {
@@ -179,7 +188,9 @@ CaseResult result_of(const Case& item) {
     result.figures = figures_of(item.directory);
   } catch (const std::exception& error) { result.trouble = error.what(); }
   const bool wrong_code = item.code != exit_ok && item.code != exit_expectation;
-  if (item.overdue) result.trouble = "stopped: it took longer than --max-wall allows";
+  result.started = item.started;
+  if (!item.started) result.trouble = "not started: the time of --budget was over";
+  else if (item.overdue) result.trouble = "stopped: it took longer than --max-wall allows";
   else if (wrong_code) result.trouble = last_words(item.log, item.code, item.scene);
   else if (result.verdicts.empty() && result.trouble.empty()) result.trouble = "the scene carries no expectation; add expect(...)";
   return result;

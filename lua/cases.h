@@ -18,6 +18,7 @@ struct Case {
   int code = 0;
   double cpu = 0;        // s, of the run and its studies
   bool overdue = false;  // had to be stopped
+  bool started = false;
 };
 
 // What a case left behind.
@@ -28,6 +29,7 @@ struct CaseResult {
   std::string trouble;  // why it ended badly, or gave nothing to judge; "" where neither
   double cpu = 0;       // s of processor
   double updates = 0;   // contact points evaluated
+  bool started = true;  // false: the budget of all was over before
   double dt_share = 0;  // dt over dt_critical; 0 where nothing is joined
   bool passed() const;
 };

@@ -86,16 +86,22 @@ struct Context {
   bool own_step = false;            // analysis{} says dt or dt_fraction
   std::vector<size_t> plain_rules;  // joint rules that say neither rule nor points
   std::vector<std::string> output;  // what the script printed
+  size_t printed = 0;               // bytes of it
   std::filesystem::path folder;     // of the scene file
+  std::vector<std::string> allowed;  // further folders that the scene may read
   std::vector<std::string> files;   // names of the chunks that are the user's
   bool incomplete = false;          // masonry with mistakes was left out: what follows from its absence is no mistake
   const RunResults* run = nullptr;  // while metrics are evaluated
   int includes = 0;                 // depth of include at the moment
   bool quiet = false;               // print writes to output only
+  int repeated = 0;                 // mistakes that were noted before
+  size_t taken = 0, calls = 0;      // bytes and calls of the language since memory was looked at
 
   const Frame& frame() const { return frames.back(); }
   // Adds one mistake of the user's; the script goes on, so that all are reported at once. Ends the script when there are very many.
   void mistake(const Place& place, const std::string& message);
+  // Counts what a call of the language keeps outside of Lua; throws Error where all memory together is past its limit.
+  void took(size_t bytes);
 };
 
 Context& context_of(lua_State* lua);

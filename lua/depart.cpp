@@ -5,6 +5,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "engine/base/text.h"
 #include "engine/base/words.h"
 #include "engine/loads/earlier.h"
 #include "lua/quality.h"
@@ -27,7 +28,7 @@ void set_analysis(Analysis& analysis, const std::string& setting) {
           using T = std::decay_t<decltype(analysis.*member)>;
           if constexpr (std::is_same_v<T, std::string>) {
             if (!field.words.empty() && ("|" + std::string(field.words) + "|").find("|" + value + "|") == std::string::npos)
-              throw Error(fmt::format("--set {}: must be one of {}", setting, field.words));
+              throw Error(fmt::format("--set {}: must be one of {}", shown(setting), field.words));
             analysis.*member = value;
           } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, int> || std::is_same_v<T, bool>) {
             double number = 0;
@@ -35,8 +36,11 @@ void set_analysis(Analysis& analysis, const std::string& setting) {
             try {
               number = std::stod(value, &used);
             } catch (const std::exception&) {}
-            if (value.empty() || used != value.size() || (field.low < field.high && (number < field.low || number > field.high)))
-              throw Error(fmt::format("--set {}: must be a number from {:g} to {:g}", setting, field.low, field.high));
+            constexpr bool whole = !std::is_same_v<T, double>;
+            const bool ranged = field.low < field.high && !std::is_same_v<T, bool>;
+            const double low = ranged ? field.low : 0, high = ranged ? field.high : 1;
+            if (value.empty() || used != value.size() || !(number >= low && number <= high) || (whole && number != std::floor(number)))
+              throw Error(fmt::format("--set {}: must be a {}number from {:g} to {:g}", shown(setting), whole ? "whole " : "", low, high));
             analysis.*member = static_cast<T>(number);
           } else {
             throw Error(fmt::format("--set {}: only numbers and words can be set", setting));
@@ -115,6 +119,23 @@ std::string quality_of(const Options& options) {
       throw Error(fmt::format("--set {}: must be draft, standard or reference", setting));
   }
   return quality;
+}
+
+std::vector<std::string> permissions(const Options& options) {
+  std::vector<std::string> words;
+  for (const auto& folder : options.allow) words.insert(words.end(), {"--allow", folder});
+  if (options.max_blocks > 0) words.insert(words.end(), {"--max-blocks", std::to_string(options.max_blocks)});
+  if (options.max_points > 0) words.insert(words.end(), {"--max-points", std::to_string(options.max_points)});
+  return words;
+}
+
+Script::Options script_options(const Options& options, bool quiet) {
+  Script::Options out;
+  out.quiet = quiet;
+  out.allow = options.allow;
+  if (options.max_blocks > 0) out.most_blocks = options.max_blocks;
+  if (options.max_points > 0) out.most_points = options.max_points;
+  return out;
 }
 
 std::vector<std::string> departures(const Options& options) {

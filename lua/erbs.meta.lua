@@ -37,6 +37,8 @@ pi, deg = math.pi, math.pi / 180 -- rad
 g = 9.81 -- m/s2
 start_noise = 0 -- by up to how much the start of every free block is off: erbs run --noise, erbs test --grid [m and rad]
 
+---@alias erbs.quantity "displacement"|"velocity"|"acceleration"|"rotation"|"spin"|"momentum"|"angular_momentum"|"reaction"|"reaction_moment"|"load"|"load_moment"|"opening"|"slip"|"normal_force"|"shear_force"|"joint_moment"|"damage"|"broken"|"ground_acceleration"|"ground_velocity"|"ground_displacement"|"contact_points"|"joints_broken"
+
 ---@class erbs.initial
 ---@field position? erbs.vec3 displacement from rest [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
 ---@field rotation? erbs.vec3 rotation vector (axis times angle) from rest [rad; -100 to 100; default { 0, 0, 0 }]
@@ -124,7 +126,7 @@ function block(keys) end
 function prism(keys) end
 
 ---@class erbs.mesh_keys
----@field file string path, relative to the scene
+---@field file string path in the folder of the scene, or in one of --allow
 ---@field scale? number factor on its coordinates, to metres [1e-09 to 1e+09; default 1]
 ---@field at? erbs.vec3 moves the shape by this [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
 ---@field name? string name, unique (default from the group and a number)
@@ -292,7 +294,7 @@ function record(keys) end
 ---@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
 ---@field name? string name, for reports
 
----Shakes the ground by an acceleration; several add up.
+---Shakes the ground by an acceleration; several add up. A positive one moves the ground along its direction and throws what stands on it the other way.
 ---@param keys erbs.ground_motion_keys
 function ground_motion(keys) end
 
@@ -325,7 +327,7 @@ function moment(keys) end
 ---@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
 ---@field name? string name, for reports
 
----Turns gravity by an angle about an axis, as a tilting table does.
+---Turns gravity by an angle about an axis, as a tilting table does: right-handed, so that a positive one about x pulls towards +y, about y towards -x.
 ---@param keys erbs.tilt_keys
 function tilt(keys) end
 
@@ -405,7 +407,7 @@ function analysis(keys) end
 
 ---@class erbs.recorder_keys
 ---@field name string stem of its columns in histories.csv
----@field quantity string what is written
+---@field quantity erbs.quantity what is written
 ---@field axis? "x"|"y"|"z"|"xy"|"xz"|"yz"|"xyz" which components [default xyz]
 ---@field frame? "rel"|"abs" relative to the ground, or absolute [default rel]
 ---@field point? erbs.vec3 material point at rest, instead of the centroid [m; -1e+06 to 1e+06; default { 0, 0, 0 }]

@@ -38,6 +38,12 @@ std::string numbers_of(const Curve& curve, const std::string& directory) {
   return text;
 }
 
+// The first line of a script is its title as a string of JSON: a comment that no title can end, nor carry on into the next line.
+std::string title_in(const std::string& script) {
+  const Json title = Json::parse(script.substr(2, script.find('\n') - 2), nullptr, false);
+  return title.is_string() ? title.get<std::string>() : "";
+}
+
 std::string script_of(const Figure& figure, const std::string& directory) {
   std::string data, plots;
   for (size_t i = 0; i < figure.curves.size(); ++i) {
@@ -55,7 +61,8 @@ std::string script_of(const Figure& figure, const std::string& directory) {
              "set border 3 lc rgb '#5a5a5a' lw 1\nset tics out nomirror scale 0.6 tc rgb '#222222'\n"
              "set grid lc rgb '#dddddd' lw 1 lt 1\nset key below\nset title {} tc rgb '#111111'\n"
              "set xlabel {} tc rgb '#222222'\nset ylabel {} tc rgb '#222222'\n",
-             figure.title, gnuplot_quoted(figure.title), gnuplot_quoted(figure.x), gnuplot_quoted(figure.y)) +
+             Json(figure.title).dump(-1, ' ', false, Json::error_handler_t::replace), gnuplot_quoted(figure.title), gnuplot_quoted(figure.x),
+             gnuplot_quoted(figure.y)) +
          data + "plot " + plots + "\n";
 }
 
@@ -80,7 +87,7 @@ std::vector<LeftFigure> figures_of(const std::string& directory) {
     if (entry.path().extension() != ".gnuplot") continue;
     std::ifstream stream(entry.path(), std::ios::binary);
     const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    found.push_back({entry.path().stem().string(), text.substr(2, text.find('\n') - 2), text});
+    found.push_back({entry.path().stem().string(), title_in(text), text});
   }
   std::sort(found.begin(), found.end(), [](const LeftFigure& a, const LeftFigure& b) { return a.name < b.name; });
   return found;

@@ -15,6 +15,7 @@
 #include "lua/family.h"
 #include "lua/progress.h"
 #include "lua/read.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -61,23 +62,19 @@ Variant variant_of(const Case& scene, const std::string& key, const Choice& choi
   return variant_of(scene, key, stem, words, std::move(extra));
 }
 
-Script::Options quietly() {
-  Script::Options options;
-  options.quiet = true;
-  return options;
-}
-
 // Why the scene cannot be built so; "" where it can.
-std::string refusal(const Case& scene, Overrides overrides, const Choice& choice) {
+std::string refusal(const Case& scene, const Options& options, const Choice& choice) {
+  Overrides overrides = options.overrides;
   for (const auto& [name, value] : choice) overrides.emplace_back(name, fmt::format("{:.17g}", value));
   try {
-    Script(quietly()).load(scene.scene, overrides);
+    Script(script_options(options, true)).load(scene.scene, overrides);
     return "";
   } catch (const std::exception& error) { return error.what(); }
 }
 
 // At the steps of a family, with its values alone and drawn together; what -D says stays.
-std::vector<Variant> family_of(const Case& scene, const Overrides& overrides, ParamFamily family, const std::string& key, bool fixed_dt) {
+std::vector<Variant> family_of(const Case& scene, const Options& options, ParamFamily family, const std::string& key, bool fixed_dt) {
+  const Overrides& overrides = options.overrides;
   std::erase_if(family.values, [&](const auto& list) {
     return std::any_of(overrides.begin(), overrides.end(), [&](const auto& given) { return given.first == list.first; });
   });
@@ -87,13 +84,13 @@ std::vector<Variant> family_of(const Case& scene, const Overrides& overrides, Pa
       all.push_back(variant_of(scene, key, fmt::format("_dt{}", share), fmt::format("dt {}", share), {"--dt-fraction", fmt::format("{}", share)}));
   for (const Choice& choice : one_at_a_time(family)) {
     all.push_back(variant_of(scene, key, choice));
-    if (const std::string why = refusal(scene, overrides, choice); !why.empty()) all.back().refused = why;
+    if (const std::string why = refusal(scene, options, choice); !why.empty()) all.back().refused = why;
   }
   std::set<Choice> drawn;
   const int n = family.values.size() > 1 ? family.combinations : 0;
   for (int i = 0; static_cast<int>(drawn.size()) < n && i < draws * n; ++i) {
     const Choice choice = combination(family, i);
-    if (drawn.contains(choice) || !refusal(scene, overrides, choice).empty()) continue;
+    if (drawn.contains(choice) || !refusal(scene, options, choice).empty()) continue;
     drawn.insert(choice);
     all.push_back(variant_of(scene, key, choice));
   }
@@ -107,27 +104,29 @@ std::string key_of(const Script& script, const Overrides& overrides) {
   return key;
 }
 
-std::vector<Variant> seeds_of(const Case& scene, const Overrides& overrides, int n) {
-  Script script(quietly());
+std::vector<Variant> seeds_of(const Case& scene, const Options& options) {
+  const Overrides& overrides = options.overrides;
+  Script script(script_options(options, true));
   const auto& params = script.load(scene.scene, overrides).params;
   if (std::none_of(params.begin(), params.end(), [](const Param& param) { return param.name == "seed"; }))
     throw Error(fmt::format("{} has no param \"seed\"; write param(\"seed\", 1, \"\") in it, or leave --seeds out", scene.scene));
   std::vector<Variant> all;
-  for (int i = 1; i <= n; ++i) all.push_back(variant_of(scene, key_of(script, overrides), {{"seed", i}}));
+  for (int i = 1; i <= options.seeds; ++i) all.push_back(variant_of(scene, key_of(script, overrides), {{"seed", i}}));
   return all;
 }
 
 // Scenes that fix their step keep it, those without joints their points; those that declare a family are run over it.
-std::vector<Variant> variants_of(const Case& scene, const Overrides& overrides) {
+std::vector<Variant> variants_of(const Case& scene, const Options& options) {
+  const Overrides& overrides = options.overrides;
   bool fixed_dt = false, joints = true;
   std::string key = program_version();
   try {
-    Script script(quietly());
+    Script script(script_options(options, true));
     const Scene& s = script.load(scene.scene, overrides);
     key = key_of(script, overrides);
     fixed_dt = std::find(s.labels.begin(), s.labels.end(), "fixed_dt") != s.labels.end();
     joints = std::any_of(s.joint_rules.begin(), s.joint_rules.end(), [](const JointRule& rule) { return !rule.none; });
-    if (!script.family().values.empty()) return family_of(scene, overrides, script.family(), key, fixed_dt);
+    if (!script.family().values.empty()) return family_of(scene, options, script.family(), key, fixed_dt);
   } catch (const std::exception&) {}  // its run tells the mistake
   std::vector<Variant> all;
   for (size_t i = 0; i < (fixed_dt ? 1 : std::size(dt_fractions)); ++i)
@@ -242,15 +241,15 @@ void print(const Grid& grid) {
   for (const Worst& w : grid.rows)
     a = std::max(a, w.scene.size()), b = std::max(b, w.key.size()), c = std::max(c, w.expected.size() + w.tolerance.size() + 1),
     d = std::max(d, std::min<size_t>(w.got.size(), 40)), e = std::max(e, w.at.size());
-  fmt::print("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {:<6}  {:<{}}  {:<9}  runs\n", "case", a, "invariant", b, "bound", c, "worst", d, "share",
+  say("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {:<6}  {:<{}}  {:<9}  runs\n", "case", a, "invariant", b, "bound", c, "worst", d, "share",
              "at", e, "verdict");
   for (const Worst& w : grid.rows)
-    fmt::print("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {:<6}  {:<{}}  {:<9}  {}\n", w.scene, a, w.key, b, w.expected + " " + w.tolerance, c, w.got,
+    say("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {:<6}  {:<{}}  {:<9}  {}\n", w.scene, a, w.key, b, w.expected + " " + w.tolerance, c, w.got,
                d, share_text(w), w.at, e, !w.failed.empty() ? fmt::format("FAILED {}", w.failed.size()) : "ok", w.runs);
   for (const Worst& w : grid.rows)
-    if (!w.failed.empty()) fmt::print("{} {} fails at {}\n", w.scene, w.key, fmt::join(w.failed, "; "));
-  for (const auto& text : grid.refused) fmt::print("refused: {}\n", text);
-  fmt::print("{} ({} of processor)\n", summary_of(grid), duration_text(grid.cpu));
+    if (!w.failed.empty()) say("{} {} fails at {}\n", w.scene, w.key, fmt::join(w.failed, "; "));
+  for (const auto& text : grid.refused) say("refused: {}\n", text);
+  say("{} ({} of processor)\n", summary_of(grid), duration_text(grid.cpu));
   std::fflush(stdout);
 }
 
@@ -292,7 +291,7 @@ int run_grid(const Options& given) {
   const auto begin = std::chrono::steady_clock::now();
   std::vector<Variant> variants;
   for (const Case& scene : find_cases(options, out, ""))
-    for (Variant& v : options.seeds > 0 ? seeds_of(scene, options.overrides, options.seeds) : variants_of(scene, options.overrides))
+    for (Variant& v : options.seeds > 0 ? seeds_of(scene, options) : variants_of(scene, options))
       variants.push_back(std::move(v));
   std::vector<Case> runs;
   std::map<std::string, Variant*> of_name;
@@ -312,7 +311,7 @@ int run_grid(const Options& given) {
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!options.book.empty()) write_page(grid, options, options.resume ? 0 : wall);  // of runs that were kept nobody knows it
   if (grid.missing > 0) {
-    fmt::print("out of time; the same command with --resume makes the runs that are left\n");
+    say("out of time; the same command with --resume makes the runs that are left\n");
     return exit_stopped;
   }
   return std::any_of(grid.rows.begin(), grid.rows.end(), [](const Worst& w) { return !w.failed.empty(); }) ? exit_expectation : exit_ok;

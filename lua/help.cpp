@@ -8,6 +8,7 @@
 #include "engine/record/recorder.h"
 #include "lua/api.h"
 #include "lua/options.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -177,7 +178,8 @@ std::string editor_type(const Key& key) {
                                                               {"expected", "number|string|boolean?"},
                                                               {"family", "table<string, number[]>"},
                                                               {"family_how", "{ combinations?: integer, seed?: number }"},
-                                                              {"tolerance", "erbs.tolerance"}};
+                                                              {"tolerance", "erbs.tolerance"},
+                                                              {"quantity", "erbs.quantity"}};
   if (!key.inner.empty()) {
     std::vector<std::string> members;
     for (const Key& inner : key.inner)
@@ -260,6 +262,9 @@ std::string functions_list() {
 
 std::string editor_file() {
   std::string text = std::string(editor_head);
+  std::vector<std::string> quantities;
+  for (const Quantity& quantity : recorder_quantities()) quantities.push_back(fmt::format("\"{}\"", quantity.name));
+  text += fmt::format("---@alias erbs.quantity {}\n\n", fmt::join(quantities, "|"));
   for (const auto& [name, keys] : {std::pair{"initial", keys_of<Initial>()}, {"part", part_keys()}, {"tolerance", tolerance_keys()}})
     text += fmt::format("---@class erbs.{}\n{}\n", name, editor_fields(keys));
   for (const Function& function : all_functions()) text += editor_function(function);
@@ -267,10 +272,10 @@ std::string editor_file() {
 }
 
 int verb_help(const Options& options, const std::string& usage) {
-  if (options.words.empty()) fmt::print("{}\n{}", usage, functions_list());
-  else if (options.words.front() == "--editor") fmt::print("{}", editor_file());
+  if (options.words.empty()) say("{}\n{}", usage, functions_list());
+  else if (options.words.front() == "--editor") say("{}", editor_file());
   else
-    for (const auto& word : options.words) fmt::print("{}", function_help(word));
+    for (const auto& word : options.words) say("{}", function_help(word));
   return exit_ok;
 }
 

@@ -4,13 +4,40 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
+#include <system_error>
 
+#include "engine/base/interrupt.h"
+#include "engine/base/isa.h"
+#include "engine/base/streams.h"
+#include "engine/base/text.h"
 #include "engine/base/words.h"
+#include "engine/record/manifest.h"
 #include "lua/options.h"
+#include "lua/say.h"
 
 namespace {
 
 using erbs::Options;
+using erbs::shown;
+
+// A number in a range, ends included. CLI::Range lets NaN pass, which is neither below nor above anything.
+template <class T>
+CLI::Validator within(T low, T high) {
+  const std::string range = fmt::format("{} to {}", low, high);
+  return CLI::Validator(
+      [=](std::string& text) {
+        T value{};
+        if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return std::string();
+        return fmt::format("{} is not in range {}", shown(text), range);
+      },
+      range);
+}
+
+// An option that is there says something: from a script an empty word is mostly a variable that is not set.
+CLI::Validator filled() {
+  return CLI::Validator([](std::string& text) { return text.empty() ? std::string("it is empty; give it a value, or leave the option out") : ""; }, "");
+}
 
 struct CommandLine {
   Options options;
@@ -18,8 +45,8 @@ struct CommandLine {
   std::string until, max_wall, checkpoint_every, budget, target, within, from, window;
 };
 
-void add_output(CLI::App& verb, CommandLine& line) {
-  verb.add_option("-o", line.options.directory, "folder for the results (default runs/<scene name>)")->type_name("DIR");
+void add_output(CLI::App& verb, CommandLine& line, const std::string& place = "runs/<scene name>") {
+  verb.add_option("-o", line.options.directory, "folder for the results (default " + place + ")")->check(filled())->type_name("DIR");
   verb.add_flag("--force", line.options.force, "replace an earlier run there");
   verb.add_flag("-q,--quiet", line.options.quiet, "print errors only");
 }
@@ -30,6 +57,13 @@ void add_scene(CLI::App& verb, CommandLine& line) {
       ->expected(1)
       ->take_all();
   verb.add_flag("--allow-unstable", line.options.allow_unstable, "let a time step past the limit run");
+  verb.add_option("--allow", line.options.allow, "let the scene read files in this folder too, besides its own")
+      ->type_name("DIR")
+      ->expected(1)
+      ->take_all();
+  verb.add_option("--max-blocks", line.options.max_blocks, "refuse a scene of more blocks (default 300000)")->check(within(1, 100000000));
+  verb.add_option("--max-points", line.options.max_points, "refuse a scene of more contact points (default 20000000)")
+      ->check(within(1, 2000000000));
 }
 
 void add_run(CLI::App& app, CommandLine& line) {
@@ -38,31 +72,31 @@ void add_run(CLI::App& app, CommandLine& line) {
   add_output(run, line);
   add_scene(run, line);
   run.add_option("--threads", line.options.threads, "threads (default: as many as the machine has, 1 for few blocks)")
-      ->check(CLI::Range(1, 1024));
-  run.add_option("--until", line.until, "stop at this simulated time, with a checkpoint")->type_name("T");
+      ->check(within(1, 1024));
+  run.add_option("--until", line.until, "stop at this simulated time, with a checkpoint")->check(filled())->type_name("T");
   run.add_flag("--resume", line.options.resume, "go on from the checkpoint in the folder");
-  run.add_option("--max-wall", line.max_wall, "stop after this time of the clock, with a checkpoint")->type_name("30m");
-  run.add_option("--checkpoint-every", line.checkpoint_every, "time of the clock between checkpoints (default 60s)")->type_name("60s");
+  run.add_option("--max-wall", line.max_wall, "stop after this time of the clock, with a checkpoint")->check(filled())->type_name("30m");
+  run.add_option("--checkpoint-every", line.checkpoint_every, "time of the clock between checkpoints (default 60s)")->check(filled())->type_name("60s");
   run.add_option("--dt-fraction", line.options.dt_fraction, "time step as a share of dt_critical, whatever the scene says")
-      ->check(CLI::Range(1e-6, 1e3));
+      ->check(within(1e-6, 1e3));
   run.add_option("--points", line.options.points, "contact points of every joint: 4, 9, 16, 25 (a square on each face)")
-      ->check(CLI::Range(1, 10000));
+      ->check(within(1, 10000));
   run.add_option("--rule", line.options.rule, "how the contact points of every joint are laid out")
       ->check(CLI::IsMember({"simpson", "midpoint", "trapezoid", "gauss"}));
   run.add_option("--set", line.options.settings, "another value for a key of analysis{}: --set lazy_rotation=1e-4")
       ->type_name("key=value")
       ->expected(1)
       ->take_all();
-  run.add_option("--stiffness", line.options.stiffness, "times that of every joint the scene says")->check(CLI::Range(1e-6, 1e6));
-  run.add_option("--damping", line.options.damping, "mass damping c/m instead of the scene's, 1/s")->check(CLI::Range(0.0, 1e7));
+  run.add_option("--stiffness", line.options.stiffness, "times that of every joint the scene says")->check(within(1e-6, 1e6));
+  run.add_option("--damping", line.options.damping, "mass damping c/m instead of the scene's, 1/s")->check(within(0.0, 1e7));
   run.add_option("--damping-form", line.options.damping_form, "how a step takes mass damping in")
       ->check(CLI::IsMember({"centred", "explicit"}));
-  run.add_option("--from", line.from, "let the loads begin here, the structure at rest: a window of a long record")->type_name("T");
+  run.add_option("--from", line.from, "let the loads begin here, the structure at rest: a window of a long record")->check(filled())->type_name("T");
   run.add_option("--noise", line.options.noise, "perturb the start of every free block by up to this (m and rad), seeded")
-      ->check(CLI::Range(0.0, 1.0));
+      ->check(within(0.0, 1.0));
   run.add_option("--twin-noise", line.options.twin_noise)->group("");  // of a twin
   run.add_flag("--twin", line.options.twin, "run a twin perturbed by 1e-9 as well, and tell when it parts by 1 mm (the chaos horizon)");
-  run.add_flag("!--no-figures", line.options.figures, "draw no curves");
+  run.add_flag_callback("--no-figures", [&line] { line.options.figures = false; }, "draw no curves");
   run.add_flag("--video", line.options.video, "draw the run and make its video afterwards");
   run.add_option("--study", line.options.study)->group("");  // of the runs a study starts
   run.add_option("--without", line.options.without, "run without an effect of the scene, by its name in erbs check")
@@ -79,22 +113,23 @@ void add_others(CLI::App& app, CommandLine& line) {
   add_scene(check, line);
 
   CLI::App& render = *app.add_subcommand("render", "draw a run: frames, video, curves (options: erbs-render --help)");
+  render.set_help_flag();  // its own --help tells the options
   render.prefix_command();
 
   CLI::App& record = *app.add_subcommand("record", "a ground motion: points, dt, peaks, end values, Arias intensity, spectrum");
   record.add_option("FILE", line.options.words, "PEER AT2, CSV or text of one or two columns")->required();
-  add_output(record, line);
-  record.add_option("--dt", line.options.record.dt, "step of a file of values alone, s")->check(CLI::Range(1e-6, 1e3));
+  add_output(record, line, "runs/<file name>");
+  record.add_option("--dt", line.options.record.dt, "step of a file of values alone, s")->check(within(1e-6, 1e3));
   record.add_option("--unit", line.options.record.unit, "of the values where the file does not say: g, m/s2, cm/s2, gal, ...");
-  record.add_option("--column", line.options.record.column, "column of the values, from 1")->check(CLI::Range(1, 1000));
+  record.add_option("--column", line.options.record.column, "column of the values, from 1")->check(within(1, 1000));
 
   CLI::App& test = *app.add_subcommand("test", "run scenes that carry expectations, and print the table");
   test.add_option("DIR|SCENE.lua", line.options.words, "folders and scenes")->required();
-  test.add_option("-j", line.options.jobs, "how many at once (default: as many as the machine has)")->check(CLI::Range(1, 1024));
-  test.add_option("--threads", line.options.threads, "threads of each run")->check(CLI::Range(1, 1024));
-  test.add_option("--max-wall", line.max_wall, "stop a run after this time of the clock")->type_name("10m");
+  test.add_option("-j", line.options.jobs, "how many at once (default: as many as the machine has)")->check(within(1, 1024));
+  test.add_option("--threads", line.options.threads, "threads of each run")->check(within(1, 1024));
+  test.add_option("--max-wall", line.max_wall, "stop a run after this time of the clock")->check(filled())->type_name("10m");
   add_scene(test, line);
-  test.add_option("-o", line.options.directory, "folder for the runs (default runs/test)")->type_name("DIR");
+  test.add_option("-o", line.options.directory, "folder for the runs (default runs/test)")->check(filled())->type_name("DIR");
   test.add_flag("-q,--quiet", line.options.quiet, "no progress");
   test.add_flag("--quick", line.options.quick, "only scenes that say label(\"quick\")");
   test.add_option("--book", line.options.book, "write the verification book here, its figures, and its summary in README.md")
@@ -105,36 +140,36 @@ void add_others(CLI::App& app, CommandLine& line) {
   test.add_option("--seeds", line.options.seeds,
                   "every scene with its param seed at 1, 2, ... N: the worst value of each invariant, and the seeds that fail it")
       ->type_name("N")
-      ->check(CLI::Range(1, 1000000));
+      ->check(within(1, 1000000));
   test.add_flag("--resume", line.options.resume, "of --grid and --seeds: keep the runs that are done");
-  test.add_option("--budget", line.budget, "of all runs together, by the clock; none is started later (--grid: 60m)")->type_name("60m");
+  test.add_option("--budget", line.budget, "of all runs together, by the clock; none is started later (--grid: 60m)")->check(filled())->type_name("60m");
 
   CLI::App& accuracy = *app.add_subcommand("accuracy", "what accuracy costs: the scene with each of its knobs turned, errors over cost");
   accuracy.add_option("SCENE.lua", line.options.words, "the scene; with --study, the folder of its problems (default scenes/accuracy)");
   add_output(accuracy, line);
   add_scene(accuracy, line);
-  accuracy.add_option("-j", line.options.jobs, "how many runs at once (default: as many as the machine has)")->check(CLI::Range(1, 1024));
+  accuracy.add_option("-j", line.options.jobs, "how many runs at once (default: as many as the machine has)")->check(within(1, 1024));
   accuracy.add_flag("--resume", line.options.resume, "keep the runs that are done");
-  accuracy.add_option("--target", line.target, "find the cheapest setting with this error, and the line for the scene")->type_name("1%");
+  accuracy.add_option("--target", line.target, "find the cheapest setting with this error, and the line for the scene")->check(filled())->type_name("1%");
   accuracy
       .add_option("--budget", line.budget,
                   "find the most accurate setting that runs within this time; of --map: of all runs together, by the clock (default 60m)")
-      ->type_name("60s");
+      ->check(filled())->type_name("60s");
   accuracy.add_option("--quantity", line.options.quantity,
                       "the metric it is about (default: the first with an expectation, else the first)");
-  accuracy.add_option("--max-wall", line.max_wall, "of each run (default 5m)")->type_name("5m");
+  accuracy.add_option("--max-wall", line.max_wall, "of each run (default 5m)")->check(filled())->type_name("5m");
   accuracy
       .add_option("--within", line.within,
                   "of the clock for all runs of the scene, cheap ones first; those that do not fit are told, and --resume makes them "
                   "(default 2m; 0: no limit, as with --study)")
-      ->type_name("2m");
+      ->check(filled())->type_name("2m");
   accuracy.add_flag("--study", line.options.whole_study,
                     "every problem of the folder, media/accuracy.png and the table of engine/README.md");
 
   accuracy.add_flag(
       "--map", line.options.map,
       "instead: which time steps, stiffnesses and dampings converge, which diverge, for both solvers, over a window around the peak");
-  accuracy.add_option("--window", line.window, "of --map: its length (default 2s)")->type_name("2s");
+  accuracy.add_option("--window", line.window, "of --map: its length (default 2s)")->check(filled())->type_name("2s");
 
   CLI::App& bench = *app.add_subcommand("bench", "the step kernel against the reference and the machine's limits, in one run");
   bench.add_option("SCENE.lua", line.options.words, "scenes to time (default: those of scenes/bench, into a folder)");
@@ -157,7 +192,7 @@ void settle(CommandLine& line) {
   Options& options = line.options;
   for (const auto& define : line.defines) {
     const size_t equals = define.find('=');
-    if (equals == std::string::npos || equals == 0) throw erbs::Error("-D " + define + ": write -D name=value, such as -D pga=0.8*g");
+    if (equals == std::string::npos || equals == 0) throw erbs::Error("-D " + shown(define) + ": write -D name=value, such as -D pga=0.8*g");
     options.overrides.emplace_back(define.substr(0, equals), define.substr(equals + 1));
   }
   if (!line.until.empty()) options.until = erbs::seconds_of(line.until, "--until");
@@ -178,7 +213,7 @@ void check_verb(const CLI::App& app, int argc, char** argv) {
   if (argc < 2) throw erbs::Error(fmt::format("erbs takes a verb: {}; see erbs help", fmt::join(verbs, ", ")));
   const std::string word = argv[1];
   if (!word.starts_with("-") && std::find(verbs.begin(), verbs.end(), word) == verbs.end())
-    throw erbs::Error(fmt::format("there is no verb {}{}; see erbs help", word, erbs::did_you_mean(word, verbs)));
+    throw erbs::Error(fmt::format("there is no verb {}{}; see erbs help", shown(word, 60), erbs::did_you_mean(word, verbs)));
 }
 
 int call(const CLI::App& app, CommandLine& line) {
@@ -199,39 +234,46 @@ int call(const CLI::App& app, CommandLine& line) {
   // help of a verb is CLI11's own
   if (!line.options.words.empty())
     for (const CLI::App* other : app.get_subcommands({}))
-      if (other->get_name() == line.options.words.front()) return std::printf("%s", other->help("erbs").c_str()) < 0;
+      if (other->get_name() == line.options.words.front()) return (erbs::say("{}", other->help("erbs")), erbs::exit_ok);
   // not app.help(), which would explain the verb help
   return erbs::verb_help(line.options, app.get_formatter()->make_help(&app, "erbs", CLI::AppFormatMode::Normal));
+}
+
+int answer(CLI::App& app, CommandLine& line, int argc, char** argv) {
+  const auto wrong = [](const std::string& what, int code = erbs::exit_usage) {
+    erbs::tell(stderr, what);
+    return code;
+  };
+  try {
+    check_verb(app, argc, argv);
+    app.parse(argc, argv);
+    erbs::chosen_isa();  // refuses an ERBS_ISA that there is not
+    return call(app, line);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);  // --help
+    return wrong(fmt::format("{}; see erbs help", error.what()));
+  } catch (const erbs::Interrupted& error) { return wrong(error.what(), erbs::exit_interrupted); } catch (const erbs::NumbersError& error) { return wrong(error.what(), erbs::exit_numbers); } catch (const std::filesystem::filesystem_error& error) {
+    return wrong(fmt::format("{}: {}; check the path", error.path1().string(), error.code().message()));
+  } catch (const std::system_error& error) {
+    if (std::ferror(stdout) != 0) return erbs::exit_ok;  // which finish_streams() tells
+    return wrong(fmt::format("the system refuses: {}; is a limit of memory, threads or files (ulimit) reached?", error.what()));
+  } catch (const std::bad_alloc&) {
+    return wrong("there is not enough memory; build a smaller model, or raise the limit (ulimit -v)");
+  } catch (const std::logic_error& error) { return wrong(error.what(), erbs::exit_numbers); } catch (const std::exception& error) {
+    return wrong(error.what());
+  }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  erbs::prepare_streams();
   mallopt(M_MMAP_THRESHOLD, 1 << 20);  // large arrays go back to the system when they end, not into a heap of holes
   CommandLine line;
   CLI::App app("ERBS: collapse of masonry by rigid blocks and mortar springs", "erbs");
   app.require_subcommand(1);
+  app.set_version_flag("--version", "erbs " + erbs::program_version(), "the version and the commit it was built from");
   add_run(app, line);
   add_others(app, line);
-  try {
-    check_verb(app, argc, argv);
-    app.parse(argc, argv);
-    return call(app, line);
-  } catch (const CLI::ParseError& error) {
-    if (error.get_exit_code() == 0) return app.exit(error);  // --help
-    std::fprintf(stderr, "%s; see erbs help\n", error.what());
-    return erbs::exit_usage;
-  } catch (const erbs::NumbersError& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return erbs::exit_numbers;
-  } catch (const erbs::Errors& errors) {
-    std::fprintf(stderr, "%s\n", errors.what());
-    return erbs::exit_usage;
-  } catch (const erbs::Error& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return erbs::exit_usage;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return erbs::exit_numbers;
-  }
+  return erbs::finish_streams(answer(app, line, argc, argv), erbs::exit_usage);
 }

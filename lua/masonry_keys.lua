@@ -114,7 +114,10 @@ local function read_value(what, key, value, mistakes)
   local kind = math.type(value) == "integer" and "integer" or type(value)
   if key.type == "number" or key.type == "integer" then
     if type(value) ~= "number" then return wrong("must be a number, not a %s", kind) end
-    if key.type == "integer" and value ~= math.floor(value) then return wrong("= %g must be a whole number", value) end
+    if value ~= value or value == math.huge or value == -math.huge then return wrong("= %g is no finite number", value) end
+    if key.type == "integer" and (value ~= math.floor(value) or math.abs(value) > 1e9) then
+      return wrong("= %g must be a whole number, at most 1e9", value)
+    end
     if key.above and not (value > key.above) then
       return wrong("= %g must be above %g%s", value, key.above, key.unit and " " .. key.unit or "")
     end

@@ -24,6 +24,8 @@ struct Options {
   Record record;        // of erbs record: --dt, --unit, --column
   std::string study;    // the study that started this run
   bool figures = true;  // curves of a run
+  std::vector<std::string> allow;         // folders that a scene may read besides its own
+  int max_blocks = 0, max_points = 0;     // of a scene; 0: the limits of Scene
 
   // of erbs run: how it departs from its scene
   std::optional<double> dt_fraction;  // of dt_critical
@@ -56,6 +58,11 @@ struct Options {
 
 // The words that make another run of erbs depart from its scene as this one does.
 std::vector<std::string> departures(const Options& options);
+
+// The words that let another run of erbs read and build what this one may.
+std::vector<std::string> permissions(const Options& options);
+// How a script is to be read.
+Script::Options script_options(const Options& options, bool quiet);
 
 // "30m", "90s", "1.5h", "500ms" or plain seconds; throws Error naming the option.
 double seconds_of(const std::string& text, const std::string& option);

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <lua5.4/lua.hpp>
 
+#include "engine/base/text.h"
 #include "engine/base/words.h"
 
 namespace erbs {
@@ -29,8 +30,9 @@ std::string described(lua_State* lua, int index) {
     case LUA_TNUMBER:
       return fmt::format("the number {}", written(lua_tonumber(lua, index)));
     case LUA_TSTRING: {
-      const std::string text = lua_tostring(lua, index);
-      return fmt::format("the string \"{}\"", text.size() > 40 ? text.substr(0, 37) + "..." : text);
+      size_t length = 0;
+      const char* text = lua_tolstring(lua, index, &length);
+      return fmt::format("the string \"{}\"", shown({text, length}, 40));
     }
     case LUA_TBOOLEAN:
       return lua_toboolean(lua, index) ? "true" : "false";
@@ -42,6 +44,10 @@ std::string described(lua_State* lua, int index) {
     default:
       return std::string("a ") + lua_typename(lua, lua_type(lua, index));
   }
+}
+
+std::string not_plain(const std::string& text) {
+  return fmt::format("holds control characters or bytes that are no UTF-8, \"{}\"; write it in plain letters", shown(text, 60));
 }
 
 namespace {
@@ -81,7 +87,9 @@ Arguments::Arguments(Context& context, lua_State* lua, int index, std::string la
   int positional = 0;
   for (lua_pushnil(lua_); lua_next(lua_, index_) != 0; lua_pop(lua_, 1)) {
     if (lua_type(lua_, -2) == LUA_TSTRING) {
-      const std::string name = lua_tostring(lua_, -2);
+      size_t length = 0;
+      const char* text = lua_tolstring(lua_, -2, &length);
+      const std::string name = shown({text, length}, 60);
       if (std::find(known.begin(), known.end(), name) == known.end()) unknown.push_back(name);
     } else if (!(lua_isinteger(lua_, -2) &&
                  std::find(known.begin(), known.end(), std::to_string(lua_tointeger(lua_, -2))) != known.end())) {
@@ -206,6 +214,7 @@ void Arguments::read(const std::string& key, std::string& into) {
     const auto allowed = split(words);
     const std::string word(text, std::min<size_t>(length, 4096));
     if (length > 1000) mistake(fmt::format("{} is {} characters long; at most 1000 are allowed", key, length));
+    else if (!is_plain(word)) mistake(fmt::format("{} {}", key, not_plain(word)));
     else if (!words.empty() && std::find(allowed.begin(), allowed.end(), word) == allowed.end())
       mistake(fmt::format("{} = \"{}\" is not one of {}{}", key, word, fmt::join(allowed, ", "),
                           nearest(word, allowed).empty() ? "" : did_you_mean(word, allowed)));
@@ -292,14 +301,24 @@ void Arguments::read_pairs(const std::string& key, std::vector<Eigen::Vector2d>&
 
 void Arguments::read(const std::string& key, std::vector<std::string>& into) {
   if (!push(key)) return;
+  const auto add = [&](const std::string& path) {
+    size_t length = 0;
+    const char* text = lua_tolstring(lua_, -1, &length);
+    const std::string word(text, std::min<size_t>(length, 1001));
+    if (length > 1000) mistake(fmt::format("{} is {} characters long; at most 1000 are allowed", path, length));
+    else if (!is_plain(word)) mistake(fmt::format("{} {}", path, not_plain(word)));
+    else into.push_back(word);
+  };
   if (lua_type(lua_, -1) == LUA_TSTRING) {
-    into = {lua_tostring(lua_, -1)};
+    into.clear();
+    add(key);
   } else if (lua_istable(lua_, -1)) {
     const auto n = static_cast<lua_Integer>(lua_rawlen(lua_, -1));
     for (lua_Integer i = 1; i <= n; ++i) {
       lua_rawgeti(lua_, -1, i);
-      if (lua_type(lua_, -1) == LUA_TSTRING) into.emplace_back(lua_tostring(lua_, -1));
-      else wrong_type(key, fmt::format("{}[{}]", key, i), "a string");
+      const std::string path = fmt::format("{}[{}]", key, i);
+      if (lua_type(lua_, -1) == LUA_TSTRING) add(path);
+      else wrong_type(key, path, "a string");
       lua_pop(lua_, 1);
     }
   } else {
@@ -357,7 +376,13 @@ std::optional<Arguments> Arguments::table(const std::string& key, const Keys& ke
 std::vector<Arguments> Arguments::tables(const std::string& key, const Keys& keys) {
   std::vector<Arguments> list;
   if (!push(key)) return list;
-  const auto n = lua_istable(lua_, -1) ? static_cast<int>(std::min<size_t>(lua_rawlen(lua_, -1), 1000)) : 0;
+  constexpr size_t most = 1000;  // tables that lie on Lua's stack at once
+  if (lua_istable(lua_, -1) && lua_rawlen(lua_, -1) > most) {
+    mistake(fmt::format("{} has {} tables; at most {} are allowed", key, lua_rawlen(lua_, -1), most));
+    lua_pop(lua_, 1);
+    return list;
+  }
+  const auto n = lua_istable(lua_, -1) ? static_cast<int>(lua_rawlen(lua_, -1)) : 0;
   if (n == 0 || !lua_checkstack(lua_, n + 20)) {
     wrong_type(key, key, "a list of tables");
     lua_pop(lua_, 1);

@@ -126,4 +126,7 @@ Table sampled(lua_State* lua, Context& context, int function, double duration, d
 // The name of what is at `index`, for messages: 'a string ("1800")'.
 std::string described(lua_State* lua, int index);
 
+// What is wrong with a string that is_plain() refuses.
+std::string not_plain(const std::string& text);
+
 }  // namespace erbs

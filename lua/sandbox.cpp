@@ -8,6 +8,7 @@
 #include <ctime>
 #include <lua5.4/lua.hpp>
 
+#include "engine/base/text.h"
 #include "lua/context.h"
 
 namespace erbs {
@@ -32,6 +33,8 @@ void* allocate(void* limits_, void* block, size_t old_size, size_t new_size) {
   return moved;
 }
 
+constexpr size_t most_printed = size_t{1} << 20;  // bytes a script may print
+
 // Every thousand instructions; every instruction once the time is over.
 void count_hook(lua_State* lua, lua_Debug*) {
   Limits& limits = context_of(lua).limits;
@@ -52,6 +55,7 @@ int noted(lua_State* lua) {
     const Place place = current_place(lua);
     const std::lock_guard lock(limits.mutex);
     limits.doing = place.text() + ": " + lua_tostring(lua, lua_upvalueindex(2));
+    limits.working = false;
   }
   lua_pushvalue(lua, lua_upvalueindex(1));
   lua_insert(lua, 1);
@@ -97,10 +101,13 @@ int print(lua_State* lua) {
   }
   luaL_pushresult(&line);
   Context& context = context_of(lua);
-  if (context.output.size() >= 100000) return luaL_error(lua, "the script printed more than 100000 lines");
-  const char* text = lua_tostring(lua, -1);
-  if (!context.quiet) std::fprintf(stderr, "%s\n", text);
-  context.output.emplace_back(text);
+  size_t length = 0;
+  const char* text = lua_tolstring(lua, -1, &length);
+  context.printed += length + 1;
+  if (context.printed > most_printed) return luaL_error(lua, "the script printed more than 1 MiB; print less");
+  const Cap uncapped(context.limits, false);
+  context.output.push_back(printable({text, length}));
+  if (!context.quiet) tell(stderr, context.output.back());
   return 0;
 }
 
@@ -146,6 +153,13 @@ void open_libraries(lua_State* lua) {
 
 }  // namespace
 
+void Doing::set(std::string what, bool working, std::string* before, bool* worked) {
+  const std::lock_guard lock(limits_.mutex);
+  if (before) *before = std::move(limits_.doing), *worked = limits_.working;
+  limits_.doing = std::move(what);
+  limits_.working = working;
+}
+
 lua_State* open_sandbox(Context& context) {
   lua_State* lua = lua_newstate(allocate, &context.limits);
   if (!lua) throw Error("no memory for a Lua state");
@@ -168,12 +182,14 @@ Stretch::Stretch(lua_State* lua, Context& context) : lua_(lua), context_(context
     while (processor_seconds() < context_.limits.deadline + 1)  // the hook comes first
       if (ended_.wait_for(lock, std::chrono::milliseconds(100), [this] { return done_; })) return;
     std::string doing;
+    bool working = false;
     {
       const std::lock_guard noted_lock(context_.limits.mutex);
       doing = context_.limits.doing;
+      working = context_.limits.working;
     }
-    std::fprintf(stderr, "%s: the script ran longer than %g s; a pattern or a loop there may never end\n",
-                 doing.empty() ? context_.scene.file.c_str() : doing.c_str(), context_.limits.seconds);
+    tell(stderr, fmt::format("{}: the script ran longer than {:g} s; {}", doing.empty() ? context_.scene.file : doing, context_.limits.seconds,
+                             working ? "that is more work than a scene may ask for: give it less" : "a pattern or a loop there may never end"));
     std::fflush(stderr);
     _exit(2);
   });

@@ -5,6 +5,7 @@
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 
 struct lua_State;
 
@@ -15,13 +16,30 @@ struct Context;
 struct Limits {
   double seconds = 10;  // processor time of one stretch of script: a busy machine takes nothing from it
   size_t bytes = size_t{512} << 20;
+  size_t all_bytes = size_t{2} << 30;  // with what the program keeps for the scene: blocks, waves
   // State of the limits
   size_t used = 0;
   bool capped = true;  // lifted while C++ objects are alive, so that no memory error of Lua jumps over them
   double deadline = 0;  // s, processor time of this process
   std::atomic<bool> expired = false;
   std::mutex mutex;   // guards `doing`
-  std::string doing;  // the library function (and its line) that runs outside the reach of the hook
+  std::string doing;  // the function (and its line) that runs outside the reach of the hook
+  bool working = false;  // it is work of ours, no loop of the script's
+};
+
+// Notes for the watchdog what runs out of the hook's reach, for as long as it lives.
+class Doing {
+ public:
+  Doing(Limits& limits, std::string what, bool working) : limits_(limits) { set(std::move(what), working, &before_, &worked_); }
+  ~Doing() { set(std::move(before_), worked_, nullptr, nullptr); }
+  Doing(const Doing&) = delete;
+  Doing& operator=(const Doing&) = delete;
+
+ private:
+  void set(std::string what, bool working, std::string* before, bool* worked);
+  Limits& limits_;
+  std::string before_;
+  bool worked_ = false;
 };
 
 // A stretch of script under the time limit. The count hook stops Lua code (pcall cannot swallow it: once the time is over every

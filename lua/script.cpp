@@ -9,131 +9,23 @@
 #include <sstream>
 #include <utility>
 
+#include "engine/base/text.h"
 #include "engine/base/words.h"
 #include "engine/model/build.h"
 #include "engine/record/metrics.h"
 #include "engine/record/recorder.h"
 #include "lua/api.h"
-#include "lua/embedded.h"
+#include "lua/language.h"
 #include "lua/quality.h"
 
 namespace erbs {
 namespace {
 
-const char* const language_key = "erbs.language";  // in the registry: what every scene sees
-const char* const scene_key = "erbs.scene";        // in the registry: the globals of the scene
-
-// Every name of the language, for suggestions.
-std::vector<std::string> known_names(lua_State* lua) {
-  std::vector<std::string> names;
-  lua_getfield(lua, LUA_REGISTRYINDEX, language_key);
-  for (lua_pushnil(lua); lua_next(lua, -2) != 0; lua_pop(lua, 1))
-    if (lua_type(lua, -2) == LUA_TSTRING) names.emplace_back(lua_tostring(lua, -2));
-  lua_pop(lua, 1);
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-// Reading a global that nobody has set.
-int unknown_global(lua_State* lua, Context&) {
-  const std::string name = lua_type(lua, 2) == LUA_TSTRING ? lua_tostring(lua, 2) : described(lua, 2);
-  const std::string near = nearest(name, known_names(lua));
-  throw Error(
-      fmt::format("unknown name \"{}\"{}", name,
-                  near.empty() ? "; set it before, or see erbs help for the names there are" : fmt::format("; did you mean \"{}\"?", near)),
-      current_place(lua));
-}
-
-// Setting a global: names of the language stay what they are.
-int set_global(lua_State* lua, Context&) {
-  lua_getfield(lua, LUA_REGISTRYINDEX, language_key);
-  lua_pushvalue(lua, 2);
-  if (lua_rawget(lua, -2) != LUA_TNIL)
-    throw Error(fmt::format("\"{}\" is a name of the language; write local {} = ..., or take another name", lua_tostring(lua, 2),
-                            lua_tostring(lua, 2)),
-                current_place(lua));
-  lua_settop(lua, 3);
-  lua_rawset(lua, 1);
-  return 0;
-}
-
-void set_metatable(lua_State* lua, int index, Body read, Body write) {
-  index = lua_absindex(lua, index);
-  lua_newtable(lua);
-  if (read) {
-    push_guarded(lua, read);
-  } else {
-    lua_getfield(lua, LUA_REGISTRYINDEX, language_key);
-  }
-  lua_setfield(lua, -2, "__index");
-  if (write) {
-    push_guarded(lua, write);
-    lua_setfield(lua, -2, "__newindex");
-  }
-  lua_pushliteral(lua, "locked");
-  lua_setfield(lua, -2, "__metatable");
-  lua_setmetatable(lua, index);
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);)
-    if (!line.empty()) lines.push_back(line);
-  return lines;
-}
-
-// did_you_mean(word, names) and note_mistakes(lines): for the parts of the language that are written in Lua.
-int suggest(lua_State* lua, Context&) {
-  std::vector<std::string> names;
-  const auto n = static_cast<lua_Integer>(lua_rawlen(lua, 2));
-  for (lua_Integer i = 1; i <= n; ++i) {
-    lua_rawgeti(lua, 2, i);
-    names.emplace_back(lua_tostring(lua, -1));
-    lua_pop(lua, 1);
-  }
-  lua_pushstring(lua, did_you_mean(lua_tostring(lua, 1), names).c_str());
-  return 1;
-}
-
-int note_mistakes(lua_State* lua, Context& context) {
-  for (const auto& line : lines_of(lua_tostring(lua, 1))) context.mistake(current_place(lua), line);
-  context.incomplete = true;
-  return 0;
-}
-
-constexpr std::pair<const char*, Body> inner_functions[] = {{"did_you_mean", suggest}, {"note_mistakes", note_mistakes}};
-
-// The language is the sandbox's globals, the API and the embedded files; the scene's globals lie in a table of their own over it.
-void open_language(lua_State* lua, Context& context, double noise) {
-  open_values(lua);
-  lua_pushnumber(lua, noise);
-  lua_setglobal(lua, "start_noise");
-  open_api(lua);
-  lua_pushglobaltable(lua);
-  lua_pushvalue(lua, -1);
-  lua_setfield(lua, LUA_REGISTRYINDEX, language_key);
-  for (const auto& [name, body] : inner_functions) {
-    push_guarded(lua, body);
-    lua_setglobal(lua, name);
-  }
-  for (const Embedded& file : embedded()) {
-    const std::string name = "=" + std::string(file.name);
-    if (luaL_loadbufferx(lua, file.text.data(), file.text.size(), name.c_str(), "t") != LUA_OK)
-      throw std::logic_error(fmt::format("internal error: {}", lua_tostring(lua, -1)));
-    call_script(lua, context, 0, 0);
-  }
-  for (const auto& [name, body] : inner_functions) {
-    lua_pushnil(lua);
-    lua_setglobal(lua, name);
-  }
-  set_metatable(lua, -1, unknown_global, nullptr);
-  lua_newtable(lua);
-  set_metatable(lua, -1, nullptr, set_global);
-  lua_pushvalue(lua, -1);
-  lua_setfield(lua, LUA_REGISTRYINDEX, scene_key);
-  lua_setfield(lua, -2, "_G");
-  lua_pop(lua, 1);
+// The text of a scene as Lua reads it: without the byte order mark of some editors, nor a first line for a shell.
+std::string readable(const std::string& text, const std::string& name) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) throw Error("the file is in UTF-16; save it as UTF-8", {name, 1});
+  const std::string bare = text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
+  return bare.starts_with("#") ? "--" + bare : bare;
 }
 
 // "scene.lua:12" of "scene.lua:12: box: ..."; "" where there is none
@@ -247,12 +139,14 @@ void take_quality(Context& context) {
 
 void load_chunk(lua_State* lua, Context& context, const std::string& text, const std::string& name) {
   // Lua cuts the names of long paths in messages
-  const std::string shown = name.size() > 55 ? std::filesystem::path(name).filename().string() : name;
-  if (std::find(context.files.begin(), context.files.end(), shown) == context.files.end()) context.files.push_back(shown);
-  if (luaL_loadbufferx(lua, text.data(), text.size(), ("@" + shown).c_str(), "t") != LUA_OK) {
-    const std::string message = lua_tostring(lua, -1);
+  const std::string name_shown = name.size() > 55 ? std::filesystem::path(name).filename().string() : name;
+  if (std::find(context.files.begin(), context.files.end(), name_shown) == context.files.end()) context.files.push_back(name_shown);
+  if (luaL_loadbufferx(lua, text.data(), text.size(), ("@" + name_shown).c_str(), "t") != LUA_OK) {
+    const std::string message = printable(lua_tostring(lua, -1)).substr(0, 1000);
     lua_pop(lua, 1);
-    throw Error(message);
+    if (message.starts_with(name_shown + ":")) throw Error(message);
+    if (message.find("binary chunk") != std::string::npos) throw Error("attempt to load a binary chunk; a scene is text", {name_shown, 0});
+    throw Error(message + "; is something nested too deeply?", {name_shown, 0});
   }
   lua_getfield(lua, LUA_REGISTRYINDEX, scene_key);
   lua_setupvalue(lua, -2, 1);
@@ -263,6 +157,9 @@ Script::Script() : Script(Options{}) {}
 Script::Script(const Options& options) : context_(std::make_unique<Context>()) {
   context_->limits.seconds = options.seconds;
   context_->limits.bytes = options.bytes;
+  context_->allowed = options.allow;
+  context_->scene.most_blocks = options.most_blocks;
+  context_->scene.most_points = options.most_points;
   context_->quiet = options.quiet;
   context_->study = options.study;
   context_->quality = options.quality;
@@ -279,9 +176,7 @@ Script::~Script() {
 const Scene& Script::load(const std::string& path, const Overrides& overrides) {
   std::error_code ignored;
   if (std::filesystem::is_directory(path, ignored)) throw Error(fmt::format("{} is a folder; name the scene file in it", path));
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw Error(fmt::format("there is no scene {}; check the path", path));
-  stream.close();
+  if (!std::filesystem::exists(path, ignored)) throw Error(fmt::format("there is no scene {}; check the path", path));
   const std::string text = read_input(*context_, path, {});
   run(text, path, overrides);
   return context_->scene;
@@ -309,7 +204,7 @@ void Script::run(const std::string& text, const std::string& name, const Overrid
   try {
     evaluate_overrides(lua_, context);
     if (context.limits.expired) throw Errors(context.mistakes);  // no time is left for the script
-    load_chunk(lua_, context, text.starts_with("#") ? "--" + text : text, name);
+    load_chunk(lua_, context, readable(text, name), name);
     call_script(lua_, context, 0, 0);
   } catch (const std::exception& error) {
     whole = false;
@@ -322,6 +217,7 @@ void Script::run(const std::string& text, const std::string& name, const Overrid
 // What is settled when the script has ended, and every mistake at once.
 void Script::finish(bool whole) {
   Context& context = *context_;
+  const Doing doing(context.limits, context.scene.file + ": checking the scene", true);
   take_quality(context);
   if (whole) try {
       resolve_groups(context);

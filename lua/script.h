@@ -43,6 +43,8 @@ class Script {
     bool quiet = false;                // do not echo print to stderr
     std::string study = {};            // the study that started this run: only its question is asked, nothing expected
     std::string quality = {};          // instead of that of analysis{}; "": as the scene says
+    std::vector<std::string> allow = {};  // folders it may read besides its own
+    int most_blocks = Scene().most_blocks, most_points = Scene().most_points;  // of a scene
     double noise = 0;                  // in the start of every free block [m and rad]: start_noise of the script
   };
   Script();

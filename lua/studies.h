@@ -16,7 +16,7 @@ struct StudiesOutcome {
 };
 
 StudiesOutcome run_studies(const Script& script, const std::string& path, const std::string& directory, const Options& options,
-                           std::atomic<bool>& interrupted);
+                           const std::atomic<bool>& interrupted);
 
 // A run folder whose own run is finished, with studies that are not: --resume goes on with these.
 bool studies_left(const Script& script, const std::string& directory);

@@ -9,6 +9,7 @@
 #include "lua/book.h"
 #include "lua/progress.h"
 #include "lua/quality.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -22,9 +23,9 @@ std::string error_text(const Goal& q, const std::optional<double>& error) {
 
 void print_table(const AccuracyStudy& s) {
   const Goal& q = s.quantity();
-  fmt::print("{}: {}\n{} = {:.8g} {} by {}{}\n\n", s.name, s.title, q.name, q.reference, q.unit, q.from,
+  say("{}: {}\n{} = {:.8g} {} by {}{}\n\n", s.name, s.title, q.name, q.reference, q.unit, q.from,
              q.uncertainty > 0 ? fmt::format(", uncertain by {:.2g}", q.uncertainty) : "");
-  fmt::print("{:<22}  {:<32}  {:>14}  {:>12}  {:>9}  {:>12}\n", "knob", "setting", "value", "error", "cpu s", "evaluations");
+  say("{:<22}  {:<32}  {:>14}  {:>12}  {:>9}  {:>12}\n", "knob", "setting", "value", "error", "cpu s", "evaluations");
   std::vector<std::size_t> order(s.all.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -34,14 +35,14 @@ void print_table(const AccuracyStudy& s) {
   for (const std::size_t i : order) {
     const Measured& m = s.all[i];
     const auto& value = m.values[s.main];
-    fmt::print("{:<22}  {:<32}  {:>14}  {:>12}  {:>9.3f}  {:>12.3g}{}\n", m.setting.knob, m.setting.name,
+    say("{:<22}  {:<32}  {:>14}  {:>12}  {:>9.3f}  {:>12.3g}{}\n", m.setting.knob, m.setting.name,
                value ? fmt::format("{:.8g}", *value) : "-", error_text(q, error_of(q, value)), m.cpu, m.updates,
                m.reason.empty() ? "" : "  " + m.reason);
   }
-  for (const auto& text : s.not_applicable) fmt::print("{:<22}  not applicable\n", text);
+  for (const auto& text : s.not_applicable) say("{:<22}  not applicable\n", text);
   for (const Curve& c : curves_of(q, s.main, s.all))
     if (c.slope)
-      fmt::print("{}: its own error falls with the power {:.2f} of {}\n", c.knob, *c.slope,
+      say("{}: its own error falls with the power {:.2f} of {}\n", c.knob, *c.slope,
                  c.knob == "time step"          ? "dt"
                  : c.knob.starts_with("points") ? "the spacing of points"
                                                 : "its size");
@@ -50,30 +51,30 @@ void print_table(const AccuracyStudy& s) {
 // --target and --budget: the setting, and the line for the scene.
 int answer(const AccuracyStudy& s, const Options& options) {
   const Goal& q = s.quantity();
-  const auto say = [&](std::size_t i) {
+  const auto tell_of = [&](std::size_t i) {
     const Measured& m = s.all[i];
-    fmt::print("  {} costs {:.3g} s and errs by {}\n", m.setting.name, m.cpu, error_text(q, error_of(q, m.values[s.main])));
-    fmt::print("  {}\n", m.setting.line.empty() ? "nothing needs to be changed" : m.setting.line);
+    say("  {} costs {:.3g} s and errs by {}\n", m.setting.name, m.cpu, error_text(q, error_of(q, m.values[s.main])));
+    say("  {}\n", m.setting.line.empty() ? "nothing needs to be changed" : m.setting.line);
   };
   int code = exit_ok;
   const std::vector<std::size_t> front = pareto(q, s.main, s.all, true);
   if (options.target > 0) {
-    fmt::print("target {:g} %:\n", 100 * options.target);
+    say("target {:g} %:\n", 100 * options.target);
     if (const auto found = cheapest(q, s.main, s.all, options.target)) {
-      say(*found);
+      tell_of(*found);
     } else if (front.empty()) {
-      fmt::print("  no run gave a value\n");
+      say("  no run gave a value\n");
       code = exit_expectation;
     } else {
-      fmt::print("  no setting reaches it; {}. The best:\n", what_limits(q, s.main, s.all));
-      say(front.back());
+      say("  no setting reaches it; {}. The best:\n", what_limits(q, s.main, s.all));
+      tell_of(front.back());
       code = exit_expectation;
     }
   }
   if (options.budget > 0) {
-    fmt::print("budget {}:\n", duration_text(options.budget));
-    if (const auto found = best_within(q, s.main, s.all, options.budget)) say(*found);
-    else fmt::print("  no run that gave a value fits; the cheapest takes {:.3g} s\n", front.empty() ? 0.0 : s.all[front.front()].cpu);
+    say("budget {}:\n", duration_text(options.budget));
+    if (const auto found = best_within(q, s.main, s.all, options.budget)) tell_of(*found);
+    else say("  no run that gave a value fits; the cheapest takes {:.3g} s\n", front.empty() ? 0.0 : s.all[front.front()].cpu);
     if (!best_within(q, s.main, s.all, options.budget)) code = exit_expectation;
   }
   return code;
@@ -156,7 +157,7 @@ int whole_study(const Options& options) {
     quality += quality_row(s);
     if (s.name.starts_with("p")) table += study_row(s);
     wall += s.wall;
-    fmt::print("{}\n\n", plain_sentence(s.quantity(), s.main, s.all));
+    say("{}\n\n", plain_sentence(s.quantity(), s.main, s.all));
     std::fflush(stdout);
   }
   std::erase_if(all, [](const AccuracyStudy& s) { return !s.name.starts_with("p"); });  // those of quality alone
@@ -165,7 +166,7 @@ int whole_study(const Options& options) {
   draw_accuracies(all, picture);
   const std::string readme = (home / "engine/README.md").string();
   if (fs::exists(readme)) replace_marked(readme, "accuracy", table), replace_marked(readme, "quality", quality);
-  fmt::print("{}\n{}{} problems in {}; figure {}\n", table, quality, all.size(), duration_text(wall), picture);
+  say("{}\n{}{} problems in {}; figure {}\n", table, quality, all.size(), duration_text(wall), picture);
   return exit_ok;
 }
 
@@ -181,12 +182,12 @@ int verb_accuracy(const Options& options) {
   const AccuracyStudy s = carry_out_accuracy(scene, directory, options);
   print_table(s);
   write_study(s);
-  fmt::print("\n{}\n", plain_sentence(s.quantity(), s.main, s.all));
+  say("\n{}\n", plain_sentence(s.quantity(), s.main, s.all));
   const int code = answer(s, options);
-  fmt::print("{} runs, {} of processor, {} of the clock; {}/accuracy.csv, accuracy.svg, accuracy.png\n", s.all.size(), duration_text(s.cpu),
+  say("{} runs, {} of processor, {} of the clock; {}/accuracy.csv, accuracy.svg, accuracy.png\n", s.all.size(), duration_text(s.cpu),
              duration_text(s.wall), directory);
   if (s.waiting > 0)
-    fmt::print("{} of them did not fit into {}; --resume makes them, --within 10m gives all more time\n", s.waiting,
+    say("{} of them did not fit into {}; --resume makes them, --within 10m gives all more time\n", s.waiting,
                duration_text(options.within));
   const bool any = std::any_of(s.all.begin(), s.all.end(), [&](const Measured& m) { return m.values[s.main].has_value(); });
   return any ? code : exit_numbers;

@@ -13,6 +13,7 @@
 #include "engine/study/timing.h"
 #include "lua/bench_report.h"
 #include "lua/options.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -44,9 +45,7 @@ double span(const Model& m, const State& s) {
 
 // What one scene costs. `seconds` is spent on each way of running it.
 Json measure(const std::string& path, const Options& options, double seconds) {
-  Script::Options script_options;
-  script_options.quiet = true;
-  Script script(script_options);
+  Script script(script_options(options, true));
   script.load(path, options.overrides);
   Scene scene = script.take_scene();
   Prepared run = prepare(scene, true);
@@ -128,9 +127,12 @@ Json child(const Case& item, const std::string& scenes, const std::string& direc
 
 int bench_scenes(const Options& options) {
   Json rows = Json::array();
-  for (const auto& path : options.words) rows.push_back(measure(path, options, 1.5));
-  for (const Json& row : rows)
-    if (!options.quiet) print_bench_row(row);
+  for (const auto& path : options.words) {
+    if (!options.quiet) tell(stderr, path + ": timing kernel and reference, sound and broken, with one thread and two; some minutes where blocks are many");
+    rows.push_back(measure(path, options, 1.5));
+    if (!options.quiet) print_bench_row(rows.back());
+    std::fflush(stdout);
+  }
   if (!options.directory.empty()) write_json(options.directory, rows);
   return exit_ok;
 }
@@ -152,7 +154,7 @@ int verb_bench(const Options& options) {
   write_json(directory + "/bench.json", all);
   print_bench_summary(all);
   write_bench_figure(rows, directory + "/bench.svg");
-  if (!options.quiet) fmt::print("{}\n{}\n", directory + "/bench.json", directory + "/bench.svg");
+  if (!options.quiet) say("{}\n{}\n", directory + "/bench.json", directory + "/bench.svg");
   return exit_ok;
 }
 

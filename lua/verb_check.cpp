@@ -5,9 +5,12 @@
 #include <set>
 
 #include "engine/analysis/prepare.h"
+#include "engine/base/text.h"
+#include "engine/record/recorder.h"
 #include "engine/scene/effects.h"
 #include "lua/options.h"
 #include "lua/progress.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -32,28 +35,28 @@ void print_scene(const Scene& scene) {
   std::set<std::string> groups;
   size_t fixed = 0;
   for (const Block& block : scene.blocks) groups.insert(block.group), fixed += block.fixed;
-  fmt::print("{}: {} blocks ({} fixed) in {} groups, {} materials, {} joint rules, {} loads, {} recorders, {} cameras\n", scene.file,
+  say("{}: {} blocks ({} fixed) in {} groups, {} materials, {} joint rules, {} loads, {} recorders, {} cameras\n", scene.file,
              scene.blocks.size(), fixed, groups.size(), scene.materials.size(), scene.joint_rules.size(), scene.loads.size(),
              scene.recorders.size(), scene.cameras.size());
   for (const Param& param : scene.params)
-    fmt::print("  param {} = {:g} {}{}{}\n", param.name, param.value, param.unit, param.text.empty() ? "" : "  -- ", param.text);
+    say("  param {} = {:g} {}{}{}\n", param.name, param.value, param.unit, param.text.empty() ? "" : "  -- ", param.text);
 }
 
 void print_effects(const Scene& scene) {
   std::string off;
-  fmt::print("effects on:\n");
+  say("effects on:\n");
   for (const Effect& effect : effects_of(scene)) {
-    if (effect.on) fmt::print("  {:<28} {}\n", effect.name, effect.because);
+    if (effect.on) say("  {:<28} {}\n", effect.name, effect.because);
     else off += (off.empty() ? "" : ", ") + effect.name;
   }
-  fmt::print("effects off: {}\n", off.empty() ? "none" : off);
+  say("effects off: {}\n", off.empty() ? "none" : off);
 }
 
 void print_run(const Scene& scene, const Prepared& run) {
   const Model& model = run.model;
   const double dt = run.state.dt, steps = std::ceil(scene.analysis.duration / dt);
-  fmt::print("model: {} blocks, {} joints, {} contact points\n", model.nblock, model.njoint, model.npoint);
-  fmt::print("dt = {:.4g} s: {}\n  dt_critical {:.4g} s, dt_block_bound {:.4g} s{}\n", dt, run.dt_rule, run.bounds.critical,
+  say("model: {} blocks, {} joints, {} contact points\n", model.nblock, model.njoint, model.npoint);
+  say("dt = {:.4g} s: {}\n  dt_critical {:.4g} s, dt_block_bound {:.4g} s{}\n", dt, run.dt_rule, run.bounds.critical,
              run.bounds.block,
              run.bounds.stiffest_block >= 0 ? ", set by block " + model.block_name[static_cast<size_t>(run.bounds.stiffest_block)] : "");
   const auto time = [&](double each) { return duration_text(steps * (step_cost + each)); };
@@ -65,19 +68,18 @@ void print_run(const Scene& scene, const Prepared& run) {
   const auto moving = std::count(model.kind.begin(), model.kind.end(), Kind::moving);
   if (scene.analysis.debris)
     times.push_back(time(contact_cost * heap_pairs * static_cast<double>(moving)) + " if all blocks lie loose in a heap");
-  fmt::print("estimate: {:g} steps for {:g} s, {:.0f} MiB; on one core about {}", steps, scene.analysis.duration,
+  say("estimate: {:g} steps for {:g} s, {:.0f} MiB; on one core about {}", steps, scene.analysis.duration,
              (static_cast<double>(bytes_of(model)) + own_memory) / 1048576.0, fmt::join(times, ", "));
-  fmt::print("\n");
+  say("\n");
 }
 
 void check_scene(const std::string& path, const Options& options) {
-  Script::Options script_options;
-  script_options.quiet = options.quiet;
-  Script script(script_options);
+  Script script(script_options(options, options.quiet));
   const Scene scene = script.load(path, options.overrides);
   const Prepared run = prepare(scene, options.allow_unstable);
-  for (const auto& warning : warnings(scene)) fmt::print(stderr, "warning: {}\n", warning);
-  for (const auto& warning : run.model.warnings) fmt::print(stderr, "warning: {}\n", warning);
+  const Recorders recorders(scene, run.model);  // no two columns of one name
+  for (const auto& warning : warnings(scene)) tell(stderr, "warning: " + warning);
+  for (const auto& warning : run.model.warnings) tell(stderr, "warning: " + warning);
   if (options.quiet) return;
   print_scene(scene);
   print_run(scene, run);
@@ -93,10 +95,10 @@ int verb_check(const Options& options) {
     try {
       check_scene(path, options);
     } catch (const Errors& mistakes) {
-      fmt::print(stderr, "{}\n", mistakes.what());
+      tell(stderr, mistakes.what());
       code = exit_usage;
     } catch (const Error& mistake) {
-      fmt::print(stderr, "{}\n", mistake.what());
+      tell(stderr, mistake.what());
       code = exit_usage;
     }
     std::fflush(stdout);

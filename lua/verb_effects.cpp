@@ -13,6 +13,7 @@
 #include "engine/record/run_folder.h"
 #include "engine/scene/effects.h"
 #include "lua/options.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -43,6 +44,8 @@ Measured run_without(const std::string& scene, const Options& options, const std
   std::vector<std::string> command{own_path(), "run", scene, "-o", folder, "--force", "--quiet", "--threads", "1", "--no-figures"};
   if (!effect.empty()) command.insert(command.end(), {"--without", effect});
   for (const auto& [key, value] : options.overrides) command.insert(command.end(), {"-D", key + "=" + value});
+  const std::vector<std::string> more = permissions(options);
+  command.insert(command.end(), more.begin(), more.end());
   Measured out;
   out.effect = effect;
   const double before = children_seconds();
@@ -84,20 +87,20 @@ struct Row {
 
 void print_row(const Row& r) {
   if (!r.without.trouble.empty()) {
-    fmt::print("{:<26} without it: {}\n", r.without.effect, r.without.trouble);
+    say("{:<26} without it: {}\n", r.without.effect, r.without.trouble);
     return;
   }
-  fmt::print("{:<26} {:9.4f} {:7.1f} {:9.1f}  {:>10.3g}  {:<28} {}\n", r.without.effect, r.ns, r.percent, r.bytes, r.moved.second,
+  say("{:<26} {:9.4f} {:7.1f} {:9.1f}  {:>10.3g}  {:<28} {}\n", r.without.effect, r.ns, r.percent, r.bytes, r.moved.second,
              r.moved.first, r.without.because);
   std::fflush(stdout);
 }
 
 void write_table(const std::vector<Row>& rows, const std::string& path) {
-  std::string text = "effect,called_for_by,ns_per_point_step,percent,bytes_per_point,moves,metric\n";
+  CsvWriter table(path, {"effect", "called_for_by", "ns_per_point_step", "percent", "bytes_per_point", "moves", "metric"});
   for (const Row& r : rows)
-    text += fmt::format("\"{}\",\"{}\",{},{},{},{},\"{}\"\n", r.without.effect, r.without.because, r.ns, r.percent, r.bytes, r.moved.second,
-                        r.moved.first);
-  write_text_atomically(path, text);
+    table.text_row({r.without.effect, r.without.because, fmt::format("{}", r.ns), fmt::format("{}", r.percent), fmt::format("{}", r.bytes),
+                    fmt::format("{}", r.moved.second), r.moved.first});
+  table.flush();
 }
 
 void draw(const std::vector<Row>& rows, const std::string& scene, const std::string& path) {
@@ -123,9 +126,7 @@ void draw(const std::vector<Row>& rows, const std::string& scene, const std::str
 int verb_effects(const Options& options) {
   if (options.words.size() != 1) throw Error("effects takes one scene; write erbs effects SCENE.lua");
   const std::string path = options.words.front();
-  Script::Options script_options;
-  script_options.quiet = true;
-  Script script(script_options);
+  Script script(script_options(options, true));
   const Scene scene = script.load(path, options.overrides);
   const std::string directory = options.directory.empty() ? "runs/" + scene.name + "_effects" : options.directory;
   if (fs::exists(directory + "/effects.csv") && !options.force)
@@ -134,9 +135,9 @@ int verb_effects(const Options& options) {
   const Measured all = run_without(path, options, directory, "");
   if (!all.trouble.empty()) throw Error(path + ": " + all.trouble);
   const double updates = std::max(1.0, all.points) * all.steps;
-  fmt::print("{}: {:.3g} s of one core, {:g} steps, {:g} points: {:.4f} ns per point and step, {:.1f} bytes per point\n\n", scene.name,
+  say("{}: {:.3g} s of one core, {:g} steps, {:g} points: {:.4f} ns per point and step, {:.1f} bytes per point\n\n", scene.name,
              all.user, all.steps, all.points, 1e9 * all.user / updates, all.memory / std::max(1.0, all.points));
-  fmt::print("{:<26} {:>9} {:>7} {:>9}  {:>10}  {:<28} {}\n", "effect", "ns/point", "%", "B/point", "moves", "metric", "called for by");
+  say("{:<26} {:>9} {:>7} {:>9}  {:>10}  {:<28} {}\n", "effect", "ns/point", "%", "B/point", "moves", "metric", "called for by");
   std::vector<Row> rows;
   for (const Effect& effect : effects_of(scene)) {
     if (!effect.on) continue;
@@ -153,7 +154,7 @@ int verb_effects(const Options& options) {
   }
   write_table(rows, directory + "/effects.csv");
   draw(rows, scene.name, directory + "/effects.svg");
-  fmt::print("\n{}\n{}\n", directory + "/effects.csv", directory + "/effects.svg");
+  say("\n{}\n{}\n", directory + "/effects.csv", directory + "/effects.svg");
   return exit_ok;
 }
 

@@ -16,6 +16,7 @@
 #include "lua/cases.h"
 #include "lua/progress.h"
 #include "lua/stability_map.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -248,7 +249,7 @@ void carry_out(MapStudy& study, const Options& given, const std::string& key) {
 }
 
 void print_map(const MapStudy& study) {
-  fmt::print("{}: {:g} s from {:.4g} s on; 2/omega_max {:.4g} s, 2/omega_block {:.4g} s, the sweep feeds dt / 2 x {:.4g} 1/s2\n",
+  say("{}: {:g} s from {:.4g} s on; 2/omega_max {:.4g} s, 2/omega_block {:.4g} s, the sweep feeds dt / 2 x {:.4g} 1/s2\n",
              study.name, study.window, study.from, study.nominal.critical, study.nominal.block, study.nominal.feed);
   int count[6] = {}, other = 0;
   for (const MapRun& r : study.all) {
@@ -257,16 +258,16 @@ void print_map(const MapStudy& study) {
     const bool told = r.verdict != Verdict::waiting && r.verdict != Verdict::failed;
     const bool theory = foretold(r, study.nominal);
     if (!told || tame == theory || (r.verdict == Verdict::bounded && !theory)) continue;  // what is bounded so far may diverge yet
-    if (++other == 1) fmt::print("where theory says otherwise:\n");
-    fmt::print("  {:<10} {:<8} stiffness x {:<4g} dt {:.4g} s ({}), c/m {:.4g} 1/s: {} at {:.4g} s\n",
+    if (++other == 1) say("where theory says otherwise:\n");
+    say("  {:<10} {:<8} stiffness x {:<4g} dt {:.4g} s ({}), c/m {:.4g} 1/s: {} at {:.4g} s\n",
                r.scheme.sequential ? "sequential" : "leapfrog", r.scheme.explicit_damping ? "explicit" : "centred", r.factor, r.dt, r.step,
                r.damping, word(r.verdict), r.until);
   }
   std::string text;
   for (int v = 0; v < 6; ++v)
     if (count[v] > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count[v], word(Verdict(v)));
-  fmt::print("{} runs: {}; {} where theory says otherwise\n", study.all.size(), text, other);
-  if (count[0] + count[2] > 0) fmt::print("--resume --budget 60m goes on with those that are not at their end\n");
+  say("{} runs: {}; {} where theory says otherwise\n", study.all.size(), text, other);
+  if (count[0] + count[2] > 0) say("--resume --budget 60m goes on with those that are not at their end\n");
 }
 
 }  // namespace
@@ -276,9 +277,7 @@ int verb_map(const Options& options) {
   MapStudy study;
   study.scene = options.words.front();
   if (!fs::is_regular_file(study.scene)) throw Error(fmt::format("there is no scene {}; check the path", study.scene));
-  Script::Options quiet;
-  quiet.quiet = true;
-  Script script(quiet);
+  Script script(script_options(options, true));
   const Scene scene = script.load(study.scene, options.overrides);
   study.name = scene.name;
   study.directory = options.directory.empty() ? "runs/map_" + scene.name : options.directory;
@@ -300,7 +299,7 @@ int verb_map(const Options& options) {
   write_map_csv(study, command, run_file(study.directory, "map.csv"));
   draw_map(study, run_file(study.directory, "map.svg"));
   draw_map(study, run_file(study.directory, "map.png"));
-  fmt::print("{0}/map.csv, map.svg, map.png\n", study.directory);
+  say("{0}/map.csv, map.svg, map.png\n", study.directory);
   return exit_ok;
 }
 

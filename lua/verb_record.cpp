@@ -1,12 +1,13 @@
 // erbs record FILE: the numbers of a ground motion, and its picture in a folder of its own.
 #include <cmath>
 #include <filesystem>
-#include <iostream>
+#include <sstream>
 
 #include "engine/loads/record_report.h"
 #include "engine/record/json.h"
 #include "engine/record/record_plot.h"
 #include "lua/options.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -77,11 +78,12 @@ int verb_record(const Options& options) {
     wanted.file = file;
     const Record record = read_record(wanted);
     const RecordReport numbers = report(record);
-    print(std::cout, numbers);
-    std::cout.flush();
+    std::ostringstream table;
+    print(table, numbers);
+    say("{}", table.str());
     const fs::path folder = options.directory.empty() ? fs::path("runs") / fs::path(file).stem() : fs::path(options.directory);
     const std::string picture = write_folder(folder, record, numbers, options.force);
-    if (!options.quiet) fmt::print("{:<22} {}\n", "picture", picture);
+    if (!options.quiet) say("{:<22} {}\n", "picture", picture);
   }
   return exit_ok;
 }

@@ -1,6 +1,5 @@
 // erbs run SCENE.lua: load, run, ask for the scene's metrics, judge its expectations, say what came out.
 #include <cmath>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -11,6 +10,9 @@
 
 #include "engine/analysis/dynamic.h"
 #include "engine/analysis/trust.h"
+#include "engine/base/core.h"
+#include "engine/base/interrupt.h"
+#include "engine/base/text.h"
 #include "engine/scene/effects.h"
 #include "lua/child.h"
 #include "lua/depart.h"
@@ -20,16 +22,10 @@
 #include "lua/figures.h"
 #include "lua/studies.h"
 #include "engine/study/twin.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
-
-std::atomic<bool> interrupted = false;
-
-void on_signal(int signal) {
-  interrupted = true;
-  std::signal(signal, SIG_DFL);  // a second one ends the program at once
-}
 
 std::string text_of(const std::string& path) {
   std::ifstream stream(path, std::ios::binary);
@@ -77,7 +73,7 @@ std::string collapse_text(const Json& metrics) {
                                   ? fmt::format(" towards ({:+.2f}, {:+.2f})", (*direction)[0].get<double>(), (*direction)[1].get<double>())
                                   : " in no one direction";
   std::string text = under_gravity ? fmt::format("does not stand under its own weight; {:.0f} % of the mass fell by the end", 100 * share)
-                                   : fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass fell",
+                                   : fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass lies fallen at the end",
                                                  number_at(metrics, "collapse.time_s"), towards, 100 * share);
   const Json* mechanism = find_key(metrics, "collapse.mechanism.summary");
   if (mechanism && mechanism->is_string() && *mechanism != "") text += "\nmechanism: " + mechanism->get<std::string>();
@@ -85,25 +81,25 @@ std::string collapse_text(const Json& metrics) {
 }
 
 void print_summary(const Scene& scene, const std::string& directory, const Json& metrics, const std::vector<Verdict>& verdicts) {
-  fmt::print("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken\n", scene.name,
+  say("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken\n", scene.name,
              metrics.value("status", ""), number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")),
              number_at(metrics, "realtime_factor"), metrics.value("blocks", 0), metrics.value("joints", 0),
              metrics.value("joints_broken", 0));
-  fmt::print("{}\nenergy residual {:.1e}\n{}\n", collapse_text(metrics), number_at(metrics, "energy.residual_relative"),
+  say("{}\nenergy residual {:.1e}\n{}\n", collapse_text(metrics), number_at(metrics, "energy.residual_relative"),
              trust_line(trust_of(metrics)));
   for (const auto& [name, unit] : scene.metric_units) {
     const Json* value = find_key(metrics, "metrics." + name);
-    fmt::print("  {} = {} {}\n", name, value && value->is_number() ? fmt::format("{:.6g}", value->get<double>()) : "none", unit);
+    say("  {} = {} {}\n", name, value && value->is_number() ? fmt::format("{:.6g}", value->get<double>()) : "none", unit);
   }
   int failed = 0;
   for (const Verdict& v : verdicts) {
     if (v.passed) continue;
     ++failed;
-    fmt::print("  FAILED {}: expected {} {}, got {} ({})\n", v.key, v.expected, v.tolerance, v.got, v.place);
+    say("  FAILED {}: expected {} {}, got {} ({})\n", v.key, v.expected, v.tolerance, v.got, v.place);
   }
-  if (!verdicts.empty()) fmt::print("expectations: {} passed, {} failed\n", verdicts.size() - static_cast<size_t>(failed), failed);
+  if (!verdicts.empty()) say("expectations: {} passed, {} failed\n", verdicts.size() - static_cast<size_t>(failed), failed);
   const std::string status = metrics.value("status", "");
-  fmt::print("{}results in {}\n", status == "completed" ? "" : fmt::format("{}{}; ", status, status == "inaccurate" ? ": not to be relied on" : ""),
+  say("{}results in {}\n", status == "completed" ? "" : fmt::format("{}{}; ", status, status == "inaccurate" ? ": not to be relied on" : ""),
              directory);
   std::fflush(stdout);
 }
@@ -129,8 +125,7 @@ class Twin {
   Twin(const std::string& scene, const std::string& directory, const Options& options) : run_(directory), twin_(run_file(directory, "twin")) {
     command_ = {own_path(), "run", scene, "-o", twin_, "--quiet", "--no-figures", "--study", "twin", "--twin-noise", fmt::format("{:g}", twin_noise)};
     for (const auto& [name, value] : options.overrides) command_.insert(command_.end(), {"-D", name + "=" + value});
-    const std::vector<std::string> more = departures(options);
-    command_.insert(command_.end(), more.begin(), more.end());
+    for (const auto& more : {departures(options), permissions(options)}) command_.insert(command_.end(), more.begin(), more.end());
     if (options.until) command_.insert(command_.end(), {"--until", fmt::format("{}", *options.until)});
     if (options.max_wall) command_.insert(command_.end(), {"--max-wall", fmt::format("{}s", *options.max_wall)});
     if (options.threads > 0) command_.insert(command_.end(), {"--threads", std::to_string(options.threads)});
@@ -152,11 +147,15 @@ class Twin {
   std::vector<std::string> command_;
 };
 
-// All processors, but one for few blocks: a step of 12 bricks takes 7 us, about what two threads need to meet twice. The numbers of
-// a run do not depend on it.
-int default_threads(const Scene& scene) {
-  const int machine = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  return scene.blocks.size() < 100 ? 1 : machine;
+// All processors, but one for few blocks: a step of 12 bricks takes 7 us, about what two threads need to meet twice. Never more than there
+// are: threads that take turns on a processor wait for each other in every step. The numbers of a run do not depend on it.
+int threads_of(const Scene& scene, const Options& options) {
+  const int usable = usable_processors();
+  if (options.threads <= 0) return scene.blocks.size() < 100 ? 1 : usable;
+  if (options.threads > usable)
+    tell(stderr, fmt::format("warning: --threads {}: this process may use {} processor{}; it runs with as many threads", options.threads, usable,
+                             usable > 1 ? "s" : ""));
+  return std::min(options.threads, usable);
 }
 
 // The seam to the engine: one scene, one run folder.
@@ -165,15 +164,17 @@ RunOutcome run_scene(Scene scene, const std::string& script, const std::vector<s
   RunOptions run;
   run.directory = directory;
   run.notes = notes;
+  run.departures = departures(options);
+  if (options.twin_noise > 0) run.departures.insert(run.departures.end(), {"--twin-noise", fmt::format("{}", options.twin_noise)});
   run.existing = options.resume ? Existing::resume : options.force ? Existing::force : Existing::refuse;
-  run.threads = options.threads > 0 ? options.threads : default_threads(scene);
+  run.threads = threads_of(scene, options);
   run.until = options.until;
   run.max_wall = options.max_wall.value_or(0);
   run.checkpoint_every = options.checkpoint_every.value_or(60);
   run.allow_unstable = options.allow_unstable;
   run.noise = options.noise;
   run.twin_noise = options.twin_noise;
-  run.interrupted = &interrupted;
+  run.interrupted = &catch_interrupts();
   ProgressPrinter printer(options.quiet, options.log_json);
   run.progress = [&](const Progress& now) { printer.show(now); };
   return run_dynamic(std::move(scene), script, run);
@@ -183,39 +184,13 @@ RunOutcome run_scene(Scene scene, const std::string& script, const std::vector<s
 void draw_curves(const std::string& directory) {
   try {
     if (run_renderer({directory, "--figures", "--quiet"}) == 0) return;
-  } catch (const Error& error) { fmt::print(stderr, "{}\n", error.what()); }
-  fmt::print(stderr, "warning: the curves are not drawn; erbs render {} --figures tries again\n", directory);
+  } catch (const Error& error) { tell(stderr, error.what()); }
+  tell(stderr, fmt::format("warning: the curves are not drawn; erbs render {} --figures tries again", directory));
 }
 
-}  // namespace
-
-int verb_run(const Options& options) {
-  if (options.words.size() != 1) throw Error(fmt::format("run takes one scene, not {}; erbs test runs several", options.words.size()));
-  const std::string path = options.words.front();
-  Script::Options script_options;
-  script_options.quiet = options.quiet;
-  script_options.study = options.study;
-  script_options.noise = options.noise;
-  script_options.quality = quality_of(options);
-  Script script(script_options);
-  script.load(path, options.overrides);
-  Scene scene = script.take_scene();
-  for (const auto& effect : options.without) switch_off(scene, effect);
-  std::vector<std::string> notes = script.output();
-  for (const auto& note : depart(scene, options)) notes.push_back(note);
-  for (const auto& warning : warnings(scene)) {
-    fmt::print(stderr, "warning: {}\n", warning);
-    notes.push_back("warning: " + warning);
-  }
-  const std::string directory = options.directory.empty() ? "runs/" + scene.name : options.directory;
-  std::signal(SIGINT, on_signal);
-  std::signal(SIGTERM, on_signal);
-  RunOutcome outcome;  // of a finished run whose studies alone go on: its status
-  if (options.resume && studies_left(script, directory)) outcome.metrics.status = read_metrics(directory).value("status", "");
-  else outcome = run_scene(std::move(scene), text_of(path), notes, directory, options);
-  for (const auto& warning : outcome.warnings) fmt::print(stderr, "warning: {}\n", warning);
-  if (!outcome.trouble.empty()) fmt::print(stderr, "{}: {}\n", path, outcome.trouble);
-
+// What comes after the run itself: its studies, its twin, its metrics and pictures. Returns the exit code.
+int complete(Script& script, const std::string& path, const std::string& directory, const RunOutcome& outcome, const Options& options) {
+  const std::atomic<bool>& interrupted = catch_interrupts();
   Json metrics;
   std::vector<Verdict> verdicts;
   const std::string& status = outcome.metrics.status;
@@ -223,20 +198,20 @@ int verb_run(const Options& options) {
   StudiesOutcome studies;
   if (whole && options.study.empty()) studies = run_studies(script, path, directory, options, interrupted);
   if (studies.interrupted) {
-    fmt::print(stderr, "interrupted; the runs of its studies that are done are kept: go on with --resume\n");
+    tell(stderr, "interrupted; the runs of its studies that are done are kept: go on with --resume");
     return exit_interrupted;
   }
   if (whole && options.twin) {
     Json now = read_metrics(directory);
     const std::string trouble = Twin(path, directory, options).compare(now);
     if (interrupted) return exit_interrupted;
-    if (!trouble.empty()) fmt::print(stderr, "{}: {}\n", path, trouble);
+    if (!trouble.empty()) tell(stderr, path + ": " + trouble);
     write_json(run_file(directory, "metrics.json"), now);
   }
   auto failures = complete_metrics(script, directory, whole, studies, metrics, verdicts);
   if (whole && options.study.empty()) write_figures(script, directory, options.figures);
-  for (const auto& trouble : studies.troubles) fmt::print(stderr, "{}\n", trouble);
-  for (const auto& message : failures) fmt::print(stderr, "{}\n", message);
+  for (const auto& trouble : studies.troubles) tell(stderr, trouble);
+  for (const auto& message : failures) tell(stderr, message);
   if (!options.quiet) print_summary(script.scene(), directory, metrics, verdicts);
   int code = exit_code(script.scene(), options, outcome, metrics, verdicts);
   if (code == exit_ok && !failures.empty()) code = exit_usage;
@@ -250,6 +225,54 @@ int verb_run(const Options& options) {
     draw_curves(directory);
   }
   return code;
+}
+
+// What does not fit on the disk ends a run where it is; from its last checkpoint it goes on once there is room.
+int no_room(const WriteError& trouble, const std::string& directory) {
+  std::error_code ignored;
+  const bool checkpoint = std::filesystem::is_regular_file(run_file(directory, "checkpoint.bin"), ignored);
+  tell(stderr, fmt::format("{}; make room, or raise the limit that is reached, and {}", trouble.what(),
+                           checkpoint ? "go on from the last checkpoint with --resume" : "start anew with --force"));
+  return checkpoint ? exit_stopped : exit_usage;
+}
+
+}  // namespace
+
+int verb_run(const Options& options) {
+  if (options.words.size() != 1) throw Error(fmt::format("run takes one scene, not {}; erbs test runs several", options.words.size()));
+  const auto no_option = [](const std::string& name) { return name.starts_with("-") ? "./" + name : name; };  // to programs it is given to
+  const std::string path = no_option(options.words.front());
+  if (options.video) check_programs({renderer_path(), "ffmpeg"});
+  Script::Options how = script_options(options, options.quiet);
+  how.study = options.study;
+  how.noise = options.noise;
+  how.quality = quality_of(options);
+  Script script(how);
+  script.load(path, options.overrides);
+  Scene scene = script.take_scene();
+  for (const auto& effect : options.without) switch_off(scene, effect);
+  std::vector<std::string> notes = script.output();
+  for (const auto& note : depart(scene, options)) notes.push_back(note);
+  if (!options.settings.empty())  // what --set says is subject to the same checks
+    if (const auto mistakes = check(scene); !mistakes.empty()) throw Errors(mistakes);
+  for (const auto& warning : warnings(scene)) {
+    tell(stderr, "warning: " + warning);
+    notes.push_back("warning: " + warning);
+  }
+  const std::string directory = no_option(options.directory.empty() ? "runs/" + scene.name : options.directory);
+  catch_interrupts();
+  try {
+    RunOutcome outcome;  // of a finished run whose studies alone go on: its status
+    if (options.resume && studies_left(script, directory)) {
+      outcome.lock = std::make_shared<FolderLock>(directory);
+      outcome.metrics.status = read_metrics(directory).value("status", "");
+    } else {
+      outcome = run_scene(std::move(scene), text_of(path), notes, directory, options);
+    }
+    for (const auto& warning : outcome.warnings) tell(stderr, "warning: " + warning);
+    if (!outcome.trouble.empty()) tell(stderr, path + ": " + outcome.trouble);
+    return complete(script, path, directory, outcome, options);
+  } catch (const WriteError& trouble) { return no_room(trouble, directory); }
 }
 
 }  // namespace erbs

@@ -2,19 +2,23 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/base/interrupt.h"
+#include "engine/base/text.h"
 #include "engine/record/manifest.h"
 #include "lua/child.h"
 #include "lua/options.h"
+#include "lua/say.h"
 
 namespace erbs {
 
 int verb_render(const Options& options) {
   if (options.words.empty()) throw Error("render takes a run folder; write erbs render DIR");
+  catch_interrupts();  // handed on to it
   return run_renderer(options.words);
 }
 
 int verb_version() {
-  fmt::print("erbs {}\n", program_version());
+  say("erbs {}\n", program_version());
   return exit_ok;
 }
 
@@ -26,7 +30,9 @@ double seconds_of(const std::string& text, const std::string& option) {
   } catch (const std::exception&) {}
   const std::string unit = text.substr(std::min(used, text.size()));
   const double factor = unit.empty() || unit == "s" ? 1 : unit == "ms" ? 1e-3 : unit == "m" || unit == "min" ? 60 : unit == "h" ? 3600 : 0;
-  if (!(value >= 0) || !std::isfinite(value) || factor == 0) throw Error(fmt::format("{} {}: not a length of time; write 90s, 30m or 1.5h", option, text));
+  if (value < 0 && used > 0) throw Error(fmt::format("{} {}: not a length of time, which is never negative; write 90s, 30m or 1.5h", option, shown(text)));
+  if (!(value >= 0) || !std::isfinite(value) || factor == 0)
+    throw Error(fmt::format("{} {}: not a length of time; write 90s, 30m or 1.5h", option, shown(text)));
   return value * factor;
 }
 

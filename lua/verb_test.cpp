@@ -4,10 +4,12 @@
 #include <chrono>
 #include <cstdio>
 
+#include "engine/base/text.h"
 #include "lua/book.h"
 #include "lua/cases.h"
 #include "lua/grid.h"
 #include "lua/progress.h"
+#include "lua/say.h"
 
 namespace erbs {
 namespace {
@@ -23,7 +25,8 @@ std::vector<Row> rows_of(const CaseResult& result) {
     rows.push_back(
         {{result.name, v.key, v.expected, v.got, v.error, v.tolerance, v.passed ? "ok" : "FAILED", rows.empty() ? cost_text(result) : ""},
          v.passed});
-  if (!result.trouble.empty())
+  if (!result.started) rows.push_back({{result.name, "(run)", "", result.trouble, "", "", "not run", ""}, true});
+  else if (!result.trouble.empty())
     rows.push_back({{result.name, "(run)", "", result.trouble, "", "", "FAILED", rows.empty() ? cost_text(result) : ""}, false});
   return rows;
 }
@@ -45,14 +48,15 @@ void print_table(const std::vector<Row>& rows) {
   const auto line = [&](const std::vector<std::string>& cells, const char* before, const char* after) {
     std::string text;
     for (size_t c = 0; c < cells.size(); ++c) {
-      std::string cell = cells[c];
+      std::string cell = shown(cells[c], 2000);
       const size_t width = width_of(cell);
       if (width < widths[c]) cell.append(widths[c] - width, ' ');
       if (c == 6) cell = before + cell + after;
       text += (c ? "  " : "") + cell;
     }
     while (text.ends_with(' ')) text.pop_back();
-    fmt::print("{}\n", text);
+    text += '\n';
+    std::fwrite(text.data(), 1, text.size(), stdout);  // with our own colours
   };
   line(head, "", "");
   for (const Row& row : rows) line(row.cells, color ? (row.passed ? "\033[32m" : "\033[31m") : "", color ? "\033[0m" : "");
@@ -76,12 +80,14 @@ int verb_test(const Options& options) {
   print_table(rows);
   const auto failed = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.passed; });
   const auto failed_cases = std::count_if(results.begin(), results.end(), [](const CaseResult& r) { return !r.passed(); });
-  fmt::print("{} expectations of {} cases: {} passed, {} failed ({} cases) in {}\n", rows.size(), cases.size(),
+  say("{} expectations of {} cases: {} passed, {} failed ({} cases) in {}\n", rows.size(), cases.size(),
              rows.size() - static_cast<size_t>(failed), failed, failed_cases, duration_text(wall));
-  fmt::print("{}\n", summary_line(families_of(results)));
+  say("{}\n", summary_line(families_of(results)));
   std::fflush(stdout);
   if (!options.book.empty()) write_book(results, options, wall);
-  return failed == 0 ? exit_ok : exit_expectation;
+  const auto left = std::count_if(results.begin(), results.end(), [](const CaseResult& r) { return !r.started; });
+  if (left > 0) tell(stderr, fmt::format("{} of {} cases were not started: the time of --budget was over; give more", left, cases.size()));
+  return failed > 0 ? exit_expectation : left > 0 ? exit_stopped : exit_ok;
 }
 
 }  // namespace erbs

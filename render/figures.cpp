@@ -74,8 +74,8 @@ void choose_unit(Panel& panel, const CsvTable& table, const std::string& suffix)
 
 constexpr std::array<const char*, 8> colors{"#23527c", "#c0502d", "#4f8a4c", "#8a5a9e", "#b08a1e", "#3b9aa8", "#7d7d7d", "#a33a5a"};
 
-// Labels are ours, and carry signs (²) that the quoting of foreign text would not let through.
-std::string label(const Panel& panel) { return "'" + panel.label + "'"; }
+// What has no unit is labelled by the name of its column, and a run folder may be from anywhere.
+std::string label(const Panel& panel) { return gnuplot_quoted(panel.label); }
 
 // Every curve of a panel. `every` rows are skipped between two drawn ones.
 std::string plot(const std::string& file, const CsvTable& table, const Panel& panel, const std::string& value, std::size_t every) {
@@ -262,9 +262,9 @@ std::vector<std::string> write_figures(const Run& run) {
   std::vector<std::string> written;
   const fs::path dir(run.dir);
   for (const std::string name : {"histories", "energy"}) {
-    const std::string csv = (dir / (name + ".csv")).string(), svg = (dir / (name + ".svg")).string();
-    if (!fs::exists(csv)) continue;
-    const CsvTable table = read_csv(csv);
+    const std::string csv = name + ".csv", svg = (dir / (name + ".svg")).string();
+    if (!fs::exists(dir / csv)) continue;
+    const CsvTable table = read_csv((dir / csv).string());
     if (table.rows() < 2 || table.names.size() < 2 || table.columns[0].back() <= 0) continue;
     run_gnuplot(name == "energy" ? energy_script(csv, table, run) : histories_script(csv, table, run), svg);
     written.push_back(svg);

@@ -2,7 +2,9 @@
 
 #include <png.h>
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <memory>
 
 #include "engine/base/error.h"
@@ -11,15 +13,17 @@ namespace erbs::render {
 
 // libpng's simplified interface cannot choose the filter: no filter and level 4 are twice as fast and smaller for our pictures.
 void write_png(const std::string& path, const Image& image) {
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "wb"), std::fclose);
-  if (!file) throw Error("the picture cannot be created; does the folder exist and may you write there?", {path, 0});
+  const std::string beside = path + ".tmp";  // renamed once it is whole
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(beside.c_str(), "wb"), std::fclose);
+  if (!file) throw WriteError(fmt::format("the picture cannot be created: {}; does the folder exist and may you write there?", std::strerror(errno)), {path, 0});
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
   std::vector<png_bytep> rows(static_cast<std::size_t>(image.height));
   for (int y = 0; y < image.height; ++y) rows[static_cast<std::size_t>(y)] = const_cast<png_bytep>(image.pixel(0, y));
   if (setjmp(png_jmpbuf(png))) {
     png_destroy_write_struct(&png, &info);
-    throw Error("the picture cannot be written; is the disk full?", {path, 0});
+    std::remove(beside.c_str());
+    throw WriteError("the picture cannot be written; is the disk full?", {path, 0});
   }
   png_init_io(png, file.get());
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB,
@@ -29,6 +33,10 @@ void write_png(const std::string& path, const Image& image) {
   png_set_rows(png, info, rows.data());
   png_write_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);
   png_destroy_write_struct(&png, &info);
+  if (std::fclose(file.release()) != 0 || std::rename(beside.c_str(), path.c_str()) != 0) {
+    std::remove(beside.c_str());
+    throw WriteError("the picture cannot be written; is the disk full?", {path, 0});
+  }
 }
 
 Image read_png(const std::string& path) {

@@ -2,10 +2,13 @@
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <charconv>
-#include <csignal>
+#include <cmath>
 #include <cstdio>
 
 #include "engine/base/error.h"
+#include "engine/base/interrupt.h"
+#include "engine/base/streams.h"
+#include "engine/base/text.h"
 #include "render/figures.h"
 #include "render/movie.h"
 
@@ -14,9 +17,6 @@ namespace {
 using erbs::Error;
 namespace render = erbs::render;
 
-std::atomic<bool> stopped{false};
-void on_interrupt(int) { stopped = true; }
-
 struct Arguments {
   std::string dir, size = "1280x720", time, stills, color = "material";
   std::vector<std::string> cameras;
@@ -24,10 +24,10 @@ struct Arguments {
   render::Movie movie;
 };
 
-// A number and nothing else; false otherwise.
+// A finite number and nothing else; false otherwise.
 bool read_number(std::string_view text, double& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size();
+  return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
 
 void read_size(const std::string& text, render::Look& look) {
@@ -60,7 +60,7 @@ void read_times(const Arguments& a, render::Movie& movie) {
 void write_figures(const render::Run& folder, bool quiet) {
   try {
     for (const std::string& path : render::write_figures(folder))
-      if (!quiet) std::printf("figure: %s\n", path.c_str());
+      if (!quiet) erbs::tell(stdout, "figure: " + path);
   } catch (const Error& e) { throw Error(std::string(e.what()) + "; --no-figures leaves the figures out"); }
 }
 
@@ -76,22 +76,32 @@ int run(Arguments& a) {
   std::fflush(stdout);
   const erbs::MotionReader reader(a.dir);
   render::prepare_contexts();
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
-  return render::make_movie(folder, reader, movie, stopped) ? 0 : 130;
+  return render::make_movie(folder, reader, movie, erbs::catch_interrupts()) ? 0 : 130;
 }
 
 }  // namespace
 
+// A number in a range, ends included: NaN is in none.
+CLI::Validator within(double low, double high) {
+  return CLI::Validator(
+      [=](std::string& text) {
+        double value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) return std::string();
+        return fmt::format("{} is not in range {} to {}", erbs::shown(text), low, high);
+      },
+      fmt::format("{} to {}", low, high));
+}
+
 int main(int argc, char** argv) {
+  erbs::prepare_streams();
   Arguments a;
   CLI::App app("Pictures, videos and figures of a run of erbs.", "erbs-render");
   app.add_option("DIR", a.dir, "the run folder")->required();
   app.add_option("--size", a.size, "pixels of a picture")->capture_default_str();
   app.add_option("--camera", a.cameras, "a camera of the scene by name, or all (default: the first)")->delimiter(',');
-  app.add_option("--fps", a.movie.fps, "pictures a second of the video")->check(CLI::Range(1.0, 240.0))->capture_default_str();
+  app.add_option("--fps", a.movie.fps, "pictures a second of the video")->check(within(1.0, 240.0))->capture_default_str();
   app.add_option("--slow", a.movie.slow, "seconds of video for one second of the run")
-      ->check(CLI::Range(0.001, 1000.0))
+      ->check(within(0.001, 1000.0))
       ->capture_default_str();
   app.add_option("--frames", a.movie.frames, "every: each recorded frame once; N: so many, evenly spread");
   app.add_option("--time", a.time, "T0:T1, only this span (s)");
@@ -101,18 +111,25 @@ int main(int argc, char** argv) {
   app.add_flag("--figures", a.figures_only, "only histories.svg and energy.svg");
   app.add_flag("--no-figures", a.no_figures, "no figures");
   app.add_option("--threads", a.movie.threads, "frames drawn at a time, each by a process (default: one a processor)")
-      ->check(CLI::Range(1, 256));
+      ->check(within(1, 256));
   app.add_option("--context", a.movie.context, "source of OpenGL: osmesa, egl or auto")->check(CLI::IsMember({"osmesa", "egl", "auto"}));
   app.add_flag("--force", a.movie.force, "write over pictures and videos that are there");
   app.add_flag("-q,--quiet", a.movie.quiet, "no progress and no summary");
   try {
     app.parse(argc, argv);
-    return run(a);
-  } catch (const CLI::ParseError& e) { return app.exit(e) == 0 ? 0 : 2; } catch (const Error& e) {
-    std::fprintf(stderr, "error: %s\n", e.what());
+    return erbs::finish_streams(run(a), 2);
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return erbs::finish_streams(app.exit(e), 2);
+    erbs::tell(stderr, std::string("error: ") + e.what());
     return 2;
-  } catch (const std::exception& e) {
-    std::fprintf(stderr, "error: %s\n", e.what());
+  } catch (const Error& e) {
+    erbs::tell(stderr, std::string("error: ") + e.what());
+    return 2;
+  } catch (const std::logic_error& e) {
+    erbs::tell(stderr, std::string("error: ") + e.what());
     return 1;
+  } catch (const std::exception& e) {
+    erbs::tell(stderr, std::string("error: ") + e.what());
+    return 2;
   }
 }

@@ -9,7 +9,9 @@
 #include <memory>
 #include <thread>
 
+#include "engine/base/core.h"
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "render/overlay.h"
 #include "render/video.h"
 #include "render/workers.h"
@@ -34,7 +36,7 @@ std::vector<Camera> chosen_cameras(const Run& run, const Show& show, const Movie
     if (chosen.size() > before) continue;
     std::string known;
     for (const Camera& c : all) known += " " + c.name;
-    throw Error("--camera " + name + " is none of this run's:" + known + " (or all)");
+    throw Error("--camera " + shown(name, 60) + " is none of this run's:" + known + " (or all)");
   }
   return chosen;
 }
@@ -112,7 +114,7 @@ bool film(const Run& run, const Show& show, const MotionReader& reader, const Mo
           const std::atomic<bool>& stop) {
   const Files files = prepare_files(run, movie, camera, schedule);
   const std::size_t all = schedule.times.size();
-  const auto wish = static_cast<std::size_t>(movie.threads > 0 ? movie.threads : static_cast<int>(std::thread::hardware_concurrency()));
+  const auto wish = static_cast<std::size_t>(movie.threads > 0 ? movie.threads : usable_processors());
   const auto start = Clock::now();
   const auto ordered = [&](std::size_t i) {
     MotionFrame f = frame_at(reader, schedule.times[i]);
@@ -136,11 +138,11 @@ bool film(const Run& run, const Show& show, const MotionReader& reader, const Mo
       progress.tell(camera.name, made + 1, all);
     }
   }
-  if (video && made > 0) video->finish();
+  if (video && made == all) video->finish();  // a film is whole, or there is none
   const double wall = since(start);
   if (!movie.quiet)
-    fmt::print("{} {} ({} frames {}x{} in {:.1f} s, {:.3f} s each, {} at a time)\n",
-               files.video.empty() ? "pictures:" : "video:", files.video.empty() ? files.frames.string() : files.video, made,
+    fmt::print("{}{} {} ({} frames {}x{} in {:.1f} s, {:.3f} s each, {} at a time)\n",
+               made == all ? "" : "interrupted; ", files.video.empty() || made < all ? "pictures:" : "video:", files.video.empty() || made < all ? shown(files.frames.string(), 400) : shown(files.video, 400), made,
                movie.look.width, movie.look.height, wall, made ? wall / static_cast<double>(made) : 0, workers.count());
   return made == all;
 }

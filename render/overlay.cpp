@@ -146,7 +146,7 @@ void Overlay::draw_legend(Image& image) const {
   if (look_.coloring == Coloring::damage) {
     const double width = 170 * u, left = right - width;
     fill_box(image, left - 10 * u, y - 18 * u, right + 10 * u, y + 36 * u, panel);
-    regular_.draw(image, "broken share of joints", left, y, size, text_ink);
+    regular_.draw(image, "joints broken or open", left, y, size, text_ink);
     y += 8 * u;
     for (int c = 0; c < static_cast<int>(width); ++c)
       fill_box(image, left + c, y, left + c + 1, y + 11 * u, display(damage_color(c / width)));

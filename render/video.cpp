@@ -46,7 +46,8 @@ Video::Video(std::string path, int width, int height, double fps) : path_(std::m
                                            "+faststart",
                                            "-f",
                                            "mp4",
-                                           unfinished_},
+                                           // a name that is no option, nor a protocol of ffmpeg
+                                           "file:" + std::filesystem::absolute(unfinished_).string()},
                   "install ffmpeg, or ask for pictures alone with --no-video");
 }
 

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -70,8 +71,11 @@ Workers::Workers(std::size_t count, int width, int height, const MotionFrame& li
     if (shared == MAP_FAILED || pipe2(orders.data(), O_CLOEXEC) != 0 || pipe2(answers.data(), O_CLOEXEC) != 0)
       throw Error("no more drawing processes can be started; ask for fewer --threads");
     w.shared = static_cast<unsigned char*>(shared);
+    const pid_t parent = getpid();
     w.pid = fork();
     if (w.pid == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGKILL);  // it draws for nobody else
+      if (getppid() != parent) _exit(1);
       for (const Worker& other : workers_) close(other.orders), close(other.answers);
       close(orders[1]), close(answers[0]);
       w.orders = orders[0], w.answers = answers[1];
@@ -96,6 +100,7 @@ Workers::~Workers() {
 void Workers::serve(Worker& w, const std::function<Draw()>& prepare) {
   signal(SIGINT, SIG_IGN);
   signal(SIGTERM, SIG_IGN);
+  signal(SIGHUP, SIG_IGN);
   Draw draw;
   for (Order order; receive(w.orders, &order, sizeof order);) {
     try {

@@ -3,11 +3,16 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
+#include "engine/analysis/crew.h"
+#include "engine/analysis/lost_blocks.h"
 #include "engine/analysis/prepare.h"
+#include "engine/analysis/resume.h"
 #include "engine/analysis/trust.h"
+#include "engine/base/hash.h"
 #include "engine/record/checkpoint.h"
 #include "engine/record/collapse.h"
 #include "engine/record/run_writer.h"
@@ -52,26 +57,6 @@ void each(C& c, F&& f) {
 constexpr long wrong_steps = 512;       // that a run goes on with a ledger that has lost half of what passed; ...
 constexpr long negative_steps = 160000;  // ... with a kinetic energy below zero, as modes at the limit of the step have it
 
-// What has come off beyond the ground and falls on for ever; "" where nothing has.
-std::string lost_blocks(const Model& m, const State& s) {
-  const double g = m.gravity.norm();
-  if (!(g > 0) || std::find(m.kind.begin(), m.kind.end(), Kind::fixed) == m.kind.end()) return {};
-  const Vec3 up = -m.gravity / g;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (int b = 0; b < m.nblock; ++b) low = std::min(low, up.dot(m.rest[z(b)])), high = std::max(high, up.dot(m.rest[z(b)]));
-  int count = 0, first = -1;
-  for (int b = 0; b < m.nblock; ++b) {
-    if (m.kind[z(b)] != Kind::moving || !(up.dot(m.rest[z(b)] + s.u[z(b)]) < low - (high - low))) continue;
-    if (first < 0) first = b;
-    ++count;
-  }
-  if (count == 0) return {};
-  return fmt::format(
-      "{} block{} fell past the ground by more than the height of the structure, '{}' the first of the scene; if what comes off "
-      "should land, make the ground larger: ground{{ size = ... }}",
-      count, count > 1 ? "s" : "", m.block_name[z(first)]);
-}
-
 class Run {
  public:
   Run(Scene scene, const std::string& script, const RunOptions& options);
@@ -79,6 +64,7 @@ class Run {
 
  private:
   void begin();
+  void step_on();
   void watch(const BlockVec3& built);
   bool wanted(double t);
   void sampled();
@@ -107,6 +93,8 @@ class Run {
   Collapse collapse_;
   TrustWatch trust_;
   std::optional<Solver> solver_;
+  std::optional<Crew> crew_;
+  long touched_ = 0, slept_ = 0;
   std::optional<RunWriter> writer_;
   RunOutcome out_;
   bool row_now_ = false, frame_now_ = false;
@@ -120,13 +108,17 @@ Run::Run(Scene scene, const std::string& script, const RunOptions& options)
 
 void Run::begin() {
   check_run_folder(options_.directory, options_.existing);
+  if (std::filesystem::is_directory(options_.directory)) out_.lock = std::make_shared<FolderLock>(options_.directory);
+  if (options_.existing == Existing::resume) check_departures(options_.directory, options_.departures);
   run_ = prepare(scene_, options_.allow_unstable);
   dt_at_start_ = run_.state.dt;
-  key_ = {scene_hash(scene_, script_), dt_at_start_};
+  key_ = {scene_hash(scene_, script_), dt_at_start_, fnv1a(fmt::format("{}", fmt::join(options_.departures, "\n")))};
   const bool resume = options_.existing == Existing::resume;
   WriterProgress written;
   if (resume) {
+    const std::vector<std::size_t> sizes = sizes_of(run_.state);
     read_checkpoint(options_.directory, key_, run_.state, written, collapse_, clock_, trust_);
+    check_sizes(options_.directory, sizes, run_.state);
   } else {
     const BlockVec3 built = run_.state.u;
     start_at_rest(scene_, run_, options_.threads);
@@ -140,9 +132,12 @@ void Run::begin() {
   manifest.dt_critical = run_.bounds.critical;
   manifest.dt_block_bound = run_.bounds.block;
   manifest.dt_rule = run_.dt_rule;
+  manifest.departures = options_.departures;
   for (const Effect& e : effects_)
     (e.on ? manifest.effects_on : manifest.effects_off).push_back(e.on ? e.name + " (" + e.because + ")" : e.name);
+  const Recorders wanted(scene_, run_.model);  // finds columns of one name before anything is written
   create_run_folder(options_.directory, options_.existing, script_, manifest);
+  if (!out_.lock) out_.lock = std::make_shared<FolderLock>(options_.directory);
   writer_.emplace(options_.directory, scene_, run_.model, resume ? &written : nullptr);
   scene_.blocks = std::vector<Block>();
   return_free_memory();
@@ -162,6 +157,7 @@ void Run::begin() {
   }
   height_energy_ = weights > 0 ? moments - weights * low : 0;
   solver_.emplace(run_.model, run_.state, options_.threads);
+  crew_.emplace(options_.threads);
   return_free_memory();
   steps_at_start_ = run_.state.step;
   started_at_ = run_.state.t;
@@ -439,18 +435,32 @@ void Run::judge() {
                            e.residual_worst, gate(), e.largest_jump, e.largest_jump_time, where));
 }
 
+// To the end, with as many threads as are fast at the moment: another number goes on from the state as a resumed run does.
+void Run::step_on() {
+  for (bool ended = false; !ended && !solver_->broken();) {
+    solver_->run({[this](double t) { return wanted(t); }, [this] { sampled(); },
+                  [&] { return (ended = stop()) || crew_->turns(run_.state.step); }});
+    touched_ += solver_->touched(), slept_ += solver_->slept();
+    if (ended || solver_->broken()) return;
+    const double began = seconds();
+    take_joints();
+    solver_.emplace(run_.model, run_.state, crew_->threads());
+    crew_->took(seconds() - began);
+  }
+}
+
 RunOutcome Run::go() {
   begin();
-  solver_->run({[this](double t) { return wanted(t); }, [this] { sampled(); }, [this] { return stop(); }});
+  step_on();
   if (solver_->broken()) out_.metrics.status = "diverged";
   judge();
   const std::string& status = out_.metrics.status;
   if (!out_.trouble.empty()) writer_->log(out_.trouble);
-  if (solver_->touched() > 0)
-    writer_->log(fmt::format("contact: {} forces of touching pairs in {} steps", solver_->touched(), run_.state.step - steps_at_start_));
-  if (solver_->slept() > 0)
+  if (touched_ > 0)
+    writer_->log(fmt::format("contact: {} forces of touching pairs in {} steps", touched_, run_.state.step - steps_at_start_));
+  if (slept_ > 0)
     writer_->log(fmt::format("sleep: {:.1f} of {} blocks asleep in the mean, {} at the end",
-                             double(solver_->slept()) / double(std::max(1L, run_.state.step - steps_at_start_)), run_.model.nblock,
+                             double(slept_) / double(std::max(1L, run_.state.step - steps_at_start_)), run_.model.nblock,
                              run_.state.rest.count));
   if (const std::string lost = lost_blocks(run_.model, run_.state); !lost.empty()) {
     out_.warnings.push_back(lost);

@@ -2,6 +2,7 @@
 #pragma once
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 
@@ -21,6 +22,7 @@ struct Progress {
 
 struct RunOptions {
   std::string directory;
+  std::vector<std::string> departures;  // words of the command line: a checkpoint goes on with the same ones only
   std::vector<std::string> notes;  // for the head of log.txt: what the script printed, the warnings of its check
   Existing existing = Existing::refuse;
   int threads = 1;
@@ -37,6 +39,7 @@ struct RunOutcome {
   Metrics metrics;
   std::string trouble;       // what went wrong with the numbers, where, and which knob cures it
   std::vector<std::string> warnings;
+  std::shared_ptr<const FolderLock> lock;  // no other run writes there while this is kept
 };
 
 // Throws Error or Errors before anything is written; afterwards always leaves a whole run folder.

@@ -1,6 +1,53 @@
 #include "engine/base/core.h"
 
+#include <algorithm>
+#include <fstream>
+#include <string>
+#include <thread>
+
 namespace erbs {
+
+namespace {
+
+// Processors of a quota such as "150000 100000" (us a period) in `file`, or of the two files of the older interface; 0 where none is set.
+double quota_in(const std::string& file, const std::string& period_file = "") {
+  std::ifstream in(file);
+  double quota = 0, period = 0;
+  if (!(in >> quota)) return 0;  // "max"
+  if (period_file.empty()) in >> period;
+  else std::ifstream(period_file) >> period;
+  return quota > 0 && period > 0 ? quota / period : 0;
+}
+
+// The least quota of the control groups that hold this process, from its own up to the root; 0: none.
+double least_quota() {
+  double least = 0;
+  std::ifstream groups("/proc/self/cgroup");
+  for (std::string line; std::getline(groups, line);) {  // 4:cpu,cpuacct:/a/b, or 0::/a/b
+    const std::size_t first = line.find(':'), second = line.find(':', first + 1);
+    if (first == std::string::npos || second == std::string::npos) continue;
+    const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";
+    const bool unified = controllers == ",,", old = controllers.find(",cpu,") != std::string::npos;
+    if (!unified && !old) continue;
+    for (std::string path = line.substr(second + 1);; path.erase(path.find_last_of('/'))) {
+      const std::string folder = (unified ? "/sys/fs/cgroup" : "/sys/fs/cgroup/cpu") + (path == "/" ? "" : path);
+      const double quota = unified ? quota_in(folder + "/cpu.max") : quota_in(folder + "/cpu.cfs_quota_us", folder + "/cpu.cfs_period_us");
+      if (quota > 0) least = least > 0 ? std::min(least, quota) : quota;
+      if (path.find('/') == std::string::npos) break;
+    }
+  }
+  return least;
+}
+
+}  // namespace
+
+int usable_processors() {
+  cpu_set_t allowed;
+  const int machine = ::sched_getaffinity(0, sizeof(allowed), &allowed) == 0 ? CPU_COUNT(&allowed) : int(std::thread::hardware_concurrency());
+  const double quota = least_quota();
+  const int granted = quota > 0 ? std::max(1, int(quota + 0.5)) : machine;
+  return std::max(1, std::min(machine, granted));
+}
 
 int this_core() { return ::sched_getcpu(); }
 

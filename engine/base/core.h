@@ -5,6 +5,9 @@
 namespace erbs {
 
 int this_core();
+// How many threads this process can run at once: the processors of its affinity mask, and no more than the quota of its control group
+// (a container's). At least 1.
+int usable_processors();
 // Lets the scheduler find another core for the calling thread; where it may use no other, nothing happens.
 void leave_core(int core);
 

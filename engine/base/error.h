@@ -24,6 +24,12 @@ class Error : public std::runtime_error {
   Place place;
 };
 
+// A file that cannot be written: the disk is full, a limit is reached, the folder is gone. Ends a run with code 3 where a checkpoint is
+// there to go on from, else with code 2.
+class WriteError : public Error {
+  using Error::Error;
+};
+
 // Every mistake of a scene at once; each entry is one message that already names its place.
 class Errors : public std::runtime_error {
  public:

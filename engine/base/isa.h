@@ -5,7 +5,7 @@ namespace erbs {
 
 enum class Isa { sse2, avx2, avx512 };
 
-// The widest this processor has; ERBS_ISA=sse2|avx2|avx512 in the environment asks for a narrower one.
+// The widest this processor has; ERBS_ISA=sse2|avx2|avx512 in the environment asks for a narrower one; another word is an Error.
 Isa chosen_isa();
 
 // What was compiled for it.

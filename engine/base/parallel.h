@@ -19,7 +19,8 @@ namespace erbs {
 
 class Barrier {
  public:
-  explicit Barrier(int count, int spins = 60000) : count_(count), spins_(spins), seat_(std::size_t(count)) {}
+  explicit Barrier(int count, int spins = 60000)
+      : count_(count), spins_(count <= usable_processors() ? spins : 0), crowded_(count > usable_processors()), seat_(std::size_t(count)) {}
   void wait(int thread) {
     if (count_ == 1) return;
     const unsigned round = arrive(thread);
@@ -78,10 +79,11 @@ class Barrier {
     const auto behind = [round](unsigned said) { return int(said - round) < 0; };
     for (int left = spins_ << mine.patience; left >= 0; --left)
       if (!behind(what.load(std::memory_order_acquire))) return;
-    part(thread);
+    if (!crowded_) part(thread);
     const auto since = Clock::now();
     for (unsigned said; behind(said = what.load(std::memory_order_acquire));) what.wait(said, std::memory_order_acquire);
     const auto slept = Clock::now() - since;
+    if (crowded_) return;
     if (slept < 1ms) mine.patience = std::min(mine.patience + 1, most_patience);
     else if (slept > 8ms) mine.patience = std::max(mine.patience - 1, 0);
   }
@@ -102,6 +104,7 @@ class Barrier {
 
   static constexpr int most_patience = 6;  // 64 times as long
   const int count_, spins_;
+  const bool crowded_;  // more threads than processors: who waits sleeps at once, since the one it waits for may want its processor
   bool failed_ = false;
   std::vector<Seat> seat_;
   alignas(64) std::atomic<unsigned> opened_{0};

@@ -1,10 +1,12 @@
 #include "engine/base/process.h"
 
 #include <fcntl.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
@@ -14,6 +16,7 @@
 #include <thread>
 
 #include "engine/base/error.h"
+#include "engine/base/interrupt.h"
 
 namespace erbs {
 namespace {
@@ -38,10 +41,15 @@ Child start(const std::vector<std::string>& command, const std::string& log) {
   words.push_back(nullptr);
   int failure[2];  // closed by a successful exec, else brings errno
   if (pipe2(failure, O_CLOEXEC) != 0) throw Error(fmt::format("cannot start {}: {}", command.front(), std::strerror(errno)));
-  const pid_t pid = fork();
+  const pid_t parent = getpid(), pid = fork();
   if (pid == 0) {
+    // It ends with us, however we end, and has its own say about pipes.
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+    if (getppid() != parent) _exit(128 + SIGTERM);
+    std::signal(SIGPIPE, SIG_DFL);
+    std::signal(SIGXFSZ, SIG_DFL);
     if (!log.empty()) {
-      const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+      const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
       if (file >= 0) {
         dup2(file, STDOUT_FILENO);
         dup2(file, STDERR_FILENO);
@@ -82,7 +90,13 @@ Ended wait_for_any(double seconds) {
 
 int wait_for(const Child& child) {
   int status = 0;
-  while (waitpid(child.pid, &status, 0) < 0 && errno == EINTR) {}
+  bool told = false;
+  auto pause = std::chrono::milliseconds(1);
+  for (pid_t ended = 0; (ended = waitpid(child.pid, &status, WNOHANG)) == 0 || (ended < 0 && errno == EINTR);) {
+    if (is_interrupted() && !told) told = kill(child.pid, SIGTERM) == 0;
+    std::this_thread::sleep_for(pause);
+    pause = std::min(2 * pause, std::chrono::milliseconds(20));
+  }
   return code_of(status);
 }
 

@@ -10,7 +10,8 @@ std::string own_path();  // of the program that runs
 struct Child {
   int pid = -1;
 };
-// Starts a program; with `log` its stdout and stderr go into that file. Throws Error where it cannot be started.
+// Starts a program; with `log` its stdout and stderr go into that file. It is asked to end when the thread that started it has ended.
+// Throws Error where it cannot be started.
 Child start(const std::vector<std::string>& command, const std::string& log = "");
 // Waits for any child; gives its pid and its exit code (128 + signal where it was killed). pid = -1: a signal came first, or there is
 // no child.
@@ -20,7 +21,7 @@ struct Ended {
 };
 Ended wait_for_any();
 Ended wait_for_any(double seconds);  // at most this long: pid = -1 where none has ended by then
-int wait_for(const Child& child);
+int wait_for(const Child& child);  // an interrupt that is caught meanwhile is handed on to it
 void interrupt(const Child& child);  // as Ctrl-C does
 void stop_hard(const Child& child);  // where it does not heed that
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/base/text.h"
 #include "engine/loads/record_file.h"
 
 namespace erbs {
@@ -44,7 +45,7 @@ double factor_to_si(std::string_view in_file, const Record& wanted, const Place&
     throw Error(fmt::format("the file does not say the unit of its values; add unit = \"g\" in the scene, or --unit g to erbs record (one of {})", known_units), place);
   const std::optional<double> said = in_file.empty() ? std::nullopt : acceleration_unit(in_file);
   if (!in_file.empty() && !said)
-    throw Error(fmt::format("unknown unit \"{}\" of acceleration; use one of {}", in_file, known_units), place);
+    throw Error(fmt::format("unknown unit \"{}\" of acceleration; use one of {}", shown(in_file, 24), known_units), place);
   if (wanted.unit.empty()) return *said;
   const std::optional<double> asked = acceleration_unit(wanted.unit);
   if (!asked) throw Error(fmt::format("unknown unit = \"{}\" of acceleration; use one of {}", wanted.unit, known_units), place);
@@ -61,7 +62,7 @@ Record read_record(Record record, const Place& place) {
   const RecordText text = read_record_text(record.file);
   RecordFile file = parse_record(text, record);
   if (file.values.size() < 2) throw Error("one value makes no record; give at least two", {record.file});
-  record.title = file.title;
+  record.title = for_files(file.title);
   record.format = file.format;
   record.hash = text.hash;
   record.points = static_cast<int>(file.values.size());
@@ -73,6 +74,12 @@ Record read_record(Record record, const Place& place) {
   const double factor = record.peak > 0 ? record.peak / record.file_peak : record.scale;
   for (double& value : file.values) value *= factor;
   for (double& time : file.times) time *= record.time_factor;
+  constexpr double most_acceleration = 1e6, longest = 1e6;  // m/s2, s
+  if (!(largest(file.values) <= most_acceleration))
+    throw Error(fmt::format("its peak is {:.3g} m/s2; at most {:g} is allowed: check the unit and the scale", largest(file.values), most_acceleration),
+                {record.file});
+  if (!(file.times.back() <= longest))
+    throw Error(fmt::format("it lasts {:.3g} s; at most {:g} s is allowed: check the unit of its times", file.times.back(), longest), {record.file});
   record.acceleration = make_polyline(std::move(file.times), std::move(file.values));
   return record;
 }

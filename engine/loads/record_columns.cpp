@@ -3,6 +3,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "engine/base/text.h"
 #include "engine/loads/record_file.h"
 
 namespace erbs {
@@ -112,7 +113,7 @@ double time_factor(const RecordText& text, const Rows& rows, size_t column) {
     if (unit.empty() || unit == "s" || unit == "sec") return 1;
     if (unit == "ms") return 1e-3;
   }
-  throw Error(fmt::format("the column of times is named \"{}\" [{}]; name it time_s or time_ms", rows.columns[column].name, unit),
+  throw Error(fmt::format("the column of times is named \"{}\" [{}]; name it time_s or time_ms", shown(rows.columns[column].name, 24), shown(unit, 24)),
               {text.path, rows.names_line});
 }
 

@@ -12,6 +12,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
+#include "engine/base/text.h"
 #include "engine/base/units.h"
 
 namespace erbs {
@@ -53,8 +54,11 @@ size_t end_of_number(std::string_view s, size_t at) {
   const std::string_view line = text.lines[index];
   size_t end = at;
   while (end < line.size() && !separator(line[end]) && end < at + 24) ++end;
-  throw Error(fmt::format("column {}: \"{}\" is not a number; correct it, or begin the line with # if it is a comment", at + 1,
-                          line.substr(at, end - at)),
+  // What begins as no number is not quoted: the file may be none of records, and none of the reader's business.
+  const std::string_view word = line.substr(at, end - at);
+  const bool quoted = digit(word[0]) || sign(word[0]) || word[0] == '.' || word == "nan" || word == "inf";
+  throw Error(fmt::format("column {}: {} is not a number; correct it, or begin the line with # if it is a comment", at + 1,
+                          quoted ? "\"" + shown(word, 24) + "\"" : "what stands there"),
               {text.path, static_cast<int>(index) + 1});
 }
 
@@ -81,6 +85,8 @@ RecordText read_record_text(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error("the record file cannot be opened; check its permissions", {path});
   const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF") || bytes.find('\0') != std::string::npos)
+    throw Error("is no plain text, or text in UTF-16; save it as UTF-8", {path});
   RecordText text{path, hash_text(bytes), {}};
   std::string_view rest = bytes;
   if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);  // the byte order mark of some editors

@@ -17,7 +17,6 @@
 namespace erbs {
 namespace {
 
-constexpr double most_overlap = 1e-3;  // of the smaller edge
 constexpr double infinite = std::numeric_limits<double>::infinity();
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -106,7 +105,10 @@ struct Overlapping {
   int others = 0;
 };
 
-void check_overlaps(const Scene& scene, const std::vector<Overlap>& overlaps, std::vector<std::string>& errors,
+// How many pairs may overlap before the search for more of them ends: a thousand where they are mistakes.
+std::size_t pairs_of(const Scene& scene) { return scene.analysis.overlap == "stress_free" ? 1000000 : 1000; }
+
+void check_overlaps(const Scene& scene, const std::vector<Overlap>& overlaps, bool cut, std::vector<std::string>& errors,
                     std::vector<std::string>& warnings, std::vector<std::string>& notes) {
   std::map<std::tuple<int, std::string, int, std::string, bool>, Overlapping> by_lines;
   for (const Overlap& o : overlaps) {
@@ -124,7 +126,8 @@ void check_overlaps(const Scene& scene, const std::vector<Overlap>& overlaps, st
   for (const auto& [key, group] : by_lines) {
     const Overlap& o = *group.deepest;
     const Block &a = scene.blocks[z(o.a)], &b = scene.blocks[z(o.b)];
-    const std::string more = group.others > 0 ? fmt::format(" ({} more pair(s) of these lines do so, too)", group.others) : "";
+    const std::string more =
+        group.others > 0 ? fmt::format(" ({}{} more pair(s) of these lines do so, too)", cut ? "at least " : "", group.others) : "";
     const std::string pair = fmt::format("blocks '{}' ({}) and '{}' ({}) overlap by {:.3g} mm, {:.2g} of their smaller edge", a.name,
                                          a.place.text(), b.name, b.place.text(), 1e3 * o.depth, o.relative);
     const std::string what = pair + more;
@@ -143,8 +146,26 @@ void check_overlaps(const Scene& scene, const std::vector<Overlap>& overlaps, st
   notes.insert(notes.end(), borne.begin(), borne.end());
 }
 
+// Before memory is taken for them.
+void check_points(const Scene& scene, const Interfaces& found, std::vector<std::string>& errors) {
+  double points = 0;
+  for (const Interface& face : found.all) {
+    const JointRule& rule = scene.joint_rules[z(face.rule)];
+    points += double(rule.points_long) * rule.points_short;
+  }
+  if (points > scene.most_points)
+    errors.push_back(fmt::format("{}: {} joints have {:.4g} contact points; at most {} are allowed: take fewer points a joint, or say "
+                                 "--max-points with what the memory bears (about 0.5 KiB each once all is cracked)",
+                                 scene.file, found.all.size(), points, scene.most_points));
+}
+
 void check_blocks(const Scene& scene, const Interfaces& found, Model& m, std::vector<std::string>& errors) {
-  check_overlaps(scene, found.overlaps, errors, m.warnings, m.notes);
+  check_points(scene, found, errors);
+  check_overlaps(scene, found.overlaps, found.cut, errors, m.warnings, m.notes);
+  if (found.cut) {
+    if (errors.empty()) errors.push_back(fmt::format("{}: more than {} pairs of blocks overlap; part them", scene.file, found.overlaps.size() - 1));
+    return;
+  }
   check_joined(scene, found, m.kind, errors, m.warnings);
   for (const Interface& face : found.all) {
     const JointRule& rule = scene.joint_rules[z(face.rule)];
@@ -209,7 +230,7 @@ Built build(const Scene& scene) {
   for (const JointRule& rule : scene.joint_rules) m.laws.push_back(rule.none ? PointLaw{} : compile(rule.law));
   add_blocks(scene, m);
   add_loads(scene, m);
-  Interfaces found = find_interfaces(interface_blocks(scene), scene.joint_rules);
+  Interfaces found = find_interfaces(interface_blocks(scene), scene.joint_rules, 0.05, pairs_of(scene));
   std::vector<std::string> errors;
   check_blocks(scene, found, m, errors);
   if (!errors.empty()) throw Errors(errors);
@@ -235,7 +256,8 @@ std::vector<std::string> overlap_mistakes(const Scene& scene) {
     for (const Polyhedron& part : block.parts)
       if (!problem_of(part).empty()) return {};
   std::vector<std::string> errors, warnings, notes;
-  check_overlaps(scene, find_interfaces(interface_blocks(scene), {}).overlaps, errors, warnings, notes);
+  const Interfaces found = find_interfaces(interface_blocks(scene), {}, 0.05, pairs_of(scene));
+  check_overlaps(scene, found.overlaps, found.cut, errors, warnings, notes);
   return errors;
 }
 

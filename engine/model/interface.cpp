@@ -43,8 +43,8 @@ std::vector<Part> parts_of(std::span<const InterfaceBlock> blocks) {
   return parts;
 }
 
-// Calls visit(i, j) for parts whose boxes come closer than `margin`: sorted along the axis of greatest spread, so that one huge
-// slab costs one pass and not a full grid.
+// Calls visit(i, j), as long as it gives true, for parts whose boxes come closer than `margin`: sorted along the axis of greatest spread, so
+// that one huge slab costs one pass and not a full grid.
 template <class Visit>
 void near_pairs(const std::vector<Part>& parts, double margin, Visit&& visit) {
   Vec3 mean = Vec3::Zero(), spread = Vec3::Zero();
@@ -64,7 +64,7 @@ void near_pairs(const std::vector<Part>& parts, double margin, Visit&& visit) {
       const Box& q = parts[at(j)].box;
       if (q.high[axis] + margin < p.low[axis]) continue;
       open[kept++] = j;
-      if (((q.low.array() - margin) <= p.high.array()).all() && ((p.low.array() - margin) <= q.high.array()).all()) visit(i, j);
+      if (((q.low.array() - margin) <= p.high.array()).all() && ((p.low.array() - margin) <= q.high.array()).all() && !visit(i, j)) return;
     }
     open.resize(kept);
     open.push_back(i);
@@ -174,7 +174,7 @@ void keep_pairs_without_joint(Interfaces& found) {
 
 }  // namespace
 
-Interfaces find_interfaces(std::span<const InterfaceBlock> blocks, std::span<const JointRule> rules, double overlap) {
+Interfaces find_interfaces(std::span<const InterfaceBlock> blocks, std::span<const JointRule> rules, double overlap, std::size_t most_deep) {
   const std::vector<Part> parts = parts_of(blocks);
   RuleTable table(rules);
   double joined = 0, beyond = 0;
@@ -186,25 +186,28 @@ Interfaces find_interfaces(std::span<const InterfaceBlock> blocks, std::span<con
   Interfaces result;
   if (parts.empty()) return result;
   std::map<std::pair<int, int>, Overlap> deepest;
+  std::size_t deep = 0;
   near_pairs(parts, joined + beyond, [&](int i, int j) {
     const bool in_order = std::make_pair(parts[at(i)].block, parts[at(i)].part) < std::make_pair(parts[at(j)].block, parts[at(j)].part);
     const Part& p = parts[at(in_order ? i : j)];
     const Part& q = parts[at(in_order ? j : i)];
     const InterfaceBlock& a = blocks[at(p.block)];
     const InterfaceBlock& b = blocks[at(q.block)];
-    if (p.block == q.block || (a.fixed && b.fixed)) return;
+    if (p.block == q.block || (a.fixed && b.fixed)) return true;
     const double edge = std::min(p.edge, q.edge);
     if (boxes_overlap(p.box, q.box, least_overlap * edge)) {
       const double depth = -separation(*p.shape, *q.shape, -least_overlap * edge).gap;
       if (depth > least_overlap * edge) {
         Overlap& o = deepest.try_emplace({p.block, q.block}, Overlap{p.block, q.block, 0, 0}).first->second;
+        if (o.relative <= most_overlap && depth / edge > most_overlap && ++deep > most_deep) result.cut = true;
         if (depth / edge > o.relative) o = {p.block, q.block, depth, depth / edge};
+        if (result.cut) return false;
       }
     }
-    if (!boxes_overlap(p.box, q.box, -joined - std::min(beyond, most_beyond * edge))) return;
+    if (!boxes_overlap(p.box, q.box, -joined - std::min(beyond, most_beyond * edge))) return true;
     const int rule = table.find(a.group, b.group);
-    if (rule < 0 || rules[at(rule)].none) return;
-    find_faces(p, q, rules[at(rule)], rule, overlap, result);
+    if (rule >= 0 && !rules[at(rule)].none) find_faces(p, q, rules[at(rule)], rule, overlap, result);
+    return true;
   });
   std::sort(result.all.begin(), result.all.end(), [](const Interface& x, const Interface& y) {
     return std::tie(x.a, x.b, x.part_a, x.part_b, x.face_a, x.face_b) < std::tie(y.a, y.b, y.part_a, y.part_b, y.face_a, y.face_b);

@@ -16,17 +16,18 @@ namespace {
 // The file: this head, then the bytes, then FNV-1a of both.
 struct Head {
   char magic[8] = {'E', 'R', 'B', 'S', 'C', 'K', 'P', 'T'};
-  std::uint64_t format = 2;  // raised when the meaning of the bytes changes and their names and sizes do not
+  std::uint64_t format = 3;  // raised when the meaning of the bytes changes and their names and sizes do not
   std::uint64_t scene = 0;
   double dt = 0;
+  std::uint64_t departures = 0;
   std::uint64_t size = 0;
 };
-static_assert(sizeof(Head) == 40, "no padding: its bytes are part of the checksum");
+static_assert(sizeof(Head) == 48, "no padding: its bytes are part of the checksum");
 
 std::string path_of(const std::string& dir) { return dir + "/checkpoint.bin"; }
 
 [[noreturn]] void fail(const std::string& path, const char* what) {
-  throw Error(fmt::format("{}: {}; the checkpoint before it is intact", what, std::strerror(errno)), {path, 0});
+  throw WriteError(fmt::format("{}: {}; a checkpoint before it is intact", what, std::strerror(errno)), {path, 0});
 }
 
 // Closes what it opened, whatever happens.
@@ -118,6 +119,7 @@ void commit_checkpoint(const std::string& dir, const CheckpointKey& key, const s
   Head head;
   head.scene = key.scene;
   head.dt = key.dt;
+  head.departures = key.departures;
   ArchiveOut counted([&](std::string_view bytes) { head.size += bytes.size(); });
   parts(counted);
   const std::string path = path_of(dir), beside = path + ".tmp";
@@ -173,6 +175,10 @@ CheckpointBytes open_checkpoint(const std::string& dir, const CheckpointKey& key
         "belongs to another scene: the script, a file it reads or a parameter (-D) has changed; resume with those of the run "
         "(scene.lua and manifest.json beside it), or start anew with --force",
         place);
+  if (head.departures != key.departures)
+    throw Error("was written by a run with other options (--set, --without, --points, ...); resume with those of the run, which stand in "
+                "manifest.json (\"departures\"), or start anew with --force",
+                place);
   if (head.dt != key.dt)
     throw Error(fmt::format("was written with dt = {} s, this run has dt = {} s; resume with the same, or start anew with --force", head.dt,
                             key.dt),

@@ -15,6 +15,7 @@ namespace erbs {
 struct CheckpointKey {
   std::uint64_t scene = 0;  // scene_hash
   double dt = 0;            // s, chosen at the start of the run
+  std::uint64_t departures = 0;  // of the words of the command line by which the run departs from its scene
 };
 
 // Script, files read, parameters, and all that the blocks are made of.

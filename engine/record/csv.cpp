@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/hash.h"
+#include "engine/base/text.h"
 #include "engine/base/words.h"
 
 namespace erbs {
@@ -61,11 +63,12 @@ std::vector<std::string> split(std::string_view line) {
 }
 
 std::string quote(const std::string& cell) {
-  if (cell.find_first_of(",\"\n\r") == std::string::npos) return cell;
+  const std::string plain = for_files(cell);  // one row stays one line
+  if (plain.find_first_of(",\"") == std::string::npos) return plain;
   std::string out = "\"";
-  for (const char c : cell) {
+  for (const char c : plain) {
     if (c == '"') out += '"';
-    out += c == '\n' || c == '\r' ? ' ' : c;  // one row stays one line
+    out += c;
   }
   return out + '"';
 }
@@ -89,12 +92,12 @@ bool number(std::string_view cell, double& value) {
 
 CsvWriter::CsvWriter(const std::string& path, const std::vector<std::string>& names) : columns_(names.size()), path_(path) {
   file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644);
-  if (file_ < 0) throw Error(fmt::format("cannot be written: {}", std::strerror(errno)), {path, 0});
+  if (file_ < 0) throw WriteError(fmt::format("cannot be written: {}", std::strerror(errno)), {path, 0});
   add(line_of(names));
   flush();
 }
 
-CsvWriter::CsvWriter(const std::string& path, const std::vector<std::string>& names, long keep_rows)
+CsvWriter::CsvWriter(const std::string& path, const std::vector<std::string>& names, long keep_rows, std::optional<std::uint64_t> sum)
     : columns_(names.size()), rows_(keep_rows), path_(path) {
   const std::string text = read_all(path), head = line_of(names);
   if (text.compare(0, head.size(), head) != 0)
@@ -106,8 +109,10 @@ CsvWriter::CsvWriter(const std::string& path, const std::vector<std::string>& na
       throw Error(fmt::format("has {} rows, the checkpoint knows of {}; start anew with --force", row, keep_rows), {path, 0});
     end = stop + 1;
   }
+  sum_ = fnv1a(std::string_view(text).substr(0, end));
+  if (sum && *sum != sum_) throw Error("was changed after the checkpoint was written; start anew with --force", {path, 0});
   file_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (file_ < 0 || ::ftruncate(file_, off_t(end)) != 0) throw Error(fmt::format("cannot be written: {}", std::strerror(errno)), {path, 0});
+  if (file_ < 0 || ::ftruncate(file_, off_t(end)) != 0) throw WriteError(fmt::format("cannot be written: {}", std::strerror(errno)), {path, 0});
 }
 
 CsvWriter::~CsvWriter() {
@@ -123,6 +128,7 @@ CsvWriter::CsvWriter(CsvWriter&& other) noexcept
     : file_(std::exchange(other.file_, -1)),
       columns_(other.columns_),
       rows_(other.rows_),
+      sum_(other.sum_),
       path_(std::move(other.path_)),
       waiting_(std::move(other.waiting_)) {}
 
@@ -130,6 +136,7 @@ CsvWriter& CsvWriter::operator=(CsvWriter&& other) noexcept {
   std::swap(file_, other.file_);
   std::swap(columns_, other.columns_);
   std::swap(rows_, other.rows_);
+  std::swap(sum_, other.sum_);
   std::swap(path_, other.path_);
   std::swap(waiting_, other.waiting_);
   return *this;
@@ -137,6 +144,7 @@ CsvWriter& CsvWriter::operator=(CsvWriter&& other) noexcept {
 
 void CsvWriter::add(const std::string& line) {
   waiting_ += line;
+  sum_ = fnv1a(line, sum_);
   if (waiting_.size() >= enough) flush();
 }
 
@@ -167,7 +175,7 @@ void CsvWriter::flush() {
     if (n <= 0) {
       const std::string why = std::strerror(errno);
       waiting_.clear();
-      throw Error(fmt::format("cannot be written: {}; what was written before is intact", why), {path_, 0});
+      throw WriteError(fmt::format("cannot be written: {}; what was written before is intact", why), {path_, 0});
     }
     done += std::size_t(n);
   }

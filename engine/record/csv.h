@@ -1,5 +1,7 @@
 // Tables of text: one line of names with units, then one line a row, comma separated.
 #pragma once
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -12,8 +14,9 @@ class CsvWriter {
   CsvWriter() = default;
   // Starts the file anew with its line of names.
   CsvWriter(const std::string& path, const std::vector<std::string>& names);
-  // Goes on with a file of the same names, of which the first `keep_rows` rows stay. Error where it has fewer, or other names.
-  CsvWriter(const std::string& path, const std::vector<std::string>& names, long keep_rows);
+  // Goes on with a file of the same names, of which the first `keep_rows` rows stay. Error where it has fewer, other names, or is not
+  // what sum() was of.
+  CsvWriter(const std::string& path, const std::vector<std::string>& names, long keep_rows, std::optional<std::uint64_t> sum = {});
   ~CsvWriter();
   CsvWriter(CsvWriter&& other) noexcept;
   CsvWriter& operator=(CsvWriter&& other) noexcept;
@@ -23,12 +26,14 @@ class CsvWriter {
   void flush();  // after this the rows survive the death of the program
   void sync();   // ... and of the machine
   long rows() const { return rows_; }
+  std::uint64_t sum() const { return sum_; }  // FNV-1a of the file, with the rows that wait
 
  private:
   void add(const std::string& line);
   int file_ = -1;
   std::size_t columns_ = 0;
   long rows_ = 0;
+  std::uint64_t sum_ = 0xcbf29ce484222325u;
   std::string path_, waiting_;
 };
 

@@ -11,6 +11,7 @@
 #include <system_error>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 
 namespace erbs {
 namespace {
@@ -26,15 +27,17 @@ struct TemporaryFile {
   }
 };
 
-// The exit code of `gnuplot script` with its standard output and error in files; 127 where there is no gnuplot.
-int start_gnuplot(const std::string& script, const std::string& output, const std::string& errors) {
+// The exit code of `gnuplot ./name` in `folder`, with its standard output and error in files; 127 where there is no gnuplot. No settings
+// of the user or of a file that lies in the folder (-d).
+int start_gnuplot(const std::string& folder, const std::string& name, const std::string& output, const std::string& errors) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
   posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, errors.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-  std::string program = "gnuplot", file = script;
-  char* arguments[] = {program.data(), file.data(), nullptr};
+  posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
+  std::string program = "gnuplot", plain = "-d", file = "./" + name;
+  char* arguments[] = {program.data(), plain.data(), file.data(), nullptr};
   pid_t child = 0;
   const int code = posix_spawnp(&child, "gnuplot", &actions, nullptr, arguments, environ);
   posix_spawn_file_actions_destroy(&actions);
@@ -59,21 +62,22 @@ void run_gnuplot(const std::string& script, const std::string& path) {
   out << script;
   out.close();
   if (!out) throw Error("the picture cannot be written here; check the folder and its permissions", {path});
-  const int code = start_gnuplot(fs::absolute(program.path).string(), picture.path, errors.path);
+  const fs::path own = fs::absolute(program.path);
+  const int code = start_gnuplot(own.parent_path().string(), own.filename().string(), picture.path, errors.path);
   if (code == 127) throw Error("the picture needs the program gnuplot; install the package gnuplot-nox", {path});
   std::error_code trouble;
   if (code != 0 || fs::file_size(picture.path, trouble) == 0 || trouble)
-    throw Error(fmt::format("gnuplot ended with code {} and drew nothing: {}", code, contents(errors.path).substr(0, 400)), {path});
+    throw Error(fmt::format("gnuplot ended with code {} and drew nothing: {}", code, shown(contents(errors.path), 400)), {path});
   fs::rename(picture.path, path, trouble);
   if (trouble) throw Error(fmt::format("the picture cannot be put here ({}); check the folder", trouble.message()), {path});
 }
 
 std::string gnuplot_quoted(std::string_view text) {
   std::string quoted = "'";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '\'') quoted += "''";
-    else quoted += code < 0x20 || code >= 0x7f ? '?' : c;
+  for (const char c : for_files(text)) {
+    if (c == '\'') quoted += '\'';
+    else if (c == '>' && quoted.ends_with("]]")) quoted += ' ';  // ends a CDATA section of the SVG
+    quoted += c;
   }
   return quoted + "'";
 }

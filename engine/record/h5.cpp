@@ -3,6 +3,8 @@
 #include <hdf5.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <utility>
 
@@ -94,6 +96,8 @@ hid_t open_to_read(const std::string& path, hid_t access) {
   return id >= 0 ? id : H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);
 }
 
+std::string why() { return errno != 0 ? fmt::format(": {}", std::strerror(errno)) : "; is the disk full?"; }
+
 }  // namespace
 
 Handle::Handle(Handle&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
@@ -107,14 +111,17 @@ Handle::~Handle() {
 }
 
 File::File(std::string path, Mode mode) : path_(std::move(path)) {
+  static const bool no_end = H5dont_atexit() >= 0;  // it would close, and follow, what could not be written
+  (void)no_end;
   H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our own messages, not the library's
+  errno = 0;
   const Handle access = property(H5P_FILE_ACCESS);
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
   if (mode == Mode::create) {
     std::error_code ignored;
     std::filesystem::remove(path_, ignored);  // a mark left by a killed writer would forbid truncating it
     file_ = Handle(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
-    if (!file_.ok()) throw Error("the motion file cannot be created; does the folder exist and may you write there?", {path_, 0});
+    if (!file_.ok()) throw WriteError(fmt::format("the motion file cannot be created{}", why()), {path_, 0});
     return;
   }
   if (!std::filesystem::exists(path_)) throw Error("no such motion file; give the folder of a run", {path_, 0});
@@ -126,7 +133,7 @@ void File::unreadable(const std::string& what) const {
   throw Error(fmt::format("{} cannot be read; the file is damaged or no motion file, run the scene again", what), {path_, 0});
 }
 void File::unwritable(const std::string& what) const {
-  throw Error(fmt::format("{} cannot be written; is the disk full?", what), {path_, 0});
+  throw WriteError(fmt::format("{} cannot be written{}", what, why()), {path_, 0});
 }
 
 template <class T>

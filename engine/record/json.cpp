@@ -1,6 +1,8 @@
 #include "engine/record/json.h"
 
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -24,17 +26,19 @@ Json read_json(const std::string& path) {
 void write_text_atomically(const std::string& path, std::string_view text) {
   const std::string beside = path + ".tmp";
   {
+    errno = 0;
     std::ofstream out(beside, std::ios::binary | std::ios::trunc);
     out.write(text.data(), std::streamsize(text.size()));
     out.close();
     if (!out) {
+      const std::string why = std::strerror(errno);
       std::remove(beside.c_str());
-      throw Error("cannot be written; is the disk full, or the folder read-only?", {path, 0});
+      throw WriteError(fmt::format("cannot be written: {}", why), {path, 0});
     }
   }
   std::error_code failed;
   std::filesystem::rename(beside, path, failed);
-  if (failed) throw Error(fmt::format("cannot be replaced: {}", failed.message()), {path, 0});
+  if (failed) throw WriteError(fmt::format("cannot be replaced: {}", failed.message()), {path, 0});
 }
 
 void write_json(const std::string& path, const Json& json) {

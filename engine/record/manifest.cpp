@@ -3,6 +3,8 @@
 #include <cmath>
 #include <ctime>
 
+#include "engine/base/hash.h"
+#include "engine/base/isa.h"
 #include "engine/record/build_info.h"
 
 namespace erbs {
@@ -84,6 +86,7 @@ Json json_of_manifest(const Manifest& m) {
     j["params"].push_back({{"name", p.name}, {"value", p.value}, {"default", p.fallback}, {"unit", p.unit}, {"text", p.text}});
   j["inputs"] = m.inputs;
   j["effects"] = {{"on", m.effects_on}, {"off", m.effects_off}};
+  j["departures"] = m.departures;
   j["dt_s"] = m.dt;
   j["dt_rule"] = m.dt_rule;
   j["dt_critical_s"] = m.dt_critical;
@@ -125,6 +128,7 @@ Manifest manifest_of_json(const Json& j) {
   m.inputs = j.at("inputs").get<std::map<std::string, std::string>>();
   m.effects_on = j.at("effects").at("on").get<std::vector<std::string>>();
   m.effects_off = j.at("effects").at("off").get<std::vector<std::string>>();
+  if (j.contains("departures")) m.departures = j["departures"].get<std::vector<std::string>>();
   m.dt = number(j.at("dt_s")), m.dt_rule = j.at("dt_rule");
   m.dt_critical = number(j.at("dt_critical_s")), m.dt_block_bound = number(j.at("dt_block_bound_s"));
   m.duration = number(j.at("duration_s")), m.output_dt = number(j.at("output_dt_s")), m.frame_dt = number(j.at("frame_dt_s"));
@@ -156,6 +160,7 @@ Manifest manifest_of(const Scene& scene, const std::string& script) {
   m.started = utc_now();
   m.scene_name = scene.name;
   m.scene_file = scene.file;
+  m.scene_hash = hash_text(script);
   m.title = title_of(script);
   m.labels = scene.labels;
   m.params = scene.params;
@@ -190,10 +195,8 @@ std::string program_version() { return fmt::format("{} ({})", build_version, bui
 
 std::string machine_isa() {
 #if defined(__x86_64__)
-  if (__builtin_cpu_supports("avx512f")) return "x86-64 avx512f";
-  if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma")) return "x86-64 avx2 fma";
-  if (__builtin_cpu_supports("avx2")) return "x86-64 avx2";
-  return "x86-64 sse2";
+  const Isa isa = chosen_isa();
+  return isa == Isa::avx512 ? "x86-64 avx512f" : isa == Isa::avx2 ? "x86-64 avx2" : "x86-64 sse2";
 #elif defined(__aarch64__)
   return "aarch64 neon";
 #else

@@ -21,6 +21,7 @@ struct Manifest {
   std::vector<std::string> effects_on, effects_off;
   double duration = 0, output_dt = 0, frame_dt = 0;    // s
   double dt = 0, dt_critical = 0, dt_block_bound = 0;  // s
+  std::vector<std::string> departures;  // words of the command line by which the run departs from its scene
   std::string dt_rule;
   Vec3 gravity = Vec3::Zero();  // m/s2
   std::vector<Camera> cameras;
@@ -35,7 +36,7 @@ void write_manifest(const std::string& dir, const Manifest& manifest);  // DIR/m
 Manifest read_manifest(const std::string& dir);                         // places are not read back
 
 std::string program_version();                    // "0.1.0 (1a2b3c4)"
-std::string machine_isa();                        // widest vector instructions of this processor: avx512f, avx2, ...
+std::string machine_isa();                        // the vector instructions that the kernels run on: avx512f, avx2, sse2
 std::string title_of(const std::string& script);  // its first comment line, "" where it opens with none
 
 }  // namespace erbs

@@ -87,7 +87,7 @@ class Sidecar {
   }
   void finish() {
     out_ << "</Grid></Domain></Xdmf>\n" << std::flush;
-    if (!out_) throw Error("the file cannot be written; is the disk full or the folder read-only?", {path_, 0});
+    if (!out_) throw WriteError("the file cannot be written", {path_, 0});
   }
 
   std::ofstream out_;

@@ -1,8 +1,10 @@
 #include "engine/record/recorder.h"
 
+#include <algorithm>
 #include <map>
 #include <set>
 
+#include "engine/base/text.h"
 #include "engine/base/words.h"
 #include "engine/record/recorders.h"
 
@@ -40,8 +42,9 @@ void check_one(const Recorder& r, const std::set<std::string>& blocks, std::vect
   if (r.axis.empty() || r.axis.find_first_not_of("xyz") != std::string::npos)
     say(fmt::format("axis = \"{}\"; it takes letters of \"xyz\"", r.axis));
   if (r.frame != "rel" && r.frame != "abs") say(fmt::format("frame = \"{}\"; it is \"rel\" (to the ground) or \"abs\"", r.frame));
-  if (r.name.empty() || r.name.find_first_of(", \"\t\n\r") != std::string::npos)
-    say("its name becomes that of a column: letters, digits and _ only");
+  std::string word = r.name;  // whose parts may be set off by points: "a.v01"
+  std::replace(word.begin(), word.end(), '.', '_');
+  if (!is_name(word)) say("its name becomes that of a column: letters, digits, _, +, - and . only");
 }
 
 std::vector<int> numbers_of(const std::vector<std::string>& names, const std::map<std::string, int>& number) {

@@ -1,7 +1,14 @@
 #include "engine/record/run_folder.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <filesystem>
 #include <string_view>
+
+#include "engine/base/text.h"
 
 namespace erbs {
 namespace {
@@ -12,8 +19,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view own_files[] = {"scene.lua",  "manifest.json", "metrics.json", "log.txt",      "energy.csv",  "histories.csv",
                                           "events.csv", "histories.svg", "energy.svg",   "motion.h5",    "motion.xdmf", "checkpoint.bin",
                                           "frames",     "report.html",   "results.csv",  "accuracy.csv", "modes.csv",
-                                          "studies"};
-constexpr std::string_view own_endings[] = {".mp4", ".tmp"};
+                                          "studies",    "figures",       "expectations.json"};
+constexpr std::string_view own_endings[] = {".mp4", ".tmp", ".part"};
 
 bool is_own(const fs::path& path) {
   const std::string name = path.filename().string();
@@ -36,16 +43,34 @@ fs::path first_missing(const fs::path& path) {
 std::string run_file(const std::string& dir, const std::string& name) { return (fs::path(dir) / name).string(); }
 
 bool is_run_folder(const std::string& dir) {
-  if (!fs::is_regular_file(run_file(dir, "manifest.json"))) return false;
+  std::error_code failed;
+  if (!fs::is_regular_file(run_file(dir, "manifest.json"), failed)) return false;
   try {
     const Json json = read_json(run_file(dir, "manifest.json"));
     return json.is_object() && json.value("program", "") == "erbs";
-  } catch (const std::exception&) { return false; }
+  } catch (const std::exception&) {}
+  const auto there = [&](const char* name) { return fs::is_regular_file(run_file(dir, name), failed); };
+  return there("scene.lua") && (there("checkpoint.bin") || there("energy.csv") || there("motion.h5"));
+}
+
+FolderLock::FolderLock(const std::string& dir) : fd_(::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+  // Some file systems know no locks of folders: a run there goes without.
+  if (fd_ < 0 || ::flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
+  ::close(fd_);
+  throw Error(fmt::format("another run is at work in \"{}\"; wait for its end, or choose another folder with -o DIR", dir));
+}
+
+FolderLock::~FolderLock() {
+  if (fd_ >= 0) ::close(fd_);
 }
 
 void check_run_folder(const std::string& dir, Existing existing) {
-  const bool there = fs::exists(fs::symlink_status(dir));
-  const bool checkpoint = there && fs::is_regular_file(run_file(dir, "checkpoint.bin"));
+  std::error_code failed;
+  const fs::file_status status = fs::symlink_status(dir, failed);
+  if (failed && status.type() != fs::file_type::not_found)
+    throw Error(fmt::format("output folder \"{}\" cannot be made: {}; choose another with -o DIR", shown(dir, 80), failed.message()));
+  const bool there = fs::exists(status);
+  const bool checkpoint = there && fs::is_regular_file(run_file(dir, "checkpoint.bin"), failed);
   switch (existing) {
     case Existing::refuse:
       if (there)
@@ -71,23 +96,26 @@ void check_run_folder(const std::string& dir, Existing existing) {
 void create_run_folder(const std::string& dir, Existing existing, const std::string& script, const Manifest& manifest) {
   check_run_folder(dir, existing);
   const fs::path missing = first_missing(dir);
+  bool made = false;  // by us, and to be taken back where the rest fails
   try {
     if (existing == Existing::force && missing.empty()) {
       // The manifest goes last: until then the folder is known for what it is.
       for (const auto& entry : fs::directory_iterator(dir))
         if (is_own(entry.path()) && entry.path().filename() != "manifest.json") fs::remove_all(entry.path());
     }
-    fs::create_directories(dir);
+    fs::path own = fs::absolute(dir).lexically_normal();
+    if (!own.has_filename()) own = own.parent_path();  // of "out/"
+    if (own.has_parent_path()) fs::create_directories(own.parent_path());
+    made = fs::create_directory(own);
+    if (!made && existing == Existing::refuse) check_run_folder(dir, existing);  // of two runs that begin at once the other made it
     write_manifest(dir, manifest);
     if (existing != Existing::resume) write_text_atomically(run_file(dir, "scene.lua"), script);
-  } catch (const fs::filesystem_error& failed) {
+  } catch (const std::exception& trouble) {
     std::error_code ignored;
-    if (!missing.empty()) fs::remove_all(missing, ignored);
-    throw Error(fmt::format("output folder \"{}\" cannot be made: {}; choose another with -o DIR", dir, failed.code().message()));
-  } catch (...) {
-    std::error_code ignored;
-    if (!missing.empty()) fs::remove_all(missing, ignored);
-    throw;
+    if (made) fs::remove_all(missing, ignored);
+    const auto* failed = dynamic_cast<const fs::filesystem_error*>(&trouble);
+    if (!failed) throw;
+    throw Error(fmt::format("output folder \"{}\" cannot be made: {}; choose another with -o DIR", shown(dir, 80), failed->code().message()));
   }
 }
 

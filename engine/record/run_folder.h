@@ -18,7 +18,20 @@ void check_run_folder(const std::string& dir, Existing existing);
 // manifest.json. With resume only the manifest is written again.
 void create_run_folder(const std::string& dir, Existing existing, const std::string& script, const Manifest& manifest);
 
+// Whether manifest.json there is of erbs; also where it is damaged, but other files of a run lie beside it.
 bool is_run_folder(const std::string& dir);
+
+// Keeps a folder for one run as long as it lives: a lock of the system, which goes with the process however that ends.
+class FolderLock {
+ public:
+  explicit FolderLock(const std::string& dir);  // Error where another run is at work there
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int fd_ = -1;
+};
 
 std::string run_file(const std::string& dir, const std::string& name);  // DIR/name
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 
+#include "engine/base/text.h"
 #include "engine/record/metrics.h"
 #include "engine/record/run_folder.h"
 
@@ -22,8 +23,8 @@ std::vector<std::string> energy_columns() {
   return names;
 }
 
-CsvWriter table(const std::string& path, const std::vector<std::string>& names, const long* keep_rows) {
-  return keep_rows ? CsvWriter(path, names, *keep_rows) : CsvWriter(path, names);
+CsvWriter table(const std::string& path, const std::vector<std::string>& names, bool resume, long keep_rows, std::uint64_t sum) {
+  return resume ? CsvWriter(path, names, keep_rows, sum) : CsvWriter(path, names);
 }
 
 MotionShape shape_of(const Polyhedron& part) {
@@ -74,9 +75,10 @@ MotionScene motion_scene(const Scene& scene, const Model& model) {
 RunWriter::RunWriter(const std::string& dir, const Scene& scene, const Model& model, const WriterProgress* resume)
     : dir_(dir),
       recorders_(scene, model),
-      histories_(table(run_file(dir, "histories.csv"), recorders_.columns(), resume ? &resume->history_rows : nullptr)),
-      energy_(table(run_file(dir, "energy.csv"), energy_columns(), resume ? &resume->energy_rows : nullptr)),
-      events_(table(run_file(dir, "events.csv"), {"time_s", "event", "name", "value", "unit"}, resume ? &resume->event_rows : nullptr)),
+      histories_(table(run_file(dir, "histories.csv"), recorders_.columns(), resume, resume ? resume->history_rows : 0, resume ? resume->history_sum : 0)),
+      energy_(table(run_file(dir, "energy.csv"), energy_columns(), resume, resume ? resume->energy_rows : 0, resume ? resume->energy_sum : 0)),
+      events_(table(run_file(dir, "events.csv"), {"time_s", "event", "name", "value", "unit"}, resume, resume ? resume->event_rows : 0,
+                    resume ? resume->event_sum : 0)),
       motion_(resume ? MotionWriter(dir, resume->frames) : MotionWriter(dir, motion_scene(scene, model))),
       flushed_(wall_clock()) {
   frame_.poses.resize(std::size_t(model.nblock) * 7);
@@ -122,14 +124,15 @@ void RunWriter::event(double t, std::string_view what, std::string_view name, do
 
 void RunWriter::log(std::string_view line) {
   std::ofstream out(run_file(dir_, "log.txt"), std::ios::app);
-  out << line << '\n';
+  out << printable(line) << '\n' << std::flush;
+  if (!out) throw WriteError("cannot be written", {run_file(dir_, "log.txt"), 0});
 }
 
 WriterProgress RunWriter::progress() {
   histories_.sync();
   energy_.sync();
   events_.sync();
-  return {histories_.rows(), energy_.rows(), events_.rows(), motion_.frames()};
+  return {histories_.rows(), energy_.rows(), events_.rows(), motion_.frames(), histories_.sum(), energy_.sum(), events_.sum()};
 }
 
 void RunWriter::flush() {

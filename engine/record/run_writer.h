@@ -16,6 +16,7 @@ namespace erbs {
 struct WriterProgress {
   long history_rows = 0, energy_rows = 0, event_rows = 0;
   int frames = 0;
+  std::uint64_t history_sum = 0, energy_sum = 0, event_sum = 0;  // of these rows
 };
 
 template <class P, class F>
@@ -24,6 +25,9 @@ void each(P& p, F&& f) {
   f("history_rows", p.history_rows);
   f("energy_rows", p.energy_rows);
   f("event_rows", p.event_rows);
+  f("history_sum", p.history_sum);
+  f("energy_sum", p.energy_sum);
+  f("event_sum", p.event_sum);
   f("frames", p.frames);
 }
 

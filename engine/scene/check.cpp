@@ -136,11 +136,19 @@ void check_cameras(Report& report, const Scene& scene) {
       report.say(camera.place, "camera \"{}\" is there twice; give one of them another name", camera.name);
 }
 
+// Steps that can be counted; rows and frames are never more than steps.
+void check_counts(Report& report, const Analysis& analysis, const Place& place) {
+  constexpr double most_steps = 9007199254740992.0;  // 2^53: beyond it t + dt is t
+  if (analysis.dt > 0 && !(analysis.duration / analysis.dt < most_steps))
+    report.say(place, "analysis: dt = {:g} s makes more than 2^53 steps of {:g} s; take a longer step", analysis.dt, analysis.duration);
+}
+
 void check_analysis(Report& report, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   const Place place = analysis.place.file.empty() ? Place{scene.file, 0} : analysis.place;
   if (analysis.duration == 0) report.say(place, "the run has no duration; add analysis{{ duration = 10 }} (seconds)");
   else check_fields(report, analysis, "analysis", place);
+  check_counts(report, analysis, place);
   check_fields(report, scene.damping, "damping", scene.damping.place);
   if (scene.damping.at > 0 && scene.damping.joint_ratio <= 0)
     report.say(scene.damping.place, "damping: at = {:g} Hz is the frequency of a ratio that is not given; add joint_ratio = 0.02, say",

@@ -1,6 +1,7 @@
 #include "engine/scene/mesh_file.h"
 
 #include <assimp/postprocess.h>
+#include <assimp/DefaultIOSystem.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>
@@ -9,10 +10,13 @@
 #include <map>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "engine/geometry/mass.h"
 
 namespace erbs {
 namespace {
+
+constexpr unsigned most_vertices = 20000;  // of a mesh in the file, before equal ones are joined; the work grows with their square
 
 Vec3 placed(const aiMatrix4x4& where, const aiVector3D& v) {
   const aiVector3D p = where * v;
@@ -34,8 +38,12 @@ bool closed(const aiMesh& mesh) {
 Polyhedron convex_part(const aiMesh& mesh, const aiMatrix4x4& where, const std::string& what) {
   Polyhedron triangles;
   Faces::List loops;
+  if (mesh.mNumVertices > most_vertices)
+    throw Error(fmt::format("{} has {} corners; a block's part is convex and has at most 64: simplify it", what, mesh.mNumVertices));
   for (unsigned v = 0; v < mesh.mNumVertices; ++v) triangles.vertices.push_back(placed(where, mesh.mVertices[v]));
   for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
+    if (mesh.mFaces[f].mNumIndices != 3)
+      throw Error(fmt::format("{} has a face of {} corners; give it faces of three and more", what, mesh.mFaces[f].mNumIndices));
     const auto* i = mesh.mFaces[f].mIndices;
     loops.push_back({static_cast<int>(i[0]), static_cast<int>(i[1]), static_cast<int>(i[2])});
   }
@@ -53,23 +61,49 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above,
   const aiMatrix4x4 where = above * node.mTransformation;
   for (unsigned i = 0; i < node.mNumMeshes; ++i) {
     const aiMesh& mesh = *scene.mMeshes[node.mMeshes[i]];
-    const std::string name = mesh.mName.length > 0 ? mesh.mName.C_Str() : std::to_string(parts.size() + 1);
+    const std::string name = mesh.mName.length > 0 ? shown(mesh.mName.C_Str(), 60) : std::to_string(parts.size() + 1);
     parts.push_back(convex_part(mesh, where, fmt::format("mesh \"{}\" in {}", name, path)));
   }
   for (unsigned i = 0; i < node.mNumChildren; ++i) collect(scene, *node.mChildren[i], where, path, parts);
 }
 
+// A mesh names materials and buffers in other files: these too only where a scene may read.
+class Confined : public Assimp::DefaultIOSystem {
+ public:
+  explicit Confined(std::function<bool(const std::string&)> may_read) : may_read_(std::move(may_read)) {}
+  bool Exists(const char* file) const override { return may_read_(file) && DefaultIOSystem::Exists(file); }
+  Assimp::IOStream* Open(const char* file, const char* mode) override {
+    return may_read_(file) && mode[0] == 'r' ? DefaultIOSystem::Open(file, "rb") : nullptr;
+  }
+
+ private:
+  std::function<bool(const std::string&)> may_read_;
+};
+
+// Other kinds, which the library would read as well, have axes and units of their own.
+void check_kind(const std::string& path) {
+  std::string kind = std::filesystem::path(path).extension().string();
+  for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (const char* known : {".obj", ".stl", ".ply", ".gltf", ".glb"})
+    if (kind == known) return;
+  throw Error(fmt::format("cannot read the mesh {}: its ending is none of .obj, .stl, .ply, .gltf, .glb; export it as one of these", path));
+}
+
 }  // namespace
 
-std::vector<Polyhedron> read_mesh(const std::string& path) {
+std::vector<Polyhedron> read_mesh(const std::string& path, const std::function<bool(const std::string&)>& may_read) {
+  check_kind(path);
   Assimp::Importer importer;
+  importer.SetIOHandler(new Confined(may_read));  // which it deletes
   // Normals and texture coordinates go first: vertices that differ in them alone would not be joined.
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
                                                           aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_MATERIALS);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* scene = importer.ReadFile(path, aiProcess_RemoveComponent | aiProcess_DropNormals | aiProcess_Triangulate |
                                                      aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
-  if (!scene || !scene->mRootNode) throw Error(fmt::format("cannot read the mesh {}: {}", path, importer.GetErrorString()));
+  // without the library's own words, which may quote a file that is none of the user's
+  if (!scene || !scene->mRootNode)
+    throw Error(fmt::format("cannot read the mesh {}: it is damaged, or not of the kind that its ending says; export it again", path));
   std::vector<Polyhedron> parts;
   collect(*scene, *scene->mRootNode, aiMatrix4x4(), path, parts);
   if (parts.empty()) throw Error(fmt::format("{} holds no mesh of triangles", path));

@@ -301,6 +301,7 @@ struct Scene {
   std::vector<Expectation> expectations;
   std::vector<std::pair<std::string, std::string>> metric_units;  // of the scene's own metrics: name, unit
   std::map<std::string, std::string> inputs;                      // path of each file read -> its hash
+  int most_blocks = 300000, most_points = 20000000;               // more is refused before memory is taken for it
 };
 
 // Every mistake that can be seen without building a model; empty when there is none. Messages carry place and remedy.

@@ -1,7 +1,7 @@
 // The part of Debris that runs every step: poses, forces, their sum, and the step that they allow.
 #include <algorithm>
 #include <cmath>
-#include <ranges>
+#include <span>
 #include <utility>
 
 #include "engine/base/parallel.h"
@@ -29,7 +29,7 @@ void Debris::follow(int thread, int first, int last) {
   const auto before = [](const Eight& blocks, int group) { return blocks.group < group; };
   const auto of = [&](const std::vector<Eight>& groups) {
     const auto end = std::lower_bound(groups.begin(), groups.end(), (last + lanes - 1) / lanes, before);
-    return std::ranges::subrange(std::lower_bound(groups.begin(), end, first / lanes, before), end);
+    return std::span<const Eight>(std::lower_bound(groups.begin(), end, first / lanes, before), end);
   };
   double fastest[lanes] = {};
   for (const Eight& blocks : of(awake_)) {
@@ -162,8 +162,8 @@ double Debris::crowd(int a, int b) const {
 
 void Debris::forces(int thread, bool sample) {
   const std::vector<int>& live = sleep_.live();
-  const auto mine = std::ranges::subrange(std::ranges::lower_bound(live, first_pair_[z(thread)]),
-                                          std::ranges::lower_bound(live, first_pair_[z(thread + 1)]));
+  const auto from = [&](int t) { return std::lower_bound(live.begin(), live.end(), first_pair_[z(t)]); };
+  const std::span<const int> mine(from(thread), from(thread + 1));
   Looked& looked = looked_[z(thread)];
   looked.at.clear(), looked.active.clear(), looked.near.clear();
   looked.at.resize(std::size_t(mine.size()));

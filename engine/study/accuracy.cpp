@@ -61,7 +61,7 @@ Limit richardson(const Series& series, double order) {
     const auto [h3, q3] = series[2];
     const double ratio = (q3 - q2) / (q2 - q1);
     // of q = limit + c h^p; the left side grows with p
-    const auto excess = [&](double p) { return (std::pow(h3, p) - std::pow(h2, p)) / (std::pow(h2, p) - std::pow(h1, p)) - ratio; };
+    const auto excess = [h1 = h1, h2 = h2, h3 = h3, ratio](double p) { return (std::pow(h3, p) - std::pow(h2, p)) / (std::pow(h2, p) - std::pow(h1, p)) - ratio; };
     double low = 0.5, high = 4;
     if (std::isfinite(ratio) && excess(low) < 0 && excess(high) > 0) {
       for (int turn = 0; turn < 60; ++turn) (excess(0.5 * (low + high)) < 0 ? low : high) = 0.5 * (low + high);

@@ -5,6 +5,7 @@
 #include <map>
 #include <thread>
 
+#include "engine/base/core.h"
 #include "engine/base/hash.h"
 #include "engine/base/process.h"
 #include "engine/record/csv.h"
@@ -32,8 +33,7 @@ class Runner {
       answers[i].x = xs[i];
       if (!finished(answers[i])) waiting.push_back(i);
     }
-    const int machine = std::max(1, int(std::thread::hardware_concurrency()));
-    const std::size_t jobs = std::size_t(c_.at_once > 0 ? c_.at_once : machine);
+    const std::size_t jobs = std::size_t(c_.at_once > 0 ? c_.at_once : usable_processors());
     std::map<int, Running> running;
     std::size_t next = 0;
     bool told = false;
@@ -96,7 +96,7 @@ class Runner {
     for (const auto& [name, value] : c_.overrides)
       if (name != study_.param) command.insert(command.end(), {"-D", name + "=" + value});
     command.insert(command.end(), {"-D", fmt::format("{}={}", study_.param, x)});
-    command.insert(command.end(), c_.words.begin(), c_.words.end());
+    for (const auto* more : {&c_.words, &c_.permissions}) command.insert(command.end(), more->begin(), more->end());
     if (c_.max_wall > 0) command.insert(command.end(), {"--max-wall", fmt::format("{}s", c_.max_wall)});
     std::error_code ignored;
     fs::remove_all(folder_of(x), ignored);  // of a run that was interrupted

@@ -15,9 +15,10 @@ struct Children {
   std::string key;        // of the scene and all it reads: a finished child of another key is run again
   std::vector<std::pair<std::string, std::string>> overrides;  // -D of the run that asks
   std::vector<std::string> words = {};                         // its other words: --points 4
+  std::vector<std::string> permissions = {};                   // and those that let it read: --allow DIR
   double max_wall = 0;                                         // s, of each run; 0: none
   int at_once = 0;                                             // 0: as many as the machine has processors
-  std::atomic<bool>* interrupted = nullptr;
+  const std::atomic<bool>* interrupted = nullptr;
   std::function<void(const std::string& study, int done, int asked)> progress = {};
 };
 

@@ -109,7 +109,7 @@ TEST_CASE("the force is the derivative of the volume integral, for general conve
     const auto [a, b] = overlapping(p, q, random, 0.001 + 0.0015 * (round % 5));
     const bool b_first = mass_properties(b).volume > mass_properties(a).volume * (1 + 1e-9);
     const Vec3 centre = mass_properties(b).centroid;
-    auto energy = [&](const Vec3& by, const Vec3& turn) {
+    auto energy = [&, &a = a, &b = b](const Vec3& by, const Vec3& turn) {
       const Quat r = rotation(turn);
       const Polyhedron moved = transformed(b, r, centre - r * centre + by);
       return kn * (b_first ? volume_integral(moved, a) : volume_integral(a, moved));

@@ -53,5 +53,6 @@ TEST_CASE("a picture that cannot be drawn leaves nothing behind", "[record]") {
 
 TEST_CASE("text for gnuplot cannot leave its quotes", "[record]") {
   CHECK(gnuplot_quoted("it's") == "'it''s'");
-  CHECK(gnuplot_quoted("a\nsystem 'rm'") == "'a?system ''rm'''");
+  CHECK(gnuplot_quoted("a\nsystem 'rm'") == "'a system ''rm'''");
+  CHECK(gnuplot_quoted("Häuschen <b> ]]>") == "'Häuschen <b> ]] >'");
 }

@@ -135,3 +135,17 @@ TEST_CASE("a direction in which next to nothing happens is named, not drawn", "[
   REQUIRE(panels.size() == 3);
   CHECK(panels[2].label == "displacement y abs [mm]");  // 3 % of x
 }
+
+TEST_CASE("a run folder from anywhere is drawn, and runs nothing", "[render][figures][attack]") {
+  const test::Folder folder;
+  const std::string bad = "x'; system('touch pwned') #";
+  std::ofstream(folder.path / "histories.csv") << "time_s,\"" << bad << "\",`touch pwned`,<b>]]>\n0,0,1,2\n1,1,2,3\n";
+  std::ofstream(folder.path / "energy.csv") << "time_s,\"" << bad << "_J\",residual_relative\n0,0,0\n1,1,1e-9\n";
+  Run run;
+  run.dir = folder.path.string();
+  run.title = bad + "\nsystem('touch pwned')";
+  run.marks = {{0.5, bad}};
+  CHECK(write_figures(run).size() == 2);
+  CHECK_FALSE(std::filesystem::exists(folder.path / "pwned"));
+  CHECK_FALSE(std::filesystem::exists("pwned"));
+}

@@ -1,0 +1,109 @@
+#include "engine/base/text.h"
+
+#include <algorithm>
+
+#include "engine/base/error.h"
+
+namespace erbs {
+namespace {
+
+// A letter of UTF-8 at the head of `text`; length 0 where there is none.
+struct Letter {
+  std::size_t length = 0;
+  unsigned code = 0;
+};
+
+Letter letter(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  if (first < 0x80) return {1, first};
+  const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
+  if (first < 0xc2 || first > 0xf4 || text.size() < length) return {};
+  unsigned code = first & (0xffu >> (length + 1));
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xc0u) != 0x80) return {};
+    code = code << 6 | (byte(i) & 0x3fu);
+  }
+  const unsigned least = length == 4 ? 0x10000 : length == 3 ? 0x800 : 0x80;  // shorter ones are another writing of the same letter
+  if (code < least || code > 0x10ffff || (code >= 0xd800 && code <= 0xdfff)) return {};
+  return {length, code};
+}
+
+bool controls(unsigned code) {
+  return code < 0x20 || (code >= 0x7f && code < 0xa0) || (code >= 0x2028 && code <= 0x202e) || (code >= 0x2066 && code <= 0x2069) ||
+         code == 0x200e || code == 0x200f || code == 0xfeff;
+}
+
+std::string escaped(std::string_view bytes) {
+  std::string out;
+  for (const char c : bytes)
+    switch (c) {
+      case '\n': out += "\\n"; break;
+      case '\t': out += "\\t"; break;
+      case '\r': out += "\\r"; break;
+      case '\0': out += "\\0"; break;
+      default: out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+    }
+  return out;
+}
+
+// Calls plain(bytes) and other(bytes) for one letter after the other.
+template <class Plain, class Other>
+void each_letter(std::string_view text, Plain&& plain, Other&& other) {
+  while (!text.empty()) {
+    const Letter l = letter(text);
+    const std::string_view bytes = text.substr(0, std::max<std::size_t>(1, l.length));
+    if (l.length > 0 && !controls(l.code)) plain(bytes);
+    else other(bytes, l.length > 0);
+    text.remove_prefix(bytes.size());
+  }
+}
+
+}  // namespace
+
+bool is_plain(std::string_view text) {
+  bool all = true;
+  each_letter(text, [](std::string_view) {}, [&](std::string_view, bool) { all = false; });
+  return all;
+}
+
+bool is_name(std::string_view text) {
+  const auto sound = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '+' || c == '-';
+  };
+  return !text.empty() && text.front() != '-' && text.front() != '+' && std::all_of(text.begin(), text.end(), sound);
+}
+
+std::string shown(std::string_view text, std::size_t most) {
+  std::string out;
+  bool cut = false;
+  const auto add = [&](const std::string& piece) {
+    cut = cut || out.size() + piece.size() > most;
+    if (!cut) out += piece;
+  };
+  each_letter(text.substr(0, most + 4), [&](std::string_view l) { add(std::string(l)); },
+              [&](std::string_view l, bool) { add(escaped(l)); });
+  return cut || text.size() > most + 4 ? out + "..." : out;
+}
+
+std::string printable(std::string_view text) {
+  std::string out;
+  out.reserve(text.size());
+  each_letter(text, [&](std::string_view l) { out += l; },
+              [&](std::string_view l, bool) { out += l == "\n" || l == "\t" ? std::string(l) : escaped(l); });
+  return out;
+}
+
+void tell(std::FILE* to, std::string_view text) {
+  const std::string line = printable(text) + "\n";
+  std::fwrite(line.data(), 1, line.size(), to);
+}
+
+std::string for_files(std::string_view text) {
+  std::string out;
+  each_letter(text, [&](std::string_view l) { out += l; },
+              [&](std::string_view, bool valid) { out += valid ? " " : "\xEF\xBF\xBD"; });
+  return out;
+}
+
+}  // namespace erbs

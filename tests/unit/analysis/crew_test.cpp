@@ -1,0 +1,81 @@
+// The number of threads follows what is fast at the moment, and nothing of the run depends on it.
+#include "engine/analysis/crew.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/analysis/prepare.h"
+#include "engine/record/checkpoint.h"
+#include "engine/model/state_visit.h"
+#include "engine/solve/step.h"
+#include "lua/script.h"
+
+using namespace erbs;
+
+namespace {
+
+// A machine of two processors, `taken` of one of them by another program: seconds and steps of a crew on it.
+struct Machine {
+  double wall = 0, processor = 0, step = 0;
+  int changes = 0;
+  void run(Crew& crew, double seconds, double taken) {
+    for (const double end = wall + seconds; wall < end;) {
+      const bool team = crew.threads() == 2;
+      wall += 0.01;
+      step += 0.01 * (team ? 1.5e5 * (taken > 0 ? 0.4 * (1 - taken) : 1) : 1e5);
+      processor += 0.01 * (team ? 2 - taken : 1);
+      changes += crew.turns(long(step), wall, processor);
+    }
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a team whose processor is taken goes on alone, and comes together once it is free", "[crew]") {
+  Crew crew(2);
+  Machine machine;
+  machine.run(crew, 5, 0);
+  CHECK(crew.threads() == 2);
+  CHECK(machine.changes == 0);
+  machine.run(crew, 1, 0.5);
+  const double before = machine.step;
+  machine.run(crew, 20, 0.5);
+  CHECK(machine.step - before > 0.9 * 20e5);  // of what one thread does
+  machine.run(crew, 31, 0);
+  CHECK(crew.threads() == 2);
+}
+
+TEST_CASE("one thread stays one", "[crew]") {
+  Crew crew(1);
+  CHECK_FALSE(crew.turns(1000, 100, 1));
+  CHECK(crew.threads() == 1);
+}
+
+TEST_CASE("a run that changes its number of threads on the way has the bits of one that does not", "[crew]") {
+  const char* const walls = R"(
+material{ name = "brick", density = 1800, friction = 0.6 }
+ground{ z = 0, size = 20, material = "brick" }
+for i, n in ipairs{6, 4} do
+  wall{ name = "w" .. i, at = {0, i * 1.5, 0}, length = 1.25 - 0.1 * i, courses = n,
+        brick = {length = 0.3, width = 0.125, height = 0.1}, joint = 10*mm, quiet = true }
+end
+joint{ law = mortar{ E = 200*MPa, thickness = 10*mm, ft = 0.03*MPa, c = 0.06*MPa, mu = 0.6 }, thickness = 10*mm }
+ground_motion{ wave = sine{ amplitude = 2*g, frequency = 5 }, direction = "y" }
+analysis{ duration = 0.4 }
+)";
+  std::string hash[2];
+  for (const bool changing : {false, true}) {
+    Script script(Script::Options{.quiet = true});
+    const Scene scene = script.load_text(walls, "scene.lua");
+    Prepared run = prepare(scene, false);
+    start_at_rest(scene, run, 1);
+    int threads = 1, turns = 0;
+    for (bool ended = false; !ended;) {
+      Solver solver(run.model, run.state, threads);
+      solver.run({[](double) { return false; }, [] {}, [&] { return (ended = run.state.t >= 0.4) || (changing && ++turns % 5 == 0); }});
+      threads = 3 - threads;
+    }
+    hash[changing] = state_hash(run.state);
+    CHECK(run.state.debris.pair.size() > 0);
+  }
+  CHECK(hash[0] == hash[1]);
+}
