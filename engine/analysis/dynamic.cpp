@@ -8,14 +8,15 @@
 #include <utility>
 
 #include "engine/analysis/crew.h"
+#include "engine/analysis/joint_events.h"
 #include "engine/analysis/lost_blocks.h"
 #include "engine/analysis/prepare.h"
 #include "engine/analysis/resume.h"
 #include "engine/analysis/trust.h"
+#include "engine/analysis/verdict.h"
 #include "engine/base/hash.h"
 #include "engine/record/checkpoint.h"
 #include "engine/record/collapse.h"
-#include "engine/record/run_writer.h"
 #include "engine/scene/effects.h"
 #include "engine/solve/energy.h"
 #include "engine/solve/joint_geometry.h"
@@ -31,13 +32,8 @@ double seconds() { return std::chrono::duration<double>(std::chrono::steady_cloc
 // What has been written, so that a resumed run goes on at the same rows.
 struct Clock {
   long rows = 0, frames = 0;
-  double first_crack = -1;  // s
-  long opened = 0;
   long right = 0;  // the last step at which the ledger knew half of what passed through
-  // joints that cracked or went over to contact since the last row, whose events are still to be written
-  std::vector<int> cracked_since, opened_since;
-  std::vector<HandOver> handed_since;
-  double listed = 0;  // J, of reset_J, in rows of events.csv
+  JointEvents joints;
 };
 
 template <class C, class F>
@@ -45,17 +41,9 @@ requires std::is_same_v<std::remove_const_t<C>, Clock>
 void each(C& c, F&& f) {
   f("rows", c.rows);
   f("frames", c.frames);
-  f("first_crack", c.first_crack);
-  f("opened", c.opened);
   f("right", c.right);
-  f("cracked_since", c.cracked_since);
-  f("opened_since", c.opened_since);
-  f("handed_since", c.handed_since);
-  f("listed", c.listed);
+  f("joints", c.joints);
 }
-
-constexpr long wrong_steps = 512;       // that a run goes on with a ledger that has lost half of what passed; ...
-constexpr long negative_steps = 160000;  // ... with a kinetic energy below zero, as modes at the limit of the step have it
 
 class Run {
  public:
@@ -70,15 +58,9 @@ class Run {
   void sampled();
   bool stop();
   Snapshot snapshot() const;
-  void note_joints(double t);
-  void note_reset(double t);
-  void note_faded(double t);
-  void take_joints();
   int broken_joints();
   void save();
-  double gate() const;
-  bool growth_allowed() const;
-  bool diverges();
+  RunSoFar so_far() const;
   void judge();
   Metrics metrics() const;
 
@@ -236,53 +218,11 @@ int Run::broken_joints() {
   return broken;
 }
 
-void Run::take_joints() {
-  const std::vector<int> cracked = solver_->take_cracked(), opened = solver_->take_opened();
-  const std::vector<HandOver> handed = solver_->take_handed();
-  clock_.cracked_since.insert(clock_.cracked_since.end(), cracked.begin(), cracked.end());
-  clock_.opened_since.insert(clock_.opened_since.end(), opened.begin(), opened.end());
-  clock_.handed_since.insert(clock_.handed_since.end(), handed.begin(), handed.end());
-}
-
-// reset_J, row by row: what was set free where contacts took over from joints, and what they did while the difference of forces faded.
-void Run::note_reset(double t) {
-  if (!clock_.handed_since.empty()) note_faded(t);
-  for (const HandOver& h : clock_.handed_since) {
-    writer_->event(t, "hand over", run_.model.joint_name(h.joint), h.energy, "J");
-    clock_.listed += h.energy;
-  }
-  clock_.handed_since.clear();
-}
-
-void Run::note_faded(double t) {
-  double faded = run_.state.energy.reset - clock_.listed;
-  for (const HandOver& h : clock_.handed_since) faded -= h.energy;
-  if (!(std::fabs(faded) > 1e-15 * run_.state.energy.reference)) return;
-  writer_->event(t, "fade", "contacts begun", faded, "J");
-  clock_.listed += faded;
-}
-
-void Run::note_joints(double t) {
-  take_joints();
-  std::sort(clock_.cracked_since.begin(), clock_.cracked_since.end());
-  for (const int j : clock_.cracked_since) {
-    if (run_.model.laws[z(run_.model.joint[z(j)].type->law)].dry) continue;
-    if (clock_.first_crack < 0) clock_.first_crack = t;
-    writer_->event(t, "crack", run_.model.joint_name(j), joint_damage(run_.model, run_.state, j), "share");
-  }
-  for (const int j : clock_.opened_since) {
-    ++clock_.opened;
-    writer_->event(t, "open", run_.model.joint_name(j), look_at_joint(run_.model, run_.state, j).opening, "m");
-  }
-  clock_.cracked_since.clear();
-  clock_.opened_since.clear();
-  note_reset(t);
-}
-
 void Run::sampled() {
   const double began = seconds();
   const Snapshot now = snapshot();
-  note_joints(now.t);
+  take_events(clock_.joints, *solver_);
+  write_events(clock_.joints, now.t, run_.model, run_.state, *writer_);
   std::vector<int> fallen;
   const bool collapse = update(collapse_, run_.model, run_.state, now.t, &fallen);
   for (const int b : fallen) writer_->event(now.t, "fall", run_.model.block_name[z(b)], -run_.state.u[z(b)].z(), "m");
@@ -306,7 +246,7 @@ void Run::sampled() {
 
 void Run::save() {
   const double began = seconds();
-  take_joints();
+  take_events(clock_.joints, *solver_);
   write_checkpoint(options_.directory, key_, run_.state, writer_->progress(), collapse_, clock_, trust_);
   last_save_ = seconds();
   record_ += last_save_ - began;
@@ -315,7 +255,7 @@ void Run::save() {
 bool Run::stop() {
   const double now = seconds();
   const Energy& e = run_.state.energy;
-  look(trust_, run_.state, solver_->borne_dt(run_.bounds.critical), gate());
+  look(trust_, run_.state, solver_->borne_dt(run_.bounds.critical), energy_gate(so_far()));
   if (options_.progress && now - last_progress_ > 0.1) {
     last_progress_ = now;
     options_.progress({run_.state.t, scene_.analysis.duration, now - solve_start_, run_.state.step - steps_at_start_,
@@ -326,7 +266,7 @@ bool Run::stop() {
   if (scene_.analysis.stop_after_collapse >= 0 && collapse_.collapsed && sampled_t >= collapse_.time + scene_.analysis.stop_after_collapse)
     return true;
   if (collapse_.moved) return true;
-  if (diverges()) out_.metrics.status = "diverged";
+  if (diverges(so_far(), clock_.right)) out_.metrics.status = "diverged";
   if (out_.metrics.status != "completed") return true;
   if (options_.interrupted != nullptr && options_.interrupted->load()) out_.metrics.status = "interrupted";
   if (options_.until && sampled_t >= *options_.until) out_.metrics.status = "stopped";
@@ -334,32 +274,6 @@ bool Run::stop() {
   if (out_.metrics.status != "completed") return true;
   if (now - last_save_ > options_.checkpoint_every) save();
   return false;
-}
-
-bool Run::diverges() {
-  const Energy& e = run_.state.energy;
-  if (!std::isfinite(e.residual)) return true;
-  const double passed = e.absolute_work + 0.5 * e.height_flux + std::fabs(e.start);
-  // The sequential scheme's ledger is open; but no more can move than has come in and all heights can give, in a structure that has any.
-  if (growth_allowed()) return height_energy_ > 0 && e.kinetic > 2 * (passed + height_energy_);
-  // Past its limit explicit damping feeds the motion while the ledger closes; its velocities change sign in every step, so that
-  // T = v- m v+ / 2 is negative.
-  const bool lost = e.residual_relative > std::max(0.5, scene_.analysis.energy_gate), wrong = lost || e.kinetic < 0;
-  if (!wrong) clock_.right = run_.state.step;
-  // Where a few light blocks alone are past their limit their joints crack and hold the growth back: it ends by its length.
-  return wrong && ((std::fabs(e.kinetic) > 1e3 * passed && run_.state.step > 64) || run_.state.step - clock_.right > (lost ? wrong_steps : negative_steps));
-}
-
-// A sequential scheme feeds energy at any dt: a study of it says unstable = true, and only numbers that break end the run.
-bool Run::growth_allowed() const { return scene_.analysis.solver == "sequential" && scene_.analysis.unstable; }
-
-// 1e-6 while all is elastic, 1e-3 with cracks, friction and contacts, 1e-2 once blocks have come loose or fallen.
-double Run::gate() const {
-  if (scene_.analysis.energy_gate > 0) return scene_.analysis.energy_gate;
-  if (collapse_.fallen_fraction > 0 || collapse_.collapsed || clock_.opened > 0 || run_.state.max_penetration_relative > 0) return 1e-2;
-  const auto& tier = run_.state.tier;
-  const bool elastic = run_.state.debris.pair.empty() && std::all_of(tier.begin(), tier.end(), [](Tier t) { return t == Tier::intact; });
-  return elastic ? 1e-6 : 1e-3;
 }
 
 Metrics Run::metrics() const {
@@ -400,50 +314,27 @@ Metrics Run::metrics() const {
   return m;
 }
 
-// What is wrong with the numbers of a run that has ended, and the knob that cures it. Status, exit code and last line follow from it.
+RunSoFar Run::so_far() const {
+  return {scene_, run_, collapse_, trust_, clock_.joints.opened, dt_at_start_, height_energy_, options_.allow_unstable};
+}
+
+// Status, exit code and last line follow from what is wrong with the numbers.
 void Run::judge() {
   std::string& status = out_.metrics.status;
-  const Energy& e = run_.state.energy;
-  const bool asked = scene_.analysis.unstable || options_.allow_unstable;
-  const bool energy = e.residual_worst > gate(), steps = !asked && stepped_too_far(trust_, run_.state);
-  const double fraction = dt_at_start_ / run_.bounds.critical, share = std::isfinite(fraction) && fraction > 0 ? fraction : 1;
-  const std::string where = e.largest_jump_joint >= 0 ? "joint " + run_.model.joint_name(e.largest_jump_joint) : "no joint's own balance";
-  const auto step_of = [](double wanted) {  // to one digit, downwards
-    const double x = std::min(0.9, wanted), digit = std::pow(10, std::floor(std::log10(x)));
-    return fmt::format("--dt-fraction {:.1g}", digit * std::floor(x / digit + 1e-9));
-  };
-  if (status == "diverged") {
-    out_.trouble = fmt::format(
-        "the numbers diverged at t = {:.6g} s (dt = {:.4g} s, limit {:.4g} s); nothing after that is to be trusted; take {}", run_.state.t,
-        run_.state.dt, run_.bounds.critical, step_of(share > 1 ? 0.9 : share / 3));
-  } else if (energy && !growth_allowed()) {
-    // The ledger of what is smooth errs by the square of the step; friction that flutters and joints that chatter want their dashpots.
-    const double smooth = 0.8 * std::sqrt(gate() / e.residual_worst);
-    const bool undamped = std::any_of(run_.model.laws.begin(), run_.model.laws.end(), [](const PointLaw& l) { return l.damping < 0.1; });
-    out_.trouble = fmt::format(
-        "energy residual {:.3g} of what passed through is past its gate {:.0e}; its largest step was {:.3g} J at t = {:.6g} s, {}; take {}{}{}",
-        e.residual_worst, gate(), e.largest_jump, e.largest_jump_time, where, step_of(share * std::clamp(smooth, 0.1, 0.5)),
-        undamped && run_.model.njoint > 0 ? " or damping = 0.1 in the law of its joints" : "",
-        e.residual_worst < 0.05 ? fmt::format(", or say analysis{{ energy_gate = {:.1g} }} if that is near enough", 2 * e.residual_worst) : "");
-  } else if (steps) {
-    out_.trouble = fmt::format("the step was past the limit of what touched in {:.2g} % of the steps, by {:.3g} at most; take {}",
-                               100 * double(trust_.past_step) / double(run_.state.step), trust_.dt_margin,
-                               step_of(0.9 * share / trust_.dt_margin));
-  }
+  out_.trouble = trouble_of(so_far(), status);
   if (status == "completed" && !out_.trouble.empty()) status = "inaccurate";
-  writer_->log(fmt::format("status {}; energy residual {:.3g} (gate {:.0e}), largest step {:.3g} J at t = {:.6g} s, {}", status,
-                           e.residual_worst, gate(), e.largest_jump, e.largest_jump_time, where));
+  writer_->log(fmt::format("status {}; {}", status, ledger_line(so_far())));
 }
 
 // To the end, with as many threads as are fast at the moment: another number goes on from the state as a resumed run does.
 void Run::step_on() {
   for (bool ended = false; !ended && !solver_->broken();) {
-    solver_->run({[this](double t) { return wanted(t); }, [this] { sampled(); },
-                  [&] { return (ended = stop()) || crew_->turns(run_.state.step); }});
+    solver_->run(
+        {[this](double t) { return wanted(t); }, [this] { sampled(); }, [&] { return (ended = stop()) || crew_->turns(run_.state.step); }});
     touched_ += solver_->touched(), slept_ += solver_->slept();
     if (ended || solver_->broken()) return;
     const double began = seconds();
-    take_joints();
+    take_events(clock_.joints, *solver_);
     solver_.emplace(run_.model, run_.state, crew_->threads());
     crew_->took(seconds() - began);
   }
@@ -467,11 +358,11 @@ RunOutcome Run::go() {
     writer_->log("warning: " + lost);
   }
   if (status == "stopped" || status == "interrupted") save();
-  else note_reset(run_.state.t - run_.state.last_dt), note_faded(run_.state.t - run_.state.last_dt);
+  else write_last_events(clock_.joints, run_.state.t - run_.state.last_dt, run_.model, run_.state, *writer_);
   solver_.reset();
   out_.metrics = metrics();
   writer_->log(trust_line(out_.metrics.trust));
-  if (clock_.first_crack >= 0) writer_->log(fmt::format("first crack at t = {:.6g} s", clock_.first_crack));
+  if (clock_.joints.first_crack >= 0) writer_->log(fmt::format("first crack at t = {:.6g} s", clock_.joints.first_crack));
   writer_->close();
   write_metrics(options_.directory, out_.metrics);
   return std::move(out_);

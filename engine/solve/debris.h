@@ -60,6 +60,8 @@ class Debris {
   long touched() const { return touched_; }      // pairs, summed over the steps of this Solver
 
  private:
+  static constexpr double round_off = 1e-9;  // of a distance and of the way behind: more than sums of some 1e6 steps lose
+
   void wake();
   void open(int j);
   void hand_over_pair(const int* first, const int* last);
@@ -72,7 +74,8 @@ class Debris {
   int bed_joint(const Pair& pair) const;
   void count_bed(Pair& pair);
   void count();
-  double limit() const;  // s, the step that contacts and joints bear
+  double limit() const;                    // s, the step that contacts and joints bear, ...
+  double unless_it_rubs(double dt) const;  // s, ... and patches that slip
   void ask_elsewhere();
   double crowd(int a, int b) const;  // pair_force()
   void share_out();
@@ -172,7 +175,7 @@ class Debris {
   std::vector<std::uint64_t> pair_keys_;       // pairs of blocks that are jointed at rest, sorted, ...
   std::vector<int> of_pair_;                   // ... and the first of their joints
   std::vector<HandOver> handed_;
-  double released_ = 0;                        // J, set free by the last hand-over and still in this step's sums
+  double released_ = 0;  // J, set free by the last hand-over and still in this step's sums
   double allowed_ = 0, elastic_ = 0, haste_ = 0, rubbing_ = 0;
   std::vector<std::uint8_t> still_;  // sleepers that lie as at the last search [nblock], empty without
   bool relisted_ = true, unsorted_ = true;

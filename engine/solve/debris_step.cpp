@@ -12,13 +12,7 @@
 namespace erbs {
 namespace {
 
-// Largest omega dt of a patch that slips, omega along its normal. Friction makes the stiffness unsymmetric, and what ends the flutter of a
-// patch pressed near its edge (dry_friction.h) is the dashpot of the contact, which an explicit step bears up to c dt / m = 1/4 only
-// (contact.cpp): a viscous ratio of 1 / (8 omega dt), .12 here. At 1.1 the block of V10 swings itself up with mu = .9, at .8 not.
-constexpr double rubbing_angle = 1.0;
-constexpr double round_off = 1e-9;  // of a distance and of the way behind: more than sums of some 1e6 steps lose
-constexpr double worth_a_look = 2;  // times its budget: the energy of two blocks against each other, m v^2, from which blows are foreseen
-constexpr int look_every = 16;      // steps between two looks, while no block comes far in that time
+constexpr int look_every = 16;  // steps between two looks, while no block comes far in that time
 std::size_t z(int i) { return std::size_t(i); }
 
 }  // namespace
@@ -233,67 +227,6 @@ void Debris::forces(int thread, bool sample) {
   foresee_touching(thread);
 }
 
-// Of pairs that touch, where the energy of their motion is worth it: what errs by less than the budget whatever the step is left alone.
-void Debris::foresee_touching(int thread) {
-  if (!(settings_.event_budget > 0)) return;
-  const double soon = 1.5 * std::max(state_.dt, state_.last_dt);
-  for (Active& one : looked_[z(thread)].active) {
-    const Waiting& pair = waiting_[z(one.pair)];
-    const ContactBlock &a = blocks_[z(pair.a)], &b = blocks_[z(pair.b)];
-    const double square = (b.v - a.v).squaredNorm() + spin_[z(pair.a)] * spin_[z(pair.a)] + spin_[z(pair.b)] * spin_[z(pair.b)];
-    if (!(square > worth_a_look * settings_.event_budget * std::max(a.inverse_mass, b.inverse_mass))) continue;
-    const PairBodies& bodies = lane_[z(one.pair)].bodies;
-    const View view{bodies.reference, bodies.other, bodies.swapped ? &b : &a, bodies.swapped ? &a : &b, {}};
-    foresee(state_.debris.pair[z(one.pair)], view, settings_, soon, one.result);
-  }
-}
-
-// Counts all contacts: what they have now is what they are counted with. Beds keep what their joints were counted with.
-void Debris::count() {
-  place_all(false);
-  std::vector<Pair>& pair = state_.debris.pair;
-  std::vector<double> sum(z(model_.nblock), 0.0);
-  const auto note = [&](int i, double a, double b) {
-    if (pair[z(i)].bed) return;
-    pair[z(i)].counted_a = bed_[z(i)].rate_a = a;
-    pair[z(i)].counted_b = bed_[z(i)].rate_b = b;
-    sum[z(pair[z(i)].a)] += a;
-    sum[z(pair[z(i)].b)] += b;
-  };
-  for (int i = 0; i < int(pair.size()); ++i) note(i, 0, 0);
-  sleep_.each_resting([&](int i, const PairResult& r) { note(i, r.rate_a, r.rate_b); });
-  for (const Looked& looked : looked_)
-    for (const Active& one : looked.active) note(one.pair, one.result.rate_a, one.result.rate_b);
-  limit_.count(shapes_, blocks_, sum, room_.front());
-  sleep_.add_rates();
-  ask_elsewhere();
-  for (const int b : sleep_.pushed()) rate_[z(b)] = sleep_.holds() ? sleep_.rate(b) : 0;
-}
-
-double Debris::limit() const {
-  const double most = std::max(elsewhere_, limit_.on_most(sleep_.pushed(), rate_, landing_));
-  return limit_.allowed(most);
-}
-
-double Debris::borne_dt() const {
-  if (allowed_ >= state_.last_dt) return allowed_;
-  double most = elsewhere_;
-  for (const int b : sleep_.pushed())
-    if (model_.kind[z(b)] == Kind::moving) most = std::max(most, limit_.on_block(b, rate_[z(b)], 0));
-  const double bears = std::min(model_.dt_most, limit_.allowed(most));
-  return rubbing_ > 0 ? std::min(bears, rubbing_angle / std::sqrt(rubbing_)) : bears;
-}
-
-// What blocks ask for that no live pair touches: held by joints, or asleep, as if all were awake, so that a step in which some wake finds
-// it right.
-void Debris::ask_elsewhere() {
-  std::vector<std::uint8_t> here(z(model_.nblock), 0);
-  for (const int b : sleep_.pushed()) here[z(b)] = 1;
-  elsewhere_ = 0;
-  for (int b = 0; b < model_.nblock; ++b)
-    if (!here[z(b)] && model_.kind[z(b)] == Kind::moving) elsewhere_ = std::max(elsewhere_, limit_.on_block(b, sleep_.rate(b), 0));
-}
-
 // Which pairs a thread takes does not matter to what comes out: they are gone through in their order.
 void Debris::share_out() {
   std::size_t all = 0, before = 0;
@@ -304,30 +237,6 @@ void Debris::share_out() {
     for (; next < threads && all * next < (before + looked.at.size()) * threads; ++next)
       first_pair_[next] = looked.at[all * next / threads - before];
     before += looked.at.size();
-  }
-}
-
-// A bed that closes again is no stiffer than its joint was; its blocks may fall flat on other faces.
-void Debris::land(int i, double landing_a, double landing_b, bool touching) {
-  if (!(landing_a > 0 || landing_b > 0) || (bed_[z(i)].joint >= 0 && !touching)) return;
-  const Waiting& pair = waiting_[z(i)];
-  landing_[z(pair.a)] = std::max(landing_[z(pair.a)], landing_a);
-  landing_[z(pair.b)] = std::max(landing_[z(pair.b)], landing_b);
-}
-
-// No body passes through another unseen: a quarter of the thinner one per step.
-void Debris::limit_passing() {
-  if (fastest_pair_ * allowed_ <= 0.25 * (1 - round_off) * thinnest_) return;
-  const double soon = look_ahead * std::max(state_.dt, state_.last_dt);
-  const auto pass = [&](int i, double apart) {
-    const Waiting& pair = waiting_[z(i)];
-    const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
-    const double speed = (blocks_[z(pair.a)].v - blocks_[z(pair.b)].v).norm();
-    if (apart <= soon * speed && speed * allowed_ > 0.25 * thin) allowed_ = 0.25 * thin / speed;
-  };
-  for (const Looked& looked : looked_) {
-    for (const Active& one : looked.active) pass(one.pair, one.result.apart);
-    for (const Near& one : looked.near) pass(one.pair, one.apart);
   }
 }
 
@@ -404,7 +313,7 @@ void Debris::gather(double* push, bool sample) {
     bears = limit();
   }
   allowed_ = std::min(allowed_, bears);
-  if (rubbing_ > 0) allowed_ = std::min(allowed_, rubbing_angle / std::sqrt(rubbing_));
+  allowed_ = unless_it_rubs(allowed_);
   limit_passing();
 }
 

@@ -18,6 +18,14 @@ inline std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+// Three lines of a scene that lay four bricks; how they are joined follows.
+inline std::string four_bricks() {
+  return R"(material{ name = "brick", density = 1800 }
+ground{ size = 4 }
+for i = 0, 3 do box{ name = "b" .. i, group = "pier", size = { .3, .125, .1 }, at = { 0, 0, i * .1 } } end
+)";
+}
+
 struct Bench {
   test::Folder own;
   std::filesystem::path folder = own.path;

@@ -14,10 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Four bricks that slide on each other for as long as is asked; its step is given, so that no option changes it by the way.
-const std::string sliding = R"(material{ name = "brick", density = 1800 }
-ground{ size = 4 }
-for i = 0, 3 do box{ name = "b" .. i, group = "pier", size = { .3, .125, .1 }, at = { 0, 0, i * .1 } } end
-joint{ law = dry{ kn = 1e8, mu = .3 } }
+const std::string sliding = four_bricks() + R"(joint{ law = dry{ kn = 1e8, mu = .3 } }
 ground_motion{ wave = sine{ amplitude = 4, frequency = 3 }, direction = "x" }
 recorder{ name = "top", quantity = "displacement", block = "b3" }
 analysis{ duration = param("duration", 0.3), dt = 1e-5, output_dt = 0.01 }

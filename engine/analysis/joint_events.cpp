@@ -1,0 +1,63 @@
+#include "engine/analysis/joint_events.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/solve/joint_geometry.h"
+
+namespace erbs {
+namespace {
+
+std::size_t z(int i) { return std::size_t(i); }
+
+// What contacts did while the difference of forces to their joints faded, in one row.
+void write_faded(JointEvents& events, double t, const State& state, RunWriter& writer) {
+  double faded = state.energy.reset - events.listed;
+  for (const HandOver& h : events.handed_since) faded -= h.energy;
+  if (!(std::fabs(faded) > 1e-15 * state.energy.reference)) return;
+  writer.event(t, "fade", "contacts begun", faded, "J");
+  events.listed += faded;
+}
+
+// What was set free where contacts took over from joints.
+void write_handed(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer) {
+  if (!events.handed_since.empty()) write_faded(events, t, state, writer);
+  for (const HandOver& h : events.handed_since) {
+    writer.event(t, "hand over", model.joint_name(h.joint), h.energy, "J");
+    events.listed += h.energy;
+  }
+  events.handed_since.clear();
+}
+
+}  // namespace
+
+void take_events(JointEvents& events, Solver& solver) {
+  const std::vector<int> cracked = solver.take_cracked(), opened = solver.take_opened();
+  const std::vector<HandOver> handed = solver.take_handed();
+  events.cracked_since.insert(events.cracked_since.end(), cracked.begin(), cracked.end());
+  events.opened_since.insert(events.opened_since.end(), opened.begin(), opened.end());
+  events.handed_since.insert(events.handed_since.end(), handed.begin(), handed.end());
+}
+
+void write_events(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer) {
+  std::sort(events.cracked_since.begin(), events.cracked_since.end());
+  for (const int j : events.cracked_since) {
+    if (model.laws[z(model.joint[z(j)].type->law)].dry) continue;
+    if (events.first_crack < 0) events.first_crack = t;
+    writer.event(t, "crack", model.joint_name(j), joint_damage(model, state, j), "share");
+  }
+  for (const int j : events.opened_since) {
+    ++events.opened;
+    writer.event(t, "open", model.joint_name(j), look_at_joint(model, state, j).opening, "m");
+  }
+  events.cracked_since.clear();
+  events.opened_since.clear();
+  write_handed(events, t, model, state, writer);
+}
+
+void write_last_events(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer) {
+  write_handed(events, t, model, state, writer);
+  write_faded(events, t, state, writer);
+}
+
+}  // namespace erbs

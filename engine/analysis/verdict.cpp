@@ -1,0 +1,85 @@
+#include "engine/analysis/verdict.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+
+namespace erbs {
+namespace {
+
+constexpr long wrong_steps = 512;        // that a run goes on with a ledger that has lost half of what passed; ...
+constexpr long negative_steps = 160000;  // ... with a kinetic energy below zero, as modes at the limit of the step have it
+
+// To one digit, downwards.
+std::string step_of(double wanted) {
+  const double x = std::min(0.9, wanted), digit = std::pow(10, std::floor(std::log10(x)));
+  return fmt::format("--dt-fraction {:.1g}", digit * std::floor(x / digit + 1e-9));
+}
+
+std::string where(const RunSoFar& r) {
+  const int j = r.run.state.energy.largest_jump_joint;
+  return j >= 0 ? "joint " + r.run.model.joint_name(j) : "no joint's own balance";
+}
+
+}  // namespace
+
+double energy_gate(const RunSoFar& r) {
+  if (r.scene.analysis.energy_gate > 0) return r.scene.analysis.energy_gate;
+  const State& s = r.run.state;
+  if (r.collapse.fallen_fraction > 0 || r.collapse.collapsed || r.opened > 0 || s.max_penetration_relative > 0) return 1e-2;
+  const bool elastic = s.debris.pair.empty() && std::all_of(s.tier.begin(), s.tier.end(), [](Tier t) { return t == Tier::intact; });
+  return elastic ? 1e-6 : 1e-3;
+}
+
+bool growth_allowed(const Scene& scene) { return scene.analysis.solver == "sequential" && scene.analysis.unstable; }
+
+bool diverges(const RunSoFar& r, long& right) {
+  const State& s = r.run.state;
+  const Energy& e = s.energy;
+  if (!std::isfinite(e.residual)) return true;
+  const double passed = e.absolute_work + 0.5 * e.height_flux + std::fabs(e.start);
+  // The sequential scheme's ledger is open; but no more can move than has come in and all heights can give, in a structure that has any.
+  if (growth_allowed(r.scene)) return r.height_energy > 0 && e.kinetic > 2 * (passed + r.height_energy);
+  // Past its limit explicit damping feeds the motion while the ledger closes; its velocities change sign in every step, so that
+  // T = v- m v+ / 2 is negative.
+  const bool lost = e.residual_relative > std::max(0.5, r.scene.analysis.energy_gate), wrong = lost || e.kinetic < 0;
+  if (!wrong) right = s.step;
+  // Where a few light blocks alone are past their limit their joints crack and hold the growth back: it ends by its length.
+  return wrong && ((std::fabs(e.kinetic) > 1e3 * passed && s.step > 64) || s.step - right > (lost ? wrong_steps : negative_steps));
+}
+
+std::string trouble_of(const RunSoFar& r, const std::string& status) {
+  const Energy& e = r.run.state.energy;
+  const Model& model = r.run.model;
+  const double gate = energy_gate(r), fraction = r.dt_at_start / r.run.bounds.critical;
+  const double share = std::isfinite(fraction) && fraction > 0 ? fraction : 1;
+  if (status == "diverged")
+    return fmt::format("the numbers diverged at t = {:.6g} s (dt = {:.4g} s, limit {:.4g} s); nothing after that is to be trusted; take {}",
+                       r.run.state.t, r.run.state.dt, r.run.bounds.critical, step_of(share > 1 ? 0.9 : share / 3));
+  if (e.residual_worst > gate && !growth_allowed(r.scene)) {
+    // The ledger of what is smooth errs by the square of the step; friction that flutters and joints that chatter want their dashpots.
+    const double smooth = 0.8 * std::sqrt(gate / e.residual_worst);
+    const bool undamped = std::any_of(model.laws.begin(), model.laws.end(), [](const PointLaw& l) { return l.damping < 0.1; });
+    return fmt::format(
+        "energy residual {:.3g} of what passed through is past its gate {:.0e}; its largest step was {:.3g} J at t = {:.6g} s, {}; take "
+        "{}{}{}",
+        e.residual_worst, gate, e.largest_jump, e.largest_jump_time, where(r), step_of(share * std::clamp(smooth, 0.1, 0.5)),
+        undamped && model.njoint > 0 ? " or damping = 0.1 in the law of its joints" : "",
+        e.residual_worst < 0.05 ? fmt::format(", or say analysis{{ energy_gate = {:.1g} }} if that is near enough", 2 * e.residual_worst)
+                                : "");
+  }
+  const bool asked = r.scene.analysis.unstable || r.allow_unstable;
+  if (asked || !stepped_too_far(r.trust, r.run.state)) return "";
+  return fmt::format("the step was past the limit of what touched in {:.2g} % of the steps, by {:.3g} at most; take {}",
+                     100 * double(r.trust.past_step) / double(r.run.state.step), r.trust.dt_margin,
+                     step_of(0.9 * share / r.trust.dt_margin));
+}
+
+std::string ledger_line(const RunSoFar& r) {
+  const Energy& e = r.run.state.energy;
+  return fmt::format("energy residual {:.3g} (gate {:.0e}), largest step {:.3g} J at t = {:.6g} s, {}", e.residual_worst, energy_gate(r),
+                     e.largest_jump, e.largest_jump_time, where(r));
+}
+
+}  // namespace erbs
