@@ -10,18 +10,18 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// What contacts did while the difference of forces to their joints faded, in one row.
-void write_faded(JointEvents& events, double t, const State& state, RunWriter& writer) {
-  double faded = state.energy.reset - events.listed;
-  for (const HandOver& h : events.handed_since) faded -= h.energy;
-  if (!(std::fabs(faded) > 1e-15 * state.energy.reference)) return;
-  writer.event(t, "fade", "contacts begun", faded, "J");
-  events.listed += faded;
+// What was lost where beds of former joints became softer, and where contacts parted, in one row.
+void write_rest(JointEvents& events, double t, const State& state, RunWriter& writer) {
+  double rest = state.energy.reset - events.listed;
+  for (const HandOver& h : events.handed_since) rest -= h.energy;
+  if (!(std::fabs(rest) > 1e-15 * state.energy.reference)) return;
+  writer.event(t, "soften", "beds and contacts", rest, "J");
+  events.listed += rest;
 }
 
 // What was set free where contacts took over from joints.
 void write_handed(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer) {
-  if (!events.handed_since.empty()) write_faded(events, t, state, writer);
+  if (!events.handed_since.empty()) write_rest(events, t, state, writer);
   for (const HandOver& h : events.handed_since) {
     writer.event(t, "hand over", model.joint_name(h.joint), h.energy, "J");
     events.listed += h.energy;
@@ -57,7 +57,7 @@ void write_events(JointEvents& events, double t, const Model& model, const State
 
 void write_last_events(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer) {
   write_handed(events, t, model, state, writer);
-  write_faded(events, t, state, writer);
+  write_rest(events, t, state, writer);
 }
 
 }  // namespace erbs

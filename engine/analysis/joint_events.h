@@ -31,7 +31,7 @@ void take_events(JointEvents& events, Solver& solver);
 // All that happened up to t (s), in rows of events.csv.
 void write_events(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer);
 
-// The same at the end of a run: of hand-overs only, with all that faded since the last of them.
+// The same at the end of a run: of hand-overs only, with all that was lost since the last of them.
 void write_last_events(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer);
 
 }  // namespace erbs

@@ -10,17 +10,20 @@
 namespace erbs {
 namespace {
 
-static_assert(offsetof(Pair, tangential) == 30 * sizeof(double) && sizeof(Pair) >= 8 * pair_rows * sizeof(double));
+constexpr int lift_row = 50;  // where Pair::lift is read to
+static_assert(offsetof(Pair, tangential) == 30 * sizeof(double) && offsetof(Pair, lift) == lift_row * sizeof(double));
+static_assert(sizeof(Pair) >= 8 * pair_rows * sizeof(double));
 static_assert(sizeof(ContactBlock) == 8 * block_rows * sizeof(double));
-static_assert(offsetof(PairResult, handover) == 8 * result_rows * sizeof(double));
+static_assert(offsetof(PairResult, elastic) == 8 * result_rows * sizeof(double));
 
 Vec3 vec(const Lane* x, int l) { return {x[0][l], x[1][l], x[2][l]}; }
 
+// As the overlap sees it.
 PairPose pose_of(const PairLanes& w, int l) {
   PairPose pose;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) pose.turn(i, k) = w.turn[3 * i + k][l];
-  pose.shift = vec(w.shift, l);
+  pose.shift = vec(w.shift, l) + vec(w.p + lift_row, l);
   return pose;
 }
 
@@ -45,7 +48,7 @@ unsigned overlaps(const PairJob* job, int count, PairLanes& w, Triangles* triang
     clips[l].a = &bodies.reference->small, clips[l].b = &bodies.other->small;
     clips[l].out = &triangles[l], clips[l].known = &job[l].pair->corners;
     for (int i = 0; i < 9; ++i) clips[l].pose.turn[i] = w.turn[i][l];
-    for (int i = 0; i < 3; ++i) clips[l].pose.shift[i] = w.shift[i][l];
+    for (int i = 0; i < 3; ++i) clips[l].pose.shift[i] = w.shift[i][l] + w.p[lift_row + i][l];
   }
   kernels.clip_all(clips, count);
   unsigned left_out = 0;
@@ -130,12 +133,7 @@ PairBodies bodies_of(const Pair& p, const ContactShapes& shapes) {
 }
 
 bool goes_in_lanes(const Pair& pair, const PairBodies& bodies) {
-  if (!pair.touching || pair.separating >= 0 || pair.offset_left > 0) return false;
-  static_assert(sizeof(PairWrench) == 9 * sizeof(double));
-  const double* offset = pair.offset.force.data();
-  double left = 0;
-  for (int i = 0; i < 9; ++i) left += std::abs(offset[i]);
-  if (left != 0) return false;
+  if (!pair.touching || pair.separating >= 0) return false;
   return bodies.reference->small.faces > 0 && bodies.other->small.faces > 0;  // where clipping will look next
 }
 

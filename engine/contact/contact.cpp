@@ -84,27 +84,63 @@ double trapezoid(PairWrench& last, const PairWrench& now, const ContactBlock& a,
   return work;
 }
 
-// What is left of the difference to what was there before, after another dt.
-double fading_share(const Pair& pair, double dt) { return pair.offset_left > dt ? (pair.offset_left - dt) / pair.offset_time : 0; }
-
-// The fading difference to what was there before. That to a joint ends at once where the bodies part, and where it would drive them by more
-// than a blow may err.
-PairWrench fading(Pair& pair, const View& s, bool touches, const ContactSettings& settings, const ContactBlock& a, const ContactBlock& b,
-                  double dt) {
-  if (!touches && pair.bed) pair.offset_left = 0;
-  if (pair.offset_left <= 0) return {};
-  const double share = fading_share(pair, dt);
-  pair.offset_left = std::max(0.0, pair.offset_left - dt);
-  const PairWrench w = to_world(pair, s, share * pair.offset_force, share * pair.offset_moment);
-  if (pair.bed != Pair::bed_that_bore || dt == 0 || power(w, a, b) * pair.offset_left <= settings.driven) return w;
-  pair.offset_left = 0;
-  return {};
-}
-
 void forget_contact(Pair& pair) {
   pair.touching = 0;
   pair.u.setZero();
   pair.psi = pair.area = pair.gyration = pair.tangential = 0;
+}
+
+PairPose lifted(const Pair& pair, PairPose pose) {
+  pose.shift += pair.lift;
+  return pose;
+}
+
+// Faces that are farther apart than they were lifted by meet next where they are; `apart` (m) is that of the poses then.
+void come_apart(Pair& pair, double& apart) {
+  if (pair.lift.isZero(0) || apart < 0) return;
+  apart = std::max(0.0, apart - pair.lift.norm());
+  if (apart > 0) pair.lift.setZero();
+}
+
+// Lifts the other body off the faces, or lowers it onto them, until they store `wanted` (J); returns what they store (J). Newton's rule
+// for the root of the energy, which is linear in the way where a whole face presses, within a bracket.
+double lift(Pair& pair, const View& s, double wanted, const Patch& patch, OverlapRoom& room) {
+  const Vec3 n = patch.force.normalized(), from = pair.lift;
+  const double kn = pair.law.kn, infinite = std::numeric_limits<double>::infinity();
+  double way = 0, low = -infinite, high = infinite, stored = 0, near = 1e-9 * wanted;
+  for (int i = 0; i < 60; ++i) {
+    pair.lift = from + way * n;
+    const PairPose pose = lifted(pair, s.pose);
+    int separating = -1;
+    const Patch now = find_overlap(*s.reference, *s.other, pose, separating, room);
+    stored = now.total > 0 ? kn * overlap_energy(*s.reference, *s.other, pose, room) : 0;
+    if (i == 0) near = 1e-9 * std::max(stored, wanted);
+    if (std::fabs(stored - wanted) <= near) break;
+    (stored > wanted ? low : high) = way;
+    const double force = kn * now.force.dot(n);
+    double next = force > 0 ? way + 2 * (stored - std::sqrt(stored * wanted)) / force : infinite;
+    if (!(next > low && next < high)) next = (low + high) / 2;
+    if (!std::isfinite(next) || next == way) break;
+    way = next;
+  }
+  return stored;
+}
+
+// The springs of friction are given the force and torsion that acted along the face, as far as friction bears them.
+Friction take_shear(Pair& pair, const View& s, const Patch& patch, const Vec3& force, const Vec3& moment, double pressed) {
+  const Motion rest{Vec3::Zero(), Vec3::Zero()};
+  pair.touching = 0;
+  patch_friction(pair, patch, s.pose, rest, pressed, 0, 0);  // first touch at this pose
+  const double kt = pair.law.ks * pair.area, kr = kt * pair.gyration * pair.gyration;
+  if (kt > 0) pair.u = -(force - force.dot(pair.n) * pair.n) / kt;
+  pair.psi = kr > 0 ? -(moment - patch.centroid.cross(force)).dot(pair.n) / kr : 0.0;
+  pair.touching = 1;
+  pair.turn = s.pose.turn;
+  pair.shift = s.pose.shift;
+  pair.bearing = pressed;
+  const Friction f = patch_friction(pair, patch, s.pose, rest, pressed, 0, 0);
+  pair.tangential = f.stored;
+  return f;
 }
 
 // The patch resists with at most kn A along its normal and kt across; its spread about its centroid adds the gyration to the arms.
@@ -165,13 +201,14 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
                 double dt, bool want_energy, OverlapRoom& room, PairResult& result, double crowd) {
   result = PairResult{};
   const View s = view_of(pair, shapes, a, b);
-  Patch patch = find_overlap(*s.reference, *s.other, s.pose, pair.separating, room);
+  Patch patch = find_overlap(*s.reference, *s.other, lifted(pair, s.pose), pair.separating, room);
   const bool touches = patch.total > 0;
-  if (!touches) landing(pair, s, settings, room.apart, dt, result);
-  if (!touches && room.apart >= 0) result.apart = room.apart;
-  if (!touches && !pair.touching && pair.offset_left <= 0) {
+  if (!touches) {
+    come_apart(pair, room.apart);
+    landing(pair, s, settings, room.apart, dt, result);
+    if (room.apart >= 0) result.apart = room.apart;
     if (room.apart > settings.interlock.gap) pair.bearing = 0;
-    return false;
+    if (!pair.touching) return false;
   }
 
   PairWrench elastic, damping, friction;
@@ -186,9 +223,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     Vec3 damping_force, damping_moment;
     damping_wrench(room, patch.normal, d.chi, d.limit, damping_force, damping_moment);
     const double inverse_mass = inverse_mass_at(s, patch.centroid);
-    // the fading difference presses the faces as well
-    const double pressed = kn * patch.force.norm() + fading_share(pair, dt) * pair.offset_force.dot(patch.force.normalized());
-    const Friction f = patch_friction(pair, patch, s.pose, motion, std::max(0.0, pressed), inverse_mass, settings.settling_tangential,
+    const Friction f = patch_friction(pair, patch, s.pose, motion, kn * patch.force.norm(), inverse_mass, settings.settling_tangential,
                                       settings.interlock);
     damping = to_world(pair, s, kn * damping_force + f.viscous_force, kn * damping_moment + f.viscous_moment);
     friction = to_world(pair, s, f.force, f.moment);
@@ -198,72 +233,61 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     result.touching = true;
     result.depth = patch.deepest;
     stability(pair, s, patch, result);
-    if (want_energy) result.elastic = kn * overlap_energy(*s.reference, *s.other, s.pose, room);
+    if (want_energy) result.elastic = kn * overlap_energy(*s.reference, *s.other, lifted(pair, s.pose), room);
   } else if (pair.touching) {
     forget_contact(pair);
     pair.approach = 0;
   }
-  if (!touches && room.apart > settings.interlock.gap) pair.bearing = 0;
   pair.turn = s.pose.turn;
   pair.shift = s.pose.shift;
 
-  const PairWrench offset = fading(pair, s, touches, settings, a, b, dt);
   result.friction = -trapezoid(pair.friction, friction, a, b, dt) - (pair.tangential - stored_before);
   result.damping = -trapezoid(pair.damping, damping, a, b, dt);
-  result.handover = -trapezoid(pair.offset, offset, a, b, dt);
   result.tangential = pair.tangential;
   result.wrench = elastic;
   add(result.wrench, damping);
   add(result.wrench, friction);
-  add(result.wrench, offset);
   return true;
 }
 
-void hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
-               const Vec3& force_on_b, const Vec3& moment_on_b, double area, OverlapRoom& room) {
+double hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const Vec6& before, double stored,
+                 double most, OverlapRoom& room) {
   const View s = view_of(pair, shapes, a, b);
   const Mat3 back = s.reference_block->turn.transpose();
-  // The old wrench on the body that is not the reference, pair axes.
-  Vec3 old_force = back * force_on_b, old_moment = back * moment_on_b;
+  // The wrench before, on the body that is not the reference, pair axes.
+  Vec3 force = back * before.head<3>(), moment = back * before.tail<3>();
   if (pair.b_is_reference) {
-    old_moment = -(old_moment - s.pose.shift.cross(old_force));  // about the centroid of a, which lies at +shift from that of b
-    old_force = -old_force;
+    moment = -(moment - s.pose.shift.cross(force));  // about the centroid of a, which lies at +shift from that of b
+    force = -force;
   }
-  Patch patch = find_overlap(*s.reference, *s.other, s.pose, pair.separating, room);
-  Vec3 new_force = Vec3::Zero(), new_moment = Vec3::Zero();
+  const double kn = pair.law.kn;
+  const auto overlap = [&] { return find_overlap(*s.reference, *s.other, lifted(pair, s.pose), pair.separating, room); };
   forget_contact(pair);
-  double stiffness = pair.law.kn * area;
-  Vec3 middle = -s.pose.shift / 2;
+  Patch patch = overlap();
+  double kept = 0;
   if (patch.total > 0) {
-    const double kn = pair.law.kn;
-    // First touch at this pose, then the springs are given the force and torsion of the joint.
-    patch_friction(pair, patch, s.pose, {Vec3::Zero(), Vec3::Zero()}, kn * patch.force.norm(), 0, 0);
-    const double kt = pair.law.ks * pair.area, kr = kt * pair.gyration * pair.gyration;
-    const Vec3 t = old_force - old_force.dot(pair.n) * pair.n;
-    pair.u = -t / kt;
-    const double torsion = (old_moment - patch.centroid.cross(old_force)).dot(pair.n);
-    pair.psi = kr > 0 ? -torsion / kr : 0.0;
-    pair.touching = 1;
-    pair.turn = s.pose.turn;
-    pair.shift = s.pose.shift;
-    const double pressed = std::max(0.0, old_force.dot(patch.force.normalized()));
-    const Friction f = patch_friction(pair, patch, s.pose, {Vec3::Zero(), Vec3::Zero()}, pressed, 0, 0);
-    pair.tangential = f.stored;
-    pair.friction = to_world(pair, s, f.force, f.moment);
-    pair.bearing = pressed;
-    if (pair.bed && pressed > 0.1 * kn * patch.force.norm()) pair.bed = Pair::bed_that_bore;
-    // Friction is left to friction: what it bears less from now on would drive what slides, or brake it.
-    new_force = kn * patch.force + t;
-    new_moment = kn * patch.moment + patch.centroid.cross(t) + torsion * pair.n;
-    stiffness = kn * patch.area;
-    middle = patch.centroid;
+    const double pressed = std::max(0.0, force.dot(patch.force.normalized())), of_now = pressed / (kn * patch.force.norm());
+    const double squeezed = kn * overlap_energy(*s.reference, *s.other, lifted(pair, s.pose), room) * of_now * of_now;
+    const double sheared = take_shear(pair, s, patch, force, moment, pressed).stored;
+    kept = lift(pair, s, squeezed, patch, room) + sheared;
+    if (std::fabs(stored - kept) > most) {
+      const double share = squeezed + sheared > 0 ? stored / (squeezed + sheared) : 0;
+      const double faces = lift(pair, s, share * squeezed, patch, room), left = std::max(0.0, stored - faces);
+      if (const Patch now = overlap(); now.total > 0) take_shear(pair, s, now, force, moment, kn * now.force.norm());
+      else forget_contact(pair);
+      if (const double less = left / pair.tangential; less < 1)
+        pair.u *= std::sqrt(less), pair.psi *= std::sqrt(less), pair.tangential *= less;
+      kept = lift(pair, s, stored - pair.tangential, patch, room) + pair.tangential;  // the faces have what friction does not bear
+    }
+    patch = overlap();
+    pair.bearing = kn * patch.force.norm();
   }
-  pair.offset_force = old_force - new_force;
-  pair.offset_moment = old_moment - new_moment;
-  const double inverse_mass = inverse_mass_at(s, middle);
-  pair.offset_time = inverse_mass > 0 && stiffness > 0 ? settings.handover_periods * 2 * pi / std::sqrt(stiffness * inverse_mass) : 0;
-  pair.offset_left = pair.offset_time;
-  pair.offset = to_world(pair, s, pair.offset_force, pair.offset_moment);
+  pair.turn = s.pose.turn;
+  pair.shift = s.pose.shift;
+  if (!before.isZero(0)) pair.touching = 1;
+  // What acts at this pose and is no force of the faces does half a step of work on the way to the next.
+  pair.friction = to_world(pair, s, force - kn * patch.force, moment - kn * patch.moment);
+  return kept;
 }
 
 }  // namespace erbs

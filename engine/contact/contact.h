@@ -22,7 +22,6 @@ struct PairResult {
   // Upper bounds of the pair's share in the greatest eigenvalue of M^-1/2 K M^-1/2 of each block, dashpots included (1/s2):
   // stable while dt^2 <= 2 / (sum over the pairs and joints of a block), for every block.
   double rate_a = 0, rate_b = 0;
-  double handover = 0;  // J, lost to the fading difference to an old joint
   double elastic = 0;   // J, normal, stored (only where asked for)
   // The rates of a face that may land within the next steps, where the bodies are apart still but approach.
   double landing_a = 0, landing_b = 0;
@@ -40,12 +39,12 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
 // A new pair; fixes its reference body for good. `impact`: impact_factor() of its restitution.
 Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, double impact, const ContactShapes& shapes);
 
-// Starts `pair` with what an old joint carries at this instant (world axes, on block b, moment about the centroid of b), so that
-// the force across the faces is continuous: friction takes the tangential part as far as it bears it, the difference of the rest fades
-// over some contact periods.
-// `area` (m2) of the old joint sets the period where the bodies do not touch yet.
-void hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
-               const Vec3& force_on_b, const Vec3& moment_on_b, double area, OverlapRoom& room);
+// Starts `pair` at this pose with what acted between the faces before: `before` (N, N m; world axes, on block b, moment about its centroid),
+// which stored `stored` (J). The faces are seen lifted off each other by as little (Pair::lift) as makes them press as before, and the
+// springs of friction pull as before. Where both then store other than before by more than `most` (J), energy is kept instead, forces in
+// the ratio of before where friction bears it. Returns what is stored from now on (J): less where the bodies do not overlap.
+double hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const Vec6& before, double stored,
+                 double most, OverlapRoom& room);
 
 // X with X - ln(1 + X) = -e X - ln(1 - e X): a pressure kn phi (1 + X v / v_i) returns e of the approach speed v_i (Hunt and Crossley
 // 1975).

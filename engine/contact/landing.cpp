@@ -163,7 +163,7 @@ void foresee(const Pair& pair, const View& s, const ContactSettings& settings, d
 }
 
 int short_keeper(const Pair& pair, const ContactShape& a, const ContactShape& b) {
-  return pair.touching || pair.offset_left > 0 || !(a.small.faces > 0 && b.small.faces > 0) ? -1 : pair.separating;
+  return pair.touching || !pair.lift.isZero(0) || !(a.small.faces > 0 && b.small.faces > 0) ? -1 : pair.separating;
 }
 
 bool stands_apart(int separating, const Pair& pair, const View& s, const ContactSettings& settings, double dt, PairResult& result) {

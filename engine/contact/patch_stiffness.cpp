@@ -25,7 +25,7 @@ bool patch_stiffness(Pair& pair, const ContactShapes& shapes, const ContactBlock
                      PatchStiffness& out) {
   const View s = view_of(pair, shapes, a, b);
   int separating = -1;
-  const Patch patch = find_overlap(*s.reference, *s.other, s.pose, separating, room, &pair.corners);
+  const Patch patch = find_overlap(*s.reference, *s.other, {s.pose.turn, s.pose.shift + pair.lift}, separating, room, &pair.corners);
   if (!(patch.total > 0)) return false;
   const Mat3& turn = s.reference_block->turn;
   const Vec3 n = turn * patch.normal, arm = turn * patch.centroid, arm_reference = turn * (patch.centroid + s.pose.shift);

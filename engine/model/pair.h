@@ -1,7 +1,6 @@
 // A pair of parts that may touch: its law, and all it remembers from step to step.
 #pragma once
 #include <cstdint>
-#include <limits>
 #include <type_traits>
 #include <vector>
 
@@ -25,9 +24,7 @@ struct ContactSettings {
   double memory = 0.05;               // s, over which the greatest approach speed is forgotten
   double settling = 0.2;              // share of critical damping of the settled contact, normal; fades with the speed of impact
   double settling_tangential = 0.05;  // the same of a contact that sticks, tangential
-  double handover_periods = 5;        // contact periods over which the difference to the old joint fades
   double event_budget = 0;            // J, by which a blow may err (event_bound.h); 0: any
-  double driven = std::numeric_limits<double>::infinity();  // J, that the difference to an old joint may give at most
   Interlock interlock;                // of contacts, in m, m2/s2 and shares of a step (interlock.h)
 };
 
@@ -56,19 +53,17 @@ struct alignas(64) Pair {
   double tangential = 0;  // J
   double bearing = 0;     // N, mean of what presses it (interlock.h)
   // wrenches of the last step, whose half step of work is still to be booked
-  PairWrench friction, damping, offset;
-  // difference to the joint it was handed over from, pair axes
-  Vec3 offset_force = Vec3::Zero();         // N, on the body that is not the reference
-  Vec3 offset_moment = Vec3::Zero();        // N m, about its centroid
-  double offset_left = 0, offset_time = 0;  // s
-  double counted_a = 0, counted_b = 0;      // 1/s2, its share in PairList::counted
+  PairWrench friction, damping;
+  // Way by which the other body is seen off its place, pair axes: so a contact stores what was stored before it (hand_over()).
+  Vec3 lift = Vec3::Zero();             // m
+  double counted_a = 0, counted_b = 0;  // 1/s2, its share in PairList::counted
   int a = 0, b = 0;                         // blocks, a < b
   int part_a = 0, part_b = 0;               // parts of them
   int separating = -1;                      // cache only
   std::uint8_t b_is_reference = 0;          // whose inner distance is the potential: the larger part, then the lower block; never changes
   std::uint8_t touching = 0;
-  static constexpr std::uint8_t bed_that_bore = 2;
-  std::uint8_t bed = 0;  // still the faces of a former joint, and its stiffness; once parted they meet as debris. 2: that pressed at the hand-over
+  static constexpr std::uint8_t softening = 2;
+  std::uint8_t bed = 0;  // still the faces of a former joint, and its stiffness; once parted they meet as debris. 2: on the way to its stiffness
   Corners corners;       // cache only
 };
 
@@ -124,9 +119,8 @@ void each(P& p, F&& f) {
   f("b_is_reference", p.b_is_reference), f("touching", p.touching), f("bed", p.bed), f("separating", p.separating);
   f("turn", p.turn), f("shift", p.shift), f("n", p.n), f("c", p.c), f("u", p.u), f("psi", p.psi);
   f("area", p.area), f("gyration", p.gyration), f("bearing", p.bearing), f("approach", p.approach), f("impact", p.impact);
-  f("offset_force", p.offset_force), f("offset_moment", p.offset_moment);
-  f("offset_left", p.offset_left), f("offset_time", p.offset_time), f("counted_a", p.counted_a), f("counted_b", p.counted_b);
-  f("friction", p.friction), f("damping", p.damping), f("offset", p.offset), f("tangential", p.tangential);
+  f("counted_a", p.counted_a), f("counted_b", p.counted_b);
+  f("friction", p.friction), f("damping", p.damping), f("lift", p.lift), f("tangential", p.tangential);
 }
 template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, PairList>

@@ -10,7 +10,8 @@
 namespace erbs {
 namespace {
 
-constexpr double parted = 0.02;  // of a bed's side, and rad
+constexpr double parted = 0.02;               // of a bed's side, and rad
+constexpr double hand_over_tolerance = 3e-6;  // of State::energy.reference: what a contact may store other than its joint did
 std::size_t z(int i) { return std::size_t(i); }
 
 // Joints [first, end) between the same parts as `first`.
@@ -204,28 +205,47 @@ bool Debris::displaced(const Pair& p, int j) const {
   return !p.touching && !((a - b).norm() < parted * std::sqrt(2.0));  // a block that rocks turns, and comes back to its place
 }
 
-// A bed has the stiffness of a layer of mortar between faces that match. Faces that have moved on while they touch match no more: they get
-// that of debris, where it is less, and go on bearing what they bear, the difference fading as at a hand-over. They rub as before. So no
-// bed holds the step of a fall for as long as its blocks drag each other along.
-void Debris::soften_beds() {
+// A bed has the stiffness of a layer of mortar between faces that match. Faces that have moved on while they touch match no more: step by
+// step they get that of debris, where it is less. So no bed holds the step of a fall for as long as its blocks drag each other along.
+void Debris::find_softening(double most) {
   for (std::size_t i = 0; i < bed_.size(); ++i) {
     Pair& p = state_.debris.pair[i];
-    if (!p.bed || !p.touching || p.offset_left > 0 || sleep_.asleep(p.a) || sleep_.asleep(p.b) || !displaced(p, bed_[i].joint)) continue;
+    if (p.bed != 1 || !p.touching || sleep_.asleep(p.a) || sleep_.asleep(p.b) || !displaced(p, bed_[i].joint)) continue;
     const PairLaw to = law(p.a, p.b);
     if (to.kn >= p.law.kn || to.ks >= p.law.ks) continue;
-    ContactBlock a = blocks_[z(p.a)], b = blocks_[z(p.b)];  // at rest: dashpots are not handed over
+    p.bed = Pair::softening;
+  }
+  soften_beds(most);
+}
+
+// What is pressed by a force N stores N^2 / (2 kn A); softer at the same pose it stores less, and that is lost. All that is lost on the way
+// to debris is about what the bed stores in the end: where that is more than `most` (J), it waits until it is pressed less.
+void Debris::soften_beds(double most) {
+  constexpr double at_once = 0.992;  // of the stiffness
+  for (std::size_t i = 0; i < bed_.size(); ++i) {
+    Pair& p = state_.debris.pair[i];
+    if (p.bed != Pair::softening || !p.touching || sleep_.asleep(p.a) || sleep_.asleep(p.b)) continue;
+    ContactBlock a = blocks_[z(p.a)], b = blocks_[z(p.b)];  // at rest: dashpots go on as they are
     a.v = a.w = b.v = b.w = Vec3::Zero();
     PairResult now;
     Pair copy = p;
     if (!pair_force(copy, shapes_, a, b, settings_, 0.0, true, room_.front(), now)) continue;
-    Vec6 wrench;
-    wrench << now.wrench.force, now.wrench.moment_b;
-    p.law.kn = to.kn;
-    p.law.ks = to.ks;
+    const PairLaw to = law(p.a, p.b);
+    if ((now.elastic + now.tangential) * p.law.kn / to.kn > most) continue;
+    const double kn = std::max(to.kn, at_once * p.law.kn) / p.law.kn, ks = std::max(to.ks, at_once * p.law.ks) / p.law.ks;
+    p.law.kn *= kn;
+    p.law.ks *= ks;
+    p.tangential *= ks;
+    released_ += (1 - kn) * now.elastic + (1 - ks) * now.tangential;
+    // What presses less from now on does half a step of work on the way to the next pose, as what rubs does.
+    p.friction.force += (1 - kn) * (now.wrench.force - copy.friction.force);
+    p.friction.moment_a += (1 - kn) * (now.wrench.moment_a - copy.friction.moment_a);
+    p.friction.moment_b += (1 - kn) * (now.wrench.moment_b - copy.friction.moment_b);
+    lanes_changed_ = true;
+    if (p.law.kn > to.kn || p.law.ks > to.ks) continue;
     p.bed = 0;
     p.counted_a = p.counted_b = 0;
-    const double stored = now.elastic + now.tangential;
-    note_hand_over(std::exchange(bed_[i], {}).joint, stored - start(p, wrench, 0, stored));
+    bed_[i] = {};
   }
 }
 
@@ -234,7 +254,7 @@ void Debris::soften_beds() {
 void Debris::part_beds() {
   for (std::size_t i = 0; i < bed_.size(); ++i) {
     Pair& p = state_.debris.pair[i];
-    if (!p.bed || p.touching || p.offset_left > 0 || !displaced(p, bed_[i].joint)) continue;
+    if (!p.bed || p.touching || !displaced(p, bed_[i].joint)) continue;
     p.bed = 0;
     p.counted_a = p.counted_b = 0;
     p.law = law(p.a, p.b);
@@ -301,13 +321,13 @@ std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
 void Debris::hand_over_pair(const int* first, const int* last) {
   const Joint& one = model_.joint[z(*first)];
   Vec6 wrench = Vec6::Zero();  // on b
-  double area = 0, stored = 0;
+  double stored = 0;
   for (const int* j = first; j < last; ++j) {
     wrench += Eigen::Map<const Vec6>(&state_.wrench[z(model_.row_b[z(*j)]) * 8]);
-    area += model_.joint[z(*j)].type->area;
     stored += state_.memory[z(*j)].elastic;
     state_.memory[z(*j)] = JointMemory{};
   }
+  const double most = hand_over_tolerance * state_.energy.reference;
   const PointLaw& joint_law = model_.laws[z(one.type->law)];
   const int at = find_pair(state_.debris, one.a, one.part_a, one.b, one.part_b);
   if (at < 0) return note_hand_over(*first, stored);
@@ -317,7 +337,8 @@ void Debris::hand_over_pair(const int* first, const int* last) {
   pair.law.kn = joint_law.kn;
   pair.law.ks = joint_law.ks;
   pair.law.mu = joint_law.mu_residual;
-  note_hand_over(*first, stored - start(pair, wrench, area, stored));
+  lanes_changed_ = true;
+  note_hand_over(*first, stored - hand_over(pair, shapes_, blocks_[z(pair.a)], blocks_[z(pair.b)], wrench, stored, most, room_.front()));
 }
 
 void Debris::note_hand_over(int joint, double energy) {
@@ -325,36 +346,14 @@ void Debris::note_hand_over(int joint, double energy) {
   handed_.push_back({joint, energy});
 }
 
-// A contact begins with what a joint bore on b until now; returns what its springs store then (J). Faces of contact reach round the edges
-// of a brick, over the mortar beside it, and may press where the joint had no face left: also where it bore nothing. What was
-// there before, `stored` (J), is kept: what the face stores more or less of it, the springs of friction begin with less or more, as far
-// as friction bears it.
-double Debris::start(Pair& pair, const Vec6& wrench, double area, double stored) {
-  const ContactBlock &a = blocks_[z(pair.a)], &b = blocks_[z(pair.b)];
-  lanes_changed_ = true;
-  PairResult now;
-  Pair copy = pair;
-  const bool touches = pair_force(copy, shapes_, a, b, settings_, 0.0, true, room_.front(), now);
-  if (!touches && wrench.isZero(0)) return 0;
-  hand_over(pair, shapes_, a, b, settings_, wrench.head<3>(), wrench.tail<3>(), area, room_.front());
-  copy = pair;
-  pair_force(copy, shapes_, a, b, settings_, 0.0, true, room_.front(), now);
-  const double face = now.elastic, springs = pair.tangential, pull = pair.friction.force.norm();
-  if (!(springs > 0 && pull > 0) || wrench.isZero(0)) return face + springs;
-  const Vec3 n = (pair.b_is_reference ? b : a).turn * pair.n;
-  const double most = pair.law.mu * std::abs(now.wrench.force.dot(n)) / pull;  // what friction bears
-  const double share = std::min(std::sqrt(std::max(0.0, (stored - face) / springs)), std::max(1.0, most));
-  pair.u *= share, pair.psi *= share;
-  for (Vec3* w : {&pair.friction.force, &pair.friction.moment_a, &pair.friction.moment_b}) *w *= share;
-  pair.tangential *= share * share;
-  return face + pair.tangential;
-}
-
 // While joints hold them, blocks without a joint between them do not see each other, and may overlap by then: as if a joint that bore
 // nothing went over to contact. Returns what the springs store (J).
 double Debris::start_fresh(const std::vector<int>& fresh) {
   double stored = 0;
-  for (const int i : fresh) stored += start(state_.debris.pair[z(i)], Vec6::Zero(), 0, 0);
+  for (const int i : fresh) {
+    Pair& p = state_.debris.pair[z(i)];
+    stored += hand_over(p, shapes_, blocks_[z(p.a)], blocks_[z(p.b)], Vec6::Zero(), 0, 0, room_.front());
+  }
   return stored;
 }
 

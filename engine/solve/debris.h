@@ -30,8 +30,10 @@ class Debris {
   std::vector<int> hand_over_joints(Cracked& cracked);
   // Since the last call.
   std::vector<HandOver> take_handed() { return std::exchange(handed_, {}); }
-  // Beds that lie on each other no longer as their joint lay get the stiffness of debris; called at the same place.
-  void soften_beds();
+  // Beds that lie on each other no longer as their joint lay get the stiffness of debris; called at the same place: the first finds them
+  // as well. What each loses is at most `most` (J).
+  void find_softening(double most);
+  void soften_beds(double most);
   // Once the ledger of this step is settled: books what the last hand-over set free.
   void book_hand_over();
   // Blocks that hang on nothing fixed, or have moved far from where they stood, may meet new neighbours.
@@ -51,9 +53,7 @@ class Debris {
   double borne_dt() const;
   // 1/s, over the step that what opens and closes next allows (event_bound.h); `budget` (J) is that of the next forces()
   double haste() const { return haste_; }
-  void set_step(double budget, double driven, const Interlock& interlock) {
-    settings_.event_budget = budget, settings_.driven = driven, settings_.interlock = interlock;
-  }
+  void set_step(double budget, const Interlock& interlock) { settings_.event_budget = budget, settings_.interlock = interlock; }
   double elastic() const { return elastic_; }  // J, stored in contacts at the last sample
   int touching() const { return touching_; }
   long slept() const { return sleep_.slept(); }  // steps of blocks asleep, likewise
@@ -66,7 +66,6 @@ class Debris {
   void open(int j);
   void hand_over_pair(const int* first, const int* last);
   void note_hand_over(int joint, double energy);
-  double start(Pair& pair, const Vec6& wrench, double area, double stored);
   double start_fresh(const std::vector<int>& fresh);
   void list_involved();
   void list_anew();

@@ -100,15 +100,7 @@ void Debris::look() {
   std::vector<int> fresh;
   state_.energy.reset += search(
       state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); }, still_, &fresh);
-  if (came_loose) {
-    state_.energy.reset -= start_fresh(fresh);
-    for (const int i : fresh) {  // forces are still to be taken at this very pose, and over the step that led here nothing acted
-      Pair& pair = state_.debris.pair[z(i)];
-      if (!(pair.offset_left > 0)) continue;
-      pair.offset_left += state_.last_dt;
-      pair.offset.force *= -1, pair.offset.moment_a *= -1, pair.offset.moment_b *= -1;
-    }
-  }
+  if (came_loose) state_.energy.reset -= start_fresh(fresh);
   list_anew();
   find_still();
 }
@@ -261,7 +253,6 @@ double Debris::add_up(std::span<const Active> active, double* push, bool sample)
     friction += r.friction;
     rubbing = std::max(rubbing, r.rubbing);
     damping += r.damping;
-    reset += r.handover;
     if (sample) elastic_ += r.elastic + r.tangential;
     rate[a] += std::max(0.0, r.rate_a - bed.rate_a);
     rate[b] += std::max(0.0, r.rate_b - bed.rate_b);

@@ -207,7 +207,6 @@ bool Sleep::lay_down(double kick, const double* push, std::span<const ContactBlo
   for (const int b : awake_) mark_[z(b)] = may_sleep(b) && calm(b);
   for (const int i : live_) {
     const Pair& p = state_.debris.pair[z(i)];
-    if (p.offset_left > 0) mark_[z(p.a)] = mark_[z(p.b)] = 0;
     if (!p.touching) continue;
     if (!calm(p.a)) mark_[z(p.b)] = 0;
     if (!calm(p.b)) mark_[z(p.a)] = 0;

@@ -18,7 +18,8 @@ constexpr int ledger_every = 32;     // steps between two settlings of the ledge
 constexpr int ledger_slowly = 128;   // ... while there are contacts, whose energy costs as much as their forces
 constexpr int ledger_seldom = 4096;  // ... where a scene does without
 constexpr int hand_over_every = 8;   // steps between two looks at spent joints
-constexpr int soften_every = 64;     // steps between two looks at beds of former joints
+constexpr int find_soft_every = 64;  // steps between two looks for beds of former joints that are to soften, ...
+constexpr int soften_every = 8;      // ... and as they do
 constexpr int loosen_every = 256;    // steps between two looks at blocks that have moved far
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -103,7 +104,7 @@ void Solver::begin(const Hooks& hooks) {
   contacts_ = debris_.active();
   budget_ = event_budget(model_, state_);
   between_ = contacts_ || (how.debris && any_cracked_ && state_.step % hand_over_every == 0);
-  if (contacts_) debris_.set_step(budget_, event_tolerance * state_.energy.reference, contact_interlock(model_, state_)), debris_.prepare();
+  if (contacts_) debris_.set_step(budget_, contact_interlock(model_, state_)), debris_.prepare();
   if (contacts_ && push_.empty()) push_.assign(constants_.size() * lanes, 0.0);
   excite();
   if (sample_ != Sample::full) return;
@@ -179,7 +180,9 @@ void Solver::between() {
     follow_contacts();
     excite();
   }
-  if (contacts_ && state_.step % soften_every == 0) debris_.soften_beds();
+  const double softened = event_tolerance * state_.energy.reference;
+  if (contacts_ && state_.step % find_soft_every == 0) debris_.find_softening(softened);
+  else if (contacts_ && state_.step % soften_every == 0) debris_.soften_beds(softened);
   if (contacts_ && debris_.sleep(now_, push_.data())) note_sleep();
   if (!model_.analysis.debris || !any_cracked_ || state_.step % hand_over_every != 0) return;
   const std::vector<int> opened = debris_.hand_over_joints(cracked_);

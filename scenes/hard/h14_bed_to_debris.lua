@@ -1,7 +1,8 @@
 -- H14, third part: a block that has slid off the place of its joint rests on debris, not on mortar that is stiff where faces match.
 --
 -- What happens   Blocks slide under their weight from a joint (stiff) over contact on its bed (as stiff) to contact as debris (soft), which takes
---                over when they have moved on by 2 % of the side. Force and friction go on as they were; what is softer gives way more in the end.
+--                over bit by bit when they have moved on by 2 % of the side. Force and friction go on as they were; what is softer gives way
+--                more in the end.
 -- Source         continuity; v^2 / (2 mu g); weight / (kn A) of the debris
 -- How to run     erbs run scenes/hard/h14_bed_to_debris.lua [-D kn=...] [-D soft=...] [-D speed=...]
 -- What to look at  jump_*: largest second difference of the force in steps, over m g; travel_*; sunk_*: in the end, over weight / (kn A).
@@ -31,7 +32,7 @@ for i, law in ipairs { dry { kn = kn, ks = 0.4 * kn, mu = mu }, mortar { kn = kn
     end
     return most / weight
   end)
-  -- The difference fades in some hundreds of steps; as it begins and ends, the force bends by its share of one.
+  -- Stiffness, and with it the force, falls by .8 % at a time.
   expect("metrics.jump_" .. name, 0.02, { below = true, source = "beds go over with the force they bear" })
   metric("travel_" .. name, "m", function(run) return run.last(name .. "_ux_rel_m") end)
   expect("metrics.travel_" .. name, speed ^ 2 / (2 * mu * g), { rel = 0.01, source = "v^2 / (2 mu g)" })

@@ -35,7 +35,7 @@ struct Bodies {
   Vec3 gravity = Vec3::Zero();
   double dt = 0, t = 0, mass_damping = 0;
   // ledger, J
-  double friction = 0, damping = 0, reset = 0, handover = 0, through = 0;
+  double friction = 0, damping = 0, reset = 0, through = 0;
   double kinetic = 0, height = 0, elastic = 0, tangential = 0;
   double deepest = 0, least_friction = 0;
   bool want_energy = true;
@@ -92,7 +92,6 @@ struct Bodies {
       moment[b] += r.wrench.moment_b;
       friction += r.friction;
       damping += r.damping;
-      handover += r.handover;
       least_friction = std::min(least_friction, r.friction);
       elastic += r.elastic;
       tangential += r.tangential;
@@ -135,7 +134,7 @@ struct Bodies {
   }
 
   double stored() const { return kinetic + height + elastic + tangential; }
-  double total() const { return stored() + friction + damping + reset + handover; }
+  double total() const { return stored() + friction + damping + reset; }
   Vec3 momentum() const {
     Vec3 p = Vec3::Zero();
     for (std::size_t i = 0; i < block.size(); ++i) p += mass[i] * block[i].v;
