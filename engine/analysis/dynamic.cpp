@@ -255,7 +255,7 @@ void Run::save() {
 bool Run::stop() {
   const double now = seconds();
   const Energy& e = run_.state.energy;
-  look(trust_, run_.state, solver_->borne_dt(run_.bounds.critical), energy_gate(so_far()));
+  look(trust_, run_.state, solver_->borne_dt(run_.bounds.critical), energy_gate(so_far()), solver_->take_long_steps());
   if (options_.progress && now - last_progress_ > 0.1) {
     last_progress_ = now;
     options_.progress({run_.state.t, scene_.analysis.duration, now - solve_start_, run_.state.step - steps_at_start_,

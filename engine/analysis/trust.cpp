@@ -5,29 +5,30 @@
 
 namespace erbs {
 
-void look(TrustWatch& watch, const State& s, double allowed, double gate) {
+void look(TrustWatch& watch, const State& s, double allowed, double gate, LongSteps past) {
   const double residual = s.energy.residual_relative;
   if (residual > watch.residual) {
     watch.residual = residual;
     watch.residual_time = s.t - s.last_dt;
     watch.residual_joint = s.energy.largest_jump_joint;
   }
-  const double margin = s.last_dt / allowed;
-  watch.dt_margin = std::max(watch.dt_margin, margin);
   const bool sinking = s.max_penetration_relative > std::max(0.01, watch.deepest);
   watch.deepest = s.max_penetration_relative;
   const long steps = s.step - watch.looked;
   if (residual > gate) watch.past_gate += steps;
-  if (margin > step_slack) watch.past_step += steps;
+  if (past.count[0] == 0) past.add(s.last_dt / allowed, steps);
+  const long late = past.count[0];
+  for (std::size_t i = 0; i < past.count.size(); ++i) watch.past_step.count[i] += past.count[i];
+  watch.past_step.worst = std::max(watch.past_step.worst, past.worst);
   if (sinking) watch.sinking += steps;
-  if (residual > gate || margin > step_slack || sinking) watch.warned += steps;
+  watch.warned += residual > gate || sinking ? steps : late;
   watch.looked = s.step;
 }
 
 bool stepped_too_far(const TrustWatch& watch, const State& s) {
-  return std::ranges::any_of(steps_too_long, [&](const StepTooLong& limit) {
-    return watch.dt_margin > limit.ratio && double(watch.past_step) > limit.share * double(s.step);
-  });
+  for (std::size_t i = 0; i < steps_too_long.size(); ++i)
+    if (double(watch.past_step.count[i]) > steps_too_long[i].share * double(s.step)) return true;
+  return false;
 }
 
 Metrics::Trust trust_of(const TrustWatch& watch, const Model& model, const State& s) {
@@ -36,11 +37,11 @@ Metrics::Trust trust_of(const TrustWatch& watch, const Model& model, const State
   trust.energy_residual_time = watch.residual_time;
   if (watch.residual_joint >= 0) trust.energy_residual_where = model.joint_name(watch.residual_joint);
   trust.penetration = s.max_penetration_relative;
-  trust.dt_margin = watch.dt_margin;
+  trust.dt_margin = watch.past_step.worst;
   const auto share = [&](long steps) { return s.step > 0 ? double(steps) / double(s.step) : 0; };
   trust.warned_share = share(watch.warned);
   trust.past_gate_share = share(watch.past_gate);
-  trust.past_step_share = share(watch.past_step);
+  trust.past_step_share = share(watch.past_step.count[0]);
   trust.sinking_share = share(watch.sinking);
   trust.reset_share = s.energy.reference > 0 ? std::fabs(s.energy.reset) / s.energy.reference : 0;
   trust.momentum_residual = s.momentum_residual;
@@ -67,8 +68,8 @@ std::string trust_line(const Metrics::Trust& t) {
   if (t.energy_residual > 0)
     line +=
         fmt::format(" at {:.4g} s{}", t.energy_residual_time, t.energy_residual_where.empty() ? "" : " (" + t.energy_residual_where + ")");
-  line += fmt::format(", reset {:.1e} of what passed, penetration {:.1e}, dt at most {:.2f} of its limit, {}, momentum {:.0e}", t.reset_share,
-                      t.penetration, t.dt_margin, warned_text(t), t.momentum_residual);
+  line += fmt::format(", reset {:.1e} of what passed, penetration {:.1e}, dt at most {:.2f} of its limit, {}, momentum {:.0e}",
+                      t.reset_share, t.penetration, t.dt_margin, warned_text(t), t.momentum_residual);
   if (t.twin) line += t.chaos_horizon ? fmt::format(", chaos horizon {:.3g} s", *t.chaos_horizon) : ", no chaos within the run";
   return line;
 }

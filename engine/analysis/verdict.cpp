@@ -72,8 +72,8 @@ std::string trouble_of(const RunSoFar& r, const std::string& status) {
   const bool asked = r.scene.analysis.unstable || r.allow_unstable;
   if (asked || !stepped_too_far(r.trust, r.run.state)) return "";
   return fmt::format("the step was past the limit of what touched in {:.2g} % of the steps, by {:.3g} at most; take {}",
-                     100 * double(r.trust.past_step) / double(r.run.state.step), r.trust.dt_margin,
-                     step_of(0.9 * share / r.trust.dt_margin));
+                     100 * double(r.trust.past_step.count[0]) / double(r.run.state.step), r.trust.past_step.worst,
+                     step_of(0.9 * share / r.trust.past_step.worst));
 }
 
 std::string ledger_line(const RunSoFar& r) {

@@ -138,8 +138,15 @@ bool goes_in_lanes(const Pair& pair, const PairBodies& bodies) {
 }
 
 unsigned pair_forces(const PairJob* job, int count, const ContactSettings& settings, double dt, bool want_energy, Batch& batch) {
-  const PairSettings set{dt, settings.memory, settings.reference_speed, settings.settling, settings.settling_tangential, surely_within,
-                         settings.interlock.slow, settings.interlock.rate};
+  const PairSettings set{dt,
+                         settings.memory,
+                         settings.reference_speed,
+                         settings.settling,
+                         settings.settling_tangential,
+                         surely_within,
+                         settings.interlock.slow,
+                         settings.interlock.rate,
+                         slender};
   unsigned left_out[2] = {};
   const int of[2] = {std::min(count, 8), std::max(count - 8, 0)};
   for (int k = 0; k < 2; ++k) {

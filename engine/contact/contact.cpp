@@ -146,15 +146,28 @@ Friction take_shear(Pair& pair, const View& s, const Patch& patch, const Vec3& f
 // The patch resists with at most kn A along its normal and kt across; its spread about its centroid adds the gyration to the arms.
 // Dashpots are not in the sum: they see the velocity of half a step before, and dashpot() and the cap on the tangential one keep
 // each below a quarter of m / dt, which an explicit step bears beside springs at this bound (dt^2 k / m + 2 c dt / m < 4).
+// Rotations count with the greatest inverse inertia J at first. Of a slender body, where that is far too much, with the tensor A (pair
+// axes): tr(A N S N^T) for a pressure of second moment S about an axis across n, n.A n gyration^2 about n, tr(A) r^2 - r.A r for a force at
+// r.
 void stability(const Pair& pair, const View& s, const Patch& patch, PairResult& result) {
   const double normal = pair.law.kn * patch.area, tangential = pair.law.ks * pair.area, spread = pair.gyration * pair.gyration;
-  auto rate = [&](const ContactBlock& block, const Vec3& arm, const Vec3& lever) {
-    return normal * (block.inverse_mass + lever.dot(block.inverse_tensor * lever) + spread * block.inverse_inertia) +
-           tangential * (block.inverse_mass + (arm.squaredNorm() + spread) * block.inverse_inertia);
+  const Vec3 n = patch.normal;
+  const auto rate = [&](const ContactBlock& block, const Vec3& arm, const Vec3& lever, bool turned) {
+    const double mass = block.inverse_mass, inertia = block.inverse_inertia, square = arm.squaredNorm();
+    double bend = spread * inertia, twist = bend, sway = square * inertia;
+    if (bend + sway > slender * mass) {
+      const Mat3 A = turned ? Mat3(s.pose.turn * block.inverse_tensor * s.pose.turn.transpose()) : block.inverse_tensor,
+                 N = cross_matrix(n);
+      const Mat3 second = patch.second - patch.area * patch.centroid * patch.centroid.transpose();
+      bend = std::min(bend, (A * (N * second * N.transpose())).trace() / patch.area);
+      twist = std::min(twist, spread * n.dot(A * n));
+      sway = std::min(sway, A.trace() * square - arm.dot(A * arm));
+    }
+    return normal * (mass + lever.dot(block.inverse_tensor * lever) + bend) + tangential * (mass + sway + twist);
   };
   const Vec3 arm = patch.centroid + s.pose.shift;
-  const double other = rate(*s.other_block, patch.centroid, s.pose.turn.transpose() * patch.centroid.cross(patch.normal));
-  const double reference = rate(*s.reference_block, arm, arm.cross(patch.normal));
+  const double other = rate(*s.other_block, patch.centroid, s.pose.turn.transpose() * patch.centroid.cross(n), true);
+  const double reference = rate(*s.reference_block, arm, arm.cross(n), false);
   result.rate_a = pair.b_is_reference ? other : reference;
   result.rate_b = pair.b_is_reference ? reference : other;
 }

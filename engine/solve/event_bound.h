@@ -24,7 +24,9 @@ inline constexpr double event_sum = 5e-4;
 // number from 16 on. A pile of 300 takes 4 % more steps than without any bound, not 21 %, and its ledger is 5e-4, not 4e-3.
 inline constexpr double most_for_many = 4;
 
-// J, by which an event of this step may err; 0 where none is to be looked for in this step.
+// J, by which an event may err now; 0 where any may.
+double event_allowance(const Model& model, const State& state);
+// The same; 0 where none is to be looked for in this step.
 double event_budget(const Model& model, const State& state);
 // last_dt over the step that joint j allows, which was at q0 a step ago and is at q now; 0 where nothing is about to happen.
 double foresee(const Model& model, const Joint& joint, const double q0[6], const double q[6], double budget);

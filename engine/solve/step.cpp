@@ -280,6 +280,7 @@ void Solver::finish(const Hooks& hooks) {
   s.t = s.start_t + double(s.step + 1 - s.start_step) * s.dt;
   ++s.step;
   s.last_dt = s.dt;
+  judge_step();
   follow_contacts();
 }
 

@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "engine/base/parallel.h"
@@ -11,6 +12,7 @@
 #include "engine/solve/debris.h"
 #include "engine/solve/integrate.h"
 #include "engine/solve/joint_kernel.h"
+#include "engine/solve/long_steps.h"
 #include "engine/solve/sequential.h"
 #include "engine/solve/sound.h"
 
@@ -51,6 +53,7 @@ class Solver {
     const double contacts = contacts_ ? debris_.borne_dt() : state_.dt_goal, goal = state_.dt_goal;
     return contacts < goal ? std::min(contacts, critical) : contacts > goal ? std::max(contacts, critical) : critical;
   }
+  LongSteps take_long_steps() { return std::exchange(long_steps_, {}); }  // since the last call
   int touching() const { return debris_.touching(); }
   long touched() const { return debris_.touched(); }
   long slept() const { return debris_.slept(); }
@@ -67,8 +70,10 @@ class Solver {
   void refresh_stale();
   void note_sleep();
   void follow_contacts();
+  double haste_of_first_openings() const;
   void foresee_events();
   bool may_grow(double dt) const;
+  void judge_step();
   void finish(const Hooks& hooks);
   void drive();
   void settle_ledger();
@@ -80,12 +85,12 @@ class Solver {
   const int threads_;
   const bool reference_;
   const int joint_items_,
-      joint_grain_;   // groups of blocks with the sound joints they keep, batches of damped ones, joints for the reference
-  double floor_ = 0;   // J, below which the ledger's scale does not go
-  double lift_ = 0;    // J, that lifts all blocks by a thousandth of the structure's height
-  double budget_ = 0;  // J, event_budget() of this step
+      joint_grain_;       // groups of blocks with the sound joints they keep, batches of damped ones, joints for the reference
+  double floor_ = 0;      // J, below which the ledger's scale does not go
+  double lift_ = 0;       // J, that lifts all blocks by a thousandth of the structure's height
+  double budget_ = 0;     // J, event_budget() of this step
   int ledger_steps_ = 1;  // from one settling of the ledger to the next
-  double mass_ = 0;    // kg, of all blocks that move
+  double mass_ = 0;       // kg, of all blocks that move
   Excitation now_;
   Rows push_, load_;  // N, N m: of contacts (once there are any) and of loads, a row a block
   std::vector<LoadedBlock> loaded_;
@@ -102,6 +107,7 @@ class Solver {
   bool any_cracked_ = false;
   double contact_seconds_ = 0;
   std::vector<Tier> tier_before_;
+  LongSteps long_steps_;
   Instant instant_;
   Sample sample_ = Sample::none;
   bool broken_ = false, stop_ = false, contacts_ = false, between_ = false;

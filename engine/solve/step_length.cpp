@@ -4,18 +4,26 @@
 #include <utility>
 
 #include "engine/solve/event_bound.h"
+#include "engine/solve/joint_geometry.h"
 #include "engine/solve/step.h"
 
 namespace erbs {
 namespace {
 
-constexpr double still = 0.1;  // of the haste of what falls: what rests and trembles below the bounds of sleep is no event
+constexpr double still = 0.1;    // of the haste of what falls: what rests and trembles below the bounds of sleep is no event
+constexpr int few_joints = 100;  // as many are looked at in no time
 std::size_t z(int i) { return std::size_t(i); }
 
 // The next step below on a scale of 32 to the octave: what differs in its last digits, as with blocks that sleep, then makes no difference.
 double on_scale(double dt) { return std::exp2(std::floor(32 * std::log2(dt)) / 32); }
 
 }  // namespace
+
+// The step that has just been taken, by what touches where it led to.
+void Solver::judge_step() {
+  if (!contacts_ || !(state_.last_dt > step_slack * debris_.allowed_dt())) return;
+  long_steps_.add(state_.last_dt / debris_.borne_dt());
+}
 
 // The step follows the contacts: shorter at once, longer again after a while of calm, and then by no more than half, since what may land
 // is looked for a few steps ahead only.
@@ -38,13 +46,39 @@ void Solver::follow_contacts() {
   s.start_step = s.step;
 }
 
+// Joints that have not opened yet are passed in lanes that look no further than their limit (sound.h). In a structure of many blocks the
+// first opening of one is no event to speak of; where there are few it is, at a step set by a soft bed.
+double Solver::haste_of_first_openings() const {
+  double haste = 0;
+  if (model_.njoint > few_joints || !(state_.last_dt > 0)) return haste;
+  const double dt = state_.last_dt, allowance = event_allowance(model_, state_);
+  for (int j = 0; j < model_.njoint; ++j) {
+    const Joint& joint = model_.joint[z(j)];
+    if (state_.tier[z(j)] != Tier::intact || !model_.laws[z(joint.type->law)].dry) continue;
+    const std::size_t a = z(joint.a), b = z(joint.b);
+    const JointPose now = joint_pose(model_, state_, j);
+    const Vec3 wa = state_.w[a], wb = state_.w[b];
+    const Vec3 speed = now.frame.transpose() *
+                       (Vec3(state_.v[b]) - Vec3(state_.v[a]) + wb.cross(state_.q[b] * joint.arm_b) - wa.cross(state_.q[a] * joint.arm_a));
+    const Vec3 spin = now.frame.transpose() * (wb - wa);
+    double before[6];
+    for (int i = 0; i < 3; ++i) before[i] = now.q[i] - dt * speed[i], before[3 + i] = now.q[3 + i] - dt * spin[i];
+    haste = std::max(haste, foresee(model_, joint, before, now.q, allowance));
+  }
+  return haste / dt;
+}
+
 // The step that what opens and closes next allows (event_bound.h).
 void Solver::foresee_events() {
   double haste = 0;
   for (std::vector<JointSums>* of : {&joint_sums_, &cracked_sums_})
     for (JointSums& sums : *of) haste = std::max(haste, std::exchange(sums.haste, 0.0));
-  if (!(budget_ > 0)) return;
-  haste = state_.last_dt > 0 ? haste / state_.last_dt : 0;
+  const double first = haste_of_first_openings();
+  if (!(budget_ > 0)) {
+    if (first > 0) state_.event_dt = state_.event_dt > 0 ? std::min(state_.event_dt, 1 / first) : 1 / first;
+    return;
+  }
+  haste = std::max(first, state_.last_dt > 0 ? haste / state_.last_dt : 0);
   if (contacts_) haste = std::max(haste, debris_.haste());
   const double falls = (now_.gravity - now_.ground).norm() * std::sqrt(mass_ / (8 * budget_));  // in flight the net force is weight
   if (haste > still * falls) haste = std::max(haste, falls);

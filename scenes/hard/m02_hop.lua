@@ -1,7 +1,8 @@
 -- Hard case: the base drops away under a block faster than it can fall
 --
 -- What happens   A half sine of 1.2 g downwards, 50 ms long: while the base falls faster than g the block flies, then it lands and bounces out.
--- Source         They part where the base reaches g; from there on the block flies freely above it: v = A/w (cos w t1 - cos w t) - g (t - t1).
+-- Source         They part where the base reaches g; from there on the block flies freely above it: v = A/w (cos w t1 - cos w t) - g (t - t1),
+--                and the speed at which its bed expands then.
 --                A dashpot of ratio z that cannot pull returns exp(-z / r (pi - atan2(2 z r, 1 - 2 z^2))) of the speed of a blow, r = sqrt(1 - z^2)
 --                (Schwager and Poeschel 2007); a contact, which takes over from a joint that has opened wide, returns its restitution.
 -- How to run     erbs run scenes/hard/m02_hop.lua [-D kn=...] [-D height=...] [-D amplitude=2*g]
@@ -19,10 +20,11 @@ local w = 2 * pi * frequency
 if amplitude <= g then error("amplitude must be above g, or nothing parts", 0) end
 
 local t1, over = math.asin(g / amplitude) / w, pi / w
+local release = settled * amplitude / g * w * math.cos(w * t1)  -- m/s, of the bed's spring as the last of the weight leaves it
 local function flight(t)  -- height and speed above the base
   local s = math.min(t, over)
-  local v = amplitude / w * (math.cos(w * t1) - math.cos(w * s)) - g * (s - t1)
-  local z = amplitude / w * ((s - t1) * math.cos(w * t1) - (math.sin(w * s) - math.sin(w * t1)) / w) - g * (s - t1) ^ 2 / 2
+  local v = release + amplitude / w * (math.cos(w * t1) - math.cos(w * s)) - g * (s - t1)
+  local z = release * (s - t1) + amplitude / w * ((s - t1) * math.cos(w * t1) - (math.sin(w * s) - math.sin(w * t1)) / w) - g * (s - t1) ^ 2 / 2
   local rest = t - s
   return z + v * rest - g * rest ^ 2 / 2, v - g * rest
 end
