@@ -143,10 +143,14 @@ void foresee(const Pair& pair, const View& s, const ContactSettings& settings, d
   constexpr double facing = 0.9;  // cosine: faces that are further from flat are left to later steps
   const double lever = std::min(s.reference->reach, s.other->reach), thin = std::min(s.reference->thickness, s.other->thickness);
   bool soon = false;
+  Vec3 turned[most_faces];  // normals of the other body
+  for (std::size_t g = 0; g < s.other->normal.size(); ++g) turned[g] = o.turn * s.other->normal[g];
+  const double beside = 2 * s.other->reach + 0.01 * thin;  // a face of the reference further behind the other body meets none of it
   for (std::size_t f = 0; f < s.reference->normal.size(); ++f) {
     const Vec3 nf = r.turn * s.reference->normal[f];
+    if (nf.dot(apart) + beside < s.reference->offset[f]) continue;
     for (std::size_t g = 0; g < s.other->normal.size(); ++g) {
-      const Vec3 ng = o.turn * s.other->normal[g];
+      const Vec3& ng = turned[g];
       if (-nf.dot(ng) < facing) continue;
       const Vec3 across = nf.cross(ng);
       const double sine = across.norm(), closes = w.dot(across);  // rate of the angle between them, times its sine
