@@ -2,6 +2,7 @@
 #include <lua5.4/lua.hpp>
 
 #include "engine/base/words.h"
+#include "engine/contact/shape.h"
 #include "engine/geometry/mass.h"
 #include "engine/geometry/polyhedron.h"
 #include "engine/scene/mesh_file.h"
@@ -140,7 +141,8 @@ std::vector<Polyhedron> read_part(Arguments& arguments) {
   part.faces = std::move(loops);
   const int n = static_cast<int>(part.vertices.size());
   if (n > most_given_vertices) {
-    arguments.mistake(fmt::format("vertices has {} points; at most {} are allowed, of which 64 may be corners", n, most_given_vertices));
+    arguments.mistake(
+        fmt::format("vertices has {} points; at most {} are allowed, of which {} may be corners", n, most_given_vertices, most_vertices));
     return {};
   }
   if (n < 4) {

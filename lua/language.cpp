@@ -100,7 +100,7 @@ void push_view(lua_State* lua) {
   lua_pop(lua, 2);
 }
 
-// did_you_mean(word, names) and note_mistakes(lines): for the parts of the language that are written in Lua.
+// did_you_mean(word, names), note_mistakes(lines) and widen_joint(joint, width): for the parts of the language that are written in Lua.
 int suggest(lua_State* lua, Context&) {
   std::vector<std::string> names;
   const auto n = static_cast<lua_Integer>(lua_rawlen(lua, 2));
@@ -119,7 +119,16 @@ int note_mistakes(lua_State* lua, Context& context) {
   return 0;
 }
 
-constexpr std::pair<const char*, Body> inner_functions[] = {{"did_you_mean", suggest}, {"note_mistakes", note_mistakes}};
+// A head joint beside the block made last has this width (m) instead of that of the other joints of its masonry.
+int widen_joint(lua_State* lua, Context& context) {
+  Block& block = context.scene.blocks.back();
+  block.joint = lua_tonumber(lua, 1);
+  block.widest_joint = std::max(block.widest_joint, lua_tonumber(lua, 2));
+  return 0;
+}
+
+constexpr std::pair<const char*, Body> inner_functions[] = {
+    {"did_you_mean", suggest}, {"note_mistakes", note_mistakes}, {"widen_joint", widen_joint}};
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 
 local eps, millimetres = masonry_parts.eps, masonry_parts.millimetres
 local fail, did_you_mean = masonry_parts.fail, masonry_parts.did_you_mean
+local widen_joint = widen_joint  -- of the program; scenes do not see it
 local lay, lap_cost, piece_kind = masonry_parts.lay, masonry_parts.lap_cost, masonry_parts.piece_kind
 
 -- ---- runs: the straight stretches of a plan ------------------------------------------------------------------------------------
@@ -230,7 +231,7 @@ end
 -- The bricks of a stretch, numbered on from `brick`; returns the last number.
 local function lay_pieces(masonry, run, laid, stem, brick, z)
   local report = masonry.out.report
-  for _, piece in ipairs(laid.pieces) do
+  for i, piece in ipairs(laid.pieces) do
     brick = brick + 1
     local kind = piece_kind(masonry, piece.length)
     report.pieces[kind] = report.pieces[kind] + 1
@@ -242,6 +243,9 @@ local function lay_pieces(masonry, run, laid, stem, brick, z)
     local volume = run_box(masonry, run, string.format("%sb%02d", stem, brick), piece.u, piece.u + piece.length, z, masonry.height,
       masonry.material, run.group)
     report.brick_volume = report.brick_volume + volume
+    for k = math.max(1, i - 1), math.min(i, #laid.joints) do  -- a rule that joins the others is to join these too
+      if masonry.t > 0 and laid.joints[k].width > masonry.t + eps then widen_joint(masonry.t, laid.joints[k].width) end
+    end
   end
   return brick
 end

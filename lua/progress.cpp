@@ -14,6 +14,12 @@ namespace {
 
 double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
 
+std::string left_text(double soonest, double latest) {
+  constexpr double alike = 1.3;
+  if (!(latest > alike * soonest)) return duration_text(latest);
+  return duration_text(soonest) + " to " + duration_text(latest);
+}
+
 }  // namespace
 
 std::string duration_text(double s) {
@@ -48,9 +54,12 @@ void ProgressPrinter::show(const Progress& now) {
   const double wall = seconds(clock - last_), all = seconds(clock - begin_);
   const double speed = wall > 0 ? (now.t - last_time_) / wall : 0;
   const double rate = wall > 0 ? static_cast<double>(now.steps - last_steps_) / wall : 0;
-  // time left by the mean speed so far: a collapse slows a run, a short look back would jump about
-  const double mean = all > 0 ? (now.t - first_time_) / all : 0;
-  const double left = mean > 0 ? (now.duration - now.t) / mean : INFINITY;
+  // Time left by the mean speed so far and by that of the last ten seconds or so: a collapse slows a run. The longer of both counts, the
+  // other is told where it differs.
+  const double mean = all > 0 ? (now.t - first_time_) / all : 0, share = 1 - std::exp(-wall / 10);
+  recent_ = recent_ < 0 ? speed : recent_ + share * (speed - recent_);
+  const auto left_at = [&](double rate_of_time) { return rate_of_time > 0 ? (now.duration - now.t) / rate_of_time : INFINITY; };
+  const double soonest = left_at(std::max(mean, recent_)), left = left_at(std::min(mean, recent_));
   if (json_) {
     const Json line = {{"time_s", now.t},
                        {"duration_s", now.duration},
@@ -64,7 +73,7 @@ void ProgressPrinter::show(const Progress& now) {
   } else {
     const std::string line =
         fmt::format("{:.2f} of {:g} s, {:.3g} x real time, {:.3g} steps/s, {} joints broken, energy residual {:.1e}, {} left", now.t,
-                    now.duration, speed, rate, now.joints_broken, now.residual, duration_text(left));
+                    now.duration, speed, rate, now.joints_broken, now.residual, left_text(soonest, left));
     fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", line, terminal_ ? "" : "\n");
     open_ = terminal_;
   }

@@ -21,6 +21,7 @@ class ProgressPrinter {
   bool quiet_, json_, terminal_, open_ = false;
   Clock::time_point begin_, due_, last_;
   double first_time_ = -1, last_time_ = 0;  // s, simulated: a resumed run does not begin at zero
+  double recent_ = -1;                      // simulated s a s, of late; below zero: not known
   long first_steps_ = 0, last_steps_ = 0;
 };
 

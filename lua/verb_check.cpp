@@ -1,5 +1,4 @@
 // erbs check SCENE.lua: every mistake at once, and what a run would be; runs nothing.
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <set>
@@ -8,19 +7,13 @@
 #include "engine/base/text.h"
 #include "engine/record/recorder.h"
 #include "engine/scene/effects.h"
+#include "lua/estimate.h"
 #include "lua/options.h"
-#include "lua/progress.h"
 #include "lua/say.h"
 
 namespace erbs {
 namespace {
 
-// s of one core for a step and for each joint in it while intact, for the estimate of time; measured on walls of 43 and 262
-// joints and the bench's house of 2812 (erbs run --threads 1): 0.47, 2.35 and 22 to 25 us a step
-constexpr double step_cost = 0.1e-6, joint_cost = 0.0086e-6;
-// s of a contact point whose joint has cracked, 5 to 8 times its share of a sound joint of nine, and of a pair of blocks that touch
-constexpr double cracked_point_cost = 8 * joint_cost / 9, contact_cost = 1.3e-6;
-constexpr double heap_pairs = 2.5;  // that touch, a block: as many as hold it in a heap at rest, or as it has joints in a wall
 // of the program and its libraries before there is a model: the peak of the pier
 constexpr double own_memory = 20 * 1048576.0;
 
@@ -59,18 +52,8 @@ void print_run(const Scene& scene, const Prepared& run) {
   say("dt = {:.4g} s: {}\n  dt_critical {:.4g} s, dt_block_bound {:.4g} s{}\n", dt, run.dt_rule, run.bounds.critical,
              run.bounds.block,
              run.bounds.stiffest_block >= 0 ? ", set by block " + model.block_name[static_cast<size_t>(run.bounds.stiffest_block)] : "");
-  const auto time = [&](double each) { return duration_text(steps * (step_cost + each)); };
-  std::vector<std::string> times;
-  if (model.njoint > 0) {
-    times.push_back(time(joint_cost * model.njoint) + " if all joints stay sound");
-    times.push_back(time(cracked_point_cost * model.npoint) + " if all are cracked or slide");
-  }
-  const auto moving = std::count(model.kind.begin(), model.kind.end(), Kind::moving);
-  if (scene.analysis.debris)
-    times.push_back(time(contact_cost * heap_pairs * static_cast<double>(moving)) + " if all blocks lie loose in a heap");
-  say("estimate: {:g} steps for {:g} s, {:.0f} MiB; on one core about {}", steps, scene.analysis.duration,
-             (static_cast<double>(bytes_of(model)) + own_memory) / 1048576.0, fmt::join(times, ", "));
-  say("\n");
+  say("estimate: {:g} steps for {:g} s, {:.0f} MiB; {}\n", steps, scene.analysis.duration,
+      (static_cast<double>(bytes_of(model)) + own_memory) / 1048576.0, cost_text(estimated_cost(model, steps, scene.analysis.debris)));
 }
 
 void check_scene(const std::string& path, const Options& options) {

@@ -1,6 +1,7 @@
 #include "engine/analysis/lost_blocks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "engine/base/error.h"
@@ -9,6 +10,8 @@ namespace erbs {
 namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
+
+Vec3 place_of(const Model& m, const State& s, int b) { return m.rest[z(b)] + s.u[z(b)]; }
 
 }  // namespace
 
@@ -19,16 +22,20 @@ std::string lost_blocks(const Model& m, const State& s) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (int b = 0; b < m.nblock; ++b) low = std::min(low, up.dot(m.rest[z(b)])), high = std::max(high, up.dot(m.rest[z(b)]));
   int count = 0, first = -1;
+  double farthest = 0;  // m, from the middle of the ground
   for (int b = 0; b < m.nblock; ++b) {
     if (m.kind[z(b)] != Kind::moving || !(up.dot(m.rest[z(b)] + s.u[z(b)]) < low - (high - low))) continue;
     if (first < 0) first = b;
     ++count;
+    farthest = std::max(farthest, place_of(m, s, b).head<2>().lpNorm<Eigen::Infinity>() + m.smallest_edge[z(b)]);
   }
   if (count == 0) return {};
+  const Vec3 at = place_of(m, s, first);
   return fmt::format(
-      "{} block{} fell past the ground by more than the height of the structure, '{}' the first of the scene; if what comes off "
-      "should land, make the ground larger: ground{{ size = ... }}",
-      count, count > 1 ? "s" : "", m.block_name[z(first)]);
+      "{} block{} fell past the ground by more than the height of the structure, '{}' the first of the scene, now at ({:.3g}, {:.3g}, "
+      "{:.3g}) m; if what comes off should land, make the ground larger: ground{{ size = {:g} }} reaches below {}",
+      count, count > 1 ? "s" : "", m.block_name[z(first)], at.x(), at.y(), at.z(), std::ceil(2 * farthest + 1),
+      count > 1 ? "all of them" : "it");
 }
 
 }  // namespace erbs

@@ -2,6 +2,7 @@
 //   Int phi dV = - sum over pieces of B (n_f . n_j) Int d_f^2 / 2 dS + sum over walls between regions f, e |n_e - n_f| Int d^2 / 2 dS;
 // the faces of A add nothing since d_f = 0 there.
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 
 #include "engine/contact/narrow.h"
@@ -10,6 +11,7 @@ namespace erbs {
 namespace {
 
 using std::size_t;
+using FaceSet = std::bitset<most_faces>;
 
 // Int d^2 dS over a convex loop, d linear, by fan triangles.
 double square_integral(const Vec3* x, const double* d, size_t count, const Vec3& n) {
@@ -40,19 +42,21 @@ struct Loop {
   }
 };
 
-// The faces of A whose part of it lies inside of B altogether, as bits.
-std::uint64_t faces_inside(const ContactShape& a, const ContactShape& b, const PairPose& pose) {
-  std::uint64_t inside = ~std::uint64_t(0), faces = 0;
-  for (size_t j = 0; j < b.normal.size() && inside != 0; ++j) {
+// Adds the faces of A whose part of it lies inside of B altogether.
+void add_faces_inside(const ContactShape& a, const ContactShape& b, const PairPose& pose, FaceSet& faces) {
+  std::bitset<most_vertices> inside;
+  for (size_t i = 0; i < a.vertex.size(); ++i) inside.set(i);
+  for (size_t j = 0; j < b.normal.size() && inside.any(); ++j) {
     const Vec3 n = pose.turn * b.normal[j];
     const double c = b.offset[j] + n.dot(pose.shift);
-    std::uint64_t below = 0;
-    for (size_t i = 0; i < a.vertex.size(); ++i) below |= std::uint64_t(n.dot(a.vertex[i]) <= c) << i;
-    inside &= below;
+    for (size_t i = 0; i < a.vertex.size(); ++i)
+      if (inside[i] && !(n.dot(a.vertex[i]) <= c)) inside.reset(i);
   }
-  for (size_t f = 0; f < a.normal.size(); ++f)
-    if ((a.mask[f] & ~inside) == 0) faces |= std::uint64_t(1) << f;
-  return faces;
+  if (inside.none()) return;
+  for (size_t f = 0; f < a.normal.size(); ++f) {
+    const auto from = a.loop.begin() + a.loop_first[f], to = a.loop.begin() + a.loop_first[f + 1];
+    if (std::all_of(from, to, [&](int i) { return inside[static_cast<size_t>(i)]; })) faces.set(f);
+  }
 }
 
 // The wall where faces e and f of A are equally near, inside both bodies.
@@ -79,13 +83,13 @@ double wall_integral(const ContactShape& a, const ContactShape& b, const PairPos
 
 // All of them. `near`: the faces of A below which B's surface passes. One that is nearest somewhere in the overlap is one of these, or all
 // of its part of A is inside of B, and the face too.
-double walls(const ContactShape& a, const ContactShape& b, const PairPose& pose, std::uint64_t near) {
+double walls(const ContactShape& a, const ContactShape& b, const PairPose& pose, FaceSet near) {
   double c[most_faces], sum = 0;
   for (size_t f = 0; f < a.normal.size(); ++f) c[f] = a.offset[f] - a.normal[f].dot(pose.shift);
-  near |= faces_inside(a, b, pose);
+  add_faces_inside(a, b, pose, near);
   for (size_t f = 0; f < a.normal.size(); ++f)
-    for (size_t e = 0; e < f; ++e)
-      if ((near >> e & near >> f & 1u) != 0) sum += wall_integral(a, b, pose, c, e, f);
+    for (size_t e = 0; e < f && near[f]; ++e)
+      if (near[e]) sum += wall_integral(a, b, pose, c, e, f);
   return sum;
 }
 
@@ -93,19 +97,19 @@ double walls(const ContactShape& a, const ContactShape& b, const PairPose& pose,
 
 double energy_integral(const ContactShape& a, const ContactShape& b, const PairPose& pose, const Pieces& w) {
   double sum = 0;
-  std::uint64_t near = 0;
+  FaceSet near;
   for (const Piece& p : w.piece) {
     const auto first = static_cast<size_t>(p.first);
     const double square = square_integral(&w.vertex[first], &w.depth[first], static_cast<size_t>(p.count), w.n[p.face]);
     sum -= a.normal[static_cast<size_t>(p.nearest)].dot(w.n[p.face]) * square / 2;
-    near |= std::uint64_t(1) << p.nearest;
+    near.set(static_cast<size_t>(p.nearest));
   }
   return sum + walls(a, b, pose, near);
 }
 
 double energy_integral(const ContactShape& a, const ContactShape& b, const PairPose& pose, const Triangles& w) {
   double sum = 0;
-  std::uint64_t near = 0;
+  FaceSet near;
   for (int t = 0; t < w.count; ++t) {
     if (!(w.size[t] > 0)) continue;
     const int of_b = w.faces[t] % few, of_a = w.faces[t] / few;
@@ -114,7 +118,7 @@ double energy_integral(const ContactShape& a, const ContactShape& b, const PairP
     double along = 0;
     for (int i = 0; i < 3; ++i) along += w.plane[i][of_a] * w.normal[i][of_b];
     sum -= along * square / 2;
-    near |= std::uint64_t(1) << of_a;
+    near.set(static_cast<size_t>(of_a));
   }
   return sum + walls(a, b, pose, near);
 }

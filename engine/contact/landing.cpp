@@ -135,18 +135,53 @@ void landing(const Pair& pair, const View& s, const ContactSettings& settings, d
   landing(pair, s, settings, way, dt, result);
 }
 
+namespace {
+
+constexpr double facing = 0.9;  // cosine: faces that are further from flat are left to later steps
+const double oblique = std::sqrt(1 - facing * facing);
+
+// Faces of the other body that may lie nearly flat on one of the reference, and a bound for those of the reference: of a stone of hundreds
+// of faces most look elsewhere. With normals n_f and n_g within that angle of opposite, a corner x on face g has
+// n_f . x <= -cos n_g . x + sin |x|; both bodies' corners are behind planes no nearer to the centroid than their nearest face.
+struct Opposite {
+  int count = 0;
+  std::size_t face[most_faces];
+  Vec3 normal[most_faces];  // world axes
+  double least;             // m, n_f . apart of a face that one of them may lie on, less the offset of that face
+
+  Opposite(const View& s, const Vec3& apart, double thin) {
+    const auto most_along = [](double across, double length) { return -(across > 0 ? facing : 1) * across + oblique * length; };
+    const ContactShape &reference = *s.reference, &other = *s.other;
+    const double margin = (2 * oblique * (1 + 1e-9)) * other.reach + 0.01 * thin;
+    least = -margin - most_along(*std::ranges::min_element(other.offset), other.reach);
+    const double nearest = *std::ranges::min_element(reference.offset);
+    for (std::size_t g = 0; g < other.normal.size(); ++g) {
+      const Vec3 n = s.other_block->turn * other.normal[g];
+      const Vec3 x = apart + s.other_block->turn * other.vertex[std::size_t(other.loop[std::size_t(other.loop_first[g])])];
+      if (most_along(n.dot(x), x.norm()) < nearest - margin) continue;
+      face[count] = g;
+      normal[count++] = n;
+    }
+  }
+  bool looks_away(double along, double offset) const { return along - offset < least; }
+};
+
+}  // namespace
+
 void foresee(const Pair& pair, const View& s, const ContactSettings& settings, double dt, PairResult& result) {
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
   const Vec3 apart = (o.rest - r.rest) + (o.u - r.u), v = o.v - r.v, w = o.w - r.w, at = r.turn * pair.c, n = r.turn * pair.n;
   const double parting = n.dot(v + o.w.cross(at - apart) - r.w.cross(at));
   if (parting > 0) result.haste = std::max(result.haste, haste(pair.law.kn * pair.area, parting, result.depth, settings));
-  constexpr double facing = 0.9;  // cosine: faces that are further from flat are left to later steps
   const double lever = std::min(s.reference->reach, s.other->reach), thin = std::min(s.reference->thickness, s.other->thickness);
   bool soon = false;
+  const Opposite opposite(s, apart, thin);
   for (std::size_t f = 0; f < s.reference->normal.size(); ++f) {
     const Vec3 nf = r.turn * s.reference->normal[f];
-    for (std::size_t g = 0; g < s.other->normal.size(); ++g) {
-      const Vec3 ng = o.turn * s.other->normal[g];
+    if (opposite.looks_away(nf.dot(apart), s.reference->offset[f])) continue;
+    for (int i = 0; i < opposite.count; ++i) {
+      const std::size_t g = opposite.face[i];
+      const Vec3& ng = opposite.normal[i];
       if (-nf.dot(ng) < facing) continue;
       const Vec3 across = nf.cross(ng);
       const double sine = across.norm(), closes = w.dot(across);  // rate of the angle between them, times its sine

@@ -10,11 +10,16 @@ namespace erbs {
 namespace {
 
 using std::size_t;
-using Bits = std::uint64_t;
 constexpr int most_corners = most_vertices + most_faces + 2;  // a convex loop gains at most one corner per cut
 
 size_t at(int i) { return static_cast<size_t>(i); }
-Bits bit(int i) { return Bits(1) << i; }
+
+// What find_pieces() knows of the vertices of B: whether they are inside a face of A, by sets of bits.
+struct Inside {
+  Word of[most_faces][most_words];  // among those that matter
+  int crossing[most_faces];         // faces of A with vertices of B on either side
+  int crossings = 0;
+};
 
 struct Loop {
   int n = 0;
@@ -41,13 +46,43 @@ bool cut(const Loop& in, const Vec3& n, double c, bool keep_zero, Loop& out) {
   return out.n >= 3;
 }
 
-// Vertices of B that are inside face f of A.
-Bits inside(const ContactShape& a, int nv, int f, const Pieces& w) {
-  Bits m = 0;
-  const Vec3 n = a.normal[at(f)];
-  const double c = w.c[f];
-  for (int k = 0; k < nv; ++k) m |= Bits(c - n.dot(w.v[k]) > 0) << k;
-  return m;
+bool is_inside(const ContactShape& a, int f, const Vec3& x, const Pieces& w) { return w.c[f] - a.normal[at(f)].dot(x) > 0; }
+
+// True if face f of A has all of B on its outer side.
+bool face_separates(const ContactShape& a, int nv, int f, const Pieces& w) {
+  return std::none_of(w.v, w.v + nv, [&](const Vec3& x) { return is_inside(a, f, x, w); });
+}
+
+bool share_none(const Word* one, const Word* other, int words) {
+  Word both = 0;
+  for (int k = 0; k < words; ++k) both |= one[k] & other[k];
+  return both == 0;
+}
+
+bool holds_all(const Word* set, const Word* of, int words) {
+  Word left = 0;
+  for (int k = 0; k < words; ++k) left |= of[k] & ~set[k];
+  return left == 0;
+}
+
+// The faces of B that may reach into A, and their vertices: those with a vertex inside the face of A that looks most towards B. A stone of
+// hundreds of faces has a few of them, and only their vertices need be asked for the other faces of A.
+int faces_that_reach(const ContactShape& a, const ContactShape& b, const Pieces& w, int* face, int* vertex, int& vertices) {
+  const int nfb = static_cast<int>(b.normal.size()), nv = static_cast<int>(b.vertex.size());
+  const int towards = static_cast<int>(std::min_element(w.c, w.c + a.normal.size()) - w.c);
+  Word in[most_words] = {}, used[most_words] = {};
+  for (int k = 0; k < nv; ++k) in[k / word_bits] |= Word(is_inside(a, towards, w.v[k], w)) << k % word_bits;
+  int faces = 0;
+  for (int j = 0; j < nfb; ++j) {
+    const Word* mask = &b.mask[at(j * b.words)];
+    if (share_none(mask, in, b.words)) continue;
+    face[faces++] = j;
+    for (int k = 0; k < b.words; ++k) used[k] |= mask[k];
+  }
+  vertices = 0;
+  for (int k = 0; k < nv; ++k)
+    if ((used[k / word_bits] >> k % word_bits & 1u) != 0) vertex[vertices++] = k;
+  return faces;
 }
 
 // True if face j of B has all of A on its outer side.
@@ -164,34 +199,48 @@ int separating_edges(const ContactShape& a, const ContactShape& b, const PairPos
 }
 
 bool find_pieces(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, Pieces& w) {
-  const int nfa = static_cast<int>(a.normal.size()), nfb = static_cast<int>(b.normal.size()), nv = static_cast<int>(b.vertex.size());
+  const int nfa = static_cast<int>(a.normal.size()), nv = static_cast<int>(b.vertex.size());
   w.piece.clear();
   w.vertex.clear();
   w.depth.clear();
   if (distance(a, b, pose, separating) >= 0) return false;
   place_other(a, b, pose, w);
-  Bits in[most_faces], crossing = 0;
-  const Bits all = nv == 64 ? ~Bits(0) : bit(nv) - 1;
+  int reaching[most_faces], vertex[most_vertices], vertices = 0;
+  const int faces = faces_that_reach(a, b, w, reaching, vertex, vertices);
+  Inside in;
+  bool apart = false;  // from the faces that may reach
   for (int f = 0; f < nfa; ++f) {
-    in[f] = inside(a, nv, f, w);
-    if (in[f] == 0) {
-      separating = f;
-      return false;
+    Word* set = in.of[f];
+    std::fill_n(set, b.words, Word(0));
+    int count = 0;
+    for (int i = 0; i < vertices; ++i) {
+      const int k = vertex[i];
+      const bool is_in = is_inside(a, f, w.v[k], w);
+      set[k / word_bits] |= Word(is_in) << k % word_bits;
+      count += is_in;
     }
-    if (in[f] != all) crossing |= bit(f);
+    if (count == 0) {
+      if (face_separates(a, nv, f, w)) {
+        separating = f;
+        return false;
+      }
+      apart = true;
+    }
+    if (count < vertices) in.crossing[in.crossings++] = f;
   }
   Loop one, two;
-  for (int j = 0; j < nfb; ++j) {
-    const Bits mask = b.mask[at(j)];
-    bool outside = false;
-    for (int f = 0; f < nfa && !outside; ++f) outside = (in[f] & mask) == 0;
-    if (outside) continue;
+  for (int i = 0; i < faces && !apart; ++i) {
+    const int j = reaching[i];
+    const Word* mask = &b.mask[at(j * b.words)];
+    const auto outside = [&](int f) { return share_none(in.of[f], mask, b.words); };
+    if (std::any_of(in.crossing, in.crossing + in.crossings, outside)) continue;
     Loop *g = &one, *h = &two;
     g->n = 0;
-    for (int i = b.loop_first[at(j)]; i < b.loop_first[at(j) + 1]; ++i) g->p[g->n++] = w.v[b.loop[at(i)]];
+    for (int l = b.loop_first[at(j)]; l < b.loop_first[at(j) + 1]; ++l) g->p[g->n++] = w.v[b.loop[at(l)]];
     bool left = true;
-    for (int f = 0; f < nfa && left; ++f) {
-      if ((crossing & bit(f)) == 0 || (in[f] & mask) == mask) continue;
+    for (int k = 0; k < in.crossings && left; ++k) {
+      const int f = in.crossing[k];
+      if (holds_all(in.of[f], mask, b.words)) continue;
       left = cut(*g, a.normal[at(f)], w.c[f], false, *h);
       std::swap(g, h);
     }

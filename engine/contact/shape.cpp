@@ -89,11 +89,12 @@ ContactShape contact_shape(const Polyhedron& part) {
     s.normal.push_back(plane.n);
     s.offset.push_back(plane.d);
   }
+  s.words = (int(s.vertex.size()) + word_bits - 1) / word_bits;
   for (const auto& face : p.faces) {
     s.loop_first.push_back(static_cast<int>(s.loop.size()));
-    std::uint64_t mask = 0;
-    for (int v : face) mask |= std::uint64_t(1) << v;
-    s.mask.push_back(mask);
+    s.mask.resize(s.mask.size() + std::size_t(s.words));
+    Word* mask = s.mask.data() + (s.mask.size() - std::size_t(s.words));
+    for (int v : face) mask[v / word_bits] |= Word(1) << v % word_bits;
     s.loop.insert(s.loop.end(), face.begin(), face.end());
   }
   s.loop_first.push_back(static_cast<int>(s.loop.size()));

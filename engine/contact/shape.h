@@ -9,8 +9,10 @@
 
 namespace erbs {
 
-inline constexpr int most_vertices = 64;  // of one part: sets of vertices are bits of one word
-inline constexpr int most_faces = 64;
+// Of one part. As many faces as so many corners can have, if all were triangles; past the bounds a stone asks for milliseconds a step.
+inline constexpr int most_vertices = 256, most_faces = 2 * most_vertices;
+using Word = std::uint64_t;  // sets of vertices are bits of a few words
+inline constexpr int word_bits = 64, most_words = most_vertices / word_bits;
 
 struct ContactBlock;
 
@@ -18,7 +20,8 @@ struct ContactShape {
   std::vector<Vec3> vertex;         // m, relative to the centroid of the block        [nv]
   std::vector<Vec3> normal;         // unit, outward                                   [nf]
   std::vector<double> offset;       // m, normal . x of the face                       [nf]
-  std::vector<std::uint64_t> mask;  // vertices of each face                            [nf]
+  int words = 1;                    // of a set of vertices
+  std::vector<Word> mask;           // vertices of each face, word by word             [nf * words]
   std::vector<int> loop_first;      // start of each face's loop in `loop`              [nf + 1]
   std::vector<int> loop;            // vertices counter-clockwise seen from outside
   std::vector<Vec3> edge;           // unit, directions of the edges, parallel ones once
@@ -35,8 +38,8 @@ struct ContactShape {
   Vec3 centre, half;  // m, middle and half sides of its box
 };
 
-// `part` relative to the centroid of its block, in axes that turn with it (contact_axes). Throws Error where it has more than 64 vertices
-// or faces.
+// `part` relative to the centroid of its block, in axes that turn with it (contact_axes). Throws Error where it has more vertices
+// or faces than most_vertices or most_faces.
 ContactShape contact_shape(const Polyhedron& part);
 
 // The parts of all blocks; those of block b are [first[b], first[b + 1]). Parts that are equal but for round-off share a shape, so that

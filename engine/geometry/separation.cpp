@@ -23,6 +23,21 @@ Range range(const Polyhedron& p, const Vec3& n, const Vec3& origin) {
   return r;
 }
 
+// False where the ranges of a and b along n surely overlap by `depth` or more: seen after a few vertices of bodies that lie in each other.
+bool may_part(const Polyhedron& a, const Polyhedron& b, const Vec3& n, const Vec3& origin, double depth) {
+  Range ra, rb;
+  const auto take = [&](const Vec3& v, Range& r) {
+    const double d = n.dot(v - origin);
+    r.low = std::min(r.low, d), r.high = std::max(r.high, d);
+  };
+  for (std::size_t i = 0; i < std::max(a.vertices.size(), b.vertices.size()); ++i) {
+    take(a.vertices[std::min(i, a.vertices.size() - 1)], ra);
+    take(b.vertices[std::min(i, b.vertices.size() - 1)], rb);
+    if (std::max(rb.low - ra.high, ra.low - rb.high) <= depth) return false;
+  }
+  return true;
+}
+
 std::vector<Vec3> edge_directions(const Polyhedron& p) {
   std::vector<Vec3> all;
   for (const auto& f : p.faces) {
@@ -61,6 +76,7 @@ Separation separation(const Polyhedron& a, const Polyhedron& b, double enough) {
       const double length = c.norm();
       if (length < 1e-6) continue;  // parallel edges: a face normal says it better
       const Vec3 n = c / length;
+      if (!may_part(a, b, n, origin, best.gap)) continue;
       const Range ra = range(a, n, origin), rb = range(b, n, origin);
       // Prefer face normals where they say the same up to round-off.
       const double ab = rb.low - ra.high, ba = ra.low - rb.high, prefer = 1e-12 * (ra.high - ra.low);

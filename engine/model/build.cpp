@@ -22,7 +22,7 @@ std::size_t z(int i) { return std::size_t(i); }
 
 std::vector<InterfaceBlock> interface_blocks(const Scene& scene) {
   std::vector<InterfaceBlock> blocks;
-  for (const Block& b : scene.blocks) blocks.push_back({b.parts, b.group, b.fixed});
+  for (const Block& b : scene.blocks) blocks.push_back({b.parts, b.group, b.fixed, b.joint, b.widest_joint});
   return blocks;
 }
 

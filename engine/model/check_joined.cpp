@@ -50,34 +50,41 @@ void check_rules(const Scene& scene, const Interfaces& found, std::vector<std::s
   }
 }
 
-// Gaps that a rule joins although they are narrower than it says. Touching faces under a law of some thickness are beds without
-// thickness, a model of its own; not so where the rule itself names the gap.
+// Joints of one rule whose gaps are not what it says.
+struct OffWidth {
+  const Interface* first = nullptr;
+  int count = 0;
+  double least = std::numeric_limits<double>::infinity(), most = 0;  // m
+
+  void take(const Interface& face) {
+    if (!first) first = &face;
+    ++count;
+    least = std::min(least, std::max(0.0, face.gap)), most = std::max(most, face.gap);
+  }
+};
+
+// Gaps that a rule joins although they are narrower than it says, or wider because a builder made them so. Touching faces under a law of
+// some thickness are beds without thickness, a model of its own; not so where the rule itself names the gap.
 void check_gaps(const Scene& scene, const Interfaces& found, std::vector<std::string>& warnings) {
-  struct Narrow {
-    const Interface* first = nullptr;
-    int count = 0;
-    double least = std::numeric_limits<double>::infinity(), most = 0;  // m
-  };
-  std::vector<Narrow> narrow(scene.joint_rules.size());
+  std::vector<OffWidth> narrow(scene.joint_rules.size()), wide(narrow);
   for (const Interface& face : found.all) {
     const JointRule& rule = scene.joint_rules[z(face.rule)];
-    const bool touching = face.gap <= rule.tolerance;
-    if (face.gap >= rule.thickness - (1 + 1e-9) * rule.tolerance || face.gap < -rule.tolerance || (touching && !rule.has_thickness))
-      continue;
-    Narrow& n = narrow[z(face.rule)];
-    if (!n.first) n.first = &face;
-    ++n.count;
-    n.least = std::min(n.least, std::max(0.0, face.gap)), n.most = std::max(n.most, face.gap);
+    const bool touching = face.gap <= rule.tolerance, is_narrow = face.gap < rule.thickness - (1 + 1e-9) * rule.tolerance;
+    if (face.gap > rule.thickness + rule.tolerance) wide[z(face.rule)].take(face);
+    else if (is_narrow && face.gap >= -rule.tolerance && (!touching || rule.has_thickness)) narrow[z(face.rule)].take(face);
   }
   for (std::size_t r = 0; r < narrow.size(); ++r) {
-    const Narrow& n = narrow[r];
     const JointRule& rule = scene.joint_rules[r];
-    if (n.count > 0)
-      warnings.push_back(
-          fmt::format("{}: {} joint{} of this rule bridge{} gaps of {:.4g} to {:.4g} mm, not the {:g} mm it says (first between '{}' "
-                      "and '{}'); the law is that of the rule all the same",
-                      rule.place.text(), n.count, n.count > 1 ? "s" : "", n.count > 1 ? "" : "s", 1e3 * n.least, 1e3 * n.most,
-                      1e3 * rule.thickness, scene.blocks[z(n.first->a)].name, scene.blocks[z(n.first->b)].name));
+    const auto tell = [&](const OffWidth& n, const std::string& why) {
+      if (n.count == 0) return;
+      warnings.push_back(fmt::format(
+          "{}: {} joint{} of this rule bridge{} gaps of {:.4g} to {:.4g} mm, {} (first between '{}' and '{}'); the law is that of the "
+          "rule all the same",
+          rule.place.text(), n.count, n.count > 1 ? "s" : "", n.count > 1 ? "" : "s", 1e3 * n.least, 1e3 * n.most, why,
+          scene.blocks[z(n.first->a)].name, scene.blocks[z(n.first->b)].name));
+    };
+    tell(narrow[r], fmt::format("not the {:g} mm it says", 1e3 * rule.thickness));
+    tell(wide[r], fmt::format("which its masonry made wider than the {:g} mm it says", 1e3 * rule.thickness));
   }
 }
 

@@ -132,10 +132,17 @@ bool overlap_polygon(const Part& p, int fa, const Part& q, int fb, double fracti
   return true;
 }
 
-// Every pair of faces of two parts that qualifies, and the nearest that are too far apart.
-void find_faces(const Part& p, const Part& q, const JointRule& rule, int rule_index, double overlap, Interfaces& result) {
+// The widest gap between two blocks that the rule joins.
+double widest_gap(const InterfaceBlock& a, const InterfaceBlock& b, const JointRule& rule) {
+  const double most = rule.thickness + rule.tolerance;
+  if (std::max(a.joint, b.joint) > most) return most;
+  return std::max(most, std::min(a.widest_joint, b.widest_joint) + rule.tolerance);
+}
+
+// Every pair of faces of two parts with gaps up to `most` that qualifies, and the nearest that are too far apart.
+void find_faces(const Part& p, const Part& q, const JointRule& rule, int rule_index, double overlap, double most, Interfaces& result) {
   const double cosine = -std::cos(facing);
-  const double least = -std::max(rule.tolerance, overlap * std::min(p.edge, q.edge)), most = rule.thickness + rule.tolerance;
+  const double least = -std::max(rule.tolerance, overlap * std::min(p.edge, q.edge));
   const double far = most + std::min(forgotten(rule), most_beyond * std::min(p.edge, q.edge));
   const double slack = facing * std::max((p.box.high - p.box.low).norm(), (q.box.high - q.box.low).norm());
   for (size_t fa = 0; fa < p.planes.size(); ++fa) {
@@ -174,7 +181,8 @@ void keep_pairs_without_joint(Interfaces& found) {
 
 }  // namespace
 
-Interfaces find_interfaces(std::span<const InterfaceBlock> blocks, std::span<const JointRule> rules, double overlap, std::size_t most_deep) {
+Interfaces find_interfaces(std::span<const InterfaceBlock> blocks, std::span<const JointRule> rules, double overlap,
+                           std::size_t most_deep) {
   const std::vector<Part> parts = parts_of(blocks);
   RuleTable table(rules);
   double joined = 0, beyond = 0;
@@ -182,6 +190,7 @@ Interfaces find_interfaces(std::span<const InterfaceBlock> blocks, std::span<con
     if (r.none) continue;
     joined = std::max(joined, r.thickness + r.tolerance);
     beyond = std::max(beyond, forgotten(r));
+    for (const InterfaceBlock& b : blocks) joined = std::max(joined, b.widest_joint + r.tolerance);
   }
   Interfaces result;
   if (parts.empty()) return result;
@@ -206,7 +215,7 @@ Interfaces find_interfaces(std::span<const InterfaceBlock> blocks, std::span<con
     }
     if (!boxes_overlap(p.box, q.box, -joined - std::min(beyond, most_beyond * edge))) return true;
     const int rule = table.find(a.group, b.group);
-    if (rule >= 0 && !rules[at(rule)].none) find_faces(p, q, rules[at(rule)], rule, overlap, result);
+    if (rule >= 0 && !rules[at(rule)].none) find_faces(p, q, rules[at(rule)], rule, overlap, widest_gap(a, b, rules[at(rule)]), result);
     return true;
   });
   std::sort(result.all.begin(), result.all.end(), [](const Interface& x, const Interface& y) {

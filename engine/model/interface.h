@@ -15,6 +15,7 @@ struct InterfaceBlock {
   std::span<const Polyhedron> parts;  // m, world axes at rest
   std::string_view group;
   bool fixed = false;
+  double joint = 0, widest_joint = 0;  // m, as in Block
 };
 
 struct Interface {
@@ -44,14 +45,16 @@ struct Unjoined {
 
 struct Interfaces {
   std::vector<Interface> all;     // sorted by (a, b, part_a, part_b, face_a, face_b)
-  std::vector<Unjoined> unjoined;       // sorted by (a, b); gaps up to three thicknesses or 30 mm beyond one, a quarter of the smaller edge at most
+  // sorted by (a, b); gaps up to three thicknesses or 30 mm beyond one, a quarter of the smaller edge at most
+  std::vector<Unjoined> unjoined;
   std::vector<Overlap> overlaps;  // relative depth above 1e-6, sorted by (a, b)
   bool cut = false;               // there were too many overlaps: the search was not ended
 };
 
 // The last rule that matches a pair of groups wins; pairs without a rule, pairs whose rule says none, and pairs of fixed blocks
 // have no interface. Faces count as facing where their normals are opposite within 1e-3 rad and their gap lies between
-// -`overlap` of the smaller edge (or the rule's tolerance, if larger) and thickness + tolerance. Blocks that lie in each other by the
+// -`overlap` of the smaller edge (or the rule's tolerance, if larger) and thickness + tolerance; a joint that the masonry of both blocks
+// made wider counts as one of its ordinary width. Blocks that lie in each other by the
 // hundred have pairs by the square of that: after `most_deep` pairs that overlap by more than most_overlap the search ends.
 Interfaces find_interfaces(std::span<const InterfaceBlock> blocks, std::span<const JointRule> rules, double overlap = 0.05,
                            std::size_t most_deep = 1000000);

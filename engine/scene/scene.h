@@ -69,6 +69,8 @@ struct Block {
   bool fixed = false;                      // part of the ground
   bool free = false;                       // allowed to have no joint, or none that leads to the ground
   std::shared_ptr<const Initial> started;  // null: as it is built
+  // m, joints of the masonry it was laid in, and the widest beside it where it made one wider to fill its stretch; 0: none
+  double joint = 0, widest_joint = 0;
   Place place;
 
   const Initial& initial() const {

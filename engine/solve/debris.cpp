@@ -85,11 +85,14 @@ void Debris::wake() {
   }
   place_all(true);
   thinnest_ = *std::ranges::min_element(model_.smallest_edge);
+  neighbours_.resize(z(model_.nblock));
   for (int j = 0; j < model_.njoint; ++j) {
     const auto key = pair_key(model_.joint[z(j)].a, model_.joint[z(j)].b);
     if (!pair_keys_.empty() && pair_keys_.back() == key) continue;
     pair_keys_.push_back(key);
     of_pair_.push_back(j);
+    neighbours_[z(model_.joint[z(j)].a)].push_back(model_.joint[z(j)].b);
+    neighbours_[z(model_.joint[z(j)].b)].push_back(model_.joint[z(j)].a);
   }
 }
 
@@ -102,12 +105,16 @@ void Debris::set_axes(int b, const Mat3& axes) {
   for (int i = 0; i < 9; ++i) group.row.x[i][b % lanes] = axes(i / 3, i % 3);
 }
 
+Mat3 Debris::axes_of(int b) const {
+  Mat3 axes = Mat3::Identity();
+  if (axes_.empty() || !axes_[z(b / lanes)].any) return axes;
+  for (int i = 0; i < 9; ++i) axes(i / 3, i % 3) = axes_[z(b / lanes)].row.x[i][b % lanes];
+  return axes;
+}
+
 Mat3 Debris::rotation(int b) const {
   const Mat3& turn = blocks_[z(b)].turn;
-  if (axes_.empty() || !axes_[z(b / lanes)].any) return turn;
-  Mat3 axes;
-  for (int i = 0; i < 9; ++i) axes(i / 3, i % 3) = axes_[z(b / lanes)].row.x[i][b % lanes];
-  return turn * axes.transpose();
+  return axes_.empty() || !axes_[z(b / lanes)].any ? turn : Mat3(turn * axes_of(b).transpose());
 }
 
 void Debris::mark(std::vector<Eight>& groups, int b) {
@@ -154,12 +161,19 @@ void Debris::list_involved() {
   jointed_.clear();
   bed_.clear();
   waiting_.clear();
+  edge_.clear();
+  edges_.clear();
   if (!active()) return;
   wake();
   for (int j = 0; j < model_.njoint; ++j)
     if (state_.tier[z(j)] != Tier::open) jointed_.push_back(pair_key(model_.joint[z(j)].a, model_.joint[z(j)].b));
   find_beds();
-  for (const Pair& p : state_.debris.pair) waiting_.push_back({p.a, p.b});
+  for (const Pair& p : state_.debris.pair) {
+    waiting_.push_back({p.a, p.b});
+    const EdgeAtRest edge = edge_of(p);
+    edge_.push_back(edge.touches ? int(edges_.size()) : -1);
+    if (edge.touches) edges_.push_back(edge);
+  }
   state_.parting.pair.resize(waiting_.size());
 }
 
@@ -352,7 +366,9 @@ double Debris::start_fresh(const std::vector<int>& fresh) {
   double stored = 0;
   for (const int i : fresh) {
     Pair& p = state_.debris.pair[z(i)];
-    stored += hand_over(p, shapes_, blocks_[z(p.a)], blocks_[z(p.b)], Vec6::Zero(), 0, 0, room_.front());
+    const ContactBlock &a = blocks_[z(p.a)], &b = blocks_[z(p.b)];
+    if (const EdgeAtRest edge = edge_of(p); edge.touches && idle_way(edge, view_of(p, shapes_, a, b).pose) > 0) continue;
+    stored += hand_over(p, shapes_, a, b, Vec6::Zero(), 0, 0, room_.front());
   }
   return stored;
 }

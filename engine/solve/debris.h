@@ -6,6 +6,7 @@
 
 #include "engine/contact/batch.h"
 #include "engine/contact/broad.h"
+#include "engine/contact/edge_neighbours.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
 #include "engine/solve/contact_limit.h"
@@ -95,12 +96,15 @@ class Debris {
     double speed[lanes] = {};  // m/s, of many groups, lane by lane
   };
   void set_axes(int b, const Mat3& axes);  // contact_axes()
+  Mat3 axes_of(int b) const;
   Mat3 rotation(int b) const;              // from rest, where it was placed last
   static void mark(std::vector<Eight>& groups, int b);
   void place(Eight blocks, Fastest& fastest);
   void place_all(bool sleepers);
   void look();
   bool keeps_apart(int i);
+  EdgeAtRest edge_of(const Pair& pair) const;
+  double idle(int i) const;
   void note_apart(int i, double distance);
   void sort();
   void find_still();
@@ -139,6 +143,8 @@ class Debris {
     double until = 0;  // m; no look while way_soon_[a] + way_soon_[b] < until
   };
   std::vector<Waiting> waiting_;        // of each pair
+  std::vector<int> edge_;               // of each pair, into edges_; -1: none
+  std::vector<EdgeAtRest> edges_;
   std::vector<RowLanes<3>> last_u_;     // m, where blocks were when they were placed last, by groups of eight as in State
   std::vector<double> reach_;           // m, of each block's farthest point, to whole groups as what follows
   std::vector<double> spin_;            // m/s, BlockLanes
@@ -173,6 +179,7 @@ class Debris {
   std::vector<std::unique_ptr<Batch>> batch_;  // per thread
   std::vector<std::uint64_t> pair_keys_;       // pairs of blocks that are jointed at rest, sorted, ...
   std::vector<int> of_pair_;                   // ... and the first of their joints
+  std::vector<std::vector<int>> neighbours_;   // blocks that each is joined to at rest [nblock]
   std::vector<HandOver> handed_;
   double released_ = 0;  // J, set free by the last hand-over and still in this step's sums
   double allowed_ = 0, elastic_ = 0, haste_ = 0, rubbing_ = 0;

@@ -141,6 +141,26 @@ void Debris::note_apart(int i, double distance) {
   pair.until = (way_[z(a)] + way_[z(b)] + distance - round_off * state_.debris.margin) * (1 - round_off);
 }
 
+// Of blocks that are joined to a common third: what is not masonry meets by its edges seldom, and never for long.
+EdgeAtRest Debris::edge_of(const Pair& pair) const {
+  const auto joined = [this](int a, int b) {
+    return std::binary_search(pair_keys_.begin(), pair_keys_.end(), a < b ? pair_key(a, b) : pair_key(b, a));
+  };
+  const std::vector<int>& near = neighbours_[z(pair.a)];
+  if (joined(pair.a, pair.b) || std::ranges::none_of(near, [&](int c) { return joined(c, pair.b); })) return {};
+  ContactBlock a = blocks_[z(pair.a)], b = blocks_[z(pair.b)];
+  a.u = b.u = Vec3::Zero();
+  a.turn = axes_of(pair.a), b.turn = axes_of(pair.b);
+  return edge_at_rest(pair, view_of(pair, shapes_, a, b));
+}
+
+// m, the way that a pair needs no look for although it may overlap along an edge; zero or less: it needs one.
+double Debris::idle(int i) const {
+  const Pair& pair = state_.debris.pair[z(i)];
+  if (edge_[z(i)] < 0 || pair.touching || pair.offset_left > 0) return 0;
+  return idle_way(edges_[z(edge_[z(i)])], view_of(pair, shapes_, blocks_[z(pair.a)], blocks_[z(pair.b)]).pose);
+}
+
 double Debris::crowd(int a, int b) const {
   const std::vector<int>& contacts = state_.debris.contacts;
   return std::clamp(double(std::max(contacts[z(a)], contacts[z(b)])), 1.0, full_crowd);
@@ -174,6 +194,10 @@ void Debris::forces(int thread, bool sample) {
     Pair& pair = state_.debris.pair[z(i)];
     const ContactBlock &a = blocks_[z(waiting_[z(i)].a)], &b = blocks_[z(waiting_[z(i)].b)];
     Lane& lane = lane_[z(i)];
+    if (const double way = idle(i); way > 0) {
+      note_apart(i, r.apart = way);
+      return false;
+    }
     const PairBodies& bodies = lane.bodies;
     const View view{bodies.reference, bodies.other, bodies.swapped ? &b : &a, bodies.swapped ? &a : &b, {}};
     if (stands_apart(lane.keeper, pair, view, settings_, dt, r)) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/model/build.h"
 #include "lua/script.h"
 
 using namespace erbs;
@@ -149,6 +150,35 @@ TEST_CASE("corners interlock: the walls take turns to run through", "[lua][mason
   REQUIRE(through.size() == 26);
   for (const auto& [course, wall] : through)
     if (course % 13 != 12 && through.count(course + 1)) CHECK(wall != through.at(course + 1));
+}
+
+TEST_CASE("head joints that a builder widened are joined by the rule that joins its others", "[lua][masonry]") {
+  const std::string rest = ", joint = 10*mm, joint_max = 20*mm, quiet = true, brick = {length = 0.3, width = 0.125, height = 0.1} }";
+  const std::string opening = ", openings = {{wall = 'south', kind = 'window', at = 0.45, width = 0.3, sill = 0.3, height = 0.2}}";
+  std::vector<std::string> texts;
+  for (const double extra : {0.013, 0.02, 0.027, 0.036})
+    for (const double bricks : {5, 6, 7}) {
+      texts.push_back(fmt::format("wall{{ length = {}, courses = 6{}", bricks * 0.31 + extra, rest));
+      texts.push_back(fmt::format("building{{ plan = {{ {}, {} }}, courses = 8, storeys = 2, slab = {{ thickness = 0.1 }}{}{}",
+                                  bricks * 0.31 + extra, 1.86 + extra, opening, rest));
+    }
+  int widened = 0;
+  for (const std::string& text : texts) {
+    INFO(text);
+    Script script({.seconds = 100, .quiet = true});
+    const Scene& scene = script.load_text(
+        "material{ name = 'brick', density = 1800 }\nground{}\ngravity(g)\nanalysis{ duration = 1 }\n"
+        "joint{ law = mortar{ E = 1e10, thickness = 10*mm, ft = 1e5, c = 1e5, mu = 0.6 } }\n" +
+            text,
+        "t.lua");
+    const Model model = build(scene).model;
+    for (const std::string& warning : model.warnings) CHECK(warning.find("not joined") == std::string::npos);
+    const auto wide = std::count_if(model.joint.begin(), model.joint.end(), [](const Joint& j) { return j.gap > 10.2e-3; });
+    widened += wide > 0;
+    const auto says = [](const std::string& warning) { return warning.find("its masonry made wider") != std::string::npos; };
+    CHECK(std::ranges::any_of(model.warnings, says) == (wide > 0));
+  }
+  CHECK(widened > 4);
 }
 
 TEST_CASE("lintels bear on both jambs and bear their names", "[lua][masonry]") {
