@@ -269,7 +269,7 @@ AccuracyStudy carry_out_accuracy(const std::string& scene, const std::string& di
   std::map<std::string, std::size_t> index;
   for (const Setting& s : plan.settings) {
     Case run;
-    run.scene = scene, run.name = file_name(s), run.directory = directory + "/" + run.name, run.log = run.directory + ".log",
+    run.scene = scene, run.name = file_name(s), run.directory = directory + "/runs/" + run.name, run.log = run.directory + ".log",
     run.extra = s.words, run.within_budget = true;
     Measured m{s, std::vector<std::optional<double>>(study.quantities.size()), "", 0, 0};
     const bool known = options.resume && read_note(run.directory + ".json", hash_text(fnv1a(key + run.name)), m);

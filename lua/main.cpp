@@ -97,6 +97,7 @@ void add_run(CLI::App& app, CommandLine& line) {
   run.add_option("--twin-noise", line.options.twin_noise)->group("");  // of a twin
   run.add_flag("--twin", line.options.twin, "run a twin perturbed by 1e-9 as well, and tell when it parts by 1 mm (the chaos horizon)");
   run.add_flag_callback("--no-figures", [&line] { line.options.figures = false; }, "draw no curves");
+  run.add_flag("--figure-scripts", line.options.figure_scripts)->group("");  // of the cases of a book
   run.add_flag("--video", line.options.video, "draw the run and make its video afterwards");
   run.add_option("--study", line.options.study)->group("");  // of the runs a study starts
   run.add_option("--without", line.options.without, "run without an effect of the scene, by its name in erbs check")

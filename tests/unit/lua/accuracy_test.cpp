@@ -40,6 +40,7 @@ TEST_CASE("accuracy tells slopes, a target's setting and what it costs; its tabl
   CHECK(contains(bench.said, "param(\"unit\", 1)  not applicable"));
   for (const char* name : {"accuracy.csv", "accuracy.svg", "accuracy.png"})
     CHECK(std::filesystem::file_size(bench.folder / "out" / name) > 1000);
+  CHECK(std::distance(std::filesystem::directory_iterator(bench.out()), {}) == 4);  // these three, and the folder of the runs
   const CsvTable table = read_csv(bench.out() + "/accuracy.csv");
   int steps = 0;
   for (std::size_t i = 0; i < table.rows(); ++i) {
