@@ -100,7 +100,7 @@ void push_view(lua_State* lua) {
   lua_pop(lua, 2);
 }
 
-// did_you_mean(word, names) and note_mistakes(lines): for the parts of the language that are written in Lua.
+// did_you_mean(word, names), escaped(text) and note_mistakes(lines): for the parts of the language that are written in Lua.
 int suggest(lua_State* lua, Context&) {
   std::vector<std::string> names;
   const auto n = static_cast<lua_Integer>(lua_rawlen(lua, 2));
@@ -113,13 +113,22 @@ int suggest(lua_State* lua, Context&) {
   return 1;
 }
 
+// Of a text in plain letters: itself.
+int escaped(lua_State* lua, Context&) {
+  size_t length = 0;
+  const char* text = lua_tolstring(lua, 1, &length);
+  const std::string plain = shown({text, length}, 1000);
+  lua_pushlstring(lua, plain.data(), plain.size());
+  return 1;
+}
+
 int note_mistakes(lua_State* lua, Context& context) {
   for (const auto& line : lines_of(lua_tostring(lua, 1))) context.mistake(current_place(lua), line);
   context.incomplete = true;
   return 0;
 }
 
-constexpr std::pair<const char*, Body> inner_functions[] = {{"did_you_mean", suggest}, {"note_mistakes", note_mistakes}};
+constexpr std::pair<const char*, Body> inner_functions[] = {{"did_you_mean", suggest}, {"escaped", escaped}, {"note_mistakes", note_mistakes}};
 
 }  // namespace
 

@@ -70,7 +70,7 @@ double number(const RecordText& text, size_t index, size_t from, size_t to) {
   double result = 0;
   const auto [end, code] = std::from_chars(first, digits.data() + digits.size(), result);
   if (code == std::errc::result_out_of_range)
-    throw Error(fmt::format("column {}: {} is beyond what a number can hold; correct it", from + 1, digits),
+    throw Error(fmt::format("column {}: {} is beyond what a number can hold; correct it", from + 1, shown(digits, 24)),
                 {text.path, static_cast<int>(index) + 1});
   if (code != std::errc() || end != digits.data() + digits.size()) not_a_number(text, index, from);
   return result;
