@@ -84,7 +84,10 @@ RecordText read_record_text(const std::string& path) {
   if (std::filesystem::is_directory(path, code)) throw Error("is a folder, not a record file; name a file inside", {path});
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error("the record file cannot be opened; check its permissions", {path});
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  std::string bytes;
+  try {
+    bytes.assign(std::istreambuf_iterator<char>(in), {});
+  } catch (const std::ios_base::failure&) { throw Error("the record file cannot be read; name one with numbers", {path}); }
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF") || bytes.find('\0') != std::string::npos)
     throw Error("is no plain text, or text in UTF-16; save it as UTF-8", {path});
   RecordText text{path, hash_text(bytes), {}};
