@@ -102,7 +102,11 @@ struct Feed {
 std::uint64_t scene_hash(const Scene& scene, const std::string& script) {
   Feed feed;
   feed(script);
-  for (const auto& [path, hash] : scene.inputs) feed(hash);  // the path may change: the same folder moved elsewhere
+  // Their paths may change: the same folder moved elsewhere, or named from another one; and so their order.
+  std::vector<std::string> inputs;
+  for (const auto& [path, hash] : scene.inputs) inputs.push_back(hash);
+  std::sort(inputs.begin(), inputs.end());
+  for (const std::string& hash : inputs) feed(hash);
   for (const Param& param : scene.params) feed(param.name), feed(param.value);
   feed(scene.gravity);
   for (const Block& block : scene.blocks) {

@@ -169,6 +169,26 @@ TEST_CASE("a limit of the system ends a run with its code, place and remedy, and
   }
 }
 
+TEST_CASE("a run goes on from any folder, and beside a manifest that is damaged", "[endings]") {
+  Bench bench;
+  bench.write("part.lua", "return 0.3\n");
+  bench.write("wave.csv", "time_s,a_m_s2\n0,0\n1,1\n");
+  const std::string scene = bench.scene(sliding + "include 'part.lua'\nground_motion{ wave = record{ file = 'wave.csv' }, direction = 'y' }\n");
+  REQUIRE(bench.erbs({"run", scene, "-o", bench.out(), "-q", "--no-figures", "--until", "0.1"}) == 3);
+  fs::create_directories(bench.folder / "z");
+  const auto from = [&](const std::string& folder, const std::string& words) {
+    const std::string command = "cd " + (bench.folder / folder).string() + " && exec " ERBS_BINARY_DIR "/erbs run " + words + " -q --no-figures --resume";
+    return wait_for(start({"/bin/sh", "-c", command}, (bench.folder / "log").string()));
+  };
+  CHECK(from("", "scene.lua -o out --until 0.15") == 3);
+  CHECK(from("z", "../scene.lua -o ../out --until 0.2") == 3);
+  for (const std::string manifest : {"[1]", "{\"a\":", "{}"}) {
+    bench.write("out/manifest.json", manifest);
+    CHECK(from("z", "../scene.lua -o ../out --until 0.2") == 3);
+  }
+  CHECK(from("", scene + " -o out") == 0);
+}
+
 TEST_CASE("what cannot be printed is told, with code 2", "[endings]") {
   Bench bench;
   const std::string scene = bench.scene(sliding);
