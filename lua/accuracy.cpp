@@ -8,6 +8,7 @@
 #include <map>
 
 #include "engine/base/hash.h"
+#include "engine/base/process.h"
 #include "engine/record/csv.h"
 #include "engine/record/manifest.h"
 #include "engine/record/run_folder.h"
@@ -291,7 +292,7 @@ AccuracyStudy carry_out_accuracy(const std::string& scene, const std::string& di
     const bool cut = (run.overdue || run.code == exit_stopped) && time_is_up();
     if (cut) return;
     m = measured_of(run, m.setting, study.quantities);
-    write_json(run.directory + ".json", json_of(m, hash_text(fnv1a(key + run.name))));
+    if (run.overdue || !was_killed(run.code)) write_json(run.directory + ".json", json_of(m, hash_text(fnv1a(key + run.name))));
   });
   study.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   for (const Measured& m : study.all) study.cpu += m.cpu, study.waiting += m.reason == did_not_fit;

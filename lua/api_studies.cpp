@@ -119,7 +119,7 @@ int figure(Call& call) {
   if (!is_name(item.name))
     arguments.mistake(fmt::format("name = \"{}\" becomes that of a file: letters, digits, _, + and - only", item.name));
   for (Arguments& table : arguments.tables("curves", curve_keys())) {
-    Curve curve;
+    FigureCurve curve;
     table.read("label", curve.label);
     table.read("study", curve.study);
     table.read("x", curve.x);

@@ -34,15 +34,17 @@ std::pair<int, std::string> in_shell(const Bench& bench, const std::string& befo
   return {code, text_of(log)};
 }
 
-int processes_that_name(const std::string& folder) {
-  int count = 0;
+std::vector<pid_t> processes_of(const std::string& folder) {
+  std::vector<pid_t> found;
   std::error_code gone;
   for (const auto& entry : fs::directory_iterator("/proc", gone)) {
     const std::string line = text_of(entry.path() / "cmdline");
-    count += line.find("erbs") != std::string::npos && line.find(folder) != std::string::npos;
+    if (line.find("erbs") != std::string::npos && line.find(folder) != std::string::npos) found.push_back(std::atoi(entry.path().filename().c_str()));
   }
-  return count;
+  return found;
 }
+
+int processes_that_name(const std::string& folder) { return int(processes_of(folder).size()); }
 
 }  // namespace
 
@@ -187,6 +189,25 @@ TEST_CASE("a run goes on from any folder, and beside a manifest that is damaged"
     CHECK(from("z", "../scene.lua -o ../out --until 0.2") == 3);
   }
   CHECK(from("", scene + " -o out") == 0);
+}
+
+TEST_CASE("a run of a study that was killed is made again by --resume", "[endings]") {
+  Bench bench;
+  const std::string scene = four_bricks() + R"(joint{ law = dry{ kn = 1e8, mu = .3 } }
+recorder{ name = "top", quantity = "displacement", block = "b3" }
+local seed = param("seed", 1)
+analysis{ duration = seed > 1 and 5 or 0.01, dt = 1e-5, output_dt = 1 }
+ensemble{ n = 1, seed = 1, name = "e", value = function(run) return run.time_s end }
+)";
+  const Child run = start(bench.command({"run", bench.scene(scene), "-o", bench.out(), "-q", "--no-figures"}), (bench.folder / "log").string());
+  const std::string studies = bench.out() + "/studies/";
+  wait_until([&] { return processes_that_name(studies) > 0; });
+  for (const pid_t child : processes_of(studies)) ::kill(child, SIGKILL);
+  CHECK(wait_for(run) == 0);
+  CHECK(contains(text_of(bench.folder / "log"), "ended by signal 9"));
+  CHECK(bench.run(scene, {"-q", "--no-figures", "--resume"}) == 0);
+  CHECK(bench.said.empty());
+  CHECK(read_json(bench.out() + "/metrics.json")["metrics"]["e_mean"].get<double>() == Approx(5));
 }
 
 TEST_CASE("what cannot be printed is told, with code 2", "[endings]") {
