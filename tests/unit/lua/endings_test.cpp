@@ -49,6 +49,7 @@ int processes_that_name(const std::string& folder) { return int(processes_of(fol
 }  // namespace
 
 TEST_CASE("every signal that asks a run to end leaves a checkpoint, and it goes on to the same bits", "[endings]") {
+  ::signal(SIGHUP, SIG_DFL);  // under nohup it is ignored, and stays so in what is started
   Bench whole;
   REQUIRE(whole.run(sliding, {"-q", "--no-figures"}) == 0);
   for (const int signal : {SIGHUP, SIGTERM, SIGINT}) {
