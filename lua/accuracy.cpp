@@ -8,6 +8,7 @@
 #include <map>
 
 #include "engine/base/hash.h"
+#include "engine/base/process.h"
 #include "engine/record/csv.h"
 #include "engine/record/manifest.h"
 #include "engine/record/run_folder.h"
@@ -45,7 +46,7 @@ void add_points(std::vector<Setting>& all, bool fine, bool all_rules) {
       if (side > 3 && name == "gauss") continue;      // exact in bending from two on: nothing more to be had
       const int n = side * side;
       all.push_back({fmt::format("points, {}", rule),
-                     fmt::format("{} points, {}", n, rule),
+                     fmt::format("{} point{}, {}", n, n > 1 ? "s" : "", rule),
                      fmt::format("joint {{ rule = \"{}\", points = {} }}", rule, n),
                      {"--rule", rule, "--points", std::to_string(n)},
                      name == "trapezoid" ? 1.0 / (side - 1) : 1.0 / side});  // of what the error is a power
@@ -269,7 +270,7 @@ AccuracyStudy carry_out_accuracy(const std::string& scene, const std::string& di
   std::map<std::string, std::size_t> index;
   for (const Setting& s : plan.settings) {
     Case run;
-    run.scene = scene, run.name = file_name(s), run.directory = directory + "/" + run.name, run.log = run.directory + ".log",
+    run.scene = scene, run.name = file_name(s), run.directory = directory + "/runs/" + run.name, run.log = run.directory + ".log",
     run.extra = s.words, run.within_budget = true;
     Measured m{s, std::vector<std::optional<double>>(study.quantities.size()), "", 0, 0};
     const bool known = options.resume && read_note(run.directory + ".json", hash_text(fnv1a(key + run.name)), m);
@@ -291,7 +292,7 @@ AccuracyStudy carry_out_accuracy(const std::string& scene, const std::string& di
     const bool cut = (run.overdue || run.code == exit_stopped) && time_is_up();
     if (cut) return;
     m = measured_of(run, m.setting, study.quantities);
-    write_json(run.directory + ".json", json_of(m, hash_text(fnv1a(key + run.name))));
+    if (run.overdue || !was_killed(run.code)) write_json(run.directory + ".json", json_of(m, hash_text(fnv1a(key + run.name))));
   });
   study.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   for (const Measured& m : study.all) study.cpu += m.cpu, study.waiting += m.reason == did_not_fit;

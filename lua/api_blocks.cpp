@@ -242,7 +242,7 @@ int mesh(Call& call) {
   arguments.read("scale", scale);
   arguments.read("at", at);
   std::vector<Polyhedron> parts;
-  if (file.empty() && arguments.has("file")) arguments.mistake("file = \"\" names no file");
+  if (file.empty() && arguments.has("file")) arguments.mistake("file = \"\" names no file; give one");
   if (!file.empty()) try {
       const auto path = find_input(call.context, file, {});
       read_input(call.context, path, {});

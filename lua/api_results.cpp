@@ -71,6 +71,8 @@ int metric(Call& call) {
     if (other.name == item.name)
       call.mistake(fmt::format("\"{}\" was given before, at {}; use another name", item.name, other.place.text()));
   lua_settop(call.lua, 3);
+  if (lua_type(call.lua, 3) == LUA_TNUMBER && !std::isfinite(lua_tonumber(call.lua, 3)))
+    call.mistake(fmt::format("\"{}\" is {}, no finite number (0/0 or 1/0?); correct it", item.name, lua_tonumber(call.lua, 3)));
   if (lua_type(call.lua, 3) == LUA_TNUMBER) item.value = lua_tonumber(call.lua, 3), item.function = LUA_NOREF;
   else if (lua_isfunction(call.lua, 3)) item.function = luaL_ref(call.lua, LUA_REGISTRYINDEX);
   else throw Error(fmt::format("metric \"{}\" must be a number or a function(run), not {}", item.name, described(call.lua, 3)), call.place);

@@ -53,7 +53,7 @@ int bisect(Call& call) {
   arguments.read("rel", study.rel);
   arguments.read("points", study.points);
   study.collapse = !arguments.has("collapsed_when");
-  if (study.lo == study.hi) arguments.mistake("lo and hi are the same; nothing lies between");
+  if (study.lo == study.hi) arguments.mistake("lo and hi are the same, and nothing lies between; give two values");
   return add(call, arguments, std::move(study), "collapsed_when");
 }
 
@@ -119,7 +119,7 @@ int figure(Call& call) {
   if (!is_name(item.name))
     arguments.mistake(fmt::format("name = \"{}\" becomes that of a file: letters, digits, _, + and - only", item.name));
   for (Arguments& table : arguments.tables("curves", curve_keys())) {
-    Curve curve;
+    FigureCurve curve;
     table.read("label", curve.label);
     table.read("study", curve.study);
     table.read("x", curve.x);
@@ -170,6 +170,8 @@ int family(Call& call) {
   if (into.place.line > 0) call.mistake(fmt::format("one was given before, at {}; put all params into it", into.place.text()));
   into.place = call.place;
   if (!lua_isnoneornil(call.lua, 2)) {
+    if (!lua_istable(call.lua, 2))
+      throw Error(fmt::format("family: how must be a table, such as {{ combinations = 4 }}, not {}", described(call.lua, 2)), call.place);
     Arguments how(call.context, call.lua, 2, "family", call.place, keys);
     how.read("combinations", into.combinations);
     how.read("seed", into.seed);

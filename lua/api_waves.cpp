@@ -30,7 +30,7 @@ void finish(Call&, Arguments& arguments, Table& wave) {
 void finish(Call& call, Arguments& arguments, Record& wave) {
   if (arguments.has("peak") && arguments.has("scale")) arguments.mistake("\"peak\" and \"scale\" exclude each other; keep one");
   if (wave.file.empty()) {
-    if (arguments.has("file")) arguments.mistake("file = \"\" names no file");
+    if (arguments.has("file")) arguments.mistake("file = \"\" names no file; give one");
     wave.acceleration = make_polyline({0, 1}, {0, 0});
     return;
   }

@@ -29,7 +29,7 @@ struct Metric {
 };
 
 // Curves that a scene draws of its studies, beside what is known.
-struct Curve {
+struct FigureCurve {
   std::string label, study;          // the answers of a study over its param, ...
   std::vector<std::string> metrics;  // ... or metrics over x, ...
   std::vector<double> x, y;          // ... or numbers
@@ -37,7 +37,7 @@ struct Curve {
 };
 struct Figure {
   std::string name, title, x, y;  // x, y: of the axes
-  std::vector<Curve> curves;
+  std::vector<FigureCurve> curves;
   Place place;
 };
 

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* colours[] = {"#2f6b8f", "#b5432e", "#4d7a3a", "#8a5a9e", "#b8860b", "#5a5a5a"};
 
-std::string numbers_of(const Curve& curve, const std::string& directory) {
+std::string numbers_of(const FigureCurve& curve, const std::string& directory) {
   std::vector<std::pair<double, double>> points;
   if (curve.study.empty()) {
     for (size_t i = 0; i < curve.y.size(); ++i) points.emplace_back(curve.x[i], curve.y[i]);
@@ -47,7 +47,7 @@ std::string title_in(const std::string& script) {
 std::string script_of(const Figure& figure, const std::string& directory) {
   std::string data, plots;
   for (size_t i = 0; i < figure.curves.size(); ++i) {
-    const Curve& curve = figure.curves[i];
+    const FigureCurve& curve = figure.curves[i];
     const std::string numbers = numbers_of(curve, directory);
     if (numbers.empty()) continue;
     data += fmt::format("$curve{} << END\n{}END\n", i, numbers);

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "engine/base/hash.h"
+#include "engine/base/process.h"
 #include "engine/record/manifest.h"
 #include "lua/book.h"
 #include "lua/cases.h"
@@ -304,7 +305,7 @@ int run_grid(const Options& given) {
     Variant& v = *of_name.at(run.name);
     v.result = result_of(run);
     v.done = true;
-    write_json(v.note, json_of(v));
+    if (run.overdue || !was_killed(run.code)) write_json(v.note, json_of(v));
   });
   const Grid grid = worst_of(variants);
   print(grid);

@@ -100,7 +100,8 @@ void push_view(lua_State* lua) {
   lua_pop(lua, 2);
 }
 
-// did_you_mean(word, names), note_mistakes(lines) and widen_joint(joint, width): for the parts of the language that are written in Lua.
+// did_you_mean(word, names), escaped(text), note_mistakes(lines) and widen_joint(joint, width): for the parts of the language that are
+// written in Lua.
 int suggest(lua_State* lua, Context&) {
   std::vector<std::string> names;
   const auto n = static_cast<lua_Integer>(lua_rawlen(lua, 2));
@@ -110,6 +111,15 @@ int suggest(lua_State* lua, Context&) {
     lua_pop(lua, 1);
   }
   lua_pushstring(lua, did_you_mean(lua_tostring(lua, 1), names).c_str());
+  return 1;
+}
+
+// Of a text in plain letters: itself.
+int escaped(lua_State* lua, Context&) {
+  size_t length = 0;
+  const char* text = lua_tolstring(lua, 1, &length);
+  const std::string plain = shown({text, length}, 1000);
+  lua_pushlstring(lua, plain.data(), plain.size());
   return 1;
 }
 
@@ -128,7 +138,7 @@ int widen_joint(lua_State* lua, Context& context) {
 }
 
 constexpr std::pair<const char*, Body> inner_functions[] = {
-    {"did_you_mean", suggest}, {"note_mistakes", note_mistakes}, {"widen_joint", widen_joint}};
+    {"did_you_mean", suggest}, {"escaped", escaped}, {"note_mistakes", note_mistakes}, {"widen_joint", widen_joint}};
 
 }  // namespace
 

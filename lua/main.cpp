@@ -97,6 +97,7 @@ void add_run(CLI::App& app, CommandLine& line) {
   run.add_option("--twin-noise", line.options.twin_noise)->group("");  // of a twin
   run.add_flag("--twin", line.options.twin, "run a twin perturbed by 1e-9 as well, and tell when it parts by 1 mm (the chaos horizon)");
   run.add_flag_callback("--no-figures", [&line] { line.options.figures = false; }, "draw no curves");
+  run.add_flag("--figure-scripts", line.options.figure_scripts)->group("");  // of the cases of a book
   run.add_flag("--video", line.options.video, "draw the run and make its video afterwards");
   run.add_option("--study", line.options.study)->group("");  // of the runs a study starts
   run.add_option("--without", line.options.without, "run without an effect of the scene, by its name in erbs check")
@@ -216,6 +217,21 @@ void check_verb(const CLI::App& app, int argc, char** argv) {
     throw erbs::Error(fmt::format("there is no verb {}{}; see erbs help", shown(word, 60), erbs::did_you_mean(word, verbs)));
 }
 
+// What is on or off takes no value: CLI11 would read --force=1e400 as --force.
+void check_flags(const CLI::App& app, int argc, char** argv) {
+  const CLI::App* verb = nullptr;
+  for (const CLI::App* known : app.get_subcommands({}))
+    if (argc > 1 && known->get_name() == argv[1]) verb = known;
+  if (verb == nullptr || verb->get_prefix_command()) return;
+  for (int i = 2; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    const std::string name(word.substr(0, word.find('=')));
+    if (!word.starts_with("--") || name.size() == word.size()) continue;
+    const CLI::Option* option = verb->get_option_no_throw(name);
+    if (option != nullptr && option->get_items_expected_max() == 0) throw erbs::Error(fmt::format("{} takes no value; write {}", name, name));
+  }
+}
+
 int call(const CLI::App& app, CommandLine& line) {
   const CLI::App& verb = *app.get_subcommands().front();
   const std::string name = verb.get_name();
@@ -246,6 +262,7 @@ int answer(CLI::App& app, CommandLine& line, int argc, char** argv) {
   };
   try {
     check_verb(app, argc, argv);
+    check_flags(app, argc, argv);
     app.parse(argc, argv);
     erbs::chosen_isa();  // refuses an ERBS_ISA that there is not
     return call(app, line);

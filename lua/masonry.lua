@@ -253,6 +253,7 @@ end
 wall = public(function(options)
   local mistakes = {}
   local k = parts.read("wall", options, masonry_functions[1].keys, mistakes)
+  parts.stop_if(type(options) == "table" and {} or mistakes)
   if (options.courses == nil) == (options.height == nil) then mistakes[#mistakes + 1] = "wall: give courses or height, one of them" end
   parts.stop_if(mistakes)
   local courses = k.courses or math.max(1, math.floor(0.5 + k.height / (k.brick.height + k.joint)))

@@ -101,11 +101,16 @@ masonry_functions = {
 
 -- ---- reading and messages ------------------------------------------------------------------------------------------------------
 
-local did_you_mean = did_you_mean  -- of the program; scenes do not see it
+local did_you_mean, escaped = did_you_mean, escaped  -- of the program; scenes do not see them
 
 local function millimetres(x) return string.format("%g mm", math.floor(x * 1e5 + 0.5) / 100) end
 
-local function is_vec(v) return type(v) == "table" and #v == 3 and type(v[1] + v[2] + v[3]) == "number" end
+local function is_finite(x) return x == x and x ~= math.huge and x ~= -math.huge end
+local function is_vec(v)
+  if type(v) ~= "table" or #v ~= 3 then return false end
+  for i = 1, 3 do if type(v[i]) ~= "number" or not is_finite(v[i]) then return false end end
+  return true
+end
 
 local read  -- read(what, given, keys, mistakes) -> a table with the defaults filled in
 
@@ -114,7 +119,7 @@ local function read_value(what, key, value, mistakes)
   local kind = math.type(value) == "integer" and "integer" or type(value)
   if key.type == "number" or key.type == "integer" then
     if type(value) ~= "number" then return wrong("must be a number, not a %s", kind) end
-    if value ~= value or value == math.huge or value == -math.huge then return wrong("= %g is no finite number", value) end
+    if not is_finite(value) then return wrong("is no finite number (0/0 or 1/0?); give one") end
     if key.type == "integer" and (value ~= math.floor(value) or math.abs(value) > 1e9) then
       return wrong("= %g must be a whole number, at most 1e9", value)
     end
@@ -122,12 +127,17 @@ local function read_value(what, key, value, mistakes)
       return wrong("= %g must be above %g%s", value, key.above, key.unit and " " .. key.unit or "")
     end
     if (key.low and not (value >= key.low)) or (key.high and not (value <= key.high)) then
-      return wrong("= %g is out of range; allowed: %s", value, key.high and key.low .. " to " .. key.high or key.low .. " or more")
+      local low = key.low or key.above
+      return wrong("= %g is out of range; allowed: %s", value, key.high and low .. " to " .. key.high or low .. " or more")
     end
   elseif key.type == "vec" then
-    if not (type(value) == "table" and pcall(is_vec, value) and is_vec(value)) then return wrong("must be three numbers {x, y, z}") end
+    if not is_vec(value) then return wrong("must be three finite numbers {x, y, z}") end
   elseif key.type ~= "any" and key.type ~= kind then
     return wrong("must be a %s, not a %s", key.type, kind)
+  end
+  if kind == "string" and (#value > 1000 or escaped(value) ~= value) then
+    return wrong("holds control characters or bytes that are no UTF-8, or is longer than 1000: \"%s\"; write it in plain letters",
+      escaped(value):sub(1, 60))
   end
   if key.choice and value ~= key.choice[1] and value ~= key.choice[2] then
     return wrong("= \"%s\" is not known; allowed: %s", value, table.concat(key.choice, ", "))
@@ -151,7 +161,7 @@ function read(what, given, keys, mistakes)
   for i, key in ipairs(keys) do known[key.name], names[i] = key, key.name end
   local strange = {}
   for name in pairs(given) do
-    if not known[name] then strange[#strange + 1] = tostring(name) end
+    if not known[name] then strange[#strange + 1] = escaped(tostring(name)) end
   end
   table.sort(strange)
   local meant = {}  -- by a misspelt key: it is not missing as well
@@ -166,7 +176,7 @@ function read(what, given, keys, mistakes)
     if value ~= nil then
       out[key.name] = read_value(what, key, value, mistakes)
     elseif key.required and not meant[key.name] then
-      mistakes[#mistakes + 1] = string.format("%s: %s is missing (%s%s)", what, key.name, key.unit and key.unit .. "; " or "", key.help)
+      mistakes[#mistakes + 1] = string.format("%s: %s is missing (%s%s); add %s = ...", what, key.name, key.unit and key.unit .. "; " or "", key.help, key.name)
     end
   end
   return out

@@ -118,7 +118,7 @@ local function place_openings(masonry, runs, openings)
   for _, opening in ipairs(openings) do
     local run = by_name[opening.wall or #runs == 1 and runs[1].name or ""]
     if not run then
-      fail("opening: wall = \"%s\" is not known%s", tostring(opening.wall), did_you_mean(tostring(opening.wall), names))
+      fail("opening: wall = \"%s\" is not known%s", opening.wall or "", did_you_mean(opening.wall or "", names))
     end
     local places = storeys_of(opening, #masonry.courses)
     for _, storey in ipairs(places) do

@@ -24,6 +24,7 @@ struct Options {
   Record record;        // of erbs record: --dt, --unit, --column
   std::string study;    // the study that started this run
   bool figures = true;  // curves of a run
+  bool figure_scripts = false;            // those of figure{} as scripts, which a book draws later
   std::vector<std::string> allow;         // folders that a scene may read besides its own
   int max_blocks = 0, max_points = 0;     // of a scene; 0: the limits of Scene
 

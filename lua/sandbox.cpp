@@ -179,7 +179,7 @@ Stretch::Stretch(lua_State* lua, Context& context) : lua_(lua), context_(context
   lua_sethook(lua, count_hook, LUA_MASKCOUNT, 1000);
   watchdog_ = std::thread([this] {
     std::unique_lock lock(mutex_);
-    while (processor_seconds() < context_.limits.deadline + 1)  // the hook comes first
+    while (processor_seconds() < context_.limits.deadline + grace())
       if (ended_.wait_for(lock, std::chrono::milliseconds(100), [this] { return done_; })) return;
     std::string doing;
     bool working = false;
@@ -193,6 +193,12 @@ Stretch::Stretch(lua_State* lua, Context& context) : lua_(lua), context_(context
     std::fflush(stderr);
     _exit(2);
   });
+}
+
+// s past the deadline. The hook of a script comes first and tells more; work of ours has no hook.
+double Stretch::grace() const {
+  const std::lock_guard lock(context_.limits.mutex);
+  return context_.limits.working ? 0.2 : 1;
 }
 
 Stretch::~Stretch() {

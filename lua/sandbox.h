@@ -53,6 +53,8 @@ class Stretch {
   Stretch& operator=(const Stretch&) = delete;
 
  private:
+  double grace() const;
+
   lua_State* lua_;
   Context& context_;
   std::mutex mutex_;

@@ -102,13 +102,17 @@ std::string without_index(const std::string& key) {
   return index ? key.substr(0, dot) : key;
 }
 
-// -D and expect name things that must exist.
+// -D and expect name things that must exist; what a study answers must not have the name of another number.
 void check_names(Context& context) {
   std::vector<std::string> params, metrics;
   for (const Param& param : context.scene.params) params.push_back(param.name);
   for (const Metric& metric : context.metrics) metrics.push_back("metrics." + metric.name);
   for (const Study& study : context.studies)
-    for (const std::string& name : metric_names(study)) metrics.push_back("metrics." + name);
+    for (const std::string& name : metric_names(study)) {
+      if (std::find(metrics.begin(), metrics.end(), "metrics." + name) != metrics.end())
+        context.mistake(study.place, fmt::format("the study answers metric \"{}\", which is there already; give the study another name = ...", name));
+      metrics.push_back("metrics." + name);
+    }
   for (const Override& item : context.overrides)
     if (!item.used)
       context.mistake({}, fmt::format("-D {}={}: the scene has no param \"{}\"{}", item.name, item.expression, item.name,

@@ -190,7 +190,8 @@ int verb_accuracy(const Options& options) {
     say("{} of them did not fit into {}; --resume makes them, --within 10m gives all more time\n", s.waiting,
                duration_text(options.within));
   const bool any = std::any_of(s.all.begin(), s.all.end(), [&](const Measured& m) { return m.values[s.main].has_value(); });
-  return any ? code : exit_numbers;
+  const bool refused = std::all_of(s.all.begin(), s.all.end(), [](const Measured& m) { return m.reason.starts_with("exit code 2"); });
+  return any ? code : refused ? exit_usage : exit_numbers;
 }
 
 }  // namespace erbs

@@ -242,7 +242,7 @@ void carry_out(MapStudy& study, const Options& given, const std::string& key) {
     run_cases(cases, options, [&](const Case& run) {
       MapRun& r = study.all[which[std::size_t(&run - cases.data())]];
       read(r, run, study.quantity);
-      write_json(run.directory + ".json", json_of(r, key));
+      if (run.overdue || !was_killed(run.code)) write_json(run.directory + ".json", json_of(r, key));
     });
   }
   settle_ratios(study);

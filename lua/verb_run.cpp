@@ -209,7 +209,7 @@ int complete(Script& script, const std::string& path, const std::string& directo
     write_json(run_file(directory, "metrics.json"), now);
   }
   auto failures = complete_metrics(script, directory, whole, studies, metrics, verdicts);
-  if (whole && options.study.empty()) write_figures(script, directory, options.figures);
+  if (whole && options.study.empty() && (options.figures || options.figure_scripts)) write_figures(script, directory, options.figures);
   for (const auto& trouble : studies.troubles) tell(stderr, trouble);
   for (const auto& message : failures) tell(stderr, message);
   if (!options.quiet) print_summary(script.scene(), directory, metrics, verdicts);

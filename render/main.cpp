@@ -125,6 +125,9 @@ int main(int argc, char** argv) {
   } catch (const Error& e) {
     erbs::tell(stderr, std::string("error: ") + e.what());
     return 2;
+  } catch (const std::filesystem::filesystem_error& e) {
+    erbs::tell(stderr, fmt::format("error: {}: {}; check the path", e.path1().string(), e.code().message()));
+    return 2;
   } catch (const std::logic_error& e) {
     erbs::tell(stderr, std::string("error: ") + e.what());
     return 1;

@@ -31,6 +31,8 @@ double debris_bound(const Model& m) {
   return bound;
 }
 
+bool any_moves(const Model& m) { return std::find(m.kind.begin(), m.kind.end(), Kind::moving) != m.kind.end(); }
+
 std::string said(const char* rule, double dt, double fraction) { return fmt::format("{} ({:.4g} s x {:.3g})", rule, dt, fraction); }
 
 // Past it the scheme diverges. The literal sweep holds its neighbours: twice the zig-zag modes' room, 2 / omega of the stiffest block.
@@ -47,6 +49,9 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
   if (a.dt > 0) {
     dt = a.dt;
     p.dt_rule = "given by the scene";
+  } else if (!any_moves(p.model)) {
+    dt = std::min(a.output_dt, a.duration) / 10;
+    p.dt_rule = "a tenth of output_dt: all blocks are driven or fixed";
   } else if (!jointed) {
     limit = debris_bound(p.model);
     dt = a.dt_fraction * limit;
@@ -72,7 +77,8 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
     }
   }
   if (!(dt > 0) || !std::isfinite(dt))
-    throw Error("no time step can be derived: nothing in the scene is elastic; say analysis{dt = ...}", a.place);
+    throw Error(fmt::format("no time step can be derived by dt_rule = \"{}\"; say analysis{{ dt = 1e-4 }}, or dt_rule = \"limit\"", a.dt_rule),
+                a.place);
   if (a.solver == "sequential" && a.iterations > 1) {
     dt /= a.iterations;
     p.dt_rule += fmt::format(", in {} sweeps", a.iterations);

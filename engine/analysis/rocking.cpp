@@ -30,7 +30,7 @@ class Equation {
 
  private:
   const RockingBlock& b_;
-  const RockingLoad& load_;
+  const RockingLoad load_;  // callers hand over one of their making
 };
 
 struct Trial {

@@ -19,6 +19,8 @@ struct Ended {
   int pid = -1, code = 0;
   double cpu = 0;  // s of processor, of the child and of all it waited for
 };
+// By another's signal or for want of memory: what it might have answered is open.
+constexpr bool was_killed(int code) { return code > 128 && code != 130; }
 Ended wait_for_any();
 Ended wait_for_any(double seconds);  // at most this long: pid = -1 where none has ended by then
 int wait_for(const Child& child);  // an interrupt that is caught meanwhile is handed on to it

@@ -95,8 +95,16 @@ std::string printable(std::string_view text) {
 }
 
 void tell(std::FILE* to, std::string_view text) {
-  const std::string line = printable(text) + "\n";
-  std::fwrite(line.data(), 1, line.size(), to);
+  constexpr std::size_t most = 4000;  // bytes of a line: names and words of others may be of any length
+  std::string all;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view line = text.substr(begin, end - begin);
+    all += line.size() > most ? shown(line, most) : printable(line);
+    all += '\n';
+    begin = end + 1;
+  }
+  std::fwrite(all.data(), 1, all.size(), to);
 }
 
 std::string for_files(std::string_view text) {

@@ -20,7 +20,7 @@ std::string shown(std::string_view text, std::size_t most = 200);
 std::string printable(std::string_view text);
 
 // printable() and the end of the line, to stderr or stdout. A stream that is closed or full is no reason to end a run: stderr is let be,
-// stdout keeps its mark, which main() asks for at the end.
+// stdout keeps its mark, which main() asks for at the end. A line of more than 4000 bytes is cut.
 void tell(std::FILE* to, std::string_view text);
 
 // Valid UTF-8 on one line for files: control characters become spaces, bytes that are no UTF-8 the sign U+FFFD.

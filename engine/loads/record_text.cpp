@@ -70,7 +70,7 @@ double number(const RecordText& text, size_t index, size_t from, size_t to) {
   double result = 0;
   const auto [end, code] = std::from_chars(first, digits.data() + digits.size(), result);
   if (code == std::errc::result_out_of_range)
-    throw Error(fmt::format("column {}: {} is beyond what a number can hold; correct it", from + 1, digits),
+    throw Error(fmt::format("column {}: {} is beyond what a number can hold; correct it", from + 1, shown(digits, 24)),
                 {text.path, static_cast<int>(index) + 1});
   if (code != std::errc() || end != digits.data() + digits.size()) not_a_number(text, index, from);
   return result;
@@ -84,7 +84,10 @@ RecordText read_record_text(const std::string& path) {
   if (std::filesystem::is_directory(path, code)) throw Error("is a folder, not a record file; name a file inside", {path});
   std::ifstream in(path, std::ios::binary);
   if (!in) throw Error("the record file cannot be opened; check its permissions", {path});
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  std::string bytes;
+  try {
+    bytes.assign(std::istreambuf_iterator<char>(in), {});
+  } catch (const std::ios_base::failure&) { throw Error("the record file cannot be read; name one with numbers", {path}); }
   if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF") || bytes.find('\0') != std::string::npos)
     throw Error("is no plain text, or text in UTF-16; save it as UTF-8", {path});
   RecordText text{path, hash_text(bytes), {}};

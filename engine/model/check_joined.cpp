@@ -36,13 +36,18 @@ void check_loose(const Scene& scene, const Interfaces& found, const std::vector<
   }
 }
 
-// A rule that joins nothing is legal (a later one may win), but often a slip in its groups or its thickness.
+bool has_group(const Scene& scene, const std::string& group) {
+  return group.empty() || std::any_of(scene.blocks.begin(), scene.blocks.end(), [&](const Block& b) { return b.group == group; });
+}
+
+// A rule that joins nothing is legal (a later one may win), but often a slip in its groups or its thickness. Groups that no block is of
+// have been told.
 void check_rules(const Scene& scene, const Interfaces& found, std::vector<std::string>& warnings) {
   std::vector<int> faces(scene.joint_rules.size(), 0);
   for (const Interface& face : found.all) ++faces[z(face.rule)];
   for (size_t r = 0; r < faces.size(); ++r) {
     const JointRule& rule = scene.joint_rules[r];
-    if (faces[r] > 0 || rule.none) continue;
+    if (faces[r] > 0 || rule.none || !has_group(scene, rule.group_a) || !has_group(scene, rule.group_b)) continue;
     warnings.push_back(
         fmt::format("{}: this joint rule joins nothing: between \"{}\" and \"{}\" no faces lie at most {:g} mm apart, or later "
                     "rules take them; look at between, thickness and tolerance",

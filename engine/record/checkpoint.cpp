@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -27,7 +28,9 @@ static_assert(sizeof(Head) == 48, "no padding: its bytes are part of the checksu
 std::string path_of(const std::string& dir) { return dir + "/checkpoint.bin"; }
 
 [[noreturn]] void fail(const std::string& path, const char* what) {
-  throw WriteError(fmt::format("{}: {}; a checkpoint before it is intact", what, std::strerror(errno)), {path, 0});
+  const std::string why = std::strerror(errno);
+  const bool before = ::access(path.substr(0, path.rfind(".tmp")).c_str(), F_OK) == 0;
+  throw WriteError(fmt::format("{}: {}{}", what, why, before ? "; a checkpoint before it is intact" : ""), {path, 0});
 }
 
 // Closes what it opened, whatever happens.
@@ -99,7 +102,11 @@ struct Feed {
 std::uint64_t scene_hash(const Scene& scene, const std::string& script) {
   Feed feed;
   feed(script);
-  for (const auto& [path, hash] : scene.inputs) feed(hash);  // the path may change: the same folder moved elsewhere
+  // Their paths may change: the same folder moved elsewhere, or named from another one; and so their order.
+  std::vector<std::string> inputs;
+  for (const auto& [path, hash] : scene.inputs) inputs.push_back(hash);
+  std::sort(inputs.begin(), inputs.end());
+  for (const std::string& hash : inputs) feed(hash);
   for (const Param& param : scene.params) feed(param.name), feed(param.value);
   feed(scene.gravity);
   for (const Block& block : scene.blocks) {

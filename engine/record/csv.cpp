@@ -22,7 +22,7 @@ constexpr std::size_t enough = 1 << 16;  // bytes gathered before they are hande
 
 std::string read_all(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
-  if (!in) throw Error("this file is missing or cannot be read", {path, 0});
+  if (!in) throw Error("this file is missing or cannot be read; run the scene again with --force", {path, 0});
   std::stringstream text;
   text << in.rdbuf();
   return text.str();

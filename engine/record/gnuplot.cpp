@@ -66,6 +66,8 @@ void run_gnuplot(const std::string& script, const std::string& path) {
   const int code = start_gnuplot(own.parent_path().string(), own.filename().string(), picture.path, errors.path);
   if (code == 127) throw Error("the picture needs the program gnuplot; install the package gnuplot-nox", {path});
   std::error_code trouble;
+  if (code == 0 && contents(errors.path).empty() && (fs::file_size(picture.path, trouble) == 0 || trouble))
+    throw Error("gnuplot drew nothing and said nothing; is the disk full?", {path});
   if (code != 0 || fs::file_size(picture.path, trouble) == 0 || trouble)
     throw Error(fmt::format("gnuplot ended with code {} and drew nothing: {}", code, shown(contents(errors.path), 400)), {path});
   fs::rename(picture.path, path, trouble);

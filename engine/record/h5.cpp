@@ -92,7 +92,9 @@ hid_t open_to_extend(const std::string& path, hid_t access) {
 
 hid_t open_to_read(const std::string& path, hid_t access) {
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
-  // Still being written, or left by a killed writer: readable all the same.
+  // Still being written, or left by a killed writer: readable all the same. What does not fit its sum is read again, as it may be half
+  // written, after twice the time: 30 times take 2 s, the 100 of the library would take for ever where the file is damaged.
+  H5Pset_metadata_read_attempts(access, 30);
   return id >= 0 ? id : H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);
 }
 

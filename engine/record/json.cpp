@@ -38,7 +38,10 @@ void write_text_atomically(const std::string& path, std::string_view text) {
   }
   std::error_code failed;
   std::filesystem::rename(beside, path, failed);
-  if (failed) throw WriteError(fmt::format("cannot be replaced: {}", failed.message()), {path, 0});
+  if (failed) {
+    std::remove(beside.c_str());
+    throw WriteError(fmt::format("cannot be replaced: {}", failed.message()), {path, 0});
+  }
 }
 
 void write_json(const std::string& path, const Json& json) {

@@ -1,6 +1,8 @@
 #include "engine/record/motion_file.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -87,7 +89,7 @@ class Sidecar {
   }
   void finish() {
     out_ << "</Grid></Domain></Xdmf>\n" << std::flush;
-    if (!out_) throw WriteError("the file cannot be written", {path_, 0});
+    if (!out_) throw WriteError(fmt::format("the file cannot be written: {}", std::strerror(errno)), {path_, 0});
   }
 
   std::ofstream out_;

@@ -47,8 +47,8 @@ bool is_run_folder(const std::string& dir) {
   if (!fs::is_regular_file(run_file(dir, "manifest.json"), failed)) return false;
   try {
     const Json json = read_json(run_file(dir, "manifest.json"));
-    return json.is_object() && json.value("program", "") == "erbs";
-  } catch (const std::exception&) {}
+    if (json.is_object() && json.contains("program")) return json["program"] == "erbs";
+  } catch (const std::exception&) {}  // damaged: the other files tell
   const auto there = [&](const char* name) { return fs::is_regular_file(run_file(dir, name), failed); };
   return there("scene.lua") && (there("checkpoint.bin") || there("energy.csv") || there("motion.h5"));
 }

@@ -60,9 +60,9 @@ std::vector<double> evened(const std::vector<double>& t, const std::vector<doubl
 
 }  // namespace
 
-Peak peak(const std::vector<double>& t, const std::vector<double>& y) {
+SamplePeak peak(const std::vector<double>& t, const std::vector<double>& y) {
   check(t, y);
-  Peak best{unknown, unknown};
+  SamplePeak best{unknown, unknown};
   for (std::size_t i = 0; i < y.size(); ++i)
     if (std::isfinite(y[i]) && !(std::abs(y[i]) <= std::abs(best.value))) best = {y[i], t[i]};
   return best;

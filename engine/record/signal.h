@@ -5,11 +5,11 @@
 
 namespace erbs {
 
-struct Peak {
+struct SamplePeak {
   double value = 0;  // the sample of largest magnitude, with its sign
   double time = 0;   // s
 };
-Peak peak(const std::vector<double>& t, const std::vector<double>& y);
+SamplePeak peak(const std::vector<double>& t, const std::vector<double>& y);
 
 double rms(const std::vector<double>& t, const std::vector<double>& y);  // sqrt of the time mean of y^2, y linear between samples
 double mean(const std::vector<double>& t, const std::vector<double>& y);

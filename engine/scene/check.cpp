@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <set>
 #include <unordered_map>
@@ -79,11 +80,39 @@ void check_law(Report& report, const Mortar& law, const Place& place) {
     report.say(place, "joint: mu_residual is negative; leave it out for mu, or give 0 and more");
 }
 
-void check_joints(Report& report, const Scene& scene, const std::vector<std::string>& groups) {
+std::vector<std::string> groups_of(const Scene& scene) {
+  std::vector<std::string> groups;
+  for (const Block& block : scene.blocks)
+    if (!block.group.empty() && std::find(groups.begin(), groups.end(), block.group) == groups.end()) groups.push_back(block.group);
+  return groups;
+}
+
+std::string without_digits(std::string name) {
+  std::erase_if(name, [](unsigned char c) { return std::isdigit(c) != 0; });
+  return name;
+}
+
+// A rule may name what this case of a scene has none of: no lintel without a door, no storey3 in a house of two. A name that is nearly
+// that of a group is a slip.
+bool misspelt(const std::string& group, const std::vector<std::string>& groups) {
+  const std::string near = nearest(group, groups);
+  return !near.empty() && without_digits(near) != without_digits(group);
+}
+
+// The groups that rules name and no block is of; `slips` chooses those that are misspelt, or the others.
+void name_groups(Report& report, const Scene& scene, bool slips) {
+  const std::vector<std::string> groups = groups_of(scene);
+  for (const JointRule& rule : scene.joint_rules)
+    for (const std::string& group : {rule.group_a, rule.group_b}) {
+      if (group.empty() || std::find(groups.begin(), groups.end(), group) != groups.end() || misspelt(group, groups) != slips) continue;
+      report.say(rule.place, "joint: no block is of group \"{}\"{}{}", group, slips ? "" : ", so that this rule joins nothing",
+                 did_you_mean(group, groups));
+    }
+}
+
+void check_joints(Report& report, const Scene& scene) {
+  name_groups(report, scene, true);
   for (const JointRule& rule : scene.joint_rules) {
-    for (const std::string& group : {rule.group_a, rule.group_b})
-      if (!group.empty() && std::find(groups.begin(), groups.end(), group) == groups.end())
-        report.say(rule.place, "joint: no block is of group \"{}\"{}", group, did_you_mean(group, groups));
     if (!inside(rule.points_long, 1, 64) || !inside(rule.points_short, 1, 64))
       report.say(rule.place, "joint: points {} x {} is out of range; allowed is 1 to 64 along a side", rule.points_long, rule.points_short);
     check_fields(report, rule, "joint", rule.place);
@@ -226,14 +255,11 @@ void doubt_units(Report& report, const Scene& scene) {
 
 std::vector<std::string> check(const Scene& scene) {
   Report report;
-  std::vector<std::string> groups;
-  for (const Block& block : scene.blocks)
-    if (!block.group.empty() && std::find(groups.begin(), groups.end(), block.group) == groups.end()) groups.push_back(block.group);
   Index index;
   for (const Block& block : scene.blocks) index.emplace(block.name, &block);
   check_materials(report, scene);
   check_blocks(report, scene);
-  check_joints(report, scene, groups);
+  check_joints(report, scene);
   check_loads(report, scene, index);
   check_cameras(report, scene);
   check_analysis(report, scene);
@@ -243,6 +269,7 @@ std::vector<std::string> check(const Scene& scene) {
 std::vector<std::string> warnings(const Scene& scene) {
   Report report;
   doubt_units(report, scene);
+  name_groups(report, scene, false);
   for (const JointRule& rule : scene.joint_rules) {
     const auto* law = rule.none ? nullptr : std::get_if<Mortar>(&rule.law);
     if (!law) continue;

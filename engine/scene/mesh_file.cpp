@@ -40,7 +40,10 @@ Polyhedron convex_part(const aiMesh& mesh, const aiMatrix4x4& where, const std::
   Faces::List loops;
   if (mesh.mNumVertices > most_vertices)
     throw Error(fmt::format("{} has {} corners; a block's part is convex and has at most 64: simplify it", what, mesh.mNumVertices));
-  for (unsigned v = 0; v < mesh.mNumVertices; ++v) triangles.vertices.push_back(placed(where, mesh.mVertices[v]));
+  for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+    triangles.vertices.push_back(placed(where, mesh.mVertices[v]));
+    if (!triangles.vertices.back().allFinite()) throw Error(fmt::format("{}: corner {} is no finite number; correct it", what, v + 1));
+  }
   for (unsigned f = 0; f < mesh.mNumFaces; ++f) {
     if (mesh.mFaces[f].mNumIndices != 3)
       throw Error(fmt::format("{} has a face of {} corners; give it faces of three and more", what, mesh.mFaces[f].mNumIndices));
@@ -106,7 +109,7 @@ std::vector<Polyhedron> read_mesh(const std::string& path, const std::function<b
     throw Error(fmt::format("cannot read the mesh {}: it is damaged, or not of the kind that its ending says; export it again", path));
   std::vector<Polyhedron> parts;
   collect(*scene, *scene->mRootNode, aiMatrix4x4(), path, parts);
-  if (parts.empty()) throw Error(fmt::format("{} holds no mesh of triangles", path));
+  if (parts.empty()) throw Error(fmt::format("{} holds no mesh of triangles; export it again, with its faces", path));
   return parts;
 }
 

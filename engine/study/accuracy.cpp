@@ -189,7 +189,11 @@ std::string what_limits(const Goal& q, std::size_t index, const std::vector<Meas
 
 std::string plain_sentence(const Goal& q, std::size_t index, const std::vector<Measured>& all) {
   const std::vector<std::size_t> front = pareto(q, index, all, true);
-  if (front.empty()) return fmt::format("{}: no run gave a value.", q.name);
+  if (front.empty()) {
+    const auto told = std::find_if(all.begin(), all.end(), [](const Measured& m) { return !m.reason.empty(); });
+    return fmt::format("{}: no run gave a value; {}", q.name,
+                       told == all.end() ? "the metric returned none: look at its function" : "the first that failed says: " + told->reason);
+  }
   std::string text;
   double told = std::numeric_limits<double>::infinity();
   int parts = 0;
@@ -198,13 +202,19 @@ std::string plain_sentence(const Goal& q, std::size_t index, const std::vector<M
     if (parts > 0 && error > 0.3 * told) continue;  // only what is worth another clause
     told = error;
     const std::string with = all[i].setting.knob.empty() ? "as the scene is" : "with " + all[i].setting.name;
-    text += parts == 0 ? fmt::format("{} in {}", error_text(q, error), q.name) : fmt::format("; {}", error_text(q, error));
+    text += parts == 0 ? fmt::format("An error of {} in {}", error_text(q, error), q.name) : fmt::format("; one of {}", error_text(q, error));
     text += fmt::format(" costs {} {}", seconds_text(all[i].cpu), with);
     if (++parts == 4) break;
   }
   const double least = *error_of(q, all[front.back()].values[index]);
   const double uncertain = q.reference != 0 ? q.uncertainty / std::fabs(q.reference) : q.uncertainty;
-  return text + fmt::format("; below {} {}.", error_text(q, std::max(least, uncertain)), what_limits(q, index, all));
+  text += fmt::format("; below {} {}.", error_text(q, std::max(least, uncertain)), what_limits(q, index, all));
+  if (!q.expected)
+    text += fmt::format(
+        "\nErrors are those against the scene's own limit ({}): what theory or a test says may lie further away. To measure by a known "
+        "value write expect(\"{}\", VALUE, {{ rel = 0.01 }}).",
+        q.from, q.name);
+  return text;
 }
 
 }  // namespace erbs

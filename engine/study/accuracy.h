@@ -62,7 +62,7 @@ std::vector<Curve> curves_of(const Goal& quantity, std::size_t index, const std:
 // which no machine changes, else in seconds.
 std::vector<std::size_t> pareto(const Goal& quantity, std::size_t index, const std::vector<Measured>& all, bool by_updates);
 
-// "2 % in the collapse multiplier costs 3.1 s with ...; below 0.1 % the points, not the step, are the error."
+// "An error of 2 % in the collapse multiplier costs 3.1 s with ...; below 0.1 % the points, not the step, are the error."
 std::string plain_sentence(const Goal& quantity, std::size_t index, const std::vector<Measured>& all);
 
 // The cheapest (in evaluations) that is at least as accurate as `target`; the most accurate within `budget` seconds. None: there is none.

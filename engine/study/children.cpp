@@ -103,7 +103,7 @@ class Runner {
     return start(command, log_of(x)).pid;
   }
 
-  // What the child left. An answer, or the reason why there is none; of both a note is kept, unless the child was interrupted.
+  // What the child left. An answer, or the reason why there is none; of both a note is kept, unless the child was interrupted or killed.
   void read(Answer& a, int code, bool overdue) const {
     if (code == 130) {
       a.reason = "interrupted";
@@ -128,7 +128,7 @@ class Runner {
     } catch (const std::exception& trouble) { a.reason = trouble.what(); }
     Json note{{"key", key()}, {"x", a.x}, {"reason", a.reason}, {"wall_s", a.wall_s}, {"updates", a.updates}};
     note["value"] = a.value ? Json(*a.value) : Json(nullptr);
-    write_json(file_of(a.x), note);
+    if (overdue || !was_killed(code)) write_json(file_of(a.x), note);
   }
 
   bool finished(Answer& a) const {

@@ -76,6 +76,29 @@ TEST_CASE("includes go down, and packages enter by their doors", "[layers]") {
   CHECK(files > 50);
 }
 
+TEST_CASE("no two types of one namespace have one name", "[layers]") {
+  // The linker takes one of their functions for both, without a word.
+  const std::regex space("namespace ([a-z:_]+) \\{.*"), type("(?:struct|class|enum class|enum) ([A-Z][A-Za-z]*)(?: final)?(?: :[^;]*)? \\{.*");
+  std::map<std::string, std::string> files;
+  for (const char* top : {"engine", "lua", "render"})
+    for (const auto& entry : fs::recursive_directory_iterator(fs::path(ERBS_SOURCE_DIR) / top)) {
+      if (entry.path().extension() != ".h") continue;
+      const std::string file = fs::relative(entry.path(), ERBS_SOURCE_DIR).generic_string();
+      std::ifstream in(entry.path());
+      std::smatch found;
+      std::string within;
+      for (std::string line; std::getline(in, line);) {
+        if (std::regex_match(line, found, space)) within = found[1];
+        else if (std::regex_match(line, found, type)) {
+          const auto [first, is_new] = files.emplace(within + "::" + found[1].str(), file);
+          INFO(first->first << " of " << first->second << " and of " << file);
+          CHECK(is_new);
+        }
+      }
+    }
+  CHECK(files.size() > 100);
+}
+
 TEST_CASE("the layers test sees what is wrong", "[layers]") {
   CHECK(trouble("engine/solve/step.cpp", "engine/model/state.h", false) == "");
   CHECK(trouble("engine/solve/step.cpp", "engine/solve/energy.h", false) == "");

@@ -74,6 +74,21 @@ TEST_CASE("dashpots of joints shorten the step to the limit of explicit damping"
   CHECK(at.model.joint.front().viscous == Approx(0.1 / (pi * 100)));
 }
 
+TEST_CASE("a scene whose only moving block is driven runs in tenths of its rows", "[analysis]") {
+  Script script(Script::Options{.quiet = true});
+  const Scene scene = script.load_text(R"(
+    material{ name = "brick", density = 1800 }
+    ground{ size = 4 }
+    box{ name = "b", size = { .3, .125, .1 }, at = { 0, 0, 0 } }
+    joint{ law = dry{ kn = 1e9, mu = .6 } }
+    motion{ block = "b", wave = sine{ amplitude = .01, frequency = 1 }, direction = "x" }
+    analysis{ duration = .25, output_dt = .01 })", "driven.lua");
+  Prepared run;
+  test::run_to(scene, 1, 0.25, run);
+  CHECK(run.state.dt == Approx(0.001));
+  CHECK(run.state.u[1].x() == Approx(0.01).epsilon(1e-3));
+}
+
 TEST_CASE("overlaps and lonely blocks are found together", "[analysis]") {
   const std::string more = R"(
     box{name="inside", size={.25,.125,.1}, at={0.05,0,0.005}, material="brick"}

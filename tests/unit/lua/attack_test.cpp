@@ -260,6 +260,8 @@ TEST_CASE("texts of editors are read, others refused with a remedy", "[attack]")
   bench.write("huge.csv", "time_s,a_m_s2\n0,0\n1,1e300\n");
   CHECK(bench.erbs({"record", (bench.folder / "huge.csv").string()}) == 2);
   CHECK(contains(bench.said, "check the unit"));
+  CHECK(bench.erbs({"record", "/proc/self/mem"}) == 2);
+  CHECK(contains(bench.said, "/proc/self/mem: the record file cannot be read; name one with numbers"));
   bench.write("deep.lua", std::string(100000, '(') + "1" + std::string(100000, ')'));
   CHECK(bench.erbs({"check", "-q", (bench.folder / "deep.lua").string()}) == 2);
   CHECK(contains(bench.said, "deep.lua"));

@@ -80,7 +80,7 @@ TEST_CASE("what a scene says wrong is one message with its place and remedy", "[
       {"force{ block = 'b1', wave = 0/0 }", {at, "wave is not a number (0/0?); allowed is any finite number in N"}},
       {"expect('metrics.top', 3, { rel = .1 })", {at, "there is no metric \"top\""}},
       {"expect('energy.kinetic', 3, { rel = .1 })", {at, "no key \"energy.kinetic\"; did you mean \"energy.kinetic_J\"?"}},
-      {"joint{ between = {'pier', 'wall'}, law = dry{ kn = 1e9, mu = .6 } }", {at, "no block is of group \"wall\"; known: ground, pier"}},
+      {"joint{ between = {'piers', ''}, law = dry{ kn = 1e9, mu = .6 } }", {at, "no block is of group \"piers\"; did you mean \"pier\"?"}},
       {"ground_motion{ wave = 1, direction = {0, 0, 0} }", {at, "direction has no length; give a vector such as { 1, 0, 0 }"}},
       {"ground_motion{ wave = record{ file = el_centro, peak = -1 } }", {at, "peak = -1 m/s2 is out of range"}},
       {"mesh{ file = 'no.obj', free = true }", {at, "\"no.obj\" is not there; looked for", "correct the name"}},
@@ -170,6 +170,19 @@ TEST_CASE("a block without joint is legal where it is free or starts in motion",
   CHECK(bench.run(pier + box + "free = true }") == 0);
   CHECK(bench.run(pier + box + "initial = { velocity = {1, 0, 0} } }", {"--force"}) == 0);
   INFO(bench.said);
+}
+
+TEST_CASE("a joint rule may name a group that this case of the scene has none of", "[bad_input]") {
+  Bench bench;
+  const auto between = [](const std::string& group) { return "joint{ between = {'" + group + "', ''}, law = dry{ kn = 1e9, mu = .6 } }"; };
+  for (const std::string group : {"lintel", "pier2"}) {
+    CHECK(bench.run(pier + between(group), {"--force"}) == 0);
+    CHECK(contains(bench.said, "warning: "));
+    CHECK(contains(bench.said, "scene.lua:7: joint: no block is of group \"" + group + "\", so that this rule joins nothing"));
+    CHECK_FALSE(contains(bench.said, "no faces lie at most"));
+  }
+  CHECK(bench.erbs({"check", bench.scene(pier + between("lintel"))}) == 0);
+  CHECK(contains(bench.said, "scene.lua:7: joint: no block is of group"));
 }
 
 TEST_CASE("a joint rule that joins nothing is warned of", "[bad_input]") {

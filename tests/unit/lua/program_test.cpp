@@ -139,3 +139,13 @@ TEST_CASE("a run past its gate is inaccurate in status, exit code and last line,
   CHECK(contains(bench.said, "inaccurate; exit code 1"));
   CHECK(contains(bench.said, "no answer at an end"));
 }
+
+TEST_CASE("without figures nothing of figure{} is left, but for the book", "[program]") {
+  Bench bench;
+  const std::string figure = "figure{ name = 'f', title = 't', x = 'x', y = 'y', curves = { { label = 'l', x = {1, 2}, y = {1, 2} } } }\n";
+  const std::string scene = four_bricks() + "joint{ law = dry{ kn = 1e9, mu = .6 } }\nanalysis{ duration = .01 }\n" + figure;
+  REQUIRE(bench.run(scene, {"-q", "--no-figures"}) == 0);
+  CHECK_FALSE(std::filesystem::exists(bench.out() + "/figures"));
+  REQUIRE(bench.run(scene, {"-q", "--no-figures", "--figure-scripts", "--force"}) == 0);
+  CHECK(std::filesystem::exists(bench.out() + "/figures/f.gnuplot"));
+}

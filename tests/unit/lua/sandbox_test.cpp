@@ -54,6 +54,15 @@ TEST_CASE("a pattern of exponential cost ends the process with code 2", "[lua][s
   CHECK(contains(said, "scene.lua:2: string.find: the script ran longer than 0.2 s"));
 }
 
+TEST_CASE("work that a scene asks of the program ends with its time, and is not taken for a loop", "[lua][sandbox]") {
+  // a hull of 5000 points takes longer than the hook of a script waits for
+  const auto [code, said] = in_a_child(
+      "local v = {} for i = 1, 5000 do v[i] = { math.random(), math.random(), math.random() } end\n"
+      "for i = 1, 1e5 do block{ vertices = v } end", 0.5);
+  CHECK(code == 2);
+  CHECK(contains(said, "scene.lua:2: block: the script ran longer than 0.5 s; that is more work than a scene may ask for"));
+}
+
 TEST_CASE("a library loop in C ends the process with code 2", "[lua][sandbox]") {
   const auto [code, said] = in_a_child("table.move({}, 1, 1e15, 2)", 0.2);
   CHECK(code == 2);

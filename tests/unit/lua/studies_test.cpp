@@ -145,6 +145,8 @@ TEST_CASE("mistakes of a study name their place and remedy", "[lua][study]") {
   CHECK(mentions(mistakes_in("param('x', 1) converge { param = 'x', values = { 0, 2 }, value = function() end }"), "above zero"));
   CHECK(
       mentions(mistakes_in("param('x', 1) bisect { param = 'x', lo = 0, hi = 1 } bisect { param = 'x', lo = 0, hi = 1 }"), "given before"));
+  CHECK(mentions(mistakes_in("param('x', 1) metric('e_mean', '', 1) ensemble { n = 2, seed = 1, param = 'x', name = 'e', value = function() end }"),
+                 "answers metric \"e_mean\", which is there already"));
   CHECK(mentions(mistakes_in("param('seed', 1) ensemble { n = 3, seed = 1 }"), "\"value\" is missing"));
   CHECK(mistakes_in("param('x', 1) bisect { param = 'x', lo = 0, hi = 1 } expect('metrics.collapse_x', 1, { rel = 1 })").empty());
 }

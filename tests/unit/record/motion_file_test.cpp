@@ -119,6 +119,18 @@ TEST_CASE("a killed writer leaves every whole frame, and the file can be gone on
   check_frames(dir.path, 610);
 }
 
+TEST_CASE("a motion file whose head does not fit its sum is refused soon", "[record][motion_file]") {
+  const Folder dir;
+  MotionWriter writer(dir.path.string(), two_blocks());
+  writer.write(frame_at(0));
+  writer.close();
+  std::fstream file(dir.path / "motion.h5", std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(33);  // within the superblock, which ends with its sum
+  file.put('\x5a');
+  file.close();
+  CHECK_THROWS_WITH(MotionReader(dir.path.string()), Catch::Contains("motion.h5") && Catch::Contains("run the scene again"));
+}
+
 TEST_CASE("a scene without joints and a file that is none", "[record][motion_file]") {
   const Folder dir;
   MotionScene scene = two_blocks();

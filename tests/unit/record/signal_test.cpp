@@ -24,7 +24,7 @@ Column column(int n, double dt, F&& f) {
 }  // namespace
 
 TEST_CASE("the peak keeps its sign and its time", "[record][signal]") {
-  const Peak p = peak({0, 1, 2, 3}, {1, -5, 4, 5});
+  const SamplePeak p = peak({0, 1, 2, 3}, {1, -5, 4, 5});
   CHECK(p.value == -5);
   CHECK(p.time == 1);
   CHECK(std::isnan(peak({}, {}).value));

@@ -95,7 +95,8 @@ void sway(const Model& m, State& s) {
 }
 
 void add_lanes(const std::vector<RowLanes<6>>& sums, std::vector<double>& out) {
-  for (const RowLanes<6>& one : sums) out.insert(out.end(), one.x[0], one.x[0] + 6 * lanes);
+  for (const RowLanes<6>& one : sums)
+    for (const auto& row : one.x) out.insert(out.end(), std::begin(row), std::end(row));
 }
 
 TEST_CASE("instruction sets give the same bits", "[solve]") {
@@ -146,7 +147,8 @@ TEST_CASE("instruction sets give the same bits", "[solve]") {
     for (const auto* sums : {&s.shift, &s.kept, &s.given}) add_lanes(*sums, out);
     for (std::size_t b = 0; b < s.u.size(); ++b)
       for (int i = 0; i < 3; ++i) out.insert(out.end(), {s.v[b][i], s.w[b][i], s.spin_momentum[b][i]});
-    out.insert(out.end(), work.base, work.base + 8 * lanes);
+    for (const auto* sum : {work.base, work.damping, work.absolute, work.base_after, work.damping_after, work.absolute_after, work.kinetic, work.height})
+      out.insert(out.end(), sum, sum + lanes);
     return out;
   };
   CHECK(answer(sse2::kernels) == answer(lane_kernels()));
