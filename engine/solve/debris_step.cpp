@@ -157,7 +157,7 @@ EdgeAtRest Debris::edge_of(const Pair& pair) const {
 // m, the way that a pair needs no look for although it may overlap along an edge; zero or less: it needs one.
 double Debris::idle(int i) const {
   const Pair& pair = state_.debris.pair[z(i)];
-  if (edge_[z(i)] < 0 || pair.touching || pair.offset_left > 0) return 0;
+  if (edge_[z(i)] < 0 || pair.touching) return 0;
   return idle_way(edges_[z(edge_[z(i)])], view_of(pair, shapes_, blocks_[z(pair.a)], blocks_[z(pair.b)]).pose);
 }
 
