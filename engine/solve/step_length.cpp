@@ -11,7 +11,7 @@ namespace erbs {
 namespace {
 
 constexpr double still = 0.1;    // of the haste of what falls: what rests and trembles below the bounds of sleep is no event
-constexpr int few_joints = 100;  // as many are looked at in no time
+constexpr int few_joints = 16;  // of more, one that opens is no event to speak of
 std::size_t z(int i) { return std::size_t(i); }
 
 // The next step below on a scale of 32 to the octave: what differs in its last digits, as with blocks that sleep, then makes no difference.
