@@ -146,7 +146,8 @@ unsigned pair_forces(const PairJob* job, int count, const ContactSettings& setti
                          surely_within,
                          settings.interlock.slow,
                          settings.interlock.rate,
-                         slender};
+                         slender,
+                         flat_face};
   unsigned left_out[2] = {};
   const int of[2] = {std::min(count, 8), std::max(count - 8, 0)};
   for (int k = 0; k < 2; ++k) {

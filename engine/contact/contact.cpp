@@ -43,6 +43,12 @@ double inverse_mass_along(const View& s, const Vec3& x, const Vec3& n) {
          o.dot(s.other_block->inverse_tensor * o);
 }
 
+// Asperities stay in each other where faces lie on each other, not at edges and corners: those of a heap that hold on so tremble for ever.
+bool lies_flat(const View& s, const Patch& patch) {
+  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
+  return patch.area * (r.inverse_inertia + o.inverse_inertia) > flat_face * (r.inverse_mass + o.inverse_mass);
+}
+
 // A bound of it for any direction.
 double inverse_mass_at(const View& s, const Vec3& x) {
   return s.reference_block->inverse_mass + s.other_block->inverse_mass +
@@ -237,7 +243,7 @@ bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, 
     damping_wrench(room, patch.normal, d.chi, d.limit, damping_force, damping_moment);
     const double inverse_mass = inverse_mass_at(s, patch.centroid);
     const Friction f = patch_friction(pair, patch, s.pose, motion, kn * patch.force.norm(), inverse_mass, settings.settling_tangential,
-                                      settings.interlock);
+                                      lies_flat(s, patch) ? settings.interlock : Interlock{});
     damping = to_world(pair, s, kn * damping_force + f.viscous_force, kn * damping_moment + f.viscous_moment);
     friction = to_world(pair, s, f.force, f.moment);
     if (f.slipped > 0) result.rubbing = kn * patch.area * along;

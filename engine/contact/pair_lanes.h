@@ -33,7 +33,7 @@ struct alignas(64) PairLanes {
 };
 
 struct PairSettings {
-  double dt, memory, reference_speed, settling, settling_tangential, surely_within, slow, rate, slender;
+  double dt, memory, reference_speed, settling, settling_tangential, surely_within, slow, rate, slender, flat_face;
 };
 
 // Eight blocks side by side in State, and the rows by which pairs see them.

@@ -10,8 +10,8 @@
 namespace erbs {
 namespace {
 
-constexpr double parted = 0.02;               // of a bed's side, and rad
-constexpr double hand_over_tolerance = 3e-6;  // of State::energy.reference: what a contact may store other than its joint did
+constexpr double parted = 0.02;        // of a bed's side, and rad
+constexpr double most_reset = 1.5e-3;  // of State::energy.reference: all that contacts may store other than their joints did
 std::size_t z(int i) { return std::size_t(i); }
 
 // Joints [first, end) between the same parts as `first`.
@@ -341,7 +341,7 @@ void Debris::hand_over_pair(const int* first, const int* last) {
     stored += state_.memory[z(*j)].elastic;
     state_.memory[z(*j)] = JointMemory{};
   }
-  const double most = hand_over_tolerance * state_.energy.reference;
+  const double most = most_reset * state_.energy.reference - std::fabs(state_.energy.reset + released_);
   const PointLaw& joint_law = model_.laws[z(one.type->law)];
   const int at = find_pair(state_.debris, one.a, one.part_a, one.b, one.part_b);
   if (at < 0) return note_hand_over(*first, stored);

@@ -73,6 +73,7 @@ class Solver {
   double haste_of_first_openings() const;
   void foresee_events();
   bool may_grow(double dt) const;
+  double vibration() const;
   void judge_step();
   void finish(const Hooks& hooks);
   void drive();

@@ -10,7 +10,7 @@
 namespace erbs {
 namespace {
 
-constexpr double still = 0.1;    // of the haste of what falls: what rests and trembles below the bounds of sleep is no event
+constexpr double still = 0.1;   // of the haste of what falls: what rests and trembles below the bounds of sleep is no event
 constexpr int few_joints = 16;  // of more, one that opens is no event to speak of
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -73,7 +73,11 @@ void Solver::foresee_events() {
   double haste = 0;
   for (std::vector<JointSums>* of : {&joint_sums_, &cracked_sums_})
     for (JointSums& sums : *of) haste = std::max(haste, std::exchange(sums.haste, 0.0));
-  const double first = haste_of_first_openings();
+  double first = haste_of_first_openings();
+  if (first * state_.dt > 1) {  // not where the change itself errs by more than the opening would
+    const double whole = state_.dt * state_.dt, less = whole - 1 / (first * first);
+    if (less / 8 * vibration() > event_allowance(model_, state_) * (first * first * whole - 1)) first = 0;
+  }
   if (!(budget_ > 0)) {
     if (first > 0) state_.event_dt = state_.event_dt > 0 ? std::min(state_.event_dt, 1 / first) : 1 / first;
     return;
@@ -89,16 +93,21 @@ void Solver::foresee_events() {
 bool Solver::may_grow(double dt) const {
   const double budget = event_tolerance * state_.energy.reference, more = (dt * dt - state_.dt * state_.dt) / 8;
   if (!(dt > state_.dt) || !(budget > 0) || model_.analysis.unstable || sequential_) return true;
-  double errs = 0;
+  return more * vibration() <= budget;
+}
+
+// The sum of F^2 / m of all blocks (J/s2), moments and inertias with it.
+double Solver::vibration() const {
+  double sum = 0;
   for (int b = 0; b < model_.nblock; ++b) {
     if (model_.kind[z(b)] != Kind::moving) continue;
     const Vec6 w = block_wrench(b) + load_wrench(b);
     const Vec3 f = w.head<3>() + model_.mass[z(b)] * (now_.gravity - now_.ground);
     const Quat& q = state_.q[z(b)];
     const Vec3 m = q.conjugate() * Vec3(w.tail<3>());
-    errs += model_.inverse_mass[z(b)] * f.squaredNorm() + m.dot(model_.inverse_inertia[z(b)] * m);
+    sum += model_.inverse_mass[z(b)] * f.squaredNorm() + m.dot(model_.inverse_inertia[z(b)] * m);
   }
-  return more * errs <= budget;
+  return sum;
 }
 
 }  // namespace erbs
