@@ -7,10 +7,10 @@ namespace erbs {
 
 struct View;  // view.h
 
-inline constexpr double full_crowd = 3;   // from so many contacts on dashpots take least
-inline constexpr double flat_face = 0.5;  // of the square of the least radius of inertia, from which on an area is a face
-inline constexpr double slender = 30;     // times what a shift of the block adds to a rate: past that rotations are counted by their tensor
-inline constexpr double look_ahead = 5;   // steps within which bodies that approach each other are reckoned with
+inline constexpr double full_crowd = 3;  // from so many contacts on dashpots take least
+inline constexpr double flat_face = 2;   // of the square of the least radius of inertia, from which on an area is a face
+inline constexpr double slender = 30;    // times what a shift of the block adds to a rate: past that rotations are counted by their tensor
+inline constexpr double look_ahead = 5;  // steps within which bodies that approach each other are reckoned with
 
 // What one evaluation gives besides the wrench. Losses belong to the step that ends at the pose given: each is the work of its
 // own wrench by the trapezoid of the leapfrog, (F_n + F_n+1) / 2 . v_n+1/2 dt.
