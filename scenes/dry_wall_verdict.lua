@@ -22,7 +22,11 @@ end }
 if corners == 1 then joint { law = dry { kn = kn, mu = mu, damping = dashpots }, points = { 2, 2 }, rule = "trapezoid" }
 else joint { law = dry { kn = kn, mu = mu, damping = dashpots } } end
 if mass_ratio > 0 then damping { mass = 2 * mass_ratio * 2 * pi * 2 } end
-ground_motion { direction = "y", wave = function(time) return peak * math.min(1, time / ramp) * math.sin(4 * pi * time) * (time < 4 and 1 or 0) end }
-analysis { duration = param("duration", 5, "[s]"), frame_dt = 0.05, stop_after_collapse = 0.1 }
+local function shaking(time) return peak * math.min(1, time / ramp) * math.sin(4 * pi * time) * (time < 4 and 1 or 0) end
+ground_motion { direction = "y", wave = shaking }
+local duration = param("duration", 5, "[s]")
+local rigid = rocking { width = t, height = courses * 0.1, wave = shaking, duration = duration }
+metric("rigid_falls_at", "s", rigid.overturned and rigid.overturned_at or -1)  -- -1: it stands
+analysis { duration = duration, frame_dt = 0.05, stop_after_collapse = 0.1 }
 metric("fell", "", function(run) return run.collapse.collapsed and 1 or 0 end)
 if twins > 0 then ensemble { n = twins, seed = 1, name = "falls", value = function(run) return run.collapse.collapsed and 1 or 0 end } end

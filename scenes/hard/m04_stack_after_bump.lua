@@ -13,7 +13,7 @@ local kn = param("kn", 1e10, "[Pa/m]")
 local up = param("up", 1, "1: bump across the slope's horizon, downwards; 0: sideways, down the slope; 2: across the slope")
 local amplitude = param("amplitude", 1.2 * g, "[m/s2]")
 local start = param("start", 1, "1 equilibrium, 2 ramp, 3 rest")
-local rest = param("rest", 4, "after the bump [s]")
+local rest = param("rest", 4 + plates / 20, "after the bump [s]; tall stacks sway longer")
 family({ plates = { 1, 3, 20, 40 }, length = { 0.4, 0.8 }, thickness = { 0.02, 0.1 }, share = { 0.1, 0.3, 0.9 }, mu = { 0.3, 1 }, kn = { 1e9, 1e11, 1e12 },
   up = { 0, 2 }, start = { 2, 3 } }, { combinations = 12 })
 local slope = share * math.atan(mu)
