@@ -56,7 +56,7 @@ for name, of_depth in pairs(law) do
   metric("force_" .. name, "", function(run)
     local F, first = run.history(name .. "_fz_N"), 1
     while F[first] == 0 do first = first + 1 end
-    local pressed = depth[name](duration) - depth[name](run.time[first - 1]) + run.last("under_" .. name .. "_uz_rel_m")
+    local pressed = depth[name](duration) - depth[name](run.time[math.max(1, first - 1)]) + run.last("under_" .. name .. "_uz_rel_m")
     return -run.last(name .. "_fz_N") / of_depth(pressed)
   end)
   metric("jump_" .. name, "", function(run)
