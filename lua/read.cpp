@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <lua5.4/lua.hpp>
 
 #include "engine/base/text.h"
@@ -20,29 +21,23 @@ std::string written(const Vec3& value) {
 
 Keys joined(std::vector<Keys> lists) {
   Keys all;
-  for (auto& list : lists)
-    for (auto& key : list) all.push_back(std::move(key));
+  for (auto& list : lists) std::ranges::move(list, std::back_inserter(all));
   return all;
 }
 
 std::string described(lua_State* lua, int index) {
   switch (lua_type(lua, index)) {
-    case LUA_TNUMBER:
-      return fmt::format("the number {}", written(lua_tonumber(lua, index)));
+    case LUA_TNUMBER: return fmt::format("the number {}", written(lua_tonumber(lua, index)));
     case LUA_TSTRING: {
       size_t length = 0;
       const char* text = lua_tolstring(lua, index, &length);
       return fmt::format("the string \"{}\"", shown({text, length}, 40));
     }
-    case LUA_TBOOLEAN:
-      return lua_toboolean(lua, index) ? "true" : "false";
+    case LUA_TBOOLEAN: return lua_toboolean(lua, index) ? "true" : "false";
     case LUA_TNIL:
-    case LUA_TNONE:
-      return "nil";
-    case LUA_TUSERDATA:
-      return luaL_testudata(lua, index, "law") ? "a law" : "a wave";
-    default:
-      return std::string("a ") + lua_typename(lua, lua_type(lua, index));
+    case LUA_TNONE: return "nil";
+    case LUA_TUSERDATA: return luaL_testudata(lua, index, "law") ? "a law" : "a wave";
+    default: return std::string("a ") + lua_typename(lua, lua_type(lua, index));
   }
 }
 
