@@ -369,7 +369,8 @@ void Solver::settle_ledger() {
   }
   if (contacts_) e.elastic += debris_.elastic();
   if (e.started) e.height_flux += std::fabs(e.gravity - gravity_before);
-  settle(e, any_cracked_ || contacts_ ? std::max(floor_, lift_) : floor_, state_.t, worst);
+  // The structure's own measure counts once something may open or close, or has changed the step: until then all is exact.
+  settle(e, any_cracked_ || contacts_ || state_.start_step > 0 ? std::max(floor_, lift_) : floor_, state_.t, worst);
   if (state_.step % ledger_steps_ != 0) return;
   const double loss = e.friction + e.fracture + e.crushing + e.damping + e.contact_damping;
   e.reference = std::max(e.reference, std::fabs(e.kinetic) + std::fabs(e.elastic - e.elastic_at_start) + std::max(0.0, loss));
