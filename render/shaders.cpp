@@ -88,8 +88,8 @@ void main() {
 )";
 const std::string shade_fragment = "void main() {}\n";
 
-// The band of a crack spans the gap between the two sides. Its least width is `thinnest` pixels if the joint has parted by `open` or more,
-// and a little more than half of that if it is only cracked. A crack of a tenth of a millimetre is thus visible from ten metres, and
+// The band of a crack spans the gap between the two sides. It is at least `thinnest` pixels wide if the joint has parted by `open` or more.
+// A joint that is only cracked has a little more than half of that. A crack of a tenth of a millimetre is thus visible from ten metres, and
 // distinct from an open joint. In a wide gap, no longer dark throughout, the band sinks inwards and then vanishes.
 const std::string crack_vertex = R"(
 layout(location = 0) in vec3 at_a;

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double look_every = 0.25, trial = 0.15;   // s
 constexpr double least_rest = 2, longest_rest = 30;  // s between two trials with the same outcome
-// Share of processor time. A team that spins at its barriers uses all its processors; the rest was taken by others, or slept.
+// Share of processor time. A team that spins at its barriers uses all its processors; other programs or sleep took the rest.
 constexpr double undisturbed = 0.85;
 constexpr double better = 1.05;     // required ratio of speeds for a change
 constexpr double least_share = 20;  // least ratio of the time between two changes to the cost of one

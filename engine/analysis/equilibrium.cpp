@@ -23,7 +23,7 @@ VecX applied(const Model& m, const Freedom& f, const std::vector<double>& push) 
 }
 
 // Islands interact only through fixed blocks. Each therefore has its own line search, measure of balance and end. A block that opens most
-// of its joint does not delay others, a heavy slab does not hide a brick, and a falling island does not keep others from rest.
+// of its joint does not delay others. A heavy slab does not hide a brick. A falling island does not keep others from rest.
 struct Island {
   enum class Now : std::uint8_t { sought, found, given_up };
   std::vector<int> blocks;
@@ -82,8 +82,8 @@ void put_back(State& s, const Pose& from, const Island& island) {
   for (const int b : island.blocks) s.u[z(b)] = from.u[z(b)], s.q[z(b)] = from.q[z(b)];
 }
 
-// Next fraction of the line search: doubled while work remains, otherwise inside the bracket and away from its ends (regula falsi with the
-// Illinois rule, Dowell and Jarratt 1971).
+// Next fraction of the line search: doubled while work remains, otherwise inside the bracket and away from its ends. Method: regula falsi
+// with the Illinois rule (Dowell and Jarratt 1971).
 void search(Island& i, double work) {
   constexpr double enough = 0.3, farthest = 16;
   if (std::fabs(work) <= enough * i.start || (work > 0 && i.high == 0 && i.part >= farthest)) {
@@ -188,7 +188,7 @@ class Search {
       i.part = 1, i.low = i.high = i.high_work = 0, i.side = 0;
       i.start = i.low_work = work(i);
       i.settled = !i.sought();
-      // Friction can turn the step against the residual. A stronger brake turns it back.
+      // Friction can make the step point against the residual. A stronger brake corrects it.
       if (!(i.start > 0)) i.part = 0, i.settled = true;
     }
     for (int trials = 0; trials < 30; ++trials) {

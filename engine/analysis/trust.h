@@ -39,9 +39,9 @@ void each(T& t, F&& f) {
 bool stepped_too_far(const TrustWatch& watch, const State& state);
 
 // Updates the diagnostics; called after every settlement of the energy ledger. `allowed`: s, the present stability limit; infinite if
-// nothing is joined or touches. `past`: steps since the last update that exceeded the limit of the contacts. All steps since the last
-// update count as warned in two cases: the residual exceeds `gate`, or penetration grows beyond a hundredth of the smallest edge. Otherwise
-// only the steps beyond their limit count.
+// nothing is joined or touches. `past`: steps since the last update that exceeded the limit of the contacts.
+// All steps since the last update count as warned if the residual exceeds `gate`, or if penetration grows beyond a hundredth of the
+// smallest edge. Otherwise only the steps beyond their limit count.
 void look(TrustWatch& watch, const State& state, double allowed, double gate, LongSteps past = {});
 
 Metrics::Trust trust_of(const TrustWatch& watch, const Model& model, const State& state);

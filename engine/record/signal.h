@@ -15,9 +15,9 @@ double rms(const std::vector<double>& t, const std::vector<double>& y);  // sqrt
 double mean(const std::vector<double>& t, const std::vector<double>& y);
 
 // Frequency (Hz) of the highest peak of the amplitude spectrum, at least `from` and below `to`. Method: mean removed, Hann window, zeros
-// appended to at least 4 times the length. A parabola through the logarithms of the three highest bins refines the peak: exact for a
-// Gaussian, error 1e-3 of a bin for a Hann window so padded. Linear interpolation first resamples columns with uneven time steps. NaN for
-// fewer than 8 rows or a constant column.
+// appended to at least 4 times the length. A parabola through the logarithms of the three highest bins refines the peak. It is exact for a
+// Gaussian; its error is 1e-3 of a bin for a Hann window so padded. Linear interpolation first resamples columns with uneven time steps.
+// NaN for fewer than 8 rows or a constant column.
 double dominant_frequency(const std::vector<double>& t, const std::vector<double>& y, double from = 0,
                           double to = std::numeric_limits<double>::infinity());
 
