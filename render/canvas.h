@@ -1,4 +1,4 @@
-// What is drawn into: a multisampled picture, its resolved copy with depth, the shadow map, and the passes that finish it.
+// Render targets of one picture: a multisampled image, its resolved copy with depth, the shadow map, and the final passes.
 #pragma once
 #include <vector>
 
@@ -8,7 +8,7 @@
 
 namespace erbs::render {
 
-// A texture (or a multisampled buffer) and the framebuffer that draws into it; frees itself.
+// A texture (or a multisampled buffer) with its framebuffer; frees both.
 class Target {
  public:
   Target() = default;
@@ -35,9 +35,9 @@ class Canvas {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  void begin_shadow();   // draw what throws shadow, after this
-  void begin_picture();  // draw what is seen, after this
-  // Contact darkening within `radius` (m), then the pixels.
+  void begin_shadow();   // afterwards draw everything that casts a shadow
+  void begin_picture();  // afterwards draw everything visible
+  // Darkens corners within `radius` (m), then returns the pixels.
   Image finish(const Eigen::Matrix4f& projection, double radius);
 
   int width() const { return width_; }

@@ -9,7 +9,7 @@ namespace {
 
 double brightness(const std::uint8_t* p) { return 0.2126 * p[0] + 0.7152 * p[1] + 0.0722 * p[2]; }
 
-// Wang, Bovik, Sheikh, Simoncelli 2004, eq. (13), with K1 = 0.01 and K2 = 0.03 of its section III.
+// Structural similarity: Wang, Bovik, Sheikh, Simoncelli 2004, eq. (13), with K1 = 0.01 and K2 = 0.03 of section III.
 double window_ssim(const Image& a, const Image& b, int x0, int y0) {
   constexpr int side = 8;
   constexpr double c1 = 0.01 * 255 * 0.01 * 255, c2 = 0.03 * 255 * 0.03 * 255, n = side * side;

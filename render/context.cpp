@@ -8,7 +8,7 @@
 namespace erbs::render {
 
 void prepare_contexts() {
-  // One thread per context: frames are what is shared out, and nothing waits for a slower tile.
+  // One thread per context: parallel work is divided by frames, and no thread waits for a slower tile.
   setenv("LP_NUM_THREADS", "0", 1);
   // llvmpipe of Mesa 22.3 crashes with vectors of 512 bits.
   const char* width = std::getenv("LP_NATIVE_VECTOR_WIDTH");

@@ -27,7 +27,7 @@ class EglContext : public Context {
   EGLContext context_;
 };
 
-// The software device first: the same pixels on every machine. Then whatever works without a window.
+// All displays, software device first: it gives the same pixels on every machine. Others that work without a window follow.
 std::vector<EGLDisplay> displays() {
   std::vector<EGLDisplay> all;
   const auto query = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(eglGetProcAddress("eglQueryDevicesEXT"));
@@ -67,7 +67,7 @@ std::unique_ptr<Context> context_on(EGLDisplay display) {
 }  // namespace
 
 std::unique_ptr<Context> make_egl_context() {
-  static std::mutex one_at_a_time;  // displays are shared by all threads
+  static std::mutex one_at_a_time;  // all threads share the displays
   const std::lock_guard lock(one_at_a_time);
   for (EGLDisplay display : displays())
     if (auto context = context_on(display)) return context;

@@ -18,7 +18,7 @@ class OsmesaContext : public Context {
   void* function(const char* name) const override { return reinterpret_cast<void*>(OSMesaGetProcAddress(name)); }
 
  private:
-  static constexpr int side = 16;  // pixels of a surface nobody draws on
+  static constexpr int side = 16;  // pixels of a surface that is never drawn on
   OSMesaContext context_;
   std::vector<unsigned char> surface_ = std::vector<unsigned char>(4 * side * side);
 };

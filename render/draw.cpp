@@ -132,7 +132,7 @@ struct Painter::Hidden {
     gl.UniformMatrix4fv(gl.GetUniformLocation(program, name), 1, GL_FALSE, m.data());
   }
 
-  // Chooses a program and tells it what all of them want to know.
+  // Selects a program and sets the uniforms common to all programs.
   struct Light {
     Eigen::Matrix4f camera, to_shadow;
     Eigen::Vector3f eye, sun;
@@ -160,7 +160,7 @@ struct Painter::Hidden {
     gl.BindTexture(GL_TEXTURE_2D, 0);
     canvas->begin_shadow();
     gl.Enable(GL_CULL_FACE);
-    gl.CullFace(GL_FRONT);  // what is lit cannot then be taken for its own shadow
+    gl.CullFace(GL_FRONT);  // back faces cast the shadows, so lit faces do not shadow themselves
     use(shade, light, light.to_shadow);
     draw(shades);
     gl.CullFace(GL_BACK);

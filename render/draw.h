@@ -14,30 +14,30 @@ enum class Coloring { material, damage };
 struct Look {
   Coloring coloring = Coloring::material;
   int width = 1280, height = 720;
-  double top = 0, bottom = 0;  // pixels that the overlay takes
+  double top = 0, bottom = 0;  // pixels covered by the overlay
 };
 
-// What a picture is made of, the same for every frame and thread.
+// Constant data of a picture, common to all frames and threads.
 struct Show {
   const MotionScene* scene = nullptr;
   Stage stage;
   Mesh mesh;
   double chamfer = 0;             // m
-  double open_crack = 0;          // m, a hundredth of the thinnest brick: a joint parted by so much is drawn as an open one
-  bool mortared = false;          // joints have a thickness: mortar, not an edge, parts the bricks
-  double grid = 1;                // m, distance of the lines on the ground
-  std::vector<float> joint_area;  // m2                                                              [joints]
-  std::vector<Vec3> block_color;  // linear, by material with a slight variation from brick to brick  [blocks]
+  double open_crack = 0;          // m, a hundredth of the thinnest brick: a joint parted this far is drawn as open
+  bool mortared = false;          // joints have thickness: mortar between the bricks, not an edge
+  double grid = 1;                // m, spacing of the lines on the ground
+  std::vector<float> joint_area;  // m2 [joints]
+  std::vector<Vec3> block_color;  // linear, by material with a slight variation between bricks [blocks]
 };
 Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<MotionFrame>& some_frames);
 
-// 1, 2 or 5 times a power of ten, about `size`.
+// Nearest to `size` among 1, 2 or 5 times a power of ten.
 double round_length(double size);
 
-// Colour of a block by the share of its joints that is broken, 0..1 (linear), as in the legend.
+// Colour of a block in the legend, by the broken share of its joint area, 0..1 (linear).
 Vec3 damage_color(double damage);
 
-// What the shaders read, 12 floats a block and 4 a joint, and the triangles that can be seen.
+// Input of the shaders, 12 floats per block and 4 per joint, and the visible triangles.
 struct FrameTexels {
   std::vector<float> blocks, joints;
   std::vector<std::uint32_t> index, crack_index;
@@ -46,7 +46,7 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
 
 class Painter {
  public:
-  // Makes a context current in the calling thread, which alone may use this object.
+  // Makes a context current in the calling thread. Only this thread may use the object.
   Painter(const Show& show, const Look& look, const std::string& context_kind);
   ~Painter();
   Image draw(const MotionFrame& frame, const Camera& camera);

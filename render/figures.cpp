@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A unit as columns name it, a quantity that has it, and the units it is shown in: the first whose peak is at least `from`.
+// A unit in column names, its quantity, and its displayed units. The first displayed unit applies whose `from` is not above the peak.
 struct Shown {
   double from, factor;
   const char* unit;
@@ -26,7 +26,7 @@ struct Unit {
   const char* quantity;
   std::vector<Shown> shown;
 };
-// Longer endings first.
+// Longer endings come first.
 const std::vector<Unit>& units() {
   static const std::vector<Unit> list{
       {"rad_s2", "angular acceleration", {{0, 1, "rad/s²"}}},
@@ -74,10 +74,10 @@ void choose_unit(Panel& panel, const CsvTable& table, const std::string& suffix)
 
 constexpr std::array<const char*, 8> colors{"#23527c", "#c0502d", "#4f8a4c", "#8a5a9e", "#b08a1e", "#3b9aa8", "#7d7d7d", "#a33a5a"};
 
-// What has no unit is labelled by the name of its column, and a run folder may be from anywhere.
+// A quantity without a unit is labelled by its column name. The label is quoted, since a run folder may come from anywhere.
 std::string label(const Panel& panel) { return gnuplot_quoted(panel.label); }
 
-// Every curve of a panel. `every` rows are skipped between two drawn ones.
+// All curves of a panel, every `every`-th row.
 std::string plot(const std::string& file, const CsvTable& table, const Panel& panel, const std::string& value, std::size_t every) {
   std::string script = "plot ";
   for (std::size_t i = 0; i < panel.columns.size(); ++i) {
@@ -90,7 +90,7 @@ std::string plot(const std::string& file, const CsvTable& table, const Panel& pa
   return script + "\n";
 }
 
-// Ticks a fifth of the height apart, and room for the whole of the curves.
+// Range that holds the whole curves, with tics at a fifth of the height.
 std::string vertical(const CsvTable& table, const Panel& panel) {
   double low = 0, high = 0;
   for (int c : panel.columns)
@@ -101,10 +101,10 @@ std::string vertical(const CsvTable& table, const Panel& panel) {
   return fmt::format("set yrange [{:g}:{:g}]\nset ytics {:g}\n", step * std::floor(low / step), step * std::ceil(high / step), step);
 }
 
-// A line where something happened first, in the next plots; its name only with `named`.
+// A vertical line at the first event of each kind, in the plots that follow; its name only with `named`.
 std::string marks_script(const Run& run, double last_time, bool named) {
   std::string script = "unset arrow\nunset label\n";
-  double row = 0.7;  // names below each other: they would meet
+  double row = 0.7;  // names stand below each other to avoid overlap
   for (const Mark& mark : run.marks) {
     if (mark.t > last_time) continue;
     script += fmt::format("set arrow from first {0},graph 0 to first {0},graph 1 nohead back lc rgb '#8a2f20' lw 1 dashtype 3\n", mark.t);
@@ -119,7 +119,7 @@ std::string marks_script(const Run& run, double last_time, bool named) {
   return script;
 }
 
-// A sheet of `rows` by `columns` panels; room at the right of each for names of `name_length` letters.
+// A sheet of `rows` by `columns` panels, with room at the right of each for names of `name_length` letters.
 std::string opening(std::size_t rows, std::size_t columns, std::size_t name_length, double last_time, const std::string& title) {
   return fmt::format(
       "set terminal svg size {},{} dynamic enhanced font 'DejaVu Sans,13' background rgb 'white'\n"
@@ -171,7 +171,7 @@ std::string energy_script(const std::string& csv, const CsvTable& table, const R
       "set size 1,0.36\nset origin 0,0.0\nset xlabel 'time [s]'\nset ylabel 'residual, relative'\nset logscale y\nset format y "
       "'10^{%T}'\nset ytics 1e-18,1e3\nunset mytics\n";
   const double worst = residual >= 0 ? peak_of(table, {residual}) : 0;
-  // The gate of the run; where the scene leaves it to the kind of run, the three there are.
+  // Energy tolerance of the run. If the scene leaves it to the kind of run, all three standard tolerances.
   std::vector<std::pair<double, std::string>> gates{{run.energy_gate, "gate"}};
   if (run.energy_gate <= 0) gates = {{1e-6, "gate, elastic"}, {1e-3, "gate, cracked"}, {1e-2, "gate, collapse"}};
   script +=
@@ -216,7 +216,7 @@ std::vector<Panel> history_panels(const CsvTable& table, std::vector<std::string
       continue;
     }
     const std::string unit = unit_of(name);
-    // Of one quantity, directions in which much less happens would only be flat lines: each direction has its panel.
+    // Each direction of a quantity gets its own panel. On a common scale, directions with small values would be flat lines.
     const std::string words = words_of(name);
     std::string axis, frame;
     for (const char* f : {" rel", " abs"})
@@ -224,7 +224,7 @@ std::vector<Panel> history_panels(const CsvTable& table, std::vector<std::string
     for (const char* a : {"x", "y", "z"})
       for (const std::string& end : {std::string(a), a + std::string(" rel"), a + std::string(" abs")})
         if (words.size() > end.size() + 1 && words.compare(words.size() - end.size(), end.size(), end) == 0) axis = a;
-    // What has no unit shares its axis with nothing.
+    // A quantity without a unit gets an axis of its own.
     const std::string key = unit + "/" + axis + frame + (unit.empty() ? words : "");
     auto known = std::find_if(by_unit.begin(), by_unit.end(), [&](const auto& p) { return p.first == key; });
     if (known == by_unit.end()) {
@@ -236,8 +236,8 @@ std::vector<Panel> history_panels(const CsvTable& table, std::vector<std::string
   }
   std::vector<Panel> panels;
   if (!ground.columns.empty()) panels.push_back(ground);
-  // What hardly moves beside the same quantity in another direction only takes room.
-  std::map<std::string, double> largest;  // by unit and frame
+  // Panels with hardly any movement, compared to another direction of the same quantity, are left out.
+  std::map<std::string, double> largest;  // largest value by unit and frame
   const auto sort_of = [](const std::string& key, bool directed) {
     const std::size_t slash = key.find('/');
     return directed ? key.substr(0, slash) + key.substr(slash + 2) : key;

@@ -1,4 +1,4 @@
-// The OpenGL functions we use, loaded from a context. Members lack the prefix gl because some headers bring prototypes of that name.
+// The OpenGL functions in use, loaded from a context. Members lack the prefix gl, since some headers define prototypes with that name.
 #pragma once
 #include <GL/glcorearb.h>
 
@@ -48,10 +48,10 @@ struct Gl {
 #undef X
 };
 
-// Error where a function is missing.
+// Error if a function is missing.
 Gl load_gl(const Context& context);
 
-// Links a program; `common` is put before both sources. A shader that does not compile is our mistake.
+// Links a program; `common` precedes both sources. A shader that does not compile is an internal error.
 GLuint make_program(const Gl& gl, const std::string& common, const std::string& vertex, const std::string& fragment);
 
 }  // namespace erbs::render

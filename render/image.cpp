@@ -11,9 +11,9 @@
 
 namespace erbs::render {
 
-// libpng's simplified interface cannot choose the filter: no filter and level 4 are twice as fast and smaller for our pictures.
+// libpng's simplified interface cannot select the filter. No filter and level 4 are twice as fast, and give smaller files for our pictures.
 void write_png(const std::string& path, const Image& image) {
-  const std::string beside = path + ".tmp";  // renamed once it is whole
+  const std::string beside = path + ".tmp";  // renamed once complete
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(beside.c_str(), "wb"), std::fclose);
   if (!file) throw WriteError(fmt::format("the picture cannot be created: {}; does the folder exist and may you write there?", std::strerror(errno)), {path, 0});
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);

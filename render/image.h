@@ -1,4 +1,4 @@
-// A picture in memory and as a PNG file. The one door to libpng.
+// A picture in memory, and its PNG file. Only image.cpp includes libpng.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -8,7 +8,7 @@ namespace erbs::render {
 
 struct Image {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;  // rows from the top  [height*width*3]
+  std::vector<std::uint8_t> rgb;  // rows from the top [height*width*3]
   Image() = default;
   Image(int w, int h) : width(w), height(h), rgb(static_cast<std::size_t>(w) * static_cast<std::size_t>(h) * 3) {}
   std::uint8_t* pixel(int x, int y) {

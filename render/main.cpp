@@ -24,7 +24,7 @@ struct Arguments {
   render::Movie movie;
 };
 
-// A finite number and nothing else; false otherwise.
+// Reads a finite number; false if the text holds anything else.
 bool read_number(std::string_view text, double& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
@@ -81,7 +81,7 @@ int run(Arguments& a) {
 
 }  // namespace
 
-// A number in a range, ends included: NaN is in none.
+// A number in a closed range; NaN is in none.
 CLI::Validator within(double low, double high) {
   return CLI::Validator(
       [=](std::string& text) {

@@ -30,7 +30,7 @@ Span append(std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& s
   return span;
 }
 
-// A face is buried where joints cover it but for the mortar's own gaps.
+// A face is buried if joints cover it, up to the gaps of the mortar.
 std::vector<bool> find_buried(const MotionScene& scene, int block, const MotionShape& shape, const std::vector<int>& joints) {
   std::vector<bool> buried;
   const Vec3 rest = scene.blocks[static_cast<std::size_t>(block)].rest;
@@ -97,7 +97,7 @@ Vec3 joint_normal(const MotionScene& scene, const MotionJoint& joint) {
 
 void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double chamfer, const std::vector<bool>& buried_face,
               std::vector<std::uint32_t>& open, std::vector<std::uint32_t>& buried) {
-  // The vertex of each corner of each face; faces around a corner are found by the directed edge that leaves it.
+  // Vertices for each corner of each face. The faces around a corner are found by the directed edge that leaves it.
   std::vector<std::vector<std::uint32_t>> ids;
   std::map<std::pair<int, int>, std::pair<std::size_t, std::size_t>> edge;  // from, to -> face, position in its loop
   for (const std::vector<int>& face : shape.faces) {
@@ -119,7 +119,7 @@ void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double 
     if (i < j) add_fan(buried_face[f] && buried_face[g] ? buried : open, {ids[f][next(f, k)], ids[f][k], ids[g][next(g, m)], ids[g][m]});
     if (done[i]) continue;
     done[i] = true;
-    // Around corner i, anticlockwise from outside: the edge that arrives in this face leaves in the next.
+    // Walks around corner i, anticlockwise seen from outside: the edge that enters at this face leaves at the next.
     std::vector<std::uint32_t> around;
     bool all_buried = true;
     auto here = at;
@@ -142,7 +142,7 @@ void add_shades(Mesh& mesh, const MotionScene& scene, const std::vector<bool>& h
       const MotionShape& shape = scene.shapes[static_cast<std::size_t>(part)];
       const auto first = static_cast<std::uint32_t>(mesh.shades.size());
       const std::size_t corners = shape.vertices.size() / 3;
-      // A corner moves out so far that each of its faces does by `grow`; where more than three meet, nearly so.
+      // Moves each corner so that all its faces move by `grow`; approximately if more than three faces meet.
       std::vector<Mat3> planes(corners, Mat3::Zero());
       std::vector<Vec3> sums(corners, Vec3::Zero());
       for (const std::vector<int>& face : shape.faces) {

@@ -1,4 +1,4 @@
-// Mortar and cracks.
+// Mesh of mortar and cracks.
 #include <algorithm>
 #include <array>
 
@@ -27,7 +27,7 @@ bool inside(const MotionScene& scene, int block, const Vec3& world) {
   return false;
 }
 
-// Outward direction, in the plane of the joint, of the side from p to q of a loop anticlockwise about n.
+// Outward direction, in the plane of the joint, of the side from p to q; the loop is anticlockwise about n.
 Vec3 outward(const Vec3& p, const Vec3& q, const Vec3& n) { return (q - p).cross(n).normalized(); }
 
 // A strip of mortar along one side, from `from` to `to` (m) along n.
@@ -39,7 +39,7 @@ void add_strip(Mesh& mesh, const Vec3& p, const Vec3& q, const Vec3& n, double f
   add_fan(mesh.index, side);
 }
 
-// The half of the mortar that stays on one block: from the middle of the joint `half` (m, signed) along n to the block's face.
+// The half of the mortar that stays on one block: from mid-thickness by `half` (m, signed) along n to the block's face.
 void add_bed(Mesh& mesh, const Loop& base, const Vec3& n, double half, std::uint32_t block, std::uint32_t joint) {
   std::vector<std::uint32_t> cap;
   for (const Vec3& p : base) cap.push_back(add_vertex(mesh, p, half > 0 ? Vec3(-n) : n, block, joint));
@@ -49,7 +49,7 @@ void add_bed(Mesh& mesh, const Loop& base, const Vec3& n, double half, std::uint
     add_strip(mesh, base[i], base[(i + 1) % base.size()], n, std::min(0.0, half), std::max(0.0, half), block, joint);
 }
 
-// The strips of the whole mortar beyond which there is no block.
+// The strips of mortar that no block covers.
 void add_pointing(Mesh& mesh, const MotionScene& scene, const std::vector<std::vector<int>>& touching, const MotionJoint& joint,
                   const Loop& base, const Vec3& n, std::uint32_t index) {
   std::vector<int> near{joint.a, joint.b};
@@ -68,7 +68,7 @@ void add_pointing(Mesh& mesh, const MotionScene& scene, const std::vector<std::v
   }
 }
 
-// polygon relative to a; to_b: what to subtract to have it relative to b.
+// Band of a crack. `polygon` is relative to a; subtracting `to_b` makes it relative to b.
 void add_crack(Mesh& mesh, const Loop& polygon, const Vec3& n, const Vec3& to_b, const MotionJoint& joint, std::uint32_t index) {
   const std::size_t count = polygon.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -108,7 +108,7 @@ void add_joints(Mesh& mesh, const MotionScene& scene, const std::vector<std::vec
       if (area_normal(polygon).dot(n) < 0) std::reverse(polygon.begin(), polygon.end());
       add_crack(mesh, polygon, n, to_b, joint, index);
       if (joint.thickness > 0) {
-        Loop base = inset(polygon, n, 0.5 * chamfer);  // raked a little
+        Loop base = inset(polygon, n, 0.5 * chamfer);  // slightly raked
         add_pointing(mesh, scene, touching, joint, base, n, index);
         between = end_of(mesh.index);
         add_bed(mesh, base, n, -0.5 * joint.thickness, static_cast<std::uint32_t>(joint.a), index);

@@ -41,14 +41,14 @@ std::vector<Camera> chosen_cameras(const Run& run, const Show& show, const Movie
   return chosen;
 }
 
-// Names in files: letters, digits and a few signs; anything else becomes a line.
+// Name for files: letters, digits, - and _; other characters become _.
 std::string file_name(std::string name) {
   for (char& c : name)
     if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
   return name;
 }
 
-// Where everything of one camera goes.
+// Output paths of one camera.
 struct Files {
   fs::path frames;
   std::string stem, video;
@@ -58,7 +58,7 @@ struct Files {
   }
 };
 
-// With --force the pictures of an earlier, perhaps longer, movie go; without it nothing is written over.
+// With --force, removes the pictures of an earlier and perhaps longer movie. Without it, Error if an output exists.
 Files prepare_files(const Run& run, const Movie& movie, const Camera& camera, const Schedule& schedule) {
   const fs::path dir(run.dir);
   Files files{dir / "frames", file_name(camera.name), "", !movie.stills.empty()};
@@ -73,7 +73,7 @@ Files prepare_files(const Run& run, const Movie& movie, const Camera& camera, co
   return files;
 }
 
-// Draws one frame after another in a process of its own: the picture, what is written over it, and its file.
+// Drawing of single frames in a process of its own: the picture, its overlay, and its file.
 Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const Camera& camera, const Files& files,
                      const Schedule& schedule) {
   const Look& l = movie.look;
@@ -88,7 +88,7 @@ Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const
   };
 }
 
-// One line on a terminal, a plain one every ten seconds elsewhere.
+// Progress as one updated line on a terminal, otherwise as a new line every ten seconds.
 class Progress {
  public:
   explicit Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO)) {}
@@ -122,7 +122,7 @@ bool film(const Run& run, const Show& show, const MotionReader& reader, const Mo
     return f;
   };
   std::size_t made = 0;
-  // Started before ffmpeg, whose input they would else hold open.
+  // Started before ffmpeg; otherwise these processes would hold its input open.
   Workers workers(std::clamp<std::size_t>(wish, 1, all), movie.look.width, movie.look.height, ordered(0),
                   [&] { return drawer(run, show, movie, camera, files, schedule); });
   std::optional<Video> video;
@@ -138,7 +138,7 @@ bool film(const Run& run, const Show& show, const MotionReader& reader, const Mo
       progress.tell(camera.name, made + 1, all);
     }
   }
-  if (video && made == all) video->finish();  // a film is whole, or there is none
+  if (video && made == all) video->finish();  // a video is complete or absent
   const double wall = since(start);
   if (!movie.quiet)
     fmt::print("{}{} {} ({} frames {}x{} in {:.1f} s, {:.3f} s each, {} at a time)\n",

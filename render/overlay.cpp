@@ -10,14 +10,14 @@ namespace erbs::render {
 namespace {
 
 constexpr Ink text_ink{38, 42, 48, 1}, quiet_ink{95, 102, 110, 1}, panel{250, 251, 252, 0.80}, accent{176, 48, 28, 1};
-constexpr double margin = 22;  // of 720 rows, as all lengths here
+constexpr double margin = 22;  // in rows of a picture with 720 rows, as all lengths here
 
 Ink display(const Vec3& linear) {
   const auto byte = [](double x) { return static_cast<std::uint8_t>(std::lround(255 * std::pow(std::clamp(x, 0.0, 1.0), 1 / 2.2))); };
   return {byte(linear.x()), byte(linear.y()), byte(linear.z()), 1};
 }
 
-// The record at time t, linear between its rows and zero outside.
+// The record at time t: linear between rows, zero outside.
 double value_at(const GroundRecord& r, double t) {
   if (r.t.empty() || t < r.t.front() || t > r.t.back()) return 0;
   const auto after = static_cast<std::size_t>(std::upper_bound(r.t.begin(), r.t.end(), t) - r.t.begin());
@@ -80,10 +80,10 @@ void Overlay::draw_title(Image& image, double t) const {
   std::string beside = run_.status.empty() ? camera_ : run_.status + "   " + camera_;
   if (std::abs(slow_ - 1) > 0.02)
     beside += slow_ > 1 ? fmt::format("   slow motion {:.3g} : 1", slow_) : fmt::format("   time lapse 1 : {:.3g}", 1 / slow_);
-  // What is beside the clock keeps its place: it ends where the widest clock would begin.
+  // Text beside the clock must not move: it ends at the start of the widest clock text.
   const double right = image.width - margin * u - bold_.width("00.00 s", 24 * u) - 18 * u;
   regular_.draw(image, beside, right, base, 14 * u, quiet_ink, Font::Align::right);
-  // A long title is written smaller, then cut.
+  // A long title is drawn smaller, then cut.
   const double room = right - regular_.width(beside, 14 * u) - 2 * margin * u;
   const double size = std::clamp(21 * u * room / std::max(1.0, bold_.width(run_.title, 21 * u)), 13 * u, 21 * u);
   std::string title = run_.title;
@@ -117,7 +117,7 @@ void Overlay::draw_record(Image& image, double t) const {
   fill_box(image, now - 3.5 * u, at - 3.5 * u, now + 3.5 * u, at + 3.5 * u, accent);
 }
 
-// Seconds below the strip, and above it what happened when.
+// Seconds below the strip, and event names above it.
 void Overlay::draw_times(Image& image, double top, double bottom, double now) const {
   const double u = unit_, step = round_length(end_time_ * 110 * u / (strip_right_ - strip_left_));
   for (int i = 0; i * step <= end_time_ * (1 + 1e-9); ++i) {
@@ -126,13 +126,13 @@ void Overlay::draw_times(Image& image, double top, double bottom, double now) co
     const Font::Align align = x + 14 * u > strip_right_ ? Font::Align::right : Font::Align::middle;
     regular_.draw(image, fmt::format("{:g} s", i * step), x, bottom + 14 * u, 11 * u, quiet_ink, align);
   }
-  double last = strip_left_;  // where the word before ends
+  double last = strip_left_;  // end of the previous name
   for (const Mark& mark : run_.marks) {
     if (mark.t > end_time_) continue;
     const double x = column(mark.t), size = 11.5 * u, width = regular_.width(mark.name, size);
     const Ink ink = x <= now + 0.5 ? text_ink : Ink{150, 158, 168, 1};
     fill_box(image, x - 0.6 * u, top + 4 * u, x + 0.6 * u, bottom, ink);
-    // The first stands before its line, later ones behind theirs, where there is room.
+    // The first name stands before its line and later names behind theirs, if there is room.
     const bool before = (&mark == &run_.marks.front() || x + width + 5 * u > strip_right_) && x - width - 5 * u > last;
     regular_.draw(image, mark.name, before ? x - 5 * u : x + 5 * u, top + 13 * u, size, ink,
                   before ? Font::Align::right : Font::Align::left);
@@ -196,7 +196,7 @@ void Overlay::draw_scale(Image& image) const {
   regular_.draw(image, grid, right - width - 14 * u, y + 4.5 * u, 12 * u, quiet_ink, Font::Align::right);
 }
 
-// The axes as the camera sees them; that of the shaking is drawn to both sides with arrows.
+// World axes as the camera sees them. The axis of shaking has arrows at both ends.
 void Overlay::draw_axes(Image& image) const {
   const double u = unit_, length = 30 * u, x = (margin + 46) * u, y = image.height - look_.bottom - 52 * u;
   fill_box(image, x - 46 * u, y - 42 * u, x + 46 * u, y + 50 * u, panel);

@@ -16,7 +16,7 @@ extern char** environ;
 namespace erbs::render {
 
 Process::Process(const std::vector<std::string>& command, const std::string& remedy) {
-  signal(SIGPIPE, SIG_IGN);  // a program that dies is found by write()
+  signal(SIGPIPE, SIG_IGN);  // write() reports a program that died
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) throw Error("no pipe to " + command.front() + " can be made; close some programs");
   std::vector<char*> arguments;

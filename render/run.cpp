@@ -25,7 +25,7 @@ GroundRecord strongest_component(const CsvTable& histories) {
   return best;
 }
 
-// The first crack (in dry masonry: the first joint that opened) and the collapse.
+// First crack (in dry masonry: first joint that opened), and collapse.
 std::vector<Mark> first_events(const CsvTable& events) {
   std::vector<Mark> marks;
   const int time = events.find("time_s"), event = events.find("event");
@@ -42,7 +42,7 @@ std::vector<Mark> first_events(const CsvTable& events) {
   return marks;
 }
 
-Vec3 linear(const Vec3& srgb) { return srgb.cwiseMax(0).cwiseMin(1).array().pow(2.2); }  // as the shaders turn it back
+Vec3 linear(const Vec3& srgb) { return srgb.cwiseMax(0).cwiseMin(1).array().pow(2.2); }  // the shaders convert back
 
 }  // namespace
 
@@ -55,7 +55,7 @@ Run read_run(const std::string& dir) {
   run.dir = dir;
   run.name = m.scene_name;
   run.title = m.title.empty() ? m.scene_name : m.title;
-  while (!run.title.empty() && run.title.back() == '.') run.title.pop_back();  // a heading, no sentence
+  while (!run.title.empty() && run.title.back() == '.') run.title.pop_back();  // a heading has no full stop
   run.cameras = m.cameras;
   for (const Camera& c : run.cameras)
     if (!((c.eye - c.target).norm() > 1e-9 && c.fov > 0 && c.fov < pi))

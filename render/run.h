@@ -1,4 +1,4 @@
-// A run folder as the pictures need it.
+// The part of a run folder that pictures need.
 #pragma once
 #include <string>
 #include <vector>
@@ -21,7 +21,7 @@ struct GroundRecord {
   double peak = 0;        // m/s2, largest absolute value
 };
 
-// What happened first of its kind, for figures and the strip below pictures.
+// First event of a kind, for figures and the strip below pictures.
 struct Mark {
   double t = 0;      // s
   std::string name;  // "first crack", "collapse"
@@ -29,15 +29,15 @@ struct Mark {
 
 struct Run {
   std::string dir, name, title;
-  std::vector<Camera> cameras;   // as the scene gives them; may be empty
+  std::vector<Camera> cameras;   // from the scene; may be empty
   std::vector<Paint> materials;  // by material index
   GroundRecord record;           // the strongest component
-  std::vector<Mark> marks;       // in the order of time
-  double energy_gate = 0;        // relative; 0: not known
-  std::string status;            // of a run that is not to be relied on as it stands; "" where it was completed, or still goes
+  std::vector<Mark> marks;       // in order of time
+  double energy_gate = 0;        // relative; 0: unknown
+  std::string status;            // status of an unreliable run; "" if completed or still running
 };
 
-// Error where DIR is no run folder.
+// Error if DIR is no run folder.
 Run read_run(const std::string& dir);
 
 }  // namespace erbs::render

@@ -1,4 +1,4 @@
-// Which instants a movie shows.
+// Times shown by a movie.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -20,7 +20,7 @@ Schedule schedule_of(const Movie& movie, const std::vector<double>& recorded) {
   const double first = recorded.front(), last = recorded.back();
   Schedule s{{}, movie.slow};
   if (!movie.stills.empty()) {
-    // The last step may fall a little short of the duration, which is what one asks for.
+    // The last step may fall slightly short of the duration that the user asks for.
     const double slack = 1e-9 + (recorded.size() > 1 ? 0.05 * (last - first) / static_cast<double>(recorded.size() - 1) : 0);
     for (double t : movie.stills) {
       if (t < first - slack || t > last + slack)

@@ -67,7 +67,7 @@ void main() {
 }
 )";
 
-// Across a chamfer the normal turns from one face to the next; its interpolated length tells how far from a face one is.
+// Across a chamfer the normal is interpolated from one face to the next. Its length, below 1, gives the distance from the faces.
 const std::string solid_fragment = lighting + R"(
 in vec3 world, n, albedo;
 uniform float darker_edge;
@@ -88,9 +88,9 @@ void main() {
 )";
 const std::string shade_fragment = "void main() {}\n";
 
-// The band spans the gap between the two sides and is at least `thinnest` pixels wide where the joint has parted by `open` or more,
-// and a little more than half of that where it is only cracked: a crack of a tenth of a millimetre is seen from ten metres, and an open one
-// is told from it. A gap too wide to be dark all over lets the band sink inwards, then it vanishes.
+// The band of a crack spans the gap between the two sides. It is at least `thinnest` pixels wide if the joint has parted by `open` or more.
+// A joint that is only cracked has a little more than half of that. A crack of a tenth of a millimetre is thus visible from ten metres, and
+// distinct from an open joint. In a wide gap, no longer dark throughout, the band sinks inwards and then vanishes.
 const std::string crack_vertex = R"(
 layout(location = 0) in vec3 at_a;
 layout(location = 1) in vec3 at_b;
@@ -172,7 +172,7 @@ void main() {
 }
 )";
 
-// Alchemy ambient obscurance (McGuire, Osman, Bukowski, Hennessy 2011, eq. 10) from the depth alone, at half the resolution.
+// Alchemy ambient obscurance (McGuire, Osman, Bukowski, Hennessy 2011, eq. 10), from the depth alone, at half resolution.
 const std::string occlusion_fragment = R"(
 in vec2 uv;
 uniform sampler2D depth;
@@ -213,7 +213,7 @@ void main() {
 }
 )";
 
-// Mean over the 4 x 4 pattern of turns, of the pixels at a like depth.
+// Mean over the 4 x 4 pattern of rotations, of pixels with similar depth.
 const std::string blur_fragment = R"(
 in vec2 uv;
 uniform sampler2D occlusion, depth;

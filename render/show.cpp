@@ -1,4 +1,4 @@
-// The part of drawing that needs no OpenGL: colours, and the numbers the shaders read.
+// The part of drawing without OpenGL: colours, and the input of the shaders.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -25,7 +25,7 @@ Eigen::Quaternionf turn_of(const MotionFrame& f, std::size_t block) {
 }
 Eigen::Vector3f place_of(const MotionFrame& f, std::size_t block) { return Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * block]); }
 
-// How far (m) the two sides of a joint have parted, slip included.
+// Distance (m) between the two sides of a joint, slip included; largest over its corners.
 float parted(const MotionScene& scene, const MotionJoint& joint, const MotionFrame& f) {
   const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
   const Vec3 to_b = scene.blocks[b].rest - scene.blocks[a].rest;
@@ -47,7 +47,7 @@ double round_length(double size) {
 }
 
 Vec3 damage_color(double damage) {
-  // Grey over straw and orange to dark red: rises in strength, reads in grey print and with weak colour vision.
+  // From grey over straw and orange to dark red: rising intensity, readable in grey print and with colour-vision deficiency.
   static const std::array<Vec3, 4> stops{Vec3(0.62, 0.62, 0.60), Vec3(0.80, 0.62, 0.22), Vec3(0.78, 0.25, 0.06), Vec3(0.42, 0.02, 0.03)};
   const double x = std::clamp(damage, 0.0, 1.0) * 3;
   const auto k = std::min<std::size_t>(2, static_cast<std::size_t>(x));
@@ -97,7 +97,7 @@ Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<Mo
 
 namespace {
 
-// Around a joint that has parted by more than a hair, everything is drawn.
+// Selects the visible triangles. Around a joint that has visibly parted, everything is drawn.
 void choose_triangles(const Show& show, const MotionFrame& frame, const Vec3& eye, FrameTexels& t) {
   const MotionScene& scene = *show.scene;
   const float moved = static_cast<float>(0.1 * show.open_crack);
@@ -110,7 +110,7 @@ void choose_triangles(const Show& show, const MotionFrame& frame, const Vec3& ey
     to.insert(to.end(), from.begin() + span.begin, from.begin() + span.end);
   };
   t.index.reserve(show.mesh.index.size());
-  // From near to far: what is hidden is then not shaded.
+  // Near blocks come first: hidden surfaces are then not shaded.
   std::vector<std::pair<float, std::size_t>> order;
   for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
     const float distance = (place_of(frame, b) - eye.cast<float>()).squaredNorm();

@@ -16,7 +16,7 @@ Eigen::AlignedBox3d box_of(const MotionScene& scene, const MotionBlock& block) {
   return box;
 }
 
-// The ground: a fixed block with a level top that reaches well beyond everything that stands on it.
+// The ground: a fixed block with a level top that extends far beyond everything on it.
 bool is_ground(const MotionBlock& block, const Eigen::AlignedBox3d& box, const MotionScene& scene, const Eigen::AlignedBox3d& rest) {
   if (!block.fixed || rest.isEmpty()) return false;
   for (int part : block.parts) {
@@ -30,7 +30,7 @@ bool is_ground(const MotionBlock& block, const Eigen::AlignedBox3d& box, const M
   return own.x() > free.x() + 0.5 * base && own.y() > free.y() + 0.5 * base && box.max().z() < rest.center().z();
 }
 
-// Where most blocks are: along each axis all but the outermost 5 % on either side.
+// Extent of most blocks: along each axis, all but the outermost 5 % on each side.
 Eigen::AlignedBox3d heap_of(const MotionFrame& frame, const std::vector<bool>& hidden) {
   Eigen::AlignedBox3d heap(Vec3::Zero(), Vec3::Zero());
   for (int axis = 0; axis < 3; ++axis) {
@@ -83,14 +83,14 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
     }
   if (!ground) stage.ground_z = lowest;
   if (some_frames.empty()) return stage;
-  // What was thrown far is not worth a view in which the building is small.
+  // Blocks thrown far away are ignored; a view that includes them would show the building too small.
   const Vec3 aside = 0.6 * stage.size() * Vec3(1, 1, 0);
   stage.heap = heap_of(some_frames.back(), stage.hidden).intersection({stage.building.min() - aside, stage.building.max() + aside});
   return stage;
 }
 
 std::vector<Camera> choose_cameras(const Stage& stage, double aspect) {
-  // What must be seen: the building, and room on the ground for what falls beside it.
+  // Points that must be visible: the building, and room on the ground for what falls beside it.
   std::vector<Vec3> seen;
   const Vec3 size = stage.building.sizes(), aside = 0.14 * size.z() * Vec3(1, 1, 0);
   for (int i = 0; i < 8; ++i) {
@@ -110,7 +110,7 @@ std::vector<Camera> choose_cameras(const Stage& stage, double aspect) {
     const Vec3 back = directions[k].normalized(), right = Vec3(0, 0, 1).cross(back).normalized(), up = back.cross(right);
     const double half = std::tan(0.5 * c.fov);
     double distance = std::max(1e-3, 3 * stage.size());
-    for (int turn = 0; turn < 8; ++turn) {  // closer by turns, the target in the middle of what is seen
+    for (int turn = 0; turn < 8; ++turn) {  // approaches in iterations and centres the target on the visible points
       Eigen::AlignedBox2d shown;
       for (const Vec3& p : seen) {
         const Vec3 v = p - c.target;
@@ -177,7 +177,7 @@ Eigen::Matrix4f shadow_view(const Stage& stage, const Eigen::Vector3f& sun) {
   for (int i = 0; i < 8; ++i) {
     Vec3 p = stage.reach.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
     box.extend((to_sun * p.homogeneous()).head<3>());
-    p -= s * ((p.z() - stage.ground_z) / s.z());  // its shadow on the ground bounds the depth
+    p -= s * ((p.z() - stage.ground_z) / s.z());  // the shadow on the ground bounds the depth
     box.extend((to_sun * p.homogeneous()).head<3>());
   }
   const Vec3 half = 0.51 * box.sizes(), mid = box.center();

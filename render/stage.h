@@ -1,4 +1,4 @@
-// Where things are: the building, the ground it stands on, and good places to look from.
+// Extents of the building and its ground, and good viewpoints.
 #pragma once
 #include <vector>
 
@@ -8,21 +8,20 @@
 namespace erbs::render {
 
 struct Stage {
-  Eigen::AlignedBox3d building;                            // m, all blocks but the ground, at rest
-  Eigen::AlignedBox3d reach;                               // m, what may be seen of it over the whole run (for the shadow)
-  Eigen::AlignedBox3d heap;                                // m, where nearly all block centres are at the end
+  Eigen::AlignedBox3d building;                            // m, all blocks except the ground, at rest
+  Eigen::AlignedBox3d reach;                               // m, its visible extent over the whole run (for the shadow)
+  Eigen::AlignedBox3d heap;                                // m, extent of nearly all block centroids at the end
   double ground_z = 0;                                     // m
-  std::vector<bool> hidden;                                // blocks that are the ground: drawn as a plane               [blocks]
+  std::vector<bool> hidden;                                // ground blocks, drawn as a plane [blocks]
   double size() const { return building.sizes().norm(); }  // m
 };
 
 Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_frames);
 
-// Two views that show the whole building, and what becomes of it, from a corner each, in a picture of this width/height.
+// Two cameras, each from one corner. They show the whole building and its final heap, in a picture of this width/height.
 std::vector<Camera> choose_cameras(const Stage& stage, double aspect);
 
-// What a camera sees. The overlay keeps the uppermost and lowermost part of the picture: the camera's field of view and its
-// target are those of the part between.
+// View of a camera. The overlay covers the top and bottom of the picture; field of view and target of the camera refer to the part between.
 struct View {
   Eigen::Matrix4f projection, view;  // view: world to camera
   Eigen::Vector3f eye;
@@ -31,10 +30,10 @@ struct View {
 };
 View look(const Camera& camera, const Stage& stage, int width, int height, double top, double bottom);
 
-// The sun stands over the left shoulder of the camera, so that every view is lit alike. Unit, towards the sun.
+// The sun stands over the left shoulder of the camera, so that all views are lit alike. Unit vector towards the sun.
 Eigen::Vector3f sun_of(const Camera& camera);
 
-// World to shadow map (clip space) for this sun.
+// Transform from world to the clip space of the shadow map, for this sun.
 Eigen::Matrix4f shadow_view(const Stage& stage, const Eigen::Vector3f& sun);
 
 }  // namespace erbs::render

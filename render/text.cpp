@@ -22,7 +22,7 @@ void blend(std::uint8_t* pixel, Ink ink, double cover) {
 
 double covered(double low, double high, int cell) { return std::clamp(std::min(high, cell + 1.0) - std::max(low, 1.0 * cell), 0.0, 1.0); }
 
-// The code points of UTF-8 text; a byte that fits nowhere becomes '?'.
+// Code points of UTF-8 text; an invalid byte becomes '?'.
 std::vector<int> code_points(const std::string& text) {
   std::vector<int> points;
   for (std::size_t i = 0; i < text.size();) {

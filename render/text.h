@@ -1,4 +1,4 @@
-// Words and simple shapes on a picture, drawn by the CPU so that their pixels do not depend on OpenGL.
+// Text and simple shapes on a picture. The CPU draws them, so that their pixels do not depend on OpenGL.
 #pragma once
 #include <array>
 #include <memory>
@@ -15,7 +15,7 @@ struct Ink {
 };
 
 void fill_box(Image& image, double x0, double y0, double x1, double y1, Ink ink);  // edges antialiased
-// A box that fades from the opacity of `ink` at its top edge (y0) to `end` at its bottom edge.
+// A box whose opacity changes from that of `ink` at its top edge (y0) to `end` at its bottom edge.
 void fill_fade(Image& image, int y0, int y1, Ink ink, double end);
 
 // A straight stroke with round ends, `width` pixels wide.
@@ -24,7 +24,7 @@ void draw_line(Image& image, double x0, double y0, double x1, double y1, double 
 class Font {
  public:
   enum class Face { regular, bold };
-  explicit Font(Face face);  // DejaVu Sans; Error where it is not installed
+  explicit Font(Face face);  // DejaVu Sans; Error if it is not installed
   ~Font();
   enum class Align { left, right, middle };
   // y is the base line; size is the height of an em in pixels. Text is UTF-8.

@@ -1,4 +1,4 @@
-// An MP4 made by the program ffmpeg from raw pictures.
+// An MP4 file that ffmpeg makes from raw pictures.
 #pragma once
 #include <optional>
 #include <string>
@@ -11,11 +11,11 @@ namespace erbs::render {
 class Video {
  public:
   Video(std::string path, int width, int height, double fps);
-  ~Video();  // without finish() nothing is left behind
+  ~Video();  // without finish(), no file remains
   Video(const Video&) = delete;
   Video& operator=(const Video&) = delete;
   void add(const Image& image);
-  void finish();  // the file appears under its name when it is whole
+  void finish();  // gives the complete file its name
 
  private:
   std::string path_, unfinished_;

@@ -21,7 +21,7 @@ struct Order {
   std::size_t index;
   double t;
 };
-// Then as many bytes of text, of an Error or of any other trouble.
+// Followed by as many bytes of text: the message of an Error or another exception.
 struct Answer {
   std::size_t text = 0;
   bool users_mistake = false;
@@ -63,7 +63,7 @@ Workers::Workers(std::size_t count, int width, int height, const MotionFrame& li
       openings_(like.opening.size() * sizeof(float)),
       damages_(like.damage.size()),
       pixels_(Image(width, height).rgb.size()) {
-  signal(SIGPIPE, SIG_IGN);  // a process that dies is found by write()
+  signal(SIGPIPE, SIG_IGN);  // write() reports a process that died
   for (std::size_t i = 0; i < count; ++i) {
     Worker w;
     std::array<int, 2> orders{}, answers{};
@@ -74,7 +74,7 @@ Workers::Workers(std::size_t count, int width, int height, const MotionFrame& li
     const pid_t parent = getpid();
     w.pid = fork();
     if (w.pid == 0) {
-      prctl(PR_SET_PDEATHSIG, SIGKILL);  // it draws for nobody else
+      prctl(PR_SET_PDEATHSIG, SIGKILL);  // it must not outlive its parent
       if (getppid() != parent) _exit(1);
       for (const Worker& other : workers_) close(other.orders), close(other.answers);
       close(orders[1]), close(answers[0]);
@@ -96,7 +96,7 @@ Workers::~Workers() {
   }
 }
 
-// The life of a process: it ends when nobody orders any more. Ctrl-C is for the one who orders.
+// Main loop of a drawing process. It ends when its orders end. Only the parent reacts to Ctrl-C.
 void Workers::serve(Worker& w, const std::function<Draw()>& prepare) {
   signal(SIGINT, SIG_IGN);
   signal(SIGTERM, SIG_IGN);
@@ -133,7 +133,7 @@ MotionFrame Workers::get(const Worker& w, double t) const {
 void Workers::order(std::size_t worker, std::size_t index, const MotionFrame& frame) {
   put(workers_[worker], frame);
   const Order order{index, frame.t};
-  send(workers_[worker].orders, &order, sizeof order);  // where nobody reads, collect() tells
+  send(workers_[worker].orders, &order, sizeof order);  // collect() reports a process that no longer reads
 }
 
 Image Workers::collect(std::size_t worker) {

@@ -1,5 +1,5 @@
-// Processes that draw frames side by side. Not threads: llvmpipe lets one thread of a process draw at a time, whatever the number of
-// contexts (50 frames of the house took 11.8 s with one thread and with two).
+// Processes that draw frames in parallel. Threads would not help: llvmpipe lets only one thread of a process draw at a time, with any
+// number of contexts. 50 frames of the house took 11.8 s both with one thread and with two.
 #pragma once
 #include <sys/types.h>
 
@@ -14,15 +14,15 @@ namespace erbs::render {
 class Workers {
  public:
   using Draw = std::function<Image(std::size_t index, const MotionFrame& frame)>;
-  // `prepare` is called in each process and makes what draws there. All frames are as large as `like`.
+  // Each process calls `prepare`, which returns its drawing function. All frames have the size of `like`.
   Workers(std::size_t count, int width, int height, const MotionFrame& like, const std::function<Draw()>& prepare);
-  ~Workers();  // waits for what is being drawn
+  ~Workers();  // waits for frames being drawn
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
   std::size_t count() const { return workers_.size(); }
   void order(std::size_t worker, std::size_t index, const MotionFrame& frame);
-  Image collect(std::size_t worker);  // what was ordered; what was thrown there
+  Image collect(std::size_t worker);  // the picture ordered; rethrows an error of that process
 
  private:
   struct Worker {

@@ -7,11 +7,11 @@ namespace erbs {
 namespace {
 
 constexpr double look_every = 0.25, trial = 0.15;   // s
-constexpr double least_rest = 2, longest_rest = 30;  // s between two trials that came out the same
-// A team that spins at its barriers uses all its processors; what is missing was taken, or slept.
+constexpr double least_rest = 2, longest_rest = 30;  // s between two trials with the same outcome
+// Share of processor time. A team that spins at its barriers uses all its processors; other programs or sleep took the rest.
 constexpr double undisturbed = 0.85;
-constexpr double better = 1.05;  // how much faster another way must be
-constexpr double least_share = 20;  // of the time between two changes over what one costs
+constexpr double better = 1.05;     // required ratio of speeds for a change
+constexpr double least_share = 20;  // least ratio of the time between two changes to the cost of one
 
 double clock_seconds(clockid_t clock) {
   timespec now{};

@@ -29,10 +29,10 @@ std::size_t z(int i) { return std::size_t(i); }
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-// What has been written, so that a resumed run goes on at the same rows.
+// Output written so far, so that a resumed run continues at the same rows.
 struct Clock {
   long rows = 0, frames = 0;
-  long right = 0;  // the last step at which the ledger knew half of what passed through
+  long right = 0;  // last step at which the energy ledger was valid (verdict.h)
   JointEvents joints;
 };
 
@@ -81,7 +81,7 @@ class Run {
   RunOutcome out_;
   bool row_now_ = false, frame_now_ = false;
   double dt_at_start_ = 0;
-  double height_energy_ = 0;  // J, at most given free by a fall of everything to the lowest rest
+  double height_energy_ = 0;  // J, potential energy released if all blocks fell to the lowest centroid
   long steps_at_start_ = 0;
 };
 
@@ -117,7 +117,7 @@ void Run::begin() {
   manifest.departures = options_.departures;
   for (const Effect& e : effects_)
     (e.on ? manifest.effects_on : manifest.effects_off).push_back(e.on ? e.name + " (" + e.because + ")" : e.name);
-  const Recorders wanted(scene_, run_.model);  // finds columns of one name before anything is written
+  const Recorders wanted(scene_, run_.model);  // reports columns of equal names before anything is written
   create_run_folder(options_.directory, options_.existing, script_, manifest);
   if (!out_.lock) out_.lock = std::make_shared<FolderLock>(options_.directory);
   writer_.emplace(options_.directory, scene_, run_.model, resume ? &written : nullptr);
@@ -147,7 +147,7 @@ void Run::begin() {
   solve_start_ = last_save_ = last_progress_ = seconds();
 }
 
-// What does not stand under its own weight has collapsed before the run begins, as far as the share of it makes a collapse.
+// A structure that cannot stand under its own weight has collapsed before the run begins, if the falling share of mass is large enough.
 void Run::watch(const BlockVec3& built) {
   collapse_ = watch_collapse(run_.model, run_.state);
   for (const int b : run_.fallers) collapse_.start[z(b)] = built[z(b)].z();
@@ -156,7 +156,7 @@ void Run::watch(const BlockVec3& built) {
   collapse_.mechanism = mechanism_of(run_.model, run_.state, 0);
 }
 
-// Rows and frames are due at whole multiples of their interval, at the first step at or after it; the end is a row and a frame.
+// Rows and frames are due at whole multiples of their interval, at the first step at or after it. The end is a row and a frame.
 bool Run::wanted(double t) {
   const double slack = 1e-9 * run_.state.dt;
   const bool end = t >= scene_.analysis.duration - 0.5 * run_.state.dt;
@@ -206,7 +206,7 @@ Snapshot Run::snapshot() const {
   return s;
 }
 
-// A joint is broken when no point of it bears tension or cohesion any more; dry joints have none to lose.
+// A joint is broken if none of its points carries tension or cohesion any more. Dry joints have none to lose.
 int Run::broken_joints() {
   int broken = 0;
   for (int j = 0; j < run_.model.njoint; ++j) {
@@ -318,7 +318,7 @@ RunSoFar Run::so_far() const {
   return {scene_, run_, collapse_, trust_, clock_.joints.opened, dt_at_start_, height_energy_, options_.allow_unstable};
 }
 
-// Status, exit code and last line follow from what is wrong with the numbers.
+// Status, exit code and last line follow from errors in the numbers.
 void Run::judge() {
   std::string& status = out_.metrics.status;
   out_.trouble = trouble_of(so_far(), status);
@@ -326,7 +326,8 @@ void Run::judge() {
   writer_->log(fmt::format("status {}; {}", status, ledger_line(so_far())));
 }
 
-// To the end, with as many threads as are fast at the moment: another number goes on from the state as a resumed run does.
+// Steps to the end with the number of threads that is fastest at the moment. After a change of that number the run continues from its
+// state, as a resumed run does.
 void Run::step_on() {
   for (bool ended = false; !ended && !solver_->broken();) {
     solver_->run(

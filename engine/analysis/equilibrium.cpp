@@ -22,18 +22,18 @@ VecX applied(const Model& m, const Freedom& f, const std::vector<double>& push) 
   return out;
 }
 
-// Islands meet only through what is fixed, so each has its own line search, its own measure of balance and its own end: a block that
-// has to open most of its joint does not hold up the others, nor a slab hide a brick, nor one that falls keep others from resting.
+// Islands interact only through fixed blocks. Each therefore has its own line search, measure of balance and end. A block that opens most
+// of its joint does not delay others. A heavy slab does not hide a brick. A falling island does not keep others from rest.
 struct Island {
   enum class Now : std::uint8_t { sought, found, given_up };
   std::vector<int> blocks;
   double size = 0;        // N, N m: largest load
-  double unbalanced = 0;  // of size
-  double best = 0;        // the least of that so far
-  int stuck = 0;          // steps without a new best
+  double unbalanced = 0;  // relative to size
+  double best = 0;        // the smallest so far
+  int stuck = 0;          // steps without a new smallest
   int worst = -1;         // block
-  double brake = 0;       // share of the sound stiffness put on the diagonal: less and less as the balance comes near
-  // the line search along a step: work = step . residual at `part` of it, falling from `start`; a root lies in (low, high)
+  double brake = 0;       // fraction of the intact stiffness added to the diagonal; decreases as balance approaches
+  // Line search along a step: the work step . residual at fraction `part` falls from `start`; a root lies in (low, high).
   double part = 1, start = 0, low = 0, low_work = 0, high = 0, high_work = 0;
   int side = 0;
   bool settled = true;
@@ -82,8 +82,8 @@ void put_back(State& s, const Pose& from, const Island& island) {
   for (const int b : island.blocks) s.u[z(b)] = from.u[z(b)], s.q[z(b)] = from.q[z(b)];
 }
 
-// Where the search goes next: twice as far while there is work to gain, else into the bracket (regula falsi with the Illinois
-// rule, Dowell and Jarratt 1971), away from its ends.
+// Next fraction of the line search: doubled while work remains, otherwise inside the bracket and away from its ends. Method: regula falsi
+// with the Illinois rule (Dowell and Jarratt 1971).
 void search(Island& i, double work) {
   constexpr double enough = 0.3, farthest = 16;
   if (std::fabs(work) <= enough * i.start || (work > 0 && i.high == 0 && i.part >= farthest)) {
@@ -103,10 +103,10 @@ void search(Island& i, double work) {
   else i.part = i.low + (i.high - i.low) * std::clamp(i.low_work / (i.low_work - i.high_work), 1e-9, 0.9);
 }
 
-constexpr double target = 1e-11, accepted = 1e-8;  // of the largest load of the island
+constexpr double target = 1e-11, accepted = 1e-8;  // relative to the largest load of the island
 constexpr double first_brake = 0.1;
 
-// Newton's method on all islands of a freedom at once.
+// Newton's method on all islands of a `Freedom` at once.
 class Search {
  public:
   Search(const Model& m, State& s, const Freedom& f, const std::vector<double>& push, Linear how)
@@ -119,7 +119,7 @@ class Search {
         trial_{Cold<JointMemory>(z(m.njoint)), {}, {}, std::vector<std::uint8_t>(z(m.njoint), 1)},
         steps_(m, s, f, how) {}
 
-  // False where no step could be found for what is still sought.
+  // False if no step could be found for the islands still sought.
   bool go() {
     residual_ = force_ - internal_force(m_, s_, f_, trial_);
     for (Island& i : islands_) {
@@ -139,7 +139,7 @@ class Search {
     return true;
   }
 
-  // What joints of the islands found have become; the others are as they were.
+  // Stores the joint state of the islands found; other islands return to their start.
   void keep(Equilibrium& out) {
     for (Island& i : islands_)
       if (i.now != Island::Now::found) put_back(s_, before_, i);
@@ -177,7 +177,7 @@ class Search {
     return steps_.cracked(trial_, brake, residual_, step);
   }
 
-  // Each island as far as its own work along the step goes.
+  // Moves each island until its own work along the step is spent.
   void follow(const VecX& step, const Pose& from) {
     const auto work = [&](const Island& i) {
       double sum = 0;
@@ -188,7 +188,7 @@ class Search {
       i.part = 1, i.low = i.high = i.high_work = 0, i.side = 0;
       i.start = i.low_work = work(i);
       i.settled = !i.sought();
-      // Friction can turn the step against the residual: a stronger brake turns it back.
+      // Friction can make the step point against the residual. A stronger brake corrects it.
       if (!(i.start > 0)) i.part = 0, i.settled = true;
     }
     for (int trials = 0; trials < 30; ++trials) {
@@ -200,7 +200,7 @@ class Search {
     }
   }
 
-  // Whether an island has come to its equilibrium, or never will.
+  // Decides whether an island has reached equilibrium or is given up.
   void judge(Island& i, const Pose& from) {
     const double earlier = i.unbalanced;
     balance(f_, residual_, i);
@@ -210,7 +210,7 @@ class Search {
     i.stuck = i.unbalanced < 0.5 * i.best ? 0 : i.stuck + 1;
     if (i.unbalanced <= target) {
       i.now = Island::Now::found;
-    } else if (i.best < accepted && i.stuck > 0) {  // what round-off leaves
+    } else if (i.best < accepted && i.stuck > 0) {  // only round-off remains
       if (i.unbalanced > i.best) put_back(s_, from, i), i.unbalanced = earlier;
       i.now = i.unbalanced < accepted ? Island::Now::found : Island::Now::given_up;
     } else if (i.stuck >= 40 || iterations_ >= 200 || !std::isfinite(i.unbalanced)) {
@@ -233,7 +233,7 @@ class Search {
   std::string why_;
 };
 
-// Of the blocks of one island alone.
+// Degrees of freedom of one island's blocks.
 Freedom freedom_of(const Island& island, int nblock) {
   Freedom f;
   f.first.assign(z(nblock) + 1, -1);
@@ -267,7 +267,7 @@ Equilibrium settle(const Model& m, State& s, const std::vector<double>& push, Li
   const bool whole = all.go();
   all.keep(out);
   if (whole) note_failures(m, all.islands(), "", out);
-  else  // one of them has a tangent that cannot be solved: each on its own
+  else  // one island has a singular tangent: solve each alone
     for (const Island& i : all.islands()) {
       if (i.now == Island::Now::found) continue;
       const Freedom own = freedom_of(i, m.nblock);

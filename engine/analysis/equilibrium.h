@@ -1,4 +1,4 @@
-// Equilibrium under constant loads: how a run starts, so that shaking meets a wall at rest.
+// Static equilibrium under constant loads: the start of a run, so that shaking meets a structure at rest.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -13,21 +13,23 @@ struct Equilibrium {
   bool converged = false;  // all islands
   int iterations = 0;
   double unbalanced = 0;            // largest unbalanced force / largest applied force of its island
-  std::vector<std::uint8_t> found;  // the block's island has come to equilibrium [nblock]
-  int given_up = 0;                 // islands that have not
-  std::string why;                  // of the worst of those
+  std::vector<std::uint8_t> found;  // the block's island is in equilibrium [nblock]
+  int given_up = 0;                 // number of islands without equilibrium
+  std::string why;                  // reason, for the worst of these
 };
 
-// How the linear systems of Newton's method are solved: by sparse factors, or, where those would take more than 100 MiB, by iterations
-// that need no matrix (two_level.h) and fall back on factors where they do not converge.
+// Solution of the linear systems in Newton's method: sparse factors, or matrix-free iterations (two_level.h). `by_size` takes iterations if
+// factors would need more than 100 MiB. Iterations that do not converge fall back on factors.
 enum class Linear { by_size, direct, iterative };
 
-// Newton's method on the joint laws: sparse LDL^T while all joints are sound, LU of the consistent tangent once some open or slide
-// (friction makes it unsymmetric). Each island takes its own part of a step, to where the step's work vanishes: the potential of
-// joints that open is convex, so that this is its lowest point along the step. A part of the sound stiffness, smaller as the
-// balance comes near, brakes blocks that have lost their hold (pseudo-transient continuation, Kelley and Keyes 1998, SIAM J. Numer.
-// Anal. 35, 508). `push` is force and moment on each block besides gravity (6 doubles a block). Blocks that no joint holds to the
-// ground stay where they are. The state holds the equilibrium of each island that has one; the others are as they were.
+// Newton's method on the joint laws. The matrix is factored as sparse LDL^T while all joints are intact. Once a joint opens or slides, the
+// consistent tangent is factored as LU, since friction makes it unsymmetric.
+// Line search: each island takes its own fraction of a step, up to the point where the work of the residual along the step vanishes. The
+// potential of opening joints is convex, so this point is its minimum along the step.
+// A fraction of the intact stiffness brakes blocks that have lost support; it decreases as balance approaches (pseudo-transient
+// continuation, Kelley and Keyes 1998, SIAM J. Numer. Anal. 35, 508).
+// `push` holds force and moment on each block besides gravity (6 doubles a block). Blocks that no joint connects to the ground stay in
+// place. On return the state holds the equilibrium of each island that has one; other islands are unchanged.
 Equilibrium settle(const Model& model, State& state, const std::vector<double>& push, Linear how = Linear::by_size);
 
 }  // namespace erbs

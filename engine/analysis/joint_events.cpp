@@ -10,7 +10,7 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// What was lost where beds of former joints became softer, and where contacts parted, in one row.
+// One row for the energy lost by softening of former joints and by separation of contacts.
 void write_rest(JointEvents& events, double t, const State& state, RunWriter& writer) {
   double rest = state.energy.reset - events.listed;
   for (const HandOver& h : events.handed_since) rest -= h.energy;
@@ -19,7 +19,7 @@ void write_rest(JointEvents& events, double t, const State& state, RunWriter& wr
   events.listed += rest;
 }
 
-// What was set free where contacts took over from joints.
+// Rows for the energy freed by release of joints to contact.
 void write_handed(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer) {
   if (!events.handed_since.empty()) write_rest(events, t, state, writer);
   for (const HandOver& h : events.handed_since) {

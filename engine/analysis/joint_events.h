@@ -1,5 +1,4 @@
-// What happened to joints since the last row, and is still to be written to events.csv: cracks, openings, and row by row what reset_J is
-// made of.
+// Joint events since the last row that are not yet in events.csv: cracks, openings, and the parts of reset_J row by row.
 #pragma once
 #include "engine/record/run_writer.h"
 #include "engine/solve/step.h"
@@ -9,7 +8,7 @@ namespace erbs {
 struct JointEvents {
   double first_crack = -1;  // s
   long opened = 0;
-  double listed = 0;  // J, of reset_J, in rows of events.csv
+  double listed = 0;  // J, part of reset_J listed in events.csv so far
   std::vector<int> cracked_since, opened_since;
   std::vector<HandOver> handed_since;
 };
@@ -25,13 +24,13 @@ void each(E& e, F&& f) {
   f("handed_since", e.handed_since);
 }
 
-// From the solver, which forgets them.
+// Takes the events from the solver, which clears them.
 void take_events(JointEvents& events, Solver& solver);
 
-// All that happened up to t (s), in rows of events.csv.
+// Writes all events up to t (s) as rows of events.csv.
 void write_events(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer);
 
-// The same at the end of a run: of hand-overs only, with all that was lost since the last of them.
+// The same at the end of a run: only releases to contact, and all energy lost since the last of them.
 void write_last_events(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer);
 
 }  // namespace erbs

@@ -22,7 +22,7 @@ std::string lost_blocks(const Model& m, const State& s) {
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (int b = 0; b < m.nblock; ++b) low = std::min(low, up.dot(m.rest[z(b)])), high = std::max(high, up.dot(m.rest[z(b)]));
   int count = 0, first = -1;
-  double farthest = 0;  // m, from the middle of the ground
+  double farthest = 0;  // m, horizontal distance from the centre of the ground
   for (int b = 0; b < m.nblock; ++b) {
     if (m.kind[z(b)] != Kind::moving || !(up.dot(m.rest[z(b)] + s.u[z(b)]) < low - (high - low))) continue;
     if (first < 0) first = b;

@@ -1,4 +1,4 @@
-// What a run tells of blocks that have left the scene.
+// Report of blocks that have left the scene.
 #pragma once
 #include <string>
 
@@ -6,7 +6,7 @@
 
 namespace erbs {
 
-// What has come off beyond the ground and falls on for ever; "" where nothing has.
+// Message on blocks that fell past the ground and will fall for ever; "" if there are none.
 std::string lost_blocks(const Model& m, const State& s);
 
 }  // namespace erbs

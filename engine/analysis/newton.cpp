@@ -11,18 +11,20 @@ namespace erbs {
 namespace {
 
 constexpr double most_bytes = 100 * 1048576.0;  // of factors
-// Of one step by iterations. Steps after the first correct what little the joints' turning has changed, and each other.
+// Relative tolerance of one step by iterations. Later steps correct only the small change due to joint rotation, and the error of earlier
+// steps.
 constexpr double first_tolerance = 1e-10, tolerance = 1e-4;
 constexpr int turns = 3000;
-// ... of the tangent where its symmetric part is factored. More turns than these cost as much as factors of the whole.
+// The same for iterations on the tangent with its symmetric part factored. More of these iterations cost as much as factors of the whole
+// matrix.
 constexpr double factored_tolerance = 1e-6;
 constexpr int factored_turns = 60;
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// Tangent of a joint that is no longer sound, by central differences of its law over a small part of what it has moved, so that
-// the difference sees the branch it is on. Not symmetric: friction follows the pressure, and Newton's method without that part
-// goes round in circles on walls that lean. A floor keeps an open joint from vanishing.
+// Tangent of a joint that is not intact, by central differences of its law. The difference step is a small fraction of the joint's
+// movement, so the difference stays on the active branch. The tangent is not symmetric, since friction follows the pressure. Without that
+// part, Newton's method cycles on leaning walls. A floor on the diagonal keeps an open joint from vanishing.
 Mat6 tangent(const Model& m, const State& s, int j, const Trial& trial) {
   const Joint& joint = m.joint[z(j)];
   const double* at = trial.memory[z(j)].q;
@@ -50,7 +52,7 @@ Mat6 tangent(const Model& m, const State& s, int j, const Trial& trial) {
   return k;
 }
 
-// Diagonal of the sound stiffness.
+// Diagonal of the intact stiffness.
 VecX diagonal(const Model& m, const State& s, const Freedom& f) {
   VecX out = VecX::Zero(f.count);
   for (int j = 0; j < m.njoint; ++j) {
@@ -71,7 +73,6 @@ VecX elastic(const JointOperator& joints, const VecX& x) {
 
 }  // namespace
 
-// Internal forces at the present pose, joints answering from the history of `s` to where they are now.
 VecX internal_force(const Model& m, const State& s, const Freedom& f, Trial& trial) {
   VecX out = VecX::Zero(f.count);
   trial.history = s.history;
@@ -97,7 +98,7 @@ VecX internal_force(const Model& m, const State& s, const Freedom& f, Trial& tri
   return out;
 }
 
-// A joint that is no longer sound, in the tangent: what its stiffness is beyond the sound one.
+// A joint in the tangent that is not intact: its stiffness minus the intact stiffness.
 struct NewtonSteps::Change {
   int a, b;  // first degrees of freedom of its blocks
   JointMap map;
@@ -157,8 +158,8 @@ bool NewtonSteps::cracked(const Trial& trial, const VecX& brake, const VecX& res
   return true;
 }
 
-// Friction alone takes the tangent out of symmetry: its symmetric part, factored with a third of the work of the whole and on one pattern
-// throughout, is so near that a few turns of BiCGSTAB do the rest.
+// Only friction makes the tangent unsymmetric. The symmetric part takes a third of the factorisation work and keeps one pattern throughout.
+// It is so close that a few BiCGSTAB iterations suffice.
 bool NewtonSteps::by_symmetric_part(const Sparse& k, const VecX& residual, VecX& step) {
   const Sparse part = 0.5 * (Sparse(k.transpose()) + k);
   if (part.nonZeros() != analysed_) symmetric_.analyzePattern(part);
@@ -169,8 +170,8 @@ bool NewtonSteps::by_symmetric_part(const Sparse& k, const VecX& residual, VecX&
                               residual, factored_tolerance, factored_turns, step);
 }
 
-// Nested dissection of a mesh of n nodes in the plane leaves 31/8 n log2 n numbers (George 1973, SIAM J. Numer. Anal. 10, 345), here
-// 6 x 6 blocks of numbers with their row; before that come the entries of each joint.
+// Nested dissection of a planar mesh of n nodes gives 31/8 n log2 n entries (George 1973, SIAM J. Numer. Anal. 10, 345). Here an entry is a
+// 6 x 6 block of numbers with their row indices. The entries of each joint come on top.
 double NewtonSteps::factor_bytes() const {
   const double n = std::max(2, f_.count / 6);
   return 31.0 / 8 * n * std::log2(n) * 36 * 12 + 144.0 * 16 * m_.njoint;

@@ -1,5 +1,5 @@
-// The linear algebra of Newton's method on the joint laws (equilibrium.h): what the joints answer where their blocks are, and the step that
-// balances a residual.
+// Linear algebra of Newton's method on the joint laws (equilibrium.h): joint forces at the present poses, and the step that balances a
+// residual.
 #pragma once
 #include <optional>
 #include <vector>
@@ -10,24 +10,24 @@
 
 namespace erbs {
 
-// What the joints would remember of the present poses.
+// Joint state that the present poses would leave.
 struct Trial {
-  Cold<JointMemory> memory;  // of those that are not sound
+  Cold<JointMemory> memory;  // of joints that are not intact
   Cold<PointHistory> history;
   Cold<CrushedFace> crushed;
   std::vector<std::uint8_t> sound;
 };
 
-// Internal forces at the present pose, joints answering from the history of `state` to where they are now.
+// Internal forces at the present pose. Each joint law is evaluated from the history in `state` to the present pose.
 VecX internal_force(const Model& model, const State& state, const Freedom& freedom, Trial& trial);
 
-// Steps of Newton's method, by factors of the tangent or without a matrix.
+// Newton steps, with a factored tangent or matrix-free.
 class NewtonSteps {
  public:
   NewtonSteps(const Model& model, const State& state, const Freedom& freedom, Linear how);
-  // All joints sound. False where the structure has a mechanism.
+  // Step with all joints intact. False if the structure has a mechanism.
   bool sound(const VecX& residual, VecX& step);
-  // `brake`: share of the sound stiffness on the diagonal [count]. False where the tangent is singular.
+  // Step with cracked joints. `brake`: fraction of the intact stiffness added to the diagonal [count]. False if the tangent is singular.
   bool cracked(const Trial& trial, const VecX& brake, const VecX& residual, VecX& step);
 
  private:
@@ -44,9 +44,9 @@ class NewtonSteps {
   const bool iterative_;
   SparseLdlt ldlt_;
   bool factored_ = false;
-  SparseLdlt symmetric_;                 // part of the tangent
-  Eigen::Index analysed_ = -1;           // numbers in the pattern that its order was found for
-  std::optional<JointOperator> joints_;  // where they were at the first step
+  SparseLdlt symmetric_;                 // symmetric part of the tangent
+  Eigen::Index analysed_ = -1;           // nonzeros of the pattern its ordering was computed for
+  std::optional<JointOperator> joints_;  // with the joints at their pose of the first step
   std::optional<TwoLevel> near_;
 };
 

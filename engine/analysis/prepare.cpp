@@ -18,8 +18,8 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// A time step for blocks that only meet as debris: a face of the block on a contact spring, sqrt(2 m / K) as for joints, rocking
-// counted by a factor 4 (a thin brick on its face: 1 + 3).
+// Time-step bound for blocks that meet only in contact: the block on the contact spring of one face, sqrt(2 m / K) as for joints. A factor
+// 4 on K covers rocking: 1 + 3 for a thin brick on its face.
 double debris_bound(const Model& m) {
   double bound = std::numeric_limits<double>::infinity();
   for (int b = 0; b < m.nblock; ++b) {
@@ -35,7 +35,8 @@ bool any_moves(const Model& m) { return std::find(m.kind.begin(), m.kind.end(), 
 
 std::string said(const char* rule, double dt, double fraction) { return fmt::format("{} ({:.4g} s x {:.3g})", rule, dt, fraction); }
 
-// Past it the scheme diverges. The literal sweep holds its neighbours: twice the zig-zag modes' room, 2 / omega of the stiffest block.
+// Largest stable time step. In zig-zag modes the neighbours of a block move against it and double omega^2. The literal sequential sweep
+// holds neighbours fixed, so its limit is 2 / omega of the stiffest block alone: sqrt(2) times the block bound.
 double stability_limit(const Analysis& a, const StepBounds& b) {
   return a.solver == "sequential" && a.variant == "literal" ? std::max(b.critical, std::sqrt(2.0) * b.block) : b.critical;
 }
@@ -70,7 +71,7 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
     dt = a.dt_fraction * limit;
     p.dt_rule = said("2 / omega_max of the joined structure", limit, a.dt_fraction);
     const double share = std::max(0.9, a.dt_fraction);
-    constexpr double near = 0.95;  // of the limit: small dashpots of mortar that has cracked leave the step as it is
+    constexpr double near = 0.95;  // fraction of the cracked limit; small dashpots of cracked mortar leave the step unchanged
     if (b.cracked < b.critical && dt <= b.critical && dt > std::max(share, near) * b.cracked) {
       dt = share * b.cracked;
       p.dt_rule = said("2 / omega_max once joints have cracked, stiffer in bending than their points or damped", b.cracked, share);
@@ -103,12 +104,12 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
                     "cracked, which are stiffer in bending than their points or damped; take at most {:.3g} s",
                     dt, b.critical, b.cracked, 0.9 * b.cracked));
   p.state.dt = p.model.dt_most = dt;
-  // A step derived from joints may become what it would be without them, once they are gone.
+  // A step derived from joints may grow to the contact bound once the joints are gone.
   if (a.dt == 0 && jointed && a.solver != "sequential" && a.dt_rule == Analysis{}.dt_rule)
     p.model.dt_most = std::max(dt, a.dt_fraction * debris_bound(p.model));
 }
 
-// The scene's own limit of use: past it the run is refused, for the reason the scene gives.
+// Enforces the scene's own limit of use: a run beyond it is refused with the scene's reason.
 void hold_use_limit(const Scene& scene, const Prepared& p) {
   const UseLimit& use = scene.use_limit;
   if (use.reason.empty()) return;  // the scene states none
@@ -138,7 +139,8 @@ std::vector<double> constant_loads(const Model& m, const State& s) {
   return push;
 }
 
-// What the shapes of contact cannot hold: here and not when the run begins, so that check refuses what run would.
+// Refuses parts that exceed the limits of contact shapes. The check is here, not at the start of a run, so that `check` refuses the same
+// scenes as `run`.
 void check_shapes(const Scene& scene, const Model& m) {
   const auto large = [](const Polyhedron& part) { return part.vertices.size() > most_vertices / 2 || part.faces.size() > most_faces / 2; };
   const bool any =
@@ -157,7 +159,7 @@ void check_shapes(const Scene& scene, const Model& m) {
 
 }  // namespace
 
-// Of n courses on springs k, each of mass m: n (n + 1) / 2 m g / k, where the block bound of the step tells k / m = 2 / dt^2.
+// Settlement of n courses of mass m on springs k: n (n + 1) / 2 m g / k. The block bound of the time step gives k / m = 2 / dt^2.
 double settlement_of(const Model& m, double block_bound) {
   const double g = m.gravity.norm();
   if (!std::isfinite(block_bound)) block_bound = debris_bound(m);
@@ -189,13 +191,13 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
 
 namespace {
 
-constexpr double ramp_seconds = 0.2, ramp_limit = 25;  // s, by default; ramps until what still moves is said not to stand
-// Kinetic energy of a block at rest over the work of its weight along the structure's height. One that slides at 1.001 of its friction
-// goes at 5e-4 m/s against the ramp's damping of 100 1/s, a structure of 1 m is at rest below 4e-4 m/s: what is slower than that falls by
-// less than a tenth of a millimetre in the time of a shock.
+constexpr double ramp_seconds = 0.2, ramp_limit = 25;  // s, default duration of the ramp; ramps until a moving block counts as falling
+// Limit of rest: kinetic energy of a block over the work of its weight along the structure's height. A block under 1.001 times its friction
+// slides at 5e-4 m/s against the ramp's damping of 100 1/s. A structure of 1 m is at rest below 4e-4 m/s. A slower block falls by less than
+// a tenth of a millimetre during a shock.
 constexpr double rest_energy = 1e-8;
 
-// Who is still on his way, and who falls: lower than at the start by half his smallest edge, as Collapse counts it.
+// Blocks that still move, and blocks that fall: lower than at the start by half their smallest edge, the criterion of `Collapse`.
 class Unrest {
  public:
   Unrest(const Model& m, const State& s) : model_(m), state_(s), start_(s.u), down_(m.gravity.normalized()) {
@@ -205,7 +207,7 @@ class Unrest {
       const double at = down_.dot(m.rest[z(b)]), edge = m.smallest_edge[z(b)];
       low = std::min(low, at - edge / 2), high = std::max(high, at + edge / 2);
     }
-    const double g = m.gravity.norm() > 0 ? m.gravity.norm() : standard_g;  // other loads are measured by what gravity would do
+    const double g = m.gravity.norm() > 0 ? m.gravity.norm() : standard_g;  // for loads without gravity, its usual value
     square_ = 2 * rest_energy * g * std::max(0.0, high - low);
   }
   bool falls(int b) const { return down_.dot(state_.u[z(b)] - start_[z(b)]) > 0.5 * model_.smallest_edge[z(b)]; }
@@ -213,7 +215,7 @@ class Unrest {
     const double turning = state_.w[z(b)].dot(state_.spin_momentum[z(b)]) / model_.mass[z(b)];
     return state_.v[z(b)].squaredNorm() + turning > square_;
   }
-  // All that does not fall is at rest.
+  // True if every block that does not fall is at rest.
   bool ended() const {
     for (int b = 0; b < model_.nblock; ++b)
       if (model_.kind[z(b)] == Kind::moving && moves(b) && !falls(b)) return false;
@@ -225,10 +227,10 @@ class Unrest {
   const State& state_;
   const BlockVec3 start_;
   const Vec3 down_;
-  double square_ = 0;  // m2/s2, of the speed below which a block rests
+  double square_ = 0;  // m2/s2, square of the speed below which a block is at rest
 };
 
-// What the ramp must leave as it is: blocks that have their equilibrium already, and joints that hang on nothing else.
+// State that the ramp must not change: blocks already in equilibrium, and joints among such blocks and fixed ones only.
 struct Held {
   std::vector<std::uint8_t> block;  // [nblock], empty for none
   State state;
@@ -247,9 +249,9 @@ struct Held {
   }
 };
 
-// Gravity and the constant loads grow over the ramp, the blocks damped at about the critical value of the lowest mode, which Rayleigh's
-// quotient of the sagging structure gives; then they stay until all that does not fall has come to rest. Written as a ground that falls
-// less and less. Blocks of `held` stay where they are.
+// Ramps gravity and constant loads, then holds them until every block that does not fall is at rest. The blocks are damped at about the
+// critical value of the lowest mode, which Rayleigh's quotient of the sagging structure gives. The ramp acts as a downward ground
+// acceleration that decreases from g to zero. Blocks of `held` stay in place.
 void ramp(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& found, int threads) {
   Model slow = p.model;
   const double time = scene.analysis.ramp_time > 0 ? scene.analysis.ramp_time : ramp_seconds;
@@ -290,7 +292,7 @@ void ramp(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& foun
   p.state.energy = Energy{};
 }
 
-// Blocks that stay where they are in the ramp that the rest still needs: those found, and those that no joint holds to the ground.
+// Blocks to hold during the ramp of the others: those in equilibrium, and those that no joint connects to the ground.
 std::vector<std::uint8_t> kept_still(const Prepared& p) {
   std::vector<std::uint8_t> still = p.equilibrium.found;
   for (int b = 0; b < p.model.nblock; ++b) still[z(b)] = still[z(b)] || !p.state.grounded[z(b)];
@@ -311,7 +313,7 @@ void warn_of_fallers(Prepared& p) {
 void start_at_rest(const Scene& scene, Prepared& p, int threads) {
   const bool loaded = p.model.gravity.norm() > 0 || !p.model.pushes.empty();
   if (scene.analysis.start == "equilibrium" && loaded && p.model.njoint > 0) {
-    for (int turn = 0; turn < 3; ++turn) {  // arms of the loads turn with their blocks
+    for (int turn = 0; turn < 3; ++turn) {  // arms of the loads rotate with their blocks
       p.equilibrium = settle(p.model, p.state, constant_loads(p.model, p.state));
       if (p.model.pushes.empty()) break;
     }

@@ -8,7 +8,7 @@ void check_departures(const std::string& directory, const std::vector<std::strin
   std::vector<std::string> before;
   try {
     before = read_manifest(directory).departures;
-  } catch (const std::exception&) { return; }  // damaged: the checkpoint knows as well
+  } catch (const std::exception&) { return; }  // damaged; the checkpoint holds them too
   if (before == departures) return;
   const auto words = [](const std::vector<std::string>& list) { return list.empty() ? "none" : fmt::format("{}", fmt::join(list, " ")); };
   throw Error(fmt::format("the run in \"{}\" was started with other options: {}; now they are: {}. Resume with those of the run, or start anew "

@@ -1,4 +1,4 @@
-// Whether a checkpoint is of the run that is to go on from it.
+// Checks that a checkpoint belongs to the run that resumes from it.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,13 +7,13 @@
 
 namespace erbs {
 
-// Error where the run in the folder was started with other words than `departures`, as far as its manifest.json says.
+// Error if the run in the folder was started with overrides other than `departures`, as far as its manifest.json says.
 void check_departures(const std::string& directory, const std::vector<std::string>& departures);
 
-// How many blocks, joints and points a state is of, and what else follows from the model.
+// Numbers of blocks, joints and points in a state, and all other sizes that follow from the model.
 std::vector<std::size_t> sizes_of(const State& state);
 
-// Error where a state that was read has other sizes than the one built from the scene.
+// Error if a state read from a checkpoint has other sizes than the state built from the scene.
 void check_sizes(const std::string& directory, const std::vector<std::size_t>& built, const State& read);
 
 }  // namespace erbs

@@ -12,7 +12,7 @@ struct Phase {
   double theta, spin;
 };
 
-// One arch: s is the sign of theta, and stays for the whole step.
+// Equation of motion over one arch: s is the sign of theta, constant during a step.
 class Equation {
  public:
   Equation(const RockingBlock& block, const RockingLoad& load) : b_(block), load_(load) {}
@@ -22,7 +22,7 @@ class Equation {
     const double left = s * b_.alpha - y.theta, a = ground(t);
     return {y.spin, -b_.p * b_.p * (b_.linear ? left + a : std::sin(left) + a * std::cos(left))};
   }
-  // Free rocking: what is missing to pass over the edge, over p^2 (negative: it will fall back).
+  // Free rocking: energy in excess of the energy needed to pass over the edge, over p^2. Negative: the block will fall back.
   double beyond_edge(Phase y) const {
     const double left = b_.alpha - std::fabs(y.theta), kinetic = 0.5 * y.spin * y.spin / (b_.p * b_.p);
     return b_.linear ? kinetic - 0.5 * left * left : kinetic + std::cos(left) - 1;
@@ -30,15 +30,15 @@ class Equation {
 
  private:
   const RockingBlock& b_;
-  const RockingLoad load_;  // callers hand over one of their making
+  const RockingLoad load_;  // a copy: callers pass temporaries
 };
 
 struct Trial {
   Phase y;
-  double error;  // of one step, in parts of the tolerance
+  double error;  // of one step, relative to the tolerance
 };
 
-// Dormand and Prince 1980, J. Comp. Appl. Math. 6, 19, Table 2: order 5 with an embedded order 4.
+// One step of order 5 with an embedded order 4 (Dormand and Prince 1980, J. Comp. Appl. Math. 6, 19, Table 2).
 Trial attempt(const Equation& f, double t, Phase y, double s, double h, double theta_scale, double spin_scale) {
   static constexpr double a[6][6] = {{1. / 5},
                                      {3. / 40, 9. / 40},
@@ -61,7 +61,7 @@ Trial attempt(const Equation& f, double t, Phase y, double s, double h, double t
   return {next, std::max(std::fabs(theta) / theta_scale, std::fabs(spin) / spin_scale)};
 }
 
-// Longest time over which the wave cannot do what a step would not notice.
+// Longest step that cannot miss a feature of the wave.
 double resolution(const Wave& wave) {
   struct Visitor {
     double operator()(const Sine& w) const { return 0.02 / w.frequency; }
@@ -79,7 +79,7 @@ double resolution(const Wave& wave) {
   return std::visit(Visitor{}, wave);
 }
 
-// Root of f between low and high, where its sign differs: regula falsi after Dowell and Jarratt 1971 ("Illinois").
+// Root of f between low and high, where f has opposite signs: regula falsi after Dowell and Jarratt 1971 ("Illinois").
 template <class F>
 double root(F f, double low, double high) {
   double f_low = f(low), f_high = f(high);
@@ -129,7 +129,7 @@ class Rocker {
     out_.spin.push_back(y_.spin);
   }
 
-  // From rest to the instant the ground's acceleration passes the threshold; false where it never does.
+  // Moves from rest to the instant the ground acceleration exceeds the threshold; false if it never does.
   bool lift_off() {
     const auto over = [&](double t) { return std::fabs(f_.ground(t)) - f_.uplift(); };
     double before = t_;
@@ -138,7 +138,7 @@ class Rocker {
       before = t_;
       t_ = std::min(t_ + longest_, duration_);
     }
-    if (t_ > before) {  // halves, since it may jump
+    if (t_ > before) {  // bisection, since the acceleration may jump
       double low = before, high = t_;
       for (int i = 0; i < 60; ++i) (over(0.5 * (low + high)) > 0 ? high : low) = 0.5 * (low + high);
       t_ = high;
@@ -151,7 +151,7 @@ class Rocker {
     return true;
   }
 
-  // The load has ended: either the energy does not reach over the edge, or the block is on its way over it.
+  // Decides after the end of the load: either the energy is too small to pass over the edge, or the block is passing over it.
   bool decided() {
     const bool inside = std::fabs(y_.theta)<b_.alpha, outwards = y_.theta * y_.spin> 0, enough = f_.beyond_edge(y_) > 0;
     if ((outwards && enough) || (!inside && !enough)) {
@@ -165,7 +165,7 @@ class Rocker {
     const double tolerance = verdict_only_ ? 1e-9 : 1e-11;
     const double theta_scale = tolerance * b_.alpha, spin_scale = tolerance * b_.alpha * b_.p;
     h_ = std::min({h_ > 0 ? h_ : 1e-3 * longest_, longest_, duration_ - t_});
-    if (t_ < load_end_ && load_end_ < t_ + h_) h_ = load_end_ - t_;  // a kink or a jump
+    if (t_ < load_end_ && load_end_ < t_ + h_) h_ = load_end_ - t_;  // the load may have a kink or jump there
     Trial trial = attempt(f_, t_, y_, s_, h_, theta_scale, spin_scale);
     while (trial.error > 1 && h_ > 1e-9 * longest_) {
       h_ *= std::max(0.2, 0.9 * std::pow(trial.error, -0.2));
@@ -227,13 +227,13 @@ class Rocker {
 
 struct Verdict {
   bool overturned;
-  int impacts;  // before it fell; 0 where it stands
+  int impacts;  // before overturning; 0 if the block stands
   bool operator==(const Verdict&) const = default;
 };
 
 Verdict verdict(const RockingBlock& block, const Wave& wave, double factor, Criterion criterion, double duration) {
   if (criterion == Criterion::alpha_at_end) {
-    // Taken at the end of the wave, or earlier where the block has fallen by then.
+    // Evaluated at the end of the wave, or earlier if the block has overturned by then.
     Rocker rocker(block, {&wave, factor}, end_time(wave), true);
     const RockingRun run = rocker.run({});
     const bool there = std::fabs(rocker.phase().theta) >= block.alpha;
@@ -274,7 +274,7 @@ std::vector<OverturningBand> overturning_bands(const RockingBlock& block, const 
   for (int i = 1; i <= points; ++i) {
     const double factor = low + (high - low) * i / points;
     const Verdict now = at(factor);
-    for (int inside = 0; !(now == last) && inside < 20; ++inside) {  // each change between the two
+    for (int inside = 0; !(now == last) && inside < 20; ++inside) {  // finds each change between the two factors
       double a = before, b = factor;
       Verdict upper = now;
       while (b - a > 1e-9 * b) {

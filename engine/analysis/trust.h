@@ -1,4 +1,4 @@
-// What a run tells about itself while it goes, so that its user knows how far to trust it.
+// Diagnostics of a running simulation, which tell its user how far to trust the results.
 #pragma once
 #include <string>
 #include <type_traits>
@@ -11,12 +11,12 @@
 namespace erbs {
 
 struct TrustWatch {
-  double residual = 0, residual_time = 0;          // worst relative residual of the energy ledger, and when (s)
-  int residual_joint = -1;                         // whose own balance jumped most up to then
-  double dt_margin = 0;                            // largest step over the limit then in force
-  double deepest = 0;                              // relative penetration at the last look
-  long warned = 0, looked = 0;                     // steps; at the last look
-  long past_gate = 0, sinking = 0;         // of the warned steps, by what they were warned of
+  double residual = 0, residual_time = 0;  // worst relative residual of the energy ledger, and its time (s)
+  int residual_joint = -1;                 // joint whose energy balance jumped most up to then
+  double dt_margin = 0;                    // largest ratio of a time step to the limit then in force
+  double deepest = 0;                      // relative penetration at the last update
+  long warned = 0, looked = 0;             // warned steps; step of the last update
+  long past_gate = 0, sinking = 0;         // warned steps, by cause
   LongSteps past_step;
 };
 
@@ -35,12 +35,13 @@ void each(T& t, F&& f) {
   f("trust_sinking", t.sinking);
 }
 
-// Whether steps that were too long were too many and too long to believe what came of them.
+// True if too many steps exceeded the stability limit by too much for the results to be believed.
 bool stepped_too_far(const TrustWatch& watch, const State& state);
 
-// A look, after every settling of the ledger. `allowed`: s, the limit on the step now (infinite where nothing is joined or touches);
-// `past`: the steps since the last look that what touched bore no more. The steps since the last look count as warned where the residual is
-// past `gate` or blocks sink deeper into each other beyond a hundredth of their smallest edge; else those past their limit.
+// Updates the diagnostics; called after every settlement of the energy ledger. `allowed`: s, the present stability limit; infinite if
+// nothing is joined or touches. `past`: steps since the last update that exceeded the limit of the contacts.
+// All steps since the last update count as warned if the residual exceeds `gate`, or if penetration grows beyond a hundredth of the
+// smallest edge. Otherwise only the steps beyond their limit count.
 void look(TrustWatch& watch, const State& state, double allowed, double gate, LongSteps past = {});
 
 Metrics::Trust trust_of(const TrustWatch& watch, const Model& model, const State& state);

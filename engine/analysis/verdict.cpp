@@ -8,10 +8,10 @@
 namespace erbs {
 namespace {
 
-constexpr long wrong_steps = 512;        // that a run goes on with a ledger that has lost half of what passed; ...
-constexpr long negative_steps = 160000;  // ... with a kinetic energy below zero, as modes at the limit of the step have it
+constexpr long wrong_steps = 512;        // allowed duration of a ledger that misses half of the energy passed
+constexpr long negative_steps = 160000;  // allowed duration of negative kinetic energy, typical of modes at the stability limit
 
-// To one digit, downwards.
+// Rounded down to one digit.
 std::string step_of(double wanted) {
   const double x = std::min(0.9, wanted), digit = std::pow(10, std::floor(std::log10(x)));
   return fmt::format("--dt-fraction {:.1g}", digit * std::floor(x / digit + 1e-9));
@@ -39,13 +39,14 @@ bool diverges(const RunSoFar& r, long& right) {
   const Energy& e = s.energy;
   if (!std::isfinite(e.residual)) return true;
   const double passed = e.absolute_work + 0.5 * e.height_flux + std::fabs(e.start);
-  // The sequential scheme's ledger is open; but no more can move than has come in and all heights can give, in a structure that has any.
+  // The ledger of the sequential scheme does not close. Even so, kinetic energy cannot exceed the energy supplied plus the potential energy
+  // of all heights, if there are any.
   if (growth_allowed(r.scene)) return r.height_energy > 0 && e.kinetic > 2 * (passed + r.height_energy);
-  // Past its limit explicit damping feeds the motion while the ledger closes; its velocities change sign in every step, so that
-  // T = v- m v+ / 2 is negative.
+  // Beyond its stability limit, explicit damping feeds the motion while the ledger closes. Velocities then change sign in every step, so
+  // that T = v- m v+ / 2 is negative.
   const bool lost = e.residual_relative > std::max(0.5, r.scene.analysis.energy_gate), wrong = lost || e.kinetic < 0;
   if (!wrong) right = s.step;
-  // Where a few light blocks alone are past their limit their joints crack and hold the growth back: it ends by its length.
+  // If only a few light blocks exceed their limit, their joints crack and stop the growth. The duration of the error then ends the run.
   return wrong && ((std::fabs(e.kinetic) > 1e3 * passed && s.step > 64) || s.step - right > (lost ? wrong_steps : negative_steps));
 }
 
@@ -58,7 +59,7 @@ std::string trouble_of(const RunSoFar& r, const std::string& status) {
     return fmt::format("the numbers diverged at t = {:.6g} s (dt = {:.4g} s, limit {:.4g} s); nothing after that is to be trusted; take {}",
                        r.run.state.t, r.run.state.dt, r.run.bounds.critical, step_of(share > 1 ? 0.9 : share / 3));
   if (e.residual_worst > gate && !growth_allowed(r.scene)) {
-    // The ledger of what is smooth errs by the square of the step; friction that flutters and joints that chatter want their dashpots.
+    // The residual of smooth motion falls with the square of the step. Fluttering friction and chattering joints need dashpots instead.
     const double smooth = 0.8 * std::sqrt(gate / e.residual_worst);
     const bool undamped = std::any_of(model.laws.begin(), model.laws.end(), [](const PointLaw& l) { return l.damping < 0.1; });
     return fmt::format(

@@ -1,4 +1,4 @@
-// Whether the numbers of a run are to be believed: its gate of energy, whether it diverges, and what is wrong once it has ended.
+// Verdict on the results of a run: energy tolerance, divergence, and the errors found at its end.
 #pragma once
 #include <string>
 
@@ -8,33 +8,33 @@
 
 namespace erbs {
 
-// What a verdict reads of a run.
+// The part of a run that a verdict uses.
 struct RunSoFar {
   const Scene& scene;
   const Prepared& run;
   const Collapse& collapse;
   const TrustWatch& trust;
-  long opened = 0;           // joints that have gone over to contact
+  long opened = 0;           // number of joints released to contact
   double dt_at_start = 0;    // s
-  double height_energy = 0;  // J, at most given free by a fall of everything to the lowest rest
+  double height_energy = 0;  // J, potential energy released if all blocks fell to the lowest centroid
   bool allow_unstable = false;
 };
 
-// Most of the relative residual of the ledger: 1e-6 while all is elastic, 1e-3 with cracks, friction and contacts, 1e-2 once blocks have
-// come loose or fallen; or as the scene says.
+// Energy tolerance: largest accepted relative residual of the ledger, unless the scene gives one. 1e-6 while all is elastic, 1e-3 with
+// cracks, friction and contacts, 1e-2 after blocks have come loose or fallen.
 double energy_gate(const RunSoFar& so_far);
 
-// A sequential scheme feeds energy at any dt: a study of it says unstable = true, and only numbers that break end the run.
+// A sequential scheme feeds energy at any dt. A study of it says unstable = true, and then only invalid numbers end the run.
 bool growth_allowed(const Scene& scene);
 
-// Whether nothing that the run may still do can be of use. `right`: the last step at which the ledger knew half of what passed through;
-// brought up to date.
+// True if the rest of the run would be useless. `right` is the last step with a valid ledger: less than half of the energy passed is
+// missing, and kinetic energy is not negative. The call updates it.
 bool diverges(const RunSoFar& so_far, long& right);
 
-// What is wrong with the numbers of a run that ended as `status` says, and the knob that cures it; empty where nothing is.
+// Error in the numbers of a run that ended with `status`, and the setting that cures it; empty if there is none.
 std::string trouble_of(const RunSoFar& so_far, const std::string& status);
 
-// "energy residual ..., largest step ..., where": for log.txt.
+// "energy residual ..., largest step ..., joint", for log.txt.
 std::string ledger_line(const RunSoFar& so_far);
 
 }  // namespace erbs

@@ -17,7 +17,7 @@ std::size_t ArchiveIn::head(std::string_view name, std::uint64_t size) {
   get(numbers, sizeof numbers);
   if (numbers[0] != fnv1a(name) || numbers[1] != size)
     throw Error(fmt::format("written by another version of the program (at \"{}\"); start anew with --force", name), {file_, 0});
-  // Each item takes at least its own bytes, or a head.
+  // Each item takes at least its own bytes, or one head.
   if (numbers[2] > left_ / std::max<std::uint64_t>(size, 1))
     throw Error(fmt::format("damaged: \"{}\" is longer than the file; start anew with --force", name), {file_, 0});
   return std::size_t(numbers[2]);

@@ -1,7 +1,8 @@
-// Turns named members into bytes and back, through the same visitor: each(thing, archive) calls archive(name, member [, part]),
-// or archive(member) where a name would say nothing. A member without a part has that of the thing it belongs to.
-// Takes numbers, enums, Eigen's small vectors, plain structs (by bytes), strings, vectors of these, and structs that have an
-// each() of their own. Names and element sizes are written too, so that a changed layout is refused and not misread.
+// Converts named members to bytes and back; one visitor serves both directions.
+// `each(thing, archive)` calls `archive(name, member [, part])`, or `archive(member)` where a name would add nothing.
+// A member without a `Part` takes that of its enclosing struct.
+// Supported: numbers, enums, small Eigen vectors, plain structs (as bytes), strings, vectors of these, and structs with their own `each()`.
+// Names and element sizes are written too, so a changed layout is refused rather than misread.
 #pragma once
 #include <cstdint>
 #include <cstring>
@@ -29,7 +30,7 @@ inline constexpr bool is_small_eigen = std::is_same_v<T, Vec3> || std::is_same_v
 template <class T>
 inline constexpr bool is_plain = std::is_trivially_copyable_v<T> || is_small_eigen<T>;
 
-// Visitors that were written for reading take a non-const thing; those below only look.
+// Visitors written for reading take a non-const object; the archives below only read it.
 template <class T, class F>
 void visit_each(const T& value, F&& f) {
   each(const_cast<T&>(value), f);
@@ -37,7 +38,7 @@ void visit_each(const T& value, F&& f) {
 
 class ArchiveOut {
  public:
-  // The bytes go to `sink` piece by piece.
+  // `sink` receives the bytes in pieces.
   explicit ArchiveOut(std::function<void(std::string_view)> sink) : sink_(std::move(sink)) {}
 
   template <class T>
@@ -79,7 +80,7 @@ class ArchiveOut {
 
 class ArchiveIn {
  public:
-  // `size` bytes of a stream, from where it is.
+  // Reads `size` bytes of a stream, starting at its current position.
   ArchiveIn(std::istream& in, std::uint64_t size, std::string file) : in_(in), left_(size), file_(std::move(file)) {}
 
   template <class T>
@@ -101,7 +102,7 @@ class ArchiveIn {
       each(value, *this);
     }
   }
-  void finish() const;  // Error where bytes are left over
+  void finish() const;  // Error if bytes are left over
 
  private:
   template <class T>
@@ -119,16 +120,16 @@ class ArchiveIn {
       for (T& v : values) (*this)("item", v);
     }
   }
-  std::size_t head(std::string_view name, std::uint64_t size);  // the count
+  std::size_t head(std::string_view name, std::uint64_t size);  // returns the count
   void expect_head(std::string_view name, std::uint64_t size, std::uint64_t count);
   void get(void* data, std::size_t size);
-  void get_cold(void* zeros, std::size_t size);  // zeros are not written
+  void get_cold(void* zeros, std::size_t size);  // writes only pages that hold a nonzero byte, so pages of zeros stay untouched
   std::istream& in_;
   std::uint64_t left_;
   std::string file_;
 };
 
-// FNV-1a over what is the run's result: members visited as motion or history.
+// FNV-1a hash of the run's result: members marked as motion or history.
 class ResultHash {
  public:
   std::uint64_t value = 0xcbf29ce484222325u;
@@ -137,7 +138,7 @@ class ResultHash {
   void operator()(const T& member) {
     (*this)("member", member, outer_);
   }
-  // A member without a word of its own counts as the thing it belongs to.
+  // A member without its own `Part` takes that of its enclosing struct.
   template <class T>
   void operator()(std::string_view name, const T& member) {
     (*this)(name, member, outer_);
@@ -164,7 +165,7 @@ class ResultHash {
 
  private:
   void add(const void* data, std::size_t size);
-  Part outer_ = Part::carried;  // of the thing being visited
+  Part outer_ = Part::carried;  // of the struct being visited
 };
 
 }  // namespace erbs

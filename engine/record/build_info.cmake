@@ -1,4 +1,4 @@
-# Writes build_info.cpp, only when it changes, at every build: a commit without a new configure must show.
+# Writes build_info.cpp at every build, and only if its content changes. A new commit thus shows without a new configure.
 # -D source= root of the tree  -D output= file to write  -D version= -D compiler=
 set(hash unknown)
 find_program(GIT git)

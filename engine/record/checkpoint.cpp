@@ -14,10 +14,10 @@
 namespace erbs {
 namespace {
 
-// The file: this head, then the bytes, then FNV-1a of both.
+// Layout of the file: this head, the content, then the FNV-1a hash of both.
 struct Head {
   char magic[8] = {'E', 'R', 'B', 'S', 'C', 'K', 'P', 'T'};
-  std::uint64_t format = 3;  // raised when the meaning of the bytes changes and their names and sizes do not
+  std::uint64_t format = 3;  // raised if the meaning of the bytes changes while their names and sizes do not
   std::uint64_t scene = 0;
   double dt = 0;
   std::uint64_t departures = 0;
@@ -33,7 +33,7 @@ std::string path_of(const std::string& dir) { return dir + "/checkpoint.bin"; }
   throw WriteError(fmt::format("{}: {}{}", what, why, before ? "; a checkpoint before it is intact" : ""), {path, 0});
 }
 
-// Closes what it opened, whatever happens.
+// Closes the file it opened, on every way out.
 struct Descriptor {
   int fd;
   ~Descriptor() {
@@ -41,7 +41,7 @@ struct Descriptor {
   }
 };
 
-// A file and the FNV-1a of what has been written to it.
+// A file, and the FNV-1a hash of the bytes written to it.
 class SummedFile {
  public:
   explicit SummedFile(const std::string& path) : path_(path), file_{::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)} {
@@ -84,7 +84,7 @@ std::string_view bytes_of(const T& item) {
   return {reinterpret_cast<const char*>(&item), sizeof item};
 }
 
-// Feeds numbers and words to FNV-1a; lengths too, so that "ab","c" differs from "a","bc".
+// Feeds numbers and strings to FNV-1a. Lengths are fed too, so that "ab","c" differs from "a","bc".
 struct Feed {
   std::uint64_t value = fnv1a("");
   void operator()(std::string_view text) {
@@ -102,7 +102,7 @@ struct Feed {
 std::uint64_t scene_hash(const Scene& scene, const std::string& script) {
   Feed feed;
   feed(script);
-  // Their paths may change: the same folder moved elsewhere, or named from another one; and so their order.
+  // Paths are left out, and hashes are sorted: the same folder may be moved, or be named from another folder.
   std::vector<std::string> inputs;
   for (const auto& [path, hash] : scene.inputs) inputs.push_back(hash);
   std::sort(inputs.begin(), inputs.end());
@@ -143,7 +143,7 @@ void commit_checkpoint(const std::string& dir, const CheckpointKey& key, const s
     std::remove(beside.c_str());
     throw;
   }
-  // The folder too: the new name must survive a power cut.
+  // The folder is synchronised too: the new name must survive a power cut.
   const Descriptor folder{::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)};
   if (folder.fd >= 0) ::fsync(folder.fd);
 }

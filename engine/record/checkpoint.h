@@ -1,5 +1,6 @@
-// checkpoint.bin: all that is needed to go on as if nothing had happened. Written beside and renamed, so that there is always one
-// whole checkpoint; read back only for the same scene, parameters and step, and only if its checksum holds.
+// checkpoint.bin: the complete state of a run, from which it continues bit for bit.
+// A new checkpoint is written to a temporary file and then renamed, so one whole checkpoint always exists.
+// It is read only for the same scene, parameters and time step, and only if its checksum holds.
 #pragma once
 #include <cstdint>
 #include <fstream>
@@ -11,28 +12,29 @@
 
 namespace erbs {
 
-// What a checkpoint belongs to. Another key is refused.
+// The run a checkpoint belongs to. A checkpoint with another key is refused.
 struct CheckpointKey {
   std::uint64_t scene = 0;  // scene_hash
   double dt = 0;            // s, chosen at the start of the run
-  std::uint64_t departures = 0;  // of the words of the command line by which the run departs from its scene
+  std::uint64_t departures = 0;  // hash of the command-line overrides of the scene
 };
 
-// Script, files read, parameters, and all that the blocks are made of.
+// Hash of the script, the files it reads, the parameters, and every property of the blocks.
 std::uint64_t scene_hash(const Scene& scene, const std::string& script);
 
 bool has_checkpoint(const std::string& dir);
-// `parts` gives its bytes to the archive, the same ones each time: they are counted first, then written. They never stand in memory.
+// `parts` gives its bytes to the archive. It is called twice, first to count the bytes and then to write them, and must give the same bytes
+// each time. The bytes are never all in memory.
 void commit_checkpoint(const std::string& dir, const CheckpointKey& key, const std::function<void(ArchiveOut&)>& parts);
-// A whole checkpoint whose bytes are `size` from where `in` is. Error with reason and remedy.
+// A validated checkpoint: its content is the `size` bytes from the position of `in`. Otherwise Error with reason and remedy.
 struct CheckpointBytes {
   std::ifstream in;
   std::uint64_t size = 0;
 };
 CheckpointBytes open_checkpoint(const std::string& dir, const CheckpointKey& key);
 
-// Each part is a struct with an each() visitor: State, the contacts, WriterProgress, Collapse, ...; same parts in the same order
-// when read.
+// Each part is a struct with an `each()` visitor: `State`, the contacts, `WriterProgress`, `Collapse`, ... Reading must name the same parts
+// in the same order.
 template <class... Parts>
 void write_checkpoint(const std::string& dir, const CheckpointKey& key, const Parts&... parts) {
   commit_checkpoint(dir, key, [&](ArchiveOut& out) { (visit_each(parts, out), ...); });
@@ -46,8 +48,8 @@ void read_checkpoint(const std::string& dir, const CheckpointKey& key, Parts&...
   in.finish();
 }
 
-// 16 hex digits over positions, velocities and histories of the parts, in fixed order. Equal for any thread count, and for a run
-// against the same run stopped and resumed.
+// 16 hex digits: hash of positions, velocities and histories of the parts, in fixed order. The hash is equal for any thread count, and for
+// a run that was stopped and resumed.
 template <class... Parts>
 std::string state_hash(const Parts&... parts) {
   ResultHash hash;

@@ -49,7 +49,7 @@ std::optional<std::array<double, 2>> collapse_direction(const Collapse& collapse
     lengths += horizontal.norm();
   }
   const double length = sum.norm();
-  // The number of blocks cancels: |mean| < 0.1 mean |.|. Written so that a NaN is no direction either.
+  // |sum| < 0.1 sum of lengths is |mean| < 0.1 mean length, since the number of blocks cancels. The negated form makes a NaN no direction.
   if (!(length > 0) || !(length >= 0.1 * lengths)) return std::nullopt;
   return std::array<double, 2>{sum.x() / length, sum.y() / length};
 }

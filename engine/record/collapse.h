@@ -1,5 +1,5 @@
-// Who has fallen, and when it is a collapse. A block has fallen when its centre is lower than at the start by more than half its
-// smallest edge (relative to the ground).
+// Criterion of collapse. A block has fallen if its centroid is lower than at the start, relative to the ground, by more than half its
+// smallest edge. The structure has collapsed if the fallen share of the moving mass reaches `Analysis::collapse_fraction`.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -14,14 +14,14 @@
 namespace erbs {
 
 struct Collapse {
-  std::vector<double> start;         // m, height over rest of each centre at the start [nblock]
-  std::vector<std::uint8_t> fallen;  // has ever fallen                                [nblock]
-  double fallen_fraction = 0;        // share of the moving mass that is down now
-  bool collapsed = false;            // the share has reached Analysis::collapse_fraction once
-  double time = 0;                   // s, when it did
-  bool under_gravity = false;        // it did not stand under its own weight to begin with: no shock did that, and at no time
-  bool moved = false;                // a block has come Analysis::stop_when_moved away from rest
-  Mechanism mechanism;               // as it was at the collapse
+  std::vector<double> start;         // m, height of each centroid above rest, at the start [nblock]
+  std::vector<std::uint8_t> fallen;  // the block has fallen at some time [nblock]
+  double fallen_fraction = 0;        // fallen share of the moving mass, now
+  bool collapsed = false;            // the share has once reached Analysis::collapse_fraction
+  double time = 0;                   // s, time of collapse
+  bool under_gravity = false;        // the structure cannot stand under its own weight: no shaking caused the collapse, no time applies
+  bool moved = false;                // a block has moved by Analysis::stop_when_moved from rest
+  Mechanism mechanism;               // at the collapse
 };
 
 template <class C, class F>
@@ -39,12 +39,12 @@ void each(C& c, F&& f) {
 
 Collapse watch_collapse(const Model& model, const State& start);
 
-// Looks at the state at time t. Blocks down for the first time are appended to `newly` where given. Returns true when this is
+// Updates the criterion with the state at time t. Appends blocks that have fallen for the first time to `newly`, if given. Returns true at
 // the moment of collapse.
 bool update(Collapse& collapse, const Model& model, const State& state, double t, std::vector<int>* newly = nullptr);
 
-// Unit mean horizontal displacement (x, y) of the blocks that are down now; none where no block is, or where the length of the
-// mean is below a tenth of the mean length (they fell every way).
+// Mean horizontal displacement (x, y) of the blocks that are down now, as a unit vector. Empty if no block is down. Empty also if the mean
+// vector is shorter than a tenth of the mean length: the blocks fell in all directions.
 std::optional<std::array<double, 2>> collapse_direction(const Collapse& collapse, const Model& model, const State& state);
 
 }  // namespace erbs

@@ -18,7 +18,7 @@
 namespace erbs {
 namespace {
 
-constexpr std::size_t enough = 1 << 16;  // bytes gathered before they are handed over
+constexpr std::size_t enough = 1 << 16;  // bytes collected before one write
 
 std::string read_all(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
@@ -34,7 +34,7 @@ std::string_view trimmed(std::string_view cell) {
   return cell.substr(first, cell.find_last_not_of(" \t\r") - first + 1);
 }
 
-// Cells of one line; a cell in double quotes may hold commas, and quotes written twice.
+// Cells of one line. A cell in double quotes may hold commas, and quotes written twice.
 std::vector<std::string> split(std::string_view line) {
   std::vector<std::string> cells;
   std::string cell;
@@ -63,7 +63,7 @@ std::vector<std::string> split(std::string_view line) {
 }
 
 std::string quote(const std::string& cell) {
-  const std::string plain = for_files(cell);  // one row stays one line
+  const std::string plain = for_files(cell);  // keeps one row on one line
   if (plain.find_first_of(",\"") == std::string::npos) return plain;
   std::string out = "\"";
   for (const char c : plain) {
@@ -119,7 +119,7 @@ CsvWriter::~CsvWriter() {
   if (file_ < 0) return;
   try {
     flush();
-  } catch (const std::exception&) {  // a destructor has nobody to tell; flush() before told already
+  } catch (const std::exception&) {  // a destructor cannot report; an earlier flush() already has
   }
   ::close(file_);
 }
@@ -221,7 +221,7 @@ CsvTable read_csv(const std::string& path) {
     for (std::size_t i = 0; i < cells.size(); ++i) {
       double value = std::nan("");
       const bool word = !number(cells[i], value) || (!table.text[i].empty());
-      // From the first word on a column is text, what came before included.
+      // From the first word on, a column is text; earlier values are converted too.
       if (word && table.text[i].empty())
         for (const double before : table.columns[i]) table.text[i].push_back(std::isnan(before) ? "" : fmt::format("{}", before));
       if (word) table.text[i].push_back(cells[i]);

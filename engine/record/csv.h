@@ -1,4 +1,4 @@
-// Tables of text: one line of names with units, then one line a row, comma separated.
+// Tables as text: one line of column names with units, then one line per row, comma separated.
 #pragma once
 #include <cstdint>
 #include <optional>
@@ -8,25 +8,25 @@
 
 namespace erbs {
 
-// Appends whole lines only, gathered and handed over in one write: a run that is killed leaves no torn row.
+// Collects rows and appends whole lines in one write: a killed run leaves no torn row.
 class CsvWriter {
  public:
   CsvWriter() = default;
-  // Starts the file anew with its line of names.
+  // Starts a new file with the line of column names.
   CsvWriter(const std::string& path, const std::vector<std::string>& names);
-  // Goes on with a file of the same names, of which the first `keep_rows` rows stay. Error where it has fewer, other names, or is not
-  // what sum() was of.
+  // Continues a file with the same names and keeps its first `keep_rows` rows. Error if it has fewer rows, other names, or a hash other
+  // than `sum`.
   CsvWriter(const std::string& path, const std::vector<std::string>& names, long keep_rows, std::optional<std::uint64_t> sum = {});
   ~CsvWriter();
   CsvWriter(CsvWriter&& other) noexcept;
   CsvWriter& operator=(CsvWriter&& other) noexcept;
 
-  void row(const std::vector<double>& values);  // shortest digits that read back to the same double; "nan" where unknown
+  void row(const std::vector<double>& values);  // shortest digits that read back to the same double; "nan" if unknown
   void text_row(const std::vector<std::string>& cells);
-  void flush();  // after this the rows survive the death of the program
-  void sync();   // ... and of the machine
+  void flush();  // afterwards the rows survive the end of the program
+  void sync();   // afterwards the rows survive a failure of the machine
   long rows() const { return rows_; }
-  std::uint64_t sum() const { return sum_; }  // FNV-1a of the file, with the rows that wait
+  std::uint64_t sum() const { return sum_; }  // FNV-1a of the file, rows not yet written included
 
  private:
   void add(const std::string& line);
@@ -39,14 +39,14 @@ class CsvWriter {
 
 struct CsvTable {
   std::vector<std::string> names;              // with units                                  [columns]
-  std::vector<std::vector<double>> columns;    // NaN where a cell is no number               [columns][rows]
-  std::vector<std::vector<std::string>> text;  // only of columns that hold words, else empty [columns][rows]
+  std::vector<std::vector<double>> columns;    // NaN if a cell is no number                  [columns][rows]
+  std::vector<std::vector<std::string>> text;  // of columns with words only, otherwise empty [columns][rows]
   std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
-  int find(std::string_view name) const;                           // -1 where there is none
-  const std::vector<double>& column(std::string_view name) const;  // Error with the nearest name where there is none
+  int find(std::string_view name) const;                           // -1 if there is none
+  const std::vector<double>& column(std::string_view name) const;  // Error with the nearest name if there is none
 };
 
-// A last line without its end (the writer was killed, or is still writing) is left out.
+// Ignores an incomplete last line: the writer was killed or is still writing.
 CsvTable read_csv(const std::string& path);
 
 }  // namespace erbs

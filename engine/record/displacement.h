@@ -1,4 +1,4 @@
-// Motion of blocks: displacement, velocity and acceleration of centroids or material points, rotation and spin.
+// Recorder of block motion: displacement, velocity and acceleration of centroids or material points, rotation and angular velocity.
 #pragma once
 #include <string>
 #include <vector>
@@ -13,7 +13,7 @@ struct BlockMotion {
   std::vector<int> blocks;
   std::string name, axis;
   bool absolute, has_point;
-  Vec3 point;  // m at rest
+  Vec3 point;  // m, position at rest
 
   static std::vector<Quantity> quantities() {
     return {{"displacement", "from rest, mean over the blocks (m)"},

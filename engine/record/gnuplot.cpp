@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Removed when left, however that happens.
+// Removes its file on every way out.
 struct TemporaryFile {
   std::string path;
   ~TemporaryFile() {
@@ -27,8 +27,8 @@ struct TemporaryFile {
   }
 };
 
-// The exit code of `gnuplot ./name` in `folder`, with its standard output and error in files; 127 where there is no gnuplot. No settings
-// of the user or of a file that lies in the folder (-d).
+// Exit code of `gnuplot ./name` in `folder`, with standard output and error in files; 127 if there is no gnuplot. Option -d ignores
+// settings of the user and of files in the folder.
 int start_gnuplot(const std::string& folder, const std::string& name, const std::string& output, const std::string& errors) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
@@ -78,7 +78,7 @@ std::string gnuplot_quoted(std::string_view text) {
   std::string quoted = "'";
   for (const char c : for_files(text)) {
     if (c == '\'') quoted += '\'';
-    else if (c == '>' && quoted.ends_with("]]")) quoted += ' ';  // ends a CDATA section of the SVG
+    else if (c == '>' && quoted.ends_with("]]")) quoted += ' ';  // would end a CDATA section of the SVG
     quoted += c;
   }
   return quoted + "'";

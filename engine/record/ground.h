@@ -1,4 +1,4 @@
-// What the ground does, and counts of the whole model.
+// Recorders of the ground's motion, and of counts over the whole model.
 #pragma once
 #include <string>
 #include <vector>

@@ -36,7 +36,7 @@ hid_t type_of<std::uint8_t>() {
   return H5T_NATIVE_UINT8;
 }
 
-constexpr std::size_t most_cached = 1 << 18;  // bytes of a chunk that is kept while rows are added to it; longer rows fill theirs
+constexpr std::size_t most_cached = 1 << 18;  // bytes of cache for the chunk being filled; a longer row fills its own chunk
 
 Handle property(hid_t kind) { return Handle(H5Pcreate(kind), H5Pclose); }
 Handle space(const Shape& dims, const hsize_t* most = nullptr) {
@@ -83,7 +83,7 @@ Handle string_type(std::size_t width) {
   return type;
 }
 
-// A killed single writer leaves a mark in the file that says it is being written; h5clear's property takes it away.
+// A killed single writer leaves a mark in the file: "being written". The property of h5clear removes it.
 hid_t open_to_extend(const std::string& path, hid_t access) {
   hbool_t clear = 1;
   H5Pset(access, "clear_status_flags", &clear);
@@ -92,8 +92,9 @@ hid_t open_to_extend(const std::string& path, hid_t access) {
 
 hid_t open_to_read(const std::string& path, hid_t access) {
   const hid_t id = H5Fopen(path.c_str(), H5F_ACC_RDONLY, access);
-  // Still being written, or left by a killed writer: readable all the same. What does not fit its sum is read again, as it may be half
-  // written, after twice the time: 30 times take 2 s, the 100 of the library would take for ever where the file is damaged.
+  // The file is still being written, or its writer was killed; single-writer mode reads it in both cases. Metadata whose checksum fails may
+  // be half written, so HDF5 reads it again after twice the time. 30 attempts take 2 s; the library's 100 would take for ever on a damaged
+  // file.
   H5Pset_metadata_read_attempts(access, 30);
   return id >= 0 ? id : H5Fopen(path.c_str(), H5F_ACC_RDONLY | H5F_ACC_SWMR_READ, access);
 }
@@ -113,15 +114,15 @@ Handle::~Handle() {
 }
 
 File::File(std::string path, Mode mode) : path_(std::move(path)) {
-  static const bool no_end = H5dont_atexit() >= 0;  // it would close, and follow, what could not be written
+  static const bool no_end = H5dont_atexit() >= 0;  // at exit HDF5 would access objects that could not be written
   (void)no_end;
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our own messages, not the library's
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // our messages replace the library's
   errno = 0;
   const Handle access = property(H5P_FILE_ACCESS);
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_LATEST, H5F_LIBVER_LATEST);
   if (mode == Mode::create) {
     std::error_code ignored;
-    std::filesystem::remove(path_, ignored);  // a mark left by a killed writer would forbid truncating it
+    std::filesystem::remove(path_, ignored);  // the mark of a killed writer would forbid truncation
     file_ = Handle(H5Fcreate(path_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
     if (!file_.ok()) throw WriteError(fmt::format("the motion file cannot be created{}", why()), {path_, 0});
     return;
@@ -151,7 +152,7 @@ std::vector<T> File::get(const std::string& name) const {
   return data;
 }
 
-// Names are stored with one width, the longest: single-writer mode knows no variable-length data.
+// Names are stored with one width, the longest: single-writer mode has no variable-length data.
 void File::put_names(const std::string& name, const std::vector<std::string>& names) const {
   std::size_t width = 1;
   for (const std::string& n : names) width = std::max(width, n.size());

@@ -1,4 +1,4 @@
-// Arrays in an HDF5 file. h5.cpp is the one door to the library.
+// Arrays in an HDF5 file. Only h5.cpp includes the library.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -7,7 +7,7 @@
 
 namespace erbs::h5 {
 
-// An HDF5 identifier that closes itself.
+// Owns an HDF5 identifier and closes it.
 class Handle {
  public:
   Handle() = default;
@@ -23,7 +23,7 @@ class Handle {
   int (*close_)(std::int64_t) = nullptr;
 };
 
-// A file of named arrays of T = double, float, int, std::uint8_t. Whatever goes wrong is an Error that names the file.
+// A file of named arrays of T = double, float, int or std::uint8_t. Every failure is an Error that names the file.
 class File {
  public:
   enum class Mode { create, read, extend };
@@ -37,7 +37,7 @@ class File {
   std::vector<std::string> get_names(const std::string& name) const;
 
   bool has(const std::string& name) const;
-  void single_writer() const;  // from here on the file stays readable whenever it is flushed; no new arrays
+  void single_writer() const;  // from now on the file is readable after each flush; no new arrays
   void flush() const;
 
   const std::string& path() const { return path_; }
@@ -50,12 +50,12 @@ class File {
   Handle file_;
 };
 
-// An array of T that grows by whole rows of `row` items (its shape is [rows, row...]).
+// An array of T that grows by whole rows of `row` items; its shape is [rows, row...].
 template <class T>
 class Rows {
  public:
-  Rows(const File& file, const std::string& name, std::vector<std::size_t> row, std::size_t rows_per_chunk);  // new
-  Rows(const File& file, const std::string& name);                                                            // there already
+  Rows(const File& file, const std::string& name, std::vector<std::size_t> row, std::size_t rows_per_chunk);  // creates the array
+  Rows(const File& file, const std::string& name);                                                            // opens an existing array
   std::size_t size() const { return rows_; }
   std::size_t row_items() const;
   const std::vector<std::size_t>& row() const { return row_; }

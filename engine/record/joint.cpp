@@ -52,7 +52,7 @@ void JointQuantity::sample(const Snapshot& s, double* out) const {
         const Mat3 frame = joint_frame(s.model, s.state, j);
         const auto a = std::size_t(joint.a), b = std::size_t(joint.b);
         const Vec3 force = frame * Vec3(f[0], f[1], f[2]);
-        // The force acts midway between the two material points that were one at rest (joint_geometry.h).
+        // The force acts midway between the two material points that coincided at rest (joint_geometry.h).
         const Vec3 at = s.model.rest[a] + joint.arm_a +
                         0.5 * (s.state.u[a] + s.state.u[b] + turn_minus(s.state.q[a], joint.arm_a) + turn_minus(s.state.q[b], joint.arm_b));
         normal += f[2];

@@ -1,4 +1,4 @@
-// Joints between two sets of blocks: how far they open and slip, what they carry, how damaged they are.
+// Recorder of joints between two sets of blocks: opening, slip, forces, moment and damage.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -9,13 +9,13 @@
 
 namespace erbs {
 
-// Joints with one side in `blocks` (none given: any) and the other in `others` (none given: any).
+// Joints with one side in `blocks` and the other in `others`; an empty set stands for all blocks.
 struct JointQuantity {
   enum class What { opening, slip, normal_force, shear_force, joint_moment, damage, broken } what;
   std::string name, axis;
   std::vector<int> joints;
-  std::vector<double> sign;  // +1 where side a is in `blocks`, -1 where b is
-  Vec3 centre;               // m at rest, of the joints' area
+  std::vector<double> sign;  // +1 if side a is in `blocks`, -1 if side b is
+  Vec3 centre;               // m, area-weighted centre of the joints at rest
 
   static std::vector<Quantity> quantities() {
     return {{"opening", "largest opening of the joints (m)"},

@@ -1,4 +1,4 @@
-// How a joint looks now: for recorders and pictures, exact at any rotation of its blocks.
+// Current opening, slip and damage of a joint, for recorders and pictures; exact at any rotation of its blocks.
 #pragma once
 #include "engine/base/turn.h"
 #include "engine/model/model.h"
@@ -7,14 +7,14 @@
 namespace erbs {
 
 struct JointLook {
-  double opening = 0;  // m, largest over the corners of the joint (negative: closed all over)
+  double opening = 0;  // m, largest over the corners of the joint; negative: closed everywhere
   double slip = 0;     // m, largest over the corners
-  double damage = 0;   // 0..1, share of the area whose points have any damage; 1 once handed over to contact
+  double damage = 0;   // 0..1, area share of points with any damage; 1 after release to contact
 };
 
 JointLook look_at_joint(const Model& model, const State& state, int j);
 double joint_damage(const Model& model, const State& state, int j);  // JointLook::damage alone
-bool joint_broken(const Model& model, const State& state, int j);  // every point has spent its bond
-Mat3 joint_frame(const Model& model, const State& state, int j);   // columns s, t, n, turned with the mean of its blocks
+bool joint_broken(const Model& model, const State& state, int j);    // every point is debonded, or the joint is released to contact
+Mat3 joint_frame(const Model& model, const State& state, int j);     // columns s, t, n, rotated by the mean rotation of its blocks
 
 }  // namespace erbs

@@ -45,7 +45,7 @@ void write_text_atomically(const std::string& path, std::string_view text) {
 }
 
 void write_json(const std::string& path, const Json& json) {
-  // Names of files and blocks may hold any bytes; those that are no UTF-8 are replaced rather than lost with the whole file.
+  // Names of files and blocks may hold any bytes. Bytes that are not UTF-8 are replaced, so that the file is not lost.
   write_text_atomically(path, json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
 }
 

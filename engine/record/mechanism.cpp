@@ -12,7 +12,7 @@ namespace {
 
 constexpr double share_of_most = 0.1, share_of_size = 1e-3;
 
-// How a joint has moved; `at` is left at the joint's centre where it has no corners.
+// Movement of one joint. A joint without corners keeps a zero movement.
 MovedJoint look(const Model& model, const State& state, int j) {
   const Joint& joint = model.joint[std::size_t(j)];
   const auto a = std::size_t(joint.a), b = std::size_t(joint.b);

@@ -1,4 +1,4 @@
-// The mechanism of a collapse: which joints opened about an edge (hinge), which slid, which parted, told from the poses of their blocks.
+// Collapse mechanism, derived from block poses: which joints opened about an edge (hinge), slid, or parted.
 #pragma once
 #include <string>
 #include <type_traits>
@@ -14,16 +14,16 @@ enum class Movement : std::uint8_t { hinge, slide, part };
 struct MovedJoint {
   int joint = 0;
   Movement kind = Movement::hinge;
-  double opening = 0;   // m, widest gap less the narrowest over the corners
-  double slip = 0;      // m, along the joint where it is closed most
-  double gap = 0;       // m, narrowest gap (zero or less where the joint still touches)
-  double rotation = 0;  // rad, of one block against the other
-  double at[3] = {};    // m, at rest: middle of the edge or corner that is closed most, where a hinge turns
+  double opening = 0;   // m, widest less narrowest gap over the corners
+  double slip = 0;      // m, along the joint at its narrowest gap
+  double gap = 0;       // m, narrowest gap; zero or negative while the joint still touches
+  double rotation = 0;  // rad, of one block relative to the other
+  double at[3] = {};    // m, at rest: centre of the edge or corner with the narrowest gap, the axis of a hinge
 };
 
 struct Mechanism {
-  std::vector<MovedJoint> moved;  // in the order of joints
-  double time = -1;               // s, when it was looked at; negative: never
+  std::vector<MovedJoint> moved;  // in joint order
+  double time = -1;               // s, time of evaluation; negative: never
 };
 
 template <class M, class F>
@@ -33,13 +33,13 @@ void each(M& m, F&& f) {
   f("mechanism_time", m.time);
 }
 
-// Joints that have moved at least by a tenth of the one that has moved most, and by a thousandth of their own size. A joint has parted
-// where its narrowest gap is the largest of the three movements, it is a hinge where its opening is, else it has slid.
+// Selects joints that moved by at least a tenth of the largest movement, and by more than a thousandth of their own size. The largest of
+// three movements gives the kind. Narrowest gap: the joint has parted. Opening: hinge. Otherwise: slide.
 Mechanism mechanism_of(const Model& model, const State& state, double t);
 
 int count(const Mechanism& mechanism, Movement kind);
 
-// "4 hinges: a | b (8.2 deg), ...; 1 slide: c | d (12 mm)", at most `names` names of each kind; "" where nothing moved.
+// "4 hinges: a | b (8.2 deg), ...; 1 slide: c | d (12 mm)", with at most `names` names of each kind; "" if nothing moved.
 std::string summary(const Mechanism& mechanism, const Model& model, int names = 8);
 
 const char* word(Movement kind);

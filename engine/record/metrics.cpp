@@ -156,7 +156,7 @@ Json read_metrics(const std::string& dir) { return read_json(dir + "/metrics.jso
 std::uint64_t peak_memory_bytes() {
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  return std::uint64_t(usage.ru_maxrss) * 1024;  // Linux counts in KiB
+  return std::uint64_t(usage.ru_maxrss) * 1024;  // Linux reports KiB
 }
 
 void return_free_memory() { ::malloc_trim(0); }

@@ -1,4 +1,4 @@
-// metrics.json: the numbers of a run, keys as in the contract. Filled by the analysis, read by scripts and outside checks.
+// metrics.json: the results of a run. The analysis fills it; scripts and external checks read it.
 #pragma once
 #include <array>
 #include <cstdint>
@@ -26,8 +26,8 @@ struct Metrics {
     double total = 0, setup = 0, solve = 0, contact = 0, record = 0;  // s
   } wall_s;
   std::uint64_t point_updates = 0;
-  // realtime_factor = time_s / wall_s.solve and point_updates_per_s = point_updates / wall_s.solve are derived when written,
-  // from what this call of the program did (a resumed run simulated less than time_s).
+  // Derived on writing: realtime_factor = simulated_s / wall_s.solve and point_updates_per_s = point_updates / wall_s.solve. Both describe
+  // this call of the program; a resumed run simulates less than time_s.
   double simulated_s = -1;  // s simulated by this call; -1: all of time_s
   std::uint64_t peak_memory_bytes = 0;
   std::vector<std::string> effects_on, effects_off;
@@ -37,48 +37,48 @@ struct Metrics {
   double momentum_residual = 0, max_penetration_relative = 0;
   struct Collapse {
     bool collapsed = false;
-    bool under_gravity = false;  // it does not stand under its own weight
+    bool under_gravity = false;  // the structure does not stand under its own weight
     std::optional<double> time_s;
-    std::optional<std::array<double, 2>> direction;  // unit, x and y
+    std::optional<std::array<double, 2>> direction;  // unit vector, x and y
     double fallen_fraction = 0;
-    bool moved = false;  // the run was ended by Analysis::stop_when_moved
-    struct Mechanism {  // at the collapse; without one, at the end
+    bool moved = false;  // Analysis::stop_when_moved ended the run
+    struct Mechanism {   // at the collapse; without a collapse, at the end
       std::optional<double> time_s;
       std::string summary;
       int hinges = 0, slides = 0, parted = 0;
       Json joints = Json::array();  // { joint, kind, opening_m, slip_m, gap_m, rotation_rad, at_m }
     } mechanism;
   } collapse;
-  // How far the run is to be trusted (analysis/trust.h).
+  // Diagnostics: how far the run is to be trusted (analysis/trust.h).
   struct Trust {
-    double energy_residual = 0, energy_residual_time = 0;  // worst relative residual, and when (s)
-    std::string energy_residual_where;                     // the joint whose own balance jumped most until then; "" for none
-    double penetration = 0;                                // deepest overlap over smallest edge
-    double dt_margin = 0;                                  // largest step over the limit in force
-    double reset_share = 0;                                // of all energy that passed: what was booked away where joints turn to contacts
-    double warned_share = 0;                               // of the steps, for any of the three:
+    double energy_residual = 0, energy_residual_time = 0;  // worst relative residual of the energy ledger, and its time (s)
+    std::string energy_residual_where;                     // joint whose energy balance jumped most up to then; "" for none
+    double penetration = 0;                                // largest relative penetration: depth over smallest edge
+    double dt_margin = 0;                                  // largest ratio of a time step to the limit in force
+    double reset_share = 0;                                // share of all energy passed that release to contact wrote off
+    double warned_share = 0;                               // share of steps with any of the three warnings below
     double past_gate_share = 0, past_step_share = 0, sinking_share = 0;
     double momentum_residual = 0;
-    bool twin = false;                   // a twin was run
-    std::optional<double> chaos_horizon;  // s; none: they stay together to the end
+    bool twin = false;                    // a twin run was made
+    std::optional<double> chaos_horizon;  // s; none: the twins stay together to the end
   } trust;
   std::string state_hash;
   int expectations_passed = 0, expectations_failed = 0;
   std::vector<std::pair<std::string, double>> metrics;  // of the scene, in its order
 };
 
-// The ledger's terms with the names they have in metrics.json and energy.csv (base_work_J ... sleep_J), in that order.
+// Terms of the energy ledger with their names in metrics.json and energy.csv (base_work_J ... sleep_J), in that order.
 std::vector<std::pair<std::string, double>> energy_terms(const Energy& energy);
 
 Metrics::Collapse::Mechanism mechanism_metrics(const Mechanism& mechanism, const Model& model);
 
 Json to_json(const Metrics& metrics);
-std::vector<std::string> metric_keys();  // every dotted key of metrics.json but the scene's own: "collapse.time_s"
-Metrics::Trust trust_of(const Json& metrics);  // of a metrics.json
+std::vector<std::string> metric_keys();        // every dotted key of metrics.json except the scene's own metrics: "collapse.time_s"
+Metrics::Trust trust_of(const Json& metrics);  // reads the diagnostics from metrics.json
 void write_metrics(const std::string& dir, const Metrics& metrics);  // DIR/metrics.json, atomically
 Json read_metrics(const std::string& dir);
 
-std::uint64_t peak_memory_bytes();  // of this process so far
-void return_free_memory();          // to the system: what was needed for a while lies about in the heap
+std::uint64_t peak_memory_bytes();  // of this process until now
+void return_free_memory();          // returns freed heap memory to the system after phases that needed much
 
 }  // namespace erbs

@@ -1,4 +1,4 @@
-// Momentum of blocks: linear, and angular about a point at rest (the origin where none is given), world axes, relative to the ground.
+// Recorder of momentum: linear, and angular about a point at rest (default: origin). World axes, relative to the ground.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace erbs {
 
-// Sum over the blocks; without blocks over all that move.
+// Sum over the given blocks; without blocks, over all moving blocks.
 struct Momentum {
   enum class What { momentum, angular_momentum } what;
   std::vector<int> blocks;

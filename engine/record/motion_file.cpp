@@ -16,9 +16,9 @@ namespace {
 
 std::string in(const std::string& dir, const char* name) { return (std::filesystem::path(dir) / name).string(); }
 
-// The arrays of the frames. The time is written last: a frame counts once its time is there.
+// Arrays of the frames. The time is written last: a frame is complete if its time exists.
 struct Frames {
-  std::optional<h5::Rows<float>> poses, opening;  // none without blocks or joints
+  std::optional<h5::Rows<float>> poses, opening;  // absent without blocks or joints
   std::optional<h5::Rows<std::uint8_t>> damage;
   std::optional<h5::Rows<double>> time;
 
@@ -52,7 +52,7 @@ struct Frames {
   }
 };
 
-// motion.xdmf: a list of frames that is always complete, its closing tags being written over by the next frame.
+// motion.xdmf: a list of frames that is always complete. Each new frame overwrites the closing tags and writes them anew.
 class Sidecar {
  public:
   Sidecar(const std::string& path, std::size_t nblock) : out_(path, std::ios::binary | std::ios::trunc), path_(path), n_(nblock) {
@@ -75,7 +75,7 @@ class Sidecar {
   }
 
  private:
-  // `columns` columns of /poses of one frame, from column `first` on.
+  // Columns [first, first + columns) of /poses, for one frame.
   std::string slab(std::size_t frame, int first, int columns) const {
     return fmt::format(
         "<DataItem ItemType=\"HyperSlab\" Dimensions=\"{0} {3}\"><DataItem Dimensions=\"3 3\" Format=\"XML\">{1} 0 {2} 1 1 1 1 {0} {3}"

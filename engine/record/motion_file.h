@@ -1,12 +1,12 @@
-// motion.h5: what the blocks look like, and where they are in each frame. h5.cpp is the one door to HDF5.
+// motion.h5: shapes of the blocks, and their poses in each frame. Only h5.cpp includes HDF5.
 //
 //   /block_name /group_name /block_group /block_material /block_fixed /block_rest [blocks,3] /block_size [blocks,3]
-//   /shape_* (drawn parts, shared between equal blocks)  /joint_* (who touches whom, and where)
+//   /shape_* (drawn parts, shared between equal blocks)  /joint_* (the blocks of each joint, and its polygon)
 //   /time [frames]  /poses [frames,blocks,7]  /joint_damage [frames,joints]  /joint_opening [frames,joints]
 //
-// Written in HDF5's single-writer mode and flushed after every frame: a run that is killed leaves every whole frame readable,
-// and another program may read while it grows. motion.xdmf beside it shows the blocks in ParaView (3D glyphs, a box scaled by
-// block_size and turned by the quaternion `rotation`).
+// HDF5's single-writer mode and a flush after every frame keep each whole frame readable, even if the run is killed. Another program may
+// read while the file grows. motion.xdmf beside it shows the blocks in ParaView: 3D glyphs, a box scaled by block_size and rotated by the
+// quaternion `rotation`.
 #pragma once
 #include <cstdint>
 #include <memory>
@@ -17,7 +17,7 @@
 
 namespace erbs {
 
-// A convex part as it is drawn. Blocks that look alike share one.
+// A convex part as drawn. Blocks of equal shape share one.
 struct MotionShape {
   std::vector<float> vertices;          // m, world axes at rest, relative to the centroid of the whole block at rest  [nv*3]
   std::vector<std::vector<int>> faces;  // vertex loops, counter-clockwise seen from outside                           [nf]
@@ -27,16 +27,16 @@ struct MotionShape {
 struct MotionBlock {
   std::string name, group;
   int material = 0;          // index into `materials` of the manifest
-  bool fixed = false;        // part of the ground
+  bool fixed = false;        // belongs to the ground
   Vec3 rest = Vec3::Zero();  // m, centroid at rest
   std::vector<int> parts;    // indices into MotionScene::shapes
 };
 
-// Where two blocks are joined. The polygon lies in the middle of the mortar (or in the common face of a dry joint).
+// The joint of two blocks. The polygon lies at mid-thickness of the mortar, or in the common face of a dry joint.
 struct MotionJoint {
   int a = 0, b = 0;            // block indices
   std::vector<Vec3> polygon;   // m, world axes at rest, relative to the centroid of a at rest
-  Vec3 normal = Vec3::Zero();  // unit, from a to b; zero: the reader derives it from the polygon
+  Vec3 normal = Vec3::Zero();  // unit vector from a to b; zero: the reader derives it from the polygon
   double thickness = 0;        // m, of the mortar; 0 for a dry joint
 };
 
@@ -46,29 +46,29 @@ struct MotionScene {
   std::vector<MotionJoint> joints;
 };
 
-// Index of the shape in scene.shapes, added there if no equal one is present.
+// Index of `shape` in scene.shapes; adds the shape if no equal one is present.
 int share_shape(MotionScene& scene, MotionShape shape);
 
 struct MotionFrame {
   double t = 0;                      // s
-  std::vector<float> poses;          // centroid x,y,z (m, frame of the ground), then w,x,y,z of the rotation from rest  [blocks*7]
-  std::vector<std::uint8_t> damage;  // 0 intact .. 255 broken                                                         [joints]
-  std::vector<float> opening;        // m, largest gap opening over the joint's points                                  [joints]
+  std::vector<float> poses;          // centroid x,y,z (m, frame of the ground), then w,x,y,z of the rotation from rest [blocks*7]
+  std::vector<std::uint8_t> damage;  // 0 intact .. 255 broken [joints]
+  std::vector<float> opening;        // m, largest opening over the joint's corners [joints]
 };
 
 class MotionWriter {
  public:
-  // Starts DIR/motion.h5 anew (an old one is replaced).
+  // Starts a new DIR/motion.h5 and replaces an old one.
   MotionWriter(const std::string& dir, const MotionScene& scene);
-  // Goes on with DIR/motion.h5, of which the first `keep_frames` frames stay (also after the writer was killed).
+  // Continues DIR/motion.h5 and keeps its first `keep_frames` frames; a file left by a killed writer will do.
   MotionWriter(const std::string& dir, int keep_frames);
   ~MotionWriter();
   MotionWriter(MotionWriter&&) noexcept;
   MotionWriter& operator=(MotionWriter&&) noexcept;
 
-  void write(const MotionFrame& frame);  // the frame is in the file when this returns
+  void write(const MotionFrame& frame);  // on return the frame is in the file
   int frames() const;
-  void close();  // also done by the destructor
+  void close();  // the destructor closes too
 
  private:
   struct File;

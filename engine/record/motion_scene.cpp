@@ -1,4 +1,3 @@
-// The part of motion.h5 that does not change: shapes, blocks, joints.
 #include "engine/record/motion_scene.h"
 
 #include <algorithm>
@@ -8,7 +7,7 @@
 namespace erbs {
 namespace {
 
-// Lists of different lengths as one array and the start of each list in it.
+// Lists of different lengths as one array, with the start of each list.
 template <class T>
 struct Ragged {
   std::vector<T> items;
@@ -43,7 +42,7 @@ void put_shapes(const h5::File& store, const MotionScene& scene) {
   store.put("/shape_face_start", faces.start);
 }
 
-// Extent of a block at rest, for glyphs.
+// Extents of a block at rest, for glyphs.
 Eigen::Vector3f block_size(const MotionScene& scene, const MotionBlock& block) {
   Eigen::AlignedBox3f box;
   for (int part : block.parts) {
@@ -84,7 +83,7 @@ void put_blocks(const h5::File& store, const MotionScene& scene) {
   store.put("/block_part_start", parts.start);
 }
 
-// One array at a time: there may be very many.
+// Writes one array at a time to save memory: a model may have very many joints.
 void put_joints(const h5::File& store, const MotionScene& scene) {
   const auto put = [&](const char* name, std::size_t columns, auto item, const auto& append) {
     std::vector<decltype(item)> items;

@@ -1,4 +1,4 @@
-// The part of motion.h5 that does not change from frame to frame.
+// The constant part of motion.h5: shapes, blocks, joints.
 #pragma once
 #include "engine/record/h5.h"
 #include "engine/record/motion_file.h"

@@ -1,4 +1,4 @@
-// Forces on blocks: what the ground receives through joints and contacts, and what the loads bring in.
+// Recorder of forces on blocks: forces of joints and contacts, and forces of the loads.
 #pragma once
 #include <string>
 #include <vector>
@@ -7,8 +7,9 @@
 
 namespace erbs {
 
-// Sum over blocks of force and moment; the moment about `point` (the origin where none is given). Without blocks: over all that
-// are fixed or driven, so that `reaction` is what the whole structure does to its supports (a standing house: fz = -weight).
+// Sum of force or moment over the given blocks; moments are about `point` (default: origin). Without blocks, the sum of `reaction` is over
+// all fixed and driven blocks: the action of the whole structure on its supports. A standing house gives fz = -weight. The sum of `load` is
+// then over the others, the moving blocks.
 struct Reaction {
   enum class What { reaction, reaction_moment, load, load_moment } what;
   std::vector<int> blocks;

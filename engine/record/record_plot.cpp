@@ -15,7 +15,7 @@ struct Panel {
   std::string_view title, label, color;
   int column;
   Peak peak;         // in the unit of the panel
-  std::string note;  // beside the marker
+  std::string note;  // text beside the marker
   double bottom, top;
 };
 
@@ -29,7 +29,7 @@ set style fill solid noborder
 unset key
 )";
 
-// Time, a (g), v (m/s), d (m). Curved pieces get points between while the file stays small.
+// Rows of time, a (g), v (m/s), d (m). Short records get points in between, since v and d are curved; long ones would make large files.
 std::string histories(const Polyline& a) {
   const int parts = a.times.size() < 2500 ? 3 : 1;
   std::string text = "$history << END\n";
@@ -47,14 +47,14 @@ std::string spectrum(const RecordReport& r) {
   return text + "END\n";
 }
 
-// The step of 1, 2 or 5 times a power of ten that makes one to four tics up to `reach`.
+// The step (1, 2 or 5 times a power of ten) that gives one to four tics up to `reach`.
 double tic_step(double reach) {
   const double decade = std::pow(10, std::floor(std::log10(reach)));
   const double lead = reach / decade;
   return decade * (lead < 2 ? 0.5 : lead < 4 ? 1 : lead < 8 ? 2 : 5);
 }
 
-// A circle at the peak and its value beside it, on the side that has room.
+// A circle at the peak, with its value on the side that has room.
 std::string marker(const Panel& p, double duration) {
   const bool left = p.peak.time > 0.6 * duration;
   return fmt::format("set label 1 at {:.8g},{:.8g} {} {} offset {},{} point pt 7 ps 0.8 lc rgb '{}' tc rgb '#222222' noenhanced front\n",
@@ -63,11 +63,11 @@ std::string marker(const Panel& p, double duration) {
 }
 
 std::string panel(const Panel& p, const RecordReport& r, bool last) {
-  const double reach = std::max(1.28 * std::abs(p.peak.value), 1e-12);  // a record of zeros has a picture too
+  const double reach = std::max(1.28 * std::abs(p.peak.value), 1e-12);  // gives a record of zeros an axis too
   std::string text = fmt::format(
       "set lmargin at screen 0.075\nset rmargin at screen 0.6\nset bmargin at screen {}\nset tmargin at screen {}\n"
       "set label 4 '{}' at graph 0, graph 1.1 left tc rgb '{}' font ',14'\n"
-      "set label 5 '{}' at screen 0.02,{} center rotate by 90 tc rgb '#333333'\n"  // a ylabel would stand where the tics let it
+      "set label 5 '{}' at screen 0.02,{} center rotate by 90 tc rgb '#333333'\n"  // a ylabel would move with the tic labels
       "set xrange [0:{:.8g}]\nset yrange [{:.8g}:{:.8g}]\nset format x '{}'\n{}\n",
       p.bottom, p.top, p.title, p.color, p.label, 0.5 * (p.bottom + p.top), r.duration, -reach, reach, last ? "%g" : "",
       last ? "set xlabel 'time (s)' offset 0,0.3 tc rgb '#333333'" : "unset xlabel");
@@ -95,7 +95,7 @@ std::string spectrum_panel(const RecordReport& r) {
   return text + "plot $spectrum using 1:2 with lines lw 1.8 lc rgb '#5b3a78'\n";
 }
 
-// Name and value pairs below the spectrum.
+// Names and values below the spectrum.
 std::string summary(const RecordReport& r) {
   const std::pair<std::string, std::string> rows[] = {
       {"points, step", fmt::format("{}, {}", r.points, r.dt > 0 ? fmt::format("{:.5g} s", r.dt) : "uneven")},

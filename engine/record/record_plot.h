@@ -1,4 +1,4 @@
-// The picture of a ground-motion record: acceleration, velocity, displacement, response spectrum.
+// Figure of a ground-motion record: acceleration, velocity, displacement, response spectrum.
 #pragma once
 #include <string>
 
@@ -6,7 +6,7 @@
 
 namespace erbs {
 
-// An SVG at `path`, drawn by gnuplot. `report` is that of `record`.
+// Draws an SVG at `path` with gnuplot. `report` belongs to `record`.
 void write_record_plot(const Record& record, const RecordReport& report, const std::string& path);
 
 }  // namespace erbs

@@ -11,7 +11,7 @@
 namespace erbs {
 namespace {
 
-// Calls f(kind tag) for each type of THE LIST.
+// Calls f once for each type of THE LIST, with a null pointer of that type.
 template <class... Kinds, class F>
 void each_kind(const std::variant<Kinds...>*, F&& f) {
   (f(static_cast<const Kinds*>(nullptr)), ...);
@@ -42,7 +42,7 @@ void check_one(const Recorder& r, const std::set<std::string>& blocks, std::vect
   if (r.axis.empty() || r.axis.find_first_not_of("xyz") != std::string::npos)
     say(fmt::format("axis = \"{}\"; it takes letters of \"xyz\"", r.axis));
   if (r.frame != "rel" && r.frame != "abs") say(fmt::format("frame = \"{}\"; it is \"rel\" (to the ground) or \"abs\"", r.frame));
-  std::string word = r.name;  // whose parts may be set off by points: "a.v01"
+  std::string word = r.name;  // points may separate its parts: "a.v01"
   std::replace(word.begin(), word.end(), '.', '_');
   if (!is_name(word)) say("its name becomes that of a column: letters, digits, _, +, - and . only");
 }
@@ -90,7 +90,7 @@ std::vector<std::string> check_recorders(const Scene& scene) {
 
 struct Recorders::Kinds {
   std::vector<AnyRecorder> list;
-  std::vector<std::size_t> width;  // columns of each
+  std::vector<std::size_t> width;  // columns of each recorder
 };
 
 Recorders::Recorders(const Scene& scene, const Model& model) : kinds_(std::make_unique<Kinds>()), columns_{"time_s"} {

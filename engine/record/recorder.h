@@ -1,9 +1,9 @@
-// Recorders: what is written to histories.csv. Each kind is a struct of its own (see THE LIST in recorders.h) with
-//   quantities()             the names a script may ask for, with what they are
+// Recorders: the columns of histories.csv. Each kind is a struct of its own (THE LIST in recorders.h) with
+//   quantities()             names for scripts, with their meaning
 //   Kind(ask)                resolved against the model
 //   columns()                full names with units
-//   sample(snapshot, out)    one number a column
-//   needs(needs)             what the snapshot must hold
+//   sample(snapshot, out)    one number per column
+//   needs(needs)             optional data it requires of the snapshot
 #pragma once
 #include <memory>
 #include <string>
@@ -16,32 +16,31 @@ namespace erbs {
 
 struct Quantity {
   std::string name;
-  std::string text;  // one sentence: what is written, and its unit
+  std::string text;  // one sentence: the recorded quantity and its unit
 };
 
-// What a script asks for, resolved: the recorder with block numbers in place of names.
+// A recorder requested by a script, with block numbers in place of names.
 struct Ask {
   const Recorder& recorder;
   const Model& model;
   std::vector<int> blocks, others;  // block numbers
 };
 
-// Helpers of the kinds.
-int quantity_index(const std::vector<Quantity>& quantities, const std::string& name);  // -1 where it is not among them
+int quantity_index(const std::vector<Quantity>& quantities, const std::string& name);  // -1 if not found
 // name_<symbol>x_<unit>, ... for the letters of `axis`
 std::vector<std::string> axis_columns(const std::string& name, const std::string& axis, const std::string& symbol, const std::string& unit);
 void put_axes(const Vec3& value, const std::string& axis, double* out);
 
 class Recorders {
  public:
-  // Error, all mistakes at once, for an unknown quantity, block or axis, or a column named twice.
+  // Error that lists all mistakes: unknown quantity, block or axis, or a column named twice.
   Recorders(const Scene& scene, const Model& model);
   ~Recorders();
   Recorders(Recorders&&) noexcept;
   Recorders& operator=(Recorders&&) noexcept;
 
   Needs needs() const;
-  const std::vector<std::string>& columns() const { return columns_; }  // time_s first
+  const std::vector<std::string>& columns() const { return columns_; }  // time_s is the first
   const std::vector<double>& sample(const Snapshot& snapshot);          // one row
 
  private:
@@ -51,7 +50,7 @@ class Recorders {
   std::vector<double> row_;
 };
 
-// The mistakes in a scene's recorders that can be seen without a model; each names its place and remedy.
+// Mistakes in a scene's recorders that need no model. Each names its place and remedy.
 std::vector<std::string> check_recorders(const Scene& scene);
 std::vector<Quantity> recorder_quantities();  // of THE LIST, in its order
 

@@ -1,4 +1,4 @@
-// THE LIST of recorders. A new one is one header and one entry here.
+// THE LIST of recorders. A new recorder is one header and one entry here.
 #pragma once
 #include <variant>
 

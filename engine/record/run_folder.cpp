@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What the programs write into a run folder. --force removes these and nothing else: notes someone put there survive.
+// Files and folders the programs write into a run folder. --force removes these only; notes of the user survive.
 constexpr std::string_view own_files[] = {"scene.lua",  "manifest.json", "metrics.json", "log.txt",      "energy.csv",  "histories.csv",
                                           "events.csv", "histories.svg", "energy.svg",   "motion.h5",    "motion.xdmf", "checkpoint.bin",
                                           "frames",     "report.html",   "results.csv",  "accuracy.csv", "modes.csv",
@@ -31,7 +31,7 @@ bool is_own(const fs::path& path) {
   return false;
 }
 
-// The folders of `path` that are not there yet: the first of them, so that all can be taken back; empty where none is missing.
+// The topmost folder of `path` that does not exist yet; empty if all exist. Removing it undoes the creation of all.
 fs::path first_missing(const fs::path& path) {
   fs::path missing;
   for (fs::path at = fs::absolute(path).lexically_normal(); !at.empty() && !fs::exists(at); at = at.parent_path()) missing = at;
@@ -48,13 +48,13 @@ bool is_run_folder(const std::string& dir) {
   try {
     const Json json = read_json(run_file(dir, "manifest.json"));
     if (json.is_object() && json.contains("program")) return json["program"] == "erbs";
-  } catch (const std::exception&) {}  // damaged: the other files tell
+  } catch (const std::exception&) {}  // damaged; the other files decide
   const auto there = [&](const char* name) { return fs::is_regular_file(run_file(dir, name), failed); };
   return there("scene.lua") && (there("checkpoint.bin") || there("energy.csv") || there("motion.h5"));
 }
 
 FolderLock::FolderLock(const std::string& dir) : fd_(::open(dir.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  // Some file systems know no locks of folders: a run there goes without.
+  // Some file systems have no folder locks; a run there goes unlocked.
   if (fd_ < 0 || ::flock(fd_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
   ::close(fd_);
   throw Error(fmt::format("another run is at work in \"{}\"; wait for its end, or choose another folder with -o DIR", dir));
@@ -96,18 +96,18 @@ void check_run_folder(const std::string& dir, Existing existing) {
 void create_run_folder(const std::string& dir, Existing existing, const std::string& script, const Manifest& manifest) {
   check_run_folder(dir, existing);
   const fs::path missing = first_missing(dir);
-  bool made = false;  // by us, and to be taken back where the rest fails
+  bool made = false;  // created by this call, so removed again if the rest fails
   try {
     if (existing == Existing::force && missing.empty()) {
-      // The manifest goes last: until then the folder is known for what it is.
+      // The manifest is removed last: until then it identifies the run folder.
       for (const auto& entry : fs::directory_iterator(dir))
         if (is_own(entry.path()) && entry.path().filename() != "manifest.json") fs::remove_all(entry.path());
     }
     fs::path own = fs::absolute(dir).lexically_normal();
-    if (!own.has_filename()) own = own.parent_path();  // of "out/"
+    if (!own.has_filename()) own = own.parent_path();  // for "out/"
     if (own.has_parent_path()) fs::create_directories(own.parent_path());
     made = fs::create_directory(own);
-    if (!made && existing == Existing::refuse) check_run_folder(dir, existing);  // of two runs that begin at once the other made it
+    if (!made && existing == Existing::refuse) check_run_folder(dir, existing);  // a run started at the same time has created it
     write_manifest(dir, manifest);
     if (existing != Existing::resume) write_text_atomically(run_file(dir, "scene.lua"), script);
   } catch (const std::exception& trouble) {

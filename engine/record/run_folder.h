@@ -1,4 +1,4 @@
-// The run folder: what a run leaves behind, and all that the renderer, reports and studies know of it.
+// The run folder: the output of a run, and the only input of renderer, reports and studies.
 #pragma once
 #include <string>
 
@@ -8,23 +8,25 @@
 
 namespace erbs {
 
-enum class Existing { refuse, force, resume };  // what to do with a folder that is there
+enum class Existing { refuse, force, resume };  // what to do with a folder that exists
 
-// Checks that `dir` may be written and touches nothing: refuse: nothing of that name exists; force: absent, empty or a run
-// folder; resume: a run folder with a checkpoint. Error (with the remedy) otherwise. To be called before the work of a run starts.
+// Checks that `dir` may be written, and changes nothing. Call it before the work of a run starts. Error with remedy unless:
+// refuse: nothing of that name exists;
+// force: the folder is absent, empty or a run folder;
+// resume: the folder is a run folder with a checkpoint.
 void check_run_folder(const std::string& dir, Existing existing);
 
-// After check_run_folder: makes the folder (force: removes what an earlier run left there, and only that), writes scene.lua and
-// manifest.json. With resume only the manifest is written again.
+// Repeats check_run_folder, creates the folder, and writes scene.lua and manifest.json. With force, removes the files of an earlier run,
+// and only those. With resume, writes only the manifest.
 void create_run_folder(const std::string& dir, Existing existing, const std::string& script, const Manifest& manifest);
 
-// Whether manifest.json there is of erbs; also where it is damaged, but other files of a run lie beside it.
+// True if the manifest.json there is one of erbs. A damaged manifest counts if other files of a run are present.
 bool is_run_folder(const std::string& dir);
 
-// Keeps a folder for one run as long as it lives: a lock of the system, which goes with the process however that ends.
+// Reserves a folder for one run by a lock of the operating system. The lock ends with the process, however it ends.
 class FolderLock {
  public:
-  explicit FolderLock(const std::string& dir);  // Error where another run is at work there
+  explicit FolderLock(const std::string& dir);  // Error if another run uses the folder
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;

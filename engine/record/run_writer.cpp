@@ -12,7 +12,7 @@
 namespace erbs {
 namespace {
 
-constexpr double flush_every = 1;  // s, wall clock: what a killed run may lose
+constexpr double flush_every = 1;  // s, wall clock: the most a killed run can lose
 
 double wall_clock() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -40,7 +40,7 @@ MotionJoint joint_of(const Scene& scene, const Model& model, const Joint& joint)
   drawn.a = joint.a;
   drawn.b = joint.b;
   drawn.normal = joint.type->frame.col(2);
-  // Laws are compiled one per joint rule; a dry joint has no mortar to draw.
+  // Each joint rule gives one law. A dry joint has no mortar to draw.
   if (!model.laws[std::size_t(joint.type->law)].dry && std::size_t(joint.type->rule) < scene.joint_rules.size())
     drawn.thickness = scene.joint_rules[std::size_t(joint.type->rule)].thickness;
   drawn.polygon.reserve(std::size_t(joint.type->corners));

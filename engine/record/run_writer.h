@@ -1,4 +1,4 @@
-// Writes what a run produces while it goes: histories.csv, energy.csv, events.csv, motion.h5, log.txt.
+// Writes the files of a running simulation: histories.csv, energy.csv, events.csv, motion.h5, log.txt.
 #pragma once
 #include <memory>
 #include <string>
@@ -12,11 +12,11 @@
 
 namespace erbs {
 
-// How far the files of a run are written; part of a checkpoint, so that a resumed run goes on at the very row.
+// Rows and frames written so far. The checkpoint holds them, so that a resumed run continues at the exact row.
 struct WriterProgress {
   long history_rows = 0, energy_rows = 0, event_rows = 0;
   int frames = 0;
-  std::uint64_t history_sum = 0, energy_sum = 0, event_sum = 0;  // of these rows
+  std::uint64_t history_sum = 0, energy_sum = 0, event_sum = 0;  // hashes of these rows
 };
 
 template <class P, class F>
@@ -33,17 +33,17 @@ void each(P& p, F&& f) {
 
 class RunWriter {
  public:
-  // In a folder made by create_run_folder. `resume`: rows and frames past this progress are cut off, then appended to.
+  // Writes into a folder made by create_run_folder. `resume`: rows and frames beyond this progress are cut off, then new ones appended.
   RunWriter(const std::string& dir, const Scene& scene, const Model& model, const WriterProgress* resume = nullptr);
 
   Needs needs() const { return recorders_.needs(); }
-  void row(const Snapshot& snapshot);    // of histories.csv and energy.csv
-  void frame(const Snapshot& snapshot);  // of motion.h5
-  // Of events.csv: what ("crack", "break", "fall", "collapse", ...) befell which block or joint; value with its unit.
+  void row(const Snapshot& snapshot);    // to histories.csv and energy.csv
+  void frame(const Snapshot& snapshot);  // to motion.h5
+  // Adds a row to events.csv: event ("crack", "break", "fall", "collapse", ...), block or joint, value with unit.
   void event(double t, std::string_view what, std::string_view name, double value, std::string_view unit);
   void log(std::string_view line);  // to log.txt, flushed
 
-  WriterProgress progress();  // flushed and synced: what a checkpoint may rely on
+  WriterProgress progress();  // flushes and synchronises first; a checkpoint may rely on the result
   void flush();
   void close();
 
@@ -53,10 +53,10 @@ class RunWriter {
   CsvWriter histories_, energy_, events_;
   MotionWriter motion_;
   MotionFrame frame_;
-  double flushed_ = 0;  // s, wall clock
+  double flushed_ = 0;  // s, wall clock, time of the last flush
 };
 
-// The drawn side of a model: shapes (shared between equal blocks), blocks and joints.
+// The model as drawn: shapes (shared between equal blocks), blocks and joints.
 MotionScene motion_scene(const Scene& scene, const Model& model);
 
 }  // namespace erbs

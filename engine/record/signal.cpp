@@ -18,7 +18,7 @@ void check(const std::vector<double>& t, const std::vector<double>& y) {
   if (t.size() != y.size()) throw Error(fmt::format("{} times but {} values; take both from the same table", t.size(), y.size()));
 }
 
-// Radix 2, in place (Cooley and Tukey 1965); the size is a power of two.
+// FFT of radix 2, in place (Cooley and Tukey 1965). The size must be a power of two.
 void transform(std::vector<Complex>& a) {
   const std::size_t n = a.size();
   for (std::size_t i = 1, j = 0; i < n; ++i) {
@@ -28,7 +28,7 @@ void transform(std::vector<Complex>& a) {
     if (i < j) std::swap(a[i], a[j]);
   }
   for (std::size_t length = 2; length <= n; length *= 2) {
-    // Each factor from its own angle: a running product would lose digits over long records.
+    // Each factor comes from its own angle: a running product would lose digits over long records.
     std::vector<Complex> factor(length / 2);
     for (std::size_t k = 0; k < length / 2; ++k) factor[k] = std::polar(1.0, -2 * pi * double(k) / double(length));
     for (std::size_t i = 0; i < n; i += length)
@@ -40,7 +40,7 @@ void transform(std::vector<Complex>& a) {
   }
 }
 
-// y at even times; y itself where they are even already.
+// y resampled to even time steps; y itself if its steps are even.
 std::vector<double> evened(const std::vector<double>& t, const std::vector<double>& y, double& dt) {
   const std::size_t n = t.size();
   dt = (t.back() - t.front()) / double(n - 1);
@@ -79,7 +79,7 @@ double mean(const std::vector<double>& t, const std::vector<double>& y) {
 double rms(const std::vector<double>& t, const std::vector<double>& y) {
   check(t, y);
   if (y.size() < 2 || !(t.back() > t.front())) return y.empty() ? unknown : std::abs(y.front());
-  double sum = 0;  // Int y^2 of a line from a to b: (a^2 + a b + b^2) / 3
+  double sum = 0;  // Int y^2 over a line from a to b: (a^2 + a b + b^2) / 3
   for (std::size_t i = 1; i < y.size(); ++i) sum += (t[i] - t[i - 1]) * (y[i - 1] * y[i - 1] + y[i - 1] * y[i] + y[i] * y[i]) / 3;
   return std::sqrt(sum / (t.back() - t.front()));
 }
@@ -115,7 +115,7 @@ double dominant_frequency(const std::vector<double>& t, const std::vector<double
   if (s.amplitude.empty()) return unknown;
   const auto [low, high] = std::minmax_element(y.begin(), y.end());
   const double largest = std::max(std::abs(*low), std::abs(*high));
-  if (!(*high - *low > 1e-13 * largest)) return unknown;  // constant but for round-off
+  if (!(*high - *low > 1e-13 * largest)) return unknown;  // constant up to round-off
   const auto bin = [&](double f) { return std::lower_bound(s.frequency.begin(), s.frequency.end(), f) - s.frequency.begin(); };
   const auto first = bin(from), last = bin(to);
   if (first >= last) return unknown;
@@ -131,14 +131,14 @@ double dominant_frequency(const std::vector<double>& t, const std::vector<double
 std::vector<double> crossings(const std::vector<double>& t, const std::vector<double>& y, double level, bool rising) {
   check(t, y);
   std::vector<double> times;
-  int side = 0;          // of the last sample that was not on the level
+  int side = 0;          // sign of the last sample off the level
   std::size_t last = 0;  // its index
   for (std::size_t i = 0; i < y.size(); ++i) {
     const double d = y[i] - level;
     const int now = d > 0 ? 1 : d < 0 ? -1 : 0;
     if (now == 0) continue;
     if (side != 0 && now != side && (!rising || now > 0)) {
-      // Samples that rest on the level in between: the crossing is the first of them.
+      // Samples in between lie on the level: the first of them is the crossing.
       if (i - last > 1) times.push_back(t[last + 1]);
       else times.push_back(t[last] + (t[i] - t[last]) * (level - y[last]) / (y[i] - y[last]));
     }

@@ -1,4 +1,4 @@
-// A folder for one test alone, gone with it: tests run side by side, in many processes and from several checkouts.
+// A folder for one test, removed at its end. Tests run in parallel, in many processes and from several checkouts.
 #pragma once
 
 #include <cstdlib>

@@ -24,7 +24,7 @@ inline Scene small_wall(const std::string& more, const std::string& law = "morta
   return script.load_text(text, "small_wall.lua");
 }
 
-// Runs to `until` and leaves the prepared run in `out`.
+// Runs to `until` (s) and leaves the prepared run in `out`.
 inline void run_to(const Scene& scene, int threads, double until, Prepared& out) {
   out = prepare(scene, false);
   start_at_rest(scene, out, threads);

@@ -1,4 +1,4 @@
-// The house's walls: an include goes only to a strictly lower layer, and each outside package enters by its own door.
+// Architecture rules: an include goes only to a strictly lower layer, and each external package enters through its own files.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -15,7 +15,7 @@ const std::map<std::string, int> layers{{"base", 0},  {"geometry", 1}, {"laws", 
                                         {"model", 3}, {"contact", 4},  {"solve", 5}, {"record", 5}, {"analysis", 6},
                                         {"study", 6}, {"lua", 7},      {"render", 7}};
 
-// Package -> the files it may enter by. The first that fits counts.
+// Package -> files that may include it. The first match counts.
 const std::vector<std::pair<std::string, std::string>> doors{
     {"Eigen/Sparse.*|Eigen/Eigenvalues|Spectra/.*", "engine/base/sparse.*"},
     {"Eigen/.*", "engine/base/(vec\\.h|sparse.*)"},
@@ -30,7 +30,7 @@ const std::vector<std::pair<std::string, std::string>> doors{
     {"GL/.*|EGL/.*", "render/context_.*\\.cpp"},
     {"png\\.h", "render/image\\.cpp"},
     {"stb.*", "render/.*"},
-    {"sys/.*|linux/.*|(unistd|fcntl|sched|spawn|signal|poll|dlfcn|termios|malloc|immintrin)\\.h|[a-z_0-9]+", ".*"},  // the system's and the language's own
+    {"sys/.*|linux/.*|(unistd|fcntl|sched|spawn|signal|poll|dlfcn|termios|malloc|immintrin)\\.h|[a-z_0-9]+", ".*"},  // system and language
 };
 
 const std::regex seen_by_render(
@@ -42,7 +42,7 @@ std::string room(const std::string& path) {
   return std::regex_match(path, found, folder) ? found[1].str() : "";
 }
 
-// What is wrong with `file` including `target`; empty where nothing is.
+// Mistake in an include of `target` by `file`; empty if there is none.
 std::string trouble(const std::string& file, const std::string& target, bool outside) {
   if (outside) {
     for (const auto& [package, door] : doors)
@@ -77,7 +77,7 @@ TEST_CASE("includes go down, and packages enter by their doors", "[layers]") {
 }
 
 TEST_CASE("no two types of one namespace have one name", "[layers]") {
-  // The linker takes one of their functions for both, without a word.
+  // Otherwise the linker silently takes one type's functions for both.
   const std::regex space("namespace ([a-z:_]+) \\{.*"), type("(?:struct|class|enum class|enum) ([A-Z][A-Za-z]*)(?: final)?(?: :[^;]*)? \\{.*");
   std::map<std::string, std::string> files;
   for (const char* top : {"engine", "lua", "render"})

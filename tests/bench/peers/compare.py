@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-# The same dry wall in ERBS and in the peers that are installed from the distribution's packages (yade, libbullet-dev): one table.
+# The same dry wall in ERBS, and in peer codes installed from the distribution's packages (yade, libbullet-dev), as one table.
 #   tests/bench/peers/compare.py [--erbs build/release/erbs] [--bricks 40] [--courses 25] [--peer-seconds 0.02]
-# Every code runs on one thread, one after another. Processor seconds for a simulated second at dt = 5e-5 s.
+# Every code runs on one thread, one after another. Result: processor seconds per simulated second at dt = 5e-5 s.
 import argparse
 import json
 import os

@@ -1,6 +1,6 @@
-// The dry wall of scenes/bench/dry_wall.lua in Bullet: rigid boxes, impulses by sequential projection, no springs. Not the same
-// physics (its joints have no stiffness), the same bricks, friction and shaking. Built and run by compare.py:
-//   dry_wall_bullet BRICKS COURSES DT SECONDS   prints the processor seconds a simulated second, and the contact points at the end
+// The dry wall of scenes/bench/dry_wall.lua in Bullet: rigid boxes, impulses by sequential projection, no springs. The physics differs,
+// since its joints have no stiffness; bricks, friction and shaking are the same. compare.py builds and runs it:
+//   dry_wall_bullet BRICKS COURSES DT SECONDS   prints processor seconds per simulated second, and the contact points at the end
 #include <btBulletDynamicsCommon.h>
 
 #include <cmath>
@@ -28,7 +28,7 @@ int main(int argc, char** argv) {
     btVector3 inertia(0, 0, 0);
     if (moves) shapes.back()->calculateLocalInertia(mass, inertia);
     btRigidBody::btRigidBodyConstructionInfo info(mass, nullptr, shapes.back().get(), inertia);
-    info.m_friction = btScalar(std::sqrt(0.6));  // Bullet multiplies those of both bodies
+    info.m_friction = btScalar(std::sqrt(0.6));  // Bullet multiplies the coefficients of both bodies
     info.m_startWorldTransform.setOrigin(btVector3(btScalar(x), 0, btScalar(z)));
     bodies.push_back(std::make_unique<btRigidBody>(info));
     bodies.back()->setActivationState(DISABLE_DEACTIVATION);
@@ -50,7 +50,7 @@ int main(int argc, char** argv) {
   const long steps = std::lround(seconds / dt);
   const std::clock_t began = std::clock();
   for (long k = 0; k < steps; ++k) {
-    // the base moves by the second integral of 0.3 g sin(w t)
+    // The base moves by the second integral of 0.3 g sin(w t).
     const double w = 2 * pi * 2, t = double(k + 1) * dt, a = 0.3 * 9.81;
     btTransform at = plate->getWorldTransform();
     at.setOrigin(btVector3(at.getOrigin().x(), btScalar(a / w * t - a / (w * w) * std::sin(w * t)), at.getOrigin().z()));

@@ -1,6 +1,6 @@
-# The dry wall of scenes/bench/dry_wall.lua in Yade with polyhedra: run by compare.py as
+# The dry wall of scenes/bench/dry_wall.lua in Yade with polyhedra. compare.py runs it as
 #   yade -n -x -j1 dry_wall_yade.py BRICKS COURSES DT STEPS
-# Normal force by the volume of overlap (Elias 2014), so that a contact has no stiffness kn of a face; friction, bricks and shaking are
+# The normal force follows from the volume of overlap (Elias 2014), so a contact has no face stiffness kn. Friction, bricks and shaking are
 # those of the scene.
 import math
 import sys
@@ -47,7 +47,7 @@ O.engines = [
     NewtonIntegrator(damping=0.0, gravity=(0, 0, -9.81)),
 ]
 O.dt = dt
-O.run(2, True)  # the first search is not part of the rate
+O.run(2, True)  # the first search is excluded from the rate
 began = time.process_time()
 O.run(steps, True)
 used = time.process_time() - began

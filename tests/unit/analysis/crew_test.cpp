@@ -1,4 +1,4 @@
-// The number of threads follows what is fast at the moment, and nothing of the run depends on it.
+// The number of threads follows the speed at the moment, and no result depends on it.
 #include "engine/analysis/crew.h"
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,7 @@ using namespace erbs;
 
 namespace {
 
-// A machine of two processors, `taken` of one of them by another program: seconds and steps of a crew on it.
+// A machine with two processors; another program takes the share `taken` of one. It counts seconds and steps of a `Crew`.
 struct Machine {
   double wall = 0, processor = 0, step = 0;
   int changes = 0;
@@ -39,7 +39,7 @@ TEST_CASE("a team whose processor is taken goes on alone, and comes together onc
   machine.run(crew, 1, 0.5);
   const double before = machine.step;
   machine.run(crew, 20, 0.5);
-  CHECK(machine.step - before > 0.9 * 20e5);  // of what one thread does
+  CHECK(machine.step - before > 0.9 * 20e5);  // of the steps of one thread
   machine.run(crew, 31, 0);
   CHECK(crew.threads() == 2);
 }

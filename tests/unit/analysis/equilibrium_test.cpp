@@ -6,7 +6,7 @@ using namespace erbs;
 
 namespace {
 
-// Blocks H x B x h on dry joints, each loaded by its own weight and a moment that puts it off the centre by e H.
+// Blocks H x B x h on dry joints, each under its own weight and a moment that shifts it off centre by e H.
 Scene eccentric(const std::string& shares, const std::string& law) {
   const std::string text = R"(
     H, B, h, rho = 0.3, 0.125, 0.1, 1800
@@ -23,7 +23,7 @@ Scene eccentric(const std::string& shares, const std::string& law) {
   return script.load_text(text, "eccentric.lua");
 }
 
-// Eight dry courses with half bricks at the ends of every other one: 0.96 m long, 0.8 m high, 0.12 m thick.
+// Eight dry courses with half bricks at the ends of every other course: 0.96 m long, 0.8 m high, 0.12 m thick.
 Scene dry_wall(const std::string& more) {
   const std::string text = R"(
     material{name="brick", density=1800}
@@ -56,7 +56,7 @@ Prepared started(Scene scene, const std::string& start, double ramp_time = 0) {
   return run;
 }
 
-// Largest difference of displacement, over the largest displacement.
+// Largest difference of displacement, relative to the largest displacement.
 double difference(const Prepared& a, const Prepared& b) {
   double size = 0, worst = 0;
   for (std::size_t i = 0; i < a.state.u.size(); ++i) {
@@ -78,7 +78,7 @@ TEST_CASE("a block under a load off its centre finds its rotation, however far o
   for (int i = 1; i <= 47; ++i) {
     const double e = i / 100.0, a = std::min(H, 3 * (0.5 - e) * H);
     const double expected = e > 1.0 / 6 ? 2 * load / (kn * B * a * a) : load * e * H / (kn * B * H * H * H / 12);
-    // the weight moves by theta h / 2: a part 3 h theta / a of the moment's change, of the turn twice that
+    // The weight shifts by theta h / 2. This changes the moment by a share of 3 h theta / a, and the rotation by twice that.
     CHECK(turn(run, "free" + std::to_string(i)) == Approx(expected).epsilon(6 * h * expected / a + 2e-6 + 1e-8 * H / a));
   }
 }
@@ -110,7 +110,7 @@ TEST_CASE("eccentric loads by Newton and by a damped ramp give the same rotation
 }
 
 TEST_CASE("a leaning dry wall comes to rest on its opened joints as the damped ramp does", "[analysis]") {
-  // it would overturn out of its plane at 0.12 / 0.8 = 0.15; in its plane its stepped corner goes first
+  // Out of its plane the wall would overturn at 0.12 / 0.8 = 0.15. In its plane, its stepped corner fails first.
   for (const char* down : {"{0,.1*g,-g}", "{0,-.13*g,-g}", "{.1*g,0,-g}", "{-.05*g,.1*g,-g}"}) {
     CAPTURE(down);
     const Scene scene = dry_wall("gravity" + std::string(down));
@@ -118,7 +118,7 @@ TEST_CASE("a leaning dry wall comes to rest on its opened joints as the damped r
     CHECK(direct.equilibrium.why == "");
     CAPTURE(direct.equilibrium.iterations);
     REQUIRE(direct.equilibrium.converged);
-    CHECK(difference(direct, started(scene, "ramp", 1)) < 0.03);  // where joints stick depends on the way there
+    CHECK(difference(direct, started(scene, "ramp", 1)) < 0.03);  // sticking of joints depends on the path
   }
 }
 
@@ -128,8 +128,8 @@ TEST_CASE("a mortared wall cracked by an eccentric load is found, and near what 
   const Prepared direct = started(scene, "equilibrium");
   REQUIRE(direct.equilibrium.converged);
   CHECK(std::any_of(direct.state.tier.begin(), direct.state.tier.end(), [](Tier t) { return t == Tier::cracked; }));
-  // Bonds and slips depend on the path: in one step to the full load others give way than while it grows. Ramps of 0.5 to 4 s all
-  // end 0.028 from here.
+  // Cracks and slips depend on the path: one step to the full load breaks other joints than a growing load. Ramps of 0.5 to 4 s all end
+  // 0.028 from here.
   CHECK(difference(direct, started(scene, "ramp", 0.5)) < 0.04);
 }
 
@@ -140,7 +140,7 @@ Scene scene_of(const std::string& text) {
   return script.load_text("material{name='brick', density=1800}\n" + text + "\nanalysis{duration=1}", "scene.lua");
 }
 
-// Equilibrium under gravity alone, of a fresh start.
+// Equilibrium under gravity alone, from the initial state.
 struct Settled {
   Prepared run;
   Equilibrium found;
@@ -158,8 +158,8 @@ TEST_CASE("equilibrium by iterations is that by factors", "[analysis]") {
   const std::string wall =
       "wall{length=3, courses=14, brick={length=.24,width=.12,height=.09}, joint=10*mm, base={thickness=.1,margin=.1}, quiet=true}";
   const Scene scenes[] = {
-      // leaning out of its plane, the softest way of a wall; an arch; a tall mast that leans; bricks beside a block on a joint that is
-      // a hundred thousand times softer
+      // Four cases: a wall leaning out of its plane, its softest direction; an arch; a tall leaning mast; bricks beside a block on a joint
+      // a hundred thousand times softer.
       scene_of(mortar + wall + "gravity{0,.05*g,-g}"),
       scene_of("joint{law=mortar{E=1e9, thickness=10*mm, ft=5*MPa, c=9*MPa, mu=0.6}}"
                "arch{radius=5, thickness=.8, width=1, voussoirs=41, material='brick'}"),
@@ -185,7 +185,7 @@ TEST_CASE("joints that open and slide come to the same rest by iterations and by
   const Settled direct = settled(scene, Linear::direct), iterated = settled(scene, Linear::iterative);
   REQUIRE(direct.found.converged);
   REQUIRE(iterated.found.converged);
-  // both within 1e-11 of balance; a joint open on most of its face is some 1e4 times softer than a sound one
+  // Both residuals are within 1e-11. A joint open on most of its face is some 1e4 times softer than an intact one.
   CHECK(difference(iterated.run, direct.run) < 1e-6);
 }
 
@@ -203,7 +203,7 @@ TEST_CASE("without equilibrium iterations say what factors say", "[analysis]") {
 
 namespace {
 
-// Stacks of five plates, each on a slope of its own at a share of the friction limit, falling towards `way` (deg).
+// Stacks of five plates, each on its own slope at a share of the friction limit, inclined towards `way` (deg).
 Scene slopes(const std::string& shares, double way) {
   return scene_of(fmt::format(R"(
     local way = {} * math.pi / 180

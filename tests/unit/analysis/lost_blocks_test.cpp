@@ -1,4 +1,4 @@
-// What falls past the ground is told with its place and with the ground that would have caught it.
+// The report of a block that fell past the ground gives its position, and the size of ground that would have caught it.
 #include "engine/analysis/lost_blocks.h"
 
 #include <catch2/catch.hpp>

@@ -21,7 +21,7 @@ TEST_CASE("gravity by factorisation and by a damped ramp give the same wall", "[
     difference = std::max(difference, (direct.state.u[b] - ramped.state.u[b]).norm());
   }
   CHECK(size > 0);
-  CHECK(difference < 1e-3 * size);  // what the ramp's damping leaves of its oscillation
+  CHECK(difference < 1e-3 * size);  // oscillation that remains after the damped ramp
 }
 
 TEST_CASE("a wall in equilibrium stays there", "[analysis]") {
@@ -52,7 +52,7 @@ TEST_CASE("a step past the limit is refused with the reason", "[analysis]") {
 
 TEST_CASE("the bounds on the step keep their order", "[analysis]") {
   const Prepared run = prepare(test::small_wall("analysis{duration=1}"), false);
-  // K <= 2 blockdiag(K_ii) for springs between pairs, and Cauchy's interlacing: the block bound is right or up to sqrt 2 too short
+  // K <= 2 blockdiag(K_ii) for springs between pairs, and Cauchy's interlacing: the block bound is exact or up to sqrt 2 too short.
   CHECK(run.bounds.block <= run.bounds.critical * (1 + 1e-9));
   CHECK(run.bounds.critical <= std::sqrt(2.0) * run.bounds.block * (1 + 1e-6));
 }
@@ -66,7 +66,7 @@ TEST_CASE("dashpots of joints shorten the step to the limit of explicit damping"
     CHECK(run.bounds.block <= run.bounds.critical * (1 + 1e-6));
     CHECK(run.state.dt == Approx(0.9 * run.bounds.critical));
   }
-  // of each joint's own ratio: b = 2 xi / omega_j
+  // With each joint's own damping ratio: b = 2 xi / omega_j.
   const Prepared own = prepare(test::small_wall("damping{joint_ratio=0.1} analysis{duration=1}"), false);
   CHECK(own.bounds.critical < free);
   CHECK(own.bounds.critical > 0.5 * free);

@@ -10,7 +10,7 @@ using namespace erbs;
 
 namespace {
 
-// A pillar that is shaken until its mortar cracks, its joints open and its bricks fall: everything a checkpoint has to carry.
+// A pillar that is shaken until its mortar cracks, its joints open and its bricks fall. It uses everything that a checkpoint must store.
 const char* const pillar = R"(
 material{ name = "brick", density = 1800 }
 ground{ z = 0, size = 10, material = "brick" }
@@ -24,7 +24,7 @@ recorder{ name = "base", quantity = "reaction", axis = "xz" }
 analysis{ duration = 0.6 }
 )";
 
-// Walls of several kinds of joints that crack one after the other, while joints of those that fell first are gone already.
+// Walls with several kinds of joints that crack one after another. Joints of the walls that fell first are gone by then.
 const char* const walls = R"(
 material{ name = "brick", density = 1800, friction = 0.6 }
 ground{ z = 0, size = 20, material = "brick" }
@@ -59,7 +59,7 @@ Metrics run(const char* text, const std::string& dir, Existing existing, std::op
   return run_dynamic(scene, text, options).metrics;
 }
 
-// Once whole and once stopped at each of `times`.
+// Runs once without a stop, and once with a stop at each of `times` (s).
 void stop_and_go(const char* text, const std::vector<double>& times) {
   const test::Scratch whole("resume_whole"), parts("resume_parts");
   const Metrics expected = run(text, whole.path, Existing::refuse, {});
@@ -84,7 +84,7 @@ void stop_and_go(const char* text, const std::vector<double>& times) {
 }  // namespace
 
 TEST_CASE("a run that is stopped and resumed ends as if never stopped, to the bit", "[analysis][resume]") {
-  stop_and_go(pillar, {0.03, 0.172, 0.3201, 0.5});  // still whole; cracked and turning; while joints are handed over; among falling bricks
+  stop_and_go(pillar, {0.03, 0.172, 0.3201, 0.5});  // intact; cracked and rotating; during release to contact; among falling bricks
 }
 
 TEST_CASE("joints that crack after others are gone find the same lanes in a resumed run", "[analysis][resume]") {

@@ -1,4 +1,4 @@
-// The companion of rocking scenes against closed forms and against tables computed apart from it.
+// The rocking reference against closed forms, and against tables computed independently.
 #include "engine/analysis/rocking.h"
 
 #include <catch2/catch.hpp>
@@ -18,7 +18,7 @@ RockingBlock linear(RockingBlock block) {
   return block;
 }
 
-// Bands under a sine whose amplitude is the block's own threshold, so that factors are a / (g tan alpha), linear a / (g alpha).
+// Bands under a sine whose amplitude is the block's own threshold: factors are a / (g tan alpha), linear a / (g alpha).
 template <class Sine>
 std::vector<OverturningBand> bands(const RockingBlock& block, double w, Criterion criterion, double low, double high, int points) {
   Sine wave;
@@ -49,7 +49,8 @@ TEST_CASE("free rocking: period and decay", "[rocking]") {
 
 TEST_CASE("half sine: both criteria in linear theory are closed forms", "[rocking]") {
   for (const double w : {0.5, 1.0, 2.0, 3.0, 5.0, 10.0}) {
-    // true overturning: w sin psi - cos psi = exp(-(pi - psi)/w); alpha at the end: tanh((pi - psi)/w) = w tan psi; a = g alpha / sin psi
+    // True overturning: w sin psi - cos psi = exp(-(pi - psi)/w). Alpha at the end: tanh((pi - psi)/w) = w tan psi. Both with a = g alpha /
+    // sin psi.
     const auto solve = [](auto f) {
       double low = 1e-4, high = pi / 2;
       for (int i = 0; i < 100; ++i) (f(0.5 * (low + high)) < 0 ? low : high) = 0.5 * (low + high);
@@ -102,5 +103,5 @@ TEST_CASE("a block below its threshold stays at rest, and a short pulse is not s
   CHECK(calm.theta.back() == 0);
   const RockingRun struck = rock(makris, {&blow, 1}, {}, 5);
   REQUIRE_FALSE(struck.amplitude.empty());
-  CHECK(struck.theta[3] < 0);  // the ground goes off under it
+  CHECK(struck.theta[3] < 0);  // the ground moves away under it
 }

@@ -6,7 +6,7 @@ using namespace erbs;
 
 namespace {
 
-// Looks at `past` of 1000 steps that were `ratio` times their limit, the others half of it.
+// Diagnostics of 1000 steps: `past` steps at `ratio` times their limit, the others at half of it.
 TrustWatch watched(long past, double ratio, State& s) {
   TrustWatch watch;
   s.last_dt = 1e-4;
@@ -21,7 +21,7 @@ TrustWatch watched(long past, double ratio, State& s) {
 
 TEST_CASE("steps past their limit count by how many they are and how far out", "[analysis][trust]") {
   State s;
-  CHECK_FALSE(stepped_too_far(watched(900, 1.04, s), s));  // within what a step adapts by
+  CHECK_FALSE(stepped_too_far(watched(900, 1.04, s), s));  // within the adaptation of a step
   CHECK_FALSE(stepped_too_far(watched(900, 1.25, s), s));
   CHECK_FALSE(stepped_too_far(watched(5, 1.6, s), s));
   CHECK(stepped_too_far(watched(20, 1.6, s), s));

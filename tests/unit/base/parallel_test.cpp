@@ -1,4 +1,4 @@
-// The barrier of a team, with waits that fall asleep at once or after a while: whoever comes last wakes all others.
+// The barrier of a team, with waits that sleep at once or after a while: the last thread to arrive wakes all others.
 #include "engine/base/parallel.h"
 
 #include <catch2/catch.hpp>

@@ -1,4 +1,4 @@
-// Text of others, on its way to terminals and files.
+// Untrusted text on its way to terminals and files.
 #include "engine/base/text.h"
 
 #include <catch2/catch.hpp>

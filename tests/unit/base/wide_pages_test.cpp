@@ -16,7 +16,7 @@ struct alignas(64) Line {
 
 TEST_CASE("arrays with wide pages are arrays: aligned, copied and grown", "[base]") {
   using Lines = std::vector<Line, WidePages<Line>>;
-  const std::size_t n = GENERATE(1, 100, 32768, 50001);  // up to 64 kB, just 2 MB, beyond
+  const std::size_t n = GENERATE(1, 100, 32768, 50001);  // up to 64 kB, just 2 MB, more
   Lines a(n);
   CHECK(reinterpret_cast<std::uintptr_t>(a.data()) % (n * sizeof(Line) < WidePages<Line>::page ? 64 : WidePages<Line>::page) == 0);
   for (std::size_t i = 0; i < n; ++i) a[i].x[7] = double(i);

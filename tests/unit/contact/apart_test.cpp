@@ -1,4 +1,4 @@
-// Pairs that are apart, judged by what kept them apart the last time.
+// Separated pairs, tested again with the separating feature of their last test.
 #include <catch2/catch.hpp>
 #include <random>
 

@@ -15,7 +15,7 @@ namespace {
 
 void check_near(const Vec3& x, const Vec3& y, double scale) { CHECK((x - y).norm() <= 1e-8 * scale); }
 
-// What one evaluation of the pair alone gave, and left in its memory, against lane `lane` of eight.
+// Compares a single evaluation of a pair, and its stored history, with one lane of a pack of eight.
 void check_same(const Pair& p, const PairResult& r, const Pair& q, const PairResult& s) {
   const double force = r.wrench.force.norm() + 1, energy = 1e-6;
   check_near(r.wrench.force, s.wrench.force, force);
@@ -29,7 +29,7 @@ void check_same(const Pair& p, const PairResult& r, const Pair& q, const PairRes
   CHECK(r.rate_a == Approx(s.rate_a));
   CHECK(r.rate_b == Approx(s.rate_b));
   CHECK(r.rubbing == Approx(s.rubbing).margin(1e-3));
-  CHECK(r.elastic == Approx(s.elastic).epsilon(1e-9).margin(1e-13));  // J: the same integral from other triangles, to round-off
+  CHECK(r.elastic == Approx(s.elastic).epsilon(1e-9).margin(1e-13));  // J: the same integral over other triangles, equal to round-off
   CHECK(p.touching == q.touching);
   CHECK(p.area == Approx(q.area));
   CHECK(p.gyration == Approx(q.gyration).margin(1e-9));
@@ -52,7 +52,7 @@ TEST_CASE("eight pairs side by side press as each does alone", "[contact]") {
   std::mt19937 random(7);
   const auto draw = [&](double a) { return a * (2 * std::uniform_real_distribution<double>()(random) - 1); };
   std::vector<Body> bodies{{{box_polyhedron({-3, -3, -0.4}, {3, 3, 0})}, 0}};
-  for (int i = 0; i < 14; ++i) {  // of different size: either of two may be the reference
+  for (int i = 0; i < 14; ++i) {  // of different size: either one of two may be the reference
     const Polyhedron one = brick(0.3, 0.125, i % 3 == 0 ? 0.1 : 0.12);
     Polyhedron turned = one;
     const Mat3 turn = rotation(Vec3(draw(0.3), draw(0.3), draw(1))).toRotationMatrix();

@@ -1,4 +1,4 @@
-// A few bodies, gravity and contact: the plainest leapfrog that can try the contact law, with a full ledger.
+// A few bodies with gravity and contact: the simplest leapfrog that can test the contact law, with a complete energy ledger.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -104,7 +104,8 @@ struct Bodies {
     return turn * inverse_inertia[i] * turn.transpose();
   }
 
-  // Forces at the present pose, kick over a whole step (`first`: half, velocities then are those of the start), drift.
+  // Forces at the present pose, then a kick and a drift over a whole step. `first`: half a kick, since velocities are still those of the
+  // start.
   void step(bool first = false) {
     forces();
     kinetic = height = 0;
@@ -140,8 +141,7 @@ struct Bodies {
     for (std::size_t i = 0; i < block.size(); ++i) p += mass[i] * block[i].v;
     return p;
   }
-  // About the rest position of body 0. Of poses and velocities half a step apart, which is constant for a pair of free bodies up to
-  // v x v.
+  // About the rest position of body 0, with poses and velocities half a step apart. For a pair of free bodies it is constant up to v x v.
   Vec3 angular_momentum() const {
     Vec3 p = Vec3::Zero();
     for (std::size_t i = 0; i < block.size(); ++i)

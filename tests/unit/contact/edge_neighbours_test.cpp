@@ -1,4 +1,4 @@
-// Blocks that meet along an edge at rest: what they bear as long as nobody looks, and that they are looked at in time.
+// Blocks that meet along an edge at rest: the force they carry while skipped, and a contact test in time.
 #include <catch2/catch.hpp>
 
 #include "engine/analysis/prepare.h"
@@ -24,7 +24,7 @@ struct Two {
 
 Polyhedron brick_at(double x, double y, double z) { return translated(brick(), {x, y, z}); }
 
-// Twenty columns of bricks on each other, joint over joint, on a bed that gives way: 38 diagonal neighbours a course.
+// Twenty columns of bricks in stack bond on a joint that fails: 38 diagonal neighbours a course.
 const char* const stack_bond = R"(
   gravity(g)
   material{ name = "brick", density = 1800, friction = 0.6, restitution = 0.2, kn = 5e10, ks = 2e10 }
@@ -43,7 +43,7 @@ const char* const stack_bond = R"(
 TEST_CASE("edges and corners that meet at zero gap are known, faces and gaps are not", "[contact][edges]") {
   const Polyhedron one = brick_at(0, 0, 0);
   CHECK(Two(one, brick_at(0.3, 0, 0.1)).edge().touches);      // along an edge
-  CHECK(Two(one, brick_at(0.3, 0.125, 0.1)).edge().touches);  // in a corner
+  CHECK(Two(one, brick_at(0.3, 0.125, 0.1)).edge().touches);  // at a corner
   CHECK(!Two(one, brick_at(0, 0, 0.1)).edge().touches);
   CHECK(!Two(one, brick_at(0.3, 0, 0.05)).edge().touches);
   CHECK(!Two(one, brick_at(0.301, 0, 0.1)).edge().touches);
@@ -102,7 +102,7 @@ TEST_CASE("diagonal neighbours of a wall that slides as one are left alone", "[s
   Solver solver(run.model, run.state, 1);
   solver.run({[](double) { return false; }, [] {}, [&] { return run.state.t >= 0.15; }});
   const double steps = double(run.state.step);
-  CHECK(run.state.u[1].norm() > 1e-4);                 // it slid
-  CHECK(double(solver.touched()) < 1.5 * 20 * steps);  // its bed, and few more: 114 pairs meet along their edges
+  CHECK(run.state.u[1].norm() > 1e-4);                 // the wall has slid
+  CHECK(double(solver.touched()) < 1.5 * 20 * steps);  // its former joint, and few more: 114 pairs meet along edges
   CHECK(run.state.max_penetration_relative < 1e-3);
 }

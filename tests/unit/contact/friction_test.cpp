@@ -1,4 +1,4 @@
-// Friction of the patch: threshold, creep, stop, spin; ledgers of frictional impacts and of rocking; hand-over from a joint.
+// Friction of a contact patch: threshold, creep, stop, torsion; energy ledgers of frictional impact and of rocking; release of a joint.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -18,7 +18,7 @@ Vec3 random_vector(std::mt19937& random) {
   return {normal(random), normal(random), normal(random)};
 }
 
-// A brick lying on a wide floor with gravity inclined by `slope` about y; noise of 1e-8 so that symmetry hides nothing.
+// A brick on a wide floor, with gravity inclined by `slope` about y. A rotation of 1e-8 breaks the symmetry.
 Bodies on_slope(double slope, double mu, double dt, double direction = 0, double h = 0.1) {
   Body floor{{box_polyhedron({-5, -5, -1}, {5, 5, 0})}, 0};
   const double sink = 1800 * h * 9.81 * std::cos(slope) / stiffness;
@@ -48,7 +48,7 @@ TEST_CASE("a brick slides when the slope exceeds the friction angle", "[contact]
   const double mu = 0.6, angle = std::atan(mu);
   for (double direction : {0.0, 0.7}) {
     Bodies below = on_slope(angle - 2e-4, mu, small_step(0.3), direction), above = on_slope(angle + 2e-4, mu, small_step(0.3), direction);
-    // Gravity turns slowly from the vertical, so that the start is no shock.
+    // Gravity slowly rotates from the vertical, so that the start is no shock.
     for (Bodies* two : {&below, &above}) {
       const Vec3 end = two->gravity;
       while (two->t < 0.6) {
@@ -64,7 +64,7 @@ TEST_CASE("a brick slides when the slope exceeds the friction angle", "[contact]
   }
 }
 
-// V06, shortened: the drift per second is what counts.
+// V06, shortened: the criterion is the drift per second.
 TEST_CASE("a brick that sticks does not creep", "[contact][verify]") {
   Bodies two = on_slope(0.9 * std::atan(0.6), 0.6, small_step(0.5), 0.3);
   two.run(0.5);
@@ -74,7 +74,7 @@ TEST_CASE("a brick that sticks does not creep", "[contact][verify]") {
   CHECK(two.block[1].v.norm() < 1e-8);
 }
 
-// V07. A thin brick: a tall one that is pushed open at its heel chatters on its elastic bed (also in the limit of small steps).
+// V07. The brick is thin: a tall brick opens at its heel and chatters on its elastic joint, even in the limit of small steps.
 TEST_CASE("a sliding brick stops where it must, in 16 directions", "[contact][verify]") {
   const double mu = 0.6, v0 = 0.5, exact = v0 * v0 / (2 * mu * 9.81);
   double shortest = 1, longest = 0;
@@ -108,7 +108,7 @@ TEST_CASE("a spinning brick stops after I w / (mu N r)", "[contact][verify]") {
   CHECK(stopped / 0.99 == Approx(stop).epsilon(0.015));
 }
 
-// Pressed evenly and constantly, but with its pressure off the middle of the face, and shaken at random within and beyond its limit.
+// Pressure is uniform and constant but eccentric; random shaking stays within the limit at times and exceeds it at others.
 TEST_CASE("slip of a patch takes energy in every step, wherever its pressure lies", "[contact]") {
   std::mt19937 random(7);
   for (const double off : {0.0, 0.02, 0.3}) {
@@ -129,7 +129,7 @@ TEST_CASE("slip of a patch takes energy in every step, wherever its pressure lie
     Vec3 moved = Vec3::Zero(), speed = Vec3::Zero();
     for (int step = 0; step < 20000; ++step) {
       const Vec3 kick = random_vector(random);
-      speed = 0.9 * speed + 0.2 * reach * kick;  // slip x, slip y, turn times the gyration
+      speed = 0.9 * speed + 0.2 * reach * kick;  // slip x, slip y, rotation times the radius of gyration
       moved += speed;
       const double turn = moved.z() / patch.gyration;
       pose.shift = {moved.x(), moved.y(), 0};
@@ -231,7 +231,7 @@ TEST_CASE("a loaded contact turned as a whole keeps its force and does no work",
   CHECK(two.tangential == Approx(stored).epsilon(1e-7));
 }
 
-// Hard case 14. A face of .0375 m2 that presses with 300 N and is sheared by 54 N stores N^2 / (2 kn A) + T^2 / (2 ks A).
+// Hard case 14. A face of .0375 m2 with a pressure of 300 N and a shear of 54 N stores N^2 / (2 kn A) + T^2 / (2 ks A).
 TEST_CASE("a contact takes over from a joint without a jump of force or energy", "[contact][hard]") {
   const double area = 0.0375, kn = GENERATE(0.1, 1.0, 10.0) * stiffness, sunk = GENERATE(1e-6, 2e-7, 4e-8);
   CAPTURE(kn, sunk);
@@ -286,5 +286,5 @@ TEST_CASE("a pair lists its memory for checkpoints", "[contact]") {
   Pair p;
   std::size_t bytes = 0;
   each(p, [&](auto, auto& x) { bytes += sizeof(x); });
-  CHECK(bytes + sizeof(Corners) + alignof(Pair) > sizeof(Pair));  // padding only, and corners, which are found anew
+  CHECK(bytes + sizeof(Corners) + alignof(Pair) > sizeof(Pair));  // only padding, and corners, which are found anew
 }

@@ -1,4 +1,4 @@
-// Convex bodies of hundreds of corners: the same law as for a brick, whatever the number, and a message past the bound.
+// Convex bodies with hundreds of corners: the same contact law as for a brick at any number, and a message beyond the bound.
 #include <catch2/catch.hpp>
 
 #include "engine/analysis/prepare.h"
@@ -12,7 +12,7 @@ using namespace erbs::trial;
 
 namespace {
 
-// Corners spread evenly over a ball, by the golden angle; `flat`: of its height.
+// Corners spread evenly over a ball by the golden angle; `flat` scales its height.
 std::vector<Vec3> corners(int n, double radius = 0.2, double flat = 1) {
   std::vector<Vec3> x;
   for (int i = 0; i < n; ++i) {
@@ -26,7 +26,7 @@ Polyhedron lifted(const Polyhedron& p, double by) { return translated(p, Vec3(0,
 
 Polyhedron plate() { return box_polyhedron({-3, -3, -0.5}, {3, 3, 0}); }
 
-// J, what the ledger misses of what the bodies had.
+// J, largest deviation of the ledger from the bodies' initial energy.
 double missing(Bodies& bodies, double until) {
   bodies.step(true);
   const double before = bodies.total();

@@ -1,4 +1,4 @@
-// The normal law: an exact derivative of a volume integral, energy and momentum in collisions, rest, restitution.
+// Normal contact law: exact derivative of a volume integral; energy and momentum in collisions; rest; restitution.
 #include <catch2/catch.hpp>
 #include <random>
 
@@ -14,8 +14,8 @@ Vec3 random_vector(std::mt19937& random) {
   return {normal(random), normal(random), normal(random)};
 }
 
-// Int phi dV over both bodies: the overlap is cut into cells by bisectors and planes with general half-space clipping of
-// polygons, and integrated by tetrahedra. Coded apart from the engine's surface form.
+// Int phi dV over both bodies. Bisectors and planes cut the overlap into cells by general half-space clipping of polygons; tetrahedra
+// integrate them. The code is independent of the engine's surface form.
 double volume_integral(const Polyhedron& a, const Polyhedron& b) {
   const auto pa = planes(a), pb = planes(b);
   double sum = 0;
@@ -59,7 +59,7 @@ struct Two {
   double shift = 0;
 };
 
-// Random pair that overlaps by up to `depth`.
+// A random pair that overlaps by up to `depth`.
 std::pair<Polyhedron, Polyhedron> overlapping(const Polyhedron& p, const Polyhedron& q, std::mt19937& random, double depth) {
   const Polyhedron a = transformed(p, rotation(random_vector(random)), Vec3::Zero());
   const Quat turn = rotation(random_vector(random));
@@ -89,7 +89,7 @@ struct Probe {
   double energy;
 };
 
-// Force on b and moment about its centroid from the engine, b moved by `by` and turned by `turn` about its centroid.
+// Engine's force on b and moment about its centroid, with b moved by `by` and rotated by `turn` about its centroid.
 Probe probe(const Polyhedron& a, const Polyhedron& b, const Vec3& by, const Vec3& turn, double kn) {
   Bodies two({{{a}}, {{b}}}, {kn, 0, 0, 1}, 1e-6);
   two.settings.settling = two.settings.settling_tangential = 0;
@@ -189,7 +189,7 @@ TEST_CASE("restitution is what was asked for, flat, on an edge and on a corner",
   for (double e : {1.0, 0.8, 0.5, 0.3}) {
     for (double speed : {0.2, 2.0}) {
       for (int pose = 0; pose < 3; ++pose) {
-        // Each falls with its centroid above the place of contact.
+        // Each cube falls with its centroid above the point of contact.
         const Quat q = pose == 0   ? Quat::Identity()
                        : pose == 1 ? rotation({M_PI / 4, 0, 0})
                                    : Quat::FromTwoVectors(Vec3(1, 1, 1), Vec3::UnitZ());
@@ -199,8 +199,9 @@ TEST_CASE("restitution is what was asked for, flat, on an edge and on a corner",
         Bodies two({floor, {{p}, 1800, {0, 0, -speed}}}, {kn, 0.4 * kn, 0.6, e}, dt);
         two.run(speed < 1 ? 0.06 : 0.01);
         INFO("e " << e << " speed " << speed << " pose " << pose);
-        CHECK(two.block[1].v.z() / speed == Approx(e).margin(0.03));  // the greatest approach is slowly forgotten
-        // A face meets a face within a step: the work of the half step before it is k v^2 dt^2 / 8 at most, (omega dt)^2 / 4 of the energy.
+        CHECK(two.block[1].v.z() / speed == Approx(e).margin(0.03));  // the stored peak closing speed decays slowly
+        // A face meets a face within one step. The work of the half step before it is at most k v^2 dt^2 / 8, (omega dt)^2 / 4 of the
+        // energy.
         CHECK(std::abs(two.total() - 0.5 * two.mass[1] * speed * speed) < 0.01 * 0.5 * two.mass[1] * speed * speed);
       }
     }
@@ -263,7 +264,7 @@ TEST_CASE("a pair that turns as one feels no dashpot", "[contact]") {
   two.forces();
   REQUIRE(two.result.size() == 1);
   REQUIRE(two.result[0].touching);
-  // One step about an axis at the distance of some half a metre: chords and Cayley's rotation, as a step goes.
+  // One step about an axis some half a metre away: chords and Cayley's rotation, as in a time step.
   const Vec3 axis = Vec3(1, 2, 3).normalized(), centre(0.5, -0.4, 0.2);
   const Quat turn = rotation(omega * dt * axis);
   for (ContactBlock& b : two.block) {
@@ -274,7 +275,7 @@ TEST_CASE("a pair that turns as one feels no dashpot", "[contact]") {
   }
   two.t = dt;
   two.forces();
-  const double lagging = 0.5 * dt * omega * omega * 0.1;  // m/s: what the way at the end of the step would let them part with
+  const double lagging = 0.5 * dt * omega * omega * 0.1;  // m/s: separation speed if computed with the poses at the end of the step
   const double dashpot = 2 * two.settings.settling_tangential * std::sqrt(ks * 0.03 * two.mass[0] / 4);
   CHECK(two.list.pair[0].damping.force.norm() < 1e-6 * dashpot * lagging);
   CHECK(std::abs(two.damping) < 1e-6 * dashpot * lagging * lagging * dt);

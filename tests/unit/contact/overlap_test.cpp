@@ -15,7 +15,7 @@ namespace {
 Polyhedron wedge() {
   return hull({{-0.2, -0.1, -0.05}, {0.2, -0.1, -0.05}, {0.2, 0.1, -0.05}, {-0.2, 0.1, -0.05}, {0.1, -0.1, 0.08}, {0.1, 0.1, 0.08}});
 }
-// More faces than a small body has where n > 6; sides that are not plane, and so two faces each, unless `top` is .0875.
+// For n > 6 it has more faces than a small body. Its sides are not plane, and thus two faces each, unless `top` is .0875.
 Polyhedron frustum(int n, double top = 0.1) {
   std::vector<Vec3> v;
   for (int i = 0; i < n; ++i)
@@ -50,7 +50,7 @@ void check_same(const ContactShape& a, const ContactShape& b, const PairPose& po
   closing_speeds(general, linear, angular, q);
   CHECK(p.closing == Approx(q.closing));
   Vec3 f0, m0, f1, m1;
-  for (const double chi : {0.1, 1.5}) {  // within the clamp; past it here and there, however the polygons are cut into triangles
+  for (const double chi : {0.1, 1.5}) {  // within the clamp; in part beyond it, for any triangulation of the polygons
     damping_wrench(fast, p.normal, chi, 2, f0, m0);
     damping_wrench(general, q.normal, chi, 2, f1, m1);
     CHECK((f0 - f1).norm() < near * q.force.norm());
@@ -74,7 +74,7 @@ TEST_CASE("small bodies overlap the fast way as the general way", "[contact]") {
   for (int trial = 0; trial < 4000; ++trial) {
     const ContactShape &a = shapes[std::size_t(trial) % 5], &b = shapes[std::size_t(trial / 5) % 5];
     PairPose pose;
-    const bool resting = trial % 3 == 0;  // face on face to a micrometre
+    const bool resting = trial % 3 == 0;  // face on face within a micrometre
     const Vec3 turn(scatter(resting ? 1e-6 : 2), scatter(resting ? 1e-6 : 2), scatter(2));
     pose.turn = rotation(turn).toRotationMatrix();
     pose.shift = resting ? Vec3(scatter(0.1), scatter(0.05), a.centre.z() + a.half.z() - b.centre.z() + b.half.z() - 1e-6)
@@ -136,13 +136,13 @@ TEST_CASE("instruction sets clip to the same bits, and a pair to the same whatev
 }
 
 TEST_CASE("the share of a clamp in a triangle is exact", "[contact]") {
-  // f = 1 and g = x over the triangle (-1, 0) (2, 0) (-1, 3): Int x+ = Int_0^2 x (2 - x) dx = 4/3, Int x+ x = Int_0^2 x^2 (2 - x) dx = 4/3
+  // f = 1 and g = x over the triangle (-1, 0) (2, 0) (-1, 3): Int x+ = Int_0^2 x (2 - x) dx = 4/3, Int x+ x = Int_0^2 x^2 (2 - x) dx = 4/3.
   const double f[3] = {1, 1, 1}, g[3] = {-1, 2, -1}, x[3][3] = {{-1, 0, 0}, {2, 0, 0}, {-1, 3, 0}};
   double i0 = 0, i1[3] = {};
   add_ramp(f, g, x, 4.5, i0, i1);
   CHECK(i0 == Approx(4.0 / 3));
   CHECK(i1[0] == Approx(4.0 / 3));
-  // its complement, two corners above zero: Int (-x)+ = Int x+ - Int x with Int x = 0, Int (-x)+ x = Int x+ x - Int x^2, Int x^2 = 9/4
+  // The complement, two corners above zero: Int (-x)+ = Int x+ - Int x with Int x = 0. Int (-x)+ x = Int x+ x - Int x^2 with Int x^2 = 9/4.
   const double h[3] = {1, -2, 1};
   double j0 = 0, j1[3] = {};
   add_ramp(f, h, x, 4.5, j0, j1);
@@ -162,7 +162,7 @@ struct Walk {
                     : Vec3(scatter(0.2), scatter(0.1), scatter(0.15));
     step = resting ? 1e-7 : std::pow(10.0, -3 - kind % 4);
     const auto room = std::make_unique<OverlapRoom>();
-    for (int i = 0; i < 20; ++i) {  // at most some millimetres deep
+    for (int i = 0; i < 20; ++i) {  // limits the depth to some millimetres
       int none = -1;
       const Patch patch = find_overlap(a, b, {turn, shift}, none, *room);
       if (!(patch.total > 0) || patch.deepest < 0.005) break;
@@ -229,7 +229,7 @@ TEST_CASE("an overlap known by its corners is the one that clipping finds, and t
       OverlapSums p, q;
       clip_kernels().sum(*kept, p);
       clip_kernels().sum(*clipped, q);
-      const double near = 1e-9, deep = kept->deepest;  // of sums whose corners may be off by round-off over the sine of two planes
+      const double near = 1e-9, deep = kept->deepest;  // sums, with corners off by round-off over the sine of two planes
       CHECK(p.total == Approx(q.total).epsilon(near).margin(1e-16 * deep));
       CHECK(p.area == Approx(q.area).epsilon(1e-7).margin(1e-10));
       for (int i = 0; i < 3; ++i) {
@@ -242,7 +242,7 @@ TEST_CASE("an overlap known by its corners is the one that clipping finds, and t
   }
   CHECK(met > 5000);
   CHECK(known_before > met * 8 / 10);
-  CHECK(without < met / 30);  // too many corners, or four planes in one
+  CHECK(without < met / 30);  // too many corners, or four planes through one
 }
 
 TEST_CASE("bodies whose edges cross are as far apart as the edges", "[contact]") {
@@ -255,7 +255,7 @@ TEST_CASE("bodies whose edges cross are as far apart as the edges", "[contact]")
   const auto room = std::make_unique<OverlapRoom>();
   for (const bool general : {false, true}) {
     room->only_general = general;
-    // the edges cross at right angles, each s / sqrt 2 from its centre
+    // The edges cross at right angles, each s / sqrt 2 from its centre.
     const PairPose pose{a.transpose() * b, a.transpose() * Vec3(0.01, -0.02, std::sqrt(2.0) * s + gap)};
     int separating = -1;
     CHECK(find_overlap(cube, cube, pose, separating, *room).total == 0);

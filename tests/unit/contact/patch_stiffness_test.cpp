@@ -1,4 +1,4 @@
-// What a patch resists with, against closed forms of a brick on a slab.
+// Stiffness of a contact patch, against closed forms of a brick on a slab.
 #include "engine/contact/patch_stiffness.h"
 
 #include <catch2/catch.hpp>
@@ -23,9 +23,9 @@ TEST_CASE("the patch under a brick resists as its closed forms say, from whichev
   Mat6 paper = Mat6::Zero();
   paper.diagonal() << ks * area, ks * area, kn * area, kn * area * across + ks * area * arm * arm,
       kn * area * along + ks * area * arm * arm, ks * area * (along + across);
-  paper(0, 4) = paper(4, 0) = -ks * area * arm;  // a push along x turns it about y
+  paper(0, 4) = paper(4, 0) = -ks * area * arm;  // a force along x rotates it about y
   paper(1, 3) = paper(3, 1) = ks * area * arm;
-  // to the share of the depth in the sides, which are pressed too
+  // Tolerance: the depth as a share of the sides, which carry pressure too.
   for (int r = 0; r < 6; ++r)
     for (int c = 0; c < 6; ++c) CHECK(on(r, c) == Approx(paper(r, c)).epsilon(1e-4).margin(1e-4 * kn * area * arm * arm));
 }

@@ -1,4 +1,4 @@
-// Blocks that lie still look for nobody, and are found.
+// Blocks at rest start no search of their own, and are found by others.
 #include <catch2/catch.hpp>
 
 #include "tests/unit/contact/bodies.h"
@@ -15,16 +15,16 @@ TEST_CASE("a search that leaves out what lies still lists what a whole one lists
   for (Bodies* b : {&one, &other}) {
     search(b->list, b->shapes, b->block, loose, {}, law);
     REQUIRE(b->list.pair.size() == 5);
-    for (Pair& p : b->list.pair) p.tangential = 1 + p.a;  // what they remember
+    for (Pair& p : b->list.pair) p.tangential = 1 + p.a;  // contact history
     b->block[4].u = Vec3(0, 0, 1);                        // leaves its neighbours
-    b->block[5].u = Vec3(-0.305 * 3, 0, 0.105);           // comes to lie on one that is still
+    b->block[5].u = Vec3(-0.305 * 3, 0, 0.105);           // comes to rest on a block that has not moved
   }
   CHECK(needs_search(one.list, one.shapes, one.block, still));
   const double dropped = search(one.list, one.shapes, one.block, loose, {}, law, still);
   std::vector<int> fresh;
   CHECK(dropped == search(other.list, other.shapes, other.block, loose, {}, law, {}, &fresh));
   REQUIRE(!fresh.empty());
-  for (const int i : fresh) {  // what stays is not new: it remembers
+  for (const int i : fresh) {  // remaining pairs are not new: they keep their history
     CHECK(other.list.pair[std::size_t(i)].b == 5);
     CHECK(other.list.pair[std::size_t(i)].tangential == 0);
   }
@@ -50,7 +50,7 @@ TEST_CASE("blocks that are equal but for where and how they lie share a shape", 
     for (int i = 0; i < 5; ++i) {
       const Polyhedron lies = turned(p, Quat(Eigen::AngleAxisd(0.3 * i, Vec3(1, -2, i).normalized())));
       const Vec3 far(3.1 * i, -7, 0.3);
-      parts.push_back({translated(translated(lies, far), -far)});  // with the round-off of a place
+      parts.push_back({translated(translated(lies, far), -far)});  // with the round-off of a distant place
       const Mat3 axes = contact_axes(parts.back());
       CHECK((axes * axes.transpose() - Mat3::Identity()).norm() < 1e-14);
       for (Vec3& v : parts.back()[0].vertices) v = axes.transpose() * v;
@@ -58,9 +58,9 @@ TEST_CASE("blocks that are equal but for where and how they lie share a shape", 
   }
   const ContactShapes shapes = contact_shapes(parts);
   REQUIRE(shapes.of.size() == 10);
-  for (std::size_t i = 2; i < 5; ++i) CHECK(shapes.of[i] == shapes.of[1]);  // the first lies in the axes of the world
+  for (std::size_t i = 2; i < 5; ++i) CHECK(shapes.of[i] == shapes.of[1]);  // the first lies along the world axes
   CHECK(shapes.shape.size() <= 4);
-  // The box in these axes is the brick itself.
+  // The box along these axes is the brick itself.
   const ContactShape& s = shapes.part(3);
   CHECK(8 * s.half.prod() == Approx(s.volume));
   CHECK(contact_axes({brick()}) == Mat3::Identity());

@@ -77,7 +77,7 @@ TEST_CASE("faces grow by their own offsets", "[geometry]") {
   const Box b = bounding_box(p);
   CHECK((b.low - Vec3(-0.16, -0.0625, -0.04)).norm() < 1e-15);
   CHECK((b.high - Vec3(0.17, 0.0675, 0.08)).norm() < 1e-15);
-  // A pyramid: four faces meet at the apex, so one moved face changes the topology.
+  // A pyramid: four faces meet at the apex, so moving one face changes the topology.
   const Polyhedron pyramid = hull({{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}});
   std::vector<double> offsets(5, 0.0);
   for (std::size_t f = 0; f < 5; ++f) offsets[f] = face_plane(pyramid, static_cast<int>(f)).n.x() > 0.5 ? 0.1 : 0.0;

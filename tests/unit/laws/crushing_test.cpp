@@ -1,4 +1,4 @@
-// The closed compression of a bed that yields, against a fine grid of places that yield one by one.
+// Closed form of compression on a yielding face, against a fine grid of points that yield independently.
 #include "engine/laws/crushing.h"
 
 #include <algorithm>
@@ -15,14 +15,14 @@ namespace {
 using Gap = std::array<double, 3>;
 double at(const Gap& g, double s, double t) { return g[0] + g[1] * s + g[2] * t; }
 
-// Rectangle, triangle, and a hexagon that is not regular.
+// Rectangle, triangle, and an irregular hexagon.
 const std::vector<std::vector<double>> faces{{-.15, -.06, .15, -.06, .15, .06, -.15, .06},
                                              {-.1, -.05, .2, -.05, -.1, .1},
                                              {-.1, -.06, .08, -.07, .14, 0, .1, .06, -.05, .08, -.12, .02}};
 
 Bed bed(const std::vector<double>& corners) { return {1e10, 1e-4, int(corners.size()) / 2, corners.data()}; }
 
-// Places of equal area (m2) over a face, each with its own set.
+// Points of equal area (m2) over a face, each with its own permanent set.
 struct Places {
   std::vector<std::array<double, 3>> place;  // s, t, z
   double area = 0;
@@ -75,7 +75,7 @@ TEST_CASE("a face that yields presses as its places do one by one", "[laws][crus
     const Gap g{b.limit * (any(random) - 0.6), 12 * b.limit * any(random), 12 * b.limit * any(random)};
     crush(b, crushed, last.data(), g.data());
     places.go(g, b.limit);
-    check(pressed(b, crushed, g.data()), places.press(g, b.kn), whole, 5e-3);  // the grid: its cells at the borders
+    check(pressed(b, crushed, g.data()), places.press(g, b.kn), whole, 5e-3);  // error of the grid: its cells at the borders
     const Gap back{g[0] + 0.5 * b.limit, 0.7 * g[1], g[2]};                    // unloading
     check(pressed(b, crushed, back.data()), places.press(back, b.kn), whole, 5e-3);
     for (std::size_t i = 0; i < places.place.size(); i += 997) {
@@ -91,7 +91,7 @@ TEST_CASE("what crushing takes closes the balance of every step", "[laws][crushi
   const auto& corners = faces[std::size_t(GENERATE(0, 2))];
   const Bed b = bed(corners);
   CrushedFace crushed;
-  // round the face, deeper and less deep, more planes than it keeps
+  // Gaps that circle the face at varying depth, with more planes than a face can keep.
   const auto gap = [&](double x) {
     const double depth = b.limit * (0.5 + 1.5 * std::sin(0.37 * x) * std::sin(0.37 * x));
     return Gap{-depth, 9 * b.limit * std::cos(x), 9 * b.limit * std::sin(x)};
@@ -116,7 +116,7 @@ TEST_CASE("what crushing takes closes the balance of every step", "[laws][crushi
   stored += p0.energy;
   CHECK(crushed.planes == CrushedFace::most);
   CHECK(taken > 0.05 * work);
-  CHECK(std::fabs(work - taken - stored) < 1e-6 * taken);  // where it begins and ceases to press within a step: of third order
+  CHECK(std::fabs(work - taken - stored) < 1e-6 * taken);  // start and end of compression within a step: an error of third order
   CHECK(error < 1e-6 * taken);
 }
 
@@ -125,7 +125,7 @@ TEST_CASE("planes that a face has no room for are those that matter least", "[la
   Places places(faces[0], 300);
   CrushedFace crushed;
   Gap last{1, 0, 0};
-  for (int i = 0; i <= 400; ++i) {  // one turn round the face
+  for (int i = 0; i <= 400; ++i) {  // once around the face
     const double x = 2 * 3.14159265358979 * i / 400;
     const Gap g{-0.6 * b.limit, 9 * b.limit * std::cos(x), 9 * b.limit * std::sin(x)};
     crush(b, crushed, last.data(), g.data());
@@ -147,9 +147,9 @@ TEST_CASE("below fc nothing is crushed, above it unloading is elastic", "[laws][
   const double h = 1e-3 * b.limit, area = 0.3 * 0.12;
   Gap lighter = above;
   lighter[0] += h;
-  // the part in contact unloads with the bed's own stiffness
+  // The part in contact unloads with the elastic stiffness of the face.
   double contact = 0.3;
-  const double heel = (1.5 * b.limit) / (8 * b.limit);  // s where the gap is zero
+  const double heel = (1.5 * b.limit) / (8 * b.limit);  // s of zero gap
   contact = std::min(0.3, heel + 0.15);
   const double change = pressed(b, crushed, above.data()).force - pressed(b, crushed, lighter.data()).force;
   CHECK(change == Approx(b.kn * h * area * contact / 0.3).epsilon(1e-3));

@@ -99,7 +99,7 @@ TEST_CASE("one column needs a step and a unit", "[loads][record]") {
   CHECK_THAT(mistake("1\n2\n", "g"), Catch::Contains("dt = 0.01"));
   CHECK_THAT(mistake("1\n2\n", "", 0.1), Catch::Contains("unit = "));
   CHECK_THAT(mistake("1\n2\n", "stone", 0.1), Catch::Contains("stone"));
-  CHECK(read("1 2 3 4\n5 6\n", "m/s2", 0.5).points == 6);  // values along the lines, the last one short
+  CHECK(read("1 2 3 4\n5 6\n", "m/s2", 0.5).points == 6);  // values along the lines, the last line shorter
 }
 
 TEST_CASE("two columns are time and value", "[loads][record]") {
@@ -122,7 +122,7 @@ TEST_CASE("rest comes before a first value that is not at zero", "[loads][record
   CHECK(near.acceleration.times[0] == Approx(0).margin(1e-17));
   CHECK(near.acceleration.values[0] == 0);
   CHECK(near.points == 2);
-  CHECK(far.acceleration.times[0] == Approx(4.9));  // not a ramp of five seconds
+  CHECK(far.acceleration.times[0] == Approx(4.9));  // not a ramp over five seconds
   CHECK(read("0 5\n0.04 6\n", "m/s2").acceleration.values[0] == 5);
 }
 

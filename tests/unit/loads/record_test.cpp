@@ -31,14 +31,14 @@ TEST_CASE("El Centro has the numbers known of it", "[loads][record]") {
   CHECK(std::abs(r.pgd.value) == Approx(0.2120).margin(5e-5));
   CHECK(r.end_velocity == Approx(6.8e-4).margin(5e-6));
   CHECK(r.end_displacement == Approx(-5.3e-3).margin(5e-5));
-  // Scanned at 200 points a piece.
+  // Reference: a scan with 200 points per piece.
   CHECK(std::abs(r.true_pgv.value) == Approx(0.36199786).epsilon(1e-6));
   CHECK(std::abs(r.true_pgd.value) == Approx(0.21197524).epsilon(1e-6));
 }
 
 TEST_CASE("the file of El Centro is the one of the catalogue", "[loads][record]") {
   const Record record = el_centro();
-  CHECK(record.acceleration.values[0] == 0);  // rest at t = 0
+  CHECK(record.acceleration.values[0] == 0);  // at rest at t = 0
   CHECK(record.acceleration.times[1] == Approx(0.02));
   CHECK(record.acceleration.values[1] == Approx(0.0063 * standard_g));
   CHECK(record.hash.size() == 16);
@@ -96,15 +96,15 @@ TEST_CASE("the report of a ramp is the one on paper", "[loads][record]") {
 }
 
 TEST_CASE("the response spectrum is exact", "[loads][record]") {
-  // A long constant acceleration: the oscillator swings to (1 + exp(-pi z / sqrt(1 - z^2))) times its static deflection.
+  // Long constant acceleration: the oscillator peaks at (1 + exp(-pi z / sqrt(1 - z^2))) times its static deflection.
   const Polyline step = make_polyline({0, 20}, {2, 2});
   const double overshoot = 1 + std::exp(-pi * 0.05 / std::sqrt(1 - 0.0025));
   for (const ResponsePoint& point : response_spectrum(step, {0.1, 0.5, 2}, 0.05))
     CHECK(point.acceleration == Approx(2 * overshoot).epsilon(3e-3));
-  // A piece of a year is no year of waiting, and the far end counts.
+  // A piece that lasts a year must not take long, and its far end counts.
   CHECK(response_spectrum(make_polyline({0, 3e7}, {0, 5}), {0.02}, 0.05)[0].acceleration == Approx(5).epsilon(1e-3));
-  // A lobe of half-sine of duration t_d = T / 4 on an undamped oscillator: Chopra, Dynamics of Structures, shock spectrum of the
-  // half-cycle sine pulse for t_d / T < 1/2: 4 (t_d/T) cos(pi t_d/T) / (1 - 4 (t_d/T)^2).
+  // A half-sine pulse of duration t_d = T / 4 on an undamped oscillator. Shock spectrum of the half-cycle sine pulse for t_d / T < 1/2
+  // (Chopra, Dynamics of Structures): 4 (t_d/T) cos(pi t_d/T) / (1 - 4 (t_d/T)^2).
   std::vector<double> times, values;
   for (int i = 0; i <= 2000; ++i) {
     times.push_back(i / 2000.0);
@@ -120,7 +120,7 @@ TEST_CASE("the spectrum begins at the peak of the ground and does not depend on 
   const Polyline& a = record.acceleration;
   const std::vector<double> periods{0.02, 0.1, 0.5, 2};
   const auto coarse = response_spectrum(a, periods, 0.05);
-  std::vector<double> times, values;  // the same polyline with three points for one
+  std::vector<double> times, values;  // the same polyline with three points for each point
   for (size_t i = 0; i + 1 < a.times.size(); ++i)
     for (int k = 0; k < 3; ++k) {
       times.push_back(a.times[i] + k * (a.times[i + 1] - a.times[i]) / 3);

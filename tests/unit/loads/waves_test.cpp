@@ -9,7 +9,7 @@ using namespace erbs;
 
 namespace {
 
-// One of each, with jumps at both ends, none at a round number.
+// One wave of each kind, with jumps at both ends and no round numbers.
 std::vector<Wave> examples() {
   Record record;
   record.start = 0.11;
@@ -25,7 +25,7 @@ std::vector<Wave> examples() {
           record};
 }
 
-// Int from t0 to t1 by the midpoint rule on n pieces, from values alone.
+// Integral from t0 to t1 by the midpoint rule on n pieces, from values only.
 double summed(const Wave& wave, double t0, double t1, int n) {
   double sum = 0;
   for (int i = 0; i < n; ++i) sum += value(wave, t0 + (t1 - t0) * (i + 0.5) / n);
@@ -37,7 +37,7 @@ double summed(const Wave& wave, double t0, double t1, int n) {
 TEST_CASE("integrals of every wave agree with its values", "[loads]") {
   for (const Wave& wave : examples()) {
     INFO("wave " << wave.index());
-    // A jump of height 4 misplaced by half a piece: 4 * 1.5 / 2e5 / 2, twice.
+    // Tolerance: a jump of height 4 misplaced by half a piece, 4 * 1.5 / 2e5 / 2, twice.
     for (const double t : {0.05, 0.3, 0.6, 1.5}) {
       CHECK(integral(wave, t) == Approx(summed(wave, 0, t, 200000)).margin(3e-5));
       double sum = 0;
@@ -63,7 +63,7 @@ TEST_CASE("the means of steps add up to the integral, whatever the step and wher
 }
 
 TEST_CASE("the mean over a microsecond is the value to round-off", "[loads]") {
-  // The difference of integrals would be off by 1e-16 / 1e-6 = 1e-10 and more.
+  // A difference of integrals would err by 1e-16 / 1e-6 = 1e-10 and more.
   const double t = 0.4571;
   for (const Wave& wave : examples()) {
     INFO("wave " << wave.index());
@@ -74,7 +74,7 @@ TEST_CASE("the mean over a microsecond is the value to round-off", "[loads]") {
 }
 
 TEST_CASE("pulses last as long as their phase leaves", "[loads]") {
-  // A lobe of 2 Hz from 30 deg ends after 150/360 of 0.5 s; its impulse is a / omega (cos psi + 1).
+  // A half-sine of 2 Hz that starts at 30 deg ends after 150/360 of 0.5 s; its impulse is a / omega (cos psi + 1).
   const HalfSine half{3, 2, pi / 6, 0.25};
   CHECK(end_time(half) == Approx(0.25 + 150.0 / 360 * 0.5));
   CHECK(integral(half, 10) == Approx(3 / (4 * pi) * (std::cos(pi / 6) + 1)));

@@ -1,4 +1,4 @@
-// erbs accuracy as a user meets it.
+// The command erbs accuracy from the user's side.
 #include <catch2/catch.hpp>
 
 #include "engine/record/csv.h"
@@ -8,7 +8,7 @@ using namespace erbs;
 
 namespace {
 
-// A block on a bed, swinging: its period is known, and errs with dt^2.
+// A block oscillating on an elastic joint: its exact period is known, and its error is proportional to dt^2.
 const std::string oscillator = R"(-- A block on a bed.
 gravity(0)
 material { name = "stone", density = 2000 }
@@ -75,7 +75,7 @@ TEST_CASE("accuracy tells slopes, a target's setting and what it costs; its tabl
 TEST_CASE("runs of accuracy that do not fit into the time of all are told, and made later", "[program]") {
   Bench bench;
   const std::string scene = bench.scene(with("") + period + known);
-  REQUIRE(bench.erbs({"accuracy", scene, "-o", bench.out(), "--within", "1ms"}) == 0);  // the first two have begun by then
+  REQUIRE(bench.erbs({"accuracy", scene, "-o", bench.out(), "--within", "1ms"}) == 0);  // the first two runs have begun by then
   CHECK(contains(bench.said, "not run: the time of all was up"));
   CHECK(contains(bench.said, "--resume makes them"));
   REQUIRE(bench.erbs({"accuracy", scene, "-o", bench.out(), "--resume", "--within", "0"}) == 0);

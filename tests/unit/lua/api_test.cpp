@@ -1,4 +1,4 @@
-// Each function of the language fills the Scene with what it says.
+// Each function of the language fills the `Scene` with its arguments.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-// What a scene, a file or a command line could do that it must not: reach a shell, a terminal, a file of others, the machine's memory.
+// Attacks through a scene, a file or a command line. None may reach a shell, a terminal, other files, or the machine's memory.
 #include <catch2/catch.hpp>
 
 #include "engine/base/text.h"
@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Six lines, so that what a test adds stands in line 7.
+// Six lines, so that a test's own line is line 7.
 const std::string pier = four_bricks() + R"(joint{ law = dry{ kn = 1*GPa, mu = .6 } }
 analysis{ duration = param("duration", 0.01, "[s]") }
 
@@ -30,7 +30,7 @@ const std::vector<std::string> signs{"it's \"so\"", "system('touch pwned')", "`t
 
 bool is_text(const Key& key) { return key.type == "string" || key.type == "strings" || key.type == "quantity"; }
 
-// Every sentence that hands `text` to one string of the language.
+// Every statement that passes `text` to a string argument of the language.
 std::vector<std::string> sentences(const std::string& text) {
   std::vector<std::string> all;
   for (const Function& function : api()) {

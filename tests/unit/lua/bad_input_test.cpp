@@ -1,4 +1,4 @@
-// Bad input as a user meets it: code 2, one message for each mistake with place and remedy, and nothing left behind.
+// Bad input from the user's side: exit code 2, one message per mistake with place and remedy, and no file left behind.
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Six lines, so that what a test adds stands in line 7.
+// Six lines, so that a test's own line is line 7.
 const std::string pier = four_bricks() + R"(joint{ law = dry{ kn = 1*GPa, mu = .6 } }
 analysis{ duration = param("duration", 0.01, "[s]") }
 local el_centro = "elcentro_1940_ns.csv"
@@ -29,7 +29,7 @@ std::vector<std::string> lines_of(const std::string& text) {
 
 struct Bad {
   std::string piece;               // in line 7 of the scene
-  std::vector<std::string> parts;  // of the one message: place, name and remedy
+  std::vector<std::string> parts;  // parts of the one message: place, name and remedy
 };
 
 void refuses(Bench& bench, const Bad& bad) {

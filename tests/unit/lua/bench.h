@@ -1,4 +1,4 @@
-// The program called as a user would, in a folder of its own.
+// Calls the program as a user would, in a folder of its own.
 #pragma once
 #include <unistd.h>
 
@@ -18,7 +18,7 @@ inline std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-// Three lines of a scene that lay four bricks; how they are joined follows.
+// Three lines of a scene with four bricks; the joint law follows.
 inline std::string four_bricks() {
   return R"(material{ name = "brick", density = 1800 }
 ground{ size = 4 }

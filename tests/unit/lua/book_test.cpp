@@ -1,4 +1,4 @@
-// The verification book says what the runs said, and the README what the book says.
+// The verification report repeats the results of the runs, and the README repeats the report.
 #include <catch2/catch.hpp>
 
 #include "lua/book.h"

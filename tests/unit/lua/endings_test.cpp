@@ -1,4 +1,4 @@
-// How a run ends that is not let to its end: by signals, by limits, by another run in its folder; and what --resume makes of it.
+// Early ends of a run: by signals, by limits, by another run in its folder; and the effect of --resume afterwards.
 #include <signal.h>
 
 #include <catch2/catch.hpp>
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Four bricks that slide on each other for as long as is asked; its step is given, so that no option changes it by the way.
+// Four bricks that slide on each other for any duration. The time step is fixed, so that no option changes it as a side effect.
 const std::string sliding = four_bricks() + R"(joint{ law = dry{ kn = 1e8, mu = .3 } }
 ground_motion{ wave = sine{ amplitude = 4, frequency = 3 }, direction = "x" }
 recorder{ name = "top", quantity = "displacement", block = "b3" }
@@ -27,7 +27,7 @@ void wait_until(const std::function<bool()>& there) {
 
 std::string hash_in(const std::string& folder) { return read_json(folder + "/metrics.json")["state_hash"].get<std::string>(); }
 
-// What `sh -c` makes of a command of erbs: its code and its words on stderr.
+// Exit code and stderr of an erbs command under `sh -c`.
 std::pair<int, std::string> in_shell(const Bench& bench, const std::string& before, const std::string& words, const std::string& after = "") {
   const std::string log = (bench.folder / "shell.log").string();
   const int code = wait_for(start({"/bin/sh", "-c", "exec 2> " + log + "; " + before + " exec " ERBS_BINARY_DIR "/erbs " + words + " " + after}));
@@ -49,7 +49,7 @@ int processes_that_name(const std::string& folder) { return int(processes_of(fol
 }  // namespace
 
 TEST_CASE("every signal that asks a run to end leaves a checkpoint, and it goes on to the same bits", "[endings]") {
-  ::signal(SIGHUP, SIG_DFL);  // under nohup it is ignored, and stays so in what is started
+  ::signal(SIGHUP, SIG_DFL);  // nohup ignores it, and children inherit that
   Bench whole;
   REQUIRE(whole.run(sliding, {"-q", "--no-figures"}) == 0);
   for (const int signal : {SIGHUP, SIGTERM, SIGINT}) {
@@ -91,7 +91,7 @@ TEST_CASE("a run goes on with its own options only", "[endings]") {
     INFO(bench.said);
     CHECK(contains(bench.said, "was started with other options: --damping 2"));
   }
-  // Where the manifest is damaged the checkpoint knows it as well.
+  // If the manifest is damaged, the checkpoint still detects it.
   const std::string manifest = text_of(bench.out() + "/manifest.json");
   std::ofstream(bench.out() + "/manifest.json") << "";
   CHECK(bench.run(sliding, {"-q", "--no-figures", "--resume", "--damping", "3"}) == 2);
@@ -161,14 +161,14 @@ TEST_CASE("a limit of the system ends a run with its code, place and remedy, and
     CHECK((code == 0 || code == 2 || code == 3));
     CHECK(fs::exists(bench.out() + "/checkpoint.bin.tmp") == false);
     if (code == 0) break;
-    // a log that hits the limit itself says no more
+    // If the log itself hits the limit, it stays empty.
     CHECK((contains(said, "cannot be") || said.empty()));
   }
   for (const std::string limit : {"ulimit -n 8;", "ulimit -n 11;", "ulimit -v 60000;"}) {
     fs::remove_all(bench.out());
     const auto [code, said] = in_shell(bench, limit, words);
     INFO(limit << said);
-    // with sanitizers a program does not even begin in so little
+    // With sanitizers, a program does not even start in so little memory.
     CHECK((code == 0 || (code == 2 && !said.empty()) || contains(said, "loading shared libraries")));
   }
 }

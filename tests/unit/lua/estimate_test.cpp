@@ -1,4 +1,4 @@
-// What erbs check says of the time of a run: a range that opens where joints may, and closes where there are none.
+// Estimate of run time by erbs check: a range that widens if joints may open, and narrows if there are none.
 #include <catch2/catch.hpp>
 
 #include "engine/model/build.h"

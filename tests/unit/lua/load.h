@@ -1,4 +1,4 @@
-// Loads a piece of script and gives its scene, or its mistakes.
+// Loads a piece of script and returns its scene, or its mistakes.
 #pragma once
 #include <algorithm>
 #include <string>
@@ -16,14 +16,14 @@ inline Script::Options quiet(double seconds = 10, size_t bytes = size_t{256} << 
   return options;
 }
 
-// What every scene of these tests has besides what it is about.
+// Lines common to the scenes of these tests.
 inline const std::string sound = R"(
 material{ name = "brick", density = 1800 }
 box{ name = "b", size = {.3, .2, .1}, material = "brick" }
 analysis{ duration = 1 }
 )";
 
-// On the lines after the common ones: the piece begins at line 6.
+// `piece` follows the common lines and begins at line 6.
 inline Scene scene_of(const std::string& piece, const Overrides& overrides = {}) {
   Script script(quiet());
   return script.load_text(sound + "\n" + piece, "scene.lua", overrides);
@@ -37,7 +37,7 @@ inline std::vector<std::string> mistakes_of(const std::string& text, const Overr
   return {};
 }
 
-// The mistakes of a piece put behind the common lines.
+// The mistakes of a piece that follows the common lines.
 inline std::vector<std::string> mistakes_in(const std::string& piece, const Overrides& overrides = {}) {
   return mistakes_of(sound + "\n" + piece, overrides);
 }

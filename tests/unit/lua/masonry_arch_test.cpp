@@ -1,4 +1,4 @@
-// Arches and columns laid in Lua: their blocks meet, weigh what they must, and wrong arguments are named.
+// Arches and columns built in Lua: blocks meet, masses are right, and wrong arguments are named.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -10,7 +10,7 @@ using namespace erbs;
 
 namespace {
 
-// Blocks of the piece, without the common one.
+// Blocks of the piece, without the common block.
 std::vector<Block> blocks_of(const std::string& piece) {
   const Scene scene = scene_of("joint{ law = dry{ kn = 1e10, mu = 0.6 } }\n" + piece);
   return {scene.blocks.begin() + 1, scene.blocks.end()};
@@ -33,7 +33,7 @@ TEST_CASE("a round arch: straight-sided voussoirs between two abutments", "[lua]
     CHECK(blocks[0].name == "arch.v01");
     CHECK(blocks[9].fixed);
     CHECK(blocks[9].group == "arch_abutment");
-    // N trapezoids of angle d: 2 R t sin(d/2) cos(d/2) wide
+    // N trapezoids of angle d, each 2 R t sin(d/2) cos(d/2) in area.
     CHECK(volume(blocks) == Approx(9 * 2 * 0.3 * std::sin(pi / 9) * 0.5));
     CHECK(mass_properties(blocks[0].parts).centroid[axis[0] - 'x'] < 9);  // the first is on the left
     CHECK(mass_properties(blocks[4].parts).centroid.z() > 10.9);

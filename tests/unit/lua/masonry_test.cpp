@@ -1,4 +1,4 @@
-// Walls and buildings laid in Lua: what is built fits, bonds and stands, and wrong arguments are named.
+// Walls and buildings built in Lua: bricks fit, bond and are supported, and wrong arguments are named.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -16,7 +16,7 @@ struct Brick {
   Vec3 low, high;  // m
 };
 
-// The blocks of a scene as boxes, the ground left out.
+// Blocks of a scene as boxes, without the ground.
 std::vector<Brick> bricks_of(const Scene& scene) {
   std::vector<Brick> all;
   for (const Block& block : scene.blocks) {
@@ -57,7 +57,7 @@ Fit fit_of(const std::vector<Brick>& bricks, double t) {
       const Vec3 gap = (bricks[j].low - bricks[i].high).cwiseMax(bricks[i].low - bricks[j].high);
       Eigen::Index axis = 0;
       const double apart = gap.maxCoeff(&axis);
-      if (i == j || (gap.array() > -1e-9).count() > 1) continue;  // touch at an edge, or far away
+      if (i == j || (gap.array() > -1e-9).count() > 1) continue;  // touching at an edge, or far away
       if (apart < -1e-9) ++fit.overlaps;
       else if (apart < t - 1e-9) ++fit.too_near;
       else if (apart < 1.6 * t + 1e-9) stands[i] = stands[i] || (axis == 2 && bricks[j].low.z() < bricks[i].low.z());
@@ -76,7 +76,7 @@ void check_fit(const std::vector<Brick>& bricks, double t) {
   CHECK(fit.unsupported == 0);
 }
 
-// Head joints of each course of a wall along x: height of the course (m) -> positions (m). Blocks come in their order along the wall.
+// Head joints of each course of a wall along x: height of the course (m) -> positions (m). Blocks are sorted along the wall.
 std::map<double, std::vector<double>> head_joints(const std::vector<Brick>& bricks, const std::string& group) {
   std::map<double, std::vector<Brick>> courses;
   for (const Brick& b : bricks)
@@ -90,7 +90,7 @@ std::map<double, std::vector<double>> head_joints(const std::vector<Brick>& bric
   return joints;
 }
 
-// Between courses that lie on each other; a slab between them ends the bond.
+// Shortest lap between courses that lie on each other; a slab between them ends the bond.
 double shortest_lap(const std::map<double, std::vector<double>>& joints) {
   double least = 1e9;
   for (const auto& [z, row] : joints)

@@ -1,4 +1,4 @@
-// The editor file and help say what the program reads.
+// The editor file and the help describe what the program reads.
 #include <catch2/catch.hpp>
 #include <fstream>
 
@@ -17,7 +17,7 @@ std::string editor_file_of_the_tree() {
 
 }  // namespace
 
-// To mend: erbs help --editor > lua/erbs.meta.lua
+// To update: erbs help --editor > lua/erbs.meta.lua
 TEST_CASE("erbs.meta.lua is what the table of the program says", "[lua]") { CHECK(editor_file_of_the_tree() == editor_file()); }
 
 TEST_CASE("every function and every key is in erbs.meta.lua, numbers with their unit", "[lua]") {

@@ -1,4 +1,4 @@
-// Metric functions are called after the run with a table of its results; expectations are held against metrics.json.
+// Metric functions are called after the run with a table of its results; expectations are checked against metrics.json.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -44,7 +44,8 @@ double value_of(const std::string& expression) {
 
 TEST_CASE("run offers histories, metrics, events and their numbers", "[lua]") {
   CHECK(value_of("run.peak('top_ux_rel_m')") == Approx(0.02));
-  CHECK(value_of("run.rms('top_ux_rel_m')") == Approx(0.02 / std::sqrt(2)).epsilon(3e-3));  // straight lines between 40 rows a period lose (pi/40)^2/3
+  // Straight lines with 40 rows per period lose (pi/40)^2/3 of the rms.
+  CHECK(value_of("run.rms('top_ux_rel_m')") == Approx(0.02 / std::sqrt(2)).epsilon(3e-3));
   CHECK(value_of("run.frequency('top_ux_rel_m')") == Approx(2.5).epsilon(2e-3));
   CHECK(value_of("run.at('top_ux_rel_m', 0.1)") == Approx(0.02));
   CHECK(value_of("#run.history('top_ux_rel_m') + #run.time") == 802);

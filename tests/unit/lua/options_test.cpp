@@ -1,4 +1,4 @@
-// What a command line may hold: every option of every verb, as its own help lists them, with strings that mean harm or nothing.
+// Command lines: every option of every verb, as its own help lists them, with hostile or meaningless strings.
 #include <catch2/catch.hpp>
 
 #include <map>
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 struct Option {
-  std::string name, type;  // type: as help shows it; "" of a flag
+  std::string name, type;  // type: as shown by help; "" for a flag
 };
 
 // The lines "  --threads INT:1 to 1024     threads ..." of help.
@@ -26,7 +26,7 @@ std::vector<Option> options_of(Bench& bench, const std::string& verb) {
   return all;
 }
 
-// Free text: a folder, a file, a name. Whatever is said there may be meant.
+// Free text: a folder, a file, a name. Any value may be intended.
 bool is_free(const std::string& type) {
   return type.starts_with("DIR") || type.starts_with("FILE") || type == "TEXT" || type.find("=value") != std::string::npos ||
          type.starts_with("EFFECT");
@@ -57,7 +57,7 @@ const std::vector<std::string> hostile{"",
                                        "..",
                                        std::string(100000, 'x')};
 
-// In the folder of the bench: what an option names is made there.
+// Runs in the folder of the bench, so that files named by options appear there.
 int inside(Bench& bench, const std::vector<std::string>& words) {
   std::vector<std::string> command{"/bin/sh", "-c", "cd \"$0\" && exec \"$@\"", bench.folder.string()};
   for (const std::string& word : bench.command(words)) command.push_back(word);
@@ -66,7 +66,7 @@ int inside(Bench& bench, const std::vector<std::string>& words) {
   return code;
 }
 
-// What is told, line by line: a terminal is not controlled by it, nor flooded.
+// Checks the output line by line: it must neither control a terminal nor flood it.
 void check_said(const Bench& bench) {
   INFO(bench.said.substr(0, 2000));
   CHECK(bench.said.size() < 30000);
@@ -85,10 +85,10 @@ const std::vector<std::string> verbs{"run", "check", "record", "test", "accuracy
 
 TEST_CASE("every option of every verb refuses what it cannot mean, by its name", "[options]") {
   Bench bench;
-  // nothing is run: what passes the command line ends at a scene, or a record, that is wrong
+  // No simulation runs: a command line that passes ends at a wrong scene or record.
   const std::string wrong = bench.scene("boxx{}\n");
   std::size_t tried = 0;
-  std::map<std::string, std::string> verbs_of;  // the first that has it
+  std::map<std::string, std::string> verbs_of;  // the first verb that has it
   for (const auto& verb : verbs) {
     const auto options = options_of(bench, verb);
     for (const Option& option : options) verbs_of.emplace(option.name + option.type, verb);
@@ -96,18 +96,18 @@ TEST_CASE("every option of every verb refuses what it cannot mean, by its name",
     for (const Option& option : options)
       for (std::size_t i = 0; i < hostile.size(); ++i) {
         const std::string& value = hostile[i];
-        // an option of the same name is the same to other verbs: a sample of them is tried again
+        // Other verbs share an option of the same name; for them only a sample is repeated.
         if (i % 8 != 3 && verbs_of[option.name + option.type] != verb) continue;
         if (option.type.empty() && value.empty()) continue;  // --force= is --force
-        // as one word: a value of its own that begins with a dash is an option
+        // As one word: a separate value that begins with a dash would be an option.
         const std::string word = option.name.starts_with("--") ? option.name + "=" + value : option.name + value;
-        if (word == option.name) continue;  // -o without a word takes the next one
+        if (word == option.name) continue;  // -o without a value takes the next word
         ++tried;
         INFO(verb << " " << shown(word));
         const int code = inside(bench, {verb, wrong, word});
-        CHECK((code == 2 || (code == 4 && verb == "test")));  // of a test, a scene that is wrong is a case that fails
+        CHECK((code == 2 || (code == 4 && verb == "test")));  // a wrong scene is a failed case of a test
         check_said(bench);
-        // -5 s is a time that --from may never be, 1e400 a number that no option takes
+        // -5 s is a time that --from may not be, 1e400 a number that no option accepts.
         if (!is_free(option.type)) CHECK(contains(bench.said, option.name));
       }
   }
@@ -122,7 +122,7 @@ TEST_CASE("every option of every verb refuses what it cannot mean, by its name",
 TEST_CASE("words, verbs and options that there are not are told in plain letters", "[options]") {
   Bench bench;
   for (const std::string& value : hostile) {
-    if (value == "..") continue;  // a folder that is there, of scenes of others
+    if (value == "..") continue;  // an existing folder, with scenes of others
     INFO(shown(value));
     for (const auto& words : std::vector<std::vector<std::string>>{{value},
                                                                    {"--" + value},
@@ -152,7 +152,7 @@ TEST_CASE("what a run is told on its command line stands escaped in its files", 
     const std::string out = (bench.folder / ("out" + value)).string();
     fs::create_directories(bench.folder / value);
     INFO(shown(value));
-    // a comment of Lua holds any letters, and -D takes an expression
+    // A Lua comment holds any characters, and -D takes an expression.
     CHECK(bench.erbs({"run", bench.scene(scene), "-o", out, "-D", "duration=0.01 --[==[" + value + "]==]", "--allow",
                       (bench.folder / value).string()}) == 0);
     check_said(bench);

@@ -1,4 +1,4 @@
-// The program as a user meets it: exit codes, where messages go, and that nothing half-written remains.
+// The program from the user's side: exit codes, destination of messages, and no incomplete file left behind.
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <thread>

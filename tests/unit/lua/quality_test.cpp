@@ -1,5 +1,6 @@
-// The three settings of quality in the order of their promise, on the problems of the study: costs in evaluations of contact points, the
-// cost that no machine changes; errors of smooth quantities, which do not jump with the step at which something opens or slips.
+// The three quality settings must rank as promised on the problems of the study. Costs are counted in evaluations of contact points, so
+// they are independent of the machine. Errors are those of smooth quantities, which do not jump with the step at which a joint opens or
+// slips.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -15,7 +16,7 @@ struct Answer {
   double cost = 0, value = 0;  // contact points evaluated; the metric
 };
 
-// A scene of the repository, alone: without the runs of its own study.
+// Runs a scene of the repository alone, without the runs of its own study.
 Answer answer(Bench& bench, const std::string& scene, double dt_fraction, int side, const std::string& metric,
               std::vector<std::string> more) {
   std::vector<std::string> words{"run",
@@ -33,7 +34,7 @@ Answer answer(Bench& bench, const std::string& scene, double dt_fraction, int si
                                  "--points",
                                  std::to_string(side * side)};
   words.insert(words.end(), more.begin(), more.end());
-  bench.erbs(words);  // its code is of expectations that a part of the run does not meet
+  bench.erbs(words);  // the exit code includes expectations that a partial run does not meet
   INFO(scene << "\n" << bench.said);
   const Json metrics = read_json(bench.out() + "/metrics.json");
   REQUIRE(metrics["status"] == "completed");
@@ -69,13 +70,13 @@ TEST_CASE("draft costs less than standard and standard less than reference on ev
   }
 }
 
-// The step's error falls by (0.9 / 0.25)^2 = 13. What it is measured by is the number on paper, or, where beds and blocks are the larger
-// error of that, the limit of finer steps: of second order, q(h / 2) + (q(h / 2) - q(h)) / 3. Simpson's points are exact in bending.
+// The step's error falls by (0.9 / 0.25)^2 = 13. The reference is the number on paper, unless joint stiffness and block size dominate its
+// error. Then it is the limit of finer steps, of second order: q(h / 2) + (q(h / 2) - q(h)) / 3. Simpson's points are exact in bending.
 TEST_CASE("reference is ten times as accurate as standard on the smooth quantities of the study", "[program]") {
   Bench bench;
   struct Problem {
     const char *scene, *metric;
-    double exact;  // 0: the limit of the step
+    double exact;  // 0: the limit of fine steps
     std::vector<std::string> more;
   };
   const double chain = pi / std::sqrt(1e9 / 180) / std::sin(3.5 * pi / 17);  // P1: 2 pi / w_4 of eight masses fixed at one end

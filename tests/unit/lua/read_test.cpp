@@ -1,4 +1,4 @@
-// Every mistake of a script is reported with its place, its cause and its remedy, and all of them at once.
+// Every mistake in a script is reported with its place, cause and remedy, and all of them at once.
 #include <catch2/catch.hpp>
 
 #include "tests/unit/lua/load.h"

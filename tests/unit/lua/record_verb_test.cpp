@@ -1,4 +1,4 @@
-// erbs record FILE: its numbers on stdout, its picture in a folder.
+// The command erbs record FILE: numbers on stdout, figure in a folder.
 #include <catch2/catch.hpp>
 
 #include "tests/unit/lua/bench.h"
@@ -20,7 +20,7 @@ TEST_CASE("El Centro's numbers are those of the catalogue", "[record][program]")
   const Json numbers = read_json(bench.out() + "/record.json");
   CHECK(numbers["pga_g"].get<double>() == Approx(0.31882));
   CHECK(numbers["end_displacement_m"].get<double>() == Approx(-5.3e-3).margin(5e-5));
-  CHECK(bench.erbs({"record", file, "-o", bench.out()}) == 0);  // the same again is no loss
+  CHECK(bench.erbs({"record", file, "-o", bench.out()}) == 0);  // writing the same again is no loss
 }
 
 TEST_CASE("a file that says little asks for what it lacks", "[record][program]") {

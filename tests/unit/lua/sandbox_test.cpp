@@ -1,4 +1,4 @@
-// A scene can only compute: it cannot reach files, use up the machine, or run for ever.
+// A scene can only compute: it cannot reach files, exhaust the machine, or run for ever.
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -14,7 +14,7 @@ using namespace erbs;
 
 namespace {
 
-// Loads in a process of its own; gives its exit code and what it wrote to stderr.
+// Loads a script in a process of its own; returns its exit code and its stderr.
 std::pair<int, std::string> in_a_child(const std::string& text, double limit) {
   const test::Folder folder;
   const std::string log = folder.file("log");
@@ -55,7 +55,7 @@ TEST_CASE("a pattern of exponential cost ends the process with code 2", "[lua][s
 }
 
 TEST_CASE("work that a scene asks of the program ends with its time, and is not taken for a loop", "[lua][sandbox]") {
-  // a hull of 5000 points takes longer than the hook of a script waits for
+  // A hull of 5000 points takes longer than the interval of the script's hook.
   const auto [code, said] = in_a_child(
       "local v = {} for i = 1, 5000 do v[i] = { math.random(), math.random(), math.random() } end\n"
       "for i = 1, 1e5 do block{ vertices = v } end", 0.5);

@@ -1,4 +1,4 @@
-// Studies as a scene asks for them: children of the program itself.
+// Studies requested by a scene: child processes of the program itself.
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
@@ -72,7 +72,7 @@ TEST_CASE("a finished run of a study is not run again, unless the scene has chan
   const double found = bench.metric("collapse_slope");
   const fs::path note = bench.out() + "/studies/collapse_slope/slope=0.1.json";
   const auto written = fs::last_write_time(note);
-  fs::remove(bench.out() + "/studies/collapse_slope/slope=1.json");  // as if interrupted before that one
+  fs::remove(bench.out() + "/studies/collapse_slope/slope=1.json");  // as if interrupted before that run
   REQUIRE(bench.run(slope, {"--resume"}) == 0);
   CHECK(bench.metric("collapse_slope") == found);
   CHECK(fs::last_write_time(note) == written);
@@ -156,7 +156,7 @@ TEST_CASE("a family is lists of values of params, taken alone and drawn together
   script.load_text(sound + "param('kn', 1) param('n', 2) family({ n = { 1, 3 }, kn = { 5, 6, 7 } }, { combinations = 2, seed = 9 })", "scene.lua");
   const ParamFamily& family = script.family();
   REQUIRE(family.values.size() == 2);
-  CHECK(family.values[0].first == "kn");  // as declared
+  CHECK(family.values[0].first == "kn");  // in order of declaration
   CHECK(family.values[1].second == std::vector<double>{1, 3});
   CHECK(family.combinations == 2);
   CHECK(one_at_a_time(family).size() == 5);

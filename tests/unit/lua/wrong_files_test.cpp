@@ -1,4 +1,4 @@
-// Records and meshes made wrong at random places: whatever stands there, the message names the scene's line, the file and a remedy.
+// Records and meshes damaged at random places: the message always names the scene's line, the file and a remedy.
 #include <catch2/catch.hpp>
 
 #include <random>
@@ -48,7 +48,7 @@ Lines cube() {
           "v 6 6 7", "f 4 3 2 1", "f 5 6 8 7", "f 2 3 8 6", "f 3 4 7 8", "f 4 1 5 7", "f 1 2 6 5"};
 }
 
-// Each makes any file of its kind wrong, wherever the draw falls.
+// Each function damages any file of its kind, for every draw.
 std::string wrong_csv(Draw& draw) {
   Lines lines = csv();
   std::string& line = lines[2 + draw.below(lines.size() - 2)];
@@ -65,7 +65,7 @@ std::string wrong_csv(Draw& draw) {
       break;
     case 3:
       line = "0.00" + line.substr(comma);
-      break;  // time goes back
+      break;  // time decreases
     case 4:
       line = "-1e9" + line.substr(comma);
       break;

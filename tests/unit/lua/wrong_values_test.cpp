@@ -1,5 +1,5 @@
-// Every function of the language with each of its keys wrong in turn: of a wrong type, out of range, no number, misspelt, missing. The
-// lists of keys that help and the editor read are walked, so that what is new is tried as well.
+// Every function of the language with each key wrong in turn: wrong type, out of range, no number, misspelt, missing. The test walks the
+// key lists used by help and editor, so that new keys are tested too.
 #include <catch2/catch.hpp>
 
 #include <map>
@@ -17,7 +17,7 @@ using Words = std::vector<std::pair<std::string, std::string>>;  // key, value a
 
 const std::string corners = "{ {5,5,5}, {6,5,5}, {5,6,5}, {5,5,6} }", brick = "{ length = .25, width = .12, height = .06 }";
 
-// A sound call of each function: what its keys need besides the wrong one.
+// A correct call of each function: the keys needed beside the wrong one.
 const std::map<std::string, Words> sound_calls{
     {"material", {{"name", "'m2'"}, {"density", "1800"}}},
     {"box", {{"size", "{.3, .2, .1}"}, {"at", "{9, 9, 0}"}, {"free", "true"}}},
@@ -84,7 +84,7 @@ const std::map<std::string, std::vector<std::string>> wrong_of_type{
     {"table", {"5", "'x'"}},
 };
 
-// At the ends of a key's range and past them.
+// Values beyond both ends of a key's range.
 std::vector<std::string> out_of_range(const Key& key) {
   std::vector<std::string> values;
   const auto beyond = [](double end, double sign) { return fmt::format("{:.17g}", end + sign * std::max(1e-6, 0.01 * std::abs(end))); };
@@ -99,7 +99,7 @@ std::string call_of(const std::string& name, const Words& words) {
   return name + "{ " + keys + "}";
 }
 
-// The sound call with one key said otherwise; with no value: without it.
+// The correct call with one key changed; without `value`, the key is left out.
 std::string with(const std::string& name, const std::string& key, const std::string& value) {
   Words words = sound_calls.at(name);
   std::erase_if(words, [&](const auto& word) { return word.first == key; });
@@ -108,7 +108,7 @@ std::string with(const std::string& name, const std::string& key, const std::str
 }
 
 struct Bad {
-  std::string call, about;  // about: what the message must name; "" where a wrong table says it in its own words
+  std::string call, about;  // about: required in the message; "" if a wrong table has a message of its own
 };
 
 void add_wrong(std::vector<Bad>& all, const std::string& name, const Key& key, const std::function<std::string(const std::string&)>& say) {
@@ -133,7 +133,7 @@ std::vector<Bad> all_bad() {
   for (const Function& function : all_functions()) {
     if (!takes_table(function) || function.name == "gravity") continue;
     const std::string& name = function.name;
-    REQUIRE(sound_calls.contains(name));  // what is new in the language has a line above
+    REQUIRE(sound_calls.contains(name));  // every new function of the language needs a line above
     for (const char* other : {"5", "'x'", "nil", "true"}) all.push_back({fmt::format("{}({})", name, other), name});
     all.push_back({with(name, "7", "").insert(name.size() + 1, " [1.5] = 1, "), ""});
     for (const Key& key : function.keys) {
@@ -184,7 +184,7 @@ std::vector<Bad> all_bad() {
   return all;
 }
 
-const std::string before = sound + "param('p', 1)\n";  // what follows stands in line 7
+const std::string before = sound + "param('p', 1)\n";  // later statements are in line 7
 const std::regex remedy(
     "must be|allowed|did you mean|known:|not one of|add |give |write |keys:|correct|check |takes |put |choose |make |use |name |keep "
     "|leave |remove |need");

@@ -1,4 +1,4 @@
-// What is joined at rest and what is not, on scenes of a few bricks.
+// Detection of joined and loose blocks at rest, on scenes of a few bricks.
 #include <catch2/catch.hpp>
 
 #include "engine/analysis/prepare.h"

@@ -90,7 +90,7 @@ TEST_CASE("a checkpoint brings everything back", "[record][checkpoint]") {
   State back;
   NestedThing again;
   read_checkpoint(scratch.path, key, back, again);
-  // Written once more it is the same file: nothing was lost that the visitor names.
+  // A second write gives the same file: nothing that the visitor names was lost.
   const std::string first = slurp(scratch.path + "/checkpoint.bin");
   write_checkpoint(scratch.path, key, back, again);
   CHECK(slurp(scratch.path + "/checkpoint.bin") == first);
@@ -115,7 +115,7 @@ TEST_CASE("what is longer than the writer's pieces comes back, and zeros stay un
   write_checkpoint(scratch.path, {1, 1}, s);
   State back;
   read_checkpoint(scratch.path, {1, 1}, back);
-  unsigned char there[3] = {};  // pages in memory around an item that is zero
+  unsigned char there[3] = {};  // residency in memory of the pages around a zero item
   const auto page = reinterpret_cast<std::uintptr_t>(&back.history[60000]) / 4096 * 4096;
   REQUIRE(mincore(reinterpret_cast<void*>(page), 3 * 4096, there) == 0);
   CHECK((there[0] & 1) == 0);
@@ -154,7 +154,7 @@ TEST_CASE("a failed checkpoint leaves the one before it", "[record][checkpoint]"
   std::filesystem::create_directories(scratch.path);
   const CheckpointKey key{42, 1e-4};
   write_checkpoint(scratch.path, key, moved());
-  std::filesystem::create_directories(scratch.path + "/checkpoint.bin.tmp");  // in the way
+  std::filesystem::create_directories(scratch.path + "/checkpoint.bin.tmp");  // blocks the temporary file
   CHECK_THROWS_AS(write_checkpoint(scratch.path, key, State()), Error);
   State back;
   read_checkpoint(scratch.path, key, back);

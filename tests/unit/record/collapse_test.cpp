@@ -8,7 +8,7 @@ using namespace erbs;
 
 TEST_CASE("a block has fallen below half its smallest edge from where it started", "[record][collapse]") {
   auto t = test::two_bricks();
-  t.state.u[1].z() = -0.02;  // settled before the start: does not count
+  t.state.u[1].z() = -0.02;  // settlement before the start does not count
   Collapse c = watch_collapse(t.model, t.state);
   t.state.u[1].z() = -0.0699;
   CHECK_FALSE(update(c, t.model, t.state, 1.0));
@@ -17,9 +17,9 @@ TEST_CASE("a block has fallen below half its smallest edge from where it started
   std::vector<int> newly;
   CHECK(update(c, t.model, t.state, 1.5, &newly));
   CHECK(newly == std::vector<int>{1});
-  CHECK(c.fallen_fraction == Approx(0.25));  // 1 kg of 4 kg that move
+  CHECK(c.fallen_fraction == Approx(0.25));  // 1 kg of the 4 kg of moving mass
   CHECK(c.time == 1.5);
-  CHECK_FALSE(update(c, t.model, t.state, 2.0, &newly));  // once only
+  CHECK_FALSE(update(c, t.model, t.state, 2.0, &newly));  // reported only once
   CHECK(newly.size() == 1);
   CHECK(c.time == 1.5);
 }

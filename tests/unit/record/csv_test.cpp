@@ -71,7 +71,7 @@ TEST_CASE("a resumed table is that of one uninterrupted run", "[record][csv]") {
     CsvWriter first(path, {"time_s", "a"});
     for (int i = 0; i < 5; ++i) first.row({0.1 * i, double(i)});
   }
-  std::ofstream(path, std::ios::app) << "0.5,";  // torn
+  std::ofstream(path, std::ios::app) << "0.5,";  // a torn row
   {
     CsvWriter second(path, {"time_s", "a"}, 3);
     CHECK(second.rows() == 3);

@@ -8,7 +8,7 @@ using namespace erbs;
 
 namespace {
 
-// Brick 1 turned by `angle` about the lower edge at x = 0.1, z = 0.05, then shifted.
+// Brick 1 rotated by `angle` about the lower edge at x = 0.1, z = 0.05, then shifted.
 test::TwoBricks turned(double angle, const Vec3& shift) {
   auto t = test::two_bricks();
   const Vec3 edge(0.1, 0, 0.05), arm = t.model.rest[1] - edge;

@@ -114,7 +114,7 @@ TEST_CASE("a killed writer leaves every whole frame, and the file can be gone on
   check_frames(dir.path, 600);
   MotionWriter writer(dir.path.string(), 400);
   for (int i = 400; i < 610; ++i) writer.write(frame_at(i));
-  CHECK(MotionReader(dir.path.string()).times().size() == 610);  // read while it is being written
+  CHECK(MotionReader(dir.path.string()).times().size() == 610);  // read while the file grows
   writer.close();
   check_frames(dir.path, 610);
 }
@@ -125,7 +125,7 @@ TEST_CASE("a motion file whose head does not fit its sum is refused soon", "[rec
   writer.write(frame_at(0));
   writer.close();
   std::fstream file(dir.path / "motion.h5", std::ios::in | std::ios::out | std::ios::binary);
-  file.seekp(33);  // within the superblock, which ends with its sum
+  file.seekp(33);  // within the superblock, which ends with its checksum
   file.put('\x5a');
   file.close();
   CHECK_THROWS_WITH(MotionReader(dir.path.string()), Catch::Contains("motion.h5") && Catch::Contains("run the scene again"));

@@ -29,7 +29,7 @@ Record el_centro() {
 
 TEST_CASE("a record is drawn whole, with its numbers in words", "[record]") {
   const test::Folder own;
-  const fs::path folder = own.path / "erbs record's plot";  // a name that must be quoted
+  const fs::path folder = own.path / "erbs record's plot";  // a name that needs quoting
   fs::create_directories(folder);
   const Record record = el_centro();
   write_record_plot(record, report(record), (folder / "record.svg").string());

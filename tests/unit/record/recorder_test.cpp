@@ -14,7 +14,7 @@ Recorder recorder(const std::string& name, const std::string& quantity, std::vec
   return r;
 }
 
-std::vector<MovingBlock> moving;  // what the blocks do in a snapshot
+std::vector<MovingBlock> moving;  // motion of the blocks in a snapshot
 
 Snapshot snapshot_of(const test::TwoBricks& t) {
   Snapshot s{.model = t.model, .state = t.state};
@@ -84,7 +84,7 @@ TEST_CASE("a turning point has the velocity and acceleration of its circle", "[r
   CHECK(v[1] == Approx(0.3));
   r.quantity = "acceleration", r.frame = "abs";
   v = row(t, s, r);
-  CHECK(v[0] == Approx(1 - 0.9));  // centripetal w^2 r, and the ground
+  CHECK(v[0] == Approx(1 - 0.9));  // centripetal acceleration w^2 r, plus the ground
   CHECK(v[1] == Approx(0.5));
 }
 
@@ -108,15 +108,15 @@ TEST_CASE("the reaction without blocks is that of all supports; its moment is ab
 
 TEST_CASE("a joint shows its largest opening and slip at any rotation", "[record][recorder]") {
   auto t = test::two_bricks();
-  // The top brick rocks about its edge x = 0.1, z = 0.05 by 0.1 rad: the far edge opens by 0.2 sin(0.1) seen from below,
-  // by 2 (0.2) sin(0.05) cos(0) along the mean normal.
+  // The top brick rocks about its edge x = 0.1, z = 0.05 by 0.1 rad. The far edge opens by 0.2 sin(0.1) along the normal of the lower
+  // brick, and by 2 (0.2) sin(0.05) cos(0) along the mean normal.
   const Vec3 edge(0.1, 0, 0.05), arm = t.model.rest[1] - edge;
   t.state.q[1] = rotation(Vec3(0, 0.1, 0));
   t.state.u[1] = t.state.q[1] * arm - arm;
   Snapshot s = snapshot_of(t);
   CHECK(row(t, s, recorder("bed", "opening", {"top"}))[0] == Approx(2 * 0.2 * std::sin(0.05)).epsilon(1e-12));
   CHECK(row(t, s, recorder("bed", "slip", {"top"}))[0] == Approx(0).margin(1e-15));
-  // both turned alike with all that is on them: no opening
+  // Both blocks rotate together as one rigid body: no opening.
   t.state.q[0] = t.state.q[1];
   t.state.u[0] = Vec3::Zero();
   t.state.u[1] = t.state.q[0] * t.model.rest[1] - t.model.rest[1];

@@ -78,7 +78,7 @@ TEST_CASE("a folder that cannot be made leaves nothing behind", "[record][run_fo
   std::ofstream(scratch.path + "/file") << "x";
   CHECK_THROWS_AS(make(scratch.path + "/file/runs/a", Existing::refuse), Error);
   Manifest bad = manifest_of(full_scene(), "");
-  // manifest.json.tmp in the way of the manifest: the folder was there before and stays, with what was in it
+  // manifest.json.tmp blocks the manifest. The folder existed before, so it stays with its content.
   fs::create_directories(scratch.path + "/old/manifest.json.tmp");
   CHECK_THROWS_AS(create_run_folder(scratch.path + "/old", Existing::refuse, "", bad), Error);
   CHECK(std::distance(fs::directory_iterator(scratch.path), fs::directory_iterator()) == 2);

@@ -30,7 +30,7 @@ std::string slurp(const std::string& path) {
   return text.str();
 }
 
-// Row i; every third an event, every tenth a frame.
+// Writes row i; an event every third row, a frame every tenth.
 void step(RunWriter& writer, test::TwoBricks& t, int i) {
   t.state.u[1] = Vec3(0.1 * i, 0, 0);
   t.state.energy.friction = i;
@@ -67,7 +67,7 @@ TEST_CASE("rows, frames and events of a run can be read back", "[record][run_wri
   const MotionReader motion(scratch.path);
   REQUIRE(motion.times().size() == 2);
   CHECK(motion.read(1).poses[7] == 1.0f);
-  CHECK(motion.scene().shapes.size() == 1);  // three equal bricks share it
+  CHECK(motion.scene().shapes.size() == 1);  // shared by three equal bricks
   REQUIRE(motion.scene().joints.size() == 1);
   CHECK(motion.scene().joints[0].polygon[2].isApprox(Vec3(0.1, 0.05, 0.05)));
   CHECK(motion.scene().joints[0].thickness == 0.005);
@@ -88,7 +88,7 @@ TEST_CASE("a run that is killed leaves whole rows, and goes on from its checkpoi
     for (int i = 0; i < 40; ++i) step(writer, c.t, i);
     const WriterProgress at = writer.progress();
     if (write(pipe_ends[1], &at, sizeof at) < 0) _exit(1);
-    for (int i = 40; i < 1500; ++i) step(writer, c.t, 7 * i);  // of no use: after the checkpoint
+    for (int i = 40; i < 1500; ++i) step(writer, c.t, 7 * i);  // discarded: after the checkpoint
     raise(SIGKILL);
   }
   WriterProgress at;
@@ -108,7 +108,7 @@ TEST_CASE("a run that is killed leaves whole rows, and goes on from its checkpoi
     CHECK_NOTHROW(read_csv(killed.path + name));
   }
   CHECK(read_csv(killed.path + "/histories.csv").rows() >= 40);
-  std::ofstream(killed.path + "/histories.csv", std::ios::app) << "15.0,0.";  // and a torn row, as a power cut may leave
+  std::ofstream(killed.path + "/histories.csv", std::ios::app) << "15.0,0.";  // a torn row, as left by a power failure
   write(killed.path, c, 40, 3000, &at);
   for (const char* name : {"/histories.csv", "/energy.csv", "/events.csv"}) CHECK(slurp(killed.path + name) == slurp(whole.path + name));
   const MotionReader motion(killed.path);

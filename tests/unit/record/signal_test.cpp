@@ -53,7 +53,7 @@ TEST_CASE("the spectrum's peak is the amplitude, the larger of two sines dominat
     if (std::abs(s.frequency[i] - 4) < 0.1) at4 = std::max(at4, s.amplitude[i]);
     if (std::abs(s.frequency[i] - 9) < 0.1) at9 = std::max(at9, s.amplitude[i]);
   }
-  CHECK(at4 == Approx(0.5).epsilon(0.01));  // picket fence of 4 x padding with Hann: below 1 %
+  CHECK(at4 == Approx(0.5).epsilon(0.01));  // scalloping loss of a Hann window with 4 x padding: below 1 %
   CHECK(at9 == Approx(2.0).epsilon(0.01));
 }
 
@@ -68,8 +68,8 @@ TEST_CASE("uneven columns and constants", "[record][signal]") {
 TEST_CASE("crossings and period", "[record][signal]") {
   CHECK(crossings({0, 1, 2, 3}, {-1, 3, 1, -1}) == std::vector<double>{0.25, 2.5});
   CHECK(crossings({0, 1, 2, 3}, {-1, 3, 1, -1}, 0, true) == std::vector<double>{0.25});
-  CHECK(crossings({0, 1, 2, 3, 4}, {-1, 0, 0, 1, 0}) == std::vector<double>{1});  // rests on zero, then goes on: once
-  CHECK(crossings({0, 1, 2}, {1, 0, 1}).empty());                                 // touches
+  CHECK(crossings({0, 1, 2, 3, 4}, {-1, 0, 0, 1, 0}) == std::vector<double>{1});  // stays on zero, then goes on: one crossing
+  CHECK(crossings({0, 1, 2}, {1, 0, 1}).empty());                                 // touches zero
   const Column c = column(1000, 0.01, [](double t) { return std::sin(2 * pi * t / 0.73 + 1); });
   CHECK(period(c.t, c.y) == Approx(0.73).epsilon(1e-4));
 }

@@ -1,5 +1,5 @@
-// A model small enough to know by heart: brick 1 (1 kg) stands on brick 0 (fixed), joined over 0.2 m x 0.1 m; brick 2 (3 kg) is
-// free. Joint axes are the world's.
+// A minimal model: brick 1 (1 kg) stands on brick 0 (fixed), joined over 0.2 m x 0.1 m; brick 2 (3 kg) is free. Joint axes are the world
+// axes.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -77,7 +77,7 @@ inline TwoBricks two_bricks() {
   return t;
 }
 
-// A name in a folder of its own, not yet taken.
+// An unused name in a folder of its own.
 struct Scratch {
   Folder own;
   std::string path;

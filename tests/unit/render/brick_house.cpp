@@ -15,7 +15,7 @@ namespace {
 constexpr double joint = 0.005, pitch = 0.105, wall = 0.125;  // m
 constexpr double first_fall = 2.0;                            // s
 
-// Evenly spread in -1..1, from an index and a stream.
+// Evenly distributed in -1..1, from an index and a stream.
 double noise(std::size_t i, unsigned stream) {
   auto x = static_cast<std::uint32_t>(i * 2654435761U + stream * 40503U);
   x ^= x >> 15U;
@@ -91,7 +91,7 @@ void find_joints(Maker& m) {
   }
 }
 
-// When a block lets go (s): the upper storeys fall towards +x, starting from a diagonal crack.
+// Time (s) at which a block comes loose: the upper storeys fall towards +x, starting from a diagonal crack.
 double release(const MotionScene& scene, std::size_t b) {
   const MotionBlock& block = scene.blocks[b];
   if (block.fixed) return 1e9;
@@ -120,7 +120,7 @@ MotionScene brick_house(const BrickHouse& house) {
     if (storey > 0 && in_storey >= 4 && in_storey < 10) front = {{-0.35, 0.35}};
     if (in_storey >= 4 && in_storey < 10) side = {{-0.45, 0.45}};
     const bool odd = c % 2 == 1;
-    // Corners interlock: the walls along x run through in even courses, those along y in odd ones.
+    // Corners interlock: walls along x run through in even courses, walls along y in odd ones.
     const double cut = wall + joint;
     m.course(0, odd ? -x + cut : -x, odd ? x - cut : x, -y, z, odd, front);
     m.course(0, odd ? -x + cut : -x, odd ? x - cut : x, y - wall, z, odd, {});
@@ -140,7 +140,7 @@ MotionFrame brick_house_frame(const MotionScene& scene, double t) {
     if (!block.fixed) p.x() += 0.002 * p.z() * p.z() * std::sin(12 * t);
     const double fall = std::max(0.0, t - release(scene, b));
     const double resting = 0.05 + 0.12 * std::abs(noise(b, 3));
-    // It stops where it reaches the heap.
+    // It stops on reaching the heap.
     const double up = -0.4, stop = (up + std::sqrt(up * up + 2 * standard_g * std::max(0.0, p.z() - resting))) / standard_g;
     const double s = std::min(fall, std::max(0.0, stop));
     p += s * Vec3(0.9 + 0.35 * noise(b, 4), 0.45 * noise(b, 5), up) - Vec3(0, 0, 0.5 * standard_g * s * s);

@@ -1,4 +1,4 @@
-// Whole pictures: against stored ones, and properties no picture may lose.
+// Whole pictures: comparison with stored pictures, and properties that every picture must have.
 #include "render/draw.h"
 
 #include <unistd.h>
@@ -64,7 +64,7 @@ TEST_CASE("three frames look as they did, from any number of threads", "[render]
     INFO(names[i]);
     CHECK(bytes_of(dir.path / "frames" / names[i]) == first[i]);
     const fs::path stored = fs::path(ERBS_SOURCE_DIR) / "tests/image" / ("brick_house_" + names[i]);
-    // ERBS_WRITE_IMAGES=1 stores the pictures anew; look at them before they are committed.
+    // ERBS_WRITE_IMAGES=1 replaces the stored pictures; look at them before a commit.
     if (std::getenv("ERBS_WRITE_IMAGES")) fs::copy_file(dir.path / "frames" / names[i], stored, fs::copy_options::overwrite_existing);
     const Difference d = compare(read_png((dir.path / "frames" / names[i]).string()), read_png(stored.string()));
     INFO("failed pixels " << d.failed_fraction << ", SSIM " << d.ssim);
@@ -103,12 +103,12 @@ TEST_CASE("broken joints are seen as dark lines, damage as colour", "[render][dr
   std::fill(frame.damage.begin(), frame.damage.end(), 255);
   const Image closed = painter.draw(frame, camera);
   for (std::size_t b = 0; b < scene.blocks.size(); ++b)
-    if (!scene.blocks[b].fixed) frame.poses[7 * b + 2] += 0.02F * static_cast<float>(scene.blocks[b].rest.z());  // 2 mm a course
+    if (!scene.blocks[b].fixed) frame.poses[7 * b + 2] += 0.02F * static_cast<float>(scene.blocks[b].rest.z());  // 2 mm per course
   const Image open = painter.draw(frame, camera);
   CHECK(dark_fraction(intact) < 0.001);
-  CHECK(compare(intact, closed).failed_fraction > 0.01);  // a hairline is seen
+  CHECK(compare(intact, closed).failed_fraction > 0.01);  // a hairline crack is visible
   CHECK(dark_fraction(open) > 0.004);
-  CHECK(dark_fraction(open) > 3 * dark_fraction(closed));  // and an open crack is told from it
+  CHECK(dark_fraction(open) > 3 * dark_fraction(closed));  // an open crack is distinct from it
   look.coloring = Coloring::damage;
   const Image red = Painter(show, look, "auto").draw(frame, camera);
   double reddish = 0;
@@ -165,7 +165,7 @@ TEST_CASE("between two recorded frames, blocks move on a straight line and turn 
   MotionWriter writer(dir.path.string(), scene);
   writer.write({0, {0, 0, 0, 1, 0, 0, 0}, {}, {}});
   const float h = std::sqrt(0.5F);
-  writer.write({1, {2, 0, 4, h, 0, 0, h}, {}, {}});  // a quarter turn about z
+  writer.write({1, {2, 0, 4, h, 0, 0, h}, {}, {}});  // a quarter rotation about z
   writer.close();
   const MotionFrame f = frame_at(MotionReader(dir.path.string()), 0.5);
   CHECK(f.poses[0] == Approx(1));

@@ -18,7 +18,7 @@ Vec3 at(const Mesh& mesh, std::uint32_t i) {
   return {p[0], p[1], p[2]};
 }
 
-// Twice the number of directed edges without a twin, and the volume inside.
+// Twice the number of directed edges without a twin, and the enclosed volume.
 struct Shell {
   int open_edges = 0;
   double volume = 0;
@@ -64,9 +64,9 @@ TEST_CASE("what lies within an intact wall is not drawn", "[render][mesh]") {
   CHECK(intact.crack_index.empty());
   rest.damage[10] = 255;
   const FrameTexels broken = texels_of(show, rest, Coloring::material, Vec3(5, -5, 3));
-  CHECK(broken.index.size() == intact.index.size());  // closed: there is nothing to look into
+  CHECK(broken.index.size() == intact.index.size());  // closed: its inside is not visible
   CHECK(broken.crack_index.size() == 4 * 6);
-  // A joint that parts without a word of damage shows its mortar too.
+  // A joint that parts without any damage shows its mortar too.
   rest = brick_house_frame(scene, 0);
   rest.poses[7 * 20 + 1] += 0.02F;
   CHECK(texels_of(show, rest, Coloring::material, Vec3(5, -5, 3)).index.size() > intact.index.size());

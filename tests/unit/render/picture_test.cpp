@@ -56,7 +56,7 @@ TEST_CASE("pictures are alike within the tolerance and not beyond it", "[render]
   CHECK(compare(a, b).failed_fraction == Approx(0.01));
   b.pixel(0, 1)[1] ^= 0x40;
   CHECK_FALSE(compare(a, b).alike());
-  // A shift of one pixel keeps every brightness but not the structure.
+  // A shift by one pixel keeps every brightness but changes the structure.
   Image shifted = a;
   std::copy(a.rgb.begin(), a.rgb.end() - 3, shifted.rgb.begin() + 3);
   CHECK(compare(a, shifted).ssim < 0.9);

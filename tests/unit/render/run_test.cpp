@@ -1,4 +1,4 @@
-// What is read from a run folder, and which instants and curves are shown.
+// Data read from a run folder, and the times and curves shown.
 #include "render/run.h"
 
 #include <unistd.h>
@@ -50,10 +50,10 @@ TEST_CASE("a run folder is read", "[render][run]") {
   REQUIRE(run.cameras.size() == 1);
   CHECK(run.cameras[0].eye == Vec3(1, 2, 3));
   CHECK(run.cameras[0].fov == 0.5);
-  CHECK(run.materials[0].color.z() == Approx(std::pow(0.1, 2.2)));  // as light, from a colour as screens have it
+  CHECK(run.materials[0].color.z() == Approx(std::pow(0.1, 2.2)));  // linear light, from a screen colour
   CHECK(run.record.axis == "y");
   CHECK(run.record.peak == 3);
-  CHECK(run.record.t.size() == 3);  // the line cut short is left out
+  CHECK(run.record.t.size() == 3);  // the incomplete last line is ignored
   CHECK(run.energy_gate == 1e-3);
   CHECK(run.marks.empty());
   dir.write("events.csv",
@@ -97,7 +97,7 @@ TEST_CASE("a movie shows the instants asked for", "[render][schedule]") {
   CHECK_THROWS_AS(schedule_of(movie, recorded()), Error);
   movie.stills = {0.5, 4.01};
   CHECK_THROWS_WITH(schedule_of(movie, recorded()), Catch::Contains("4.01"));
-  movie.stills = {4.001};  // the last step of a run falls where it falls
+  movie.stills = {4.001};  // the last step of a run need not meet the duration
   CHECK(schedule_of(movie, recorded()).times.size() == 1);
   CHECK_THROWS_AS(schedule_of(movie, {}), Error);
 }
@@ -118,7 +118,7 @@ TEST_CASE("curves share a panel when they share unit and direction", "[render][f
   const std::vector<Panel> panels = history_panels(read_csv((dir.path / "h.csv").string()));
   REQUIRE(panels.size() == 4);
   CHECK(panels[0].label == "ground [g]");
-  CHECK(panels[0].columns == std::vector<int>{2});  // nothing moved along y
+  CHECK(panels[0].columns == std::vector<int>{2});  // no motion along y
   CHECK(panels[1].label == "displacement x rel [mm]");
   CHECK(panels[1].columns == std::vector<int>{1, 4});
   CHECK(panels[1].factor == 1000);

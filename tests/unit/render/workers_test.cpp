@@ -1,4 +1,4 @@
-// Processes that draw: what they are given and give back, and what happens when one fails.
+// Drawing processes: their input, their output, and failures of one of them.
 #include "render/workers.h"
 
 #include <unistd.h>
@@ -15,7 +15,7 @@ namespace {
 
 MotionFrame frame_of(double t) { return {t, {1, 2, 3, 1, 0, 0, 0}, {7, 9, 11}, {0.1F, 0.2F, 0.3F}}; }
 
-// A picture whose first pixel tells what the process was given.
+// A picture whose first pixel shows the input of the process.
 Workers::Draw echo() {
   return [](std::size_t index, const MotionFrame& f) {
     Image image(4, 2);

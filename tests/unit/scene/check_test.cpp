@@ -1,4 +1,4 @@
-// Mistakes that are seen without building a model, on scenes made by hand.
+// Mistakes that are found without a model, on scenes made by hand.
 #include <catch2/catch.hpp>
 #include <cmath>
 

@@ -1,4 +1,4 @@
-// What a scene calls for, and by which line.
+// Effects that a scene requires, and the line that requires each.
 #include "engine/scene/effects.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ using namespace erbs;
 
 namespace {
 
-// "scene.lua:9" where the effect is on, "" where it is off
+// "scene.lua:9" if the effect is on, "" if it is off.
 std::string why(const Scene& scene, const std::string& name) {
   for (const Effect& effect : effects_of(scene))
     if (effect.name == name) return effect.on ? effect.because : "";

@@ -1,4 +1,4 @@
-// The step in debris: longer than the joints allowed once they are gone, never longer than a step that the scene names.
+// Time step with contacts: longer than joints allow once the joints are gone, and never longer than a step given by the scene.
 #include <catch2/catch.hpp>
 
 #include "engine/analysis/dynamic.h"
@@ -10,7 +10,7 @@ using namespace erbs;
 
 namespace {
 
-// A brick glued to another by a mortar of 1e12 Pa/m leaps off it and comes to rest on the ground beside it. Debris has 2e10 Pa/m.
+// A brick joined to another by mortar of 1e12 Pa/m leaps off and comes to rest on the ground beside it. Contacts have 2e10 Pa/m.
 const std::string leap = R"(
   material{ name = "brick", density = 1800, kn = 2e10, ks = 8e9, friction = 0.6, restitution = 0.4 }
   ground{ size = 20, material = "brick" }
@@ -46,16 +46,16 @@ Ran go(const std::string& script, double until, int threads = 1) {
 TEST_CASE("once the stiff joint is gone the step grows to what debris bears", "[solve][step]") {
   const Ran r = go(leap + "analysis{ duration = 9, start = 'rest' }", 1.5);
   const State& s = r.run.state;
-  // The step of debris counts a face four times (rocking): 0.9 sqrt(2 m / (4 kn A)). Alone on its face a brick bears 0.7 sqrt(2 m / (kn
-  // A)), beside what is held ready for its joint and for a face that may land.
+  // The step for contacts counts a face four times (rocking): 0.9 sqrt(2 m / (4 kn A)). A single brick on its face allows 0.7 sqrt(2 m /
+  // (kn A)), with reserves for its joint and for the impact of a face.
   const double m = 6.75, k = 2e10 * 0.3 * 0.125, most = 0.9 * std::sqrt(2 * m / (4 * k));
   CHECK(r.run.model.dt_most == Approx(most).epsilon(1e-9));
   CHECK(s.dt_goal < 0.4 * most);
   CHECK(r.longest <= most);
   CHECK(s.dt > 2 * s.dt_goal);
   CHECK(s.dt < 0.7 * std::sqrt(2 * m / k));
-  // One blow of a face on a face is all that passes: 0.1 to 1.3 % by where in a step it begins, of launches at 1 to 1.2 m/s and
-  // restitutions of 0.2 to 1.
+  // The only energy error is one impact of a face on a face: 0.1 to 1.3 %, by its start within a step. Measured for launches at 1 to 1.2
+  // m/s and restitutions of 0.2 to 1.
   CHECK(s.energy.residual_worst < 1.5e-2);
   CHECK(s.v[2].norm() < 1e-6);
   CHECK(s.u[2].z() == Approx(-0.11).margin(1e-6));
@@ -76,8 +76,8 @@ TEST_CASE("the step grows alike with any number of threads", "[solve][step]") {
   CHECK(one.run.state.u[2] == two.run.state.u[2]);
 }
 
-// A cube of side a, I = m a^2 / 6. Across a face: sinking a^2 / m, rocking Int x^2 dA / I half of that. Along it: a^2 / m of sliding and
-// a^2 (a / 2)^2 / I of the roll that goes with it, 2.5 a^2 / m together.
+// A cube of side a, I = m a^2 / 6. Across a face: a^2 / m for sinking, and half of that, Int x^2 dA / I, for rocking. Along it: a^2 / m for
+// sliding and a^2 (a / 2)^2 / I for the coupled roll, 2.5 a^2 / m together.
 TEST_CASE("the stiffest that may land on a cube is a face of its own", "[contact][step]") {
   const double a = 0.2, m = 16;
   const Vec3 half = Vec3::Constant(a / 2);
@@ -88,6 +88,6 @@ TEST_CASE("the stiffest that may land on a cube is a face of its own", "[contact
   set_face_rates(shape, block);
   CHECK(shape.face_across == Approx(a * a / m));
   CHECK(shape.face_along == Approx(2.5 * a * a / m));
-  set_face_rates(shape, ContactBlock{});  // one that is held
+  set_face_rates(shape, ContactBlock{});  // a fixed block
   CHECK(shape.face_across == 0);
 }

@@ -1,4 +1,4 @@
-// A joint that cracks grows softer in every direction, whatever its rule, damage and neutral line: the default time step rests on it.
+// A cracking joint softens in every direction, for every rule, damage and neutral line. The default time step relies on it.
 #include <catch2/catch.hpp>
 
 #include <random>
@@ -17,7 +17,7 @@ Mat6 sound_form(const Joint& joint) {
   return k;
 }
 
-// Tangent by central differences at fixed history: displacements too small to wear anything.
+// Tangent by central differences at fixed history: displacements are too small to cause damage.
 Mat6 tangent(const Model& m, int j, const std::vector<PointHistory>& history, const Vec6& q, double length) {
   const Joint& joint = m.joint[std::size_t(j)];
   Mat6 k;
@@ -36,7 +36,7 @@ Mat6 tangent(const Model& m, int j, const std::vector<PointHistory>& history, co
   return k;
 }
 
-// Largest eigenvalue of the cracked tangent against a stiffness that should bound it: at most 1.
+// Largest eigenvalue of the cracked tangent relative to a stiffness that should bound it; expected: at most 1.
 double against(const Mat6& k, const Mat6& bound) {
   return Eigen::GeneralizedSelfAdjointEigenSolver<Mat6>(Mat6(0.5 * (k + k.transpose())), bound).eigenvalues()[5];
 }
@@ -112,7 +112,7 @@ TEST_CASE("cells of sound points and the closed compression make the sound joint
 }
 
 TEST_CASE("over a crack the work of a joint is stored or booked", "[solve][cracked][energy]") {
-  // bending and pull grow until all points have gone; steps are small against the opening at the peak
+  // Bending and tension grow until all points have failed. Steps are small compared to the opening at peak stress.
   const std::string kind = GENERATE("", ", Gf1=1");
   Script script(Script::Options{.quiet = true});
   const Prepared run = prepare(script.load_text(R"(

@@ -1,4 +1,4 @@
-// What opens and closes: blows at the default step keep their energy, and what was shaken comes to rest.
+// Opening and closing of joints: impacts at the default step conserve energy, and shaken structures come to rest.
 #include <catch2/catch.hpp>
 
 #include "engine/analysis/prepare.h"
@@ -12,7 +12,7 @@ namespace {
 
 struct Ran {
   Prepared run;
-  double highest = -1e300;  // m, of the last block, from rest
+  double highest = -1e300;  // m, highest position of the last block above rest
 };
 
 Ran ran(const std::string& text, double until) {
@@ -53,7 +53,7 @@ TEST_CASE("a block that hops on its bed keeps its energy at any step and stiffne
   CHECK(e.residual_worst < 1e-3);
   CHECK(e.damping > 0);
   CHECK(one.highest > 2e-4);  // it hops ...
-  CHECK(one.highest < 8e-4);  // ... as high as the base throws it, and no higher
+  CHECK(one.highest < 8e-4);  // ... no higher than the base throws it
 }
 
 TEST_CASE("a block that topples falls flat and lies there", "[solve][event]") {
@@ -69,7 +69,7 @@ TEST_CASE("a block that topples falls flat and lies there", "[solve][event]") {
   CHECK(s.energy.residual_worst < 1e-3);
   CHECK(s.u[1].z() == Approx(-.35).margin(2e-3));
   CHECK(s.v[1].norm() < 1e-3);
-  CHECK(one.highest < 0.03);  // over its edge: sqrt(.15^2 + .5^2) - .5
+  CHECK(one.highest < 0.03);  // rise over its edge: sqrt(.15^2 + .5^2) - .5
   CHECK(s.energy.contact_damping > 0);
   CHECK(std::fabs(s.energy.reset) < 2e-3 * s.energy.reference);
 }
@@ -106,7 +106,7 @@ TEST_CASE("what comes near is met with as many steps to go, and by as short a st
   REQUIRE(errs > event_steps / 100);
   CHECK(foresee(run.model, joint, before, far, 1e-9) == Approx(event_steps / 100).epsilon(1e-6));
   CHECK(foresee(run.model, joint, before, far, 1e3) == Approx(std::sqrt(event_share * k * rate * rate / 1e3)).epsilon(1e-6));
-  CHECK(foresee(run.model, joint, far, before, 1e-9) == 0);  // it flies off
+  CHECK(foresee(run.model, joint, far, before, 1e-9) == 0);  // it moves away
 }
 
 }  // namespace erbs

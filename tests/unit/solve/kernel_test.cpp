@@ -41,7 +41,7 @@ TEST_CASE("the fast kernel moves an intact wall as the reference does", "[solve]
   CHECK(largest(fast.state) > 1e-8);
   INFO("carried " << largest_difference(fast.state, plain.state) / largest(plain.state) << " fresh "
                   << largest_difference(finer.state, plain.state) / largest(plain.state));
-  // what is carried since the refresh errs by (1e-5)^2 of a static force, against small motions
+  // The increment since the last reference update causes an error of (1e-5)^2 of a static force, relative to small motions.
   CHECK(largest_difference(fast.state, plain.state) / largest(plain.state) < 1e-9);
   CHECK(largest_difference(finer.state, plain.state) / largest(plain.state) < 1e-13);
 }
@@ -88,7 +88,7 @@ TEST_CASE("threads do not change a bit, cracks and contacts included", "[solve]"
   CHECK(state_hash(one.state) == state_hash(three.state));
 }
 
-// Displacements of blocks set by hand: some 1e-6 m and rad.
+// Block displacements set by hand: some 1e-6 m and rad.
 void sway(const Model& m, State& s) {
   for (std::size_t b = 0; b < std::size_t(m.nblock); ++b)
     for (std::size_t i = 0; i < 6; ++i) s.shift[b / lanes].x[i][b % lanes] = s.row[8 * b + i] = 1e-6 * std::sin(double(8 * b + i));
@@ -106,7 +106,7 @@ TEST_CASE("instruction sets give the same bits", "[solve]") {
   sway(run.model, run.state);
   const auto answer = [&](const LaneKernels& kernels) {
     State s = run.state;
-    // swaying blocks beside some that spin fast, each with rounds of its own
+    // Swaying blocks beside others with high angular velocity, each with its own number of iterations.
     for (std::size_t b = 0; b < s.u.size(); ++b) s.spin_momentum[b] = std::pow(30.0, double(b % 4)) * Vec3(1e-3, -2e-3, 3e-3);
     JointLanes o{};
     kernels.elastic(sound_batch(run.model, s, 0), s.row.data(), o);
@@ -171,7 +171,7 @@ TEST_CASE("every end of a joint has a row of its own, and blocks share out the j
     m.each_row(m.joint[std::size_t(j)].a, [&](int row) { found = found || row == m.row_a[std::size_t(j)]; });
     CHECK(found);
   }
-  // rounds of eight joints each, with one to spare for every group of blocks
+  // Rounds of eight joints each, with one spare round for every block group.
   int rounds = 0;
   for (std::size_t g = 0; g + 1 < m.first_slot.size(); ++g) {
     int most = 0;
@@ -229,7 +229,7 @@ TEST_CASE("sound joints in one pass answer as step by step", "[solve]") {
     worst = std::max(worst, (of_rows - joint_wrench(run.model, s, b)).lpNorm<Eigen::Infinity>());
   }
   CHECK(largest_wrench > 0);
-  CHECK(worst < 1e-11 * largest_wrench);  // both are right to second order in turns of 1e-6
+  CHECK(worst < 1e-11 * largest_wrench);  // both are accurate to second order at rotations of 1e-6
 }
 
 TEST_CASE("a joint that leaves its lane leaves the others as they are", "[solve]") {
@@ -252,7 +252,7 @@ TEST_CASE("a joint that leaves its lane leaves the others as they are", "[solve]
 }
 
 TEST_CASE("cracked joints side by side answer as one by one, with the same bits however many", "[solve]") {
-  // laws of every kind, points driven through softening, slip, closing and opening again
+  // Laws of every kind, with points driven through softening, slip, closing and reopening.
   const std::string law =
       GENERATE("mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=80*kPa, mu=0.6}", "dry{kn=1e10, mu=0.5}",
                "mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=80*kPa, mu=0.6, mu_residual=0.4, Gf1=1, Gf2=5}",
@@ -268,7 +268,7 @@ TEST_CASE("cracked joints side by side answer as one by one, with the same bits 
   Cracked cracked(m, run.state), in_pairs(m, narrow);
   JointSums all, lone, pairs;
   for (int step = 0; step < 60; ++step) {
-    for (int b = 1; b < m.nblock; ++b) {  // blocks are moved by hand: amplitudes that pass every limit
+    for (int b = 1; b < m.nblock; ++b) {  // blocks are moved by hand with amplitudes beyond every limit
       const auto moved = [&](int i) { return std::sin(0.2 * step + 1.7 * b + i) + (i == 2 ? -0.3 : 0) + 0.02 * step * std::cos(b + i); };
       const Vec3 u = 2e-6 * Vec3(moved(0), moved(1), moved(2)), turn = 6e-6 * Vec3(moved(3), moved(4), moved(5));
       for (State* s : {&run.state, &narrow, &plain}) s->u[std::size_t(b)] = u, s->q[std::size_t(b)] = rotation(turn);
@@ -333,7 +333,7 @@ TEST_CASE("round-off of a stressed structure at rest without gravity is no resid
   e.elastic = 1 + 2.2e-16;
   settle(e, 1e-300, 1e-3, -1);
   CHECK(e.residual_relative < 1e-6);
-  e.elastic = 1 + 1e-6;  // a real error is still seen
+  e.elastic = 1 + 1e-6;  // a real error is still found
   settle(e, 1e-300, 2e-3, -1);
   CHECK(e.residual_relative > 0.5);
 }
@@ -349,7 +349,7 @@ TEST_CASE("what a joint bears in the step in which it cracks acts on both its bl
   };
   const int sound = taken();
   REQUIRE(sound > 0);
-  // constants may be made anew between the crack and the drift, where joints beside it are handed over
+  // Constants may be rebuilt between crack and drift, if neighbouring joints are released to contact.
   std::fill(s.tier.begin(), s.tier.end(), Tier::cracked);
   CHECK(taken() == sound);
   for (auto& given : s.given) given = {};

@@ -1,4 +1,4 @@
-// The ledger is worth something only if a wrong term shows: each term is spoiled in turn, and the gate must fail.
+// The energy ledger is useful only if a wrong term shows. Each term is falsified in turn, and the energy tolerance must be exceeded.
 #include <catch2/catch.hpp>
 #include <string>
 
@@ -9,7 +9,7 @@ using namespace erbs;
 
 namespace {
 
-constexpr double gate = 1e-2;  // the widest of the gates of a run (analysis/dynamic.cpp)
+constexpr double gate = 1e-2;  // the largest energy tolerance of a run (analysis/verdict.cpp)
 
 const std::string head = R"(
 material{ name = "stone", density = 2000, restitution = 0.3, friction = 0.4 }
@@ -65,7 +65,7 @@ Energy energy_of(const Term& term, double share) {
   Prepared run = prepare(scene, false);
   start_at_rest(scene, run, 1);
   Solver solver(run.model, run.state, 1);
-  // Whatever the term has gathered is made less by (1 - share) at every settling, as a law that books too little would.
+  // Every settlement reduces the growth of the term by (1 - share), as a law would that books too little.
   double kept = 0;
   const auto spoil = [&] {
     double& now = run.state.energy.*term.member;
@@ -88,7 +88,7 @@ TEST_CASE("the gate fails as soon as one term of the ledger books a tenth too li
 }
 
 TEST_CASE("the gate fails when a tenth of what is stored is lost, or anything appears in reset", "[solve][ledger]") {
-  // A wall in full swing under its pulse: kinetic and elastic energy, height and the ground's work.
+  // A wall in full swing under its pulse: kinetic and elastic energy, potential energy and work of the ground.
   const Scene scene = test::small_wall("ground_motion{wave=pulse{amplitude=0.5, duration=0.02}, direction='y'} analysis{duration=0.05}");
   Prepared run;
   test::run_to(scene, 1, 0.012, run);

@@ -1,4 +1,4 @@
-// Geometry of joints between refreshes, and by them.
+// Joint geometry between reference updates, and at them.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 
 const std::string shake = "ground_motion{wave=sine{amplitude=0.5*g, frequency=8}, direction={1,0.7,0}} analysis{duration=1, kernel=\"";
 
-// One rigid turn of 1e-4 rad, as far as a refresh lets it come, and strains.
+// One rigid rotation of 1e-4 rad, the largest before a reference update, plus strains.
 void turn_rigidly(const Model& m, State& s, double strain) {
   for (int b = 1; b < m.nblock; ++b) {
     const Vec3 turn = 1e-4 * Vec3(0.6, -0.48, 0.64), arm = m.rest[std::size_t(b)];
@@ -36,7 +36,7 @@ TEST_CASE("carried geometry answers as exact geometry within the tolerance of a 
   turn_rigidly(run.model, s, 1e-8);
   JointLanes o;
   for (int j = 0; j < run.model.njoint; ++j) {
-    if (run.model.joint[std::size_t(j)].a == 0) continue;  // the foot does not turn
+    if (run.model.joint[std::size_t(j)].a == 0) continue;  // the foot does not rotate
     lane_kernels().elastic(sound_batch(run.model, s, j / lanes), s.row.data(), o);
     double q[6];
     joint_q(run.model, s, j, q);
@@ -54,7 +54,7 @@ TEST_CASE("a rigid turn between refreshes strains no joint", "[solve]") {
   double stiffest = 0;
   for (const auto& type : m.joint_types) stiffest = std::max({stiffest, type->stiffness[0], type->stiffness[2]});
   for (int b = 1; b < m.nblock; ++b) {
-    bool on_foot = false;  // which does not turn
+    bool on_foot = false;  // which does not rotate
     for (const Joint& joint : m.joint) on_foot = on_foot || (joint.a == 0 && joint.b == b);
     if (!on_foot) CHECK(joint_wrench(m, s, b).lpNorm<Eigen::Infinity>() < 1e-15 * stiffest);
   }
@@ -64,12 +64,12 @@ TEST_CASE("cracked joints see their blocks exactly, however far these have turne
   Prepared run = prepare(test::small_wall(shake + "fast\"}", "dry{kn=1e10, mu=0.5}"), false);
   const Model& m = run.model;
   State& s = run.state;
-  const double apart = GENERATE(1e-9, 0.1, 0.13, 0.7);  // rad; past .126 a series does not hold
+  const double apart = GENERATE(1e-9, 0.1, 0.13, 0.7);  // rad; beyond .126 a series no longer converges
   for (int j = 0; j < m.njoint; ++j) s.tier[std::size_t(j)] = Tier::cracked;
   for (int b = 1; b < m.nblock; ++b) {
     const Vec3 turn(0.9, -0.8, 0.4), arm = m.rest[std::size_t(b)];
     s.q[std::size_t(b)] = rotation(turn) * rotation(apart * Vec3(std::sin(b), std::cos(b), 1));
-    if (b % 3 == 0) s.q[std::size_t(b)] = Quat(-Quat(s.q[std::size_t(b)]).coeffs());  // the same attitude
+    if (b % 3 == 0) s.q[std::size_t(b)] = Quat(-Quat(s.q[std::size_t(b)]).coeffs());  // the same orientation
     s.u[std::size_t(b)] = rotation(turn) * arm - arm + 1e-6 * Vec3(std::cos(3 * b), std::sin(2 * b), 0.3);
   }
   for (const LaneKernels* kernels : {&lane_kernels(), &sse2::kernels}) {
@@ -113,7 +113,7 @@ TEST_CASE("a refresh by whole batches gives what all joints anew would", "[solve
 
 TEST_CASE("sound joints that have been looked at once are passed by only where they hold", "[solve]") {
   Prepared run = prepare(test::small_wall(shake + "fast\"} gravity(g)", "dry{kn=1e10, mu=0.5}"), false);
-  const Model& m = run.model;  // its corners hang over and would fall: it is left to itself only until its beds bear
+  const Model& m = run.model;  // overhanging corners would fall, so it runs only until its joints are under load
   {
     Solver solver(m, run.state, 1);
     solver.run({[](double) { return false; }, [] {}, [&] { return run.state.t >= 4e-4; }});

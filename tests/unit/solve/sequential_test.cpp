@@ -1,4 +1,4 @@
-// The sequential scheme as a solver of the program: reproducible, resumable, and honest in its ledger.
+// The sequential scheme as a solver of the program: reproducible, resumable, with an honest energy ledger.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -51,7 +51,7 @@ TEST_CASE("a sequential run depends on its seed alone, and one stopped and resum
     const Metrics expected = run(pillar(kind), whole.path);
     CHECK(expected.status == "completed");
     CHECK(expected.energy.at(7).second > 0);   // fracture: joints have cracked
-    CHECK(expected.momentum_residual > 1e-6);  // action is not reaction, and it says so
+    CHECK(expected.momentum_residual > 1e-6);  // action does not equal reaction, and the residual shows it
     CHECK(run(pillar(kind), whole.path).state_hash == expected.state_hash);
     CHECK(run(pillar(kind), parts.path, Existing::force, 0.11).status == "stopped");
     const Metrics got = run(pillar(kind), parts.path, Existing::resume);
@@ -63,8 +63,9 @@ TEST_CASE("a sequential run depends on its seed alone, and one stopped and resum
   CHECK(run(pillar("seed = 1"), whole.path).state_hash != run(pillar("seed = 2"), whole.path).state_hash);
 }
 
-// Sound joints are carried between refreshes in the lanes, exact in the plain sweep. What errs most is that resultants are turned forward to
-// first order: by th^2/2 = 5e-9 of them at a turn of 1e-4, and so do energies until the first bricks are loose.
+// Packs update intact joints incrementally between reference updates; the plain sweep is exact. The largest error comes from resultants,
+// which are rotated to first order. It is th^2/2 = 5e-9 of them at a rotation of 1e-4, and energies inherit it until the first bricks are
+// loose.
 TEST_CASE("joints side by side and blocks in rounds give what the plain sweep gives one by one", "[solve][sequential]") {
   const test::Scratch quick("sequential_quick"), plain("sequential_plain");
   for (const char* kind : {"seed = 5", "variant = 'centred', order = 'coloured'", "order = 'fixed', iterations = 3"}) {
@@ -90,7 +91,7 @@ TEST_CASE("every order lets each block go once; colours part neighbours", "[solv
     CHECK(sweep_order(model, 3, 7) == got);
     CHECK((sweep_order(model, 3, 8) != got) == (std::string(order) == "random"));
     if (std::string(order) != "coloured") continue;
-    // Within a run of growing numbers no two blocks share a joint: colours follow each other.
+    // Within a run of increasing numbers no two blocks share a joint: colours follow each other.
     std::size_t first = 0;
     for (std::size_t i = 1; i <= got.size(); ++i) {
       if (i < got.size() && got[i] > got[i - 1]) continue;
@@ -147,7 +148,7 @@ joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1*GPa, c = 1*GPa, mu = 0.6 } }
   }
 }
 
-// Of a chain between walls D - K couples neighbours by k alone: 2 k / m cos(pi / (n + 1)).
+// In a chain between walls, D - K couples neighbours only through k: 2 k / m cos(pi / (n + 1)).
 TEST_CASE("what a sweep feeds a chain by", "[solve][sequential]") {
   std::string chain = "gravity(0)\nmaterial{ name = 'stone', density = 2000 }\n";
   for (int i = 0; i <= 11; ++i)
@@ -159,12 +160,12 @@ TEST_CASE("what a sweep feeds a chain by", "[solve][sequential]") {
   CHECK(sweep_feed(run.model, run.state) == Approx(2 * 1e7 / 2 * std::cos(3.14159265358979 / 11)).epsilon(1e-6));
 }
 
-// The pillar is shaken far less than what its own scheme makes of it.
+// The shaking of the pillar is far smaller than the energy input of its own scheme.
 TEST_CASE("a sequential run that makes more energy than there is ends as diverged", "[solve][sequential]") {
   const test::Scratch scratch("sequential_runaway");
   std::string text = pillar("seed = 1");
   text.replace(text.find("duration = 0.25, dt_fraction = 0.02"), 35, "duration = 20, dt_fraction = 0.5");
-  text.replace(text.find("ft = 0.05*MPa, c = 0.1*MPa"), 26, "ft = 1e9, c = 1e9");  // what breaks falls apart, and feeds no more
+  text.replace(text.find("ft = 0.05*MPa, c = 0.1*MPa"), 26, "ft = 1e9, c = 1e9");  // a broken pillar falls apart and feeds no more energy
   const Metrics got = run(text, scratch.path);
   CHECK(got.status == "diverged");
   CHECK(got.time_s < 2);

@@ -1,4 +1,4 @@
-// Debris that sleeps: what it leaves as it is, what wakes it and when, and that the ledger, threads and a restart do not notice.
+// Sleeping blocks: unchanged while asleep, woken for the right reason at the right time, and neutral to ledger, threads and restart.
 #include <catch2/catch.hpp>
 
 #include "engine/analysis/dynamic.h"
@@ -10,7 +10,7 @@ using namespace erbs;
 
 namespace {
 
-// Nine bricks fall in a heap, and a tenth on a tray beside it that is drawn away at 4 s; `more`: loads, analysis.
+// Nine bricks fall in a heap, and a tenth lies on a tray that is drawn away at 4 s; `more`: loads, analysis.
 std::string heap(const std::string& more) {
   return R"(
     material{ name = "brick", density = 1800, kn = 2e9, ks = 8e8, friction = 0.6, restitution = 0.2 }
@@ -33,10 +33,10 @@ const std::string awake = "analysis{ duration = 5, start = 'rest' }", asleep = "
 struct Ran {
   Prepared run;
   std::optional<Solver> solver;
-  std::vector<std::pair<double, int>> count;  // of those asleep, at samples
+  std::vector<std::pair<double, int>> count;  // blocks asleep, at samples
 };
 
-// Runs to `until`; samples are taken at each step from `from` on.
+// Runs to `until` (s); samples every step from `from` on.
 void go(Ran& r, const std::string& script, double until, double from = 1e9, int threads = 1) {
   Script loaded(Script::Options{.quiet = true});
   const Scene scene = loaded.load_text(heap(script), "heap.lua");
@@ -55,7 +55,7 @@ int block(const Model& m, const std::string& name) {
   return int(std::find(m.block_name.begin(), m.block_name.end(), name) - m.block_name.begin());
 }
 
-// m, at the earlier of the two ends: what lands shortens the step, and a run ends with the first step past its end.
+// m, at the earlier of the two ends. Impacts shorten the step, and a run ends with the first step past its end.
 double apart(const Ran& a, const Ran& b) {
   double out = 0;
   const double t = std::min(a.run.state.t, b.run.state.t);
@@ -74,12 +74,12 @@ TEST_CASE("a heap that sleeps lies where the one that does not lies", "[solve][s
   CHECK(s.rest.count == 10);
   CHECK(l.rest.count == 0);
   INFO("apart " << apart(still, lively) << " m");
-  CHECK(apart(still, lively) < 1e-6);  // m: what it might have crept, 1e-6 m/s for a second, had it not come to rest by itself
+  CHECK(apart(still, lively) < 1e-6);  // m: possible creep of 1e-6 m/s for a second, had it not come to rest by itself
   CHECK(s.v[std::size_t(block(still.run.model, "b3"))].norm() == 0);
   CHECK(s.energy.sleep > 0);
-  CHECK(s.energy.sleep < 10 * 0.5 * 6.75 * 1e-12);  // ten bricks at the bound of speed
+  CHECK(s.energy.sleep < 10 * 0.5 * 6.75 * 1e-12);  // ten bricks at the speed limit of sleep
   CHECK(s.energy.residual_worst < 1.01 * l.energy.residual_worst);
-  CHECK(s.energy.elastic == Approx(l.energy.elastic).epsilon(1e-4));  // of springs that go on swinging below the bounds
+  CHECK(s.energy.elastic == Approx(l.energy.elastic).epsilon(1e-4));  // of springs that still oscillate below the limits
   CHECK(s.momentum_residual < 1e-9);
   CHECK(s.max_penetration_relative == l.max_penetration_relative);
   CHECK(still.solver->touching() == lively.solver->touching());
@@ -104,7 +104,7 @@ TEST_CASE("a sleeper whose support is drawn away falls, and wakes the heap that 
   }
   CHECK(falls == Approx(4).margin(2 * still.run.state.dt_goal));
   CHECK(lands - falls > 0.2);
-  // whoever sleeps on lies apart: nothing that it touches is awake
+  // Blocks still asleep are isolated: none of them touches a block that is awake.
   const Model& m = still.run.model;
   const auto& asleep_now = still.run.state.rest.asleep;
   for (const Pair& p : still.run.state.debris.pair) {

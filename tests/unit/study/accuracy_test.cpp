@@ -31,7 +31,7 @@ TEST_CASE("Richardson's limit of a known order, and its uncertainty", "[study]")
   CHECK(limit.order == Approx(2));
   CHECK(limit.uncertainty == Approx(0.02));
   CHECK(richardson({{0.1, 5}}, 2).value == 5);
-  CHECK(richardson({{0.1, 5}, {0.2, 5}, {0.4, 5}}, 2).value == 5);  // nothing moves
+  CHECK(richardson({{0.1, 5}, {0.2, 5}, {0.4, 5}}, 2).value == 5);  // constant values
 }
 
 TEST_CASE("the reference adds what is left of each knob, an expectation comes first", "[study]") {
@@ -78,7 +78,7 @@ TEST_CASE("the front holds what nothing beats; target and budget find their sett
   CHECK(best_within(q, 0, all, 1e9) == front.back());
   CHECK_FALSE(best_within(q, 0, all, 1e-9));
   CHECK(what_limits(q, 0, all) ==
-        "the points, not the step, are the error");  // the best has the finest step: 0.0016 of it, 0.0022 of the points
+        "the points, not the step, are the error");  // the best run has the finest step: error 0.0016 from the step, 0.0022 from the points
   CHECK_THAT(plain_sentence(q, 0, all), Catch::Contains("x costs") && Catch::Contains("the error."));
 }
 

@@ -7,7 +7,7 @@ using namespace erbs;
 
 namespace {
 
-// One mass on one spring, omega = 1: does leapfrog with mass damping stay bounded?
+// One mass on one spring, omega = 1: is the leapfrog with mass damping bounded?
 bool bounded(double dt, double c, bool explicit_damping) {
   double x = 1, v = 0;
   for (int i = 0; i < 20000 && std::fabs(x) < 1e6; ++i) {
@@ -40,7 +40,7 @@ TEST_CASE("the sweep needs what it feeds, up to the limit of a block between hel
   REQUIRE(room);
   CHECK(room->least == Approx(0.25));
   CHECK_FALSE(room_of({true, false}, one, 1.42));
-  // four times the stiffness: half the limits, four times the feeding
+  // Four times the stiffness: half the limits, four times the energy input.
   CHECK_FALSE(room_of({true, false}, stiffer(one, 4), 0.71));
   CHECK(room_of({true, false}, stiffer(one, 4), 0.7)->least == Approx(0.7));
   MapRun run;
@@ -56,6 +56,6 @@ TEST_CASE("runs of a map are compared at the last time at which both were looked
   reference.seen = {{0.01, 2}, {0.1, 4}, {0.5, 8}};
   run.seen = {{0.01001, 1}, {0.1001, 3}};
   CHECK(*ratio_of(run, reference) == Approx(0.75));
-  run.seen.push_back({0.3, 1e3});  // its time was up
+  run.seen.push_back({0.3, 1e3});  // the run ended here by its time limit
   CHECK(*ratio_of(run, reference) == Approx(0.75));
 }

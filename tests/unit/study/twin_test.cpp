@@ -12,7 +12,7 @@ using namespace erbs;
 
 namespace {
 
-// One block that drifts from where it should be by 1e-9 exp(rate t).
+// One block whose distance from its reference grows as 1e-9 exp(rate t).
 void write_run(const std::string& dir, double rate, double end) {
   std::filesystem::create_directories(dir);
   MotionScene scene;
@@ -34,7 +34,7 @@ TEST_CASE("two runs part when a block stands further apart than asked for", "[st
   write_run(dir + "/b", 10, 2);
   const auto parted = parting_time(dir + "/a", dir + "/b", 1e-3);
   REQUIRE(parted);
-  CHECK(*parted == Approx(std::log(1e6) / 10).epsilon(1e-3));  // an exponential between frames is met exactly
+  CHECK(*parted == Approx(std::log(1e6) / 10).epsilon(1e-3));  // interpolation between frames is exact for an exponential
   CHECK_FALSE(parting_time(dir + "/a", dir + "/a", 1e-3));
   write_run(dir + "/c", 10, 1);
   CHECK_FALSE(parting_time(dir + "/a", dir + "/c", 1e-3));
