@@ -1,8 +1,10 @@
 // erbs check SCENE.lua: every mistake at once, and what a run would be; runs nothing.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <set>
 
+#include "engine/analysis/flat_bed.h"
 #include "engine/analysis/prepare.h"
 #include "engine/base/text.h"
 #include "engine/record/recorder.h"
@@ -56,6 +58,13 @@ void print_run(const Scene& scene, const Prepared& run) {
       (static_cast<double>(bytes_of(model)) + own_memory) / 1048576.0, cost_text(estimated_cost(model, steps, scene.analysis.debris)));
 }
 
+void print_rocking(const Model& model) {
+  constexpr size_t shown = 3;
+  const std::vector<FlatBed> beds = flat_beds(model);
+  for (size_t i = 0; i < std::min(shown, beds.size()); ++i) say("rocking: {}\n", told(model, beds[i]));
+  if (beds.size() > shown) say("rocking: and {} more blocks on flat beds of their own\n", beds.size() - shown);
+}
+
 void check_scene(const std::string& path, const Options& options) {
   Script script(script_options(options, options.quiet));
   const Scene scene = script.load(path, options.overrides);
@@ -66,6 +75,7 @@ void check_scene(const std::string& path, const Options& options) {
   if (options.quiet) return;
   print_scene(scene);
   print_run(scene, run);
+  print_rocking(run.model);
   print_effects(scene);
 }
 
