@@ -10,7 +10,7 @@
 namespace erbs {
 namespace {
 
-constexpr int lift_row = 50;  // row of Pair::lift
+constexpr int lift_row = 50;  // row of `Pair::lift`
 static_assert(offsetof(Pair, tangential) == 30 * sizeof(double) && offsetof(Pair, lift) == lift_row * sizeof(double));
 static_assert(sizeof(Pair) >= 8 * pair_rows * sizeof(double));
 static_assert(sizeof(ContactBlock) == 8 * block_rows * sizeof(double));

@@ -1,4 +1,4 @@
-// Touching pairs as packs of eight (pair_lanes.h), with the result of `pair_force()` to round-off.
+// Touching pairs as packs of eight (`pair_lanes.h`), with the result of `pair_force()` to round-off.
 #pragma once
 #include <memory>
 
@@ -27,7 +27,7 @@ struct PairJob {
   PairBodies bodies;
   const ContactBlock *a, *b;
   PairResult* result;         // default-constructed
-  double crowd = full_crowd;  // as in pair_force()
+  double crowd = full_crowd;  // as in `pair_force()`
 };
 
 // True for a pair of small bodies that touched in its last evaluation.

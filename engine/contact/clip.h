@@ -1,4 +1,4 @@
-// Fast overlap of two small bodies (at most 8 vertices and 8 faces each: bricks, voussoirs, wedges), as triangles side by side; narrow.h
+// Fast overlap of two small bodies (at most 8 vertices and 8 faces each: bricks, voussoirs, wedges), as triangles side by side; `narrow.h`
 // computes the same for any body. Plain data, compiled once per instruction set. A larger body, or an overlap of more triangles, takes the
 // general path.
 #pragma once
@@ -10,7 +10,7 @@ inline constexpr int few = 8;               // vertices or faces of a small body
 inline constexpr int most_triangles = 128;  // a multiple of 8
 
 struct alignas(64) SmallShape {
-  double vertex[3][few];               // m, as in ContactShape; the last one fills the array
+  double vertex[3][few];               // m, as in `ContactShape`; the last one fills the array
   double normal[3][few], offset[few];  // unit, m; 0 and 1e30 beyond the last face: every point is inside
   double edge;                         // m, smallest
   int vertices = 0, faces = 0;         // none for a larger body
@@ -18,20 +18,20 @@ struct alignas(64) SmallShape {
   unsigned char count[few], loop[few][few], mask[few];
 };
 
-// Pose of b in the axes of a (row-major turn; shift in m), as PairPose.
+// Pose of b in the axes of a (row-major turn; shift in m), as `PairPose`.
 struct SmallPose {
   double turn[9], shift[3];
 };
 
 struct alignas(64) Triangles {
-  double plane[4][few];                     // faces of a from the centroid of b: normal . x <= plane[3]
+  double plane[4][few];                     // faces of a from the centroid of b: normal . x <= `plane[3]`
   double normal[3][few];                    // of the faces of b
   double corner[3][3][most_triangles + 8];  // m, [corner][axis], pair axes: origin at the centroid of b
-  double depth[3][most_triangles + 8];      // m, phi at the corners, filled by sum()
-  double closing[3][most_triangles + 8];    // m/s, filled by approach()
-  double size[most_triangles + 8];          // m2, filled by sum()
+  double depth[3][most_triangles + 8];      // m, phi at the corners, filled by `sum()`
+  double closing[3][most_triangles + 8];    // m/s, filled by `approach()`
+  double size[most_triangles + 8];          // m2, filled by `sum()`
   unsigned char faces[most_triangles + 8];  // face of b, plus `few` times the face of a below which phi is measured
-  double deepest;                           // m, filled by sum()
+  double deepest;                           // m, filled by `sum()`
   int count;                                // a multiple of 8, with empty ones at the end
   int separating;                           // a face of a with all of b on its outer side; -1: none
   bool overflow;                            // more triangles than there is room for
@@ -44,7 +44,7 @@ struct ClipJob {
   Corners* known = nullptr;  // corners of an earlier overlap of the same bodies, updated by the call; null: not used
 };
 
-// Sums over the triangles, kn = 1 (names as in narrow.h).
+// Sums over the triangles, kn = 1 (names as in `narrow.h`).
 struct alignas(64) OverlapSums {
   double total, pressure[3], area, centroid[3], second[6], force[3], moment[3], unused[4];
 };

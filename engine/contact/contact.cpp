@@ -64,7 +64,7 @@ struct Dashpot {
 // form; its coefficient is 2 settling sqrt(kn A m). The explicit step caps the sum, with x = dt^2 kn A / m:
 //   one contact with the velocity of half a step before: x + 2 c dt / m < 4;
 //   n equal contacts on each block count n-fold in the worst mode: c dt / m < (4 / n - x) / 2, of which 0.9 is used;
-//   at least a quarter, which a heap allows (contact_limit.cpp), and at most 1 / (1 + n), since others may close in the same step.
+//   at least a quarter, which a heap allows (`contact_limit.cpp`), and at most 1 / (1 + n), since others may close in the same step.
 // A capped dashpot misses the requested restitution. Bricks that fall flat rebound with at least 0.43 at a cap of a quarter, and with 0.19
 // to 0.33 at a half (V22).
 Dashpot dashpot(Pair& pair, const Patch& patch, double inverse_mass, const ContactSettings& settings, double dt, double crowd) {

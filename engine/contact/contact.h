@@ -5,7 +5,7 @@
 
 namespace erbs {
 
-struct View;  // view.h
+struct View;  // `view.h`
 
 inline constexpr double full_crowd = 3;  // from this number of contacts on, dashpots have their lowest cap
 inline constexpr double flat_face = 2;   // area over the squared least radius of inertia, from which on a patch is a flat face
@@ -35,7 +35,7 @@ struct PairResult {
 
 // Evaluates `pair` at the present pose and updates its memory. dt (s): the step that led here, 0 at the start of a run. Returns false if
 // the bodies are apart and the pair stored nothing before; the result is then zero except for the prediction of impacts. `crowd`: number of
-// contacts on either body, at least 1; it limits the dashpots (`dashpot()` of contact.cpp).
+// contacts on either body, at least 1; it limits the dashpots (`dashpot()` of `contact.cpp`).
 bool pair_force(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
                 double dt, bool want_energy, OverlapRoom& room, PairResult& result, double crowd = full_crowd);
 

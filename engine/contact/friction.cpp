@@ -188,7 +188,7 @@ Borne borne(Bearing b, const Patch& patch, const Pull& springs, const Pull& dash
   }
   if (!(b.limit > 0)) return {springs, 0, false};
   // Dashpots use the part of the limit that the springs leave, and the springs alone decide on slip. If slip began where both together
-  // reach the limit, springs would be stretched without motion, and a contact that trembles near its limit would gain energy.
+  // reach the limit, springs would be stretched without motion. A contact that trembles near its limit would then gain energy.
   return {springs, bearable(b, patch, springs.force, about, dashpots.force, dashpots.torsion + b.lever.dot(dashpots.force)), false};
 }
 

@@ -9,7 +9,7 @@ namespace erbs {
 // m + lever . t.
 struct Bearing {
   double limit = 0, r = 0;  // N, m: limit of force alone; limit r is that of torsion alone
-  // shape factor of the limit surface (friction.cpp)
+  // shape factor of the limit surface (`friction.cpp`)
   double bulge = 0;
   double gyration2 = 0;       // m2, of the springs: kr / kt
   Vec3 lever = Vec3::Zero();  // m, n x (centroid - centre of pressure)
@@ -45,7 +45,7 @@ struct Motion {
 };
 
 // Advances the friction memory of `pair` from its last pose to `pose`. `inverse_mass` (1/kg): of both bodies at the patch, in its plane.
-// `interlock`: that of ContactSettings.
+// `interlock`: that of `ContactSettings`.
 Friction patch_friction(Pair& pair, const Patch& patch, const PairPose& pose, const Motion& motion, double normal_force,
                         double inverse_mass, double settling, const Interlock& interlock = {});
 

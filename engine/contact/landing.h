@@ -1,4 +1,4 @@
-// Bound on the time step by bodies that are about to touch, to touch with more of their faces, or to separate (solve/event_bound.h).
+// Bound on the time step by bodies that are about to touch, to touch with more of their faces, or to separate (`solve/event_bound.h`).
 //
 // A corner that strikes presses with a triangle of its face, an edge with a strip. The step then errs much less than for a whole face that
 // lands flat. So an impact has the stiffness of the share of the face that sinks in within the next steps.

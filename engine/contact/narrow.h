@@ -22,7 +22,7 @@ struct PairPose {
 struct Piece {
   int face;          // of B
   int nearest;       // face of A
-  int first, count;  // vertices in Pieces::vertex
+  int first, count;  // vertices in `Pieces::vertex`
 };
 
 // Workspace, used again from call to call; one per thread.

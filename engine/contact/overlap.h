@@ -1,5 +1,5 @@
-// Overlap of two bodies: found, summed and damped by the fast path if both are small (clip.h), else by the general path (narrow.h). Both
-// give the same to round-off.
+// Overlap of two bodies: found, summed and damped by the fast path if both are small (`clip.h`), else by the general path (`narrow.h`).
+// Both give the same to round-off.
 #pragma once
 #include "engine/contact/clip.h"
 #include "engine/contact/narrow.h"
@@ -15,12 +15,12 @@ struct OverlapRoom {
   double apart = 0;           // m, lower bound of the distance in the last query; negative if unknown
 };
 
-// The elastic patch; its total is 0 if the bodies do not overlap. `separating` caches the separating feature (narrow.h), `known` the
-// corners of the overlap (clip.h).
+// The elastic patch; its total is 0 if the bodies do not overlap. `separating` caches the separating feature (`narrow.h`), `known` the
+// corners of the overlap (`clip.h`).
 Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, OverlapRoom& room,
                    Corners* known = nullptr);
 
-// As in narrow.h, for the last overlap.
+// As in `narrow.h`, for the last overlap.
 void closing_speeds(OverlapRoom& room, const Vec3& linear, const Vec3& angular, Patch& patch);
 void damping_wrench(const OverlapRoom& room, const Vec3& normal, double chi, double limit, Vec3& force, Vec3& moment);
 // E / kn (m4) of the last overlap; the same bodies.

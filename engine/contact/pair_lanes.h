@@ -1,5 +1,5 @@
-// Eight touching pairs as a pack: from overlap to forces, as contact.cpp does for one pair. Plain data, compiled once per instruction set
-// (pair_lanes.inc). All operations are elementwise, so that a pair's numbers do not depend on its neighbours.
+// Eight touching pairs as a pack: from overlap to forces, as `contact.cpp` does for one pair. Plain data, compiled once per instruction set
+// (`pair_lanes.inc`). All operations are elementwise, so that a pair's numbers do not depend on its neighbours.
 #pragma once
 #include "engine/contact/clip.h"
 
@@ -8,20 +8,20 @@ namespace erbs {
 // One number per lane; vectors by component, matrices row by row; in pair axes unless stated otherwise.
 using Lane = double[8];
 
-// Rows of eight numbers, in the layout of Pair, ContactBlock and PairResult.
+// Rows of eight numbers, in the layout of Pair, `ContactBlock` and `PairResult`.
 inline constexpr int pair_rows = 7, block_rows = 4, result_rows = 2;
 
 struct alignas(64) PairLanes {
   const double *pair[8], *reference[8], *other[8];  // addresses of the input
   Lane p[8 * pair_rows], r[8 * block_rows], o[8 * block_rows];
   Lane swapped;  // 1 if block b is the reference, else 0
-  Lane crowd;    // as in pair_force()
+  Lane crowd;    // as in `pair_force()`
   Lane turn[9], shift[3];
   OverlapSums sums[8];
   Lane deepest;  // m
   Lane total, area, force[3], moment[3], normal[3], size, pressure_centre[3], centroid[3], second[6], gyration;
   Lane linear[3], angular[3];     // m/s, rad/s, motion of the other body
-  Lane along, turning[3];         // for ClipKernels::approach
+  Lane along, turning[3];         // for `ClipKernels::approach`
   Lane closing;                   // m/s
   Lane inverse_mass, chi, limit;  // of the dashpot
   Lane damping[4];                // total and first moment from `ClipKernels::damp`, kn = 1
@@ -43,7 +43,7 @@ struct BlockLanes {
   const double* reach;        // m, distance of each block's farthest point from its centroid
   double *spun, *spin;        // m, travel of that point by rotation, upper bound; m/s, its speed by rotation
   double *way, *way_soon;     // m, travel with that of the centroid; the same after the next steps
-  double* row[8];             // ContactBlock
+  double* row[8];             // `ContactBlock`
   const Lane* axes;           // of the shapes at rest, row by row; null: the world axes
 };
 

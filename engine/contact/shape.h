@@ -40,11 +40,11 @@ struct ContactShape {
 };
 
 // `part`: relative to the centroid of its block, in axes that rotate with the block (`contact_axes()`). Throws Error for more vertices or
-// faces than most_vertices or most_faces.
+// faces than `most_vertices` or `most_faces`.
 ContactShape contact_shape(const Polyhedron& part);
 
-// The parts of all blocks; block b has [first[b], first[b + 1]). Parts that are equal up to round-off share a shape, so that a step with a
-// thousand equal bricks reads one brick.
+// The parts of all blocks; block b has `[first[b], first[b + 1])`. Parts that are equal up to round-off share a shape, so that a step with
+// a thousand equal bricks reads one brick.
 struct ContactShapes {
   std::vector<ContactShape> shape;
   std::vector<int> of;     // shape of each part
@@ -53,7 +53,7 @@ struct ContactShapes {
 
   const ContactShape& part(std::size_t i) const { return shape[std::size_t(of[i])]; }
 };
-// Sets face_across and face_along of a part of `block`.
+// Sets `face_across` and `face_along` of a part of `block`.
 void set_face_rates(ContactShape& part, const ContactBlock& block);
 // `blocks`: the blocks of these parts, for `set_face_rates()`; empty: the rates are unknown.
 ContactShapes contact_shapes(const std::vector<std::vector<Polyhedron>>& parts_of_blocks, std::span<const ContactBlock> blocks = {});
@@ -62,13 +62,13 @@ ContactShapes contact_shapes(const std::vector<std::vector<Polyhedron>>& parts_o
 // Congruent blocks in different attitudes have equal shapes in these axes.
 Mat3 contact_axes(const std::vector<Polyhedron>& parts);
 
-// Present pose and motion of a block; inverse_mass and inverse_inertia of fixed blocks are 0.
+// Present pose and motion of a block; `inverse_mass` and `inverse_inertia` of fixed blocks are 0.
 struct alignas(64) ContactBlock {
   Vec3 u = Vec3::Zero();         // m, displacement of the centroid
   Mat3 turn = Mat3::Identity();  // from the axes of its shapes to world axes
   Vec3 v = Vec3::Zero();         // m/s, of the centroid, at the half step before the pose
   Vec3 w = Vec3::Zero();         // rad/s, world axes, at the same half step
-  // constants; `follow()` of pair_lanes.h writes the members above
+  // constants; `follow()` of `pair_lanes.h` writes the members above
   double inverse_mass = 0;             // 1/kg
   double inverse_inertia = 0;          // 1/(kg m2), of the smallest principal inertia
   Vec3 rest = Vec3::Zero();            // m, centroid at rest

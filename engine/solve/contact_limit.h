@@ -1,7 +1,7 @@
 // Bound on the time step by joints and contacts together, while contacts come and go.
 //
 // Two upper bounds of omega^2 of the whole system; the lower one counts:
-//   by joints   omega^2 of the intact structure at rest (4 / dt_critical^2), plus twice the largest eigenvalue of the other contacts'
+//   by joints   omega^2 of the intact structure at rest (`4 / dt_critical^2`), plus twice the largest eigenvalue of the other contacts'
 //               stiffness on a block (Weyl's inequality). A cracked joint, or the contact that replaced it, is no stiffer.
 //   by blocks   twice the largest eigenvalue of the total stiffness on a block, remaining joints included. Since
 //               (x - y) K (x - y) <= 2 (x K x + y K y), 2 / omega is the block bound of the present structure.

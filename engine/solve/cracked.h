@@ -23,7 +23,7 @@ class Cracked {
   void take_pose(int b);
   // Groups per chunk.
   static constexpr int grain = 8;
-  // Writes the wrench rows of groups [first, last); fills sums.energy.elastic if `sample`. `budget`: J, for event_bound.h.
+  // Writes the wrench rows of groups [first, last); fills `sums.energy.elastic` if `sample`. `budget`: J, for `event_bound.h`.
   void forces(int first, int last, bool sample, double budget, JointSums& sums, const LaneKernels& kernels = lane_kernels());
   void store();
   bool none_spent() const;  // true: certainly no joint is
@@ -42,13 +42,13 @@ class Cracked {
   };
   struct alignas(64) Group {
     int law, points, corners;
-    int batch;           // index in State::batch
+    int batch;           // index in `State::batch`
     unsigned used = 0;   // occupied lanes, as bits
     bool bears = false;  // joints compressed by gravity
     bool beyond = true;  // some joint may be beyond its faces
     bool bare = true;    // no point has a bond left
     bool worn = false;   // damage has changed since `store()`
-    std::size_t at = 0;  // index in memory_
+    std::size_t at = 0;  // index in `memory_`
     std::shared_ptr<Shapes> shapes;
     int room = -1;  // points that fit there
     // A step reads the members above. It reads the members below only for joints that crush or have bonds.
@@ -73,7 +73,7 @@ class Cracked {
   void look_at_types(Group& group);
   void put(int j);                            // finds a lane and fills it
   void set_ends(int j);                       // blocks, rows and arms of its lane
-  void copy_ends(const Group& group, int l);  // from its pack in State::batch
+  void copy_ends(const Group& group, int l);  // from its pack in `State::batch`
   void take_all(std::vector<int>& joints);    // sorted by type
 
   const Model& model_;

@@ -1,5 +1,5 @@
 // Joint dashpots proportional to stiffness: c = b k in every direction, with the velocity of half a step before. They are explicit: stable
-// while dt <= (2 / w) (sqrt(1 + xi^2) - xi), xi = b w / 2; stiffness.h bounds the step accordingly.
+// while dt <= (2 / w) (sqrt(1 + xi^2) - xi), xi = b w / 2; `stiffness.h` bounds the step accordingly.
 #pragma once
 #include "engine/solve/joint_kernel.h"
 #include "engine/solve/lanes.h"

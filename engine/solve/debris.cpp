@@ -11,7 +11,7 @@ namespace erbs {
 namespace {
 
 constexpr double parted = 0.02;  // of the side of a former joint, and rad
-// Of State::energy.reference: limit of all differences in stored energy between contacts and the joints they replaced.
+// Of `State::energy.reference`: limit of all differences in stored energy between contacts and the joints they replaced.
 constexpr double most_reset = 1.5e-3;
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -192,7 +192,7 @@ int Debris::bed_joint(const Pair& p) const {
   return first;
 }
 
-// Rates of a former joint: those of its joints, in the terms of a contact on the same faces (`stability()` of contact.cpp).
+// Rates of a former joint: those of its joints, in the terms of a contact on the same faces (`stability()` of `contact.cpp`).
 void Debris::count_bed(Pair& p) {
   const int first = bed_joint(p);
   p.counted_a = p.counted_b = 0;

@@ -46,13 +46,13 @@ class Debris {
   // Forces of this thread's pairs. Afterwards `gather()` sums them on one thread, in the order of the pairs.
   void forces(int thread, bool sample);
   void gather(double* push, bool sample);
-  // Afterwards: puts blocks to sleep and wakes sleepers (sleep.h). True if the set of sleepers has changed.
+  // Afterwards: puts blocks to sleep and wakes sleepers (`sleep.h`). True if the set of sleepers has changed.
   bool sleep(const Excitation& now, const double* push);
   // s, time step that joints and contacts now allow, at most `Model::dt_most`.
   double allowed_dt() const { return allowed_; }
   // s, time step that the present contacts allow, without coming impacts; the last step is judged by it.
   double borne_dt() const;
-  // 1/s, event rate: one over the step that the next openings and closings allow (event_bound.h). `budget` (J): of the next `forces()`.
+  // 1/s, event rate: one over the step that the next openings and closings allow (`event_bound.h`). `budget` (J): of the next `forces()`.
   double haste() const { return haste_; }
   void set_step(double budget, const Interlock& interlock) { settings_.event_budget = budget, settings_.interlock = interlock; }
   double elastic() const { return elastic_; }  // J, stored in contacts at the last sample
@@ -140,10 +140,10 @@ class Debris {
   // have closed its gap (`State::parting`).
   struct Waiting {
     int a = 0, b = 0;
-    double until = 0;  // m; no test while way_soon_[a] + way_soon_[b] < until
+    double until = 0;  // m; no test while `way_soon_[a] + way_soon_[b] < until`
   };
   std::vector<Waiting> waiting_;  // per pair
-  std::vector<int> edge_;         // per pair, index into edges_; -1: none
+  std::vector<int> edge_;         // per pair, index into `edges_`; -1: none
   std::vector<EdgeAtRest> edges_;
   std::vector<RowLanes<3>> last_u_;     // m, displacements at the last update of the pose, by groups of eight as in State
   std::vector<double> reach_;           // m, distance of each block's farthest point from its centroid; whole groups, like the arrays below

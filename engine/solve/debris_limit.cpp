@@ -10,8 +10,8 @@ namespace erbs {
 namespace {
 
 // Largest omega dt of a slipping patch, omega along its normal. Friction makes the stiffness unsymmetric, so a patch pressed near its edge
-// may flutter (dry_friction.h). The dashpot of the contact ends the flutter, but an explicit step allows it only c dt / m = 1/4
-// (contact.cpp): a viscous ratio of 1 / (8 omega dt), .12 here. The block of V10 with mu = .9 flutters more and more at 1.1, not at .8.
+// may flutter (`dry_friction.h`). The dashpot of the contact ends the flutter, but an explicit step allows it only c dt / m = 1/4
+// (`contact.cpp`): a viscous ratio of 1 / (8 omega dt), .12 here. The block of V10 with mu = .9 flutters more and more at 1.1, not at .8.
 constexpr double rubbing_angle = 1.0;
 // Times the event budget: least energy m v^2 of two blocks relative to each other for which events are predicted.
 constexpr double worth_a_look = 2;

@@ -6,7 +6,7 @@
 
 namespace erbs {
 
-// Closes the ledger of state.energy at a sample (all terms filled): residual, its relative size, its largest jump.
+// Closes the ledger of `state.energy` at a sample (all terms filled): residual, its relative size, its largest jump.
 //   residual = [T + Ug + Ue] - start + all dissipation - all work; relative to
 //   max(1e-12 weight * height, 1e-8 of the elastic energy at the start,
 //       largest (T + |dUe|) + Int |work| + dissipation + half the flux of height energy).

@@ -5,7 +5,7 @@
 // step decides the amount. At a rate of r (m/s) both are at most k (r dt)^2 / 8. At omega dt = 1.8 an impact returns a fifth to five times
 // its energy, on average twice; at .3 it errs by 4 %, at .1 by .2 %. Openings and closings are therefore predicted. Each face gives
 //   dt_event = sqrt(budget / (k r^2 / 8)), the step at which its event errs by at most `budget`,
-//   in_time  = the time until the event, over event_steps,
+//   in_time  = the time until the event, over `event_steps`,
 // and the step is at most the greater of the two. Its reciprocal is the event rate (1/s). The step thus shortens while blocks still fly, at
 // no cost: a change of dt errs by F^2 (dt_0^2 - dt_1^2) / (8 m), F the net force. The step grows again once this error is below the budget
 // too (`Solver::follow_contacts()`).
@@ -30,7 +30,7 @@ inline constexpr double most_for_many = 4;
 double event_allowance(const Model& model, const State& state);
 // The same; also 0 in a step without prediction.
 double event_budget(const Model& model, const State& state);
-// last_dt over the step that joint j allows. `q0` is its relative displacement one step ago, `q` the present one; 0: no event is near.
+// `last_dt` over the step that joint j allows. `q0` is its relative displacement one step ago, `q` the present one; 0: no event is near.
 double foresee(const Model& model, const Joint& joint, const double q0[6], const double q[6], double budget);
 
 }  // namespace erbs

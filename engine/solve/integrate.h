@@ -25,7 +25,7 @@ struct LoadedBlock {
 
 // Sums over one fixed chunk of blocks. Each chunk has its own, so that totals do not depend on the number of threads. The work of a step's
 // forces is split at the positions of the step. Half the last drift with the old velocity counts at once; half the next drift with the new
-// velocity (`after`) counts when the next step begins. The sums then close exactly at every position (energy.h).
+// velocity (`after`) counts when the next step begins. The sums then close exactly at every position (`energy.h`).
 struct BlockSums {
   BlockWork work{};
   double external_work = 0, external_after = 0, external_absolute = 0, external_absolute_after = 0;  // J
@@ -50,7 +50,7 @@ struct Pushes {
   std::span<LoadedBlock> loaded = {};
 };
 
-// Integrates groups of blocks: sums wrench rows and external forces, kicks by e.kick, drifts by s.dt. `sums`: one per chunk of
+// Integrates groups of blocks: sums wrench rows and external forces, kicks by `e.kick`, drifts by `s.dt`. `sums`: one per chunk of
 // `block_grain` groups; a range that needs no sums runs in one piece. `idle`: 1 for each group without motion; empty means none. `poses`:
 // the pose rows that `Cracked` reads.
 void advance(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes,
@@ -64,8 +64,8 @@ class Picked {
  public:
   // One object per sweep: it fixes the external actions of that sweep.
   Picked(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes);
-  // Kick and drift of blocks[0 .. count), count <= lanes, like the free function `advance()`. The first element of `sums` receives all sums
-  // except the work of loads. The following elements receive that work, one for each entry of pushes.loaded.
+  // Kick and drift of `blocks[0 .. count)`, `count <= lanes`, like the free function `advance()`. The first element of `sums` receives all
+  // sums except the work of loads. The following elements receive that work, one for each entry of `pushes.loaded`.
   void advance(const int* blocks, int count, bool sample, std::vector<BlockSums>& sums);
 
  private:

@@ -1,4 +1,4 @@
-// Common part of intact joints (sound.h) and cracked joints (cracked.h): their energy account, and one joint evaluated point by point.
+// Common part of intact joints (`sound.h`) and cracked joints (`cracked.h`): their energy account, and one joint evaluated point by point.
 #pragma once
 #include <vector>
 
@@ -14,7 +14,7 @@ struct JointSums {
   double largest_error = 0;  // J, of a joint's own energy balance over the step
   int worst_joint = -1;
   int cracked_now = 0;  // joints that cracked in this step
-  double haste = 0;     // greatest last_dt over allowed step (event_bound.h)
+  double haste = 0;     // greatest `last_dt` over allowed step (`event_bound.h`)
 };
 
 // Evaluates one joint point by point and checks its energy balance over the step (work of the resultant = stored + dissipated). `batch`,
@@ -23,7 +23,7 @@ void joint_by_points(const Model& model, State& state, int j, const double q[6],
                      const JointBatch* batch = nullptr, int lane = 0);
 
 inline constexpr int batch_grain = 8;  // packs, or joints of the reference kernel, per chunk
-// Intact joints with dashpots: writes the wrench rows of packs [first, last) of `batch`, as sound.h does for joints without dashpots.
+// Intact joints with dashpots: writes the wrench rows of packs [first, last) of `batch`, as `sound.h` does for joints without dashpots.
 void joint_forces(const Model& model, State& state, const std::vector<JointBatch>& batch, int first, int last, bool sample,
                   JointSums& sums);
 

@@ -208,7 +208,7 @@ void share_out(const Model& m, const Joint& joint, const CrushedFace* crushed, c
   if (share == 0) at_points[deepest] = force;
 }
 
-// Replaces the pressure of a point by its mean pressure, where that is higher and the joint slides slowly (interlock.h).
+// Replaces the pressure of a point by its mean pressure, where that is higher and the joint slides slowly (`interlock.h`).
 void hold(const Model& m, const Joint& joint, const double* q0, const double* q, const JointPast& past, double* pressure) {
   const Interlock& now = past.interlock;
   if (!(now.gap > 0)) return;

@@ -25,7 +25,7 @@ struct alignas(64) SpotLanes {
   double s[lanes], t[lanes], weight[lanes];  // m, m, m2
 };
 struct alignas(64) SlipLanes {
-  double s[lanes], t[lanes], bearing[lanes];  // as in PointHistory
+  double s[lanes], t[lanes], bearing[lanes];  // as in `PointHistory`
 };
 // The rigid motion nearest to the slips of all points, and the residual slips. `stale`: the slips have changed since.
 struct CommonLanes {
@@ -34,14 +34,14 @@ struct CommonLanes {
   double stale[lanes];                     // 0 or 1
 };
 struct alignas(64) BondLanes {
-  double damage[lanes], secant[lanes], reach[lanes];  // as in PointHistory
+  double damage[lanes], secant[lanes], reach[lanes];  // as in `PointHistory`
 };
 struct alignas(64) CellLanes {
   double s[lanes], t[lanes], ss[lanes], st[lanes], tt[lanes];  // as in Cell
 };
 struct alignas(64) FaceLanes {
   double frame[4][lanes];                                                   // at rest, as a quaternion x y z w
-  double stiffness[6][lanes], half_s[lanes], half_t[lanes], radius[lanes];  // as in JointBatch
+  double stiffness[6][lanes], half_s[lanes], half_t[lanes], radius[lanes];  // as in `JointBatch`
   double bend_s[lanes], bend_t[lanes], twist[lanes];                        // N m, `JointType::face`
 };
 // Shapes of eight joints of one law with equal numbers of overlap corners, points and cell corners.
@@ -53,14 +53,14 @@ struct CrackedShape {
   const CornerLanes* corner;
   const SpotLanes* spot;     // [points]
   const CellLanes* cell;     // [points]
-  const int* first;          // corners of cell i: [first[i], first[i + 1])
+  const int* first;          // corners of cell i: `[first[i], first[i + 1])`
   const CornerLanes* loop;   // corners of the cells
   double per_step;           // 1/s, one over the last step, for dashpots; 0 without
   const CornerLanes* watch;  // where cells measure their opening; equal to loop for rules with points on the edge
   // For laws with a plateau in compression: crushed faces, and corners as in `Bed`; null in empty lanes [lanes].
   CrushedFace* const* crushed;
   const double* const* face_corner;
-  double event_budget;  // J, for event_bound.h; 0: no prediction
+  double event_budget;  // J, for `event_bound.h`; 0: no prediction
   Interlock interlock;
 };
 // All other data of eight cracked joints that a step reads and writes, in the order of access and in one piece.
@@ -81,17 +81,17 @@ struct alignas(64) CrackedSums {
   double friction[lanes], fracture[lanes], crushing[lanes], damping[lanes];  // J
   double error[lanes];  // J, the greatest |work of the resultant - stored - dissipated|
   double worst[lanes];  // pack of that error: `number` of its shape
-  double haste[lanes];  // greatest last_dt over allowed step (event_bound.h)
+  double haste[lanes];  // greatest `last_dt` over allowed step (`event_bound.h`)
 };
 
 // Constants of eight intact joints. Adjacent packs with joints of the same types share one, which then stays in the cache.
 struct alignas(64) SoundLaw {
   // of the resultant on b, therefore both negative
   double shear[lanes], across[lanes];  // N/m: stiffness along the faces; excess of the stiffness across them
-  double open_limit[lanes], slip_limit[lanes], slip_slope[lanes], close_limit[lanes];  // as in JointBatch
-  double diameter[lanes];                                                              // m, twice the radius of JointBatch
+  double open_limit[lanes], slip_limit[lanes], slip_slope[lanes], close_limit[lanes];  // as in `JointBatch`
+  double diameter[lanes];                                                              // m, twice the radius of `JointBatch`
 };
-// Eight intact joints in world axes at the reference poses: the data that a step reads, and no other (lanes_sound.inc).
+// Eight intact joints in world axes at the reference poses: the data that a step reads, and no other (`lanes_sound.inc`).
 struct alignas(64) SoundBatch {
   double gap[3][lanes], turn[3][lanes];     // m, rad: relative displacement and half the relative rotation
   double arm_a[3][lanes], arm_b[3][lanes];  // m, from the centroids to the joint
@@ -150,12 +150,12 @@ struct alignas(64) BlockWork {
   double base[lanes], damping[lanes], absolute[lanes];                    // J
   double base_after[lanes], damping_after[lanes], absolute_after[lanes];  // J, of the half drift after a sample
   double kinetic[lanes], height[lanes];                                   // J, at a sample
-  double stale[lanes];                                                    // blocks with joints that are beyond their turn_limit
+  double stale[lanes];                                                    // blocks with joints that are beyond their `turn_limit`
 };
 
 struct KickDrift {
   double kick, dt, half_last, half_next;     // s
-  double damping, damped_keep, damped_kick;  // 1/s; a damped kick is (1 + damped_keep) v + kick (1 + damped_kick) push
+  double damping, damped_keep, damped_kick;  // 1/s; a damped kick is `(1 + damped_keep) v + kick (1 + damped_kick) push`
   double ground[3], gravity[3];              // m/s2
   bool first;                                // no drift has come before
   bool damping_explicit, gyroscopic, shaken;
@@ -164,15 +164,15 @@ struct KickDrift {
 // Addresses of the poses and rest geometry of eight joints, and one result.
 struct alignas(64) PoseLanes {
   const double *ua[lanes], *ub[lanes], *qa[lanes], *qb[lanes];  // m, unit quaternions x y z w: components `lanes` doubles apart
-  const double *arm_a[lanes], *arm_b[lanes], *rest[lanes];      // m, at rest; frame as in JointBatch: components adjacent
+  const double *arm_a[lanes], *arm_b[lanes], *rest[lanes];      // m, at rest; frame as in `JointBatch`: components adjacent
   double far[lanes];                                            // 1: relative rotation too large for the series of `turn`
 };
 
 struct LaneKernels {
   const char* name;
-  // Elastic pass (joint_geometry.h): q, its elastic resultant, and the bound within which a joint is intact.
+  // Elastic pass (`joint_geometry.h`): q, its elastic resultant, and the bound within which a joint is intact.
   void (*elastic)(const JointBatch& batch, const double* rows, JointLanes& out);
-  // Cracked joints: poses of blocks to wrench rows by the point laws (joint_response.h). `poses`: rows of eight doubles, displacement and
+  // Cracked joints: poses of blocks to wrench rows by the point laws (`joint_response.h`). `poses`: rows of eight doubles, displacement and
   // attitude x y z w. `cracked` contains their history; `sums` receives their account. True if a joint may be beyond its faces
   // (`beyond_its_faces()`).
   bool (*respond)(const PointLaw& law, const CrackedShape& shape, BondLanes* bond, CrackedLanes& cracked, const double* poses,
@@ -184,14 +184,14 @@ struct LaneKernels {
   void (*wrenches)(const JointBatch& batch, const JointLanes& in, double* wrench_rows);
   // Intact joints: increments of blocks to wrenches, for groups [first, last) of eight blocks. Lane l of packs [first_batch[g],
   // first_batch[g + 1]) contains joints that block l of group g owns. Forces on owners are summed in `kept`; forces on neighbours go to
-  // `given` of the pack. The energy of the joints is added to stored[lanes] if that is not null. Returns the number of packs with a joint
+  // `given` of the pack. The energy of the joints is added to `stored[lanes]` if that is not null. Returns the number of packs with a joint
   // near its limits, and their indices in `near`.
   int (*sound)(SoundBatch* batch, const SoundCloser& closer, const int* first_batch, int first, int last, const RowLanes<6>* shift,
                RowLanes<6>* kept, RowLanes<6>* given, double* stored, int* near);
   // Intact joints of packs [first, last) without owners: pose rows of blocks to wrench rows of both ends.
   int (*sound_ends)(const SoundBatch* batch, const SoundEnds* ends, int first, int last, const double* rows, double* wrench_rows,
                     int* near);
-  // Kick and drift of groups [first, last) of blocks (integrate.h); true if a number is not finite.
+  // Kick and drift of groups [first, last) of blocks (`integrate.h`); true if a number is not finite.
   bool (*advance)(const KickDrift& step, const BlockArrays& blocks, int first, int last, bool sample, BlockWork& work);
   // Geometry of joints from the poses of their blocks: frame, arms, gap and rotation of `out`.
   void (*pose)(PoseLanes& joints, JointBatch& out);
@@ -201,7 +201,7 @@ struct LaneKernels {
   double (*work_registers)(long rounds);
 };
 
-// For the widest instruction set of this processor; the environment variable ERBS_ISA=sse2|avx2|avx512 selects another.
+// For the widest instruction set of this processor; the environment variable `ERBS_ISA=sse2|avx2|avx512` selects another.
 const LaneKernels& lane_kernels();
 
 namespace sse2 {

@@ -1,4 +1,4 @@
-// Steps that were longer than their contacts allowed: counted by the Solver, judged in trust.h.
+// Steps that were longer than their contacts allowed: counted by the Solver, judged in `trust.h`.
 #pragma once
 #include <algorithm>
 #include <array>
@@ -15,7 +15,7 @@ inline constexpr std::array<StepTooLong, 3> steps_too_long{{{1.05, 1}, {1.3, 1e-
 inline constexpr double step_slack = steps_too_long[0].ratio;
 
 struct LongSteps {
-  std::array<long, 3> count{};  // of steps beyond each ratio of steps_too_long
+  std::array<long, 3> count{};  // of steps beyond each ratio of `steps_too_long`
   double worst = 0;             // greatest step over its limit
 
   void add(double ratio, long steps = 1) {

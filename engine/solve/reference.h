@@ -1,4 +1,5 @@
-// Plain joint forces: exact geometry in every step, point by point. Slow, short, and the oracle of the fast kernels (kernel = "reference").
+// Plain joint forces: exact geometry in every step, point by point. Slow, short, and the oracle of the fast kernels; selected by
+// `kernel = "reference"`.
 #pragma once
 #include "engine/solve/joint_kernel.h"
 

@@ -48,7 +48,7 @@ void write(Rows& rows, int row, const Vec3& force, const Vec3& moment) {
   for (int i = 0; i < 3; ++i) rows[z(row) * 8 + z(i)] = force[i], rows[z(row) * 8 + 3 + z(i)] = moment[i];
 }
 
-// Wrenches on both ends of joint j from its resultant f, as in reference.cpp.
+// Wrenches on both ends of joint j from its resultant f, as in `reference.cpp`.
 void write_wrench(const Model& m, State& s, int j, const JointPose& pose, const double f[6]) {
   const Vec3 force = pose.frame * Vec3(f[0], f[1], f[2]), moment = pose.frame * Vec3(f[3], f[4], f[5]);
   const Vec3 arm_a = 0.5 * (pose.sum + pose.apart), arm_b = 0.5 * (pose.sum - pose.apart);

@@ -1,9 +1,9 @@
-// The sequential scheme of Gu and Miao, for parameter studies; the default of ERBS is the leapfrog of step.h. All blocks are fixed; one at
-// a time is released for a step, and the next block sees it at its new pose. It runs on one thread.
+// The sequential scheme of Gu and Miao, for parameter studies; the default of ERBS is the leapfrog of `step.h`. All blocks are fixed; one
+// at a time is released for a step, and the next block sees it at its new pose. It runs on one thread.
 //
 // A block acts on its neighbours alone. So blocks are scheduled in rounds: each block in the round after the last of its neighbours that
 // precede it in the order. Blocks of one round share no joint; they advance as packs, with the result of one by one. The intact joints of a
-// block that has moved are evaluated in packs (lanes_sound.inc); kernel = "reference" evaluates them point by point instead.
+// block that has moved are evaluated in packs (`lanes_sound.inc`); `kernel = "reference"` evaluates them point by point instead.
 //
 // With K = L + D + U split by the order of the blocks, the literal sweep is
 //   M (x+ - 2 x + x-) / dt^2 + K x + L (x+ - x) = 0:  a damping matrix dt L, on average over random orders dt (K - D) / 2.
@@ -34,7 +34,7 @@ class Sequential {
   // Sum of the joint forces of the last sampled sweep over all pairs of moving blocks, over the sum of their magnitudes: 0 if action equals
   // reaction exactly.
   double momentum_residual() const;
-  // State::wrench at the start of a sampled sweep, for recorders.
+  // `State::wrench` at the start of a sampled sweep, for recorders.
   Rows& wrench_before() { return wrench_before_; }
 
  private:
@@ -56,17 +56,17 @@ class Sequential {
   const bool centred_, plain_;
   std::vector<int> driven_;
   std::vector<int> order_;                                       // of the sweep, round by round; moving blocks only
-  std::vector<int> round_;                                       // rounds are order_[round_[i] .. round_[i + 1])
-  std::vector<int> level_, next_, first_neighbour_, neighbour_;  // moving neighbours of each block: neighbour_[first_neighbour_[b] ..)
-  std::vector<int> first_end_;                                   // joints of each block: end_[first_end_[b] .. first_end_[b + 1])
+  std::vector<int> round_;                                       // rounds are `order_[round_[i] .. round_[i + 1])`
+  std::vector<int> level_, next_, first_neighbour_, neighbour_;  // moving neighbours of each block: `neighbour_[first_neighbour_[b] ..)`
+  std::vector<int> first_end_;                                   // joints of each block: `end_[first_end_[b] .. first_end_[b + 1])`
   std::vector<int> end_;
-  std::vector<int> first_batch_;  // its intact joints: batch_[first_batch_[b] .. first_batch_[b + 1]); each block has its own copy
+  std::vector<int> first_batch_;  // its intact joints: `batch_[first_batch_[b] .. first_batch_[b + 1])`; each block has its own copy
   std::vector<SoundBatch> batch_;
   std::deque<SoundLaw> law_;  // one per pack
   std::vector<SoundEnds> ends_;
-  std::vector<int> joint_;  // of each lane of batch_; -1: none
+  std::vector<int> joint_;  // of each lane of `batch_`; -1: none
   struct Lanes {
-    int of_a = -1, of_b = -1;  // in batch_: batch * lanes + lane; -1: none
+    int of_a = -1, of_b = -1;  // in `batch_`: batch * lanes + lane; -1: none
   };
   std::vector<Lanes> lane_;  // per joint
   std::vector<int> broken_;  // number of joints of each block that are not intact

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double still_speed = 1e-6;  // of sqrt(g L); a poured heap (hard case 26) falls below it, down to 1e-12
 constexpr double still_pull = 1e-4;   // of g
-constexpr double woken_pull = 1e-3;   // of g; more than the dashpot forces that end when a contact at still_speed stops
+constexpr double woken_pull = 1e-3;   // of g; more than the dashpot forces that end when a contact at `still_speed` stops
 constexpr double still_time = 0.5;    // of sqrt(L / g)
 constexpr int look_every = 16;        // steps between two searches for still blocks
 std::size_t z(int i) { return std::size_t(i); }
@@ -29,8 +29,8 @@ Quat settled(Quat q) {
   return q;
 }
 
-// Peak closing speed that a contact remembers after `time` at rest. contact.cpp lets it decay from step to step by approach' = -approach /
-// memory, memory = max(settings.memory, 30 depth / approach), down to the reference speed.
+// Peak closing speed that a contact remembers after `time` at rest. `contact.cpp` lets it decay from step to step:
+//   approach' = -approach / memory, memory = max(settings.memory, 30 depth / approach), down to the reference speed.
 double forgotten(double approach, double depth, double time) {
   const ContactSettings settings;
   const double slow = 30 * depth, least = std::max(slow / settings.memory, settings.reference_speed);
@@ -220,7 +220,7 @@ bool Sleep::lay_down(double kick, const double* push, std::span<const ContactBlo
   return any;
 }
 
-// The kick of this step would change v0 to v1. The energy of this instant is v0 m v1 / 2 (energy.h), and all of it goes.
+// The kick of this step would change v0 to v1. The energy of this instant is v0 m v1 / 2 (`energy.h`), and all of it goes.
 void Sleep::put_to_sleep(int b, double kick, const double* push) {
   State& s = state_;
   const double* row = push + 8 * z(b);

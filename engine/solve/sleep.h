@@ -1,7 +1,7 @@
 // Sleep of debris at rest, if the scene allows it: no forces between sleepers, no kick, no drift, no evaluation.
 //
-// Falling asleep: a block sleeps once it and all awake blocks that touch it have been still for half of the time sqrt(L / g), L the
-// smallest edge of each. Still means slower than 1e-6 sqrt(g L) at every corner and accelerated by less than 1e-4 g there. The block's
+// Falling asleep: a block sleeps once it and all awake blocks touching it have been still for half of the time sqrt(L / g), L the
+// smallest edge. Still means slower than 1e-6 sqrt(g L) at every corner and accelerated by less than 1e-4 g there. The block's
 // velocity becomes zero, and its kinetic energy is booked (`Energy::sleep`). Contacts between sleepers, or with fixed blocks, do not lose
 // their memory; only the peak closing speed decays with time, asleep or not.
 //

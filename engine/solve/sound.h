@@ -26,11 +26,11 @@ class Sound {
   Sound(const Model& model, State& state);
   void refresh(const std::vector<std::uint8_t>& stale);  // updates the joints of blocks with a new reference pose
   void leave(int j);                                     // removes a joint that has cracked
-  // Forces of the joints that these groups of eight blocks own. Joints near a limit are evaluated point by point (joint_response.h); joints
-  // that crack continue in cracked.h. `sums`: one per chunk of `grain` groups; fills their energy.elastic if `sample`.
+  // Forces of the joints that these groups of eight blocks own. Joints near a limit are evaluated point by point (`joint_response.h`);
+  // joints that crack continue in `cracked.h`. `sums`: one per chunk of `grain` groups; fills their `energy.elastic` if `sample`.
   static constexpr int grain = 2;
   void forces(Range groups, bool sample, std::vector<JointSums>& sums);
-  // Packs of intact joints with dashpots (joint_kernel.h); empty if there are none.
+  // Packs of intact joints with dashpots (`joint_kernel.h`); empty if there are none.
   const std::vector<JointBatch>& damped() const { return damped_; }
   // The forces alone, by the arithmetic of `kernels`. Returns the number of packs that may be near a limit.
   int forces(int first, int last, const LaneKernels& kernels, double* stored);
@@ -44,7 +44,7 @@ class Sound {
 
   const Model& model_;
   State& state_;
-  const double carried_;  // as in `SoundCloser`, like ahead_
+  const double carried_;  // as in `SoundCloser`, like `ahead_`
   int ahead_ = 0;
   std::vector<SoundBatch, WidePages<SoundBatch>> batch_;  // empty with dashpots or another kernel
   struct Bytes {

@@ -36,7 +36,7 @@ class Solver {
 
   // Runs steps until `stop()` is true or a number is not finite. A step at a wanted time is a sample: the ledger closes there, the state
   // has the poses at t, `instant()` has the velocities about t, and `sampled()` is called. The ledger also closes every few steps in
-  // between (`ledger_every` of step.cpp). `stop()` is called after each of these steps; the state is complete then, fit for a checkpoint.
+  // between (`ledger_every` of `step.cpp`). `stop()` is called after each of these steps; the state is complete then, fit for a checkpoint.
   struct Hooks {
     std::function<bool(double t)> wanted;
     std::function<void()> sampled;

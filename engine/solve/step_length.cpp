@@ -1,4 +1,5 @@
-// Length of the next time step. Present contacts, coming impacts and coming openings bound it (contact_limit.h, landing.h, event_bound.h).
+// Length of the next time step. Present contacts, coming impacts and coming openings bound it (`contact_limit.h`, `landing.h`,
+// `event_bound.h`).
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -47,7 +48,7 @@ void Solver::follow_contacts() {
 }
 
 // Event rate (1/s) of intact dry joints that are about to open for the first time. The kernel of intact joints evaluates nothing but their
-// limits (sound.h), so they are evaluated here. In a structure of many joints the first opening of one is no significant event. In a
+// limits (`sound.h`), so they are evaluated here. In a structure of many joints the first opening of one is no significant event. In a
 // structure of few joints it is, because a soft joint allows a long step. A run with `start = "rest"` has no gravity in its joints and
 // bounces from the first step on; a change of dt would then err by more than an opening.
 double Solver::haste_of_first_openings() const {
@@ -70,7 +71,7 @@ double Solver::haste_of_first_openings() const {
   return haste / dt;
 }
 
-// Time step that the next openings and closings allow (event_bound.h).
+// Time step that the next openings and closings allow (`event_bound.h`).
 void Solver::foresee_events() {
   double haste = 0;
   for (std::vector<JointSums>* of : {&joint_sums_, &cracked_sums_})

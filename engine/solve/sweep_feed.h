@@ -1,4 +1,4 @@
-// Energy that the sequential sweep of Gu and Miao feeds to motion (sequential.h).
+// Energy that the sequential sweep of Gu and Miao feeds to motion (`sequential.h`).
 #pragma once
 #include "engine/model/model.h"
 #include "engine/model/state.h"
