@@ -18,7 +18,7 @@ struct alignas(64) SmallShape {
   unsigned char count[few], loop[few][few], mask[few];
 };
 
-// Pose of b in the axes of a (row-major turn; shift in m), as `PairPose`.
+// Pose of b in the axes of a (row-major `turn`; `shift` in m), as `PairPose`.
 struct SmallPose {
   double turn[9], shift[3];
 };

@@ -65,8 +65,8 @@ struct Dashpot {
 //   one contact with the velocity of half a step before: x + 2 c dt / m < 4;
 //   n equal contacts on each block count n-fold in the worst mode: c dt / m < (4 / n - x) / 2, of which 0.9 is used;
 //   at least a quarter, which a heap allows (`contact_limit.cpp`), and at most 1 / (1 + n), since others may close in the same step.
-// A capped dashpot misses the requested restitution. Bricks that fall flat rebound with at least 0.43 at a cap of a quarter, and with 0.19
-// to 0.33 at a half (V22).
+// A capped dashpot misses the requested restitution. Bricks that fall flat rebound with at least 0.43 at a cap of a quarter, and with
+// 0.19 to 0.33 at a half (V22).
 Dashpot dashpot(Pair& pair, const Patch& patch, double inverse_mass, const ContactSettings& settings, double dt, double crowd) {
   Dashpot d;
   // Slow decay against the duration of a soft impact (about 3 depth / speed on a corner).
@@ -75,7 +75,7 @@ Dashpot dashpot(Pair& pair, const Patch& patch, double inverse_mass, const Conta
   if (!(inverse_mass > 0)) return d;
   const double kn = pair.law.kn, x = pair.impact;
   const double slow = settings.reference_speed / pair.approach,
-               share = settings.settling * slow * slow;  // an impact has its restitution instead
+               share = settings.settling * slow * slow;  // fades with speed: restitution governs an impact
   d.chi = x / pair.approach + 2 * share * std::sqrt(kn * patch.area / inverse_mass) / (kn * patch.total);
   const double square = kn * patch.area * inverse_mass * (dt * dt);
   const double bears = std::max(0.25, std::min(1 / (1 + crowd), 0.45 * (4 / crowd - square)));

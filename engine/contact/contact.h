@@ -17,7 +17,7 @@ inline constexpr double look_ahead = 5;  // steps within which an approach of bo
 struct PairResult {
   PairWrench wrench;
   double tangential = 0;  // J, stored by the friction springs
-  // J, taken from the bodies by friction and not stored: by slip, and by the transport of its springs to another patch
+  // J, withdrawn from the bodies by friction and not stored: by slip, and by the transport of its springs to another patch
   double friction = 0;
   double damping = 0;  // J, lost in dashpots
   double rubbing = 0;  // 1/s2, omega^2 of a slipping patch along its normal; 0 if it sticks
@@ -57,7 +57,7 @@ double impact_factor(double restitution);
 // for a line, .937 for a square; Int |x| dA / A in closed form).
 double torsion_radius(double area, double gyration);
 
-// Power of a pair's wrench at the given velocities (W).
+// Power of a pair's wrench at the velocities of `a` and `b` (W).
 double power(const PairWrench& wrench, const ContactBlock& a, const ContactBlock& b);
 
 }  // namespace erbs

@@ -51,9 +51,9 @@ void carry(Pair& pair, const Patch& patch, const Vec3& centre, double spin) {
 
 // Limit surface of a patch under uniform pressure, with force t and torsion m as shares of the limit of each alone:
 //   f(t, m) = t^2 + m^2 + bulge t^2 m^2 = 1.
-// Coulomb friction over the face gives the surface point by point (Goyal, Ruina and Papadopoulos 1991, Wear 143, 307). The ellipse, bulge
-// 0, is too strong where both act. A disc that spins fast slides under t = (2/3) v / (r w); a disc that slides fast rotates under m =
-// (9/16) r w / v. The ellipse has 1 in place of 2/3 and 9/16; f has 1 / (1 + bulge).
+// Coulomb friction over the face gives the surface point by point (Goyal, Ruina and Papadopoulos 1991, Wear 143, 307). The ellipse,
+// bulge 0, is too strong where both act. A disc that spins fast slides under t = (2/3) v / (r w); a disc that slides fast rotates under
+// m = (9/16) r w / v. The ellipse has 1 in place of 2/3 and 9/16; f has 1 / (1 + bulge).
 struct Share {
   double t, m;
 };

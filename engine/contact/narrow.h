@@ -15,7 +15,7 @@ namespace erbs {
 // Pair axes: axes of the reference body A, origin at the centroid of the other body B. Lever arms then stay short even if A is a slab of
 // many metres.
 struct PairPose {
-  Mat3 turn;   // x (pair axes) = turn * x (axes of B at rest)
+  Mat3 turn;   // x (pair axes) = `turn` * x (axes of B at rest)
   Vec3 shift;  // m, centroid of B relative to the centroid of A, axes of A
 };
 
@@ -62,7 +62,7 @@ struct Patch {
   Vec3 centroid = Vec3::Zero();
 };
 Patch elastic_patch(const Pieces& pieces);
-// Sets centres, gyration and normal from Int phi x dS, Int x dS, Int x x^T dS; sets total to 0 if the patch is degenerate.
+// Sets centres, gyration and normal from Int phi x dS, Int x dS, Int x x^T dS; sets `total` to 0 if the patch is degenerate.
 void finish_patch(const Vec3& pressure, const Vec3& area, const Mat3& second, Patch& patch);
 Mat3 symmetric(const double* six);  // xx, yy, zz, xy, yz, zx
 

@@ -58,10 +58,10 @@ struct alignas(64) OrientedBox {
 struct PairKernels {
   // Pose, motion and travel of the selected blocks; `soon` (s): length of the next steps. `fastest` (m/s): greatest speed so far, by lane.
   void (*follow)(const BlockLanes&, unsigned which, double soon, Lane& fastest);
-  void (*place)(PairLanes&);                         // reads the rows; sets turn and shift
-  void (*patch)(PairLanes&, const PairSettings&);    // from sums to turning; total = 0 for a degenerate patch
-  void (*dashpot)(PairLanes&, const PairSettings&);  // starts from closing
-  void (*springs)(PairLanes&, const PairSettings&);  // as far as holds
+  void (*place)(PairLanes&);                         // reads the rows; sets `turn` and `shift`
+  void (*patch)(PairLanes&, const PairSettings&);    // from `sums` to `turning`; `total` = 0 for a degenerate patch
+  void (*dashpot)(PairLanes&, const PairSettings&);  // starts from `closing`
+  void (*springs)(PairLanes&, const PairSettings&);  // as far as `holds`
   // Return map of two packs; sets `holds` to 0 for a pair that it leaves to the caller.
   void (*bear)(PairLanes&, PairLanes&);
   void (*finish)(PairLanes&, const PairSettings&);  // writes the rows of pairs and results

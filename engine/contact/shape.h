@@ -18,18 +18,18 @@ inline constexpr int word_bits = 64, most_words = most_vertices / word_bits;
 struct ContactBlock;
 
 struct ContactShape {
-  std::vector<Vec3> vertex;         // m, relative to the centroid of the block        [nv]
-  std::vector<Vec3> normal;         // unit, outward                                   [nf]
-  std::vector<double> offset;       // m, normal . x of the face                       [nf]
-  int words = 1;                    // per set of vertices
-  std::vector<Word> mask;           // vertices of each face, word by word             [nf * words]
-  std::vector<int> loop_first;      // start of each face's loop in `loop`              [nf + 1]
-  std::vector<int> loop;            // vertices counter-clockwise seen from outside
-  std::vector<Vec3> edge;           // unit, distinct directions of the edges
-  double volume = 0;                // m3
-  double thickness = 0;             // m, least distance between two parallel planes that enclose it
-  double smallest_edge = 0;         // m
-  double largest_face = 0;          // m2
+  std::vector<Vec3> vertex;     // m, relative to the centroid of the block        [nv]
+  std::vector<Vec3> normal;     // unit, outward                                   [nf]
+  std::vector<double> offset;   // m, normal . x of the face                       [nf]
+  int words = 1;                // per set of vertices
+  std::vector<Word> mask;       // vertices of each face, word by word             [nf * words]
+  std::vector<int> loop_first;  // start of each face's loop in `loop`              [nf + 1]
+  std::vector<int> loop;        // vertices counter-clockwise seen from outside
+  std::vector<Vec3> edge;       // unit, distinct directions of the edges
+  double volume = 0;            // m3
+  double thickness = 0;         // m, least distance between two parallel planes that enclose it
+  double smallest_edge = 0;     // m
+  double largest_face = 0;      // m2
   // m2/kg, omega^2 of the block by a contact on any one face, at most, per Pa/m of stiffness across and along the face; 0: unknown
   double face_across = 0, face_along = 0;
   double radius = 0;      // m, of the enclosing sphere about `centre`

@@ -12,8 +12,8 @@ namespace erbs {
 namespace {
 
 constexpr double safe_share = 0.9;  // of the bound of a block, for joints and for bounds by scalars
-// Share of the bound by matrices, which is close: a long row of blocks, each pressed against the next, attains it. Springs then use 4
-// share^2 of the 4 that a step allows (dt^2 k / m + 2 c dt / m < 4, dashpots with the velocity of half a step before). Dashpots at their
+// Share of the bound by matrices, which is close: a long row of blocks, each pressed against the next, attains it. Springs then use
+// 4 share^2 of the 4 that a step allows (dt^2 k / m + 2 c dt / m < 4, dashpots with the velocity of half a step before). Dashpots at their
 // cap between two blocks (`contact.cpp`) use up to 4/3 with two contacts on each block, 1 in a heap. Any share below .81 is therefore safe;
 // .7 leaves a margin of a sixth.
 constexpr double contact_share = 0.7;

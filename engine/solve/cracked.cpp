@@ -246,7 +246,8 @@ void Cracked::take_pose(int b) {
 
 void Cracked::take(int j) { put(j); }
 
-// The lane of the next joint must not depend on joints that have left: a resumed run does not know them.
+// Restores the common type of a group after a joint has left. The lane of the next joint must not depend on joints that have left, since a
+// resumed run does not know them.
 void Cracked::look_at_types(Group& group) {
   if (group.type != nullptr || group.empty()) return;
   const JointType* type = nullptr;

@@ -26,7 +26,7 @@ class Cracked {
   // Writes the wrench rows of groups [first, last); fills `sums.energy.elastic` if `sample`. `budget`: J, for `event_bound.h`.
   void forces(int first, int last, bool sample, double budget, JointSums& sums, const LaneKernels& kernels = lane_kernels());
   void store();
-  bool none_spent() const;  // true: certainly no joint is
+  bool none_spent() const;  // true: certainly no joint can be released
   // True if the joint has no bond left and is beyond the range of its fixed faces (`beyond_its_faces()`).
   bool spent(int j) const;
 
@@ -35,10 +35,10 @@ class Cracked {
   struct Shapes {
     FaceLanes face;
     std::vector<CornerLanes> corner;
-    std::vector<SpotLanes> spot;  // [points], like cell
+    std::vector<SpotLanes> spot;  // [points], like `cell`
     std::vector<CellLanes> cell;
-    std::vector<int> first;                // corner of each cell's loop [points + 1]
-    std::vector<CornerLanes> loop, watch;  // of the cells; watch is empty if equal to loop
+    std::vector<int> first;                // first corner of each loop [points + 1]
+    std::vector<CornerLanes> loop, watch;  // of the cells; `watch` is empty if equal to `loop`
   };
   struct alignas(64) Group {
     int law, points, corners;

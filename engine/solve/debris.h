@@ -27,7 +27,7 @@ class Debris {
 
   bool active() const { return !involved_.empty() || !state_.debris.pair.empty(); }
   // Releases joints without bond and beyond their range (`joint_spent()`) to contact and returns them. Called between forces and drift:
-  // wrench and stored energy of this step still belong to the joint, of the next step to the contact.
+  // this step still has the wrench and stored energy of the joint, the next step has those of the contact.
   std::vector<int> hand_over_joints(Cracked& cracked);
   // Since the last call.
   std::vector<HandOver> take_handed() { return std::exchange(handed_, {}); }
@@ -173,7 +173,7 @@ class Debris {
   };
   std::vector<Lane> lane_;  // per pair, data that a step reads first
   bool lanes_changed_ = true;
-  std::vector<int> first_pair_;                // of each thread: balanced so that all evaluate as many pairs
+  std::vector<int> first_pair_;                // first pair of each thread; balances the number of evaluations
   std::vector<Looked> looked_;                 // per thread
   std::vector<OverlapRoom> room_;              // per thread
   std::vector<std::unique_ptr<Batch>> batch_;  // per thread

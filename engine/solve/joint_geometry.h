@@ -9,13 +9,13 @@
 // (du, th), th = tan(angle) about the axis of rotation. With r(th, A) = (1 - th.th/2) th x A + th x (th x A)/2, the change of an arm to
 // third order, th_m the mean of th_a and th_b, and d half their difference:
 //   D = D_ref + du + r(th_b, A_b) - r(th_a, A_a),   rotation = rho_ref + 2 d - th_m x d.
-// D is rotated back by th_m. Resultants are rotated forward by th_m; they act on a with the arm A_a + r(th_a, A_a) + D/2, on b with A_b +
-// r(th_b, A_b) - D/2.
+// D is rotated back by th_m. Resultants are rotated forward by th_m; they act on a with the arm A_a + r(th_a, A_a) + D/2, on b with
+// A_b + r(th_b, A_b) - D/2.
 //
 // Errors: a rigid rotation by th strains a joint by some th^4 of its arms. D, itself small, and the resultants are rotated to first order,
 // with an error of th^2/2 of their size: 5e-9 at the default tolerance. The coupling of d with rho_ref, d rho_ref^2/6, is neglected; the
-// next update of the reference poses corrects it. The kernel of intact joints (`lanes_sound.inc`) takes r to second order only. With th = 2
-// sin(angle / 2) its third-order error of a rigid motion would be 3/8 th.th th x X; th = tan(angle) removes it.
+// next update of the reference poses corrects it. The kernel of intact joints (`lanes_sound.inc`) takes r to second order only. With
+// th = 2 sin(angle / 2) its third-order error of a rigid motion would be 3/8 th.th th x X; th = tan(angle) removes it.
 #pragma once
 #include "engine/base/turn.h"
 #include "engine/model/model.h"

@@ -56,7 +56,7 @@ struct CrackedShape {
   const int* first;          // corners of cell i: `[first[i], first[i + 1])`
   const CornerLanes* loop;   // corners of the cells
   double per_step;           // 1/s, one over the last step, for dashpots; 0 without
-  const CornerLanes* watch;  // where cells measure their opening; equal to loop for rules with points on the edge
+  const CornerLanes* watch;  // where cells measure their opening; equal to `loop` for rules with points on the edge
   // For laws with a plateau in compression: crushed faces, and corners as in `Bed`; null in empty lanes [lanes].
   CrushedFace* const* crushed;
   const double* const* face_corner;
@@ -68,11 +68,11 @@ struct alignas(64) CrackedLanes {
   int a[lanes], b[lanes], row_a[lanes], row_b[lanes];
   double arm_a[3][lanes], arm_b[3][lanes];  // m, from the centroids to the joint, world, at rest
   double viscous[lanes];                    // s, coefficient b of the dashpots; 0 in empty lanes
-  double q[6][lanes];                       // at the last step, like f and stored
+  double q[6][lanes];                       // at the last step, like `f` and `stored`
   CommonLanes common;
   double f[6][lanes], stored[lanes];
   double least_damage[lanes];                                           // of all points; 1 for dry joints
-  double drag[6][lanes];                                                // N, N m, of the dashpots at the last step, not contained in f
+  double drag[6][lanes];                                                // N, N m, of the dashpots at the last step, not contained in `f`
   SlipLanes* slip() { return reinterpret_cast<SlipLanes*>(this + 1); }  // stored behind this object [points]
   const SlipLanes* slip() const { return reinterpret_cast<const SlipLanes*>(this + 1); }
 };
@@ -180,10 +180,10 @@ struct LaneKernels {
   // The same if no point has a bond left.
   bool (*rub)(const PointLaw& law, const CrackedShape& shape, CrackedLanes& cracked, const double* poses, double* wrench_rows,
               CrackedSums& sums);
-  // Resultants to wrenches on both blocks: the force acts at the midpoint of the material points; all is rotated forward by th.
+  // Resultants to wrenches on both blocks: the force acts at the midpoint of the material points; all is rotated forward by `th`.
   void (*wrenches)(const JointBatch& batch, const JointLanes& in, double* wrench_rows);
-  // Intact joints: increments of blocks to wrenches, for groups [first, last) of eight blocks. Lane l of packs [first_batch[g],
-  // first_batch[g + 1]) contains joints that block l of group g owns. Forces on owners are summed in `kept`; forces on neighbours go to
+  // Intact joints: increments of blocks to wrenches, for groups [first, last) of eight blocks. Lane l of the packs of group g
+  // (`first_batch`) contains joints that block l of this group owns. Forces on owners are summed in `kept`; forces on neighbours go to
   // `given` of the pack. The energy of the joints is added to `stored[lanes]` if that is not null. Returns the number of packs with a joint
   // near its limits, and their indices in `near`.
   int (*sound)(SoundBatch* batch, const SoundCloser& closer, const int* first_batch, int first, int last, const RowLanes<6>* shift,

@@ -8,8 +8,8 @@
 // With K = L + D + U split by the order of the blocks, the literal sweep is
 //   M (x+ - 2 x + x-) / dt^2 + K x + L (x+ - x) = 0:  a damping matrix dt L, on average over random orders dt (K - D) / 2.
 // It feeds rigid and slow motion at dt K_ii / (2 m) and damps zig-zag motion. Action and reaction are read at different instants, so that
-// momentum is not conserved. The centred sweep reads the force on a block half a step ahead on its own path: dt L + dt D/2, on average dt K
-// / 2, with no effect on rigid motion.
+// momentum is not conserved. The centred sweep reads the force on a block half a step ahead on its own path: dt L + dt D/2, on average
+// dt K / 2, with no effect on rigid motion.
 #pragma once
 #include <cstdint>
 #include <deque>
