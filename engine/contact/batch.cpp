@@ -10,7 +10,7 @@
 namespace erbs {
 namespace {
 
-constexpr int lift_row = 50;  // where Pair::lift is read to
+constexpr int lift_row = 50;  // row of `Pair::lift`
 static_assert(offsetof(Pair, tangential) == 30 * sizeof(double) && offsetof(Pair, lift) == lift_row * sizeof(double));
 static_assert(sizeof(Pair) >= 8 * pair_rows * sizeof(double));
 static_assert(sizeof(ContactBlock) == 8 * block_rows * sizeof(double));
@@ -18,7 +18,7 @@ static_assert(offsetof(PairResult, elastic) == 8 * result_rows * sizeof(double))
 
 Vec3 vec(const Lane* x, int l) { return {x[0][l], x[1][l], x[2][l]}; }
 
-// As the overlap sees it.
+// Pose for the overlap, lift included.
 PairPose pose_of(const PairLanes& w, int l) {
   PairPose pose;
   for (int i = 0; i < 3; ++i)
@@ -39,7 +39,7 @@ void fill(const PairJob* job, int count, PairLanes& w) {
   }
 }
 
-// Overlaps of the pairs; returns those that have none, or too many pieces.
+// Overlaps of the pairs. Returns as bits the pairs without an overlap or with too many pieces.
 unsigned overlaps(const PairJob* job, int count, PairLanes& w, Triangles* triangles) {
   const ClipKernels& kernels = clip_kernels();
   ClipJob clips[8];
@@ -66,7 +66,7 @@ unsigned overlaps(const PairJob* job, int count, PairLanes& w, Triangles* triang
   return left_out;
 }
 
-// Where a patch without size, or without pressure, is to bear friction: one pair after the other.
+// Return map of one pair, for a patch without size or pressure.
 void bear(PairLanes& w, int l) {
   Patch patch;
   patch.area = w.area[l];
@@ -82,7 +82,7 @@ void bear(PairLanes& w, int l) {
   w.slips[l] = held.slips;
 }
 
-// From the poses of eight pairs to the springs of their friction; returns those left out.
+// From the poses of eight pairs to the trial forces of their friction springs. Returns as bits the pairs left out.
 unsigned up_to_springs(const PairJob* job, int count, const PairSettings& set, PairLanes& w, Triangles* triangles) {
   const ClipKernels& clips = clip_kernels();
   const PairKernels& kernels = pair_kernels();
@@ -134,7 +134,7 @@ PairBodies bodies_of(const Pair& p, const ContactShapes& shapes) {
 
 bool goes_in_lanes(const Pair& pair, const PairBodies& bodies) {
   if (!pair.touching || pair.separating >= 0) return false;
-  return bodies.reference->small.faces > 0 && bodies.other->small.faces > 0;  // where clipping will look next
+  return bodies.reference->small.faces > 0 && bodies.other->small.faces > 0;  // `small` is read next, by clipping
 }
 
 unsigned pair_forces(const PairJob* job, int count, const ContactSettings& settings, double dt, bool want_energy, Batch& batch) {
@@ -152,7 +152,7 @@ unsigned pair_forces(const PairJob* job, int count, const ContactSettings& setti
   const int of[2] = {std::min(count, 8), std::max(count - 8, 0)};
   for (int k = 0; k < 2; ++k) {
     if (of[k] > 0) left_out[k] = up_to_springs(job + 8 * k, of[k], set, batch.lanes[k], batch.triangles);
-    else std::fill_n(batch.lanes[k].total, 8, 0.0);  // nobody has a patch
+    else std::fill_n(batch.lanes[k].total, 8, 0.0);  // no patches
     for (int l = 0; l < of[k] && want_energy; ++l) {
       if ((left_out[k] >> l & 1u) != 0) continue;
       const PairJob& one = job[8 * k + l];

@@ -1,4 +1,4 @@
-// Pairs that touch, eight at a time: the same as pair_force, to round-off, in lanes (pair_lanes.h).
+// Touching pairs as packs of eight (`pair_lanes.h`), with the result of `pair_force()` to round-off.
 #pragma once
 #include <memory>
 
@@ -7,34 +7,34 @@
 
 namespace erbs {
 
-inline constexpr int most_together = 16;  // pairs worked on together, in two batches of eight
+inline constexpr int most_together = 16;  // pairs evaluated together, in two packs of eight
 
 struct Batch {
   PairLanes lanes[most_together / 8];
   Triangles triangles[8];
 };
 
-// What does not change from step to step.
+// Constants of a pair.
 struct PairBodies {
   const ContactShape *reference = nullptr, *other = nullptr;
   bool swapped = false;  // block b is the reference
 };
 PairBodies bodies_of(const Pair& pair, const ContactShapes& shapes);
 
-// One pair to work on.
+// One pair to evaluate.
 struct PairJob {
   Pair* pair;
   PairBodies bodies;
   const ContactBlock *a, *b;
-  PairResult* result;         // as constructed
-  double crowd = full_crowd;  // as in pair_force()
+  PairResult* result;         // default-constructed
+  double crowd = full_crowd;  // as in `pair_force()`
 };
 
-// True for a pair of small bodies that touched when it was looked at last and has nothing left of an old joint.
+// True for a pair of small bodies that touched in its last evaluation.
 bool goes_in_lanes(const Pair& pair, const PairBodies& bodies);
 
-// Evaluates up to `most_together` pairs and updates their memory. Those of the bits returned have been left as they were, for pair_force:
-// bodies that have parted, or whose overlap has more pieces than there is room for. Pairs as goes_in_lanes() takes them.
+// Evaluates up to `most_together` pairs and updates their memory; `goes_in_lanes()` must be true for all. Returns as bits the pairs left
+// unchanged for `pair_force()`: bodies that have separated, or overlaps with more pieces than there is room for.
 unsigned pair_forces(const PairJob* job, int count, const ContactSettings& settings, double dt, bool want_energy, Batch& batch);
 
 }  // namespace erbs

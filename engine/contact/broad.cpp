@@ -22,11 +22,11 @@ struct Found {
 
 auto key_of(const Pair& p) { return std::tie(p.a, p.b, p.part_a, p.part_b); }
 
-// Parts of ordinary size sorted by the cell that holds their centre; huge ones (ground, floor slabs) stand apart.
+// Parts of ordinary size, sorted by the cell of their centre; huge ones (ground, floor slabs) apart.
 struct Grid {
   double cell = 1;
   std::vector<std::pair<std::uint64_t, int>> sorted;  // (cell, shape)
-  std::vector<double> x, y, z, radius;                // m, of these, and seven more
+  std::vector<double> x, y, z, radius;                // m, of these; padded by seven
   std::vector<int> huge;
   std::vector<std::uint8_t> is_huge;
 };
@@ -76,7 +76,7 @@ std::vector<OrientedBox> place(const ContactShapes& shapes, std::span<const Cont
   for (size_t i = 0; i < parts.size(); ++i) {
     const ContactBlock& b = blocks[at(shapes.block[i])];
     const ContactShape& shape = shapes.part(i);
-    // relative to block 0 at rest, so that 1e4 m from the origin costs no digits
+    // relative to block 0 at rest, so that a scene 1e4 m from the origin loses no digits
     const Vec3 centre = (b.rest - blocks[0].rest) + b.u + b.turn * shape.centre;
     std::copy_n(centre.data(), 3, parts[i].centre);
     std::copy_n(b.turn.data(), 9, parts[i].turn);
@@ -86,7 +86,7 @@ std::vector<OrientedBox> place(const ContactShapes& shapes, std::span<const Cont
   return parts;
 }
 
-// Gathers the pairs of parts that are close.
+// Finds the pairs of parts that are close.
 class Finder {
  public:
   Finder(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
@@ -113,7 +113,7 @@ class Finder {
  private:
   bool is_loose(int i) const { return loose_[at(shapes_.block[at(i)])] != 0; }
 
-  // What parts [first, last) of one cell meet in it, in the 26 about it, and among the huge.
+  // Finds the neighbours of parts [first, last) of one cell: in this cell, in the 26 around it, and among the huge parts.
   void around(const Grid& g, size_t first, size_t last) {
     const auto some = [&](size_t k) { return is_loose(g.sorted[k].second); };
     while (first < last && !some(first)) ++first;
@@ -123,7 +123,7 @@ class Finder {
     int count = 0;
     for (long x = c[0] - 1; x <= c[0] + 1; ++x) {
       for (long y = c[1] - 1; y <= c[1] + 1; ++y) {
-        // Cells along z are consecutive keys: one look-up for three cells.
+        // Cells along z have consecutive keys: one search for three cells.
         const auto from = std::lower_bound(g.sorted.begin(), g.sorted.end(), std::make_pair(cell_key(x, y, c[2] - 1), -1));
         const std::uint64_t end = cell_key(x, y, c[2] + 1);
         auto to = from;
@@ -155,7 +155,7 @@ class Finder {
 
   void visit(int i, int j) {
     const int bi = shapes_.block[at(i)], bj = shapes_.block[at(j)];
-    if (bi == bj || (loose_[at(bj)] && j < i)) return;  // two loose parts are met twice: once is enough
+    if (bi == bj || (loose_[at(bj)] && j < i)) return;  // two loose parts are found twice; once is enough
     if (blocks_[at(bi)].inverse_mass == 0 && blocks_[at(bj)].inverse_mass == 0) return;
     eight_[waiting_++] = j;
     if (waiting_ == 8) judge(i);
@@ -209,7 +209,7 @@ double suggested_margin(std::vector<double> t) {
 bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks,
                   std::span<const std::uint8_t> still) {
   if (!list.valid || list.u.size() != blocks.size()) return true;
-  // How far two bodies have come towards each other does not ask how far all have come together.
+  // The motion of two bodies towards each other does not contain the common motion of all bodies.
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   const auto is_still = [&](size_t b) { return !still.empty() && still[b] != 0; };
   const auto come = [&](size_t b) -> Vec3 { return is_still(b) ? Vec3(Vec3::Zero()) : Vec3(blocks[b].u - list.u[b]); };
@@ -222,13 +222,13 @@ bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<c
     if (!is_still(b)) {
       double reach = 0;
       for (int s = shapes.first[b]; s < shapes.first[b + 1]; ++s) reach = std::max(reach, shapes.part(at(s)).reach);
-      // |R - R0| of Frobenius is 2 sqrt 2 sin(angle / 2): the chord of the farthest point is reach times that / sqrt 2.
+      // R - R0| (Frobenius) is 2 sqrt 2 sin(angle / 2); the chord of the farthest point is reach times that / sqrt 2.
       turned = reach * std::sqrt(0.5) * (blocks[b].turn - list.turn[b]).norm();
     }
     all.take(moved.norm() + turned);
     apart.take((moved - together).norm() + turned);
   }
-  // half of it: a look comes every few steps only, and what comes into the list late is met inside of another block
+  // half the margin: this test runs every few steps only, and a pair listed late would begin inside the other block
   return !(std::min(all.two(), apart.two()) <= 0.5 * list.margin);
 }
 
@@ -241,7 +241,7 @@ double search(PairList& list, const ContactShapes& shapes, std::span<const Conta
   std::vector<Pair> now;
   now.reserve(found.size());
   double dropped = 0;
-  double restitution = std::numeric_limits<double>::quiet_NaN(), impact = 0;  // of the last new pair: mostly all have the same
+  double restitution = std::numeric_limits<double>::quiet_NaN(), impact = 0;  // of the last new pair; most pairs have the same
   auto old = list.pair.begin();
   const auto leave = [&](const Pair& p) {
     const bool stays = !looking[at(p.a)] && !looking[at(p.b)] && (loose[at(p.a)] || loose[at(p.b)]);

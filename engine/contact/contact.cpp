@@ -11,15 +11,15 @@
 namespace erbs {
 namespace {
 
-// Velocities are those of half a step before the pose: so is the way from one body to the other that they are seen over, or a pair that
-// turns as one would seem to part with dt / 2 w x (w x r).
+// Velocities belong to half a step before the pose, so the vector between the bodies is that of the same instant. Otherwise a pair in rigid
+// rotation would seem to separate at dt / 2 w x (w x r).
 Motion motion_of(const View& s, double dt) {
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
   const Vec3 away = o.v - r.v, apart = r.turn * s.pose.shift - 0.5 * dt * away;
   return {r.turn.transpose() * (away - r.w.cross(apart)), r.turn.transpose() * (o.w - r.w)};
 }
 
-// A wrench on the other body in pair axes, as forces and moments on a and b in world axes.
+// Wrench on the other body in pair axes, as force on b and moments on a and b in world axes.
 PairWrench to_world(const Pair& pair, const View& s, const Vec3& force, const Vec3& moment) {
   const Mat3& turn = s.reference_block->turn;
   const Vec3 f = turn * force, m_other = turn * moment, m_reference = -(turn * (moment + s.pose.shift.cross(force)));
@@ -36,20 +36,20 @@ void add(PairWrench& to, const PairWrench& w) {
   to.moment_b += w.moment_b;
 }
 
-// Inverse of the mass that both bodies present at x (pair axes, from the centroid of the other) along the unit vector n (1/kg).
+// Inverse effective mass of both bodies at x (pair axes, from the centroid of the other) along the unit vector n (1/kg).
 double inverse_mass_along(const View& s, const Vec3& x, const Vec3& n) {
   const Vec3 r = (x + s.pose.shift).cross(n), o = s.pose.turn.transpose() * x.cross(n);
   return s.reference_block->inverse_mass + s.other_block->inverse_mass + r.dot(s.reference_block->inverse_tensor * r) +
          o.dot(s.other_block->inverse_tensor * o);
 }
 
-// Asperities stay in each other where faces lie on each other, not at edges and corners: those of a heap that hold on so tremble for ever.
+// Interlock acts where faces lie flat on each other, not at edges and corners: with interlock there, bodies of a heap tremble for ever.
 bool lies_flat(const View& s, const Patch& patch) {
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
   return patch.area * (r.inverse_inertia + o.inverse_inertia) > flat_face * (r.inverse_mass + o.inverse_mass);
 }
 
-// A bound of it for any direction.
+// Its upper bound for any direction.
 double inverse_mass_at(const View& s, const Vec3& x) {
   return s.reference_block->inverse_mass + s.other_block->inverse_mass +
          (x + s.pose.shift).squaredNorm() * s.reference_block->inverse_inertia + x.squaredNorm() * s.other_block->inverse_inertia;
@@ -60,21 +60,22 @@ struct Dashpot {
   double limit = 1;  // of the factor 1 + chi closing
 };
 
-// Hunt and Crossley's factor for the impact at hand, a small linear one for the settled contact written in the same form
-// (its coefficient is 2 settling sqrt(kn A m)), both kept below what the explicit step bears. A pair alone, x = dt^2 kn A / m: with the
-// velocity of half a step before, x + 2 c dt / m < 4. Where n such contacts press on each block n times that in the worst mode: c dt / m <
-// (4 / n - x) / 2, of which 0.9 is taken; never less than a quarter, which a heap bears (contact_limit.cpp), and no more than 1 / (1 + n),
-// since others may land in the same step. What is missing is missing of the restitution asked for: with a quarter bricks that fall
-// flat come back with 0.43 at least, with a half with 0.19 to 0.33 (V22).
+// Hunt and Crossley's factor for the present impact, plus a small linear one for the settled contact. The linear one is written in the same
+// form; its coefficient is 2 settling sqrt(kn A m). The explicit step caps the sum, with x = dt^2 kn A / m:
+//   one contact with the velocity of half a step before: x + 2 c dt / m < 4;
+//   n equal contacts on each block count n-fold in the worst mode: c dt / m < (4 / n - x) / 2, of which 0.9 is used;
+//   at least a quarter, which a heap allows (`contact_limit.cpp`), and at most 1 / (1 + n), since others may close in the same step.
+// A capped dashpot misses the requested restitution. Bricks that fall flat rebound with at least 0.43 at a cap of a quarter, and with
+// 0.19 to 0.33 at a half (V22).
 Dashpot dashpot(Pair& pair, const Patch& patch, double inverse_mass, const ContactSettings& settings, double dt, double crowd) {
   Dashpot d;
-  // Forgotten slowly against the time of a soft impact (about 3 depth / speed on a corner).
+  // Slow decay against the duration of a soft impact (about 3 depth / speed on a corner).
   const double memory = pair.approach > 0 ? std::max(settings.memory, 30 * patch.deepest / pair.approach) : settings.memory;
   pair.approach = std::max({pair.approach * (1 - std::min(1.0, dt / memory)), patch.closing, settings.reference_speed});
   if (!(inverse_mass > 0)) return d;
   const double kn = pair.law.kn, x = pair.impact;
   const double slow = settings.reference_speed / pair.approach,
-               share = settings.settling * slow * slow;  // an impact is left to its restitution
+               share = settings.settling * slow * slow;  // fades with speed: restitution governs an impact
   d.chi = x / pair.approach + 2 * share * std::sqrt(kn * patch.area / inverse_mass) / (kn * patch.total);
   const double square = kn * patch.area * inverse_mass * (dt * dt);
   const double bears = std::max(0.25, std::min(1 / (1 + crowd), 0.45 * (4 / crowd - square)));
@@ -101,15 +102,15 @@ PairPose lifted(const Pair& pair, PairPose pose) {
   return pose;
 }
 
-// Faces that are farther apart than they were lifted by meet next where they are; `apart` (m) is that of the poses then.
+// Faces farther apart than their lift lose it: they next touch at their true pose. `apart` (m) becomes the distance of the true poses.
 void come_apart(Pair& pair, double& apart) {
   if (pair.lift.isZero(0) || apart < 0) return;
   apart = std::max(0.0, apart - pair.lift.norm());
   if (apart > 0) pair.lift.setZero();
 }
 
-// Lifts the other body off the faces, or lowers it onto them, until they store `wanted` (J); returns what they store (J). Newton's rule
-// for the root of the energy, which is linear in the way where a whole face presses, within a bracket.
+// Offsets the other body along the normal until the faces store `wanted` (J); returns the stored energy (J). Newton's method within a
+// bracket, for the root of the energy: where a whole face presses it is linear in the offset.
 double lift(Pair& pair, const View& s, double wanted, const Patch& patch, OverlapRoom& room) {
   const Vec3 n = patch.force.normalized(), from = pair.lift;
   const double kn = pair.law.kn, infinite = std::numeric_limits<double>::infinity();
@@ -132,7 +133,7 @@ double lift(Pair& pair, const View& s, double wanted, const Patch& patch, Overla
   return stored;
 }
 
-// The springs of friction are given the force and torsion that acted along the face, as far as friction bears them.
+// Gives the friction springs the force and torsion that acted along the face, as far as friction allows.
 Friction take_shear(Pair& pair, const View& s, const Patch& patch, const Vec3& force, const Vec3& moment, double pressed) {
   const Motion rest{Vec3::Zero(), Vec3::Zero()};
   pair.touching = 0;
@@ -149,12 +150,13 @@ Friction take_shear(Pair& pair, const View& s, const Patch& patch, const Vec3& f
   return f;
 }
 
-// The patch resists with at most kn A along its normal and kt across; its spread about its centroid adds the gyration to the arms.
-// Dashpots are not in the sum: they see the velocity of half a step before, and dashpot() and the cap on the tangential one keep
-// each below a quarter of m / dt, which an explicit step bears beside springs at this bound (dt^2 k / m + 2 c dt / m < 4).
-// Rotations count with the greatest inverse inertia J at first. Of a slender body, where that is far too much, with the tensor A (pair
-// axes): tr(A N S N^T) for a pressure of second moment S about an axis across n, n.A n gyration^2 about n, tr(A) r^2 - r.A r for a force at
-// r.
+// The patch resists with at most kn A along its normal and kt across; its spread about the centroid adds the gyration to the arms.
+//
+// Dashpots are not in the sum, since they act on the velocity of half a step before. `dashpot()` and the cap of the tangential dashpot
+// limit each to a quarter of m / dt. An explicit step allows this beside springs at this bound (dt^2 k / m + 2 c dt / m < 4).
+//
+// Rotations first count with the greatest inverse inertia J. For a slender body this is far too much; then the tensor A (pair axes) counts:
+// tr(A N S N^T) for a pressure of second moment S about an axis across n, n.A n gyration^2 about n, tr(A) r^2 - r.A r for a force at r.
 void stability(const Pair& pair, const View& s, const Patch& patch, PairResult& result) {
   const double normal = pair.law.kn * patch.area, tangential = pair.law.ks * pair.area, spread = pair.gyration * pair.gyration;
   const Vec3 n = patch.normal;
@@ -186,7 +188,7 @@ double power(const PairWrench& w, const ContactBlock& a, const ContactBlock& b) 
 
 double torsion_radius(double area, double gyration) {
   if (!(gyration > 0)) return 0;
-  // Interpolates between the line and the square by the slenderness area / gyration^2 (6 for a square).
+  // Interpolation between line and square by area / gyration^2 (6 for a square).
   const double fill = std::min(1.1, area / (6 * gyration * gyration));
   return gyration * (0.866 + 0.0711 * fill * std::cbrt(fill));
 }
@@ -211,7 +213,7 @@ Pair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, double i
   p.part_b = part_b;
   p.law = law;
   p.impact = impact;
-  // Equal volumes up to round-off: the lower block decides.
+  // Equal volumes up to round-off: the lower block is the reference.
   p.b_is_reference = shape_of(shapes, b, part_b).volume > shape_of(shapes, a, part_a).volume * (1 + 1e-9);
   return p;
 }
@@ -273,10 +275,10 @@ double hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a,
                  double most, OverlapRoom& room) {
   const View s = view_of(pair, shapes, a, b);
   const Mat3 back = s.reference_block->turn.transpose();
-  // The wrench before, on the body that is not the reference, pair axes.
+  // The wrench before, on the body that is not the reference, in pair axes.
   Vec3 force = back * before.head<3>(), moment = back * before.tail<3>();
   if (pair.b_is_reference) {
-    moment = -(moment - s.pose.shift.cross(force));  // about the centroid of a, which lies at +shift from that of b
+    moment = -(moment - s.pose.shift.cross(force));  // about the centroid of a, which is at +shift from that of b
     force = -force;
   }
   const double kn = pair.law.kn;
@@ -296,7 +298,7 @@ double hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a,
       else forget_contact(pair);
       if (const double less = left / pair.tangential; less < 1)
         pair.u *= std::sqrt(less), pair.psi *= std::sqrt(less), pair.tangential *= less;
-      kept = lift(pair, s, stored - pair.tangential, patch, room) + pair.tangential;  // the faces have what friction does not bear
+      kept = lift(pair, s, stored - pair.tangential, patch, room) + pair.tangential;  // the faces store the part that friction cannot
     }
     patch = overlap();
     pair.bearing = kn * patch.force.norm();
@@ -304,7 +306,7 @@ double hand_over(Pair& pair, const ContactShapes& shapes, const ContactBlock& a,
   pair.turn = s.pose.turn;
   pair.shift = s.pose.shift;
   if (!before.isZero(0)) pair.touching = 1;
-  // What acts at this pose and is no force of the faces does half a step of work on the way to the next.
+  // The part of the former wrench that is no pressure still does half a step of work on the way to the next pose.
   pair.friction = to_world(pair, s, force - kn * patch.force, moment - kn * patch.moment);
   return kept;
 }

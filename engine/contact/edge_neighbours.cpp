@@ -9,10 +9,10 @@
 namespace erbs {
 namespace {
 
-constexpr double at_zero_gap = 1e-9;  // of the other body's reach: less of a gap or overlap is round-off
-constexpr double least_sine = 0.1;    // between two planes that meet in an edge
+constexpr double at_zero_gap = 1e-9;  // of the other body's bounding radius; smaller gaps and overlaps are round-off
+constexpr double least_sine = 0.1;    // of the angle between two planes that form an edge
 
-// Unit normals, from the reference to the other, of the faces of either that keep the two apart; none where there is a gap to wait for.
+// Unit normals, from the reference to the other, of the faces of both bodies that separate the two; none if there is a gap.
 std::vector<Vec3> planes_between(const View& s) {
   const double round_off = at_zero_gap * s.other->reach;
   std::vector<Vec3> between;
@@ -56,7 +56,7 @@ EdgeAtRest edge_at_rest(const Pair& pair, const View& s) {
     if (towards.dot(x) < nearest) nearest = towards.dot(x), edge.at = x;
   }
   const double length = std::min(extent(*s.reference, along), extent(*s.other, s.pose.turn.transpose() * along));
-  // Pressure kn m at most, on two sides of a strip of that length, m / sine wide.
+  // A pressure of at most kn m, on two sides of a strip of this length, m / sine wide.
   edge.movement = std::sqrt(next_to_nothing * standard_g / inverse_mass * sine / (2 * pair.law.kn * length));
   edge.movement -= at_zero_gap * s.other->reach;
   edge.lever = 2 * s.other->reach;

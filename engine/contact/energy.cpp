@@ -1,6 +1,6 @@
-// The elastic energy of a patch from surfaces alone. In the region where face f of A is nearest, div(-n_f d_f^2 / 2) = d_f, so
-//   Int phi dV = - sum over pieces of B (n_f . n_j) Int d_f^2 / 2 dS + sum over walls between regions f, e |n_e - n_f| Int d^2 / 2 dS;
-// the faces of A add nothing since d_f = 0 there.
+// Elastic energy of a patch from surface integrals alone. In the region where face f of A is nearest, div(-n_f d_f^2 / 2) = d_f, so
+//   Int phi dV = - sum over pieces of B (n_f . n_j) Int d_f^2 / 2 dS + sum over walls between regions f, e |n_e - n_f| Int d^2 / 2 dS.
+// The faces of A add nothing, since d_f = 0 there.
 #include <algorithm>
 #include <bitset>
 #include <cmath>
@@ -13,7 +13,7 @@ namespace {
 using std::size_t;
 using FaceSet = std::bitset<most_faces>;
 
-// Int d^2 dS over a convex loop, d linear, by fan triangles.
+// Int d^2 dS over a convex loop, d linear, by a fan of triangles.
 double square_integral(const Vec3* x, const double* d, size_t count, const Vec3& n) {
   double sum = 0;
   for (size_t k = 1; k + 1 < count; ++k) {
@@ -23,7 +23,7 @@ double square_integral(const Vec3* x, const double* d, size_t count, const Vec3&
   return sum;
 }
 
-// A convex loop, cut in place; each of the planes may add a corner.
+// A convex loop, clipped in place; each plane may add a corner.
 struct Loop {
   Vec3 x[4 + 2 * most_faces];
   size_t size = 0;
@@ -42,7 +42,7 @@ struct Loop {
   }
 };
 
-// Adds the faces of A whose part of it lies inside of B altogether.
+// Adds the faces of A that are entirely inside B.
 void add_faces_inside(const ContactShape& a, const ContactShape& b, const PairPose& pose, FaceSet& faces) {
   std::bitset<most_vertices> inside;
   for (size_t i = 0; i < a.vertex.size(); ++i) inside.set(i);
@@ -59,7 +59,7 @@ void add_faces_inside(const ContactShape& a, const ContactShape& b, const PairPo
   }
 }
 
-// The wall where faces e and f of A are equally near, inside both bodies.
+// Integral over the wall on which faces e and f of A are equally near, inside both bodies.
 double wall_integral(const ContactShape& a, const ContactShape& b, const PairPose& pose, const double* c, size_t e, size_t f) {
   const double reach = 4 * b.reach;
   const Vec3 across = a.normal[e] - a.normal[f];
@@ -81,8 +81,8 @@ double wall_integral(const ContactShape& a, const ContactShape& b, const PairPos
   return length * std::abs(square_integral(loop.x, d, loop.size, n)) / 2;
 }
 
-// All of them. `near`: the faces of A below which B's surface passes. One that is nearest somewhere in the overlap is one of these, or all
-// of its part of A is inside of B, and the face too.
+// Sum over all walls. `near`: the faces of A that are nearest to some part of B's surface. Any other face that is nearest somewhere in the
+// overlap has its whole region inside B, and so itself.
 double walls(const ContactShape& a, const ContactShape& b, const PairPose& pose, FaceSet near) {
   double c[most_faces], sum = 0;
   for (size_t f = 0; f < a.normal.size(); ++f) c[f] = a.offset[f] - a.normal[f].dot(pose.shift);

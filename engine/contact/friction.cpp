@@ -9,34 +9,34 @@
 namespace erbs {
 namespace {
 
-// Turns v as the normal turns from n to m, and by `spin` about m.
+// Rotates v as the normal rotates from n to m, then by `spin` about m.
 Vec3 carried(const Vec3& v, const Vec3& n, const Vec3& m, double spin) {
   const Vec3 axis = n.cross(m);
   const double cosine = n.dot(m);
   Vec3 r = v;
   if (cosine > -0.5) r = v * cosine + axis.cross(v) + axis * (axis.dot(v) / (1 + cosine));
-  else r.setZero();  // turned over: a new contact
+  else r.setZero();  // reversed normal: a new contact
   r -= r.dot(m) * m;
   return r * std::cos(spin) + m.cross(r) * std::sin(spin);
 }
 
-// Slip of the other body's material at x (pair axes, relative to its centroid) and its turn about n since the last step, from the
-// two poses: exact under any common rigid motion.
+// Slip of the other body's material at x (pair axes, from its centroid) and its rotation about n since the last step. Both follow from the
+// two poses, exactly under any common rigid motion.
 void slip_increment(const Pair& pair, const PairPose& pose, const Vec3& x, const Vec3& n, Vec3& slip, double& spin) {
-  const Mat3 change = pair.turn * pose.turn.transpose();  // takes pair axes of now to those of before
+  const Mat3 change = pair.turn * pose.turn.transpose();  // from present to previous pair axes
   slip = x + pose.shift - change * x - pair.shift;
   slip -= slip.dot(n) * n;
   spin = -0.5 * (n.x() * (change(2, 1) - change(1, 2)) + n.y() * (change(0, 2) - change(2, 0)) + n.z() * (change(1, 0) - change(0, 1)));
 }
 
-// Carries the springs to the patch of now: normal, centre, stiffness.
+// Transports the springs to the present patch: normal, centre, stiffness.
 void carry(Pair& pair, const Patch& patch, const Vec3& centre, double spin) {
   pair.u = carried(pair.u, pair.n, patch.normal, spin / 2);
   pair.n = patch.normal;
-  pair.u -= pair.psi * pair.n.cross(pair.c - centre);  // the slip field stays, its reference point moves
+  pair.u -= pair.psi * pair.n.cross(pair.c - centre);  // the slip field stays; its reference point moves
   pair.u -= pair.u.dot(pair.n) * pair.n;
   pair.c = centre;
-  // Growth keeps force and torsion: the stiffer springs store less. Shrinking changes nothing, so a patch that breathes is no ratchet.
+  // Growth conserves force and torsion: stiffer springs store less. Shrinking changes nothing, so a patch of varying size is no ratchet.
   if (patch.area > pair.area) {
     const double ratio = pair.area / patch.area;
     pair.u *= ratio;
@@ -49,21 +49,21 @@ void carry(Pair& pair, const Patch& patch, const Vec3& centre, double spin) {
   }
 }
 
-// Limit surface of an evenly pressed patch, force and torsion as shares of what either bears alone:
+// Limit surface of a patch under uniform pressure, with force t and torsion m as shares of the limit of each alone:
 //   f(t, m) = t^2 + m^2 + bulge t^2 m^2 = 1.
-// Coulomb friction over the face gives it point by point (Goyal, Ruina and Papadopoulos 1991, Wear 143, 307). The ellipse, bulge 0, is too
-// strong where both act: a disc that spins fast slides under t = (2/3) v / (r w), one that slides fast turns under m = (9/16) r w / v, and
-// the ellipse has 1 in place of 2/3 and 9/16; f has 1 / (1 + bulge).
+// Coulomb friction over the face gives the surface point by point (Goyal, Ruina and Papadopoulos 1991, Wear 143, 307). The ellipse,
+// bulge 0, is too strong where both act. A disc that spins fast slides under t = (2/3) v / (r w); a disc that slides fast rotates under
+// m = (9/16) r w / v. The ellipse has 1 in place of 2/3 and 9/16; f has 1 / (1 + bulge).
 struct Share {
   double t, m;
 };
 
-// How far the surface lies inside the ellipse, from the patch's second moment along the slip over r^2. From Coulomb friction over
-// rectangles 1:1 to 3:1 along, across and at 45 degrees, and the disc, where v = r w: 1.29 - 1.25 x meets all of them within .05.
+// Distance of the surface inside the ellipse, from `along`, the patch's second moment along the slip over r^2. Source: Coulomb friction at
+// v = r w over the disc, and over rectangles 1:1 to 3:1 along, across and at 45 degrees. 1.29 - 1.25 x agrees with all of them within .05.
 double bulge_of(double along) { return std::clamp(1.29 - 1.25 * along, -0.4, 1.3); }
-static_assert(surely_within + 1.3 * surely_within * surely_within / 4 < 1);  // t^2 + m^2 where no bulge reaches the surface
+static_assert(surely_within + 1.3 * surely_within * surely_within / 4 < 1);  // below this t^2 + m^2 no bulge reaches the surface
 
-// Where the surface is met on the way from nothing to s: a^2 (t^2 + m^2) + bulge a^4 t^2 m^2 = 1.
+// Factor a that scales s onto the surface: a^2 (t^2 + m^2) + bulge a^4 t^2 m^2 = 1.
 double reach(const Share& s, double bulge) {
   const double p = s.t * s.t + s.m * s.m, q = bulge * s.t * s.t * s.m * s.m;
   return p > 0 ? std::sqrt(2 / (p + std::sqrt(p * p + 4 * q))) : std::numeric_limits<double>::infinity();
@@ -75,24 +75,24 @@ Share share_of(const Bearing& b, const Vec3& force, double about) {
 
 struct Held {
   Vec3 force = Vec3::Zero();
-  double torsion = 0, about = 0;  // N m, about the centroid and the centre of pressure
+  double torsion = 0, about = 0;  // N m, about the centroid; about the centre of pressure
 };
 
-// Where slip leads to from `trial` and `torsion` that is normal to the surface where it ends, as Coulomb's law over the face makes it:
-// x p t / kt at the centre of pressure and x q M / (kt r^2) of turn, p and q the slopes of f over 2 t and 2 m. Then
+// Result of a slip normal to the surface at its end point, as Coulomb's law over the face requires. The slip is x p t / kt at the centre of
+// pressure, with a rotation of x q M / (kt r^2); p and q are the slopes of f over 2 t and 2 m. From `trial` and `torsion` then
 //   t (1 + x p) + x q M lever / r^2 = trial,   M (1 + x q gyration^2 / r^2) = torsion + lever . t.
-// Such slip never gives energy, however far the two centres lie apart; a return of t and M each for itself does.
+// This slip never generates energy, however far the two centres are apart; separate returns of t and M do. Here for r = 0, a point.
 Held slipped(const Bearing& b, const Vec3& trial, double torsion, double x) {
   const double soft = 1 + x, stiff = b.gyration2 + b.lever.squaredNorm() / soft;
-  const double turn = stiff > 0 ? (torsion + b.lever.dot(trial) / soft) / stiff : 0;  // that leaves no torsion
+  const double turn = stiff > 0 ? (torsion + b.lever.dot(trial) / soft) / stiff : 0;  // leaves no torsion
   Held out;
   out.force = (trial - turn * b.lever) / soft;
   return out;
 }
 
-// ... and ends on the surface: Newton's rule for A = x p and B = x q, with A q = B p and the surface reached. Slopes and surface are taken
-// of the point scaled to the surface, F being the square of the scale, and F = 1 in the form that is exact in one step where force acts
-// alone; so it converges from any trial in some five steps, where a secant rule with p and q of the step before may cycle.
+// The same for a patch, and ending on the surface: Newton's method for A = x p and B = x q, with A q = B p and f = 1. Slopes and f are
+// those of the point scaled onto the surface; F is the square of the scale. F = 1 is written in the form that is exact in one step if force
+// acts alone. So the method converges from any trial in some five steps. A secant method with p and q of the last step may cycle.
 Held returned_to_patch(const Bearing& b, const Vec3& trial, double torsion) {
   const double pulled = b.lever.dot(trial), size2 = trial.squaredNorm(), lever2 = b.lever.squaredNorm(), per_r2 = 1 / (b.r * b.r);
   const double per_t = 1 / (b.limit * b.limit), per_m = per_t * per_r2;
@@ -121,7 +121,7 @@ Held returned_to_patch(const Bearing& b, const Vec3& trial, double torsion) {
   return out;
 }
 
-// The same of a point, which bears no torsion: the secant rule for 1 / sqrt(f) - 1, linear in x where the lever is zero.
+// The same for a point, which transmits no torsion: secant method for 1 / sqrt(f) - 1, which is linear in x if the lever is zero.
 Held returned_to_point(const Bearing& b, const Vec3& trial, double torsion) {
   double low = 0, high = std::numeric_limits<double>::infinity(), x = 0, x_before = 0, h_before = 0;
   Held out;
@@ -139,7 +139,7 @@ Held returned_to_point(const Bearing& b, const Vec3& trial, double torsion) {
 
 Held returned(const Bearing& b, const Vec3& trial, double torsion) {
   Held out = b.r > 0 ? returned_to_patch(b, trial, torsion) : returned_to_point(b, trial, torsion);
-  const double left = std::min(1.0, reach(share_of(b, out.force, out.about), b.bulge));  // what the iteration missed
+  const double left = std::min(1.0, reach(share_of(b, out.force, out.about), b.bulge));  // remaining error of the iteration
   out.force *= left;
   out.about *= left;
   out.torsion = out.about - b.lever.dot(out.force);
@@ -154,7 +154,7 @@ void set_bulge(Bearing& b, const Patch& patch, const Vec3& force) {
   b.bulge = bulge_of((e.dot(patch.second * e) / patch.area - middle * middle) / (b.r * b.r));
 }
 
-// True where the springs hold; fixes the bulge where it matters.
+// True if the springs stick; sets the bulge if it matters.
 bool holds(Bearing& b, const Patch& patch, const Vec3& force, double about) {
   if (!(b.limit > 0) || (!(b.r > 0) && about != 0)) return false;
   const Share s = share_of(b, force, about);
@@ -163,7 +163,7 @@ bool holds(Bearing& b, const Patch& patch, const Vec3& force, double about) {
   return reach(s, b.bulge) >= 1;
 }
 
-// The share of the dashpots that the patch can bear beside springs that hold.
+// Share of the dashpots that the patch can transmit besides springs that stick.
 double bearable(Bearing& b, const Patch& patch, const Vec3& force, double about, const Vec3& viscous, double viscous_about) {
   const Share all = share_of(b, force + viscous, about + viscous_about);
   if (all.t * all.t + all.m * all.m <= surely_within) return 1;
@@ -187,8 +187,8 @@ Borne borne(Bearing b, const Patch& patch, const Pull& springs, const Pull& dash
     return {{left.force, left.torsion}, 0, true};
   }
   if (!(b.limit > 0)) return {springs, 0, false};
-  // Dashpots take what the springs leave of the limit. Slip is the springs' alone: were it to begin where both together reach the
-  // limit, springs would be stretched to it by no motion, and a contact that trembles near its limit would gain energy.
+  // Dashpots use the part of the limit that the springs leave, and the springs alone decide on slip. If slip began where both together
+  // reach the limit, springs would be stretched without motion. A contact that trembles near its limit would then gain energy.
   return {springs, bearable(b, patch, springs.force, about, dashpots.force, dashpots.torsion + b.lever.dot(dashpots.force)), false};
 }
 

@@ -5,10 +5,11 @@
 
 namespace erbs {
 
-// What a patch bears at an instant. Its springs sit at its centroid, the limit is about its centre of pressure, where the torsion
-// is m + lever . t.
+// Friction limit of a patch at an instant. Its springs act at its centroid. The limit is about its centre of pressure, where the torsion is
+// m + lever . t.
 struct Bearing {
-  double limit = 0, r = 0;  // N, m: force alone is borne up to limit, torsion alone up to limit r
+  double limit = 0, r = 0;  // N, m: limit of force alone; limit r is that of torsion alone
+  // shape factor of the limit surface (`friction.cpp`)
   double bulge = 0;
   double gyration2 = 0;       // m2, of the springs: kr / kt
   Vec3 lever = Vec3::Zero();  // m, n x (centroid - centre of pressure)
@@ -20,20 +21,20 @@ struct Pull {
 };
 
 struct Borne {
-  Pull springs;      // what they carry
-  double share = 0;  // of the dashpots that is borne beside them
+  Pull springs;      // forces of the springs after the return
+  double share = 0;  // share of the dashpots within the limit
   bool slips = false;
 };
 
-// Within this share of the limits, force and torsion squared and summed, springs hold whatever the shape of the patch.
+// Springs stick, whatever the shape of the patch, while the squares of force and torsion over their limits add up to no more than this.
 inline constexpr double surely_within = 0.79;
-// The law of friction: what `springs` would pull with and what dashpots would add, held to the limit.
+// The friction law as a return map: limits the trial forces of the `springs`, then the `dashpots` to the remaining part of the limit.
 Borne borne(Bearing bearing, const Patch& patch, const Pull& springs, const Pull& dashpots);
 
 struct Friction {
   Vec3 force = Vec3::Zero();                                         // N, on the body that is not the reference, pair axes
   Vec3 moment = Vec3::Zero();                                        // N m, about its centroid
-  Vec3 viscous_force = Vec3::Zero(), viscous_moment = Vec3::Zero();  // dashpot of the sticking contact, part of the limit
+  Vec3 viscous_force = Vec3::Zero(), viscous_moment = Vec3::Zero();  // dashpots of the sticking contact, within the limit
   double stored = 0;                                                 // J
   double slipped = 0;                                                // J, lost in plastic slip this step
 };
@@ -43,8 +44,8 @@ struct Motion {
   Vec3 linear, angular;  // m/s, rad/s
 };
 
-// Updates the memory of `pair` from the pose it remembers to `pose`. `inverse_mass` (1/kg) of the patch in its plane.
-// `interlock`: that of ContactSettings.
+// Advances the friction memory of `pair` from its last pose to `pose`. `inverse_mass` (1/kg): of both bodies at the patch, in its plane.
+// `interlock`: that of `ContactSettings`.
 Friction patch_friction(Pair& pair, const Patch& patch, const PairPose& pose, const Motion& motion, double normal_force,
                         double inverse_mass, double settling, const Interlock& interlock = {});
 

@@ -9,17 +9,17 @@
 namespace erbs {
 namespace {
 
-// event_bound.h for a spring of stiffness k (N/m) that opens or closes at `speed` (m/s) after the way `left` (m).
+// Event rate (`event_bound.h`) of a spring of stiffness k (N/m) that opens or closes at `speed` (m/s) after the distance `left` (m).
 double haste(double k, double speed, double left, const ContactSettings& settings) {
   if (!(settings.event_budget > 0 && speed > 0)) return 0;
   return std::min(speed * std::sqrt(event_share * k / settings.event_budget), left > 0 ? event_steps * speed / left : 1e300);
 }
 
-// What a body resists with where a face lies flat on the other: the patch lies within a face of either body and has the smaller one's area
-// at most, and both bound it.
+// Rates of both bodies if a face lands flat on the other. The patch is within a face of either body and at most as large as the smaller
+// face; both facts bound the rates.
 void face_rates(const Pair& pair, const View& s, PairResult& result) {
   const double k = (pair.law.kn + pair.law.ks) * std::min(s.reference->largest_face, s.other->largest_face);
-  // of a face about the centroid above it: Int r^2 dA / A is reach^2 / 3 at most for a rectangle
+  // for a face about the centroid above it: Int r^2 dA / A is at most reach^2 / 3 for a rectangle
   const auto rate = [&](const ContactBlock& block, const ContactShape& part) {
     const double by_area = k * (block.inverse_mass + part.reach * part.reach / 3 * block.inverse_inertia);
     const double by_face = pair.law.kn * part.face_across + pair.law.ks * part.face_along;
@@ -30,7 +30,7 @@ void face_rates(const Pair& pair, const View& s, PairResult& result) {
   result.landing_b = pair.b_is_reference ? reference : other;
 }
 
-// What keeps a pair apart: a face of the reference, one of the other, or a plane along an edge of each.
+// A separating feature: a face of the reference, a face of the other body, or a plane along an edge of each.
 struct Keeper {
   enum Kind { face, other_face, edges } kind;
   std::size_t face_or_a, b;
@@ -43,14 +43,14 @@ Keeper keeper(int separating, const View& s) {
   return {Keeper::edges, (at - faces) / edges, (at - faces) % edges};
 }
 
-// How two bodies come closer: along the normal of the face that keeps them apart, where there is one. A body that flies off lands nowhere.
+// Approach of two bodies, along the normal of the separating face if there is one. A body that flies off strikes nothing.
 struct Approach {
   Keeper::Kind by = Keeper::edges;
-  Vec3 n = Vec3::Zero();  // unit, from the reference to the other; zero: not known
+  Vec3 n = Vec3::Zero();  // unit, from the reference to the other; zero: unknown
   double apart = 0, along = 0;
 };
 
-// The least of n . x over the corners of a body, and the greatest.
+// Least and greatest n . x over the corners of a body.
 struct Extent {
   double least, most;
 };
@@ -64,7 +64,7 @@ Extent extent(const SmallShape& body, const Vec3& n) {
 
 bool corners_known(const View& s) { return s.reference->small.faces > 0 && s.other->small.faces > 0; }
 
-// By what `separating` names; `apart` only where all corners are known.
+// Approach by the feature `separating`; `apart` is set only if all corners are known.
 Approach approach(int separating, const View& s) {
   constexpr double parallel = 1e-6;
   const ContactShape &reference = *s.reference, &other = *s.other;
@@ -95,8 +95,8 @@ Approach approach(int separating, const View& s) {
   return way;
 }
 
-// The share of a face that presses once a body has sunk in by `depth` along n: a face that lands flat presses as a whole, an edge along a
-// strip, a corner with a triangle. `turns` (m): what its corners may still move against each other until then.
+// Share of a face that presses once a body has sunk in by `depth` along n: the whole face if it lands flat, a strip for an edge, a triangle
+// for a corner. `turns` (m): relative motion of the corners by rotation until then.
 double pressed_share(const SmallShape& body, const Vec3& n, double depth, double turns) {
   double low[3] = {1e300, 1e300, 1e300};
   for (int i = 0; i < few; ++i) {
@@ -108,15 +108,15 @@ double pressed_share(const SmallShape& body, const Vec3& n, double depth, double
   return part(low[1] - low[0]) * part(low[2] - low[0]);
 }
 
-// A body that strikes deeper in its first step than the step can bear gains energy. So the step is short enough for the largest
-// face before it may land: when the bodies could meet within the next few steps, at a speed at which that energy matters.
+// A body that sinks in deeper in its first step than the step allows gains energy. So the step is short enough for the largest face before
+// an impact: if the bodies could touch within the next few steps, at a speed at which this energy matters.
 void landing(const Pair& pair, const View& s, const ContactSettings& settings, const Approach& way, double dt, PairResult& result) {
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
   const double spin = o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach, speed = way.along + spin;
   const double k = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
   result.haste = haste(k, speed, way.apart, settings);
   if (result.haste * dt > 0.5 && !way.n.isZero(0) && corners_known(s)) {
-    const double depth = look_ahead * speed * dt, turns = 2 * spin * way.apart / speed;  // it is looked at every few steps only
+    const double depth = look_ahead * speed * dt, turns = 2 * spin * way.apart / speed;  // evaluated every few steps only
     double share = 1;
     if (way.by != Keeper::other_face) share *= pressed_share(s.other->small, o.turn.transpose() * way.n, depth, turns);
     if (way.by != Keeper::face) share *= pressed_share(s.reference->small, -(r.turn.transpose() * way.n), depth, turns);
@@ -137,17 +137,17 @@ void landing(const Pair& pair, const View& s, const ContactSettings& settings, d
 
 namespace {
 
-constexpr double facing = 0.9;  // cosine: faces that are further from flat are left to later steps
+constexpr double facing = 0.9;  // cosine; faces farther from flat wait for later steps
 const double oblique = std::sqrt(1 - facing * facing);
 
-// Faces of the other body that may lie nearly flat on one of the reference, and a bound for those of the reference: of a stone of hundreds
-// of faces most look elsewhere. With normals n_f and n_g within that angle of opposite, a corner x on face g has
-// n_f . x <= -cos n_g . x + sin |x|; both bodies' corners are behind planes no nearer to the centroid than their nearest face.
+// Faces of the other body that may be nearly flat on a face of the reference, and a bound that excludes faces of the reference. Most faces
+// of a stone with hundreds of faces have other directions. If the normals n_f and n_g are opposite within this angle, a corner x on face g
+// has n_f . x <= -cos n_g . x + sin |x|. The corners of both bodies are behind planes no nearer to the centroid than their nearest face.
 struct Opposite {
   int count = 0;
   std::size_t face[most_faces];
   Vec3 normal[most_faces];  // world axes
-  double least;             // m, n_f . apart of a face that one of them may lie on, less the offset of that face
+  double least;             // m, lower bound of n_f . apart less the offset of face f, if one of these faces may be flat on it
 
   Opposite(const View& s, const Vec3& apart, double thin) {
     const auto most_along = [](double across, double length) { return -(across > 0 ? facing : 1) * across + oblique * length; };

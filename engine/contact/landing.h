@@ -1,23 +1,23 @@
-// How long a step may be for bodies that are about to meet, to meet with more of their faces, or to part (solve/event_bound.h).
+// Bound on the time step by bodies that are about to touch, to touch with more of their faces, or to separate (`solve/event_bound.h`).
 //
-// A corner that strikes presses with a triangle of its face, an edge with a strip: what a step errs by is a small part of what it would
-// err by had the whole face landed flat. So the stiffness of what lands is that of the share of the face that sinks in within the next steps.
+// A corner that strikes presses with a triangle of its face, an edge with a strip. The step then errs much less than for a whole face that
+// lands flat. So an impact has the stiffness of the share of the face that sinks in within the next steps.
 #pragma once
 #include "engine/contact/contact.h"
 
 namespace erbs {
 
-// What keeps a pair of small bodies apart that touch no more and bear nothing (Pair::separating), -1 where it is to go to pair_force().
+// Separating feature (`Pair::separating`) of a pair of small bodies that no longer touch and carry no force; -1: use `pair_force()`.
 int short_keeper(const Pair& pair, const ContactShape& a, const ContactShape& b);
-// Such a pair in short: true where that surely keeps them apart still. `result` then has what pair_force() gives, to round-off. The pose of
-// the view is not asked for, and the pair only where the bodies may land.
+// Short evaluation of such a pair: true if the feature surely still separates the bodies. `result` is then that of `pair_force()`, to
+// round-off. The pose of the view is not read, and the pair only if an impact is possible.
 bool stands_apart(int keeper, const Pair& pair, const View& view, const ContactSettings& settings, double dt, PairResult& result);
 
-// Of a pair that touches and has been evaluated: its patch may let go, and a face that is about to fall flat meets all of it within a step or
-// two. Sets `haste` and, where that is near, the rates of landing of `result`. dt (s): the next step at most.
+// For a touching pair after its evaluation: its patch may open, and a face about to fall flat may touch as a whole within a step or two.
+// Sets `haste` and, if that is near, the impact rates of `result`. dt (s): upper bound of the next step.
 void foresee(const Pair& pair, const View& view, const ContactSettings& settings, double dt, PairResult& result);
 
-// Of a pair that is `apart` (m), as pair_force() finds it: sets `haste` and, where they may meet within the next steps, the rates of landing.
+// For a pair that is `apart` (m), as found by `pair_force()`: sets `haste` and, if an impact is possible within the next steps, its rates.
 void landing(const Pair& pair, const View& view, const ContactSettings& settings, double apart, double dt, PairResult& result);
 
 }  // namespace erbs

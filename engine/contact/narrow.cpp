@@ -14,10 +14,10 @@ constexpr int most_corners = most_vertices + most_faces + 2;  // a convex loop g
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-// What find_pieces() knows of the vertices of B: whether they are inside a face of A, by sets of bits.
+// Vertices of B inside each face of A, as bits.
 struct Inside {
-  Word of[most_faces][most_words];  // among those that matter
-  int crossing[most_faces];         // faces of A with vertices of B on either side
+  Word of[most_faces][most_words];  // only vertices of faces that may reach A
+  int crossing[most_faces];         // faces of A with vertices of B on both sides
   int crossings = 0;
 };
 
@@ -26,8 +26,8 @@ struct Loop {
   Vec3 p[most_corners];
 };
 
-// The part of `in` where value(x) = c - n.x >= 0. A loop that lies in the plane is kept only if `keep_zero`, so that of two
-// complementary cuts exactly one keeps it. False if nothing is left.
+// The part of `in` with value(x) = c - n.x >= 0. A loop in the plane counts only if `keep_zero`, so that it belongs to exactly one of two
+// complementary cuts. False if nothing is left.
 bool cut(const Loop& in, const Vec3& n, double c, bool keep_zero, Loop& out) {
   double d[most_corners];
   bool positive = false, negative = false;
@@ -48,7 +48,7 @@ bool cut(const Loop& in, const Vec3& n, double c, bool keep_zero, Loop& out) {
 
 bool is_inside(const ContactShape& a, int f, const Vec3& x, const Pieces& w) { return w.c[f] - a.normal[at(f)].dot(x) > 0; }
 
-// True if face f of A has all of B on its outer side.
+// True if all of B is on the outer side of face f of A.
 bool face_separates(const ContactShape& a, int nv, int f, const Pieces& w) {
   return std::none_of(w.v, w.v + nv, [&](const Vec3& x) { return is_inside(a, f, x, w); });
 }
@@ -65,8 +65,8 @@ bool holds_all(const Word* set, const Word* of, int words) {
   return left == 0;
 }
 
-// The faces of B that may reach into A, and their vertices: those with a vertex inside the face of A that looks most towards B. A stone of
-// hundreds of faces has a few of them, and only their vertices need be asked for the other faces of A.
+// Faces of B that may reach into A, and their vertices: faces with a vertex inside the face of A that is nearest to the centroid of B. A
+// stone of hundreds of faces has only a few of them, and only their vertices are tested against the other faces of A.
 int faces_that_reach(const ContactShape& a, const ContactShape& b, const Pieces& w, int* face, int* vertex, int& vertices) {
   const int nfb = static_cast<int>(b.normal.size()), nv = static_cast<int>(b.vertex.size());
   const int towards = static_cast<int>(std::min_element(w.c, w.c + a.normal.size()) - w.c);
@@ -85,7 +85,7 @@ int faces_that_reach(const ContactShape& a, const ContactShape& b, const Pieces&
   return faces;
 }
 
-// True if face j of B has all of A on its outer side.
+// True if all of A is on the outer side of face j of B.
 bool face_of_other_separates(const ContactShape& a, const ContactShape& b, const PairPose& pose, int j) {
   const Vec3 n = pose.turn * b.normal[at(j)];
   const double c = b.offset[at(j)] + n.dot(pose.shift);
@@ -105,7 +105,7 @@ void append(Pieces& w, int face, int nearest, const Loop& loop, const Vec3& n, d
   }
 }
 
-// Splits face j of B, already clipped to A, where another face of A is the nearest.
+// Splits face j of B, already clipped to A, where another face of A becomes the nearest.
 void split(const ContactShape& a, int j, Loop& g, Loop& h, Pieces& w) {
   const int nf = static_cast<int>(a.normal.size());
   double least[most_faces];
@@ -208,7 +208,7 @@ bool find_pieces(const ContactShape& a, const ContactShape& b, const PairPose& p
   int reaching[most_faces], vertex[most_vertices], vertices = 0;
   const int faces = faces_that_reach(a, b, w, reaching, vertex, vertices);
   Inside in;
-  bool apart = false;  // from the faces that may reach
+  bool apart = false;  // of the faces that may reach A
   for (int f = 0; f < nfa; ++f) {
     Word* set = in.of[f];
     std::fill_n(set, b.words, Word(0));
@@ -324,7 +324,7 @@ void damping_wrench(const Pieces& w, const Vec3& normal, double chi, double limi
   Vec3 first = Vec3::Zero();
   for (const Piece& piece : w.piece) {
     const Vec3& n = w.n[piece.face];
-    const double share = -normal.dot(n);  // of its pressure that pushes along the normal of the patch
+    const double share = -normal.dot(n);  // share of its pressure along the normal of the patch
     if (share <= 0) continue;
     const Vec3* x = &w.vertex[at(piece.first)];
     const double* phi = &w.depth[at(piece.first)];
@@ -333,7 +333,7 @@ void damping_wrench(const Pieces& w, const Vec3& normal, double chi, double limi
     for (int k = 1; k + 1 < piece.count; ++k) {
       const int corner[3] = {0, k, k + 1};
       const double dS = 0.5 * n.dot((x[k] - x[0]).cross(x[k + 1] - x[0]));
-      // s - 1 clamped: chi v where above -1, less what is above limit - 1.
+      // s - 1 clamped: chi v where it is above -1, less its excess over limit - 1.
       double f[3], above[3], over[3], held[3], place[3][3], pulled = 0, first_pulled[3] = {}, capped = 0, first_capped[3] = {};
       for (int c = 0; c < 3; ++c) {
         const double extra = chi * closing[corner[c]];

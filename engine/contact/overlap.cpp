@@ -17,7 +17,7 @@ SmallPose small_pose(const PairPose& pose) {
 
 Vec3 vec(const double* x) { return {x[0], x[1], x[2]}; }
 
-// Bodies that do not overlap: what keeps them apart, and by how much.
+// For bodies without overlap: finds a separating feature and returns the distance.
 double find_distance(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating) {
   if (separating < 0) separating = separating_face_of_other(a, b, pose);
   if (separating < 0) separating = separating_edges(a, b, pose);

@@ -1,29 +1,29 @@
-// The overlap of two bodies: found, summed and damped the fast way where both are small (clip.h), the general way otherwise
-// (narrow.h). Both give the same to round-off.
+// Overlap of two bodies: found, summed and damped by the fast path if both are small (`clip.h`), else by the general path (`narrow.h`).
+// Both give the same to round-off.
 #pragma once
 #include "engine/contact/clip.h"
 #include "engine/contact/narrow.h"
 
 namespace erbs {
 
-// Room that is used again from call to call, one per thread.
+// Workspace, used again from call to call; one per thread.
 struct OverlapRoom {
   Triangles triangles;
   Pieces pieces;
-  bool fast = false;          // which of the two holds the overlap found last
-  bool only_general = false;  // for tests: the general way for all
-  double apart = 0;           // m, distance of the bodies asked for last, at least; below zero where not known
+  bool fast = false;          // the last overlap is in `triangles`, not in `pieces`
+  bool only_general = false;  // for tests: the general path for all bodies
+  double apart = 0;           // m, lower bound of the distance in the last query; negative if unknown
 };
 
-// The elastic patch; its total is 0 where the bodies do not overlap. `separating` caches what keeps them apart (narrow.h), `known`
-// its corners (clip.h).
+// The elastic patch; its total is 0 if the bodies do not overlap. `separating` caches the separating feature (`narrow.h`), `known` the
+// corners of the overlap (`clip.h`).
 Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, OverlapRoom& room,
                    Corners* known = nullptr);
 
-// As in narrow.h, of the overlap found last.
+// As in `narrow.h`, for the last overlap.
 void closing_speeds(OverlapRoom& room, const Vec3& linear, const Vec3& angular, Patch& patch);
 void damping_wrench(const OverlapRoom& room, const Vec3& normal, double chi, double limit, Vec3& force, Vec3& moment);
-// E / kn (m4) of the same bodies.
+// E / kn (m4) of the last overlap; the same bodies.
 double overlap_energy(const ContactShape& a, const ContactShape& b, const PairPose& pose, OverlapRoom& room);
 
 }  // namespace erbs

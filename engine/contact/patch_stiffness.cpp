@@ -7,7 +7,7 @@
 namespace erbs {
 namespace {
 
-// `second` (m4) about the centroid, which lies at `arm` from that of the block.
+// `second` (m4): about the centroid of the patch, which is at `arm` from that of the block.
 Mat6 stiffness_on(const Vec3& arm, const Vec3& n, double normal, const Mat3& second, double kn, double tangential, double torsion) {
   Vec6 along;
   along << n, arm.cross(n);

@@ -1,11 +1,11 @@
-// The exact share of a clamp in an integral over triangles; ramp.inc does eight of them side by side.
+// Exact integral of a clamped factor over triangles; `ramp.inc` treats eight triangles side by side.
 #pragma once
 
 namespace erbs {
 
-// Adds to i0 and i1 the integrals of f max(g, 0) and f max(g, 0) x over the triangle of area dS with corners x[corner][axis];
-// f and g are linear with the corner values given. Where one corner differs in sign from the others, the part of it is a triangle
-// of its own; max(g, 0) = g + max(-g, 0) brings the other case back to that.
+// Adds to i0 and i1 the integrals of f max(g, 0) and f max(g, 0) x over the triangle of area dS with corners x[corner][axis]; f and g are
+// linear between the corner values. If the sign of g differs at one corner, the part of that corner is a triangle of its own. If g is
+// negative there, max(g, 0) = g + max(-g, 0) leads back to this case.
 static inline void add_ramp(const double f[3], const double g[3], const double x[3][3], double dS, double& i0, double i1[3]) {
   const int up = (g[0] > 0) + (g[1] > 0) + (g[2] > 0);
   if (up == 0) return;

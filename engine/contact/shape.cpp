@@ -11,7 +11,7 @@
 namespace erbs {
 namespace {
 
-// Two faces in one plane would both be the nearest face.
+// Of two faces in one plane, both would be the nearest face.
 bool has_coplanar_faces(const std::vector<Plane>& faces, double size) {
   for (std::size_t f = 0; f < faces.size(); ++f) {
     for (std::size_t g = 0; g < f; ++g) {
@@ -57,7 +57,7 @@ void fill_small(ContactShape& s) {
   }
 }
 
-// But for round-off.
+// Up to round-off.
 bool equal(const ContactShape& a, const ContactShape& b) {
   if (a.vertex.size() != b.vertex.size() || a.edge.size() != b.edge.size() || a.loop_first != b.loop_first || a.loop != b.loop)
     return false;
@@ -119,8 +119,8 @@ ContactShape contact_shape(const Polyhedron& part) {
   return s;
 }
 
-// Largest eigenvalues of M^-1/2 K M^-1/2, K = Int over the face of r r^T dA, r how a motion of the block moves a point of it: across the
-// face (n, x * n), along it (t, x * t) in two directions. Any patch within the face resists with no more.
+// Largest eigenvalues of M^-1/2 K M^-1/2, K = Int over the face of r r^T dA. r is the displacement of a point per motion of the block:
+// across the face (n, x * n), and along it (t, x * t) in two directions. No patch within the face is stiffer.
 void set_face_rates(ContactShape& s, const ContactBlock& block) {
   s.face_across = s.face_along = 0;
   if (!(block.inverse_mass > 0)) return;
@@ -134,7 +134,7 @@ void set_face_rates(ContactShape& s, const ContactBlock& block) {
     const auto corner = [&](int i) -> const Vec3& { return s.vertex[std::size_t(s.loop[std::size_t(i)])]; };
     for (int i = s.loop_first[f] + 1; i + 1 < s.loop_first[f + 1]; ++i) {
       const Vec3 p[3] = {corner(s.loop_first[f]), corner(i), corner(i + 1)};
-      const double third = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 6;  // quadratic: exact from the middles of the sides
+      const double third = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 6;  // quadratic integrand: exact from the midpoints of the sides
       for (int k = 0; k < 3; ++k) {
         const Vec3 x = (p[k] + p[(k + 1) % 3]) / 2;
         const auto add = [&](const Vec3& e, Mat6& to) {
@@ -159,7 +159,7 @@ ContactShapes contact_shapes(const std::vector<std::vector<Polyhedron>>& parts_o
     for (const Polyhedron& p : parts_of_blocks[b]) {
       ContactShape s = contact_shape(p);
       if (!blocks.empty()) set_face_rates(s, blocks[b]);
-      // Next to all equal ones have this key; those that have another are only not shared.
+      // Almost all equal shapes have this key; equal shapes with another key are just not shared.
       const long key = std::lround(std::log(s.volume) * 1e7 + 0.37);
       const auto [from, to] = known.equal_range(key);
       const auto same = std::find_if(from, to, [&](const auto& one) { return equal(all.shape[std::size_t(one.second)], s); });
@@ -175,7 +175,7 @@ ContactShapes contact_shapes(const std::vector<std::vector<Polyhedron>>& parts_o
 }
 
 Mat3 contact_axes(const std::vector<Polyhedron>& parts) {
-  constexpr double as_small = 1 + 1e-9;  // not smaller by more than round-off
+  constexpr double as_small = 1 + 1e-9;  // smaller by more than round-off
   const auto box = [&](const Mat3& axes) {
     Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
     for (const Polyhedron& p : parts) {
@@ -194,7 +194,7 @@ Mat3 contact_axes(const std::vector<Polyhedron>& parts) {
       const Vec3 along = (corner(1) - corner(0)).normalized(), across = along.cross(corner(2) - corner(1)).normalized();
       Mat3 axes;
       axes << along, across.cross(along), across;
-      if (!(axes.determinant() > 0.5)) continue;  // its first corners lie in a line
+      if (!(axes.determinant() > 0.5)) continue;  // its first corners are collinear
       const double size = box(axes);
       if (size * as_small < least) least = size, best = axes;
     }

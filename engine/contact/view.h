@@ -1,4 +1,4 @@
-// A pair seen from its reference body.
+// A contact pair seen from its reference body.
 #pragma once
 #include "engine/contact/narrow.h"
 #include "engine/model/pair.h"
@@ -22,7 +22,7 @@ inline View view_of(const Pair& pair, const ContactShapes& shapes, const Contact
   s.other = pair.b_is_reference ? &shape_a : &shape_b;
   s.reference_block = pair.b_is_reference ? &b : &a;
   s.other_block = pair.b_is_reference ? &a : &b;
-  // Relative positions first: a shift of the whole scene by 1e4 m must not cost digits.
+  // Relative positions first: a scene 1e4 m from the origin must not lose digits.
   const Vec3 apart = (s.other_block->rest - s.reference_block->rest) + (s.other_block->u - s.reference_block->u);
   s.pose.shift = s.reference_block->turn.transpose() * apart;
   s.pose.turn = s.reference_block->turn.transpose() * s.other_block->turn;

@@ -11,24 +11,25 @@
 namespace erbs {
 namespace {
 
-constexpr double safe_share = 0.9;  // of the bound of a block, where it is of joints or of bounds by scalars
-// Of the bound by matrices, which is close. In a long row of blocks where each presses on the next it is met: springs then take 4 share^2
-// of the 4 that a step bears (dt^2 k / m + 2 c dt / m < 4 where dashpots see the velocity of half a step before), and dashpots at their cap
-// between two blocks (contact.cpp) up to 4/3 with two contacts on each, 1 in a heap. Below .81 that is sure; at .7 a sixth is left.
+constexpr double safe_share = 0.9;  // of the bound of a block, for joints and for bounds by scalars
+// Share of the bound by matrices, which is close: a long row of blocks, each pressed against the next, attains it. Springs then use
+// 4 share^2 of the 4 that a step allows (dt^2 k / m + 2 c dt / m < 4, dashpots with the velocity of half a step before). Dashpots at their
+// cap between two blocks (`contact.cpp`) use up to 4/3 with two contacts on each block, 1 in a heap. Any share below .81 is therefore safe;
+// .7 leaves a margin of a sixth.
 constexpr double contact_share = 0.7;
-// Of what a face that lands would bear: a blow begins somewhere within a step, and errs by up to (omega dt)^2 / 4 of its energy for that.
+// Share of the bound of a face that strikes: an impact begins anywhere within a step and so errs by up to (omega dt)^2 / 4 of its energy.
 constexpr double landing_share = 0.5;
-constexpr int count_every = 256;  // steps, while the step could be longer; ...
-constexpr int count_soon = 32;    // ... before it becomes shorter
-constexpr int joints_every = 8;   // counts, before joints that are left are tried as matrices again
+constexpr int count_every = 256;  // steps between two updates while the step could be longer, ...
+constexpr int count_soon = 32;    // ... and before the step becomes shorter
+constexpr int joints_every = 8;   // updates between two trials of the bound by blocks
 std::size_t z(int i) { return std::size_t(i); }
 
-// 1 / dt^2 for a bound on the sum over a block.
+// 1 / dt^2 for an upper bound of the total stiffness on a block.
 double inverse_square(double on_a_block, double share) { return on_a_block * (1 / (2 * share * share)); }
 
 }  // namespace
 
-// The share of the bound that the run asked for (at least 0.9) is kept for joints.
+// 1 / dt^2 of the joints, at the share of the bound that the run requested, at least 0.9.
 double ContactLimit::sound() const {
   const double share = std::clamp(state_.dt_goal / model_.dt_critical, safe_share, 1.0) * model_.dt_critical;
   return 1 / (share * share);
@@ -64,7 +65,7 @@ void ContactLimit::count(const ContactShapes& shapes, std::span<const ContactBlo
   list.counted_at = state_.step;
 }
 
-// Joints that are left, and beds, as stiff as they may become, with their dashpots (see stiffness.cpp).
+// Adds remaining joints and former joints with the greatest stiffness that they may reach, and with their dashpots (`stiffness.cpp`).
 void ContactLimit::add_joints(std::span<Mat6> to) const {
   for (int j = 0; j < model_.njoint; ++j) {
     const Joint& joint = model_.joint[z(j)];
@@ -80,7 +81,7 @@ void ContactLimit::add_joints(std::span<Mat6> to) const {
   }
 }
 
-// Of each block that moves the largest eigenvalue of M^-1/2 K M^-1/2, or a bound of it where others have twice that, as 1 / dt^2.
+// 1 / dt^2 for the largest eigenvalue of M^-1/2 K M^-1/2 of each moving block, or for its trace if that is below half the largest so far.
 std::vector<double> ContactLimit::by_matrices(std::span<const ContactBlock> blocks, std::span<const Mat6> stiffness) const {
   std::vector<double> out(blocks.size(), 0.0);
   double most = 0;
@@ -88,7 +89,7 @@ std::vector<double> ContactLimit::by_matrices(std::span<const ContactBlock> bloc
     const Mat6& k = stiffness[z(b)];
     if (model_.kind[z(b)] != Kind::moving || k(0, 0) + k(1, 1) + k(2, 2) == 0) continue;
     const ContactBlock& block = blocks[z(b)];
-    // the trace of root^T k root first
+    // the trace of root^T k root, an upper bound
     const Mat3 tensor = block.turn * block.inverse_tensor * block.turn.transpose();
     double largest = block.inverse_mass * (k(0, 0) + k(1, 1) + k(2, 2)) + (tensor.array() * k.bottomRightCorner<3, 3>().array()).sum();
     out[z(b)] = inverse_square(largest, contact_share);
@@ -119,7 +120,7 @@ double ContactLimit::on_most(std::span<const int> blocks, std::span<const double
 double ContactLimit::allowed(double most) const {
   const PairList& list = state_.debris;
   const double bound = 1 / std::sqrt((list.counts > 0 ? list.counted : sound()) + most);
-  // past the step that the run asked for, the share of the limit that it asked for is kept
+  // Beyond the step that the run requested, its requested share of the limit still applies.
   const double share = std::isfinite(model_.dt_critical) ? std::min(1.0, state_.dt_goal / model_.dt_critical / safe_share) : 1.0;
   return std::max(std::min(state_.dt_goal, bound), std::min(model_.dt_most, share * bound));
 }

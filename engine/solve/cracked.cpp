@@ -11,7 +11,8 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// Beds bear and stick, upright joints hang open and slide freely: eight of a kind seldom need the other's arithmetic.
+// True for joints compressed by gravity. Bed joints are closed and stick; head joints are open and slide freely. A pack of one kind seldom
+// needs the arithmetic of the other.
 bool bears(const Model& model, const Joint& joint) {
   const Vec3 normal = joint.type->frame.col(2), down = model.gravity.norm() > 0 ? Vec3(model.gravity.normalized()) : Vec3::UnitZ();
   return std::fabs(normal.dot(down)) > 0.5;
@@ -29,13 +30,13 @@ void Cracked::Group::look_for_bonds(const PointLaw& of) {
 
 Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state) {
   const int sound = sound_batches(model);
-  // Batches that a stopped run left: the same joint in the same lane, so that sums go on in the same order.
+  // Groups of a stopped run: each joint returns to its lane, so that sums continue in the same order.
   for (int k = 0; k < int(state.batch.size()); ++k) {
     group_.push_back({});
     group_.back().law = -1, group_.back().batch = k;
     std::fill_n(group_.back().joint, lanes, -1);
   }
-  std::vector<int> held;  // in the order of their lanes, in which steps go through memory
+  std::vector<int> held;  // in the order of their lanes, in which a step passes through memory
   for (int j = 0; j < model.njoint; ++j)
     if (state.place[z(j)] >= sound * lanes) held.push_back(j);
   std::sort(held.begin(), held.end(), [&](int a, int b) { return state.place[z(a)] < state.place[z(b)]; });
@@ -72,11 +73,11 @@ void Cracked::clear(Group& group, int l) {
   for (int i = 0; i < group.points; ++i) lane.slip()[i].s[l] = lane.slip()[i].t[l] = lane.slip()[i].bearing[l] = 0;
   CommonLanes& common = lane.common;
   for (auto* x : {common.s, common.t, common.turn, common.apart, common.stored, common.stale}) x[l] = 0;
-  for (BondLanes& p : group.bond) p.secant[l] = p.reach[l] = 0, p.damage[l] = 1;  // nothing to hold
+  for (BondLanes& p : group.bond) p.secant[l] = p.reach[l] = 0, p.damage[l] = 1;  // no bond
   group.look_for_bonds(model_.laws[z(group.law)]);
 }
 
-// The shape of one type as lane l; all numbers of everything are those of `shapes` already.
+// Writes the shape of one type to lane l of `shapes`, which has the same number of points and corners.
 void Cracked::set_shape(Shapes& shapes, int l, const JointType& type) const {
   for (int i = 0; i < type.corners; ++i) {
     const auto& c = model_.corner[z(type.first_corner + i)];
@@ -120,7 +121,7 @@ std::shared_ptr<Cracked::Shapes> Cracked::shared_shapes(const JointType& type) {
   return shared;
 }
 
-// Lanes without a joint have whatever shape: they neither move nor bear.
+// Lanes without a joint may have any shape: they neither move nor transmit a force.
 void Cracked::add_shape(Group& group, int l, const JointType& type) {
   if (group.empty()) {
     group.type = &type;
@@ -222,7 +223,7 @@ void Cracked::set_ends(int j) {
   copy_ends(group_[z(at / lanes)], at % lanes);
   if (pose_.empty()) {
     pose_.assign(block_groups(model_.nblock) * 8 * lanes, 0.0);
-    take_pose(model_.nblock);  // of lanes without a joint
+    take_pose(model_.nblock);  // for lanes without a joint
   }
   take_pose(joint.a);
   take_pose(joint.b);
@@ -245,7 +246,8 @@ void Cracked::take_pose(int b) {
 
 void Cracked::take(int j) { put(j); }
 
-// Where the next joint finds room must not depend on joints that have gone: a run that was stopped and resumed knows nothing of them.
+// Restores the common type of a group after a joint has left. The lane of the next joint must not depend on joints that have left, since a
+// resumed run does not know them.
 void Cracked::look_at_types(Group& group) {
   if (group.type != nullptr || group.empty()) return;
   const JointType* type = nullptr;
@@ -344,7 +346,7 @@ bool Cracked::none_spent() const {
 
 bool Cracked::spent(int j) const {
   const int at = state_.place[z(j)] - sound_batches(model_) * lanes;
-  if (at < 0) return !keepers(model_) && joint_spent(model_, state_, j);  // one that has just cracked is taken in after the step
+  if (at < 0) return !keepers(model_) && joint_spent(model_, state_, j);  // a joint that cracked in this step enters a group after it
   const Group& group = group_[z(at / lanes)];
   if (!group.beyond) return false;
   const CrackedLanes& lane = memory_of(group);

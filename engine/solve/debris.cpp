@@ -10,11 +10,12 @@
 namespace erbs {
 namespace {
 
-constexpr double parted = 0.02;        // of a bed's side, and rad
-constexpr double most_reset = 1.5e-3;  // of State::energy.reference: all that contacts may store other than their joints did
+constexpr double parted = 0.02;  // of the side of a former joint, and rad
+// Of `State::energy.reference`: limit of all differences in stored energy between contacts and the joints they replaced.
+constexpr double most_reset = 1.5e-3;
 std::size_t z(int i) { return std::size_t(i); }
 
-// Joints [first, end) between the same parts as `first`.
+// End of the joints that connect the same two parts as joint `first`, at most `end`.
 int end_of_bed(const Model& model, int first, int end) {
   const Joint& one = model.joint[z(first)];
   int last = first + 1;
@@ -25,7 +26,7 @@ int end_of_bed(const Model& model, int first, int end) {
 }
 
 double largest_inverse_inertia(const Mat3& inverse) {
-  // a bound by rows (Gershgorin) that is exact for a block along its principal axes
+  // Gershgorin's bound by rows, exact for a block along its principal axes.
   return inverse.cwiseAbs().rowwise().sum().maxCoeff();
 }
 
@@ -135,16 +136,16 @@ void Debris::place(Eight blocks, Fastest& fastest) {
   pair_kernels().follow(at, blocks.which, look_ahead * 1.5 * std::max(state_.dt, state_.last_dt), fastest.speed);
 }
 
-// Sleepers lie where they are.
+// Updates the poses of all blocks; sleepers keep their pose unless `sleepers` is set.
 void Debris::place_all(bool sleepers) {
-  Fastest any;  // of no interest: what pairs have moves in follow() and prepare()
+  Fastest any;  // unused: `follow()` and `prepare()` find the greatest speed
   std::vector<Eight> all;
   for (int b = 0; b < model_.nblock; ++b)
     if (sleepers || !sleep_.asleep(b)) mark(all, b);
   for (const Eight& blocks : all) place(blocks, any);
 }
 
-// After a search: nothing is known of the pairs that it lists.
+// After a search nothing is known about the listed pairs.
 void Debris::list_anew() {
   state_.parting.pair.clear();
   std::fill(state_.parting.spun.begin(), state_.parting.spun.end(), 0.0);
@@ -182,7 +183,7 @@ void Debris::find_beds() {
   for (const Pair& p : state_.debris.pair) bed_.push_back({p.bed ? bed_joint(p) : -1, p.counted_a, p.counted_b});
 }
 
-// The first of the joints that a bed took over from.
+// First of the joints that a contact pair has replaced.
 int Debris::bed_joint(const Pair& p) const {
   const auto at = std::lower_bound(pair_keys_.begin(), pair_keys_.end(), pair_key(p.a, p.b));
   int first = of_pair_[std::size_t(at - pair_keys_.begin())];
@@ -191,7 +192,7 @@ int Debris::bed_joint(const Pair& p) const {
   return first;
 }
 
-// What the joints of a bed were counted with, in the terms that a contact on the same faces is counted with (contact.cpp).
+// Rates of a former joint: those of its joints, in the terms of a contact on the same faces (`stability()` of `contact.cpp`).
 void Debris::count_bed(Pair& p) {
   const int first = bed_joint(p);
   p.counted_a = p.counted_b = 0;
@@ -210,17 +211,17 @@ void Debris::count_bed(Pair& p) {
   }
 }
 
-// Whether the faces of a bed have moved on from where they were joined.
+// True if the faces of a former joint have left the position in which they were joined.
 bool Debris::displaced(const Pair& p, int j) const {
   const Joint& joint = model_.joint[z(j)];
   const Mat3 a = rotation(p.a), b = rotation(p.b);
   const Vec3 moved = (blocks_[z(p.b)].u - blocks_[z(p.a)].u) + (b * joint.arm_b - joint.arm_b) - (a * joint.arm_a - joint.arm_a);
   if (!(moved.norm() < parted * 2 * std::min(joint.type->half_s, joint.type->half_t))) return true;
-  return !p.touching && !((a - b).norm() < parted * std::sqrt(2.0));  // a block that rocks turns, and comes back to its place
+  return !p.touching && !((a - b).norm() < parted * std::sqrt(2.0));  // a rocking block rotates and returns to its place
 }
 
-// A bed has the stiffness of a layer of mortar between faces that match. Faces that have moved on while they touch match no more: step by
-// step they get that of debris, where it is less. So no bed holds the step of a fall for as long as its blocks drag each other along.
+// A former joint has the stiffness of a mortar layer between matching faces. Faces that slide on each other match no more; their stiffness
+// falls in small steps to that of debris, if that is lower. Otherwise blocks that drag each other along would limit the step of a collapse.
 void Debris::find_softening(double most) {
   for (std::size_t i = 0; i < bed_.size(); ++i) {
     Pair& p = state_.debris.pair[i];
@@ -232,14 +233,14 @@ void Debris::find_softening(double most) {
   soften_beds(most);
 }
 
-// What is pressed by a force N stores N^2 / (2 kn A); softer at the same pose it stores less, and that is lost. All that is lost on the way
-// to debris is about what the bed stores in the end: where that is more than `most` (J), it waits until it is pressed less.
+// Faces pressed by a force N store N^2 / (2 kn A). Softer faces at the same pose store less; the difference is lost. The total loss down to
+// the stiffness of debris is about the energy stored at the end. If that exceeds `most` (J), the pair waits until it is pressed less.
 void Debris::soften_beds(double most) {
-  constexpr double at_once = 0.992;  // of the stiffness
+  constexpr double at_once = 0.992;  // of the stiffness, in each call
   for (std::size_t i = 0; i < bed_.size(); ++i) {
     Pair& p = state_.debris.pair[i];
     if (p.bed != Pair::softening || !p.touching || sleep_.asleep(p.a) || sleep_.asleep(p.b)) continue;
-    ContactBlock a = blocks_[z(p.a)], b = blocks_[z(p.b)];  // at rest: dashpots go on as they are
+    ContactBlock a = blocks_[z(p.a)], b = blocks_[z(p.b)];  // zero velocity: springs only, dashpots stay as they are
     a.v = a.w = b.v = b.w = Vec3::Zero();
     PairResult now;
     Pair copy = p;
@@ -251,7 +252,7 @@ void Debris::soften_beds(double most) {
     p.law.ks *= ks;
     p.tangential *= ks;
     released_ += (1 - kn) * now.elastic + (1 - ks) * now.tangential;
-    // What presses less from now on does half a step of work on the way to the next pose, as what rubs does.
+    // The lost part of the force still does half a step of work on the way to the next pose, as friction does.
     p.friction.force += (1 - kn) * (now.wrench.force - copy.friction.force);
     p.friction.moment_a += (1 - kn) * (now.wrench.moment_a - copy.friction.moment_a);
     p.friction.moment_b += (1 - kn) * (now.wrench.moment_b - copy.friction.moment_b);
@@ -263,8 +264,8 @@ void Debris::soften_beds(double most) {
   }
 }
 
-// Faces that have let go of each other and moved on are a bed no more: where these blocks meet next, they meet as debris. Nothing is
-// stored while they are apart, so that the change costs no energy.
+// Faces that have separated and moved are no longer a former joint: their blocks next touch with the stiffness of debris. Separated faces
+// store nothing, so the change costs no energy.
 void Debris::part_beds() {
   for (std::size_t i = 0; i < bed_.size(); ++i) {
     Pair& p = state_.debris.pair[i];
@@ -294,7 +295,7 @@ std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
   while (first < model_.njoint && !(state_.tier[z(first)] == Tier::cracked && cracked.spent(first))) ++first;
   if (first == model_.njoint) return opened;
   for (int j = 0; j < model_.njoint;) {
-    // joints of one pair of blocks lie side by side: they go together, when none holds and one is past its range
+    // Joints of one pair of blocks are adjacent. They are released together, once none is intact and one is beyond its range.
     int end = j + 1;
     while (end < model_.njoint && model_.joint[z(end)].a == model_.joint[z(j)].a && model_.joint[z(end)].b == model_.joint[z(j)].b) ++end;
     bool any = false, holds = false;
@@ -312,7 +313,7 @@ std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
   for (const int j : opened) open(j);
   wake();
   list_involved();
-  // All of them: poses from the last look would depend on when this run was started or resumed.
+  // All poses, because the last update depends on when this run was started or resumed.
   place_all(true);
   state_.debris.valid = false;
   std::vector<int> fresh;
@@ -331,7 +332,7 @@ std::vector<int> Debris::hand_over_joints(Cracked& cracked) {
   return opened;
 }
 
-// The joints [first, last) of one pair of parts go over to its contact, with all that they carry.
+// Releases the joints [first, last) of one pair of parts to its contact, which takes over their wrench and stored energy.
 void Debris::hand_over_pair(const int* first, const int* last) {
   const Joint& one = model_.joint[z(*first)];
   Vec6 wrench = Vec6::Zero();  // on b
@@ -360,8 +361,8 @@ void Debris::note_hand_over(int joint, double energy) {
   handed_.push_back({joint, energy});
 }
 
-// While joints hold them, blocks without a joint between them do not see each other, and may overlap by then: as if a joint that bore
-// nothing went over to contact. Returns what the springs store (J).
+// Two blocks of one structure without a joint between them are no contact pair; they may overlap when their pair is first listed. Their
+// contact then starts like the release of a joint without force. Returns the energy stored in the springs (J).
 double Debris::start_fresh(const std::vector<int>& fresh) {
   double stored = 0;
   for (const int i : fresh) {

@@ -1,5 +1,5 @@
-// What happens once blocks come loose: joints are handed over to contact, loose blocks meet new neighbours, and the time step
-// follows the contacts. An intact structure does not come here: what contacts need is made when the first block comes loose.
+// Contacts between blocks: release of joints to contact, search for new neighbours of loose blocks, contact forces, and their bound on the
+// time step. An intact structure needs nothing of this: storage is allocated when the first block is loose.
 #pragma once
 #include <span>
 #include <vector>
@@ -15,10 +15,10 @@
 
 namespace erbs {
 
-// Where a contact took over from a joint, or a bed took another stiffness: what is stored less than before.
+// A joint released to contact.
 struct HandOver {
   int joint;
-  double energy;  // J
+  double energy;  // J, stored energy lost by the release; negative for a gain
 };
 
 class Debris {
@@ -26,42 +26,42 @@ class Debris {
   Debris(const Model& model, State& state, int threads);
 
   bool active() const { return !involved_.empty() || !state_.debris.pair.empty(); }
-  // Joints that are spent (joint_kernel.h) go over to contact; returns them. Called between forces and drift: the wrench and the
-  // stored energy of this step are still the joint's, those of the next one the contact's.
+  // Releases joints without bond and beyond their range (`joint_spent()`) to contact and returns them. Called between forces and drift:
+  // this step still has the wrench and stored energy of the joint, the next step has those of the contact.
   std::vector<int> hand_over_joints(Cracked& cracked);
   // Since the last call.
   std::vector<HandOver> take_handed() { return std::exchange(handed_, {}); }
-  // Beds that lie on each other no longer as their joint lay get the stiffness of debris; called at the same place: the first finds them
-  // as well. What each loses is at most `most` (J).
+  // Soften former joints with displaced faces to the stiffness of debris; called at the same place. `find_softening()` searches for
+  // displaced faces first. A pair softens only if its total loss of energy will not exceed `most` (J).
   void find_softening(double most);
   void soften_beds(double most);
-  // Once the ledger of this step is settled: books what the last hand-over set free.
+  // Books the energy of the last releases, after the ledger of this step has closed.
   void book_hand_over();
-  // Blocks that hang on nothing fixed, or have moved far from where they stood, may meet new neighbours.
+  // Marks blocks as loose, so that they may find new neighbours: blocks without a path of joints to a support, or far from their start.
   void loosen();
-  // Poses of the blocks from `first` to `last` that a drift has just moved. Each thread its own.
+  // Updates the poses of blocks [first, last) after their drift; each thread has its own range.
   void follow(int thread, int first, int last);
-  // Before the forces of a step: other poses, and now and then a look whether a new search is due.
+  // Before the forces of a step: the remaining poses, and every few steps the check whether a new search is necessary.
   void prepare();
-  // Forces of the pairs of this thread; afterwards gather() sums them on one thread in the order of the pairs.
+  // Forces of this thread's pairs. Afterwards `gather()` sums them on one thread, in the order of the pairs.
   void forces(int thread, bool sample);
   void gather(double* push, bool sample);
-  // Then: lets blocks fall asleep and wakes sleepers (sleep.h). True where the set of those asleep has changed.
+  // Afterwards: puts blocks to sleep and wakes sleepers (`sleep.h`). True if the set of sleepers has changed.
   bool sleep(const Excitation& now, const double* push);
-  // The step that joints and contacts allow now (s), no longer than the run may take.
+  // s, time step that joints and contacts now allow, at most `Model::dt_most`.
   double allowed_dt() const { return allowed_; }
-  // ... and what touches alone, without what may land next (s): the step that was taken is judged by it.
+  // s, time step that the present contacts allow, without coming impacts; the last step is judged by it.
   double borne_dt() const;
-  // 1/s, over the step that what opens and closes next allows (event_bound.h); `budget` (J) is that of the next forces()
+  // 1/s, event rate: one over the step that the next openings and closings allow (`event_bound.h`). `budget` (J): of the next `forces()`.
   double haste() const { return haste_; }
   void set_step(double budget, const Interlock& interlock) { settings_.event_budget = budget, settings_.interlock = interlock; }
   double elastic() const { return elastic_; }  // J, stored in contacts at the last sample
   int touching() const { return touching_; }
-  long slept() const { return sleep_.slept(); }  // steps of blocks asleep, likewise
-  long touched() const { return touched_; }      // pairs, summed over the steps of this Solver
+  long slept() const { return sleep_.slept(); }  // steps of sleeping blocks, since the start of this Solver
+  long touched() const { return touched_; }      // touching pairs, summed over the steps of this Solver
 
  private:
-  static constexpr double round_off = 1e-9;  // of a distance and of the way behind: more than sums of some 1e6 steps lose
+  static constexpr double round_off = 1e-9;  // margin, as a share of distance and travel: above the round-off of sums over some 1e6 steps
 
   void wake();
   void open(int j);
@@ -74,10 +74,10 @@ class Debris {
   int bed_joint(const Pair& pair) const;
   void count_bed(Pair& pair);
   void count();
-  double limit() const;                    // s, the step that contacts and joints bear, ...
-  double unless_it_rubs(double dt) const;  // s, ... and patches that slip
+  double limit() const;                    // s, time step that contacts and joints allow, ...
+  double unless_it_rubs(double dt) const;  // s, ... and slipping patches
   void ask_elsewhere();
-  double crowd(int a, int b) const;  // pair_force()
+  double crowd(int a, int b) const;  // number of contacts for the dashpots of `pair_force()`
   void share_out();
   struct Active;
   double add_up(std::span<const Active> active, double* push, bool sample);
@@ -86,18 +86,18 @@ class Debris {
   void limit_passing();
   bool displaced(const Pair& pair, int joint) const;
   void part_beds();
-  // Eight blocks side by side; of them those marked.
+  // A group of eight blocks and the selected ones among them.
   struct Eight {
     int group;
     unsigned which;
-    double is_in[lanes] = {};  // 1 for those marked, else 0
+    double is_in[lanes] = {};  // 1 for a selected block, else 0
   };
   struct alignas(64) Fastest {
-    double speed[lanes] = {};  // m/s, of many groups, lane by lane
+    double speed[lanes] = {};  // m/s, greatest over many groups, lane by lane
   };
-  void set_axes(int b, const Mat3& axes);  // contact_axes()
+  void set_axes(int b, const Mat3& axes);  // from `contact_axes()`
   Mat3 axes_of(int b) const;
-  Mat3 rotation(int b) const;              // from rest, where it was placed last
+  Mat3 rotation(int b) const;  // from rest to the last update of its pose
   static void mark(std::vector<Eight>& groups, int b);
   void place(Eight blocks, Fastest& fastest);
   void place_all(bool sleepers);
@@ -112,78 +112,78 @@ class Debris {
 
   const Model& model_;
   State& state_;
-  ContactShapes shapes_;  // empty until wake(), as what follows
+  ContactShapes shapes_;  // empty until `wake()`, like blocks and axes
   ContactSettings settings_;
   std::vector<ContactBlock> blocks_;
   struct Axes {
-    RowLanes<9> row{};  // by row
-    bool any = false;   // other than those of the world
+    RowLanes<9> row{};  // row-major
+    bool any = false;   // some differ from the world axes
   };
-  std::vector<Axes> axes_;  // those of the shapes at rest, by groups of eight blocks; empty where all are the world's
+  std::vector<Axes> axes_;  // of the shapes at rest, by groups of eight blocks; empty if all are the world axes
   Sleep sleep_;
   std::vector<int> involved_;           // blocks that are loose or listed in a pair
-  std::vector<double> fastest_loose_;   // m2/s2, squared speed of the fastest block that each thread has followed
-  std::vector<Eight> awake_;            // loose blocks that do not sleep
-  std::vector<Eight> placed_;           // those of live pairs that move
-  std::vector<Eight> driven_;           // of these those that no drift moves
-  std::vector<std::uint64_t> jointed_;  // pairs of blocks still joined, sorted
+  std::vector<double> fastest_loose_;   // m2/s2, greatest squared speed of an involved block, per thread
+  std::vector<Eight> awake_;            // involved blocks that are awake
+  std::vector<Eight> placed_;           // moving ones among the blocks of live pairs
+  std::vector<Eight> driven_;           // driven ones among these; no drift moves them
+  std::vector<std::uint64_t> jointed_;  // pairs of blocks that still have a joint, sorted
   struct Bed {
-    int joint = -1;                 // first of the joints that this pair took over from, -1: none
-    double rate_a = 0, rate_b = 0;  // 1/s2, as counted (Pair)
+    int joint = -1;                 // first of the joints that this pair replaced; -1: none
+    double rate_a = 0, rate_b = 0;  // 1/s2, as `Pair::counted_a`, `counted_b`
   };
-  std::vector<Bed> bed_;  // of each pair
+  std::vector<Bed> bed_;  // per pair
   ContactLimit limit_;
-  std::vector<double> rate_;     // 1/s2, of contacts beyond that [nblock]
-  std::vector<double> landing_;  // 1/s2, of the stiffest face that may land on the block next; one face has room for no more
-  double elsewhere_ = 0;         // 1/s2, on_block() of blocks that no live pair touches, at most
-  // How far each block has come is summed up along its way, so that most pairs that are apart need not even be asked whether their bodies
-  // may have met (State::parting).
+  std::vector<double> rate_;     // 1/s2, of contacts beyond the bound of `limit_` [nblock]
+  std::vector<double> landing_;  // 1/s2, of the stiffest face that may strike the block next; there is room for only one [nblock]
+  double elsewhere_ = 0;         // 1/s2, greatest `on_block()` of blocks without a live pair
+  // Conservative motion bound: each block's travel is accumulated, and a separated pair is tested again only when the two travels could
+  // have closed its gap (`State::parting`).
   struct Waiting {
     int a = 0, b = 0;
-    double until = 0;  // m; no look while way_soon_[a] + way_soon_[b] < until
+    double until = 0;  // m; no test while `way_soon_[a] + way_soon_[b] < until`
   };
-  std::vector<Waiting> waiting_;        // of each pair
-  std::vector<int> edge_;               // of each pair, into edges_; -1: none
+  std::vector<Waiting> waiting_;  // per pair
+  std::vector<int> edge_;         // per pair, index into `edges_`; -1: none
   std::vector<EdgeAtRest> edges_;
-  std::vector<RowLanes<3>> last_u_;     // m, where blocks were when they were placed last, by groups of eight as in State
-  std::vector<double> reach_;           // m, of each block's farthest point, to whole groups as what follows
-  std::vector<double> spin_;            // m/s, BlockLanes
-  std::vector<double> way_, way_soon_;  // m, likewise
-  std::vector<Fastest> fastest_;        // m/s, of the blocks that each thread has placed
-  double fastest_pair_ = 0;             // m/s, faster than that no two blocks meet
-  double thinnest_ = 0;                 // m, of all blocks
-  // What a thread found in this step, in the order of the pairs.
+  std::vector<RowLanes<3>> last_u_;     // m, displacements at the last update of the pose, by groups of eight as in State
+  std::vector<double> reach_;           // m, distance of each block's farthest point from its centroid; whole groups, like the arrays below
+  std::vector<double> spin_;            // m/s, speed of that point by rotation
+  std::vector<double> way_, way_soon_;  // m, travel of each block; the same with the next steps (`BlockLanes`)
+  std::vector<Fastest> fastest_;        // m/s, of the blocks that each thread has updated
+  double fastest_pair_ = 0;             // m/s, upper bound of the speed of approach of any two blocks
+  double thinnest_ = 0;                 // m, thinnest extent of all blocks
+  // Results of a thread in this step, in the order of the pairs.
   struct Active {
     int pair;
     PairResult result;
   };
   struct Near {
     int pair;
-    double apart, landing_a, landing_b, haste;  // as in PairResult
+    double apart, landing_a, landing_b, haste;  // as in `PairResult`
   };
   struct Looked {
-    std::vector<int> at;         // pairs that could not be left out
-    std::vector<Active> active;  // those with forces
-    std::vector<Near> near;      // those apart
+    std::vector<int> at;         // pairs to evaluate
+    std::vector<Active> active;  // pairs with forces
+    std::vector<Near> near;      // separated pairs
   };
   struct Lane {
     PairBodies bodies;
-    bool known = false, fits = false;  // goes_in_lanes()
-    int keeper = -1;                   // short_keeper()
+    bool known = false, fits = false;  // fits: `goes_in_lanes()`
+    int keeper = -1;                   // `short_keeper()`
   };
-  std::vector<Lane> lane_;  // of each pair: what a step asks first
+  std::vector<Lane> lane_;  // per pair, data that a step reads first
   bool lanes_changed_ = true;
-  std::vector<int> first_pair_;                // of each thread, so that each has as many to look at as in the step before
+  std::vector<int> first_pair_;                // first pair of each thread; balances the number of evaluations
   std::vector<Looked> looked_;                 // per thread
   std::vector<OverlapRoom> room_;              // per thread
   std::vector<std::unique_ptr<Batch>> batch_;  // per thread
-  std::vector<std::uint64_t> pair_keys_;       // pairs of blocks that are jointed at rest, sorted, ...
+  std::vector<std::uint64_t> pair_keys_;       // pairs of blocks with a joint at rest, sorted, ...
   std::vector<int> of_pair_;                   // ... and the first of their joints
-  std::vector<std::vector<int>> neighbours_;   // blocks that each is joined to at rest [nblock]
+  std::vector<std::vector<int>> neighbours_;   // blocks joined to each block at rest [nblock]
   std::vector<HandOver> handed_;
-  double released_ = 0;  // J, set free by the last hand-over and still in this step's sums
+  double released_ = 0;  // J, set free by the last releases and still contained in the sums of this step
   double allowed_ = 0, elastic_ = 0, haste_ = 0, rubbing_ = 0;
-  std::vector<std::uint8_t> still_;  // sleepers that lie as at the last search [nblock], empty without
+  std::vector<std::uint8_t> still_;  // sleepers with the pose of the last search [nblock]; empty without sleepers
   bool relisted_ = true, unsorted_ = true;
   int touching_ = 0;
   long touched_ = 0;

@@ -1,5 +1,4 @@
-// The part of Debris that bounds the step: by what touches, by what may land, by blows foreseen, and by bodies that must not pass through
-// each other.
+// Part of `Debris` that bounds the time step: by present contacts, coming impacts, predicted events, and bodies that must not pass others.
 #include <algorithm>
 #include <cmath>
 
@@ -10,16 +9,17 @@
 namespace erbs {
 namespace {
 
-// Largest omega dt of a patch that slips, omega along its normal. Friction makes the stiffness unsymmetric, and what ends the flutter of a
-// patch pressed near its edge (dry_friction.h) is the dashpot of the contact, which an explicit step bears up to c dt / m = 1/4 only
-// (contact.cpp): a viscous ratio of 1 / (8 omega dt), .12 here. At 1.1 the block of V10 swings itself up with mu = .9, at .8 not.
+// Largest omega dt of a slipping patch, omega along its normal. Friction makes the stiffness unsymmetric, so a patch pressed near its edge
+// may flutter (`dry_friction.h`). The dashpot of the contact ends the flutter, but an explicit step allows it only c dt / m = 1/4
+// (`contact.cpp`): a viscous ratio of 1 / (8 omega dt), .12 here. The block of V10 with mu = .9 flutters more and more at 1.1, not at .8.
 constexpr double rubbing_angle = 1.0;
-constexpr double worth_a_look = 2;  // times its budget: the energy of two blocks against each other, m v^2, from which blows are foreseen
+// Times the event budget: least energy m v^2 of two blocks relative to each other for which events are predicted.
+constexpr double worth_a_look = 2;
 std::size_t z(int i) { return std::size_t(i); }
 
 }  // namespace
 
-// Of pairs that touch, where the energy of their motion is worth it: what errs by less than the budget whatever the step is left alone.
+// Predicts events of touching pairs with enough kinetic energy. With less, an event stays within the budget at any step.
 void Debris::foresee_touching(int thread) {
   if (!(settings_.event_budget > 0)) return;
   const double soon = 1.5 * std::max(state_.dt, state_.last_dt);
@@ -34,7 +34,7 @@ void Debris::foresee_touching(int thread) {
   }
 }
 
-// Counts all contacts: what they have now is what they are counted with. Beds keep what their joints were counted with.
+// Updates the bound: it then contains the present rates of all contacts. Former joints count with the rates of their joints.
 void Debris::count() {
   place_all(false);
   std::vector<Pair>& pair = state_.debris.pair;
@@ -72,8 +72,7 @@ double Debris::borne_dt() const {
 
 double Debris::unless_it_rubs(double dt) const { return rubbing_ > 0 ? std::min(dt, rubbing_angle / std::sqrt(rubbing_)) : dt; }
 
-// What blocks ask for that no live pair touches: held by joints, or asleep, as if all were awake, so that a step in which some wake finds
-// it right.
+// Greatest demand of blocks without a live pair: joined blocks, and sleepers as if awake, so that the bound is valid when one wakes.
 void Debris::ask_elsewhere() {
   std::vector<std::uint8_t> here(z(model_.nblock), 0);
   for (const int b : sleep_.pushed()) here[z(b)] = 1;
@@ -82,7 +81,8 @@ void Debris::ask_elsewhere() {
     if (!here[z(b)] && model_.kind[z(b)] == Kind::moving) elsewhere_ = std::max(elsewhere_, limit_.on_block(b, sleep_.rate(b), 0));
 }
 
-// A bed that closes again is no stiffer than its joint was; its blocks may fall flat on other faces.
+// Records a coming impact. A former joint that closes again is no stiffer than its joint was, so it counts only while it touches: its
+// blocks may then fall flat on other faces.
 void Debris::land(int i, double landing_a, double landing_b, bool touching) {
   if (!(landing_a > 0 || landing_b > 0) || (bed_[z(i)].joint >= 0 && !touching)) return;
   const Waiting& pair = waiting_[z(i)];
@@ -90,7 +90,7 @@ void Debris::land(int i, double landing_a, double landing_b, bool touching) {
   landing_[z(pair.b)] = std::max(landing_[z(pair.b)], landing_b);
 }
 
-// No body passes through another unseen: a quarter of the thinner one per step.
+// No body may pass through another unseen: at most a quarter of the thinner body per step.
 void Debris::limit_passing() {
   if (fastest_pair_ * allowed_ <= 0.25 * (1 - round_off) * thinnest_) return;
   const double soon = look_ahead * std::max(state_.dt, state_.last_dt);

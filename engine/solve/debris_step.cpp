@@ -1,4 +1,4 @@
-// The part of Debris that runs every step: poses, forces, their sum, and the step that they allow.
+// Part of `Debris` that runs every step: poses, contact forces, their sum, and the time step that they allow.
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -12,12 +12,12 @@
 namespace erbs {
 namespace {
 
-constexpr int look_every = 16;  // steps between two looks, while no block comes far in that time
+constexpr int look_every = 16;  // steps between two updates of all poses, unless some block travels far in that time
 std::size_t z(int i) { return std::size_t(i); }
 
 }  // namespace
 
-// Poses are for pairs: a block that has none waits for a look.
+// Only blocks of live pairs need a pose in every step; all others wait for `look()`.
 void Debris::follow(int thread, int first, int last) {
   fastest_[z(thread)] = {};
   const auto before = [](const Eight& blocks, int group) { return blocks.group < group; };
@@ -46,7 +46,7 @@ void Debris::prepare() {
     for (const Eight& blocks : involved) place(blocks, late);
     for (const int b : involved_) fastest = std::max(fastest, blocks_[z(b)].v.squaredNorm());
   } else {
-    for (const Eight& blocks : driven_) place(blocks, late);  // the drift does not move them
+    for (const Eight& blocks : driven_) place(blocks, late);  // no drift moves them
   }
   const bool far = std::sqrt(fastest) * state_.dt * look_every > 0.25 * state_.debris.margin;
   if (!state_.debris.valid || far || state_.step % look_every == 0) look();
@@ -57,7 +57,7 @@ void Debris::prepare() {
   fastest_pair_ = 2 * speed;
 }
 
-// Pairs between sleepers, or of one with what is fixed, are evaluated once more, without dashpots since nothing moves, and left alone.
+// Pairs of two sleepers, or of a sleeper and a fixed block, are evaluated once more, without dashpots, and then skipped.
 void Debris::sort() {
   sleep_.sort(involved_, [this](int i) {
     Pair& pair = state_.debris.pair[z(i)];
@@ -90,13 +90,13 @@ bool Debris::sleep(const Excitation& now, const double* push) {
   return changed;
 }
 
-// What a loose block may meet is not kept up to date step by step: a look takes all poses.
+// Updates the poses of all blocks, since `follow()` leaves out blocks without a live pair, and searches for pairs if necessary.
 void Debris::look() {
   place_all(false);
   part_beds();
   if (unsorted_) find_still();
   if (state_.debris.valid && !needs_search(state_.debris, shapes_, blocks_, still_)) return;
-  const bool came_loose = !state_.debris.valid && state_.step > 0;  // what overlaps at the start is meant to press from then on
+  const bool came_loose = !state_.debris.valid && state_.step > 0;  // overlaps at the start of a run are meant to press
   std::vector<int> fresh;
   state_.energy.reset += search(
       state_.debris, shapes_, blocks_, state_.loose, jointed_, [this](int a, int b) { return law(a, b); }, still_, &fresh);
@@ -105,7 +105,7 @@ void Debris::look() {
   find_still();
 }
 
-// Sleepers that have been looked at where they lie: the list knows all that is near them.
+// Finds sleepers with the pose of the last search: the list has all their neighbours.
 void Debris::find_still() {
   const PairList& list = state_.debris;
   still_.clear();
@@ -115,14 +115,14 @@ void Debris::find_still() {
     still_[z(b)] = sleep_.asleep(b) && blocks_[z(b)].u == list.u[z(b)] && blocks_[z(b)].turn == list.turn[z(b)];
 }
 
-// Whether a pair that was apart needs no look, as far as its two blocks have come since.
+// True if a separated pair needs no evaluation: the travel of its two blocks since the last one cannot have closed the gap.
 bool Debris::keeps_apart(int i) {
   const Apart& known = state_.parting.pair[z(i)];
   if (!(known.distance > 0)) return false;
   Waiting& pair = waiting_[z(i)];
   const ContactBlock &a = blocks_[z(pair.a)], &b = blocks_[z(pair.b)];
   const std::vector<double>& spun = state_.parting.spun;
-  const double soon = look_ahead * 1.5 * std::max(state_.dt, state_.last_dt);  // the next step may be half as long again
+  const double soon = look_ahead * 1.5 * std::max(state_.dt, state_.last_dt);  // the next step may be 1.5 times as long
   const double left = known.distance - ((b.u - a.u) - known.between).norm() - (spun[z(pair.a)] + spun[z(pair.b)] - known.spun) -
                       round_off * state_.debris.margin;
   if (!(soon * ((b.v - a.v).norm() + spin_[z(pair.a)] + spin_[z(pair.b)]) < left)) return false;
@@ -130,7 +130,7 @@ bool Debris::keeps_apart(int i) {
   return true;
 }
 
-// Of a pair that has been looked at.
+// Records the distance of a pair after its evaluation.
 void Debris::note_apart(int i, double distance) {
   Apart& known = state_.parting.pair[z(i)];
   Waiting& pair = waiting_[z(i)];
@@ -141,7 +141,7 @@ void Debris::note_apart(int i, double distance) {
   pair.until = (way_[z(a)] + way_[z(b)] + distance - round_off * state_.debris.margin) * (1 - round_off);
 }
 
-// Of blocks that are joined to a common third: what is not masonry meets by its edges seldom, and never for long.
+// Edge along which two blocks touch at rest, both joined to a common third. Other bodies seldom touch along an edge, and never for long.
 EdgeAtRest Debris::edge_of(const Pair& pair) const {
   const auto joined = [this](int a, int b) {
     return std::binary_search(pair_keys_.begin(), pair_keys_.end(), a < b ? pair_key(a, b) : pair_key(b, a));
@@ -154,7 +154,7 @@ EdgeAtRest Debris::edge_of(const Pair& pair) const {
   return edge_at_rest(pair, view_of(pair, shapes_, a, b));
 }
 
-// m, the way that a pair needs no look for although it may overlap along an edge; zero or less: it needs one.
+// m, further travel during which a pair needs no evaluation, although it may overlap along an edge; zero or less: evaluate it.
 double Debris::idle(int i) const {
   const Pair& pair = state_.debris.pair[z(i)];
   if (edge_[z(i)] < 0 || pair.touching) return 0;
@@ -174,7 +174,7 @@ void Debris::forces(int thread, bool sample) {
   looked.at.clear(), looked.active.clear(), looked.near.clear();
   looked.at.resize(std::size_t(mine.size()));
   std::size_t due = 0, stay = 0;
-  for (const int i : mine) {  // no jump: which are due follows no rule
+  for (const int i : mine) {  // without a branch: the sequence of due pairs has no pattern
     const Waiting& pair = waiting_[z(i)];
     looked.at[due] = i;
     due += !(way_soon_[z(pair.a)] + way_soon_[z(pair.b)] < pair.until);
@@ -186,7 +186,7 @@ void Debris::forces(int thread, bool sample) {
   }
   looked.at.resize(stay);
   const int n = int(stay);
-  looked.active.reserve(z(n));  // results stay where they are
+  looked.active.reserve(z(n));  // results must stay in place
   OverlapRoom& room = room_[z(thread)];
   Batch& batch = *batch_[z(thread)];
   const double dt = state_.last_dt;
@@ -243,7 +243,7 @@ void Debris::forces(int thread, bool sample) {
   foresee_touching(thread);
 }
 
-// Which pairs a thread takes does not matter to what comes out: they are gone through in their order.
+// Balances the threads for the next step. The share of a thread does not change results, since pairs are summed in their order.
 void Debris::share_out() {
   std::size_t all = 0, before = 0;
   for (const Looked& looked : looked_) all += looked.at.size();
@@ -256,7 +256,7 @@ void Debris::share_out() {
   }
 }
 
-// Returns the greatest PairResult::rubbing.
+// Returns the greatest `PairResult::rubbing`.
 double Debris::add_up(std::span<const Active> active, double* push, bool sample) {
   static_assert(sizeof(PairWrench) == 9 * sizeof(double));
   static const Vec6 from_a = (Vec6() << -1, -1, -1, 1, 1, 1).finished();
@@ -319,8 +319,8 @@ void Debris::gather(double* push, bool sample) {
     for (const Near& one : looked.near) land(one.pair, one.landing_a, one.landing_b, false), haste_ = std::max(haste_, one.haste);
   }
   for (const int b : sleep_.pushed())
-    if (model_.kind[z(b)] != Kind::moving) s.debris.contacts[z(b)] = 0;   // what is held bears any number
-    else if (s.joined[z(b)]) s.debris.contacts[z(b)] += int(full_crowd);  // joints take their share
+    if (model_.kind[z(b)] != Kind::moving) s.debris.contacts[z(b)] = 0;   // no limit for dashpots on a fixed or driven block
+    else if (s.joined[z(b)]) s.debris.contacts[z(b)] += int(full_crowd);  // joints use up this block's share
   share_out();
   double bears = limit();
   if (limit_.due(bears)) {

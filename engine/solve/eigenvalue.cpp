@@ -5,7 +5,7 @@
 
 namespace erbs {
 
-// The greatest Ritz value of the first k + 1 Lanczos vectors, and by how much it may err.
+// Greatest Ritz value of the first k + 1 Lanczos vectors, and the bound of its error.
 struct Ritz {
   double value, residual;
 };
@@ -16,7 +16,8 @@ static Ritz ritz_of(const VecX& alpha, const VecX& beta, int k) {
 }
 
 double largest_eigenvalue(int n, const std::function<void(const VecX&, VecX&)>& times) {
-  constexpr int test_every = 8;  // Ritz values take longer than products: they are asked for now and then, and the first that is good is looked up
+  // Ritz values cost more than products, so they are tested every few steps; the first good value among these steps is then found.
+  constexpr int test_every = 8;
   if (n == 0) return 0;
   const int most = std::min(n, 120);
   VecX alpha = VecX::Zero(most), beta = VecX::Zero(most + 1), before = VecX::Zero(n), now(n), next(n);

@@ -1,4 +1,4 @@
-// Largest eigenvalues of M^-1/2 A M^-1/2: what the bounds on time steps are made of.
+// Largest eigenvalues of M^-1/2 A M^-1/2, for the bounds on the time step.
 #pragma once
 #include <functional>
 
@@ -7,8 +7,8 @@
 namespace erbs {
 
 // Largest eigenvalue of a symmetric operator of size n, times(x, y) giving y = A x, by Lanczos' recurrence of three vectors. No basis is
-// kept: orthogonality is lost only along Ritz vectors that have converged, copies of which then appear, but the largest Ritz value and
-// its residual stay right to round-off (Paige 1980, Linear Algebra Appl. 34, theorem 3.1 and section 4). The residual is added, since
+// stored. So orthogonality is lost, but only along Ritz vectors that have converged; copies of these then appear. The largest Ritz value
+// and its residual stay right to round-off (Paige 1980, Linear Algebra Appl. 34, theorem 3.1 and section 4). The residual is added, since
 // the Ritz value errs from below.
 double largest_eigenvalue(int n, const std::function<void(const VecX& x, VecX& y)>& times);
 double largest_eigenvalue(const Sparse& a);

@@ -20,9 +20,9 @@ void settle(Energy& e, double floor, double t, int worst_joint) {
   e.largest_moving = std::max(e.largest_moving, std::fabs(e.kinetic) + std::fabs(e.elastic - e.elastic_at_start));
   const double loss = std::fabs(e.friction) + std::fabs(e.fracture) + std::fabs(e.crushing) + std::fabs(e.damping) +
                       std::fabs(e.contact_damping) + std::fabs(e.reset) + std::fabs(e.sleep);
-  // A stressed structure at rest without gravity has nothing else to be measured by. Round-off of its elastic energy is some 1e-16 of
-  // it, a few times that in sums over many joints: 1e-8 keeps it below the elastic gate of 1e-6. Kinetic energy at the start is in
-  // largest_moving already.
+  // Elastic energy at the start is the only scale of a stressed structure at rest without gravity. Its round-off is some 1e-16 of it, a few
+  // times that in sums over many joints; a floor of 1e-8 puts this below the elastic tolerance of 1e-6. Kinetic energy at the start is
+  // already part of `largest_moving`.
   floor = std::max(floor, 1e-8 * std::fabs(e.elastic_at_start));
   const double scale = std::max(floor, e.largest_moving + e.absolute_work + loss + 0.5 * e.height_flux);
   e.residual_relative = std::fabs(e.residual) / scale;

@@ -1,34 +1,36 @@
-// How long a step may be for what opens and closes next.
+// Bound on the time step by contacts that are about to open or close.
 //
-// Leapfrog conserves T_n+1/2 + k p_n p_n+1 / 2 of a spring that is pressed all the time. A one-sided one breaks that twice a blow: the kick
-// that enters (p_n < 0 < p_n+1) loses k p_n+1 |p_n| / 2, the kick that leaves gains k p_n |p_n+1| / 2, where within a step the touch falls
-// decides how much. At a rate of r (m/s) both are k (r dt)^2 / 8 at most. At omega dt = 1.8 a blow returns a fifth to five times its
-// energy, twice on average, at .3 it errs by 4 %, at .1 by .2 %. So what is about to open or close is foreseen: each face says
-//   dt_event = sqrt(budget / (k r^2 / 8)), the step by which its event errs by no more than `budget`,
-//   in_time  = the time until then, over event_steps,
-// and the step is no longer than the greater of the two. So it is shortened while blocks still fly, when that costs nothing: a change of
-// dt errs by F^2 (dt_0^2 - dt_1^2) / (8 m), F the net force. It grows again once this is below the budget too (Solver::follow_contacts).
+// Leapfrog conserves T_n+1/2 + k p_n p_n+1 / 2 of a spring in permanent compression. A one-sided spring violates this twice per impact. The
+// kick that enters (p_n < 0 < p_n+1) loses k p_n+1 |p_n| / 2; the kick that leaves gains k p_n |p_n+1| / 2. The instant of touch within the
+// step decides the amount. At a rate of r (m/s) both are at most k (r dt)^2 / 8. At omega dt = 1.8 an impact returns a fifth to five times
+// its energy, on average twice; at .3 it errs by 4 %, at .1 by .2 %. Openings and closings are therefore predicted. Each face gives
+//   dt_event = sqrt(budget / (k r^2 / 8)), the step at which its event errs by at most `budget`,
+//   in_time  = the time until the event, over `event_steps`,
+// and the step is at most the greater of the two. Its reciprocal is the event rate (1/s). The step thus shortens while blocks still fly, at
+// no cost: a change of dt errs by F^2 (dt_0^2 - dt_1^2) / (8 m), F the net force. The step grows again once this error is below the budget
+// too (`Solver::follow_contacts()`).
 #pragma once
 #include "engine/model/model.h"
 #include "engine/model/state.h"
 
 namespace erbs {
 
-inline constexpr int foresee_every = 4;  // steps
-// Of Energy::reference, by which one event may err: a hundred of them, of either sign, leave a third of the gate of 1e-3.
+inline constexpr int foresee_every = 4;  // steps between two predictions
+// Share of `Energy::reference` by which one event may err. A hundred events of either sign then leave a third of the tolerance of 1e-3.
 inline constexpr double event_tolerance = 3e-5;
-// ... and all of them: as their sum comes near it, each may err by less.
+// The same for the sum of all events: as it comes near, each event may err by less.
 inline constexpr double event_sum = 5e-4;
 
-// Of many loose blocks each blow is a smaller part of the whole, and the gate is that of a collapse, 1e-2: both grow with the root of their
-// number from 16 on. A pile of 300 takes 4 % more steps than without any bound, not 21 %, and its ledger is 5e-4, not 4e-3.
+// With many loose blocks each impact is a smaller part of the whole, and the tolerance is that of a collapse, 1e-2. From 16 loose blocks on
+// both shares grow with the square root of their number, up to this factor. A pile of 300 then takes 4 % more steps than without any bound,
+// instead of 21 %, and its ledger closes to 5e-4, instead of 4e-3.
 inline constexpr double most_for_many = 4;
 
-// J, by which an event may err now; 0 where any may.
+// J, error allowed to one event now; 0: unlimited.
 double event_allowance(const Model& model, const State& state);
-// The same; 0 where none is to be looked for in this step.
+// The same; also 0 in a step without prediction.
 double event_budget(const Model& model, const State& state);
-// last_dt over the step that joint j allows, which was at q0 a step ago and is at q now; 0 where nothing is about to happen.
+// `last_dt` over the step that joint j allows. `q0` is its relative displacement one step ago, `q` the present one; 0: no event is near.
 double foresee(const Model& model, const Joint& joint, const double q0[6], const double q[6], double budget);
 
 }  // namespace erbs

@@ -6,8 +6,8 @@
 
 #include "engine/model/batches.h"
 
-// Rotation: implicit midpoint in the body, which keeps |L| and the energy exactly (both are quadratic), with the Cayley map for the
-// attitude, which keeps L in the world (Simo and Wong 1991, Int. J. Numer. Meth. Eng. 31, section 4, in its momentum form).
+// Rotation: the implicit midpoint rule in the body frame conserves |L| and the energy exactly, since both are quadratic. The Cayley map of
+// the attitude conserves L in the world frame (Simo and Wong 1991, Int. J. Numer. Meth. Eng. 31, section 4, momentum form).
 
 namespace erbs {
 namespace {
@@ -57,7 +57,7 @@ double power(const State& s, const double* loads, const LoadedBlock& l) {
   return load.head<3>().dot(s.v[z(l.block)]) + load.tail<3>().dot(l.inverse_inertia * s.spin_momentum[z(l.block)]);
 }
 
-// The loaded ones among blocks [first, last).
+// The blocks with loads among [first, last).
 std::span<LoadedBlock> within(std::span<LoadedBlock> all, int first, int last) {
   const auto before = [](const LoadedBlock& l, int b) { return l.block < b; };
   const auto from = std::lower_bound(all.begin(), all.end(), first, before), to = std::lower_bound(from, all.end(), last, before);
@@ -89,7 +89,7 @@ void set_constants(const Model& m, const State& s, int b, bool moving, BlockCons
   constexpr int row[6] = {0, 1, 2, 1, 0, 0}, column[6] = {0, 1, 2, 2, 2, 1};
   const int l = b % lanes;
   c.mass[l] = moving ? m.mass[z(b)] : 0;
-  if (moving && !s.rest.asleep.empty() && s.rest.asleep[z(b)]) moving = false;  // but it has a height
+  if (moving && !s.rest.asleep.empty() && s.rest.asleep[z(b)]) moving = false;  // its mass still counts in the potential energy
   c.moving[l] = moving;
   c.inverse_mass[l] = moving ? m.inverse_mass[z(b)] : 0;
   c.damped[l] = moving && (m.damping_all || s.grounded[z(b)]);
@@ -106,7 +106,7 @@ void sum_rows(const Model& m, int b, std::vector<BlockConstants>& constants) {
 std::vector<BlockConstants> block_constants(const Model& m, const State& s) {
   std::vector<BlockConstants> out(block_groups(m.nblock));
   for (int b = 0; b < int(out.size()) * lanes; ++b) set_constants(m, s, b, b < m.nblock && m.kind[z(b)] == Kind::moving, out[z(b / lanes)]);
-  // Groups on which some sound joint acts: also one that cracked in this step, and answers in its lane until the next.
+  // Groups on which an intact joint acts. A joint that cracked in this step still counts: its lane has its forces until the next step.
   std::vector<std::uint8_t> sound(out.size(), 0);
   for (int j = 0; j < m.njoint; ++j)
     if (s.tier[z(j)] == Tier::intact) sound[z(m.joint[z(j)].a / lanes)] = sound[z(m.joint[z(j)].b / lanes)] = 1;
@@ -146,7 +146,7 @@ void let_turn(const Model& m, const State& s, std::vector<BlockConstants>& const
 
 void go_by_rows(const Model& m, State& s, int b, std::vector<BlockConstants>& constants) {
   sum_rows(m, b, constants);
-  if (keepers(m)) return;  // nobody reads these
+  if (keepers(m)) return;  // no kernel reads pose rows then
   for (int of_group = b / lanes * lanes; of_group < std::min((b / lanes + 1) * lanes, m.nblock); ++of_group)
     for (int i = 0; i < 6; ++i) s.row[z(8 * of_group + i)] = s.shift[z(b / lanes)].x[i][of_group % lanes];
 }
@@ -268,7 +268,7 @@ void Picked::each_loaded(const int* blocks, int count, F&& f) const {
 }
 
 void Picked::advance(const int* blocks, int count, bool sample, std::vector<BlockSums>& sums) {
-  for (int l = 0; l < lanes; ++l) copy_in(l < count ? blocks[l] : model_.nblock, l);  // beside them the one at rest
+  for (int l = 0; l < lanes; ++l) copy_in(l < count ? blocks[l] : model_.nblock, l);  // unused lanes: the dummy block at rest
   each_loaded(blocks, count, [&](auto one, std::size_t i) { work_before(model_, state_, pushes_, one, sums[i]); });
   const double *push = pushes_.contacts != nullptr ? push_ : nullptr, *load = pushes_.loads != nullptr ? load_ : nullptr;
   const BlockArrays group{&constant_, &u_,     &v_,      &momentum_, &w_,     &q_,     &base_u_, &base_q_, nullptr,

@@ -1,4 +1,4 @@
-// Kick and drift of blocks: simultaneous leapfrog for translation, momentum- and energy-conserving midpoint for rotation.
+// Time integration of blocks: simultaneous leapfrog for translation, momentum- and energy-conserving midpoint rule for rotation.
 #pragma once
 #include <span>
 #include <vector>
@@ -10,62 +10,62 @@
 
 namespace erbs {
 
-// What acts on all blocks in this step: means over the kick's interval, exact in impulse.
+// Actions on all blocks in this step: means over the interval of the kick, exact in impulse.
 struct Excitation {
-  Vec3 ground = Vec3::Zero();   // m/s2, acceleration of the ground
+  Vec3 ground = Vec3::Zero();   // m/s2, ground acceleration
   Vec3 gravity = Vec3::Zero();  // m/s2
-  double kick = 0;              // s: half the last and half the next drift
+  double kick = 0;              // s: half the last plus half the next drift
 };
 
-// A block that external loads act on: its inverse inertia in world axes at the step's positions.
+// A block with external loads and its inverse inertia in world axes at the positions of the step.
 struct LoadedBlock {
   int block = 0;
   Mat3 inverse_inertia = Mat3::Zero();  // 1/(kg m2)
 };
 
-// Sums over one fixed chunk of blocks; kept apart per chunk, so that totals do not depend on threads. The work of a step's forces
-// is split at its positions: half the last drift with the old velocity (counted at once), half the next drift with the new one
-// (`after`, counted when the next step is taken). Sums then close exactly at every position: energy.h.
+// Sums over one fixed chunk of blocks. Each chunk has its own, so that totals do not depend on the number of threads. The work of a step's
+// forces is split at the positions of the step. Half the last drift with the old velocity counts at once; half the next drift with the new
+// velocity (`after`) counts when the next step begins. The sums then close exactly at every position (`energy.h`).
 struct BlockSums {
   BlockWork work{};
   double external_work = 0, external_after = 0, external_absolute = 0, external_absolute_after = 0;  // J
-  bool stale = false;   // a joined block turned past the tolerance since its refresh
-  bool broken = false;  // not a number
+  bool stale = false;   // a block with joints rotated beyond the tolerance since its reference pose
+  bool broken = false;  // a number is not finite
 };
 
-inline constexpr int block_grain = 4;  // groups of eight blocks to a chunk
+inline constexpr int block_grain = 4;  // groups of eight blocks per chunk
 
-// Masses and inertias in lanes; what follows from the state's islands (who is damped, who must not turn far) as it is now.
+// Masses and inertias as packs, with the flags that follow from the present islands: mass damping and the limit of rotation.
 std::vector<BlockConstants> block_constants(const Model& model, const State& state);
-// A joint of block b is sound no more: from now on it reads and writes rows. Those of the group may not have been written in this step.
+// Call when a joint of block b is no longer intact: the group of b then sums wrench rows. Writes the pose rows of the group too, since this
+// step may have skipped them.
 void go_by_rows(const Model& model, State& state, int b, std::vector<BlockConstants>& constants);
-// Blocks that no sound joint holds may turn as they like, and State::shift of them may stand still.
+// Sets the limit of rotation of blocks with intact joints. Other blocks rotate freely and their `State::shift` may be out of date.
 void let_turn(const Model& model, const State& state, std::vector<BlockConstants>& constants);
 
-// What pushes blocks beside their joints: rows of eight doubles (force, moment), `contacts` from contacts and `loads` from external
-// loads, whose work is booked as external; null where there are none. `loaded`: the blocks that loads act on, in order.
+// Forces on blocks besides their joints, as rows of eight doubles (force, moment). `contacts`: contact wrenches. `loads`: external loads,
+// with their work booked as external. Null means none. `loaded`: the blocks with external loads, in ascending order.
 struct Pushes {
   const double *contacts = nullptr, *loads = nullptr;
   std::span<LoadedBlock> loaded = {};
 };
 
-// Groups of blocks: sum their wrench rows and pushes, kick by e.kick, drift by s.dt. `sums`: one for each chunk of block_grain groups of
-// all; where nothing is summed the range is one piece. `idle`: of each group, 1 where nothing moves; empty: none. `poses`: what Cracked
-// reads of blocks.
+// Integrates groups of blocks: sums wrench rows and external forces, kicks by `e.kick`, drifts by `s.dt`. `sums`: one per chunk of
+// `block_grain` groups; a range that needs no sums runs in one piece. `idle`: 1 for each group without motion; empty means none. `poses`:
+// the pose rows that `Cracked` reads.
 void advance(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes,
              Range groups, bool sample, std::vector<BlockSums>& sums, std::span<const std::uint8_t> idle = {}, double* poses = nullptr);
 
-// Groups in which all that could move sleep (Rest); empty where none does. But for samples, which count their height, a step may pass by.
+// Groups in which every movable block sleeps; empty if none sleeps. Steps skip these groups, except samples (potential energy).
 std::vector<std::uint8_t> idle_groups(const Model& model, const State& state);
 
-// Blocks picked from anywhere, up to eight at a time, for a sweep in which each meets those that have gone before it where they have
-// arrived.
+// Gathers up to eight arbitrary blocks into one pack, for a sequential sweep: each block sees the new poses of blocks before it.
 class Picked {
  public:
-  // For one sweep: what acts in it is taken once.
+  // One object per sweep: it fixes the external actions of that sweep.
   Picked(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes);
-  // Kick and drift of blocks[0 .. count), count <= lanes, as advance() does. `sums`: the first of all, but what loads do is summed
-  // up block by block, in the order of pushes.loaded, behind it.
+  // Kick and drift of `blocks[0 .. count)`, `count <= lanes`, like the free function `advance()`. The first element of `sums` receives all
+  // sums except the work of loads. The following elements receive that work, one for each entry of `pushes.loaded`.
   void advance(const int* blocks, int count, bool sample, std::vector<BlockSums>& sums);
 
  private:
@@ -87,7 +87,7 @@ class Picked {
   alignas(64) double push_[64] = {}, load_[64] = {};
 };
 
-// Sum of what a block's joints do to it: force, moment.
+// Resultant of a block's joints: force, moment.
 Vec6 joint_wrench(const Model& model, const State& state, int b);
 
 }  // namespace erbs

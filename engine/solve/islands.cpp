@@ -25,7 +25,7 @@ void find_islands(const Model& m, State& s) {
     if (s.tier[z(j)] == Tier::open) continue;
     const int a = m.joint[z(j)].a, b = m.joint[z(j)].b;
     s.joined[z(a)] = s.joined[z(b)] = 1;
-    // the ground does not make one island of all that stands on it: it does not turn
+    // the ground does not rotate, so it does not make one island of all blocks on it
     if (anchors(a) || anchors(b)) continue;
     const int ra = root(s.island, a), rb = root(s.island, b);
     s.island[z(std::max(ra, rb))] = std::min(ra, rb);
@@ -46,10 +46,10 @@ void find_islands(const Model& m, State& s) {
   for (int b = 0; b < m.nblock; ++b) s.grounded[z(b)] = s.grounded[z(s.island[z(b)])];
 }
 
-// Block by block: a joint takes its geometry from the poses its two blocks had at their own last refresh.
+// Block by block: a joint's geometry follows from the reference poses of its two blocks.
 bool take_stale_poses(const Model& m, State& s, std::vector<std::uint8_t>& stale) {
   stale.assign(z(m.nblock) + 1, 0);
-  for (int j = 0; j < m.njoint; ++j)  // those that a sound joint holds: others are looked at where they are
+  for (int j = 0; j < m.njoint; ++j)  // blocks with an intact joint; other joints are evaluated at the present poses
     if (s.tier[z(j)] == Tier::intact) stale[z(m.joint[z(j)].a)] = stale[z(m.joint[z(j)].b)] = 1;
   const double limit = m.analysis.lazy_rotation * m.analysis.lazy_rotation;
   bool past = false;

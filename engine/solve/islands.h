@@ -1,16 +1,16 @@
-// Which blocks are joined to which: for the refresh of joint geometry, for damping, and for what counts as loose.
+// Islands of joined blocks, for reference poses, mass damping and loose blocks.
 #pragma once
 #include "engine/model/model.h"
 #include "engine/model/state.h"
 
 namespace erbs {
 
-// Recomputes island, grounded and joined from the joints that are not open.
+// Recomputes island, grounded and joined from the joints not yet released to contact.
 void find_islands(const Model& model, State& state);
 
-// Once a block has turned past Analysis::lazy_rotation since its last refresh: its pose becomes its reference, and so do those of all that
-// have turned half as far, lest every step find another one. True where there are such: 1 in `stale` [nblock + 1]; the geometry of their
-// joints is to follow.
+// Acts once a block has rotated beyond `Analysis::lazy_rotation` since its reference pose. The present pose becomes the reference of this
+// block, and of all blocks rotated half as far, so that not every step finds another one. Returns true in this case, with 1 in `stale`
+// [nblock + 1] for these blocks; the caller then updates the geometry of their joints.
 bool take_stale_poses(const Model& model, State& state, std::vector<std::uint8_t>& stale);
 
 }  // namespace erbs

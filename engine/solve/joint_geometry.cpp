@@ -10,7 +10,7 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// Where lane l of a pose lies.
+// Sets the addresses of the data of joint j, for lane l.
 void set_source(const Model& m, const State& s, int j, int l, PoseLanes& p) {
   const Joint& joint = m.joint[z(j)];
   for (int end = 0; end < 2; ++end) {
@@ -46,8 +46,8 @@ void put_row(State& s, int b, const double row[6]) {
   for (int i = 0; i < 6; ++i) s.shift[z(b / lanes)].x[i][b % lanes] = s.row[z(8 * b + i)] = row[i];
 }
 
-// In lanes whatever their number, so that a joint's geometry does not depend on when and with which others it is made. Lanes without a
-// joint stand still wherever another's frame is.
+// Always eight lanes, even for one joint, so that a joint's geometry depends neither on the time of its update nor on its neighbours. Empty
+// lanes have the frame of another joint and zero arms.
 void set_geometry(const Model& m, const State& s, const int* joints, JointBatch& batch) {
   const int* first = std::find_if(joints, joints + lanes, [](int j) { return j >= 0; });
   if (first == joints + lanes) return;

@@ -1,18 +1,21 @@
-// Geometry of a joint between the poses of its two blocks: exact, and carried between refreshes.
+// Relative pose of the two blocks of a joint: exact, and to low order in the motion since the reference poses.
 //
-// The joint's frame turns with the mean rotation of its blocks, and its force acts at the midpoint of the two material points
-// that coincided at rest, so that a rigid motion leaves it without strain and momentum is conserved to round-off whichever block
-// is called a. With X the distance of the centroids, A_a and A_b the turned arms, S = A_a + A_b:
+// The joint frame rotates by the mean rotation of its blocks. The joint force acts at the midpoint of the two material points that
+// coincided at rest. So a rigid motion causes no strain, and momentum is conserved to round-off whichever block is called a. With X from
+// the centroid of a to that of b, A_a and A_b the rotated arms, S = A_a + A_b:
 //   displacement  D = X + A_b - A_a            moment arms  c - x_a = (S + X)/2,  c - x_b = (S - X)/2.
-// Joints that have cracked are looked at so in every step (lanes_pose.inc). Sound ones are carried between refreshes of their geometry:
-// each block has moved by (du, th), th = tan(angle) about its axis. With r(th, A) = (1 - th.th/2) th x A + th x (th x
-// A)/2 the change of an arm to third order, th_m the mean of th_a and th_b, d half their difference:
-//   D = D_ref + du + r(th_b, A_b) - r(th_a, A_a),   rotation = rho_ref + 2 d - th_m x d,
-// D turned back by th_m; resultants turn forward by it and act on a with the arm A_a + r(th_a, A_a) + D/2, on b with A_b + r(th_b, A_b) -
-// D/2. A rigid motion by th strains a joint by some th^4 of its arms. D, small itself, and resultants turn to first order: amiss by th^2/2
-// of themselves, 5e-9 at the default tolerance. The coupling of d with rho_ref is left out, d rho_ref^2/6; the next refresh puts it right.
-// lanes_sound.inc does with second order in r. Its third order of a rigid motion would be 3/8 th.th th x X, X the distance of the
-// centroids, with th = 2 sin(angle / 2); tan(angle) is what takes it away.
+//
+// Cracked joints are evaluated so in every step (`lanes_pose.inc`). Intact joints use the motion of each block since its reference pose:
+// (du, th), th = tan(angle) about the axis of rotation. With r(th, A) = (1 - th.th/2) th x A + th x (th x A)/2, the change of an arm to
+// third order, th_m the mean of th_a and th_b, and d half their difference:
+//   D = D_ref + du + r(th_b, A_b) - r(th_a, A_a),   rotation = rho_ref + 2 d - th_m x d.
+// D is rotated back by th_m. Resultants are rotated forward by th_m; they act on a with the arm A_a + r(th_a, A_a) + D/2, on b with
+// A_b + r(th_b, A_b) - D/2.
+//
+// Errors: a rigid rotation by th strains a joint by some th^4 of its arms. D, itself small, and the resultants are rotated to first order,
+// with an error of th^2/2 of their size: 5e-9 at the default tolerance. The coupling of d with rho_ref, d rho_ref^2/6, is neglected; the
+// next update of the reference poses corrects it. The kernel of intact joints (`lanes_sound.inc`) takes r to second order only. With
+// th = 2 sin(angle / 2) its third-order error of a rigid motion would be 3/8 th.th th x X; th = tan(angle) removes it.
 #pragma once
 #include "engine/base/turn.h"
 #include "engine/model/model.h"
@@ -23,10 +26,10 @@ namespace erbs {
 struct JointPose {
   Mat3 frame;       // world, columns s, t, n
   Vec3 apart, sum;  // m, X and S
-  double q[6];      // m, rad in the frame
+  double q[6];      // m, rad, joint frame
 };
 
-// Rotation vector of a quaternion (v, w): 2 asin(|v|) / |v| v, by its series where the next term is below round-off.
+// Rotation vector of a quaternion (v, w): 2 asin(|v|) / |v| v. The series is used where its next term is below round-off.
 inline Vec3 small_rotation_vector(const Quat& q) {
   const double x = q.vec().squaredNorm();
   if (x > 4e-3) return rotation_vector(q);
@@ -35,10 +38,10 @@ inline Vec3 small_rotation_vector(const Quat& q) {
   return (q.w() < 0 ? -2 : 2) * series * q.vec();
 }
 
-// Always inlined, so that the pose stays in registers: stored and read back in other pieces it would stall.
+// Always inlined, so that the pose stays in registers: a load of parts of a stored pose would stall.
 [[gnu::always_inline]] inline JointPose pose_of(const Joint& joint, const Vec3& ua, const Quat& qa, const Vec3& ub, const Quat& qb) {
   const Vec3 rho = small_rotation_vector(qb * qa.conjugate());  // world
-  // half way between two unit quaternions of one sign is their sum
+  // The sum of two unit quaternions of one sign is the rotation half way between them.
   const Quat mean = Quat(qa.coeffs() + (qa.dot(qb) < 0 ? -1 : 1) * qb.coeffs()).normalized();
   JointPose p;
   p.frame = mean.toRotationMatrix() * joint.type->frame;
@@ -58,24 +61,24 @@ inline Vec3 small_rotation_vector(const Quat& q) {
   return pose_of(joint, s.u[a], s.q[a], s.u[b], s.q[b]);
 }
 
-// tan(angle) about its axis of the turn from `base` to q, to fourth order, as rows of blocks have it.
+// tan(angle) of the rotation from `base` to q, about its axis, to fourth order; the form that pose rows have.
 Vec3 rotation_since(const Quat& q, const Quat& base);
-// The present pose of block b becomes its reference.
+// Makes the present pose of block b its reference pose.
 void take_pose(State& state, int b);
-// State::row and State::shift of block b, from its pose or as they are given.
+// Set `State::row` and `State::shift` of block b, from its pose or to `row`.
 void set_row(State& state, int b);
 void put_row(State& state, int b, const double row[6]);
 void refresh_all(const Model& model, State& state);
-// Joint j as lane `lane` of `batch`, with its geometry at the last refresh of its blocks.
+// Writes joint j to lane `lane` of `batch`, with its geometry at the reference poses of its blocks.
 void set_lane(const Model& model, const State& state, int j, JointBatch& batch, int lane);
-// Frames, arms, gaps and turns of eight joints in their lanes, -1 for an empty one.
+// Frames, arms, gaps and rotations of eight joints in their lanes; -1: an empty lane.
 void set_geometry(const Model& model, const State& state, const int* joints, JointBatch& batch);
-// ... with all that no refresh changes.
+// The same, with all constants of the joints.
 JointBatch batch_of(const Model& model, const State& state, const int* joints);
-// The joints of batch k that are still in their place; the other lanes are empty.
+// The joints of pack k that still have their slot; the other lanes are empty.
 JointBatch sound_batch(const Model& model, const State& state, int k);
 
-// The relative displacement of joint j as the step sees it: carried since the refresh.
+// Relative displacement of joint j at the present poses, exact.
 void joint_q(const Model& model, const State& state, int j, double q[6]);
 
 }  // namespace erbs

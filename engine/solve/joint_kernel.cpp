@@ -13,7 +13,7 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// q of joint j in lane l one step ago, for one that cracks now: the same pass with the rows of its blocks taken back by dt.
+// q and f, one step ago, of joint j in lane l that cracks now: the elastic pass with the pose rows of its blocks moved back by dt.
 void before(const State& s, const Joint& j, const JointBatch& B, int l, double q[6], double f[6]) {
   JointBatch one = B;
   alignas(64) double rows[2 * 8];
@@ -65,7 +65,7 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
   for (int i = 0; i < 6; ++i) dq[i] = q[i] - memory.q[i], memory.f[i] = f[i];
   if (sound && m.dashpots) {
     const double none[6] = {};
-    book_dashpots(s, j, none, dq, sums);  // what they did since the last step
+    book_dashpots(s, j, none, dq, sums);  // their work since the last step
   }
   if (damped && s.last_dt > 0) {
     viscous_response(m, j, memory.q, q, before_it.data(), past, limit.data(), joint.viscous_cracked / s.last_dt, drag);
@@ -79,13 +79,13 @@ void joint_by_points(const Model& m, State& s, int j, const double q[6], double 
   sums.energy.crushing += e.crushing;
 }
 
-// Energy of the joints of batch k, before dashpots join their resultants.
+// Elastic energy of the joints of pack k, before their resultants include dashpots.
 static double stored(const Model& m, const State& s, int k, const JointLanes& o) {
   double sum = 0;
   for (int l = 0; l < lanes && k * lanes + l < m.njoint; ++l) {
     const int j = k * lanes + l;
     if (s.place[z(j)] != j) continue;
-    if (s.tier[z(j)] == Tier::cracked) {  // in this step
+    if (s.tier[z(j)] == Tier::cracked) {  // cracked in this step
       sum += s.memory[z(j)].elastic;
       continue;
     }

@@ -36,7 +36,7 @@ JointOperator::JointOperator(const Model& m, const State& s, const Freedom& f) :
 }
 
 void JointOperator::add(const End& e, const JointForm& form, const VecX& x, VecX& y) {
-  Vec3 shift = Vec3::Zero(), turn = Vec3::Zero();  // of b against a
+  Vec3 shift = Vec3::Zero(), turn = Vec3::Zero();  // of b relative to a
   if (e.b >= 0) {
     const Vec3 w = x.segment<3>(e.b + 3);
     shift = x.segment<3>(e.b) + w.cross(e.arm_b);

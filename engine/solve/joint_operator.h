@@ -1,5 +1,5 @@
-// The joints of a structure as one linear operator, applied to motions of its blocks without a matrix being written out: 128 bytes a
-// joint, where the assembled K takes some 1,700.
+// The joints of a structure as one linear operator on the motions of its blocks, without an assembled matrix: 128 bytes per joint, where
+// the assembled K takes some 1,700.
 #pragma once
 #include <array>
 #include <vector>
@@ -10,15 +10,15 @@
 
 namespace erbs {
 
-// Degrees of freedom: 6 per moving block (displacement, rotation; world axes), -1 for fixed, driven and the dummy.
+// Degrees of freedom: 6 per moving block (displacement, rotation; world axes); -1 for fixed and driven blocks and the dummy block.
 struct Freedom {
   std::vector<int> first;  // [nblock + 1]
   int count = 0;
 };
 Freedom freedoms(const Model& model);
-Freedom grounded_freedoms(const Model& model, const State& state);  // without blocks that no joint holds to the ground
+Freedom grounded_freedoms(const Model& model, const State& state);  // without blocks that no joints connect to the ground
 
-// Stiffness of a joint in its own frame: diagonal but for the coupling of its two bendings.
+// Stiffness of a joint in its own frame: diagonal, except for the coupling of its two bending terms.
 struct JointForm {
   std::array<double, 6> diagonal{};  // N/m (s, t, n), N m (about s, t, n)
   double coupling = 0;               // N m
@@ -30,9 +30,9 @@ inline JointForm elastic_form(const Joint& joint) {
 
 class JointOperator {
  public:
-  // Joints that are not open, at the present poses.
+  // Takes the joints not yet released to contact, at the present poses.
   JointOperator(const Model& model, const State& state, const Freedom& freedom);
-  // y = sum over joints of B^T form(joint) B x, B being the relative displacement in the joint's frame per motion of its blocks.
+  // y = sum over joints of B^T form(joint) B x. B gives the relative displacement, in the joint frame, per motion of the blocks.
   template <class Form>
   void apply(const Form& form, const VecX& x, VecX& y) const {
     y.setZero(x.size());
@@ -43,7 +43,7 @@ class JointOperator {
   struct End {
     Mat3 frame;         // world, columns s, t, n
     Vec3 arm_a, arm_b;  // m, world
-    int joint, a, b;    // first degrees of freedom of its blocks, -1: held
+    int joint, a, b;    // first degrees of freedom of its blocks; -1: not free
   };
   static void add(const End& e, const JointForm& form, const VecX& x, VecX& y);
 
@@ -51,7 +51,7 @@ class JointOperator {
   std::vector<End> ends_;
 };
 
-// M^-1/2 of each moving block: of its mass, and of its inertia in world axes at the present pose.
+// M^-1/2 of each moving block, from its mass and its inertia in world axes at the present pose.
 class RootMass {
  public:
   RootMass(const Model& model, const State& state, const Freedom& freedom);

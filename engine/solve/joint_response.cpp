@@ -12,8 +12,8 @@ struct Gap {
 
 Gap gap_at(const double* q, double s, double t) { return {q[0] - q[5] * t, q[1] + q[5] * s, q[2] + q[3] * t - q[4] * s}; }
 
-// Integrals of max(p, 0), p = sign times the gap (linear in s, t), over a polygon in closed form, and of its square. Over a triangle
-// with corner values p_i: Int p s = A/12 (sum p sum s + sum p_i s_i), Int p^2 = A/12 ((sum p)^2 + sum p_i^2).
+// Closed-form integrals over a polygon of max(p, 0), p = sign times the gap (linear in s, t), of its first moments and of its square. Over
+// a triangle with corner values p_i: Int p s = A/12 (sum p sum s + sum p_i s_i), Int p^2 = A/12 ((sum p)^2 + sum p_i^2).
 struct Positive {
   double p = 0, s = 0, t = 0, square = 0;  // m3; m4: Int p s, Int p t; m4: Int p^2
 };
@@ -31,7 +31,7 @@ void add_triangle(const Corner& a, const Corner& b, const Corner& c, Positive& o
   out.square += area / 12 * (p * p + a.p * a.p + b.p * b.p + c.p * c.p);
 }
 
-// Over any simple loop: triangles from its first corner, signed.
+// For any simple loop: signed triangles from its first corner.
 Positive positive_part(const Eigen::Vector2d* corner, int corners, const double* q, double sign) {
   Positive sum;
   std::array<Corner, 3> fan{};
@@ -59,9 +59,9 @@ Positive positive_part(const Eigen::Vector2d* corner, int corners, const double*
   return sum;
 }
 
-// The no-tension integral over the true overlap polygon: N = kn Int max(-g, 0) dA and its first moments, and its energy.
+// The no-tension integral over the overlap polygon: N = kn Int max(-g, 0) dA, its first moments and its energy.
 Pressed compression(const Model& m, const Joint& joint, const double* q, double kn) {
-  // closed all over: a linear pressure about the centroid
+  // open everywhere: no force; closed everywhere: a linear pressure about the centroid
   const double reach = std::fabs(q[3]) * joint.type->half_t + std::fabs(q[4]) * joint.type->half_s;
   if (q[2] - reach >= 0) return {};
   if (q[2] + reach < 0) {
@@ -76,15 +76,14 @@ Pressed compression(const Model& m, const Joint& joint, const double* q, double 
 // The gap as a plane over s, t.
 std::array<double, 3> gap_plane(const double* q) { return {q[2], -q[4], q[3]}; }
 
-// ... of a face that has been crushed, if it has.
+// The same for a face that may have been crushed.
 Pressed compression(const Model& m, const Joint& joint, const CrushedFace* crushed, const double* q, double kn) {
   if (crushed == nullptr || crushed->planes == 0) return compression(m, joint, q, kn);
   return pressed(bed_of(m, joint), *crushed, gap_plane(q).data());
 }
 
-// What the cell of point i pulls with at unit stiffness: Int max(g, 0) dA and its first moments. With the closed compression the
-// cells of sound points add up to the sound joint, so that a crack changes no other part of it, and no tangent is stiffer than the
-// sound one.
+// Tension of the cell of point i at unit stiffness: Int max(g, 0) dA and its first moments. The cells of undamaged points and the
+// compression add up to the intact joint. So a crack changes no other part of a joint, and no tangent is stiffer than the intact one.
 struct Pull {
   double n = 0, s = 0, t = 0;  // m3, m4, m4
 };
@@ -97,8 +96,8 @@ Pull pull_of(const Model& m, int i, const double* q) {
 
 double work_of(const Pull& p, const double* q) { return p.n * q[2] + p.t * q[3] - p.s * q[4]; }
 
-// The widest opening of the cell of point i: what wears its bond. The point's own would let a crack stop at the cell's border and
-// the cell pull with any stress beyond it. sign = -1: its deepest closing.
+// Widest opening of the cell of point i; it damages the bond. The opening of the point itself would be wrong: a crack could stop at the
+// border of the cell, and the cell could pull with any stress beyond it. sign = -1: the deepest closing.
 double widest(const Model& m, int i, const double* q, double at_point, double sign = 1) {
   const Cell& cell = m.cell[std::size_t(i)];
   double most = sign * at_point;
@@ -113,7 +112,7 @@ struct Shear {
   double s, t;  // N
 };
 
-// Radial return of one point. `normal` is its compressive force (N), sigma its tension (Pa).
+// Radial return of one point. `normal`: its compressive force (N); `sigma`: its tension (Pa).
 Shear shear(const PointLaw& law, const Point& point, double normal, double sigma, const double* q_before, const Gap& g1, PointHistory& h,
             JointEnergy& energy) {
   const double weight = point.weight, k = law.ks * weight;
@@ -127,7 +126,7 @@ Shear shear(const PointLaw& law, const Point& point, double normal, double sigma
   const bool bonded = h.damage < 1 && law.c > 0;
   double slip = (size - cap) / k;
   if (bonded) {
-    // Softening: the limit falls linearly with the slip it allows, size - k slip = cap + slope slip.
+    // Softening: the limit falls linearly with the slip that it allows, size - k slip = cap + slope slip.
     const double slope = law.slip_ultimate > 0 ? ((law.mu_residual - law.mu) * normal - law.c * weight) / law.slip_ultimate : -k;
     damage_to(law, h, k + slope > 0 ? h.damage + (size - cap) / (k + slope) / law.slip_ultimate : 1);
     slip = (size - limit(h.damage)) / k;
@@ -140,13 +139,13 @@ Shear shear(const PointLaw& law, const Point& point, double normal, double sigma
   const double work = 0.5 * ((before.s + now.s) * ds + (before.t + now.t) * dt);
   const double rubbed = bonded ? std::min(work, friction_at(law, h.damage) * normal * slip) : work;
   energy.friction += rubbed;
-  energy.fracture += work - rubbed;  // what the bond took beyond friction
+  energy.fracture += work - rubbed;  // loss of the bond beyond friction
   return now;
 }
 
-// Rules that are not exact in bending: a sound joint is stiff as its points are, a cracked one as its true faces. What the change
-// sets free (or takes) is booked with the crack: the difference of the mixed energies q0 K q1 / 2, as the work of the step is the
-// mean of its two forces.
+// For rules that are not exact in bending: an intact joint has the stiffness of its points, a cracked joint that of its true faces. The
+// change sets energy free (or takes it up), which is booked with the crack. It is the difference of the mixed energies q0 K q1 / 2, since
+// the work of the step is the mean of its two forces.
 double change_of_form(const Joint& joint, const double* q0, const double* q1) {
   return 0.5 * ((joint.type->stiffness[3] - joint.type->face[0]) * q0[3] * q1[3] +
                 (joint.type->stiffness[4] - joint.type->face[1]) * q0[4] * q1[4] + joint.type->face[2] * (q0[3] * q1[4] + q0[4] * q1[3]));
@@ -189,8 +188,8 @@ Bed bed_of(const Model& m, const Joint& joint) {
 
 namespace {
 
-// Friction needs the pressure at the points: the closed integral, shared out by their own depths; all of it to the deepest where no
-// point is pressed.
+// Friction needs the pressure at the points: the force of the closed-form integral is distributed by the depths of the points. If no point
+// is pressed, the deepest one receives all of it.
 void share_out(const Model& m, const Joint& joint, const CrushedFace* crushed, const double* q, double force, double* at_points) {
   const Point* point = &m.point[std::size_t(joint.type->first_place)];
   const bool flattened = crushed != nullptr && crushed->planes > 0;
@@ -209,7 +208,7 @@ void share_out(const Model& m, const Joint& joint, const CrushedFace* crushed, c
   if (share == 0) at_points[deepest] = force;
 }
 
-// interlock.h: more than the pressures of the moment, where there is.
+// Replaces the pressure of a point by its mean pressure, where that is higher and the joint slides slowly (`interlock.h`).
 void hold(const Model& m, const Joint& joint, const double* q0, const double* q, const JointPast& past, double* pressure) {
   const Interlock& now = past.interlock;
   if (!(now.gap > 0)) return;
@@ -290,7 +289,8 @@ bool respond(const Model& m, int j, bool sound, const double* q_before, const do
     if (!bonded) continue;
     const double k1 = h.damage > 0 ? h.secant : law.kn;
     const Pull pull = pull_of(m, joint.type->first_place + i, q);
-    if (k0 != k1) {  // half the loss of stiffness times Int g0 g1 over the opened cell, the mean from both ends
+    // Half the loss of stiffness times Int g0 g1 over the open part of the cell, as the mean over the open parts before and after.
+    if (k0 != k1) {
       const double both = work_of(pull, q_before) + work_of(pull_of(m, joint.type->first_place + i, q_before), q);
       energy.fracture += 0.25 * (k0 - k1) * std::max(0.0, both);
     }

@@ -1,4 +1,4 @@
-// Resultants of one joint from its contact points: what a joint does once its elastic bound is passed.
+// Resultants of one joint from its contact points, for joints that may be beyond their elastic bound.
 #pragma once
 #include "engine/laws/interlock.h"
 #include "engine/model/model.h"
@@ -6,42 +6,41 @@
 
 namespace erbs {
 
-// What one evaluation dissipated, and what is stored after it (J).
+// Energy dissipated in one evaluation, and stored after it (J).
 struct JointEnergy {
   double friction = 0, fracture = 0, crushing = 0, elastic = 0;
-  double damping = 0;  // of dashpots, which are no part of the response
+  double damping = 0;  // of dashpots, which `respond()` does not evaluate
 };
 
-// What joint j remembers.
+// History of joint j.
 struct JointPast {
   JointPast(PointHistory* of_points, CrushedFace* of_face = nullptr) : point(of_points), crushed(of_face) {}
   PointHistory* point;   // [points]
-  CrushedFace* crushed;  // null where no law has a plateau in compression
-  Interlock interlock;   // none where nothing moves
+  CrushedFace* crushed;  // null without a plateau in compression
+  Interlock interlock;   // default: no interlock
 };
 JointPast past_of(const Model& model, State& state, int j);
 
-Interlock interlock_now(const Model& model, const State& state);  // of the step that has led to the present pose
-Interlock contact_interlock(const Model& model, const State& state);  // the same as contacts take it, in every step: `slow` in m2/s2
+Interlock interlock_now(const Model& model, const State& state);      // of the step that led to the present pose
+Interlock contact_interlock(const Model& model, const State& state);  // the same for contacts, updated in every step; `slow` in m2/s2
 
-// The face of joint j as its compression sees it.
+// The face of a joint, as its compression law needs it.
 Bed bed_of(const Model& model, const Joint& joint);
 
-// Relative displacement q of a joint in its frame: (s, t, n) in m, then the rotation vector about (s, t, n) in rad.
-// Resultant f on block a (N, N m, about the joint's centre), tension positive; block b receives -f.
-// Returns true while the joint is sound: no point has any history and none passes its limit, so that f = stiffness * q exactly.
-// Otherwise the history of its points is carried on from q_before to q, and every joule booked by the point laws' own work:
-// over a step a spring's work is the mean of its two tractions times the change of its gap. Of a joint that is not sound,
-// `shear_limit` gets the shear (N) that each point can bear now.
+// Relative displacement q of a joint in its frame: (s, t, n) in m, then the rotation vector about (s, t, n) in rad. Resultant f on block a
+// (N, N m, about the joint's centre), tension positive; block b receives -f. Returns true while the joint is intact: no point has a history
+// and none is beyond its limit, so that f = stiffness * q exactly. Otherwise the history of its points advances from `q_before` to q. All
+// energy is booked by the point laws' own work: the work of a spring over a step is the mean of its two tractions times the change of its
+// gap. For a joint that is not intact, `shear_limit` receives the shear (N) that each point can transmit now.
 bool respond(const Model& model, int j, bool sound, const double* q_before, const double* q, JointPast past, double* f, JointEnergy& energy,
              double* shear_limit = nullptr);
 
-// The share x <= 1 of (ds, dt) that (s, t) + x (ds, dt) can take within the limit.
+// Largest x <= 1 for which (s, t) + x (ds, dt) is within the limit.
 double share_within(double s, double t, double ds, double dt, double limit);
 
-// Dashpots of a joint that has cracked, from q_before to q: the springs' own change over the step, what slid or gave way in it left
-// out, times `rate` (b over the step, 1/s s). What is closed does not pull by them, and no point is sheared beyond its limit (N, from
-// respond). Resultant f as above.
+// Dashpots of a cracked joint from `q_before` to q: the change of its spring forces over the step, without the points that slipped and the
+// stiffness that was lost, times `rate` (b / dt). Dashpots do not pull closed faces, and no point is sheared beyond its limit (N, from
+// `respond()`). Resultant f as above.
 void viscous_response(const Model& model, int j, const double* q_before, const double* q, const PointHistory* before, JointPast after,
                       const double* shear_limit, double rate, double* f);
 

@@ -10,7 +10,7 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// Elastic traction of every point of a sound joint, summed about the joint's centre; false as soon as one passes a limit.
+// Elastic tractions of all points of an intact joint, summed about the joint's centre; false as soon as one is beyond a limit.
 bool sound_resultant(const Model& m, const Joint& joint, const JointPose& pose, Vec3& force, Vec3& moment) {
   const PointLaw& law = m.laws[z(joint.type->law)];
   const double* q = pose.q;

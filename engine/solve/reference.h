@@ -1,11 +1,11 @@
-// The plain joint forces: geometry exact at every step, every contact point by itself. Slow, short, and the oracle of the fast
-// kernel (kernel = "reference").
+// Plain joint forces: exact geometry in every step, point by point. Slow, short, and the oracle of the fast kernels; selected by
+// `kernel = "reference"`.
 #pragma once
 #include "engine/solve/joint_kernel.h"
 
 namespace erbs {
 
-// The same contract as joint_forces, for joints [first, last).
+// The same contract as `joint_forces()`, for joints [first, last).
 void reference_forces(const Model& model, State& state, int first, int last, bool sample, JointSums& sums);
 
 }  // namespace erbs

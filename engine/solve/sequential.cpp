@@ -48,7 +48,7 @@ void write(Rows& rows, int row, const Vec3& force, const Vec3& moment) {
   for (int i = 0; i < 3; ++i) rows[z(row) * 8 + z(i)] = force[i], rows[z(row) * 8 + 3 + z(i)] = moment[i];
 }
 
-// Both ends' wrenches of joint j from its resultant f: as reference.cpp.
+// Wrenches on both ends of joint j from its resultant f, as in `reference.cpp`.
 void write_wrench(const Model& m, State& s, int j, const JointPose& pose, const double f[6]) {
   const Vec3 force = pose.frame * Vec3(f[0], f[1], f[2]), moment = pose.frame * Vec3(f[3], f[4], f[5]);
   const Vec3 arm_a = 0.5 * (pose.sum + pose.apart), arm_b = 0.5 * (pose.sum - pose.apart);
@@ -58,7 +58,7 @@ void write_wrench(const Model& m, State& s, int j, const JointPose& pose, const 
 
 bool open(const State& s, int j) { return s.tier[z(j)] == Tier::open; }
 
-// The bound of lanes.inc that keeps a joint sound, for one of them.
+// True if joint j may be beyond its limits: the bound of the elastic kernel, for one joint.
 bool near_limits(const Model& m, int j, const double q[6]) {
   JointBatch B;
   set_constants(m, j, B, 0);
@@ -133,7 +133,7 @@ Sequential::Sequential(const Model& model, State& state)
   deal_order();
 }
 
-// Each block into the round after the last of its neighbours that precede it.
+// Schedules each block in the round after the last of its neighbours that precede it.
 void Sequential::deal_order() {
   const std::vector<int> order = sweep_order(model_, std::uint64_t(model_.analysis.seed), std::uint64_t(state_.step));
   level_.assign(z(model_.nblock), -1);
@@ -182,7 +182,7 @@ void Sequential::clear_lane(int lane) {
   ends.row_a[lane % lanes] = ends.row_b[lane % lanes] = 8 * model_.spare_row();
 }
 
-// Joint j is no longer sound: it leaves the lanes of its blocks.
+// Joint j is no longer intact: removes it from the lanes of its blocks.
 void Sequential::leave(int j) {
   for (const int b : {model_.joint[z(j)].a, model_.joint[z(j)].b}) ++broken_[z(b)];
   for (int* lane : {&lane_[z(j)].of_a, &lane_[z(j)].of_b}) {
@@ -194,7 +194,7 @@ void Sequential::leave(int j) {
   }
 }
 
-// The law of joint j follows the present poses of its blocks; both blocks meet its new force.
+// Evaluates the law of joint j at the present poses and writes its wrench for both blocks.
 void Sequential::follow(int j, JointSums& sums) {
   State& s = state_;
   if (open(s, j)) return;
@@ -221,7 +221,8 @@ void Sequential::follow(int j, JointSums& sums) {
   write_wrench(model_, s, j, pose, f);
 }
 
-// Joints of a batch of block b, which has moved for `moved` seconds, that may be past a limit. The answer of one that holds stays.
+// Evaluates the joints in a pack of block b that may be beyond a limit, after b has moved for `moved` seconds. The wrench of a joint that
+// stays intact does not change.
 void Sequential::look_closer(int batch, int b, double moved, JointSums& sums) {
   State& s = state_;
   for (int l = 0; l < lanes; ++l) {
@@ -251,10 +252,10 @@ bool Sequential::turned_far(int b) const {
   return state_.joined[z(b)] != 0 && !plain_ && row[3] * row[3] + row[4] * row[4] + row[5] * row[5] > limit * limit;
 }
 
-// All joints of block b, which has moved for `moved` seconds while its neighbours were held.
+// Updates all joints of block b, which has moved for `moved` seconds while its neighbours were fixed.
 void Sequential::visit(int b, double moved, JointSums& sums) {
   State& s = state_;
-  if (turned_far(b)) {  // what is carried from the last refresh would err
+  if (turned_far(b)) {  // beyond the range of the reference pose
     its_joints_.assign(end_.begin() + first_end_[z(b)], end_.begin() + first_end_[z(b) + 1]);
     take_pose(s, b);
     update(its_joints_);
@@ -267,7 +268,7 @@ void Sequential::visit(int b, double moved, JointSums& sums) {
   for (int i = 0; i < near; ++i) look_closer(near_[z(i)], b, moved, sums);
 }
 
-// What joint j would answer to the present poses; the law's memory is not touched.
+// Writes the wrench of joint j at the present poses; its history does not change.
 void Sequential::try_out(int j) {
   State& s = state_;
   const Joint& joint = model_.joint[z(j)];
@@ -281,7 +282,7 @@ void Sequential::try_out(int j) {
   write_wrench(model_, s, j, pose, f);
 }
 
-// Forces on block b where it would be after half a step at its present speed.
+// Forces on block b at its pose half a step ahead, at the present velocity.
 void Sequential::predict(int b) {
   State& s = state_;
   const Vec3 u = s.u[z(b)];
@@ -308,7 +309,7 @@ void Sequential::predict(int b) {
   put_row(s, b, row);
 }
 
-// J, of all joints where they are.
+// J, of all joints at the present poses.
 double Sequential::stored() const {
   JointLanes o;
   double sum = 0;
@@ -322,7 +323,7 @@ double Sequential::stored() const {
   return sum;
 }
 
-// The wrench that block b is about to be moved by, of its joints with other moving blocks.
+// Adds the wrench that is about to move block b, of its joints with other moving blocks.
 void Sequential::note_momentum(int b) {
   const Vec3 arm = model_.rest[z(b)] - model_.rest.front() + state_.u[z(b)];
   for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k) {
@@ -342,7 +343,7 @@ void Sequential::sweep(const Excitation& e, const Pushes& pushes, const std::vec
                        JointSums& joints, std::vector<BlockSums>& sums) {
   State& s = state_;
   Energy& ledger = s.energy;
-  // What the laws lost since the last sweep began belongs to the positions that this one starts from.
+  // Losses of the laws since the start of the last sweep belong to the positions at which this sweep starts.
   joints.energy.friction += std::exchange(ledger.friction_next, 0);
   joints.energy.fracture += std::exchange(ledger.fracture_next, 0);
   joints.energy.crushing += std::exchange(ledger.crushing_next, 0);

@@ -9,16 +9,16 @@
 namespace erbs {
 namespace {
 
-constexpr double still_speed = 1e-6;  // of sqrt(g L); a poured heap (hard case 26) falls below it and on to 1e-12
+constexpr double still_speed = 1e-6;  // of sqrt(g L); a poured heap (hard case 26) falls below it, down to 1e-12
 constexpr double still_pull = 1e-4;   // of g
-constexpr double woken_pull = 1e-3;   // of g; more than the dashpots of a contact at still_speed let go of when it stops
+constexpr double woken_pull = 1e-3;   // of g; more than the dashpot forces that end when a contact at `still_speed` stops
 constexpr double still_time = 0.5;    // of sqrt(L / g)
-constexpr int look_every = 16;        // steps between two looks at who is still
+constexpr int look_every = 16;        // steps between two searches for still blocks
 std::size_t z(int i) { return std::size_t(i); }
 
 auto key_of(const Pair& p) { return std::tie(p.a, p.b, p.part_a, p.part_b); }
 
-// A quaternion that the step leaves as it is while nothing turns (lanes_blocks.inc scales it in each step by how far it is from 1).
+// The quaternion that a step without rotation leaves as it is: the drift scales it in each step by its deviation from unit length.
 Quat settled(Quat q) {
   for (int round = 0; round < 32; ++round) {
     const double e = q.x() * q.x() + q.y() * q.y() + q.z() * q.z() + q.w() * q.w() - 1, scale = 1 - e * (0.5 - 0.375 * e);
@@ -29,8 +29,8 @@ Quat settled(Quat q) {
   return q;
 }
 
-// What a contact at rest remembers of its greatest speed of approach after a while, as contact.cpp forgets it from step to step: by
-// approach' = -approach / memory, memory = max(settings.memory, 30 depth / approach), down to the reference speed.
+// Peak closing speed that a contact remembers after `time` at rest. `contact.cpp` lets it decay from step to step:
+//   approach' = -approach / memory, memory = max(settings.memory, 30 depth / approach), down to the reference speed.
 double forgotten(double approach, double depth, double time) {
   const ContactSettings settings;
   const double slow = 30 * depth, least = std::max(slow / settings.memory, settings.reference_speed);
@@ -118,7 +118,7 @@ void Sleep::sort(const std::vector<int>& involved, const std::function<PairResul
   add_rates();
 }
 
-// What pairs at rest have beyond what they were counted with.
+// Adds the rates of pairs at rest beyond the last update of the bound.
 void Sleep::add_rates() {
   if (!on_) return;
   rate_.assign(z(model_.nblock), 0.0);
@@ -144,7 +144,7 @@ bool Sleep::turn(const Excitation& e, const double* push, const ContactShapes& s
   return changed;
 }
 
-// True where gravity or the ground's acceleration has changed: all that sleeps wakes.
+// Wakes all sleepers if gravity or the ground acceleration has changed; true if a block woke.
 bool Sleep::wake_all() {
   Rest& rest = state_.rest;
   if ((pull_ - rest.pull).norm() <= still_pull * g_) return false;
@@ -220,7 +220,7 @@ bool Sleep::lay_down(double kick, const double* push, std::span<const ContactBlo
   return any;
 }
 
-// Its kick of this step would have made v1 of v0: v0 m v1 / 2 is the energy of this instant (energy.h), and all that goes.
+// The kick of this step would change v0 to v1. The energy of this instant is v0 m v1 / 2 (`energy.h`), and all of it goes.
 void Sleep::put_to_sleep(int b, double kick, const double* push) {
   State& s = state_;
   const double* row = push + 8 * z(b);

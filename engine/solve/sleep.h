@@ -1,14 +1,16 @@
-// Debris that has come to rest sleeps, where the scene lets it: no forces between sleepers, no kick, no drift, no pass over them.
+// Sleep of debris at rest, if the scene allows it: no forces between sleepers, no kick, no drift, no evaluation.
 //
-// A block falls asleep once it has been still for half of the time sqrt(L / g), L its smallest edge: slower than 1e-6 sqrt(g L) at every
-// corner and accelerated by less than 1e-4 g there, and everything that touches it likewise, asleep or fixed. Its speed is then zero; the
-// kinetic energy that it had is booked (Energy::sleep). Contacts between sleepers, or with what is fixed, keep all that they
-// remember, but that the greatest speed of approach is forgotten with time, asleep or not.
-// It wakes in the very step in which what pushes it leaves more than 1e-3 g: an awake block lands on it or leans on it by more, its support
-// leaves, a driven block moves on; then it is kicked by all that acts on it, contacts at rest included. All wake when gravity less the
-// ground's acceleration has changed by 1e-4 g since it was last seen to change, and none sleeps while it does.
-// So what sleep changes is what blocks would have crept at less than 1e-6 sqrt(g L), and what a thousandth of their weight would have
-// moved. Blocks that have a joint left, blocks that loads act on and driven ones do not sleep.
+// Falling asleep: a block sleeps once it and all awake blocks touching it have been still for half of the time sqrt(L / g), L the
+// smallest edge. Still means slower than 1e-6 sqrt(g L) at every corner and accelerated by less than 1e-4 g there. The block's
+// velocity becomes zero, and its kinetic energy is booked (`Energy::sleep`). Contacts between sleepers, or with fixed blocks, do not lose
+// their memory; only the peak closing speed decays with time, asleep or not.
+//
+// Waking: a block wakes in the step in which the forces on it leave more than 1e-3 g. An awake block strikes it or leans on it, its support
+// leaves, or a driven block moves on. All forces then act on it, contacts at rest included. All blocks wake when gravity less the ground
+// acceleration has changed by 1e-4 g since its last recorded change; no block falls asleep while it changes.
+//
+// Error: creep slower than 1e-6 sqrt(g L), and motion by a thousandth of a block's weight. Blocks with a joint, blocks with loads and
+// driven blocks do not sleep.
 #pragma once
 #include <functional>
 #include <span>
@@ -27,38 +29,38 @@ class Sleep {
 
   bool asleep(int b) const { return on_ && state_.rest.asleep[std::size_t(b)] != 0; }
 
-  // Takes the list of pairs as it is now. `involved`: blocks that are loose or in a pair; `evaluate`: what pair i gives as it lies, asked
-  // for once while it rests. Speeds of those that have fallen asleep are zero by then.
+  // Takes the present list of pairs. `involved`: blocks that are loose or in a pair. `evaluate(i)`: result of pair i in its present pose,
+  // called once while the pair rests. New sleepers have zero velocity already.
   void sort(const std::vector<int>& involved, const std::function<PairResult(int i)>& evaluate);
-  const std::vector<int>& live() const { return live_; }      // pairs with a block that is awake, in order
-  const std::vector<int>& awake() const { return awake_; }    // blocks involved that move by themselves or are driven
+  const std::vector<int>& live() const { return live_; }      // pairs with an awake block, in order
+  const std::vector<int>& awake() const { return awake_; }    // involved blocks that are awake, driven ones included
   const std::vector<int>& pushed() const { return pushed_; }  // blocks of live pairs
-  void add_rates();                                           // again, after the pairs' counts have changed
+  void add_rates();                                           // again, after an update of the bound
   template <class F>
-  void each_resting(F&& f) const {  // f(i, what it gives): touching pairs at rest
+  void each_resting(F&& f) const {  // f(i, result): touching pairs at rest
     for (const Resting& one : resting_) f(one.pair, one.result);
   }
-  // What pairs at rest leave on a block: a row of eight doubles (force, moment), and their share in the rate of the step (1/s2).
+  // Actions of pairs at rest on a block: a row of eight doubles (force, moment), and a share in the rate of the step (1/s2).
   const double* push(int b) const { return held_.data() + 8 * std::size_t(b); }
-  int contacts(int b) const { return contacts_[std::size_t(b)]; }  // at rest, where holds()
+  int contacts(int b) const { return contacts_[std::size_t(b)]; }  // at rest; valid if `holds()`
   double rate(int b) const { return rate_.empty() ? 0 : rate_[std::size_t(b)]; }
   bool holds() const { return !resting_.empty(); }
   double elastic() const { return elastic_; }  // J, stored in pairs at rest
-  int touching() const { return touching_; }   // of them
+  int touching() const { return touching_; }   // number of touching pairs at rest
 
-  // Between forces and drift, `push` being what contacts do to blocks: wakes those that are pressed on, and now and then lets fall asleep
-  // those that are still. True where somebody woke or fell asleep: the pairs are to be sorted again before the next step.
+  // Between forces and drift: wakes blocks under a net force and, every few steps, lets still blocks fall asleep. `push`: contact wrenches
+  // on blocks. True if the set of sleepers has changed: the pairs must be sorted again before the next step.
   bool turn(const Excitation& e, const double* push, const ContactShapes& shapes, std::span<const ContactBlock> blocks);
-  long slept() const { return slept_; }  // steps of blocks, since the start of this Solver
+  long slept() const { return slept_; }  // steps of sleeping blocks, since the start of this Solver
 
  private:
   struct Resting {
     int a, b, part_a, part_b;
-    int pair;  // in the list
+    int pair;  // index in the list
     PairResult result;
   };
   struct Motion {
-    double speed, acceleration;  // m/s, m/s2, of the corner that has most, at most
+    double speed, acceleration;  // m/s, m/s2, upper bounds over all corners
   };
   bool rests(const Pair& pair) const;
   bool may_sleep(int b) const;
@@ -74,15 +76,15 @@ class Sleep {
   State& state_;
   bool on_ = false;
   double g_ = 0;                      // m/s2
-  Vec3 pull_ = Vec3::Zero();          // m/s2, gravity less the ground's acceleration in this step
+  Vec3 pull_ = Vec3::Zero();          // m/s2, gravity less the ground acceleration in this step
   std::vector<std::uint8_t> loaded_;  // a load acts on the block [nblock]
   std::vector<int> live_, awake_, pushed_;
-  std::vector<Resting> resting_;    // pairs at rest that touch, in order
-  Rows held_;                       // N, N m
+  std::vector<Resting> resting_;    // touching pairs at rest, in order
+  Rows held_;                       // N, N m, of these on each block
   std::vector<double> rate_;        // 1/s2 [nblock]
   std::vector<int> contacts_;       // [nblock]
-  std::vector<double> reach_;       // m, of the block's farthest corner [nblock]
-  std::vector<std::uint8_t> mark_;  // [nblock]
+  std::vector<double> reach_;       // m, distance of the block's farthest corner [nblock]
+  std::vector<std::uint8_t> mark_;  // scratch [nblock]
   double elastic_ = 0;
   int touching_ = 0;
   long slept_ = 0;

@@ -12,12 +12,12 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// Batches of more bytes than this come from afar. Measured for 951, 9,700, 15,000 and 29,900 blocks (0.5, 5, 7.7, 15 MB): to ask for the
-// fourth one ahead costs 1 % and 3 %, and saves 7 % and 30 % of a step. What the processor foresees by itself ends at every page.
+// Packs of more bytes than this do not stay in the cache. Measured for 951, 9,700, 15,000 and 29,900 blocks (0.5, 5, 7.7, 15 MB): prefetch
+// of the fourth pack ahead costs 1 % and 3 %, and saves 7 % and 30 % of a step. The processor's own prefetch ends at every page.
 constexpr std::size_t near_bytes = 6 << 20;
 constexpr int batches_ahead = 4;
 
-// Minus twice the sum of k_i e_i e_i over the axes e_i of the joint's frame, k_i against rotation about it.
+// Minus twice the sum of k_i e_i e_i^T over the axes e_i of the joint frame; k_i is the stiffness against rotation about e_i.
 void set_bending_stiffness(const JointBatch& B, int from, double out[6][lanes], int to) {
   constexpr int row[6] = {0, 1, 2, 1, 0, 0}, column[6] = {0, 1, 2, 2, 2, 1};
   for (int i = 0; i < 6; ++i) {
@@ -57,7 +57,7 @@ void clear_sound_lane(SoundBatch& out, SoundLaw& law, int lane) {
 }
 
 Sound::Sound(const Model& model, State& state) : model_(model), state_(state), carried_(std::pow(model.analysis.lazy_rotation, 3)) {
-  if (model.analysis.kernel == "reference" || model.analysis.solver == "sequential") return;  // have their own
+  if (model.analysis.kernel == "reference" || model.analysis.solver == "sequential") return;  // these have their own
   if (model.dashpots) {
     for (int k = 0; k < sound_batches(model); ++k) damped_.push_back(sound_batch(model, state, k));
     return;
@@ -94,7 +94,7 @@ void Sound::joints_in_place(int k, int joints[lanes]) const {
   }
 }
 
-// By whole batches: what does not change is found again to the same bits.
+// By whole packs: joints without a change give the same bits again.
 void Sound::refresh(const std::vector<std::uint8_t>& stale) {
   for (int k = 0; k < int(damped_.size()); ++k) {
     const JointBatch& b = damped_[z(k)];
@@ -111,7 +111,7 @@ void Sound::refresh(const std::vector<std::uint8_t>& stale) {
   }
 }
 
-// The geometry of batch k as it is at the last refresh, eight lanes at a time what set_sound_lane does in one.
+// Geometry of pack k at the reference poses: `set_sound_lane()` for eight lanes at once.
 void Sound::set_lanes(int k) {
   int joints[lanes];
   joints_in_place(k, joints);
@@ -140,7 +140,7 @@ void Sound::leave(int j) {
   if (--held_[z(model_.keeper(j) / lanes)] == 0) all_held_ = false;
 }
 
-// Joint j answers otherwise than the pass has it, in its lane until the next step.
+// Replaces the elastic force of joint j in the sums of the pass by its force after cracking; its lane transmits it until the next step.
 void Sound::take_over(int j, const JointBatch& batch, const JointLanes& before, const JointLanes& now) {
   JointBatch aside = batch;
   for (int l = 0; l < lanes; ++l) aside.row_a[l] = l, aside.row_b[l] = lanes + l;
@@ -156,12 +156,12 @@ void Sound::take_over(int j, const JointBatch& batch, const JointLanes& before, 
   }
 }
 
-// A joint that may be past a limit. What it answers is changed only where it cracks.
+// Evaluates the joints of a pack that may be beyond a limit point by point. The force changes only if a joint cracks.
 void Sound::look_closer(int k, bool sample, JointSums& sums) {
   JointLanes o;
   int joints[lanes];
   joints_in_place(k, joints);
-  if (!looked_at_[z(k)]) {  // which reads rows of its own
+  if (!looked_at_[z(k)]) {  // this pack reads the pose rows made below
     looked_at_[z(k)] = std::make_unique<JointBatch>(batch_of(model_, state_, joints));
     for (int l = 0; l < lanes; ++l) looked_at_[z(k)]->a[l] = l, looked_at_[z(k)]->b[l] = lanes + l;
     closer_[z(k)] = looked_at_[z(k)].get();
@@ -198,7 +198,7 @@ int Sound::forces(int first, int last, const LaneKernels& kernels, double* store
 }
 
 void Sound::forces(Range groups, bool sample, std::vector<JointSums>& all) {
-  const int piece = sample ? grain : std::max(1, groups.last - groups.first);  // only energies are summed
+  const int piece = sample ? grain : std::max(1, groups.last - groups.first);  // only energies need chunks
   const std::vector<int>& first_batch = model_.kept.first_batch;
   for (int first = groups.first; first < groups.last; first += piece) {
     const int last = std::min(first + piece, groups.last);

@@ -14,13 +14,13 @@
 namespace erbs {
 namespace {
 
-constexpr int ledger_every = 32;     // steps between two settlings of the ledger; ...
-constexpr int ledger_slowly = 128;   // ... while there are contacts, whose energy costs as much as their forces
-constexpr int ledger_seldom = 4096;  // ... where a scene does without
-constexpr int hand_over_every = 8;   // steps between two looks at spent joints
-constexpr int find_soft_every = 64;  // steps between two looks for beds of former joints that are to soften, ...
-constexpr int soften_every = 8;      // ... and as they do
-constexpr int loosen_every = 256;    // steps between two looks at blocks that have moved far
+constexpr int ledger_every = 32;     // steps between two closings of the ledger, ...
+constexpr int ledger_slowly = 128;   // ... with contacts, whose energy costs as much as their forces, ...
+constexpr int ledger_seldom = 4096;  // ... in a scene without a ledger
+constexpr int hand_over_every = 8;   // steps between two searches for joints to release to contact
+constexpr int find_soft_every = 64;  // steps between two searches for former joints that must soften, ...
+constexpr int soften_every = 8;      // ... and between two steps of their softening
+constexpr int loosen_every = 256;    // steps between two searches for blocks that have moved far
 std::size_t z(int i) { return std::size_t(i); }
 
 int chunks(int n, int grain) { return std::max(1, (n + grain - 1) / grain); }
@@ -57,7 +57,7 @@ Solver::Solver(const Model& model, State& state, int threads)
     sequential_.emplace(model, state);
     block_sums_.resize(1 + loaded_.size());
   }
-  // A state that was stopped just when a block had turned too far: the next step looks again. Without one it finds nothing.
+  // A stopped run may resume just after a block rotated too far, so the first step checks again. Without such a block nothing changes.
   block_sums_.front().stale = true;
   tier_before_ = state.tier;
   double weight = 0, low = 1e300, high = -1e300;
@@ -124,7 +124,7 @@ void Solver::refresh_stale() {
   sound_.refresh(stale_);
 }
 
-// Loads over the interval of this kick: half the last and half the next drift.
+// Loads over the interval of this kick: the second half of the last drift and the first half of the next.
 void Solver::excite() {
   const Model& m = model_;
   State& s = state_;
@@ -135,7 +135,7 @@ void Solver::excite() {
   now_.gravity = m.gravity;
   for (const auto& tilt : m.tilts) now_.gravity = rotation(mean(tilt.wave, t0, t1) * tilt.axis) * now_.gravity;
   if (!m.tilts.empty()) {
-    // U_g = -sum m g.u changes with g: that part is the work of tilting
+    // U_g = -sum m g.u changes with g; that change is the work of tilting.
     Vec3 moment = Vec3::Zero();
     for (int b = 0; b < m.nblock; ++b)
       if (m.kind[z(b)] == Kind::moving) moment += m.mass[z(b)] * s.u[z(b)];
@@ -173,10 +173,10 @@ void Solver::joints(int thread) {
                     cracked_sums_[z(first / Cracked::grain)]);
 }
 
-// Between forces and drift, on one thread: contact forces are summed, and joints past their range handed over.
+// Between forces and drift, on one thread: contact forces are gathered, and joints beyond their range are released to contact.
 void Solver::between() {
   if (contacts_) debris_.gather(push_.data(), sample_ != Sample::none);
-  if (state_.step == 0 && contacts_ && debris_.allowed_dt() < state_.dt) {  // the first drift already waits for what touches at the start
+  if (state_.step == 0 && contacts_ && debris_.allowed_dt() < state_.dt) {  // contacts present at the start limit the first drift
     follow_contacts();
     excite();
   }
@@ -194,7 +194,7 @@ void Solver::between() {
   debris_.loosen();
 }
 
-// Who is held, and which groups of blocks a step may pass by.
+// Updates the block constants (sleeping blocks do not move) and the groups of blocks that a step may skip.
 void Solver::note_sleep() {
   constants_ = block_constants(model_, state_);
   idle_ = idle_groups(model_, state_);
@@ -202,14 +202,14 @@ void Solver::note_sleep() {
 
 void Solver::blocks(int thread) {
   const Pushes pushes{contacts_ ? push_.data() : nullptr, load_.data(), loaded_};
-  const int groups = int(constants_.size()), grain = sequential_ ? groups : block_grain;  // a sweep is one thread's
+  const int groups = int(constants_.size()), grain = sequential_ ? groups : block_grain;  // a sweep runs on one thread
   const Range mine = share_of(groups, grain, thread, threads_);
   if (!sequential_) advance(model_, state_, constants_, now_, pushes, mine, sample_ != Sample::none, block_sums_, idle_, cracked_.poses());
   else if (mine.first < mine.last) sequential_->sweep(now_, pushes, constants_, sample_ != Sample::none, joint_sums_.front(), block_sums_);
   if (contacts_) debris_.follow(thread, mine.first * lanes, mine.last * lanes);
 }
 
-// Blocks with a prescribed motion: they are where they are told to be; what holds them there works on the system.
+// Blocks with prescribed motion. The reaction that moves them does external work on the system.
 void Solver::drive() {
   const Model& m = model_;
   State& s = state_;
@@ -234,7 +234,7 @@ void Solver::drive() {
       turned = turn * turned;
       turns = true;
     }
-    if (!turns) turned = s.q[z(b)];  // held as it was put
+    if (!turns) turned = s.q[z(b)];  // no prescribed rotation: the attitude stays
     const Vec3 v = (to - s.u[z(b)]) / s.dt, w = rotation_vector(turned * s.q[z(b)].conjugate()) / s.dt;
     const Vec6 wrench = block_wrench(b);
     const Vec3 force = wrench.head<3>(), moment = wrench.tail<3>();
@@ -275,7 +275,7 @@ void Solver::finish(const Hooks& hooks) {
     std::swap(instant_.u, s.u);
     std::swap(instant_.q, s.q);
   }
-  for (const int j : leaving_) cracked_.drop(j);  // only now: theirs are forces of the instant that was sampled
+  for (const int j : leaving_) cracked_.drop(j);  // not earlier: the sample needs their forces
   leaving_.clear();
   s.t = s.start_t + double(s.step + 1 - s.start_step) * s.dt;
   ++s.step;
@@ -284,7 +284,7 @@ void Solver::finish(const Hooks& hooks) {
   follow_contacts();
 }
 
-// Joints and contacts must leave the momentum of all blocks alone, supports included: their forces and moments add up to zero.
+// Joints and contacts conserve the momentum of all blocks, supports included: their forces and moments must sum to zero.
 void Solver::check_momentum() {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
   double forces = 0, moments = 0;
@@ -301,7 +301,7 @@ void Solver::check_momentum() {
   if (moments > 0) worst = std::max(worst, moment.norm() / moments);
 }
 
-// Joints change their lanes here, where all forces of the step are done.
+// Joints change their lanes here, when all forces of the step are complete.
 void Solver::note_cracks() {
   bool cracked = false;
   for (JointSums& sums : joint_sums_) {

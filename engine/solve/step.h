@@ -1,5 +1,7 @@
-// One step as a list of named phases, run by a team of threads that stays together:
-//   excite -> (contacts) -> joint forces | barrier | kick and drift of blocks | barrier | settle the ledger, look after topology.
+// One time step as a sequence of named phases, run by a persistent team of threads:
+//   prepare the step, evaluate loads | contact forces, joint forces | barrier
+//   gather contact forces, release joints | integrate: kick and drift of blocks | barrier
+//   close the ledger, update the topology, choose the next step length
 #pragma once
 #include <functional>
 #include <limits>
@@ -18,13 +20,13 @@
 
 namespace erbs {
 
-// The instant at which a sample is taken: everything at time t.
+// The instant of a sample: all quantities at time t.
 struct Instant {
   double t = 0;
   Excitation excitation;  // means over the kick about t
-  // Velocities and spin momenta half a step before t; those half a step after it are in the state during sampled().  [nblock + 1]
+  // Velocities and spin momenta half a step before t. During `sampled()` the state has the values half a step after t. [nblock + 1]
   BlockVec3 v_before, w_before, spin_before;  // m/s, rad/s, kg m2/s
-  BlockVec3 u;                                // m, poses at t while the state has drifted on; swapped with it during sampled()
+  BlockVec3 u;                                // m, poses at t; the state has drifted on, so they are swapped with it during `sampled()`
   BlockQuat q;
 };
 
@@ -32,9 +34,9 @@ class Solver {
  public:
   Solver(const Model& model, State& state, int threads);
 
-  // Steps until `stop` says so, or a number breaks. A step whose time is wanted is a sample: the ledger is settled there, and
-  // sampled() is called with the state as it is at t and the velocities about t in instant(). Every 32nd step the ledger is
-  // settled as well. stop() is called after such steps, when the state is whole: a checkpoint may be taken there.
+  // Runs steps until `stop()` is true or a number is not finite. A step at a wanted time is a sample: the ledger closes there, the state
+  // has the poses at t, `instant()` has the velocities about t, and `sampled()` is called. The ledger also closes every few steps in
+  // between (`ledger_every` of `step.cpp`). `stop()` is called after each of these steps; the state is complete then, fit for a checkpoint.
   struct Hooks {
     std::function<bool(double t)> wanted;
     std::function<void()> sampled;
@@ -44,11 +46,11 @@ class Solver {
 
   const Instant& instant() const { return instant_; }
   bool broken() const { return broken_; }
-  Vec6 block_wrench(int b) const;  // N, N m about the centroid: joints and contacts
-  Vec6 load_wrench(int b) const;   // loads; on a driven block what holds it on its course
-  std::vector<int> take_opened();  // joints handed over to contact since the last call
+  Vec6 block_wrench(int b) const;  // N, N m about the centroid, of joints and contacts
+  Vec6 load_wrench(int b) const;   // of loads; for a driven block the reaction that prescribes its motion
+  std::vector<int> take_opened();  // joints released to contact since the last call
   std::vector<HandOver> take_handed() { return debris_.take_handed(); }
-  // s, the step that what touches bears at present, `critical` being that of the sound structure
+  // s, time step that the present contacts allow; `critical` is the limit of the intact structure.
   double borne_dt(double critical) const {
     const double contacts = contacts_ ? debris_.borne_dt() : state_.dt_goal, goal = state_.dt_goal;
     return contacts < goal ? std::min(contacts, critical) : contacts > goal ? std::max(contacts, critical) : critical;
@@ -58,7 +60,7 @@ class Solver {
   long touched() const { return debris_.touched(); }
   long slept() const { return debris_.slept(); }
   double contact_seconds() const { return contact_seconds_; }
-  std::vector<int> take_cracked();  // joints that cracked since the last call, in the order of their number
+  std::vector<int> take_cracked();  // joints that cracked since the last call, in ascending order
 
  private:
   enum class Sample { none, ledger, full };
@@ -85,26 +87,26 @@ class Solver {
   State& state_;
   const int threads_;
   const bool reference_;
-  const int joint_items_,
-      joint_grain_;       // groups of blocks with the sound joints they keep, batches of damped ones, joints for the reference
-  double floor_ = 0;      // J, below which the ledger's scale does not go
-  double lift_ = 0;       // J, that lifts all blocks by a thousandth of the structure's height
-  double budget_ = 0;     // J, event_budget() of this step
-  int ledger_steps_ = 1;  // from one settling of the ledger to the next
-  double mass_ = 0;       // kg, of all blocks that move
+  // Work items of the joint phase: block groups with the intact joints they own, packs with dashpots, or joints of the reference kernel.
+  const int joint_items_, joint_grain_;
+  double floor_ = 0;      // J, least scale of the ledger
+  double lift_ = 0;       // J, work that lifts all blocks by a thousandth of the structure's height
+  double budget_ = 0;     // J, `event_budget()` of this step
+  int ledger_steps_ = 1;  // steps between two closings of the ledger
+  double mass_ = 0;       // kg, of all moving blocks
   Excitation now_;
-  Rows push_, load_;  // N, N m: of contacts (once there are any) and of loads, a row a block
+  Rows push_, load_;  // N, N m: wrenches of contacts (once there are any) and of loads, one row per block
   std::vector<LoadedBlock> loaded_;
   std::vector<BlockConstants> constants_;
-  std::vector<std::uint8_t> stale_;                   // blocks that were refreshed last
-  std::vector<std::uint8_t> idle_;                    // groups of blocks that sleep, all of them
+  std::vector<std::uint8_t> stale_;                   // blocks with a new reference pose
+  std::vector<std::uint8_t> idle_;                    // groups in which every block sleeps
   std::vector<JointSums> joint_sums_, cracked_sums_;  // per chunk
   std::vector<BlockSums> block_sums_;
   std::vector<int> newly_cracked_, opened_, leaving_;
   Cracked cracked_;
-  Sound sound_;  // what the cracked ones have left
+  Sound sound_;  // the joints that have not cracked
   Debris debris_;
-  std::optional<Sequential> sequential_;  // in place of joints and blocks
+  std::optional<Sequential> sequential_;  // replaces the phases `joints` and `blocks`
   bool any_cracked_ = false;
   double contact_seconds_ = 0;
   std::vector<Tier> tier_before_;

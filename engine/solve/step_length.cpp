@@ -1,4 +1,5 @@
-// How long the next step of a Solver is: what touches, what lands and what opens next bound it (contact_limit.h, landing.h, event_bound.h).
+// Length of the next time step. Present contacts, coming impacts and coming openings bound it (`contact_limit.h`, `landing.h`,
+// `event_bound.h`).
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -10,23 +11,23 @@
 namespace erbs {
 namespace {
 
-constexpr double still = 0.1;   // of the haste of what falls: what rests and trembles below the bounds of sleep is no event
-constexpr int few_joints = 16;  // of more, one that opens is no event to speak of
+constexpr double still = 0.1;   // of the event rate of free fall; below it a body at rest only trembles under the thresholds of sleep
+constexpr int few_joints = 16;  // in a structure of more joints the first opening of one is no significant event
 std::size_t z(int i) { return std::size_t(i); }
 
-// The next step below on a scale of 32 to the octave: what differs in its last digits, as with blocks that sleep, then makes no difference.
+// Rounds dt down to a scale of 32 steps per octave. Differences in the last digits, as sleeping blocks cause them, then leave dt equal.
 double on_scale(double dt) { return std::exp2(std::floor(32 * std::log2(dt)) / 32); }
 
 }  // namespace
 
-// The step that has just been taken, by what touches where it led to.
+// Judges the last step by the contacts at its end.
 void Solver::judge_step() {
   if (!contacts_ || !(state_.last_dt > step_slack * debris_.allowed_dt())) return;
   long_steps_.add(state_.last_dt / debris_.borne_dt());
 }
 
-// The step follows the contacts: shorter at once, longer again after a while of calm, and then by no more than half, since what may land
-// is looked for a few steps ahead only.
+// The step follows the contacts. It shrinks at once. It grows after 100 steps without a limit, and by half at most, because impacts are
+// predicted only a few steps ahead.
 void Solver::follow_contacts() {
   State& s = state_;
   double allowed = contacts_ ? debris_.allowed_dt() : s.dt_goal;
@@ -46,9 +47,10 @@ void Solver::follow_contacts() {
   s.start_step = s.step;
 }
 
-// Joints that have not opened yet are passed in lanes that look no further than their limit (sound.h). In a structure of many blocks the
-// first opening of one is no event to speak of; where there are few it is, at a step set by a soft bed. What starts without gravity in its
-// joints bounces from the first step on: a change of dt would err by more than an opening.
+// Event rate (1/s) of intact dry joints that are about to open for the first time. The kernel of intact joints evaluates nothing but their
+// limits (`sound.h`), so they are evaluated here. In a structure of many joints the first opening of one is no significant event. In a
+// structure of few joints it is, because a soft joint allows a long step. A run with `start = "rest"` has no gravity in its joints and
+// bounces from the first step on; a change of dt would then err by more than an opening.
 double Solver::haste_of_first_openings() const {
   double haste = 0;
   if (model_.njoint > few_joints || !(state_.last_dt > 0) || model_.analysis.start == "rest") return haste;
@@ -69,7 +71,7 @@ double Solver::haste_of_first_openings() const {
   return haste / dt;
 }
 
-// The step that what opens and closes next allows (event_bound.h).
+// Time step that the next openings and closings allow (`event_bound.h`).
 void Solver::foresee_events() {
   double haste = 0;
   for (std::vector<JointSums>* of : {&joint_sums_, &cracked_sums_})
@@ -81,19 +83,20 @@ void Solver::foresee_events() {
   }
   haste = std::max(first, state_.last_dt > 0 ? haste / state_.last_dt : 0);
   if (contacts_) haste = std::max(haste, debris_.haste());
-  const double falls = (now_.gravity - now_.ground).norm() * std::sqrt(mass_ / (8 * budget_));  // in flight the net force is weight
+  const double falls = (now_.gravity - now_.ground).norm() * std::sqrt(mass_ / (8 * budget_));  // in flight the net force is the weight
   if (haste > still * falls) haste = std::max(haste, falls);
   state_.event_dt = haste > 0 ? 1 / haste : 0;
 }
 
-// What vibrates against its springs errs by F^2 dt^2 / (8 m) less of its energy in longer steps.
+// A change of dt changes the energy of a block that vibrates on its springs by F^2 (dt_1^2 - dt_0^2) / (8 m). A longer step is allowed
+// while the sum over all blocks stays within the event tolerance.
 bool Solver::may_grow(double dt) const {
   const double budget = event_tolerance * state_.energy.reference, more = (dt * dt - state_.dt * state_.dt) / 8;
   if (!(dt > state_.dt) || !(budget > 0) || model_.analysis.unstable || sequential_) return true;
   return more * vibration() <= budget;
 }
 
-// The sum of F^2 / m of all blocks (J/s2), moments and inertias with it.
+// Sum over all blocks of F^2 / m, and of M^T I^-1 M for moments (J/s2).
 double Solver::vibration() const {
   double sum = 0;
   for (int b = 0; b < model_.nblock; ++b) {

@@ -14,9 +14,9 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 std::size_t z(int i) { return std::size_t(i); }
 
-// The step at which dt^2 lambda(dt) comes to `most`, lambda(dt) being the largest eigenvalue with dashpots; `free`: the one without them,
-// `viscous` the greatest b of them. Starts from the answer for equal ones, dt^2 + 2 b dt = free^2; dt^2 lambda grows like a power of
-// dt between 1 and 2, so that each correction leaves at most a third of the error. The answer errs to the safe side.
+// Step at which dt^2 lambda(dt) reaches `most`, lambda(dt) being the largest eigenvalue with dashpots. `free`: the step without dashpots;
+// `viscous`: their greatest b. The iteration starts from the answer for equal dashpots, dt^2 + 2 b dt = free^2. Since dt^2 lambda grows
+// like a power of dt between 1 and 2, each correction leaves at most a third of the error. The result errs on the safe side.
 template <class Lambda>
 double longest_step(double free, double viscous, double most, double tolerance, const Lambda& lambda) {
   if (!(viscous > 0) || !std::isfinite(free)) return free;
@@ -74,8 +74,8 @@ double greatest(const Model& m, double Joint::*viscous) {
   return most;
 }
 
-// The form of a joint at a step dt with its dashpots: dt^2 K + 2 dt C, over dt^2, which leapfrog keeps bounded while it is below
-// 4 M / dt^2 (velocities lag by half a step).
+// Stiffness of a joint with its dashpots at a step dt: (dt^2 K + 2 dt C) / dt^2. Leapfrog stays bounded while this is below 4 M / dt^2
+// (velocities lag by half a step).
 JointForm with_dashpots(JointForm form, double viscous, double dt) {
   const double factor = 1 + 2 * viscous / dt;
   for (double& k : form.diagonal) k *= factor;
@@ -89,7 +89,7 @@ JointForm cracked_form(const Joint& joint) {
   return {{k(0, 0), k(1, 1), k(2, 2), k(3, 3), k(4, 4), k(5, 5)}, k(3, 4)};
 }
 
-// The steps that all joints together allow, sound and cracked.
+// Time steps that all joints together allow, intact and cracked.
 void set_critical(const Model& m, const State& s, const Freedom& f, const RootMass& root, StepBounds& out) {
   const double sound = greatest(m, &Joint::viscous), broken = greatest(m, &Joint::viscous_cracked);
   const JointOperator joints(m, s, f);
@@ -111,7 +111,7 @@ void set_critical(const Model& m, const State& s, const Freedom& f, const RootMa
   std::vector<JointForm> cracked;
   for (const Joint& joint : m.joint) cracked.push_back(cracked_form(joint));
   const auto of = [&](const Joint& joint) -> const JointForm& { return cracked[std::size_t(&joint - m.joint.data())]; };
-  // A thousandth is enough: each turn is another Lanczos run.
+  // An accuracy of 1e-3 is enough: each iteration is another Lanczos run.
   out.cracked = longest_step(stiffer ? 2 / std::sqrt(lambda(of)) : free, broken, 4, 1e-3, [&](double dt) {
     return lambda([&](const Joint& joint) { return with_dashpots(of(joint), joint.viscous_cracked, dt); });
   });
@@ -177,12 +177,12 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
                                       [&](double dt) { return largest(own[z(b)] + 2 / dt * damping[z(b)]); });
     if (!std::isfinite(limit)) continue;
     if (limit < out.block) out.block = limit, out.stiffest_block = b;
-    // Gu and Miao (3): T_i = 2 pi sqrt(m_i / k_i), neighbours fastened, in translation
+    // Gu and Miao, rule (3): T_i = 2 pi sqrt(m_i / k_i), neighbours fixed, in translation.
     const double k = Eigen::SelfAdjointEigenSolver<Mat3>(Mat3(own[z(b)].topLeftCorner<3, 3>())).eigenvalues()[2];
     if (k > 0) out.element_period = std::min(out.element_period, 2 * pi * std::sqrt(m.mass[z(b)] / k));
   }
   if (f.count == 0 || out.block == infinite) return out;
-  own = std::vector<Mat6>();  // {} would keep the room
+  own = std::vector<Mat6>();  // = {} would not free the memory
   damping = std::vector<Mat6>();
   set_critical(m, s, f, roots, out);
   return out;

@@ -15,17 +15,17 @@ std::size_t z(int i) { return std::size_t(i); }
 
 int number(const Freedom& f, int b) { return f.first[z(b)] < 0 ? -1 : f.first[z(b)] / 6; }
 
-// Motion of a block's centroid when its piece moves by x: displacement and rotation of the piece's middle.
+// Motion of a block's centroid per motion x of its piece: displacement and rotation of the piece's centre.
 Mat6 carried(const Vec3& arm) {
   Mat6 r = Mat6::Identity();
   r.topRightCorner<3, 3>() = -cross_matrix(arm);
   return r;
 }
 
-// Pairs of pieces, the higher first, and what couples them.
+// Stiffness that couples two pieces, by their indices, the higher first.
 using Coupled = std::map<std::pair<int, int>, Mat6>;
 
-// Takes `coupled` apart: there is room for one of the two.
+// Lower half of the coarse matrix. Empties `coupled`: there is memory for one of the two.
 Sparse lower_half(Coupled& coupled, int count) {
   Triplets entries;
   entries.reserve(36 * coupled.size());
@@ -41,8 +41,8 @@ Sparse lower_half(Coupled& coupled, int count) {
 
 }  // namespace
 
-// Pieces grow from the first block that is in none, over its neighbours and theirs. What is left over between them, less than
-// half a piece, joins the piece it is joined to.
+// Pieces grow from the first block without a piece over its neighbours and theirs. A remainder of less than half a piece becomes part of a
+// neighbouring piece.
 void TwoLevel::group(const Model& m, const State& s, const Freedom& f) {
   const std::size_t count = z(f.count / 6);
   std::vector<int> first(count + 1, 0), neighbour;
@@ -109,7 +109,7 @@ TwoLevel::TwoLevel(const Model& m, const State& s, const Freedom& f, const Form&
       own[z(end[e])] += side[e]->transpose() * k * *side[e];
       of_piece[e] = *side[e] * carried(arm_[z(end[e])]);
     }
-    if (end[0] >= 0 && end[1] >= 0 && piece_[z(end[0])] == piece_[z(end[1])]) continue;  // it moves as one
+    if (end[0] >= 0 && end[1] >= 0 && piece_[z(end[0])] == piece_[z(end[1])]) continue;  // both blocks are in one rigid piece
     for (int p = 0; p < 2; ++p)
       for (int q = 0; q < 2; ++q)
         if (end[p] >= 0 && end[q] >= 0) add(piece_[z(end[p])], piece_[z(end[q])], of_piece[p].transpose() * k * of_piece[q]);
