@@ -23,7 +23,7 @@ struct Ended {
 constexpr bool was_killed(int code) { return code > 128 && code != 130; }
 Ended wait_for_any();
 Ended wait_for_any(double seconds);  // waits at most so long; pid = -1 if no child has ended by then
-int wait_for(const Child& child);  // exit code; forwards a caught interrupt to the child
+int wait_for(const Child& child);    // exit code; forwards a caught interrupt to the child
 void interrupt(const Child& child);  // SIGINT, like Ctrl-C
 void stop_hard(const Child& child);  // SIGKILL, for a child that ignores SIGINT
 
