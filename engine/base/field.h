@@ -17,8 +17,8 @@ template <class T>
 struct Field {
   std::string_view name;
   std::variant<double T::*, int T::*, bool T::*, std::string T::*, Vec3 T::*> member;
-  std::string_view unit;  // "" for none
-  std::string_view text;  // one sentence
+  std::string_view unit;                      // "" for none
+  std::string_view text;                      // one sentence
   double low = -unbounded, high = unbounded;  // allowed range, both ends included
   bool required = false;
   std::string_view words = {};  // allowed words of a text, "a|b|c"; empty: any
