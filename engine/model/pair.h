@@ -61,8 +61,9 @@ struct alignas(64) Pair {
   int a = 0, b = 0;                     // blocks, a < b
   int part_a = 0, part_b = 0;           // parts of them
   int separating = -1;                  // cache only
-  // The inner distance of the reference body is the contact potential. It is the larger part, or that of the lower block, and never changes.
-  std::uint8_t b_is_reference = 0;      // 1: b is the reference body, whose inner distance is the potential; fixed for good
+  // The inner distance of the reference body is the contact potential. This body is the larger part, or the part of the lower block; it
+  // never changes.
+  std::uint8_t b_is_reference = 0;  // 1: b is the reference body, else a
   std::uint8_t touching = 0;
   static constexpr std::uint8_t softening = 2;
   // 1: the pair has the faces and the stiffness of a former joint; once separated it is debris. 2: its stiffness is being reduced to that
