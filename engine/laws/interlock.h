@@ -24,7 +24,7 @@ inline constexpr int interlock_every = 8;       // steps between updates of the 
 // The same limits in the units of a step.
 struct Interlock {
   double gap = 0;   // m; 0: no interlock
-  double slow = 0;  // m2, square of the slip in a step
+  double slow = 0;  // m2, square of the largest slip in a step
   double rate = 0;  // share of the difference by which the mean is updated in this step; 0: no update
 };
 

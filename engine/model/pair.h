@@ -66,8 +66,8 @@ struct alignas(64) Pair {
   std::uint8_t b_is_reference = 0;  // 1: b is the reference body, else a
   std::uint8_t touching = 0;
   static constexpr std::uint8_t softening = 2;
-  // 1: the pair has the faces and the stiffness of a former joint; once separated it is debris. 2: its stiffness is being reduced to that
-  // of debris.
+  // 1: the pair has the faces and the stiffness of a former joint; once separated it is debris. 2: its stiffness is changing to that of
+  // debris.
   std::uint8_t bed = 0;
   Corners corners;  // cache only
 };
