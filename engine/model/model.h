@@ -112,7 +112,7 @@ struct Model {
   std::vector<Ground> grounds;
   std::vector<Tilt> tilts;
   Vec3 gravity = Vec3::Zero();                                   // m/s2
-  double dt_critical = std::numeric_limits<double>::infinity();  // s, 2 / omega_max at rest, each joint in its stiffer form; infinite without
+  double dt_critical = std::numeric_limits<double>::infinity();  // s, 2 / omega_max at rest, joints in their stiffer form; infinite without
   double settlement = 0;                                         // m, estimated settlement of the top under self-weight (laws/interlock.h)
   double dt_most = 0;                                            // s, longest step of a run, once contacts allow more than the joints did
   Damping damping;
