@@ -1,5 +1,5 @@
-// An array of plain items, all bytes zero until they are written. It is read and written like a vector, but pages that nobody has
-// written take no memory: for what most joints of a structure never have, such as the history of their points.
+// Zero-initialised array of plain items with the interface of a vector. Unwritten pages take no memory.
+// It holds data that most joints of a structure never need, such as the history of their points.
 #pragma once
 #include <sys/mman.h>
 
@@ -33,7 +33,7 @@ class Cold {
   }
   ~Cold() { release(); }
 
-  void clear(std::size_t n) {  // n items of zeros
+  void clear(std::size_t n) {  // n zero items
     release();
     if (n == 0) return;
     void* pages = ::mmap(nullptr, n * sizeof(T), PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
@@ -48,7 +48,7 @@ class Cold {
     std::swap(data_, other.data_);
     std::swap(size_, other.size_);
   }
-  // All items from these bytes; pages of zeros stay unwritten.
+  // Copies all items from `from`. Pages that are zero on both sides stay unwritten.
   void put(const void* from) {
     constexpr std::size_t page = 4096;
     static constexpr char zeros[page] = {};

@@ -9,7 +9,8 @@ namespace erbs {
 
 namespace {
 
-// Processors of a quota such as "150000 100000" (us a period) in `file`, or of the two files of the older interface; 0 where none is set.
+// CPU quota in processors; 0 if none is set. `file` holds quota and period in us, such as "150000 100000".
+// The older interface (cgroup v1) keeps the period in a file of its own.
 double quota_in(const std::string& file, const std::string& period_file = "") {
   std::ifstream in(file);
   double quota = 0, period = 0;
@@ -19,11 +20,11 @@ double quota_in(const std::string& file, const std::string& period_file = "") {
   return quota > 0 && period > 0 ? quota / period : 0;
 }
 
-// The least quota of the control groups that hold this process, from its own up to the root; 0: none.
+// Smallest CPU quota over the control group of this process and its ancestors, in processors; 0 if none is set.
 double least_quota() {
   double least = 0;
   std::ifstream groups("/proc/self/cgroup");
-  for (std::string line; std::getline(groups, line);) {  // 4:cpu,cpuacct:/a/b, or 0::/a/b
+  for (std::string line; std::getline(groups, line);) {  // v1 4:cpu,cpuacct:/a/b, v2 0::/a/b
     const std::size_t first = line.find(':'), second = line.find(':', first + 1);
     if (first == std::string::npos || second == std::string::npos) continue;
     const std::string controllers = "," + line.substr(first + 1, second - first - 1) + ",";

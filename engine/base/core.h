@@ -1,18 +1,19 @@
-// The core that a thread runs on.
+// Processor affinity: on which core a thread runs, and how many cores the process may use.
 #pragma once
 #include <sched.h>
 
 namespace erbs {
 
 int this_core();
-// How many threads this process can run at once: the processors of its affinity mask, and no more than the quota of its control group
-// (a container's). At least 1.
+// Number of threads this process can run at once, at least 1. It counts the processors of the affinity mask, capped by the CPU quota of
+// the control group (container).
 int usable_processors();
-// Lets the scheduler find another core for the calling thread; where it may use no other, nothing happens.
+// Moves the calling thread off `core`, if its affinity mask allows another core. The mask is the same afterwards.
 void leave_core(int core);
 
-// While it lives, the calling thread stays on a core of its own: thread `i` of as many as there are cores for the process. A scheduler that
-// wakes one of them beside the other leaves it there. Where there are more cores, which are free is not known, and nothing happens.
+// Binds the calling thread, number `i` of `threads`, to a core of its own while the object lives. Reason: a scheduler that wakes two
+// threads on one core leaves them there. Threads are bound only if the process has exactly one core for each; with more
+// cores it is unknown which are free.
 class OwnCore {
  public:
   OwnCore(int i, int threads);

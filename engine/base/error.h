@@ -1,4 +1,4 @@
-// The user's mistakes and ours. The one door to fmt.
+// Errors: mistakes of the user, faults of the program, numerical trouble. The only file that includes fmt.
 #pragma once
 #include <fmt/format.h>
 
@@ -9,14 +9,14 @@
 
 namespace erbs {
 
-// Where in a script (or an input file) a thing was said. line 0: no line known.
+// A place in a script or an input file. line 0: no line known.
 struct Place {
   std::string file;
   int line = 0;
   std::string text() const { return file.empty() ? std::string() : line > 0 ? fmt::format("{}:{}", file, line) : file; }
 };
 
-// A mistake of the user's: names the thing, the place and the remedy. Ends the program with code 2.
+// A mistake of the user. The message names the thing, the place and the remedy. Exit code 2.
 class Error : public std::runtime_error {
  public:
   explicit Error(std::string message, Place where = {})
@@ -24,20 +24,20 @@ class Error : public std::runtime_error {
   Place place;
 };
 
-// A file that cannot be written: the disk is full, a limit is reached, the folder is gone. Ends a run with code 3 where a checkpoint is
-// there to go on from, else with code 2.
+// A file that cannot be written: disk full, size limit reached, folder gone. Exit code 3 if a checkpoint allows the run to resume,
+// else 2.
 class WriteError : public Error {
   using Error::Error;
 };
 
-// Every mistake of a scene at once; each entry is one message that already names its place.
+// All mistakes of a scene at once. Each message already names its place.
 class Errors : public std::runtime_error {
  public:
   explicit Errors(std::vector<std::string> all) : std::runtime_error(fmt::format("{}", fmt::join(all, "\n"))), messages(std::move(all)) {}
   std::vector<std::string> messages;
 };
 
-// Trouble in the numbers (NaN, energy past its gate). Ends the program with code 1; what was written stays intact.
+// Numerical trouble: NaN, or an energy residual above its tolerance. Exit code 1; the output written so far stays intact.
 class NumbersError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

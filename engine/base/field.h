@@ -1,5 +1,5 @@
-// A parameter is described once: its name, member, unit, meaning and range. Reading, unknown-key errors, range checks,
-// help, the manifest and the editor file all come from this list.
+// Field lists: each parameter is described once by its name, member, unit, meaning and range. Reading, unknown-key errors, range
+// checks, help, the manifest and the editor file all use this list.
 #pragma once
 #include <limits>
 #include <string>
@@ -17,11 +17,11 @@ template <class T>
 struct Field {
   std::string_view name;
   std::variant<double T::*, int T::*, bool T::*, std::string T::*, Vec3 T::*> member;
-  std::string_view unit;  // "" where the number has none
-  std::string_view text;  // one sentence
-  double low = -unbounded, high = unbounded;  // allowed range, ends included
+  std::string_view unit;                      // "" for none
+  std::string_view text;                      // one sentence
+  double low = -unbounded, high = unbounded;  // allowed range, both ends included
   bool required = false;
-  std::string_view words = {};  // of a text: the words allowed, "a|b|c"; empty is any
+  std::string_view words = {};  // allowed words of a text, "a|b|c"; empty: any
 };
 
 template <class T>

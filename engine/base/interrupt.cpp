@@ -5,7 +5,7 @@
 namespace erbs {
 namespace {
 
-std::atomic<bool> interrupted = false;  // a signal handler reaches nothing else
+std::atomic<bool> interrupted = false;  // global: a signal handler can access no other state
 
 void on_signal(int signal) {
   interrupted = true;

@@ -1,17 +1,17 @@
-// Being asked to end: Ctrl-C, kill, a terminal that closes.
+// Requests to end the program: Ctrl-C, kill, a closed terminal.
 #pragma once
 #include <atomic>
 #include <stdexcept>
 
 namespace erbs {
 
-// From the first call on SIGINT, SIGTERM and SIGHUP (unless nohup has it ignored) set what is returned instead of ending the program; a
-// second signal of a kind ends it.
+// From the first call on, SIGINT, SIGTERM and SIGHUP set the returned flag instead of ending the program. A second signal of the same
+// kind ends it. SIGHUP stays ignored under nohup.
 const std::atomic<bool>& catch_interrupts();
-// Whether one came. False where none are caught.
+// Whether a signal has come. Always false without `catch_interrupts`.
 bool is_interrupted();
 
-// Work that was left because of one; ends the program with code 130.
+// Thrown by work that a signal has ended. Exit code 130.
 class Interrupted : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };

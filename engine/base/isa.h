@@ -1,14 +1,14 @@
-// Which instruction set the kernels run on.
+// The instruction set of the kernels, chosen when the program starts.
 #pragma once
 
 namespace erbs {
 
 enum class Isa { sse2, avx2, avx512 };
 
-// The widest this processor has; ERBS_ISA=sse2|avx2|avx512 in the environment asks for a narrower one; another word is an Error.
+// The widest set of this processor. The environment variable ERBS_ISA=sse2|avx2|avx512 caps it; any other word is an Error.
 Isa chosen_isa();
 
-// What was compiled for it.
+// The kernels compiled for the chosen set.
 template <class Kernels>
 const Kernels& by_isa(const Kernels& sse2, const Kernels& avx2, const Kernels& avx512) {
   const Isa isa = chosen_isa();

@@ -1,10 +1,13 @@
-// Threads: a team that stays together for a whole run, with a barrier cheap enough for two of them a step.
-// std::thread and atomics rather than OpenMP: spinning then needs no environment variable set before main, and the thread
-// sanitizer understands it. A waiting thread spins for some tens of microseconds, then sleeps, so that an oversubscribed core still makes
-// progress. To be woken takes longer than a phase of a step, on a virtual core much longer; meanwhile the others would go to sleep, and so
-// on in turn. So after a sleep that was short the next wait is longer, up to milliseconds. And no yielding: to whom a core is yielded keeps
-// it for milliseconds. Two that find themselves on one core part, since no scheduler does it for them: where they take turns, the load is
-// that of one. Where there are as many cores as threads each keeps its own.
+// A team of threads that lives for a whole run, with a barrier cheap enough to be passed twice per step.
+//
+// std::thread and atomics replace OpenMP: spinning then needs no environment variable before main, and the thread sanitizer
+// understands the code.
+// * A waiting thread spins for some tens of microseconds, then sleeps, so that an oversubscribed core still makes progress.
+// * Waking a thread takes longer than a phase of a step, on a virtual core much longer. Meanwhile the other threads would fall asleep, one
+//   after the other. After a short sleep the next spin is therefore longer, up to milliseconds.
+// * No thread yields its core: the process that receives the core keeps it for milliseconds.
+// * Two threads on one core separate by themselves, since no scheduler separates them: alternating, they look like one thread.
+// * If there are as many cores as threads, each thread is bound to its own core.
 #pragma once
 #include <atomic>
 #include <chrono>
@@ -27,8 +30,8 @@ class Barrier {
     for (int other = 0; other < count_; ++other)
       if (other != thread) wait_for(thread, seat_[std::size_t(other)].arrived, round);
   }
-  // As wait(), but thread 0 runs `alone` while all others wait: one barrier where two would stand about it. Where that throws, it throws
-  // on thread 0 and the others are told by a false.
+  // Like wait(), but thread 0 runs `alone` while all others wait: one barrier instead of two. If `alone` throws, thread 0 throws and the
+  // other threads get false.
   template <class F>
   bool wait(int thread, F&& alone) {
     const unsigned round = arrive(thread);
@@ -50,10 +53,10 @@ class Barrier {
 
  private:
   using Clock = std::chrono::steady_clock;
-  // A thread's own. What others wait for has a cache line to itself: between caches lines are what takes time, so each is written by one
-  // thread, and by one only.
+  // State of one thread. Each flag that other threads wait for has its own cache line, written by one thread only. Moving cache lines
+  // between cores takes most of the time of a barrier.
   struct Seat {
-    alignas(64) std::atomic<unsigned> arrived{0};  // at how many barriers
+    alignas(64) std::atomic<unsigned> arrived{0};  // number of barriers reached
     alignas(64) std::atomic<int> core{-1};
     Clock::time_point left{};
     Clock::duration pause{};
@@ -68,11 +71,12 @@ class Barrier {
     return round;
   }
   static void say(std::atomic<unsigned>& to, unsigned round) {
-    // in one order with the count of sleepers that notify_all reads next: a weaker store may still be on its way when one goes to sleep
+    // Sequentially consistent with the count of sleepers that notify_all reads next. A weaker store may still be on its way when a thread
+    // goes to sleep.
     to.store(round, std::memory_order_seq_cst);
     to.notify_all();
   }
-  // Until `what` says so: awake for as long as it may soon, then asleep.
+  // Waits until `what` reaches `round`: spins first, then sleeps.
   void wait_for(int thread, const std::atomic<unsigned>& what, unsigned round) {
     using namespace std::chrono_literals;
     Seat& mine = seat_[std::size_t(thread)];
@@ -87,7 +91,8 @@ class Barrier {
     if (slept < 1ms) mine.patience = std::min(mine.patience + 1, most_patience);
     else if (slept > 8ms) mine.patience = std::max(mine.patience - 1, 0);
   }
-  // Of two on one core the later one goes; ever more seldom where it is back soon, since there are too few cores then.
+  // Of two threads on one core the one with the higher number leaves. If it is soon back there are too few cores, and it leaves ever more
+  // rarely.
   void part(int thread) {
     using namespace std::chrono_literals;
     Seat& mine = seat_[std::size_t(thread)];
@@ -102,16 +107,16 @@ class Barrier {
     }
   }
 
-  static constexpr int most_patience = 6;  // 64 times as long
+  static constexpr int most_patience = 6;  // 2^6 = 64 times the spins
   const int count_, spins_;
-  const bool crowded_;  // more threads than processors: who waits sleeps at once, since the one it waits for may want its processor
+  const bool crowded_;  // more threads than processors: a waiting thread sleeps at once, to free its processor
   bool failed_ = false;
   std::vector<Seat> seat_;
   alignas(64) std::atomic<unsigned> opened_{0};
 };
 
-// Runs body(thread) on `threads` threads at once, the caller among them; an exception of any is rethrown after all have ended.
-// A body that may throw must not leave others waiting at a barrier: throw where all threads throw, or alone (Barrier::wait).
+// Runs body(thread) on `threads` threads at once, including the caller. An exception of any thread is rethrown after all have ended.
+// A body that throws must not leave other threads waiting at a barrier: throw on all threads, or inside Barrier::wait(thread, alone).
 inline void together(int threads, const std::function<void(int)>& body) {
   std::vector<std::exception_ptr> failed(std::size_t(threads), nullptr);
   const auto guarded = [&](int i) {
@@ -128,7 +133,7 @@ inline void together(int threads, const std::function<void(int)>& body) {
     if (f) std::rethrow_exception(f);
 }
 
-// Items [first, last) of n that thread `i` of `threads` owns, in whole chunks of `grain`.
+// Slice [first, last) of n items that thread `i` of `threads` owns, in whole chunks of `grain` items.
 struct Range {
   int first, last;
 };

@@ -39,11 +39,11 @@ Child start(const std::vector<std::string>& command, const std::string& log) {
   std::vector<char*> words;
   for (const auto& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
-  int failure[2];  // closed by a successful exec, else brings errno
+  int failure[2];  // a successful exec closes this pipe, a failed one writes errno
   if (pipe2(failure, O_CLOEXEC) != 0) throw Error(fmt::format("cannot start {}: {}", command.front(), std::strerror(errno)));
   const pid_t parent = getpid(), pid = fork();
   if (pid == 0) {
-    // It ends with us, however we end, and has its own say about pipes.
+    // The child ends with this thread, however that ends. It gets back the default handling of a closed pipe and of a file's size limit.
     prctl(PR_SET_PDEATHSIG, SIGTERM);
     if (getppid() != parent) _exit(128 + SIGTERM);
     std::signal(SIGPIPE, SIG_DFL);

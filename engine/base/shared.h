@@ -1,4 +1,4 @@
-// A list that its copies share until one of them is edited: bricks have the same faces, a scene and its model the same shapes.
+// A list whose copies share memory until one of them is edited: bricks share their faces, a scene and its model share shapes.
 #pragma once
 #include <cstddef>
 #include <initializer_list>
@@ -23,7 +23,7 @@ class Shared {
     return list_ ? *list_ : none;
   }
   operator const List&() const { return list(); }
-  List& edit() {  // of its own
+  List& edit() {  // detaches this copy from the others first
     if (!list_ || list_.use_count() > 1) list_ = std::make_shared<List>(list());
     return *list_;
   }

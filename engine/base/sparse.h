@@ -1,4 +1,4 @@
-// The one door to Eigen's sparse matrices and factorisations.
+// The only file that includes Eigen's sparse matrices and factorisations.
 #pragma once
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>

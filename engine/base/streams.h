@@ -1,13 +1,13 @@
-// The standard streams and the signals of a program that others start: in scripts, pipes, with a full disk or a closed terminal.
+// Standard streams and signals of a program that others start: in scripts, in pipes, with a full disk or a closed terminal.
 #pragma once
 
 namespace erbs {
 
-// To be called first: descriptors 0 to 2 are open, or else the next file opened would take what is printed; a pipe that is closed or a
-// file that reaches its limit is an error of the one write, and does not end the program.
+// Call first. Opens descriptors 0 to 2 if they are closed; otherwise the next file opened would receive the printed text. A closed pipe
+// or a file at its size limit then fails the single write and does not end the program.
 void prepare_streams();
 
-// To be called last: `code`, but where it is 0 and what was printed did not arrive, `failed`, with a message.
+// Call last. Returns `code`. If printed text was lost, prints a message and returns `failed` in place of a `code` of 0.
 int finish_streams(int code, int failed);
 
 }  // namespace erbs

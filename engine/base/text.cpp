@@ -7,7 +7,7 @@
 namespace erbs {
 namespace {
 
-// A letter of UTF-8 at the head of `text`; length 0 where there is none.
+// First UTF-8 character of `text`; length 0 if its bytes are invalid.
 struct Letter {
   std::size_t length = 0;
   unsigned code = 0;
@@ -24,7 +24,7 @@ Letter letter(std::string_view text) {
     if ((byte(i) & 0xc0u) != 0x80) return {};
     code = code << 6 | (byte(i) & 0x3fu);
   }
-  const unsigned least = length == 4 ? 0x10000 : length == 3 ? 0x800 : 0x80;  // shorter ones are another writing of the same letter
+  const unsigned least = length == 4 ? 0x10000 : length == 3 ? 0x800 : 0x80;  // a smaller code is an overlong encoding
   if (code < least || code > 0x10ffff || (code >= 0xd800 && code <= 0xdfff)) return {};
   return {length, code};
 }
@@ -47,7 +47,7 @@ std::string escaped(std::string_view bytes) {
   return out;
 }
 
-// Calls plain(bytes) and other(bytes) for one letter after the other.
+// Calls plain(bytes) for each plain character and other(bytes, valid) for each other one, in order.
 template <class Plain, class Other>
 void each_letter(std::string_view text, Plain&& plain, Other&& other) {
   while (!text.empty()) {
@@ -95,7 +95,7 @@ std::string printable(std::string_view text) {
 }
 
 void tell(std::FILE* to, std::string_view text) {
-  constexpr std::size_t most = 4000;  // bytes of a line: names and words of others may be of any length
+  constexpr std::size_t most = 4000;  // bytes per line: foreign names and words may have any length
   std::string all;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());

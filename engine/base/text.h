@@ -1,5 +1,5 @@
-// Text that comes from others: file names, words of scripts, cells of records, arguments. No control character of theirs reaches a
-// terminal, a file or another program.
+// Foreign text: file names, words of scripts, cells of records, arguments. None of its control characters reaches a terminal, a file or
+// another program.
 #pragma once
 #include <cstdio>
 #include <string>
@@ -7,23 +7,23 @@
 
 namespace erbs {
 
-// Valid UTF-8 without control characters, nor the signs that turn the direction of writing or end a line.
+// Whether `text` is valid UTF-8 without control characters, line separators or marks of writing direction.
 bool is_plain(std::string_view text);
 
-// Letters, digits, _, + and -, the first no sign: what may be the name of a file, of a metric, of a param.
+// Whether `text` may name a file, a metric or a param: letters, digits, _, + and -, not starting with a sign.
 bool is_name(std::string_view text);
 
-// `text` for a message, on one line: what is not plain is written as an escape (\n, \x1b). Longer than `most` bytes it ends in "...".
+// `text` on one line of a message. Characters that are not plain become escapes (\n, \x1b). Beyond `most` bytes it ends in "...".
 std::string shown(std::string_view text, std::size_t most = 200);
 
-// Whole messages for a terminal: as shown(), but lines and tabs stay, and nothing is cut.
+// A whole message for a terminal: like shown(), but line ends and tabs stay, and nothing is cut.
 std::string printable(std::string_view text);
 
-// printable() and the end of the line, to stderr or stdout. A stream that is closed or full is no reason to end a run: stderr is let be,
-// stdout keeps its mark, which main() asks for at the end. A line of more than 4000 bytes is cut.
+// Writes printable(text) and a line end to stderr or stdout. A closed or full stream does not end a run: stderr is ignored, an error of
+// stdout is reported by main() at the end. A line of more than 4000 bytes is cut.
 void tell(std::FILE* to, std::string_view text);
 
-// Valid UTF-8 on one line for files: control characters become spaces, bytes that are no UTF-8 the sign U+FFFD.
+// Valid UTF-8 on one line for files. Control characters become spaces, invalid bytes the character U+FFFD.
 std::string for_files(std::string_view text);
 
 }  // namespace erbs

@@ -1,7 +1,7 @@
-// Constants of nature and of convention. SI inside, always; scripts use factors.
+// Physical constants and conventions. The engine computes in SI; scripts use factors.
 #pragma once
 
 namespace erbs {
-inline constexpr double standard_g = 9.81;  // m/s2, the value all sources of the project use
+inline constexpr double standard_g = 9.81;  // m/s2, the value in all sources of the project
 inline constexpr double pi = 3.14159265358979323846;
 }  // namespace erbs

@@ -1,4 +1,4 @@
-// The one door to Eigen's dense types.
+// The only file that includes Eigen's dense types.
 #pragma once
 #include <Eigen/Dense>
 
@@ -10,14 +10,14 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 using Mat6 = Eigen::Matrix<double, 6, 6>;
 using Quat = Eigen::Quaterniond;
 
-// Rotation by the vector r (axis times angle, rad).
+// Quaternion of the rotation vector r (axis times angle, rad).
 inline Quat rotation(const Vec3& r) {
   const double angle = r.norm();
   if (angle < 1e-12) return Quat(1.0, 0.5 * r.x(), 0.5 * r.y(), 0.5 * r.z()).normalized();
   return Quat(Eigen::AngleAxisd(angle, r / angle));
 }
 
-// The rotation vector of q, angle in [0, pi] (rad).
+// Rotation vector of q (rad), angle in [0, pi].
 inline Vec3 rotation_vector(const Quat& q) {
   const double sign = q.w() < 0 ? -1.0 : 1.0;
   const double sine = q.vec().norm();

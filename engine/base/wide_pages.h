@@ -1,5 +1,5 @@
-// Memory of large arrays in pages of 2 MB where the system grants them: a pass over such an array then needs few entries of the table of
-// pages, and what a processor foresees does not end every 4 kB.
+// Allocator of large arrays in pages of 2 MB, where the system grants them. A pass over such an array then needs few entries of the page
+// table, and the processor's prefetching does not end every 4 kB.
 #pragma once
 #include <sys/mman.h>
 
@@ -25,7 +25,7 @@ struct WidePages {
     void* at = std::aligned_alloc(page, whole);
     if (at == nullptr) throw std::bad_alloc();
 #ifdef MADV_HUGEPAGE
-    ::madvise(at, whole, MADV_HUGEPAGE);  // a wish: where it is not granted nothing is lost
+    ::madvise(at, whole, MADV_HUGEPAGE);  // a hint: if it is refused the pages stay small
 #endif
     return static_cast<T*>(at);
   }

@@ -10,7 +10,8 @@ namespace {
 
 char lower(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
 
-// Letters inserted, dropped, replaced or two neighbours swapped (Damerau 1964, optimal alignment); case counts a little.
+// Edit distance: letters inserted, dropped, replaced, or two neighbours swapped (Damerau 1964, optimal alignment). Each edit costs 2, a
+// change of case 1.
 int distance(std::string_view a, std::string_view b) {
   const size_t n = a.size(), m = b.size();
   std::vector<std::vector<int>> d(n + 1, std::vector<int>(m + 1));
@@ -30,7 +31,7 @@ int distance(std::string_view a, std::string_view b) {
 std::string nearest(std::string_view word, const std::vector<std::string>& known) {
   if (word.size() > 64) return {};
   std::string best;
-  // near: a third of the letters may be wrong, at least one
+  // a third of the letters may be wrong, at least one
   int limit = 2 * std::max(1, static_cast<int>(word.size()) / 3);
   for (const auto& candidate : known) {
     if (candidate.size() > 64) continue;

@@ -1,4 +1,4 @@
-// Words near a misspelt one, for messages.
+// Suggestions for misspelt words in messages.
 #pragma once
 #include <string>
 #include <string_view>
@@ -6,10 +6,10 @@
 
 namespace erbs {
 
-// The known word nearest to `word`, "" where none is near.
+// The known word closest to `word`; "" if none is close.
 std::string nearest(std::string_view word, const std::vector<std::string>& known);
 
-// The end of a message: `; did you mean "size"?`, or the known words where none is near.
+// End of a message: `; did you mean "size"?`, or a list of the known words if none is close.
 std::string did_you_mean(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace erbs

@@ -1,4 +1,4 @@
-// Convex polygons in the plane: clipping and moments.
+// Clipping and moments of convex polygons in the plane.
 #pragma once
 #include <vector>
 
@@ -9,9 +9,9 @@ namespace erbs {
 using Vec2 = Eigen::Vector2d;
 using Polygon2 = std::vector<Vec2>;  // convex, counter-clockwise, m
 
-// The part where n.x <= d.
+// Part of the polygon in the half plane n.x <= d.
 Polygon2 clip_half_plane(const Polygon2& polygon, const Vec2& n, double d);
-// The part of a inside b; both counter-clockwise.
+// Intersection of two convex polygons, both counter-clockwise.
 Polygon2 clip_convex(const Polygon2& a, const Polygon2& b);
 
 struct PolygonMoments {
@@ -21,7 +21,7 @@ struct PolygonMoments {
 };
 PolygonMoments moments(const Polygon2& polygon);
 
-// Neighbours closer than `weld` and corners that lie on the line of their neighbours are dropped.
+// Drops corners within `weld` of their neighbour, and corners on the line through both neighbours.
 Polygon2 simplified(const Polygon2& polygon, double weld);
 
 }  // namespace erbs

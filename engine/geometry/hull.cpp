@@ -1,4 +1,4 @@
-// Convex hull of points: triangles grown point by point, then coplanar ones merged to faces.
+// Convex hull of points: triangles are added point by point, then coplanar triangles are merged into faces.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -29,7 +29,7 @@ Triangle triangle(const std::vector<Vec3>& x, int a, int b, int c) {
   return {{a, b, c}, n, n.dot(x[at(a)]), length / 2};
 }
 
-// Four points that span the greatest volume found greedily.
+// Four points that span a large tetrahedron, by a greedy search.
 std::array<int, 4> first_tetrahedron(const std::vector<Vec3>& x, double eps) {
   const int n = static_cast<int>(x.size());
   auto farthest = [&](auto&& distance) {
@@ -56,7 +56,7 @@ std::vector<Triangle> hull_triangles(const std::vector<Vec3>& x, double eps) {
   const auto [a, b, c, d] = first_tetrahedron(x, eps);
   std::vector<Triangle> hull{triangle(x, a, b, c), triangle(x, a, c, d), triangle(x, c, b, d), triangle(x, b, a, d)};
   for (int p = 0; p < static_cast<int>(x.size()); ++p) {
-    std::map<std::pair<int, int>, bool> horizon;  // directed edges of the triangles that p sees
+    std::map<std::pair<int, int>, bool> horizon;  // directed edges of the triangles visible from p
     std::vector<Triangle> kept;
     for (const Triangle& t : hull) {
       if (t.n.dot(x[at(p)]) - t.d <= eps) {
@@ -79,7 +79,7 @@ struct Flat {
   int v;
 };
 
-// Points of the face in its own plane, about their mean; (x, y, n) right-handed.
+// Points of a face in its own plane, relative to their mean; the axes (x, y, n) are right-handed.
 std::vector<Flat> flattened(const std::vector<Vec3>& x, const Vec3& n, const std::vector<int>& face) {
   Vec3 mean = Vec3::Zero();
   for (int v : face) mean += x[at(v)] / static_cast<double>(face.size());
@@ -89,7 +89,7 @@ std::vector<Flat> flattened(const std::vector<Vec3>& x, const Vec3& n, const std
   return flat;
 }
 
-// Marks the strict corners of a face: the monotone chain of Andrew 1979, twice.
+// Marks the strict corners of a face: the monotone chain of Andrew 1979, once for each side.
 void mark_corners(std::vector<Flat> flat, double eps, std::vector<bool>& corner) {
   std::sort(flat.begin(), flat.end(), [](const Flat& p, const Flat& q) { return std::make_pair(p.x, p.y) < std::make_pair(q.x, q.y); });
   for (int side = 0; side < 2; ++side) {
@@ -108,7 +108,7 @@ void mark_corners(std::vector<Flat> flat, double eps, std::vector<bool>& corner)
   }
 }
 
-// The kept vertices of a face, counter-clockwise by their angle about the mean.
+// Vertices of a face, sorted counter-clockwise by their angle about the mean.
 std::vector<int> loop_of(std::vector<Flat> flat) {
   std::sort(flat.begin(), flat.end(), [](const Flat& p, const Flat& q) { return std::atan2(p.y, p.x) < std::atan2(q.y, q.x); });
   std::vector<int> loop;
@@ -116,7 +116,7 @@ std::vector<int> loop_of(std::vector<Flat> flat) {
   return loop;
 }
 
-// One plane for every set of coplanar triangles, the largest triangle deciding.
+// One plane for each set of coplanar triangles: the plane of the largest one.
 std::vector<Plane> face_planes(const std::vector<Vec3>& x, std::vector<Triangle> triangles, double eps) {
   std::sort(triangles.begin(), triangles.end(), [](const Triangle& s, const Triangle& t) { return s.area > t.area; });
   std::vector<Plane> faces;

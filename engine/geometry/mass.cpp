@@ -3,7 +3,7 @@
 namespace erbs {
 namespace {
 
-// Steiner: the inertia per unit density of volume v moved by r from its centroid.
+// Steiner term: inertia per unit density of a volume v whose centroid lies at offset r from the reference point.
 Mat3 steiner(double v, const Vec3& r) { return v * (r.squaredNorm() * Mat3::Identity() - r * r.transpose()); }
 
 Mat3 inertia_of_covariance(const Mat3& c) { return c.trace() * Mat3::Identity() - c; }

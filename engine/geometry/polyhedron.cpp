@@ -17,7 +17,7 @@ using std::size_t;
 size_t at(int i) { return static_cast<size_t>(i); }
 int count(size_t n) { return static_cast<int>(n); }
 
-// Newell's normal, twice the area long; robust for slightly warped loops.
+// Newell's normal, of length twice the area; robust for slightly warped loops.
 Vec3 loop_normal(const std::vector<Vec3>& v, const std::vector<int>& loop) {
   Vec3 n = Vec3::Zero();
   const Vec3 origin = v[at(loop[0])];
@@ -38,7 +38,7 @@ double size_of(const std::vector<Vec3>& v) {
   return (high - low).norm();
 }
 
-// Volume by tetrahedra from the first vertex.
+// Signed volume, summed over tetrahedra from the first vertex.
 double signed_volume(const Polyhedron& p) {
   double six = 0;
   const Vec3 o = p.vertices[0];
@@ -132,7 +132,7 @@ std::string problem_of(const Polyhedron& p) {
 
 namespace {
 
-// Every plane's polygon: a large square cut by all the other planes. For bodies whose topology changes when planes move.
+// Rebuilds a body from its face planes: each face is a large square, cut by all other planes. Used if moved planes change the topology.
 Polyhedron cut_from_planes(const std::vector<Plane>& all, double reach) {
   Polyhedron result;
   const double weld = 1e-9 * reach;
@@ -180,7 +180,7 @@ Polyhedron grown(const Polyhedron& p, const std::vector<double>& offsets) {
   for (size_t f = 0; f < p.faces.size(); ++f) {
     for (int v : p.faces[f]) around[at(v)].push_back(count(f));
   }
-  // Where three faces meet at every vertex (boxes, prisms) each new vertex is one 3x3 solve and the topology stays.
+  // If three faces meet at every vertex (boxes, prisms), each new vertex is one 3x3 solve and the topology stays.
   Polyhedron result = p;
   bool same = true;
   for (size_t v = 0; v < p.vertices.size() && same; ++v) {

@@ -1,4 +1,4 @@
-// A convex polyhedron: what a block is made of.
+// Convex polyhedron: the shape of a part of a block.
 #pragma once
 #include <string>
 #include <vector>
@@ -14,9 +14,9 @@ struct Polyhedron {
   std::vector<Vec3> vertices;  // m [nv]
   Faces faces;                 // [nf]
 };
-using Parts = Shared<Polyhedron>;  // convex, of one rigid block
+using Parts = Shared<Polyhedron>;  // the convex parts of one rigid block
 
-// Plane n.x = d, n unit and outward.
+// Plane n.x = d; n is a unit vector and points outward.
 struct Plane {
   Vec3 n;
   double d;  // m
@@ -27,19 +27,19 @@ struct Box {
   Vec3 low, high;  // m
 };
 
-// The convex hull; coplanar triangles are merged to one face, points on faces and edges are dropped. Throws Error where the
-// points span no volume.
+// Convex hull. Coplanar triangles are merged into one face; points on faces and edges are dropped. Throws Error if the points span no
+// volume.
 Polyhedron hull(const std::vector<Vec3>& points);
 
-// One plane a face, in the order of the faces.
+// Face planes, in the order of the faces.
 std::vector<Plane> planes(const Polyhedron& p);
 Plane face_plane(const Polyhedron& p, int face);
 
-// What is wrong with p in words (not a number, degenerate, not closed, inverted, not planar, not convex); empty where it is sound.
+// Describes the first defect of p (not a number, degenerate, not closed, inverted, not planar, not convex); empty for a valid body.
 std::string problem_of(const Polyhedron& p);
 
-// Each face plane moved outwards by its own offset (m, may be negative), vertices recomputed. Faces keep their order; a face
-// that vanishes is dropped. Throws Error where nothing is left.
+// Moves each face plane outward by its own offset (m, may be negative) and recomputes the vertices. Faces keep their order; a face
+// that vanishes is dropped. Throws Error if no body is left.
 Polyhedron grown(const Polyhedron& p, const std::vector<double>& offsets);
 
 Polyhedron translated(const Polyhedron& p, const Vec3& by);
@@ -48,7 +48,7 @@ Polyhedron transformed(const Polyhedron& p, const Quat& q, const Vec3& by);
 Box bounding_box(const Polyhedron& p);
 Vec3 mean_vertex(const Polyhedron& p);
 double smallest_edge(const Polyhedron& p);  // m
-// Smallest distance between two parallel planes that hold p, over its face normals (m).
+// Smallest distance (m) between two parallel planes that enclose p, over its face normals.
 double thickness(const Polyhedron& p);
 // An axis-parallel box with the given corners.
 Polyhedron box_polyhedron(const Vec3& low, const Vec3& high);

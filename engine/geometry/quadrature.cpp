@@ -34,15 +34,15 @@ LineRule gauss_line(int n) {
   return r;
 }
 
-// Equal spacing. Odd n: composite Simpson. Even n from 4: trapezoid whose two outer weights on each side make quadratics exact
-// (n = 4 is the 3/8 rule).
+// Equal spacing. Odd n: composite Simpson. Even n from 4: the trapezoid rule, with two outer weights on each side that make it exact
+// for quadratics (n = 4 is the 3/8 rule).
 LineRule simpson_line(int n) {
   if (n <= 2) return gauss_line(n);
   LineRule r;
   const double h = 1.0 / (n - 1), half = (n - 1) / 2.0;
   double outer = 0, next = 0;
   if (n % 2 == 0) {
-    double inside = 0;  // half the sum of squares of the points between the two outer pairs, in spacings
+    double inside = 0;  // half the sum of squared positions between the two outer pairs, in spacings
     for (int i = n / 2; i < n - 2; ++i) inside += (i - half) * (i - half);
     outer = (half * half * half / 3 - inside - 1.5 * (half - 1) * (half - 1)) / (half * half - (half - 1) * (half - 1));
     next = 1.5 - outer;
@@ -70,7 +70,7 @@ bool is_rectangle(const Polygon2& p) {
   return true;
 }
 
-// Borders of the cells on a line: cumulated weights.
+// Borders of the cells on a line: cumulative weights.
 std::vector<double> borders(const LineRule& r) {
   std::vector<double> at{-0.5};
   for (const double w : r.weight) at.push_back(at.back() + w);
@@ -100,10 +100,12 @@ std::vector<QuadraturePoint> on_rectangle(const Polygon2& p, const LineRule& lon
   return points;
 }
 
-// Cells of the fan: in each triangle the triangle shrunk about its centroid by `inner` belongs to the centroid, kites from the
-// corners to its corners, which start at the fraction `cut` of the sides, to the corners, and what is left to the mid-sides. With
-// the areas 9/20, 1/20 and 2/15: inner^2 = 9/20, and a kite is 2 cut (1 - inner) / 3 of its triangle. inner = 0 and cut = 1/2 cut
-// it into three equal kites.
+// Cells of the fan. Each triangle is divided into three kinds of cells.
+//   centroid   the triangle itself, shrunk about its centroid by the factor `inner`
+//   corners    kites between a corner of the triangle and the same corner of the shrunk one; they start at the fraction `cut` of the sides
+//   mid-sides  the rest
+// The areas 9/20, 1/20 and 2/15 require inner^2 = 9/20; a kite has 2 cut (1 - inner) / 3 of the area of its triangle. inner = 0 and
+// cut = 1/2 divide the triangle into three equal kites.
 struct FanCells {
   const Polygon2& p;
   Vec2 c;
@@ -111,7 +113,7 @@ struct FanCells {
   size_t next(size_t i) const { return (i + 1) % p.size(); }
   size_t last(size_t i) const { return (i + p.size() - 1) % p.size(); }
   Vec2 middle(size_t i) const { return (p[i] + p[next(i)] + c) / 3; }
-  Vec2 within(size_t i, const Vec2& v) const { return middle(i) + inner * (v - middle(i)); }  // in triangle i, towards its corner v
+  Vec2 within(size_t i, const Vec2& v) const { return middle(i) + inner * (v - middle(i)); }  // corner v of triangle i, shrunk
   Vec2 part(const Vec2& from, const Vec2& to) const { return from + cut * (to - from); }
   std::vector<Vec2> corner(size_t i) const {
     const Vec2& v = p[i];
@@ -133,7 +135,7 @@ struct FanCells {
   }
 };
 
-// Fan triangles about the centroid; corners, mid-sides and centroids of the fan are shared between neighbours.
+// Fan triangles about the centroid. Neighbouring triangles share corners, mid-sides and the centre of the fan.
 std::vector<QuadraturePoint> fan(const Polygon2& p, const std::string& rule) {
   const Vec2 c = moments(p).centroid;
   const size_t n = p.size();
@@ -176,7 +178,7 @@ std::vector<QuadraturePoint> fan(const Polygon2& p, const std::string& rule) {
   return points;
 }
 
-// Cells of equal sides along the principal axes, cut by the polygon; each carries its own centroid and area.
+// Equal cells along the principal axes, cut by the polygon. The point of a cell is its centroid, the weight its area.
 std::vector<QuadraturePoint> cells(const Polygon2& p, int n_long, int n_short) {
   const PolygonMoments m = moments(p);
   const double angle = 0.5 * std::atan2(2 * m.xy, m.xx - m.yy);
@@ -201,7 +203,7 @@ std::vector<QuadraturePoint> cells(const Polygon2& p, int n_long, int n_short) {
   return points;
 }
 
-// Convex hull, counter-clockwise (Andrew 1979); one or two corners where the points lie on one place or line.
+// Convex hull, counter-clockwise (Andrew 1979); one or two corners if all points coincide or lie on a line.
 std::vector<Vec2> convex_hull(const std::vector<QuadraturePoint>& points, double weld) {
   std::vector<Vec2> sorted, hull;
   for (const QuadraturePoint& p : points) sorted.emplace_back(p.x, p.y);
@@ -289,7 +291,7 @@ PrincipalAxes principal_axes(const std::vector<QuadraturePoint>& points) {
     xy += p.weight * x * y;
   }
   if (std::abs(xy) < 1e-12 * (xx + yy)) xy = 0;
-  if (std::abs(xx - yy) < 1e-12 * (xx + yy) && xy == 0) a.angle = 0;  // no axis is preferred: keep x
+  if (std::abs(xx - yy) < 1e-12 * (xx + yy) && xy == 0) a.angle = 0;  // no preferred axis: keep x
   else a.angle = 0.5 * std::atan2(2 * xy, xx - yy);
   const double c = std::cos(a.angle), s = std::sin(a.angle);
   a.along = c * c * xx + s * s * yy + 2 * c * s * xy;

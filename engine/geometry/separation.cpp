@@ -8,7 +8,7 @@
 namespace erbs {
 namespace {
 
-// Least and greatest n.x over the vertices, relative to `origin` so that 1e4 m from the origin costs no digits.
+// Smallest and largest n.x over the vertices, relative to `origin`: then 1e4 m from the origin costs no digits.
 struct Range {
   double low = std::numeric_limits<double>::infinity(), high = -std::numeric_limits<double>::infinity();
 };
@@ -23,7 +23,7 @@ Range range(const Polyhedron& p, const Vec3& n, const Vec3& origin) {
   return r;
 }
 
-// False where the ranges of a and b along n surely overlap by `depth` or more: seen after a few vertices of bodies that lie in each other.
+// False if the signed gap of a and b along n cannot exceed `depth` (m). For bodies that penetrate each other a few vertices decide.
 bool may_part(const Polyhedron& a, const Polyhedron& b, const Vec3& n, const Vec3& origin, double depth) {
   Range ra, rb;
   const auto take = [&](const Vec3& v, Range& r) {
@@ -74,11 +74,11 @@ Separation separation(const Polyhedron& a, const Polyhedron& b, double enough) {
     for (const Vec3& t : eb) {
       const Vec3 c = s.cross(t);
       const double length = c.norm();
-      if (length < 1e-6) continue;  // parallel edges: a face normal says it better
+      if (length < 1e-6) continue;  // parallel edges: a face normal covers this case
       const Vec3 n = c / length;
       if (!may_part(a, b, n, origin, best.gap)) continue;
       const Range ra = range(a, n, origin), rb = range(b, n, origin);
-      // Prefer face normals where they say the same up to round-off.
+      // Prefer a face normal if its gap is the same up to round-off.
       const double ab = rb.low - ra.high, ba = ra.low - rb.high, prefer = 1e-12 * (ra.high - ra.low);
       if (std::max(ab, ba) - prefer > best.gap && better(std::max(ab, ba), ab > ba ? n : Vec3(-n))) return best;
     }

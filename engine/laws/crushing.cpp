@@ -13,7 +13,7 @@ Plane operator-(const Plane& a, const Plane& b) { return {a.c - b.c, a.s - b.s, 
 bool same(const Plane& a, const Plane& b) { return a.c == b.c && a.s == b.s && a.t == b.t; }
 Plane plane(const double p[3]) { return {p[0], p[1], p[2]}; }
 
-// z = min(0, planes): the first is 0; room for one more than a face keeps.
+// z = min(0, planes). Plane 0 is zero; there is room for one plane more than a face stores.
 struct Envelope {
   int count = 1;
   Plane plane[CrushedFace::most + 2];
@@ -36,7 +36,7 @@ struct Loop {
   double s[most], t[most];
   Loop() = default;
   Loop(const Loop& other) { *this = other; }
-  Loop& operator=(const Loop& other) {  // of what is there only
+  Loop& operator=(const Loop& other) {  // copies the used corners only
     count = other.count;
     std::copy_n(other.s, count, s);
     std::copy_n(other.t, count, t);
@@ -77,7 +77,7 @@ void keep(Loop& loop, const Plane& f) {
   loop = part;
 }
 
-// What of the loop is plane k's.
+// Cuts the loop to the part where plane k is the lowest of the envelope.
 void keep_region(Loop& loop, const Envelope& z, int k) {
   for (int j = 0; j < z.count && loop.count > 0; ++j)
     if (j != k) keep(loop, z.plane[j] - z.plane[k]);
@@ -89,7 +89,7 @@ Loop whole(const Bed& bed) {
   return loop;
 }
 
-// f(area, corners i, j, k) of the fan from the first corner.
+// Calls f(area, i, j, k) for each triangle of the fan from the first corner; i, j, k number its corners.
 template <class F>
 void triangles(const Loop& loop, const F& f) {
   for (int i = 2; i < loop.count; ++i)
@@ -102,7 +102,7 @@ double area(const Loop& loop) {
   return sum;
 }
 
-// Int u v dA, u and v linear: A/12 (sum u sum v + sum u_i v_i) over a triangle.
+// Int u v dA of linear u and v; over a triangle A/12 (sum u sum v + sum u_i v_i).
 double product(const Loop& loop, const Plane& u, const Plane& v) {
   double sum = 0;
   triangles(loop, [&](double a, int i, int j, int k) {
@@ -129,7 +129,7 @@ double volume(const Bed& bed, const Envelope& z) {
   return sum;
 }
 
-// Planes that are nowhere the lowest, then those the face has no room for; never the last.
+// Removes planes that are nowhere the lowest, then planes beyond the room of a face. The last plane always stays.
 void thin_out(const Bed& bed, Envelope& z) {
   const double face = area(whole(bed));
   for (int k = z.count - 2; k > 0; --k) {

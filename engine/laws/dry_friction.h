@@ -1,8 +1,8 @@
 // Dry joint: linear in compression, no tension, Coulomb friction.
 //
-// A block that slides on an elastic bed is unstable in itself where its pressure lies off the middle: friction follows the pressure, which
-// makes the stiffness unsymmetric, and two modes of the bed may then merge and grow (flutter by mode coupling: Martins, Oden and Simoes
-// 1990; Hoffmann et al. 2002; scenes/verify/v10_flutter.lua has it on paper). What real joints lose at their asperities ends it.
+// A block that slides on an elastic bed can be unstable by itself if its pressure is eccentric. Friction follows the pressure, which makes
+// the stiffness unsymmetric; two modes of the bed may then merge and grow. This is flutter by mode coupling (Martins, Oden and Simoes
+// 1990; Hoffmann et al. 2002; closed form in scenes/verify/v10_flutter.lua). Real joints lose energy at their asperities, which ends it.
 #pragma once
 #include "engine/base/field.h"
 
@@ -12,9 +12,9 @@ struct DryFriction {
   double kn = 0;  // Pa/m
   double ks = 0;  // Pa/m
   double mu = 0;
-  // A face that falls flat comes back with exp(-pi xi / sqrt(1 - xi^2)) = .37 of its speed, as contacts do at the default restitution of .3.
-  double damping = 0.3;  // of critical, once the joint has opened or slid; until then it is as damping{} says
-  double interlock = 1;  // 0: friction goes by the pressure of the moment alone (interlock.h)
+  // A face that falls flat rebounds with exp(-pi xi / sqrt(1 - xi^2)) = 0.37 of its speed, like contacts at the default restitution of 0.3.
+  double damping = 0.3;  // of critical, once the joint has opened or slipped; before that damping{} applies
+  double interlock = 1;  // 0: friction follows the current pressure alone (interlock.h)
 
   static constexpr std::string_view law_name = "dry";
   static Fields<DryFriction> fields() {

@@ -1,30 +1,31 @@
-// Mortar joint: linear compression, tension cut-off, Coulomb shear with cohesion and residual friction, tension and shear
-// coupled and irreversible; optional linear softening with fracture energies and ultimate deformations, and a compression
-// plateau to an ultimate deformation (crushing.h). This is the ASSUMED reading of Fig. 5 of Gu and Miao, whose curves are lost: elastic to
-// the peak, then softening (or brittle drop) to the ultimate deformation, then a unilateral frictional contact.
+// Mortar joint: linear in compression, tension cut-off, Coulomb shear with cohesion and residual friction. Tension and shear are coupled;
+// damage is irreversible. Optional are linear softening with fracture energies and ultimate deformations, and a compression plateau up to
+// an ultimate deformation (crushing.h).
+// This is the ASSUMED reading of Fig. 5 of Gu and Miao, since its curves are lost. The joint is elastic to the peak, softens (or drops
+// brittly) to the ultimate deformation, and is then a unilateral frictional contact.
 #pragma once
 #include "engine/base/field.h"
 
 namespace erbs {
 
 struct Mortar {
-  double E = 0;          // Pa, Young's modulus of the mortar
-  double nu = 0.2;       // Poisson's ratio; G = E / (2 (1 + nu))
-  double G = 0;          // Pa; 0: from nu
-  double thickness = 0;  // m, of the bed: kn = E / thickness, ks = G / thickness
-  double kn = 0;         // Pa/m; 0: from E and thickness
-  double ks = 0;         // Pa/m; 0: from G and thickness
-  double ft = 0;         // Pa
-  double c = 0;          // Pa
-  double mu = 0;         // before failure
-  double mu_residual = -1;  // after failure; -1: mu
-  double Gf1 = 0;        // J/m2, tension; 0: brittle
-  double Gf2 = 0;        // J/m2, shear; 0: brittle
-  double un_ultimate = 0;  // m, opening at which tension is spent; 0: from Gf1
-  double us_ultimate = 0;  // m, slip at which cohesion is spent; 0: from Gf2
-  double fc = 0;         // Pa, compression plateau; 0: none (elastic, unlimited)
-  double uc_ultimate = 0;  // m, closing at which the mortar is crushed (bond lost); 0: never
-  double damping = 0;      // of critical, once the joint has cracked; until then it is as damping{} says
+  double E = 0;                      // Pa, Young's modulus of the mortar
+  double nu = 0.2;                   // Poisson's ratio; G = E / (2 (1 + nu))
+  double G = 0;                      // Pa; 0: from nu
+  double thickness = 0;              // m, of the bed: kn = E / thickness, ks = G / thickness
+  double kn = 0;                     // Pa/m; 0: from E and thickness
+  double ks = 0;                     // Pa/m; 0: from G and thickness
+  double ft = 0;                     // Pa
+  double c = 0;                      // Pa
+  double mu = 0;                     // before failure
+  double mu_residual = -1;           // after failure; -1: mu
+  double Gf1 = 0;                    // J/m2, tension; 0: brittle
+  double Gf2 = 0;                    // J/m2, shear; 0: brittle
+  double un_ultimate = 0;            // m, opening at zero tensile strength; 0: from Gf1
+  double us_ultimate = 0;            // m, slip at zero cohesion; 0: from Gf2
+  double fc = 0;                     // Pa, compression plateau; 0: none (elastic, unlimited)
+  double uc_ultimate = 0;            // m, closing at which the mortar is crushed and its bond lost; 0: never
+  double damping = 0;                // of critical, once the joint has cracked; before that damping{} applies
   std::string coupling = "coulomb";  // coulomb | linear | ellipse
 
   static constexpr std::string_view law_name = "mortar";

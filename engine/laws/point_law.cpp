@@ -25,12 +25,12 @@ PointLaw compile_law(const Mortar& m) {
   p.coupling = m.coupling == "linear" ? PointLaw::Coupling::linear
                : m.coupling == "ellipse" ? PointLaw::Coupling::ellipse
                                          : PointLaw::Coupling::coulomb;
-  // The apex of the Coulomb cone bounds the tension a point can bear (capped, and said so by the check).
+  // The apex of the Coulomb cone caps the tension of a point. The check of the scene warns of it.
   p.ft = p.coupling == PointLaw::Coupling::coulomb && m.mu > 0 ? std::min(m.ft, m.c / m.mu) : m.ft;
   p.opening_peak = p.ft / p.kn;
   const double from_energy = p.ft > 0 ? 2 * m.Gf1 / p.ft : 0;
   p.opening_ultimate = std::max(p.opening_peak, m.un_ultimate > 0 ? m.un_ultimate : from_energy);
-  // Plastic slip to zero cohesion: the elastic part c / ks is not slip.
+  // Plastic slip at zero cohesion: the elastic part c / ks does not count.
   p.slip_ultimate = m.us_ultimate > 0 ? std::max(0.0, m.us_ultimate - m.c / p.ks) : (m.c > 0 ? 2 * m.Gf2 / m.c : 0);
   p.fc = m.fc;
   p.closing_ultimate = m.uc_ultimate;

@@ -1,4 +1,4 @@
-// What a contact point of a joint obeys, compiled from a Law: plain numbers, ready for the loop.
+// Law of a contact point, compiled from a Law into plain numbers for the inner loop.
 #pragma once
 #include <algorithm>
 #include <cmath>
@@ -8,12 +8,12 @@
 
 namespace erbs {
 
-// Opening at which damage p goes on.
+// Opening at which damage p starts to grow further.
 inline double reach(const PointLaw& law, double p) { return law.opening_peak + p * (law.opening_ultimate - law.opening_peak); }
 
-// Tensile strength left: linear softening, ft (1 - p).
-// Secant stiffness of an opened point at damage p: the line from the origin to the softening branch (linear softening as in
-// Hillerborg et al. 1976 in the damage form: unloading returns to zero opening, so that a crack closes at zero gap).
+// Secant stiffness of an opened point at damage p: the line from the origin to the softening branch, where the tensile strength is
+// ft (1 - p). This is the linear softening of Hillerborg et al. 1976 in damage form: unloading returns to zero opening, so that a crack
+// closes at zero gap.
 inline double secant(const PointLaw& law, double p) {
   if (p <= 0) return law.kn;
   if (p >= 1) return 0;
@@ -21,7 +21,7 @@ inline double secant(const PointLaw& law, double p) {
   return opening > 0 ? law.ft * (1 - p) / opening : 0;
 }
 
-// Raises the damage of a point, never lowers it.
+// Sets the damage of a point; p must not be below the present damage.
 inline void damage_to(const PointLaw& law, PointHistory& h, double p) {
   h.damage = std::min(1.0, p);
   h.secant = secant(law, h.damage);
@@ -30,8 +30,8 @@ inline void damage_to(const PointLaw& law, PointHistory& h, double p) {
 
 inline double friction_at(const PointLaw& law, double p) { return law.mu + p * (law.mu_residual - law.mu); }
 
-// Shear strength of a bonded point from its bond alone, at tension sigma >= 0 (Pa) and damage p; friction under compression is
-// added by the caller. coulomb: c - mu sigma; linear and ellipse reach zero shear at ft.
+// Shear strength of the bond alone, at tension sigma (Pa) and damage p. The caller adds friction under compression. The coupling coulomb
+// gives c - mu sigma; linear and ellipse reach zero shear at ft.
 inline double bond_shear(const PointLaw& law, double sigma, double p) {
   const double c = law.c * (1 - p), ft = law.ft * (1 - p);
   if (sigma <= 0) return c;

@@ -1,4 +1,4 @@
-// A wave moved in time.
+// A wave shifted in time.
 #pragma once
 #include "engine/loads/loads.h"
 

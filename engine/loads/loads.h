@@ -1,9 +1,10 @@
-// THE LIST of time functions a load can follow. A new one is one header and one entry here.
-// A step takes the exact mean over itself, so that a pulse loses nothing at its edges whatever the step.
-// Each wave has its own
-//   value(wave, t)         zero outside the time it acts; at a jump the value from then on
-//   area(wave, t)          Int from its own start to t of value; double_area: the same of area
-//   mean(wave, t0, t1)     of the value, in closed form on each piece: right to round-off however short the interval
+// THE LIST of time functions that a load can follow. A new one is one header and one entry here.
+// A step uses the exact mean over its interval, so that a pulse loses nothing at its edges, whatever the step.
+// Each wave defines
+//   value(wave, t)         zero outside its duration; at a jump the value after it
+//   area(wave, t)          Int of value from the wave's own start to t
+//   double_area(wave, t)   the same of area
+//   mean(wave, t0, t1)     mean of value, in closed form on each segment: exact to round-off for any short interval
 //   end_time(wave)
 #pragma once
 #include <variant>
@@ -21,6 +22,6 @@ double value(const Wave& wave, double t);
 double integral(const Wave& wave, double t);          // Int_0^t value: velocity of an acceleration
 double second_integral(const Wave& wave, double t);   // Int_0^t integral: its displacement
 double mean(const Wave& wave, double t0, double t1);  // (integral(t1) - integral(t0)) / (t1 - t0) without its cancellation; t0 = t1: value
-double end_time(const Wave& wave);                    // after which the value stays (infinity for an endless sine)
+double end_time(const Wave& wave);                    // time after which the value is constant; infinite for an endless sine
 
 }  // namespace erbs

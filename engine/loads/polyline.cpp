@@ -9,14 +9,14 @@
 namespace erbs {
 namespace {
 
-// Local polynomials of segment i, s after its first point.
+// Polynomials on segment i; s is the time since its first point.
 double slope(const Polyline& p, size_t i) { return (p.values[i + 1] - p.values[i]) / (p.times[i + 1] - p.times[i]); }
 double area_in(const Polyline& p, size_t i, double s) { return p.area[i] + s * (p.values[i] + 0.5 * slope(p, i) * s); }
 double double_area_in(const Polyline& p, size_t i, double s) {
   return p.double_area[i] + s * (p.area[i] + s * (0.5 * p.values[i] + slope(p, i) * s / 6));
 }
 
-// Linear from both ends: exact at each point, whichever segment is asked.
+// Interpolation from both ends: exact at a point, from either of its two segments.
 double value_in(const Polyline& p, size_t i, double t) {
   const double share = (t - p.times[i]) / (p.times[i + 1] - p.times[i]);
   return (1 - share) * p.values[i] + share * p.values[i + 1];
@@ -51,7 +51,7 @@ Polyline make_polyline(std::vector<double> times, std::vector<double> values) {
 
 int segment(const Polyline& p, double t) {
   const auto last = static_cast<double>(p.times.size() - 2);
-  // Evenly spaced points, the usual case, are found by the guess alone.
+  // For evenly spaced points, the usual case, the first guess is right.
   const double guess = (t - p.times.front()) / (p.times.back() - p.times.front()) * (last + 1);
   const auto i = static_cast<size_t>(std::clamp(guess, 0.0, last));
   if ((i == 0 || p.times[i] <= t) && (i + 2 == p.times.size() || t < p.times[i + 1])) return static_cast<int>(i);
@@ -81,7 +81,7 @@ double area_between(const Polyline& p, double t0, double t1) {
   t0 = std::clamp(t0, p.times.front(), p.times.back());
   t1 = std::clamp(t1, p.times.front(), p.times.back());
   const auto i = static_cast<size_t>(segment(p, t0)), j = static_cast<size_t>(segment(p, t1));
-  // On one segment the mean is the value at mid-time.
+  // Within one segment the mean is the value at mid-time.
   if (i == j) return (t1 - t0) * value_in(p, i, 0.5 * (t0 + t1));
   const double head = (p.times[i + 1] - t0) * value_in(p, i, 0.5 * (t0 + p.times[i + 1]));
   const double tail = (t1 - p.times[j]) * value_in(p, j, 0.5 * (p.times[j] + t1));

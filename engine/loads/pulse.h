@@ -5,7 +5,7 @@
 namespace erbs {
 
 struct Pulse {
-  double amplitude = 0;         // in the unit of what it drives: m/s2, N, N m, rad or m
+  double amplitude = 0;         // in the unit of its load: m/s2, N, N m, rad or m
   double start = 0;             // s
   double duration = unbounded;  // s
 
@@ -19,7 +19,7 @@ struct Pulse {
   }
 };
 
-// For the meaning of the five functions see loads.h.
+// loads.h explains the five functions.
 double value(const Pulse& wave, double t);
 double area(const Pulse& wave, double t);
 double double_area(const Pulse& wave, double t);

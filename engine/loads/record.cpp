@@ -16,7 +16,7 @@ double largest(const std::vector<double>& values) {
   return peak;
 }
 
-// The step of evenly spaced times, else 0. Times printed with few digits count as even.
+// Step of evenly spaced times, else 0. The tolerance of 1e-3 accepts times printed with few digits.
 double even_step(const std::vector<double>& times) {
   const double step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
   for (size_t i = 1; i < times.size(); ++i)
@@ -24,7 +24,7 @@ double even_step(const std::vector<double>& times) {
   return step;
 }
 
-// A first value later than time 0 (El Centro's stands at one step) follows rest, which ends one step before it.
+// If the first value comes after time 0 (El Centro: at one step), the ground is at rest until one step before it.
 void add_rest(RecordFile& file) {
   const double first = file.times.front();
   if (first <= 0) return;

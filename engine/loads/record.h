@@ -1,5 +1,5 @@
-// A ground-motion record: acceleration linear between its points, velocity and displacement integrated analytically (piecewise
-// quadratic and cubic), scaled in amplitude and time. At rest before its start, zero acceleration after its end.
+// Ground-motion record: acceleration linear between its points, scaled in amplitude and time. Velocity and displacement are integrated
+// analytically (piecewise quadratic and cubic). The ground is at rest before the start; its acceleration is zero after the end.
 #pragma once
 #include <string>
 
@@ -10,25 +10,25 @@
 namespace erbs {
 
 struct Record {
-  // What a script says.
-  std::string file;        // path as it can be opened
-  double peak = 0;         // m/s2, largest absolute acceleration wanted; 0: as recorded times scale
+  // From the script.
+  std::string file;        // path that can be opened
+  double peak = 0;         // m/s2, required peak acceleration; 0: as recorded times scale
   double scale = 1;        // factor on the acceleration
-  double time_factor = 1;  // factor on time: 0.707 for a model at half scale; displacement goes with its square
-  double start = 0;        // s, when time 0 of the file comes
-  int column = 0;          // of the values in a file of several columns, counted from 1; 0: the one after time
-  double dt = 0;           // s, of a file without time (one column of values)
-  double first_time = 0;   // s, of its first value in such a file
-  std::string unit;        // of the values where the file does not say: g, m/s2, cm/s2, gal, ...
+  double time_factor = 1;  // factor on time: 0.707 for a model at half scale; displacement scales with its square
+  double start = 0;        // s, simulated time at time 0 of the file
+  int column = 0;          // of the values in a file of several columns, from 1; 0: the column after time
+  double dt = 0;           // s, step of a file without times (one column of values)
+  double first_time = 0;   // s, time of the first value of such a file
+  std::string unit;        // of the values, if the file names none: g, m/s2, cm/s2, gal, ...
 
-  // What read_record found.
-  std::string title;      // as the file says
+  // Found by read_record.
+  std::string title;      // from the file
   std::string format;     // "PEER AT2", "CSV", "text, 2 columns", ...
   std::string hash;       // of the bytes of the file, for the manifest
   int points = 0;         // values in the file
-  double file_dt = 0;     // s, between values as read; 0 where uneven
-  double file_peak = 0;   // m/s2, largest absolute acceleration as read
-  Polyline acceleration;  // s after `start` and m/s2, both scaled
+  double file_dt = 0;     // s, step of the file; 0 if uneven
+  double file_peak = 0;   // m/s2, peak acceleration of the file
+  Polyline acceleration;  // s after `start`, and m/s2; both scaled
 
   static constexpr std::string_view wave_name = "record";
   static Fields<Record> fields() {
@@ -46,10 +46,10 @@ struct Record {
   }
 };
 
-// Reads wanted.file and applies the rest. `place` is where a script asked for it; mistakes in the file name file and line.
+// Reads wanted.file and applies the other members. `place`: the script line of the record. A mistake in the file names file and line.
 Record read_record(Record wanted, const Place& place = {});
 
-// For the meaning of the five functions see loads.h. area is the ground's velocity, double_area its displacement.
+// loads.h explains the five functions. area is the velocity of the ground, double_area its displacement.
 double value(const Record& wave, double t);
 double area(const Record& wave, double t);
 double double_area(const Record& wave, double t);

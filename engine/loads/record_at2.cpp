@@ -1,4 +1,4 @@
-// PEER AT2 files: three lines of words, a line with the number of values and their step, the values in Fortran columns.
+// PEER AT2 files: three lines of text, a line with the number of values and their step, then the values in Fortran columns.
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -13,7 +13,7 @@ struct Header {
   double dt = 0;  // s
 };
 
-// "NPTS=  5372, DT=   .0100 SEC", or the older "4000  0.0050  NPTS, DT": two numbers, in the order of the two words.
+// "NPTS=  5372, DT=   .0100 SEC", or the older "4000  0.0050  NPTS, DT": the two numbers have the order of the two words.
 Header parse_header(const RecordText& text, size_t index) {
   const std::string line = lower(text.lines[index]);
   const Place place{text.path, static_cast<int>(index) + 1};
@@ -36,7 +36,7 @@ Header parse_header(const RecordText& text, size_t index) {
   return {static_cast<int>(numbers[0]), numbers[1]};
 }
 
-// "ACCELERATION TIME SERIES IN UNITS OF G" and its variants; "" where no line says so.
+// Unit from "ACCELERATION TIME SERIES IN UNITS OF G" and its variants; "" if no line names it.
 std::string header_unit(const RecordText& text, size_t npts_line, size_t& at_line) {
   for (size_t i = 0; i < npts_line; ++i) {
     const std::string line = lower(text.lines[i]);

@@ -41,7 +41,7 @@ std::vector<Column> parse_names(std::string_view line) {
   }
 }
 
-// A line of names begins with a letter or a quotation mark; data begins with a digit, a sign or a point.
+// A line of names begins with a letter or a quotation mark, a line of data with a digit, a sign or a point.
 bool is_names(std::string_view line) {
   const char first = trim(line)[0];
   return first == '"' || std::isalpha(static_cast<unsigned char>(first)) != 0;
@@ -49,8 +49,8 @@ bool is_names(std::string_view line) {
 
 struct Rows {
   std::vector<std::vector<double>> cells;
-  std::vector<int> lines;       // line in the file, of each row
-  std::vector<Column> columns;  // as named; empty without a line of names
+  std::vector<int> lines;       // line of the file, for each row
+  std::vector<Column> columns;  // from the line of names; empty without one
   int names_line = 0;
   std::string title;
 };
@@ -84,7 +84,7 @@ void check_widths(const RecordText& text, const Rows& rows) {
                   {text.path, rows.lines[r]});
 }
 
-// Values alone, one or several to a line, read along the lines.
+// Values without times, one or several per line, read line by line.
 RecordFile parse_values(const RecordText& text, const Rows& rows, const Record& wanted) {
   const Place place{text.path, rows.lines.front()};
   if (wanted.dt <= 0) throw Error("the file has no times; say the step between its values, such as dt = 0.01 in the scene, or --dt 0.01 to erbs record", place);
@@ -105,7 +105,7 @@ size_t time_column(const Rows& rows) {
   return 0;
 }
 
-// Seconds in one unit of the times. A name such as time_h is no guess but a question.
+// Seconds per unit of the times. An unknown name such as time_h is an Error, not a guess.
 double time_factor(const RecordText& text, const Rows& rows, size_t column) {
   if (rows.columns.empty()) return 1;
   const std::string name = lower(rows.columns[column].name), unit = lower(trim(rows.columns[column].unit));

@@ -19,7 +19,7 @@ Peak largest(const std::vector<double>& times, const std::vector<double>& values
   return peak;
 }
 
-// The velocity of a piece is largest at its ends or where the acceleration crosses zero.
+// The velocity of a segment is largest at its ends or at a zero of the acceleration.
 Peak largest_velocity(const Polyline& a) {
   Peak peak;
   for (size_t i = 0; i < a.times.size(); ++i) {
@@ -31,7 +31,7 @@ Peak largest_velocity(const Polyline& a) {
   return peak;
 }
 
-// The displacement of a piece is largest at its ends or where the velocity v + a s + slope s^2 / 2 crosses zero.
+// The displacement of a segment is largest at its ends or at a zero of the velocity v + a s + slope s^2 / 2.
 Peak largest_displacement(const Polyline& a) {
   Peak peak;
   for (size_t i = 0; i < a.times.size(); ++i) {
@@ -40,7 +40,7 @@ Peak largest_displacement(const Polyline& a) {
     const double h = a.times[i + 1] - a.times[i], half_slope = 0.5 * (a.values[i + 1] - a.values[i]) / h;
     const double root = a.values[i] * a.values[i] - 4 * half_slope * a.area[i];
     if (root < 0) continue;
-    // The form of the quadratic's roots that loses no digits: q / A and C / q.
+    // Roots of the quadratic in the form that loses no digits: q / A and C / q.
     const double q = -0.5 * (a.values[i] + std::copysign(std::sqrt(root), a.values[i]));
     for (const double s : {half_slope != 0 ? q / half_slope : -1.0, q != 0 ? a.area[i] / q : -1.0})
       if (s > 0 && s < h) raise(peak, double_area_inside(a, a.times[i] + s), a.times[i] + s);
@@ -48,10 +48,10 @@ Peak largest_displacement(const Polyline& a) {
   return peak;
 }
 
-// Int a^2 over the first s of a piece that begins at a0.
+// Int a^2 over the time s from the start of a segment, where a = a0.
 double square_area(double a0, double slope, double s) { return s * (a0 * a0 + s * slope * (a0 + s * slope / 3)); }
 
-// Arias 1970: pi / (2 g) Int a^2 dt, and when 5 and 95 % of it have come (Trifunac and Brady 1975).
+// Arias intensity pi / (2 g) Int a^2 dt (Arias 1970), and the times at 5 and 95 % of it (Trifunac and Brady 1975).
 void arias(const Polyline& a, RecordReport& r) {
   std::vector<double> sum(a.times.size(), 0.0);
   const auto slope = [&](size_t i) { return (a.values[i + 1] - a.values[i]) / (a.times[i + 1] - a.times[i]); };

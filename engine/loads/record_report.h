@@ -1,4 +1,4 @@
-// What an engineer asks of a ground-motion record.
+// Summary of a ground-motion record for engineers: peaks, Arias intensity, significant duration, response spectrum.
 #pragma once
 #include <iosfwd>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace erbs {
 
-// A largest value, with its sign, and when it comes (s, counted from the time 0 of the file after time_factor).
+// Value of largest magnitude, with its sign, and its time (s, from time 0 of the file, after time_factor).
 struct Peak {
   double value = 0;
   double time = 0;
@@ -20,11 +20,11 @@ struct RecordReport {
   int points = 0;                                 // values in the file
   double dt = 0;                                  // s, as scaled; 0: uneven
   double duration = 0;                            // s
-  Peak pga, pgv, pgd;                             // m/s2, m/s, m: largest at the points, as catalogues give them
-  Peak true_pgv, true_pgd;                        // m/s, m: largest anywhere on the parabolas and cubics between points
+  Peak pga, pgv, pgd;                             // m/s2, m/s, m: largest at the points, as in catalogues
+  Peak true_pgv, true_pgd;                        // m/s, m: largest anywhere, on the parabolas and cubics between points too
   double end_velocity = 0, end_displacement = 0;  // m/s, m
   double arias = 0;                               // m/s
-  double time_5 = 0, time_95 = 0;                 // s, when 5 and 95 % of the Arias intensity have come; their distance is D5-95
+  double time_5 = 0, time_95 = 0;                 // s, at 5 and 95 % of the Arias intensity; their difference is D5-95
   std::vector<ResponsePoint> spectrum;            // 5 % damping
   ResponsePoint spectrum_peak;
 };

@@ -28,7 +28,7 @@ size_t skip_digits(std::string_view s, size_t at) {
   return at;
 }
 
-// Where the number that begins at `at` ends; `at` itself where none begins.
+// End of the number that begins at `at`; `at` itself if no number begins there.
 size_t end_of_number(std::string_view s, size_t at) {
   size_t end = at + (at < s.size() && sign(s[at]) ? 1 : 0);
   const size_t whole = skip_digits(s, end);
@@ -43,7 +43,7 @@ size_t end_of_number(std::string_view s, size_t at) {
   if (end < s.size() && exponent_mark(s[end])) {
     const size_t first = end + 1 + (end + 1 < s.size() && sign(s[end + 1]) ? 1 : 0);
     size_t last = skip_digits(s, first);
-    // Two digits of exponent and at once the 0 of the next column: 0.1E-020.2E-02.
+    // An exponent of two digits, followed directly by the 0 of the next column: 0.1E-020.2E-02.
     if (last == first + 3 && last < s.size() && s[last] == '.') --last;
     if (last > first) end = last;
   }
@@ -54,7 +54,7 @@ size_t end_of_number(std::string_view s, size_t at) {
   const std::string_view line = text.lines[index];
   size_t end = at;
   while (end < line.size() && !separator(line[end]) && end < at + 24) ++end;
-  // What begins as no number is not quoted: the file may be none of records, and none of the reader's business.
+  // Quote a word only if it begins like a number. The file may be no record, and the message must not reveal its content.
   const std::string_view word = line.substr(at, end - at);
   const bool quoted = digit(word[0]) || sign(word[0]) || word[0] == '.' || word == "nan" || word == "inf";
   throw Error(fmt::format("column {}: {} is not a number; correct it, or begin the line with # if it is a comment", at + 1,
@@ -65,7 +65,7 @@ size_t end_of_number(std::string_view s, size_t at) {
 double number(const RecordText& text, size_t index, size_t from, size_t to) {
   std::string digits(text.lines[index].substr(from, to - from));
   for (char& c : digits)
-    if (exponent_mark(c)) c = 'e';  // Fortran's D is no exponent to from_chars, nor is a leading +
+    if (exponent_mark(c)) c = 'e';  // from_chars reads neither Fortran's exponent D nor a leading +
   const char* first = digits.data() + (digits.front() == '+' ? 1 : 0);
   double result = 0;
   const auto [end, code] = std::from_chars(first, digits.data() + digits.size(), result);
@@ -92,7 +92,7 @@ RecordText read_record_text(const std::string& path) {
     throw Error("is no plain text, or text in UTF-16; save it as UTF-8", {path});
   RecordText text{path, hash_text(bytes), {}};
   std::string_view rest = bytes;
-  if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);  // the byte order mark of some editors
+  if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);  // byte order mark, written by some editors
   bool blank = true;
   while (!rest.empty()) {
     const size_t end = std::min(rest.find('\n'), rest.size());

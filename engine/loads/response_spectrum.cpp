@@ -10,7 +10,7 @@ namespace {
 
 struct Oscillator {
   double omega, damping, damped;  // rad/s, ratio, rad/s
-  double u = 0, v = 0;            // m and m/s relative to the ground
+  double u = 0, v = 0;            // m, m/s, relative to the ground
 };
 
 struct Decay {
@@ -21,9 +21,9 @@ Decay decay_over(const Oscillator& o, double h) {
   return {h, std::exp(-o.damping * o.omega * h), std::cos(o.damped * h), std::sin(o.damped * h)};
 }
 
-// One substep under ground acceleration a0 + slope s, from the exact solution of
+// One substep under the ground acceleration a0 + slope s, by the exact solution of
 //   u'' + 2 z w u' + w^2 u = -(a0 + slope s)
-// (Nigam and Jennings 1969, eqs. 2.4-2.7): the particular solution is p + q s, the rest decays.
+// (Nigam and Jennings 1969, eqs. 2.4-2.7). The particular solution is p + q s; the rest decays.
 void advance(Oscillator& o, const Decay& d, double a0, double slope) {
   const double w = o.omega, z = o.damping;
   const double q = -slope / (w * w), p = -(a0 + 2 * z * w * q) / (w * w);
@@ -34,8 +34,8 @@ void advance(Oscillator& o, const Decay& d, double a0, double slope) {
   o.v = free_v + q;
 }
 
-constexpr int samples = 40;         // of the response, a period
-constexpr int most = 40 * samples;  // of one piece: by then a damped oscillator only follows the ground
+constexpr int samples = 40;         // of the response, per period
+constexpr int most = 40 * samples;  // of one segment: by then a damped oscillator only follows the ground
 
 double largest_response(const Polyline& a, double period, double damping_ratio) {
   const double omega = 2 * pi / period;
@@ -50,7 +50,7 @@ double largest_response(const Polyline& a, double period, double damping_ratio) 
   double last_h = -1;
   for (size_t i = 0; i + 1 < a.times.size(); ++i) {
     const double h = a.times[i + 1] - a.times[i], slope = (a.values[i + 1] - a.values[i]) / h;
-    if (std::abs(h - last_h) > 1e-13 * a.times.back()) {  // steps of even records differ in round-off only
+    if (std::abs(h - last_h) > 1e-13 * a.times.back()) {  // steps of an even record differ by round-off only
       last_h = h;
       count = static_cast<int>(std::clamp(std::ceil(h * samples / period), 1.0, 1.0 * most));
       decay = decay_over(o, std::min(h / count, period / samples));

@@ -1,4 +1,4 @@
-// Response of a damped oscillator to a ground-motion record, exact for acceleration linear between points.
+// Response spectrum of a ground-motion record, exact for acceleration linear between points.
 #pragma once
 #include <vector>
 
@@ -8,14 +8,14 @@ namespace erbs {
 
 struct ResponsePoint {
   double period = 0;        // s
-  double displacement = 0;  // m, largest relative to the ground
-  double acceleration = 0;  // m/s2, pseudo: displacement times (2 pi / period)^2
+  double displacement = 0;  // m, peak relative to the ground
+  double acceleration = 0;  // m/s2, pseudo-acceleration: displacement times (2 pi / period)^2
 };
 
-// Each period through the record and one period after its end, sampled at least 40 times a period (which finds a peak to 0.3 %).
+// Peak response over the record and one period beyond, sampled at least 40 times per period (which finds a peak to 0.3 %).
 std::vector<ResponsePoint> response_spectrum(const Polyline& acceleration, const std::vector<double>& periods, double damping_ratio);
 
-// `count` periods from `low` to `high`, equal ratios apart.
+// `count` periods from `low` to `high`, in equal ratios.
 std::vector<double> spectrum_periods(double low, double high, int count);
 
 }  // namespace erbs

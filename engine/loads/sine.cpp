@@ -7,7 +7,7 @@
 namespace erbs {
 namespace {
 
-// The three waves are one: a sine seen through a window of time.
+// Common form of the three waves: a sine inside a window of time.
 struct Window {
   double amplitude, omega, phase, start, length;
 };
@@ -22,7 +22,7 @@ Window window(const FullSine& w) {
   return {w.amplitude, omega, w.phase, w.start, (2 * pi - w.phase) / omega};
 }
 
-// x - sin x without the loss of digits near 0.
+// x - sin x without loss of digits near 0.
 double x_minus_sin(double x) {
   if (std::abs(x) > 0.5) return x - std::sin(x);
   double term = x * x * x / 6, sum = term;

@@ -1,5 +1,5 @@
-// Sine waves: endless or cut off, and the half and full sine pulses of the overturning literature (Housner 1963), which may
-// begin at any phase and always end at a zero of the sine. Exactly zero outside.
+// Sine waves: endless or cut off, and the half-sine and full-sine pulses of the overturning literature (Housner 1963). Pulses may begin at
+// any phase and always end at a zero of the sine. All are exactly zero outside their duration.
 #pragma once
 #include "engine/base/field.h"
 #include "engine/base/units.h"
@@ -8,7 +8,7 @@ namespace erbs {
 
 // amplitude sin(2 pi frequency (t - start) + phase) from `start` on, for `duration`.
 struct Sine {
-  double amplitude = 0;         // in the unit of what it drives: m/s2, N, N m, rad or m
+  double amplitude = 0;         // in the unit of its load: m/s2, N, N m, rad or m
   double frequency = 0;         // Hz
   double phase = 0;             // rad, at start
   double start = 0;             // s
@@ -26,9 +26,9 @@ struct Sine {
   }
 };
 
-// One lobe: from `phase` at `start` to the zero at pi; lasts (pi - phase) / (2 pi frequency).
+// One lobe, from `phase` at `start` to the zero at pi. Duration (pi - phase) / (2 pi frequency).
 struct HalfSine {
-  double amplitude = 0;  // in the unit of what it drives
+  double amplitude = 0;  // in the unit of its load
   double frequency = 0;  // Hz, of the whole sine: a lobe from phase 0 lasts 1 / (2 frequency)
   double phase = 0;      // rad, 0..pi, at start
   double start = 0;      // s
@@ -44,9 +44,9 @@ struct HalfSine {
   }
 };
 
-// One cycle: from `phase` at `start` to the zero at 2 pi; lasts (2 pi - phase) / (2 pi frequency).
+// One cycle, from `phase` at `start` to the zero at 2 pi. Duration (2 pi - phase) / (2 pi frequency).
 struct FullSine {
-  double amplitude = 0;  // in the unit of what it drives
+  double amplitude = 0;  // in the unit of its load
   double frequency = 0;  // Hz
   double phase = 0;      // rad, 0..2 pi, at start
   double start = 0;      // s
@@ -62,7 +62,7 @@ struct FullSine {
   }
 };
 
-// For the meaning of the five functions see loads.h.
+// loads.h explains the five functions.
 double value(const Sine& wave, double t);
 double value(const HalfSine& wave, double t);
 double value(const FullSine& wave, double t);

@@ -37,7 +37,7 @@ double mean(const Table& wave, double t0, double t1) {
   if (t0 == t1) return value(wave, t0);
   const Polyline& line = wave.line;
   const double first = line.times.front(), last = line.times.back();
-  // Inside one segment this is the value at mid-time; only at an end of the table is there something to add.
+  // Inside the table. Within one segment this gives the value at mid-time; only `hold` adds the parts beyond the ends.
   const double from = std::clamp(t0, first, last), to = std::clamp(t1, first, last);
   double sum = area_between(line, from, to);
   if (wave.hold)

@@ -1,4 +1,4 @@
-// A table of values, linear between its points.
+// Table of values, linear between its points.
 #pragma once
 #include "engine/base/field.h"
 #include "engine/loads/polyline.h"
@@ -6,18 +6,18 @@
 namespace erbs {
 
 struct Table {
-  Polyline line;      // s, and the unit of what it drives
-  bool hold = false;  // outside: the nearest value; else zero
+  Polyline line;      // s, and the unit of its load
+  bool hold = false;  // outside the table the nearest value holds; else zero
 
   static constexpr std::string_view wave_name = "table_wave";
-  // Without the two arrays `times` and `values`, which go through make_table.
+  // The two arrays `times` and `values` are not fields; make_table takes them.
   static Fields<Table> fields() { return {{"hold", &Table::hold, "", "outside the table the nearest value holds (default: zero)"}}; }
 };
 
-// times increasing, at least two points; else an Error that counts points from 1.
+// Needs increasing times and at least two points. Otherwise throws an Error that counts points from 1.
 Table make_table(std::vector<double> times, std::vector<double> values, bool hold);
 
-// For the meaning of the five functions see loads.h.
+// loads.h explains the five functions.
 double value(const Table& wave, double t);
 double area(const Table& wave, double t);
 double double_area(const Table& wave, double t);

@@ -21,7 +21,7 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 std::size_t z(int i) { return std::size_t(i); }
 
-// Integrals over a loop, by triangles about the origin: Int s s = A/12 ((sum s)^2 + sum s^2) over each.
+// Integrals over a loop, summed over triangles from the origin: Int s s = A/12 ((sum s)^2 + sum s^2) over a triangle.
 Cell cell_of(const std::vector<Vec2>& loop) {
   Cell c;
   for (std::size_t i = 0; i < loop.size(); ++i) {
@@ -36,7 +36,7 @@ Cell cell_of(const std::vector<Vec2>& loop) {
   return c;
 }
 
-// Bending of the true overlap, against that of its points.
+// Bending stiffness of the true overlap; that of its points if both agree to round-off.
 void set_face(const Model& m, const PointLaw& law, JointType& joint) {
   const Cell whole = cell_of({m.corner.begin() + joint.first_corner, m.corner.end()});
   const double face[3] = {law.kn * whole.tt, law.kn * whole.ss, law.kn * whole.st}, round_off = 1e-9 * (face[0] + face[1]);
@@ -44,13 +44,13 @@ void set_face(const Model& m, const PointLaw& law, JointType& joint) {
   for (int i = 0; i < 3; ++i) joint.face[i] = !exact ? face[i] : i < 2 ? joint.stiffness[3 + i] : 0;
 }
 
-// b = 2 xi / omega: of the frequency asked for, or of the joint's own, both its blocks moving against each other.
+// b = 2 xi / omega. omega is the specified frequency, or the joint's own: that of its two blocks moving against each other.
 void set_viscous(const Damping& damping, const Model& m, Joint& joint) {
   const auto inverse = [&](int b) { return m.kind[z(b)] == Kind::moving ? 1 / m.mass[z(b)] : 0.0; };
   const double own = std::sqrt(joint.type->stiffness[2] * (inverse(joint.a) + inverse(joint.b)));
   const double omega = damping.at > 0 ? 2 * pi * damping.at : own;
   joint.viscous = damping.stiffness + (omega > 0 ? 2 * damping.joint_ratio / omega : 0);
-  const bool sequential = m.analysis.solver == "sequential";  // knows no dashpots
+  const bool sequential = m.analysis.solver == "sequential";  // has no dashpots
   joint.viscous_cracked = std::max(joint.viscous, own > 0 && !sequential ? 2 * m.laws[z(joint.type->law)].damping / own : 0);
 }
 
@@ -62,7 +62,7 @@ void add_cell(const std::vector<Vec2>& loop, Model& m) {
   m.cell_corner.insert(m.cell_corner.end(), loop.begin(), loop.end());
 }
 
-// Types by a hash of what they hold.
+// Joint types by a hash of their content.
 using Types = std::unordered_multimap<std::uint64_t, const JointType*>;
 
 template <class T>
@@ -70,7 +70,7 @@ std::string_view bytes_of(const std::vector<T>& items, int first, int count) {
   return {reinterpret_cast<const char*>(items.data() + first), z(count) * sizeof(T)};
 }
 
-// All that a type is made of, in pieces: numbers of points and corners, flat geometry, frame. Its other members follow from these.
+// Full content of a type, in pieces: numbers of points and corners, plane geometry, frame. The other members of a type follow from it.
 struct Pieces {
   std::vector<int> numbers;
   std::array<std::string_view, 5> bytes;
@@ -93,7 +93,8 @@ Pieces pieces_of(const Model& m, const JointType& type) {
            {reinterpret_cast<const char*>(type.frame.data()), sizeof type.frame}}};
 }
 
-// The type of the joint whose geometry was just added; takes that away where an earlier type has the same to the last bit.
+// Type of the joint whose geometry was added last. If an earlier type is equal to the last bit, it is returned and the new geometry
+// removed.
 const JointType* shared_type(Model& m, const JointType& type, Types& types) {
   const Pieces own = pieces_of(m, type);
   std::uint64_t key = fnv1a(bytes_of(own.numbers, 0, int(own.numbers.size())));

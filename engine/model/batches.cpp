@@ -12,7 +12,7 @@ std::size_t z(int i) { return std::size_t(i); }
 
 struct Keeping {
   Model& m;
-  std::vector<int> kept, rounds;            // by blocks; by groups of eight
+  std::vector<int> kept, rounds;            // joints owned by each block; rounds of each group of eight blocks
   std::vector<std::vector<int>> joints_of;  // blocks
   std::vector<int> moved;
 
@@ -23,7 +23,7 @@ struct Keeping {
     m.joint[z(j)].kept_by_b = !m.joint[z(j)].kept_by_b;
     moved.push_back(j);
   }
-  // One of the joints that b keeps goes to a neighbour with room, or to one that can make room in the same way.
+  // Passes one joint of owner b to a neighbour with room, or to a neighbour that can make room in the same way.
   bool pass_on(int b, bool through_others) {
     for (const int j : joints_of[z(b)])
       if (m.keeper(j) == b && has_room(other(j))) {
@@ -38,7 +38,7 @@ struct Keeping {
       }
     return false;
   }
-  // Group g does with a round less, if it can.
+  // Saves one round of group g, if possible.
   bool shorten(int g) {
     if (rounds[z(g)] == 0) return false;
     --rounds[z(g)];
@@ -72,7 +72,7 @@ void choose_keepers(Model& m) {
     while (all.shorten(g)) {}
 }
 
-// An empty lane answers nothing: no stiffness, limits out of reach, the block at rest, a wrench row that nobody reads.
+// An empty lane gives no force: zero stiffness, infinite limits, the block at rest, the spare wrench row.
 void clear_lane(const Model& m, JointBatch& batch, int l) {
   for (auto& k : batch.stiffness) k[l] = 0;
   for (auto* field : {batch.arm_a, batch.arm_b, batch.gap, batch.turn})
@@ -87,7 +87,7 @@ void set_constants(const Model& m, int j, JointBatch& batch, int l) {
   const Joint& joint = m.joint[z(j)];
   const PointLaw& law = m.laws[z(joint.type->law)];
   for (int i = 0; i < 6; ++i) batch.stiffness[i][l] = joint.type->stiffness[i];
-  // Couplings that reach zero shear at ft have no straight bound: any tension is looked at point by point.
+  // Couplings with zero shear at ft have no linear bound: in any tension the joint is checked point by point.
   batch.open_limit[l] = law.coupling == PointLaw::Coupling::coulomb ? law.ft / law.kn : 0;
   batch.slip_limit[l] = law.ks > 0 ? law.c / law.ks : infinite;
   batch.slip_slope[l] = law.ks > 0 ? law.mu * law.kn / law.ks : 0;

@@ -1,5 +1,5 @@
-// A vector or a rotation of every block, stored as the step reads it: components of eight blocks side by side. Reads and writes like
-// a std::vector<Vec3> or std::vector<Quat>.
+// One vector or rotation per block, in the layout of the step: components of eight blocks side by side. Reads and writes like a
+// std::vector<Vec3> or std::vector<Quat>.
 #pragma once
 #include <algorithm>
 #include <cstddef>
@@ -44,7 +44,7 @@ class BlockVec3 {
 class BlockQuat {
  public:
   using Row = RowLanes<4>;
-  // A copy that writes back what is assigned to it as a whole; its parts can only be read.
+  // Proxy of an element: a copy that writes back an assignment of the whole quaternion. Its components are read-only.
   class Ref : public Quat {
    public:
     double x() const { return Quat::x(); }
@@ -94,7 +94,7 @@ class BlockQuat {
   std::vector<Row> row_;  // x, y, z, w; lanes beyond the last block are the identity
 };
 
-// Rows of eight doubles, each in a cache line of its own: what one block or one joint end is read or written by where that goes by rows.
+// Rows of eight doubles, each in its own cache line. A row holds the data of one block or of one joint end, for kernels that work by rows.
 class Rows {
  public:
   void assign(std::size_t rows, double value) {
@@ -117,7 +117,7 @@ class Rows {
   Cold<RowLanes<1>> row_;
 };
 
-// Blocks and the one at rest behind them, in whole groups of lanes.
+// Number of groups of eight lanes for all blocks and the block at rest behind them.
 inline std::size_t block_groups(int nblock) { return (std::size_t(nblock) + lanes) / lanes; }
 
 }  // namespace erbs

@@ -99,13 +99,13 @@ void index_rows(Model& m) {
   }
 }
 
-// Overlaps of blocks made by the same two lines are one mistake: the deepest is named, the others are counted.
+// Overlaps of blocks made by the same two script lines are one mistake. The message names the deepest and counts the others.
 struct Overlapping {
   const Overlap* deepest = nullptr;
   int others = 0;
 };
 
-// How many pairs may overlap before the search for more of them ends: a thousand where they are mistakes.
+// Number of overlapping pairs at which the search ends: a thousand, if overlaps are mistakes.
 std::size_t pairs_of(const Scene& scene) { return scene.analysis.overlap == "stress_free" ? 1000000 : 1000; }
 
 void check_overlaps(const Scene& scene, const std::vector<Overlap>& overlaps, bool cut, std::vector<std::string>& errors,
@@ -119,10 +119,10 @@ void check_overlaps(const Scene& scene, const std::vector<Overlap>& overlaps, bo
     if (group.deepest) ++group.others;
     if (!group.deepest || o.relative > group.deepest->relative) group.deepest = &o;
   }
-  std::vector<std::string> borne;  // overlaps that are let be
+  std::vector<std::string> borne;  // overlaps that are accepted
   int pairs = 0;
   std::string worst;
-  double deepest = 0;  // of the smaller edge
+  double deepest = 0;  // relative to the smaller edge
   for (const auto& [key, group] : by_lines) {
     const Overlap& o = *group.deepest;
     const Block &a = scene.blocks[z(o.a)], &b = scene.blocks[z(o.b)];
@@ -146,7 +146,7 @@ void check_overlaps(const Scene& scene, const std::vector<Overlap>& overlaps, bo
   notes.insert(notes.end(), borne.begin(), borne.end());
 }
 
-// Before memory is taken for them.
+// Limits the number of contact points before memory is allocated.
 void check_points(const Scene& scene, const Interfaces& found, std::vector<std::string>& errors) {
   double points = 0;
   for (const Interface& face : found.all) {
@@ -236,7 +236,7 @@ Built build(const Scene& scene) {
   if (!errors.empty()) throw Errors(errors);
   add_joints(scene, found.all, m);
   found = {};
-  each_contact_part(m, [](int, const Polyhedron&) {});  // finds parts of which nothing is left
+  each_contact_part(m, [](int, const Polyhedron&) {});  // throws for parts of which no body is left
   m.dashpots = std::any_of(m.joint.begin(), m.joint.end(), [](const Joint& joint) { return joint.viscous > 0; });
   m.dashpots_cracked = std::any_of(m.joint.begin(), m.joint.end(), [](const Joint& joint) { return joint.viscous_cracked > 0; });
   choose_keepers(m);

@@ -1,4 +1,4 @@
-// Scene -> Model + State. Every mistake that only geometry can show is found here, all at once.
+// Scene -> Model + State. Reports all mistakes that only geometry can show, at once.
 #pragma once
 #include "engine/model/model.h"
 #include "engine/model/state.h"
@@ -10,10 +10,10 @@ struct Built {
   State state;
 };
 
-// Throws Errors with one message per mistake (overlap, a block without joint, a joint with too many points ...).
+// Throws Errors with one message per mistake (overlap, block without joint, joint with too many points ...).
 Built build(const Scene& scene);
 
-// The overlaps alone, for a scene with other mistakes, which cannot be built; none where a shape is no solid.
+// The overlaps alone, for a scene that cannot be built because of other mistakes. Empty if a shape is not a valid body.
 std::vector<std::string> overlap_mistakes(const Scene& scene);
 
 }  // namespace erbs

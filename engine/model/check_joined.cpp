@@ -12,7 +12,7 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// Blocks that no joint holds although they neither start in motion nor say free = true; those of one line are one mistake.
+// Blocks without a joint that neither start in motion nor have free = true. Blocks of one script line are one mistake.
 void check_loose(const Scene& scene, const Interfaces& found, const std::vector<Kind>& kind, std::vector<std::string>& errors) {
   const int nblock = int(scene.blocks.size());
   std::vector<int> degree(z(nblock), 0);
@@ -40,8 +40,8 @@ bool has_group(const Scene& scene, const std::string& group) {
   return group.empty() || std::any_of(scene.blocks.begin(), scene.blocks.end(), [&](const Block& b) { return b.group == group; });
 }
 
-// A rule that joins nothing is legal (a later one may win), but often a slip in its groups or its thickness. Groups that no block is of
-// have been told.
+// A rule without any joint is legal (a later rule may win), but often a mistake in its groups or its thickness. Groups without blocks have
+// been reported before.
 void check_rules(const Scene& scene, const Interfaces& found, std::vector<std::string>& warnings) {
   std::vector<int> faces(scene.joint_rules.size(), 0);
   for (const Interface& face : found.all) ++faces[z(face.rule)];
@@ -55,7 +55,7 @@ void check_rules(const Scene& scene, const Interfaces& found, std::vector<std::s
   }
 }
 
-// Joints of one rule whose gaps are not what it says.
+// Joints of one rule whose gaps differ from its thickness.
 struct OffWidth {
   const Interface* first = nullptr;
   int count = 0;
@@ -68,8 +68,8 @@ struct OffWidth {
   }
 };
 
-// Gaps that a rule joins although they are narrower than it says, or wider because a builder made them so. Touching faces under a law of
-// some thickness are beds without thickness, a model of its own; not so where the rule itself names the gap.
+// Joints whose gap is narrower than their rule states, or wider because the masonry widened it. Touching faces under a law with a thickness
+// are a model of zero-thickness joints and cause no warning, unless the rule itself states the gap.
 void check_gaps(const Scene& scene, const Interfaces& found, std::vector<std::string>& warnings) {
   std::vector<OffWidth> narrow(scene.joint_rules.size()), wide(narrow);
   for (const Interface& face : found.all) {
@@ -93,7 +93,7 @@ void check_gaps(const Scene& scene, const Interfaces& found, std::vector<std::st
   }
 }
 
-// Faces that face each other a little too far apart.
+// Faces that face each other slightly too far apart for a joint.
 void check_unjoined(const Scene& scene, const Interfaces& found, std::vector<std::string>& warnings) {
   std::map<int, std::vector<const Unjoined*>> by_rule;
   for (const Unjoined& pair : found.unjoined) by_rule[pair.rule].push_back(&pair);
@@ -109,7 +109,7 @@ void check_unjoined(const Scene& scene, const Interfaces& found, std::vector<std
   }
 }
 
-// A block in the directions of gravity: the box about it, its third axis upwards.
+// Bounding box of a block in the given axes; the third axis points upward.
 Box upright_box(const Block& block, const Mat3& axes) {
   Box box{Vec3::Constant(std::numeric_limits<double>::infinity()), Vec3::Constant(-std::numeric_limits<double>::infinity())};
   for (const Polyhedron& part : block.parts)
@@ -120,7 +120,7 @@ Box upright_box(const Block& block, const Mat3& axes) {
   return box;
 }
 
-// ": 'b1' lies 3 mm above 'ground'", the smallest gap to what lies below; "" where nothing does.
+// ": 'b1' lies 3 mm above 'ground'": the smallest gap to a block below; "" if there is none.
 std::string nearest_below(const Scene& scene, const std::vector<int>& root, int island, const Mat3& axes) {
   std::vector<Box> box;
   for (const Block& block : scene.blocks) box.push_back(upright_box(block, axes));
@@ -145,7 +145,7 @@ std::string nearest_below(const Scene& scene, const std::vector<int>& root, int 
   return text;
 }
 
-// Blocks that are joined to each other but, by whatever way, to nothing that is fixed or driven, and neither start in motion nor say free.
+// Groups of joined blocks without any path of joints to a fixed or driven block, in which no block starts in motion or has free = true.
 void check_floating(const Scene& scene, const Interfaces& found, const std::vector<Kind>& kind, std::vector<std::string>& errors) {
   if (!(scene.gravity.norm() > 0)) return;
   const int nblock = int(scene.blocks.size());

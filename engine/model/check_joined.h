@@ -1,4 +1,4 @@
-// What is joined at rest and what is not: blocks that nothing holds, rules that join nothing or something else than they say.
+// Checks of the joints found at rest: blocks without support, rules without joints, rules whose joints differ from their specification.
 #pragma once
 #include <string>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace erbs {
 
-// Adds one message per mistake and per thing to know; what is of one script line or of one rule is one message with a count.
+// Adds one message per mistake and per warning. Cases of one script line or of one rule share a message with a count.
 void check_joined(const Scene& scene, const Interfaces& found, const std::vector<Kind>& kind, std::vector<std::string>& errors,
                   std::vector<std::string>& warnings);
 

@@ -15,15 +15,15 @@ namespace erbs {
 namespace {
 
 using std::size_t;
-constexpr double facing = 1e-3;          // rad
-constexpr double least_fraction = 1e-4;  // of the smaller face: less overlap is no interface
-constexpr double least_facing = 0.1;     // of the smaller face: less is no gap someone forgot to fill
-constexpr double most_beyond = 0.25;     // of the smaller edge: a wider gap is meant
-constexpr double least_overlap = 1e-6;   // of the smaller edge: less is round-off
+constexpr double facing = 1e-3;          // rad, largest angle between facing faces
+constexpr double least_fraction = 1e-4;  // of the smaller face: a smaller overlap is no interface
+constexpr double least_facing = 0.1;     // of the smaller face: faces with a smaller overlap are not reported as unjoined
+constexpr double most_beyond = 0.25;     // of the smaller edge: a wider gap is intended
+constexpr double least_overlap = 1e-6;   // of the smaller edge: a smaller depth is round-off
 
 size_t at(int i) { return static_cast<size_t>(i); }
 
-// A part with what the search needs of it.
+// A part with the data that the search needs.
 struct Part {
   int block, part;
   const Polyhedron* shape;
@@ -43,8 +43,8 @@ std::vector<Part> parts_of(std::span<const InterfaceBlock> blocks) {
   return parts;
 }
 
-// Calls visit(i, j), as long as it gives true, for parts whose boxes come closer than `margin`: sorted along the axis of greatest spread, so
-// that one huge slab costs one pass and not a full grid.
+// Calls visit(i, j) for parts whose boxes are closer than `margin`, until it returns false. The sweep runs along the axis of largest
+// spread, so that one huge slab costs one pass and not a full grid.
 template <class Visit>
 void near_pairs(const std::vector<Part>& parts, double margin, Visit&& visit) {
   Vec3 mean = Vec3::Zero(), spread = Vec3::Zero();
@@ -56,7 +56,7 @@ void near_pairs(const std::vector<Part>& parts, double margin, Visit&& visit) {
   std::iota(order.begin(), order.end(), 0);
   std::sort(order.begin(), order.end(),
             [&](int i, int j) { return std::make_pair(parts[at(i)].box.low[axis], i) < std::make_pair(parts[at(j)].box.low[axis], j); });
-  std::vector<int> open;  // parts that still reach the sweep plane
+  std::vector<int> open;  // parts that still extend to the sweep plane
   for (int i : order) {
     const Box& p = parts[at(i)].box;
     size_t kept = 0;
@@ -73,7 +73,7 @@ void near_pairs(const std::vector<Part>& parts, double margin, Visit&& visit) {
 
 bool group_matches(const std::string& wanted, std::string_view group) { return wanted.empty() || wanted == group; }
 
-// Index of the last rule that matches, -1 if none does. Results are kept per pair of groups.
+// Index of the last matching rule, -1 if there is none. Results are cached per pair of groups.
 class RuleTable {
  public:
   explicit RuleTable(std::span<const JointRule> rules) : rules_(rules) {}
@@ -94,10 +94,10 @@ class RuleTable {
   std::map<std::pair<std::string_view, std::string_view>, int> known_;
 };
 
-// How far beyond what the rule joins a gap is still worth a word.
+// Width (m) beyond the joints of a rule, up to which an unjoined gap is reported.
 double forgotten(const JointRule& rule) { return rule.none ? 0 : std::max(2 * rule.thickness, 0.03); }
 
-// The overlap of face fa of p and face fb of q in the plane of n, as a polygon midway between them; empty where there is none.
+// Overlap of face fa of p and face fb of q, as a polygon midway between them. False if there is none, or less than `fraction` of a face.
 bool overlap_polygon(const Part& p, int fa, const Part& q, int fb, double fraction, Interface& out) {
   const Plane& pa = p.planes[at(fa)];
   const Plane& pb = q.planes[at(fb)];
@@ -119,7 +119,7 @@ bool overlap_polygon(const Part& p, int fa, const Part& q, int fb, double fracti
   if (common.size() < 3) return false;
   const PolygonMoments m = moments(common);
   if (m.area < fraction * smaller) return false;
-  // Height of both planes above a point of the flat polygon, along n.
+  // Height of a plane above a point of the flat polygon, along n.
   auto height = [&](const Plane& plane, const Vec2& x) {
     const Vec3 r = origin + x.x() * t + x.y() * s;
     return (plane.d - plane.n.dot(r)) / plane.n.dot(n);
@@ -132,14 +132,14 @@ bool overlap_polygon(const Part& p, int fa, const Part& q, int fb, double fracti
   return true;
 }
 
-// The widest gap between two blocks that the rule joins.
+// Widest gap between two blocks that the rule joins (m).
 double widest_gap(const InterfaceBlock& a, const InterfaceBlock& b, const JointRule& rule) {
   const double most = rule.thickness + rule.tolerance;
   if (std::max(a.joint, b.joint) > most) return most;
   return std::max(most, std::min(a.widest_joint, b.widest_joint) + rule.tolerance);
 }
 
-// Every pair of faces of two parts with gaps up to `most` that qualifies, and the nearest that are too far apart.
+// Adds all interfaces of two parts with gaps up to `most`, and the facing pairs that are slightly too far apart.
 void find_faces(const Part& p, const Part& q, const JointRule& rule, int rule_index, double overlap, double most, Interfaces& result) {
   const double cosine = -std::cos(facing);
   const double least = -std::max(rule.tolerance, overlap * std::min(p.edge, q.edge));
@@ -165,7 +165,7 @@ bool boxes_overlap(const Box& a, const Box& b, double depth) {
   return ((a.high - b.low).array() > depth).all() && ((b.high - a.low).array() > depth).all();
 }
 
-// Of the pairs without any joint the smallest gap; `all` is sorted.
+// Reduces `unjoined` to pairs without any joint, each with its smallest gap. `all` must be sorted.
 void keep_pairs_without_joint(Interfaces& found) {
   std::sort(found.unjoined.begin(), found.unjoined.end(),
             [](const Unjoined& x, const Unjoined& y) { return std::tie(x.a, x.b, x.gap) < std::tie(y.a, y.b, y.gap); });

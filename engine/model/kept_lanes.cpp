@@ -14,19 +14,19 @@ namespace {
 constexpr int record = 6 * lanes;  // doubles
 std::size_t z(int i) { return std::size_t(i); }
 
-// A joint of one of eight blocks and the record that it reads.
+// A joint of one of eight blocks, and the record it reads.
 struct End {
   int joint, record;
 };
 using Hand = std::array<std::vector<End>, lanes>;
-using Round = std::array<int, lanes>;  // the joint of each lane; -1: none
+using Round = std::array<int, lanes>;  // joint of each lane; -1: none
 
 struct Wanted {
   int record;
-  unsigned lanes;  // that have an end of it left, as bits
+  unsigned lanes;  // lanes with an unscheduled joint that reads the record, as bits
 };
 
-// Records that ends left read, those of many lanes first: a few of them.
+// The records that unscheduled joints read: the few that serve most lanes, in that order.
 std::vector<Wanted> wanted(const Hand& hand) {
   std::vector<Wanted> out;
   for (int l = 0; l < lanes; ++l)
@@ -45,7 +45,7 @@ std::vector<Wanted> wanted(const Hand& hand) {
   return out;
 }
 
-// The two records that serve most lanes, less those lanes that must have one now and would have to read a third.
+// The two records that serve most lanes. A lane that must be served now and would read a third record counts against the choice.
 std::pair<int, int> best_two(const std::vector<Wanted>& all, unsigned must) {
   int best = -1000;
   std::pair<int, int> out{-1, -1};
@@ -58,8 +58,8 @@ std::pair<int, int> best_two(const std::vector<Wanted>& all, unsigned must) {
   return out;
 }
 
-// As many rounds as the longest hand is, each by the two records that serve it best. A lane that has as many ends left as there are
-// rounds gives one in each, of a third record if need be.
+// Schedules the joints of a group: as many rounds as the busiest lane has joints, each with the two records that serve it best. A lane with
+// as many joints left as rounds is used in every round, with a third record if necessary.
 std::vector<Round> deal(Hand hand) {
   std::size_t most = 0;
   for (const auto& ends : hand) most = std::max(most, ends.size());
@@ -82,7 +82,7 @@ std::vector<Round> deal(Hand hand) {
   return out;
 }
 
-// `at`: record * lanes + lane of what each lane reads; `none` where that is nothing.
+// Gather table from the sources of eight lanes. `at`: record * lanes + lane of each source, `none` for an unused lane.
 Crossing crossing(const int at[lanes], int none) {
   Crossing out{};
   int of[lanes] = {}, lanes_of[lanes] = {};
@@ -92,7 +92,7 @@ Crossing crossing(const int at[lanes], int none) {
     if (i == out.records) of[out.records++] = r;
     ++lanes_of[i];
   }
-  for (int i = 0; i < out.records; ++i)  // those of many lanes first
+  for (int i = 0; i < out.records; ++i)  // records of many lanes first
     for (int k = i; k > 0 && lanes_of[k] > lanes_of[k - 1]; --k) std::swap(of[k], of[k - 1]), std::swap(lanes_of[k], lanes_of[k - 1]);
   for (int l = lanes - 1; l >= 0; --l) {
     const int i = at[l] == none ? lanes : int(std::find(of, of + out.records, at[l] / lanes) - of);

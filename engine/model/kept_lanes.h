@@ -1,6 +1,7 @@
-// Sound joints in the lanes of the blocks that keep them (batches.h), and what crosses over from lane to lane: the other block's
-// displacements, and what the joint does to that block. Groups of eight blocks go through the joints they keep in rounds, and through what
-// others do to them; every block may take its own in any order, so they are dealt such that eight lanes side by side read few records.
+// Owner-computes schedule of intact joints. A joint is evaluated in the lane of the block that owns it (batches.h). Two quantities cross
+// lanes: the displacement of its other block, and its force on that block. A Crossing is the gather table of one such read.
+// A group of eight blocks evaluates its own joints in rounds, one joint per block, and gathers the forces of other joints in rounds. The
+// order of a block's joints is free: the schedule fills each round so that its eight lanes read few records.
 #pragma once
 #include <vector>
 
@@ -11,18 +12,18 @@ namespace erbs {
 struct Model;
 
 struct KeptLanes {
-  std::vector<int> first_batch;  // of each group of blocks                                [groups + 1]
-  std::vector<int> joint;        // in each lane of a batch; -1: none                      [batches * lanes]
-  std::vector<int> lane;         // batch * lanes + lane                                   [njoint]
-  std::vector<Crossing> other;   // where State::shift has the other blocks of a batch     [batches]
-  // where State::given has what joints do to blocks that do not keep them: to a group of moving ones, ...
+  std::vector<int> first_batch;  // first batch of each group of blocks                    [groups + 1]
+  std::vector<int> joint;        // joint in each lane of a batch; -1: none                [batches * lanes]
+  std::vector<int> lane;         // batch * lanes + lane of each joint                     [njoint]
+  std::vector<Crossing> other;   // gathers the other blocks of a batch from State::shift  [batches]
+  // Forces of joints on blocks that do not own them, in State::given: gather tables of each group of moving blocks.
   std::vector<int> first_taken;  //                                                        [groups + 1]
   std::vector<Crossing> taken;
-  // ... and to any one of them, in doubles
+  // The same for each single block: positions in State::given, in doubles.
   std::vector<int> first_end;  //                                                        [nblock + 1]
   std::vector<int> end;
 };
 
-KeptLanes deal_lanes(const Model& model);  // after choose_keepers
+KeptLanes deal_lanes(const Model& model);  // after `choose_keepers`
 
 }  // namespace erbs

@@ -1,4 +1,4 @@
-// The Model: what does not change after build. Everything that changes is in state.h. A step is a function of both.
+// The Model: all data that stay constant after build. All data that change are in state.h. A step is a function of both.
 #pragma once
 #include <cstdint>
 #include <limits>
@@ -15,9 +15,9 @@ namespace erbs {
 
 enum class Kind : std::uint8_t { moving, fixed, driven };
 
-// A joint: two faces that touch at rest. Its frame (s, t, n) has n from a to b, s and t along the principal axes of its contact
-// points about their weighted centre, so that the elastic wrench is diagonal in it.
-// What it shares with all joints that have the same numbers to the last bit, as bricks of one bond have, is its JointType.
+// A joint is the interface of two faces that touch at rest. In its frame (s, t, n) the axis n points from a to b; s and t are the principal
+// axes of its contact points about their weighted centre. The elastic resultant is diagonal in this frame.
+// JointType holds the data that joints share if all numbers are equal to the last bit, as bricks of one bond do.
 struct JointType {
   int law = 0;                        // index into Model::laws
   int rule = 0;                       // index into Scene::joint_rules
@@ -26,11 +26,11 @@ struct JointType {
   Mat3 frame;                         // columns s, t, n at rest
   double area = 0;                    // m2
   double stiffness[6] = {};           // N/m (s, t, n), N m (about s, t, n): elastic resultant = stiffness * q
-  // N m, kn times Int t2, Int s2, Int s t over the overlap: bending of the joint pressed all over, once it has cracked. For rules
-  // that are exact in bending: stiffness[3], stiffness[4] and 0.
+  // N m, kn times Int t2, Int s2, Int s t over the overlap: bending stiffness of a cracked joint in compression over its whole face. For
+  // rules that are exact in bending: stiffness[3], stiffness[4] and 0.
   double face[3] = {};
-  bool inset = false;             // its cells watch elsewhere than at their corners: points that stay off the edge
-  double half_s = 0, half_t = 0;  // m, largest |s| and |t| of its corners
+  bool inset = false;             // its cells check tension inside of their corners: no points on the edge
+  double half_s = 0, half_t = 0;  // m, largest |s| and |t| of the corners
   double radius = 0;              // m, largest distance of a corner from the centre
 };
 struct Joint {
@@ -38,21 +38,21 @@ struct Joint {
   int a = 0, b = 0;
   int part_a = 0, part_b = 0;  // of the blocks
   int face_a = 0, face_b = 0;  // of the parts
-  int first_point = 0;         // of its type's points, into State::history
-  bool kept_by_b = false;      // the block whose lane computes it while it is sound: b rather than a (build.cpp, choose_keepers)
-  Vec3 arm_a, arm_b;           // m, weighted centre of its contact points at rest, relative to the centroids
-  double viscous = 0;          // s, coefficient b of its dashpots, c = b k
-  double viscous_cracked = 0;  // s, the same once it has cracked
+  int first_point = 0;         // first of its points in State::history
+  bool kept_by_b = false;      // owner of the intact joint, in whose lane it is evaluated: b, else a (`choose_keepers`)
+  Vec3 arm_a, arm_b;           // m, from the centroids to the weighted centre of its contact points, at rest
+  double viscous = 0;          // s, dashpot coefficient b of the intact joint, c = b k
+  double viscous_cracked = 0;  // s, the same of the cracked joint
   double gap = 0;              // m, between the faces at rest
 };
 
-// A contact point in the joint frame: place and share of the area.
+// A contact point in the joint frame: position and share of the area.
 struct Point {
   double s, t;    // m
   double weight;  // m2
 };
 
-// The part of the overlap that a contact point stands for (geometry/quadrature.h), joint frame.
+// The part of the overlap that a contact point represents (geometry/quadrature.h), joint frame.
 struct Cell {
   int first = 0, corners = 0;                   // into Model::cell_corner and cell_watch
   double s = 0, t = 0, ss = 0, st = 0, tt = 0;  // m3, m4: integrals of s, t, s2, s t, t2 over it
@@ -68,37 +68,37 @@ struct Model {
   std::vector<Mat3> inertia;          // kg m2, about the centroid, axes at rest
   std::vector<Mat3> inverse_inertia;  // 0 for fixed and driven
   std::vector<Vec3> rest;             // m, centroid at rest
-  std::vector<double> smallest_edge;  // m, thinnest extent, the scale of drift, falling and penetration
+  std::vector<double> smallest_edge;  // m, thinnest extent: the scale of drift, falling and penetration
   std::vector<int> material;
   // joints, sorted by lower block, higher block and their parts         [njoint]
   std::vector<Joint> joint;
   std::vector<std::shared_ptr<const JointType>> joint_types;
-  std::vector<Point> point;                              // of joints that differ; others share them
+  std::vector<Point> point;                              // of all joint types
   std::vector<Eigen::Vector2d> corner;                   // m, of the overlap polygon in the joint frame
-  std::vector<Cell> cell;                                // of each of `point`
-  std::vector<Eigen::Vector2d> cell_corner, cell_watch;  // m, joint frame: loops of the cells, and where they watch for tension
+  std::vector<Cell> cell;                                // one for each of `point`
+  std::vector<Eigen::Vector2d> cell_corner, cell_watch;  // m, joint frame: loops of the cells, and the loops on which they check tension
   std::vector<PointLaw> laws;                            // one per joint rule
-  KeptLanes kept;                                        // of sound joints
-  // Wrench rows, one per joint end. Eight moving blocks side by side own slots [first_slot[g], first_slot[g+1]) of eight rows, a row for
-  // each of them. Other blocks have theirs behind all slots, and behind those one that nobody reads.
+  KeptLanes kept;                                        // owner schedule of intact joints
+  // Wrench rows, one per joint end. Group g of eight moving blocks owns slots [first_slot[g], first_slot[g+1]); a slot has eight rows, one
+  // for each block. The rows of other blocks follow behind all slots. The last row is a spare one.
   std::vector<int> first_slot;    // [groups + 1]
-  std::vector<int> first_row;     // of other blocks [nblock + 1]
+  std::vector<int> first_row;     // first row of each other block [nblock + 1]
   std::vector<int> row_a, row_b;  // wrench row of each end       [njoint]
-  // what the loads do, resolved to block indices
+  // loads, resolved to block indices
   struct Push {
     Wave wave;
     Vec3 direction;
     int block;
     Vec3 arm;
     bool moment;
-  };  // arm: from the centroid, at rest
+  };  // arm: m, from the centroid to the point of the force, at rest
   struct Drive {
     Wave wave;
     Vec3 direction;
     int block;
     bool turns;
     Vec3 arm;
-  };  // arm: from what it turns about to the centroid, at rest
+  };  // arm: m, from the centre of rotation to the centroid, at rest
   struct Ground {
     Wave wave;
     Vec3 direction;
@@ -112,18 +112,18 @@ struct Model {
   std::vector<Ground> grounds;
   std::vector<Tilt> tilts;
   Vec3 gravity = Vec3::Zero();                                   // m/s2
-  double dt_critical = std::numeric_limits<double>::infinity();  // s, 2 / omega_max of the sound structure at rest; infinite without joints
-  double settlement = 0;  // m, of the structure's top under its own weight, about (laws/interlock.h)
-  double dt_most = 0;  // s, the longest step a run may take once contacts allow more than the joints did
+  double dt_critical = std::numeric_limits<double>::infinity();  // s, 2 / omega_max at rest, joints in their stiffer form; infinite without
+  double settlement = 0;                                         // m, estimated settlement of the top under self-weight (laws/interlock.h)
+  double dt_most = 0;                                            // s, longest step of a run, once contacts allow more than the joints did
   Damping damping;
-  bool dashpots = false;          // some sound joint has, ...
-  bool dashpots_cracked = false;  // ... some cracked joint would have
+  bool dashpots = false;          // some intact joint has dashpots
+  bool dashpots_cracked = false;  // some joint has them once cracked
   Analysis analysis;
   bool damping_explicit = false, damping_all = false;
   std::vector<Material> materials;
   std::vector<Parts> parts;  // m, world axes at rest, the scene's own [nblock]
   std::vector<std::string> warnings;
-  std::vector<std::string> notes;  // what a warning sums up, for log.txt
+  std::vector<std::string> notes;  // details of a summary warning, for log.txt
 
   int spare_row() const { return first_row.back(); }
   template <class F>
@@ -136,7 +136,7 @@ struct Model {
     const Joint& one = joint[std::size_t(j)];
     return one.kept_by_b ? one.b : one.a;
   }
-  // "lower | upper"; further joints of the same two blocks, which follow it, are "lower | upper #2", ...
+  // "lower | upper" by block number; further joints of the same two blocks follow it as "lower | upper #2", ...
   std::string joint_name(int j) const {
     const Joint& one = joint[std::size_t(j)];
     int number = 1;

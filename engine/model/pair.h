@@ -1,4 +1,4 @@
-// A pair of parts that may touch: its law, and all it remembers from step to step.
+// Contact pair: two parts that may touch, with their contact law and their history.
 #pragma once
 #include <cstdint>
 #include <type_traits>
@@ -18,14 +18,14 @@ struct PairLaw {
   double restitution = 0;  // of an impact through the centre
 };
 
-// Dashpots and scales that are choices of the numerics, the same for all pairs.
+// Numerical settings of contact, the same for all pairs.
 struct ContactSettings {
-  double reference_speed = 0.01;      // m/s, restitution is as asked for above it, impacts are softer below
-  double memory = 0.05;               // s, over which the greatest approach speed is forgotten
-  double settling = 0.2;              // share of critical damping of the settled contact, normal; fades with the speed of impact
-  double settling_tangential = 0.05;  // the same of a contact that sticks, tangential
-  double event_budget = 0;            // J, by which a blow may err (event_bound.h); 0: any
-  Interlock interlock;                // of contacts, in m, m2/s2 and shares of a step (interlock.h)
+  double reference_speed = 0.01;      // m/s; above it the restitution is as specified, below it impacts are softer
+  double memory = 0.05;               // s, over which the peak approach speed decays
+  double settling = 0.2;              // share of critical damping of a settled contact, normal; it fades with the impact speed
+  double settling_tangential = 0.05;  // the same of a sticking contact, tangential
+  double event_budget = 0;            // J, energy error allowed per impact (event_bound.h); 0: no limit
+  Interlock interlock;                // interlock.h, for contacts: m, m2/s2 and share per step
 };
 
 // Force and moments on the two bodies of a pair, world axes, each moment about the body's own centroid.
@@ -34,7 +34,7 @@ struct PairWrench {
   Vec3 moment_a = Vec3::Zero(), moment_b = Vec3::Zero();  // N m
 };
 
-// What a step reads of a touching pair comes first, without gaps: rows of eight numbers (pair_lanes.h).
+// A contact pair. The data that a step reads of a touching pair come first and without gaps, as rows of eight numbers (pair_lanes.h).
 struct alignas(64) Pair {
   PairLaw law;
   double impact = 0;  // impact_factor(law.restitution)
@@ -43,60 +43,66 @@ struct alignas(64) Pair {
   Vec3 shift = Vec3::Zero();  // m
   // friction, pair axes: slip field u + psi n x (x - c) of the tangential springs
   Vec3 n = Vec3::Zero();  // unit
-  Vec3 c = Vec3::Zero();  // m, where u is taken, relative to the centroid of the reference
+  Vec3 c = Vec3::Zero();  // m, point to which u belongs, relative to the centroid of the reference body
   Vec3 u = Vec3::Zero();  // m
   double psi = 0;         // rad
-  double area = 0;        // m2, largest seen in this contact: stiffness of the springs
-  double gyration = 0;    // m, largest seen
-  double approach = 0;    // m/s, greatest recent speed of approach
-  // what the pair stores now
-  double tangential = 0;  // J
-  double bearing = 0;     // N, mean of what presses it (interlock.h)
-  // wrenches of the last step, whose half step of work is still to be booked
+  double area = 0;        // m2, largest in this contact so far: gives the stiffness of the springs
+  double gyration = 0;    // m, largest so far
+  double approach = 0;    // m/s, largest recent approach speed
+  // present state of the friction springs and of interlock
+  double tangential = 0;  // J, energy of the springs
+  double bearing = 0;     // N, mean normal force (interlock.h)
+  // wrenches of the last step; half a step of their work is not yet booked
   PairWrench friction, damping;
-  // Way by which the other body is seen off its place, pair axes: so a contact stores what was stored before it (hand_over()).
+  // Offset at which contact sees the other body, pair axes. With it the contact stores as much energy as the joint did before its release
+  // (`hand_over`).
   Vec3 lift = Vec3::Zero();             // m
-  double counted_a = 0, counted_b = 0;  // 1/s2, its share in PairList::counted
-  int a = 0, b = 0;                         // blocks, a < b
-  int part_a = 0, part_b = 0;               // parts of them
-  int separating = -1;                      // cache only
-  std::uint8_t b_is_reference = 0;          // whose inner distance is the potential: the larger part, then the lower block; never changes
+  double counted_a = 0, counted_b = 0;  // 1/s2, share of the pair in the bound of each block, at the last update
+  int a = 0, b = 0;                     // blocks, a < b
+  int part_a = 0, part_b = 0;           // parts of them
+  int separating = -1;                  // cache only
+  // The inner distance of the reference body is the contact potential. This body is the larger part, or the part of the lower block; it
+  // never changes.
+  std::uint8_t b_is_reference = 0;  // 1: b is the reference body, else a
   std::uint8_t touching = 0;
   static constexpr std::uint8_t softening = 2;
-  std::uint8_t bed = 0;  // still the faces of a former joint, and its stiffness; once parted they meet as debris. 2: on the way to its stiffness
-  Corners corners;       // cache only
+  // 1: the pair has the faces and the stiffness of a former joint; once separated it is debris. 2: its stiffness is changing to that of
+  // debris.
+  std::uint8_t bed = 0;
+  Corners corners;  // cache only
 };
 
 struct PairList {
   std::vector<Pair> pair;   // sorted by (a, b, part_a, part_b)
   double margin = 0.01;     // m, parts closer than this are listed
-  bool valid = false;       // set to false when blocks come loose or pairs are freed: the next search then runs
+  bool valid = false;       // false after blocks came loose or joints were released: the next search then runs
   std::vector<Vec3> start;  // m, displacement of each block at the start of the run [nblock]
   std::vector<Vec3> u;      // m, pose of each block at the last search [nblock]
   std::vector<Mat3> turn;   //                                          [nblock]
   long searches = 0;
-  std::vector<int> contacts;  // of each block that moves, in the last step, and as many for its joints as make a crowd [nblock]
-  // the step that is allowed (contact_limit.h)
-  double counted = 0;               // 1/s2, of 1 / dt^2 what all blocks share, as counted last, ...
-  std::vector<double> counted_of;   // ... and what each adds to it                         [nblock]
-  long counts = 0, counted_at = 0;  // how often, in which step
-  bool by_blocks = false;           // joints were counted block by block too
+  std::vector<int> contacts;  // number on each moving block in the last step; a jointed block counts as saturated [nblock]
+  // bound of the time step (contact_limit.h)
+  double counted = 0;               // 1/s2, part of 1 / dt^2 common to all blocks, at the last update
+  std::vector<double> counted_of;   // 1/s2, part that each block adds                       [nblock]
+  long counts = 0, counted_at = 0;  // number of updates, step of the last one
+  bool by_blocks = false;           // the last update bounded joints block by block too
 };
 
-// A pair that is apart needs no look until its bodies may have come closer by their distance.
+// A separated pair. It needs no update until its two bodies may have closed the distance.
 struct Apart {
-  double distance = 0;          // m, at least, when they were looked at last; 0: not known
-  double spun = 0;              // m, of both blocks by then
-  Vec3 between = Vec3::Zero();  // m, displacement of b less that of a then
+  double distance = 0;          // m, lower bound at the last update of the pair; 0: unknown
+  double spun = 0;              // m, sum of the rotation travel of both blocks at that time
+  Vec3 between = Vec3::Zero();  // m, displacement of b minus that of a at that time
 };
-// All of them. Looking sooner may find another plane between two bodies, by which they are judged from then on: so it is part of the State.
+// All separated pairs. An earlier update may find another separating plane, which later steps then use. Hence this is part of the State.
 struct Parting {
-  std::vector<Apart> pair;   // as PairList::pair
-  BlockQuat q;               // of each block, where it was followed last           [nblock]
-  std::vector<double> spun;  // m, way of its farthest point as it turned from step to step, since the list was made, at most [whole groups]
+  std::vector<Apart> pair;  // as PairList::pair
+  BlockQuat q;              // rotation of each block when it was last tracked    [nblock]
+  // m, rotation travel since the last search: path of the farthest point of each block by rotation alone, upper bound   [whole groups]
+  std::vector<double> spun;
 };
 
-// Every member that a checkpoint or a hash must hold.
+// All members that a checkpoint or a hash must contain.
 template <class W, class F>
 requires std::is_same_v<std::remove_const_t<W>, PairWrench>
 void each(W& w, F&& f) {

@@ -1,4 +1,4 @@
-// Debris at rest: which blocks sleep, and since when the others have been still (solve/sleep.h).
+// Debris at rest: which blocks sleep, and since when the other blocks have been still (solve/sleep.h).
 #pragma once
 #include <cstdint>
 #include <type_traits>
@@ -9,14 +9,14 @@
 namespace erbs {
 
 struct Rest {
-  std::vector<std::uint8_t> asleep;  // [nblock]; empty where the scene lets none
-  std::vector<double> stirred;       // s, when the block was last seen to move; infinite for one not looked at yet [nblock]
-  std::vector<double> slept_at;      // s, when a sleeper fell asleep [nblock]
-  Vec3 pull = Vec3::Zero();          // m/s2, gravity less the ground's acceleration under which they lie still
-  int count = 0;                     // of those asleep
+  std::vector<std::uint8_t> asleep;  // [nblock]; empty if the scene allows no sleep
+  std::vector<double> stirred;       // s, time of the last motion of a block; infinite if not checked yet [nblock]
+  std::vector<double> slept_at;      // s, time at which a sleeping block fell asleep [nblock]
+  Vec3 pull = Vec3::Zero();          // m/s2, effective gravity (gravity minus ground acceleration) of their rest
+  int count = 0;                     // number of sleeping blocks
 };
 
-// Every member that a checkpoint or a hash must hold.
+// All members that a checkpoint or a hash must contain.
 template <class R, class F>
 requires std::is_same_v<std::remove_const_t<R>, Rest>
 void each(R& r, F&& f) {

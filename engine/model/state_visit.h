@@ -1,5 +1,5 @@
-// Every member of the State, once. Checkpoints and state_hash are written from this list: what is not here does not survive a
-// restart. The binding below stops compiling when State gains or loses a member.
+// Field list of the State: every member, once. Checkpoints and state_hash use this list: a member that is missing here does not survive
+// a restart. The structured binding below stops compiling when State gains or loses a member.
 #pragma once
 #include <type_traits>
 
@@ -7,8 +7,8 @@
 
 namespace erbs {
 
-// What a member means to state_hash: `motion` and `history` are the run's result; `carried` is needed to go on to the very bit
-// (caches, ledger) but says nothing about the result.
+// Role of a member in state_hash. `motion` and `history` are the result of a run. `carried` is no result, but is needed to continue with
+// equal bits (caches, ledger).
 enum class Part { motion, history, carried };
 
 template <class S, class F>

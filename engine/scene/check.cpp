@@ -26,7 +26,7 @@ bool inside(const Vec3& value, double low, double high) {
   return inside(value.x(), low, high) && inside(value.y(), low, high) && inside(value.z(), low, high);
 }
 
-// Every number of a field list within its range.
+// Checks each number of a field list against its range.
 template <class T>
 void check_fields(Report& report, const T& item, const std::string& label, const Place& place) {
   for (const Field<T>& field : T::fields())
@@ -92,14 +92,14 @@ std::string without_digits(std::string name) {
   return name;
 }
 
-// A rule may name what this case of a scene has none of: no lintel without a door, no storey3 in a house of two. A name that is nearly
-// that of a group is a slip.
+// A rule may name a group that this variant of a scene lacks: no lintel without a door, no storey3 in a house of two storeys. A name that
+// differs from that of a group by a few letters, not only by digits, is a spelling mistake.
 bool misspelt(const std::string& group, const std::vector<std::string>& groups) {
   const std::string near = nearest(group, groups);
   return !near.empty() && without_digits(near) != without_digits(group);
 }
 
-// The groups that rules name and no block is of; `slips` chooses those that are misspelt, or the others.
+// Reports groups named by rules to which no block belongs. `slips`: only misspelt names, else only the others.
 void name_groups(Report& report, const Scene& scene, bool slips) {
   const std::vector<std::string> groups = groups_of(scene);
   for (const JointRule& rule : scene.joint_rules)
@@ -129,7 +129,7 @@ void check_joints(Report& report, const Scene& scene) {
 
 using Index = std::unordered_map<std::string, const Block*>;
 
-// The block of that name; a mistake where there is none.
+// The block of that name; reports a mistake if there is none.
 const Block* named(Report& report, const Index& index, const std::string& name, const Place& place, const std::string& who) {
   const auto found = index.find(name);
   if (found != index.end()) return found->second;
@@ -157,7 +157,7 @@ void check_loads(Report& report, const Scene& scene, const Index& index) {
   }
 }
 
-// Recorders are checked where quantities are known, in engine/record.
+// Recorders are checked in engine/record, which knows the quantities.
 void check_cameras(Report& report, const Scene& scene) {
   std::set<std::string> cameras;
   for (const Camera& camera : scene.cameras)
@@ -165,9 +165,9 @@ void check_cameras(Report& report, const Scene& scene) {
       report.say(camera.place, "camera \"{}\" is there twice; give one of them another name", camera.name);
 }
 
-// Steps that can be counted; rows and frames are never more than steps.
+// The number of steps must be countable. Rows and frames are never more than steps.
 void check_counts(Report& report, const Analysis& analysis, const Place& place) {
-  constexpr double most_steps = 9007199254740992.0;  // 2^53: beyond it t + dt is t
+  constexpr double most_steps = 9007199254740992.0;  // 2^53: beyond it t + dt equals t
   if (analysis.dt > 0 && !(analysis.duration / analysis.dt < most_steps))
     report.say(place, "analysis: dt = {:g} s makes more than 2^53 steps of {:g} s; take a longer step", analysis.dt, analysis.duration);
 }
@@ -189,7 +189,7 @@ void check_analysis(Report& report, const Scene& scene) {
   if (!inside(scene.gravity, -1000, 1000)) report.say({scene.file, 0}, "gravity is out of range; allowed is 0 to 1000 m/s2");
 }
 
-// Things of one kind that are hardly meant: the first is named, the others are counted.
+// Doubtful values, by kind. The message names the first value of a kind and counts the others.
 class Doubts {
  public:
   template <class... A>
@@ -214,7 +214,7 @@ class Doubts {
   std::vector<Doubt> all_;
 };
 
-// Numbers within their range that no masonry has: mostly a unit is missing.
+// Warns of numbers within their range that no masonry has. Mostly a unit is missing.
 void doubt_units(Report& report, const Scene& scene) {
   Doubts doubts;
   std::set<int> moving;  // materials

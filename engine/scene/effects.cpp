@@ -26,7 +26,7 @@ const Place* any_joint(const Scene& scene) {
   return nullptr;
 }
 
-// Blocks meet where a joint can break (every law can), or where one stands or flies without a joint.
+// Blocks can meet if a joint can break (every law can), or if a block stands or flies without a joint.
 const Place* may_meet(const Scene& scene) {
   if (scene.blocks.size() < 2) return nullptr;
   if (const Place* joined = any_joint(scene)) return joined;
@@ -35,7 +35,7 @@ const Place* may_meet(const Scene& scene) {
   return nullptr;
 }
 
-// An impact between two materials loses energy where the lesser restitution of both is below 1.
+// An impact of two materials loses energy if the smaller of their restitutions is below 1.
 const Place* dissipating(const Scene& scene) {
   for (const Block& block : scene.blocks) {
     if (block.fixed || block.material < 0) continue;
@@ -79,7 +79,7 @@ const Switch switches[] = {
     {"softening in tension", [](Scene& s) { change_laws<Mortar>(s, [](Mortar& m) { m.Gf1 = m.un_ultimate = 0; }); }},
     {"softening in shear", [](Scene& s) { change_laws<Mortar>(s, [](Mortar& m) { m.Gf2 = m.us_ultimate = 0; }); }},
     {"compression plateau", [](Scene& s) { change_laws<Mortar>(s, [](Mortar& m) { m.fc = m.uc_ultimate = 0; }); }},
-    {"rotation of joint frames", [](Scene& s) { s.analysis.lazy_rotation = 1e9; }},  // small rotations about the start
+    {"rotation of joint frames", [](Scene& s) { s.analysis.lazy_rotation = 1e9; }},  // small rotations about the start only
     {"debris contact", [](Scene& s) { s.analysis.debris = false; }},
     {"contact dashpots",
      [](Scene& s) {
@@ -113,7 +113,7 @@ std::vector<Effect> effects_of(const Scene& scene) {
   out.push_back(effect("mass damping", damped ? &scene.damping.place : nullptr));
   const bool dashpots = scene.damping.stiffness > 0 || scene.damping.joint_ratio > 0;
   out.push_back(effect("dashpots of joints", dashpots ? &scene.damping.place : nullptr));
-  const bool sweeps = scene.analysis.solver == "sequential";  // it knows no dashpots
+  const bool sweeps = scene.analysis.solver == "sequential";  // the sequential solver has no dashpots
   out.push_back(effect("damping of dry joints",
                        sweeps ? nullptr : rule_with<DryFriction>(scene, [](const DryFriction& d) { return d.damping > 0; })));
   out.push_back(effect("softening in tension", rule_with<Mortar>(scene, [](const Mortar& m) { return m.Gf1 > 0 || m.un_ultimate > 0; })));

@@ -1,4 +1,4 @@
-// Which effects a scene calls for, from the scene alone. A scene does not pay for what it does not call for.
+// Effects that a scene calls for, derived from the scene alone. A scene pays neither time nor memory for other effects.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,12 +10,12 @@ namespace erbs {
 struct Effect {
   std::string name;
   bool on = false;
-  std::string because;  // the script line that called for it
+  std::string because;  // the script line that calls for it
 };
 
 std::vector<Effect> effects_of(const Scene& scene);
 
-// Takes an effect out of the scene, to see what it costs and how much it matters. Error for a name that is none of effects_of.
+// Removes an effect from the scene, to measure its cost and its influence. Throws Error for an unknown name.
 void switch_off(Scene& scene, const std::string& name);
 
 }  // namespace erbs

@@ -16,14 +16,14 @@
 namespace erbs {
 namespace {
 
-constexpr unsigned most_vertices = 20000;  // of a mesh in the file, before equal ones are joined; the work grows with their square
+constexpr unsigned most_vertices = 20000;  // per mesh, before equal vertices are joined; the work grows with their square
 
 Vec3 placed(const aiMatrix4x4& where, const aiVector3D& v) {
   const aiVector3D p = where * v;
   return {static_cast<double>(p.x), static_cast<double>(p.y), static_cast<double>(p.z)};
 }
 
-// Each edge of a closed surface is used once in either direction.
+// A closed surface uses each edge once in each direction.
 bool closed(const aiMesh& mesh) {
   std::map<std::pair<unsigned, unsigned>, int> uses;
   for (unsigned f = 0; f < mesh.mNumFaces; ++f)
@@ -54,7 +54,7 @@ Polyhedron convex_part(const aiMesh& mesh, const aiMatrix4x4& where, const std::
   if (!closed(mesh)) throw Error(fmt::format("{} is not a closed surface; close its holes", what));
   const Polyhedron whole = hull(triangles.vertices);
   const double volume = std::abs(mass_properties(triangles).volume), full = mass_properties(whole).volume;
-  // coordinates in these files are floats: 1e-7 of the size, so 1e-5 of the volume is theirs
+  // Coordinates in these files are floats, exact to 1e-7 of the size. The volume may therefore be wrong by 1e-5.
   if (std::abs(volume - full) > 1e-5 * full)
     throw Error(fmt::format("{} is not convex (its volume is {:.4g} of its hull's); split it into convex meshes", what, volume / full));
   return whole;
@@ -70,7 +70,7 @@ void collect(const aiScene& scene, const aiNode& node, const aiMatrix4x4& above,
   for (unsigned i = 0; i < node.mNumChildren; ++i) collect(scene, *node.mChildren[i], where, path, parts);
 }
 
-// A mesh names materials and buffers in other files: these too only where a scene may read.
+// A mesh file may refer to materials and buffers in other files. They are read only where the scene may read.
 class Confined : public Assimp::DefaultIOSystem {
  public:
   explicit Confined(std::function<bool(const std::string&)> may_read) : may_read_(std::move(may_read)) {}
@@ -83,7 +83,7 @@ class Confined : public Assimp::DefaultIOSystem {
   std::function<bool(const std::string&)> may_read_;
 };
 
-// Other kinds, which the library would read as well, have axes and units of their own.
+// The library could read other formats too, but they have axes and units of their own.
 void check_kind(const std::string& path) {
   std::string kind = std::filesystem::path(path).extension().string();
   for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
@@ -97,14 +97,14 @@ void check_kind(const std::string& path) {
 std::vector<Polyhedron> read_mesh(const std::string& path, const std::function<bool(const std::string&)>& may_read) {
   check_kind(path);
   Assimp::Importer importer;
-  importer.SetIOHandler(new Confined(may_read));  // which it deletes
-  // Normals and texture coordinates go first: vertices that differ in them alone would not be joined.
+  importer.SetIOHandler(new Confined(may_read));  // the importer deletes it
+  // Remove normals and texture coordinates first: vertices that differ in them alone would not be joined.
   importer.SetPropertyInteger(AI_CONFIG_PP_RVC_FLAGS, aiComponent_NORMALS | aiComponent_TANGENTS_AND_BITANGENTS | aiComponent_COLORS |
                                                           aiComponent_TEXCOORDS | aiComponent_BONEWEIGHTS | aiComponent_MATERIALS);
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* scene = importer.ReadFile(path, aiProcess_RemoveComponent | aiProcess_DropNormals | aiProcess_Triangulate |
                                                      aiProcess_JoinIdenticalVertices | aiProcess_SortByPType);
-  // without the library's own words, which may quote a file that is none of the user's
+  // The library's own message is left out: it may quote a file that the user may not read.
   if (!scene || !scene->mRootNode)
     throw Error(fmt::format("cannot read the mesh {}: it is damaged, or not of the kind that its ending says; export it again", path));
   std::vector<Polyhedron> parts;

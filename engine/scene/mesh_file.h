@@ -1,4 +1,4 @@
-// Meshes from files. The one door to assimp.
+// Block shapes from mesh files, read by assimp. No other file uses that library.
 #pragma once
 #include <functional>
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace erbs {
 
-// The meshes of a file (OBJ, STL, PLY, glTF), each one convex part with its coplanar triangles merged, in the file's units. What the file
-// refers to is read where `may_read` says so. Throws Error with the name of the mesh where one is not closed or not convex.
+// The meshes of a file (OBJ, STL, PLY, glTF), in the units of the file. Each mesh is one convex part, its coplanar triangles merged. Files
+// that it refers to are read if `may_read` allows it. Throws Error with the name of a mesh that is not closed or not convex.
 std::vector<Polyhedron> read_mesh(const std::string& path, const std::function<bool(const std::string&)>& may_read);
 
 }  // namespace erbs

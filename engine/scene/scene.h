@@ -1,4 +1,4 @@
-// The Scene: what a script says, as plain data in SI units. No behaviour. Each item knows the script line that made it.
+// The Scene: the content of a script as plain data in SI units, without behaviour. Each item stores the script line that made it.
 #pragma once
 #include <map>
 #include <memory>
@@ -16,13 +16,13 @@
 
 namespace erbs {
 
-// What a block is made of, and how it behaves as debris (contacts that are no joints, or no longer).
+// Material of a block, with its contact properties as debris (contacts that are not joints, or no longer).
 struct Material {
   std::string name;
   double density = 0;            // kg/m3
   double kn = 5e10;              // Pa/m, contact stiffness of debris
   double ks = 2e10;              // Pa/m
-  double friction = 0.6;         // of debris
+  double friction = 0.6;         // coefficient of friction of debris
   double restitution = 0.3;      // of an impact through the centre, 0..1
   Vec3 color{0.70, 0.35, 0.25};  // sRGB 0..1 for the pictures
   Place place;
@@ -40,13 +40,13 @@ struct Material {
   }
 };
 
-// How a block starts, relative to its rest pose, in which joints are found.
+// Initial pose and motion of a block, relative to its rest pose. Joints are found in the rest pose.
 struct Initial {
   Vec3 position = Vec3::Zero();  // m, added after the rotation
   Vec3 rotation = Vec3::Zero();  // rad, rotation vector, about `about`
   Vec3 velocity = Vec3::Zero();  // m/s, of the centroid
   Vec3 spin = Vec3::Zero();      // rad/s, world axes
-  Vec3 about = Vec3::Zero();     // m, point in the rest frame; the centroid where has_about is false
+  Vec3 about = Vec3::Zero();     // m, point in the rest pose; the centroid if has_about is false
   bool has_about = false;
   bool given = false;
 
@@ -68,8 +68,8 @@ struct Block {
   int material = -1;                       // index into Scene::materials
   bool fixed = false;                      // part of the ground
   bool free = false;                       // allowed to have no joint, or none that leads to the ground
-  std::shared_ptr<const Initial> started;  // null: as it is built
-  // m, joints of the masonry it was laid in, and the widest beside it where it made one wider to fill its stretch; 0: none
+  std::shared_ptr<const Initial> started;  // null: at rest, as built
+  // m, joint width of the masonry it was laid in, and the widest joint beside it if the masonry widened one to fill its length; 0: none
   double joint = 0, widest_joint = 0;
   Place place;
 
@@ -78,7 +78,7 @@ struct Block {
     return started ? *started : rest;
   }
 
-  static Fields<Block> fields() {  // the keys every kind of block has; its shape is read by its maker
+  static Fields<Block> fields() {  // keys common to all kinds of block; each constructor reads its own shape
     return {
         {"name", &Block::name, "", "name, unique (default from the group and a number)"},
         {"group", &Block::group, "", "group, for joint rules and recorders"},
@@ -88,18 +88,18 @@ struct Block {
   }
 };
 
-// Faces of blocks of group_a and group_b ("" is any) that face each other at rest across at most thickness + tolerance are
-// joined by `law`. The last rule that matches a pair wins.
+// Joins faces of blocks of group_a and group_b ("" is any) by `law`, if they face each other at rest across at most thickness + tolerance.
+// The last rule that matches a pair of blocks wins.
 struct JointRule {
   std::string name;
   std::string group_a, group_b;
   Law law;
   double thickness = 0;                   // m, nominal gap at rest
-  bool has_thickness = false;             // the script says it; else it is that of the law
+  bool has_thickness = false;             // from the script; else the thickness of the law
   double tolerance = 1e-4;                // m
   std::string rule = "simpson";           // simpson | midpoint | trapezoid | gauss
   int points_long = 3, points_short = 3;  // contact points along the longer and the shorter side of a rectangle
-  bool none = false;                      // pairs that match get no joint
+  bool none = false;                      // matching pairs get no joint
   Place place;
 
   static Fields<JointRule> fields() {
@@ -119,8 +119,8 @@ struct Damping {
   std::string scope = "bonded";  // bonded | all | none
   std::string form = "centred";  // centred | explicit
   double stiffness = 0;          // s, coefficient b of the dashpots of joints, c = b k
-  double joint_ratio = 0;        // viscous ratio of joints, of each joint's own critical value or at the frequency `at`
-  double at = 0;                 // Hz; 0: of each joint's own
+  double joint_ratio = 0;        // viscous ratio of joints: of each joint's critical value, or at the frequency `at`
+  double at = 0;                 // Hz; 0: each joint's own frequency
   Place place;
 
   static Fields<Damping> fields() {
@@ -141,24 +141,24 @@ struct Analysis {
   double dt = 0;                      // s; 0: from dt_rule
   double dt_fraction = 0.9;           // of the limit in force
   std::string dt_rule = "limit";      // limit | period_tenth (3) | hart (4) | hakuno (5) | hakuno_half
-  bool unstable = false;              // let a dt past the limit run: divergence is then expected and detected
+  bool unstable = false;              // allow a dt beyond the limit; divergence is then expected and detected
   std::string kernel = "fast";        // fast | reference
-  std::string solver = "leapfrog";    // leapfrog | sequential: one block at a time, as Gu and Miao; for studies of that scheme
+  std::string solver = "leapfrog";    // leapfrog | sequential: one block at a time as Gu and Miao, to study that scheme
   std::string variant = "literal";    // of the sequential solver: literal | centred
-  std::string order = "random";       // of its blocks: random | fixed | coloured
+  std::string order = "random";       // order of its blocks: random | fixed | coloured
   int iterations = 1;                 // sweeps per step, each over its share of dt
   int seed = 1;                       // of the random order
-  std::string start = "equilibrium";  // equilibrium | ramp | rest (how gravity comes on)
+  std::string start = "equilibrium";  // equilibrium | ramp | rest: how gravity is applied
   double ramp_time = 0;               // s, for start = "ramp"; 0: chosen
   std::string overlap = "error";      // error | stress_free
-  double collapse_fraction = 0.05;    // share of mass that has fallen
-  double stop_after_collapse = -1;    // s of simulated time after collapse; -1: go on to duration
-  double stop_when_moved = 0;         // m; a block that has moved this far from rest ends the run; 0: none does
-  double energy_gate = 0;             // relative; 0: by the kind of run (1e-6 elastic, 1e-3 bonded, 1e-2 collapse)
-  bool debris = true;                 // contacts of blocks that have come loose; false only to see what they cost
-  bool sleep = false;                 // debris that has come to rest is left alone until something stirs it
-  bool ledger = true;                 // the energy ledger between rows; false likewise
-  double lazy_rotation = 1e-4;        // rad of block rotation between refreshes of joint frames
+  double collapse_fraction = 0.05;    // fallen share of the mass that counts as collapse
+  double stop_after_collapse = -1;    // s of simulated time after collapse; -1: run to duration
+  double stop_when_moved = 0;         // m; a block displaced this far from rest ends the run; 0: off
+  double energy_gate = 0;             // relative energy tolerance; 0: by the kind of run (1e-6 elastic, 1e-3 bonded, 1e-2 collapse)
+  bool debris = true;                 // contacts of loose blocks; false only to measure their cost
+  bool sleep = false;                 // debris at rest is not computed until something disturbs it
+  bool ledger = true;                 // the energy ledger between rows; false only to measure its cost
+  double lazy_rotation = 1e-4;        // rad, block rotation between updates of joint frames
   bool gyroscopic = true;             // false: the scalar Euler equation of Gu and Miao eq. (1), for comparison only
   double output_dt = 0.01;            // s, rows of histories.csv and energy.csv
   double frame_dt = 0.04;             // s, poses for pictures
@@ -196,16 +196,16 @@ struct Analysis {
   }
 };
 
-// One column (or three) of histories.csv.
+// One column of histories.csv, or three.
 struct Recorder {
   std::string name;                 // column stem, e.g. "floor3"
-  std::string quantity;             // a name in engine/record/recorders.h, e.g. displacement, velocity, acceleration, reaction
-  std::vector<std::string> blocks;  // block names; the quantity is averaged (or summed, for forces) over them
-  std::vector<std::string> others;  // block names; joint quantities: only joints between `blocks` and these (empty: any other)
+  std::string quantity;             // a name from engine/record/recorders.h, e.g. displacement, velocity, acceleration, reaction
+  std::vector<std::string> blocks;  // block names; the quantity is averaged over them, forces are summed
+  std::vector<std::string> others;  // block names, for joint quantities: only joints between `blocks` and these (empty: all)
   std::string axis = "xyz";         // which components
   std::string frame = "rel";        // rel (to the ground) | abs
   bool has_point = false;
-  Vec3 point = Vec3::Zero();  // m at rest: the quantity of this material point instead of the centroid
+  Vec3 point = Vec3::Zero();  // m at rest: material point of the quantity, instead of the centroid
   Place place;
 
   static Fields<Recorder> fields() {
@@ -242,11 +242,11 @@ struct Param {
   Place place;
 };
 
-// expect(key, value, {...}): the scene is the test.
+// expect(key, value, {...}): the scene is its own test.
 struct Expectation {
   std::string key;         // dotted key of metrics.json
   double value = 0;        // for rel and abs
-  std::string text_value;  // for status and other words
+  std::string text_value;  // for status and other texts
   enum class Kind { rel, abs, below, above, between, equal } kind = Kind::rel;
   double tolerance = 0;      // rel or abs; the bound for below and above
   double low = 0, high = 0;  // between
@@ -254,7 +254,7 @@ struct Expectation {
   Place place;
 };
 
-// Beyond which a scene is not good, and why: a coarser run of it is refused.
+// Limits beyond which a scene is not valid, with the reason. A coarser run is refused.
 struct UseLimit {
   double dt_fraction = 1;  // largest dt over dt_critical
   int points = 1;          // fewest contact points of a joint
@@ -270,16 +270,18 @@ struct UseLimit {
   }
 };
 
-// What a load acts through.
+// A load on the ground or on a block.
 struct Load {
   enum class Kind { ground, force, moment, tilt, motion, turning } kind = Kind::ground;
-  // ground: acceleration of the ground (m/s2) along direction; force (N) or moment (N m) on a block; tilt: angle (rad) by which
-  // gravity turns about direction; motion: displacement (m) of a block along direction, its other degrees of freedom held; turning: its
-  // angle (rad) about direction
+  // ground          acceleration of the ground (m/s2) along direction
+  // force, moment   on a block (N, N m)
+  // tilt            angle (rad) by which gravity rotates about direction
+  // motion          displacement (m) of a block along direction, its other degrees of freedom held
+  // turning         rotation (rad) of a block about direction
   Wave wave;
   Vec3 direction{1, 0, 0};
   std::string block;
-  Vec3 point = Vec3::Zero();  // m at rest, where a force acts (moves with the block), or what a turning is about
+  Vec3 point = Vec3::Zero();  // m at rest: where a force acts (it moves with the block), or the centre of a rotation
   bool has_point = false;
   std::string name;
   Place place;
@@ -288,7 +290,7 @@ struct Load {
 struct Scene {
   std::string name;  // file name without folder and ending
   std::string file;
-  std::vector<std::string> labels;  // by which scenes are chosen: quick, fixed_dt, ...
+  std::vector<std::string> labels;  // to select scenes by: quick, fixed_dt, ...
   UseLimit use_limit;
   Vec3 gravity{0, 0, -standard_g};
   std::vector<Material> materials;
@@ -303,12 +305,12 @@ struct Scene {
   std::vector<Expectation> expectations;
   std::vector<std::pair<std::string, std::string>> metric_units;  // of the scene's own metrics: name, unit
   std::map<std::string, std::string> inputs;                      // path of each file read -> its hash
-  int most_blocks = 300000, most_points = 20000000;               // more is refused before memory is taken for it
+  int most_blocks = 300000, most_points = 20000000;               // limits, checked before memory is allocated
 };
 
-// Every mistake that can be seen without building a model; empty when there is none. Messages carry place and remedy.
+// All mistakes that can be found without building a model; empty if there are none. Each message names place and remedy.
 std::vector<std::string> check(const Scene& scene);
-// What is no mistake, but should be known before the run.
+// Doubtful but legal input that the user should know of before the run.
 std::vector<std::string> warnings(const Scene& scene);
 
 }  // namespace erbs

@@ -12,7 +12,7 @@ namespace {
 
 using Series = std::vector<std::pair<double, double>>;  // size, value
 
-// The stops of a knob that gave a value, from fine to coarse.
+// Settings of a knob that gave a value, from fine to coarse.
 Series series_of(const std::string& knob, std::size_t index, const std::vector<Measured>& all) {
   Series s;
   for (const Measured& m : all)
@@ -27,7 +27,7 @@ const Measured* as_it_is(const std::vector<Measured>& all) {
   return nullptr;
 }
 
-// By least squares.
+// Slope of a line fitted by least squares.
 double slope_of(const std::vector<std::pair<double, double>>& points) {
   double x = 0, y = 0, xx = 0, xy = 0;
   const double n = double(points.size());
@@ -42,7 +42,7 @@ double correlation_of(const std::vector<std::pair<double, double>>& points) {
   return (n * xy - x * y) / std::sqrt((n * xx - x * x) * (n * yy - y * y));
 }
 
-constexpr double worth_telling = 0.9;  // an error that is no less than this share of a cheaper setting's is luck
+constexpr double worth_telling = 0.9;  // an error above this share of a cheaper setting's may be lower by chance
 
 std::string percent(double share) { return fmt::format("{:.2g} %", 100 * share); }
 
@@ -60,7 +60,7 @@ Limit richardson(const Series& series, double order) {
   if (series.size() >= 3) {
     const auto [h3, q3] = series[2];
     const double ratio = (q3 - q2) / (q2 - q1);
-    // of q = limit + c h^p; the left side grows with p
+    // Fits q = limit + c h^p to three values; the expression grows with p.
     const auto excess = [h1 = h1, h2 = h2, h3 = h3, ratio](double p) { return (std::pow(h3, p) - std::pow(h2, p)) / (std::pow(h2, p) - std::pow(h1, p)) - ratio; };
     double low = 0.5, high = 4;
     if (std::isfinite(ratio) && excess(low) < 0 && excess(high) > 0) {
@@ -112,22 +112,22 @@ std::vector<Curve> curves_of(const Goal& q, std::size_t index, const std::vector
   }
   for (Curve& c : curves) {
     std::sort(c.at.begin(), c.at.end(), [&](std::size_t a, std::size_t b) { return all[a].setting.size > all[b].setting.size; });
-    // The knob's own error: its distance from its own limit, so that what the other knobs leave does not bend the line.
+    // Error of this knob alone: distance from its own limit. The errors of the other knobs then do not bend the line.
     Series series = series_of(c.knob, index, all);
     if (series.size() < 3) continue;
     const Limit limit = richardson(series, 2);
     const double scale = q.reference != 0 ? std::fabs(q.reference) : 1;
     std::vector<std::pair<double, double>> points;     // ln size, ln error, from fine to coarse
-    for (std::size_t i = 1; i < series.size(); ++i) {  // the finest made the limit
+    for (std::size_t i = 1; i < series.size(); ++i) {  // the finest value was used for the limit
       const double error = std::fabs(series[i].second - limit.value) / scale;
       if (!(error > 1e-11) || series[i].first <= 0) continue;  // round-off
       points.emplace_back(std::log(series[i].first), std::log(error));
     }
-    // Orders are of small errors and small steps.
+    // An order of convergence holds for small errors and small steps only.
     const auto coarse = [&](const auto& p) { return c.knob == "time step" && p.first > std::log(1.01 / 8); };
     if (points.size() >= 4 && !coarse(points[3])) std::erase_if(points, coarse);
     while (points.size() > 2 && points.back().second > std::log(0.1)) points.pop_back();
-    // An error that neither falls step by step nor follows a line is not this knob's: no order is told.
+    // An error that neither falls monotonically nor follows a line does not come from this knob: no order is reported.
     const bool falls = std::is_sorted(points.begin(), points.end(), [](const auto& a, const auto& b) { return a.second <= b.second; });
     const bool told = points.size() >= 2 && (falls || (points.size() >= 6 && correlation_of(points) > 0.9));
     if (told) c.slope = slope_of(points);
@@ -141,7 +141,7 @@ std::vector<std::size_t> pareto(const Goal& q, std::size_t index, const std::vec
   for (std::size_t i = 0; i < all.size(); ++i)
     if (all[i].setting.advised && error_of(q, all[i].values[index])) order.push_back(i);
   const auto error = [&](std::size_t i) { return *error_of(q, all[i].values[index]); };
-  // of equal cost the scene as it is comes first
+  // at equal cost the scene as it is comes first
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
     if (cost(a) != cost(b)) return cost(a) < cost(b);
     const bool first = all[a].setting.knob.empty(), second = all[b].setting.knob.empty();
@@ -182,7 +182,7 @@ std::string what_limits(const Goal& q, std::size_t index, const std::vector<Meas
     rest -= left;
     if (std::fabs(left) > most) most = std::fabs(left), phrase = words;
   }
-  // what no knob explains
+  // the part that no knob explains
   if (phrase.empty() || std::fabs(rest) > most) return "the scene itself (its stiffnesses, its loading), not step or points, is the error";
   return phrase;
 }
@@ -199,7 +199,7 @@ std::string plain_sentence(const Goal& q, std::size_t index, const std::vector<M
   int parts = 0;
   for (const std::size_t i : front) {
     const double error = *error_of(q, all[i].values[index]);
-    if (parts > 0 && error > 0.3 * told) continue;  // only what is worth another clause
+    if (parts > 0 && error > 0.3 * told) continue;  // report only a clear gain
     told = error;
     const std::string with = all[i].setting.knob.empty() ? "as the scene is" : "with " + all[i].setting.name;
     text += parts == 0 ? fmt::format("An error of {} in {}", error_text(q, error), q.name) : fmt::format("; one of {}", error_text(q, error));

@@ -70,12 +70,12 @@ class Runner {
  private:
   using Clock = std::chrono::steady_clock;
   struct Running {
-    std::size_t index = 0;  // into the values asked for
+    std::size_t index = 0;  // into the values requested
     Clock::time_point begin;
     bool overdue = false;
   };
 
-  // A run stops itself at its limit of time, with what it has; one that does not, however it hangs, is ended.
+  // A run stops itself at its time limit, with its results so far. A run that does not stop is killed.
   void stop_overdue(std::map<int, Running>& running) const {
     if (c_.max_wall <= 0) return;
     for (auto& [pid, run] : running) {
@@ -99,11 +99,12 @@ class Runner {
     for (const auto* more : {&c_.words, &c_.permissions}) command.insert(command.end(), more->begin(), more->end());
     if (c_.max_wall > 0) command.insert(command.end(), {"--max-wall", fmt::format("{}s", c_.max_wall)});
     std::error_code ignored;
-    fs::remove_all(folder_of(x), ignored);  // of a run that was interrupted
+    fs::remove_all(folder_of(x), ignored);  // left by an interrupted run
     return start(command, log_of(x)).pid;
   }
 
-  // What the child left. An answer, or the reason why there is none; of both a note is kept, unless the child was interrupted or killed.
+  // Reads the answer of the child, or the reason for its absence, and writes a note of it. A child that is interrupted, or killed from
+  // outside, leaves no note.
   void read(Answer& a, int code, bool overdue) const {
     if (code == 130) {
       a.reason = "interrupted";
@@ -118,7 +119,7 @@ class Runner {
       const std::string status = metrics.value("status", "");
       const Json* value = find_key(metrics, study_.collapse ? "collapse.collapsed" : "metrics.study");
       if (overdue) a.reason = fmt::format("took longer than {:g} s and was ended", c_.max_wall);
-      // A bisection for a limit of stability asks for divergence: its own question may say yes to such a run, never no.
+      // A bisection for a limit of stability looks for divergence: the scene's own function may answer yes to such a run, never no.
       else if (status == "diverged" && study_.kind == Study::Kind::bisect && !study_.collapse && value != nullptr && (*value == true || *value == 1)) a.value = 1;
       else if (status == "diverged" || status == "inaccurate" || status == "stopped") a.reason = status + "; " + last_words(log_of(a.x), code, c_.scene);
       else if (code != 0 || value == nullptr) a.reason = last_words(log_of(a.x), code, c_.scene);

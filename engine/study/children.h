@@ -1,4 +1,4 @@
-// Runs of a study as processes of this program, side by side, one thread each; a run that is finished is not run again.
+// Runs of a study as child processes of this program, in parallel, one thread each. A finished run is not repeated.
 #pragma once
 #include <atomic>
 #include <string>
@@ -11,13 +11,13 @@ namespace erbs {
 
 struct Children {
   std::string scene;      // path of the script
-  std::string directory;  // run folder of the scene: children go to studies/NAME/, the table to studies/NAME.csv
-  std::string key;        // of the scene and all it reads: a finished child of another key is run again
-  std::vector<std::pair<std::string, std::string>> overrides;  // -D of the run that asks
-  std::vector<std::string> words = {};                         // its other words: --points 4
-  std::vector<std::string> permissions = {};                   // and those that let it read: --allow DIR
-  double max_wall = 0;                                         // s, of each run; 0: none
-  int at_once = 0;                                             // 0: as many as the machine has processors
+  std::string directory;  // run folder of the scene: children write to studies/NAME/, the table is studies/NAME.csv
+  std::string key;        // hash of the scene and all files it reads: a finished child with another key is repeated
+  std::vector<std::pair<std::string, std::string>> overrides;  // -D of the calling run
+  std::vector<std::string> words = {};                         // its other arguments: --points 4
+  std::vector<std::string> permissions = {};                   // arguments that allow reading: --allow DIR
+  double max_wall = 0;                                         // s, limit of each run; 0: none
+  int at_once = 0;                                             // runs in parallel; 0: one per processor
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(const std::string& study, int done, int asked)> progress = {};
 };

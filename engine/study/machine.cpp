@@ -22,7 +22,7 @@ double processor_seconds() {
 
 double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-// McCalpin 1995, STREAM: 24 bytes an element, the line read before it is written not counted.
+// STREAM triad (McCalpin 1995): 24 bytes per element. The read of a cache line before its write is not counted.
 double triad(std::size_t bytes) {
   const std::size_t n = std::max<std::size_t>(bytes / 24, 64);
   std::vector<double> a(n, 0.0), b(n, 1.0), c(n, 2.0);

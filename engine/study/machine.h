@@ -1,4 +1,4 @@
-// What this machine can do at most, measured in the run that is compared with it.
+// Peak performance of this machine, measured in the same run as the figures compared with it.
 #pragma once
 #include <cstddef>
 
@@ -7,10 +7,10 @@ namespace erbs {
 double processor_seconds();  // s, user time of this process so far, all threads
 double wall_seconds();
 
-double triad(std::size_t bytes);  // bytes/s of a = b + s c over three arrays of `bytes` together, one thread; median of several
-double flop_peak();               // flop/s of one core: independent multiplications and additions in registers of the widest kind in use
+double triad(std::size_t bytes);  // bytes/s of a = b + s c over three arrays of `bytes` in total, one thread; median of several
+double flop_peak();               // flop/s of one core: independent multiplications and additions in registers, widest set in use
 
-// Instructions of this thread in user mode, where the machine lets a program count them.
+// Counts instructions of this thread in user mode, if the machine allows it.
 class InstructionCounter {
  public:
   InstructionCounter();

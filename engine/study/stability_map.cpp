@@ -7,8 +7,8 @@ namespace erbs {
 
 Stiffness stiffer(Stiffness s, double factor) { return {s.critical / std::sqrt(factor), s.block / std::sqrt(factor), s.feed * factor}; }
 
-// Roots of z^2 - (2 - e - w2) z + 1 - e, w2 = (omega dt)^2 and e = c dt explicit, lie in the unit circle while w2 < 4 - 2 e and e < 2.
-// Centred damping adds e / 2 on both sides, and the limit of w2 stays 4.
+// Explicit damping: the roots of z^2 - (2 - e - w2) z + 1 - e, with w2 = (omega dt)^2 and e = c dt, lie in the unit circle while
+// w2 < 4 - 2 e and e < 2. Centred damping adds e / 2 on both sides, and the limit of w2 stays 4.
 std::optional<Room> room_of(const Scheme& scheme, const Stiffness& s, double dt) {
   const double limit = scheme.sequential ? s.block : s.critical;
   if (!(dt < limit)) return std::nullopt;
@@ -25,7 +25,7 @@ bool foretold(const MapRun& run, const Stiffness& nominal) {
 
 std::optional<double> ratio_of(const MapRun& run, const MapRun& reference) {
   for (auto mine = run.seen.rbegin(); mine != run.seen.rend(); ++mine)
-    for (const MapRun::Seen& other : reference.seen)  // a step more or less
+    for (const MapRun::Seen& other : reference.seen)  // times may differ by a step
       if (std::fabs(other.until - mine->until) <= 0.01 * mine->until && other.value != 0) return mine->value / other.value;
   return std::nullopt;
 }

@@ -26,12 +26,12 @@ struct Tally {
   }
 };
 
-// Sections instead of halves: `points` runs at a time between the ends, of which the smallest that collapses is the new end. A run
-// without an answer leaves the bracket to the others.
+// Multisection: `points` runs at a time between the ends. The smallest value that collapses is the new upper end. A run without an answer
+// does not change the bracket.
 StudyResult bisect(const Study& s, const RunAll& runs) {
   StudyResult out;
   Tally tally;
-  std::optional<double> lo, hi;  // shares of the way from s.lo to s.hi
+  std::optional<double> lo, hi;  // fractions of the interval from s.lo to s.hi
   const auto at = [&](double t) { return t == 0 ? s.lo : t == 1 ? s.hi : s.lo + t * (s.hi - s.lo); };
   const std::vector<Answer> ends = runs({s.lo, s.hi});
   tally.add(ends);

@@ -1,5 +1,5 @@
-// Many runs of one scene with a parameter changed: a threshold by bisection, an order of convergence, an ensemble. What each asks
-// of its runs and makes of their answers; how the runs are carried out is children.h.
+// Studies: many runs of one scene with a parameter varied. Kinds are a threshold by bisection, an order of convergence, and an ensemble.
+// This file chooses the runs and evaluates their answers; children.h carries them out.
 #pragma once
 #include <functional>
 #include <optional>
@@ -14,42 +14,41 @@ namespace erbs {
 struct Study {
   enum class Kind { bisect, converge, ensemble } kind = Kind::bisect;
   std::string name;            // stem of its metrics
-  std::string param;           // of the scene: what the runs change
+  std::string param;           // parameter of the scene that the runs vary
   std::string unit;            // of the answer
-  bool collapse = false;       // the answer is collapse.collapsed, not a function of the scene's own
-  double lo = 0, hi = 0;       // bisect: where it stands, where it collapses
-  double rel = 0.01;           // bisect: width of the last bracket over its larger end
-  int points = 3;              // bisect: runs between the ends at a time; not by the machine, so that the answer is the same on all
+  bool collapse = false;       // the answer is collapse.collapsed, not a function of the scene
+  double lo = 0, hi = 0;       // bisect: value at which the structure stands, value at which it collapses
+  double rel = 0.01;           // bisect: width of the last bracket, relative to its larger end
+  int points = 3;              // bisect: runs between the ends at a time; the same on all machines, and so is the answer
   std::vector<double> values;  // converge
-  bool finest = false;         // converge: the error is the distance from the answer at the smallest value
-  int n = 0;                   // ensemble
-  double seed = 1;             // ensemble: of the seeds of its runs
+  bool finest = false;         // converge: errors are distances from the answer at the smallest value
+  int n = 0;                   // ensemble: number of runs
+  double seed = 1;             // ensemble: seed of the seeds of its runs
   Place place;
 };
 
-// What one run said. No value: `reason` says why (a crash, a divergence, a NaN, a mistake of the scene).
+// Answer of one run. Without a value `reason` gives the cause: crash, divergence, NaN, mistake of the scene.
 struct Answer {
-  double x = 0;  // of the parameter
+  double x = 0;  // value of the parameter
   std::optional<double> value;
   std::string reason;
   double wall_s = 0;
   double updates = 0;  // contact points evaluated
 };
 
-// Runs the scene at each x, side by side; the answers in the order asked.
+// Runs the scene at each x, in parallel; the answers keep the order of the values.
 using RunAll = std::function<std::vector<Answer>(const std::vector<double>&)>;
 
 struct StudyResult {
   std::vector<std::pair<std::string, std::optional<double>>> metrics;  // names as metric_names
-  std::string trouble;                                                 // why a metric has no value; "" where all do
-  double updates = 0;                                                  // contact points its runs evaluated
+  std::string trouble;                                                 // why a metric has no value; "" if all have one
+  double updates = 0;                                                  // contact points evaluated by its runs
 };
 
 StudyResult carry_out(const Study& study, const RunAll& runs);
 std::vector<std::string> metric_names(const Study& study);
 
-// The seeds of an ensemble: whole numbers below 2^31, all different streams for different `seed` (splitmix64, Steele, Lea and
-// Flood 2014).
+// Seeds of an ensemble: whole numbers below 2^31, with a different sequence for each `seed` (splitmix64, Steele, Lea and Flood 2014).
 std::vector<double> seeds(double seed, int n);
 
 }  // namespace erbs

@@ -49,7 +49,7 @@ Timing time_steps(const Model& model, State state, const std::string& kernel, in
     next = step;
     solver.run({[](double) { return false; }, [] {}, [&] { return state.step >= next; }});
   };
-  // The ledger is settled, and stop asked, every 32nd step (128th with contacts): stretches are whole multiples of that.
+  // Every 32nd step (128th with contacts) settles the ledger and calls stop(). The timed stretches are whole multiples of that.
   const double first = processor_seconds(), first_wall = wall_seconds();
   run_to(state.step + hash_steps);
   out.hash = hash_of(state);
@@ -138,17 +138,17 @@ State all_broken(const Model& m, State s) {
 }
 
 Demand demand(const Model& m) {
-  // lanes_sound.inc and lanes_blocks.inc, multiplications and additions counted line by line (a cross product 9, a dot product 5, a
-  // symmetric matrix times a vector 15), each subtraction an addition; signs, roots, comparisons and choices are left out.
-  // A joint: sound_lanes 177, beyond_limits 22, adding what acts on either block 12. A block, not damped, one round of middle_spin:
-  // kick 175, turn_by 93.
+  // Multiplications and additions of lanes_sound.inc and lanes_blocks.inc, counted line by line. A cross product has 9, a dot product 5, a
+  // symmetric matrix times a vector 15; a subtraction counts as an addition. Signs, roots, comparisons and selections are left out.
+  // A joint: `sound_lanes` 177, `beyond_limits` 22, adding the forces on both blocks 12. An undamped block with one round of `middle_spin`:
+  // `kick` 175, `turn_by` 93.
   constexpr double joint_flop = 177 + 22 + 12, block_flop = 175 + 93, six = 48;
   const double joints = m.njoint, blocks = m.nblock;
   Demand out;
   out.flop = joint_flop * joints + block_flop * blocks;
   const double batch = double(sizeof(SoundBatch) + sizeof(Crossing)) / lanes, constants = double(sizeof(BlockConstants)) / lanes;
-  // a joint: its data, the shift of its other block read, what acts on that written and read again; a block: constants, motion, its shift
-  // written and read, what acts on it written and read
+  // Joint: its data; the increment of its other block read; the force on that block written and read again.
+  // Block: constants and motion; its increment written and read; the force on it written and read.
   out.bytes = joints * (batch + 3 * six) + blocks * (constants + 8.0 * (7 + 2 * 16) + 2 * six + 2 * six);
   return out;
 }

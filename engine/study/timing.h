@@ -1,4 +1,4 @@
-// How long a step of a scene takes: the kernel against the reference, sound and broken, by threads; and the bytes it touches.
+// Time of a step of a scene: the fast kernel against the reference, intact and broken, by number of threads. Also the bytes a step touches.
 #pragma once
 #include <cstdint>
 #include <string>
@@ -9,30 +9,30 @@
 namespace erbs {
 
 struct Timing {
-  double user = 0, wall = 0;  // s a step, of all threads together and by the clock
-  long steps = 0;             // timed
-  double touching = 0;        // pairs in contact, mean
+  double user = 0, wall = 0;  // s per step: processor time of all threads, and elapsed time
+  long steps = 0;             // number of timed steps
+  double touching = 0;        // mean number of pairs in contact
   double dt = 0;              // s, mean
-  std::uint64_t hash = 0;     // of the motion after `hash_steps` steps from the given state
+  std::uint64_t hash = 0;     // of the motion after `hash_steps` steps from the initial state
 };
 
-// The first steps of a run, in place, as a run takes them.
+// Advances `state` by the first steps of a run.
 void run_in(const Model& model, State& state, int threads);
 
-// Steps a copy of `state` for about `seconds` of processor time; times are medians of several stretches, as of a structure that only sways.
+// Steps a copy of `state` for about `seconds` of processor time. Times are medians of several stretches: for structures that only sway.
 Timing time_steps(const Model& model, State state, const std::string& kernel, int threads, double seconds);
 
-// Steps a copy of `state` to the time `until` (s); times are means. For structures that come apart: the same work whatever the speed.
+// Steps a copy of `state` to the time `until` (s). Times are means: for structures that fall apart. The work does not depend on the speed.
 Timing time_course(const Model& model, State state, int threads, double until);
 
-// Instructions of a step of the intact structure with every effect off, over those of the bare passes over joints and blocks, which
-// know of no effect; 0 where instructions cannot be counted.
+// Instructions of a step of the intact structure with every effect off, relative to the plain passes over joints and blocks. These passes
+// contain no code for effects. 0 if instructions cannot be counted.
 double instructions_over_bare(const Model& model, const State& state);
 
-// Every joint cracked, without bond or cohesion, as it stands.
+// The same state with every joint cracked, without bond or cohesion.
 State all_broken(const Model& model, State state);
 
-// What one step of a sound structure reads and writes (bytes) and computes (flop): from the layout and the formulas, not measured.
+// Memory traffic (bytes) and arithmetic (flop) of one step of an intact structure, derived from layout and formulas, not measured.
 struct Demand {
   double bytes = 0, flop = 0;
 };

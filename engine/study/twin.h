@@ -1,12 +1,12 @@
-// Two runs of one scene that differ by a hair in their start: for how long they tell the same story.
+// Twin runs: two runs of one scene with a tiny difference at the start. Measures how long they agree.
 #pragma once
 #include <optional>
 #include <string>
 
 namespace erbs {
 
-// The first time (s) at which a block stands further apart than `distance` (m) in the two runs, from their frames; between two
-// frames the distance is taken to grow exponentially. None where they stay together.
+// First time (s) at which the positions of a block in the two runs differ by more than `distance` (m), from their frames. Between two
+// frames the difference is assumed to grow exponentially. None if the runs stay together.
 std::optional<double> parting_time(const std::string& run, const std::string& twin, double distance);
 
 }  // namespace erbs
