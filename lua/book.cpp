@@ -246,7 +246,7 @@ void write_book(const std::vector<CaseResult>& results, const Options& options, 
   const fs::path media = fs::is_directory(folder.parent_path() / "media") ? folder.parent_path() / "media" : folder;
   const std::vector<Family> families = families_of(results);
   const std::string summary = summary_line(families);
-  std::string text = "# Verification book\n\n";
+  std::string text = fmt::format("# Verification book\n\n{}", how_to_write_a_case);
   text += fmt::format("Written by `erbs test {}{} --book {}`, never typed: {}, {}, {} on {} processors, with erbs {}.\n\n",
                       fmt::join(options.words, " "), options.quick ? " --quick" : "", fs::proximate(book).generic_string(),
                       duration_text(wall), machine_isa(),

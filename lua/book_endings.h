@@ -1,7 +1,20 @@
-// The table of the verification book that says how a run ends.
+// The texts of the verification book that no run writes: how to write a case, and how a run ends.
 #pragma once
 
 namespace erbs {
+
+inline constexpr const char* how_to_write_a_case = R"(## How to write a case
+1. A case is a scene in `scenes/verify` (v01 to v46 by problem) or `scenes/hard` (h and m). Its name decides its family below.
+2. The first line of the head is its title. Then come the event, the source with author, year and equation, the command, and the numbers to look at.
+3. Take the smallest scene whose answer is a number on paper. Compute the geometry. What may vary is a `param`.
+4. `metric("fallen_m", "m", function(run) return -run.last("block1_uz_rel_m") end)` makes the number.
+5. `expect("metrics.fallen_m", 4.905, { rel = 1e-12, source = "g t^2 / 2" })` states it; `rel`, `abs`, `below`, `above` and `between` are tolerances.
+6. The comment above it names the cause of the tolerance: round-off, order of the step, stiffness of a bed. It is not tuned until it passes.
+7. `expect("energy.residual_relative", 1e-6, { below = true })` holds the ledger as well.
+8. `label("quick")` puts the case into the test preset, `family{ ... }` into the grid.
+9. `erbs test scenes/verify/v01_free_fall.lua` prints the verdict, `erbs test scenes/verify scenes/hard --book tests/README.md` writes this book.
+
+)";
 
 inline constexpr const char* endings_table = R"(## How a run ends
 What can go wrong about a run, what it makes of that, and what is lost. Each line is a test in `tests/unit/lua/endings_test.cpp` or was

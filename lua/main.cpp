@@ -165,7 +165,7 @@ void add_others(CLI::App& app, CommandLine& line) {
                   "(default 2m; 0: no limit, as with --study)")
       ->check(filled())->type_name("2m");
   accuracy.add_flag("--study", line.options.whole_study,
-                    "every problem of the folder, media/accuracy.png and the table of engine/README.md");
+                    "every problem of the folder, media/accuracy.png and the tables of its README.md");
 
   accuracy.add_flag(
       "--map", line.options.map,

@@ -1,4 +1,4 @@
-// Three settings of step and points, measured by the study of accuracy (engine/README.md: errors and costs).
+// Three settings of step and points, measured by the study of accuracy (scenes/accuracy/README.md: errors and costs).
 #pragma once
 
 namespace erbs {

@@ -92,7 +92,7 @@ void write_study(const AccuracyStudy& s) {
   draw_accuracy(s, run_file(s.directory, "accuracy.png"));
 }
 
-// The row of engine/README.md: best slopes, cheapest settings for 1 % and 0.1 %.
+// The row of the study's README.md: best slopes, cheapest settings for 1 % and 0.1 %.
 std::string study_row(const AccuracyStudy& s) {
   const Goal& q = s.quantity();
   std::string slopes;
@@ -164,7 +164,7 @@ int whole_study(const Options& options) {
   const fs::path home = fs::weakly_canonical(folder).parent_path().parent_path();       // of scenes/accuracy
   const std::string picture = fs::is_directory(home / "media") ? (home / "media/accuracy.png").string() : out + "/accuracy.png";
   draw_accuracies(all, picture);
-  const std::string readme = (home / "engine/README.md").string();
+  const std::string readme = (fs::weakly_canonical(folder) / "README.md").string();
   if (fs::exists(readme)) replace_marked(readme, "accuracy", table), replace_marked(readme, "quality", quality);
   say("{}\n{}{} problems in {}; figure {}\n", table, quality, all.size(), duration_text(wall), picture);
   return exit_ok;

@@ -4,7 +4,7 @@
 --                Bricks are moved by a hair (twins), so that a run is one draw of many.
 -- Source         Other codes' verdicts on this wall differ with their steps. The rigid wall of its outline by Housner's equation: metric `rigid_falls_at`.
 -- How to run     erbs run scenes/dry_wall_verdict.lua -D twins=20 [-D peak=0.25*g] [-D damping=0.5] [-D corners=1] [--dt-fraction 0.3]
--- What to look at  falls_mean, the share that has fallen; engine/README.md has the table.
+-- What to look at  falls_mean, the share that has fallen; tests/bench/README.md has the table.
 local peak, dashpots = param("peak", 0.3 * g, "[m/s2]"), param("damping", 0.3, "of the dry joints")
 local bricks, courses = param("bricks", 10, "in a course; the length of the wall matters little"), param("courses", 25, "")
 local twins, seed = param("twins", 0, "runs of an ensemble"), param("seed", 0, "of a twin")
