@@ -108,7 +108,7 @@ int call_api(lua_State* lua, Context& context) {
 
 // Gives an error message its place in the user's files.
 int place_error(lua_State* lua) {
-  // an error may be any value; what Lua writes for a table is its address, another one in every run
+  // An error may be any value. For a table Lua would print its address, which differs from run to run.
   if (lua_type(lua, 1) != LUA_TSTRING && luaL_getmetafield(lua, 1, "__tostring") == LUA_TNIL && !lua_isnumber(lua, 1))
     lua_pushfstring(lua, "an error that is a %s, not a message", luaL_typename(lua, 1));
   else if (lua_type(lua, 1) != LUA_TSTRING) luaL_tolstring(lua, 1, nullptr);
@@ -146,7 +146,7 @@ void call_script(lua_State* lua, Context& context, int arguments, int results) {
   const Cap uncapped(context.limits, false);
   lua_remove(lua, function);
   if (status == LUA_OK) return;
-  constexpr size_t most = 20000;  // bytes of a message: every mistake of a large building fits
+  constexpr size_t most = 20000;  // bytes of a message: the mistakes of a large building fit
   std::string message = "an error without a message";
   if (lua_type(lua, -1) == LUA_TSTRING) {
     size_t length = 0;

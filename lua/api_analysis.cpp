@@ -1,4 +1,4 @@
-// How a run is carried out, and what of it is written down.
+// Functions of a script: damping, analysis, recorders and cameras.
 #include <lua5.4/lua.hpp>
 
 #include "lua/api.h"
@@ -72,7 +72,7 @@ int camera(Call& call) {
 
 }  // namespace
 
-// Of a recorder: its quantity is a word of a list that help and editors show whole.
+// Keys of recorder{}. The type "quantity" makes help and editors list all quantities.
 Keys recorder_keys() {
   Keys keys = keys_of<Recorder>();
   for (Key& key : keys)

@@ -1,4 +1,4 @@
-// What a script builds: materials, blocks and where they stand.
+// Functions of a script: materials, blocks, the ground, and transformations of blocks.
 #include <lua5.4/lua.hpp>
 
 #include "engine/base/words.h"
@@ -10,8 +10,8 @@
 
 namespace erbs {
 
-static constexpr double far = 1e6;  // m, no coordinate lies further out
-static constexpr int most_given_vertices = 5000;  // the work of a hull grows with their square
+static constexpr double far = 1e6;  // m, limit of every coordinate
+static constexpr int most_given_vertices = 5000;  // the cost of a hull grows with their square
 
 const Keys& part_keys() {
   static const Keys keys = {{"vertices", "points", "m", "corners", -far, far, true, "", ""},
@@ -43,7 +43,7 @@ int material(Call& call) {
   return 1;
 }
 
-// The index of the material the block names; -1 after a mistake.
+// Index of the material that the block names; -1 after a mistake.
 int material_of(Call& call, Arguments& arguments) {
   const auto& materials = call.context.scene.materials;
   std::vector<std::string> known;
@@ -81,7 +81,7 @@ Vec3 centroid_of(const std::vector<Polyhedron>& parts) {
   return mass.volume > 0 && mass.centroid.allFinite() ? mass.centroid : mean_vertex(parts.front());
 }
 
-// Reads the keys all blocks share, puts the shape where it belongs and adds the block.
+// Reads the keys common to all blocks, moves the shape to its place and adds the block.
 int add_block(Call& call, Arguments& arguments, std::vector<Polyhedron> parts, const char* kind) {
   Context& context = call.context;
   if (context.scene.blocks.size() >= static_cast<size_t>(context.scene.most_blocks))
@@ -132,7 +132,7 @@ int box(Call& call) {
   return add_block(call, arguments, std::move(parts), "box");
 }
 
-// Vertices and faces (or the hull) of one convex part; nothing after a mistake.
+// One convex part from its vertices and faces, or from their hull; empty after a mistake.
 std::vector<Polyhedron> read_part(Arguments& arguments) {
   Polyhedron part;
   arguments.read("vertices", part.vertices);
@@ -184,7 +184,7 @@ int block(Call& call) {
   return add_block(call, arguments, std::move(parts), "block");
 }
 
-// The polygon in the plane across `axis`, as points of space: cyclic order keeps it right-handed.
+// The prism over a polygon in the plane normal to `axis`. The cyclic order of the axes keeps the prism right-handed.
 Polyhedron extruded(const std::vector<Eigen::Vector2d>& polygon, double height, int axis) {
   Polyhedron prism;
   const int n = static_cast<int>(polygon.size());
@@ -226,7 +226,7 @@ int prism(Call& call) {
     const auto& b = polygon[(i + 1) % polygon.size()];
     doubled_area += a.x() * b.y() - a.y() * b.x();
   }
-  if (doubled_area < 0) std::reverse(polygon.begin(), polygon.end());  // either sense of rotation is welcome
+  if (doubled_area < 0) std::reverse(polygon.begin(), polygon.end());  // either orientation of the polygon is accepted
   std::vector<Polyhedron> parts;
   if (polygon.size() < 3 || doubled_area == 0) arguments.mistake("polygon must be at least three points { x, y } that span an area");
   else if (height > 0) parts = {translated(extruded(polygon, height, axis[0] - 'x'), at)};
@@ -291,7 +291,7 @@ int ground(Call& call) {
   return 1;
 }
 
-// Ends the frame however the function inside ends.
+// Removes the frame on every way out of its scope.
 struct Inside {
   std::vector<Frame>& frames;
   Inside(std::vector<Frame>& all, const Frame& frame) : frames(all) { frames.push_back(frame); }

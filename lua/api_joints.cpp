@@ -1,4 +1,4 @@
-// Joint laws, made from their field lists, and the rules that say which faces they join.
+// Functions of a script: joint laws, made from their field lists, and the rules that assign them to faces.
 #include <cmath>
 #include <lua5.4/lua.hpp>
 

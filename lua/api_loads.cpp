@@ -1,4 +1,4 @@
-// What shakes, pushes, turns and pulls.
+// Functions of a script: ground motions, forces, moments, tilt, prescribed motions and gravity.
 #include <lua5.4/lua.hpp>
 
 #include "lua/api.h"
@@ -6,7 +6,7 @@
 namespace erbs {
 namespace {
 
-// The wave of a load: a wave value, a number, or a Lua function sampled when the duration is known.
+// The wave of a load: a wave value, a number, or a Lua function. A function is sampled later, when the duration is known.
 void read_wave(Call& call, Arguments& arguments, Load& load) {
   double sample = 1e-3;
   arguments.read("sample", sample);

@@ -1,4 +1,4 @@
-// What may be varied, what is asked for, what is expected; files that belong to a scene.
+// Functions of a script: params, metrics, expectations, labels, limits of use, and included files.
 #include <algorithm>
 #include <cmath>
 #include <lua5.4/lua.hpp>
@@ -17,7 +17,7 @@ const Keys& tolerance_keys() {
 }
 namespace {
 
-// "share of the peak, assumed [g]" -> meaning and unit
+// "share of the peak, assumed [g]" -> text "share of the peak, assumed", unit "g"
 void split_unit(const std::string& text, Param& param) {
   const size_t open = text.rfind('[');
   if (open == std::string::npos || !text.ends_with("]")) {
@@ -51,7 +51,7 @@ int param(Call& call) {
       if (given) item.value = override_.value;
       override_.used = true;
     }
-  // a whole number stays one: names are made of it
+  // An integer stays an integer, because scripts make names of it.
   const bool whole = lua_isinteger(call.lua, 2) && item.value == std::floor(item.value) && std::fabs(item.value) < 1e15;
   if (given && whole) lua_pushinteger(call.lua, static_cast<lua_Integer>(item.value));
   else if (given) lua_pushnumber(call.lua, item.value);

@@ -1,4 +1,5 @@
-// Companions of scenes of one block: the rigid rocking equations, asked while the scene is read or inside a metric.
+// Functions of a script: the equations of a rigid rocking block, solved while the scene is read or inside a metric.
+// A scene of one block compares its run with them.
 #include <cmath>
 #include <lua5.4/lua.hpp>
 
@@ -65,7 +66,7 @@ void describe(lua_State* lua, const RockingBlock& block) {
   set(lua, "threshold", block.gravity * (block.linear ? block.alpha : std::tan(block.alpha)));
 }
 
-// A wave, or a Lua function, whose values are taken as far as one watches.
+// The wave of the key "wave"; a Lua function is sampled over `duration`.
 std::optional<Wave> read_wave(Arguments& arguments, double duration) {
   double sample = 1e-3;
   arguments.read("sample", sample);

@@ -1,4 +1,5 @@
-// Many runs of the scene with a parameter changed. In a run that such a study started, only its own question is asked.
+// Functions of a script: studies, that is many runs of the scene with one parameter changed, and the figures of their results.
+// A run that a study has started evaluates only the question of that study.
 #include <algorithm>
 #include <cmath>
 #include <lua5.4/lua.hpp>
@@ -10,14 +11,14 @@
 namespace erbs {
 namespace {
 
-// Declared before, so that -D of the runs finds it.
+// The param of this name, or nullptr. It must be declared above the study, so that -D of the runs finds it.
 const Param* param_of(const Context& context, const std::string& name) {
   for (const Param& param : context.scene.params)
     if (param.name == name) return &param;
   return nullptr;
 }
 
-// What the runs are asked: a function of the scene's, called in each run as a metric is.
+// Registers the question of a study: a function of the scene that each of its runs evaluates like a metric.
 void question(Call& call, Arguments& arguments, const char* key, const Study& study) {
   const int function = arguments.function(key);
   if (call.context.study == study.name && function != LUA_NOREF) call.context.metrics.push_back({"study", "", 0, function, call.place});
@@ -135,7 +136,7 @@ int figure(Call& call) {
   return 0;
 }
 
-// The values under each name of the table on top; `known`: the params.
+// The list of values under each param name of the table on top of the stack. `known`: names of the declared params.
 std::vector<std::pair<std::string, std::vector<double>>> lists_of(Call& call, const std::vector<std::string>& known) {
   std::vector<std::pair<std::string, std::vector<double>>> lists;
   lua_pushnil(call.lua);
@@ -179,7 +180,7 @@ int family(Call& call) {
   std::vector<std::string> known;
   for (const Param& param : call.context.scene.params) known.push_back(param.name);
   into.values = lists_of(call, known);
-  // a table of Lua has no order
+  // A table of Lua has no order: sort the params by their declaration.
   const auto place = [&](const auto& list) { return std::find(known.begin(), known.end(), list.first); };
   std::sort(into.values.begin(), into.values.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
   return 0;

@@ -1,4 +1,4 @@
-// Functions of time, made from their field lists.
+// Functions of a script: waves (functions of time), made from their field lists.
 #include <lua5.4/lua.hpp>
 
 #include "lua/api.h"
@@ -49,7 +49,7 @@ int make_wave(Call& call) {
   arguments.read(wave);
   try {
     finish(call, arguments, wave);
-  } catch (const Error& error) {  // a mistake in the file names file and line there; the script goes on with a wave that is zero
+  } catch (const Error& error) {  // a mistake in the file names file and line of that file; the script continues with a zero wave
     if (error.place.file == call.place.file) call.context.mistake({}, error.what());
     else call.mistake(error.what());
     push_wave(call.lua, call.context, Pulse{0, 0, 0});

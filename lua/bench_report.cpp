@@ -11,7 +11,7 @@
 namespace erbs {
 namespace {
 
-// A number at a dotted key of a row; NaN where the case failed or has none.
+// A number at a dotted key of a row; NaN if the case failed or has no such number.
 double number(const Json& row, const char* key) {
   const Json* found = find_key(row, key);
   return found != nullptr && found->is_number() ? found->get<double>() : std::numeric_limits<double>::quiet_NaN();
@@ -69,7 +69,7 @@ void print_bench_summary(const Json& summary) {
       say("{:<28} {}\n", key, value.is_number() ? fmt::format("{:.4g}", value.get<double>()) : "not measured here");
 }
 
-// Nanoseconds a point and step of every case, and below them what the machine allows.
+// Figure: nanoseconds per contact point and step of every case, beside the least time that the machine allows.
 void write_bench_figure(const Json& rows, const std::string& path) {
   std::string text =
       "set terminal svg size 1100,560 dynamic font \"DejaVu Sans,13\" background \"#ffffff\"\nset encoding utf8\n"

@@ -51,8 +51,8 @@ std::vector<std::string> lines_of(const std::string& path) {
   return lines;
 }
 
-// The cause of a tolerance as its scene gives it: the comment at the end of the line of the expectation, else the comment lines
-// above it and above the expectations that stand between.
+// The reason of a tolerance as its scene gives it: the comment at the end of the expectation's line. Without one, it is the block
+// of comment lines above the expectation; other expectations may stand between.
 std::string cause_of(const Verdict& verdict, std::map<std::string, std::vector<std::string>>& files) {
   const size_t colon = verdict.place.rfind(':');
   if (colon == std::string::npos) return "";
@@ -108,7 +108,7 @@ std::string table_of(const Family& family) {
   return text;
 }
 
-// Words of a scene in the running text: no tags of HTML.
+// Text of a scene as running text: without HTML tags.
 std::string plain(const std::string& words) {
   std::string out;
   for (const char c : for_files(words)) out += c == '<' ? std::string("&lt;") : std::string(1, c);
@@ -129,7 +129,7 @@ std::string sources_of(const Family& family, const std::string& book) {
   return text;
 }
 
-// What scenes draw of their studies.
+// The figures that the scenes draw of their studies.
 std::string figures_of(const Family& family, const std::string& book, const fs::path& media) {
   std::string text;
   for (const CaseResult* result : family.cases)
@@ -200,7 +200,7 @@ std::string summary_line(const std::vector<Family>& families) {
                      expectations - failed, failed, fmt::join(worst, ", "));
 }
 
-// Of a link: what ends it is written as its number.
+// A path as the target of a link: characters that would end the link are percent-encoded.
 static std::string in_link(const std::string& path) {
   std::string out;
   for (const char c : path) {

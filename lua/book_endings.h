@@ -1,4 +1,4 @@
-// The table of the verification book that says how a run ends.
+// Table of the verification book: how a run ends.
 #pragma once
 
 namespace erbs {

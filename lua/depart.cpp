@@ -1,4 +1,4 @@
-// How the command line departs from the scene: in a study every run does.
+// Overrides: options of the command line that replace values of the scene. Every run of a study gets the same ones.
 #include "lua/depart.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ void set_analysis(Analysis& analysis, const std::string& setting) {
   throw Error(fmt::format("--set {}: analysis has no key \"{}\"{}", setting, key, did_you_mean(key, known)));
 }
 
-// Every stiffness of a joint's law, whatever the law.
+// Multiplies every stiffness of a joint rule, whatever its law.
 void stiffen(JointRule& rule, double factor) {
   std::visit(
       [&](auto& law) {
