@@ -1,4 +1,4 @@
-// erbs help, and the editor file: both from the table of what a script can call.
+// erbs help and the editor file; both come from the table of functions that a script can call.
 #include "lua/help.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace erbs {
 namespace {
 
-// A value of a list as a script would write it.
+// A value of a list in the spelling of a script.
 std::string written(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number()) return erbs::written(value.get<double>());
@@ -23,7 +23,7 @@ std::string written(const Json& value) {
   return fmt::format("{{ {} }}", fmt::join(items, ", "));
 }
 
-// Keys of functions written in Lua, as their list says them.
+// Keys of a function written in Lua, from its entry in masonry_functions.
 Keys keys_of(const Json& list) {
   Keys keys;
   for (const Json& item : list) {
@@ -91,7 +91,7 @@ std::string line_of(const Key& key, size_t name_width, size_t type_width) {
   return line + "\n";
 }
 
-// The keys of a table inside come after it, as brick.length.
+// The keys with the keys of inner tables after their table, as brick.length.
 Keys flat(const Keys& keys, const std::string& before) {
   Keys all;
   for (const Key& key : keys) {
@@ -117,7 +117,7 @@ std::string quantities_text() {
   return text;
 }
 
-// How a study is written, from the param to what is expected of it.
+// Example of a study: the param, the study and an expectation on its result.
 std::string example_of(const std::string& name) {
   if (name == "bisect")
     return "  local pga = param(\"pga\", 0.5 * g, \"peak of the ground [m/s2]\")\n"
@@ -157,7 +157,7 @@ std::string function_text(const Function& function) {
   return text;
 }
 
-// LuaCATS: the type of a key.
+// The type of a key in LuaCATS, the annotations that editors read.
 std::string editor_type(const Key& key) {
   static const std::pair<const char*, const char*> types[] = {{"vec3", "erbs.vec3"},
                                                               {"vec", "erbs.vec3"},

@@ -1,4 +1,4 @@
-// What users read about the language.
+// Help texts of the scene language.
 #pragma once
 #include <string>
 #include <string_view>
@@ -8,12 +8,12 @@
 
 namespace erbs {
 
-std::vector<Function> all_functions();               // of the table, then those written in Lua
-std::string function_help(const std::string& name);  // throws Error with the nearest name
+std::vector<Function> all_functions();               // the functions of the table, then the ones written in Lua
+std::string function_help(const std::string& name);  // throws Error with the nearest known name
 std::string functions_list();
 std::string editor_file();  // the text of erbs.meta.lua
 
-// What a metric function can ask of `run`.
+// The table `run` that a metric function receives.
 inline constexpr std::string_view run_help = R"(the table run:
   the keys of metrics.json (run.time_s, run.energy, run.collapse ...), and all of them in run.metrics
   run.metrics.metrics      answers of the scene's studies, by the names of their metrics

@@ -1,4 +1,4 @@
-// The program erbs: reads the command line, calls the verb, turns trouble into an exit code. The one door to CLI11.
+// The program erbs: reads the command line, calls the verb, turns an error into an exit code. Only this file includes CLI11.
 #include <CLI/CLI.hpp>
 #include <malloc.h>
 
@@ -21,7 +21,7 @@ namespace {
 using erbs::Options;
 using erbs::shown;
 
-// A number in a range, ends included. CLI::Range lets NaN pass, which is neither below nor above anything.
+// A number in a range, ends included. CLI::Range would accept NaN, which is neither below nor above any number.
 template <class T>
 CLI::Validator within(T low, T high) {
   const std::string range = fmt::format("{} to {}", low, high);
@@ -34,7 +34,7 @@ CLI::Validator within(T low, T high) {
       range);
 }
 
-// An option that is there says something: from a script an empty word is mostly a variable that is not set.
+// An option must not be empty: in a shell script an empty word is usually a variable that is not set.
 CLI::Validator filled() {
   return CLI::Validator([](std::string& text) { return text.empty() ? std::string("it is empty; give it a value, or leave the option out") : ""; }, "");
 }
@@ -94,12 +94,12 @@ void add_run(CLI::App& app, CommandLine& line) {
   run.add_option("--from", line.from, "let the loads begin here, the structure at rest: a window of a long record")->check(filled())->type_name("T");
   run.add_option("--noise", line.options.noise, "perturb the start of every free block by up to this (m and rad), seeded")
       ->check(within(0.0, 1.0));
-  run.add_option("--twin-noise", line.options.twin_noise)->group("");  // of a twin
+  run.add_option("--twin-noise", line.options.twin_noise)->group("");  // of the twin run that --twin starts
   run.add_flag("--twin", line.options.twin, "run a twin perturbed by 1e-9 as well, and tell when it parts by 1 mm (the chaos horizon)");
   run.add_flag_callback("--no-figures", [&line] { line.options.figures = false; }, "draw no curves");
-  run.add_flag("--figure-scripts", line.options.figure_scripts)->group("");  // of the cases of a book
+  run.add_flag("--figure-scripts", line.options.figure_scripts)->group("");  // of the runs that erbs test starts
   run.add_flag("--video", line.options.video, "draw the run and make its video afterwards");
-  run.add_option("--study", line.options.study)->group("");  // of the runs a study starts
+  run.add_option("--study", line.options.study)->group("");  // of the runs that a study starts
   run.add_option("--without", line.options.without, "run without an effect of the scene, by its name in erbs check")
       ->type_name("EFFECT")
       ->take_all();
@@ -114,7 +114,7 @@ void add_others(CLI::App& app, CommandLine& line) {
   add_scene(check, line);
 
   CLI::App& render = *app.add_subcommand("render", "draw a run: frames, video, curves (options: erbs-render --help)");
-  render.set_help_flag();  // its own --help tells the options
+  render.set_help_flag();  // erbs-render explains its own options
   render.prefix_command();
 
   CLI::App& record = *app.add_subcommand("record", "a ground motion: points, dt, peaks, end values, Arias intensity, spectrum");
@@ -188,7 +188,7 @@ void add_others(CLI::App& app, CommandLine& line) {
   app.add_subcommand("version", "the version and the commit it was built from");
 }
 
-// -D name=value, --until and the like, once the words are known.
+// Converts options that come as text (-D name=value, --until and the like) after parsing.
 void settle(CommandLine& line) {
   Options& options = line.options;
   for (const auto& define : line.defines) {
@@ -217,7 +217,7 @@ void check_verb(const CLI::App& app, int argc, char** argv) {
     throw erbs::Error(fmt::format("there is no verb {}{}; see erbs help", shown(word, 60), erbs::did_you_mean(word, verbs)));
 }
 
-// What is on or off takes no value: CLI11 would read --force=1e400 as --force.
+// Refuses a value for an option that takes none: CLI11 would read --force=1e400 as --force.
 void check_flags(const CLI::App& app, int argc, char** argv) {
   const CLI::App* verb = nullptr;
   for (const CLI::App* known : app.get_subcommands({}))
@@ -247,11 +247,11 @@ int call(const CLI::App& app, CommandLine& line) {
   if (name == "version") return erbs::verb_version();
   for (const auto& word : verb.remaining()) line.options.words.push_back(word);
   if (name == "render") return erbs::verb_render(line.options);
-  // help of a verb is CLI11's own
+  // CLI11 prints the help of a verb
   if (!line.options.words.empty())
     for (const CLI::App* other : app.get_subcommands({}))
       if (other->get_name() == line.options.words.front()) return (erbs::say("{}", other->help("erbs")), erbs::exit_ok);
-  // not app.help(), which would explain the verb help
+  // not app.help(), which would print the help of the verb help
   return erbs::verb_help(line.options, app.get_formatter()->make_help(&app, "erbs", CLI::AppFormatMode::Normal));
 }
 
@@ -264,7 +264,7 @@ int answer(CLI::App& app, CommandLine& line, int argc, char** argv) {
     check_verb(app, argc, argv);
     check_flags(app, argc, argv);
     app.parse(argc, argv);
-    erbs::chosen_isa();  // refuses an ERBS_ISA that there is not
+    erbs::chosen_isa();  // refuses an unknown ERBS_ISA
     return call(app, line);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
@@ -272,7 +272,7 @@ int answer(CLI::App& app, CommandLine& line, int argc, char** argv) {
   } catch (const erbs::Interrupted& error) { return wrong(error.what(), erbs::exit_interrupted); } catch (const erbs::NumbersError& error) { return wrong(error.what(), erbs::exit_numbers); } catch (const std::filesystem::filesystem_error& error) {
     return wrong(fmt::format("{}: {}; check the path", error.path1().string(), error.code().message()));
   } catch (const std::system_error& error) {
-    if (std::ferror(stdout) != 0) return erbs::exit_ok;  // which finish_streams() tells
+    if (std::ferror(stdout) != 0) return erbs::exit_ok;  // finish_streams() reports it
     return wrong(fmt::format("the system refuses: {}; is a limit of memory, threads or files (ulimit) reached?", error.what()));
   } catch (const std::bad_alloc&) {
     return wrong("there is not enough memory; build a smaller model, or raise the limit (ulimit -v)");
@@ -285,7 +285,7 @@ int answer(CLI::App& app, CommandLine& line, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   erbs::prepare_streams();
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);  // large arrays go back to the system when they end, not into a heap of holes
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);  // large arrays return to the system when freed, so that the heap does not fragment
   CommandLine line;
   CLI::App app("ERBS: collapse of masonry by rigid blocks and mortar springs", "erbs");
   app.require_subcommand(1);

@@ -1,4 +1,4 @@
-// The map of time step, damping and stiffness, and its table.
+// Stability map of time step, damping and stiffness: its figure and its table.
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +25,7 @@ Range range_of(const MapStudy& s) {
   return {0.4 * s.dampings.front(), 2.5 * s.dampings.back(), 0.6 * s.steps.front().second, 1.5 * s.steps.back().second};
 }
 
-// Dampings without a logarithm stand at the left edge.
+// Zero damping has no logarithm; it is drawn at the left edge.
 double at_damping(const MapStudy& s, double c) { return c > 0 ? c : s.dampings.size() > 1 ? 0.1 * s.dampings[1] : 1; }
 
 std::string points(const MapStudy& s, const Scheme& scheme, double factor, Verdict verdict, bool rated, bool whole = true) {
@@ -41,7 +41,7 @@ std::string points(const MapStudy& s, const Scheme& scheme, double factor, Verdi
   return text;
 }
 
-// The region that theory calls bounded: its lower and upper damping at each step, as a closed outline.
+// Outline of the region that theory calls bounded: its lower and upper damping at each step, as a closed curve.
 std::string outline(const MapStudy& s, const Scheme& scheme, double factor) {
   const Stiffness k = stiffer(s.nominal, factor);
   const Range r = range_of(s);
@@ -92,7 +92,7 @@ std::string label(int tag, const std::string& text, double x, double y, const st
   return fmt::format("set label {} {} at screen {:.4f},{:.4f} {}\n", tag, gnuplot_quoted(text), x, y, more);
 }
 
-// What the marks mean, in one row at the foot.
+// The legend of the marks, in one row at the bottom.
 std::string legend(const MapStudy& s) {
   struct Mark {
     const char* text;
@@ -114,7 +114,7 @@ std::string legend(const MapStudy& s) {
   double x = 0.045;
   int tag = 20;
   for (const Mark& m : marks) {
-    // the last, on other figures one too many for the row, stands in the second
+    // the last mark goes to the second row, where it always has room
     const bool last = &m == &marks.back();
     text += label(tag++, m.text, last ? 0.5975 : x, last ? 0.014 : 0.038,
                   fmt::format("left offset 1.2,0 noenhanced point pt {} ps {} lw 2 lc rgb '{}'", m.mark, m.size, m.color));

@@ -41,8 +41,9 @@ masonry_functions[#masonry_functions + 1] = {
 }
 local arch_keys, column_keys = masonry_functions[#masonry_functions - 1].keys, masonry_functions[#masonry_functions].keys
 
--- Mistakes are noted for the line that called, and the script goes on without blocks, so that the mistakes after it are told as well.
-local note_mistakes = note_mistakes  -- of the program; scenes do not see it
+-- Wraps a function so that its mistakes are reported at the line that called it. The script continues without the blocks, so that
+-- later mistakes are reported as well.
+local note_mistakes = note_mistakes  -- function of the program, hidden from scenes
 local function public(body, nothing)
   return function(...)
     local ok, result = pcall(body, ...)
@@ -53,7 +54,7 @@ local function public(body, nothing)
   end
 end
 
--- The joints of the ring from left to right: inner and outer end of each, { x, z } from the middle of the span.
+-- Joints of a round ring from left to right: inner and outer end of each, { x, z } from the middle of the span.
 local function round_joints(k)
   local joints, n = {}, k.voussoirs
   for i = 0, n do
@@ -64,7 +65,7 @@ local function round_joints(k)
   return joints
 end
 
--- Two arcs about (offset, 0) and (-offset, 0); the joint at the crown is upright.
+-- Joints of a pointed ring: two arcs about (offset, 0) and (-offset, 0); the joint at the crown is vertical.
 local function pointed_joints(k)
   local joints, half, top = {}, k.voussoirs // 2, math.acos(k.offset / k.radius)
   local radii = { k.radius - k.thickness / 2, k.radius + k.thickness / 2 }
@@ -101,7 +102,7 @@ arch = public(function(options)
   parts.stop_if(mistakes)
   local group, joints = k.group or k.name, k.offset > 0 and pointed_joints(k) or round_joints(k)
   local out = { blocks = {}, abutments = {}, volume = 0, centre_line = 0 }
-  -- A polygon { x, z } of the plane of the arch, as a prism across it; the axes after y are z, x, after x they are y, z.
+  -- A prism across the arch over a polygon { x, z } of its plane. The polygon's axes are z, x for axis "y" and y, z for axis "x".
   local function piece(name, of_group, corners, fixed)
     local polygon = {}
     for i, c in ipairs(corners) do polygon[i] = k.axis == "x" and { c[2], c[1] } or { c[1], c[2] } end
@@ -123,7 +124,7 @@ arch = public(function(options)
   end
   if k.abutments then
     for i, j in ipairs { joints[1], joints[#joints] } do
-      -- a block as thick as the ring behind the springing joint
+      -- a block behind the springing joint, as thick as the ring
       local dx, dz = j[2][1] - j[1][1], j[2][2] - j[1][2]
       local back = i == 1 and { -dz, dx } or { dz, -dx }
       out.abutments[i] = piece(k.name .. (i == 1 and ".left" or ".right"), group .. "_abutment",

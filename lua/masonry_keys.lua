@@ -1,7 +1,7 @@
--- What wall{...} and building{...} take: one table for reading, messages and help; and the reader that reports every mistake at once.
--- First of five files: masonry_keys, masonry_bond, masonry_runs, masonry_arch, masonry. Each adds what the next ones use to masonry_parts.
+-- Keys of wall{...} and building{...}: one table serves reading, messages and help. The reader reports all mistakes at once.
+-- First of five files: masonry_keys, masonry_bond, masonry_runs, masonry_arch, masonry. Each adds to masonry_parts for the next ones.
 
--- type: number (low, high allowed ends included; `above` excluded), integer, string, boolean, vec (three numbers), table
+-- type: number (ends `low` and `high` are allowed, end `above` is not), integer, string, boolean, vec (three numbers), table
 
 local brick_keys = {
   { name = "length", unit = "m", type = "number", above = 0, required = true, help = "along the wall" },
@@ -52,7 +52,7 @@ local common_keys = {
   { name = "quiet", type = "boolean", default = false, help = "true: do not print the summary" },
 }
 
--- Adds the keys both functions have, and to the help of each key that is a table the names of its keys.
+-- Adds the keys that both functions share. Appends to the help of a key that is a table the names of its inner keys.
 local function with_common(keys)
   for _, key in ipairs(common_keys) do keys[#keys + 1] = key end
   local whole = {}
@@ -68,7 +68,7 @@ local function with_common(keys)
   return whole
 end
 
---- Everything this file adds to the language: for help, editors and tests.
+--- All functions that these files add to the language, for help, editors and tests.
 masonry_functions = {
   {
     name = "wall",
@@ -101,7 +101,7 @@ masonry_functions = {
 
 -- ---- reading and messages ------------------------------------------------------------------------------------------------------
 
-local did_you_mean, escaped = did_you_mean, escaped  -- of the program; scenes do not see them
+local did_you_mean, escaped = did_you_mean, escaped  -- functions of the program, hidden from scenes
 
 local function millimetres(x) return string.format("%g mm", math.floor(x * 1e5 + 0.5) / 100) end
 
@@ -142,7 +142,7 @@ local function read_value(what, key, value, mistakes)
   if key.choice and value ~= key.choice[1] and value ~= key.choice[2] then
     return wrong("= \"%s\" is not known; allowed: %s", value, table.concat(key.choice, ", "))
   end
-  if key.type == "integer" then return math.tointeger(value) end  -- a number given by -D is no integer yet
+  if key.type == "integer" then return math.tointeger(value) end  -- -D gives a float even for a whole number
   if key.keys then return read(what .. "." .. key.name, value, key.keys, mistakes) end
   if key.list then
     local all = {}
@@ -164,7 +164,7 @@ function read(what, given, keys, mistakes)
     if not known[name] then strange[#strange + 1] = escaped(tostring(name)) end
   end
   table.sort(strange)
-  local meant = {}  -- by a misspelt key: it is not missing as well
+  local meant = {}  -- keys that a misspelt key stands for: not reported as missing
   for _, name in ipairs(strange) do
     local advice = did_you_mean(name, names)
     mistakes[#mistakes + 1] = string.format("%s: unknown key \"%s\"%s", what, name, advice)
@@ -182,7 +182,7 @@ function read(what, given, keys, mistakes)
   return out
 end
 
--- Ends the call with every mistake found so far; `public` below turns it into an error at the user's line.
+-- Ends the call with all mistakes found so far; `public` in masonry.lua reports them at the user's line.
 local function stop_if(mistakes)
   if #mistakes > 0 then error({ masonry = table.concat(mistakes, "\n") }, 0) end
 end

@@ -1,12 +1,12 @@
-// Three settings of step and points, measured by the study of accuracy (engine/README.md: errors and costs).
+// Three qualities: pairs of time step and contact points, chosen by the accuracy study (engine/README.md: errors and costs).
 #pragma once
 
 namespace erbs {
 
 struct Quality {
   const char* name;
-  double dt_fraction;  // of the limit
-  int points;          // along each side of a joint, Simpson's
+  double dt_fraction;  // of dt_critical
+  int points;          // along each side of a joint, by Simpson's rule
 };
 constexpr Quality qualities[] = {{"draft", 0.9, 2}, {"standard", 0.9, 3}, {"reference", 0.25, 5}};
 

@@ -1,4 +1,4 @@
-// erbs accuracy SCENE.lua: what another digit costs in this scene, and which knob buys it cheapest.
+// erbs accuracy SCENE.lua: the cost of one more digit in this scene, and the setting that gives it for the least cost.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -48,7 +48,7 @@ void print_table(const AccuracyStudy& s) {
                                                 : "its size");
 }
 
-// --target and --budget: the setting, and the line for the scene.
+// Answers --target and --budget: the setting, and the line to write into the scene.
 int answer(const AccuracyStudy& s, const Options& options) {
   const Goal& q = s.quantity();
   const auto tell_of = [&](std::size_t i) {
@@ -92,7 +92,7 @@ void write_study(const AccuracyStudy& s) {
   draw_accuracy(s, run_file(s.directory, "accuracy.png"));
 }
 
-// The row of engine/README.md: best slopes, cheapest settings for 1 % and 0.1 %.
+// The row of a problem in engine/README.md: observed orders, cheapest settings for 1 % and 0.1 %, best error.
 std::string study_row(const AccuracyStudy& s) {
   const Goal& q = s.quantity();
   std::string slopes;
@@ -108,7 +108,7 @@ std::string study_row(const AccuracyStudy& s) {
                      cost(0.01), cost(0.001), front.empty() ? "-" : error_text(q, error_of(q, s.all[front.back()].values[s.main])));
 }
 
-// The row of the table of quality: what each errs by, and its evaluations over those of standard.
+// The row of a problem in the table of qualities: the error of each, and its number of evaluations over that of standard.
 std::string quality_row(const AccuracyStudy& s) {
   const auto find = [&](const Quality& q) {
     return std::find_if(s.all.begin(), s.all.end(),
@@ -136,7 +136,7 @@ int whole_study(const Options& options) {
     if (entry.path().extension() == ".lua" && entry.path().filename().string().starts_with("p")) scenes.push_back(entry.path().string());
   std::sort(scenes.begin(), scenes.end());
   const size_t problems = scenes.size();
-  for (const auto& entry : fs::directory_iterator(fs::absolute(folder).lexically_normal().parent_path()))  // for the table of quality alone
+  for (const auto& entry : fs::directory_iterator(fs::absolute(folder).lexically_normal().parent_path()))  // for the table of qualities only
     if (entry.path().filename().string().ends_with("_quality.lua")) scenes.push_back(fs::relative(entry.path()).string());
   std::sort(scenes.begin() + static_cast<std::ptrdiff_t>(problems), scenes.end());
   if (problems == 0) throw Error(fmt::format("{} holds no problem p1_... of the study", folder));
@@ -160,8 +160,8 @@ int whole_study(const Options& options) {
     say("{}\n\n", plain_sentence(s.quantity(), s.main, s.all));
     std::fflush(stdout);
   }
-  std::erase_if(all, [](const AccuracyStudy& s) { return !s.name.starts_with("p"); });  // those of quality alone
-  const fs::path home = fs::weakly_canonical(folder).parent_path().parent_path();       // of scenes/accuracy
+  std::erase_if(all, [](const AccuracyStudy& s) { return !s.name.starts_with("p"); });  // scenes for the table of qualities only
+  const fs::path home = fs::weakly_canonical(folder).parent_path().parent_path();       // the parent folder of scenes/
   const std::string picture = fs::is_directory(home / "media") ? (home / "media/accuracy.png").string() : out + "/accuracy.png";
   draw_accuracies(all, picture);
   const std::string readme = (home / "engine/README.md").string();
