@@ -10,7 +10,7 @@
 
 namespace erbs {
 
-static constexpr double far = 1e6;  // m, limit of every coordinate
+static constexpr double far = 1e6;                // m, limit of every coordinate
 static constexpr int most_given_vertices = 5000;  // the cost of a hull grows with their square
 
 const Keys& part_keys() {

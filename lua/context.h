@@ -89,8 +89,8 @@ struct Context {
   size_t printed = 0;               // bytes of `output`
   std::filesystem::path folder;     // of the scene file
   std::vector<std::string> allowed;  // further folders that the scene may read
-  std::vector<std::string> files;   // names of the chunks that belong to the user
-  bool incomplete = false;          // masonry with mistakes was left out; mistakes that follow from its absence are not reported
+  std::vector<std::string> files;    // names of the chunks that belong to the user
+  bool incomplete = false;           // masonry with mistakes was left out; mistakes that follow from its absence are not reported
   const RunResults* run = nullptr;  // while metrics are evaluated
   int includes = 0;                 // current depth of include
   bool quiet = false;               // print writes to `output` only

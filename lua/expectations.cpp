@@ -123,7 +123,8 @@ std::vector<Verdict> verdicts_of(const Json& json) {
   for (const auto& item : json) {
     Verdict v;
     v.passed = item.value("passed", false);
-    v.used = item.contains("used") && item["used"].is_number() ? item["used"].get<double>() : without_end;  // infinity, which JSON lacks, is stored as null
+    // JSON has no infinity; it is stored as null
+    v.used = item.contains("used") && item["used"].is_number() ? item["used"].get<double>() : without_end;
     for (const auto& [key, into] : {std::pair{"key", &v.key},
                                     {"expected", &v.expected},
                                     {"got", &v.got},

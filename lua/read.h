@@ -66,8 +66,9 @@ Keys joined(std::vector<Keys> lists);
 // The table argument of a call such as box{ ... }, or a table inside it.
 class Arguments {
  public:
-  // Reports unknown and missing keys immediately. `label`: name of the table in messages, "box" or "box: initial".
-  Arguments(Context& context, lua_State* lua, int index, std::string label, Place place, const Keys& keys);  // `keys` must outlive this object
+  // Reports unknown and missing keys immediately. `label`: name of the table in messages, "box" or "box: initial". `keys` must outlive
+  // this object.
+  Arguments(Context& context, lua_State* lua, int index, std::string label, Place place, const Keys& keys);
 
   bool has(const std::string& key) const;
   template <class T>
@@ -86,9 +87,9 @@ class Arguments {
   void read(const std::string& key, std::vector<std::vector<int>>& into);       // lists of indices, converted from base 1 to base 0
   void direction(const std::string& key, Vec3& into);                           // "x", "y", "z" or a vector, normalised
   std::optional<Law> law(const std::string& key);
-  std::optional<Wave> wave(const std::string& key);  // a wave value, or a number for a constant wave
+  std::optional<Wave> wave(const std::string& key);                                  // a wave value, or a number for a constant wave
   std::optional<Wave> wave(const std::string& key, double duration, double sample);  // also a Lua function, sampled up to `duration` (s)
-  int function(const std::string& key);              // reference in the registry; LUA_NOREF if the key is absent
+  int function(const std::string& key);  // reference in the registry; LUA_NOREF if the key is absent
   bool is_function(const std::string& key) const;
   bool is_table(const std::string& key) const;
   bool is_number(const std::string& key) const;

@@ -20,7 +20,7 @@ struct Limits {
   size_t all_bytes = size_t{2} << 30;  // with the memory of the scene outside Lua: blocks, waves
   // State of the limits
   size_t used = 0;
-  bool capped = true;  // off while C++ objects are alive, so that no memory error of Lua jumps over their destructors
+  bool capped = true;   // off while C++ objects are alive, so that no memory error of Lua jumps over their destructors
   double deadline = 0;  // s, processor time of this process
   std::atomic<bool> expired = false;
   std::mutex mutex;   // guards `doing`

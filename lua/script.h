@@ -45,7 +45,7 @@ class Script {
     std::string quality = {};          // takes precedence over the quality of analysis{}; "": none is given
     std::vector<std::string> allow = {};  // folders it may read besides its own
     int most_blocks = Scene().most_blocks, most_points = Scene().most_points;  // limits of a scene
-    double noise = 0;                  // m and rad, noise in the initial state of every free block: start_noise of the script
+    double noise = 0;  // m and rad, noise in the initial state of every free block: start_noise of the script
   };
   Script();
   explicit Script(const Options& options);
@@ -62,7 +62,7 @@ class Script {
   Scene take_scene();  // scene() with its blocks, which the script gives up
   const std::vector<Study>& studies() const;
   const std::vector<Figure>& figures() const;
-  const ParamFamily& family() const;  // without values if the scene declares none
+  const ParamFamily& family() const;               // without values if the scene declares none
   const std::vector<std::string>& output() const;  // lines the script has printed
   // Entries of masonry_functions, the functions written in Lua (walls, arches): name, help, keys.
   Json lua_functions();

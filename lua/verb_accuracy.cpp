@@ -136,7 +136,8 @@ int whole_study(const Options& options) {
     if (entry.path().extension() == ".lua" && entry.path().filename().string().starts_with("p")) scenes.push_back(entry.path().string());
   std::sort(scenes.begin(), scenes.end());
   const size_t problems = scenes.size();
-  for (const auto& entry : fs::directory_iterator(fs::absolute(folder).lexically_normal().parent_path()))  // for the table of qualities only
+  // further scenes for the table of qualities
+  for (const auto& entry : fs::directory_iterator(fs::absolute(folder).lexically_normal().parent_path()))
     if (entry.path().filename().string().ends_with("_quality.lua")) scenes.push_back(fs::relative(entry.path()).string());
   std::sort(scenes.begin() + static_cast<std::ptrdiff_t>(problems), scenes.end());
   if (problems == 0) throw Error(fmt::format("{} holds no problem p1_... of the study", folder));

@@ -241,7 +241,8 @@ int no_room(const WriteError& trouble, const std::string& directory) {
 
 int verb_run(const Options& options) {
   if (options.words.size() != 1) throw Error(fmt::format("run takes one scene, not {}; erbs test runs several", options.words.size()));
-  const auto no_option = [](const std::string& name) { return name.starts_with("-") ? "./" + name : name; };  // a path that begins with "-" would be an option to other programs
+  // a path that begins with "-" would be an option to other programs
+  const auto no_option = [](const std::string& name) { return name.starts_with("-") ? "./" + name : name; };
   const std::string path = no_option(options.words.front());
   if (options.video) check_programs({renderer_path(), "ffmpeg"});
   Script::Options how = script_options(options, options.quiet);
