@@ -45,7 +45,7 @@ metric("uneven", "", function(run)
     local f = -run.mean(name .. "_normal_N")
     least, most, sum = math.min(least, f), math.max(most, f), sum + f
   end
-  return (most - least) / (sum / #tops)
+  return (most - least) / (sum / #tops)  -- sum F dt = m (v - v0) + m int a dt of the supports: its relative error, as the run reports it
 end)
 metric("momentum_error", "", function(run)  -- impulse of the supports, relative: sum F dt = m (v - v0) + m Int a dt is left to the ledger
   return run.momentum_residual

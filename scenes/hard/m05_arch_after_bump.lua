@@ -1,9 +1,11 @@
 -- Hard case: a dry arch comes to rest after a bump
 --
--- What happens   The abutments of a round dry arch drop for 50 ms. Its voussoirs part, hop and settle; then nothing moves any more.
--- Source         An arch thicker than .1075 of its radius stands under its own weight (Milankovitch); below the angle of friction joints stick.
+-- What happens   The abutments of a round dry arch drop for 50 ms. Its voussoirs separate, hop and settle; then nothing moves any more.
+-- Source         An arch thicker than 0.1075 of its radius stands under its own weight (Milankovitch); below the angle of friction joints
+--                stick.
 -- How to run     erbs run scenes/hard/m05_arch_after_bump.lua [-D voussoirs=21] [-D thickness=0.3] [-D kn=...] [-D sideways=1]
--- What to look at  drift (of the radius, per second, in the last half second, swings cancelled out; 0: all come to rest), sag of the crown (m), energy.residual_relative.
+-- What to look at  drift (over the radius, per second, in the last half second, without vibration; 0: all come to rest), sag of the crown
+--                (m), energy.residual_relative.
 local voussoirs, radius, thickness = param("voussoirs", 11, ""), param("radius", 1, "[m]"), param("thickness", 0.2, "of the radius")
 local kn, mu = param("kn", 1e10, "[Pa/m]"), param("mu", 0.6, "")
 local amplitude, sideways = param("amplitude", 1.2 * g, "[m/s2]"), param("sideways", 0, "1: the bump comes sideways")

@@ -1,5 +1,5 @@
--- How fast a block walks while nothing shakes it any more: its speed (m/s) between the last two of three neighbouring windows (s); and whether it
--- comes to rest, less than half as fast as between the first two. Means are weighted as Hann did, so that what only swings cancels out.
+-- How fast a block walks when nothing shakes it any more. Returns its speed (m/s) between the last two of three neighbouring windows (s),
+-- and whether it comes to rest: less than half as fast as between the first two. Means have Hann weights, so that vibrations cancel out.
 return function(run, name, window)
   local times, now, before = run.time, 0, 0
   local last = times[#times]
