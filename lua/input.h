@@ -1,5 +1,5 @@
-// Files that a script names. A scene may read in its own folder, in the folder `scenes` around it if there is one, and in the
-// folders that the command line allows (--allow DIR). No absolute path, `..` or link leads out of them.
+// Files that a script names. A scene may read in its own folder and in the folder `scenes` around it, if there is one. The command line may
+// allow further folders (--allow DIR). No absolute path, `..` or link leads out of them.
 #pragma once
 #include <filesystem>
 #include <string>

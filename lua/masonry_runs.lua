@@ -185,9 +185,9 @@ local function note_joint(masonry, below, u, width)
   end
 end
 
--- Lengthens one end of a lintel. A lintel rests on each jamb by at least the bearing. It grows by up to a quarter brick in two cases:
--- whole bricks then fit beside it (its end at a joint of the pattern, or n bricks from the neighbour), or its end would otherwise lie
--- too close to a joint beneath. side: -1 left end, +1 right end; far: end of the stretch beside it.
+-- Lengthens one end of a lintel. A lintel rests on each jamb by at least the bearing. It grows by up to a quarter brick in two cases: whole
+-- bricks then fit beside it (its end at a joint of the pattern, or n bricks from the neighbour); its end would otherwise lie too close to a
+-- joint beneath. side: -1 left end, +1 right end; far: end of the stretch beside it.
 local function lengthen_lintel(masonry, lintel, side, far, below, pattern)
   local own = side < 0 and lintel.lo or lintel.hi
   local pitch, found, least = masonry.full + masonry.t, own, math.huge

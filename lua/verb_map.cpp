@@ -28,8 +28,8 @@ using Verdict = MapRun::Verdict;
 // least been tried.
 constexpr double shares[] = {0.001, 0.005, 0.05, 0.25, 1};
 // A sweep is judged to generate its own motion in two cases: its ledger lacks half of the energy that passed through, or joints and
-// contacts have lost a thousand times the energy that the structure holds and was given. The second criterion is needed because beyond
-// a limit joints may crack and rub so much that the ledger looks better again.
+// contacts have lost a thousand times the energy of the structure and its loads. The second criterion is needed because beyond a limit
+// joints may crack and rub so much that the ledger looks better again.
 constexpr double wrong_ledger = 0.5, too_much_lost = 1000;
 
 // Displacements relative to the ground take precedence, because Fig. 6 of Gu and Miao shows them.

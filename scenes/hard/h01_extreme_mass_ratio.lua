@@ -55,6 +55,6 @@ end)
 -- Rows are read by straight lines, 200 per cycle, over `cycles` cycles; the step is at most a thousandth of the period.
 expect("metrics.period_ratio", 1, { abs = 1e-5, source = "slow mode of the three masses" })
 -- The rider lags by m w^2 / k of the motion and starts from exactly the same place: twice that. Noise in the start displaces the rider by
--- up to twice the noise of one block, and it vibrates on its own spring by as much for ever.
+-- up to twice the noise of one block. It then vibrates on its own spring by as much for ever.
 expect("metrics.rider_error", 4 * m_light * w ^ 2 / k + 1e-9 + 2 * start_noise / 1e-6, { below = true, source = "m w^2 / k" })
 expect("energy.residual_relative", 1e-6, { below = true, source = "elastic gate" })

@@ -1,8 +1,8 @@
 -- H13: fracture energies too small for the stiffness (snap-back): the joint drops to zero at its peak.
 --
 -- What happens   At its peak a joint in tension stores ft^2 / (2 kn) per area, a joint in shear c^2 / (2 ks). With a smaller fracture
---                energy the softening line would lead back to smaller openings (snap-back). The program warns when it reads the scene and
---                lets the joint fail at the peak with all its stored energy instead of the given one. With a larger fracture energy the
+--                energy the softening line would lead back to smaller openings (snap-back). The program warns when it reads the scene. The
+--                joint then fails at the peak and takes all its stored energy instead of the given one. With a larger fracture energy the
 --                joint follows the line and takes the given energy.
 -- Source         Bazant and Cedolin, Stability of Structures, 1991, chapter 13; Gf < ft^2 t / (2 E) with kn = E / t.
 -- How to run     erbs check scenes/hard/h13_snap_back.lua (to read the warnings); erbs run scenes/hard/h13_snap_back.lua

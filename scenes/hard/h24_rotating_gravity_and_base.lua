@@ -2,7 +2,7 @@
 --
 -- What happens   A bonded wall is tilted by five degrees at 0.15 degrees per second. A rotating base adds centripetal and Euler
 --                accelerations; rotating gravity changes the potential of the weight. In both cases the kinetic energy must stay below 1e-4
---                of the change of potential energy, the reaction must equal the weight in the axes of the wall, and the ledger must close.
+--                of the change of potential energy. The reaction must equal the weight in the axes of the wall, and the ledger must close.
 -- Source         equilibrium at each angle.
 -- How to run     erbs run scenes/hard/h24_rotating_gravity_and_base.lua [-D gravity_turns=1] [-D rate=0.3*deg]
 -- What to look at  kinetic_over_potential (grows with the square of the rate), reaction_error, energy.residual_relative, gravity_most (the

@@ -1,9 +1,9 @@
 -- V17 for beds that yield in compression: eccentric pressure on a section without tension, with a compressive strength fc.
 --
 -- What happens   Held blocks are pressed to N and rotated at constant N: the pressure is max(0, min(fc, kn (c - theta x))), x from the toe.
---                Then they are lifted along the elastic line until no pressure is left, rotated back, and pressed again on the bed that the
---                crushed toe has left. The blocks with the least pressure are then rotated the other way, where the other toe must behave
---                like the first. Free blocks carry N at e and must find their rotation in the static start.
+--                Then they are lifted along the elastic line until no pressure is left, and rotated back. They are pressed again on the bed
+--                that the crushed toe has left. The blocks with the least pressure are then rotated the other way, where the other toe must
+--                behave like the first. Free blocks carry N at e and must find their rotation in the static start.
 -- Source         With n = N / (fc B), d = fc / (kn theta) and the toe crushed over b = n - d/2: M = N (H - n)/2 - fc B d^2 / 24. This tends
 --                to the rigid-plastic N (H/2) (1 - N / (fc A)); crushing has taken fc B theta b^2 / 2. Far below fc: V17.
 -- How to run     erbs run scenes/verify/v17_crushing.lua [-D side=...] [-D kn=...] [-D fc=...] [-D slimmest=0.02]

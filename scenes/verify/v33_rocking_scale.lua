@@ -1,8 +1,8 @@
 -- V33: of two blocks of the same shape the larger rocks more slowly by the square root of the scale, and otherwise alike.
 --
--- What happens   A block and a block `scale` times as large get the same half sine in units of their own g tan(alpha) and p, as inertia
---                forces, near the amplitude that overturns. theta of the larger at sqrt(scale) t equals theta of the smaller at t. So their
---                overturning amplitudes at equal omega/p are equal, and the larger one needs a longer pulse: the scale effect.
+-- What happens   A block and a block `scale` times as large get the same half sine of inertia forces, in units of their own g tan(alpha)
+--                and p. Its amplitude is near the one that overturns. theta of the larger at sqrt(scale) t equals theta of the smaller at
+--                t. So their overturning amplitudes at equal omega/p are equal, and the larger one needs a longer pulse: the scale effect.
 -- Source         Housner 1963: p = sqrt(3 g / (4 R)), and nothing else in the dimensionless equation.
 -- How to run     erbs run scenes/verify/v33_rocking_scale.lua [-D scale=4] [-D w=3] [-D share=0.97]
 -- What to look at  falls_ratio: overturning amplitude of one over that of the other; difference: largest of theta / alpha; time_ratio: of

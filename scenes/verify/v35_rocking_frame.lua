@@ -1,8 +1,8 @@
 -- V35: two columns under a beam rock like one block with a smaller p.
 --
 -- What happens   The columns stand tilted by theta and carry the beam on their upper corners. Released, they reach their first impact after
---                a quarter of the period of a block of their alpha with p_hat = p sqrt((1 + 2 gamma) / (1 + 3 gamma)), gamma the mass of
---                the beam over that of the columns. A heavier beam is slower, but never below 0.816 p.
+--                a quarter of the period of a block of their alpha. This block has p_hat = p sqrt((1 + 2 gamma) / (1 + 3 gamma)), gamma the
+--                mass of the beam over that of the columns. A heavier beam is slower, but never below 0.816 p.
 -- Source         Makris and Vassiliou 2013 (EESD 42, 371); exact equation by rocking{ p = p_hat }.
 -- How to run     erbs run scenes/verify/v35_rocking_frame.lua [-D phi=0.3] [-D columns=4]
 -- What to look at  quarter_*: time of the first impact over the formula, for several masses of the beam.

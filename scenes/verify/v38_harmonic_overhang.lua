@@ -6,9 +6,9 @@
 -- How to run     erbs run scenes/verify/v38_harmonic_overhang.lua [-D kn=...] [-D blocks_4=1.002]
 -- What to look at  *_over_paper: overhang found over that on paper.
 --
--- In the last stable pose the weight N lies above an edge that is pressed in over a length a with a^3 = 12 h N / (kn depth), h the height
--- of the weight over the edge. Its resultant is a/3 inside, and the lowest of n joints feels 2n times that: thin light blocks on a stiff
--- bed keep it below 0.2 %.
+-- In the last stable pose the weight N lies above an edge. The edge is pressed in over a length a with a^3 = 12 h N / (kn depth), h the
+-- height of the weight over the edge. Its resultant is a/3 inside, and the lowest of n joints feels 2n times that: thin light blocks on a
+-- stiff bed keep it below 0.2 %.
 local kn = param("kn", 4e12, "[Pa/m]")
 local length, height, depth, density = 1, 0.05, 0.5, 1000
 material { name = "stone", density = density, kn = kn, ks = 0.4 * kn, friction = 0.7 }

@@ -11,7 +11,7 @@
 -- Damping: without damping, blocks that slide on each other under load flutter (v10_flutter.lua), and the wall may walk apart at loads as
 -- low as 0.95, at random. The dashpots of dry joints that have opened or slid prevent this. A wall that moves travels some distance before
 -- it stands again (3 mm at 0.98), so only a centimetre counts. Stiffness: the compressed toes of a wall that rotates off cost 1.6 % of the
--- load at 1e12, 1.1 % at 4e12 and 0.7 % at 1.6e13, as the cube root of the softness, which V30 has on paper.
+-- load at 1e12, 1.1 % at 4e12 and 0.7 % at 1.6e13. They follow the cube root of the softness, as V30 has it on paper.
 local kn, kn_sliding = param("kn", 4e12, "of walls that turn off [Pa/m]"), param("kn_sliding", 1e12, "of those that slide [Pa/m]")
 local mu = 0.6
 

@@ -1,9 +1,9 @@
 -- V46: natural frequencies of a cantilever wall of rigid blocks, from the spectrum of its response to an impulse.
 --
 -- What happens   Walls of 5 to 40 blocks get a push on their top block. The peaks of the spectrum of the tip are compared with the exact
---                frequencies of the chain (transfer matrices, lib_block_beam.lua), shifted by leapfrog's (w dt)^2 / 24, and these with
---                Timoshenko's beam. The joint at the base must be twice as stiff (half the tributary length); otherwise the error is of
---                first order in 1/N. Too few or misplaced contact points leave an error that no refinement removes.
+--                frequencies of the chain (transfer matrices, lib_block_beam.lua), shifted by leapfrog's (w dt)^2 / 24. These are compared
+--                with Timoshenko's beam. The joint at the base must be twice as stiff (half the tributary length); otherwise the error is
+--                of first order in 1/N. Too few or misplaced contact points leave an error that no refinement removes.
 -- Source         Timoshenko beam, kappa 5/6: 8.451, 50.773, 133.95 Hz for L 3, h 0.3, E 5e9, nu 0.2, rho 2000; here the chain of 1600
 --                blocks is the limit.
 -- How to run     erbs run scenes/verify/v46_cantilever_wall.lua [-D length=4] [-D height=0.4] [-D E=2e9] [-D time=8]

@@ -2,7 +2,7 @@
 -- hinges. By the upper bound theorem the least one is the answer if there is no tension and no sliding (Heyman 1966). The load acts to +x.
 --
 -- Hinges lie at joints i < j < k < l, alternating between the inner and the outer edge. The first and the last part rotate about the hinges
--- at the abutments, the middle part about the intersection of the lines through them (virtual work of three bars):
+-- at the abutments. The middle part rotates about the intersection of the lines through them (virtual work of three bars):
 --   lambda = -(work of the weights) / (work of the weights turned to the side)
 local function ring(n, t, embrace)
   local joints = {}
