@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* did_not_fit = "not run: the time of all was up";
+constexpr const char* did_not_fit = "not run: the time limit of the study was reached";
 
 bool has_setting(const std::string& key) {
   const auto fields = Analysis::fields();

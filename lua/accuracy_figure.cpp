@@ -109,7 +109,7 @@ void draw_accuracy(const AccuracyStudy& s, const std::string& path) {
                         gnuplot_quoted(fmt::format("What accuracy costs: {}", s.name)));
   script += fmt::format("set label 2 {} at screen 0.03,0.925 left noenhanced tc rgb '#555555'\n",
                         gnuplot_quoted(fmt::format("{} = {:.6g} {} by {}{}", words_of(q.name), q.reference, q.unit, q.from,
-                                                   q.uncertainty > 0 ? fmt::format(", uncertain by {:.1g}", q.uncertainty) : "")));
+                                                   q.uncertainty > 0 ? fmt::format(", uncertainty {:.1g}", q.uncertainty) : "")));
   const auto place = [&](double from, double to, const char* x, const std::string& y) {
     return fmt::format(
         "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen 0.11\nset tmargin at screen 0.88\nset xlabel '{}'\n"

@@ -29,7 +29,7 @@ Keys placed_keys() {
   Keys keys = keys_of<Block>();
   keys.push_back({"material", "string", "", "name of its material (default: the only one there is)"});
   keys.push_back({"rotation", "vec3", "rad", "rotation vector about the centroid", -100, 100, false, "", "{ 0, 0, 0 }"});
-  keys.push_back({"initial", "initial", "", "how it starts: { position, rotation, velocity, spin, about }"});
+  keys.push_back({"initial", "initial", "", "initial state: { position, rotation, velocity, spin, about }"});
   return keys;
 }
 
@@ -85,9 +85,10 @@ Vec3 centroid_of(const std::vector<Polyhedron>& parts) {
 int add_block(Call& call, Arguments& arguments, std::vector<Polyhedron> parts, const char* kind) {
   Context& context = call.context;
   if (context.scene.blocks.size() >= static_cast<size_t>(context.scene.most_blocks))
-    throw Error(fmt::format("a scene holds at most {} blocks; build fewer, or say --max-blocks with what the memory bears (about 4 KiB each)",
-                            context.scene.most_blocks),
-                call.place);
+    throw Error(
+        fmt::format("a scene holds at most {} blocks; build fewer, or raise the limit with --max-blocks (about 4 KiB of memory each)",
+                    context.scene.most_blocks),
+        call.place);
   Block block;
   block.place = call.place;
   arguments.read(block);
@@ -321,11 +322,11 @@ int transform(Call& call) {
 
 std::vector<Function> block_functions() {
   const Keys placed = placed_keys();
-  const Key at{"at", "vec3", "m", "moves the shape by this", -far, far, false, "", "{ 0, 0, 0 }"};
+  const Key at{"at", "vec3", "m", "displacement of the shape", -far, far, false, "", "{ 0, 0, 0 }"};
   const std::string name = "string: the name of the block";
   return {
       {"material", material, "{ ... }", "string: its name",
-       "What blocks are made of, and how they behave as debris: where two meet the lesser friction and the lesser restitution count.",
+       "A material of blocks, and its behaviour as debris. Between two materials the smaller friction and the smaller restitution apply.",
        keys_of<Material>()},
       {"box", box, "{ ... }", name, "A rectangular block.",
        joined({{{"size", "vec3", "m", "lengths along x, y, z", 1e-6, far, true, "", ""},
@@ -346,17 +347,17 @@ std::vector<Function> block_functions() {
                 at},
                placed})},
       {"mesh", mesh, "{ ... }", name, "A block from a file (OBJ, STL, PLY, glTF); each mesh in it is one convex part.",
-       joined({{{"file", "string", "", "path in the folder of the scene, or in one of --allow", -unbounded, unbounded, true, "", ""},
-                {"scale", "number", "", "factor on its coordinates, to metres", 1e-9, 1e9, false, "", "1"},
+       joined({{{"file", "string", "", "path, in the folder of the scene or in a folder of --allow", -unbounded, unbounded, true, "", ""},
+                {"scale", "number", "", "factor that converts its coordinates to metres", 1e-9, 1e9, false, "", "1"},
                 at},
                placed})},
       {"ground",
        ground,
        "{ ... }",
        name,
-       "A fixed plate to stand and fall on.",
+       "A fixed plate as the ground.",
        {{"z", "number", "m", "height of its top", -far, far, false, "", "0"},
-        {"size", "number", "m", "length of its sides; what falls beyond them falls for ever", 1e-3, far, false, "", "20"},
+        {"size", "number", "m", "length of its sides; blocks that fall beyond them never land", 1e-3, far, false, "", "20"},
         {"depth", "number", "m", "thickness of the plate", 1e-3, far, false, "", "1"},
         {"material", "string", "", "name of its material (default: its own, with the defaults of material)"},
         {"friction", "number", "", "coefficient of friction, instead of its material's", 0, 10, false, "", ""},
@@ -366,12 +367,12 @@ std::vector<Function> block_functions() {
        transform,
        "{ ..., function() ... end }",
        "any: what the function returns",
-       "Places everything built inside the function rigidly: x -> about + rotation (x - about) + at; initial velocities, spins and "
-       "directions of loads turn with it.",
-       {{"1", "function", "", "builds; called at once", -unbounded, unbounded, true, "", ""},
+       "Moves everything that is built inside the function as a rigid body: x -> about + rotation (x - about) + at. Initial velocities, "
+       "spins and directions of loads rotate with it.",
+       {{"1", "function", "", "function that builds; it is called immediately", -unbounded, unbounded, true, "", ""},
         {"at", "vec3", "m", "shift, after the rotation", -far, far, false, "", "{ 0, 0, 0 }"},
         {"rotation", "vec3", "rad", "rotation vector", -100, 100, false, "", "{ 0, 0, 0 }"},
-        {"about", "vec3", "m", "point the rotation leaves in place", -far, far, false, "", "{ 0, 0, 0 }"}}},
+        {"about", "vec3", "m", "centre of the rotation", -far, far, false, "", "{ 0, 0, 0 }"}}},
   };
 }
 

@@ -40,7 +40,7 @@ void print_bench_row(const Json& row) {
     say("  {:.2f} million pairs/s, {:.3g} CPU s a simulated s", 1e-6 * number(row, "one_thread.pairs_per_s"),
                number(row, "one_thread.cpu_s_per_s"));
   say("  two threads {:.2f}x{}\n", number(row, "two_threads_over_one"),
-             row["same_bits_with_two_threads"].get<bool>() ? "" : ", OTHER BITS");
+      row["same_bits_with_two_threads"].get<bool>() ? "" : ", RESULTS DIFFER");
   std::fflush(stdout);
 }
 
@@ -85,7 +85,7 @@ void write_bench_figure(const Json& rows, const std::string& path) {
                         value("broken.ns_per_point"), value("roofline.least_ns_per_point"));
   }
   text +=
-      "END\nset datafile missing '-'\nset xtics noenhanced\nplot $bench using 2:xtic(1) title 'reference, sound' lc rgb '#9a9a9a', '' "
+      "END\nset datafile missing '-'\nset xtics noenhanced\nplot $bench using 2:xtic(1) title 'reference, intact' lc rgb '#9a9a9a', '' "
       "using 3 title "
       "'kernel' lc rgb '#2f6b8f', '' using 4 title 'kernel, all joints broken' lc rgb '#b5432e', '' using 5 title 'limit of the machine' "
       "lc rgb "

@@ -166,11 +166,20 @@ std::string failures(const std::vector<Family>& families) {
 
 std::vector<Family> families_of(const std::vector<CaseResult>& results) {
   std::vector<Family> all = {
-      {"b1", "B1 exact", "Numbers that follow from a formula without a doubt.", {}, 0, 0, 0, "", 0, 0},
-      {"b2", "B2 rocking", "Rigid blocks that rock, against the integrated equations of Housner's block.", {}, 0, 0, 0, "", 0, 0},
+      {"b1", "B1 exact", "Numbers that follow exactly from a formula.", {}, 0, 0, 0, "", 0, 0},
+      {"b2", "B2 rocking", "Rigid rocking blocks, compared with the integrated equations of Housner's block.", {}, 0, 0, 0, "", 0, 0},
       {"b3", "B3 statics by dynamics", "Limit loads found by growing loads slowly, or by bisection.", {}, 0, 0, 0, "", 0, 0},
       {"b4", "B4 elastic dynamics", "Frequencies and modes of elastic structures.", {}, 0, 0, 0, "", 0, 0},
-      {"hard", "Hard cases", "What breaks such programs, with the invariant that proves that it does not.", {}, 0, 0, 0, "", 0, 0},
+      {"hard",
+       "Hard cases",
+       "Situations in which such programs fail, each with an invariant that this one must keep.",
+       {},
+       0,
+       0,
+       0,
+       "",
+       0,
+       0},
       {"more", "Further cases", "Loads, records, and comparisons of the program with itself.", {}, 0, 0, 0, "", 0, 0}};
   for (const CaseResult& result : results) {
     Family& f = all[family_index(result)];
@@ -247,22 +256,20 @@ void write_book(const std::vector<CaseResult>& results, const Options& options, 
   const std::vector<Family> families = families_of(results);
   const std::string summary = summary_line(families);
   std::string text = "# Verification book\n\n";
-  text += fmt::format("Written by `erbs test {}{} --book {}`, never typed: {}, {}, {} on {} processors, with erbs {}.\n\n",
-                      fmt::join(options.words, " "), options.quick ? " --quick" : "", fs::proximate(book).generic_string(),
-                      duration_text(wall), machine_isa(),
-                      options.jobs > 0 ? fmt::format("{} runs at a time", options.jobs) : "as many runs at a time as there are",
-                      usable_processors(), program_version());
-  text += "**" + summary + "**\n\n" + overview(families) + "\n";
   text +=
-      "The share is the error over its tolerance: 1 is the end of what is allowed. Cost: seconds of processor and contact points "
-      "evaluated.\n";
+      fmt::format("Written by `erbs test {}{} --book {}`, never edited by hand: {}, {}, {} on {} processors, with erbs {}.\n\n",
+                  fmt::join(options.words, " "), options.quick ? " --quick" : "", fs::proximate(book).generic_string(), duration_text(wall),
+                  machine_isa(), options.jobs > 0 ? fmt::format("{} runs at a time", options.jobs) : "one run per processor",
+                  usable_processors(), program_version());
+  text += "**" + summary + "**\n\n" + overview(families) + "\n";
+  text += "The share is the error over its tolerance; 1 is the limit. Cost: processor seconds and evaluations of contact points.\n";
   if (fs::exists(folder / "grid.md"))
-    text += "The hard cases at other steps, other numbers of contact points and with noise in the start: [the grid](grid.md).\n";
+    text += "The hard cases at other steps and numbers of contact points, with noise in the initial state: [the grid](grid.md).\n";
   text += "\n## What fails\n" + failures(families) + "\n" + endings_table;
   for (const Family& f : families) {
     const std::string figure = (media / ("book_" + f.key + ".svg")).string();
     draw_family(f, figure);
-    text += fmt::format("\n<a name=\"{}\"></a>\n## {}\n{}\n\n![{}]({})\n\n{}\n{}### Sources, and causes of the tolerances\n{}", f.key,
+    text += fmt::format("\n<a name=\"{}\"></a>\n## {}\n{}\n\n![{}]({})\n\n{}\n{}### Sources and reasons of the tolerances\n{}", f.key,
                         f.title, f.about, "error over tolerance by case", relative_link(book, figure), table_of(f),
                         figures_of(f, book, media), sources_of(f, book));
   }

@@ -8,7 +8,7 @@ namespace erbs {
 
 struct Cost {
   double least, most;      // s on one core
-  std::string least_text;  // condition of `least`: "if all joints stay sound", ...
+  std::string least_text;  // condition of `least`: "if all joints stay intact", ...
   std::string most_text;   // condition of `most`
   double cracked = 0;      // s, if all joints crack and no block comes loose; 0: `most` says the same
 };

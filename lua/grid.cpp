@@ -217,9 +217,9 @@ Grid worst_of(const std::vector<Variant>& variants) {
     }
     for (const Verdict& verdict : v.result.verdicts) add(row_of(v.scene_name, verdict.key), v, verdict);
     Verdict run;
-    run.expected = "ends well";
+    run.expected = "completes";
     run.passed = v.result.trouble.empty();
-    run.got = run.passed ? "it does" : v.result.trouble;
+    run.got = run.passed ? "completed" : v.result.trouble;
     run.used = run.passed ? 0 : 1e300;
     add(row_of(v.scene_name, "(run)"), v, run);
   }
@@ -230,8 +230,8 @@ std::string summary_of(const Grid& grid) {
   const auto failed = std::count_if(grid.rows.begin(), grid.rows.end(), [](const Worst& w) { return !w.failed.empty(); });
   std::string text = fmt::format("{} runs, {} invariants: {} hold on the whole grid, {} do not", grid.runs, grid.rows.size(),
                                  grid.rows.size() - static_cast<size_t>(failed), failed);
-  if (!grid.refused.empty()) text += fmt::format("; {} runs refused by a limit that the scene states", grid.refused.size());
-  if (grid.missing > 0) text += fmt::format("; {} runs are still to be made", grid.missing);
+  if (!grid.refused.empty()) text += fmt::format("; {} runs refused by a limit of the scene", grid.refused.size());
+  if (grid.missing > 0) text += fmt::format("; {} runs are still missing", grid.missing);
   return text;
 }
 
@@ -250,21 +250,21 @@ void print(const Grid& grid) {
   for (const Worst& w : grid.rows)
     if (!w.failed.empty()) say("{} {} fails at {}\n", w.scene, w.key, fmt::join(w.failed, "; "));
   for (const auto& text : grid.refused) say("refused: {}\n", text);
-  say("{} ({} of processor)\n", summary_of(grid), duration_text(grid.cpu));
+  say("{} ({} of processor time)\n", summary_of(grid), duration_text(grid.cpu));
   std::fflush(stdout);
 }
 
 void write_page(const Grid& grid, const Options& options, double wall) {
   std::string text = "# The hard cases over a grid of settings\n\n";
   text += fmt::format(
-      "Written by `erbs test {} --grid --book {}`, never typed: {} of processor{}, erbs {}. Every scene is run at 0.2, 0.5 "
-      "and 0.9 of the limit of the time step, with 4, 9 and 25 contact points per joint, and with noise of {:g} (m, rad) in the start of "
-      "every free block, since exact symmetry hides instabilities. Scenes that fix their step keep it, those without joints their points. "
-      "A scene that declares a family is run at 0.25, 0.5 and 0.9 of the limit, and at its default step with each value of the family and "
-      "some combinations. "
+      "Written by `erbs test {} --grid --book {}`, never edited by hand: {} of processor time{}, erbs {}. Every scene runs at "
+      "0.2, 0.5 and 0.9 of the limit of the time step, with 4, 9 and 25 contact points per joint. Noise of {:g} (m, rad) in the initial "
+      "state of every free block reveals instabilities that exact symmetry would hide. A scene with a fixed step keeps it; a scene without "
+      "joints has no points to vary. A scene with a family runs at 0.25, 0.5 and 0.9 of the limit, and at its default step with each value "
+      "of the family and some combinations. "
       "Each row is the worst value of one invariant over these runs.\n\n**{}**\n\n",
       fmt::join(options.words, " "), fs::proximate(options.book).generic_string(), duration_text(grid.cpu),
-      wall > 0 ? fmt::format(", {} of the clock", duration_text(wall)) : "", program_version(), noise, summary_of(grid));
+      wall > 0 ? fmt::format(", {} of wall-clock time", duration_text(wall)) : "", program_version(), noise, summary_of(grid));
   text += "| case | invariant | bound | worst | share of the bound | at | runs | verdict |\n|---|---|---|---|---|---|---|---|\n";
   std::string last;
   for (const Worst& w : grid.rows) {
@@ -273,7 +273,7 @@ void write_page(const Grid& grid, const Options& options, double wall) {
                         !w.failed.empty() ? fmt::format("**failed in {}**", w.failed.size()) : "ok");
     last = w.scene;
   }
-  if (!grid.refused.empty()) text += "\nRefused by a limit that the scene states:\n\n";
+  if (!grid.refused.empty()) text += "\nRefused by a limit of the scene:\n\n";
   for (const auto& refused : grid.refused) text += "- " + refused + "\n";
   write_text_atomically(options.book, text);
   const std::string readme = (fs::absolute(options.book).parent_path().parent_path() / "README.md").string();
@@ -312,7 +312,7 @@ int run_grid(const Options& given) {
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!options.book.empty()) write_page(grid, options, options.resume ? 0 : wall);  // of a resumed grid the total time is unknown
   if (grid.missing > 0) {
-    say("out of time; the same command with --resume makes the runs that are left\n");
+    say("out of time; the same command with --resume makes the remaining runs\n");
     return exit_stopped;
   }
   return std::any_of(grid.rows.begin(), grid.rows.end(), [](const Worst& w) { return !w.failed.empty(); }) ? exit_expectation : exit_ok;

@@ -24,7 +24,7 @@ std::string error_text(const Goal& q, const std::optional<double>& error) {
 void print_table(const AccuracyStudy& s) {
   const Goal& q = s.quantity();
   say("{}: {}\n{} = {:.8g} {} by {}{}\n\n", s.name, s.title, q.name, q.reference, q.unit, q.from,
-             q.uncertainty > 0 ? fmt::format(", uncertain by {:.2g}", q.uncertainty) : "");
+      q.uncertainty > 0 ? fmt::format(", uncertainty {:.2g}", q.uncertainty) : "");
   say("{:<22}  {:<32}  {:>14}  {:>12}  {:>9}  {:>12}\n", "knob", "setting", "value", "error", "cpu s", "evaluations");
   std::vector<std::size_t> order(s.all.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -42,10 +42,10 @@ void print_table(const AccuracyStudy& s) {
   for (const auto& text : s.not_applicable) say("{:<22}  not applicable\n", text);
   for (const Curve& c : curves_of(q, s.main, s.all))
     if (c.slope)
-      say("{}: its own error falls with the power {:.2f} of {}\n", c.knob, *c.slope,
-                 c.knob == "time step"          ? "dt"
-                 : c.knob.starts_with("points") ? "the spacing of points"
-                                                : "its size");
+      say("{}: the error falls with the power {:.2f} of {}\n", c.knob, *c.slope,
+          c.knob == "time step"          ? "dt"
+          : c.knob.starts_with("points") ? "the spacing of points"
+                                         : "its size");
 }
 
 // Answers --target and --budget: the setting, and the line to write into the scene.
@@ -53,8 +53,8 @@ int answer(const AccuracyStudy& s, const Options& options) {
   const Goal& q = s.quantity();
   const auto tell_of = [&](std::size_t i) {
     const Measured& m = s.all[i];
-    say("  {} costs {:.3g} s and errs by {}\n", m.setting.name, m.cpu, error_text(q, error_of(q, m.values[s.main])));
-    say("  {}\n", m.setting.line.empty() ? "nothing needs to be changed" : m.setting.line);
+    say("  {} costs {:.3g} s, with an error of {}\n", m.setting.name, m.cpu, error_text(q, error_of(q, m.values[s.main])));
+    say("  {}\n", m.setting.line.empty() ? "no change is needed" : m.setting.line);
   };
   int code = exit_ok;
   const std::vector<std::size_t> front = pareto(q, s.main, s.all, true);
@@ -188,8 +188,7 @@ int verb_accuracy(const Options& options) {
   say("{} runs, {} of processor, {} of the clock; {}/accuracy.csv, accuracy.svg, accuracy.png\n", s.all.size(), duration_text(s.cpu),
              duration_text(s.wall), directory);
   if (s.waiting > 0)
-    say("{} of them did not fit into {}; --resume makes them, --within 10m gives all more time\n", s.waiting,
-               duration_text(options.within));
+    say("{} of them did not fit into {}; --resume makes them, --within 10m allows more time\n", s.waiting, duration_text(options.within));
   const bool any = std::any_of(s.all.begin(), s.all.end(), [&](const Measured& m) { return m.values[s.main].has_value(); });
   const bool refused = std::all_of(s.all.begin(), s.all.end(), [](const Measured& m) { return m.reason.starts_with("exit code 2"); });
   return any ? code : refused ? exit_usage : exit_numbers;

@@ -128,7 +128,10 @@ Json child(const Case& item, const std::string& scenes, const std::string& direc
 int bench_scenes(const Options& options) {
   Json rows = Json::array();
   for (const auto& path : options.words) {
-    if (!options.quiet) tell(stderr, path + ": timing kernel and reference, sound and broken, with one thread and two; some minutes where blocks are many");
+    if (!options.quiet)
+      tell(
+          stderr,
+          path + ": timing kernel and reference with intact and with broken joints, on one and two threads; some minutes with many blocks");
     rows.push_back(measure(path, options, 1.5));
     if (!options.quiet) print_bench_row(rows.back());
     std::fflush(stdout);

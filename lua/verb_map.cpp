@@ -254,8 +254,8 @@ void carry_out(MapStudy& study, const Options& given, const std::string& key) {
 }
 
 void print_map(const MapStudy& study) {
-  say("{}: {:g} s from {:.4g} s on; 2/omega_max {:.4g} s, 2/omega_block {:.4g} s, the sweep feeds dt / 2 x {:.4g} 1/s2\n",
-             study.name, study.window, study.from, study.nominal.critical, study.nominal.block, study.nominal.feed);
+  say("{}: {:g} s from t = {:.4g} s; 2/omega_max {:.4g} s, 2/omega_block {:.4g} s, the sweep feeds dt / 2 x {:.4g} 1/s2\n", study.name,
+      study.window, study.from, study.nominal.critical, study.nominal.block, study.nominal.feed);
   int count[6] = {}, other = 0;
   for (const MapRun& r : study.all) {
     ++count[int(r.verdict)];
@@ -263,7 +263,7 @@ void print_map(const MapStudy& study) {
     const bool told = r.verdict != Verdict::waiting && r.verdict != Verdict::failed;
     const bool theory = foretold(r, study.nominal);
     if (!told || tame == theory || (r.verdict == Verdict::bounded && !theory)) continue;  // a run that is bounded so far may still diverge
-    if (++other == 1) say("where theory says otherwise:\n");
+    if (++other == 1) say("runs that contradict theory:\n");
     say("  {:<10} {:<8} stiffness x {:<4g} dt {:.4g} s ({}), c/m {:.4g} 1/s: {} at {:.4g} s\n",
                r.scheme.sequential ? "sequential" : "leapfrog", r.scheme.explicit_damping ? "explicit" : "centred", r.factor, r.dt, r.step,
                r.damping, word(r.verdict), r.until);
@@ -271,8 +271,8 @@ void print_map(const MapStudy& study) {
   std::string text;
   for (int v = 0; v < 6; ++v)
     if (count[v] > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count[v], word(Verdict(v)));
-  say("{} runs: {}; {} where theory says otherwise\n", study.all.size(), text, other);
-  if (count[0] + count[2] > 0) say("--resume --budget 60m goes on with those that are not at their end\n");
+  say("{} runs: {}; {} contradict theory\n", study.all.size(), text, other);
+  if (count[0] + count[2] > 0) say("--resume --budget 60m continues the unfinished runs\n");
 }
 
 }  // namespace

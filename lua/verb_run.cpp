@@ -71,9 +71,9 @@ std::string collapse_text(const Json& metrics) {
   const Json* direction = find_key(metrics, "collapse.direction");
   const std::string towards = direction && direction->is_array() && direction->size() >= 2
                                   ? fmt::format(" towards ({:+.2f}, {:+.2f})", (*direction)[0].get<double>(), (*direction)[1].get<double>())
-                                  : " in no one direction";
+                                  : " in no single direction";
   std::string text = under_gravity ? fmt::format("does not stand under its own weight; {:.0f} % of the mass fell by the end", 100 * share)
-                                   : fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass lies fallen at the end",
+                                   : fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass has fallen by the end",
                                                  number_at(metrics, "collapse.time_s"), towards, 100 * share);
   const Json* mechanism = find_key(metrics, "collapse.mechanism.summary");
   if (mechanism && mechanism->is_string() && *mechanism != "") text += "\nmechanism: " + mechanism->get<std::string>();
@@ -135,7 +135,7 @@ class Twin {
   // Runs the twin and notes the time at which it parts from the run. Returns "", or the reason why there is no such time.
   std::string compare(Json& metrics) const {
     const int code = wait_for(start(command_, twin_ + ".log"));
-    if (code != exit_ok) return "the twin gave nothing: " + last_words(twin_ + ".log", code, "");
+    if (code != exit_ok) return "the twin run failed: " + last_words(twin_ + ".log", code, "");
     const std::optional<double> parted = parting_time(run_, twin_, twin_apart);
     metrics["trust"]["twin"] = true;
     metrics["trust"]["chaos_horizon_s"] = parted ? Json(*parted) : Json();
@@ -186,7 +186,7 @@ void draw_curves(const std::string& directory) {
   try {
     if (run_renderer({directory, "--figures", "--quiet"}) == 0) return;
   } catch (const Error& error) { tell(stderr, error.what()); }
-  tell(stderr, fmt::format("warning: the curves are not drawn; erbs render {} --figures tries again", directory));
+  tell(stderr, fmt::format("warning: the curves could not be drawn; erbs render {} --figures draws them", directory));
 }
 
 // Work after the run itself: studies, twin, metrics and pictures. Returns the exit code.
@@ -199,7 +199,7 @@ int complete(Script& script, const std::string& path, const std::string& directo
   StudiesOutcome studies;
   if (whole && options.study.empty()) studies = run_studies(script, path, directory, options, interrupted);
   if (studies.interrupted) {
-    tell(stderr, "interrupted; the runs of its studies that are done are kept: go on with --resume");
+    tell(stderr, "interrupted; finished runs of the studies are kept: continue with --resume");
     return exit_interrupted;
   }
   if (whole && options.twin) {

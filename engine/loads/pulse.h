@@ -5,16 +5,16 @@
 namespace erbs {
 
 struct Pulse {
-  double amplitude = 0;         // in the unit of what it drives: m/s2, N, N m, rad or m
+  double amplitude = 0;         // in the unit of the load: m/s2, N, N m, rad or m
   double start = 0;             // s
   double duration = unbounded;  // s
 
   static constexpr std::string_view wave_name = "pulse";
   static Fields<Pulse> fields() {
     return {
-        {"amplitude", &Pulse::amplitude, "", "value inside, in the unit of what it drives", -unbounded, unbounded, true},
+        {"amplitude", &Pulse::amplitude, "", "value inside, in the unit of the load", -unbounded, unbounded, true},
         {"start", &Pulse::start, "s", "time of the rising edge", -1e9, 1e9},
-        {"duration", &Pulse::duration, "s", "how long it lasts (default: for ever, a step)", 0, unbounded},
+        {"duration", &Pulse::duration, "s", "duration (default: for ever, a step)", 0, unbounded},
     };
   }
 };
