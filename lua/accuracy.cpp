@@ -146,7 +146,7 @@ std::vector<Goal> quantities_of(const Script& script) {
   }
   if (all.empty())
     throw Error(
-        fmt::format("{} gives no number to be accurate in; add a metric, such as metric(\"drift\", \"m\", function(run) return "
+        fmt::format("{} has no number whose error can be measured; add a metric, such as metric(\"drift\", \"m\", function(run) return "
                     "run.peak(\"top_ux_rel_m\") end), or an expectation, such as expect(\"collapse.time_s\", 1.2, {{ rel = 0.01 }})",
                     scene.file));
   all.push_back({"energy.residual_relative", "", 0.0, 0, 0, ""});

@@ -31,7 +31,7 @@ bool takes_table(const Function& function) { return function.parameters.starts_w
 void Context::mistake(const Place& place, const std::string& message) {
   const std::string whole = place.file.empty() ? message : place.text() + ": " + message;
   if (std::find(mistakes.begin(), mistakes.end(), whole) != mistakes.end()) {  // the same line in a loop
-    if (++repeated >= 1000) throw Error("the same mistakes come again and again, more than 1000 times; the rest of the script was not read");
+    if (++repeated >= 1000) throw Error("the same mistakes occur more than 1000 times; the rest of the script was not read");
     return;
   }
   mistakes.push_back(whole);
@@ -44,8 +44,7 @@ void Context::took(size_t bytes) {
   calls = taken = 0;
   const auto heap = mallinfo2();
   if (heap.uordblks + heap.hblkhd > limits.all_bytes)
-    throw Error(fmt::format("what the scene builds needs more than {} MiB of memory; build less, or is a loop without end?",
-                            limits.all_bytes >> 20));
+    throw Error(fmt::format("the scene needs more than {} MiB of memory; build less, or does a loop never end?", limits.all_bytes >> 20));
 }
 
 Place current_place(lua_State* lua) {

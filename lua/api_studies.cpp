@@ -68,7 +68,7 @@ int converge(Call& call) {
   arguments.read("values", study.values);
   study.finest = arguments.has("value");
   if (study.finest == arguments.has("error"))
-    arguments.mistake("give one of error = function(run) (against what is known) and value = function(run) (against the finest run)");
+    arguments.mistake("give one of error = function(run) (against the known value) and value = function(run) (against the finest run)");
   std::vector<double> sorted = study.values;
   std::sort(sorted.begin(), sorted.end());
   if (sorted.size() < 2 || sorted.front() <= 0 || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())

@@ -37,8 +37,8 @@ void print_bench_row(const Json& row) {
   if (row.contains("intact_vs_reference"))
     say("  {:.1f}x reference (broken {:.1f}x)", number(row, "intact_vs_reference"), number(row, "broken_vs_reference"));
   if (number(row, "one_thread.touching") > 0)
-    say("  {:.2f} million pairs/s, {:.3g} CPU s a simulated s", 1e-6 * number(row, "one_thread.pairs_per_s"),
-               number(row, "one_thread.cpu_s_per_s"));
+    say("  {:.2f} million pairs/s, {:.3g} CPU s per simulated s", 1e-6 * number(row, "one_thread.pairs_per_s"),
+        number(row, "one_thread.cpu_s_per_s"));
   say("  two threads {:.2f}x{}\n", number(row, "two_threads_over_one"),
       row["same_bits_with_two_threads"].get<bool>() ? "" : ", RESULTS DIFFER");
   std::fflush(stdout);

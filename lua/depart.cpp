@@ -85,7 +85,7 @@ std::vector<std::string> depart(Scene& scene, const Options& options) {
   if (options.points > 0) {
     const int side = static_cast<int>(std::lround(std::sqrt(options.points)));
     if (side * side != options.points)
-      throw Error(fmt::format("--points {}: not a square number; write 4, 9, 16 or 25, of which half lie along each side", options.points));
+      throw Error(fmt::format("--points {}: not a square number; write 4, 9, 16 or 25 (2, 3, 4 or 5 along each side)", options.points));
     for (JointRule& rule : scene.joint_rules) rule.points_long = rule.points_short = side;
     notes.push_back(fmt::format("--points {}", options.points));
   }

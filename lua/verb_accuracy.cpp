@@ -185,8 +185,8 @@ int verb_accuracy(const Options& options) {
   write_study(s);
   say("\n{}\n", plain_sentence(s.quantity(), s.main, s.all));
   const int code = answer(s, options);
-  say("{} runs, {} of processor, {} of the clock; {}/accuracy.csv, accuracy.svg, accuracy.png\n", s.all.size(), duration_text(s.cpu),
-             duration_text(s.wall), directory);
+  say("{} runs, {} of processor time, {} of wall-clock time; {}/accuracy.csv, accuracy.svg, accuracy.png\n", s.all.size(),
+      duration_text(s.cpu), duration_text(s.wall), directory);
   if (s.waiting > 0)
     say("{} of them did not fit into {}; --resume makes them, --within 10m allows more time\n", s.waiting, duration_text(options.within));
   const bool any = std::any_of(s.all.begin(), s.all.end(), [&](const Measured& m) { return m.values[s.main].has_value(); });
