@@ -10,8 +10,7 @@
 --                (final energy over the largest supply by base and gravity), taken (least energy taken by friction, cracks, dashpots and
 --                contacts made anew), reset, max_penetration_relative, energy.residual_relative.
 -- Measure        "Still rocks": the widest joint opens and closes by more than 20 um within a quarter of a second, in the last two thirds
--- of the
---                wait. "Comes to rest": in the last third of the wait a block walks less than half as fast as in the third before.
+--                of the wait. "Comes to rest": in the last third of the wait a block walks less than half as fast as in the third before.
 local seed = param("seed", 1, "of the draw")
 local kind = param("kind", 0, "1 stack, 2 pier, 3 arch, 4 corbel, 5 wall, 6 portal; 0: drawn")
 local wait = param("wait", 12, "after the shaking [s]")
