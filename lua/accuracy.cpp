@@ -21,7 +21,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* did_not_fit = "not run: the time of all was up";
+constexpr const char* did_not_fit = "not run: the time limit of the study was reached";
 
 bool has_setting(const std::string& key) {
   const auto fields = Analysis::fields();
@@ -42,14 +42,14 @@ void add_points(std::vector<Setting>& all, bool fine, bool all_rules) {
     for (const int side : {13, 9, 7, 5, 3, 2, 1}) {
       const std::string_view name = rule;
       if ((side > 7 && !fine) || (name != "simpson" && !all_rules)) continue;
-      if (side == 1 && name != "midpoint") continue;  // the others have none with one point
-      if (side > 3 && name == "gauss") continue;      // exact in bending from two on: nothing more to be had
+      if (side == 1 && name != "midpoint") continue;  // the other rules need at least two points
+      if (side > 3 && name == "gauss") continue;      // exact in bending from two points on: more points gain nothing
       const int n = side * side;
       all.push_back({fmt::format("points, {}", rule),
                      fmt::format("{} point{}, {}", n, n > 1 ? "s" : "", rule),
                      fmt::format("joint {{ rule = \"{}\", points = {} }}", rule, n),
                      {"--rule", rule, "--points", std::to_string(n)},
-                     name == "trapezoid" ? 1.0 / (side - 1) : 1.0 / side});  // of what the error is a power
+                     name == "trapezoid" ? 1.0 / (side - 1) : 1.0 / side});  // the error is a power of this size
     }
 }
 
@@ -62,7 +62,7 @@ void add_lazy(std::vector<Setting>& all) {
                    angle});
 }
 
-// Gu and Miao's solver and its repairs; for comparison, never to be recommended.
+// The solver of Gu and Miao and its repairs. They are here for comparison only; nobody should use them for results.
 void add_sequential(std::vector<Setting>& all) {
   static const struct {
     const char *name, *variant, *order;
@@ -85,7 +85,7 @@ void add_units(std::vector<Setting>& all) {
         {"block size", fmt::format("unit {:g}", unit), fmt::format("-D unit={:g}", unit), {"-D", fmt::format("unit={:g}", unit)}, unit});
 }
 
-// What the words of quality stand for, where the scene does not say otherwise.
+// The settings that each word of `quality` stands for. A setting that the scene fixes itself is left out.
 void add_qualities(std::vector<Setting>& all, bool steps, bool points) {
   for (const Quality& q : qualities) {
     Setting s{quality_knob,
@@ -132,7 +132,7 @@ bool ends_with_any(const std::string& text, std::initializer_list<const char*> e
   return std::any_of(endings.begin(), endings.end(), [&](const char* ending) { return text.ends_with(ending); });
 }
 
-// What the scene asks for and what it expects, numbers only.
+// The numeric quantities of the scene: its metrics, the keys of its expectations, and the residual of the energy ledger.
 std::vector<Goal> quantities_of(const Script& script) {
   const Scene& scene = script.scene();
   std::vector<Goal> all;
@@ -146,7 +146,7 @@ std::vector<Goal> quantities_of(const Script& script) {
   }
   if (all.empty())
     throw Error(
-        fmt::format("{} gives no number to be accurate in; add a metric, such as metric(\"drift\", \"m\", function(run) return "
+        fmt::format("{} has no number whose error can be measured; add a metric, such as metric(\"drift\", \"m\", function(run) return "
                     "run.peak(\"top_ux_rel_m\") end), or an expectation, such as expect(\"collapse.time_s\", 1.2, {{ rel = 0.01 }})",
                     scene.file));
   all.push_back({"energy.residual_relative", "", 0.0, 0, 0, ""});
@@ -164,7 +164,8 @@ std::size_t main_of(const std::vector<Goal>& all, const std::string& asked) {
   return 0;
 }
 
-// The first goal that a knob moves, one with an expectation before others; the residual of the ledger is the last of them.
+// Index of the first quantity that any setting changes; a quantity with an expected value goes before the others.
+// The last one, the residual of the energy ledger, is never chosen.
 std::size_t telling(const std::vector<Goal>& goals, const std::vector<Measured>& all) {
   std::vector<std::size_t> moved;
   for (std::size_t i = 0; i + 1 < goals.size(); ++i) {
@@ -188,7 +189,7 @@ std::string file_name(const Setting& s) {
   return name;
 }
 
-// A number of metrics.json; true and false count as 1 and 0.
+// A number of metrics.json; true counts as 1, false as 0.
 std::optional<double> value_at(const Json& metrics, const std::string& key) {
   const Json* value = find_key(metrics, key);
   if (value == nullptr) return std::nullopt;
@@ -229,9 +230,9 @@ bool read_note(const std::string& path, const std::string& key, Measured& m) {
   } catch (const std::exception&) { return false; }
 }
 
-// What a run takes over the scene as it is, roughly: points cost in joints that have cracked, a sweep costs some six steps.
+// Rough cost of a run relative to the scene as it is. Points cost time only in cracked joints; one sweep costs about six steps.
 double dearness(const Setting& s) {
-  if (s.knob.empty()) return 0;  // all is measured by it
+  if (s.knob.empty()) return 0;  // the unit of this measure
   if (s.knob == "time step") return 0.9 / s.size;
   if (s.knob == "block size") return 1 / s.size;
   if (s.knob == quality_knob) return 0.8 / s.size / 9;
@@ -281,7 +282,8 @@ AccuracyStudy carry_out_accuracy(const std::string& scene, const std::string& di
   }
   const auto begin = std::chrono::steady_clock::now();
   options.threads = 1;
-  // with a limit the cheapest first, so that what does not fit is what is dear; without the dearest, so that the processors end together
+  // With a time limit the cheapest runs go first, so that only expensive runs are left out.
+  // Without a limit the most expensive runs go first, so that the processors finish together.
   const auto cost = [&](const Case& run) { return dearness(study.all[index.at(run.name)].setting); };
   if (options.budget > 0) std::stable_sort(runs.begin(), runs.end(), [&](const Case& a, const Case& b) { return cost(a) < cost(b); });
   const auto time_is_up = [&] {

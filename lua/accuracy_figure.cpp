@@ -1,4 +1,4 @@
-// Work-precision figures: error over cost, one line a knob.
+// Work-precision figures: error over cost, one line per kind of setting.
 #include <algorithm>
 #include <cmath>
 
@@ -8,8 +8,8 @@
 namespace erbs {
 namespace {
 
-constexpr double least = 1e-13;  // drawn where an error is zero
-// A knob looks the same in every panel.
+constexpr double least = 1e-13;  // an error of zero is drawn here
+// Color and marker of a kind of setting; the same in every panel.
 struct Look {
   const char *knob, *color;
   int mark;
@@ -49,7 +49,7 @@ std::string legend(const Curve& c) {
   return fmt::format("{}: slope {:.2f}", c.knob, *c.slope);
 }
 
-// The curves of one panel; titles only where a legend is wanted.
+// The curves of one panel; their titles only in the panel with the legend.
 std::string panel(const AccuracyStudy& s, bool by_updates, bool titles, Picture& picture) {
   picture.plots.clear();
   std::string front;
@@ -109,7 +109,7 @@ void draw_accuracy(const AccuracyStudy& s, const std::string& path) {
                         gnuplot_quoted(fmt::format("What accuracy costs: {}", s.name)));
   script += fmt::format("set label 2 {} at screen 0.03,0.925 left noenhanced tc rgb '#555555'\n",
                         gnuplot_quoted(fmt::format("{} = {:.6g} {} by {}{}", words_of(q.name), q.reference, q.unit, q.from,
-                                                   q.uncertainty > 0 ? fmt::format(", uncertain by {:.1g}", q.uncertainty) : "")));
+                                                   q.uncertainty > 0 ? fmt::format(", uncertainty {:.1g}", q.uncertainty) : "")));
   const auto place = [&](double from, double to, const char* x, const std::string& y) {
     return fmt::format(
         "set lmargin at screen {}\nset rmargin at screen {}\nset bmargin at screen 0.11\nset tmargin at screen 0.88\nset xlabel '{}'\n"
@@ -126,7 +126,7 @@ void draw_accuracy(const AccuracyStudy& s, const std::string& path) {
 
 namespace {
 
-// Of one panel: the orders its curves show, in words short enough for its width.
+// Subtitle of a panel: the observed orders of its curves, abbreviated to fit the width.
 std::string orders(const AccuracyStudy& s) {
   std::string text;
   for (const Curve& c : curves_of(s.quantity(), s.main, s.all)) {
@@ -140,7 +140,7 @@ std::string orders(const AccuracyStudy& s) {
   return text.empty() ? "no knob shows an order" : text;
 }
 
-// A decade at least, and room beyond the curves.
+// Range of the error axis: at least one decade, with a margin beyond the curves.
 std::string error_range(const AccuracyStudy& s) {
   double low = 1e300, high = 0;
   for (const Measured& m : s.all)
@@ -151,7 +151,7 @@ std::string error_range(const AccuracyStudy& s) {
   return fmt::format("set yrange [{:.4g}:{:.4g}]\n", middle / reach, middle * reach);
 }
 
-// One legend for all panels, in rows of five at the foot.
+// One legend for all panels, at the bottom, five entries a row.
 std::string common_legend(const std::vector<AccuracyStudy>& studies, double height) {
   std::vector<std::string> knobs;
   for (const AccuracyStudy& s : studies)

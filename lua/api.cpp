@@ -31,7 +31,7 @@ bool takes_table(const Function& function) { return function.parameters.starts_w
 void Context::mistake(const Place& place, const std::string& message) {
   const std::string whole = place.file.empty() ? message : place.text() + ": " + message;
   if (std::find(mistakes.begin(), mistakes.end(), whole) != mistakes.end()) {  // the same line in a loop
-    if (++repeated >= 1000) throw Error("the same mistakes come again and again, more than 1000 times; the rest of the script was not read");
+    if (++repeated >= 1000) throw Error("the same mistakes occur more than 1000 times; the rest of the script was not read");
     return;
   }
   mistakes.push_back(whole);
@@ -44,8 +44,7 @@ void Context::took(size_t bytes) {
   calls = taken = 0;
   const auto heap = mallinfo2();
   if (heap.uordblks + heap.hblkhd > limits.all_bytes)
-    throw Error(fmt::format("what the scene builds needs more than {} MiB of memory; build less, or is a loop without end?",
-                            limits.all_bytes >> 20));
+    throw Error(fmt::format("the scene needs more than {} MiB of memory; build less, or does a loop never end?", limits.all_bytes >> 20));
 }
 
 Place current_place(lua_State* lua) {
@@ -108,7 +107,7 @@ int call_api(lua_State* lua, Context& context) {
 
 // Gives an error message its place in the user's files.
 int place_error(lua_State* lua) {
-  // an error may be any value; what Lua writes for a table is its address, another one in every run
+  // An error may be any value. For a table Lua would print its address, which differs from run to run.
   if (lua_type(lua, 1) != LUA_TSTRING && luaL_getmetafield(lua, 1, "__tostring") == LUA_TNIL && !lua_isnumber(lua, 1))
     lua_pushfstring(lua, "an error that is a %s, not a message", luaL_typename(lua, 1));
   else if (lua_type(lua, 1) != LUA_TSTRING) luaL_tolstring(lua, 1, nullptr);
@@ -146,7 +145,7 @@ void call_script(lua_State* lua, Context& context, int arguments, int results) {
   const Cap uncapped(context.limits, false);
   lua_remove(lua, function);
   if (status == LUA_OK) return;
-  constexpr size_t most = 20000;  // bytes of a message: every mistake of a large building fits
+  constexpr size_t most = 20000;  // bytes of a message: the mistakes of a large building fit
   std::string message = "an error without a message";
   if (lua_type(lua, -1) == LUA_TSTRING) {
     size_t length = 0;

@@ -1,4 +1,4 @@
-// How a run is carried out, and what of it is written down.
+// Functions of a script: damping, analysis, recorders and cameras.
 #include <lua5.4/lua.hpp>
 
 #include "lua/api.h"
@@ -14,7 +14,8 @@ int damping(Call& call) {
 }
 
 int analysis(Call& call) {
-  static const Keys step_keys = {{"1", "number", "s", "time step", 0, 1, true}, {"unstable", "boolean", "", "let it run past the limit"}};
+  static const Keys step_keys = {{"1", "number", "s", "time step", 0, 1, true},
+                                 {"unstable", "boolean", "", "allow a step beyond the limit"}};
   Arguments arguments = call.arguments();
   Analysis& into = call.context.scene.analysis;
   into.place = call.place;
@@ -72,7 +73,7 @@ int camera(Call& call) {
 
 }  // namespace
 
-// Of a recorder: its quantity is a word of a list that help and editors show whole.
+// Keys of recorder{}. The type "quantity" makes help and editors list all quantities.
 Keys recorder_keys() {
   Keys keys = keys_of<Recorder>();
   for (Key& key : keys)
@@ -83,18 +84,21 @@ Keys recorder_keys() {
 std::vector<Function> analysis_functions() {
   return {
       {"damping", damping, "{ ... }", "", "Damping of blocks and of joints.", keys_of<Damping>()},
-      {"analysis", analysis, "{ ... }", "", "How long to run, with which step, and when to stop.",
-       joined({keys_of<Analysis>(),
-               {{"quality", "string", "", "a measured pair of step and points, for what the scene does not say: dt 0.9 and 2 x 2, 0.9 and 3 x 3, 0.25 and 5 x 5",
-                 -unbounded, unbounded, false, "draft|standard|reference"}}})},
+      {"analysis", analysis, "{ ... }", "", "Duration, time step and end of the run.",
+       joined(
+           {keys_of<Analysis>(),
+            {{"quality", "string", "",
+              "a measured pair of step (over its limit) and contact points, for values that the scene leaves open: 0.9 and 2 x 2, 0.9 and "
+              "3 x 3, 0.25 and 5 x 5",
+              -unbounded, unbounded, false, "draft|standard|reference"}}})},
       {"recorder", recorder, "{ ... }", "",
-       "Writes a quantity of one block, or its mean (of forces: the sum) over several, to histories.csv.",
+       "Writes a quantity of a block to histories.csv; for several blocks their mean, for forces their sum.",
        joined({recorder_keys(),
                {{"block", "strings", "", "name of the block"},
                 {"blocks", "strings", "", "names of several blocks"},
                 {"group", "string", "", "all blocks of a group"},
-                {"others", "strings", "", "of joints: names of the blocks on their other side (default: any)"},
-                {"other_group", "string", "", "of joints: all blocks of a group on their other side"}}})},
+                {"others", "strings", "", "for joint quantities: names of the blocks on the other side (default: any)"},
+                {"other_group", "string", "", "for joint quantities: all blocks of a group on the other side"}}})},
       {"camera", camera, "{ ... }", "", "A view for the pictures.", keys_of<Camera>()},
   };
 }

@@ -1,4 +1,4 @@
-// What a script builds: materials, blocks and where they stand.
+// Functions of a script: materials, blocks, the ground, and transformations of blocks.
 #include <lua5.4/lua.hpp>
 
 #include "engine/base/words.h"
@@ -10,8 +10,8 @@
 
 namespace erbs {
 
-static constexpr double far = 1e6;  // m, no coordinate lies further out
-static constexpr int most_given_vertices = 5000;  // the work of a hull grows with their square
+static constexpr double far = 1e6;                // m, limit of every coordinate
+static constexpr int most_given_vertices = 5000;  // the cost of a hull grows with their square
 
 const Keys& part_keys() {
   static const Keys keys = {{"vertices", "points", "m", "corners", -far, far, true, "", ""},
@@ -29,7 +29,7 @@ Keys placed_keys() {
   Keys keys = keys_of<Block>();
   keys.push_back({"material", "string", "", "name of its material (default: the only one there is)"});
   keys.push_back({"rotation", "vec3", "rad", "rotation vector about the centroid", -100, 100, false, "", "{ 0, 0, 0 }"});
-  keys.push_back({"initial", "initial", "", "how it starts: { position, rotation, velocity, spin, about }"});
+  keys.push_back({"initial", "initial", "", "initial state: { position, rotation, velocity, spin, about }"});
   return keys;
 }
 
@@ -43,7 +43,7 @@ int material(Call& call) {
   return 1;
 }
 
-// The index of the material the block names; -1 after a mistake.
+// Index of the material that the block names; -1 after a mistake.
 int material_of(Call& call, Arguments& arguments) {
   const auto& materials = call.context.scene.materials;
   std::vector<std::string> known;
@@ -81,13 +81,14 @@ Vec3 centroid_of(const std::vector<Polyhedron>& parts) {
   return mass.volume > 0 && mass.centroid.allFinite() ? mass.centroid : mean_vertex(parts.front());
 }
 
-// Reads the keys all blocks share, puts the shape where it belongs and adds the block.
+// Reads the keys common to all blocks, moves the shape to its place and adds the block.
 int add_block(Call& call, Arguments& arguments, std::vector<Polyhedron> parts, const char* kind) {
   Context& context = call.context;
   if (context.scene.blocks.size() >= static_cast<size_t>(context.scene.most_blocks))
-    throw Error(fmt::format("a scene holds at most {} blocks; build fewer, or say --max-blocks with what the memory bears (about 4 KiB each)",
-                            context.scene.most_blocks),
-                call.place);
+    throw Error(
+        fmt::format("a scene holds at most {} blocks; build fewer, or raise the limit with --max-blocks (about 4 KiB of memory each)",
+                    context.scene.most_blocks),
+        call.place);
   Block block;
   block.place = call.place;
   arguments.read(block);
@@ -132,7 +133,7 @@ int box(Call& call) {
   return add_block(call, arguments, std::move(parts), "box");
 }
 
-// Vertices and faces (or the hull) of one convex part; nothing after a mistake.
+// One convex part from its vertices and faces, or from their hull; empty after a mistake.
 std::vector<Polyhedron> read_part(Arguments& arguments) {
   Polyhedron part;
   arguments.read("vertices", part.vertices);
@@ -184,7 +185,7 @@ int block(Call& call) {
   return add_block(call, arguments, std::move(parts), "block");
 }
 
-// The polygon in the plane across `axis`, as points of space: cyclic order keeps it right-handed.
+// The prism over a polygon in the plane normal to `axis`. The cyclic order of the axes keeps the prism right-handed.
 Polyhedron extruded(const std::vector<Eigen::Vector2d>& polygon, double height, int axis) {
   Polyhedron prism;
   const int n = static_cast<int>(polygon.size());
@@ -226,7 +227,7 @@ int prism(Call& call) {
     const auto& b = polygon[(i + 1) % polygon.size()];
     doubled_area += a.x() * b.y() - a.y() * b.x();
   }
-  if (doubled_area < 0) std::reverse(polygon.begin(), polygon.end());  // either sense of rotation is welcome
+  if (doubled_area < 0) std::reverse(polygon.begin(), polygon.end());  // either orientation of the polygon is accepted
   std::vector<Polyhedron> parts;
   if (polygon.size() < 3 || doubled_area == 0) arguments.mistake("polygon must be at least three points { x, y } that span an area");
   else if (height > 0) parts = {translated(extruded(polygon, height, axis[0] - 'x'), at)};
@@ -291,7 +292,7 @@ int ground(Call& call) {
   return 1;
 }
 
-// Ends the frame however the function inside ends.
+// Removes the frame on every way out of its scope.
 struct Inside {
   std::vector<Frame>& frames;
   Inside(std::vector<Frame>& all, const Frame& frame) : frames(all) { frames.push_back(frame); }
@@ -321,11 +322,11 @@ int transform(Call& call) {
 
 std::vector<Function> block_functions() {
   const Keys placed = placed_keys();
-  const Key at{"at", "vec3", "m", "moves the shape by this", -far, far, false, "", "{ 0, 0, 0 }"};
+  const Key at{"at", "vec3", "m", "displacement of the shape", -far, far, false, "", "{ 0, 0, 0 }"};
   const std::string name = "string: the name of the block";
   return {
       {"material", material, "{ ... }", "string: its name",
-       "What blocks are made of, and how they behave as debris: where two meet the lesser friction and the lesser restitution count.",
+       "A material of blocks, and its behaviour as debris. Between two materials the smaller friction and the smaller restitution apply.",
        keys_of<Material>()},
       {"box", box, "{ ... }", name, "A rectangular block.",
        joined({{{"size", "vec3", "m", "lengths along x, y, z", 1e-6, far, true, "", ""},
@@ -346,17 +347,17 @@ std::vector<Function> block_functions() {
                 at},
                placed})},
       {"mesh", mesh, "{ ... }", name, "A block from a file (OBJ, STL, PLY, glTF); each mesh in it is one convex part.",
-       joined({{{"file", "string", "", "path in the folder of the scene, or in one of --allow", -unbounded, unbounded, true, "", ""},
-                {"scale", "number", "", "factor on its coordinates, to metres", 1e-9, 1e9, false, "", "1"},
+       joined({{{"file", "string", "", "path, in the folder of the scene or in a folder of --allow", -unbounded, unbounded, true, "", ""},
+                {"scale", "number", "", "factor that converts its coordinates to metres", 1e-9, 1e9, false, "", "1"},
                 at},
                placed})},
       {"ground",
        ground,
        "{ ... }",
        name,
-       "A fixed plate to stand and fall on.",
+       "A fixed plate as the ground.",
        {{"z", "number", "m", "height of its top", -far, far, false, "", "0"},
-        {"size", "number", "m", "length of its sides; what falls beyond them falls for ever", 1e-3, far, false, "", "20"},
+        {"size", "number", "m", "length of its sides; blocks that fall beyond them never land", 1e-3, far, false, "", "20"},
         {"depth", "number", "m", "thickness of the plate", 1e-3, far, false, "", "1"},
         {"material", "string", "", "name of its material (default: its own, with the defaults of material)"},
         {"friction", "number", "", "coefficient of friction, instead of its material's", 0, 10, false, "", ""},
@@ -366,12 +367,12 @@ std::vector<Function> block_functions() {
        transform,
        "{ ..., function() ... end }",
        "any: what the function returns",
-       "Places everything built inside the function rigidly: x -> about + rotation (x - about) + at; initial velocities, spins and "
-       "directions of loads turn with it.",
-       {{"1", "function", "", "builds; called at once", -unbounded, unbounded, true, "", ""},
+       "Moves everything that is built inside the function as a rigid body: x -> about + rotation (x - about) + at. Initial velocities, "
+       "spins and directions of loads rotate with it.",
+       {{"1", "function", "", "function that builds; it is called immediately", -unbounded, unbounded, true, "", ""},
         {"at", "vec3", "m", "shift, after the rotation", -far, far, false, "", "{ 0, 0, 0 }"},
         {"rotation", "vec3", "rad", "rotation vector", -100, 100, false, "", "{ 0, 0, 0 }"},
-        {"about", "vec3", "m", "point the rotation leaves in place", -far, far, false, "", "{ 0, 0, 0 }"}}},
+        {"about", "vec3", "m", "centre of the rotation", -far, far, false, "", "{ 0, 0, 0 }"}}},
   };
 }
 

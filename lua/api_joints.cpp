@@ -1,4 +1,4 @@
-// Joint laws, made from their field lists, and the rules that say which faces they join.
+// Functions of a script: joint laws, made from their field lists, and the rules that assign them to faces.
 #include <cmath>
 #include <lua5.4/lua.hpp>
 
@@ -8,7 +8,7 @@ namespace erbs {
 namespace {
 
 std::string text_of(std::string_view law) {
-  if (law == "mortar") return "A mortar joint: linear, with tension cut-off, Coulomb shear with cohesion, and softening where asked for.";
+  if (law == "mortar") return "A mortar joint: linear, with tension cut-off, Coulomb shear with cohesion, and optional softening.";
   if (law == "dry") return "A dry joint: linear in compression, no tension, Coulomb friction.";
   return fmt::format("The joint law {}.", law);
 }
@@ -37,7 +37,7 @@ int make_law(Call& call) {
 template <class... L>
 void add_laws(std::vector<Function>& functions, const std::variant<L...>*) {
   (functions.push_back(
-       {std::string(L::law_name), make_law<L>, "{ ... }", "law: to be given to joint{ law = ... }", text_of(L::law_name), keys_of<L>()}),
+       {std::string(L::law_name), make_law<L>, "{ ... }", "law: for joint{ law = ... }", text_of(L::law_name), keys_of<L>()}),
    ...);
 }
 
@@ -102,9 +102,9 @@ std::vector<Function> joint_functions() {
   add_laws(functions, static_cast<const Law*>(nullptr));
   functions.push_back(
       {"joint", joint, "{ ... }", "",
-       "Joins faces that face each other at rest by a law; the last rule that matches a pair of blocks wins.",
+       "Joins faces that face each other at rest by a law. The last rule that matches a pair of blocks applies.",
        joined({{{"law", "law", "", "a law value: mortar{ ... } or dry{ ... }"},
-                {"between", "strings", "", "two groups, { \"wall\", \"slab\" }; \"\" is any (default: any and any)"}},
+                {"between", "strings", "", "two groups, { \"wall\", \"slab\" }; \"\" is any group (default: any two groups)"}},
                keys_of<JointRule>(),
                {{"points", "points_per_face", "", "contact points: { along the longer side, along the shorter side }, or one square number",
                  1, 64, false, "", "{ 3, 3 }"}}})});

@@ -1,4 +1,4 @@
-// What shakes, pushes, turns and pulls.
+// Functions of a script: ground motions, forces, moments, tilt, prescribed motions and gravity.
 #include <lua5.4/lua.hpp>
 
 #include "lua/api.h"
@@ -6,7 +6,7 @@
 namespace erbs {
 namespace {
 
-// The wave of a load: a wave value, a number, or a Lua function sampled when the duration is known.
+// The wave of a load: a wave value, a number, or a Lua function. A function is sampled later, when the duration is known.
 void read_wave(Call& call, Arguments& arguments, Load& load) {
   double sample = 1e-3;
   arguments.read("sample", sample);
@@ -72,7 +72,7 @@ int gravity(Call& call) {
 Keys load_keys(const std::string& unit, const std::string& direction, const std::string& meaning, bool block) {
   Keys keys = {{"wave", "wave", unit, "a wave, a number, or a function of time", -unbounded, unbounded, true},
                {direction, "direction", "", meaning, -1e9, 1e9, false, "", "\"x\""},
-               {"sample", "number", "s", "step at which a Lua function is sampled", 1e-6, 10, false, "", "0.001"},
+               {"sample", "number", "s", "sampling step of a Lua function", 1e-6, 10, false, "", "0.001"},
                {"name", "string", "", "name, for reports"}};
   if (block) keys.insert(keys.begin(), {"block", "string", "", "name of the block", -unbounded, unbounded, true});
   return keys;
@@ -82,20 +82,25 @@ Keys load_keys(const std::string& unit, const std::string& direction, const std:
 
 std::vector<Function> load_functions() {
   Keys force_keys = load_keys("N", "direction", "\"x\", \"y\", \"z\" or a vector", true);
-  force_keys.push_back({"point", "vec3", "m", "point of the block at rest where it acts (default the centroid)", -1e6, 1e6});
+  force_keys.push_back({"point", "vec3", "m", "point of application on the block at rest (default the centroid)", -1e6, 1e6});
   Keys turning_keys = load_keys("rad", "axis", "\"x\", \"y\", \"z\" or a vector", true);
-  turning_keys.push_back({"about", "vec3", "m", "point at rest that stays where it is (default the centroid)", -1e6, 1e6});
+  turning_keys.push_back({"about", "vec3", "m", "centre of the rotation, at rest (default the centroid)", -1e6, 1e6});
   return {
-      {"ground_motion", ground_motion, "{ ... }", "", "Shakes the ground by an acceleration; several add up. A positive one moves the ground along its direction and throws what stands on it the other way.",
+      {"ground_motion", ground_motion, "{ ... }", "",
+       "Shakes the ground by an acceleration; several ground motions add up. A positive acceleration moves the ground along its direction "
+       "and pushes the structure the other way.",
        load_keys("m/s2", "direction", "\"x\", \"y\", \"z\" or a vector", false)},
       {"force", force, "{ ... }", "", "A force on a block.", force_keys},
       {"moment", moment, "{ ... }", "", "A moment on a block.",
        load_keys("N m", "direction", "axis of the moment: \"x\", \"y\", \"z\" or a vector", true)},
-      {"tilt", tilt, "{ ... }", "", "Turns gravity by an angle about an axis, as a tilting table does: right-handed, so that a positive one about x pulls towards +y, about y towards -x.",
+      {"tilt", tilt, "{ ... }", "",
+       "Rotates gravity by an angle about an axis, like a tilting table. The rotation is right-handed: a positive angle about x pulls "
+       "towards +y, about y towards -x.",
        load_keys("rad", "axis", "\"x\", \"y\", \"z\" or a vector", false)},
-      {"motion", motion, "{ ... }", "", "Moves a block by a displacement along a direction; its other degrees of freedom are held.",
+      {"motion", motion, "{ ... }", "", "Prescribes the displacement of a block along a direction; its other degrees of freedom are fixed.",
        load_keys("m", "direction", "\"x\", \"y\", \"z\" or a vector", true)},
-      {"turning", turning, "{ ... }", "", "Turns a block by an angle about an axis; with motion both are held, without it its place too.", turning_keys},
+      {"turning", turning, "{ ... }", "",
+       "Prescribes the rotation of a block about an axis. Its position is fixed, unless motion{} prescribes it.", turning_keys},
       {"gravity",
        gravity,
        "{ ... }",

@@ -1,4 +1,4 @@
-// What may be varied, what is asked for, what is expected; files that belong to a scene.
+// Functions of a script: params, metrics, expectations, labels, limits of use, and included files.
 #include <algorithm>
 #include <cmath>
 #include <lua5.4/lua.hpp>
@@ -17,7 +17,7 @@ const Keys& tolerance_keys() {
 }
 namespace {
 
-// "share of the peak, assumed [g]" -> meaning and unit
+// "share of the peak, assumed [g]" -> text "share of the peak, assumed", unit "g"
 void split_unit(const std::string& text, Param& param) {
   const size_t open = text.rfind('[');
   if (open == std::string::npos || !text.ends_with("]")) {
@@ -51,7 +51,7 @@ int param(Call& call) {
       if (given) item.value = override_.value;
       override_.used = true;
     }
-  // a whole number stays one: names are made of it
+  // An integer stays an integer, because scripts make names of it.
   const bool whole = lua_isinteger(call.lua, 2) && item.value == std::floor(item.value) && std::fabs(item.value) < 1e15;
   if (given && whole) lua_pushinteger(call.lua, static_cast<lua_Integer>(item.value));
   else if (given) lua_pushnumber(call.lua, item.value);
@@ -185,11 +185,11 @@ std::vector<Function> result_functions() {
       {"param",
        param,
        "name, default, text",
-       "number: the default, or what -D name=value says",
+       "number: the default, or the value of -D name=value",
        "Declares a number that -D and studies may change.",
        {{"name", "string", "", "its name", -unbounded, unbounded, true},
-        {"default", "number", "", "its value where none is given", -unbounded, unbounded, true},
-        {"text", "string", "", "what it means or assumes, and its unit at the end: \"density of brick, assumed [kg/m3]\""}}},
+        {"default", "number", "", "its value unless -D gives one", -unbounded, unbounded, true},
+        {"text", "string", "", "meaning or assumption, with the unit at the end: \"density of brick, assumed [kg/m3]\""}}},
       {"metric",
        metric,
        "name, unit, value",
@@ -202,7 +202,7 @@ std::vector<Function> result_functions() {
        expect,
        "key, value, how",
        "",
-       "Says what a key of metrics.json must be; the scene is the test.",
+       "States the expected value of a key of metrics.json; erbs test checks it.",
        {{"key", "string", "", "dotted key: \"metrics.x\", \"energy.residual_relative\", \"status\"", -unbounded, unbounded, true},
         {"value", "expected", "", "a number, a word, true or false", -unbounded, unbounded, true},
         {"how", "tolerance", "", "{ rel = | abs = | below = true | above = true | between = { lo, hi }, source = \"...\" }"}}},
@@ -210,10 +210,11 @@ std::vector<Function> result_functions() {
        label,
        "...",
        "",
-       "Labels by which scenes are chosen: \"quick\" belongs to erbs test --quick, \"fixed_dt\" keeps its time step in erbs test --grid "
-       "and erbs accuracy; there \"coarse_study\" begins at 1/8 of the limit, \"fine_study\" at 1/128.",
+       "Labels that select scenes: erbs test --quick runs scenes with \"quick\"; a scene with \"fixed_dt\" keeps its time step in "
+       "erbs test --grid and erbs accuracy. The smallest step of erbs accuracy is 1/32 of the limit, 1/8 with \"coarse_study\", 1/512 with "
+       "\"fine_study\".",
        {{"...", "string", "", "one label or several", -unbounded, unbounded, true}}},
-      {"use_limit", use_limit, "{ ... }", "", "Beyond which the scene is not good; erbs check and erbs run refuse a coarser one.",
+      {"use_limit", use_limit, "{ ... }", "", "Limits of use of the scene; erbs check and erbs run refuse a coarser one.",
        keys_of<UseLimit>()},
       {"include",
        include,

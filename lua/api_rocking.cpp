@@ -1,4 +1,5 @@
-// Companions of scenes of one block: the rigid rocking equations, asked while the scene is read or inside a metric.
+// Functions of a script: the equations of a rigid rocking block, solved while the scene is read or inside a metric.
+// A scene of one block compares its run with them.
 #include <cmath>
 #include <lua5.4/lua.hpp>
 
@@ -10,8 +11,8 @@ namespace {
 
 Keys block_keys() {
   return {
-      {"width", "number", "m", "base of the block; with `height` it gives alpha, p and mu of a homogeneous one", 1e-6, 1e6},
-      {"height", "number", "m", "of the block", 1e-6, 1e6},
+      {"width", "number", "m", "base of the block; with `height` it gives alpha, p and mu of a homogeneous block", 1e-6, 1e6},
+      {"height", "number", "m", "height of the block", 1e-6, 1e6},
       {"alpha", "number", "rad", "slenderness, atan(width / height) (default from width and height)", 1e-6, 1.5},
       {"p", "number", "rad/s", "sqrt(m g R / I0) (default from width and height: sqrt(3 g / (4 R)))", 1e-6, 1e6},
       {"mu", "number", "", "spin after an impact over the spin before (default Housner's: 1 - 3/2 sin^2 alpha)", 0, 1},
@@ -65,7 +66,7 @@ void describe(lua_State* lua, const RockingBlock& block) {
   set(lua, "threshold", block.gravity * (block.linear ? block.alpha : std::tan(block.alpha)));
 }
 
-// A wave, or a Lua function, whose values are taken as far as one watches.
+// The wave of the key "wave"; a Lua function is sampled over `duration`.
 std::optional<Wave> read_wave(Arguments& arguments, double duration) {
   double sample = 1e-3;
   arguments.read("sample", sample);
@@ -137,31 +138,32 @@ int rocking_overturning(Call& call) {
 }  // namespace
 
 std::vector<Function> companion_functions() {
-  const Key sample{"sample", "number", "s", "step at which a Lua function is sampled", 1e-6, 10, false, "", "0.001"};
+  const Key sample{"sample", "number", "s", "sampling step of a Lua function", 1e-6, 10, false, "", "0.001"};
   return {
       {"rocking", rocking, "{ ... }",
-       "table: alpha, p, mu, threshold (m/s2), t, theta (rad), impacts (s), amplitudes (of alpha, before each impact), overturned, "
+       "table: alpha, p, mu, threshold (m/s2), t, theta (rad), impacts (s), amplitudes (over alpha, before each impact), overturned, "
        "overturned_at",
-       "A rigid block rocking on its edges after Housner: what theory says beside a scene of one block.",
+       "Solution of Housner's equations for a rigid rocking block, to compare with a scene of one block.",
        joined({block_keys(),
                {{"wave", "wave", "m/s2", "acceleration of the ground (default: none, free rocking)"},
                 sample,
                 {"theta", "number", "rad", "tilt at the start", -1.5, 1.5, false, "", "0"},
-                {"spin", "number", "rad/s", "at the start", -1e3, 1e3, false, "", "0"},
-                {"duration", "number", "s", "how long", 1e-9, 1e5, true}}})},
+                {"spin", "number", "rad/s", "spin at the start", -1e3, 1e3, false, "", "0"},
+                {"duration", "number", "s", "simulated time", 1e-9, 1e5, true}}})},
       {"rocking_overturning", rocking_overturning, "{ ... }",
        "table: alpha, p, mu, threshold (m/s2), lowest (factor), bands { { from, to, impacts }, ... } whose gaps are safe islands",
-       "By which factors on a wave a rigid rocking block overturns from rest.",
-       joined(
-           {block_keys(),
-            {{"wave", "wave", "m/s2", "acceleration of the ground for a factor of 1", -unbounded, unbounded, true},
-             sample,
-             {"criterion", "string", "", "overturning: it falls; alpha_at_end: |theta| has come to alpha when the wave ends", 0, 0, false,
-              "overturning|alpha_at_end", "overturning"},
-             {"from", "number", "", "smallest factor looked at", 0, 1e9, false, "", "0.9"},
-             {"to", "number", "", "largest factor looked at", 0, 1e9, false, "", "20"},
-             {"points", "integer", "", "factors looked at between; no safe island is narrower", 1, 100000, false, "", "1000"},
-             {"duration", "number", "s", "how long to watch (default: 12 / p after the wave; of a function: to be given)", 1e-9, 1e5}}})},
+       "Factors on a wave at which a rigid rocking block overturns from rest.",
+       joined({block_keys(),
+               {{"wave", "wave", "m/s2", "acceleration of the ground for a factor of 1", -unbounded, unbounded, true},
+                sample,
+                {"criterion", "string", "", "overturning: it falls; alpha_at_end: |theta| has reached alpha when the wave ends", 0, 0,
+                 false, "overturning|alpha_at_end", "overturning"},
+                {"from", "number", "", "smallest factor tried", 0, 1e9, false, "", "0.9"},
+                {"to", "number", "", "largest factor tried", 0, 1e9, false, "", "20"},
+                {"points", "integer", "", "number of factors tried in between; narrower safe islands are not found", 1, 100000, false, "",
+                 "1000"},
+                {"duration", "number", "s", "simulated time (default: until 12 / p after the wave; required for a Lua function)", 1e-9,
+                 1e5}}})},
   };
 }
 

@@ -1,4 +1,5 @@
-// Many runs of the scene with a parameter changed. In a run that such a study started, only its own question is asked.
+// Functions of a script: studies, that is many runs of the scene with one parameter changed, and the figures of their results.
+// A run that a study has started evaluates only the question of that study.
 #include <algorithm>
 #include <cmath>
 #include <lua5.4/lua.hpp>
@@ -10,14 +11,14 @@
 namespace erbs {
 namespace {
 
-// Declared before, so that -D of the runs finds it.
+// The param of this name, or nullptr. It must be declared above the study, so that -D of the runs finds it.
 const Param* param_of(const Context& context, const std::string& name) {
   for (const Param& param : context.scene.params)
     if (param.name == name) return &param;
   return nullptr;
 }
 
-// What the runs are asked: a function of the scene's, called in each run as a metric is.
+// Registers the question of a study: a function of the scene that each of its runs evaluates like a metric.
 void question(Call& call, Arguments& arguments, const char* key, const Study& study) {
   const int function = arguments.function(key);
   if (call.context.study == study.name && function != LUA_NOREF) call.context.metrics.push_back({"study", "", 0, function, call.place});
@@ -67,7 +68,7 @@ int converge(Call& call) {
   arguments.read("values", study.values);
   study.finest = arguments.has("value");
   if (study.finest == arguments.has("error"))
-    arguments.mistake("give one of error = function(run) (against what is known) and value = function(run) (against the finest run)");
+    arguments.mistake("give one of error = function(run) (against the known value) and value = function(run) (against the finest run)");
   std::vector<double> sorted = study.values;
   std::sort(sorted.begin(), sorted.end());
   if (sorted.size() < 2 || sorted.front() <= 0 || std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
@@ -99,8 +100,8 @@ int ensemble(Call& call) {
 }
 
 const Keys& curve_keys() {
-  static const Keys keys = {{"label", "string", "", "what the curve is", -unbounded, unbounded, true},
-                            {"study", "string", "", "a study given before: its answers over its param, as points"},
+  static const Keys keys = {{"label", "string", "", "its label in the legend", -unbounded, unbounded, true},
+                            {"study", "string", "", "name of a study above: its results over its param, as points"},
                             {"x", "numbers", "", "or numbers, with y or metrics"},
                             {"y", "numbers", "", "as many as x: a line"},
                             {"metrics", "strings", "", "as many as x: names of metrics, as points"}};
@@ -135,7 +136,7 @@ int figure(Call& call) {
   return 0;
 }
 
-// The values under each name of the table on top; `known`: the params.
+// The list of values under each param name of the table on top of the stack. `known`: names of the declared params.
 std::vector<std::pair<std::string, std::vector<double>>> lists_of(Call& call, const std::vector<std::string>& known) {
   std::vector<std::pair<std::string, std::vector<double>>> lists;
   lua_pushnil(call.lua);
@@ -179,7 +180,7 @@ int family(Call& call) {
   std::vector<std::string> known;
   for (const Param& param : call.context.scene.params) known.push_back(param.name);
   into.values = lists_of(call, known);
-  // a table of Lua has no order
+  // A table of Lua has no order: sort the params by their declaration.
   const auto place = [&](const auto& list) { return std::find(known.begin(), known.end(), list.first); };
   std::sort(into.values.begin(), into.values.end(), [&](const auto& a, const auto& b) { return place(a) < place(b); });
   return 0;
@@ -188,7 +189,7 @@ int family(Call& call) {
 }  // namespace
 
 std::vector<Function> study_functions() {
-  const Key param{"param", "string", "", "name of the param the runs change", -unbounded, unbounded, true};
+  const Key param{"param", "string", "", "name of the param that the runs change", -unbounded, unbounded, true};
   return {
       {"bisect",
        bisect,
@@ -197,53 +198,53 @@ std::vector<Function> study_functions() {
        "Finds the value of a param at which the scene collapses, by runs side by side; metrics NAME, NAME_lo, NAME_hi, NAME_runs, "
        "NAME_failed.",
        {param,
-        {"lo", "number", "", "where it stands (it may be the larger number)", -1e300, 1e300, true},
-        {"hi", "number", "", "where it collapses", -1e300, 1e300, true},
+        {"lo", "number", "", "value at which the structure stands (it may be the larger one)", -1e300, 1e300, true},
+        {"hi", "number", "", "value at which it collapses", -1e300, 1e300, true},
         {"collapsed_when", "question", "", "function(run) that returns true or false (default: collapse.collapsed of the run)"},
         {"rel", "number", "", "width of the last bracket over its larger end", 1e-12, 1, false, "", "0.01"},
-        {"points", "integer", "", "runs between the ends at a time", 1, 1000, false, "", "3"},
-        {"name", "string", "", "of its metrics (default collapse_PARAM)"}}},
+        {"points", "integer", "", "runs between the ends in each round", 1, 1000, false, "", "3"},
+        {"name", "string", "", "stem of its metrics (default collapse_PARAM)"}}},
       {"converge",
        converge,
        "{ ... }",
        "",
        "Runs the scene with a param at several values and fits the order of its error; metrics NAME_slope, NAME_error (at the smallest), "
-       "NAME_least and NAME_most (answers), NAME_runs, NAME_failed.",
+       "NAME_least and NAME_most (results), NAME_runs, NAME_failed.",
        {param,
-        {"values", "numbers", "", "of the param, all above zero", -unbounded, unbounded, true},
-        {"error", "question", "", "function(run) that returns the error against what is known"},
-        {"value", "question", "", "function(run) that returns a number; its error is the distance from the run with the smallest value"},
-        {"slope", "number", "", "least slope of ln error over ln value that is expected (default: none is)", 0, 100},
-        {"name", "string", "", "of its metrics (default converge_PARAM)"}}},
+        {"values", "numbers", "", "values of the param, all above zero", -unbounded, unbounded, true},
+        {"error", "question", "", "function(run) that returns the error against the known value"},
+        {"value", "question", "", "function(run) that returns a number; its error is the difference from the run with the smallest value"},
+        {"slope", "number", "", "least expected slope of ln error over ln value (default: no expectation)", 0, 100},
+        {"name", "string", "", "stem of its metrics (default converge_PARAM)"}}},
       {"ensemble",
        ensemble,
        "{ ... }",
        "",
-       "Runs the scene n times with a param set to seeds drawn from one; metrics NAME_mean, NAME_deviation, NAME_least, NAME_most, "
+       "Runs the scene n times, each time with another seed in a param; metrics NAME_mean, NAME_deviation, NAME_least, NAME_most, "
        "NAME_median, NAME_runs, NAME_failed.",
        {{"n", "integer", "", "number of runs", 1, 100000, true},
-        {"seed", "number", "", "from which the seeds of the runs are drawn: the same again and again", -1e300, 1e300, true},
-        {"value", "question", "", "function(run) that returns the number whose scatter is asked for", -unbounded, unbounded, true},
+        {"seed", "number", "", "seed from which the seeds of the runs are drawn; equal seeds give equal studies", -1e300, 1e300, true},
+        {"value", "question", "", "function(run) that returns a number; the study reports its scatter", -unbounded, unbounded, true},
         {"param", "string", "", "name of the param that takes the seeds (whole numbers below 2^31)", -unbounded, unbounded, false, "",
          "seed"},
-        {"name", "string", "", "of its metrics", -unbounded, unbounded, false, "", "ensemble"}}},
+        {"name", "string", "", "stem of its metrics", -unbounded, unbounded, false, "", "ensemble"}}},
       {"family",
        family,
        "params, how",
        "",
-       "Params that erbs test --grid varies: each value alone, and some combinations; erbs run leaves them be.",
+       "Params that erbs test --grid varies: each value alone, and some combinations. erbs run ignores the family.",
        {{"params", "family", "", "lists of values by the names of params given above", -unbounded, unbounded, true},
-        {"how", "family_how", "", "{ combinations = how many (default 4), seed = of their draw (default 1) }"}}},
+        {"how", "family_how", "", "{ combinations = their number (default 4), seed = seed of their draw (default 1) }"}}},
       {"figure",
        figure,
        "{ ... }",
        "",
-       "Draws the answers of studies beside what is known: figures/NAME.svg of the run, and in the book of erbs test.",
-       {{"name", "string", "", "of the file", -unbounded, unbounded, true},
-        {"title", "string", "", "what it shows", -unbounded, unbounded, true},
-        {"x", "string", "", "the axis along: quantity and unit", -unbounded, unbounded, true},
-        {"y", "string", "", "the axis up: quantity and unit", -unbounded, unbounded, true},
-        {"curves", "list", "", "one table each", -unbounded, unbounded, true, "", "", curve_keys()}}},
+       "Draws results of studies beside known values: figures/NAME.svg of the run, also in the book of erbs test.",
+       {{"name", "string", "", "name of the file", -unbounded, unbounded, true},
+        {"title", "string", "", "title of the figure", -unbounded, unbounded, true},
+        {"x", "string", "", "label of the horizontal axis: quantity and unit", -unbounded, unbounded, true},
+        {"y", "string", "", "label of the vertical axis: quantity and unit", -unbounded, unbounded, true},
+        {"curves", "list", "", "one table per curve", -unbounded, unbounded, true, "", "", curve_keys()}}},
   };
 }
 

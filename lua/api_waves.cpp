@@ -1,4 +1,4 @@
-// Functions of time, made from their field lists.
+// Functions of a script: waves (functions of time), made from their field lists.
 #include <lua5.4/lua.hpp>
 
 #include "lua/api.h"
@@ -11,7 +11,7 @@ std::string text_of(std::string_view wave) {
   if (wave == "half_sine") return "One lobe of a sine, from any phase to its zero at pi.";
   if (wave == "full_sine") return "One cycle of a sine, from any phase to its zero at 2 pi.";
   if (wave == "pulse") return "A rectangular pulse, exact at its edges whatever the time step.";
-  if (wave == "table_wave") return "Values at times, linear between them.";
+  if (wave == "table_wave") return "Given values at given times, linear in between.";
   if (wave == "record") return "A ground-motion record from a file, scaled in amplitude and time.";
   return fmt::format("The wave {}.", wave);
 }
@@ -49,7 +49,7 @@ int make_wave(Call& call) {
   arguments.read(wave);
   try {
     finish(call, arguments, wave);
-  } catch (const Error& error) {  // a mistake in the file names file and line there; the script goes on with a wave that is zero
+  } catch (const Error& error) {  // a mistake in the file names file and line of that file; the script continues with a zero wave
     if (error.place.file == call.place.file) call.context.mistake({}, error.what());
     else call.mistake(error.what());
     push_wave(call.lua, call.context, Pulse{0, 0, 0});
@@ -64,14 +64,14 @@ template <class W>
 Keys wave_keys() {
   if constexpr (std::is_same_v<W, Table>)
     return joined({{{"times", "numbers", "s", "increasing, at least two", -1e9, 1e9, true},
-                    {"values", "numbers", "", "one for each time, in the unit of what it drives", -unbounded, unbounded, true}},
+                    {"values", "numbers", "", "one for each time, in the unit of the load", -unbounded, unbounded, true}},
                    keys_of<W>()});
   return keys_of<W>();
 }
 
 template <class... W>
 void add_waves(std::vector<Function>& functions, const std::variant<W...>*) {
-  (functions.push_back({std::string(W::wave_name), make_wave<W>, "{ ... }", "wave: to be given to a load; wave(t) is its value",
+  (functions.push_back({std::string(W::wave_name), make_wave<W>, "{ ... }", "wave: for a load; wave(t) is its value at time t",
                         text_of(W::wave_name), wave_keys<W>()}),
    ...);
 }

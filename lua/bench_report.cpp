@@ -11,7 +11,7 @@
 namespace erbs {
 namespace {
 
-// A number at a dotted key of a row; NaN where the case failed or has none.
+// A number at a dotted key of a row; NaN if the case failed or has no such number.
 double number(const Json& row, const char* key) {
   const Json* found = find_key(row, key);
   return found != nullptr && found->is_number() ? found->get<double>() : std::numeric_limits<double>::quiet_NaN();
@@ -37,10 +37,10 @@ void print_bench_row(const Json& row) {
   if (row.contains("intact_vs_reference"))
     say("  {:.1f}x reference (broken {:.1f}x)", number(row, "intact_vs_reference"), number(row, "broken_vs_reference"));
   if (number(row, "one_thread.touching") > 0)
-    say("  {:.2f} million pairs/s, {:.3g} CPU s a simulated s", 1e-6 * number(row, "one_thread.pairs_per_s"),
-               number(row, "one_thread.cpu_s_per_s"));
+    say("  {:.2f} million pairs/s, {:.3g} CPU s per simulated s", 1e-6 * number(row, "one_thread.pairs_per_s"),
+        number(row, "one_thread.cpu_s_per_s"));
   say("  two threads {:.2f}x{}\n", number(row, "two_threads_over_one"),
-             row["same_bits_with_two_threads"].get<bool>() ? "" : ", OTHER BITS");
+      row["same_bits_with_two_threads"].get<bool>() ? "" : ", RESULTS DIFFER");
   std::fflush(stdout);
 }
 
@@ -69,7 +69,7 @@ void print_bench_summary(const Json& summary) {
       say("{:<28} {}\n", key, value.is_number() ? fmt::format("{:.4g}", value.get<double>()) : "not measured here");
 }
 
-// Nanoseconds a point and step of every case, and below them what the machine allows.
+// Figure: nanoseconds per contact point and step of every case, beside the least time that the machine allows.
 void write_bench_figure(const Json& rows, const std::string& path) {
   std::string text =
       "set terminal svg size 1100,560 dynamic font \"DejaVu Sans,13\" background \"#ffffff\"\nset encoding utf8\n"
@@ -85,7 +85,7 @@ void write_bench_figure(const Json& rows, const std::string& path) {
                         value("broken.ns_per_point"), value("roofline.least_ns_per_point"));
   }
   text +=
-      "END\nset datafile missing '-'\nset xtics noenhanced\nplot $bench using 2:xtic(1) title 'reference, sound' lc rgb '#9a9a9a', '' "
+      "END\nset datafile missing '-'\nset xtics noenhanced\nplot $bench using 2:xtic(1) title 'reference, intact' lc rgb '#9a9a9a', '' "
       "using 3 title "
       "'kernel' lc rgb '#2f6b8f', '' using 4 title 'kernel, all joints broken' lc rgb '#b5432e', '' using 5 title 'limit of the machine' "
       "lc rgb "

@@ -1,4 +1,4 @@
-// What erbs bench says of its measurements: rows, ratios, a figure.
+// Report of erbs bench: rows, ratios and a figure.
 #pragma once
 #include <string>
 
@@ -6,8 +6,8 @@
 
 namespace erbs {
 
-void print_bench_row(const Json& row);  // one scene
-Json bench_summary(const Json& rows);   // by case: the ratios that matter, and all rows under "cases"
+void print_bench_row(const Json& row);  // of one scene
+Json bench_summary(const Json& rows);   // ratios of the benchmark by name, and all rows under "cases"
 void print_bench_summary(const Json& summary);
 void write_bench_figure(const Json& rows, const std::string& path);
 

@@ -51,8 +51,8 @@ std::vector<std::string> lines_of(const std::string& path) {
   return lines;
 }
 
-// The cause of a tolerance as its scene gives it: the comment at the end of the line of the expectation, else the comment lines
-// above it and above the expectations that stand between.
+// The reason of a tolerance as its scene gives it: the comment at the end of the expectation's line. Without one, it is the block
+// of comment lines above the expectation; other expectations may stand between.
 std::string cause_of(const Verdict& verdict, std::map<std::string, std::vector<std::string>>& files) {
   const size_t colon = verdict.place.rfind(':');
   if (colon == std::string::npos) return "";
@@ -108,7 +108,7 @@ std::string table_of(const Family& family) {
   return text;
 }
 
-// Words of a scene in the running text: no tags of HTML.
+// Text of a scene as running text: without HTML tags.
 std::string plain(const std::string& words) {
   std::string out;
   for (const char c : for_files(words)) out += c == '<' ? std::string("&lt;") : std::string(1, c);
@@ -129,7 +129,7 @@ std::string sources_of(const Family& family, const std::string& book) {
   return text;
 }
 
-// What scenes draw of their studies.
+// The figures that the scenes draw of their studies.
 std::string figures_of(const Family& family, const std::string& book, const fs::path& media) {
   std::string text;
   for (const CaseResult* result : family.cases)
@@ -166,11 +166,20 @@ std::string failures(const std::vector<Family>& families) {
 
 std::vector<Family> families_of(const std::vector<CaseResult>& results) {
   std::vector<Family> all = {
-      {"b1", "B1 exact", "Numbers that follow from a formula without a doubt.", {}, 0, 0, 0, "", 0, 0},
-      {"b2", "B2 rocking", "Rigid blocks that rock, against the integrated equations of Housner's block.", {}, 0, 0, 0, "", 0, 0},
+      {"b1", "B1 exact", "Numbers that follow exactly from a formula.", {}, 0, 0, 0, "", 0, 0},
+      {"b2", "B2 rocking", "Rigid rocking blocks, compared with the integrated equations of Housner's block.", {}, 0, 0, 0, "", 0, 0},
       {"b3", "B3 statics by dynamics", "Limit loads found by growing loads slowly, or by bisection.", {}, 0, 0, 0, "", 0, 0},
       {"b4", "B4 elastic dynamics", "Frequencies and modes of elastic structures.", {}, 0, 0, 0, "", 0, 0},
-      {"hard", "Hard cases", "What breaks such programs, with the invariant that proves that it does not.", {}, 0, 0, 0, "", 0, 0},
+      {"hard",
+       "Hard cases",
+       "Situations in which such programs fail, each with an invariant that this one must keep.",
+       {},
+       0,
+       0,
+       0,
+       "",
+       0,
+       0},
       {"more", "Further cases", "Loads, records, and comparisons of the program with itself.", {}, 0, 0, 0, "", 0, 0}};
   for (const CaseResult& result : results) {
     Family& f = all[family_index(result)];
@@ -200,7 +209,7 @@ std::string summary_line(const std::vector<Family>& families) {
                      expectations - failed, failed, fmt::join(worst, ", "));
 }
 
-// Of a link: what ends it is written as its number.
+// A path as the target of a link: characters that would end the link are percent-encoded.
 static std::string in_link(const std::string& path) {
   std::string out;
   for (const char c : path) {
@@ -247,22 +256,20 @@ void write_book(const std::vector<CaseResult>& results, const Options& options, 
   const std::vector<Family> families = families_of(results);
   const std::string summary = summary_line(families);
   std::string text = fmt::format("# Verification book\n\n{}", how_to_write_a_case);
-  text += fmt::format("Written by `erbs test {}{} --book {}`, never typed: {}, {}, {} on {} processors, with erbs {}.\n\n",
-                      fmt::join(options.words, " "), options.quick ? " --quick" : "", fs::proximate(book).generic_string(),
-                      duration_text(wall), machine_isa(),
-                      options.jobs > 0 ? fmt::format("{} runs at a time", options.jobs) : "as many runs at a time as there are",
-                      usable_processors(), program_version());
-  text += "**" + summary + "**\n\n" + overview(families) + "\n";
   text +=
-      "The share is the error over its tolerance: 1 is the end of what is allowed. Cost: seconds of processor and contact points "
-      "evaluated.\n";
+      fmt::format("Written by `erbs test {}{} --book {}`, never edited by hand: {}, {}, {} on {} processors, with erbs {}.\n\n",
+                  fmt::join(options.words, " "), options.quick ? " --quick" : "", fs::proximate(book).generic_string(), duration_text(wall),
+                  machine_isa(), options.jobs > 0 ? fmt::format("{} runs at a time", options.jobs) : "one run per processor",
+                  usable_processors(), program_version());
+  text += "**" + summary + "**\n\n" + overview(families) + "\n";
+  text += "The share is the error over its tolerance; 1 is the limit. Cost: processor seconds and evaluations of contact points.\n";
   if (fs::exists(folder / "grid.md"))
-    text += "The hard cases at other steps, other numbers of contact points and with noise in the start: [the grid](grid.md).\n";
+    text += "The hard cases at other steps and numbers of contact points, with noise in the initial state: [the grid](grid.md).\n";
   text += "\n## What fails\n" + failures(families) + "\n" + endings_table;
   for (const Family& f : families) {
     const std::string figure = (media / ("book_" + f.key + ".svg")).string();
     draw_family(f, figure);
-    text += fmt::format("\n<a name=\"{}\"></a>\n## {}\n{}\n\n![{}]({})\n\n{}\n{}### Sources, and causes of the tolerances\n{}", f.key,
+    text += fmt::format("\n<a name=\"{}\"></a>\n## {}\n{}\n\n![{}]({})\n\n{}\n{}### Sources and reasons of the tolerances\n{}", f.key,
                         f.title, f.about, "error over tolerance by case", relative_link(book, figure), table_of(f),
                         figures_of(f, book, media), sources_of(f, book));
   }

@@ -8,14 +8,14 @@
 namespace erbs {
 namespace {
 
-constexpr double least = 1e-6, most = 30;  // the ends of the axis; what lies beyond is drawn at them
+constexpr double least = 1e-6, most = 30;  // ends of the axis; points beyond them are drawn at the ends
 
 std::string point(const Verdict& v, double y) {
   const double x = std::isfinite(v.used) ? std::clamp(v.used, least, most) : v.passed ? least : most;
   return fmt::format("{:.5g} {:.5g}\n", x, y);
 }
 
-// Points of a case are spread over the height of its row, so that equal ones are seen.
+// The points of a case are spread over the height of its row, so that equal points do not hide each other.
 double height(size_t i, size_t n) { return n < 2 ? 0 : 0.5 * (double(i) / double(n - 1) - 0.5); }
 
 }  // namespace

@@ -51,7 +51,7 @@ std::vector<std::string> scenes_of(const std::string& word) {
   return found;
 }
 
-// A scene that cannot be read is kept: its case then tells the mistake.
+// A scene that cannot be read stays in the list: the run of its case then reports the mistake.
 bool carries(const std::string& scene, const std::string& label, const Options& options) {
   try {
     Script script(script_options(options, true));
@@ -64,15 +64,15 @@ struct Running {
   Case* item;
   Clock::time_point begin;
   std::optional<double> max_wall;  // s
-  int asked = 0;                   // to stop: 1 as Ctrl-C, 2 hard
+  int asked = 0;                   // 1: asked to stop as by Ctrl-C; 2: killed
 };
 
-// A case that outlives its time is asked to stop, and ended where it does not heed that for ten seconds.
+// Asks a case that exceeds its time to stop, and kills it if it still runs ten seconds later.
 void hurry(std::map<int, Running>& running) {
   for (auto& [pid, run] : running) {
     if (!run.max_wall) continue;
     const double wall = std::chrono::duration<double>(Clock::now() - run.begin).count();
-    // a run stops itself at its limit, with what it has written; its studies may not
+    // a run stops at its limit by itself and keeps its results; its studies may not
     if (run.asked == 0 && wall > *run.max_wall + 2) run.asked = 1, run.item->overdue = true, interrupt({pid});
     if (run.asked == 1 && wall > *run.max_wall + 12) run.asked = 2, stop_hard({pid});
   }
@@ -120,7 +120,7 @@ std::vector<Case> find_cases(const Options& options, const std::string& out, con
 void run_cases(std::vector<Case>& cases, const Options& options, const std::function<void(const Case&)>& ended) {
   const int machine = usable_processors();
   const size_t jobs = static_cast<size_t>(options.jobs > 0 ? options.jobs : machine);
-  // as many runs at once as there are processors: one thread each; fewer: each as it sees fit (0)
+  // with as many runs at once as processors, each run gets one thread; with fewer runs, each chooses by itself (0)
   const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::min(jobs, cases.size())) >= machine ? 1 : 0;
   std::map<int, Running> running;
   size_t next = 0, done = 0;

@@ -1,13 +1,13 @@
-// Other programs, started by the simulator.
+// Other programs that erbs starts.
 #pragma once
 #include "engine/base/process.h"
 
 namespace erbs {
 
-std::string renderer_path();  // of erbs-render: beside the program, else as PATH finds it
+std::string renderer_path();  // path of erbs-render: beside erbs, otherwise found by PATH
 int run_renderer(const std::vector<std::string>& arguments);
 
-// Error where one of these is not there to be started: better before a long run than after it.
+// Throws Error if one of these programs cannot be started: a user should learn it before a long run, not after it.
 void check_programs(const std::vector<std::string>& names);
 
 }  // namespace erbs

@@ -1,4 +1,4 @@
-// What a script has said so far: the Scene and all that is settled only when the script has ended.
+// State of a script while it runs: the Scene so far, and all items that can be settled only when the script has ended.
 #pragma once
 #include <filesystem>
 #include <map>
@@ -12,7 +12,7 @@
 
 namespace erbs {
 
-// x -> turn x + shift: where the things built inside transform{} go.
+// x -> turn x + shift: the transformation of everything that is built inside transform{}.
 struct Frame {
   Quat turn = Quat::Identity();
   Vec3 shift = Vec3::Zero();  // m
@@ -20,28 +20,28 @@ struct Frame {
   Vec3 vector(const Vec3& x) const { return turn * x; }
 };
 
-// A number a run is asked for: given, or a function called after the run.
+// A number that a run shall report: a given value, or a function called after the run.
 struct Metric {
   std::string name, unit;
   double value = 0;
-  int function = -2;  // reference in the Lua registry; LUA_NOREF where the value is given
+  int function = -2;  // reference in the Lua registry; LUA_NOREF if the value is given
   Place place;
 };
 
-// Curves that a scene draws of its studies, beside what is known.
+// One curve of a figure.
 struct FigureCurve {
-  std::string label, study;          // the answers of a study over its param, ...
+  std::string label, study;          // the results of a study over its param, ...
   std::vector<std::string> metrics;  // ... or metrics over x, ...
-  std::vector<double> x, y;          // ... or numbers
+  std::vector<double> x, y;          // ... or given numbers y over x
   bool measured() const { return y.empty(); }
 };
 struct Figure {
-  std::string name, title, x, y;  // x, y: of the axes
+  std::string name, title, x, y;  // x, y: labels of the axes
   std::vector<FigureCurve> curves;
   Place place;
 };
 
-// A load whose wave is a Lua function, sampled once the duration of the run is known.
+// A load whose wave is a Lua function. The function is sampled when the duration of the run is known.
 struct Sampling {
   size_t load = 0;       // index into Scene::loads
   int function = -2;     // reference in the Lua registry
@@ -52,15 +52,15 @@ struct Sampling {
 struct Override {
   std::string name, expression;  // of -D name=expression
   double value = 0;
-  bool sound = false;  // the expression gave a number; else a mistake is noted and the default holds
+  bool sound = false;  // the expression gave a number; otherwise a mistake is reported and the default holds
   bool used = false;
 };
 
-// A recorder of a group: its blocks are known when the script has ended.
+// A recorder of a group. The blocks of the group are known only when the script has ended.
 struct GroupRecorder {
   size_t recorder = 0;  // index into Scene::recorders
   std::string group;
-  bool others = false;  // the other side of its joints
+  bool others = false;  // the group of the blocks on the other side of its joints
 };
 
 struct RunResults;
@@ -69,44 +69,44 @@ struct Context {
   Limits limits;
   Scene scene;
   std::vector<std::string> mistakes;
-  std::vector<Frame> frames{Frame{}};  // of the transform{} calls being built; the last holds
-  std::vector<int> materials;          // those of material{}, not the ones ground{} makes for itself
-  std::vector<Law> laws;               // values of mortar{} and dry{}: a script holds an index
-  std::vector<Wave> waves;             // values of sine{} ... record{}
+  std::vector<Frame> frames{Frame{}};  // transform{} calls under way; the last one applies
+  std::vector<int> materials;          // indices of the materials of material{}, without the ones that ground{} makes for itself
+  std::vector<Law> laws;               // values of mortar{} and dry{}; a script holds an index
+  std::vector<Wave> waves;             // values of sine{} ... record{}; a script holds an index
   std::vector<Override> overrides;
   std::vector<Metric> metrics;
   std::vector<Sampling> samplings;
   std::vector<Study> studies;
   std::vector<Figure> figures;
   ParamFamily family;
-  std::string study;  // the one that started this run; "" where none did
+  std::string study;  // name of the study that started this run; "" if no study did
   std::vector<GroupRecorder> group_recorders;
-  std::string quality;              // of analysis{}, or of the command line, which comes first; "": none is asked for
-  bool quality_set = false;         // by the command line
-  bool own_step = false;            // analysis{} says dt or dt_fraction
-  std::vector<size_t> plain_rules;  // joint rules that say neither rule nor points
+  std::string quality;              // from the command line, otherwise from analysis{}; "": neither gives one
+  bool quality_set = false;         // the command line gives the quality
+  bool own_step = false;            // analysis{} gives dt or dt_fraction
+  std::vector<size_t> plain_rules;  // joint rules that give neither rule nor points
   std::vector<std::string> output;  // what the script printed
-  size_t printed = 0;               // bytes of it
+  size_t printed = 0;               // bytes of `output`
   std::filesystem::path folder;     // of the scene file
   std::vector<std::string> allowed;  // further folders that the scene may read
-  std::vector<std::string> files;   // names of the chunks that are the user's
-  bool incomplete = false;          // masonry with mistakes was left out: what follows from its absence is no mistake
+  std::vector<std::string> files;    // names of the chunks that belong to the user
+  bool incomplete = false;           // masonry with mistakes was left out; mistakes that follow from its absence are not reported
   const RunResults* run = nullptr;  // while metrics are evaluated
-  int includes = 0;                 // depth of include at the moment
-  bool quiet = false;               // print writes to output only
-  int repeated = 0;                 // mistakes that were noted before
-  size_t taken = 0, calls = 0;      // bytes and calls of the language since memory was looked at
+  int includes = 0;                 // current depth of include
+  bool quiet = false;               // print writes to `output` only
+  int repeated = 0;                 // mistakes that were already reported
+  size_t taken = 0, calls = 0;      // bytes and calls of the API since the last check of memory
 
   const Frame& frame() const { return frames.back(); }
-  // Adds one mistake of the user's; the script goes on, so that all are reported at once. Ends the script when there are very many.
+  // Adds one mistake of the user. The script continues, so that all mistakes are reported at once; it ends when there are very many.
   void mistake(const Place& place, const std::string& message);
-  // Counts what a call of the language keeps outside of Lua; throws Error where all memory together is past its limit.
+  // Counts the bytes that a call of the API keeps outside Lua. Throws Error if the total memory exceeds its limit.
   void took(size_t bytes);
 };
 
 Context& context_of(lua_State* lua);
 
-// The script line being run: the innermost that belongs to the user's files, not to the parts of the language written in Lua.
+// The script line that runs now: the innermost one in a file of the user, not in the parts of the language written in Lua.
 Place current_place(lua_State* lua);
 
 }  // namespace erbs

@@ -1,4 +1,4 @@
-// How the command line departs from the scene: in a study every run does.
+// Overrides: options of the command line that replace values of the scene. Every run of a study gets the same ones.
 #include "lua/depart.h"
 
 #include <algorithm>
@@ -52,7 +52,7 @@ void set_analysis(Analysis& analysis, const std::string& setting) {
   throw Error(fmt::format("--set {}: analysis has no key \"{}\"{}", setting, key, did_you_mean(key, known)));
 }
 
-// Every stiffness of a joint's law, whatever the law.
+// Multiplies every stiffness of a joint rule, whatever its law.
 void stiffen(JointRule& rule, double factor) {
   std::visit(
       [&](auto& law) {
@@ -85,7 +85,7 @@ std::vector<std::string> depart(Scene& scene, const Options& options) {
   if (options.points > 0) {
     const int side = static_cast<int>(std::lround(std::sqrt(options.points)));
     if (side * side != options.points)
-      throw Error(fmt::format("--points {}: not a square number; write 4, 9, 16 or 25, of which half lie along each side", options.points));
+      throw Error(fmt::format("--points {}: not a square number; write 4, 9, 16 or 25 (2, 3, 4 or 5 along each side)", options.points));
     for (JointRule& rule : scene.joint_rules) rule.points_long = rule.points_short = side;
     notes.push_back(fmt::format("--points {}", options.points));
   }

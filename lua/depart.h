@@ -1,14 +1,15 @@
-// How the command line departs from the scene.
+// Overrides: options of the command line that replace values of the scene.
 #pragma once
 #include "engine/scene/scene.h"
 #include "lua/options.h"
 
 namespace erbs {
 
-// Applies it; the words said, for the log.
+// Applies the overrides to the scene. Returns their text, for the log.
 std::vector<std::string> depart(Scene& scene, const Options& options);
 
-// draft, standard or reference of --set quality=..., which says what the script leaves open; "" where there is none. Throws Error.
+// The quality of --set quality=...: draft, standard or reference; "" without one. It holds for values the script leaves open.
+// Throws Error.
 std::string quality_of(const Options& options);
 
 }  // namespace erbs

@@ -1,4 +1,4 @@
-// The parts of the language written in Lua, in the order they are run.
+// The parts of the language that are written in Lua, in the order in which they are run.
 #pragma once
 #include <string_view>
 #include <vector>

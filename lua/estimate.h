@@ -1,4 +1,4 @@
-// What a run may cost before anybody has run it: from counts, as a range.
+// Estimate of the cost of a run before it starts: a range, from counts of blocks, joints and contact points.
 #pragma once
 #include <string>
 
@@ -7,13 +7,13 @@
 namespace erbs {
 
 struct Cost {
-  double least, most;      // s of one core
-  std::string least_text;  // "if all joints stay sound", ...
-  std::string most_text;
-  double cracked = 0;  // s, if all joints crack and no block comes loose; 0: that says no more
+  double least, most;      // s on one core
+  std::string least_text;  // condition of `least`: "if all joints stay intact", ...
+  std::string most_text;   // condition of `most`
+  double cracked = 0;      // s, if all joints crack and no block comes loose; 0: `most` says the same
 };
 
-// `steps`: at the step of the start. `debris`: blocks that come loose meet (Analysis::debris).
+// `steps`: at the initial time step. `debris`: loose blocks collide (Analysis::debris).
 Cost estimated_cost(const Model& model, double steps, bool debris);
 std::string cost_text(const Cost& cost);
 

@@ -9,14 +9,14 @@ namespace {
 
 std::string short_number(double value) { return fmt::format("{:.6g}", value); }
 
-// A word of metrics.json as an expectation writes it: completed, true, null.
+// A word of metrics.json in the spelling of an expectation: completed, true, null.
 std::string word(const Json& value) { return value.is_string() ? value.get<std::string>() : value.dump(); }
 
 constexpr double without_end = std::numeric_limits<double>::infinity();
 
 double share(double error, double tolerance) { return error == 0 ? 0 : tolerance > 0 ? error / tolerance : without_end; }
 
-// How much of what is allowed is taken. Bounds are ratios where their sign allows one: 0 where far within, 1 at the bound.
+// Ratio of the error to its tolerance. For a bound whose sign permits it, the ratio of value to bound: 0 far within, 1 at the bound.
 double used_of(const Expectation& item, double got) {
   using Kind = Expectation::Kind;
   if (!std::isfinite(got)) return without_end;
@@ -123,7 +123,8 @@ std::vector<Verdict> verdicts_of(const Json& json) {
   for (const auto& item : json) {
     Verdict v;
     v.passed = item.value("passed", false);
-    v.used = item.contains("used") && item["used"].is_number() ? item["used"].get<double>() : without_end;  // JSON has no infinity
+    // JSON has no infinity; it is stored as null
+    v.used = item.contains("used") && item["used"].is_number() ? item["used"].get<double>() : without_end;
     for (const auto& [key, into] : {std::pair{"key", &v.key},
                                     {"expected", &v.expected},
                                     {"got", &v.got},

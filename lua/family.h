@@ -1,4 +1,4 @@
-// What a scene lets erbs test --grid vary besides the step: lists of values of its params.
+// Parameter family of a scene: values of its params that erbs test --grid tries besides other time steps.
 #pragma once
 #include <string>
 #include <utility>
@@ -9,17 +9,17 @@
 namespace erbs {
 
 struct ParamFamily {
-  std::vector<std::pair<std::string, std::vector<double>>> values;  // of each param, in the order of their declaration
+  std::vector<std::pair<std::string, std::vector<double>>> values;  // values of each param, in the order of declaration
   int combinations = 4;
-  double seed = 1;  // of the combinations
+  double seed = 1;  // of the random combinations
   Place place;
 };
 
-using Choice = std::vector<std::pair<std::string, double>>;  // a value of each param it names
+using Choice = std::vector<std::pair<std::string, double>>;  // params by name, each with its value
 
-// Each value of each param, alone.
+// One choice for each value of each param; the other params keep their defaults.
 std::vector<Choice> one_at_a_time(const ParamFamily& family);
-// The i-th combination: a value of every param, drawn.
+// The i-th random combination: one drawn value for every param.
 Choice combination(const ParamFamily& family, int i);
 
 }  // namespace erbs

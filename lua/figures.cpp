@@ -38,7 +38,7 @@ std::string numbers_of(const FigureCurve& curve, const std::string& directory) {
   return text;
 }
 
-// The first line of a script is its title as a string of JSON: a comment that no title can end, nor carry on into the next line.
+// The title in the first line of a gnuplot script: a comment that holds it as a JSON string, so that no title can end the line.
 std::string title_in(const std::string& script) {
   const Json title = Json::parse(script.substr(2, script.find('\n') - 2), nullptr, false);
   return title.is_string() ? title.get<std::string>() : "";

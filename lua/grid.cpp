@@ -27,13 +27,13 @@ constexpr double dt_fractions[] = {0.2, 0.5, 0.9};  // of dt_critical
 constexpr int point_numbers[] = {4, 9, 25};         // per joint
 constexpr double noise = 1e-8;                      // m and rad
 constexpr double family_fractions[] = {0.25, 0.5, 0.9};
-constexpr int draws = 100;  // of one combination, until the scene takes it
+constexpr int draws = 100;  // draws of one combination until the scene accepts one
 
 struct Variant {
   Case run;
   std::string scene_name, words;  // "dt 0.2, 9 points"
   std::string note, key;
-  std::string refused;  // by the scene itself, and why
+  std::string refused;  // reason why the scene itself refuses the combination; "" if it does not
   bool done = false;
   CaseResult result;
 };
@@ -63,7 +63,7 @@ Variant variant_of(const Case& scene, const std::string& key, const Choice& choi
   return variant_of(scene, key, stem, words, std::move(extra));
 }
 
-// Why the scene cannot be built so; "" where it can.
+// The reason why the scene cannot be built with this choice; "" if it can.
 std::string refusal(const Case& scene, const Options& options, const Choice& choice) {
   Overrides overrides = options.overrides;
   for (const auto& [name, value] : choice) overrides.emplace_back(name, fmt::format("{:.17g}", value));
@@ -73,7 +73,7 @@ std::string refusal(const Case& scene, const Options& options, const Choice& cho
   } catch (const std::exception& error) { return error.what(); }
 }
 
-// At the steps of a family, with its values alone and drawn together; what -D says stays.
+// Variants of a scene with a family: other time steps, every value alone, and random combinations. Params given by -D stay fixed.
 std::vector<Variant> family_of(const Case& scene, const Options& options, ParamFamily family, const std::string& key, bool fixed_dt) {
   const Overrides& overrides = options.overrides;
   std::erase_if(family.values, [&](const auto& list) {
@@ -116,7 +116,7 @@ std::vector<Variant> seeds_of(const Case& scene, const Options& options) {
   return all;
 }
 
-// Scenes that fix their step keep it, those without joints their points; those that declare a family are run over it.
+// Variants of a scene. A scene with a family is run over it. A scene with a fixed step keeps it; one without joints keeps its points.
 std::vector<Variant> variants_of(const Case& scene, const Options& options) {
   const Overrides& overrides = options.overrides;
   bool fixed_dt = false, joints = true;
@@ -128,7 +128,7 @@ std::vector<Variant> variants_of(const Case& scene, const Options& options) {
     fixed_dt = std::find(s.labels.begin(), s.labels.end(), "fixed_dt") != s.labels.end();
     joints = std::any_of(s.joint_rules.begin(), s.joint_rules.end(), [](const JointRule& rule) { return !rule.none; });
     if (!script.family().values.empty()) return family_of(scene, options, script.family(), key, fixed_dt);
-  } catch (const std::exception&) {}  // its run tells the mistake
+  } catch (const std::exception&) {}  // its run reports the mistake
   std::vector<Variant> all;
   for (size_t i = 0; i < (fixed_dt ? 1 : std::size(dt_fractions)); ++i)
     for (size_t k = 0; k < (joints ? std::size(point_numbers) : 1); ++k) {
@@ -170,12 +170,12 @@ bool read_note(Variant& v) {
   } catch (const std::exception&) { return false; }
 }
 
-// The worst value of one invariant over the variants of a scene.
+// The worst value of one invariant over all variants of a scene.
 struct Worst {
   std::string scene, key, expected, got, tolerance, at;
   double used = 0;
   int runs = 0;
-  std::vector<std::string> failed;  // at which settings
+  std::vector<std::string> failed;  // settings at which it fails
 };
 
 struct Grid {
@@ -217,9 +217,9 @@ Grid worst_of(const std::vector<Variant>& variants) {
     }
     for (const Verdict& verdict : v.result.verdicts) add(row_of(v.scene_name, verdict.key), v, verdict);
     Verdict run;
-    run.expected = "ends well";
+    run.expected = "completes";
     run.passed = v.result.trouble.empty();
-    run.got = run.passed ? "it does" : v.result.trouble;
+    run.got = run.passed ? "completed" : v.result.trouble;
     run.used = run.passed ? 0 : 1e300;
     add(row_of(v.scene_name, "(run)"), v, run);
   }
@@ -230,8 +230,8 @@ std::string summary_of(const Grid& grid) {
   const auto failed = std::count_if(grid.rows.begin(), grid.rows.end(), [](const Worst& w) { return !w.failed.empty(); });
   std::string text = fmt::format("{} runs, {} invariants: {} hold on the whole grid, {} do not", grid.runs, grid.rows.size(),
                                  grid.rows.size() - static_cast<size_t>(failed), failed);
-  if (!grid.refused.empty()) text += fmt::format("; {} runs refused by a limit that the scene states", grid.refused.size());
-  if (grid.missing > 0) text += fmt::format("; {} runs are still to be made", grid.missing);
+  if (!grid.refused.empty()) text += fmt::format("; {} runs refused by a limit of the scene", grid.refused.size());
+  if (grid.missing > 0) text += fmt::format("; {} runs are still missing", grid.missing);
   return text;
 }
 
@@ -250,21 +250,21 @@ void print(const Grid& grid) {
   for (const Worst& w : grid.rows)
     if (!w.failed.empty()) say("{} {} fails at {}\n", w.scene, w.key, fmt::join(w.failed, "; "));
   for (const auto& text : grid.refused) say("refused: {}\n", text);
-  say("{} ({} of processor)\n", summary_of(grid), duration_text(grid.cpu));
+  say("{} ({} of processor time)\n", summary_of(grid), duration_text(grid.cpu));
   std::fflush(stdout);
 }
 
 void write_page(const Grid& grid, const Options& options, double wall) {
   std::string text = "# The hard cases over a grid of settings\n\n";
   text += fmt::format(
-      "Written by `erbs test {} --grid --book {}`, never typed: {} of processor{}, erbs {}. Every scene is run at 0.2, 0.5 "
-      "and 0.9 of the limit of the time step, with 4, 9 and 25 contact points per joint, and with noise of {:g} (m, rad) in the start of "
-      "every free block, since exact symmetry hides instabilities. Scenes that fix their step keep it, those without joints their points. "
-      "A scene that declares a family is run at 0.25, 0.5 and 0.9 of the limit, and at its default step with each value of the family and "
-      "some combinations. "
+      "Written by `erbs test {} --grid --book {}`, never edited by hand: {} of processor time{}, erbs {}. Every scene runs at "
+      "0.2, 0.5 and 0.9 of the limit of the time step, with 4, 9 and 25 contact points per joint. Noise of {:g} (m, rad) in the initial "
+      "state of every free block reveals instabilities that exact symmetry would hide. A scene with a fixed step keeps it; a scene without "
+      "joints has no points to vary. A scene with a family runs at 0.25, 0.5 and 0.9 of the limit, and at its default step with each value "
+      "of the family and some combinations. "
       "Each row is the worst value of one invariant over these runs.\n\n**{}**\n\n",
       fmt::join(options.words, " "), fs::proximate(options.book).generic_string(), duration_text(grid.cpu),
-      wall > 0 ? fmt::format(", {} of the clock", duration_text(wall)) : "", program_version(), noise, summary_of(grid));
+      wall > 0 ? fmt::format(", {} of wall-clock time", duration_text(wall)) : "", program_version(), noise, summary_of(grid));
   text += "| case | invariant | bound | worst | share of the bound | at | runs | verdict |\n|---|---|---|---|---|---|---|---|\n";
   std::string last;
   for (const Worst& w : grid.rows) {
@@ -273,7 +273,7 @@ void write_page(const Grid& grid, const Options& options, double wall) {
                         !w.failed.empty() ? fmt::format("**failed in {}**", w.failed.size()) : "ok");
     last = w.scene;
   }
-  if (!grid.refused.empty()) text += "\nRefused by a limit that the scene states:\n\n";
+  if (!grid.refused.empty()) text += "\nRefused by a limit of the scene:\n\n";
   for (const auto& refused : grid.refused) text += "- " + refused + "\n";
   write_text_atomically(options.book, text);
   const std::string readme = (fs::absolute(options.book).parent_path().parent_path() / "README.md").string();
@@ -286,7 +286,7 @@ void write_page(const Grid& grid, const Options& options, double wall) {
 
 int run_grid(const Options& given) {
   Options options = given;
-  if (!options.max_wall) options.max_wall = 900;  // three poured piles at .2 of the limit, on processors that others use
+  if (!options.max_wall) options.max_wall = 900;  // three poured piles at 0.2 of the limit, on busy processors
   if (options.budget <= 0) options.budget = 3600;
   const std::string out = options.directory.empty() ? (options.seeds > 0 ? "runs/seeds" : "runs/grid") : options.directory;
   const auto begin = std::chrono::steady_clock::now();
@@ -310,9 +310,9 @@ int run_grid(const Options& given) {
   const Grid grid = worst_of(variants);
   print(grid);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (!options.book.empty()) write_page(grid, options, options.resume ? 0 : wall);  // of runs that were kept nobody knows it
+  if (!options.book.empty()) write_page(grid, options, options.resume ? 0 : wall);  // of a resumed grid the total time is unknown
   if (grid.missing > 0) {
-    say("out of time; the same command with --resume makes the runs that are left\n");
+    say("out of time; the same command with --resume makes the remaining runs\n");
     return exit_stopped;
   }
   return std::any_of(grid.rows.begin(), grid.rows.end(), [](const Worst& w) { return !w.failed.empty(); }) ? exit_expectation : exit_ok;

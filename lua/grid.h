@@ -1,4 +1,4 @@
-// erbs test --grid: every scene again at other time steps and numbers of contact points, with noise in its start.
+// erbs test --grid: every scene at other time steps and numbers of contact points, with noise in its initial state.
 #pragma once
 #include "lua/options.h"
 

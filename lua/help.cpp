@@ -1,4 +1,4 @@
-// erbs help, and the editor file: both from the table of what a script can call.
+// erbs help and the editor file; both come from the table of functions that a script can call.
 #include "lua/help.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace erbs {
 namespace {
 
-// A value of a list as a script would write it.
+// A value of a list in the spelling of a script.
 std::string written(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_number()) return erbs::written(value.get<double>());
@@ -23,7 +23,7 @@ std::string written(const Json& value) {
   return fmt::format("{{ {} }}", fmt::join(items, ", "));
 }
 
-// Keys of functions written in Lua, as their list says them.
+// Keys of a function written in Lua, from its entry in masonry_functions.
 Keys keys_of(const Json& list) {
   Keys keys;
   for (const Json& item : list) {
@@ -91,7 +91,7 @@ std::string line_of(const Key& key, size_t name_width, size_t type_width) {
   return line + "\n";
 }
 
-// The keys of a table inside come after it, as brick.length.
+// The keys with the keys of inner tables after their table, as brick.length.
 Keys flat(const Keys& keys, const std::string& before) {
   Keys all;
   for (const Key& key : keys) {
@@ -117,11 +117,11 @@ std::string quantities_text() {
   return text;
 }
 
-// How a study is written, from the param to what is expected of it.
+// Example of a study: the param, the study and an expectation on its result.
 std::string example_of(const std::string& name) {
   if (name == "bisect")
     return "  local pga = param(\"pga\", 0.5 * g, \"peak of the ground [m/s2]\")\n"
-           "  bisect { param = \"pga\", lo = 0.1 * g, hi = 1.5 * g, rel = 0.01 }  -- where collapse.collapsed turns true\n"
+           "  bisect { param = \"pga\", lo = 0.1 * g, hi = 1.5 * g, rel = 0.01 }  -- the value at which collapse.collapsed becomes true\n"
            "  bisect { param = \"pga\", name = \"slides\", lo = 0, hi = g, collapsed_when = function(run) return run.last \"b_ux_rel_m\" > "
            "1*mm end }\n"
            "  expect(\"metrics.collapse_pga\", 0.37 * g, { rel = 0.02, source = \"limit analysis\" })\n";
@@ -136,9 +136,9 @@ std::string example_of(const std::string& name) {
            "  expect(\"metrics.falls_at_mean\", 1.2, { abs = 0.1, source = \"twenty twins\" })\n";
   if (name == "family")
     return "  local kn, plates = param(\"kn\", 1e10, \"[Pa/m]\"), param(\"plates\", 8, \"\")\n"
-           "  family { kn = { 1e9, 1e11, 1e12 }, plates = { 1, 3, 40 } }  -- six runs, and four drawn combinations\n"
+           "  family { kn = { 1e9, 1e11, 1e12 }, plates = { 1, 3, 40 } }  -- six runs, and four random combinations\n"
            "  family({ kn = { 1e9, 1e12 } }, { combinations = 0 })\n"
-           "A combination that the scene refuses by error(...) is drawn anew; a value it refuses alone is told.\n";
+           "If the scene refuses a combination by error(...), another one is drawn. A single value that it refuses is reported.\n";
   return "";
 }
 
@@ -153,11 +153,11 @@ std::string function_text(const Function& function) {
   if (const std::string example = example_of(function.name); !example.empty())
     text += "example:\n" + example;
   if (function.name == "bisect" || function.name == "converge" || function.name == "ensemble")
-    text += "A run that crashes, diverges or gives no number is a row of studies/NAME.csv with its reason.\n";
+    text += "A run that crashes, diverges or gives no number has a row with the reason in studies/NAME.csv.\n";
   return text;
 }
 
-// LuaCATS: the type of a key.
+// The type of a key in LuaCATS, the annotations that editors read.
 std::string editor_type(const Key& key) {
   static const std::pair<const char*, const char*> types[] = {{"vec3", "erbs.vec3"},
                                                               {"vec", "erbs.vec3"},
@@ -257,7 +257,10 @@ std::string function_help(const std::string& name) {
 std::string functions_list() {
   std::string text = "Scene functions (erbs help FUNCTION):\n";
   for (const Function& function : all_functions()) text += fmt::format("  {:<14} {}\n", function.name, function.text);
-  return text + "Units: m cm mm km  s ms  kg t  N kN MN  Pa kPa MPa GPa  J Hz  deg g pi, as factors: 5*mm, 0.4*g\nstart_noise: what erbs run --noise and erbs test --grid put into the start of every free block (m and rad), 0 without them\n";
+  return text +
+         "Units: m cm mm km  s ms  kg t  N kN MN  Pa kPa MPa GPa  J Hz  deg g pi, as factors: 5*mm, 0.4*g\nstart_noise: noise in the "
+         "initial state of every free block (m and rad), "
+         "by erbs run --noise or erbs test --grid; 0 without them\n";
 }
 
 std::string editor_file() {

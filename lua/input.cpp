@@ -14,9 +14,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20;  // what is read of it takes ten times as much
+constexpr std::uintmax_t most_bytes = std::uintmax_t{64} << 20;  // the data read from it take ten times as much memory
 
-// Without links and dots; empty where that cannot be told (a name too long, a ring of links).
+// The path without links and dots; empty if it cannot be resolved (name too long, links in a circle).
 fs::path real(const fs::path& path) {
   std::error_code failed;
   const fs::path found = fs::weakly_canonical(fs::absolute(path, failed), failed);
@@ -27,7 +27,7 @@ bool is_inside(const fs::path& folder, const fs::path& path) {
   return !folder.empty() && std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first == folder.end();
 }
 
-// `/a/b/` is `/a/b`: an empty last part would be no part of what lies inside.
+// `/a/b/` becomes `/a/b`: with an empty last part no path would count as inside.
 fs::path bare(fs::path folder) { return folder.has_filename() ? folder : folder.parent_path(); }
 
 }  // namespace
@@ -85,7 +85,7 @@ std::string read_input(Context& context, const fs::path& path, const Place& plac
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   std::ostringstream text;
-  // an empty file sets the failbit of text, and is none of our business here
+  // an empty file sets the failbit of `text`; it is no error here
   if (!stream || (stream.peek() != std::ifstream::traits_type::eof() && !(text << stream.rdbuf())))
     throw Error(fmt::format("cannot read {}: {}; check its permissions", shown(path.string(), 400), std::strerror(errno)), place);
   context.scene.inputs[path.string()] = hash_text(fnv1a(text.str()));

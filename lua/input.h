@@ -1,5 +1,5 @@
-// Files that a script names. It reads inside the folder of the scene, inside the folder `scenes` that holds it where there is one, and
-// inside the folders that the command line allows (--allow DIR); no absolute path, `..` or link leads out of these.
+// Files that a script names. A scene may read in its own folder and in the folder `scenes` around it, if there is one. The command line may
+// allow further folders (--allow DIR). No absolute path, `..` or link leads out of them.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace erbs {
 
-// The folders, each without links in its path; the scene's own is the first.
+// These folders with all links resolved; the scene's own folder is the first.
 std::vector<std::filesystem::path> readable_folders(const Context& context);
 bool may_read(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& path);
 
-// The file a script means: of an absolute name that file, else it is looked for in each of the folders. Throws Error, which does not tell
-// whether there is such a file elsewhere.
+// The file that a script names. A relative name is searched in each of the folders. Throws Error, whose text does not reveal
+// whether the file exists outside the folders.
 std::filesystem::path find_input(const Context& context, const std::string& file, const Place& place);
 
-// Reads it and notes its hash for the manifest. Throws Error.
+// Returns the content of the file and keeps its hash for the manifest. Throws Error.
 std::string read_input(Context& context, const std::filesystem::path& path, const Place& place);
 
 }  // namespace erbs

@@ -12,10 +12,10 @@
 namespace erbs {
 namespace {
 
-const char* const language_key = "erbs.language";  // in the registry: what every scene sees
-const char* const view_key = "erbs.view";          // in the registry: the same with libraries that are locked
+const char* const language_key = "erbs.language";  // in the registry: the globals of the language
+const char* const view_key = "erbs.view";          // in the registry: the same, with locked libraries
 
-// Every name of the language, for suggestions.
+// All names of the language, for suggestions.
 std::vector<std::string> known_names(lua_State* lua) {
   std::vector<std::string> names;
   lua_getfield(lua, LUA_REGISTRYINDEX, language_key);
@@ -26,7 +26,7 @@ std::vector<std::string> known_names(lua_State* lua) {
   return names;
 }
 
-// Reading a global that nobody has set.
+// Called when a script reads an unknown global.
 int unknown_global(lua_State* lua, Context&) {
   const std::string name = lua_type(lua, 2) == LUA_TSTRING ? shown(lua_tostring(lua, 2), 60) : described(lua, 2);
   const std::string near = nearest(name, known_names(lua));
@@ -36,7 +36,7 @@ int unknown_global(lua_State* lua, Context&) {
       current_place(lua));
 }
 
-// Setting a global: names of the language stay what they are.
+// Called when a script sets a global: names of the language cannot be redefined.
 int set_global(lua_State* lua, Context&) {
   lua_getfield(lua, LUA_REGISTRYINDEX, language_key);
   lua_pushvalue(lua, 2);
@@ -49,13 +49,13 @@ int set_global(lua_State* lua, Context&) {
   return 0;
 }
 
-// Setting a function of a library: what the language is written with stays what it is.
+// Called when a script sets a function of a library: the language itself depends on the libraries.
 int set_library(lua_State* lua, Context&) {
   throw Error("the libraries string, table, math and utf8 cannot be changed; write local my = { ... } for functions of your own",
               current_place(lua));
 }
 
-// What is not in the table at `index` is read by `read`, or else from the table `behind` in the registry.
+// Sets the metatable of the table at `index`: missing names are read by `read`, otherwise from the table `behind` in the registry.
 void set_metatable(lua_State* lua, int index, const char* behind, Body read, Body write) {
   index = lua_absindex(lua, index);
   lua_newtable(lua);
@@ -74,8 +74,8 @@ void set_metatable(lua_State* lua, int index, const char* behind, Body read, Bod
   lua_setmetatable(lua, index);
 }
 
-// On the stack: what a scene reads behind its own globals, the language but with libraries that it cannot change. The parts of the language
-// written in Lua see the libraries themselves.
+// Pushes the view of a scene behind its own globals: the language, with libraries that a scene cannot change. The parts of the
+// language written in Lua use the libraries themselves.
 void push_view(lua_State* lua) {
   lua_newtable(lua);
   for (const char* name : {LUA_TABLIBNAME, LUA_STRLIBNAME, LUA_MATHLIBNAME, LUA_UTF8LIBNAME}) {
@@ -94,14 +94,14 @@ void push_view(lua_State* lua) {
   }
   set_metatable(lua, -1, language_key, nullptr, nullptr);
   lua_pushliteral(lua, "");
-  lua_getmetatable(lua, -1);  // of strings: it would lead to the library
+  lua_getmetatable(lua, -1);  // metatable of strings: its __index would expose the library
   lua_pushliteral(lua, "locked");
   lua_setfield(lua, -2, "__metatable");
   lua_pop(lua, 2);
 }
 
-// did_you_mean(word, names), escaped(text), note_mistakes(lines) and widen_joint(joint, width): for the parts of the language that are
-// written in Lua.
+// Functions for the parts of the language that are written in Lua: did_you_mean(word, names), escaped(text), note_mistakes(lines)
+// and widen_joint(joint, width).
 int suggest(lua_State* lua, Context&) {
   std::vector<std::string> names;
   const auto n = static_cast<lua_Integer>(lua_rawlen(lua, 2));
@@ -114,7 +114,7 @@ int suggest(lua_State* lua, Context&) {
   return 1;
 }
 
-// Of a text in plain letters: itself.
+// Text with its control characters escaped; plain text stays as it is.
 int escaped(lua_State* lua, Context&) {
   size_t length = 0;
   const char* text = lua_tolstring(lua, 1, &length);
@@ -129,7 +129,7 @@ int note_mistakes(lua_State* lua, Context& context) {
   return 0;
 }
 
-// A head joint beside the block made last has this width (m) instead of that of the other joints of its masonry.
+// widen_joint(joint, width), in m: the last block has a head joint of `width` beside it, where its masonry has joints of `joint`.
 int widen_joint(lua_State* lua, Context& context) {
   Block& block = context.scene.blocks.back();
   block.joint = lua_tonumber(lua, 1);

@@ -1,4 +1,4 @@
-// The program erbs: reads the command line, calls the verb, turns trouble into an exit code. The one door to CLI11.
+// The program erbs: reads the command line, calls the verb, turns an error into an exit code. Only this file includes CLI11.
 #include <CLI/CLI.hpp>
 #include <malloc.h>
 
@@ -21,7 +21,7 @@ namespace {
 using erbs::Options;
 using erbs::shown;
 
-// A number in a range, ends included. CLI::Range lets NaN pass, which is neither below nor above anything.
+// A number in a range, ends included. CLI::Range would accept NaN, which is neither below nor above any number.
 template <class T>
 CLI::Validator within(T low, T high) {
   const std::string range = fmt::format("{} to {}", low, high);
@@ -34,7 +34,7 @@ CLI::Validator within(T low, T high) {
       range);
 }
 
-// An option that is there says something: from a script an empty word is mostly a variable that is not set.
+// An option must not be empty: in a shell script an empty word is usually a variable that is not set.
 CLI::Validator filled() {
   return CLI::Validator([](std::string& text) { return text.empty() ? std::string("it is empty; give it a value, or leave the option out") : ""; }, "");
 }
@@ -52,12 +52,12 @@ void add_output(CLI::App& verb, CommandLine& line, const std::string& place = "r
 }
 
 void add_scene(CLI::App& verb, CommandLine& line) {
-  verb.add_option("-D", line.defines, "give a param of the scene a value, with units: -D pga=0.8*g")
+  verb.add_option("-D", line.defines, "set a param of the scene, with units: -D pga=0.8*g")
       ->type_name("name=value")
       ->expected(1)
       ->take_all();
-  verb.add_flag("--allow-unstable", line.options.allow_unstable, "let a time step past the limit run");
-  verb.add_option("--allow", line.options.allow, "let the scene read files in this folder too, besides its own")
+  verb.add_flag("--allow-unstable", line.options.allow_unstable, "allow a time step beyond the limit");
+  verb.add_option("--allow", line.options.allow, "allow the scene to read files in this folder besides its own")
       ->type_name("DIR")
       ->expected(1)
       ->take_all();
@@ -74,121 +74,136 @@ void add_run(CLI::App& app, CommandLine& line) {
   run.add_option("--threads", line.options.threads, "threads (default: as many as the machine has, 1 for few blocks)")
       ->check(within(1, 1024));
   run.add_option("--until", line.until, "stop at this simulated time, with a checkpoint")->check(filled())->type_name("T");
-  run.add_flag("--resume", line.options.resume, "go on from the checkpoint in the folder");
-  run.add_option("--max-wall", line.max_wall, "stop after this time of the clock, with a checkpoint")->check(filled())->type_name("30m");
-  run.add_option("--checkpoint-every", line.checkpoint_every, "time of the clock between checkpoints (default 60s)")->check(filled())->type_name("60s");
+  run.add_flag("--resume", line.options.resume, "continue from the checkpoint in the folder");
+  run.add_option("--max-wall", line.max_wall, "stop after this wall-clock time, with a checkpoint")->check(filled())->type_name("30m");
+  run.add_option("--checkpoint-every", line.checkpoint_every, "wall-clock time between checkpoints (default 60s)")
+      ->check(filled())
+      ->type_name("60s");
   run.add_option("--dt-fraction", line.options.dt_fraction, "time step as a share of dt_critical, whatever the scene says")
       ->check(within(1e-6, 1e3));
   run.add_option("--points", line.options.points, "contact points of every joint: 4, 9, 16, 25 (a square on each face)")
       ->check(within(1, 10000));
-  run.add_option("--rule", line.options.rule, "how the contact points of every joint are laid out")
+  run.add_option("--rule", line.options.rule, "quadrature rule of the contact points of every joint")
       ->check(CLI::IsMember({"simpson", "midpoint", "trapezoid", "gauss"}));
   run.add_option("--set", line.options.settings, "another value for a key of analysis{}: --set lazy_rotation=1e-4")
       ->type_name("key=value")
       ->expected(1)
       ->take_all();
-  run.add_option("--stiffness", line.options.stiffness, "times that of every joint the scene says")->check(within(1e-6, 1e6));
+  run.add_option("--stiffness", line.options.stiffness, "factor on the stiffness of every joint")->check(within(1e-6, 1e6));
   run.add_option("--damping", line.options.damping, "mass damping c/m instead of the scene's, 1/s")->check(within(0.0, 1e7));
-  run.add_option("--damping-form", line.options.damping_form, "how a step takes mass damping in")
+  run.add_option("--damping-form", line.options.damping_form,
+                 "velocity that mass damping uses: the mean over the step, or the one before it")
       ->check(CLI::IsMember({"centred", "explicit"}));
-  run.add_option("--from", line.from, "let the loads begin here, the structure at rest: a window of a long record")->check(filled())->type_name("T");
-  run.add_option("--noise", line.options.noise, "perturb the start of every free block by up to this (m and rad), seeded")
+  run.add_option("--from", line.from, "start the loads at this time, with the structure at rest: a window of a long record")
+      ->check(filled())
+      ->type_name("T");
+  run.add_option("--noise", line.options.noise,
+                 "perturb the initial state of every free block by up to this (m and rad), always with the same seed")
       ->check(within(0.0, 1.0));
-  run.add_option("--twin-noise", line.options.twin_noise)->group("");  // of a twin
-  run.add_flag("--twin", line.options.twin, "run a twin perturbed by 1e-9 as well, and tell when it parts by 1 mm (the chaos horizon)");
+  run.add_option("--twin-noise", line.options.twin_noise)->group("");  // of the twin run that --twin starts
+  run.add_flag("--twin", line.options.twin,
+               "also run a twin perturbed by 1e-9, and report when the two differ by 1 mm (the chaos horizon)");
   run.add_flag_callback("--no-figures", [&line] { line.options.figures = false; }, "draw no curves");
-  run.add_flag("--figure-scripts", line.options.figure_scripts)->group("");  // of the cases of a book
-  run.add_flag("--video", line.options.video, "draw the run and make its video afterwards");
-  run.add_option("--study", line.options.study)->group("");  // of the runs a study starts
+  run.add_flag("--figure-scripts", line.options.figure_scripts)->group("");  // of the runs that erbs test starts
+  run.add_flag("--video", line.options.video, "draw the run and make its video at the end");
+  run.add_option("--study", line.options.study)->group("");  // of the runs that a study starts
   run.add_option("--without", line.options.without, "run without an effect of the scene, by its name in erbs check")
       ->type_name("EFFECT")
       ->take_all();
-  run.add_flag("--log-json", line.options.log_json, "progress as lines of JSON");
+  run.add_flag("--log-json", line.options.log_json, "print progress as lines of JSON");
   run.add_flag("--fail-on-collapse", line.options.fail_on_collapse, "exit with 4 when the structure collapses");
 }
 
 void add_others(CLI::App& app, CommandLine& line) {
-  CLI::App& check = *app.add_subcommand("check", "every mistake of a scene at once, and what a run would be; runs nothing");
+  CLI::App& check = *app.add_subcommand("check", "report all mistakes of a scene, and the size and cost of a run, without running it");
   check.add_option("SCENE.lua", line.options.words, "the scenes")->required();
   check.add_flag("-q,--quiet", line.options.quiet, "print errors only");
   add_scene(check, line);
 
   CLI::App& render = *app.add_subcommand("render", "draw a run: frames, video, curves (options: erbs-render --help)");
-  render.set_help_flag();  // its own --help tells the options
+  render.set_help_flag();  // erbs-render explains its own options
   render.prefix_command();
 
-  CLI::App& record = *app.add_subcommand("record", "a ground motion: points, dt, peaks, end values, Arias intensity, spectrum");
+  CLI::App& record = *app.add_subcommand("record", "report a ground motion: points, dt, peaks, end values, Arias intensity, spectrum");
   record.add_option("FILE", line.options.words, "PEER AT2, CSV or text of one or two columns")->required();
   add_output(record, line, "runs/<file name>");
-  record.add_option("--dt", line.options.record.dt, "step of a file of values alone, s")->check(within(1e-6, 1e3));
-  record.add_option("--unit", line.options.record.unit, "of the values where the file does not say: g, m/s2, cm/s2, gal, ...");
+  record.add_option("--dt", line.options.record.dt, "time step of a file that has values only, s")->check(within(1e-6, 1e3));
+  record.add_option("--unit", line.options.record.unit, "unit of the values, if the file does not give one: g, m/s2, cm/s2, gal, ...");
   record.add_option("--column", line.options.record.column, "column of the values, from 1")->check(within(1, 1000));
 
-  CLI::App& test = *app.add_subcommand("test", "run scenes that carry expectations, and print the table");
+  CLI::App& test = *app.add_subcommand("test", "run scenes with expectations, and print the table of results");
   test.add_option("DIR|SCENE.lua", line.options.words, "folders and scenes")->required();
-  test.add_option("-j", line.options.jobs, "how many at once (default: as many as the machine has)")->check(within(1, 1024));
+  test.add_option("-j", line.options.jobs, "number of runs at once (default: one per processor)")->check(within(1, 1024));
   test.add_option("--threads", line.options.threads, "threads of each run")->check(within(1, 1024));
-  test.add_option("--max-wall", line.max_wall, "stop a run after this time of the clock")->check(filled())->type_name("10m");
+  test.add_option("--max-wall", line.max_wall, "stop a run after this wall-clock time")->check(filled())->type_name("10m");
   add_scene(test, line);
   test.add_option("-o", line.options.directory, "folder for the runs (default runs/test)")->check(filled())->type_name("DIR");
   test.add_flag("-q,--quiet", line.options.quiet, "no progress");
-  test.add_flag("--quick", line.options.quick, "only scenes that say label(\"quick\")");
-  test.add_option("--book", line.options.book, "write the verification book here, its figures, and its summary in README.md")
+  test.add_flag("--quick", line.options.quick, "only scenes with label(\"quick\")");
+  test.add_option("--book", line.options.book, "write the verification book to this file, with its figures and its summary in README.md")
       ->type_name("FILE.md");
   test.add_flag("--grid", line.options.grid,
-                "every scene at dt 0.2, 0.5, 0.9 of the limit, with 4, 9, 25 points a joint and noise, or over its family{}: the worst value of "
-                "each invariant");
-  test.add_option("--seeds", line.options.seeds,
-                  "every scene with its param seed at 1, 2, ... N: the worst value of each invariant, and the seeds that fail it")
+                "run every scene at dt 0.2, 0.5, 0.9 of the limit, with 4, 9, 25 points per joint and noise, or over its family{}; report "
+                "the worst value of each invariant");
+  test.add_option(
+          "--seeds", line.options.seeds,
+          "run every scene with its param seed at 1, 2, ... N; report the worst value of each invariant, and the seeds that fail it")
       ->type_name("N")
       ->check(within(1, 1000000));
-  test.add_flag("--resume", line.options.resume, "of --grid and --seeds: keep the runs that are done");
-  test.add_option("--budget", line.budget, "of all runs together, by the clock; none is started later (--grid: 60m)")->check(filled())->type_name("60m");
+  test.add_flag("--resume", line.options.resume, "with --grid or --seeds: keep finished runs");
+  test.add_option("--budget", line.budget, "wall-clock time of all runs together; no run starts after it (--grid: 60m)")
+      ->check(filled())
+      ->type_name("60m");
 
-  CLI::App& accuracy = *app.add_subcommand("accuracy", "what accuracy costs: the scene with each of its knobs turned, errors over cost");
-  accuracy.add_option("SCENE.lua", line.options.words, "the scene; with --study, the folder of its problems (default scenes/accuracy)");
+  CLI::App& accuracy =
+      *app.add_subcommand("accuracy", "the cost of accuracy: run a scene with one setting changed at a time, errors over cost");
+  accuracy.add_option("SCENE.lua", line.options.words, "the scene; with --study, the folder of the problems (default scenes/accuracy)");
   add_output(accuracy, line);
   add_scene(accuracy, line);
-  accuracy.add_option("-j", line.options.jobs, "how many runs at once (default: as many as the machine has)")->check(within(1, 1024));
-  accuracy.add_flag("--resume", line.options.resume, "keep the runs that are done");
-  accuracy.add_option("--target", line.target, "find the cheapest setting with this error, and the line for the scene")->check(filled())->type_name("1%");
+  accuracy.add_option("-j", line.options.jobs, "number of runs at once (default: one per processor)")->check(within(1, 1024));
+  accuracy.add_flag("--resume", line.options.resume, "keep finished runs");
+  accuracy.add_option("--target", line.target, "find the cheapest setting with this error, and the line to write into the scene")
+      ->check(filled())
+      ->type_name("1%");
   accuracy
-      .add_option("--budget", line.budget,
-                  "find the most accurate setting that runs within this time; of --map: of all runs together, by the clock (default 60m)")
-      ->check(filled())->type_name("60s");
+      .add_option(
+          "--budget", line.budget,
+          "find the most accurate setting that runs within this time; with --map: wall-clock time of all runs together (default 60m)")
+      ->check(filled())
+      ->type_name("60s");
   accuracy.add_option("--quantity", line.options.quantity,
-                      "the metric it is about (default: the first with an expectation, else the first)");
-  accuracy.add_option("--max-wall", line.max_wall, "of each run (default 5m)")->check(filled())->type_name("5m");
+                      "the metric to measure (default: the first with an expectation, otherwise the first)");
+  accuracy.add_option("--max-wall", line.max_wall, "wall-clock time of each run (default 5m)")->check(filled())->type_name("5m");
   accuracy
       .add_option("--within", line.within,
-                  "of the clock for all runs of the scene, cheap ones first; those that do not fit are told, and --resume makes them "
+                  "wall-clock time of all runs of the scene, cheap ones first; runs that do not fit are reported, and --resume makes them "
                   "(default 2m; 0: no limit, as with --study)")
-      ->check(filled())->type_name("2m");
+      ->check(filled())
+      ->type_name("2m");
   accuracy.add_flag("--study", line.options.whole_study,
                     "every problem of the folder, media/accuracy.png and the tables of its README.md");
 
-  accuracy.add_flag(
-      "--map", line.options.map,
-      "instead: which time steps, stiffnesses and dampings converge, which diverge, for both solvers, over a window around the peak");
-  accuracy.add_option("--window", line.window, "of --map: its length (default 2s)")->check(filled())->type_name("2s");
+  accuracy.add_flag("--map", line.options.map,
+                    "instead: find the time steps, stiffnesses and dampings at which both solvers converge, over a window around the peak");
+  accuracy.add_option("--window", line.window, "with --map: length of the window (default 2s)")->check(filled())->type_name("2s");
 
-  CLI::App& bench = *app.add_subcommand("bench", "the step kernel against the reference and the machine's limits, in one run");
-  bench.add_option("SCENE.lua", line.options.words, "scenes to time (default: those of scenes/bench, into a folder)");
+  CLI::App& bench = *app.add_subcommand("bench", "time the step kernel against the reference and the limits of the machine");
+  bench.add_option("SCENE.lua", line.options.words, "scenes to time (default: the scenes of scenes/bench, into a folder)");
   add_output(bench, line);
   add_scene(bench, line);
 
-  CLI::App& effects = *app.add_subcommand("effects", "what each effect of a scene costs, and how much the answer moves without it");
+  CLI::App& effects = *app.add_subcommand("effects", "the cost of each effect of a scene, and the change of the results without it");
   effects.add_option("SCENE.lua", line.options.words, "the scene")->required()->expected(1);
   add_output(effects, line);
   add_scene(effects, line);
 
   CLI::App& help = *app.add_subcommand("help", "this text, or the help of a verb or of a scene function");
-  help.add_option("VERB|FUNCTION", line.options.words, "what to explain");
+  help.add_option("VERB|FUNCTION", line.options.words, "verb or function to explain");
   help.prefix_command();
   app.add_subcommand("version", "the version and the commit it was built from");
 }
 
-// -D name=value, --until and the like, once the words are known.
+// Converts options that come as text (-D name=value, --until and the like) after parsing.
 void settle(CommandLine& line) {
   Options& options = line.options;
   for (const auto& define : line.defines) {
@@ -217,7 +232,7 @@ void check_verb(const CLI::App& app, int argc, char** argv) {
     throw erbs::Error(fmt::format("there is no verb {}{}; see erbs help", shown(word, 60), erbs::did_you_mean(word, verbs)));
 }
 
-// What is on or off takes no value: CLI11 would read --force=1e400 as --force.
+// Refuses a value for an option that takes none: CLI11 would read --force=1e400 as --force.
 void check_flags(const CLI::App& app, int argc, char** argv) {
   const CLI::App* verb = nullptr;
   for (const CLI::App* known : app.get_subcommands({}))
@@ -247,11 +262,11 @@ int call(const CLI::App& app, CommandLine& line) {
   if (name == "version") return erbs::verb_version();
   for (const auto& word : verb.remaining()) line.options.words.push_back(word);
   if (name == "render") return erbs::verb_render(line.options);
-  // help of a verb is CLI11's own
+  // CLI11 prints the help of a verb
   if (!line.options.words.empty())
     for (const CLI::App* other : app.get_subcommands({}))
       if (other->get_name() == line.options.words.front()) return (erbs::say("{}", other->help("erbs")), erbs::exit_ok);
-  // not app.help(), which would explain the verb help
+  // not app.help(), which would print the help of the verb help
   return erbs::verb_help(line.options, app.get_formatter()->make_help(&app, "erbs", CLI::AppFormatMode::Normal));
 }
 
@@ -264,7 +279,7 @@ int answer(CLI::App& app, CommandLine& line, int argc, char** argv) {
     check_verb(app, argc, argv);
     check_flags(app, argc, argv);
     app.parse(argc, argv);
-    erbs::chosen_isa();  // refuses an ERBS_ISA that there is not
+    erbs::chosen_isa();  // refuses an unknown ERBS_ISA
     return call(app, line);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
@@ -272,7 +287,7 @@ int answer(CLI::App& app, CommandLine& line, int argc, char** argv) {
   } catch (const erbs::Interrupted& error) { return wrong(error.what(), erbs::exit_interrupted); } catch (const erbs::NumbersError& error) { return wrong(error.what(), erbs::exit_numbers); } catch (const std::filesystem::filesystem_error& error) {
     return wrong(fmt::format("{}: {}; check the path", error.path1().string(), error.code().message()));
   } catch (const std::system_error& error) {
-    if (std::ferror(stdout) != 0) return erbs::exit_ok;  // which finish_streams() tells
+    if (std::ferror(stdout) != 0) return erbs::exit_ok;  // finish_streams() reports it
     return wrong(fmt::format("the system refuses: {}; is a limit of memory, threads or files (ulimit) reached?", error.what()));
   } catch (const std::bad_alloc&) {
     return wrong("there is not enough memory; build a smaller model, or raise the limit (ulimit -v)");
@@ -285,7 +300,7 @@ int answer(CLI::App& app, CommandLine& line, int argc, char** argv) {
 
 int main(int argc, char** argv) {
   erbs::prepare_streams();
-  mallopt(M_MMAP_THRESHOLD, 1 << 20);  // large arrays go back to the system when they end, not into a heap of holes
+  mallopt(M_MMAP_THRESHOLD, 1 << 20);  // large arrays return to the system when freed, so that the heap does not fragment
   CommandLine line;
   CLI::App app("ERBS: collapse of masonry by rigid blocks and mortar springs", "erbs");
   app.require_subcommand(1);

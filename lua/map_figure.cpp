@@ -1,4 +1,4 @@
-// The map of time step, damping and stiffness, and its table.
+// Stability map of time step, damping and stiffness: its figure and its table.
 #include <algorithm>
 #include <cmath>
 
@@ -25,7 +25,7 @@ Range range_of(const MapStudy& s) {
   return {0.4 * s.dampings.front(), 2.5 * s.dampings.back(), 0.6 * s.steps.front().second, 1.5 * s.steps.back().second};
 }
 
-// Dampings without a logarithm stand at the left edge.
+// Zero damping has no logarithm; it is drawn at the left edge.
 double at_damping(const MapStudy& s, double c) { return c > 0 ? c : s.dampings.size() > 1 ? 0.1 * s.dampings[1] : 1; }
 
 std::string points(const MapStudy& s, const Scheme& scheme, double factor, Verdict verdict, bool rated, bool whole = true) {
@@ -41,7 +41,7 @@ std::string points(const MapStudy& s, const Scheme& scheme, double factor, Verdi
   return text;
 }
 
-// The region that theory calls bounded: its lower and upper damping at each step, as a closed outline.
+// Outline of the region that theory calls bounded: its lower and upper damping at each step, as a closed curve.
 std::string outline(const MapStudy& s, const Scheme& scheme, double factor) {
   const Stiffness k = stiffer(s.nominal, factor);
   const Range r = range_of(s);
@@ -92,7 +92,7 @@ std::string label(int tag, const std::string& text, double x, double y, const st
   return fmt::format("set label {} {} at screen {:.4f},{:.4f} {}\n", tag, gnuplot_quoted(text), x, y, more);
 }
 
-// What the marks mean, in one row at the foot.
+// The legend of the marks, in one row at the bottom.
 std::string legend(const MapStudy& s) {
   struct Mark {
     const char* text;
@@ -106,22 +106,22 @@ std::string legend(const MapStudy& s) {
   };
   std::vector<Mark> marks;
   if (any(Verdict::converged, true)) marks.push_back({"bounded over the window", 7, 1.4, "#2b8cbe"});
-  if (any(Verdict::converged, false)) marks.push_back({"bounded over its beginning, all it was given", 6, 1.4, "#2b8cbe"});
-  if (any(Verdict::bounded, false)) marks.push_back({"bounded so far, the map's time was up", 8, 1.3, "#2b8cbe"});
-  marks.push_back({"diverged, and the run said so", 2, 0.9, "#b3261e"});
-  marks.push_back({"tame, but its energy is the scheme's own", 1, 1.1, "#d07a1e"});
+  if (any(Verdict::converged, false)) marks.push_back({"bounded over the beginning of the window, not run further", 6, 1.4, "#2b8cbe"});
+  if (any(Verdict::bounded, false)) marks.push_back({"bounded so far, out of time", 8, 1.3, "#2b8cbe"});
+  marks.push_back({"diverged, reported by the run", 2, 0.9, "#b3261e"});
+  marks.push_back({"bounded, with energy fed by the scheme itself", 1, 1.1, "#d07a1e"});
   std::string text;
   double x = 0.045;
   int tag = 20;
   for (const Mark& m : marks) {
-    // the last, on other figures one too many for the row, stands in the second
+    // the last mark goes to the second row, where it always has room
     const bool last = &m == &marks.back();
     text += label(tag++, m.text, last ? 0.5975 : x, last ? 0.014 : 0.038,
                   fmt::format("left offset 1.2,0 noenhanced point pt {} ps {} lw 2 lc rgb '{}'", m.mark, m.size, m.color));
     x += 0.035 + 0.0052 * double(std::string(m.text).size());
   }
   return text + label(tag, "green: bounded by theory", 0.045, 0.014, "left offset 1.2,0 noenhanced point pt 5 ps 1.6 lc rgb '#9cc797'") +
-         label(tag + 1, "dashed: C_c / m of eq. (6); the step that a rule gives is written at the right", 0.2, 0.014,
+         label(tag + 1, "dashed: C_c / m of eq. (6); the rules of the steps are at the right", 0.2, 0.014,
                "left noenhanced tc rgb '#444444'");
 }
 
@@ -137,8 +137,8 @@ std::string head(const MapStudy& s, const std::string& path) {
       svg ? "svg" : "pngcairo", svg ? "dynamic enhanced" : "enhanced", svg ? 13 : 11, r.c0, r.c1, r.dt0, r.dt1);
   text += label(1, fmt::format("What converges: {}", s.name), 0.03, 0.98, "left font ',18' noenhanced");
   text += label(2,
-                fmt::format("{:g} s about the peak of the ground; every mark is a run; colour: {} over that of leapfrog at the smallest "
-                            "step and the scene's damping",
+                fmt::format("{:g} s around the peak of the ground motion; every mark is a run; colour: {} over that of leapfrog at the "
+                            "smallest step and the scene's damping",
                             s.window, s.quantity),
                 0.03, 0.957, "left noenhanced tc rgb '#555555'");
   return text + legend(s);

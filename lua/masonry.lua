@@ -1,20 +1,20 @@
 -- Masonry in running bond: wall{...} and building{...}, plain Lua on top of box{...}.
 --
--- A run is a straight stretch of wall seen from outside, its coordinate u growing from left to right. Two patterns of head joints
--- alternate from course to course; at a corner one wall runs through in one pattern and the other wall in the other. What fills a
--- stretch (whole bricks, halves, cut closers, wider joints) is decided in masonry_bond.lua. Beside an opening the pattern of the solid
--- wall is kept and only the piece at the jamb is cut.
+-- A run is a straight stretch of wall seen from outside; its coordinate u grows from left to right. Two patterns of head joints
+-- alternate from course to course. At a corner one wall runs through in one pattern, the other wall in the other pattern.
+-- masonry_bond.lua decides how a stretch is filled (whole bricks, halves, cut closers, wider joints). Beside an opening the pattern
+-- of the solid wall continues, and only the piece at the jamb is cut.
 
 local parts, eps = masonry_parts, masonry_parts.eps
 local fail, millimetres, piece_kind, ends = parts.fail, parts.millimetres, parts.piece_kind, parts.ends
 masonry_parts = nil  -- scenes see only wall, building, arch, column and masonry_functions
 
--- Everything from the support up: storeys of courses, each with its slab.
+-- Lays all courses from the support up, storey by storey, each storey with its slab.
 local function build(masonry, runs)
   local out, z, number = masonry.out, masonry.at[3], 0
   for storey, courses in ipairs(masonry.courses) do
     local below = {}
-    -- On the ground or a slab no joint lies beneath; the first course looks ahead to the pattern of the second.
+    -- No head joint lies beneath the first course on the ground or a slab; it avoids the joints of the second course instead.
     for i, run in ipairs(runs) do
       below[i] = {}
       for _, joint in ipairs(run.pattern[masonry.shift % 2]) do below[i][#below[i] + 1] = joint.u end
@@ -52,7 +52,7 @@ local function build_base(masonry)
   }
 end
 
--- "wall south: 5 whole, head joints 6.25 mm" for either pattern of the solid run.
+-- "south, through, 2000 mm: 5 whole, head joints 6.25 mm" for either pattern of the solid run.
 local function describe_pattern(masonry, index, run, parity)
   local start, stop, _, through = ends(masonry, index, run, parity)
   local words, count, u, widest = {}, { full = 0, half = 0, cut = 0 }, start, masonry.t
@@ -110,7 +110,7 @@ local function summarise(masonry, runs)
   out.summary = table.concat(lines, "\n")
 end
 
--- The nearest of 1, 2, 5, 10, 20, 50, ... mm (on a logarithmic scale): lengths of cut bricks are tried in such steps.
+-- The nearest of 1, 2, 5, 10, 20, 50, ... mm on a logarithmic scale: lengths of cut bricks are tried in such steps.
 local function round_step(x)
   local decade = 10 ^ math.floor(math.log(x, 10))
   for _, step in ipairs { 1, 2, 5 } do
@@ -124,7 +124,7 @@ local function empty_report(brick_length)
     short_laps = 0, least_lap = math.huge, shortest = brick_length, brick_volume = 0, lintel_volume = 0, slab_volume = 0 }
 end
 
--- From checked keys to blocks. corners: outer corners of the plan.
+-- Builds the blocks from checked keys. corners: outer corners of the plan.
 local function raise(k, title, corners, closed, names, courses)
   local lo, hi = { math.huge, math.huge }, { -math.huge, -math.huge }
   for _, c in ipairs(corners) do
@@ -157,9 +157,9 @@ local function raise(k, title, corners, closed, names, courses)
   return masonry.out
 end
 
--- A function whose mistakes are noted for the line that called it; the script goes on with masonry of no blocks, so that the
--- mistakes after it are told as well.
-local note_mistakes = note_mistakes  -- of the program; scenes do not see it
+-- Wraps a function so that its mistakes are reported at the line that called it. The script continues with masonry of no blocks, so
+-- that later mistakes are reported as well.
+local note_mistakes = note_mistakes  -- function of the program, hidden from scenes
 local function public(body)
   return function(...)
     local ok, result = pcall(body, ...)
@@ -259,7 +259,7 @@ wall = public(function(options)
   local courses = k.courses or math.max(1, math.floor(0.5 + k.height / (k.brick.height + k.joint)))
   local stop = k.axis == "x" and { k.length, 0 } or { 0, k.length }
   k.prefix, k.wall_group = "", function() return k.group or k.name end
-  -- along y the wall's thickness would lie at x < 0: move the run so that `at` stays its lower corner
+  -- along y the thickness would lie at x < 0: the run is moved so that `at` stays its lower corner
   local shift_x = k.axis == "y" and k.brick.width or 0
   return raise(k, k.name, { { shift_x, 0 }, { stop[1] + shift_x, stop[2] } }, false, { k.name }, { courses })
 end)
@@ -294,7 +294,7 @@ building = public(function(options)
   end
   local courses = {}
   for s = 1, k.storeys do
-    courses[s] = math.tointeger(type(k.courses) == "table" and k.courses[s] or k.courses)  -- a number given by -D is no integer yet
+    courses[s] = math.tointeger(type(k.courses) == "table" and k.courses[s] or k.courses)  -- -D gives a float even for a whole number
     if not courses[s] or courses[s] < 1 then fail("building: courses must be a whole number above 0, or a list of %d", k.storeys) end
   end
   k.prefix, k.wall_group = k.name ~= "" and k.name .. "." or "", function(wall_name) return k.group .. "_" .. wall_name end

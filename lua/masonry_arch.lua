@@ -5,21 +5,21 @@ local fail = parts.fail
 
 masonry_functions[#masonry_functions + 1] = {
   name = "arch",
-  help = "An arch of voussoirs with radial joints and straight sides: round, or pointed of two arcs. Blocks are called arch.v01, ... from the left.",
+  help = "An arch of voussoirs with radial joints and straight sides, round or pointed (two arcs). Blocks are called arch.v01, ... from the left.",
   returns = "blocks, abutments, volume (m3), centre_line (m)",
   keys = {
-    { name = "name", type = "string", default = "arch", help = "first word of its blocks' names" },
+    { name = "name", type = "string", default = "arch", help = "first word of the names of its blocks" },
     { name = "group", type = "string", help = "group of the voussoirs; default the name; abutments are in <group>_abutment" },
     { name = "at", unit = "m", type = "vec", default = { 0, 0, 0 }, help = "middle of the span, at the height of the centre of the circle" },
-    { name = "radius", unit = "m", type = "number", above = 0, required = true, help = "of the centre line" },
-    { name = "thickness", unit = "m", type = "number", above = 0, required = true, help = "of the ring, radially" },
-    { name = "width", unit = "m", type = "number", above = 0, required = true, help = "across the span" },
-    { name = "voussoirs", type = "integer", low = 1, required = true, help = "their number (of a pointed arch: even)" },
+    { name = "radius", unit = "m", type = "number", above = 0, required = true, help = "radius of the centre line" },
+    { name = "thickness", unit = "m", type = "number", above = 0, required = true, help = "radial thickness of the ring" },
+    { name = "width", unit = "m", type = "number", above = 0, required = true, help = "width across the span" },
+    { name = "voussoirs", type = "integer", low = 1, required = true, help = "number of voussoirs (even for a pointed arch)" },
     { name = "embrace", unit = "rad", type = "number", above = 0, high = 1.5 * math.pi, default = math.pi, help = "angle of a round arch from springing to springing" },
-    { name = "offset", unit = "m", type = "number", low = 0, default = 0, help = "of a pointed arch: of the centres of its two arcs beyond the middle; 0 is round" },
+    { name = "offset", unit = "m", type = "number", low = 0, default = 0, help = "pointed arch: distance of the centres of its two arcs from the middle; 0: round arch" },
     { name = "axis", type = "string", default = "x", choice = { "x", "y" }, help = "direction of the span" },
     { name = "abutments", type = "boolean", default = true, help = "fixed blocks at the springings" },
-    { name = "material", type = "string", help = "of all its blocks; default the only one there is" },
+    { name = "material", type = "string", help = "material of all its blocks; default: the only one there is" },
   },
 }
 masonry_functions[#masonry_functions + 1] = {
@@ -27,22 +27,23 @@ masonry_functions[#masonry_functions + 1] = {
   help = "A stack of equal blocks, square or round (a prism of many sides). Blocks are called column.b01, ... from the bottom.",
   returns = "blocks, height (m)",
   keys = {
-    { name = "name", type = "string", default = "column", help = "first word of its blocks' names, and their group" },
+    { name = "name", type = "string", default = "column", help = "first word of the names of its blocks, and their group" },
     { name = "group", type = "string", help = "group of the blocks; default the name" },
     { name = "at", unit = "m", type = "vec", default = { 0, 0, 0 }, help = "middle of its foot" },
-    { name = "blocks", type = "integer", low = 1, required = true, help = "their number" },
-    { name = "size", unit = "m", type = "vec", help = "of one block along x, y, z" },
-    { name = "diameter", unit = "m", type = "number", above = 0, help = "of round drums, instead of size" },
-    { name = "height", unit = "m", type = "number", above = 0, help = "of one drum" },
-    { name = "sides", type = "integer", low = 3, default = 24, help = "of a drum's prism, whose corners lie on the circle" },
+    { name = "blocks", type = "integer", low = 1, required = true, help = "number of blocks" },
+    { name = "size", unit = "m", type = "vec", help = "size of one block along x, y, z" },
+    { name = "diameter", unit = "m", type = "number", above = 0, help = "diameter of round drums, instead of size" },
+    { name = "height", unit = "m", type = "number", above = 0, help = "height of one drum" },
+    { name = "sides", type = "integer", low = 3, default = 24, help = "number of sides of a drum; its corners lie on the circle" },
     { name = "joint", unit = "m", type = "number", low = 0, default = 0, help = "thickness of the joints, also below the first block; 0 is dry" },
-    { name = "material", type = "string", help = "default the only one there is" },
+    { name = "material", type = "string", help = "material of all its blocks; default: the only one there is" },
   },
 }
 local arch_keys, column_keys = masonry_functions[#masonry_functions - 1].keys, masonry_functions[#masonry_functions].keys
 
--- Mistakes are noted for the line that called, and the script goes on without blocks, so that the mistakes after it are told as well.
-local note_mistakes = note_mistakes  -- of the program; scenes do not see it
+-- Wraps a function so that its mistakes are reported at the line that called it. The script continues without the blocks, so that
+-- later mistakes are reported as well.
+local note_mistakes = note_mistakes  -- function of the program, hidden from scenes
 local function public(body, nothing)
   return function(...)
     local ok, result = pcall(body, ...)
@@ -53,7 +54,7 @@ local function public(body, nothing)
   end
 end
 
--- The joints of the ring from left to right: inner and outer end of each, { x, z } from the middle of the span.
+-- Joints of a round ring from left to right: inner and outer end of each, { x, z } from the middle of the span.
 local function round_joints(k)
   local joints, n = {}, k.voussoirs
   for i = 0, n do
@@ -64,7 +65,7 @@ local function round_joints(k)
   return joints
 end
 
--- Two arcs about (offset, 0) and (-offset, 0); the joint at the crown is upright.
+-- Joints of a pointed ring: two arcs about (offset, 0) and (-offset, 0); the joint at the crown is vertical.
 local function pointed_joints(k)
   local joints, half, top = {}, k.voussoirs // 2, math.acos(k.offset / k.radius)
   local radii = { k.radius - k.thickness / 2, k.radius + k.thickness / 2 }
@@ -101,7 +102,7 @@ arch = public(function(options)
   parts.stop_if(mistakes)
   local group, joints = k.group or k.name, k.offset > 0 and pointed_joints(k) or round_joints(k)
   local out = { blocks = {}, abutments = {}, volume = 0, centre_line = 0 }
-  -- A polygon { x, z } of the plane of the arch, as a prism across it; the axes after y are z, x, after x they are y, z.
+  -- A prism across the arch over a polygon { x, z } of its plane. The polygon's axes are z, x for axis "y" and y, z for axis "x".
   local function piece(name, of_group, corners, fixed)
     local polygon = {}
     for i, c in ipairs(corners) do polygon[i] = k.axis == "x" and { c[2], c[1] } or { c[1], c[2] } end
@@ -123,7 +124,7 @@ arch = public(function(options)
   end
   if k.abutments then
     for i, j in ipairs { joints[1], joints[#joints] } do
-      -- a block as thick as the ring behind the springing joint
+      -- a block behind the springing joint, as thick as the ring
       local dx, dz = j[2][1] - j[1][1], j[2][2] - j[1][2]
       local back = i == 1 and { -dz, dx } or { dz, -dx }
       out.abutments[i] = piece(k.name .. (i == 1 and ".left" or ".right"), group .. "_abutment",

@@ -1,7 +1,7 @@
--- How one course of one stretch of wall is laid: which pieces, and where the head joints come.
+-- Bond of one course of one stretch of wall: the pieces, and the positions of the head joints.
 --
--- Where whole and half bricks do not fill a stretch, the cheapest of three remedies is taken: a cut closer, a half, or head joints a
--- little wider. "Cheapest" is the cost below: few cuts, no small ones, and head joints far from those of the course beneath.
+-- If whole and half bricks do not fill a stretch, there are three remedies: a cut closer, a half brick, or slightly wider head joints.
+-- The remedy of least cost wins. The cost counts cuts, most of all small ones, and head joints close to a head joint beneath.
 -- Positions u run along the wall, in metres.
 
 local eps = masonry_parts.eps  -- m, lengths closer than this are equal
@@ -12,7 +12,7 @@ local function piece_kind(job, length)
   return "cut"
 end
 
--- A cut costs 1, a small one up to 2, one away from the ends of its stretch a little more; a half costs 0.4.
+-- Cost of a piece: 1 for a cut, up to 2 for a small one, 0.2 more away from the ends of its stretch; 0.4 for a half.
 local function piece_cost(job, length, at_end)
   local kind = piece_kind(job, length)
   if kind == "full" then return 0 end
@@ -20,7 +20,8 @@ local function piece_cost(job, length, at_end)
   return 1 + math.max(0, (job.half - length) / job.half) + (at_end and 0 or 0.2)
 end
 
--- A head joint at u costs by its lap, the distance from the nearest joint beneath: much below a quarter of a brick, little below a half.
+-- Cost of a head joint at u by its lap, the distance from the nearest head joint beneath: high below a quarter of a brick, low
+-- below a half.
 local function lap_cost(masonry, u, below)
   local lap, quarter, cost = masonry.full, masonry.full / 4, 0
   for _, b in ipairs(below) do lap = math.min(lap, math.abs(b - u)) end
@@ -38,8 +39,8 @@ local function joint_cost(job, u)
   return cost
 end
 
--- The cheapest way to fill [s, job.stop]: a chain { length, joint = {u, width} | nil, rest = chain, cost }. Positions tried for the
--- next joint: that of the pattern, after a whole or a half brick, and every `step` (for a cut brick).
+-- The cheapest filling of [s, job.stop], as a chain { length, joint = {u, width} | nil, rest = chain, cost }. The next joint is
+-- tried at the joints of the pattern, after a whole and a half brick, and at every `step` (cut bricks).
 local function fill(job, s)
   local key = math.floor(s * 1e5 + 0.5)
   local answer = job.memo[key]
@@ -64,7 +65,7 @@ local function fill(job, s)
   local off_pattern = job.pattern and 0.6 or 0
   try(s + job.full + job.t / 2, job.t, off_pattern)
   try(s + job.half + job.t / 2, job.t, off_pattern)
-  if s - job.start < job.reach or rest < job.reach + job.full then  -- closers belong near the ends of a stretch
+  if s - job.start < job.reach or rest < job.reach + job.full then  -- cut bricks belong near the ends of a stretch
     for k = math.ceil((s + job.closer) / job.step), math.floor((s + job.full) / job.step) do
       try(k * job.step + job.t / 2, job.t, off_pattern)
     end
@@ -72,7 +73,7 @@ local function fill(job, s)
   return answer
 end
 
--- The remedy without a cut: n whole bricks (and a half at the end) with equal head joints wider than t.
+-- Filling without a cut: n whole bricks (and a half at the end) with equal head joints wider than t.
 local function widened(job, with_half)
   local span, t = job.stop - job.start - (with_half and job.half or 0), job.t
   local n = math.floor((span + t + eps) / (job.full + t))
@@ -98,8 +99,8 @@ local function widened(job, with_half)
   return chain
 end
 
--- Pieces and head joints of one stretch [start, stop] (no joint at its ends). below: positions of the head joints beneath.
--- pattern: joints {u, width} of the solid wall to keep to, or nil where the pattern itself is being chosen.
+-- Pieces and head joints of one stretch [start, stop], without a joint at its ends. below: positions of the head joints beneath.
+-- pattern: joints {u, width} of the solid wall, which the course keeps where it can; nil while the pattern itself is chosen.
 local function lay(masonry, start, stop, below, pattern)
   local near, kept = {}, pattern and {}
   local signature = { string.format("%.2f %.2f |", start * 1e3, stop * 1e3) }

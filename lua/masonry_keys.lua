@@ -1,23 +1,23 @@
--- What wall{...} and building{...} take: one table for reading, messages and help; and the reader that reports every mistake at once.
--- First of five files: masonry_keys, masonry_bond, masonry_runs, masonry_arch, masonry. Each adds what the next ones use to masonry_parts.
+-- Keys of wall{...} and building{...}: one table serves reading, messages and help. The reader reports all mistakes at once.
+-- First of five files: masonry_keys, masonry_bond, masonry_runs, masonry_arch, masonry. Each adds to masonry_parts for the next ones.
 
--- type: number (low, high allowed ends included; `above` excluded), integer, string, boolean, vec (three numbers), table
+-- type: number (ends `low` and `high` are allowed, end `above` is not), integer, string, boolean, vec (three numbers), table
 
 local brick_keys = {
-  { name = "length", unit = "m", type = "number", above = 0, required = true, help = "along the wall" },
-  { name = "width", unit = "m", type = "number", above = 0, required = true, help = "across the wall: the wall's thickness" },
-  { name = "height", unit = "m", type = "number", above = 0, required = true, help = "of one course without its joint" },
+  { name = "length", unit = "m", type = "number", above = 0, required = true, help = "length along the wall" },
+  { name = "width", unit = "m", type = "number", above = 0, required = true, help = "width across the wall: the thickness of the wall" },
+  { name = "height", unit = "m", type = "number", above = 0, required = true, help = "height of one course without its joint" },
 }
 local opening_keys = {
-  { name = "wall", type = "string", help = "name of the wall it is in (building only)" },
+  { name = "wall", type = "string", help = "name of its wall (building only)" },
   { name = "name", type = "string", help = "default: kind and number, e.g. window2" },
   { name = "kind", type = "string", default = "window", choice = { "window", "door" }, help = "a door starts at the floor" },
   { name = "storey", type = "any", default = "all", help = "1, 2, ..., a list of them, or \"all\"" },
   { name = "at", unit = "m", type = "number", low = 0, help = "left jamb, from the wall's left end seen from outside" },
   { name = "centre", unit = "m", type = "number", low = 0, help = "middle of the opening, instead of `at`" },
   { name = "width", unit = "m", type = "number", above = 0, required = true, help = "between the jambs" },
-  { name = "sill", unit = "m", type = "number", low = 0, default = 0, help = "above the floor; snapped to courses" },
-  { name = "height", unit = "m", type = "number", above = 0, required = true, help = "clear; snapped to courses" },
+  { name = "sill", unit = "m", type = "number", low = 0, default = 0, help = "height above the floor; rounded to courses" },
+  { name = "height", unit = "m", type = "number", above = 0, required = true, help = "clear height; rounded to courses" },
   { name = "lintel", type = "boolean", default = true, help = "false: nothing spans the opening (it must end at the top)" },
 }
 local lintel_keys = {
@@ -27,19 +27,19 @@ local lintel_keys = {
   { name = "group", type = "string", default = "lintel", help = "group of its blocks" },
 }
 local slab_keys = {
-  { name = "thickness", unit = "m", type = "number", above = 0, required = true, help = "without its bed joint" },
-  { name = "overhang", unit = "m", type = "number", low = 0, default = 0, help = "beyond the outer faces of the walls" },
+  { name = "thickness", unit = "m", type = "number", above = 0, required = true, help = "thickness without its bed joint" },
+  { name = "overhang", unit = "m", type = "number", low = 0, default = 0, help = "width beyond the outer faces of the walls" },
   { name = "material", type = "string", help = "default: that of the bricks" },
   { name = "group", type = "string", default = "slab", help = "group of its blocks" },
 }
 local base_keys = {
-  { name = "thickness", unit = "m", type = "number", above = 0, required = true, help = "its top is at `at`" },
-  { name = "margin", unit = "m", type = "number", low = 0, default = 0, help = "beyond the walls on every side" },
+  { name = "thickness", unit = "m", type = "number", above = 0, required = true, help = "thickness; its top is at `at`" },
+  { name = "margin", unit = "m", type = "number", low = 0, default = 0, help = "width beyond the walls on every side" },
   { name = "material", type = "string", help = "default: that of the bricks" },
   { name = "group", type = "string", default = "base", help = "group of its block" },
 }
 local common_keys = {
-  { name = "at", unit = "m", type = "vec", default = { 0, 0, 0 }, help = "where the plan's origin stands; z is the top of the support" },
+  { name = "at", unit = "m", type = "vec", default = { 0, 0, 0 }, help = "position of the plan's origin; z is the top of the support" },
   { name = "brick", type = "table", keys = brick_keys, required = true, help = "size of a whole brick" },
   { name = "joint", unit = "m", type = "number", low = 0, required = true, help = "thickness of bed and head joints; 0 is dry masonry" },
   { name = "closer", unit = "m", type = "number", above = 0, default = 0.04, help = "shortest piece that may be cut" },
@@ -48,11 +48,11 @@ local common_keys = {
   { name = "openings", type = "table", list = opening_keys, default = {}, help = "doors and windows" },
   { name = "lintel", type = "table", keys = lintel_keys, default = {}, help = "the pieces over openings" },
   { name = "base", type = "table", keys = base_keys, help = "a fixed plate below; default none (stand on ground{} or another block)" },
-  { name = "material", type = "string", default = "brick", help = "of the bricks" },
+  { name = "material", type = "string", default = "brick", help = "material of the bricks" },
   { name = "quiet", type = "boolean", default = false, help = "true: do not print the summary" },
 }
 
--- Adds the keys both functions have, and to the help of each key that is a table the names of its keys.
+-- Adds the keys that both functions share. Appends to the help of a key that is a table the names of its inner keys.
 local function with_common(keys)
   for _, key in ipairs(common_keys) do keys[#keys + 1] = key end
   local whole = {}
@@ -68,18 +68,18 @@ local function with_common(keys)
   return whole
 end
 
---- Everything this file adds to the language: for help, editors and tests.
+--- All functions that these files add to the language, for help, editors and tests.
 masonry_functions = {
   {
     name = "wall",
     help = "A free-standing straight wall in running bond, both ends plain.",
     keys = with_common {
-      { name = "name", type = "string", default = "wall", help = "first word of its blocks' names, and their group" },
+      { name = "name", type = "string", default = "wall", help = "first word of the names of its blocks, and their group" },
       { name = "group", type = "string", help = "group of the bricks; default the name" },
-      { name = "length", unit = "m", type = "number", above = 0, required = true, help = "end to end" },
-      { name = "axis", type = "string", default = "x", choice = { "x", "y" }, help = "direction it runs in" },
+      { name = "length", unit = "m", type = "number", above = 0, required = true, help = "length from end to end" },
+      { name = "axis", type = "string", default = "x", choice = { "x", "y" }, help = "direction of the wall" },
       { name = "courses", type = "integer", low = 1, help = "number of courses; or give height" },
-      { name = "height", unit = "m", type = "number", above = 0, help = "instead of courses; snapped to whole ones" },
+      { name = "height", unit = "m", type = "number", above = 0, help = "height instead of courses; rounded to whole courses" },
     },
   },
   {
@@ -91,9 +91,9 @@ masonry_functions = {
       { name = "plan", unit = "m", type = "table", required = true,
         help = "outer size {x, y}, or outer corners {{x,y}, ...} counter-clockwise" },
       { name = "closed", type = "boolean", default = true, help = "false: the last corner is not joined to the first" },
-      { name = "walls", type = "table", help = "names of the runs; default south, east, north, west for a rectangle, else wall1, ..." },
+      { name = "walls", type = "table", help = "names of the walls; default south, east, north, west for a rectangle, else wall1, ..." },
       { name = "storeys", type = "integer", low = 1, default = 1, help = "number of storeys" },
-      { name = "courses", type = "any", required = true, help = "per storey: a number, or a list with one for each" },
+      { name = "courses", type = "any", required = true, help = "courses per storey: a number, or a list with one for each storey" },
       { name = "slab", type = "table", keys = slab_keys, help = "a rigid plate on the walls of every storey; default none" },
     },
   },
@@ -101,7 +101,7 @@ masonry_functions = {
 
 -- ---- reading and messages ------------------------------------------------------------------------------------------------------
 
-local did_you_mean, escaped = did_you_mean, escaped  -- of the program; scenes do not see them
+local did_you_mean, escaped = did_you_mean, escaped  -- functions of the program, hidden from scenes
 
 local function millimetres(x) return string.format("%g mm", math.floor(x * 1e5 + 0.5) / 100) end
 
@@ -142,7 +142,7 @@ local function read_value(what, key, value, mistakes)
   if key.choice and value ~= key.choice[1] and value ~= key.choice[2] then
     return wrong("= \"%s\" is not known; allowed: %s", value, table.concat(key.choice, ", "))
   end
-  if key.type == "integer" then return math.tointeger(value) end  -- a number given by -D is no integer yet
+  if key.type == "integer" then return math.tointeger(value) end  -- -D gives a float even for a whole number
   if key.keys then return read(what .. "." .. key.name, value, key.keys, mistakes) end
   if key.list then
     local all = {}
@@ -164,7 +164,7 @@ function read(what, given, keys, mistakes)
     if not known[name] then strange[#strange + 1] = escaped(tostring(name)) end
   end
   table.sort(strange)
-  local meant = {}  -- by a misspelt key: it is not missing as well
+  local meant = {}  -- keys that a misspelt key stands for: not reported as missing
   for _, name in ipairs(strange) do
     local advice = did_you_mean(name, names)
     mistakes[#mistakes + 1] = string.format("%s: unknown key \"%s\"%s", what, name, advice)
@@ -182,7 +182,7 @@ function read(what, given, keys, mistakes)
   return out
 end
 
--- Ends the call with every mistake found so far; `public` below turns it into an error at the user's line.
+-- Ends the call with all mistakes found so far; `public` in masonry.lua reports them at the user's line.
 local function stop_if(mistakes)
   if #mistakes > 0 then error({ masonry = table.concat(mistakes, "\n") }, 0) end
 end

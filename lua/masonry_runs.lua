@@ -1,14 +1,14 @@
--- Runs (the straight stretches of a plan, with their corners), openings, and the courses of bricks and lintels laid along them.
+-- Runs (the straight stretches of a plan, with their corners), openings, and the courses of bricks and lintels along them.
 
 local eps, millimetres = masonry_parts.eps, masonry_parts.millimetres
 local fail, did_you_mean = masonry_parts.fail, masonry_parts.did_you_mean
-local widen_joint = widen_joint  -- of the program; scenes do not see it
+local widen_joint = widen_joint  -- function of the program, hidden from scenes
 local lay, lap_cost, piece_kind = masonry_parts.lay, masonry_parts.lap_cost, masonry_parts.piece_kind
 
 -- ---- runs: the straight stretches of a plan ------------------------------------------------------------------------------------
 
--- corner.lo .. corner.hi: the stretch of this run that the wall at its end occupies too. A run that goes through covers it in the
--- courses of its parity and stops one joint short of it in the others.
+-- run.first and run.last, each { lo, hi }: the part of a run that it shares with the wall at its corner. A run that goes through
+-- covers this part in courses of its own parity; in the other courses it stops one joint short of it.
 local function make_runs(corners, closed, names, width)
   local runs, count = {}, closed and #corners or #corners - 1
   for i = 1, count do
@@ -34,7 +34,7 @@ local function make_runs(corners, closed, names, width)
   return runs
 end
 
--- Ends of the run in courses of that parity: start, stop, and the head joints there (where it abuts the wall of the corner).
+-- Ends of the run in courses of this parity: start, stop, and the head joints where the run abuts the wall of a corner.
 local function ends(masonry, index, run, parity)
   local through = (index + parity) % 2 == 1
   local start, stop, joints = 0, run.length, {}
@@ -45,7 +45,7 @@ local function ends(masonry, index, run, parity)
   return start, stop, joints, through
 end
 
--- The two patterns of the solid run: run.pattern[0] and [1]. The through course is chosen first; the other keeps clear of its joints.
+-- The two patterns of the solid run: run.pattern[0] and [1]. The through course comes first; the other one avoids its joints.
 local function make_patterns(masonry, index, run)
   local first = (index % 2 == 1) and 0 or 1
   run.pattern = {}
@@ -84,7 +84,7 @@ local function storeys_of(opening, count)
   return storeys
 end
 
--- Snaps to courses, finds the lintel's stretch and checks that all of it fits in the wall.
+-- Snaps an opening to courses, finds the extent of its lintel and checks that both fit in the wall.
 local function place_opening(masonry, run, opening, storey, name)
   local pitch, count = masonry.height + masonry.t, masonry.courses[storey]
   local from = (opening.at or opening.centre and opening.centre - opening.width / 2)
@@ -137,7 +137,7 @@ local function place_openings(masonry, runs, openings)
   end
 end
 
--- What interrupts the bricks of a course, from left to right: openings (free faces) and lintels (a head joint at either end).
+-- Interruptions of the bricks of a course, from left to right: openings (free faces) and lintels (a head joint at either end).
 local function obstacles(masonry, run, storey, course)
   local found = {}
   for _, hole in ipairs(run.openings) do
@@ -162,7 +162,7 @@ end
 
 -- ---- building it ---------------------------------------------------------------------------------------------------------------
 
--- A box from u = lo..hi along the run, over the wall's thickness, with its foot at z.
+-- A box from u = lo to hi along the run, through the wall's thickness, with its bottom at z.
 local function run_box(masonry, run, name, lo, hi, z, height, material, group)
   local x0, y0 = run.origin[1] + run.d[1] * lo, run.origin[2] + run.d[2] * lo
   local x1 = run.origin[1] + run.d[1] * hi + run.n[1] * masonry.width
@@ -185,9 +185,9 @@ local function note_joint(masonry, below, u, width)
   end
 end
 
--- A lintel rests on its jambs by at least the bearing; it is made up to a quarter brick longer at either end where whole bricks then
--- fit beside it (at a joint of the pattern, or n bricks away from the neighbour) or its end would come too near a joint beneath.
--- side: -1 left end, +1 right end; far: where the stretch beside it ends.
+-- Lengthens one end of a lintel. A lintel rests on each jamb by at least the bearing. It grows by up to a quarter brick in two cases: whole
+-- bricks then fit beside it (its end at a joint of the pattern, or n bricks from the neighbour); its end would otherwise lie too close to a
+-- joint beneath. side: -1 left end, +1 right end; far: end of the stretch beside it.
 local function lengthen_lintel(masonry, lintel, side, far, below, pattern)
   local own = side < 0 and lintel.lo or lintel.hi
   local pitch, found, least = masonry.full + masonry.t, own, math.huge
@@ -228,7 +228,7 @@ local function lay_lintel(masonry, run, o, z)
   masonry.out.lintels[#masonry.out.lintels + 1] = name
 end
 
--- The bricks of a stretch, numbered on from `brick`; returns the last number.
+-- Lays the bricks of a stretch, numbered from `brick` + 1; returns the last number.
 local function lay_pieces(masonry, run, laid, stem, brick, z)
   local report = masonry.out.report
   for i, piece in ipairs(laid.pieces) do
@@ -243,14 +243,14 @@ local function lay_pieces(masonry, run, laid, stem, brick, z)
     local volume = run_box(masonry, run, string.format("%sb%02d", stem, brick), piece.u, piece.u + piece.length, z, masonry.height,
       masonry.material, run.group)
     report.brick_volume = report.brick_volume + volume
-    for k = math.max(1, i - 1), math.min(i, #laid.joints) do  -- a rule that joins the others is to join these too
+    for k = math.max(1, i - 1), math.min(i, #laid.joints) do  -- so that the joint rule of the masonry also bridges wider joints
       if masonry.t > 0 and laid.joints[k].width > masonry.t + eps then widen_joint(masonry.t, laid.joints[k].width) end
     end
   end
   return brick
 end
 
--- One course of one run; returns the positions of its head joints for the course above. `beneath`: of the course beneath, if any.
+-- Lays one course of one run; returns the positions of its head joints for the next course. `beneath`: joints of the course beneath.
 local function lay_course(masonry, index, run, storey, course, number, z, below, beneath)
   local parity, joints, brick = (course + masonry.shift) % 2, {}, 0
   local pattern = run.pattern[parity]
@@ -269,7 +269,7 @@ local function lay_course(masonry, index, run, storey, course, number, z, below,
       joint(o.lo - masonry.t / 2, masonry.t)
       joint(o.hi + masonry.t / 2, masonry.t)
       lay_lintel(masonry, run, o, z)
-    elseif o.lintel then  -- the joints at its ends go on upwards
+    elseif o.lintel then  -- the joints at the ends of a lintel continue upwards
       joints[#joints + 1], joints[#joints + 2] = o.lo - masonry.t / 2, o.hi + masonry.t / 2
     end
   end

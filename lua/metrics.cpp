@@ -1,4 +1,4 @@
-// What the scene asks for after the run: metric functions and the table `run` they are given.
+// Evaluation of the metrics of a scene after its run: the metric functions and their argument, the table `run`.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -42,7 +42,7 @@ const RunResults& results_of(lua_State* lua, const Context& context) {
   return *context.run;
 }
 
-// The column named by the first argument of run.peak(column) and its like; run:peak(column) is welcome too.
+// The column named by the first argument of run.peak(column) and similar functions; run:peak(column) works too.
 const std::vector<double>& column_of(lua_State* lua, const Context& context) {
   if (lua_istable(lua, 1)) lua_remove(lua, 1);
   const RunResults& run = results_of(lua, context);
@@ -78,7 +78,7 @@ int history(lua_State* lua, Context& context) {
   return 1;
 }
 
-// Largest magnitude, as magnitude: what a spectrum or a drift limit is compared with.
+// Largest magnitude, without its sign: the number to compare with a spectrum or a drift limit.
 int peak(lua_State* lua, Context& context) {
   const auto& column = column_of(lua, context);
   return number(lua, std::abs(erbs::peak(times_of(lua, context), column).value));
@@ -114,7 +114,7 @@ int period(lua_State* lua, Context& context) {
   return number(lua, erbs::period(times_of(lua, context), column));
 }
 
-// run.crossings(column, level, rising): times at which the column passes the level.
+// run.crossings(column, level, rising): times at which the column crosses the level.
 int crossings(lua_State* lua, Context& context) {
   const auto& column = column_of(lua, context);
   const double level = lua_type(lua, 2) == LUA_TNUMBER ? lua_tonumber(lua, 2) : 0;
@@ -125,7 +125,7 @@ int crossings(lua_State* lua, Context& context) {
 int last(lua_State* lua, Context& context) { return number(lua, column_of(lua, context).back()); }
 int first(lua_State* lua, Context& context) { return number(lua, column_of(lua, context).front()); }
 
-// run.frequency(column, from, to): the highest peak of the spectrum, in a band if one is given.
+// run.frequency(column, from, to): frequency of the highest peak of the spectrum, within a band if one is given.
 int frequency(lua_State* lua, Context& context) {
   const auto& column = column_of(lua, context);
   const double from = lua_type(lua, 2) == LUA_TNUMBER ? lua_tonumber(lua, 2) : 0;
@@ -133,7 +133,7 @@ int frequency(lua_State* lua, Context& context) {
   return number(lua, dominant_frequency(times_of(lua, context), column, from, to));
 }
 
-// run.at(column, t): between rows, linear.
+// run.at(column, t): value at time t, linear between rows.
 int at(lua_State* lua, Context& context) {
   const auto& column = column_of(lua, context);
   const auto& time = times_of(lua, context);
@@ -153,7 +153,7 @@ constexpr std::pair<const char*, Body> run_functions[] = {
     {"mean", mean},          {"first", first}, {"last", last},           {"at", at},       {"frequency", frequency}, {"period", period},
     {"crossings", crossings}};
 
-// run.events: { { time, event, name, value }, ... } in their order, and run.first_crack: { time, name }, nil where there is none.
+// run.events: { { time, event, name, value }, ... } in order of time. run.first_crack: { time, name }, or nil without a crack.
 void push_events(lua_State* lua, const CsvTable& events) {
   lua_newtable(lua);
   lua_pushnil(lua);
@@ -179,7 +179,7 @@ void push_events(lua_State* lua, const CsvTable& events) {
   }
 }
 
-// The keys of metrics.json, then time, metrics, columns and the functions above.
+// The table `run`: the keys of metrics.json, then time, metrics, columns and the functions above.
 void push_run(lua_State* lua, const RunResults& run) {
   push_json(lua, run.metrics.is_object() ? run.metrics : Json::object());
   push_json(lua, run.metrics);

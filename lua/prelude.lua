@@ -1,4 +1,4 @@
--- The part of the scene language that is plain Lua: units, as factors to SI; xpcall and pairs as scenes need them.
+-- Units as factors to SI, and versions of xpcall and pairs that suit scenes.
 
 m, cm, mm, km = 1, 1e-2, 1e-3, 1e3           -- m
 s, ms = 1, 1e-3                              -- s
@@ -9,7 +9,8 @@ J, Hz = 1, 1                                 -- J, 1/s
 pi, deg = math.pi, math.pi / 180             -- rad
 g = 9.81                                     -- m/s2
 
--- Lua calls the handler of xpcall where the error is, out of reach of the time limit when that is what struck; here it comes after.
+-- Lua calls the handler of xpcall at the place of the error, where the time limit could no longer interrupt it. Here the handler is
+-- called afterwards.
 local pcall = pcall
 local function finished(handler, sound, ...)
   if sound then return true, ... end
@@ -17,8 +18,8 @@ local function finished(handler, sound, ...)
 end
 function xpcall(f, handler, ...) return finished(handler, pcall(f, ...)) end
 
--- Lua's own order of string keys differs from run to run; a scene must be built the same way every time.
--- Numbers come first, rising, then strings in the alphabet's order, then the rest as Lua has them.
+-- Lua's own order of string keys differs from run to run, but a scene must be built the same way every time. Here numbers come first
+-- in rising order, then strings in alphabetical order, then the other keys in Lua's order.
 local raw_next, sort, type, getmetatable = next, table.sort, type, getmetatable
 
 local function before(a, b)

@@ -54,8 +54,8 @@ void ProgressPrinter::show(const Progress& now) {
   const double wall = seconds(clock - last_), all = seconds(clock - begin_);
   const double speed = wall > 0 ? (now.t - last_time_) / wall : 0;
   const double rate = wall > 0 ? static_cast<double>(now.steps - last_steps_) / wall : 0;
-  // Time left by the mean speed so far and by that of the last ten seconds or so: a collapse slows a run. The longer of both counts, the
-  // other is told where it differs.
+  // Time left, by the mean speed so far and by the speed of about the last ten seconds, because a collapse slows a run down. The line
+  // shows both if they differ; JSON has the longer one.
   const double mean = all > 0 ? (now.t - first_time_) / all : 0, share = 1 - std::exp(-wall / 10);
   recent_ = recent_ < 0 ? speed : recent_ + share * (speed - recent_);
   const auto left_at = [&](double rate_of_time) { return rate_of_time > 0 ? (now.duration - now.t) / rate_of_time : INFINITY; };

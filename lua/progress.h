@@ -1,4 +1,4 @@
-// The progress of a run: one line kept up to date on a terminal, a plain line every 10 s otherwise.
+// Progress of a run: one line that is updated on a terminal, otherwise a new line every 10 s.
 #pragma once
 #include <chrono>
 #include <string>
@@ -13,19 +13,19 @@ class ProgressPrinter {
   ~ProgressPrinter();
   ProgressPrinter(const ProgressPrinter&) = delete;
   ProgressPrinter& operator=(const ProgressPrinter&) = delete;
-  void show(const Progress& now);  // cheap to call often: prints when it is due
-  void end();                      // leaves the terminal at the start of a fresh line
+  void show(const Progress& now);  // cheap to call often: prints only when a line is due
+  void end();                      // clears the line on a terminal
 
  private:
   using Clock = std::chrono::steady_clock;
   bool quiet_, json_, terminal_, open_ = false;
   Clock::time_point begin_, due_, last_;
   double first_time_ = -1, last_time_ = 0;  // s, simulated: a resumed run does not begin at zero
-  double recent_ = -1;                      // simulated s a s, of late; below zero: not known
+  double recent_ = -1;                      // simulated s per s, recent average; below zero: unknown
   long first_steps_ = 0, last_steps_ = 0;
 };
 
 std::string duration_text(double seconds);  // "3.2 s", "4 min 05 s", "2 h 10 min"
-bool colors(int file);                      // a terminal, and NO_COLOR not set
+bool colors(int file);                      // the output is a terminal and NO_COLOR is not set
 
 }  // namespace erbs

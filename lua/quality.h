@@ -5,8 +5,8 @@ namespace erbs {
 
 struct Quality {
   const char* name;
-  double dt_fraction;  // of the limit
-  int points;          // along each side of a joint, Simpson's
+  double dt_fraction;  // of dt_critical
+  int points;          // along each side of a joint, by Simpson's rule
 };
 constexpr Quality qualities[] = {{"draft", 0.9, 2}, {"standard", 0.9, 3}, {"reference", 0.25, 5}};
 

@@ -47,7 +47,7 @@ std::string not_plain(const std::string& text) {
 
 namespace {
 
-// "g = 9.81" of scripts is 9.81 m/s2: a unit in a message is in SI
+// The unit of a key, for messages. Values are in SI, because "g = 9.81" of a script is 9.81 m/s2.
 std::string in_unit(const Key& key) { return key.unit.empty() ? "" : " " + key.unit; }
 
 std::string range(const Key& key) {
@@ -67,7 +67,7 @@ std::vector<std::string> split(const std::string& words) {
   return list;
 }
 
-// Only the duration of a wave may be without end.
+// Only the duration of a wave may be infinite.
 bool endless(const Key& key) { return key.name == "duration" && std::isinf(key.high); }
 
 const char* wanted_number(const Key& key) { return key.type == "integer" ? "a whole number" : "a number"; }
@@ -92,7 +92,7 @@ Arguments::Arguments(Context& context, lua_State* lua, int index, std::string la
     }
   }
   std::sort(unknown.begin(), unknown.end());
-  std::vector<std::string> meant;  // by a misspelt key: it is not missing as well
+  std::vector<std::string> meant;  // keys that a misspelt key stands for: not reported as missing
   for (const auto& name : unknown) {
     mistake(fmt::format("unknown key \"{}\"{}", name, did_you_mean(name, known)));
     meant.push_back(nearest(name, known));
@@ -371,7 +371,7 @@ std::optional<Arguments> Arguments::table(const std::string& key, const Keys& ke
 std::vector<Arguments> Arguments::tables(const std::string& key, const Keys& keys) {
   std::vector<Arguments> list;
   if (!push(key)) return list;
-  constexpr size_t most = 1000;  // tables that lie on Lua's stack at once
+  constexpr size_t most = 1000;  // tables on Lua's stack at once
   if (lua_istable(lua_, -1) && lua_rawlen(lua_, -1) > most) {
     mistake(fmt::format("{} has {} tables; at most {} are allowed", key, lua_rawlen(lua_, -1), most));
     lua_pop(lua_, 1);

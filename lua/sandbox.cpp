@@ -35,7 +35,7 @@ void* allocate(void* limits_, void* block, size_t old_size, size_t new_size) {
 
 constexpr size_t most_printed = size_t{1} << 20;  // bytes a script may print
 
-// Every thousand instructions; every instruction once the time is over.
+// Runs every thousand instructions, and at every instruction once the time is over.
 void count_hook(lua_State* lua, lua_Debug*) {
   Limits& limits = context_of(lua).limits;
   if (!limits.expired && processor_seconds() < limits.deadline) return;
@@ -47,7 +47,7 @@ void count_hook(lua_State* lua, lua_Debug*) {
   lua_error(lua);
 }
 
-// The pattern functions of string run in C, out of the hook's reach: note the line before them for the watchdog's message.
+// The pattern functions of `string` run in C, where no hook interrupts them. Notes their line first, for the watchdog's message.
 int noted(lua_State* lua) {
   {
     Limits& limits = context_of(lua).limits;
@@ -68,7 +68,7 @@ int noted(lua_State* lua) {
   return lua_gettop(lua);
 }
 
-// A finalizer would run where no hook reaches.
+// Refuses finalizers, because no hook could interrupt them.
 int safe_setmetatable(lua_State* lua) {
   if (lua_istable(lua, 2)) {
     lua_pushliteral(lua, "__gc");
@@ -81,7 +81,7 @@ int safe_setmetatable(lua_State* lua) {
   return lua_gettop(lua);
 }
 
-// Without a seed Lua would take one from the clock: the same scene must give the same run.
+// Requires a seed. Without one Lua would use the clock, but the same scene must give the same run.
 int safe_randomseed(lua_State* lua) {
   luaL_checknumber(lua, 1);
   lua_pushvalue(lua, lua_upvalueindex(1));
@@ -195,7 +195,7 @@ Stretch::Stretch(lua_State* lua, Context& context) : lua_(lua), context_(context
   });
 }
 
-// s past the deadline. The hook of a script comes first and tells more; work of ours has no hook.
+// s after the deadline. A script's hook should act first, because it gives a better message; our own work has no hook.
 double Stretch::grace() const {
   const std::lock_guard lock(context_.limits.mutex);
   return context_.limits.working ? 0.2 : 1;

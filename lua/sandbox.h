@@ -1,4 +1,5 @@
-// A Lua state that can only compute: base, table, string, math and utf8 without what reaches outside, memory and time capped.
+// A Lua state that can only compute: libraries base, table, string, math and utf8 without access to files or system, under limits of
+// memory and time.
 #pragma once
 #include <atomic>
 #include <condition_variable>
@@ -14,20 +15,20 @@ namespace erbs {
 struct Context;
 
 struct Limits {
-  double seconds = 10;  // processor time of one stretch of script: a busy machine takes nothing from it
+  double seconds = 10;  // s, processor time of one stretch of script; other programs on the machine do not count
   size_t bytes = size_t{512} << 20;
-  size_t all_bytes = size_t{2} << 30;  // with what the program keeps for the scene: blocks, waves
+  size_t all_bytes = size_t{2} << 30;  // with the memory of the scene outside Lua: blocks, waves
   // State of the limits
   size_t used = 0;
-  bool capped = true;  // lifted while C++ objects are alive, so that no memory error of Lua jumps over them
+  bool capped = true;   // off while C++ objects are alive, so that no memory error of Lua jumps over their destructors
   double deadline = 0;  // s, processor time of this process
   std::atomic<bool> expired = false;
   std::mutex mutex;   // guards `doing`
-  std::string doing;  // the function (and its line) that runs outside the reach of the hook
-  bool working = false;  // it is work of ours, no loop of the script's
+  std::string doing;  // function and line that runs where the hook cannot interrupt it
+  bool working = false;  // true: the program's own work; false: code of the script
 };
 
-// Notes for the watchdog what runs out of the hook's reach, for as long as it lives.
+// Notes for the watchdog, during its lifetime, which function runs out of reach of the hook.
 class Doing {
  public:
   Doing(Limits& limits, std::string what, bool working) : limits_(limits) { set(std::move(what), working, &before_, &worked_); }
@@ -42,9 +43,9 @@ class Doing {
   bool worked_ = false;
 };
 
-// A stretch of script under the time limit. The count hook stops Lua code (pcall cannot swallow it: once the time is over every
-// further instruction raises the error again). Code in C that never returns, such as a string pattern of exponential cost, is
-// beyond any hook: a watchdog thread then ends the process with code 2 and a message.
+// A stretch of script under the time limit. The count hook stops Lua code. pcall cannot swallow its error, because every further
+// instruction raises it again. No hook reaches C code that never returns, such as a string pattern of exponential cost: there a
+// watchdog thread ends the process with code 2 and a message.
 class Stretch {
  public:
   Stretch(lua_State* lua, Context& context);
@@ -63,7 +64,7 @@ class Stretch {
   std::thread watchdog_;
 };
 
-// Lifts or sets the memory cap for the life of the object.
+// Sets or lifts the memory cap during its lifetime.
 class Cap {
  public:
   Cap(Limits& limits, bool capped) : limits_(limits), before_(limits.capped) { limits_.capped = capped; }
@@ -76,7 +77,7 @@ class Cap {
   bool before_;
 };
 
-// A new state with the libraries above opened and what is dangerous removed. Its extra space points to the context.
+// A new state with these libraries and without their dangerous functions. Its extra space points to the context.
 lua_State* open_sandbox(Context& context);
 
 }  // namespace erbs

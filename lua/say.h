@@ -1,4 +1,4 @@
-// What the program prints for its user.
+// Output for the user.
 #pragma once
 #include <cstdio>
 #include <utility>
@@ -8,8 +8,8 @@
 
 namespace erbs {
 
-// To stdout, as fmt::print does, but names of files and scenes in it control no terminal, and a stdout that is full throws nothing:
-// main() tells at the end.
+// Prints to stdout like fmt::print, with two differences: names of files and scenes in the text cannot control the terminal, and a
+// full stdout throws nothing; main() reports it at the end.
 template <class... A>
 void say(fmt::format_string<A...> text, A&&... values) {
   const std::string all = printable(fmt::format(text, std::forward<A>(values)...));

@@ -21,14 +21,14 @@
 namespace erbs {
 namespace {
 
-// The text of a scene as Lua reads it: without the byte order mark of some editors, nor a first line for a shell.
+// The text of a scene as Lua can read it: without the byte order mark of some editors and without a first line for a shell.
 std::string readable(const std::string& text, const std::string& name) {
   if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) throw Error("the file is in UTF-16; save it as UTF-8", {name, 1});
   const std::string bare = text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
   return bare.starts_with("#") ? "--" + bare : bare;
 }
 
-// "scene.lua:12" of "scene.lua:12: box: ..."; "" where there is none
+// "scene.lua:12:" of "scene.lua:12: box: ..."; "" if the message names no place.
 std::string place_of(const std::string& message) {
   size_t digits = 0;
   for (size_t colon = message.find(':'); colon != std::string::npos; colon = message.find(':', colon + 1)) {
@@ -38,17 +38,17 @@ std::string place_of(const std::string& message) {
   return {};
 }
 
-// whether a message names a block made at "scene.lua:12": ... 'b3' (scene.lua:12) ...
+// True if the message names a block that was made at `place`, as in: ... 'b3' (scene.lua:12) ...
 bool contains_place(const std::string& message, const std::string& place) { return message.find("(" + place + ")") != std::string::npos; }
 
-// 12 of "scene.lua:12: box: ..."; last comes what the file as a whole lacks, first what is of no line (-D).
+// Sort key of a message: 12 of "scene.lua:12: box: ...". Messages without a line (-D) come first, those on the whole file last.
 int line_in(const std::string& file, const std::string& message) {
   if (!message.starts_with(file + ":")) return 0;
   const int line = std::atoi(message.c_str() + file.size() + 1);
   return line > 0 ? line : std::numeric_limits<int>::max();
 }
 
-// One message of several lines (a masonry function that reports all its mistakes) becomes several, each with its place.
+// Splits a message of several lines (a masonry function reports all its mistakes at once) and gives each line the place.
 void add_messages(std::vector<std::string>& mistakes, const std::string& message) {
   const std::string place = place_of(message);
   for (const auto& line : lines_of(message)) {
@@ -75,7 +75,7 @@ void evaluate_overrides(lua_State* lua, Context& context) {
   }
 }
 
-// Samples the waves that are Lua functions, now that the duration is known.
+// Samples the waves that are Lua functions; the duration is known now.
 void sample_waves(lua_State* lua, Context& context) {
   for (const Sampling& one : context.samplings)
     context.scene.loads[one.load].wave = sampled(lua, context, one.function, context.scene.analysis.duration, one.sample, one.place);
@@ -102,7 +102,7 @@ std::string without_index(const std::string& key) {
   return index ? key.substr(0, dot) : key;
 }
 
-// -D and expect name things that must exist; what a study answers must not have the name of another number.
+// Names in -D and expect must exist, and the metrics of a study must have names of their own.
 void check_names(Context& context) {
   std::vector<std::string> params, metrics;
   for (const Param& param : context.scene.params) params.push_back(param.name);
@@ -129,7 +129,7 @@ void check_names(Context& context) {
   }
 }
 
-// What the scene says of its own, before or after, comes first.
+// Applies the quality to values that the scene leaves open. Values of the scene take precedence.
 void take_quality(Context& context) {
   for (const Quality& quality : qualities) {
     if (context.quality != quality.name) continue;
@@ -142,7 +142,7 @@ void take_quality(Context& context) {
 }  // namespace
 
 void load_chunk(lua_State* lua, Context& context, const std::string& text, const std::string& name) {
-  // Lua cuts the names of long paths in messages
+  // Lua shortens long paths in its messages
   const std::string name_shown = name.size() > 55 ? std::filesystem::path(name).filename().string() : name;
   if (std::find(context.files.begin(), context.files.end(), name_shown) == context.files.end()) context.files.push_back(name_shown);
   if (luaL_loadbufferx(lua, text.data(), text.size(), ("@" + name_shown).c_str(), "t") != LUA_OK) {
@@ -215,10 +215,10 @@ void Script::run(const std::string& text, const std::string& name, const Overrid
     if (!context.incomplete || context.limits.expired) add_messages(context.mistakes, error.what());
   }
   finish(whole && !context.incomplete);
-  lua_gc(lua_, LUA_GCCOLLECT, 0);  // what reading left; functions of metrics stay
+  lua_gc(lua_, LUA_GCCOLLECT, 0);  // frees the garbage of reading; functions of metrics stay
 }
 
-// What is settled when the script has ended, and every mistake at once.
+// Settles all items that need the whole script, checks the scene and throws all mistakes at once.
 void Script::finish(bool whole) {
   Context& context = *context_;
   const Doing doing(context.limits, context.scene.file + ": checking the scene", true);
@@ -229,7 +229,7 @@ void Script::finish(bool whole) {
       sample_waves(lua_, context);
     } catch (const std::exception& error) { add_messages(context.mistakes, error.what()); }
   if (whole) {
-    // What reading has already complained about, checking need not.
+    // Drops messages on lines that reading has already reported.
     const std::vector<std::string> read = context.mistakes;
     std::vector<std::string> found = check(context.scene);
     for (auto& message : check_recorders(context.scene)) found.push_back(std::move(message));
@@ -238,8 +238,8 @@ void Script::finish(bool whole) {
       const auto same = [&](const std::string& other) { return !place.empty() && place_of(other) == place; };
       if (std::none_of(read.begin(), read.end(), same)) context.mistakes.push_back(message);
     }
-    // A sound scene is told of its overlaps when it is built; one with mistakes never gets there. Where a line of theirs is already
-    // complained about, the block may not stand where it was meant to.
+    // The build reports overlaps of a correct scene; a scene with mistakes never gets there, so its overlaps are reported here. A block
+    // from a line with a mistake may stand in the wrong place: its overlaps are left out.
     if (!context.mistakes.empty()) {
       const std::vector<std::string> said = context.mistakes;
       for (const auto& message : overlap_mistakes(context.scene)) {

@@ -1,4 +1,4 @@
-// A scene script: loaded into a Scene, and kept alive for the functions called after the run.
+// A scene script. It is loaded into a Scene and stays alive for the functions that are called after the run.
 #pragma once
 #include <memory>
 #include <optional>
@@ -19,10 +19,10 @@ struct Context;
 struct ParamFamily;
 struct Figure;
 
-// What -D name=expression says.
+// Name and expression of each -D name=expression.
 using Overrides = std::vector<std::pair<std::string, std::string>>;
 
-// What a run left behind, for metric functions.
+// Results of a run, for metric functions.
 struct RunResults {
   Json metrics;        // metrics.json
   CsvTable histories;  // histories.csv; its first column is time_s
@@ -31,40 +31,40 @@ struct RunResults {
 
 struct MetricValue {
   std::string name, unit;
-  std::optional<double> value;  // none: the function gave nil, or failed
-  std::string error;            // why it failed, with file and line; "" where it did not
+  std::optional<double> value;  // none if the function returned nil or failed
+  std::string error;            // reason of the failure, with file and line; "" without one
 };
 
 class Script {
  public:
   struct Options {
-    double seconds = 10;               // a script may run this long
-    size_t bytes = size_t{512} << 20;  // and use this much
+    double seconds = 10;               // s, time limit of the script
+    size_t bytes = size_t{512} << 20;  // memory limit of the script
     bool quiet = false;                // do not echo print to stderr
-    std::string study = {};            // the study that started this run: only its question is asked, nothing expected
-    std::string quality = {};          // instead of that of analysis{}; "": as the scene says
+    std::string study = {};            // study that started this run; such a run evaluates only its question and no expectations
+    std::string quality = {};          // takes precedence over the quality of analysis{}; "": none is given
     std::vector<std::string> allow = {};  // folders it may read besides its own
-    int most_blocks = Scene().most_blocks, most_points = Scene().most_points;  // of a scene
-    double noise = 0;                  // in the start of every free block [m and rad]: start_noise of the script
+    int most_blocks = Scene().most_blocks, most_points = Scene().most_points;  // limits of a scene
+    double noise = 0;  // m and rad, noise in the initial state of every free block: start_noise of the script
   };
   Script();
   explicit Script(const Options& options);
   ~Script();
 
-  // Runs the script once and gives its Scene. Throws Errors with every mistake.
+  // Runs the script once and returns its Scene. Throws Errors with all mistakes.
   const Scene& load(const std::string& path, const Overrides& overrides = {});
   const Scene& load_text(const std::string& text, const std::string& name, const Overrides& overrides = {});
 
-  // The numbers the scene asks for by metric{}, in its order.
+  // The metrics of the scene, in its order.
   std::vector<MetricValue> evaluate_metrics(const RunResults& results);
 
   const Scene& scene() const;
-  Scene take_scene();  // scene() with its blocks, of which the script keeps none
+  Scene take_scene();  // scene() with its blocks, which the script gives up
   const std::vector<Study>& studies() const;
   const std::vector<Figure>& figures() const;
-  const ParamFamily& family() const;  // no values: the scene declares none
-  const std::vector<std::string>& output() const;  // what it printed
-  // The functions written in Lua (walls, arches): name, line of help, keys; from the list masonry_functions.
+  const ParamFamily& family() const;               // without values if the scene declares none
+  const std::vector<std::string>& output() const;  // lines the script has printed
+  // Entries of masonry_functions, the functions written in Lua (walls, arches): name, help, keys.
   Json lua_functions();
 
  private:

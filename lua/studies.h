@@ -1,4 +1,4 @@
-// The studies of a scene, carried out after its own run.
+// Studies of a scene; they run after the scene's own run.
 #pragma once
 #include <atomic>
 #include <string>
@@ -9,16 +9,16 @@
 namespace erbs {
 
 struct StudiesOutcome {
-  Json metrics = Json::object();      // to stand beside the scene's own
-  std::vector<std::string> troubles;  // why one has no value
-  double updates = 0;                 // contact points their runs evaluated
+  Json metrics = Json::object();      // by name, to be merged with the metrics of the scene
+  std::vector<std::string> troubles;  // reasons why studies have no value
+  double updates = 0;                 // contact points that their runs evaluated
   bool interrupted = false;
 };
 
 StudiesOutcome run_studies(const Script& script, const std::string& path, const std::string& directory, const Options& options,
                            const std::atomic<bool>& interrupted);
 
-// A run folder whose own run is finished, with studies that are not: --resume goes on with these.
+// True if the own run in this folder is finished but its studies are not: --resume then continues with the studies.
 bool studies_left(const Script& script, const std::string& directory);
 
 }  // namespace erbs

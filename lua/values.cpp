@@ -1,4 +1,4 @@
-// Law and wave values: a script holds a handle, an index into the lists of the context.
+// Law and wave values. A script holds a handle: an index into the lists of the context.
 #include <cmath>
 #include <lua5.4/lua.hpp>
 
@@ -15,7 +15,7 @@ void push_handle(lua_State* lua, const char* type, size_t index) {
   luaL_setmetatable(lua, type);
 }
 
-// wave(t): its value at time t, so that waves can be added up inside a function.
+// wave(t): its value at time t. Scripts use it to add waves inside a function.
 int call_wave(lua_State* lua) {
   const size_t index = *static_cast<size_t*>(luaL_checkudata(lua, 1, wave_type));
   const double t = luaL_checknumber(lua, 2);
@@ -23,7 +23,7 @@ int call_wave(lua_State* lua) {
   return 1;
 }
 
-// nil where the value at the top is no handle of that type
+// The index of the handle on top of the stack; nullptr if it is no handle of this type.
 const size_t* handle_at_top(lua_State* lua, const char* type) { return static_cast<size_t*>(luaL_testudata(lua, -1, type)); }
 
 }  // namespace
@@ -31,7 +31,7 @@ const size_t* handle_at_top(lua_State* lua, const char* type) { return static_ca
 void open_values(lua_State* lua) {
   for (const char* type : {law_type, wave_type}) {
     luaL_newmetatable(lua, type);
-    lua_pushliteral(lua, "locked");  // what getmetatable gives
+    lua_pushliteral(lua, "locked");  // the result of getmetatable
     lua_setfield(lua, -2, "__metatable");
     if (type == wave_type) {
       lua_pushcfunction(lua, call_wave);
@@ -74,7 +74,7 @@ std::optional<Wave> Arguments::wave(const std::string& key) {
 std::optional<Wave> Arguments::wave(const std::string& key, double duration, double sample) {
   if (!is_function(key)) return wave(key);
   const int reference = function(key);
-  if (!(duration > 0)) return std::nullopt;  // which is a mistake already
+  if (!(duration > 0)) return std::nullopt;  // a mistake that is reported elsewhere
   const Table table = sampled(lua_, *context_, reference, duration, sample, place_);
   luaL_unref(lua_, LUA_REGISTRYINDEX, reference);
   return table;

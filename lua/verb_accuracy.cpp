@@ -1,4 +1,4 @@
-// erbs accuracy SCENE.lua: what another digit costs in this scene, and which knob buys it cheapest.
+// erbs accuracy SCENE.lua: the cost of one more digit in this scene, and the setting that gives it for the least cost.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -24,7 +24,7 @@ std::string error_text(const Goal& q, const std::optional<double>& error) {
 void print_table(const AccuracyStudy& s) {
   const Goal& q = s.quantity();
   say("{}: {}\n{} = {:.8g} {} by {}{}\n\n", s.name, s.title, q.name, q.reference, q.unit, q.from,
-             q.uncertainty > 0 ? fmt::format(", uncertain by {:.2g}", q.uncertainty) : "");
+      q.uncertainty > 0 ? fmt::format(", uncertainty {:.2g}", q.uncertainty) : "");
   say("{:<22}  {:<32}  {:>14}  {:>12}  {:>9}  {:>12}\n", "knob", "setting", "value", "error", "cpu s", "evaluations");
   std::vector<std::size_t> order(s.all.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
@@ -42,19 +42,19 @@ void print_table(const AccuracyStudy& s) {
   for (const auto& text : s.not_applicable) say("{:<22}  not applicable\n", text);
   for (const Curve& c : curves_of(q, s.main, s.all))
     if (c.slope)
-      say("{}: its own error falls with the power {:.2f} of {}\n", c.knob, *c.slope,
-                 c.knob == "time step"          ? "dt"
-                 : c.knob.starts_with("points") ? "the spacing of points"
-                                                : "its size");
+      say("{}: the error falls with the power {:.2f} of {}\n", c.knob, *c.slope,
+          c.knob == "time step"          ? "dt"
+          : c.knob.starts_with("points") ? "the spacing of points"
+                                         : "its size");
 }
 
-// --target and --budget: the setting, and the line for the scene.
+// Answers --target and --budget: the setting, and the line to write into the scene.
 int answer(const AccuracyStudy& s, const Options& options) {
   const Goal& q = s.quantity();
   const auto tell_of = [&](std::size_t i) {
     const Measured& m = s.all[i];
-    say("  {} costs {:.3g} s and errs by {}\n", m.setting.name, m.cpu, error_text(q, error_of(q, m.values[s.main])));
-    say("  {}\n", m.setting.line.empty() ? "nothing needs to be changed" : m.setting.line);
+    say("  {} costs {:.3g} s, with an error of {}\n", m.setting.name, m.cpu, error_text(q, error_of(q, m.values[s.main])));
+    say("  {}\n", m.setting.line.empty() ? "no change is needed" : m.setting.line);
   };
   int code = exit_ok;
   const std::vector<std::size_t> front = pareto(q, s.main, s.all, true);
@@ -108,7 +108,7 @@ std::string study_row(const AccuracyStudy& s) {
                      cost(0.01), cost(0.001), front.empty() ? "-" : error_text(q, error_of(q, s.all[front.back()].values[s.main])));
 }
 
-// The row of the table of quality: what each errs by, and its evaluations over those of standard.
+// The row of a problem in the table of qualities: the error of each, and its number of evaluations over that of standard.
 std::string quality_row(const AccuracyStudy& s) {
   const auto find = [&](const Quality& q) {
     return std::find_if(s.all.begin(), s.all.end(),
@@ -136,7 +136,8 @@ int whole_study(const Options& options) {
     if (entry.path().extension() == ".lua" && entry.path().filename().string().starts_with("p")) scenes.push_back(entry.path().string());
   std::sort(scenes.begin(), scenes.end());
   const size_t problems = scenes.size();
-  for (const auto& entry : fs::directory_iterator(fs::absolute(folder).lexically_normal().parent_path()))  // for the table of quality alone
+  // further scenes for the table of qualities
+  for (const auto& entry : fs::directory_iterator(fs::absolute(folder).lexically_normal().parent_path()))
     if (entry.path().filename().string().ends_with("_quality.lua")) scenes.push_back(fs::relative(entry.path()).string());
   std::sort(scenes.begin() + static_cast<std::ptrdiff_t>(problems), scenes.end());
   if (problems == 0) throw Error(fmt::format("{} holds no problem p1_... of the study", folder));
@@ -160,8 +161,8 @@ int whole_study(const Options& options) {
     say("{}\n\n", plain_sentence(s.quantity(), s.main, s.all));
     std::fflush(stdout);
   }
-  std::erase_if(all, [](const AccuracyStudy& s) { return !s.name.starts_with("p"); });  // those of quality alone
-  const fs::path home = fs::weakly_canonical(folder).parent_path().parent_path();       // of scenes/accuracy
+  std::erase_if(all, [](const AccuracyStudy& s) { return !s.name.starts_with("p"); });  // scenes for the table of qualities only
+  const fs::path home = fs::weakly_canonical(folder).parent_path().parent_path();       // the parent folder of scenes/
   const std::string picture = fs::is_directory(home / "media") ? (home / "media/accuracy.png").string() : out + "/accuracy.png";
   draw_accuracies(all, picture);
   const std::string readme = (fs::weakly_canonical(folder) / "README.md").string();
@@ -184,11 +185,10 @@ int verb_accuracy(const Options& options) {
   write_study(s);
   say("\n{}\n", plain_sentence(s.quantity(), s.main, s.all));
   const int code = answer(s, options);
-  say("{} runs, {} of processor, {} of the clock; {}/accuracy.csv, accuracy.svg, accuracy.png\n", s.all.size(), duration_text(s.cpu),
-             duration_text(s.wall), directory);
+  say("{} runs, {} of processor time, {} of wall-clock time; {}/accuracy.csv, accuracy.svg, accuracy.png\n", s.all.size(),
+      duration_text(s.cpu), duration_text(s.wall), directory);
   if (s.waiting > 0)
-    say("{} of them did not fit into {}; --resume makes them, --within 10m gives all more time\n", s.waiting,
-               duration_text(options.within));
+    say("{} of them did not fit into {}; --resume makes them, --within 10m allows more time\n", s.waiting, duration_text(options.within));
   const bool any = std::any_of(s.all.begin(), s.all.end(), [&](const Measured& m) { return m.values[s.main].has_value(); });
   const bool refused = std::all_of(s.all.begin(), s.all.end(), [](const Measured& m) { return m.reason.starts_with("exit code 2"); });
   return any ? code : refused ? exit_usage : exit_numbers;

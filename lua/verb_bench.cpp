@@ -1,5 +1,5 @@
-// erbs bench: the step kernel against the reference implementation and the machine's limits, in one run. Without scenes it times those
-// of scenes/bench, each in a process of its own so that memory is its own too; with scenes, those.
+// erbs bench: the step kernel against the reference implementation and the limits of the machine, in one run. Without arguments it
+// times the scenes of scenes/bench, each in its own process, so that its memory can be measured. With arguments it times those scenes.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -32,18 +32,18 @@ Json to_json(const Timing& t, double per) {
           {"pairs_per_s", t.touching / t.user}};
 }
 
-// Blocks free to look for neighbours: the re-detection that other codes do at every step.
+// Makes all blocks search for neighbours: contact detection at every step, as in other codes.
 void loosen(const Model& m, State& s) {
   for (int b = 0; b < m.nblock; ++b) s.loose[z(b)] = m.kind[z(b)] == Kind::moving;
 }
 
-// s to simulate of a structure that comes apart: all of its duration, or as much as blocks times steps allow.
+// s to simulate of a structure that falls apart: its whole duration, or less if blocks times steps exceed the limit.
 double span(const Model& m, const State& s) {
   constexpr double most = 1e7;
   return std::min(m.analysis.duration, most / m.nblock * s.dt);
 }
 
-// What one scene costs. `seconds` is spent on each way of running it.
+// Measures the cost of one scene. Each way of running it takes about `seconds`.
 Json measure(const std::string& path, const Options& options, double seconds) {
   Script script(script_options(options, true));
   script.load(path, options.overrides);
@@ -55,7 +55,7 @@ Json measure(const std::string& path, const Options& options, double seconds) {
   const bool mortared = m.njoint > 0 && !m.laws[z(m.joint.front().type->law)].dry;
   if (!mortared && m.njoint > 0) loosen(m, run.state);
   const double points = m.npoint;
-  // Memory of what a run has: set up, and on its way; before the copies that timing takes.
+  // Memory of a run after its first step; measured before timing makes copies of the state.
   run_in(run.model, run.state, 1);
   const double memory = double(peak_memory_bytes());
   Json out{
@@ -128,7 +128,10 @@ Json child(const Case& item, const std::string& scenes, const std::string& direc
 int bench_scenes(const Options& options) {
   Json rows = Json::array();
   for (const auto& path : options.words) {
-    if (!options.quiet) tell(stderr, path + ": timing kernel and reference, sound and broken, with one thread and two; some minutes where blocks are many");
+    if (!options.quiet)
+      tell(
+          stderr,
+          path + ": timing kernel and reference with intact and with broken joints, on one and two threads; some minutes with many blocks");
     rows.push_back(measure(path, options, 1.5));
     if (!options.quiet) print_bench_row(rows.back());
     std::fflush(stdout);

@@ -1,4 +1,4 @@
-// erbs check SCENE.lua: every mistake at once, and what a run would be; runs nothing.
+// erbs check SCENE.lua: reports all mistakes of a scene, and the size and cost of a run, without running it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -16,12 +16,12 @@
 namespace erbs {
 namespace {
 
-// of the program and its libraries before there is a model: the peak of the pier
+// bytes of the program and its libraries without a model: the peak of the pier (scenes/first.lua)
 constexpr double own_memory = 20 * 1048576.0;
 
 size_t bytes_of(const Model& model) {
-  // While all is sound. A joint: its record, what the step reads of it, two wrench rows; a block: model and state with its shapes;
-  // nothing for points, which share their places and have no history yet. Fitted to the peak of a wall of 29,911 blocks, 101 MiB.
+  // While all joints are intact. A joint: its record, the data the step reads of it, two wrench rows. A block: model and state with its
+  // shapes. Points need nothing: they share their positions and have no history. Fitted to the peak of a wall of 29,911 blocks, 101 MiB.
   const auto joints = static_cast<size_t>(model.njoint), blocks = static_cast<size_t>(model.nblock);
   return joints * (sizeof(Joint) + 400) + blocks * 1500;
 }
@@ -69,7 +69,7 @@ void check_scene(const std::string& path, const Options& options) {
   Script script(script_options(options, options.quiet));
   const Scene scene = script.load(path, options.overrides);
   const Prepared run = prepare(scene, options.allow_unstable);
-  const Recorders recorders(scene, run.model);  // no two columns of one name
+  const Recorders recorders(scene, run.model);  // throws Error if two columns have one name
   for (const auto& warning : warnings(scene)) tell(stderr, "warning: " + warning);
   for (const auto& warning : run.model.warnings) tell(stderr, "warning: " + warning);
   if (options.quiet) return;

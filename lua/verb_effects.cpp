@@ -1,5 +1,5 @@
-// erbs effects SCENE.lua: what each effect of a scene costs and how much the answer moves without it, by runs of the scene with one
-// effect switched off at a time.
+// erbs effects SCENE.lua: the cost of each effect of a scene, and the change of its metrics without it. Each effect is switched off in
+// a run of its own.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 
 struct Measured {
   std::string effect, because, trouble;
-  double user = 0;    // s, of the whole child
+  double user = 0;    // s, of the whole child process
   double memory = 0;  // bytes, peak
   double steps = 0, points = 0;
   std::string status;
@@ -36,7 +36,7 @@ double children_seconds() {
   return static_cast<double>(used.ru_utime.tv_sec) + 1e-6 * static_cast<double>(used.ru_utime.tv_usec);
 }
 
-// One run at a time, so that none takes the processor or the memory from another.
+// One run at a time, so that runs do not compete for processor and memory.
 Measured run_without(const std::string& scene, const Options& options, const std::string& directory, const std::string& effect) {
   std::string name = effect.empty() ? "all" : effect;
   std::replace(name.begin(), name.end(), ' ', '_');
@@ -66,7 +66,7 @@ Measured run_without(const std::string& scene, const Options& options, const std
   return out;
 }
 
-// The metric that moves most, relative to itself, and by how much.
+// The metric with the largest relative change, and the change.
 std::pair<std::string, double> moved(const Measured& all, const Measured& without) {
   if (all.collapsed != without.collapsed) return {all.collapsed ? "stands" : "collapses", 1};
   std::pair<std::string, double> out{"-", 0};
@@ -143,7 +143,7 @@ int verb_effects(const Options& options) {
     if (!effect.on) continue;
     Row row{run_without(path, options, directory, effect.name), 0, 0, 0, {}};
     row.without.because = effect.because;
-    // by step: without an effect a run may end earlier or take other steps
+    // per step: without an effect a run may end earlier or take other steps
     const double each = all.user / all.steps, now = row.without.user / std::max(1.0, row.without.steps);
     row.ns = 1e9 * (each - now) / std::max(1.0, all.points);
     row.percent = 100 * (each - now) / each;

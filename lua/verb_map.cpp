@@ -1,5 +1,5 @@
-// erbs accuracy SCENE.lua --map: which time steps, stiffnesses and dampings let a scene converge, the parameter study of Gu and Miao
-// for any structure. Every run is given the beginning of the window first; those that are bounded go on from their checkpoints.
+// erbs accuracy SCENE.lua --map: which time steps, stiffnesses and dampings let a scene converge. This is the parameter study of Gu and
+// Miao for any structure. All runs first simulate the beginning of the window; the bounded ones continue from their checkpoints.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -24,14 +24,15 @@ namespace {
 namespace fs = std::filesystem;
 using Verdict = MapRun::Verdict;
 
-// Of the window, one after the other: what diverges does so early, and a map whose time is up has tried everything.
+// Shares of the window that the runs reach one after the other. Runs that diverge do so early. If the time runs out, every run has at
+// least been tried.
 constexpr double shares[] = {0.001, 0.005, 0.05, 0.25, 1};
-// What a sweep moves is its own doing where its ledger lacks half of what passed through, or where a thousand times what the structure
-// holds and was given is lost in joints and contacts: past a limit joints may crack and rub so much of it away that the ledger looks better
-// again.
+// A sweep is judged to generate its own motion in two cases: its ledger lacks half of the energy that passed through, or joints and
+// contacts have lost a thousand times the energy of the structure and its loads. The second criterion is needed because beyond a limit
+// joints may crack and rub so much that the ledger looks better again.
 constexpr double wrong_ledger = 0.5, too_much_lost = 1000;
 
-// Displacements against the ground come first: what Fig. 6 shows.
+// Displacements relative to the ground take precedence, because Fig. 6 of Gu and Miao shows them.
 void choose_quantity(MapStudy& study, const Scene& scene, const std::string& asked) {
   if (scene.metric_units.empty())
     throw Error(
@@ -51,7 +52,7 @@ void choose_quantity(MapStudy& study, const Scene& scene, const std::string& ask
   study.quantity = found->first, study.unit = found->second;
 }
 
-// The window lies about the instant at which the ground accelerates most.
+// The window is centred at the peak of the ground acceleration.
 void choose_window(MapStudy& study, const Scene& scene, double asked) {
   const double length = scene.analysis.duration;
   study.window = std::min(asked > 0 ? asked : 2.0, length);
@@ -67,7 +68,7 @@ void choose_window(MapStudy& study, const Scene& scene, double asked) {
   study.from = std::clamp(at - 0.5 * study.window, 0.0, length - study.window);
 }
 
-// The rules of the source, at the stiffness of the scene.
+// The step rules of Gu and Miao, at the stiffness of the scene.
 void choose_steps(MapStudy& study, const Scene& scene) {
   Scene free = scene;
   free.analysis.solver = "leapfrog";
@@ -90,7 +91,8 @@ void choose_steps(MapStudy& study, const Scene& scene) {
   std::stable_sort(study.steps.begin(), study.steps.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
 }
 
-// The scene's own, and by half decades from what the sweep feeds at the shortest step to what is too much for it.
+// The scene's own damping, then half decades: from the damping that balances the feed of the sweep at the shortest step up to 2 / dt,
+// which is too much for that step.
 void choose_dampings(MapStudy& study, const Scene& scene) {
   const double shortest = study.steps.front().second;
   study.dampings.push_back(scene.damping.mass);
@@ -102,7 +104,8 @@ void choose_dampings(MapStudy& study, const Scene& scene) {
   }
 }
 
-// To be done, the scene as it is and the shortest first: a sequential step costs some 6 of leapfrog (768 blocks, one thread).
+// Sort key of the runs: the stiffness of the scene first, short runs first. A sequential step costs about 6 leapfrog steps (768 blocks,
+// one thread).
 double work(const MapRun& r) { return (r.factor == 1 ? 1e-6 : 1) * (r.scheme.sequential ? 6 : 1) / r.dt; }
 
 std::string stem(const MapRun& r) {
@@ -115,7 +118,7 @@ std::vector<MapRun> plan(const MapStudy& study) {
   for (const double factor : study.factors)
     for (const Scheme scheme : {Scheme{false, false}, Scheme{true, false}, Scheme{true, true}})
       for (const auto& [step, dt] : study.steps)
-        for (std::size_t i = 0; i < study.dampings.size(); i += scheme.sequential ? 1 : 2) {  // leapfrog's limit is the same for all
+        for (std::size_t i = 0; i < study.dampings.size(); i += scheme.sequential ? 1 : 2) {  // leapfrog's limit does not depend on damping
           const double c = study.dampings[i];
           MapRun r;
           r.scheme = scheme, r.factor = factor, r.step = step, r.dt = dt, r.damping = c;
@@ -132,6 +135,7 @@ std::vector<MapRun> plan(const MapStudy& study) {
   return all;
 }
 
+// True if joints and contacts have lost far more energy than the structure ever had.
 bool own_doing(const Json& metrics) {
   const auto joules = [&](std::initializer_list<const char*> terms) {
     double sum = 0;
@@ -140,12 +144,13 @@ bool own_doing(const Json& metrics) {
         sum += std::fabs(found->get<double>());
     return sum;
   };
-  // not what mass damping takes: it takes what a structure began with as well, and within theory's bounds what the sweep feeds
+  // Mass damping does not count: it also takes the initial energy and, within theory's bounds, the energy that the sweep feeds.
   const double lost = joules({"friction_J", "fracture_J", "crushing_J", "contact_damping_J", "reset_J"});
   return lost > too_much_lost * joules({"base_work_J", "external_work_J", "tilt_work_J", "kinetic_J", "gravity_J", "elastic_J"});
 }
 
-// What a run left. Of a leapfrog run the ledger judges as well: where it is wrong the numbers are, however tame they look.
+// Reads the result of a run. The energy ledger judges it besides divergence: if the ledger does not close, the numbers are wrong, however
+// small they are.
 void read(MapRun& r, const Case& run, const std::string& quantity) {
   r.cpu += run.cpu;
   try {
@@ -249,16 +254,16 @@ void carry_out(MapStudy& study, const Options& given, const std::string& key) {
 }
 
 void print_map(const MapStudy& study) {
-  say("{}: {:g} s from {:.4g} s on; 2/omega_max {:.4g} s, 2/omega_block {:.4g} s, the sweep feeds dt / 2 x {:.4g} 1/s2\n",
-             study.name, study.window, study.from, study.nominal.critical, study.nominal.block, study.nominal.feed);
+  say("{}: {:g} s from t = {:.4g} s; 2/omega_max {:.4g} s, 2/omega_block {:.4g} s, the sweep feeds dt / 2 x {:.4g} 1/s2\n", study.name,
+      study.window, study.from, study.nominal.critical, study.nominal.block, study.nominal.feed);
   int count[6] = {}, other = 0;
   for (const MapRun& r : study.all) {
     ++count[int(r.verdict)];
     const bool tame = r.verdict == Verdict::converged || r.verdict == Verdict::bounded;
     const bool told = r.verdict != Verdict::waiting && r.verdict != Verdict::failed;
     const bool theory = foretold(r, study.nominal);
-    if (!told || tame == theory || (r.verdict == Verdict::bounded && !theory)) continue;  // what is bounded so far may diverge yet
-    if (++other == 1) say("where theory says otherwise:\n");
+    if (!told || tame == theory || (r.verdict == Verdict::bounded && !theory)) continue;  // a run that is bounded so far may still diverge
+    if (++other == 1) say("runs that contradict theory:\n");
     say("  {:<10} {:<8} stiffness x {:<4g} dt {:.4g} s ({}), c/m {:.4g} 1/s: {} at {:.4g} s\n",
                r.scheme.sequential ? "sequential" : "leapfrog", r.scheme.explicit_damping ? "explicit" : "centred", r.factor, r.dt, r.step,
                r.damping, word(r.verdict), r.until);
@@ -266,8 +271,8 @@ void print_map(const MapStudy& study) {
   std::string text;
   for (int v = 0; v < 6; ++v)
     if (count[v] > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count[v], word(Verdict(v)));
-  say("{} runs: {}; {} where theory says otherwise\n", study.all.size(), text, other);
-  if (count[0] + count[2] > 0) say("--resume --budget 60m goes on with those that are not at their end\n");
+  say("{} runs: {}; {} contradict theory\n", study.all.size(), text, other);
+  if (count[0] + count[2] > 0) say("--resume --budget 60m continues the unfinished runs\n");
 }
 
 }  // namespace

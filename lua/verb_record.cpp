@@ -1,4 +1,4 @@
-// erbs record FILE: the numbers of a ground motion, and its picture in a folder of its own.
+// erbs record FILE: the key numbers of a ground motion, and its plot in a folder.
 #include <cmath>
 #include <filesystem>
 #include <sstream>
@@ -35,7 +35,7 @@ Json to_json(const RecordReport& r) {
           {"spectrum_s_m_s2", spectrum}};
 }
 
-// Drawing the same file again replaces its picture; anything else that lies there is left alone.
+// Drawing the same record again replaces its plot. A folder with other content is refused.
 void check_folder(const fs::path& folder, const RecordReport& r, bool force) {
   if (!fs::exists(fs::symlink_status(folder))) return;
   const fs::path numbers = folder / "record.json";

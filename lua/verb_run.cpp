@@ -1,4 +1,4 @@
-// erbs run SCENE.lua: load, run, ask for the scene's metrics, judge its expectations, say what came out.
+// erbs run SCENE.lua: loads and runs the scene, evaluates its metrics, judges its expectations, prints a summary.
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -32,12 +32,12 @@ std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-// Evaluates what the scene asks for and writes it into the run folder. Returns the messages of metrics that failed.
+// Evaluates the metrics and expectations of the scene and writes them into the run folder. Returns the messages of failed metrics.
 std::vector<std::string> complete_metrics(Script& script, const std::string& directory, bool whole, const StudiesOutcome& studies, Json& metrics,
                                           std::vector<Verdict>& verdicts) {
   std::vector<std::string> failures;
   metrics = read_metrics(directory);
-  metrics["metrics"] = studies.metrics;  // answers of the studies: a metric may be made of them
+  metrics["metrics"] = studies.metrics;  // first the results of the studies: metrics of the scene may use them
   Json own = Json::object();
   for (const MetricValue& metric :
        script.evaluate_metrics({metrics, read_csv(run_file(directory, "histories.csv")), read_csv(run_file(directory, "events.csv"))})) {
@@ -71,9 +71,9 @@ std::string collapse_text(const Json& metrics) {
   const Json* direction = find_key(metrics, "collapse.direction");
   const std::string towards = direction && direction->is_array() && direction->size() >= 2
                                   ? fmt::format(" towards ({:+.2f}, {:+.2f})", (*direction)[0].get<double>(), (*direction)[1].get<double>())
-                                  : " in no one direction";
+                                  : " in no single direction";
   std::string text = under_gravity ? fmt::format("does not stand under its own weight; {:.0f} % of the mass fell by the end", 100 * share)
-                                   : fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass lies fallen at the end",
+                                   : fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass has fallen by the end",
                                                  number_at(metrics, "collapse.time_s"), towards, 100 * share);
   const Json* mechanism = find_key(metrics, "collapse.mechanism.summary");
   if (mechanism && mechanism->is_string() && *mechanism != "") text += "\nmechanism: " + mechanism->get<std::string>();
@@ -119,7 +119,7 @@ int exit_code(const Scene& scene, const Options& options, const RunOutcome& outc
 
 constexpr double twin_noise = 1e-9, twin_apart = 1e-3;  // m
 
-// The same run once more with a hair of noise, beside it.
+// The twin: the same run again with tiny noise, in a folder inside that of the run.
 class Twin {
  public:
   Twin(const std::string& scene, const std::string& directory, const Options& options) : run_(directory), twin_(run_file(directory, "twin")) {
@@ -132,10 +132,10 @@ class Twin {
     command_.emplace_back(options.resume && std::filesystem::exists(run_file(twin_, "checkpoint.bin")) ? "--resume" : "--force");
   }
 
-  // Runs it and tells when it parts; "" or why it cannot be told.
+  // Runs the twin and notes the time at which it parts from the run. Returns "", or the reason why there is no such time.
   std::string compare(Json& metrics) const {
     const int code = wait_for(start(command_, twin_ + ".log"));
-    if (code != exit_ok) return "the twin gave nothing: " + last_words(twin_ + ".log", code, "");
+    if (code != exit_ok) return "the twin run failed: " + last_words(twin_ + ".log", code, "");
     const std::optional<double> parted = parting_time(run_, twin_, twin_apart);
     metrics["trust"]["twin"] = true;
     metrics["trust"]["chaos_horizon_s"] = parted ? Json(*parted) : Json();
@@ -147,8 +147,9 @@ class Twin {
   std::vector<std::string> command_;
 };
 
-// All processors, but one for few blocks: a step of 12 bricks takes 7 us, about what two threads need to meet twice. Never more than there
-// are: threads that take turns on a processor wait for each other in every step. The numbers of a run do not depend on it.
+// Default: all processors, but one thread for few blocks, since a step of 12 bricks takes 7 us, about as long as two synchronisations
+// of two threads. Never more threads than processors: threads that share a processor would wait for each other in every step. The
+// results of a run do not depend on the number of threads.
 int threads_of(const Scene& scene, const Options& options) {
   const int usable = usable_processors();
   if (options.threads <= 0) return scene.blocks.size() < 100 ? 1 : usable;
@@ -158,7 +159,7 @@ int threads_of(const Scene& scene, const Options& options) {
   return std::min(options.threads, usable);
 }
 
-// The seam to the engine: one scene, one run folder.
+// Hands one scene to the engine, which writes one run folder.
 RunOutcome run_scene(Scene scene, const std::string& script, const std::vector<std::string>& notes, const std::string& directory,
                      const Options& options) {
   RunOptions run;
@@ -180,15 +181,15 @@ RunOutcome run_scene(Scene scene, const std::string& script, const std::vector<s
   return run_dynamic(std::move(scene), script, run);
 }
 
-// histories.svg and energy.svg; a run without them is a run all the same.
+// Draws histories.svg and energy.svg. A failure is only a warning.
 void draw_curves(const std::string& directory) {
   try {
     if (run_renderer({directory, "--figures", "--quiet"}) == 0) return;
   } catch (const Error& error) { tell(stderr, error.what()); }
-  tell(stderr, fmt::format("warning: the curves are not drawn; erbs render {} --figures tries again", directory));
+  tell(stderr, fmt::format("warning: the curves could not be drawn; erbs render {} --figures draws them", directory));
 }
 
-// What comes after the run itself: its studies, its twin, its metrics and pictures. Returns the exit code.
+// Work after the run itself: studies, twin, metrics and pictures. Returns the exit code.
 int complete(Script& script, const std::string& path, const std::string& directory, const RunOutcome& outcome, const Options& options) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   Json metrics;
@@ -198,7 +199,7 @@ int complete(Script& script, const std::string& path, const std::string& directo
   StudiesOutcome studies;
   if (whole && options.study.empty()) studies = run_studies(script, path, directory, options, interrupted);
   if (studies.interrupted) {
-    tell(stderr, "interrupted; the runs of its studies that are done are kept: go on with --resume");
+    tell(stderr, "interrupted; finished runs of the studies are kept: continue with --resume");
     return exit_interrupted;
   }
   if (whole && options.twin) {
@@ -227,7 +228,7 @@ int complete(Script& script, const std::string& path, const std::string& directo
   return code;
 }
 
-// What does not fit on the disk ends a run where it is; from its last checkpoint it goes on once there is room.
+// A full disk ends a run. With a checkpoint, the run can resume once there is room.
 int no_room(const WriteError& trouble, const std::string& directory) {
   std::error_code ignored;
   const bool checkpoint = std::filesystem::is_regular_file(run_file(directory, "checkpoint.bin"), ignored);
@@ -240,7 +241,8 @@ int no_room(const WriteError& trouble, const std::string& directory) {
 
 int verb_run(const Options& options) {
   if (options.words.size() != 1) throw Error(fmt::format("run takes one scene, not {}; erbs test runs several", options.words.size()));
-  const auto no_option = [](const std::string& name) { return name.starts_with("-") ? "./" + name : name; };  // to programs it is given to
+  // a path that begins with "-" would be an option to other programs
+  const auto no_option = [](const std::string& name) { return name.starts_with("-") ? "./" + name : name; };
   const std::string path = no_option(options.words.front());
   if (options.video) check_programs({renderer_path(), "ffmpeg"});
   Script::Options how = script_options(options, options.quiet);
@@ -253,7 +255,7 @@ int verb_run(const Options& options) {
   for (const auto& effect : options.without) switch_off(scene, effect);
   std::vector<std::string> notes = script.output();
   for (const auto& note : depart(scene, options)) notes.push_back(note);
-  if (!options.settings.empty())  // what --set says is subject to the same checks
+  if (!options.settings.empty())  // values of --set pass the same checks as the scene
     if (const auto mistakes = check(scene); !mistakes.empty()) throw Errors(mistakes);
   for (const auto& warning : warnings(scene)) {
     tell(stderr, "warning: " + warning);
@@ -262,7 +264,7 @@ int verb_run(const Options& options) {
   const std::string directory = no_option(options.directory.empty() ? "runs/" + scene.name : options.directory);
   catch_interrupts();
   try {
-    RunOutcome outcome;  // of a finished run whose studies alone go on: its status
+    RunOutcome outcome;  // if only the studies of a finished run continue: its status alone
     if (options.resume && studies_left(script, directory)) {
       outcome.lock = std::make_shared<FolderLock>(directory);
       outcome.metrics.status = read_metrics(directory).value("status", "");

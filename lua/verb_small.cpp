@@ -1,4 +1,4 @@
-// The verbs that fit in a few lines: render, version.
+// Short verbs: render and version. Also the parsers of durations and shares for all verbs.
 #include <cmath>
 #include <cstdio>
 
@@ -13,7 +13,7 @@ namespace erbs {
 
 int verb_render(const Options& options) {
   if (options.words.empty()) throw Error("render takes a run folder; write erbs render DIR");
-  catch_interrupts();  // handed on to it
+  catch_interrupts();  // the interrupt is passed on to erbs-render
   return run_renderer(options.words);
 }
 

@@ -1,4 +1,4 @@
-// erbs test DIR|SCENE...: every scene that carries expectations, run by child processes side by side, as one table.
+// erbs test DIR|SCENE...: runs every scene with expectations in child processes side by side, and prints one table.
 #include <unistd.h>
 #include <algorithm>
 #include <chrono>
@@ -31,7 +31,7 @@ std::vector<Row> rows_of(const CaseResult& result) {
   return rows;
 }
 
-// Letters, not bytes, of UTF-8.
+// Number of letters, not bytes, of UTF-8.
 size_t width_of(const std::string& text) {
   return static_cast<size_t>(
       std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
@@ -56,7 +56,7 @@ void print_table(const std::vector<Row>& rows) {
     }
     while (text.ends_with(' ')) text.pop_back();
     text += '\n';
-    std::fwrite(text.data(), 1, text.size(), stdout);  // with our own colours
+    std::fwrite(text.data(), 1, text.size(), stdout);  // raw, because it carries our colours
   };
   line(head, "", "");
   for (const Row& row : rows) line(row.cells, color ? (row.passed ? "\033[32m" : "\033[31m") : "", color ? "\033[0m" : "");

@@ -1,8 +1,10 @@
--- Does the dry wall stand? One run says little: the share of twins that fall, over the peak of the ground
+-- Does a dry wall stand? The share of twins that fall, over the peak acceleration of the ground
 --
--- What happens   A wall of .30 x .125 x .10 m bricks without mortar, 25 courses, h/t = 20, is shaken across by 2 Hz for 4 s, the amplitude ramped up over .5 s.
---                Bricks are moved by a hair (twins), so that a run is one draw of many.
--- Source         Other codes' verdicts on this wall differ with their steps. The rigid wall of its outline by Housner's equation: metric `rigid_falls_at`.
+-- What happens   A dry wall of 0.30 x 0.125 x 0.10 m bricks, 25 courses, h/t = 20, is shaken across its plane by 2 Hz for 4 s. The
+--                amplitude grows during the first 0.5 s. One run says little, so twins start with tiny displacements: each run is one draw
+--                of many.
+-- Source         The verdicts of other codes on this wall change with their time steps. Metric `rigid_falls_at` is the time at which a
+--                rigid wall of the same outline falls by Housner's equation.
 -- How to run     erbs run scenes/dry_wall_verdict.lua -D twins=20 [-D peak=0.25*g] [-D damping=0.5] [-D corners=1] [--dt-fraction 0.3]
 -- What to look at  falls_mean, the share that has fallen; tests/bench/README.md has the table.
 local peak, dashpots = param("peak", 0.3 * g, "[m/s2]"), param("damping", 0.3, "of the dry joints")
@@ -14,7 +16,7 @@ local mass_ratio = param("mass_ratio", 0, "damping by mass, of critical at 2 Hz,
 local t = 0.125
 
 material { name = "brick", density = 1800, friction = mu, restitution = 0.3, kn = kn, ks = 0.4 * kn }
--- a thousandth of a millimetre is far above round-off and far below what a mason lays
+-- 1e-6 m: far above round-off and far below the accuracy of a mason
 local hair = 1e-6 * math.sin(12.9898 * seed)
 transform { at = { hair, hair, 0 }, rotation = { 0, 0, hair }, function()
   wall { length = bricks * 0.3, courses = courses, brick = { length = 0.3, width = t, height = 0.1 }, joint = 0, base = { thickness = 0.1, margin = 0.1 }, quiet = true }

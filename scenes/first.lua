@@ -1,5 +1,5 @@
 -- Twelve dry bricks on shaking ground
--- A pier without mortar stands on the ground, the ground begins to shake, the pier rocks and falls within a second.
+-- A dry pier stands on the ground. The ground begins to shake; the pier rocks and falls within a second.
 --   run:  erbs run scenes/first.lua --video          stronger:  erbs run scenes/first.lua -D shake=0.6*g -o runs/stronger
 --   see:  runs/first/*.mp4, histories.svg, metrics.json (collapse.time_s); with -D shake=0.1*g it stands
 local shake = param("shake", 0.35*g, "peak acceleration of the ground [m/s2]")

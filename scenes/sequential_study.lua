@@ -1,13 +1,14 @@
--- The parameter study of Gu and Miao on a small wall: what damping, iterations and order do to their sequential scheme.
+-- The parameter study of Gu and Miao on a small wall: damping, iterations and order of blocks in their sequential scheme.
 --
--- What happens   A wall of bricks on mortar is shaken by El Centro, all blocks held, one let go at a time. Without damping the scheme diverges at any
---                dt; with mass damping below about dt w_b^2 / 2 it still does; above, the wall stands but is held back by a viscosity that has
---                nothing to do with masonry; and damping taken in explicitly diverges again towards c dt = 2. More sweeps a step need less
---                of it. The leapfrog needs none. verify/v20_*.lua has the laws behind it, on a chain, one by one.
+-- What happens   A wall of bricks on mortar is shaken by El Centro. The scheme moves one block at a time while all others are held. It
+--                diverges without damping at any dt, and with mass damping below about dt w_b^2 / 2. Above, the wall stands, but it
+--                is held back by a viscosity that has nothing to do with masonry. Explicit damping diverges again towards c dt = 2.
+--                More sweeps per step need less damping. Leapfrog needs none. verify/v20_*.lua show these laws one by one on a chain.
 -- Source         Gu and Miao, "Parameter study on computer simulation of collapse responses for masonry structures", Fig. 6.
--- How to run     erbs run scenes/sequential_study.lua [-D c=0.5] [-D iterations=4] [-D explicit=1] [-D centred=1] [-D leapfrog=1] [-D E=1e9]
--- What to look at  collapse_c: neutral damping over dt w_b^2 / 2; drift_over_leapfrog; orders_mean and orders_deviation: the peak drift over 8
---                random orders, over the leapfrog's; collapse_explicit_c: where explicit damping is too much, as c dt.
+-- How to run     erbs run scenes/sequential_study.lua [-D c=0.5] [-D iterations=4] [-D explicit_c=1] [-D centred=1] [-D leapfrog=1]
+--                [-D E=1e9]
+-- What to look at  collapse_c: neutral damping over dt w_b^2 / 2; drift_over_leapfrog; orders_mean and orders_deviation: peak drift in 8
+--                random orders, over that of leapfrog; collapse_explicit_c: c dt at which explicit damping becomes too large.
 local c = param("c", 1.2, "mass damping over dt w_b^2 / 2")
 local explicit_c = param("explicit_c", 0, "above 0: explicit mass damping, as c dt")
 local iterations, centred = param("iterations", 1, "sweeps per step"), param("centred", 0, "1: the centred sweep")
@@ -26,7 +27,7 @@ for course = 0, courses - 1 do
   end
 end
 joint { law = mortar { E = E, nu = nu, thickness = t, ft = 1 * MPa, c = 1 * MPa, mu = 0.6 }, tolerance = 0.1 * mm }
--- A brick between held neighbours: two beds and two heads, in the stiffer of both directions in the plane.
+-- A brick between held neighbours: two bed joints and two head joints, in the stiffer of the two directions in the plane.
 local kn, mass = E / t, density * l * w * h
 local ks = kn / (2 * (1 + nu))
 local block_w2 = math.max(2 * kn * l * w + 2 * ks * w * h, 2 * ks * l * w + 2 * kn * w * h) / mass
@@ -42,7 +43,7 @@ analysis { duration = duration, dt = dt, unstable = true, output_dt = duration /
 camera { name = "front", eye = { 0.6, -2.5, 0.9 }, target = { 0.6, 0, 0.35 } }
 
 local function drift(run) return run.peak("top_uy_rel_m") end
--- Diverging: a run that ends so, or one whose last fifth swings far more than anything before it.
+-- A run diverges if its status says so, or if its last fifth swings far more than its first half.
 local function grows(run)
   if run.status == "diverged" then return true end
   local u, early, late = run.history("top_uy_rel_m"), 0, 0

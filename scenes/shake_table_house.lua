@@ -1,24 +1,24 @@
 -- A brick house on a shaking table, El Centro 1940
 --
--- What happens   A model of 1525 x 1830 x 4260 mm, walls half a brick thick with interlocked corners, three pre-cast slabs, a door and
---                eleven windows, stands on its mortar in equilibrium and is shaken by the whole record, its time pressed by 0.707. At
+-- What happens   A model of 1525 x 1830 x 4260 mm has walls half a brick thick with interlocked corners, three precast slabs, a door and
+--                eleven windows. It starts in equilibrium on its mortar. The whole record shakes it, with its time scaled by 0.707. At
 --                the default peak it should stay up; raise the peak until it falls.
 -- Source         Gu and Miao, parameter study on computer simulation of collapse responses for masonry structures: outer size, brick
 --                and half brick (300/150 x 125 x 100 mm), mortar (E = 10.7 GPa, cube 9.81 MPa), record, time factor, peak of 0.4 g.
---                Its G is larger than E/2, which no isotropic solid has: G = E / (2 (1 + nu)) here.
---                Not in the source and therefore parameters below: densities, strengths, slabs, openings, number of storeys, damping.
+--                Their G exceeds E/2, which no isotropic solid has; here G = E / (2 (1 + nu)).
+--                The source does not give densities, strengths, slabs, openings, number of storeys and damping: they are params below.
 --                4260 = 3 x 1420 and 1420 = 13 courses of 105 + joint 5 + slab 50 mm: three equal storeys.
 -- How to run     erbs run scenes/shake_table_house.lua                        the whole record (22 s)
 --                erbs run scenes/shake_table_house.lua -D duration=2*s        its beginning
 --                erbs run scenes/shake_table_house.lua -D pga=1.2*g --video   a stronger one
---                erbs run scenes/shake_table_house.lua -D damping=30          another mass damping (1/s), as in the source's Fig. 6
+--                erbs run scenes/shake_table_house.lua -D damping=30          another mass damping (1/s), as in Fig. 6 of the source
 -- What to look at  metrics.json: collapse (time_s, direction), first_crack_s, drift_storey1..3, base_shear_*, floor1..3_*.
 --                The first cracks run along the bed joints at the feet of the ground-storey piers and at the corners of the door.
--- Layout         The plan is 5 mm short of its modules: 1525 = 5 x 305, but 5 bricks with joints of 5 mm make 1520. So the wall that
---                runs through a corner has head joints of 6.25 mm (along x) and 6 mm (along y); the wall between corners is closed
---                by cut bricks. The summary printed at the start lists them all.
+-- Layout         The plan is 5 mm longer than five bricks with their joints: 1525 = 5 x 305, but 5 bricks with joints of 5 mm make 1520. So
+--                the wall that runs through a corner has head joints of 6.25 mm (along x) and 6 mm (along y). Cut bricks close the wall
+--                between the corners. The summary printed at the start lists them all.
 
--- What the source does not give -----------------------------------------------------------------------------------------------------
+-- Assumed: not given by the source --------------------------------------------------------------------------------------------------
 local brick_density = param("brick_density", 1800, "solid clay brick with its share of mortar, assumed [kg/m3]")
 local concrete_density = param("concrete_density", 2400, "slabs and lintels, reinforced concrete, assumed [kg/m3]")
 local ft = param("ft", 0.20 * MPa, "tensile strength of the bed, assumed: about 2 % of the mortar's cube strength [Pa]")
@@ -26,15 +26,15 @@ local c = param("c", 0.30 * MPa, "cohesion of the bed, assumed: 1.5 ft [Pa]")
 local mu = param("mu", 0.6, "friction of the bed, assumed, before and after failure")
 local Gf1 = param("Gf1", 10, "fracture energy in tension, assumed; 0 is brittle: one crack then runs through the whole house at 0.4 g [J/m2]")
 local Gf2 = param("Gf2", 100, "fracture energy in shear, assumed ten times that in tension [J/m2]")
--- Bricks are rigid and the source's mortar is stiff: the first mode of the model along x is at 123.5 Hz (measured by a short pulse),
--- ten times that of a real house. 5 % of critical at 10 Hz is 0.4 % there; 5 % there would be 78 1/s and would brake all rocking.
+-- Bricks are rigid and the mortar of the source is stiff: the first mode along x is at 123.5 Hz (measured by a short pulse), ten times
+-- that of a real house. 5 % of critical damping at 10 Hz is 0.4 % there; 5 % there would be 78 1/s and would brake all rocking.
 local damping_ratio = param("damping_ratio", 0.05, "share of critical damping, assumed: usual for masonry")
 local damping_frequency = param("damping_frequency", 10 * Hz, "where that share holds, assumed: a real house of three storeys [Hz]")
 local slab_thickness = param("slab_thickness", 50 * mm, "what three storeys of 13 courses leave of 4260 mm [m]")
 local bearing = param("bearing", 100 * mm, "of lintels, at least; assumed [m]")
 local closer = param("closer", 90 * mm, "shortest cut brick: 45 mm would do with one cut a course, but makes the step a sixth smaller [m]")
 
--- What a run varies -----------------------------------------------------------------------------------------------------------------
+-- Varied from run to run ------------------------------------------------------------------------------------------------------------
 local pga = param("pga", 0.4 * g, "peak acceleration of the table along x [m/s2]")
 local time_factor = param("time_factor", 0.707, "time scale of the record: a 1:2 model with accelerations kept")
 local duration = param("duration", 1559 * 0.02 * 0.707, "of the run; the whole record by default [s]")
@@ -49,7 +49,7 @@ material { name = "concrete", density = concrete_density, friction = mu, restitu
 material { name = "table", density = 2400, friction = mu, restitution = 0.2, color = { 0.34, 0.35, 0.36 } }
 ground { z = 0, size = 20, material = "table" }
 
--- In half scale: the door 0.9 x 2.1 m, windows 0.9 x 1.3 m along x and 0.8 x 1.3 m along y, sills at 0.84 m; assumed.
+-- Openings in half scale, assumed: door 0.9 x 2.1 m, windows 0.9 x 1.3 m along x and 0.8 x 1.3 m along y, sills at 0.84 m.
 local window_height, sill = 635 * mm, 420 * mm
 local house = building {
   plan = { width, length },
@@ -70,7 +70,7 @@ local house = building {
   },
 }
 
--- The tolerance takes in the head joints that are 6 and 6.25 mm wide; their stiffness is taken as that of 5 mm.
+-- The tolerance includes the head joints of 6 and 6.25 mm; they get the stiffness of 5 mm.
 joint {
   name = "mortar",
   law = mortar { E = 1.07e10 * Pa, nu = 0.2, thickness = t, ft = ft, c = c, mu = mu, Gf1 = Gf1, Gf2 = Gf2 },
@@ -82,10 +82,10 @@ joint {
 ground_motion { wave = record { file = "records/elcentro_1940_ns.csv", peak = pga, time_factor = time_factor }, direction = "x" }
 gravity(g)
 damping { mass = damping_mass, scope = "bonded" }
--- Rows every 2 ms: peaks, drifts and frequencies are read off the rows, and the first mode is at 123.5 Hz.
+-- Rows every 2 ms: peaks, drifts and frequencies are taken from the rows, and the first mode is at 123.5 Hz.
 analysis { duration = duration, stop_after_collapse = after_collapse, output_dt = 2 * ms }
 
--- What is written down --------------------------------------------------------------------------------------------------------------
+-- Recorders and metrics -------------------------------------------------------------------------------------------------------------
 local weight = g * (house.report.brick_volume * brick_density + (house.report.lintel_volume + house.report.slab_volume) * concrete_density)
 metric("weight_N", "N", weight)
 
@@ -113,11 +113,11 @@ recorder { name = "base", quantity = "reaction" }  -- no block named: the sum ov
 metric("base_shear_peak_N", "N", function(run) return run.peak("base_fx_N") end)
 metric("base_shear_peak_of_weight", "", function(run) return run.peak("base_fx_N") / weight end)
 
-recorder { name = "mortar", quantity = "damage" }         -- share of all joints' area
+recorder { name = "mortar", quantity = "damage" }         -- as a share of the area of all joints
 recorder { name = "mortar", quantity = "joints_broken" }
-metric("first_crack_s", "s", function(run) return run.first_crack and run.first_crack.time end)  -- to the row
+metric("first_crack_s", "s", function(run) return run.first_crack and run.first_crack.time end)  -- resolved to one row
 metric("collapse_time_s", "s", function(run) return run.collapse.time_s end)
-metric("collapse_direction_deg", "deg", function(run)  -- of the fallen blocks' mean displacement, from x towards y
+metric("collapse_direction_deg", "deg", function(run)  -- of the mean displacement of the fallen blocks, from x towards y
   local d = run.collapse.direction
   return d and math.atan(d[2], d[1]) / deg
 end)

@@ -1,13 +1,13 @@
 -- A bonded corner of two walls, shaken out of plane
 --
 -- What happens   Two free-standing walls, 1.5 m long and 1.26 m high, meet in a bonded corner. One sine wave of acceleration along x
---                pushes the wall that runs along y out of its plane. Bonded, it is held at the corner by every second course of
---                the other wall: a crack climbs in steps from its foot to the top of the corner and only the triangle beyond it
---                swings. With bonded = 0 the same two walls stand side by side with an open gap, and the wall rocks as a whole.
+--                pushes the wall along y out of its plane. Every second course of the other wall holds it at the corner. A stepped
+--                crack climbs from its foot to the top of the corner, and only the triangle beyond the crack swings. With bonded = 0
+--                an open gap separates the same two walls, and the wall rocks as a whole.
 -- How to run     erbs run scenes/wall_corner.lua --video
 --                erbs run scenes/wall_corner.lua -D bonded=0 -o runs/wall_corner_apart
 --                erbs run scenes/wall_corner.lua -D peak=0.3*g
--- What to look at  metrics.free_end_peak_m and metrics.corner_peak_m: how far the top of the wall moves at its two ends.
+-- What to look at  metrics.free_end_peak_m and metrics.corner_peak_m: the largest displacement of the wall's top at its two ends.
 
 local bonded = param("bonded", 1, "1: corner laid in bond, 0: two walls with an open gap")
 local peak = param("peak", 0.8 * g, "amplitude of the one sine wave [m/s2]")
@@ -25,7 +25,7 @@ joint {
   thickness = t, tolerance = t / 2,
 }
 
--- Seen from above: `side` runs along x from the free end to the corner, `face` from the corner along y to its free end.
+-- Plan: `side` runs along x from its free end to the corner, `face` along y from the corner to its free end.
 local corners = { { -length, 0 }, { 0, 0 }, { 0, length } }
 local face_group, top
 if bonded == 1 then

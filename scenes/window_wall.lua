@@ -1,7 +1,7 @@
 -- A wall with a door and a window, shaken in its plane
 --
--- What happens   A wall of 3 x 2.1 m with a heavy plate on top (a floor's share of mass) takes three waves of a sine along its plane.
---                Piers rock and shear, cracks climb along bed and head joints in steps of half a brick, the lintels stay whole.
+-- What happens   A wall of 3 x 2.1 m carries a heavy plate (the mass of a floor). Three sine waves shake it along its plane. Piers rock
+--                and shear, cracks climb in steps of half a brick along bed and head joints, the lintels stay whole.
 -- How to run     erbs run scenes/window_wall.lua --video
 --                erbs run scenes/window_wall.lua -D peak=1.2*g            until it falls
 --                erbs run scenes/window_wall.lua -D shift=1               the other of the two alternating courses at the bottom

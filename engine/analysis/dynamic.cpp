@@ -127,7 +127,7 @@ void Run::begin() {
     for (const std::string& note : options_.notes) writer_->log(note);
   for (const std::string& w : run_.model.warnings) writer_->log("warning: " + w);
   if (!resume && collapse_.under_gravity)
-    writer_->log(fmt::format("does not stand under its own weight: {:.3g} % of the mass; {}", 100 * falling_share(run_),
+    writer_->log(fmt::format("the structure does not stand under its own weight: {:.3g} % of the mass; {}", 100 * falling_share(run_),
                              summary(collapse_.mechanism, run_.model, 1000)));
   for (const std::string& note : run_.model.notes) writer_->log(note);
   out_.warnings = run_.model.warnings;
@@ -348,10 +348,9 @@ RunOutcome Run::go() {
   judge();
   const std::string& status = out_.metrics.status;
   if (!out_.trouble.empty()) writer_->log(out_.trouble);
-  if (touched_ > 0)
-    writer_->log(fmt::format("contact: {} forces of touching pairs in {} steps", touched_, run_.state.step - steps_at_start_));
+  if (touched_ > 0) writer_->log(fmt::format("contact: {} pair forces evaluated in {} steps", touched_, run_.state.step - steps_at_start_));
   if (slept_ > 0)
-    writer_->log(fmt::format("sleep: {:.1f} of {} blocks asleep in the mean, {} at the end",
+    writer_->log(fmt::format("sleep: {:.1f} of {} blocks asleep on average, {} at the end",
                              double(slept_) / double(std::max(1L, run_.state.step - steps_at_start_)), run_.model.nblock,
                              run_.state.rest.count));
   if (const std::string lost = lost_blocks(run_.model, run_.state); !lost.empty()) {

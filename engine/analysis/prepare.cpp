@@ -99,10 +99,10 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
                     0.9 * allowed, dt),
         a.place);
   if (jointed && dt <= b.critical && dt > b.cracked)
-    p.model.warnings.push_back(
-        fmt::format("dt = {:.4g} s is below the limit {:.4g} s of the sound structure but above {:.4g} s, the limit once joints have "
-                    "cracked, which are stiffer in bending than their points or damped; take at most {:.3g} s",
-                    dt, b.critical, b.cracked, 0.9 * b.cracked));
+    p.model.warnings.push_back(fmt::format(
+        "dt = {:.4g} s is below the limit {:.4g} s of the intact structure but above {:.4g} s, the limit after joints have cracked "
+        "(cracked joints are stiffer in bending than their points, or damped); take at most {:.3g} s",
+        dt, b.critical, b.cracked, 0.9 * b.cracked));
   p.state.dt = p.model.dt_most = dt;
   // A step derived from joints may grow to the contact bound once the joints are gone.
   if (a.dt == 0 && jointed && a.solver != "sequential" && a.dt_rule == Analysis{}.dt_rule)
@@ -319,7 +319,7 @@ void start_at_rest(const Scene& scene, Prepared& p, int threads) {
     }
     if (!p.equilibrium.converged) {
       p.model.warnings.push_back("no equilibrium under gravity: " + p.equilibrium.why +
-                                 "; gravity is brought on there as a damped ramp instead");
+                                 "; there gravity is applied as a damped ramp instead");
       ramp(scene, p, kept_still(p), threads);
     }
   } else if (scene.analysis.start == "ramp" && p.model.njoint > 0) {

@@ -55,20 +55,20 @@ std::string warned_text(const Metrics::Trust& t) {
   const auto add = [&](double share, const char* of) {
     if (share > 0) text += fmt::format("{}{:.2g} % {}", text.empty() ? "" : ", ", 100 * share, of);
   };
-  add(t.past_gate_share, "energy past its gate");
-  add(t.past_step_share, "step past its limit");
-  add(t.sinking_share, "blocks sinking");
-  return text.empty() ? "no step with a warning" : "steps with a warning: " + text;
+  add(t.past_gate_share, "energy residual above its tolerance");
+  add(t.past_step_share, "dt above its limit");
+  add(t.sinking_share, "deepening penetration");
+  return text.empty() ? "no warning in any step" : "steps with a warning: " + text;
 }
 
 }  // namespace
 
 std::string trust_line(const Metrics::Trust& t) {
-  std::string line = fmt::format("trust: energy residual at most {:.1e}", t.energy_residual);
+  std::string line = fmt::format("trust: largest energy residual {:.1e}", t.energy_residual);
   if (t.energy_residual > 0)
     line +=
         fmt::format(" at {:.4g} s{}", t.energy_residual_time, t.energy_residual_where.empty() ? "" : " (" + t.energy_residual_where + ")");
-  line += fmt::format(", reset {:.1e} of what passed, penetration {:.1e}, dt at most {:.2f} of its limit, {}, momentum {:.0e}",
+  line += fmt::format(", energy reset {:.1e}, penetration {:.1e}, dt at most {:.2f} of its limit, {}, momentum residual {:.0e}",
                       t.reset_share, t.penetration, t.dt_margin, warned_text(t), t.momentum_residual);
   if (t.twin) line += t.chaos_horizon ? fmt::format(", chaos horizon {:.3g} s", *t.chaos_horizon) : ", no chaos within the run";
   return line;

@@ -19,7 +19,7 @@ std::string step_of(double wanted) {
 
 std::string where(const RunSoFar& r) {
   const int j = r.run.state.energy.largest_jump_joint;
-  return j >= 0 ? "joint " + r.run.model.joint_name(j) : "no joint's own balance";
+  return j >= 0 ? "in joint " + r.run.model.joint_name(j) : "in no single joint";
 }
 
 }  // namespace
@@ -56,31 +56,34 @@ std::string trouble_of(const RunSoFar& r, const std::string& status) {
   const double gate = energy_gate(r), fraction = r.dt_at_start / r.run.bounds.critical;
   const double share = std::isfinite(fraction) && fraction > 0 ? fraction : 1;
   if (status == "diverged")
-    return fmt::format("the numbers diverged at t = {:.6g} s (dt = {:.4g} s, limit {:.4g} s); nothing after that is to be trusted; take {}",
+    return fmt::format("the run diverged at t = {:.6g} s (dt = {:.4g} s, limit {:.4g} s); results after that time are invalid; take {}",
                        r.run.state.t, r.run.state.dt, r.run.bounds.critical, step_of(share > 1 ? 0.9 : share / 3));
   if (e.residual_worst > gate && !growth_allowed(r.scene)) {
     // The residual of smooth motion falls with the square of the step. Fluttering friction and chattering joints need dashpots instead.
     const double smooth = 0.8 * std::sqrt(gate / e.residual_worst);
     const bool undamped = std::any_of(model.laws.begin(), model.laws.end(), [](const PointLaw& l) { return l.damping < 0.1; });
     return fmt::format(
-        "energy residual {:.3g} of what passed through is past its gate {:.0e}; its largest step was {:.3g} J at t = {:.6g} s, {}; take "
-        "{}{}{}",
+        "the energy residual {:.3g}, relative to the energy that passed through, exceeds its tolerance {:.0e}; its largest jump was {:.3g} "
+        "J at "
+        "t = {:.6g} s, {}; take {}{}{}",
         e.residual_worst, gate, e.largest_jump, e.largest_jump_time, where(r), step_of(share * std::clamp(smooth, 0.1, 0.5)),
         undamped && model.njoint > 0 ? " or damping = 0.1 in the law of its joints" : "",
-        e.residual_worst < 0.05 ? fmt::format(", or say analysis{{ energy_gate = {:.1g} }} if that is near enough", 2 * e.residual_worst)
-                                : "");
+        e.residual_worst < 0.05
+            ? fmt::format(", or set analysis{{ energy_gate = {:.1g} }} if that is accurate enough", 2 * e.residual_worst)
+            : "");
   }
   const bool asked = r.scene.analysis.unstable || r.allow_unstable;
   if (asked || !stepped_too_far(r.trust, r.run.state)) return "";
-  return fmt::format("the step was past the limit of what touched in {:.2g} % of the steps, by {:.3g} at most; take {}",
-                     100 * double(r.trust.past_step.count[0]) / double(r.run.state.step), r.trust.past_step.worst,
-                     step_of(0.9 * share / r.trust.past_step.worst));
+  return fmt::format(
+      "the time step exceeded the limit of the touching blocks in {:.2g} % of the steps, by a factor of {:.3g} at most; take {}",
+      100 * double(r.trust.past_step.count[0]) / double(r.run.state.step), r.trust.past_step.worst,
+      step_of(0.9 * share / r.trust.past_step.worst));
 }
 
 std::string ledger_line(const RunSoFar& r) {
   const Energy& e = r.run.state.energy;
-  return fmt::format("energy residual {:.3g} (gate {:.0e}), largest step {:.3g} J at t = {:.6g} s, {}", e.residual_worst, energy_gate(r),
-                     e.largest_jump, e.largest_jump_time, where(r));
+  return fmt::format("energy residual {:.3g} (tolerance {:.0e}), largest jump {:.3g} J at t = {:.6g} s, {}", e.residual_worst,
+                     energy_gate(r), e.largest_jump, e.largest_jump_time, where(r));
 }
 
 }  // namespace erbs

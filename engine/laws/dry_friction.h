@@ -22,9 +22,9 @@ struct DryFriction {
         {"kn", &DryFriction::kn, "Pa/m", "normal stiffness of the joint", 1e3, 1e16, true},
         {"ks", &DryFriction::ks, "Pa/m", "shear stiffness of the joint (default 0.4 kn)", 0, 1e16},
         {"mu", &DryFriction::mu, "", "coefficient of friction", 0, 10, true},
-        {"damping", &DryFriction::damping, "", "viscous ratio of the joint once it has opened or slid, of its critical value", 0, 1},
+        {"damping", &DryFriction::damping, "", "viscous ratio of a joint that has opened or slid, relative to its critical value", 0, 1},
         {"interlock", &DryFriction::interlock, "",
-         "1: while faces slide slowly and hop by next to nothing, friction goes by their mean pressure; 0: by that of the moment, as in theory", 0, 1},
+         "1: friction of slowly sliding faces follows their mean pressure; 0: the momentary pressure, as in theory", 0, 1},
     };
   }
 };

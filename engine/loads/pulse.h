@@ -12,9 +12,9 @@ struct Pulse {
   static constexpr std::string_view wave_name = "pulse";
   static Fields<Pulse> fields() {
     return {
-        {"amplitude", &Pulse::amplitude, "", "value inside, in the unit of what it drives", -unbounded, unbounded, true},
+        {"amplitude", &Pulse::amplitude, "", "value inside, in the unit of the load", -unbounded, unbounded, true},
         {"start", &Pulse::start, "s", "time of the rising edge", -1e9, 1e9},
-        {"duration", &Pulse::duration, "s", "how long it lasts (default: for ever, a step)", 0, unbounded},
+        {"duration", &Pulse::duration, "s", "duration (default: for ever, a step)", 0, unbounded},
     };
   }
 };

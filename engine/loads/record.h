@@ -34,14 +34,14 @@ struct Record {
   static Fields<Record> fields() {
     return {
         {"file", &Record::file, "", "PEER AT2, CSV or text of one or two columns", -unbounded, unbounded, true},
-        {"peak", &Record::peak, "m/s2", "largest absolute acceleration wanted (default: as recorded)", 0, 1e4},
+        {"peak", &Record::peak, "m/s2", "largest absolute acceleration after scaling (default: as recorded)", 0, 1e4},
         {"scale", &Record::scale, "", "factor on the acceleration, instead of peak", -1e6, 1e6},
         {"time_factor", &Record::time_factor, "", "factor on time", 1e-3, 1e3},
-        {"start", &Record::start, "s", "when time 0 of the file comes", -1e9, 1e9},
+        {"start", &Record::start, "s", "simulated time of time 0 in the file", -1e9, 1e9},
         {"column", &Record::column, "", "column of the values, counted from 1 (default: the one after time)", 0, 1000},
-        {"dt", &Record::dt, "s", "step of a file that has one column of values", 0, 1e3},
+        {"dt", &Record::dt, "s", "time step, for a file with one column of values", 0, 1e3},
         {"first_time", &Record::first_time, "s", "time of the first value of such a file", 0, 1e3},
-        {"unit", &Record::unit, "", "of the values where the file does not say: g, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2"},
+        {"unit", &Record::unit, "", "unit of the values, if the file does not give one: g, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2"},
     };
   }
 };

@@ -17,11 +17,11 @@ struct Sine {
   static constexpr std::string_view wave_name = "sine";
   static Fields<Sine> fields() {
     return {
-        {"amplitude", &Sine::amplitude, "", "peak value, in the unit of what it drives", -unbounded, unbounded, true},
-        {"frequency", &Sine::frequency, "Hz", "cycles a second", 1e-9, 1e9, true},
+        {"amplitude", &Sine::amplitude, "", "peak value, in the unit of the load", -unbounded, unbounded, true},
+        {"frequency", &Sine::frequency, "Hz", "cycles per second", 1e-9, 1e9, true},
         {"phase", &Sine::phase, "rad", "phase at the start", -1e3, 1e3},
         {"start", &Sine::start, "s", "time of the first value", -1e9, 1e9},
-        {"duration", &Sine::duration, "s", "how long it lasts (default: for ever)", 0, unbounded},
+        {"duration", &Sine::duration, "s", "duration (default: for ever)", 0, unbounded},
     };
   }
 };
@@ -36,8 +36,8 @@ struct HalfSine {
   static constexpr std::string_view wave_name = "half_sine";
   static Fields<HalfSine> fields() {
     return {
-        {"amplitude", &HalfSine::amplitude, "", "peak value, in the unit of what it drives", -unbounded, unbounded, true},
-        {"frequency", &HalfSine::frequency, "Hz", "of the whole sine; the lobe lasts 1 / (2 frequency)", 1e-9, 1e9, true},
+        {"amplitude", &HalfSine::amplitude, "", "peak value, in the unit of the load", -unbounded, unbounded, true},
+        {"frequency", &HalfSine::frequency, "Hz", "frequency of the whole sine; the lobe lasts 1 / (2 frequency)", 1e-9, 1e9, true},
         {"phase", &HalfSine::phase, "rad", "phase at the start; the pulse ends at pi", 0, pi},
         {"start", &HalfSine::start, "s", "time of the first value", -1e9, 1e9},
     };
@@ -54,8 +54,8 @@ struct FullSine {
   static constexpr std::string_view wave_name = "full_sine";
   static Fields<FullSine> fields() {
     return {
-        {"amplitude", &FullSine::amplitude, "", "peak value, in the unit of what it drives", -unbounded, unbounded, true},
-        {"frequency", &FullSine::frequency, "Hz", "the cycle lasts 1 / frequency", 1e-9, 1e9, true},
+        {"amplitude", &FullSine::amplitude, "", "peak value, in the unit of the load", -unbounded, unbounded, true},
+        {"frequency", &FullSine::frequency, "Hz", "frequency; the cycle lasts 1 / frequency", 1e-9, 1e9, true},
         {"phase", &FullSine::phase, "rad", "phase at the start; the pulse ends at 2 pi", 0, 2 * pi},
         {"start", &FullSine::start, "s", "time of the first value", -1e9, 1e9},
     };

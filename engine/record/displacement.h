@@ -16,9 +16,9 @@ struct BlockMotion {
   Vec3 point;  // m, position at rest
 
   static std::vector<Quantity> quantities() {
-    return {{"displacement", "from rest, mean over the blocks (m)"},
-            {"velocity", "mean over the blocks (m/s)"},
-            {"acceleration", "mean over the blocks (m/s2)"},
+    return {{"displacement", "displacement from rest, mean over the blocks (m)"},
+            {"velocity", "velocity, mean over the blocks (m/s)"},
+            {"acceleration", "acceleration, mean over the blocks (m/s2)"},
             {"rotation", "rotation vector from rest, mean over the blocks (rad)"},
             {"spin", "angular velocity, mean over the blocks (rad/s)"}};
   }

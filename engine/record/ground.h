@@ -12,9 +12,9 @@ struct GroundMotion {
   std::string name, axis;
 
   static std::vector<Quantity> quantities() {
-    return {{"ground_acceleration", "of the ground (m/s2); written unasked as ground_ax_m_s2 ... where the ground moves"},
-            {"ground_velocity", "of the ground (m/s)"},
-            {"ground_displacement", "of the ground (m)"}};
+    return {{"ground_acceleration", "acceleration of the ground (m/s2); always written, as ground_ax_m_s2 ..., where the ground moves"},
+            {"ground_velocity", "velocity of the ground (m/s)"},
+            {"ground_displacement", "displacement of the ground (m)"}};
   }
 
   explicit GroundMotion(const Ask& ask)
@@ -42,7 +42,7 @@ struct Count {
   std::string name;
 
   static std::vector<Quantity> quantities() {
-    return {{"contact_points", "points in touch, in the whole model"}, {"joints_broken", "joints broken, in the whole model"}};
+    return {{"contact_points", "points in contact, in the whole model"}, {"joints_broken", "joints broken, in the whole model"}};
   }
 
   explicit Count(const Ask& ask) : what(What(quantity_index(quantities(), ask.recorder.quantity))), name(ask.recorder.name) {}

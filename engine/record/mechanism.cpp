@@ -50,7 +50,25 @@ MovedJoint look(const Model& model, const State& state, int j) {
 
 double movement(const MovedJoint& m) { return std::max({m.gap, m.opening, m.slip}); }
 
-std::string plural(int n, const char* word) { return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s"); }
+// Two digits, but never an exponent: "5.7", "30", "153".
+std::string short_number(double x) { return x < 100 ? fmt::format("{:.2g}", x) : fmt::format("{:.0f}", x); }
+
+std::string size_text(const MovedJoint& m) {
+  if (m.kind == Movement::hinge) return short_number(m.rotation * 180 / pi) + " deg";
+  return movement(m) < 1 ? short_number(1e3 * movement(m)) + " mm" : short_number(movement(m)) + " m";
+}
+
+// "between a and b by 30 mm"
+std::string place_and_size(const MovedJoint& m, const Model& model) {
+  std::string name = model.joint_name(m.joint);
+  if (const std::size_t bar = name.find(" | "); bar != std::string::npos) name.replace(bar, 3, " and ");
+  return "between " + name + " by " + size_text(m);
+}
+
+const char* past_tense(Movement kind, int n) {
+  if (kind == Movement::hinge) return n == 1 ? "opened as a hinge" : "opened as hinges";
+  return kind == Movement::slide ? "slid" : "separated";
+}
 
 }  // namespace
 
@@ -76,24 +94,24 @@ int count(const Mechanism& mechanism, Movement kind) {
 
 std::string summary(const Mechanism& mechanism, const Model& model, int names) {
   std::string text;
+  bool shortened = false;
   for (const Movement kind : {Movement::hinge, Movement::slide, Movement::part}) {
     const int n = count(mechanism, kind);
     if (n == 0) continue;
     if (!text.empty()) text += "; ";
-    text += plural(n, kind == Movement::part ? "parted joint" : word(kind)) + ":";
+    text += fmt::format("{} joint{} {}", n, n == 1 ? "" : "s", past_tense(kind, n));
     std::vector<const MovedJoint*> of_kind;
     for (const MovedJoint& m : mechanism.moved)
       if (m.kind == kind) of_kind.push_back(&m);
     std::stable_sort(of_kind.begin(), of_kind.end(), [](const MovedJoint* x, const MovedJoint* y) { return movement(*x) > movement(*y); });
-    for (int i = 0; i < std::min(n, names); ++i) {
-      const MovedJoint& m = *of_kind[std::size_t(i)];
-      const std::string size =
-          kind == Movement::hinge ? fmt::format("{:.2g} deg", m.rotation * 180 / pi) : fmt::format("{:.2g} mm", 1e3 * movement(m));
-      text += fmt::format("{} {} ({})", i == 0 ? "" : ",", model.joint_name(m.joint), size);
+    if (n > names) {
+      text += ", most of all " + place_and_size(*of_kind.front(), model);
+      shortened = true;
+      continue;
     }
-    if (n > names) text += fmt::format(" and {} more", n - names);
+    for (int i = 0; i < n; ++i) text += (i == 0 ? ": " : ", ") + place_and_size(*of_kind[std::size_t(i)], model);
   }
-  return text;
+  return shortened ? text + "; metrics.json lists them all" : text;
 }
 
 }  // namespace erbs

@@ -29,12 +29,12 @@ struct Material {
 
   static Fields<Material> fields() {
     return {
-        {"name", &Material::name, "", "what blocks call it by", 0, 0, true},
+        {"name", &Material::name, "", "name by which blocks refer to it", 0, 0, true},
         {"density", &Material::density, "kg/m3", "mass per volume of the block", 0.01, 1e5, true},
         {"kn", &Material::kn, "Pa/m", "normal stiffness of debris contacts", 1e3, 1e16},
         {"ks", &Material::ks, "Pa/m", "shear stiffness of debris contacts", 0, 1e16},
         {"friction", &Material::friction, "", "coefficient of friction of debris contacts", 0, 10},
-        {"restitution", &Material::restitution, "", "speed after over speed before an impact through the centre", 0, 1},
+        {"restitution", &Material::restitution, "", "restitution of a central impact: speed after over speed before", 0, 1},
         {"color", &Material::color, "", "red, green, blue for the pictures", 0, 1},
     };
   }
@@ -83,7 +83,7 @@ struct Block {
         {"name", &Block::name, "", "name, unique (default from the group and a number)"},
         {"group", &Block::group, "", "group, for joint rules and recorders"},
         {"fixed", &Block::fixed, "", "part of the ground"},
-        {"free", &Block::free, "", "may stand without any joint, or be joined to others with no way to the ground"},
+        {"free", &Block::free, "", "allowed to have no joint, or no joined path to the ground"},
     };
   }
 };
@@ -105,10 +105,11 @@ struct JointRule {
   static Fields<JointRule> fields() {
     return {
         {"name", &JointRule::name, "", "name of the rule, for reports"},
-        {"thickness", &JointRule::thickness, "m", "nominal gap at rest: faces that touch or lie no further apart are joined (default the thickness of the law)", 0, 1},
-        {"tolerance", &JointRule::tolerance, "m", "how much wider than that a gap may be; one narrower by more is joined, with a warning", 0, 1},
-        {"rule", &JointRule::rule, "", "how contact points and their weights are laid out", 0, 0, false,
-         "simpson|midpoint|trapezoid|gauss"},
+        {"thickness", &JointRule::thickness, "m",
+         "nominal gap at rest: faces that touch or lie no further apart are joined (default the thickness of the law)", 0, 1},
+        {"tolerance", &JointRule::tolerance, "m",
+         "largest excess of a gap over `thickness`; a gap that is narrower by more is joined with a warning", 0, 1},
+        {"rule", &JointRule::rule, "", "quadrature rule of the contact points", 0, 0, false, "simpson|midpoint|trapezoid|gauss"},
         {"none", &JointRule::none, "", "pairs that match get no joint"},
     };
   }
@@ -126,11 +127,12 @@ struct Damping {
   static Fields<Damping> fields() {
     return {
         {"mass", &Damping::mass, "1/s", "coefficient a of the mass damping c = a m", 0, 1e7},
-        {"scope", &Damping::scope, "", "which blocks feel it", 0, 0, false, "bonded|all|none"},
-        {"form", &Damping::form, "", "how a step takes it in", 0, 0, false, "centred|explicit"},
+        {"scope", &Damping::scope, "", "blocks that mass damping acts on", 0, 0, false, "bonded|all|none"},
+        {"form", &Damping::form, "", "velocity that mass damping uses: the mean over the step, or the one before it", 0, 0, false,
+         "centred|explicit"},
         {"stiffness", &Damping::stiffness, "s", "coefficient b of the dashpots of joints, c = b k", 0, 1e3},
         {"joint_ratio", &Damping::joint_ratio, "",
-         "viscous ratio of joints: of each joint's own critical value, or of motions of the frequency `at`", 0, 10},
+         "viscous ratio of joints: relative to each joint's critical value, or at the frequency `at`", 0, 10},
         {"at", &Damping::at, "Hz", "frequency at which motions have the ratio joint_ratio (b = joint_ratio / (pi at))", 0, 1e6},
     };
   }
@@ -167,28 +169,29 @@ struct Analysis {
   static Fields<Analysis> fields() {
     return {
         {"duration", &Analysis::duration, "s", "simulated time", 1e-9, 1e6},
-        {"dt", &Analysis::dt, "s", "time step (0: from dt_rule); { value, unstable = true } lets one past the limit run", 0, 1},
+        {"dt", &Analysis::dt, "s", "time step (0: from dt_rule); { value, unstable = true } allows a step beyond the limit", 0, 1},
         {"dt_fraction", &Analysis::dt_fraction, "", "share of the limit in force", 1e-6, 1},
-        {"dt_rule", &Analysis::dt_rule, "", "where dt comes from", 0, 0, false, "limit|period_tenth|hart|hakuno|hakuno_half"},
-        {"unstable", &Analysis::unstable, "", "let a dt past the limit run, or a sequential solver that feeds energy"},
-        {"kernel", &Analysis::kernel, "", "which step kernel", 0, 0, false, "fast|reference"},
-        {"solver", &Analysis::solver, "", "all blocks at once, or one after the other as Gu and Miao (it feeds energy: for studies)", 0, 0,
-         false, "leapfrog|sequential"},
+        {"dt_rule", &Analysis::dt_rule, "", "rule that gives dt", 0, 0, false, "limit|period_tenth|hart|hakuno|hakuno_half"},
+        {"unstable", &Analysis::unstable, "", "allow a dt beyond the limit, or a sequential solver that feeds energy"},
+        {"kernel", &Analysis::kernel, "", "step kernel", 0, 0, false, "fast|reference"},
+        {"solver", &Analysis::solver, "",
+         "all blocks at once, or one after the other by Gu and Miao's scheme (it feeds energy: for studies)", 0, 0, false,
+         "leapfrog|sequential"},
         {"variant", &Analysis::variant, "", "sequential: forces where a block is, or half a step ahead on its path", 0, 0, false,
          "literal|centred"},
-        {"order", &Analysis::order, "", "sequential: which block is let go next", 0, 0, false, "random|fixed|coloured"},
+        {"order", &Analysis::order, "", "sequential: order of the blocks", 0, 0, false, "random|fixed|coloured"},
         {"iterations", &Analysis::iterations, "", "sequential: sweeps per step, each over its share of dt", 1, 1e6},
-        {"seed", &Analysis::seed, "", "sequential: of the random order", 0, 2147483647},
-        {"start", &Analysis::start, "", "how gravity comes on", 0, 0, false, "equilibrium|ramp|rest"},
-        {"ramp_time", &Analysis::ramp_time, "s", "length of the gravity ramp (0: chosen)", 0, 1e6},
-        {"overlap", &Analysis::overlap, "", "what to do with blocks that overlap at rest", 0, 0, false, "error|stress_free"},
-        {"collapse_fraction", &Analysis::collapse_fraction, "", "share of mass fallen that is called a collapse", 0, 1},
+        {"seed", &Analysis::seed, "", "sequential: seed of the random order", 0, 2147483647},
+        {"start", &Analysis::start, "", "how gravity is applied", 0, 0, false, "equilibrium|ramp|rest"},
+        {"ramp_time", &Analysis::ramp_time, "s", "length of the gravity ramp (0: automatic)", 0, 1e6},
+        {"overlap", &Analysis::overlap, "", "treatment of blocks that overlap at rest", 0, 0, false, "error|stress_free"},
+        {"collapse_fraction", &Analysis::collapse_fraction, "", "share of the mass whose fall counts as a collapse", 0, 1},
         {"stop_after_collapse", &Analysis::stop_after_collapse, "s", "time to go on after a collapse (-1: to the end)", -1, 1e6},
         {"stop_when_moved", &Analysis::stop_when_moved, "m",
-         "a block that has moved this far from rest ends the run, collapse.moved (0: none does)", 0, 1e6},
-        {"sleep", &Analysis::sleep, "", "debris that has come to rest is left alone until something stirs it"},
-        {"energy_gate", &Analysis::energy_gate, "", "relative energy residual that ends a run (0: by the kind of run)", 0, 1e6},
-        {"lazy_rotation", &Analysis::lazy_rotation, "rad", "block rotation between refreshes of joint frames", 0, 0.1},
+         "displacement of a block from rest that ends the run, collapse.moved (0: none)", 0, 1e6},
+        {"sleep", &Analysis::sleep, "", "debris at rest is skipped until something moves it"},
+        {"energy_gate", &Analysis::energy_gate, "", "largest relative energy residual of an accurate run (0: by the kind of run)", 0, 1e6},
+        {"lazy_rotation", &Analysis::lazy_rotation, "rad", "block rotation between updates of joint frames", 0, 0.1},
         {"gyroscopic", &Analysis::gyroscopic, "", "the gyroscopic term w x (I w)"},
         {"output_dt", &Analysis::output_dt, "s", "time between rows of histories.csv and energy.csv", 1e-9, 1e6},
         {"frame_dt", &Analysis::frame_dt, "s", "time between poses for pictures", 1e-9, 1e6},
@@ -211,8 +214,8 @@ struct Recorder {
   static Fields<Recorder> fields() {
     return {
         {"name", &Recorder::name, "", "stem of its columns in histories.csv", 0, 0, true},
-        {"quantity", &Recorder::quantity, "", "what is written", 0, 0, true},
-        {"axis", &Recorder::axis, "", "which components", 0, 0, false, "x|y|z|xy|xz|yz|xyz"},
+        {"quantity", &Recorder::quantity, "", "quantity to write", 0, 0, true},
+        {"axis", &Recorder::axis, "", "components to write", 0, 0, false, "x|y|z|xy|xz|yz|xyz"},
         {"frame", &Recorder::frame, "", "relative to the ground, or absolute", 0, 0, false, "rel|abs"},
         {"point", &Recorder::point, "m", "material point at rest, instead of the centroid", -1e6, 1e6},
     };
@@ -227,8 +230,10 @@ struct Camera {
 
   static Fields<Camera> fields() {
     return {
-        {"name", &Camera::name, "", "what the pictures are called", 0, 0, true}, {"eye", &Camera::eye, "m", "where it stands", -1e6, 1e6},
-        {"target", &Camera::target, "m", "what it looks at", -1e6, 1e6},         {"up", &Camera::up, "", "which way is up", -1, 1},
+        {"name", &Camera::name, "", "name of the pictures", 0, 0, true},
+        {"eye", &Camera::eye, "m", "position of the camera", -1e6, 1e6},
+        {"target", &Camera::target, "m", "point at the centre of the picture", -1e6, 1e6},
+        {"up", &Camera::up, "", "upward direction", -1, 1},
         {"fov", &Camera::fov, "rad", "vertical angle of view", 0.001, 3.1},
     };
   }
@@ -265,7 +270,7 @@ struct UseLimit {
     return {
         {"dt_fraction", &UseLimit::dt_fraction, "", "largest dt, as a share of dt_critical", 1e-6, 1},
         {"points", &UseLimit::points, "", "fewest contact points of a joint", 1, 1000},
-        {"reason", &UseLimit::reason, "", "what goes wrong beyond", 0, 0, true},
+        {"reason", &UseLimit::reason, "", "the error that appears beyond the limits", 0, 0, true},
     };
   }
 };

@@ -1,10 +1,11 @@
--- P1: the period of a mode of a chain of blocks on springs.
+-- P1: period of one mode of a chain of blocks on springs.
 --
--- What happens   Eight blocks one on the other, without gravity, swing up and down in their fourth mode. Only the time step errs: leapfrog
---                turns a mode faster by the part (w dt)^2 / 24, so the error falls with dt^2; no rule of contact points changes it.
+-- What happens   Eight blocks on top of each other, without gravity, vibrate vertically in their fourth mode. Only the time step causes an
+--                error. Leapfrog raises the frequency by the share (w dt)^2 / 24, so the error falls with dt^2. Contact points do not
+--                matter.
 -- Source         w_k = 2 sqrt(K/m) sin((2k - 1) pi / (2 (2N + 1))), N equal masses fixed at one end.
 -- How to run     erbs accuracy scenes/accuracy/p1_chain.lua
--- What to look at  the slope of the time step: 2.00.
+-- What to look at  The order of the error in the time step: 2.00.
 local n, mode = 8, param("mode", 4)
 local kn, h, cycles = param("kn", 1e9, "[Pa/m]"), 0.1, 12
 material { name = "brick", density = 1800 }

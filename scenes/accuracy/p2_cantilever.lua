@@ -1,12 +1,12 @@
--- P2: the lowest frequency of a cantilever wall of blocks, and its decay.
+-- P2: lowest frequency and decay of a cantilever wall of blocks.
 --
--- What happens   A wall 3 m high and 0.3 m thick, cut into blocks on elastic joints, swings from a start in its first mode, damped by 2 % of
---                critical. Blocks of d = 0.3 m by default, unit times that: their joints have E / d, the lowest twice that (half a
---                block hangs on it).
--- Source         Timoshenko's beam, kappa 5/6: 8.451 Hz; decay a / 2 of mass damping a. Joints of n equal midpoints are too soft in bending
---                by 1/n^2, trapezoids too stiff by 2/(n - 1)^2, so f errs with n^-2; blocks err with d^2.
+-- What happens   A wall 3 m high and 0.3 m thick, cut into blocks with elastic joints, starts in its first mode. Its damping is 2 % of
+--                critical. Blocks have d = 0.3 m by default, `unit` times that otherwise. Their joints have the stiffness E / d; the
+--                lowest joint has twice that, because only half a block hangs on it.
+-- Source         Timoshenko's beam, kappa 5/6: 8.451 Hz; decay rate a / 2 for mass damping a. With n points a side, midpoint joints are too
+--                soft in bending by 1/n^2 and trapezoid joints too stiff by 2/(n - 1)^2: the error of f falls with n^-2. Blocks: d^2.
 -- How to run     erbs accuracy scenes/accuracy/p2_cantilever.lua
--- What to look at  slopes 2 of the step, of midpoints, of the block size; Simpson and Gauss are exact.
+-- What to look at  Order 2 of the step, of midpoints and of the block size; Simpson and Gauss are exact.
 label("fine_points")
 local unit = param("unit", 1, "size of the blocks over 0.3 m")
 local L, t, B, E, nu, rho = 3.0, 0.3, 1.0, 5e9, 0.2, 2000
@@ -16,15 +16,15 @@ local kn, ks = E / d, 5 / 6 * E / (2 * (1 + nu)) / d
 gravity(0)
 material { name = "wall", density = rho }
 box { name = "base", group = "base", size = { t, B, d }, at = { 0, 0, -d }, fixed = true }
--- The lowest mode of the blocks themselves, by inverse iteration (displacement and rotation of each block in turn): a start in Euler's
--- mode stirs higher ones as well, whose crossings of zero hide the error of the step, 3e-6 at most.
+-- The lowest mode of the blocks themselves, by inverse iteration (displacement and rotation of each block in turn). A start in Euler's mode
+-- would also excite higher modes, and their zero crossings would hide the error of the step, which is 3e-6 at most.
 local mass, inertia, shear, bending = rho * t * B * d, rho * t * B * d * (t * t + d * d) / 12, ks * t * B, kn * B * t ^ 3 / 12
 local K = {}
 for i = 1, 2 * n do
   K[i] = {}
   for j = 1, 2 * n do K[i][j] = 0 end
 end
--- energy k (g . y)^2 / 2 of a spring
+-- adds a spring of energy k (g . y)^2 / 2
 local function spring(k, g)
   for i, a in pairs(g) do for j, b in pairs(g) do K[i][j] = K[i][j] + k * a * b end end
 end
@@ -33,11 +33,11 @@ for i = 1, n do
   spring(stiff * shear, i == 1 and { [x] = 1, [r] = -d / 2 } or { [x] = 1, [r] = -d / 2, [x - 2] = -1, [r - 2] = -d / 2 })
   spring(stiff * bending, i == 1 and { [r] = 1 } or { [r] = 1, [r - 2] = -1 })
 end
-local function solve(b)  -- Gauss, K positive definite
+local function solve(b)  -- Gauss elimination, K positive definite
   local a, y = {}, {}
   for i = 1, 2 * n do a[i], y[i] = table.pack(table.unpack(K[i])), b[i] end
   for c = 1, 2 * n do
-    for i = c + 1, math.min(2 * n, c + 4) do  -- four off the diagonal at most
+    for i = c + 1, math.min(2 * n, c + 4) do  -- bandwidth 4
       local f = a[i][c] / a[c][c]
       if f ~= 0 then
         for j = c, math.min(2 * n, c + 4) do a[i][j] = a[i][j] - f * a[c][j] end
@@ -80,7 +80,7 @@ metric("decay", "1/s", function(run)
   end
   return math.log(first / last) / (t_last - t_first)
 end)
--- N = 10 blocks are .45 % too soft, Simpson's joints exact.
+-- With N = 10 blocks f is 0.45 % too low; Simpson's joints are exact.
 expect("metrics.frequency", f1, { rel = 0.01, source = "Timoshenko" })
 expect("metrics.decay", a / 2, { rel = 0.02, source = "mass damping" })
 analysis { duration = 10.3 / f1, start = "rest", output_dt = 1e-9, frame_dt = 1 }

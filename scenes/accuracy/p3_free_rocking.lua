@@ -1,10 +1,10 @@
 -- P3: free rocking of a wall on its base, up to the first impact.
 --
--- What happens   A wall 0.6 m thick and 3 m high is tilted by 0.05 rad about its toe and let go. A quarter of its period ends at the impact.
--- Source         Housner 1963, the exact equation integrated: 0.36644 s. The bed is elastic: the toe is pressed in, and the wall is slower to
---                start by about 1.9 (4/9 d0 h / b^2)^(1/3) of the moment, an error that no step takes away.
+-- What happens   A wall 0.6 m thick and 3 m high is tilted by 0.05 rad about its toe and released. The first impact ends a quarter period.
+-- Source         Housner 1963, the exact equation integrated: 0.36644 s. The bed is elastic, so the toe sinks in. This lowers the initial
+--                moment by the share 1.9 (4/9 d0 h / b^2)^(1/3) and slows the start; no time step removes this error.
 -- How to run     erbs accuracy scenes/accuracy/p3_free_rocking.lua [-D kn=1e12]
--- What to look at  how soon the step stops to matter, and the stiffness of the bed is what is left.
+-- What to look at  The step soon ceases to matter; the error of the elastic bed remains.
 label("coarse_study")
 local kn = param("kn", 1e12, "of the bed [Pa/m]")
 material { name = "stone", density = 2000 }

@@ -1,10 +1,10 @@
--- P4: the half-sine pulse that overturns a block, by bisection.
+-- P4: smallest half-sine pulse that overturns a block, by bisection.
 --
--- What happens   A block 0.4 x 1.2 m stands on ground that gets one lobe of a sine of twice its own frequency parameter; its least amplitude
---                that overturns the block is found by runs side by side.
+-- What happens   A block of 0.4 x 1.2 m stands on ground that moves by one lobe of a sine at twice the frequency parameter of the block.
+--                Runs side by side find the least amplitude that overturns it.
 -- Source         Shao and Tung 1999; Zhang and Makris 2001; the exact equation: 1.8667 g alpha. The bed is elastic: see P3.
 -- How to run     erbs accuracy scenes/accuracy/p4_half_sine.lua [-D kn=1e12]
--- What to look at  the bracket (0.2 %) and the bed are the error; the step costs without a gain.
+-- What to look at  The error comes from the bracket (0.2 %) and the bed; smaller steps cost time and gain nothing.
 label("coarse_study")
 local kn = param("kn", 2e11, "of the bed [Pa/m]")
 local b, h = 0.2, 0.6
@@ -17,6 +17,6 @@ joint { law = dry { kn = kn, ks = 0.4 * kn, mu = 3 } }
 local f = 2 * p / (2 * pi)
 ground_motion { wave = half_sine { amplitude = amplitude * g * alpha, frequency = f }, direction = "x" }
 bisect { param = "amplitude", name = "least", lo = 1.4, hi = 2.2, rel = 0.002 }
--- The toe is pressed in by the load: 1.9 (4/9 d0 h / b^2)^(1/3).
+-- The load presses the toe in: 1.9 (4/9 d0 h / b^2)^(1/3).
 expect("metrics.least", 1.8667, { rel = 0.04, source = "exact equation of the rigid block" })
 analysis { duration = 0.5 / f + 6 / p, start = "rest", output_dt = 5e-3, frame_dt = 0.5, stop_after_collapse = 0.01, energy_gate = 1 }

@@ -1,11 +1,11 @@
--- P5: the sideways load that turns an arch into a mechanism.
+-- P5: horizontal load that turns an arch into a mechanism.
 --
--- What happens   An arch of seven voussoirs on dry joints of high friction stands while the ground accelerates more and more, slowly against its
---                own time. The share of gravity at which a voussoir has moved by a hundredth of the radius is read.
--- Source         Limit analysis: .37361 (Oppenheim 1992: .37) for t/R = .15 and an embrace of 157.5 degrees. The hinges are pressed in, which
---                lowers it; the mechanism takes time to move, which raises what is read.
+-- What happens   Seven voussoirs on dry joints of high friction form an arch. The ground acceleration grows slowly compared with the
+--                periods of the arch. The result is the acceleration, as a share of gravity, at which a voussoir has moved by R / 100.
+-- Source         Limit analysis: 0.37361 (Oppenheim 1992: 0.37) for t/R = 0.15 and an embrace of 157.5 degrees. The hinges are pressed
+--                in, which lowers the result; the mechanism needs time to move, which raises it.
 -- How to run     erbs accuracy scenes/accuracy/p5_arch.lua [-D rate=0.01]
--- What to look at  neither step nor points: the rate of loading and the stiffness of the joints are the error.
+-- What to look at  Neither step nor points matter: the error comes from the rate of loading and the stiffness of the joints.
 label("coarse_study")
 local R, n, embrace = param("R", 10, "of the centre line [m]"), 7, 157.5 * deg
 local t, kn = 0.15 * R, param("kn", 1e11, "[Pa/m]")
@@ -28,7 +28,7 @@ voussoir("left", -embrace / 2 - step, -embrace / 2, true)
 voussoir("right", embrace / 2, embrace / 2 + step, true)
 for i = 1, n do voussoir("v" .. i, -embrace / 2 + (i - 1) * step, -embrace / 2 + i * step) end
 joint { law = dry { kn = kn, ks = 0.4 * kn, mu = 3 }, tolerance = 1e-3 }
-local grow = 2  -- s, in which the load comes to its first value, smoothly
+local grow = 2  -- s, smooth growth of the load to its first value
 local function load(time)
   if time < grow then return from * 0.5 * (1 - math.cos(pi * time / grow)) end
   return from + rate * (time - grow)

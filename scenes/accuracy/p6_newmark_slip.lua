@@ -1,20 +1,20 @@
--- P6: Newmark's sliding block on ground that swings once.
+-- P6: Newmark's sliding block on ground that moves by one sine.
 --
--- What happens   A flat block slides on ground that moves through one full sine of 0.6 g at 2 Hz; friction 0.3.
--- Source         Newmark 1965, integrated exactly: greatest slip 0.047179 m. The joint's spring gives by mu g / w^2 and delays the slip by
---                about 1 / w: .047199 m for a spring of 200 Hz. The acceleration is continuous where slip starts, so leapfrog is of second
---                order, by a factor that changes with the place of the event within its step.
+-- What happens   A flat block slides on ground that moves by one full sine of 0.6 g at 2 Hz; the friction is 0.3.
+-- Source         Newmark 1965, integrated exactly: greatest slip 0.047179 m. The spring of the joint gives way by mu g / w^2 and delays the
+--                slip by about 1 / w: 0.047199 m for a spring of 200 Hz. The acceleration is continuous where slip starts, so leapfrog
+--                is of second order; its constant changes with the position of this event within a step.
 -- How to run     erbs accuracy scenes/accuracy/p6_newmark_slip.lua [-D ks=1e11]
--- What to look at  the slope of the step against its own limit; spring: what the bed adds to Newmark's slip, at any step.
+-- What to look at  The order of the step against its own limit; metric `spring`: the share that the bed adds to Newmark's slip at any step.
 label("fine_study")
 local ks = param("ks", 5.7e7, "of the bed: 200 Hz in shear, so that its swing is resolved by the steps [Pa/m]")
--- Not equal to ks: sway, rocking and bouncing of so flat a block would all be of 200 Hz, and beat.
+-- Not equal to ks: sway, rocking and bouncing of so flat a block would all have 200 Hz and would beat.
 local kn = param("kn", 2.5 * ks, "of the bed [Pa/m]")
 local mu, A, f = 0.3, 0.6, 2
 material { name = "stone", density = 1800 }
 box { name = "plate", size = { 4, 1, 0.2 }, at = { -2, -0.5, -0.2 }, fixed = true }
--- The bed gives way at once with the speed at which the ground's acceleration grows. From rest it would swing about that, as steeply as
--- the ground's push grows itself, and the block would slip, catch and slip again before it slides.
+-- The block starts with the velocity at which the growing ground acceleration deforms the bed. From rest it would swing about this motion
+-- as fast as the ground's push grows; it would slip, catch and slip again before it slides for good.
 local side, h = 0.6, 0.02
 local growth, turned = 1800 * h * A * g * 2 * pi * f, h / 2 * 12 / side ^ 2  -- Pa/s; moment of it by the arm h / 2 over side^2 / 12
 box { name = "block", size = { side, side, h }, at = { -side / 2, -side / 2, 0 },

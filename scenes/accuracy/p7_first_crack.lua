@@ -1,10 +1,10 @@
--- P7: the acceleration at which a bonded wall cracks first.
+-- P7: acceleration at which a bonded wall first cracks.
 --
--- What happens   The ground under a wall of 105 bricks on mortar accelerates more and more along it, smoothly, until a first joint point reaches
---                its strength, at the heel. The stress at the edge is what counts: points inside a joint see less of it.
--- Source         no number on paper: against the limit of finer steps and more points.
+-- What happens   The ground under a wall of 105 bricks on mortar accelerates along the wall, more and more and without jumps. The first
+--                joint point reaches its strength at the heel. The stress at the edge decides; points inside a joint see less of it.
+-- Source         No number on paper: the reference is the limit of finer steps and more points.
 -- How to run     erbs accuracy scenes/accuracy/p7_first_crack.lua
--- What to look at  midpoints crack late, by the part 1/n of the edge's stress; steps hardly matter.
+-- What to look at  Midpoints crack late, by the share 1/n of the stress at the edge; the step hardly matters.
 local E, t = param("E", 1e9, "of the mortar [Pa]"), 5 * mm
 local rate = param("rate", 1.0, "growth of the acceleration [g/s]")
 material { name = "brick", density = 1800, friction = 0.6 }

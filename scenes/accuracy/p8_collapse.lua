@@ -1,10 +1,11 @@
--- P8: when a wall falls, as a statistic of twenty twins.
+-- P8: time of collapse of a wall, as a statistic of twenty twins.
 --
--- What happens   A dry wall of 22 bricks is rocked sideways by a ground that swings at 2 Hz until it falls. Twenty twins differ in their start by a hair; what can
---                be compared is the mean and the scatter of the time at which a twentieth of the mass has fallen, not a single run.
--- Source         no number on paper: against the limit of finer steps and more points, uncertain by the scatter.
+-- What happens   The ground rocks a dry wall of 22 bricks across its plane at 2 Hz until it falls. Twenty twins start with tiny
+--                differences. A single run cannot be compared; mean and scatter of the time at which a twentieth of the mass has fallen
+--                can.
+-- Source         No number on paper: the reference is the limit of finer steps and more points, uncertain by the scatter.
 -- How to run     erbs accuracy scenes/accuracy/p8_collapse.lua
--- What to look at  differences below the scatter of the mean are no error.
+-- What to look at  Differences below the scatter of the mean are no error.
 label("coarse_study")
 local seed, noise = param("seed", 1, "of the hair"), param("noise", 1e-5, "[rad]")
 local t = 0

@@ -1,9 +1,9 @@
--- A long arcade of mortared masonry, some 30,000 blocks: more than a processor's cache holds
+-- A long arcade of mortared masonry with about 30,000 blocks: larger than the cache of a processor
 --
--- What happens   A wall of bricks with a row of openings under lintels on two levels, as of an aqueduct, stands and sways a little under
---                a weak ground motion. Nothing cracks.
+-- What happens   A brick wall with two levels of openings under lintels, like an aqueduct, sways a little under a weak ground motion.
+--                Nothing cracks.
 -- How to run     erbs bench scenes/bench/aqueduct.lua
--- What to look at  Nanoseconds a point and step against those of house_951; bytes a point.
+-- What to look at  Nanoseconds per point and step compared with house_951; bytes per point.
 
 local bays = param("bays", 46, "")
 local courses = param("courses", 111, "")

@@ -1,11 +1,11 @@
--- A dry wall in running bond, shaken out of its plane: the wall that other codes are timed on
+-- A dry wall in running bond, shaken across its plane: the wall on which other codes are timed
 --
--- What happens   Bricks of .30 x .125 x .10 m without mortar stand on a plate that moves by a sine of 2 Hz and 0.3 g across the wall. It
+-- What happens   Dry bricks of 0.30 x 0.125 x 0.10 m stand on a plate that moves by a sine of 2 Hz and 0.3 g across the wall. The wall
 --                rocks and slides a little; joints open and close.
 -- How to run     erbs bench scenes/bench/dry_wall.lua -D bricks=40 -D courses=25
 --                erbs run scenes/bench/dry_wall.lua -D duration=2
--- What to look at  Processor seconds per simulated second; tests/bench/peers runs the same wall in other codes. The bench lets every brick
---                of a wall without mortar look for new neighbours from the start, as those codes do; a run does so once bricks come loose.
+-- What to look at  Processor seconds per simulated second; tests/bench/peers runs the same wall in other codes. For a dry wall the bench
+--                lets every brick search for neighbours from the start, as those codes do; a run does so once bricks come loose.
 
 local bricks = param("bricks", 40, "in a course")
 local courses = param("courses", 25, "")

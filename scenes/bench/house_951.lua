@@ -1,11 +1,11 @@
--- A brick house of some 950 blocks and 2,800 joints: what the step kernel is timed on
+-- A brick house of about 950 blocks and 2,800 joints: the benchmark of the step kernel
 --
--- What happens   Three storeys of walls half a brick thick with interlocked corners, on mortar beds of 10 mm that never give way, sway
---                under a weak ground motion.
+-- What happens   Three storeys of walls, half a brick thick with interlocked corners, sway under a weak ground motion. Their mortar beds of
+--                10 mm never fail.
 -- How to run     erbs bench scenes/bench/house_951.lua
 --                erbs run scenes/bench/house_951.lua -D peak=0.3*g -D duration=20 --threads 2        El Centro, standing
 --                erbs run scenes/bench/house_951.lua -D peak=2*g -D ft=0.2*MPa -D c=0.3*MPa -D duration=20 --threads 2   falling
--- What to look at  Nanoseconds a point and step against the reference kernel, while sound and with every joint broken.
+-- What to look at  Nanoseconds per point and step against the reference kernel, with intact joints and with all joints broken.
 
 local debris = param("debris", 5e10, "normal stiffness of contacts; softer debris takes longer steps and overlaps more [Pa/m]")
 material { name = "brick", density = 1800, friction = 0.6, restitution = 0.2, kn = debris, ks = 0.4 * debris }

@@ -1,9 +1,9 @@
--- A heap of falling bricks: contacts and nothing else
+-- A heap of falling bricks: contacts only
 --
--- What happens   Bricks in a loose lattice, each a little turned, fall on one another and on the ground with friction and impact losses.
+-- What happens   Bricks in a loose lattice, each slightly rotated, fall on each other and on the ground, with friction and impact losses.
 -- How to run     erbs bench scenes/bench/pile.lua                 2,000 bricks
 --                erbs run scenes/bench/pile.lua -D n=400 --video
--- What to look at  Touching pairs that one core carries a second.
+-- What to look at  Touching pairs that one core evaluates per second.
 
 local n = param("n", 2000, "bricks")
 local per_row = math.ceil((n / 2.5) ^ (1 / 3))

@@ -1,11 +1,11 @@
--- Hard case: a light block carries one a hundred thousand times as heavy, and a heavy one carries a light one.
+-- Hard case: a light block carries a block a hundred thousand times heavier, which carries another light block.
 --
--- What happens   A pebble-sized block under a block of 1e5 times its mass sets the time step; the pair swings at its own slow period, which
---                must come out right after many thousand steps, and a light block on the heavy one must ride along without drift.
--- Source         period of two springs in series under the heavy mass: T = 2 pi sqrt(M (1/k1 + 1/k2)), the light mass between them shifts it
---                by m / M.
+-- What happens   A pebble-sized block under a block of 1e5 times its mass sets the time step. The pair vibrates with its own slow period,
+--                which must come out right after many thousand steps. A light block on the heavy one must follow it without drift.
+-- Source         Period of two springs in series under the heavy mass: T = 2 pi sqrt(M (1/k1 + 1/k2)); the light mass between them changes
+--                it by the share m / M.
 -- How to run     erbs run scenes/hard/h01_extreme_mass_ratio.lua [-D ratio=1e7] [-D kn=...]
--- What to look at  period_ratio, steps, rider_drift.
+-- What to look at  period_ratio, steps, rider_error.
 label("quick")
 local ratio = param("ratio", 1e5, "heavy over light mass")
 local kn = param("kn", 1e9, "[Pa/m]")
@@ -33,7 +33,7 @@ local function slow_mode()
   local x, w2 = { 0.5, 1, 1 }, 0
   for _ = 1, 50 do
     local f = { m_light * x[1], M * x[2], m_light * x[3] }
-    -- K^-1 f of the chain: displacements add up the forces above over k.
+    -- K^-1 f of the chain: each displacement adds the sum of the forces above it over k.
     local a = (f[1] + f[2] + f[3]) / k
     local b = a + (f[2] + f[3]) / k
     local c = b + f[3] / k
@@ -52,9 +52,9 @@ metric("rider_error", "", function(run)
   for i = 1, #a do worst = math.max(worst, math.abs(a[i] - b[i])) end
   return worst / 1e-6
 end)
--- Rows read by straight lines, 200 a cycle, over `cycles` cycles; the step is a thousandth of the period and less.
+-- Rows are read by straight lines, 200 per cycle, over `cycles` cycles; the step is at most a thousandth of the period.
 expect("metrics.period_ratio", 1, { abs = 1e-5, source = "slow mode of the three masses" })
--- The rider lags by m w^2 / k of the way, and starts from exactly the same place: twice that. Noise in the start puts it off by twice as
--- much as it moves one block, and it swings on its own spring by as much, for ever.
+-- The rider lags by m w^2 / k of the motion and starts from exactly the same place: twice that. Noise in the start displaces the rider by
+-- up to twice the noise of one block. It then vibrates on its own spring by as much for ever.
 expect("metrics.rider_error", 4 * m_light * w ^ 2 / k + 1e-9 + 2 * start_noise / 1e-6, { below = true, source = "m w^2 / k" })
 expect("energy.residual_relative", 1e-6, { below = true, source = "elastic gate" })

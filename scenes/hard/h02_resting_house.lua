@@ -1,10 +1,10 @@
--- Hard case: a brick house on its mortar, not shaken, not damped: it must stay as it is.
+-- Hard case: a brick house rests on its mortar, neither shaken nor damped, and must not move.
 --
--- What happens   Ten seconds under its own weight, from the static start. Any force that is not in balance, any history lost or refreshed
---                with a jump, any energy pumped by the steps shows as drift. A small house by default; full = 1 is the house of
---                scenes/shake_table_house.lua.
+-- What happens   Ten seconds under its own weight, from static equilibrium. An unbalanced force, a lost history, a jump at an update of the
+--                reference, or energy pumped in by the steps would all show as drift. The house is small by default; full = 1 is the house
+--                of scenes/shake_table_house.lua.
 -- How to run     erbs run scenes/hard/h02_resting_house.lua [-D full=1] [-D duration=60]
--- What to look at  drift_per_second (of the smallest edge), reaction_error, joints_broken, tremor.
+-- What to look at  drift_per_second (over the smallest edge), reaction_error, joints_broken, tremor.
 label("quick")
 local full = param("full", 0, "1: the whole three-storey house")
 local duration = param("duration", 10, "[s]")
@@ -57,9 +57,9 @@ metric("reaction_error", "", function(run)
 end)
 metric("sideways_reaction", "", function(run) return math.max(run.peak("base_fx_N"), run.peak("base_fy_N")) / weight end)
 metric("tremor", "m/s", function(run) return run.peak("bricks_vz_rel_m_s") end)
--- The static start leaves 1e-11 of the load; the house swings within that. Noise in the start puts every half bed off by sqrt(2/3) of it
--- (root of the mean square of a difference) with signs of their own: the n half beds of the lowest course swing by kn A sqrt(n) of
--- that, and five times it is not met in twenty rows. Whatever grew would leave this within ten seconds.
+-- The static start leaves 1e-11 of the load, and the house vibrates within that. Noise in the start displaces every half bed by sqrt(2/3)
+-- of the noise (root mean square of a difference), with random signs. The n half beds of the lowest course then swing by kn A sqrt(n) times
+-- that; twenty rows never show five times as much. Any growth would exceed this bound within ten seconds.
 local half_bed = 150 * mm * 125 * mm
 local beds = 2 * (width + length) * 125 * mm / half_bed
 local swing = 5 * math.sqrt(2 / 3 * beds) * start_noise * E / t * half_bed / weight

@@ -1,13 +1,14 @@
--- Hard case 3: a block that leans on friction is turned right round with what it stands on: its shear must turn along.
+-- Hard case 3: a block on a slope, held by friction, is rotated by 360 degrees with the slope; its shear force must rotate with it.
 --
--- What happens   Blocks lie on slopes below the angle of friction: one bonded with mortar, one on a dry joint, one on nothing but contact.
---                Every slope is turned by 360 degrees about the plumb line through its block. In the axes of the slope nothing
---                changes, so normal force and shear together must hold the weight up and nothing else, and no slip may gather. A shear
---                kept in world axes would point uphill after half a turn.
--- Source         verification.md, hard case 3; N = m g cos b, T = m g sin b; Euler's w x I w of a block turned about no axis of its own.
--- How to run     erbs run scenes/hard/h03_shear_turned_along.lua [-D slope=0.3] [-D turns=-3] [-D high=0.2: ]
---                up to where the bed opens, h tan b = l / 3, or its least pressed point slips, tan b (1 + 3 mu h / l) = mu
--- What to look at  sideways_* (horizontal force over the weight), wander_* (way in the slope's axes, m).
+-- What happens   Blocks lie on slopes below the angle of friction: one bonded with mortar, one on a dry joint, one on contact only. Every
+--                slope rotates by 360 degrees about the vertical through its block. In the axes of the slope nothing changes: normal force
+--                and shear together must carry the weight and nothing else, and no slip may accumulate. A shear kept in world axes would
+--                point uphill after half a turn.
+-- Source         N = m g cos b, T = m g sin b; Euler's w x I w of a block that rotates about no principal
+--                axis.
+-- How to run     erbs run scenes/hard/h03_shear_turned_along.lua [-D slope=0.3] [-D turns=-3] [-D high=0.2]
+--                valid until the bed opens, h tan b = l / 3, or its least loaded point slips, tan b (1 + 3 mu h / l) = mu
+-- What to look at  sideways_* (horizontal force over the weight), wander_* (displacement in the axes of the slope, m).
 label("quick")
 local slope, mu = param("slope", 20 * deg, "[rad]"), param("mu", 0.6, "")
 local turns, time = param("turns", 1, ""), param("time", 8, "of the turn [s]")
@@ -22,13 +23,13 @@ local soft = param("soft", 1, "kn of the joints over that of the contact")
 material { name = "stone", density = density, kn = kn / soft, ks = ks / soft, friction = mu, restitution = 0 }
 joint { law = mortar { kn = kn, ks = ks, ft = 1 * MPa, c = 1 * MPa, mu = mu }, between = { "bonded", "bonded" } }
 joint { law = dry { kn = kn, ks = ks, mu = mu }, between = { "dry", "dry" } }
--- So many that its corners lie closer than steps: a coarse table knocks at every corner.
+-- So many corners that they lie closer than steps: a coarse table gives an impulse at every corner.
 local times, angles, corners = {}, {}, 50000
 for i = 0, corners do
   local x = i / corners
   times[i + 1], angles[i + 1] = settle + time * x, 2 * pi * turns * x ^ 3 * (10 - 15 * x + 6 * x ^ 2)
 end
-local sunk = weight * math.cos(slope) * soft / (kn * l * w)  -- of the block on contact
+local sunk = weight * math.cos(slope) * soft / (kn * l * w)  -- penetration of the block on contact
 local kinds = { "bonded", "dry", "open" }
 for i, kind in ipairs(kinds) do
   local centre = { 2 * i, 0, 0 }
@@ -55,7 +56,7 @@ for _, kind in ipairs(kinds) do
     end
     return worst
   end)
-  -- Where the centroid lies in the slope's axes, since the turn began.
+  -- Displacement of the centroid in the axes of the slope since the rotation began.
   metric("wander_" .. kind, "m", function(run)
     local x, y, first, worst = run.history(kind .. "_ux_rel_m"), run.history(kind .. "_uy_rel_m"), nil, 0
     for i, t in ipairs(run.time) do
@@ -69,9 +70,10 @@ for _, kind in ipairs(kinds) do
     wander[kind] = worst
     return worst
   end)
-  -- What the turn itself adds, at its fastest: a block turned about no axis of its own resists with (I1 - I3) w^2 sin b cos b, which tilts it
-  -- on its bed and moves its centroid; and its centroid, that has settled off the plumb line by r, flies outwards with w^2 r. 10 %: the second
-  -- moves it as well. Noise in the start puts a block off and it swings; the one on contact has lost that by the turn.
+  -- Effects of the rotation at its fastest. First, a block that rotates about no principal axis resists with the moment (I1 - I3) w^2 sin b
+  -- cos b, which tilts it on its bed and moves its centroid. Second, its centroid has settled by r off the vertical axis and feels the
+  -- centrifugal acceleration w^2 r, which moves it as well; the 10 % allow for this. Noise in the start displaces a block, and it vibrates;
+  -- the block on contact has lost this vibration before the rotation.
   local fastest, k = 1.875 * 2 * pi * turns / time, kind == "open" and kn / soft or kn
   local tilting, sb, cb = k * w * l ^ 3 / 12, math.sin(slope), math.cos(slope)
   local moved = h / 2 * cb * density * l * w * h / 12 * (l ^ 2 - h ^ 2) * fastest ^ 2 * sb * cb / tilting
@@ -81,8 +83,8 @@ for _, kind in ipairs(kinds) do
   expect("metrics.sideways_" .. kind, 3e-5 + fastest ^ 2 * off / g + k * l * w * swing / weight, { below = true, source = "the weight, w^2 r, and corners of the table" })
   expect("metrics.wander_" .. kind, moved, { abs = 0.1 * moved + 1e-9 * h + 2 * swing, source = "(I1 - I3) w^2 sin b cos b on the bed; nothing slips" })
 end
--- The block on contact has dashpots. They see it and its slope turn as one, and add nothing: it goes where the dry joint goes, but for what
--- lies between a patch and its thin joint (the depth over the height, and how far it turns).
+-- The block on contact has dashpots. They see block and slope rotate as one and add nothing. So this block moves like the block on the dry
+-- joint. The small difference is that of a contact patch and a thin joint (penetration over height, and the angle of rotation).
 metric("open_over_dry", "", function() return wander.open / (soft * wander.dry) end)
 expect("metrics.open_over_dry", 1, { abs = 0.01 + 4 * start_noise / moves.dry, source = "no work of dashpots in a rigid motion" })
 expect("energy.residual_relative", 1e-2, { below = true, source = "gate" })

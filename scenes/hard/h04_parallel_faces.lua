@@ -1,11 +1,12 @@
 -- Hard case: faces that are parallel to within round-off
 --
--- What happens   Bricks lie on slabs, flush with their edges or not, turned by 0, 1e-12 and 1e-9 about each axis; they rest on contact alone. Where
---                contact were points, their number would flicker and the force jump; the force of an area changes as little as the pose.
+-- What happens   Bricks lie on slabs, flush with their edges or not, rotated by 0, 1e-12 and 1e-9 about each axis, on contact only. With
+--                contact points, their number would flicker and the force would jump. The force of an overlap area changes as little as the
+--                pose.
 -- Source         weight
 -- How to run     erbs run scenes/hard/h04_parallel_faces.lua
--- What to look at  jump (largest change of the force on a slab in one step, of the weight), force_error (of all, at the end), moved
--- Tolerance      The bricks start where their weight is carried, to round-off: what is left is the turn itself, kn times 1e-9 x 0.15 m at most.
+-- What to look at  jump (largest change of the force on a slab in one step, over the weight), force_error (of all bricks at the end), moved
+-- Tolerance      The bricks start in equilibrium to round-off. Only the rotation remains: kn times 1e-9 x 0.15 m at most.
 label("quick", "fixed_dt")
 local kn = param("kn", 1e9, "[Pa/m]")
 local size = { 0.3, 0.125, 0.1 }
@@ -41,7 +42,7 @@ metric("force_error", "", function(run)
   for _, name in ipairs(names) do worst = math.max(worst, math.abs(run.last(name .. "_fz_N") / weight - 1)) end
   return worst
 end)
-metric("moved", "", function(run)  -- across, of the smallest edge
+metric("moved", "", function(run)  -- sideways, over the smallest edge
   local worst = 0
   for _, name in ipairs(names) do
     worst = math.max(worst, math.abs(run.last(name .. "_at_ux_rel_m")), math.abs(run.last(name .. "_at_uy_rel_m")))

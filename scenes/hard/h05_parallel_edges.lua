@@ -1,18 +1,18 @@
--- Hard case: an edge passes over an edge that is nearly parallel to it
+-- Hard case: an edge passes over a nearly parallel edge
 --
--- What happens   Bars stand on their edges. An upper one is moved across a lower one, edge over edge, at angles between the edges from 0 to
---                0.1 rad. A normal taken from the product of the edges would spin when they are nearly parallel; here it turns from one
---                flank to the other as the edges pass, at the rate at which they do.
--- Source         hard case 5: the direction of the force turns by less than 1 degree a step
+-- What happens   Bars stand on their edges. Upper bars move across lower ones, edge over edge, at angles of 0 to 0.1 rad between the edges.
+--                A normal from the cross product of nearly parallel edges would spin. Here the normal turns from one flank to the other at
+--                the rate at which the edges pass.
+-- Source         hard case 5: the direction of the force turns by less than 1 degree per step
 -- How to run     erbs run scenes/hard/h05_parallel_edges.lua
--- What to look at  turn_* (largest change of direction in a step, degrees)
--- Tolerance      Sunk by d the edges pass within 2 d, and the direction turns by 90 degrees in that: 0.09 degrees a step at the speed here.
+-- What to look at  turn_* (largest change of direction in one step, degrees)
+-- Tolerance      At a penetration d the edges pass within 2 d, and the direction turns by 90 degrees: 0.09 degrees per step at this speed.
 label("quick", "fixed_dt")
 local d = param("depth", 0.5 * mm, "of edge below edge [m]")
-local dt, down, steps = 1e-5, 500, 4000  -- s, steps to come down beside the edge, and to pass over it
+local dt, down, steps = 1e-5, 500, 4000  -- s, steps to come down beside the edge, and steps to pass over it
 gravity(0)
 material { name = "stone", density = 2000, kn = 1e9, ks = 0, friction = 0, restitution = 1 }
-material { name = "anvil", density = 1e5, kn = 1e9, ks = 0, friction = 0, restitution = 1 }  -- so heavy that it stays where it is
+material { name = "anvil", density = 1e5, kn = 1e9, ks = 0, friction = 0, restitution = 1 }  -- so heavy that it does not move
 local r = 0.05
 local function bar(length)
   local out = {}
@@ -41,5 +41,5 @@ for i, angle in ipairs { 0, 1e-12, 1e-9, 1e-6, 1e-3, 0.1 } do
   end)
   expect("metrics.turn_" .. name, 1, { below = true, source = "hard case 5" })
 end
--- The gate is of runs with more energy than a first touch, which is all there is when the edges meet.
+-- A wide energy tolerance: the usual one is meant for runs with more energy than the first touch of two edges.
 analysis { duration = (down + steps) * dt, dt = dt, start = "rest", output_dt = dt, frame_dt = 1, energy_gate = 0.5 }

@@ -1,8 +1,9 @@
--- Hard case: thin plates meet corners and edges, deeply
+-- Hard case: thin plates hit corners and edges, with deep overlap
 --
--- What happens   Plates of 0.3 x 0.2 x 0.01 m fly edge on, corner on and flat at the edges and corners of fixed blocks and at each other, without friction or
---                damping. Where the direction of least overlap switches, a contact that takes it for its normal gives back what it stored
---                along a new line, and creates energy; the inner distance is a potential, so that it cannot.
+-- What happens   Plates of 0.3 x 0.2 x 0.01 m fly with edge, corner or face at the edges and corners of fixed blocks and at each other,
+--                without friction or damping. Some contact laws take the direction of least overlap for the normal. Where this direction
+--                switches, they return stored energy along a new line and create energy. Here the inner distance is a potential, so no
+--                energy is created.
 -- Source         conservation of energy
 -- How to run     erbs run scenes/hard/h06_thin_plates.lua [-D seed=...] [-D fraction=0.9]
 -- What to look at  energy.residual_relative, max_penetration_relative

@@ -1,10 +1,10 @@
--- Hard case: friction that is forgotten lets walls creep
+-- Hard case: walls creep if friction loses its history
 --
--- What happens   Loose bricks lie on a slope at 0.9 of the angle of friction, alone, crossed in a stack, and flush side by side, all by contact alone, their
---                list searched again and again. Nothing may walk.
+-- What happens   Loose bricks lie on a slope at 0.9 of the angle of friction: alone, crossed in a stack, and flush side by side. Only
+--                contact holds them, and their pairs are searched again and again. No brick may creep.
 -- Source         Coulomb: nothing slides below atan(mu)
 -- How to run     erbs run scenes/hard/h07_creep_of_contacts.lua [-D duration=60]
--- What to look at  drift (of the second half, of the smallest edge), speed
+-- What to look at  drift (in the second half, over the smallest edge)
 local duration = param("duration", 10, "[s]")
 local kn = param("kn", 2e9, "[Pa/m]")
 local mu = param("mu", 0.6, "")
@@ -23,7 +23,7 @@ local function brick(x, y, layer, turned)
   recorder { name = name, quantity = "displacement", block = name }
 end
 brick(0, 0, 0)
-for layer = 0, 1 do brick(1, 0, layer, layer % 2 == 1) end  -- a third would open the second's bed: the weight leaves the core
+for layer = 0, 1 do brick(1, 0, layer, layer % 2 == 1) end  -- a third brick would open the second's bed: the weight would leave the core
 for i = 0, 3 do brick(2 + long * i, 0, 0) end
 for i = 0, 2 do brick(4, wide * i, 0) end
 metric("drift", "", function(run)

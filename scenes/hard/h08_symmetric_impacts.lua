@@ -1,14 +1,16 @@
 -- Hard case: many contacts at the same instant
 --
--- What happens   A brick, a cube and a plate drop flat and must not start to spin. A cube runs into a row of cubes that touch. A heap falls apart, and
---                beside it its mirror image. Where contacts are dealt with one after another, the order decides; here there is none.
+-- What happens   A brick, a cube and a plate drop flat and must not start to spin. A cube runs into a row of touching cubes. A heap and its
+--                mirror image fall apart side by side. A scheme that treats contacts one after another depends on their order; here there
+--                is no order.
 -- Source         symmetry
 -- How to run     erbs run scenes/hard/h08_symmetric_impacts.lua [-D fraction=0.9]
--- What to look at  spin_* (over sqrt(g / l)), cradle_across (m/s, of the row's speed), mirror_error (m)
--- Tolerance      1e-9 of the angular speed sqrt(g / l); across the row nothing but round-off. The heap is chaotic: the mirror image is followed
---                until round-off, 1e-16, has grown by no more than 1e4. Noise in the start is no symmetry: a face that lands askew by it is thrown
---                back by its springs, w = sqrt(kn / (density height)), and w times the flight makes a hundredfold and more of it before the next
---                touch. Bodies that drop are then watched until they fly back, where the noise times w is all they may spin with.
+-- What to look at  spin_* (over sqrt(g / l)), cradle_across (m/s, across the row), mirror_error (m)
+-- Tolerance      1e-9 of the angular speed sqrt(g / l); across the row only round-off. The heap is chaotic: the mirror image is followed
+--                until round-off, 1e-16, has grown by a factor of 1e4 at most. Noise in the start breaks the symmetry. A face that lands
+--                askew by the noise is thrown back by its springs, w = sqrt(kn / (density height)). During the flight, w times the flight
+--                time, a hundred and more, multiplies the noise before the next touch. So dropped bodies are watched only until they fly
+--                back, when they may spin with the noise times w.
 label("quick")
 local drop = math.sqrt(2 * 0.1 / g)  -- s
 local fraction = param("fraction", 0.5, "of the step's bound")
@@ -30,7 +32,7 @@ for i, size in ipairs { { 0.3, 0.125, 0.1 }, { 0.1, 0.1, 0.1 }, { 0.4, 0.3, 0.03
     end
     return worst / math.sqrt(g / size[1])
   end)
-  -- Turns about two axes, and as much again from the shift that friction feels.
+  -- Rotations about two axes, and as much again from the sideways displacement that friction feels.
   expect("metrics.spin_" .. name, 1e-9 + 2 * math.sqrt(2) * start_noise * math.sqrt(kn / (2000 * size[3])) / math.sqrt(g / size[1]), { below = true, source = "hard case 8" })
 end
 local row = {}
@@ -45,9 +47,9 @@ metric("cradle_across", "", function(run)
   for _, name in ipairs(row) do worst = math.max(worst, run.peak(name .. "_vy_rel_m_s")) end
   return worst
 end)
--- Faces off by noise push with kn A of it: a speed of w times it.
+-- Faces displaced by noise push with kn A times the noise, which gives a speed of w times it.
 expect("metrics.cradle_across", 1e-9 + start_noise * math.sqrt(kn / (2000 * 0.1)), { below = true, source = "symmetry about the plane of the row" })
--- The heap, and its mirror image in the plane x = 0: places and turns mirrored, block by block.
+-- The heap and its mirror image in the plane x = 0: positions and rotations are mirrored block by block.
 local heap = {}
 for i = 1, 6 do
   local name = "heap" .. i

@@ -1,9 +1,9 @@
 -- Hard case: stacks of many courses at rest on dry joints, straight and leaning, without any damping.
 --
--- What happens   Round-off must not walk: no block drifts, no kinetic energy gathers. In the leaning stack every course is moved sideways by
---                the same share, so that the joints at its foot are close to opening; its eccentricity stays inside the core.
+-- What happens   Round-off must not accumulate: no block drifts, no kinetic energy grows. In the leaning stack every course is shifted by
+--                the same amount, so that the lowest joints are close to opening; the eccentricity of the weight stays inside the core.
 -- How to run     erbs run scenes/hard/h09_long_resting_stack.lua [-D courses=100] [-D duration=60]
--- What to look at  drift_* (of the block's height), kinetic_per_mass (m2/s2), at the end.
+-- What to look at  drift_* (over the height of a block), kinetic_per_mass (m2/s2) at the end.
 label("quick")
 local courses = param("courses", 50, "")
 local duration = param("duration", 20, "[s]")
@@ -14,7 +14,7 @@ local size = { 0.3, 0.125, 0.1 }
 material { name = "brick", density = 1800 }
 joint { law = dry { kn = kn, mu = 0.6 }, between = { "straight", "straight" } }
 joint { law = dry { kn = kn, mu = 0.6 }, between = { "leaning", "leaning" } }
-local shift = { straight = 0, leaning = 2 * lean * size[1] / 6 / courses }  -- the middle of what stands above moves by half of it
+local shift = { straight = 0, leaning = 2 * lean * size[1] / 6 / courses }  -- the centroid of the blocks above moves by half of it
 for name, by in pairs(shift) do
   local y = name == "straight" and 0 or 2
   box { name = name .. "_foot", group = name, size = { 1, 1, 0.1 }, at = { -0.5, y - 0.5, -0.1 }, fixed = true }
@@ -40,9 +40,9 @@ local weight = 2 * courses * 1800 * size[1] * size[2] * size[3] * g
 metric("reaction_error", "", function(run) return -run.last("base_fz_N") / weight - 1 end)
 metric("kinetic_per_mass", "m2/s2", function(run) return run.energy.kinetic_J / (weight / g) end)
 analysis { duration = duration, start = "equilibrium", output_dt = duration / 50, frame_dt = duration }
--- Noise in the start puts every bed off by sqrt(2/3) of it in each direction (root of the mean square of a difference). It stores
--- noise^2 / 3 (kn + 2 ks) A a bed, of which no more can ever move, twice it for the scatter of the draw; and two beds bear the reaction,
--- four times their swing in one row.
+-- Noise in the start displaces every bed by sqrt(2/3) of it in each direction (root mean square of a difference). It stores noise^2 / 3 (kn
+-- + 2 ks) A per bed; no more can ever become motion. A factor of two covers the scatter of the draw. Two beds carry the reaction, whose
+-- rows show at most four times their swing.
 local ks, bed = 0.4 * kn, size[1] * size[2]
 local stored = 2 * start_noise ^ 2 / 3 * (kn + 2 * ks) * bed / (1800 * bed * size[3])
 expect("metrics.reaction_error", 0, { abs = 1e-6 + 4 * math.sqrt(2 * 2 / 3) * start_noise * kn * bed / weight, source = "weight" })

@@ -1,10 +1,9 @@
--- H10: friction at the apex of its cone: blocks are pressed less and less, until nothing presses, and pressed again, as they are shoved
--- to and fro.
+-- H10: friction at the apex of its cone: pressure on a sliding joint falls to zero and returns.
 --
--- What happens   Prescribed motions: up and down, through zero pressure (one block just touches it, one parts), and along the joint at
---                another frequency, its reversals before, at and after the instants without pressure. There the cone is a point: no
---                limit, no direction, nothing to divide by. Forces stay finite and inside the cone and never change in a step by more
---                than the springs' own increments.
+-- What happens   Prescribed motions move blocks up and down through zero pressure (one block just touches it, one separates). At another
+--                frequency they slide along the joint; reversals occur before, at and after the instants without pressure. There the cone
+--                is a point: no limit, no direction, nothing to divide by. Forces must stay finite and inside the cone. In one step they
+--                may change only by the increments of the springs.
 -- Source         Coulomb: |T| <= mu N, T = 0 where N = 0; |dT| <= ks A |du| + mu kn A |dw|.
 -- How to run     erbs run scenes/hard/h10_friction_apex.lua [-D kn=...] [-D mu=...] [-D steps=...]
 -- What to look at  beyond_cone_*: over the greatest mu N; jump_*: largest change of the shear force over its bound.
@@ -18,7 +17,7 @@ joint { law = dry { kn = kn, ks = 0.4 * kn, mu = mu } }
 local dt = 1e-5
 local l, w, time = 0.3, 0.125, steps * dt
 local area, slow, fast = l * w, 5 / time, 13 / time  -- Hz
-local slide = 4 * mu * depth / 0.4                   -- m, well past the slip that the springs bear
+local slide = 4 * mu * depth / 0.4                   -- m, well beyond the elastic slip of the springs
 for i, case in ipairs { { lift = 1, phase = 0 }, { lift = 1, phase = 0.4 }, { lift = 1.5, phase = -0.4 }, { lift = 1.5, phase = 1.2 } } do
   local name, base = "block" .. i, "base" .. i
   box { name = base, group = base, size = { l, w, 0.1 }, at = { 2 * i, 0, -0.1 }, fixed = true }
@@ -44,7 +43,7 @@ for i, case in ipairs { { lift = 1, phase = 0 }, { lift = 1, phase = 0.4 }, { li
     for k = 3, #T do worst = math.max(worst, math.abs(T[k] - T[k - 1])) end
     return worst / (2 * math.pi * dt * area * (0.4 * kn * slide * fast + mu * kn * case.lift / 2 * depth * slow))
   end)
-  -- Radial return is exact: round-off of the forces.
+  -- Radial return is exact: only round-off of the forces remains.
   expect("metrics.beyond_cone_" .. i, 1e-9, { below = true, source = "|T| <= mu N" })
   expect("metrics.jump_" .. i, 1.0001, { below = true, source = "|dT| <= ks A |du| + mu kn A |dw|" })
 end

@@ -1,12 +1,12 @@
--- H11: stick and slip follow each other hundreds of times, and what slips never gives energy back, in any step.
+-- H11: hundreds of changes between stick and slip; slip never returns energy, in any step.
 --
--- What happens   A block pressed on its joint is shoved to and fro by a prescribed motion, slowly, with a fast tremble on top that takes it
---                through the transition between stick and slip again and again.
---                The slip of the spring is the motion less its elastic part: T . d(slip) >= 0 in every step.
+-- What happens   A block is pressed on its joint and moved to and fro by a prescribed slow motion. A fast tremble on top takes it through
+--                the transition between stick and slip again and again. The slip is the motion less its elastic part, and T . d(slip) >= 0
+--                in every step.
 -- Source         Coulomb friction: the traction of a sliding point is along its slip.
 -- How to run     erbs run scenes/hard/h11_stick_slip.lua [-D tremble=50] [-D steps=...]
--- What to look at  least_slip_work_*: least over all steps, over what the spring holds at its limit; changes_*: from stick to slip;
---                friction_over_slip: what the ledger booked over the sum of T . d(slip).
+-- What to look at  least_slip_work_*: least work of a step, over the elastic energy at the limit; changes_*: from stick to slip;
+--                friction_over_slip: friction work of the ledger over the sum of T . d(slip).
 local kn, mu = param("kn", 1e9, "[Pa/m]"), param("mu", 0.8, "friction")
 local tremble = param("tremble", 40, "swings of the fast motion in one of the slow")
 local steps = param("steps", 40000, "of the run")
@@ -19,9 +19,9 @@ local dt = 1e-5
 local l, w, time = 0.3, 0.125, steps * dt
 local area = l * w
 local ks, limit = 0.4 * kn * area, mu * kn * depth * area
-local reach = limit / ks  -- m, the slip that the spring bears
+local reach = limit / ks  -- m, largest elastic slip
 local work = {}
-for i, share in ipairs { 0.2, 0.6, 1.5 } do  -- amplitude of the tremble over what the spring bears
+for i, share in ipairs { 0.2, 0.6, 1.5 } do  -- amplitude of the tremble over the largest elastic slip
   local name, base = "block" .. i, "base" .. i
   box { name = base, group = base, size = { l, w, 0.1 }, at = { 2 * i, 0, -0.1 }, fixed = true }
   box { name = name, group = name, size = { l, w, 0.1 }, at = { 2 * i, 0, 0 } }
@@ -58,7 +58,7 @@ for i, share in ipairs { 0.2, 0.6, 1.5 } do  -- amplitude of the tremble over wh
     end
     return count
   end)
-  -- Histories are written with 17 digits: round-off of u - T / ks.
+  -- Histories are written with 17 digits: only round-off of u - T / ks remains.
   expect("metrics.least_slip_work_" .. i, -1e-12, { above = true, source = "friction takes energy in every step" })
 end
 metric("friction_over_slip", "", function(run)
@@ -66,6 +66,6 @@ metric("friction_over_slip", "", function(run)
 end)
 analysis { duration = time, dt = dt, output_dt = dt, start = "rest" }
 expect("metrics.changes_3", 4 * tremble / 2, { above = true, source = "the tremble takes it there again and again" })
--- The same sums, the ledger's taken point by point.
+-- The same sums; the ledger takes them point by point.
 expect("metrics.friction_over_slip", 1, { rel = 1e-9, source = "the ledger books T . d(slip)" })
 expect("status", "completed")

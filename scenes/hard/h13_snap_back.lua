@@ -1,12 +1,12 @@
--- H13: fracture energies too small for the stiffness: the softening branch would run back, so the joint drops at once.
+-- H13: fracture energies too small for the stiffness (snap-back): the joint drops to zero at its peak.
 --
--- What happens   A joint under tension holds ft^2 / (2 kn) per area at its peak, one under shear c^2 / (2 ks). With a fracture energy below
---                that the line from the peak to zero would lead to smaller openings than the peak's (snap-back). The program says so
---                when it reads the scene, and lets the joint part at the peak with all it holds, not with the energy given. Above it
---                the line is followed and takes the energy given.
+-- What happens   At its peak a joint in tension stores ft^2 / (2 kn) per area, a joint in shear c^2 / (2 ks). With a smaller fracture
+--                energy the softening line would lead back to smaller openings (snap-back). The program warns when it reads the scene. The
+--                joint then fails at the peak and takes all its stored energy instead of the given one. With a larger fracture energy the
+--                joint follows the line and takes the given energy.
 -- Source         Bazant and Cedolin, Stability of Structures, 1991, chapter 13; Gf < ft^2 t / (2 E) with kn = E / t.
 -- How to run     erbs check scenes/hard/h13_snap_back.lua (to read the warnings); erbs run scenes/hard/h13_snap_back.lua
--- What to look at  work_*: of the pull or the push, over A times the greater of the energy given and that of the peak.
+-- What to look at  work_*: work of the pull or push, over A times the larger of the given energy and the energy at the peak.
 local ft, c, kn = 0.2 * MPa, 0.3 * MPa, param("kn", 2e9, "[Pa/m]")
 local ks = 0.4 * kn
 local steps, dt = 4000, 1e-6
@@ -16,7 +16,7 @@ local total = 0
 local function case(name, share, shear)
   local peak_energy = shear and c ^ 2 / (2 * ks) or ft ^ 2 / (2 * kn)
   local given, area, peak = share * peak_energy, 0.3 * 0.125, shear and c / ks or ft / kn
-  -- In shear the energy given is that of the plastic slip, beyond the elastic one that comes back.
+  -- In shear the given energy is that of the plastic slip, without the elastic slip that is recovered.
   local energy = shear and (share > 1 and given or peak_energy) or math.max(given, peak_energy)
   local base, at = "base_" .. name, 2 * share + (shear and 20 or 0)
   box { name = base, group = base, size = { 0.3, 0.125, 0.1 }, at = { at, 0, -0.1 }, fixed = true }
@@ -31,7 +31,7 @@ local function case(name, share, shear)
     for row = 2, #f do work = work + (f[row] + f[row - 1]) / 2 * (u[row] - u[row - 1]) end
     return work / (energy * area)
   end)
-  -- Trapezoids across a drop: one step's part of the peak's work.
+  -- Trapezoidal rule across a drop: one step's share of the work at the peak.
   expect("metrics.work_" .. name, 1, { abs = 4 * math.max(1, share) / steps, source = share > 1 and "A Gf" or "A times the energy at the peak" })
 end
 for _, shear in ipairs { false, true } do

@@ -1,11 +1,12 @@
--- H14, third part: a block that has slid off the place of its joint rests on debris, not on mortar that is stiff where faces match.
+-- H14, third part: a block that slides far from its joint ends on soft debris contact, without a jump of force.
 --
--- What happens   Blocks slide under their weight from a joint (stiff) over contact on its bed (as stiff) to contact as debris (soft), which takes
---                over bit by bit when they have moved on by 2 % of the side. Force and friction go on as they were; what is softer gives way
---                more in the end.
+-- What happens   Blocks slide under their weight. Contact takes over from the joint with the stiffness of the former joint (stiff). When
+--                they have moved on by 2 % of the side, the stiffness of debris (soft) takes over bit by bit. Force and friction continue
+--                without a jump; in the end the softer contact gives way more.
 -- Source         continuity; v^2 / (2 mu g); weight / (kn A) of the debris
 -- How to run     erbs run scenes/hard/h14_bed_to_debris.lua [-D kn=...] [-D soft=...] [-D speed=...]
--- What to look at  jump_*: largest second difference of the force in steps, over m g; travel_*; sunk_*: in the end, over weight / (kn A).
+-- What to look at  jump_*: largest second difference of the force in steps, over m g; travel_*; sunk_*: final penetration over weight / (kn
+--                A).
 label("quick")
 local kn, mu = param("kn", 1e11, "of the joint [Pa/m]"), param("mu", 0.6, "friction")
 local soft = param("soft", 2e9, "kn of debris [Pa/m]")
@@ -15,7 +16,7 @@ local l, w, h = 0.3, 0.125, 0.04
 local area, weight = l * w, density * l * w * h * g
 local duration = 0.25
 material { name = "brick", density = density, friction = mu, restitution = 0.1, kn = soft, ks = 0.4 * soft }
-damping { joint_ratio = 0.3 }  -- the start of the sliding rocks the blocks: they are to be quiet when the bed goes
+damping { joint_ratio = 0.3 }  -- the start of sliding rocks the blocks; they must be calm when the former joint goes
 for i, law in ipairs { dry { kn = kn, ks = 0.4 * kn, mu = mu }, mortar { kn = kn, ks = 0.4 * kn, ft = 0, c = 0.1 * weight / area, mu = mu } } do
   local name, base, x = "slid" .. i, "base" .. i, 3 * i
   box { name = base, group = base, size = { 3 * l, 3 * w, 0.1 }, at = { x - l, -w, -0.1 }, fixed = true }
@@ -32,7 +33,7 @@ for i, law in ipairs { dry { kn = kn, ks = 0.4 * kn, mu = mu }, mortar { kn = kn
     end
     return most / weight
   end)
-  -- Stiffness, and with it the force, falls by .8 % at a time.
+  -- The stiffness, and with it the force, falls by 0.8 % at a time.
   expect("metrics.jump_" .. name, 0.02, { below = true, source = "beds go over with the force they bear" })
   metric("travel_" .. name, "m", function(run) return run.last(name .. "_ux_rel_m") end)
   expect("metrics.travel_" .. name, speed ^ 2 / (2 * mu * g), { rel = 0.01, source = "v^2 / (2 mu g)" })

@@ -1,12 +1,13 @@
--- H14: from bond to friction to contact: faces that part and close again, and blocks that slide off their joint, see no jump of force.
+-- H14: from bond to friction to contact: no jump of force when faces separate and close, or when a block slides off its joint.
 --
--- What happens   lifted: a bonded block is pulled up until its bond parts, lifted further than its fixed faces can tell (contact takes over
---                there) and let down again: the force comes back at zero gap, on the line kn A u, as if nothing had been. slid: blocks
---                that slide under their weight are handed over to contact on the way; dry, and with a bond that has sheared off.
+-- What happens   lifted: a bonded block is pulled up until its bond fails. It rises beyond the range of the small-displacement joint, so
+--                contact takes over, and comes down again. The force returns at zero gap, on the line kn A u, as if nothing had happened.
+--                slid: blocks that slide under their weight are released to contact on the way; one is dry, one has a bond that has sheared
+--                off.
 -- Source         continuity; invariant of the hard case: jump below 1e-3 m g.
 -- How to run     erbs run scenes/hard/h14_bond_to_friction.lua [-D kn=...] [-D speed=...]
--- What to look at  off_line_lifted: largest distance of the force from kn A u after the crack, over m g;
---                jump_*: largest change of force in one step about the hand-over, over m g; opened: joints handed over.
+-- What to look at  off_line_lifted: largest distance of the force from kn A u after the crack, over m g; jump_*: largest change of force in
+--                one step around the release to contact, over m g.
 local kn, mu = param("kn", 1e9, "[Pa/m]"), param("mu", 0.6, "friction")
 local speed = param("speed", 0.3, "of the blocks that slide [m/s]")
 local beta = param("ratio", 0.3, "dashpots of joints, of each one's own critical value")
@@ -14,13 +15,13 @@ local density = 1800
 local l, w, h = 0.3, 0.125, 0.04
 local area, weight = l * w, density * l * w * h * g
 material { name = "brick", density = density, friction = mu, restitution = 1, kn = kn, ks = 0.4 * kn }
-damping { joint_ratio = beta }  -- the start of the sliding rocks the blocks: they are to be quiet at the hand-over
+damping { joint_ratio = beta }  -- the start of sliding rocks the blocks; they must be calm at the release to contact
 local function bed(name, x) box { name = name, group = name, size = { 3 * l, 3 * w, 0.1 }, at = { x - l, -w, -0.1 }, fixed = true } end
 
 local duration = 0.6
 local ft = 20 * kPa
-local up = 0.02 * math.sqrt(l * l + w * w)  -- m, past what the joint's faces tell
--- The lifted block is told where to be; what it stands on moves freely on a strong bed.
+local up = 0.02 * math.sqrt(l * l + w * w)  -- m, beyond the range of the small-displacement joint
+-- The motion of the lifted block is prescribed; the block below moves freely on a strong bed.
 bed("base_anvil", 0)
 box { name = "anvil", group = "anvil", size = { l, w, h }, at = { 0, 0, 0 } }
 box { name = "lifted", group = "lifted", size = { l, w, h }, at = { 0, 0, h } }
@@ -40,8 +41,8 @@ metric("off_line_lifted", "", function(run)
   end
   return most / weight
 end)
--- The contact of grown faces gives the line to the depth over the thickness, 1e-5 here; while it closes, the speed adds as much
--- as half a step of it (it is gone at rest).
+-- Contact acts between faces that are enlarged by half the joint; it follows the line within depth over thickness, 1e-5 here. While the gap
+-- closes, the speed adds up to half a step of motion; at rest this is gone.
 expect("metrics.off_line_lifted", 1e-3, { below = true, source = "zero force at zero gap, stiffness of the joint" })
 
 for i, law in ipairs { dry { kn = kn, ks = 0.4 * kn, mu = mu }, mortar { kn = kn, ks = 0.4 * kn, ft = 0, c = 0.1 * weight / area, mu = mu } } do
@@ -50,7 +51,7 @@ for i, law in ipairs { dry { kn = kn, ks = 0.4 * kn, mu = mu }, mortar { kn = kn
   box { name = name, group = name, size = { l, w, h }, at = { x, 0, 0 }, initial = { velocity = { speed, 0, 0 } } }
   joint { law = law, between = { base, name } }
   recorder { name = name, quantity = "reaction", blocks = { base }, axis = "xz" }
-  -- Second differences: a jump shows, a swing that takes many steps does not.
+  -- Second differences show a jump, but not a vibration of many steps.
   metric("jump_" .. name, "", function(run)
     local T, N, most = run.history(name .. "_fx_N"), run.history(name .. "_fz_N"), 0
     for k = 3, #T do

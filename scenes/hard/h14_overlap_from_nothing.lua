@@ -1,14 +1,15 @@
--- H14, second part: bodies that overlap by the time contact takes over must not press at once, nor store what nobody has put in.
+-- H14, second part: bodies that already overlap when contact takes over must feel no sudden force and store no energy from nowhere.
 --
--- What happens   rocker: a block turns about the end of its joint, which stays open by `ajar` all along. Its contact body reaches half a joint
---                round that end, over the mortar of the joint beside it, and dips into the block below: at the hand-over (.03 rad) by
---                some .14 mm, where the joint bears nothing. pusher: a block comes down on one it has no joint with. While it is held in its
---                place they do not see each other; it is let loose when it has moved, and lies millimetres deep in the other by then.
--- Source         continuity, as in H14: each is seen lifted out of the other by how deep it lay then. Force of the contact on paper: kn times the
---                overlap of the lower face from there on, w d^2 / sin 2a of a corner d deep that is turned by a, A d of a flat face.
+-- What happens   rocker: a block rotates about the end of its joint, which stays open by `ajar`. Its contact body extends by half a joint
+--                around that end, over the mortar of the joint beside it, and dips into the block below. At the release to contact (0.03
+--                rad) it is about 0.14 mm deep, and the joint carries nothing. pusher: a block moves down onto a block to which it has no
+--                joint. While the block is held, contact does not see the pair. It becomes loose after it has moved, and by then it is
+--                millimetres deep in the other block.
+-- Source         continuity, as in H14: contact counts the depth from its value at the start. Force of the contact on paper: kn times the
+--                overlap of the lower face since then, w d^2 / sin 2a for a corner at depth d rotated by a, A d for a flat face.
 -- How to run     erbs run scenes/hard/h14_overlap_from_nothing.lua [-D kn=...] [-D ajar=...] [-D deep=...]
--- What to look at  jump_*: largest change of force in one step over the force, while something turns or comes down; force_*: of the contact
---                in the end over that on paper; reset_J: nothing is stored from nothing.
+-- What to look at  jump_*: largest change of force in one step over the force, while the block rotates or comes down; force_*: final
+--                contact force over that on paper; reset_J: no energy from nowhere.
 label("quick")
 local kn = param("kn", 1e9, "of joints [Pa/m]")
 local ajar, angle = param("ajar", 0.01 * mm, "[m]"), param("angle", 0.035, "[rad]")
@@ -18,10 +19,10 @@ local l, w, h, t, density = 0.12, 0.125, 0.1, 10 * mm, 1800
 local duration = 0.5
 material { name = "brick", density = density, friction = 0.6, restitution = 1, kn = soft, ks = 0.4 * soft }
 local strong = mortar { kn = 20 * kn, ks = 8 * kn, ft = 1 * GPa, c = 1 * GPa, mu = 0.6 }
-damping { joint_ratio = 0.5 }  -- what lies below comes to rest before the end
+damping { joint_ratio = 0.5 }  -- the blocks below come to rest before the end
 gravity(0)
 joint { none = true }
--- What lies below is free, on a strong bed.
+-- The blocks below are free, on a strong bed.
 for i, name in ipairs { "rocker", "pusher" } do
   box { name = "bed_" .. name, group = "bed_" .. name, size = { 0.3, 0.3, 0.1 }, center = { 2 * i, 0, -0.1 }, fixed = true }
   box { name = "under_" .. name, group = "under_" .. name, size = { 0.3, 0.3, 0.05 }, center = { 2 * i, 0, -0.025 } }
@@ -43,7 +44,7 @@ local a, gap = 0.05, 0.3 * mm
 box { name = "pusher", group = "pusher", size = { a, a, h }, center = { 4, 0, gap + h / 2 } }
 motion { block = "pusher", direction = "z", wave = table_wave { times = ramp, values = { 0, 0, -gap - deep, -gap - deep }, hold = true } }
 
--- How deep the two lay in each other at a time, while what lies below had not moved.
+-- Depth of the overlap over time, as if the block below had not moved.
 local depth = {
   rocker = function(time) return t / 2 * math.sin(angle * math.min(1, (time / duration - 0.1) / 0.5)) - ajar end,
   pusher = function(time) return (gap + deep) * math.min(1, (time / duration - 0.1) / 0.5) - gap end,
@@ -66,13 +67,13 @@ for name, of_depth in pairs(law) do
     end
     return -most / run.last(name .. "_fz_N")
   end)
-  if start_noise == 0 then expect("metrics.force_" .. name, 1, { rel = 2e-2, source = "kn times the overlap" }) end  -- when it begins is known to a step or two
+  if start_noise == 0 then expect("metrics.force_" .. name, 1, { rel = 2e-2, source = "kn times the overlap" }) end  -- the start of contact is known to a step or two only
   expect("metrics.jump_" .. name, 0.03, { below = true, source = "no force from nothing" })
 end
 metric("reset", "J", function(run) return math.abs(run.energy.reset_J) end)
 expect("metrics.reset", 1e-9, { below = true, source = "no energy from nothing" })
 analysis { duration = duration, output_dt = 1e-7, frame_dt = duration / 10 }
--- 5e-11 as it is. Noise of 1e-8 m in the start rings, damped, before anything else moves, and what errs is a share of that alone: 0.45 % at
--- 0.9 of the limit of the step.
+-- 5e-11 without noise. Noise of 1e-8 m in the start vibrates, damped, before anything else moves, and the residual is relative to its
+-- energy alone: 0.45 % at 0.9 of the step limit.
 expect("energy.residual_relative", 1e-2, { below = true, source = "ledger with friction and a hand-over" })
 expect("status", "completed")

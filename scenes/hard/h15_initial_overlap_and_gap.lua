@@ -1,9 +1,9 @@
--- Hard case 15: a wall as an importer finds it, every brick a little off its place: overlaps and gaps in the joints.
+-- Hard case 15: a wall from an importer, every brick slightly misplaced: overlaps and gaps in the joints.
 --
--- What happens   Bricks are off by a random part of a millimetre in all directions. With overlap = "stress_free" each joint takes its gap
---                or overlap at rest as free of force: nothing is pushed apart at the start, and the wall only carries its weight. Without it the
---                overlaps are refused with their names.
--- Source         verification.md, hard case 15.
+-- What happens   Bricks are misplaced by a random fraction of a millimetre in all directions. With overlap = "stress_free" each joint takes
+--                its gap or overlap at rest as free of stress: nothing is pushed apart at the start, and the wall carries only its weight.
+--                Without this option the overlaps are refused, with the names of the blocks.
+-- Source         equilibrium
 -- How to run     erbs run scenes/hard/h15_initial_overlap_and_gap.lua [-D off=0.0005] [-D seed=3]
 -- What to look at  kinetic_over_mgl: largest kinetic energy of the first hundred steps over m g L; reaction_error; warnings in log.txt.
 label("quick")
@@ -31,10 +31,10 @@ for course = 0, courses - 1 do
     recorder { name = name, quantity = "velocity", block = name }
   end
 end
--- Neighbours may be 2 `off` apart or into each other.
+-- Gaps and overlaps of neighbours reach 2 `off`.
 joint { law = mortar { kn = E / t, ks = 0.4 * E / t, ft = 50 * kPa, c = 80 * kPa, mu = 0.6 }, thickness = 0, tolerance = 2.1 * off }
 recorder { name = "base", quantity = "reaction", axis = "z" }
--- A hundred steps at the limit and, at a smaller step, as long: some 6e-5 s for these joints.
+-- The duration of a hundred steps at the limit, about 6e-5 s for these joints; a smaller step takes more steps.
 local duration = 100 * 6e-5 * math.sqrt(1e7 / E)
 analysis { duration = duration, overlap = "stress_free", output_dt = duration / 200, frame_dt = duration }
 metric("kinetic_over_mgl", "", function(run)
@@ -50,7 +50,7 @@ metric("kinetic_over_mgl", "", function(run)
 end)
 metric("reaction_error", "", function(run) return -run.last("base_fz_N") / weight - 1 end)
 expect("metrics.kinetic_over_mgl", 1e-6, { below = true, source = "hard case 15" })
--- Noise in the start swings on the beds with kn A of it, some per mille of the weight at 1e-8 m.
+-- Noise in the start swings on the beds with kn A times the noise, a few per mille of the weight at 1e-8 m.
 expect("metrics.reaction_error", 0, { abs = 1e-6 + 2 * start_noise * across * E / t * l * w / weight, source = "only the weight is carried" })
 expect("joints_broken", 0, { abs = 0, source = "nothing cracks" })
 expect("energy.residual_relative", 1e-3, { below = true, source = "bonded gate" })

@@ -1,18 +1,18 @@
--- Hard case: mass damping must not brake what falls
+-- Hard case: mass damping must not brake falling blocks
 --
--- What happens   Cubes hang by mortar that is too weak for them, are thrown off a ledge, or lie loose on each other when their support gives way. With mass
---                damping of 10 1/s a bonded block that fell would reach g / 10 s = 0.98 m/s at most; debris falls freely.
+-- What happens   Cubes hang by mortar that is too weak for them, are thrown off a ledge, or lie loose on each other when their support
+--                fails. Mass damping of 10 1/s would limit a falling bonded block to g / 10 s = 0.98 m/s; debris must fall freely.
 -- Source         sqrt(2 h / g)
 -- How to run     erbs run scenes/hard/h16_fall_under_damping.lua [-D damping=100]
--- What to look at  fall_* (time over sqrt(2 h / g)), restitution_*
--- Tolerance      0.5 % as asked for; rows every 0.2 ms, and the mortar takes a few of its periods to let go.
+-- What to look at  fall_* (time over sqrt(h / g) to half the height), thrown
+-- Tolerance      0.5 %: rows every 0.2 ms, and the mortar needs a few of its periods to let go.
 label("quick")
 local a = param("damping", 10, "[1/s]")
 local h = param("height", 1, "[m]")
 local side = 0.1
 gravity(g)
 material { name = "stone", density = 2000, kn = 1e9, ks = 4e8, friction = 0.6, restitution = 0.2 }
-joint { law = mortar { kn = 1e10, ks = 4e9, ft = 500, c = 1e3, mu = 0.6 }, between = { "ceiling", "hung" } }  -- it weighs 1962 Pa
+joint { law = mortar { kn = 1e10, ks = 4e9, ft = 500, c = 1e3, mu = 0.6 }, between = { "ceiling", "hung" } }  -- the stress of its weight is 1962 Pa
 joint { law = mortar { kn = 1e10, ks = 4e9, ft = 500, c = 1e3, mu = 0.6 }, between = { "hung", "hung" } }
 ground { size = 20, material = "stone" }
 damping { mass = a, scope = "bonded" }

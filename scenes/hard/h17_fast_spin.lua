@@ -1,10 +1,11 @@
--- Hard case 17: bricks and a wedge with skew axes of inertia tumble at 50 rad/s for a minute.
+-- Hard case 17: bricks and a wedge with skew principal axes tumble at 50 rad/s for a minute.
 --
--- What happens   An explicit w x I w pumps energy into fast tumbling. The rotation here is the implicit midpoint of the body with the exact
---                transport of L: energy and angular momentum stay to round-off at any step, also where no face is square to an axis of inertia.
--- Source         Simo and Wong 1991, Int. J. Numer. Meth. Eng. 31, 19; verification.md, hard case 17.
+-- What happens   An explicit w x I w pumps energy into fast tumbling. Here the rotation uses the implicit midpoint rule in the body frame
+--                with exact transport of L. Energy and angular momentum hold to round-off at any step, even where no face is square to a
+--                principal axis.
+-- Source         Simo and Wong 1991, Int. J. Numer. Meth. Eng. 31, 19.
 -- How to run     erbs run scenes/hard/h17_fast_spin.lua [-D spin=200] [-D dt=1e-3] [-D duration=600]
--- What to look at  energy.residual_relative, momentum_drift_*: largest change of L over its length.
+-- What to look at  energy.residual_relative, momentum_drift: largest change of L over its length.
 label("quick", "fixed_dt")
 local spin, dt = param("spin", 50, "[rad/s]"), param("dt", 2e-4, "a hundredth of a turn per radian: w dt = .01 [s]")
 local duration = param("duration", 60, "[s]")
@@ -21,7 +22,7 @@ local function body(kind, axis)
   local name = kind .. number
   local length = math.sqrt(axis[1] ^ 2 + axis[2] ^ 2 + axis[3] ^ 2)
   local initial = { spin = { spin * axis[1] / length, spin * axis[2] / length, spin * axis[3] / length } }
-  if kind == "wedge" then  -- a skew tetrahedron-like prism: products of inertia in every plane
+  if kind == "wedge" then  -- a skew wedge: products of inertia in every plane
     prism { name = name, polygon = { { 0, 0 }, { 0.3, 0.02 }, { 0.05, 0.15 } }, height = 0.1, at = { 2 * number, 0, 0 }, free = true, initial = initial,
       rotation = { 0.3, 0.2, 0.1 } }
   else
@@ -52,6 +53,6 @@ metric("momentum_drift", "", function(run)
   end
   return worst
 end)
--- The state carries L itself; the energy is a quadratic invariant of the midpoint rule. Round-off of 3e5 steps.
+-- The state carries L itself, and energy is a quadratic invariant of the midpoint rule: only round-off of 3e5 steps remains.
 expect("metrics.momentum_drift", 1e-10, { below = true, source = "no moment acts" })
 expect("energy.residual_relative", 1e-9, { below = true, source = "no power acts" })

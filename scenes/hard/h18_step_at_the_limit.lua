@@ -1,10 +1,10 @@
--- Hard case: the step is at its limit while contacts come and go
+-- Hard case: the time step is at its limit while contacts come and go
 --
--- What happens   Stiff blocks rain on a tower of soft dry joints, whose step is taken at 0.99 of its limit. Each new contact lowers the limit: the step must
---                follow at once, and grow again once the rain has run off.
--- Source         omega^2 of all is below that of the joints at rest plus that of the new contacts (Weyl); energy is the witness
+-- What happens   Stiff blocks rain on a tower of soft dry joints, whose step is 0.99 of its limit. Each new contact lowers the limit. The
+--                step must follow at once, and must grow again when the rain has run off.
+-- Source         omega^2 of the whole is at most that of the joints at rest plus that of the new contacts (Weyl); the energy is the witness
 -- How to run     erbs run scenes/hard/h18_step_at_the_limit.lua [-D fraction=0.9]
--- What to look at  energy.residual_relative, steps (more than the joints alone would need), dt at the end
+-- What to look at  energy.residual_relative, shortened: steps over the number that the joints alone would need
 label("quick")
 local fraction = param("fraction", 0.99, "of the limit")
 local kn = param("kn", 2e8, "of the joints [Pa/m]")

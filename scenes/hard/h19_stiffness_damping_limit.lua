@@ -1,11 +1,10 @@
--- H19: dashpots proportional to stiffness shorten the explicit step to (2/w) (sqrt(1 + xi^2) - xi), about 1/(b w^2) for heavy damping.
+-- H19: stiffness-proportional dashpots shorten the explicit step to (2/w) (sqrt(1 + xi^2) - xi), about 1/(b w^2) for heavy damping.
 --
--- What happens   A chain of cubes with strong dashpots runs one part in a hundred below its limit and dies away;
---                h19_past_the_limit.lua runs one part in a hundred past it and must be seen to diverge. The limit is that of the fastest
---                mode of the chain, w = 2 cos(pi / (2 n + 1)) sqrt(k/m).
+-- What happens   A chain of cubes with strong dashpots, 1 % below its limit, comes to rest. h19_past_the_limit.lua runs 1 % beyond the
+--                limit and must diverge. The fastest mode of the chain, w = 2 cos(pi / (2 n + 1)) sqrt(k/m), sets the limit.
 -- Source         leapfrog with the velocity of half a step before: (w dt / 2)^2 + 2 xi (w dt / 2) = 1 at the limit.
 -- How to run     erbs run scenes/hard/h19_stiffness_damping_limit.lua [-D xi=2] [-D n=30] [-D fraction=0.99]
--- What to look at  limit_over_formula; left_over_start: what is left of the displacement.
+-- What to look at  limit_over_formula; left_over_start: remaining share of the displacement.
 label("fixed_dt")
 local asked, past = pcall(function() return past_the_limit end)  -- set by h19_past_the_limit.lua
 past = asked and past or false
@@ -30,7 +29,7 @@ recorder { name = "top", quantity = "displacement", block = "chain" .. n, axis =
 local dt = fraction * limit
 analysis { duration = (past and 25 or 1) * steps * dt, dt = past and { dt, unstable = true } or dt, start = "rest", output_dt = 20 * limit }
 metric("limit_over_formula", "", function(run) return run.dt_critical_s / limit end)
--- Lanczos with its residual added: the limit may only be found too small, by a part of 1e-3.
+-- The Lanczos residual is added, so the computed limit can only be too small, by a share of 1e-3.
 expect("metrics.limit_over_formula", 0, { between = { 0.999, 1 + 1e-6 }, source = "(2/w) (sqrt(1 + xi^2) - xi)" })
 if past then
   expect("status", "diverged")

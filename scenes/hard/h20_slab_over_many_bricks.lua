@@ -1,10 +1,12 @@
--- Hard case 20: one slender slab lies on two rows of many small brick pillars.
+-- Hard case 20: a slender slab lies on two rows of many small brick pillars.
 --
--- What happens   Some sixty joints hold one rigid body: its stiffness is their sum, its own rocking may set the step, and it must spread its
---                weight evenly. Then the ground shakes below cracking: the ledger, the reaction and the forces between equal pillars tell.
--- Source         equilibrium and symmetry; verification.md, hard case 20.
+-- What happens   About thirty joints hold one rigid body. Its stiffness is their sum, its own rocking may set the step, and it must spread
+--                its weight evenly. Then the ground shakes below cracking: the ledger, the reaction and the loads of equal pillars show
+--                errors.
+-- Source         equilibrium and symmetry.
 -- How to run     erbs run scenes/hard/h20_slab_over_many_bricks.lua [-D pillars=40] [-D thick=0.05]
--- What to look at  reaction_error, uneven: largest difference of the pillars' mean loads over their mean; energy.residual_relative; dt_critical_s.
+-- What to look at  reaction_error, uneven: largest difference of the pillars' mean loads over their mean; energy.residual_relative;
+--                dt_critical_s.
 label("quick")
 local pillars = param("pillars", 15, "in each row")
 local thick, slab = param("thick", 0.1, "of the slab [m]"), param("slab", 2400, "its density [kg/m3]")
@@ -43,14 +45,14 @@ metric("uneven", "", function(run)
     local f = -run.mean(name .. "_normal_N")
     least, most, sum = math.min(least, f), math.max(most, f), sum + f
   end
-  return (most - least) / (sum / #tops)
+  return (most - least) / (sum / #tops)  -- sum F dt = m (v - v0) + m int a dt of the supports: its relative error, as the run reports it
 end)
 metric("momentum_error", "", function(run)  -- impulse of the supports, relative: sum F dt = m (v - v0) + m Int a dt is left to the ledger
   return run.momentum_residual
 end)
--- Means over a second of shaking: five cycles in and out, and whatever swings from a noise of 1e-8 m in the start.
+-- Means over a second of shaking: five cycles, and the vibration from noise of 1e-8 m in the start.
 expect("metrics.reaction_error", 0, { abs = 1e-3, source = "weight" })
--- A rigid slab on equal springs, centred: equal loads.
+-- A centred rigid slab on equal springs: equal loads.
 expect("metrics.uneven", 0, { abs = 0.01, source = "symmetry" })
 expect("metrics.momentum_error", 1e-10, { below = true, source = "action is reaction" })
 expect("energy.residual_relative", 1e-3, { below = true, source = "bonded gate" })

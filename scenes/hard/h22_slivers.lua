@@ -1,7 +1,7 @@
--- Hard case: slivers, tiny fragments and mitres without friction
+-- Hard case: slivers, tiny fragments and frictionless mitres
 --
--- What happens   Wedges cut at 45 degrees meet without friction or bond and slide off each other, once as drawn and once mirrored. Slivers of 0.2 mm, needles and
---                pyramids fall on a brick with a fragment of a millionth of its mass among them.
+-- What happens   Wedges cut at 45 degrees meet without friction or bond and slide off each other, once as drawn and once mirrored. Slivers
+--                of 0.2 mm, needles and pyramids fall on a brick; one fragment has a millionth of its mass.
 -- Source         mirrored scene, mirrored result; W / (2 sin 45 deg) on each side of a wedge in a groove (V45)
 -- How to run     erbs run scenes/hard/h22_slivers.lua
 -- What to look at  mirror_error, groove (force on a flank over the weight), energy.residual_relative, status
@@ -11,10 +11,10 @@ gravity(g)
 material { name = "stone", density = 2000, kn = kn, ks = 0.4 * kn, friction = 0, restitution = 0.3 }
 material { name = "rough", density = 2000, kn = kn, ks = 0.4 * kn, friction = 0.6, restitution = 0.3 }
 ground { size = 40, material = "rough" }
-local function wedge(x, side, z)  -- a triangle with its mitre at 45 degrees, on the side given
+local function wedge(x, side, z)  -- a triangle with its mitre at 45 degrees; `side`: direction of its foot
   return { { x, 0, z }, { x + side * 0.2, 0, z }, { x, 0, z + 0.2 }, { x, 0.1, z }, { x + side * 0.2, 0.1, z }, { x, 0.1, z + 0.2 } }
 end
--- The mitred pair: a lower wedge fixed, an upper one that slides down its flank; and the mirror image.
+-- The mitred pair: a fixed lower wedge and an upper one that slides down its flank; and the mirror image.
 for _, side in ipairs { 1, -1 } do
   local name, x = side > 0 and "right" or "left", side * 5
   block { name = name .. "_low", material = "stone", vertices = wedge(x, side, 0.3), fixed = true }
@@ -31,7 +31,7 @@ metric("mirror_error", "m", function(run)
   return worst
 end)
 metric("slid", "m", function(run) return math.sqrt(run.at("right_ux_rel_m", 0.15) ^ 2 + run.at("right_uz_rel_m", 0.15) ^ 2) end)
--- Noise in the start differs on both sides by up to twice itself, and its turns move the centre by a part of that as faces meet.
+-- Noise in the start differs on the two sides by up to twice itself; its rotations move the centre by a fraction of that as faces meet.
 expect("metrics.mirror_error", 1e-12 + 4 * start_noise, { below = true, source = "symmetry" })
 expect("metrics.slid", 0.5 * g * math.sin(45 * deg) * 0.15 ^ 2, { rel = 0.01, source = "g sin 45 t^2 / 2, from a face that bounces" })
 -- A wedge of 90 degrees in its groove.

@@ -1,19 +1,19 @@
--- Hard case 23: what an accelerogram means between its samples, at its end, and scaled to a model.
+-- Hard case 23: meaning of an accelerogram between its samples, at its end, and scaled to a model.
 --
--- What happens   A record is linear in acceleration between its samples, so that velocity is piecewise quadratic and displacement piecewise cubic:
---                both are integrated in closed form, whatever the step. Heavy free blocks stay behind while the ground moves: their path
---                relative to it is minus its displacement. A record scaled to a model of half the size (time times .707, displacements
---                times .5) is compared with the full one at scaled instants.
+-- What happens   A record is linear in acceleration between its samples, so velocity is piecewise quadratic and displacement piecewise
+--                cubic. Both are integrated in closed form, whatever the step. A heavy free block stays behind while the ground moves: its
+--                path relative to the ground is minus the ground displacement. A record scaled to a model of half the size (time times
+--                0.707, displacement times 0.5) is compared with the full record at scaled instants.
 -- Source         closed-form integrals of a polyline; similarity t ~ sqrt(L), u ~ L at equal acceleration.
 -- How to run     erbs run scenes/hard/h23_accelerogram.lua [-D scale=0.25] [-D dt=0.003]
--- What to look at  ground_*_error, block_error, similarity_error; velocity_end and displacement_end, which are reported, not corrected.
+-- What to look at  ground_*_error, block_error, similarity_error; velocity_end and displacement_end are reported, not corrected.
 label("quick", "fixed_dt")
 local scale = param("scale", 0.5, "of length, of the model")
 local dt = param("dt", 1.7 * ms, "no divisor of the record's step [s]")
 local duration = param("duration", 10, "[s]")
 gravity(0)
 material { name = "stone", density = 2000 }
--- The record as a polyline made here, kinks at every sample: a sum of sines of no common period, sampled at 0.02 s.
+-- A polyline record with a kink at every sample: a sum of sines without a common period, sampled at 0.02 s.
 local times, values = {}, {}
 for i = 0, math.floor(0.8 * duration / 0.02) do
   local time = 0.02 * i
@@ -21,7 +21,7 @@ for i = 0, math.floor(0.8 * duration / 0.02) do
   values[#values + 1] = i == 0 and 0 or 2 * math.sin(7.3 * time) * math.exp(-0.2 * time) + 1.1 * math.sin(31.7 * time + 1) + (i % 3 - 1) * 0.8
 end
 values[#values] = 0
-local function exact(time)  -- v and u of the ground by the pieces
+local function exact(time)  -- v and u of the ground, piece by piece
   local v, u = 0, 0
   for i = 2, #times do
     local t0, t1 = times[i - 1], math.min(times[i], time)
@@ -61,7 +61,7 @@ metric("ground_displacement_error", "", function(run)
   end
   return worst / largest
 end)
-metric("block_error", "", function(run)  -- the leapfrog takes the exact mean of the acceleration: an error of dt^2, not of the kinks
+metric("block_error", "", function(run)  -- leapfrog takes the exact mean of the acceleration: its error falls with dt^2 and does not depend on the kinks
   local worst, largest = 0, 0
   for _, axis in ipairs { "x", "y", "z" } do
     local ground, block = columns(run, "ground_u", "_m", axis), columns(run, "block_u", "_rel_m", axis)
@@ -71,7 +71,7 @@ metric("block_error", "", function(run)  -- the leapfrog takes the exact mean of
   end
   return worst / largest
 end)
-metric("similarity_error", "", function(run)  -- u of the scaled record at t is `scale` times that of the full one at t / sqrt(scale)
+metric("similarity_error", "", function(run)  -- u of the scaled record at t is `scale` times that of the full record at t / sqrt(scale)
   local worst, largest = 0, 0
   local u = columns(run, "ground_u", "_m", "z")
   for i, time in ipairs(run.time) do
@@ -87,8 +87,9 @@ metric("velocity_end", "m/s", function(run) return run.last("ground_vy_m_s") end
 metric("displacement_end", "m", function(run) return run.last("ground_uy_m") end)
 expect("metrics.ground_velocity_error", 1e-12, { below = true, source = "piecewise quadratic" })
 expect("metrics.ground_displacement_error", 1e-12, { below = true, source = "piecewise cubic" })
--- Jumps of slope every 0.02 s: the path errs by the change of acceleration times dt^2 / 8 at most, of a displacement of some decimetres.
+-- The slope jumps every 0.02 s. The error of the path is at most the change of acceleration times dt^2 / 8, for displacements of
+-- decimetres.
 expect("metrics.block_error", 2e-5, { below = true, source = "impulses are exact, paths to dt^2" })
--- Rows of the full record are read by straight lines 10 ms apart: a dt^2 / 8, 4e-5 m of some decimetres.
+-- Rows of the full record, 10 ms apart, are read by straight lines: a dt^2 / 8 = 4e-5 m, for displacements of decimetres.
 expect("metrics.similarity_error", 1e-3, { below = true, source = "u ~ L, t ~ sqrt(L)" })
 expect("energy.residual_relative", 1e-9, { below = true, source = "the ground's work on a rigid body" })

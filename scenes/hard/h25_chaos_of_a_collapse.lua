@@ -1,11 +1,11 @@
--- Hard case 25: a collapse is chaotic, and still the same to the bit.
+-- Hard case 25: a collapse is chaotic, and still reproducible to the bit.
 --
--- What happens   A pillar of dry blocks is shaken down. A start that differs by 1e-9 of a block's size ends elsewhere; what holds is the
---                statistics of many such starts, and that one start ends with the same bits each time, whatever else changes.
--- Source         verification.md, hard case 25.
+-- What happens   A pillar of dry blocks is shaken down. A start that differs by 1e-9 of a block's size ends elsewhere. Two things hold: the
+--                statistics of many such starts, and the bits of one start, which are the same in every run.
+-- Source         chaos; fixed order of all sums.
 -- How to run     erbs run scenes/hard/h25_chaos_of_a_collapse.lua [-D noise=1e-6] [-D amplitude=1]
--- What to look at  time_mean, time_deviation: time of the collapse over the ensemble; place_deviation: of the top block's end place;
---                same_deviation: of a fingerprint of all bits over runs that differ in nothing, 0.
+-- What to look at  time_mean, time_deviation: time of the collapse over the ensemble; place_deviation: final position of the top block;
+--                same_deviation: a fingerprint of all bits over identical runs, 0.
 local seed = param("seed", 0, "of the noise; 0: none")
 local again = param("again", 0, "changes nothing: runs that must end alike")
 local noise = param("noise", 1e-9, "of the start, of a block's size")
@@ -30,7 +30,7 @@ ground_motion { wave = sine { amplitude = amplitude * g, frequency = 1.5 }, dire
 local top = "b" .. courses
 recorder { name = "top", quantity = "displacement", block = top }
 analysis { duration = 2.5, output_dt = 0.01, frame_dt = 0.1 }
--- The first 13 digits of the hash that are exact in a number.
+-- The last 12 hexadecimal digits of the hash, which a number holds exactly.
 local function fingerprint(run) return tonumber("0x" .. run.state_hash:gsub("[^%x]", ""):sub(-12)) end
 metric("collapse_time", "s", function(run) return run.collapse.time_s end)
 ensemble { n = 8, seed = 1, name = "time", value = function(run) return run.collapse.time_s end }
@@ -38,7 +38,7 @@ ensemble { n = 8, seed = 1, name = "place", value = function(run) return run.las
 ensemble { n = 3, seed = 1, name = "same", param = "again", value = fingerprint }
 expect("collapse.collapsed", true)
 expect("metrics.time_failed", 0, { abs = 0, source = "every run ends" })
--- The onset is before chaos: it scatters by less than a tenth of itself, while places differ by centimetres.
+-- The onset precedes chaos: its scatter is less than a tenth of it, while final positions differ by centimetres.
 expect("metrics.time_deviation", 0.1, { below = true, source = "statistics hold" })
 expect("metrics.same_deviation", 0, { abs = 0, source = "fixed summation order, no fast mathematics" })
 expect("metrics.place_deviation", 0, { above = true, source = "chaos: places differ" })

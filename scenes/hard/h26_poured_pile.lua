@@ -1,11 +1,12 @@
 -- Hard case: a poured pile comes to rest
 --
--- What happens   200 bricks fall in a heap from up to several metres, strike, slide, and lie down. What single bricks do not show a heap does: normals that
---                switch, friction that forgets, dashpots that pump. After ten seconds it lies still, from each of three starts.
--- Source         hard case 26; contact law: potential of the inner distance, friction of the patch, Hunt and Crossley's impact
+-- What happens   200 bricks fall from heights of up to several metres, hit each other, slide and come to rest. A heap shows errors that
+--                single bricks hide: normals that switch, friction without memory, dashpots that pump energy. After ten seconds the heap is
+--                still, from each of three starts.
+-- Source         hard case 26; contact law: potential of the inner distance, friction of the patch, impact law of Hunt and Crossley
 -- How to run     erbs run scenes/hard/h26_poured_pile.lua [-D seed=2] [-D pours=0: this start alone]
--- What to look at  median_speed (m/s), height_loss (of the height energy, per second, over the last second), max_penetration_relative,
---                energy.residual_relative; pours_most: worst of these over what is allowed, of the other starts
+-- What to look at  median_speed (m/s), height_loss (loss of potential energy over the last second, over what is left),
+--                max_penetration_relative, energy.residual_relative; pours_most: the worst of these over its limit, in the other starts
 local seed = param("seed", 1, "of the pour")
 local pours = param("pours", start_noise > 0 and 0 or 2, "other starts; noise makes one by itself")
 local n = param("bricks", 200, "")
@@ -41,7 +42,7 @@ local function median_speed(run)
   return speeds[(n + 1) // 2]
 end
 recorder { name = "all", quantity = "displacement", blocks = names, axis = "z" }
-local function height_loss(run)  -- of the height energy left, per second
+local function height_loss(run)  -- over the potential energy left, per second
   local fallen = run.at("all_uz_rel_m", duration) - run.at("all_uz_rel_m", duration - 1)
   return -fallen / (0.25 + 0.36 * (n / (per * per) - 1) / 2 + run.last("all_uz_rel_m"))
 end

@@ -1,11 +1,12 @@
--- Hard case: a heap of bricks sleeps, is woken by what falls on it, and by the ground
+-- Hard case: a heap of bricks sleeps; a falling brick and a ground motion wake it
 --
--- What happens   Bricks are poured and come to rest; with analysis{ sleep = true } they are then left alone. A brick whose tray is drawn away falls
---                among them and wakes those that it stirs. In the end the ground shakes, and none sleeps as long as it does.
--- Source         hard case 26; solve/sleep.h: bounds of 1e-6 sqrt(g L) on the speed and 1e-4 g on the acceleration of what falls asleep
+-- What happens   Bricks are poured and come to rest; with analysis{ sleep = true } they are then skipped by the step. A brick falls among
+--                them when its tray is drawn away, and wakes the bricks that it moves. In the end the ground shakes, and no brick sleeps
+--                while it does.
+-- Source         hard case 26; engine/solve/sleep.h: a brick falls asleep below a speed of 1e-6 sqrt(g L) and an acceleration of 1e-4 g
 -- How to run     erbs run scenes/hard/h26_sleeping_heap.lua [-D awake=1: without sleep] [-D bricks=100]
--- What to look at  asleep_* (share of the bricks whose speed is nothing at all), apart_* (m, the mean of all bricks with sleep and without),
---                energy.sleep_J, energy.residual_relative, log.txt: how many slept in the mean
+-- What to look at  asleep_* (share of bricks with a speed of exactly zero), apart_* (m, mean position of all bricks with sleep and
+--                without), energy.sleep_J, energy.residual_relative, log.txt: mean number of sleeping bricks
 local awake = param("awake", 0, "any other number: nothing sleeps")
 local n = param("bricks", 30, "poured")
 local drawn = param("drawn", 4, "[s] when the tray is drawn away")

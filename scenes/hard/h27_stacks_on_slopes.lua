@@ -1,8 +1,9 @@
--- Hard case: stacks of plates just below the limit of friction, each on a slope of its own
+-- Hard case: stacks of plates just below the friction limit, each on its own slope
 --
--- What happens   28 stacks of five plates stand on slopes at 0.985 of the friction limit, which fall towards all points of the compass, on joints from
---                soft to stiff. Along and across the plates Newton's method finds the equilibrium, askew friction leaves it none in one step
---                from nothing: those stacks come to rest in a damped ramp, while the others keep what they have. Then nothing may move.
+-- What happens   28 stacks of five plates stand on slopes at 0.985 of the friction limit. The slopes face all directions, and the joints
+--                are soft to stiff. Along and across the plates Newton's method finds the equilibrium. In oblique directions friction
+--                leaves no equilibrium that one step from zero can reach: a damped ramp brings these stacks to rest, while the others keep
+--                their state. Then nothing may move.
 -- Source         Coulomb: a stack below the limit stays
 -- How to run     erbs run scenes/hard/h27_stacks_on_slopes.lua [-D share=1.02] [-D past=9: that one alone slides]
 -- What to look at  drift, of the top plates over their size, 1/s, once what the start had disturbed has come to rest (0.2 s); moved, over their size, in all.

@@ -1,11 +1,11 @@
--- Hard case: what amplitude of a pulse overturns a block, all settings left as they are
+-- Hard case: pulse amplitude that overturns a block, with all settings at their defaults
 --
--- What happens   A block of .3 x 1 x 1 m stands on the ground on a dry joint of 5 GPa/m; half a sine of 1 Hz shakes it. Bisection finds the amplitude
---                that overturns it, without a word about step, gate or damping: every run must give an answer.
--- Source         Housner's equation, with the toe that a bed of no tension gives it: the weight W spreads over a = sqrt(2 W / (kn w theta)) of the
---                base (w its width across) and acts a / 3 from the edge. The toe costs 6 % of rigid_amplitude here, 1 % at 5e11 Pa/m.
+-- What happens   A block of 0.3 x 1 x 1 m stands on the ground on a dry joint of 5 GPa/m; half a sine of 1 Hz shakes it. Bisection finds
+--                the amplitude that overturns it. The scene sets neither step nor tolerance nor damping, and every run must give an answer.
+-- Source         Housner's equation with the toe of a bed without tension. The weight W spreads over a = sqrt(2 W / (kn w theta)) of the
+--                base (w: its width across) and acts a / 3 from the edge. The toe costs 6 % of rigid_amplitude here, 1 % at 5e11 Pa/m.
 -- How to run     erbs run scenes/hard/h28_overturning_by_default.lua [-D kn=5e11]
--- What to look at  amplitude over theory; amplitude_failed: runs without an answer
+-- What to look at  amplitude over theory; amplitude_failed: number of runs without an answer
 local B, H, kn, amp = 0.3, 1, param("kn", 5 * GPa), param("amp", 0.5, "[g]")
 local rho, frequency = 2400, 1 * Hz
 material { name = "stone", density = rho }
@@ -15,7 +15,7 @@ box { name = "block", size = { B, 1, H }, material = "stone" }
 ground_motion { wave = half_sine { amplitude = amp * g, frequency = frequency }, direction = "x" }
 
 local R, alpha = math.sqrt(B ^ 2 + H ^ 2) / 2, math.atan(B / H)
-local whole = 2 * rho * H * g / (kn * B)  -- rad, at which the pressed part of the base is all of it
+local whole = 2 * rho * H * g / (kn * B)  -- rad, rotation below which the whole base is in compression
 local function falls(a)
   local theta, rate, t, dt = 0, 0, 0, 2e-4
   while t < 4 do

@@ -1,11 +1,12 @@
--- Hard case: a block is toppled and comes down on its side
+-- Hard case: a block topples and lands on its side
 --
--- What happens   One lobe of a sine in the ground, or a table that tilts and comes back, turns a jointed block over its edge. It falls, its side
---                slams onto the ground within a step or two, and it comes to rest there.
--- Source         A rigid block that turns about its edge lifts its centre by half its diagonal less half its height at most; nothing may
---                throw it higher, and the blows may take energy only.
+-- What happens   One lobe of a sine in the ground, or a table that tilts and returns, turns a block on a joint over its edge. The block
+--                falls, its side hits the ground within a step or two, and it comes to rest there.
+-- Source         A rigid block that rotates about its edge lifts its centroid by half its diagonal less half its height at most. Nothing
+--                may throw it higher, and impacts may only take energy.
 -- How to run     erbs run scenes/hard/m01_toppling.lua [-D width=0.5] [-D height=2] [-D by=2] [-D kn=...]
--- What to look at  rise (over what the diagonal allows), speed at the end (m/s), reset (of what passed), energy.residual_relative.
+-- What to look at  rise (over half the diagonal less half the height), final speed (m/s), reset (share of the energy that passed),
+--                energy.residual_relative.
 local width, depth, height = param("width", 0.3, "[m]"), param("depth", 0.5, "[m]"), param("height", 1, "[m]")
 local kn, mu = param("kn", 5e9, "[Pa/m]"), param("mu", 0.6, "")
 local by = param("by", 1, "1: a half sine of the ground, 2: a tilting table")

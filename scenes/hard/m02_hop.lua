@@ -1,12 +1,13 @@
--- Hard case: the base drops away under a block faster than it can fall
+-- Hard case: the base drops away under a block faster than the block can fall
 --
--- What happens   A half sine of 1.2 g downwards, 50 ms long: while the base falls faster than g the block flies, then it lands and bounces out.
--- Source         They part where the base reaches g; from there on the block flies freely above it: v = A/w (cos w t1 - cos w t) - g (t - t1),
---                and the speed at which its bed expands then.
---                A dashpot of ratio z that cannot pull returns exp(-z / r (pi - atan2(2 z r, 1 - 2 z^2))) of the speed of a blow, r = sqrt(1 - z^2)
---                (Schwager and Poeschel 2007); a contact, which takes over from a joint that has opened wide, returns its restitution.
+-- What happens   The base moves by a half sine of 1.2 g downwards, 50 ms long. While it falls faster than g the block flies; then it lands
+--                and its bounces decay.
+-- Source         Block and base separate when the base reaches g. Then the block flies freely above it: v = A/w (cos w t1 - cos w t) - g (t
+--                - t1), plus the speed at which its bed expands at that moment. A dashpot of ratio z that cannot pull returns the share
+--                exp(-z / r (pi - atan2(2 z r, 1 - 2 z^2))) of the impact speed, r = sqrt(1 - z^2) (Schwager and Poeschel 2007). A contact,
+--                which takes over from a joint that has opened wide, returns its restitution.
 -- How to run     erbs run scenes/hard/m02_hop.lua [-D kn=...] [-D height=...] [-D amplitude=2*g]
--- What to look at  hop (over the free flight's), rebound (over the hop), returned (of the speed of the first blow).
+-- What to look at  hop (over that of the free flight), rebound (over the hop), returned (share of the speed of the first impact).
 label("quick")
 local kn = param("kn", 1e11, "[Pa/m]")
 local length, height = param("length", 0.4, "[m]"), param("height", 0.05, "[m]")
@@ -15,12 +16,12 @@ local ratio = param("ratio", 0.1, "of the dashpot of the joint")
 family({ kn = { 1e9, 1e10, 1e12 }, length = { 0.1, 2 }, height = { 0.02, 0.3, 1 }, amplitude = { 1.5 * g, 2 * g, 3 * g },
   ratio = { 0.05, 0.3 } }, { combinations = 8 })
 local frequency, density = 10, 2000
-local settled = density * g * height / kn  -- m, and what lifts it into flight
+local settled = density * g * height / kn  -- m, settlement of the block; its release starts the flight
 local w = 2 * pi * frequency
 if amplitude <= g then error("amplitude must be above g, or nothing parts", 0) end
 
 local t1, over = math.asin(g / amplitude) / w, pi / w
-local release = settled * amplitude / g * w * math.cos(w * t1)  -- m/s, of the bed's spring as the last of the weight leaves it
+local release = settled * amplitude / g * w * math.cos(w * t1)  -- m/s, of the expanding bed when the last of the weight leaves it
 local function flight(t)  -- height and speed above the base
   local s = math.min(t, over)
   local v = release + amplitude / w * (math.cos(w * t1) - math.cos(w * s)) - g * (s - t1)
@@ -54,7 +55,7 @@ local function highest(run, from, to)
   end
   return most
 end
-local again = 2 * math.abs(speed) / g  -- s, of a flight that starts as fast as this one ends
+local again = 2 * math.abs(speed) / g  -- s, duration of a flight that starts as fast as this one ends
 local function rebound(run) return highest(run, lands + 0.1 * (lands - t1), lands + again) end
 metric("hop", "", function(run) return highest(run, 0, lands) / hop end)
 metric("rebound", "", function(run) return rebound(run) / hop end)

@@ -1,10 +1,10 @@
 -- Hard case: a slender column falls over and lands flat
 --
--- What happens   A half sine of the ground sends a column on a dry joint over. Its whole side meets the ground at once, hundreds of times as
---                stiff as the edge it turned about, and much faster at its far end.
--- Source         m01_toppling, where the blow is gentler: it ends flat, at rest, and nothing is made.
+-- What happens   A half sine of the ground overturns a column on a dry joint. Its whole side hits the ground at once; this contact is
+--                hundreds of times stiffer than the edge about which the column turned, and its far end is much faster.
+-- Source         as m01_toppling, with a harder impact: the column ends flat and at rest, and no energy is created.
 -- How to run     erbs run scenes/hard/m03_falls_flat.lua [-D width=1 -D height=4] [-D width=0.05 -D height=0.3] [-D kn=...]
--- What to look at  lies (height of the centre over half the width), speed at the end, reset, energy.residual_relative.
+-- What to look at  lies (height of the centroid over half the width), final speed, reset, energy.residual_relative.
 local width, depth, height = param("width", 0.3, "[m]"), param("depth", 1, "[m]"), param("height", 3, "[m]")
 local kn = param("kn", 5e9, "[Pa/m]")
 local amplitude = param("amplitude", 3, "of g tan alpha")

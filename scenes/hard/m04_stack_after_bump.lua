@@ -1,8 +1,8 @@
 -- Hard case: a stack on a slope comes to rest after a bump
 --
--- What happens   Plates lie on a slope below the angle of friction. One half sine makes them hop; then each bed opens a little in every cycle
---                of the stack's own swing. A law that slides a little in every such hop lets the stack creep down for ever.
--- Source         Below the angle of friction a stack that has been shaken comes to rest; v06_creep for what was never shaken.
+-- What happens   Plates lie on a slope below the angle of friction. One half sine makes them hop; then each bed opens a little in every
+--                cycle of the stack's vibration. A law that slides a little in every such hop lets the stack creep down for ever.
+-- Source         Below the angle of friction a stack comes to rest after a shake; v06_creep has the stack that was never shaken.
 -- How to run     erbs run scenes/hard/m04_stack_after_bump.lua [-D plates=40] [-D share=0.9] [-D up=0] [-D start=3]
 -- What to look at  drift (of the length, per second, in the last half second; 0: all have come to rest, or swing to rest about a place that stays), gone (m, way down the slope), energy.residual_relative.
 label("quick")

@@ -1,7 +1,8 @@
 -- Hard case: a dry arch comes to rest after a bump
 --
--- What happens   The abutments of a round dry arch drop for 50 ms. Its voussoirs part, hop and settle; then nothing moves any more.
--- Source         An arch thicker than .1075 of its radius stands under its own weight (Milankovitch); below the angle of friction joints stick.
+-- What happens   The abutments of a round dry arch drop for 50 ms. Its voussoirs separate, hop and settle; then nothing moves any more.
+-- Source         An arch thicker than 0.1075 of its radius stands under its own weight (Milankovitch); below the angle of friction joints
+--                stick.
 -- How to run     erbs run scenes/hard/m05_arch_after_bump.lua [-D voussoirs=21] [-D thickness=0.3] [-D kn=...] [-D sideways=1]
 -- What to look at  drift (of the radius, per second, in the last half second; 0: all have come to rest, or swing to rest about a place that stays), sag of the crown (m), energy.residual_relative.
 local voussoirs, radius, thickness = param("voussoirs", 11, ""), param("radius", 1, "[m]"), param("thickness", 0.2, "of the radius")

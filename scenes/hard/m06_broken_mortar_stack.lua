@@ -1,7 +1,7 @@
--- Hard case: a stack whose mortar breaks at a bump comes to rest
+-- Hard case: a stack whose mortar breaks in a bump comes to rest
 --
--- What happens   Bricks in weak mortar stand on a slope. A bump breaks every bed; what is left is friction, and the stack comes to rest on it.
--- Source         m04_stack_after_bump, where nothing was bonded: a joint that broke sticks as a dry one does.
+-- What happens   Bricks in weak mortar stand on a slope. A bump breaks every bed; only friction is left, and the stack comes to rest on it.
+-- Source         as m04_stack_after_bump without mortar: a broken joint sticks like a dry one.
 -- How to run     erbs run scenes/hard/m06_broken_mortar_stack.lua [-D bricks=9 -D share=0.2] [-D Gf=0.01] [-D kn=...]
 -- What to look at  broken (share of the beds), drift (of the length, per second, in the last half second; 0: all have come to rest, or swing to rest about a place that stays), energy.residual_relative.
 local bricks, share, mu = param("bricks", 6, ""), param("share", 0.3, "of the angle of friction"), param("mu", 0.7, "")

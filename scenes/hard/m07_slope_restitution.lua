@@ -1,17 +1,17 @@
--- Hard case: blocks of many sizes fall flat on a slope and bounce off it as much as was asked for
+-- Hard case: blocks of many sizes fall flat on a slope and rebound with the given restitution
 --
--- What happens   Blocks without joints, parallel to a smooth slope, fall on it from a little above, at the step that is taken where a scene says
---                nothing. Across the slope they leave with .3 of the speed they came with, along it with all of it.
--- Source         Newton's restitution; v22_restitution_at_the_step for level ground.
+-- What happens   Blocks without joints, parallel to a smooth slope, fall on it from a small height, at the default time step. Normal to the
+--                slope they rebound with 0.3 of their speed; along it they keep all of it.
+-- Source         Newton's restitution; v22_restitution_at_the_step has level ground.
 -- How to run     erbs run scenes/hard/m07_slope_restitution.lua [-D slope=40*deg] [-D kn=...] [-D restitution=0.5] [-D drop=1]
--- What to look at  normal_I: speed after over speed before, of the block of size I; along_I.
+-- What to look at  normal_I: speed after over speed before the impact, of the block of size I; along_I.
 label("quick")
 local slope, drop = param("slope", 25 * deg, "[rad]"), param("drop", 0.1, "way of the fall across the slope [m]")
 local kn, restitution = param("kn", 5e10, "[Pa/m]"), param("restitution", 0.3, "")
 family({ slope = { 5 * deg, 45 * deg }, drop = { 0.01, 1 }, kn = { 1e9, 1e10, 1e12 }, restitution = { 0.1, 0.5, 0.8 } }, { combinations = 6 })
 local sizes = { { 0.1, 0.1, 0.05 }, { 0.3, 0.15, 0.08 }, { 0.6, 0.3, 0.3 }, { 0.4, 0.2, 0.02 }, { 0.2, 0.2, 0.6 } }
 material { name = "stone", density = 2000, kn = kn, ks = 0.4 * kn, friction = 0, restitution = restitution }
--- Turned gravity is a turned slope, and z then is its normal.
+-- Gravity is rotated instead of the slope, so that z is the normal of the slope.
 gravity { g * math.sin(slope), 0, -g * math.cos(slope) }
 local fall = g * math.cos(slope)
 local hit = math.sqrt(2 * drop / fall)
@@ -22,7 +22,7 @@ for i, size in ipairs(sizes) do
   recorder { name = "block" .. i, quantity = "velocity", block = "block" .. i }
   metric("normal_" .. i, "", function(run) return (run.at("block" .. i .. "_vz_rel_m_s", after) + fall * (after - hit)) / (fall * hit) end)
   metric("along_" .. i, "", function(run) return run.at("block" .. i .. "_vx_rel_m_s", after) / (g * math.sin(slope) * after) end)
-  -- the weight presses on while the blow lasts
+  -- the weight acts during the impact
   local weight = fall / (fall * hit * math.sqrt(kn / (2000 * size[3])))
   expect("metrics.normal_" .. i, restitution, { abs = 0.03 * restitution + 5 * weight, source = "Newton's restitution" })
   expect("metrics.along_" .. i, 1, { rel = 1e-6, source = "a smooth slope" })

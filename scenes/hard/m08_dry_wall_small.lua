@@ -1,10 +1,11 @@
--- Hard case: a small dry wall shaken across its plane, and its mirrored and turned copies
+-- Hard case: a small dry wall shaken across its plane, with mirrored and rotated copies
 --
--- What happens   Some 60 bricks without mortar rock under a few cycles of the base across the wall. The same wall mirrored, or turned in plan
---                together with what shakes it, is the same wall: one verdict for all.
--- Source         No direction is special (v26_objectivity, for what does not crack).
+-- What happens   About 60 dry bricks rock while the base moves across the wall for a few cycles. A copy that is mirrored, or rotated in
+--                plan together with its ground motion, is the same wall: all copies must get one verdict.
+-- Source         No direction is special (v26_objectivity, for structures that do not crack).
 -- How to run     erbs run scenes/hard/m08_dry_wall_small.lua [-D copy=3] [-D pga=0.5*g] [-D kn=...]
--- What to look at  verdicts_least, verdicts_most (1: it falls), bow (m, farthest way of the middle of the top), energy.residual_relative.
+-- What to look at  verdicts_least, verdicts_most (1: it falls), bow (m, largest displacement of the middle of the top),
+--                energy.residual_relative.
 local copy = param("copy", 1, "1 as it is, 2 mirrored, 3 turned by a quarter, 4 by 37 degrees, 5 by half")
 local pga, frequency = param("pga", 0.3 * g, "[m/s2]"), param("frequency", 2, "[Hz]")
 local kn, mu = param("kn", 5e9, "[Pa/m]"), param("mu", 0.6, "")

@@ -1,16 +1,16 @@
--- Hard case: small structures drawn by chance, shaken once and then left alone
+-- Hard case: small random structures, shaken once and then left alone
 --
--- What happens   A seed draws a stack on a slope, a pier, an arch, a corbel, a wall or a portal of up to 60 blocks, dry or in mortar that may
---                crack, and a bump or a few cycles of the base in any direction. Then nothing moves any more but the structure itself.
--- Source         No paper is needed: energy is neither made nor lost, friction and dashpots only take, blocks do not sink into each other,
---                momentum is kept, and what neither fell nor still rocks has come to rest.
+-- What happens   A seed draws a stack on a slope, a pier, an arch, a corbel, a wall or a portal of up to 60 blocks, dry or in mortar that
+--                may crack. A bump or a few cycles of the base shake it in any direction. After that nothing acts on the structure.
+-- Source         No paper is needed. Energy is neither created nor lost; friction and dashpots only take energy; blocks do not sink into
+--                each other; momentum is conserved; a structure that neither fell nor still rocks has come to rest.
 -- How to run     erbs run scenes/hard/random_structures.lua -D seed=17 [-D kind=3] [-D duration=5]
 --                erbs test scenes/hard/random_structures.lua --seeds 500
--- What to look at  drift (m/s, of the block that walks fastest and does not come to rest, swings cancelled out; -1 where blocks fell or still rock), made
---                (energy in the end over what base and gravity gave, at most), taken (least of what friction, cracks, dashpots and contacts made anew took), reset,
---                max_penetration_relative, energy.residual_relative.
--- Measure        Still rocks: the widest joint opens and closes by more than 20 um within a quarter of a second of the last two thirds of the
---                wait. Comes to rest: it walks less than half as fast in the last third of the wait as in the one before.
+-- What to look at  drift (m/s, of the fastest block that does not come to rest, without vibration; -1 if blocks fell or still rock), made
+--                (final energy over the largest supply by base and gravity), taken (least energy taken by friction, cracks, dashpots and
+--                contacts made anew), reset, max_penetration_relative, energy.residual_relative.
+-- Measure        "Still rocks": the widest joint opens and closes by more than 20 um within a quarter of a second, in the last two thirds
+--                of the wait. "Comes to rest": in the last third of the wait a block walks less than half as fast as in the third before.
 local seed = param("seed", 1, "of the draw")
 local kind = param("kind", 0, "1 stack, 2 pier, 3 arch, 4 corbel, 5 wall, 6 portal; 0: drawn")
 local wait = param("wait", 12, "after the shaking [s]")
@@ -18,7 +18,7 @@ local kn_given = param("kn", 0, "0: drawn [Pa/m]")
 local still = 20e-6  -- m
 local drift_most = 1e-5  -- m/s
 
--- splitmix64: neighbouring seeds have nothing in common
+-- splitmix64: neighbouring seeds are independent
 local state = seed * 0x632be59bd9b4e019
 local function uniform(lo, hi)
   state = state + 0x9e3779b97f4a7c15
@@ -40,7 +40,7 @@ local mu = uniform(0.3, 1)
 local density = uniform(1600, 2600)
 material { name = "brick", density = density, friction = mu, kn = math.min(kn, 5e10), ks = 0.4 * math.min(kn, 5e10) }
 
--- Every builder leaves its blocks' names here.
+-- Every builder leaves the names of its blocks here.
 local blocks, height, volume = {}, 0, 0
 local function lay(name, size, center)
   box { name = name, group = "s", size = size, center = center, material = "brick" }
@@ -51,7 +51,7 @@ local function base(lx, ly) box { name = "base", group = "base", size = { lx, ly
 
 local slope = 0
 local builders = {
-  function()  -- a stack of plates, none quite like the next, on a slope that would hold it
+  function()  -- a stack of plates of random size, on a slope that would hold it
     local n, l, d, h = whole(1, 12), uniform(0.2, 0.8), uniform(0.15, 0.5), uniform(0.05, 0.25)
     slope = math.min(uniform(0, 0.9) * math.atan(mu), math.atan(0.5 * l / (n * h)))
     transform { rotation = { 0, slope, 0 }, function()
@@ -64,7 +64,7 @@ local builders = {
       end
     end }
   end,
-  function()  -- a pier of two bricks a course, laid across each other
+  function()  -- a pier with two bricks per course, at right angles to the course below
     local courses, l, h = whole(2, 9), uniform(0.2, 0.5), uniform(0.06, 0.2)
     base(3 * l, 3 * l)
     for c = 1, courses do
@@ -80,9 +80,9 @@ local builders = {
     local thick, wide = radius * uniform(0.16, 0.35), uniform(0.2, 0.5)
     local made = arch { name = "a", radius = radius, thickness = thick, width = wide, voussoirs = whole(5, 17),
       embrace = uniform(100, 180) * deg, material = "brick" }
-    blocks, height, volume = made.blocks, 1.3 * radius, 2.4 * radius * thick * wide  -- of 100 to 180 degrees
+    blocks, height, volume = made.blocks, 1.3 * radius, 2.4 * radius * thick * wide  -- for an embrace of 100 to 180 degrees
   end,
-  function()  -- a stack that leans out, by a share of the harmonic series
+  function()  -- a corbelled stack that leans out by a share of the harmonic series
     local n, l, d, h, share = whole(2, 9), uniform(0.3, 0.8), uniform(0.15, 0.4), uniform(0.06, 0.15), uniform(0.2, 0.8)
     base(4 * l, 2 * d)
     local x = 0
@@ -116,7 +116,7 @@ local builders = {
 }
 builders[kind]()
 
--- Mortar that a bump may crack: its strength lies about the stresses the structure meets.
+-- Mortar that a bump may crack: its strength is of the order of the stresses in the structure.
 local cracks = chance(0.3)
 local law
 if cracks then
@@ -129,7 +129,7 @@ end
 joint { law = law }
 
 local heading, up, over = uniform(0, 2 * pi), uniform(-1, 1), nil
-if chance(0.5) then  -- a bump, in any direction
+if chance(0.5) then  -- a bump in any direction
   local flat = math.sqrt(1 - up ^ 2)
   local frequency = log_uniform(4, 25)
   over = 0.05 + 0.5 / frequency
@@ -148,7 +148,7 @@ local function after(t, times)
 end
 local function fell(run) return run.collapse.collapsed or run.collapse.fallen_fraction > 0 end
 metric("fell", "", function(run) return fell(run) and 1 or 0 end)
-local function swing(run)  -- of the widest joint, in any quarter of a second of those in which blocks are looked at for walking
+local function swing(run)  -- of the widest joint, within any quarter of a second of the time in which blocks are checked for walking
   local opening, times, most = run.history "all_opening_m", run.time, 0
   local from = after(times[#times] - 2 / 3 * wait, times)
   while from <= #times do
@@ -162,7 +162,7 @@ local function swing(run)  -- of the widest joint, in any quarter of a second of
 end
 metric("swing", "m", swing)
 local walk = include "parts/walk.lua"
--- Of the block that walks fastest, of all or of those that do not come to rest.
+-- Speed of the block that walks fastest, of all blocks or of the ones that do not come to rest.
 local function drift(run, of_all)
   local most = 0
   for _, name in ipairs(blocks) do
@@ -178,8 +178,8 @@ local function passed(run)
   return math.abs(e.base_work_J) + math.abs(e.gravity_J) + math.abs(e.friction_J) + math.abs(e.damping_J) + math.abs(e.contact_damping_J) + 1e-12
 end
 metric("reset", "", function(run) return math.abs(run.energy.reset_J) / passed(run) end)
--- Of what passed, and at least of what lifts all blocks by a thousandth of the height. At a start in equilibrium the energy stored by then makes
--- it less than it is.
+-- Relative to the energy that passed, at least to the energy that lifts all blocks by a thousandth of the height. At a start in equilibrium
+-- the elastic energy stored by then makes `made` smaller than it is.
 local lifted = 1e-3 * volume * density * g * height
 metric("made", "", function(run)
   local e = run.energy

@@ -1,13 +1,13 @@
--- Each word that moves a block, against an integral on paper
+-- Every function that moves a block, against an integral on paper
 --
--- What happens   Cubes of 1 kg float far apart without weight. Each is pushed by one kind of wave, from any phase, or turned, driven or
---                thrown; after one second its velocity is the impulse over its mass.
--- Source         v = Int F dt / m; a cube of side a turns with m a^2 / 6.
+-- What happens   Cubes of 1 kg float far apart without weight. Each is pushed by one kind of wave at any phase, or rotated, moved or
+--                thrown. After one second its velocity is the impulse over its mass.
+-- Source         v = int F dt / m; a cube of side a rotates with the inertia m a^2 / 6.
 -- How to run     erbs run scenes/verify/l01_loads_on_free_blocks.lua
--- What to look at  metrics.json: one metric a word.
--- Tolerance      1e-9: the mean of each force over a step is taken exactly. A velocity written while the force still changes errs by
---                F' dt^2 / (8 m), and a Lua function is sampled every millisecond: 2e-6 m/s for 3 t^2. The midpoint rule turns by
---                (w dt)^2 / 12 too little: 6.7e-7 of 2 rad.
+-- What to look at  metrics.json: one metric per function.
+-- Tolerance      1e-9: the mean of each force over a step is exact. While the force still changes, the recorded velocity errs by F' dt^2 /
+--                (8 m). A Lua function is sampled every millisecond: 2e-6 m/s for 3 t^2. The midpoint rule rotates by the share (w dt)^2 /
+--                12 too little: 6.7e-7 of 2 rad.
 label("quick")
 material { name = "unit", density = 1000 }
 gravity(0)

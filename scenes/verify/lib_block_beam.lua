@@ -1,9 +1,11 @@
--- A chain of rigid blocks on elastic joints as a beam: its exact natural frequencies and shapes by transfer matrices. No case by itself.
+-- A chain of rigid blocks on elastic joints as a beam: its exact natural frequencies and mode shapes by transfer matrices. Included by
+-- other scenes.
 --
--- beam{ n, length, height, width, E, nu, density, base, ends, ratio } with `height` the side in bending, `base` the factor on the stiffness of the
--- joints at the supports (2: half the tributary length), `ratio` rotational stiffness over kn B H^3 / 12, ends = "cantilever" |
--- "pinned" returns kn, ks, d, mass, frequency(i) in rad/s and shape(w): { u, turn } of each centroid.
--- State at a section: displacement u, turn th (u' = th), shear V, moment M. A rigid block of mass m and inertia J: V' = V - m w^2 u_c,
+-- beam{ n, length, height, width, E, nu, density, base, ends, ratio }: `height` is the side in bending; `base` multiplies the stiffness of
+-- the joints at the supports (2: half the tributary length); `ratio` is the rotational stiffness over kn B H^3 / 12; ends = "cantilever" |
+-- "pinned". Returns kn, ks, d, mass, frequency(i) in rad/s and shape(w): { u, turn } of each centroid.
+--
+-- State at a section: displacement u, rotation th (u' = th), shear V, moment M. A rigid block of mass m and inertia J: V' = V - m w^2 u_c,
 -- M' = M - J w^2 th - d/2 (V + V'). A joint: jumps V / Ks and M / Kt. Pestel and Leckie 1963, Matrix Methods in Elastomechanics, ch. 3.
 function beam(o)
   local b = { n = o.n, d = o.length / o.n, ratio = o.ratio or 1 }
@@ -12,7 +14,7 @@ function beam(o)
   local inertia = b.mass * (o.height ^ 2 + b.d ^ 2) / 12
   local Ks, Kt = b.ks * o.width * o.height, b.ratio * b.kn * o.width * o.height ^ 3 / 12
   local pinned, base = o.ends == "pinned", o.base or 2
-  -- Carries a state from support to support; `visit` is given each block's centroid.
+  -- Carries a state from support to support; `visit` receives the centroid of each block.
   local function carry(w, u, th, V, M, visit)
     u = u + V / (base * Ks)
     if not pinned then th = th + M / (base * Kt) end
@@ -27,7 +29,7 @@ function beam(o)
     if pinned then u = u + V / (base * Ks) end
     return u, th, V, M
   end
-  -- Two states that meet the first support, what is left of them at the other end: a 2 x 2 determinant.
+  -- Two states that satisfy the first support, and their violation of the conditions at the other end: a 2 x 2 determinant.
   local function ends(w)
     local u1, _, V1, M1 = carry(w, 0, pinned and 1 or 0, pinned and 0 or 1, 0)
     local u2, _, V2, M2 = carry(w, 0, 0, pinned and 1 or 0, pinned and 0 or 1)

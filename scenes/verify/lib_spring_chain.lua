@@ -1,8 +1,8 @@
--- A chain of n cubes joined by springs, without gravity: what the cases of the sequential scheme (V20, V20b) share. No case by itself.
+-- A chain of n cubes joined by springs, without gravity, for the cases of the sequential scheme (V20, V20b). Included by other scenes.
 --
--- spring_chain{ n, share, free, first_mode, drift, speed } makes the blocks b1..bn along x, held between two fixed cubes unless `free`,
--- and returns mass, k, tau = sqrt(m / k), dt = share * 2 / omega_max, block_w2 = K_ii / m of an inner block and energy(run, row).
--- Only the springs along x carry anything: the shear stiffness is a tenth, so that no other mode sets the step.
+-- spring_chain{ n, share, free, first_mode, drift, speed } makes the blocks b1..bn along x, between two fixed cubes unless `free`. Returns
+-- mass, k, tau = sqrt(m / k), dt = share * 2 / omega_max, block_w2 = K_ii / m of an inner block and energy(run, row). Only the springs
+-- along x carry load: the shear stiffness is a tenth, so that no other mode sets the step.
 function spring_chain(o)
   local a, density, kn = o.side or 0.1, o.density or 2000, o.kn or 1e9
   local chain = { n = o.n, mass = density * a ^ 3, k = kn * a * a }
@@ -28,7 +28,7 @@ function spring_chain(o)
     recorder { name = "b" .. i, quantity = "velocity", block = "b" .. i, axis = "x" }
     recorder { name = "b" .. i, quantity = "displacement", block = "b" .. i, axis = "x" }
   end
-  -- Kinetic energy and that of the springs at a row of histories.csv.
+  -- Kinetic energy and elastic energy at a row of histories.csv.
   function chain.energy(run, row)
     local sum, before = 0, o.free and run.history("b1_ux_rel_m")[row] or 0
     for i = 1, o.n do
@@ -38,21 +38,21 @@ function spring_chain(o)
     end
     return sum + (o.free and 0 or chain.k * before ^ 2 / 2)
   end
-  -- Rate at which the amplitude grows over the second half of the rows, times tau.
+  -- Growth rate of the amplitude over the second half of the rows, times tau.
   function chain.growth(run)
     local last_row = #run.time
     local middle = (last_row + 1) // 2
     return chain.tau * math.log(chain.energy(run, last_row) / chain.energy(run, middle)) / 2 / (run.time[last_row] - run.time[middle])
   end
-  -- Exact growth rate (times tau) of the literal sweep in a fixed order, ends held. With z the factor of a step, s^2 = z and
-  -- h = dt / tau, a = c dt of centred damping, the tridiagonal sweep has the eigenvalues (1 + a/2) z - 2 + (1 - a/2) / z
-  -- + 2 h^2 (1 - s cos(j pi / (n + 1))) = 0 (as Young's of successive over-relaxation, 1954, Trans. AMS 76, 92): a quartic in s.
+  -- Exact growth rate (times tau) of the literal sweep in a fixed order, ends held. Let z be the factor of a step, s^2 = z, h = dt / tau,
+  -- and a = c dt of centred damping. The tridiagonal sweep has the eigenvalue equation (1 + a/2) z - 2 + (1 - a/2) / z + 2 h^2 (1 - s cos(j
+  -- pi / (n + 1))) = 0, a quartic in s (compare Young's equation of successive over-relaxation, 1954, Trans. AMS 76, 92).
   function chain.exact_growth(c, dt)
     dt = dt or chain.dt
     local h, damped, largest = dt / chain.tau, (c or 0) * dt, 0
     for j = 1, o.n do
       local p = { 1 + damped / 2, -2 * h * h * math.cos(j * pi / (o.n + 1)), 2 * h * h - 2, 0, 1 - damped / 2 }
-      local zr, zi = { 1, 0.4, -0.65, -0.62 }, { 0, 0.9, 0.72, -0.3 }  -- Durand and Kerner's iteration, complex by hand
+      local zr, zi = { 1, 0.4, -0.65, -0.62 }, { 0, 0.9, 0.72, -0.3 }  -- iteration of Durand and Kerner, complex by hand
       for _ = 1, 200 do
         for i = 1, 4 do
           local vr, vi, dr, di = 0, 0, p[1], 0

@@ -1,8 +1,9 @@
--- R01, a regression: a small wall of bricks on mortar under two seconds of El Centro (time factor 0.707, so that its peak is among them), in its plane.
+-- R01, a regression: a small wall of bricks on mortar under El Centro in its plane.
 --
--- What happens   Ten courses in running bond, free at the top, are shaken along their plane hard enough to crack a few joints and not hard
---                enough to fall. Nothing here has a closed form: the expected numbers come from a run of this scene and hold the
---                program to itself; kernel = "reference" must give the same: r01_small_wall_reference.lua.
+-- What happens   Ten courses in running bond, free at the top, are shaken along their plane for two seconds; the time factor 0.707 brings
+--                the peak of the record into them. The shaking cracks a few joints and does not overturn the wall. Nothing here has a
+--                closed form: the expected numbers come from a run of this scene. kernel = "reference" must give the same numbers:
+--                r01_small_wall_reference.lua.
 -- How to run     erbs run scenes/verify/r01_small_wall_record.lua [-D reference=1] [-D pga=0.8*g]
 -- What to look at  drift_peak, base_shear_peak_of_weight, joints_broken; the same with -D reference=1.
 label("quick")
@@ -42,8 +43,8 @@ metric("base_shear_peak_of_weight", "", function(run) return run.peak("base_fx_N
 metric("damage_end", "", function(run) return run.last("wall_damage") end)
 metric("first_crack_s", "s", function(run) return run.first_crack and run.first_crack.time end)
 
--- A regression, from a run of the fast kernel. Round-off reaches the numbers through its cracks, the
--- peak shear being one sample of a swing at the joints' own frequency.
+-- A regression, from a run of the fast kernel. Round-off changes the numbers through the cracks: the peak shear is one sample of a
+-- vibration at the joints' own frequency.
 expect("metrics.bricks", 45, { abs = 0, source = "regression" })
 expect("metrics.drift_peak", 2.184e-5, { rel = 0.01, source = "regression" })
 expect("metrics.base_shear_peak_of_weight", 0.79257, { rel = 0.04, source = "regression" })

@@ -1,10 +1,10 @@
--- V01: blocks of different mass, size and height fall freely, one of them thrown upwards and sideways.
+-- V01: free fall of blocks of different mass, size and height; one of them is thrown upwards and sideways.
 --
--- What happens   Nothing acts but gravity. The leapfrog starts with half a kick, so that z(t) = h0 + v0 t - g t^2 / 2 holds at every
---                step for any dt; symplectic Euler would be off by g t dt / 2 (4.9 mm after 1 s at dt = 1 ms).
+-- What happens   Only gravity acts. Leapfrog starts with half a kick, so z(t) = h0 + v0 t - g t^2 / 2 holds at every step for any dt.
+--                Symplectic Euler would be off by g t dt / 2 (4.9 mm after 1 s at dt = 1 ms).
 -- Source         Hairer, Lubich and Wanner 2003, Acta Numerica 12, section 1: kick-drift-kick is exact for a constant force.
 -- How to run     erbs run scenes/verify/v01_free_fall.lua [-D dt=1e-4] [-D h0=50] [-D size=2]
--- What to look at  metrics worst_relative_error (over all blocks and all rows), and the energy residual.
+-- What to look at  worst_relative_error (over all blocks and all rows), and the energy residual.
 label("quick")
 local dt = param("dt", 1e-3, "time step [s]")
 local fine = param("fine", 0, "above 0: a tenth of the step")
@@ -52,9 +52,9 @@ ensemble { n = 1, seed = 1, param = "fine", name = "fine", value = worst_error }
 metric("fallen_m", "m", function(run) return -run.last("block1_uz_rel_m") end)
 metric("end_time_s", "s", function(run) return run.time[#run.time] end)
 
--- Round-off only: n sums of eps each, n = fall_time / dt steps.
+-- Only round-off: n sums of eps each, n = fall_time / dt steps.
 expect("metrics.worst_relative_error", 1e-12, { below = true, source = "h0 + v0 t - g t^2 / 2" })
 expect("metrics.fine_most", 1e-11, { below = true, source = "the same at a tenth of the step: ten times the round-off" })
--- The run ends at a whole step; dt must divide the time of the fall for this line.
+-- The run ends at a whole step; here dt must divide the time of the fall.
 expect("metrics.fallen_m", acceleration * fall_time ^ 2 / 2, { rel = 1e-12 * math.max(1, 1e-3 / dt), source = "g t^2 / 2" })
 expect("energy.residual_relative", 1e-12, { below = true, source = "a constant force: the ledger's identity is exact" })

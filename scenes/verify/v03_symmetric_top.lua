@@ -1,10 +1,10 @@
 -- V03: torque-free spin of symmetric blocks, slender and flat.
 --
--- What happens   The spin of a symmetric body precesses about its own axis at (I3 - I1) w3 / I1 (body axes), and the axis about the
---                angular momentum at L / I1 (world axes).
+-- What happens   The spin of a symmetric body precesses about the body's own axis at (I3 - I1) w3 / I1 (body axes). The axis precesses
+--                about the angular momentum at L / I1 (world axes).
 -- Source         Euler's equations, e.g. Goldstein, Classical Mechanics, section 5.6.
 -- How to run     erbs run scenes/verify/v03_symmetric_top.lua [-D dt=...] [-D slender=5] [-D spin=20]
--- What to look at  metrics body_rate_error_* and axis_rate_error_* over `turns` turns.
+-- What to look at  body_rate_error_* and axis_rate_error_* over `turns` turns.
 label("quick")
 local spin = param("spin", 10, "about the body's axis [rad/s]")
 local across = param("across", 3, "across the axis [rad/s]")
@@ -28,7 +28,7 @@ for name, top in pairs(tops) do
   recorder { name = name, quantity = "spin", block = name }
   recorder { name = name, quantity = "rotation", block = name }
 end
--- Rows close enough that no phase turns by more than a right angle between them.
+-- Rows close enough that no phase advances by more than a right angle between them.
 local fastest = math.max(tops.slender.axis_rate, tops.flat.axis_rate, spin)
 local duration = turns * 2 * pi / slowest
 analysis { duration = duration, dt = dt, start = "rest", output_dt = math.max(dt, 0.2 / fastest) }
@@ -80,7 +80,7 @@ for name, top in pairs(tops) do
       return math.atan(axis[2], axis[1] * ex - axis[3] * ez) * sign
     end, top.axis_rate) / top.axis_rate - 1
   end)
-  -- (w dt)^2 / 12 of the implicit midpoint, 1.5e-7 at w dt = 1.5e-3, and the rows' own round-off.
+  -- (w dt)^2 / 12 of the implicit midpoint rule, 1.5e-7 at w dt = 1.5e-3, and the round-off of the rows.
   expect("metrics.body_rate_error_" .. name, 0, { abs = 1e-6, source = "(I3 - I1) w3 / I1" })
   expect("metrics.axis_rate_error_" .. name, 0, { abs = 1e-6, source = "L / I1" })
 end

@@ -1,11 +1,11 @@
--- V04: a brick spun about its middle axis turns over again and again.
+-- V04: a brick that spins about its middle axis flips again and again.
 --
--- What happens   The spin about the middle axis is unstable: its sign flips every half period 2 K(k) / lambda. Without the gyroscopic
---                term (the scalar Euler equation of Gu and Miao, eq. (1)) it never would: v04_without_gyroscopic.lua.
--- Source         Jacobi's solution of Euler's equations, Landau and Lifshitz, Mechanics, section 37; K and F from Carlson's R_F
---                (Carlson 1979, Numer. Math. 33, 1).
+-- What happens   Spin about the middle axis is unstable: its sign flips every half period 2 K(k) / lambda. Without the gyroscopic term (the
+--                scalar Euler equation of Gu and Miao, eq. (1)) it never flips: v04_without_gyroscopic.lua.
+-- Source         Jacobi's solution of Euler's equations, Landau and Lifshitz, Mechanics, section 37; K and F from Carlson's R_F (Carlson
+--                1979, Numer. Math. 33, 1).
 -- How to run     erbs run scenes/verify/v04_dzhanibekov.lua [-D flips=200] [-D spin=5] [-D dt=...]
--- What to look at  first_flip_s and half_period_s beside the formula, flips counted, the energy residual.
+-- What to look at  first_flip_s and half_period_s beside the formula, number of flips, energy residual.
 label("quick")
 local length, width, height = param("length", 0.30, "[m]"), param("width", 0.125, "[m]"), param("height", 0.10, "[m]")
 local density = param("density", 1900, "[kg/m3]")
@@ -25,33 +25,34 @@ local function rf(x, y, z)  -- Carlson's R_F by duplication
   end
   return 1 / math.sqrt((x + y + z) / 3)
 end
--- Axes 1 (long, smallest inertia), 2, 3. w1 = dn or cn, w2 = sn, w3 = cn or dn, by which side of the separatrix the spin lies.
+-- Axes 1 (long, smallest inertia), 2, 3. w1 = dn or cn, w2 = sn, w3 = cn or dn, depending on the side of the separatrix.
 local mass = density * length * width * height
 if not (length > width and width > height) then error("a brick tumbles about its middle axis only where length > width > height", 0) end
 local i1, i2, i3 = mass * (width ^ 2 + height ^ 2) / 12, mass * (length ^ 2 + height ^ 2) / 12, mass * (length ^ 2 + width ^ 2) / 12
 local e2, l2 = i1 * nudge ^ 2 + i2 * spin ^ 2 + i3 * nudge ^ 2, (i1 * nudge) ^ 2 + (i2 * spin) ^ 2 + (i3 * nudge) ^ 2
-local a, c = i1, i3  -- L^2 > 2 E I2: the roles as written; else axes 1 and 3 change places
+local a, c = i1, i3  -- L^2 > 2 E I2: axes as written; otherwise axes 1 and 3 change places
 if l2 < e2 * i2 then a, c = i3, i1 end
 local lambda = math.sqrt(math.abs((c - i2) * (l2 - e2 * a) / (a * i2 * c)))
 local k2 = (i2 - a) * (e2 * c - l2) / ((c - i2) * (l2 - e2 * a))
 local amplitude = math.sqrt((e2 * c - l2) / (i2 * (c - i2)))
 local half_period = 2 * rf(0, 1 - k2, 1) / lambda
 local s = spin / amplitude  -- sn at the start
-local before = s * rf(1 - s ^ 2, 1 - k2 * s ^ 2, 1) / lambda  -- time since sn was zero, going up
--- The nudges' signs say whether sn rises or falls at the start: w2' = (I3 - I1) / I2 w3 w1 > 0 with both positive.
+local before = s * rf(1 - s ^ 2, 1 - k2 * s ^ 2, 1) / lambda  -- time since sn passed zero upwards
+-- The signs of the nudges tell whether sn rises or falls at the start: w2' = (I3 - I1) / I2 w3 w1 > 0 with both positive.
 local first_flip = half_period - before
 
 analysis { duration = first_flip + (flips - 0.5) * half_period, dt = dt, start = "rest", output_dt = half_period / 400, energy_gate = 1e-6 }
 recorder { name = "brick", quantity = "spin", block = "brick" }
 recorder { name = "brick", quantity = "rotation", block = "brick" }
 
--- A second brick, spun about the same axis the other way and thrown, so that the sum has all its parts: L about the origin, world axes.
+-- A second brick, spun about the same axis in the other direction and thrown, gives the sum of L about the origin (world axes) all its
+-- parts.
 box { name = "other", size = { width, length, height }, center = { 3, -2, 1 }, free = true,
   initial = { spin = { spin / 2, -nudge, 3 * nudge }, velocity = { 3e-3, 2e-3, -1e-3 } } }
 recorder { name = "spin", quantity = "angular_momentum", block = "brick" }
 recorder { name = "all", quantity = "angular_momentum" }
 recorder { name = "all", quantity = "momentum" }
-local function drift(stem, unit)  -- largest change of a vector over its length at the start
+local function drift(stem, unit)  -- largest change of a vector over its initial length
   return function(run)
     local columns, square, worst = {}, 0, 0
     for k, axis in ipairs { "x", "y", "z" } do
@@ -101,13 +102,13 @@ metric("expected_half_period_s", "s", half_period)
 
 converge { param = "dt", values = { 0.064 / spin, 0.032 / spin, 0.016 / spin }, slope = 1.9, name = "order", error = function(run) return flip_times(run)[1] / first_flip - 1 end }
 expect("metrics.flips", flips, { abs = 0, source = "2 K(k) / lambda" })
--- The implicit midpoint turns slower by (w dt)^2 / 12 (2e-6 at w dt = 5e-3), which near the separatrix costs about ln(16 / k'^2) / 2 = 6 times
--- that; the rows' linear crossing adds (half_period / 400)^2 of curvature.
+-- The implicit midpoint rule rotates too slowly by the share (w dt)^2 / 12 (2e-6 at w dt = 5e-3). Near the separatrix this costs about
+-- ln(16 / k'^2) / 2 = 6 times as much. The linear reading of the crossing between rows adds (half_period / 400)^2 of curvature.
 expect("metrics.first_flip_s", first_flip, { rel = 1e-4, source = "(2 K - F(phi0, k)) / lambda" })
 expect("metrics.half_period_s", half_period, { rel = 1e-4, source = "2 K(k) / lambda" })
--- The implicit midpoint keeps energy and |L| to round-off: bounded, not secular.
+-- The implicit midpoint rule keeps energy and |L| to round-off: the error is bounded, not secular.
 expect("energy.residual_relative", 1e-10, { below = true, source = "quadratic invariants are kept exactly" })
--- The state carries L itself in world axes: without a moment it is not touched, and positions drift along the velocity.
+-- The state carries L itself in world axes: without a moment L stays untouched, and positions drift along the velocity.
 expect("metrics.spin_momentum_drift", 1e-12, { below = true, source = "no moment acts" })
 expect("metrics.angular_momentum_drift", 1e-12, { below = true, source = "round-off of x cross p" })
 expect("metrics.momentum_drift", 1e-12, { below = true, source = "no force acts" })

@@ -1,10 +1,10 @@
--- V06: blocks at 0.9 of the angle of friction for a minute: nothing creeps.
+-- V06: blocks at 0.9 of the angle of friction do not creep for a minute.
 --
--- What happens   Dry joints carry 0.9 of what they can. A law with a ratchet in it (re-made contacts, dropped history, friction applied at
---                a point that wanders) lets the blocks walk down by round-off.
--- Source         contact mechanics asks for zero; a brick at .88 of its limit may flutter where the friction acts at the centre of pressure.
+-- What happens   Dry joints carry 0.9 of their strength. Some laws contain a ratchet (contacts made anew, lost history, friction at a point
+--                that wanders) and let the blocks creep down by round-off.
+-- Source         Contact mechanics demands zero. With friction at the centre of pressure a brick at 0.88 of its limit may flutter.
 -- How to run     erbs run scenes/verify/v06_creep.lua [-D share=0.98] [-D duration=600] [-D kn=...]
--- What to look at  creep_* (of the block's size, between a tenth of the run and its end), speed_*.
+-- What to look at  creep_* (over the block's size, from a tenth of the run to its end), speed_*.
 label("quick")
 local share = param("share", 0.9, "of the angle of friction")
 local duration = param("duration", 60, "[s]")
@@ -14,7 +14,7 @@ if share >= 1 then error("share must be below 1: past the angle of friction bloc
 
 material { name = "stone", density = 1800, friction = 0.6, kn = kn, ks = 0.4 * kn }
 for i, mu in ipairs { 0.3, 0.6, 0.9 } do
-  for turn = 0, 1 do  -- straight down the slope, and turned by 30 degrees about its normal
+  for turn = 0, 1 do  -- straight down the slope, and rotated by 30 degrees about its normal
     local name = string.format("mu%d_%d", math.floor(10 * mu + 0.5), turn)
     local slope, block, angle = "slope_" .. name, "block_" .. name, share * math.atan(mu)
     transform { at = { 2 * i, 2 * turn, 0 }, rotation = { 0, angle, 0 }, function()

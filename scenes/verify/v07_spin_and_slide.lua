@@ -1,15 +1,15 @@
--- V07: plates that spin, or spin and slide, on a rough floor until they rest, against the exact integral of Coulomb friction over their face.
+-- V07: plates spin, or spin and slide, on a rough floor until they rest, compared with the exact integral of Coulomb friction
 --
--- What happens   Friction acts against the local slip everywhere under a plate: a spinning plate slides farther than one that does not spin. The
---                exact motion (pressure even, mu g against the slip, integrated over a grid of the face) is computed here. The program
---                condenses the face into one patch with a limit surface for force and torque. It meets the true one at its axes and where
---                slip of the centre and of the rim are equal; between them tangents differ, most for a slender plate that slides
---                broadside on (its torque is too large there, so it turns too little).
---                A plate rubs at the points of its bed until it has slid by 1 % of its side, then as the patch: 49 points, because the torque of 9
---                against spin alone is 21 % too small, which a plate that stops within that slip shows (-D spin=2).
---                Slender along the slip, 1:6 (-D short=0.05), a fast spin's path is 4 % off.
--- Source         Coulomb over the face; limit surface of Goyal, Ruina and Papadopoulos 1991, Wear 143, 307; with
---                the surface of engine/contact/friction.cpp in place of the ellipse of Howe and Cutkosky 1996 (8, 12 and 17 % off).
+-- What happens   Friction acts against the local slip everywhere under a plate, so a spinning plate slides farther than one that does not
+--                spin. The scene computes the exact motion (even pressure, mu g against the slip, integrated over a grid of the face). The
+--                program condenses the face into one patch with a limit surface for force and torque. This surface is exact on its axes and
+--                where the slip of centre and rim are equal. Between these points its tangent differs, most for a slender plate that slides
+--                broadside on: its torque is too large there, so it rotates too little. Until a plate has slid by 1 % of its side, friction
+--                acts at the points of its joint; after that as the patch. The joint has 49 points: with 9 the torque against pure spin is
+--                21 % too small, as a plate shows that stops within this slip (-D spin=2). For a slender plate along the slip, 1:6 (-D
+--                short=0.05), the path of a fast spin is off by 4 %.
+-- Source         Coulomb over the face; limit surface of Goyal, Ruina and Papadopoulos 1991, Wear 143, 307; with the surface of
+--                engine/contact/friction.cpp instead of the ellipse of Howe and Cutkosky 1996 (off by 8, 12 and 17 %).
 -- How to run     erbs run scenes/verify/v07_spin_and_slide.lua [-D v0=2] [-D spin=5] [-D mu=0.4] [-D short=0.1] [-D long=0.1]
 -- What to look at  stop_time_*, path_*, turn_*: over the exact integral.
 label("quick")
@@ -24,7 +24,7 @@ joint { law = dry { kn = kn, mu = mu }, points = 49 }
 local function exact(v, w)
   local n, h, time, turn = 10, 2e-4, 0, 0
   local gyration = (long ^ 2 + short ^ 2) / 12
-  local along, across = v, 0  -- velocity in the world: along x; the plate's axes turn by `turn`
+  local along, across = v, 0  -- velocity in the world: along x; the plate's axes are rotated by `turn`
   local x, y = 0, 0
   while math.sqrt(along ^ 2 + across ^ 2) + 0.3 * long * math.abs(w) > 3 * mu * g * h do
     local fx, fy, moment, c, s = 0, 0, 0, math.cos(turn), math.sin(turn)
@@ -47,12 +47,13 @@ local function exact(v, w)
 end
 local cases = { slide = { v0, 0 }, spin = { 0, spin }, both = { v0, spin }, slow_spin = { v0, spin / 4 }, fast_spin = { v0 / 4, spin } }
 local longest, number = 0, 0
--- Stop time, path, turn: steps and grid where one of both acts; else the gap between the surface and the true one, some 5 % in the tangent,
--- whose effect on the lesser of both motions is less than half of that since it passes where they agree. Broadside on, the
--- torque of a fast slide goes with long^2, and the surface is fitted to where both act: 13 % of the turn at 1:3.
+-- Tolerances of stop time, path and rotation. With one of both motions: errors of steps and grid. With both: the gap between the two
+-- surfaces, about 5 % in the tangent; its effect on the smaller motion is less than half of that, since the path passes points where they
+-- agree. Broadside on, the torque of a fast slide grows with long^2, but the surface is fitted for both motions: 13 % of the rotation at
+-- 1:3.
 local slender = math.max(0, 1 - long / short)
 local mixed = { 0.03 + 0.03 * slender, 0.03 + 0.02 * slender, 0.04 + 0.15 * slender }
--- Sliding alone: friction answers to slip, so nothing brakes in the first half step (v07_stopping.lua), and .05 % as there.
+-- Sliding alone: friction follows slip, so the first half step has no brake (v07_stopping.lua), and 0.05 % as there.
 local late = 5e-4 + mu * g * 1.8 * math.sqrt(1800 * high / kn) / v0
 local tolerance = { slide = { 5e-3, late, 0 }, spin = { 0.02, 0, 0.02 }, both = mixed, slow_spin = mixed, fast_spin = mixed }
 for _, name in ipairs { "slide", "spin", "both", "slow_spin", "fast_spin" } do

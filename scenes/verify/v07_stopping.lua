@@ -1,10 +1,10 @@
 -- V07: blocks thrown along a flat floor in sixteen directions come to rest after v0^2 / (2 mu g).
 --
--- What happens   All blocks stand alike and are thrown from one another's middle outwards. Friction must not prefer an axis of the world or of
---                the block.
+-- What happens   All blocks have the same orientation and are thrown outwards from a common centre. Friction must not prefer an axis of the
+--                world or of the block.
 -- Source         Coulomb: stop distance v0^2 / (2 mu g), stop time v0 / (mu g).
 -- How to run     erbs run scenes/verify/v07_stopping.lua [-D v0=3] [-D mu=0.3] [-D kn=...] [-D directions=32]
--- What to look at  distance_largest, distance_smallest, spread, time_error, sideways (path across the throw).
+-- What to look at  distance_largest, distance_smallest, spread, time_error, sideways (displacement across the throw).
 label("quick")
 local v0, mu = param("v0", 2, "[m/s]"), param("mu", 0.5, "")
 local directions = param("directions", 16, "")
@@ -46,7 +46,7 @@ metric("spread", "", function(run) local low, high = distances(run) return high 
 metric("sideways", "", function(run)
   return select(2, over(run, function(i) return math.abs(select(2, along(run, i, "u%s_rel_m"))) / distance end))
 end)
-metric("time_error", "", function(run)  -- the straight line of the speed at 0.2 and 0.8 of the stop, carried on to zero
+metric("time_error", "", function(run)  -- the straight line through the speeds at 0.2 and 0.6 of the rows, extended to zero
   local low, high = over(run, function(i)
     local r1, r2 = math.floor(0.2 * #run.time), math.floor(0.6 * #run.time)
     local v1, v2 = along(run, i, "v%s_rel_m_s", r1), along(run, i, "v%s_rel_m_s", r2)
@@ -55,8 +55,8 @@ metric("time_error", "", function(run)  -- the straight line of the speed at 0.2
   return math.max(math.abs(low - stop_time), math.abs(high - stop_time)) / stop_time
 end)
 analysis { duration = 1.2 * stop_time, start = "equilibrium", output_dt = stop_time / 200 }
--- Friction answers to slip, so nothing brakes in the first half step: v0 dt / 2 more of the way, a step being 1.8 / omega of the bed. And .05 %:
--- the swing of the bed at the start, and the shear spring's give at the stop.
+-- Friction follows slip, so the first half step has no brake: v0 dt / 2 more distance, with a step of 1.8 / omega of the bed. And 0.05 %:
+-- the vibration of the bed at the start, and the deformation of the shear spring at the stop.
 local late = 5e-4 + mu * g * 1.8 * math.sqrt(1800 * size / 20 / kn) / v0
 expect("metrics.distance_smallest", 1, { abs = late, source = "v0^2 / (2 mu g)" })
 expect("metrics.distance_largest", 1, { abs = late, source = "v0^2 / (2 mu g)" })

@@ -1,10 +1,10 @@
 -- V08: Newmark's sliding block under a rectangular pulse of the ground, for several coefficients of friction.
 --
--- What happens   The ground gets a g for t0 and then keeps its speed; a block with mu < a is left behind by s = (g a t0^2 / 2)(a/mu - 1),
---                one with mu > a is carried along.
--- Source         Newmark 1965, Geotechnique 15, 139. mu .3, a .5, t0 .4 s: .26160 m.
+-- What happens   The ground accelerates by a g for t0 and then keeps its speed. A block with mu < a lags behind by s = (g a t0^2 / 2)(a/mu
+--                - 1); a block with mu > a moves with the ground.
+-- Source         Newmark 1965, Geotechnique 15, 139. mu 0.3, a 0.5, t0 0.4 s: 0.26160 m.
 -- How to run     erbs run scenes/verify/v08_newmark_pulse.lua [-D a=0.8] [-D t0=0.2] [-D kn=...]
--- What to look at  slip_mu*: final slip over the formula (of the block that is carried along: metres).
+-- What to look at  slip_mu*: final slip over the formula (metres for the block that moves with the ground).
 label("quick")
 local a, t0 = param("a", 0.5, "pulse of the ground, of g"), param("t0", 0.4, "its length [s]")
 local kn = param("kn", 1e10, "the shear spring delays friction by about 1 / omega, a part 2 / (omega t0 (a / mu - 1)) of the slip [Pa/m]")
@@ -24,11 +24,11 @@ for i, mu in ipairs { 0.2, 0.3, 0.4, 0.6 } do
   if mu < a then
     longest = math.max(longest, a * t0 / mu)
     metric("slip_" .. name, "", function(run) return -run.last(name .. "_ux_rel_m") / slip end)
-    -- 0.3 %: the give of the joint's shear spring and its swing after the stop; the pulse itself is exact at its edges.
+    -- 0.3 %: the deformation of the joint's shear spring and its vibration after the stop; the pulse itself is exact at its edges.
     expect("metrics.slip_" .. name, 1, { abs = 3e-3, source = "(g a t0^2 / 2)(a / mu - 1)" })
   else
     metric("slip_" .. name, "m", function(run) return run.peak(name .. "_ux_rel_m") end)
-    -- m a g / (ks A), doubled by the suddenness of the pulse and again by its end; rocking of the flat block adds a tenth.
+    -- m a g / (ks A), doubled by the sudden start of the pulse and again by its end; rocking of the flat block adds a tenth.
     expect("metrics.slip_" .. name, 4.4 * 1800 * size / 15 * a * g / (0.4 * kn), { below = true, source = "mu > a: no slip" })
   end
 end

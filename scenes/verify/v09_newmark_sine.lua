@@ -1,10 +1,12 @@
 -- V09: Newmark's sliding block under one full sine of the ground, for several coefficients of friction.
 --
--- What happens   The ground accelerates as A g sin(2 pi f t) for one cycle. A block with mu < A slips one way, is caught, slips back and
---                stays behind. The rigid answer is integrated piece by piece in lib_sliding.lua; all lengths scale with 1 / f^2.
--- Source         Newmark 1965, Geotechnique 15, 139. mu .3, A .6, f 2 Hz: largest slip .047179 m, residual .002362 m, at rest at .5871 s.
+-- What happens   The ground accelerates as A g sin(2 pi f t) for one cycle. A block with mu < A slips one way, sticks, slips back and keeps
+--                a residual slip. lib_sliding.lua integrates the rigid answer from event to event; all lengths scale with 1 / f^2.
+-- Source         Newmark 1965, Geotechnique 15, 139. mu 0.3, A 0.6, f 2 Hz: largest slip 0.047179 m, residual 0.002362 m, at rest at 0.5871
+--                s.
 -- How to run     erbs run scenes/verify/v09_newmark_sine.lua [-D f=3] [-D A=0.8] [-D spring=1000*Hz] [-D share=0.9]
--- What to look at  largest_error_*, residual_error_* (of the largest slip), stop_error_mu30 [s]. Order of the step and error of the spring: v09_order.lua.
+-- What to look at  largest_error_*, residual_error_* (over the largest slip), stop_error_mu30 [s]. v09_order.lua has the order of the step
+--                and the error of the spring.
 label("quick")
 local A, f = param("A", 0.6, "of the ground, of g"), param("f", 2, "of the ground [Hz]")
 local spring = param("spring", 2000, "frequency of the block on its shear spring [Hz]")
@@ -36,12 +38,12 @@ for i, mu in ipairs { 0.2, 0.3, 0.45 } do
   metric("rigid_largest_" .. name, "m", rigid.largest)
   metric("rigid_residual_" .. name, "m", math.abs(rigid.at_end))
   metric("rigid_stop_" .. name, "s", rigid.stops[#rigid.stops])
-  -- 0.5 %: the give of the spring (its swing of the friction force about the slip's ends) and the step.
+  -- 0.5 %: the deformation of the spring (its vibration of the friction force at the ends of slip) and the step.
   expect("metrics.largest_error_" .. name, 0, { abs = 5e-3, source = "rigid sliding, of the largest slip" })
   expect("metrics.residual_error_" .. name, 0, { abs = 5e-3, source = "rigid sliding, of the largest slip" })
   cases[name] = rigid
 end
--- The last moment at which the block slips faster than a thousandth of its largest speed.
+-- The last moment at which the block slips faster than 2 % of its largest speed.
 metric("stop_error_mu30", "s", function(run)
   local v, last = run.history("mu30_vx_rel_m_s"), 0
   local bound = 0.02 * cases.mu30.speed
@@ -55,5 +57,5 @@ if A == 0.6 and f == 2 then
 end
 ground_motion { wave = full_sine { amplitude = A * g, frequency = f }, direction = "x" }
 analysis { duration = duration, start = "equilibrium", dt_fraction = share, output_dt = 1e-3 / f, frame_dt = duration / 20 }
--- The speed at the stop falls as mu g: 2 % of the largest speed is some 5 ms before it; rows are 0.5 ms apart.
+-- Before the stop the speed falls at mu g: 2 % of the largest speed is about 5 ms before it; rows are 0.5 ms apart.
 expect("metrics.stop_error_mu30", 0, { abs = 0.01, source = "rigid sliding" })

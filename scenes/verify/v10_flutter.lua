@@ -1,17 +1,18 @@
--- V10: a block that slides on an elastic bed flutters by itself, and the dashpots of its joint end that.
+-- V10: a block that slides on an elastic bed flutters by itself, and the dashpots of its joint stop the flutter.
 --
--- What happens   A block stands with most of its base on a plinth, not quite in the middle, and is pushed until it slides. From then on friction follows
---                the pressure, sigma a = mu h, h the height of the centroid: with e the offset of the bed and r2 = l^2 / 12 of its length,
+-- What happens   A block stands on a plinth that supports most of its base, slightly off centre, and is pushed until it slides. From then
+--                on friction follows the pressure, sigma a = mu h, h the height of the centroid. Let e be the offset of the bed, l its
+--                length and r2 = l^2 / 12. Then
 --                m z'' = -k (z + e phi) - c (z' + e phi'),
---                m rho2 phi'' = -k ((e - a) z + (e^2 + r2 - a e) phi) - c (e z' + (e^2 + r2) phi'),
---                whose stiffness is not symmetric. Where e (a - e) > 0 is large enough against what parts the two frequencies, they merge and
---                the motion grows as exp(growth t), whatever the step: friction drives it, no error of the numbers does.
--- Source         Mode coupling: Hoffmann, Fischer, Allgaier and Gaul 2002, Mech. Res. Commun. 29, 197; steady sliding that is unstable at constant
---                friction: Martins, Oden and Simoes 1990, Int. J. Eng. Sci. 28, 29. The two equations above are integrated here.
---                Read off a few crests while the push still grows: within 10 % for mu from .7 to .9 at this offset; at offsets of .03 to .08 up to
---                30 % off, which was not looked into.
+--                m rho2 phi'' = -k ((e - a) z + (e^2 + r2 - a e) phi) - c (e z' + (e^2 + r2) phi').
+--                This stiffness is not symmetric. If e (a - e) > 0 is large enough compared with the difference of the two frequencies,
+--                they merge and the motion grows as exp(growth t) at any step: friction drives it, not a numerical error.
+-- Source         Mode coupling: Hoffmann, Fischer, Allgaier and Gaul 2002, Mech. Res. Commun. 29, 197; unstable steady sliding at constant
+--                friction: Martins, Oden and Simoes 1990, Int. J. Eng. Sci. 28, 29. The scene integrates the two equations above.
+--                Growth is read off a few crests while the push still grows: within 10 % for mu from 0.7 to 0.9 at this offset; at offsets
+--                of 0.03 to 0.08 up to 30 % off, for a reason that was not investigated.
 -- How to run     erbs run scenes/verify/v10_flutter.lua [-D mu=0.7] [-D kn=...] [-D ratio=...]
--- What to look at  growth over exact_growth, of the block without dashpots; swing_*: the block with dashpots stays still.
+-- What to look at  growth over exact_growth, for the block without dashpots; swing_damped: the block with dashpots stays still.
 label("quick")
 local kn, mu = param("kn", 1e9, "[Pa/m]"), param("mu", 0.8, "friction")
 local L, H, W = param("length", 0.7, "of the block [m]"), param("height", 0.3, "of the block [m]"), 0.2
@@ -22,7 +23,7 @@ local m, k = rho * L * W * H, kn * bed * W
 local rho2, r2, a = (L ^ 2 + H ^ 2) / 12, bed ^ 2 / 12, mu * H / 2
 local omega = math.sqrt(k / m)
 
--- Growth of the two equations (1/s), from the energy of long runs; ratio of dashpots: c = 2 ratio sqrt(k m).
+-- Growth rate of the two equations (1/s), from the energy of long runs; dashpots by their ratio: c = 2 ratio sqrt(k m).
 local function growth_on_paper(damped)
   local y, h, c = { 1, 0, 0, 0 }, 0.02, 2 * damped  -- z, phi, z', phi' in units of 1 / omega
   local function rate(s)
@@ -52,7 +53,7 @@ end
 
 material { name = "stone", density = rho, friction = mu, kn = kn, ks = 0.4 * kn }
 gravity(g)
-local slides = 360 / omega  -- s, when the push reaches mu m g; it grows like t^2, so that it does not shake the block
+local slides = 360 / omega  -- s, time at which the push reaches mu m g; it grows as t^2, so that it does not shake the block
 local times, values = {}, {}
 for n = 0, 60 do times[n + 1], values[n + 1] = n / 50 * slides, mu * m * g * (n / 50) ^ 2 end
 for i, damped in ipairs { 0, ratio } do
@@ -66,7 +67,7 @@ for i, damped in ipairs { 0, ratio } do
 end
 analysis { duration = 1.15 * slides, output_dt = 0.02 / omega, frame_dt = 0.01, dt_fraction = 0.05, energy_gate = 1e-2 }
 
--- A swing of this size would open the bed. Growth is read off the crests between a twentieth of that and a half.
+-- A vibration of this size would open the bed. Growth is read off the crests between a twentieth of it and half of it.
 local most = rho * g * L * H / (kn * bed) * omega / bed
 metric("growth", "1/s", function(run)
   local t, w, first, last = run.history("time_s"), run.history("block1_wy_rad_s"), nil, nil
@@ -81,7 +82,7 @@ end)
 metric("swing_damped", "", function(run) return run.peak("block2_wy_rad_s") / most end)
 metric("exact_growth", "1/s", growth_on_paper(0))
 metric("exact_growth_damped", "1/s", growth_on_paper(ratio))
--- 10 %: the push goes on growing, and the sway that it starts is a hundredth of what opens the bed.
+-- 10 %: the push keeps growing, and the sway that it starts is a hundredth of the size that opens the bed.
 expect("metrics.growth", growth_on_paper(0), { rel = 0.1, source = "two equations, mode coupling" })
--- Where the equations with dashpots decay, what is left is the slow tilt under the push.
+-- Where the equations with dashpots decay, only the slow tilt under the push remains.
 if growth_on_paper(ratio) < 0 then expect("metrics.swing_damped", 0.05, { below = true, source = "the same with dashpots: decay" }) end

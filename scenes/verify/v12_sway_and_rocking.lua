@@ -1,7 +1,7 @@
--- V12: a block on one bed joint sways and rocks; each of its two modes, and the shear mode a very flat block tends to.
+-- V12: a block on one bed joint sways and rocks: its two modes, and the shear mode that a very flat block approaches.
 --
--- What happens   M = diag(m, I), K = ks A [1, -h/2; -h/2, h^2/4] + diag(0, kn Iy): each block starts in the shape of one mode and keeps it.
--- Source         exact eigenvalues of the 2 x 2 problem; the leapfrog's shift of the period by sin(w' dt / 2) = w dt / 2 (V11).
+-- What happens   M = diag(m, I), K = ks A [1, -h/2; -h/2, h^2/4] + diag(0, kn Iy). Each block starts in the shape of one mode and keeps it.
+-- Source         exact eigenvalues of the 2 x 2 problem; leapfrog changes the period by sin(w' dt / 2) = w dt / 2 (V11).
 -- How to run     erbs run scenes/verify/v12_sway_and_rocking.lua [-D kn=...] [-D ks=...] [-D height=...]
 -- What to look at  period_ratio_*: measured over exact.
 label("quick")
@@ -38,12 +38,13 @@ for i, case in ipairs(cases) do
   recorder { name = case.name, quantity = "displacement", block = case.name, axis = "x" }
   local exact = 2 * pi / case.w * (case.w * dt / 2) / math.asin(case.w * dt / 2)
   metric("period_ratio_" .. case.name, "", function(run) return run.period(case.name .. "_ux_rel_m") / exact end)
-  -- Crossings read off straight lines over ten cycles and more, and the other mode's share of a start that is linear in the turn.
+  -- Crossings are read by straight lines over ten cycles and more; the linearised start contains a little of the other mode.
   expect("metrics.period_ratio_" .. case.name, 1, { abs = 2e-5, source = "2 x 2 eigenvalue" })
-  if case.flat and math.abs(ks / kn - 1) > 0.05 then  -- else sway and rocking are as fast as each other and any mix of them is a mode
+  if case.flat and math.abs(ks / kn - 1) > 0.05 then  -- otherwise sway and rocking are equally fast, and any mix of them is a mode
     local leapfrog = (case.w * dt / 2) / math.asin(case.w * dt / 2)
     metric("flat_shear_ratio", "", function(run) return run.period(case.name .. "_ux_rel_m") * case.flat / (2 * pi) / leapfrog end)
-    -- Rocking softens sway by (h/2)^2 ks A / (kn Iy) = 3 (ks/kn) (h/length)^2, half of it in the period, over 1 - ks/kn as the modes come near: 1e-4 here.
+    -- Rocking softens sway by (h/2)^2 ks A / (kn Iy) = 3 (ks/kn) (h/length)^2, half of it in the period, over 1 - ks/kn as the modes
+    -- approach: 1e-4 here.
     expect("metrics.flat_shear_ratio", 1, { abs = 3 * ks / kn * (case.h / length) ^ 2 / math.abs(1 - ks / kn) + 2e-5, source = "T = 2 pi sqrt(m / (ks A))" })
   end
 end

@@ -1,13 +1,13 @@
--- V13: the rotational stiffness of a joint by its rule and number of contact points, every variant side by side.
+-- V13: rotational stiffness of a joint for every quadrature rule and number of contact points, side by side.
 --
--- What happens   Each block is held at a small rotation about one axis of its joint, and the moment of the joint is read. Its ratio to
---                kn B H^3 / 12 follows from the rule alone: equal midpoints 1 - 1/N^2 (one point: none), trapezoid 1 + 2/(N - 1)^2
---                (corners alone: 3), Simpson and Gauss exactly 1. Rules are tensor products: N points along H whatever the other side
---                has. Torsion of a square face has the same factor.
--- Source         Int s^2 over the rule against H^3 / 12.
+-- What happens   Each block is held at a small rotation about one axis of its joint, and the moment of the joint is read. Its ratio to kn B
+--                H^3 / 12 follows from the rule alone. Midpoints give 1 - 1/N^2 (one point: zero), trapezoids 1 + 2/(N - 1)^2 (corners
+--                only: 3), Simpson and Gauss exactly 1. Rules are tensor products: N points along H, whatever the other side has. Torsion
+--                of a square face has the same factor.
+-- Source         int s^2 over the rule against H^3 / 12.
 -- How to run     erbs run scenes/verify/v13_rotational_stiffness.lua [-D long=0.3] [-D short=0.125] [-D kn=...]
--- What to look at  ratio_<rule>_<points>_<axis>. One point a half brick has no rotational stiffness: never use it.
---                A moment on a free block of the default rule, brought to rest by the static start, gives the same stiffness.
+-- What to look at  ratio_<rule>_<points>_<axis>. One point per half brick has no rotational stiffness: never use it. A moment on a free
+--                block of the default rule, in static equilibrium, gives the same stiffness.
 label("quick")
 local long, short = param("long", 0.3, "side of the face along x [m]"), param("short", 0.125, "along y [m]")
 local kn, ks = param("kn", 1e11, "[Pa/m]"), param("ks", 0.4e11, "[Pa/m]")
@@ -40,13 +40,13 @@ local function pair(name, nx, ny, rule, axis, ratio)
   motion { block = block, wave = 0, direction = "z" }
   recorder { name = name, quantity = "joint_moment", blocks = { base }, others = { block }, axis = axis }
   metric("ratio_" .. name, "", function(run) return run.last(name .. "_m" .. axis .. "_N_m") / angle / stiffness[axis] end)
-  -- Only round-off of the arms and of the angle's square.
+  -- Only round-off of the arms and the square of the angle.
   expect("metrics.ratio_" .. name, ratio, { abs = 1e-10, source = "V13: " .. rule })
 end
 for _, set in ipairs(rules) do
   for _, n in ipairs(set.points) do
     local ratio, other = set.ratio(n), set.rule == "trapezoid" and 2 or set.rule == "simpson" and 3 or 2
-    pair(set.rule .. "_" .. n .. "_y", n, other, set.rule, "y", ratio)  -- points run along the longer side first
+    pair(set.rule .. "_" .. n .. "_y", n, other, set.rule, "y", ratio)  -- points along the longer side come first
     pair(set.rule .. "_" .. n .. "_x", other, n, set.rule, "x", ratio)
     pair(set.rule .. "_" .. n .. "_z", n, n, set.rule, "z", ratio)
   end
@@ -60,7 +60,7 @@ for k, axis in ipairs { "x", "y" } do
   moment { block = name, wave = moment_at, direction = axis }
   recorder { name = name, quantity = "rotation", block = name, axis = axis }
   metric("ratio_" .. name, "", function(run) return moment_at / run.first(name .. "_r" .. axis .. "_rad") / stiffness[axis] end)
-  -- The start leaves 1e-11 of the load unbalanced, and turns by M / k = 1e-7: no more than that to second order.
+  -- The start leaves 1e-11 of the load unbalanced; the rotation M / k = 1e-7 adds an error of second order.
   expect("metrics.ratio_" .. name, 1, { abs = 1e-6, source = "kn B H^3 / 12, Simpson 3 x 3" })
 end
 joint { law = law, between = { "base", "free" } }

@@ -1,10 +1,10 @@
--- V14: joints are pulled apart evenly until they part, brittle and softening.
+-- V14: joints, brittle and softening, are pulled apart evenly until they fail.
 --
--- What happens   A prescribed motion opens each joint. The force rises along kn A u to ft A; a brittle joint drops to zero there and
---                releases A ft^2 / (2 kn); a softening one falls linearly and takes A Gf in all.
+-- What happens   A prescribed motion opens each joint. The force rises along kn A u to ft A. A brittle joint drops to zero there and
+--                releases A ft^2 / (2 kn). A softening joint falls linearly and takes A Gf in all.
 -- Source         Hillerborg, Modeer and Petersson 1976, Cement Concrete Res. 6, 773 (linear softening, Gf = ft w / 2).
 -- How to run     erbs run scenes/verify/v14_pure_tension.lua [-D ft=...] [-D kn=...] [-D Gf=...] [-D steps=...]
--- What to look at  peak_* and work_*: force at failure and work of the pull over their formulas; fracture of the whole run.
+-- What to look at  peak_* and work_*: force at failure and work of the pull over their formulas; fracture energy of the whole run.
 label("quick")
 local ft, kn = param("ft", 0.2 * MPa, "tensile strength [Pa]"), param("kn", 2e11, "[Pa/m]")
 local Gf = param("Gf", 10, "fracture energy of the softening joints [J/m2]")
@@ -28,7 +28,7 @@ for kind, case in pairs(laws) do
     count = count + 1
     box { name = "base_" .. name, group = "base", size = { size[1], size[2], 0.1 }, at = { 2 * i, 2 * count, -0.1 }, fixed = true }
     box { name = name, group = kind, size = { size[1], size[2], 0.1 }, at = { 2 * i, 2 * count, 0 } }
-    -- Slow to 1.2 times the peak, so that the peak is met to a step, then on to the end.
+    -- Slow up to 1.2 times the peak, so that the peak is resolved to one step; then on to the end.
     local slow = 1.2 * steps * dt
     motion { block = name, direction = "z", wave = table_wave { times = { 0, slow, 2 * slow }, values = { 0, 1.2 * open, case.reach }, hold = true } }
     recorder { name = name, quantity = "normal_force", blocks = { "base_" .. name }, others = { name } }
@@ -42,7 +42,7 @@ for kind, case in pairs(laws) do
     metric("left_" .. name, "N", function(run) return run.last(name .. "_normal_N") end)
     -- The last step below the peak: one part in `steps`.
     expect("metrics.peak_" .. name, 1, { abs = 1.1 / steps, source = "ft A" })
-    -- Trapezoids across the drop and the corner: one step's part of the peak's work.
+    -- Trapezoids across the drop and the corner: one step's share of the work at the peak.
     expect("metrics.work_" .. name, 1, { abs = kind == "brittle" and 2.5 / steps or 1e-3, source = kind == "brittle" and "A ft^2 / (2 kn)" or "A Gf" })
     expect("metrics.left_" .. name, 0, { abs = 0, source = "irreversible" })
     total = total + case.energy * area
@@ -51,5 +51,5 @@ for kind, case in pairs(laws) do
 end
 analysis { duration = 2.4 * steps * dt, dt = dt, output_dt = dt, start = "rest" }
 metric("fracture_over_formula", "", function(run) return run.energy.fracture_J / total end)
--- The ledger's own term, booked by the law and not by these forces.
+-- The ledger's own term, which the law books, not these forces.
 expect("metrics.fracture_over_formula", 1, { abs = 1e-3, source = "sum of A ft^2 / (2 kn) and A Gf" })

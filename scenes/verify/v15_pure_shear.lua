@@ -1,7 +1,8 @@
--- V15: joints are sheared at five compressions and, for each coupling, at two tensions; then they rub.
+-- V15: joints are sheared under five compressions and, for each coupling, under two tensions, until they slide.
 --
--- What happens   A prescribed motion presses (or opens) each joint and then shears it. Under compression s the peak is (c + mu s) A and
---                the rest mu_residual s A. Under tension s: coulomb c - mu s, linear c (1 - s / ft), ellipse c sqrt(1 - (s / ft)^2), then nothing.
+-- What happens   A prescribed motion compresses (or opens) each joint and then shears it. Under compression s the peak is (c + mu s) A and
+--                the residual mu_residual s A. Under tension s the peak is c - mu s (coulomb), c (1 - s / ft) (linear) or c sqrt(1 - (s /
+--                ft)^2) (ellipse), then nothing.
 -- Source         Coulomb with a tension cut-off; the couplings as documented in the mortar law.
 -- How to run     erbs run scenes/verify/v15_pure_shear.lua [-D c=...] [-D ft=...] [-D mu=...] [-D mu_residual=...] [-D kn=...]
 -- What to look at  peak_* and rest_*: shear force over the formula.
@@ -17,7 +18,7 @@ material { name = "brick", density = 1800 }
 local area, dt, count = 0.3 * 0.125, 1e-6, 0
 local function case(name, coupling, s, peak, rest, direction)  -- s: Pa, tension positive
   count = count + 1
-  peak = math.max(peak, rest)  -- where the rubbing joint bears more than the bond did
+  peak = math.max(peak, rest)  -- if friction carries more than the bond did
   local base, to = "base_" .. name, 1.2 * peak / ks  -- m, slip at the end
   box { name = base, group = base, size = { 0.3, 0.125, 0.1 }, at = { count, 0, -0.1 }, fixed = true }
   box { name = name, group = name, size = { 0.3, 0.125, 0.1 }, at = { count, 0, 0 } }
@@ -33,7 +34,7 @@ local function case(name, coupling, s, peak, rest, direction)  -- s: Pa, tension
     expect("metrics.rest_" .. name, 1, { abs = 1e-9, source = "mu_residual s A, at once" })
   else
     metric("rest_" .. name, "N", function(run) return run.last(name .. "_shear_N") end)
-    -- Round-off of the forces that were there.
+    -- Round-off of the forces before.
     expect("metrics.rest_" .. name, 0, { abs = 1e-14 * peak * area, source = "nothing is left in tension" })
   end
 end

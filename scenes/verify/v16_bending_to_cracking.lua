@@ -1,7 +1,7 @@
--- V16: a bonded joint under prestress is bent until its first point cracks, for rules that are exact at the edge and rules that are not.
+-- V16: a prestressed bonded joint is bent until its first point cracks, for rules with and without points at the edge.
 --
--- What happens   The moment grows slowly. Exact bending with points on the edge cracks at (ft + s0) B H^2 / 6. N midpoints read the
---                stress H/(2N) inside the edge and carry 1 + 1/N of it; trapezoid weights 1 + 2/(N - 1)^2; two Gauss points sqrt(3).
+-- What happens   The moment grows slowly. A rule with exact bending and points at the edge cracks at (ft + s0) B H^2 / 6. N midpoints take
+--                the stress at H/(2N) inside the edge and carry 1 + 1/N of it; trapezoids 1 + 2/(N - 1)^2; two Gauss points sqrt(3).
 -- Source         M = sigma I_rule / s_outermost.
 -- How to run     erbs run scenes/verify/v16_bending_to_cracking.lua [-D ft=...] [-D prestress=...] [-D kn=...] [-D side=0.5]
 -- What to look at  moment_*: bending moment at the first damage over (ft + s0) B H^2 / 6.
@@ -23,7 +23,7 @@ local function case(name, rule, n, ratio, s0)
   box { name = name, group = name, size = { H, B, 0.1 }, at = { 3 * H * number, 0, 0 } }
   joint { law = law, between = { base, name }, rule = rule, points = H >= B and { n, math.min(n, 3) } or { math.min(n, 3), n } }
   force { block = name, wave = s0 * area, direction = { 0, 0, -1 } }
-  -- The load is taken away soon after the crack that is expected, before the block turns far.
+  -- The load ends soon after the expected crack, before the block rotates far.
   moment { block = name, direction = "y", wave = table_wave { times = { 0, ramp, 1.0001 * ramp }, values = { 0, 1.02 * cracking, 0 } } }
   recorder { name = name, quantity = "damage", blocks = { base }, others = { name } }
   metric("moment_" .. name, "", function(run)

@@ -1,23 +1,24 @@
--- V17 for beds that yield in compression: eccentric pressure on a section that bears no tension and no more than fc.
+-- V17 for beds that yield in compression: eccentric pressure on a section without tension, with a compressive strength fc.
 --
--- What happens   Held blocks are pressed to N and turned at constant N: the pressure is max(0, min(fc, kn (c - theta x))), x from the toe.
---                Then they are lifted along the elastic line until nothing presses, turned back, pressed again upon what the crushed
---                toe has left, and those pressed least are turned the other way, where the other toe must do as the first did.
---                Free blocks carry N at e, and must find their rotation at the static start.
--- Source         With n = N / (fc B), d = fc / (kn theta) and the toe crushed over b = n - d/2: M = N (H - n)/2 - fc B d^2 / 24, which
---                goes to the rigid-plastic N (H/2) (1 - N / (fc A)); crushing has taken fc B theta b^2 / 2. Far below fc: V17.
+-- What happens   Held blocks are pressed to N and rotated at constant N: the pressure is max(0, min(fc, kn (c - theta x))), x from the toe.
+--                Then they are lifted along the elastic line until no pressure is left, and rotated back. They are pressed again on the bed
+--                that the crushed toe has left. The blocks with the least pressure are then rotated the other way, where the other toe must
+--                behave like the first. Free blocks carry N at e and must find their rotation in the static start.
+-- Source         With n = N / (fc B), d = fc / (kn theta) and the toe crushed over b = n - d/2: M = N (H - n)/2 - fc B d^2 / 24. This tends
+--                to the rigid-plastic N (H/2) (1 - N / (fc A)); crushing has taken fc B theta b^2 / 2. Far below fc: V17.
 -- How to run     erbs run scenes/verify/v17_crushing.lua [-D side=...] [-D kn=...] [-D fc=...] [-D slimmest=0.02]
--- What to look at  moment_error, force_error: while pressed and turned; unloading_error, again_error: later; ultimate_*: M at the end.
+-- What to look at  moment_error, force_error: while pressed and rotated; unloading_error, again_error: later; moment_*: M at the end of the
+--                rotation.
 label("quick")
 local H, B = param("side", 0.3, "side along the eccentricity [m]"), param("width", 0.125, "the other side [m]")
 local kn, fc = param("kn", 1e11, "[Pa/m]"), param("fc", 5 * MPa, "of the weaker beds [Pa]")
 local slimmest = param("slimmest", 0.05, "elastic length d at the end, over the side; more where the angle would pass 0.02")
-slimmest = math.max(slimmest, 4 * fc / kn / (0.02 * H))  -- past 0.03 contact takes a joint over, and knows of no fc
+slimmest = math.max(slimmest, 4 * fc / kn / (0.02 * H))  -- beyond 0.03 contact, which has no fc, takes over the joint
 local stage = param("stage", 300, "steps of each stage")
 
-gravity(1)  -- of the free blocks: small, so that their weight times its sideways motion is
+gravity(1)  -- of the free blocks: small, so that the moment of their sideways displaced weight is small
 material { name = "brick", density = 1800 }
--- Force and moment of a width B of depths y(x) = min(most, c - theta x) - away - max(0, crushed - set x), those that press.
+-- Force and moment of a strip of width B with the depths y(x) = min(most, c - theta x) - away - max(0, crushed - set x), where positive.
 local function section(c, theta, most, away, crushed, set)
   local force, moment, x = 0, 0, { 0, H }
   local function y(at) return math.min(most, c - theta * at) - away - math.max(0, crushed - set * at) end
@@ -25,7 +26,7 @@ local function section(c, theta, most, away, crushed, set)
   if theta ~= 0 then bend((c - most) / theta) end
   if set ~= 0 then bend(crushed / set) end  -- one of the two at most
   local corners = { x[1] }
-  for i = 2, #x do  -- where it begins or ends to press
+  for i = 2, #x do  -- point where pressure begins or ends
     local y0, y1 = y(x[i - 1]), y(x[i])
     if y0 * y1 < 0 then corners[#corners + 1] = x[i - 1] + y0 / (y0 - y1) * (x[i] - x[i - 1]) end
     corners[#corners + 1] = x[i]
@@ -38,7 +39,7 @@ local function section(c, theta, most, away, crushed, set)
   end
   return force, moment
 end
--- Depth of the toe at which the section bears N.
+-- Depth of the toe at which the section carries N.
 local known = {}
 local function toe(force, theta, most)
   local key = string.format("%.17g %.17g %.17g", force, theta, most)
@@ -59,7 +60,7 @@ for _, strength in ipairs { fc, 4 * fc } do
     for _, rule in ipairs { { "simpson", 3 }, { "midpoint", 2 }, { "gauss", 2 } } do
       number = number + 1
       local name, force, depth = string.format("case%d", number), share * strength * H * B, strength / kn
-      local elastic = share < 0.01  -- far below fc: turned until a tenth of the side is in contact
+      local elastic = share < 0.01  -- far below fc: rotated until a tenth of the side is in contact
       local last = elastic and 2 * share * depth / (0.01 * H) or depth / (slimmest * H)
       local times, turns, lifts = { 0 }, { 0 }, { 0 }
       local function node(time, turn, lift) times[#times + 1], turns[#turns + 1], lifts[#lifts + 1] = time, turn, lift end
@@ -71,7 +72,7 @@ for _, strength in ipairs { fc, 4 * fc } do
       local c = toe(force, last, depth)
       local b = math.max(0, (c - depth) / last)  -- crushed length
       node(at_stage(5), last, last * H / 2 - c + math.min(c, depth))
-      -- No wider open than it must be: contact takes over a joint whose faces have parted.
+      -- Opened no wider than necessary: contact takes over a joint whose faces have separated.
       node(at_stage(6), last, last * H / 2)
       node(at_stage(7), 0, 0)
       node(at_stage(8), 0, -0.5 * depth)
@@ -123,7 +124,7 @@ metric("force_error", "", function(run) return (errors(run, 0, 4, pressed)) end)
 metric("moment_error", "", function(run) return (select(2, errors(run, 0, 4, pressed))) end)
 metric("unloading_error", "", function(run) return math.max(errors(run, 4, 5, lifted)) end)
 metric("again_error", "", function(run) return math.max(errors(run, 7.1, 8, again)) end)
--- What is left of closed forms is the turning of the arms, theta^2; an error of 1 % is allowed.
+-- The closed forms err only by the rotation of the arms, theta^2; an error of 1 % is allowed.
 local square = (4 * fc / kn / (slimmest * H)) ^ 2
 for _, what in ipairs { "force_error", "moment_error", "unloading_error", "again_error" } do
   expect("metrics." .. what, 0, { abs = 1e-8 + 2 * square, source = "Int kn max(0, z - g) dA, -z the set; 1 % is allowed" })
@@ -153,7 +154,7 @@ for _, case in ipairs(cases) do
   end
 end
 metric("crushing_over_paper", "", function(run) return run.metrics.energy.crushing_J / crushing end)
--- The first step past fc begins below it.
+-- The first step beyond fc begins below it.
 expect("metrics.crushing_over_paper", 1, { abs = 1e-4, source = "fc B theta b^2 / 2" })
 
 local height = param("height", 0.1, "of the free blocks [m]")
@@ -169,7 +170,7 @@ for i, e in ipairs { { 0.3, 0.3 }, { 0.3, 0.1 }, { 0.6, 0.2 } } do
   recorder { name = name, quantity = "rotation", block = name, axis = "y" }
   metric("turn_" .. name, "", function(run) return run.first(name .. "_ry_rad") / theta end)
   metric("drift_" .. name, "", function(run) return run.last(name .. "_ry_rad") / run.first(name .. "_ry_rad") - 1 end)
-  -- dM/dtheta = fc B d^2 / (12 theta): N theta h/2 of the weight's sideways motion against it, and 1e-8 of the load where Newton stops.
+  -- dM/dtheta = fc B d^2 / (12 theta) against N theta h/2 of the sideways displaced weight, and 1e-8 of the load where Newton stops.
   local soft = 12 * n / d ^ 2
   expect("metrics.turn_" .. name, 1, { abs = soft * height * theta + 1e-7 * soft * H, source = "d = fc / (kn theta)" })
   expect("metrics.drift_" .. name, 0, { abs = 1e-5, source = "at rest" })

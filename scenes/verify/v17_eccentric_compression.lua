@@ -1,9 +1,9 @@
--- V17: dry joints under eccentric compression open: contact length and moment against rotation.
+-- V17: dry joints open under eccentric compression: contact length and moment against rotation.
 --
--- What happens   Held blocks are turned by a given angle with a given length a of their joint in contact: N = kn B theta a^2 / 2 and
---                e = M / N = H/2 - a/3, so a = 3 (H/2 - e). An opened joint integrates min(gap, 0) over its polygon in closed form,
---                so that no rule of points spoils it. Free blocks carry N at e and must find their rotation at the static start.
--- Source         no-tension bed of springs; e.g. Heyman 1966, Int. J. Solids Struct. 2, 249 for the limit.
+-- What happens   Held blocks are rotated by a given angle, with a given length a of their joint in contact: N = kn B theta a^2 / 2 and e =
+--                M / N = H/2 - a/3, so a = 3 (H/2 - e). An open joint integrates min(gap, 0) over its polygon in closed form, so the result
+--                does not depend on the rule of points. Free blocks carry N at e and must find their rotation in the static start.
+-- Source         bed of springs without tension; e.g. Heyman 1966, Int. J. Solids Struct. 2, 249 for the limit.
 -- How to run     erbs run scenes/verify/v17_eccentric_compression.lua [-D side=...] [-D kn=...] [-D height=...]
 -- What to look at  moment_error (largest over all held blocks) and turn_* (free blocks: rotation over the formula).
 label("quick")
@@ -46,7 +46,7 @@ metric("force_error", "", function(run) return largest(run, function(case, force
 metric("contact_length_error", "", function(run)
   return largest(run, function(case, force, moment) return 3 * (H / 2 - moment / force) / case.a - 1 end)
 end)
--- A closed form: what is left is the turning of the arms by the angle, some 1e-6 of their length over the contact length.
+-- A closed form: only the rotation of the arms by the angle remains, about 1e-6 of their length over the contact length.
 expect("metrics.moment_error", 0, { abs = 1e-4, source = "N (H/2 - a/3); 1 % is allowed up to e = .45 H" })
 expect("metrics.force_error", 0, { abs = 1e-4, source = "kn B theta a^2 / 2" })
 expect("metrics.contact_length_error", 0, { abs = 1e-3, source = "a = 3 (H/2 - e)" })
@@ -61,8 +61,8 @@ for i, e in ipairs { 0.05, 0.15, 0.2, 0.264, 0.333, 0.382, 0.42, 0.44, 0.47 } do
   local expected = e > 1 / 6 and 2 * load / (kn * B * a ^ 2) or load * e * H / (kn * B * H ^ 3 / 12)
   metric("turn_" .. name, "", function(run) return run.first(name .. "_ry_rad") / expected end)
   metric("drift_" .. name, "", function(run) return run.last(name .. "_ry_rad") / run.first(name .. "_ry_rad") - 1 end)
-  -- The weight moves sideways by theta h/2, a part 3 h theta / a of the moment's change (dM/dtheta = N a / (6 theta)); Newton stops at
-  -- 1e-8 of the load, of which dM/dtheta makes a / (3 H) less.
+  -- The weight moves sideways by theta h/2, a share 3 h theta / a of the change of the moment (dM/dtheta = N a / (6 theta)). Newton stops
+  -- at 1e-8 of the load, which dM/dtheta reduces by a / (3 H).
   expect("metrics.turn_" .. name, 1, { abs = 6 * height * expected / a + 1e-7 * H / a, source = e > 1 / 6 and "2 N / (kn B a^2)" or "M / (kn B H^3 / 12)" })
   expect("metrics.drift_" .. name, 0, { abs = 1e-5, source = "at rest" })
 end

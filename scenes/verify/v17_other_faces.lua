@@ -1,16 +1,16 @@
--- V17 on faces that are no rectangles: triangles, hexagons, and what a neighbour's edge leaves of them.
+-- V17 on faces that are no rectangles: triangles, hexagons, and faces cut by the edge of a neighbour.
 --
 -- What happens   Held prisms are pressed, tilted about axes of several directions and lifted until little is in contact. Dry beds press
---                with Int kn max(-g, 0), beds that yield with no more than fc (along a path that presses every place ever more, so that
---                no history shows): force and both moments must be those integrals. Mortar that softens pulls besides, with the
---                secant of each contact point's cell: that goes to the integral of the softening law as the cells shrink.
+--                with int kn max(-g, 0). Beds that yield press with at most fc; their path presses every place more and more, so that no
+--                history shows. Force and both moments must equal these integrals. Mortar that softens also pulls, with the secant of each
+--                contact point's cell: this tends to the integral of the softening law as the cells shrink.
 -- Source         moments of linear fields over polygons, in closed form; linear softening, Hillerborg et al. 1976.
 -- How to run     erbs run scenes/verify/v17_other_faces.lua [-D size=...] [-D kn=...] [-D ft=...] [-D Gf=...]
--- What to look at  dry, yielding: largest error of force (over fc A, softening ft A) and moments; softening_N: with N points a side.
+-- What to look at  dry, yielding: largest error of force (over fc A, with softening ft A) and moments; softening_N: with N points per side.
 label("quick")
 local size, kn = param("size", 0.3, "of the faces [m]"), param("kn", 1e11, "[Pa/m]")
 local fc, ft, Gf = param("fc", 5 * MPa, "[Pa]"), param("ft", 0.5 * MPa, "[Pa]"), param("Gf", 20, "fracture energy [J/m2]")
-local depth = 2 * fc / kn  -- m, of the deepest place of dry beds
+local depth = 2 * fc / kn  -- m, at the deepest place of dry beds
 
 gravity(0)
 material { name = "brick", density = 1800 }
@@ -20,7 +20,7 @@ local function regular(n, turn)
   for i = 1, n do p[i] = { half * math.cos(2 * pi * i / n + turn), half * math.sin(2 * pi * i / n + turn) } end
   return p
 end
--- `over`: how far the base reaches in x; what hangs over is no face.
+-- `over`: extent of the base in x; the part of a face beyond it is no joint.
 local faces = {
   { name = "triangle", corners = { { -half, -half }, { half, -half }, { -half, half } }, over = 1 },
   { name = "hexagon", corners = regular(6, 0.2), over = 1 },
@@ -28,7 +28,7 @@ local faces = {
   { name = "clipped_triangle", corners = { { -half, -half }, { half, -0.2 * half }, { -0.3 * half, half } }, over = 0.35 },
   { name = "clipped_hexagon", corners = regular(6, 0.1), over = 0.2 },
 }
--- What of a polygon has f(x, y) = a + b x + c y >= 0.
+-- The part of a polygon where f(x, y) = a + b x + c y >= 0.
 local function clip(p, a, b, c)
   local out = {}
   for i = 1, #p do
@@ -42,7 +42,7 @@ local function clip(p, a, b, c)
   end
   return out
 end
--- Int f, Int f x, Int f y of f = a + b x + c y.
+-- int f, int f x, int f y of f = a + b x + c y.
 local function moments(p, a, b, c)
   local n, mx, my = 0, 0, 0
   for i = 2, #p - 1 do
@@ -61,7 +61,7 @@ local function moments(p, a, b, c)
   end
   return n, mx, my
 end
--- Traction of the plane g = a + b x + c y, pieces of it linear in g: { from, to, value at from, value at to } of g.
+-- Traction of the gap g = a + b x + c y for a law that is piecewise linear in g; each piece { from, to, value at from, value at to }.
 local function traction(p, a, b, c, pieces)
   local n, mx, my = 0, 0, 0
   for _, piece in ipairs(pieces) do
@@ -74,7 +74,7 @@ local function traction(p, a, b, c, pieces)
 end
 
 local far = 1  -- m, beyond every gap
-local soft = kn / 10  -- of the mortar that softens: the cells can tell where its peak is
+local soft = kn / 10  -- softer mortar, so that the cells resolve the peak of its law
 local peak, opening = ft / soft, 2 * Gf / ft
 local laws = {
   dry = { law = dry { kn = kn, mu = 0 }, pieces = { { -far, 0, -kn * far, 0 } } },
@@ -94,7 +94,7 @@ local function case(kind, face, direction, rule, points, open)
   local p = clip(face.corners, reach, -1, 0)
   local area, cx, cy = moments(p, 1, 0, 0)
   cx, cy = cx / area, cy / area
-  -- The deepest place keeps its depth d while the tilt grows until `open` at the farthest.
+  -- The deepest place keeps its depth while the tilt grows until the farthest place has the gap `open`.
   local ax, ay, near, away = math.cos(direction), math.sin(direction), 1e9, -1e9
   for _, c in ipairs(p) do
     local h = ax * (c[2] - cy) - ay * (c[1] - cx)
@@ -102,7 +102,7 @@ local function case(kind, face, direction, rule, points, open)
   end
   local theta = (depth + open) / (away - near)
   local times, turns, lifts = { 0 }, { 0 }, { 0 }
-  for i = 1, 2 do  -- pressed all over, then tilted about the deepest place, which goes on down a little
+  for i = 1, 2 do  -- pressed all over, then tilted about the deepest place, which sinks a little further
     times[i + 1], turns[i + 1] = i * steps * dt, (i - 1) * theta
     lifts[i + 1] = -depth * (0.4 + 0.6 * (i - 1)) - near * turns[i + 1]
   end
@@ -147,7 +147,7 @@ local steepest = 0
 for _, c in ipairs(cases) do steepest = math.max(steepest, c.last) end
 for _, kind in ipairs { "dry", "yielding" } do
   metric(kind, "", function(run) return worst(run, kind) end)
-  -- Faces turn by the tilt: its square.
+  -- Faces rotate by the tilt: its square.
   expect("metrics." .. kind, 0, { abs = 1e-9 + steepest ^ 2, source = "Int kn min(max(-g, 0), fc / kn) dA; 1 % is allowed" })
 end
 local function typical(run, n)  -- root mean square over the path and the faces
@@ -159,7 +159,7 @@ local function typical(run, n)  -- root mean square over the path and the faces
 end
 for _, n in ipairs { 4, 8, 16 } do
   metric("softening_" .. n, "", function(run) return typical(run, n) end)
-  -- A cell's secant is that of its widest opening, so that it bears too little elsewhere: an error of first order in the cells.
+  -- A cell has the secant of its widest opening, so it carries too little elsewhere: an error of first order in the cell size.
   expect("metrics.softening_" .. n, 1 / n, { below = true, source = "Int sigma(g) dA of the softening law" })
 end
 analysis { duration = 2 * steps * dt, dt = dt, start = "rest", output_dt = 40 * dt }

@@ -1,8 +1,8 @@
--- V18: the ultimate moment of a dry joint is N H/2, whatever the rule of its points: the toe sits on the true edge.
+-- V18: the ultimate moment of a dry joint is N H/2 for every quadrature rule: the toe lies at the true edge.
 --
--- What happens   Held blocks are turned further and further with the compression N kept: M / (N H/2) = 1 - 2a/(3H), and the length in
---                contact a = sqrt(2 N / (kn B theta)) shrinks to nothing. Two midpoints alone would stop at 1 - 1/2.
--- Source         no-tension bed of springs; rigid-plastic limit N H/2 of rocking.
+-- What happens   Held blocks are rotated further and further at constant compression N. M / (N H/2) = 1 - 2a/(3H), and the contact length a
+--                = sqrt(2 N / (kn B theta)) shrinks to nothing. Two midpoints without this closed form would stop at 1 - 1/2.
+-- Source         bed of springs without tension; rigid-plastic limit N H/2 of rocking.
 -- How to run     erbs run scenes/verify/v18_ultimate_moment.lua [-D side=...] [-D kn=...] [-D load=...]
 -- What to look at  moment_*: M over N H/2, towards 1; the last of each rule is the rocking limit.
 label("quick")
@@ -28,7 +28,7 @@ for _, rule in ipairs { { "simpson", 3 }, { "midpoint", 1 }, { "midpoint", 2 }, 
     metric("moment_" .. name, "", function(run)
       return math.abs(run.last(name .. "_my_N_m") / run.last(name .. "_normal_N")) / (H / 2)
     end)
-    -- Arms turn by theta: theta^2, and theta times the joint's lever of half the block's height over H/2; toe depth over a is theta.
+    -- Arms rotate by theta: theta^2, and theta times the lever of half the block's height over H/2; the depth of the toe over a is theta.
     expect("metrics.moment_" .. name, 1 - 2 * share / 3, { abs = 1e-9 + 2 * theta, source = "1 - 2 a / (3 H)" })
   end
 end

@@ -1,11 +1,11 @@
--- V19: the limit of the time step of chains of 1 to 100 blocks, held at one end or at both, found by bisection.
+-- V19: limit of the time step of chains of 1 to 100 blocks, held at one or both ends, by bisection.
 --
--- What happens   Each chain's stiffness is chosen so that its limit 2 / omega_max is the same by formula. Just below it a disturbance stays what
---                it is, just above it grows without end: the threshold of each is bisected.
--- Source         Courant, Friedrichs and Lewy 1928; omega_max of a chain of n: 2 sqrt(k/m) cos(pi / (2 n + 1)) held at one end,
---                2 sqrt(k/m) cos(pi / (2 n + 2)) at both.
+-- What happens   The stiffness of each chain is chosen so that the formula gives the same limit 2 / omega_max. Just below the limit a
+--                disturbance keeps its size, just above it grows without end. Bisection finds the threshold of each chain.
+-- Source         Courant, Friedrichs and Lewy 1928; omega_max of a chain of n: 2 sqrt(k/m) cos(pi / (2 n + 1)) held at one end, 2 sqrt(k/m)
+--                cos(pi / (2 n + 2)) at both.
 -- How to run     erbs run scenes/verify/v19_family.lua
--- What to look at  collapse_*: dt over the formula's limit at which each starts to grow.
+-- What to look at  collapse_*: dt over the limit of the formula at which each chain starts to grow.
 label("fixed_dt")
 local limit, edge, density, steps = 1e-4, 0.1, 1800, 6000
 local start = 1e-9
@@ -15,8 +15,7 @@ local cases = {}
 for _, n in ipairs { 1, 2, 5, 30, 100 } do
   for _, ends in ipairs { 1, 2 } do
     local name = "n" .. n .. (ends == 1 and "_one" or "_both")
-    -- omega_max: n blocks and one free end are half of a chain of 2 n; both ends held: sine modes of n.
-    -- omega_max / (2 sqrt(k/m)): one end held is half of a chain of 2 n held at both.
+    -- omega_max / (2 sqrt(k/m)). One end held: half of a chain of 2 n held at both ends. Both ends held: the sine modes of n.
     local factor = ends == 1 and math.cos(pi / (2 * n + 1)) or math.cos(pi / (2 * n + 2))
     cases[#cases + 1] = { name = name, n = n, ends = ends, kn = density * edge * (1 / (limit * factor)) ^ 2 }
   end
@@ -31,7 +30,7 @@ end
 for i, case in ipairs(cases) do
   if not alone or alone == case.name then
     local group = case.name
-    -- Soft shear keeps rocking and sway of the cubes far below the chain's axial modes.
+    -- Soft shear keeps rocking and sway of the cubes far below the axial modes of the chain.
     joint { law = mortar { kn = case.kn, ks = 0.01 * case.kn, ft = 1e9, c = 1e9, mu = 0.6 }, between = { group, group } }
     box { name = group .. "_foot", group = group, size = { edge, edge, edge }, at = { i, 0, -edge }, fixed = true }
     for k = 1, case.n do

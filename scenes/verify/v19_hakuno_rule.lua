@@ -1,11 +1,12 @@
--- V19: the step D_min / v_p of Hakuno and Meguro, even halved, is past the limit of bricks on stiff thin mortar, and the run says so.
+-- V19: half of the step D_min / v_p of Hakuno and Meguro exceeds the limit of bricks on stiff thin mortar; the run reports it.
 --
--- What happens   A wall of the bricks of Gu and Miao (5 mm of mortar, E = 10.7 GPa) with half of rule (5), which takes the wave's passage
---                between two centres for the limit. The mass sits in the bricks and the spring in the thin joint, so that the true
---                limit is shorter by 3.6 (2.7 was estimated from one block). Without unstable = true the step is refused; with it the run ends as "diverged".
+-- What happens   A wall of the bricks of Gu and Miao (5 mm of mortar, E = 10.7 GPa) runs with half of rule (5). The limit of this rule is
+--                the passage of a wave between two centroids. But the mass is in the bricks and the spring in the thin joint. So the true
+--                limit is shorter by 3.6 (an estimate from one block gave 2.7). Without unstable = true the step is refused; with it the
+--                run ends as "diverged".
 -- Source         Hakuno and Meguro 1993; Gu and Miao eq. (5): "not always convergent, use half of it".
 -- How to run     erbs run scenes/verify/v19_hakuno_rule.lua
--- What to look at  over_limit: the rule's step over 2 / omega_max; status.
+-- What to look at  over_limit: step of the rule over 2 / omega_max; status.
 label("quick", "fixed_dt")
 local E, t, density = param("E", 1.07e10, "of the mortar [Pa]"), param("thickness", 5 * mm, "[m]"), 1900
 material { name = "brick", density = density }

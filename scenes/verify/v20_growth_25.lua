@@ -1,7 +1,7 @@
--- V20 at .25 of the leapfrog's limit: the growth is beyond the first-order value by then, the characteristic equation still holds.
+-- V20 at 0.25 of leapfrog's limit: the growth exceeds its first-order value, the characteristic equation still holds.
 --
 -- How to run     erbs run scenes/verify/v20_growth_25.lua
--- What to look at  as in v20_sequential_growth.lua, where the numbers are explained.
+-- What to look at  as in v20_sequential_growth.lua, which explains the numbers.
 label("fixed_dt")
 growth_share = 0.25
 include "v20_sequential_growth.lua"

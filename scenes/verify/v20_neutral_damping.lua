@@ -1,10 +1,11 @@
--- V20: the mass damping that just cancels what the literal sequential scheme feeds: c / m = dt w_b^2 / 2.
+-- V20: the mass damping that just cancels the energy feed of the literal sequential scheme: c / m = dt w_b^2 / 2.
 --
--- What happens   The chain of v20_sequential_growth.lua in random order with mass damping; for each of three steps the damping is bisected at
---                which the amplitude neither grows nor falls. It is thousands of times any structural damping: this is why Gu and Miao
---                found that the damping ratio of the structure diverges, and why more iterations a step help.
+-- What happens   The chain of v20_sequential_growth.lua in random order, with mass damping. For each of three steps bisection finds the
+--                damping at which the amplitude neither grows nor falls. It is thousands of times larger than any structural damping. This
+--                is why Gu and Miao found that the damping ratio of the structure diverges, and why more iterations per step help.
 -- Source         mean over orders of dt (K - D) / 2 on slow motion: - dt D / 2.
--- Measured       .99, .95 and .87 of dt w_b^2 / 2 at .1, .25 and .5 of the leapfrog's limit (the fixed order: .995 at each); figures/neutral.svg
+-- Measured       0.99, 0.95 and 0.87 of dt w_b^2 / 2 at 0.1, 0.25 and 0.5 of leapfrog's limit (fixed order: 0.995 at each);
+--                figures/neutral.svg
 -- How to run     erbs run scenes/verify/v20_neutral_damping.lua [-D n=100]; studies/ holds every run of the bisections
 -- What to look at  collapse_c10, collapse_c25, collapse_c50: neutral damping over dt w_b^2 / 2.
 label("fixed_dt")
@@ -26,7 +27,8 @@ for _, key in ipairs { 10, 25, 50 } do
   -- 15 %: the law is the first order in dt.
   expect("metrics.collapse_c" .. key, 1, { rel = 0.15, source = "c / m = dt w_b^2 / 2" })
 end
--- What the characteristic equation has for the fixed order: growth falls with the damping, found by halves. Only the scene's own run draws.
+-- Neutral damping of the fixed order by the characteristic equation: growth falls with the damping; found by halving. Only the scene's own
+-- run draws.
 if c[10] == 0 and c[25] == 0 and c[50] == 0 then
   local x, neutral = {}, {}
   for i = 1, 9 do

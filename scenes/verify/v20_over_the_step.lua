@@ -1,11 +1,13 @@
--- V20: what the literal sequential scheme feeds, over the whole range of steps: a figure.
+-- V20: energy feed of the literal sequential scheme over the whole range of steps, as a figure.
 --
--- What happens   The chain of v20_sequential_growth.lua in a fixed and in a random order, at steps up to the leapfrog's limit, from noise of
---                1e-60 m/s in all modes. The amplitude grows by e^130; growth is the slope of the logarithm of the energy over the last half.
---                So long, because the sweep is far from normal at large steps: after e^14 a fixed order seems 11 % too fast at .9, while
---                the shape of its fastest mode still forms; and near .2, where the fastest mode changes, the old one leads for a while.
+-- What happens   The chain of v20_sequential_growth.lua in a fixed and in a random order, at steps up to leapfrog's limit, from noise of
+--                1e-60 m/s in all modes. The amplitude grows by e^130; the growth rate is the slope of the logarithm of the energy over the
+--                last half. The run is this long because the sweep is far from normal at large steps. After e^14 a fixed order still seems
+--                11 % too fast at 0.9, because the shape of its fastest mode is still forming. Near 0.2 the fastest mode changes, and the
+--                old one leads for a while.
 -- Source         characteristic equation in lib_spring_chain.lua; dt w_b^2 / 4 to first order.
--- How to run     erbs run scenes/verify/v20_over_the_step.lua [-D n=60]; figures/growth.svg, studies/fixed_order.csv, studies/random_order.csv
+-- How to run     erbs run scenes/verify/v20_over_the_step.lua [-D n=60]
+--                figures/growth.svg, studies/fixed_order.csv, studies/random_order.csv
 -- What to look at  fixed_order_least, _most; random_order_least, _most: growth over that of the characteristic equation.
 label("fixed_dt")
 include "lib_spring_chain.lua"
@@ -39,9 +41,9 @@ if math.max(fixed, random) == 0 then  -- the scene's own run draws
     y = "growth over exact", curves = { { label = "first order, dt w_b^2 / 4", x = x, y = first }, { label = "exact", x = { 0, 1 }, y = { 1, 1 } },
       { label = "fixed order, measured", study = "fixed_order" }, { label = "random order, measured", study = "random_order" } } }
 end
--- 1 %: near .2 two modes grow nearly alike, and the slower one leads for long.
+-- 1 %: near 0.2 two modes grow almost equally fast, and the slower one leads for long.
 expect("metrics.fixed_order_least", 1, { rel = 0.01, source = "characteristic equation of the sweep" })
 expect("metrics.fixed_order_most", 1, { rel = 0.01, source = "characteristic equation of the sweep" })
--- Random orders grow as a fixed one to first order in dt, and slower beyond.
+-- Random orders grow like a fixed one to first order in dt, and more slowly beyond.
 expect("metrics.random_order_most", 1, { rel = 0.02, source = "dt w_b^2 / 4 for any order, to first order in dt" })
 expect("metrics.random_order_failed", 0, { abs = 0, source = "every run ends" })

@@ -1,17 +1,18 @@
--- V20: the literal sequential scheme of Gu and Miao (all blocks held, one let go at a time) feeds an undamped chain with energy.
+-- V20: the literal sequential scheme of Gu and Miao (one block moves while all others are held) feeds energy into an undamped chain.
 --
--- What happens   Thirty cubes between two fixed ones start in their lowest mode and a tenth of noise. Within a sweep a block meets
---                neighbours that have moved already: a damping matrix dt L, in the mean of random orders dt (K - D) / 2, which is
---                negative for slow motion. The amplitude grows at sigma = dt w_b^2 / 4 to first order in dt (w_b: a block with its
---                neighbours held), in a fixed or coloured order exactly at the rate of the characteristic equation in lib_spring_chain.lua.
---                v20_growth_25.lua and v20_growth_50.lua do the same at .25 and .5 of the leapfrog's limit.
+-- What happens   Thirty cubes between two fixed ones start in their lowest mode with a tenth of noise. Within a sweep a block sees
+--                neighbours that have already moved. This acts like a damping matrix dt L, in the mean of random orders dt (K - D) / 2,
+--                which is negative for slow motion. The amplitude grows at the rate sigma = dt w_b^2 / 4 to first order in dt (w_b: a block
+--                with its neighbours held). In a fixed or coloured order it grows exactly at the rate of the characteristic equation in
+--                lib_spring_chain.lua. v20_growth_25.lua and v20_growth_50.lua do the same at 0.25 and 0.5 of leapfrog's limit.
 -- Source         K = L + D + U split by the order; Young 1954 for the eigenvalues of a sweep over a tridiagonal matrix.
--- Measured       random orders .0491 at .1 dt_crit, .192 at .25, .46 at .5 (times sqrt(k/m)); fixed .0495, .2013, .51. The first-order
---                value is .0501, .125, .250: it holds up to .2, where faster modes take over, and is half the truth at .5. An earlier estimate
---                had .059 at .1. v20_over_the_step.lua draws it.
---                A chain of 60 blocks comes out 12 % low, over twice the time 11 % high; why was not looked into.
+-- Measured       random orders 0.0491 at 0.1 dt_crit, 0.192 at 0.25, 0.46 at 0.5 (times sqrt(k/m)); fixed 0.0495, 0.2013, 0.51. The
+--                first-order value is 0.0501, 0.125, 0.250: it holds up to 0.2, where faster modes take over, and is half of the truth at
+--                0.5. An earlier estimate had 0.059 at 0.1. v20_over_the_step.lua draws it. A chain of 60 blocks comes out 12 % low, over
+--                twice the time 11 % high; the reason was not investigated.
 -- How to run     erbs run scenes/verify/v20_sequential_growth.lua [-D share=0.05] [-D order=1] [-D iterations=4] [-D centred=1]
--- What to look at  growth_over_exact, growth_over_first_order; momentum_residual, energy.residual_relative: the ledger says what the scheme does.
+-- What to look at  growth_over_exact, growth_over_first_order; momentum_residual, energy.residual_relative: the ledger shows the error of
+--                the scheme.
 label("fixed_dt")
 include "lib_spring_chain.lua"
 local asked, given = pcall(function() return growth_share end)
@@ -33,7 +34,7 @@ metric("growth_over_exact", "", function(run) return chain.growth(run) / exact e
 metric("growth_over_first_order", "", function(run) return chain.growth(run) / first_order end)
 metric("exact", "", exact)
 ensemble { n = 20, seed = 1, value = function(run) return chain.growth(run) / exact end, name = "random" }
--- Modes that grow nearly as fast still mix over e^7.
+-- Modes that grow almost as fast still mix over e^7.
 expect("metrics.growth_over_exact", 1, { rel = 0.04, source = "characteristic equation of the sweep" })
 expect("metrics.random_failed", 0, { abs = 0, source = "every run ends" })
 if share <= 0.1 then

@@ -1,12 +1,12 @@
--- V20: the limit of the literal sequential scheme is 2 / w_block, sqrt(2) above the leapfrog's.
+-- V20: the limit of the literal sequential scheme is 2 / w_block, sqrt(2) above leapfrog's.
 --
--- What happens   Below it the slow modes grow without damping (v20_sequential_growth.lua), so that a limit shows only with at least the
---                neutral mass damping, here 1.2 of it and centred: then the chain calms down below 2 / w_block and bursts above, whatever
---                the damping. Bisected for the fixed order and for a random one.
+-- What happens   Below the limit the slow modes grow without damping (v20_sequential_growth.lua). So a limit shows only with at least the
+--                neutral mass damping, here 1.2 times that, centred. With it the chain comes to rest below 2 / w_block and diverges above,
+--                whatever the damping. Bisected for the fixed order and for a random one.
 -- Source         characteristic equation in lib_spring_chain.lua: the zig-zag modes feel + dt D / 2, and only a block against its held
---                neighbours is left to diverge.
+--                neighbours can diverge.
 -- How to run     erbs run scenes/verify/v20_sequential_limit.lua [-D damped=1.5]
--- What to look at  collapse_share, collapse_share_random: dt over 2 / omega_max at the limit; growth of this run, at .98 of it.
+-- What to look at  collapse_share, collapse_share_random: dt over 2 / omega_max at the limit; growth of this run, at 0.98 of it.
 label("fixed_dt")
 include "lib_spring_chain.lua"
 local n = param("n", 30, "blocks")
@@ -21,7 +21,7 @@ damping { mass = damped * chain.dt * chain.block_w2 / 2 }
 local duration = 2000 * chain.tau
 analysis { duration = duration, dt = chain.dt, unstable = true, start = "rest", output_dt = duration / 40, frame_dt = duration,
   solver = "sequential", order = random and "random" or "fixed" }
--- What has grown a thousandfold in speed may have torn its joints and drift since.
+-- A chain that has grown a thousandfold in speed may since have torn its joints and drifted.
 local function grows(run)
   if run.status == "diverged" or chain.growth(run) > 0 then return true end
   local start = chain.energy(run, 1)
@@ -35,7 +35,7 @@ metric("limit", "", limit)
 bisect { param = "share", lo = 1.2, hi = 1.6, rel = 0.005, collapsed_when = grows }
 bisect { param = "share_random", lo = 1.2, hi = 1.6, rel = 0.005, collapsed_when = grows }
 expect("metrics.growth", 0, { below = true, source = "bounded below 2 / w_block" })
--- Half the last bracket, and growth of less than one part in 2000 tau that the run cannot see.
+-- Half the last bracket, and growth below one part in 2000 tau, which the run cannot see.
 expect("metrics.collapse_share", limit, { rel = 0.01, source = "2 / w_block" })
--- What one order makes grow the next may take away: 1.42 to 1.52 measured, by damping and length of the run.
+-- One order may make a mode grow and the next may shrink it: 1.42 to 1.52 measured, depending on damping and length of the run.
 expect("metrics.collapse_share_random", 0, { between = { 0.99 * limit, 1.1 * limit }, source = "2 / w_block and a little above" })

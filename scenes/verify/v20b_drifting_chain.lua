@@ -1,8 +1,8 @@
 -- V20b: a free chain of twenty cubes drifts, and the literal sequential scheme multiplies its momentum by ten thousand.
 --
--- What happens   Nothing acts from outside. Within a sweep the two ends of a spring read its force at different instants, and what they miss
---                adds up: momentum grows as exp(dt sum D_ii t / (2 m N)). With n sweeps a step the exponent is an n-th.
---                v20b_centred_sweep.lua and v20b_leapfrog.lua drift on.
+-- What happens   Nothing acts from outside. Within a sweep the two ends of a spring read its force at different instants, and the
+--                differences add up: momentum grows as exp(dt sum D_ii t / (2 m N)). With n sweeps per step the exponent is divided by n.
+--                With v20b_centred_sweep.lua and v20b_leapfrog.lua the chain drifts on.
 -- Source         mean over orders of dt (K - D) / 2 on a rigid translation, K v = 0.
 -- How to run     erbs run scenes/verify/v20b_drifting_chain.lua [-D iterations=16] [-D scheme=2]
 -- What to look at  momentum_factor over the formula; momentum_residual; converge_iterations_slope.

@@ -1,4 +1,4 @@
--- V20b by the leapfrog: every spring is read once for both its ends, and the momentum of the free chain stays to round-off.
+-- V20b by leapfrog: every spring is read once for both its ends, and the free chain conserves its momentum to round-off.
 --
 -- How to run     erbs run scenes/verify/v20b_leapfrog.lua
 -- What to look at  momentum_factor beside that of v20b_drifting_chain.lua.

@@ -1,7 +1,7 @@
--- V21: blocks on one bed joint swing up and down and die away: damping by mass, by stiffness, and by both.
+-- V21: blocks on one bed joint vibrate vertically and decay: mass damping, stiffness damping, and both.
 --
--- What happens   The ratio is xi = a / (2 w) + b w / 2, so that the slow blocks feel the mass part and the fast ones that of the dashpots
---                in the joints. Peak to peak the swing shrinks by the logarithmic decrement 2 pi xi / sqrt(1 - xi^2).
+-- What happens   The damping ratio is xi = a / (2 w) + b w / 2: slow blocks feel the mass part, fast ones the dashpots in the joints. From
+--                peak to peak the vibration shrinks by the logarithmic decrement 2 pi xi / sqrt(1 - xi^2).
 -- Source         Rayleigh, Theory of Sound, sections 45 and 103.
 -- How to run     erbs run scenes/verify/v21_damping.lua [-D a=...] [-D b=...] [-D kn=...] [-D share=0.05]
 -- What to look at  decrement_*: over the formula.
@@ -36,8 +36,8 @@ for i = 1, 4 do
     end
     return math.log(peaks[1] / peaks[1 + cycles]) / cycles / (2 * math.pi * xi / math.sqrt(1 - xi ^ 2))
   end)
-  -- Dashpots see the velocity of half a step before, and leapfrog swings too fast: parts b w^2 dt / 4 and -(w dt)^2 / 24 of the decrement,
-  -- 1 % and -.7 % of the lightest block. v21_decay_at_any_step has the exact law of every step, up to the limit.
+  -- Dashpots see the velocity of half a step before, and leapfrog vibrates too fast: shares b w^2 dt / 4 and -(w dt)^2 / 24 of the
+  -- decrement, 1 % and -0.7 % for the lightest block. v21_decay_at_any_step has the exact law for every step up to the limit.
   expect("metrics.decrement_" .. i, 1, { abs = 0.005, source = "2 pi xi / sqrt(1 - xi^2)" })
 end
 joint { law = mortar { kn = kn, ks = 0.4 * kn, ft = 1e9, c = 1e9, mu = 0.6 } }
@@ -46,7 +46,7 @@ metric("limit_over_formula", "", function(run)
   local xi = b * w1 / 2
   return run.dt_critical_s / (2 / w1 * (math.sqrt(1 + xi ^ 2) - xi))
 end)
--- The rocking of the lowest block is no faster than its swing by more than sqrt 3; its own limit is shorter, never longer.
+-- The rocking of the lowest block is faster than its vertical vibration by at most sqrt 3: its own limit is shorter, never longer.
 expect("metrics.limit_over_formula", 1, { below = true, source = "explicit dashpots: (2 / w) (sqrt(1 + xi^2) - xi)" })
--- Each dashpot books its own work; the ledger holds it against the motion of the blocks.
+-- Each dashpot books its own work; the ledger compares it with the motion of the blocks.
 expect("energy.residual_relative", 1e-6, { below = true, source = "ledger" })

@@ -1,14 +1,14 @@
--- V21 at the default time step: what a mode loses per step, exactly, and how far that is from the loss of continuous time.
+-- V21 at the default time step: exact loss of a mode per step, and its difference from the loss in continuous time.
 --
--- What happens   Blocks on one bed joint swing up and down, damped by mass and by dashpots; the step is no small part of their period.
---                Leapfrog with centred mass damping and dashpots that see the speed of half a step before is, with A = a dt / 2,
---                W = w dt, D = b w W, the recurrence (1 + A) x+ = (2 - W^2 - D) x - (1 - A - D) x-. So the square of the factor of a
---                step is (1 - A - D)/(1 + A), its turn phi: cos phi = (2 - W^2 - D) / (2 sqrt((1 + A)(1 - A - D))).
+-- What happens   Blocks on one bed joint vibrate vertically, damped by mass and by dashpots; the step is no small fraction of their period.
+--                Leapfrog with centred mass damping, and dashpots that see the velocity of half a step before, is a recurrence. With A = a
+--                dt / 2, W = w dt, D = b w W: (1 + A) x+ = (2 - W^2 - D) x - (1 - A - D) x-. So the square of the factor of a step is (1 -
+--                A - D)/(1 + A), and its phase phi has cos phi = (2 - W^2 - D) / (2 sqrt((1 + A)(1 - A - D))).
 -- Source         characteristic polynomial of the scheme; Rayleigh, Theory of Sound, sections 45 and 103, for continuous time.
 -- How to run     erbs run scenes/verify/v21_decay_at_any_step.lua [-D fraction=0.5] [-D a=...] [-D b=...] [-D kn=...]
--- The shift      At the default step the decrement of a mode at the limit (w dt = 1.7) is 16 % below that of continuous time, that of a mode at
---                half of its frequency 2 %, at a quarter .5 %, at an eighth .1 %; at .2 of the limit all are within .4 % (V21).
--- What to look at  loss_*, turn_*: over the recurrence; decrement_*: over 2 pi xi / sqrt(1 - xi^2); shift_*: what paper gives for that.
+-- Shift          At the default step the decrement of a mode at the limit (w dt = 1.7) is 16 % below that of continuous time. At half of
+--                its frequency it is 2 % below, at a quarter 0.5 %, at an eighth 0.1 %. At 0.2 of the limit all are within 0.4 % (V21).
+-- What to look at  loss_*, turn_*: over the recurrence; decrement_*: over 2 pi xi / sqrt(1 - xi^2); shift_*: the same by the recurrence.
 local kn = param("kn", 1e9, "normal stiffness of the bed [Pa/m]")
 local density = param("density", 1800, "[kg/m3]")
 local height = param("height", 0.1, "of the lightest block [m]")
@@ -22,7 +22,7 @@ label("quick")
 gravity(0)
 material { name = "brick", density = density }
 damping { mass = a, stiffness = b, form = form }
--- x+ = p x - q x-: least squares over the rows that are above round-off.
+-- x+ = p x - q x-: least squares over the rows above round-off.
 local function recurrence(u)
   local most = 0
   for _, x in ipairs(u) do most = math.max(most, math.abs(x)) end
@@ -40,7 +40,7 @@ local function decrement(p, q) return -math.pi * math.log(q) / math.acos(p / (2 
 for i = 1, 5 do
   local n = 2 ^ (i - 1)
   local h, name, w = height * n ^ 2, "block" .. i, w1 / n
-  local wide = 3 * n  -- low blocks: what rocks is no faster than what swings
+  local wide = 3 * n  -- low blocks: rocking is not faster than the vertical vibration
   box { name = "base" .. i, group = "base", size = { wide, wide, 0.1 }, at = { 100 * i, 0, -0.1 }, fixed = true }
   box { name = name, group = "block", size = { wide, wide, h }, at = { 100 * i, 0, 0 }, initial = { position = { 0, 0, 1e-5 } } }
   recorder { name = name, quantity = "displacement", block = name, axis = "z" }

@@ -1,13 +1,13 @@
 -- V22: two blocks meet head on, face to face, in free space
 --
 -- What happens   Pairs of blocks fly into each other along their common axis, each pair with its own restitution, mass ratio and shape.
---                They part with the speed that Hunt and Crossley's law gives, turn back after a quarter of a period of the contact
---                spring, and no momentum is lost.
--- Source         Contact spring k = kn A on the reduced mass m: without loss they are in contact for pi / omega, omega = sqrt(k / m).
---                With p = kn depth (1 + chi v), v the speed of approach (Hunt and Crossley 1975, J. Appl. Mech. 42, eq. 10), restitution
---                is X - ln(1 + X) = -e X - ln(1 - e X), X = chi v0, whatever kn and m; chi is chosen so that e is as asked for.
+--                They separate with the speed of Hunt and Crossley's law, turn back after a quarter of a period of the contact spring, and
+--                conserve momentum.
+-- Source         Contact spring k = kn A on the reduced mass m: without loss they are in contact for pi / omega, omega = sqrt(k / m). With
+--                p = kn depth (1 + chi v), v the closing speed (Hunt and Crossley 1975, J. Appl. Mech. 42, eq. 10), the restitution e
+--                follows from X - ln(1 + X) = -e X - ln(1 - e X), X = chi v0, for any kn and m. chi is chosen so that e is the given one.
 -- How to run     erbs run scenes/verify/v22_central_collision.lua [-D speed=...] [-D kn=...] [-D fraction=0.9]
--- What to look at  restitution_* (as asked for), duration_* (of contact over pi / omega), momentum_error.
+-- What to look at  restitution_* (against the given one), duration_* (of contact over pi / omega), momentum_error.
 label("quick", "fixed_dt")  -- at coarser steps the dashpot of a strongly damped impact is capped for stability: see v22_restitution_at_the_step
 local speed = param("speed", 1, "of each towards the other [m/s]")
 local kn = param("kn", 1e10, "[Pa/m]")
@@ -29,7 +29,7 @@ local function pair(name, e, size_a, size_b, density_b)
   local m_a, m_b = 2000 * size_a[1] * size_a[2] * size_a[3], density_b * size_b[1] * size_b[2] * size_b[3]
   local reduced, area = m_a * m_b / (m_a + m_b), math.min(size_a[2], size_b[2]) * math.min(size_a[3], size_b[3])
   local omega = math.sqrt(kn * area / reduced)
-  -- A rim as wide as the blocks are pressed in lies nearer to the sides than to the face and bears less.
+  -- A rim as wide as the depth of the contact lies nearer to the sides than to the face and carries less.
   local rim = 2 * speed / omega / math.sqrt(area)
   slowest = math.max(slowest, pi / omega)
   local a, b = name .. "a_vx_rel_m_s", name .. "b_vx_rel_m_s"
@@ -40,7 +40,7 @@ local function pair(name, e, size_a, size_b, density_b)
   expect("metrics.restitution_" .. name, e, { abs = 0.005 + rim * e, source = "restitution asked for; steps of the run, and the rim" })
   expect("metrics.momentum_error_" .. name, 1e-13, { below = true, source = "action and reaction" })
   if e < 1 then return end
-  metric("duration_" .. name, "", function(run)  -- twice the time from touch to rest, from the moment the relative velocity turns
+  metric("duration_" .. name, "", function(run)  -- twice the time from touch to the change of sign of the relative velocity
     local va, vb, t = run.history(a), run.history(b), run.time
     for i = 2, #t do
       local u, v = vb[i - 1] - va[i - 1], vb[i] - va[i]

@@ -1,9 +1,9 @@
--- V22 at the step that is taken where a scene says nothing: bricks bounce as much as was asked for
+-- V22 at the default time step: bricks rebound with the given restitution
 --
 -- What happens   Bricks fall flat on the ground, each with its own restitution, and pairs of them meet head on, all at the default step.
--- Source         As v22_central_collision. A blow of little restitution wants a dashpot of more than an explicit step at the limit bears, and
---                returns an energy that depends on where in a step it begins. So the step is shortened before the blow by the energy that may
---                err (solve/event_bound.h): every restitution comes out as asked for.
+-- Source         As v22_central_collision. An impact of low restitution needs a stronger dashpot than an explicit step at the limit can
+--                bear. The returned energy then depends on where in a step the impact begins. So the step is shortened before the impact,
+--                by the energy that may be in error (engine/solve/event_bound.h): every restitution comes out as given.
 -- How to run     erbs run scenes/verify/v22_restitution_at_the_step.lua [-D kn=...] [-D height=...]
 -- What to look at  falls_*, meets_*: restitutions
 local kn = param("kn", 5e10, "[Pa/m]")

@@ -1,10 +1,10 @@
 -- V23: bodies meet obliquely and off centre in free space
 --
--- What happens   Pairs of bodies of several shapes tumble into each other: face, edge and corner, with friction, impact damping and spin. What
---                one gains the other loses, of linear and of angular momentum, to round-off; energy is booked to its last part.
+-- What happens   Pairs of bodies of several shapes tumble into each other: face, edge and corner, with friction, impact damping and spin.
+--                Each gains the linear and angular momentum that the other loses, to round-off, and the ledger books all the energy.
 -- Source         conservation of momentum of an isolated system
 -- How to run     erbs run scenes/verify/v23_oblique_collision.lua [-D seed=...] [-D restitution=...] [-D friction=...]
--- What to look at  momentum_error, spin_error (of the sums of the magnitudes), turned (smallest turn of velocity: all have met)
+-- What to look at  momentum_error, spin_error (over the sums of the magnitudes), met (share of the pairs that have met)
 label("quick")
 local seed = param("seed", 1, "of poses and velocities")
 local e = param("restitution", 0.4, "")
@@ -77,7 +77,7 @@ metric("met", "", function(run)
   end
   return n / #names
 end)
--- Soon after all have met: free flight adds x = x + dt v, whose rounding is the same step after step and grows with their number.
+-- The run ends soon after all have met: free flight adds x = x + dt v, whose rounding error repeats and grows with the number of steps.
 analysis { duration = 0.13, dt_fraction = fraction, start = "rest", output_dt = 0.01, frame_dt = 0.13 }
 expect("metrics.momentum_error", 1e-12, { below = true, source = "action and reaction" })
 expect("metrics.spin_error", 1e-12, { below = true, source = "action and reaction, along one line" })

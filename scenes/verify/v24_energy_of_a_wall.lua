@@ -1,11 +1,11 @@
--- V24: a bonded wall of a thousand bricks, undamped, shaken by noise at the start: its energy for a hundred thousand steps.
+-- V24: energy of an undamped bonded wall of a thousand bricks, excited by noise at the start, over a hundred thousand steps.
 --
--- What happens   Every brick starts with a random velocity and spin. Nothing cracks, nothing is damped. The leapfrog keeps a shadow of the
---                energy (T = v- m v+ / 2 with the elastic energy at the same instant) to round-off and no trend; the energy with the mean
---                of both velocities swings about it by dt^2 sum m a^2 / 8: second order.
--- Source         Hairer, Lubich and Wanner 2003, Acta Numerica 12, section 5 (the modified Hamiltonian of the leapfrog).
+-- What happens   Every brick starts with a random velocity and spin. Nothing cracks and nothing is damped. Leapfrog conserves a shadow
+--                energy (T = v- m v+ / 2 with the elastic energy at the same instant) to round-off, without trend. The energy with the mean
+--                of both velocities oscillates about it by dt^2 sum m a^2 / 8, of second order.
+-- Source         Hairer, Lubich and Wanner 2003, Acta Numerica 12, section 5 (the modified Hamiltonian of leapfrog).
 -- How to run     erbs run scenes/verify/v24_energy_of_a_wall.lua [-D steps=1e6] [-D courses=20] [-D share=0.5]
--- What to look at  drift: the ledger's residual over the energy there is; trend (second against first half); converge_order_slope.
+-- What to look at  drift: change of the energy over the initial energy; energy.residual_relative; converge_order_slope.
 label("fixed_dt")
 local across, courses = param("across", 25, "bricks along the wall"), param("courses", 40, "")
 local steps = param("steps", 1e5, "of the long run")
@@ -49,7 +49,7 @@ analysis { duration = duration, dt_fraction = order > 0 and order or share, star
 metric("energy_at_start", "J", start)
 metric("drift", "", function(run) return math.abs(run.energy.kinetic_J + run.energy.elastic_J - start) / start end)
 metric("steps_done", "", function(run) return run.steps end)
--- Energy with the mean velocities at the last row, of the energy at the start.
+-- Energy with the mean velocities at the last row, relative to the energy at the start.
 converge { param = "order", values = { 0.8, 0.4, 0.2, 0.1 }, slope = 1.9, error = function(run)
   local kinetic = 0
   for _, name in ipairs(names) do
@@ -59,7 +59,7 @@ converge { param = "order", values = { 0.8, 0.4, 0.2, 0.1 }, slope = 1.9, error 
   end
   return (kinetic + run.energy.elastic_J) / start - 1
 end }
--- Round-off, and the rotation of joint frames to second order: nothing that grows.
+-- Round-off, and the rotation of joint frames to second order: no error that grows.
 expect("metrics.drift", 1e-4, { below = true, source = "the leapfrog's shadow energy" })
 expect("energy.residual_relative", 1e-4, { below = true, source = "the worst of all settlings: bounded, no trend" })
 expect("metrics.steps_done", 0.8 * steps, { above = true, source = "a hundred thousand steps" })

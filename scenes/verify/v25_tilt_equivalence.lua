@@ -1,11 +1,12 @@
--- V25: the same wall on a table that turns, and under gravity that turns: both overturn at the same angle.
+-- V25: the same wall on a rotating table and under rotating gravity overturns at the same angle.
 --
--- What happens   A free-standing wall of dry courses on a base that is turned (turning{}), and the same in a child run where gravity is turned
---                back instead (tilt{}); both slowly, at `rate`. Seen from the wall the two are one, but for the slow base's own accelerations
---                (rate squared times the height: 1e-5 g). A rigid wall on its edge overturns at atan(t / H).
--- Source         relative motion: a body on a table at angle b feels g turned by -b.
+-- What happens   A free-standing wall of dry courses stands on a base that rotates (turning{}); in a child run gravity rotates the other
+--                way instead (tilt{}). Both are slow, at `rate`. Seen from the wall the two are the same, apart from the accelerations of
+--                the slow base (rate squared times the height: 1e-5 g). A rigid wall overturns on its edge at atan(t / H).
+-- Source         relative motion: a body on a table at angle b feels g rotated by -b.
 -- How to run     erbs run scenes/verify/v25_tilt_equivalence.lua [-D rate=0.2*deg] [-D courses=10]
--- What to look at  angle_deg: of the table where the top has moved, seen from the table, by 2 % of the thickness; difference_deg; rigid_angle_deg.
+-- What to look at  angle_deg: angle of the table at which the top has moved by 2 % of the thickness, seen from the table; difference_deg;
+--                rigid_angle_deg.
 label("quick")
 local turned = param("gravity_turns", 0, "above 0: gravity turns instead of the base")
 local courses = param("courses", 5, "")
@@ -17,15 +18,15 @@ local from = param("from", 0.9, "of the rigid wall's angle: where the slow part 
 material { name = "stone", density = 1800, friction = 0.8, kn = kn, ks = 0.4 * kn }
 local H = courses * height
 local rigid = math.atan(thick / H)
--- Quickly and smoothly to `from`, then at a steady rate: an angle as a table of times. Angles are those of the table.
--- Its corners lie about a step apart: a coarser one knocks at every corner, at the base alone.
+-- Quickly and smoothly to `from`, then at a steady rate: the angle of the table as a table of times. The corners of this polyline lie about
+-- a step apart; a coarser one would give an impulse at every corner, and only to the base.
 local angles, times, n = {}, {}, 30000
 local fast = 6.0
 local function smooth(s) return s ^ 3 * (10 - 15 * s + 6 * s ^ 2) end
 for i = 0, n do times[#times + 1], angles[#angles + 1] = fast * i / n, from * rigid * smooth(i / n) end
 local rest = 0.3
 times[#times + 1], angles[#angles + 1] = fast + rest, from * rigid
--- the corner to the steady rate rounded off
+-- the corner to the steady rate, rounded
 for i = 1, 5000 do times[#times + 1], angles[#angles + 1] = fast + rest + i / 5000, from * rigid + rate * 0.5 * (i / 5000) ^ 2 end
 local t0, a0 = times[#times], angles[#angles]
 local t1 = t0 + (1.15 * rigid - a0) / rate
@@ -40,7 +41,7 @@ local function angle_at(time)
   return angles[low - 1] + (angles[low] - angles[low - 1]) * part
 end
 local table_of_angles = table_wave { times = times, values = angles, hold = true }
--- The wall leans towards +x: the table turns by +angle about y through the wall's foot, or gravity by -angle.
+-- The wall leans towards +x: the table rotates by +angle about y through the foot of the wall, or gravity by -angle.
 box { name = "base", group = "base", size = { 3 * thick, 2 * width, 0.2 }, at = { -1.5 * thick, -width, -0.2 }, fixed = turned > 0 }
 for i = 1, courses do
   box { name = "course" .. i, group = "wall", size = { thick, width, height }, at = { -thick / 2, -width / 2, (i - 1) * height } }
@@ -67,5 +68,5 @@ ensemble { n = 1, seed = 1, param = "gravity_turns", name = "gravity", value = o
 metric("difference_deg", "deg", function(run) return overturning(run) - run.metrics.metrics.gravity_mean end)
 metric("rigid_angle_deg", "deg", rigid / deg)
 expect("metrics.difference_deg", 0, { abs = 0.1, source = "relative motion" })
--- The elastic toe takes 1.89 (4/9 d0 h / b^2)^(1/3) of the angle for one block (contact.md, section 4), and more for several courses.
+-- The elastic toe takes the share 1.89 (4/9 d0 h / b^2)^(1/3) of the angle for one block (V30), and more for several courses.
 expect("metrics.angle_deg", rigid / deg, { rel = 0.1, source = "atan(t / H), softened by the bed" })

@@ -1,10 +1,9 @@
--- V26: the same small wall, pushed until it cracks and slides: as it stands, turned by a random rotation, and moved 10 km away.
+-- V26: a small wall, pushed until it cracks and slides: as it stands, rotated at random, and moved 10 km away.
 --
--- What happens   Three copies in one run, without gravity but with weights and pushes as forces, so that they turn with their copy.
---                After `steps` steps the displacements, turned back, must agree: no world axis is preferred, and no absolute position
---                enters the path of a force.
+-- What happens   Three copies in one run, without gravity; weights and pushes are forces and rotate with their copy. After `steps` steps
+--                the displacements, rotated back, must agree: no world axis is preferred, and no force depends on absolute position.
 -- How to run     erbs run scenes/verify/v26_objectivity.lua [-D seed=7] [-D distance=1e5] [-D steps=1000]
--- What to look at  rotated_error, moved_error (over the largest displacement), cracked (joints that cracked in the first copy).
+-- What to look at  rotated_error, moved_error (over the largest displacement), damage (of the first copy).
 label("quick")
 local seed = param("seed", 1, "of the rotation")
 local distance = param("distance", 1e4, "of the copy that is moved [m]")
@@ -38,7 +37,7 @@ local function wall(tag)
 end
 
 local function unit(x, y, z) local r = math.sqrt(x * x + y * y + z * z) return { x / r, y / r, z / r } end
--- A few numbers from the seed: a multiplicative generator (Park and Miller 1988).
+-- Random numbers from the seed: a multiplicative generator (Park and Miller 1988).
 local state = 16807 * (seed + 10) % 2147483647
 local function draw()
   for _ = 1, 5 do state = 16807 * state % 2147483647 end
@@ -51,7 +50,7 @@ transform { at = { 30, 20, 10 }, rotation = turned, function() rotated = wall("r
 transform { at = { distance, -distance, distance / 2 }, function() moved = wall("moved_") end }
 recorder { name = "home", quantity = "damage", blocks = home }
 
-local function back(v)  -- by minus the angle about the axis
+local function back(v)  -- rotates by minus the angle about the axis
   local c, si, k = math.cos(angle), -math.sin(angle), axis
   local dot = (k[1] * v[1] + k[2] * v[2] + k[3] * v[3]) * (1 - c)
   local cross = { k[2] * v[3] - k[3] * v[2], k[3] * v[1] - k[1] * v[3], k[1] * v[2] - k[2] * v[1] }
@@ -76,8 +75,8 @@ metric("largest_displacement_m", "m", function(run) return run.peak(home[#home] 
 
 local dt = 2.5e-5
 analysis { duration = steps * dt, dt = dt, start = "equilibrium", output_dt = 10 * dt,
-  energy_gate = 2e-3 }  -- it ends amid blows: what their springs hold back when the step changes is not given back yet
--- Round-off, magnified by the cracks' events.
+  energy_gate = 2e-3 }  -- the run ends during impacts: energy that a change of step keeps in their springs is not yet returned
+-- Round-off, magnified by cracking.
 expect("metrics.rotated_error", 1e-9, { below = true, source = "objectivity" })
--- An ulp at 10 km is 1.8e-12 m, taken once, in the shapes at rest.
+-- An ulp at 10 km is 1.8e-12 m; it enters once, in the shapes at rest.
 expect("metrics.moved_error", 1e-6, { below = true, source = "objectivity" })

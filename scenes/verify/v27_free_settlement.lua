@@ -1,7 +1,7 @@
 -- V27: stacks of blocks under their own weight: reaction, joint forces and settlement.
 --
--- What happens   The static start brings each stack to rest on its joints; it stays there. One stack is of equal bricks on dry joints,
---                one of unequal blocks on mortar beds, one carries a load besides.
+-- What happens   The static start brings each stack to rest on its joints, and it stays at rest. One stack has equal bricks on dry joints,
+--                one has unequal blocks on mortar beds, one also carries a load.
 -- Source         equilibrium: N_i = weight above; settlement of block i = sum over the joints below of N / (kn A).
 -- How to run     erbs run scenes/verify/v27_free_settlement.lua [-D n=50] [-D kn=...] [-D density=...]
 -- What to look at  force_error, settlement_error, reaction_error, drift (largest motion during the run over the settlement).
@@ -67,7 +67,7 @@ metric("drift", "", function(run)
 end)
 metric("reaction_error", "", function(run) return -run.last("base_fz_N") / total - 1 end)
 analysis { duration = 0.1, start = "equilibrium", output_dt = 0.01 }
--- The start's unbalanced force is below 1e-11 of the largest load; it swings undamped afterwards.
+-- The unbalanced force at the start is below 1e-11 of the largest load; afterwards it vibrates undamped.
 expect("metrics.force_error", 0, { abs = 1e-8, source = "weight above" })
 expect("metrics.settlement_error", 0, { abs = 1e-8, source = "sum of N / (kn A)" })
 expect("metrics.drift", 0, { abs = 1e-8, source = "at rest" })

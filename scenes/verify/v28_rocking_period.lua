@@ -1,9 +1,9 @@
 -- V28: the period of free rocking depends on its amplitude.
 --
--- What happens   Blocks of several slendernesses are tilted by several shares of alpha and let go; the time to the first impact is a
+-- What happens   Blocks of several slendernesses are tilted by several shares of alpha and released. The time to the first impact is a
 --                quarter of the period.
--- Source         Housner 1963, eq. (2): T = (4/p) acosh(1 / (1 - phi0)) for small angles; the exact equation is integrated by rocking{}.
---                .25 x 1.0 m at phi0 = .5: 1.39423 s (linear); .6 x 3 m at .05 rad: 1.46278 s (linear), 1.46576 s (exact).
+-- Source         Housner 1963, eq. (2): T = (4/p) acosh(1 / (1 - phi0)) for small angles; rocking{} integrates the exact equation. 0.25 x
+--                1.0 m at phi0 = 0.5: 1.39423 s (linear); 0.6 x 3 m at 0.05 rad: 1.46278 s (linear), 1.46576 s (exact).
 -- How to run     erbs run scenes/verify/v28_rocking_period.lua [-D settlement=...] [-D foot=...]
 -- What to look at  period_<block>_<phi>: over the exact one; linear_*: over Housner's formula (for information).
 label("quick")
@@ -21,7 +21,7 @@ for i, row in ipairs { { "pena1", 0.25, 1.0, 0.5 }, { "pena1", 0.25, 1.0, 0.2 },
   metric("period_" .. name, "", function(run) return it.impacts(run)[1] / it.theory.impacts[1] end)
   metric("linear_" .. name, "", function(run) return it.impacts(run)[1] / small.impacts[1] end)
   metric("exact_s_" .. name, "s", 4 * it.theory.impacts[1])
-  -- 2 %: the toe pressed into the bed brings the turning point, and alpha with it, inwards by up to half a foot.
+  -- 2 %: the toe sinks into the bed, which moves the centre of rotation, and with it alpha, inwards by up to half a foot.
   expect("metrics.period_" .. name, 1, { rel = 0.02, source = "Housner's exact equation" })
 end
 analysis { duration = duration, start = "rest", dt = param("dt", 4e-5), output_dt = 1e-3, frame_dt = 0.05 }

@@ -1,21 +1,21 @@
 -- V32: one full sine of the ground: a safe island lies above the first amplitudes that overturn.
 --
--- What happens   A block on ground that moves by one cycle of a sine falls after one impact from a first amplitude on, stands again above a
---                second one, and falls without an impact above a third. Bisection finds the three: `first_w`, `island_w` (where it begins
---                to stand again), `above_w` (where it falls without impact). Below w/p = 3 the island is narrower than the contact's
---                own error (0.2 % wide at 1, 2.3 % at 2): theory alone shows it (theory_island_*); the DEM is asked for first_1 and first_2.
---                A stocky block (b/h above .45) is not asked where its island begins: the blow that saves it there turns it by a third of its
---                velocity, and the one that the contact gives is off by enough to move this edge by 10 % (.6 x 1.2 m, w/p = 3).
--- Source         Zhang and Makris 2001; exact equation with Housner's impact by rocking_overturning{}. Makris block .4 x 1.2 m, a / (g alpha):
---                w = 3 1.4823 | 3.5947-3.8184, 4 2.0317 | 4.9776-5.5707, 5 3.7107 | 6.4042-7.7134.
+-- What happens   The ground moves by one cycle of a sine. Above a first amplitude the block falls after one impact, above a second it
+--                stands again, above a third it falls without impact. Bisection finds the three: `first_w`, `island_w` (the block stands
+--                again), `above_w` (it falls without impact). Below w/p = 3 the island is narrower than the error of the contact (0.2 %
+--                wide at 1, 2.3 % at 2). Only theory shows it (theory_island_*); the DEM is asked for first_1 and first_2. For a stocky
+--                block (b/h above 0.45) the start of the island is not searched. The impact that saves it there changes its rotation by a
+--                third of its velocity, and the error of the contact's impact moves this limit by 10 % (0.6 x 1.2 m, w/p = 3).
+-- Source         Zhang and Makris 2001; exact equation with Housner's impact by rocking_overturning{}. Makris block 0.4 x 1.2 m, a / (g
+--                alpha): w = 3 1.4823 | 3.5947-3.8184, 4 2.0317 | 4.9776-5.5707, 5 3.7107 | 6.4042-7.7134.
 -- How to run     erbs run scenes/verify/v32_full_sine_overturning.lua [-D width=...] [-D height=...] [-D first_3=0.9]
--- What to look at  first_w, island_w, above_w: amplitude over theory's.
+-- What to look at  first_w, island_w, above_w: amplitude over that of theory.
 local width, height = param("width", 0.4, "[m]"), param("height", 1.2, "[m]")
 if width / height < 0.2 - 1e-9 or width / height > 0.55 + 1e-9 then error("width over height must lie between 0.2 and 0.55: of other blocks no edge was found in the brackets", 0) end
 local settlement, foot = param("settlement", 1.7e-6, "of the full base over half the width"), param("foot", 0.008, "width of a foot over that of the block")
-local mark = 1.5  -- of a param no run has changed
+local mark = 1.5  -- value of a param that no run has changed
 
--- Each study changes the param of its own name, by which its runs know which pulse to build.
+-- Each study changes the param of its own name; its runs see from it which pulse to build.
 local cases, chosen = {}, nil
 for _, w in ipairs { 1, 2, 3, 4, 5 } do
   for _, edge in ipairs(w < 3 and { "first" } or { "first", "island", "above" }) do
@@ -32,7 +32,7 @@ local p, threshold = block.theory.p, g * math.tan(block.theory.alpha)
 local known = {}
 local function theory_of(w)
   if known[w] then return known[w] end
-  local bands = rocking_overturning { width = width, height = height, from = 0.9, to = 12, points = chosen and 250 or 600,  -- in the runs of a study no narrow island is asked for
+  local bands = rocking_overturning { width = width, height = height, from = 0.9, to = 12, points = chosen and 250 or 600,  -- the runs of a study need no narrow island
     wave = full_sine { amplitude = threshold, frequency = w * p / (2 * pi) } }.bands
   local edges, last = { first = bands[1].from }, bands[#bands]
   if last.impacts == 0 and #bands > 1 and bands[#bands - 1].to < last.from * (1 - 1e-6) then
@@ -41,7 +41,7 @@ local function theory_of(w)
   known[w] = edges
   return edges
 end
--- The run of its own: above the first island. A stocky block that loses much in its blows falls without one or not at all: no island.
+-- The scene's own run: above the first island. A stocky block with large losses falls without impact or not at all: no island.
 for _, case in ipairs(cases) do
   if not asked and case.edge == "above" and theory_of(case.w).above then asked = case end
 end
@@ -59,14 +59,15 @@ if not chosen then
   end
 end
 local function seek(case)
-  -- Brackets from where theory stands to where it falls: half the island, and half the band of falls below it, at most.
-  local e = (not chosen or case == chosen) and theory_of(case.w) or { first = 1, island = 2, above = 3 }  -- in a run of a study the others' do not matter
+  -- Brackets from an amplitude at which theory stands to one at which it falls: at most half the island, and half the band of falls below
+  -- it.
+  local e = (not chosen or case == chosen) and theory_of(case.w) or { first = 1, island = 2, above = 3 }  -- in a run of a study the others do not matter
   if not e[case.edge] or case.edge == "island" and width > 0.45 * height then return end
   local half = case.edge ~= "first" and 0.5 * (e.above - e.island)
   local lo = case.edge == "first" and 0.92 or case.edge == "island" and (e.island + half) / e.island or (e.above - half) / e.above
   local hi = case.edge == "first" and 1.08 or case.edge == "island" and math.max(0.93, 0.5 * (1 + e.first / e.island)) or 1.05
   bisect { param = case.name, name = case.name .. "_over_theory", lo = lo, hi = hi, rel = 0.01 }
-  -- No impact: 3 %, the toe in the bed. One impact: 5 %, the blow, which is fitted at another amplitude (V29).
+  -- No impact: 3 %, the toe in the bed. One impact: 5 %, the impact, which was fitted at another amplitude (V29).
   expect("metrics." .. case.name .. "_over_theory", 1, { rel = case.edge == "above" and 0.03 or 0.05, source = "Zhang and Makris 2001, exact equation" })
 end
 for _, case in ipairs(cases) do seek(case) end

@@ -1,12 +1,12 @@
--- V33: of two blocks of the same shape the larger rocks slower by the square root of the scale, and otherwise alike.
+-- V33: of two blocks of the same shape the larger rocks more slowly by the square root of the scale, and otherwise alike.
 --
--- What happens   A block and one `scale` times as large get the same half sine in units of their own g tan(alpha) and p, near the amplitude that
---                overturns, as inertia forces. theta of the larger at sqrt(scale) t is that of the smaller at t; so their overturning
---                amplitudes at equal omega/p are equal, and the larger one needs a longer pulse: the scale effect.
+-- What happens   A block and a block `scale` times as large get the same half sine of inertia forces, in units of their own g tan(alpha)
+--                and p. Its amplitude is near the one that overturns. theta of the larger at sqrt(scale) t equals theta of the smaller at
+--                t. So their overturning amplitudes at equal omega/p are equal, and the larger one needs a longer pulse: the scale effect.
 -- Source         Housner 1963: p = sqrt(3 g / (4 R)), and nothing else in the dimensionless equation.
 -- How to run     erbs run scenes/verify/v33_rocking_scale.lua [-D scale=4] [-D w=3] [-D share=0.97]
--- What to look at  falls_ratio: amplitude that overturns the one over that of the other; difference: largest of theta / alpha; time_ratio:
---                of the first impacts over sqrt(scale).
+-- What to look at  falls_ratio: overturning amplitude of one over that of the other; difference: largest of theta / alpha; time_ratio: of
+--                the first impacts over sqrt(scale).
 label("quick")
 local scale, w = param("scale", 2, "of the larger block"), param("w", 2, "omega / p of the pulse")
 local share = param("share", 0.97, "amplitude over the one that overturns")
@@ -48,7 +48,7 @@ metric("difference", "alpha", difference)
 metric("time_ratio", "", function(run) return large.impacts(run)[1] / small.impacts(run)[1] / stretch end)
 metric("falls_ratio", "", function(run) return run.metrics.metrics.falls_1 / run.metrics.metrics.falls_2 end)
 expect("metrics.falls_ratio", 1, { rel = 0.005, source = "the same amplitude at the same omega / p" })
--- .5 %: the steps of the two are not in the ratio of their times.
+-- 0.5 %: the steps of the two are not in the ratio of their times.
 expect("metrics.difference", 0.005, { below = true, source = "scale" })
 expect("metrics.time_ratio", 1, { rel = 0.005, source = "sqrt(scale)" })
 -- A faster pulse comes closer to the edge: a finer step.

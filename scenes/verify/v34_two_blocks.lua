@@ -1,9 +1,10 @@
 -- V34: a block on a block rocks in four patterns.
 --
--- What happens   Two stacked blocks, free to part, are pushed by a half sine of inertia forces to +x, a second such stack to -x. They turn with or
---                against each other, or one alone. No closed form for the transitions: the stacks must be mirror images, and the
---                ledger must close. The sequence of patterns is reported.
--- Source         Psycharis 1990 (EESD 19, 555): patterns 1 both the same way, 2 opposite, 3 the upper alone, 4 both as one on the lower's edge.
+-- What happens   A half sine of inertia forces pushes two stacked blocks, free to separate, to +x, and a second such stack to -x. The
+--                blocks rotate the same way, in opposite ways, or one alone. The transitions have no closed form: the stacks must be mirror
+--                images, and the ledger must close. The scene reports the sequence of patterns.
+-- Source         Psycharis 1990 (EESD 19, 555): patterns 1 both the same way, 2 opposite, 3 the upper alone, 4 both as one about the edge
+--                of the lower.
 -- How to run     erbs run scenes/verify/v34_two_blocks.lua [-D amplitude=0.5] [-D frequency=1.2]
 -- What to look at  mirror; pattern_1..4: share of the time in each; changes: number of changes of pattern.
 label("quick")
@@ -56,7 +57,7 @@ metric("mirror", "rad", function(run)
   return worst
 end)
 metric("largest", "rad", function(run) return math.max(run.peak("s1_1_ry_rad"), run.peak("s1_2_ry_rad")) end)
--- Round-off grows by the impacts; 1e-3 of a rocking of some 0.1 rad.
+-- Impacts magnify round-off; 1e-3 of a rocking of about 0.1 rad.
 expect("metrics.mirror", 1e-4, { below = true, source = "mirror symmetry" })
 expect("metrics.largest", 1e-2, { above = true, source = "the blocks do rock" })
 expect("energy.residual_relative", 1e-3, { below = true, source = "ledger" })

@@ -1,7 +1,7 @@
--- V36: a drum that was tilted rocks and rolls on its rim, and comes to rest.
+-- V36: a tilted drum rocks and rolls on its rim and comes to rest.
 --
--- What happens   Two drums of a column (prisms of many sides) are let go tilted, one towards +x, the other towards -x, and a third is tilted and
---                spun. No closed form: the first two must be mirror images, stay in their plane, and no energy may appear.
+-- What happens   Two drums of a column (prisms of many sides) are released tilted, one towards +x, the other towards -x; a third is tilted
+--                and spun. There is no closed form: the first two must be mirror images and stay in their plane, and no energy may appear.
 -- Source         Symmetry; the ledger.
 -- How to run     erbs run scenes/verify/v36_drum.lua [-D sides=24] [-D tilt=0.2]
 -- What to look at  mirror: largest |x_1 + x_2| over the radius; aside: out of plane; losses; energy.residual_relative.
@@ -12,7 +12,7 @@ material { name = "stone", density = 2500, kn = kn, ks = 0.4 * kn, friction = 0.
 box { name = "floor", size = { 20, 20, 1 }, at = { -10, -10, -1 }, fixed = true, material = "stone" }
 joint { law = dry { kn = kn, mu = 0.8 }, none = true }
 local polygon = {}
-for i = 1, sides do  -- a side to -x and to +x, on which the drum rocks
+for i = 1, sides do  -- a side faces -x and one +x: the drum rocks on them
   local a = 2 * pi * (i - 0.5) / sides
   polygon[i] = { radius * math.cos(a), radius * math.sin(a) }
 end
@@ -31,8 +31,8 @@ metric("mirror", "radius", function(run)
 end)
 metric("aside", "radius", function(run) return math.max(run.peak("drum1_uy_rel_m"), run.peak("drum2_uy_rel_m")) / radius end)
 metric("losses", "J", function(run) return run.energy.contact_damping_J + run.energy.friction_J end)
--- Round-off of the places (1e-17 m after 10 ms) grows about tenfold at each impact on a side, the smaller the swing the faster they follow each
--- other: 1e-9 to 1e-8 after ten. A hundred times that is allowed.
+-- Round-off of the positions (1e-17 m after 10 ms) grows about tenfold at each impact on a side: 1e-9 to 1e-8 after ten. Impacts follow
+-- each other faster as the swing decays. A hundred times that is allowed.
 expect("metrics.mirror", 1e-6, { below = true, source = "mirror symmetry" })
 expect("metrics.aside", 1e-9, { below = true, source = "mirror symmetry" })
 expect("metrics.losses", 0, { above = true, source = "no energy appears" })

@@ -1,13 +1,14 @@
 -- V37: a block, a column of blocks and a portal under a horizontal load slide or topple, whichever comes first.
 --
--- What happens   The ground's acceleration grows slowly to lambda g and stays. A block slides at lambda = mu or topples at b/h; a column of any
---                number of blocks topples at its own b/h; a portal of two columns and a beam at the b/h of a column whatever its beam weighs.
--- Source         Limit analysis of rigid blocks without tension. Column of 10 blocks 1.0 x .5 m: .2000; portal b = 1, h = 5 m: .2000.
+-- What happens   The ground acceleration grows slowly to lambda g and stays. A block slides at lambda = mu or topples at b/h. A column of
+--                any number of blocks topples at its own b/h. A portal of two columns and a beam topples at the b/h of a column, whatever
+--                the mass of its beam.
+-- Source         Limit analysis of rigid blocks without tension. Column of 10 blocks 1.0 x 0.5 m: 0.2000; portal b = 1, h = 5 m: 0.2000.
 -- How to run     erbs run scenes/verify/v37_slide_or_topple.lua [-D column=1.02] [-D kn=1e11] [-D blocks=5]
 -- What to look at  *_over_paper: load found over that on paper; the mechanism in metrics.json.
 --
--- Stiffness: a bed of springs takes 1.89 (4/9 d0 h / b^2)^(1/3) off b/h (h, b half the height and the base, d0 the settlement), and only the
--- cube root of the stiffness brings it back: 1.4 % for the column at 1e12, 2 % at 4e11.
+-- Stiffness: a bed of springs takes the share 1.89 (4/9 d0 h / b^2)^(1/3) off b/h (h, b half the height and the base, d0 the settlement).
+-- Only the cube root of the stiffness brings it back: 1.4 % for the column at 1e12, 2 % at 4e11.
 local kn = param("kn", 2e12, "[Pa/m]")
 local blocks = param("blocks", 10, "of the column")
 local density = 2000

@@ -1,13 +1,14 @@
--- V38: how far n equal blocks can hang over the edge of a table.
+-- V38: greatest overhang of n equal blocks over the edge of a table.
 --
--- What happens   The k-th block from the top reaches out over the one below by 1/(2k) of its length; the whole overhang is scaled. A little
+-- What happens   The k-th block from the top extends over the one below by 1/(2k) of its length; the whole overhang is scaled. A little
 --                less stands, a little more falls.
 -- Source         The harmonic stack: greatest overhang (1/2) sum 1/k lengths: n = 4 1.0417, n = 5 1.1417.
 -- How to run     erbs run scenes/verify/v38_harmonic_overhang.lua [-D kn=...] [-D blocks_4=1.002]
 -- What to look at  *_over_paper: overhang found over that on paper.
 --
--- The last stable pose has the weight N above an edge pressed in over a length a with a^3 = 12 h N / (kn depth), h the height of the weight
--- over the edge; its resultant is a/3 inside, and the lowest of n joints feels 2n times that: thin light blocks on a stiff bed keep it below 0.2 %.
+-- In the last stable pose the weight N lies above an edge. The edge is pressed in over a length a with a^3 = 12 h N / (kn depth), h the
+-- height of the weight over the edge. Its resultant is a/3 inside, and the lowest of n joints feels 2n times that: thin light blocks on a
+-- stiff bed keep it below 0.2 %.
 local kn = param("kn", 4e12, "[Pa/m]")
 local length, height, depth, density = 1, 0.05, 0.5, 1000
 material { name = "stone", density = density, kn = kn, ks = 0.4 * kn, friction = 0.7 }

@@ -1,11 +1,11 @@
--- V39: the least thickness at which an arch of straight-sided voussoirs stands under its own weight.
+-- V39: least thickness at which an arch of straight-sided voussoirs stands under its own weight.
 --
--- What happens   An arch of N voussoirs stands at 2 % more than its least thickness over radius t/R and falls by hinges at a little less.
---                What is asked of the DEM is never below paper, and at most 2 % above: its hinges are pressed in.
--- Source         Statics of the thrust line: semicircle of N = 10 voussoirs .10701, 27 .10672 (Milankovitch, endless: .1075). Here by
+-- What happens   An arch of N voussoirs stands at 2 % above its least thickness over radius t/R, and falls by hinges slightly below it. The
+--                value of the DEM must not lie below paper and at most 2 % above: its hinges are pressed in.
+-- Source         Statics of the thrust line: semicircle of N = 10 voussoirs 0.10701, 27 0.10672 (Milankovitch, infinite: 0.1075). Here by
 --                parts/thrust_line.lua for any number, embrace and pointed shape, checked against those two.
 -- How to run     erbs run scenes/verify/v39_arch_thickness.lua [-D round_10=1.01] [-D kn=...]
--- What to look at  *_over_paper; hinges_*; the mechanism of the run (at .97 of the least thickness): five hinges.
+-- What to look at  *_over_paper; hinges_*; the mechanism of the run (at 0.97 of the least thickness): five hinges.
 local R = param("R", 10, "radius of the centre line [m]")
 local kn = param("kn", 6e12, "[Pa/m]")
 local density, width = 2000, 1

@@ -1,8 +1,8 @@
--- V40: the horizontal load, as a share of the weight, at which arches turn into a mechanism of four hinges.
+-- V40: horizontal load, as a share of the weight, at which arches turn into a mechanism of four hinges.
 --
--- What happens   The ground's acceleration grows slowly to lambda g. Friction is high. A tilting table would find atan(lambda).
--- Source         Limit analysis: 7 voussoirs, t/R = .15, embrace 157.5 degrees .37361 (Oppenheim 1992: .37); 27 voussoirs .35385. Other arches by
---                parts/arch_hinges.lua, which tries every set of four hinges and is checked against those two.
+-- What happens   The ground acceleration grows slowly to lambda g. Friction is high. A tilting table would find atan(lambda).
+-- Source         Limit analysis: 7 voussoirs, t/R = 0.15, embrace 157.5 degrees 0.37361 (Oppenheim 1992: 0.37); 27 voussoirs 0.35385. Other
+--                arches by parts/arch_hinges.lua, which tries every set of four hinges and is checked against those two.
 -- How to run     erbs run scenes/verify/v40_arch_multiplier.lua [-D voussoirs_7=1.02] [-D kn=...]
 -- What to look at  *_over_paper; the mechanism of the run (7 voussoirs at 1.05 of the load): four hinges.
 local R = param("R", 10, "radius of the centre line [m]")

@@ -1,9 +1,10 @@
--- V41: the least friction with which an arch stands under its own weight.
+-- V41: least friction with which an arch stands under its own weight.
 --
--- What happens   A semicircle of 27 voussoirs, t/R = .15, stands with mu a little above the least friction and slides apart below it.
--- Source         Associative limit analysis (linear programming): mu = .3511. Friction without dilatancy may need a little more: +5 / -1 %.
+-- What happens   A semicircle of 27 voussoirs, t/R = 0.15, stands with mu slightly above the least friction and slides apart below it.
+-- Source         Associative limit analysis (linear programming): mu = 0.3511. Friction without dilatancy may need a little more: +5 / -1
+--                %.
 -- How to run     erbs run scenes/verify/v41_arch_friction.lua [-D friction=0.34] [-D voussoirs=...]
--- What to look at  friction_over_paper; the mechanism of the run (at .93 of the least friction): slides at the springings and hinges.
+-- What to look at  friction_over_paper; the mechanism of the run (at 0.93 of the least friction): sliding at the springings and hinges.
 local R = param("R", 10, "radius of the centre line [m]")
 local kn = param("kn", 2e12, "[Pa/m]")
 local n, t, density = 27, 0.15, 2000

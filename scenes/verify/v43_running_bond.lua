@@ -1,15 +1,17 @@
 -- V43: running-bond walls of dry bricks under a horizontal load in their plane.
 --
--- What happens   Walls 4 bricks wide of bricks .3 x .1 m, mu .6, pushed by lambda times their weight: tall ones (16 courses) turn off along a
---                stepped crack below mu, low ones (8 and 12 courses) slide at mu. Both bonds: whole bricks or halves at the ends of the lowest course.
--- Source         Limit analysis by linear programming, with and without friction in the head joints: whole .57950 / .57546, halves .56562 / .56087.
+-- What happens   Walls 4 bricks wide, of bricks 0.3 x 0.1 m, mu 0.6, are pushed by lambda times their weight. Tall walls (16 courses)
+--                rotate off along a stepped crack below mu; low ones (8 and 12 courses) slide at mu. Both bonds: whole bricks or halves at
+--                the ends of the lowest course.
+-- Source         Limit analysis by linear programming, with and without friction in the head joints: whole 0.57950 / 0.57546, halves
+--                0.56562 / 0.56087.
 -- How to run     erbs run scenes/verify/v43_running_bond.lua [-D whole_16=1.02] [-D kn=...]
 -- What to look at  *_over_paper; the mechanism of the run.
 --
--- Damping: without any, blocks that slide on each other under load flutter (v10_flutter.lua), and the wall walks apart as low as at .95 of the load,
--- at random. The dashpots of dry joints that have opened or slid end that. A wall that moves goes a way before it stands again (at .98 and 3 mm),
--- so a centimetre counts. Stiffness: the pressed toes of a wall that turns off cost 1.6 % of the load at 1e12, 1.1 % at 4e12 and .7 % at 1.6e13,
--- as the cube root of the softness, which V30 has on paper.
+-- Damping: without damping, blocks that slide on each other under load flutter (v10_flutter.lua), and the wall may walk apart at loads as
+-- low as 0.95, at random. The dashpots of dry joints that have opened or slid prevent this. A wall that moves travels some distance before
+-- it stands again (3 mm at 0.98), so only a centimetre counts. Stiffness: the compressed toes of a wall that rotates off cost 1.6 % of the
+-- load at 1e12, 1.1 % at 4e12 and 0.7 % at 1.6e13. They follow the cube root of the softness, as V30 has it on paper.
 local kn, kn_sliding = param("kn", 4e12, "of walls that turn off [Pa/m]"), param("kn_sliding", 1e12, "of those that slide [Pa/m]")
 local mu = 0.6
 

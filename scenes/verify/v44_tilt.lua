@@ -1,9 +1,9 @@
--- V44: gravity tilts slowly: free-standing walls turn over out of their plane at atan(t/H), and a slice of a dome needs its least thickness.
+-- V44: gravity tilts slowly: free-standing walls overturn out of plane at atan(t/H), and a slice of a dome needs its least thickness.
 --
--- What happens   A wall of one piece, a wall of courses and a panel on its edge are tilted; the angle is found by bisection. A slice of a
---                hemispherical dome, two opposite lunes of its shell without hoops, stands at a little more than its least t/R.
--- Source         atan(t/H) of a rigid wall. Dome: .042 (Heyman 1967), for the slice with straight voussoirs by parts/thrust_line.lua
---                with weights growing with the distance from the axis.
+-- What happens   A wall of one piece and a wall of courses are tilted; bisection finds the angle. A slice of a hemispherical dome, two
+--                opposite lunes of its shell without hoops, stands slightly above its least t/R.
+-- Source         atan(t/H) of a rigid wall. Dome: 0.042 (Heyman 1967), for the slice with straight voussoirs by parts/thrust_line.lua with
+--                weights that grow with the distance from the axis.
 -- How to run     erbs run scenes/verify/v44_tilt.lua [-D wall=1.01] [-D dome=1.02]
 -- What to look at  *_over_paper; the mechanism of the run.
 local H, density = param("height", 3, "[m]"), 1800
@@ -17,7 +17,7 @@ local function tilt_to(angle, moved)
   tilt { wave = table_wave { times = times, values = values, hold = true }, axis = "y" }
   analysis { duration = 5, output_dt = 0.02, frame_dt = 0.05, stop_when_moved = moved }
 end
--- The bed takes 1.89 (4/9 d0 h/b^2)^(1/3) off (V30): a wall of one piece on a bed of 4e14 Pa/m loses .2 %.
+-- The bed takes the share 1.89 (4/9 d0 h/b^2)^(1/3) off (V30): a wall of one piece on a bed of 4e14 Pa/m loses 0.2 %.
 local function wall_of(courses, thickness, kn)
   return function(angle)
     material { name = "brick", density = density, kn = kn, ks = 0.4 * kn, friction = 0.8 }
@@ -29,7 +29,7 @@ local function wall_of(courses, thickness, kn)
 end
 
 local thrust_line = include "parts/thrust_line.lua"
--- A lune's width grows with the distance from the axis: weight Int x dA, centre Int x^2 dA / Int x dA.
+-- A lune's width grows with the distance from the axis: weight int x dA, centroid int x^2 dA / int x dA.
 local function lune(corners)
   local x1, x2 = 0, 0
   for i, p in ipairs(corners) do
@@ -39,7 +39,7 @@ local function lune(corners)
   end
   return math.abs(x1), x2 / x1
 end
-local pieces, R = 15, 10  -- of the two lunes, the keystone shared
+local pieces, R = 15, 10  -- of the two lunes, which share the keystone
 local function dome(thickness)
   local kn, spread = 5e12, math.tan(10 * deg)
   material { name = "stone", density = 2000, kn = kn, ks = 0.4 * kn, friction = 2 }

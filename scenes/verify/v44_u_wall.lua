@@ -1,12 +1,12 @@
--- V44: walls of U plan, tilted until they fall out of their plane: what their bond at the corners is worth.
+-- V44: walls of U-shaped plan, tilted until they fall out of plane: the effect of the bond at the corners.
 --
--- What happens   A front wall with two side walls that run backwards from its ends. Gravity tilts outwards, with the front ahead, or backwards.
---                Of one piece, or of rings of one piece a course, the U turns about the edge of its base; a front that is not bonded to its
---                sides falls as if it stood alone. Dry bricks with corners in bond lie between: what the steps of the bond carry along braces
---                the front, and the U of one piece is the most that bond can do.
--- Source         tan(angle) = x / z of the centroid from the edge: outwards x = sum A x / sum A of the plan, backwards depth - x, alone t / 2;
---                H / 2 high. Bricks: a mechanism of the U of one piece is one of the bricks too, so it bounds them from above (kinematic
---                theorem). Plans like those that Restrepo-Velez, Magenes and Griffith (2014, Int. J. Archit. Herit. 8, 325) tilted.
+-- What happens   A front wall has two side walls that run backwards from its ends. Gravity tilts outwards, with the front ahead, or
+--                backwards. A U of one piece, or of rings with one piece per course, rotates about the edge of its base. A front without
+--                bond to its sides falls as if it stood alone. Dry bricks with bonded corners lie between: the steps of the bond carry load
+--                along the sides and brace the front. The U of one piece is the upper limit of bond.
+-- Source         tan(angle) = x / z of the centroid from the edge: outwards x = sum A x / sum A of the plan, backwards depth - x, alone t /
+--                2; z = H / 2. Bricks: a mechanism of the U of one piece is also one of the bricks, so it bounds them from above (kinematic
+--                theorem). Plans like those tilted by Restrepo-Velez, Magenes and Griffith (2014, Int. J. Archit. Herit. 8, 325).
 -- How to run     erbs run scenes/verify/v44_u_wall.lua [-D courses=12] [-D outwards=1.02] [-D front=7] [-D sides=3] [-D thick=0.12]
 -- What to look at  *_over_paper, *_on_paper (angle, rad); bonded_over_paper: angle of the bricks over that of a front alone.
 local courses, front, sides = param("courses", 8, ""), param("front", 5, "bricks of the front wall"), param("sides", 2, "bricks of a side wall")
@@ -15,9 +15,9 @@ local mu = param("mu", 1, "below it, walls slide")
 local density = 1800
 local l, H = 2 * t, courses * h
 local width, depth = front * l, t + sides * l
-local centre = (width * t * t / 2 + 2 * sides * l * t * (t + sides * l / 2)) / (width * t + 2 * sides * l * t)  -- from the front's face
+local centre = (width * t * t / 2 + 2 * sides * l * t * (t + sides * l / 2)) / (width * t + 2 * sides * l * t)  -- from the face of the front
 
--- Bed of one piece: the softness that leaves a share `loss` of the angle to its toe, 1.89 (4/9 d0 (H/2) / b^2)^(1/3) (V30).
+-- Bed of one piece: the softness at which the toe takes the share `loss` of the angle, 1.89 (4/9 d0 (H/2) / b^2)^(1/3) (V30).
 local loss = 0.005
 local function bed(arm) return density * g * H / ((loss / 1.89) ^ 3 * 9 / 4 * arm ^ 2 / (H / 2)) end
 
@@ -54,7 +54,7 @@ local function rings(number, side, arm)
   end
 end
 
-local function unbonded(angle)  -- a hair of room keeps the front from leaning on its sides by friction
+local function unbonded(angle)  -- a small gap keeps the front from leaning on its sides by friction
   begin(bed(t / 2))
   local room = 1 * mm
   box { name = "front", size = { t, width, H }, at = { 0, 0, 0 } }
@@ -63,7 +63,7 @@ local function unbonded(angle)  -- a hair of room keeps the front from leaning o
   tilt_to(angle, 1)
 end
 
--- Corners alternate: the front's bricks reach round them in one course, the sides' in the next.
+-- Corners alternate: the bricks of the front reach round them in one course, those of the sides in the next.
 local function bonded(angle)
   begin(1e10)
   for c = 0, courses - 1 do
@@ -82,7 +82,7 @@ local function bonded(angle)
 end
 
 local alone, whole = math.atan(t / H), math.atan(2 * centre / H)
--- The softness counts one bed of one rectangle; the bracket ends within .4 %.
+-- The softness counts one bed of one rectangle; the bracket ends within 0.4 %.
 local rel = { between = { 1 - loss - 0.005, 1 - loss + 0.005 }, source = "x / z of the centroid, less the toe of its bed" }
 (include "parts/cases.lua") {
   { name = "outwards", value = whole, build = rings(1, 1, centre), lo = 0.98, hi = 1.01, rel = 0.004, unit = "rad", expect = rel },

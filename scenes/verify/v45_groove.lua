@@ -1,7 +1,7 @@
--- V45: a wedge in a groove, tilted along it, begins to slide.
+-- V45: a wedge in a groove, tilted along the groove, begins to slide.
 --
--- What happens   A wedge lies in a groove with faces at `half` from upright. Gravity tilts slowly along the groove; it slides where
---                tan(slope) = mu / sin(half): each face bears W / (2 sin(half)), so that friction is as of mu / sin(half).
+-- What happens   A wedge lies in a groove whose faces are at `half` from the vertical. Gravity tilts slowly along the groove. Each face
+--                carries W / (2 sin(half)), so the wedge slides as with a friction of mu / sin(half): at tan(slope) = mu / sin(half).
 -- Source         Statics.
 -- How to run     erbs run scenes/verify/v45_groove.lua [-D groove_30=1.01] [-D mu=0.4]
 -- What to look at  groove_*_over_paper: tan(slope) found over that on paper.
@@ -14,7 +14,7 @@ local function groove(half, friction, length)
   joint { law = dry { kn = kn, ks = 0.4 * kn, mu = friction } }
   local d = 0.2
   local s = d * math.tan(half)
-  -- cut off at the point, so that it is no needle
+  -- truncated at the point, so that it has no sharp edge
   local cut = 0.2
   prism { name = "wedge", axis = "x", height = length, at = { -length / 2, 0, 0 }, material = "stone", polygon = { { -cut * s, cut * d }, { cut * s, cut * d }, { s, d }, { -s, d } } }
   for side, name in pairs { [-1] = "left", [1] = "right" } do
@@ -25,7 +25,7 @@ end
 local cases = { { name = "groove_45", value = mu / math.sin(45 * deg), half = 45 * deg }, { name = "groove_30", value = mu / math.sin(30 * deg), half = 30 * deg }, { name = "groove_60", value = mu / math.sin(60 * deg), half = 60 * deg } }
 for _, case in ipairs(cases) do
   case.lo, case.hi, case.rel, case.unit = 0.995, 1.005, 0.001, "tan"
-  case.expect = { rel = 0.002, source = "mu / sin(half angle)" }  -- .2 %: what creeps at the threshold must come 2 mm in its time
+  case.expect = { rel = 0.002, source = "mu / sin(half angle)" }  -- 0.2 %: a wedge that creeps at the threshold must move 2 mm in its time
   case.build = function(slope)
     groove(case.half, mu, 0.5)
     local times, values = {}, {}

@@ -1,7 +1,7 @@
 -- V45: a smooth wedge rests between two faces.
 --
--- What happens   Wedges of several half angles rest between two faces without friction. Each face bears W / (2 sin(half)).
--- Source         Statics: half = 45 degrees .70711 W.
+-- What happens   Wedges of several half angles rest between two faces without friction. Each face carries W / (2 sin(half)).
+-- Source         Statics: half = 45 degrees 0.70711 W.
 -- How to run     erbs run scenes/verify/v45_wedge.lua [-D kn=...]
 -- What to look at  left_*, right_*: normal force over W.
 label("quick")
@@ -21,7 +21,7 @@ for i, degrees in ipairs { 45, 30, 60, 20 } do
       polygon = { { 0, -0.5 * d }, { side * 2 * s, -0.5 * d }, { side * 2 * s, 2 * d }, { 0, 0 } } }
     recorder { name = name, quantity = "normal_force", blocks = { wedge }, others = { name } }
     metric(name, "W", function(run) return math.abs(run.last(name .. "_normal_N")) / weight end)
-    -- 1e-4: the wedge sinks in, and its pressed faces turn by nothing else.
+    -- 1e-4: the wedge sinks in.
     expect("metrics." .. name, 1 / (2 * math.sin(half)), { rel = 1e-4, source = "W / (2 sin(half))" })
   end
 end

@@ -1,10 +1,11 @@
--- V46: natural frequencies of a cantilever wall of rigid blocks, from the spectrum of its answer to an impulse.
+-- V46: natural frequencies of a cantilever wall of rigid blocks, from the spectrum of its response to an impulse.
 --
 -- What happens   Walls of 5 to 40 blocks get a push on their top block. The peaks of the spectrum of the tip are compared with the exact
---                frequencies of the chain (transfer matrices, lib_block_beam.lua) shifted by the leapfrog's (w dt)^2 / 24, and those with
---                Timoshenko's beam. The joint at the base must be twice as stiff (half the tributary length), or the error is of first
---                order in 1/N. Too few or misplaced contact points leave an error that no refinement removes.
--- Source         Timoshenko beam, kappa 5/6: 8.451, 50.773, 133.95 Hz for L 3, h .3, E 5e9, nu .2, rho 2000; here the limit of the chain at 1600.
+--                frequencies of the chain (transfer matrices, lib_block_beam.lua), shifted by leapfrog's (w dt)^2 / 24. These are compared
+--                with Timoshenko's beam. The joint at the base must be twice as stiff (half the tributary length); otherwise the error is
+--                of first order in 1/N. Too few or misplaced contact points leave an error that no refinement removes.
+-- Source         Timoshenko beam, kappa 5/6: 8.451, 50.773, 133.95 Hz for L 3, h 0.3, E 5e9, nu 0.2, rho 2000; here the chain of 1600
+--                blocks is the limit.
 -- How to run     erbs run scenes/verify/v46_cantilever_wall.lua [-D length=4] [-D height=0.4] [-D E=2e9] [-D time=8]
 -- What to look at  f1_n10 ... (measured over exact chain), error_f1_n10 ... (chain over Timoshenko, in %), error_f1_corners ...
 label("quick")
@@ -20,7 +21,7 @@ local fine = chain { n = 1600 }
 local continuum = { fine.frequency(1), fine.frequency(2), fine.frequency(3) }
 gravity(0)
 material { name = "masonry", density = density }
--- expected error in % of f1, f2, f3 of Timoshenko's at the default shape; ratio of the rule; points along the side in bending
+-- expected error in % of f1, f2, f3 of Timoshenko's beam at the default shape; ratio of the rule; points along the side in bending
 local walls = {
   { name = "n5", n = 5, error = { -1.78, -5.45, -7.75 } },
   { name = "n10", n = 10, error = { -0.45, -1.45, -2.17 } },
@@ -57,10 +58,11 @@ for i, wall in ipairs(walls) do
       return run.frequency(wall.name .. "_ux_rel_m", 0.85 * f, 1.15 * f) / shifted
     end)
     metric("error_f" .. k .. "_" .. wall.name, "%", 100 * (w / continuum[k] - 1))
-    -- A hundredth of a bin of 1 / time: the parabola through a Hann peak, and the other modes' skirts under it.
+    -- A hundredth of a bin of 1 / time: the parabola through a Hann peak, and the tails of the other modes under it.
     expect("metrics.f" .. k .. "_" .. wall.name, 1, { abs = 0.01 / time / f, source = "exact chain, leapfrog's shift" })
-    -- As printed, to the last digit or to the finite number of blocks (2nd order: a hundredth of the ratio at 20). Of the single base
-    -- the print has -8.9, -8.2, -7.6 and -2.3, -2.2, -2.1; the exact chain -9.05, -8.30, -7.68 and -2.42, -2.30, -2.17, and the spectra agree.
+    -- As printed, to the last digit or to the finite number of blocks (second order: a hundredth of the ratio at 20). For the single base
+    -- the print has -8.9, -8.2, -7.6 and -2.3, -2.2, -2.1; the exact chain -9.05, -8.30, -7.68 and -2.42, -2.30, -2.17, and the spectra
+    -- agree.
     if default then
       expect("metrics.error_f" .. k .. "_" .. wall.name, wall.error[k],
         { abs = wall.ratio and 0.01 * (100 + math.abs(wall.error[k])) / 2 or wall.base and 0.16 or 0.012, source = "independent computation of the chain" })

@@ -1,9 +1,9 @@
--- V46: a cantilever wall of rigid blocks swings in its first mode with mass damping: the log decrement at f1.
+-- V46: a cantilever wall of rigid blocks vibrates in its first mode with mass damping: the logarithmic decrement at f1.
 --
--- What happens   The wall of ten blocks starts with the velocities of its exact first mode, and decays with xi = a / (2 w1): the ratio of
---                two swings a period apart is exp(-2 pi xi / sqrt(1 - xi^2)). The scheme of the damping is centred, so that the step does
---                not shift the decay to first order.
--- Source         V21's formula; the mode from lib_block_beam.lua.
+-- What happens   The wall of ten blocks starts with the velocities of its exact first mode and decays with xi = a / (2 w1). The ratio of
+--                two swings one period apart is exp(-2 pi xi / sqrt(1 - xi^2)). The damping scheme is centred, so the step does not change
+--                the decay to first order.
+-- Source         formula of V21; the mode from lib_block_beam.lua.
 -- How to run     erbs run scenes/verify/v46_damped_wall.lua [-D xi=0.1] [-D n=20]
 -- What to look at  decrement_over_formula, period_over_formula.
 label("quick")
@@ -33,6 +33,6 @@ metric("decrement_over_formula", "", function(run)
   return math.log(first / last) / swings / (2 * pi * xi / math.sqrt(1 - xi ^ 2))
 end)
 metric("period_over_formula", "", function(run) return run.period("tip_ux_rel_m") / period end)
--- 0.5 %: a mode of small rotations, a straight line between rows, (w dt)^2.
+-- 0.5 %: a mode of small rotations, straight lines between rows, (w dt)^2.
 expect("metrics.decrement_over_formula", 1, { rel = 5e-3, source = "2 pi xi / sqrt(1 - xi^2)" })
 expect("metrics.period_over_formula", 1, { rel = 1e-4, source = "2 pi / (w1 sqrt(1 - xi^2))" })

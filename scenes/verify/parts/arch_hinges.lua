@@ -1,8 +1,8 @@
--- Horizontal load multiplier of a round arch of straight-sided voussoirs without sliding: the least lambda over every mechanism of four
--- hinges (upper bound theorem; with no tension and no sliding the least one is the answer, Heyman 1966). The load acts to +x.
+-- Horizontal load multiplier of a round arch of straight-sided voussoirs without sliding: the least lambda over all mechanisms of four
+-- hinges. By the upper bound theorem the least one is the answer if there is no tension and no sliding (Heyman 1966). The load acts to +x.
 --
--- Hinges lie at joints i < j < k < l, alternating between the inner and the outer edge. The first and the last part turn about the
--- abutments' hinges, the middle part about the intersection of the lines through them (virtual work of three bars):
+-- Hinges lie at joints i < j < k < l, alternating between the inner and the outer edge. The first and the last part rotate about the hinges
+-- at the abutments. The middle part rotates about the intersection of the lines through them (virtual work of three bars):
 --   lambda = -(work of the weights) / (work of the weights turned to the side)
 local function ring(n, t, embrace)
   local joints = {}
@@ -28,8 +28,8 @@ end
 local function multiplier(n, t, embrace)
   local joints, W, X, Z = ring(n, t, embrace)
   local best = math.huge
-  -- Work of weights (down) and of weights turned to +x on the part from joint i to j that turns by w (counter-clockwise) about (cx, cz):
-  -- displacement (-(z - cz) w, (x - cx) w).
+  -- Work of the weights (down) and of the weights turned to +x, for the part from joint i to j that rotates by w (counter-clockwise) about
+  -- (cx, cz): displacement (-(z - cz) w, (x - cx) w).
   local function works(i, j, cx, cz, w)
     local weight, mx, mz = W[j] - W[i], X[j] - X[i], Z[j] - Z[i]
     return -w * (mx - cx * weight), -w * (mz - cz * weight)
@@ -40,12 +40,13 @@ local function multiplier(n, t, embrace)
     local det = dx * ez - dz * ex
     if math.abs(det) < 1e-12 then return end
     local s = ((D[1] - A[1]) * ez - (D[2] - A[2]) * ex) / det
-    local cx, cz = A[1] + s * dx, A[2] + s * dz  -- centre of the middle part
-    -- first part turns by 1; at B both parts move alike: 1 (B - A) = w2 (B - centre); the same at C for the last
+    local cx, cz = A[1] + s * dx, A[2] + s * dz  -- centre of rotation of the middle part
+    -- the first part rotates by 1; at B both parts have the same displacement: 1 (B - A) = w2 (B - centre); likewise at C for the last part
     local w2 = 1 / (1 - s)
     local u = (ex ^ 2 + ez ^ 2)
     local w3 = w2 * ((C[1] - cx) * ex + (C[2] - cz) * ez) / u
-    -- About an inner edge a joint opens where the part on its right turns clockwise against the left one, about an outer edge the other way.
+    -- About an inner edge a joint opens if the part on its right rotates clockwise relative to the left one; about an outer edge the other
+    -- way.
     local function opens(left, right, side) return side == 1 and left - right or right - left end
     local sign = opens(0, 1, first) > 0 and 1 or -1
     if not (opens(1, w2, 3 - first) * sign > 0 and opens(w2, w3, first) * sign > 0 and opens(w3, 0, 3 - first) * sign > 0) then return end

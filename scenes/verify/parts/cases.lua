@@ -1,16 +1,16 @@
--- Several structures in one scene, each with the value on paper at which it begins to move, found again by bisection.
+-- Several structures in one scene, each with the value on paper at which it begins to move; bisection finds this value again.
 --
 -- cases { { name, value, build = function(value) ... ... end, lo, hi, rel, expect = { ... } }, ... }
 --   name, value   metric <name>_over_paper is the value found over this one
---   build         builds the structure under `value` of its load, and says in analysis{} when it has moved (stop_when_moved); it may return
---                 a function(run) that tells so instead
---   lo, hi        shares of `value` where it stands and where it moves (default .95 and 1.05)
---   rel           width of the last bracket (default .004)
+--   build         builds the structure under `value` of its load and says in analysis{} when it has moved (stop_when_moved); it may
+--                 return a function(run) that decides this instead
+--   lo, hi        shares of `value` at which it stands and at which it moves (default 0.95 and 1.05)
+--   rel           width of the last bracket (default 0.004)
 --   expect        tolerance of <name>_over_paper, as in expect{}
--- The run of the scene itself shows the first structure at `show` of its value. A study changes the param of its own name, by which
--- its runs know what to build.
+-- The scene's own run shows the first structure at `show` of its value. A study changes the param of its own name; its runs see from it
+-- which structure to build.
 local unchanged = -1
-local judged = expect  -- this file is no scene that is to be tested
+local judged = expect  -- another name, so that this file does not count as a scene with expectations
 
 return function(cases)
   local chosen

@@ -1,9 +1,10 @@
--- A block that rocks on two narrow feet, as test blocks with a slightly hollow base do, beside what Housner's equations say of it.
+-- A block that rocks on two narrow feet, like test blocks with a slightly hollow base, with the solution of Housner's equations.
 --
--- A flat full base on springs does not give Housner's impact: the blow is spread over the face (measured: phi_1 .454 to .488 of the
--- Pena block for any dashpot, Housner .386). Feet of a hundredth of the width bring the blow to the edges.
--- Stiffness: `settlement` is that of the full base under the block's weight over half the width, d0 / b, and kn = density g height / d0.
--- While the block rocks, its toe is pressed in over a length of sqrt(2 N / (kn depth theta)); its centre of pressure is that inside the edge.
+-- A flat full base on springs does not give Housner's impact, because the impact is spread over the face (measured: phi_1 0.454 to 0.488
+-- for the Pena block with any dashpot, Housner 0.386). Feet of a hundredth of the width bring the impact to the edges. Stiffness:
+-- `settlement` is that of the full base under the weight of the block over half the width, d0 / b, so kn = density g height / d0. While the
+-- block rocks, its toe is pressed in over a length of sqrt(2 N / (kn depth theta)); its centre of pressure lies inside the edge
+-- accordingly.
 local rocking_blocks = 0
 
 return function(keys)

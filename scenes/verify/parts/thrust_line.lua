@@ -1,9 +1,10 @@
--- Statics of symmetric arches under their own weight, without tension, crushing or sliding (Heyman 1966): does a thrust line lie inside?
+-- Statics of symmetric arches under their own weight, without tension, crushing or sliding (Heyman 1966): does a thrust line lie inside the
+-- arch?
 --
--- Half the arch, from the crown to the springing: the crown carries a horizontal thrust H at height z0. About any point (x, z) of the joint
--- below k voussoirs of weight W with their centre at distance xw from the middle the moment is H (z0 - z) - W (x - xw) where x is the distance
--- of the point. It must not turn the block about the inner end one way nor about the outer end the other way. In H and M = H z0 these
--- are half planes; a polygon is cut by them until it is empty or not.
+-- Half the arch, from the crown to the springing. The crown carries a horizontal thrust H at height z0. Consider the joint below k
+-- voussoirs of weight W, whose centroid is at distance xw from the middle. The moment about a point (x, z) of this joint is H (z0 - z) - W
+-- (x - xw). It must not turn the part about the inner end one way, nor about the outer end the other way. In the plane of H and M = H z0
+-- these conditions are half planes; they cut a polygon, which becomes empty if the arch cannot stand.
 local function clip(polygon, a, b, c)  -- keeps a u + b v <= c
   local out = {}
   for i, p in ipairs(polygon) do
@@ -18,7 +19,7 @@ local function clip(polygon, a, b, c)  -- keeps a u + b v <= c
   return out
 end
 
--- Centroid and area of the polygon of corners { x, z }.
+-- Area and centroid of the polygon of corners { x, z }.
 local function centroid(corners)
   local area, sx = 0, 0
   for i, p in ipairs(corners) do
@@ -29,7 +30,8 @@ local function centroid(corners)
   return math.abs(area), sx / area
 end
 
--- Joints of the right half from the crown down, inner and outer ends { x, z }, radius 1. An odd number has its crown in the middle of a voussoir.
+-- Joints of the right half from the crown down, inner and outer ends { x, z }, radius 1. With an odd number the crown is the middle of a
+-- voussoir.
 local function half_arch(n, embrace, offset, t)
   local joints, inner, outer = {}, 1 - t / 2, 1 + t / 2
   if offset > 0 then
@@ -45,7 +47,7 @@ local function half_arch(n, embrace, offset, t)
   local step = embrace / n
   local first = n % 2 == 1 and 0.5 or 1
   local cut = math.cos(step / 2)
-  -- of an odd number the cut at the crown is half a straight voussoir; of an even one a joint
+  -- with an odd number the cut at the crown halves a straight voussoir; with an even number it is a joint
   joints[1] = n % 2 == 1 and { { 0, inner * cut }, { 0, outer * cut }, no_joint = true } or { { 0, inner }, { 0, outer } }
   for i = 0, n // 2 + n % 2 - 1 do
     local angle = (first + i) * step
@@ -54,7 +56,7 @@ local function half_arch(n, embrace, offset, t)
   return joints
 end
 
--- weight_of(corners): area and distance of the centre of gravity of a voussoir (default: of equal width).
+-- weight_of(corners): area and distance of the centroid of a voussoir (default: of equal width).
 local function stands(joints, weight_of)
   local region = { { 0, -1e3 }, { 1e3, -1e3 }, { 1e3, 1e3 }, { 0, 1e3 } }  -- H, M: times density and g
   local weight, moment = 0, 0                                              -- sum W, sum W xw
@@ -65,7 +67,7 @@ local function stands(joints, weight_of)
       weight, moment = weight + w, moment + w * x
     end
     for side, p in ipairs(joint.no_joint and {} or joint) do
-      -- about p: M - H z - (W x - sum W xw): at most zero about the outer end (2), at least zero about the inner
+      -- about p: M - H z - (W x - sum W xw): at most zero about the outer end (2), at least zero about the inner end
       local c = weight * p[1] - moment
       local sign = side == 2 and 1 or -1
       region = clip(region, -sign * p[2], sign, sign * c)

@@ -147,7 +147,7 @@ recorder{ name = "top", quantity = "displacement", block = "s3" }
   CHECK(metrics["trust"]["twin"] == true);
   CHECK(metrics["trust"]["chaos_horizon_s"].is_null());
   CHECK(metrics["trust"]["warned_share"] == 0.0);
-  CHECK(contains(bench.said, "trust: energy residual at most"));
+  CHECK(contains(bench.said, "trust: largest energy residual"));
   CHECK(contains(bench.said, "no chaos within the run"));
   const std::string noisy = metrics["state_hash"];
   REQUIRE(bench.run(column, {"--dt-fraction", "0.25", "--points", "16", "--no-figures", "--force"}) == 0);

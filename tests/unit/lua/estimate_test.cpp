@@ -29,7 +29,7 @@ TEST_CASE("the estimate of a run's time is a range by what its joints may do", "
   CHECK(mortar.cracked > 5 * mortar.least);
   CHECK(mortar.most > mortar.cracked);
   CHECK(contains(cost_text(dry), "if it rocks, slides or falls"));
-  CHECK(contains(cost_text(mortar), "if all are cracked) to "));
+  CHECK(contains(cost_text(mortar), "if all joints are cracked) to "));
   CHECK(cost_of("joint{ law = mortar{ kn = 1e10, ft = 1e5, c = 1e5, mu = .6 } }", false).most == mortar.cracked);
 }
 

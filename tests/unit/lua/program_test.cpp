@@ -114,8 +114,9 @@ TEST_CASE("what does not stand under its own weight has that as its verdict, wit
   CHECK(bench.run(overhanging + "analysis { duration = 0.3 }") == 0);
   INFO(bench.said);
   CHECK(contains(bench.said, "does not stand under its own weight"));
-  CHECK(contains(bench.said, "1 hinge: foot | over"));
-  CHECK(contains(text_of(bench.out() + "/log.txt"), "does not stand under its own weight: 100 % of the mass; 1 hinge: foot | over"));
+  CHECK(contains(bench.said, "1 joint opened as a hinge: between foot and over"));
+  CHECK(contains(text_of(bench.out() + "/log.txt"),
+                 "does not stand under its own weight: 100 % of the mass; 1 joint opened as a hinge: between foot and over"));
   const Json collapse = read_json(bench.out() + "/metrics.json")["collapse"];
   CHECK(collapse["under_gravity"] == true);
   CHECK(collapse["collapsed"] == true);
@@ -130,7 +131,7 @@ TEST_CASE("a run past its gate is inaccurate in status, exit code and last line,
   CHECK(bench.run(strict) == 1);
   INFO(bench.said);
   CHECK(read_json(bench.out() + "/metrics.json")["status"] == "inaccurate");
-  CHECK(contains(bench.said, "is past its gate 1e-12"));
+  CHECK(contains(bench.said, "exceeds its tolerance 1e-12"));
   CHECK(contains(bench.said, "take --dt-fraction 0."));
   CHECK(contains(bench.said, "energy_gate = "));
   CHECK(contains(bench.said, "inaccurate: not to be relied on; results in"));

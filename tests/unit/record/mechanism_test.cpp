@@ -30,12 +30,15 @@ TEST_CASE("a block on its edge is a hinge, and the edge is found", "[record][mec
   CHECK(m.moved[0].at[0] == Approx(0.1));
   CHECK(std::abs(m.moved[0].at[1]) < 1e-12);
   CHECK(m.moved[0].at[2] == Approx(0.05));
-  CHECK(summary(m, t.model) == "1 hinge: base | top (5.7 deg)");
+  CHECK(summary(m, t.model) == "1 joint opened as a hinge: between base and top by 5.7 deg");
 }
 
 TEST_CASE("a shifted block has slid, a lifted one has parted, a still one is no mechanism", "[record][mechanism]") {
   const auto slid = turned(0.01, {0.03, 0, 0}), lifted = turned(0.01, {0, 0.001, 0.04}), still = turned(0, {1e-5, 0, 0});
-  CHECK(summary(mechanism_of(slid.model, slid.state, 0), slid.model) == "1 slide: base | top (30 mm)");
+  CHECK(summary(mechanism_of(slid.model, slid.state, 0), slid.model) == "1 joint slid: between base and top by 30 mm");
+  CHECK(summary(mechanism_of(slid.model, slid.state, 0), slid.model, 0) ==
+        "1 joint slid, most of all between base and top by 30 mm; metrics.json lists them all");
+  CHECK(summary(mechanism_of(lifted.model, lifted.state, 0), lifted.model).starts_with("1 joint separated: between base and top by 4"));
   CHECK(count(mechanism_of(lifted.model, lifted.state, 0), Movement::part) == 1);
   CHECK(mechanism_of(still.model, still.state, 0).moved.empty());
   CHECK(summary(mechanism_of(still.model, still.state, 0), still.model).empty());
