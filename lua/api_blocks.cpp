@@ -1,7 +1,7 @@
 // Functions of a script: materials, blocks, the ground, and transformations of blocks.
 #include <lua5.4/lua.hpp>
 
-#include "engine/base/words.h"
+#include "engine/base/spelling.h"
 #include "engine/contact/shape.h"
 #include "engine/geometry/mass.h"
 #include "engine/geometry/polyhedron.h"
@@ -93,15 +93,15 @@ int add_block(Call& call, Arguments& arguments, std::vector<Polyhedron> parts, c
   block.place = call.place;
   arguments.read(block);
   block.material = material_of(call, arguments);
-  Vec3 turn = Vec3::Zero();
-  arguments.read("rotation", turn);
+  Vec3 theta = Vec3::Zero();
+  arguments.read("rotation", theta);
   if (!parts.empty()) {
     const Frame& frame = context.frame();
-    const Vec3 centre = turn.isZero(0) ? Vec3(Vec3::Zero()) : centroid_of(parts);
-    const Quat q = rotation(turn);
+    const Vec3 centre = theta.isZero(0) ? Vec3(Vec3::Zero()) : centroid_of(parts);
+    const Quat q = rotation(theta);
     for (Polyhedron& part : parts)
       for (Vec3& vertex : part.vertices) {
-        const Vec3 turned = turn.isZero(0) ? vertex : Vec3(centre + q * (vertex - centre));
+        const Vec3 turned = theta.isZero(0) ? vertex : Vec3(centre + q * (vertex - centre));
         vertex = frame.point(turned);
       }
   }
@@ -150,14 +150,14 @@ std::vector<Polyhedron> read_part(Arguments& arguments) {
     arguments.mistake(fmt::format("vertices has {} point(s); a block needs at least 4", n));
     return {};
   }
-  bool sound = true;
+  bool valid = true;
   for (const auto& face : part.faces)
     for (const int vertex : face) {
       if (vertex < n) continue;
       arguments.mistake(fmt::format("faces name vertex {}, but there are {}", vertex + 1, n));
-      sound = false;
+      valid = false;
     }
-  if (!sound) return {};
+  if (!valid) return {};
   if (arguments.has("faces")) return {part};
   try {
     return {hull(part.vertices)};
@@ -301,16 +301,16 @@ struct Inside {
 
 int transform(Call& call) {
   Arguments arguments = call.arguments();
-  Vec3 at = Vec3::Zero(), turn = Vec3::Zero(), about = Vec3::Zero();
+  Vec3 at = Vec3::Zero(), theta = Vec3::Zero(), about = Vec3::Zero();
   arguments.read("at", at);
-  arguments.read("rotation", turn);
+  arguments.read("rotation", theta);
   arguments.read("about", about);
   if (!arguments.is_function("1"))
     throw Error("transform: the function that builds is missing; write transform{ at = {1, 0, 0}, function() ... end }", call.place);
-  const Quat q = rotation(turn);
+  const Quat q = rotation(theta);
   const Frame& outer = call.context.frame();
   // outer(about + q (x - about) + at)
-  const Frame inner{outer.turn * q, outer.point(about - q * about + at)};
+  const Frame inner{outer.rotation * q, outer.point(about - q * about + at)};
   const Inside inside(call.context.frames, inner);
   lua_settop(call.lua, 1);
   lua_rawgeti(call.lua, 1, 1);

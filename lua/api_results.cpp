@@ -47,7 +47,7 @@ int param(Call& call) {
   bool given = false;
   for (Override& override_ : call.context.overrides)
     if (override_.name == item.name) {
-      given = override_.sound;
+      given = override_.valid;
       if (given) item.value = override_.value;
       override_.used = true;
     }
@@ -140,9 +140,9 @@ int label(Call& call) {
   auto& labels = call.context.scene.labels;
   for (int i = 1; i <= n; ++i) {
     std::string name = call.text(i, "a label");
-    const bool sound = !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
-    if (!sound) call.mistake(fmt::format("\"{}\" must be small letters, digits and _ only, such as \"quick\"", name));
-    if (sound && std::find(labels.begin(), labels.end(), name) == labels.end()) labels.push_back(std::move(name));
+    const bool valid = !name.empty() && name.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_") == std::string::npos;
+    if (!valid) call.mistake(fmt::format("\"{}\" must be small letters, digits and _ only, such as \"quick\"", name));
+    if (valid && std::find(labels.begin(), labels.end(), name) == labels.end()) labels.push_back(std::move(name));
   }
   return 0;
 }

@@ -5,7 +5,7 @@
 #include <lua5.4/lua.hpp>
 
 #include "engine/base/text.h"
-#include "engine/base/words.h"
+#include "engine/base/spelling.h"
 #include "lua/api.h"
 
 namespace erbs {
@@ -151,13 +151,13 @@ std::vector<std::pair<std::string, std::vector<double>>> lists_of(Call& call, co
       continue;
     }
     std::vector<double> values;
-    bool sound = lua_istable(call.lua, -1) && lua_rawlen(call.lua, -1) > 0;
-    for (lua_Integer i = 1; sound && i <= static_cast<lua_Integer>(lua_rawlen(call.lua, -1)); ++i) {
-      sound = lua_rawgeti(call.lua, -1, i) == LUA_TNUMBER && std::isfinite(lua_tonumber(call.lua, -1));
+    bool valid = lua_istable(call.lua, -1) && lua_rawlen(call.lua, -1) > 0;
+    for (lua_Integer i = 1; valid && i <= static_cast<lua_Integer>(lua_rawlen(call.lua, -1)); ++i) {
+      valid = lua_rawgeti(call.lua, -1, i) == LUA_TNUMBER && std::isfinite(lua_tonumber(call.lua, -1));
       values.push_back(lua_tonumber(call.lua, -1));
       lua_pop(call.lua, 1);
     }
-    if (sound) lists.emplace_back(name, values);
+    if (valid) lists.emplace_back(name, values);
     else call.mistake(fmt::format("{} must be a list of finite numbers, such as {{ 1, 3, 8 }}", name));
   }
   return lists;

@@ -14,10 +14,10 @@ namespace erbs {
 
 // x -> turn x + shift: the transformation of everything that is built inside transform{}.
 struct Frame {
-  Quat turn = Quat::Identity();
+  Quat rotation = Quat::Identity();
   Vec3 shift = Vec3::Zero();  // m
-  Vec3 point(const Vec3& x) const { return turn * x + shift; }
-  Vec3 vector(const Vec3& x) const { return turn * x; }
+  Vec3 point(const Vec3& x) const { return theta * x + shift; }
+  Vec3 vector(const Vec3& x) const { return theta * x; }
 };
 
 // A number that a run shall report: a given value, or a function called after the run.
@@ -52,7 +52,7 @@ struct Sampling {
 struct Override {
   std::string name, expression;  // of -D name=expression
   double value = 0;
-  bool sound = false;  // the expression gave a number; otherwise a mistake is reported and the default holds
+  bool valid = false;  // the expression gave a number; otherwise a mistake is reported and the default holds
   bool used = false;
 };
 

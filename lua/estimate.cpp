@@ -30,17 +30,17 @@ bool is_dry(const Model& m, const Joint& joint) {
 
 Cost estimated_cost(const Model& m, double steps, bool debris) {
   const auto moving = double(std::count(m.kind.begin(), m.kind.end(), Kind::moving));
-  const double sound = steps * (step_cost + joint_cost * m.njoint);
+  const double intact = steps * (step_cost + joint_cost * m.njoint);
   const auto loose = [&](double pairs) { return steps * (loose_step_cost + contact_cost * pairs); };
   if (m.njoint == 0)
     return {loose(pairs_falling * moving), more_steps * loose(pairs_lying * moving), "while all blocks fall", "when all lie in a heap"};
   const double cracked = steps * (step_cost + cracked_point_cost * m.npoint);
   const bool dry = std::all_of(m.joint.begin(), m.joint.end(), [&](const Joint& joint) { return is_dry(m, joint); });
   const std::string all_sound = dry ? "if no joint opens or slides" : "if all joints stay intact";
-  if (!debris) return {sound, std::max(sound, cracked), all_sound, "if all joints are cracked or slide"};
+  if (!debris) return {intact, std::max(intact, cracked), all_sound, "if all joints are cracked or slide"};
   const double worst = more_steps * loose(std::max(pairs_of_joints * m.njoint, pairs_lying * moving));
-  if (dry) return {sound, worst, all_sound, "if it rocks, slides or falls"};
-  return {sound, std::max(cracked, worst), all_sound, "if all blocks come loose", cracked};
+  if (dry) return {intact, worst, all_sound, "if it rocks, slides or falls"};
+  return {intact, std::max(cracked, worst), all_sound, "if all blocks come loose", cracked};
 }
 
 std::string cost_text(const Cost& cost) {

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "engine/base/words.h"
+#include "engine/base/spelling.h"
 #include "engine/record/recorder.h"
 #include "lua/api.h"
 #include "lua/options.h"

@@ -5,7 +5,7 @@
 #include <sstream>
 
 #include "engine/base/text.h"
-#include "engine/base/words.h"
+#include "engine/base/spelling.h"
 #include "lua/api.h"
 #include "lua/embedded.h"
 

@@ -11,7 +11,7 @@
 #include "engine/base/isa.h"
 #include "engine/base/streams.h"
 #include "engine/base/text.h"
-#include "engine/base/words.h"
+#include "engine/base/spelling.h"
 #include "engine/record/manifest.h"
 #include "lua/options.h"
 #include "lua/say.h"

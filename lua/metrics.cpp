@@ -4,7 +4,7 @@
 #include <limits>
 #include <lua5.4/lua.hpp>
 
-#include "engine/base/words.h"
+#include "engine/base/spelling.h"
 #include "engine/record/signal.h"
 #include "lua/api.h"
 #include "lua/script.h"

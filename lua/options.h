@@ -58,7 +58,7 @@ struct Options {
 };
 
 // The overrides of this run as arguments for another run of erbs.
-std::vector<std::string> departures(const Options& options);
+std::vector<std::string> override_arguments(const Options& options);
 
 // The arguments that let another run of erbs read the same folders and build as large a scene.
 std::vector<std::string> permissions(const Options& options);

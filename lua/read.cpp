@@ -6,7 +6,7 @@
 #include <lua5.4/lua.hpp>
 
 #include "engine/base/text.h"
-#include "engine/base/words.h"
+#include "engine/base/spelling.h"
 
 namespace erbs {
 
@@ -225,14 +225,14 @@ std::optional<Vec3> Arguments::vector_at_top(const std::string& key, const std::
     return std::nullopt;
   }
   Vec3 vector = Vec3::Zero();
-  bool sound = true;
+  bool valid = true;
   for (int i = 0; i < 3; ++i) {
     lua_rawgeti(lua_, -1, i + 1);
     if (const auto value = number_at_top(key, fmt::format("{}[{}]", path, i + 1))) vector[i] = *value;
-    else sound = false;
+    else valid = false;
     lua_pop(lua_, 1);
   }
-  if (!sound) return std::nullopt;
+  if (!valid) return std::nullopt;
   return vector;
 }
 

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "engine/base/text.h"
-#include "engine/base/words.h"
+#include "engine/base/spelling.h"
 #include "engine/model/build.h"
 #include "engine/record/metrics.h"
 #include "engine/record/recorder.h"
@@ -66,7 +66,7 @@ void evaluate_overrides(lua_State* lua, Context& context) {
       if (lua_type(lua, -1) != LUA_TNUMBER || !std::isfinite(lua_tonumber(lua, -1)))
         throw Error(fmt::format("{}: the value must be a finite number, such as 0.8*g, not {}", name, described(lua, -1)));
       item.value = lua_tonumber(lua, -1);
-      item.sound = true;
+      item.valid = true;
       lua_pop(lua, 1);
     } catch (const Error& error) {
       const std::string message = error.what(), place = name + ":1:";  // an expression has one line

@@ -165,9 +165,9 @@ void read(MapRun& r, const Case& run, const std::string& quantity) {
     r.residual = number("energy.residual_relative").value_or(0);
     r.broken = int(number("joints_broken").value_or(0));
     if (r.value) r.seen.push_back({r.until, *r.value});
-    const bool gate = r.scheme.sequential ? r.residual > wrong_ledger || own_doing(metrics) : run.code == exit_numbers;
+    const bool by_ledger = r.scheme.sequential ? r.residual > wrong_ledger || own_doing(metrics) : run.code == exit_numbers;
     r.verdict = status == "diverged"    ? Verdict::diverged
-                : gate                  ? Verdict::ledger
+                : by_ledger                  ? Verdict::ledger
                 : status == "completed" || status == "inaccurate" ? Verdict::converged
                 : status == "stopped"   ? Verdict::bounded
                                         : Verdict::failed;

@@ -9,13 +9,13 @@
 #include <thread>
 
 #include "engine/analysis/dynamic.h"
-#include "engine/analysis/trust.h"
+#include "engine/analysis/diagnostics.h"
 #include "engine/base/core.h"
 #include "engine/base/interrupt.h"
 #include "engine/base/text.h"
 #include "engine/scene/effects.h"
 #include "lua/child.h"
-#include "lua/depart.h"
+#include "lua/overrides.h"
 #include "lua/expectations.h"
 #include "lua/options.h"
 #include "lua/progress.h"
@@ -86,7 +86,7 @@ void print_summary(const Scene& scene, const std::string& directory, const Json&
              number_at(metrics, "realtime_factor"), metrics.value("blocks", 0), metrics.value("joints", 0),
              metrics.value("joints_broken", 0));
   say("{}\nenergy residual {:.1e}\n{}\n", collapse_text(metrics), number_at(metrics, "energy.residual_relative"),
-             trust_line(trust_of(metrics)));
+             diagnostics_line(diagnostics_of(metrics)));
   for (const auto& [name, unit] : scene.metric_units) {
     const Json* value = find_key(metrics, "metrics." + name);
     say("  {} = {} {}\n", name, value && value->is_number() ? fmt::format("{:.6g}", value->get<double>()) : "none", unit);
@@ -125,7 +125,7 @@ class Twin {
   Twin(const std::string& scene, const std::string& directory, const Options& options) : run_(directory), twin_(run_file(directory, "twin")) {
     command_ = {own_path(), "run", scene, "-o", twin_, "--quiet", "--no-figures", "--study", "twin", "--twin-noise", fmt::format("{:g}", twin_noise)};
     for (const auto& [name, value] : options.overrides) command_.insert(command_.end(), {"-D", name + "=" + value});
-    for (const auto& more : {departures(options), permissions(options)}) command_.insert(command_.end(), more.begin(), more.end());
+    for (const auto& more : {override_arguments(options), permissions(options)}) command_.insert(command_.end(), more.begin(), more.end());
     if (options.until) command_.insert(command_.end(), {"--until", fmt::format("{}", *options.until)});
     if (options.max_wall) command_.insert(command_.end(), {"--max-wall", fmt::format("{}s", *options.max_wall)});
     if (options.threads > 0) command_.insert(command_.end(), {"--threads", std::to_string(options.threads)});
@@ -165,8 +165,8 @@ RunOutcome run_scene(Scene scene, const std::string& script, const std::vector<s
   RunOptions run;
   run.directory = directory;
   run.notes = notes;
-  run.departures = departures(options);
-  if (options.twin_noise > 0) run.departures.insert(run.departures.end(), {"--twin-noise", fmt::format("{}", options.twin_noise)});
+  run.override_arguments = override_arguments(options);
+  if (options.twin_noise > 0) run.override_arguments.insert(run.override_arguments.end(), {"--twin-noise", fmt::format("{}", options.twin_noise)});
   run.existing = options.resume ? Existing::resume : options.force ? Existing::force : Existing::refuse;
   run.threads = threads_of(scene, options);
   run.until = options.until;
@@ -254,7 +254,7 @@ int verb_run(const Options& options) {
   Scene scene = script.take_scene();
   for (const auto& effect : options.without) switch_off(scene, effect);
   std::vector<std::string> notes = script.output();
-  for (const auto& note : depart(scene, options)) notes.push_back(note);
+  for (const auto& note : apply_overrides(scene, options)) notes.push_back(note);
   if (!options.settings.empty())  // values of --set pass the same checks as the scene
     if (const auto mistakes = check(scene); !mistakes.empty()) throw Errors(mistakes);
   for (const auto& warning : warnings(scene)) {

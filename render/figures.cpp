@@ -172,16 +172,16 @@ std::string energy_script(const std::string& csv, const CsvTable& table, const R
       "'10^{%T}'\nset ytics 1e-18,1e3\nunset mytics\n";
   const double worst = residual >= 0 ? peak_of(table, {residual}) : 0;
   // Energy tolerance of the run. If the scene leaves it to the kind of run, all three standard tolerances.
-  std::vector<std::pair<double, std::string>> gates{{run.energy_gate, "gate"}};
-  if (run.energy_gate <= 0) gates = {{1e-6, "gate, elastic"}, {1e-3, "gate, cracked"}, {1e-2, "gate, collapse"}};
+  std::vector<std::pair<double, std::string>> tolerances{{run.energy_tolerance, "gate"}};
+  if (run.energy_tolerance <= 0) tolerances = {{1e-6, "gate, elastic"}, {1e-3, "gate, cracked"}, {1e-2, "gate, collapse"}};
   script +=
-      fmt::format("set yrange [{}:{}]\n", std::min(1e-12, worst > 0 ? worst * 1e-4 : 1e-12), std::max(worst, gates.back().first) * 10);
+      fmt::format("set yrange [{}:{}]\n", std::min(1e-12, worst > 0 ? worst * 1e-4 : 1e-12), std::max(worst, tolerances.back().first) * 10);
   script += "unset label\nset key off\n";
-  for (const auto& [gate, name] : gates) {
+  for (const auto& [tolerance, name] : tolerances) {
     script += fmt::format(
         "set arrow from graph 0, first {0} to graph 1, first {0} nohead lc rgb '#c07060' dashtype 2\n"
         "set label '{1} {0:g}' at graph 1.015, first {0} left textcolor rgb '#b03020' font ',11' noenhanced\n",
-        gate, name);
+        tolerance, name);
   }
   if (worst > 0) script += plot(csv, table, {"", 1, {residual}}, "abs(column({c})) > 1e-16 ? abs(column({c})) : 1e-16", every);
   else script += "plot 1e-16 notitle\n";

@@ -123,7 +123,7 @@ void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double 
     std::vector<std::uint32_t> around;
     bool all_buried = true;
     auto here = at;
-    for (std::size_t turn = 0; turn < shape.faces.size(); ++turn) {
+    for (std::size_t iteration = 0; iteration < shape.faces.size(); ++iteration) {
       around.push_back(ids[here.first][here.second]);
       all_buried = all_buried && buried_face[here.first];
       const std::vector<int>& loop = shape.faces[here.first];

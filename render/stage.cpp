@@ -110,7 +110,7 @@ std::vector<Camera> choose_cameras(const Stage& stage, double aspect) {
     const Vec3 back = directions[k].normalized(), right = Vec3(0, 0, 1).cross(back).normalized(), up = back.cross(right);
     const double half = std::tan(0.5 * c.fov);
     double distance = std::max(1e-3, 3 * stage.size());
-    for (int turn = 0; turn < 8; ++turn) {  // approaches in iterations and centres the target on the visible points
+    for (int iteration = 0; iteration < 8; ++iteration) {  // approaches in iterations and centres the target on the visible points
       Eigen::AlignedBox2d shown;
       for (const Vec3& p : seen) {
         const Vec3 v = p - c.target;

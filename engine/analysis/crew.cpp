@@ -6,7 +6,7 @@
 namespace erbs {
 namespace {
 
-constexpr double look_every = 0.25, trial = 0.15;   // s
+constexpr double sample_every = 0.25, trial = 0.15;   // s
 constexpr double least_rest = 2, longest_rest = 30;  // s between two trials with the same outcome
 // Share of processor time. A team that spins at its barriers uses all its processors; other programs or sleep took the rest.
 constexpr double undisturbed = 0.85;
@@ -21,21 +21,21 @@ double clock_seconds(clockid_t clock) {
 
 }  // namespace
 
-Crew::Crew(int threads) : most_(threads), now_(threads), window_(look_every), rest_(least_rest) {}
+Crew::Crew(int threads) : most_(threads), now_(threads), window_(sample_every), rest_(least_rest) {}
 
-bool Crew::turns(long step) {
-  return most_ > 1 && turns(step, clock_seconds(CLOCK_MONOTONIC), clock_seconds(CLOCK_PROCESS_CPUTIME_ID));
+bool Crew::should_change(long step) {
+  return most_ > 1 && should_change(step, clock_seconds(CLOCK_MONOTONIC), clock_seconds(CLOCK_PROCESS_CPUTIME_ID));
 }
 
 void Crew::begin(Phase phase, int threads, long step, double wall, double processor) {
   phase_ = phase;
   now_ = threads;
   step_ = step, wall_ = wall, processor_ = processor;
-  window_ = phase == Phase::trial_alone || phase == Phase::trial_together ? trial : phase == Phase::alone ? rest_ : look_every;
+  window_ = phase == Phase::trial_alone || phase == Phase::trial_together ? trial : phase == Phase::alone ? rest_ : sample_every;
   window_ = std::max(window_, phase == Phase::together ? 0 : least_share * cost_);
 }
 
-bool Crew::turns(long step, double wall, double processor) {
+bool Crew::should_change(long step, double wall, double processor) {
   if (most_ < 2) return false;
   if (wall_ < 0) begin(phase_, now_, step, wall, processor);
   const double spent = wall - wall_, rate = double(step - step_) / spent;

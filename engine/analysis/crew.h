@@ -10,9 +10,9 @@ class Crew {
   explicit Crew(int threads);
   int threads() const { return now_; }
   // Call often, with the number of steps done. True: the run is to continue with threads(), which has just changed.
-  bool turns(long step);
+  bool should_change(long step);
   // The same with clock readings: seconds of wall clock, and of processor time of the whole process.
-  bool turns(long step, double wall, double processor);
+  bool should_change(long step, double wall, double processor);
   void took(double seconds) { cost_ = seconds, wall_ = -1; }  // cost of the last change; timing restarts after it
 
  private:

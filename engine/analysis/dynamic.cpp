@@ -12,7 +12,7 @@
 #include "engine/analysis/lost_blocks.h"
 #include "engine/analysis/prepare.h"
 #include "engine/analysis/resume.h"
-#include "engine/analysis/trust.h"
+#include "engine/analysis/diagnostics.h"
 #include "engine/analysis/verdict.h"
 #include "engine/base/hash.h"
 #include "engine/record/checkpoint.h"
@@ -30,14 +30,14 @@ std::size_t z(int i) { return std::size_t(i); }
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 // Output written so far, so that a resumed run continues at the same rows.
-struct Clock {
+struct OutputSchedule {
   long rows = 0, frames = 0;
   long right = 0;  // last step at which the energy ledger was valid (verdict.h)
   JointEvents joints;
 };
 
 template <class C, class F>
-requires std::is_same_v<std::remove_const_t<C>, Clock>
+requires std::is_same_v<std::remove_const_t<C>, OutputSchedule>
 void each(C& c, F&& f) {
   f("rows", c.rows);
   f("frames", c.frames);
@@ -71,9 +71,9 @@ class Run {
   double born_ = seconds(), setup_ = 0, solve_start_ = 0, record_ = 0, last_save_ = 0, last_progress_ = 0, started_at_ = 0;
   Prepared run_;
   CheckpointKey key_;
-  Clock clock_;
+  OutputSchedule output_;
   Collapse collapse_;
-  TrustWatch trust_;
+  RunDiagnostics diagnostics_;
   std::optional<Solver> solver_;
   std::optional<Crew> crew_;
   long touched_ = 0, slept_ = 0;
@@ -91,15 +91,15 @@ Run::Run(Scene scene, const std::string& script, const RunOptions& options)
 void Run::begin() {
   check_run_folder(options_.directory, options_.existing);
   if (std::filesystem::is_directory(options_.directory)) out_.lock = std::make_shared<FolderLock>(options_.directory);
-  if (options_.existing == Existing::resume) check_departures(options_.directory, options_.departures);
+  if (options_.existing == Existing::resume) check_overrides(options_.directory, options_.override_arguments);
   run_ = prepare(scene_, options_.allow_unstable);
   dt_at_start_ = run_.state.dt;
-  key_ = {scene_hash(scene_, script_), dt_at_start_, fnv1a(fmt::format("{}", fmt::join(options_.departures, "\n")))};
+  key_ = {scene_hash(scene_, script_), dt_at_start_, fnv1a(fmt::format("{}", fmt::join(options_.override_arguments, "\n")))};
   const bool resume = options_.existing == Existing::resume;
   WriterProgress written;
   if (resume) {
     const std::vector<std::size_t> sizes = sizes_of(run_.state);
-    read_checkpoint(options_.directory, key_, run_.state, written, collapse_, clock_, trust_);
+    read_checkpoint(options_.directory, key_, run_.state, written, collapse_, output_, diagnostics_);
     check_sizes(options_.directory, sizes, run_.state);
   } else {
     const BlockVec3 built = run_.state.u;
@@ -114,7 +114,7 @@ void Run::begin() {
   manifest.dt_critical = run_.bounds.critical;
   manifest.dt_block_bound = run_.bounds.block;
   manifest.dt_rule = run_.dt_rule;
-  manifest.departures = options_.departures;
+  manifest.override_arguments = options_.override_arguments;
   for (const Effect& e : effects_)
     (e.on ? manifest.effects_on : manifest.effects_off).push_back(e.on ? e.name + " (" + e.because + ")" : e.name);
   const Recorders wanted(scene_, run_.model);  // reports columns of equal names before anything is written
@@ -160,13 +160,13 @@ void Run::watch(const BlockVec3& built) {
 bool Run::wanted(double t) {
   const double slack = 1e-9 * run_.state.dt;
   const bool end = t >= scene_.analysis.duration - 0.5 * run_.state.dt;
-  row_now_ = end || t + slack >= double(clock_.rows) * scene_.analysis.output_dt;
-  frame_now_ = end || t + slack >= double(clock_.frames) * scene_.analysis.frame_dt;
+  row_now_ = end || t + slack >= double(output_.rows) * scene_.analysis.output_dt;
+  frame_now_ = end || t + slack >= double(output_.frames) * scene_.analysis.frame_dt;
   return row_now_ || frame_now_;
 }
 
 Snapshot Run::snapshot() const {
-  const Instant& now = solver_->instant();
+  const SampleState& now = solver_->sample_state();
   const Model& m = run_.model;
   Snapshot s{.model = m, .state = run_.state, .t = now.t};
   s.motion = [this, &now, kick = now.excitation.kick, half = 0.5 * run_.state.last_dt](std::size_t b) {
@@ -192,16 +192,16 @@ Snapshot Run::snapshot() const {
     s.joint_force.reserve(z(m.njoint));
     for (int j = 0; j < m.njoint; ++j) {
       std::array<double, 6> f{};
-      if (run_.state.tier[z(j)] == Tier::cracked) std::copy_n(run_.state.memory[z(j)].f, 6, f.begin());
-      if (run_.state.tier[z(j)] == Tier::intact) {
-        joint_q(m, run_.state, j, f.data());
+      if (run_.state.stage[z(j)] == JointStage::cracked) std::copy_n(run_.state.memory[z(j)].resultant, 6, f.begin());
+      if (run_.state.stage[z(j)] == JointStage::intact) {
+        joint_gap(m, run_.state, j, f.data());
         for (int i = 0; i < 6; ++i) f[z(i)] *= m.joint[z(j)].type->stiffness[i];
       }
       s.joint_force.push_back(f);
     }
   }
   for (int j = 0; j < m.njoint; ++j)
-    if (run_.state.tier[z(j)] != Tier::open) s.contact_points += m.joint[z(j)].type->points;
+    if (run_.state.stage[z(j)] != JointStage::contact) s.contact_points += m.joint[z(j)].type->points;
   s.contact_points += solver_->touching();
   return s;
 }
@@ -211,7 +211,7 @@ int Run::broken_joints() {
   int broken = 0;
   for (int j = 0; j < run_.model.njoint; ++j) {
     const Joint& joint = run_.model.joint[z(j)];
-    if (run_.state.tier[z(j)] == Tier::intact || run_.model.laws[z(joint.type->law)].dry) continue;
+    if (run_.state.stage[z(j)] == JointStage::intact || run_.model.laws[z(joint.type->law)].dry) continue;
     const auto first = run_.state.history.begin() + joint.first_point;
     broken += std::all_of(first, first + joint.type->points, [](const PointHistory& h) { return h.damage >= 1; });
   }
@@ -221,8 +221,8 @@ int Run::broken_joints() {
 void Run::sampled() {
   const double began = seconds();
   const Snapshot now = snapshot();
-  take_events(clock_.joints, *solver_);
-  write_events(clock_.joints, now.t, run_.model, run_.state, *writer_);
+  take_events(output_.joints, *solver_);
+  write_events(output_.joints, now.t, run_.model, run_.state, *writer_);
   std::vector<int> fallen;
   const bool collapse = update(collapse_, run_.model, run_.state, now.t, &fallen);
   for (const int b : fallen) writer_->event(now.t, "fall", run_.model.block_name[z(b)], -run_.state.u[z(b)].z(), "m");
@@ -235,19 +235,19 @@ void Run::sampled() {
   run_.state.joints_broken = broken_joints();
   if (row_now_) {
     writer_->row(now);
-    while (double(clock_.rows) * scene_.analysis.output_dt <= now.t + 1e-9 * run_.state.dt) ++clock_.rows;
+    while (double(output_.rows) * scene_.analysis.output_dt <= now.t + 1e-9 * run_.state.dt) ++output_.rows;
   }
   if (frame_now_) {
     writer_->frame(now);
-    while (double(clock_.frames) * scene_.analysis.frame_dt <= now.t + 1e-9 * run_.state.dt) ++clock_.frames;
+    while (double(output_.frames) * scene_.analysis.frame_dt <= now.t + 1e-9 * run_.state.dt) ++output_.frames;
   }
   record_ += seconds() - began;
 }
 
 void Run::save() {
   const double began = seconds();
-  take_events(clock_.joints, *solver_);
-  write_checkpoint(options_.directory, key_, run_.state, writer_->progress(), collapse_, clock_, trust_);
+  take_events(output_.joints, *solver_);
+  write_checkpoint(options_.directory, key_, run_.state, writer_->progress(), collapse_, output_, diagnostics_);
   last_save_ = seconds();
   record_ += last_save_ - began;
 }
@@ -255,7 +255,7 @@ void Run::save() {
 bool Run::stop() {
   const double now = seconds();
   const Energy& e = run_.state.energy;
-  look(trust_, run_.state, solver_->borne_dt(run_.bounds.critical), energy_gate(so_far()), solver_->take_long_steps());
+  update_diagnostics(diagnostics_, run_.state, solver_->stable_dt(run_.bounds.critical), energy_tolerance(so_far()), solver_->take_long_steps());
   if (options_.progress && now - last_progress_ > 0.1) {
     last_progress_ = now;
     options_.progress({run_.state.t, scene_.analysis.duration, now - solve_start_, run_.state.step - steps_at_start_,
@@ -266,7 +266,7 @@ bool Run::stop() {
   if (scene_.analysis.stop_after_collapse >= 0 && collapse_.collapsed && sampled_t >= collapse_.time + scene_.analysis.stop_after_collapse)
     return true;
   if (collapse_.moved) return true;
-  if (diverges(so_far(), clock_.right)) out_.metrics.status = "diverged";
+  if (diverges(so_far(), output_.right)) out_.metrics.status = "diverged";
   if (out_.metrics.status != "completed") return true;
   if (options_.interrupted != nullptr && options_.interrupted->load()) out_.metrics.status = "interrupted";
   if (options_.until && sampled_t >= *options_.until) out_.metrics.status = "stopped";
@@ -289,7 +289,7 @@ Metrics Run::metrics() const {
   m.joints = run_.model.njoint;
   m.contact_points = run_.model.npoint;
   m.joints_broken = s.joints_broken;
-  m.blocks_asleep = s.rest.count;
+  m.blocks_asleep = s.sleep.count;
   m.wall_s.total = seconds() - born_;
   m.wall_s.setup = setup_;
   m.wall_s.record = record_;
@@ -308,14 +308,14 @@ Metrics Run::metrics() const {
   m.collapse.under_gravity = collapse_.under_gravity;
   if (collapse_.collapsed && !collapse_.under_gravity) m.collapse.time_s = collapse_.time;
   m.collapse.direction = collapse_direction(collapse_, run_.model, s);
-  m.trust = trust_of(trust_, run_.model, s);
+  m.diagnostics = diagnostics_of(diagnostics_, run_.model, s);
   m.collapse.mechanism = mechanism_metrics(collapse_.collapsed ? collapse_.mechanism : mechanism_of(run_.model, s, m.time_s), run_.model);
   m.state_hash = state_hash(s);
   return m;
 }
 
 RunSoFar Run::so_far() const {
-  return {scene_, run_, collapse_, trust_, clock_.joints.opened, dt_at_start_, height_energy_, options_.allow_unstable};
+  return {scene_, run_, collapse_, diagnostics_, output_.joints.released, dt_at_start_, height_energy_, options_.allow_unstable};
 }
 
 // Status, exit code and last line follow from errors in the numbers.
@@ -331,11 +331,11 @@ void Run::judge() {
 void Run::step_on() {
   for (bool ended = false; !ended && !solver_->broken();) {
     solver_->run(
-        {[this](double t) { return wanted(t); }, [this] { sampled(); }, [&] { return (ended = stop()) || crew_->turns(run_.state.step); }});
+        {[this](double t) { return wanted(t); }, [this] { sampled(); }, [&] { return (ended = stop()) || crew_->should_change(run_.state.step); }});
     touched_ += solver_->touched(), slept_ += solver_->slept();
     if (ended || solver_->broken()) return;
     const double began = seconds();
-    take_events(clock_.joints, *solver_);
+    take_events(output_.joints, *solver_);
     solver_.emplace(run_.model, run_.state, crew_->threads());
     crew_->took(seconds() - began);
   }
@@ -352,17 +352,17 @@ RunOutcome Run::go() {
   if (slept_ > 0)
     writer_->log(fmt::format("sleep: {:.1f} of {} blocks asleep on average, {} at the end",
                              double(slept_) / double(std::max(1L, run_.state.step - steps_at_start_)), run_.model.nblock,
-                             run_.state.rest.count));
+                             run_.state.sleep.count));
   if (const std::string lost = lost_blocks(run_.model, run_.state); !lost.empty()) {
     out_.warnings.push_back(lost);
     writer_->log("warning: " + lost);
   }
   if (status == "stopped" || status == "interrupted") save();
-  else write_last_events(clock_.joints, run_.state.t - run_.state.last_dt, run_.model, run_.state, *writer_);
+  else write_last_events(output_.joints, run_.state.t - run_.state.last_dt, run_.model, run_.state, *writer_);
   solver_.reset();
   out_.metrics = metrics();
-  writer_->log(trust_line(out_.metrics.trust));
-  if (clock_.joints.first_crack >= 0) writer_->log(fmt::format("first crack at t = {:.6g} s", clock_.joints.first_crack));
+  writer_->log(diagnostics_line(out_.metrics.diagnostics));
+  if (output_.joints.first_crack >= 0) writer_->log(fmt::format("first crack at t = {:.6g} s", output_.joints.first_crack));
   writer_->close();
   write_metrics(options_.directory, out_.metrics);
   return std::move(out_);

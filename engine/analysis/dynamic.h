@@ -22,7 +22,7 @@ struct Progress {
 
 struct RunOptions {
   std::string directory;
-  std::vector<std::string> departures;  // command-line overrides; a checkpoint accepts only the same ones
+  std::vector<std::string> override_arguments;  // command-line overrides; a checkpoint accepts only the same ones
   std::vector<std::string> notes;       // for the head of log.txt: output of the script, warnings of its check
   Existing existing = Existing::refuse;
   int threads = 1;

@@ -11,13 +11,13 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-VecX applied(const Model& m, const Freedom& f, const std::vector<double>& push) {
+VecX applied(const Model& m, const Freedom& f, const std::vector<double>& loads) {
   VecX out = VecX::Zero(f.count);
   for (int b = 0; b < m.nblock; ++b) {
     const int first = f.first[z(b)];
     if (first < 0) continue;
     out.segment<3>(first) = m.mass[z(b)] * m.gravity;
-    for (int i = 0; i < 6; ++i) out[first + i] += push[z(b) * 6 + z(i)];
+    for (int i = 0; i < 6; ++i) out[first + i] += loads[z(b) * 6 + z(i)];
   }
   return out;
 }
@@ -109,14 +109,14 @@ constexpr double first_brake = 0.1;
 // Newton's method on all islands of a `Freedom` at once.
 class Search {
  public:
-  Search(const Model& m, State& s, const Freedom& f, const std::vector<double>& push, Linear how)
+  Search(const Model& m, State& s, const Freedom& f, const std::vector<double>& loads, Linear how)
       : m_(m),
         s_(s),
         f_(f),
-        force_(applied(m, f, push)),
+        force_(applied(m, f, loads)),
         islands_(islands_of(m, s, f, force_)),
         before_{s.u, s.q},
-        trial_{Cold<JointMemory>(z(m.njoint)), {}, {}, std::vector<std::uint8_t>(z(m.njoint), 1)},
+        trial_{LazyArray<JointMemory>(z(m.njoint)), {}, {}, std::vector<std::uint8_t>(z(m.njoint), 1)},
         steps_(m, s, f, how) {}
 
   // False if no step could be found for the islands still sought.
@@ -131,7 +131,7 @@ class Search {
       VecX step;
       if (!find(step)) return false;
       const Pose from{s_.u, s_.q};
-      follow(step, from);
+      line_search(step, from);
       for (Island& i : islands_)
         if (i.sought()) judge(i, from);
       ++iterations_;
@@ -153,8 +153,8 @@ class Search {
     for (int j = 0; j < m_.njoint; ++j) {
       const Joint& joint = m_.joint[z(j)];
       const auto found = [&](int b) { return f_.first[z(b)] >= 0 && out.found[z(b)]; };
-      if (s_.tier[z(j)] == Tier::open || trial_.sound[z(j)] || !(found(joint.a) || found(joint.b))) continue;
-      s_.tier[z(j)] = Tier::cracked;
+      if (s_.stage[z(j)] == JointStage::contact || trial_.intact[z(j)] || !(found(joint.a) || found(joint.b))) continue;
+      s_.stage[z(j)] = JointStage::cracked;
       s_.memory[z(j)] = trial_.memory[z(j)];
       for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i) s_.history[z(i)] = trial_.history[z(i)];
       if (!s_.crushed.empty()) s_.crushed[z(j)] = trial_.crushed[z(j)];
@@ -166,8 +166,8 @@ class Search {
 
  private:
   bool find(VecX& step) {
-    if (std::all_of(trial_.sound.begin(), trial_.sound.end(), [](std::uint8_t x) { return x != 0; })) {
-      if (steps_.sound(residual_, step)) return true;
+    if (std::all_of(trial_.intact.begin(), trial_.intact.end(), [](std::uint8_t x) { return x != 0; })) {
+      if (steps_.intact(residual_, step)) return true;
       why_ = "the structure has a mechanism";
       return false;
     }
@@ -178,7 +178,7 @@ class Search {
   }
 
   // Moves each island until its own work along the step is spent.
-  void follow(const VecX& step, const Pose& from) {
+  void line_search(const VecX& step, const Pose& from) {
     const auto work = [&](const Island& i) {
       double sum = 0;
       for (const int b : i.blocks) sum += step.segment<6>(f_.first[z(b)]).dot(residual_.segment<6>(f_.first[z(b)]));
@@ -255,15 +255,15 @@ void note_failures(const Model& m, const std::vector<Island>& islands, const std
 
 }  // namespace
 
-Equilibrium settle(const Model& m, State& s, const std::vector<double>& push, Linear how) {
+Equilibrium settle(const Model& m, State& s, const std::vector<double>& loads, Linear how) {
   Equilibrium out;
   out.found.assign(z(m.nblock), 0);
   const Freedom f = grounded_freedoms(m, s);
-  if (f.count == 0 || applied(m, f, push).lpNorm<Eigen::Infinity>() == 0) {
+  if (f.count == 0 || applied(m, f, loads).lpNorm<Eigen::Infinity>() == 0) {
     out.converged = true;
     return out;
   }
-  Search all(m, s, f, push, how);
+  Search all(m, s, f, loads, how);
   const bool whole = all.go();
   all.keep(out);
   if (whole) note_failures(m, all.islands(), "", out);
@@ -271,7 +271,7 @@ Equilibrium settle(const Model& m, State& s, const std::vector<double>& push, Li
     for (const Island& i : all.islands()) {
       if (i.now == Island::Now::found) continue;
       const Freedom own = freedom_of(i, m.nblock);
-      Search alone(m, s, own, push, how);
+      Search alone(m, s, own, loads, how);
       const bool solved = alone.go();
       alone.keep(out);
       note_failures(m, alone.islands(), solved ? "" : alone.why(), out);

@@ -28,8 +28,8 @@ enum class Linear { by_size, direct, iterative };
 // potential of opening joints is convex, so this point is its minimum along the step.
 // A fraction of the intact stiffness brakes blocks that have lost support; it decreases as balance approaches (pseudo-transient
 // continuation, Kelley and Keyes 1998, SIAM J. Numer. Anal. 35, 508).
-// `push` holds force and moment on each block besides gravity (6 doubles a block). Blocks that no joint connects to the ground stay in
+// `loads` holds force and moment on each block besides gravity (6 doubles a block). Blocks that no joint connects to the ground stay in
 // place. On return the state holds the equilibrium of each island that has one; other islands are unchanged.
-Equilibrium settle(const Model& model, State& state, const std::vector<double>& push, Linear how = Linear::by_size);
+Equilibrium settle(const Model& model, State& state, const std::vector<double>& loads, Linear how = Linear::by_size);
 
 }  // namespace erbs

@@ -13,30 +13,30 @@ std::size_t z(int i) { return std::size_t(i); }
 // One row for the energy lost by softening of former joints and by separation of contacts.
 void write_rest(JointEvents& events, double t, const State& state, RunWriter& writer) {
   double rest = state.energy.reset - events.listed;
-  for (const HandOver& h : events.handed_since) rest -= h.energy;
+  for (const JointRelease& h : events.releases_since) rest -= h.energy;
   if (!(std::fabs(rest) > 1e-15 * state.energy.reference)) return;
   writer.event(t, "soften", "beds and contacts", rest, "J");
   events.listed += rest;
 }
 
 // Rows for the energy freed by release of joints to contact.
-void write_handed(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer) {
-  if (!events.handed_since.empty()) write_rest(events, t, state, writer);
-  for (const HandOver& h : events.handed_since) {
+void write_releases(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer) {
+  if (!events.releases_since.empty()) write_rest(events, t, state, writer);
+  for (const JointRelease& h : events.releases_since) {
     writer.event(t, "hand over", model.joint_name(h.joint), h.energy, "J");
     events.listed += h.energy;
   }
-  events.handed_since.clear();
+  events.releases_since.clear();
 }
 
 }  // namespace
 
 void take_events(JointEvents& events, Solver& solver) {
-  const std::vector<int> cracked = solver.take_cracked(), opened = solver.take_opened();
-  const std::vector<HandOver> handed = solver.take_handed();
+  const std::vector<int> cracked = solver.take_cracked(), released = solver.take_released();
+  const std::vector<JointRelease> releases = solver.take_releases();
   events.cracked_since.insert(events.cracked_since.end(), cracked.begin(), cracked.end());
-  events.opened_since.insert(events.opened_since.end(), opened.begin(), opened.end());
-  events.handed_since.insert(events.handed_since.end(), handed.begin(), handed.end());
+  events.released_since.insert(events.released_since.end(), released.begin(), released.end());
+  events.releases_since.insert(events.releases_since.end(), releases.begin(), releases.end());
 }
 
 void write_events(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer) {
@@ -46,17 +46,17 @@ void write_events(JointEvents& events, double t, const Model& model, const State
     if (events.first_crack < 0) events.first_crack = t;
     writer.event(t, "crack", model.joint_name(j), joint_damage(model, state, j), "share");
   }
-  for (const int j : events.opened_since) {
-    ++events.opened;
-    writer.event(t, "open", model.joint_name(j), look_at_joint(model, state, j).opening, "m");
+  for (const int j : events.released_since) {
+    ++events.released;
+    writer.event(t, "open", model.joint_name(j), joint_condition(model, state, j).opening, "m");
   }
   events.cracked_since.clear();
-  events.opened_since.clear();
-  write_handed(events, t, model, state, writer);
+  events.released_since.clear();
+  write_releases(events, t, model, state, writer);
 }
 
 void write_last_events(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer) {
-  write_handed(events, t, model, state, writer);
+  write_releases(events, t, model, state, writer);
   write_rest(events, t, state, writer);
 }
 

@@ -7,21 +7,21 @@ namespace erbs {
 
 struct JointEvents {
   double first_crack = -1;  // s
-  long opened = 0;
+  long released = 0;
   double listed = 0;  // J, part of reset_J listed in events.csv so far
-  std::vector<int> cracked_since, opened_since;
-  std::vector<HandOver> handed_since;
+  std::vector<int> cracked_since, released_since;
+  std::vector<JointRelease> releases_since;
 };
 
 template <class E, class F>
 requires std::is_same_v<std::remove_const_t<E>, JointEvents>
 void each(E& e, F&& f) {
   f("first_crack", e.first_crack);
-  f("opened", e.opened);
+  f("released", e.released);
   f("listed", e.listed);
   f("cracked_since", e.cracked_since);
-  f("opened_since", e.opened_since);
-  f("handed_since", e.handed_since);
+  f("released_since", e.released_since);
+  f("releases_since", e.releases_since);
 }
 
 // Takes the events from the solver, which clears them.

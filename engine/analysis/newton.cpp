@@ -14,11 +14,11 @@ constexpr double most_bytes = 100 * 1048576.0;  // of factors
 // Relative tolerance of one step by iterations. Later steps correct only the small change due to joint rotation, and the error of earlier
 // steps.
 constexpr double first_tolerance = 1e-10, tolerance = 1e-4;
-constexpr int turns = 3000;
+constexpr int most_iterations = 3000;
 // The same for iterations on the tangent with its symmetric part factored. More of these iterations cost as much as factors of the whole
 // matrix.
 constexpr double factored_tolerance = 1e-6;
-constexpr int factored_turns = 60;
+constexpr int factored_iterations = 60;
 
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -27,26 +27,26 @@ std::size_t z(int i) { return std::size_t(i); }
 // part, Newton's method cycles on leaning walls. A floor on the diagonal keeps an open joint from vanishing.
 Mat6 tangent(const Model& m, const State& s, int j, const Trial& trial) {
   const Joint& joint = m.joint[z(j)];
-  const double* at = trial.memory[z(j)].q;
+  const double* at = trial.memory[z(j)].gap;
   Mat6 k;
   std::vector<PointHistory> history(z(joint.type->points));
   const double moved = std::max(Vec3(at[0], at[1], at[2]).norm(), joint.type->radius * Vec3(at[3], at[4], at[5]).norm());
   const double step = std::max(1e-5 * moved, 1e-14);
-  const bool sound = s.tier[z(j)] == Tier::intact;
+  const bool intact = s.stage[z(j)] == JointStage::intact;
   const double rest[6] = {};
   for (int c = 0; c < 6; ++c) {
-    double f[2][6];
+    double resultant[2][6];
     const double h = c < 3 ? step : step / joint.type->radius;
     for (int side = 0; side < 2; ++side) {
-      double q[6];
-      std::copy(at, at + 6, q);
-      q[c] += side == 0 ? -h : h;
+      double gap[6];
+      std::copy(at, at + 6, gap);
+      gap[c] += side == 0 ? -h : h;
       std::copy_n(&s.history[z(joint.first_point)], joint.type->points, history.begin());
       CrushedFace crushed = s.crushed.empty() ? CrushedFace{} : s.crushed[z(j)];
       JointEnergy e;
-      respond(m, j, sound, sound ? rest : s.memory[z(j)].q, q, {history.data(), s.crushed.empty() ? nullptr : &crushed}, f[side], e);
+      respond(m, j, intact, intact ? rest : s.memory[z(j)].gap, gap, {history.data(), s.crushed.empty() ? nullptr : &crushed}, resultant[side], e);
     }
-    for (int r = 0; r < 6; ++r) k(r, c) = (f[1][r] - f[0][r]) / (2 * h);
+    for (int r = 0; r < 6; ++r) k(r, c) = (resultant[1][r] - resultant[0][r]) / (2 * h);
   }
   for (int i = 0; i < 6; ++i) k(i, i) += 1e-7 * joint.type->stiffness[i];
   return k;
@@ -56,7 +56,7 @@ Mat6 tangent(const Model& m, const State& s, int j, const Trial& trial) {
 VecX diagonal(const Model& m, const State& s, const Freedom& f) {
   VecX out = VecX::Zero(f.count);
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.tier[z(j)] == Tier::open) continue;
+    if (s.stage[z(j)] == JointStage::contact) continue;
     const JointMap map = joint_map(m, s, j);
     const Mat6 k = Vec6(Eigen::Map<const Vec6>(m.joint[z(j)].type->stiffness)).asDiagonal();
     if (const int a = f.first[z(m.joint[z(j)].a)]; a >= 0) out.segment<6>(a) += Vec6(Mat6(map.a.transpose() * k * map.a).diagonal());
@@ -78,20 +78,20 @@ VecX internal_force(const Model& m, const State& s, const Freedom& f, Trial& tri
   trial.history = s.history;
   trial.crushed = s.crushed;
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.tier[z(j)] == Tier::open) continue;
+    if (s.stage[z(j)] == JointStage::contact) continue;
     const Joint& joint = m.joint[z(j)];
     const JointPose pose = joint_pose(m, s, j);
     JointEnergy e;
     JointMemory now;
-    const bool sound = s.tier[z(j)] == Tier::intact;
+    const bool intact = s.stage[z(j)] == JointStage::intact;
     const double rest[6] = {};
     const JointPast past(&trial.history[z(joint.first_point)], s.crushed.empty() ? nullptr : &trial.crushed[z(j)]);
-    trial.sound[z(j)] = respond(m, j, sound, sound ? rest : s.memory[z(j)].q, pose.q, past, now.f, e);
-    std::copy(pose.q, pose.q + 6, now.q);
+    trial.intact[z(j)] = respond(m, j, intact, intact ? rest : s.memory[z(j)].gap, pose.gap, past, now.resultant, e);
+    std::copy(pose.gap, pose.gap + 6, now.gap);
     now.elastic = e.elastic;
-    if (!trial.sound[z(j)]) trial.memory[z(j)] = now;
+    if (!trial.intact[z(j)]) trial.memory[z(j)] = now;
     const JointMap map = joint_map(m, s, j);
-    const Vec6 resultant = Eigen::Map<const Vec6>(now.f);
+    const Vec6 resultant = Eigen::Map<const Vec6>(now.resultant);
     if (const int a = f.first[z(joint.a)]; a >= 0) out.segment<6>(a) += map.a.transpose() * resultant;
     if (const int b = f.first[z(joint.b)]; b >= 0) out.segment<6>(b) += map.b.transpose() * resultant;
   }
@@ -113,7 +113,7 @@ std::vector<NewtonSteps::Change> NewtonSteps::changes_of(const Trial& trial) con
   const State& s = s_;
   std::vector<Change> out;
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.tier[z(j)] == Tier::open || trial.sound[z(j)]) continue;
+    if (s.stage[z(j)] == JointStage::contact || trial.intact[z(j)]) continue;
     const Joint& joint = m.joint[z(j)];
     Change c{f_.first[z(joint.a)], f_.first[z(joint.b)], joint_map(m, s, j), tangent(m, s, j, trial)};
     for (int i = 0; i < 6; ++i) c.more(i, i) -= joint.type->stiffness[i];
@@ -122,8 +122,8 @@ std::vector<NewtonSteps::Change> NewtonSteps::changes_of(const Trial& trial) con
   return out;
 }
 
-bool NewtonSteps::sound(const VecX& residual, VecX& step) {
-  if (iterative_ && sound_iterative(residual, step)) return true;
+bool NewtonSteps::intact(const VecX& residual, VecX& step) {
+  if (iterative_ && intact_iterative(residual, step)) return true;
   if (!factored_) ldlt_.compute(stiffness(m_, s_, f_));
   factored_ = true;
   if (ldlt_.info() != Eigen::Success || (ldlt_.vectorD().array() <= 0).any()) return false;
@@ -167,7 +167,7 @@ bool NewtonSteps::by_symmetric_part(const Sparse& k, const VecX& residual, VecX&
   symmetric_.factorize(part);
   if (symmetric_.info() != Eigen::Success || (symmetric_.vectorD().array() == 0).any()) return false;
   return stabilised_gradients([&](const VecX& x) -> VecX { return k * x; }, [&](const VecX& x) -> VecX { return symmetric_.solve(x); },
-                              residual, factored_tolerance, factored_turns, step);
+                              residual, factored_tolerance, factored_iterations, step);
 }
 
 // Nested dissection of a planar mesh of n nodes gives 31/8 n log2 n entries (George 1973, SIAM J. Numer. Anal. 10, 345). Here an entry is a
@@ -177,7 +177,7 @@ double NewtonSteps::factor_bytes() const {
   return 31.0 / 8 * n * std::log2(n) * 36 * 12 + 144.0 * 16 * m_.njoint;
 }
 
-bool NewtonSteps::sound_iterative(const VecX& residual, VecX& step) {
+bool NewtonSteps::intact_iterative(const VecX& residual, VecX& step) {
   const bool first = !joints_;
   if (first) {
     near_.emplace(
@@ -185,7 +185,7 @@ bool NewtonSteps::sound_iterative(const VecX& residual, VecX& step) {
     joints_.emplace(m_, s_, f_);
   }
   return near_->definite() && conjugate_gradients([&](const VecX& x) { return elastic(*joints_, x); }, *near_, residual,
-                                                  first ? first_tolerance : tolerance, turns, step);
+                                                  first ? first_tolerance : tolerance, most_iterations, step);
 }
 
 bool NewtonSteps::cracked_iterative(const Trial& trial, const std::vector<Change>& changes, const VecX& held, const VecX& residual,
@@ -194,7 +194,7 @@ bool NewtonSteps::cracked_iterative(const Trial& trial, const std::vector<Change
   near_.reset();
   std::vector<int> change(z(m_.njoint), -1);
   for (int j = 0, next = 0; j < m_.njoint; ++j)
-    if (s_.tier[z(j)] != Tier::open && !trial.sound[z(j)]) change[z(j)] = next++;
+    if (s_.stage[z(j)] != JointStage::contact && !trial.intact[z(j)]) change[z(j)] = next++;
   const JointOperator joints(m_, s_, f_);
   const TwoLevel near(
       m_, s_, f_,
@@ -208,17 +208,17 @@ bool NewtonSteps::cracked_iterative(const Trial& trial, const std::vector<Change
   const auto times = [&](const VecX& x) {
     VecX y = elastic(joints, x) + held.cwiseProduct(x);
     for (const Change& c : changes) {
-      Vec6 q = Vec6::Zero();
-      if (c.a >= 0) q += c.map.a * x.segment<6>(c.a);
-      if (c.b >= 0) q += c.map.b * x.segment<6>(c.b);
-      const Vec6 w = c.more * q;
+      Vec6 gap = Vec6::Zero();
+      if (c.a >= 0) gap += c.map.a * x.segment<6>(c.a);
+      if (c.b >= 0) gap += c.map.b * x.segment<6>(c.b);
+      const Vec6 w = c.more * gap;
       if (c.a >= 0) y.segment<6>(c.a) += c.map.a.transpose() * w;
       if (c.b >= 0) y.segment<6>(c.b) += c.map.b.transpose() * w;
     }
     return y;
   };
   return near.definite() && stabilised_gradients(
-                                times, [&](const VecX& x) { return near.apply(x); }, residual, tolerance, turns, step);
+                                times, [&](const VecX& x) { return near.apply(x); }, residual, tolerance, most_iterations, step);
 }
 
 }  // namespace erbs

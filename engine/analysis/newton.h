@@ -12,10 +12,10 @@ namespace erbs {
 
 // Joint state that the present poses would leave.
 struct Trial {
-  Cold<JointMemory> memory;  // of joints that are not intact
-  Cold<PointHistory> history;
-  Cold<CrushedFace> crushed;
-  std::vector<std::uint8_t> sound;
+  LazyArray<JointMemory> memory;  // of joints that are not intact
+  LazyArray<PointHistory> history;
+  LazyArray<CrushedFace> crushed;
+  std::vector<std::uint8_t> intact;
 };
 
 // Internal forces at the present pose. Each joint law is evaluated from the history in `state` to the present pose.
@@ -26,7 +26,7 @@ class NewtonSteps {
  public:
   NewtonSteps(const Model& model, const State& state, const Freedom& freedom, Linear how);
   // Step with all joints intact. False if the structure has a mechanism.
-  bool sound(const VecX& residual, VecX& step);
+  bool intact(const VecX& residual, VecX& step);
   // Step with cracked joints. `brake`: fraction of the intact stiffness added to the diagonal [count]. False if the tangent is singular.
   bool cracked(const Trial& trial, const VecX& brake, const VecX& residual, VecX& step);
 
@@ -35,7 +35,7 @@ class NewtonSteps {
   std::vector<Change> changes_of(const Trial& trial) const;
   bool by_symmetric_part(const Sparse& tangent, const VecX& residual, VecX& step);
   double factor_bytes() const;
-  bool sound_iterative(const VecX& residual, VecX& step);
+  bool intact_iterative(const VecX& residual, VecX& step);
   bool cracked_iterative(const Trial& trial, const std::vector<Change>& changes, const VecX& held, const VecX& residual, VecX& step);
 
   const Model& m_;

@@ -103,10 +103,10 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
         "dt = {:.4g} s is below the limit {:.4g} s of the intact structure but above {:.4g} s, the limit after joints have cracked "
         "(cracked joints are stiffer in bending than their points, or damped); take at most {:.3g} s",
         dt, b.critical, b.cracked, 0.9 * b.cracked));
-  p.state.dt = p.model.dt_most = dt;
+  p.state.dt = p.model.dt_max = dt;
   // A step derived from joints may grow to the contact bound once the joints are gone.
   if (a.dt == 0 && jointed && a.solver != "sequential" && a.dt_rule == Analysis{}.dt_rule)
-    p.model.dt_most = std::max(dt, a.dt_fraction * debris_bound(p.model));
+    p.model.dt_max = std::max(dt, a.dt_fraction * debris_bound(p.model));
 }
 
 // Enforces the scene's own limit of use: a run beyond it is refused with the scene's reason.
@@ -129,14 +129,14 @@ void hold_use_limit(const Scene& scene, const Prepared& p) {
 }
 
 std::vector<double> constant_loads(const Model& m, const State& s) {
-  std::vector<double> push(6 * z(m.nblock) + 6, 0.0);
-  for (const auto& p : m.pushes) {
+  std::vector<double> loads(6 * z(m.nblock) + 6, 0.0);
+  for (const auto& p : m.force_loads) {
     const Vec3 f = value(p.wave, 0) * p.direction;
-    for (int i = 0; i < 3; ++i) push[6 * z(p.block) + z(p.moment ? 3 + i : i)] += f[i];
+    for (int i = 0; i < 3; ++i) loads[6 * z(p.block) + z(p.moment ? 3 + i : i)] += f[i];
     const Vec3 moment = p.moment ? Vec3(Vec3::Zero()) : Vec3((s.q[z(p.block)] * p.arm).cross(f));
-    for (int i = 0; i < 3; ++i) push[6 * z(p.block) + 3 + z(i)] += moment[i];
+    for (int i = 0; i < 3; ++i) loads[6 * z(p.block) + 3 + z(i)] += moment[i];
   }
-  return push;
+  return loads;
 }
 
 // Refuses parts that exceed the limits of contact shapes. The check is here, not at the start of a run, so that `check` refuses the same
@@ -180,7 +180,7 @@ Prepared prepare(const Scene& scene, bool allow_unstable) {
   Prepared p{std::move(built.model), std::move(built.state), {}, {}, {}, {}};
   check_shapes(scene, p.model);
   find_islands(p.model, p.state);
-  refresh_all(p.model, p.state);
+  update_all_references(p.model, p.state);
   p.bounds = step_bounds(scene, p.model, p.state);
   p.model.dt_critical = p.bounds.cracked;
   p.model.settlement = settlement_of(p.model, p.bounds.block);
@@ -212,8 +212,8 @@ class Unrest {
   }
   bool falls(int b) const { return down_.dot(state_.u[z(b)] - start_[z(b)]) > 0.5 * model_.smallest_edge[z(b)]; }
   bool moves(int b) const {
-    const double turning = state_.w[z(b)].dot(state_.spin_momentum[z(b)]) / model_.mass[z(b)];
-    return state_.v[z(b)].squaredNorm() + turning > square_;
+    const double rotation_energy = state_.w[z(b)].dot(state_.spin_momentum[z(b)]) / model_.mass[z(b)];
+    return state_.v[z(b)].squaredNorm() + rotation_energy > square_;
   }
   // True if every block that does not fall is at rest.
   bool ended() const {
@@ -257,8 +257,8 @@ void ramp(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& foun
   const double time = scene.analysis.ramp_time > 0 ? scene.analysis.ramp_time : ramp_seconds;
   slow.grounds = {{make_table({0, time}, {1, 0}, true), p.model.gravity}};
   slow.tilts.clear();
-  slow.drives.clear();
-  for (auto& push : slow.pushes) push.wave = make_table({0, time}, {0, value(push.wave, 0)}, true);
+  slow.prescribed_motions.clear();
+  for (auto& force_load : slow.force_loads) force_load.wave = make_table({0, time}, {0, value(force_load.wave, 0)}, true);
   slow.damping.mass = 20 / time;
   slow.damping_all = false;
   slow.damping_explicit = false;
@@ -288,7 +288,7 @@ void ramp(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& foun
   p.state.step = p.state.start_step = 0;
   p.state.t = p.state.start_t = p.state.last_dt = p.state.event_dt = 0;
   p.state.dt = dt;
-  p.state.calm = 0;
+  p.state.steps_since_limited = 0;
   p.state.energy = Energy{};
 }
 
@@ -311,11 +311,11 @@ void warn_of_fallers(Prepared& p) {
 }  // namespace
 
 void start_at_rest(const Scene& scene, Prepared& p, int threads) {
-  const bool loaded = p.model.gravity.norm() > 0 || !p.model.pushes.empty();
+  const bool loaded = p.model.gravity.norm() > 0 || !p.model.force_loads.empty();
   if (scene.analysis.start == "equilibrium" && loaded && p.model.njoint > 0) {
-    for (int turn = 0; turn < 3; ++turn) {  // arms of the loads rotate with their blocks
+    for (int iteration = 0; iteration < 3; ++iteration) {  // arms of the loads rotate with their blocks
       p.equilibrium = settle(p.model, p.state, constant_loads(p.model, p.state));
-      if (p.model.pushes.empty()) break;
+      if (p.model.force_loads.empty()) break;
     }
     if (!p.equilibrium.converged) {
       p.model.warnings.push_back("no equilibrium under gravity: " + p.equilibrium.why +
@@ -326,7 +326,7 @@ void start_at_rest(const Scene& scene, Prepared& p, int threads) {
     ramp(scene, p, {}, threads);
   }
   warn_of_fallers(p);
-  refresh_all(p.model, p.state);
+  update_all_references(p.model, p.state);
   return_free_memory();
 }
 
@@ -343,13 +343,13 @@ void add_noise(Prepared& run, double reach, unsigned seed) {
   Random random{seed};
   for (int b = 0; b < run.model.nblock; ++b) {
     if (run.model.kind[z(b)] != Kind::moving) continue;
-    Vec3 shift, turn;
+    Vec3 shift, theta;
     for (int i = 0; i < 3; ++i) shift[i] = random.within(reach);
-    for (int i = 0; i < 3; ++i) turn[i] = random.within(reach);
+    for (int i = 0; i < 3; ++i) theta[i] = random.within(reach);
     run.state.u[z(b)] += shift;
-    run.state.q[z(b)] = rotation(turn) * run.state.q[z(b)];
+    run.state.q[z(b)] = rotation(theta) * run.state.q[z(b)];
   }
-  refresh_all(run.model, run.state);
+  update_all_references(run.model, run.state);
 }
 
 }  // namespace erbs

@@ -7,8 +7,8 @@
 
 namespace erbs {
 
-// Error if the run in the folder was started with overrides other than `departures`, as far as its manifest.json says.
-void check_departures(const std::string& directory, const std::vector<std::string>& departures);
+// Error if the run in the folder was started with overrides other than `override_arguments`, as far as its manifest.json says.
+void check_overrides(const std::string& directory, const std::vector<std::string>& override_arguments);
 
 // Numbers of blocks, joints and points in a state, and all other sizes that follow from the model.
 std::vector<std::size_t> sizes_of(const State& state);

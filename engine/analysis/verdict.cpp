@@ -24,11 +24,11 @@ std::string where(const RunSoFar& r) {
 
 }  // namespace
 
-double energy_gate(const RunSoFar& r) {
-  if (r.scene.analysis.energy_gate > 0) return r.scene.analysis.energy_gate;
+double energy_tolerance(const RunSoFar& r) {
+  if (r.scene.analysis.energy_tolerance > 0) return r.scene.analysis.energy_tolerance;
   const State& s = r.run.state;
-  if (r.collapse.fallen_fraction > 0 || r.collapse.collapsed || r.opened > 0 || s.max_penetration_relative > 0) return 1e-2;
-  const bool elastic = s.debris.pair.empty() && std::all_of(s.tier.begin(), s.tier.end(), [](Tier t) { return t == Tier::intact; });
+  if (r.collapse.fallen_fraction > 0 || r.collapse.collapsed || r.released > 0 || s.max_penetration_relative > 0) return 1e-2;
+  const bool elastic = s.contacts.pair.empty() && std::all_of(s.stage.begin(), s.stage.end(), [](JointStage t) { return t == JointStage::intact; });
   return elastic ? 1e-6 : 1e-3;
 }
 
@@ -44,7 +44,7 @@ bool diverges(const RunSoFar& r, long& right) {
   if (growth_allowed(r.scene)) return r.height_energy > 0 && e.kinetic > 2 * (passed + r.height_energy);
   // Beyond its stability limit, explicit damping feeds the motion while the ledger closes. Velocities then change sign in every step, so
   // that T = v- m v+ / 2 is negative.
-  const bool lost = e.residual_relative > std::max(0.5, r.scene.analysis.energy_gate), wrong = lost || e.kinetic < 0;
+  const bool lost = e.residual_relative > std::max(0.5, r.scene.analysis.energy_tolerance), wrong = lost || e.kinetic < 0;
   if (!wrong) right = s.step;
   // If only a few light blocks exceed their limit, their joints crack and stop the growth. The duration of the error then ends the run.
   return wrong && ((std::fabs(e.kinetic) > 1e3 * passed && s.step > 64) || s.step - right > (lost ? wrong_steps : negative_steps));
@@ -53,37 +53,37 @@ bool diverges(const RunSoFar& r, long& right) {
 std::string trouble_of(const RunSoFar& r, const std::string& status) {
   const Energy& e = r.run.state.energy;
   const Model& model = r.run.model;
-  const double gate = energy_gate(r), fraction = r.dt_at_start / r.run.bounds.critical;
+  const double tolerance = energy_tolerance(r), fraction = r.dt_at_start / r.run.bounds.critical;
   const double share = std::isfinite(fraction) && fraction > 0 ? fraction : 1;
   if (status == "diverged")
     return fmt::format("the run diverged at t = {:.6g} s (dt = {:.4g} s, limit {:.4g} s); results after that time are invalid; take {}",
                        r.run.state.t, r.run.state.dt, r.run.bounds.critical, step_of(share > 1 ? 0.9 : share / 3));
-  if (e.residual_worst > gate && !growth_allowed(r.scene)) {
+  if (e.residual_worst > tolerance && !growth_allowed(r.scene)) {
     // The residual of smooth motion falls with the square of the step. Fluttering friction and chattering joints need dashpots instead.
-    const double smooth = 0.8 * std::sqrt(gate / e.residual_worst);
+    const double smooth = 0.8 * std::sqrt(tolerance / e.residual_worst);
     const bool undamped = std::any_of(model.laws.begin(), model.laws.end(), [](const PointLaw& l) { return l.damping < 0.1; });
     return fmt::format(
         "the energy residual {:.3g}, relative to the energy that passed through, exceeds its tolerance {:.0e}; its largest jump was {:.3g} "
         "J at "
         "t = {:.6g} s, {}; take {}{}{}",
-        e.residual_worst, gate, e.largest_jump, e.largest_jump_time, where(r), step_of(share * std::clamp(smooth, 0.1, 0.5)),
+        e.residual_worst, tolerance, e.largest_jump, e.largest_jump_time, where(r), step_of(share * std::clamp(smooth, 0.1, 0.5)),
         undamped && model.njoint > 0 ? " or damping = 0.1 in the law of its joints" : "",
         e.residual_worst < 0.05
             ? fmt::format(", or set analysis{{ energy_gate = {:.1g} }} if that is accurate enough", 2 * e.residual_worst)
             : "");
   }
   const bool asked = r.scene.analysis.unstable || r.allow_unstable;
-  if (asked || !stepped_too_far(r.trust, r.run.state)) return "";
+  if (asked || !stepped_too_far(r.diagnostics, r.run.state)) return "";
   return fmt::format(
       "the time step exceeded the limit of the touching blocks in {:.2g} % of the steps, by a factor of {:.3g} at most; take {}",
-      100 * double(r.trust.past_step.count[0]) / double(r.run.state.step), r.trust.past_step.worst,
-      step_of(0.9 * share / r.trust.past_step.worst));
+      100 * double(r.diagnostics.past_step.count[0]) / double(r.run.state.step), r.diagnostics.past_step.worst,
+      step_of(0.9 * share / r.diagnostics.past_step.worst));
 }
 
 std::string ledger_line(const RunSoFar& r) {
   const Energy& e = r.run.state.energy;
   return fmt::format("energy residual {:.3g} (tolerance {:.0e}), largest jump {:.3g} J at t = {:.6g} s, {}", e.residual_worst,
-                     energy_gate(r), e.largest_jump, e.largest_jump_time, where(r));
+                     energy_tolerance(r), e.largest_jump, e.largest_jump_time, where(r));
 }
 
 }  // namespace erbs

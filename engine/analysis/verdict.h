@@ -3,7 +3,7 @@
 #include <string>
 
 #include "engine/analysis/prepare.h"
-#include "engine/analysis/trust.h"
+#include "engine/analysis/diagnostics.h"
 #include "engine/record/collapse.h"
 
 namespace erbs {
@@ -13,8 +13,8 @@ struct RunSoFar {
   const Scene& scene;
   const Prepared& run;
   const Collapse& collapse;
-  const TrustWatch& trust;
-  long opened = 0;           // number of joints released to contact
+  const RunDiagnostics& diagnostics;
+  long released = 0;           // number of joints released to contact
   double dt_at_start = 0;    // s
   double height_energy = 0;  // J, potential energy released if all blocks fell to the lowest centroid
   bool allow_unstable = false;
@@ -22,7 +22,7 @@ struct RunSoFar {
 
 // Energy tolerance: largest accepted relative residual of the ledger, unless the scene gives one. 1e-6 while all is elastic, 1e-3 with
 // cracks, friction and contacts, 1e-2 after blocks have come loose or fallen.
-double energy_gate(const RunSoFar& so_far);
+double energy_tolerance(const RunSoFar& so_far);
 
 // A sequential scheme feeds energy at any dt. A study of it says unstable = true, and then only invalid numbers end the run.
 bool growth_allowed(const Scene& scene);

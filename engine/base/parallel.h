@@ -23,12 +23,12 @@ namespace erbs {
 class Barrier {
  public:
   explicit Barrier(int count, int spins = 60000)
-      : count_(count), spins_(count <= usable_processors() ? spins : 0), crowded_(count > usable_processors()), seat_(std::size_t(count)) {}
+      : count_(count), spins_(count <= usable_processors() ? spins : 0), oversubscribed_(count > usable_processors()), slot_(std::size_t(count)) {}
   void wait(int thread) {
     if (count_ == 1) return;
     const unsigned round = arrive(thread);
     for (int other = 0; other < count_; ++other)
-      if (other != thread) wait_for(thread, seat_[std::size_t(other)].arrived, round);
+      if (other != thread) wait_for(thread, slot_[std::size_t(other)].arrived, round);
   }
   // Like wait(), but thread 0 runs `alone` while all others wait: one barrier instead of two. If `alone` throws, thread 0 throws and the
   // other threads get false.
@@ -39,15 +39,15 @@ class Barrier {
       wait_for(thread, opened_, round);
       return !failed_;
     }
-    for (int other = 1; other < count_; ++other) wait_for(0, seat_[std::size_t(other)].arrived, round);
+    for (int other = 1; other < count_; ++other) wait_for(0, slot_[std::size_t(other)].arrived, round);
     try {
       alone();
     } catch (...) {
       failed_ = true;
-      say(opened_, round);
+      signal(opened_, round);
       throw;
     }
-    say(opened_, round);
+    signal(opened_, round);
     return true;
   }
 
@@ -55,22 +55,22 @@ class Barrier {
   using Clock = std::chrono::steady_clock;
   // State of one thread. Each flag that other threads wait for has its own cache line, written by one thread only. Moving cache lines
   // between cores takes most of the time of a barrier.
-  struct Seat {
+  struct ThreadSlot {
     alignas(64) std::atomic<unsigned> arrived{0};  // number of barriers reached
     alignas(64) std::atomic<int> core{-1};
     Clock::time_point left{};
     Clock::duration pause{};
-    int patience = 0;
+    int spin_level = 0;
   };
 
   unsigned arrive(int thread) {
-    Seat& mine = seat_[std::size_t(thread)];
+    ThreadSlot& mine = slot_[std::size_t(thread)];
     if (const int core = this_core(); core != mine.core.load(std::memory_order_relaxed)) mine.core.store(core, std::memory_order_relaxed);
     const unsigned round = mine.arrived.load(std::memory_order_relaxed) + 1;
-    say(mine.arrived, round);
+    signal(mine.arrived, round);
     return round;
   }
-  static void say(std::atomic<unsigned>& to, unsigned round) {
+  static void signal(std::atomic<unsigned>& to, unsigned round) {
     // Sequentially consistent with the count of sleepers that notify_all reads next. A weaker store may still be on its way when a thread
     // goes to sleep.
     to.store(round, std::memory_order_seq_cst);
@@ -79,26 +79,26 @@ class Barrier {
   // Waits until `what` reaches `round`: spins first, then sleeps.
   void wait_for(int thread, const std::atomic<unsigned>& what, unsigned round) {
     using namespace std::chrono_literals;
-    Seat& mine = seat_[std::size_t(thread)];
+    ThreadSlot& mine = slot_[std::size_t(thread)];
     const auto behind = [round](unsigned said) { return int(said - round) < 0; };
-    for (int left = spins_ << mine.patience; left >= 0; --left)
+    for (int left = spins_ << mine.spin_level; left >= 0; --left)
       if (!behind(what.load(std::memory_order_acquire))) return;
-    if (!crowded_) part(thread);
+    if (!oversubscribed_) leave_shared_core(thread);
     const auto since = Clock::now();
     for (unsigned said; behind(said = what.load(std::memory_order_acquire));) what.wait(said, std::memory_order_acquire);
     const auto slept = Clock::now() - since;
-    if (crowded_) return;
-    if (slept < 1ms) mine.patience = std::min(mine.patience + 1, most_patience);
-    else if (slept > 8ms) mine.patience = std::max(mine.patience - 1, 0);
+    if (oversubscribed_) return;
+    if (slept < 1ms) mine.spin_level = std::min(mine.spin_level + 1, max_spin_level);
+    else if (slept > 8ms) mine.spin_level = std::max(mine.spin_level - 1, 0);
   }
   // Of two threads on one core the one with the higher number leaves. If it is soon back there are too few cores, and it leaves ever more
   // rarely.
-  void part(int thread) {
+  void leave_shared_core(int thread) {
     using namespace std::chrono_literals;
-    Seat& mine = seat_[std::size_t(thread)];
+    ThreadSlot& mine = slot_[std::size_t(thread)];
     const int core = this_core();
     for (int other = 0; other < thread; ++other) {
-      if (seat_[std::size_t(other)].core.load(std::memory_order_relaxed) != core) continue;
+      if (slot_[std::size_t(other)].core.load(std::memory_order_relaxed) != core) continue;
       const auto since = Clock::now() - mine.left;
       if (since < mine.pause) return;
       mine.pause = since > 16 * mine.pause ? 4ms : std::min(2 * mine.pause, Clock::duration(4s));
@@ -107,17 +107,17 @@ class Barrier {
     }
   }
 
-  static constexpr int most_patience = 6;  // 2^6 = 64 times the spins
+  static constexpr int max_spin_level = 6;  // 2^6 = 64 times the spins
   const int count_, spins_;
-  const bool crowded_;  // more threads than processors: a waiting thread sleeps at once, to free its processor
+  const bool oversubscribed_;  // more threads than processors: a waiting thread sleeps at once, to free its processor
   bool failed_ = false;
-  std::vector<Seat> seat_;
+  std::vector<ThreadSlot> slot_;
   alignas(64) std::atomic<unsigned> opened_{0};
 };
 
 // Runs body(thread) on `threads` threads at once, including the caller. An exception of any thread is rethrown after all have ended.
 // A body that throws must not leave other threads waiting at a barrier: throw on all threads, or inside Barrier::wait(thread, alone).
-inline void together(int threads, const std::function<void(int)>& body) {
+inline void run_team(int threads, const std::function<void(int)>& body) {
   std::vector<std::exception_ptr> failed(std::size_t(threads), nullptr);
   const auto guarded = [&](int i) {
     const OwnCore core(i, threads);
@@ -137,7 +137,7 @@ inline void together(int threads, const std::function<void(int)>& body) {
 struct Range {
   int first, last;
 };
-inline Range share_of(int n, int grain, int i, int threads) {
+inline Range slice(int n, int grain, int i, int threads) {
   const int chunks = (n + grain - 1) / grain;
   const auto edge = [&](int k) { return std::min(n, (chunks * k / threads) * grain); };
   return {edge(i), edge(i + 1)};

@@ -68,10 +68,10 @@ bool is_plain(std::string_view text) {
 }
 
 bool is_name(std::string_view text) {
-  const auto sound = [](char c) {
+  const auto allowed = [](char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '+' || c == '-';
   };
-  return !text.empty() && text.front() != '-' && text.front() != '+' && std::all_of(text.begin(), text.end(), sound);
+  return !text.empty() && text.front() != '-' && text.front() != '+' && std::all_of(text.begin(), text.end(), allowed);
 }
 
 std::string shown(std::string_view text, std::size_t most) {

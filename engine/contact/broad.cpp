@@ -20,7 +20,7 @@ struct Found {
   auto key() const { return std::tie(a, b, part_a, part_b); }
 };
 
-auto key_of(const Pair& p) { return std::tie(p.a, p.b, p.part_a, p.part_b); }
+auto key_of(const ContactPair& p) { return std::tie(p.a, p.b, p.part_a, p.part_b); }
 
 // Parts of ordinary size, sorted by the cell of their centre; huge ones (ground, floor slabs) apart.
 struct Grid {
@@ -71,15 +71,15 @@ Grid make_grid(const std::vector<OrientedBox>& parts, double margin) {
   return g;
 }
 
-std::vector<OrientedBox> place(const ContactShapes& shapes, std::span<const ContactBlock> blocks) {
+std::vector<OrientedBox> oriented_boxes(const ContactShapes& shapes, std::span<const ContactBlock> blocks) {
   std::vector<OrientedBox> parts(shapes.of.size());
   for (size_t i = 0; i < parts.size(); ++i) {
     const ContactBlock& b = blocks[at(shapes.block[i])];
     const ContactShape& shape = shapes.part(i);
     // relative to block 0 at rest, so that a scene 1e4 m from the origin loses no digits
-    const Vec3 centre = (b.rest - blocks[0].rest) + b.u + b.turn * shape.centre;
+    const Vec3 centre = (b.rest - blocks[0].rest) + b.u + b.rotation * shape.centre;
     std::copy_n(centre.data(), 3, parts[i].centre);
-    std::copy_n(b.turn.data(), 9, parts[i].turn);
+    std::copy_n(b.rotation.data(), 9, parts[i].rotation);
     std::copy_n(shape.half.data(), 3, parts[i].half);
     parts[i].radius = shape.radius;
   }
@@ -91,7 +91,7 @@ class Finder {
  public:
   Finder(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
          std::span<const std::uint64_t> excluded)
-      : margin_(list.margin), shapes_(shapes), blocks_(blocks), loose_(loose), excluded_(excluded), parts_(place(shapes, blocks)) {}
+      : margin_(list.margin), shapes_(shapes), blocks_(blocks), loose_(loose), excluded_(excluded), parts_(oriented_boxes(shapes, blocks)) {}
 
   std::vector<Found> find() {
     const Grid grid = make_grid(parts_, margin_);
@@ -157,18 +157,18 @@ class Finder {
     const int bi = shapes_.block[at(i)], bj = shapes_.block[at(j)];
     if (bi == bj || (loose_[at(bj)] && j < i)) return;  // two loose parts are found twice; once is enough
     if (blocks_[at(bi)].inverse_mass == 0 && blocks_[at(bj)].inverse_mass == 0) return;
-    eight_[waiting_++] = j;
+    candidates_[waiting_++] = j;
     if (waiting_ == 8) judge(i);
   }
 
   void judge(int i) {
     if (waiting_ == 0) return;
     const OrientedBox* other[8];
-    for (int l = 0; l < 8; ++l) other[l] = &parts_[at(eight_[l < waiting_ ? l : 0])];
+    for (int l = 0; l < 8; ++l) other[l] = &parts_[at(candidates_[l < waiting_ ? l : 0])];
     const unsigned close = pair_kernels().close_boxes(parts_[at(i)], other, margin_);
     for (int l = 0; l < waiting_; ++l) {
       if ((close >> l & 1u) == 0) continue;
-      const int j = eight_[l], bi = shapes_.block[at(i)], bj = shapes_.block[at(j)];
+      const int j = candidates_[l], bi = shapes_.block[at(i)], bj = shapes_.block[at(j)];
       const int pi = i - shapes_.first[at(bi)], pj = j - shapes_.first[at(bj)];
       const Found f = bi < bj ? Found{bi, bj, pi, pj} : Found{bj, bi, pj, pi};
       if (!std::binary_search(excluded_.begin(), excluded_.end(), pair_key(f.a, f.b))) found_.push_back(f);
@@ -184,7 +184,7 @@ class Finder {
   std::vector<OrientedBox> parts_;
   std::vector<Found> found_;
   std::vector<int> close_;
-  int eight_[8], waiting_ = 0;
+  int candidates_[8], waiting_ = 0;
 };
 
 // The two greatest of many numbers.
@@ -218,15 +218,15 @@ bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<c
   Farthest all, apart;
   for (size_t b = 0; b < blocks.size(); ++b) {
     const Vec3 moved = come(b);
-    double turned = 0;
+    double rotated = 0;
     if (!is_still(b)) {
       double reach = 0;
       for (int s = shapes.first[b]; s < shapes.first[b + 1]; ++s) reach = std::max(reach, shapes.part(at(s)).reach);
       // R - R0| (Frobenius) is 2 sqrt 2 sin(angle / 2); the chord of the farthest point is reach times that / sqrt 2.
-      turned = reach * std::sqrt(0.5) * (blocks[b].turn - list.turn[b]).norm();
+      rotated = reach * std::sqrt(0.5) * (blocks[b].rotation - list.rotation[b]).norm();
     }
-    all.take(moved.norm() + turned);
-    apart.take((moved - together).norm() + turned);
+    all.take(moved.norm() + rotated);
+    apart.take((moved - together).norm() + rotated);
   }
   // half the margin: this test runs every few steps only, and a pair listed late would begin inside the other block
   return !(std::min(all.two(), apart.two()) <= 0.5 * list.margin);
@@ -238,12 +238,12 @@ double search(PairList& list, const ContactShapes& shapes, std::span<const Conta
   std::vector<std::uint8_t> looking(loose.begin(), loose.end());
   for (size_t b = 0; b < still.size(); ++b) looking[b] = looking[b] && !still[b];
   const std::vector<Found> found = shapes.shape.empty() ? std::vector<Found>{} : Finder(list, shapes, blocks, looking, excluded).find();
-  std::vector<Pair> now;
+  std::vector<ContactPair> now;
   now.reserve(found.size());
   double dropped = 0;
   double restitution = std::numeric_limits<double>::quiet_NaN(), impact = 0;  // of the last new pair; most pairs have the same
   auto old = list.pair.begin();
-  const auto leave = [&](const Pair& p) {
+  const auto leave = [&](const ContactPair& p) {
     const bool stays = !looking[at(p.a)] && !looking[at(p.b)] && (loose[at(p.a)] || loose[at(p.b)]);
     if (stays) now.push_back(p);
     else dropped += p.tangential;
@@ -262,10 +262,10 @@ double search(PairList& list, const ContactShapes& shapes, std::span<const Conta
   for (; old != list.pair.end(); ++old) leave(*old);
   list.pair = std::move(now);
   list.u.resize(blocks.size());
-  list.turn.resize(blocks.size());
+  list.rotation.resize(blocks.size());
   for (size_t b = 0; b < blocks.size(); ++b) {
     list.u[b] = blocks[b].u;
-    list.turn[b] = blocks[b].turn;
+    list.rotation[b] = blocks[b].rotation;
   }
   list.valid = true;
   ++list.searches;
@@ -280,7 +280,7 @@ PairLaw pair_law(const Material& a, const Material& b) {
 int find_pair(const PairList& list, int a, int part_a, int b, int part_b) {
   const Found wanted{a, b, part_a, part_b};
   auto place =
-      std::lower_bound(list.pair.begin(), list.pair.end(), wanted, [](const Pair& p, const Found& f) { return key_of(p) < f.key(); });
+      std::lower_bound(list.pair.begin(), list.pair.end(), wanted, [](const ContactPair& p, const Found& f) { return key_of(p) < f.key(); });
   return place != list.pair.end() && key_of(*place) == wanted.key() ? static_cast<int>(place - list.pair.begin()) : -1;
 }
 

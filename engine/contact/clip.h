@@ -18,9 +18,9 @@ struct alignas(64) SmallShape {
   unsigned char count[few], loop[few][few], mask[few];
 };
 
-// Pose of b in the axes of a (row-major `turn`; `shift` in m), as `PairPose`.
+// Pose of b in the axes of a (row-major `rotation`; `shift` in m), as `PairPose`.
 struct SmallPose {
-  double turn[9], shift[3];
+  double rotation[9], shift[3];
 };
 
 struct alignas(64) Triangles {
@@ -28,16 +28,16 @@ struct alignas(64) Triangles {
   double normal[3][few];                    // of the faces of b
   double corner[3][3][most_triangles + 8];  // m, [corner][axis], pair axes: origin at the centroid of b
   double depth[3][most_triangles + 8];      // m, phi at the corners, filled by `sum()`
-  double closing[3][most_triangles + 8];    // m/s, filled by `approach()`
+  double closing_speed[3][most_triangles + 8];    // m/s, filled by `closing_speeds()`
   double size[most_triangles + 8];          // m2, filled by `sum()`
   unsigned char faces[most_triangles + 8];  // face of b, plus `few` times the face of a below which phi is measured
-  double deepest;                           // m, filled by `sum()`
+  double max_depth;                           // m, filled by `sum()`
   int count;                                // a multiple of 8, with empty ones at the end
-  int separating;                           // a face of a with all of b on its outer side; -1: none
+  int separating_axis;                           // a face of a with all of b on its outer side; -1: none
   bool overflow;                            // more triangles than there is room for
 };
 
-struct ClipJob {
+struct ClipTask {
   const SmallShape *a, *b;
   SmallPose pose;
   Triangles* out;
@@ -52,10 +52,10 @@ struct alignas(64) OverlapSums {
 struct ClipKernels {
   const char* name;
   void (*clip)(const SmallShape& a, const SmallShape& b, const SmallPose& pose, Triangles& out);
-  void (*clip_all)(const ClipJob* job, int count);  // up to eight, independent of each other
+  void (*clip_all)(const ClipTask* task, int count);  // up to eight, independent of each other
   void (*sum)(Triangles& triangles, OverlapSums& out);
   // Closing speed along + turning . x at the corners (m/s); returns the greatest.
-  double (*approach)(Triangles& triangles, double along, const double turning[3]);
+  double (*closing_speeds)(Triangles& triangles, double along, const double angular_part[3]);
   // Int phi (s - 1) dS and its first moment over the faces that press along `normal`; s - 1 = chi closing clamped to [-1, limit - 1].
   void (*damp)(const Triangles& triangles, const double normal[3], double chi, double limit, double& total, double first[3]);
 };

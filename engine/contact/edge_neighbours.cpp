@@ -13,7 +13,7 @@ constexpr double at_zero_gap = 1e-9;  // of the other body's bounding radius; sm
 constexpr double least_sine = 0.1;    // of the angle between two planes that form an edge
 
 // Unit normals, from the reference to the other, of the faces of both bodies that separate the two; none if there is a gap.
-std::vector<Vec3> planes_between(const View& s) {
+std::vector<Vec3> planes_between(const PairFrame& s) {
   const double round_off = at_zero_gap * s.other->reach;
   std::vector<Vec3> between;
   double widest = 0;
@@ -24,7 +24,7 @@ std::vector<Vec3> planes_between(const View& s) {
   const int own = int(s.reference->normal.size());
   for (int f = 0; f < own; ++f) take(s.reference->normal[std::size_t(f)], distance(*s.reference, *s.other, s.pose, f));
   for (int f = 0; f < int(s.other->normal.size()); ++f)
-    take(-(s.pose.turn * s.other->normal[std::size_t(f)]), distance(*s.reference, *s.other, s.pose, own + f));
+    take(-(s.pose.rotation * s.other->normal[std::size_t(f)]), distance(*s.reference, *s.other, s.pose, own + f));
   if (widest > round_off) between.clear();
   return between;
 }
@@ -37,7 +37,7 @@ double extent(const ContactShape& body, const Vec3& n) {
 
 }  // namespace
 
-EdgeAtRest edge_at_rest(const Pair& pair, const View& s) {
+EdgeAtRest edge_at_rest(const ContactPair& pair, const PairFrame& s) {
   EdgeAtRest edge;
   const std::vector<Vec3> between = planes_between(s);
   Vec3 along = Vec3::Zero(), towards = Vec3::Zero();
@@ -52,10 +52,10 @@ EdgeAtRest edge_at_rest(const Pair& pair, const View& s) {
   edge.pose = s.pose;
   double nearest = std::numeric_limits<double>::infinity();
   for (const Vec3& vertex : s.other->vertex) {
-    const Vec3 x = s.pose.turn * vertex;
+    const Vec3 x = s.pose.rotation * vertex;
     if (towards.dot(x) < nearest) nearest = towards.dot(x), edge.at = x;
   }
-  const double length = std::min(extent(*s.reference, along), extent(*s.other, s.pose.turn.transpose() * along));
+  const double length = std::min(extent(*s.reference, along), extent(*s.other, s.pose.rotation.transpose() * along));
   // A pressure of at most kn m, on two sides of a strip of this length, m / sine wide.
   edge.movement = std::sqrt(next_to_nothing * standard_g / inverse_mass * sine / (2 * pair.law.kn * length));
   edge.movement -= at_zero_gap * s.other->reach;
@@ -67,8 +67,8 @@ EdgeAtRest edge_at_rest(const Pair& pair, const View& s) {
 }
 
 double idle_way(const EdgeAtRest& edge, const PairPose& now) {
-  const Vec3 moved = (now.shift - edge.pose.shift) + (now.turn * (edge.pose.turn.transpose() * edge.at) - edge.at);
-  const double chord = std::sqrt(0.5) * (now.turn - edge.pose.turn).norm();
+  const Vec3 moved = (now.shift - edge.pose.shift) + (now.rotation * (edge.pose.rotation.transpose() * edge.at) - edge.at);
+  const double chord = std::sqrt(0.5) * (now.rotation - edge.pose.rotation).norm();
   return (edge.movement - moved.norm() - edge.lever * chord) / edge.slowest;
 }
 

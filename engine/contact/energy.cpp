@@ -47,7 +47,7 @@ void add_faces_inside(const ContactShape& a, const ContactShape& b, const PairPo
   std::bitset<most_vertices> inside;
   for (size_t i = 0; i < a.vertex.size(); ++i) inside.set(i);
   for (size_t j = 0; j < b.normal.size() && inside.any(); ++j) {
-    const Vec3 n = pose.turn * b.normal[j];
+    const Vec3 n = pose.rotation * b.normal[j];
     const double c = b.offset[j] + n.dot(pose.shift);
     for (size_t i = 0; i < a.vertex.size(); ++i)
       if (inside[i] && !(n.dot(a.vertex[i]) <= c)) inside.reset(i);
@@ -70,7 +70,7 @@ double wall_integral(const ContactShape& a, const ContactShape& b, const PairPos
   const Vec3 middle = (c[e] - c[f]) / length * n;
   Loop loop;
   for (const Vec3& corner : {Vec3(-t - s), Vec3(t - s), Vec3(t + s), Vec3(s - t)}) loop.x[loop.size++] = middle + reach * corner;
-  for (size_t j = 0; j < b.normal.size() && loop.size > 0; ++j) loop.cut_by(pose.turn * b.normal[j], b.offset[j]);
+  for (size_t j = 0; j < b.normal.size() && loop.size > 0; ++j) loop.cut_by(pose.rotation * b.normal[j], b.offset[j]);
   if (loop.size > 0) loop.cut_by(a.normal[f], c[f]);
   for (size_t g = 0; g < a.normal.size() && loop.size > 0; ++g) {
     if (g != e && g != f) loop.cut_by(a.normal[g] - a.normal[f], c[g] - c[f]);
@@ -95,10 +95,10 @@ double walls(const ContactShape& a, const ContactShape& b, const PairPose& pose,
 
 }  // namespace
 
-double energy_integral(const ContactShape& a, const ContactShape& b, const PairPose& pose, const Pieces& w) {
+double energy_integral(const ContactShape& a, const ContactShape& b, const PairPose& pose, const Fragments& w) {
   double sum = 0;
   FaceSet near;
-  for (const Piece& p : w.piece) {
+  for (const Fragment& p : w.fragment) {
     const auto first = static_cast<size_t>(p.first);
     const double square = square_integral(&w.vertex[first], &w.depth[first], static_cast<size_t>(p.count), w.n[p.face]);
     sum -= a.normal[static_cast<size_t>(p.nearest)].dot(w.n[p.face]) * square / 2;

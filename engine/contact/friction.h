@@ -1,16 +1,16 @@
 // Coulomb friction of a patch: two slips and a torsion at its area centroid, limit about the centre of pressure.
 #pragma once
 #include "engine/contact/narrow.h"
-#include "engine/model/pair.h"
+#include "engine/model/contact_pair.h"
 
 namespace erbs {
 
 // Friction limit of a patch at an instant. Its springs act at its centroid. The limit is about its centre of pressure, where the torsion is
 // m + lever . t.
-struct Bearing {
+struct PatchLimit {
   double limit = 0, r = 0;  // N, m: limit of force alone; limit r is that of torsion alone
   // shape factor of the limit surface (`friction.cpp`)
-  double bulge = 0;
+  double shape_factor = 0;
   double gyration2 = 0;       // m2, of the springs: kr / kt
   Vec3 lever = Vec3::Zero();  // m, n x (centroid - centre of pressure)
 };
@@ -20,7 +20,7 @@ struct Pull {
   double torsion = 0;         // N m, about the centroid
 };
 
-struct Borne {
+struct ReturnResult {
   Pull springs;      // forces of the springs after the return
   double share = 0;  // share of the dashpots within the limit
   bool slips = false;
@@ -29,7 +29,7 @@ struct Borne {
 // Springs stick, whatever the shape of the patch, while the squares of force and torsion over their limits add up to no more than this.
 inline constexpr double surely_within = 0.79;
 // The friction law as a return map: limits the trial forces of the `springs`, then the `dashpots` to the remaining part of the limit.
-Borne borne(Bearing bearing, const Patch& patch, const Pull& springs, const Pull& dashpots);
+ReturnResult return_map(PatchLimit patch_limit, const Patch& patch, const Pull& springs, const Pull& dashpots);
 
 struct Friction {
   Vec3 force = Vec3::Zero();                                         // N, on the body that is not the reference, pair axes
@@ -46,7 +46,7 @@ struct Motion {
 
 // Advances the friction memory of `pair` from its last pose to `pose`. `inverse_mass` (1/kg): of both bodies at the patch, in its plane.
 // `interlock`: that of `ContactSettings`.
-Friction patch_friction(Pair& pair, const Patch& patch, const PairPose& pose, const Motion& motion, double normal_force,
+Friction patch_friction(ContactPair& pair, const Patch& patch, const PairPose& pose, const Motion& motion, double normal_force,
                         double inverse_mass, double settling, const Interlock& interlock = {});
 
 }  // namespace erbs

@@ -17,8 +17,8 @@ size_t at(int i) { return static_cast<size_t>(i); }
 // Vertices of B inside each face of A, as bits.
 struct Inside {
   Word of[most_faces][most_words];  // only vertices of faces that may reach A
-  int crossing[most_faces];         // faces of A with vertices of B on both sides
-  int crossings = 0;
+  int cut_face[most_faces];         // faces of A with vertices of B on both sides
+  int cut_faces = 0;
 };
 
 struct Loop {
@@ -46,10 +46,10 @@ bool cut(const Loop& in, const Vec3& n, double c, bool keep_zero, Loop& out) {
   return out.n >= 3;
 }
 
-bool is_inside(const ContactShape& a, int f, const Vec3& x, const Pieces& w) { return w.c[f] - a.normal[at(f)].dot(x) > 0; }
+bool is_inside(const ContactShape& a, int f, const Vec3& x, const Fragments& w) { return w.c[f] - a.normal[at(f)].dot(x) > 0; }
 
 // True if all of B is on the outer side of face f of A.
-bool face_separates(const ContactShape& a, int nv, int f, const Pieces& w) {
+bool face_separates(const ContactShape& a, int nv, int f, const Fragments& w) {
   return std::none_of(w.v, w.v + nv, [&](const Vec3& x) { return is_inside(a, f, x, w); });
 }
 
@@ -67,7 +67,7 @@ bool holds_all(const Word* set, const Word* of, int words) {
 
 // Faces of B that may reach into A, and their vertices: faces with a vertex inside the face of A that is nearest to the centroid of B. A
 // stone of hundreds of faces has only a few of them, and only their vertices are tested against the other faces of A.
-int faces_that_reach(const ContactShape& a, const ContactShape& b, const Pieces& w, int* face, int* vertex, int& vertices) {
+int faces_that_reach(const ContactShape& a, const ContactShape& b, const Fragments& w, int* face, int* vertex, int& vertices) {
   const int nfb = static_cast<int>(b.normal.size()), nv = static_cast<int>(b.vertex.size());
   const int towards = static_cast<int>(std::min_element(w.c, w.c + a.normal.size()) - w.c);
   Word in[most_words] = {}, used[most_words] = {};
@@ -87,18 +87,18 @@ int faces_that_reach(const ContactShape& a, const ContactShape& b, const Pieces&
 
 // True if all of A is on the outer side of face j of B.
 bool face_of_other_separates(const ContactShape& a, const ContactShape& b, const PairPose& pose, int j) {
-  const Vec3 n = pose.turn * b.normal[at(j)];
+  const Vec3 n = pose.rotation * b.normal[at(j)];
   const double c = b.offset[at(j)] + n.dot(pose.shift);
   return std::all_of(a.vertex.begin(), a.vertex.end(), [&](const Vec3& x) { return n.dot(x) >= c; });
 }
 
-void place_other(const ContactShape& a, const ContactShape& b, const PairPose& pose, Pieces& w) {
-  for (size_t k = 0; k < b.vertex.size(); ++k) w.v[k] = pose.turn * b.vertex[k];
+void place_other(const ContactShape& a, const ContactShape& b, const PairPose& pose, Fragments& w) {
+  for (size_t k = 0; k < b.vertex.size(); ++k) w.v[k] = pose.rotation * b.vertex[k];
   for (size_t f = 0; f < a.normal.size(); ++f) w.c[f] = a.offset[f] - a.normal[f].dot(pose.shift);
 }
 
-void append(Pieces& w, int face, int nearest, const Loop& loop, const Vec3& n, double c) {
-  w.piece.push_back({face, nearest, static_cast<int>(w.vertex.size()), loop.n});
+void append(Fragments& w, int face, int nearest, const Loop& loop, const Vec3& n, double c) {
+  w.fragment.push_back({face, nearest, static_cast<int>(w.vertex.size()), loop.n});
   for (int i = 0; i < loop.n; ++i) {
     w.vertex.push_back(loop.p[i]);
     w.depth.push_back(std::max(0.0, c - n.dot(loop.p[i])));
@@ -106,7 +106,7 @@ void append(Pieces& w, int face, int nearest, const Loop& loop, const Vec3& n, d
 }
 
 // Splits face j of B, already clipped to A, where another face of A becomes the nearest.
-void split(const ContactShape& a, int j, Loop& g, Loop& h, Pieces& w) {
+void split(const ContactShape& a, int j, Loop& g, Loop& h, Fragments& w) {
   const int nf = static_cast<int>(a.normal.size());
   double least[most_faces];
   // A face of A is nearest somewhere on the loop only if its least depth is below the smallest of the greatest depths.
@@ -148,11 +148,11 @@ void split(const ContactShape& a, int j, Loop& g, Loop& h, Pieces& w) {
 double distance_along_edges(const ContactShape& a, const ContactShape& b, const PairPose& pose, int k) {
   constexpr double parallel = 1e-6;
   const int nb = static_cast<int>(b.edge.size());
-  Vec3 n = a.edge[at(k / nb)].cross(pose.turn * b.edge[at(k % nb)]);
+  Vec3 n = a.edge[at(k / nb)].cross(pose.rotation * b.edge[at(k % nb)]);
   const double length = n.norm(), between = n.dot(pose.shift) / length;
   if (length < parallel) return -1;
   n /= length;
-  const Vec3 m = pose.turn.transpose() * n;
+  const Vec3 m = pose.rotation.transpose() * n;
   double low_a = std::numeric_limits<double>::infinity(), high_a = -low_a, low_b = low_a, high_b = -low_a;
   for (const Vec3& x : a.vertex) low_a = std::min(low_a, n.dot(x)), high_a = std::max(high_a, n.dot(x));
   for (const Vec3& x : b.vertex) low_b = std::min(low_b, m.dot(x)), high_b = std::max(high_b, m.dot(x));
@@ -161,20 +161,20 @@ double distance_along_edges(const ContactShape& a, const ContactShape& b, const 
 
 }  // namespace
 
-double distance(const ContactShape& a, const ContactShape& b, const PairPose& pose, int separating) {
+double distance(const ContactShape& a, const ContactShape& b, const PairPose& pose, int separating_axis) {
   const int nfa = static_cast<int>(a.normal.size());
-  if (separating < 0) return -1;
+  if (separating_axis < 0) return -1;
   const int faces = nfa + static_cast<int>(b.normal.size());
-  if (separating >= faces) return distance_along_edges(a, b, pose, separating - faces);
+  if (separating_axis >= faces) return distance_along_edges(a, b, pose, separating_axis - faces);
   double least = std::numeric_limits<double>::infinity();
-  if (separating >= nfa) {
-    const Vec3 n = pose.turn * b.normal[at(separating - nfa)];
-    const double c = b.offset[at(separating - nfa)] + n.dot(pose.shift);
+  if (separating_axis >= nfa) {
+    const Vec3 n = pose.rotation * b.normal[at(separating_axis - nfa)];
+    const double c = b.offset[at(separating_axis - nfa)] + n.dot(pose.shift);
     for (const Vec3& x : a.vertex) least = std::min(least, n.dot(x) - c);
     return least;
   }
-  const Vec3 n = pose.turn.transpose() * a.normal[at(separating)];
-  const double c = a.offset[at(separating)] - a.normal[at(separating)].dot(pose.shift);
+  const Vec3 n = pose.rotation.transpose() * a.normal[at(separating_axis)];
+  const double c = a.offset[at(separating_axis)] - a.normal[at(separating_axis)].dot(pose.shift);
   for (const Vec3& x : b.vertex) least = std::min(least, n.dot(x) - c);
   return least;
 }
@@ -198,12 +198,12 @@ int separating_edges(const ContactShape& a, const ContactShape& b, const PairPos
   return best < 0 ? -1 : static_cast<int>(a.normal.size() + b.normal.size()) + best;
 }
 
-bool find_pieces(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, Pieces& w) {
+bool find_fragments(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating_axis, Fragments& w) {
   const int nfa = static_cast<int>(a.normal.size()), nv = static_cast<int>(b.vertex.size());
-  w.piece.clear();
+  w.fragment.clear();
   w.vertex.clear();
   w.depth.clear();
-  if (distance(a, b, pose, separating) >= 0) return false;
+  if (distance(a, b, pose, separating_axis) >= 0) return false;
   place_other(a, b, pose, w);
   int reaching[most_faces], vertex[most_vertices], vertices = 0;
   const int faces = faces_that_reach(a, b, w, reaching, vertex, vertices);
@@ -221,50 +221,50 @@ bool find_pieces(const ContactShape& a, const ContactShape& b, const PairPose& p
     }
     if (count == 0) {
       if (face_separates(a, nv, f, w)) {
-        separating = f;
+        separating_axis = f;
         return false;
       }
       apart = true;
     }
-    if (count < vertices) in.crossing[in.crossings++] = f;
+    if (count < vertices) in.cut_face[in.cut_faces++] = f;
   }
   Loop one, two;
   for (int i = 0; i < faces && !apart; ++i) {
     const int j = reaching[i];
     const Word* mask = &b.mask[at(j * b.words)];
     const auto outside = [&](int f) { return share_none(in.of[f], mask, b.words); };
-    if (std::any_of(in.crossing, in.crossing + in.crossings, outside)) continue;
+    if (std::any_of(in.cut_face, in.cut_face + in.cut_faces, outside)) continue;
     Loop *g = &one, *h = &two;
     g->n = 0;
     for (int l = b.loop_first[at(j)]; l < b.loop_first[at(j) + 1]; ++l) g->p[g->n++] = w.v[b.loop[at(l)]];
     bool left = true;
-    for (int k = 0; k < in.crossings && left; ++k) {
-      const int f = in.crossing[k];
+    for (int k = 0; k < in.cut_faces && left; ++k) {
+      const int f = in.cut_face[k];
       if (holds_all(in.of[f], mask, b.words)) continue;
       left = cut(*g, a.normal[at(f)], w.c[f], false, *h);
       std::swap(g, h);
     }
     if (!left) continue;
-    w.n[j] = pose.turn * b.normal[at(j)];
+    w.n[j] = pose.rotation * b.normal[at(j)];
     split(a, j, *g, *h, w);
   }
-  separating = -1;
-  if (!w.piece.empty()) return true;
-  separating = separating_face_of_other(a, b, pose);
+  separating_axis = -1;
+  if (!w.fragment.empty()) return true;
+  separating_axis = separating_face_of_other(a, b, pose);
   return false;
 }
 
-Patch elastic_patch(const Pieces& w) {
+Patch elastic_patch(const Fragments& w) {
   Patch out;
   Vec3 pressure = Vec3::Zero(), area = Vec3::Zero();
   double second[6] = {};
-  for (const Piece& piece : w.piece) {
-    const Vec3& n = w.n[piece.face];
-    const Vec3* x = &w.vertex[at(piece.first)];
-    const double* phi = &w.depth[at(piece.first)];
+  for (const Fragment& fragment : w.fragment) {
+    const Vec3& n = w.n[fragment.face];
+    const Vec3* x = &w.vertex[at(fragment.first)];
+    const double* phi = &w.depth[at(fragment.first)];
     double i0 = 0;
     Vec3 i1 = Vec3::Zero();
-    for (int k = 1; k + 1 < piece.count; ++k) {
+    for (int k = 1; k + 1 < fragment.count; ++k) {
       const Vec3 &p = x[0], &q = x[k], &r = x[k + 1];
       const double dS = 0.5 * n.dot((q - p).cross(r - p));
       const double sum = phi[0] + phi[k] + phi[k + 1];
@@ -279,7 +279,7 @@ Patch elastic_patch(const Pieces& w) {
         second[3 + i] += dS / 12 * (s[i] * s[j] + p[i] * p[j] + q[i] * q[j] + r[i] * r[j]);
       }
     }
-    for (int k = 0; k < piece.count; ++k) out.deepest = std::max(out.deepest, phi[k]);
+    for (int k = 0; k < fragment.count; ++k) out.max_depth = std::max(out.max_depth, phi[k]);
     out.total += i0;
     pressure += i1;
     out.force -= i0 * n;
@@ -308,35 +308,35 @@ void finish_patch(const Vec3& pressure, const Vec3& area, const Mat3& second, Pa
   out.normal = out.force / size;
 }
 
-void closing_speeds(Pieces& w, const Vec3& linear, const Vec3& angular, Patch& patch) {
-  w.closing.resize(w.vertex.size());
-  patch.closing = -std::numeric_limits<double>::infinity();
+void closing_speeds(Fragments& w, const Vec3& linear, const Vec3& angular, Patch& patch) {
+  w.closing_speed.resize(w.vertex.size());
+  patch.closing_speed = -std::numeric_limits<double>::infinity();
   const double along = -patch.normal.dot(linear);
-  const Vec3 turning = angular.cross(patch.normal);  // n . (angular x x) = (n x angular) . x
+  const Vec3 angular_part = angular.cross(patch.normal);  // n . (angular x x) = (n x angular) . x
   for (size_t i = 0; i < w.vertex.size(); ++i) {
-    w.closing[i] = along + turning.dot(w.vertex[i]);
-    patch.closing = std::max(patch.closing, w.closing[i]);
+    w.closing_speed[i] = along + angular_part.dot(w.vertex[i]);
+    patch.closing_speed = std::max(patch.closing_speed, w.closing_speed[i]);
   }
 }
 
-void damping_wrench(const Pieces& w, const Vec3& normal, double chi, double limit, Vec3& force, Vec3& moment) {
+void damping_wrench(const Fragments& w, const Vec3& normal, double chi, double limit, Vec3& force, Vec3& moment) {
   double total = 0;
   Vec3 first = Vec3::Zero();
-  for (const Piece& piece : w.piece) {
-    const Vec3& n = w.n[piece.face];
+  for (const Fragment& fragment : w.fragment) {
+    const Vec3& n = w.n[fragment.face];
     const double share = -normal.dot(n);  // share of its pressure along the normal of the patch
     if (share <= 0) continue;
-    const Vec3* x = &w.vertex[at(piece.first)];
-    const double* phi = &w.depth[at(piece.first)];
-    const double* closing = &w.closing[at(piece.first)];
+    const Vec3* x = &w.vertex[at(fragment.first)];
+    const double* phi = &w.depth[at(fragment.first)];
+    const double* closing_speed = &w.closing_speed[at(fragment.first)];
     double i0 = 0, i1[3] = {};
-    for (int k = 1; k + 1 < piece.count; ++k) {
+    for (int k = 1; k + 1 < fragment.count; ++k) {
       const int corner[3] = {0, k, k + 1};
       const double dS = 0.5 * n.dot((x[k] - x[0]).cross(x[k + 1] - x[0]));
       // s - 1 clamped: chi v where it is above -1, less its excess over limit - 1.
       double f[3], above[3], over[3], held[3], place[3][3], pulled = 0, first_pulled[3] = {}, capped = 0, first_capped[3] = {};
       for (int c = 0; c < 3; ++c) {
-        const double extra = chi * closing[corner[c]];
+        const double extra = chi * closing_speed[corner[c]];
         f[c] = phi[corner[c]];
         above[c] = extra + 1;
         over[c] = extra - (limit - 1);

@@ -9,15 +9,15 @@ namespace erbs {
 // Workspace, used again from call to call; one per thread.
 struct OverlapRoom {
   Triangles triangles;
-  Pieces pieces;
-  bool fast = false;          // the last overlap is in `triangles`, not in `pieces`
+  Fragments fragments;
+  bool fast = false;          // the last overlap is in `triangles`, not in `fragments`
   bool only_general = false;  // for tests: the general path for all bodies
   double apart = 0;           // m, lower bound of the distance in the last query; negative if unknown
 };
 
-// The elastic patch; its total is 0 if the bodies do not overlap. `separating` caches the separating feature (`narrow.h`), `known` the
+// The elastic patch; its total is 0 if the bodies do not overlap. `separating_axis` caches the separating feature (`narrow.h`), `known` the
 // corners of the overlap (`clip.h`).
-Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating, OverlapRoom& room,
+Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating_axis, OverlapRoom& room,
                    Corners* known = nullptr);
 
 // As in `narrow.h`, for the last overlap.

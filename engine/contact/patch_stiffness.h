@@ -1,7 +1,7 @@
 // Stiffness of the patch of a touching pair: springs kn over the patch along its normal, ks across and about its normal.
 #pragma once
 #include "engine/contact/overlap.h"
-#include "engine/model/pair.h"
+#include "engine/model/contact_pair.h"
 
 namespace erbs {
 
@@ -12,7 +12,7 @@ struct PatchStiffness {
 
 // At the present pose of `pair`; false if the bodies do not overlap. The friction springs are those in the pair's memory, which has the
 // largest patch so far. Of the pair only `corners` may change.
-bool patch_stiffness(Pair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, OverlapRoom& room,
+bool patch_stiffness(ContactPair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, OverlapRoom& room,
                      PatchStiffness& out);
 
 }  // namespace erbs

@@ -121,7 +121,7 @@ ContactShape contact_shape(const Polyhedron& part) {
 
 // Largest eigenvalues of M^-1/2 K M^-1/2, K = Int over the face of r r^T dA. r is the displacement of a point per motion of the block:
 // across the face (n, x * n), and along it (t, x * t) in two directions. No patch within the face is stiffer.
-void set_face_rates(ContactShape& s, const ContactBlock& block) {
+void set_face_omega2(ContactShape& s, const ContactBlock& block) {
   s.face_across = s.face_along = 0;
   if (!(block.inverse_mass > 0)) return;
   Mat6 root = Mat6::Zero();  // root root^T = M^-1
@@ -158,7 +158,7 @@ ContactShapes contact_shapes(const std::vector<std::vector<Polyhedron>>& parts_o
     all.first.push_back(static_cast<int>(all.of.size()));
     for (const Polyhedron& p : parts_of_blocks[b]) {
       ContactShape s = contact_shape(p);
-      if (!blocks.empty()) set_face_rates(s, blocks[b]);
+      if (!blocks.empty()) set_face_omega2(s, blocks[b]);
       // Almost all equal shapes have this key; equal shapes with another key are just not shared.
       const long key = std::lround(std::log(s.volume) * 1e7 + 0.37);
       const auto [from, to] = known.equal_range(key);

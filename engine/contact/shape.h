@@ -54,8 +54,8 @@ struct ContactShapes {
   const ContactShape& part(std::size_t i) const { return shape[std::size_t(of[i])]; }
 };
 // Sets `face_across` and `face_along` of a part of `block`.
-void set_face_rates(ContactShape& part, const ContactBlock& block);
-// `blocks`: the blocks of these parts, for `set_face_rates()`; empty: the rates are unknown.
+void set_face_omega2(ContactShape& part, const ContactBlock& block);
+// `blocks`: the blocks of these parts, for `set_face_omega2()`; empty: the rates are unknown.
 ContactShapes contact_shapes(const std::vector<std::vector<Polyhedron>>& parts_of_blocks, std::span<const ContactBlock> blocks = {});
 
 // Axes (columns) of the smallest box about the parts of a block, among axes along its faces and the world axes; world axes if equally good.
@@ -65,10 +65,10 @@ Mat3 contact_axes(const std::vector<Polyhedron>& parts);
 // Present pose and motion of a block; `inverse_mass` and `inverse_inertia` of fixed blocks are 0.
 struct alignas(64) ContactBlock {
   Vec3 u = Vec3::Zero();         // m, displacement of the centroid
-  Mat3 turn = Mat3::Identity();  // from the axes of its shapes to world axes
+  Mat3 rotation = Mat3::Identity();  // from the axes of its shapes to world axes
   Vec3 v = Vec3::Zero();         // m/s, of the centroid, at the half step before the pose
   Vec3 w = Vec3::Zero();         // rad/s, world axes, at the same half step
-  // constants; `follow()` of `pair_lanes.h` writes the members above
+  // constants; `track()` of `pair_lanes.h` writes the members above
   double inverse_mass = 0;             // 1/kg
   double inverse_inertia = 0;          // 1/(kg m2), of the smallest principal inertia
   Vec3 rest = Vec3::Zero();            // m, centroid at rest

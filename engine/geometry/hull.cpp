@@ -97,8 +97,8 @@ void mark_corners(std::vector<Flat> flat, double eps, std::vector<bool>& corner)
     for (const Flat& r : flat) {
       while (chain.size() > 1) {
         const Flat &p = chain[chain.size() - 2], &q = chain.back();
-        const double turn = (q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x);
-        if (turn > eps * std::hypot(r.x - p.x, r.y - p.y)) break;
+        const double orientation = (q.x - p.x) * (r.y - q.y) - (q.y - p.y) * (r.x - q.x);
+        if (orientation > eps * std::hypot(r.x - p.x, r.y - p.y)) break;
         chain.pop_back();
       }
       chain.push_back(r);

@@ -215,8 +215,8 @@ Polyhedron translated(const Polyhedron& p, const Vec3& by) {
 
 Polyhedron transformed(const Polyhedron& p, const Quat& q, const Vec3& by) {
   Polyhedron r = p;
-  const Mat3 turn = q.toRotationMatrix();
-  for (Vec3& v : r.vertices) v = turn * v + by;
+  const Mat3 rotation = q.toRotationMatrix();
+  for (Vec3& v : r.vertices) v = rotation * v + by;
   return r;
 }
 

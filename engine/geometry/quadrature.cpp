@@ -16,7 +16,7 @@ LineRule gauss_line(int n) {
   LineRule r;
   for (int i = 0; i < n; ++i) {
     double x = std::cos(pi * (i + 0.75) / (n + 0.5)), slope = 1;
-    for (int turn = 0; turn < 100; ++turn) {  // Newton on the Legendre polynomial
+    for (int iteration = 0; iteration < 100; ++iteration) {  // Newton on the Legendre polynomial
       double p0 = 1, p1 = x;
       for (int k = 2; k <= n; ++k) {
         const double p2 = ((2 * k - 1) * x * p1 - (k - 1) * p0) / k;
@@ -239,8 +239,8 @@ Vec2 nearest(const std::vector<Vec2>& hull, const Vec2& x, double weld) {
 void set_watch(std::vector<QuadraturePoint>& points, double weld) {
   const std::vector<Vec2> hull = convex_hull(points, weld);
   for (QuadraturePoint& p : points) {
-    p.watch.clear();
-    for (const Vec2& x : p.cell) p.watch.push_back(nearest(hull, x, weld));
+    p.tension_loop.clear();
+    for (const Vec2& x : p.cell) p.tension_loop.push_back(nearest(hull, x, weld));
   }
 }
 

@@ -14,7 +14,7 @@ struct QuadraturePoint {
   std::vector<Vec2> cell{};
   // Corners of the cell, moved into the convex hull of all points. The point checks a linear field there (tension). Over all cells that
   // field has the same extremes as at the points.
-  std::vector<Vec2> watch{};
+  std::vector<Vec2> tension_loop{};
 };
 
 // rule:

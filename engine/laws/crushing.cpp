@@ -31,7 +31,7 @@ Envelope envelope(const CrushedFace& crushed) {
 }
 
 struct Loop {
-  static constexpr int most = Bed::most_corners + 2 * (CrushedFace::most + 2) + 2;
+  static constexpr int most = CompressionFace::most_corners + 2 * (CrushedFace::most + 2) + 2;
   int count = 0;
   double s[most], t[most];
   Loop() = default;
@@ -64,7 +64,7 @@ void clip(const Loop& in, const Plane& f, Loop& out) {
   if (out.count < 3) out.count = 0;
 }
 
-void keep(Loop& loop, const Plane& f) {
+void clip_to(Loop& loop, const Plane& f) {
   int inside = 0;
   for (int i = 0; i < loop.count; ++i) inside += f.at(loop.s[i], loop.t[i]) >= 0;
   if (inside == loop.count) return;
@@ -78,14 +78,14 @@ void keep(Loop& loop, const Plane& f) {
 }
 
 // Cuts the loop to the part where plane k is the lowest of the envelope.
-void keep_region(Loop& loop, const Envelope& z, int k) {
+void clip_to_region(Loop& loop, const Envelope& z, int k) {
   for (int j = 0; j < z.count && loop.count > 0; ++j)
-    if (j != k) keep(loop, z.plane[j] - z.plane[k]);
+    if (j != k) clip_to(loop, z.plane[j] - z.plane[k]);
 }
 
-Loop whole(const Bed& bed) {
+Loop whole(const CompressionFace& face) {
   Loop loop;
-  for (int i = 0; i < bed.corners; ++i) loop.add(bed.corner[2 * i], bed.corner[2 * i + 1]);
+  for (int i = 0; i < face.corners; ++i) loop.add(face.corner[2 * i], face.corner[2 * i + 1]);
   return loop;
 }
 
@@ -114,28 +114,28 @@ double product(const Loop& loop, const Plane& u, const Plane& v) {
 }
 
 double positive_product(Loop loop, const Plane& u, const Plane& v) {
-  keep(loop, v);
+  clip_to(loop, v);
   return product(loop, u, v);
 }
 
 // Int z dA.
-double volume(const Bed& bed, const Envelope& z) {
+double volume(const CompressionFace& face, const Envelope& z) {
   double sum = 0;
   for (int k = 1; k < z.count; ++k) {
-    Loop loop = whole(bed);
-    keep_region(loop, z, k);
+    Loop loop = whole(face);
+    clip_to_region(loop, z, k);
     sum += product(loop, z.plane[k], {1, 0, 0});
   }
   return sum;
 }
 
 // Removes planes that are nowhere the lowest, then planes beyond the room of a face. The last plane always stays.
-void thin_out(const Bed& bed, Envelope& z) {
-  const double face = area(whole(bed));
+void thin_out(const CompressionFace& face, Envelope& z) {
+  const double face_area = area(whole(face));
   for (int k = z.count - 2; k > 0; --k) {
-    Loop loop = whole(bed);
-    keep_region(loop, z, k);
-    if (area(loop) <= 1e-12 * face) z.remove(k);
+    Loop loop = whole(face);
+    clip_to_region(loop, z, k);
+    if (area(loop) <= 1e-12 * face_area) z.remove(k);
   }
   while (z.count - 1 > CrushedFace::most) {
     int least = 1;
@@ -143,20 +143,20 @@ void thin_out(const Bed& bed, Envelope& z) {
     for (int k = 1; k < z.count - 1; ++k) {
       Envelope without = z;
       without.remove(k);
-      const double left = volume(bed, without);
+      const double left = volume(face, without);
       if (k == 1 || left < deepest) deepest = left, least = k;
     }
     z.remove(least);
   }
 }
 
-bool passes(const Bed& bed, const Envelope& z, const Plane& lower) {
-  const double round_off = 1e-12 * bed.limit;
+bool passes(const CompressionFace& face, const Envelope& z, const Plane& lower) {
+  const double round_off = 1e-12 * face.limit;
   bool below = false;
-  for (int i = 0; i < bed.corners; ++i) below = below || lower.at(bed.corner[2 * i], bed.corner[2 * i + 1]) < -round_off;
+  for (int i = 0; i < face.corners; ++i) below = below || lower.at(face.corner[2 * i], face.corner[2 * i + 1]) < -round_off;
   for (int k = 0; below && k < z.count; ++k) {
-    Loop loop = whole(bed);
-    keep_region(loop, z, k);
+    Loop loop = whole(face);
+    clip_to_region(loop, z, k);
     const Plane over = z.plane[k] - lower;
     for (int i = 0; i < loop.count; ++i)
       if (over.at(loop.s[i], loop.t[i]) > round_off) return true;
@@ -166,39 +166,39 @@ bool passes(const Bed& bed, const Envelope& z, const Plane& lower) {
 
 }  // namespace
 
-Pressed pressed(const Bed& bed, const CrushedFace& crushed, const double gap[3]) {
+Pressed pressed(const CompressionFace& face, const CrushedFace& crushed, const double gap[3]) {
   const Envelope z = envelope(crushed);
   Pressed out;
   for (int k = 0; k < z.count; ++k) {
-    Loop loop = whole(bed);
+    Loop loop = whole(face);
     const Plane y = z.plane[k] - plane(gap);
-    keep(loop, y);
-    keep_region(loop, z, k);
-    out.force += bed.kn * product(loop, y, {1, 0, 0});
-    out.s += bed.kn * product(loop, y, {0, 1, 0});
-    out.t += bed.kn * product(loop, y, {0, 0, 1});
-    out.energy += 0.5 * bed.kn * product(loop, y, y);
+    clip_to(loop, y);
+    clip_to_region(loop, z, k);
+    out.force += face.kn * product(loop, y, {1, 0, 0});
+    out.s += face.kn * product(loop, y, {0, 1, 0});
+    out.t += face.kn * product(loop, y, {0, 0, 1});
+    out.energy += 0.5 * face.kn * product(loop, y, y);
   }
   return out;
 }
 
-double crush(const Bed& bed, CrushedFace& crushed, const double before[3], const double now[3]) {
-  const Plane g0 = plane(before), g1 = plane(now), lower{g1.c + bed.limit, g1.s, g1.t};
+double crush(const CompressionFace& face, CrushedFace& crushed, const double before[3], const double now[3]) {
+  const Plane g0 = plane(before), g1 = plane(now), lower{g1.c + face.limit, g1.s, g1.t};
   const Envelope old = envelope(crushed);
-  if (!passes(bed, old, lower)) return 0;
+  if (!passes(face, old, lower)) return 0;
   Envelope next = old;
   next.add(lower);
-  thin_out(bed, next);
+  thin_out(face, next);
   double work = 0;
   for (int k = 0; k < old.count; ++k) {
-    Loop part = whole(bed);
-    keep_region(part, old, k);
+    Loop part = whole(face);
+    clip_to_region(part, old, k);
     for (int j = 0; j < next.count && part.count > 0; ++j) {
       if (same(old.plane[k], next.plane[j])) continue;
       Loop loop = part;
-      keep_region(loop, next, j);
+      clip_to_region(loop, next, j);
       const Plane fall = old.plane[k] - next.plane[j];
-      work += 0.5 * bed.kn * (positive_product(loop, fall, old.plane[k] - g0) + positive_product(loop, fall, next.plane[j] - g1));
+      work += 0.5 * face.kn * (positive_product(loop, fall, old.plane[k] - g0) + positive_product(loop, fall, next.plane[j] - g1));
     }
   }
   crushed.planes = next.count - 1;
@@ -209,11 +209,11 @@ double crush(const Bed& bed, CrushedFace& crushed, const double before[3], const
   return work;
 }
 
-double pressed_depth(const Bed& bed, const CrushedFace& crushed, const double gap[3], double s, double t) {
+double pressed_depth(const CompressionFace& face, const CrushedFace& crushed, const double gap[3], double s, double t) {
   const Envelope z = envelope(crushed);
   double lowest = 0;
   for (int k = 1; k < z.count; ++k) lowest = std::min(lowest, z.plane[k].at(s, t));
-  return std::clamp(lowest - plane(gap).at(s, t), 0.0, bed.limit);
+  return std::clamp(lowest - plane(gap).at(s, t), 0.0, face.limit);
 }
 
 }  // namespace erbs

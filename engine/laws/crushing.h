@@ -17,7 +17,7 @@ struct CrushedFace {
 };
 
 // A face in the frame of its joint. `corner`: s, t of each corner, counter-clockwise (m).
-struct Bed {
+struct CompressionFace {
   static constexpr int most_corners = 128;
   double kn, limit;  // Pa/m; m, fc / kn
   int corners;
@@ -29,13 +29,13 @@ struct Pressed {
 };
 
 // Resultants and elastic energy at a gap. `gap`: a plane as above. Unloading would return the energy.
-Pressed pressed(const Bed& bed, const CrushedFace& crushed, const double gap[3]);
+Pressed pressed(const CompressionFace& face, const CrushedFace& crushed, const double gap[3]);
 
 // Updates the crushed face from gap `before` to gap `now`; returns the plastic work (J). Over a step the work at a position is the mean of
 // its two pressures times the change of gap. Its plastic part is the same mean times the change of z.
-double crush(const Bed& bed, CrushedFace& crushed, const double before[3], const double now[3]);
+double crush(const CompressionFace& face, CrushedFace& crushed, const double before[3], const double now[3]);
 
 // Elastic compression (m) at the position s, t, at most bed.limit.
-double pressed_depth(const Bed& bed, const CrushedFace& crushed, const double gap[3], double s, double t);
+double pressed_depth(const CompressionFace& face, const CrushedFace& crushed, const double gap[3], double s, double t);
 
 }  // namespace erbs

@@ -9,7 +9,7 @@
 namespace erbs {
 
 // Opening at which damage p starts to grow further.
-inline double reach(const PointLaw& law, double p) { return law.opening_peak + p * (law.opening_ultimate - law.opening_peak); }
+inline double kappa_at(const PointLaw& law, double p) { return law.opening_peak + p * (law.opening_ultimate - law.opening_peak); }
 
 // Secant stiffness of an opened point at damage p: the line from the origin to the softening branch, where the tensile strength is
 // ft (1 - p). This is the linear softening of Hillerborg et al. 1976 in damage form: unloading returns to zero opening, so that a crack
@@ -17,7 +17,7 @@ inline double reach(const PointLaw& law, double p) { return law.opening_peak + p
 inline double secant(const PointLaw& law, double p) {
   if (p <= 0) return law.kn;
   if (p >= 1) return 0;
-  const double opening = reach(law, p);
+  const double opening = kappa_at(law, p);
   return opening > 0 ? law.ft * (1 - p) / opening : 0;
 }
 
@@ -25,7 +25,7 @@ inline double secant(const PointLaw& law, double p) {
 inline void damage_to(const PointLaw& law, PointHistory& h, double p) {
   h.damage = std::min(1.0, p);
   h.secant = secant(law, h.damage);
-  h.reach = reach(law, h.damage);
+  h.kappa = kappa_at(law, h.damage);
 }
 
 inline double friction_at(const PointLaw& law, double p) { return law.mu + p * (law.mu_residual - law.mu); }

@@ -38,7 +38,7 @@ Cell cell_of(const std::vector<Vec2>& loop) {
 
 // Bending stiffness of the true overlap; that of its points if both agree to round-off.
 void set_face(const Model& m, const PointLaw& law, JointType& joint) {
-  const Cell whole = cell_of({m.corner.begin() + joint.first_corner, m.corner.end()});
+  const Cell whole = cell_of({m.overlap_corner.begin() + joint.first_corner, m.overlap_corner.end()});
   const double face[3] = {law.kn * whole.tt, law.kn * whole.ss, law.kn * whole.st}, round_off = 1e-9 * (face[0] + face[1]);
   const bool exact = std::fabs(face[0] - joint.stiffness[3]) + std::fabs(face[1] - joint.stiffness[4]) + std::fabs(face[2]) < round_off;
   for (int i = 0; i < 3; ++i) joint.face[i] = !exact ? face[i] : i < 2 ? joint.stiffness[3 + i] : 0;
@@ -56,10 +56,10 @@ void set_viscous(const Damping& damping, const Model& m, Joint& joint) {
 
 void add_cell(const std::vector<Vec2>& loop, Model& m) {
   Cell cell = cell_of(loop);
-  cell.first = int(m.cell_corner.size());
+  cell.first = int(m.cell_loop.size());
   cell.corners = int(loop.size());
   m.cell.push_back(cell);
-  m.cell_corner.insert(m.cell_corner.end(), loop.begin(), loop.end());
+  m.cell_loop.insert(m.cell_loop.end(), loop.begin(), loop.end());
 }
 
 // Joint types by a hash of their content.
@@ -81,15 +81,15 @@ Pieces pieces_of(const Model& m, const JointType& type) {
   std::vector<int> numbers{type.rule, type.points, type.corners};
   int corners = 0;
   for (int i = 0; i < type.points; ++i) {
-    numbers.push_back(m.cell[z(type.first_place + i)].corners);
+    numbers.push_back(m.cell[z(type.first_cell + i)].corners);
     corners += numbers.back();
   }
-  const int first = m.cell[z(type.first_place)].first;
+  const int first = m.cell[z(type.first_cell)].first;
   return {numbers,
-          {bytes_of(m.point, type.first_place, type.points),
-           bytes_of(m.corner, type.first_corner, type.corners),
-           bytes_of(m.cell_corner, first, corners),
-           bytes_of(m.cell_watch, first, corners),
+          {bytes_of(m.point, type.first_cell, type.points),
+           bytes_of(m.overlap_corner, type.first_corner, type.corners),
+           bytes_of(m.cell_loop, first, corners),
+           bytes_of(m.tension_loop, first, corners),
            {reinterpret_cast<const char*>(type.frame.data()), sizeof type.frame}}};
 }
 
@@ -106,12 +106,12 @@ const JointType* shared_type(Model& m, const JointType& type, Types& types) {
     types.emplace(key, m.joint_types.back().get());
     return m.joint_types.back().get();
   }
-  const auto loops = z(m.cell[z(type.first_place)].first);
-  m.point.resize(z(type.first_place));
-  m.cell.resize(z(type.first_place));
-  m.cell_corner.resize(loops);
-  m.cell_watch.resize(loops);
-  m.corner.resize(z(type.first_corner));
+  const auto loops = z(m.cell[z(type.first_cell)].first);
+  m.point.resize(z(type.first_cell));
+  m.cell.resize(z(type.first_cell));
+  m.cell_loop.resize(loops);
+  m.tension_loop.resize(loops);
+  m.overlap_corner.resize(z(type.first_corner));
   return same->second;
 }
 
@@ -135,7 +135,7 @@ void add_joint(const Scene& scene, const Interface& face, Model& m, Types& types
   type.frame.col(1) = cosine * e2 - sine * e1;
   type.frame.col(2) = n;
   const Vec3 centre = origin + axes.centroid.x() * e1 + axes.centroid.y() * e2;
-  type.first_place = int(m.point.size());
+  type.first_cell = int(m.point.size());
   type.points = int(points.size());
   const PointLaw& law = m.laws[z(face.rule)];
   for (const auto& p : points) {
@@ -144,8 +144,8 @@ void add_joint(const Scene& scene, const Interface& face, Model& m, Types& types
     std::vector<Vec2> loop;
     for (const Vec2& v : p.cell) loop.push_back(local(v.x(), v.y()));
     add_cell(loop, m);
-    for (const Vec2& v : p.watch) m.cell_watch.push_back(local(v.x(), v.y()));
-    type.inset = type.inset || p.watch != p.cell;
+    for (const Vec2& v : p.tension_loop) m.tension_loop.push_back(local(v.x(), v.y()));
+    type.inset = type.inset || p.tension_loop != p.cell;
     type.area += p.weight;
     type.stiffness[3] += law.kn * p.weight * x.y() * x.y();
     type.stiffness[4] += law.kn * p.weight * x.x() * x.x();
@@ -153,15 +153,15 @@ void add_joint(const Scene& scene, const Interface& face, Model& m, Types& types
   }
   type.stiffness[0] = type.stiffness[1] = law.ks * type.area;
   type.stiffness[2] = law.kn * type.area;
-  type.first_corner = int(m.corner.size());
+  type.first_corner = int(m.overlap_corner.size());
   type.corners = int(flat.size());
-  if (law.fc > 0 && type.corners > Bed::most_corners)
+  if (law.fc > 0 && type.corners > CompressionFace::most_corners)
     throw Error(fmt::format("the joint between {} and {} has {} corners; a law with fc takes up to {}", m.block_name[z(face.a)],
-                            m.block_name[z(face.b)], type.corners, Bed::most_corners),
+                            m.block_name[z(face.b)], type.corners, CompressionFace::most_corners),
                 scene.blocks[z(face.a)].place);
   for (const Vec2& p : flat) {
     const Vec2 x = local(p.x(), p.y());
-    m.corner.push_back(x);
+    m.overlap_corner.push_back(x);
     type.half_s = std::max(type.half_s, std::fabs(x.x()));
     type.half_t = std::max(type.half_t, std::fabs(x.y()));
     type.radius = std::max(type.radius, x.norm());

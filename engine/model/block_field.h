@@ -6,28 +6,28 @@
 #include <type_traits>
 #include <vector>
 
-#include "engine/base/cold.h"
+#include "engine/base/memory.h"
 #include "engine/base/vec.h"
-#include "engine/model/joint_batch.h"
+#include "engine/model/joint_pack.h"
 
 namespace erbs {
 
 class BlockVec3 {
  public:
-  using Row = RowLanes<3>;
-  using Ref = Eigen::Map<Vec3, Eigen::Unaligned, Eigen::InnerStride<lanes>>;
-  using ConstRef = Eigen::Map<const Vec3, Eigen::Unaligned, Eigen::InnerStride<lanes>>;
+  using Row = VectorPack<3>;
+  using Ref = Eigen::Map<Vec3, Eigen::Unaligned, Eigen::InnerStride<pack_size>>;
+  using ConstRef = Eigen::Map<const Vec3, Eigen::Unaligned, Eigen::InnerStride<pack_size>>;
 
   BlockVec3() = default;
   BlockVec3(std::size_t n, const Vec3& value) { assign(n, value); }
   void assign(std::size_t n, const Vec3& value) {
     size_ = n;
-    row_.assign((n + lanes - 1) / lanes, Row{});
+    row_.assign((n + pack_size - 1) / pack_size, Row{});
     for (std::size_t b = 0; b < n; ++b) (*this)[b] = value;
   }
   std::size_t size() const { return size_; }
-  Ref operator[](std::size_t b) { return Ref(&row_[b / lanes].x[0][b % lanes]); }
-  ConstRef operator[](std::size_t b) const { return ConstRef(&row_[b / lanes].x[0][b % lanes]); }
+  Ref operator[](std::size_t b) { return Ref(&row_[b / pack_size].x[0][b % pack_size]); }
+  ConstRef operator[](std::size_t b) const { return ConstRef(&row_[b / pack_size].x[0][b % pack_size]); }
   Row* data() { return row_.data(); }
   const Row* data() const { return row_.data(); }
 
@@ -43,7 +43,7 @@ class BlockVec3 {
 
 class BlockQuat {
  public:
-  using Row = RowLanes<4>;
+  using Row = VectorPack<4>;
   // Proxy of an element: a copy that writes back an assignment of the whole quaternion. Its components are read-only.
   class Ref : public Quat {
    public:
@@ -71,14 +71,14 @@ class BlockQuat {
   BlockQuat(std::size_t n, const Quat& value) { assign(n, value); }
   void assign(std::size_t n, const Quat& value) {
     size_ = n;
-    row_.resize((n + lanes - 1) / lanes);
-    for (std::size_t b = 0; b < row_.size() * lanes; ++b) Ref(row_[b / lanes], int(b % lanes)) = b < n ? value : Quat::Identity();
+    row_.resize((n + pack_size - 1) / pack_size);
+    for (std::size_t b = 0; b < row_.size() * pack_size; ++b) Ref(row_[b / pack_size], int(b % pack_size)) = b < n ? value : Quat::Identity();
   }
   std::size_t size() const { return size_; }
-  Ref operator[](std::size_t b) { return Ref(row_[b / lanes], int(b % lanes)); }
+  Ref operator[](std::size_t b) { return Ref(row_[b / pack_size], int(b % pack_size)); }
   Quat operator[](std::size_t b) const {
-    const Row& r = row_[b / lanes];
-    const std::size_t l = b % lanes;
+    const Row& r = row_[b / pack_size];
+    const std::size_t l = b % pack_size;
     return Quat(r.x[3][l], r.x[0][l], r.x[1][l], r.x[2][l]);
   }
   Row* data() { return row_.data(); }
@@ -101,10 +101,10 @@ class Rows {
     row_.clear(rows);
     if (value != 0) std::fill_n(data(), size(), value);
   }
-  std::size_t size() const { return row_.size() * lanes; }  // doubles
+  std::size_t size() const { return row_.size() * pack_size; }  // doubles
   bool empty() const { return row_.empty(); }
-  double& operator[](std::size_t i) { return row_[i / lanes].x[0][i % lanes]; }
-  const double& operator[](std::size_t i) const { return row_[i / lanes].x[0][i % lanes]; }
+  double& operator[](std::size_t i) { return row_[i / pack_size].x[0][i % pack_size]; }
+  const double& operator[](std::size_t i) const { return row_[i / pack_size].x[0][i % pack_size]; }
   double* data() { return row_.empty() ? nullptr : row_.data()->x[0]; }
   const double* data() const { return row_.empty() ? nullptr : row_.data()->x[0]; }
 
@@ -114,10 +114,10 @@ class Rows {
   }
 
  private:
-  Cold<RowLanes<1>> row_;
+  LazyArray<VectorPack<1>> row_;
 };
 
 // Number of groups of eight lanes for all blocks and the block at rest behind them.
-inline std::size_t block_groups(int nblock) { return (std::size_t(nblock) + lanes) / lanes; }
+inline std::size_t block_groups(int nblock) { return (std::size_t(nblock) + pack_size) / pack_size; }
 
 }  // namespace erbs

@@ -9,10 +9,10 @@
 #include "engine/base/units.h"
 #include "engine/geometry/mass.h"
 #include "engine/model/add_joints.h"
-#include "engine/model/batches.h"
+#include "engine/model/joint_packs.h"
 #include "engine/model/check_joined.h"
 #include "engine/model/interface.h"
-#include "engine/model/kept_lanes.h"
+#include "engine/model/owner_schedule.h"
 
 namespace erbs {
 namespace {
@@ -57,17 +57,17 @@ void add_loads(const Scene& scene, Model& m) {
         m.tilts.push_back({load.wave, load.direction.normalized()});
         break;
       case Load::Kind::force:
-        m.pushes.push_back({load.wave, load.direction, b, load.has_point ? Vec3(load.point - m.rest[z(b)]) : Vec3(Vec3::Zero()), false});
+        m.force_loads.push_back({load.wave, load.direction, b, load.has_point ? Vec3(load.point - m.rest[z(b)]) : Vec3(Vec3::Zero()), false});
         break;
       case Load::Kind::moment:
-        m.pushes.push_back({load.wave, load.direction, b, Vec3::Zero(), true});
+        m.force_loads.push_back({load.wave, load.direction, b, Vec3::Zero(), true});
         break;
       case Load::Kind::motion:
-        m.drives.push_back({load.wave, load.direction, b, false, Vec3::Zero()});
+        m.prescribed_motions.push_back({load.wave, load.direction, b, false, Vec3::Zero()});
         m.kind[z(b)] = Kind::driven;
         break;
       case Load::Kind::turning:
-        m.drives.push_back(
+        m.prescribed_motions.push_back(
             {load.wave, load.direction.normalized(), b, true, load.has_point ? Vec3(m.rest[z(b)] - load.point) : Vec3(Vec3::Zero())});
         m.kind[z(b)] = Kind::driven;
         break;
@@ -75,27 +75,27 @@ void add_loads(const Scene& scene, Model& m) {
   }
 }
 
-void index_rows(Model& m) {
+void index_wrench_rows(Model& m) {
   m.njoint = int(m.joint.size());
-  m.row_a.resize(z(m.njoint)), m.row_b.resize(z(m.njoint));
+  m.wrench_row_a.resize(z(m.njoint)), m.wrench_row_b.resize(z(m.njoint));
   const auto moving = [&](int b) { return m.kind[z(b)] == Kind::moving; };
   std::vector<int> ends(z(m.nblock), 0);
   for (const Joint& j : m.joint) ++ends[z(j.a)], ++ends[z(j.b)];
-  m.first_slot.assign(1, 0);
+  m.first_wrench_slot.assign(1, 0);
   for (int g = 0; g < int(block_groups(m.nblock)); ++g) {
     int most = 0;
-    for (int b = g * lanes; b < std::min((g + 1) * lanes, m.nblock); ++b)
+    for (int b = g * pack_size; b < std::min((g + 1) * pack_size, m.nblock); ++b)
       if (moving(b)) most = std::max(most, ends[z(b)]);
-    m.first_slot.push_back(m.first_slot.back() + most);
+    m.first_wrench_slot.push_back(m.first_wrench_slot.back() + most);
   }
-  m.first_row.assign(1, lanes * m.first_slot.back());
-  for (int b = 0; b < m.nblock; ++b) m.first_row.push_back(m.first_row.back() + (moving(b) ? 0 : ends[z(b)]));
+  m.first_wrench_row.assign(1, pack_size * m.first_wrench_slot.back());
+  for (int b = 0; b < m.nblock; ++b) m.first_wrench_row.push_back(m.first_wrench_row.back() + (moving(b) ? 0 : ends[z(b)]));
   std::vector<int> next(z(m.nblock));
-  for (int b = 0; b < m.nblock; ++b) next[z(b)] = moving(b) ? m.first_slot[z(b / lanes)] * lanes + b % lanes : m.first_row[z(b)];
-  const auto take = [&](int b) { return std::exchange(next[z(b)], next[z(b)] + (moving(b) ? lanes : 1)); };
+  for (int b = 0; b < m.nblock; ++b) next[z(b)] = moving(b) ? m.first_wrench_slot[z(b / pack_size)] * pack_size + b % pack_size : m.first_wrench_row[z(b)];
+  const auto take = [&](int b) { return std::exchange(next[z(b)], next[z(b)] + (moving(b) ? pack_size : 1)); };
   for (int j = 0; j < m.njoint; ++j) {
-    m.row_a[z(j)] = take(m.joint[z(j)].a);
-    m.row_b[z(j)] = take(m.joint[z(j)].b);
+    m.wrench_row_a[z(j)] = take(m.joint[z(j)].a);
+    m.wrench_row_b[z(j)] = take(m.joint[z(j)].b);
   }
 }
 
@@ -182,10 +182,10 @@ State start(const Scene& scene, const Model& m) {
   const std::size_t n = z(m.nblock) + 1;
   s.u.assign(n, Vec3::Zero());
   s.q.assign(n, Quat::Identity());
-  s.v = s.spin_momentum = s.w = s.base_u = s.u;
-  s.base_q = s.q;
-  s.row.assign(block_groups(m.nblock) * lanes, 0.0);
-  s.shift.assign(block_groups(m.nblock), {});
+  s.v = s.spin_momentum = s.w = s.ref_u = s.u;
+  s.ref_q = s.q;
+  s.pose_row.assign(block_groups(m.nblock) * pack_size, 0.0);
+  s.increment.assign(block_groups(m.nblock), {});
   s.island.assign(n, -1);
   s.grounded.assign(n, 0);
   s.loose.assign(n, 0);
@@ -203,15 +203,15 @@ State start(const Scene& scene, const Model& m) {
     const Mat3 r = s.q[z(b)].toRotationMatrix();
     s.spin_momentum[z(b)] = r * (m.inertia[z(b)] * (r.transpose() * i.spin));
   }
-  set_places(m, s);
-  s.tier.assign(z(m.njoint), Tier::intact);
+  set_slots(m, s);
+  s.stage.assign(z(m.njoint), JointStage::intact);
   s.memory.clear(z(m.njoint));
   s.history.clear(z(m.npoint));
   if (std::any_of(m.laws.begin(), m.laws.end(), [](const PointLaw& law) { return law.fc > 0; })) s.crushed.clear(z(m.njoint));
   if (m.dashpots_cracked) s.viscous.assign(6 * z(m.njoint), 0.0);
-  s.wrench.assign(z(m.spare_row()) + 1, 0.0);
-  s.kept.assign(block_groups(m.nblock), {});
-  s.given.assign(m.kept.other.size() + 1, {});
+  s.wrench.assign(z(m.spare_wrench_row()) + 1, 0.0);
+  s.owner_sum.assign(block_groups(m.nblock), {});
+  s.neighbour_force.assign(m.owner_schedule.other.size() + 1, {});
   return s;
 }
 
@@ -239,9 +239,9 @@ Built build(const Scene& scene) {
   each_contact_part(m, [](int, const Polyhedron&) {});  // throws for parts of which no body is left
   m.dashpots = std::any_of(m.joint.begin(), m.joint.end(), [](const Joint& joint) { return joint.viscous > 0; });
   m.dashpots_cracked = std::any_of(m.joint.begin(), m.joint.end(), [](const Joint& joint) { return joint.viscous_cracked > 0; });
-  choose_keepers(m);
-  index_rows(m);
-  m.kept = deal_lanes(m);
+  choose_owners(m);
+  index_wrench_rows(m);
+  m.owner_schedule = make_owner_schedule(m);
   for (int b = 0; b < m.nblock; ++b) {
     const bool moving = m.kind[z(b)] == Kind::moving;
     m.inverse_mass.push_back(moving ? 1 / m.mass[z(b)] : 0);

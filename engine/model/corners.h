@@ -23,10 +23,10 @@ struct alignas(64) Corners {
   // Planes 0 to 7 are faces of the reference body a, 8 to 15 faces of the other body b.
   std::uint32_t planes[most];
   // Eight triangles side by side: their corners, and their faces as in Triangles.
-  struct Eight {
+  struct TrianglePack {
     std::uint8_t corner[3][8], faces[8];
   };
-  Eight eight[most_triangles / 8];
+  TrianglePack triangle_pack[most_triangles / 8];
 };
 
 }  // namespace erbs

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "engine/laws/point_law.h"
-#include "engine/model/joint_batch.h"
-#include "engine/model/kept_lanes.h"
+#include "engine/model/joint_pack.h"
+#include "engine/model/owner_schedule.h"
 #include "engine/scene/scene.h"
 
 namespace erbs {
@@ -21,8 +21,8 @@ enum class Kind : std::uint8_t { moving, fixed, driven };
 struct JointType {
   int law = 0;                        // index into Model::laws
   int rule = 0;                       // index into Scene::joint_rules
-  int first_place = 0, points = 0;    // into Model::point and cell
-  int first_corner = 0, corners = 0;  // into Model::corner
+  int first_cell = 0, points = 0;    // into Model::point and cell
+  int first_corner = 0, corners = 0;  // into Model::overlap_corner
   Mat3 frame;                         // columns s, t, n at rest
   double area = 0;                    // m2
   double stiffness[6] = {};           // N/m (s, t, n), N m (about s, t, n): elastic resultant = stiffness * q
@@ -39,7 +39,7 @@ struct Joint {
   int part_a = 0, part_b = 0;  // of the blocks
   int face_a = 0, face_b = 0;  // of the parts
   int first_point = 0;         // first of its points in State::history
-  bool kept_by_b = false;      // owner of the intact joint, in whose lane it is evaluated: b, else a (`choose_keepers`)
+  bool owned_by_b = false;      // owner of the intact joint, in whose lane it is evaluated: b, else a (`choose_owners`)
   Vec3 arm_a, arm_b;           // m, from the centroids to the weighted centre of its contact points, at rest
   double viscous = 0;          // s, dashpot coefficient b of the intact joint, c = b k
   double viscous_cracked = 0;  // s, the same of the cracked joint
@@ -54,7 +54,7 @@ struct Point {
 
 // The part of the overlap that a contact point represents (geometry/quadrature.h), joint frame.
 struct Cell {
-  int first = 0, corners = 0;                   // into Model::cell_corner and cell_watch
+  int first = 0, corners = 0;                   // into Model::cell_loop and tension_loop
   double s = 0, t = 0, ss = 0, st = 0, tt = 0;  // m3, m4: integrals of s, t, s2, s t, t2 over it
 };
 
@@ -74,29 +74,29 @@ struct Model {
   std::vector<Joint> joint;
   std::vector<std::shared_ptr<const JointType>> joint_types;
   std::vector<Point> point;                              // of all joint types
-  std::vector<Eigen::Vector2d> corner;                   // m, of the overlap polygon in the joint frame
+  std::vector<Eigen::Vector2d> overlap_corner;                   // m, of the overlap polygon in the joint frame
   std::vector<Cell> cell;                                // one for each of `point`
-  std::vector<Eigen::Vector2d> cell_corner, cell_watch;  // m, joint frame: loops of the cells, and the loops on which they check tension
+  std::vector<Eigen::Vector2d> cell_loop, tension_loop;  // m, joint frame: loops of the cells, and the loops on which they check tension
   std::vector<PointLaw> laws;                            // one per joint rule
-  KeptLanes kept;                                        // owner schedule of intact joints
-  // Wrench rows, one per joint end. Group g of eight moving blocks owns slots [first_slot[g], first_slot[g+1]); a slot has eight rows, one
+  OwnerSchedule owner_schedule;                                        // owner schedule of intact joints
+  // Wrench rows, one per joint end. Group g of eight moving blocks owns slots [first_wrench_slot[g], first_wrench_slot[g+1]); a slot has eight rows, one
   // for each block. The rows of other blocks follow behind all slots. The last row is a spare one.
-  std::vector<int> first_slot;    // [groups + 1]
-  std::vector<int> first_row;     // first row of each other block [nblock + 1]
-  std::vector<int> row_a, row_b;  // wrench row of each end       [njoint]
+  std::vector<int> first_wrench_slot;    // [groups + 1]
+  std::vector<int> first_wrench_row;     // first row of each other block [nblock + 1]
+  std::vector<int> wrench_row_a, wrench_row_b;  // wrench row of each end       [njoint]
   // loads, resolved to block indices
-  struct Push {
+  struct ForceLoad {
     Wave wave;
     Vec3 direction;
     int block;
     Vec3 arm;
     bool moment;
   };  // arm: m, from the centroid to the point of the force, at rest
-  struct Drive {
+  struct PrescribedMotion {
     Wave wave;
     Vec3 direction;
     int block;
-    bool turns;
+    bool rotates;
     Vec3 arm;
   };  // arm: m, from the centre of rotation to the centroid, at rest
   struct Ground {
@@ -107,14 +107,14 @@ struct Model {
     Wave wave;
     Vec3 axis;
   };
-  std::vector<Push> pushes;
-  std::vector<Drive> drives;
+  std::vector<ForceLoad> force_loads;
+  std::vector<PrescribedMotion> prescribed_motions;
   std::vector<Ground> grounds;
   std::vector<Tilt> tilts;
   Vec3 gravity = Vec3::Zero();                                   // m/s2
   double dt_critical = std::numeric_limits<double>::infinity();  // s, 2 / omega_max at rest, joints in their stiffer form; infinite without
   double settlement = 0;                                         // m, estimated settlement of the top under self-weight (laws/interlock.h)
-  double dt_most = 0;                                            // s, longest step of a run, once contacts allow more than the joints did
+  double dt_max = 0;                                            // s, longest step of a run, once contacts allow more than the joints did
   Damping damping;
   bool dashpots = false;          // some intact joint has dashpots
   bool dashpots_cracked = false;  // some joint has them once cracked
@@ -125,16 +125,16 @@ struct Model {
   std::vector<std::string> warnings;
   std::vector<std::string> notes;  // details of a summary warning, for log.txt
 
-  int spare_row() const { return first_row.back(); }
+  int spare_wrench_row() const { return first_wrench_row.back(); }
   template <class F>
-  void each_row(int b, F&& f) const {
-    const std::size_t g = std::size_t(b / lanes);
-    for (int slot = first_slot[g]; kind[std::size_t(b)] == Kind::moving && slot < first_slot[g + 1]; ++slot) f(slot * lanes + b % lanes);
-    for (int row = first_row[std::size_t(b)]; row < first_row[std::size_t(b) + 1]; ++row) f(row);
+  void each_wrench_row(int b, F&& f) const {
+    const std::size_t g = std::size_t(b / pack_size);
+    for (int slot = first_wrench_slot[g]; kind[std::size_t(b)] == Kind::moving && slot < first_wrench_slot[g + 1]; ++slot) f(slot * pack_size + b % pack_size);
+    for (int row = first_wrench_row[std::size_t(b)]; row < first_wrench_row[std::size_t(b) + 1]; ++row) f(row);
   }
-  int keeper(int j) const {
+  int owner(int j) const {
     const Joint& one = joint[std::size_t(j)];
-    return one.kept_by_b ? one.b : one.a;
+    return one.owned_by_b ? one.b : one.a;
   }
   // "lower | upper" by block number; further joints of the same two blocks follow it as "lower | upper #2", ...
   std::string joint_name(int j) const {

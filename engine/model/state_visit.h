@@ -14,8 +14,8 @@ enum class Part { motion, history, carried };
 template <class S, class F>
 requires std::is_same_v<std::remove_const_t<S>, State>
 void each(S& state, F&& f) {
-  auto& [step, start_step, start_t, t, dt, last_dt, u, q, v, spin_momentum, w, base_u, base_q, row, shift, island, grounded, joined, unjoined, loose, batch, place, tier, memory, history,
-         crushed, wrench, kept, given, viscous, debris, parting, rest, dt_goal, calm, event_dt, joints_broken, energy, gravity_before, moment_before, max_penetration_relative, momentum_residual] = state;
+  auto& [step, start_step, start_t, t, dt, last_dt, u, q, v, spin_momentum, w, ref_u, ref_q, pose_row, increment, island, grounded, joined, unjoined, loose, pack, slot, stage, memory, history,
+         crushed, wrench, owner_sum, neighbour_force, viscous, contacts, separation, sleep, dt_target, steps_since_limited, event_dt, joints_broken, energy, gravity_before, moment_before, max_penetration_relative, momentum_residual] = state;
   f("step", step, Part::carried);
   f("start_step", start_step, Part::carried);
   f("start_t", start_t, Part::carried);
@@ -27,30 +27,30 @@ void each(S& state, F&& f) {
   f("v", v, Part::motion);
   f("spin_momentum", spin_momentum, Part::motion);
   f("w", w, Part::carried);
-  f("base_u", base_u, Part::carried);
-  f("base_q", base_q, Part::carried);
-  f("row", row, Part::carried);
-  f("shift", shift, Part::carried);
+  f("ref_u", ref_u, Part::carried);
+  f("ref_q", ref_q, Part::carried);
+  f("pose_row", pose_row, Part::carried);
+  f("increment", increment, Part::carried);
   f("island", island, Part::carried);
   f("grounded", grounded, Part::carried);
   f("joined", joined, Part::carried);
   f("unjoined", unjoined, Part::carried);
   f("loose", loose, Part::carried);
-  f("batch", batch, Part::carried);
-  f("place", place, Part::carried);
-  f("tier", tier, Part::history);
+  f("pack", pack, Part::carried);
+  f("slot", slot, Part::carried);
+  f("stage", stage, Part::history);
   f("memory", memory, Part::carried);
   f("history", history, Part::history);
   f("crushed", crushed, Part::history);
   f("wrench", wrench, Part::carried);
-  f("kept", kept, Part::carried);
-  f("given", given, Part::carried);
+  f("owner_sum", owner_sum, Part::carried);
+  f("neighbour_force", neighbour_force, Part::carried);
   f("viscous", viscous, Part::carried);
-  f("debris", debris, Part::history);
-  f("parting", parting, Part::carried);
-  f("rest", rest, Part::carried);
-  f("dt_goal", dt_goal, Part::carried);
-  f("calm", calm, Part::carried);
+  f("contacts", contacts, Part::history);
+  f("separation", separation, Part::carried);
+  f("sleep", sleep, Part::carried);
+  f("dt_target", dt_target, Part::carried);
+  f("steps_since_limited", steps_since_limited, Part::carried);
   f("event_dt", event_dt, Part::carried);
   f("joints_broken", joints_broken, Part::history);
   f("energy", energy, Part::carried);

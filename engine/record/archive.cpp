@@ -34,7 +34,7 @@ void ArchiveIn::get(void* data, std::size_t size) {
   left_ -= size;
 }
 
-void ArchiveIn::get_cold(void* zeros, std::size_t size) {
+void ArchiveIn::get_lazy(void* zeros, std::size_t size) {
   constexpr std::size_t page = 4096;
   char bytes[page];
   for (std::size_t at = 0; at < size; at += page) {

@@ -23,7 +23,7 @@ struct is_vector : std::false_type {};
 template <class T>
 struct is_vector<std::vector<T>> : std::true_type {};
 template <class T>
-struct is_vector<Cold<T>> : std::true_type {};
+struct is_vector<LazyArray<T>> : std::true_type {};
 template <class T>
 inline constexpr bool is_small_eigen = std::is_same_v<T, Vec3> || std::is_same_v<T, Quat> || std::is_same_v<T, Mat3> ||
                                        std::is_same_v<T, Vec6> || std::is_same_v<T, Eigen::Vector2d>;
@@ -106,9 +106,9 @@ class ArchiveIn {
 
  private:
   template <class T>
-  void vector(std::string_view name, Cold<T>& values) {
+  void vector(std::string_view name, LazyArray<T>& values) {
     values.clear(head(name, sizeof(T)));
-    get_cold(values.data(), values.size() * sizeof(T));
+    get_lazy(values.data(), values.size() * sizeof(T));
   }
   template <class T>
   void vector(std::string_view name, std::vector<T>& values) {
@@ -123,7 +123,7 @@ class ArchiveIn {
   std::size_t head(std::string_view name, std::uint64_t size);  // returns the count
   void expect_head(std::string_view name, std::uint64_t size, std::uint64_t count);
   void get(void* data, std::size_t size);
-  void get_cold(void* zeros, std::size_t size);  // writes only pages that hold a nonzero byte, so pages of zeros stay untouched
+  void get_lazy(void* zeros, std::size_t size);  // writes only pages that hold a nonzero byte, so pages of zeros stay untouched
   std::istream& in_;
   std::uint64_t left_;
   std::string file_;

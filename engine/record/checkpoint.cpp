@@ -20,7 +20,7 @@ struct Head {
   std::uint64_t format = 3;  // raised if the meaning of the bytes changes while their names and sizes do not
   std::uint64_t scene = 0;
   double dt = 0;
-  std::uint64_t departures = 0;
+  std::uint64_t override_arguments = 0;
   std::uint64_t size = 0;
 };
 static_assert(sizeof(Head) == 48, "no padding: its bytes are part of the checksum");
@@ -126,7 +126,7 @@ void commit_checkpoint(const std::string& dir, const CheckpointKey& key, const s
   Head head;
   head.scene = key.scene;
   head.dt = key.dt;
-  head.departures = key.departures;
+  head.override_arguments = key.override_arguments;
   ArchiveOut counted([&](std::string_view bytes) { head.size += bytes.size(); });
   parts(counted);
   const std::string path = path_of(dir), beside = path + ".tmp";
@@ -182,7 +182,7 @@ CheckpointBytes open_checkpoint(const std::string& dir, const CheckpointKey& key
         "belongs to another scene: the script, a file it reads or a parameter (-D) has changed; resume with those of the run "
         "(scene.lua and manifest.json beside it), or start anew with --force",
         place);
-  if (head.departures != key.departures)
+  if (head.override_arguments != key.override_arguments)
     throw Error("was written by a run with other options (--set, --without, --points, ...); resume with those of the run, which stand in "
                 "manifest.json (\"departures\"), or start anew with --force",
                 place);

@@ -16,7 +16,7 @@ namespace erbs {
 struct CheckpointKey {
   std::uint64_t scene = 0;  // scene_hash
   double dt = 0;            // s, chosen at the start of the run
-  std::uint64_t departures = 0;  // hash of the command-line overrides of the scene
+  std::uint64_t override_arguments = 0;  // hash of the command-line overrides of the scene
 };
 
 // Hash of the script, the files it reads, the parameters, and every property of the blocks.

@@ -13,7 +13,7 @@
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/base/text.h"
-#include "engine/base/words.h"
+#include "engine/base/spelling.h"
 
 namespace erbs {
 namespace {

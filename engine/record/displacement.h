@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/record/joint_look.h"
+#include "engine/record/joint_condition.h"
 #include "engine/record/recorder.h"
 
 namespace erbs {
@@ -23,14 +23,14 @@ struct BlockMotion {
             {"spin", "angular velocity, mean over the blocks (rad/s)"}};
   }
 
-  explicit BlockMotion(const Ask& ask)
-      : what(What(quantity_index(quantities(), ask.recorder.quantity))),
-        blocks(ask.blocks),
-        name(ask.recorder.name),
-        axis(ask.recorder.axis),
-        absolute(ask.recorder.frame == "abs"),
-        has_point(ask.recorder.has_point),
-        point(ask.recorder.point) {}
+  explicit BlockMotion(const RecorderRequest& request)
+      : what(What(quantity_index(quantities(), request.recorder.quantity))),
+        blocks(request.blocks),
+        name(request.recorder.name),
+        axis(request.recorder.axis),
+        absolute(request.recorder.frame == "abs"),
+        has_point(request.recorder.has_point),
+        point(request.recorder.point) {}
 
   std::vector<std::string> columns() const {
     const std::string frame = absolute ? "abs" : "rel";
@@ -60,11 +60,11 @@ struct BlockMotion {
  private:
   Vec3 of_block(const Snapshot& s, std::size_t b) const {
     const Vec3 rest_arm = has_point ? Vec3(point - s.model.rest[b]) : Vec3(Vec3::Zero());
-    const Vec3 turned = turn_minus(s.state.q[b], rest_arm), arm = rest_arm + turned;
+    const Vec3 rotated = rotation_change(s.state.q[b], rest_arm), arm = rest_arm + rotated;
     const MovingBlock m = what == What::displacement || what == What::rotation ? MovingBlock{} : s.motion(b);
     switch (what) {
       case What::displacement:
-        return s.state.u[b] + turned + (absolute ? s.ground_u : Vec3(Vec3::Zero()));
+        return s.state.u[b] + rotated + (absolute ? s.ground_u : Vec3(Vec3::Zero()));
       case What::velocity:
         return m.v + m.w.cross(arm) + (absolute ? s.ground_v : Vec3(Vec3::Zero()));
       case What::acceleration:

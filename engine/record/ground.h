@@ -17,8 +17,8 @@ struct GroundMotion {
             {"ground_displacement", "displacement of the ground (m)"}};
   }
 
-  explicit GroundMotion(const Ask& ask)
-      : what(What(quantity_index(quantities(), ask.recorder.quantity))), name(ask.recorder.name), axis(ask.recorder.axis) {}
+  explicit GroundMotion(const RecorderRequest& request)
+      : what(What(quantity_index(quantities(), request.recorder.quantity))), name(request.recorder.name), axis(request.recorder.axis) {}
 
   std::vector<std::string> columns() const {
     switch (what) {
@@ -45,7 +45,7 @@ struct Count {
     return {{"contact_points", "points in contact, in the whole model"}, {"joints_broken", "joints broken, in the whole model"}};
   }
 
-  explicit Count(const Ask& ask) : what(What(quantity_index(quantities(), ask.recorder.quantity))), name(ask.recorder.name) {}
+  explicit Count(const RecorderRequest& request) : what(What(quantity_index(quantities(), request.recorder.quantity))), name(request.recorder.name) {}
 
   std::vector<std::string> columns() const { return {name + (what == What::contact_points ? "_contact_points" : "_joints_broken")}; }
   void needs(Needs&) const {}

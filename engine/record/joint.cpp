@@ -2,25 +2,25 @@
 
 namespace erbs {
 
-JointQuantity::JointQuantity(const Ask& ask)
-    : what(What(quantity_index(quantities(), ask.recorder.quantity))),
-      name(ask.recorder.name),
-      axis(ask.recorder.axis),
+JointQuantity::JointQuantity(const RecorderRequest& request)
+    : what(What(quantity_index(quantities(), request.recorder.quantity))),
+      name(request.recorder.name),
+      axis(request.recorder.axis),
       centre(Vec3::Zero()) {
   const auto in = [](const std::vector<int>& set, int b) { return set.empty() || std::find(set.begin(), set.end(), b) != set.end(); };
   double area = 0;
-  for (int j = 0; j < ask.model.njoint; ++j) {
-    const Joint& joint = ask.model.joint[std::size_t(j)];
-    const bool forth = in(ask.blocks, joint.a) && in(ask.others, joint.b), back = in(ask.blocks, joint.b) && in(ask.others, joint.a);
+  for (int j = 0; j < request.model.njoint; ++j) {
+    const Joint& joint = request.model.joint[std::size_t(j)];
+    const bool forth = in(request.blocks, joint.a) && in(request.others, joint.b), back = in(request.blocks, joint.b) && in(request.others, joint.a);
     if (!forth && !back) continue;
     joints.push_back(j);
     sign.push_back(forth ? 1.0 : -1.0);
-    centre += joint.type->area * (ask.model.rest[std::size_t(joint.a)] + joint.arm_a);
+    centre += joint.type->area * (request.model.rest[std::size_t(joint.a)] + joint.arm_a);
     area += joint.type->area;
   }
   if (joints.empty())
     throw Error(fmt::format("recorder \"{}\": no joint between the blocks it names; check `blocks` and `between`", name),
-                ask.recorder.place);
+                request.recorder.place);
   if (area > 0) centre /= area;
 }
 
@@ -32,10 +32,10 @@ void JointQuantity::sample(const Snapshot& s, double* out) const {
     const Joint& joint = s.model.joint[std::size_t(j)];
     switch (what) {
       case What::opening:
-        largest = std::max(largest, look_at_joint(s.model, s.state, j).opening);
+        largest = std::max(largest, joint_condition(s.model, s.state, j).opening);
         break;
       case What::slip:
-        largest = std::max(largest, look_at_joint(s.model, s.state, j).slip);
+        largest = std::max(largest, joint_condition(s.model, s.state, j).slip);
         break;
       case What::damage:
         damaged += joint.type->area * joint_damage(s.model, s.state, j);
@@ -54,7 +54,7 @@ void JointQuantity::sample(const Snapshot& s, double* out) const {
         const Vec3 force = frame * Vec3(f[0], f[1], f[2]);
         // The force acts midway between the two material points that coincided at rest (joint_geometry.h).
         const Vec3 at = s.model.rest[a] + joint.arm_a +
-                        0.5 * (s.state.u[a] + s.state.u[b] + turn_minus(s.state.q[a], joint.arm_a) + turn_minus(s.state.q[b], joint.arm_b));
+                        0.5 * (s.state.u[a] + s.state.u[b] + rotation_change(s.state.q[a], joint.arm_a) + rotation_change(s.state.q[b], joint.arm_b));
         normal += f[2];
         along += sign[i] * (force - frame.col(2) * f[2]);
         moment += sign[i] * (frame * Vec3(f[3], f[4], f[5]) + Vec3(at - centre).cross(force));

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/record/joint_look.h"
+#include "engine/record/joint_condition.h"
 #include "engine/record/recorder.h"
 
 namespace erbs {
@@ -27,7 +27,7 @@ struct JointQuantity {
             {"broken", "number of joints with no bond left"}};
   }
 
-  explicit JointQuantity(const Ask& ask);
+  explicit JointQuantity(const RecorderRequest& request);
 
   std::vector<std::string> columns() const {
     switch (what) {

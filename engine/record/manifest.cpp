@@ -86,7 +86,7 @@ Json json_of_manifest(const Manifest& m) {
     j["params"].push_back({{"name", p.name}, {"value", p.value}, {"default", p.fallback}, {"unit", p.unit}, {"text", p.text}});
   j["inputs"] = m.inputs;
   j["effects"] = {{"on", m.effects_on}, {"off", m.effects_off}};
-  j["departures"] = m.departures;
+  j["departures"] = m.override_arguments;
   j["dt_s"] = m.dt;
   j["dt_rule"] = m.dt_rule;
   j["dt_critical_s"] = m.dt_critical;
@@ -128,7 +128,7 @@ Manifest manifest_of_json(const Json& j) {
   m.inputs = j.at("inputs").get<std::map<std::string, std::string>>();
   m.effects_on = j.at("effects").at("on").get<std::vector<std::string>>();
   m.effects_off = j.at("effects").at("off").get<std::vector<std::string>>();
-  if (j.contains("departures")) m.departures = j["departures"].get<std::vector<std::string>>();
+  if (j.contains("departures")) m.override_arguments = j["departures"].get<std::vector<std::string>>();
   m.dt = number(j.at("dt_s")), m.dt_rule = j.at("dt_rule");
   m.dt_critical = number(j.at("dt_critical_s")), m.dt_block_bound = number(j.at("dt_block_bound_s"));
   m.duration = number(j.at("duration_s")), m.output_dt = number(j.at("output_dt_s")), m.frame_dt = number(j.at("frame_dt_s"));

@@ -5,7 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/units.h"
-#include "engine/record/joint_look.h"
+#include "engine/record/joint_condition.h"
 
 namespace erbs {
 namespace {
@@ -13,7 +13,7 @@ namespace {
 constexpr double share_of_most = 0.1, share_of_size = 1e-3;
 
 // Movement of one joint. A joint without corners keeps a zero movement.
-MovedJoint look(const Model& model, const State& state, int j) {
+MovedJoint moved_joint(const Model& model, const State& state, int j) {
   const Joint& joint = model.joint[std::size_t(j)];
   const auto a = std::size_t(joint.a), b = std::size_t(joint.b);
   const Mat3 frame = joint_frame(model, state, j);
@@ -21,10 +21,10 @@ MovedJoint look(const Model& model, const State& state, int j) {
   moved.joint = j;
   std::vector<Vec3> gap, place;
   for (int i = joint.type->first_corner; i < joint.type->first_corner + joint.type->corners; ++i) {
-    const Eigen::Vector2d& c = model.corner[std::size_t(i)];
+    const Eigen::Vector2d& c = model.overlap_corner[std::size_t(i)];
     const Vec3 across = joint.type->frame.col(0) * c.x() + joint.type->frame.col(1) * c.y();
     gap.push_back(frame.transpose() *
-                  (state.u[b] - state.u[a] + turn_minus(state.q[b], joint.arm_b + across) - turn_minus(state.q[a], joint.arm_a + across)));
+                  (state.u[b] - state.u[a] + rotation_change(state.q[b], joint.arm_b + across) - rotation_change(state.q[a], joint.arm_a + across)));
     place.push_back(model.rest[a] + joint.arm_a + across);
   }
   if (gap.empty()) return moved;
@@ -79,7 +79,7 @@ Mechanism mechanism_of(const Model& model, const State& state, double t) {
   out.time = t;
   double most = 0;
   for (int j = 0; j < model.njoint; ++j) {
-    MovedJoint moved = look(model, state, j);
+    MovedJoint moved = moved_joint(model, state, j);
     if (movement(moved) <= share_of_size * 2 * model.joint[std::size_t(j)].type->radius) continue;
     most = std::max(most, movement(moved));
     out.moved.push_back(moved);

@@ -100,19 +100,19 @@ Json to_json(const Metrics& m) {
   collapse["time_s"] = m.collapse.time_s ? Json(*m.collapse.time_s) : Json();
   collapse["direction"] = m.collapse.direction ? Json(*m.collapse.direction) : Json();
   collapse["fallen_fraction"] = m.collapse.fallen_fraction;
-  json["trust"] = {{"energy_residual", m.trust.energy_residual},
-                   {"energy_residual_time_s", m.trust.energy_residual_time},
-                   {"energy_residual_where", m.trust.energy_residual_where},
-                   {"max_penetration_relative", m.trust.penetration},
-                   {"dt_margin", m.trust.dt_margin},
-                   {"reset_share", m.trust.reset_share},
-                   {"warned_share", m.trust.warned_share},
-                   {"past_gate_share", m.trust.past_gate_share},
-                   {"past_step_share", m.trust.past_step_share},
-                   {"sinking_share", m.trust.sinking_share},
-                   {"momentum_residual", m.trust.momentum_residual},
-                   {"twin", m.trust.twin},
-                   {"chaos_horizon_s", m.trust.chaos_horizon ? Json(*m.trust.chaos_horizon) : Json()}};
+  json["trust"] = {{"energy_residual", m.diagnostics.energy_residual},
+                   {"energy_residual_time_s", m.diagnostics.energy_residual_time},
+                   {"energy_residual_where", m.diagnostics.energy_residual_where},
+                   {"max_penetration_relative", m.diagnostics.penetration},
+                   {"dt_margin", m.diagnostics.dt_margin},
+                   {"reset_share", m.diagnostics.reset_share},
+                   {"warned_share", m.diagnostics.warned_share},
+                   {"past_gate_share", m.diagnostics.past_tolerance_share},
+                   {"past_step_share", m.diagnostics.past_step_share},
+                   {"sinking_share", m.diagnostics.sinking_share},
+                   {"momentum_residual", m.diagnostics.momentum_residual},
+                   {"twin", m.diagnostics.twin},
+                   {"chaos_horizon_s", m.diagnostics.chaos_horizon ? Json(*m.diagnostics.chaos_horizon) : Json()}};
   collapse["moved"] = m.collapse.moved;
   const auto& mechanism = m.collapse.mechanism;
   collapse["mechanism"] = {{"time_s", mechanism.time_s ? Json(*mechanism.time_s) : Json()},
@@ -127,8 +127,8 @@ Json to_json(const Metrics& m) {
   return json;
 }
 
-Metrics::Trust trust_of(const Json& metrics) {
-  Metrics::Trust t;
+Metrics::Diagnostics diagnostics_of(const Json& metrics) {
+  Metrics::Diagnostics t;
   const auto number = [&](const char* key) {
     const Json* value = find_key(metrics, key);
     return value != nullptr && value->is_number() ? value->get<double>() : 0.0;
@@ -140,7 +140,7 @@ Metrics::Trust trust_of(const Json& metrics) {
   t.dt_margin = number("trust.dt_margin");
   t.reset_share = number("trust.reset_share");
   t.warned_share = number("trust.warned_share");
-  t.past_gate_share = number("trust.past_gate_share");
+  t.past_tolerance_share = number("trust.past_gate_share");
   t.past_step_share = number("trust.past_step_share");
   t.sinking_share = number("trust.sinking_share");
   t.momentum_residual = number("trust.momentum_residual");

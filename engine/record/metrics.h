@@ -49,19 +49,19 @@ struct Metrics {
       Json joints = Json::array();  // { joint, kind, opening_m, slip_m, gap_m, rotation_rad, at_m }
     } mechanism;
   } collapse;
-  // Diagnostics: how far the run is to be trusted (analysis/trust.h).
-  struct Trust {
+  // Diagnostics: how far the run is to be trusted (analysis/diagnostics.h).
+  struct Diagnostics {
     double energy_residual = 0, energy_residual_time = 0;  // worst relative residual of the energy ledger, and its time (s)
     std::string energy_residual_where;                     // joint whose energy balance jumped most up to then; "" for none
     double penetration = 0;                                // largest relative penetration: depth over smallest edge
     double dt_margin = 0;                                  // largest ratio of a time step to the limit in force
     double reset_share = 0;                                // share of all energy passed that release to contact wrote off
     double warned_share = 0;                               // share of steps with any of the three warnings below
-    double past_gate_share = 0, past_step_share = 0, sinking_share = 0;
+    double past_tolerance_share = 0, past_step_share = 0, sinking_share = 0;
     double momentum_residual = 0;
     bool twin = false;                    // a twin run was made
     std::optional<double> chaos_horizon;  // s; none: the twins stay together to the end
-  } trust;
+  } diagnostics;
   std::string state_hash;
   int expectations_passed = 0, expectations_failed = 0;
   std::vector<std::pair<std::string, double>> metrics;  // of the scene, in its order
@@ -74,7 +74,7 @@ Metrics::Collapse::Mechanism mechanism_metrics(const Mechanism& mechanism, const
 
 Json to_json(const Metrics& metrics);
 std::vector<std::string> metric_keys();        // every dotted key of metrics.json except the scene's own metrics: "collapse.time_s"
-Metrics::Trust trust_of(const Json& metrics);  // reads the diagnostics from metrics.json
+Metrics::Diagnostics diagnostics_of(const Json& metrics);  // reads the diagnostics from metrics.json
 void write_metrics(const std::string& dir, const Metrics& metrics);  // DIR/metrics.json, atomically
 Json read_metrics(const std::string& dir);
 

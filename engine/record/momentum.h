@@ -19,15 +19,15 @@ struct Momentum {
             {"angular_momentum", "angular momentum about the point, or the origin, world axes, summed likewise (kg m2/s)"}};
   }
 
-  explicit Momentum(const Ask& ask)
-      : what(What(quantity_index(quantities(), ask.recorder.quantity))),
-        blocks(ask.blocks),
-        name(ask.recorder.name),
-        axis(ask.recorder.axis),
-        point(ask.recorder.point) {
+  explicit Momentum(const RecorderRequest& request)
+      : what(What(quantity_index(quantities(), request.recorder.quantity))),
+        blocks(request.blocks),
+        name(request.recorder.name),
+        axis(request.recorder.axis),
+        point(request.recorder.point) {
     if (!blocks.empty()) return;
-    for (int b = 0; b < ask.model.nblock; ++b)
-      if (ask.model.kind[std::size_t(b)] == Kind::moving) blocks.push_back(b);
+    for (int b = 0; b < request.model.nblock; ++b)
+      if (request.model.kind[std::size_t(b)] == Kind::moving) blocks.push_back(b);
   }
 
   std::vector<std::string> columns() const {

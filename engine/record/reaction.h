@@ -23,15 +23,15 @@ struct Reaction {
             {"load_moment", "its moment about the point, or the origin (N m)"}};
   }
 
-  explicit Reaction(const Ask& ask)
-      : what(What(quantity_index(quantities(), ask.recorder.quantity))),
-        blocks(ask.blocks),
-        name(ask.recorder.name),
-        axis(ask.recorder.axis),
-        point(ask.recorder.point) {
+  explicit Reaction(const RecorderRequest& request)
+      : what(What(quantity_index(quantities(), request.recorder.quantity))),
+        blocks(request.blocks),
+        name(request.recorder.name),
+        axis(request.recorder.axis),
+        point(request.recorder.point) {
     if (!blocks.empty()) return;
-    for (int b = 0; b < ask.model.nblock; ++b)
-      if ((ask.model.kind[std::size_t(b)] != Kind::moving) != of_load()) blocks.push_back(b);
+    for (int b = 0; b < request.model.nblock; ++b)
+      if ((request.model.kind[std::size_t(b)] != Kind::moving) != of_load()) blocks.push_back(b);
   }
 
   std::vector<std::string> columns() const {

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "engine/base/text.h"
-#include "engine/base/words.h"
+#include "engine/base/spelling.h"
 #include "engine/record/recorders.h"
 
 namespace erbs {
@@ -108,12 +108,12 @@ Recorders::Recorders(const Scene& scene, const Model& model) : kinds_(std::make_
   wanted.insert(wanted.end(), scene.recorders.begin(), scene.recorders.end());
   std::set<std::string> taken{"time_s"};
   for (const Recorder& recorder : wanted) {
-    const Ask ask{recorder, model, numbers_of(recorder.blocks, number), numbers_of(recorder.others, number)};
+    const RecorderRequest request{recorder, model, numbers_of(recorder.blocks, number), numbers_of(recorder.others, number)};
     each_kind(the_list, [&](auto* kind) {
       using K = std::decay_t<decltype(*kind)>;
       if (quantity_index(K::quantities(), recorder.quantity) < 0) return;
       try {
-        kinds_->list.emplace_back(K(ask));
+        kinds_->list.emplace_back(K(request));
       } catch (const Error& mistake) {
         mistakes.push_back(mistake.what());
         return;

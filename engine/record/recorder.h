@@ -20,7 +20,7 @@ struct Quantity {
 };
 
 // A recorder requested by a script, with block numbers in place of names.
-struct Ask {
+struct RecorderRequest {
   const Recorder& recorder;
   const Model& model;
   std::vector<int> blocks, others;  // block numbers

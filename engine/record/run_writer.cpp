@@ -45,7 +45,7 @@ MotionJoint joint_of(const Scene& scene, const Model& model, const Joint& joint)
     drawn.thickness = scene.joint_rules[std::size_t(joint.type->rule)].thickness;
   drawn.polygon.reserve(std::size_t(joint.type->corners));
   for (int i = joint.type->first_corner; i < joint.type->first_corner + joint.type->corners; ++i) {
-    const Eigen::Vector2d& corner = model.corner[std::size_t(i)];
+    const Eigen::Vector2d& corner = model.overlap_corner[std::size_t(i)];
     drawn.polygon.push_back(joint.arm_a + joint.type->frame.col(0) * corner.x() + joint.type->frame.col(1) * corner.y());
   }
   return drawn;
@@ -109,10 +109,10 @@ void RunWriter::frame(const Snapshot& snapshot) {
     for (const double value : {centre.x(), centre.y(), centre.z(), q.w(), q.x(), q.y(), q.z()}) *pose++ = float(value);
   }
   for (int j = 0; j < model.njoint; ++j) {
-    const JointLook look = look_at_joint(model, state, j);
+    const JointCondition condition = joint_condition(model, state, j);
     // Rounded up: a joint with any damage is not drawn as intact.
-    frame_.damage[std::size_t(j)] = std::uint8_t(std::ceil(255 * std::clamp(look.damage, 0.0, 1.0)));
-    frame_.opening[std::size_t(j)] = float(look.opening);
+    frame_.damage[std::size_t(j)] = std::uint8_t(std::ceil(255 * std::clamp(condition.damage, 0.0, 1.0)));
+    frame_.opening[std::size_t(j)] = float(condition.opening);
   }
   motion_.write(frame_);
 }

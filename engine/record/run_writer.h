@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "engine/record/csv.h"
-#include "engine/record/joint_look.h"
+#include "engine/record/joint_condition.h"
 #include "engine/record/motion_file.h"
 #include "engine/record/recorder.h"
 #include "engine/record/snapshot.h"

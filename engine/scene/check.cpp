@@ -4,7 +4,7 @@
 #include <set>
 #include <unordered_map>
 
-#include "engine/base/words.h"
+#include "engine/base/spelling.h"
 #include "engine/laws/point_law.h"
 #include "engine/scene/scene.h"
 

@@ -18,9 +18,9 @@ constexpr double safe_share = 0.9;  // of the bound of a block, for joints and f
 // .7 leaves a margin of a sixth.
 constexpr double contact_share = 0.7;
 // Share of the bound of a face that strikes: an impact begins anywhere within a step and so errs by up to (omega dt)^2 / 4 of its energy.
-constexpr double landing_share = 0.5;
-constexpr int count_every = 256;  // steps between two updates while the step could be longer, ...
-constexpr int count_soon = 32;    // ... and before the step becomes shorter
+constexpr double impact_share = 0.5;
+constexpr int update_every = 256;  // steps between two updates while the step could be longer, ...
+constexpr int update_soon = 32;    // ... and before the step becomes shorter
 constexpr int joints_every = 8;   // updates between two trials of the bound by blocks
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -30,48 +30,48 @@ double inverse_square(double on_a_block, double share) { return on_a_block * (1 
 }  // namespace
 
 // 1 / dt^2 of the joints, at the share of the bound that the run requested, at least 0.9.
-double ContactLimit::sound() const {
-  const double share = std::clamp(state_.dt_goal / model_.dt_critical, safe_share, 1.0) * model_.dt_critical;
+double ContactLimit::intact() const {
+  const double share = std::clamp(state_.dt_target / model_.dt_critical, safe_share, 1.0) * model_.dt_critical;
   return 1 / (share * share);
 }
 
 bool ContactLimit::due(double allowed) const {
-  const PairList& list = state_.debris;
-  if (list.pair.empty() || allowed >= model_.dt_most) return false;
-  return state_.step - list.counted_at >= (allowed < state_.dt ? count_soon : count_every);
+  const PairList& list = state_.contacts;
+  if (list.pair.empty() || allowed >= model_.dt_max) return false;
+  return state_.step - list.bound_updated_at >= (allowed < state_.dt ? update_soon : update_every);
 }
 
-void ContactLimit::count(const ContactShapes& shapes, std::span<const ContactBlock> blocks, const std::vector<double>& scalars,
+void ContactLimit::update_bound(const ContactShapes& shapes, std::span<const ContactBlock> blocks, const std::vector<double>& scalars,
                          OverlapRoom& room) {
-  PairList& list = state_.debris;
+  PairList& list = state_.contacts;
   std::vector<Mat6> k(blocks.size(), Mat6::Zero());
-  for (Pair& p : list.pair) {
+  for (ContactPair& p : list.pair) {
     PatchStiffness patch;
-    if (!p.touching || p.bed || !patch_stiffness(p, shapes, blocks[z(p.a)], blocks[z(p.b)], room, patch)) continue;
+    if (!p.touching || p.former_joint || !patch_stiffness(p, shapes, blocks[z(p.a)], blocks[z(p.b)], room, patch)) continue;
     k[z(p.a)] += patch.on_a;
     k[z(p.b)] += patch.on_b;
   }
-  list.counted = sound();
-  list.counted_of = by_matrices(blocks, k);
+  list.bound_at_last_update = intact();
+  list.block_bounds = by_matrices(blocks, k);
   for (std::size_t b = 0; b < scalars.size(); ++b)
-    list.counted_of[b] = std::min(list.counted_of[b], inverse_square(scalars[b], safe_share));
-  if (list.counts % joints_every == 0 || list.by_blocks) {
+    list.block_bounds[b] = std::min(list.block_bounds[b], inverse_square(scalars[b], safe_share));
+  if (list.bound_updates % joints_every == 0 || list.by_blocks) {
     add_joints(k);
     std::vector<double> of = by_matrices(blocks, k);
-    list.by_blocks = *std::ranges::max_element(of) < list.counted + *std::ranges::max_element(list.counted_of);
-    if (list.by_blocks) list.counted = 0, list.counted_of = std::move(of);
+    list.by_blocks = *std::ranges::max_element(of) < list.bound_at_last_update + *std::ranges::max_element(list.block_bounds);
+    if (list.by_blocks) list.bound_at_last_update = 0, list.block_bounds = std::move(of);
   }
-  ++list.counts;
-  list.counted_at = state_.step;
+  ++list.bound_updates;
+  list.bound_updated_at = state_.step;
 }
 
 // Adds remaining joints and former joints with the greatest stiffness that they may reach, and with their dashpots (`stiffness.cpp`).
 void ContactLimit::add_joints(std::span<Mat6> to) const {
   for (int j = 0; j < model_.njoint; ++j) {
     const Joint& joint = model_.joint[z(j)];
-    if (state_.tier[z(j)] == Tier::open) {
-      const int pair = find_pair(state_.debris, joint.a, joint.part_a, joint.b, joint.part_b);
-      if (pair < 0 || !state_.debris.pair[z(pair)].bed) continue;
+    if (state_.stage[z(j)] == JointStage::contact) {
+      const int pair = find_pair(state_.contacts, joint.a, joint.part_a, joint.b, joint.part_b);
+      if (pair < 0 || !state_.contacts.pair[z(pair)].former_joint) continue;
     }
     const JointMap map = joint_map(model_, state_, j);
     constexpr double other_share = contact_share * contact_share / (safe_share * safe_share);
@@ -90,13 +90,13 @@ std::vector<double> ContactLimit::by_matrices(std::span<const ContactBlock> bloc
     if (model_.kind[z(b)] != Kind::moving || k(0, 0) + k(1, 1) + k(2, 2) == 0) continue;
     const ContactBlock& block = blocks[z(b)];
     // the trace of root^T k root, an upper bound
-    const Mat3 tensor = block.turn * block.inverse_tensor * block.turn.transpose();
+    const Mat3 tensor = block.rotation * block.inverse_tensor * block.rotation.transpose();
     double largest = block.inverse_mass * (k(0, 0) + k(1, 1) + k(2, 2)) + (tensor.array() * k.bottomRightCorner<3, 3>().array()).sum();
     out[z(b)] = inverse_square(largest, contact_share);
     if (!(largest > 0.5 * most)) continue;
     Mat6 root = Mat6::Zero();  // root root^T = M^-1
     root.topLeftCorner<3, 3>() = std::sqrt(block.inverse_mass) * Mat3::Identity();
-    root.bottomRightCorner<3, 3>() = block.turn * Mat3(block.inverse_tensor.llt().matrixL());
+    root.bottomRightCorner<3, 3>() = block.rotation * Mat3(block.inverse_tensor.llt().matrixL());
     const Mat6 scaled = root.transpose() * k * root;
     largest = Eigen::SelfAdjointEigenSolver<Mat6>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[5];
     most = std::max(most, largest);
@@ -105,24 +105,24 @@ std::vector<double> ContactLimit::by_matrices(std::span<const ContactBlock> bloc
   return out;
 }
 
-double ContactLimit::on_block(int b, double rate, double landing) const {
-  const PairList& list = state_.debris;
-  return (list.counts > 0 ? list.counted_of[z(b)] : 0) + inverse_square(rate, safe_share) + inverse_square(landing, landing_share);
+double ContactLimit::on_block(int b, double omega2, double impact_omega2) const {
+  const PairList& list = state_.contacts;
+  return (list.bound_updates > 0 ? list.block_bounds[z(b)] : 0) + inverse_square(omega2, safe_share) + inverse_square(impact_omega2, impact_share);
 }
 
-double ContactLimit::on_most(std::span<const int> blocks, std::span<const double> rate, std::span<const double> landing) const {
+double ContactLimit::on_most(std::span<const int> blocks, std::span<const double> omega2, std::span<const double> impact_omega2) const {
   double most = 0;
   for (const int b : blocks)
-    if (model_.kind[z(b)] == Kind::moving) most = std::max(most, on_block(b, rate[z(b)], landing[z(b)]));
+    if (model_.kind[z(b)] == Kind::moving) most = std::max(most, on_block(b, omega2[z(b)], impact_omega2[z(b)]));
   return most;
 }
 
 double ContactLimit::allowed(double most) const {
-  const PairList& list = state_.debris;
-  const double bound = 1 / std::sqrt((list.counts > 0 ? list.counted : sound()) + most);
+  const PairList& list = state_.contacts;
+  const double bound = 1 / std::sqrt((list.bound_updates > 0 ? list.bound_at_last_update : intact()) + most);
   // Beyond the step that the run requested, its requested share of the limit still applies.
-  const double share = std::isfinite(model_.dt_critical) ? std::min(1.0, state_.dt_goal / model_.dt_critical / safe_share) : 1.0;
-  return std::max(std::min(state_.dt_goal, bound), std::min(model_.dt_most, share * bound));
+  const double share = std::isfinite(model_.dt_critical) ? std::min(1.0, state_.dt_target / model_.dt_critical / safe_share) : 1.0;
+  return std::max(std::min(state_.dt_target, bound), std::min(model_.dt_max, share * bound));
 }
 
 }  // namespace erbs

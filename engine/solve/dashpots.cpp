@@ -39,20 +39,20 @@ void add_dashpots(const Model& m, State& s, int j, const Mat3& frame, const Vec3
   book_dashpots(s, j, f, dq, sums);
 }
 
-void add_dashpots(const Model& m, State& s, int k, const JointBatch& B, JointLanes& o, JointSums& sums) {
-  for (int l = 0; l < lanes && k * lanes + l < m.njoint; ++l) {
-    const int j = k * lanes + l;
-    if (s.place[z(j)] != j || s.tier[z(j)] != Tier::intact) continue;
-    const Vec3 th(o.th[0][l], o.th[1][l], o.th[2][l]), arm_a(o.arm_a[0][l], o.arm_a[1][l], o.arm_a[2][l]),
+void add_dashpots(const Model& m, State& s, int k, const JointPack& B, ElasticPack& o, JointSums& sums) {
+  for (int l = 0; l < pack_size && k * pack_size + l < m.njoint; ++l) {
+    const int j = k * pack_size + l;
+    if (s.slot[z(j)] != j || s.stage[z(j)] != JointStage::intact) continue;
+    const Vec3 theta(o.theta[0][l], o.theta[1][l], o.theta[2][l]), arm_a(o.arm_a[0][l], o.arm_a[1][l], o.arm_a[2][l]),
         arm_b(o.arm_b[0][l], o.arm_b[1][l], o.arm_b[2][l]);
-    const auto turned = [&](const Vec3& x) { return Vec3(x + th.cross(x)); };
+    const auto to_world = [&](const Vec3& x) { return Vec3(x + theta.cross(x)); };
     Mat3 frame;
     for (int axis = 0; axis < 3; ++axis)
-      frame.col(axis) = turned(Vec3(B.frame[3 * axis][l], B.frame[3 * axis + 1][l], B.frame[3 * axis + 2][l]));
+      frame.col(axis) = to_world(Vec3(B.frame[3 * axis][l], B.frame[3 * axis + 1][l], B.frame[3 * axis + 2][l]));
     double f[6];
-    for (int i = 0; i < 6; ++i) f[i] = o.f[i][l];
+    for (int i = 0; i < 6; ++i) f[i] = o.resultant[i][l];
     add_dashpots(m, s, j, frame, arm_a, arm_b, f, sums);
-    for (int i = 0; i < 6; ++i) o.f[i][l] = f[i];
+    for (int i = 0; i < 6; ++i) o.resultant[i][l] = f[i];
   }
 }
 

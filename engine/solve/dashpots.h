@@ -6,8 +6,8 @@
 
 namespace erbs {
 
-// Adds the dashpots of the intact joints in pack k, `batch`, to their resultants.
-void add_dashpots(const Model& model, State& state, int k, const JointBatch& batch, JointLanes& io, JointSums& sums);
+// Adds the dashpots of the intact joints in pack k, `pack`, to their resultants.
+void add_dashpots(const Model& model, State& state, int k, const JointPack& pack, ElasticPack& io, JointSums& sums);
 
 // The same for one intact joint with its present frame and arms (world axes). `force` is its resultant. A dashpot never pulls a dry joint,
 // and no joint is sheared beyond its strength.

@@ -29,7 +29,7 @@ struct LoadedBlock {
 struct BlockSums {
   BlockWork work{};
   double external_work = 0, external_after = 0, external_absolute = 0, external_absolute_after = 0;  // J
-  bool stale = false;   // a block with joints rotated beyond the tolerance since its reference pose
+  bool outdated = false;   // a block with joints rotated beyond the tolerance since its reference pose
   bool broken = false;  // a number is not finite
 };
 
@@ -39,13 +39,13 @@ inline constexpr int block_grain = 4;  // groups of eight blocks per chunk
 std::vector<BlockConstants> block_constants(const Model& model, const State& state);
 // Call when a joint of block b is no longer intact: the group of b then sums wrench rows. Writes the pose rows of the group too, since this
 // step may have skipped them.
-void go_by_rows(const Model& model, State& state, int b, std::vector<BlockConstants>& constants);
-// Sets the limit of rotation of blocks with intact joints. Other blocks rotate freely and their `State::shift` may be out of date.
-void let_turn(const Model& model, const State& state, std::vector<BlockConstants>& constants);
+void use_wrench_rows(const Model& model, State& state, int b, std::vector<BlockConstants>& constants);
+// Sets the limit of rotation of blocks with intact joints. Other blocks rotate freely and their `State::increment` may be out of date.
+void set_rotation_limits(const Model& model, const State& state, std::vector<BlockConstants>& constants);
 
 // Forces on blocks besides their joints, as rows of eight doubles (force, moment). `contacts`: contact wrenches. `loads`: external loads,
 // with their work booked as external. Null means none. `loaded`: the blocks with external loads, in ascending order.
-struct Pushes {
+struct ExternalForces {
   const double *contacts = nullptr, *loads = nullptr;
   std::span<LoadedBlock> loaded = {};
 };
@@ -53,17 +53,17 @@ struct Pushes {
 // Integrates groups of blocks: sums wrench rows and external forces, kicks by `e.kick`, drifts by `s.dt`. `sums`: one per chunk of
 // `block_grain` groups; a range that needs no sums runs in one piece. `idle`: 1 for each group without motion; empty means none. `poses`:
 // the pose rows that `Cracked` reads.
-void advance(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes,
+void advance(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const ExternalForces& external,
              Range groups, bool sample, std::vector<BlockSums>& sums, std::span<const std::uint8_t> idle = {}, double* poses = nullptr);
 
 // Groups in which every movable block sleeps; empty if none sleeps. Steps skip these groups, except samples (potential energy).
 std::vector<std::uint8_t> idle_groups(const Model& model, const State& state);
 
 // Gathers up to eight arbitrary blocks into one pack, for a sequential sweep: each block sees the new poses of blocks before it.
-class Picked {
+class BlockGather {
  public:
   // One object per sweep: it fixes the external actions of that sweep.
-  Picked(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const Pushes& pushes);
+  BlockGather(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const ExternalForces& external);
   // Kick and drift of `blocks[0 .. count)`, `count <= lanes`, like the free function `advance()`. The first element of `sums` receives all
   // sums except the work of loads. The following elements receive that work, one for each entry of `pushes.loaded`.
   void advance(const int* blocks, int count, bool sample, std::vector<BlockSums>& sums);
@@ -77,14 +77,14 @@ class Picked {
   const Model& model_;
   State& state_;
   const std::vector<BlockConstants>& constants_;
-  const Pushes& pushes_;
-  const LaneKernels& kernels_;
+  const ExternalForces& external_;
+  const StepKernels& kernels_;
   KickDrift step_;
   BlockConstants constant_{};
-  RowLanes<3> u_{}, v_{}, momentum_{}, w_{}, base_u_{};
-  RowLanes<4> q_{}, base_q_{};
-  RowLanes<6> wrench_{}, shift_{};
-  alignas(64) double push_[64] = {}, load_[64] = {};
+  VectorPack<3> u_{}, v_{}, momentum_{}, w_{}, ref_u_{};
+  VectorPack<4> q_{}, ref_q_{};
+  VectorPack<6> wrench_{}, increment_{};
+  alignas(64) double contact_wrench_[64] = {}, load_[64] = {};
 };
 
 // Resultant of a block's joints: force, moment.

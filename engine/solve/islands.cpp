@@ -22,7 +22,7 @@ void find_islands(const Model& m, State& s) {
   std::fill(s.grounded.begin(), s.grounded.end(), std::uint8_t(0));
   const auto anchors = [&](int b) { return m.kind[z(b)] == Kind::fixed; };
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.tier[z(j)] == Tier::open) continue;
+    if (s.stage[z(j)] == JointStage::contact) continue;
     const int a = m.joint[z(j)].a, b = m.joint[z(j)].b;
     s.joined[z(a)] = s.joined[z(b)] = 1;
     // the ground does not rotate, so it does not make one island of all blocks on it
@@ -36,7 +36,7 @@ void find_islands(const Model& m, State& s) {
     s.unjoined += m.kind[z(b)] == Kind::moving && !s.joined[z(b)];
   }
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.tier[z(j)] == Tier::open) continue;
+    if (s.stage[z(j)] == JointStage::contact) continue;
     const int a = m.joint[z(j)].a, b = m.joint[z(j)].b;
     if (anchors(a) && !anchors(b)) s.grounded[z(s.island[z(b)])] = 1;
     if (anchors(b) && !anchors(a)) s.grounded[z(s.island[z(a)])] = 1;
@@ -47,21 +47,21 @@ void find_islands(const Model& m, State& s) {
 }
 
 // Block by block: a joint's geometry follows from the reference poses of its two blocks.
-bool take_stale_poses(const Model& m, State& s, std::vector<std::uint8_t>& stale) {
-  stale.assign(z(m.nblock) + 1, 0);
+bool take_outdated_poses(const Model& m, State& s, std::vector<std::uint8_t>& outdated) {
+  outdated.assign(z(m.nblock) + 1, 0);
   for (int j = 0; j < m.njoint; ++j)  // blocks with an intact joint; other joints are evaluated at the present poses
-    if (s.tier[z(j)] == Tier::intact) stale[z(m.joint[z(j)].a)] = stale[z(m.joint[z(j)].b)] = 1;
+    if (s.stage[z(j)] == JointStage::intact) outdated[z(m.joint[z(j)].a)] = outdated[z(m.joint[z(j)].b)] = 1;
   const double limit = m.analysis.lazy_rotation * m.analysis.lazy_rotation;
   bool past = false;
   for (int b = 0; b < m.nblock; ++b) {
-    double turned = 0;
-    for (int i = 3; i < 6; ++i) turned += s.shift[z(b / lanes)].x[i][b % lanes] * s.shift[z(b / lanes)].x[i][b % lanes];
-    past = past || (stale[z(b)] && turned > limit);
-    stale[z(b)] = stale[z(b)] && turned > 0.25 * limit;
+    double square = 0;
+    for (int i = 3; i < 6; ++i) square += s.increment[z(b / pack_size)].x[i][b % pack_size] * s.increment[z(b / pack_size)].x[i][b % pack_size];
+    past = past || (outdated[z(b)] && square > limit);
+    outdated[z(b)] = outdated[z(b)] && square > 0.25 * limit;
   }
   if (!past) return false;
   for (int b = 0; b < m.nblock; ++b)
-    if (stale[z(b)]) take_pose(s, b);
+    if (outdated[z(b)]) set_reference(s, b);
   return true;
 }
 

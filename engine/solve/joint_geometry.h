@@ -14,10 +14,10 @@
 //
 // Errors: a rigid rotation by th strains a joint by some th^4 of its arms. D, itself small, and the resultants are rotated to first order,
 // with an error of th^2/2 of their size: 5e-9 at the default tolerance. The coupling of d with rho_ref, d rho_ref^2/6, is neglected; the
-// next update of the reference poses corrects it. The kernel of intact joints (`lanes_sound.inc`) takes r to second order only. With
+// next update of the reference poses corrects it. The kernel of intact joints (`lanes_intact.inc`) takes r to second order only. With
 // th = 2 sin(angle / 2) its third-order error of a rigid motion would be 3/8 th.th th x X; th = tan(angle) removes it.
 #pragma once
-#include "engine/base/turn.h"
+#include "engine/base/rotation.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
 
@@ -26,7 +26,7 @@ namespace erbs {
 struct JointPose {
   Mat3 frame;       // world, columns s, t, n
   Vec3 apart, sum;  // m, X and S
-  double q[6];      // m, rad, joint frame
+  double gap[6];      // m, rad, joint frame
 };
 
 // Rotation vector of a quaternion (v, w): 2 asin(|v|) / |v| v. The series is used where its next term is below round-off.
@@ -45,13 +45,13 @@ inline Vec3 small_rotation_vector(const Quat& q) {
   const Quat mean = Quat(qa.coeffs() + (qa.dot(qb) < 0 ? -1 : 1) * qb.coeffs()).normalized();
   JointPose p;
   p.frame = mean.toRotationMatrix() * joint.type->frame;
-  const Vec3 turned_a = turn_minus(qa, joint.arm_a), turned_b = turn_minus(qb, joint.arm_b);
+  const Vec3 rotated_a = rotation_change(qa, joint.arm_a), rotated_b = rotation_change(qb, joint.arm_b);
   const Vec3 du = ub - ua;
   p.apart = (joint.arm_a - joint.arm_b) + du;
-  p.sum = joint.arm_a + joint.arm_b + turned_a + turned_b;
-  const Vec3 d = p.frame.transpose() * (du + turned_b - turned_a);
+  p.sum = joint.arm_a + joint.arm_b + rotated_a + rotated_b;
+  const Vec3 d = p.frame.transpose() * (du + rotated_b - rotated_a);
   const Vec3 r = p.frame.transpose() * rho;
-  for (int i = 0; i < 3; ++i) p.q[i] = d[i], p.q[3 + i] = r[i];
+  for (int i = 0; i < 3; ++i) p.gap[i] = d[i], p.gap[3 + i] = r[i];
   return p;
 }
 
@@ -64,21 +64,21 @@ inline Vec3 small_rotation_vector(const Quat& q) {
 // tan(angle) of the rotation from `base` to q, about its axis, to fourth order; the form that pose rows have.
 Vec3 rotation_since(const Quat& q, const Quat& base);
 // Makes the present pose of block b its reference pose.
-void take_pose(State& state, int b);
-// Set `State::row` and `State::shift` of block b, from its pose or to `row`.
-void set_row(State& state, int b);
-void put_row(State& state, int b, const double row[6]);
-void refresh_all(const Model& model, State& state);
-// Writes joint j to lane `lane` of `batch`, with its geometry at the reference poses of its blocks.
-void set_lane(const Model& model, const State& state, int j, JointBatch& batch, int lane);
+void set_reference(State& state, int b);
+// Set `State::pose_row` and `State::increment` of block b, from its pose or to `row`.
+void set_pose_row(State& state, int b);
+void put_pose_row(State& state, int b, const double row[6]);
+void update_all_references(const Model& model, State& state);
+// Writes joint j to lane `lane` of `pack`, with its geometry at the reference poses of its blocks.
+void set_lane(const Model& model, const State& state, int j, JointPack& pack, int lane);
 // Frames, arms, gaps and rotations of eight joints in their lanes; -1: an empty lane.
-void set_geometry(const Model& model, const State& state, const int* joints, JointBatch& batch);
+void set_geometry(const Model& model, const State& state, const int* joints, JointPack& pack);
 // The same, with all constants of the joints.
-JointBatch batch_of(const Model& model, const State& state, const int* joints);
+JointPack pack_of(const Model& model, const State& state, const int* joints);
 // The joints of pack k that still have their slot; the other lanes are empty.
-JointBatch sound_batch(const Model& model, const State& state, int k);
+JointPack intact_pack(const Model& model, const State& state, int k);
 
 // Relative displacement of joint j at the present poses, exact.
-void joint_q(const Model& model, const State& state, int j, double q[6]);
+void joint_gap(const Model& model, const State& state, int j, double gap[6]);
 
 }  // namespace erbs

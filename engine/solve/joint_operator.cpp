@@ -29,25 +29,25 @@ JointOperator::JointOperator(const Model& m, const State& s, const Freedom& f) :
   ends_.reserve(z(m.njoint));
   for (int j = 0; j < m.njoint; ++j) {
     const int a = f.first[z(m.joint[z(j)].a)], b = f.first[z(m.joint[z(j)].b)];
-    if (s.tier[z(j)] == Tier::open || (a < 0 && b < 0)) continue;
+    if (s.stage[z(j)] == JointStage::contact || (a < 0 && b < 0)) continue;
     const JointPose pose = joint_pose(m, s, j);
     ends_.push_back({pose.frame, 0.5 * (pose.sum + pose.apart), 0.5 * (pose.sum - pose.apart), j, a, b});
   }
 }
 
 void JointOperator::add(const End& e, const JointForm& form, const VecX& x, VecX& y) {
-  Vec3 shift = Vec3::Zero(), turn = Vec3::Zero();  // of b relative to a
+  Vec3 translation = Vec3::Zero(), rotation = Vec3::Zero();  // of b relative to a
   if (e.b >= 0) {
     const Vec3 w = x.segment<3>(e.b + 3);
-    shift = x.segment<3>(e.b) + w.cross(e.arm_b);
-    turn = w;
+    translation = x.segment<3>(e.b) + w.cross(e.arm_b);
+    rotation = w;
   }
   if (e.a >= 0) {
     const Vec3 w = x.segment<3>(e.a + 3);
-    shift -= x.segment<3>(e.a) + w.cross(e.arm_a);
-    turn -= w;
+    translation -= x.segment<3>(e.a) + w.cross(e.arm_a);
+    rotation -= w;
   }
-  const Vec3 q = e.frame.transpose() * shift, r = e.frame.transpose() * turn;
+  const Vec3 q = e.frame.transpose() * translation, r = e.frame.transpose() * rotation;
   const auto& k = form.diagonal;
   const Vec3 force = e.frame * Vec3(k[0] * q.x(), k[1] * q.y(), k[2] * q.z());
   const Vec3 moment = e.frame * Vec3(k[3] * r.x() + form.coupling * r.y(), k[4] * r.y() + form.coupling * r.x(), k[5] * r.z());
@@ -73,17 +73,17 @@ RootMass::RootMass(const Model& m, const State& s, const Freedom& f) : of_block_
 
 void RootMass::apply(VecX& x) const {
   for (const Part& p : part_) {
-    x.segment<3>(p.first) *= p.shift;
-    const Vec3 turned = p.turn * x.segment<3>(p.first + 3);
-    x.segment<3>(p.first + 3) = turned;
+    x.segment<3>(p.first) *= p.translation;
+    const Vec3 rotated = p.rotation * x.segment<3>(p.first + 3);
+    x.segment<3>(p.first + 3) = rotated;
   }
 }
 
 Mat6 RootMass::of(int b) const {
   const Part& p = part_[z(of_block_[z(b)])];
   Mat6 root = Mat6::Zero();
-  root.topLeftCorner<3, 3>() = Mat3::Identity() * p.shift;
-  root.bottomRightCorner<3, 3>() = p.turn;
+  root.topLeftCorner<3, 3>() = Mat3::Identity() * p.translation;
+  root.bottomRightCorner<3, 3>() = p.rotation;
   return root;
 }
 

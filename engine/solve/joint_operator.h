@@ -61,8 +61,8 @@ class RootMass {
  private:
   struct Part {
     int first;  // degree of freedom
-    double shift;
-    Mat3 turn;
+    double translation;
+    Mat3 rotation;
   };
   std::vector<Part> part_;
   std::vector<int> of_block_;

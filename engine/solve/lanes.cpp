@@ -4,6 +4,6 @@
 
 namespace erbs {
 
-const LaneKernels& lane_kernels() { return by_isa(sse2::kernels, avx2::kernels, avx512::kernels); }
+const StepKernels& step_kernels() { return by_isa(sse2::kernels, avx2::kernels, avx512::kernels); }
 
 }  // namespace erbs

@@ -1,4 +1,4 @@
-// Steps that were longer than their contacts allowed: counted by the Solver, judged in `trust.h`.
+// Steps that were longer than their contacts allowed: counted by the Solver, judged in `diagnostics.h`.
 #pragma once
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 
 namespace erbs {
 
-// The same contract as `joint_forces()`, for joints [first, last).
+// The same contract as `damped_joint_forces()`, for joints [first, last).
 void reference_forces(const Model& model, State& state, int first, int last, bool sample, JointSums& sums);
 
 }  // namespace erbs

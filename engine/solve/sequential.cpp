@@ -5,10 +5,10 @@
 #include <numeric>
 #include <utility>
 
-#include "engine/model/batches.h"
+#include "engine/model/joint_packs.h"
 #include "engine/solve/joint_geometry.h"
 #include "engine/solve/joint_response.h"
-#include "engine/solve/sound.h"
+#include "engine/solve/intact.h"
 
 namespace erbs {
 namespace {
@@ -49,22 +49,22 @@ void write(Rows& rows, int row, const Vec3& force, const Vec3& moment) {
 }
 
 // Wrenches on both ends of joint j from its resultant f, as in `reference.cpp`.
-void write_wrench(const Model& m, State& s, int j, const JointPose& pose, const double f[6]) {
-  const Vec3 force = pose.frame * Vec3(f[0], f[1], f[2]), moment = pose.frame * Vec3(f[3], f[4], f[5]);
+void write_wrench(const Model& m, State& s, int j, const JointPose& pose, const double resultant[6]) {
+  const Vec3 force = pose.frame * Vec3(resultant[0], resultant[1], resultant[2]), moment = pose.frame * Vec3(resultant[3], resultant[4], resultant[5]);
   const Vec3 arm_a = 0.5 * (pose.sum + pose.apart), arm_b = 0.5 * (pose.sum - pose.apart);
-  write(s.wrench, m.row_a[z(j)], force, arm_a.cross(force) + moment);
-  write(s.wrench, m.row_b[z(j)], -force, -(arm_b.cross(force) + moment));
+  write(s.wrench, m.wrench_row_a[z(j)], force, arm_a.cross(force) + moment);
+  write(s.wrench, m.wrench_row_b[z(j)], -force, -(arm_b.cross(force) + moment));
 }
 
-bool open(const State& s, int j) { return s.tier[z(j)] == Tier::open; }
+bool in_contact(const State& s, int j) { return s.stage[z(j)] == JointStage::contact; }
 
 // True if joint j may be beyond its limits: the bound of the elastic kernel, for one joint.
-bool near_limits(const Model& m, int j, const double q[6]) {
-  JointBatch B;
+bool may_yield_now(const Model& m, int j, const double gap[6]) {
+  JointPack B;
   set_constants(m, j, B, 0);
-  const double bend = std::fabs(q[3]) * B.half_t[0] + std::fabs(q[4]) * B.half_s[0], opening = q[2] + bend;
-  const double slip = std::hypot(q[0], q[1]) + std::fabs(q[5]) * B.radius[0];
-  return opening > B.open_limit[0] || bend - q[2] > B.close_limit[0] || slip + B.slip_slope[0] * opening > B.slip_limit[0];
+  const double bend = std::fabs(gap[3]) * B.half_t[0] + std::fabs(gap[4]) * B.half_s[0], opening = gap[2] + bend;
+  const double slip = std::hypot(gap[0], gap[1]) + std::fabs(gap[5]) * B.radius[0];
+  return opening > B.open_limit[0] || bend - gap[2] > B.close_limit[0] || slip + B.slip_slope[0] * opening > B.slip_limit[0];
 }
 
 }  // namespace
@@ -104,37 +104,37 @@ Sequential::Sequential(const Model& model, State& state)
   }
   first_neighbour_.push_back(int(neighbour_.size()));
   for (int b = 0; b < model.nblock; ++b) {
-    first_batch_.push_back(int(batch_.size()));
+    first_pack_.push_back(int(pack_.size()));
     int taken = 0;
     for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1] && model.kind[z(b)] != Kind::fixed; ++k) {
       const int j = end_[z(k)];
-      if (state.tier[z(j)] != Tier::intact || plain_) {
+      if (state.stage[z(j)] != JointStage::intact || plain_) {
         ++broken_[z(b)];
         continue;
       }
-      if (taken++ % lanes == 0) {
-        batch_.emplace_back();
+      if (taken++ % pack_size == 0) {
+        pack_.emplace_back();
         ends_.emplace_back();
-        batch_.back().law = &law_.emplace_back();
-        for (int l = 0; l < lanes; ++l) clear_lane(int(batch_.size() - 1) * lanes + l);
-        joint_.resize(batch_.size() * lanes, -1);
+        pack_.back().law = &law_.emplace_back();
+        for (int l = 0; l < pack_size; ++l) clear_lane(int(pack_.size() - 1) * pack_size + l);
+        joint_.resize(pack_.size() * pack_size, -1);
       }
-      const int lane = (int(batch_.size()) - 1) * lanes + (taken - 1) % lanes;
+      const int lane = (int(pack_.size()) - 1) * pack_size + (taken - 1) % pack_size;
       joint_[z(lane)] = j;
-      ++batch_.back().used;
+      ++pack_.back().used;
       (model.joint[z(j)].a == b ? lane_[z(j)].of_a : lane_[z(j)].of_b) = lane;
     }
   }
-  first_batch_.push_back(int(batch_.size()));
-  near_.resize(batch_.size() + 1);
+  first_pack_.push_back(int(pack_.size()));
+  may_yield_.resize(pack_.size() + 1);
   std::vector<int> all(z(model.njoint));
   std::iota(all.begin(), all.end(), 0);
   update(all);
-  deal_order();
+  schedule_blocks();
 }
 
 // Schedules each block in the round after the last of its neighbours that precede it.
-void Sequential::deal_order() {
+void Sequential::schedule_blocks() {
   const std::vector<int> order = sweep_order(model_, std::uint64_t(model_.analysis.seed), std::uint64_t(state_.step));
   level_.assign(z(model_.nblock), -1);
   round_.assign(1, 0);
@@ -153,33 +153,33 @@ void Sequential::deal_order() {
     if (level_[z(b)] >= 0) order_[z(next_[z(level_[z(b)])]++)] = b;
 }
 
-void Sequential::refresh(const std::vector<std::uint8_t>& stale) {
+void Sequential::update_reference(const std::vector<std::uint8_t>& outdated) {
   std::vector<int> joints;
   for (int j = 0; j < model_.njoint; ++j)
-    if (!open(state_, j) && (stale[z(model_.joint[z(j)].a)] || stale[z(model_.joint[z(j)].b)])) joints.push_back(j);
+    if (!in_contact(state_, j) && (outdated[z(model_.joint[z(j)].a)] || outdated[z(model_.joint[z(j)].b)])) joints.push_back(j);
   update(joints);
 }
 
 void Sequential::update(const std::vector<int>& joints) {
-  JointBatch one;
+  JointPack one;
   for (const int j : joints) {
     if (lane_[z(j)].of_a < 0 && lane_[z(j)].of_b < 0) continue;
     set_lane(model_, state_, j, one, 0);
     for (const int lane : {lane_[z(j)].of_a, lane_[z(j)].of_b})
       if (lane >= 0) {
-        set_sound_lane(one, 0, batch_[z(lane / lanes)], law_[z(lane / lanes)], lane % lanes);
-        SoundEnds& ends = ends_[z(lane / lanes)];
-        ends.a[lane % lanes] = 8 * one.a[0], ends.row_a[lane % lanes] = 8 * one.row_a[0];
-        ends.b[lane % lanes] = 8 * one.b[0], ends.row_b[lane % lanes] = 8 * one.row_b[0];
+        set_intact_lane(one, 0, pack_[z(lane / pack_size)], law_[z(lane / pack_size)], lane % pack_size);
+        IntactEnds& ends = ends_[z(lane / pack_size)];
+        ends.a[lane % pack_size] = 8 * one.a[0], ends.wrench_row_a[lane % pack_size] = 8 * one.wrench_row_a[0];
+        ends.b[lane % pack_size] = 8 * one.b[0], ends.wrench_row_b[lane % pack_size] = 8 * one.wrench_row_b[0];
       }
   }
 }
 
 void Sequential::clear_lane(int lane) {
-  clear_sound_lane(batch_[z(lane / lanes)], law_[z(lane / lanes)], lane % lanes);
-  SoundEnds& ends = ends_[z(lane / lanes)];
-  ends.a[lane % lanes] = ends.b[lane % lanes] = 8 * model_.nblock;
-  ends.row_a[lane % lanes] = ends.row_b[lane % lanes] = 8 * model_.spare_row();
+  clear_intact_lane(pack_[z(lane / pack_size)], law_[z(lane / pack_size)], lane % pack_size);
+  IntactEnds& ends = ends_[z(lane / pack_size)];
+  ends.a[lane % pack_size] = ends.b[lane % pack_size] = 8 * model_.nblock;
+  ends.wrench_row_a[lane % pack_size] = ends.wrench_row_b[lane % pack_size] = 8 * model_.spare_wrench_row();
 }
 
 // Joint j is no longer intact: removes it from the lanes of its blocks.
@@ -188,46 +188,46 @@ void Sequential::leave(int j) {
   for (int* lane : {&lane_[z(j)].of_a, &lane_[z(j)].of_b}) {
     if (*lane < 0) continue;
     clear_lane(*lane);
-    --batch_[z(*lane / lanes)].used;
+    --pack_[z(*lane / pack_size)].used;
     joint_[z(*lane)] = -1;
     *lane = -1;
   }
 }
 
 // Evaluates the law of joint j at the present poses and writes its wrench for both blocks.
-void Sequential::follow(int j, JointSums& sums) {
+void Sequential::update_joint(int j, JointSums& sums) {
   State& s = state_;
-  if (open(s, j)) return;
+  if (in_contact(s, j)) return;
   const JointPose pose = joint_pose(model_, s, j);
   JointMemory& memory = s.memory[z(j)];
-  const bool sound = s.tier[z(j)] == Tier::intact;
+  const bool intact = s.stage[z(j)] == JointStage::intact;
   JointEnergy e;
-  double f[6];
-  const bool still = respond(model_, j, sound, memory.q, pose.q, past_of(model_, s, j), f, e);
+  double resultant[6];
+  const bool still = respond(model_, j, intact, memory.gap, pose.gap, past_of(model_, s, j), resultant, e);
   if (still && !plain_) return;
-  if (sound && !still) {
-    s.tier[z(j)] = Tier::cracked;
+  if (intact && !still) {
+    s.stage[z(j)] = JointStage::cracked;
     ++sums.cracked_now;
   }
   double work = 0;
-  for (int i = 0; i < 6; ++i) work += 0.5 * (memory.f[i] + f[i]) * (pose.q[i] - memory.q[i]);
+  for (int i = 0; i < 6; ++i) work += 0.5 * (memory.resultant[i] + resultant[i]) * (pose.gap[i] - memory.gap[i]);
   const double error = std::fabs(work - (e.elastic - memory.elastic) - e.friction - e.fracture - e.crushing);
   if (error > sums.largest_error) sums.largest_error = error, sums.worst_joint = j;
-  for (int i = 0; i < 6; ++i) memory.q[i] = pose.q[i], memory.f[i] = f[i];
+  for (int i = 0; i < 6; ++i) memory.gap[i] = pose.gap[i], memory.resultant[i] = resultant[i];
   memory.elastic = e.elastic;
   s.energy.friction_next += e.friction;
   s.energy.fracture_next += e.fracture;
   s.energy.crushing_next += e.crushing;
-  write_wrench(model_, s, j, pose, f);
+  write_wrench(model_, s, j, pose, resultant);
 }
 
 // Evaluates the joints in a pack of block b that may be beyond a limit, after b has moved for `moved` seconds. The wrench of a joint that
 // stays intact does not change.
-void Sequential::look_closer(int batch, int b, double moved, JointSums& sums) {
+void Sequential::check_points(int pack, int b, double moved, JointSums& sums) {
   State& s = state_;
-  for (int l = 0; l < lanes; ++l) {
-    const int j = joint_[z(batch * lanes + l)];
-    if (j < 0 || !near_limits(model_, j, joint_pose(model_, s, j).q)) continue;
+  for (int l = 0; l < pack_size; ++l) {
+    const int j = joint_[z(pack * pack_size + l)];
+    if (j < 0 || !may_yield_now(model_, j, joint_pose(model_, s, j).gap)) continue;
     const Vec3 u = s.u[z(b)];
     const Quat q = s.q[z(b)];
     s.u[z(b)] = Vec3(u - moved * Vec3(s.v[z(b)]));
@@ -238,34 +238,34 @@ void Sequential::look_closer(int batch, int b, double moved, JointSums& sums) {
     JointMemory& memory = s.memory[z(j)];
     memory.elastic = 0;
     for (int i = 0; i < 6; ++i) {
-      memory.q[i] = before.q[i];
-      memory.f[i] = model_.joint[z(j)].type->stiffness[i] * before.q[i];
-      memory.elastic += 0.5 * memory.f[i] * before.q[i];
+      memory.gap[i] = before.gap[i];
+      memory.resultant[i] = model_.joint[z(j)].type->stiffness[i] * before.gap[i];
+      memory.elastic += 0.5 * memory.resultant[i] * before.gap[i];
     }
-    follow(j, sums);
-    if (s.tier[z(j)] != Tier::intact) leave(j);
+    update_joint(j, sums);
+    if (s.stage[z(j)] != JointStage::intact) leave(j);
   }
 }
 
-bool Sequential::turned_far(int b) const {
-  const double *row = &state_.row[z(b) * 8], limit = model_.analysis.lazy_rotation;
+bool Sequential::rotated_far(int b) const {
+  const double *row = &state_.pose_row[z(b) * 8], limit = model_.analysis.lazy_rotation;
   return state_.joined[z(b)] != 0 && !plain_ && row[3] * row[3] + row[4] * row[4] + row[5] * row[5] > limit * limit;
 }
 
 // Updates all joints of block b, which has moved for `moved` seconds while its neighbours were fixed.
 void Sequential::visit(int b, double moved, JointSums& sums) {
   State& s = state_;
-  if (turned_far(b)) {  // beyond the range of the reference pose
+  if (rotated_far(b)) {  // beyond the range of the reference pose
     its_joints_.assign(end_.begin() + first_end_[z(b)], end_.begin() + first_end_[z(b) + 1]);
-    take_pose(s, b);
+    set_reference(s, b);
     update(its_joints_);
   }
   if (broken_[z(b)] > 0)
     for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k)
-      if (plain_ || s.tier[z(end_[z(k)])] == Tier::cracked) follow(end_[z(k)], sums);
-  const int near = lane_kernels().sound_ends(batch_.data(), ends_.data(), first_batch_[z(b)], first_batch_[z(b) + 1], s.row.data(),
-                                             s.wrench.data(), near_.data());
-  for (int i = 0; i < near; ++i) look_closer(near_[z(i)], b, moved, sums);
+      if (plain_ || s.stage[z(end_[z(k)])] == JointStage::cracked) update_joint(end_[z(k)], sums);
+  const int candidates = step_kernels().intact_ends(pack_.data(), ends_.data(), first_pack_[z(b)], first_pack_[z(b) + 1], s.pose_row.data(),
+                                             s.wrench.data(), may_yield_.data());
+  for (int i = 0; i < candidates; ++i) check_points(may_yield_[z(i)], b, moved, sums);
 }
 
 // Writes the wrench of joint j at the present poses; its history does not change.
@@ -276,10 +276,10 @@ void Sequential::try_out(int j) {
   trial_.assign(&s.history[z(joint.first_point)], &s.history[z(joint.first_point)] + joint.type->points);
   CrushedFace crushed = s.crushed.empty() ? CrushedFace{} : s.crushed[z(j)];
   JointEnergy unused;
-  double f[6];
-  respond(model_, j, s.tier[z(j)] == Tier::intact, s.tier[z(j)] == Tier::intact && !plain_ ? pose.q : s.memory[z(j)].q, pose.q,
-          {trial_.data(), s.crushed.empty() ? nullptr : &crushed}, f, unused);
-  write_wrench(model_, s, j, pose, f);
+  double resultant[6];
+  respond(model_, j, s.stage[z(j)] == JointStage::intact, s.stage[z(j)] == JointStage::intact && !plain_ ? pose.gap : s.memory[z(j)].gap, pose.gap,
+          {trial_.data(), s.crushed.empty() ? nullptr : &crushed}, resultant, unused);
+  write_wrench(model_, s, j, pose, resultant);
 }
 
 // Forces on block b at its pose half a step ahead, at the present velocity.
@@ -288,37 +288,37 @@ void Sequential::predict(int b) {
   const Vec3 u = s.u[z(b)];
   const Quat q = s.q[z(b)];
   double row[6];
-  std::copy_n(&s.row[8 * z(b)], 6, row);
+  std::copy_n(&s.pose_row[8 * z(b)], 6, row);
   s.u[z(b)] = Vec3(u + 0.5 * s.dt * Vec3(s.v[z(b)]));
   s.q[z(b)] = Quat(rotation(0.5 * s.dt * Vec3(s.w[z(b)])) * q);
-  set_row(s, b);
-  const bool all = plain_ || turned_far(b);
+  set_pose_row(s, b);
+  const bool all = plain_ || rotated_far(b);
   if (all || broken_[z(b)] > 0)
     for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k)
-      if (all ? !open(s, end_[z(k)]) : s.tier[z(end_[z(k)])] == Tier::cracked) try_out(end_[z(k)]);
-  const int near = all ? 0
-                       : lane_kernels().sound_ends(batch_.data(), ends_.data(), first_batch_[z(b)], first_batch_[z(b) + 1], s.row.data(),
-                                                   s.wrench.data(), near_.data());
-  for (int i = 0; i < near; ++i)
-    for (int l = 0; l < lanes; ++l) {
-      const int j = joint_[z(near_[z(i)] * lanes + l)];
-      if (j >= 0 && near_limits(model_, j, joint_pose(model_, s, j).q)) try_out(j);
+      if (all ? !in_contact(s, end_[z(k)]) : s.stage[z(end_[z(k)])] == JointStage::cracked) try_out(end_[z(k)]);
+  const int candidates = all ? 0
+                       : step_kernels().intact_ends(pack_.data(), ends_.data(), first_pack_[z(b)], first_pack_[z(b) + 1], s.pose_row.data(),
+                                                   s.wrench.data(), may_yield_.data());
+  for (int i = 0; i < candidates; ++i)
+    for (int l = 0; l < pack_size; ++l) {
+      const int j = joint_[z(may_yield_[z(i)] * pack_size + l)];
+      if (j >= 0 && may_yield_now(model_, j, joint_pose(model_, s, j).gap)) try_out(j);
     }
   s.u[z(b)] = u;
   s.q[z(b)] = q;
-  put_row(s, b, row);
+  put_pose_row(s, b, row);
 }
 
 // J, of all joints at the present poses.
 double Sequential::stored() const {
-  JointLanes o;
+  ElasticPack o;
   double sum = 0;
-  for (int k = 0; k < sound_batches(model_); ++k) {
-    lane_kernels().elastic(sound_batch(model_, state_, k), state_.row.data(), o);
-    for (int j = k * lanes; j < std::min((k + 1) * lanes, model_.njoint); ++j)
-      if (state_.tier[z(j)] == Tier::intact && !plain_)
-        for (int i = 0; i < 6; ++i) sum += 0.5 * o.f[i][j % lanes] * o.q[i][j % lanes];
-      else if (!open(state_, j)) sum += state_.memory[z(j)].elastic;
+  for (int k = 0; k < intact_packs(model_); ++k) {
+    step_kernels().elastic(intact_pack(model_, state_, k), state_.pose_row.data(), o);
+    for (int j = k * pack_size; j < std::min((k + 1) * pack_size, model_.njoint); ++j)
+      if (state_.stage[z(j)] == JointStage::intact && !plain_)
+        for (int i = 0; i < 6; ++i) sum += 0.5 * o.resultant[i][j % pack_size] * o.gap[i][j % pack_size];
+      else if (!in_contact(state_, j)) sum += state_.memory[z(j)].elastic;
   }
   return sum;
 }
@@ -330,7 +330,7 @@ void Sequential::note_momentum(int b) {
     const int j = end_[z(k)];
     const Joint& joint = model_.joint[z(j)];
     if (model_.kind[z(joint.a)] != Kind::moving || model_.kind[z(joint.b)] != Kind::moving) continue;
-    const double* row = &state_.wrench[z(joint.a == b ? model_.row_a[z(j)] : model_.row_b[z(j)]) * 8];
+    const double* row = &state_.wrench[z(joint.a == b ? model_.wrench_row_a[z(j)] : model_.wrench_row_b[z(j)]) * 8];
     const Vec3 f(row[0], row[1], row[2]), m = arm.cross(f) + Vec3(row[3], row[4], row[5]);
     force_ += f;
     moment_ += m;
@@ -339,7 +339,7 @@ void Sequential::note_momentum(int b) {
   }
 }
 
-void Sequential::sweep(const Excitation& e, const Pushes& pushes, const std::vector<BlockConstants>& constants, bool sample,
+void Sequential::sweep(const Excitation& e, const ExternalForces& external, const std::vector<BlockConstants>& constants, bool sample,
                        JointSums& joints, std::vector<BlockSums>& sums) {
   State& s = state_;
   Energy& ledger = s.energy;
@@ -349,7 +349,7 @@ void Sequential::sweep(const Excitation& e, const Pushes& pushes, const std::vec
   joints.energy.crushing += std::exchange(ledger.crushing_next, 0);
   if (s.step == 0) {
     for (int j = 0; j < model_.njoint; ++j)
-      if (s.tier[z(j)] == Tier::intact) joint_q(model_, s, j, s.memory[z(j)].q);
+      if (s.stage[z(j)] == JointStage::intact) joint_gap(model_, s, j, s.memory[z(j)].gap);
     for (int b = 0; b < model_.nblock; ++b)
       if (model_.kind[z(b)] == Kind::moving) visit(b, 0, joints);
   }
@@ -360,12 +360,12 @@ void Sequential::sweep(const Excitation& e, const Pushes& pushes, const std::vec
     force_ = moment_ = Vec3::Zero();
     forces_ = moments_ = 0;
   }
-  if (model_.analysis.order == "random") deal_order();
-  Picked blocks(model_, s, constants, e, pushes);
+  if (model_.analysis.order == "random") schedule_blocks();
+  BlockGather blocks(model_, s, constants, e, external);
   for (std::size_t round = 0; round + 1 < round_.size(); ++round)
-    for (int first = round_[round]; first < round_[round + 1]; first += lanes) {
+    for (int first = round_[round]; first < round_[round + 1]; first += pack_size) {
       const int* some = &order_[z(first)];
-      const int count = std::min(lanes, round_[round + 1] - first);
+      const int count = std::min(pack_size, round_[round + 1] - first);
       for (int i = 0; i < count && centred_; ++i) predict(some[i]);
       for (int i = 0; i < count && sample; ++i) note_momentum(some[i]);
       blocks.advance(some, count, sample, sums);

@@ -27,30 +27,30 @@ class Sleep {
  public:
   Sleep(const Model& model, State& state);
 
-  bool asleep(int b) const { return on_ && state_.rest.asleep[std::size_t(b)] != 0; }
+  bool asleep(int b) const { return on_ && state_.sleep.asleep[std::size_t(b)] != 0; }
 
   // Takes the present list of pairs. `involved`: blocks that are loose or in a pair. `evaluate(i)`: result of pair i in its present pose,
   // called once while the pair rests. New sleepers have zero velocity already.
   void sort(const std::vector<int>& involved, const std::function<PairResult(int i)>& evaluate);
   const std::vector<int>& live() const { return live_; }      // pairs with an awake block, in order
   const std::vector<int>& awake() const { return awake_; }    // involved blocks that are awake, driven ones included
-  const std::vector<int>& pushed() const { return pushed_; }  // blocks of live pairs
-  void add_rates();                                           // again, after an update of the bound
+  const std::vector<int>& in_live_pairs() const { return in_live_pairs_; }  // blocks of live pairs
+  void add_omega2();                                           // again, after an update of the bound
   template <class F>
   void each_resting(F&& f) const {  // f(i, result): touching pairs at rest
     for (const Resting& one : resting_) f(one.pair, one.result);
   }
   // Actions of pairs at rest on a block: a row of eight doubles (force, moment), and a share in the rate of the step (1/s2).
-  const double* push(int b) const { return held_.data() + 8 * std::size_t(b); }
-  int contacts(int b) const { return contacts_[std::size_t(b)]; }  // at rest; valid if `holds()`
-  double rate(int b) const { return rate_.empty() ? 0 : rate_[std::size_t(b)]; }
-  bool holds() const { return !resting_.empty(); }
+  const double* resting_wrench(int b) const { return resting_wrench_.data() + 8 * std::size_t(b); }
+  int contacts(int b) const { return contacts_[std::size_t(b)]; }  // at rest; valid if `has_resting()`
+  double omega2(int b) const { return omega2_.empty() ? 0 : omega2_[std::size_t(b)]; }
+  bool has_resting() const { return !resting_.empty(); }
   double elastic() const { return elastic_; }  // J, stored in pairs at rest
   int touching() const { return touching_; }   // number of touching pairs at rest
 
-  // Between forces and drift: wakes blocks under a net force and, every few steps, lets still blocks fall asleep. `push`: contact wrenches
+  // Between forces and drift: wakes blocks under a net force and, every few steps, lets still blocks fall asleep. `contact_wrench`: contact wrenches
   // on blocks. True if the set of sleepers has changed: the pairs must be sorted again before the next step.
-  bool turn(const Excitation& e, const double* push, const ContactShapes& shapes, std::span<const ContactBlock> blocks);
+  bool update(const Excitation& e, const double* contact_wrench, const ContactShapes& shapes, std::span<const ContactBlock> blocks);
   long slept() const { return slept_; }  // steps of sleeping blocks, since the start of this Solver
 
  private:
@@ -62,26 +62,26 @@ class Sleep {
   struct Motion {
     double speed, acceleration;  // m/s, m/s2, upper bounds over all corners
   };
-  bool rests(const Pair& pair) const;
+  bool rests(const ContactPair& pair) const;
   bool may_sleep(int b) const;
-  void hold(const Resting& one);
+  void add_resting(const Resting& one);
   bool wake_all();
-  bool wake_pressed(const double* push, std::span<const ContactBlock> blocks);
-  bool lay_down(double kick, const double* push, std::span<const ContactBlock> blocks);
-  Motion motion_of(int b, const double* push, const ContactBlock& block) const;
+  bool wake_pressed(const double* contact_wrench, std::span<const ContactBlock> blocks);
+  bool try_sleep(double kick, const double* contact_wrench, std::span<const ContactBlock> blocks);
+  Motion motion_of(int b, const double* contact_wrench, const ContactBlock& block) const;
   void wake(const std::vector<int>& blocks);
-  void put_to_sleep(int b, double kick, const double* push);
+  void put_to_sleep(int b, double kick, const double* contact_wrench);
 
   const Model& model_;
   State& state_;
   bool on_ = false;
   double g_ = 0;                      // m/s2
-  Vec3 pull_ = Vec3::Zero();          // m/s2, gravity less the ground acceleration in this step
+  Vec3 effective_gravity_ = Vec3::Zero();          // m/s2, gravity less the ground acceleration in this step
   std::vector<std::uint8_t> loaded_;  // a load acts on the block [nblock]
-  std::vector<int> live_, awake_, pushed_;
+  std::vector<int> live_, awake_, in_live_pairs_;
   std::vector<Resting> resting_;    // touching pairs at rest, in order
-  Rows held_;                       // N, N m, of these on each block
-  std::vector<double> rate_;        // 1/s2 [nblock]
+  Rows resting_wrench_;                       // N, N m, of these on each block
+  std::vector<double> omega2_;        // 1/s2 [nblock]
   std::vector<int> contacts_;       // [nblock]
   std::vector<double> reach_;       // m, distance of the block's farthest corner [nblock]
   std::vector<std::uint8_t> mark_;  // scratch [nblock]

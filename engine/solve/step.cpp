@@ -4,7 +4,7 @@
 #include <cmath>
 #include <utility>
 
-#include "engine/model/batches.h"
+#include "engine/model/joint_packs.h"
 #include "engine/solve/energy.h"
 #include "engine/solve/event_bound.h"
 #include "engine/solve/islands.h"
@@ -17,10 +17,10 @@ namespace {
 constexpr int ledger_every = 32;     // steps between two closings of the ledger, ...
 constexpr int ledger_slowly = 128;   // ... with contacts, whose energy costs as much as their forces, ...
 constexpr int ledger_seldom = 4096;  // ... in a scene without a ledger
-constexpr int hand_over_every = 8;   // steps between two searches for joints to release to contact
+constexpr int release_every = 8;   // steps between two searches for joints to release to contact
 constexpr int find_soft_every = 64;  // steps between two searches for former joints that must soften, ...
 constexpr int soften_every = 8;      // ... and between two steps of their softening
-constexpr int loosen_every = 256;    // steps between two searches for blocks that have moved far
+constexpr int activate_every = 256;    // steps between two searches for blocks that have moved far
 std::size_t z(int i) { return std::size_t(i); }
 
 int chunks(int n, int grain) { return std::max(1, (n + grain - 1) / grain); }
@@ -34,18 +34,18 @@ Solver::Solver(const Model& model, State& state, int threads)
       reference_(model.analysis.kernel == "reference" || model.analysis.solver == "sequential"),
       joint_items_(model.analysis.solver == "sequential" ? 0
                    : reference_                          ? model.njoint
-                   : keepers(model)                      ? int(block_groups(model.nblock))
-                                                         : sound_batches(model)),
-      joint_grain_(keepers(model) ? Sound::grain : batch_grain),
+                   : owner_computes(model)                      ? int(block_groups(model.nblock))
+                                                         : intact_packs(model)),
+      joint_grain_(owner_computes(model) ? IntactJoints::grain : pack_grain),
       cracked_(model, state),
-      sound_(model, state),
-      debris_(model, state, threads) {
-  if (state.dt_goal == 0) state.dt_goal = state.dt;
+      intact_(model, state),
+      contacts_(model, state, threads) {
+  if (state.dt_target == 0) state.dt_target = state.dt;
   forget_other_kernel(model, state);
-  any_cracked_ = std::any_of(state.tier.begin(), state.tier.end(), [](Tier t) { return t == Tier::cracked; });
+  any_cracked_ = std::any_of(state.stage.begin(), state.stage.end(), [](JointStage t) { return t == JointStage::cracked; });
   note_sleep();
-  if (!model.pushes.empty()) load_.assign(constants_.size() * lanes, 0.0);
-  for (const auto& p : model.pushes)
+  if (!model.force_loads.empty()) load_.assign(constants_.size() * pack_size, 0.0);
+  for (const auto& p : model.force_loads)
     if (model.kind[z(p.block)] == Kind::moving) loaded_.push_back({p.block, Mat3::Zero()});
   std::sort(loaded_.begin(), loaded_.end(), [](const LoadedBlock& a, const LoadedBlock& b) { return a.block < b.block; });
   loaded_.erase(std::unique(loaded_.begin(), loaded_.end(), [](const LoadedBlock& a, const LoadedBlock& b) { return a.block == b.block; }),
@@ -58,8 +58,8 @@ Solver::Solver(const Model& model, State& state, int threads)
     block_sums_.resize(1 + loaded_.size());
   }
   // A stopped run may resume just after a block rotated too far, so the first step checks again. Without such a block nothing changes.
-  block_sums_.front().stale = true;
-  tier_before_ = state.tier;
+  block_sums_.front().outdated = true;
+  stage_before_ = state.stage;
   double weight = 0, low = 1e300, high = -1e300;
   const Vec3 up = model.gravity.norm() > 0 ? Vec3(-model.gravity.normalized()) : Vec3::UnitZ();
   for (int b = 0; b < model.nblock; ++b) {
@@ -78,50 +78,50 @@ Solver::Solver(const Model& model, State& state, int threads)
 void Solver::run(const Hooks& hooks) {
   Barrier barrier(threads_);
   stop_ = false;
-  together(threads_, [&](int thread) {
-    if (!barrier.wait(thread, [&] { begin(hooks); })) return;
+  run_team(threads_, [&](int thread) {
+    if (!barrier.wait(thread, [&] { prepare_step(hooks); })) return;
     while (!stop_) {
-      joints(thread);
-      if (!between_) barrier.wait(thread);
-      else if (!barrier.wait(thread, [this] { between(); })) return;
-      blocks(thread);
-      const auto turn = [&] {
-        finish(hooks);
+      forces(thread);
+      if (!has_transitions_) barrier.wait(thread);
+      else if (!barrier.wait(thread, [this] { transitions(); })) return;
+      integrate(thread);
+      const auto close_and_prepare = [&] {
+        close_step(hooks);
         stop_ = broken_ || (sample_ != Sample::none && hooks.stop());
-        if (!stop_) begin(hooks);
+        if (!stop_) prepare_step(hooks);
       };
-      if (!barrier.wait(thread, turn)) return;
+      if (!barrier.wait(thread, close_and_prepare)) return;
     }
   });
 }
 
-void Solver::begin(const Hooks& hooks) {
+void Solver::prepare_step(const Hooks& hooks) {
   const Analysis& how = model_.analysis;
-  ledger_steps_ = !how.ledger ? ledger_seldom : debris_.active() ? ledger_slowly : ledger_every;
+  ledger_steps_ = !how.ledger ? ledger_seldom : contacts_.active() ? ledger_slowly : ledger_every;
   sample_ = hooks.wanted(state_.t) ? Sample::full : state_.step % ledger_steps_ == 0 ? Sample::ledger : Sample::none;
-  if (std::any_of(block_sums_.begin(), block_sums_.end(), [](const BlockSums& sums) { return sums.stale; })) refresh_stale();
-  if (how.debris && state_.step % loosen_every == 0 && (any_cracked_ || debris_.active() || state_.step == 0)) debris_.loosen();
-  contacts_ = debris_.active();
+  if (std::any_of(block_sums_.begin(), block_sums_.end(), [](const BlockSums& sums) { return sums.outdated; })) update_outdated();
+  if (how.debris && state_.step % activate_every == 0 && (any_cracked_ || contacts_.active() || state_.step == 0)) contacts_.activate_loose_blocks();
+  has_contacts_ = contacts_.active();
   budget_ = event_budget(model_, state_);
-  between_ = contacts_ || (how.debris && any_cracked_ && state_.step % hand_over_every == 0);
-  if (contacts_) debris_.set_step(budget_, contact_interlock(model_, state_)), debris_.prepare();
-  if (contacts_ && push_.empty()) push_.assign(constants_.size() * lanes, 0.0);
+  has_transitions_ = has_contacts_ || (how.debris && any_cracked_ && state_.step % release_every == 0);
+  if (has_contacts_) contacts_.set_step(budget_, contact_interlock(model_, state_)), contacts_.prepare();
+  if (has_contacts_ && contact_wrench_.empty()) contact_wrench_.assign(constants_.size() * pack_size, 0.0);
   excite();
   if (sample_ != Sample::full) return;
-  instant_.t = state_.t;
-  instant_.excitation = now_;
-  instant_.v_before = state_.v;
-  instant_.u = state_.u;
-  instant_.q = state_.q;
-  instant_.w_before = state_.w;
-  instant_.spin_before = state_.spin_momentum;
+  sample_state_.t = state_.t;
+  sample_state_.excitation = now_;
+  sample_state_.v_before = state_.v;
+  sample_state_.u = state_.u;
+  sample_state_.q = state_.q;
+  sample_state_.w_before = state_.w;
+  sample_state_.spin_before = state_.spin_momentum;
 }
 
-void Solver::refresh_stale() {
-  for (BlockSums& sums : block_sums_) sums.stale = false;
-  if (!take_stale_poses(model_, state_, stale_)) return;
-  if (sequential_) return sequential_->refresh(stale_);
-  sound_.refresh(stale_);
+void Solver::update_outdated() {
+  for (BlockSums& sums : block_sums_) sums.outdated = false;
+  if (!take_outdated_poses(model_, state_, outdated_)) return;
+  if (sequential_) return sequential_->update_reference(outdated_);
+  intact_.update_reference(outdated_);
 }
 
 // Loads over the interval of this kick: the second half of the last drift and the first half of the next.
@@ -145,8 +145,8 @@ void Solver::excite() {
     s.gravity_before = now_.gravity;
     s.moment_before = moment;
   }
-  for (const auto& p : m.pushes) std::fill_n(&load_[8 * z(p.block)], 8, 0.0);
-  for (const auto& p : m.pushes) {
+  for (const auto& p : m.force_loads) std::fill_n(&load_[8 * z(p.block)], 8, 0.0);
+  for (const auto& p : m.force_loads) {
     const Vec3 f = mean(p.wave, t0, t1) * p.direction;
     const Vec3 moment = p.moment ? f : Vec3((s.q[z(p.block)] * p.arm).cross(f));
     for (int k = 0; k < 3; ++k) {
@@ -156,42 +156,42 @@ void Solver::excite() {
   }
 }
 
-void Solver::joints(int thread) {
-  const Range mine = share_of(joint_items_, joint_grain_, thread, threads_);
-  if (contacts_) debris_.forces(thread, sample_ != Sample::none);
-  if (keepers(model_)) sound_.forces(mine, sample_ != Sample::none, joint_sums_);
+void Solver::forces(int thread) {
+  const Range mine = slice(joint_items_, joint_grain_, thread, threads_);
+  if (has_contacts_) contacts_.forces(thread, sample_ != Sample::none);
+  if (owner_computes(model_)) intact_.forces(mine, sample_ != Sample::none, joint_sums_);
   else
-    for (int first = mine.first; first < mine.last; first += batch_grain) {
-      const int last = std::min(first + batch_grain, mine.last);
-      JointSums& sums = joint_sums_[z(first / batch_grain)];
+    for (int first = mine.first; first < mine.last; first += pack_grain) {
+      const int last = std::min(first + pack_grain, mine.last);
+      JointSums& sums = joint_sums_[z(first / pack_grain)];
       if (reference_) reference_forces(model_, state_, first, last, sample_ != Sample::none, sums);
-      else joint_forces(model_, state_, sound_.damped(), first, last, sample_ != Sample::none, sums);
+      else damped_joint_forces(model_, state_, intact_.damped(), first, last, sample_ != Sample::none, sums);
     }
-  const Range broken = share_of(cracked_.groups(), Cracked::grain, thread, threads_);
+  const Range broken = slice(cracked_.groups(), Cracked::grain, thread, threads_);
   for (int first = broken.first; first < broken.last; first += Cracked::grain)
     cracked_.forces(first, std::min(first + Cracked::grain, broken.last), sample_ != Sample::none, budget_,
                     cracked_sums_[z(first / Cracked::grain)]);
 }
 
 // Between forces and drift, on one thread: contact forces are gathered, and joints beyond their range are released to contact.
-void Solver::between() {
-  if (contacts_) debris_.gather(push_.data(), sample_ != Sample::none);
-  if (state_.step == 0 && contacts_ && debris_.allowed_dt() < state_.dt) {  // contacts present at the start limit the first drift
-    follow_contacts();
+void Solver::transitions() {
+  if (has_contacts_) contacts_.gather(contact_wrench_.data(), sample_ != Sample::none);
+  if (state_.step == 0 && has_contacts_ && contacts_.allowed_dt() < state_.dt) {  // contacts present at the start limit the first drift
+    adapt_time_step();
     excite();
   }
   const double softened = event_tolerance * state_.energy.reference;
-  if (contacts_ && state_.step % find_soft_every == 0) debris_.find_softening(softened);
-  else if (contacts_ && state_.step % soften_every == 0) debris_.soften_beds(softened);
-  if (contacts_ && debris_.sleep(now_, push_.data())) note_sleep();
-  if (!model_.analysis.debris || !any_cracked_ || state_.step % hand_over_every != 0) return;
-  const std::vector<int> opened = debris_.hand_over_joints(cracked_);
-  if (opened.empty()) return;
-  opened_.insert(opened_.end(), opened.begin(), opened.end());
-  leaving_ = opened;
+  if (has_contacts_ && state_.step % find_soft_every == 0) contacts_.find_softening(softened);
+  else if (has_contacts_ && state_.step % soften_every == 0) contacts_.soften_former_joints(softened);
+  if (has_contacts_ && contacts_.sleep(now_, contact_wrench_.data())) note_sleep();
+  if (!model_.analysis.debris || !any_cracked_ || state_.step % release_every != 0) return;
+  const std::vector<int> released = contacts_.release_joints(cracked_);
+  if (released.empty()) return;
+  released_.insert(released_.end(), released.begin(), released.end());
+  leaving_ = released;
   find_islands(model_, state_);
   note_sleep();
-  debris_.loosen();
+  contacts_.activate_loose_blocks();
 }
 
 // Updates the block constants (sleeping blocks do not move) and the groups of blocks that a step may skip.
@@ -200,42 +200,42 @@ void Solver::note_sleep() {
   idle_ = idle_groups(model_, state_);
 }
 
-void Solver::blocks(int thread) {
-  const Pushes pushes{contacts_ ? push_.data() : nullptr, load_.data(), loaded_};
+void Solver::integrate(int thread) {
+  const ExternalForces external{has_contacts_ ? contact_wrench_.data() : nullptr, load_.data(), loaded_};
   const int groups = int(constants_.size()), grain = sequential_ ? groups : block_grain;  // a sweep runs on one thread
-  const Range mine = share_of(groups, grain, thread, threads_);
-  if (!sequential_) advance(model_, state_, constants_, now_, pushes, mine, sample_ != Sample::none, block_sums_, idle_, cracked_.poses());
-  else if (mine.first < mine.last) sequential_->sweep(now_, pushes, constants_, sample_ != Sample::none, joint_sums_.front(), block_sums_);
-  if (contacts_) debris_.follow(thread, mine.first * lanes, mine.last * lanes);
+  const Range mine = slice(groups, grain, thread, threads_);
+  if (!sequential_) advance(model_, state_, constants_, now_, external, mine, sample_ != Sample::none, block_sums_, idle_, cracked_.poses());
+  else if (mine.first < mine.last) sequential_->sweep(now_, external, constants_, sample_ != Sample::none, joint_sums_.front(), block_sums_);
+  if (has_contacts_) contacts_.track(thread, mine.first * pack_size, mine.last * pack_size);
 }
 
 // Blocks with prescribed motion. The reaction that moves them does external work on the system.
-void Solver::drive() {
+void Solver::apply_prescribed_motions() {
   const Model& m = model_;
   State& s = state_;
-  if (m.drives.empty()) return;
+  if (m.prescribed_motions.empty()) return;
   Energy& e = s.energy;
   e.external_work += e.external_next;
   e.external_next = 0;
   for (int b = 0; b < m.nblock; ++b) {
     if (m.kind[z(b)] != Kind::driven) continue;
     Vec3 to = Vec3::Zero();
-    Quat turned = Quat::Identity();
-    bool turns = false;
-    for (const auto& d : m.drives) {
+    Quat at = Quat::Identity();
+    bool rotates = false;
+    for (const auto& d : m.prescribed_motions) {
       if (d.block != b) continue;
       const double x = value(d.wave, s.t + s.dt);
-      if (!d.turns) {
+      if (!d.rotates) {
         to += x * d.direction;
         continue;
       }
-      const Quat turn = rotation(x * d.direction);
-      to += turn * d.arm - d.arm;
-      turned = turn * turned;
-      turns = true;
+      const Quat angle = rotation(x * d.direction);
+      to += angle * d.arm - d.arm;
+      at = angle * at;
+      rotates = true;
     }
-    if (!turns) turned = s.q[z(b)];  // no prescribed rotation: the attitude stays
-    const Vec3 v = (to - s.u[z(b)]) / s.dt, w = rotation_vector(turned * s.q[z(b)].conjugate()) / s.dt;
+    if (!rotates) at = s.q[z(b)];  // no prescribed rotation: the attitude stays
+    const Vec3 v = (to - s.u[z(b)]) / s.dt, w = rotation_vector(at * s.q[z(b)].conjugate()) / s.dt;
     const Vec6 wrench = block_wrench(b);
     const Vec3 force = wrench.head<3>(), moment = wrench.tail<3>();
     const double before = -0.5 * s.last_dt * (force.dot(s.v[z(b)]) + moment.dot(s.w[z(b)])),
@@ -246,16 +246,16 @@ void Solver::drive() {
     s.v[z(b)] = v;
     s.u[z(b)] = to;
     s.w[z(b)] = w;
-    s.q[z(b)] = turned;
-    set_row(s, b);
-    cracked_.take_pose(b);
-    if (rotation_since(turned, s.base_q[z(b)]).norm() > m.analysis.lazy_rotation) block_sums_.front().stale = true;
+    s.q[z(b)] = at;
+    set_pose_row(s, b);
+    cracked_.copy_pose(b);
+    if (rotation_since(at, s.ref_q[z(b)]).norm() > m.analysis.lazy_rotation) block_sums_.front().outdated = true;
   }
 }
 
-void Solver::finish(const Hooks& hooks) {
+void Solver::close_step(const Hooks& hooks) {
   State& s = state_;
-  drive();
+  apply_prescribed_motions();
   if (sequential_) s.momentum_residual = std::max(s.momentum_residual, sequential_->momentum_residual());
   for (const BlockSums& sums : block_sums_) broken_ = broken_ || sums.broken;
   note_cracks();
@@ -264,16 +264,16 @@ void Solver::finish(const Hooks& hooks) {
     settle_ledger();
     cracked_.store();
   }
-  debris_.book_hand_over();
+  contacts_.book_release();
   if (sample_ == Sample::full) {
-    std::swap(instant_.u, s.u);
-    std::swap(instant_.q, s.q);
+    std::swap(sample_state_.u, s.u);
+    std::swap(sample_state_.q, s.q);
     if (sequential_) std::swap(sequential_->wrench_before(), s.wrench);
     else check_momentum();
     hooks.sampled();
     if (sequential_) std::swap(sequential_->wrench_before(), s.wrench);
-    std::swap(instant_.u, s.u);
-    std::swap(instant_.q, s.q);
+    std::swap(sample_state_.u, s.u);
+    std::swap(sample_state_.q, s.q);
   }
   for (const int j : leaving_) cracked_.drop(j);  // not earlier: the sample needs their forces
   leaving_.clear();
@@ -281,7 +281,7 @@ void Solver::finish(const Hooks& hooks) {
   ++s.step;
   s.last_dt = s.dt;
   judge_step();
-  follow_contacts();
+  adapt_time_step();
 }
 
 // Joints and contacts conserve the momentum of all blocks, supports included: their forces and moments must sum to zero.
@@ -311,13 +311,13 @@ void Solver::note_cracks() {
   if (!cracked) return;
   any_cracked_ = true;
   for (int j = 0; j < model_.njoint; ++j) {
-    if (tier_before_[z(j)] == state_.tier[z(j)]) continue;
-    if (!reference_ && state_.tier[z(j)] == Tier::cracked) cracked_.take(j), sound_.leave(j);
-    if (tier_before_[z(j)] == Tier::intact) newly_cracked_.push_back(j);
-    for (const int b : {model_.joint[z(j)].a, model_.joint[z(j)].b}) go_by_rows(model_, state_, b, constants_);
-    tier_before_[z(j)] = state_.tier[z(j)];
+    if (stage_before_[z(j)] == state_.stage[z(j)]) continue;
+    if (!reference_ && state_.stage[z(j)] == JointStage::cracked) cracked_.take(j), intact_.leave(j);
+    if (stage_before_[z(j)] == JointStage::intact) newly_cracked_.push_back(j);
+    for (const int b : {model_.joint[z(j)].a, model_.joint[z(j)].b}) use_wrench_rows(model_, state_, b, constants_);
+    stage_before_[z(j)] = state_.stage[z(j)];
   }
-  let_turn(model_, state_, constants_);
+  set_rotation_limits(model_, state_, constants_);
   cracked_sums_.resize(z(chunks(cracked_.groups(), Cracked::grain)));
 }
 
@@ -342,13 +342,13 @@ void Solver::settle_ledger() {
   e.damping += e.damping_next;
   e.absolute_work += e.absolute_next;
   e.base_next = e.damping_next = e.absolute_next = 0;
-  if (model_.drives.empty()) {
+  if (model_.prescribed_motions.empty()) {
     e.external_work += e.external_next;
     e.external_next = 0;
   }
   for (BlockSums& sums : block_sums_) {
     const BlockWork& w = sums.work;
-    for (int l = 0; l < lanes; ++l) {
+    for (int l = 0; l < pack_size; ++l) {
       e.kinetic += w.kinetic[l];
       e.gravity += w.height[l];
       e.base_work += w.base[l];
@@ -362,15 +362,15 @@ void Solver::settle_ledger() {
     e.absolute_work += sums.external_absolute;
     e.external_next += sums.external_after;
     e.absolute_next += sums.external_absolute_after;
-    const bool stale = sums.stale, broken = sums.broken;
+    const bool outdated = sums.outdated, broken = sums.broken;
     sums = BlockSums{};
-    sums.stale = stale;
+    sums.outdated = outdated;
     sums.broken = broken;
   }
-  if (contacts_) e.elastic += debris_.elastic();
+  if (has_contacts_) e.elastic += contacts_.elastic();
   if (e.started) e.height_flux += std::fabs(e.gravity - gravity_before);
   // The structure's own measure counts once something may open or close, or has changed the step: until then all is exact.
-  settle(e, any_cracked_ || contacts_ || state_.start_step > 0 ? std::max(floor_, lift_) : floor_, state_.t, worst);
+  settle(e, any_cracked_ || has_contacts_ || state_.start_step > 0 ? std::max(floor_, lift_) : floor_, state_.t, worst);
   if (state_.step % ledger_steps_ != 0) return;
   const double loss = e.friction + e.fracture + e.crushing + e.damping + e.contact_damping;
   e.reference = std::max(e.reference, std::fabs(e.kinetic) + std::fabs(e.elastic - e.elastic_at_start) + std::max(0.0, loss));
@@ -379,7 +379,7 @@ void Solver::settle_ledger() {
 
 Vec6 Solver::block_wrench(int b) const {
   const Vec6 joints = joint_wrench(model_, state_, b);
-  return push_.empty() ? joints : Vec6(joints + Eigen::Map<const Vec6>(&push_[8 * z(b)]));
+  return contact_wrench_.empty() ? joints : Vec6(joints + Eigen::Map<const Vec6>(&contact_wrench_[8 * z(b)]));
 }
 
 Vec6 Solver::load_wrench(int b) const {
@@ -387,7 +387,7 @@ Vec6 Solver::load_wrench(int b) const {
   return load_.empty() ? Vec6(Vec6::Zero()) : Vec6(Eigen::Map<const Vec6>(&load_[8 * z(b)]));
 }
 
-std::vector<int> Solver::take_opened() { return std::exchange(opened_, {}); }
+std::vector<int> Solver::take_released() { return std::exchange(released_, {}); }
 
 std::vector<int> Solver::take_cracked() { return std::exchange(newly_cracked_, {}); }
 

@@ -11,17 +11,17 @@
 
 #include "engine/base/parallel.h"
 #include "engine/solve/cracked.h"
-#include "engine/solve/debris.h"
+#include "engine/solve/contacts.h"
 #include "engine/solve/integrate.h"
 #include "engine/solve/joint_kernel.h"
 #include "engine/solve/long_steps.h"
 #include "engine/solve/sequential.h"
-#include "engine/solve/sound.h"
+#include "engine/solve/intact.h"
 
 namespace erbs {
 
 // The instant of a sample: all quantities at time t.
-struct Instant {
+struct SampleState {
   double t = 0;
   Excitation excitation;  // means over the kick about t
   // Velocities and spin momenta half a step before t. During `sampled()` the state has the values half a step after t. [nblock + 1]
@@ -35,7 +35,7 @@ class Solver {
   Solver(const Model& model, State& state, int threads);
 
   // Runs steps until `stop()` is true or a number is not finite. A step at a wanted time is a sample: the ledger closes there, the state
-  // has the poses at t, `instant()` has the velocities about t, and `sampled()` is called. The ledger also closes every few steps in
+  // has the poses at t, `sample_state()` has the velocities about t, and `sampled()` is called. The ledger also closes every few steps in
   // between (`ledger_every` of `step.cpp`). `stop()` is called after each of these steps; the state is complete then, fit for a checkpoint.
   struct Hooks {
     std::function<bool(double t)> wanted;
@@ -44,41 +44,41 @@ class Solver {
   };
   void run(const Hooks& hooks);
 
-  const Instant& instant() const { return instant_; }
+  const SampleState& sample_state() const { return sample_state_; }
   bool broken() const { return broken_; }
   Vec6 block_wrench(int b) const;  // N, N m about the centroid, of joints and contacts
   Vec6 load_wrench(int b) const;   // of loads; for a driven block the reaction that prescribes its motion
-  std::vector<int> take_opened();  // joints released to contact since the last call
-  std::vector<HandOver> take_handed() { return debris_.take_handed(); }
+  std::vector<int> take_released();  // joints released to contact since the last call
+  std::vector<JointRelease> take_releases() { return contacts_.take_releases(); }
   // s, time step that the present contacts allow; `critical` is the limit of the intact structure.
-  double borne_dt(double critical) const {
-    const double contacts = contacts_ ? debris_.borne_dt() : state_.dt_goal, goal = state_.dt_goal;
+  double stable_dt(double critical) const {
+    const double contacts = has_contacts_ ? contacts_.stable_dt() : state_.dt_target, goal = state_.dt_target;
     return contacts < goal ? std::min(contacts, critical) : contacts > goal ? std::max(contacts, critical) : critical;
   }
   LongSteps take_long_steps() { return std::exchange(long_steps_, {}); }  // since the last call
-  int touching() const { return debris_.touching(); }
-  long touched() const { return debris_.touched(); }
-  long slept() const { return debris_.slept(); }
+  int touching() const { return contacts_.touching(); }
+  long touched() const { return contacts_.touched(); }
+  long slept() const { return contacts_.slept(); }
   double contact_seconds() const { return contact_seconds_; }
   std::vector<int> take_cracked();  // joints that cracked since the last call, in ascending order
 
  private:
   enum class Sample { none, ledger, full };
-  void begin(const Hooks& hooks);
+  void prepare_step(const Hooks& hooks);
   void excite();
-  void joints(int thread);
-  void between();
-  void blocks(int thread);
-  void refresh_stale();
+  void forces(int thread);
+  void transitions();
+  void integrate(int thread);
+  void update_outdated();
   void note_sleep();
-  void follow_contacts();
-  double haste_of_first_openings() const;
+  void adapt_time_step();
+  double event_rate_of_first_openings() const;
   void foresee_events();
   bool may_grow(double dt) const;
   double vibration() const;
   void judge_step();
-  void finish(const Hooks& hooks);
-  void drive();
+  void close_step(const Hooks& hooks);
+  void apply_prescribed_motions();
   void settle_ledger();
   void note_cracks();
   void check_momentum();
@@ -95,25 +95,25 @@ class Solver {
   int ledger_steps_ = 1;  // steps between two closings of the ledger
   double mass_ = 0;       // kg, of all moving blocks
   Excitation now_;
-  Rows push_, load_;  // N, N m: wrenches of contacts (once there are any) and of loads, one row per block
+  Rows contact_wrench_, load_;  // N, N m: wrenches of contacts (once there are any) and of loads, one row per block
   std::vector<LoadedBlock> loaded_;
   std::vector<BlockConstants> constants_;
-  std::vector<std::uint8_t> stale_;                   // blocks with a new reference pose
+  std::vector<std::uint8_t> outdated_;                   // blocks with a new reference pose
   std::vector<std::uint8_t> idle_;                    // groups in which every block sleeps
   std::vector<JointSums> joint_sums_, cracked_sums_;  // per chunk
   std::vector<BlockSums> block_sums_;
-  std::vector<int> newly_cracked_, opened_, leaving_;
+  std::vector<int> newly_cracked_, released_, leaving_;
   Cracked cracked_;
-  Sound sound_;  // the joints that have not cracked
-  Debris debris_;
-  std::optional<Sequential> sequential_;  // replaces the phases `joints` and `blocks`
+  IntactJoints intact_;  // the joints that have not cracked
+  Contacts contacts_;
+  std::optional<Sequential> sequential_;  // replaces the phases `forces` and `integrate`
   bool any_cracked_ = false;
   double contact_seconds_ = 0;
-  std::vector<Tier> tier_before_;
+  std::vector<JointStage> stage_before_;
   LongSteps long_steps_;
-  Instant instant_;
+  SampleState sample_state_;
   Sample sample_ = Sample::none;
-  bool broken_ = false, stop_ = false, contacts_ = false, between_ = false;
+  bool broken_ = false, stop_ = false, has_contacts_ = false, has_transitions_ = false;
 };
 
 }  // namespace erbs

@@ -1,4 +1,4 @@
-// Length of the next time step. Present contacts, coming impacts and coming openings bound it (`contact_limit.h`, `landing.h`,
+// Length of the next time step. Present contacts, coming impacts and coming openings bound it (`contact_limit.h`, `impact_bound.h`,
 // `event_bound.h`).
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 namespace erbs {
 namespace {
 
-constexpr double still = 0.1;   // of the event rate of free fall; below it a body at rest only trembles under the thresholds of sleep
+constexpr double trembling = 0.1;   // of the event rate of free fall; below it a body at rest only trembles under the thresholds of sleep
 constexpr int few_joints = 16;  // in a structure of more joints the first opening of one is no significant event
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -22,24 +22,24 @@ double on_scale(double dt) { return std::exp2(std::floor(32 * std::log2(dt)) / 3
 
 // Judges the last step by the contacts at its end.
 void Solver::judge_step() {
-  if (!contacts_ || !(state_.last_dt > step_slack * debris_.allowed_dt())) return;
-  long_steps_.add(state_.last_dt / debris_.borne_dt());
+  if (!has_contacts_ || !(state_.last_dt > step_slack * contacts_.allowed_dt())) return;
+  long_steps_.add(state_.last_dt / contacts_.stable_dt());
 }
 
 // The step follows the contacts. It shrinks at once. It grows after 100 steps without a limit, and by half at most, because impacts are
 // predicted only a few steps ahead.
-void Solver::follow_contacts() {
+void Solver::adapt_time_step() {
   State& s = state_;
-  double allowed = contacts_ ? debris_.allowed_dt() : s.dt_goal;
+  double allowed = has_contacts_ ? contacts_.allowed_dt() : s.dt_target;
   if (s.event_dt > 0) allowed = std::min(allowed, s.event_dt);
   double dt = s.dt;
   if (allowed < s.dt) {
     dt = on_scale(0.95 * allowed);
-    s.calm = 0;
-  } else if (s.dt < std::max(allowed, s.dt_goal) && ++s.calm > 100) {
+    s.steps_since_limited = 0;
+  } else if (s.dt < std::max(allowed, s.dt_target) && ++s.steps_since_limited > 100) {
     if (allowed > 1.1 * s.dt) dt = std::min(on_scale(0.95 * allowed), 1.5 * s.dt);
     if (!may_grow(dt)) dt = s.dt;
-    s.calm = 0;
+    s.steps_since_limited = 0;
   }
   if (dt == s.dt) return;
   s.dt = dt;
@@ -48,16 +48,16 @@ void Solver::follow_contacts() {
 }
 
 // Event rate (1/s) of intact dry joints that are about to open for the first time. The kernel of intact joints evaluates nothing but their
-// limits (`sound.h`), so they are evaluated here. In a structure of many joints the first opening of one is no significant event. In a
+// limits (`intact.h`), so they are evaluated here. In a structure of many joints the first opening of one is no significant event. In a
 // structure of few joints it is, because a soft joint allows a long step. A run with `start = "rest"` has no gravity in its joints and
 // bounces from the first step on; a change of dt would then err by more than an opening.
-double Solver::haste_of_first_openings() const {
-  double haste = 0;
-  if (model_.njoint > few_joints || !(state_.last_dt > 0) || model_.analysis.start == "rest") return haste;
+double Solver::event_rate_of_first_openings() const {
+  double event_rate = 0;
+  if (model_.njoint > few_joints || !(state_.last_dt > 0) || model_.analysis.start == "rest") return event_rate;
   const double dt = state_.last_dt, allowance = event_allowance(model_, state_);
   for (int j = 0; j < model_.njoint; ++j) {
     const Joint& joint = model_.joint[z(j)];
-    if (state_.tier[z(j)] != Tier::intact || !model_.laws[z(joint.type->law)].dry) continue;
+    if (state_.stage[z(j)] != JointStage::intact || !model_.laws[z(joint.type->law)].dry) continue;
     const std::size_t a = z(joint.a), b = z(joint.b);
     const JointPose now = joint_pose(model_, state_, j);
     const Vec3 wa = state_.w[a], wb = state_.w[b];
@@ -65,27 +65,27 @@ double Solver::haste_of_first_openings() const {
                        (Vec3(state_.v[b]) - Vec3(state_.v[a]) + wb.cross(state_.q[b] * joint.arm_b) - wa.cross(state_.q[a] * joint.arm_a));
     const Vec3 spin = now.frame.transpose() * (wb - wa);
     double before[6];
-    for (int i = 0; i < 3; ++i) before[i] = now.q[i] - dt * speed[i], before[3 + i] = now.q[3 + i] - dt * spin[i];
-    haste = std::max(haste, foresee(model_, joint, before, now.q, allowance));
+    for (int i = 0; i < 3; ++i) before[i] = now.gap[i] - dt * speed[i], before[3 + i] = now.gap[3 + i] - dt * spin[i];
+    event_rate = std::max(event_rate, foresee(model_, joint, before, now.gap, allowance));
   }
-  return haste / dt;
+  return event_rate / dt;
 }
 
 // Time step that the next openings and closings allow (`event_bound.h`).
 void Solver::foresee_events() {
-  double haste = 0;
+  double event_rate = 0;
   for (std::vector<JointSums>* of : {&joint_sums_, &cracked_sums_})
-    for (JointSums& sums : *of) haste = std::max(haste, std::exchange(sums.haste, 0.0));
-  const double first = haste_of_first_openings();
+    for (JointSums& sums : *of) event_rate = std::max(event_rate, std::exchange(sums.event_rate, 0.0));
+  const double first = event_rate_of_first_openings();
   if (!(budget_ > 0)) {
     if (first > 0) state_.event_dt = state_.event_dt > 0 ? std::min(state_.event_dt, 1 / first) : 1 / first;
     return;
   }
-  haste = std::max(first, state_.last_dt > 0 ? haste / state_.last_dt : 0);
-  if (contacts_) haste = std::max(haste, debris_.haste());
+  event_rate = std::max(first, state_.last_dt > 0 ? event_rate / state_.last_dt : 0);
+  if (has_contacts_) event_rate = std::max(event_rate, contacts_.event_rate());
   const double falls = (now_.gravity - now_.ground).norm() * std::sqrt(mass_ / (8 * budget_));  // in flight the net force is the weight
-  if (haste > still * falls) haste = std::max(haste, falls);
-  state_.event_dt = haste > 0 ? 1 / haste : 0;
+  if (event_rate > trembling * falls) event_rate = std::max(event_rate, falls);
+  state_.event_dt = event_rate > 0 ? 1 / event_rate : 0;
 }
 
 // A change of dt changes the energy of a block that vibrates on its springs by F^2 (dt_1^2 - dt_0^2) / (8 m). A longer step is allowed

@@ -21,7 +21,7 @@ template <class Lambda>
 double longest_step(double free, double viscous, double most, double tolerance, const Lambda& lambda) {
   if (!(viscous > 0) || !std::isfinite(free)) return free;
   double dt = std::sqrt(viscous * viscous + free * free) - viscous;
-  for (int turn = 0; turn < 14; ++turn) {
+  for (int iteration = 0; iteration < 14; ++iteration) {
     const double share = dt * dt * lambda(dt) / most;
     dt *= std::pow(share, -1 / 1.5);
     if (std::fabs(share - 1) < tolerance) break;
@@ -91,7 +91,7 @@ JointForm cracked_form(const Joint& joint) {
 
 // Time steps that all joints together allow, intact and cracked.
 void set_critical(const Model& m, const State& s, const Freedom& f, const RootMass& root, StepBounds& out) {
-  const double sound = greatest(m, &Joint::viscous), broken = greatest(m, &Joint::viscous_cracked);
+  const double intact = greatest(m, &Joint::viscous), broken = greatest(m, &Joint::viscous_cracked);
   const JointOperator joints(m, s, f);
   VecX scaled(f.count);
   const auto lambda = [&](const auto& form) {
@@ -103,11 +103,11 @@ void set_critical(const Model& m, const State& s, const Freedom& f, const RootMa
     });
   };
   const double free = 2 / std::sqrt(lambda(elastic_form));
-  out.critical = out.cracked = longest_step(free, sound, 4, 1e-7, [&](double dt) {
+  out.critical = out.cracked = longest_step(free, intact, 4, 1e-7, [&](double dt) {
     return lambda([&](const Joint& joint) { return with_dashpots(elastic_form(joint), joint.viscous, dt); });
   });
   const bool stiffer = std::any_of(m.joint.begin(), m.joint.end(), stiffens);
-  if (!stiffer && broken <= sound) return;
+  if (!stiffer && broken <= intact) return;
   std::vector<JointForm> cracked;
   for (const Joint& joint : m.joint) cracked.push_back(cracked_form(joint));
   const auto of = [&](const Joint& joint) -> const JointForm& { return cracked[std::size_t(&joint - m.joint.data())]; };
@@ -124,7 +124,7 @@ Sparse stiffness(const Model& m, const State& s, const Freedom& f) {
   Triplets entries;
   entries.reserve(z(m.njoint) * 144);
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.tier[z(j)] == Tier::open) continue;
+    if (s.stage[z(j)] == JointStage::contact) continue;
     const JointMap map = joint_map(m, s, j);
     const Mat6 k = diagonal(m.joint[z(j)]);
     const int end[2] = {f.first[z(m.joint[z(j)].a)], f.first[z(m.joint[z(j)].b)]};
@@ -148,7 +148,7 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
   const double viscous = greatest(m, &Joint::viscous_cracked);
   std::vector<Mat6> own(z(m.nblock), Mat6::Zero()), damping(viscous > 0 ? own.size() : 0, Mat6::Zero());
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.tier[z(j)] == Tier::open) continue;
+    if (s.stage[z(j)] == JointStage::contact) continue;
     const Joint& joint = m.joint[z(j)];
     const JointMap map = joint_map(m, s, j);
     const Mat6 k = diagonal(joint);

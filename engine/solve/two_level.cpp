@@ -49,7 +49,7 @@ void TwoLevel::group(const Model& m, const State& s, const Freedom& f) {
   const auto each_pair = [&](const auto& use) {
     for (int j = 0; j < m.njoint; ++j) {
       const int a = number(f, m.joint[z(j)].a), b = number(f, m.joint[z(j)].b);
-      if (a >= 0 && b >= 0 && s.tier[z(j)] != Tier::open) use(a, b);
+      if (a >= 0 && b >= 0 && s.stage[z(j)] != JointStage::contact) use(a, b);
     }
   };
   each_pair([&](int a, int b) { ++first[z(a) + 1], ++first[z(b) + 1]; });
@@ -97,7 +97,7 @@ TwoLevel::TwoLevel(const Model& m, const State& s, const Freedom& f, const Form&
     if (p >= q) coupled.try_emplace({p, q}, Mat6::Zero()).first->second += k;
   };
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.tier[z(j)] == Tier::open) continue;
+    if (s.stage[z(j)] == JointStage::contact) continue;
     const int end[2] = {number(f, m.joint[z(j)].a), number(f, m.joint[z(j)].b)};
     const JointMap map = joint_map(m, s, j);
     const std::array<double, 6> diagonal = form(j);
@@ -148,30 +148,30 @@ VecX TwoLevel::apply(const VecX& residual) const {
 
 bool conjugate_gradients(const Times& times, const TwoLevel& near, const VecX& b, double tolerance, int most, VecX& x) {
   x = VecX::Zero(b.size());
-  VecX residual = b, z = near.apply(residual), way = z;
+  VecX residual = b, z = near.apply(residual), direction = z;
   double energy = residual.dot(z);
   const double enough = tolerance * tolerance * energy;
-  for (int turn = 0; turn < most && energy > enough; ++turn) {
-    const VecX answer = times(way);
-    const double part = energy / way.dot(answer);
+  for (int iteration = 0; iteration < most && energy > enough; ++iteration) {
+    const VecX answer = times(direction);
+    const double part = energy / direction.dot(answer);
     if (!(part > 0)) return false;
-    x += part * way;
+    x += part * direction;
     residual -= part * answer;
     z = near.apply(residual);
     const double before = std::exchange(energy, residual.dot(z));
-    way = z + energy / before * way;
+    direction = z + energy / before * direction;
   }
   return energy <= enough;
 }
 
 bool stabilised_gradients(const Times& times, const Times& near, const VecX& b, double tolerance, int most, VecX& x) {
   x = VecX::Zero(b.size());
-  VecX residual = b, way = b;
+  VecX residual = b, direction = b;
   const VecX shadow = b;
   double rho = b.dot(b);
   const double enough = tolerance * b.norm();
-  for (int turn = 0; turn < most && residual.norm() > enough; ++turn) {
-    const VecX along = near(way), answer = times(along);
+  for (int iteration = 0; iteration < most && residual.norm() > enough; ++iteration) {
+    const VecX along = near(direction), answer = times(along);
     const double part = rho / shadow.dot(answer);
     residual -= part * answer;
     const VecX aside = near(residual), second = times(aside);
@@ -180,7 +180,7 @@ bool stabilised_gradients(const Times& times, const Times& near, const VecX& b, 
     residual -= share * second;
     const double before = std::exchange(rho, shadow.dot(residual));
     if (!std::isfinite(rho) || rho == 0) return residual.norm() <= enough;
-    way = residual + rho / before * part / share * (way - share * answer);
+    direction = residual + rho / before * part / share * (direction - share * answer);
   }
   return residual.norm() <= enough;
 }

@@ -64,7 +64,7 @@ Limit richardson(const Series& series, double order) {
     const auto excess = [h1 = h1, h2 = h2, h3 = h3, ratio](double p) { return (std::pow(h3, p) - std::pow(h2, p)) / (std::pow(h2, p) - std::pow(h1, p)) - ratio; };
     double low = 0.5, high = 4;
     if (std::isfinite(ratio) && excess(low) < 0 && excess(high) > 0) {
-      for (int turn = 0; turn < 60; ++turn) (excess(0.5 * (low + high)) < 0 ? low : high) = 0.5 * (low + high);
+      for (int iteration = 0; iteration < 60; ++iteration) (excess(0.5 * (low + high)) < 0 ? low : high) = 0.5 * (low + high);
       order = 0.5 * (low + high);
     }
   }

@@ -47,7 +47,7 @@ double flop_peak() {
   std::vector<double> rates;
   for (int sample = 0; sample < 5; ++sample) {
     const double began = processor_seconds();
-    const double flop = lane_kernels().work_registers(4000000);
+    const double flop = step_kernels().work_registers(4000000);
     rates.push_back(flop / std::max(1e-9, processor_seconds() - began));
   }
   std::sort(rates.begin(), rates.end());

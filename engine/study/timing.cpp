@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "engine/base/hash.h"
-#include "engine/model/batches.h"
+#include "engine/model/joint_packs.h"
 #include "engine/solve/joint_geometry.h"
 #include "engine/solve/step.h"
 #include "engine/study/machine.h"
@@ -98,8 +98,8 @@ double instructions_over_bare(const Model& model, const State& state) {
   m.analysis.kernel = "fast";
   m.analysis.ledger = m.analysis.debris = false;
   m.grounds.clear();
-  m.pushes.clear();
-  m.drives.clear();
+  m.force_loads.clear();
+  m.prescribed_motions.clear();
   m.tilts.clear();
   m.damping.mass = 0;
   constexpr long steps = 2000;
@@ -109,14 +109,14 @@ double instructions_over_bare(const Model& model, const State& state) {
   solver.run({[](double) { return false; }, [] {}, [&] { return stepped.step >= state.step + steps; }});
   const double between = counter.read();
   const double each = (between - before) / double(stepped.step - state.step);
-  Sound sound(m, bare);
+  IntactJoints intact(m, bare);
   const std::vector<BlockConstants> constants = block_constants(m, bare);
   std::vector<BlockSums> sums(1);
   const Excitation e{Vec3::Zero(), m.gravity, bare.dt};
   bare.last_dt = bare.dt;
   const double start = counter.read();
   for (long k = 0; k < steps; ++k) {
-    sound.forces(0, sound.groups(), lane_kernels(), nullptr);
+    intact.forces(0, intact.groups(), step_kernels(), nullptr);
     advance(m, bare, constants, e, {}, {0, int(constants.size())}, false, sums);
   }
   return each / ((counter.read() - start) / double(steps));
@@ -124,13 +124,13 @@ double instructions_over_bare(const Model& model, const State& state) {
 
 State all_broken(const Model& m, State s) {
   for (int j = 0; j < m.njoint; ++j) {
-    s.tier[z(j)] = Tier::cracked;
+    s.stage[z(j)] = JointStage::cracked;
     JointMemory& memory = s.memory[z(j)];
-    joint_q(m, s, j, memory.q);
+    joint_gap(m, s, j, memory.gap);
     memory.elastic = 0;
     for (int i = 0; i < 6; ++i) {
-      memory.f[i] = m.joint[z(j)].type->stiffness[i] * memory.q[i];
-      memory.elastic += 0.5 * memory.f[i] * memory.q[i];
+      memory.resultant[i] = m.joint[z(j)].type->stiffness[i] * memory.gap[i];
+      memory.elastic += 0.5 * memory.resultant[i] * memory.gap[i];
     }
   }
   for (PointHistory& h : s.history) h.damage = 1;
@@ -138,18 +138,18 @@ State all_broken(const Model& m, State s) {
 }
 
 Demand demand(const Model& m) {
-  // Multiplications and additions of lanes_sound.inc and lanes_blocks.inc, counted line by line. A cross product has 9, a dot product 5, a
+  // Multiplications and additions of lanes_intact.inc and lanes_blocks.inc, counted line by line. A cross product has 9, a dot product 5, a
   // symmetric matrix times a vector 15; a subtraction counts as an addition. Signs, roots, comparisons and selections are left out.
-  // A joint: `sound_lanes` 177, `beyond_limits` 22, adding the forces on both blocks 12. An undamped block with one round of `middle_spin`:
-  // `kick` 175, `turn_by` 93.
+  // A joint: `intact_forces` 177, `limits_bound` 22, adding the forces on both blocks 12. An undamped block with one round of `middle_spin`:
+  // `kick` 175, `rotate_by` 93.
   constexpr double joint_flop = 177 + 22 + 12, block_flop = 175 + 93, six = 48;
   const double joints = m.njoint, blocks = m.nblock;
   Demand out;
   out.flop = joint_flop * joints + block_flop * blocks;
-  const double batch = double(sizeof(SoundBatch) + sizeof(Crossing)) / lanes, constants = double(sizeof(BlockConstants)) / lanes;
+  const double pack = double(sizeof(IntactPack) + sizeof(GatherTable)) / pack_size, constants = double(sizeof(BlockConstants)) / pack_size;
   // Joint: its data; the increment of its other block read; the force on that block written and read again.
   // Block: constants and motion; its increment written and read; the force on it written and read.
-  out.bytes = joints * (batch + 3 * six) + blocks * (constants + 8.0 * (7 + 2 * 16) + 2 * six + 2 * six);
+  out.bytes = joints * (pack + 3 * six) + blocks * (constants + 8.0 * (7 + 2 * 16) + 2 * six + 2 * six);
   return out;
 }
 

@@ -23,7 +23,7 @@ struct Machine {
       wall += 0.01;
       step += 0.01 * (team ? 1.5e5 * (taken > 0 ? 0.4 * (1 - taken) : 1) : 1e5);
       processor += 0.01 * (team ? 2 - taken : 1);
-      changes += crew.turns(long(step), wall, processor);
+      changes += crew.should_change(long(step), wall, processor);
     }
   }
 };
@@ -46,7 +46,7 @@ TEST_CASE("a team whose processor is taken goes on alone, and comes together onc
 
 TEST_CASE("one thread stays one", "[crew]") {
   Crew crew(1);
-  CHECK_FALSE(crew.turns(1000, 100, 1));
+  CHECK_FALSE(crew.should_change(1000, 100, 1));
   CHECK(crew.threads() == 1);
 }
 
@@ -68,14 +68,14 @@ analysis{ duration = 0.4 }
     const Scene scene = script.load_text(walls, "scene.lua");
     Prepared run = prepare(scene, false);
     start_at_rest(scene, run, 1);
-    int threads = 1, turns = 0;
+    int threads = 1, should_change = 0;
     for (bool ended = false; !ended;) {
       Solver solver(run.model, run.state, threads);
-      solver.run({[](double) { return false; }, [] {}, [&] { return (ended = run.state.t >= 0.4) || (changing && ++turns % 5 == 0); }});
+      solver.run({[](double) { return false; }, [] {}, [&] { return (ended = run.state.t >= 0.4) || (changing && ++should_change % 5 == 0); }});
       threads = 3 - threads;
     }
     hash[changing] = state_hash(run.state);
-    CHECK(run.state.debris.pair.size() > 0);
+    CHECK(run.state.contacts.pair.size() > 0);
   }
   CHECK(hash[0] == hash[1]);
 }

@@ -87,7 +87,7 @@ TEST_CASE("a load past the edge of its joint has no equilibrium, and says which 
   const Prepared run = prepare(eccentric("0.1,0.51,0.3", "dry{kn=1e9, mu=0.6}"), false);
   State state = run.state;
   std::vector<double> push(6 * std::size_t(run.model.nblock) + 6, 0.0);
-  for (const auto& p : run.model.pushes)
+  for (const auto& p : run.model.force_loads)
     for (int i = 0; i < 3; ++i) push[6 * std::size_t(p.block) + 3 + std::size_t(i)] += value(p.wave, 0) * p.direction[i];
   const Equilibrium found = settle(run.model, state, push);
   CHECK_FALSE(found.converged);
@@ -127,7 +127,7 @@ TEST_CASE("a mortared wall cracked by an eccentric load is found, and near what 
       "for i=0,3 do force{block='b5_'..i, wave=2000, direction={0,0,-1}, point={i*.26+.2,.1,.65}} end analysis{duration=1}");
   const Prepared direct = started(scene, "equilibrium");
   REQUIRE(direct.equilibrium.converged);
-  CHECK(std::any_of(direct.state.tier.begin(), direct.state.tier.end(), [](Tier t) { return t == Tier::cracked; }));
+  CHECK(std::any_of(direct.state.stage.begin(), direct.state.stage.end(), [](JointStage t) { return t == JointStage::cracked; }));
   // Cracks and slips depend on the path: one step to the full load breaks other joints than a growing load. Ramps of 0.5 to 4 s all end
   // 0.028 from here.
   CHECK(difference(direct, started(scene, "ramp", 0.5)) < 0.04);
@@ -246,7 +246,7 @@ TEST_CASE("of many stacks only the one past its friction limit is not at rest, a
   for (int j = 0; j < run.model.njoint; ++j) {
     const Joint& joint = run.model.joint[std::size_t(j)];
     if (run.model.joint_name(j).starts_with("s3_")) continue;
-    CHECK(run.state.tier[std::size_t(j)] == direct.run.state.tier[std::size_t(j)]);
+    CHECK(run.state.stage[std::size_t(j)] == direct.run.state.stage[std::size_t(j)]);
     for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i)
       CHECK(run.state.history[std::size_t(i)].slip_s == direct.run.state.history[std::size_t(i)].slip_s);
   }

@@ -33,7 +33,7 @@ TEST_CASE("a wall in equilibrium stays there", "[analysis]") {
   Solver solver(run.model, run.state, 1);
   solver.run({[](double) { return false; }, [] {}, [&] { return run.state.t >= 0.5; }});
   for (std::size_t b = 0; b < start.size(); ++b) CHECK((run.state.u[b] - start[b]).norm() < 0.5e-6 * 0.1);
-  CHECK(std::all_of(run.state.tier.begin(), run.state.tier.end(), [](Tier t) { return t == Tier::intact; }));
+  CHECK(std::all_of(run.state.stage.begin(), run.state.stage.end(), [](JointStage t) { return t == JointStage::intact; }));
 }
 
 TEST_CASE("a step past the limit is refused with the reason", "[analysis]") {

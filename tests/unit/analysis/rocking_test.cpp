@@ -98,9 +98,9 @@ TEST_CASE("scale: the same slenderness twice as large is slower by sqrt 2 and fa
 
 TEST_CASE("a block below its threshold stays at rest, and a short pulse is not stepped over", "[rocking]") {
   const Wave weak = Pulse{0.99 * standard_g * std::tan(makris.alpha), 1, 0.5}, blow = Pulse{40, 3, 0.05};
-  const RockingRun calm = rock(makris, {&weak, 1}, {}, 5);
-  CHECK(calm.impact.empty());
-  CHECK(calm.theta.back() == 0);
+  const RockingRun steps_since_limited = rock(makris, {&weak, 1}, {}, 5);
+  CHECK(steps_since_limited.impact.empty());
+  CHECK(steps_since_limited.theta.back() == 0);
   const RockingRun struck = rock(makris, {&blow, 1}, {}, 5);
   REQUIRE_FALSE(struck.amplitude.empty());
   CHECK(struck.theta[3] < 0);  // the ground moves away under it

@@ -14,7 +14,7 @@ TEST_CASE("nobody sleeps on at a barrier that has opened, however waits and arri
       Barrier barrier(threads, spins);
       std::vector<long> done(std::size_t(threads), 0);
       std::atomic<long> behind = 0;
-      together(threads, [&](int thread) {
+      run_team(threads, [&](int thread) {
         unsigned x = unsigned(thread) + 1;
         for (long i = 0; i < rounds; ++i) {
           x = x * 1664525u + 1013904223u;
@@ -40,10 +40,10 @@ TEST_CASE("as many threads as there are cores have one each, and give it back", 
   };
   const int cores = cores_of_this_thread();
   std::vector<int> core(std::size_t(cores), -1);
-  together(cores, [&](int thread) { core[std::size_t(thread)] = this_core(); });
+  run_team(cores, [&](int thread) { core[std::size_t(thread)] = this_core(); });
   std::sort(core.begin(), core.end());
   if (cores > 1) CHECK(std::adjacent_find(core.begin(), core.end()) == core.end());
   CHECK(cores_of_this_thread() == cores);
-  together(cores + 1, [&](int) {});
+  run_team(cores + 1, [&](int) {});
   CHECK(cores_of_this_thread() == cores);
 }

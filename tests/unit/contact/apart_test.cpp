@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "engine/contact/batch.h"
-#include "engine/contact/landing.h"
-#include "engine/contact/view.h"
+#include "engine/contact/pair_batch.h"
+#include "engine/contact/impact_bound.h"
+#include "engine/contact/pair_frame.h"
 #include "tests/unit/contact/bodies.h"
 
 using namespace erbs;
@@ -24,13 +24,13 @@ Polyhedron wedge() {  // lies on its side, 6 corners and 5 faces
 TEST_CASE("a pair judged in short is as far apart, and lands as hard, as one judged in full", "[contact]") {
   std::mt19937 random(7);
   const auto draw = [&](double most) { return std::uniform_real_distribution(-most, most)(random); };
-  int faces = 0, other_faces = 0, edges = 0, landing = 0;
+  int faces = 0, other_faces = 0, edges = 0, impact_bound = 0;
   for (int trial = 0; trial < 4000; ++trial) {
     Bodies two({{{trial % 2 ? brick() : wedge()}}, {{trial % 3 ? brick(0.2, 0.2, 0.2) : wedge()}}}, {1e9, 4e8, 0.6, 0.2}, 2e-5);
     ContactBlock &a = two.block[0], &b = two.block[1];
-    Pair pair = new_pair(0, 0, 1, 0, two.law, impact_factor(two.law.restitution), two.shapes);
+    ContactPair pair = new_pair(0, 0, 1, 0, two.law, impact_factor(two.law.restitution), two.shapes);
     for (ContactBlock* block : {&a, &b}) {
-      block->turn = Quat(draw(1), draw(1), draw(1), draw(1)).normalized().toRotationMatrix();
+      block->rotation = Quat(draw(1), draw(1), draw(1), draw(1)).normalized().toRotationMatrix();
       block->u = Vec3(draw(0.16), draw(0.16), draw(0.16));
       block->v = Vec3(draw(5), draw(5), draw(5));
       block->w = Vec3(draw(5), draw(5), draw(5));
@@ -39,20 +39,20 @@ TEST_CASE("a pair judged in short is as far apart, and lands as hard, as one jud
     if (pair_force(pair, two.shapes, a, b, two.settings, 2e-5, false, two.room, before) || !(before.apart > 1e-4)) continue;
     b.u += Vec3(draw(5e-5), draw(5e-5), draw(5e-5));
     const PairBodies bodies = bodies_of(pair, two.shapes);
-    const View view{bodies.reference, bodies.other, bodies.swapped ? &b : &a, bodies.swapped ? &a : &b, {}};
+    const PairFrame frame{bodies.reference, bodies.other, bodies.swapped ? &b : &a, bodies.swapped ? &a : &b, {}};
     const double dt = 2e-5 * (1 + trial % 50);
     PairResult in_short, in_full;
-    REQUIRE(stands_apart(short_keeper(pair, *bodies.reference, *bodies.other), pair, view, two.settings, dt, in_short));
-    const int kept_by = pair.separating, own = int(bodies.reference->normal.size()), all = own + int(bodies.other->normal.size());
+    REQUIRE(still_separated(cached_axis(pair, *bodies.reference, *bodies.other), pair, frame, two.settings, dt, in_short));
+    const int kept_by = pair.separating_axis, own = int(bodies.reference->normal.size()), all = own + int(bodies.other->normal.size());
     CHECK_FALSE(pair_force(pair, two.shapes, a, b, two.settings, dt, false, two.room, in_full));
-    CHECK(pair.separating == kept_by);
+    CHECK(pair.separating_axis == kept_by);
     CHECK(in_short.apart == Approx(in_full.apart).margin(1e-14));
-    CHECK(in_short.landing_a == in_full.landing_a);
-    CHECK(in_short.landing_b == in_full.landing_b);
-    faces += kept_by < own, other_faces += kept_by >= own && kept_by<all, edges += kept_by >= all, landing += in_full.landing_a> 0;
+    CHECK(in_short.impact_omega2_a == in_full.impact_omega2_a);
+    CHECK(in_short.impact_omega2_b == in_full.impact_omega2_b);
+    faces += kept_by < own, other_faces += kept_by >= own && kept_by<all, edges += kept_by >= all, impact_bound += in_full.impact_omega2_a> 0;
   }
   CHECK(faces > 100);
   CHECK(other_faces > 100);
   CHECK(edges > 20);
-  CHECK(landing > 100);
+  CHECK(impact_bound > 100);
 }

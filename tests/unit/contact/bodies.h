@@ -37,7 +37,7 @@ struct Bodies {
   // ledger, J
   double friction = 0, damping = 0, reset = 0, through = 0;
   double kinetic = 0, height = 0, elastic = 0, tangential = 0;
-  double deepest = 0, least_friction = 0;
+  double max_depth = 0, least_friction = 0;
   bool want_energy = true;
 
   explicit Bodies(const std::vector<Body>& bodies, const PairLaw& pair_law_, double step) : law(pair_law_), dt(step) {
@@ -80,9 +80,9 @@ struct Bodies {
       moment[i].setZero();
     }
     result.resize(list.pair.size());
-    elastic = tangential = deepest = 0;
+    elastic = tangential = max_depth = 0;
     for (std::size_t i = 0; i < list.pair.size(); ++i) {
-      Pair& p = list.pair[i];
+      ContactPair& p = list.pair[i];
       const auto a = static_cast<std::size_t>(p.a), b = static_cast<std::size_t>(p.b);
       PairResult& r = result[i];
       if (!pair_force(p, shapes, block[a], block[b], settings, t > 0 ? dt : 0, want_energy, room, r)) continue;
@@ -95,7 +95,7 @@ struct Bodies {
       least_friction = std::min(least_friction, r.friction);
       elastic += r.elastic;
       tangential += r.tangential;
-      deepest = std::max(deepest, r.depth);
+      max_depth = std::max(max_depth, r.depth);
     }
   }
 
@@ -123,7 +123,7 @@ struct Bodies {
       const Quat half = rotation(dt / 2 * w_now) * q[i];
       b.w = inverse_world(i, half) * spin[i];
       q[i] = (rotation(dt * b.w) * q[i]).normalized();
-      b.turn = q[i].toRotationMatrix();
+      b.rotation = q[i].toRotationMatrix();
       b.u += dt * b.v;
       through += std::abs(dt * force[i].dot(b.v)) / 2;
     }

@@ -14,12 +14,12 @@ namespace {
 
 struct Two {
   Bodies bodies;
-  Pair pair;
+  ContactPair pair;
 
   Two(const Polyhedron& a, const Polyhedron& b)
       : bodies({{{a}, 1800}, {{b}, 1800}}, {5e10, 2e10, 0.6, 0.2}, 1e-5), pair(new_pair(0, 0, 1, 0, bodies.law, 0, bodies.shapes)) {}
-  View view() const { return view_of(pair, bodies.shapes, bodies.block[0], bodies.block[1]); }
-  EdgeAtRest edge() const { return edge_at_rest(pair, view()); }
+  PairFrame frame() const { return pair_frame(pair, bodies.shapes, bodies.block[0], bodies.block[1]); }
+  EdgeAtRest edge() const { return edge_at_rest(pair, frame()); }
 };
 
 Polyhedron brick_at(double x, double y, double z) { return translated(brick(), {x, y, z}); }
@@ -63,18 +63,18 @@ TEST_CASE("what is not looked at bears next to nothing", "[contact][edges]") {
   for (int k = 0; k < 3000; ++k) {
     ContactBlock b = two.bodies.block[1];
     b.u = 0.5 * edge.movement * draw();
-    b.turn = rotation(edge.movement * draw()).toRotationMatrix();
-    Pair pair = two.pair;
+    b.rotation = rotation(edge.movement * draw()).toRotationMatrix();
+    ContactPair pair = two.pair;
     PairResult r;
     pair_force(pair, two.bodies.shapes, two.bodies.block[0], b, two.bodies.settings, 0, false, two.bodies.room, r);
     const double force = r.wrench.force.norm();
-    if (idle_way(edge, view_of(pair, two.bodies.shapes, two.bodies.block[0], b).pose) > 0) ++idle, greatest = std::max(greatest, force);
+    if (idle_way(edge, pair_frame(pair, two.bodies.shapes, two.bodies.block[0], b).pose) > 0) ++idle, greatest = std::max(greatest, force);
   }
   CHECK(idle > 100);
   CHECK(greatest <= most);
   ContactBlock b = two.bodies.block[1];
   b.u = Vec3(-1.5, 0, -1.5) * edge.movement;
-  CHECK(idle_way(edge, view_of(two.pair, two.bodies.shapes, two.bodies.block[0], b).pose) < 0);
+  CHECK(idle_way(edge, pair_frame(two.pair, two.bodies.shapes, two.bodies.block[0], b).pose) < 0);
 }
 
 TEST_CASE("the way that a pair may wait is no longer than its blocks take to press", "[contact][edges]") {
@@ -88,8 +88,8 @@ TEST_CASE("the way that a pair may wait is no longer than its blocks take to pre
     const Vec3 u[2] = {draw(), draw()}, turn[2] = {draw() / reach, draw() / reach};
     const double size = 1e-3 * edge.movement, way = size * ((u[1] - u[0]).norm() + reach * (turn[0].norm() + turn[1].norm()));
     ContactBlock at[2] = {two.bodies.block[0], two.bodies.block[1]};
-    for (int i = 0; i < 2; ++i) at[i].u = size * u[i], at[i].turn = rotation(size * turn[i]).toRotationMatrix();
-    const double left = idle_way(edge, view_of(two.pair, two.bodies.shapes, at[0], at[1]).pose);
+    for (int i = 0; i < 2; ++i) at[i].u = size * u[i], at[i].rotation = rotation(size * turn[i]).toRotationMatrix();
+    const double left = idle_way(edge, pair_frame(two.pair, two.bodies.shapes, at[0], at[1]).pose);
     CHECK(left >= idle_way(edge, edge.pose) - 1.001 * way - 1e-15);
   }
 }

@@ -119,7 +119,7 @@ TEST_CASE("slip of a patch takes energy in every step, wherever its pressure lie
     patch.second = patch.area / 12 * Vec3(a * a, b * b, 0).asDiagonal();
     patch.gyration = std::sqrt((a * a + b * b) / 12);
     patch.pressure_centre = {off, 0.7 * off, 0};
-    Pair pair;
+    ContactPair pair;
     pair.law = {stiffness, 0.4 * stiffness, 0.6, 0.3};
     const double normal = 100, reach = pair.law.mu * normal / (pair.law.ks * patch.area);
     PairPose pose{Mat3::Identity(), Vec3::Zero()};
@@ -133,12 +133,12 @@ TEST_CASE("slip of a patch takes energy in every step, wherever its pressure lie
       moved += speed;
       const double turn = moved.z() / patch.gyration;
       pose.shift = {moved.x(), moved.y(), 0};
-      pose.turn = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
+      pose.rotation = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
       const Motion motion{1e3 * Vec3(speed.x(), speed.y(), 0), {0, 0, 1e3 * speed.z() / patch.gyration}};
       const Friction f = patch_friction(pair, patch, pose, motion, normal, 1e-3, 0.05);
       work += -0.5 * ((f.force + force).head<2>().dot(speed.head<2>()) + (f.moment.z() + torsion) * speed.z() / patch.gyration);
       force = f.force, torsion = f.moment.z();
-      pair.touching = 1, pair.turn = pose.turn, pair.shift = pose.shift;
+      pair.touching = 1, pair.rotation = pose.rotation, pair.shift = pose.shift;
       least = std::min(least, f.slipped);
       sum += f.slipped;
       stored = f.stored;
@@ -219,7 +219,7 @@ TEST_CASE("a loaded contact turned as a whole keeps its force and does no work",
   const Vec3 centre_a = two.block[0].rest, centre_b = two.block[1].rest + two.block[1].u;
   for (int i = 1; i <= 3600; ++i) {
     const Quat turn = rotation(2 * M_PI * i / 3600 * Vec3(0.3, -0.5, 0.8).normalized());
-    two.block[0].turn = two.block[1].turn = turn.toRotationMatrix();
+    two.block[0].rotation = two.block[1].rotation = turn.toRotationMatrix();
     two.block[1].u = turn * (centre_b - centre_a) + centre_a - two.block[1].rest;
     two.list.valid = true;
     two.forces();
@@ -246,7 +246,7 @@ TEST_CASE("a contact takes over from a joint without a jump of force or energy",
   const auto begin = [&](double stored, double most = 0) {
     Vec6 before;
     before << force, Vec3::Zero();
-    return hand_over(two.list.pair[0], two.shapes, two.block[0], two.block[1], before, stored, most, two.room);
+    return release_to_contact(two.list.pair[0], two.shapes, two.block[0], two.block[1], before, stored, most, two.room);
   };
   const double pressing = 300.0 * 300 / (2 * kn * area), shearing = 2900 / (0.8 * kn * area);
   two.t = 1;
@@ -283,8 +283,8 @@ TEST_CASE("a contact takes over from a joint without a jump of force or energy",
 }
 
 TEST_CASE("a pair lists its memory for checkpoints", "[contact]") {
-  Pair p;
+  ContactPair p;
   std::size_t bytes = 0;
   each(p, [&](auto, auto& x) { bytes += sizeof(x); });
-  CHECK(bytes + sizeof(Corners) + alignof(Pair) > sizeof(Pair));  // only padding, and corners, which are found anew
+  CHECK(bytes + sizeof(Corners) + alignof(ContactPair) > sizeof(ContactPair));  // only padding, and corners, which are found anew
 }

@@ -45,13 +45,13 @@ TEST_CASE("the force of a stone of many faces is the derivative of its energy", 
   const ContactShape a = contact_shape(hull(corners(n))), b = contact_shape(hull(corners(n, 0.15, 0.7)));
   OverlapRoom room;
   const auto energy = [&](const Vec3& shift, const Vec3& turn) {
-    int separating = -1;
-    const PairPose pose{rotation(turn).toRotationMatrix(), shift};
-    return find_overlap(a, b, pose, separating, room).total > 0 ? overlap_energy(a, b, pose, room) : 0.0;
+    int separating_axis = -1;
+    const PairPose pose{rotation(theta).toRotationMatrix(), shift};
+    return find_overlap(a, b, pose, separating_axis, room).total > 0 ? overlap_energy(a, b, pose, room) : 0.0;
   };
   const Vec3 shift(0.12, 0.2, 0.16), turn(0.3, -0.2, 0.5);
-  int separating = -1;
-  const Patch patch = find_overlap(a, b, {rotation(turn).toRotationMatrix(), shift}, separating, room);
+  int separating_axis = -1;
+  const Patch patch = find_overlap(a, b, {rotation(theta).toRotationMatrix(), shift}, separating_axis, room);
   REQUIRE(patch.total > 0);
   const double h = 1e-6;
   Vec3 force;
@@ -88,7 +88,7 @@ TEST_CASE("a stone of many corners lies, rolls and falls as one of few", "[conta
     bodies.run(2);
     CHECK((bodies.block[1].u - before).norm() < 2e-4);                                         // it rocks on a facet of 20 mm for long
     const double pressure = mass * 9.81 / (0.5 * 4 * pi * 0.04 / double(stone.faces.size()));  // on half a face of mean size
-    CHECK(bodies.deepest < 2 * pressure / kn);
+    CHECK(bodies.max_depth < 2 * pressure / kn);
   }
 }
 

@@ -89,12 +89,12 @@ struct Probe {
   double energy;
 };
 
-// Engine's force on b and moment about its centroid, with b moved by `by` and rotated by `turn` about its centroid.
+// Engine's force on b and moment about its centroid, with b moved by `by` and rotated by `rotation` about its centroid.
 Probe probe(const Polyhedron& a, const Polyhedron& b, const Vec3& by, const Vec3& turn, double kn) {
   Bodies two({{{a}}, {{b}}}, {kn, 0, 0, 1}, 1e-6);
   two.settings.settling = two.settings.settling_tangential = 0;
   two.block[1].u = by;
-  two.block[1].turn = rotation(turn).toRotationMatrix();
+  two.block[1].rotation = rotation(theta).toRotationMatrix();
   two.forces();
   return {two.force[1], two.moment[1], two.elastic};
 }
@@ -110,7 +110,7 @@ TEST_CASE("the force is the derivative of the volume integral, for general conve
     const bool b_first = mass_properties(b).volume > mass_properties(a).volume * (1 + 1e-9);
     const Vec3 centre = mass_properties(b).centroid;
     auto energy = [&, &a = a, &b = b](const Vec3& by, const Vec3& turn) {
-      const Quat r = rotation(turn);
+      const Quat r = rotation(theta);
       const Polyhedron moved = transformed(b, r, centre - r * centre + by);
       return kn * (b_first ? volume_integral(moved, a) : volume_integral(a, moved));
     };
@@ -168,7 +168,7 @@ TEST_CASE("a brick bounces on a floor in 16 orientations without gaining energy"
     two.run(0.6);
     const double scale = two.mass[1] * 9.81 * 0.05;
     CHECK(std::abs(two.total()) < 2e-4 * scale);
-    CHECK(two.deepest < 0.01);
+    CHECK(two.max_depth < 0.01);
   }
 }
 
@@ -269,7 +269,7 @@ TEST_CASE("a pair that turns as one feels no dashpot", "[contact]") {
   const Quat turn = rotation(omega * dt * axis);
   for (ContactBlock& b : two.block) {
     b.u = turn * (b.rest - centre) + centre - b.rest;
-    b.turn = turn.toRotationMatrix();
+    b.rotation = turn.toRotationMatrix();
     b.v = b.u / dt;
     b.w = 2 / dt * std::tan(omega * dt / 2) * axis;
   }

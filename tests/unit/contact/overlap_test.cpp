@@ -40,7 +40,7 @@ void check_same(const ContactShape& a, const ContactShape& b, const PairPose& po
   CHECK(p.area == Approx(q.area).epsilon(near));
   CHECK(p.gyration == Approx(q.gyration).epsilon(1e-6).margin(1e-9));
   CHECK((p.second - q.second).norm() < near * q.second.norm());
-  CHECK(p.deepest == Approx(q.deepest).epsilon(near));
+  CHECK(p.max_depth == Approx(q.max_depth).epsilon(near));
   CHECK((p.force - q.force).norm() < near * q.force.norm());
   CHECK((p.moment - q.moment).norm() < near * 0.3 * q.force.norm());
   CHECK((p.centroid - q.centroid).norm() < near);
@@ -48,7 +48,7 @@ void check_same(const ContactShape& a, const ContactShape& b, const PairPose& po
   const Vec3 linear(0.3, -0.2, 0.5), angular(1, 2, -3);
   closing_speeds(fast, linear, angular, p);
   closing_speeds(general, linear, angular, q);
-  CHECK(p.closing == Approx(q.closing));
+  CHECK(p.closing_speed == Approx(q.closing_speed));
   Vec3 f0, m0, f1, m1;
   for (const double chi : {0.1, 1.5}) {  // within the clamp; in part beyond it, for any triangulation of the polygons
     damping_wrench(fast, p.normal, chi, 2, f0, m0);
@@ -75,8 +75,8 @@ TEST_CASE("small bodies overlap the fast way as the general way", "[contact]") {
     const ContactShape &a = shapes[std::size_t(trial) % 5], &b = shapes[std::size_t(trial / 5) % 5];
     PairPose pose;
     const bool resting = trial % 3 == 0;  // face on face within a micrometre
-    const Vec3 turn(scatter(resting ? 1e-6 : 2), scatter(resting ? 1e-6 : 2), scatter(2));
-    pose.turn = rotation(turn).toRotationMatrix();
+    const Vec3 theta(scatter(resting ? 1e-6 : 2), scatter(resting ? 1e-6 : 2), scatter(2));
+    pose.rotation = rotation(theta).toRotationMatrix();
     pose.shift = resting ? Vec3(scatter(0.1), scatter(0.05), a.centre.z() + a.half.z() - b.centre.z() + b.half.z() - 1e-6)
                          : Vec3(scatter(0.2), scatter(0.1), scatter(0.15));
     INFO("trial " << trial);
@@ -94,40 +94,40 @@ TEST_CASE("instruction sets clip to the same bits, and a pair to the same whatev
   Scatter scatter;
   int met = 0;
   for (int trial = 0; trial < 300; ++trial) {
-    ClipJob job[8];
+    ClipTask task[8];
     for (std::size_t l = 0; l < 8; ++l) {
       const bool resting = (trial + int(l)) % 3 == 0;
       const Mat3 turn = rotation(Vec3(scatter(resting ? 1e-6 : 2), scatter(resting ? 1e-6 : 2), scatter(2))).toRotationMatrix();
-      job[l] = {&shapes[l % 3].small, &shapes[(l / 3) % 3].small, {}, &wide[l]};
-      for (int i = 0; i < 9; ++i) job[l].pose.turn[i] = turn(i / 3, i % 3);
-      for (double& x : job[l].pose.shift) x = scatter(0.1);
-      if (resting) job[l].pose.shift[2] = 0.0999;
+      task[l] = {&shapes[l % 3].small, &shapes[(l / 3) % 3].small, {}, &wide[l]};
+      for (int i = 0; i < 9; ++i) task[l].pose.rotation[i] = turn(i / 3, i % 3);
+      for (double& x : task[l].pose.shift) x = scatter(0.1);
+      if (resting) task[l].pose.shift[2] = 0.0999;
     }
-    clip_kernels().clip_all(job, 8);
-    for (std::size_t l = 0; l < 8; ++l) job[l].out = &narrow[l];
-    sse2::clip_kernels.clip_all(job, 8);
+    clip_kernels().clip_all(task, 8);
+    for (std::size_t l = 0; l < 8; ++l) task[l].out = &narrow[l];
+    sse2::clip_kernels.clip_all(task, 8);
     for (std::size_t l = 0; l < 8; ++l) {
-      clip_kernels().clip(*job[l].a, *job[l].b, job[l].pose, *alone);
+      clip_kernels().clip(*task[l].a, *task[l].b, task[l].pose, *alone);
       REQUIRE(narrow[l].count == wide[l].count);
       REQUIRE(narrow[l].count == alone->count);
-      REQUIRE(narrow[l].separating == wide[l].separating);
+      REQUIRE(narrow[l].separating_axis == wide[l].separating_axis);
       if (narrow[l].count == 0) continue;
       ++met;
       OverlapSums sums[3];
-      double damped[3][4], closing[3];
+      double damped[3][4], closing_speed[3];
       int k = 0;
       for (Triangles* t : {&narrow[l], &wide[l], alone.get()}) {
         const ClipKernels& kernels = k == 0 ? sse2::clip_kernels : clip_kernels();
-        const double turning[3] = {0.3, -2, 1};
+        const double angular_part[3] = {0.3, -2, 1};
         kernels.sum(*t, sums[k]);
-        closing[k] = kernels.approach(*t, 0.2, turning);
+        closing_speed[k] = kernels.closing_speeds(*t, 0.2, angular_part);
         const double n[3] = {0.6, 0, -0.8};
         kernels.damp(*t, n, 1.5, 1.6, damped[k][0], &damped[k][1]);
         ++k;
       }
       for (k = 1; k < 3; ++k) {
         CHECK(std::equal(&sums[0].total, &sums[0].unused[0], &sums[k].total));
-        CHECK(closing[0] == closing[k]);
+        CHECK(closing_speed[0] == closing_speed[k]);
         CHECK(std::equal(damped[0], damped[0] + 4, damped[k]));
       }
     }
@@ -165,8 +165,8 @@ struct Walk {
     for (int i = 0; i < 20; ++i) {  // limits the depth to some millimetres
       int none = -1;
       const Patch patch = find_overlap(a, b, {turn, shift}, none, *room);
-      if (!(patch.total > 0) || patch.deepest < 0.005) break;
-      shift += 0.7 * patch.deepest * patch.normal;
+      if (!(patch.total > 0) || patch.max_depth < 0.005) break;
+      shift += 0.7 * patch.max_depth * patch.normal;
     }
   }
   void go() {
@@ -175,7 +175,7 @@ struct Walk {
   }
   SmallPose pose() const {
     SmallPose out;
-    for (int i = 0; i < 9; ++i) out.turn[i] = turn(i / 3, i % 3);
+    for (int i = 0; i < 9; ++i) out.rotation[i] = turn(i / 3, i % 3);
     for (int i = 0; i < 3; ++i) out.shift[i] = shift[i];
     return out;
   }
@@ -185,7 +185,7 @@ struct Walk {
 };
 
 bool same(const Triangles& p, const Triangles& q) {
-  if (p.count != q.count || p.separating != q.separating) return false;
+  if (p.count != q.count || p.separating_axis != q.separating_axis) return false;
   bool is_same = std::equal(p.faces, p.faces + p.count, q.faces);
   for (int k = 0; k < 3; ++k)
     for (int i = 0; i < 3; ++i) is_same = is_same && std::equal(p.corner[k][i], p.corner[k][i] + p.count, q.corner[k][i]);
@@ -209,13 +209,13 @@ TEST_CASE("an overlap known by its corners is the one that clipping finds, and t
     for (int step = 0; step < 40; ++step, walk.go()) {
       INFO("trial " << trial << " step " << step);
       Corners none;
-      const ClipJob job{&a.small, &b.small, walk.pose(), kept.get(), &corners};
-      ClipJob fresh = job, plain = job, other = job;
+      const ClipTask task{&a.small, &b.small, walk.pose(), kept.get(), &corners};
+      ClipTask fresh = task, plain = task, other = task;
       fresh.out = anew.get(), fresh.known = &none;
       plain.out = clipped.get(), plain.known = nullptr;
       other.out = narrow.get(), other.known = &corners_narrow;
       known_before += corners.count > 0;
-      clip_kernels().clip_all(&job, 1);
+      clip_kernels().clip_all(&task, 1);
       clip_kernels().clip_all(&fresh, 1);
       clip_kernels().clip_all(&plain, 1);
       sse2::clip_kernels.clip_all(&other, 1);
@@ -229,7 +229,7 @@ TEST_CASE("an overlap known by its corners is the one that clipping finds, and t
       OverlapSums p, q;
       clip_kernels().sum(*kept, p);
       clip_kernels().sum(*clipped, q);
-      const double near = 1e-9, deep = kept->deepest;  // sums, with corners off by round-off over the sine of two planes
+      const double near = 1e-9, deep = kept->max_depth;  // sums, with corners off by round-off over the sine of two planes
       CHECK(p.total == Approx(q.total).epsilon(near).margin(1e-16 * deep));
       CHECK(p.area == Approx(q.area).epsilon(1e-7).margin(1e-10));
       for (int i = 0; i < 3; ++i) {
@@ -237,7 +237,7 @@ TEST_CASE("an overlap known by its corners is the one that clipping finds, and t
         CHECK(p.moment[i] == Approx(q.moment[i]).epsilon(near).margin(near * 0.3 * std::abs(q.total)));
         CHECK(p.pressure[i] == Approx(q.pressure[i]).epsilon(near).margin(near * 0.3 * std::abs(q.total)));
       }
-      CHECK(kept->deepest == Approx(clipped->deepest).epsilon(near));
+      CHECK(kept->max_depth == Approx(clipped->max_depth).epsilon(near));
     }
   }
   CHECK(met > 5000);
@@ -257,12 +257,12 @@ TEST_CASE("bodies whose edges cross are as far apart as the edges", "[contact]")
     room->only_general = general;
     // The edges cross at right angles, each s / sqrt 2 from its centre.
     const PairPose pose{a.transpose() * b, a.transpose() * Vec3(0.01, -0.02, std::sqrt(2.0) * s + gap)};
-    int separating = -1;
-    CHECK(find_overlap(cube, cube, pose, separating, *room).total == 0);
-    CHECK(separating >= 12);
+    int separating_axis = -1;
+    CHECK(find_overlap(cube, cube, pose, separating_axis, *room).total == 0);
+    CHECK(separating_axis >= 12);
     CHECK(room->apart == Approx(gap).epsilon(1e-9));
-    CHECK(distance(cube, cube, pose, separating) == Approx(gap).epsilon(1e-9));
-    const PairPose closer{pose.turn, a.transpose() * Vec3(0.01, -0.02, std::sqrt(2.0) * s - gap)};
-    CHECK(find_overlap(cube, cube, closer, separating, *room).total > 0);
+    CHECK(distance(cube, cube, pose, separating_axis) == Approx(gap).epsilon(1e-9));
+    const PairPose closer{pose.rotation, a.transpose() * Vec3(0.01, -0.02, std::sqrt(2.0) * s - gap)};
+    CHECK(find_overlap(cube, cube, closer, separating_axis, *room).total > 0);
   }
 }

@@ -92,7 +92,7 @@ TEST_CASE("cells have their points' weights, fill the polygon, and watch no wide
         double at_points = -1e300, watched = -1e300;
         for (const QuadraturePoint& q : points) {
           at_points = std::max(at_points, n.dot(Vec2(q.x, q.y)));
-          for (const Vec2& x : q.watch) watched = std::max(watched, n.dot(x));
+          for (const Vec2& x : q.tension_loop) watched = std::max(watched, n.dot(x));
         }
         CHECK(watched <= at_points + 1e-9);
       }

@@ -20,7 +20,7 @@ const std::vector<std::vector<double>> faces{{-.15, -.06, .15, -.06, .15, .06, -
                                              {-.1, -.05, .2, -.05, -.1, .1},
                                              {-.1, -.06, .08, -.07, .14, 0, .1, .06, -.05, .08, -.12, .02}};
 
-Bed bed(const std::vector<double>& corners) { return {1e10, 1e-4, int(corners.size()) / 2, corners.data()}; }
+CompressionFace face(const std::vector<double>& corners) { return {1e10, 1e-4, int(corners.size()) / 2, corners.data()}; }
 
 // Points of equal area (m2) over a face, each with its own permanent set.
 struct Places {
@@ -64,7 +64,7 @@ void check(const Pressed& a, const Pressed& b, double scale, double share) {
 
 TEST_CASE("a face that yields presses as its places do one by one", "[laws][crushing]") {
   const auto& corners = faces[std::size_t(GENERATE(0, 1, 2))];
-  const Bed b = bed(corners);
+  const CompressionFace b = face(corners);
   Places places(corners);
   CrushedFace crushed;
   std::mt19937 random(3);
@@ -89,7 +89,7 @@ TEST_CASE("a face that yields presses as its places do one by one", "[laws][crus
 
 TEST_CASE("what crushing takes closes the balance of every step", "[laws][crushing][energy]") {
   const auto& corners = faces[std::size_t(GENERATE(0, 2))];
-  const Bed b = bed(corners);
+  const CompressionFace b = face(corners);
   CrushedFace crushed;
   // Gaps that circle the face at varying depth, with more planes than a face can keep.
   const auto gap = [&](double x) {
@@ -121,7 +121,7 @@ TEST_CASE("what crushing takes closes the balance of every step", "[laws][crushi
 }
 
 TEST_CASE("planes that a face has no room for are those that matter least", "[laws][crushing]") {
-  const Bed b = bed(faces[0]);
+  const CompressionFace b = face(faces[0]);
   Places places(faces[0], 300);
   CrushedFace crushed;
   Gap last{1, 0, 0};
@@ -137,7 +137,7 @@ TEST_CASE("planes that a face has no room for are those that matter least", "[la
 }
 
 TEST_CASE("below fc nothing is crushed, above it unloading is elastic", "[laws][crushing]") {
-  const Bed b = bed(faces[0]);
+  const CompressionFace b = face(faces[0]);
   CrushedFace crushed;
   const Gap rest{0, 0, 0}, below{-0.5 * b.limit, 3 * b.limit, 0}, above{-1.5 * b.limit, 8 * b.limit, 0};
   CHECK(crush(b, crushed, rest.data(), below.data()) == 0);

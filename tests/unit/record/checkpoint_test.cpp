@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "engine/base/error.h"
-#include "engine/model/pair.h"
+#include "engine/model/contact_pair.h"
 #include "engine/record/collapse.h"
 #include "engine/record/run_writer.h"
 #include "tests/unit/record/two_bricks.h"
@@ -22,10 +22,10 @@ State moved() {
   s.u[1] = Vec3(1.0 / 3, 2, 3);
   s.q[1] = rotation(Vec3(0.1, 0.2, 0.3));
   s.history[2].damage = 0.5;
-  s.tier[0] = Tier::cracked;
-  s.memory[0].f[2] = 12;
-  s.batch[0].turn[2][7] = 0.25;
-  s.row.assign(3, 2.5);
+  s.stage[0] = JointStage::cracked;
+  s.memory[0].resultant[2] = 12;
+  s.pack[0].rotation[2][7] = 0.25;
+  s.pose_row.assign(3, 2.5);
   s.energy.friction = 4;
   s.energy.largest_jump_joint = 3;
   return s;
@@ -43,7 +43,7 @@ struct NestedThing {
   std::vector<WriterProgress> parts;
 };
 struct Pairs {
-  std::vector<Pair> pairs;
+  std::vector<ContactPair> pairs;
 };
 template <class F>
 void each(Pairs& p, F&& f) {
@@ -96,7 +96,7 @@ TEST_CASE("a checkpoint brings everything back", "[record][checkpoint]") {
   CHECK(slurp(scratch.path + "/checkpoint.bin") == first);
   CHECK(back.u[1] == s.u[1]);
   CHECK(back.q[1].coeffs() == s.q[1].coeffs());
-  CHECK(back.batch[0].turn[2][7] == 0.25);
+  CHECK(back.pack[0].rotation[2][7] == 0.25);
   CHECK(back.energy.largest_jump_joint == 3);
   CHECK(again.lists == nested.lists);
   CHECK(again.word == "words");
@@ -111,7 +111,7 @@ TEST_CASE("what is longer than the writer's pieces comes back, and zeros stay un
   s.history.clear(300000);
   s.history[123456].damage = 0.25;
   s.history[299999].reach = 3;
-  s.place.assign(50001, 7);
+  s.slot.assign(50001, 7);
   write_checkpoint(scratch.path, {1, 1}, s);
   State back;
   read_checkpoint(scratch.path, {1, 1}, back);
@@ -120,7 +120,7 @@ TEST_CASE("what is longer than the writer's pieces comes back, and zeros stay un
   REQUIRE(mincore(reinterpret_cast<void*>(page), 3 * 4096, there) == 0);
   CHECK((there[0] & 1) == 0);
   CHECK(state_hash(back) == state_hash(s));
-  CHECK(back.place == s.place);
+  CHECK(back.place == s.slot);
   CHECK(back.history[299999].reach == 3);
 }
 
@@ -174,8 +174,8 @@ TEST_CASE("state_hash sees positions, velocities and histories, not caches", "[r
   CHECK(changed([](State& s) { s.v[2].y() = 1e-300; }));
   CHECK(changed([](State& s) { s.spin_momentum[2].y() = 1e-300; }));
   CHECK(changed([](State& s) { s.history[0].slip_t = 1e-20; }));
-  CHECK(changed([](State& s) { s.tier[0] = Tier::open; }));
-  CHECK_FALSE(changed([](State& s) { s.batch[0].gap[0][0] = 1; }));
+  CHECK(changed([](State& s) { s.stage[0] = JointStage::contact; }));
+  CHECK_FALSE(changed([](State& s) { s.pack[0].gap[0][0] = 1; }));
   CHECK_FALSE(changed([](State& s) { s.energy.kinetic = 1; }));
 }
 

@@ -138,7 +138,7 @@ TEST_CASE("joint forces are summed with the side asked for", "[record][recorder]
 
 TEST_CASE("damage is the share of area that has any", "[record][recorder]") {
   auto t = test::two_bricks();
-  t.state.tier[0] = Tier::cracked;
+  t.state.stage[0] = JointStage::cracked;
   t.state.history[0].damage = 1;
   const Snapshot s = snapshot_of(t);
   CHECK(row(t, s, recorder("bed", "damage", {"top"}))[0] == Approx(0.25));

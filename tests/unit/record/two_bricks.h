@@ -61,7 +61,7 @@ inline TwoBricks two_bricks() {
   joint.arm_b = Vec3(0, 0, -0.05);
   m.joint = {joint};
   m.point = {{-0.1, -0.05, 0.005}, {0.1, -0.05, 0.005}, {0.1, 0.05, 0.005}, {-0.1, 0.05, 0.005}};
-  m.corner = {{-0.1, -0.05}, {0.1, -0.05}, {0.1, 0.05}, {-0.1, 0.05}};
+  m.overlap_corner = {{-0.1, -0.05}, {0.1, -0.05}, {0.1, 0.05}, {-0.1, 0.05}};
   m.laws.resize(1);
   State& s = t.state;
   s.u.assign(4, Vec3::Zero());
@@ -69,11 +69,11 @@ inline TwoBricks two_bricks() {
   s.v.assign(4, Vec3::Zero());
   s.spin_momentum.assign(4, Vec3::Zero());
   s.w.assign(4, Vec3::Zero());
-  s.tier.assign(1, Tier::intact);
+  s.stage.assign(1, JointStage::intact);
   s.memory.resize(1);
   s.history.resize(4);
   s.batch.resize(1);
-  s.place.assign(1, 0);
+  s.slot.assign(1, 0);
   return t;
 }
 

@@ -54,7 +54,7 @@ TEST_CASE("a run folder is read", "[render][run]") {
   CHECK(run.record.axis == "y");
   CHECK(run.record.peak == 3);
   CHECK(run.record.t.size() == 3);  // the incomplete last line is ignored
-  CHECK(run.energy_gate == 1e-3);
+  CHECK(run.energy_tolerance == 1e-3);
   CHECK(run.marks.empty());
   dir.write("events.csv",
             "time_s,event,name,value,unit\n0.1,open,a | b,1e-3,m\n0.2,crack,a | b,0.5,share\n0.3,crack,b | c,0.5,share\n0.4,collapse,,,\n");

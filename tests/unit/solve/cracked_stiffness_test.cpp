@@ -11,7 +11,7 @@ using namespace erbs;
 
 namespace {
 
-Mat6 sound_form(const Joint& joint) {
+Mat6 intact_form(const Joint& joint) {
   Mat6 k = Mat6::Zero();
   for (int i = 0; i < 6; ++i) k(i, i) = joint.type->stiffness[i];
   return k;
@@ -103,10 +103,10 @@ TEST_CASE("cells of sound points and the closed compression make the sound joint
     std::vector<PointHistory> history(std::size_t(m.npoint));
     JointEnergy e;
     respond(m, 0, false, q.data(), q.data(), history.data(), f.data(), e);
-    const Vec6 sound = sound_form(joint) * q;
+    const Vec6 intact = intact_form(joint) * q;
     INFO(rule << " " << shape);
-    for (int i = 0; i < 6; ++i) CHECK(std::fabs(f[i] - sound[i]) * (i < 3 ? 1 : 1 / joint.type->radius) < 1e-12 * joint.type->stiffness[2] * length);
-    CHECK(e.elastic == Approx(0.5 * sound.dot(q)).epsilon(1e-12));
+    for (int i = 0; i < 6; ++i) CHECK(std::fabs(f[i] - intact[i]) * (i < 3 ? 1 : 1 / joint.type->radius) < 1e-12 * joint.type->stiffness[2] * length);
+    CHECK(e.elastic == Approx(0.5 * intact.dot(q)).epsilon(1e-12));
     CHECK(e.fracture == 0);
   }
 }
@@ -129,20 +129,20 @@ TEST_CASE("over a crack the work of a joint is stored or booked", "[solve][crack
   std::vector<PointHistory> history(std::size_t(m.npoint));
   Vec6 before = Vec6::Zero(), f_before = Vec6::Zero();
   double work = 0, booked = 0, elastic = 0;
-  bool sound = true;
+  bool intact = true;
   const int steps = 20000;
   for (int step = 1; step <= steps; ++step) {
     const double x = end * peak * step / steps;
     Vec6 q = Vec6::Zero(), f;
     q[2] = 0.3 * x, q[3] = 0.4 * x / joint.type->half_t, q[4] = x / joint.type->half_s;
     JointEnergy e;
-    sound = respond(m, 0, sound, before.data(), q.data(), history.data(), f.data(), e) && sound;
+    intact = respond(m, 0, intact, before.data(), q.data(), history.data(), f.data(), e) && intact;
     work += 0.5 * (f + f_before).dot(q - before);
     booked += e.fracture + e.friction;
     elastic = e.elastic;
     before = q, f_before = f;
   }
-  CHECK(!sound);
+  CHECK(!intact);
   CHECK(booked > 0);
   CHECK(std::fabs(work - elastic - booked) < 1e-5 * work);
 }

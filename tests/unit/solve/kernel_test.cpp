@@ -1,14 +1,14 @@
 #include <catch2/catch.hpp>
 #include <set>
 
-#include "engine/model/batches.h"
+#include "engine/model/joint_packs.h"
 #include "engine/record/checkpoint.h"
 #include "engine/solve/cracked.h"
 #include "engine/solve/energy.h"
 #include "engine/solve/integrate.h"
 #include "engine/solve/joint_geometry.h"
 #include "engine/solve/lanes.h"
-#include "engine/solve/sound.h"
+#include "engine/solve/intact.h"
 #include "tests/support/small_wall.h"
 
 using namespace erbs;
@@ -80,8 +80,8 @@ TEST_CASE("threads do not change a bit, cracks and contacts included", "[solve]"
   test::run_to(scene, 1, 0.25, one);
   test::run_to(scene, 2, 0.25, two);
   test::run_to(scene, 3, 0.25, three);
-  const auto cracked = std::count_if(one.state.tier.begin(), one.state.tier.end(), [](Tier t) { return t != Tier::intact; });
-  const auto opened = std::count(one.state.tier.begin(), one.state.tier.end(), Tier::open);
+  const auto cracked = std::count_if(one.state.stage.begin(), one.state.stage.end(), [](JointStage t) { return t != JointStage::intact; });
+  const auto opened = std::count(one.state.stage.begin(), one.state.stage.end(), JointStage::contact);
   CHECK(cracked > 10);
   CHECK(opened > 0);
   CHECK(state_hash(one.state) == state_hash(two.state));
@@ -91,11 +91,11 @@ TEST_CASE("threads do not change a bit, cracks and contacts included", "[solve]"
 // Block displacements set by hand: some 1e-6 m and rad.
 void sway(const Model& m, State& s) {
   for (std::size_t b = 0; b < std::size_t(m.nblock); ++b)
-    for (std::size_t i = 0; i < 6; ++i) s.shift[b / lanes].x[i][b % lanes] = s.row[8 * b + i] = 1e-6 * std::sin(double(8 * b + i));
+    for (std::size_t i = 0; i < 6; ++i) s.increment[b / pack_size].x[i][b % pack_size] = s.pose_row[8 * b + i] = 1e-6 * std::sin(double(8 * b + i));
 }
 
-void add_lanes(const std::vector<RowLanes<6>>& sums, std::vector<double>& out) {
-  for (const RowLanes<6>& one : sums)
+void add_lanes(const std::vector<VectorPack<6>>& sums, std::vector<double>& out) {
+  for (const VectorPack<6>& one : sums)
     for (const auto& row : one.x) out.insert(out.end(), std::begin(row), std::end(row));
 }
 
@@ -104,35 +104,35 @@ TEST_CASE("instruction sets give the same bits", "[solve]") {
   Prepared run = prepare(scene, false);
   start_at_rest(scene, run, 1);
   sway(run.model, run.state);
-  const auto answer = [&](const LaneKernels& kernels) {
+  const auto answer = [&](const StepKernels& kernels) {
     State s = run.state;
     // Swaying blocks beside others with high angular velocity, each with its own number of iterations.
     for (std::size_t b = 0; b < s.u.size(); ++b) s.spin_momentum[b] = std::pow(30.0, double(b % 4)) * Vec3(1e-3, -2e-3, 3e-3);
-    JointLanes o{};
-    kernels.elastic(sound_batch(run.model, s, 0), s.row.data(), o);
-    std::vector<double> out(&o.q[0][0], &o.q[0][0] + 6 * lanes);
-    alignas(64) double stored[lanes] = {};
-    Sound sound(run.model, s);
-    sound.forces(0, sound.groups(), kernels, stored);
-    out.insert(out.end(), stored, stored + lanes);
+    ElasticPack o{};
+    kernels.elastic(intact_pack(run.model, s, 0), s.pose_row.data(), o);
+    std::vector<double> out(&o.gap[0][0], &o.gap[0][0] + 6 * pack_size);
+    alignas(64) double stored[pack_size] = {};
+    IntactJoints intact(run.model, s);
+    intact.forces(0, intact.groups(), kernels, stored);
+    out.insert(out.end(), stored, stored + pack_size);
     BlockWork work{};
     const std::vector<BlockConstants> constants = block_constants(run.model, s);
     Rows poses;
-    poses.assign(s.row.size(), 0.0);
+    poses.assign(s.pose_row.size(), 0.0);
     const BlockArrays arrays{constants.data(),
                              s.u.data(),
                              s.v.data(),
                              s.spin_momentum.data(),
                              s.w.data(),
                              s.q.data(),
-                             s.base_u.data(),
-                             s.base_q.data(),
-                             s.row.data(),
+                             s.ref_u.data(),
+                             s.ref_q.data(),
+                             s.pose_row.data(),
                              poses.data(),
-                             s.shift.data(),
-                             s.kept.data(),
-                             s.given.data(),
-                             run.model.kept.taken.data(),
+                             s.increment.data(),
+                             s.owner_sum.data(),
+                             s.neighbour_force.data(),
+                             run.model.owner_schedule.gather_in.data(),
                              s.wrench.data(),
                              nullptr,
                              nullptr};
@@ -140,69 +140,69 @@ TEST_CASE("instruction sets give the same bits", "[solve]") {
     for (const bool sample : {false, true}) kernels.advance(step, arrays, 0, int(constants.size()), sample, work);
     for (std::size_t i = 0; i < s.wrench.size(); ++i)
       if (i % 8 < 6) out.push_back(s.wrench[i]);
-    for (std::size_t i = 0; i < s.row.size(); ++i) {
-      if (i % 8 < 6) out.push_back(s.row[i]);
+    for (std::size_t i = 0; i < s.pose_row.size(); ++i) {
+      if (i % 8 < 6) out.push_back(s.pose_row[i]);
       if (i % 8 < 7) out.push_back(poses[i]);
     }
-    for (const auto* sums : {&s.shift, &s.kept, &s.given}) add_lanes(*sums, out);
+    for (const auto* sums : {&s.increment, &s.owner_sum, &s.neighbour_force}) add_lanes(*sums, out);
     for (std::size_t b = 0; b < s.u.size(); ++b)
       for (int i = 0; i < 3; ++i) out.insert(out.end(), {s.v[b][i], s.w[b][i], s.spin_momentum[b][i]});
     for (const auto* sum : {work.base, work.damping, work.absolute, work.base_after, work.damping_after, work.absolute_after, work.kinetic, work.height})
-      out.insert(out.end(), sum, sum + lanes);
+      out.insert(out.end(), sum, sum + pack_size);
     return out;
   };
-  CHECK(answer(sse2::kernels) == answer(lane_kernels()));
+  CHECK(answer(sse2::kernels) == answer(step_kernels()));
 }
 
 TEST_CASE("every end of a joint has a row of its own, and blocks share out the joints they keep", "[solve]") {
   const Prepared run = prepare(test::small_wall(shake + "fast\"}"), false);
   const Model& m = run.model;
-  std::vector<int> ends(std::size_t(m.spare_row()), 0), kept(std::size_t(m.nblock), 0);
+  std::vector<int> ends(std::size_t(m.spare_wrench_row()), 0), owned(std::size_t(m.nblock), 0);
   for (int j = 0; j < m.njoint; ++j) {
-    ++ends[std::size_t(m.row_a[std::size_t(j)])], ++ends[std::size_t(m.row_b[std::size_t(j)])];
-    ++kept[std::size_t(m.keeper(j))];
+    ++ends[std::size_t(m.wrench_row_a[std::size_t(j)])], ++ends[std::size_t(m.wrench_row_b[std::size_t(j)])];
+    ++owned[std::size_t(m.owner(j))];
   }
   CHECK(*std::max_element(ends.begin(), ends.end()) == 1);
   std::vector<int> of_block(ends.size(), 0);
-  for (int b = 0; b < m.nblock; ++b) m.each_row(b, [&](int row) { ++of_block[std::size_t(row)]; });
+  for (int b = 0; b < m.nblock; ++b) m.each_wrench_row(b, [&](int row) { ++of_block[std::size_t(row)]; });
   CHECK(*std::max_element(of_block.begin(), of_block.end()) == 1);
   for (int j = 0; j < m.njoint; ++j) {
     bool found = false;
-    m.each_row(m.joint[std::size_t(j)].a, [&](int row) { found = found || row == m.row_a[std::size_t(j)]; });
+    m.each_wrench_row(m.joint[std::size_t(j)].a, [&](int row) { found = found || row == m.wrench_row_a[std::size_t(j)]; });
     CHECK(found);
   }
   // Rounds of eight joints each, with one spare round for every block group.
   int rounds = 0;
-  for (std::size_t g = 0; g + 1 < m.first_slot.size(); ++g) {
+  for (std::size_t g = 0; g + 1 < m.first_wrench_slot.size(); ++g) {
     int most = 0;
-    for (int b = int(g) * lanes; b < std::min(int(g + 1) * lanes, m.nblock); ++b) most = std::max(most, kept[std::size_t(b)]);
+    for (int b = int(g) * pack_size; b < std::min(int(g + 1) * pack_size, m.nblock); ++b) most = std::max(most, owned[std::size_t(b)]);
     rounds += most;
   }
-  CHECK(rounds <= m.njoint / lanes + int(m.first_slot.size()));
+  CHECK(rounds <= m.njoint / pack_size + int(m.first_wrench_slot.size()));
 }
 
 TEST_CASE("what crosses over between lanes comes from the joint's other block and goes there", "[solve]") {
   const Prepared run = prepare(test::small_wall(shake + "fast\"}"), false);
   const Model& m = run.model;
-  const KeptLanes& kept = m.kept;
-  const auto place = [](int lane) { return lane / lanes * 6 * lanes + lane % lanes; };
-  std::vector<std::multiset<int>> taken(std::size_t(m.nblock)), ends(std::size_t(m.nblock));
+  const OwnerSchedule& schedule = m.owner_schedule;
+  const auto place = [](int lane) { return lane / pack_size * 6 * pack_size + lane % pack_size; };
+  std::vector<std::multiset<int>> gathered(std::size_t(m.nblock)), ends(std::size_t(m.nblock));
   for (int j = 0; j < m.njoint; ++j) {
     const Joint& joint = m.joint[std::size_t(j)];
-    const int lane = kept.lane[std::size_t(j)], k = lane / lanes, g = m.keeper(j) / lanes, other = joint.kept_by_b ? joint.a : joint.b;
-    CHECK(kept.joint[std::size_t(lane)] == j);
-    CHECK(lane % lanes == m.keeper(j) % lanes);
-    CHECK((kept.first_batch[std::size_t(g)] <= k && k < kept.first_batch[std::size_t(g) + 1]));
-    CHECK((kept.other[std::size_t(k)].at[lane % lanes] & ~lanes) == place(other));
+    const int lane = schedule.lane[std::size_t(j)], k = lane / pack_size, g = m.owner(j) / pack_size, other = joint.owned_by_b ? joint.a : joint.b;
+    CHECK(schedule.joint[std::size_t(lane)] == j);
+    CHECK(lane % pack_size == m.owner(j) % pack_size);
+    CHECK((schedule.first_pack[std::size_t(g)] <= k && k < owner_sum.first_pack[std::size_t(g) + 1]));
+    CHECK((schedule.other[std::size_t(k)].at[lane % pack_size] & ~pack_size) == place(other));
     ends[std::size_t(other)].insert(place(lane));
   }
-  const int none = place(int(kept.joint.size()));
+  const int none = place(int(schedule.joint.size()));
   for (int b = 0; b < m.nblock; ++b) {
-    const std::size_t g = std::size_t(b / lanes);
-    for (int k = kept.first_taken[g]; k < kept.first_taken[g + 1]; ++k)
-      if (const int at = kept.taken[std::size_t(k)].at[b % lanes] & ~lanes; at != none) taken[std::size_t(b)].insert(at);
-    if (m.kind[std::size_t(b)] == Kind::moving) CHECK(taken[std::size_t(b)] == ends[std::size_t(b)]);
-    const int *first = &kept.end[std::size_t(kept.first_end[std::size_t(b)])], *last = first + int(ends[std::size_t(b)].size());
+    const std::size_t g = std::size_t(b / pack_size);
+    for (int k = schedule.first_gather[g]; k < owner_sum.first_gather[g + 1]; ++k)
+      if (const int at = schedule.gather_in[std::size_t(k)].at[b % pack_size] & ~pack_size; at != none) gathered[std::size_t(b)].insert(at);
+    if (m.kind[std::size_t(b)] == Kind::moving) CHECK(gathered[std::size_t(b)] == ends[std::size_t(b)]);
+    const int *first = &schedule.end[std::size_t(schedule.first_end[std::size_t(b)])], *last = first + int(ends[std::size_t(b)].size());
     CHECK(std::multiset<int>(first, last) == ends[std::size_t(b)]);
   }
 }
@@ -214,13 +214,13 @@ TEST_CASE("sound joints in one pass answer as step by step", "[solve]") {
   State& s = run.state;
   sway(run.model, s);
   State one_by_one = s;
-  Sound sound(run.model, s);
-  sound.forces(0, sound.groups(), lane_kernels(), nullptr);
-  for (int k = 0; k < sound_batches(run.model); ++k) {
-    JointLanes o;
-    const JointBatch batch = sound_batch(run.model, s, k);
-    lane_kernels().elastic(batch, s.row.data(), o);
-    lane_kernels().wrenches(batch, o, one_by_one.wrench.data());
+  IntactJoints intact(run.model, s);
+  intact.forces(0, intact.groups(), step_kernels(), nullptr);
+  for (int k = 0; k < intact_packs(run.model); ++k) {
+    ElasticPack o;
+    const JointPack pack = intact_pack(run.model, s, k);
+    step_kernels().elastic(pack, s.pose_row.data(), o);
+    step_kernels().wrenches(pack, o, one_by_one.wrench.data());
   }
   double largest_wrench = 0, worst = 0;
   for (int b = 0; b < run.model.nblock; ++b) {
@@ -236,17 +236,17 @@ TEST_CASE("a joint that leaves its lane leaves the others as they are", "[solve]
   Prepared run = prepare(test::small_wall(shake + "fast\"}"), false);
   State& s = run.state;
   sway(run.model, s);
-  const auto answer = [&](Sound& sound) {
-    sound.forces(0, sound.groups(), lane_kernels(), nullptr);
+  const auto answer = [&](IntactJoints& intact) {
+    intact.forces(0, intact.groups(), step_kernels(), nullptr);
     std::vector<double> out;
-    add_lanes(s.kept, out), add_lanes(s.given, out);
+    add_lanes(s.owner_sum, out), add_lanes(s.neighbour_force, out);
     return out;
   };
-  Sound sound(run.model, s);
-  const std::vector<double> whole = answer(sound);
-  for (const int j : {3, 9}) s.place[std::size_t(j)] = -1, sound.leave(j);
-  Sound fresh(run.model, s);
-  const std::vector<double> left = answer(sound);
+  IntactJoints intact(run.model, s);
+  const std::vector<double> whole = answer(intact);
+  for (const int j : {3, 9}) s.slot[std::size_t(j)] = -1, intact.leave(j);
+  IntactJoints fresh(run.model, s);
+  const std::vector<double> left = answer(intact);
   CHECK(left == answer(fresh));
   CHECK(left != whole);
 }
@@ -263,7 +263,7 @@ TEST_CASE("cracked joints side by side answer as one by one, with the same bits 
   Prepared run = prepare(test::small_wall(shake + "fast\"} damping{stiffness=2e-6}", law), false);
   const Model& m = run.model;
   run.state.last_dt = 1e-5;  // for the dashpots
-  for (int j = 0; j < m.njoint; ++j) run.state.tier[std::size_t(j)] = Tier::cracked;
+  for (int j = 0; j < m.njoint; ++j) run.state.stage[std::size_t(j)] = JointStage::cracked;
   State plain = run.state, narrow = run.state;
   Cracked cracked(m, run.state), in_pairs(m, narrow);
   JointSums all, lone, pairs;
@@ -271,8 +271,8 @@ TEST_CASE("cracked joints side by side answer as one by one, with the same bits 
     for (int b = 1; b < m.nblock; ++b) {  // blocks are moved by hand with amplitudes beyond every limit
       const auto moved = [&](int i) { return std::sin(0.2 * step + 1.7 * b + i) + (i == 2 ? -0.3 : 0) + 0.02 * step * std::cos(b + i); };
       const Vec3 u = 2e-6 * Vec3(moved(0), moved(1), moved(2)), turn = 6e-6 * Vec3(moved(3), moved(4), moved(5));
-      for (State* s : {&run.state, &narrow, &plain}) s->u[std::size_t(b)] = u, s->q[std::size_t(b)] = rotation(turn);
-      cracked.take_pose(b), in_pairs.take_pose(b);
+      for (State* s : {&run.state, &narrow, &plain}) s->u[std::size_t(b)] = u, s->q[std::size_t(b)] = rotation(theta);
+      cracked.copy_pose(b), in_pairs.copy_pose(b);
     }
     cracked.forces(0, cracked.groups(), true, 0.0, all);
     in_pairs.forces(0, in_pairs.groups(), true, 0.0, pairs, sse2::kernels);
@@ -281,16 +281,16 @@ TEST_CASE("cracked joints side by side answer as one by one, with the same bits 
     REQUIRE(same);
     for (int j = 0; j < m.njoint; ++j) {
       double q[6], f[6];
-      joint_q(m, plain, j, q);
+      joint_gap(m, plain, j, q);
       joint_by_points(m, plain, j, q, f, lone);
     }
     cracked.store();
     double largest_force = 0, worst = 0, largest_drag = 0, worst_drag = 0;
     for (int j = 0; j < m.njoint; ++j)
       for (int i = 0; i < 6; ++i) {
-        const double scale = i < 3 ? 1 : 1 / m.joint[std::size_t(j)].type->radius, f = plain.memory[std::size_t(j)].f[i];
+        const double scale = i < 3 ? 1 : 1 / m.joint[std::size_t(j)].type->radius, f = plain.memory[std::size_t(j)].resultant[i];
         largest_force = std::max(largest_force, scale * std::fabs(f));
-        worst = std::max(worst, scale * std::fabs(f - run.state.memory[std::size_t(j)].f[i]));
+        worst = std::max(worst, scale * std::fabs(f - run.state.memory[std::size_t(j)].resultant[i]));
         const double drag = plain.viscous[std::size_t(6 * j + i)];
         largest_drag = std::max(largest_drag, scale * std::fabs(drag));
         worst_drag = std::max(worst_drag, scale * std::fabs(drag - run.state.viscous[std::size_t(6 * j + i)]));
@@ -342,16 +342,16 @@ TEST_CASE("what a joint bears in the step in which it cracks acts on both its bl
   Prepared run;
   test::run_to(test::small_wall(shake + "fast\"}", "mortar{E=1e9, thickness=10*mm, ft=5*MPa, c=8*MPa, mu=0.6}"), 1, 0.02, run);
   State& s = run.state;
-  const auto taken = [&] {
+  const auto gathers = [&] {
     int out = 0;
-    for (const BlockConstants& c : block_constants(run.model, s)) out += c.taken;
+    for (const BlockConstants& c : block_constants(run.model, s)) out += c.gathers;
     return out;
   };
-  const int sound = taken();
-  REQUIRE(sound > 0);
+  const int intact = gathers();
+  REQUIRE(intact > 0);
   // Constants may be rebuilt between crack and drift, if neighbouring joints are released to contact.
-  std::fill(s.tier.begin(), s.tier.end(), Tier::cracked);
-  CHECK(taken() == sound);
-  for (auto& given : s.given) given = {};
-  CHECK(taken() == 0);
+  std::fill(s.stage.begin(), s.stage.end(), JointStage::cracked);
+  CHECK(gathers() == intact);
+  for (auto& neighbour_force : s.neighbour_force) neighbour_force = {};
+  CHECK(gathers() == 0);
 }

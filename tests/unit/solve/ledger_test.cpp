@@ -9,7 +9,7 @@ using namespace erbs;
 
 namespace {
 
-constexpr double gate = 1e-2;  // the largest energy tolerance of a run (analysis/verdict.cpp)
+constexpr double tolerance = 1e-2;  // the largest energy tolerance of a run (analysis/verdict.cpp)
 
 const std::string head = R"(
 material{ name = "stone", density = 2000, restitution = 0.3, friction = 0.4 }
@@ -82,8 +82,8 @@ TEST_CASE("the gate fails as soon as one term of the ledger books a tenth too li
     INFO(term.name);
     const Energy sound = energy_of(term, 1), spoiled = energy_of(term, 0.9);
     CHECK(std::abs(sound.*term.member) > 0);
-    CHECK(sound.residual_worst < gate);
-    CHECK(spoiled.residual_worst > gate);
+    CHECK(sound.residual_worst < tolerance);
+    CHECK(spoiled.residual_worst > tolerance);
   }
 }
 

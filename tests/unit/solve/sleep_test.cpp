@@ -46,7 +46,7 @@ void go(Ran& r, const std::string& script, double until, double from = 1e9, int 
   const State& s = r.run.state;
   r.solver->run({[&](double t) { return t >= from; },
                  [&] {
-                   r.count.push_back({r.solver->instant().t, s.rest.count});
+                   r.count.push_back({r.solver->instant().t, s.sleep.count});
                  },
                  [&] { return s.t >= until; }});
 }
@@ -71,7 +71,7 @@ TEST_CASE("a heap that sleeps lies where the one that does not lies", "[solve][s
   go(still, asleep, 3.95, 3.9);
   go(lively, awake, 3.95, 3.9);
   const State &s = still.run.state, &l = lively.run.state;
-  CHECK(s.rest.count == 10);
+  CHECK(s.sleep.count == 10);
   CHECK(l.rest.count == 0);
   INFO("apart " << apart(still, lively) << " m");
   CHECK(apart(still, lively) < 1e-6);  // m: possible creep of 1e-6 m/s for a second, had it not come to rest by itself
@@ -102,12 +102,12 @@ TEST_CASE("a sleeper whose support is drawn away falls, and wakes the heap that 
     if (lands == 0 && count < 9) lands = t;
     least = std::min(least, count);
   }
-  CHECK(falls == Approx(4).margin(2 * still.run.state.dt_goal));
+  CHECK(falls == Approx(4).margin(2 * still.run.state.dt_target));
   CHECK(lands - falls > 0.2);
   // Blocks still asleep are isolated: none of them touches a block that is awake.
   const Model& m = still.run.model;
-  const auto& asleep_now = still.run.state.rest.asleep;
-  for (const Pair& p : still.run.state.debris.pair) {
+  const auto& asleep_now = still.run.state.sleep.asleep;
+  for (const ContactPair& p : still.run.state.contacts.pair) {
     const std::size_t a = std::size_t(p.a), b = std::size_t(p.b);
     if (p.touching && m.kind[a] == Kind::moving && m.kind[b] == Kind::moving) CHECK(asleep_now[a] == asleep_now[b]);
   }
@@ -124,8 +124,8 @@ TEST_CASE("all wake in the step in which the ground begins to shake, and none sl
   go(lively, shake + awake, 3.6, 3.48);
   for (const auto& [t, count] : still.count) {
     INFO(t);
-    if (t < 3.5 - still.run.state.dt_goal) CHECK(count == 10);
-    if (t > 3.5 + still.run.state.dt_goal) CHECK(count == 0);
+    if (t < 3.5 - still.run.state.dt_target) CHECK(count == 10);
+    if (t > 3.5 + still.run.state.dt_target) CHECK(count == 0);
   }
   INFO("apart " << apart(still, lively) << " m");
   CHECK(apart(still, lively) < 1e-6);

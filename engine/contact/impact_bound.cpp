@@ -1,0 +1,213 @@
+#include "engine/contact/impact_bound.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/contact/pair_frame.h"
+#include "engine/model/joint_pack.h"
+
+namespace erbs {
+namespace {
+
+// Event rate (`event_bound.h`) of a spring of stiffness k (N/m) that opens or closes at `speed` (m/s) after the distance `left` (m).
+double event_rate(double k, double speed, double left, const ContactSettings& settings) {
+  if (!(settings.event_budget > 0 && speed > 0)) return 0;
+  return std::min(speed * std::sqrt(event_share * k / settings.event_budget), left > 0 ? event_steps * speed / left : 1e300);
+}
+
+// Rates of both bodies if a face lands flat on the other. The patch is within a face of either body and at most as large as the smaller
+// face; both facts bound the rates.
+void face_impact_omega2(const ContactPair& pair, const PairFrame& s, PairResult& result) {
+  const double k = (pair.law.kn + pair.law.ks) * std::min(s.reference->largest_face, s.other->largest_face);
+  // for a face about the centroid above it: Int r^2 dA / A is at most reach^2 / 3 for a rectangle
+  const auto rate = [&](const ContactBlock& block, const ContactShape& part) {
+    const double by_area = k * (block.inverse_mass + part.reach * part.reach / 3 * block.inverse_inertia);
+    const double by_face = pair.law.kn * part.face_across + pair.law.ks * part.face_along;
+    return by_face > 0 ? std::min(by_area, by_face) : by_area;
+  };
+  const double other = rate(*s.other_block, *s.other), reference = rate(*s.reference_block, *s.reference);
+  result.impact_omega2_a = pair.b_is_reference ? other : reference;
+  result.impact_omega2_b = pair.b_is_reference ? reference : other;
+}
+
+// A separating feature: a face of the reference, a face of the other body, or a plane along an edge of each.
+struct SeparatingFeature {
+  enum Kind { face, other_face, edges } kind;
+  std::size_t face_or_a, b;
+};
+SeparatingFeature separating_feature(int separating_axis, const PairFrame& s) {
+  const std::size_t at = std::size_t(separating_axis), own = s.reference->normal.size(), faces = own + s.other->normal.size();
+  if (at < own) return {SeparatingFeature::face, at, 0};
+  if (at < faces) return {SeparatingFeature::other_face, at - own, 0};
+  const std::size_t edges = s.other->edge.size();
+  return {SeparatingFeature::edges, (at - faces) / edges, (at - faces) % edges};
+}
+
+// Approach of two bodies, along the normal of the separating face if there is one. A body that flies off strikes nothing.
+struct Approach {
+  SeparatingFeature::Kind by = SeparatingFeature::edges;
+  Vec3 n = Vec3::Zero();  // unit, from the reference to the other; zero: unknown
+  double apart = 0, along = 0;
+};
+
+// Least and greatest n . x over the corners of a body.
+struct Extent {
+  double least, most;
+};
+Extent extent(const SmallShape& body, const Vec3& n) {
+  double x[few];
+  for (int i = 0; i < few; ++i) x[i] = n[0] * body.vertex[0][i] + n[1] * body.vertex[1][i] + n[2] * body.vertex[2][i];
+  Extent e{x[0], x[0]};
+  for (int i = 1; i < few; ++i) e.least = std::min(e.least, x[i]), e.most = std::max(e.most, x[i]);
+  return e;
+}
+
+bool corners_known(const PairFrame& s) { return s.reference->small.faces > 0 && s.other->small.faces > 0; }
+
+// Approach by the feature `separating_axis`; `apart` is set only if all corners are known.
+Approach approach(int separating_axis, const PairFrame& s) {
+  constexpr double parallel = 1e-6;
+  const ContactShape &reference = *s.reference, &other = *s.other;
+  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
+  const SeparatingFeature by = separating_feature(separating_axis, s);
+  const Vec3 between = (o.rest - r.rest) + (o.u - r.u), v = o.v - r.v;
+  const bool measured = corners_known(s);
+  Approach way{by.kind, Vec3::Zero(), 0, v.norm()};
+  if (by.kind == SeparatingFeature::face) {
+    way.n = r.rotation * reference.normal[by.face_or_a];
+    if (measured) way.apart = extent(other.small, o.rotation.transpose() * way.n).least + way.n.dot(between) - reference.offset[by.face_or_a];
+    way.along = -v.dot(way.n);
+  } else if (by.kind == SeparatingFeature::other_face) {
+    const Vec3 n = o.rotation * other.normal[by.face_or_a];
+    if (measured) way.apart = extent(reference.small, r.rotation.transpose() * n).least - n.dot(between) - other.offset[by.face_or_a];
+    way.along = v.dot(n);
+    way.n = -n;
+  } else if (measured) {
+    Vec3 n = (r.rotation * reference.edge[by.face_or_a]).cross(o.rotation * other.edge[by.b]);
+    const double sine = n.norm();
+    if (sine < parallel) return way;
+    n /= sine;
+    const Extent one = extent(reference.small, r.rotation.transpose() * n), two = extent(other.small, o.rotation.transpose() * n);
+    const double gap = n.dot(between), above = two.least + gap - one.most, below = one.least - (two.most + gap);
+    way.n = above > below ? n : Vec3(-n);
+    way.apart = std::max(above, below);
+  }
+  return way;
+}
+
+// Share of a face that presses once a body has sunk in by `depth` along n: the whole face if it lands flat, a strip for an edge, a triangle
+// for a corner. `corner_travel` (m): relative motion of the corners by rotation until then.
+double pressed_share(const SmallShape& body, const Vec3& n, double depth, double corner_travel) {
+  double low[3] = {1e300, 1e300, 1e300};
+  for (int i = 0; i < few; ++i) {
+    double x = n[0] * body.vertex[0][i] + n[1] * body.vertex[1][i] + n[2] * body.vertex[2][i];
+    for (double& l : low)
+      if (x < l) std::swap(x, l);
+  }
+  const auto part = [&](double rise) { return rise > depth + corner_travel ? depth / (rise - corner_travel) : 1.0; };
+  return part(low[1] - low[0]) * part(low[2] - low[0]);
+}
+
+// A body that sinks in deeper in its first step than the step allows gains energy. So the step is short enough for the largest face before
+// an impact: if the bodies could touch within the next few steps, at a speed at which this energy matters.
+void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, const Approach& way, double dt, PairResult& result) {
+  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
+  const double spin = o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach, speed = way.along + spin;
+  const double k = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
+  result.event_rate = event_rate(k, speed, way.apart, settings);
+  if (result.event_rate * dt > 0.5 && !way.n.isZero(0) && corners_known(s)) {
+    const double depth = look_ahead * speed * dt, corner_travel = 2 * spin * way.apart / speed;  // evaluated every few steps only
+    double share = 1;
+    if (way.by != SeparatingFeature::other_face) share *= pressed_share(s.other->small, o.rotation.transpose() * way.n, depth, corner_travel);
+    if (way.by != SeparatingFeature::face) share *= pressed_share(s.reference->small, -(r.rotation.transpose() * way.n), depth, corner_travel);
+    result.event_rate = event_rate(share * k, speed, way.apart, settings);
+  }
+  if (!(speed > settings.reference_speed) || way.apart > look_ahead * speed * dt) return;
+  face_impact_omega2(pair, s, result);
+}
+
+}  // namespace
+
+void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, double apart, double dt, PairResult& result) {
+  Approach way = pair.separating_axis < 0 ? Approach{} : approach(pair.separating_axis, s);
+  if (pair.separating_axis < 0) way.along = (s.other_block->v - s.reference_block->v).norm();
+  way.apart = apart;
+  impact_bound(pair, s, settings, way, dt, result);
+}
+
+namespace {
+
+constexpr double facing = 0.9;  // cosine; faces farther from flat wait for later steps
+const double oblique = std::sqrt(1 - facing * facing);
+
+// Faces of the other body that may be nearly flat on a face of the reference, and a bound that excludes faces of the reference. Most faces
+// of a stone with hundreds of faces have other directions. If the normals n_f and n_g are opposite within this angle, a corner x on face g
+// has n_f . x <= -cos n_g . x + sin |x|. The corners of both bodies are behind planes no nearer to the centroid than their nearest face.
+struct Opposite {
+  int count = 0;
+  std::size_t face[most_faces];
+  Vec3 normal[most_faces];  // world axes
+  double least;             // m, lower bound of n_f . apart less the offset of face f, if one of these faces may be flat on it
+
+  Opposite(const PairFrame& s, const Vec3& apart, double thin) {
+    const auto most_along = [](double across, double length) { return -(across > 0 ? facing : 1) * across + oblique * length; };
+    const ContactShape &reference = *s.reference, &other = *s.other;
+    const double margin = (2 * oblique * (1 + 1e-9)) * other.reach + 0.01 * thin;
+    least = -margin - most_along(*std::ranges::min_element(other.offset), other.reach);
+    const double nearest = *std::ranges::min_element(reference.offset);
+    for (std::size_t g = 0; g < other.normal.size(); ++g) {
+      const Vec3 n = s.other_block->rotation * other.normal[g];
+      const Vec3 x = apart + s.other_block->rotation * other.vertex[std::size_t(other.loop[std::size_t(other.loop_first[g])])];
+      if (most_along(n.dot(x), x.norm()) < nearest - margin) continue;
+      face[count] = g;
+      normal[count++] = n;
+    }
+  }
+  bool looks_away(double along, double offset) const { return along - offset < least; }
+};
+
+}  // namespace
+
+void foresee(const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, double dt, PairResult& result) {
+  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
+  const Vec3 apart = (o.rest - r.rest) + (o.u - r.u), v = o.v - r.v, w = o.w - r.w, at = r.rotation * pair.c, n = r.rotation * pair.n;
+  const double parting = n.dot(v + o.w.cross(at - apart) - r.w.cross(at));
+  if (parting > 0) result.event_rate = std::max(result.event_rate, event_rate(pair.law.kn * pair.area, parting, result.depth, settings));
+  const double lever = std::min(s.reference->reach, s.other->reach), thin = std::min(s.reference->thickness, s.other->thickness);
+  bool soon = false;
+  const Opposite opposite(s, apart, thin);
+  for (std::size_t f = 0; f < s.reference->normal.size(); ++f) {
+    const Vec3 nf = r.rotation * s.reference->normal[f];
+    if (opposite.looks_away(nf.dot(apart), s.reference->offset[f])) continue;
+    for (int i = 0; i < opposite.count; ++i) {
+      const std::size_t g = opposite.face[i];
+      const Vec3& ng = opposite.normal[i];
+      if (-nf.dot(ng) < facing) continue;
+      const Vec3 across = nf.cross(ng);
+      const double sine = across.norm(), closes = w.dot(across);  // rate of the angle between them, times its sine
+      if (!(closes > 0) || !(sine > 1e-9)) continue;
+      const Vec3 corner = o.rotation * s.other->vertex[std::size_t(s.other->loop[std::size_t(s.other->loop_first[g])])];
+      if (std::abs(nf.dot(apart + corner) - s.reference->offset[f]) > 2 * sine * s.other->reach + 0.01 * thin) continue;
+      const double rate = closes / sine, time = sine / rate;
+      const double k = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
+      result.event_rate = std::max(result.event_rate, event_rate(0.5 * k, rate * lever, sine * lever, settings));
+      soon = soon || (rate * lever > settings.reference_speed && time <= look_ahead * dt);
+    }
+  }
+  if (soon) face_impact_omega2(pair, s, result);
+}
+
+int cached_axis(const ContactPair& pair, const ContactShape& a, const ContactShape& b) {
+  return pair.touching || !pair.lift.isZero(0) || !(a.small.faces > 0 && b.small.faces > 0) ? -1 : pair.separating_axis;
+}
+
+bool still_separated(int separating_axis, const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, double dt, PairResult& result) {
+  constexpr double sure = 1e-12;
+  const Approach way = separating_axis < 0 ? Approach{} : approach(separating_axis, s);
+  if (!(way.apart > sure * (s.reference->reach + s.other->reach))) return false;
+  result.apart = way.apart;
+  impact_bound(pair, s, settings, way, dt, result);
+  return true;
+}
+
+}  // namespace erbs

@@ -1,0 +1,24 @@
+// Joints in packs of eight lanes: which batch holds which joint. Intact joints lie in the order of their number. The State does not
+// store their batches: the content follows from the poses of the last update of the reference (`intact_pack` in joint_geometry.h). A joint
+// that cracks moves to a batch of State::pack; a joint released to contact leaves its lane empty.
+#pragma once
+#include "engine/model/model.h"
+#include "engine/model/state.h"
+
+namespace erbs {
+
+// Chooses the owner of each joint, Joint::owned_by_b. A group of eight blocks evaluates its joints in rounds: the first joint of each block,
+// then the second. It needs as many rounds as its busiest block owns joints. Few rounds in total mean few empty lanes.
+void choose_owners(Model& model);
+// Whether intact joints are evaluated in the lanes of their owners (intact.h).
+inline bool owner_computes(const Model& model) {
+  return model.analysis.kernel != "reference" && model.analysis.solver != "sequential" && !model.dashpots;
+}
+inline int intact_packs(const Model& model) { return (model.njoint + pack_size - 1) / pack_size; }
+
+void set_slots(const Model& model, State& state);      // all joints intact, each in its own lane
+int add_empty_pack(const Model& model, State& state);  // returns its index in State::pack
+void clear_lane(const Model& model, JointPack& pack, int lane);
+void set_constants(const Model& model, int j, JointPack& pack, int lane);  // data of joint j that no update of the reference changes
+
+}  // namespace erbs

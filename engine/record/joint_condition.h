@@ -1,0 +1,20 @@
+// Current opening, slip and damage of a joint, for recorders and pictures; exact at any rotation of its blocks.
+#pragma once
+#include "engine/base/rotation.h"
+#include "engine/model/model.h"
+#include "engine/model/state.h"
+
+namespace erbs {
+
+struct JointCondition {
+  double opening = 0;  // m, largest over the corners of the joint; negative: closed everywhere
+  double slip = 0;     // m, largest over the corners
+  double damage = 0;   // 0..1, area share of points with any damage; 1 after release to contact
+};
+
+JointCondition joint_condition(const Model& model, const State& state, int j);
+double joint_damage(const Model& model, const State& state, int j);  // JointLook::damage alone
+bool joint_broken(const Model& model, const State& state, int j);    // every point is debonded, or the joint is released to contact
+Mat3 joint_frame(const Model& model, const State& state, int j);     // columns s, t, n, rotated by the mean rotation of its blocks
+
+}  // namespace erbs
