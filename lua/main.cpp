@@ -1,20 +1,20 @@
 // The program erbs: reads the command line, calls the verb, turns an error into an exit code. Only this file includes CLI11.
-#include <CLI/CLI.hpp>
 #include <malloc.h>
+#include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
 
-#include "engine/base/interrupt.h"
-#include "engine/base/isa.h"
-#include "engine/base/streams.h"
-#include "engine/base/text.h"
 #include "engine/base/spelling.h"
-#include "engine/record/manifest.h"
-#include "lua/options.h"
-#include "lua/say.h"
+#include "engine/base/system/interrupt.h"
+#include "engine/base/system/isa.h"
+#include "engine/base/system/streams.h"
+#include "engine/base/text.h"
+#include "engine/record/folder/manifest.h"
+#include "lua/program/options.h"
+#include "lua/program/say.h"
 
 namespace {
 

@@ -6,11 +6,11 @@
 #include <cstdio>
 
 #include "engine/base/error.h"
-#include "engine/base/interrupt.h"
-#include "engine/base/streams.h"
+#include "engine/base/system/interrupt.h"
+#include "engine/base/system/streams.h"
 #include "engine/base/text.h"
-#include "render/figures.h"
-#include "render/movie.h"
+#include "render/draw/figures.h"
+#include "render/movie/movie.h"
 
 namespace {
 

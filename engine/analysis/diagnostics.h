@@ -5,7 +5,7 @@
 
 #include "engine/model/model.h"
 #include "engine/model/state.h"
-#include "engine/record/metrics.h"
+#include "engine/record/results/metrics.h"
 #include "engine/solve/long_steps.h"
 
 namespace erbs {

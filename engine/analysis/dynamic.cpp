@@ -8,18 +8,18 @@
 #include <utility>
 
 #include "engine/analysis/crew.h"
+#include "engine/analysis/diagnostics.h"
 #include "engine/analysis/joint_events.h"
 #include "engine/analysis/lost_blocks.h"
 #include "engine/analysis/prepare.h"
 #include "engine/analysis/resume.h"
-#include "engine/analysis/diagnostics.h"
 #include "engine/analysis/verdict.h"
 #include "engine/base/hash.h"
-#include "engine/record/checkpoint.h"
-#include "engine/record/collapse.h"
+#include "engine/joints/kinematics.h"
+#include "engine/record/folder/checkpoint.h"
+#include "engine/record/results/collapse.h"
 #include "engine/scene/effects.h"
 #include "engine/solve/energy.h"
-#include "engine/solve/joint_geometry.h"
 #include "engine/solve/step.h"
 
 namespace erbs {

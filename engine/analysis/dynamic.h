@@ -6,8 +6,8 @@
 #include <optional>
 #include <string>
 
-#include "engine/record/metrics.h"
-#include "engine/record/run_folder.h"
+#include "engine/record/folder/run_folder.h"
+#include "engine/record/results/metrics.h"
 #include "engine/scene/scene.h"
 
 namespace erbs {

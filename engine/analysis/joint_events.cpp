@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/solve/joint_geometry.h"
+#include "engine/joints/kinematics.h"
 
 namespace erbs {
 namespace {

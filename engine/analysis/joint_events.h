@@ -1,6 +1,6 @@
 // Joint events since the last row that are not yet in events.csv: cracks, openings, and the parts of reset_J row by row.
 #pragma once
-#include "engine/record/run_writer.h"
+#include "engine/record/folder/run_writer.h"
 #include "engine/solve/step.h"
 
 namespace erbs {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/solve/joint_geometry.h"
-#include "engine/solve/joint_response.h"
-#include "engine/solve/stiffness.h"
+#include "engine/joints/kinematics.h"
+#include "engine/joints/response.h"
+#include "engine/solve/linear/stiffness.h"
 
 namespace erbs {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "engine/analysis/equilibrium.h"
-#include "engine/solve/joint_operator.h"
-#include "engine/solve/two_level.h"
+#include "engine/solve/linear/joint_operator.h"
+#include "engine/solve/linear/two_level.h"
 
 namespace erbs {
 

@@ -6,11 +6,11 @@
 
 #include "engine/base/random.h"
 #include "engine/base/units.h"
-#include "engine/contact/shape.h"
-#include "engine/model/add_joints.h"
-#include "engine/record/metrics.h"
-#include "engine/solve/islands.h"
-#include "engine/solve/joint_geometry.h"
+#include "engine/contact/overlap/shape.h"
+#include "engine/joints/kinematics.h"
+#include "engine/model/build/add_joints.h"
+#include "engine/record/results/metrics.h"
+#include "engine/solve/blocks/islands.h"
 #include "engine/solve/step.h"
 
 namespace erbs {

@@ -1,8 +1,8 @@
 // From a scene to a run ready to start: model, time step with its reason, equilibrium under gravity.
 #pragma once
 #include "engine/analysis/equilibrium.h"
-#include "engine/model/build.h"
-#include "engine/solve/stiffness.h"
+#include "engine/model/build/build.h"
+#include "engine/solve/linear/stiffness.h"
 
 namespace erbs {
 

@@ -1,6 +1,6 @@
 #include "engine/analysis/resume.h"
 
-#include "engine/record/run_folder.h"
+#include "engine/record/folder/run_folder.h"
 
 namespace erbs {
 

@@ -2,9 +2,9 @@
 #pragma once
 #include <string>
 
-#include "engine/analysis/prepare.h"
 #include "engine/analysis/diagnostics.h"
-#include "engine/record/collapse.h"
+#include "engine/analysis/prepare.h"
+#include "engine/record/results/collapse.h"
 
 namespace erbs {
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/contact/pair_frame.h"
-#include "engine/model/joint_pack.h"
+#include "engine/contact/law/frame.h"
+#include "engine/model/joint_batch.h"
 
 namespace erbs {
 namespace {

@@ -1,9 +1,9 @@
-// Bound on the time step by bodies that are about to touch, to touch with more of their faces, or to separate (`solve/event_bound.h`).
+// Bound on the time step by bodies that are about to touch, to touch with more of their faces, or to separate (`joints/event_bound.h`).
 //
 // A corner that strikes presses with a triangle of its face, an edge with a strip. The step then errs much less than for a whole face that
 // lands flat. So an impact has the stiffness of the share of the face that sinks in within the next steps.
 #pragma once
-#include "engine/contact/contact.h"
+#include "engine/contact/law/pair.h"
 
 namespace erbs {
 

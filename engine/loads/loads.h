@@ -9,10 +9,10 @@
 #pragma once
 #include <variant>
 
-#include "engine/loads/pulse.h"
-#include "engine/loads/record.h"
-#include "engine/loads/sine.h"
-#include "engine/loads/table.h"
+#include "engine/loads/record/record.h"
+#include "engine/loads/waves/pulse.h"
+#include "engine/loads/waves/sine.h"
+#include "engine/loads/waves/table.h"
 
 namespace erbs {
 

@@ -6,8 +6,8 @@
 
 #include "engine/base/vec.h"
 #include "engine/laws/interlock.h"
-#include "engine/model/block_field.h"
-#include "engine/model/corners.h"
+#include "engine/model/block_arrays.h"
+#include "engine/model/overlap_cache.h"
 
 namespace erbs {
 
@@ -81,7 +81,7 @@ struct PairList {
   std::vector<Mat3> rotation;   //                                          [nblock]
   long searches = 0;
   std::vector<int> contact_count;  // number on each moving block in the last step; a jointed block counts as saturated [nblock]
-  // bound of the time step (contact_limit.h)
+  // bound of the time step (time_step_bound.h)
   double bound_at_last_update = 0;               // 1/s2, part of 1 / dt^2 common to all blocks, at the last update
   std::vector<double> block_bounds;   // 1/s2, part that each block adds                       [nblock]
   long bound_updates = 0, bound_updated_at = 0;  // number of updates, step of the last one

@@ -1,5 +1,5 @@
 // Joints in packs of eight lanes: which batch holds which joint. Intact joints lie in the order of their number. The State does not
-// store their batches: the content follows from the poses of the last update of the reference (`intact_pack` in joint_geometry.h). A joint
+// store their batches: the content follows from the poses of the last update of the reference (`intact_pack` in kinematics.h). A joint
 // that cracks moves to a batch of State::pack; a joint released to contact leaves its lane empty.
 #pragma once
 #include "engine/model/model.h"

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/laws/point_law.h"
-#include "engine/model/joint_pack.h"
+#include "engine/model/joint_batch.h"
 #include "engine/model/owner_schedule.h"
 #include "engine/scene/scene.h"
 

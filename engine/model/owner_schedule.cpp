@@ -5,7 +5,7 @@
 #include <bit>
 #include <utility>
 
-#include "engine/model/block_field.h"
+#include "engine/model/block_arrays.h"
 #include "engine/model/model.h"
 
 namespace erbs {

@@ -5,7 +5,7 @@
 #pragma once
 #include <vector>
 
-#include "engine/model/joint_pack.h"
+#include "engine/model/joint_batch.h"
 
 namespace erbs {
 

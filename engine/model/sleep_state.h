@@ -1,4 +1,4 @@
-// Debris at rest: which blocks sleep, and since when the other blocks have been still (solve/sleep.h).
+// Debris at rest: which blocks sleep, and since when the other blocks have been still (solve/contacts/sleep.h).
 #pragma once
 #include <cstdint>
 #include <type_traits>

@@ -6,10 +6,10 @@
 
 #include "engine/base/memory.h"
 #include "engine/laws/crushing.h"
-#include "engine/model/block_field.h"
-#include "engine/model/joint_pack.h"
-#include "engine/model/model.h"
+#include "engine/model/block_arrays.h"
 #include "engine/model/contact_pair.h"
+#include "engine/model/joint_batch.h"
+#include "engine/model/model.h"
 #include "engine/model/sleep_state.h"
 
 namespace erbs {
@@ -63,7 +63,7 @@ struct State {
   BlockVec3 w;              // rad/s, world axes, of the last drift
   BlockVec3 ref_u;         // reference pose: the pose at its last update
   BlockQuat ref_q;
-  std::vector<VectorPack<6>> increment;      // m, rad, increment of displacement and rotation since that update (joint_geometry.h)
+  std::vector<VectorPack<6>> increment;      // m, rad, increment of displacement and rotation since that update (kinematics.h)
   Rows pose_row;                            // the same as one cache line of 8 doubles per block, for kernels that read rows
   std::vector<int> island;             // group of blocks joined to each other, named by its lowest block
   std::vector<std::uint8_t> grounded;  // the island has a joint to a fixed block, or a driven block

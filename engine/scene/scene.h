@@ -202,7 +202,7 @@ struct Analysis {
 // One column of histories.csv, or three.
 struct Recorder {
   std::string name;                 // column stem, e.g. "floor3"
-  std::string quantity;             // a name from engine/record/recorders.h, e.g. displacement, velocity, acceleration, reaction
+  std::string quantity;             // a name from engine/record/recorders/recorders.h, e.g. displacement, velocity, acceleration, reaction
   std::vector<std::string> blocks;  // block names; the quantity is averaged over them, forces are summed
   std::vector<std::string> others;  // block names, for joint quantities: only joints between `blocks` and these (empty: all)
   std::string axis = "xyz";         // which components

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "engine/joints/event_bound.h"
+#include "engine/joints/kinematics.h"
+#include "engine/joints/reference.h"
 #include "engine/model/joint_packs.h"
+#include "engine/solve/blocks/islands.h"
 #include "engine/solve/energy.h"
-#include "engine/solve/event_bound.h"
-#include "engine/solve/islands.h"
-#include "engine/solve/joint_geometry.h"
-#include "engine/solve/reference.h"
 
 namespace erbs {
 namespace {

@@ -9,14 +9,14 @@
 #include <utility>
 #include <vector>
 
-#include "engine/base/parallel.h"
-#include "engine/solve/cracked.h"
-#include "engine/solve/contacts.h"
-#include "engine/solve/integrate.h"
-#include "engine/solve/joint_kernel.h"
+#include "engine/base/system/team.h"
+#include "engine/joints/cracked/cracked.h"
+#include "engine/joints/intact/intact.h"
+#include "engine/joints/joint_forces.h"
+#include "engine/solve/blocks/integrate.h"
+#include "engine/solve/contacts/contacts.h"
 #include "engine/solve/long_steps.h"
-#include "engine/solve/sequential.h"
-#include "engine/solve/intact.h"
+#include "engine/solve/sequential/sequential.h"
 
 namespace erbs {
 

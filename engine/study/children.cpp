@@ -5,13 +5,13 @@
 #include <map>
 #include <thread>
 
-#include "engine/base/core.h"
 #include "engine/base/hash.h"
-#include "engine/base/process.h"
-#include "engine/record/csv.h"
-#include "engine/record/json.h"
-#include "engine/record/manifest.h"
-#include "engine/record/run_folder.h"
+#include "engine/base/system/affinity.h"
+#include "engine/base/system/process.h"
+#include "engine/record/folder/manifest.h"
+#include "engine/record/folder/run_folder.h"
+#include "engine/record/format/csv.h"
+#include "engine/record/format/json.h"
 
 namespace erbs {
 namespace {

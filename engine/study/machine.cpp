@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "engine/solve/lanes.h"
+#include "engine/joints/kernels.h"
 
 namespace erbs {
 

@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "engine/base/hash.h"
+#include "engine/joints/kinematics.h"
 #include "engine/model/joint_packs.h"
-#include "engine/solve/joint_geometry.h"
 #include "engine/solve/step.h"
 #include "engine/study/machine.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/record/motion_file.h"
+#include "engine/record/folder/motion_file.h"
 
 namespace erbs {
 namespace {

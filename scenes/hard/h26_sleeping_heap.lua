@@ -3,7 +3,7 @@
 -- What happens   Bricks are poured and come to rest; with analysis{ sleep = true } they are then skipped by the step. A brick falls among
 --                them when its tray is drawn away, and wakes the bricks that it moves. In the end the ground shakes, and no brick sleeps
 --                while it does.
--- Source         hard case 26; engine/solve/sleep.h: a brick falls asleep below a speed of 1e-6 sqrt(g L) and an acceleration of 1e-4 g
+-- Source         hard case 26; engine/solve/contacts/sleep.h: a brick falls asleep below a speed of 1e-6 sqrt(g L) and an acceleration of 1e-4 g
 -- How to run     erbs run scenes/hard/h26_sleeping_heap.lua [-D awake=1: without sleep] [-D bricks=100]
 -- What to look at  asleep_* (share of bricks with a speed of exactly zero), apart_* (m, mean position of all bricks with sleep and
 --                without), energy.sleep_J, energy.residual_relative, log.txt: mean number of sleeping bricks

@@ -9,7 +9,7 @@
 --                21 % too small, as a plate shows that stops within this slip (-D spin=2). For a slender plate along the slip, 1:6 (-D
 --                short=0.05), the path of a fast spin is off by 4 %.
 -- Source         Coulomb over the face; limit surface of Goyal, Ruina and Papadopoulos 1991, Wear 143, 307; with the surface of
---                engine/contact/friction.cpp instead of the ellipse of Howe and Cutkosky 1996 (off by 8, 12 and 17 %).
+--                engine/contact/law/friction.cpp instead of the ellipse of Howe and Cutkosky 1996 (off by 8, 12 and 17 %).
 -- How to run     erbs run scenes/verify/v07_spin_and_slide.lua [-D v0=2] [-D spin=5] [-D mu=0.4] [-D short=0.1] [-D long=0.1]
 -- What to look at  stop_time_*, path_*, turn_*: over the exact integral.
 label("quick")

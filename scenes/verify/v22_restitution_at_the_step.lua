@@ -3,7 +3,7 @@
 -- What happens   Bricks fall flat on the ground, each with its own restitution, and pairs of them meet head on, all at the default step.
 -- Source         As v22_central_collision. An impact of low restitution needs a stronger dashpot than an explicit step at the limit can
 --                bear. The returned energy then depends on where in a step the impact begins. So the step is shortened before the impact,
---                by the energy that may be in error (engine/solve/event_bound.h): every restitution comes out as given.
+--                by the energy that may be in error (engine/joints/event_bound.h): every restitution comes out as given.
 -- How to run     erbs run scenes/verify/v22_restitution_at_the_step.lua [-D kn=...] [-D height=...]
 -- What to look at  falls_*, meets_*: restitutions
 local kn = param("kn", 5e10, "[Pa/m]")

@@ -4,7 +4,7 @@
 
 #include "engine/analysis/prepare.h"
 #include "engine/solve/step.h"
-#include "lua/script.h"
+#include "lua/language/script.h"
 
 namespace erbs::test {
 

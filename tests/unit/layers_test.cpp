@@ -20,7 +20,7 @@ const std::vector<std::pair<std::string, std::string>> doors{
     {"Eigen/Sparse.*|Eigen/Eigenvalues|Spectra/.*", "engine/base/sparse.*"},
     {"Eigen/.*", "engine/base/(vec\\.h|sparse.*)"},
     {"fmt/.*", "engine/base/error\\.h"},
-    {"omp\\.h", "engine/base/parallel.*"},
+    {"omp\\.h", "engine/base/system/team.*"},
     {"nlohmann/.*", "engine/record/(run_folder.*|.*json.*)"},
     {"hdf5.*", "engine/record/(motion_file|h5)\\.cpp"},
     {"assimp/.*", "engine/scene/mesh_file\\.cpp"},
@@ -103,11 +103,11 @@ TEST_CASE("the layers test sees what is wrong", "[layers]") {
   CHECK(trouble("engine/solve/step.cpp", "engine/model/state.h", false) == "");
   CHECK(trouble("engine/solve/step.cpp", "engine/solve/energy.h", false) == "");
   CHECK(trouble("engine/model/state.h", "engine/solve/step.h", false) != "");
-  CHECK(trouble("engine/solve/step.cpp", "engine/record/csv.h", false) != "");
+  CHECK(trouble("engine/solve/step.cpp", "engine/record/format/csv.h", false) != "");
   CHECK(trouble("engine/solve/step.cpp", "state.h", false) != "");
   CHECK(trouble("engine/solve/step.cpp", "../model/state.h", false) != "");
-  CHECK(trouble("render/draw.cpp", "engine/model/state.h", false) != "");
-  CHECK(trouble("render/draw.cpp", "lua/api.h", false) != "");
+  CHECK(trouble("render/draw/draw.cpp", "engine/model/state.h", false) != "");
+  CHECK(trouble("render/draw/draw.cpp", "lua/language/api.h", false) != "");
   CHECK(trouble("engine/solve/step.cpp", "Eigen/Dense", true) != "");
   CHECK(trouble("engine/base/vec.h", "Eigen/Dense", true) == "");
   CHECK(trouble("engine/solve/step.cpp", "vector", true) == "");

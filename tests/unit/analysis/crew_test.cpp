@@ -4,10 +4,10 @@
 #include <catch2/catch.hpp>
 
 #include "engine/analysis/prepare.h"
-#include "engine/record/checkpoint.h"
-#include "engine/model/state_visit.h"
+#include "engine/model/state_fields.h"
+#include "engine/record/folder/checkpoint.h"
 #include "engine/solve/step.h"
-#include "lua/script.h"
+#include "lua/language/script.h"
 
 using namespace erbs;
 

@@ -3,7 +3,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "engine/model/build.h"
+#include "engine/model/build/build.h"
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;

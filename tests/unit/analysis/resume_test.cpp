@@ -3,7 +3,7 @@
 #include <sstream>
 
 #include "engine/analysis/dynamic.h"
-#include "lua/script.h"
+#include "lua/language/script.h"
 #include "tests/unit/record/two_bricks.h"
 
 using namespace erbs;

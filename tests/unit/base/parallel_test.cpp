@@ -1,5 +1,5 @@
 // The barrier of a team, with waits that sleep at once or after a while: the last thread to arrive wakes all others.
-#include "engine/base/parallel.h"
+#include "engine/base/system/team.h"
 
 #include <catch2/catch.hpp>
 

@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "engine/contact/pair_batch.h"
 #include "engine/contact/impact_bound.h"
-#include "engine/contact/pair_frame.h"
+#include "engine/contact/law/frame.h"
+#include "engine/contact/law/pair_batch.h"
 #include "tests/unit/contact/bodies.h"
 
 using namespace erbs;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/contact/broad.h"
+#include "engine/contact/broad/search.h"
 #include "engine/geometry/mass.h"
 
 namespace erbs::trial {

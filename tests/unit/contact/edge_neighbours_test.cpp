@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/analysis/prepare.h"
-#include "engine/contact/edge_neighbours.h"
+#include "engine/contact/broad/edge_neighbours.h"
 #include "engine/solve/step.h"
 #include "tests/unit/contact/bodies.h"
 #include "tests/unit/lua/load.h"

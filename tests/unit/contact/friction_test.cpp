@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "engine/contact/friction.h"
+#include "engine/contact/law/friction.h"
 #include "tests/unit/contact/bodies.h"
 
 using namespace erbs;

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/analysis/prepare.h"
-#include "engine/record/checkpoint.h"
+#include "engine/record/folder/checkpoint.h"
 #include "engine/solve/step.h"
 #include "tests/unit/contact/bodies.h"
 #include "tests/unit/lua/load.h"

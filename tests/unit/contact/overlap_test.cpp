@@ -1,6 +1,6 @@
-#include "engine/contact/overlap.h"
+#include "engine/contact/overlap/overlap.h"
 
-#include "engine/contact/ramp.h"
+#include "engine/contact/overlap/ramp.h"
 
 #include <catch2/catch.hpp>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "engine/contact/pair_batch.h"
+#include "engine/contact/law/pair_batch.h"
 
 #include <catch2/catch.hpp>
 #include <memory>

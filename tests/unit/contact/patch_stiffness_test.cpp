@@ -1,5 +1,5 @@
 // Stiffness of a contact patch, against closed forms of a brick on a slab.
-#include "engine/contact/patch_stiffness.h"
+#include "engine/contact/law/patch_stiffness.h"
 
 #include <catch2/catch.hpp>
 

@@ -4,7 +4,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/units.h"
-#include "engine/loads/record.h"
+#include "engine/loads/record/record.h"
 #include "tests/support/folder.h"
 
 using namespace erbs;

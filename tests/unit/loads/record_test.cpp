@@ -1,11 +1,11 @@
-#include "engine/loads/record.h"
+#include "engine/loads/record/record.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "engine/base/units.h"
 #include "engine/loads/loads.h"
-#include "engine/loads/record_report.h"
+#include "engine/loads/record/record_report.h"
 
 using namespace erbs;
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "lua/child.h"
+#include "lua/program/child.h"
 #include "tests/support/folder.h"
 #include "tests/unit/lua/load.h"
 

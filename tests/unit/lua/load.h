@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lua/script.h"
+#include "lua/language/script.h"
 
 namespace erbs {
 

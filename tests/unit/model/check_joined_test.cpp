@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/analysis/prepare.h"
-#include "engine/model/build.h"
+#include "engine/model/build/build.h"
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;

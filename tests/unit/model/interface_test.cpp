@@ -1,4 +1,4 @@
-#include "engine/model/interface.h"
+#include "engine/model/build/interface.h"
 
 #include <catch2/catch.hpp>
 #include <chrono>

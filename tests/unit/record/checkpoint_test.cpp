@@ -1,4 +1,4 @@
-#include "engine/record/checkpoint.h"
+#include "engine/record/folder/checkpoint.h"
 
 #include <sys/mman.h>
 #include <catch2/catch.hpp>
@@ -8,8 +8,8 @@
 
 #include "engine/base/error.h"
 #include "engine/model/contact_pair.h"
-#include "engine/record/collapse.h"
-#include "engine/record/run_writer.h"
+#include "engine/record/folder/run_writer.h"
+#include "engine/record/results/collapse.h"
 #include "tests/unit/record/two_bricks.h"
 
 using namespace erbs;

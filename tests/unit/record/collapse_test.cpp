@@ -1,4 +1,4 @@
-#include "engine/record/collapse.h"
+#include "engine/record/results/collapse.h"
 
 #include <catch2/catch.hpp>
 

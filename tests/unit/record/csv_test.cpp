@@ -1,4 +1,4 @@
-#include "engine/record/csv.h"
+#include "engine/record/format/csv.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

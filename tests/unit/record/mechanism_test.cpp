@@ -1,4 +1,4 @@
-#include "engine/record/mechanism.h"
+#include "engine/record/results/mechanism.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,4 +1,4 @@
-#include "engine/record/motion_file.h"
+#include "engine/record/folder/motion_file.h"
 
 #include <signal.h>
 #include <sys/wait.h>

@@ -1,4 +1,4 @@
-#include "engine/record/record_plot.h"
+#include "engine/record/plot/record_plot.h"
 
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "engine/base/error.h"
-#include "engine/record/gnuplot.h"
+#include "engine/record/plot/gnuplot.h"
 #include "tests/support/folder.h"
 
 using namespace erbs;

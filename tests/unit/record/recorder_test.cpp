@@ -1,4 +1,4 @@
-#include "engine/record/recorder.h"
+#include "engine/record/recorders/recorder.h"
 
 #include <catch2/catch.hpp>
 

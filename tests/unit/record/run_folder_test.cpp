@@ -1,4 +1,4 @@
-#include "engine/record/run_folder.h"
+#include "engine/record/folder/run_folder.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "engine/record/run_writer.h"
+#include "engine/record/folder/run_writer.h"
 
 #include <signal.h>
 #include <sys/wait.h>
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "engine/record/run_folder.h"
+#include "engine/record/folder/run_folder.h"
 #include "tests/unit/record/two_bricks.h"
 
 using namespace erbs;

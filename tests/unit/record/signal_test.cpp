@@ -1,4 +1,4 @@
-#include "engine/record/signal.h"
+#include "engine/record/results/signal.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

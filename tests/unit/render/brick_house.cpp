@@ -7,7 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/units.h"
-#include "engine/record/run_folder.h"
+#include "engine/record/folder/run_folder.h"
 
 namespace erbs {
 namespace {

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "engine/record/motion_file.h"
+#include "engine/record/folder/motion_file.h"
 
 namespace erbs {
 

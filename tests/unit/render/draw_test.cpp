@@ -1,5 +1,5 @@
 // Whole pictures: comparison with stored pictures, and properties that every picture must have.
-#include "render/draw.h"
+#include "render/draw/draw.h"
 
 #include <unistd.h>
 
@@ -10,9 +10,9 @@
 #include <iterator>
 
 #include "engine/base/error.h"
-#include "render/compare.h"
-#include "render/movie.h"
-#include "render/video.h"
+#include "render/image/compare.h"
+#include "render/movie/movie.h"
+#include "render/movie/video.h"
 #include "tests/support/folder.h"
 #include "tests/unit/render/brick_house.h"
 

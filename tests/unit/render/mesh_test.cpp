@@ -1,11 +1,11 @@
-#include "render/mesh.h"
+#include "render/run/mesh.h"
 
 #include <catch2/catch.hpp>
 #include <map>
 
 #include "engine/base/units.h"
-#include "render/draw.h"
-#include "render/stage.h"
+#include "render/draw/draw.h"
+#include "render/run/stage.h"
 #include "tests/unit/render/brick_house.h"
 
 using namespace erbs;

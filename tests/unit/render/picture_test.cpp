@@ -6,9 +6,9 @@
 #include <fstream>
 
 #include "engine/base/error.h"
-#include "render/compare.h"
-#include "render/image.h"
-#include "render/text.h"
+#include "render/image/compare.h"
+#include "render/image/image.h"
+#include "render/image/text.h"
 #include "tests/support/folder.h"
 
 using namespace erbs;

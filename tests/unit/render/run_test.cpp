@@ -1,5 +1,5 @@
 // Data read from a run folder, and the times and curves shown.
-#include "render/run.h"
+#include "render/run/run.h"
 
 #include <unistd.h>
 
@@ -8,8 +8,8 @@
 #include <fstream>
 
 #include "engine/base/error.h"
-#include "render/figures.h"
-#include "render/movie.h"
+#include "render/draw/figures.h"
+#include "render/movie/movie.h"
 #include "tests/support/folder.h"
 
 using namespace erbs;

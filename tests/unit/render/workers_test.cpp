@@ -1,5 +1,5 @@
 // Drawing processes: their input, their output, and failures of one of them.
-#include "render/workers.h"
+#include "render/movie/workers.h"
 
 #include <unistd.h>
 

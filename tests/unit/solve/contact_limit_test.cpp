@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/analysis/dynamic.h"
-#include "engine/contact/shape.h"
+#include "engine/contact/overlap/shape.h"
 #include "tests/support/small_wall.h"
 #include "tests/unit/record/two_bricks.h"
 

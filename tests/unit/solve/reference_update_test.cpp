@@ -3,12 +3,12 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "engine/joints/cracked/cracked.h"
+#include "engine/joints/intact/intact.h"
+#include "engine/joints/kernels.h"
+#include "engine/joints/kinematics.h"
 #include "engine/model/joint_packs.h"
-#include "engine/solve/cracked.h"
-#include "engine/solve/integrate.h"
-#include "engine/solve/joint_geometry.h"
-#include "engine/solve/lanes.h"
-#include "engine/solve/intact.h"
+#include "engine/solve/blocks/integrate.h"
 #include "tests/support/small_wall.h"
 
 using namespace erbs;

@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "engine/analysis/dynamic.h"
-#include "engine/solve/sweep_feed.h"
-#include "lua/script.h"
+#include "engine/solve/sequential/sweep_feed.h"
+#include "lua/language/script.h"
 #include "tests/support/small_wall.h"
 #include "tests/unit/record/two_bricks.h"
 

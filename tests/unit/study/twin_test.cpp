@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "engine/record/motion_file.h"
+#include "engine/record/folder/motion_file.h"
 #include "tests/support/folder.h"
 
 using namespace erbs;

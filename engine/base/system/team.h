@@ -1,0 +1,146 @@
+// A team of threads that lives for a whole run, with a barrier cheap enough to be passed twice per step.
+//
+// std::thread and atomics replace OpenMP: spinning then needs no environment variable before main, and the thread sanitizer
+// understands the code.
+// * A waiting thread spins for some tens of microseconds, then sleeps, so that an oversubscribed core still makes progress.
+// * Waking a thread takes longer than a phase of a step, on a virtual core much longer. Meanwhile the other threads would fall asleep, one
+//   after the other. After a short sleep the next spin is therefore longer, up to milliseconds.
+// * No thread yields its core: the process that receives the core keeps it for milliseconds.
+// * Two threads on one core separate by themselves, since no scheduler separates them: alternating, they look like one thread.
+// * If there are as many cores as threads, each thread is bound to its own core.
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "engine/base/system/affinity.h"
+
+namespace erbs {
+
+class Barrier {
+ public:
+  explicit Barrier(int count, int spins = 60000)
+      : count_(count), spins_(count <= usable_processors() ? spins : 0), oversubscribed_(count > usable_processors()), slot_(std::size_t(count)) {}
+  void wait(int thread) {
+    if (count_ == 1) return;
+    const unsigned round = arrive(thread);
+    for (int other = 0; other < count_; ++other)
+      if (other != thread) wait_for(thread, slot_[std::size_t(other)].arrived, round);
+  }
+  // Like wait(), but thread 0 runs `alone` while all others wait: one barrier instead of two. If `alone` throws, thread 0 throws and the
+  // other threads get false.
+  template <class F>
+  bool wait(int thread, F&& alone) {
+    const unsigned round = arrive(thread);
+    if (thread != 0) {
+      wait_for(thread, opened_, round);
+      return !failed_;
+    }
+    for (int other = 1; other < count_; ++other) wait_for(0, slot_[std::size_t(other)].arrived, round);
+    try {
+      alone();
+    } catch (...) {
+      failed_ = true;
+      signal(opened_, round);
+      throw;
+    }
+    signal(opened_, round);
+    return true;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  // State of one thread. Each flag that other threads wait for has its own cache line, written by one thread only. Moving cache lines
+  // between cores takes most of the time of a barrier.
+  struct ThreadSlot {
+    alignas(64) std::atomic<unsigned> arrived{0};  // number of barriers reached
+    alignas(64) std::atomic<int> core{-1};
+    Clock::time_point left{};
+    Clock::duration pause{};
+    int spin_level = 0;
+  };
+
+  unsigned arrive(int thread) {
+    ThreadSlot& mine = slot_[std::size_t(thread)];
+    if (const int core = this_core(); core != mine.core.load(std::memory_order_relaxed)) mine.core.store(core, std::memory_order_relaxed);
+    const unsigned round = mine.arrived.load(std::memory_order_relaxed) + 1;
+    signal(mine.arrived, round);
+    return round;
+  }
+  static void signal(std::atomic<unsigned>& to, unsigned round) {
+    // Sequentially consistent with the count of sleepers that notify_all reads next. A weaker store may still be on its way when a thread
+    // goes to sleep.
+    to.store(round, std::memory_order_seq_cst);
+    to.notify_all();
+  }
+  // Waits until `what` reaches `round`: spins first, then sleeps.
+  void wait_for(int thread, const std::atomic<unsigned>& what, unsigned round) {
+    using namespace std::chrono_literals;
+    ThreadSlot& mine = slot_[std::size_t(thread)];
+    const auto behind = [round](unsigned said) { return int(said - round) < 0; };
+    for (int left = spins_ << mine.spin_level; left >= 0; --left)
+      if (!behind(what.load(std::memory_order_acquire))) return;
+    if (!oversubscribed_) leave_shared_core(thread);
+    const auto since = Clock::now();
+    for (unsigned said; behind(said = what.load(std::memory_order_acquire));) what.wait(said, std::memory_order_acquire);
+    const auto slept = Clock::now() - since;
+    if (oversubscribed_) return;
+    if (slept < 1ms) mine.spin_level = std::min(mine.spin_level + 1, max_spin_level);
+    else if (slept > 8ms) mine.spin_level = std::max(mine.spin_level - 1, 0);
+  }
+  // Of two threads on one core the one with the higher number leaves. If it is soon back there are too few cores, and it leaves ever more
+  // rarely.
+  void leave_shared_core(int thread) {
+    using namespace std::chrono_literals;
+    ThreadSlot& mine = slot_[std::size_t(thread)];
+    const int core = this_core();
+    for (int other = 0; other < thread; ++other) {
+      if (slot_[std::size_t(other)].core.load(std::memory_order_relaxed) != core) continue;
+      const auto since = Clock::now() - mine.left;
+      if (since < mine.pause) return;
+      mine.pause = since > 16 * mine.pause ? 4ms : std::min(2 * mine.pause, Clock::duration(4s));
+      mine.left += since;
+      return leave_core(core);
+    }
+  }
+
+  static constexpr int max_spin_level = 6;  // 2^6 = 64 times the spins
+  const int count_, spins_;
+  const bool oversubscribed_;  // more threads than processors: a waiting thread sleeps at once, to free its processor
+  bool failed_ = false;
+  std::vector<ThreadSlot> slot_;
+  alignas(64) std::atomic<unsigned> opened_{0};
+};
+
+// Runs body(thread) on `threads` threads at once, including the caller. An exception of any thread is rethrown after all have ended.
+// A body that throws must not leave other threads waiting at a barrier: throw on all threads, or inside Barrier::wait(thread, alone).
+inline void run_team(int threads, const std::function<void(int)>& body) {
+  std::vector<std::exception_ptr> failed(std::size_t(threads), nullptr);
+  const auto guarded = [&](int i) {
+    const OwnCore core(i, threads);
+    try {
+      body(i);
+    } catch (...) { failed[std::size_t(i)] = std::current_exception(); }
+  };
+  std::vector<std::thread> others;
+  for (int i = 1; i < threads; ++i) others.emplace_back(guarded, i);
+  guarded(0);
+  for (auto& t : others) t.join();
+  for (const auto& f : failed)
+    if (f) std::rethrow_exception(f);
+}
+
+// Slice [first, last) of n items that thread `i` of `threads` owns, in whole chunks of `grain` items.
+struct Range {
+  int first, last;
+};
+inline Range slice(int n, int grain, int i, int threads) {
+  const int chunks = (n + grain - 1) / grain;
+  const auto edge = [&](int k) { return std::min(n, (chunks * k / threads) * grain); };
+  return {edge(i), edge(i + 1)};
+}
+
+}  // namespace erbs

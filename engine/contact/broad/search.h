@@ -1,0 +1,36 @@
+// Broad phase: a list of the pairs of parts that may touch, with a margin; searched again only after bodies have moved far enough.
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "engine/contact/law/pair.h"
+#include "engine/scene/scene.h"
+
+namespace erbs {
+
+inline std::uint64_t pair_key(int a, int b) { return static_cast<std::uint64_t>(a) << 32 | static_cast<std::uint64_t>(b); }
+
+// A tenth of the median thickness of the parts (m).
+double suggested_margin(std::vector<double> thickness);
+
+// True if two bodies may have come closer than the list allows. `still`: 1 for each block with the pose of the last search; empty: unknown.
+bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks,
+                  std::span<const std::uint8_t> still = {});
+
+// Lists every pair of parts closer than the margin of which at least one block is loose. Pairs of blocks with a `pair_key()` in `excluded`
+// (sorted) and pairs that cannot move are left out. Listed pairs that remain keep their memory. Returns the energy in the friction springs
+// of dropped pairs (J, to be booked as reset). Blocks that are `still` do not search but can be found; pairs among them, or of one with a
+// block that is not loose, stay listed. `fresh` receives the indices of new pairs.
+double search(PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
+              std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law,
+              std::span<const std::uint8_t> still = {}, std::vector<int>* fresh = nullptr);
+
+// Law of two materials in contact: springs in series, scaled so that equal ones stay as they are; the lower friction and restitution.
+PairLaw pair_law(const Material& a, const Material& b);
+
+// Index of the pair in the sorted list; -1: not listed.
+int find_pair(const PairList& list, int a, int part_a, int b, int part_b);
+
+}  // namespace erbs

@@ -1,0 +1,2 @@
+#define ERBS_ISA avx512
+#include "engine/contact/kernels.inc"

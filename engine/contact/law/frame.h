@@ -1,0 +1,32 @@
+// A contact pair seen from its reference body.
+#pragma once
+#include "engine/contact/overlap/general.h"
+#include "engine/model/contact_pair.h"
+
+namespace erbs {
+
+inline const ContactShape& shape_of(const ContactShapes& shapes, int block, int part) {
+  return shapes.part(static_cast<std::size_t>(shapes.first[static_cast<std::size_t>(block)] + part));
+}
+
+struct PairFrame {
+  const ContactShape *reference, *other;
+  const ContactBlock *reference_block, *other_block;
+  PairPose pose;
+};
+
+inline PairFrame pair_frame(const ContactPair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b) {
+  PairFrame s;
+  const ContactShape &shape_a = shape_of(shapes, pair.a, pair.part_a), &shape_b = shape_of(shapes, pair.b, pair.part_b);
+  s.reference = pair.b_is_reference ? &shape_b : &shape_a;
+  s.other = pair.b_is_reference ? &shape_a : &shape_b;
+  s.reference_block = pair.b_is_reference ? &b : &a;
+  s.other_block = pair.b_is_reference ? &a : &b;
+  // Relative positions first: a scene 1e4 m from the origin must not lose digits.
+  const Vec3 apart = (s.other_block->rest - s.reference_block->rest) + (s.other_block->u - s.reference_block->u);
+  s.pose.shift = s.reference_block->rotation.transpose() * apart;
+  s.pose.rotation = s.reference_block->rotation.transpose() * s.other_block->rotation;
+  return s;
+}
+
+}  // namespace erbs

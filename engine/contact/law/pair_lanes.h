@@ -1,0 +1,85 @@
+// Eight touching pairs as a pack: from overlap to forces, as `pair.cpp` does for one pair. Plain data, compiled once per instruction set
+// (`pair_lanes.inc`). All operations are elementwise, so that a pair's numbers do not depend on its neighbours.
+#pragma once
+#include "engine/contact/overlap/clip.h"
+
+namespace erbs {
+
+// One number per lane; vectors by component, matrices row by row; in pair axes unless stated otherwise.
+using PackArray = double[8];
+
+// Rows of eight numbers, in the layout of Pair, `ContactBlock` and `PairResult`.
+inline constexpr int pair_rows = 7, block_rows = 4, result_rows = 2;
+
+struct alignas(64) PairPack {
+  const double *pair[8], *reference[8], *other[8];  // addresses of the input
+  PackArray p[8 * pair_rows], r[8 * block_rows], o[8 * block_rows];
+  PackArray swapped;  // 1 if block b is the reference, else 0
+  PackArray contact_count;    // as in `pair_force()`
+  PackArray rotation[9], shift[3];
+  OverlapSums sums[8];
+  PackArray max_depth;  // m
+  PackArray total, area, force[3], moment[3], normal[3], size, pressure_centre[3], centroid[3], second[6], gyration;
+  PackArray linear[3], angular[3];     // m/s, rad/s, motion of the other body
+  PackArray along, angular_part[3];         // for `ClipKernels::closing_speeds`
+  PackArray closing_speed;                   // m/s
+  PackArray inverse_mass, chi, limit;  // of the dashpot
+  PackArray damping[4];                // total and first moment from `ClipKernels::damp`, kn = 1
+  // Friction: springs with their slip, dashpots, and the part within the limit.
+  PackArray u0[3], psi0, u1[3], psi1, kt, kr, springs[3], torsion, dashpots[3], dashpot_torsion, lever[3], most, radius, share;
+  PackArray holds;  // 1: springs and dashpots are surely within the limit
+  PackArray slips;
+  PackArray result[8 * result_rows];
+};
+
+struct PairSettings {
+  double dt, memory, reference_speed, settling, settling_tangential, surely_within, slow, rate, slender, flat_face;
+};
+
+// Eight blocks side by side as in State, and their rows as pairs read them.
+struct BlockPosePack {
+  const PackArray *u, *q, *v, *w;  // m, x y z w, m/s, rad/s, as in State
+  PackArray *last_u, *last_q;      // their pose in the last call of `track`
+  const double* reach;        // m, distance of each block's farthest point from its centroid
+  double *rotation_travel, *spin;        // m, travel of that point by rotation, upper bound; m/s, its speed by rotation
+  double *travel, *travel_ahead;     // m, travel with that of the centroid; the same after the next steps
+  double* row[8];             // `ContactBlock`
+  const PackArray* axes;           // of the shapes at rest, row by row; null: the world axes
+};
+
+// Input of a search: balls side by side, padded by seven; an oriented box as two rows of eight.
+struct Balls {
+  const double *x, *y, *z, *radius;  // m
+};
+struct alignas(64) OrientedBox {
+  double centre[3], rotation[9], half[3], radius;  // m, by column, m, m: of the enclosing ball
+};
+
+struct PairKernels {
+  // Pose, motion and travel of the selected blocks; `soon` (s): length of the next steps. `fastest` (m/s): greatest speed so far, by lane.
+  void (*track)(const BlockPosePack&, unsigned which, double soon, PackArray& fastest);
+  void (*gather_pairs)(PairPack&);                         // reads the rows; sets `rotation` and `shift`
+  void (*patch)(PairPack&, const PairSettings&);    // from `sums` to `angular_part`; `total` = 0 for a degenerate patch
+  void (*dashpot)(PairPack&, const PairSettings&);  // starts from `closing_speed`
+  void (*springs)(PairPack&, const PairSettings&);  // as far as `holds`
+  // Return map of two packs; sets `holds` to 0 for a pair that it leaves to the caller.
+  void (*return_map)(PairPack&, PairPack&);
+  void (*finish)(PairPack&, const PairSettings&);  // writes the rows of pairs and results
+  void (*write)(const PackArray* rows, int count, double* const to[8]);
+  int (*close_balls)(const Balls&, int from, int to, const double one[4], double margin, int* found);
+  unsigned (*close_boxes)(const OrientedBox& one, const OrientedBox* const other[8], double margin);
+};
+
+const PairKernels& pair_kernels();
+
+namespace sse2 {
+extern const PairKernels pair_kernels;
+}
+namespace avx2 {
+extern const PairKernels pair_kernels;
+}
+namespace avx512 {
+extern const PairKernels pair_kernels;
+}
+
+}  // namespace erbs

@@ -1,0 +1,90 @@
+// Cracked joints in packs of eight of one law and size. Their points' history is stored here while a Solver runs; `store()` copies it to
+// the State for all other readers.
+#pragma once
+#include <cstddef>
+#include <map>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "engine/joints/joint_forces.h"
+#include "engine/joints/kernels.h"
+
+namespace erbs {
+
+class Cracked {
+ public:
+  Cracked(const Model& model, State& state);  // includes the joints that have cracked already
+  int groups() const { return int(group_.size()); }
+  void take(int j);  // adds a joint that has cracked
+  void drop(int j);  // removes a joint released to contact
+  // Pose rows of eight doubles (displacement, attitude) of the blocks with cracked joints, as the drift leaves them.
+  double* poses() { return pose_.empty() ? nullptr : pose_.data(); }
+  void copy_pose(int b);
+  // Groups per chunk.
+  static constexpr int grain = 8;
+  // Writes the wrench rows of groups [first, last); fills `sums.energy.elastic` if `sample`. `budget`: J, for `event_bound.h`.
+  void forces(int first, int last, bool sample, double budget, JointSums& sums, const StepKernels& kernels = step_kernels());
+  void store();
+  bool none_ready_for_contact() const;  // true: certainly no joint can be released
+  // True if the joint has no bond left and is beyond the range of its fixed faces (`out_of_range()`).
+  bool ready_for_contact(int j) const;
+
+ private:
+  // Shapes of the eight joints of a pack. Packs with joints of one type share them, so that they stay in the cache.
+  struct Shapes {
+    FacePack face;
+    std::vector<CornerPack> overlap_corner;
+    std::vector<PointPack> point;  // [points], like `cell`
+    std::vector<CellPack> cell;
+    std::vector<int> first;                // first corner of each loop [points + 1]
+    std::vector<CornerPack> cell_loop, tension_loop;  // of the cells; `tension_loop` is empty if equal to `cell_loop`
+  };
+  struct alignas(64) Group {
+    int law, points, corners;
+    int pack;           // index in `State::pack`
+    unsigned used = 0;   // occupied lanes, as bits
+    bool pressed_by_gravity = false;  // joints compressed by gravity
+    bool maybe_out_of_range = true;  // some joint may be beyond its faces
+    bool debonded = true;    // no point has a bond left
+    bool damage_changed = false;   // damage has changed since `store()`
+    std::size_t at = 0;  // index in `memory_`
+    std::shared_ptr<Shapes> shapes;
+    int room = -1;  // points that fit there
+    // A step reads the members above. It reads the members below only for joints that crush or have bonds.
+    int joint[pack_size];             // -1: empty
+    CrushedFace* crushed[pack_size];  // null without a plateau in compression
+    const double* face_corner[pack_size];
+    const JointType* type = nullptr;  // null: several types
+    std::vector<BondPack> bond;      // [points]
+    bool empty() const { return used == 0; }
+    void update_debonded(const PointLaw& law);
+  };
+  void set_empty(Group& group, const Joint& joint);
+  CrackedPack& memory_of(const Group& group) { return *reinterpret_cast<CrackedPack*>(&memory_[group.at]); }
+  const CrackedPack& memory_of(const Group& group) const { return *reinterpret_cast<const CrackedPack*>(&memory_[group.at]); }
+  bool fits(const Group& group, const Joint& joint) const;  // equal law and numbers, and compressed alike
+  int find_lane(const Joint& joint);                        // group * lanes + lane; adds a group if necessary
+  void fill(Group& group, int l, int j);
+  void clear(Group& group, int l);
+  void set_shape(Shapes& shapes, int l, const JointType& type) const;
+  std::shared_ptr<Shapes> shared_shapes(const JointType& type);  // for a pack of this type alone
+  void add_shape(Group& group, int l, const JointType& type);
+  void find_type(Group& group);
+  void put(int j);                            // finds a lane and fills it
+  void set_ends(int j);                       // blocks, rows and arms of its lane
+  void copy_ends(const Group& group, int l);  // from its pack in `State::pack`
+  void take_all(std::vector<int>& joints);    // sorted by type
+
+  const Model& model_;
+  State& state_;
+  struct alignas(64) Line {
+    std::byte of[64];
+  };
+  std::vector<Group> group_;
+  std::vector<Line> memory_;  // of all groups: `CrackedPack` and the slips of their points
+  Rows pose_;
+  std::map<const JointType*, std::shared_ptr<Shapes>> of_type_;
+};
+
+}  // namespace erbs

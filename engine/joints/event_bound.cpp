@@ -1,0 +1,31 @@
+#include "engine/joints/event_bound.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace erbs {
+
+double event_budget(const Model& m, const State& s) { return s.step % foresee_every != 0 ? 0 : event_allowance(m, s); }
+
+double event_allowance(const Model& m, const State& s) {
+  if (m.analysis.unstable || m.analysis.solver == "sequential") return 0;
+  const double many = std::clamp(std::sqrt(s.unjoined / 16.0), 1.0, most_for_many);
+  const double used = std::fabs(s.energy.event_residual) / (many * event_sum * s.energy.reference);
+  return many * event_tolerance * s.energy.reference * std::max(0.01, 1 - used);
+}
+
+double foresee(const Model& m, const Joint& joint, const double* gap_before, const double* gap, double budget) {
+  if (!(budget > 0)) return 0;
+  double square = 0, soon = 0;
+  const auto gap_at = [](const double* x, const Eigen::Vector2d& c) { return x[2] + x[3] * c.y() - x[4] * c.x(); };
+  for (int i = 0; i < joint.type->corners; ++i) {
+    const auto& c = m.overlap_corner[std::size_t(joint.type->first_corner + i)];
+    const double opening = gap_at(gap, c), rate = opening - gap_at(gap_before, c);
+    if (!(opening * rate < 0)) continue;
+    square += rate * rate;
+    soon = std::max(soon, std::fabs(rate / opening));
+  }
+  return std::min(std::sqrt(event_share / (joint.type->corners * budget) * joint.type->stiffness[2] * square), event_steps * soon);
+}
+
+}  // namespace erbs

@@ -1,0 +1,2 @@
+#define ERBS_ISA avx2
+#include "engine/joints/kernels.inc"

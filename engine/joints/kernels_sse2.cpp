@@ -1,0 +1,2 @@
+#define ERBS_ISA sse2
+#include "engine/joints/kernels.inc"

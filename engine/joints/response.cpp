@@ -1,0 +1,337 @@
+#include "engine/joints/response.h"
+
+#include <array>
+#include <cmath>
+
+namespace erbs {
+namespace {
+
+struct PointGap {
+  double s, t, n;  // m
+};
+
+PointGap gap_at(const double* gap, double s, double t) { return {gap[0] - gap[5] * t, gap[1] + gap[5] * s, gap[2] + gap[3] * t - gap[4] * s}; }
+
+// Closed-form integrals over a polygon of max(p, 0), p = sign times the gap (linear in s, t), of its first moments and of its square. Over
+// a triangle with corner values p_i: Int p s = A/12 (sum p sum s + sum p_i s_i), Int p^2 = A/12 ((sum p)^2 + sum p_i^2).
+struct Positive {
+  double p = 0, s = 0, t = 0, square = 0;  // m3; m4: Int p s, Int p t; m4: Int p^2
+};
+
+struct Corner {
+  double s, t, p;  // m
+};
+
+void add_triangle(const Corner& a, const Corner& b, const Corner& c, Positive& out) {
+  const double area = 0.5 * ((b.s - a.s) * (c.t - a.t) - (c.s - a.s) * (b.t - a.t));
+  const double p = a.p + b.p + c.p;
+  out.p += area / 3 * p;
+  out.s += area / 12 * (p * (a.s + b.s + c.s) + a.p * a.s + b.p * b.s + c.p * c.s);
+  out.t += area / 12 * (p * (a.t + b.t + c.t) + a.p * a.t + b.p * b.t + c.p * c.t);
+  out.square += area / 12 * (p * p + a.p * a.p + b.p * b.p + c.p * c.p);
+}
+
+// For any simple loop: signed triangles from its first corner.
+Positive positive_part(const Eigen::Vector2d* corner, int corners, const double* gap, double sign) {
+  Positive sum;
+  std::array<Corner, 3> fan{};
+  int count = 0;
+  const auto add_corner = [&](const Corner& c) {
+    if (count < 2) {
+      fan[std::size_t(count++)] = c;
+      return;
+    }
+    fan[2] = c;
+    add_triangle(fan[0], fan[1], fan[2], sum);
+    fan[1] = fan[2];
+  };
+  const auto at = [&](int i) { return Corner{corner[i].x(), corner[i].y(), sign * gap_at(gap, corner[i].x(), corner[i].y()).n}; };
+  Corner last = at(corners - 1);
+  for (int i = 0; i < corners; ++i) {
+    const Corner now = at(i);
+    if ((last.p > 0) != (now.p > 0)) {
+      const double x = last.p / (last.p - now.p);
+      add_corner({last.s + x * (now.s - last.s), last.t + x * (now.t - last.t), 0});
+    }
+    if (now.p > 0) add_corner(now);
+    last = now;
+  }
+  return sum;
+}
+
+// The no-tension integral over the overlap polygon: N = kn Int max(-g, 0) dA, its first moments and its energy.
+Pressed compression(const Model& m, const Joint& joint, const double* gap, double kn) {
+  // open everywhere: no force; closed everywhere: a linear pressure about the centroid
+  const double reach = std::fabs(gap[3]) * joint.type->half_t + std::fabs(gap[4]) * joint.type->half_s;
+  if (gap[2] - reach >= 0) return {};
+  if (gap[2] + reach < 0) {
+    const Pressed c{-joint.type->stiffness[2] * gap[2], joint.type->face[1] * gap[4] - joint.type->face[2] * gap[3],
+                    joint.type->face[2] * gap[4] - joint.type->face[0] * gap[3], 0};
+    return {c.force, c.s, c.t, 0.5 * (c.s * gap[4] - c.force * gap[2] - c.t * gap[3])};
+  }
+  const Positive p = positive_part(&m.overlap_corner[std::size_t(joint.type->first_corner)], joint.type->corners, gap, -1);
+  return {kn * p.p, kn * p.s, kn * p.t, 0.5 * kn * p.square};
+}
+
+// The gap as a plane over s, t.
+std::array<double, 3> gap_plane(const double* gap) { return {gap[2], -gap[4], gap[3]}; }
+
+// The same for a face that may have been crushed.
+Pressed compression(const Model& m, const Joint& joint, const CrushedFace* crushed, const double* gap, double kn) {
+  if (crushed == nullptr || crushed->planes == 0) return compression(m, joint, gap, kn);
+  return pressed(compression_face(m, joint), *crushed, gap_plane(gap).data());
+}
+
+// Tension of the cell of point i at unit stiffness: Int max(g, 0) dA and its first moments. The cells of undamaged points and the
+// compression add up to the intact joint. So a crack changes no other part of a joint, and no tangent is stiffer than the intact one.
+struct Pull {
+  double n = 0, s = 0, t = 0;  // m3, m4, m4
+};
+
+Pull pull_of(const Model& m, int i, const double* gap) {
+  const Cell& cell = m.cell[std::size_t(i)];
+  const Positive p = positive_part(&m.cell_loop[std::size_t(cell.first)], cell.corners, gap, 1);
+  return {p.p, p.s, p.t};
+}
+
+double work_of(const Pull& p, const double* gap) { return p.n * gap[2] + p.t * gap[3] - p.s * gap[4]; }
+
+// Widest opening of the cell of point i; it damages the bond. The opening of the point itself would be wrong: a crack could stop at the
+// border of the cell, and the cell could pull with any stress beyond it. sign = -1: the deepest closing.
+double widest(const Model& m, int i, const double* gap, double at_point, double sign = 1) {
+  const Cell& cell = m.cell[std::size_t(i)];
+  double most = sign * at_point;
+  for (int k = cell.first; k < cell.first + cell.corners; ++k) {
+    const auto& c = m.tension_loop[std::size_t(k)];
+    most = std::max(most, sign * gap_at(gap, c.x(), c.y()).n);
+  }
+  return most;
+}
+
+struct Shear {
+  double s, t;  // N
+};
+
+// Radial return of one point. `normal`: its compressive force (N); `sigma`: its tension (Pa).
+Shear shear(const PointLaw& law, const Point& point, double normal, double sigma, const double* gap_before, const PointGap& g1, PointHistory& h,
+            JointEnergy& energy) {
+  const double weight = point.weight, k = law.ks * weight;
+  Shear now{k * (g1.s - h.slip_s), k * (g1.t - h.slip_t)};
+  const auto limit = [&](double p) { return (p < 1 ? bond_shear(law, sigma, p) * weight : 0) + friction_at(law, p) * normal; };
+  const double cap = limit(h.damage), square = now.s * now.s + now.t * now.t;
+  if (square <= cap * cap || k == 0) return now;
+  const double size = std::sqrt(square);
+  const PointGap g0 = gap_at(gap_before, point.s, point.t);
+  const Shear before{k * (g0.s - h.slip_s), k * (g0.t - h.slip_t)};
+  const bool bonded = h.damage < 1 && law.c > 0;
+  double slip = (size - cap) / k;
+  if (bonded) {
+    // Softening: the limit falls linearly with the slip that it allows, size - k slip = cap + slope slip.
+    const double slope = law.slip_ultimate > 0 ? ((law.mu_residual - law.mu) * normal - law.c * weight) / law.slip_ultimate : -k;
+    damage_to(law, h, k + slope > 0 ? h.damage + (size - cap) / (k + slope) / law.slip_ultimate : 1);
+    slip = (size - limit(h.damage)) / k;
+  }
+  const double ds = slip * now.s / size, dt = slip * now.t / size;
+  h.slip_s += ds;
+  h.slip_t += dt;
+  now.s -= k * ds;
+  now.t -= k * dt;
+  const double work = 0.5 * ((before.s + now.s) * ds + (before.t + now.t) * dt);
+  const double by_friction = bonded ? std::min(work, friction_at(law, h.damage) * normal * slip) : work;
+  energy.friction += by_friction;
+  energy.fracture += work - by_friction;  // loss of the bond beyond friction
+  return now;
+}
+
+// For rules that are not exact in bending: an intact joint has the stiffness of its points, a cracked joint that of its true faces. The
+// change sets energy free (or takes it up), which is booked with the crack. It is the difference of the mixed energies q0 K q1 / 2, since
+// the work of the step is the mean of its two forces.
+double change_of_form(const Joint& joint, const double* gap_before, const double* gap_now) {
+  return 0.5 * ((joint.type->stiffness[3] - joint.type->face[0]) * gap_before[3] * gap_now[3] +
+                (joint.type->stiffness[4] - joint.type->face[1]) * gap_before[4] * gap_now[4] + joint.type->face[2] * (gap_before[3] * gap_now[4] + gap_before[4] * gap_now[3]));
+}
+
+bool passes(const PointLaw& law, const PointGap& g) {
+  const double sigma = law.kn * g.n, tau = law.ks * std::sqrt(g.s * g.s + g.t * g.t);
+  return sigma > law.ft || tau > bond_shear(law, std::max(0.0, sigma), 0) + law.mu * std::max(0.0, -sigma);
+}
+
+bool stays_intact(const Model& m, const Joint& joint, const PointLaw& law, const double* gap) {
+  for (int i = 0; (law.dry || law.fc > 0) && i < joint.type->corners; ++i) {
+    const auto& c = m.overlap_corner[std::size_t(joint.type->first_corner + i)];
+    const double opening = gap_at(gap, c.x(), c.y()).n;
+    if (law.dry && opening > 0) return false;
+    if (law.fc > 0 && -law.kn * opening > law.fc) return false;
+  }
+  for (int i = 0; i < joint.type->points; ++i) {
+    const Point& x = m.point[std::size_t(joint.type->first_cell + i)];
+    if (passes(law, gap_at(gap, x.s, x.t))) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+double share_within(double s, double t, double ds, double dt, double limit) {
+  const double a = ds * ds + dt * dt, b = s * ds + t * dt, c = std::max(0.0, limit * limit - s * s - t * t);
+  return a + 2 * b > c ? (std::sqrt(b * b + a * c) - b) / a : 1;
+}
+
+JointPast past_of(const Model& m, State& s, int j) {
+  return {&s.history[std::size_t(m.joint[std::size_t(j)].first_point)], s.crushed.empty() ? nullptr : &s.crushed[std::size_t(j)]};
+}
+
+CompressionFace compression_face(const Model& m, const Joint& joint) {
+  const PointLaw& law = m.laws[std::size_t(joint.type->law)];
+  return {law.kn, law.fc / law.kn, joint.type->corners, m.overlap_corner[std::size_t(joint.type->first_corner)].data()};
+}
+
+namespace {
+
+// Friction needs the pressure at the points: the force of the closed-form integral is distributed by the depths of the points. If no point
+// is pressed, the deepest one receives all of it.
+void distribute_pressure(const Model& m, const Joint& joint, const CrushedFace* crushed, const double* gap, double force, double* at_points) {
+  const Point* point = &m.point[std::size_t(joint.type->first_cell)];
+  const bool flattened = crushed != nullptr && crushed->planes > 0;
+  const CompressionFace face = compression_face(m, joint);
+  double share = 0, least = 0;
+  int deepest = 0;
+  for (int i = 0; i < joint.type->points; ++i) {
+    const double g = gap_at(gap, point[i].s, point[i].t).n;
+    const double depth = flattened ? pressed_depth(face, *crushed, gap_plane(gap).data(), point[i].s, point[i].t) : std::max(0.0, -g);
+    at_points[i] = depth * point[i].weight;
+    share += at_points[i];
+    if (i == 0 || g < least) least = g, deepest = i;
+  }
+  const double scale = share > 0 ? force / share : 0;
+  for (int i = 0; i < joint.type->points; ++i) at_points[i] *= scale;
+  if (share == 0) at_points[deepest] = force;
+}
+
+// Replaces the pressure of a point by its mean pressure, where that is higher and the joint slides slowly (`interlock.h`).
+void apply_interlock(const Model& m, const Joint& joint, const double* gap_before, const double* gap, const JointPast& past, double* pressure) {
+  const Interlock& now = past.interlock;
+  if (!(now.gap > 0)) return;
+  const Point* point = &m.point[std::size_t(joint.type->first_cell)];
+  const double ds = gap[0] - gap_before[0], dt = gap[1] - gap_before[1], twist = (gap[5] - gap_before[5]) * joint.type->radius;
+  const bool slow = ds * ds + dt * dt + twist * twist < now.slow;
+  for (int i = 0; i < joint.type->points; ++i) {
+    double& mean_pressure = past.point[i].mean_pressure;
+    const double stress = pressure[i] / point[i].weight;
+    const bool near = gap_at(gap, point[i].s, point[i].t).n < now.gap;
+    if (now.rate > 0) mean_pressure = !near ? 0 : mean_pressure > 0 ? mean_pressure + (stress - mean_pressure) * now.rate : stress;
+    if (near && slow && mean_pressure > stress) pressure[i] = mean_pressure * point[i].weight;
+  }
+}
+
+}  // namespace
+
+Interlock interlock_now(const Model& m, const State& s) {
+  const double g = m.gravity.norm();
+  if (!(g > 0 && m.settlement > 0)) return {};
+  const double way = interlock_speed * std::sqrt(g * m.settlement) * s.last_dt, since = interlock_every * s.last_dt,
+               time = interlock_time * std::sqrt(m.settlement / g);
+  return {interlock_gap * m.settlement, way * way, s.step % interlock_every == 0 && since > 0 ? since / (since + time) : 0};
+}
+
+Interlock contact_interlock(const Model& m, const State& s) {
+  const double g = m.gravity.norm(), d = m.settlement;
+  if (!(g > 0 && d > 0)) return {};
+  return {interlock_gap * d, interlock_speed * interlock_speed * g * d, s.last_dt / (s.last_dt + interlock_time * std::sqrt(d / g))};
+}
+
+bool respond(const Model& m, int j, bool intact, const double* gap_before, const double* gap, JointPast past, double* resultant, JointEnergy& energy,
+             double* shear_limit) {
+  const Joint& joint = m.joint[std::size_t(j)];
+  const PointLaw& law = m.laws[std::size_t(joint.type->law)];
+  if (intact && stays_intact(m, joint, law, gap)) {
+    for (int i = 0; i < 6; ++i) {
+      resultant[i] = joint.type->stiffness[i] * gap[i];
+      energy.elastic += 0.5 * resultant[i] * gap[i];
+    }
+    return true;
+  }
+  const Point* point = &m.point[std::size_t(joint.type->first_cell)];
+  std::array<double, most_points_per_joint> pressure;  // N, compressive force of each point
+  if (law.fc > 0) energy.crushing += crush(compression_face(m, joint), *past.crushed, gap_plane(gap_before).data(), gap_plane(gap).data());
+  const CrushedFace* crushed = law.fc > 0 ? past.crushed : nullptr;
+  const Pressed closed = compression(m, joint, crushed, gap, law.kn);
+  resultant[0] = resultant[1] = resultant[5] = 0;
+  resultant[2] = -closed.force;
+  resultant[3] = -closed.t;
+  resultant[4] = closed.s;
+  energy.elastic += closed.energy;
+  if (intact) energy.fracture += change_of_form(joint, gap_before, gap);
+  distribute_pressure(m, joint, crushed, gap, closed.force, pressure.data());
+  apply_interlock(m, joint, gap_before, gap, past, pressure.data());
+  for (int i = 0; i < joint.type->points; ++i) {
+    PointHistory& h = past.point[i];
+    const double damage_before = h.damage;
+    const PointGap g = gap_at(gap, point[i].s, point[i].t);
+    const bool bonded = damage_before < 1 && !law.dry;
+    const double k0 = damage_before > 0 ? h.secant : law.kn;
+    const double wide = bonded ? widest(m, joint.type->first_cell + i, gap, g.n) : 0;
+    if (bonded && wide > (damage_before > 0 ? h.kappa : law.opening_peak))
+      damage_to(law, h,
+                law.opening_ultimate > law.opening_peak ? (wide - law.opening_peak) / (law.opening_ultimate - law.opening_peak) : 1);
+    if (bonded && law.closing_ultimate > 0 &&
+        widest(m, joint.type->first_cell + i, gap, g.n, -1) > std::max(law.closing_ultimate, law.fc / law.kn))
+      damage_to(law, h, 1);
+    const double sigma = bonded && g.n > 0 ? (h.damage > 0 ? h.secant : law.kn) * g.n : 0;
+    const Shear tau = shear(law, point[i], pressure[std::size_t(i)], sigma, gap_before, g, h, energy);
+    if (shear_limit != nullptr)
+      shear_limit[i] =
+          (h.damage < 1 ? bond_shear(law, sigma, h.damage) * point[i].weight : 0) + friction_at(law, h.damage) * pressure[std::size_t(i)];
+    resultant[0] += tau.s;
+    resultant[1] += tau.t;
+    resultant[5] += tau.t * point[i].s - tau.s * point[i].t;
+    energy.elastic += 0.5 * (tau.s * (g.s - h.slip_s) + tau.t * (g.t - h.slip_t));
+    if (!bonded) continue;
+    const double k1 = h.damage > 0 ? h.secant : law.kn;
+    const Pull pull = pull_of(m, joint.type->first_cell + i, gap);
+    // Half the loss of stiffness times Int g0 g1 over the open part of the cell, as the mean over the open parts before and after.
+    if (k0 != k1) {
+      const double both = work_of(pull, gap_before) + work_of(pull_of(m, joint.type->first_cell + i, gap_before), gap);
+      energy.fracture += 0.25 * (k0 - k1) * std::max(0.0, both);
+    }
+    resultant[2] += k1 * pull.n;
+    resultant[3] += k1 * pull.t;
+    resultant[4] -= k1 * pull.s;
+    energy.elastic += 0.5 * k1 * work_of(pull, gap);
+  }
+  return false;
+}
+
+void viscous_response(const Model& m, int j, const double* gap_before, const double* gap, const PointHistory* before, JointPast after,
+                      const double* shear_limit, double rate, double* resultant) {
+  const Joint& joint = m.joint[std::size_t(j)];
+  const PointLaw& law = m.laws[std::size_t(joint.type->law)];
+  for (int i = 0; i < 6; ++i) resultant[i] = 0;
+  for (int i = 0; i < joint.type->points; ++i) {
+    const Point& point = m.point[std::size_t(joint.type->first_cell + i)];
+    const PointHistory& h = after.point[i];
+    const PointGap g0 = gap_at(gap_before, point.s, point.t), g1 = gap_at(gap, point.s, point.t);
+    const bool holds = h.damage < 1 && !law.dry;
+    if ((holds || g1.n < 0) && h.slip_s == before[i].slip_s && h.slip_t == before[i].slip_t) {
+      const double k = law.ks * point.weight, s = rate * k * (g1.s - g0.s), t = rate * k * (g1.t - g0.t);
+      const double x = share_within(k * (g1.s - h.slip_s), k * (g1.t - h.slip_t), s, t, shear_limit[i]);
+      resultant[0] += x * s;
+      resultant[1] += x * t;
+      resultant[5] += x * (t * point.s - s * point.t);
+    }
+    if (!holds) continue;
+    const double k = rate * (h.damage > 0 ? h.secant : law.kn);
+    const Pull p0 = pull_of(m, joint.type->first_cell + i, gap_before), p1 = pull_of(m, joint.type->first_cell + i, gap);
+    resultant[2] += k * (p1.n - p0.n);
+    resultant[3] += k * (p1.t - p0.t);
+    resultant[4] -= k * (p1.s - p0.s);
+  }
+  const CrushedFace* crushed = law.fc > 0 ? after.crushed : nullptr;
+  const Pressed now = compression(m, joint, crushed, gap, law.kn), then = compression(m, joint, crushed, gap_before, law.kn);
+  const double pull = rate * (then.force - now.force), share = pull > now.force ? rate * now.force / pull : rate;
+  resultant[2] += share * (then.force - now.force);
+  resultant[3] += share * (then.t - now.t);
+  resultant[4] -= share * (then.s - now.s);
+}
+
+}  // namespace erbs

@@ -1,0 +1,162 @@
+#include "engine/loads/record/record_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "engine/base/hash.h"
+#include "engine/base/text.h"
+#include "engine/base/units.h"
+
+namespace erbs {
+namespace {
+
+bool digit(char c) { return c >= '0' && c <= '9'; }
+bool sign(char c) { return c == '+' || c == '-'; }
+bool separator(char c) { return c == ' ' || c == '\t' || c == ',' || c == ';' || c == '\r'; }
+bool exponent_mark(char c) { return c == 'e' || c == 'E' || c == 'd' || c == 'D'; }
+
+size_t skip_digits(std::string_view s, size_t at) {
+  while (at < s.size() && digit(s[at])) ++at;
+  return at;
+}
+
+// End of the number that begins at `at`; `at` itself if no number begins there.
+size_t end_of_number(std::string_view s, size_t at) {
+  size_t end = at + (at < s.size() && sign(s[at]) ? 1 : 0);
+  const size_t whole = skip_digits(s, end);
+  size_t digits = whole - end;
+  end = whole;
+  if (end < s.size() && s[end] == '.') {
+    const size_t fraction = skip_digits(s, end + 1);
+    digits += fraction - end - 1;
+    end = fraction;
+  }
+  if (digits == 0) return at;
+  if (end < s.size() && exponent_mark(s[end])) {
+    const size_t first = end + 1 + (end + 1 < s.size() && sign(s[end + 1]) ? 1 : 0);
+    size_t last = skip_digits(s, first);
+    // An exponent of two digits, followed directly by the 0 of the next column: 0.1E-020.2E-02.
+    if (last == first + 3 && last < s.size() && s[last] == '.') --last;
+    if (last > first) end = last;
+  }
+  return end;
+}
+
+[[noreturn]] void not_a_number(const RecordText& text, size_t index, size_t at) {
+  const std::string_view line = text.lines[index];
+  size_t end = at;
+  while (end < line.size() && !separator(line[end]) && end < at + 24) ++end;
+  // Quote a word only if it begins like a number. The file may be no record, and the message must not reveal its content.
+  const std::string_view word = line.substr(at, end - at);
+  const bool quoted = digit(word[0]) || sign(word[0]) || word[0] == '.' || word == "nan" || word == "inf";
+  throw Error(fmt::format("column {}: {} is not a number; correct it, or begin the line with # if it is a comment", at + 1,
+                          quoted ? "\"" + shown(word, 24) + "\"" : "what stands there"),
+              {text.path, static_cast<int>(index) + 1});
+}
+
+double number(const RecordText& text, size_t index, size_t from, size_t to) {
+  std::string digits(text.lines[index].substr(from, to - from));
+  for (char& c : digits)
+    if (exponent_mark(c)) c = 'e';  // from_chars reads neither Fortran's exponent D nor a leading +
+  const char* first = digits.data() + (digits.front() == '+' ? 1 : 0);
+  double result = 0;
+  const auto [end, code] = std::from_chars(first, digits.data() + digits.size(), result);
+  if (code == std::errc::result_out_of_range)
+    throw Error(fmt::format("column {}: {} is beyond what a number can hold; correct it", from + 1, shown(digits, 24)),
+                {text.path, static_cast<int>(index) + 1});
+  if (code != std::errc() || end != digits.data() + digits.size()) not_a_number(text, index, from);
+  return result;
+}
+
+}  // namespace
+
+RecordText read_record_text(const std::string& path) {
+  std::error_code code;
+  if (!std::filesystem::exists(path, code)) throw Error("there is no such record file; check the name and the folder", {path});
+  if (std::filesystem::is_directory(path, code)) throw Error("is a folder, not a record file; name a file inside", {path});
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw Error("the record file cannot be opened; check its permissions", {path});
+  std::string bytes;
+  try {
+    bytes.assign(std::istreambuf_iterator<char>(in), {});
+  } catch (const std::ios_base::failure&) { throw Error("the record file cannot be read; name one with numbers", {path}); }
+  if (bytes.starts_with("\xFF\xFE") || bytes.starts_with("\xFE\xFF") || bytes.find('\0') != std::string::npos)
+    throw Error("is no plain text, or text in UTF-16; save it as UTF-8", {path});
+  RecordText text{path, hash_text(bytes), {}};
+  std::string_view rest = bytes;
+  if (rest.substr(0, 3) == "\xEF\xBB\xBF") rest.remove_prefix(3);  // byte order mark, written by some editors
+  bool blank = true;
+  while (!rest.empty()) {
+    const size_t end = std::min(rest.find('\n'), rest.size());
+    text.lines.emplace_back(rest.substr(0, end));
+    if (!text.lines.back().empty() && text.lines.back().back() == '\r') text.lines.back().pop_back();
+    blank = blank && is_blank(text.lines.back());
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  if (blank) throw Error("the record file is empty; give a file with numbers", {path});
+  return text;
+}
+
+std::string_view trim(std::string_view s) {
+  while (!s.empty() && (s.front() == ' ' || s.front() == '\t')) s.remove_prefix(1);
+  while (!s.empty() && (s.back() == ' ' || s.back() == '\t' || s.back() == '\r')) s.remove_suffix(1);
+  return s;
+}
+
+std::string lower(std::string_view s) {
+  std::string out(s);
+  for (char& c : out) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return out;
+}
+
+bool is_blank(std::string_view line) { return trim(line).empty(); }
+
+bool is_comment(std::string_view line) {
+  line = trim(line);
+  return !line.empty() && (line[0] == '#' || line[0] == '%' || line[0] == '!' || line.substr(0, 2) == "//");
+}
+
+void append_numbers(const RecordText& text, size_t index, bool touching, std::vector<double>& out) {
+  const std::string_view line = text.lines[index];
+  for (size_t at = 0; at < line.size();) {
+    if (separator(line[at])) {
+      ++at;
+      continue;
+    }
+    const size_t end = end_of_number(line, at);
+    const bool parted = end == line.size() || separator(line[end]) || (touching && (sign(line[end]) || digit(line[end])));
+    if (end == at || !parted) not_a_number(text, index, at);
+    out.push_back(number(text, index, at, end));
+    at = end;
+  }
+}
+
+std::optional<double> acceleration_unit(std::string_view name) {
+  std::string unit;
+  for (const char c : lower(trim(name)))
+    if (c != ' ' && c != '^' && c != '*' && c != '.') unit += c == '_' ? '/' : c;
+  for (size_t at; (at = unit.find("sec")) != std::string::npos;) unit.replace(at, 3, 1, 's');
+  if (const size_t at = unit.find("/s/s"); at != std::string::npos) unit.replace(at, 4, std::string("/s2"));
+  constexpr double foot = 0.3048;
+  static constexpr std::array<std::pair<std::string_view, double>, 8> units{{{"g", standard_g},
+                                                                             {"mg", 1e-3 * standard_g},
+                                                                             {"m/s2", 1},
+                                                                             {"cm/s2", 0.01},
+                                                                             {"gal", 0.01},
+                                                                             {"mm/s2", 0.001},
+                                                                             {"ft/s2", foot},
+                                                                             {"in/s2", foot / 12}}};
+  for (const auto& [known, factor] : units)
+    if (unit == known) return factor;
+  return std::nullopt;
+}
+
+}  // namespace erbs

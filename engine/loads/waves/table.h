@@ -1,0 +1,27 @@
+// Table of values, linear between its points.
+#pragma once
+#include "engine/base/field.h"
+#include "engine/loads/waves/polyline.h"
+
+namespace erbs {
+
+struct Table {
+  Polyline line;      // s, and the unit of its load
+  bool hold = false;  // outside the table the nearest value holds; else zero
+
+  static constexpr std::string_view wave_name = "table_wave";
+  // The two arrays `times` and `values` are not fields; make_table takes them.
+  static Fields<Table> fields() { return {{"hold", &Table::hold, "", "outside the table the nearest value holds (default: zero)"}}; }
+};
+
+// Needs increasing times and at least two points. Otherwise throws an Error that counts points from 1.
+Table make_table(std::vector<double> times, std::vector<double> values, bool hold);
+
+// loads.h explains the five functions.
+double value(const Table& wave, double t);
+double area(const Table& wave, double t);
+double double_area(const Table& wave, double t);
+double mean(const Table& wave, double t0, double t1);
+double end_time(const Table& wave);
+
+}  // namespace erbs

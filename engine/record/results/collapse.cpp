@@ -1,0 +1,57 @@
+#include "engine/record/results/collapse.h"
+
+#include <cmath>
+
+namespace erbs {
+namespace {
+
+bool down(const Collapse& collapse, const Model& model, const State& state, std::size_t b) {
+  return model.kind[b] == Kind::moving && collapse.start[b] - state.u[b].z() > 0.5 * model.smallest_edge[b];
+}
+
+}  // namespace
+
+Collapse watch_collapse(const Model& model, const State& start) {
+  Collapse collapse;
+  collapse.start.resize(std::size_t(model.nblock));
+  for (std::size_t b = 0; b < collapse.start.size(); ++b) collapse.start[b] = start.u[b].z();
+  collapse.fallen.assign(collapse.start.size(), 0);
+  return collapse;
+}
+
+bool update(Collapse& collapse, const Model& model, const State& state, double t, std::vector<int>* newly) {
+  double fallen = 0, moving = 0;  // kg
+  const double far = model.analysis.stop_when_moved;
+  for (std::size_t b = 0; b < collapse.start.size(); ++b) {
+    if (model.kind[b] != Kind::moving) continue;
+    if (far > 0 && state.u[b].squaredNorm() > far * far) collapse.moved = true;
+    moving += model.mass[b];
+    if (!down(collapse, model, state, b)) continue;
+    fallen += model.mass[b];
+    if (!collapse.fallen[b] && newly) newly->push_back(int(b));
+    collapse.fallen[b] = 1;
+  }
+  collapse.fallen_fraction = moving > 0 ? fallen / moving : 0;
+  if (collapse.collapsed || fallen == 0 || collapse.fallen_fraction < model.analysis.collapse_fraction) return false;
+  collapse.collapsed = true;
+  collapse.time = t;
+  collapse.mechanism = mechanism_of(model, state, t);
+  return true;
+}
+
+std::optional<std::array<double, 2>> collapse_direction(const Collapse& collapse, const Model& model, const State& state) {
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  double lengths = 0;
+  for (std::size_t b = 0; b < collapse.start.size(); ++b) {
+    if (!down(collapse, model, state, b)) continue;
+    const Eigen::Vector2d horizontal = state.u[b].head<2>();
+    sum += horizontal;
+    lengths += horizontal.norm();
+  }
+  const double length = sum.norm();
+  // |sum| < 0.1 sum of lengths is |mean| < 0.1 mean length, since the number of blocks cancels. The negated form makes a NaN no direction.
+  if (!(length > 0) || !(length >= 0.1 * lengths)) return std::nullopt;
+  return std::array<double, 2>{sum.x() / length, sum.y() / length};
+}
+
+}  // namespace erbs

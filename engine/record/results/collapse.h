@@ -1,0 +1,50 @@
+// Criterion of collapse. A block has fallen if its centroid is lower than at the start, relative to the ground, by more than half its
+// smallest edge. The structure has collapsed if the fallen share of the moving mass reaches `Analysis::collapse_fraction`.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "engine/model/model.h"
+#include "engine/model/state.h"
+#include "engine/record/results/mechanism.h"
+
+namespace erbs {
+
+struct Collapse {
+  std::vector<double> start;         // m, height of each centroid above rest, at the start [nblock]
+  std::vector<std::uint8_t> fallen;  // the block has fallen at some time [nblock]
+  double fallen_fraction = 0;        // fallen share of the moving mass, now
+  bool collapsed = false;            // the share has once reached Analysis::collapse_fraction
+  double time = 0;                   // s, time of collapse
+  bool under_gravity = false;        // the structure cannot stand under its own weight: no shaking caused the collapse, no time applies
+  bool moved = false;                // a block has moved by Analysis::stop_when_moved from rest
+  Mechanism mechanism;               // at the collapse
+};
+
+template <class C, class F>
+requires std::is_same_v<std::remove_const_t<C>, Collapse>
+void each(C& c, F&& f) {
+  f("collapse_start", c.start);
+  f("collapse_fallen", c.fallen);
+  f("collapse_fraction", c.fallen_fraction);
+  f("collapse_collapsed", c.collapsed);
+  f("collapse_time", c.time);
+  f("collapse_under_gravity", c.under_gravity);
+  f("collapse_moved", c.moved);
+  f("collapse_mechanism", c.mechanism);
+}
+
+Collapse watch_collapse(const Model& model, const State& start);
+
+// Updates the criterion with the state at time t. Appends blocks that have fallen for the first time to `newly`, if given. Returns true at
+// the moment of collapse.
+bool update(Collapse& collapse, const Model& model, const State& state, double t, std::vector<int>* newly = nullptr);
+
+// Mean horizontal displacement (x, y) of the blocks that are down now, as a unit vector. Empty if no block is down. Empty also if the mean
+// vector is shorter than a tenth of the mean length: the blocks fell in all directions.
+std::optional<std::array<double, 2>> collapse_direction(const Collapse& collapse, const Model& model, const State& state);
+
+}  // namespace erbs

@@ -1,0 +1,128 @@
+#include "engine/solve/contacts/time_step_bound.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/sparse.h"
+#include "engine/contact/broad/search.h"
+#include "engine/contact/law/patch_stiffness.h"
+#include "engine/solve/linear/stiffness.h"
+
+namespace erbs {
+namespace {
+
+constexpr double safe_share = 0.9;  // of the bound of a block, for joints and for bounds by scalars
+// Share of the bound by matrices, which is close: a long row of blocks, each pressed against the next, attains it. Springs then use
+// 4 share^2 of the 4 that a step allows (dt^2 k / m + 2 c dt / m < 4, dashpots with the velocity of half a step before). Dashpots at their
+// cap between two blocks (`pair.cpp`) use up to 4/3 with two contacts on each block, 1 in a heap. Any share below .81 is therefore safe;
+// .7 leaves a margin of a sixth.
+constexpr double contact_share = 0.7;
+// Share of the bound of a face that strikes: an impact begins anywhere within a step and so errs by up to (omega dt)^2 / 4 of its energy.
+constexpr double impact_share = 0.5;
+constexpr int update_every = 256;  // steps between two updates while the step could be longer, ...
+constexpr int update_soon = 32;    // ... and before the step becomes shorter
+constexpr int joints_every = 8;   // updates between two trials of the bound by blocks
+std::size_t z(int i) { return std::size_t(i); }
+
+// 1 / dt^2 for an upper bound of the total stiffness on a block.
+double inverse_square(double on_a_block, double share) { return on_a_block * (1 / (2 * share * share)); }
+
+}  // namespace
+
+// 1 / dt^2 of the joints, at the share of the bound that the run requested, at least 0.9.
+double ContactLimit::intact() const {
+  const double share = std::clamp(state_.dt_target / model_.dt_critical, safe_share, 1.0) * model_.dt_critical;
+  return 1 / (share * share);
+}
+
+bool ContactLimit::due(double allowed) const {
+  const PairList& list = state_.contacts;
+  if (list.pair.empty() || allowed >= model_.dt_max) return false;
+  return state_.step - list.bound_updated_at >= (allowed < state_.dt ? update_soon : update_every);
+}
+
+void ContactLimit::update_bound(const ContactShapes& shapes, std::span<const ContactBlock> blocks, const std::vector<double>& scalars,
+                         OverlapRoom& room) {
+  PairList& list = state_.contacts;
+  std::vector<Mat6> k(blocks.size(), Mat6::Zero());
+  for (ContactPair& p : list.pair) {
+    PatchStiffness patch;
+    if (!p.touching || p.former_joint || !patch_stiffness(p, shapes, blocks[z(p.a)], blocks[z(p.b)], room, patch)) continue;
+    k[z(p.a)] += patch.on_a;
+    k[z(p.b)] += patch.on_b;
+  }
+  list.bound_at_last_update = intact();
+  list.block_bounds = by_matrices(blocks, k);
+  for (std::size_t b = 0; b < scalars.size(); ++b)
+    list.block_bounds[b] = std::min(list.block_bounds[b], inverse_square(scalars[b], safe_share));
+  if (list.bound_updates % joints_every == 0 || list.by_blocks) {
+    add_joints(k);
+    std::vector<double> of = by_matrices(blocks, k);
+    list.by_blocks = *std::ranges::max_element(of) < list.bound_at_last_update + *std::ranges::max_element(list.block_bounds);
+    if (list.by_blocks) list.bound_at_last_update = 0, list.block_bounds = std::move(of);
+  }
+  ++list.bound_updates;
+  list.bound_updated_at = state_.step;
+}
+
+// Adds remaining joints and former joints with the greatest stiffness that they may reach, and with their dashpots (`stiffness.cpp`).
+void ContactLimit::add_joints(std::span<Mat6> to) const {
+  for (int j = 0; j < model_.njoint; ++j) {
+    const Joint& joint = model_.joint[z(j)];
+    if (state_.stage[z(j)] == JointStage::contact) {
+      const int pair = find_pair(state_.contacts, joint.a, joint.part_a, joint.b, joint.part_b);
+      if (pair < 0 || !state_.contacts.pair[z(pair)].former_joint) continue;
+    }
+    const JointMap map = joint_map(model_, state_, j);
+    constexpr double other_share = contact_share * contact_share / (safe_share * safe_share);
+    const Mat6 k = other_share * (1 + 2 * std::max(joint.viscous, joint.viscous_cracked) / state_.dt) * stiffest(joint);
+    to[z(joint.a)] += map.a.transpose() * k * map.a;
+    to[z(joint.b)] += map.b.transpose() * k * map.b;
+  }
+}
+
+// 1 / dt^2 for the largest eigenvalue of M^-1/2 K M^-1/2 of each moving block, or for its trace if that is below half the largest so far.
+std::vector<double> ContactLimit::by_matrices(std::span<const ContactBlock> blocks, std::span<const Mat6> stiffness) const {
+  std::vector<double> out(blocks.size(), 0.0);
+  double most = 0;
+  for (int b = 0; b < model_.nblock; ++b) {
+    const Mat6& k = stiffness[z(b)];
+    if (model_.kind[z(b)] != Kind::moving || k(0, 0) + k(1, 1) + k(2, 2) == 0) continue;
+    const ContactBlock& block = blocks[z(b)];
+    // the trace of root^T k root, an upper bound
+    const Mat3 tensor = block.rotation * block.inverse_tensor * block.rotation.transpose();
+    double largest = block.inverse_mass * (k(0, 0) + k(1, 1) + k(2, 2)) + (tensor.array() * k.bottomRightCorner<3, 3>().array()).sum();
+    out[z(b)] = inverse_square(largest, contact_share);
+    if (!(largest > 0.5 * most)) continue;
+    Mat6 root = Mat6::Zero();  // root root^T = M^-1
+    root.topLeftCorner<3, 3>() = std::sqrt(block.inverse_mass) * Mat3::Identity();
+    root.bottomRightCorner<3, 3>() = block.rotation * Mat3(block.inverse_tensor.llt().matrixL());
+    const Mat6 scaled = root.transpose() * k * root;
+    largest = Eigen::SelfAdjointEigenSolver<Mat6>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[5];
+    most = std::max(most, largest);
+    out[z(b)] = inverse_square(largest, contact_share);
+  }
+  return out;
+}
+
+double ContactLimit::on_block(int b, double omega2, double impact_omega2) const {
+  const PairList& list = state_.contacts;
+  return (list.bound_updates > 0 ? list.block_bounds[z(b)] : 0) + inverse_square(omega2, safe_share) + inverse_square(impact_omega2, impact_share);
+}
+
+double ContactLimit::on_most(std::span<const int> blocks, std::span<const double> omega2, std::span<const double> impact_omega2) const {
+  double most = 0;
+  for (const int b : blocks)
+    if (model_.kind[z(b)] == Kind::moving) most = std::max(most, on_block(b, omega2[z(b)], impact_omega2[z(b)]));
+  return most;
+}
+
+double ContactLimit::allowed(double most) const {
+  const PairList& list = state_.contacts;
+  const double bound = 1 / std::sqrt((list.bound_updates > 0 ? list.bound_at_last_update : intact()) + most);
+  // Beyond the step that the run requested, its requested share of the limit still applies.
+  const double share = std::isfinite(model_.dt_critical) ? std::min(1.0, state_.dt_target / model_.dt_critical / safe_share) : 1.0;
+  return std::max(std::min(state_.dt_target, bound), std::min(model_.dt_max, share * bound));
+}
+
+}  // namespace erbs

@@ -1,9 +1,0 @@
-#include "engine/solve/lanes.h"
-
-#include "engine/base/isa.h"
-
-namespace erbs {
-
-const StepKernels& step_kernels() { return by_isa(sse2::kernels, avx2::kernels, avx512::kernels); }
-
-}  // namespace erbs

@@ -1,0 +1,161 @@
+// erbs effects SCENE.lua: the cost of each effect of a scene, and the change of its metrics without it. Each effect is switched off in
+// a run of its own.
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "engine/base/system/process.h"
+#include "engine/record/folder/run_folder.h"
+#include "engine/record/format/json.h"
+#include "engine/record/plot/gnuplot.h"
+#include "engine/scene/effects.h"
+#include "lua/program/options.h"
+#include "lua/program/say.h"
+
+namespace erbs {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Measured {
+  std::string effect, because, trouble;
+  double user = 0;    // s, of the whole child process
+  double memory = 0;  // bytes, peak
+  double steps = 0, points = 0;
+  std::string status;
+  Json metrics = Json::object();  // of the scene
+  bool collapsed = false;
+};
+
+double children_seconds() {
+  rusage used{};
+  getrusage(RUSAGE_CHILDREN, &used);
+  return static_cast<double>(used.ru_utime.tv_sec) + 1e-6 * static_cast<double>(used.ru_utime.tv_usec);
+}
+
+// One run at a time, so that runs do not compete for processor and memory.
+Measured run_without(const std::string& scene, const Options& options, const std::string& directory, const std::string& effect) {
+  std::string name = effect.empty() ? "all" : effect;
+  std::replace(name.begin(), name.end(), ' ', '_');
+  const std::string folder = directory + "/" + name;
+  std::vector<std::string> command{own_path(), "run", scene, "-o", folder, "--force", "--quiet", "--threads", "1", "--no-figures"};
+  if (!effect.empty()) command.insert(command.end(), {"--without", effect});
+  for (const auto& [key, value] : options.overrides) command.insert(command.end(), {"-D", key + "=" + value});
+  const std::vector<std::string> more = permissions(options);
+  command.insert(command.end(), more.begin(), more.end());
+  Measured out;
+  out.effect = effect;
+  const double before = children_seconds();
+  const int code = wait_for(start(command, folder + ".log"));
+  out.user = children_seconds() - before;
+  if (!fs::exists(run_file(folder, "metrics.json"))) {
+    out.trouble = last_words(folder + ".log", code, fs::path(scene).filename().string());
+    return out;
+  }
+  const Json metrics = read_json(run_file(folder, "metrics.json"));
+  out.memory = metrics["peak_memory_bytes"].get<double>();
+  out.steps = metrics["steps"].get<double>();
+  out.points = metrics["contact_points"].get<double>();
+  out.status = metrics["status"].get<std::string>();
+  out.metrics = metrics.value("metrics", Json::object());
+  const Json* collapsed = find_key(metrics, "collapse.collapsed");
+  out.collapsed = collapsed != nullptr && *collapsed == true;
+  return out;
+}
+
+// The metric with the largest relative change, and the change.
+std::pair<std::string, double> moved(const Measured& all, const Measured& without) {
+  if (all.collapsed != without.collapsed) return {all.collapsed ? "stands" : "collapses", 1};
+  std::pair<std::string, double> out{"-", 0};
+  for (const auto& [name, value] : all.metrics.items()) {
+    if (!value.is_number() || !without.metrics.contains(name) || !without.metrics[name].is_number()) continue;
+    const double a = value.get<double>(), b = without.metrics[name].get<double>(), scale = std::max(std::fabs(a), std::fabs(b));
+    const double change = scale > 0 ? std::fabs(b - a) / scale : 0;
+    if (change > out.second) out = {name, change};
+  }
+  return out;
+}
+
+struct Row {
+  Measured without;
+  double ns, percent, bytes;
+  std::pair<std::string, double> moved;
+};
+
+void print_row(const Row& r) {
+  if (!r.without.trouble.empty()) {
+    say("{:<26} without it: {}\n", r.without.effect, r.without.trouble);
+    return;
+  }
+  say("{:<26} {:9.4f} {:7.1f} {:9.1f}  {:>10.3g}  {:<28} {}\n", r.without.effect, r.ns, r.percent, r.bytes, r.moved.second,
+             r.moved.first, r.without.because);
+  std::fflush(stdout);
+}
+
+void write_table(const std::vector<Row>& rows, const std::string& path) {
+  CsvWriter table(path, {"effect", "called_for_by", "ns_per_point_step", "percent", "bytes_per_point", "moves", "metric"});
+  for (const Row& r : rows)
+    table.text_row({r.without.effect, r.without.because, fmt::format("{}", r.ns), fmt::format("{}", r.percent), fmt::format("{}", r.bytes),
+                    fmt::format("{}", r.moved.second), r.moved.first});
+  table.flush();
+}
+
+void draw(const std::vector<Row>& rows, const std::string& scene, const std::string& path) {
+  std::string text = fmt::format(
+      "set terminal svg size 1100,{} dynamic font \"DejaVu Sans,13\" background \"#ffffff\"\nset encoding utf8\nset multiplot layout 1,2 "
+      "title {} "
+      "noenhanced\nset border 3 lc rgb \"#5a5a5a\" lw 1\nset tics out nomirror scale 0.6 tc rgb \"#333333\"\nset grid x lc rgb \"#e3e3e3\" "
+      "lw 1 lt 1\n"
+      "unset key\nset style fill solid 1.0 noborder\nset yrange [-0.6:{}] reverse\n$effects << END\n",
+      140 + 34 * rows.size(), gnuplot_quoted("What the effects of " + scene + " cost and change"), static_cast<double>(rows.size()) - 0.4);
+  for (size_t i = 0; i < rows.size(); ++i)
+    text += fmt::format("{} \"{}\" {:.6g} {:.6g}\n", i, rows[i].without.effect, rows[i].percent, std::max(1e-6, rows[i].moved.second));
+  text +=
+      "END\nset lmargin 26\nset ytics noenhanced\nset xlabel 'cost: share of the run (%)'\n"
+      "plot $effects using (0.5*$3):0:(0.5*abs($3)):(0.35):ytic(2) with boxxyerror lc rgb '#2f6b8f'\n"
+      "set lmargin 4\nset format y ''\nset logscale x\nset xrange [1e-6:2]\nset xlabel 'largest relative change of a metric without it'\n"
+      "plot $effects using (sqrt(1e-6*$4)):0:(1e-6):4:($0-0.35):($0+0.35) with boxxyerror lc rgb '#b5432e'\nunset multiplot\n";
+  run_gnuplot(text, path);
+}
+
+}  // namespace
+
+int verb_effects(const Options& options) {
+  if (options.words.size() != 1) throw Error("effects takes one scene; write erbs effects SCENE.lua");
+  const std::string path = options.words.front();
+  Script script(script_options(options, true));
+  const Scene scene = script.load(path, options.overrides);
+  const std::string directory = options.directory.empty() ? "runs/" + scene.name + "_effects" : options.directory;
+  if (fs::exists(directory + "/effects.csv") && !options.force)
+    throw Error(fmt::format("\"{}\" holds an earlier table; overwrite it with --force, or choose another folder with -o DIR", directory));
+  fs::create_directories(directory);
+  const Measured all = run_without(path, options, directory, "");
+  if (!all.trouble.empty()) throw Error(path + ": " + all.trouble);
+  const double updates = std::max(1.0, all.points) * all.steps;
+  say("{}: {:.3g} s of one core, {:g} steps, {:g} points: {:.4f} ns per point and step, {:.1f} bytes per point\n\n", scene.name,
+             all.user, all.steps, all.points, 1e9 * all.user / updates, all.memory / std::max(1.0, all.points));
+  say("{:<26} {:>9} {:>7} {:>9}  {:>10}  {:<28} {}\n", "effect", "ns/point", "%", "B/point", "moves", "metric", "called for by");
+  std::vector<Row> rows;
+  for (const Effect& effect : effects_of(scene)) {
+    if (!effect.on) continue;
+    Row row{run_without(path, options, directory, effect.name), 0, 0, 0, {}};
+    row.without.because = effect.because;
+    // per step: without an effect a run may end earlier or take other steps
+    const double each = all.user / all.steps, now = row.without.user / std::max(1.0, row.without.steps);
+    row.ns = 1e9 * (each - now) / std::max(1.0, all.points);
+    row.percent = 100 * (each - now) / each;
+    row.bytes = (all.memory - row.without.memory) / std::max(1.0, all.points);
+    row.moved = moved(all, row.without);
+    print_row(row);
+    if (row.without.trouble.empty()) rows.push_back(std::move(row));
+  }
+  write_table(rows, directory + "/effects.csv");
+  draw(rows, scene.name, directory + "/effects.svg");
+  say("\n{}\n{}\n", directory + "/effects.csv", directory + "/effects.svg");
+  return exit_ok;
+}
+
+}  // namespace erbs

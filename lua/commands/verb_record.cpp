@@ -1,0 +1,91 @@
+// erbs record FILE: the key numbers of a ground motion, and its plot in a folder.
+#include <cmath>
+#include <filesystem>
+#include <sstream>
+
+#include "engine/loads/record/record_report.h"
+#include "engine/record/format/json.h"
+#include "engine/record/plot/record_plot.h"
+#include "lua/program/options.h"
+#include "lua/program/say.h"
+
+namespace erbs {
+namespace {
+
+namespace fs = std::filesystem;
+
+Json to_json(const RecordReport& r) {
+  Json spectrum = Json::array();
+  for (const ResponsePoint& point : r.spectrum) spectrum.push_back({point.period, point.acceleration});
+  return {{"file", r.file},
+          {"hash", r.hash},
+          {"title", r.title},
+          {"format", r.format},
+          {"points", r.points},
+          {"dt_s", r.dt > 0 ? Json(r.dt) : Json(nullptr)},
+          {"duration_s", r.duration},
+          {"pga_m_s2", std::abs(r.pga.value)},
+          {"pga_g", std::abs(r.pga.value) / standard_g},
+          {"pgv_m_s", std::abs(r.pgv.value)},
+          {"pgd_m", std::abs(r.pgd.value)},
+          {"end_velocity_m_s", r.end_velocity},
+          {"end_displacement_m", r.end_displacement},
+          {"arias_m_s", r.arias},
+          {"duration_5_95_s", r.time_95 - r.time_5},
+          {"spectrum_s_m_s2", spectrum}};
+}
+
+// Drawing the same record again replaces its plot. A folder with other content is refused.
+void check_folder(const fs::path& folder, const RecordReport& r, bool force) {
+  if (!fs::exists(fs::symlink_status(folder))) return;
+  const fs::path numbers = folder / "record.json";
+  if (fs::is_directory(folder) && fs::is_empty(folder)) return;
+  if (!fs::is_regular_file(numbers))
+    throw Error(fmt::format("\"{}\" exists and is no folder of erbs record; choose another with -o DIR", folder.string()));
+  if (!force && read_json(numbers.string()).value("hash", "") != r.hash)
+    throw Error(fmt::format("output folder \"{}\" holds another record; choose another with -o DIR, or overwrite it with --force",
+                            folder.string()));
+}
+
+std::string write_folder(const fs::path& folder, const Record& record, const RecordReport& r, bool force) {
+  check_folder(folder, r, force);
+  const bool made = !fs::exists(folder);
+  const std::string picture = (folder / "record.svg").string();
+  try {
+    fs::create_directories(folder);
+    write_record_plot(record, r, picture);
+    write_json((folder / "record.json").string(), to_json(r));
+  } catch (const std::exception& trouble) {
+    std::error_code ignored;
+    if (made) fs::remove_all(folder, ignored);
+    const auto* mistake = dynamic_cast<const fs::filesystem_error*>(&trouble);
+    if (!mistake) throw;
+    throw Error(
+        fmt::format("output folder \"{}\" cannot be made: {}; choose another with -o DIR", folder.string(), mistake->code().message()));
+  }
+  return picture;
+}
+
+}  // namespace
+
+int verb_record(const Options& options) {
+  if (options.words.empty()) throw Error("record takes a file; write erbs record FILE");
+  if (options.words.size() > 1 && !options.directory.empty())
+    throw Error(
+        fmt::format("-o {} is one folder for {} records; leave it out, and each gets its own", options.directory, options.words.size()));
+  for (const auto& file : options.words) {
+    Record wanted = options.record;
+    wanted.file = file;
+    const Record record = read_record(wanted);
+    const RecordReport numbers = report(record);
+    std::ostringstream table;
+    print(table, numbers);
+    say("{}", table.str());
+    const fs::path folder = options.directory.empty() ? fs::path("runs") / fs::path(file).stem() : fs::path(options.directory);
+    const std::string picture = write_folder(folder, record, numbers, options.force);
+    if (!options.quiet) say("{:<22} {}\n", "picture", picture);
+  }
+  return exit_ok;
+}
+
+}  // namespace erbs

@@ -1,0 +1,280 @@
+// erbs run SCENE.lua: loads and runs the scene, evaluates its metrics, judges its expectations, prints a summary.
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <atomic>
+#include <thread>
+
+#include "engine/analysis/diagnostics.h"
+#include "engine/analysis/dynamic.h"
+#include "engine/base/system/affinity.h"
+#include "engine/base/system/interrupt.h"
+#include "engine/base/text.h"
+#include "engine/scene/effects.h"
+#include "engine/study/twin.h"
+#include "lua/program/child.h"
+#include "lua/program/options.h"
+#include "lua/program/overrides.h"
+#include "lua/program/progress.h"
+#include "lua/program/say.h"
+#include "lua/reports/expectations.h"
+#include "lua/reports/figures.h"
+#include "lua/reports/studies.h"
+
+namespace erbs {
+namespace {
+
+std::string text_of(const std::string& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+// Evaluates the metrics and expectations of the scene and writes them into the run folder. Returns the messages of failed metrics.
+std::vector<std::string> complete_metrics(Script& script, const std::string& directory, bool whole, const StudiesOutcome& studies, Json& metrics,
+                                          std::vector<Verdict>& verdicts) {
+  std::vector<std::string> failures;
+  metrics = read_metrics(directory);
+  metrics["metrics"] = studies.metrics;  // first the results of the studies: metrics of the scene may use them
+  Json own = Json::object();
+  for (const MetricValue& metric :
+       script.evaluate_metrics({metrics, read_csv(run_file(directory, "histories.csv")), read_csv(run_file(directory, "events.csv"))})) {
+    own[metric.name] = metric.value ? Json(*metric.value) : Json(nullptr);
+    if (!metric.error.empty()) failures.push_back(metric.error);
+  }
+  for (const auto& [name, value] : studies.metrics.items()) own[name] = value;
+  metrics["metrics"] = own;
+  if (!script.studies().empty()) metrics["study_point_updates"] = studies.updates;
+  if (whole) verdicts = judge(script.scene().expectations, metrics);
+  int passed = 0;
+  for (const Verdict& verdict : verdicts) passed += verdict.passed;
+  metrics["expectations"] = {{"passed", passed}, {"failed", static_cast<int>(verdicts.size()) - passed}};
+  write_json(run_file(directory, "metrics.json"), metrics);
+  if (!verdicts.empty()) write_json(run_file(directory, "expectations.json"), to_json(verdicts));
+  return failures;
+}
+
+double number_at(const Json& metrics, const char* key) {
+  const Json* value = find_key(metrics, key);
+  return value && value->is_number() ? value->get<double>() : 0;
+}
+
+std::string collapse_text(const Json& metrics) {
+  const Json* collapsed = find_key(metrics, "collapse.collapsed");
+  const double share = number_at(metrics, "collapse.fallen_fraction");
+  if (!collapsed || !collapsed->is_boolean() || !collapsed->get<bool>())
+    return share > 0 ? fmt::format("no collapse; {:.2g} % of the mass fell", 100 * share) : "no collapse; nothing fell";
+  const Json* weight = find_key(metrics, "collapse.under_gravity");
+  const bool under_gravity = weight && weight->is_boolean() && weight->get<bool>();
+  const Json* direction = find_key(metrics, "collapse.direction");
+  const std::string towards = direction && direction->is_array() && direction->size() >= 2
+                                  ? fmt::format(" towards ({:+.2f}, {:+.2f})", (*direction)[0].get<double>(), (*direction)[1].get<double>())
+                                  : " in no single direction";
+  std::string text = under_gravity ? fmt::format("does not stand under its own weight; {:.0f} % of the mass fell by the end", 100 * share)
+                                   : fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass has fallen by the end",
+                                                 number_at(metrics, "collapse.time_s"), towards, 100 * share);
+  const Json* mechanism = find_key(metrics, "collapse.mechanism.summary");
+  if (mechanism && mechanism->is_string() && *mechanism != "") text += "\nmechanism: " + mechanism->get<std::string>();
+  return text;
+}
+
+void print_summary(const Scene& scene, const std::string& directory, const Json& metrics, const std::vector<Verdict>& verdicts) {
+  say("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken\n", scene.name,
+             metrics.value("status", ""), number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")),
+             number_at(metrics, "realtime_factor"), metrics.value("blocks", 0), metrics.value("joints", 0),
+             metrics.value("joints_broken", 0));
+  say("{}\nenergy residual {:.1e}\n{}\n", collapse_text(metrics), number_at(metrics, "energy.residual_relative"),
+             diagnostics_line(diagnostics_of(metrics)));
+  for (const auto& [name, unit] : scene.metric_units) {
+    const Json* value = find_key(metrics, "metrics." + name);
+    say("  {} = {} {}\n", name, value && value->is_number() ? fmt::format("{:.6g}", value->get<double>()) : "none", unit);
+  }
+  int failed = 0;
+  for (const Verdict& v : verdicts) {
+    if (v.passed) continue;
+    ++failed;
+    say("  FAILED {}: expected {} {}, got {} ({})\n", v.key, v.expected, v.tolerance, v.got, v.place);
+  }
+  if (!verdicts.empty()) say("expectations: {} passed, {} failed\n", verdicts.size() - static_cast<size_t>(failed), failed);
+  const std::string status = metrics.value("status", "");
+  say("{}results in {}\n", status == "completed" ? "" : fmt::format("{}{}; ", status, status == "inaccurate" ? ": not to be relied on" : ""),
+             directory);
+  std::fflush(stdout);
+}
+
+int exit_code(const Scene& scene, const Options& options, const RunOutcome& outcome, const Json& metrics,
+              const std::vector<Verdict>& verdicts) {
+  const std::string& status = outcome.metrics.status;
+  if (status == "interrupted") return exit_interrupted;
+  if (status == "stopped") return exit_stopped;
+  if (status != "completed" && !expects_status(scene, status)) return exit_numbers;
+  for (const Verdict& verdict : verdicts)
+    if (!verdict.passed) return exit_expectation;
+  const Json* collapsed = find_key(metrics, "collapse.collapsed");
+  if (options.fail_on_collapse && collapsed && *collapsed == true) return exit_expectation;
+  return exit_ok;
+}
+
+constexpr double twin_noise = 1e-9, twin_apart = 1e-3;  // m
+
+// The twin: the same run again with tiny noise, in a folder inside that of the run.
+class Twin {
+ public:
+  Twin(const std::string& scene, const std::string& directory, const Options& options) : run_(directory), twin_(run_file(directory, "twin")) {
+    command_ = {own_path(), "run", scene, "-o", twin_, "--quiet", "--no-figures", "--study", "twin", "--twin-noise", fmt::format("{:g}", twin_noise)};
+    for (const auto& [name, value] : options.overrides) command_.insert(command_.end(), {"-D", name + "=" + value});
+    for (const auto& more : {override_arguments(options), permissions(options)}) command_.insert(command_.end(), more.begin(), more.end());
+    if (options.until) command_.insert(command_.end(), {"--until", fmt::format("{}", *options.until)});
+    if (options.max_wall) command_.insert(command_.end(), {"--max-wall", fmt::format("{}s", *options.max_wall)});
+    if (options.threads > 0) command_.insert(command_.end(), {"--threads", std::to_string(options.threads)});
+    command_.emplace_back(options.resume && std::filesystem::exists(run_file(twin_, "checkpoint.bin")) ? "--resume" : "--force");
+  }
+
+  // Runs the twin and notes the time at which it parts from the run. Returns "", or the reason why there is no such time.
+  std::string compare(Json& metrics) const {
+    const int code = wait_for(start(command_, twin_ + ".log"));
+    if (code != exit_ok) return "the twin run failed: " + last_words(twin_ + ".log", code, "");
+    const std::optional<double> parted = parting_time(run_, twin_, twin_apart);
+    metrics["trust"]["twin"] = true;
+    metrics["trust"]["chaos_horizon_s"] = parted ? Json(*parted) : Json();
+    return "";
+  }
+
+ private:
+  std::string run_, twin_;
+  std::vector<std::string> command_;
+};
+
+// Default: all processors, but one thread for few blocks, since a step of 12 bricks takes 7 us, about as long as two synchronisations
+// of two threads. Never more threads than processors: threads that share a processor would wait for each other in every step. The
+// results of a run do not depend on the number of threads.
+int threads_of(const Scene& scene, const Options& options) {
+  const int usable = usable_processors();
+  if (options.threads <= 0) return scene.blocks.size() < 100 ? 1 : usable;
+  if (options.threads > usable)
+    tell(stderr, fmt::format("warning: --threads {}: this process may use {} processor{}; it runs with as many threads", options.threads, usable,
+                             usable > 1 ? "s" : ""));
+  return std::min(options.threads, usable);
+}
+
+// Hands one scene to the engine, which writes one run folder.
+RunOutcome run_scene(Scene scene, const std::string& script, const std::vector<std::string>& notes, const std::string& directory,
+                     const Options& options) {
+  RunOptions run;
+  run.directory = directory;
+  run.notes = notes;
+  run.override_arguments = override_arguments(options);
+  if (options.twin_noise > 0) run.override_arguments.insert(run.override_arguments.end(), {"--twin-noise", fmt::format("{}", options.twin_noise)});
+  run.existing = options.resume ? Existing::resume : options.force ? Existing::force : Existing::refuse;
+  run.threads = threads_of(scene, options);
+  run.until = options.until;
+  run.max_wall = options.max_wall.value_or(0);
+  run.checkpoint_every = options.checkpoint_every.value_or(60);
+  run.allow_unstable = options.allow_unstable;
+  run.noise = options.noise;
+  run.twin_noise = options.twin_noise;
+  run.interrupted = &catch_interrupts();
+  ProgressPrinter printer(options.quiet, options.log_json);
+  run.progress = [&](const Progress& now) { printer.show(now); };
+  return run_dynamic(std::move(scene), script, run);
+}
+
+// Draws histories.svg and energy.svg. A failure is only a warning.
+void draw_curves(const std::string& directory) {
+  try {
+    if (run_renderer({directory, "--figures", "--quiet"}) == 0) return;
+  } catch (const Error& error) { tell(stderr, error.what()); }
+  tell(stderr, fmt::format("warning: the curves could not be drawn; erbs render {} --figures draws them", directory));
+}
+
+// Work after the run itself: studies, twin, metrics and pictures. Returns the exit code.
+int complete(Script& script, const std::string& path, const std::string& directory, const RunOutcome& outcome, const Options& options) {
+  const std::atomic<bool>& interrupted = catch_interrupts();
+  Json metrics;
+  std::vector<Verdict> verdicts;
+  const std::string& status = outcome.metrics.status;
+  const bool whole = status == "completed" || status == "inaccurate" || status == "diverged";
+  StudiesOutcome studies;
+  if (whole && options.study.empty()) studies = run_studies(script, path, directory, options, interrupted);
+  if (studies.interrupted) {
+    tell(stderr, "interrupted; finished runs of the studies are kept: continue with --resume");
+    return exit_interrupted;
+  }
+  if (whole && options.twin) {
+    Json now = read_metrics(directory);
+    const std::string trouble = Twin(path, directory, options).compare(now);
+    if (interrupted) return exit_interrupted;
+    if (!trouble.empty()) tell(stderr, path + ": " + trouble);
+    write_json(run_file(directory, "metrics.json"), now);
+  }
+  auto failures = complete_metrics(script, directory, whole, studies, metrics, verdicts);
+  if (whole && options.study.empty() && (options.figures || options.figure_scripts)) write_figures(script, directory, options.figures);
+  for (const auto& trouble : studies.troubles) tell(stderr, trouble);
+  for (const auto& message : failures) tell(stderr, message);
+  if (!options.quiet) print_summary(script.scene(), directory, metrics, verdicts);
+  int code = exit_code(script.scene(), options, outcome, metrics, verdicts);
+  if (code == exit_ok && !failures.empty()) code = exit_usage;
+  if (options.video && status != "interrupted") {
+    std::vector<std::string> words{directory, "--video"};
+    if (options.force) words.push_back("--force");
+    if (options.quiet) words.push_back("--quiet");
+    const int drawn = run_renderer(words);
+    if (code == exit_ok) code = drawn;
+  } else if (status != "interrupted" && options.figures) {
+    draw_curves(directory);
+  }
+  return code;
+}
+
+// A full disk ends a run. With a checkpoint, the run can resume once there is room.
+int no_room(const WriteError& trouble, const std::string& directory) {
+  std::error_code ignored;
+  const bool checkpoint = std::filesystem::is_regular_file(run_file(directory, "checkpoint.bin"), ignored);
+  tell(stderr, fmt::format("{}; make room, or raise the limit that is reached, and {}", trouble.what(),
+                           checkpoint ? "go on from the last checkpoint with --resume" : "start anew with --force"));
+  return checkpoint ? exit_stopped : exit_usage;
+}
+
+}  // namespace
+
+int verb_run(const Options& options) {
+  if (options.words.size() != 1) throw Error(fmt::format("run takes one scene, not {}; erbs test runs several", options.words.size()));
+  // a path that begins with "-" would be an option to other programs
+  const auto no_option = [](const std::string& name) { return name.starts_with("-") ? "./" + name : name; };
+  const std::string path = no_option(options.words.front());
+  if (options.video) check_programs({renderer_path(), "ffmpeg"});
+  Script::Options how = script_options(options, options.quiet);
+  how.study = options.study;
+  how.noise = options.noise;
+  how.quality = quality_of(options);
+  Script script(how);
+  script.load(path, options.overrides);
+  Scene scene = script.take_scene();
+  for (const auto& effect : options.without) switch_off(scene, effect);
+  std::vector<std::string> notes = script.output();
+  for (const auto& note : apply_overrides(scene, options)) notes.push_back(note);
+  if (!options.settings.empty())  // values of --set pass the same checks as the scene
+    if (const auto mistakes = check(scene); !mistakes.empty()) throw Errors(mistakes);
+  for (const auto& warning : warnings(scene)) {
+    tell(stderr, "warning: " + warning);
+    notes.push_back("warning: " + warning);
+  }
+  const std::string directory = no_option(options.directory.empty() ? "runs/" + scene.name : options.directory);
+  catch_interrupts();
+  try {
+    RunOutcome outcome;  // if only the studies of a finished run continue: its status alone
+    if (options.resume && studies_left(script, directory)) {
+      outcome.lock = std::make_shared<FolderLock>(directory);
+      outcome.metrics.status = read_metrics(directory).value("status", "");
+    } else {
+      outcome = run_scene(std::move(scene), text_of(path), notes, directory, options);
+    }
+    for (const auto& warning : outcome.warnings) tell(stderr, "warning: " + warning);
+    if (!outcome.trouble.empty()) tell(stderr, path + ": " + outcome.trouble);
+    return complete(script, path, directory, outcome, options);
+  } catch (const WriteError& trouble) { return no_room(trouble, directory); }
+}
+
+}  // namespace erbs

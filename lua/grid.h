@@ -1,9 +1,0 @@
-// erbs test --grid: every scene at other time steps and numbers of contact points, with noise in its initial state.
-#pragma once
-#include "lua/options.h"
-
-namespace erbs {
-
-int run_grid(const Options& options);
-
-}  // namespace erbs

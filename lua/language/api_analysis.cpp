@@ -1,0 +1,106 @@
+// Functions of a script: damping, analysis, recorders and cameras.
+#include <lua5.4/lua.hpp>
+
+#include "lua/language/api.h"
+
+namespace erbs {
+namespace {
+
+int damping(Call& call) {
+  Arguments arguments = call.arguments();
+  call.context.scene.damping.place = call.place;
+  arguments.read(call.context.scene.damping);
+  return 0;
+}
+
+int analysis(Call& call) {
+  static const Keys step_keys = {{"1", "number", "s", "time step", 0, 1, true},
+                                 {"unstable", "boolean", "", "allow a step beyond the limit"}};
+  Arguments arguments = call.arguments();
+  Analysis& into = call.context.scene.analysis;
+  into.place = call.place;
+  for (const auto& field : Analysis::fields())
+    if (field.name != "dt") std::visit([&](auto member) { arguments.read(std::string(field.name), into.*member); }, field.member);
+  std::string quality;
+  arguments.read("quality", quality);
+  if (!quality.empty() && !call.context.quality_set) call.context.quality = quality;
+  if (arguments.has("dt") || arguments.has("dt_fraction")) call.context.own_step = true;
+  if (!arguments.is_table("dt")) {
+    arguments.read("dt", into.dt);
+  } else if (auto step = arguments.table("dt", step_keys)) {
+    step->read("1", into.dt);
+    step->read("unstable", into.unstable);
+  }
+  return 0;
+}
+
+int recorder(Call& call) {
+  Arguments arguments = call.arguments();
+  Scene& scene = call.context.scene;
+  Recorder item;
+  item.place = call.place;
+  arguments.read(item);
+  item.has_point = arguments.has("point");
+  item.point = call.context.frame().point(item.point);
+  std::vector<std::string> one, several;
+  arguments.read("block", one);
+  arguments.read("blocks", several);
+  item.blocks = one;
+  item.blocks.insert(item.blocks.end(), several.begin(), several.end());
+  arguments.read("others", item.others);
+  for (const char* key : {"group", "other_group"}) {
+    std::string group;
+    arguments.read(key, group);
+    if (!group.empty()) call.context.group_recorders.push_back({scene.recorders.size(), group, key[0] == 'o'});
+  }
+  scene.recorders.push_back(std::move(item));
+  return 0;
+}
+
+int camera(Call& call) {
+  Arguments arguments = call.arguments();
+  const Frame& frame = call.context.frame();
+  Camera item;
+  item.place = call.place;
+  arguments.read(item);
+  if ((item.eye - item.target).norm() < 1e-9) arguments.mistake("eye and target are the same point; move one of them");
+  item.eye = frame.point(item.eye);
+  item.target = frame.point(item.target);
+  item.up = frame.vector(item.up);
+  call.context.scene.cameras.push_back(std::move(item));
+  return 0;
+}
+
+}  // namespace
+
+// Keys of recorder{}. The type "quantity" makes help and editors list all quantities.
+Keys recorder_keys() {
+  Keys keys = keys_of<Recorder>();
+  for (Key& key : keys)
+    if (key.name == "quantity") key.type = "quantity";
+  return keys;
+}
+
+std::vector<Function> analysis_functions() {
+  return {
+      {"damping", damping, "{ ... }", "", "Damping of blocks and of joints.", keys_of<Damping>()},
+      {"analysis", analysis, "{ ... }", "", "Duration, time step and end of the run.",
+       joined(
+           {keys_of<Analysis>(),
+            {{"quality", "string", "",
+              "a measured pair of step (over its limit) and contact points, for values that the scene leaves open: 0.9 and 2 x 2, 0.9 and "
+              "3 x 3, 0.25 and 5 x 5",
+              -unbounded, unbounded, false, "draft|standard|reference"}}})},
+      {"recorder", recorder, "{ ... }", "",
+       "Writes a quantity of a block to histories.csv; for several blocks their mean, for forces their sum.",
+       joined({recorder_keys(),
+               {{"block", "strings", "", "name of the block"},
+                {"blocks", "strings", "", "names of several blocks"},
+                {"group", "string", "", "all blocks of a group"},
+                {"others", "strings", "", "for joint quantities: names of the blocks on the other side (default: any)"},
+                {"other_group", "string", "", "for joint quantities: all blocks of a group on the other side"}}})},
+      {"camera", camera, "{ ... }", "", "A view for the pictures.", keys_of<Camera>()},
+  };
+}
+
+}  // namespace erbs

@@ -1,0 +1,281 @@
+#include "lua/language/script.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <fstream>
+#include <limits>
+#include <lua5.4/lua.hpp>
+#include <sstream>
+#include <utility>
+
+#include "engine/base/spelling.h"
+#include "engine/base/text.h"
+#include "engine/model/build/build.h"
+#include "engine/record/recorders/recorder.h"
+#include "engine/record/results/metrics.h"
+#include "lua/language/api.h"
+#include "lua/language/language.h"
+#include "lua/reading/quality.h"
+
+namespace erbs {
+namespace {
+
+// The text of a scene as Lua can read it: without the byte order mark of some editors and without a first line for a shell.
+std::string readable(const std::string& text, const std::string& name) {
+  if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF")) throw Error("the file is in UTF-16; save it as UTF-8", {name, 1});
+  const std::string bare = text.starts_with("\xEF\xBB\xBF") ? text.substr(3) : text;
+  return bare.starts_with("#") ? "--" + bare : bare;
+}
+
+// "scene.lua:12:" of "scene.lua:12: box: ..."; "" if the message names no place.
+std::string place_of(const std::string& message) {
+  size_t digits = 0;
+  for (size_t colon = message.find(':'); colon != std::string::npos; colon = message.find(':', colon + 1)) {
+    for (digits = 0; std::isdigit(static_cast<unsigned char>(message[colon + 1 + digits])); ++digits) {}
+    if (digits > 0) return message.substr(0, colon + 1 + digits) + ":";
+  }
+  return {};
+}
+
+// True if the message names a block that was made at `place`, as in: ... 'b3' (scene.lua:12) ...
+bool contains_place(const std::string& message, const std::string& place) { return message.find("(" + place + ")") != std::string::npos; }
+
+// Sort key of a message: 12 of "scene.lua:12: box: ...". Messages without a line (-D) come first, those on the whole file last.
+int line_in(const std::string& file, const std::string& message) {
+  if (!message.starts_with(file + ":")) return 0;
+  const int line = std::atoi(message.c_str() + file.size() + 1);
+  return line > 0 ? line : std::numeric_limits<int>::max();
+}
+
+// Splits a message of several lines (a masonry function reports all its mistakes at once) and gives each line the place.
+void add_messages(std::vector<std::string>& mistakes, const std::string& message) {
+  const std::string place = place_of(message);
+  for (const auto& line : lines_of(message)) {
+    const std::string whole = place.empty() || line.starts_with(place) ? line : place + " " + line;
+    if (std::find(mistakes.begin(), mistakes.end(), whole) == mistakes.end()) mistakes.push_back(whole);
+  }
+}
+
+void evaluate_overrides(lua_State* lua, Context& context) {
+  for (Override& item : context.overrides) {
+    const std::string name = "-D " + item.name + "=" + item.expression;
+    try {
+      load_chunk(lua, context, "return " + item.expression, name);
+      call_script(lua, context, 0, 1);
+      if (lua_type(lua, -1) != LUA_TNUMBER || !std::isfinite(lua_tonumber(lua, -1)))
+        throw Error(fmt::format("{}: the value must be a finite number, such as 0.8*g, not {}", name, described(lua, -1)));
+      item.value = lua_tonumber(lua, -1);
+      item.valid = true;
+      lua_pop(lua, 1);
+    } catch (const Error& error) {
+      const std::string message = error.what(), place = name + ":1:";  // an expression has one line
+      context.mistakes.push_back(message.starts_with(place) ? name + ":" + message.substr(place.size()) : message);
+    }
+  }
+}
+
+// Samples the waves that are Lua functions; the duration is known now.
+void sample_waves(lua_State* lua, Context& context) {
+  for (const Sampling& one : context.samplings)
+    context.scene.loads[one.load].wave = sampled(lua, context, one.function, context.scene.analysis.duration, one.sample, one.place);
+}
+
+void resolve_groups(Context& context) {
+  for (const GroupRecorder& item : context.group_recorders) {
+    Recorder& recorder = context.scene.recorders[item.recorder];
+    std::vector<std::string> groups;
+    for (const Block& block : context.scene.blocks) {
+      if (block.group == item.group) recorder.blocks.push_back(block.name);
+      else if (std::find(groups.begin(), groups.end(), block.group) == groups.end()) groups.push_back(block.group);
+    }
+    if ((item.others ? recorder.others : recorder.blocks).empty())
+      context.mistake(recorder.place, fmt::format("recorder \"{}\": group \"{}\" has no blocks{}", recorder.name, item.group,
+                                                  did_you_mean(item.group, groups)));
+  }
+}
+
+// "collapse.direction.0" -> "collapse.direction"
+std::string without_index(const std::string& key) {
+  const size_t dot = key.rfind('.');
+  const bool index = dot != std::string::npos && dot + 1 < key.size() && key.find_first_not_of("0123456789", dot + 1) == std::string::npos;
+  return index ? key.substr(0, dot) : key;
+}
+
+// Names in -D and expect must exist, and the metrics of a study must have names of their own.
+void check_names(Context& context) {
+  std::vector<std::string> params, metrics;
+  for (const Param& param : context.scene.params) params.push_back(param.name);
+  for (const Metric& metric : context.metrics) metrics.push_back("metrics." + metric.name);
+  for (const Study& study : context.studies)
+    for (const std::string& name : metric_names(study)) {
+      if (std::find(metrics.begin(), metrics.end(), "metrics." + name) != metrics.end())
+        context.mistake(study.place, fmt::format("the study answers metric \"{}\", which is there already; give the study another name = ...", name));
+      metrics.push_back("metrics." + name);
+    }
+  for (const Override& item : context.overrides)
+    if (!item.used)
+      context.mistake({}, fmt::format("-D {}={}: the scene has no param \"{}\"{}", item.name, item.expression, item.name,
+                                      did_you_mean(item.name, params)));
+  const std::vector<std::string> keys = metric_keys();
+  for (const Expectation& item : context.scene.expectations) {
+    if (item.key.starts_with("metrics.")) {
+      if (std::find(metrics.begin(), metrics.end(), item.key) == metrics.end())
+        context.mistake(item.place,
+                        fmt::format("expect: there is no metric \"{}\"{}", item.key.substr(8), did_you_mean(item.key, metrics)));
+    } else if (std::find(keys.begin(), keys.end(), without_index(item.key)) == keys.end()) {
+      context.mistake(item.place, fmt::format("expect: metrics.json has no key \"{}\"{}", item.key, did_you_mean(item.key, keys)));
+    }
+  }
+}
+
+// Applies the quality to values that the scene leaves open. Values of the scene take precedence.
+void take_quality(Context& context) {
+  for (const Quality& quality : qualities) {
+    if (context.quality != quality.name) continue;
+    if (!context.own_step) context.scene.analysis.dt_fraction = quality.dt_fraction;
+    for (const size_t i : context.plain_rules)
+      context.scene.joint_rules[i].points_long = context.scene.joint_rules[i].points_short = quality.points;
+  }
+}
+
+}  // namespace
+
+void load_chunk(lua_State* lua, Context& context, const std::string& text, const std::string& name) {
+  // Lua shortens long paths in its messages
+  const std::string name_shown = name.size() > 55 ? std::filesystem::path(name).filename().string() : name;
+  if (std::find(context.files.begin(), context.files.end(), name_shown) == context.files.end()) context.files.push_back(name_shown);
+  if (luaL_loadbufferx(lua, text.data(), text.size(), ("@" + name_shown).c_str(), "t") != LUA_OK) {
+    const std::string message = printable(lua_tostring(lua, -1)).substr(0, 1000);
+    lua_pop(lua, 1);
+    if (message.starts_with(name_shown + ":")) throw Error(message);
+    if (message.find("binary chunk") != std::string::npos) throw Error("attempt to load a binary chunk; a scene is text", {name_shown, 0});
+    throw Error(message + "; is something nested too deeply?", {name_shown, 0});
+  }
+  lua_getfield(lua, LUA_REGISTRYINDEX, scene_key);
+  lua_setupvalue(lua, -2, 1);
+}
+
+Script::Script() : Script(Options{}) {}
+
+Script::Script(const Options& options) : context_(std::make_unique<Context>()) {
+  context_->limits.seconds = options.seconds;
+  context_->limits.bytes = options.bytes;
+  context_->allowed = options.allow;
+  context_->scene.most_blocks = options.most_blocks;
+  context_->scene.most_points = options.most_points;
+  context_->quiet = options.quiet;
+  context_->study = options.study;
+  context_->quality = options.quality;
+  context_->quality_set = !options.quality.empty();
+  lua_ = open_sandbox(*context_);
+  const Cap uncapped(context_->limits, false);
+  open_language(lua_, *context_, options.noise);
+}
+
+Script::~Script() {
+  if (lua_) lua_close(lua_);
+}
+
+const Scene& Script::load(const std::string& path, const Overrides& overrides) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) throw Error(fmt::format("{} is a folder; name the scene file in it", path));
+  if (!std::filesystem::exists(path, ignored)) throw Error(fmt::format("there is no scene {}; check the path", path));
+  const std::string text = read_input(*context_, path, {});
+  run(text, path, overrides);
+  return context_->scene;
+}
+
+const Scene& Script::load_text(const std::string& text, const std::string& name, const Overrides& overrides) {
+  run(text, name, overrides);
+  return context_->scene;
+}
+
+void Script::run(const std::string& text, const std::string& name, const Overrides& overrides) {
+  Context& context = *context_;
+  context.scene.file = name;
+  context.scene.name = std::filesystem::path(name).stem().string();
+  context.folder = std::filesystem::path(name).parent_path();
+  for (const auto& [param, expression] : overrides) {
+    for (const Override& other : context.overrides)
+      if (other.name == param)
+        context.mistake({}, fmt::format("-D {}={}: {} was given before, as {}; keep one", param, expression, param, other.expression));
+    context.overrides.push_back({param, expression});
+  }
+  const Stretch stretch(lua_, context);
+  const Cap uncapped(context.limits, false);
+  bool whole = true;
+  try {
+    evaluate_overrides(lua_, context);
+    if (context.limits.expired) throw Errors(context.mistakes);  // no time is left for the script
+    load_chunk(lua_, context, readable(text, name), name);
+    call_script(lua_, context, 0, 0);
+  } catch (const std::exception& error) {
+    whole = false;
+    if (!context.incomplete || context.limits.expired) add_messages(context.mistakes, error.what());
+  }
+  finish(whole && !context.incomplete);
+  lua_gc(lua_, LUA_GCCOLLECT, 0);  // frees the garbage of reading; functions of metrics stay
+}
+
+// Settles all items that need the whole script, checks the scene and throws all mistakes at once.
+void Script::finish(bool whole) {
+  Context& context = *context_;
+  const Doing doing(context.limits, context.scene.file + ": checking the scene", true);
+  take_quality(context);
+  if (whole) try {
+      resolve_groups(context);
+      check_names(context);
+      sample_waves(lua_, context);
+    } catch (const std::exception& error) { add_messages(context.mistakes, error.what()); }
+  if (whole) {
+    // Drops messages on lines that reading has already reported.
+    const std::vector<std::string> read = context.mistakes;
+    std::vector<std::string> found = check(context.scene);
+    for (auto& message : check_recorders(context.scene)) found.push_back(std::move(message));
+    for (const auto& message : found) {
+      const std::string place = place_of(message);
+      const auto same = [&](const std::string& other) { return !place.empty() && place_of(other) == place; };
+      if (std::none_of(read.begin(), read.end(), same)) context.mistakes.push_back(message);
+    }
+    // The build reports overlaps of a correct scene; a scene with mistakes never gets there, so its overlaps are reported here. A block
+    // from a line with a mistake may stand in the wrong place: its overlaps are left out.
+    if (!context.mistakes.empty()) {
+      const std::vector<std::string> said = context.mistakes;
+      for (const auto& message : overlap_mistakes(context.scene)) {
+        const auto doubtful = [&](const std::string& other) {
+          const std::string place = place_of(other);
+          return !place.empty() && contains_place(message, place.substr(0, place.size() - 1));
+        };
+        if (std::none_of(said.begin(), said.end(), doubtful)) context.mistakes.push_back(message);
+      }
+    }
+  }
+  if (!context.study.empty()) {
+    context.scene.expectations.clear();
+    std::erase_if(context.metrics, [](const Metric& metric) { return metric.name != "study"; });
+  }
+  if (context.mistakes.empty()) return;
+  std::stable_sort(context.mistakes.begin(), context.mistakes.end(), [&](const std::string& a, const std::string& b) {
+    return line_in(context.scene.file, a) < line_in(context.scene.file, b);
+  });
+  throw Errors(context.mistakes);
+}
+
+const std::vector<Study>& Script::studies() const { return context_->studies; }
+
+const std::vector<Figure>& Script::figures() const { return context_->figures; }
+const ParamFamily& Script::family() const { return context_->family; }
+
+const Scene& Script::scene() const { return context_->scene; }
+
+Scene Script::take_scene() {
+  std::vector<Block> blocks = std::exchange(context_->scene.blocks, {});
+  Scene scene = context_->scene;
+  scene.blocks = std::move(blocks);
+  return scene;
+}
+
+const std::vector<std::string>& Script::output() const { return context_->output; }
+
+}  // namespace erbs

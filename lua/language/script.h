@@ -1,0 +1,77 @@
+// A scene script. It is loaded into a Scene and stays alive for the functions that are called after the run.
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/record/format/csv.h"
+#include "engine/record/format/json.h"
+#include "engine/scene/scene.h"
+#include "engine/study/study.h"
+
+struct lua_State;
+
+namespace erbs {
+
+struct Context;
+struct ParamFamily;
+struct Figure;
+
+// Name and expression of each -D name=expression.
+using Overrides = std::vector<std::pair<std::string, std::string>>;
+
+// Results of a run, for metric functions.
+struct RunResults {
+  Json metrics;        // metrics.json
+  CsvTable histories;  // histories.csv; its first column is time_s
+  CsvTable events;     // events.csv: time_s, event, name, value, unit
+};
+
+struct MetricValue {
+  std::string name, unit;
+  std::optional<double> value;  // none if the function returned nil or failed
+  std::string error;            // reason of the failure, with file and line; "" without one
+};
+
+class Script {
+ public:
+  struct Options {
+    double seconds = 10;               // s, time limit of the script
+    size_t bytes = size_t{512} << 20;  // memory limit of the script
+    bool quiet = false;                // do not echo print to stderr
+    std::string study = {};            // study that started this run; such a run evaluates only its question and no expectations
+    std::string quality = {};          // takes precedence over the quality of analysis{}; "": none is given
+    std::vector<std::string> allow = {};  // folders it may read besides its own
+    int most_blocks = Scene().most_blocks, most_points = Scene().most_points;  // limits of a scene
+    double noise = 0;  // m and rad, noise in the initial state of every free block: start_noise of the script
+  };
+  Script();
+  explicit Script(const Options& options);
+  ~Script();
+
+  // Runs the script once and returns its Scene. Throws Errors with all mistakes.
+  const Scene& load(const std::string& path, const Overrides& overrides = {});
+  const Scene& load_text(const std::string& text, const std::string& name, const Overrides& overrides = {});
+
+  // The metrics of the scene, in its order.
+  std::vector<MetricValue> evaluate_metrics(const RunResults& results);
+
+  const Scene& scene() const;
+  Scene take_scene();  // scene() with its blocks, which the script gives up
+  const std::vector<Study>& studies() const;
+  const std::vector<Figure>& figures() const;
+  const ParamFamily& family() const;               // without values if the scene declares none
+  const std::vector<std::string>& output() const;  // lines the script has printed
+  // Entries of masonry_functions, the functions written in Lua (walls, arches): name, help, keys.
+  Json lua_functions();
+
+ private:
+  void run(const std::string& text, const std::string& name, const Overrides& overrides);
+  void finish(bool whole);
+  std::unique_ptr<Context> context_;
+  lua_State* lua_ = nullptr;
+};
+
+}  // namespace erbs

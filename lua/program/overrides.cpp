@@ -1,0 +1,157 @@
+// Overrides: options of the command line that replace values of the scene. Every run of a study gets the same ones.
+#include "lua/program/overrides.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+#include "engine/base/spelling.h"
+#include "engine/base/text.h"
+#include "engine/loads/earlier.h"
+#include "lua/reading/quality.h"
+
+namespace erbs {
+namespace {
+
+constexpr std::string_view quality_is = "quality=";
+
+// --set key=value: a number or a word of analysis{}.
+void set_analysis(Analysis& analysis, const std::string& setting) {
+  const size_t equals = setting.find('=');
+  const std::string key = setting.substr(0, equals), value = equals == std::string::npos ? "" : setting.substr(equals + 1);
+  std::vector<std::string> known{"quality"};
+  for (const auto& field : Analysis::fields()) {
+    known.emplace_back(field.name);
+    if (field.name != key) continue;
+    std::visit(
+        [&](auto member) {
+          using T = std::decay_t<decltype(analysis.*member)>;
+          if constexpr (std::is_same_v<T, std::string>) {
+            if (!field.words.empty() && ("|" + std::string(field.words) + "|").find("|" + value + "|") == std::string::npos)
+              throw Error(fmt::format("--set {}: must be one of {}", shown(setting), field.words));
+            analysis.*member = value;
+          } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, int> || std::is_same_v<T, bool>) {
+            double number = 0;
+            size_t used = 0;
+            try {
+              number = std::stod(value, &used);
+            } catch (const std::exception&) {}
+            constexpr bool whole = !std::is_same_v<T, double>;
+            const bool ranged = field.low < field.high && !std::is_same_v<T, bool>;
+            const double low = ranged ? field.low : 0, high = ranged ? field.high : 1;
+            if (value.empty() || used != value.size() || !(number >= low && number <= high) || (whole && number != std::floor(number)))
+              throw Error(fmt::format("--set {}: must be a {}number from {:g} to {:g}", shown(setting), whole ? "whole " : "", low, high));
+            analysis.*member = static_cast<T>(number);
+          } else {
+            throw Error(fmt::format("--set {}: only numbers and words can be set", setting));
+          }
+        },
+        field.member);
+    return;
+  }
+  throw Error(fmt::format("--set {}: analysis has no key \"{}\"{}", setting, key, did_you_mean(key, known)));
+}
+
+// Multiplies every stiffness of a joint rule, whatever its law.
+void stiffen(JointRule& rule, double factor) {
+  std::visit(
+      [&](auto& law) {
+        using L = std::decay_t<decltype(law)>;
+        for (const auto& field : L::fields())
+          if (field.name == "kn" || field.name == "ks" || field.name == "E" || field.name == "G")
+            if (const auto* member = std::get_if<double L::*>(&field.member)) law.*(*member) *= factor;
+      },
+      rule.law);
+}
+
+}  // namespace
+
+std::vector<std::string> apply_overrides(Scene& scene, const Options& options) {
+  std::vector<std::string> notes;
+  if (options.dt_fraction) {
+    scene.analysis.dt = 0;
+    scene.analysis.dt_rule = "limit";
+    scene.analysis.dt_fraction = *options.dt_fraction;
+    notes.push_back(fmt::format("--dt-fraction {:g}", *options.dt_fraction));
+  }
+  for (const auto& setting : options.settings) {
+    if (!setting.starts_with(quality_is)) set_analysis(scene.analysis, setting);
+    notes.push_back("--set " + setting);
+  }
+  if (!options.rule.empty()) {
+    for (JointRule& rule : scene.joint_rules) rule.rule = options.rule;
+    notes.push_back("--rule " + options.rule);
+  }
+  if (options.points > 0) {
+    const int side = static_cast<int>(std::lround(std::sqrt(options.points)));
+    if (side * side != options.points)
+      throw Error(fmt::format("--points {}: not a square number; write 4, 9, 16 or 25 (2, 3, 4 or 5 along each side)", options.points));
+    for (JointRule& rule : scene.joint_rules) rule.points_long = rule.points_short = side;
+    notes.push_back(fmt::format("--points {}", options.points));
+  }
+  if (options.stiffness) {
+    for (JointRule& rule : scene.joint_rules) stiffen(rule, *options.stiffness);
+    notes.push_back(fmt::format("--stiffness {:g}", *options.stiffness));
+  }
+  if (options.damping) {
+    scene.damping.mass = *options.damping;
+    notes.push_back(fmt::format("--damping {:g}", *options.damping));
+  }
+  if (!options.damping_form.empty()) {
+    scene.damping.form = options.damping_form;
+    notes.push_back("--damping-form " + options.damping_form);
+  }
+  if (options.from) {
+    for (Load& load : scene.loads) load.wave = earlier(load.wave, *options.from);
+    notes.push_back(fmt::format("--from {:g}", *options.from));
+  }
+  if (options.allow_unstable) scene.analysis.unstable = true;
+  if (options.noise > 0) notes.push_back(fmt::format("--noise {:g}", options.noise));
+  return notes;
+}
+
+std::string quality_of(const Options& options) {
+  std::string quality;
+  for (const auto& setting : options.settings) {
+    if (!setting.starts_with(quality_is)) continue;
+    quality = setting.substr(quality_is.size());
+    if (std::none_of(std::begin(qualities), std::end(qualities), [&](const Quality& q) { return quality == q.name; }))
+      throw Error(fmt::format("--set {}: must be draft, standard or reference", setting));
+  }
+  return quality;
+}
+
+std::vector<std::string> permissions(const Options& options) {
+  std::vector<std::string> words;
+  for (const auto& folder : options.allow) words.insert(words.end(), {"--allow", folder});
+  if (options.max_blocks > 0) words.insert(words.end(), {"--max-blocks", std::to_string(options.max_blocks)});
+  if (options.max_points > 0) words.insert(words.end(), {"--max-points", std::to_string(options.max_points)});
+  return words;
+}
+
+Script::Options script_options(const Options& options, bool quiet) {
+  Script::Options out;
+  out.quiet = quiet;
+  out.allow = options.allow;
+  if (options.max_blocks > 0) out.most_blocks = options.max_blocks;
+  if (options.max_points > 0) out.most_points = options.max_points;
+  return out;
+}
+
+std::vector<std::string> override_arguments(const Options& options) {
+  std::vector<std::string> words;
+  if (options.dt_fraction) words.insert(words.end(), {"--dt-fraction", fmt::format("{}", *options.dt_fraction)});
+  if (options.points > 0) words.insert(words.end(), {"--points", std::to_string(options.points)});
+  if (!options.rule.empty()) words.insert(words.end(), {"--rule", options.rule});
+  for (const auto& setting : options.settings) words.insert(words.end(), {"--set", setting});
+  for (const auto& effect : options.without) words.insert(words.end(), {"--without", effect});
+  if (options.stiffness) words.insert(words.end(), {"--stiffness", fmt::format("{}", *options.stiffness)});
+  if (options.damping) words.insert(words.end(), {"--damping", fmt::format("{}", *options.damping)});
+  if (!options.damping_form.empty()) words.insert(words.end(), {"--damping-form", options.damping_form});
+  if (options.from) words.insert(words.end(), {"--from", fmt::format("{}", *options.from)});
+  if (options.noise > 0) words.insert(words.end(), {"--noise", fmt::format("{}", options.noise)});
+  if (options.allow_unstable) words.emplace_back("--allow-unstable");
+  return words;
+}
+
+}  // namespace erbs

@@ -1,0 +1,15 @@
+// Overrides: options of the command line that replace values of the scene.
+#pragma once
+#include "engine/scene/scene.h"
+#include "lua/program/options.h"
+
+namespace erbs {
+
+// Applies the overrides to the scene. Returns their text, for the log.
+std::vector<std::string> apply_overrides(Scene& scene, const Options& options);
+
+// The quality of --set quality=...: draft, standard or reference; "" without one. It holds for values the script leaves open.
+// Throws Error.
+std::string quality_of(const Options& options);
+
+}  // namespace erbs

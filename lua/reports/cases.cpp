@@ -1,0 +1,201 @@
+#include "lua/reports/cases.h"
+
+#include <unistd.h>
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <set>
+#include <thread>
+
+#include "engine/base/system/affinity.h"
+#include "engine/base/system/interrupt.h"
+#include "engine/base/text.h"
+#include "engine/record/folder/run_folder.h"
+#include "lua/program/child.h"
+
+namespace erbs {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+std::string text_of(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+bool carries_expectations(const fs::path& path) {
+  const std::string text = text_of(path);
+  for (size_t at = text.find("expect"); at != std::string::npos; at = text.find("expect", at + 1)) {
+    const size_t next = text.find_first_not_of(" \t", at + 6);
+    const size_t line = text.rfind('\n', at) + 1;  // npos + 1 is 0
+    if (next != std::string::npos && (text[next] == '(' || text[next] == '=') &&
+        text.substr(line, at - line).find("--") == std::string::npos)
+      return true;
+  }
+  return false;
+}
+
+std::vector<std::string> scenes_of(const std::string& word) {
+  std::vector<std::string> found;
+  if (fs::is_regular_file(word)) return {word};
+  if (!fs::is_directory(word)) throw Error(fmt::format("there is no scene and no folder {}; check the path", word));
+  for (const auto& entry : fs::recursive_directory_iterator(word))
+    if (entry.is_regular_file() && entry.path().extension() == ".lua" && carries_expectations(entry.path()))
+      found.push_back(entry.path().string());
+  std::sort(found.begin(), found.end());
+  if (found.empty()) throw Error(fmt::format("{} holds no scene with expectations; add expect(...) to one", word));
+  return found;
+}
+
+// A scene that cannot be read stays in the list: the run of its case then reports the mistake.
+bool carries(const std::string& scene, const std::string& label, const Options& options) {
+  try {
+    Script script(script_options(options, true));
+    const auto& labels = script.load(scene, options.overrides).labels;
+    return std::find(labels.begin(), labels.end(), label) != labels.end();
+  } catch (const std::exception&) { return true; }
+}
+
+struct Running {
+  Case* item;
+  Clock::time_point begin;
+  std::optional<double> max_wall;  // s
+  int asked = 0;                   // 1: asked to stop as by Ctrl-C; 2: killed
+};
+
+// Asks a case that exceeds its time to stop, and kills it if it still runs ten seconds later.
+void hurry(std::map<int, Running>& running) {
+  for (auto& [pid, run] : running) {
+    if (!run.max_wall) continue;
+    const double wall = std::chrono::duration<double>(Clock::now() - run.begin).count();
+    // a run stops at its limit by itself and keeps its results; its studies may not
+    if (run.asked == 0 && wall > *run.max_wall + 2) run.asked = 1, run.item->overdue = true, interrupt({pid});
+    if (run.asked == 1 && wall > *run.max_wall + 12) run.asked = 2, stop_hard({pid});
+  }
+}
+
+Child launch(const Case& item, const Options& options, int threads, std::optional<double> max_wall) {
+  std::vector<std::string> command{own_path(),    "run", item.scene, "-o", item.directory, item.resume ? "--resume" : "--force",
+                                   "--no-figures", "--figure-scripts"};
+  if (threads > 0) command.insert(command.end(), {"--threads", std::to_string(threads)});
+  for (const auto& [name, value] : options.overrides) command.insert(command.end(), {"-D", name + "=" + value});
+  if (options.allow_unstable) command.emplace_back("--allow-unstable");
+  if (max_wall) command.insert(command.end(), {"--max-wall", fmt::format("{}s", *max_wall)});
+  for (const auto& more : {item.extra, permissions(options)}) command.insert(command.end(), more.begin(), more.end());
+  for (const char* old : {"expectations.json", "metrics.json"}) fs::remove(run_file(item.directory, old));
+  return start(command, item.log);
+}
+
+double number_at(const Json& json, const char* key) {
+  const Json* value = find_key(json, key);
+  return value && value->is_number() ? value->get<double>() : 0;
+}
+
+}  // namespace
+
+bool CaseResult::passed() const {
+  return trouble.empty() && std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.passed; });
+}
+
+std::vector<Case> find_cases(const Options& options, const std::string& out, const std::string& label) {
+  std::vector<Case> cases;
+  std::set<std::string> names, files;
+  for (const auto& word : options.words)
+    for (const auto& scene : scenes_of(word)) {
+      if (!files.insert(fs::weakly_canonical(scene).string()).second) continue;
+      if (!label.empty() && !carries(scene, label, options)) continue;
+      const std::string stem = fs::path(scene).stem().string();
+      std::string name = stem;
+      for (int i = 2; !names.insert(name).second; ++i) name = fmt::format("{}_{}", stem, i);
+      cases.push_back({scene, name, out + "/" + name, out + "/" + name + ".log", {}});
+    }
+  if (cases.empty()) throw Error(fmt::format("no scene carries the label \"{}\"; write label(\"{}\") in one", label, label));
+  return cases;
+}
+
+void run_cases(std::vector<Case>& cases, const Options& options, const std::function<void(const Case&)>& ended) {
+  const int machine = usable_processors();
+  const size_t jobs = static_cast<size_t>(options.jobs > 0 ? options.jobs : machine);
+  // with as many runs at once as processors, each run gets one thread; with fewer runs, each chooses by itself (0)
+  const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::min(jobs, cases.size())) >= machine ? 1 : 0;
+  std::map<int, Running> running;
+  size_t next = 0, done = 0;
+  const bool live = isatty(STDERR_FILENO) != 0 && !options.quiet;
+  const auto begin = Clock::now();
+  auto told = begin;
+  const auto left_of_budget = [&] { return options.budget - std::chrono::duration<double>(Clock::now() - begin).count(); };
+  const auto in_time = [&] { return options.budget <= 0 || left_of_budget() > 0; };
+  const std::atomic<bool>& interrupted = catch_interrupts();
+  bool told_all = false;
+  while (!running.empty() || (next < cases.size() && in_time() && !interrupted)) {
+    if (interrupted && !told_all) {
+      for (const auto& [pid, run] : running) interrupt({pid});
+      told_all = true;
+    }
+    while (next < cases.size() && running.size() < jobs && in_time() && !interrupted) {
+      Case& item = cases[next++];
+      item.started = true;
+      fs::create_directories(fs::path(item.directory).parent_path());
+      std::optional<double> max_wall = options.max_wall;
+      if (item.within_budget && options.budget > 0) max_wall = std::min(max_wall.value_or(1e9), std::max(1.0, left_of_budget()));
+      running[launch(item, options, threads, max_wall).pid] = {&item, Clock::now(), max_wall};
+    }
+    if (live) {
+      const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
+      const double left = done > 0 ? spent / static_cast<double>(done) * static_cast<double>(cases.size() - done) : 0;
+      fmt::print(stderr, "\r\033[K{} of {} cases, about {:.0f} s left, running {}", done, cases.size(), left,
+                 shown(running.begin()->second.item->name, 60));
+    }
+    if (!live && !options.quiet && done > 0 && Clock::now() - told > std::chrono::seconds(10)) {
+      told = Clock::now();
+      const double spent = std::chrono::duration<double>(told - begin).count();
+      fmt::print(stderr, "{} of {} cases, about {:.0f} s left\n", done, cases.size(),
+                 spent / static_cast<double>(done) * static_cast<double>(cases.size() - done));
+    }
+    const Ended child = wait_for_any(1.0);
+    hurry(running);
+    const auto found = running.find(child.pid);
+    if (found == running.end()) continue;
+    found->second.item->code = child.code;
+    found->second.item->cpu = child.cpu;
+    if (ended) ended(*found->second.item);
+    running.erase(found);
+    ++done;
+  }
+  if (live) fmt::print(stderr, "\r\033[K");
+  if (interrupted) throw Interrupted(fmt::format("interrupted; {} of {} runs are done", done, cases.size()));
+}
+
+CaseResult result_of(const Case& item) {
+  CaseResult result;
+  result.scene = item.scene;
+  result.name = item.name;
+  result.cpu = item.cpu;
+  result.title = title_of(text_of(item.scene));
+  try {
+    if (fs::exists(run_file(item.directory, "metrics.json"))) {
+      const Json metrics = read_metrics(item.directory);
+      result.updates = number_at(metrics, "point_updates") + number_at(metrics, "study_point_updates");
+      const double limit = number_at(metrics, "dt_critical_s");
+      if (limit > 0) result.dt_share = number_at(metrics, "dt_s") / limit;
+    }
+    if (fs::exists(run_file(item.directory, "expectations.json")))
+      result.verdicts = verdicts_of(read_json(run_file(item.directory, "expectations.json")));
+    result.figures = figures_of(item.directory);
+  } catch (const std::exception& error) { result.trouble = error.what(); }
+  const bool wrong_code = item.code != exit_ok && item.code != exit_expectation;
+  result.started = item.started;
+  if (!item.started) result.trouble = "not started: the time of --budget was over";
+  else if (item.overdue) result.trouble = "stopped: it took longer than --max-wall allows";
+  else if (wrong_code) result.trouble = last_words(item.log, item.code, item.scene);
+  else if (result.verdicts.empty() && result.trouble.empty()) result.trouble = "the scene carries no expectation; add expect(...)";
+  return result;
+}
+
+std::string cost_text(const CaseResult& result) { return fmt::format("{:.2f} s, {:.2g} pt", result.cpu, result.updates); }
+
+}  // namespace erbs

@@ -1,0 +1,54 @@
+#include "lua/reports/studies.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+
+#include "engine/base/hash.h"
+#include "engine/record/folder/run_folder.h"
+#include "engine/study/children.h"
+#include "lua/program/progress.h"
+
+namespace erbs {
+namespace {
+
+std::string key_of(const Scene& scene) {
+  std::string text;
+  for (const auto& [file, hash] : scene.inputs) text += file + " " + hash + "\n";
+  return hash_text(text);
+}
+
+}  // namespace
+
+StudiesOutcome run_studies(const Script& script, const std::string& path, const std::string& directory, const Options& options,
+                           const std::atomic<bool>& interrupted) {
+  StudiesOutcome out;
+  Children children{path, directory, key_of(script.scene()), options.overrides, override_arguments(options), permissions(options),
+                    options.max_wall.value_or(0), options.threads, &interrupted};
+  if (isatty(STDERR_FILENO) != 0 && !options.quiet)
+    children.progress = [](const std::string& study, int done, int asked) {
+      fmt::print(stderr, "\r\033[K{}: {} of {} runs", study, done, asked);
+    };
+  for (const Study& study : script.studies()) {
+    const Carried carried = carry_out(study, children);
+    if (children.progress) fmt::print(stderr, "\r\033[K");
+    if (carried.interrupted) {
+      out.interrupted = true;
+      return out;
+    }
+    for (const auto& [name, value] : carried.result.metrics) out.metrics[name] = value ? Json(*value) : Json(nullptr);
+    out.updates += carried.result.updates;
+    if (!carried.result.trouble.empty()) out.troubles.push_back(carried.result.trouble);
+  }
+  return out;
+}
+
+bool studies_left(const Script& script, const std::string& directory) {
+  const std::string metrics = run_file(directory, "metrics.json");
+  if (script.studies().empty() || !is_run_folder(directory) || !std::filesystem::exists(metrics)) return false;
+  const std::string status = read_json(metrics).value("status", "");
+  return status == "completed" || status == "inaccurate";
+}
+
+}  // namespace erbs

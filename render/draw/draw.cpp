@@ -1,0 +1,228 @@
+#include "render/draw/draw.h"
+
+#include <array>
+#include <cstddef>
+
+#include "engine/base/error.h"
+#include "render/gl/shaders.h"
+
+namespace erbs::render {
+namespace {
+
+// Buffers of one kind of geometry.
+struct Drawable {
+  GLuint vao = 0, vertices = 0, index = 0;
+  GLsizei count = 0;
+};
+
+const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+
+template <class V>
+Drawable upload(const Gl& gl, const std::vector<V>& vertices) {
+  Drawable d;
+  gl.GenVertexArrays(1, &d.vao);
+  gl.BindVertexArray(d.vao);
+  gl.GenBuffers(1, &d.vertices);
+  gl.BindBuffer(GL_ARRAY_BUFFER, d.vertices);
+  gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(vertices.size() * sizeof(V)), vertices.data(), GL_STATIC_DRAW);
+  gl.GenBuffers(1, &d.index);
+  gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, d.index);
+  return d;
+}
+
+void choose(const Gl& gl, Drawable& d, const std::vector<std::uint32_t>& index) {
+  gl.BindVertexArray(d.vao);
+  gl.BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(index.size() * sizeof(std::uint32_t)), index.data(), GL_STREAM_DRAW);
+  d.count = static_cast<GLsizei>(index.size());
+}
+
+template <class V>
+void floats(const Gl& gl, GLuint location, GLint n, std::size_t at) {
+  gl.EnableVertexAttribArray(location);
+  gl.VertexAttribPointer(location, n, GL_FLOAT, GL_FALSE, sizeof(V), offset(at));
+}
+template <class V>
+void integers(const Gl& gl, GLuint location, GLint n, std::size_t at) {
+  gl.EnableVertexAttribArray(location);
+  gl.VertexAttribIPointer(location, n, GL_UNSIGNED_INT, sizeof(V), offset(at));
+}
+
+// A buffer that shaders read as vectors of four floats.
+struct Texels {
+  GLuint buffer = 0, texture = 0;
+};
+
+}  // namespace
+
+struct Painter::Hidden {
+  const Show& show;
+  Look look_;
+  std::unique_ptr<Context> context;
+  Gl gl;
+  std::unique_ptr<Canvas> canvas;
+  GLuint solid, shade, crack, ground, sky;
+  Drawable bricks, shades, cracks, plane;
+  Texels blocks, joints;
+
+  Hidden(const Show& s, const Look& l, const std::string& kind) : show(s), look_(l), context(make_context(kind)), gl(load_gl(*context)) {
+    canvas = std::make_unique<Canvas>(gl, l.width, l.height);
+    solid = make_program(gl, shader_common, solid_vertex, solid_fragment);
+    shade = make_program(gl, shader_common, shade_vertex, shade_fragment);
+    crack = make_program(gl, shader_common, crack_vertex, crack_fragment);
+    ground = make_program(gl, shader_common, ground_vertex, ground_fragment);
+    sky = make_program(gl, shader_common, screen_vertex, sky_fragment);
+    upload_geometry();
+    for (Texels* t : {&blocks, &joints}) {
+      gl.GenBuffers(1, &t->buffer);
+      gl.GenTextures(1, &t->texture);
+    }
+  }
+  ~Hidden() {
+    for (GLuint program : {solid, shade, crack, ground, sky}) gl.DeleteProgram(program);
+    for (Drawable* d : {&bricks, &shades, &cracks, &plane}) {
+      gl.DeleteVertexArrays(1, &d->vao);
+      gl.DeleteBuffers(1, &d->vertices);
+      gl.DeleteBuffers(1, &d->index);
+    }
+    for (Texels* t : {&blocks, &joints}) {
+      gl.DeleteTextures(1, &t->texture);
+      gl.DeleteBuffers(1, &t->buffer);
+    }
+  }
+  Hidden(const Hidden&) = delete;
+  Hidden& operator=(const Hidden&) = delete;
+
+  void upload_geometry() {
+    bricks = upload(gl, show.mesh.vertices);
+    floats<Vertex>(gl, 0, 3, offsetof(Vertex, p));
+    floats<Vertex>(gl, 1, 3, offsetof(Vertex, n));
+    integers<Vertex>(gl, 2, 1, offsetof(Vertex, block));
+    integers<Vertex>(gl, 3, 1, offsetof(Vertex, joint));
+    shades = upload(gl, show.mesh.shades);
+    floats<Vertex>(gl, 0, 3, offsetof(Vertex, p));
+    integers<Vertex>(gl, 2, 1, offsetof(Vertex, block));
+    choose(gl, shades, show.mesh.shade_index);
+    cracks = upload(gl, show.mesh.cracks);
+    floats<CrackVertex>(gl, 0, 3, offsetof(CrackVertex, pa));
+    floats<CrackVertex>(gl, 1, 3, offsetof(CrackVertex, pb));
+    floats<CrackVertex>(gl, 2, 3, offsetof(CrackVertex, out));
+    floats<CrackVertex>(gl, 3, 3, offsetof(CrackVertex, normal));
+    integers<CrackVertex>(gl, 4, 3, offsetof(CrackVertex, a));
+    floats<CrackVertex>(gl, 5, 1, offsetof(CrackVertex, side));
+    using Corner = std::array<float, 2>;
+    plane = upload(gl, std::vector<Corner>{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}});
+    floats<Corner>(gl, 0, 2, 0);
+    choose(gl, plane, {0, 1, 2, 0, 2, 3});
+  }
+
+  void fill(const Texels& t, const std::vector<float>& values) const {
+    gl.BindBuffer(GL_TEXTURE_BUFFER, t.buffer);
+    gl.BufferData(GL_TEXTURE_BUFFER, static_cast<GLsizeiptr>(values.size() * sizeof(float)), values.data(), GL_STREAM_DRAW);
+    gl.BindTexture(GL_TEXTURE_BUFFER, t.texture);
+    gl.TexBuffer(GL_TEXTURE_BUFFER, GL_RGBA32F, t.buffer);
+  }
+
+  void number(GLuint program, const char* name, double value) const {
+    gl.Uniform1f(gl.GetUniformLocation(program, name), static_cast<float>(value));
+  }
+  void vector(GLuint program, const char* name, const Eigen::Vector3f& v) const {
+    gl.Uniform3f(gl.GetUniformLocation(program, name), v.x(), v.y(), v.z());
+  }
+  void matrix(GLuint program, const char* name, const Eigen::Matrix4f& m) const {
+    gl.UniformMatrix4fv(gl.GetUniformLocation(program, name), 1, GL_FALSE, m.data());
+  }
+
+  // Selects a program and sets the uniforms common to all programs.
+  struct Light {
+    Eigen::Matrix4f camera, to_shadow;
+    Eigen::Vector3f eye, sun;
+    double shadow_texel;  // m
+  };
+  void use(GLuint program, const Light& light, const Eigen::Matrix4f& camera) const {
+    gl.UseProgram(program);
+    matrix(program, "camera", camera);
+    matrix(program, "to_shadow", light.to_shadow);
+    vector(program, "eye", light.eye);
+    vector(program, "sun", light.sun);
+    vector(program, "horizon", {0.80F, 0.83F, 0.86F});
+    number(program, "shadow_texel", light.shadow_texel);
+    number(program, "shadow_step", 1.0 / Canvas::shadow_side);
+    const std::array<const char*, 3> samplers{"blocks", "joints", "shadow"};
+    for (int unit = 0; unit < 3; ++unit) gl.Uniform1i(gl.GetUniformLocation(program, samplers[static_cast<std::size_t>(unit)]), unit);
+  }
+  void draw(const Drawable& d) const {
+    gl.BindVertexArray(d.vao);
+    gl.DrawElements(GL_TRIANGLES, d.count, GL_UNSIGNED_INT, nullptr);
+  }
+
+  void draw_shadow(const Light& light) const {
+    gl.ActiveTexture(GL_TEXTURE2);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    canvas->begin_shadow();
+    gl.Enable(GL_CULL_FACE);
+    gl.CullFace(GL_FRONT);  // back faces cast the shadows, so lit faces do not shadow themselves
+    use(shade, light, light.to_shadow);
+    draw(shades);
+    gl.CullFace(GL_BACK);
+    gl.BindTexture(GL_TEXTURE_2D, canvas->shadow_map());
+  }
+
+  void draw_picture(const Light& light, const View& v) const {
+    const Stage& stage = show.stage;
+    canvas->begin_picture();
+    use(solid, light, light.camera);
+    vector(solid, "mortar", {0.50F, 0.475F, 0.43F});
+    number(solid, "darker_edge", show.mortared ? 0.12 : 0.42);
+    number(solid, "by_damage", look_.coloring == Coloring::damage ? 1 : 0);
+    draw(bricks);
+    gl.Disable(GL_CULL_FACE);
+    use(crack, light, light.camera);
+    number(crack, "pixel", v.pixel);
+    number(crack, "thinnest", 2.2 * look_.height / 720.0);
+    number(crack, "proud", 0.35 * show.chamfer);
+    number(crack, "open", show.open_crack);
+    number(crack, "widest", 60 * show.open_crack);
+    draw(cracks);
+    use(ground, light, light.camera);
+    const Vec3 middle(stage.building.center().x(), stage.building.center().y(), stage.ground_z);
+    vector(ground, "middle", middle.cast<float>());
+    number(ground, "reach", 12 * (stage.size() + static_cast<double>(v.target_distance)));
+    number(ground, "grid", show.grid);
+    number(ground, "fade", 1.5 * stage.size());
+    number(ground, "far", std::max(static_cast<double>(v.target_distance), stage.size()));
+    draw(plane);
+    gl.DepthFunc(GL_LEQUAL);
+    use(sky, light, light.camera);
+    matrix(sky, "to_world", light.camera.inverse());
+    gl.BindVertexArray(plane.vao);
+    gl.DrawArrays(GL_TRIANGLES, 0, 3);
+    gl.DepthFunc(GL_LESS);
+  }
+};
+
+Painter::Painter(const Show& show, const Look& look, const std::string& kind) : hidden_(new Hidden(show, look, kind)) {}
+Painter::~Painter() = default;
+
+Image Painter::draw(const MotionFrame& frame, const Camera& camera) {
+  Hidden& h = *hidden_;
+  const Look& l = h.look_;
+  const View v = look(camera, h.show.stage, l.width, l.height, l.top, l.bottom);
+  Hidden::Light light{v.projection * v.view, {}, v.eye, sun_of(camera), 0};
+  light.to_shadow = shadow_view(h.show.stage, light.sun);
+  light.shadow_texel = 2.0 / Canvas::shadow_side / static_cast<double>(light.to_shadow.row(0).head<3>().norm());
+  const FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye);
+  h.gl.ActiveTexture(GL_TEXTURE0);
+  h.fill(h.blocks, texels.blocks);
+  h.gl.ActiveTexture(GL_TEXTURE1);
+  h.fill(h.joints, texels.joints);
+  choose(h.gl, h.bricks, texels.index);
+  choose(h.gl, h.cracks, texels.crack_index);
+  h.draw_shadow(light);
+  h.draw_picture(light, v);
+  Image image = h.canvas->finish(v.projection, 0.022 * h.show.stage.size());
+  if (const GLenum error = h.gl.GetError(); error != GL_NO_ERROR)
+    throw std::logic_error(fmt::format("internal error: OpenGL reports {:#x}; please report it", error));
+  return image;
+}
+
+}  // namespace erbs::render

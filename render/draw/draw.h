@@ -1,0 +1,59 @@
+// Draws one frame of a run from one camera.
+#pragma once
+#include <memory>
+
+#include "render/gl/canvas.h"
+#include "render/run/mesh.h"
+#include "render/run/run.h"
+#include "render/run/stage.h"
+
+namespace erbs::render {
+
+enum class Coloring { material, damage };
+
+struct Look {
+  Coloring coloring = Coloring::material;
+  int width = 1280, height = 720;
+  double top = 0, bottom = 0;  // pixels covered by the overlay
+};
+
+// Constant data of a picture, common to all frames and threads.
+struct Show {
+  const MotionScene* scene = nullptr;
+  Stage stage;
+  Mesh mesh;
+  double chamfer = 0;             // m
+  double open_crack = 0;          // m, a hundredth of the thinnest brick: a joint parted this far is drawn as open
+  bool mortared = false;          // joints have thickness: mortar between the bricks, not an edge
+  double grid = 1;                // m, spacing of the lines on the ground
+  std::vector<float> joint_area;  // m2 [joints]
+  std::vector<Vec3> block_color;  // linear, by material with a slight variation between bricks [blocks]
+};
+Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<MotionFrame>& some_frames);
+
+// Nearest to `size` among 1, 2 or 5 times a power of ten.
+double round_length(double size);
+
+// Colour of a block in the legend, by the broken share of its joint area, 0..1 (linear).
+Vec3 damage_color(double damage);
+
+// Input of the shaders, 12 floats per block and 4 per joint, and the visible triangles.
+struct FrameTexels {
+  std::vector<float> blocks, joints;
+  std::vector<std::uint32_t> index, crack_index;
+};
+FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye);
+
+class Painter {
+ public:
+  // Makes a context current in the calling thread. Only this thread may use the object.
+  Painter(const Show& show, const Look& look, const std::string& context_kind);
+  ~Painter();
+  Image draw(const MotionFrame& frame, const Camera& camera);
+
+ private:
+  struct Hidden;
+  std::unique_ptr<Hidden> hidden_;
+};
+
+}  // namespace erbs::render

@@ -1,0 +1,26 @@
+// Draws histories.svg and energy.svg from the CSV files beside them, with gnuplot.
+#pragma once
+#include "engine/record/folder/run_folder.h"
+#include "render/run/run.h"
+
+namespace erbs::render {
+
+// Writes each figure with data; returns the paths written.
+std::vector<std::string> write_figures(const Run& run);
+
+// One panel of curves that share a unit.
+struct Panel {
+  std::string label;         // of the vertical axis, with the displayed unit
+  double factor = 1;         // from SI to the displayed unit
+  std::vector<int> columns;  // columns of the table
+  bool directed = false;     // along one axis; other axes may have a panel each
+};
+// Panels: ground motion first, then by unit in the order of the table. Panels whose curves stay below 2 % of the same quantity in another
+// direction are dropped if `left_out` is given, and named in it.
+std::vector<Panel> history_panels(const CsvTable& table, std::vector<std::string>* left_out = nullptr);
+
+// unit_of: the unit at the end of a column's name ("m_s2"), or "". words_of: the rest of the name in plain words.
+std::string unit_of(const std::string& column);
+std::string words_of(const std::string& column);
+
+}  // namespace erbs::render

@@ -1,0 +1,223 @@
+#include "render/draw/overlay.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/base/units.h"
+
+namespace erbs::render {
+namespace {
+
+constexpr Ink text_ink{38, 42, 48, 1}, quiet_ink{95, 102, 110, 1}, panel{250, 251, 252, 0.80}, accent{176, 48, 28, 1};
+constexpr double margin = 22;  // in rows of a picture with 720 rows, as all lengths here
+
+Ink display(const Vec3& linear) {
+  const auto byte = [](double x) { return static_cast<std::uint8_t>(std::lround(255 * std::pow(std::clamp(x, 0.0, 1.0), 1 / 2.2))); };
+  return {byte(linear.x()), byte(linear.y()), byte(linear.z()), 1};
+}
+
+// The record at time t: linear between rows, zero outside.
+double value_at(const GroundRecord& r, double t) {
+  if (r.t.empty() || t < r.t.front() || t > r.t.back()) return 0;
+  const auto after = static_cast<std::size_t>(std::upper_bound(r.t.begin(), r.t.end(), t) - r.t.begin());
+  if (after == r.t.size()) return r.a.back();
+  const double s = (t - r.t[after - 1]) / (r.t[after] - r.t[after - 1]);
+  return r.a[after - 1] + s * (r.a[after] - r.a[after - 1]);
+}
+
+std::string length_text(double m) {
+  return m >= 1 ? fmt::format("{:g} m", m) : m >= 0.01 ? fmt::format("{:g} cm", 100 * m) : fmt::format("{:g} mm", 1000 * m);
+}
+
+}  // namespace
+
+double overlay_top(int height) { return 58.0 * height / 720; }
+double overlay_bottom(int height, bool with_record) { return (with_record ? 116.0 : 34.0) * height / 720; }
+
+Overlay::Overlay(const Run& run, const Show& show, const Look& look, const Camera& camera, const View& view, double slow)
+    : run_(run),
+      show_(show),
+      look_(look),
+      camera_(camera.name),
+      turn_(view.view.topLeftCorner<3, 3>()),
+      pixel_(static_cast<double>(view.pixel * view.target_distance)),
+      slow_(slow),
+      unit_(look.height / 720.0),
+      regular_(Font::Face::regular),
+      bold_(Font::Face::bold) {
+  std::replace(camera_.begin(), camera_.end(), '_', ' ');
+  strip_left_ = (margin + 128) * unit_;
+  strip_right_ = look.width - (margin + 12) * unit_;
+  const GroundRecord& r = run.record;
+  end_time_ = r.t.empty() ? 0 : r.t.back();
+  if (r.axis.empty() || end_time_ <= 0) return;
+  const auto columns = static_cast<std::size_t>(std::max(1.0, strip_right_ - strip_left_));
+  const double per_column = end_time_ / static_cast<double>(columns);
+  std::size_t row = 0;
+  for (std::size_t c = 0; c < columns; ++c) {
+    const double t0 = static_cast<double>(c) * per_column, t1 = t0 + per_column;
+    const double a0 = value_at(r, t0), a1 = value_at(r, t1);
+    Reach reach{std::min(a0, a1), std::max(a0, a1)};
+    for (; row < r.t.size() && r.t[row] < t1; ++row)
+      if (r.t[row] >= t0) reach = {std::min(reach.low, r.a[row]), std::max(reach.high, r.a[row])};
+    strip_.push_back({reach.low / r.peak, reach.high / r.peak});
+  }
+}
+
+void Overlay::draw(Image& image, double t) const {
+  draw_title(image, t);
+  draw_legend(image);
+  draw_scale(image);
+  draw_axes(image);
+  if (!strip_.empty()) draw_record(image, t);
+}
+
+void Overlay::draw_title(Image& image, double t) const {
+  const double u = unit_, base = 36 * u;
+  fill_fade(image, 0, static_cast<int>(60 * u), {250, 251, 252, 0.75}, 0.0);
+  bold_.draw(image, fmt::format("{:.2f} s", t), image.width - margin * u, base, 24 * u, text_ink, Font::Align::right);
+  std::string beside = run_.status.empty() ? camera_ : run_.status + "   " + camera_;
+  if (std::abs(slow_ - 1) > 0.02)
+    beside += slow_ > 1 ? fmt::format("   slow motion {:.3g} : 1", slow_) : fmt::format("   time lapse 1 : {:.3g}", 1 / slow_);
+  // Text beside the clock must not move: it ends at the start of the widest clock text.
+  const double right = image.width - margin * u - bold_.width("00.00 s", 24 * u) - 18 * u;
+  regular_.draw(image, beside, right, base, 14 * u, quiet_ink, Font::Align::right);
+  // A long title is drawn smaller, then cut.
+  const double room = right - regular_.width(beside, 14 * u) - 2 * margin * u;
+  const double size = std::clamp(21 * u * room / std::max(1.0, bold_.width(run_.title, 21 * u)), 13 * u, 21 * u);
+  std::string title = run_.title;
+  while (bold_.width(title, size) > room && title.size() > 4) {
+    const std::size_t space = title.find_last_of(' ', title.size() - 5);
+    title = title.substr(0, space == std::string::npos ? 0 : space) + " ...";
+  }
+  bold_.draw(image, title, margin * u, base, size, text_ink);
+}
+
+double Overlay::column(double t) const { return strip_left_ + std::clamp(t / end_time_, 0.0, 1.0) * (strip_right_ - strip_left_); }
+
+void Overlay::draw_record(Image& image, double t) const {
+  const double u = unit_, height = 88 * u, bottom = image.height - 14 * u, top = bottom - height;
+  fill_box(image, margin * u, top, image.width - margin * u, bottom, panel);
+  const double x = (margin + 14) * u;
+  regular_.draw(image, "ground, along " + run_.record.axis, x, top + 25 * u, 12.5 * u, quiet_ink);
+  bold_.draw(image, fmt::format("{:+.2f} g", value_at(run_.record, t) / standard_g), x, top + 49 * u, 17 * u, text_ink);
+  regular_.draw(image, fmt::format("peak {:.3g} g", run_.record.peak / standard_g), x, top + 71 * u, 12.5 * u, quiet_ink);
+  const double upper = top + (run_.marks.empty() ? 6 : 18) * u, lower = bottom - 19 * u, middle = 0.5 * (upper + lower);
+  const double half = 0.5 * (lower - upper), thin = 0.65 * u, now = column(t);
+  draw_times(image, top, lower + 2 * u, now);
+  fill_box(image, strip_left_, middle - 0.5, strip_right_, middle + 0.5, {150, 156, 163, 0.8});
+  for (std::size_t c = 0; c < strip_.size(); ++c) {
+    const double left = strip_left_ + static_cast<double>(c);
+    const Ink ink = left < now ? Ink{48, 60, 76, 1} : Ink{150, 158, 168, 1};
+    fill_box(image, left, middle - half * strip_[c].high - thin, left + 1, middle - half * strip_[c].low + thin, ink);
+  }
+  fill_box(image, now - 0.9 * u, top + 3 * u, now + 0.9 * u, lower + 3 * u, accent);
+  const double at = middle - half * value_at(run_.record, t) / run_.record.peak;
+  fill_box(image, now - 3.5 * u, at - 3.5 * u, now + 3.5 * u, at + 3.5 * u, accent);
+}
+
+// Seconds below the strip, and event names above it.
+void Overlay::draw_times(Image& image, double top, double bottom, double now) const {
+  const double u = unit_, step = round_length(end_time_ * 110 * u / (strip_right_ - strip_left_));
+  for (int i = 0; i * step <= end_time_ * (1 + 1e-9); ++i) {
+    const double x = column(i * step);
+    fill_box(image, x - 0.5 * u, bottom, x + 0.5 * u, bottom + 3 * u, quiet_ink);
+    const Font::Align align = x + 14 * u > strip_right_ ? Font::Align::right : Font::Align::middle;
+    regular_.draw(image, fmt::format("{:g} s", i * step), x, bottom + 14 * u, 11 * u, quiet_ink, align);
+  }
+  double last = strip_left_;  // end of the previous name
+  for (const Mark& mark : run_.marks) {
+    if (mark.t > end_time_) continue;
+    const double x = column(mark.t), size = 11.5 * u, width = regular_.width(mark.name, size);
+    const Ink ink = x <= now + 0.5 ? text_ink : Ink{150, 158, 168, 1};
+    fill_box(image, x - 0.6 * u, top + 4 * u, x + 0.6 * u, bottom, ink);
+    // The first name stands before its line and later names behind theirs, if there is room.
+    const bool before = (&mark == &run_.marks.front() || x + width + 5 * u > strip_right_) && x - width - 5 * u > last;
+    regular_.draw(image, mark.name, before ? x - 5 * u : x + 5 * u, top + 13 * u, size, ink,
+                  before ? Font::Align::right : Font::Align::left);
+    last = before ? x : x + 5 * u + width;
+  }
+}
+
+void Overlay::draw_legend(Image& image) const {
+  const double u = unit_, right = image.width - margin * u, size = 13 * u;
+  double y = 78 * u;
+  if (look_.coloring == Coloring::damage) {
+    const double width = 170 * u, left = right - width;
+    fill_box(image, left - 10 * u, y - 18 * u, right + 10 * u, y + 36 * u, panel);
+    regular_.draw(image, "joints broken or open", left, y, size, text_ink);
+    y += 8 * u;
+    for (int c = 0; c < static_cast<int>(width); ++c)
+      fill_box(image, left + c, y, left + c + 1, y + 11 * u, display(damage_color(c / width)));
+    regular_.draw(image, "0", left, y + 25 * u, size, quiet_ink);
+    regular_.draw(image, "50 %", 0.5 * (left + right), y + 25 * u, size, quiet_ink, Font::Align::middle);
+    regular_.draw(image, "100 %", right, y + 25 * u, size, quiet_ink, Font::Align::right);
+    return;
+  }
+  struct Row {
+    std::string name;
+    Ink ink;
+    double half;  // height of its sample
+  };
+  std::vector<bool> used(run_.materials.size());
+  for (std::size_t b = 0; b < show_.scene->blocks.size(); ++b) {
+    const int m = show_.scene->blocks[b].material;
+    if (!show_.stage.hidden[b] && m >= 0 && m < static_cast<int>(used.size())) used[static_cast<std::size_t>(m)] = true;
+  }
+  std::vector<Row> rows;
+  for (std::size_t m = 0; m < used.size(); ++m)
+    if (used[m] && !run_.materials[m].name.empty()) rows.push_back({run_.materials[m].name, display(run_.materials[m].color), 6});
+  if (rows.size() > 6) rows.clear();
+  if (!show_.scene->joints.empty()) {
+    rows.push_back({show_.mortared ? "cracked joint" : "joint that opened", {82, 72, 66, 1}, 0.8});
+    rows.push_back({"open by " + length_text(show_.open_crack) + " or more", {20, 18, 18, 1}, 1.6});
+  }
+  double widest = 0;
+  for (const Row& row : rows) widest = std::max(widest, regular_.width(row.name, size));
+  if (!rows.empty())
+    fill_box(image, right - 30 * u - widest, y - 14 * u, right + 10 * u, y + (20 * static_cast<double>(rows.size()) - 6) * u, panel);
+  for (const Row& row : rows) {
+    regular_.draw(image, row.name, right - 20 * u, y + 4.5 * u, size, text_ink, Font::Align::right);
+    fill_box(image, right - 12 * u, y - row.half * u, right, y + row.half * u, row.ink);
+    y += 20 * u;
+  }
+}
+
+void Overlay::draw_scale(Image& image) const {
+  const double u = unit_, wish = 110 * u * pixel_, ten = std::pow(10.0, std::floor(std::log10(wish)));
+  const double length = ten * (wish < 2 * ten ? 1 : wish < 5 * ten ? 2 : 5), width = length / pixel_;
+  const double right = image.width - margin * u, y = image.height - look_.bottom - 14 * u;
+  const std::string grid = "grid " + length_text(show_.grid);
+  fill_box(image, right - width - 34 * u - regular_.width(grid, 12 * u), y - 26 * u, right + 10 * u, y + 10 * u, panel);
+  fill_box(image, right - width, y - u, right, y + u, text_ink);
+  for (double x : {right - width, right - 1.6 * u}) fill_box(image, x, y - 5 * u, x + 1.6 * u, y + 5 * u, text_ink);
+  regular_.draw(image, length_text(length), right - 0.5 * width, y - 9 * u, 13 * u, text_ink, Font::Align::middle);
+  regular_.draw(image, grid, right - width - 14 * u, y + 4.5 * u, 12 * u, quiet_ink, Font::Align::right);
+}
+
+// World axes as the camera sees them. The axis of shaking has arrows at both ends.
+void Overlay::draw_axes(Image& image) const {
+  const double u = unit_, length = 30 * u, x = (margin + 46) * u, y = image.height - look_.bottom - 52 * u;
+  fill_box(image, x - 46 * u, y - 42 * u, x + 46 * u, y + 50 * u, panel);
+  for (int i = 0; i < 3; ++i) {
+    const std::string name(1, "xyz"[i]);
+    const bool shaken = name == run_.record.axis;
+    const Ink ink = shaken ? accent : quiet_ink;
+    const double dx = static_cast<double>(turn_(0, i)) * length, dy = -static_cast<double>(turn_(1, i)) * length;
+    const double seen = std::hypot(dx, dy), width = (shaken ? 2.4 : 1.5) * u;
+    draw_line(image, shaken ? x - dx : x, shaken ? y - dy : y, x + dx, y + dy, width, ink);
+    if (seen < 0.25 * length) continue;  // along the view: no room for an arrow and a letter
+    const double ex = dx / seen, ey = dy / seen, head = 6 * u;
+    for (double end : {1.0, -1.0}) {
+      if (end < 0 && !shaken) continue;
+      for (double side : {1.0, -1.0})
+        draw_line(image, x + end * dx, y + end * dy, x + end * (dx - head * (0.85 * ex + side * 0.55 * ey)),
+                  y + end * (dy - head * (0.85 * ey - side * 0.55 * ex)), width, ink);
+    }
+    regular_.draw(image, name, x + dx + 8 * u * ex, y + dy + 8 * u * ey + 4 * u, 12 * u, ink, Font::Align::middle);
+  }
+  if (!run_.record.axis.empty()) regular_.draw(image, "shaking", x, y + 46 * u, 11.5 * u, accent, Font::Align::middle);
+}
+
+}  // namespace erbs::render

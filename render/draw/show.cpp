@@ -1,0 +1,163 @@
+// The part of drawing without OpenGL: colours, and the input of the shaders.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "render/draw/draw.h"
+
+namespace erbs::render {
+namespace {
+
+// A number in -1..1 that is the same for the same block in every run.
+double scatter(std::uint32_t x) {
+  x = (x ^ 61U) ^ (x >> 16U);
+  x *= 9U;
+  x ^= x >> 4U;
+  x *= 0x27d4eb2dU;
+  x ^= x >> 15U;
+  return static_cast<double>(x & 0xffffU) / 32767.5 - 1.0;
+}
+
+Eigen::Quaternionf turn_of(const MotionFrame& f, std::size_t block) {
+  const float* p = &f.poses[7 * block];
+  return {p[3], p[4], p[5], p[6]};
+}
+Eigen::Vector3f place_of(const MotionFrame& f, std::size_t block) { return Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * block]); }
+
+// Distance (m) between the two sides of a joint, slip included; largest over its corners.
+float parted(const MotionScene& scene, const MotionJoint& joint, const MotionFrame& f) {
+  const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
+  const Vec3 to_b = scene.blocks[b].rest - scene.blocks[a].rest;
+  const Eigen::Quaternionf qa = turn_of(f, a), qb = turn_of(f, b);
+  float most = 0;
+  for (const Vec3& p : joint.polygon) {
+    const Eigen::Vector3f pa = place_of(f, a) + qa * p.cast<float>(), pb = place_of(f, b) + qb * Vec3(p - to_b).cast<float>();
+    most = std::max(most, (pa - pb).norm());
+  }
+  return most;
+}
+
+}  // namespace
+
+double round_length(double size) {
+  const double ten = std::pow(10.0, std::floor(std::log10(size)));
+  const double rest = size / ten;
+  return ten * (rest < 1.5 ? 1 : rest < 3.5 ? 2 : rest < 7.5 ? 5 : 10);
+}
+
+Vec3 damage_color(double damage) {
+  // From grey over straw and orange to dark red: rising intensity, readable in grey print and with colour-vision deficiency.
+  static const std::array<Vec3, 4> stops{Vec3(0.62, 0.62, 0.60), Vec3(0.80, 0.62, 0.22), Vec3(0.78, 0.25, 0.06), Vec3(0.42, 0.02, 0.03)};
+  const double x = std::clamp(damage, 0.0, 1.0) * 3;
+  const auto k = std::min<std::size_t>(2, static_cast<std::size_t>(x));
+  const double t = x - static_cast<double>(k);
+  return (1 - t) * stops[k] + t * stops[k + 1];
+}
+
+Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<MotionFrame>& some_frames) {
+  Show show;
+  show.scene = &scene;
+  show.stage = set_stage(scene, some_frames);
+  double thinnest = 0.024 * show.stage.size();
+  for (const MotionShape& shape : scene.shapes) {  // large plates do not count
+    Eigen::AlignedBox3f box;
+    for (std::size_t i = 0; i + 2 < shape.vertices.size(); i += 3)
+      box.extend(Eigen::Vector3f(shape.vertices[i], shape.vertices[i + 1], shape.vertices[i + 2]));
+    const Eigen::Vector3f s = box.sizes();
+    if (s.maxCoeff() < 6 * s.minCoeff()) thinnest = std::min(thinnest, static_cast<double>(s.minCoeff()));
+  }
+  show.open_crack = round_length(0.01 * thinnest);
+  show.chamfer = 0.05 * thinnest;
+  double gap = 0;
+  for (const MotionJoint& joint : scene.joints) {
+    if (joint.thickness <= 0) continue;
+    show.mortared = true;
+    show.chamfer = std::min(show.chamfer, 0.3 * joint.thickness);
+    gap = std::max(gap, joint.thickness);
+  }
+  show.mesh = build_mesh(scene, show.stage.hidden, show.chamfer);
+  add_shades(show.mesh, scene, show.stage.hidden, 0.55 * gap + 0.1 * show.open_crack);
+  for (const MotionJoint& joint : scene.joints) show.joint_area.push_back(static_cast<float>(0.5 * area_normal(joint.polygon).norm()));
+  show.grid = round_length(show.stage.size() / 5);
+  std::vector<int> uses(run.materials.size() + 1);
+  const auto paint = [&](const MotionBlock& b) {
+    return b.material >= 0 && b.material < static_cast<int>(run.materials.size()) ? static_cast<std::size_t>(b.material) : uses.size() - 1;
+  };
+  for (const MotionBlock& b : scene.blocks) ++uses[paint(b)];
+  for (std::size_t i = 0; i < scene.blocks.size(); ++i) {
+    const std::size_t m = paint(scene.blocks[i]);
+    const Vec3 color = m < run.materials.size() ? run.materials[m].color : Vec3(0.45, 0.43, 0.40);
+    const auto seed = static_cast<std::uint32_t>(i);
+    const double amount = uses[m] > 20 ? 1.0 : 0.0, tone = scatter(seed), hue = scatter(seed + 7919U);
+    show.block_color.push_back(color.cwiseProduct(Vec3::Constant(1 + 0.17 * amount * tone) + amount * hue * Vec3(0.0, 0.06, 0.09)));
+  }
+  return show;
+}
+
+namespace {
+
+// Selects the visible triangles. Around a joint that has visibly parted, everything is drawn.
+void choose_triangles(const Show& show, const MotionFrame& frame, const Vec3& eye, FrameTexels& t) {
+  const MotionScene& scene = *show.scene;
+  const float moved = static_cast<float>(0.1 * show.open_crack);
+  std::vector<bool> quiet(scene.blocks.size(), true);
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    if (t.joints[4 * j + 1] < moved) continue;
+    quiet[static_cast<std::size_t>(scene.joints[j].a)] = quiet[static_cast<std::size_t>(scene.joints[j].b)] = false;
+  }
+  const auto add = [](std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from, Span span) {
+    to.insert(to.end(), from.begin() + span.begin, from.begin() + span.end);
+  };
+  t.index.reserve(show.mesh.index.size());
+  // Near blocks come first: hidden surfaces are then not shaded.
+  std::vector<std::pair<float, std::size_t>> order;
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
+    const float distance = (place_of(frame, b) - eye.cast<float>()).squaredNorm();
+    order.emplace_back(std::isfinite(distance) ? distance : std::numeric_limits<float>::max(), b);
+  }
+  std::sort(order.begin(), order.end());
+  for (const auto& [distance, b] : order) {
+    add(t.index, show.mesh.index, show.mesh.open[b]);
+    if (!quiet[b]) add(t.index, show.mesh.index, show.mesh.buried[b]);
+  }
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    const bool closed = quiet[static_cast<std::size_t>(scene.joints[j].a)] && quiet[static_cast<std::size_t>(scene.joints[j].b)];
+    add(t.index, show.mesh.index, closed ? show.mesh.pointing[j] : show.mesh.beds[j]);
+    if (frame.damage[j] > 0) add(t.crack_index, show.mesh.crack_index, show.mesh.crack[j]);
+  }
+}
+
+}  // namespace
+
+FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye) {
+  const MotionScene& scene = *show.scene;
+  const std::size_t nb = scene.blocks.size(), nj = scene.joints.size();
+  FrameTexels t;
+  t.blocks.resize(12 * std::max<std::size_t>(1, nb));
+  t.joints.resize(4 * std::max<std::size_t>(1, nj));
+  std::vector<float> broken(nb), area(nb);
+  for (std::size_t j = 0; j < nj; ++j) {
+    const MotionJoint& joint = scene.joints[j];
+    const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
+    const float damage = static_cast<float>(frame.damage[j]) / 255.0F;
+    for (std::size_t block : {a, b}) {
+      broken[block] += damage * show.joint_area[j];
+      area[block] += show.joint_area[j];
+    }
+    t.joints[4 * j] = damage;
+    t.joints[4 * j + 1] = parted(scene, joint, frame);
+  }
+  for (std::size_t b = 0; b < nb; ++b) {
+    const float share = area[b] > 0 ? broken[b] / area[b] : 0;
+    const Vec3 color = coloring == Coloring::damage ? damage_color(static_cast<double>(share)) : show.block_color[b];
+    const float* p = &frame.poses[7 * b];
+    const Eigen::Vector3f c = color.cast<float>();
+    const float values[12] = {p[0], p[1], p[2], share, p[4], p[5], p[6], p[3], c.x(), c.y(), c.z(), 0};
+    std::copy_n(values, 12, &t.blocks[12 * b]);
+  }
+  choose_triangles(show, frame, eye, t);
+  return t;
+}
+
+}  // namespace erbs::render

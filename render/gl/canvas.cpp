@@ -1,0 +1,181 @@
+#include "render/gl/canvas.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "engine/base/error.h"
+#include "render/gl/shaders.h"
+
+namespace erbs::render {
+
+Target& Target::operator=(Target&& other) noexcept {
+  std::swap(width, other.width);
+  std::swap(height, other.height);
+  std::swap(framebuffer, other.framebuffer);
+  std::swap(color, other.color);
+  std::swap(depth, other.depth);
+  std::swap(buffers, other.buffers);
+  std::swap(gl_, other.gl_);
+  return *this;
+}
+
+Target::~Target() {
+  if (!gl_) return;
+  gl_->DeleteFramebuffers(1, &framebuffer);
+  gl_->DeleteTextures(1, &color);
+  gl_->DeleteTextures(1, &depth);
+  gl_->DeleteRenderbuffers(2, buffers);
+}
+
+namespace {
+
+GLuint make_texture(const Gl& gl, GLint format, GLenum layout, GLenum type, int width, int height, GLint filter) {
+  GLuint texture = 0;
+  gl.GenTextures(1, &texture);
+  gl.BindTexture(GL_TEXTURE_2D, texture);
+  gl.TexImage2D(GL_TEXTURE_2D, 0, format, width, height, 0, layout, type, nullptr);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, filter);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, filter);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+  return texture;
+}
+
+void check(const Gl& gl, int width, int height) {
+  if (gl.CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    throw Error(fmt::format("pictures of {}x{} are too large for the OpenGL driver; ask for a smaller --size", width, height));
+}
+
+}  // namespace
+
+Target shadow_target(const Gl& gl, int side) {
+  Target t(&gl, side, side);
+  t.depth = make_texture(gl, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, side, side, GL_LINEAR);
+  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, t.framebuffer);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, t.depth, 0);
+  gl.DrawBuffer(GL_NONE);
+  gl.ReadBuffer(GL_NONE);
+  check(gl, side, side);
+  return t;
+}
+
+Target multisampled_target(const Gl& gl, int width, int height, int samples) {
+  Target t(&gl, width, height);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, t.framebuffer);
+  gl.GenRenderbuffers(2, t.buffers);
+  const GLenum formats[2] = {GL_RGBA8, GL_DEPTH_COMPONENT24}, points[2] = {GL_COLOR_ATTACHMENT0, GL_DEPTH_ATTACHMENT};
+  for (int i = 0; i < 2; ++i) {
+    gl.BindRenderbuffer(GL_RENDERBUFFER, t.buffers[i]);
+    gl.RenderbufferStorageMultisample(GL_RENDERBUFFER, samples, formats[i], width, height);
+    gl.FramebufferRenderbuffer(GL_FRAMEBUFFER, points[i], GL_RENDERBUFFER, t.buffers[i]);
+  }
+  check(gl, width, height);
+  return t;
+}
+
+Target picture_target(const Gl& gl, int width, int height, bool with_depth) {
+  Target t(&gl, width, height);
+  t.color = make_texture(gl, GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE, width, height, GL_LINEAR);
+  gl.BindFramebuffer(GL_FRAMEBUFFER, t.framebuffer);
+  gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, t.color, 0);
+  if (with_depth) {
+    t.depth = make_texture(gl, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, width, height, GL_NEAREST);
+    gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, t.depth, 0);
+  }
+  check(gl, width, height);
+  return t;
+}
+
+Canvas::Canvas(const Gl& gl, int width, int height)
+    : gl_(gl),
+      width_(width),
+      height_(height),
+      shadow_(shadow_target(gl, shadow_side)),
+      sampled_(multisampled_target(gl, width, height, 4)),
+      resolved_(picture_target(gl, width, height, true)),
+      occlusion_(picture_target(gl, (width + 1) / 2, (height + 1) / 2, false)),
+      blurred_(picture_target(gl, (width + 1) / 2, (height + 1) / 2, false)),
+      final_(picture_target(gl, width, height, false)),
+      occlusion_program_(make_program(gl, shader_common, screen_vertex, occlusion_fragment)),
+      blur_program_(make_program(gl, shader_common, screen_vertex, blur_fragment)),
+      finish_program_(make_program(gl, shader_common, screen_vertex, finish_fragment)),
+      empty_(0) {
+  gl.GenVertexArrays(1, &empty_);
+}
+
+Canvas::~Canvas() {
+  for (GLuint program : {occlusion_program_, blur_program_, finish_program_}) gl_.DeleteProgram(program);
+  gl_.DeleteVertexArrays(1, &empty_);
+}
+
+void Canvas::begin_shadow() {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, shadow_.framebuffer);
+  gl_.Viewport(0, 0, shadow_.width, shadow_.height);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.Clear(GL_DEPTH_BUFFER_BIT);
+}
+
+void Canvas::begin_picture() {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
+  gl_.Viewport(0, 0, width_, height_);
+  gl_.Enable(GL_DEPTH_TEST);
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void Canvas::screen_pass(GLuint program, const Target& target) {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+  gl_.Viewport(0, 0, target.width, target.height);
+  gl_.UseProgram(program);
+  gl_.BindVertexArray(empty_);
+  gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+void Canvas::occlusion_uniforms(GLuint program, const Eigen::Matrix4f& p, double radius) {
+  gl_.UseProgram(program);
+  const auto at = [&](const char* name) { return gl_.GetUniformLocation(program, name); };
+  const float near = p(2, 3) / (p(2, 2) - 1), far = p(2, 3) / (p(2, 2) + 1);
+  gl_.Uniform4f(at("unproject"), 1 / p(0, 0), 1 / p(1, 1), p(0, 2), p(1, 2));
+  gl_.Uniform2f(at("depth_range"), near, far);
+  gl_.Uniform1f(at("radius"), static_cast<float>(radius));
+  gl_.Uniform1f(at("radius_uv"), 0.5F * p(1, 1) * static_cast<float>(radius));
+  gl_.Uniform1i(at("depth"), 0);
+  gl_.Uniform1i(at("occlusion"), 1);
+  gl_.Uniform1i(at("picture"), 0);
+}
+
+Image Canvas::finish(const Eigen::Matrix4f& projection, double radius) {
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, sampled_.framebuffer);
+  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.framebuffer);
+  gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, resolved_.depth);
+  occlusion_uniforms(occlusion_program_, projection, radius);
+  gl_.Uniform2f(gl_.GetUniformLocation(occlusion_program_, "texel"), 1.0F / static_cast<float>(width_), 1.0F / static_cast<float>(height_));
+  screen_pass(occlusion_program_, occlusion_);
+  gl_.ActiveTexture(GL_TEXTURE1);
+  gl_.BindTexture(GL_TEXTURE_2D, occlusion_.color);
+  occlusion_uniforms(blur_program_, projection, radius);
+  gl_.Uniform2f(gl_.GetUniformLocation(blur_program_, "texel"), 1.0F / static_cast<float>(occlusion_.width),
+                1.0F / static_cast<float>(occlusion_.height));
+  screen_pass(blur_program_, blurred_);
+  gl_.BindTexture(GL_TEXTURE_2D, blurred_.color);
+  gl_.ActiveTexture(GL_TEXTURE0);
+  gl_.BindTexture(GL_TEXTURE_2D, resolved_.color);
+  occlusion_uniforms(finish_program_, projection, radius);
+  screen_pass(finish_program_, final_);
+
+  Image image(width_, height_);
+  std::vector<std::uint8_t> rgba(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
+  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  for (int y = 0; y < height_; ++y) {
+    const std::uint8_t* from = &rgba[static_cast<std::size_t>(height_ - 1 - y) * static_cast<std::size_t>(width_) * 4];
+    std::uint8_t* to = image.pixel(0, y);
+    for (int x = 0; x < width_; ++x, from += 4, to += 3) to[0] = from[0], to[1] = from[1], to[2] = from[2];
+  }
+  return image;
+}
+
+}  // namespace erbs::render

@@ -1,0 +1,57 @@
+// Render targets of one picture: a multisampled image, its resolved copy with depth, the shadow map, and the final passes.
+#pragma once
+#include <vector>
+
+#include "engine/base/vec.h"
+#include "render/gl/gl.h"
+#include "render/image/image.h"
+
+namespace erbs::render {
+
+// A texture (or a multisampled buffer) with its framebuffer; frees both.
+class Target {
+ public:
+  Target() = default;
+  Target(const Gl* gl, int w, int h) : width(w), height(h), gl_(gl) { gl->GenFramebuffers(1, &framebuffer); }
+  Target(Target&& other) noexcept { *this = std::move(other); }
+  Target& operator=(Target&& other) noexcept;
+  ~Target();
+  int width = 0, height = 0;
+  GLuint framebuffer = 0, color = 0, depth = 0;  // textures
+  GLuint buffers[2] = {0, 0};                    // or multisampled renderbuffers
+
+ private:
+  const Gl* gl_ = nullptr;
+};
+
+Target shadow_target(const Gl& gl, int side);
+Target multisampled_target(const Gl& gl, int width, int height, int samples);
+Target picture_target(const Gl& gl, int width, int height, bool with_depth);
+
+class Canvas {
+ public:
+  Canvas(const Gl& gl, int width, int height);
+  ~Canvas();
+  Canvas(const Canvas&) = delete;
+  Canvas& operator=(const Canvas&) = delete;
+
+  void begin_shadow();   // afterwards draw everything that casts a shadow
+  void begin_picture();  // afterwards draw everything visible
+  // Darkens corners within `radius` (m), then returns the pixels.
+  Image finish(const Eigen::Matrix4f& projection, double radius);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  GLuint shadow_map() const { return shadow_.depth; }
+  static constexpr int shadow_side = 2048;  // texels
+
+ private:
+  void screen_pass(GLuint program, const Target& target);
+  void occlusion_uniforms(GLuint program, const Eigen::Matrix4f& projection, double radius);
+  const Gl& gl_;
+  int width_, height_;
+  Target shadow_, sampled_, resolved_, occlusion_, blurred_, final_;
+  GLuint occlusion_program_, blur_program_, finish_program_, empty_;
+};
+
+}  // namespace erbs::render

@@ -1,0 +1,250 @@
+#include "render/gl/shaders.h"
+
+namespace erbs::render {
+
+// Texels of `blocks`: 3 b: centroid and damage; 3 b + 1: quaternion x, y, z, w; 3 b + 2: colour (linear).
+// Texels of `joints`: damage 0..1, distance (m) of the two sides.
+const std::string shader_common = R"(
+uniform samplerBuffer blocks;
+uniform samplerBuffer joints;
+uniform mat4 camera;          // world to clip
+uniform vec3 eye;
+uniform vec3 sun;
+uniform vec3 horizon;
+
+vec3 turn(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
+vec4 srgb(vec3 c) { return vec4(pow(clamp(c, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0); }
+)";
+
+static const std::string lighting = R"(
+uniform sampler2DShadow shadow;
+uniform mat4 to_shadow;
+uniform float shadow_texel;   // m
+uniform float shadow_step;    // of the map
+
+// Share of the sun that reaches a point: 3 x 3 taps, each a bilinear comparison. The count of taps is zero where nothing can
+// throw a shadow: the software rasteriser leaves a loop early, but runs through both arms of an if.
+float sunlight(vec3 p, vec3 n, float facing) {
+  vec4 s = to_shadow * vec4(p + n * (2.0 * shadow_texel), 1.0);
+  vec3 c = s.xyz * 0.5 + 0.5;
+  bool outside = any(lessThan(c, vec3(0.0))) || any(greaterThan(c, vec3(1.0)));
+  int taps = outside || facing <= 0.0 ? 0 : 9;
+  float lit = 0.0;
+  for (int i = 0; i < taps; ++i) {
+    vec2 step = vec2(i / 3 - 1, i - (i / 3) * 3 - 1) * (1.4 * shadow_step);
+    lit += texture(shadow, vec3(c.xy + step, c.z - 0.0004));
+  }
+  return taps == 0 ? 1.0 : lit / 9.0;
+}
+
+vec3 lit(vec3 albedo, vec3 p, vec3 n, float cavity) {
+  float direct = max(dot(n, sun), 0.0);
+  direct *= sunlight(p, n, direct);
+  vec3 sky = mix(vec3(0.31, 0.29, 0.27), vec3(0.42, 0.45, 0.49), 0.5 + 0.5 * n.z);
+  return albedo * (sky * cavity + vec3(1.00, 0.95, 0.87) * direct);
+}
+)";
+
+const std::string solid_vertex = R"(
+layout(location = 0) in vec3 at;
+layout(location = 1) in vec3 normal;
+layout(location = 2) in uint block;
+layout(location = 3) in uint joint;
+uniform vec3 mortar;
+uniform float by_damage;
+out vec3 world, n, albedo;
+void main() {
+  int b = int(block) * 3;
+  vec4 place = texelFetch(blocks, b), q = texelFetch(blocks, b + 1);
+  world = place.xyz + turn(q, at);
+  n = turn(q, normal);
+  albedo = texelFetch(blocks, b + 2).rgb;
+  if (joint != 0xffffffffu) {
+    vec4 j = texelFetch(joints, int(joint));
+    albedo = by_damage > 0.5 ? mix(albedo, vec3(0.75), 0.15) : mortar;
+  }
+  gl_Position = camera * vec4(world, 1.0);
+}
+)";
+
+// Across a chamfer the normal is interpolated from one face to the next. Its length, below 1, gives the distance from the faces.
+const std::string solid_fragment = lighting + R"(
+in vec3 world, n, albedo;
+uniform float darker_edge;
+out vec4 color;
+void main() {
+  float edge = clamp((1.0 - dot(n, n)) * 2.2, 0.0, 1.0);
+  color = srgb(lit(albedo * (1.0 - darker_edge * edge), world, normalize(n), 1.0 - 0.25 * edge));
+}
+)";
+
+const std::string shade_vertex = R"(
+layout(location = 0) in vec3 at;
+layout(location = 2) in uint block;
+void main() {
+  int b = int(block) * 3;
+  gl_Position = camera * vec4(texelFetch(blocks, b).xyz + turn(texelFetch(blocks, b + 1), at), 1.0);
+}
+)";
+const std::string shade_fragment = "void main() {}\n";
+
+// The band of a crack spans the gap between the two sides. It is at least `thinnest` pixels wide if the joint has parted by `open` or more.
+// A joint that is only cracked has a little more than half of that. A crack of a tenth of a millimetre is thus visible from ten metres, and
+// distinct from an open joint. In a wide gap, no longer dark throughout, the band sinks inwards and then vanishes.
+const std::string crack_vertex = R"(
+layout(location = 0) in vec3 at_a;
+layout(location = 1) in vec3 at_b;
+layout(location = 2) in vec3 out_of;
+layout(location = 3) in vec3 normal;
+layout(location = 4) in uvec3 who;
+layout(location = 5) in float side;
+uniform float pixel, thinnest, proud, open, widest;
+out float strength;
+void main() {
+  int a = int(who.x) * 3, b = int(who.y) * 3;
+  vec4 qa = texelFetch(blocks, a + 1), qb = texelFetch(blocks, b + 1);
+  vec3 pa = texelFetch(blocks, a).xyz + turn(qa, at_a), pb = texelFetch(blocks, b).xyz + turn(qb, at_b);
+  vec4 j = texelFetch(joints, int(who.z));
+  float parted = clamp(j.y / open, 0.0, 1.0);
+  strength = j.x * (0.75 + 0.25 * parted);
+  float gap = distance(pa, pb), at_pixel = pixel * distance(eye, pa);
+  float least = thinnest * at_pixel * (0.3 + 0.3 * j.x + 0.4 * parted);
+  float half_more = 0.5 * max(0.0, least - gap);
+  vec4 q = side < 0.0 ? qa : qb;
+  vec3 p = (side < 0.0 ? pa : pb) + turn(q, normal) * (side * half_more) + turn(q, out_of) * (max(proud, 0.15 * at_pixel) - max(0.0, gap - least));
+  bool shown = j.x > 0.05 && j.y < widest;
+  gl_Position = shown ? camera * vec4(p, 1.0) : vec4(0.0, 0.0, 2.0, 1.0);
+}
+)";
+const std::string crack_fragment = R"(
+in float strength;
+out vec4 color;
+void main() { color = srgb(mix(vec3(0.17, 0.14, 0.12), vec3(0.008, 0.007, 0.007), strength)); }
+)";
+
+const std::string ground_vertex = R"(
+layout(location = 0) in vec2 corner;
+uniform vec3 middle;
+uniform float reach;
+out vec3 world;
+void main() {
+  world = middle + vec3(corner * reach, 0.0);
+  gl_Position = camera * vec4(world, 1.0);
+}
+)";
+const std::string ground_fragment = lighting + R"(
+in vec3 world;
+uniform vec3 middle;
+uniform float grid, fade, far;  // m: lines, where they end, where the ground is lost in the haze
+out vec4 color;
+// Coverage of lines of the given width, one each `period`, as a box filter of the pixel would see them.
+float lines(float x, float period, float width) {
+  float w = fwidth(x) + 1e-6;
+  float d = abs(fract(x / period + 0.5) - 0.5) * period;
+  return clamp((0.5 * (width + w) - d) / w, 0.0, 1.0) * min(1.0, width / w) ;
+}
+void main() {
+  vec2 p = world.xy;
+  float line = max(lines(p.x, grid, 0.016 * grid), lines(p.y, grid, 0.016 * grid));
+  float r = distance(world.xy, middle.xy) / fade;
+  vec3 base = mix(vec3(0.54, 0.535, 0.52), vec3(0.33, 0.31, 0.31), line * 0.6 * clamp(1.8 - r, 0.0, 1.0));
+  vec3 c = lit(base, world, vec3(0.0, 0.0, 1.0), 1.0);
+  color = srgb(mix(c, horizon, smoothstep(1.0, 5.0, distance(eye, world) / far)));
+}
+)";
+
+const std::string screen_vertex = R"(
+out vec2 uv;
+void main() {
+  uv = vec2((gl_VertexID & 1) * 2, (gl_VertexID >> 1) * 2);
+  gl_Position = vec4(uv * 2.0 - 1.0, 1.0, 1.0);
+}
+)";
+
+const std::string sky_fragment = R"(
+in vec2 uv;
+uniform mat4 to_world;        // clip to world
+out vec4 color;
+void main() {
+  vec4 far = to_world * vec4(uv * 2.0 - 1.0, 1.0, 1.0);
+  float up = normalize(far.xyz / far.w - eye).z;
+  color = srgb(mix(horizon, vec3(0.46, 0.60, 0.76), smoothstep(0.0, 0.55, up)));
+}
+)";
+
+// Alchemy ambient obscurance (McGuire, Osman, Bukowski, Hennessy 2011, eq. 10), from the depth alone, at half resolution.
+const std::string occlusion_fragment = R"(
+in vec2 uv;
+uniform sampler2D depth;
+uniform vec4 unproject;       // of clip to view: 1/p00, 1/p11, p02, p12
+uniform vec2 depth_range;     // near, far (m)
+uniform float radius;         // m
+uniform float radius_uv;      // of the picture's height at a distance of 1 m
+uniform vec2 texel;           // of the depth
+out vec4 color;
+
+float distance_at(vec2 at) {
+  float z = texture(depth, at).r * 2.0 - 1.0;
+  return 2.0 * depth_range.x * depth_range.y / (depth_range.y + depth_range.x - z * (depth_range.y - depth_range.x));
+}
+vec3 point(vec2 at) {
+  at = (floor(at / texel) + 0.5) * texel;  // where the depth was taken
+  float d = distance_at(at);
+  vec2 ndc = at * 2.0 - 1.0;
+  return vec3((ndc + unproject.zw) * unproject.xy * d, -d);
+}
+void main() {
+  vec3 p = point(uv);
+  if (-p.z > 0.98 * depth_range.y) { color = vec4(1.0, 0.0, 0.0, 1.0); return; }
+  vec3 right = point(uv + vec2(texel.x, 0.0)) - p, left = p - point(uv - vec2(texel.x, 0.0));
+  vec3 above = point(uv + vec2(0.0, texel.y)) - p, below = p - point(uv - vec2(0.0, texel.y));
+  vec3 n = normalize(cross(abs(right.z) < abs(left.z) ? right : left, abs(above.z) < abs(below.z) ? above : below));
+  ivec2 cell = ivec2(gl_FragCoord.xy) & 3;
+  float kind = float((cell.x * 4 + cell.y * 7) & 15), turn = kind / 16.0 * 6.2831853, jitter = fract(kind * 0.618034);
+  float r = radius_uv / -p.z, aspect = texel.x / texel.y, sum = 0.0;
+  const int count = 9;
+  for (int i = 0; i < count; ++i) {
+    float along = (float(i) + jitter) / float(count), angle = turn + 6.2831853 * 3.0 * along;
+    vec3 v = point(uv + vec2(cos(angle) * aspect, sin(angle)) * (r * along)) - p;
+    float vv = dot(v, v);
+    sum += max(0.0, dot(v, n) + p.z * 0.0012) / (vv + 0.01 * radius * radius) * step(vv, 2.5 * radius * radius);
+  }
+  color = vec4(clamp(1.0 - 1.5 * radius / float(count) * sum, 0.0, 1.0), 0.0, 0.0, 1.0);
+}
+)";
+
+// Mean over the 4 x 4 pattern of rotations, of pixels with similar depth.
+const std::string blur_fragment = R"(
+in vec2 uv;
+uniform sampler2D occlusion, depth;
+uniform vec2 texel;           // of the occlusion
+uniform vec2 depth_range;
+out vec4 color;
+float distance_at(vec2 at) {
+  float z = texture(depth, at).r * 2.0 - 1.0;
+  return 2.0 * depth_range.x * depth_range.y / (depth_range.y + depth_range.x - z * (depth_range.y - depth_range.x));
+}
+void main() {
+  float here = distance_at(uv), sum = 0.0, weight = 0.0;
+  for (int i = -2; i < 2; ++i)
+    for (int j = -2; j < 2; ++j) {
+      vec2 at = uv + (vec2(i, j) + 0.5) * texel;
+      float w = max(0.001, 1.0 - abs(distance_at(at) - here) / (0.02 * here));
+      sum += w * texture(occlusion, at).r;
+      weight += w;
+    }
+  color = vec4(sum / weight, 0.0, 0.0, 1.0);
+}
+)";
+
+const std::string finish_fragment = R"(
+in vec2 uv;
+uniform sampler2D picture, occlusion;
+out vec4 color;
+void main() {
+  float open = texture(occlusion, uv).r;
+  color = vec4(texture(picture, uv).rgb * (0.30 + 0.70 * open), 1.0);
+}
+)";
+
+}  // namespace erbs::render

@@ -1,0 +1,167 @@
+#include "render/movie/movie.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "engine/base/error.h"
+#include "engine/base/system/affinity.h"
+#include "engine/base/text.h"
+#include "render/draw/overlay.h"
+#include "render/movie/video.h"
+#include "render/movie/workers.h"
+
+namespace erbs::render {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::vector<Camera> chosen_cameras(const Run& run, const Show& show, const Movie& movie) {
+  const Look& l = movie.look;
+  const std::vector<Camera> all = run.cameras.empty() ? choose_cameras(show.stage, l.width / (l.height - l.top - l.bottom)) : run.cameras;
+  if (movie.cameras.empty()) return {all.front()};
+  std::vector<Camera> chosen;
+  for (const std::string& name : movie.cameras) {
+    const std::size_t before = chosen.size();
+    for (const Camera& c : all)
+      if (name == "all" || c.name == name) chosen.push_back(c);
+    if (chosen.size() > before) continue;
+    std::string known;
+    for (const Camera& c : all) known += " " + c.name;
+    throw Error("--camera " + shown(name, 60) + " is none of this run's:" + known + " (or all)");
+  }
+  return chosen;
+}
+
+// Name for files: letters, digits, - and _; other characters become _.
+std::string file_name(std::string name) {
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
+  return name;
+}
+
+// Output paths of one camera.
+struct Files {
+  fs::path frames;
+  std::string stem, video;
+  bool stills;
+  std::string picture(std::size_t index, double t) const {
+    return (frames / (stills ? fmt::format("{}_t{:.3f}s.png", stem, t) : fmt::format("{}_{:05}.png", stem, index + 1))).string();
+  }
+};
+
+// With --force, removes the pictures of an earlier and perhaps longer movie. Without it, Error if an output exists.
+Files prepare_files(const Run& run, const Movie& movie, const Camera& camera, const Schedule& schedule) {
+  const fs::path dir(run.dir);
+  Files files{dir / "frames", file_name(camera.name), "", !movie.stills.empty()};
+  if (movie.video && movie.stills.empty()) files.video = (dir / fmt::format("{}_{}.mp4", file_name(run.name), files.stem)).string();
+  for (const std::string& path : {files.video, files.picture(0, schedule.times.front())})
+    if (!movie.force && !path.empty() && fs::exists(path)) throw Error("it exists already; --force writes it anew", {path, 0});
+  std::error_code failed;
+  fs::create_directories(files.frames, failed);
+  if (failed) throw Error("the folder cannot be made; may you write there?", {files.frames.string(), 0});
+  if (!files.stills)
+    for (std::size_t i = 0; fs::remove(files.picture(i, 0), failed); ++i) {}
+  return files;
+}
+
+// Drawing of single frames in a process of its own: the picture, its overlay, and its file.
+Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const Camera& camera, const Files& files,
+                     const Schedule& schedule) {
+  const Look& l = movie.look;
+  const View view = look(camera, show.stage, l.width, l.height, l.top, l.bottom);
+  const auto painter = std::make_shared<Painter>(show, l, movie.context);
+  const auto overlay = std::make_shared<Overlay>(run, show, l, camera, view, files.stills ? 1 : schedule.slow);
+  return [=, &files](std::size_t index, const MotionFrame& frame) {
+    Image image = painter->draw(frame, camera);
+    overlay->draw(image, frame.t);
+    write_png(files.picture(index, frame.t), image);
+    return image;
+  };
+}
+
+// Progress as one updated line on a terminal, otherwise as a new line every ten seconds.
+class Progress {
+ public:
+  explicit Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO)) {}
+  void tell(const std::string& camera, std::size_t frame, std::size_t all) {
+    if (quiet_ || since(last_) < (terminal_ ? 0.2 : 10)) return;
+    last_ = Clock::now();
+    const double rate = static_cast<double>(frame) / since(start_);
+    fmt::print(stderr, "{}{}: frame {} of {}, {:.1f} a second, {:.0f} s left{}", terminal_ ? "\r" : "", camera, frame, all, rate,
+               static_cast<double>(all - frame) / rate, terminal_ ? "  " : "\n");
+    std::fflush(stderr);
+    shown_ = terminal_;
+  }
+  ~Progress() {
+    if (shown_) fmt::print(stderr, "\r{:70}\r", "");
+  }
+
+ private:
+  bool quiet_, terminal_, shown_ = false;
+  Clock::time_point start_ = Clock::now(), last_ = start_;
+};
+
+bool film(const Run& run, const Show& show, const MotionReader& reader, const Movie& movie, const Camera& camera, const Schedule& schedule,
+          const std::atomic<bool>& stop) {
+  const Files files = prepare_files(run, movie, camera, schedule);
+  const std::size_t all = schedule.times.size();
+  const auto wish = static_cast<std::size_t>(movie.threads > 0 ? movie.threads : usable_processors());
+  const auto start = Clock::now();
+  const auto ordered = [&](std::size_t i) {
+    MotionFrame f = frame_at(reader, schedule.times[i]);
+    f.t = schedule.times[i];
+    return f;
+  };
+  std::size_t made = 0;
+  // Started before ffmpeg; otherwise these processes would hold its input open.
+  Workers workers(std::clamp<std::size_t>(wish, 1, all), movie.look.width, movie.look.height, ordered(0),
+                  [&] { return drawer(run, show, movie, camera, files, schedule); });
+  std::optional<Video> video;
+  if (!files.video.empty()) video.emplace(files.video, movie.look.width, movie.look.height, movie.fps);
+  {
+    Progress progress(movie.quiet);
+    for (std::size_t i = 0; i < workers.count(); ++i) workers.order(i, i, ordered(i));
+    for (; made < all && !stop; ++made) {
+      const std::size_t worker = made % workers.count(), next = made + workers.count();
+      const Image image = workers.collect(worker);
+      if (next < all) workers.order(worker, next, ordered(next));
+      if (video) video->add(image);
+      progress.tell(camera.name, made + 1, all);
+    }
+  }
+  if (video && made == all) video->finish();  // a video is complete or absent
+  const double wall = since(start);
+  if (!movie.quiet)
+    fmt::print("{}{} {} ({} frames {}x{} in {:.1f} s, {:.3f} s each, {} at a time)\n",
+               made == all ? "" : "interrupted; ", files.video.empty() || made < all ? "pictures:" : "video:", files.video.empty() || made < all ? shown(files.frames.string(), 400) : shown(files.video, 400), made,
+               movie.look.width, movie.look.height, wall, made ? wall / static_cast<double>(made) : 0, workers.count());
+  return made == all;
+}
+
+}  // namespace
+
+bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, const std::atomic<bool>& stop) {
+  Movie movie = wish;
+  movie.look.top = overlay_top(movie.look.height);
+  movie.look.bottom = overlay_bottom(movie.look.height, !run.record.axis.empty());
+  const Schedule schedule = schedule_of(movie, reader.times());
+  std::vector<MotionFrame> some;
+  const std::size_t step = std::max<std::size_t>(1, reader.times().size() / 24);
+  for (std::size_t i = 0; i < reader.times().size(); i += step) some.push_back(reader.read(static_cast<int>(i)));
+  some.push_back(reader.read(static_cast<int>(reader.times().size()) - 1));
+  const Show show = prepare_show(reader.scene(), run, some);
+  for (const Camera& camera : chosen_cameras(run, show, movie))
+    if (!film(run, show, reader, movie, camera, schedule, stop)) return false;
+  return true;
+}
+
+}  // namespace erbs::render

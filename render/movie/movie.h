@@ -1,0 +1,39 @@
+// Frames of a run as pictures and as a video, one camera after another.
+#pragma once
+#include <atomic>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/draw/draw.h"
+
+namespace erbs::render {
+
+struct Movie {
+  Look look;
+  std::vector<std::string> cameras;                // names; empty: the first camera; "all": all cameras
+  double fps = 25;                                 // of the video
+  double slow = 1;                                 // seconds of video per second of the run
+  std::string frames;                              // "": as fps and slow require; "every": each recorded frame; a number: that many frames
+  std::optional<std::pair<double, double>> range;  // s
+  std::vector<double> stills;                      // s; disables the video
+  bool video = true, force = false, quiet = false;
+  int threads = 0;  // 0: one per processor
+  std::string context = "auto";
+};
+
+// Times (s) of the pictures, and the slow-motion factor of the video.
+struct Schedule {
+  std::vector<double> times;
+  double slow = 1;
+};
+Schedule schedule_of(const Movie& movie, const std::vector<double>& recorded);
+
+// State at time t: a recorded frame, or an interpolation of two (positions linear, rotations along the shortest arc).
+MotionFrame frame_at(const MotionReader& reader, double t);
+
+// Draws and writes everything, and prints the paths written. False if `stop` was set meanwhile.
+bool make_movie(const Run& run, const MotionReader& reader, const Movie& movie, const std::atomic<bool>& stop);
+
+}  // namespace erbs::render

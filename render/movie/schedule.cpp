@@ -1,0 +1,76 @@
+// Times shown by a movie.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "render/movie/movie.h"
+
+namespace erbs::render {
+namespace {
+
+void evenly(Schedule& s, double from, double step, int count) {
+  for (int i = 0; i < count; ++i) s.times.push_back(from + step * i);
+}
+
+}  // namespace
+
+Schedule schedule_of(const Movie& movie, const std::vector<double>& recorded) {
+  if (recorded.empty()) throw Error("the run has no frames yet; run it longer than its frame_dt");
+  const double first = recorded.front(), last = recorded.back();
+  Schedule s{{}, movie.slow};
+  if (!movie.stills.empty()) {
+    // The last step may fall slightly short of the duration that the user asks for.
+    const double slack = 1e-9 + (recorded.size() > 1 ? 0.05 * (last - first) / static_cast<double>(recorded.size() - 1) : 0);
+    for (double t : movie.stills) {
+      if (t < first - slack || t > last + slack)
+        throw Error(fmt::format("--stills {} is not within the run, which has frames from {} s to {} s", t, first, last));
+      s.times.push_back(t);
+    }
+    return s;
+  }
+  const double from = movie.range ? std::max(first, movie.range->first) : first;
+  const double to = movie.range ? std::min(last, movie.range->second) : last;
+  if (from > to)
+    throw Error(fmt::format("--time {}:{} holds no frame; the run has frames from {} s to {} s", movie.range->first, movie.range->second,
+                            first, last));
+  if (movie.frames.empty()) {
+    const double step = 1 / (movie.fps * movie.slow);
+    evenly(s, from, step, 1 + static_cast<int>((to - from) / step + 1e-6));
+    return s;
+  }
+  if (movie.frames == "every") {
+    for (double t : recorded)
+      if (t >= from - 1e-9 && t <= to + 1e-9) s.times.push_back(t);
+  } else {
+    int count = 0;
+    const char* end = movie.frames.data() + movie.frames.size();
+    if (std::from_chars(movie.frames.data(), end, count).ptr != end || count < 1)
+      throw Error("--frames " + movie.frames + " is neither `every` nor a number of frames from 1 on");
+    evenly(s, from, count > 1 ? (to - from) / (count - 1) : 0, count);
+  }
+  if (s.times.size() > 1 && s.times.back() > s.times.front())
+    s.slow = static_cast<double>(s.times.size() - 1) / movie.fps / (s.times.back() - s.times.front());
+  return s;
+}
+
+MotionFrame frame_at(const MotionReader& reader, double t) {
+  const std::vector<double>& times = reader.times();
+  const auto after = static_cast<int>(std::lower_bound(times.begin(), times.end(), t - 1e-9) - times.begin());
+  if (after == 0) return reader.read(0);
+  if (after == static_cast<int>(times.size())) return reader.read(after - 1);
+  if (times[static_cast<std::size_t>(after)] - t < 1e-6) return reader.read(after);
+  MotionFrame f = reader.read(after - 1);
+  const MotionFrame g = reader.read(after);
+  const auto s = static_cast<float>((t - f.t) / (g.t - f.t));
+  for (std::size_t b = 0; b + 6 < f.poses.size(); b += 7) {
+    for (std::size_t k = b; k < b + 3; ++k) f.poses[k] += s * (g.poses[k] - f.poses[k]);
+    const Eigen::Quaternionf p(f.poses[b + 3], f.poses[b + 4], f.poses[b + 5], f.poses[b + 6]);
+    const Eigen::Quaternionf q = p.slerp(s, Eigen::Quaternionf(g.poses[b + 3], g.poses[b + 4], g.poses[b + 5], g.poses[b + 6]));
+    f.poses[b + 3] = q.w(), f.poses[b + 4] = q.x(), f.poses[b + 5] = q.y(), f.poses[b + 6] = q.z();
+  }
+  f.t = t;
+  return f;
+}
+
+}  // namespace erbs::render

@@ -1,0 +1,25 @@
+// An MP4 file that ffmpeg makes from raw pictures.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "render/image/image.h"
+#include "render/movie/process.h"
+
+namespace erbs::render {
+
+class Video {
+ public:
+  Video(std::string path, int width, int height, double fps);
+  ~Video();  // without finish(), no file remains
+  Video(const Video&) = delete;
+  Video& operator=(const Video&) = delete;
+  void add(const Image& image);
+  void finish();  // gives the complete file its name
+
+ private:
+  std::string path_, unfinished_;
+  std::optional<Process> ffmpeg_;
+};
+
+}  // namespace erbs::render

@@ -1,0 +1,188 @@
+#include "render/run/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace erbs::render {
+namespace {
+
+Vec3 corner(const MotionShape& s, int i) {
+  const std::size_t k = 3 * static_cast<std::size_t>(i);
+  return {s.vertices[k], s.vertices[k + 1], s.vertices[k + 2]};
+}
+
+Loop loop_of(const MotionShape& shape, const std::vector<int>& face) {
+  Loop loop;
+  for (int i : face) loop.push_back(corner(shape, i));
+  return loop;
+}
+
+Vec3 middle(const Loop& loop) {
+  Vec3 sum = Vec3::Zero();
+  for (const Vec3& p : loop) sum += p;
+  return sum / static_cast<double>(std::max<std::size_t>(1, loop.size()));
+}
+
+Span append(std::vector<std::uint32_t>& all, const std::vector<std::uint32_t>& some) {
+  const Span span{static_cast<std::uint32_t>(all.size()), static_cast<std::uint32_t>(all.size() + some.size())};
+  all.insert(all.end(), some.begin(), some.end());
+  return span;
+}
+
+// A face is buried if joints cover it, up to the gaps of the mortar.
+std::vector<bool> find_buried(const MotionScene& scene, int block, const MotionShape& shape, const std::vector<int>& joints) {
+  std::vector<bool> buried;
+  const Vec3 rest = scene.blocks[static_cast<std::size_t>(block)].rest;
+  for (const std::vector<int>& face : shape.faces) {
+    const Loop loop = loop_of(shape, face);
+    const Vec3 twice = area_normal(loop), n = twice.normalized();
+    double covered = 0;
+    for (int j : joints) {
+      const MotionJoint& joint = scene.joints[static_cast<std::size_t>(j)];
+      if (joint.polygon.size() < 3) continue;
+      const Vec3 out = joint_normal(scene, joint) * (joint.a == block ? 1.0 : -1.0);
+      const Vec3 at = joint.polygon.front() + scene.blocks[static_cast<std::size_t>(joint.a)].rest - rest;
+      const double far = std::abs((at - loop.front()).dot(n));
+      if (out.dot(n) > 0.999 && far < 0.6 * joint.thickness + 1e-4) covered += 0.5 * area_normal(joint.polygon).norm();
+    }
+    buried.push_back(covered > 0.93 * 0.5 * twice.norm());
+  }
+  return buried;
+}
+
+}  // namespace
+
+Vec3 area_normal(const Loop& loop) {
+  Vec3 n = Vec3::Zero();
+  for (std::size_t i = 0; i < loop.size(); ++i) n += loop[i].cross(loop[(i + 1) % loop.size()]);
+  return n;
+}
+
+Loop inset(const Loop& loop, const Vec3& n, double d) {
+  const std::size_t count = loop.size();
+  const Vec3 c = middle(loop);
+  std::vector<Vec3> inward(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    inward[i] = n.cross(loop[(i + 1) % count] - loop[i]).normalized();
+    d = std::min(d, 0.3 * std::abs(inward[i].dot(c - loop[i])));
+  }
+  Loop result(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec3 &before = inward[(i + count - 1) % count], &after = inward[i];
+    // The point at distance d from both sides.
+    result[i] = loop[i] + (before + after) * (d / std::max(0.05, 1 + before.dot(after)));
+  }
+  return result;
+}
+
+std::uint32_t add_vertex(Mesh& mesh, const Vec3& p, const Vec3& n, std::uint32_t block, std::uint32_t joint) {
+  Vertex v{{}, {}, block, joint};
+  for (int k = 0; k < 3; ++k) v.p[k] = static_cast<float>(p[k]), v.n[k] = static_cast<float>(n[k]);
+  mesh.vertices.push_back(v);
+  return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
+}
+
+void add_fan(std::vector<std::uint32_t>& index, const std::vector<std::uint32_t>& loop) {
+  for (std::size_t i = 2; i < loop.size(); ++i) index.insert(index.end(), {loop[0], loop[i - 1], loop[i]});
+}
+
+Vec3 joint_normal(const MotionScene& scene, const MotionJoint& joint) {
+  if (joint.normal.norm() > 0.5) return joint.normal.normalized();
+  const Vec3 n = area_normal(joint.polygon);
+  if (n.norm() == 0) return Vec3::UnitZ();
+  const Vec3 from_a = scene.blocks[static_cast<std::size_t>(joint.b)].rest - scene.blocks[static_cast<std::size_t>(joint.a)].rest;
+  return (n.dot(from_a) < 0 ? -n : n).normalized();
+}
+
+void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double chamfer, const std::vector<bool>& buried_face,
+              std::vector<std::uint32_t>& open, std::vector<std::uint32_t>& buried) {
+  // Vertices for each corner of each face. The faces around a corner are found by the directed edge that leaves it.
+  std::vector<std::vector<std::uint32_t>> ids;
+  std::map<std::pair<int, int>, std::pair<std::size_t, std::size_t>> edge;  // from, to -> face, position in its loop
+  for (const std::vector<int>& face : shape.faces) {
+    const Loop loop = loop_of(shape, face);
+    const Vec3 n = area_normal(loop).normalized();
+    ids.emplace_back();
+    for (const Vec3& p : inset(loop, n, chamfer)) ids.back().push_back(add_vertex(mesh, p, n, block, no_joint));
+    add_fan(buried_face[ids.size() - 1] ? buried : open, ids.back());
+    for (std::size_t k = 0; k < face.size(); ++k) edge[{face[k], face[(k + 1) % face.size()]}] = {ids.size() - 1, k};
+  }
+  const auto next = [&](std::size_t face, std::size_t k) { return (k + 1) % shape.faces[face].size(); };
+  std::map<int, bool> done;
+  for (const auto& [ends, at] : edge) {
+    const auto [i, j] = ends;
+    const auto opposite = edge.find({j, i});
+    if (opposite == edge.end()) continue;
+    const auto [f, k] = at;
+    const auto [g, m] = opposite->second;
+    if (i < j) add_fan(buried_face[f] && buried_face[g] ? buried : open, {ids[f][next(f, k)], ids[f][k], ids[g][next(g, m)], ids[g][m]});
+    if (done[i]) continue;
+    done[i] = true;
+    // Walks around corner i, anticlockwise seen from outside: the edge that enters at this face leaves at the next.
+    std::vector<std::uint32_t> around;
+    bool all_buried = true;
+    auto here = at;
+    for (std::size_t iteration = 0; iteration < shape.faces.size(); ++iteration) {
+      around.push_back(ids[here.first][here.second]);
+      all_buried = all_buried && buried_face[here.first];
+      const std::vector<int>& loop = shape.faces[here.first];
+      const auto before = edge.find({loop[here.second], loop[(here.second + loop.size() - 1) % loop.size()]});
+      if (before == edge.end() || before->second == at) break;
+      here = before->second;
+    }
+    add_fan(all_buried ? buried : open, around);
+  }
+}
+
+void add_shades(Mesh& mesh, const MotionScene& scene, const std::vector<bool>& hidden, double grow) {
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
+    if (hidden[b]) continue;
+    for (int part : scene.blocks[b].parts) {
+      const MotionShape& shape = scene.shapes[static_cast<std::size_t>(part)];
+      const auto first = static_cast<std::uint32_t>(mesh.shades.size());
+      const std::size_t corners = shape.vertices.size() / 3;
+      // Moves each corner so that all its faces move by `grow`; approximately if more than three faces meet.
+      std::vector<Mat3> planes(corners, Mat3::Zero());
+      std::vector<Vec3> sums(corners, Vec3::Zero());
+      for (const std::vector<int>& face : shape.faces) {
+        const Vec3 n = area_normal(loop_of(shape, face)).normalized();
+        std::vector<std::uint32_t> loop;
+        for (int i : face) {
+          planes[static_cast<std::size_t>(i)] += n * n.transpose();
+          sums[static_cast<std::size_t>(i)] += n;
+          loop.push_back(first + static_cast<std::uint32_t>(i));
+        }
+        add_fan(mesh.shade_index, loop);
+      }
+      for (std::size_t i = 0; i < corners; ++i) {
+        const Vec3 p = corner(shape, static_cast<int>(i)) + grow * (planes[i] + 1e-6 * Mat3::Identity()).inverse() * sums[i];
+        Vertex v{{}, {}, static_cast<std::uint32_t>(b), no_joint};
+        for (int k = 0; k < 3; ++k) v.p[k] = static_cast<float>(p[k]);
+        mesh.shades.push_back(v);
+      }
+    }
+  }
+}
+
+Mesh build_mesh(const MotionScene& scene, const std::vector<bool>& hidden, double chamfer) {
+  Mesh mesh;
+  std::vector<std::vector<int>> touching(scene.blocks.size());
+  for (std::size_t j = 0; j < scene.joints.size(); ++j)
+    for (int block : {scene.joints[j].a, scene.joints[j].b}) touching[static_cast<std::size_t>(block)].push_back(static_cast<int>(j));
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
+    std::vector<std::uint32_t> open, buried;
+    for (int part : scene.blocks[b].parts) {
+      if (hidden[b]) continue;
+      const MotionShape& shape = scene.shapes[static_cast<std::size_t>(part)];
+      add_part(mesh, shape, static_cast<std::uint32_t>(b), chamfer, find_buried(scene, static_cast<int>(b), shape, touching[b]), open,
+               buried);
+    }
+    mesh.open.push_back(append(mesh.index, open));
+    mesh.buried.push_back(append(mesh.index, buried));
+  }
+  add_joints(mesh, scene, touching, chamfer);
+  return mesh;
+}
+
+}  // namespace erbs::render

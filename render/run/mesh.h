@@ -1,0 +1,72 @@
+// Triangles of a scene: bricks with chamfered edges, mortar, and opening cracks in it.
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "engine/record/folder/motion_file.h"
+
+namespace erbs::render {
+
+// A vertex of a brick, or of mortar that sticks to it.
+struct Vertex {
+  float p[3];           // m, relative to the centroid of its block, world axes at rest
+  float n[3];           // unit outward normal of the face
+  std::uint32_t block;  // the block it moves with
+  std::uint32_t joint;  // the joint of this mortar; no_joint on a brick
+};
+inline constexpr std::uint32_t no_joint = 0xffffffff;
+
+// A vertex of the dark band that shows a broken joint. The band spans from the mortar of a to the mortar of b at their present poses.
+struct CrackVertex {
+  float pa[3];      // m, a point of the joint at rest, relative to the centroid of a ...
+  float pb[3];      // m, ... and the same point relative to the centroid of b
+  float out[3];     // unit, in the plane of the joint, pointing out of the wall (axes at rest)
+  float normal[3];  // unit, from a to b (axes at rest)
+  std::uint32_t a, b, joint;
+  float side;  // -1 on a, +1 on b
+};
+
+// A range of triangles, as positions in an index.
+struct Span {
+  std::uint32_t begin = 0, end = 0;
+};
+
+// Most of an intact wall is invisible: faces inside it, and mortar behind the pointing. These triangles are kept separate and drawn only
+// around joints that have moved.
+struct Mesh {
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> index;
+  std::vector<Span> open, buried;  // of each block [blocks]
+  std::vector<Span> pointing;      // visible mortar of a closed joint, at the wall's surface [joints]
+  std::vector<Span> beds;          // mortar bed of a moved joint: half of it on each block [joints]
+  // Shadow casters: bare blocks, enlarged until they meet across their joints, so that no light passes through mortar.
+  std::vector<Vertex> shades;
+  std::vector<std::uint32_t> shade_index;
+  std::vector<CrackVertex> cracks;
+  std::vector<std::uint32_t> crack_index;
+  std::vector<Span> crack;  // of each joint, in crack_index [joints]
+};
+
+// `hidden[block]`: not drawn, since the ground is a plane of its own. `chamfer`: m, width cut off each edge. Normals are those of the
+// faces, so a chamfer is shaded round.
+Mesh build_mesh(const MotionScene& scene, const std::vector<bool>& hidden, double chamfer);
+
+// Fills mesh.shades. `grow`: m, outward offset of each face.
+void add_shades(Mesh& mesh, const MotionScene& scene, const std::vector<bool>& hidden, double grow);
+
+// Unit normal of the joint from a to b.
+Vec3 joint_normal(const MotionScene& scene, const MotionJoint& joint);
+
+// Parts of build_mesh.
+using Loop = std::vector<Vec3>;
+Vec3 area_normal(const Loop& loop);                     // Newell's normal; its length is twice the area
+Loop inset(const Loop& loop, const Vec3& n, double d);  // sides moved inwards by d, or less on a narrow face
+std::uint32_t add_vertex(Mesh& mesh, const Vec3& p, const Vec3& n, std::uint32_t block, std::uint32_t joint);
+void add_fan(std::vector<std::uint32_t>& index, const std::vector<std::uint32_t>& loop);
+// Adds a convex part. Its triangles go to `open`, or to `buried` if they touch only faces with buried_face.
+void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double chamfer, const std::vector<bool>& buried_face,
+              std::vector<std::uint32_t>& open, std::vector<std::uint32_t>& buried);
+// touching[block]: joints of each block.
+void add_joints(Mesh& mesh, const MotionScene& scene, const std::vector<std::vector<int>>& touching, double chamfer);
+
+}  // namespace erbs::render

@@ -1,0 +1,74 @@
+#include "render/run/run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "engine/base/error.h"
+#include "engine/record/folder/run_folder.h"
+
+namespace erbs::render {
+namespace {
+
+GroundRecord strongest_component(const CsvTable& histories) {
+  GroundRecord best;
+  const int time = histories.find("time_s");
+  if (time < 0) return best;
+  for (const std::string axis : {"x", "y", "z"}) {
+    const int column = histories.find("ground_a" + axis + "_m_s2");
+    if (column < 0) continue;
+    const std::vector<double>& a = histories.columns[static_cast<std::size_t>(column)];
+    double peak = 0;
+    for (double value : a) peak = std::max(peak, std::abs(value));
+    if (peak > best.peak) best = {axis, histories.columns[static_cast<std::size_t>(time)], a, peak};
+  }
+  return best;
+}
+
+// First crack (in dry masonry: first joint that opened), and collapse.
+std::vector<Mark> first_events(const CsvTable& events) {
+  std::vector<Mark> marks;
+  const int time = events.find("time_s"), event = events.find("event");
+  if (time < 0 || event < 0) return marks;
+  const std::vector<std::string>& what = events.text[static_cast<std::size_t>(event)];
+  const auto add = [&](const std::string& kind, const std::string& name) {
+    const auto at = std::find(what.begin(), what.end(), kind);
+    if (at == what.end()) return false;
+    marks.push_back({events.columns[static_cast<std::size_t>(time)][static_cast<std::size_t>(at - what.begin())], name});
+    return true;
+  };
+  if (!add("crack", "first crack")) add("open", "first opening");
+  add("collapse", "collapse");
+  return marks;
+}
+
+Vec3 linear(const Vec3& srgb) { return srgb.cwiseMax(0).cwiseMin(1).array().pow(2.2); }  // the shaders convert back
+
+}  // namespace
+
+Run read_run(const std::string& dir) {
+  const std::string manifest = run_file(dir, "manifest.json"), histories = run_file(dir, "histories.csv");
+  if (!std::filesystem::exists(dir)) throw Error("no such folder; give the folder of a run, e.g. runs/first", {dir, 0});
+  if (!std::filesystem::exists(manifest)) throw Error("no manifest.json in it; give the folder of a run, e.g. runs/first", {dir, 0});
+  const Manifest m = read_manifest(dir);
+  Run run;
+  run.dir = dir;
+  run.name = m.scene_name;
+  run.title = m.title.empty() ? m.scene_name : m.title;
+  while (!run.title.empty() && run.title.back() == '.') run.title.pop_back();  // a heading has no full stop
+  run.cameras = m.cameras;
+  for (const Camera& c : run.cameras)
+    if (!((c.eye - c.target).norm() > 1e-9 && c.fov > 0 && c.fov < pi))
+      throw Error(fmt::format("camera {} looks nowhere; its eye and target must differ and 0 < fov < 180 deg", c.name), {manifest, 0});
+  for (const Material& a : m.materials) run.materials.push_back({a.name, linear(a.color)});
+  if (const Json* tolerance = find_key(m.settings, "analysis.energy_gate.value"); tolerance && tolerance->is_number())
+    run.energy_tolerance = tolerance->get<double>();
+  if (const std::string metrics = run_file(dir, "metrics.json"); std::filesystem::exists(metrics))
+    run.status = read_json(metrics).value("status", "");
+  if (run.status == "completed") run.status.clear();
+  if (std::filesystem::exists(histories)) run.record = strongest_component(read_csv(histories));
+  if (const std::string events = run_file(dir, "events.csv"); std::filesystem::exists(events)) run.marks = first_events(read_csv(events));
+  return run;
+}
+
+}  // namespace erbs::render

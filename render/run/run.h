@@ -1,0 +1,43 @@
+// The part of a run folder that pictures need.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "engine/record/folder/motion_file.h"
+#include "engine/scene/scene.h"
+
+namespace erbs::render {
+
+struct Paint {
+  std::string name;
+  Vec3 color{0.70, 0.35, 0.25};  // linear 0..1
+};
+
+// One component of the ground motion over the whole run.
+struct GroundRecord {
+  std::string axis;       // "x", "y", "z"; empty without ground motion
+  std::vector<double> t;  // s
+  std::vector<double> a;  // m/s2
+  double peak = 0;        // m/s2, largest absolute value
+};
+
+// First event of a kind, for figures and the strip below pictures.
+struct Mark {
+  double t = 0;      // s
+  std::string name;  // "first crack", "collapse"
+};
+
+struct Run {
+  std::string dir, name, title;
+  std::vector<Camera> cameras;   // from the scene; may be empty
+  std::vector<Paint> materials;  // by material index
+  GroundRecord record;           // the strongest component
+  std::vector<Mark> marks;       // in order of time
+  double energy_tolerance = 0;        // relative; 0: unknown
+  std::string status;            // status of an unreliable run; "" if completed or still running
+};
+
+// Error if DIR is no run folder.
+Run read_run(const std::string& dir);
+
+}  // namespace erbs::render

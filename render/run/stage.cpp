@@ -1,0 +1,193 @@
+#include "render/run/stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace erbs::render {
+namespace {
+
+Eigen::AlignedBox3d box_of(const MotionScene& scene, const MotionBlock& block) {
+  Eigen::AlignedBox3d box;
+  for (int part : block.parts) {
+    const std::vector<float>& v = scene.shapes[static_cast<std::size_t>(part)].vertices;
+    for (std::size_t i = 0; i + 2 < v.size(); i += 3) box.extend(block.rest + Vec3(v[i], v[i + 1], v[i + 2]));
+  }
+  if (box.isEmpty()) box.extend(block.rest);
+  return box;
+}
+
+// The ground: a fixed block with a level top that extends far beyond everything on it.
+bool is_ground(const MotionBlock& block, const Eigen::AlignedBox3d& box, const MotionScene& scene, const Eigen::AlignedBox3d& rest) {
+  if (!block.fixed || rest.isEmpty()) return false;
+  for (int part : block.parts) {
+    const std::vector<float>& v = scene.shapes[static_cast<std::size_t>(part)].vertices;
+    int at_top = 0;
+    for (std::size_t i = 2; i < v.size(); i += 3) at_top += block.rest.z() + v[i] > box.max().z() - 1e-6 * box.sizes().norm() ? 1 : 0;
+    if (at_top < 3) return false;
+  }
+  const Vec3 own = box.sizes(), free = rest.sizes();
+  const double base = std::max(free.x(), free.y());
+  return own.x() > free.x() + 0.5 * base && own.y() > free.y() + 0.5 * base && box.max().z() < rest.center().z();
+}
+
+// Extent of most blocks: along each axis, all but the outermost 5 % on each side.
+Eigen::AlignedBox3d heap_of(const MotionFrame& frame, const std::vector<bool>& hidden) {
+  Eigen::AlignedBox3d heap(Vec3::Zero(), Vec3::Zero());
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> at;
+    for (std::size_t b = 0; b < hidden.size(); ++b)
+      if (const float x = frame.poses[7 * b + static_cast<std::size_t>(axis)]; !hidden[b] && std::isfinite(x))
+        at.push_back(static_cast<double>(x));
+    if (at.empty()) return {};
+    std::sort(at.begin(), at.end());
+    const std::size_t out = at.size() / 20;
+    heap.min()[axis] = at[out];
+    heap.max()[axis] = at[at.size() - 1 - out];
+  }
+  return heap;
+}
+
+}  // namespace
+
+Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_frames) {
+  Stage stage;
+  std::vector<Eigen::AlignedBox3d> boxes;
+  Eigen::AlignedBox3d free, all;
+  for (const MotionBlock& block : scene.blocks) {
+    boxes.push_back(box_of(scene, block));
+    all.extend(boxes.back());
+    if (!block.fixed) free.extend(boxes.back());
+  }
+  bool ground = false;
+  stage.hidden.assign(scene.blocks.size(), false);
+  for (std::size_t b = 0; b < boxes.size(); ++b) {
+    stage.hidden[b] = is_ground(scene.blocks[b], boxes[b], scene, free);
+    if (stage.hidden[b]) {
+      stage.ground_z = ground ? std::max(stage.ground_z, boxes[b].max().z()) : boxes[b].max().z();
+      ground = true;
+    } else {
+      stage.building.extend(boxes[b]);
+    }
+  }
+  if (stage.building.isEmpty()) stage.building.extend(Vec3(-1, -1, 0)), stage.building.extend(Vec3(1, 1, 1));
+  stage.reach = stage.building;
+  double lowest = stage.building.min().z();
+  for (const MotionFrame& f : some_frames)
+    for (std::size_t b = 0; b < boxes.size(); ++b) {
+      if (stage.hidden[b]) continue;
+      const Vec3 at(f.poses[7 * b], f.poses[7 * b + 1], f.poses[7 * b + 2]);
+      const double r = 0.5 * boxes[b].sizes().norm();
+      if (!at.allFinite() || (at - stage.building.center()).norm() > 3 * stage.size()) continue;
+      stage.reach.extend(Eigen::AlignedBox3d(at - Vec3::Constant(r), at + Vec3::Constant(r)));
+      lowest = std::min(lowest, at.z() - 0.5 * boxes[b].sizes().minCoeff());
+    }
+  if (!ground) stage.ground_z = lowest;
+  if (some_frames.empty()) return stage;
+  // Blocks thrown far away are ignored; a view that includes them would show the building too small.
+  const Vec3 aside = 0.6 * stage.size() * Vec3(1, 1, 0);
+  stage.heap = heap_of(some_frames.back(), stage.hidden).intersection({stage.building.min() - aside, stage.building.max() + aside});
+  return stage;
+}
+
+std::vector<Camera> choose_cameras(const Stage& stage, double aspect) {
+  // Points that must be visible: the building, and room on the ground for what falls beside it.
+  std::vector<Vec3> seen;
+  const Vec3 size = stage.building.sizes(), aside = 0.14 * size.z() * Vec3(1, 1, 0);
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 p = stage.building.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+    seen.push_back(p);
+    if (i < 4) seen.push_back(p + aside.cwiseProduct((p - stage.building.center()).cwiseSign()));  // the lower corners
+    if (!stage.heap.isEmpty()) seen.push_back(stage.heap.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+  }
+  std::vector<Camera> cameras(2);
+  const Vec3 directions[2] = {Vec3(0.62, -1, 0.34), Vec3(-1, -0.50, 0.42)};
+  const char* names[2] = {"corner", "side"};
+  for (std::size_t k = 0; k < 2; ++k) {
+    Camera& c = cameras[k];
+    c.name = names[k];
+    c.fov = 26 * pi / 180;
+    c.target = stage.building.center();
+    const Vec3 back = directions[k].normalized(), right = Vec3(0, 0, 1).cross(back).normalized(), up = back.cross(right);
+    const double half = std::tan(0.5 * c.fov);
+    double distance = std::max(1e-3, 3 * stage.size());
+    for (int iteration = 0; iteration < 8; ++iteration) {  // approaches in iterations and centres the target on the visible points
+      Eigen::AlignedBox2d shown;
+      for (const Vec3& p : seen) {
+        const Vec3 v = p - c.target;
+        shown.extend(Eigen::Vector2d(v.dot(right) / aspect, v.dot(up)) / (half * (distance - v.dot(back))));
+      }
+      c.target += distance * half * (shown.center().x() * aspect * right + shown.center().y() * up);
+      distance *= 1.06 * 0.5 * shown.sizes().maxCoeff();
+    }
+    c.eye = c.target + distance * back;
+  }
+  return cameras;
+}
+
+namespace {
+
+Eigen::Matrix4f world_to_camera(const Vec3& eye, const Vec3& target, const Vec3& up_hint) {
+  const Vec3 back = (eye - target).normalized();
+  Vec3 right = up_hint.cross(back);
+  if (right.norm() < 1e-6) right = Vec3(0, 1, 0).cross(back);
+  if (right.norm() < 1e-6) right = Vec3(1, 0, 0);
+  right.normalize();
+  const Vec3 up = back.cross(right);
+  Eigen::Matrix4d m = Eigen::Matrix4d::Identity();
+  m.row(0) << right.transpose(), -right.dot(eye);
+  m.row(1) << up.transpose(), -up.dot(eye);
+  m.row(2) << back.transpose(), -back.dot(eye);
+  return m.cast<float>();
+}
+
+}  // namespace
+
+View look(const Camera& camera, const Stage& stage, int width, int height, double top, double bottom) {
+  View v;
+  v.view = world_to_camera(camera.eye, camera.target, camera.up);
+  v.eye = camera.eye.cast<float>();
+  v.target_distance = static_cast<float>((camera.eye - camera.target).norm());
+  const double free = height - top - bottom;
+  const double scale = free / height / std::tan(0.5 * camera.fov);  // of the vertical coordinate
+  const double reach = (camera.eye - stage.building.center()).norm() + stage.size();
+  const double near = 0.02 * v.target_distance, far = 40 * reach;
+  Eigen::Matrix4d p = Eigen::Matrix4d::Zero();
+  p(0, 0) = scale * height / width;
+  p(1, 1) = scale;
+  p(1, 2) = -(bottom - top) / height;  // moves the target to the middle of the free part
+  p(2, 2) = -(far + near) / (far - near);
+  p(2, 3) = -2 * far * near / (far - near);
+  p(3, 2) = -1;
+  v.projection = p.cast<float>();
+  v.pixel = static_cast<float>(2 * std::tan(0.5 * camera.fov) / free);
+  return v;
+}
+
+Eigen::Vector3f sun_of(const Camera& camera) {
+  const Vec3 back = camera.eye - camera.target;
+  const double azimuth = std::atan2(back.y(), back.x()) - 32 * pi / 180, height = 48 * pi / 180;
+  return Vec3(std::cos(azimuth) * std::cos(height), std::sin(azimuth) * std::cos(height), std::sin(height)).cast<float>();
+}
+
+Eigen::Matrix4f shadow_view(const Stage& stage, const Eigen::Vector3f& sun) {
+  const Vec3 centre = stage.reach.center(), s = sun.cast<double>();
+  const double size = stage.reach.sizes().norm();
+  const Eigen::Matrix4d to_sun = world_to_camera(centre + size * s, centre, Vec3(0, 0, 1)).cast<double>();
+  Eigen::AlignedBox3d box;
+  for (int i = 0; i < 8; ++i) {
+    Vec3 p = stage.reach.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+    box.extend((to_sun * p.homogeneous()).head<3>());
+    p -= s * ((p.z() - stage.ground_z) / s.z());  // the shadow on the ground bounds the depth
+    box.extend((to_sun * p.homogeneous()).head<3>());
+  }
+  const Vec3 half = 0.51 * box.sizes(), mid = box.center();
+  Eigen::Matrix4d ortho = Eigen::Matrix4d::Identity();
+  for (int k = 0; k < 3; ++k) {
+    const double sign = k == 2 ? -1 : 1;
+    ortho(k, k) = sign / half[k];
+    ortho(k, 3) = -sign * mid[k] / half[k];
+  }
+  return (ortho * to_sun).cast<float>();
+}
+
+}  // namespace erbs::render

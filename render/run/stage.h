@@ -1,0 +1,39 @@
+// Extents of the building and its ground, and good viewpoints.
+#pragma once
+#include <vector>
+
+#include "engine/record/folder/motion_file.h"
+#include "engine/scene/scene.h"
+
+namespace erbs::render {
+
+struct Stage {
+  Eigen::AlignedBox3d building;                            // m, all blocks except the ground, at rest
+  Eigen::AlignedBox3d reach;                               // m, its visible extent over the whole run (for the shadow)
+  Eigen::AlignedBox3d heap;                                // m, extent of nearly all block centroids at the end
+  double ground_z = 0;                                     // m
+  std::vector<bool> hidden;                                // ground blocks, drawn as a plane [blocks]
+  double size() const { return building.sizes().norm(); }  // m
+};
+
+Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_frames);
+
+// Two cameras, each from one corner. They show the whole building and its final heap, in a picture of this width/height.
+std::vector<Camera> choose_cameras(const Stage& stage, double aspect);
+
+// View of a camera. The overlay covers the top and bottom of the picture; field of view and target of the camera refer to the part between.
+struct View {
+  Eigen::Matrix4f projection, view;  // view: world to camera
+  Eigen::Vector3f eye;
+  float pixel = 0;            // m, size of a pixel at a distance of 1 m
+  float target_distance = 0;  // m
+};
+View look(const Camera& camera, const Stage& stage, int width, int height, double top, double bottom);
+
+// The sun stands over the left shoulder of the camera, so that all views are lit alike. Unit vector towards the sun.
+Eigen::Vector3f sun_of(const Camera& camera);
+
+// Transform from world to the clip space of the shadow map, for this sun.
+Eigen::Matrix4f shadow_view(const Stage& stage, const Eigen::Vector3f& sun);
+
+}  // namespace erbs::render

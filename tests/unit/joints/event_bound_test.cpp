@@ -1,0 +1,112 @@
+// Opening and closing of joints: impacts at the default step conserve energy, and shaken structures come to rest.
+#include <catch2/catch.hpp>
+
+#include "engine/analysis/prepare.h"
+#include "engine/joints/event_bound.h"
+#include "engine/solve/energy.h"
+#include "engine/solve/step.h"
+#include "lua/language/script.h"
+
+namespace erbs {
+namespace {
+
+struct Ran {
+  Prepared run;
+  double highest = -1e300;  // m, highest position of the last block above rest
+};
+
+Ran ran(const std::string& text, double until) {
+  Script script(Script::Options{.quiet = true});
+  const Scene scene = script.load_text(text, "event.lua");
+  Ran out{prepare(scene, false)};
+  start_at_rest(scene, out.run, 1);
+  State& s = out.run.state;
+  const std::size_t last = std::size_t(out.run.model.nblock - 1);
+  Solver solver(out.run.model, s, 1);
+  solver.run({[](double) { return false; }, [] {}, [&] {
+                out.highest = std::max(out.highest, s.u[last].z());
+                return s.t >= until;
+              }});
+  return out;
+}
+
+std::string with(std::string text, const std::string& key, double value) {
+  for (std::size_t at; (at = text.find(key)) != std::string::npos;) text.replace(at, key.size(), std::to_string(value));
+  return text;
+}
+
+const char* const hop = R"(
+  material{name="stone", density=2000}
+  box{name="base", size={2,2,.2}, at={0,0,-.2}, fixed=true}
+  box{name="b", size={.4,.2,.05}, at={0,0,0}}
+  joint{law=dry{kn=KN, mu=.6}}
+  ground_motion{wave=half_sine{amplitude=-1.2*g, frequency=10}, direction="z"}
+  analysis{duration=1, dt_fraction=FRACTION}
+)";
+
+}  // namespace
+
+TEST_CASE("a block that hops on its bed keeps its energy at any step and stiffness", "[solve][event]") {
+  const double kn = GENERATE(1e9, 1e11), fraction = GENERATE(0.9, 0.3);
+  const Ran one = ran(with(with(hop, "KN", kn), "FRACTION", fraction), 0.3);
+  const Energy& e = one.run.state.energy;
+  CHECK(e.residual_worst < 1e-3);
+  CHECK(e.damping > 0);
+  CHECK(one.highest > 2e-4);  // it hops ...
+  CHECK(one.highest < 8e-4);  // ... no higher than the base throws it
+}
+
+TEST_CASE("a block that topples falls flat and lies there", "[solve][event]") {
+  const Ran one = ran(R"(
+    material{name="stone", density=2200, friction=.6}
+    ground{}
+    box{name="b", size={.3,1,1}, at={0,0,0}}
+    joint{law=dry{kn=5e9, mu=.6}}
+    ground_motion{wave=half_sine{amplitude=.6*g, frequency=1}, direction="x"}
+    analysis{duration=4}
+  )", 4);
+  const State& s = one.run.state;
+  CHECK(s.energy.residual_worst < 1e-3);
+  CHECK(s.u[1].z() == Approx(-.35).margin(2e-3));
+  CHECK(s.v[1].norm() < 1e-3);
+  CHECK(one.highest < 0.03);  // rise over its edge: sqrt(.15^2 + .5^2) - .5
+  CHECK(s.energy.contact_damping > 0);
+  CHECK(std::fabs(s.energy.reset) < 2e-3 * s.energy.reference);
+}
+
+TEST_CASE("plates on a slope come to rest after a bump", "[solve][interlock]") {
+  const std::string contact = GENERATE(std::string(""), std::string("free = true, "));
+  const Ran one = ran(R"(
+    material{name="stone", density=2000, friction=.6, kn=1e11, ks=4e10}
+    transform{at={0,0,0}, rotation={0, math.atan(.36), 0}, function()
+      box{name="base", size={2,2,.2}, at={0,0,-.2}, fixed=true}
+      for i = 1, 8 do box{name="p"..i, )" + contact + R"(size={.4,.2,.05}, at={0,0,(i-1)*.05}} end
+    end}
+    joint{law=dry{kn=1e11, mu=.6, damping=.1}}
+    ground_motion{wave=half_sine{amplitude=-1.2*g, frequency=10, start=.1}, direction="z"}
+    analysis{duration=2.2}
+  )", 1.7);
+  Prepared run = one.run;
+  const Vec3 before = run.state.u[8];
+  const double from = run.state.t;
+  Solver solver(run.model, run.state, 1);
+  solver.run({[](double) { return false; }, [] {}, [&] { return run.state.t >= from + 0.5; }});
+  CHECK((run.state.u[8] - before).norm() / 0.5 < 1e-6 * 0.4);
+  CHECK(run.state.energy.residual_worst < 1e-3);
+}
+
+TEST_CASE("what comes near is met with as many steps to go, and by as short a step as its energy asks for", "[solve][event]") {
+  Script script(Script::Options{.quiet = true});
+  const Scene scene = script.load_text(with(with(hop, "KN", 1e10), "FRACTION", 0.9), "event.lua");
+  const Prepared run = prepare(scene, false);
+  const Joint& joint = run.model.joint.front();
+  const double area = 0.08, k = 1e10 * area, rate = 1e-5;
+  const double far[6] = {0, 0, 100 * rate, 0, 0, 0}, before[6] = {0, 0, 101 * rate, 0, 0, 0};
+  const double errs = std::sqrt(event_share * k * rate * rate / 1e-9);
+  REQUIRE(errs > event_steps / 100);
+  CHECK(foresee(run.model, joint, before, far, 1e-9) == Approx(event_steps / 100).epsilon(1e-6));
+  CHECK(foresee(run.model, joint, before, far, 1e3) == Approx(std::sqrt(event_share * k * rate * rate / 1e3)).epsilon(1e-6));
+  CHECK(foresee(run.model, joint, far, before, 1e-9) == 0);  // it moves away
+}
+
+}  // namespace erbs

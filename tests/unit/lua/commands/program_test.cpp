@@ -1,0 +1,152 @@
+// The program from the user's side: exit codes, destination of messages, and no incomplete file left behind.
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <thread>
+
+#include "engine/base/system/process.h"
+#include "tests/unit/lua/bench.h"
+
+using namespace erbs;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string falling = R"(
+material{ name = "brick", density = 1800 }
+box{ name = "b", size = { .3, .2, .1 }, center = { 0, 0, 10 }, free = true }
+analysis{ duration = param("duration", 0.1, "[s]"), dt = 1e-3, start = "rest", output_dt = 0.01 }
+recorder{ name = "b", quantity = "displacement", block = "b", axis = "z" }
+metric("fall", "m", function(run) return -run.last("b_uz_rel_m") end)
+)";
+
+}  // namespace
+
+TEST_CASE("a run ends with 0, writes its metric and judges it", "[program]") {
+  Bench bench;
+  REQUIRE(bench.run(falling + "expect('metrics.fall', 0.5 * g * 0.1^2, { rel = 1e-9 })") == 0);
+  INFO(bench.said);
+  CHECK(contains(bench.said, "expectations: 1 passed, 0 failed"));
+  const Json metrics = read_json(bench.out() + "/metrics.json");
+  CHECK(metrics["metrics"]["fall"].get<double>() == Approx(0.5 * 9.81 * 0.01).epsilon(1e-9));
+  CHECK(metrics["expectations"]["passed"] == 1);
+  CHECK(read_json(bench.out() + "/expectations.json").size() == 1);
+}
+
+TEST_CASE("a failed expectation ends with 4", "[program]") {
+  Bench bench;
+  CHECK(bench.run(falling + "expect('metrics.fall', 1, { rel = 0.1 })") == 4);
+  CHECK(contains(bench.said, "FAILED metrics.fall: expected 1 rel 0.1, got 0.04905"));
+}
+
+TEST_CASE("a folder that exists is refused with the remedy, and --force replaces it", "[program]") {
+  Bench bench;
+  REQUIRE(bench.run(falling, {"-q"}) == 0);
+  CHECK(bench.said.empty());
+  CHECK(bench.run(falling) == 2);
+  CHECK(contains(bench.said, "--force"));
+  CHECK(bench.run(falling, {"--force"}) == 0);
+}
+
+TEST_CASE("the command line is checked", "[program]") {
+  Bench bench;
+  CHECK(bench.erbs({}) == 2);
+  CHECK(bench.erbs({"runn"}) == 2);
+  CHECK(bench.erbs({"run", "nope.lua"}) == 2);
+  CHECK(contains(bench.said, "there is no scene nope.lua"));
+  CHECK(bench.run(falling, {"-D", "durration=1"}) == 2);
+  CHECK(contains(bench.said, "-D durration=1: the scene has no param \"durration\"; did you mean \"duration\"?"));
+  CHECK(bench.run(falling, {"--max-wall", "soon"}) == 2);
+  CHECK(bench.erbs({"version"}) == 0);
+  CHECK(contains(bench.said, "erbs "));
+  CHECK(bench.erbs({"help", "mortar"}) == 0);
+  CHECK(contains(bench.said, "tensile strength (Pa; 0 to 1e+09; required)"));
+  CHECK(bench.erbs({"help", "run"}) == 0);
+  CHECK(contains(bench.said, "--max-wall"));
+}
+
+TEST_CASE("a run stopped by --until ends with 3, and --resume ends as one run would", "[program]") {
+  Bench bench;
+  REQUIRE(bench.run(falling) == 0);
+  const Json whole = read_json(bench.out() + "/metrics.json");
+  CHECK(bench.run(falling, {"--force", "--until", "0.05"}) == 3);
+  CHECK(bench.run(falling, {"--resume"}) == 0);
+  INFO(bench.said);
+  CHECK(read_json(bench.out() + "/metrics.json")["state_hash"] == whole["state_hash"]);
+}
+
+TEST_CASE("an interrupt ends with 130 and a checkpoint", "[program]") {
+  Bench bench;
+  const Child child =
+      start(bench.command({"run", bench.scene(falling), "-o", bench.out(), "-D", "duration=100000"}), (bench.folder / "log").string());
+  for (int i = 0; i < 3000 && !fs::exists(bench.out() + "/histories.csv"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  kill(child.pid, SIGINT);
+  CHECK(wait_for(child) == 130);
+  CHECK(fs::exists(bench.out() + "/checkpoint.bin"));
+}
+
+TEST_CASE("erbs test prints one row per expectation, and one for a scene that fails to run", "[program]") {
+  Bench bench;
+  fs::create_directories(bench.folder / "cases");
+  std::ofstream(bench.folder / "cases/good.lua") << falling << "expect('metrics.fall', 0.04905, { rel = 1e-6 })";
+  std::ofstream(bench.folder / "cases/wrong.lua") << falling << "expect('metrics.fall', 1, { abs = 0.1 })\nexpect('status', 'completed')";
+  std::ofstream(bench.folder / "cases/broken.lua") << "box{ sise = 3 }\nexpect('steps', 1, { rel = 1 })";
+  std::ofstream(bench.folder / "cases/part.lua") << "-- no expect(...) here";
+  CHECK(bench.erbs({"test", (bench.folder / "cases").string(), "-o", bench.out(), "-j", "2"}) == 4);
+  INFO(bench.said);
+  CHECK(contains(bench.said, "broken.lua:1: box: unknown key \"sise\"; did you mean \"size\"?"));
+  CHECK(contains(bench.said, "4 expectations of 3 cases: 2 passed, 2 failed (2 cases)"));
+  CHECK(bench.erbs({"test", (bench.folder / "cases/good.lua").string(), "-o", bench.out()}) == 0);
+}
+
+namespace {
+
+const std::string overhanging = R"(
+  material { name = "brick", density = 1800 }
+  joint { law = dry { kn = 1e9, mu = 0.6 } }
+  box { name = "foot", size = { .3, .1, .1 }, at = { 0, 0, -.1 }, material = "brick", fixed = true }
+  box { name = "over", size = { .7, .1, .1 }, at = { 0, 0, 0 }, material = "brick" }
+)";
+
+}  // namespace
+
+TEST_CASE("what does not stand under its own weight has that as its verdict, with the mechanism and no time", "[program]") {
+  Bench bench;
+  CHECK(bench.run(overhanging + "analysis { duration = 0.3 }") == 0);
+  INFO(bench.said);
+  CHECK(contains(bench.said, "does not stand under its own weight"));
+  CHECK(contains(bench.said, "1 joint opened as a hinge: between foot and over"));
+  CHECK(contains(text_of(bench.out() + "/log.txt"),
+                 "does not stand under its own weight: 100 % of the mass; 1 joint opened as a hinge: between foot and over"));
+  const Json collapse = read_json(bench.out() + "/metrics.json")["collapse"];
+  CHECK(collapse["under_gravity"] == true);
+  CHECK(collapse["collapsed"] == true);
+  CHECK(collapse["time_s"].is_null());
+  CHECK(bench.run(overhanging + "analysis { duration = 0.3, start = 'rest' }", {"--force"}) == 0);
+  CHECK(read_json(bench.out() + "/metrics.json")["collapse"]["under_gravity"] == false);
+}
+
+TEST_CASE("a run past its gate is inaccurate in status, exit code and last line, and names the knob", "[program]") {
+  Bench bench;
+  const std::string strict = overhanging + "analysis { duration = 0.5, start = 'rest', energy_gate = 1e-12 }";
+  CHECK(bench.run(strict) == 1);
+  INFO(bench.said);
+  CHECK(read_json(bench.out() + "/metrics.json")["status"] == "inaccurate");
+  CHECK(contains(bench.said, "exceeds its tolerance 1e-12"));
+  CHECK(contains(bench.said, "take --dt-fraction 0."));
+  CHECK(contains(bench.said, "energy_gate = "));
+  CHECK(contains(bench.said, "inaccurate: not to be relied on; results in"));
+  CHECK(bench.run(strict + "expect('status', 'inaccurate')", {"--force"}) == 0);
+  CHECK(bench.run(strict + "param('x', 1) bisect { param = 'x', lo = 1, hi = 2 }", {"--force"}) == 1);
+  CHECK(contains(bench.said, "inaccurate; exit code 1"));
+  CHECK(contains(bench.said, "no answer at an end"));
+}
+
+TEST_CASE("without figures nothing of figure{} is left, but for the book", "[program]") {
+  Bench bench;
+  const std::string figure = "figure{ name = 'f', title = 't', x = 'x', y = 'y', curves = { { label = 'l', x = {1, 2}, y = {1, 2} } } }\n";
+  const std::string scene = four_bricks() + "joint{ law = dry{ kn = 1e9, mu = .6 } }\nanalysis{ duration = .01 }\n" + figure;
+  REQUIRE(bench.run(scene, {"-q", "--no-figures"}) == 0);
+  CHECK_FALSE(std::filesystem::exists(bench.out() + "/figures"));
+  REQUIRE(bench.run(scene, {"-q", "--no-figures", "--figure-scripts", "--force"}) == 0);
+  CHECK(std::filesystem::exists(bench.out() + "/figures/f.gnuplot"));
+}

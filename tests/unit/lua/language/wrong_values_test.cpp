@@ -1,0 +1,246 @@
+// Every function of the language with each key wrong in turn: wrong type, out of range, no number, misspelt, missing. The test walks the
+// key lists used by help and editor, so that new keys are tested too.
+#include <catch2/catch.hpp>
+
+#include <map>
+#include <regex>
+
+#include "engine/base/text.h"
+#include "lua/commands/help.h"
+#include "tests/unit/lua/bench.h"
+
+using namespace erbs;
+
+namespace {
+
+using Words = std::vector<std::pair<std::string, std::string>>;  // key, value as a script writes it
+
+const std::string corners = "{ {5,5,5}, {6,5,5}, {5,6,5}, {5,5,6} }", brick = "{ length = .25, width = .12, height = .06 }";
+
+// A correct call of each function: the keys needed beside the wrong one.
+const std::map<std::string, Words> sound_calls{
+    {"material", {{"name", "'m2'"}, {"density", "1800"}}},
+    {"box", {{"size", "{.3, .2, .1}"}, {"at", "{9, 9, 0}"}, {"free", "true"}}},
+    {"block", {{"vertices", corners}, {"free", "true"}}},
+    {"prism", {{"polygon", "{ {0, 0}, {1, 0}, {0, 1} }"}, {"height", "1"}, {"at", "{9, 9, 0}"}, {"free", "true"}}},
+    {"mesh", {{"file", "'cube.obj'"}, {"free", "true"}}},
+    {"ground", {}},
+    {"transform", {{"1", "function() end"}}},
+    {"dry", {{"kn", "1e9"}, {"mu", ".6"}}},
+    {"mortar", {{"kn", "1e9"}, {"ft", "1e5"}, {"c", "1e5"}, {"mu", ".6"}}},
+    {"joint", {{"law", "dry{ kn = 1e9, mu = .6 }"}}},
+    {"sine", {{"amplitude", "1"}, {"frequency", "1"}}},
+    {"half_sine", {{"amplitude", "1"}, {"frequency", "1"}}},
+    {"full_sine", {{"amplitude", "1"}, {"frequency", "1"}}},
+    {"pulse", {{"amplitude", "1"}}},
+    {"table_wave", {{"times", "{0, 1}"}, {"values", "{0, 1}"}}},
+    {"record", {{"file", "'wave.csv'"}}},
+    {"ground_motion", {{"wave", "1"}}},
+    {"force", {{"block", "'b'"}, {"wave", "1"}}},
+    {"moment", {{"block", "'b'"}, {"wave", "1"}}},
+    {"tilt", {{"wave", "1"}}},
+    {"motion", {{"block", "'b'"}, {"wave", "1"}}},
+    {"turning", {{"block", "'b'"}, {"wave", "1"}}},
+    {"damping", {}},
+    {"analysis", {{"duration", "1"}}},
+    {"recorder", {{"name", "'r'"}, {"quantity", "'displacement'"}, {"block", "'b'"}}},
+    {"camera", {{"name", "'c'"}}},
+    {"use_limit", {{"reason", "'it walks'"}}},
+    {"bisect", {{"param", "'p'"}, {"lo", "0"}, {"hi", "1"}}},
+    {"converge", {{"param", "'p'"}, {"values", "{.1, .2}"}, {"value", "function(run) return 1 end"}}},
+    {"ensemble", {{"n", "2"}, {"seed", "1"}, {"param", "'p'"}, {"value", "function(run) return 1 end"}}},
+    {"figure", {{"name", "'f'"}, {"title", "'t'"}, {"x", "'x'"}, {"y", "'y'"}, {"curves", "{ { label = 'l', x = {1, 2}, y = {1, 2} } }"}}},
+    {"rocking", {{"width", ".2"}, {"height", "1"}, {"theta", ".1"}, {"duration", "1"}}},
+    {"rocking_overturning", {{"width", ".2"}, {"height", "1"}, {"wave", "half_sine{ amplitude = 1, frequency = 1 }"}, {"points", "10"}}},
+    {"wall", {{"length", "1"}, {"courses", "2"}, {"brick", brick}, {"joint", ".01"}, {"quiet", "true"}, {"at", "{20, 20, 0}"}}},
+    {"building", {{"plan", "{2, 2}"}, {"courses", "4"}, {"brick", brick}, {"joint", ".01"}, {"quiet", "true"}, {"at", "{20, 20, 0}"}}},
+    {"arch", {{"radius", "1"}, {"thickness", ".2"}, {"width", ".3"}, {"voussoirs", "6"}, {"at", "{20, 20, 0}"}}},
+    {"column", {{"blocks", "2"}, {"size", "{.2, .2, .2}"}, {"at", "{20, 20, 0}"}}},
+};
+
+const std::map<std::string, std::vector<std::string>> wrong_of_type{
+    {"number", {"'heavy'", "{}", "true", "0/0", "-1/0"}},
+    {"integer", {"'many'", "{}", "true", "0/0", "1/0", "1.5", "1e18"}},
+    {"string", {"5", "{}", "true", "'a\\nb'", "'a\\xff'"}},
+    {"quantity", {"5", "'displacment'", "'x'"}},
+    {"boolean", {"1", "'yes'", "{}"}},
+    {"vec3", {"1", "'x'", "{1, 2}", "{1, 2, 'x'}", "{0/0, 0, 0}", "{0, 1/0, 0}", "{1, 2, 3, 4}"}},
+    {"vec", {"1", "'x'", "{1, 2}", "{1, 2, 'x'}", "{0/0, 0, 0}", "{0, 1/0, 0}"}},
+    {"points",
+     {"1", "'x'", "{1}", "{{1, 2}}", "{{0/0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}", "{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}", "{}"}},
+    {"pairs", {"1", "{}", "{1}", "{{1, 2, 3}}", "{{0, 0}, {1, 'x'}, {0, 1}}", "{{0, 0}, {1, 0/0}, {0, 1}}", "{{0, 0}, {1, 0}}"}},
+    {"strings", {"5", "{5}", "true", "{{}}"}},
+    {"numbers", {"5", "'x'", "{'x', 1}", "{0/0, 1}", "{1/0, 1}", "{}"}},
+    {"faces", {"5", "{}", "{5}", "{{'a'}}", "{{0, 1, 2}}", "{{1, 2, 99}}", "{{1, 2}}", "{{1.5, 2, 3}}"}},
+    {"direction", {"5", "'w'", "{0, 0, 0}", "{1, 2}", "{0/0, 0, 1}"}},
+    {"points_per_face", {"'x'", "1.5", "0", "5", "{1}", "{0, 1}", "{1.5, 2}", "{1e9, 1e9}"}},
+    {"law", {"5", "'dry'", "{}", "sine{ amplitude = 1, frequency = 1 }"}},
+    {"wave", {"'x'", "{}", "true", "0/0", "dry{ kn = 1e9, mu = .6 }"}},
+    {"function", {"5", "{}"}},
+    {"question", {"5", "'x'", "{}"}},
+    {"initial", {"5", "'x'", "{ velosity = {1, 0, 0} }", "{ velocity = 5 }", "{ spin = {0/0, 0, 0} }"}},
+    {"parts", {"5", "{}", "{5}", "{ { vertexes = {} } }", "{ {} }"}},
+    {"list", {"5", "{5}", "{ { unheard = 1 } }"}},
+    {"table", {"5", "'x'"}},
+};
+
+// Values beyond both ends of a key's range.
+std::vector<std::string> out_of_range(const Key& key) {
+  std::vector<std::string> values;
+  const auto beyond = [](double end, double sign) { return fmt::format("{:.17g}", end + sign * std::max(1e-6, 0.01 * std::abs(end))); };
+  if (std::isfinite(key.low)) values.push_back(beyond(key.low, -1));
+  if (std::isfinite(key.high)) values.push_back(beyond(key.high, 1));
+  return values;
+}
+
+std::string call_of(const std::string& name, const Words& words) {
+  std::string keys;
+  for (const auto& [key, value] : words) keys += (key == "1" ? value : key + " = " + value) + ", ";
+  return name + "{ " + keys + "}";
+}
+
+// The correct call with one key changed; without `value`, the key is left out.
+std::string with(const std::string& name, const std::string& key, const std::string& value) {
+  Words words = sound_calls.at(name);
+  std::erase_if(words, [&](const auto& word) { return word.first == key; });
+  if (!value.empty()) words.emplace_back(key, value);
+  return call_of(name, words);
+}
+
+struct Bad {
+  std::string call, about;  // about: required in the message; "" if a wrong table has a message of its own
+};
+
+void add_wrong(std::vector<Bad>& all, const std::string& name, const Key& key, const std::function<std::string(const std::string&)>& say) {
+  std::vector<std::string> values;
+  if (const auto found = wrong_of_type.find(key.type); found != wrong_of_type.end()) values = found->second;
+  if (key.type == "number" || key.type == "integer")
+    for (auto& value : out_of_range(key)) values.push_back(value);
+  if (!key.words.empty()) values.emplace_back("'nonsense'");
+  for (const auto& value : values) all.push_back({say(value), key.name});
+  for (const Key& inner : key.inner)
+    add_wrong(all, name, inner, [&](const std::string& value) {
+      std::string others;
+      for (const Key& other : key.inner)
+        if (other.required && other.name != inner.name) others += fmt::format("{} = .2, ", other.name);
+      const std::string table = fmt::format("{{ {}{} = {} }}", others, inner.name, value);
+      return say(key.type == "list" ? "{ " + table + " }" : table);
+    });
+}
+
+std::vector<Bad> all_bad() {
+  std::vector<Bad> all;
+  for (const Function& function : all_functions()) {
+    if (!takes_table(function) || function.name == "gravity") continue;
+    const std::string& name = function.name;
+    REQUIRE(sound_calls.contains(name));  // every new function of the language needs a line above
+    for (const char* other : {"5", "'x'", "nil", "true"}) all.push_back({fmt::format("{}({})", name, other), name});
+    all.push_back({with(name, "7", "").insert(name.size() + 1, " [1.5] = 1, "), ""});
+    for (const Key& key : function.keys) {
+      add_wrong(all, name, key, [&](const std::string& value) { return with(name, key.name, value); });
+      if (key.name != "1") all.push_back({with(name, key.name + "z", "1"), key.name + "z"});
+      if (key.required) all.push_back({with(name, key.name, ""), key.name == "1" ? "" : key.name});
+    }
+  }
+  const std::pair<const char*, const char*> positional[] = {{"param({})", "param"},
+                                                            {"param('q')", "param"},
+                                                            {"param('q', 'x')", "param"},
+                                                            {"param('q', 0/0)", "param"},
+                                                            {"param('q', 1, 5)", "param"},
+                                                            {"metric()", "metric"},
+                                                            {"metric('m')", "metric"},
+                                                            {"metric('m', 5, 1)", "metric"},
+                                                            {"metric('m', '', 'x')", "metric"},
+                                                            {"metric('m', '', 0/0)", "metric"},
+                                                            {"expect()", "expect"},
+                                                            {"expect('status')", "expect"},
+                                                            {"expect('time_s', {}, {})", "expect"},
+                                                            {"expect('time_s', 1, 5)", "expect"},
+                                                            {"expect('time_s', 1, { rell = 1 })", "rell"},
+                                                            {"expect('time_s', 1, { rel = -1 })", "rel"},
+                                                            {"expect('time_s', 1, { rel = 0/0 })", "rel"},
+                                                            {"expect('time_s', 1, { between = 1 })", "between"},
+                                                            {"expect('time_z', 1, { rel = 1 })", "time_z"},
+                                                            {"label()", "label"},
+                                                            {"label(5)", "label"},
+                                                            {"label({})", "label"},
+                                                            {"include()", "include"},
+                                                            {"include(5)", "include"},
+                                                            {"include('no.lua')", "no.lua"},
+                                                            {"include('/etc/passwd')", "/etc/passwd"},
+                                                            {"gravity('x')", "gravity"},
+                                                            {"gravity(0/0)", "gravity"},
+                                                            {"gravity(1e9)", "gravity"},
+                                                            {"gravity{ 1, 2 }", "gravity"},
+                                                            {"gravity{ 1, 2, 'x' }", "gravity"},
+                                                            {"gravity()", "gravity"},
+                                                            {"family(5)", "family"},
+                                                            {"family{ q = {1, 2} }", "q"},
+                                                            {"family{ p = 5 }", "p"},
+                                                            {"family{ p = {'x'} }", "p"},
+                                                            {"family({ p = {1} }, 5)", "family"},
+                                                            {"family({ p = {1} }, { seeds = 1 })", "seeds"}};
+  for (const auto& [call, about] : positional) all.push_back({call, about});
+  return all;
+}
+
+const std::string before = sound + "param('p', 1)\n";  // later statements are in line 7
+const std::regex remedy(
+    "must be|allowed|did you mean|known:|not one of|add |give |write |keys:|correct|check |takes |put |choose |make |use |name |keep "
+    "|leave |remove |need");
+
+std::vector<std::string> mistakes_at(const std::string& folder, const std::string& call) {
+  Script script(quiet());
+  try {
+    script.load_text(before + "\n" + call, folder + "/scene.lua");
+  } catch (const Errors& errors) { return errors.messages; }
+  return {};
+}
+
+struct Beside {
+  Bench bench;
+  Beside() {
+    bench.write("wave.csv", "time_s,a_m_s2\n0,0\n1,1\n");
+    bench.write("cube.obj",
+                "o cube\nv 5 5 5\nv 6 5 5\nv 6 6 5\nv 5 6 5\nv 5 5 7\nv 6 5 7\nv 5 6 7\nv 6 6 7\n"
+                "f 4 3 2 1\nf 5 6 8 7\nf 2 3 8 6\nf 3 4 7 8\nf 4 1 5 7\nf 1 2 6 5\n");
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the sound call of every function is sound", "[wrong]") {
+  const Beside beside;
+  for (const auto& [name, words] : sound_calls) {
+    const auto mistakes = mistakes_at(beside.bench.folder.string(), call_of(name, words));
+    INFO(name << ": " << fmt::format("{}", fmt::join(mistakes, "\n")));
+    CHECK(mistakes.empty());
+  }
+}
+
+TEST_CASE("every key of every function, wrong in each way, is refused with its place, its name and a remedy", "[wrong]") {
+  const Beside beside;
+  const auto all = all_bad();
+  CHECK(all.size() > 2000);
+  for (const Bad& bad : all) {
+    const auto mistakes = mistakes_at(beside.bench.folder.string(), bad.call);
+    INFO(bad.call << "\n" << fmt::format("{}", fmt::join(mistakes, "\n")));
+    CHECK(mentions(mistakes, "/scene.lua:7: "));
+    CHECK((bad.about.empty() || mentions(mistakes, bad.about)));
+    for (const auto& mistake : mistakes) {
+      CHECK(is_plain(mistake));
+      CHECK(std::regex_search(mistake, remedy));
+    }
+  }
+}
+
+TEST_CASE("the program ends with 2 for what is wrong, and leaves no folder", "[wrong]") {
+  Beside beside;
+  const auto all = all_bad();
+  for (std::size_t i = 0; i < all.size(); i += 40) {
+    INFO(all[i].call);
+    CHECK(beside.bench.run(before + "\n" + all[i].call) == 2);
+    CHECK(contains(beside.bench.said, "scene.lua:7: "));
+    CHECK_FALSE(std::filesystem::exists(beside.bench.out()));
+  }
+}
