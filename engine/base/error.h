@@ -19,7 +19,7 @@ struct Place {
 // A mistake of the user. The message names the thing, the place and the remedy. Exit code 2.
 class Error : public std::runtime_error {
  public:
-  explicit Error(std::string message, Place where = {})
+  explicit Error(const std::string& message, Place where = {})
       : std::runtime_error(where.file.empty() ? message : where.text() + ": " + message), place(std::move(where)) {}
   Place place;
 };

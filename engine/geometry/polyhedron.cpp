@@ -20,7 +20,7 @@ int count(size_t n) { return static_cast<int>(n); }
 // Newell's normal, of length twice the area; robust for slightly warped loops.
 Vec3 loop_normal(const std::vector<Vec3>& v, const std::vector<int>& loop) {
   Vec3 n = Vec3::Zero();
-  const Vec3 origin = v[at(loop[0])];
+  const Vec3& origin = v[at(loop[0])];
   for (size_t i = 0; i < loop.size(); ++i) {
     const Vec3 p = v[at(loop[i])] - origin;
     const Vec3 q = v[at(loop[(i + 1) % loop.size()])] - origin;

@@ -38,7 +38,7 @@ size_t family_index(const CaseResult& result) {
   return number <= 27 ? 0 : number <= 36 ? 1 : number <= 45 ? 2 : 3;
 }
 
-std::string trimmed(std::string text) {
+std::string trimmed(const std::string& text) {
   const size_t from = text.find_first_not_of(" \t\r");
   if (from == std::string::npos) return "";
   return text.substr(from, text.find_last_not_of(" \t\r") - from + 1);
