@@ -36,7 +36,8 @@ CLI::Validator within(T low, T high) {
 
 // An option must not be empty: in a shell script an empty word is usually a variable that is not set.
 CLI::Validator filled() {
-  return CLI::Validator([](std::string& text) { return text.empty() ? std::string("it is empty; give it a value, or leave the option out") : ""; }, "");
+  return CLI::Validator(
+      [](std::string& text) { return text.empty() ? std::string("it is empty; give it a value, or leave the option out") : ""; }, "");
 }
 
 struct CommandLine {
@@ -103,7 +104,8 @@ void add_run(CLI::App& app, CommandLine& line) {
   run.add_option("--twin-noise", line.options.twin_noise)->group("");  // of the twin run that --twin starts
   run.add_flag("--twin", line.options.twin,
                "also run a twin perturbed by 1e-9, and report when the two differ by 1 mm (the chaos horizon)");
-  run.add_flag_callback("--no-figures", [&line] { line.options.figures = false; }, "draw no curves");
+  run.add_flag_callback(
+      "--no-figures", [&line] { line.options.figures = false; }, "draw no curves");
   run.add_flag("--figure-scripts", line.options.figure_scripts)->group("");  // of the runs that erbs test starts
   run.add_flag("--video", line.options.video, "draw the run and make its video at the end");
   run.add_option("--study", line.options.study)->group("");  // of the runs that a study starts
@@ -180,8 +182,7 @@ void add_others(CLI::App& app, CommandLine& line) {
                   "(default 2m; 0: no limit, as with --study)")
       ->check(filled())
       ->type_name("2m");
-  accuracy.add_flag("--study", line.options.whole_study,
-                    "every problem of the folder, media/accuracy.png and the tables of its README.md");
+  accuracy.add_flag("--study", line.options.whole_study, "every problem of the folder, media/accuracy.png and the tables of its README.md");
 
   accuracy.add_flag("--map", line.options.map,
                     "instead: find the time steps, stiffnesses and dampings at which both solvers converge, over a window around the peak");
@@ -208,7 +209,8 @@ void settle(CommandLine& line) {
   Options& options = line.options;
   for (const auto& define : line.defines) {
     const size_t equals = define.find('=');
-    if (equals == std::string::npos || equals == 0) throw erbs::Error("-D " + shown(define) + ": write -D name=value, such as -D pga=0.8*g");
+    if (equals == std::string::npos || equals == 0)
+      throw erbs::Error("-D " + shown(define) + ": write -D name=value, such as -D pga=0.8*g");
     options.overrides.emplace_back(define.substr(0, equals), define.substr(equals + 1));
   }
   if (!line.until.empty()) options.until = erbs::seconds_of(line.until, "--until");
@@ -243,7 +245,8 @@ void check_flags(const CLI::App& app, int argc, char** argv) {
     const std::string name(word.substr(0, word.find('=')));
     if (!word.starts_with("--") || name.size() == word.size()) continue;
     const CLI::Option* option = verb->get_option_no_throw(name);
-    if (option != nullptr && option->get_items_expected_max() == 0) throw erbs::Error(fmt::format("{} takes no value; write {}", name, name));
+    if (option != nullptr && option->get_items_expected_max() == 0)
+      throw erbs::Error(fmt::format("{} takes no value; write {}", name, name));
   }
 }
 
@@ -284,7 +287,9 @@ int answer(CLI::App& app, CommandLine& line, int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
     return wrong(fmt::format("{}; see erbs help", error.what()));
-  } catch (const erbs::Interrupted& error) { return wrong(error.what(), erbs::exit_interrupted); } catch (const erbs::NumbersError& error) { return wrong(error.what(), erbs::exit_numbers); } catch (const std::filesystem::filesystem_error& error) {
+  } catch (const erbs::Interrupted& error) { return wrong(error.what(), erbs::exit_interrupted); } catch (const erbs::NumbersError& error) {
+    return wrong(error.what(), erbs::exit_numbers);
+  } catch (const std::filesystem::filesystem_error& error) {
     return wrong(fmt::format("{}: {}; check the path", error.path1().string(), error.code().message()));
   } catch (const std::system_error& error) {
     if (std::ferror(stdout) != 0) return erbs::exit_ok;  // finish_streams() reports it

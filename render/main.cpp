@@ -100,9 +100,7 @@ int main(int argc, char** argv) {
   app.add_option("--size", a.size, "pixels of a picture")->capture_default_str();
   app.add_option("--camera", a.cameras, "a camera of the scene by name, or all (default: the first)")->delimiter(',');
   app.add_option("--fps", a.movie.fps, "pictures a second of the video")->check(within(1.0, 240.0))->capture_default_str();
-  app.add_option("--slow", a.movie.slow, "seconds of video for one second of the run")
-      ->check(within(0.001, 1000.0))
-      ->capture_default_str();
+  app.add_option("--slow", a.movie.slow, "seconds of video for one second of the run")->check(within(0.001, 1000.0))->capture_default_str();
   app.add_option("--frames", a.movie.frames, "every: each recorded frame once; N: so many, evenly spread");
   app.add_option("--time", a.time, "T0:T1, only this span (s)");
   app.add_option("--stills", a.stills, "t1,t2,..: single pictures at these times (s), no video");

@@ -6,7 +6,7 @@
 namespace erbs {
 namespace {
 
-constexpr double sample_every = 0.25, trial = 0.15;   // s
+constexpr double sample_every = 0.25, trial = 0.15;  // s
 constexpr double least_rest = 2, longest_rest = 30;  // s between two trials with the same outcome
 // Share of processor time. A team that spins at its barriers uses all its processors; other programs or sleep took the rest.
 constexpr double undisturbed = 0.85;

@@ -14,9 +14,9 @@ struct RunDiagnostics {
   double residual = 0, residual_time = 0;  // worst relative residual of the energy ledger, and its time (s)
   int residual_joint = -1;                 // joint whose energy balance jumped most up to then
   double dt_margin = 0;                    // largest ratio of a time step to the limit then in force
-  double max_penetration = 0;                      // relative penetration at the last update
-  long warned = 0, diagnosed = 0;             // warned steps; step of the last update
-  long past_tolerance = 0, sinking = 0;         // warned steps, by cause
+  double max_penetration = 0;              // relative penetration at the last update
+  long warned = 0, diagnosed = 0;          // warned steps; step of the last update
+  long past_tolerance = 0, sinking = 0;    // warned steps, by cause
   LongSteps past_step;
 };
 

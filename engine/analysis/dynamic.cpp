@@ -255,7 +255,8 @@ void Run::save() {
 bool Run::stop() {
   const double now = seconds();
   const Energy& e = run_.state.energy;
-  update_diagnostics(diagnostics_, run_.state, solver_->stable_dt(run_.bounds.critical), energy_tolerance(so_far()), solver_->take_long_steps());
+  update_diagnostics(diagnostics_, run_.state, solver_->stable_dt(run_.bounds.critical), energy_tolerance(so_far()),
+                     solver_->take_long_steps());
   if (options_.progress && now - last_progress_ > 0.1) {
     last_progress_ = now;
     options_.progress({run_.state.t, scene_.analysis.duration, now - solve_start_, run_.state.step - steps_at_start_,
@@ -330,8 +331,8 @@ void Run::judge() {
 // state, as a resumed run does.
 void Run::step_on() {
   for (bool ended = false; !ended && !solver_->broken();) {
-    solver_->run(
-        {[this](double t) { return wanted(t); }, [this] { sampled(); }, [&] { return (ended = stop()) || crew_->should_change(run_.state.step); }});
+    solver_->run({[this](double t) { return wanted(t); }, [this] { sampled(); },
+                  [&] { return (ended = stop()) || crew_->should_change(run_.state.step); }});
     touched_ += solver_->touched(), slept_ += solver_->slept();
     if (ended || solver_->broken()) return;
     const double began = seconds();

@@ -17,18 +17,18 @@ struct Progress {
   double wall = 0;             // s, of stepping until now
   long steps = 0;              // steps of this call
   int joints_broken = 0;
-  double residual = 0;         // relative, of the energy ledger
+  double residual = 0;  // relative, of the energy ledger
 };
 
 struct RunOptions {
   std::string directory;
   std::vector<std::string> override_arguments;  // command-line overrides; a checkpoint accepts only the same ones
-  std::vector<std::string> notes;       // for the head of log.txt: output of the script, warnings of its check
+  std::vector<std::string> notes;               // for the head of log.txt: output of the script, warnings of its check
   Existing existing = Existing::refuse;
   int threads = 1;
-  std::optional<double> until;        // s, simulated: stop there and write a checkpoint
-  double max_wall = 0;                // s; 0: no limit
-  double checkpoint_every = 60;       // s of wall time
+  std::optional<double> until;   // s, simulated: stop there and write a checkpoint
+  double max_wall = 0;           // s; 0: no limit
+  double checkpoint_every = 60;  // s of wall time
   bool allow_unstable = false;
   double noise = 0, twin_noise = 0;  // m and rad, perturbation of every movable block at the start; each from a fixed seed
   const std::atomic<bool>* interrupted = nullptr;

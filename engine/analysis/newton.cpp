@@ -44,7 +44,8 @@ Mat6 tangent(const Model& m, const State& s, int j, const Trial& trial) {
       std::copy_n(&s.history[z(joint.first_point)], joint.type->points, history.begin());
       CrushedFace crushed = s.crushed.empty() ? CrushedFace{} : s.crushed[z(j)];
       JointEnergy e;
-      respond(m, j, intact, intact ? rest : s.memory[z(j)].gap, gap, {history.data(), s.crushed.empty() ? nullptr : &crushed}, resultant[side], e);
+      respond(m, j, intact, intact ? rest : s.memory[z(j)].gap, gap, {history.data(), s.crushed.empty() ? nullptr : &crushed},
+              resultant[side], e);
     }
     for (int r = 0; r < 6; ++r) k(r, c) = (resultant[1][r] - resultant[0][r]) / (2 * h);
   }

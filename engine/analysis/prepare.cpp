@@ -78,8 +78,9 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
     }
   }
   if (!(dt > 0) || !std::isfinite(dt))
-    throw Error(fmt::format("no time step can be derived by dt_rule = \"{}\"; say analysis{{ dt = 1e-4 }}, or dt_rule = \"limit\"", a.dt_rule),
-                a.place);
+    throw Error(
+        fmt::format("no time step can be derived by dt_rule = \"{}\"; say analysis{{ dt = 1e-4 }}, or dt_rule = \"limit\"", a.dt_rule),
+        a.place);
   if (a.solver == "sequential" && a.iterations > 1) {
     dt /= a.iterations;
     p.dt_rule += fmt::format(", in {} sweeps", a.iterations);
@@ -275,9 +276,8 @@ void ramp(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& foun
   find_islands(slow, p.state);
   const Unrest unrest(slow, p.state);
   Solver solver(slow, p.state, threads);
-  solver.run({[](double) { return false; },
-              [] {},
-              [&] { return p.state.t >= time && (unrest.ended() || p.state.t >= ramp_limit * time); }});
+  solver.run(
+      {[](double) { return false; }, [] {}, [&] { return p.state.t >= time && (unrest.ended() || p.state.t >= ramp_limit * time); }});
   for (int b = 0; b < slow.nblock; ++b)
     if (slow.kind[z(b)] == Kind::moving && (unrest.moves(b) || unrest.falls(b))) p.fallers.push_back(b);
   if (held) held->give_back(p.model, p.state);

@@ -28,7 +28,8 @@ double energy_tolerance(const RunSoFar& r) {
   if (r.scene.analysis.energy_tolerance > 0) return r.scene.analysis.energy_tolerance;
   const State& s = r.run.state;
   if (r.collapse.fallen_fraction > 0 || r.collapse.collapsed || r.released > 0 || s.max_penetration_relative > 0) return 1e-2;
-  const bool elastic = s.contacts.pair.empty() && std::all_of(s.stage.begin(), s.stage.end(), [](JointStage t) { return t == JointStage::intact; });
+  const bool elastic =
+      s.contacts.pair.empty() && std::all_of(s.stage.begin(), s.stage.end(), [](JointStage t) { return t == JointStage::intact; });
   return elastic ? 1e-6 : 1e-3;
 }
 

@@ -14,7 +14,7 @@ struct RunSoFar {
   const Prepared& run;
   const Collapse& collapse;
   const RunDiagnostics& diagnostics;
-  long released = 0;           // number of joints released to contact
+  long released = 0;         // number of joints released to contact
   double dt_at_start = 0;    // s
   double height_energy = 0;  // J, potential energy released if all blocks fell to the lowest centroid
   bool allow_unstable = false;

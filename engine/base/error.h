@@ -48,7 +48,7 @@ class NumbersError : public std::runtime_error {
 
 }  // namespace erbs
 
-#define ERBS_ASSERT(condition) \
-  do { \
+#define ERBS_ASSERT(condition)                                               \
+  do {                                                                       \
     if (!(condition)) ::erbs::assert_failed(#condition, __FILE__, __LINE__); \
   } while (false)

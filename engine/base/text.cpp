@@ -36,14 +36,13 @@ bool controls(unsigned code) {
 
 std::string escaped(std::string_view bytes) {
   std::string out;
-  for (const char c : bytes)
-    switch (c) {
-      case '\n': out += "\\n"; break;
-      case '\t': out += "\\t"; break;
-      case '\r': out += "\\r"; break;
-      case '\0': out += "\\0"; break;
-      default: out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
-    }
+  for (const char c : bytes) {
+    if (c == '\n') out += "\\n";
+    else if (c == '\t') out += "\\t";
+    else if (c == '\r') out += "\\r";
+    else if (c == '\0') out += "\\0";
+    else out += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+  }
   return out;
 }
 
@@ -63,7 +62,8 @@ void each_letter(std::string_view text, Plain&& plain, Other&& other) {
 
 bool is_plain(std::string_view text) {
   bool all = true;
-  each_letter(text, [](std::string_view) {}, [&](std::string_view, bool) { all = false; });
+  each_letter(
+      text, [](std::string_view) {}, [&](std::string_view, bool) { all = false; });
   return all;
 }
 
@@ -81,16 +81,17 @@ std::string shown(std::string_view text, std::size_t most) {
     cut = cut || out.size() + piece.size() > most;
     if (!cut) out += piece;
   };
-  each_letter(text.substr(0, most + 4), [&](std::string_view l) { add(std::string(l)); },
-              [&](std::string_view l, bool) { add(escaped(l)); });
+  each_letter(
+      text.substr(0, most + 4), [&](std::string_view l) { add(std::string(l)); }, [&](std::string_view l, bool) { add(escaped(l)); });
   return cut || text.size() > most + 4 ? out + "..." : out;
 }
 
 std::string printable(std::string_view text) {
   std::string out;
   out.reserve(text.size());
-  each_letter(text, [&](std::string_view l) { out += l; },
-              [&](std::string_view l, bool) { out += l == "\n" || l == "\t" ? std::string(l) : escaped(l); });
+  each_letter(
+      text, [&](std::string_view l) { out += l; },
+      [&](std::string_view l, bool) { out += l == "\n" || l == "\t" ? std::string(l) : escaped(l); });
   return out;
 }
 
@@ -109,8 +110,8 @@ void tell(std::FILE* to, std::string_view text) {
 
 std::string for_files(std::string_view text) {
   std::string out;
-  each_letter(text, [&](std::string_view l) { out += l; },
-              [&](std::string_view, bool valid) { out += valid ? " " : "\xEF\xBF\xBD"; });
+  each_letter(
+      text, [&](std::string_view l) { out += l; }, [&](std::string_view, bool valid) { out += valid ? " " : "\xEF\xBF\xBD"; });
   return out;
 }
 

@@ -30,7 +30,8 @@ inline constexpr double most_for_many = 4;
 double event_allowance(const Model& model, const State& state);
 // The same; also 0 in a step without prediction.
 double event_budget(const Model& model, const State& state);
-// `last_dt` over the step that joint j allows. `gap_before` is its relative displacement one step ago, `gap` the present one; 0: no event is near.
+// `last_dt` over the step that joint j allows. `gap_before` is its relative displacement one step ago, `gap` the present one; 0: no event
+// is near.
 double foresee(const Model& model, const Joint& joint, const double gap_before[6], const double gap[6], double budget);
 
 }  // namespace erbs

@@ -33,7 +33,8 @@ void before(const State& s, const Joint& j, const JointPack& B, int l, double ga
 
 }  // namespace
 
-void joint_by_points(const Model& m, State& s, int j, const double gap[6], double resultant[6], JointSums& sums, const JointPack* pack, int lane) {
+void joint_by_points(const Model& m, State& s, int j, const double gap[6], double resultant[6], JointSums& sums, const JointPack* pack,
+                     int lane) {
   const bool intact = s.stage[z(j)] == JointStage::intact;
   JointMemory& memory = s.memory[z(j)];
   if (intact) {
@@ -41,8 +42,7 @@ void joint_by_points(const Model& m, State& s, int j, const double gap[6], doubl
     else before(s, m.joint[z(j)], intact_pack(m, s, j / pack_size), j % pack_size, memory.gap, memory.resultant);
     memory.elastic = 0;
     for (int i = 0; i < 6; ++i) memory.elastic += 0.5 * memory.resultant[i] * memory.gap[i];
-  }
-  else sums.event_rate = std::max(sums.event_rate, foresee(m, m.joint[z(j)], memory.gap, gap, event_budget(m, s)));
+  } else sums.event_rate = std::max(sums.event_rate, foresee(m, m.joint[z(j)], memory.gap, gap, event_budget(m, s)));
   JointEnergy e;
   const Joint& joint = m.joint[z(j)];
   JointPast past = past_of(m, s, j);
@@ -100,7 +100,8 @@ void damped_joint_forces(const Model& m, State& s, const std::vector<JointPack>&
   if (sample) sums.energy.elastic = 0;
   for (int k = first; k < last; ++k) {
     const JointPack& B = pack[z(k)];
-    if (std::all_of(B.wrench_row_a, B.wrench_row_a + pack_size, [&](int row) { return row == m.spare_wrench_row(); })) continue;  // all have cracked
+    if (std::all_of(B.wrench_row_a, B.wrench_row_a + pack_size, [&](int row) { return row == m.spare_wrench_row(); }))
+      continue;  // all have cracked
     kernels.elastic(B, s.pose_row.data(), o);
     unsigned may_yield = 0;
     for (int l = 0; l < pack_size; ++l) may_yield |= unsigned(o.may_yield[l] > 0) << l;

@@ -13,8 +13,8 @@ struct JointSums {
   JointEnergy energy;        // dissipated so far; elastic: stored now, filled on request
   double largest_error = 0;  // J, of a joint's own energy balance over the step
   int worst_joint = -1;
-  int cracked_now = 0;  // joints that cracked in this step
-  double event_rate = 0;     // greatest `last_dt` over allowed step (`event_bound.h`)
+  int cracked_now = 0;    // joints that cracked in this step
+  double event_rate = 0;  // greatest `last_dt` over allowed step (`event_bound.h`)
 };
 
 // Evaluates one joint point by point and checks its energy balance over the step (work of the resultant = stored + dissipated). `pack`,
@@ -25,7 +25,7 @@ void joint_by_points(const Model& model, State& state, int j, const double gap[6
 inline constexpr int pack_grain = 8;  // packs, or joints of the reference kernel, per chunk
 // Intact joints with dashpots: writes the wrench rows of packs [first, last) of `pack`, as `intact.h` does for joints without dashpots.
 void damped_joint_forces(const Model& model, State& state, const std::vector<JointPack>& pack, int first, int last, bool sample,
-                  JointSums& sums);
+                         JointSums& sums);
 
 // Limits of the small-displacement joint. Beyond them its fixed overlap polygon is wrong and contact detection takes over:
 //   slip of 1 % of its side: the polygon errs by as much;

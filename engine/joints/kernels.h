@@ -5,7 +5,7 @@
 #include "engine/laws/crushing.h"
 #include "engine/laws/interlock.h"
 #include "engine/laws/point.h"
-#include "engine/model/joint_batch.h"
+#include "engine/model/joint_pack.h"
 
 namespace erbs {
 
@@ -13,8 +13,8 @@ namespace erbs {
 struct alignas(64) ElasticPack {
   double gap[6][pack_size], resultant[6][pack_size];
   double arm_a[3][pack_size], arm_b[3][pack_size];  // m, from the centroids to the point where the force acts, world
-  double theta[3][pack_size];                      // rad, mean rotation since the reference poses
-  double may_yield[pack_size];                       // > 0: beyond the bound on tension, shear or compression
+  double theta[3][pack_size];                       // rad, mean rotation since the reference poses
+  double may_yield[pack_size];                      // > 0: beyond the bound on tension, shear or compression
 };
 
 // Eight cracked joints of one law: corners of their overlap, contact points with their history, and the history and account of the joints.
@@ -30,8 +30,8 @@ struct alignas(64) SlipPack {
 // The rigid motion nearest to the slips of all points, and the residual slips. `outdated`: the slips have changed since.
 struct MeanSlipPack {
   double s[pack_size], t[pack_size], rotation[pack_size];  // m, rad
-  double apart[pack_size], stored[pack_size];      // m, greatest residual; J, of the springs when the joint is at that rigid motion
-  double outdated[pack_size];                     // 0 or 1
+  double apart[pack_size], stored[pack_size];              // m, greatest residual; J, of the springs when the joint is at that rigid motion
+  double outdated[pack_size];                              // 0 or 1
 };
 struct alignas(64) BondPack {
   double damage[pack_size], secant[pack_size], kappa[pack_size];  // as in `PointHistory`
@@ -40,9 +40,9 @@ struct alignas(64) CellPack {
   double s[pack_size], t[pack_size], ss[pack_size], st[pack_size], tt[pack_size];  // as in Cell
 };
 struct alignas(64) FacePack {
-  double frame[4][pack_size];                                                   // at rest, as a quaternion x y z w
+  double frame[4][pack_size];                                                               // at rest, as a quaternion x y z w
   double stiffness[6][pack_size], half_s[pack_size], half_t[pack_size], radius[pack_size];  // as in `JointPack`
-  double bend_s[pack_size], bend_t[pack_size], twist[pack_size];                        // N m, `JointType::face`
+  double bend_s[pack_size], bend_t[pack_size], twist[pack_size];                            // N m, `JointType::face`
 };
 // Shapes of eight joints of one law with equal numbers of overlap corners, points and cell corners.
 struct CrackedShape {
@@ -51,11 +51,11 @@ struct CrackedShape {
   double number;  // name of the pack in `CrackedSums::worst`
   const FacePack* face;
   const CornerPack* overlap_corner;
-  const PointPack* point;     // [points]
-  const CellPack* cell;     // [points]
-  const int* first;          // corners of cell i: `[first[i], first[i + 1])`
-  const CornerPack* cell_loop;   // corners of the cells
-  double per_step;           // 1/s, one over the last step, for dashpots; 0 without
+  const PointPack* point;          // [points]
+  const CellPack* cell;            // [points]
+  const int* first;                // corners of cell i: `[first[i], first[i + 1])`
+  const CornerPack* cell_loop;     // corners of the cells
+  double per_step;                 // 1/s, one over the last step, for dashpots; 0 without
   const CornerPack* tension_loop;  // where cells measure their opening; equal to `cell_loop` for rules with points on the edge
   // For laws with a plateau in compression: crushed faces, and corners as in `CompressionFace`; null in empty lanes [lanes].
   CrushedFace* const* crushed;
@@ -67,20 +67,20 @@ struct CrackedShape {
 struct alignas(64) CrackedPack {
   int a[pack_size], b[pack_size], wrench_row_a[pack_size], wrench_row_b[pack_size];
   double arm_a[3][pack_size], arm_b[3][pack_size];  // m, from the centroids to the joint, world, at rest
-  double viscous[pack_size];                    // s, coefficient b of the dashpots; 0 in empty lanes
-  double gap[6][pack_size];                       // at the last step, like `resultant` and `stored`
+  double viscous[pack_size];                        // s, coefficient b of the dashpots; 0 in empty lanes
+  double gap[6][pack_size];                         // at the last step, like `resultant` and `stored`
   MeanSlipPack mean_slip;
   double resultant[6][pack_size], stored[pack_size];
-  double least_damage[pack_size];                                           // of all points; 1 for dry joints
-  double drag[6][pack_size];                                                // N, N m, of the dashpots at the last step, not contained in `resultant`
+  double least_damage[pack_size];  // of all points; 1 for dry joints
+  double drag[6][pack_size];       // N, N m, of the dashpots at the last step, not contained in `resultant`
   SlipPack* slip() { return reinterpret_cast<SlipPack*>(this + 1); }  // stored behind this object [points]
   const SlipPack* slip() const { return reinterpret_cast<const SlipPack*>(this + 1); }
 };
 // Sums of several packs over a step, lane by lane.
 struct alignas(64) CrackedSums {
   double friction[pack_size], fracture[pack_size], crushing[pack_size], damping[pack_size];  // J
-  double error[pack_size];  // J, the greatest |work of the resultant - stored - dissipated|
-  double worst[pack_size];  // pack of that error: `number` of its shape
+  double error[pack_size];       // J, the greatest |work of the resultant - stored - dissipated|
+  double worst[pack_size];       // pack of that error: `number` of its shape
   double event_rate[pack_size];  // greatest `last_dt` over allowed step (`event_bound.h`)
 };
 
@@ -89,17 +89,17 @@ struct alignas(64) IntactConstants {
   // of the resultant on b, therefore both negative
   double shear[pack_size], across[pack_size];  // N/m: stiffness along the faces; excess of the stiffness across them
   double open_limit[pack_size], slip_limit[pack_size], slip_slope[pack_size], close_limit[pack_size];  // as in `JointPack`
-  double diameter[pack_size];                                                              // m, twice the radius of `JointPack`
+  double diameter[pack_size];                                                                          // m, twice the radius of `JointPack`
 };
 // Eight intact joints in world axes at the reference poses: the data that a step reads, and no other (`lanes_intact.inc`).
 struct alignas(64) IntactPack {
-  double gap[3][pack_size], rotation[3][pack_size];     // m, rad: relative displacement and half the relative rotation
-  double arm_a[3][pack_size], arm_b[3][pack_size];  // m, from the centroids to the joint
+  double gap[3][pack_size], rotation[3][pack_size];  // m, rad: relative displacement and half the relative rotation
+  double arm_a[3][pack_size], arm_b[3][pack_size];   // m, from the centroids to the joint
   double normal[3][pack_size];
   double bend[6][pack_size];  // N m: symmetric, xx yy zz yz xz xy; against half rotations; of the resultant on b: negative
   const IntactConstants* law;
   GatherTable other;  // where the data of blocks b are; blocks a are the owners
-  int used;        // number of joints; -1: none, and their forces are cleared
+  int used;           // number of joints; -1: none, and their forces are cleared
 };
 // Packs of intact joints that have come near their limits, with the data for a closer bound; null for all others, and for all if there are
 // none. `carried` times the distance of their blocks bounds the error of joints since the reference poses. `ahead`: distance of prefetch,
@@ -123,15 +123,15 @@ struct IntactEnds {
 struct alignas(64) BlockConstants {
   double mass[pack_size], inverse_mass[pack_size];  // kg, 1/kg; 0 for fixed and driven blocks; inverse 0 for sleepers
   double moving[pack_size], damped[pack_size];      // 0 or 1
-  double inverse_inertia[6][pack_size];         // 1/(kg m2), axes at rest: xx yy zz yz xz xy
+  double inverse_inertia[6][pack_size];             // 1/(kg m2), axes at rest: xx yy zz yz xz xy
   double rotation_limit[pack_size];                 // rad2, of the rotation since the reference pose; infinite without intact joints
-  int first_wrench_slot, wrench_slots;                    // of eight wrench rows each; none: nobody reads pose rows of these blocks either
-  int first_gather, gathers;                   // range in `BlockArrays::gather_in`
-  bool carried;                             // increments since the reference pose are read; if not, no intact joint acts on these blocks
+  int first_wrench_slot, wrench_slots;              // of eight wrench rows each; none: nobody reads pose rows of these blocks either
+  int first_gather, gathers;                        // range in `BlockArrays::gather_in`
+  bool carried;  // increments since the reference pose are read; if not, no intact joint acts on these blocks
 };
 
-// Arrays of all blocks by groups of eight, and rows of eight doubles by block. `contact_wrench` and `load_wrench` are null if there are none, `pose_row` and
-// `pose` if nobody reads them.
+// Arrays of all blocks by groups of eight, and rows of eight doubles by block. `contact_wrench` and `load_wrench` are null if there are
+// none, `pose_row` and `pose` if nobody reads them.
 struct BlockArrays {
   const BlockConstants* constant;
   VectorPack<3>*u, *v, *momentum, *w;
@@ -149,8 +149,8 @@ struct BlockArrays {
 struct alignas(64) BlockWork {
   double base[pack_size], damping[pack_size], absolute[pack_size];                    // J
   double base_after[pack_size], damping_after[pack_size], absolute_after[pack_size];  // J, of the half drift after a sample
-  double kinetic[pack_size], height[pack_size];                                   // J, at a sample
-  double outdated[pack_size];                                                    // blocks with joints that are beyond their `rotation_limit`
+  double kinetic[pack_size], height[pack_size];                                       // J, at a sample
+  double outdated[pack_size];  // blocks with joints that are beyond their `rotation_limit`
 };
 
 struct KickDrift {
@@ -163,9 +163,10 @@ struct KickDrift {
 
 // Addresses of the poses and rest geometry of eight joints, and one result.
 struct alignas(64) PosePack {
-  const double *ua[pack_size], *ub[pack_size], *qa[pack_size], *qb[pack_size];  // m, unit quaternions x y z w: components `pack_size` doubles apart
-  const double *arm_a[pack_size], *arm_b[pack_size], *rest[pack_size];      // m, at rest; frame as in `JointPack`: components adjacent
-  double far[pack_size];                                            // 1: relative rotation too large for the series of `rotation`
+  const double *ua[pack_size], *ub[pack_size], *qa[pack_size],
+      *qb[pack_size];                                                   // m, unit quaternions x y z w: components `pack_size` doubles apart
+  const double *arm_a[pack_size], *arm_b[pack_size], *rest[pack_size];  // m, at rest; frame as in `JointPack`: components adjacent
+  double far[pack_size];                                                // 1: relative rotation too large for the series of `rotation`
 };
 
 struct StepKernels {
@@ -179,18 +180,18 @@ struct StepKernels {
                   double* wrench_rows, CrackedSums& sums);
   // The same if no point has a bond left.
   bool (*friction)(const PointLaw& law, const CrackedShape& shape, CrackedPack& cracked, const double* poses, double* wrench_rows,
-              CrackedSums& sums);
+                   CrackedSums& sums);
   // Resultants to wrenches on both blocks: the force acts at the midpoint of the material points; all is rotated forward by `theta`.
   void (*wrenches)(const JointPack& pack, const ElasticPack& in, double* wrench_rows);
   // Intact joints: increments of blocks to wrenches, for groups [first, last) of eight blocks. Lane l of the packs of group g
   // (`first_pack`) contains joints that block l of this group owns. Forces on owners are summed in `owner_sum`; forces on neighbours go to
-  // `neighbour_force` of the pack. The energy of the joints is added to `stored[lanes]` if that is not null. Returns the number of packs with a joint
-  // near its limits, and their indices in `may_yield`.
-  int (*intact)(IntactPack* pack, const CornerCheck& corner_check, const int* first_pack, int first, int last, const VectorPack<6>* increment,
-               VectorPack<6>* owner_sum, VectorPack<6>* neighbour_force, double* stored, int* may_yield);
+  // `neighbour_force` of the pack. The energy of the joints is added to `stored[lanes]` if that is not null. Returns the number of packs
+  // with a joint near its limits, and their indices in `may_yield`.
+  int (*intact)(IntactPack* pack, const CornerCheck& corner_check, const int* first_pack, int first, int last,
+                const VectorPack<6>* increment, VectorPack<6>* owner_sum, VectorPack<6>* neighbour_force, double* stored, int* may_yield);
   // Intact joints of packs [first, last) without owners: pose rows of blocks to wrench rows of both ends.
   int (*intact_ends)(const IntactPack* pack, const IntactEnds* ends, int first, int last, const double* rows, double* wrench_rows,
-                    int* may_yield);
+                     int* may_yield);
   // Kick and drift of groups [first, last) of blocks (`integrate.h`); true if a number is not finite.
   bool (*advance)(const KickDrift& step, const BlockArrays& blocks, int first, int last, bool sample, BlockWork& work);
   // Geometry of joints from the poses of their blocks: frame, arms, gap and rotation of `out`.

@@ -26,7 +26,7 @@ namespace erbs {
 struct JointPose {
   Mat3 frame;       // world, columns s, t, n
   Vec3 apart, sum;  // m, X and S
-  double gap[6];      // m, rad, joint frame
+  double gap[6];    // m, rad, joint frame
 };
 
 // Rotation vector of a quaternion (v, w): 2 asin(|v|) / |v| v. The series is used where its next term is below round-off.

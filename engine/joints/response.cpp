@@ -10,7 +10,9 @@ struct PointGap {
   double s, t, n;  // m
 };
 
-PointGap gap_at(const double* gap, double s, double t) { return {gap[0] - gap[5] * t, gap[1] + gap[5] * s, gap[2] + gap[3] * t - gap[4] * s}; }
+PointGap gap_at(const double* gap, double s, double t) {
+  return {gap[0] - gap[5] * t, gap[1] + gap[5] * s, gap[2] + gap[3] * t - gap[4] * s};
+}
 
 // Closed-form integrals over a polygon of max(p, 0), p = sign times the gap (linear in s, t), of its first moments and of its square. Over
 // a triangle with corner values p_i: Int p s = A/12 (sum p sum s + sum p_i s_i), Int p^2 = A/12 ((sum p)^2 + sum p_i^2).
@@ -113,8 +115,8 @@ struct Shear {
 };
 
 // Radial return of one point. `normal`: its compressive force (N); `sigma`: its tension (Pa).
-Shear shear(const PointLaw& law, const Point& point, double normal, double sigma, const double* gap_before, const PointGap& g1, PointHistory& h,
-            JointEnergy& energy) {
+Shear shear(const PointLaw& law, const Point& point, double normal, double sigma, const double* gap_before, const PointGap& g1,
+            PointHistory& h, JointEnergy& energy) {
   const double weight = point.weight, k = law.ks * weight;
   Shear now{k * (g1.s - h.slip_s), k * (g1.t - h.slip_t)};
   const auto limit = [&](double p) { return (p < 1 ? bond_shear(law, sigma, p) * weight : 0) + friction_at(law, p) * normal; };
@@ -148,7 +150,8 @@ Shear shear(const PointLaw& law, const Point& point, double normal, double sigma
 // the work of the step is the mean of its two forces.
 double change_of_form(const Joint& joint, const double* gap_before, const double* gap_now) {
   return 0.5 * ((joint.type->stiffness[3] - joint.type->face[0]) * gap_before[3] * gap_now[3] +
-                (joint.type->stiffness[4] - joint.type->face[1]) * gap_before[4] * gap_now[4] + joint.type->face[2] * (gap_before[3] * gap_now[4] + gap_before[4] * gap_now[3]));
+                (joint.type->stiffness[4] - joint.type->face[1]) * gap_before[4] * gap_now[4] +
+                joint.type->face[2] * (gap_before[3] * gap_now[4] + gap_before[4] * gap_now[3]));
 }
 
 bool passes(const PointLaw& law, const PointGap& g) {
@@ -190,7 +193,8 @@ namespace {
 
 // Friction needs the pressure at the points: the force of the closed-form integral is distributed by the depths of the points. If no point
 // is pressed, the deepest one receives all of it.
-void distribute_pressure(const Model& m, const Joint& joint, const CrushedFace* crushed, const double* gap, double force, double* at_points) {
+void distribute_pressure(const Model& m, const Joint& joint, const CrushedFace* crushed, const double* gap, double force,
+                         double* at_points) {
   const Point* point = &m.point[std::size_t(joint.type->first_cell)];
   const bool flattened = crushed != nullptr && crushed->planes > 0;
   const CompressionFace face = compression_face(m, joint);
@@ -209,7 +213,8 @@ void distribute_pressure(const Model& m, const Joint& joint, const CrushedFace* 
 }
 
 // Replaces the pressure of a point by its mean pressure, where that is higher and the joint slides slowly (`interlock.h`).
-void apply_interlock(const Model& m, const Joint& joint, const double* gap_before, const double* gap, const JointPast& past, double* pressure) {
+void apply_interlock(const Model& m, const Joint& joint, const double* gap_before, const double* gap, const JointPast& past,
+                     double* pressure) {
   const Interlock& now = past.interlock;
   if (!(now.gap > 0)) return;
   const Point* point = &m.point[std::size_t(joint.type->first_cell)];
@@ -240,8 +245,8 @@ Interlock contact_interlock(const Model& m, const State& s) {
   return {interlock_gap * d, interlock_speed * interlock_speed * g * d, s.last_dt / (s.last_dt + interlock_time * std::sqrt(d / g))};
 }
 
-bool respond(const Model& m, int j, bool intact, const double* gap_before, const double* gap, JointPast past, double* resultant, JointEnergy& energy,
-             double* shear_limit) {
+bool respond(const Model& m, int j, bool intact, const double* gap_before, const double* gap, JointPast past, double* resultant,
+             JointEnergy& energy, double* shear_limit) {
   const Joint& joint = m.joint[std::size_t(j)];
   const PointLaw& law = m.laws[std::size_t(joint.type->law)];
   if (intact && stays_intact(m, joint, law, gap)) {

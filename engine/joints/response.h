@@ -32,14 +32,14 @@ CompressionFace compression_face(const Model& model, const Joint& joint);
 // and none is beyond its limit, so that f = stiffness * q exactly. Otherwise the history of its points advances from `gap_before` to q. All
 // energy is booked by the point laws' own work: the work of a spring over a step is the mean of its two tractions times the change of its
 // gap. For a joint that is not intact, `shear_limit` receives the shear (N) that each point can transmit now.
-bool respond(const Model& model, int j, bool intact, const double* gap_before, const double* gap, JointPast past, double* resultant, JointEnergy& energy,
-             double* shear_limit = nullptr);
+bool respond(const Model& model, int j, bool intact, const double* gap_before, const double* gap, JointPast past, double* resultant,
+             JointEnergy& energy, double* shear_limit = nullptr);
 
 // Largest x <= 1 for which (s, t) + x (ds, dt) is within the limit.
 double share_within(double s, double t, double ds, double dt, double limit);
 
-// Dashpots of a cracked joint from `gap_before` to q: the change of its spring forces over the step, without the points that slipped and the
-// stiffness that was lost, times `rate` (b / dt). Dashpots do not pull closed faces, and no point is sheared beyond its limit (N, from
+// Dashpots of a cracked joint from `gap_before` to q: the change of its spring forces over the step, without the points that slipped and
+// the stiffness that was lost, times `rate` (b / dt). Dashpots do not pull closed faces, and no point is sheared beyond its limit (N, from
 // `respond()`). Resultant f as above.
 void viscous_response(const Model& model, int j, const double* gap_before, const double* gap, const PointHistory* before, JointPast after,
                       const double* shear_limit, double rate, double* resultant);

@@ -24,7 +24,7 @@ struct PointHistory {
   double slip_s = 0, slip_t = 0;  // m, plastic
   double damage = 0;
   double secant = 0, kappa = 0;  // Pa/m, m: secant stiffness and largest opening at this damage, stored to save divisions; unset at 0
-  double mean_pressure = 0;            // Pa, mean pressure (interlock.h)
+  double mean_pressure = 0;      // Pa, mean pressure (interlock.h)
 };
 
 }  // namespace erbs

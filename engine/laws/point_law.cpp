@@ -22,7 +22,7 @@ PointLaw compile_law(const Mortar& m) {
   p.c = m.c;
   p.mu = m.mu;
   p.mu_residual = m.mu_residual >= 0 ? m.mu_residual : m.mu;
-  p.coupling = m.coupling == "linear" ? PointLaw::Coupling::linear
+  p.coupling = m.coupling == "linear"    ? PointLaw::Coupling::linear
                : m.coupling == "ellipse" ? PointLaw::Coupling::ellipse
                                          : PointLaw::Coupling::coulomb;
   // The apex of the Coulomb cone caps the tension of a point. The check of the scene warns of it.

@@ -36,9 +36,12 @@ inline double bond_shear(const PointLaw& law, double sigma, double p) {
   const double c = law.c * (1 - p), ft = law.ft * (1 - p);
   if (sigma <= 0) return c;
   switch (law.coupling) {
-    case PointLaw::Coupling::coulomb: return std::max(0.0, c - friction_at(law, p) * sigma);
-    case PointLaw::Coupling::linear: return ft > 0 ? std::max(0.0, c * (1 - sigma / ft)) : 0;
-    case PointLaw::Coupling::ellipse: return ft > 0 ? c * std::sqrt(std::max(0.0, 1 - sigma * sigma / (ft * ft))) : 0;
+    case PointLaw::Coupling::coulomb:
+      return std::max(0.0, c - friction_at(law, p) * sigma);
+    case PointLaw::Coupling::linear:
+      return ft > 0 ? std::max(0.0, c * (1 - sigma / ft)) : 0;
+    case PointLaw::Coupling::ellipse:
+      return ft > 0 ? c * std::sqrt(std::max(0.0, 1 - sigma * sigma / (ft * ft))) : 0;
   }
   return 0;
 }

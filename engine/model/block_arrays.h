@@ -8,7 +8,7 @@
 
 #include "engine/base/memory.h"
 #include "engine/base/vec.h"
-#include "engine/model/joint_batch.h"
+#include "engine/model/joint_pack.h"
 
 namespace erbs {
 
@@ -72,7 +72,8 @@ class BlockQuat {
   void assign(std::size_t n, const Quat& value) {
     size_ = n;
     row_.resize((n + pack_size - 1) / pack_size);
-    for (std::size_t b = 0; b < row_.size() * pack_size; ++b) Ref(row_[b / pack_size], int(b % pack_size)) = b < n ? value : Quat::Identity();
+    for (std::size_t b = 0; b < row_.size() * pack_size; ++b)
+      Ref(row_[b / pack_size], int(b % pack_size)) = b < n ? value : Quat::Identity();
   }
   std::size_t size() const { return size_; }
   Ref operator[](std::size_t b) { return Ref(row_[b / pack_size], int(b % pack_size)); }

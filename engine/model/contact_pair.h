@@ -42,25 +42,25 @@ struct alignas(64) ContactPair {
   Mat3 rotation = Mat3::Identity();
   Vec3 shift = Vec3::Zero();  // m
   // friction, pair axes: slip field u + psi n x (x - c) of the tangential springs
-  Vec3 n = Vec3::Zero();  // unit
-  Vec3 c = Vec3::Zero();  // m, point to which u belongs, relative to the centroid of the reference body
-  Vec3 u = Vec3::Zero();  // m
-  double psi = 0;         // rad
-  double area = 0;        // m2, largest in this contact so far: gives the stiffness of the springs
-  double gyration = 0;    // m, largest so far
-  double peak_closing_speed = 0;    // m/s, largest recent approach speed
+  Vec3 n = Vec3::Zero();          // unit
+  Vec3 c = Vec3::Zero();          // m, point to which u belongs, relative to the centroid of the reference body
+  Vec3 u = Vec3::Zero();          // m
+  double psi = 0;                 // rad
+  double area = 0;                // m2, largest in this contact so far: gives the stiffness of the springs
+  double gyration = 0;            // m, largest so far
+  double peak_closing_speed = 0;  // m/s, largest recent approach speed
   // present state of the friction springs and of interlock
-  double tangential = 0;  // J, energy of the springs
-  double mean_normal_force = 0;     // N, mean normal force (interlock.h)
+  double tangential = 0;         // J, energy of the springs
+  double mean_normal_force = 0;  // N, mean normal force (interlock.h)
   // wrenches of the last step; half a step of their work is not yet booked
   PairWrench friction, damping;
   // Offset at which contact sees the other body, pair axes. With it the contact stores as much energy as the joint did before its release
   // (`release_to_contact`).
-  Vec3 lift = Vec3::Zero();             // m
+  Vec3 lift = Vec3::Zero();                     // m
   double bound_share_a = 0, bound_share_b = 0;  // 1/s2, share of the pair in the bound of each block, at the last update
-  int a = 0, b = 0;                     // blocks, a < b
-  int part_a = 0, part_b = 0;           // parts of them
-  int separating_axis = -1;                  // cache only
+  int a = 0, b = 0;                             // blocks, a < b
+  int part_a = 0, part_b = 0;                   // parts of them
+  int separating_axis = -1;                     // cache only
   // The inner distance of the reference body is the contact potential. This body is the larger part, or the part of the lower block; it
   // never changes.
   std::uint8_t b_is_reference = 0;  // 1: b is the reference body, else a
@@ -73,31 +73,31 @@ struct alignas(64) ContactPair {
 };
 
 struct PairList {
-  std::vector<ContactPair> pair;   // sorted by (a, b, part_a, part_b)
-  double margin = 0.01;     // m, parts closer than this are listed
-  bool valid = false;       // false after blocks came loose or joints were released: the next search then runs
-  std::vector<Vec3> start;  // m, displacement of each block at the start of the run [nblock]
-  std::vector<Vec3> u;      // m, pose of each block at the last search [nblock]
-  std::vector<Mat3> rotation;   //                                          [nblock]
+  std::vector<ContactPair> pair;  // sorted by (a, b, part_a, part_b)
+  double margin = 0.01;           // m, parts closer than this are listed
+  bool valid = false;             // false after blocks came loose or joints were released: the next search then runs
+  std::vector<Vec3> start;        // m, displacement of each block at the start of the run [nblock]
+  std::vector<Vec3> u;            // m, pose of each block at the last search [nblock]
+  std::vector<Mat3> rotation;     //                                          [nblock]
   long searches = 0;
   std::vector<int> contact_count;  // number on each moving block in the last step; a jointed block counts as saturated [nblock]
   // bound of the time step (time_step_bound.h)
   double bound_at_last_update = 0;               // 1/s2, part of 1 / dt^2 common to all blocks, at the last update
-  std::vector<double> block_bounds;   // 1/s2, part that each block adds                       [nblock]
+  std::vector<double> block_bounds;              // 1/s2, part that each block adds                       [nblock]
   long bound_updates = 0, bound_updated_at = 0;  // number of updates, step of the last one
-  bool by_blocks = false;           // the last update bounded joints block by block too
+  bool by_blocks = false;                        // the last update bounded joints block by block too
 };
 
 // A separated pair. It needs no update until its two bodies may have closed the distance.
 struct PairSeparation {
-  double distance = 0;          // m, lower bound at the last update of the pair; 0: unknown
-  double rotation_travel = 0;              // m, sum of the rotation travel of both blocks at that time
+  double distance = 0;             // m, lower bound at the last update of the pair; 0: unknown
+  double rotation_travel = 0;      // m, sum of the rotation travel of both blocks at that time
   Vec3 relative_u = Vec3::Zero();  // m, displacement of b minus that of a at that time
 };
 // All separated pairs. An earlier update may find another separating plane, which later steps then use. Hence this is part of the State.
 struct SeparationState {
   std::vector<PairSeparation> pair;  // as PairList::pair
-  BlockQuat q;              // rotation of each block when it was last tracked    [nblock]
+  BlockQuat q;                       // rotation of each block when it was last tracked    [nblock]
   // m, rotation travel since the last search: path of the farthest point of each block by rotation alone, upper bound   [whole groups]
   std::vector<double> rotation_travel;
 };
@@ -122,9 +122,11 @@ template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, ContactPair>
 void each(P& p, F&& f) {
   f("a", p.a), f("b", p.b), f("part_a", p.part_a), f("part_b", p.part_b), f("law", p.law);
-  f("b_is_reference", p.b_is_reference), f("touching", p.touching), f("former_joint", p.former_joint), f("separating_axis", p.separating_axis);
+  f("b_is_reference", p.b_is_reference), f("touching", p.touching), f("former_joint", p.former_joint),
+      f("separating_axis", p.separating_axis);
   f("rotation", p.rotation), f("shift", p.shift), f("n", p.n), f("c", p.c), f("u", p.u), f("psi", p.psi);
-  f("area", p.area), f("gyration", p.gyration), f("mean_normal_force", p.mean_normal_force), f("peak_closing_speed", p.peak_closing_speed), f("impact", p.impact);
+  f("area", p.area), f("gyration", p.gyration), f("mean_normal_force", p.mean_normal_force), f("peak_closing_speed", p.peak_closing_speed),
+      f("impact", p.impact);
   f("bound_share_a", p.bound_share_a), f("bound_share_b", p.bound_share_b);
   f("friction", p.friction), f("damping", p.damping), f("lift", p.lift), f("tangential", p.tangential);
 }
@@ -133,8 +135,8 @@ requires std::is_same_v<std::remove_const_t<P>, PairList>
 void each(P& p, F&& f) {
   f("pair", p.pair), f("margin", p.margin), f("valid", p.valid), f("start", p.start), f("u", p.u), f("rotation", p.rotation),
       f("searches", p.searches);
-  f("contact_count", p.contact_count), f("bound_at_last_update", p.bound_at_last_update), f("block_bounds", p.block_bounds), f("bound_updates", p.bound_updates), f("bound_updated_at", p.bound_updated_at),
-      f("by_blocks", p.by_blocks);
+  f("contact_count", p.contact_count), f("bound_at_last_update", p.bound_at_last_update), f("block_bounds", p.block_bounds),
+      f("bound_updates", p.bound_updates), f("bound_updated_at", p.bound_updated_at), f("by_blocks", p.by_blocks);
 }
 
 template <class P, class F>

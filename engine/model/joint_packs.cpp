@@ -12,7 +12,7 @@ std::size_t z(int i) { return std::size_t(i); }
 
 struct OwnerBalance {
   Model& m;
-  std::vector<int> owned, rounds;            // joints owned by each block; rounds of each group of eight blocks
+  std::vector<int> owned, rounds;           // joints owned by each block; rounds of each group of eight blocks
   std::vector<std::vector<int>> joints_of;  // blocks
   std::vector<int> moved;
 

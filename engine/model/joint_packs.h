@@ -7,8 +7,8 @@
 
 namespace erbs {
 
-// Chooses the owner of each joint, Joint::owned_by_b. A group of eight blocks evaluates its joints in rounds: the first joint of each block,
-// then the second. It needs as many rounds as its busiest block owns joints. Few rounds in total mean few empty lanes.
+// Chooses the owner of each joint, Joint::owned_by_b. A group of eight blocks evaluates its joints in rounds: the first joint of each
+// block, then the second. It needs as many rounds as its busiest block owns joints. Few rounds in total mean few empty lanes.
 void choose_owners(Model& model);
 // Whether intact joints are evaluated in the lanes of their owners (intact.h).
 inline bool owner_computes(const Model& model) {

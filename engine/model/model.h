@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/laws/point_law.h"
-#include "engine/model/joint_batch.h"
+#include "engine/model/joint_pack.h"
 #include "engine/model/owner_schedule.h"
 #include "engine/scene/scene.h"
 
@@ -21,7 +21,7 @@ enum class Kind : std::uint8_t { moving, fixed, driven };
 struct JointType {
   int law = 0;                        // index into Model::laws
   int rule = 0;                       // index into Scene::joint_rules
-  int first_cell = 0, points = 0;    // into Model::point and cell
+  int first_cell = 0, points = 0;     // into Model::point and cell
   int first_corner = 0, corners = 0;  // into Model::overlap_corner
   Mat3 frame;                         // columns s, t, n at rest
   double area = 0;                    // m2
@@ -39,7 +39,7 @@ struct Joint {
   int part_a = 0, part_b = 0;  // of the blocks
   int face_a = 0, face_b = 0;  // of the parts
   int first_point = 0;         // first of its points in State::history
-  bool owned_by_b = false;      // owner of the intact joint, in whose lane it is evaluated: b, else a (`choose_owners`)
+  bool owned_by_b = false;     // owner of the intact joint, in whose lane it is evaluated: b, else a (`choose_owners`)
   Vec3 arm_a, arm_b;           // m, from the centroids to the weighted centre of its contact points, at rest
   double viscous = 0;          // s, dashpot coefficient b of the intact joint, c = b k
   double viscous_cracked = 0;  // s, the same of the cracked joint
@@ -74,15 +74,15 @@ struct Model {
   std::vector<Joint> joint;
   std::vector<std::shared_ptr<const JointType>> joint_types;
   std::vector<Point> point;                              // of all joint types
-  std::vector<Eigen::Vector2d> overlap_corner;                   // m, of the overlap polygon in the joint frame
+  std::vector<Eigen::Vector2d> overlap_corner;           // m, of the overlap polygon in the joint frame
   std::vector<Cell> cell;                                // one for each of `point`
   std::vector<Eigen::Vector2d> cell_loop, tension_loop;  // m, joint frame: loops of the cells, and the loops on which they check tension
   std::vector<PointLaw> laws;                            // one per joint rule
-  OwnerSchedule owner_schedule;                                        // owner schedule of intact joints
-  // Wrench rows, one per joint end. Group g of eight moving blocks owns slots [first_wrench_slot[g], first_wrench_slot[g+1]); a slot has eight rows, one
-  // for each block. The rows of other blocks follow behind all slots. The last row is a spare one.
-  std::vector<int> first_wrench_slot;    // [groups + 1]
-  std::vector<int> first_wrench_row;     // first row of each other block [nblock + 1]
+  OwnerSchedule owner_schedule;                          // owner schedule of intact joints
+  // Wrench rows, one per joint end. Group g of eight moving blocks owns slots [first_wrench_slot[g], first_wrench_slot[g+1]); a slot has
+  // eight rows, one for each block. The rows of other blocks follow behind all slots. The last row is a spare one.
+  std::vector<int> first_wrench_slot;           // [groups + 1]
+  std::vector<int> first_wrench_row;            // first row of each other block [nblock + 1]
   std::vector<int> wrench_row_a, wrench_row_b;  // wrench row of each end       [njoint]
   // loads, resolved to block indices
   struct ForceLoad {
@@ -114,7 +114,7 @@ struct Model {
   Vec3 gravity = Vec3::Zero();                                   // m/s2
   double dt_critical = std::numeric_limits<double>::infinity();  // s, 2 / omega_max at rest, joints in their stiffer form; infinite without
   double settlement = 0;                                         // m, estimated settlement of the top under self-weight (laws/interlock.h)
-  double dt_max = 0;                                            // s, longest step of a run, once contacts allow more than the joints did
+  double dt_max = 0;                                             // s, longest step of a run, once contacts allow more than the joints did
   Damping damping;
   bool dashpots = false;          // some intact joint has dashpots
   bool dashpots_cracked = false;  // some joint has them once cracked
@@ -129,7 +129,8 @@ struct Model {
   template <class F>
   void each_wrench_row(int b, F&& f) const {
     const std::size_t g = std::size_t(b / pack_size);
-    for (int slot = first_wrench_slot[g]; kind[std::size_t(b)] == Kind::moving && slot < first_wrench_slot[g + 1]; ++slot) f(slot * pack_size + b % pack_size);
+    for (int slot = first_wrench_slot[g]; kind[std::size_t(b)] == Kind::moving && slot < first_wrench_slot[g + 1]; ++slot)
+      f(slot * pack_size + b % pack_size);
     for (int row = first_wrench_row[std::size_t(b)]; row < first_wrench_row[std::size_t(b) + 1]; ++row) f(row);
   }
   int owner(int j) const {

@@ -8,7 +8,7 @@
 #include "engine/laws/crushing.h"
 #include "engine/model/block_arrays.h"
 #include "engine/model/contact_pair.h"
-#include "engine/model/joint_batch.h"
+#include "engine/model/joint_pack.h"
 #include "engine/model/model.h"
 #include "engine/model/sleep_state.h"
 
@@ -17,9 +17,9 @@ namespace erbs {
 enum class JointStage : std::uint8_t { intact, cracked, contact };
 
 struct JointMemory {
-  double gap[6] = {};    // at the last step (cracked joints only)
-  double resultant[6] = {};    // N, N m
-  double elastic = 0;  // J
+  double gap[6] = {};        // at the last step (cracked joints only)
+  double resultant[6] = {};  // N, N m
+  double elastic = 0;        // J
 };
 
 // All energy terms, in J; names as in metrics.json. Terms of the present state are filled at a sample, the others accumulate.
@@ -61,33 +61,33 @@ struct State {
   BlockVec3 v;              // m/s, at the half step
   BlockVec3 spin_momentum;  // kg m2/s, about the centroid, world axes
   BlockVec3 w;              // rad/s, world axes, of the last drift
-  BlockVec3 ref_u;         // reference pose: the pose at its last update
+  BlockVec3 ref_u;          // reference pose: the pose at its last update
   BlockQuat ref_q;
-  std::vector<VectorPack<6>> increment;      // m, rad, increment of displacement and rotation since that update (kinematics.h)
-  Rows pose_row;                            // the same as one cache line of 8 doubles per block, for kernels that read rows
-  std::vector<int> island;             // group of blocks joined to each other, named by its lowest block
-  std::vector<std::uint8_t> grounded;  // the island has a joint to a fixed block, or a driven block
-  std::vector<std::uint8_t> joined;    // the block has a joint that is not released
-  int unjoined = 0;                    // number of moving blocks without such a joint
-  std::vector<std::uint8_t> loose;     // the block may meet new neighbours
+  std::vector<VectorPack<6>> increment;  // m, rad, increment of displacement and rotation since that update (kinematics.h)
+  Rows pose_row;                         // the same as one cache line of 8 doubles per block, for kernels that read rows
+  std::vector<int> island;               // group of blocks joined to each other, named by its lowest block
+  std::vector<std::uint8_t> grounded;    // the island has a joint to a fixed block, or a driven block
+  std::vector<std::uint8_t> joined;      // the block has a joint that is not released
+  int unjoined = 0;                      // number of moving blocks without such a joint
+  std::vector<std::uint8_t> loose;       // the block may meet new neighbours
   // joints
   std::vector<JointPack> pack;  // batches of cracked joints (joint_packs.h)
   // lane of each joint: batch * lanes + lane, counting the batches of intact joints first; -1 once released to contact [njoint]
   std::vector<int> slot;
-  std::vector<JointStage> stage;      // [njoint]
+  std::vector<JointStage> stage;    // [njoint]
   LazyArray<JointMemory> memory;    // [njoint]
   LazyArray<PointHistory> history;  // [npoint]
   LazyArray<CrushedFace> crushed;   // [njoint]; empty if no law has a compression plateau
-  Rows wrench;                 // rows of 8 doubles: force, moment on a block from one joint end (Model::wrench_row_a, wrench_row_b)
-  // Intact joints write no rows, except with dashpots and in the other kernels. `owner_sum`: force, moment on each block from all joints that it
-  // owns. `neighbour_force`: force, moment on the other block of each joint of a batch (OwnerSchedule), then one record of zeros.
+  Rows wrench;                      // rows of 8 doubles: force, moment on a block from one joint end (Model::wrench_row_a, wrench_row_b)
+  // Intact joints write no rows, except with dashpots and in the other kernels. `owner_sum`: force, moment on each block from all joints
+  // that it owns. `neighbour_force`: force, moment on the other block of each joint of a batch (OwnerSchedule), then one record of zeros.
   std::vector<VectorPack<6>> owner_sum, neighbour_force;
   std::vector<double> viscous;  // N, N m, dashpot resultants of the last step [6 njoint]; empty without dashpots
-  PairList contacts;              // contact pairs of loose blocks
-  SeparationState separation;              // their separated pairs
-  SleepState sleep;                    // their sleeping blocks
-  double dt_target = 0;           // s, target step of the run; dt may be shorter while contacts change
-  int steps_since_limited = 0;                 // steps since contacts last limited dt
+  PairList contacts;            // contact pairs of loose blocks
+  SeparationState separation;   // their separated pairs
+  SleepState sleep;             // their sleeping blocks
+  double dt_target = 0;         // s, target step of the run; dt may be shorter while contacts change
+  int steps_since_limited = 0;  // steps since contacts last limited dt
   double event_dt = 0;          // s, step allowed by the next openings and closings (event_bound.h); 0: any
   int joints_broken = 0;
   Energy energy;

@@ -14,8 +14,10 @@ enum class Part { motion, history, carried };
 template <class S, class F>
 requires std::is_same_v<std::remove_const_t<S>, State>
 void each(S& state, F&& f) {
-  auto& [step, start_step, start_t, t, dt, last_dt, u, q, v, spin_momentum, w, ref_u, ref_q, pose_row, increment, island, grounded, joined, unjoined, loose, pack, slot, stage, memory, history,
-         crushed, wrench, owner_sum, neighbour_force, viscous, contacts, separation, sleep, dt_target, steps_since_limited, event_dt, joints_broken, energy, gravity_before, moment_before, max_penetration_relative, momentum_residual] = state;
+  auto& [step, start_step, start_t, t, dt, last_dt, u, q, v, spin_momentum, w, ref_u, ref_q, pose_row, increment, island, grounded, joined,
+         unjoined, loose, pack, slot, stage, memory, history, crushed, wrench, owner_sum, neighbour_force, viscous, contacts, separation,
+         sleep, dt_target, steps_since_limited, event_dt, joints_broken, energy, gravity_before, moment_before, max_penetration_relative,
+         momentum_residual] = state;
   f("step", step, Part::carried);
   f("start_step", start_step, Part::carried);
   f("start_t", start_t, Part::carried);

@@ -1,7 +1,7 @@
 #include "engine/scene/mesh_file.h"
 
-#include <assimp/postprocess.h>
 #include <assimp/DefaultIOSystem.h>
+#include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
 #include <assimp/Importer.hpp>

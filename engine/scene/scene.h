@@ -156,7 +156,7 @@ struct Analysis {
   double collapse_fraction = 0.05;    // fallen share of the mass that counts as collapse
   double stop_after_collapse = -1;    // s of simulated time after collapse; -1: run to duration
   double stop_when_moved = 0;         // m; a block displaced this far from rest ends the run; 0: off
-  double energy_tolerance = 0;             // relative energy tolerance; 0: by the kind of run (1e-6 elastic, 1e-3 bonded, 1e-2 collapse)
+  double energy_tolerance = 0;        // relative energy tolerance; 0: by the kind of run (1e-6 elastic, 1e-3 bonded, 1e-2 collapse)
   bool debris = true;                 // contacts of loose blocks; false only to measure their cost
   bool sleep = false;                 // debris at rest is not computed until something disturbs it
   bool ledger = true;                 // the energy ledger between rows; false only to measure its cost
@@ -190,7 +190,8 @@ struct Analysis {
         {"stop_when_moved", &Analysis::stop_when_moved, "m",
          "displacement of a block from rest that ends the run, collapse.moved (0: none)", 0, 1e6},
         {"sleep", &Analysis::sleep, "", "debris at rest is skipped until something moves it"},
-        {"energy_gate", &Analysis::energy_tolerance, "", "largest relative energy residual of an accurate run (0: by the kind of run)", 0, 1e6},
+        {"energy_gate", &Analysis::energy_tolerance, "", "largest relative energy residual of an accurate run (0: by the kind of run)", 0,
+         1e6},
         {"lazy_rotation", &Analysis::lazy_rotation, "rad", "block rotation between updates of joint frames", 0, 0.1},
         {"gyroscopic", &Analysis::gyroscopic, "", "the gyroscopic term w x (I w)"},
         {"output_dt", &Analysis::output_dt, "s", "time between rows of histories.csv and energy.csv", 1e-9, 1e6},

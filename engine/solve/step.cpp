@@ -17,10 +17,10 @@ namespace {
 constexpr int ledger_every = 32;     // steps between two closings of the ledger, ...
 constexpr int ledger_slowly = 128;   // ... with contacts, whose energy costs as much as their forces, ...
 constexpr int ledger_seldom = 4096;  // ... in a scene without a ledger
-constexpr int release_every = 8;   // steps between two searches for joints to release to contact
+constexpr int release_every = 8;     // steps between two searches for joints to release to contact
 constexpr int find_soft_every = 64;  // steps between two searches for former joints that must soften, ...
 constexpr int soften_every = 8;      // ... and between two steps of their softening
-constexpr int activate_every = 256;    // steps between two searches for blocks that have moved far
+constexpr int activate_every = 256;  // steps between two searches for blocks that have moved far
 std::size_t z(int i) { return std::size_t(i); }
 
 int chunks(int n, int grain) { return std::max(1, (n + grain - 1) / grain); }
@@ -34,7 +34,7 @@ Solver::Solver(const Model& model, State& state, int threads)
       reference_(model.analysis.kernel == "reference" || model.analysis.solver == "sequential"),
       joint_items_(model.analysis.solver == "sequential" ? 0
                    : reference_                          ? model.njoint
-                   : owner_computes(model)                      ? int(block_groups(model.nblock))
+                   : owner_computes(model)               ? int(block_groups(model.nblock))
                                                          : intact_packs(model)),
       joint_grain_(owner_computes(model) ? IntactJoints::grain : pack_grain),
       cracked_(model, state),
@@ -100,7 +100,8 @@ void Solver::prepare_step(const Hooks& hooks) {
   ledger_steps_ = !how.ledger ? ledger_seldom : contacts_.active() ? ledger_slowly : ledger_every;
   sample_ = hooks.wanted(state_.t) ? Sample::full : state_.step % ledger_steps_ == 0 ? Sample::ledger : Sample::none;
   if (std::any_of(block_sums_.begin(), block_sums_.end(), [](const BlockSums& sums) { return sums.outdated; })) update_outdated();
-  if (how.debris && state_.step % activate_every == 0 && (any_cracked_ || contacts_.active() || state_.step == 0)) contacts_.activate_loose_blocks();
+  if (how.debris && state_.step % activate_every == 0 && (any_cracked_ || contacts_.active() || state_.step == 0))
+    contacts_.activate_loose_blocks();
   has_contacts_ = contacts_.active();
   budget_ = event_budget(model_, state_);
   has_transitions_ = has_contacts_ || (how.debris && any_cracked_ && state_.step % release_every == 0);
@@ -204,8 +205,10 @@ void Solver::integrate(int thread) {
   const ExternalForces external{has_contacts_ ? contact_wrench_.data() : nullptr, load_.data(), loaded_};
   const int groups = int(constants_.size()), grain = sequential_ ? groups : block_grain;  // a sweep runs on one thread
   const Range mine = slice(groups, grain, thread, threads_);
-  if (!sequential_) advance(model_, state_, constants_, now_, external, mine, sample_ != Sample::none, block_sums_, idle_, cracked_.poses());
-  else if (mine.first < mine.last) sequential_->sweep(now_, external, constants_, sample_ != Sample::none, joint_sums_.front(), block_sums_);
+  if (!sequential_)
+    advance(model_, state_, constants_, now_, external, mine, sample_ != Sample::none, block_sums_, idle_, cracked_.poses());
+  else if (mine.first < mine.last)
+    sequential_->sweep(now_, external, constants_, sample_ != Sample::none, joint_sums_.front(), block_sums_);
   if (has_contacts_) contacts_.track(thread, mine.first * pack_size, mine.last * pack_size);
 }
 

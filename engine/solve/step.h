@@ -46,8 +46,8 @@ class Solver {
 
   const SampleState& sample_state() const { return sample_state_; }
   bool broken() const { return broken_; }
-  Vec6 block_wrench(int b) const;  // N, N m about the centroid, of joints and contacts
-  Vec6 load_wrench(int b) const;   // of loads; for a driven block the reaction that prescribes its motion
+  Vec6 block_wrench(int b) const;    // N, N m about the centroid, of joints and contacts
+  Vec6 load_wrench(int b) const;     // of loads; for a driven block the reaction that prescribes its motion
   std::vector<int> take_released();  // joints released to contact since the last call
   std::vector<JointRelease> take_releases() { return contacts_.take_releases(); }
   // s, time step that the present contacts allow; `critical` is the limit of the intact structure.
@@ -98,7 +98,7 @@ class Solver {
   Rows contact_wrench_, load_;  // N, N m: wrenches of contacts (once there are any) and of loads, one row per block
   std::vector<LoadedBlock> loaded_;
   std::vector<BlockConstants> constants_;
-  std::vector<std::uint8_t> outdated_;                   // blocks with a new reference pose
+  std::vector<std::uint8_t> outdated_;                // blocks with a new reference pose
   std::vector<std::uint8_t> idle_;                    // groups in which every block sleeps
   std::vector<JointSums> joint_sums_, cracked_sums_;  // per chunk
   std::vector<BlockSums> block_sums_;

@@ -61,7 +61,9 @@ Limit richardson(const Series& series, double order) {
     const auto [h3, q3] = series[2];
     const double ratio = (q3 - q2) / (q2 - q1);
     // Fits q = limit + c h^p to three values; the expression grows with p.
-    const auto excess = [h1 = h1, h2 = h2, h3 = h3, ratio](double p) { return (std::pow(h3, p) - std::pow(h2, p)) / (std::pow(h2, p) - std::pow(h1, p)) - ratio; };
+    const auto excess = [h1 = h1, h2 = h2, h3 = h3, ratio](double p) {
+      return (std::pow(h3, p) - std::pow(h2, p)) / (std::pow(h2, p) - std::pow(h1, p)) - ratio;
+    };
     double low = 0.5, high = 4;
     if (std::isfinite(ratio) && excess(low) < 0 && excess(high) > 0) {
       for (int iteration = 0; iteration < 60; ++iteration) (excess(0.5 * (low + high)) < 0 ? low : high) = 0.5 * (low + high);
@@ -191,8 +193,9 @@ std::string plain_sentence(const Goal& q, std::size_t index, const std::vector<M
   const std::vector<std::size_t> front = pareto(q, index, all, true);
   if (front.empty()) {
     const auto told = std::find_if(all.begin(), all.end(), [](const Measured& m) { return !m.reason.empty(); });
-    return fmt::format("{}: no run gave a value; {}", q.name,
-                       told == all.end() ? "the metric returned none: look at its function" : "the first that failed says: " + told->reason);
+    return fmt::format(
+        "{}: no run gave a value; {}", q.name,
+        told == all.end() ? "the metric returned none: look at its function" : "the first that failed says: " + told->reason);
   }
   std::string text;
   double told = std::numeric_limits<double>::infinity();
@@ -202,7 +205,8 @@ std::string plain_sentence(const Goal& q, std::size_t index, const std::vector<M
     if (parts > 0 && error > 0.3 * told) continue;  // report only a clear gain
     told = error;
     const std::string with = all[i].setting.knob.empty() ? "as the scene is" : "with " + all[i].setting.name;
-    text += parts == 0 ? fmt::format("An error of {} in {}", error_text(q, error), q.name) : fmt::format("; one of {}", error_text(q, error));
+    text +=
+        parts == 0 ? fmt::format("An error of {} in {}", error_text(q, error), q.name) : fmt::format("; one of {}", error_text(q, error));
     text += fmt::format(" costs {} {}", seconds_text(all[i].cpu), with);
     if (++parts == 4) break;
   }

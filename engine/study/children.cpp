@@ -92,7 +92,7 @@ class Runner {
 
   int launch(double x) {
     std::vector<std::string> command{own_path(), "run",       c_.scene, "-o",      folder_of(x), "--force",
-                                     "--quiet",  "--threads", "1",      "--study", study_.name, "--no-figures"};
+                                     "--quiet",  "--threads", "1",      "--study", study_.name,  "--no-figures"};
     for (const auto& [name, value] : c_.overrides)
       if (name != study_.param) command.insert(command.end(), {"-D", name + "=" + value});
     command.insert(command.end(), {"-D", fmt::format("{}={}", study_.param, x)});
@@ -115,13 +115,17 @@ class Runner {
       const std::string file = run_file(folder_of(a.x), "metrics.json");
       const Json metrics = fs::exists(file) ? read_json(file) : Json::object();
       if (const Json* wall = find_key(metrics, "wall_s.total"); wall != nullptr && wall->is_number()) a.wall_s = wall->get<double>();
-      if (const Json* updates = find_key(metrics, "point_updates"); updates != nullptr && updates->is_number()) a.updates = updates->get<double>();
+      if (const Json* updates = find_key(metrics, "point_updates"); updates != nullptr && updates->is_number())
+        a.updates = updates->get<double>();
       const std::string status = metrics.value("status", "");
       const Json* value = find_key(metrics, study_.collapse ? "collapse.collapsed" : "metrics.study");
       if (overdue) a.reason = fmt::format("took longer than {:g} s and was ended", c_.max_wall);
       // A bisection for a limit of stability looks for divergence: the scene's own function may answer yes to such a run, never no.
-      else if (status == "diverged" && study_.kind == Study::Kind::bisect && !study_.collapse && value != nullptr && (*value == true || *value == 1)) a.value = 1;
-      else if (status == "diverged" || status == "inaccurate" || status == "stopped") a.reason = status + "; " + last_words(log_of(a.x), code, c_.scene);
+      else if (status == "diverged" && study_.kind == Study::Kind::bisect && !study_.collapse && value != nullptr &&
+               (*value == true || *value == 1))
+        a.value = 1;
+      else if (status == "diverged" || status == "inaccurate" || status == "stopped")
+        a.reason = status + "; " + last_words(log_of(a.x), code, c_.scene);
       else if (code != 0 || value == nullptr) a.reason = last_words(log_of(a.x), code, c_.scene);
       else if (value->is_boolean()) a.value = value->get<bool>() ? 1 : 0;
       else if (value->is_number() && std::isfinite(value->get<double>())) a.value = value->get<double>();

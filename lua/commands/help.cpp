@@ -150,8 +150,7 @@ std::string function_text(const Function& function) {
   text += (takes_table(function) ? "keys:\n" : "parameters:\n") + keys_text(function.keys);
   if (function.name == "recorder") text += quantities_text();
   if (function.name == "metric") text += std::string(run_help);
-  if (const std::string example = example_of(function.name); !example.empty())
-    text += "example:\n" + example;
+  if (const std::string example = example_of(function.name); !example.empty()) text += "example:\n" + example;
   if (function.name == "bisect" || function.name == "converge" || function.name == "ensemble")
     text += "A run that crashes, diverges or gives no number has a row with the reason in studies/NAME.csv.\n";
   return text;
@@ -230,7 +229,11 @@ std::string editor_function(const Function& function) {
 
 Function lua_function(const Json& item) {
   const std::string returns = item.value("returns", "");
-  return {item.value("name", ""), nullptr, "{ ... }", returns.empty() ? "" : "table: " + returns, item.value("help", ""),
+  return {item.value("name", ""),
+          nullptr,
+          "{ ... }",
+          returns.empty() ? "" : "table: " + returns,
+          item.value("help", ""),
           keys_of(item.value("keys", Json::array()))};
 }
 
@@ -250,7 +253,8 @@ std::string function_help(const std::string& name) {
     if (function.name == name) return function_text(function);
     known.push_back(function.name);
   }
-  for (const char* verb : {"run", "check", "render", "record", "test", "accuracy", "bench", "effects", "help", "version"}) known.emplace_back(verb);
+  for (const char* verb : {"run", "check", "render", "record", "test", "accuracy", "bench", "effects", "help", "version"})
+    known.emplace_back(verb);
   throw Error(fmt::format("there is no verb and no function {}{}", name, did_you_mean(name, known)));
 }
 

@@ -36,8 +36,8 @@ void print_table(const AccuracyStudy& s) {
     const Measured& m = s.all[i];
     const auto& value = m.values[s.main];
     say("{:<22}  {:<32}  {:>14}  {:>12}  {:>9.3f}  {:>12.3g}{}\n", m.setting.knob, m.setting.name,
-               value ? fmt::format("{:.8g}", *value) : "-", error_text(q, error_of(q, value)), m.cpu, m.updates,
-               m.reason.empty() ? "" : "  " + m.reason);
+        value ? fmt::format("{:.8g}", *value) : "-", error_text(q, error_of(q, value)), m.cpu, m.updates,
+        m.reason.empty() ? "" : "  " + m.reason);
   }
   for (const auto& text : s.not_applicable) say("{:<22}  not applicable\n", text);
   for (const Curve& c : curves_of(q, s.main, s.all))

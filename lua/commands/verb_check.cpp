@@ -31,8 +31,8 @@ void print_scene(const Scene& scene) {
   size_t fixed = 0;
   for (const Block& block : scene.blocks) groups.insert(block.group), fixed += block.fixed;
   say("{}: {} blocks ({} fixed) in {} groups, {} materials, {} joint rules, {} loads, {} recorders, {} cameras\n", scene.file,
-             scene.blocks.size(), fixed, groups.size(), scene.materials.size(), scene.joint_rules.size(), scene.loads.size(),
-             scene.recorders.size(), scene.cameras.size());
+      scene.blocks.size(), fixed, groups.size(), scene.materials.size(), scene.joint_rules.size(), scene.loads.size(),
+      scene.recorders.size(), scene.cameras.size());
   for (const Param& param : scene.params)
     say("  param {} = {:g} {}{}{}\n", param.name, param.value, param.unit, param.text.empty() ? "" : "  -- ", param.text);
 }
@@ -51,9 +51,8 @@ void print_run(const Scene& scene, const Prepared& run) {
   const Model& model = run.model;
   const double dt = run.state.dt, steps = std::ceil(scene.analysis.duration / dt);
   say("model: {} blocks, {} joints, {} contact points\n", model.nblock, model.njoint, model.npoint);
-  say("dt = {:.4g} s: {}\n  dt_critical {:.4g} s, dt_block_bound {:.4g} s{}\n", dt, run.dt_rule, run.bounds.critical,
-             run.bounds.block,
-             run.bounds.stiffest_block >= 0 ? ", set by block " + model.block_name[static_cast<size_t>(run.bounds.stiffest_block)] : "");
+  say("dt = {:.4g} s: {}\n  dt_critical {:.4g} s, dt_block_bound {:.4g} s{}\n", dt, run.dt_rule, run.bounds.critical, run.bounds.block,
+      run.bounds.stiffest_block >= 0 ? ", set by block " + model.block_name[static_cast<size_t>(run.bounds.stiffest_block)] : "");
   say("estimate: {:g} steps for {:g} s, {:.0f} MiB; {}\n", steps, scene.analysis.duration,
       (static_cast<double>(bytes_of(model)) + own_memory) / 1048576.0, cost_text(estimated_cost(model, steps, scene.analysis.debris)));
 }

@@ -90,8 +90,8 @@ void print_row(const Row& r) {
     say("{:<26} without it: {}\n", r.without.effect, r.without.trouble);
     return;
   }
-  say("{:<26} {:9.4f} {:7.1f} {:9.1f}  {:>10.3g}  {:<28} {}\n", r.without.effect, r.ns, r.percent, r.bytes, r.moved.second,
-             r.moved.first, r.without.because);
+  say("{:<26} {:9.4f} {:7.1f} {:9.1f}  {:>10.3g}  {:<28} {}\n", r.without.effect, r.ns, r.percent, r.bytes, r.moved.second, r.moved.first,
+      r.without.because);
   std::fflush(stdout);
 }
 
@@ -135,8 +135,8 @@ int verb_effects(const Options& options) {
   const Measured all = run_without(path, options, directory, "");
   if (!all.trouble.empty()) throw Error(path + ": " + all.trouble);
   const double updates = std::max(1.0, all.points) * all.steps;
-  say("{}: {:.3g} s of one core, {:g} steps, {:g} points: {:.4f} ns per point and step, {:.1f} bytes per point\n\n", scene.name,
-             all.user, all.steps, all.points, 1e9 * all.user / updates, all.memory / std::max(1.0, all.points));
+  say("{}: {:.3g} s of one core, {:g} steps, {:g} points: {:.4f} ns per point and step, {:.1f} bytes per point\n\n", scene.name, all.user,
+      all.steps, all.points, 1e9 * all.user / updates, all.memory / std::max(1.0, all.points));
   say("{:<26} {:>9} {:>7} {:>9}  {:>10}  {:<28} {}\n", "effect", "ns/point", "%", "B/point", "moves", "metric", "called for by");
   std::vector<Row> rows;
   for (const Effect& effect : effects_of(scene)) {

@@ -166,11 +166,11 @@ void read(MapRun& r, const Case& run, const std::string& quantity) {
     r.broken = int(number("joints_broken").value_or(0));
     if (r.value) r.seen.push_back({r.until, *r.value});
     const bool by_ledger = r.scheme.sequential ? r.residual > wrong_ledger || own_doing(metrics) : run.code == exit_numbers;
-    r.verdict = status == "diverged"    ? Verdict::diverged
-                : by_ledger                  ? Verdict::ledger
+    r.verdict = status == "diverged"                              ? Verdict::diverged
+                : by_ledger                                       ? Verdict::ledger
                 : status == "completed" || status == "inaccurate" ? Verdict::converged
-                : status == "stopped"   ? Verdict::bounded
-                                        : Verdict::failed;
+                : status == "stopped"                             ? Verdict::bounded
+                                                                  : Verdict::failed;
   } catch (const std::exception&) { r.verdict = Verdict::failed; }
   const bool tame = r.verdict == Verdict::converged || r.verdict == Verdict::bounded;
   r.reason = tame ? "" : last_words(run.log, run.code, run.scene);
@@ -265,8 +265,8 @@ void print_map(const MapStudy& study) {
     if (!told || tame == theory || (r.verdict == Verdict::bounded && !theory)) continue;  // a run that is bounded so far may still diverge
     if (++other == 1) say("runs that contradict theory:\n");
     say("  {:<10} {:<8} stiffness x {:<4g} dt {:.4g} s ({}), c/m {:.4g} 1/s: {} at {:.4g} s\n",
-               r.scheme.sequential ? "sequential" : "leapfrog", r.scheme.explicit_damping ? "explicit" : "centred", r.factor, r.dt, r.step,
-               r.damping, word(r.verdict), r.until);
+        r.scheme.sequential ? "sequential" : "leapfrog", r.scheme.explicit_damping ? "explicit" : "centred", r.factor, r.dt, r.step,
+        r.damping, word(r.verdict), r.until);
   }
   std::string text;
   for (int v = 0; v < 6; ++v)

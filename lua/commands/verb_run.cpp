@@ -33,8 +33,8 @@ std::string text_of(const std::string& path) {
 }
 
 // Evaluates the metrics and expectations of the scene and writes them into the run folder. Returns the messages of failed metrics.
-std::vector<std::string> complete_metrics(Script& script, const std::string& directory, bool whole, const StudiesOutcome& studies, Json& metrics,
-                                          std::vector<Verdict>& verdicts) {
+std::vector<std::string> complete_metrics(Script& script, const std::string& directory, bool whole, const StudiesOutcome& studies,
+                                          Json& metrics, std::vector<Verdict>& verdicts) {
   std::vector<std::string> failures;
   metrics = read_metrics(directory);
   metrics["metrics"] = studies.metrics;  // first the results of the studies: metrics of the scene may use them
@@ -81,12 +81,11 @@ std::string collapse_text(const Json& metrics) {
 }
 
 void print_summary(const Scene& scene, const std::string& directory, const Json& metrics, const std::vector<Verdict>& verdicts) {
-  say("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken\n", scene.name,
-             metrics.value("status", ""), number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")),
-             number_at(metrics, "realtime_factor"), metrics.value("blocks", 0), metrics.value("joints", 0),
-             metrics.value("joints_broken", 0));
+  say("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken\n", scene.name, metrics.value("status", ""),
+      number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")), number_at(metrics, "realtime_factor"),
+      metrics.value("blocks", 0), metrics.value("joints", 0), metrics.value("joints_broken", 0));
   say("{}\nenergy residual {:.1e}\n{}\n", collapse_text(metrics), number_at(metrics, "energy.residual_relative"),
-             diagnostics_line(diagnostics_of(metrics)));
+      diagnostics_line(diagnostics_of(metrics)));
   for (const auto& [name, unit] : scene.metric_units) {
     const Json* value = find_key(metrics, "metrics." + name);
     say("  {} = {} {}\n", name, value && value->is_number() ? fmt::format("{:.6g}", value->get<double>()) : "none", unit);
@@ -99,8 +98,8 @@ void print_summary(const Scene& scene, const std::string& directory, const Json&
   }
   if (!verdicts.empty()) say("expectations: {} passed, {} failed\n", verdicts.size() - static_cast<size_t>(failed), failed);
   const std::string status = metrics.value("status", "");
-  say("{}results in {}\n", status == "completed" ? "" : fmt::format("{}{}; ", status, status == "inaccurate" ? ": not to be relied on" : ""),
-             directory);
+  say("{}results in {}\n",
+      status == "completed" ? "" : fmt::format("{}{}; ", status, status == "inaccurate" ? ": not to be relied on" : ""), directory);
   std::fflush(stdout);
 }
 
@@ -122,8 +121,19 @@ constexpr double twin_noise = 1e-9, twin_apart = 1e-3;  // m
 // The twin: the same run again with tiny noise, in a folder inside that of the run.
 class Twin {
  public:
-  Twin(const std::string& scene, const std::string& directory, const Options& options) : run_(directory), twin_(run_file(directory, "twin")) {
-    command_ = {own_path(), "run", scene, "-o", twin_, "--quiet", "--no-figures", "--study", "twin", "--twin-noise", fmt::format("{:g}", twin_noise)};
+  Twin(const std::string& scene, const std::string& directory, const Options& options)
+      : run_(directory), twin_(run_file(directory, "twin")) {
+    command_ = {own_path(),
+                "run",
+                scene,
+                "-o",
+                twin_,
+                "--quiet",
+                "--no-figures",
+                "--study",
+                "twin",
+                "--twin-noise",
+                fmt::format("{:g}", twin_noise)};
     for (const auto& [name, value] : options.overrides) command_.insert(command_.end(), {"-D", name + "=" + value});
     for (const auto& more : {override_arguments(options), permissions(options)}) command_.insert(command_.end(), more.begin(), more.end());
     if (options.until) command_.insert(command_.end(), {"--until", fmt::format("{}", *options.until)});
@@ -154,8 +164,8 @@ int threads_of(const Scene& scene, const Options& options) {
   const int usable = usable_processors();
   if (options.threads <= 0) return scene.blocks.size() < 100 ? 1 : usable;
   if (options.threads > usable)
-    tell(stderr, fmt::format("warning: --threads {}: this process may use {} processor{}; it runs with as many threads", options.threads, usable,
-                             usable > 1 ? "s" : ""));
+    tell(stderr, fmt::format("warning: --threads {}: this process may use {} processor{}; it runs with as many threads", options.threads,
+                             usable, usable > 1 ? "s" : ""));
   return std::min(options.threads, usable);
 }
 
@@ -166,7 +176,8 @@ RunOutcome run_scene(Scene scene, const std::string& script, const std::vector<s
   run.directory = directory;
   run.notes = notes;
   run.override_arguments = override_arguments(options);
-  if (options.twin_noise > 0) run.override_arguments.insert(run.override_arguments.end(), {"--twin-noise", fmt::format("{}", options.twin_noise)});
+  if (options.twin_noise > 0)
+    run.override_arguments.insert(run.override_arguments.end(), {"--twin-noise", fmt::format("{}", options.twin_noise)});
   run.existing = options.resume ? Existing::resume : options.force ? Existing::force : Existing::refuse;
   run.threads = threads_of(scene, options);
   run.until = options.until;

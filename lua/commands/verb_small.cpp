@@ -30,7 +30,8 @@ double seconds_of(const std::string& text, const std::string& option) {
   } catch (const std::exception&) {}
   const std::string unit = text.substr(std::min(used, text.size()));
   const double factor = unit.empty() || unit == "s" ? 1 : unit == "ms" ? 1e-3 : unit == "m" || unit == "min" ? 60 : unit == "h" ? 3600 : 0;
-  if (value < 0 && used > 0) throw Error(fmt::format("{} {}: not a length of time, which is never negative; write 90s, 30m or 1.5h", option, shown(text)));
+  if (value < 0 && used > 0)
+    throw Error(fmt::format("{} {}: not a length of time, which is never negative; write 90s, 30m or 1.5h", option, shown(text)));
   if (!(value >= 0) || !std::isfinite(value) || factor == 0)
     throw Error(fmt::format("{} {}: not a length of time; write 90s, 30m or 1.5h", option, shown(text)));
   return value * factor;

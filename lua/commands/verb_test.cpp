@@ -81,7 +81,7 @@ int verb_test(const Options& options) {
   const auto failed = std::count_if(rows.begin(), rows.end(), [](const Row& row) { return !row.passed; });
   const auto failed_cases = std::count_if(results.begin(), results.end(), [](const CaseResult& r) { return !r.passed(); });
   say("{} expectations of {} cases: {} passed, {} failed ({} cases) in {}\n", rows.size(), cases.size(),
-             rows.size() - static_cast<size_t>(failed), failed, failed_cases, duration_text(wall));
+      rows.size() - static_cast<size_t>(failed), failed, failed_cases, duration_text(wall));
   say("{}\n", summary_line(families_of(results)));
   std::fflush(stdout);
   if (!options.book.empty()) write_book(results, options, wall);

@@ -85,7 +85,8 @@ int rocking(Call& call) {
   arguments.read("duration", duration);
   const auto wave = read_wave(arguments, duration);
   if (std::fabs(start.theta) >= block.alpha)
-    arguments.mistake(fmt::format("theta = {} rad is past alpha = {:.4g} rad: the block falls at once; make it smaller", start.theta, block.alpha));
+    arguments.mistake(
+        fmt::format("theta = {} rad is past alpha = {:.4g} rad: the block falls at once; make it smaller", start.theta, block.alpha));
   RockingRun run;
   if (duration > 0) run = rock(block, {wave ? &*wave : nullptr, 1}, start, duration);
   lua_newtable(call.lua);

@@ -167,7 +167,8 @@ int family(Call& call) {
   static const Keys keys = {{"combinations", "integer", "", "", 0, 1000}, {"seed", "number", "", "", -1e15, 1e15}};
   ParamFamily& into = call.context.family;
   if (!lua_istable(call.lua, 1))
-    throw Error(fmt::format("family takes a table of lists, such as family {{ kn = {{ 1e9, 1e10 }} }}, not {}", described(call.lua, 1)), call.place);
+    throw Error(fmt::format("family takes a table of lists, such as family {{ kn = {{ 1e9, 1e10 }} }}, not {}", described(call.lua, 1)),
+                call.place);
   if (into.place.line > 0) call.mistake(fmt::format("one was given before, at {}; put all params into it", into.place.text()));
   into.place = call.place;
   if (!lua_isnoneornil(call.lua, 2)) {

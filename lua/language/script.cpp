@@ -110,7 +110,8 @@ void check_names(Context& context) {
   for (const Study& study : context.studies)
     for (const std::string& name : metric_names(study)) {
       if (std::find(metrics.begin(), metrics.end(), "metrics." + name) != metrics.end())
-        context.mistake(study.place, fmt::format("the study answers metric \"{}\", which is there already; give the study another name = ...", name));
+        context.mistake(study.place,
+                        fmt::format("the study answers metric \"{}\", which is there already; give the study another name = ...", name));
       metrics.push_back("metrics." + name);
     }
   for (const Override& item : context.overrides)

@@ -38,11 +38,11 @@ struct MetricValue {
 class Script {
  public:
   struct Options {
-    double seconds = 10;               // s, time limit of the script
-    size_t bytes = size_t{512} << 20;  // memory limit of the script
-    bool quiet = false;                // do not echo print to stderr
-    std::string study = {};            // study that started this run; such a run evaluates only its question and no expectations
-    std::string quality = {};          // takes precedence over the quality of analysis{}; "": none is given
+    double seconds = 10;                  // s, time limit of the script
+    size_t bytes = size_t{512} << 20;     // memory limit of the script
+    bool quiet = false;                   // do not echo print to stderr
+    std::string study = {};               // study that started this run; such a run evaluates only its question and no expectations
+    std::string quality = {};             // takes precedence over the quality of analysis{}; "": none is given
     std::vector<std::string> allow = {};  // folders it may read besides its own
     int most_blocks = Scene().most_blocks, most_points = Scene().most_points;  // limits of a scene
     double noise = 0;  // m and rad, noise in the initial state of every free block: start_noise of the script

@@ -37,9 +37,9 @@ int run_renderer(const std::vector<std::string>& arguments) {
 void check_programs(const std::vector<std::string>& names) {
   for (const std::string& name : names)
     if (!can_start(name))
-      throw Error(fmt::format("the program {} is not there; {}", name,
-                              name == "ffmpeg" ? "install the package ffmpeg, or leave --video out"
-                                               : "it belongs beside erbs: build or install both"));
+      throw Error(fmt::format(
+          "the program {} is not there; {}", name,
+          name == "ffmpeg" ? "install the package ffmpeg, or leave --video out" : "it belongs beside erbs: build or install both"));
 }
 
 }  // namespace erbs

@@ -20,13 +20,13 @@ struct Options {
   std::optional<double> max_wall;          // s, of wall clock
   std::optional<double> checkpoint_every;  // s, of wall clock
   bool video = false, log_json = false, allow_unstable = false, fail_on_collapse = false;
-  int jobs = 0;         // 0: as many as the machine has
-  Record record;        // of erbs record: --dt, --unit, --column
-  std::string study;    // name of the study that started this run
-  bool figures = true;  // draw the curves of a run
-  bool figure_scripts = false;            // write the figures of figure{} as gnuplot scripts, which a book draws later
-  std::vector<std::string> allow;         // folders that a scene may read besides its own
-  int max_blocks = 0, max_points = 0;     // limits of a scene; 0: the limits of Scene
+  int jobs = 0;                        // 0: as many as the machine has
+  Record record;                       // of erbs record: --dt, --unit, --column
+  std::string study;                   // name of the study that started this run
+  bool figures = true;                 // draw the curves of a run
+  bool figure_scripts = false;         // write the figures of figure{} as gnuplot scripts, which a book draws later
+  std::vector<std::string> allow;      // folders that a scene may read besides its own
+  int max_blocks = 0, max_points = 0;  // limits of a scene; 0: the limits of Scene
 
   // of erbs run: overrides of the scene
   std::optional<double> dt_fraction;  // of dt_critical

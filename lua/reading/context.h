@@ -81,21 +81,21 @@ struct Context {
   ParamFamily family;
   std::string study;  // name of the study that started this run; "" if no study did
   std::vector<GroupRecorder> group_recorders;
-  std::string quality;              // from the command line, otherwise from analysis{}; "": neither gives one
-  bool quality_set = false;         // the command line gives the quality
-  bool own_step = false;            // analysis{} gives dt or dt_fraction
-  std::vector<size_t> plain_rules;  // joint rules that give neither rule nor points
-  std::vector<std::string> output;  // what the script printed
-  size_t printed = 0;               // bytes of `output`
-  std::filesystem::path folder;     // of the scene file
+  std::string quality;               // from the command line, otherwise from analysis{}; "": neither gives one
+  bool quality_set = false;          // the command line gives the quality
+  bool own_step = false;             // analysis{} gives dt or dt_fraction
+  std::vector<size_t> plain_rules;   // joint rules that give neither rule nor points
+  std::vector<std::string> output;   // what the script printed
+  size_t printed = 0;                // bytes of `output`
+  std::filesystem::path folder;      // of the scene file
   std::vector<std::string> allowed;  // further folders that the scene may read
   std::vector<std::string> files;    // names of the chunks that belong to the user
   bool incomplete = false;           // masonry with mistakes was left out; mistakes that follow from its absence are not reported
-  const RunResults* run = nullptr;  // while metrics are evaluated
-  int includes = 0;                 // current depth of include
-  bool quiet = false;               // print writes to `output` only
-  int repeated = 0;                 // mistakes that were already reported
-  size_t taken = 0, calls = 0;      // bytes and calls of the API since the last check of memory
+  const RunResults* run = nullptr;   // while metrics are evaluated
+  int includes = 0;                  // current depth of include
+  bool quiet = false;                // print writes to `output` only
+  int repeated = 0;                  // mistakes that were already reported
+  size_t taken = 0, calls = 0;       // bytes and calls of the API since the last check of memory
 
   const Frame& frame() const { return frames.back(); }
   // Adds one mistake of the user. The script continues, so that all mistakes are reported at once; it ends when there are very many.

@@ -72,10 +72,11 @@ fs::path find_input(const Context& context, const std::string& file, const Place
     list.push_back(shown(path.string(), 400));
   }
   if (outside && list.empty())
-    throw Error(fmt::format("file \"{}\" lies outside of the scene's folder, where a scene reads nothing; put it beside the scene, or allow "
-                            "its folder with --allow DIR",
-                            shown(file)),
-                place);
+    throw Error(
+        fmt::format("file \"{}\" lies outside of the scene's folder, where a scene reads nothing; put it beside the scene, or allow "
+                    "its folder with --allow DIR",
+                    shown(file)),
+        place);
   throw Error(fmt::format("file \"{}\" is not there; looked for {}; correct the name, or put the file beside the scene", shown(file),
                           fmt::join(list, ", ")),
               place);

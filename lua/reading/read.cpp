@@ -26,19 +26,17 @@ Keys joined(std::vector<Keys> lists) {
 }
 
 std::string described(lua_State* lua, int index) {
-  switch (lua_type(lua, index)) {
-    case LUA_TNUMBER: return fmt::format("the number {}", written(lua_tonumber(lua, index)));
-    case LUA_TSTRING: {
-      size_t length = 0;
-      const char* text = lua_tolstring(lua, index, &length);
-      return fmt::format("the string \"{}\"", shown({text, length}, 40));
-    }
-    case LUA_TBOOLEAN: return lua_toboolean(lua, index) ? "true" : "false";
-    case LUA_TNIL:
-    case LUA_TNONE: return "nil";
-    case LUA_TUSERDATA: return luaL_testudata(lua, index, "law") ? "a law" : "a wave";
-    default: return std::string("a ") + lua_typename(lua, lua_type(lua, index));
+  const int type = lua_type(lua, index);
+  if (type == LUA_TNUMBER) return fmt::format("the number {}", written(lua_tonumber(lua, index)));
+  if (type == LUA_TSTRING) {
+    size_t length = 0;
+    const char* text = lua_tolstring(lua, index, &length);
+    return fmt::format("the string \"{}\"", shown({text, length}, 40));
   }
+  if (type == LUA_TBOOLEAN) return lua_toboolean(lua, index) ? "true" : "false";
+  if (type == LUA_TNIL || type == LUA_TNONE) return "nil";
+  if (type == LUA_TUSERDATA) return luaL_testudata(lua, index, "law") ? "a law" : "a wave";
+  return std::string("a ") + lua_typename(lua, type);
 }
 
 std::string not_plain(const std::string& text) {

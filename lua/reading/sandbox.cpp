@@ -188,8 +188,9 @@ Stretch::Stretch(lua_State* lua, Context& context) : lua_(lua), context_(context
       doing = context_.limits.doing;
       working = context_.limits.working;
     }
-    tell(stderr, fmt::format("{}: the script ran longer than {:g} s; {}", doing.empty() ? context_.scene.file : doing, context_.limits.seconds,
-                             working ? "that is more work than a scene may ask for: give it less" : "a pattern or a loop there may never end"));
+    tell(stderr,
+         fmt::format("{}: the script ran longer than {:g} s; {}", doing.empty() ? context_.scene.file : doing, context_.limits.seconds,
+                     working ? "that is more work than a scene may ask for: give it less" : "a pattern or a loop there may never end"));
     std::fflush(stderr);
     _exit(2);
   });

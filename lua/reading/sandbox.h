@@ -23,8 +23,8 @@ struct Limits {
   bool capped = true;   // off while C++ objects are alive, so that no memory error of Lua jumps over their destructors
   double deadline = 0;  // s, processor time of this process
   std::atomic<bool> expired = false;
-  std::mutex mutex;   // guards `doing`
-  std::string doing;  // function and line that runs where the hook cannot interrupt it
+  std::mutex mutex;      // guards `doing`
+  std::string doing;     // function and line that runs where the hook cannot interrupt it
   bool working = false;  // true: the program's own work; false: code of the script
 };
 

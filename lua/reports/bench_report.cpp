@@ -28,12 +28,11 @@ void print_bench_row(const Json& row) {
     say("{:<12} failed: {}\n", row["scene"].get<std::string>(), row["failed"].get<std::string>());
     return;
   }
-  say("{:<12} {:>6} blocks {:>7} points  {:9.2f} us/step  {:8.0f} steps/s", row["scene"].get<std::string>(),
-             row["blocks"].get<int>(), row["points"].get<int>(), number(row, "one_thread.user_us_per_step"),
-             number(row, "one_thread.steps_per_s"));
+  say("{:<12} {:>6} blocks {:>7} points  {:9.2f} us/step  {:8.0f} steps/s", row["scene"].get<std::string>(), row["blocks"].get<int>(),
+      row["points"].get<int>(), number(row, "one_thread.user_us_per_step"), number(row, "one_thread.steps_per_s"));
   if (row["points"].get<int>() > 0)
     say("  {:6.3f} ns/point  {:5.1f} B/point  roofline {:.0f} %", number(row, "one_thread.ns_per_point"),
-               number(row, "roofline.bytes_per_point"), 100 * number(row, "roofline.share"));
+        number(row, "roofline.bytes_per_point"), 100 * number(row, "roofline.share"));
   if (row.contains("intact_vs_reference"))
     say("  {:.1f}x reference (broken {:.1f}x)", number(row, "intact_vs_reference"), number(row, "broken_vs_reference"));
   if (number(row, "one_thread.touching") > 0)
@@ -65,8 +64,7 @@ Json bench_summary(const Json& rows) {
 
 void print_bench_summary(const Json& summary) {
   for (const auto& [key, value] : summary.items())
-    if (key != "cases")
-      say("{:<28} {}\n", key, value.is_number() ? fmt::format("{:.4g}", value.get<double>()) : "not measured here");
+    if (key != "cases") say("{:<28} {}\n", key, value.is_number() ? fmt::format("{:.4g}", value.get<double>()) : "not measured here");
 }
 
 // Figure: nanoseconds per contact point and step of every case, beside the least time that the machine allows.

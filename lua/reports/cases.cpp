@@ -79,8 +79,8 @@ void hurry(std::map<int, Running>& running) {
 }
 
 Child launch(const Case& item, const Options& options, int threads, std::optional<double> max_wall) {
-  std::vector<std::string> command{own_path(),    "run", item.scene, "-o", item.directory, item.resume ? "--resume" : "--force",
-                                   "--no-figures", "--figure-scripts"};
+  std::vector<std::string> command{
+      own_path(), "run", item.scene, "-o", item.directory, item.resume ? "--resume" : "--force", "--no-figures", "--figure-scripts"};
   if (threads > 0) command.insert(command.end(), {"--threads", std::to_string(threads)});
   for (const auto& [name, value] : options.overrides) command.insert(command.end(), {"-D", name + "=" + value});
   if (options.allow_unstable) command.emplace_back("--allow-unstable");

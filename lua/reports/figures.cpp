@@ -61,8 +61,8 @@ std::string script_of(const Figure& figure, const std::string& directory) {
              "set border 3 lc rgb '#5a5a5a' lw 1\nset tics out nomirror scale 0.6 tc rgb '#222222'\n"
              "set grid lc rgb '#dddddd' lw 1 lt 1\nset key below\nset title {} tc rgb '#111111'\n"
              "set xlabel {} tc rgb '#222222'\nset ylabel {} tc rgb '#222222'\n",
-             Json(figure.title).dump(-1, ' ', false, Json::error_handler_t::replace), gnuplot_quoted(figure.title), gnuplot_quoted(figure.x),
-             gnuplot_quoted(figure.y)) +
+             Json(figure.title).dump(-1, ' ', false, Json::error_handler_t::replace), gnuplot_quoted(figure.title),
+             gnuplot_quoted(figure.x), gnuplot_quoted(figure.y)) +
          data + "plot " + plots + "\n";
 }
 

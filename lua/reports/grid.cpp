@@ -38,7 +38,8 @@ struct Variant {
   CaseResult result;
 };
 
-Variant variant_of(const Case& scene, const std::string& key, const std::string& stem, const std::string& words, std::vector<std::string> extra) {
+Variant variant_of(const Case& scene, const std::string& key, const std::string& stem, const std::string& words,
+                   std::vector<std::string> extra) {
   Variant v;
   v.scene_name = scene.name;
   v.words = words.empty() ? "as it is" : words;
@@ -82,7 +83,8 @@ std::vector<Variant> family_of(const Case& scene, const Options& options, ParamF
   std::vector<Variant> all;
   for (const double share : family_fractions)
     if (!fixed_dt)
-      all.push_back(variant_of(scene, key, fmt::format("_dt{}", share), fmt::format("dt {}", share), {"--dt-fraction", fmt::format("{}", share)}));
+      all.push_back(
+          variant_of(scene, key, fmt::format("_dt{}", share), fmt::format("dt {}", share), {"--dt-fraction", fmt::format("{}", share)}));
   for (const Choice& choice : one_at_a_time(family)) {
     all.push_back(variant_of(scene, key, choice));
     if (const std::string why = refusal(scene, options, choice); !why.empty()) all.back().refused = why;
@@ -242,11 +244,11 @@ void print(const Grid& grid) {
   for (const Worst& w : grid.rows)
     a = std::max(a, w.scene.size()), b = std::max(b, w.key.size()), c = std::max(c, w.expected.size() + w.tolerance.size() + 1),
     d = std::max(d, std::min<size_t>(w.got.size(), 40)), e = std::max(e, w.at.size());
-  say("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {:<6}  {:<{}}  {:<9}  runs\n", "case", a, "invariant", b, "bound", c, "worst", d, "share",
-             "at", e, "verdict");
+  say("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {:<6}  {:<{}}  {:<9}  runs\n", "case", a, "invariant", b, "bound", c, "worst", d, "share", "at", e,
+      "verdict");
   for (const Worst& w : grid.rows)
-    say("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {:<6}  {:<{}}  {:<9}  {}\n", w.scene, a, w.key, b, w.expected + " " + w.tolerance, c, w.got,
-               d, share_text(w), w.at, e, !w.failed.empty() ? fmt::format("FAILED {}", w.failed.size()) : "ok", w.runs);
+    say("{:<{}}  {:<{}}  {:<{}}  {:<{}}  {:<6}  {:<{}}  {:<9}  {}\n", w.scene, a, w.key, b, w.expected + " " + w.tolerance, c, w.got, d,
+        share_text(w), w.at, e, !w.failed.empty() ? fmt::format("FAILED {}", w.failed.size()) : "ok", w.runs);
   for (const Worst& w : grid.rows)
     if (!w.failed.empty()) say("{} {} fails at {}\n", w.scene, w.key, fmt::join(w.failed, "; "));
   for (const auto& text : grid.refused) say("refused: {}\n", text);
@@ -292,8 +294,7 @@ int run_grid(const Options& given) {
   const auto begin = std::chrono::steady_clock::now();
   std::vector<Variant> variants;
   for (const Case& scene : find_cases(options, out, ""))
-    for (Variant& v : options.seeds > 0 ? seeds_of(scene, options) : variants_of(scene, options))
-      variants.push_back(std::move(v));
+    for (Variant& v : options.seeds > 0 ? seeds_of(scene, options) : variants_of(scene, options)) variants.push_back(std::move(v));
   std::vector<Case> runs;
   std::map<std::string, Variant*> of_name;
   for (Variant& v : variants) {

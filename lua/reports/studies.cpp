@@ -24,8 +24,15 @@ std::string key_of(const Scene& scene) {
 StudiesOutcome run_studies(const Script& script, const std::string& path, const std::string& directory, const Options& options,
                            const std::atomic<bool>& interrupted) {
   StudiesOutcome out;
-  Children children{path, directory, key_of(script.scene()), options.overrides, override_arguments(options), permissions(options),
-                    options.max_wall.value_or(0), options.threads, &interrupted};
+  Children children{path,
+                    directory,
+                    key_of(script.scene()),
+                    options.overrides,
+                    override_arguments(options),
+                    permissions(options),
+                    options.max_wall.value_or(0),
+                    options.threads,
+                    &interrupted};
   if (isatty(STDERR_FILENO) != 0 && !options.quiet)
     children.progress = [](const std::string& study, int done, int asked) {
       fmt::print(stderr, "\r\033[K{}: {} of {} runs", study, done, asked);

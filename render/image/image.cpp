@@ -15,7 +15,9 @@ namespace erbs::render {
 void write_png(const std::string& path, const Image& image) {
   const std::string beside = path + ".tmp";  // renamed once complete
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(beside.c_str(), "wb"), std::fclose);
-  if (!file) throw WriteError(fmt::format("the picture cannot be created: {}; does the folder exist and may you write there?", std::strerror(errno)), {path, 0});
+  if (!file)
+    throw WriteError(fmt::format("the picture cannot be created: {}; does the folder exist and may you write there?", std::strerror(errno)),
+                     {path, 0});
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, nullptr);
   png_infop info = png_create_info_struct(png);
   std::vector<png_bytep> rows(static_cast<std::size_t>(image.height));

@@ -141,9 +141,10 @@ bool film(const Run& run, const Show& show, const MotionReader& reader, const Mo
   if (video && made == all) video->finish();  // a video is complete or absent
   const double wall = since(start);
   if (!movie.quiet)
-    fmt::print("{}{} {} ({} frames {}x{} in {:.1f} s, {:.3f} s each, {} at a time)\n",
-               made == all ? "" : "interrupted; ", files.video.empty() || made < all ? "pictures:" : "video:", files.video.empty() || made < all ? shown(files.frames.string(), 400) : shown(files.video, 400), made,
-               movie.look.width, movie.look.height, wall, made ? wall / static_cast<double>(made) : 0, workers.count());
+    fmt::print("{}{} {} ({} frames {}x{} in {:.1f} s, {:.3f} s each, {} at a time)\n", made == all ? "" : "interrupted; ",
+               files.video.empty() || made < all ? "pictures:" : "video:",
+               files.video.empty() || made < all ? shown(files.frames.string(), 400) : shown(files.video, 400), made, movie.look.width,
+               movie.look.height, wall, made ? wall / static_cast<double>(made) : 0, workers.count());
   return made == all;
 }
 

@@ -33,7 +33,7 @@ struct Run {
   std::vector<Paint> materials;  // by material index
   GroundRecord record;           // the strongest component
   std::vector<Mark> marks;       // in order of time
-  double energy_tolerance = 0;        // relative; 0: unknown
+  double energy_tolerance = 0;   // relative; 0: unknown
   std::string status;            // status of an unreliable run; "" if completed or still running
 };
 

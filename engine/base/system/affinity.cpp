@@ -44,7 +44,8 @@ double least_quota() {
 
 int usable_processors() {
   cpu_set_t allowed;
-  const int machine = ::sched_getaffinity(0, sizeof(allowed), &allowed) == 0 ? CPU_COUNT(&allowed) : int(std::thread::hardware_concurrency());
+  const int machine =
+      ::sched_getaffinity(0, sizeof(allowed), &allowed) == 0 ? CPU_COUNT(&allowed) : int(std::thread::hardware_concurrency());
   const double quota = least_quota();
   const int granted = quota > 0 ? std::max(1, int(quota + 0.5)) : machine;
   return std::max(1, std::min(machine, granted));

@@ -23,7 +23,10 @@ namespace erbs {
 class Barrier {
  public:
   explicit Barrier(int count, int spins = 60000)
-      : count_(count), spins_(count <= usable_processors() ? spins : 0), oversubscribed_(count > usable_processors()), slot_(std::size_t(count)) {}
+      : count_(count),
+        spins_(count <= usable_processors() ? spins : 0),
+        oversubscribed_(count > usable_processors()),
+        slot_(std::size_t(count)) {}
   void wait(int thread) {
     if (count_ == 1) return;
     const unsigned round = arrive(thread);

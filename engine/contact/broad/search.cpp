@@ -91,7 +91,12 @@ class Finder {
  public:
   Finder(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
          std::span<const std::uint64_t> excluded)
-      : margin_(list.margin), shapes_(shapes), blocks_(blocks), loose_(loose), excluded_(excluded), parts_(oriented_boxes(shapes, blocks)) {}
+      : margin_(list.margin),
+        shapes_(shapes),
+        blocks_(blocks),
+        loose_(loose),
+        excluded_(excluded),
+        parts_(oriented_boxes(shapes, blocks)) {}
 
   std::vector<Found> find() {
     const Grid grid = make_grid(parts_, margin_);
@@ -279,8 +284,8 @@ PairLaw pair_law(const Material& a, const Material& b) {
 
 int find_pair(const PairList& list, int a, int part_a, int b, int part_b) {
   const Found wanted{a, b, part_a, part_b};
-  auto place =
-      std::lower_bound(list.pair.begin(), list.pair.end(), wanted, [](const ContactPair& p, const Found& f) { return key_of(p) < f.key(); });
+  auto place = std::lower_bound(list.pair.begin(), list.pair.end(), wanted,
+                                [](const ContactPair& p, const Found& f) { return key_of(p) < f.key(); });
   return place != list.pair.end() && key_of(*place) == wanted.key() ? static_cast<int>(place - list.pair.begin()) : -1;
 }
 

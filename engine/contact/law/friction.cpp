@@ -103,7 +103,8 @@ TrialState returned_to_patch(const PatchLimit& b, const Vec3& trial, double tors
     const double M = (torsion + pulled * S) * per_n, rotation = weight * M, across = pulled - rotation * lever2;
     const double t2 = S * S * (size2 - rotation * (pulled + across)) * per_t, m2 = M * M * per_m;
     const double root = std::sqrt((t2 + m2) * (t2 + m2) + 4 * b.shape_factor * t2 * m2), F = (t2 + m2 + root) / 2;
-    const double t = t2 / F, m = m2 / F, p = 1 + b.shape_factor * m, q = 1 + b.shape_factor * t, miss = 2 * F * (std::sqrt(F) - 1), g = A * q - B * p;
+    const double t = t2 / F, m = m2 / F, p = 1 + b.shape_factor * m, q = 1 + b.shape_factor * t, miss = 2 * F * (std::sqrt(F) - 1),
+                 g = A * q - B * p;
     out.force = S * (trial - rotation * b.lever);
     out.about = M;
     if (std::fabs(miss) < 2e-11 && std::fabs(g) <= 1e-9 * (A + B)) break;
@@ -139,7 +140,8 @@ TrialState returned_to_point(const PatchLimit& b, const Vec3& trial, double tors
 
 TrialState returned(const PatchLimit& b, const Vec3& trial, double torsion) {
   TrialState out = b.r > 0 ? returned_to_patch(b, trial, torsion) : returned_to_point(b, trial, torsion);
-  const double left = std::min(1.0, scale_to_surface(share_of(b, out.force, out.about), b.shape_factor));  // remaining error of the iteration
+  const double left =
+      std::min(1.0, scale_to_surface(share_of(b, out.force, out.about), b.shape_factor));  // remaining error of the iteration
   out.force *= left;
   out.about *= left;
   out.torsion = out.about - b.lever.dot(out.force);
@@ -218,11 +220,12 @@ Friction patch_friction(ContactPair& pair, const Patch& patch, const PairPose& p
   Vec3 at_centre = motion.linear + motion.angular.cross(patch.centroid);
   at_centre -= at_centre.dot(n) * n;
   const double spin_rate = motion.angular.dot(n);
-  pair.mean_normal_force = pair.mean_normal_force > 0 ? pair.mean_normal_force + (normal_force - pair.mean_normal_force) * interlock.rate : normal_force;
+  pair.mean_normal_force =
+      pair.mean_normal_force > 0 ? pair.mean_normal_force + (normal_force - pair.mean_normal_force) * interlock.rate : normal_force;
   if (pair.mean_normal_force > normal_force && at_centre.squaredNorm() < interlock.slow) normal_force = pair.mean_normal_force;
   const Pull springs{-kt * pair.u, -kr * pair.psi}, dashpots{-ct * at_centre, -ct * pair.gyration * pair.gyration * spin_rate};
   const PatchLimit patch_limit{pair.law.mu * normal_force, torsion_radius(patch.area, patch.gyration), 0, pair.gyration * pair.gyration,
-                        n.cross(patch.centroid - patch.pressure_centre)};
+                               n.cross(patch.centroid - patch.pressure_centre)};
   const ReturnResult result = return_map(patch_limit, patch, springs, dashpots);
   const Vec3 t = result.springs.force;
   const double m = kr > 0 ? result.springs.torsion : 0.0;

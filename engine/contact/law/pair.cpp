@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "engine/base/units.h"
-#include "engine/contact/impact_bound.h"
 #include "engine/contact/law/frame.h"
 #include "engine/contact/law/friction.h"
+#include "engine/contact/law/impact_bound.h"
 
 namespace erbs {
 namespace {
@@ -67,11 +67,14 @@ struct Dashpot {
 //   at least a quarter, which a heap allows (`time_step_bound.cpp`), and at most 1 / (1 + n), since others may close in the same step.
 // A capped dashpot misses the requested restitution. Bricks that fall flat rebound with at least 0.43 at a cap of a quarter, and with
 // 0.19 to 0.33 at a half (V22).
-Dashpot dashpot(ContactPair& pair, const Patch& patch, double inverse_mass, const ContactSettings& settings, double dt, double contact_count) {
+Dashpot dashpot(ContactPair& pair, const Patch& patch, double inverse_mass, const ContactSettings& settings, double dt,
+                double contact_count) {
   Dashpot d;
   // Slow decay against the duration of a soft impact (about 3 depth / speed on a corner).
-  const double memory = pair.peak_closing_speed > 0 ? std::max(settings.memory, 30 * patch.max_depth / pair.peak_closing_speed) : settings.memory;
-  pair.peak_closing_speed = std::max({pair.peak_closing_speed * (1 - std::min(1.0, dt / memory)), patch.closing_speed, settings.reference_speed});
+  const double memory =
+      pair.peak_closing_speed > 0 ? std::max(settings.memory, 30 * patch.max_depth / pair.peak_closing_speed) : settings.memory;
+  pair.peak_closing_speed =
+      std::max({pair.peak_closing_speed * (1 - std::min(1.0, dt / memory)), patch.closing_speed, settings.reference_speed});
   if (!(inverse_mass > 0)) return d;
   const double kn = pair.law.kn, x = pair.impact;
   const double slow = settings.reference_speed / pair.peak_closing_speed,
@@ -218,8 +221,8 @@ ContactPair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, d
   return p;
 }
 
-bool pair_force(ContactPair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const ContactSettings& settings,
-                double dt, bool want_energy, OverlapRoom& room, PairResult& result, double contact_count) {
+bool pair_force(ContactPair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b,
+                const ContactSettings& settings, double dt, bool want_energy, OverlapRoom& room, PairResult& result, double contact_count) {
   result = PairResult{};
   const PairFrame s = pair_frame(pair, shapes, a, b);
   Patch patch = find_overlap(*s.reference, *s.other, lifted(pair, s.pose), pair.separating_axis, room);
@@ -271,8 +274,8 @@ bool pair_force(ContactPair& pair, const ContactShapes& shapes, const ContactBlo
   return true;
 }
 
-double release_to_contact(ContactPair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const Vec6& before, double stored,
-                 double most, OverlapRoom& room) {
+double release_to_contact(ContactPair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b, const Vec6& before,
+                          double stored, double most, OverlapRoom& room) {
   const PairFrame s = pair_frame(pair, shapes, a, b);
   const Mat3 back = s.reference_block->rotation.transpose();
   // The wrench before, on the body that is not the reference, in pair axes.

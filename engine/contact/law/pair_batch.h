@@ -26,7 +26,7 @@ struct PairTask {
   ContactPair* pair;
   PairBodies bodies;
   const ContactBlock *a, *b;
-  PairResult* result;         // default-constructed
+  PairResult* result;                         // default-constructed
   double contact_count = saturated_contacts;  // as in `pair_force()`
 };
 

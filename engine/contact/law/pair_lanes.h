@@ -14,15 +14,15 @@ inline constexpr int pair_rows = 7, block_rows = 4, result_rows = 2;
 struct alignas(64) PairPack {
   const double *pair[8], *reference[8], *other[8];  // addresses of the input
   PackArray p[8 * pair_rows], r[8 * block_rows], o[8 * block_rows];
-  PackArray swapped;  // 1 if block b is the reference, else 0
-  PackArray contact_count;    // as in `pair_force()`
+  PackArray swapped;        // 1 if block b is the reference, else 0
+  PackArray contact_count;  // as in `pair_force()`
   PackArray rotation[9], shift[3];
   OverlapSums sums[8];
   PackArray max_depth;  // m
   PackArray total, area, force[3], moment[3], normal[3], size, pressure_centre[3], centroid[3], second[6], gyration;
   PackArray linear[3], angular[3];     // m/s, rad/s, motion of the other body
-  PackArray along, angular_part[3];         // for `ClipKernels::closing_speeds`
-  PackArray closing_speed;                   // m/s
+  PackArray along, angular_part[3];    // for `ClipKernels::closing_speeds`
+  PackArray closing_speed;             // m/s
   PackArray inverse_mass, chi, limit;  // of the dashpot
   PackArray damping[4];                // total and first moment from `ClipKernels::damp`, kn = 1
   // Friction: springs with their slip, dashpots, and the part within the limit.
@@ -40,10 +40,10 @@ struct PairSettings {
 struct BlockPosePack {
   const PackArray *u, *q, *v, *w;  // m, x y z w, m/s, rad/s, as in State
   PackArray *last_u, *last_q;      // their pose in the last call of `track`
-  const double* reach;        // m, distance of each block's farthest point from its centroid
-  double *rotation_travel, *spin;        // m, travel of that point by rotation, upper bound; m/s, its speed by rotation
-  double *travel, *travel_ahead;     // m, travel with that of the centroid; the same after the next steps
-  double* row[8];             // `ContactBlock`
+  const double* reach;             // m, distance of each block's farthest point from its centroid
+  double *rotation_travel, *spin;  // m, travel of that point by rotation, upper bound; m/s, its speed by rotation
+  double *travel, *travel_ahead;   // m, travel with that of the centroid; the same after the next steps
+  double* row[8];                  // `ContactBlock`
   const PackArray* axes;           // of the shapes at rest, row by row; null: the world axes
 };
 
@@ -58,7 +58,7 @@ struct alignas(64) OrientedBox {
 struct PairKernels {
   // Pose, motion and travel of the selected blocks; `soon` (s): length of the next steps. `fastest` (m/s): greatest speed so far, by lane.
   void (*track)(const BlockPosePack&, unsigned which, double soon, PackArray& fastest);
-  void (*gather_pairs)(PairPack&);                         // reads the rows; sets `rotation` and `shift`
+  void (*gather_pairs)(PairPack&);                  // reads the rows; sets `rotation` and `shift`
   void (*patch)(PairPack&, const PairSettings&);    // from `sums` to `angular_part`; `total` = 0 for a degenerate patch
   void (*dashpot)(PairPack&, const PairSettings&);  // starts from `closing_speed`
   void (*springs)(PairPack&, const PairSettings&);  // as far as `holds`

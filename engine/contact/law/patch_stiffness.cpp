@@ -25,7 +25,8 @@ bool patch_stiffness(ContactPair& pair, const ContactShapes& shapes, const Conta
                      PatchStiffness& out) {
   const PairFrame s = pair_frame(pair, shapes, a, b);
   int separating_axis = -1;
-  const Patch patch = find_overlap(*s.reference, *s.other, {s.pose.rotation, s.pose.shift + pair.lift}, separating_axis, room, &pair.corners);
+  const Patch patch =
+      find_overlap(*s.reference, *s.other, {s.pose.rotation, s.pose.shift + pair.lift}, separating_axis, room, &pair.corners);
   if (!(patch.total > 0)) return false;
   const Mat3& rotation = s.reference_block->rotation;
   const Vec3 n = rotation * patch.normal, arm = rotation * patch.centroid, arm_reference = rotation * (patch.centroid + s.pose.shift);

@@ -24,17 +24,17 @@ struct SmallPose {
 };
 
 struct alignas(64) Triangles {
-  double plane[4][few];                     // faces of a from the centroid of b: normal . x <= `plane[3]`
-  double normal[3][few];                    // of the faces of b
-  double corner[3][3][most_triangles + 8];  // m, [corner][axis], pair axes: origin at the centroid of b
-  double depth[3][most_triangles + 8];      // m, phi at the corners, filled by `sum()`
-  double closing_speed[3][most_triangles + 8];    // m/s, filled by `closing_speeds()`
-  double size[most_triangles + 8];          // m2, filled by `sum()`
-  unsigned char faces[most_triangles + 8];  // face of b, plus `few` times the face of a below which phi is measured
-  double max_depth;                           // m, filled by `sum()`
-  int count;                                // a multiple of 8, with empty ones at the end
-  int separating_axis;                           // a face of a with all of b on its outer side; -1: none
-  bool overflow;                            // more triangles than there is room for
+  double plane[4][few];                         // faces of a from the centroid of b: normal . x <= `plane[3]`
+  double normal[3][few];                        // of the faces of b
+  double corner[3][3][most_triangles + 8];      // m, [corner][axis], pair axes: origin at the centroid of b
+  double depth[3][most_triangles + 8];          // m, phi at the corners, filled by `sum()`
+  double closing_speed[3][most_triangles + 8];  // m/s, filled by `closing_speeds()`
+  double size[most_triangles + 8];              // m2, filled by `sum()`
+  unsigned char faces[most_triangles + 8];      // face of b, plus `few` times the face of a below which phi is measured
+  double max_depth;                             // m, filled by `sum()`
+  int count;                                    // a multiple of 8, with empty ones at the end
+  int separating_axis;                          // a face of a with all of b on its outer side; -1: none
+  bool overflow;                                // more triangles than there is room for
 };
 
 struct ClipTask {

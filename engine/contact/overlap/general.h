@@ -15,8 +15,8 @@ namespace erbs {
 // Pair axes: axes of the reference body A, origin at the centroid of the other body B. Lever arms then stay short even if A is a slab of
 // many metres.
 struct PairPose {
-  Mat3 rotation;   // x (pair axes) = `rotation` * x (axes of B at rest)
-  Vec3 shift;  // m, centroid of B relative to the centroid of A, axes of A
+  Mat3 rotation;  // x (pair axes) = `rotation` * x (axes of B at rest)
+  Vec3 shift;     // m, centroid of B relative to the centroid of A, axes of A
 };
 
 struct Fragment {
@@ -28,12 +28,12 @@ struct Fragment {
 // Workspace, used again from call to call; one per thread.
 struct Fragments {
   std::vector<Fragment> fragment;
-  std::vector<Vec3> vertex;     // m, pair axes
-  std::vector<double> depth;    // m, phi
+  std::vector<Vec3> vertex;           // m, pair axes
+  std::vector<double> depth;          // m, phi
   std::vector<double> closing_speed;  // m/s, closing speed of B along the normal of the patch
-  Vec3 v[most_vertices];        // m, vertices of B, pair axes
-  Vec3 n[most_faces];           // normals of B, pair axes
-  double c[most_faces];         // m, depth of the origin below the faces of A
+  Vec3 v[most_vertices];              // m, vertices of B, pair axes
+  Vec3 n[most_faces];                 // normals of B, pair axes
+  double c[most_faces];               // m, depth of the origin below the faces of A
 };
 
 // A separating feature has a number. It is a face of A, then a face of B, then a plane along an edge of each (directions i, j of
@@ -56,8 +56,8 @@ struct Patch {
   double area = 0;             // m2, surface of B inside A
   double gyration = 0;         // m, polar radius of gyration of that surface
   Mat3 second;                 // m4, Int x x^T dS over that surface
-  double max_depth = 0;          // m, greatest
-  double closing_speed = 0;          // m/s, greatest
+  double max_depth = 0;        // m, greatest
+  double closing_speed = 0;    // m/s, greatest
   Vec3 pressure_centre = Vec3::Zero();
   Vec3 centroid = Vec3::Zero();
 };

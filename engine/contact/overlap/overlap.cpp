@@ -26,7 +26,8 @@ double find_distance(const ContactShape& a, const ContactShape& b, const PairPos
 
 }  // namespace
 
-Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating_axis, OverlapRoom& room, Corners* known) {
+Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose& pose, int& separating_axis, OverlapRoom& room,
+                   Corners* known) {
   room.fast = false;
   room.apart = distance(a, b, pose, separating_axis);
   if (room.apart >= 0) return {};

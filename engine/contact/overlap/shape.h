@@ -64,10 +64,10 @@ Mat3 contact_axes(const std::vector<Polyhedron>& parts);
 
 // Present pose and motion of a block; `inverse_mass` and `inverse_inertia` of fixed blocks are 0.
 struct alignas(64) ContactBlock {
-  Vec3 u = Vec3::Zero();         // m, displacement of the centroid
+  Vec3 u = Vec3::Zero();             // m, displacement of the centroid
   Mat3 rotation = Mat3::Identity();  // from the axes of its shapes to world axes
-  Vec3 v = Vec3::Zero();         // m/s, of the centroid, at the half step before the pose
-  Vec3 w = Vec3::Zero();         // rad/s, world axes, at the same half step
+  Vec3 v = Vec3::Zero();             // m/s, of the centroid, at the half step before the pose
+  Vec3 w = Vec3::Zero();             // rad/s, world axes, at the same half step
   // constants; `track()` of `pair_lanes.h` writes the members above
   double inverse_mass = 0;             // 1/kg
   double inverse_inertia = 0;          // 1/(kg m2), of the smallest principal inertia

@@ -24,8 +24,8 @@ double total(const double* x) { return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] 
 
 void Cracked::Group::update_debonded(const PointLaw& of) {
   debonded = of.dry || std::all_of(bond.begin(), bond.end(), [](const BondPack& b) {
-           return std::all_of(b.damage, b.damage + pack_size, [](double damage) { return damage >= 1; });
-         });
+               return std::all_of(b.damage, b.damage + pack_size, [](double damage) { return damage >= 1; });
+             });
 }
 
 Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state) {
@@ -290,11 +290,21 @@ void Cracked::forces(int first, int last, bool sample, double budget, JointSums&
     CrackedPack& lane = memory_of(group);
     const Shapes& shapes = *group.shapes;
     const PointLaw& law = model_.laws[z(group.law)];
-    const CrackedShape shape{group.corners,      group.points,       group.used,
-                             double(g),          &shapes.face,       shapes.overlap_corner.data(),
-                             shapes.point.data(), shapes.cell.data(), shapes.first.data(),
-                             shapes.cell_loop.data(), per_step,           shapes.tension_loop.empty() ? shapes.cell_loop.data() : shapes.tension_loop.data(),
-                             group.crushed,      group.face_corner,    budget,
+    const CrackedShape shape{group.corners,
+                             group.points,
+                             group.used,
+                             double(g),
+                             &shapes.face,
+                             shapes.overlap_corner.data(),
+                             shapes.point.data(),
+                             shapes.cell.data(),
+                             shapes.first.data(),
+                             shapes.cell_loop.data(),
+                             per_step,
+                             shapes.tension_loop.empty() ? shapes.cell_loop.data() : shapes.tension_loop.data(),
+                             group.crushed,
+                             group.face_corner,
+                             budget,
                              law.interlock ? interlock : Interlock{}};
     if (group.debonded) {
       group.maybe_out_of_range = kernels.friction(law, shape, lane, poses, wrench_rows, done);
@@ -341,12 +351,15 @@ void Cracked::store() {
 }
 
 bool Cracked::none_ready_for_contact() const {
-  return owner_computes(model_) && std::none_of(group_.begin(), group_.end(), [](const Group& group) { return group.maybe_out_of_range && !group.empty(); });
+  return owner_computes(model_) &&
+         std::none_of(group_.begin(), group_.end(), [](const Group& group) { return group.maybe_out_of_range && !group.empty(); });
 }
 
 bool Cracked::ready_for_contact(int j) const {
   const int at = state_.slot[z(j)] - intact_packs(model_) * pack_size;
-  if (at < 0) return !owner_computes(model_) && joint_ready_for_contact(model_, state_, j);  // a joint that cracked in this step enters a group after it
+  if (at < 0)
+    return !owner_computes(model_) &&
+           joint_ready_for_contact(model_, state_, j);  // a joint that cracked in this step enters a group after it
   const Group& group = group_[z(at / pack_size)];
   if (!group.maybe_out_of_range) return false;
   const CrackedPack& lane = memory_of(group);

@@ -37,18 +37,18 @@ class Cracked {
     std::vector<CornerPack> overlap_corner;
     std::vector<PointPack> point;  // [points], like `cell`
     std::vector<CellPack> cell;
-    std::vector<int> first;                // first corner of each loop [points + 1]
+    std::vector<int> first;                           // first corner of each loop [points + 1]
     std::vector<CornerPack> cell_loop, tension_loop;  // of the cells; `tension_loop` is empty if equal to `cell_loop`
   };
   struct alignas(64) Group {
     int law, points, corners;
-    int pack;           // index in `State::pack`
-    unsigned used = 0;   // occupied lanes, as bits
+    int pack;                         // index in `State::pack`
+    unsigned used = 0;                // occupied lanes, as bits
     bool pressed_by_gravity = false;  // joints compressed by gravity
-    bool maybe_out_of_range = true;  // some joint may be beyond its faces
-    bool debonded = true;    // no point has a bond left
-    bool damage_changed = false;   // damage has changed since `store()`
-    std::size_t at = 0;  // index in `memory_`
+    bool maybe_out_of_range = true;   // some joint may be beyond its faces
+    bool debonded = true;             // no point has a bond left
+    bool damage_changed = false;      // damage has changed since `store()`
+    std::size_t at = 0;               // index in `memory_`
     std::shared_ptr<Shapes> shapes;
     int room = -1;  // points that fit there
     // A step reads the members above. It reads the members below only for joints that crush or have bonds.
@@ -56,7 +56,7 @@ class Cracked {
     CrushedFace* crushed[pack_size];  // null without a plateau in compression
     const double* face_corner[pack_size];
     const JointType* type = nullptr;  // null: several types
-    std::vector<BondPack> bond;      // [points]
+    std::vector<BondPack> bond;       // [points]
     bool empty() const { return used == 0; }
     void update_debonded(const PointLaw& law);
   };

@@ -56,7 +56,8 @@ void clear_intact_lane(IntactPack& out, IntactConstants& law, int lane) {
   law.open_limit[lane] = law.slip_limit[lane] = law.close_limit[lane] = std::numeric_limits<double>::infinity();
 }
 
-IntactJoints::IntactJoints(const Model& model, State& state) : model_(model), state_(state), carried_(std::pow(model.analysis.lazy_rotation, 3)) {
+IntactJoints::IntactJoints(const Model& model, State& state)
+    : model_(model), state_(state), carried_(std::pow(model.analysis.lazy_rotation, 3)) {
   if (model.analysis.kernel == "reference" || model.analysis.solver == "sequential") return;  // these have their own
   if (model.dashpots) {
     for (int k = 0; k < intact_packs(model); ++k) damped_.push_back(intact_pack(model, state, k));
@@ -173,7 +174,8 @@ void IntactJoints::check_points(int k, bool sample, JointSums& sums) {
     if (joints[l] < 0) continue;
     const int ends[2] = {model_.joint[z(joints[l])].a, model_.joint[z(joints[l])].b};
     for (int end = 0; end < 2; ++end)
-      for (int i = 0; i < 6; ++i) rows[8 * (pack_size * end + l) + i] = state_.increment[z(ends[end] / pack_size)].x[i][ends[end] % pack_size];
+      for (int i = 0; i < 6; ++i)
+        rows[8 * (pack_size * end + l) + i] = state_.increment[z(ends[end] / pack_size)].x[i][ends[end] % pack_size];
   }
   step_kernels().elastic(B, rows, o);
   for (int l = 0; l < pack_size; ++l) {
@@ -193,8 +195,8 @@ void IntactJoints::check_points(int k, bool sample, JointSums& sums) {
 int IntactJoints::forces(int first, int last, const StepKernels& kernels, double* stored) {
   const int* first_pack = model_.owner_schedule.first_pack.data();
   const CornerCheck corner_check{any_checked_.load(std::memory_order_relaxed) ? corner_check_.data() : nullptr, carried_, ahead_};
-  return kernels.intact(pack_.data(), corner_check, first_pack, first, last, state_.increment.data(), state_.owner_sum.data(), state_.neighbour_force.data(),
-                       stored, &may_yield_[z(first_pack[first])]);
+  return kernels.intact(pack_.data(), corner_check, first_pack, first, last, state_.increment.data(), state_.owner_sum.data(),
+                        state_.neighbour_force.data(), stored, &may_yield_[z(first_pack[first])]);
 }
 
 void IntactJoints::forces(Range groups, bool sample, std::vector<JointSums>& all) {

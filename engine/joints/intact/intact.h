@@ -1,8 +1,8 @@
 // Intact joints as the step reads them: in world axes and without points. All data follow from the reference poses.
 //
-// Owner computes: each joint is evaluated in the lane of the block that owns it (`Joint::owned_by_b`). The displacements of eight blocks are
-// read once for all joints that they own. Forces on the owners are summed in registers (`State::owner_sum`); forces on the neighbours are stored
-// in the lanes of the joints (`State::neighbour_force`).
+// Owner computes: each joint is evaluated in the lane of the block that owns it (`Joint::owned_by_b`). The displacements of eight blocks
+// are read once for all joints that they own. Forces on the owners are summed in registers (`State::owner_sum`); forces on the neighbours
+// are stored in the lanes of the joints (`State::neighbour_force`).
 #pragma once
 #include <atomic>
 #include <cstring>
@@ -25,7 +25,7 @@ class IntactJoints {
  public:
   IntactJoints(const Model& model, State& state);
   void update_reference(const std::vector<std::uint8_t>& outdated);  // updates the joints of blocks with a new reference pose
-  void leave(int j);                                     // removes a joint that has cracked
+  void leave(int j);                                                 // removes a joint that has cracked
   // Forces of the joints that these groups of eight blocks own. Joints near a limit are evaluated point by point (`response.h`);
   // joints that crack continue in `cracked.h`. `sums`: one per chunk of `grain` groups; fills their `energy.elastic` if `sample`.
   static constexpr int grain = 2;
@@ -52,12 +52,12 @@ class IntactJoints {
   };
   std::set<IntactConstants, Bytes> law_;  // each once
   std::vector<JointPack> damped_;
-  std::vector<int> owned_;  // number of intact joints that each group of blocks owns; -1: none, and their sums are zero
-  bool all_owned_ = true;   // no group has lost its last intact joint
+  std::vector<int> owned_;      // number of intact joints that each group of blocks owns; -1: none, and their sums are zero
+  bool all_owned_ = true;       // no group has lost its last intact joint
   std::vector<int> may_yield_;  // packs that may be near a limit; each call writes from the first pack of its groups on
   // Packs already evaluated point by point; some laws need this in every step. Each belongs to one thread. Null if its lanes have changed.
   std::vector<std::unique_ptr<JointPack>> checked_;
-  std::atomic<bool> any_checked_ = false;      // true if there are any
+  std::atomic<bool> any_checked_ = false;       // true if there are any
   std::vector<const JointPack*> corner_check_;  // the same for the kernel
 };
 

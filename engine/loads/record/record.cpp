@@ -42,7 +42,10 @@ RecordFile parse_record(const RecordText& text, const Record& wanted) {
 
 double factor_to_si(std::string_view in_file, const Record& wanted, const Place& place) {
   if (in_file.empty() && wanted.unit.empty())
-    throw Error(fmt::format("the file does not say the unit of its values; add unit = \"g\" in the scene, or --unit g to erbs record (one of {})", known_units), place);
+    throw Error(
+        fmt::format("the file does not say the unit of its values; add unit = \"g\" in the scene, or --unit g to erbs record (one of {})",
+                    known_units),
+        place);
   const std::optional<double> said = in_file.empty() ? std::nullopt : acceleration_unit(in_file);
   if (!in_file.empty() && !said)
     throw Error(fmt::format("unknown unit \"{}\" of acceleration; use one of {}", shown(in_file, 24), known_units), place);
@@ -76,10 +79,12 @@ Record read_record(Record record, const Place& place) {
   for (double& time : file.times) time *= record.time_factor;
   constexpr double most_acceleration = 1e6, longest = 1e6;  // m/s2, s
   if (!(largest(file.values) <= most_acceleration))
-    throw Error(fmt::format("its peak is {:.3g} m/s2; at most {:g} is allowed: check the unit and the scale", largest(file.values), most_acceleration),
+    throw Error(fmt::format("its peak is {:.3g} m/s2; at most {:g} is allowed: check the unit and the scale", largest(file.values),
+                            most_acceleration),
                 {record.file});
   if (!(file.times.back() <= longest))
-    throw Error(fmt::format("it lasts {:.3g} s; at most {:g} s is allowed: check the unit of its times", file.times.back(), longest), {record.file});
+    throw Error(fmt::format("it lasts {:.3g} s; at most {:g} s is allowed: check the unit of its times", file.times.back(), longest),
+                {record.file});
   record.acceleration = make_polyline(std::move(file.times), std::move(file.values));
   return record;
 }

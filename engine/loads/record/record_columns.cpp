@@ -87,7 +87,9 @@ void check_widths(const RecordText& text, const Rows& rows) {
 // Values without times, one or several per line, read line by line.
 RecordFile parse_values(const RecordText& text, const Rows& rows, const Record& wanted) {
   const Place place{text.path, rows.lines.front()};
-  if (wanted.dt <= 0) throw Error("the file has no times; say the step between its values, such as dt = 0.01 in the scene, or --dt 0.01 to erbs record", place);
+  if (wanted.dt <= 0)
+    throw Error("the file has no times; say the step between its values, such as dt = 0.01 in the scene, or --dt 0.01 to erbs record",
+                place);
   const std::string unit = rows.columns.empty() ? "" : rows.columns[0].unit;
   const double factor = factor_to_si(unit, wanted, {text.path, rows.names_line > 0 ? rows.names_line : rows.lines.front()});
   RecordFile file{rows.title, rows.cells.front().size() == 1 ? "text, values" : "text, values along the lines", {}, {}};
@@ -113,7 +115,8 @@ double time_factor(const RecordText& text, const Rows& rows, size_t column) {
     if (unit.empty() || unit == "s" || unit == "sec") return 1;
     if (unit == "ms") return 1e-3;
   }
-  throw Error(fmt::format("the column of times is named \"{}\" [{}]; name it time_s or time_ms", shown(rows.columns[column].name, 24), shown(unit, 24)),
+  throw Error(fmt::format("the column of times is named \"{}\" [{}]; name it time_s or time_ms", shown(rows.columns[column].name, 24),
+                          shown(unit, 24)),
               {text.path, rows.names_line});
 }
 

@@ -57,7 +57,8 @@ void add_loads(const Scene& scene, Model& m) {
         m.tilts.push_back({load.wave, load.direction.normalized()});
         break;
       case Load::Kind::force:
-        m.force_loads.push_back({load.wave, load.direction, b, load.has_point ? Vec3(load.point - m.rest[z(b)]) : Vec3(Vec3::Zero()), false});
+        m.force_loads.push_back(
+            {load.wave, load.direction, b, load.has_point ? Vec3(load.point - m.rest[z(b)]) : Vec3(Vec3::Zero()), false});
         break;
       case Load::Kind::moment:
         m.force_loads.push_back({load.wave, load.direction, b, Vec3::Zero(), true});
@@ -91,7 +92,8 @@ void index_wrench_rows(Model& m) {
   m.first_wrench_row.assign(1, pack_size * m.first_wrench_slot.back());
   for (int b = 0; b < m.nblock; ++b) m.first_wrench_row.push_back(m.first_wrench_row.back() + (moving(b) ? 0 : ends[z(b)]));
   std::vector<int> next(z(m.nblock));
-  for (int b = 0; b < m.nblock; ++b) next[z(b)] = moving(b) ? m.first_wrench_slot[z(b / pack_size)] * pack_size + b % pack_size : m.first_wrench_row[z(b)];
+  for (int b = 0; b < m.nblock; ++b)
+    next[z(b)] = moving(b) ? m.first_wrench_slot[z(b / pack_size)] * pack_size + b % pack_size : m.first_wrench_row[z(b)];
   const auto take = [&](int b) { return std::exchange(next[z(b)], next[z(b)] + (moving(b) ? pack_size : 1)); };
   for (int j = 0; j < m.njoint; ++j) {
     m.wrench_row_a[z(j)] = take(m.joint[z(j)].a);
@@ -154,16 +156,18 @@ void check_points(const Scene& scene, const Interfaces& found, std::vector<std::
     points += double(rule.points_long) * rule.points_short;
   }
   if (points > scene.most_points)
-    errors.push_back(fmt::format("{}: {} joints have {:.4g} contact points; at most {} are allowed: take fewer points a joint, or say "
-                                 "--max-points with what the memory bears (about 0.5 KiB each once all is cracked)",
-                                 scene.file, found.all.size(), points, scene.most_points));
+    errors.push_back(
+        fmt::format("{}: {} joints have {:.4g} contact points; at most {} are allowed: take fewer points a joint, or say "
+                    "--max-points with what the memory bears (about 0.5 KiB each once all is cracked)",
+                    scene.file, found.all.size(), points, scene.most_points));
 }
 
 void check_blocks(const Scene& scene, const Interfaces& found, Model& m, std::vector<std::string>& errors) {
   check_points(scene, found, errors);
   check_overlaps(scene, found.overlaps, found.cut, errors, m.warnings, m.notes);
   if (found.cut) {
-    if (errors.empty()) errors.push_back(fmt::format("{}: more than {} pairs of blocks overlap; part them", scene.file, found.overlaps.size() - 1));
+    if (errors.empty())
+      errors.push_back(fmt::format("{}: more than {} pairs of blocks overlap; part them", scene.file, found.overlaps.size() - 1));
     return;
   }
   check_joined(scene, found, m.kind, errors, m.warnings);

@@ -183,9 +183,10 @@ CheckpointBytes open_checkpoint(const std::string& dir, const CheckpointKey& key
         "(scene.lua and manifest.json beside it), or start anew with --force",
         place);
   if (head.override_arguments != key.override_arguments)
-    throw Error("was written by a run with other options (--set, --without, --points, ...); resume with those of the run, which stand in "
-                "manifest.json (\"departures\"), or start anew with --force",
-                place);
+    throw Error(
+        "was written by a run with other options (--set, --without, --points, ...); resume with those of the run, which stand in "
+        "manifest.json (\"departures\"), or start anew with --force",
+        place);
   if (head.dt != key.dt)
     throw Error(fmt::format("was written with dt = {} s, this run has dt = {} s; resume with the same, or start anew with --force", head.dt,
                             key.dt),

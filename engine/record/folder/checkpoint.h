@@ -14,8 +14,8 @@ namespace erbs {
 
 // The run a checkpoint belongs to. A checkpoint with another key is refused.
 struct CheckpointKey {
-  std::uint64_t scene = 0;  // scene_hash
-  double dt = 0;            // s, chosen at the start of the run
+  std::uint64_t scene = 0;               // scene_hash
+  double dt = 0;                         // s, chosen at the start of the run
   std::uint64_t override_arguments = 0;  // hash of the command-line overrides of the scene
 };
 

@@ -21,7 +21,7 @@ struct Manifest {
   std::vector<std::string> effects_on, effects_off;
   double duration = 0, output_dt = 0, frame_dt = 0;    // s
   double dt = 0, dt_critical = 0, dt_block_bound = 0;  // s
-  std::vector<std::string> override_arguments;                 // command-line overrides of the scene
+  std::vector<std::string> override_arguments;         // command-line overrides of the scene
   std::string dt_rule;
   Vec3 gravity = Vec3::Zero();  // m/s2
   std::vector<Camera> cameras;

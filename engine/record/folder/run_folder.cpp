@@ -16,10 +16,10 @@ namespace {
 namespace fs = std::filesystem;
 
 // Files and folders the programs write into a run folder. --force removes these only; notes of the user survive.
-constexpr std::string_view own_files[] = {"scene.lua",  "manifest.json", "metrics.json", "log.txt",      "energy.csv",  "histories.csv",
-                                          "events.csv", "histories.svg", "energy.svg",   "motion.h5",    "motion.xdmf", "checkpoint.bin",
-                                          "frames",     "report.html",   "results.csv",  "accuracy.csv", "modes.csv",
-                                          "studies",    "figures",       "expectations.json"};
+constexpr std::string_view own_files[] = {"scene.lua",     "manifest.json",  "metrics.json",  "log.txt",     "energy.csv",
+                                          "histories.csv", "events.csv",     "histories.svg", "energy.svg",  "motion.h5",
+                                          "motion.xdmf",   "checkpoint.bin", "frames",        "report.html", "results.csv",
+                                          "accuracy.csv",  "modes.csv",      "studies",       "figures",     "expectations.json"};
 constexpr std::string_view own_endings[] = {".mp4", ".tmp", ".part"};
 
 bool is_own(const fs::path& path) {
@@ -115,7 +115,8 @@ void create_run_folder(const std::string& dir, Existing existing, const std::str
     if (made) fs::remove_all(missing, ignored);
     const auto* failed = dynamic_cast<const fs::filesystem_error*>(&trouble);
     if (!failed) throw;
-    throw Error(fmt::format("output folder \"{}\" cannot be made: {}; choose another with -o DIR", shown(dir, 80), failed->code().message()));
+    throw Error(
+        fmt::format("output folder \"{}\" cannot be made: {}; choose another with -o DIR", shown(dir, 80), failed->code().message()));
   }
 }
 

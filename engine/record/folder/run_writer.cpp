@@ -75,8 +75,10 @@ MotionScene motion_scene(const Scene& scene, const Model& model) {
 RunWriter::RunWriter(const std::string& dir, const Scene& scene, const Model& model, const WriterProgress* resume)
     : dir_(dir),
       recorders_(scene, model),
-      histories_(table(run_file(dir, "histories.csv"), recorders_.columns(), resume, resume ? resume->history_rows : 0, resume ? resume->history_sum : 0)),
-      energy_(table(run_file(dir, "energy.csv"), energy_columns(), resume, resume ? resume->energy_rows : 0, resume ? resume->energy_sum : 0)),
+      histories_(table(run_file(dir, "histories.csv"), recorders_.columns(), resume, resume ? resume->history_rows : 0,
+                       resume ? resume->history_sum : 0)),
+      energy_(
+          table(run_file(dir, "energy.csv"), energy_columns(), resume, resume ? resume->energy_rows : 0, resume ? resume->energy_sum : 0)),
       events_(table(run_file(dir, "events.csv"), {"time_s", "event", "name", "value", "unit"}, resume, resume ? resume->event_rows : 0,
                     resume ? resume->event_sum : 0)),
       motion_(resume ? MotionWriter(dir, resume->frames) : MotionWriter(dir, motion_scene(scene, model))),

@@ -6,7 +6,7 @@
 
 #include "engine/record/folder/motion_file.h"
 #include "engine/record/format/csv.h"
-#include "engine/record/joint_condition.h"
+#include "engine/record/recorders/joint_condition.h"
 #include "engine/record/recorders/recorder.h"
 #include "engine/record/recorders/snapshot.h"
 

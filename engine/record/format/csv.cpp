@@ -112,7 +112,8 @@ CsvWriter::CsvWriter(const std::string& path, const std::vector<std::string>& na
   sum_ = fnv1a(std::string_view(text).substr(0, end));
   if (sum && *sum != sum_) throw Error("was changed after the checkpoint was written; start anew with --force", {path, 0});
   file_ = ::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
-  if (file_ < 0 || ::ftruncate(file_, off_t(end)) != 0) throw WriteError(fmt::format("cannot be written: {}", std::strerror(errno)), {path, 0});
+  if (file_ < 0 || ::ftruncate(file_, off_t(end)) != 0)
+    throw WriteError(fmt::format("cannot be written: {}", std::strerror(errno)), {path, 0});
 }
 
 CsvWriter::~CsvWriter() {

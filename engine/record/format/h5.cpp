@@ -135,9 +135,7 @@ File::File(std::string path, Mode mode) : path_(std::move(path)) {
 void File::unreadable(const std::string& what) const {
   throw Error(fmt::format("{} cannot be read; the file is damaged or no motion file, run the scene again", what), {path_, 0});
 }
-void File::unwritable(const std::string& what) const {
-  throw WriteError(fmt::format("{} cannot be written{}", what, why()), {path_, 0});
-}
+void File::unwritable(const std::string& what) const { throw WriteError(fmt::format("{} cannot be written{}", what, why()), {path_, 0}); }
 
 template <class T>
 void File::put(const std::string& name, const std::vector<T>& data, std::size_t columns) const {

@@ -45,7 +45,8 @@ struct Count {
     return {{"contact_points", "points in contact, in the whole model"}, {"joints_broken", "joints broken, in the whole model"}};
   }
 
-  explicit Count(const RecorderRequest& request) : what(What(quantity_index(quantities(), request.recorder.quantity))), name(request.recorder.name) {}
+  explicit Count(const RecorderRequest& request)
+      : what(What(quantity_index(quantities(), request.recorder.quantity))), name(request.recorder.name) {}
 
   std::vector<std::string> columns() const { return {name + (what == What::contact_points ? "_contact_points" : "_joints_broken")}; }
   void needs(Needs&) const {}

@@ -11,7 +11,8 @@ JointQuantity::JointQuantity(const RecorderRequest& request)
   double area = 0;
   for (int j = 0; j < request.model.njoint; ++j) {
     const Joint& joint = request.model.joint[std::size_t(j)];
-    const bool forth = in(request.blocks, joint.a) && in(request.others, joint.b), back = in(request.blocks, joint.b) && in(request.others, joint.a);
+    const bool forth = in(request.blocks, joint.a) && in(request.others, joint.b),
+               back = in(request.blocks, joint.b) && in(request.others, joint.a);
     if (!forth && !back) continue;
     joints.push_back(j);
     sign.push_back(forth ? 1.0 : -1.0);
@@ -53,8 +54,9 @@ void JointQuantity::sample(const Snapshot& s, double* out) const {
         const auto a = std::size_t(joint.a), b = std::size_t(joint.b);
         const Vec3 force = frame * Vec3(f[0], f[1], f[2]);
         // The force acts midway between the two material points that coincided at rest (kinematics.h).
-        const Vec3 at = s.model.rest[a] + joint.arm_a +
-                        0.5 * (s.state.u[a] + s.state.u[b] + rotation_change(s.state.q[a], joint.arm_a) + rotation_change(s.state.q[b], joint.arm_b));
+        const Vec3 at =
+            s.model.rest[a] + joint.arm_a +
+            0.5 * (s.state.u[a] + s.state.u[b] + rotation_change(s.state.q[a], joint.arm_a) + rotation_change(s.state.q[b], joint.arm_b));
         normal += f[2];
         along += sign[i] * (force - frame.col(2) * f[2]);
         moment += sign[i] * (frame * Vec3(f[3], f[4], f[5]) + Vec3(at - centre).cross(force));

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/record/joint_condition.h"
+#include "engine/record/recorders/joint_condition.h"
 #include "engine/record/recorders/recorder.h"
 
 namespace erbs {

@@ -5,7 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/units.h"
-#include "engine/record/joint_condition.h"
+#include "engine/record/recorders/joint_condition.h"
 
 namespace erbs {
 namespace {
@@ -23,8 +23,8 @@ MovedJoint moved_joint(const Model& model, const State& state, int j) {
   for (int i = joint.type->first_corner; i < joint.type->first_corner + joint.type->corners; ++i) {
     const Eigen::Vector2d& c = model.overlap_corner[std::size_t(i)];
     const Vec3 across = joint.type->frame.col(0) * c.x() + joint.type->frame.col(1) * c.y();
-    gap.push_back(frame.transpose() *
-                  (state.u[b] - state.u[a] + rotation_change(state.q[b], joint.arm_b + across) - rotation_change(state.q[a], joint.arm_a + across)));
+    gap.push_back(frame.transpose() * (state.u[b] - state.u[a] + rotation_change(state.q[b], joint.arm_b + across) -
+                                       rotation_change(state.q[a], joint.arm_a + across)));
     place.push_back(model.rest[a] + joint.arm_a + across);
   }
   if (gap.empty()) return moved;

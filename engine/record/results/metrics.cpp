@@ -135,7 +135,8 @@ Metrics::Diagnostics diagnostics_of(const Json& metrics) {
   };
   t.energy_residual = number("trust.energy_residual");
   t.energy_residual_time = number("trust.energy_residual_time_s");
-  if (const Json* where = find_key(metrics, "trust.energy_residual_where"); where != nullptr && where->is_string()) t.energy_residual_where = *where;
+  if (const Json* where = find_key(metrics, "trust.energy_residual_where"); where != nullptr && where->is_string())
+    t.energy_residual_where = *where;
   t.penetration = number("trust.max_penetration_relative");
   t.dt_margin = number("trust.dt_margin");
   t.reset_share = number("trust.reset_share");
@@ -145,7 +146,8 @@ Metrics::Diagnostics diagnostics_of(const Json& metrics) {
   t.sinking_share = number("trust.sinking_share");
   t.momentum_residual = number("trust.momentum_residual");
   if (const Json* twin = find_key(metrics, "trust.twin"); twin != nullptr && twin->is_boolean()) t.twin = *twin;
-  if (const Json* horizon = find_key(metrics, "trust.chaos_horizon_s"); horizon != nullptr && horizon->is_number()) t.chaos_horizon = horizon->get<double>();
+  if (const Json* horizon = find_key(metrics, "trust.chaos_horizon_s"); horizon != nullptr && horizon->is_number())
+    t.chaos_horizon = horizon->get<double>();
   return t;
 }
 

@@ -105,7 +105,8 @@ void count_wrench_slots(const Model& m, int b, std::vector<BlockConstants>& cons
 
 std::vector<BlockConstants> block_constants(const Model& m, const State& s) {
   std::vector<BlockConstants> out(block_groups(m.nblock));
-  for (int b = 0; b < int(out.size()) * pack_size; ++b) set_constants(m, s, b, b < m.nblock && m.kind[z(b)] == Kind::moving, out[z(b / pack_size)]);
+  for (int b = 0; b < int(out.size()) * pack_size; ++b)
+    set_constants(m, s, b, b < m.nblock && m.kind[z(b)] == Kind::moving, out[z(b / pack_size)]);
   // Groups on which an intact joint acts. A joint that cracked in this step still counts: its lane has its forces until the next step.
   std::vector<std::uint8_t> intact(out.size(), 0);
   for (int j = 0; j < m.njoint; ++j)
@@ -216,7 +217,8 @@ void advance(const Model& m, State& s, const std::vector<BlockConstants>& consta
   }
 }
 
-BlockGather::BlockGather(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Excitation& e, const ExternalForces& external)
+BlockGather::BlockGather(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Excitation& e,
+                         const ExternalForces& external)
     : model_(m), state_(s), constants_(constants), external_(external), kernels_(step_kernels()), step_(kick_of(m, s, e)) {
   constant_.carried = true;
 }
@@ -270,9 +272,10 @@ void BlockGather::each_loaded(const int* blocks, int count, F&& f) const {
 void BlockGather::advance(const int* blocks, int count, bool sample, std::vector<BlockSums>& sums) {
   for (int l = 0; l < pack_size; ++l) copy_in(l < count ? blocks[l] : model_.nblock, l);  // unused lanes: the dummy block at rest
   each_loaded(blocks, count, [&](auto one, std::size_t i) { work_before(model_, state_, external_, one, sums[i]); });
-  const double *contact_wrench = external_.contacts != nullptr ? contact_wrench_ : nullptr, *load = external_.loads != nullptr ? load_ : nullptr;
-  const BlockArrays group{&constant_, &u_,     &v_,      &momentum_, &w_,     &q_,     &ref_u_, &ref_q_, nullptr,
-                          nullptr,    &increment_, &wrench_, nullptr,    nullptr, nullptr, contact_wrench,     load};
+  const double *contact_wrench = external_.contacts != nullptr ? contact_wrench_ : nullptr,
+               *load = external_.loads != nullptr ? load_ : nullptr;
+  const BlockArrays group{&constant_, &u_,         &v_,      &momentum_, &w_,     &q_,     &ref_u_,        &ref_q_, nullptr,
+                          nullptr,    &increment_, &wrench_, nullptr,    nullptr, nullptr, contact_wrench, load};
   BlockSums& all = sums.front();
   if (kernels_.advance(step_, group, 0, 1, sample, all.work)) all.broken = true;
   for (int l = 0; l < count; ++l) copy_out(blocks[l], l);

@@ -29,8 +29,8 @@ struct LoadedBlock {
 struct BlockSums {
   BlockWork work{};
   double external_work = 0, external_after = 0, external_absolute = 0, external_absolute_after = 0;  // J
-  bool outdated = false;   // a block with joints rotated beyond the tolerance since its reference pose
-  bool broken = false;  // a number is not finite
+  bool outdated = false;  // a block with joints rotated beyond the tolerance since its reference pose
+  bool broken = false;    // a number is not finite
 };
 
 inline constexpr int block_grain = 4;  // groups of eight blocks per chunk
@@ -53,8 +53,9 @@ struct ExternalForces {
 // Integrates groups of blocks: sums wrench rows and external forces, kicks by `e.kick`, drifts by `s.dt`. `sums`: one per chunk of
 // `block_grain` groups; a range that needs no sums runs in one piece. `idle`: 1 for each group without motion; empty means none. `poses`:
 // the pose rows that `Cracked` reads.
-void advance(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const ExternalForces& external,
-             Range groups, bool sample, std::vector<BlockSums>& sums, std::span<const std::uint8_t> idle = {}, double* poses = nullptr);
+void advance(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e,
+             const ExternalForces& external, Range groups, bool sample, std::vector<BlockSums>& sums,
+             std::span<const std::uint8_t> idle = {}, double* poses = nullptr);
 
 // Groups in which every movable block sleeps; empty if none sleeps. Steps skip these groups, except samples (potential energy).
 std::vector<std::uint8_t> idle_groups(const Model& model, const State& state);
@@ -63,7 +64,8 @@ std::vector<std::uint8_t> idle_groups(const Model& model, const State& state);
 class BlockGather {
  public:
   // One object per sweep: it fixes the external actions of that sweep.
-  BlockGather(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e, const ExternalForces& external);
+  BlockGather(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e,
+              const ExternalForces& external);
   // Kick and drift of `blocks[0 .. count)`, `count <= lanes`, like the free function `advance()`. The first element of `sums` receives all
   // sums except the work of loads. The following elements receive that work, one for each entry of `pushes.loaded`.
   void advance(const int* blocks, int count, bool sample, std::vector<BlockSums>& sums);

@@ -55,7 +55,8 @@ bool take_outdated_poses(const Model& m, State& s, std::vector<std::uint8_t>& ou
   bool past = false;
   for (int b = 0; b < m.nblock; ++b) {
     double square = 0;
-    for (int i = 3; i < 6; ++i) square += s.increment[z(b / pack_size)].x[i][b % pack_size] * s.increment[z(b / pack_size)].x[i][b % pack_size];
+    for (int i = 3; i < 6; ++i)
+      square += s.increment[z(b / pack_size)].x[i][b % pack_size] * s.increment[z(b / pack_size)].x[i][b % pack_size];
     past = past || (outdated[z(b)] && square > limit);
     outdated[z(b)] = outdated[z(b)] && square > 0.25 * limit;
   }

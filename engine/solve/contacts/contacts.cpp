@@ -32,7 +32,8 @@ double largest_inverse_inertia(const Mat3& inverse) {
 
 }  // namespace
 
-Contacts::Contacts(const Model& model, State& state, int threads) : model_(model), state_(state), sleep_(model, state), limit_(model, state) {
+Contacts::Contacts(const Model& model, State& state, int threads)
+    : model_(model), state_(state), sleep_(model, state), limit_(model, state) {
   thread_pairs_.resize(z(threads));
   fastest_.resize(z(threads));
   fastest_loose_.resize(z(threads));
@@ -180,7 +181,8 @@ void Contacts::list_involved() {
 
 void Contacts::find_former_joints() {
   former_joints_.clear();
-  for (const ContactPair& p : state_.contacts.pair) former_joints_.push_back({p.former_joint ? former_joint_of(p) : -1, p.bound_share_a, p.bound_share_b});
+  for (const ContactPair& p : state_.contacts.pair)
+    former_joints_.push_back({p.former_joint ? former_joint_of(p) : -1, p.bound_share_a, p.bound_share_b});
 }
 
 // First of the joints that a contact pair has replaced.
@@ -353,7 +355,8 @@ void Contacts::release_pair(const int* first, const int* last) {
   pair.law.ks = joint_law.ks;
   pair.law.mu = joint_law.mu_residual;
   cache_outdated_ = true;
-  note_release(*first, stored - release_to_contact(pair, shapes_, blocks_[z(pair.a)], blocks_[z(pair.b)], wrench, stored, most, room_.front()));
+  note_release(*first,
+               stored - release_to_contact(pair, shapes_, blocks_[z(pair.a)], blocks_[z(pair.b)], wrench, stored, most, room_.front()));
 }
 
 void Contacts::note_release(int joint, double energy) {

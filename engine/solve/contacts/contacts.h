@@ -26,8 +26,8 @@ class Contacts {
   Contacts(const Model& model, State& state, int threads);
 
   bool active() const { return !involved_.empty() || !state_.contacts.pair.empty(); }
-  // Releases joints without bond and beyond their range (`joint_ready_for_contact()`) to contact and returns them. Called between forces and drift:
-  // this step still has the wrench and stored energy of the joint, the next step has those of the contact.
+  // Releases joints without bond and beyond their range (`joint_ready_for_contact()`) to contact and returns them. Called between forces
+  // and drift: this step still has the wrench and stored energy of the joint, the next step has those of the contact.
   std::vector<int> release_joints(Cracked& cracked);
   // Since the last call.
   std::vector<JointRelease> take_releases() { return std::exchange(releases_, {}); }
@@ -74,7 +74,7 @@ class Contacts {
   int former_joint_of(const ContactPair& pair) const;
   void bound_former_joint(ContactPair& pair);
   void update_bound();
-  double limit() const;                    // s, time step that contacts and joints allow, ...
+  double limit() const;                     // s, time step that contacts and joints allow, ...
   double limited_by_slip(double dt) const;  // s, ... and slipping patches
   void bound_elsewhere();
   double contact_count(int a, int b) const;  // number of contacts for the dashpots of `pair_force()`
@@ -117,25 +117,25 @@ class Contacts {
   std::vector<ContactBlock> blocks_;
   struct Axes {
     VectorPack<9> row{};  // row-major
-    bool any = false;   // some differ from the world axes
+    bool any = false;     // some differ from the world axes
   };
   std::vector<Axes> axes_;  // of the shapes at rest, by groups of eight blocks; empty if all are the world axes
   Sleep sleep_;
   std::vector<int> involved_;           // blocks that are loose or listed in a pair
   std::vector<double> fastest_loose_;   // m2/s2, greatest squared speed of an involved block, per thread
-  std::vector<BlockGroup> awake_;            // involved blocks that are awake
-  std::vector<BlockGroup> placed_;           // moving ones among the blocks of live pairs
-  std::vector<BlockGroup> driven_;           // driven ones among these; no drift moves them
+  std::vector<BlockGroup> awake_;       // involved blocks that are awake
+  std::vector<BlockGroup> placed_;      // moving ones among the blocks of live pairs
+  std::vector<BlockGroup> driven_;      // driven ones among these; no drift moves them
   std::vector<std::uint64_t> jointed_;  // pairs of blocks that still have a joint, sorted
   struct FormerJoint {
-    int joint = -1;                 // first of the joints that this pair replaced; -1: none
+    int joint = -1;                     // first of the joints that this pair replaced; -1: none
     double omega2_a = 0, omega2_b = 0;  // 1/s2, as `ContactPair::bound_share_a`, `bound_share_b`
   };
   std::vector<FormerJoint> former_joints_;  // per pair
   ContactLimit limit_;
-  std::vector<double> omega2_;     // 1/s2, of contacts beyond the bound of `limit_` [nblock]
+  std::vector<double> omega2_;         // 1/s2, of contacts beyond the bound of `limit_` [nblock]
   std::vector<double> impact_omega2_;  // 1/s2, of the stiffest face that may strike the block next; there is room for only one [nblock]
-  double elsewhere_ = 0;         // 1/s2, greatest `on_block()` of blocks without a live pair
+  double elsewhere_ = 0;               // 1/s2, greatest `on_block()` of blocks without a live pair
   // Conservative motion bound: each block's travel is accumulated, and a separated pair is tested again only when the two travels could
   // have closed its gap (`State::separation`).
   struct PairBound {
@@ -143,15 +143,15 @@ class Contacts {
     double until = 0;  // m; no test while `travel_ahead_[a] + travel_ahead_[b] < until`
   };
   std::vector<PairBound> pair_bounds_;  // per pair
-  std::vector<int> edge_of_pair_;         // per pair, index into `edges_`; -1: none
+  std::vector<int> edge_of_pair_;       // per pair, index into `edges_`; -1: none
   std::vector<EdgeAtRest> edges_;
-  std::vector<VectorPack<3>> last_u_;     // m, displacements at the last update of the pose, by groups of eight as in State
-  std::vector<double> reach_;           // m, distance of each block's farthest point from its centroid; whole groups, like the arrays below
-  std::vector<double> spin_;            // m/s, speed of that point by rotation
+  std::vector<VectorPack<3>> last_u_;  // m, displacements at the last update of the pose, by groups of eight as in State
+  std::vector<double> reach_;          // m, distance of each block's farthest point from its centroid; whole groups, like the arrays below
+  std::vector<double> spin_;           // m/s, speed of that point by rotation
   std::vector<double> travel_, travel_ahead_;  // m, travel of each block; the same with the next steps (`BlockPosePack`)
-  std::vector<MaxSpeed> fastest_;        // m/s, of the blocks that each thread has updated
-  double fastest_pair_ = 0;             // m/s, upper bound of the speed of approach of any two blocks
-  double thinnest_ = 0;                 // m, thinnest extent of all blocks
+  std::vector<MaxSpeed> fastest_;              // m/s, of the blocks that each thread has updated
+  double fastest_pair_ = 0;                    // m/s, upper bound of the speed of approach of any two blocks
+  double thinnest_ = 0;                        // m, thinnest extent of all blocks
   // Results of a thread in this step, in the order of the pairs.
   struct ContactForce {
     int pair;
@@ -162,24 +162,24 @@ class Contacts {
     double apart, impact_omega2_a, impact_omega2_b, event_rate;  // as in `PairResult`
   };
   struct ThreadPairs {
-    std::vector<int> at;         // pairs to evaluate
-    std::vector<ContactForce> forces;  // pairs with forces
-    std::vector<SeparatedPair> separated;      // separated pairs
+    std::vector<int> at;                   // pairs to evaluate
+    std::vector<ContactForce> forces;      // pairs with forces
+    std::vector<SeparatedPair> separated;  // separated pairs
   };
   struct PairCache {
     PairBodies bodies;
     bool known = false, fits = false;  // fits: `fits_pack()`
-    int axis = -1;                   // `cached_axis()`
+    int axis = -1;                     // `cached_axis()`
   };
   std::vector<PairCache> cache_;  // per pair, data that a step reads first
   bool cache_outdated_ = true;
-  std::vector<int> first_pair_;                // first pair of each thread; balances the number of evaluations
-  std::vector<ThreadPairs> thread_pairs_;                 // per thread
-  std::vector<OverlapRoom> room_;              // per thread
+  std::vector<int> first_pair_;                    // first pair of each thread; balances the number of evaluations
+  std::vector<ThreadPairs> thread_pairs_;          // per thread
+  std::vector<OverlapRoom> room_;                  // per thread
   std::vector<std::unique_ptr<PairBatch>> batch_;  // per thread
-  std::vector<std::uint64_t> pair_keys_;       // pairs of blocks with a joint at rest, sorted, ...
-  std::vector<int> of_pair_;                   // ... and the first of their joints
-  std::vector<std::vector<int>> neighbours_;   // blocks joined to each block at rest [nblock]
+  std::vector<std::uint64_t> pair_keys_;           // pairs of blocks with a joint at rest, sorted, ...
+  std::vector<int> of_pair_;                       // ... and the first of their joints
+  std::vector<std::vector<int>> neighbours_;       // blocks joined to each block at rest [nblock]
   std::vector<JointRelease> releases_;
   double reset_energy_ = 0;  // J, set free by the last releases and still contained in the sums of this step
   double allowed_ = 0, elastic_ = 0, event_rate_ = 0, slip_omega2_ = 0;

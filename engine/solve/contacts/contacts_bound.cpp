@@ -1,9 +1,10 @@
-// Part of `Contacts` that bounds the time step: by present contacts, coming impacts, predicted events, and bodies that must not pass others.
+// Part of `Contacts` that bounds the time step: by present contacts, coming impacts, predicted events, and bodies that must not pass
+// others.
 #include <algorithm>
 #include <cmath>
 
-#include "engine/contact/impact_bound.h"
 #include "engine/contact/law/frame.h"
+#include "engine/contact/law/impact_bound.h"
 #include "engine/solve/contacts/contacts.h"
 
 namespace erbs {
@@ -70,7 +71,9 @@ double Contacts::stable_dt() const {
   return limited_by_slip(bears);
 }
 
-double Contacts::limited_by_slip(double dt) const { return slip_omega2_ > 0 ? std::min(dt, max_slip_omega_dt / std::sqrt(slip_omega2_)) : dt; }
+double Contacts::limited_by_slip(double dt) const {
+  return slip_omega2_ > 0 ? std::min(dt, max_slip_omega_dt / std::sqrt(slip_omega2_)) : dt;
+}
 
 // Greatest demand of blocks without a live pair: joined blocks, and sleepers as if awake, so that the bound is valid when one wakes.
 void Contacts::bound_elsewhere() {

@@ -5,8 +5,8 @@
 #include <utility>
 
 #include "engine/base/system/team.h"
-#include "engine/contact/impact_bound.h"
 #include "engine/contact/law/frame.h"
+#include "engine/contact/law/impact_bound.h"
 #include "engine/solve/contacts/contacts.h"
 
 namespace erbs {
@@ -123,7 +123,8 @@ bool Contacts::surely_separated(int i) {
   const ContactBlock &a = blocks_[z(pair.a)], &b = blocks_[z(pair.b)];
   const std::vector<double>& rotation_travel = state_.separation.rotation_travel;
   const double soon = look_ahead * 1.5 * std::max(state_.dt, state_.last_dt);  // the next step may be 1.5 times as long
-  const double left = known.distance - ((b.u - a.u) - known.relative_u).norm() - (rotation_travel[z(pair.a)] + rotation_travel[z(pair.b)] - known.rotation_travel) -
+  const double left = known.distance - ((b.u - a.u) - known.relative_u).norm() -
+                      (rotation_travel[z(pair.a)] + rotation_travel[z(pair.b)] - known.rotation_travel) -
                       round_off * state_.contacts.margin;
   if (!(soon * ((b.v - a.v).norm() + spin_[z(pair.a)] + spin_[z(pair.b)]) < left)) return false;
   pair.until = (travel_[z(pair.a)] + travel_[z(pair.b)] + left) * (1 - round_off);
@@ -205,7 +206,8 @@ void Contacts::forces(int thread, bool sample) {
       if (r.apart > settings_.interlock.gap) pair.mean_normal_force = 0;
       return false;
     }
-    const bool counts = pair_force(pair, shapes_, a, b, settings_, dt, sample, room, r, contact_count(pair_bounds_[z(i)].a, pair_bounds_[z(i)].b));
+    const bool counts =
+        pair_force(pair, shapes_, a, b, settings_, dt, sample, room, r, contact_count(pair_bounds_[z(i)].a, pair_bounds_[z(i)].b));
     cache.fits = fits_pack(pair, bodies);
     cache.axis = cached_axis(pair, *bodies.reference, *bodies.other);
     note_separation(i, counts ? 0 : r.apart);
@@ -230,7 +232,8 @@ void Contacts::forces(int thread, bool sample) {
     }
     if (cache.fits) {
       found.forces.push_back({i, {}});
-      task[count] = {&pair, cache.bodies, &blocks_[z(known.a)], &blocks_[z(known.b)], &found.forces.back().result, contact_count(known.a, known.b)};
+      task[count] = {
+          &pair, cache.bodies, &blocks_[z(known.a)], &blocks_[z(known.b)], &found.forces.back().result, contact_count(known.a, known.b)};
       at[count++] = i;
       if (count == pairs_per_batch) evaluate_batch();
       continue;
@@ -316,10 +319,11 @@ void Contacts::gather(double* contact_wrench, bool sample) {
   slip_omega2_ = 0;
   for (const ThreadPairs& found : thread_pairs_) {
     slip_omega2_ = std::max(slip_omega2_, add_up(found.forces, contact_wrench, sample));
-    for (const SeparatedPair& one : found.separated) add_impact_bound(one.pair, one.impact_omega2_a, one.impact_omega2_b, false), event_rate_ = std::max(event_rate_, one.event_rate);
+    for (const SeparatedPair& one : found.separated)
+      add_impact_bound(one.pair, one.impact_omega2_a, one.impact_omega2_b, false), event_rate_ = std::max(event_rate_, one.event_rate);
   }
   for (const int b : sleep_.in_live_pairs())
-    if (model_.kind[z(b)] != Kind::moving) s.contacts.contact_count[z(b)] = 0;   // no limit for dashpots on a fixed or driven block
+    if (model_.kind[z(b)] != Kind::moving) s.contacts.contact_count[z(b)] = 0;           // no limit for dashpots on a fixed or driven block
     else if (s.joined[z(b)]) s.contacts.contact_count[z(b)] += int(saturated_contacts);  // joints use up this block's share
   balance_threads();
   double bears = limit();

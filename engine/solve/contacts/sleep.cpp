@@ -9,11 +9,11 @@
 namespace erbs {
 namespace {
 
-constexpr double sleep_speed = 1e-6;  // of sqrt(g L); a poured heap (hard case 26) falls below it, down to 1e-12
-constexpr double sleep_acceleration = 1e-4;   // of g
+constexpr double sleep_speed = 1e-6;         // of sqrt(g L); a poured heap (hard case 26) falls below it, down to 1e-12
+constexpr double sleep_acceleration = 1e-4;  // of g
 constexpr double wake_acceleration = 1e-3;   // of g; more than the dashpot forces that end when a contact at `sleep_speed` stops
-constexpr double sleep_time = 0.5;    // of sqrt(L / g)
-constexpr int update_every = 16;        // steps between two searches for still blocks
+constexpr double sleep_time = 0.5;           // of sqrt(L / g)
+constexpr int update_every = 16;             // steps between two searches for still blocks
 std::size_t z(int i) { return std::size_t(i); }
 
 auto key_of(const ContactPair& p) { return std::tie(p.a, p.b, p.part_a, p.part_b); }
@@ -189,7 +189,8 @@ Sleep::Motion Sleep::motion_of(int b, const double* contact_wrench, const Contac
   const double* row = contact_wrench + 8 * z(b);
   const Vec3 force(row[0], row[1], row[2]), moment(row[3], row[4], row[5]);
   const Vec3 spin_up = block.rotation * (block.inverse_tensor * (block.rotation.transpose() * moment));
-  return {block.v.norm() + block.w.norm() * reach_[z(b)], (force * block.inverse_mass + effective_gravity_).norm() + spin_up.norm() * reach_[z(b)]};
+  return {block.v.norm() + block.w.norm() * reach_[z(b)],
+          (force * block.inverse_mass + effective_gravity_).norm() + spin_up.norm() * reach_[z(b)]};
 }
 
 bool Sleep::try_sleep(double kick, const double* contact_wrench, std::span<const ContactBlock> blocks) {
@@ -202,7 +203,8 @@ bool Sleep::try_sleep(double kick, const double* contact_wrench, std::span<const
     if (!still || last_motion[z(b)] > t) last_motion[z(b)] = t;
   }
   const auto is_still = [&](int b) {
-    return model_.kind[z(b)] == Kind::fixed || asleep(b) || t - last_motion[z(b)] >= sleep_time * std::sqrt(model_.smallest_edge[z(b)] / g_);
+    return model_.kind[z(b)] == Kind::fixed || asleep(b) ||
+           t - last_motion[z(b)] >= sleep_time * std::sqrt(model_.smallest_edge[z(b)] / g_);
   };
   for (const int b : awake_) mark_[z(b)] = may_sleep(b) && is_still(b);
   for (const int i : live_) {

@@ -32,10 +32,10 @@ class Sleep {
   // Takes the present list of pairs. `involved`: blocks that are loose or in a pair. `evaluate(i)`: result of pair i in its present pose,
   // called once while the pair rests. New sleepers have zero velocity already.
   void sort(const std::vector<int>& involved, const std::function<PairResult(int i)>& evaluate);
-  const std::vector<int>& live() const { return live_; }      // pairs with an awake block, in order
-  const std::vector<int>& awake() const { return awake_; }    // involved blocks that are awake, driven ones included
+  const std::vector<int>& live() const { return live_; }                    // pairs with an awake block, in order
+  const std::vector<int>& awake() const { return awake_; }                  // involved blocks that are awake, driven ones included
   const std::vector<int>& in_live_pairs() const { return in_live_pairs_; }  // blocks of live pairs
-  void add_omega2();                                           // again, after an update of the bound
+  void add_omega2();                                                        // again, after an update of the bound
   template <class F>
   void each_resting(F&& f) const {  // f(i, result): touching pairs at rest
     for (const Resting& one : resting_) f(one.pair, one.result);
@@ -48,8 +48,8 @@ class Sleep {
   double elastic() const { return elastic_; }  // J, stored in pairs at rest
   int touching() const { return touching_; }   // number of touching pairs at rest
 
-  // Between forces and drift: wakes blocks under a net force and, every few steps, lets still blocks fall asleep. `contact_wrench`: contact wrenches
-  // on blocks. True if the set of sleepers has changed: the pairs must be sorted again before the next step.
+  // Between forces and drift: wakes blocks under a net force and, every few steps, lets still blocks fall asleep. `contact_wrench`: contact
+  // wrenches on blocks. True if the set of sleepers has changed: the pairs must be sorted again before the next step.
   bool update(const Excitation& e, const double* contact_wrench, const ContactShapes& shapes, std::span<const ContactBlock> blocks);
   long slept() const { return slept_; }  // steps of sleeping blocks, since the start of this Solver
 
@@ -75,13 +75,13 @@ class Sleep {
   const Model& model_;
   State& state_;
   bool on_ = false;
-  double g_ = 0;                      // m/s2
-  Vec3 effective_gravity_ = Vec3::Zero();          // m/s2, gravity less the ground acceleration in this step
-  std::vector<std::uint8_t> loaded_;  // a load acts on the block [nblock]
+  double g_ = 0;                           // m/s2
+  Vec3 effective_gravity_ = Vec3::Zero();  // m/s2, gravity less the ground acceleration in this step
+  std::vector<std::uint8_t> loaded_;       // a load acts on the block [nblock]
   std::vector<int> live_, awake_, in_live_pairs_;
   std::vector<Resting> resting_;    // touching pairs at rest, in order
-  Rows resting_wrench_;                       // N, N m, of these on each block
-  std::vector<double> omega2_;        // 1/s2 [nblock]
+  Rows resting_wrench_;             // N, N m, of these on each block
+  std::vector<double> omega2_;      // 1/s2 [nblock]
   std::vector<int> contacts_;       // [nblock]
   std::vector<double> reach_;       // m, distance of the block's farthest corner [nblock]
   std::vector<std::uint8_t> mark_;  // scratch [nblock]

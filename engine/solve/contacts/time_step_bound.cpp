@@ -21,7 +21,7 @@ constexpr double contact_share = 0.7;
 constexpr double impact_share = 0.5;
 constexpr int update_every = 256;  // steps between two updates while the step could be longer, ...
 constexpr int update_soon = 32;    // ... and before the step becomes shorter
-constexpr int joints_every = 8;   // updates between two trials of the bound by blocks
+constexpr int joints_every = 8;    // updates between two trials of the bound by blocks
 std::size_t z(int i) { return std::size_t(i); }
 
 // 1 / dt^2 for an upper bound of the total stiffness on a block.
@@ -42,7 +42,7 @@ bool ContactLimit::due(double allowed) const {
 }
 
 void ContactLimit::update_bound(const ContactShapes& shapes, std::span<const ContactBlock> blocks, const std::vector<double>& scalars,
-                         OverlapRoom& room) {
+                                OverlapRoom& room) {
   PairList& list = state_.contacts;
   std::vector<Mat6> k(blocks.size(), Mat6::Zero());
   for (ContactPair& p : list.pair) {
@@ -107,7 +107,8 @@ std::vector<double> ContactLimit::by_matrices(std::span<const ContactBlock> bloc
 
 double ContactLimit::on_block(int b, double omega2, double impact_omega2) const {
   const PairList& list = state_.contacts;
-  return (list.bound_updates > 0 ? list.block_bounds[z(b)] : 0) + inverse_square(omega2, safe_share) + inverse_square(impact_omega2, impact_share);
+  return (list.bound_updates > 0 ? list.block_bounds[z(b)] : 0) + inverse_square(omega2, safe_share) +
+         inverse_square(impact_omega2, impact_share);
 }
 
 double ContactLimit::on_most(std::span<const int> blocks, std::span<const double> omega2, std::span<const double> impact_omega2) const {

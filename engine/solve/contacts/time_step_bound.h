@@ -5,9 +5,9 @@
 //               stiffness on a block (Weyl's inequality). A cracked joint, or the contact that replaced it, is no stiffer.
 //   by blocks   twice the largest eigenvalue of the total stiffness on a block, remaining joints included. Since
 //               (x - y) K (x - y) <= 2 (x K x + y K y), 2 / omega is the block bound of the present structure.
-// The matrices are updated at intervals by `update_bound()`. Between two updates each block adds scalars that every step has available: the rates
-// of its contacts beyond the last update (`PairResult::omega2_a`, `omega2_b`), and the rate of a face that may strike it next. The block with
-// the greatest sum decides. So the step may exceed the limit of the intact structure once stiff joints are gone.
+// The matrices are updated at intervals by `update_bound()`. Between two updates each block adds scalars that every step has available: the
+// rates of its contacts beyond the last update (`PairResult::omega2_a`, `omega2_b`), and the rate of a face that may strike it next. The
+// block with the greatest sum decides. So the step may exceed the limit of the intact structure once stiff joints are gone.
 #pragma once
 #include <span>
 #include <vector>
@@ -22,7 +22,8 @@ class ContactLimit {
  public:
   ContactLimit(const Model& model, State& state) : model_(model), state_(state) {}
 
-  // 1/s2, share of block b in 1 / dt^2. `omega2` (1/s2): its contacts beyond the last update; `impact_omega2` (1/s2): a face that may strike it.
+  // 1/s2, share of block b in 1 / dt^2. `omega2` (1/s2): its contacts beyond the last update; `impact_omega2` (1/s2): a face that may
+  // strike it.
   double on_block(int b, double omega2, double impact_omega2) const;
   // The greatest share among moving `blocks`; `omega2` and `impact_omega2` of each block of the model [nblock].
   double on_most(std::span<const int> blocks, std::span<const double> omega2, std::span<const double> impact_omega2) const;
@@ -32,7 +33,8 @@ class ContactLimit {
   bool due(double allowed) const;
   // Updates the bound with joints and present contacts. Former joints count as the joints they replaced. `scalars` (1/s2): sum of the rates
   // of all other contacts per block, an upper bound that may be the lower one.
-  void update_bound(const ContactShapes& shapes, std::span<const ContactBlock> blocks, const std::vector<double>& scalars, OverlapRoom& room);
+  void update_bound(const ContactShapes& shapes, std::span<const ContactBlock> blocks, const std::vector<double>& scalars,
+                    OverlapRoom& room);
 
  private:
   double intact() const;

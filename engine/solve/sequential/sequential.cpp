@@ -50,7 +50,8 @@ void write(Rows& rows, int row, const Vec3& force, const Vec3& moment) {
 
 // Wrenches on both ends of joint j from its resultant f, as in `reference.cpp`.
 void write_wrench(const Model& m, State& s, int j, const JointPose& pose, const double resultant[6]) {
-  const Vec3 force = pose.frame * Vec3(resultant[0], resultant[1], resultant[2]), moment = pose.frame * Vec3(resultant[3], resultant[4], resultant[5]);
+  const Vec3 force = pose.frame * Vec3(resultant[0], resultant[1], resultant[2]),
+             moment = pose.frame * Vec3(resultant[3], resultant[4], resultant[5]);
   const Vec3 arm_a = 0.5 * (pose.sum + pose.apart), arm_b = 0.5 * (pose.sum - pose.apart);
   write(s.wrench, m.wrench_row_a[z(j)], force, arm_a.cross(force) + moment);
   write(s.wrench, m.wrench_row_b[z(j)], -force, -(arm_b.cross(force) + moment));
@@ -264,7 +265,7 @@ void Sequential::visit(int b, double moved, JointSums& sums) {
     for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k)
       if (plain_ || s.stage[z(end_[z(k)])] == JointStage::cracked) update_joint(end_[z(k)], sums);
   const int candidates = step_kernels().intact_ends(pack_.data(), ends_.data(), first_pack_[z(b)], first_pack_[z(b) + 1], s.pose_row.data(),
-                                             s.wrench.data(), may_yield_.data());
+                                                    s.wrench.data(), may_yield_.data());
   for (int i = 0; i < candidates; ++i) check_points(may_yield_[z(i)], b, moved, sums);
 }
 
@@ -277,8 +278,8 @@ void Sequential::try_out(int j) {
   CrushedFace crushed = s.crushed.empty() ? CrushedFace{} : s.crushed[z(j)];
   JointEnergy unused;
   double resultant[6];
-  respond(model_, j, s.stage[z(j)] == JointStage::intact, s.stage[z(j)] == JointStage::intact && !plain_ ? pose.gap : s.memory[z(j)].gap, pose.gap,
-          {trial_.data(), s.crushed.empty() ? nullptr : &crushed}, resultant, unused);
+  respond(model_, j, s.stage[z(j)] == JointStage::intact, s.stage[z(j)] == JointStage::intact && !plain_ ? pose.gap : s.memory[z(j)].gap,
+          pose.gap, {trial_.data(), s.crushed.empty() ? nullptr : &crushed}, resultant, unused);
   write_wrench(model_, s, j, pose, resultant);
 }
 
@@ -297,8 +298,8 @@ void Sequential::predict(int b) {
     for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k)
       if (all ? !in_contact(s, end_[z(k)]) : s.stage[z(end_[z(k)])] == JointStage::cracked) try_out(end_[z(k)]);
   const int candidates = all ? 0
-                       : step_kernels().intact_ends(pack_.data(), ends_.data(), first_pack_[z(b)], first_pack_[z(b) + 1], s.pose_row.data(),
-                                                   s.wrench.data(), may_yield_.data());
+                             : step_kernels().intact_ends(pack_.data(), ends_.data(), first_pack_[z(b)], first_pack_[z(b) + 1],
+                                                          s.pose_row.data(), s.wrench.data(), may_yield_.data());
   for (int i = 0; i < candidates; ++i)
     for (int l = 0; l < pack_size; ++l) {
       const int j = joint_[z(may_yield_[z(i)] * pack_size + l)];

@@ -27,8 +27,8 @@ class Sequential {
 
   // One sweep over all blocks, in place of the phases `joints` and `blocks` of a leapfrog step. External actions stay as they are at the
   // start of the sweep. `sums` as for `Picked::advance()`. The state terms of the ledger are those at the start of the sweep.
-  void sweep(const Excitation& e, const ExternalForces& external, const std::vector<BlockConstants>& constants, bool sample, JointSums& joints,
-             std::vector<BlockSums>& sums);
+  void sweep(const Excitation& e, const ExternalForces& external, const std::vector<BlockConstants>& constants, bool sample,
+             JointSums& joints, std::vector<BlockSums>& sums);
   void update_reference(const std::vector<std::uint8_t>& outdated);  // `outdated`: blocks with a new reference pose
 
   // Sum of the joint forces of the last sampled sweep over all pairs of moving blocks, over the sum of their magnitudes: 0 if action equals

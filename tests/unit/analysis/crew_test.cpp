@@ -71,7 +71,8 @@ analysis{ duration = 0.4 }
     int threads = 1, should_change = 0;
     for (bool ended = false; !ended;) {
       Solver solver(run.model, run.state, threads);
-      solver.run({[](double) { return false; }, [] {}, [&] { return (ended = run.state.t >= 0.4) || (changing && ++should_change % 5 == 0); }});
+      solver.run(
+          {[](double) { return false; }, [] {}, [&] { return (ended = run.state.t >= 0.4) || (changing && ++should_change % 5 == 0); }});
       threads = 3 - threads;
     }
     hash[changing] = state_hash(run.state);

@@ -82,7 +82,8 @@ TEST_CASE("a scene whose only moving block is driven runs in tenths of its rows"
     box{ name = "b", size = { .3, .125, .1 }, at = { 0, 0, 0 } }
     joint{ law = dry{ kn = 1e9, mu = .6 } }
     motion{ block = "b", wave = sine{ amplitude = .01, frequency = 1 }, direction = "x" }
-    analysis{ duration = .25, output_dt = .01 })", "driven.lua");
+    analysis{ duration = .25, output_dt = .01 })",
+                                       "driven.lua");
   Prepared run;
   test::run_to(scene, 1, 0.25, run);
   CHECK(run.state.dt == Approx(0.001));

@@ -8,7 +8,8 @@ using namespace std::string_literals;
 
 TEST_CASE("plain text is UTF-8 without what controls a terminal", "[text]") {
   for (const std::string good : {"", "brick 7", "Mörtel \xE2\x82\xAC", "it's \"so\" <b> ]]> $(x) `y` %s"}) CHECK(is_plain(good));
-  for (const std::string& bad : {"a\nb"s, "a\0b"s, "\x1b[31m"s, "\x7f"s, "\xff"s, "\xc3"s, "\xc0\xaf"s, "\xed\xa0\x80"s, "\xc2\x9b"s, "\xe2\x80\xae"s, "\xf4\x90\x80\x80"s}) {
+  for (const std::string& bad : {"a\nb"s, "a\0b"s, "\x1b[31m"s, "\x7f"s, "\xff"s, "\xc3"s, "\xc0\xaf"s, "\xed\xa0\x80"s, "\xc2\x9b"s,
+                                 "\xe2\x80\xae"s, "\xf4\x90\x80\x80"s}) {
     INFO(shown(bad));
     CHECK_FALSE(is_plain(bad));
     CHECK(is_plain(shown(bad)));

@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "engine/contact/impact_bound.h"
 #include "engine/contact/law/frame.h"
+#include "engine/contact/law/impact_bound.h"
 #include "engine/contact/law/pair_batch.h"
 #include "tests/unit/contact/bodies.h"
 
@@ -49,7 +49,8 @@ TEST_CASE("a pair judged in short is as far apart, and lands as hard, as one jud
     CHECK(in_short.apart == Approx(in_full.apart).margin(1e-14));
     CHECK(in_short.impact_omega2_a == in_full.impact_omega2_a);
     CHECK(in_short.impact_omega2_b == in_full.impact_omega2_b);
-    faces += kept_by < own, other_faces += kept_by >= own && kept_by<all, edges += kept_by >= all, impact_bound += in_full.impact_omega2_a> 0;
+    faces += kept_by < own,
+        other_faces += kept_by >= own && kept_by<all, edges += kept_by >= all, impact_bound += in_full.impact_omega2_a> 0;
   }
   CHECK(faces > 100);
   CHECK(other_faces > 100);

@@ -16,8 +16,8 @@ TEST_CASE("a search that leaves out what lies still lists what a whole one lists
     search(b->list, b->shapes, b->block, loose, {}, law);
     REQUIRE(b->list.pair.size() == 5);
     for (ContactPair& p : b->list.pair) p.tangential = 1 + p.a;  // contact history
-    b->block[4].u = Vec3(0, 0, 1);                        // leaves its neighbours
-    b->block[5].u = Vec3(-0.305 * 3, 0, 0.105);           // comes to rest on a block that has not moved
+    b->block[4].u = Vec3(0, 0, 1);                               // leaves its neighbours
+    b->block[5].u = Vec3(-0.305 * 3, 0, 0.105);                  // comes to rest on a block that has not moved
   }
   CHECK(needs_search(one.list, one.shapes, one.block, still));
   const double dropped = search(one.list, one.shapes, one.block, loose, {}, law, still);

@@ -105,7 +105,8 @@ TEST_CASE("cells of sound points and the closed compression make the sound joint
     respond(m, 0, false, q.data(), q.data(), history.data(), f.data(), e);
     const Vec6 intact = intact_form(joint) * q;
     INFO(rule << " " << shape);
-    for (int i = 0; i < 6; ++i) CHECK(std::fabs(f[i] - intact[i]) * (i < 3 ? 1 : 1 / joint.type->radius) < 1e-12 * joint.type->stiffness[2] * length);
+    for (int i = 0; i < 6; ++i)
+      CHECK(std::fabs(f[i] - intact[i]) * (i < 3 ? 1 : 1 / joint.type->radius) < 1e-12 * joint.type->stiffness[2] * length);
     CHECK(e.elastic == Approx(0.5 * intact.dot(q)).epsilon(1e-12));
     CHECK(e.fracture == 0);
   }

@@ -23,7 +23,8 @@ Ran ran(const std::string& text, double until) {
   State& s = out.run.state;
   const std::size_t last = std::size_t(out.run.model.nblock - 1);
   Solver solver(out.run.model, s, 1);
-  solver.run({[](double) { return false; }, [] {}, [&] {
+  solver.run({[](double) { return false; }, [] {},
+              [&] {
                 out.highest = std::max(out.highest, s.u[last].z());
                 return s.t >= until;
               }});
@@ -64,7 +65,8 @@ TEST_CASE("a block that topples falls flat and lies there", "[solve][event]") {
     joint{law=dry{kn=5e9, mu=.6}}
     ground_motion{wave=half_sine{amplitude=.6*g, frequency=1}, direction="x"}
     analysis{duration=4}
-  )", 4);
+  )",
+                      4);
   const State& s = one.run.state;
   CHECK(s.energy.residual_worst < 1e-3);
   CHECK(s.u[1].z() == Approx(-.35).margin(2e-3));
@@ -80,12 +82,14 @@ TEST_CASE("plates on a slope come to rest after a bump", "[solve][interlock]") {
     material{name="stone", density=2000, friction=.6, kn=1e11, ks=4e10}
     transform{at={0,0,0}, rotation={0, math.atan(.36), 0}, function()
       box{name="base", size={2,2,.2}, at={0,0,-.2}, fixed=true}
-      for i = 1, 8 do box{name="p"..i, )" + contact + R"(size={.4,.2,.05}, at={0,0,(i-1)*.05}} end
+      for i = 1, 8 do box{name="p"..i, )" +
+                          contact + R"(size={.4,.2,.05}, at={0,0,(i-1)*.05}} end
     end}
     joint{law=dry{kn=1e11, mu=.6, damping=.1}}
     ground_motion{wave=half_sine{amplitude=-1.2*g, frequency=10, start=.1}, direction="z"}
     analysis{duration=2.2}
-  )", 1.7);
+  )",
+                      1.7);
   Prepared run = one.run;
   const Vec3 before = run.state.u[8];
   const double from = run.state.t;

@@ -130,5 +130,6 @@ TEST_CASE("a segment is found in uneven tables", "[loads]") {
 
 TEST_CASE("an earlier wave is the same one, moved", "[loads]") {
   for (const Wave& wave : examples())
-    for (const double t : {-0.3, 0.05, 0.2, 0.41, 0.7, 1.3}) CHECK(value(earlier(wave, 0.25), t) == Approx(value(wave, t + 0.25)).margin(1e-12));
+    for (const double t : {-0.3, 0.05, 0.2, 0.41, 0.7, 1.3})
+      CHECK(value(earlier(wave, 0.25), t) == Approx(value(wave, t + 0.25)).margin(1e-12));
 }

@@ -142,8 +142,8 @@ TEST_CASE("metrics.json has the keys of the contract, unknown numbers are null",
   found.clear();
   for (const auto& item : json["energy"].items()) found.push_back(item.key());
   CHECK(found == std::vector<std::string>{"frame", "base_work_J", "external_work_J", "tilt_work_J", "kinetic_J", "gravity_J", "elastic_J",
-                                          "friction_J", "fracture_J", "crushing_J", "damping_J", "contact_damping_J", "reset_J",
-                                          "sleep_J", "residual_relative"});
+                                          "friction_J", "fracture_J", "crushing_J", "damping_J", "contact_damping_J", "reset_J", "sleep_J",
+                                          "residual_relative"});
   CHECK(json["energy"]["friction_J"] == 3.0);
   CHECK(json["realtime_factor"] == 2.0);
   CHECK(json["point_updates_per_s"] == 50.0);

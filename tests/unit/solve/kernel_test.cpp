@@ -91,7 +91,8 @@ TEST_CASE("threads do not change a bit, cracks and contacts included", "[solve]"
 // Block displacements set by hand: some 1e-6 m and rad.
 void sway(const Model& m, State& s) {
   for (std::size_t b = 0; b < std::size_t(m.nblock); ++b)
-    for (std::size_t i = 0; i < 6; ++i) s.increment[b / pack_size].x[i][b % pack_size] = s.pose_row[8 * b + i] = 1e-6 * std::sin(double(8 * b + i));
+    for (std::size_t i = 0; i < 6; ++i)
+      s.increment[b / pack_size].x[i][b % pack_size] = s.pose_row[8 * b + i] = 1e-6 * std::sin(double(8 * b + i));
 }
 
 void add_lanes(const std::vector<VectorPack<6>>& sums, std::vector<double>& out) {
@@ -147,7 +148,8 @@ TEST_CASE("instruction sets give the same bits", "[solve]") {
     for (const auto* sums : {&s.increment, &s.owner_sum, &s.neighbour_force}) add_lanes(*sums, out);
     for (std::size_t b = 0; b < s.u.size(); ++b)
       for (int i = 0; i < 3; ++i) out.insert(out.end(), {s.v[b][i], s.w[b][i], s.spin_momentum[b][i]});
-    for (const auto* sum : {work.base, work.damping, work.absolute, work.base_after, work.damping_after, work.absolute_after, work.kinetic, work.height})
+    for (const auto* sum :
+         {work.base, work.damping, work.absolute, work.base_after, work.damping_after, work.absolute_after, work.kinetic, work.height})
       out.insert(out.end(), sum, sum + pack_size);
     return out;
   };
@@ -189,7 +191,8 @@ TEST_CASE("what crosses over between lanes comes from the joint's other block an
   std::vector<std::multiset<int>> gathered(std::size_t(m.nblock)), ends(std::size_t(m.nblock));
   for (int j = 0; j < m.njoint; ++j) {
     const Joint& joint = m.joint[std::size_t(j)];
-    const int lane = schedule.lane[std::size_t(j)], k = lane / pack_size, g = m.owner(j) / pack_size, other = joint.owned_by_b ? joint.a : joint.b;
+    const int lane = schedule.lane[std::size_t(j)], k = lane / pack_size, g = m.owner(j) / pack_size,
+              other = joint.owned_by_b ? joint.a : joint.b;
     CHECK(schedule.joint[std::size_t(lane)] == j);
     CHECK(lane % pack_size == m.owner(j) % pack_size);
     CHECK((schedule.first_pack[std::size_t(g)] <= k && k < owner_sum.first_pack[std::size_t(g) + 1]));

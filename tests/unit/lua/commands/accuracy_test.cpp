@@ -31,14 +31,16 @@ std::string with(const std::string& analysis) {
 
 TEST_CASE("accuracy of a metric that fails, or of none, says so, and by what errors are measured", "[program]") {
   Bench bench;
-  const std::string brief = four_bricks() + "joint{ law = dry{ kn = 1e9, mu = .6 } }\nanalysis{ duration = .002 }\nlabel('quality_only', 'fixed_dt')\n"
+  const std::string brief = four_bricks() +
+                            "joint{ law = dry{ kn = 1e9, mu = .6 } }\nanalysis{ duration = .002 }\nlabel('quality_only', 'fixed_dt')\n"
                             "recorder{ name = 't', quantity = 'displacement', block = 'b3' }\n";
   CHECK(bench.erbs({"accuracy", bench.scene(brief + "metric('m', 'm', function(run) error('boom') end)"), "-o", bench.out()}) == 2);
   CHECK(contains(bench.said, "metrics.m: no run gave a value; the first that failed says: exit code 2: "));
   CHECK(contains(bench.said, "boom"));
   CHECK(bench.erbs({"accuracy", bench.scene(brief + "metric('m', 'm', function(run) return nil end)"), "-o", bench.out(), "--force"}) == 1);
   CHECK(contains(bench.said, "the metric returned none: look at its function"));
-  CHECK(bench.erbs({"accuracy", bench.scene(brief + "metric('m', 'm', function(run) return run.last 't_uz_rel_m' end)"), "-o", bench.out(), "--force"}) == 0);
+  CHECK(bench.erbs({"accuracy", bench.scene(brief + "metric('m', 'm', function(run) return run.last 't_uz_rel_m' end)"), "-o", bench.out(),
+                    "--force"}) == 0);
   CHECK(contains(bench.said, "To measure by a known value write expect(\"metrics.m\", VALUE, { rel = 0.01 })."));
 }
 

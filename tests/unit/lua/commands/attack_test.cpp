@@ -26,7 +26,9 @@ std::string in_lua(const std::string& text) {
 }
 
 const std::vector<std::string> controls{"a\nsystem('touch pwned')\n#", "a\x1b[31m", "a\0b"s, "a\xff\xfe", "a\rb", "a\xe2\x80\xae"};
-const std::vector<std::string> signs{"it's \"so\"", "system('touch pwned')", "`touch pwned`", "$(touch pwned)", "<b>&amp;", "]]>", "<touch pwned", "%s%n", "a\\", "Häuschen"};
+const std::vector<std::string> signs{
+    "it's \"so\"", "system('touch pwned')", "`touch pwned`", "$(touch pwned)", "<b>&amp;", "]]>", "<touch pwned", "%s%n", "a\\",
+    "Häuschen"};
 
 bool is_text(const Key& key) { return key.type == "string" || key.type == "strings" || key.type == "quantity"; }
 
@@ -38,7 +40,8 @@ std::vector<std::string> sentences(const std::string& text) {
       for (const Key& key : function.keys) {
         if (is_text(key)) all.push_back(fmt::format("{}{{ {} = {} }}", function.name, key.name, in_lua(text)));
         for (const Key& inner : key.inner)
-          if (is_text(inner)) all.push_back(fmt::format("{}{{ {} = {{ {{ {} = {} }} }} }}", function.name, key.name, inner.name, in_lua(text)));
+          if (is_text(inner))
+            all.push_back(fmt::format("{}{{ {} = {{ {{ {} = {} }} }} }}", function.name, key.name, inner.name, in_lua(text)));
       }
       continue;
     }
@@ -76,7 +79,9 @@ TEST_CASE("figures, recorders, metrics and titles of any letters are drawn and r
   int n = 0;
   for (const std::string& text : signs) {
     const std::string said = in_lua(text);
-    scene += fmt::format("figure{{ name = \"f{0}\", title = {1}, x = {1}, y = {1}, curves = {{ {{ label = {1}, x = {{1, 2}}, y = {{1, 2}} }} }} }}\n", n, said);
+    scene += fmt::format(
+        "figure{{ name = \"f{0}\", title = {1}, x = {1}, y = {1}, curves = {{ {{ label = {1}, x = {{1, 2}}, y = {{1, 2}} }} }} }}\n", n,
+        said);
     scene += fmt::format("metric('m{0}', {1}, {0})\nparam('p{0}', 1, {1})\n", n++, said);
   }
   const int code = bench.run(scene);
@@ -114,8 +119,8 @@ TEST_CASE("folders and scenes of any name are drawn and run nothing", "[attack]"
 TEST_CASE("what a script says in its own words reaches the terminal escaped", "[attack]") {
   Bench bench;
   for (const std::string& text : controls)
-    for (const std::string& sentence : {"error(" + in_lua(text) + ")", "box{ [" + in_lua(text) + "] = 1 }", "local x = _G[" + in_lua(text) + "]",
-                                        "local t = {} t." + std::string("f(") + in_lua(text) + ")"}) {
+    for (const std::string& sentence : {"error(" + in_lua(text) + ")", "box{ [" + in_lua(text) + "] = 1 }",
+                                        "local x = _G[" + in_lua(text) + "]", "local t = {} t." + std::string("f(") + in_lua(text) + ")"}) {
       CHECK(bench.run(pier + sentence) == 2);
       INFO(sentence << "\n" << bench.said);
       CHECK(contains(bench.said, "scene.lua:7:"));
@@ -138,7 +143,8 @@ TEST_CASE("a scene reads inside its folder and what the command line allows", "[
   const fs::path own = bench.folder / "own", other = bench.folder / "other";
   fs::create_directories(own / "below");
   fs::create_directories(other);
-  for (const auto& file : {own / "a.csv", own / "below/b.csv", other / "secret.csv"}) std::ofstream(file) << "time_s,a_m_s2\n0,0\n1,1\nroot:x:0\n";
+  for (const auto& file : {own / "a.csv", own / "below/b.csv", other / "secret.csv"})
+    std::ofstream(file) << "time_s,a_m_s2\n0,0\n1,1\nroot:x:0\n";
   fs::create_symlink(other / "secret.csv", own / "link.csv");
   fs::create_directory_symlink(other, own / "away");
   const auto check = [&](const std::string& file, std::vector<std::string> more = {}) {
@@ -151,7 +157,8 @@ TEST_CASE("a scene reads inside its folder and what the command line allows", "[
     return bench.said;
   };
   const std::string not_allowed = "lies outside of the scene's folder", read = "column 1: what stands there is not a number";
-  for (const std::string& file : {"a.csv"s, "below/b.csv"s, "below/../a.csv"s, (own / "a.csv").string()}) CHECK(contains(check(file), read));
+  for (const std::string& file : {"a.csv"s, "below/b.csv"s, "below/../a.csv"s, (own / "a.csv").string()})
+    CHECK(contains(check(file), read));
   for (const std::string& file : {"../other/secret.csv"s, "link.csv"s, "away/secret.csv"s, (other / "secret.csv").string(), "/etc/shadow"s,
                                   "/no/such/file"s, "/proc/self/mem"s, "../none.csv"s, std::string(500, 'x') + "/../../y"}) {
     INFO(file);
@@ -165,9 +172,12 @@ TEST_CASE("a scene reads inside its folder and what the command line allows", "[
 
 TEST_CASE("a mesh reads no other file than a scene may", "[attack]") {
   Bench bench;
-  const std::string cube = "o cube\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 2\nv 1 0 2\nv 0 1 2\nv 1 1 2\n"
-                           "f 4 3 2 1\nf 5 6 8 7\nf 2 3 8 6\nf 3 4 7 8\nf 4 1 5 7\nf 1 2 6 5\n";
-  const auto code = [&](const std::string& file) { return bench.run(pier + "mesh{ file = '" + file + "', at = {5, 5, 5}, free = true }", {"--force"}); };
+  const std::string cube =
+      "o cube\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 2\nv 1 0 2\nv 0 1 2\nv 1 1 2\n"
+      "f 4 3 2 1\nf 5 6 8 7\nf 2 3 8 6\nf 3 4 7 8\nf 4 1 5 7\nf 1 2 6 5\n";
+  const auto code = [&](const std::string& file) {
+    return bench.run(pier + "mesh{ file = '" + file + "', at = {5, 5, 5}, free = true }", {"--force"});
+  };
   bench.write("fifo.obj", "mtllib /etc/passwd\n" + cube);
   CHECK(code("fifo.obj") == 0);
   for (const std::string face : {"f 1 2\n", "f 1\n", "l 1 2\n"}) {
@@ -191,7 +201,8 @@ TEST_CASE("what a scene asks for ends soon, in time and memory, and says how", "
       {"for i = 1, 4000 do box{ size = {.1, .1, .1}, at = {10, 10, 0}, free = true } end", "at least"},
       {"for i = 1, 1e5 do box{ sise = 1 } end", "more than 1000 times"},
       {"local v = {} for i = 1, 90000 do v[i] = { math.random(), math.random(), math.random() } end block{ vertices = v }", "at most 5000"},
-      {"local p = {} for i = 1, 2000 do p[i] = { vertices = { {0,0,0}, {1,0,0}, {0,1,0}, {0,0,1} } } end block{ parts = p }", "at most 1000"},
+      {"local p = {} for i = 1, 2000 do p[i] = { vertices = { {0,0,0}, {1,0,0}, {0,1,0}, {0,0,1} } } end block{ parts = p }",
+       "at most 1000"},
       {"wall{ length = 1, courses = 1e300, joint = .01, brick = { length = .2, width = .1, height = .1 } }", "courses"},
       {"string.format = nil", "libraries"},
       {"local s = string s.rep = print", "libraries"},
@@ -221,16 +232,17 @@ TEST_CASE("NaN and what has no end is outside of every range", "[attack]") {
       CHECK(bench.erbs({"run", scene, "-o", bench.out(), option, value}) == 2);
       CHECK_FALSE(fs::exists(bench.out()));
     }
-  for (const std::string setting : {"duration=nan", "output_dt=nan", "lazy_rotation=nan", "dt=nan", "energy_gate=nan", "seed=1.5", "sleep=2", "dt=1e-300",
-                                    "duration=", "kernel=x"}) {
+  for (const std::string setting : {"duration=nan", "output_dt=nan", "lazy_rotation=nan", "dt=nan", "energy_gate=nan", "seed=1.5",
+                                    "sleep=2", "dt=1e-300", "duration=", "kernel=x"}) {
     INFO(setting);
     CHECK(bench.erbs({"run", scene, "-o", bench.out(), "--set", setting}) == 2);
     CHECK_FALSE(fs::exists(bench.out()));
   }
-  for (const std::string piece : {"param('q', 0/0)", "param('q', 1/0)", "expect('time_s', 0/0, { rel = .1 })", "gravity(0/0)",
-                                  "analysis{ duration = 1, dt = 1e-300 }",
-                                  "ground_motion{ wave = function(t) return t end, sample = 1e-300 }", "ground_motion{ wave = record{ file = '' } }",
-                                  "mesh{ file = '' }", "metric('a/b', '', 1)", "metric('a.b', '', 1)", "param('a b', 1)"}) {
+  for (const std::string piece :
+       {"param('q', 0/0)", "param('q', 1/0)", "expect('time_s', 0/0, { rel = .1 })", "gravity(0/0)",
+        "analysis{ duration = 1, dt = 1e-300 }", "ground_motion{ wave = function(t) return t end, sample = 1e-300 }",
+        "ground_motion{ wave = record{ file = '' } }", "mesh{ file = '' }", "metric('a/b', '', 1)", "metric('a.b', '', 1)",
+        "param('a b', 1)"}) {
     INFO(piece);
     CHECK(bench.erbs({"check", "-q", bench.scene(pier + piece)}) == 2);
     CHECK(contains(bench.said, "scene.lua:7: "));
@@ -240,7 +252,8 @@ TEST_CASE("NaN and what has no end is outside of every range", "[attack]") {
 
 TEST_CASE("what only the model shows wrong is told before there is a folder", "[attack]") {
   Bench bench;
-  const std::string twice = "recorder{ name = 'r', quantity = 'displacement', block = 'b1' } recorder{ name = 'r', quantity = 'displacement', block = 'b2' }";
+  const std::string twice =
+      "recorder{ name = 'r', quantity = 'displacement', block = 'b1' } recorder{ name = 'r', quantity = 'displacement', block = 'b2' }";
   CHECK(bench.run(pier + twice) == 2);
   CHECK(contains(bench.said, "scene.lua:7: "));
   CHECK_FALSE(fs::exists(bench.out()));
@@ -254,7 +267,9 @@ TEST_CASE("texts of editors are read, others refused with a remedy", "[attack]")
   bench.write("wide.lua", "\xFF\xFE-\0-\0"s);
   CHECK(bench.erbs({"check", "-q", (bench.folder / "wide.lua").string()}) == 2);
   CHECK(contains(bench.said, "save it as UTF-8"));
-  bench.write("wide.csv", "\xFF\xFE" "0\0,\0"s);
+  bench.write("wide.csv",
+              "\xFF\xFE"
+              "0\0,\0"s);
   CHECK(bench.erbs({"record", (bench.folder / "wide.csv").string()}) == 2);
   CHECK(contains(bench.said, "save it as UTF-8"));
   bench.write("huge.csv", "time_s,a_m_s2\n0,0\n1,1e300\n");

@@ -28,9 +28,11 @@ void wait_until(const std::function<bool()>& there) {
 std::string hash_in(const std::string& folder) { return read_json(folder + "/metrics.json")["state_hash"].get<std::string>(); }
 
 // Exit code and stderr of an erbs command under `sh -c`.
-std::pair<int, std::string> in_shell(const Bench& bench, const std::string& before, const std::string& words, const std::string& after = "") {
+std::pair<int, std::string> in_shell(const Bench& bench, const std::string& before, const std::string& words,
+                                     const std::string& after = "") {
   const std::string log = (bench.folder / "shell.log").string();
-  const int code = wait_for(start({"/bin/sh", "-c", "exec 2> " + log + "; " + before + " exec " ERBS_BINARY_DIR "/erbs " + words + " " + after}));
+  const int code =
+      wait_for(start({"/bin/sh", "-c", "exec 2> " + log + "; " + before + " exec " ERBS_BINARY_DIR "/erbs " + words + " " + after}));
   return {code, text_of(log)};
 }
 
@@ -39,7 +41,8 @@ std::vector<pid_t> processes_of(const std::string& folder) {
   std::error_code gone;
   for (const auto& entry : fs::directory_iterator("/proc", gone)) {
     const std::string line = text_of(entry.path() / "cmdline");
-    if (line.find("erbs") != std::string::npos && line.find(folder) != std::string::npos) found.push_back(std::atoi(entry.path().filename().c_str()));
+    if (line.find("erbs") != std::string::npos && line.find(folder) != std::string::npos)
+      found.push_back(std::atoi(entry.path().filename().c_str()));
   }
   return found;
 }
@@ -66,7 +69,8 @@ TEST_CASE("every signal that asks a run to end leaves a checkpoint, and it goes 
   REQUIRE(bench.run(sliding, {"-q", "--no-figures", "--until", "0.1"}) == 3);
   REQUIRE(bench.run(sliding, {"-q", "--no-figures", "--resume"}) == 0);
   CHECK(hash_in(bench.out()) == hash_in(whole.out()));
-  for (const char* file : {"/histories.csv", "/energy.csv", "/events.csv"}) CHECK(text_of(bench.out() + file) == text_of(whole.out() + file));
+  for (const char* file : {"/histories.csv", "/energy.csv", "/events.csv"})
+    CHECK(text_of(bench.out() + file) == text_of(whole.out() + file));
 }
 
 TEST_CASE("a run goes on with its own options only", "[endings]") {
@@ -125,7 +129,8 @@ TEST_CASE("two runs do not share a folder", "[endings]") {
   }
   ::kill(run.pid, SIGKILL);
   CHECK(wait_for(run) == 128 + SIGKILL);
-  CHECK(bench.erbs({"run", (bench.folder / "scene.lua").string(), "-o", bench.out(), "-q", "--resume", "-D", "duration=1000", "--max-wall", "0.2"}) == 3);
+  CHECK(bench.erbs({"run", (bench.folder / "scene.lua").string(), "-o", bench.out(), "-q", "--resume", "-D", "duration=1000", "--max-wall",
+                    "0.2"}) == 3);
 }
 
 TEST_CASE("runs end with the program that started them", "[endings]") {
@@ -177,11 +182,13 @@ TEST_CASE("a run goes on from any folder, and beside a manifest that is damaged"
   Bench bench;
   bench.write("part.lua", "return 0.3\n");
   bench.write("wave.csv", "time_s,a_m_s2\n0,0\n1,1\n");
-  const std::string scene = bench.scene(sliding + "include 'part.lua'\nground_motion{ wave = record{ file = 'wave.csv' }, direction = 'y' }\n");
+  const std::string scene =
+      bench.scene(sliding + "include 'part.lua'\nground_motion{ wave = record{ file = 'wave.csv' }, direction = 'y' }\n");
   REQUIRE(bench.erbs({"run", scene, "-o", bench.out(), "-q", "--no-figures", "--until", "0.1"}) == 3);
   fs::create_directories(bench.folder / "z");
   const auto from = [&](const std::string& folder, const std::string& words) {
-    const std::string command = "cd " + (bench.folder / folder).string() + " && exec " ERBS_BINARY_DIR "/erbs run " + words + " -q --no-figures --resume";
+    const std::string command =
+        "cd " + (bench.folder / folder).string() + " && exec " ERBS_BINARY_DIR "/erbs run " + words + " -q --no-figures --resume";
     return wait_for(start({"/bin/sh", "-c", command}, (bench.folder / "log").string()));
   };
   CHECK(from("", "scene.lua -o out --until 0.15") == 3);
@@ -201,7 +208,8 @@ local seed = param("seed", 1)
 analysis{ duration = seed > 1 and 5 or 0.01, dt = 1e-5, output_dt = 1 }
 ensemble{ n = 1, seed = 1, name = "e", value = function(run) return run.time_s end }
 )";
-  const Child run = start(bench.command({"run", bench.scene(scene), "-o", bench.out(), "-q", "--no-figures"}), (bench.folder / "log").string());
+  const Child run =
+      start(bench.command({"run", bench.scene(scene), "-o", bench.out(), "-q", "--no-figures"}), (bench.folder / "log").string());
   const std::string studies = bench.out() + "/studies/";
   wait_until([&] { return processes_that_name(studies) > 0; });
   for (const pid_t child : processes_of(studies)) ::kill(child, SIGKILL);
@@ -215,8 +223,9 @@ ensemble{ n = 1, seed = 1, name = "e", value = function(run) return run.time_s e
 TEST_CASE("what cannot be printed is told, with code 2", "[endings]") {
   Bench bench;
   const std::string scene = bench.scene(sliding);
-  for (const std::string& words : {"check " + scene, std::string("version"), std::string("--version"), std::string("help"), std::string("help box"),
-                                   std::string("run --help"), "run " + scene + " --no-figures --force -o " + bench.out()})
+  for (const std::string& words :
+       {"check " + scene, std::string("version"), std::string("--version"), std::string("help"), std::string("help box"),
+        std::string("run --help"), "run " + scene + " --no-figures --force -o " + bench.out()})
     for (const std::string after : {"> /dev/full", ">&-"}) {
       const auto [code, said] = in_shell(bench, "", words, after);
       INFO(words << after);

@@ -18,7 +18,8 @@ Vec3 centroid(const Block& block) { return mass_properties(block.parts).centroid
 }  // namespace
 
 TEST_CASE("units are factors to SI", "[lua]") {
-  const Scene scene = scene_of("gravity{ 3e-3*km, 20*cm + 5*mm, -1*t/kg }\nanalysis{ duration = 500*ms, dt = 1e-4, lazy_rotation = 0.1*deg }");
+  const Scene scene =
+      scene_of("gravity{ 3e-3*km, 20*cm + 5*mm, -1*t/kg }\nanalysis{ duration = 500*ms, dt = 1e-4, lazy_rotation = 0.1*deg }");
   CHECK(near(scene.gravity, {3, 0.205, -1000}));
   CHECK(scene.analysis.duration == 0.5);
   CHECK(scene.analysis.lazy_rotation == Approx(pi / 1800));
@@ -241,7 +242,8 @@ TEST_CASE("include runs a file of the folder and gives what it returns", "[lua]"
 }
 
 TEST_CASE("labels are kept once each, and a limit of use with its reason", "[lua]") {
-  const Scene scene = scene_of("label('quick', 'fixed_dt')\nlabel('quick')\nuse_limit{ dt_fraction = 0.5, points = 9, reason = 'it walks' }");
+  const Scene scene =
+      scene_of("label('quick', 'fixed_dt')\nlabel('quick')\nuse_limit{ dt_fraction = 0.5, points = 9, reason = 'it walks' }");
   CHECK(scene.labels == std::vector<std::string>{"quick", "fixed_dt"});
   CHECK(scene.use_limit.dt_fraction == 0.5);
   CHECK(scene.use_limit.points == 9);

@@ -58,7 +58,8 @@ TEST_CASE("work that a scene asks of the program ends with its time, and is not 
   // A hull of 5000 points takes longer than the interval of the script's hook.
   const auto [code, said] = in_a_child(
       "local v = {} for i = 1, 5000 do v[i] = { math.random(), math.random(), math.random() } end\n"
-      "for i = 1, 1e5 do block{ vertices = v } end", 0.5);
+      "for i = 1, 1e5 do block{ vertices = v } end",
+      0.5);
   CHECK(code == 2);
   CHECK(contains(said, "scene.lua:2: block: the script ran longer than 0.5 s; that is more work than a scene may ask for"));
 }

@@ -145,15 +145,17 @@ TEST_CASE("mistakes of a study name their place and remedy", "[lua][study]") {
   CHECK(mentions(mistakes_in("param('x', 1) converge { param = 'x', values = { 0, 2 }, value = function() end }"), "above zero"));
   CHECK(
       mentions(mistakes_in("param('x', 1) bisect { param = 'x', lo = 0, hi = 1 } bisect { param = 'x', lo = 0, hi = 1 }"), "given before"));
-  CHECK(mentions(mistakes_in("param('x', 1) metric('e_mean', '', 1) ensemble { n = 2, seed = 1, param = 'x', name = 'e', value = function() end }"),
-                 "answers metric \"e_mean\", which is there already"));
+  CHECK(mentions(
+      mistakes_in("param('x', 1) metric('e_mean', '', 1) ensemble { n = 2, seed = 1, param = 'x', name = 'e', value = function() end }"),
+      "answers metric \"e_mean\", which is there already"));
   CHECK(mentions(mistakes_in("param('seed', 1) ensemble { n = 3, seed = 1 }"), "\"value\" is missing"));
   CHECK(mistakes_in("param('x', 1) bisect { param = 'x', lo = 0, hi = 1 } expect('metrics.collapse_x', 1, { rel = 1 })").empty());
 }
 
 TEST_CASE("a family is lists of values of params, taken alone and drawn together, the same again and again", "[lua][study]") {
   Script script(quiet());
-  script.load_text(sound + "param('kn', 1) param('n', 2) family({ n = { 1, 3 }, kn = { 5, 6, 7 } }, { combinations = 2, seed = 9 })", "scene.lua");
+  script.load_text(sound + "param('kn', 1) param('n', 2) family({ n = { 1, 3 }, kn = { 5, 6, 7 } }, { combinations = 2, seed = 9 })",
+                   "scene.lua");
   const ParamFamily& family = script.family();
   REQUIRE(family.values.size() == 2);
   CHECK(family.values[0].first == "kn");  // in order of declaration
@@ -168,7 +170,8 @@ TEST_CASE("a family is lists of values of params, taken alone and drawn together
 }
 
 TEST_CASE("a family that names no param, or no numbers, is refused with place and remedy", "[lua][study]") {
-  CHECK(mentions(mistakes_in("param('kn', 1) family { nk = { 1 } }"), "scene.lua:6: family: there is no param \"nk\" yet; did you mean \"kn\"?"));
+  CHECK(mentions(mistakes_in("param('kn', 1) family { nk = { 1 } }"),
+                 "scene.lua:6: family: there is no param \"nk\" yet; did you mean \"kn\"?"));
   CHECK(mentions(mistakes_in("param('kn', 1) family { kn = 3 }"), "kn must be a list of finite numbers, such as"));
   CHECK(mentions(mistakes_in("param('kn', 1) family { kn = {} }"), "kn must be a list of finite numbers"));
   CHECK(mentions(mistakes_in("param('kn', 1) family { kn = { 1, 0/0 } }"), "kn must be a list of finite numbers"));

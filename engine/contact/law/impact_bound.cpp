@@ -1,10 +1,10 @@
-#include "engine/contact/impact_bound.h"
+#include "engine/contact/law/impact_bound.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/contact/law/frame.h"
-#include "engine/model/joint_batch.h"
+#include "engine/model/joint_pack.h"
 
 namespace erbs {
 namespace {
@@ -75,7 +75,8 @@ Approach approach(int separating_axis, const PairFrame& s) {
   Approach way{by.kind, Vec3::Zero(), 0, v.norm()};
   if (by.kind == SeparatingFeature::face) {
     way.n = r.rotation * reference.normal[by.face_or_a];
-    if (measured) way.apart = extent(other.small, o.rotation.transpose() * way.n).least + way.n.dot(between) - reference.offset[by.face_or_a];
+    if (measured)
+      way.apart = extent(other.small, o.rotation.transpose() * way.n).least + way.n.dot(between) - reference.offset[by.face_or_a];
     way.along = -v.dot(way.n);
   } else if (by.kind == SeparatingFeature::other_face) {
     const Vec3 n = o.rotation * other.normal[by.face_or_a];
@@ -110,7 +111,8 @@ double pressed_share(const SmallShape& body, const Vec3& n, double depth, double
 
 // A body that sinks in deeper in its first step than the step allows gains energy. So the step is short enough for the largest face before
 // an impact: if the bodies could touch within the next few steps, at a speed at which this energy matters.
-void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, const Approach& way, double dt, PairResult& result) {
+void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, const Approach& way, double dt,
+                  PairResult& result) {
   const ContactBlock &r = *s.reference_block, &o = *s.other_block;
   const double spin = o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach, speed = way.along + spin;
   const double k = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
@@ -118,8 +120,10 @@ void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSett
   if (result.event_rate * dt > 0.5 && !way.n.isZero(0) && corners_known(s)) {
     const double depth = look_ahead * speed * dt, corner_travel = 2 * spin * way.apart / speed;  // evaluated every few steps only
     double share = 1;
-    if (way.by != SeparatingFeature::other_face) share *= pressed_share(s.other->small, o.rotation.transpose() * way.n, depth, corner_travel);
-    if (way.by != SeparatingFeature::face) share *= pressed_share(s.reference->small, -(r.rotation.transpose() * way.n), depth, corner_travel);
+    if (way.by != SeparatingFeature::other_face)
+      share *= pressed_share(s.other->small, o.rotation.transpose() * way.n, depth, corner_travel);
+    if (way.by != SeparatingFeature::face)
+      share *= pressed_share(s.reference->small, -(r.rotation.transpose() * way.n), depth, corner_travel);
     result.event_rate = event_rate(share * k, speed, way.apart, settings);
   }
   if (!(speed > settings.reference_speed) || way.apart > look_ahead * speed * dt) return;
@@ -128,7 +132,8 @@ void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSett
 
 }  // namespace
 
-void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, double apart, double dt, PairResult& result) {
+void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, double apart, double dt,
+                  PairResult& result) {
   Approach way = pair.separating_axis < 0 ? Approach{} : approach(pair.separating_axis, s);
   if (pair.separating_axis < 0) way.along = (s.other_block->v - s.reference_block->v).norm();
   way.apart = apart;
@@ -201,7 +206,8 @@ int cached_axis(const ContactPair& pair, const ContactShape& a, const ContactSha
   return pair.touching || !pair.lift.isZero(0) || !(a.small.faces > 0 && b.small.faces > 0) ? -1 : pair.separating_axis;
 }
 
-bool still_separated(int separating_axis, const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, double dt, PairResult& result) {
+bool still_separated(int separating_axis, const ContactPair& pair, const PairFrame& s, const ContactSettings& settings, double dt,
+                     PairResult& result) {
   constexpr double sure = 1e-12;
   const Approach way = separating_axis < 0 ? Approach{} : approach(separating_axis, s);
   if (!(way.apart > sure * (s.reference->reach + s.other->reach))) return false;

@@ -1,4 +1,4 @@
-#include "engine/record/joint_condition.h"
+#include "engine/record/recorders/joint_condition.h"
 
 #include <algorithm>
 #include <cmath>
@@ -49,7 +49,8 @@ double joint_damage(const Model& model, const State& state, int j) {
 bool joint_broken(const Model& model, const State& state, int j) {
   if (state.stage[std::size_t(j)] == JointStage::contact) return true;
   const Joint& joint = model.joint[std::size_t(j)];
-  if (state.stage[std::size_t(j)] == JointStage::intact || joint.type->points == 0 || model.laws[std::size_t(joint.type->law)].dry) return false;
+  if (state.stage[std::size_t(j)] == JointStage::intact || joint.type->points == 0 || model.laws[std::size_t(joint.type->law)].dry)
+    return false;
   for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i)
     if (state.history[std::size_t(i)].damage < 1) return false;
   return true;

@@ -20,7 +20,7 @@ struct alignas(64) VectorPack {
 // Gather table of eight lanes. Each lane reads the six numbers of a lane in another VectorPack<6> record; most tables need one or two
 // records. Reading lane by lane and permuting whole records give the same numbers.
 struct GatherTable {
-  int at[pack_size];                          // source of each lane, in doubles: 48 record + lane, plus 8 in lanes that read the second record
+  int at[pack_size];  // source of each lane, in doubles: 48 record + lane, plus 8 in lanes that read the second record
   std::uint8_t first[pack_size], who[pack_size];  // per record: one lane that reads it, and all such lanes as bits; who[0] includes who[1]
   int records;
 };
@@ -31,7 +31,7 @@ struct alignas(64) JointPack {
   double arm_a[3][pack_size];  // m, from the centroids to the joint's material points at the update, world
   double arm_b[3][pack_size];
   double gap[3][pack_size];        // m, relative displacement at the update, world
-  double rotation[3][pack_size];       // rad, relative rotation at the update, world
+  double rotation[3][pack_size];   // rad, relative rotation at the update, world
   double stiffness[6][pack_size];  // zero once the joint is released to contact
   double open_limit[pack_size];    // m, opening at which the joint cracks in tension; 0 for dry joints
   double slip_limit[pack_size];    // m, c / ks
