@@ -50,11 +50,12 @@ void Solver::adapt_time_step() {
 // Event rate (1/s) of intact dry joints that are about to open for the first time. The kernel of intact joints evaluates nothing but their
 // limits (`intact.h`), so they are evaluated here. In a structure of many joints the first opening of one is no significant event. In a
 // structure of few joints it is, because a soft joint allows a long step. A run with `start = "rest"` has no gravity in its joints and
-// bounces from the first step on; a change of dt would then err by more than an opening.
+// bounces from the first step on; a change of dt would then err by more than an opening (`may_grow()`), as in all that vibrates strongly.
 double Solver::event_rate_of_first_openings() const {
   double event_rate = 0;
   if (model_.njoint > few_joints || !(state_.last_dt > 0) || model_.analysis.start == "rest") return event_rate;
   const double dt = state_.last_dt, allowance = event_allowance(model_, state_);
+  if (vibration() * dt * dt / 8 > allowance) return event_rate;
   for (int j = 0; j < model_.njoint; ++j) {
     const Joint& joint = model_.joint[z(j)];
     if (state_.stage[z(j)] != JointStage::intact || !model_.laws[z(joint.type->law)].dry) continue;

@@ -12,12 +12,12 @@
 
 namespace erbs {
 
-// x -> turn x + shift: the transformation of everything that is built inside transform{}.
+// x -> rotation x + shift: the transformation of everything that is built inside transform{}.
 struct Frame {
   Quat rotation = Quat::Identity();
   Vec3 shift = Vec3::Zero();  // m
-  Vec3 point(const Vec3& x) const { return theta * x + shift; }
-  Vec3 vector(const Vec3& x) const { return theta * x; }
+  Vec3 point(const Vec3& x) const { return rotation * x + shift; }
+  Vec3 vector(const Vec3& x) const { return rotation * x; }
 };
 
 // A number that a run shall report: a given value, or a function called after the run.

@@ -44,18 +44,18 @@ TEST_CASE("the force of a stone of many faces is the derivative of its energy", 
   const int n = GENERATE(60, 120, 250);
   const ContactShape a = contact_shape(hull(corners(n))), b = contact_shape(hull(corners(n, 0.15, 0.7)));
   OverlapRoom room;
-  const auto energy = [&](const Vec3& shift, const Vec3& turn) {
+  const auto energy = [&](const Vec3& shift, const Vec3& theta) {
     int separating_axis = -1;
     const PairPose pose{rotation(theta).toRotationMatrix(), shift};
     return find_overlap(a, b, pose, separating_axis, room).total > 0 ? overlap_energy(a, b, pose, room) : 0.0;
   };
-  const Vec3 shift(0.12, 0.2, 0.16), turn(0.3, -0.2, 0.5);
+  const Vec3 shift(0.12, 0.2, 0.16), theta(0.3, -0.2, 0.5);
   int separating_axis = -1;
   const Patch patch = find_overlap(a, b, {rotation(theta).toRotationMatrix(), shift}, separating_axis, room);
   REQUIRE(patch.total > 0);
   const double h = 1e-6;
   Vec3 force;
-  for (int i = 0; i < 3; ++i) force[i] = -(energy(shift + h * Vec3::Unit(i), turn) - energy(shift - h * Vec3::Unit(i), turn)) / (2 * h);
+  for (int i = 0; i < 3; ++i) force[i] = -(energy(shift + h * Vec3::Unit(i), theta) - energy(shift - h * Vec3::Unit(i), theta)) / (2 * h);
   CHECK((patch.force - force).norm() < 1e-5 * force.norm());  // central differences
 }
 

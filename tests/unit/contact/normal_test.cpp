@@ -62,15 +62,15 @@ struct Two {
 // A random pair that overlaps by up to `depth`.
 std::pair<Polyhedron, Polyhedron> overlapping(const Polyhedron& p, const Polyhedron& q, std::mt19937& random, double depth) {
   const Polyhedron a = transformed(p, rotation(random_vector(random)), Vec3::Zero());
-  const Quat turn = rotation(random_vector(random));
+  const Quat theta = rotation(random_vector(random));
   const Vec3 way = random_vector(random).normalized();
   double low = 0, high = 2;
   for (int i = 0; i < 60; ++i) {
     const double middle = (low + high) / 2;
     std::vector<Vec3> moved;
-    (volume_integral(a, transformed(q, turn, middle * way)) > 0 ? low : high) = middle;
+    (volume_integral(a, transformed(q, theta, middle * way)) > 0 ? low : high) = middle;
   }
-  return {a, transformed(q, turn, (low - depth) * way)};
+  return {a, transformed(q, theta, (low - depth) * way)};
 }
 
 Polyhedron frustum() {
@@ -90,7 +90,7 @@ struct Probe {
 };
 
 // Engine's force on b and moment about its centroid, with b moved by `by` and rotated by `rotation` about its centroid.
-Probe probe(const Polyhedron& a, const Polyhedron& b, const Vec3& by, const Vec3& turn, double kn) {
+Probe probe(const Polyhedron& a, const Polyhedron& b, const Vec3& by, const Vec3& theta, double kn) {
   Bodies two({{{a}}, {{b}}}, {kn, 0, 0, 1}, 1e-6);
   two.settings.settling = two.settings.settling_tangential = 0;
   two.block[1].u = by;
@@ -109,7 +109,7 @@ TEST_CASE("the force is the derivative of the volume integral, for general conve
     const auto [a, b] = overlapping(p, q, random, 0.001 + 0.0015 * (round % 5));
     const bool b_first = mass_properties(b).volume > mass_properties(a).volume * (1 + 1e-9);
     const Vec3 centre = mass_properties(b).centroid;
-    auto energy = [&, &a = a, &b = b](const Vec3& by, const Vec3& turn) {
+    auto energy = [&, &a = a, &b = b](const Vec3& by, const Vec3& theta) {
       const Quat r = rotation(theta);
       const Polyhedron moved = transformed(b, r, centre - r * centre + by);
       return kn * (b_first ? volume_integral(moved, a) : volume_integral(a, moved));
@@ -237,15 +237,15 @@ TEST_CASE("a brick at 20 m/s never passes a slab of 20 mm", "[contact][hard]") {
 TEST_CASE("contact is the same wherever the scene stands and however it is turned", "[contact]") {
   std::mt19937 random(5);
   const double kn = 1e10, dt = 0.2 * step_unit(kn, 1800 * 0.00375, 0.0375);
-  auto travel = [&](const Quat& turn, const Vec3& shift) {
-    const Polyhedron lower = transformed(brick(0.4, 0.3, 0.1), turn, shift);
-    const Quat lean = turn * rotation({0.1, 0.05, 0.3});
-    const Polyhedron upper = transformed(brick(), lean, turn * Vec3(0.05, 0.02, 0.12) + shift);
-    Bodies two({{{lower}, 0}, {{upper}, 1800, turn * Vec3(0.5, 0.2, -1)}}, {kn, 0.4 * kn, 0.5, 0.4}, dt);
-    two.gravity = turn * Vec3(0, 0, -9.81);
+  auto travel = [&](const Quat& theta, const Vec3& shift) {
+    const Polyhedron lower = transformed(brick(0.4, 0.3, 0.1), theta, shift);
+    const Quat lean = theta * rotation({0.1, 0.05, 0.3});
+    const Polyhedron upper = transformed(brick(), lean, theta * Vec3(0.05, 0.02, 0.12) + shift);
+    Bodies two({{{lower}, 0}, {{upper}, 1800, theta * Vec3(0.5, 0.2, -1)}}, {kn, 0.4 * kn, 0.5, 0.4}, dt);
+    two.gravity = theta * Vec3(0, 0, -9.81);
     two.run(0.05);
     CHECK(two.friction > 0);
-    return std::make_pair(Vec3(turn.conjugate() * two.block[1].u), Vec3(turn.conjugate() * two.block[1].w));
+    return std::make_pair(Vec3(theta.conjugate() * two.block[1].u), Vec3(theta.conjugate() * two.block[1].w));
   };
   const auto [u0, w0] = travel(Quat::Identity(), Vec3::Zero());
   for (int i = 0; i < 3; ++i) {
@@ -266,10 +266,10 @@ TEST_CASE("a pair that turns as one feels no dashpot", "[contact]") {
   REQUIRE(two.result[0].touching);
   // One step about an axis some half a metre away: chords and Cayley's rotation, as in a time step.
   const Vec3 axis = Vec3(1, 2, 3).normalized(), centre(0.5, -0.4, 0.2);
-  const Quat turn = rotation(omega * dt * axis);
+  const Quat theta = rotation(omega * dt * axis);
   for (ContactBlock& b : two.block) {
-    b.u = turn * (b.rest - centre) + centre - b.rest;
-    b.rotation = turn.toRotationMatrix();
+    b.u = theta * (b.rest - centre) + centre - b.rest;
+    b.rotation = theta.toRotationMatrix();
     b.v = b.u / dt;
     b.w = 2 / dt * std::tan(omega * dt / 2) * axis;
   }

@@ -110,7 +110,7 @@ TEST_CASE("what is longer than the writer's pieces comes back, and zeros stay un
   State s = moved();
   s.history.clear(300000);
   s.history[123456].damage = 0.25;
-  s.history[299999].reach = 3;
+  s.history[299999].kappa = 3;
   s.slot.assign(50001, 7);
   write_checkpoint(scratch.path, {1, 1}, s);
   State back;
@@ -120,8 +120,8 @@ TEST_CASE("what is longer than the writer's pieces comes back, and zeros stay un
   REQUIRE(mincore(reinterpret_cast<void*>(page), 3 * 4096, there) == 0);
   CHECK((there[0] & 1) == 0);
   CHECK(state_hash(back) == state_hash(s));
-  CHECK(back.place == s.slot);
-  CHECK(back.history[299999].reach == 3);
+  CHECK(back.slot == s.slot);
+  CHECK(back.history[299999].kappa == 3);
 }
 
 TEST_CASE("a checkpoint of another scene or step, cut short or damaged, is refused", "[record][checkpoint]") {

@@ -72,7 +72,7 @@ inline TwoBricks two_bricks() {
   s.stage.assign(1, JointStage::intact);
   s.memory.resize(1);
   s.history.resize(4);
-  s.batch.resize(1);
+  s.pack.resize(1);
   s.slot.assign(1, 0);
   return t;
 }

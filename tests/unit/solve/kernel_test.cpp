@@ -195,14 +195,14 @@ TEST_CASE("what crosses over between lanes comes from the joint's other block an
               other = joint.owned_by_b ? joint.a : joint.b;
     CHECK(schedule.joint[std::size_t(lane)] == j);
     CHECK(lane % pack_size == m.owner(j) % pack_size);
-    CHECK((schedule.first_pack[std::size_t(g)] <= k && k < owner_sum.first_pack[std::size_t(g) + 1]));
+    CHECK((schedule.first_pack[std::size_t(g)] <= k && k < schedule.first_pack[std::size_t(g) + 1]));
     CHECK((schedule.other[std::size_t(k)].at[lane % pack_size] & ~pack_size) == place(other));
     ends[std::size_t(other)].insert(place(lane));
   }
   const int none = place(int(schedule.joint.size()));
   for (int b = 0; b < m.nblock; ++b) {
     const std::size_t g = std::size_t(b / pack_size);
-    for (int k = schedule.first_gather[g]; k < owner_sum.first_gather[g + 1]; ++k)
+    for (int k = schedule.first_gather[g]; k < schedule.first_gather[g + 1]; ++k)
       if (const int at = schedule.gather_in[std::size_t(k)].at[b % pack_size] & ~pack_size; at != none) gathered[std::size_t(b)].insert(at);
     if (m.kind[std::size_t(b)] == Kind::moving) CHECK(gathered[std::size_t(b)] == ends[std::size_t(b)]);
     const int *first = &schedule.end[std::size_t(schedule.first_end[std::size_t(b)])], *last = first + int(ends[std::size_t(b)].size());
@@ -273,7 +273,7 @@ TEST_CASE("cracked joints side by side answer as one by one, with the same bits 
   for (int step = 0; step < 60; ++step) {
     for (int b = 1; b < m.nblock; ++b) {  // blocks are moved by hand with amplitudes beyond every limit
       const auto moved = [&](int i) { return std::sin(0.2 * step + 1.7 * b + i) + (i == 2 ? -0.3 : 0) + 0.02 * step * std::cos(b + i); };
-      const Vec3 u = 2e-6 * Vec3(moved(0), moved(1), moved(2)), turn = 6e-6 * Vec3(moved(3), moved(4), moved(5));
+      const Vec3 u = 2e-6 * Vec3(moved(0), moved(1), moved(2)), theta = 6e-6 * Vec3(moved(3), moved(4), moved(5));
       for (State* s : {&run.state, &narrow, &plain}) s->u[std::size_t(b)] = u, s->q[std::size_t(b)] = rotation(theta);
       cracked.copy_pose(b), in_pairs.copy_pose(b);
     }
