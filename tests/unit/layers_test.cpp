@@ -54,7 +54,7 @@ const std::vector<std::pair<std::string, std::string>> doors{
     {"GL/.*|EGL/.*", "render/gl/context_.*\\.cpp"},
     {"png\\.h", "render/image/image\\.cpp"},
     {"stb.*", "render/image/text\\.cpp"},
-    {"sys/.*|linux/.*|(unistd|fcntl|sched|spawn|signal|poll|dlfcn|termios|malloc|immintrin)\\.h|[a-z_0-9]+",
+    {"sys/.*|linux/.*|(unistd|math|fcntl|sched|spawn|signal|poll|dlfcn|termios|malloc|immintrin)\\.h|[a-z_0-9]+",
      ".*"},  // the system's and the language's own
 };
 

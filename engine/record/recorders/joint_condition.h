@@ -13,7 +13,7 @@ struct JointCondition {
 };
 
 JointCondition joint_condition(const Model& model, const State& state, int j);
-double joint_damage(const Model& model, const State& state, int j);  // JointLook::damage alone
+double joint_damage(const Model& model, const State& state, int j);  // JointCondition::damage alone
 bool joint_broken(const Model& model, const State& state, int j);    // every point is debonded, or the joint is released to contact
 Mat3 joint_frame(const Model& model, const State& state, int j);     // columns s, t, n, rotated by the mean rotation of its blocks
 

@@ -48,7 +48,7 @@ class Contacts {
   void gather(double* contact_wrench, bool sample);
   // Afterwards: puts blocks to sleep and wakes sleepers (`sleep.h`). True if the set of sleepers has changed.
   bool sleep(const Excitation& now, const double* contact_wrench);
-  // s, time step that joints and contacts now allow, at most `Model::dt_most`.
+  // s, time step that joints and contacts now allow, at most `Model::dt_max`.
   double allowed_dt() const { return allowed_; }
   // s, time step that the present contacts allow, without coming impacts; the last step is judged by it.
   double stable_dt() const;

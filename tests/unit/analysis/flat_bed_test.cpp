@@ -21,7 +21,7 @@ TEST_CASE("an impulse at the edge keeps what Housner's block keeps", "[flat_bed]
 
 TEST_CASE("blocks that stand alone on a dry bed are told of, and no others", "[flat_bed]") {
   const auto beds_of = [](const std::string& pieces) {
-    const Prepared run = prepare(scene_of("ground{ size = 9, top = 0 }\n" + pieces + "\nanalysis{ duration = .1 }"), false);
+    const Prepared run = prepare(scene_of("ground{ size = 9 }\n" + pieces + "\nanalysis{ duration = .1 }"), false);
     std::vector<std::string> told_of;
     for (const FlatBed& bed : flat_beds(run.model)) told_of.push_back(told(run.model, bed));
     return told_of;
