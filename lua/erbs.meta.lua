@@ -1,19 +1,19 @@
 ---@meta
 -- The scene language of ERBS for editors (LuaCATS). Written by `erbs help --editor > lua/erbs.meta.lua` from the table of the
--- program; a test holds the two together. All numbers are SI; units are factors: 5*mm, 0.2*MPa, 30*deg, 0.4*g.
+-- program; a test compares the two. All numbers are SI; units are factors: 5*mm, 0.2*MPa, 30*deg, 0.4*g.
 
 ---@alias erbs.vec3 number[] x, y, z
 ---@class erbs.law a joint law
 ---@class erbs.wave a function of time; wave(t) is its value
 ---@operator call(number): number
 
----@class erbs.run what a metric function is given: the keys of metrics.json, and
+---@class erbs.run argument of a metric function: the keys of metrics.json, and
 ---@field metrics table metrics.json
 ---@field time number[] times of the rows of histories.csv [s]
 ---@field columns string[] names of the columns of histories.csv
 ---@field history fun(column: string): number[] values, one per row
 ---@field peak fun(column: string): number largest magnitude
----@field peak_time fun(column: string): number when it is largest [s]
+---@field peak_time fun(column: string): number time of the largest magnitude [s]
 ---@field max fun(column: string): number
 ---@field min fun(column: string): number
 ---@field mean fun(column: string): number
@@ -21,9 +21,9 @@
 ---@field first fun(column: string): number
 ---@field last fun(column: string): number
 ---@field at fun(column: string, t: number): number value at time t [s], linear between rows
----@field frequency fun(column: string, from?: number, to?: number): number dominant frequency, of a band if one is given [Hz]
+---@field frequency fun(column: string, from?: number, to?: number): number dominant frequency, in a band if one is given [Hz]
 ---@field period fun(column: string): number mean time between rising crossings of zero [s]
----@field crossings fun(column: string, level?: number, rising?: boolean): number[] times of passing the level [s]
+---@field crossings fun(column: string, level?: number, rising?: boolean): number[] times of crossing the level [s]
 ---@field events { time: number, event: string, name: string, value: number }[] events.csv
 ---@field first_crack { time: number, name: string }? the first crack
 
@@ -35,7 +35,7 @@ Pa, kPa, MPa, GPa = 1, 1e3, 1e6, 1e9 -- Pa
 J, Hz = 1, 1 -- J, 1/s
 pi, deg = math.pi, math.pi / 180 -- rad
 g = 9.81 -- m/s2
-start_noise = 0 -- by up to how much the start of every free block is off: erbs run --noise, erbs test --grid [m and rad]
+start_noise = 0 -- noise in the initial state of every free block: erbs run --noise, erbs test --grid [m and rad]
 
 ---@alias erbs.quantity "displacement"|"velocity"|"acceleration"|"rotation"|"spin"|"momentum"|"angular_momentum"|"reaction"|"reaction_moment"|"load"|"load_moment"|"opening"|"slip"|"normal_force"|"shear_force"|"joint_moment"|"damage"|"broken"|"ground_acceleration"|"ground_velocity"|"ground_displacement"|"contact_points"|"joints_broken"
 
@@ -59,15 +59,15 @@ start_noise = 0 -- by up to how much the start of every free block is off: erbs 
 ---@field source? string where the number is from
 
 ---@class erbs.material_keys
----@field name string what blocks call it by
+---@field name string name by which blocks refer to it
 ---@field density number mass per volume of the block [kg/m3; 0.01 to 100000]
 ---@field kn? number normal stiffness of debris contacts [Pa/m; 1000 to 1e+16; default 5e+10]
 ---@field ks? number shear stiffness of debris contacts [Pa/m; 0 to 1e+16; default 2e+10]
 ---@field friction? number coefficient of friction of debris contacts [0 to 10; default 0.6]
----@field restitution? number speed after over speed before an impact through the centre [0 to 1; default 0.3]
+---@field restitution? number restitution of a central impact: speed after over speed before [0 to 1; default 0.3]
 ---@field color? erbs.vec3 red, green, blue for the pictures [0 to 1; default { 0.7, 0.35, 0.25 }]
 
----What blocks are made of, and how they behave as debris: where two meet the lesser friction and the lesser restitution count.
+---A material of blocks, and its behaviour as debris. Between two materials the smaller friction and the smaller restitution apply.
 ---@param keys erbs.material_keys
 ---@return string # its name
 function material(keys) end
@@ -79,10 +79,10 @@ function material(keys) end
 ---@field name? string name, unique (default from the group and a number)
 ---@field group? string group, for joint rules and recorders
 ---@field fixed? boolean part of the ground [default false]
----@field free? boolean may stand without any joint, or be joined to others with no way to the ground [default false]
+---@field free? boolean allowed to have no joint, or no joined path to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
----@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
+---@field initial? erbs.initial initial state: { position, rotation, velocity, spin, about }
 
 ---A rectangular block.
 ---@param keys erbs.box_keys
@@ -93,14 +93,14 @@ function box(keys) end
 ---@field vertices? erbs.vec3[] corners of a single part [m; -1e+06 to 1e+06]
 ---@field faces? integer[][] loops of vertex numbers, counter-clockwise seen from outside (default: the hull)
 ---@field parts? erbs.part[] several convex parts: { { vertices = ..., faces = ... }, ... }
----@field at? erbs.vec3 moves the shape by this [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
+---@field at? erbs.vec3 displacement of the shape [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
 ---@field name? string name, unique (default from the group and a number)
 ---@field group? string group, for joint rules and recorders
 ---@field fixed? boolean part of the ground [default false]
----@field free? boolean may stand without any joint, or be joined to others with no way to the ground [default false]
+---@field free? boolean allowed to have no joint, or no joined path to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
----@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
+---@field initial? erbs.initial initial state: { position, rotation, velocity, spin, about }
 
 ---A convex polyhedron, or several convex parts that are one rigid block.
 ---@param keys erbs.block_keys
@@ -111,14 +111,14 @@ function block(keys) end
 ---@field polygon number[][] corners { u, v }; u and v are the axes after `axis` in the order x, y, z, x, ... [m; -1e+06 to 1e+06]
 ---@field height number length along the axis [m; 1e-06 to 1e+06]
 ---@field axis? "x"|"y"|"z" direction of extrusion [default z]
----@field at? erbs.vec3 moves the shape by this [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
+---@field at? erbs.vec3 displacement of the shape [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
 ---@field name? string name, unique (default from the group and a number)
 ---@field group? string group, for joint rules and recorders
 ---@field fixed? boolean part of the ground [default false]
----@field free? boolean may stand without any joint, or be joined to others with no way to the ground [default false]
+---@field free? boolean allowed to have no joint, or no joined path to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
----@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
+---@field initial? erbs.initial initial state: { position, rotation, velocity, spin, about }
 
 ---A convex polygon extruded along an axis.
 ---@param keys erbs.prism_keys
@@ -126,16 +126,16 @@ function block(keys) end
 function prism(keys) end
 
 ---@class erbs.mesh_keys
----@field file string path in the folder of the scene, or in one of --allow
----@field scale? number factor on its coordinates, to metres [1e-09 to 1e+09; default 1]
----@field at? erbs.vec3 moves the shape by this [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
+---@field file string path, in the folder of the scene or in a folder of --allow
+---@field scale? number factor that converts its coordinates to metres [1e-09 to 1e+09; default 1]
+---@field at? erbs.vec3 displacement of the shape [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
 ---@field name? string name, unique (default from the group and a number)
 ---@field group? string group, for joint rules and recorders
 ---@field fixed? boolean part of the ground [default false]
----@field free? boolean may stand without any joint, or be joined to others with no way to the ground [default false]
+---@field free? boolean allowed to have no joint, or no joined path to the ground [default false]
 ---@field material? string name of its material (default: the only one there is)
 ---@field rotation? erbs.vec3 rotation vector about the centroid [rad; -100 to 100; default { 0, 0, 0 }]
----@field initial? erbs.initial how it starts: { position, rotation, velocity, spin, about }
+---@field initial? erbs.initial initial state: { position, rotation, velocity, spin, about }
 
 ---A block from a file (OBJ, STL, PLY, glTF); each mesh in it is one convex part.
 ---@param keys erbs.mesh_keys
@@ -144,25 +144,25 @@ function mesh(keys) end
 
 ---@class erbs.ground_keys
 ---@field z? number height of its top [m; -1e+06 to 1e+06; default 0]
----@field size? number length of its sides; what falls beyond them falls for ever [m; 0.001 to 1e+06; default 20]
+---@field size? number length of its sides; blocks that fall beyond them never land [m; 0.001 to 1e+06; default 20]
 ---@field depth? number thickness of the plate [m; 0.001 to 1e+06; default 1]
 ---@field material? string name of its material (default: its own, with the defaults of material)
 ---@field friction? number coefficient of friction, instead of its material's [0 to 10]
 ---@field name? string its name [default ground]
 ---@field group? string its group [default ground]
 
----A fixed plate to stand and fall on.
+---A fixed plate as the ground.
 ---@param keys erbs.ground_keys
 ---@return string # the name of the block
 function ground(keys) end
 
 ---@class erbs.transform_keys
----@field [1] fun(): any builds; called at once
+---@field [1] fun(): any function that builds; it is called immediately
 ---@field at? erbs.vec3 shift, after the rotation [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
 ---@field rotation? erbs.vec3 rotation vector [rad; -100 to 100; default { 0, 0, 0 }]
----@field about? erbs.vec3 point the rotation leaves in place [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
+---@field about? erbs.vec3 centre of the rotation [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
 
----Places everything built inside the function rigidly: x -> about + rotation (x - about) + at; initial velocities, spins and directions of loads turn with it.
+---Moves everything that is built inside the function as a rigid body: x -> about + rotation (x - about) + at. Initial velocities, spins and directions of loads rotate with it.
 ---@param keys erbs.transform_keys
 ---@return any # what the function returns
 function transform(keys) end
@@ -171,12 +171,12 @@ function transform(keys) end
 ---@field kn number normal stiffness of the joint [Pa/m; 1000 to 1e+16]
 ---@field ks? number shear stiffness of the joint (default 0.4 kn) [Pa/m; 0 to 1e+16]
 ---@field mu number coefficient of friction [0 to 10]
----@field damping? number viscous ratio of the joint once it has opened or slid, of its critical value [0 to 1; default 0.3]
----@field interlock? number 1: while faces slide slowly and hop by next to nothing, friction goes by their mean pressure; 0: by that of the moment, as in theory [0 to 1; default 1]
+---@field damping? number viscous ratio of a joint that has opened or slid, relative to its critical value [0 to 1; default 0.3]
+---@field interlock? number 1: friction of slowly sliding faces follows their mean pressure; 0: the momentary pressure, as in theory [0 to 1; default 1]
 
 ---A dry joint: linear in compression, no tension, Coulomb friction.
 ---@param keys erbs.dry_keys
----@return erbs.law # to be given to joint{ law = ... }
+---@return erbs.law # for joint{ law = ... }
 function dry(keys) end
 
 ---@class erbs.mortar_keys
@@ -192,109 +192,109 @@ function dry(keys) end
 ---@field mu_residual? number coefficient of friction after failure (default mu) [-1 to 10]
 ---@field Gf1? number fracture energy in tension (0: brittle) [J/m2; 0 to 1e+07; default 0]
 ---@field Gf2? number fracture energy in shear (0: brittle) [J/m2; 0 to 1e+07; default 0]
----@field un_ultimate? number opening at which tension is spent (default from Gf1) [m; 0 to 1]
----@field us_ultimate? number slip at which cohesion is spent (default from Gf2) [m; 0 to 1]
+---@field un_ultimate? number opening at which tensile strength is lost (default from Gf1) [m; 0 to 1]
+---@field us_ultimate? number slip at which cohesion is lost (default from Gf2) [m; 0 to 1]
 ---@field fc? number compressive strength, a plateau (0: unlimited) [Pa; 0 to 1e+10; default 0]
 ---@field uc_ultimate? number closing at which the mortar is crushed and its bond lost (0: never) [m; 0 to 1; default 0]
----@field damping? number viscous ratio of the joint once it has cracked, of its critical value [0 to 1; default 0]
+---@field damping? number viscous ratio of the cracked joint, relative to its critical value [0 to 1; default 0]
 ---@field coupling? "coulomb"|"linear"|"ellipse" tension-shear coupling: coulomb, linear or ellipse [default coulomb]
 
----A mortar joint: linear, with tension cut-off, Coulomb shear with cohesion, and softening where asked for.
+---A mortar joint: linear, with tension cut-off, Coulomb shear with cohesion, and optional softening.
 ---@param keys erbs.mortar_keys
----@return erbs.law # to be given to joint{ law = ... }
+---@return erbs.law # for joint{ law = ... }
 function mortar(keys) end
 
 ---@class erbs.joint_keys
 ---@field law? erbs.law a law value: mortar{ ... } or dry{ ... }
----@field between? string|string[] two groups, { "wall", "slab" }; "" is any (default: any and any)
+---@field between? string|string[] two groups, { "wall", "slab" }; "" is any group (default: any two groups)
 ---@field name? string name of the rule, for reports
 ---@field thickness? number nominal gap at rest: faces that touch or lie no further apart are joined (default the thickness of the law) [m; 0 to 1]
----@field tolerance? number how much wider than that a gap may be; one narrower by more is joined, with a warning [m; 0 to 1; default 0.0001]
----@field rule? "simpson"|"midpoint"|"trapezoid"|"gauss" how contact points and their weights are laid out [default simpson]
+---@field tolerance? number largest excess of a gap over `thickness`; a gap that is narrower by more is joined with a warning [m; 0 to 1; default 0.0001]
+---@field rule? "simpson"|"midpoint"|"trapezoid"|"gauss" quadrature rule of the contact points [default simpson]
 ---@field none? boolean pairs that match get no joint [default false]
 ---@field points? integer|integer[] contact points: { along the longer side, along the shorter side }, or one square number [1 to 64; default { 3, 3 }]
 
----Joins faces that face each other at rest by a law; the last rule that matches a pair of blocks wins.
+---Joins faces that face each other at rest by a law. The last rule that matches a pair of blocks applies.
 ---@param keys erbs.joint_keys
 function joint(keys) end
 
 ---@class erbs.sine_keys
----@field amplitude number peak value, in the unit of what it drives
----@field frequency number cycles a second [Hz; 1e-09 to 1e+09]
+---@field amplitude number peak value, in the unit of the load
+---@field frequency number cycles per second [Hz; 1e-09 to 1e+09]
 ---@field phase? number phase at the start [rad; -1000 to 1000; default 0]
 ---@field start? number time of the first value [s; -1e+09 to 1e+09; default 0]
----@field duration? number how long it lasts (default: for ever) [s; at least 0]
+---@field duration? number duration (default: for ever) [s; at least 0]
 
 ---A sine from `start` on, for `duration`: amplitude sin(2 pi frequency (t - start) + phase).
 ---@param keys erbs.sine_keys
----@return erbs.wave # to be given to a load; wave(t) is its value
+---@return erbs.wave # for a load; wave(t) is its value at time t
 function sine(keys) end
 
 ---@class erbs.half_sine_keys
----@field amplitude number peak value, in the unit of what it drives
----@field frequency number of the whole sine; the lobe lasts 1 / (2 frequency) [Hz; 1e-09 to 1e+09]
+---@field amplitude number peak value, in the unit of the load
+---@field frequency number frequency of the whole sine; the lobe lasts 1 / (2 frequency) [Hz; 1e-09 to 1e+09]
 ---@field phase? number phase at the start; the pulse ends at pi [rad; 0 to 3.14159; default 0]
 ---@field start? number time of the first value [s; -1e+09 to 1e+09; default 0]
 
 ---One lobe of a sine, from any phase to its zero at pi.
 ---@param keys erbs.half_sine_keys
----@return erbs.wave # to be given to a load; wave(t) is its value
+---@return erbs.wave # for a load; wave(t) is its value at time t
 function half_sine(keys) end
 
 ---@class erbs.full_sine_keys
----@field amplitude number peak value, in the unit of what it drives
----@field frequency number the cycle lasts 1 / frequency [Hz; 1e-09 to 1e+09]
+---@field amplitude number peak value, in the unit of the load
+---@field frequency number frequency; the cycle lasts 1 / frequency [Hz; 1e-09 to 1e+09]
 ---@field phase? number phase at the start; the pulse ends at 2 pi [rad; 0 to 6.28319; default 0]
 ---@field start? number time of the first value [s; -1e+09 to 1e+09; default 0]
 
 ---One cycle of a sine, from any phase to its zero at 2 pi.
 ---@param keys erbs.full_sine_keys
----@return erbs.wave # to be given to a load; wave(t) is its value
+---@return erbs.wave # for a load; wave(t) is its value at time t
 function full_sine(keys) end
 
 ---@class erbs.pulse_keys
----@field amplitude number value inside, in the unit of what it drives
+---@field amplitude number value inside, in the unit of the load
 ---@field start? number time of the rising edge [s; -1e+09 to 1e+09; default 0]
----@field duration? number how long it lasts (default: for ever, a step) [s; at least 0]
+---@field duration? number duration (default: for ever, a step) [s; at least 0]
 
 ---A rectangular pulse, exact at its edges whatever the time step.
 ---@param keys erbs.pulse_keys
----@return erbs.wave # to be given to a load; wave(t) is its value
+---@return erbs.wave # for a load; wave(t) is its value at time t
 function pulse(keys) end
 
 ---@class erbs.table_wave_keys
 ---@field times number[] increasing, at least two [s; -1e+09 to 1e+09]
----@field values number[] one for each time, in the unit of what it drives
+---@field values number[] one for each time, in the unit of the load
 ---@field hold? boolean outside the table the nearest value holds (default: zero)
 
----Values at times, linear between them.
+---Given values at given times, linear in between.
 ---@param keys erbs.table_wave_keys
----@return erbs.wave # to be given to a load; wave(t) is its value
+---@return erbs.wave # for a load; wave(t) is its value at time t
 function table_wave(keys) end
 
 ---@class erbs.record_keys
 ---@field file string PEER AT2, CSV or text of one or two columns
----@field peak? number largest absolute acceleration wanted (default: as recorded) [m/s2; 0 to 10000]
+---@field peak? number largest absolute acceleration after scaling (default: as recorded) [m/s2; 0 to 10000]
 ---@field scale? number factor on the acceleration, instead of peak [-1e+06 to 1e+06; default 1]
 ---@field time_factor? number factor on time [0.001 to 1000; default 1]
----@field start? number when time 0 of the file comes [s; -1e+09 to 1e+09; default 0]
+---@field start? number simulated time of time 0 in the file [s; -1e+09 to 1e+09; default 0]
 ---@field column? integer column of the values, counted from 1 (default: the one after time) [0 to 1000]
----@field dt? number step of a file that has one column of values [s; 0 to 1000; default 0]
+---@field dt? number time step, for a file with one column of values [s; 0 to 1000; default 0]
 ---@field first_time? number time of the first value of such a file [s; 0 to 1000; default 0]
----@field unit? string of the values where the file does not say: g, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2
+---@field unit? string unit of the values, if the file does not give one: g, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2
 
 ---A ground-motion record from a file, scaled in amplitude and time.
 ---@param keys erbs.record_keys
----@return erbs.wave # to be given to a load; wave(t) is its value
+---@return erbs.wave # for a load; wave(t) is its value at time t
 function record(keys) end
 
 ---@class erbs.ground_motion_keys
 ---@field wave erbs.wave|number|fun(t: number): number a wave, a number, or a function of time [m/s2]
 ---@field direction? "x"|"y"|"z"|erbs.vec3 "x", "y", "z" or a vector [-1e+09 to 1e+09; default "x"]
----@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
+---@field sample? number sampling step of a Lua function [s; 1e-06 to 10; default 0.001]
 ---@field name? string name, for reports
 
----Shakes the ground by an acceleration; several add up. A positive one moves the ground along its direction and throws what stands on it the other way.
+---Shakes the ground by an acceleration; several ground motions add up. A positive acceleration moves the ground along its direction and pushes the structure the other way.
 ---@param keys erbs.ground_motion_keys
 function ground_motion(keys) end
 
@@ -302,9 +302,9 @@ function ground_motion(keys) end
 ---@field block string name of the block
 ---@field wave erbs.wave|number|fun(t: number): number a wave, a number, or a function of time [N]
 ---@field direction? "x"|"y"|"z"|erbs.vec3 "x", "y", "z" or a vector [-1e+09 to 1e+09; default "x"]
----@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
+---@field sample? number sampling step of a Lua function [s; 1e-06 to 10; default 0.001]
 ---@field name? string name, for reports
----@field point? erbs.vec3 point of the block at rest where it acts (default the centroid) [m; -1e+06 to 1e+06]
+---@field point? erbs.vec3 point of application on the block at rest (default the centroid) [m; -1e+06 to 1e+06]
 
 ---A force on a block.
 ---@param keys erbs.force_keys
@@ -314,7 +314,7 @@ function force(keys) end
 ---@field block string name of the block
 ---@field wave erbs.wave|number|fun(t: number): number a wave, a number, or a function of time [N m]
 ---@field direction? "x"|"y"|"z"|erbs.vec3 axis of the moment: "x", "y", "z" or a vector [-1e+09 to 1e+09; default "x"]
----@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
+---@field sample? number sampling step of a Lua function [s; 1e-06 to 10; default 0.001]
 ---@field name? string name, for reports
 
 ---A moment on a block.
@@ -324,10 +324,10 @@ function moment(keys) end
 ---@class erbs.tilt_keys
 ---@field wave erbs.wave|number|fun(t: number): number a wave, a number, or a function of time [rad]
 ---@field axis? "x"|"y"|"z"|erbs.vec3 "x", "y", "z" or a vector [-1e+09 to 1e+09; default "x"]
----@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
+---@field sample? number sampling step of a Lua function [s; 1e-06 to 10; default 0.001]
 ---@field name? string name, for reports
 
----Turns gravity by an angle about an axis, as a tilting table does: right-handed, so that a positive one about x pulls towards +y, about y towards -x.
+---Rotates gravity by an angle about an axis, like a tilting table. The rotation is right-handed: a positive angle about x pulls towards +y, about y towards -x.
 ---@param keys erbs.tilt_keys
 function tilt(keys) end
 
@@ -335,10 +335,10 @@ function tilt(keys) end
 ---@field block string name of the block
 ---@field wave erbs.wave|number|fun(t: number): number a wave, a number, or a function of time [m]
 ---@field direction? "x"|"y"|"z"|erbs.vec3 "x", "y", "z" or a vector [-1e+09 to 1e+09; default "x"]
----@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
+---@field sample? number sampling step of a Lua function [s; 1e-06 to 10; default 0.001]
 ---@field name? string name, for reports
 
----Moves a block by a displacement along a direction; its other degrees of freedom are held.
+---Prescribes the displacement of a block along a direction; its other degrees of freedom are fixed.
 ---@param keys erbs.motion_keys
 function motion(keys) end
 
@@ -346,11 +346,11 @@ function motion(keys) end
 ---@field block string name of the block
 ---@field wave erbs.wave|number|fun(t: number): number a wave, a number, or a function of time [rad]
 ---@field axis? "x"|"y"|"z"|erbs.vec3 "x", "y", "z" or a vector [-1e+09 to 1e+09; default "x"]
----@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
+---@field sample? number sampling step of a Lua function [s; 1e-06 to 10; default 0.001]
 ---@field name? string name, for reports
----@field about? erbs.vec3 point at rest that stays where it is (default the centroid) [m; -1e+06 to 1e+06]
+---@field about? erbs.vec3 centre of the rotation, at rest (default the centroid) [m; -1e+06 to 1e+06]
 
----Turns a block by an angle about an axis; with motion both are held, without it its place too.
+---Prescribes the rotation of a block about an axis. Its position is fixed, unless motion{} prescribes it.
 ---@param keys erbs.turning_keys
 function turning(keys) end
 
@@ -365,10 +365,10 @@ function gravity(keys) end
 
 ---@class erbs.damping_keys
 ---@field mass? number coefficient a of the mass damping c = a m [1/s; 0 to 1e+07; default 0]
----@field scope? "bonded"|"all"|"none" which blocks feel it [default bonded]
----@field form? "centred"|"explicit" how a step takes it in [default centred]
+---@field scope? "bonded"|"all"|"none" blocks that mass damping acts on [default bonded]
+---@field form? "centred"|"explicit" velocity that mass damping uses: the mean over the step, or the one before it [default centred]
 ---@field stiffness? number coefficient b of the dashpots of joints, c = b k [s; 0 to 1000; default 0]
----@field joint_ratio? number viscous ratio of joints: of each joint's own critical value, or of motions of the frequency `at` [0 to 10; default 0]
+---@field joint_ratio? number viscous ratio of joints: relative to each joint's critical value, or at the frequency `at` [0 to 10; default 0]
 ---@field at? number frequency at which motions have the ratio joint_ratio (b = joint_ratio / (pi at)) [Hz; 0 to 1e+06; default 0]
 
 ---Damping of blocks and of joints.
@@ -377,55 +377,55 @@ function damping(keys) end
 
 ---@class erbs.analysis_keys
 ---@field duration? number simulated time [s; 1e-09 to 1e+06; default 0]
----@field dt? number time step (0: from dt_rule); { value, unstable = true } lets one past the limit run [s; 0 to 1; default 0]
+---@field dt? number time step (0: from dt_rule); { value, unstable = true } allows a step beyond the limit [s; 0 to 1; default 0]
 ---@field dt_fraction? number share of the limit in force [1e-06 to 1; default 0.9]
----@field dt_rule? "limit"|"period_tenth"|"hart"|"hakuno"|"hakuno_half" where dt comes from [default limit]
----@field unstable? boolean let a dt past the limit run, or a sequential solver that feeds energy [default false]
----@field kernel? "fast"|"reference" which step kernel [default fast]
----@field solver? "leapfrog"|"sequential" all blocks at once, or one after the other as Gu and Miao (it feeds energy: for studies) [default leapfrog]
+---@field dt_rule? "limit"|"period_tenth"|"hart"|"hakuno"|"hakuno_half" rule that gives dt [default limit]
+---@field unstable? boolean allow a dt beyond the limit, or a sequential solver that feeds energy [default false]
+---@field kernel? "fast"|"reference" step kernel [default fast]
+---@field solver? "leapfrog"|"sequential" all blocks at once, or one after the other by Gu and Miao's scheme (it feeds energy: for studies) [default leapfrog]
 ---@field variant? "literal"|"centred" sequential: forces where a block is, or half a step ahead on its path [default literal]
----@field order? "random"|"fixed"|"coloured" sequential: which block is let go next [default random]
+---@field order? "random"|"fixed"|"coloured" sequential: order of the blocks [default random]
 ---@field iterations? integer sequential: sweeps per step, each over its share of dt [1 to 1e+06; default 1]
----@field seed? integer sequential: of the random order [0 to 2.14748e+09; default 1]
----@field start? "equilibrium"|"ramp"|"rest" how gravity comes on [default equilibrium]
----@field ramp_time? number length of the gravity ramp (0: chosen) [s; 0 to 1e+06; default 0]
----@field overlap? "error"|"stress_free" what to do with blocks that overlap at rest [default error]
----@field collapse_fraction? number share of mass fallen that is called a collapse [0 to 1; default 0.05]
+---@field seed? integer sequential: seed of the random order [0 to 2.14748e+09; default 1]
+---@field start? "equilibrium"|"ramp"|"rest" how gravity is applied [default equilibrium]
+---@field ramp_time? number length of the gravity ramp (0: automatic) [s; 0 to 1e+06; default 0]
+---@field overlap? "error"|"stress_free" treatment of blocks that overlap at rest [default error]
+---@field collapse_fraction? number share of the mass whose fall counts as a collapse [0 to 1; default 0.05]
 ---@field stop_after_collapse? number time to go on after a collapse (-1: to the end) [s; -1 to 1e+06; default -1]
----@field stop_when_moved? number a block that has moved this far from rest ends the run, collapse.moved (0: none does) [m; 0 to 1e+06; default 0]
----@field sleep? boolean debris that has come to rest is left alone until something stirs it [default false]
----@field energy_gate? number relative energy residual that ends a run (0: by the kind of run) [0 to 1e+06; default 0]
----@field lazy_rotation? number block rotation between refreshes of joint frames [rad; 0 to 0.1; default 0.0001]
+---@field stop_when_moved? number displacement of a block from rest that ends the run, collapse.moved (0: none) [m; 0 to 1e+06; default 0]
+---@field sleep? boolean debris at rest is skipped until something moves it [default false]
+---@field energy_gate? number largest relative energy residual of an accurate run (0: by the kind of run) [0 to 1e+06; default 0]
+---@field lazy_rotation? number block rotation between updates of joint frames [rad; 0 to 0.1; default 0.0001]
 ---@field gyroscopic? boolean the gyroscopic term w x (I w) [default true]
 ---@field output_dt? number time between rows of histories.csv and energy.csv [s; 1e-09 to 1e+06; default 0.01]
 ---@field frame_dt? number time between poses for pictures [s; 1e-09 to 1e+06; default 0.04]
----@field quality? "draft"|"standard"|"reference" a measured pair of step and points, for what the scene does not say: dt 0.9 and 2 x 2, 0.9 and 3 x 3, 0.25 and 5 x 5
+---@field quality? "draft"|"standard"|"reference" a measured pair of step (over its limit) and contact points, for values that the scene leaves open: 0.9 and 2 x 2, 0.9 and 3 x 3, 0.25 and 5 x 5
 
----How long to run, with which step, and when to stop.
+---Duration, time step and end of the run.
 ---@param keys erbs.analysis_keys
 function analysis(keys) end
 
 ---@class erbs.recorder_keys
 ---@field name string stem of its columns in histories.csv
----@field quantity erbs.quantity what is written
----@field axis? "x"|"y"|"z"|"xy"|"xz"|"yz"|"xyz" which components [default xyz]
+---@field quantity erbs.quantity quantity to write
+---@field axis? "x"|"y"|"z"|"xy"|"xz"|"yz"|"xyz" components to write [default xyz]
 ---@field frame? "rel"|"abs" relative to the ground, or absolute [default rel]
 ---@field point? erbs.vec3 material point at rest, instead of the centroid [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
 ---@field block? string|string[] name of the block
 ---@field blocks? string|string[] names of several blocks
 ---@field group? string all blocks of a group
----@field others? string|string[] of joints: names of the blocks on their other side (default: any)
----@field other_group? string of joints: all blocks of a group on their other side
+---@field others? string|string[] for joint quantities: names of the blocks on the other side (default: any)
+---@field other_group? string for joint quantities: all blocks of a group on the other side
 
----Writes a quantity of one block, or its mean (of forces: the sum) over several, to histories.csv.
+---Writes a quantity of a block to histories.csv; for several blocks their mean, for forces their sum.
 ---@param keys erbs.recorder_keys
 function recorder(keys) end
 
 ---@class erbs.camera_keys
----@field name string what the pictures are called
----@field eye? erbs.vec3 where it stands [m; -1e+06 to 1e+06; default { 8, -8, 5 }]
----@field target? erbs.vec3 what it looks at [m; -1e+06 to 1e+06; default { 0, 0, 1 }]
----@field up? erbs.vec3 which way is up [-1 to 1; default { 0, 0, 1 }]
+---@field name string name of the pictures
+---@field eye? erbs.vec3 position of the camera [m; -1e+06 to 1e+06; default { 8, -8, 5 }]
+---@field target? erbs.vec3 point at the centre of the picture [m; -1e+06 to 1e+06; default { 0, 0, 1 }]
+---@field up? erbs.vec3 upward direction [-1 to 1; default { 0, 0, 1 }]
 ---@field fov? number vertical angle of view [rad; 0.001 to 3.1; default 0.610865]
 
 ---A view for the pictures.
@@ -434,9 +434,9 @@ function camera(keys) end
 
 ---Declares a number that -D and studies may change.
 ---@param name string its name
----@param default number its value where none is given
----@param text? string what it means or assumes, and its unit at the end: "density of brick, assumed [kg/m3]"
----@return number # the default, or what -D name=value says
+---@param default number its value unless -D gives one
+---@param text? string meaning or assumption, with the unit at the end: "density of brick, assumed [kg/m3]"
+---@return number # the default, or the value of -D name=value
 function param(name, default, text) end
 
 ---Adds a number to metrics.json; a function is called after the run with a table `run`.
@@ -445,22 +445,22 @@ function param(name, default, text) end
 ---@param value number|fun(run: erbs.run): number? a number, or function(run) that returns one
 function metric(name, unit, value) end
 
----Says what a key of metrics.json must be; the scene is the test.
+---States the expected value of a key of metrics.json; erbs test checks it.
 ---@param key string dotted key: "metrics.x", "energy.residual_relative", "status"
 ---@param value number|string|boolean? a number, a word, true or false
 ---@param how? erbs.tolerance { rel = | abs = | below = true | above = true | between = { lo, hi }, source = "..." }
 function expect(key, value, how) end
 
----Labels by which scenes are chosen: "quick" belongs to erbs test --quick, "fixed_dt" keeps its time step in erbs test --grid and erbs accuracy; there "coarse_study" begins at 1/8 of the limit, "fine_study" at 1/128.
+---Labels that select scenes: erbs test --quick runs scenes with "quick"; a scene with "fixed_dt" keeps its time step in erbs test --grid and erbs accuracy. The smallest step of erbs accuracy is 1/32 of the limit, 1/8 with "coarse_study", 1/512 with "fine_study".
 ---@param ... string one label or several
 function label(...) end
 
 ---@class erbs.use_limit_keys
 ---@field dt_fraction? number largest dt, as a share of dt_critical [1e-06 to 1; default 1]
 ---@field points? integer fewest contact points of a joint [1 to 1000; default 1]
----@field reason string what goes wrong beyond
+---@field reason string the error that appears beyond the limits
 
----Beyond which the scene is not good; erbs check and erbs run refuse a coarser one.
+---Limits of use of the scene; erbs check and erbs run refuse a coarser one.
 ---@param keys erbs.use_limit_keys
 function use_limit(keys) end
 
@@ -470,105 +470,105 @@ function use_limit(keys) end
 function include(file) end
 
 ---@class erbs.bisect_keys
----@field param string name of the param the runs change
----@field lo number where it stands (it may be the larger number) [-1e+300 to 1e+300]
----@field hi number where it collapses [-1e+300 to 1e+300]
+---@field param string name of the param that the runs change
+---@field lo number value at which the structure stands (it may be the larger one) [-1e+300 to 1e+300]
+---@field hi number value at which it collapses [-1e+300 to 1e+300]
 ---@field collapsed_when? fun(run: erbs.run): number|boolean? function(run) that returns true or false (default: collapse.collapsed of the run)
 ---@field rel? number width of the last bracket over its larger end [1e-12 to 1; default 0.01]
----@field points? integer runs between the ends at a time [1 to 1000; default 3]
----@field name? string of its metrics (default collapse_PARAM)
+---@field points? integer runs between the ends in each round [1 to 1000; default 3]
+---@field name? string stem of its metrics (default collapse_PARAM)
 
 ---Finds the value of a param at which the scene collapses, by runs side by side; metrics NAME, NAME_lo, NAME_hi, NAME_runs, NAME_failed.
 ---@param keys erbs.bisect_keys
 function bisect(keys) end
 
 ---@class erbs.converge_keys
----@field param string name of the param the runs change
----@field values number[] of the param, all above zero
----@field error? fun(run: erbs.run): number|boolean? function(run) that returns the error against what is known
----@field value? fun(run: erbs.run): number|boolean? function(run) that returns a number; its error is the distance from the run with the smallest value
----@field slope? number least slope of ln error over ln value that is expected (default: none is) [0 to 100]
----@field name? string of its metrics (default converge_PARAM)
+---@field param string name of the param that the runs change
+---@field values number[] values of the param, all above zero
+---@field error? fun(run: erbs.run): number|boolean? function(run) that returns the error against the known value
+---@field value? fun(run: erbs.run): number|boolean? function(run) that returns a number; its error is the difference from the run with the smallest value
+---@field slope? number least expected slope of ln error over ln value (default: no expectation) [0 to 100]
+---@field name? string stem of its metrics (default converge_PARAM)
 
----Runs the scene with a param at several values and fits the order of its error; metrics NAME_slope, NAME_error (at the smallest), NAME_least and NAME_most (answers), NAME_runs, NAME_failed.
+---Runs the scene with a param at several values and fits the order of its error; metrics NAME_slope, NAME_error (at the smallest), NAME_least and NAME_most (results), NAME_runs, NAME_failed.
 ---@param keys erbs.converge_keys
 function converge(keys) end
 
 ---@class erbs.ensemble_keys
 ---@field n integer number of runs [1 to 100000]
----@field seed number from which the seeds of the runs are drawn: the same again and again [-1e+300 to 1e+300]
----@field value fun(run: erbs.run): number|boolean? function(run) that returns the number whose scatter is asked for
+---@field seed number seed from which the seeds of the runs are drawn; equal seeds give equal studies [-1e+300 to 1e+300]
+---@field value fun(run: erbs.run): number|boolean? function(run) that returns a number; the study reports its scatter
 ---@field param? string name of the param that takes the seeds (whole numbers below 2^31) [default seed]
----@field name? string of its metrics [default ensemble]
+---@field name? string stem of its metrics [default ensemble]
 
----Runs the scene n times with a param set to seeds drawn from one; metrics NAME_mean, NAME_deviation, NAME_least, NAME_most, NAME_median, NAME_runs, NAME_failed.
+---Runs the scene n times, each time with another seed in a param; metrics NAME_mean, NAME_deviation, NAME_least, NAME_most, NAME_median, NAME_runs, NAME_failed.
 ---@param keys erbs.ensemble_keys
 function ensemble(keys) end
 
----Params that erbs test --grid varies: each value alone, and some combinations; erbs run leaves them be.
+---Params that erbs test --grid varies: each value alone, and some combinations. erbs run ignores the family.
 ---@param params table<string, number[]> lists of values by the names of params given above
----@param how? { combinations?: integer, seed?: number } { combinations = how many (default 4), seed = of their draw (default 1) }
+---@param how? { combinations?: integer, seed?: number } { combinations = their number (default 4), seed = seed of their draw (default 1) }
 function family(params, how) end
 
 ---@class erbs.figure_keys
----@field name string of the file
----@field title string what it shows
----@field x string the axis along: quantity and unit
----@field y string the axis up: quantity and unit
----@field curves { label: string, study?: string, x?: number[], y?: number[], metrics?: string|string[] }[] one table each
+---@field name string name of the file
+---@field title string title of the figure
+---@field x string label of the horizontal axis: quantity and unit
+---@field y string label of the vertical axis: quantity and unit
+---@field curves { label: string, study?: string, x?: number[], y?: number[], metrics?: string|string[] }[] one table per curve
 
----Draws the answers of studies beside what is known: figures/NAME.svg of the run, and in the book of erbs test.
+---Draws results of studies beside known values: figures/NAME.svg of the run, also in the book of erbs test.
 ---@param keys erbs.figure_keys
 function figure(keys) end
 
 ---@class erbs.rocking_keys
----@field width? number base of the block; with `height` it gives alpha, p and mu of a homogeneous one [m; 1e-06 to 1e+06]
----@field height? number of the block [m; 1e-06 to 1e+06]
+---@field width? number base of the block; with `height` it gives alpha, p and mu of a homogeneous block [m; 1e-06 to 1e+06]
+---@field height? number height of the block [m; 1e-06 to 1e+06]
 ---@field alpha? number slenderness, atan(width / height) (default from width and height) [rad; 1e-06 to 1.5]
 ---@field p? number sqrt(m g R / I0) (default from width and height: sqrt(3 g / (4 R))) [rad/s; 1e-06 to 1e+06]
 ---@field mu? number spin after an impact over the spin before (default Housner's: 1 - 3/2 sin^2 alpha) [0 to 1]
 ---@field gravity? number strength of gravity (default: the scene's) [m/s2; 1e-06 to 1000]
 ---@field linear? boolean small angles: sin x = x, cos x = 1 [default false]
 ---@field wave? erbs.wave|number|fun(t: number): number acceleration of the ground (default: none, free rocking) [m/s2]
----@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
+---@field sample? number sampling step of a Lua function [s; 1e-06 to 10; default 0.001]
 ---@field theta? number tilt at the start [rad; -1.5 to 1.5; default 0]
----@field spin? number at the start [rad/s; -1000 to 1000; default 0]
----@field duration number how long [s; 1e-09 to 100000]
+---@field spin? number spin at the start [rad/s; -1000 to 1000; default 0]
+---@field duration number simulated time [s; 1e-09 to 100000]
 
----A rigid block rocking on its edges after Housner: what theory says beside a scene of one block.
+---Solution of Housner's equations for a rigid rocking block, to compare with a scene of one block.
 ---@param keys erbs.rocking_keys
----@return table # alpha, p, mu, threshold (m/s2), t, theta (rad), impacts (s), amplitudes (of alpha, before each impact), overturned, overturned_at
+---@return table # alpha, p, mu, threshold (m/s2), t, theta (rad), impacts (s), amplitudes (over alpha, before each impact), overturned, overturned_at
 function rocking(keys) end
 
 ---@class erbs.rocking_overturning_keys
----@field width? number base of the block; with `height` it gives alpha, p and mu of a homogeneous one [m; 1e-06 to 1e+06]
----@field height? number of the block [m; 1e-06 to 1e+06]
+---@field width? number base of the block; with `height` it gives alpha, p and mu of a homogeneous block [m; 1e-06 to 1e+06]
+---@field height? number height of the block [m; 1e-06 to 1e+06]
 ---@field alpha? number slenderness, atan(width / height) (default from width and height) [rad; 1e-06 to 1.5]
 ---@field p? number sqrt(m g R / I0) (default from width and height: sqrt(3 g / (4 R))) [rad/s; 1e-06 to 1e+06]
 ---@field mu? number spin after an impact over the spin before (default Housner's: 1 - 3/2 sin^2 alpha) [0 to 1]
 ---@field gravity? number strength of gravity (default: the scene's) [m/s2; 1e-06 to 1000]
 ---@field linear? boolean small angles: sin x = x, cos x = 1 [default false]
 ---@field wave erbs.wave|number|fun(t: number): number acceleration of the ground for a factor of 1 [m/s2]
----@field sample? number step at which a Lua function is sampled [s; 1e-06 to 10; default 0.001]
----@field criterion? "overturning"|"alpha_at_end" overturning: it falls; alpha_at_end: |theta| has come to alpha when the wave ends [default overturning]
----@field from? number smallest factor looked at [0 to 1e+09; default 0.9]
----@field to? number largest factor looked at [0 to 1e+09; default 20]
----@field points? integer factors looked at between; no safe island is narrower [1 to 100000; default 1000]
----@field duration? number how long to watch (default: 12 / p after the wave; of a function: to be given) [s; 1e-09 to 100000]
+---@field sample? number sampling step of a Lua function [s; 1e-06 to 10; default 0.001]
+---@field criterion? "overturning"|"alpha_at_end" overturning: it falls; alpha_at_end: |theta| has reached alpha when the wave ends [default overturning]
+---@field from? number smallest factor tried [0 to 1e+09; default 0.9]
+---@field to? number largest factor tried [0 to 1e+09; default 20]
+---@field points? integer number of factors tried in between; narrower safe islands are not found [1 to 100000; default 1000]
+---@field duration? number simulated time (default: until 12 / p after the wave; required for a Lua function) [s; 1e-09 to 100000]
 
----By which factors on a wave a rigid rocking block overturns from rest.
+---Factors on a wave at which a rigid rocking block overturns from rest.
 ---@param keys erbs.rocking_overturning_keys
 ---@return table # alpha, p, mu, threshold (m/s2), lowest (factor), bands { { from, to, impacts }, ... } whose gaps are safe islands
 function rocking_overturning(keys) end
 
 ---@class erbs.wall_keys
----@field name? string first word of its blocks' names, and their group [default wall]
+---@field name? string first word of the names of its blocks, and their group [default wall]
 ---@field group? string group of the bricks; default the name
----@field length number end to end [m; at least 0]
----@field axis? "x"|"y" direction it runs in [default x]
+---@field length number length from end to end [m; at least 0]
+---@field axis? "x"|"y" direction of the wall [default x]
 ---@field courses? integer number of courses; or give height [at least 1]
----@field height? number instead of courses; snapped to whole ones [m; at least 0]
----@field at? erbs.vec3 where the plan's origin stands; z is the top of the support [m; default { 0, 0, 0 }]
+---@field height? number height instead of courses; rounded to whole courses [m; at least 0]
+---@field at? erbs.vec3 position of the plan's origin; z is the top of the support [m; default { 0, 0, 0 }]
 ---@field brick { length: number, width: number, height: number } size of a whole brick: { length*, width*, height* }
 ---@field joint number thickness of bed and head joints; 0 is dry masonry [m; at least 0]
 ---@field closer? number shortest piece that may be cut [m; at least 0; default 0.04]
@@ -577,7 +577,7 @@ function rocking_overturning(keys) end
 ---@field openings? { wall?: string, name?: string, kind?: "window"|"door", storey?: any, at?: number, centre?: number, width: number, sill?: number, height: number, lintel?: boolean }[] doors and windows: a list of { wall, name, kind, storey, at, centre, width*, sill, height*, lintel } [default {  }]
 ---@field lintel? { bearing?: number, courses?: integer, material?: string, group?: string } the pieces over openings: { bearing, courses, material, group } [default {  }]
 ---@field base? { thickness: number, margin?: number, material?: string, group?: string } a fixed plate below; default none (stand on ground{} or another block): { thickness*, margin, material, group }
----@field material? string of the bricks [default brick]
+---@field material? string material of the bricks [default brick]
 ---@field quiet? boolean true: do not print the summary [default false]
 
 ---A free-standing straight wall in running bond, both ends plain.
@@ -589,11 +589,11 @@ function wall(keys) end
 ---@field group? string groups of the walls are <group>_<wall> [default wall]
 ---@field plan table outer size {x, y}, or outer corners {{x,y}, ...} counter-clockwise [m]
 ---@field closed? boolean false: the last corner is not joined to the first [default true]
----@field walls? table names of the runs; default south, east, north, west for a rectangle, else wall1, ...
+---@field walls? table names of the walls; default south, east, north, west for a rectangle, else wall1, ...
 ---@field storeys? integer number of storeys [at least 1; default 1]
----@field courses any per storey: a number, or a list with one for each
+---@field courses any courses per storey: a number, or a list with one for each storey
 ---@field slab? { thickness: number, overhang?: number, material?: string, group?: string } a rigid plate on the walls of every storey; default none: { thickness*, overhang, material, group }
----@field at? erbs.vec3 where the plan's origin stands; z is the top of the support [m; default { 0, 0, 0 }]
+---@field at? erbs.vec3 position of the plan's origin; z is the top of the support [m; default { 0, 0, 0 }]
 ---@field brick { length: number, width: number, height: number } size of a whole brick: { length*, width*, height* }
 ---@field joint number thickness of bed and head joints; 0 is dry masonry [m; at least 0]
 ---@field closer? number shortest piece that may be cut [m; at least 0; default 0.04]
@@ -602,7 +602,7 @@ function wall(keys) end
 ---@field openings? { wall?: string, name?: string, kind?: "window"|"door", storey?: any, at?: number, centre?: number, width: number, sill?: number, height: number, lintel?: boolean }[] doors and windows: a list of { wall, name, kind, storey, at, centre, width*, sill, height*, lintel } [default {  }]
 ---@field lintel? { bearing?: number, courses?: integer, material?: string, group?: string } the pieces over openings: { bearing, courses, material, group } [default {  }]
 ---@field base? { thickness: number, margin?: number, material?: string, group?: string } a fixed plate below; default none (stand on ground{} or another block): { thickness*, margin, material, group }
----@field material? string of the bricks [default brick]
+---@field material? string material of the bricks [default brick]
 ---@field quiet? boolean true: do not print the summary [default false]
 
 ---Walls along a plan with interlocked corners, storey on storey, with openings, lintels and slabs.
@@ -610,35 +610,35 @@ function wall(keys) end
 function building(keys) end
 
 ---@class erbs.arch_keys
----@field name? string first word of its blocks' names [default arch]
+---@field name? string first word of the names of its blocks [default arch]
 ---@field group? string group of the voussoirs; default the name; abutments are in <group>_abutment
 ---@field at? erbs.vec3 middle of the span, at the height of the centre of the circle [m; default { 0, 0, 0 }]
----@field radius number of the centre line [m; at least 0]
----@field thickness number of the ring, radially [m; at least 0]
----@field width number across the span [m; at least 0]
----@field voussoirs integer their number (of a pointed arch: even) [at least 1]
+---@field radius number radius of the centre line [m; at least 0]
+---@field thickness number radial thickness of the ring [m; at least 0]
+---@field width number width across the span [m; at least 0]
+---@field voussoirs integer number of voussoirs (even for a pointed arch) [at least 1]
 ---@field embrace? number angle of a round arch from springing to springing [rad; 0 to 4.71239; default 3.14159]
----@field offset? number of a pointed arch: of the centres of its two arcs beyond the middle; 0 is round [m; at least 0; default 0]
+---@field offset? number pointed arch: distance of the centres of its two arcs from the middle; 0: round arch [m; at least 0; default 0]
 ---@field axis? "x"|"y" direction of the span [default x]
 ---@field abutments? boolean fixed blocks at the springings [default true]
----@field material? string of all its blocks; default the only one there is
+---@field material? string material of all its blocks; default: the only one there is
 
----An arch of voussoirs with radial joints and straight sides: round, or pointed of two arcs. Blocks are called arch.v01, ... from the left.
+---An arch of voussoirs with radial joints and straight sides, round or pointed (two arcs). Blocks are called arch.v01, ... from the left.
 ---@param keys erbs.arch_keys
 ---@return table # blocks, abutments, volume (m3), centre_line (m)
 function arch(keys) end
 
 ---@class erbs.column_keys
----@field name? string first word of its blocks' names, and their group [default column]
+---@field name? string first word of the names of its blocks, and their group [default column]
 ---@field group? string group of the blocks; default the name
 ---@field at? erbs.vec3 middle of its foot [m; default { 0, 0, 0 }]
----@field blocks integer their number [at least 1]
----@field size? erbs.vec3 of one block along x, y, z [m]
----@field diameter? number of round drums, instead of size [m; at least 0]
----@field height? number of one drum [m; at least 0]
----@field sides? integer of a drum's prism, whose corners lie on the circle [at least 3; default 24]
+---@field blocks integer number of blocks [at least 1]
+---@field size? erbs.vec3 size of one block along x, y, z [m]
+---@field diameter? number diameter of round drums, instead of size [m; at least 0]
+---@field height? number height of one drum [m; at least 0]
+---@field sides? integer number of sides of a drum; its corners lie on the circle [at least 3; default 24]
 ---@field joint? number thickness of the joints, also below the first block; 0 is dry [m; at least 0; default 0]
----@field material? string default the only one there is
+---@field material? string material of all its blocks; default: the only one there is
 
 ---A stack of equal blocks, square or round (a prism of many sides). Blocks are called column.b01, ... from the bottom.
 ---@param keys erbs.column_keys

@@ -33,6 +33,6 @@ TEST_CASE("blocks that stand alone on a dry bed are told of, and no others", "[f
   for (const char* part : {"column", "0.876", "0.945", "feet", "kn"}) CHECK(one[0].find(part) != std::string::npos);
   CHECK(beds_of(column + "\nbox{ name = 'top', material = 'brick', size = { .3, 1, .2 }, at = { 1, 0, 1 } }" + dry)
             .empty());  // it bears another
-  CHECK(beds_of("box{ name = 'cube', material = 'brick', size = 1, at = { 1, 0, 0 } }" + dry).empty());
+  CHECK(beds_of("box{ name = 'cube', material = 'brick', size = { 1, 1, 1 }, at = { 1, 0, 0 } }" + dry).empty());
   CHECK(beds_of(column + "\ngravity(0)" + dry).empty());
 }
