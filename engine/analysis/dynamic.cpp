@@ -330,6 +330,11 @@ void Run::judge() {
 // Steps to the end with the number of threads that is fastest at the moment. After a change of that number the run continues from its
 // state, as a resumed run does.
 void Run::step_on() {
+  // A run that was killed after its last step, or is resumed twice, is where it should stop.
+  if (run_.state.step > 0 && options_.until && run_.state.t - run_.state.last_dt >= *options_.until) {
+    out_.metrics.status = "stopped";
+    return;
+  }
   for (bool ended = false; !ended && !solver_->broken();) {
     solver_->run({[this](double t) { return wanted(t); }, [this] { sampled(); },
                   [&] { return (ended = stop()) || crew_->should_change(run_.state.step); }});

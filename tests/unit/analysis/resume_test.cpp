@@ -71,6 +71,9 @@ void stop_and_go(const char* text, const std::vector<double>& times) {
     CHECK(stopped.status == "stopped");
     CHECK(stopped.time_s >= until);
     existing = Existing::resume;
+    const Metrics again = run(text, parts.path, existing, until);  // already there: takes no step
+    CHECK(again.steps == stopped.steps);
+    CHECK(again.state_hash == stopped.state_hash);
   }
   const Metrics got = run(text, parts.path, Existing::resume, {});
   CHECK(got.status == "completed");
