@@ -1,6 +1,6 @@
-// Arithmetic of eight joints or eight blocks side by side, compiled once per instruction set (kernels_*.cpp) and selected at program start.
-// Plain loops over lanes, -ffp-contract=off and no sums across lanes give equal bits with every instruction set. Only plain data passes
-// here: an Eigen function compiled for wider instructions could be linked into code for all machines.
+// Arithmetic of eight joints or eight blocks side by side, compiled once per instruction set (step_kernels.cpp) and selected at program
+// start. Plain loops over lanes, -ffp-contract=off and no sums across lanes give equal bits with every instruction set. Only plain data
+// passes here: an Eigen function compiled for wider instructions could be linked into code for all machines.
 #pragma once
 #include "engine/laws/crushing.h"
 #include "engine/laws/interlock.h"
@@ -91,7 +91,7 @@ struct alignas(64) IntactConstants {
   double open_limit[pack_size], slip_limit[pack_size], slip_slope[pack_size], close_limit[pack_size];  // as in `JointPack`
   double diameter[pack_size];                                                                          // m, twice the radius of `JointPack`
 };
-// Eight intact joints in world axes at the reference poses: the data that a step reads, and no other (`lanes_intact.inc`).
+// Eight intact joints in world axes at the reference poses: the data that a step reads, and no other (`intact_kernel.h`).
 struct alignas(64) IntactPack {
   double gap[3][pack_size], rotation[3][pack_size];  // m, rad: relative displacement and half the relative rotation
   double arm_a[3][pack_size], arm_b[3][pack_size];   // m, from the centroids to the joint
@@ -155,7 +155,7 @@ struct alignas(64) BlockWork {
 
 struct KickDrift {
   double kick, dt, half_last, half_next;     // s
-  double damping, damped_keep, damped_kick;  // 1/s; a damped kick is `(1 + damped_keep) v + kick (1 + damped_kick) push`
+  double damping, damped_keep, damped_kick;  // 1/s; a damped kick is `(1 + damped_keep) v + kick (1 + damped_kick) contact_wrench`
   double ground[3], gravity[3];              // m/s2
   bool first;                                // no drift has come before
   bool damping_explicit, gyroscopic, shaken;
@@ -185,8 +185,8 @@ struct StepKernels {
   void (*wrenches)(const JointPack& pack, const ElasticPack& in, double* wrench_rows);
   // Intact joints: increments of blocks to wrenches, for groups [first, last) of eight blocks. Lane l of the packs of group g
   // (`first_pack`) contains joints that block l of this group owns. Forces on owners are summed in `owner_sum`; forces on neighbours go to
-  // `neighbour_force` of the pack. The energy of the joints is added to `stored[lanes]` if that is not null. Returns the number of packs
-  // with a joint near its limits, and their indices in `may_yield`.
+  // `neighbour_force` of the pack. The energy of the joints is added to `stored[pack_size]` if that is not null. Returns the number of
+  // packs with a joint near its limits, and their indices in `may_yield`.
   int (*intact)(IntactPack* pack, const CornerCheck& corner_check, const int* first_pack, int first, int last,
                 const VectorPack<6>* increment, VectorPack<6>* owner_sum, VectorPack<6>* neighbour_force, double* stored, int* may_yield);
   // Intact joints of packs [first, last) without owners: pose rows of blocks to wrench rows of both ends.

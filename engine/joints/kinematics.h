@@ -5,7 +5,7 @@
 // the centroid of a to that of b, A_a and A_b the rotated arms, S = A_a + A_b:
 //   displacement  D = X + A_b - A_a            moment arms  c - x_a = (S + X)/2,  c - x_b = (S - X)/2.
 //
-// Cracked joints are evaluated so in every step (`lanes_pose.inc`). Intact joints use the motion of each block since its reference pose:
+// Cracked joints are evaluated so in every step (`relative_pose.h`). Intact joints use the motion of each block since its reference pose:
 // (du, th), th = tan(angle) about the axis of rotation. With r(th, A) = (1 - th.th/2) th x A + th x (th x A)/2, the change of an arm to
 // third order, th_m the mean of th_a and th_b, and d half their difference:
 //   D = D_ref + du + r(th_b, A_b) - r(th_a, A_a),   rotation = rho_ref + 2 d - th_m x d.
@@ -14,7 +14,7 @@
 //
 // Errors: a rigid rotation by th strains a joint by some th^4 of its arms. D, itself small, and the resultants are rotated to first order,
 // with an error of th^2/2 of their size: 5e-9 at the default tolerance. The coupling of d with rho_ref, d rho_ref^2/6, is neglected; the
-// next update of the reference poses corrects it. The kernel of intact joints (`lanes_intact.inc`) takes r to second order only. With
+// next update of the reference poses corrects it. The kernel of intact joints (`intact_kernel.h`) takes r to second order only. With
 // th = 2 sin(angle / 2) its third-order error of a rigid motion would be 3/8 th.th th x X; th = tan(angle) removes it.
 #pragma once
 #include "engine/base/rotation.h"

@@ -1,5 +1,5 @@
 // Cache of the overlap of two small bodies: which planes meet in each of its corners, and which corners form its triangles. Between steps
-// the corners move, but this topology mostly stays (contact/overlap/corners.inc).
+// the corners move, but this topology mostly stays (contact/overlap/known_corners.h).
 #pragma once
 #include <cstdint>
 

@@ -138,7 +138,7 @@ State all_broken(const Model& m, State s) {
 }
 
 Demand demand(const Model& m) {
-  // Multiplications and additions of lanes_intact.inc and lanes_blocks.inc, counted line by line. A cross product has 9, a dot product 5, a
+  // Multiplications and additions of intact_kernel.h and lanes_blocks.inc, counted line by line. A cross product has 9, a dot product 5, a
   // symmetric matrix times a vector 15; a subtraction counts as an addition. Signs, roots, comparisons and selections are left out.
   // A joint: `intact_forces` 177, `limits_bound` 22, adding the forces on both blocks 12. An undamped block with one round of
   // `middle_spin`: `kick` 175, `rotate_by` 93.

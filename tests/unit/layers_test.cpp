@@ -24,15 +24,13 @@ const Levels rooms{{"base"},
                    {"analysis", "study"},
                    {"lua", "render"}};
 
-// The sub-rooms of a room, lowest first: "" is the folder of the room itself, `per_isa` its code compiled once for each instruction set.
-// Sub-rooms of one level do not know each other.
-const std::string per_isa = "kernels_<isa>";
+// The sub-rooms of a room, lowest first: "" is the folder of the room itself. Sub-rooms of one level do not know each other.
 const std::map<std::string, Levels> sub_rooms{
     {"base", {{""}, {"system"}}},
     {"loads", {{"waves"}, {"record"}, {""}}},
     {"model", {{""}, {"build"}}},
-    {"joints", {{""}, {"intact", "cracked"}, {per_isa}}},
-    {"contact", {{"overlap"}, {"law"}, {"broad"}, {"", per_isa}}},
+    {"joints", {{""}, {"intact", "cracked"}}},
+    {"contact", {{"overlap"}, {"law"}, {"broad"}, {""}}},
     {"solve", {{"blocks", "linear"}, {"contacts", "sequential"}, {""}}},
     {"record", {{"format", "plot"}, {"recorders"}, {"results"}, {"folder"}}},
     {"lua", {{"reading", "masonry"}, {"language"}, {"program"}, {"reports"}, {"commands"}, {""}}},
@@ -75,10 +73,10 @@ struct Address {
 };
 // engine/solve/contacts/sleep.h: solve, contacts
 Address address(const std::string& path) {
-  static const std::regex folders("(?:engine/)?([^/]+)/(?:([^/]+)/)?.*"), kernels(".*/kernels_[a-z0-9]+\\.cpp|.*\\.inc");
+  static const std::regex folders("(?:engine/)?([^/]+)/(?:([^/]+)/)?.*");
   std::smatch found;
   if (!std::regex_match(path, found, folders)) return {};
-  return {found[1], std::regex_match(path, kernels) ? per_isa : found[2].str()};
+  return {found[1], found[2]};
 }
 
 // `from` may include what lies in `to`, both of one list of levels.
@@ -121,7 +119,7 @@ void each_file(F&& visit) {
       if (entry.is_regular_file()) visit(fs::relative(entry.path(), ERBS_SOURCE_DIR).generic_string(), entry.path());
 }
 
-bool is_code(const fs::path& path) { return path.extension() == ".h" || path.extension() == ".cpp" || path.extension() == ".inc"; }
+bool is_code(const fs::path& path) { return path.extension() == ".h" || path.extension() == ".cpp"; }
 
 }  // namespace
 
@@ -193,8 +191,7 @@ TEST_CASE("the layers test sees what is wrong", "[layers]") {
   CHECK(trouble("engine/solve/step.h", "engine/solve/contacts/sleep.h", false) == "");
   CHECK(trouble("engine/solve/contacts/sleep.h", "engine/solve/step.h", false) != "");
   CHECK(trouble("engine/solve/contacts/sleep.h", "engine/solve/sequential/sequential.h", false) != "");
-  CHECK(trouble("engine/joints/kernels_avx2.cpp", "engine/joints/intact/lanes.inc", false) == "");
-  CHECK(trouble("engine/joints/intact/intact.cpp", "engine/joints/intact/lanes.inc", false) != "");
+  CHECK(trouble("engine/solve/step_kernels.cpp", "engine/joints/intact/intact_kernel.h", false) == "");
   CHECK(trouble("engine/joints/kernels.h", "engine/joints/intact/intact.h", false) != "");
   CHECK(misplaced("engine/solve/contacts/sleep.h") == "");
   CHECK(misplaced("engine/solve/more/sleep.h") != "");

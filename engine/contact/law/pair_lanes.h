@@ -1,5 +1,5 @@
 // Eight touching pairs as a pack: from overlap to forces, as `pair.cpp` does for one pair. Plain data, compiled once per instruction set
-// (`pair_lanes.inc`). All operations are elementwise, so that a pair's numbers do not depend on its neighbours.
+// (`pair_kernel.h`). All operations are elementwise, so that a pair's numbers do not depend on its neighbours.
 #pragma once
 #include "engine/contact/overlap/clip.h"
 

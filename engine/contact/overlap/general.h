@@ -22,7 +22,7 @@ struct PairPose {
 struct Fragment {
   int face;          // of B
   int nearest;       // face of A
-  int first, count;  // vertices in `Pieces::vertex`
+  int first, count;  // vertices in `Fragments::vertex`
 };
 
 // Workspace, used again from call to call; one per thread.

@@ -1,4 +1,4 @@
-// Exact integral of a clamped factor over triangles; `ramp.inc` treats eight triangles side by side.
+// Exact integral of a clamped factor over triangles; `integrals.h` treats eight triangles side by side.
 #pragma once
 
 namespace erbs {

@@ -66,8 +66,8 @@ class BlockGather {
   // One object per sweep: it fixes the external actions of that sweep.
   BlockGather(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e,
               const ExternalForces& external);
-  // Kick and drift of `blocks[0 .. count)`, `count <= lanes`, like the free function `advance()`. The first element of `sums` receives all
-  // sums except the work of loads. The following elements receive that work, one for each entry of `pushes.loaded`.
+  // Kick and drift of `blocks[0 .. count)`, `count <= pack_size`, like the free function `advance()`. The first element of `sums` receives
+  // all sums except the work of loads. The following elements receive that work, one for each entry of `external.loaded`.
   void advance(const int* blocks, int count, bool sample, std::vector<BlockSums>& sums);
 
  private:

@@ -3,7 +3,7 @@
 //
 // A block acts on its neighbours alone. So blocks are scheduled in rounds: each block in the round after the last of its neighbours that
 // precede it in the order. Blocks of one round share no joint; they advance as packs, with the result of one by one. The intact joints of a
-// block that has moved are evaluated in packs (`lanes_intact.inc`); `kernel = "reference"` evaluates them point by point instead.
+// block that has moved are evaluated in packs (`intact_kernel.h`); `kernel = "reference"` evaluates them point by point instead.
 //
 // With K = L + D + U split by the order of the blocks, the literal sweep is
 //   M (x+ - 2 x + x-) / dt^2 + K x + L (x+ - x) = 0:  a damping matrix dt L, on average over random orders dt (K - D) / 2.
@@ -26,7 +26,7 @@ class Sequential {
   Sequential(const Model& model, State& state);
 
   // One sweep over all blocks, in place of the phases `joints` and `blocks` of a leapfrog step. External actions stay as they are at the
-  // start of the sweep. `sums` as for `Picked::advance()`. The state terms of the ledger are those at the start of the sweep.
+  // start of the sweep. `sums` as for `BlockGather::advance()`. The state terms of the ledger are those at the start of the sweep.
   void sweep(const Excitation& e, const ExternalForces& external, const std::vector<BlockConstants>& constants, bool sample,
              JointSums& joints, std::vector<BlockSums>& sums);
   void update_reference(const std::vector<std::uint8_t>& outdated);  // `outdated`: blocks with a new reference pose
@@ -60,7 +60,7 @@ class Sequential {
   std::vector<int> level_, next_, first_neighbour_, neighbour_;  // moving neighbours of each block: `neighbour_[first_neighbour_[b] ..)`
   std::vector<int> first_end_;                                   // joints of each block: `end_[first_end_[b] .. first_end_[b + 1])`
   std::vector<int> end_;
-  std::vector<int> first_pack_;  // its intact joints: `batch_[first_batch_[b] .. first_batch_[b + 1])`; each block has its own copy
+  std::vector<int> first_pack_;  // its intact joints: `pack_[first_pack_[b] .. first_pack_[b + 1])`; each block has its own copy
   std::vector<IntactPack> pack_;
   std::deque<IntactConstants> law_;  // one per pack
   std::vector<IntactEnds> ends_;

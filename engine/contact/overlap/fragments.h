@@ -1,44 +1,49 @@
 // Faces of the other bodies of up to eight pairs, clipped and split stage by stage. A polygon's next cut waits for the one before, some
 // sixty cycles; so each stage goes through the polygons of all pairs, which do not wait for one another, and without branches that
-// depend on their shape. What becomes of a pair's own polygons, and their order, does not depend on the others. Included by kernels.inc.
+// depend on their shape. What becomes of a pair's own polygons, and their order, does not depend on the others.
+#pragma once
+#include "engine/contact/overlap/clip.h"
+#include "engine/contact/overlap/cut.h"
 
-constexpr int most_fragments = 48;  // of a pair
+namespace erbs::ERBS_TARGET {
+
+inline constexpr int most_fragments = 48;  // of a pair
 
 struct ClipFragments {
   Polygon of[8 * most_fragments];
   int count = 0;
   int of_pair[8] = {};
   Polygon* list[2][8 * most_fragments];  // those that a stage still has to do with, now and next
-  CutPlan plan[8 * most_fragments];       // of those listed now
+  CutPlan plan[8 * most_fragments];      // of those listed now
   Triangles* out[8];
 };
 
-V8 depth_below(const Triangles& w, int f, const V8 x[3]) {
+static Pack depth_below(const Triangles& w, int f, const Pack x[3]) {
   return w.plane[3][f] - (w.plane[0][f] * x[0] + w.plane[1][f] * x[1] + w.plane[2][f] * x[2]);
 }
 
 // How much deeper below face e than below face f.
-V8 depth_between(const Triangles& w, unsigned e, unsigned f, const V8 x[3]) {
+static Pack depth_between(const Triangles& w, unsigned e, unsigned f, const Pack x[3]) {
   const auto& p = w.plane;
   return (p[3][e] - p[3][f]) - ((p[0][e] - p[0][f]) * x[0] + (p[1][e] - p[1][f]) * x[1] + (p[2][e] - p[2][f]) * x[2]);
 }
 
 // Room for one more piece of a pair behind the last; false if there is none.
-bool has_room(ClipFragments& all, int pair) {
+static bool has_room(ClipFragments& all, int pair) {
   if (all.of_pair[pair] < most_fragments) return true;
   all.out[pair]->overflow = true;
   return false;
 }
 
 // Planes of both bodies and corners of b in the axes of the pair.
-inline void place_bodies(const ClipTask& task, V8 vertex[3]) {
+static inline void place_bodies(const ClipTask& task, Pack vertex[3]) {
   const SmallShape &a = *task.a, &b = *task.b;
   const SmallPose& pose = task.pose;
   Triangles& out = *task.out;
   out.count = 0;
   out.separating_axis = -1;
   out.overflow = false;
-  const V8 n[3] = {load(a.normal[0]), load(a.normal[1]), load(a.normal[2])};
+  const Pack n[3] = {load(a.normal[0]), load(a.normal[1]), load(a.normal[2])};
   store(out.plane[3], load(a.offset) - (n[0] * pose.shift[0] + n[1] * pose.shift[1] + n[2] * pose.shift[2]));
   for (int i = 0; i < 3; ++i) {
     const double* r = &pose.rotation[3 * i];
@@ -49,7 +54,7 @@ inline void place_bodies(const ClipTask& task, V8 vertex[3]) {
 }
 
 // Lists the faces of b that are not outside of a face of a altogether.
-void list_faces(const ClipTask& task, const V8 vertex[3], int pair, ClipFragments& all) {
+static void list_faces(const ClipTask& task, const Pack vertex[3], int pair, ClipFragments& all) {
   const SmallShape &a = *task.a, &b = *task.b;
   Triangles& out = *task.out;
   all.out[pair] = &out;
@@ -57,7 +62,7 @@ void list_faces(const ClipTask& task, const V8 vertex[3], int pair, ClipFragment
   constexpr unsigned long long ones = 0x0101010101010101ull, tops = 0x8080808080808080ull;
   unsigned long long inside = ~0ull;
   for (int f = 0; f < a.faces; ++f) {
-    const unsigned in = positive(depth_below(out, f, vertex));
+    const unsigned in = bits(depth_below(out, f, vertex) > 0);
     if (in == 0) {
       out.separating_axis = f;
       return;
@@ -80,7 +85,7 @@ void list_faces(const ClipTask& task, const V8 vertex[3], int pair, ClipFragment
   }
 }
 
-int list_unfinished(ClipFragments& all) {
+static int list_unfinished(ClipFragments& all) {
   int count = 0;
   for (int i = 0; i < all.count; ++i) {
     all.list[0][count] = &all.of[i];
@@ -90,7 +95,7 @@ int list_unfinished(ClipFragments& all) {
 }
 
 // Cuts all polygons by the faces of a that are left of each.
-void cut_all(ClipFragments& all) {
+static void cut_all(ClipFragments& all) {
   Polygon **now = all.list[0], **then = all.list[1];
   for (int count = list_unfinished(all); count > 0;) {
     for (int k = 0; k < count; ++k) {
@@ -102,7 +107,7 @@ void cut_all(ClipFragments& all) {
       }
       const int f = __builtin_ctz(g.left);
       g.left &= g.left - 1;
-      const V8 x[3] = {g.x[0], g.x[1], g.x[2]};
+      const Pack x[3] = {g.x[0], g.x[1], g.x[2]};
       plan_cut(g, x, depth_below(*all.out[g.pair], f, x), all.plan[k]);
     }
     int more = 0;
@@ -110,7 +115,7 @@ void cut_all(ClipFragments& all) {
       Polygon& g = *now[k];
       const CutPlan& plan = all.plan[k];
       const Cutting& stay = *plan.stay;
-      const V8 x[3] = {g.x[0], g.x[1], g.x[2]};
+      const Pack x[3] = {g.x[0], g.x[1], g.x[2]};
       apply_cut(stay, x, plan.at, g);
       if (stay.no_room != 0) all.out[g.pair]->overflow = true;
       then[more] = &g;
@@ -125,23 +130,23 @@ void cut_all(ClipFragments& all) {
 
 // The faces of a that may be the nearest somewhere on g, as bits: those whose least depth is below the smallest of the greatest
 // depths.
-unsigned nearest_faces(const Polygon& g, const Triangles& w) {
-  const V8 nx = load(w.plane[0]), ny = load(w.plane[1]), nz = load(w.plane[2]), below = load(w.plane[3]);
+static unsigned nearest_faces(const Polygon& g, const Triangles& w) {
+  const Pack nx = load(w.plane[0]), ny = load(w.plane[1]), nz = load(w.plane[2]), below = load(w.plane[3]);
   const auto depth = [&](int i) { return below - (nx * g.x[0][i] + ny * g.x[1][i] + nz * g.x[2][i]); };
-  V8 least = depth(0), most = least;
+  Pack least = depth(0), most = least;
   const auto take = [&](int i) {
-    const V8 d = depth(i);
-    least = lower(d, least);
-    most = higher(d, most);
+    const Pack d = depth(i);
+    least = min(d, least);
+    most = max(d, most);
   };
   take(1), take(2), take(3), take(4), take(5);  // the first once more, where there are fewer
   if (g.n > 6) take(6), take(7);
-  const double bound = least_of(higher(most, V8{}));
-  return positive(bound - least) | zero(bound - least);
+  const double bound = least_of(max(most, Pack(0)));
+  return bits(bound - least >= 0);
 }
 
 // Which faces of a are to be told apart on each polygon.
-void find_nearest(ClipFragments& all) {
+static void find_nearest(ClipFragments& all) {
   for (int i = 0; i < all.count; ++i) {
     Polygon& g = all.of[i];
     g.left = 0;
@@ -159,13 +164,13 @@ void find_nearest(ClipFragments& all) {
 }
 
 // One face after the other takes from every piece of a polygon where it is nearer.
-void split_by_nearest_face(ClipFragments& all) {
+static void split_by_nearest_face(ClipFragments& all) {
   Polygon **now = all.list[0], **then = all.list[1];
   for (int count = list_unfinished(all); count > 0;) {
     for (int k = 0; k < count; ++k) {
       Polygon& g = *now[k];
       const unsigned face = static_cast<unsigned>(__builtin_ctz(g.left));
-      const V8 x[3] = {g.x[0], g.x[1], g.x[2]};
+      const Pack x[3] = {g.x[0], g.x[1], g.x[2]};
       plan_split(g, x, depth_between(*all.out[g.pair], face, g.nearest, x), face, all.plan[k]);
     }
     int more = 0, fragments = all.count;
@@ -176,7 +181,7 @@ void split_by_nearest_face(ClipFragments& all) {
       if (!has_room(all, g.pair)) continue;
       if ((stay.no_room | go.no_room) != 0) all.out[g.pair]->overflow = true;
       const unsigned left = g.left & (g.left - 1);
-      const V8 x[3] = {g.x[0], g.x[1], g.x[2]};
+      const Pack x[3] = {g.x[0], g.x[1], g.x[2]};
       split_off.pair = g.pair;
       split_off.face = g.face;
       split_off.nearest = static_cast<unsigned>(__builtin_ctz(g.left));
@@ -201,30 +206,29 @@ void split_by_nearest_face(ClipFragments& all) {
 
 // Four triangles of a polygon, those between its first corner and the edges from corner `first` to corner first + 4.
 template <int first>
-inline __attribute__((always_inline)) void append(const Polygon& g, int t, Triangles& out) {
-  const auto put = [t](double* x, auto v) { __builtin_memcpy(x + t, &v, sizeof v); };
+ERBS_INLINE void append(const Polygon& g, int t, Triangles& out) {
   for (int i = 0; i < 3; ++i) {
-    put(out.corner[0][i], __builtin_shufflevector(g.x[i], g.x[i], 0, 0, 0, 0));
-    put(out.corner[1][i], __builtin_shufflevector(g.x[i], g.x[i], first, first + 1, first + 2, first + 3));
-    put(out.corner[2][i], __builtin_shufflevector(g.x[i], g.x[i], first + 1, first + 2, first + 3, (first + 4) % 8));
+    store_four<0, 0, 0, 0>(out.corner[0][i] + t, g.x[i]);
+    store_four<first, first + 1, first + 2, (first + 3) % 8>(out.corner[1][i] + t, g.x[i]);
+    store_four<first + 1, first + 2, (first + 3) % 8, (first + 4) % 8>(out.corner[2][i] + t, g.x[i]);
   }
 }
 
 // Fills up to a multiple of eight with empty triangles at a corner that is there already.
-void fill_up(Triangles& out) {
+static void fill_up(Triangles& out) {
   const int t = out.count;
   if (t % 8 == 0) return;
   for (int k = 0; k < 3; ++k) {
-    for (int i = 0; i < 3; ++i) store(&out.corner[k][i][t], all(out.corner[0][i][t - 1]));
+    for (int i = 0; i < 3; ++i) store(&out.corner[k][i][t], Pack(out.corner[0][i][t - 1]));
   }
   __builtin_memset(&out.faces[t], out.faces[t - 1], 8);
   out.count = (t + 7) / 8 * 8;
 }
 
-__attribute__((noinline)) void append_rest(const Polygon& g, int t, Triangles& out) { append<5>(g, t, out); }
+[[gnu::noinline, maybe_unused]] static void append_rest(const Polygon& g, int t, Triangles& out) { append<5>(g, t, out); }
 
 // The triangles of the pieces, all of a piece from its first corner.
-void append_all(const ClipFragments& all, int pairs) {
+static void append_all(const ClipFragments& all, int pairs) {
   unsigned long long counts = 0;  // a byte for each pair
   for (int i = 0; i < all.count; ++i) {
     const Polygon& g = all.of[i];
@@ -247,30 +251,4 @@ void append_all(const ClipFragments& all, int pairs) {
   }
 }
 
-#include "engine/contact/overlap/corners.inc"
-
-void clip_all(const ClipTask* task, int count) {
-  ClipFragments all;
-  V8 vertex[8][3];
-  int cut[8], cuts = 0;
-  for (int l = 0; l < count; ++l) {
-    place_bodies(task[l], vertex[l]);
-    if (task[l].known != nullptr && task[l].known->count > 0 && by_corners(task[l], vertex[l], *task[l].known)) continue;
-    list_faces(task[l], vertex[l], cuts, all);
-    cut[cuts++] = l;
-  }
-  if (cuts == 0) return;
-  cut_all(all);
-  find_nearest(all);
-  split_by_nearest_face(all);
-  append_all(all, cuts);
-  for (int k = 0; k < cuts; ++k) {
-    const ClipTask& one = task[cut[k]];
-    if (one.known != nullptr) store_corners(one, vertex[cut[k]], all, k, *one.known);
-  }
-}
-
-void clip(const SmallShape& a, const SmallShape& b, const SmallPose& pose, Triangles& out) {
-  const ClipTask task{&a, &b, pose, &out};
-  clip_all(&task, 1);
-}
+}  // namespace erbs::ERBS_TARGET

@@ -9,72 +9,90 @@
 // leaves b, and those inside of b are known too.
 //
 // Corners are counted in the order of their planes and pieces in that of their faces: what comes out depends on the pose alone, not on
-// when the corners were found. Included by kernels.inc.
+// when the corners were found.
+#pragma once
+#include <cstdint>
+
+#include "engine/contact/overlap/clip.h"
+#include "engine/contact/overlap/fragments.h"
+#include "engine/simd/permute.h"
+
+namespace erbs::ERBS_TARGET {
 
 // Shares of the smallest edge of b: up to where a corner is on a plane, and from where it surely is not.
-constexpr double on_plane = 1e-12, off_plane = 1e-10, off_over_sine = 1e-13;
+inline constexpr double on_plane = 1e-12, off_plane = 1e-10, off_over_sine = 1e-13;
 
 // The planes of both bodies as one table, pair axes: normal . x <= the fourth.
 struct Planes {
-  V8 a[4], b[4];
+  Pack a[4], b[4];
 };
 
-inline __attribute__((always_inline)) Planes planes_of(const ClipTask& task) {
+ERBS_INLINE Planes planes_of(const ClipTask& task) {
   const Triangles& w = *task.out;
   return {{load(w.plane[0]), load(w.plane[1]), load(w.plane[2]), load(w.plane[3])},
           {load(w.normal[0]), load(w.normal[1]), load(w.normal[2]), load(task.b->offset)}};
 }
 
 // Corners of a inside of b, as bits.
-inline unsigned corners_inside(const ClipTask& task) {
+static inline unsigned corners_inside(const ClipTask& task) {
   const SmallShape &a = *task.a, &b = *task.b;
-  V8 x[3];
+  Pack x[3];
   for (int i = 0; i < 3; ++i) x[i] = load(a.vertex[i]) - task.pose.shift[i];
   unsigned inside = (1u << a.vertices) - 1;
   const auto& n = task.out->normal;
-  for (int j = 0; j < b.faces; ++j) inside &= positive(b.offset[j] - (n[0][j] * x[0] + n[1][j] * x[1] + n[2][j] * x[2]));
+  for (int j = 0; j < b.faces; ++j) inside &= bits(b.offset[j] - (n[0][j] * x[0] + n[1][j] * x[1] + n[2][j] * x[2]) > 0);
   return inside;
 }
 
+// Which lanes are at least `last`, a power of two, as bits.
+ERBS_INLINE unsigned beyond(const unsigned char from[8], unsigned last) {
+  unsigned bits = 0;
+  for (int i = 0; i < 8; ++i) bits |= unsigned((from[i] & last) != 0) << i;
+  return bits;
+}
+
+// a - b in the lanes marked, else a.
+ERBS_INLINE Pack subtract_where(Mask m, Pack a, Pack b) { return select(m, a - b, a); }
+
 // Eight corners from the `from`th on: where their planes meet. False if one of them is none.
-inline __attribute__((always_inline)) bool intersect_planes(const ClipTask& task, const Planes& p, const V8 vertex[3], const Corners& c, int from,
-                                                V8 x[3]) {
+ERBS_INLINE bool intersect_planes(const ClipTask& task, const Planes& p, const Pack vertex[3], const Corners& c, int from, Pack x[3]) {
   const SmallShape &a = *task.a, &b = *task.b;
   const Words of_corner = words(c.planes + from);
   const Picks first = picks<0>(of_corner), second = picks<4>(of_corner), third = picks<12>(of_corner), nearest = picks<20>(of_corner);
   const Picks other_second = picks<8>(of_corner), other_third = picks<16>(of_corner);
-  const auto of = [from](std::uint32_t bits) { return (bits >> from) & 0xffu; };
-  const unsigned is_vertex = of(c.is_vertex), on_surface = of(c.on[Corners::surface]);
-  V8 n[4], m[4], o[4];
+  const auto of = [from](std::uint32_t bits) { return Mask::of_bits((bits >> from) & 0xffu); };
+  const Mask is_vertex = of(c.is_vertex), on_surface = of(c.on[Corners::surface]);
+  Pack n[4], m[4], o[4];
   for (int i = 0; i < 4; ++i) {
     n[i] = pick(p.a[i], p.b[i], first);
-    m[i] = less(of(c.second_half), pick(p.a[i], p.b[i], second), pick(p.a[i], p.b[i], other_second));
-    o[i] = less(of(c.third_half), pick(p.a[i], p.b[i], third), pick(p.a[i], p.b[i], other_third));
+    m[i] = subtract_where(of(c.second_half), pick(p.a[i], p.b[i], second), pick(p.a[i], p.b[i], other_second));
+    o[i] = subtract_where(of(c.third_half), pick(p.a[i], p.b[i], third), pick(p.a[i], p.b[i], other_third));
   }
   // x = (c_n m x o + (c_m o - c_o m) x n) / (n . m x o)
-  const V8 mo[3] = {m[1] * o[2] - m[2] * o[1], m[2] * o[0] - m[0] * o[2], m[0] * o[1] - m[1] * o[0]};
-  const V8 q[3] = {m[3] * o[0] - o[3] * m[0], m[3] * o[1] - o[3] * m[1], m[3] * o[2] - o[3] * m[2]};
-  const V8 qn[3] = {q[1] * n[2] - q[2] * n[1], q[2] * n[0] - q[0] * n[2], q[0] * n[1] - q[1] * n[0]};
-  const V8 over = 1 / (n[0] * mo[0] + n[1] * mo[1] + n[2] * mo[2]);
-  for (int i = 0; i < 3; ++i) x[i] = choose(is_vertex, pick(vertex[i], vertex[i], first), over * (n[3] * mo[i] + qn[i]));
-  const V8 margin = b.edge * (off_plane + off_over_sine * choose(is_vertex, V8{}, higher(over, -over)));
-  const V8 depth = pick(p.a[3], p.a[3], nearest) -
-                   (pick(p.a[0], p.a[0], nearest) * x[0] + pick(p.a[1], p.a[1], nearest) * x[1] + pick(p.a[2], p.a[2], nearest) * x[2]);
-  const V8 phi = choose(on_surface, V8{}, depth);
+  const Pack mo[3] = {m[1] * o[2] - m[2] * o[1], m[2] * o[0] - m[0] * o[2], m[0] * o[1] - m[1] * o[0]};
+  const Pack q[3] = {m[3] * o[0] - o[3] * m[0], m[3] * o[1] - o[3] * m[1], m[3] * o[2] - o[3] * m[2]};
+  const Pack qn[3] = {q[1] * n[2] - q[2] * n[1], q[2] * n[0] - q[0] * n[2], q[0] * n[1] - q[1] * n[0]};
+  const Pack over = 1 / (n[0] * mo[0] + n[1] * mo[1] + n[2] * mo[2]);
+  for (int i = 0; i < 3; ++i) x[i] = select(is_vertex, pick(vertex[i], vertex[i], first), over * (n[3] * mo[i] + qn[i]));
+  const Pack margin = b.edge * (off_plane + off_over_sine * select(is_vertex, Pack(0), abs(over)));
+  const Pack depth = pick(p.a[3], p.a[3], nearest) -
+                     (pick(p.a[0], p.a[0], nearest) * x[0] + pick(p.a[1], p.a[1], nearest) * x[1] + pick(p.a[2], p.a[2], nearest) * x[2]);
+  const Pack phi = select(on_surface, Pack(0), depth);
   const auto& u = task.out->plane;
   const auto& v = task.out->normal;
-  V8 nearer = all(1e300), inside = choose(on_surface, nearer, phi);
-  for (int f = 0; f < a.faces; ++f) nearer = lower_but(of(c.on[f]), nearer, u[3][f] - (u[0][f] * x[0] + u[1][f] * x[1] + u[2][f] * x[2]));
+  Pack nearer = Pack(1e300), inside = select(on_surface, nearer, phi);
+  for (int f = 0; f < a.faces; ++f)
+    nearer = select(of(c.on[f]), nearer, min(u[3][f] - (u[0][f] * x[0] + u[1][f] * x[1] + u[2][f] * x[2]), nearer));
   for (int j = 0; j < b.faces; ++j)
-    inside = lower_but(of(c.on[few + j]), inside, b.offset[j] - (v[0][j] * x[0] + v[1][j] * x[1] + v[2][j] * x[2]));
-  return (above(nearer - phi, margin) & above(inside, margin)) == 0xff;
+    inside = select(of(c.on[few + j]), inside, min(b.offset[j] - (v[0][j] * x[0] + v[1][j] * x[1] + v[2][j] * x[2]), inside));
+  return bits((nearer - phi > margin) & (inside > margin)) == 0xff;
 }
 
 // The overlap of a placed pair by what is known of it. False if that does not hold now.
-bool by_corners(const ClipTask& task, const V8 vertex[3], const Corners& c) {
+static bool by_corners(const ClipTask& task, const Pack vertex[3], const Corners& c) {
   Triangles& out = *task.out;
   const Planes p = planes_of(task);
-  V8 x[3][3];
+  Pack x[3][3];
   bool holds = intersect_planes(task, p, vertex, c, 0, x[0]) & (corners_inside(task) == c.inside);
   for (int i = 0; i < 3; ++i) x[1][i] = x[0][i];
   if (c.count > 8) holds &= intersect_planes(task, p, vertex, c, 8, x[1]);
@@ -86,8 +104,8 @@ bool by_corners(const ClipTask& task, const V8 vertex[3], const Corners& c) {
       const Picks from = picks(triangle_pack.corner[k]);
       for (int i = 0; i < 3; ++i) store(&out.corner[k][i][t], pick(x[0][i], x[1][i], from));
       if (c.count <= 16) continue;
-      const unsigned behind = beyond(triangle_pack.corner[k], 16);
-      for (int i = 0; i < 3; ++i) store(&out.corner[k][i][t], choose(behind, pick(x[2][i], x[2][i], from), load(&out.corner[k][i][t])));
+      const Mask behind = Mask::of_bits(beyond(triangle_pack.corner[k], 16));
+      for (int i = 0; i < 3; ++i) store(&out.corner[k][i][t], select(behind, pick(x[2][i], x[2][i], from), load(&out.corner[k][i][t])));
     }
     __builtin_memcpy(&out.faces[t], triangle_pack.faces, 8);
   }
@@ -97,7 +115,7 @@ bool by_corners(const ClipTask& task, const V8 vertex[3], const Corners& c) {
 
 // --- finding the planes of an overlap that has been cut ---
 
-constexpr int most_found = 32;  // corners, before those that are none are left out
+inline constexpr int most_found = 32;  // corners, before those that are none are left out
 
 // Corners of an overlap, each once, by the planes they are on.
 struct Found {
@@ -107,19 +125,19 @@ struct Found {
   int count = 0, fragments = 0;
 };
 
-// The planes through the corners of a polygon, as bits: as in Corners::on.
-inline M8 planes_at(const ClipTask& task, const V8 x[3]) {
+// The planes through the corners of a polygon, as bits: as in Corners::on. A sum of powers of two, exact.
+static inline Pack planes_at(const ClipTask& task, const Pack x[3]) {
   const Triangles& w = *task.out;
   const SmallShape &a = *task.a, &b = *task.b;
-  const V8 near = all(on_plane * b.edge);
-  V8 depth[few], phi = all(1e300);
-  for (int f = 0; f < a.faces; ++f) phi = lower(depth[f] = depth_below(w, f, x), phi);
-  M8 planes = (phi <= near) & (1ll << Corners::surface);
-  const V8 most = higher(phi, V8{}) + near;
-  for (int f = 0; f < a.faces; ++f) planes |= (depth[f] <= most) & (1ll << f);
+  const Pack near = on_plane * b.edge;
+  Pack depth[few], phi = Pack(1e300);
+  for (int f = 0; f < a.faces; ++f) phi = min(depth[f] = depth_below(w, f, x), phi);
+  Pack planes = select(phi <= near, Pack(1 << Corners::surface), Pack(0));
+  const Pack most = max(phi, Pack(0)) + near;
+  for (int f = 0; f < a.faces; ++f) planes += select(depth[f] <= most, Pack(1 << f), Pack(0));
   for (int j = 0; j < b.faces; ++j) {
-    const V8 below = b.offset[j] - (w.normal[0][j] * x[0] + w.normal[1][j] * x[1] + w.normal[2][j] * x[2]);
-    planes |= (below <= near) & (1ll << (few + j));
+    const Pack below = b.offset[j] - (w.normal[0][j] * x[0] + w.normal[1][j] * x[1] + w.normal[2][j] * x[2]);
+    planes += select(below <= near, Pack(1 << (few + j)), Pack(0));
   }
   return planes;
 }
@@ -148,14 +166,14 @@ struct Known {
 };
 
 // Takes up the corners and the piece of a polygon; false where there is no room.
-inline bool take(const Polygon& g, M8 planes, Known& known, Found& found) {
+static inline bool take(const Polygon& g, Pack planes, Known& known, Found& found) {
   const unsigned face = g.face + few * g.nearest;
   bool is_new = true;
   for (int k = 0; k < found.fragments; ++k) is_new &= found.faces[k] != face;
   found.faces[found.fragments] = face;
   found.fragments += is_new;
   for (int l = 0; l < g.n; ++l) {
-    const unsigned p = static_cast<unsigned>(planes[l]);
+    const unsigned p = static_cast<unsigned>(static_cast<int>(planes[l]));
     const bool is_there = known.has(p);
     known.put(found.count, p);
     found.planes[found.count] = p;
@@ -168,7 +186,7 @@ inline bool take(const Polygon& g, M8 planes, Known& known, Found& found) {
 }
 
 // In the order of their planes.
-void sort(Found& found) {
+static void sort(Found& found) {
   Found out;
   for (int i = 0; i < found.count; ++i) {
     int at = 0;
@@ -189,7 +207,7 @@ void sort(Found& found) {
 }
 
 // The three planes of corner i; false where it is on more.
-bool set_planes(const SmallShape& b, unsigned planes, int i, Corners& c) {
+static bool set_planes(const SmallShape& b, unsigned planes, int i, Corners& c) {
   const auto low = [](unsigned bits) { return static_cast<unsigned>(__builtin_ctz(bits)); };
   unsigned on_a = planes & 0xffu, on_b = planes >> few & 0xffu;
   const bool surface = (planes >> Corners::surface & 1u) != 0;
@@ -220,7 +238,7 @@ bool set_planes(const SmallShape& b, unsigned planes, int i, Corners& c) {
 }
 
 // The corners of the piece of `face` (as in Triangles), counter-clockwise from the lowest; 0 where they do not close.
-int find_loop(const ClipTask& task, const Found& found, const Corners& c, unsigned face, unsigned char* loop) {
+static int find_loop(const ClipTask& task, const Found& found, const Corners& c, unsigned face, unsigned char* loop) {
   const unsigned own = 1u << face / few | 1u << (few + face % few);
   const std::uint32_t fragment = c.on[face / few] & c.on[few + face % few];
   const int size = __builtin_popcount(fragment);
@@ -253,7 +271,7 @@ int find_loop(const ClipTask& task, const Found& found, const Corners& c, unsign
 }
 
 // Which planes make an overlap; nothing where corners coincide, or there is no room for all.
-void make_corners(const ClipTask& task, const Found& found, Corners& c) {
+static void make_corners(const ClipTask& task, const Found& found, Corners& c) {
   c = Corners();
   if (found.count > Corners::most || found.count < 3) return;
   bool right = true;
@@ -285,7 +303,7 @@ void make_corners(const ClipTask& task, const Found& found, Corners& c) {
 
 // Keeps what has been cut, the polygons of pair `pair`, for the next step, and takes it at once, so that it does not matter when it was
 // found.
-void store_corners(const ClipTask& task, const V8 vertex[3], const ClipFragments& all, int pair, Corners& c) {
+static void store_corners(const ClipTask& task, const Pack vertex[3], const ClipFragments& all, int pair, Corners& c) {
   c.count = 0;
   if (task.out->overflow || task.out->count == 0) return;
   Found found;
@@ -298,3 +316,5 @@ void store_corners(const ClipTask& task, const V8 vertex[3], const ClipFragments
   make_corners(task, found, c);
   if (c.count > 0 && !by_corners(task, vertex, c)) c.count = 0;
 }
+
+}  // namespace erbs::ERBS_TARGET

@@ -1,9 +1,14 @@
 // Convex polygons of up to eight corners, a corner a lane, cut without a branch: which corners stay, and where new ones come in,
-// follows from the signs by a table. Included by kernels.inc.
+// follows from the signs by a table.
+#pragma once
+#include "engine/contact/overlap/clip.h"
+#include "engine/simd/permute.h"
+
+namespace erbs::ERBS_TARGET {
 
 // Part of a face of b; what is left to do with it, and where it belongs.
 struct Polygon {
-  V8 x[3];                 // m; lanes from n on repeat the first corner
+  Pack x[3];               // m; lanes from n on repeat the first corner
   int n, pair;             // of those clipped together
   unsigned face, nearest;  // of b; of a
   unsigned left;           // faces of a that are still to cut it, as bits
@@ -38,44 +43,44 @@ constexpr Cuttings all_cuttings() {
     for (unsigned stays = 0; stays < 1u << n; ++stays) c.of[n][stays] = cutting(n, stays);
   return c;
 }
-constexpr Cuttings cuttings = all_cuttings();
+inline constexpr Cuttings cuttings = all_cuttings();
 
 // The corners that stay, and the points where edges are cut.
-inline __attribute__((always_inline)) void apply_cut(const Cutting& c, const V8 x[3], const V8 cut_at[3], Polygon& out) {
+ERBS_INLINE void apply_cut(const Cutting& c, const Pack x[3], const Pack cut_at[3], Polygon& out) {
   const Picks from = picks(c.from);
   for (int i = 0; i < 3; ++i) out.x[i] = pick(x[i], cut_at[i], from);
   out.n = c.count;
 }
 
 // Where d, linear and given at the corners, is zero on the edge from each corner to the next; anything where it has no zero.
-inline __attribute__((always_inline)) void edge_cuts(const V8 x[3], V8 d, V8 at[3]) {
-  const V8 share = d / (d - next(d));
+ERBS_INLINE void edge_cuts(const Pack x[3], Pack d, Pack at[3]) {
+  const Pack share = d / (d - next(d));
   for (int i = 0; i < 3; ++i) at[i] = x[i] + share * (next(x[i]) - x[i]);
 }
 
 // How a polygon is to be cut. Found for many polygons first, then done: what waits for the signs of d should not wait in line with the
 // next polygon's arithmetic.
 struct CutPlan {
-  V8 at[3];                  // crossings()
+  Pack at[3];                // crossings()
   const Cutting *stay, *go;  // of the part where d >= 0, and of the rest
-  bool splits;                // something of the rest
+  bool splits;               // something of the rest
 };
 
-inline unsigned either(bool first, unsigned a, unsigned b) {  // never a jump
+static inline unsigned either(bool first, unsigned a, unsigned b) {  // never a jump
   const unsigned mask = 0u - static_cast<unsigned>(first);
   return (a & mask) | (b & ~mask);
 }
 
 // Leaves the part where d >= 0: of a polygon in the plane nothing.
-inline __attribute__((always_inline)) void plan_cut(const Polygon& g, const V8 x[3], V8 d, CutPlan& k) {
-  const unsigned corners = (1u << g.n) - 1, above = positive(d) & corners, below = negative(d) & corners;
+ERBS_INLINE void plan_cut(const Polygon& g, const Pack x[3], Pack d, CutPlan& k) {
+  const unsigned corners = (1u << g.n) - 1, above = bits(d > 0) & corners, below = bits(d < 0) & corners;
   k.stay = &cuttings.of[g.n][either((above != 0) & (below == 0), corners, above)];
   edge_cuts(x, d, k.at);
 }
 
 // Where all of it would be taken, g remains as it is and is said to be near `other`.
-inline __attribute__((always_inline)) void plan_split(Polygon& g, const V8 x[3], V8 d, unsigned other, CutPlan& k) {
-  const unsigned corners = (1u << g.n) - 1, above = positive(d) & corners, below = negative(d) & corners;
+ERBS_INLINE void plan_split(Polygon& g, const Pack x[3], Pack d, unsigned other, CutPlan& k) {
+  const unsigned corners = (1u << g.n) - 1, above = bits(d > 0) & corners, below = bits(d < 0) & corners;
   const bool up = above != 0, down = below != 0;
   const Cutting* of = cuttings.of[g.n];
   k.splits = down & up;
@@ -86,7 +91,7 @@ inline __attribute__((always_inline)) void plan_split(Polygon& g, const V8 x[3],
 }
 
 // Leaves one of the two parts that a diagonal makes, for more room; the other in `rest`.
-inline void split_by_diagonal(Polygon& g, Polygon& rest) {
+static inline void split_by_diagonal(Polygon& g, Polygon& rest) {
   const int middle = g.n / 2;
   unsigned char first[few] = {}, second[few] = {};
   for (int i = 1; i <= middle; ++i) first[i] = static_cast<unsigned char>(i);
@@ -95,8 +100,10 @@ inline void split_by_diagonal(Polygon& g, Polygon& rest) {
   rest.n = g.n - middle + 1;
   g.n = middle + 1;
   for (int i = 0; i < 3; ++i) {
-    const V8 x = g.x[i];
+    const Pack x = g.x[i];
     g.x[i] = pick(x, x, picks(first));
     rest.x[i] = pick(x, x, picks(second));
   }
 }
+
+}  // namespace erbs::ERBS_TARGET

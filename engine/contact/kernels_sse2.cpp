@@ -1,2 +1,0 @@
-#define ERBS_ISA sse2
-#include "engine/contact/kernels.inc"

@@ -1,0 +1,59 @@
+// Rows of eight numbers, of eight pairs or blocks, turned into lanes and back; where each number stands in them.
+#pragma once
+#include "engine/contact/law/pair_lanes.h"
+#include "engine/simd/transpose.h"
+#include "engine/simd/vec3.h"
+
+namespace erbs::ERBS_TARGET {
+
+// Places of numbers in the rows.
+enum : int {
+  p_kn = 0,
+  p_ks = 1,
+  p_mu = 2,
+  p_impact = 4,
+  p_rotation = 5,
+  p_shift = 14,
+  p_n = 17,
+  p_c = 20,
+  p_u = 23,
+  p_psi = 26,
+  p_area = 27
+};
+enum : int { p_gyration = 28, p_peak_closing_speed = 29, p_tangential = 30, p_mean_normal_force = 31, p_friction = 32, p_damping = 41 };
+enum : int { b_u = 0, b_rotation = 3, b_v = 12, b_w = 15, b_mass = 18, b_inertia = 19, b_rest = 20, b_tensor = 23 };
+enum : int {
+  f_wrench = 0,
+  f_tangential = 9,
+  f_friction = 10,
+  f_damping = 11,
+  f_slip_omega2 = 12,
+  f_depth = 13,
+  f_omega2_a = 14,
+  f_omega2_b = 15
+};
+
+// As Eigen keeps a matrix.
+ERBS_INLINE Mat3<Pack> columns(const PackArray* x) { return transposed(Mat3<Pack>{load3(x), load3(x + 3), load3(x + 6)}); }
+
+ERBS_INLINE Mat3<Pack> relative_rotation(const PairPack& w) { return {{load3(w.rotation), load3(w.rotation + 3), load3(w.rotation + 6)}}; }
+
+static void read(const double* const from[8], int rows, PackArray* to) {
+  for (int i = 0; i < rows; ++i) {
+    Pack a[8], b[8];
+    for (int l = 0; l < 8; ++l) a[l] = load(from[l] + 8 * i);
+    transpose<8>(a, b);
+    for (int k = 0; k < 8; ++k) store(to[8 * i + k], b[k]);
+  }
+}
+
+static void write(const PackArray* from, int rows, double* const to[8]) {
+  for (int i = 0; i < rows; ++i) {
+    Pack a[8], b[8];
+    for (int k = 0; k < 8; ++k) a[k] = load(from[8 * i + k]);
+    transpose<8>(a, b);
+    for (int l = 0; l < 8; ++l) store(to[l] + 8 * i, b[l]);
+  }
+}
+
+}  // namespace erbs::ERBS_TARGET

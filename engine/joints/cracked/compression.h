@@ -1,0 +1,282 @@
+// Faces that press, eight joints of one law side by side: their closed compression, and what of it every point gets.
+//
+// The compression integral needs no clipping here: by the divergence theorem the integrals of p+ = max(p, 0), p linear with the
+// gradient g, over the polygon are sums over its edges,
+//   Int p dA = 1/(2 g.g) sum (g.n) Int p+^2 ds,   Int p^2 dA = 1/(3 g.g) sum (g.n) Int p+^3 ds,
+//   Int p x dA = 1/(2 g.g) (sum (g.n) Int x p+^2 ds - g Int p^2 dA),
+// well conditioned wherever the joint is partly open: p then runs through zero inside, so that its gradient is not small.
+#pragma once
+#include "engine/joints/elastic_kernel.h"
+#include "engine/joints/kernels.h"
+#include "engine/joints/relative_pose.h"
+#include "engine/laws/crushing.h"
+#include "engine/laws/point.h"
+#include "engine/simd/vec3.h"
+
+namespace erbs::ERBS_TARGET {
+
+// Relative displacement of the joint now and one step ago, its resultant, and the joules of the step.
+struct Cracking {
+  Pack gap[6], gap_before[6], resultant[6];
+  Pack stored, friction, fracture, crushing;
+  Pack rate, debonded_rate;  // of dashpots, b over the last step; the same of points without bond
+  Pack drag[6];              // dashpots (viscous_response)
+};
+
+// The gap at a point, m.
+ERBS_INLINE Pack gap_of(const PointPack& p, const Pack* gap) { return gap[2] + gap[3] * load(p.t) - gap[4] * load(p.s); }
+
+struct EdgeSums {
+  Pack p, s, t, square;  // sums of (g.n) Int p+^2 / 2, x p+^2 / 2, p+^3 ds times 3, 3, 4; then Int p, p x, p^2 dA
+};
+
+// A corner: where, p+, |p| and p+^2.
+struct Corner {
+  Pack s, t, p, size, square;
+};
+ERBS_INLINE Corner corner_of(const CornerPack& of, Pack p_0, Pack gs, Pack gt) {
+  const Pack s = load(of.s), t = load(of.t), p = gs * s + gt * t + p_0, positive = max(p, 0);
+  return {s, t, positive, abs(p), positive * positive};
+}
+
+// On the edge p+ is linear over the part of it where p is positive, from one end's p+ to the other's.
+ERBS_INLINE void add_edge(const Corner& a, const Corner& b, Pack gs, Pack gt, EdgeSums& sum) {
+  const Pack ds = b.s - a.s, dt = b.t - a.t, both = a.p + b.p, part = both / not_quite_zero(a.size + b.size);
+  const Pack from = select(a.size > a.p, 1 - part, Pack(0)), squares = a.square + b.square, share = (gs * dt - gt * ds) * part;
+  const Pack p = share * (squares + both * both), along = p * from + share * (0.5 * squares + both * b.p) * part;
+  sum.p += p;
+  sum.s += p * a.s + along * ds;
+  sum.t += p * a.t + along * dt;
+  sum.square += share * (both * squares);
+}
+
+// Integrals of p+, p = p_0 + gs s + gt t, over the loop; meaningful in the lanes marked, where p runs through zero inside.
+static inline EdgeSums positive_part(const CornerPack* corner, int corners, Pack p_0, Pack gs, Pack gt, Mask marked) {
+  EdgeSums sum{};
+  Corner last = corner_of(corner[corners - 1], p_0, gs, gt);
+  for (int i = 0; i < corners; ++i) {
+    const Corner next = corner_of(corner[i], p_0, gs, gt);
+    add_edge(last, next, gs, gt, sum);
+    last = next;
+  }
+  const Pack inverse = 1 / select(marked, nonzero(gs * gs + gt * gt), Pack(1)), twelfth = (1.0 / 12) * inverse, half = 0.5 * inverse;
+  sum.square *= twelfth;
+  sum.p *= twelfth;
+  sum.s = twelfth * sum.s - half * sum.square * gs;
+  sum.t = twelfth * sum.t - half * sum.square * gt;
+  return sum;
+}
+
+struct Compression {
+  Pack force, ms, mt, energy;  // N; N m; J
+};
+
+// The no-tension integral over the true overlap polygon.
+ERBS_INLINE Compression compression(double kn, const CrackedShape& shape, const Pack* gap) {
+  const FacePack& face = *shape.face;
+  const Pack reach = abs(gap[3]) * load(face.half_t) + abs(gap[4]) * load(face.half_s);
+  const Mask closed = gap[2] + reach < 0, pressed = gap[2] - reach < 0, partly = pressed & !closed;
+  const Pack twist = load(face.twist);
+  Pack force = select(closed, -load(face.stiffness[2]) * gap[2], Pack(0));
+  Pack mt = select(closed, twist * gap[4] - load(face.bend_s) * gap[3], Pack(0));
+  Pack ms = select(closed, load(face.bend_t) * gap[4] - twist * gap[3], Pack(0));
+  Pack energy = 0.5 * (ms * gap[4] - force * gap[2] - mt * gap[3]);
+  if (any(partly)) {
+    const EdgeSums sum = positive_part(shape.overlap_corner, shape.corners, -gap[2], gap[4], -gap[3], partly);
+    force = select(partly, kn * sum.p, force);
+    ms = select(partly, kn * sum.s, ms);
+    mt = select(partly, kn * sum.t, mt);
+    energy = select(partly, 0.5 * kn * sum.square, energy);
+  }
+  return {force, ms, mt, energy};
+}
+
+// The compression joins the resultant, and with it dashpots of the closed part: the change of its pressure, which may not pull.
+template <bool damped>
+ERBS_INLINE void add_compression(const Compression& now, const Compression& then, Cracking& c) {
+  c.resultant[2] -= now.force;
+  c.resultant[3] -= now.mt;
+  c.resultant[4] += now.ms;
+  c.stored += now.energy;
+  if (!damped) return;
+  const Pack pull = c.rate * (then.force - now.force);
+  const Mask past = pull > now.force;
+  Pack rate = c.rate;
+  if (any(past)) rate = select(past, rate * (now.force / nonzero(pull)), rate);
+  c.drag[2] += rate * (then.force - now.force);
+  c.drag[3] += rate * (then.mt - now.mt);
+  c.drag[4] -= rate * (then.ms - now.ms);
+}
+
+// Faces that have been crushed, or may be now: lane by lane, they are few.
+struct Crushing {
+  Pack gap[6], gap_before[6];
+  Compression now, then;
+  Pack work;
+};
+
+ERBS_INLINE void set_lane(Pack& x, int lane, double to) {
+  double all[pack_size];
+  x.store(all);
+  all[lane] = to;
+  x = Pack::load(all);
+}
+static inline void put(const Pressed& from, int l, Compression& to) {
+  set_lane(to.force, l, from.force), set_lane(to.ms, l, from.s), set_lane(to.mt, l, from.t), set_lane(to.energy, l, from.energy);
+}
+
+[[gnu::noinline, maybe_unused]] static void crush_lanes(const PointLaw& law, const CrackedShape& shape, Crushing& c, Pack* depth) {
+  const double limit = law.fc / law.kn;
+  const Pack deepest = abs(c.gap[3]) * load(shape.face->half_t) + abs(c.gap[4]) * load(shape.face->half_s) - c.gap[2];
+  for (int l = 0; l < pack_size; ++l) {
+    CrushedFace* crushed = shape.crushed[l];
+    if (crushed == nullptr || (crushed->planes == 0 && deepest[l] <= limit)) continue;
+    const CompressionFace face{law.kn, limit, shape.corners, shape.face_corner[l]};
+    const double before[3] = {c.gap_before[2][l], -c.gap_before[4][l], c.gap_before[3][l]},
+                 gap[3] = {c.gap[2][l], -c.gap[4][l], c.gap[3][l]};
+    set_lane(c.work, l, erbs::crush(face, *crushed, before, gap));
+    if (crushed->planes == 0) continue;
+    put(pressed(face, *crushed, gap), l, c.now);
+    if (shape.per_step > 0) put(pressed(face, *crushed, before), l, c.then);
+    for (int i = 0; i < shape.points; ++i)
+      set_lane(depth[i], l, pressed_depth(face, *crushed, gap, shape.point[i].s[l], shape.point[i].t[l]));
+  }
+}
+
+ERBS_INLINE void crush(const PointLaw& law, const CrackedShape& shape, Cracking& c, Compression& now, Compression& then, Pack* depth) {
+  Crushing of{};
+  for (int i = 0; i < 6; ++i) of.gap[i] = c.gap[i], of.gap_before[i] = c.gap_before[i];
+  of.now = now, of.then = then;
+  crush_lanes(law, shape, of, depth);
+  now = of.now, then = of.then, c.crushing += of.work;
+}
+
+// Where no point is pressed, all of the force goes to the first of the deepest; the lanes marked.
+ERBS_INLINE void assign_to_deepest(const CrackedShape& shape, const Pack* gap, Mask lone, Pack* depth) {
+  Pack least = Pack(1e300);
+  for (int i = 0; i < shape.points; ++i) {
+    const Pack n = gap_of(shape.point[i], gap);
+    least = min(n, least);
+  }
+  for (int i = 0; any(lone) && i < shape.points; ++i) {
+    const Mask here = lone & (gap_of(shape.point[i], gap) <= least);
+    depth[i] = select(here, 1 / nonzero(load(shape.point[i].weight)), depth[i]);
+    lone &= !here;
+  }
+}
+
+// What presses the points, `now` being the compression of the whole face: its force is shared out by their own depths. `depth` gets
+// these; a point's share (N) is the scale returned times its depth and weight.
+template <bool damped>
+ERBS_INLINE Pack compress(const PointLaw& law, const CrackedShape& shape, Cracking& c, Compression now, Compression then, Pack* depth) {
+  Pack sum{};
+  for (int i = 0; i < shape.points; ++i) {
+    depth[i] = max(-gap_of(shape.point[i], c.gap), 0);
+    sum += load(shape.point[i].weight) * depth[i];
+  }
+  if (law.fc > 0) {
+    crush(law, shape, c, now, then, depth);
+    sum = Pack(0);
+    for (int i = 0; i < shape.points; ++i) sum += load(shape.point[i].weight) * depth[i];
+  }
+  add_compression<damped>(now, then, c);
+  const Mask lone = (sum <= 0) & (now.force > 0);
+  if (any(lone))
+    assign_to_deepest(shape, c.gap, lone, depth), c.debonded_rate = select(lone, Pack(0), c.rate);  // nothing presses it but this share
+  return select(sum > 0, now.force / nonzero(sum), now.force);
+}
+
+// interlock.h: whether a joint slides slowly.
+ERBS_INLINE Mask slow(const CrackedShape& shape, const Cracking& c) {
+  const Pack ds = c.gap[0] - c.gap_before[0], dt = c.gap[1] - c.gap_before[1],
+             rotation = (c.gap[5] - c.gap_before[5]) * load(shape.face->radius);
+  return ds * ds + dt * dt + rotation * rotation < shape.interlock.slow;
+}
+
+// The pressure (Pa) that the friction of a point goes by, `stress` being that of the moment.
+ERBS_INLINE Pack interlocked_stress(const CrackedShape& shape, SlipPack& slip, Pack gap, Pack stress, Mask slow) {
+  Pack mean = load(slip.mean_pressure);
+  const Mask near = gap < shape.interlock.gap;
+  if (shape.interlock.rate > 0) {
+    mean = select(near, select(mean > 0, mean + (stress - mean) * shape.interlock.rate, stress), Pack(0));
+    store(slip.mean_pressure, mean);
+  }
+  return select(near & slow & (mean > stress), mean, stress);
+}
+
+// What of a dashpot's shear (s, t) a point can take beside what it bears already, within its limit.
+struct Shear {
+  Pack s, t;
+};
+ERBS_INLINE Shear drag_within(Shear drag, Shear present, Pack limit, Mask past) {
+  const Pack size = drag.s * drag.s + drag.t * drag.t, along = present.s * drag.s + present.t * drag.t,
+             room = max(limit * limit - present.s * present.s - present.t * present.t, 0);
+  const Pack share = select(past, (sqrt(along * along + size * room) - along) / nonzero(size), Pack(1));
+  return {share * drag.s, share * drag.t};
+}
+ERBS_INLINE Pack square_of(Pack s, Pack t) { return s * s + t * t; }
+
+// Relative displacement now and one step ago, and an account with nothing in it.
+template <bool damped>
+ERBS_INLINE void start(const CrackedShape& shape, const CrackedPack& lane, const JointMotion& now, Cracking& c) {
+  c.stored = c.friction = c.fracture = c.crushing = Pack(0);
+  c.rate = c.debonded_rate = damped ? shape.per_step * load(lane.viscous) : Pack(0);
+  for (int i = 0; i < 6; ++i) {
+    c.gap[i] = now.gap[i];
+    c.gap_before[i] = load(lane.gap[i]);
+    c.resultant[i] = Pack(0);
+    if (damped) c.drag[i] = Pack(0);
+  }
+}
+
+// event_bound.h, by the corners of the face.
+static inline void foresee(const CrackedShape& shape, const Cracking& c, CrackedSums& sums) {
+  const Pack dn = c.gap[2] - c.gap_before[2], ds = c.gap[3] - c.gap_before[3], dt = c.gap[4] - c.gap_before[4];
+  Pack square{}, soon{};
+  for (int i = 0; i < shape.corners; ++i) {
+    const Pack s = load(shape.overlap_corner[i].s), t = load(shape.overlap_corner[i].t);
+    const Pack gap = c.gap[2] + c.gap[3] * t - c.gap[4] * s, rate = dn + ds * t - dt * s;
+    const Mask ahead = gap * rate < 0;
+    const Pack near = select(ahead, abs(rate) / abs(nonzero(gap)), Pack(0));
+    square += select(ahead, rate * rate, Pack(0));
+    soon = max(near, soon);
+  }
+  const Pack errs = sqrt((event_share / (shape.corners * shape.event_budget)) * load(shape.face->stiffness[2]) * square),
+             event_rate = event_steps * soon, both = min(errs, event_rate), most = load(sums.event_rate);
+  store(sums.event_rate, max(both, most));
+}
+
+// Memory and account of the step, once the resultant is known; dashpots join it.
+template <bool damped>
+ERBS_INLINE void finish_step(const CrackedShape& shape, Cracking& c, CrackedPack& lane, CrackedSums& sums) {
+  if (shape.event_budget > 0) foresee(shape, c, sums);
+  Pack work{}, damping{};
+  for (int i = 0; i < 6; ++i) {
+    const Pack dq = c.gap[i] - c.gap_before[i];
+    work += (load(lane.resultant[i]) + c.resultant[i]) * dq;
+    store(lane.resultant[i], c.resultant[i]);
+    store(lane.gap[i], c.gap[i]);
+    if (!damped) continue;
+    damping += (load(lane.drag[i]) + c.drag[i]) * dq;
+    store(lane.drag[i], c.drag[i]);
+    c.resultant[i] += c.drag[i];
+  }
+  const Pack error = abs(0.5 * work - (c.stored - load(lane.stored)) - c.friction - c.fracture - c.crushing), worst = load(sums.error);
+  store(sums.error, max(error, worst));
+  store(sums.worst, select(error > worst, Pack(shape.number), load(sums.worst)));
+  store(lane.stored, c.stored);
+  add_to(sums.friction, c.friction);
+  add_to(sums.fracture, c.fracture);
+  add_to(sums.crushing, c.crushing);
+  if (damped) add_to(sums.damping, 0.5 * damping);
+}
+
+// Where a joint may have moved beyond what its fixed faces can tell: the bounds of out_of_range, taken a little tighter.
+ERBS_INLINE bool may_be_out_of_range(const FacePack& face, const Pack* gap) {
+  const Pack half_s = load(face.half_s), half_t = load(face.half_t), side = 2 * min(half_s, half_t);
+  const Pack room = 0.00999 * side - abs(gap[5]) * load(face.radius), least_gap = gap[2] - abs(gap[3]) * half_t - abs(gap[4]) * half_s;
+  return any((gap[0] * gap[0] + gap[1] * gap[1] > room * abs(room)) | (gap[3] * gap[3] + gap[4] * gap[4] > 0.0299 * 0.0299) |
+             (least_gap > 0.00199 * side));
+}
+
+}  // namespace erbs::ERBS_TARGET

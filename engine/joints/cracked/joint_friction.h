@@ -1,0 +1,204 @@
+// Joints that have no bond left, eight of one law side by side: they press and rub.
+//
+// Slips s_i of the points, the shear stiffness k_i = ks w_i: with the rigid motion a nearest to them (weighted least squares) and the
+// rest r_i, points that all stick bear K (q - a), K the sound joint's shear and torsion, and store (q - a) K (q - a) / 2 + sum k_i r_i^2
+// / 2. They all stick while no point can pass its limit: |q - a| at the farthest corner + the greatest |r_i| against the least pressure.
+#pragma once
+#include "engine/joints/cracked/compression.h"
+#include "engine/joints/kernels.h"
+#include "engine/joints/relative_pose.h"
+#include "engine/laws/point.h"
+
+namespace erbs::ERBS_TARGET {
+
+// What the slips of the points have in common, found again where they have changed.
+static inline void find_mean_slip(double ks, const CrackedShape& shape, const SlipPack* slip, MeanSlipPack& mean_slip) {
+  Pack s{}, t{}, rotation{}, apart{}, square{};
+  for (int i = 0; i < shape.points; ++i) {
+    const PointPack& p = shape.point[i];
+    const Pack weight = load(p.weight), ws = weight * load(slip[i].s), wt = weight * load(slip[i].t);
+    s += ws, t += wt;
+    rotation += wt * load(p.s) - ws * load(p.t);
+  }
+  const Pack slip_per_stress = ks / nonzero(load(shape.face->stiffness[0]));
+  s *= slip_per_stress, t *= slip_per_stress;
+  rotation *= ks / nonzero(load(shape.face->stiffness[5]));
+  for (int i = 0; i < shape.points; ++i) {
+    const PointPack& p = shape.point[i];
+    const Pack ds = load(slip[i].s) - (s - rotation * load(p.t)), dt = load(slip[i].t) - (t + rotation * load(p.s)),
+               size = ds * ds + dt * dt;
+    apart = max(size, apart);
+    square += load(p.weight) * size;
+  }
+  store(mean_slip.s, s);
+  store(mean_slip.t, t);
+  store(mean_slip.rotation, rotation);
+  store(mean_slip.apart, sqrt(apart));
+  store(mean_slip.stored, 0.5 * ks * square);
+  store(mean_slip.outdated, Pack(0));
+}
+
+// Where all points stick, and the shear then.
+struct StickState {
+  Mask mask;
+  Pack s, t, rotation, stored;  // N; N m; J
+};
+
+// `closed_by`: m, where the face is closed all over, how much at least.
+template <bool damped>
+ERBS_INLINE StickState try_stick(const PointLaw& law, double mu, const CrackedShape& shape, const SlipPack* slip, Pack closed_by,
+                                 MeanSlipPack& mean_slip, Cracking& c) {
+  StickState out{};
+  const Mask closed = closed_by > 0;
+  if (!any(closed)) return out;
+  if (any(closed & (load(mean_slip.outdated) > 0))) find_mean_slip(law.ks, shape, slip, mean_slip);
+  const Pack s = c.gap[0] - load(mean_slip.s), t = c.gap[1] - load(mean_slip.t), rotation = c.gap[5] - load(mean_slip.rotation),
+             radius = load(shape.face->radius);
+  const Pack ds = c.gap[0] - c.gap_before[0], dt = c.gap[1] - c.gap_before[1], rotated = c.gap[5] - c.gap_before[5];
+  Pack room = mu * law.kn * closed_by - law.ks * (abs(rotation) * radius + load(mean_slip.apart));
+  if (damped) room -= law.ks * c.rate * (abs(ds) + abs(dt) + abs(rotated) * radius);
+  out.mask = closed & (room > 0) & (law.ks * law.ks * (s * s + t * t) < room * room);
+  const Pack k = load(shape.face->stiffness[0]), twist = load(shape.face->stiffness[5]);
+  out.s = k * s, out.t = k * t, out.rotation = twist * rotation;
+  out.stored = 0.5 * (out.s * s + out.t * t + out.rotation * rotation) + load(mean_slip.stored);
+  if (damped) {
+    const Pack rate = select(out.mask, c.rate, Pack(0));
+    c.drag[0] = k * rate * ds;
+    c.drag[1] = k * rate * dt;
+    c.drag[5] = twist * rate * rotated;
+  }
+  return out;
+}
+
+// Sums over points, of weight times gaps in the face: times ks they are the shear; its work.
+struct SlipSums {
+  Pack s, t, rotation, stored, work;
+  Pack drag_s, drag_t, drag_rotation;
+  Mask slid;
+};
+
+// A point without bond: what presses it, `depth`, is all that it can rub with, and lets it be `limit` off its slip.
+template <bool damped>
+ERBS_INLINE void friction_at_point(const PointPack& point, SlipPack& slip, Pack depth, Pack limit, const Cracking& c, SlipSums& sum) {
+  const Pack s = load(point.s), t = load(point.t), weight = load(point.weight), slip_s = load(slip.s), slip_t = load(slip.t);
+  const Pack rigid_s = c.gap[0] - c.gap[5] * t, rigid_t = c.gap[1] + c.gap[5] * s;
+  Pack gs = rigid_s - slip_s, gt = rigid_t - slip_t;
+  const Pack square = square_of(gs, gt), most = limit * limit;
+  const Mask slides = square > most;
+  if (any(slides)) {
+    const Pack keep = select(slides, limit / sqrt(square), Pack(1));  // what nothing presses slides all the way, as in hang
+    const Pack left_s = keep * gs, left_t = keep * gt, s0 = c.gap_before[0] - c.gap_before[5] * t - slip_s,
+               t0 = c.gap_before[1] + c.gap_before[5] * s - slip_t;
+    store(slip.s, select(slides, rigid_s - left_s, slip_s));
+    store(slip.t, select(slides, rigid_t - left_t, slip_t));
+    sum.work += weight * ((s0 + left_s) * (gs - left_s) + (t0 + left_t) * (gt - left_t));
+    gs = left_s, gt = left_t;
+    sum.slid |= slides;
+  }
+  const Pack ws = weight * gs, wt = weight * gt;
+  sum.s += ws;
+  sum.t += wt;
+  sum.rotation += wt * s - ws * t;
+  sum.stored += ws * gs + wt * gt;
+  if (!damped) return;
+  const Pack rate = select((square <= most) & (depth > 0), c.debonded_rate, Pack(0)), rotation = c.gap[5] - c.gap_before[5];
+  Shear drag{rate * ((c.gap[0] - c.gap_before[0]) - rotation * t), rate * ((c.gap[1] - c.gap_before[1]) + rotation * s)};
+  const Mask past = square_of(gs + drag.s, gt + drag.t) > max(square, most);
+  if (any(past)) drag = drag_within(drag, {gs, gt}, limit, past);
+  const Pack drag_s = weight * drag.s, drag_t = weight * drag.t;
+  sum.drag_s += drag_s;
+  sum.drag_t += drag_t;
+  sum.drag_rotation += drag_t * s - drag_s * t;
+}
+
+// Points of faces that hang free and did so before: they go where the faces go.
+ERBS_INLINE void follow_open_faces(const CrackedShape& shape, const PointPack& point, SlipPack& slip, const Cracking& c, Mask slow) {
+  if (shape.interlock.rate > 0) interlocked_stress(shape, slip, gap_of(point, c.gap), Pack(0), slow);
+  store(slip.s, c.gap[0] - c.gap[5] * load(point.t));
+  store(slip.t, c.gap[1] + c.gap[5] * load(point.s));
+}
+
+// All points of the register, where not all of its joints stick.
+template <bool damped>
+ERBS_INLINE void friction_at_points(const PointLaw& law, double mu, Pack scale, const Pack* depth, const CrackedShape& shape,
+                                    SlipPack* slip, MeanSlipPack& mean_slip, const StickState& stick, Cracking& c) {
+  SlipSums sum{};
+  const double lets = mu / law.ks;
+  const Mask slides_slowly = slow(shape, c);
+  for (int i = 0; i < shape.points; ++i) {
+    const Pack held = interlocked_stress(shape, slip[i], gap_of(shape.point[i], c.gap), scale * depth[i], slides_slowly);
+    friction_at_point<damped>(shape.point[i], slip[i], depth[i], select(stick.mask, Pack(1e150), lets * held), c,
+                              sum);  // those that stick are not asked
+  }
+  c.resultant[0] = select(stick.mask, stick.s, law.ks * sum.s);
+  c.resultant[1] = select(stick.mask, stick.t, law.ks * sum.t);
+  c.resultant[5] = select(stick.mask, stick.rotation, law.ks * sum.rotation);
+  c.stored += select(stick.mask, stick.stored, 0.5 * law.ks * sum.stored);
+  c.friction = 0.5 * law.ks * sum.work;
+  if (any(sum.slid)) store(mean_slip.outdated, select(sum.slid, Pack(1), load(mean_slip.outdated)));
+  if (!damped) return;
+  c.drag[0] = select(stick.mask, c.drag[0], law.ks * sum.drag_s);
+  c.drag[1] = select(stick.mask, c.drag[1], law.ks * sum.drag_t);
+  c.drag[5] = select(stick.mask, c.drag[5], law.ks * sum.drag_rotation);
+}
+
+// The means of what presses the points, where all stick: closed all over.
+static inline void update_mean_pressure(const CrackedShape& shape, Pack force, SlipPack* slip, const Cracking& c) {
+  const Mask slides_slowly = slow(shape, c);
+  Pack sum{};
+  for (int i = 0; i < shape.points; ++i) sum += load(shape.point[i].weight) * max(-gap_of(shape.point[i], c.gap), 0);
+  const Pack scale = force / nonzero(sum);
+  for (int i = 0; i < shape.points; ++i) {
+    const Pack gap = gap_of(shape.point[i], c.gap);
+    interlocked_stress(shape, slip[i], gap, scale * max(-gap, 0), slides_slowly);
+  }
+}
+
+// The compression one step ago: without bond and crushing it is what the joint bore across its face.
+template <bool damped>
+ERBS_INLINE Compression before(const PointLaw& law, const CrackedShape& shape, const CrackedPack& lane, const Cracking& c) {
+  if (!damped) return Compression{};
+  if (law.fc > 0) return compression(law.kn, shape, c.gap_before);
+  return {-load(lane.resultant[2]), load(lane.resultant[4]), -load(lane.resultant[3]), Pack(0)};
+}
+
+template <bool damped>
+static bool friction_pack(const PointLaw& law, const CrackedShape& shape, CrackedPack& lane, const double* poses, double* wrench_rows,
+                          CrackedSums& sums) {
+  SlipPack* slip = lane.slip();
+  MeanSlipPack& mean_slip = lane.mean_slip;
+  const double mu = law.dry ? law.mu : law.mu_residual;
+  Pack depth[most_points_per_joint];
+  bool out_of_range = false;
+  JointMotion now;
+  Cracking c;
+  relative_motion(lane, *shape.face, poses, now);
+  start<damped>(shape, lane, now, c);
+  const Compression pressed = compression(law.kn, shape, c.gap);
+  const Pack closed_by = -c.gap[2] - (abs(c.gap[3]) * load(shape.face->half_t) + abs(c.gap[4]) * load(shape.face->half_s));
+  const StickState stick = law.fc > 0 ? StickState{} : try_stick<damped>(law, mu, shape, slip, closed_by, mean_slip, c);
+  if (!any(Mask::of_bits(shape.used) & !stick.mask)) {
+    add_compression<damped>(pressed, before<damped>(law, shape, lane, c), c);
+    c.resultant[0] = stick.s, c.resultant[1] = stick.t, c.resultant[5] = stick.rotation;
+    c.stored += stick.stored;
+    if (shape.interlock.rate > 0) update_mean_pressure(shape, pressed.force, slip, c);
+  } else if (law.fc > 0 || any(pressed.force > 0) || any(load(lane.stored) > 0)) {
+    const Pack scale = compress<damped>(law, shape, c, pressed, before<damped>(law, shape, lane, c), depth);
+    friction_at_points<damped>(law, mu, scale, depth, shape, slip, mean_slip, stick, c);
+  } else {
+    const Mask slides_slowly = slow(shape, c);
+    for (int i = 0; i < shape.points; ++i) follow_open_faces(shape, shape.point[i], slip[i], c, slides_slowly);
+    store(mean_slip.outdated, Pack(1));
+  }
+  finish_step<damped>(shape, c, lane, sums);
+  write_joint_wrenches(lane, now, c.resultant, wrench_rows);
+  out_of_range = may_be_out_of_range(*shape.face, c.gap) || out_of_range;
+  return out_of_range;
+}
+
+static bool friction(const PointLaw& law, const CrackedShape& shape, CrackedPack& lane, const double* poses, double* wrench_rows,
+                     CrackedSums& sums) {
+  return (shape.per_step > 0 ? friction_pack<true> : friction_pack<false>)(law, shape, lane, poses, wrench_rows, sums);
+}
+
+}  // namespace erbs::ERBS_TARGET

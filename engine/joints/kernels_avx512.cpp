@@ -1,2 +1,0 @@
-#define ERBS_ISA avx512
-#include "engine/joints/kernels.inc"

@@ -1,0 +1,222 @@
+// Kick and drift of blocks, eight side by side; integrate.h and integrate.cpp say what is computed.
+#pragma once
+#include "engine/joints/gather.h"
+#include "engine/joints/kernels.h"
+#include "engine/simd/transpose.h"
+#include "engine/simd/vec3.h"
+
+namespace erbs::ERBS_TARGET {
+
+// What acts on eight blocks: what sound joints do that they keep and that others keep, then wrench rows of other joints, what contacts push
+// and what loads do.
+ERBS_INLINE void sum_wrenches(const BlockArrays& A, const BlockConstants& c, int group, Pack out[6]) {
+  const long first = 8L * pack_size * group;
+  for (int i = 0; i < 6; ++i) out[i] = c.carried ? load(A.owner_sum[group].x[i]) : Pack(0);
+  for (int k = c.first_gather; c.carried && k < c.first_gather + c.gathers; ++k) {
+    Pack from_neighbours[6];
+    gather(A.neighbour_force, A.gather_in[k], from_neighbours);
+    for (int i = 0; i < 6; ++i) out[i] += from_neighbours[i];
+  }
+  if (A.contact_wrench == nullptr && A.load_wrench == nullptr && c.wrench_slots == 0) return;
+  Pack rows[pack_size] = {}, sum[8];
+  const auto add = [&](const double* row) {
+    for (int l = 0; l < pack_size; ++l) rows[l] += load(row + 8 * l);
+  };
+  if (A.contact_wrench != nullptr) add(A.contact_wrench + first);
+  if (A.load_wrench != nullptr) add(A.load_wrench + first);
+  for (int k = 0; k < c.wrench_slots; ++k) add(A.wrench + 8L * pack_size * (c.first_wrench_slot + k));  // none where there are no rows
+  transpose<8>(rows, sum);
+  for (int i = 0; i < 6; ++i) out[i] += sum[i];
+}
+
+// 1 / x and 1 / sqrt(x) for x close to 1, as it is unless something spins fast: then as it comes.
+ERBS_INLINE Pack inverse_near_one(Pack x) {
+  const Pack e = x - 1;
+  const Mask far = abs(e) > 1e-6;
+  const Pack near = 1 - e * (1 - e);
+  return any(far) ? select(far, 1 / x, near) : near;
+}
+ERBS_INLINE Pack inverse_root_near_one(Pack x) {
+  const Pack e = x - 1;
+  const Mask far = abs(e) > 1e-6;
+  const Pack near = 1 - e * (0.5 - 0.375 * e);
+  return any(far) ? select(far, 1 / sqrt(x), near) : near;
+}
+
+// Spin at the middle of the step for body momentum p: w = I^-1 (p + p x h + h (h.p)) / (1 + h.h), h = w dt / 2, by fixed point from
+// w = I^-1 p. A round shrinks the error by some |h|: one round is exact to round-off for a swaying wall, tumbling debris takes a few.
+ERBS_INLINE Pack3 middle_spin(const BlockConstants& c, Pack3 p, Pack3 w, double dt) {
+  Mask more{};
+  for (int round = 0; round < 40; ++round) {
+    const Pack3 h = 0.5 * dt * w;
+    const Pack hh = dot(h, h), scale = inverse_near_one(1 + hh), hp = dot(h, p);
+    const Pack3 unscaled = (p + cross(p, h)) + hp * h, m = scale * unscaled;
+    const Pack3 next = load6(c.inverse_inertia) * m, change = next - w;
+    // what the next round would change, with a factor of 4 for flat bodies, is below the last bit
+    const Mask left = dot(change, change) * (16 * hh) > 1e-32 * dot(next, next);
+    // a block stops when it is done itself, whatever stands in the lanes beside it: the same bits for any width
+    w = round == 0 ? next : select(more, next, w);
+    more = round == 0 ? left : more & left;
+    if (!any(more)) break;
+  }
+  return w;
+}
+
+// Attitude by the Cayley map of h = w dt / 2 in the body.
+ERBS_INLINE Quat<Pack> rotated(Quat<Pack> q, Pack3 w, double dt) {
+  const Pack3 h = 0.5 * dt * w;
+  const Pack x = q.x + (q.w * h.x + q.y * h.z - q.z * h.y), y = q.y + (q.w * h.y + q.z * h.x - q.x * h.z),
+             z = q.z + (q.w * h.z + q.x * h.y - q.y * h.x), s = q.w - (q.x * h.x + q.y * h.y + q.z * h.z);
+  const Pack scale = inverse_root_near_one(x * x + y * y + z * z + s * s);
+  return {x * scale, y * scale, z * scale, s * scale};
+}
+
+// 2 sin(angle / 2) about its axis of the turn from b to q.
+ERBS_INLINE Pack3 rotation_since(Quat<Pack> q, Quat<Pack> b) {
+  const Pack c = q.w * b.w + q.x * b.x + q.y * b.y + q.z * b.z, sign = select(c < 0, Pack(-2), Pack(2));
+  return {sign * (b.w * q.x - q.w * b.x - q.y * b.z + q.z * b.y), sign * (b.w * q.y - q.w * b.y - q.z * b.x + q.x * b.z),
+          sign * (b.w * q.z - q.w * b.z - q.x * b.y + q.y * b.x)};
+}
+
+// Work of this step's forces: half the last drift with the old velocity, half the next with the new one. A sample keeps the halves
+// apart, for the ledger is settled between them.
+template <bool damped, bool sample>
+ERBS_INLINE void book(const KickDrift& s, const BlockConstants& c, Pack3 v0, Pack3 v1, Pack3 p0, Pack3 p1, Pack3 u, BlockWork& work) {
+  const Pack mass = load(c.mass);
+  const auto ground = [&](Pack3 v) { return -(s.ground[0] * v.x + s.ground[1] * v.y + s.ground[2] * v.z); };
+  if (!sample && s.shaken) {
+    const Pack base = mass * ground(s.half_last * v0 + s.half_next * v1);
+    add_to(work.base, base);
+    add_to(work.absolute, abs(base));
+  }
+  if (!sample && !damped) return;
+  const Pack3 vd = s.damping_explicit ? v0 : 0.5 * (v0 + v1), pd = s.damping_explicit ? p0 : 0.5 * (p0 + p1);
+  const Pack rate = load(c.damped) * s.damping;
+  if (!sample) {
+    const Pack3 spin = load6(c.inverse_inertia) * (s.half_last * p0 + s.half_next * p1);
+    add_to(work.damping, rate * (mass * dot(vd, s.half_last * v0 + s.half_next * v1) + dot(pd, spin)));
+    return;
+  }
+  const Pack3 s0 = load6(c.inverse_inertia) * p0, s1 = load6(c.inverse_inertia) * p1;
+  const Pack base0 = s.half_last * (mass * ground(v0)), base1 = s.half_next * (mass * ground(v1));
+  add_to(work.base, base0);
+  add_to(work.absolute, abs(base0));
+  add_to(work.base_after, base1);
+  add_to(work.absolute_after, abs(base1));
+  if (damped) {
+    add_to(work.damping, s.half_last * (rate * (mass * dot(vd, v0) + dot(pd, s0))));
+    add_to(work.damping_after, s.half_next * (rate * (mass * dot(vd, v1) + dot(pd, s1))));
+  }
+  // before the first drift the old velocity is the mirror image of the new one about the start
+  const Pack3 old = s.first ? 2.0 * v0 - v1 : v0, old_spin = s.first ? 2.0 * s0 - s1 : s0;
+  // where the step changes, the new velocity is the one that the last step would have led to: with another the identity of energy.h does
+  // not hold
+  const double more = s.first ? 0 : 2 * s.half_last / s.kick - 1;
+  const Pack3 v = v1 + more * (v1 - v0), p = p1 + more * (p1 - p0);
+  add_to(work.kinetic, 0.5 * (mass * dot(old, v) + dot(old_spin, p)));
+  add_to(work.height, -(mass * (s.gravity[0] * u.x + s.gravity[1] * u.y + s.gravity[2] * u.z)));
+}
+
+// Velocities and momenta by the kick, positions by the drift; `w` is the spin of the drift, in the body.
+template <bool damped, bool sample>
+ERBS_INLINE Mask kick(const KickDrift& s, const BlockArrays& A, int group, const Pack wrench[6], Pack3& w, BlockWork& work) {
+  const BlockConstants& c = A.constant[group];
+  const Pack moving = load(c.moving), inverse = load(c.inverse_mass);
+  double(*const u)[pack_size] = A.u[group].x, (*const v)[pack_size] = A.v[group].x, (*const momentum)[pack_size] = A.momentum[group].x;
+  const Pack3 v0 = load3(v), L0 = load3(momentum), u0 = load3(u);
+  Pack keep = Pack(1), kick = Pack(s.kick);
+  if (damped) {
+    keep = 1 + load(c.damped) * s.damped_keep;
+    kick = s.kick * (1 + load(c.damped) * s.damped_kick);
+  }
+  const auto kicked = [&](Pack x, Pack force) { return damped ? keep * x + kick * force : x + kick * force; };
+  const auto pushed = [&](int i) { return wrench[i] * inverse + moving * (s.gravity[i] - s.ground[i]); };
+  const Pack3 v1{kicked(v0.x, pushed(0)), kicked(v0.y, pushed(1)), kicked(v0.z, pushed(2))};
+  const Pack3 L1{kicked(L0.x, moving * wrench[3]), kicked(L0.y, moving * wrench[4]), kicked(L0.z, moving * wrench[5])};
+  const Mat3<Pack> t = rotation_of(load4(A.q[group].x)), back = transposed(t);
+  const Pack3 p1 = back * L1;
+  if (damped || sample) book<damped, sample>(s, c, v0, v1, back * L0, p1, u0, work);
+  else book<damped, sample>(s, c, v0, v1, Pack3{}, Pack3{}, Pack3{}, work);
+  const Pack dt = s.dt * moving;
+  store3(u, u0 + dt * v1);
+  store3(v, v1);
+  store3(momentum, L1);
+  w = load6(c.inverse_inertia) * p1;
+  if (s.gyroscopic) w = middle_spin(c, p1, w, s.dt);
+  const Pack3 wx = t * w, told = load3(A.w[group].x);  // of a held block: as it is told elsewhere
+  const Mask free = moving > 0;
+  store3(A.w[group].x, select(free, wx, told));
+  return !(dot(v1, v1) < 1e12);  // not a number, too
+}
+
+// Attitudes by the drift, and the rows that joints read.
+template <bool rows, bool carried>
+ERBS_INLINE void rotate_by(const KickDrift& s, const BlockArrays& A, int group, Pack3 w, BlockWork& work) {
+  double(*const to)[pack_size] = A.q[group].x;
+  const Quat<Pack> q0 = load4(to), q = rotated(q0, w, s.dt);
+  const Pack3 u = load3(A.u[group].x);
+  const long first = 8L * pack_size * group;
+  if (rows && A.pose != nullptr) {
+    const Pack pose[8] = {u.x, u.y, u.z, q.x, q.y, q.z, q.w, Pack(0)};
+    pack_to_rows(pose, A.pose + first, side_by_side);
+  }
+  if (carried) {
+    const Pack3 t = rotation_since(q, load4(A.ref_q[group].x)), du = u - load3(A.ref_u[group].x);
+    const Pack square = dot(t, t);
+    const Pack3 theta = (1 + 0.375 * square) * t;  // tan(angle), to fourth order (kinematics.h)
+    const Pack row[8] = {du.x, du.y, du.z, theta.x, theta.y, theta.z, theta.y, theta.z};
+    if (rows && A.pose_row != nullptr) pack_to_rows(row, A.pose_row + first, side_by_side);
+    for (int i = 0; i < 6; ++i) store(A.increment[group].x[i], row[i]);
+    add_to(work.outdated, select(square > load(A.constant[group].rotation_limit), Pack(1), Pack(0)));
+  }
+  store(to[0], q.x), store(to[1], q.y), store(to[2], q.z), store(to[3], q.w);
+  if (!s.gyroscopic) {  // Gu and Miao's scalar equation (1): the spin in the body stays and the momentum turns with it. For comparison
+                        // only.
+    double(*const momentum)[pack_size] = A.momentum[group].x;
+    store3(momentum, rotation_of(q) * (transposed(rotation_of(q0)) * load3(momentum)));
+  }
+}
+
+inline constexpr int groups_at_once = 4;  // groups
+
+// Attitudes of some groups.
+template <bool rows, bool carried>
+ERBS_INLINE void rotate_groups(const KickDrift& step, const BlockArrays& A, int from, int to, const Pack3* w, BlockWork& work) {
+  for (int k = from; k < to; ++k) rotate_by<rows, carried>(step, A, k, w[k - from], work);
+}
+
+// A step of a block is one long chain of operations: some groups together go through it in stages, so that their chains overlap.
+template <bool damped, bool sample>
+static bool advance_pass(const KickDrift& step, const BlockArrays& A, int first, int last, BlockWork& work) {
+  Mask broken{};
+  Pack wrench[groups_at_once][6];
+  Pack3 w[groups_at_once];
+  for (int from = first; from < last; from += groups_at_once) {
+    const int to = from + groups_at_once < last ? from + groups_at_once : last;
+    bool rows = false, carried = false;
+    for (int k = from; k < to; ++k) rows |= A.constant[k].wrench_slots > 0, carried |= A.constant[k].carried;
+    if (rows) {
+      for (int k = from; k < to; ++k) sum_wrenches(A, A.constant[k], k, wrench[k - from]);
+      for (int k = from; k < to; ++k) broken |= kick<damped, sample>(step, A, k, wrench[k - from], w[k - from], work);
+      if (carried) rotate_groups<true, true>(step, A, from, to, w, work);
+      else rotate_groups<true, false>(step, A, from, to, w, work);
+      continue;
+    }
+    for (int k = from; k < to; ++k) {
+      Pack sum[6];
+      sum_wrenches(A, A.constant[k], k, sum);
+      broken |= kick<damped, sample>(step, A, k, sum, w[k - from], work);
+    }
+    if (carried) rotate_groups<false, true>(step, A, from, to, w, work);
+    else rotate_groups<false, false>(step, A, from, to, w, work);
+  }
+  return any(broken);
+}
+
+static bool advance(const KickDrift& step, const BlockArrays& A, int first, int last, bool sample, BlockWork& work) {
+  if (step.damping > 0)
+    return sample ? advance_pass<true, true>(step, A, first, last, work) : advance_pass<true, false>(step, A, first, last, work);
+  return sample ? advance_pass<false, true>(step, A, first, last, work) : advance_pass<false, false>(step, A, first, last, work);
+}
+
+}  // namespace erbs::ERBS_TARGET
