@@ -103,15 +103,15 @@ static void add_ramp(const Pack f[3], const Pack g[3], const Pack x[3][3], Pack 
   if ((most & marked) != 0) add_products(f, g, x, dS, most & marked, i0, i1);
   if (((one | two) & marked) == 0) return;
   const unsigned first = (one & up[0]) | (two & ~up[0]), second = (one & up[1]) | (two & ~up[1]);  // whether it is the lone corner
-  const auto turned = [&](Pack a, Pack b, Pack c) { return select(Mask::of_bits(first), a, select(Mask::of_bits(second), b, c)); };
-  const Pack own = turned(g[0], g[1], g[2]), lone = turned(f[0], f[1], f[2]);
+  const auto rotated = [&](Pack a, Pack b, Pack c) { return select(Mask::of_bits(first), a, select(Mask::of_bits(second), b, c)); };
+  const Pack own = rotated(g[0], g[1], g[2]), lone = rotated(f[0], f[1], f[2]);
   Pack F[3] = {lone}, G[3] = {select(Mask::of_bits(one), own, -own), Pack(0), Pack(0)}, X[3][3], size = dS;
-  for (int i = 0; i < 3; ++i) X[0][i] = turned(x[0][i], x[1][i], x[2][i]);
+  for (int i = 0; i < 3; ++i) X[0][i] = rotated(x[0][i], x[1][i], x[2][i]);
   for (int k = 1; k < 3; ++k) {
     const int p = k, q = (1 + k) % 3, r = (2 + k) % 3;
-    const Pack share = own / (own - turned(g[p], g[q], g[r]));
-    F[k] = lone + share * (turned(f[p], f[q], f[r]) - lone);
-    for (int i = 0; i < 3; ++i) X[k][i] = X[0][i] + share * (turned(x[p][i], x[q][i], x[r][i]) - X[0][i]);
+    const Pack share = own / (own - rotated(g[p], g[q], g[r]));
+    F[k] = lone + share * (rotated(f[p], f[q], f[r]) - lone);
+    for (int i = 0; i < 3; ++i) X[k][i] = X[0][i] + share * (rotated(x[p][i], x[q][i], x[r][i]) - X[0][i]);
     size *= share;
   }
   add_products(F, G, X, size, (one | two) & marked, i0, i1);
