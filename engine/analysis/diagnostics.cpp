@@ -14,7 +14,7 @@ void update_diagnostics(RunDiagnostics& watch, const State& s, double allowed, d
   }
   const bool sinking = s.max_penetration_relative > std::max(0.01, watch.max_penetration);
   watch.max_penetration = s.max_penetration_relative;
-  const long steps = s.step - watch.diagnosed;
+  const long steps = s.step - watch.last_update;
   if (residual > tolerance) watch.past_tolerance += steps;
   if (past.count[0] == 0) past.add(s.last_dt / allowed, steps);
   const long late = past.count[0];
@@ -22,7 +22,7 @@ void update_diagnostics(RunDiagnostics& watch, const State& s, double allowed, d
   watch.past_step.worst = std::max(watch.past_step.worst, past.worst);
   if (sinking) watch.sinking += steps;
   watch.warned += residual > tolerance || sinking ? steps : late;
-  watch.diagnosed = s.step;
+  watch.last_update = s.step;
 }
 
 bool stepped_too_far(const RunDiagnostics& watch, const State& s) {

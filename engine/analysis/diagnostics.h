@@ -15,7 +15,7 @@ struct RunDiagnostics {
   int residual_joint = -1;                 // joint whose energy balance jumped most up to then
   double dt_margin = 0;                    // largest ratio of a time step to the limit then in force
   double max_penetration = 0;              // relative penetration at the last update
-  long warned = 0, diagnosed = 0;          // warned steps; step of the last update
+  long warned = 0, last_update = 0;        // warned steps; step of the last update
   long past_tolerance = 0, sinking = 0;    // warned steps, by cause
   LongSteps past_step;
 };
@@ -23,16 +23,16 @@ struct RunDiagnostics {
 template <class T, class F>
 requires std::is_same_v<std::remove_const_t<T>, RunDiagnostics>
 void each(T& t, F&& f) {
-  f("trust_residual", t.residual);
-  f("trust_residual_time", t.residual_time);
-  f("trust_residual_joint", t.residual_joint);
-  f("trust_deepest", t.max_penetration);
-  f("trust_warned", t.warned);
-  f("trust_looked", t.diagnosed);
-  f("trust_past_gate", t.past_tolerance);
-  f("trust_past_step", t.past_step.count);
-  f("trust_dt_margin", t.past_step.worst);
-  f("trust_sinking", t.sinking);
+  f("diagnostics_residual", t.residual);
+  f("diagnostics_residual_time", t.residual_time);
+  f("diagnostics_residual_joint", t.residual_joint);
+  f("diagnostics_max_penetration", t.max_penetration);
+  f("diagnostics_warned", t.warned);
+  f("diagnostics_last_update", t.last_update);
+  f("diagnostics_past_tolerance", t.past_tolerance);
+  f("diagnostics_past_step", t.past_step.count);
+  f("diagnostics_dt_margin", t.past_step.worst);
+  f("diagnostics_sinking", t.sinking);
 }
 
 // True if too many steps exceeded the stability limit by too much for the results to be believed.
