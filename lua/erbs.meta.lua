@@ -204,8 +204,22 @@ function dry(keys) end
 ---@return erbs.law # for joint{ law = ... }
 function mortar(keys) end
 
+---@class erbs.dilatant_keys
+---@field kn number normal stiffness of the joint [Pa/m; 1000 to 1e+16]
+---@field ks? number shear stiffness of the joint (default 0.4 kn) [Pa/m; 0 to 1e+16]
+---@field mu number coefficient of friction, asperities included [0 to 10]
+---@field psi number dilation angle of the unworn faces; its tangent must be below mu [rad; 0 to 0.8]
+---@field wear_slip number slip at which the asperities are worn off [m; 1e-06 to 1]
+---@field damping? number viscous ratio of a joint that has opened or slid, relative to its critical value [0 to 1; default 0.3]
+---@field interlock? number as in dry{} [0 to 1; default 1]
+
+---A dry joint of rough faces: sliding lifts them at the angle psi, which falls to zero over the slip `wear_slip`.
+---@param keys erbs.dilatant_keys
+---@return erbs.law # for joint{ law = ... }
+function dilatant(keys) end
+
 ---@class erbs.joint_keys
----@field law? erbs.law a law value: mortar{ ... } or dry{ ... }
+---@field law? erbs.law a law value: dry{ ... }, mortar{ ... } or dilatant{ ... }
 ---@field between? string|string[] two groups, { "wall", "slab" }; "" is any group (default: any two groups)
 ---@field name? string name of the rule, for reports
 ---@field thickness? number nominal gap at rest: faces that touch or lie no further apart are joined (default the thickness of the law) [m; 0 to 1]
@@ -287,6 +301,16 @@ function table_wave(keys) end
 ---@param keys erbs.record_keys
 ---@return erbs.wave # for a load; wave(t) is its value at time t
 function record(keys) end
+
+---@class erbs.ricker_keys
+---@field amplitude number peak value, in the unit of the load
+---@field frequency number frequency at which the spectrum peaks [Hz; 1e-09 to 1e+09]
+---@field start? number time of the first value, 6 / (pi frequency) before the peak [s; -1e+09 to 1e+09; default 0]
+
+---A Ricker wavelet: a smooth pulse between two lobes, its peak 6 / (pi frequency) after `start`.
+---@param keys erbs.ricker_keys
+---@return erbs.wave # for a load; wave(t) is its value at time t
+function ricker(keys) end
 
 ---@class erbs.ground_motion_keys
 ---@field wave erbs.wave|number|fun(t: number): number a wave, a number, or a function of time [m/s2]

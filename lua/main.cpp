@@ -16,10 +16,8 @@
 #include "lua/program/options.h"
 #include "lua/program/say.h"
 
+namespace erbs::lua {
 namespace {
-
-using erbs::Options;
-using erbs::shown;
 
 // A number in a range, ends included. CLI::Range would accept NaN, which is neither below nor above any number.
 template <class T>
@@ -41,197 +39,199 @@ CLI::Validator filled() {
 }
 
 struct CommandLine {
-  Options options;
-  std::vector<std::string> defines;
-  std::string until, max_wall, checkpoint_every, budget, target, within, from, window;
+  RunCommand run;
+  CheckCommand check;
+  RecordCommand record;
+  TestCommand test;
+  AccuracyCommand accuracy;
+  TimingCommand bench, effects;
+  std::vector<std::string> words;  // of erbs help
 };
 
-void add_output(CLI::App& verb, CommandLine& line, const std::string& place = "runs/<scene name>") {
-  verb.add_option("-o", line.options.directory, "folder for the results (default " + place + ")")->check(filled())->type_name("DIR");
-  verb.add_flag("--force", line.options.force, "replace an earlier run there");
-  verb.add_flag("-q,--quiet", line.options.quiet, "print errors only");
+// An option whose value is a length of time, in s.
+template <class T>
+void add_time(CLI::App& verb, const std::string& name, T& seconds, const std::string& text, const char* example) {
+  verb.add_option_function<std::string>(
+          name, [&seconds, name](const std::string& value) { seconds = seconds_of(value, name); }, text)
+      ->check(filled())
+      ->type_name(example);
 }
 
-void add_scene(CLI::App& verb, CommandLine& line) {
-  verb.add_option("-D", line.defines, "set a param of the scene, with units: -D pga=0.8*g")
+void add_max_wall(CLI::App& verb, std::optional<double>& seconds, const std::string& text, const char* example) {
+  const auto read = [&seconds](const std::string& value) {
+    seconds = seconds_of(value, "--max-wall");
+    if (seconds == 0.0) throw Error("--max-wall " + value + ": leaves no time to run; give more, such as 30m");
+  };
+  verb.add_option_function<std::string>("--max-wall", read, text)->check(filled())->type_name(example);
+}
+
+void add_output(CLI::App& verb, OutputOptions& output, const std::string& place = "runs/<scene name>") {
+  verb.add_option("-o", output.directory, "folder for the results (default " + place + ")")->check(filled())->type_name("DIR");
+  verb.add_flag("--force", output.force, "replace an earlier run there");
+  verb.add_flag("-q,--quiet", output.quiet, "print errors only");
+}
+
+// -D name=value, after parsing.
+void read_defines(const std::vector<std::string>& defines, Overrides& overrides) {
+  for (const auto& define : defines) {
+    const size_t equals = define.find('=');
+    if (equals == std::string::npos || equals == 0) throw Error("-D " + shown(define) + ": write -D name=value, such as -D pga=0.8*g");
+    overrides.emplace_back(define.substr(0, equals), define.substr(equals + 1));
+  }
+}
+
+void add_scene(CLI::App& verb, SceneOptions& scene) {
+  verb.add_option_function<std::vector<std::string>>(
+          "-D", [&scene](const std::vector<std::string>& defines) { read_defines(defines, scene.overrides); },
+          "set a param of the scene, with units: -D pga=0.8*g")
       ->type_name("name=value")
       ->expected(1)
       ->take_all();
-  verb.add_flag("--allow-unstable", line.options.allow_unstable, "allow a time step beyond the limit");
-  verb.add_option("--allow", line.options.allow, "allow the scene to read files in this folder besides its own")
+  verb.add_flag("--allow-unstable", scene.allow_unstable, "allow a time step beyond the limit");
+  verb.add_option("--allow", scene.allow, "allow the scene to read files in this folder besides its own")
       ->type_name("DIR")
       ->expected(1)
       ->take_all();
-  verb.add_option("--max-blocks", line.options.max_blocks, "refuse a scene of more blocks (default 300000)")->check(within(1, 100000000));
-  verb.add_option("--max-points", line.options.max_points, "refuse a scene of more contact points (default 20000000)")
+  verb.add_option("--max-blocks", scene.max_blocks, "refuse a scene of more blocks (default 300000)")->check(within(1, 100000000));
+  verb.add_option("--max-points", scene.max_points, "refuse a scene of more contact points (default 20000000)")
       ->check(within(1, 2000000000));
 }
 
-void add_run(CLI::App& app, CommandLine& line) {
+void add_run(CLI::App& app, RunCommand& command) {
   CLI::App& run = *app.add_subcommand("run", "run a scene into a folder of results");
-  run.add_option("SCENE.lua", line.options.words, "the scene")->required()->expected(1);
-  add_output(run, line);
-  add_scene(run, line);
-  run.add_option("--threads", line.options.threads, "threads (default: as many as the machine has, 1 for few blocks)")
-      ->check(within(1, 1024));
-  run.add_option("--until", line.until, "stop at this simulated time, with a checkpoint")->check(filled())->type_name("T");
-  run.add_flag("--resume", line.options.resume, "continue from the checkpoint in the folder");
-  run.add_option("--max-wall", line.max_wall, "stop after this wall-clock time, with a checkpoint")->check(filled())->type_name("30m");
-  run.add_option("--checkpoint-every", line.checkpoint_every, "wall-clock time between checkpoints (default 60s)")
-      ->check(filled())
-      ->type_name("60s");
-  run.add_option("--dt-fraction", line.options.dt_fraction, "time step as a share of dt_critical, whatever the scene says")
+  SceneChanges& changes = command.changes;
+  run.add_option("SCENE.lua", command.words, "the scene")->required()->expected(1);
+  add_output(run, command.output);
+  add_scene(run, command.scene);
+  run.add_option("--threads", command.threads, "threads (default: as many as the machine has, 1 for few blocks)")->check(within(1, 1024));
+  add_time(run, "--until", command.until, "stop at this simulated time, with a checkpoint", "T");
+  run.add_flag("--resume", command.resume, "continue from the checkpoint in the folder");
+  add_max_wall(run, command.max_wall, "stop after this wall-clock time, with a checkpoint", "30m");
+  add_time(run, "--checkpoint-every", command.checkpoint_every, "wall-clock time between checkpoints (default 60s)", "60s");
+  run.add_option("--dt-fraction", changes.dt_fraction, "time step as a share of dt_critical, whatever the scene says")
       ->check(within(1e-6, 1e3));
-  run.add_option("--points", line.options.points, "contact points of every joint: 4, 9, 16, 25 (a square on each face)")
+  run.add_option("--points", changes.points, "contact points of every joint: 4, 9, 16, 25 (a square on each face)")
       ->check(within(1, 10000));
-  run.add_option("--rule", line.options.rule, "quadrature rule of the contact points of every joint")
+  run.add_option("--rule", changes.rule, "quadrature rule of the contact points of every joint")
       ->check(CLI::IsMember({"simpson", "midpoint", "trapezoid", "gauss"}));
-  run.add_option("--set", line.options.settings, "another value for a key of analysis{}: --set lazy_rotation=1e-4")
+  run.add_option("--set", changes.settings, "another value for a key of analysis{}: --set lazy_rotation=1e-4")
       ->type_name("key=value")
       ->expected(1)
       ->take_all();
-  run.add_option("--stiffness", line.options.stiffness, "factor on the stiffness of every joint")->check(within(1e-6, 1e6));
-  run.add_option("--damping", line.options.damping, "mass damping c/m instead of the scene's, 1/s")->check(within(0.0, 1e7));
-  run.add_option("--damping-form", line.options.damping_form,
-                 "velocity that mass damping uses: the mean over the step, or the one before it")
+  run.add_option("--stiffness", changes.stiffness, "factor on the stiffness of every joint")->check(within(1e-6, 1e6));
+  run.add_option("--damping", changes.damping, "mass damping c/m instead of the scene's, 1/s")->check(within(0.0, 1e7));
+  run.add_option("--damping-form", changes.damping_form, "velocity that mass damping uses: the mean over the step, or the one before it")
       ->check(CLI::IsMember({"centred", "explicit"}));
-  run.add_option("--from", line.from, "start the loads at this time, with the structure at rest: a window of a long record")
-      ->check(filled())
-      ->type_name("T");
-  run.add_option("--noise", line.options.noise,
+  add_time(run, "--from", changes.from, "start the loads at this time, with the structure at rest: a window of a long record", "T");
+  run.add_option("--noise", changes.noise,
                  "perturb the initial state of every free block by up to this (m and rad), always with the same seed")
       ->check(within(0.0, 1.0));
-  run.add_option("--twin-noise", line.options.twin_noise)->group("");  // of the twin run that --twin starts
-  run.add_flag("--twin", line.options.twin,
-               "also run a twin perturbed by 1e-9, and report when the two differ by 1 mm (the chaos horizon)");
+  run.add_option("--twin-noise", command.twin_noise)->group("");  // of the twin run that --twin starts
+  run.add_flag("--twin", command.twin, "also run a twin perturbed by 1e-9, and report when the two differ by 1 mm (the chaos horizon)");
   run.add_flag_callback(
-      "--no-figures", [&line] { line.options.figures = false; }, "draw no curves");
-  run.add_flag("--figure-scripts", line.options.figure_scripts)->group("");  // of the runs that erbs test starts
-  run.add_flag("--video", line.options.video, "draw the run and make its video at the end");
-  run.add_option("--study", line.options.study)->group("");  // of the runs that a study starts
-  run.add_option("--without", line.options.without, "run without an effect of the scene, by its name in erbs check")
+      "--no-figures", [&command] { command.figures = false; }, "draw no curves");
+  run.add_flag("--figure-scripts", command.figure_scripts)->group("");  // of the runs that erbs test starts
+  run.add_flag("--video", command.video, "draw the run and make its video at the end");
+  run.add_option("--study", command.study)->group("");  // of the runs that a study starts
+  run.add_option("--without", changes.without, "run without an effect of the scene, by its name in erbs check")
       ->type_name("EFFECT")
       ->take_all();
-  run.add_flag("--log-json", line.options.log_json, "print progress as lines of JSON");
-  run.add_flag("--fail-on-collapse", line.options.fail_on_collapse, "exit with 4 when the structure collapses");
+  run.add_flag("--log-json", command.log_json, "print progress as lines of JSON");
+  run.add_flag("--fail-on-collapse", command.fail_on_collapse, "exit with 4 when the structure collapses");
 }
 
 void add_others(CLI::App& app, CommandLine& line) {
   CLI::App& check = *app.add_subcommand("check", "report all mistakes of a scene, and the size and cost of a run, without running it");
-  check.add_option("SCENE.lua", line.options.words, "the scenes")->required();
-  check.add_flag("-q,--quiet", line.options.quiet, "print errors only");
-  add_scene(check, line);
+  check.add_option("SCENE.lua", line.check.words, "the scenes")->required();
+  check.add_flag("-q,--quiet", line.check.quiet, "print errors only");
+  add_scene(check, line.check.scene);
 
   CLI::App& render = *app.add_subcommand("render", "draw a run: frames, video, curves (options: erbs-render --help)");
   render.set_help_flag();  // erbs-render explains its own options
   render.prefix_command();
 
   CLI::App& record = *app.add_subcommand("record", "report a ground motion: points, dt, peaks, end values, Arias intensity, spectrum");
-  record.add_option("FILE", line.options.words, "PEER AT2, CSV or text of one or two columns")->required();
-  add_output(record, line, "runs/<file name>");
-  record.add_option("--dt", line.options.record.dt, "time step of a file that has values only, s")->check(within(1e-6, 1e3));
-  record.add_option("--unit", line.options.record.unit, "unit of the values, if the file does not give one: g, m/s2, cm/s2, gal, ...");
-  record.add_option("--column", line.options.record.column, "column of the values, from 1")->check(within(1, 1000));
+  record.add_option("FILE", line.record.words, "PEER AT2, CSV or text of one or two columns")->required();
+  add_output(record, line.record.output, "runs/<file name>");
+  record.add_option("--dt", line.record.record.dt, "time step of a file that has values only, s")->check(within(1e-6, 1e3));
+  record.add_option("--unit", line.record.record.unit, "unit of the values, if the file does not give one: g, m/s2, cm/s2, gal, ...");
+  record.add_option("--column", line.record.record.column, "column of the values, from 1")->check(within(1, 1000));
 
   CLI::App& test = *app.add_subcommand("test", "run scenes with expectations, and print the table of results");
-  test.add_option("DIR|SCENE.lua", line.options.words, "folders and scenes")->required();
-  test.add_option("-j", line.options.jobs, "number of runs at once (default: one per processor)")->check(within(1, 1024));
-  test.add_option("--threads", line.options.threads, "threads of each run")->check(within(1, 1024));
-  test.add_option("--max-wall", line.max_wall, "stop a run after this wall-clock time")->check(filled())->type_name("10m");
-  add_scene(test, line);
-  test.add_option("-o", line.options.directory, "folder for the runs (default runs/test)")->check(filled())->type_name("DIR");
-  test.add_flag("-q,--quiet", line.options.quiet, "no progress");
-  test.add_flag("--quick", line.options.quick, "only scenes with label(\"quick\")");
-  test.add_option("--book", line.options.book, "write the verification book to this file, with its figures and its summary in README.md")
+  test.add_option("DIR|SCENE.lua", line.test.words, "folders and scenes")->required();
+  test.add_option("-j", line.test.batch.jobs, "number of runs at once (default: one per processor)")->check(within(1, 1024));
+  test.add_option("--threads", line.test.batch.threads, "threads of each run")->check(within(1, 1024));
+  add_max_wall(test, line.test.batch.max_wall, "stop a run after this wall-clock time", "10m");
+  add_scene(test, line.test.scene);
+  test.add_option("-o", line.test.directory, "folder for the runs (default runs/test)")->check(filled())->type_name("DIR");
+  test.add_flag("-q,--quiet", line.test.batch.quiet, "no progress");
+  test.add_flag("--quick", line.test.quick, "only scenes with label(\"quick\")");
+  test.add_option("--book", line.test.book, "write the verification book to this file, with its figures and its summary in README.md")
       ->type_name("FILE.md");
-  test.add_flag("--grid", line.options.grid,
+  test.add_flag("--grid", line.test.grid,
                 "run every scene at dt 0.2, 0.5, 0.9 of the limit, with 4, 9, 25 points per joint and noise, or over its family{}; report "
                 "the worst value of each invariant");
   test.add_option(
-          "--seeds", line.options.seeds,
+          "--seeds", line.test.seeds,
           "run every scene with its param seed at 1, 2, ... N; report the worst value of each invariant, and the seeds that fail it")
       ->type_name("N")
       ->check(within(1, 1000000));
-  test.add_flag("--resume", line.options.resume, "with --grid or --seeds: keep finished runs");
-  test.add_option("--budget", line.budget, "wall-clock time of all runs together; no run starts after it (--grid: 60m)")
-      ->check(filled())
-      ->type_name("60m");
+  test.add_flag("--resume", line.test.batch.resume, "with --grid or --seeds: keep finished runs");
+  add_time(test, "--budget", line.test.batch.budget, "wall-clock time of all runs together; no run starts after it (--grid: 60m)", "60m");
 
   CLI::App& accuracy =
       *app.add_subcommand("accuracy", "the cost of accuracy: run a scene with one setting changed at a time, errors over cost");
-  accuracy.add_option("SCENE.lua", line.options.words, "the scene; with --study, the folder of the problems (default scenes/accuracy)");
-  add_output(accuracy, line);
-  add_scene(accuracy, line);
-  accuracy.add_option("-j", line.options.jobs, "number of runs at once (default: one per processor)")->check(within(1, 1024));
-  accuracy.add_flag("--resume", line.options.resume, "keep finished runs");
-  accuracy.add_option("--target", line.target, "find the cheapest setting with this error, and the line to write into the scene")
+  accuracy.add_option("SCENE.lua", line.accuracy.words, "the scene; with --study, the folder of the problems (default scenes/accuracy)");
+  add_output(accuracy, line.accuracy.output);
+  add_scene(accuracy, line.accuracy.scene);
+  accuracy.add_option("-j", line.accuracy.batch.jobs, "number of runs at once (default: one per processor)")->check(within(1, 1024));
+  accuracy.add_flag("--resume", line.accuracy.batch.resume, "keep finished runs");
+  const auto read_target = [&line](const std::string& value) { line.accuracy.target = share_of(value, "--target"); };
+  accuracy
+      .add_option_function<std::string>("--target", read_target,
+                                        "find the cheapest setting with this error, and the line to write into the scene")
       ->check(filled())
       ->type_name("1%");
-  accuracy
-      .add_option(
-          "--budget", line.budget,
-          "find the most accurate setting that runs within this time; with --map: wall-clock time of all runs together (default 60m)")
-      ->check(filled())
-      ->type_name("60s");
-  accuracy.add_option("--quantity", line.options.quantity,
+  add_time(accuracy, "--budget", line.accuracy.budget,
+           "find the most accurate setting that runs within this time; with --map: wall-clock time of all runs together (default 60m)",
+           "60s");
+  accuracy.add_option("--quantity", line.accuracy.quantity,
                       "the metric to measure (default: the first with an expectation, otherwise the first)");
-  accuracy.add_option("--max-wall", line.max_wall, "wall-clock time of each run (default 5m)")->check(filled())->type_name("5m");
-  accuracy
-      .add_option("--within", line.within,
-                  "wall-clock time of all runs of the scene, cheap ones first; runs that do not fit are reported, and --resume makes them "
-                  "(default 2m; 0: no limit, as with --study)")
-      ->check(filled())
-      ->type_name("2m");
-  accuracy.add_flag("--study", line.options.whole_study, "every problem of the folder, media/accuracy.png and the tables of its README.md");
+  add_max_wall(accuracy, line.accuracy.batch.max_wall, "wall-clock time of each run (default 5m)", "5m");
+  add_time(accuracy, "--within", line.accuracy.within,
+           "wall-clock time of all runs of the scene, cheap ones first; runs that do not fit are reported, and --resume makes them "
+           "(default 2m; 0: no limit, as with --study)",
+           "2m");
+  accuracy.add_flag("--study", line.accuracy.whole_study,
+                    "every problem of the folder, media/accuracy.png and the tables of its README.md");
 
-  accuracy.add_flag("--map", line.options.map,
+  accuracy.add_flag("--map", line.accuracy.map,
                     "instead: find the time steps, stiffnesses and dampings at which both solvers converge, over a window around the peak");
-  accuracy.add_option("--window", line.window, "with --map: length of the window (default 2s)")->check(filled())->type_name("2s");
+  add_time(accuracy, "--window", line.accuracy.window, "with --map: length of the window (default 2s)", "2s");
 
   CLI::App& bench = *app.add_subcommand("bench", "time the step kernel against the reference and the limits of the machine");
-  bench.add_option("SCENE.lua", line.options.words, "scenes to time (default: the scenes of scenes/bench, into a folder)");
-  add_output(bench, line);
-  add_scene(bench, line);
+  bench.add_option("SCENE.lua", line.bench.words, "scenes to time (default: the scenes of scenes/bench, into a folder)");
+  add_output(bench, line.bench.output);
+  add_scene(bench, line.bench.scene);
 
   CLI::App& effects = *app.add_subcommand("effects", "the cost of each effect of a scene, and the change of the results without it");
-  effects.add_option("SCENE.lua", line.options.words, "the scene")->required()->expected(1);
-  add_output(effects, line);
-  add_scene(effects, line);
+  effects.add_option("SCENE.lua", line.effects.words, "the scene")->required()->expected(1);
+  add_output(effects, line.effects.output);
+  add_scene(effects, line.effects.scene);
 
   CLI::App& help = *app.add_subcommand("help", "this text, or the help of a verb or of a scene function");
-  help.add_option("VERB|FUNCTION", line.options.words, "verb or function to explain");
+  help.add_option("VERB|FUNCTION", line.words, "verb or function to explain");
   help.prefix_command();
   app.add_subcommand("version", "the version and the commit it was built from");
-}
-
-// Converts options that come as text (-D name=value, --until and the like) after parsing.
-void settle(CommandLine& line) {
-  Options& options = line.options;
-  for (const auto& define : line.defines) {
-    const size_t equals = define.find('=');
-    if (equals == std::string::npos || equals == 0)
-      throw erbs::Error("-D " + shown(define) + ": write -D name=value, such as -D pga=0.8*g");
-    options.overrides.emplace_back(define.substr(0, equals), define.substr(equals + 1));
-  }
-  if (!line.until.empty()) options.until = erbs::seconds_of(line.until, "--until");
-  if (!line.max_wall.empty()) options.max_wall = erbs::seconds_of(line.max_wall, "--max-wall");
-  if (!line.target.empty()) options.target = erbs::share_of(line.target, "--target");
-  if (!line.budget.empty()) options.budget = erbs::seconds_of(line.budget, "--budget");
-  if (!line.within.empty()) options.within = erbs::seconds_of(line.within, "--within");
-  if (!line.from.empty()) options.from = erbs::seconds_of(line.from, "--from");
-  if (!line.window.empty()) options.window = erbs::seconds_of(line.window, "--window");
-  if (options.max_wall == 0.0) throw erbs::Error("--max-wall " + line.max_wall + ": leaves no time to run; give more, such as 30m");
-  if (!line.checkpoint_every.empty()) options.checkpoint_every = erbs::seconds_of(line.checkpoint_every, "--checkpoint-every");
-  if (options.force && options.resume) throw erbs::Error("--force and --resume exclude each other; keep one");
 }
 
 void check_verb(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> verbs;
   for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
-  if (argc < 2) throw erbs::Error(fmt::format("erbs takes a verb: {}; see erbs help", fmt::join(verbs, ", ")));
+  if (argc < 2) throw Error(fmt::format("erbs takes a verb: {}; see erbs help", fmt::join(verbs, ", ")));
   const std::string word = argv[1];
   if (!word.starts_with("-") && std::find(verbs.begin(), verbs.end(), word) == verbs.end())
-    throw erbs::Error(fmt::format("there is no verb {}{}; see erbs help", shown(word, 60), erbs::did_you_mean(word, verbs)));
+    throw Error(fmt::format("there is no verb {}{}; see erbs help", shown(word, 60), did_you_mean(word, verbs)));
 }
 
 // Refuses a value for an option that takes none: CLI11 would read --force=1e400 as --force.
@@ -245,72 +245,77 @@ void check_flags(const CLI::App& app, int argc, char** argv) {
     const std::string name(word.substr(0, word.find('=')));
     if (!word.starts_with("--") || name.size() == word.size()) continue;
     const CLI::Option* option = verb->get_option_no_throw(name);
-    if (option != nullptr && option->get_items_expected_max() == 0)
-      throw erbs::Error(fmt::format("{} takes no value; write {}", name, name));
+    if (option != nullptr && option->get_items_expected_max() == 0) throw Error(fmt::format("{} takes no value; write {}", name, name));
   }
 }
 
-int call(const CLI::App& app, CommandLine& line) {
+int call(const CLI::App& app, const CommandLine& line) {
   const CLI::App& verb = *app.get_subcommands().front();
   const std::string name = verb.get_name();
-  settle(line);
-  if (name == "run") return erbs::verb_run(line.options);
-  if (name == "check") return erbs::verb_check(line.options);
-  if (name == "record") return erbs::verb_record(line.options);
-  if (name == "accuracy" && line.options.map) return erbs::verb_map(line.options);
-  if (name == "accuracy") return erbs::verb_accuracy(line.options);
-  if (name == "test") return erbs::verb_test(line.options);
-  if (name == "bench") return erbs::verb_bench(line.options);
-  if (name == "effects") return erbs::verb_effects(line.options);
-  if (name == "version") return erbs::verb_version();
-  for (const auto& word : verb.remaining()) line.options.words.push_back(word);
-  if (name == "render") return erbs::verb_render(line.options);
+  const AccuracyCommand& accuracy = line.accuracy;
+  if ((line.run.output.force && line.run.resume) || (accuracy.output.force && accuracy.batch.resume))
+    throw Error("--force and --resume exclude each other; keep one");
+  if (name == "run") return verb_run(line.run);
+  if (name == "check") return verb_check(line.check);
+  if (name == "record") return verb_record(line.record);
+  if (name == "accuracy") return accuracy.map ? verb_map(accuracy) : verb_accuracy(accuracy);
+  if (name == "test") return verb_test(line.test);
+  if (name == "bench") return verb_bench(line.bench);
+  if (name == "effects") return verb_effects(line.effects);
+  if (name == "version") return verb_version();
+  std::vector<std::string> words = line.words;
+  for (const auto& word : verb.remaining()) words.push_back(word);
+  if (name == "render") return verb_render(words);
   // CLI11 prints the help of a verb
-  if (!line.options.words.empty())
+  if (!words.empty())
     for (const CLI::App* other : app.get_subcommands({}))
-      if (other->get_name() == line.options.words.front()) return (erbs::say("{}", other->help("erbs")), erbs::exit_ok);
+      if (other->get_name() == words.front()) return (say("{}", other->help("erbs")), exit_ok);
   // not app.help(), which would print the help of the verb help
-  return erbs::verb_help(line.options, app.get_formatter()->make_help(&app, "erbs", CLI::AppFormatMode::Normal));
+  return verb_help(words, app.get_formatter()->make_help(&app, "erbs", CLI::AppFormatMode::Normal));
 }
 
 int answer(CLI::App& app, CommandLine& line, int argc, char** argv) {
-  const auto wrong = [](const std::string& what, int code = erbs::exit_usage) {
-    erbs::tell(stderr, what);
+  const auto wrong = [](const std::string& what, int code = exit_usage) {
+    tell(stderr, what);
     return code;
   };
   try {
     check_verb(app, argc, argv);
     check_flags(app, argc, argv);
     app.parse(argc, argv);
-    erbs::chosen_isa();  // refuses an unknown ERBS_ISA
+    chosen_isa();  // refuses an unknown ERBS_ISA
     return call(app, line);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);  // --help
     return wrong(fmt::format("{}; see erbs help", error.what()));
-  } catch (const erbs::Interrupted& error) { return wrong(error.what(), erbs::exit_interrupted); } catch (const erbs::NumbersError& error) {
-    return wrong(error.what(), erbs::exit_numbers);
+  } catch (const Interrupted& error) { return wrong(error.what(), exit_interrupted); } catch (const NumbersError& error) {
+    return wrong(error.what(), exit_numbers);
   } catch (const std::filesystem::filesystem_error& error) {
     return wrong(fmt::format("{}: {}; check the path", error.path1().string(), error.code().message()));
   } catch (const std::system_error& error) {
-    if (std::ferror(stdout) != 0) return erbs::exit_ok;  // finish_streams() reports it
+    if (std::ferror(stdout) != 0) return exit_ok;  // finish_streams() reports it
     return wrong(fmt::format("the system refuses: {}; is a limit of memory, threads or files (ulimit) reached?", error.what()));
   } catch (const std::bad_alloc&) {
     return wrong("there is not enough memory; build a smaller model, or raise the limit (ulimit -v)");
-  } catch (const std::logic_error& error) { return wrong(error.what(), erbs::exit_numbers); } catch (const std::exception& error) {
+  } catch (const std::logic_error& error) { return wrong(error.what(), exit_numbers); } catch (const std::exception& error) {
     return wrong(error.what());
   }
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  erbs::prepare_streams();
+int run_program(int argc, char** argv) {
+  prepare_streams();
   mallopt(M_MMAP_THRESHOLD, 1 << 20);  // large arrays return to the system when freed, so that the heap does not fragment
   CommandLine line;
   CLI::App app("ERBS: collapse of masonry by rigid blocks and mortar springs", "erbs");
   app.require_subcommand(1);
-  app.set_version_flag("--version", "erbs " + erbs::program_version(), "the version and the commit it was built from");
-  add_run(app, line);
+  app.set_version_flag("--version", "erbs " + program_version(), "the version and the commit it was built from");
+  add_run(app, line.run);
   add_others(app, line);
-  return erbs::finish_streams(answer(app, line, argc, argv), erbs::exit_usage);
+  return finish_streams(answer(app, line, argc, argv), exit_usage);
 }
+
+}  // namespace erbs::lua
+
+int main(int argc, char** argv) { return erbs::lua::run_program(argc, argv); }

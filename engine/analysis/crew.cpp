@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <ctime>
 
-namespace erbs {
+namespace erbs::analysis {
 namespace {
 
 constexpr double sample_every = 0.25, trial = 0.15;  // s
@@ -76,4 +76,4 @@ bool Crew::should_change(long step, double wall, double processor) {
   return now_ != before;
 }
 
-}  // namespace erbs
+}  // namespace erbs::analysis

@@ -3,7 +3,7 @@
 // threads.
 #pragma once
 
-namespace erbs {
+namespace erbs::analysis {
 
 class Crew {
  public:
@@ -27,4 +27,4 @@ class Crew {
   double window_, rate_ = 0, rest_, quiet_until_ = 0, cost_ = 0;  // s; rate_: steps/s before the trial
 };
 
-}  // namespace erbs
+}  // namespace erbs::analysis

@@ -3,31 +3,31 @@
 #include <algorithm>
 #include <cmath>
 
-namespace erbs {
+namespace erbs::analysis {
 
 void update_diagnostics(RunDiagnostics& watch, const State& s, double allowed, double tolerance, LongSteps past) {
   const double residual = s.energy.residual_relative;
   if (residual > watch.residual) {
     watch.residual = residual;
-    watch.residual_time = s.t - s.last_dt;
+    watch.residual_time = s.time.t - s.time.last_dt;
     watch.residual_joint = s.energy.largest_jump_joint;
   }
-  const bool sinking = s.max_penetration_relative > std::max(0.01, watch.max_penetration);
-  watch.max_penetration = s.max_penetration_relative;
-  const long steps = s.step - watch.last_update;
+  const bool sinking = s.observed.max_penetration_relative > std::max(0.01, watch.max_penetration);
+  watch.max_penetration = s.observed.max_penetration_relative;
+  const long steps = s.time.step - watch.last_update;
   if (residual > tolerance) watch.past_tolerance += steps;
-  if (past.count[0] == 0) past.add(s.last_dt / allowed, steps);
+  if (past.count[0] == 0) past.add(s.time.last_dt / allowed, steps);
   const long late = past.count[0];
   for (std::size_t i = 0; i < past.count.size(); ++i) watch.past_step.count[i] += past.count[i];
   watch.past_step.worst = std::max(watch.past_step.worst, past.worst);
   if (sinking) watch.sinking += steps;
   watch.warned += residual > tolerance || sinking ? steps : late;
-  watch.last_update = s.step;
+  watch.last_update = s.time.step;
 }
 
 bool stepped_too_far(const RunDiagnostics& watch, const State& s) {
   for (std::size_t i = 0; i < steps_too_long.size(); ++i)
-    if (double(watch.past_step.count[i]) > steps_too_long[i].share * double(s.step)) return true;
+    if (double(watch.past_step.count[i]) > steps_too_long[i].share * double(s.time.step)) return true;
   return false;
 }
 
@@ -36,15 +36,15 @@ Metrics::Diagnostics diagnostics_of(const RunDiagnostics& watch, const Model& mo
   diagnostics.energy_residual = watch.residual;
   diagnostics.energy_residual_time = watch.residual_time;
   if (watch.residual_joint >= 0) diagnostics.energy_residual_where = model.joint_name(watch.residual_joint);
-  diagnostics.penetration = s.max_penetration_relative;
+  diagnostics.penetration = s.observed.max_penetration_relative;
   diagnostics.dt_margin = watch.past_step.worst;
-  const auto share = [&](long steps) { return s.step > 0 ? double(steps) / double(s.step) : 0; };
+  const auto share = [&](long steps) { return s.time.step > 0 ? double(steps) / double(s.time.step) : 0; };
   diagnostics.warned_share = share(watch.warned);
   diagnostics.past_tolerance_share = share(watch.past_tolerance);
   diagnostics.past_step_share = share(watch.past_step.count[0]);
   diagnostics.sinking_share = share(watch.sinking);
   diagnostics.reset_share = s.energy.reference > 0 ? std::fabs(s.energy.reset) / s.energy.reference : 0;
-  diagnostics.momentum_residual = s.momentum_residual;
+  diagnostics.momentum_residual = s.observed.momentum_residual;
   return diagnostics;
 }
 
@@ -74,4 +74,4 @@ std::string diagnostics_line(const Metrics::Diagnostics& t) {
   return line;
 }
 
-}  // namespace erbs
+}  // namespace erbs::analysis

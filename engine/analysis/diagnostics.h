@@ -8,7 +8,7 @@
 #include "engine/record/results/metrics.h"
 #include "engine/solve/long_steps.h"
 
-namespace erbs {
+namespace erbs::analysis {
 
 struct RunDiagnostics {
   double residual = 0, residual_time = 0;  // worst relative residual of the energy ledger, and its time (s)
@@ -47,4 +47,4 @@ void update_diagnostics(RunDiagnostics& watch, const State& state, double allowe
 Metrics::Diagnostics diagnostics_of(const RunDiagnostics& watch, const Model& model, const State& state);
 std::string diagnostics_line(const Metrics::Diagnostics& diagnostics);
 
-}  // namespace erbs
+}  // namespace erbs::analysis

@@ -22,18 +22,22 @@
 #include "engine/solve/energy.h"
 #include "engine/solve/step.h"
 
-namespace erbs {
+namespace erbs::analysis {
 namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
-// Output written so far, so that a resumed run continues at the same rows.
+// Output written so far, so that a resumed run continues at the same rows. Rows and frames are due at whole multiples of their interval.
 struct OutputSchedule {
   long rows = 0, frames = 0;
   long right = 0;  // last step at which the energy ledger was valid (verdict.h)
   JointEvents joints;
+
+  SamplePlan next(const Analysis& how, const Needs& needs) const {
+    return {std::min(double(rows) * how.output_dt, double(frames) * how.frame_dt), how.duration, needs.block_wrench || needs.load_wrench};
+  }
 };
 
 template <class C, class F>
@@ -54,11 +58,11 @@ class Run {
   void begin();
   void step_on();
   void watch(const BlockVec3& built);
-  bool wanted(double t);
-  void sampled();
+  void record(const Snapshot& now);
   bool stop();
+  void change_threads();
   Snapshot snapshot() const;
-  int broken_joints();
+  int broken_joints() const;
   void save();
   RunSoFar so_far() const;
   void judge();
@@ -79,7 +83,6 @@ class Run {
   long touched_ = 0, slept_ = 0;
   std::optional<RunWriter> writer_;
   RunOutcome out_;
-  bool row_now_ = false, frame_now_ = false;
   double dt_at_start_ = 0;
   double height_energy_ = 0;  // J, potential energy released if all blocks fell to the lowest centroid
   long steps_at_start_ = 0;
@@ -93,7 +96,7 @@ void Run::begin() {
   if (std::filesystem::is_directory(options_.directory)) out_.lock = std::make_shared<FolderLock>(options_.directory);
   if (options_.existing == Existing::resume) check_overrides(options_.directory, options_.override_arguments);
   run_ = prepare(scene_, options_.allow_unstable);
-  dt_at_start_ = run_.state.dt;
+  dt_at_start_ = run_.state.time.dt;
   key_ = {scene_hash(scene_, script_), dt_at_start_, fnv1a(fmt::format("{}", fmt::join(options_.override_arguments, "\n")))};
   const bool resume = options_.existing == Existing::resume;
   WriterProgress written;
@@ -102,7 +105,7 @@ void Run::begin() {
     read_checkpoint(options_.directory, key_, run_.state, written, collapse_, output_, diagnostics_);
     check_sizes(options_.directory, sizes, run_.state);
   } else {
-    const BlockVec3 built = run_.state.u;
+    const BlockVec3 built = run_.state.pose.u;
     start_at_rest(scene_, run_, options_.threads);
     add_noise(run_, options_.noise, 1);
     add_noise(run_, options_.twin_noise, 2);
@@ -125,12 +128,12 @@ void Run::begin() {
   return_free_memory();
   if (!resume)
     for (const std::string& note : options_.notes) writer_->log(note);
-  for (const std::string& w : run_.model.warnings) writer_->log("warning: " + w);
+  for (const std::string& w : run_.warnings) writer_->log("warning: " + w);
   if (!resume && collapse_.under_gravity)
     writer_->log(fmt::format("the structure does not stand under its own weight: {:.3g} % of the mass; {}", 100 * falling_share(run_),
                              summary(collapse_.mechanism, run_.model, 1000)));
-  for (const std::string& note : run_.model.notes) writer_->log(note);
-  out_.warnings = run_.model.warnings;
+  for (const std::string& note : run_.notes) writer_->log(note);
+  out_.warnings = run_.warnings;
   double low = std::numeric_limits<double>::infinity(), weights = 0, moments = 0;
   for (int b = 0; b < run_.model.nblock; ++b) {
     const double height = -run_.model.rest[z(b)].dot(run_.model.gravity);  // times |g|
@@ -138,44 +141,37 @@ void Run::begin() {
     if (run_.model.kind[z(b)] == Kind::moving) weights += run_.model.mass[z(b)], moments += run_.model.mass[z(b)] * height;
   }
   height_energy_ = weights > 0 ? moments - weights * low : 0;
-  solver_.emplace(run_.model, run_.state, options_.threads);
+  solver_.emplace(run_.model, run_.state, run_.range, options_.threads);
   crew_.emplace(options_.threads);
   return_free_memory();
-  steps_at_start_ = run_.state.step;
-  started_at_ = run_.state.t;
+  steps_at_start_ = run_.state.time.step;
+  started_at_ = run_.state.time.t;
   setup_ = seconds() - born_;
   solve_start_ = last_save_ = last_progress_ = seconds();
 }
 
 // A structure that cannot stand under its own weight has collapsed before the run begins, if the falling share of mass is large enough.
 void Run::watch(const BlockVec3& built) {
-  collapse_ = watch_collapse(run_.model, run_.state);
+  collapse_ = watch_collapse(run_.model, run_.state.pose);
   for (const int b : run_.fallers) collapse_.start[z(b)] = built[z(b)].z();
   if (run_.fallers.empty() || falling_share(run_) < scene_.analysis.collapse_fraction) return;
   collapse_.collapsed = collapse_.under_gravity = true;
-  collapse_.mechanism = mechanism_of(run_.model, run_.state, 0);
-}
-
-// Rows and frames are due at whole multiples of their interval, at the first step at or after it. The end is a row and a frame.
-bool Run::wanted(double t) {
-  const double slack = 1e-9 * run_.state.dt;
-  const bool end = t >= scene_.analysis.duration - 0.5 * run_.state.dt;
-  row_now_ = end || t + slack >= double(output_.rows) * scene_.analysis.output_dt;
-  frame_now_ = end || t + slack >= double(output_.frames) * scene_.analysis.frame_dt;
-  return row_now_ || frame_now_;
+  collapse_.mechanism = mechanism_of(run_.model, run_.state.pose, 0);
 }
 
 Snapshot Run::snapshot() const {
-  const SampleState& now = solver_->sample_state();
+  const SampleState& now = solver_->sample();
   const Model& m = run_.model;
-  Snapshot s{.model = m, .state = run_.state, .t = now.t};
-  s.motion = [this, &now, kick = now.excitation.kick, half = 0.5 * run_.state.last_dt](std::size_t b) {
+  const JointState& joints = run_.state.joints;
+  Snapshot s{.model = m, .pose = now.pose, .joints = joints, .energy = run_.state.energy, .t = now.t};
+  s.motion = [&now, &after = run_.state.motion, kick = now.excitation.kick, half = 0.5 * now.last_dt](std::size_t b) {
+    const MotionState& before = now.before;
     MovingBlock o;
-    o.a = (run_.state.v[b] - now.v_before[b]) / kick;
-    o.alpha = (run_.state.w[b] - now.w_before[b]) / kick;
-    o.v = now.v_before[b] + half * o.a;
-    o.w = now.w_before[b] + half * o.alpha;
-    o.spin_momentum = now.spin_before[b] + half / kick * (run_.state.spin_momentum[b] - now.spin_before[b]);
+    o.a = (after.v[b] - before.v[b]) / kick;
+    o.alpha = (after.w[b] - before.w[b]) / kick;
+    o.v = before.v[b] + half * o.a;
+    o.w = before.w[b] + half * o.alpha;
+    o.spin_momentum = before.spin_momentum[b] + half / kick * (after.spin_momentum[b] - before.spin_momentum[b]);
     return o;
   };
   for (const auto& g : m.grounds) {
@@ -183,64 +179,58 @@ Snapshot Run::snapshot() const {
     s.ground_v += integral(g.wave, now.t) * g.direction;
     s.ground_u += second_integral(g.wave, now.t) * g.direction;
   }
-  const Needs needs = writer_->needs();
-  if (needs.block_wrench)
-    for (int b = 0; b < m.nblock; ++b) s.block_wrench.push_back(solver_->block_wrench(b));
-  if (needs.load_wrench)
-    for (int b = 0; b < m.nblock; ++b) s.load_wrench.push_back(solver_->load_wrench(b));
-  if (needs.joint_force) {
-    s.joint_force.reserve(z(m.njoint));
-    for (int j = 0; j < m.njoint; ++j) {
-      std::array<double, 6> f{};
-      if (run_.state.stage[z(j)] == JointStage::cracked) std::copy_n(run_.state.memory[z(j)].resultant, 6, f.begin());
-      if (run_.state.stage[z(j)] == JointStage::intact) {
-        joint_gap(m, run_.state, j, f.data());
-        for (int i = 0; i < 6; ++i) f[z(i)] *= m.joint[z(j)].type->stiffness[i];
-      }
-      s.joint_force.push_back(f);
+  s.block_wrench = now.block_wrench, s.load_wrench = now.load_wrench;
+  for (int j = 0; writer_->needs().joint_force && j < m.njoint; ++j) {
+    const Joint& joint = m.joint[z(j)];
+    const std::size_t a = z(joint.a), b = z(joint.b);
+    std::array<double, 6> f{};
+    if (joints.stage[z(j)] == JointStage::cracked) std::copy_n(joints.memory[z(j)].resultant, 6, f.begin());
+    if (joints.stage[z(j)] == JointStage::intact) {
+      const JointPose pose = pose_of(joint, now.pose.u[a], now.pose.q[a], now.pose.u[b], now.pose.q[b]);
+      for (std::size_t i = 0; i < 6; ++i) f[i] = pose.gap[i] * joint.type->stiffness[i];
     }
+    s.joint_force.push_back(f);
   }
+  s.joints_broken = broken_joints();
   for (int j = 0; j < m.njoint; ++j)
-    if (run_.state.stage[z(j)] != JointStage::contact) s.contact_points += m.joint[z(j)].type->points;
-  s.contact_points += solver_->touching();
+    if (joints.stage[z(j)] != JointStage::contact) s.contact_points += m.joint[z(j)].type->points;
+  s.contact_points += solver_->contacts().touching();
   return s;
 }
 
 // A joint is broken if none of its points carries tension or cohesion any more. Dry joints have none to lose.
-int Run::broken_joints() {
+int Run::broken_joints() const {
   int broken = 0;
   for (int j = 0; j < run_.model.njoint; ++j) {
     const Joint& joint = run_.model.joint[z(j)];
-    if (run_.state.stage[z(j)] == JointStage::intact || run_.model.laws[z(joint.type->law)].dry) continue;
-    const auto first = run_.state.history.begin() + joint.first_point;
+    if (run_.state.joints.stage[z(j)] == JointStage::intact || !run_.model.laws[z(joint.type->law)].has_bond()) continue;
+    const auto first = run_.state.joints.history.begin() + joint.first_point;
     broken += std::all_of(first, first + joint.type->points, [](const PointHistory& h) { return h.damage >= 1; });
   }
   return broken;
 }
 
-void Run::sampled() {
+void Run::record(const Snapshot& now) {
   const double began = seconds();
-  const Snapshot now = snapshot();
   take_events(output_.joints, *solver_);
-  write_events(output_.joints, now.t, run_.model, run_.state, *writer_);
+  write_events(output_.joints, now, *writer_);
   std::vector<int> fallen;
-  const bool collapse = update(collapse_, run_.model, run_.state, now.t, &fallen);
-  for (const int b : fallen) writer_->event(now.t, "fall", run_.model.block_name[z(b)], -run_.state.u[z(b)].z(), "m");
+  const bool collapse = update(collapse_, run_.model, now.pose, now.t, &fallen);
+  for (const int b : fallen) writer_->event(now.t, "fall", run_.model.block_name[z(b)], -now.pose.u[z(b)].z(), "m");
   if (collapse) {
     writer_->event(now.t, "collapse", scene_.name, collapse_.fallen_fraction, "share of mass");
     for (const MovedJoint& moved : collapse_.mechanism.moved)
       writer_->event(now.t, word(moved.kind), run_.model.joint_name(moved.joint), std::max({moved.opening, moved.slip, moved.gap}), "m");
     writer_->log(fmt::format("collapse at t = {:.6g} s; {}", now.t, summary(collapse_.mechanism, run_.model, 1000)));
   }
-  run_.state.joints_broken = broken_joints();
-  if (row_now_) {
-    writer_->row(now);
-    while (double(output_.rows) * scene_.analysis.output_dt <= now.t + 1e-9 * run_.state.dt) ++output_.rows;
-  }
-  if (frame_now_) {
-    writer_->frame(now);
-    while (double(output_.frames) * scene_.analysis.frame_dt <= now.t + 1e-9 * run_.state.dt) ++output_.frames;
-  }
+  run_.state.observed.joints_broken = now.joints_broken;
+  const Analysis& how = scene_.analysis;
+  const double dt = solver_->sample().dt, reached = now.t + 1e-9 * dt;
+  const bool end = now.t >= how.duration - 0.5 * dt;
+  if (end || reached >= double(output_.rows) * how.output_dt) writer_->row(now);
+  if (end || reached >= double(output_.frames) * how.frame_dt) writer_->frame(now);
+  while (double(output_.rows) * how.output_dt <= reached) ++output_.rows;
+  while (double(output_.frames) * how.frame_dt <= reached) ++output_.frames;
   record_ += seconds() - began;
 }
 
@@ -259,11 +249,11 @@ bool Run::stop() {
                      solver_->take_long_steps());
   if (options_.progress && now - last_progress_ > 0.1) {
     last_progress_ = now;
-    options_.progress({run_.state.t, scene_.analysis.duration, now - solve_start_, run_.state.step - steps_at_start_,
-                       run_.state.joints_broken, e.residual_relative});
+    options_.progress({run_.state.time.t, scene_.analysis.duration, now - solve_start_, run_.state.time.step - steps_at_start_,
+                       run_.state.observed.joints_broken, e.residual_relative});
   }
-  const double sampled_t = run_.state.t - run_.state.last_dt;
-  if (sampled_t >= scene_.analysis.duration - 0.5 * run_.state.dt) return true;
+  const double sampled_t = run_.state.time.t - run_.state.time.last_dt;
+  if (sampled_t >= scene_.analysis.duration - 0.5 * run_.state.time.dt) return true;
   if (scene_.analysis.stop_after_collapse >= 0 && collapse_.collapsed && sampled_t >= collapse_.time + scene_.analysis.stop_after_collapse)
     return true;
   if (collapse_.moved) return true;
@@ -280,8 +270,8 @@ bool Run::stop() {
 Metrics Run::metrics() const {
   const State& s = run_.state;
   Metrics m = out_.metrics;
-  m.time_s = s.t - s.last_dt;
-  m.steps = s.step;
+  m.time_s = s.time.t - s.time.last_dt;
+  m.steps = s.time.step;
   m.dt_s = dt_at_start_;
   m.dt_critical_s = run_.bounds.critical;
   m.dt_block_bound_s = run_.bounds.block;
@@ -289,28 +279,29 @@ Metrics Run::metrics() const {
   m.blocks = run_.model.nblock;
   m.joints = run_.model.njoint;
   m.contact_points = run_.model.npoint;
-  m.joints_broken = s.joints_broken;
+  m.joints_broken = s.observed.joints_broken;
   m.blocks_asleep = s.sleep.count;
   m.wall_s.total = seconds() - born_;
   m.wall_s.setup = setup_;
   m.wall_s.record = record_;
   m.wall_s.solve = seconds() - solve_start_ - record_;
   m.simulated_s = m.time_s - started_at_;
-  m.point_updates = std::uint64_t(s.step - steps_at_start_) * std::uint64_t(run_.model.npoint);
+  m.point_updates = std::uint64_t(s.time.step - steps_at_start_) * std::uint64_t(run_.model.npoint);
   m.peak_memory_bytes = peak_memory_bytes();
   for (const Effect& e : effects_) (e.on ? m.effects_on : m.effects_off).push_back(e.name);
   m.energy = energy_terms(s.energy);
   m.residual_relative = s.energy.residual_worst;
-  m.momentum_residual = s.momentum_residual;
-  m.max_penetration_relative = s.max_penetration_relative;
+  m.momentum_residual = s.observed.momentum_residual;
+  m.max_penetration_relative = s.observed.max_penetration_relative;
   m.collapse.collapsed = collapse_.collapsed;
   m.collapse.fallen_fraction = collapse_.fallen_fraction;
   m.collapse.moved = collapse_.moved;
   m.collapse.under_gravity = collapse_.under_gravity;
   if (collapse_.collapsed && !collapse_.under_gravity) m.collapse.time_s = collapse_.time;
-  m.collapse.direction = collapse_direction(collapse_, run_.model, s);
+  m.collapse.direction = collapse_direction(collapse_, run_.model, s.pose);
   m.diagnostics = diagnostics_of(diagnostics_, run_.model, s);
-  m.collapse.mechanism = mechanism_metrics(collapse_.collapsed ? collapse_.mechanism : mechanism_of(run_.model, s, m.time_s), run_.model);
+  m.collapse.mechanism =
+      mechanism_metrics(collapse_.collapsed ? collapse_.mechanism : mechanism_of(run_.model, s.pose, m.time_s), run_.model);
   m.state_hash = state_hash(s);
   return m;
 }
@@ -327,23 +318,28 @@ void Run::judge() {
   writer_->log(fmt::format("status {}; {}", status, ledger_line(so_far())));
 }
 
-// Steps to the end with the number of threads that is fastest at the moment. After a change of that number the run continues from its
-// state, as a resumed run does.
+// The run continues from its state, as a resumed run does.
+void Run::change_threads() {
+  const double began = seconds();
+  take_events(output_.joints, *solver_);
+  touched_ += solver_->contacts().touched(), slept_ += solver_->contacts().slept();
+  solver_.emplace(run_.model, run_.state, run_.range, crew_->threads());
+  crew_->took(seconds() - began);
+}
+
+// THE LOOP, from one closing of the energy ledger to the next; some are samples. The number of threads is the one that is fastest at the
+// moment.
 void Run::step_on() {
   // A run that was killed after its last step, or is resumed twice, is where it should stop.
-  if (run_.state.step > 0 && options_.until && run_.state.t - run_.state.last_dt >= *options_.until) {
+  if (run_.state.time.step > 0 && options_.until && run_.state.time.t - run_.state.time.last_dt >= *options_.until) {
     out_.metrics.status = "stopped";
     return;
   }
-  for (bool ended = false; !ended && !solver_->broken();) {
-    solver_->run({[this](double t) { return wanted(t); }, [this] { sampled(); },
-                  [&] { return (ended = stop()) || crew_->should_change(run_.state.step); }});
-    touched_ += solver_->touched(), slept_ += solver_->slept();
-    if (ended || solver_->broken()) return;
-    const double began = seconds();
-    take_events(output_.joints, *solver_);
-    solver_.emplace(run_.model, run_.state, crew_->threads());
-    crew_->took(seconds() - began);
+  while (true) {
+    const Solver::Stop at = solver_->advance(output_.next(scene_.analysis, writer_->needs()));
+    if (at == Solver::Stop::sample) record(snapshot());
+    if (solver_->broken() || stop()) return;
+    if (crew_->should_change(run_.state.time.step)) change_threads();
   }
 }
 
@@ -351,20 +347,22 @@ RunOutcome Run::go() {
   begin();
   step_on();
   if (solver_->broken()) out_.metrics.status = "diverged";
+  touched_ += solver_->contacts().touched(), slept_ += solver_->contacts().slept();
   judge();
   const std::string& status = out_.metrics.status;
   if (!out_.trouble.empty()) writer_->log(out_.trouble);
-  if (touched_ > 0) writer_->log(fmt::format("contact: {} pair forces evaluated in {} steps", touched_, run_.state.step - steps_at_start_));
+  if (touched_ > 0)
+    writer_->log(fmt::format("contact: {} pair forces evaluated in {} steps", touched_, run_.state.time.step - steps_at_start_));
   if (slept_ > 0)
     writer_->log(fmt::format("sleep: {:.1f} of {} blocks asleep on average, {} at the end",
-                             double(slept_) / double(std::max(1L, run_.state.step - steps_at_start_)), run_.model.nblock,
+                             double(slept_) / double(std::max(1L, run_.state.time.step - steps_at_start_)), run_.model.nblock,
                              run_.state.sleep.count));
   if (const std::string lost = lost_blocks(run_.model, run_.state); !lost.empty()) {
     out_.warnings.push_back(lost);
     writer_->log("warning: " + lost);
   }
   if (status == "stopped" || status == "interrupted") save();
-  else write_last_events(output_.joints, run_.state.t - run_.state.last_dt, run_.model, run_.state, *writer_);
+  else write_last_events(output_.joints, run_.state.time.t - run_.state.time.last_dt, run_.model, run_.state.energy, *writer_);
   solver_.reset();
   out_.metrics = metrics();
   writer_->log(diagnostics_line(out_.metrics.diagnostics));
@@ -380,4 +378,4 @@ RunOutcome run_dynamic(Scene scene, const std::string& script, const RunOptions&
   return Run(std::move(scene), script, options).go();
 }
 
-}  // namespace erbs
+}  // namespace erbs::analysis

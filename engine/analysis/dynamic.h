@@ -10,7 +10,7 @@
 #include "engine/record/results/metrics.h"
 #include "engine/scene/scene.h"
 
-namespace erbs {
+namespace erbs::analysis {
 
 struct Progress {
   double t = 0, duration = 0;  // s, simulated
@@ -46,4 +46,4 @@ struct RunOutcome {
 // the model exists.
 RunOutcome run_dynamic(Scene scene, const std::string& script, const RunOptions& options);
 
-}  // namespace erbs
+}  // namespace erbs::analysis

@@ -6,7 +6,7 @@
 #include "engine/analysis/newton.h"
 #include "engine/base/error.h"
 
-namespace erbs {
+namespace erbs::analysis {
 namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
@@ -47,7 +47,7 @@ std::vector<Island> islands_of(const Model& m, const State& s, const Freedom& f,
   const double least = 1e-12 * force.lpNorm<Eigen::Infinity>();
   for (int b = 0; b < m.nblock; ++b) {
     if (f.first[z(b)] < 0) continue;
-    int& i = number[z(s.island[z(b)])];
+    int& i = number[z(s.topology.island[z(b)])];
     if (i < 0) i = int(out.size()), out.push_back({{}, least});
     out[z(i)].blocks.push_back(b);
     out[z(i)].size = std::max(out[z(i)].size, force.segment<6>(f.first[z(b)]).lpNorm<Eigen::Infinity>());
@@ -63,23 +63,18 @@ void balance(const Freedom& f, const VecX& residual, Island& i) {
   }
 }
 
-struct Pose {
-  BlockVec3 u;
-  BlockQuat q;
-};
-
-void move(State& s, const Freedom& f, const Pose& from, const VecX& by, const std::vector<Island>& islands) {
+void move(State& s, const Freedom& f, const BlockPoses& from, const VecX& by, const std::vector<Island>& islands) {
   for (const Island& i : islands)
     for (const int b : i.blocks) {
       if (!i.sought()) continue;
       const int first = f.first[z(b)];
-      s.u[z(b)] = from.u[z(b)] + i.part * by.segment<3>(first);
-      s.q[z(b)] = (rotation(i.part * Vec3(by.segment<3>(first + 3))) * from.q[z(b)]).normalized();
+      s.pose.u[z(b)] = from.u[z(b)] + i.part * by.segment<3>(first);
+      s.pose.q[z(b)] = (rotation(i.part * Vec3(by.segment<3>(first + 3))) * from.q[z(b)]).normalized();
     }
 }
 
-void put_back(State& s, const Pose& from, const Island& island) {
-  for (const int b : island.blocks) s.u[z(b)] = from.u[z(b)], s.q[z(b)] = from.q[z(b)];
+void put_back(State& s, const BlockPoses& from, const Island& island) {
+  for (const int b : island.blocks) s.pose.u[z(b)] = from.u[z(b)], s.pose.q[z(b)] = from.q[z(b)];
 }
 
 // Next fraction of the line search: doubled while work remains, otherwise inside the bracket and away from its ends. Method: regula falsi
@@ -115,7 +110,7 @@ class Search {
         f_(f),
         force_(applied(m, f, loads)),
         islands_(islands_of(m, s, f, force_)),
-        before_{s.u, s.q},
+        before_(s.pose),
         trial_{LazyArray<JointMemory>(z(m.njoint)), {}, {}, std::vector<std::uint8_t>(z(m.njoint), 1)},
         steps_(m, s, f, how) {}
 
@@ -130,7 +125,7 @@ class Search {
     while (std::any_of(islands_.begin(), islands_.end(), [](const Island& i) { return i.sought(); })) {
       VecX step;
       if (!find(step)) return false;
-      const Pose from{s_.u, s_.q};
+      const BlockPoses from = s_.pose;
       line_search(step, from);
       for (Island& i : islands_)
         if (i.sought()) judge(i, from);
@@ -153,11 +148,11 @@ class Search {
     for (int j = 0; j < m_.njoint; ++j) {
       const Joint& joint = m_.joint[z(j)];
       const auto found = [&](int b) { return f_.first[z(b)] >= 0 && out.found[z(b)]; };
-      if (s_.stage[z(j)] == JointStage::contact || trial_.intact[z(j)] || !(found(joint.a) || found(joint.b))) continue;
-      s_.stage[z(j)] = JointStage::cracked;
-      s_.memory[z(j)] = trial_.memory[z(j)];
-      for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i) s_.history[z(i)] = trial_.history[z(i)];
-      if (!s_.crushed.empty()) s_.crushed[z(j)] = trial_.crushed[z(j)];
+      if (s_.joints.stage[z(j)] == JointStage::contact || trial_.intact[z(j)] || !(found(joint.a) || found(joint.b))) continue;
+      s_.joints.stage[z(j)] = JointStage::cracked;
+      s_.joints.memory[z(j)] = trial_.memory[z(j)];
+      for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i) s_.joints.history[z(i)] = trial_.history[z(i)];
+      if (!s_.joints.crushed.empty()) s_.joints.crushed[z(j)] = trial_.crushed[z(j)];
     }
   }
 
@@ -178,7 +173,7 @@ class Search {
   }
 
   // Moves each island until its own work along the step is spent.
-  void line_search(const VecX& step, const Pose& from) {
+  void line_search(const VecX& step, const BlockPoses& from) {
     const auto work = [&](const Island& i) {
       double sum = 0;
       for (const int b : i.blocks) sum += step.segment<6>(f_.first[z(b)]).dot(residual_.segment<6>(f_.first[z(b)]));
@@ -201,7 +196,7 @@ class Search {
   }
 
   // Decides whether an island has reached equilibrium or is given up.
-  void judge(Island& i, const Pose& from) {
+  void judge(Island& i, const BlockPoses& from) {
     const double earlier = i.unbalanced;
     balance(f_, residual_, i);
     i.brake = iterations_ == 0 ? first_brake
@@ -225,7 +220,7 @@ class Search {
   const Freedom& f_;
   const VecX force_;
   std::vector<Island> islands_;
-  const Pose before_;
+  const BlockPoses before_;
   Trial trial_;
   NewtonSteps steps_;
   VecX residual_;
@@ -280,4 +275,4 @@ Equilibrium settle(const Model& m, State& s, const std::vector<double>& loads, L
   return out;
 }
 
-}  // namespace erbs
+}  // namespace erbs::analysis

@@ -7,7 +7,7 @@
 #include "engine/model/model.h"
 #include "engine/model/state.h"
 
-namespace erbs {
+namespace erbs::analysis {
 
 struct Equilibrium {
   bool converged = false;  // all islands
@@ -32,4 +32,4 @@ enum class Linear { by_size, direct, iterative };
 // place. On return the state holds the equilibrium of each island that has one; other islands are unchanged.
 Equilibrium settle(const Model& model, State& state, const std::vector<double>& loads, Linear how = Linear::by_size);
 
-}  // namespace erbs
+}  // namespace erbs::analysis

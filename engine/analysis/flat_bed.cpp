@@ -5,7 +5,7 @@
 
 #include "engine/base/error.h"
 
-namespace erbs {
+namespace erbs::analysis {
 
 namespace {
 
@@ -30,7 +30,7 @@ std::vector<FlatBed> flat_beds(const Model& model) {
       const std::size_t block = std::size_t(first ? joint.a : joint.b), other = std::size_t(first ? joint.b : joint.a);
       const JointType& type = *joint.type;
       if (model.kind[block] != Kind::moving || model.kind[other] == Kind::moving || joints[block] != 1 ||
-          !model.laws[std::size_t(type.law)].dry)
+          model.laws[std::size_t(type.law)].has_bond())
         continue;
       const Vec3 arm = first ? joint.arm_a : joint.arm_b;  // from the centroid to the middle of the bed
       const double h = -arm.dot(up);
@@ -68,4 +68,4 @@ std::string told(const Model& model, const FlatBed& bed) {
       1000 * bed.toe, 100 * inwards);
 }
 
-}  // namespace erbs
+}  // namespace erbs::analysis

@@ -5,7 +5,7 @@
 
 #include "engine/model/model.h"
 
-namespace erbs {
+namespace erbs::analysis {
 
 // Spin after an impact over the spin before, for an impulse that acts `x` (m) from the middle of the base, towards the new edge. Angular
 // momentum about that point is conserved; before, the block turns about the old edge, after, about the new one:
@@ -33,4 +33,4 @@ std::vector<FlatBed> flat_beds(const Model& model);
 
 std::string told(const Model& model, const FlatBed& bed);
 
-}  // namespace erbs
+}  // namespace erbs::analysis

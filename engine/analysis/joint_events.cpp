@@ -5,23 +5,23 @@
 
 #include "engine/joints/kinematics.h"
 
-namespace erbs {
+namespace erbs::analysis {
 namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
 // One row for the energy lost by softening of former joints and by separation of contacts.
-void write_rest(JointEvents& events, double t, const State& state, RunWriter& writer) {
-  double rest = state.energy.reset - events.listed;
+void write_rest(JointEvents& events, double t, const Energy& energy, RunWriter& writer) {
+  double rest = energy.reset - events.listed;
   for (const JointRelease& h : events.releases_since) rest -= h.energy;
-  if (!(std::fabs(rest) > 1e-15 * state.energy.reference)) return;
+  if (!(std::fabs(rest) > 1e-15 * energy.reference)) return;
   writer.event(t, "soften", "beds and contacts", rest, "J");
   events.listed += rest;
 }
 
 // Rows for the energy freed by release of joints to contact.
-void write_releases(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer) {
-  if (!events.releases_since.empty()) write_rest(events, t, state, writer);
+void write_releases(JointEvents& events, double t, const Model& model, const Energy& energy, RunWriter& writer) {
+  if (!events.releases_since.empty()) write_rest(events, t, energy, writer);
   for (const JointRelease& h : events.releases_since) {
     writer.event(t, "hand over", model.joint_name(h.joint), h.energy, "J");
     events.listed += h.energy;
@@ -33,31 +33,32 @@ void write_releases(JointEvents& events, double t, const Model& model, const Sta
 
 void take_events(JointEvents& events, Solver& solver) {
   const std::vector<int> cracked = solver.take_cracked(), released = solver.take_released();
-  const std::vector<JointRelease> releases = solver.take_releases();
+  const std::vector<JointRelease> releases = solver.contacts().former_joints().take_releases();
   events.cracked_since.insert(events.cracked_since.end(), cracked.begin(), cracked.end());
   events.released_since.insert(events.released_since.end(), released.begin(), released.end());
   events.releases_since.insert(events.releases_since.end(), releases.begin(), releases.end());
 }
 
-void write_events(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer) {
+void write_events(JointEvents& events, const Snapshot& now, RunWriter& writer) {
+  const Model& model = now.model;
   std::sort(events.cracked_since.begin(), events.cracked_since.end());
   for (const int j : events.cracked_since) {
-    if (model.laws[z(model.joint[z(j)].type->law)].dry) continue;
-    if (events.first_crack < 0) events.first_crack = t;
-    writer.event(t, "crack", model.joint_name(j), joint_damage(model, state, j), "share");
+    if (!model.laws[z(model.joint[z(j)].type->law)].has_bond()) continue;
+    if (events.first_crack < 0) events.first_crack = now.t;
+    writer.event(now.t, "crack", model.joint_name(j), joint_damage(model, now.joints, j), "share");
   }
   for (const int j : events.released_since) {
     ++events.released;
-    writer.event(t, "open", model.joint_name(j), joint_condition(model, state, j).opening, "m");
+    writer.event(now.t, "open", model.joint_name(j), joint_condition(model, now.joints, now.pose, j).opening, "m");
   }
   events.cracked_since.clear();
   events.released_since.clear();
-  write_releases(events, t, model, state, writer);
+  write_releases(events, now.t, model, now.energy, writer);
 }
 
-void write_last_events(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer) {
-  write_releases(events, t, model, state, writer);
-  write_rest(events, t, state, writer);
+void write_last_events(JointEvents& events, double t, const Model& model, const Energy& energy, RunWriter& writer) {
+  write_releases(events, t, model, energy, writer);
+  write_rest(events, t, energy, writer);
 }
 
-}  // namespace erbs
+}  // namespace erbs::analysis

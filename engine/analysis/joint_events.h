@@ -3,7 +3,7 @@
 #include "engine/record/folder/run_writer.h"
 #include "engine/solve/step.h"
 
-namespace erbs {
+namespace erbs::analysis {
 
 struct JointEvents {
   double first_crack = -1;  // s
@@ -27,10 +27,10 @@ void each(E& e, F&& f) {
 // Takes the events from the solver, which clears them.
 void take_events(JointEvents& events, Solver& solver);
 
-// Writes all events up to t (s) as rows of events.csv.
-void write_events(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer);
+// Writes all events up to now as rows of events.csv.
+void write_events(JointEvents& events, const Snapshot& now, RunWriter& writer);
 
 // The same at the end of a run: only releases to contact, and all energy lost since the last of them.
-void write_last_events(JointEvents& events, double t, const Model& model, const State& state, RunWriter& writer);
+void write_last_events(JointEvents& events, double t, const Model& model, const Energy& energy, RunWriter& writer);
 
-}  // namespace erbs
+}  // namespace erbs::analysis

@@ -6,12 +6,12 @@
 
 #include "engine/base/error.h"
 
-namespace erbs {
+namespace erbs::analysis {
 namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-Vec3 place_of(const Model& m, const State& s, int b) { return m.rest[z(b)] + s.u[z(b)]; }
+Vec3 place_of(const Model& m, const State& s, int b) { return m.rest[z(b)] + s.pose.u[z(b)]; }
 
 }  // namespace
 
@@ -24,7 +24,7 @@ std::string lost_blocks(const Model& m, const State& s) {
   int count = 0, first = -1;
   double farthest = 0;  // m, horizontal distance from the centre of the ground
   for (int b = 0; b < m.nblock; ++b) {
-    if (m.kind[z(b)] != Kind::moving || !(up.dot(m.rest[z(b)] + s.u[z(b)]) < low - (high - low))) continue;
+    if (m.kind[z(b)] != Kind::moving || !(up.dot(m.rest[z(b)] + s.pose.u[z(b)]) < low - (high - low))) continue;
     if (first < 0) first = b;
     ++count;
     farthest = std::max(farthest, place_of(m, s, b).head<2>().lpNorm<Eigen::Infinity>() + m.smallest_edge[z(b)]);
@@ -38,4 +38,4 @@ std::string lost_blocks(const Model& m, const State& s) {
       count > 1 ? "all of them" : "it");
 }
 
-}  // namespace erbs
+}  // namespace erbs::analysis

@@ -4,9 +4,9 @@
 
 #include "engine/model/state.h"
 
-namespace erbs {
+namespace erbs::analysis {
 
 // Message on blocks that fell past the ground and will fall for ever; "" if there are none.
 std::string lost_blocks(const Model& m, const State& s);
 
-}  // namespace erbs
+}  // namespace erbs::analysis

@@ -7,7 +7,7 @@
 #include "engine/joints/response.h"
 #include "engine/solve/linear/stiffness.h"
 
-namespace erbs {
+namespace erbs::analysis {
 namespace {
 
 constexpr double most_bytes = 100 * 1048576.0;  // of factors
@@ -32,7 +32,7 @@ Mat6 tangent(const Model& m, const State& s, int j, const Trial& trial) {
   std::vector<PointHistory> history(z(joint.type->points));
   const double moved = std::max(Vec3(at[0], at[1], at[2]).norm(), joint.type->radius * Vec3(at[3], at[4], at[5]).norm());
   const double step = std::max(1e-5 * moved, 1e-14);
-  const bool intact = s.stage[z(j)] == JointStage::intact;
+  const bool intact = s.joints.stage[z(j)] == JointStage::intact;
   const double rest[6] = {};
   for (int c = 0; c < 6; ++c) {
     double resultant[2][6];
@@ -41,10 +41,10 @@ Mat6 tangent(const Model& m, const State& s, int j, const Trial& trial) {
       double gap[6];
       std::copy(at, at + 6, gap);
       gap[c] += side == 0 ? -h : h;
-      std::copy_n(&s.history[z(joint.first_point)], joint.type->points, history.begin());
-      CrushedFace crushed = s.crushed.empty() ? CrushedFace{} : s.crushed[z(j)];
+      std::copy_n(&s.joints.history[z(joint.first_point)], joint.type->points, history.begin());
+      CrushedFace crushed = s.joints.crushed.empty() ? CrushedFace{} : s.joints.crushed[z(j)];
       JointEnergy e;
-      respond(m, j, intact, intact ? rest : s.memory[z(j)].gap, gap, {history.data(), s.crushed.empty() ? nullptr : &crushed},
+      respond(m, j, intact, intact ? rest : s.joints.memory[z(j)].gap, gap, {history.data(), s.joints.crushed.empty() ? nullptr : &crushed},
               resultant[side], e);
     }
     for (int r = 0; r < 6; ++r) k(r, c) = (resultant[1][r] - resultant[0][r]) / (2 * h);
@@ -57,7 +57,7 @@ Mat6 tangent(const Model& m, const State& s, int j, const Trial& trial) {
 VecX diagonal(const Model& m, const State& s, const Freedom& f) {
   VecX out = VecX::Zero(f.count);
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.stage[z(j)] == JointStage::contact) continue;
+    if (s.joints.stage[z(j)] == JointStage::contact) continue;
     const JointMap map = joint_map(m, s, j);
     const Mat6 k = Vec6(Eigen::Map<const Vec6>(m.joint[z(j)].type->stiffness)).asDiagonal();
     if (const int a = f.first[z(m.joint[z(j)].a)]; a >= 0) out.segment<6>(a) += Vec6(Mat6(map.a.transpose() * k * map.a).diagonal());
@@ -76,18 +76,20 @@ VecX elastic(const JointOperator& joints, const VecX& x) {
 
 VecX internal_force(const Model& m, const State& s, const Freedom& f, Trial& trial) {
   VecX out = VecX::Zero(f.count);
-  trial.history = s.history;
-  trial.crushed = s.crushed;
+  trial.history = s.joints.history;
+  trial.crushed = s.joints.crushed;
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.stage[z(j)] == JointStage::contact) continue;
+    if (s.joints.stage[z(j)] == JointStage::contact) continue;
     const Joint& joint = m.joint[z(j)];
-    const JointPose pose = joint_pose(m, s, j);
+    JointPose pose = joint_pose(m, s, j);
     JointEnergy e;
     JointMemory now;
-    const bool intact = s.stage[z(j)] == JointStage::intact;
+    std::copy_n(s.joints.memory[z(j)].own, std::size(now.own), now.own);
+    pose.gap[2] -= asperity_lift(m.laws[z(joint.type->law)], now);
+    const bool intact = s.joints.stage[z(j)] == JointStage::intact;
     const double rest[6] = {};
-    const JointPast past(&trial.history[z(joint.first_point)], s.crushed.empty() ? nullptr : &trial.crushed[z(j)]);
-    trial.intact[z(j)] = respond(m, j, intact, intact ? rest : s.memory[z(j)].gap, pose.gap, past, now.resultant, e);
+    const JointPast past(&trial.history[z(joint.first_point)], s.joints.crushed.empty() ? nullptr : &trial.crushed[z(j)]);
+    trial.intact[z(j)] = respond(m, j, intact, intact ? rest : s.joints.memory[z(j)].gap, pose.gap, past, now.resultant, e);
     std::copy(pose.gap, pose.gap + 6, now.gap);
     now.elastic = e.elastic;
     if (!trial.intact[z(j)]) trial.memory[z(j)] = now;
@@ -114,7 +116,7 @@ std::vector<NewtonSteps::Change> NewtonSteps::changes_of(const Trial& trial) con
   const State& s = s_;
   std::vector<Change> out;
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.stage[z(j)] == JointStage::contact || trial.intact[z(j)]) continue;
+    if (s.joints.stage[z(j)] == JointStage::contact || trial.intact[z(j)]) continue;
     const Joint& joint = m.joint[z(j)];
     Change c{f_.first[z(joint.a)], f_.first[z(joint.b)], joint_map(m, s, j), tangent(m, s, j, trial)};
     for (int i = 0; i < 6; ++i) c.more(i, i) -= joint.type->stiffness[i];
@@ -195,7 +197,7 @@ bool NewtonSteps::cracked_iterative(const Trial& trial, const std::vector<Change
   near_.reset();
   std::vector<int> change(z(m_.njoint), -1);
   for (int j = 0, next = 0; j < m_.njoint; ++j)
-    if (s_.stage[z(j)] != JointStage::contact && !trial.intact[z(j)]) change[z(j)] = next++;
+    if (s_.joints.stage[z(j)] != JointStage::contact && !trial.intact[z(j)]) change[z(j)] = next++;
   const JointOperator joints(m_, s_, f_);
   const TwoLevel near(
       m_, s_, f_,
@@ -222,4 +224,4 @@ bool NewtonSteps::cracked_iterative(const Trial& trial, const std::vector<Change
                                 times, [&](const VecX& x) { return near.apply(x); }, residual, tolerance, most_iterations, step);
 }
 
-}  // namespace erbs
+}  // namespace erbs::analysis

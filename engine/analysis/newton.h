@@ -8,7 +8,7 @@
 #include "engine/solve/linear/joint_operator.h"
 #include "engine/solve/linear/two_level.h"
 
-namespace erbs {
+namespace erbs::analysis {
 
 // Joint state that the present poses would leave.
 struct Trial {
@@ -50,4 +50,4 @@ class NewtonSteps {
   std::optional<TwoLevel> near_;
 };
 
-}  // namespace erbs
+}  // namespace erbs::analysis

@@ -13,7 +13,7 @@
 #include "engine/solve/blocks/islands.h"
 #include "engine/solve/step.h"
 
-namespace erbs {
+namespace erbs::analysis {
 namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
@@ -100,14 +100,14 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
                     0.9 * allowed, dt),
         a.place);
   if (jointed && dt <= b.critical && dt > b.cracked)
-    p.model.warnings.push_back(fmt::format(
+    p.warnings.push_back(fmt::format(
         "dt = {:.4g} s is below the limit {:.4g} s of the intact structure but above {:.4g} s, the limit after joints have cracked "
         "(cracked joints are stiffer in bending than their points, or damped); take at most {:.3g} s",
         dt, b.critical, b.cracked, 0.9 * b.cracked));
-  p.state.dt = p.model.dt_max = dt;
+  p.state.time.dt = p.range.longest = dt;
   // A step derived from joints may grow to the contact bound once the joints are gone.
   if (a.dt == 0 && jointed && a.solver != "sequential" && a.dt_rule == Analysis{}.dt_rule)
-    p.model.dt_max = std::max(dt, a.dt_fraction * debris_bound(p.model));
+    p.range.longest = std::max(dt, a.dt_fraction * debris_bound(p.model));
 }
 
 // Enforces the scene's own limit of use: a run beyond it is refused with the scene's reason.
@@ -115,11 +115,11 @@ void hold_use_limit(const Scene& scene, const Prepared& p) {
   const UseLimit& use = scene.use_limit;
   if (use.reason.empty()) return;  // the scene states none
   const double limit = std::isfinite(p.bounds.critical) ? p.bounds.critical : debris_bound(p.model);
-  if (p.state.dt > (1 + 1e-9) * use.dt_fraction * limit)
+  if (p.state.time.dt > (1 + 1e-9) * use.dt_fraction * limit)
     throw Error(fmt::format("use_limit: dt = {:.4g} s is {:.3f} of the limit {:.4g} s, and this scene is good up to {:g} of it ({}); say "
                             "analysis{{ dt_fraction "
                             "= {:g} }}",
-                            p.state.dt, p.state.dt / limit, limit, use.dt_fraction, use.reason, use.dt_fraction),
+                            p.state.time.dt, p.state.time.dt / limit, limit, use.dt_fraction, use.reason, use.dt_fraction),
                 use.place);
   for (int j = 0; j < p.model.njoint; ++j)
     if (p.model.joint[z(j)].type->points < use.points)
@@ -134,7 +134,7 @@ std::vector<double> constant_loads(const Model& m, const State& s) {
   for (const auto& p : m.force_loads) {
     const Vec3 f = value(p.wave, 0) * p.direction;
     for (int i = 0; i < 3; ++i) loads[6 * z(p.block) + z(p.moment ? 3 + i : i)] += f[i];
-    const Vec3 moment = p.moment ? Vec3(Vec3::Zero()) : Vec3((s.q[z(p.block)] * p.arm).cross(f));
+    const Vec3 moment = p.moment ? Vec3(Vec3::Zero()) : Vec3((s.pose.q[z(p.block)] * p.arm).cross(f));
     for (int i = 0; i < 3; ++i) loads[6 * z(p.block) + 3 + z(i)] += moment[i];
   }
   return loads;
@@ -178,12 +178,12 @@ double settlement_of(const Model& m, double block_bound) {
 
 Prepared prepare(const Scene& scene, bool allow_unstable) {
   Built built = build(scene);
-  Prepared p{std::move(built.model), std::move(built.state), {}, {}, {}, {}};
+  Prepared p{std::move(built.model), std::move(built.state), {}, {}, {}, {}, {}, std::move(built.warnings), std::move(built.notes)};
   check_shapes(scene, p.model);
   find_islands(p.model, p.state);
   update_all_references(p.model, p.state);
-  p.bounds = step_bounds(scene, p.model, p.state);
-  p.model.dt_critical = p.bounds.cracked;
+  p.bounds = step_bounds(p.model, p.state);
+  p.range.critical = p.bounds.cracked;
   p.model.settlement = settlement_of(p.model, p.bounds.block);
   choose_dt(scene, p, allow_unstable);
   if (!allow_unstable) hold_use_limit(scene, p);
@@ -201,7 +201,7 @@ constexpr double rest_energy = 1e-8;
 // Blocks that still move, and blocks that fall: lower than at the start by half their smallest edge, the criterion of `Collapse`.
 class Unrest {
  public:
-  Unrest(const Model& m, const State& s) : model_(m), state_(s), start_(s.u), down_(m.gravity.normalized()) {
+  Unrest(const Model& m, const State& s) : model_(m), state_(s), start_(s.pose.u), down_(m.gravity.normalized()) {
     double low = 1e300, high = -1e300;
     for (int b = 0; b < m.nblock; ++b) {
       if (m.kind[z(b)] != Kind::moving) continue;
@@ -211,10 +211,10 @@ class Unrest {
     const double g = m.gravity.norm() > 0 ? m.gravity.norm() : standard_g;  // for loads without gravity, its usual value
     square_ = 2 * rest_energy * g * std::max(0.0, high - low);
   }
-  bool falls(int b) const { return down_.dot(state_.u[z(b)] - start_[z(b)]) > 0.5 * model_.smallest_edge[z(b)]; }
+  bool falls(int b) const { return down_.dot(state_.pose.u[z(b)] - start_[z(b)]) > 0.5 * model_.smallest_edge[z(b)]; }
   bool moves(int b) const {
-    const double rotation_energy = state_.w[z(b)].dot(state_.spin_momentum[z(b)]) / model_.mass[z(b)];
-    return state_.v[z(b)].squaredNorm() + rotation_energy > square_;
+    const double rotation_energy = state_.motion.w[z(b)].dot(state_.motion.spin_momentum[z(b)]) / model_.mass[z(b)];
+    return state_.motion.v[z(b)].squaredNorm() + rotation_energy > square_;
   }
   // True if every block that does not fall is at rest.
   bool ended() const {
@@ -239,13 +239,13 @@ struct Held {
   void give_back(const Model& m, State& s) const {
     const auto holds = [&](int b) { return block[z(b)] || m.kind[z(b)] != Kind::moving; };
     for (int b = 0; b < m.nblock; ++b)
-      if (block[z(b)]) s.u[z(b)] = state.u[z(b)], s.q[z(b)] = state.q[z(b)];
+      if (block[z(b)]) s.pose.u[z(b)] = state.pose.u[z(b)], s.pose.q[z(b)] = state.pose.q[z(b)];
     for (int j = 0; j < m.njoint; ++j) {
       const Joint& joint = m.joint[z(j)];
       if (!holds(joint.a) || !holds(joint.b)) continue;
-      s.memory[z(j)] = state.memory[z(j)];
-      for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i) s.history[z(i)] = state.history[z(i)];
-      if (!s.crushed.empty()) s.crushed[z(j)] = state.crushed[z(j)];
+      s.joints.memory[z(j)] = state.joints.memory[z(j)];
+      for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i) s.joints.history[z(i)] = state.joints.history[z(i)];
+      if (!s.joints.crushed.empty()) s.joints.crushed[z(j)] = state.joints.crushed[z(j)];
     }
   }
 };
@@ -263,10 +263,10 @@ void ramp(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& foun
   slow.damping.mass = 20 / time;
   slow.damping_all = false;
   slow.damping_explicit = false;
-  const BlockVec3 v = p.state.v, L = p.state.spin_momentum;
-  const double dt = p.state.dt;
-  p.state.v.assign(v.size(), Vec3::Zero());
-  p.state.spin_momentum.assign(v.size(), Vec3::Zero());
+  const BlockVec3 v = p.state.motion.v, L = p.state.motion.spin_momentum;
+  const double dt = p.state.time.dt;
+  p.state.motion.v.assign(v.size(), Vec3::Zero());
+  p.state.motion.spin_momentum.assign(v.size(), Vec3::Zero());
   std::optional<Held> held;
   if (!found.empty()) {
     held.emplace(Held{found, p.state});
@@ -275,27 +275,26 @@ void ramp(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& foun
   }
   find_islands(slow, p.state);
   const Unrest unrest(slow, p.state);
-  Solver solver(slow, p.state, threads);
-  solver.run(
-      {[](double) { return false; }, [] {}, [&] { return p.state.t >= time && (unrest.ended() || p.state.t >= ramp_limit * time); }});
+  Solver solver(slow, p.state, p.range, threads);
+  solver.advance_until([&] { return p.state.time.t >= time && (unrest.ended() || p.state.time.t >= ramp_limit * time); });
   for (int b = 0; b < slow.nblock; ++b)
     if (slow.kind[z(b)] == Kind::moving && (unrest.moves(b) || unrest.falls(b))) p.fallers.push_back(b);
   if (held) held->give_back(p.model, p.state);
-  p.state.v = v;
-  p.state.spin_momentum = L;
-  p.state.w.assign(p.state.w.size(), Vec3::Zero());
+  p.state.motion.v = v;
+  p.state.motion.spin_momentum = L;
+  p.state.motion.w.assign(p.state.motion.w.size(), Vec3::Zero());
   find_islands(p.model, p.state);
-  p.state.step = p.state.start_step = 0;
-  p.state.t = p.state.start_t = p.state.last_dt = p.state.event_dt = 0;
-  p.state.dt = dt;
-  p.state.steps_since_limited = 0;
+  p.state.time.step = p.state.time.start_step = 0;
+  p.state.time.t = p.state.time.start_t = p.state.time.last_dt = p.state.time.event_dt = 0;
+  p.state.time.dt = dt;
+  p.state.time.steps_since_limited = 0;
   p.state.energy = Energy{};
 }
 
 // Blocks to hold during the ramp of the others: those in equilibrium, and those that no joint connects to the ground.
 std::vector<std::uint8_t> kept_still(const Prepared& p) {
   std::vector<std::uint8_t> still = p.equilibrium.found;
-  for (int b = 0; b < p.model.nblock; ++b) still[z(b)] = still[z(b)] || !p.state.grounded[z(b)];
+  for (int b = 0; b < p.model.nblock; ++b) still[z(b)] = still[z(b)] || !p.state.topology.grounded[z(b)];
   return still;
 }
 
@@ -305,7 +304,7 @@ void warn_of_fallers(Prepared& p) {
   for (std::size_t i = 0; i < std::min<std::size_t>(5, p.fallers.size()); ++i)
     names += (i == 0 ? " " : ", ") + p.model.block_name[z(p.fallers[i])];
   if (p.fallers.size() > 5) names += fmt::format(" and {} more", p.fallers.size() - 5);
-  p.model.warnings.push_back(fmt::format("not at rest under its own weight:{}", names));
+  p.warnings.push_back(fmt::format("not at rest under its own weight:{}", names));
 }
 
 }  // namespace
@@ -318,8 +317,7 @@ void start_at_rest(const Scene& scene, Prepared& p, int threads) {
       if (p.model.force_loads.empty()) break;
     }
     if (!p.equilibrium.converged) {
-      p.model.warnings.push_back("no equilibrium under gravity: " + p.equilibrium.why +
-                                 "; there gravity is applied as a damped ramp instead");
+      p.warnings.push_back("no equilibrium under gravity: " + p.equilibrium.why + "; there gravity is applied as a damped ramp instead");
       ramp(scene, p, kept_still(p), threads);
     }
   } else if (scene.analysis.start == "ramp" && p.model.njoint > 0) {
@@ -346,10 +344,10 @@ void add_noise(Prepared& run, double reach, unsigned seed) {
     Vec3 shift, theta;
     for (int i = 0; i < 3; ++i) shift[i] = random.within(reach);
     for (int i = 0; i < 3; ++i) theta[i] = random.within(reach);
-    run.state.u[z(b)] += shift;
-    run.state.q[z(b)] = rotation(theta) * run.state.q[z(b)];
+    run.state.pose.u[z(b)] += shift;
+    run.state.pose.q[z(b)] = rotation(theta) * run.state.pose.q[z(b)];
   }
   update_all_references(run.model, run.state);
 }
 
-}  // namespace erbs
+}  // namespace erbs::analysis

@@ -2,17 +2,21 @@
 #pragma once
 #include "engine/analysis/equilibrium.h"
 #include "engine/model/build/build.h"
+#include "engine/solve/contacts/time_step_bound.h"
 #include "engine/solve/linear/stiffness.h"
 
-namespace erbs {
+namespace erbs::analysis {
 
 struct Prepared {
   Model model;
   State state;
   StepBounds bounds;
+  StepRange range;
   std::string dt_rule;  // the rule that gave dt, in words
   Equilibrium equilibrium;
   std::vector<int> fallers;  // blocks still moving after a damped ramp of gravity
+  std::vector<std::string> warnings;
+  std::vector<std::string> notes;  // details of a summary warning, for log.txt
 };
 
 // Errors that only the model shows: overlaps, loose wall blocks, a dt beyond the stability limit. The last is accepted with
@@ -30,4 +34,4 @@ double falling_share(const Prepared& run);
 // exact symmetry would hide.
 void add_noise(Prepared& run, double reach, unsigned seed);
 
-}  // namespace erbs
+}  // namespace erbs::analysis

@@ -2,7 +2,7 @@
 
 #include "engine/record/folder/run_folder.h"
 
-namespace erbs {
+namespace erbs::analysis {
 
 void check_overrides(const std::string& directory, const std::vector<std::string>& override_arguments) {
   std::vector<std::string> before;
@@ -18,27 +18,27 @@ void check_overrides(const std::string& directory, const std::vector<std::string
 }
 
 std::vector<std::size_t> sizes_of(const State& s) {
-  return {s.u.size(),
-          s.q.size(),
-          s.v.size(),
-          s.spin_momentum.size(),
-          s.w.size(),
-          s.ref_u.size(),
-          s.ref_q.size(),
-          s.island.size(),
-          s.loose.size(),
-          s.grounded.size(),
-          s.joined.size(),
-          s.stage.size(),
-          s.slot.size(),
-          s.memory.size(),
-          s.history.size(),
-          s.crushed.size(),
-          s.viscous.size(),
-          s.wrench.size(),
-          s.increment.size(),
-          s.owner_sum.size(),
-          s.neighbour_force.size()};
+  return {s.pose.u.size(),
+          s.pose.q.size(),
+          s.motion.v.size(),
+          s.motion.spin_momentum.size(),
+          s.motion.w.size(),
+          s.cache.ref_u.size(),
+          s.cache.ref_q.size(),
+          s.topology.island.size(),
+          s.topology.loose.size(),
+          s.topology.grounded.size(),
+          s.topology.joined.size(),
+          s.joints.stage.size(),
+          s.joints.slot.size(),
+          s.joints.memory.size(),
+          s.joints.history.size(),
+          s.joints.crushed.size(),
+          s.joints.viscous.size(),
+          s.cache.wrench.size(),
+          s.cache.increment.size(),
+          s.cache.owner_sum.size(),
+          s.cache.neighbour_force.size()};
 }
 
 void check_sizes(const std::string& directory, const std::vector<std::size_t>& built, const State& read) {
@@ -47,4 +47,4 @@ void check_sizes(const std::string& directory, const std::vector<std::size_t>& b
                 {directory + "/checkpoint.bin", 0});
 }
 
-}  // namespace erbs
+}  // namespace erbs::analysis

@@ -5,7 +5,7 @@
 
 #include "engine/base/units.h"
 
-namespace erbs {
+namespace erbs::analysis {
 namespace {
 
 struct Phase {
@@ -59,24 +59,6 @@ Trial attempt(const Equation& f, double t, Phase y, double s, double h, double t
   double theta = 0, spin = 0;
   for (int i = 0; i < 7; ++i) theta += h * e[i] * k[i].theta, spin += h * e[i] * k[i].spin;
   return {next, std::max(std::fabs(theta) / theta_scale, std::fabs(spin) / spin_scale)};
-}
-
-// Longest step that cannot miss a feature of the wave.
-double resolution(const Wave& wave) {
-  struct Visitor {
-    double operator()(const Sine& w) const { return 0.02 / w.frequency; }
-    double operator()(const HalfSine& w) const { return 0.02 / w.frequency; }
-    double operator()(const FullSine& w) const { return 0.02 / w.frequency; }
-    double operator()(const Pulse& w) const { return 0.1 * w.duration; }
-    double operator()(const Table& w) const { return shortest(w.line.times); }
-    double operator()(const Record& w) const { return shortest(w.acceleration.times); }
-    static double shortest(const std::vector<double>& t) {
-      double least = unbounded;
-      for (std::size_t i = 1; i < t.size(); ++i) least = std::min(least, t[i] - t[i - 1]);
-      return least;
-    }
-  };
-  return std::visit(Visitor{}, wave);
 }
 
 // Root of f between low and high, where f has opposite signs: regula falsi after Dowell and Jarratt 1971 ("Illinois").
@@ -290,4 +272,4 @@ std::vector<OverturningBand> overturning_bands(const RockingBlock& block, const 
   return bands;
 }
 
-}  // namespace erbs
+}  // namespace erbs::analysis

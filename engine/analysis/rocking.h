@@ -10,7 +10,7 @@
 
 #include "engine/loads/loads.h"
 
-namespace erbs {
+namespace erbs::analysis {
 
 struct RockingBlock {
   double alpha = 0;    // rad, slenderness angle atan(b / h)
@@ -63,4 +63,4 @@ struct OverturningBand {
 std::vector<OverturningBand> overturning_bands(const RockingBlock& block, const Wave& wave, Criterion criterion, double low, double high,
                                                int points, double duration);
 
-}  // namespace erbs
+}  // namespace erbs::analysis

@@ -5,7 +5,7 @@
 
 #include "engine/base/error.h"
 
-namespace erbs {
+namespace erbs::analysis {
 namespace {
 
 constexpr long wrong_steps = 512;        // allowed duration of a ledger that misses half of the energy passed
@@ -27,9 +27,9 @@ std::string where(const RunSoFar& r) {
 double energy_tolerance(const RunSoFar& r) {
   if (r.scene.analysis.energy_tolerance > 0) return r.scene.analysis.energy_tolerance;
   const State& s = r.run.state;
-  if (r.collapse.fallen_fraction > 0 || r.collapse.collapsed || r.released > 0 || s.max_penetration_relative > 0) return 1e-2;
-  const bool elastic =
-      s.contacts.pair.empty() && std::all_of(s.stage.begin(), s.stage.end(), [](JointStage t) { return t == JointStage::intact; });
+  if (r.collapse.fallen_fraction > 0 || r.collapse.collapsed || r.released > 0 || s.observed.max_penetration_relative > 0) return 1e-2;
+  const bool elastic = s.contacts.list.pair.empty() &&
+                       std::all_of(s.joints.stage.begin(), s.joints.stage.end(), [](JointStage t) { return t == JointStage::intact; });
   return elastic ? 1e-6 : 1e-3;
 }
 
@@ -46,9 +46,10 @@ bool diverges(const RunSoFar& r, long& right) {
   // Beyond its stability limit, explicit damping feeds the motion while the ledger closes. Velocities then change sign in every step, so
   // that T = v- m v+ / 2 is negative.
   const bool lost = e.residual_relative > std::max(0.5, r.scene.analysis.energy_tolerance), wrong = lost || e.kinetic < 0;
-  if (!wrong) right = s.step;
+  if (!wrong) right = s.time.step;
   // If only a few light blocks exceed their limit, their joints crack and stop the growth. The duration of the error then ends the run.
-  return wrong && ((std::fabs(e.kinetic) > 1e3 * passed && s.step > 64) || s.step - right > (lost ? wrong_steps : negative_steps));
+  return wrong &&
+         ((std::fabs(e.kinetic) > 1e3 * passed && s.time.step > 64) || s.time.step - right > (lost ? wrong_steps : negative_steps));
 }
 
 std::string trouble_of(const RunSoFar& r, const std::string& status) {
@@ -58,7 +59,7 @@ std::string trouble_of(const RunSoFar& r, const std::string& status) {
   const double share = std::isfinite(fraction) && fraction > 0 ? fraction : 1;
   if (status == "diverged")
     return fmt::format("the run diverged at t = {:.6g} s (dt = {:.4g} s, limit {:.4g} s); results after that time are invalid; take {}",
-                       r.run.state.t, r.run.state.dt, r.run.bounds.critical, step_of(share > 1 ? 0.9 : share / 3));
+                       r.run.state.time.t, r.run.state.time.dt, r.run.bounds.critical, step_of(share > 1 ? 0.9 : share / 3));
   if (e.residual_worst > tolerance && !growth_allowed(r.scene)) {
     // The residual of smooth motion falls with the square of the step. Fluttering friction and chattering joints need dashpots instead.
     const double smooth = 0.8 * std::sqrt(tolerance / e.residual_worst);
@@ -77,7 +78,7 @@ std::string trouble_of(const RunSoFar& r, const std::string& status) {
   if (asked || !stepped_too_far(r.diagnostics, r.run.state)) return "";
   return fmt::format(
       "the time step exceeded the limit of the touching blocks in {:.2g} % of the steps, by a factor of {:.3g} at most; take {}",
-      100 * double(r.diagnostics.past_step.count[0]) / double(r.run.state.step), r.diagnostics.past_step.worst,
+      100 * double(r.diagnostics.past_step.count[0]) / double(r.run.state.time.step), r.diagnostics.past_step.worst,
       step_of(0.9 * share / r.diagnostics.past_step.worst));
 }
 
@@ -87,4 +88,4 @@ std::string ledger_line(const RunSoFar& r) {
                      energy_tolerance(r), e.largest_jump, e.largest_jump_time, where(r));
 }
 
-}  // namespace erbs
+}  // namespace erbs::analysis

@@ -6,7 +6,7 @@
 #include "engine/analysis/prepare.h"
 #include "engine/record/results/collapse.h"
 
-namespace erbs {
+namespace erbs::analysis {
 
 // The part of a run that a verdict uses.
 struct RunSoFar {
@@ -37,4 +37,4 @@ std::string trouble_of(const RunSoFar& so_far, const std::string& status);
 // "energy residual ..., largest step ..., joint", for log.txt.
 std::string ledger_line(const RunSoFar& so_far);
 
-}  // namespace erbs
+}  // namespace erbs::analysis

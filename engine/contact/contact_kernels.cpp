@@ -1,8 +1,6 @@
 // The kernels of contact (clip.h, pair_lanes.h), compiled once for each instruction set.
 #include "engine/contact/broad/box_kernel.h"
-#include "engine/contact/law/friction_kernel.h"
-#include "engine/contact/law/pair_kernel.h"
-#include "engine/contact/law/pair_lanes.h"
+#include "engine/contact/law/pair_law.h"
 #include "engine/contact/law/track_kernel.h"
 #include "engine/contact/overlap/clip.h"
 #include "engine/contact/overlap/fragments.h"
@@ -41,6 +39,7 @@ void clip(const SmallShape& a, const SmallShape& b, const SmallPose& pose, Trian
 }  // namespace
 
 const ClipKernels clip_kernels{ERBS_TARGET_NAME, clip, clip_all, sum, closing_speeds, damp};
-const PairKernels pair_kernels{track, gather_pairs, patch, dashpot, springs, return_map, finish, write, close_balls, close_boxes};
+const PairKernels pair_kernels{track, gather_pairs<Pack>, patch<Pack>, dashpot<Pack>, springs<Pack>, return_map<Pack>, finish<Pack>,
+                               write, close_balls,        close_boxes};
 
 }  // namespace erbs::ERBS_TARGET

@@ -1,5 +1,6 @@
 #include "engine/geometry/clip.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -13,13 +14,12 @@ double cross2(const Vec2& a, const Vec2& b) { return a.x() * b.y() - a.y() * b.x
 
 Polygon2 clip_half_plane(const Polygon2& polygon, const Vec2& n, double d) {
   Polygon2 kept;
-  for (std::size_t i = 0; i < polygon.size(); ++i) {
-    const Vec2& p = polygon[i];
-    const Vec2& q = polygon[(i + 1) % polygon.size()];
-    const double dp = n.dot(p) - d, dq = n.dot(q) - d;
-    if (dp <= 0) kept.push_back(p);
-    if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) kept.push_back(p + dp / (dp - dq) * (q - p));
-  }
+  const int count = static_cast<int>(polygon.size());
+  const auto corner = [&](int i) -> const Vec2& { return polygon[static_cast<std::size_t>(i)]; };
+  const auto inside = [&](int i) { return d - n.dot(corner(i)); };
+  cut_polygon(count, corner, inside, [&](const Vec2& p, double) { kept.push_back(p); });
+  // The point on the last edge comes last: the polygon starts with the same corner as before, as far as that stays.
+  if (count > 0 && inside(0) * inside(count - 1) < 0) std::rotate(kept.begin(), kept.begin() + 1, kept.end());
   return kept;
 }
 

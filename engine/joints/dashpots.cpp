@@ -8,7 +8,7 @@ std::size_t z(int i) { return std::size_t(i); }
 }  // namespace
 
 void book_dashpots(State& s, int j, const double f[6], const double dq[6], JointSums& sums) {
-  double* last = &s.viscous[6 * z(j)];
+  double* last = &s.joints.viscous[6 * z(j)];
   for (int i = 0; i < 6; ++i) {
     sums.energy.damping += 0.5 * (last[i] + f[i]) * dq[i];
     last[i] = f[i];
@@ -19,21 +19,21 @@ void add_dashpots(const Model& m, State& s, int j, const Mat3& frame, const Vec3
                   JointSums& sums) {
   const Joint& joint = m.joint[z(j)];
   if (joint.viscous <= 0) return;
-  const Vec3 wa = s.w[z(joint.a)], wb = s.w[z(joint.b)];
-  const Vec3 apart = Vec3(s.v[z(joint.b)]) + wb.cross(arm_b) - Vec3(s.v[z(joint.a)]) - wa.cross(arm_a);
+  const Vec3 wa = s.motion.w[z(joint.a)], wb = s.motion.w[z(joint.b)];
+  const Vec3 apart = Vec3(s.motion.v[z(joint.b)]) + wb.cross(arm_b) - Vec3(s.motion.v[z(joint.a)]) - wa.cross(arm_a);
   const Vec3 rate[2] = {frame.transpose() * apart, frame.transpose() * (wb - wa)};
   double f[6], dq[6];
   for (int i = 0; i < 6; ++i) {
     f[i] = joint.viscous * joint.type->stiffness[i] * rate[i / 3][i % 3];
-    dq[i] = s.last_dt * rate[i / 3][i % 3];
+    dq[i] = s.time.last_dt * rate[i / 3][i % 3];
   }
-  if (m.laws[z(joint.type->law)].dry && f[2] > -force[2]) {
+  if (!m.laws[z(joint.type->law)].has_bond() && f[2] > -force[2]) {
     const double share = std::max(0.0, -force[2]) / f[2];
     for (int i = 2; i < 5; ++i) f[i] *= share;
   }
   const PointLaw& law = m.laws[z(joint.type->law)];
   const double strength = law.c * joint.type->area + law.mu * std::max(0.0, -force[2]);
-  const double share = share_within(force[0], force[1], f[0], f[1], strength);
+  const double share = share_of_drag({force[0], force[1]}, {f[0], f[1]}, strength);
   for (const int i : {0, 1, 5}) f[i] *= share;
   for (int i = 0; i < 6; ++i) force[i] += f[i];
   book_dashpots(s, j, f, dq, sums);
@@ -42,7 +42,7 @@ void add_dashpots(const Model& m, State& s, int j, const Mat3& frame, const Vec3
 void add_dashpots(const Model& m, State& s, int k, const JointPack& B, ElasticPack& o, JointSums& sums) {
   for (int l = 0; l < pack_size && k * pack_size + l < m.njoint; ++l) {
     const int j = k * pack_size + l;
-    if (s.slot[z(j)] != j || s.stage[z(j)] != JointStage::intact) continue;
+    if (s.joints.slot[z(j)] != j || s.joints.stage[z(j)] != JointStage::intact) continue;
     const Vec3 theta(o.theta[0][l], o.theta[1][l], o.theta[2][l]), arm_a(o.arm_a[0][l], o.arm_a[1][l], o.arm_a[2][l]),
         arm_b(o.arm_b[0][l], o.arm_b[1][l], o.arm_b[2][l]);
     const auto to_world = [&](const Vec3& x) { return Vec3(x + theta.cross(x)); };

@@ -1,19 +1,26 @@
-// Joints in their own frame, for laws that look at points: rows of blocks to q, resultants to wrench rows.
-// kinematics.h gives the formulas.
+// Elastic pass of joints in their own frame: pose rows of blocks to relative displacements, resultants to wrench rows. kinematics.h gives
+// the formulas.
 #pragma once
 #include "engine/joints/kernels.h"
+#include "engine/laws/yield.h"
 #include "engine/simd/transpose.h"
 #include "engine/simd/vec3.h"
 
 namespace erbs::ERBS_TARGET {
 
+// Limits of eight joints (laws/yield.h), from a `JointPack` or from `IntactConstants`.
+template <class Limits>
+ERBS_INLINE YieldLimits<Pack> limits_of(const Limits& L) {
+  return {load(L.open_limit), load(L.close_limit), load(L.slip_limit), load(L.slip_slope)};
+}
+
 struct Relative {
   Pack gap[6];         // m, rad: joint frame
   Pack3 arm_a, arm_b;  // m, from the centroids to where the force acts, world
-  Pack3 theta;         // rad, mean rotation since the refresh
+  Pack3 theta;         // rad, mean rotation since the reference poses
 };
 
-// Where rows of eight doubles begin.
+// Starts of rows of eight doubles.
 struct Begins {
   int at[pack_size];
 };
@@ -23,7 +30,7 @@ ERBS_INLINE Begins begins(const int* row) {
   return out;
 }
 
-// By how much x turns with t = tan(angle) about its axis, as rows of blocks have it: to third order.
+// Change of x by a rotation t = tan(angle) about its axis, as in pose rows: to third order.
 ERBS_INLINE Pack3 rotation_change(Pack3 t, Pack3 x) {
   const Pack3 c = cross(t, x);
   const Pack w = 1 - 0.5 * dot(t, t);
@@ -50,7 +57,7 @@ ERBS_INLINE void relative(const JointPack& B, const double* rows, Relative& o) {
   }
 }
 
-// Force and moment, world axes, to the rows of both ends.
+// Force and moment in world axes to the wrench rows of both ends.
 template <class Ends>
 ERBS_INLINE void write_wrenches(const Ends& B, Pack3 F, Pack3 moment, Pack3 arm_a, Pack3 arm_b, double* rows) {
   const Pack3 on_a = moment + cross(arm_a, F), on_b = cross(F, arm_b) - moment;
@@ -60,7 +67,7 @@ ERBS_INLINE void write_wrenches(const Ends& B, Pack3 F, Pack3 moment, Pack3 arm_
   pack_to_rows(out_b, rows, begins(B.wrench_row_b).at);
 }
 
-// Resultants turn with the frame; the force acts at the midpoint of the material points.
+// Resultants rotate with the frame; the force acts at the midpoint of the material points.
 ERBS_INLINE void write_joint_wrenches(const JointPack& B, const Relative& o, const Pack resultant[6], double* rows) {
   const Pack3 s = load3(B.frame), t = load3(B.frame + 3), n = load3(B.frame + 6);
   const auto in_world = [&](const Pack* x) {
@@ -70,16 +77,6 @@ ERBS_INLINE void write_joint_wrenches(const JointPack& B, const Relative& o, con
   write_wrenches(B, in_world(resultant), in_world(resultant + 3), o.arm_a, o.arm_b, rows);
 }
 
-// Bound: the greatest corner opening is exact for a rectangle and an upper bound for any other polygon; the greatest slip is an upper
-// bound; compression capacity is looked at only where there is one.
-ERBS_INLINE Pack yield_bound(const JointPack& B, const Pack gap[6]) {
-  const Pack bend = abs(gap[3]) * load(B.half_t) + abs(gap[4]) * load(B.half_s), opening = gap[2] + bend;
-  const Pack closing = bend - gap[2] - load(B.close_limit), torn = opening - load(B.open_limit);
-  const Pack slip = sqrt(gap[0] * gap[0] + gap[1] * gap[1]) + abs(gap[5]) * load(B.radius);
-  const Pack over = max(torn, closing), slid = slip + load(B.slip_slope) * opening - load(B.slip_limit);
-  return max(over, slid);
-}
-
 static void elastic(const JointPack& B, const double* rows, ElasticPack& o) {
   Relative r;
   relative(B, rows, r);
@@ -87,7 +84,7 @@ static void elastic(const JointPack& B, const double* rows, ElasticPack& o) {
   store3(o.arm_a, r.arm_a);
   store3(o.arm_b, r.arm_b);
   store3(o.theta, r.theta);
-  store(o.may_yield, yield_bound(B, r.gap));
+  store(o.may_yield, face_bound(limits_of(B), r.gap, load(B.half_s), load(B.half_t), load(B.radius)));
 }
 
 static void wrenches(const JointPack& B, const ElasticPack& o, double* rows) {

@@ -5,11 +5,11 @@
 
 namespace erbs {
 
-double event_budget(const Model& m, const State& s) { return s.step % foresee_every != 0 ? 0 : event_allowance(m, s); }
+double event_budget(const Model& m, const State& s) { return s.time.step % foresee_every != 0 ? 0 : event_allowance(m, s); }
 
 double event_allowance(const Model& m, const State& s) {
   if (m.analysis.unstable || m.analysis.solver == "sequential") return 0;
-  const double many = std::clamp(std::sqrt(s.unjoined / 16.0), 1.0, most_for_many);
+  const double many = std::clamp(std::sqrt(s.topology.unjoined / 16.0), 1.0, most_for_many);
   const double used = std::fabs(s.energy.event_residual) / (many * event_sum * s.energy.reference);
   return many * event_tolerance * s.energy.reference * std::max(0.01, 1 - used);
 }

@@ -1,11 +1,11 @@
-// What lanes take from lanes of other packs (Crossing of joint_pack.h).
+// Gathers the data of neighbours from lanes of other packs (`GatherTable` of joint_pack.h).
 #pragma once
 #include "engine/model/joint_pack.h"
 #include "engine/simd/pack.h"
 
 namespace erbs::ERBS_TARGET {
 
-// out[i][lane l] = x[i] of the lane that lane l reads, nothing where it reads none. The records are one piece of memory.
+// out[i][lane l] = x[i] of the lane that lane l reads, zero where it reads none. The records are contiguous.
 ERBS_INLINE void gather(const VectorPack<6>* records, const GatherTable& c, Pack out[6]) {
   const double* first = records->x[0];
 #if defined(__AVX512F__)

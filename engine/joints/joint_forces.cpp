@@ -19,10 +19,10 @@ void before(const State& s, const Joint& j, const JointPack& B, int l, double ga
   alignas(64) double rows[2 * 8];
   for (int end = 0; end < 2; ++end) {
     const int b = end == 0 ? j.a : j.b;
-    const auto& increment = s.increment[z(b / pack_size)].x;
+    const auto& increment = s.cache.increment[z(b / pack_size)].x;
     for (int i = 0; i < 3; ++i) {
-      rows[8 * end + i] = increment[i][b % pack_size] - s.last_dt * s.v[z(b)][i];
-      rows[8 * end + 3 + i] = increment[3 + i][b % pack_size] - s.last_dt * s.w[z(b)][i];
+      rows[8 * end + i] = increment[i][b % pack_size] - s.time.last_dt * s.motion.v[z(b)][i];
+      rows[8 * end + 3 + i] = increment[3 + i][b % pack_size] - s.time.last_dt * s.motion.w[z(b)][i];
     }
   }
   for (int k = 0; k < pack_size; ++k) one.a[k] = 0, one.b[k] = 1;
@@ -33,10 +33,13 @@ void before(const State& s, const Joint& j, const JointPack& B, int l, double ga
 
 }  // namespace
 
-void joint_by_points(const Model& m, State& s, int j, const double gap[6], double resultant[6], JointSums& sums, const JointPack* pack,
+void joint_by_points(const Model& m, State& s, int j, const double faces[6], double resultant[6], JointSums& sums, const JointPack* pack,
                      int lane) {
-  const bool intact = s.stage[z(j)] == JointStage::intact;
-  JointMemory& memory = s.memory[z(j)];
+  const bool intact = s.joints.stage[z(j)] == JointStage::intact;
+  JointMemory& memory = s.joints.memory[z(j)];
+  double gap[6];
+  std::copy_n(faces, 6, gap);
+  const double lift = intact ? 0 : lift_by_asperities(m, m.joint[z(j)], memory, gap);
   if (intact) {
     if (pack) before(s, m.joint[z(j)], *pack, lane, memory.gap, memory.resultant);
     else before(s, m.joint[z(j)], intact_pack(m, s, j / pack_size), j % pack_size, memory.gap, memory.resultant);
@@ -54,24 +57,26 @@ void joint_by_points(const Model& m, State& s, int j, const double gap[6], doubl
   const bool still = respond(m, j, intact, memory.gap, gap, past, resultant, e, damped ? limit.data() : nullptr);
   if (intact && still) return;
   if (intact) {
-    s.stage[z(j)] = JointStage::cracked;
+    s.joints.stage[z(j)] = JointStage::cracked;
     ++sums.cracked_now;
   }
   double work = 0;
   for (int i = 0; i < 6; ++i) work += 0.5 * (memory.resultant[i] + resultant[i]) * (gap[i] - memory.gap[i]);
   const double error = std::fabs(work - (e.elastic - memory.elastic) - e.friction - e.fracture - e.crushing);
   if (error > sums.largest_error) sums.largest_error = error, sums.worst_joint = j;
-  double dq[6], drag[6];
+  double dq[6], drag[6], across = 0.5 * (memory.resultant[2] + resultant[2]);
   for (int i = 0; i < 6; ++i) dq[i] = gap[i] - memory.gap[i], memory.resultant[i] = resultant[i];
   if (intact && m.dashpots) {
     const double none[6] = {};
     book_dashpots(s, j, none, dq, sums);  // their work since the last step
   }
-  if (damped && s.last_dt > 0) {
-    viscous_response(m, j, memory.gap, gap, before_it.data(), past, limit.data(), joint.viscous_cracked / s.last_dt, drag);
+  if (damped && s.time.last_dt > 0) {
+    viscous_response(m, j, memory.gap, gap, before_it.data(), past, limit.data(), joint.viscous_cracked / s.time.last_dt, drag);
+    across += 0.5 * (s.joints.viscous[6 * z(j) + 2] + drag[2]);
     book_dashpots(s, j, drag, dq, sums);
     for (int i = 0; i < 6; ++i) resultant[i] += drag[i];
   }
+  e.friction += advance_asperities(m, joint, past.point, across, lift, memory);
   for (int i = 0; i < 6; ++i) memory.gap[i] = gap[i];
   memory.elastic = e.elastic;
   sums.energy.friction += e.friction;
@@ -84,9 +89,9 @@ static double stored(const Model& m, const State& s, int k, const ElasticPack& o
   double sum = 0;
   for (int l = 0; l < pack_size && k * pack_size + l < m.njoint; ++l) {
     const int j = k * pack_size + l;
-    if (s.slot[z(j)] != j) continue;
-    if (s.stage[z(j)] == JointStage::cracked) {  // cracked in this step
-      sum += s.memory[z(j)].elastic;
+    if (s.joints.slot[z(j)] != j) continue;
+    if (s.joints.stage[z(j)] == JointStage::cracked) {  // cracked in this step
+      sum += s.joints.memory[z(j)].elastic;
       continue;
     }
     for (int i = 0; i < 6; ++i) sum += 0.5 * o.resultant[i][l] * o.gap[i][l];
@@ -102,7 +107,7 @@ void damped_joint_forces(const Model& m, State& s, const std::vector<JointPack>&
     const JointPack& B = pack[z(k)];
     if (std::all_of(B.wrench_row_a, B.wrench_row_a + pack_size, [&](int row) { return row == m.spare_wrench_row(); }))
       continue;  // all have cracked
-    kernels.elastic(B, s.pose_row.data(), o);
+    kernels.elastic(B, s.cache.pose_row.data(), o);
     unsigned may_yield = 0;
     for (int l = 0; l < pack_size; ++l) may_yield |= unsigned(o.may_yield[l] > 0) << l;
     for (int l = 0; may_yield != 0 && l < pack_size; ++l) {
@@ -114,7 +119,7 @@ void damped_joint_forces(const Model& m, State& s, const std::vector<JointPack>&
     }
     if (sample) sums.energy.elastic += stored(m, s, k, o);
     if (m.dashpots) add_dashpots(m, s, k, B, o, sums);
-    kernels.wrenches(B, o, s.wrench.data());
+    kernels.wrenches(B, o, s.cache.wrench.data());
   }
 }
 
@@ -126,12 +131,14 @@ bool out_of_range(const Joint& joint, const double gap[6]) {
 }
 
 bool joint_ready_for_contact(const Model& m, const State& s, int j) {
-  if (s.stage[z(j)] != JointStage::cracked) return false;
+  if (s.joints.stage[z(j)] != JointStage::cracked) return false;
   const Joint& joint = m.joint[z(j)];
-  if (!m.laws[z(joint.type->law)].dry)
+  const PointLaw& law = m.laws[z(joint.type->law)];
+  if (!may_release(joint, law, s.joints.memory[z(j)])) return false;
+  if (law.has_bond())
     for (int i = 0; i < joint.type->points; ++i)
-      if (s.history[z(joint.first_point + i)].damage < 1) return false;
-  return out_of_range(joint, s.memory[z(j)].gap);
+      if (s.joints.history[z(joint.first_point + i)].damage < 1) return false;
+  return out_of_range(joint, s.joints.memory[z(j)].gap);
 }
 
 }  // namespace erbs

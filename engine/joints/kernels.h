@@ -4,7 +4,7 @@
 #pragma once
 #include "engine/laws/crushing.h"
 #include "engine/laws/interlock.h"
-#include "engine/laws/point.h"
+#include "engine/laws/laws.h"
 #include "engine/model/joint_pack.h"
 
 namespace erbs {
@@ -73,8 +73,11 @@ struct alignas(64) CrackedPack {
   double resultant[6][pack_size], stored[pack_size];
   double least_damage[pack_size];  // of all points; 1 for dry joints
   double drag[6][pack_size];       // N, N m, of the dashpots at the last step, not contained in `resultant`
-  SlipPack* slip() { return reinterpret_cast<SlipPack*>(this + 1); }  // stored behind this object [points]
+  // Stored behind this object: the slips [points], then the numbers that only the joint's law knows (laws/face.h).
+  SlipPack* slip() { return reinterpret_cast<SlipPack*>(this + 1); }
   const SlipPack* slip() const { return reinterpret_cast<const SlipPack*>(this + 1); }
+  double (*own(int points))[pack_size] { return reinterpret_cast<double(*)[pack_size]>(slip() + points); }
+  const double (*own(int points) const)[pack_size] { return reinterpret_cast<const double(*)[pack_size]>(slip() + points); }
 };
 // Sums of several packs over a step, lane by lane.
 struct alignas(64) CrackedSums {
@@ -176,11 +179,14 @@ struct StepKernels {
   // Cracked joints: poses of blocks to wrench rows by the point laws (`response.h`). `poses`: rows of eight doubles, displacement and
   // attitude x y z w. `cracked` contains their history; `sums` receives their account. True if a joint may be beyond its faces
   // (`out_of_range()`).
-  bool (*respond)(const PointLaw& law, const CrackedShape& shape, BondPack* bond, CrackedPack& cracked, const double* poses,
-                  double* wrench_rows, CrackedSums& sums);
+  // One kernel for each type of law; null for a type without a bond.
+  using Respond = bool(const PointLaw& law, const CrackedShape& shape, BondPack* bond, CrackedPack& cracked, const double* poses,
+                       double* wrench_rows, CrackedSums& sums);
+  Respond* respond[Laws::count];
   // The same if no point has a bond left.
-  bool (*friction)(const PointLaw& law, const CrackedShape& shape, CrackedPack& cracked, const double* poses, double* wrench_rows,
-                   CrackedSums& sums);
+  using Friction = bool(const PointLaw& law, const CrackedShape& shape, CrackedPack& cracked, const double* poses, double* wrench_rows,
+                        CrackedSums& sums);
+  Friction* friction[Laws::count];
   // Resultants to wrenches on both blocks: the force acts at the midpoint of the material points; all is rotated forward by `theta`.
   void (*wrenches)(const JointPack& pack, const ElasticPack& in, double* wrench_rows);
   // Intact joints: increments of blocks to wrenches, for groups [first, last) of eight blocks. Lane l of the packs of group g

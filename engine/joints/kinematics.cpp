@@ -15,8 +15,8 @@ void set_source(const Model& m, const State& s, int j, int l, PosePack& p) {
   const Joint& joint = m.joint[z(j)];
   for (int end = 0; end < 2; ++end) {
     const int b = end == 0 ? joint.a : joint.b;
-    (end == 0 ? p.ua : p.ub)[l] = &s.ref_u.data()[b / pack_size].x[0][b % pack_size];
-    (end == 0 ? p.qa : p.qb)[l] = &s.ref_q.data()[b / pack_size].x[0][b % pack_size];
+    (end == 0 ? p.ua : p.ub)[l] = &s.cache.ref_u.data()[b / pack_size].x[0][b % pack_size];
+    (end == 0 ? p.qa : p.qb)[l] = &s.cache.ref_q.data()[b / pack_size].x[0][b % pack_size];
   }
   p.arm_a[l] = joint.arm_a.data(), p.arm_b[l] = joint.arm_b.data(), p.rest[l] = joint.type->frame.data();  // columns
 }
@@ -24,8 +24,8 @@ void set_source(const Model& m, const State& s, int j, int l, PosePack& p) {
 }  // namespace
 
 void set_reference(State& s, int b) {
-  s.ref_u[z(b)] = s.u[z(b)];
-  s.ref_q[z(b)] = s.q[z(b)];
+  s.cache.ref_u[z(b)] = s.pose.u[z(b)];
+  s.cache.ref_q[z(b)] = s.pose.q[z(b)];
   constexpr double none[6] = {};
   put_pose_row(s, b, none);
 }
@@ -37,13 +37,13 @@ Vec3 rotation_since(const Quat& q, const Quat& base) {
 }
 
 void set_pose_row(State& s, int b) {
-  const Vec3 du = s.u[z(b)] - s.ref_u[z(b)], theta = rotation_since(s.q[z(b)], s.ref_q[z(b)]);
+  const Vec3 du = s.pose.u[z(b)] - s.cache.ref_u[z(b)], theta = rotation_since(s.pose.q[z(b)], s.cache.ref_q[z(b)]);
   const double row[6] = {du.x(), du.y(), du.z(), theta.x(), theta.y(), theta.z()};
   put_pose_row(s, b, row);
 }
 
 void put_pose_row(State& s, int b, const double row[6]) {
-  for (int i = 0; i < 6; ++i) s.increment[z(b / pack_size)].x[i][b % pack_size] = s.pose_row[z(8 * b + i)] = row[i];
+  for (int i = 0; i < 6; ++i) s.cache.increment[z(b / pack_size)].x[i][b % pack_size] = s.cache.pose_row[z(8 * b + i)] = row[i];
 }
 
 // Always eight lanes, even for one joint, so that a joint's geometry depends neither on the time of its update nor on its neighbours. Empty
@@ -60,7 +60,7 @@ void set_geometry(const Model& m, const State& s, const int* joints, JointPack& 
         for (int i = 0; i < 3; ++i) field[i][l] = 0;
     } else if (p.far[l] > 0) {
       const Joint& joint = m.joint[z(joints[l])];
-      const Vec3 rho = rotation_vector(s.ref_q[z(joint.b)] * s.ref_q[z(joint.a)].conjugate());
+      const Vec3 rho = rotation_vector(s.cache.ref_q[z(joint.b)] * s.cache.ref_q[z(joint.a)].conjugate());
       for (int i = 0; i < 3; ++i) pack.rotation[i][l] = rho[i];
     }
   }
@@ -92,7 +92,7 @@ JointPack intact_pack(const Model& m, const State& s, int k) {
   int joints[pack_size];
   for (int l = 0; l < pack_size; ++l) {
     const int j = k * pack_size + l;
-    joints[l] = j < m.njoint && s.slot[z(j)] == j ? j : -1;
+    joints[l] = j < m.njoint && s.joints.slot[z(j)] == j ? j : -1;
   }
   return pack_of(m, s, joints);
 }

@@ -17,7 +17,7 @@
 // next update of the reference poses corrects it. The kernel of intact joints (`intact_kernel.h`) takes r to second order only. With
 // th = 2 sin(angle / 2) its third-order error of a rigid motion would be 3/8 th.th th x X; th = tan(angle) removes it.
 #pragma once
-#include "engine/base/rotation.h"
+#include "engine/joints/block_motion.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
 
@@ -29,43 +29,33 @@ struct JointPose {
   double gap[6];    // m, rad, joint frame
 };
 
-// Rotation vector of a quaternion (v, w): 2 asin(|v|) / |v| v. The series is used where its next term is below round-off.
-inline Vec3 small_rotation_vector(const Quat& q) {
-  const double x = q.vec().squaredNorm();
-  if (x > 4e-3) return rotation_vector(q);
-  constexpr double c[] = {1.0 / 6, 3.0 / 40, 15.0 / 336, 105.0 / 3456, 945.0 / 42240, 10395.0 / 599040};
-  const double series = 1 + x * (c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * (c[4] + x * c[5])))));
-  return (q.w() < 0 ? -2 : 2) * series * q.vec();
-}
-
-// Always inlined, so that the pose stays in registers: a load of parts of a stored pose would stall.
-[[gnu::always_inline]] inline JointPose pose_of(const Joint& joint, const Vec3& ua, const Quat& qa, const Vec3& ub, const Quat& qb) {
-  const Vec3 rho = small_rotation_vector(qb * qa.conjugate());  // world
-  // The sum of two unit quaternions of one sign is the rotation half way between them.
-  const Quat mean = Quat(qa.coeffs() + (qa.dot(qb) < 0 ? -1 : 1) * qb.coeffs()).normalized();
+inline JointPose pose_of(const Joint& joint, const Vec3& ua, const Quat& qa, const Vec3& ub, const Quat& qb) {
+  const auto vec = [](const Vec3& x) { return scalar::Vec3<double>{x.x(), x.y(), x.z()}; };
+  const auto quat = [](const Quat& q) { return scalar::Quat<double>{q.x(), q.y(), q.z(), q.w()}; };
+  const auto from = [](const scalar::Vec3<double>& x) { return Vec3(x.x, x.y, x.z); };
+  const auto of = scalar::block_motion(vec(ua), quat(qa), vec(ub), quat(qb), vec(joint.arm_a), vec(joint.arm_b));
+  const scalar::Mat3<double> mean = rotation_of(of.sum, of.two);
   JointPose p;
-  p.frame = mean.toRotationMatrix() * joint.type->frame;
-  const Vec3 rotated_a = rotation_change(qa, joint.arm_a), rotated_b = rotation_change(qb, joint.arm_b);
-  const Vec3 du = ub - ua;
-  p.apart = (joint.arm_a - joint.arm_b) + du;
-  p.sum = joint.arm_a + joint.arm_b + rotated_a + rotated_b;
-  const Vec3 d = p.frame.transpose() * (du + rotated_b - rotated_a);
-  const Vec3 r = p.frame.transpose() * rho;
+  for (int i = 0; i < 3; ++i) p.frame.row(i) = from(mean.row[i]).transpose() * joint.type->frame;
+  p.apart = (joint.arm_a - joint.arm_b) + (ub - ua);
+  p.sum = from(of.arm_a + of.arm_b);
+  const Vec3 d = p.frame.transpose() * from(of.gap);
+  const Vec3 r = p.frame.transpose() * (of.far ? rotation_vector(qb * qa.conjugate()) : from(of.rotation));
   for (int i = 0; i < 3; ++i) p.gap[i] = d[i], p.gap[3 + i] = r[i];
   return p;
 }
 
-[[gnu::always_inline]] inline JointPose joint_pose(const Model& m, const State& s, int j) {
+inline JointPose joint_pose(const Model& m, const State& s, int j) {
   const Joint& joint = m.joint[std::size_t(j)];
   const std::size_t a = std::size_t(joint.a), b = std::size_t(joint.b);
-  return pose_of(joint, s.u[a], s.q[a], s.u[b], s.q[b]);
+  return pose_of(joint, s.pose.u[a], s.pose.q[a], s.pose.u[b], s.pose.q[b]);
 }
 
 // tan(angle) of the rotation from `base` to q, about its axis, to fourth order; the form that pose rows have.
 Vec3 rotation_since(const Quat& q, const Quat& base);
 // Makes the present pose of block b its reference pose.
 void set_reference(State& state, int b);
-// Set `State::pose_row` and `State::increment` of block b, from its pose or to `row`.
+// Set `KernelCache::pose_row` and `KernelCache::increment` of block b, from its pose or to `row`.
 void set_pose_row(State& state, int b);
 void put_pose_row(State& state, int b, const double row[6]);
 void update_all_references(const Model& model, State& state);

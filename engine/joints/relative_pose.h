@@ -1,7 +1,8 @@
-// Geometry of joints from the poses of their blocks: pose_of of kinematics.h, eight joints side by side.
+// Geometry of eight joints from the poses of their blocks (block_motion.h).
 #pragma once
 #include <math.h>
 
+#include "engine/joints/block_motion.h"
 #include "engine/joints/elastic_kernel.h"
 #include "engine/joints/kernels.h"
 #include "engine/simd/transpose.h"
@@ -9,13 +10,7 @@
 
 namespace erbs::ERBS_TARGET {
 
-// (R - I) a for the turn by q.
-ERBS_INLINE Pack3 rotation_change(Quat<Pack> q, Pack3 a) {
-  const Pack3 v{q.x, q.y, q.z}, va = cross(v, a);
-  return 2 * q.w * va + 2.0 * cross(v, va);
-}
-
-// One number of each joint, straight into a register: stored one by one and read back whole it would wait for all of them.
+// One number of each joint, straight into a register.
 ERBS_INLINE Pack gathered(const double* const* from, int i) { return Pack::gather(from, i); }
 ERBS_INLINE Pack3 gathered3(const double* const* from, int apart) {
   return {gathered(from, 0), gathered(from, apart), gathered(from, 2 * apart)};
@@ -25,38 +20,9 @@ ERBS_INLINE Quat<Pack> gathered4(const double* const* from) {
   return {v.x, v.y, v.z, gathered(from, 3 * pack_size)};
 }
 
-// Two blocks as their joint sees them: arms turned, relative displacement and rotation, world axes.
-struct BlockMotionPair {
-  Pack3 arm_a, arm_b, gap, rotation;
-  Quat<Pack> sum;  // of their quaternions: the rotation half way, of any length
-  Pack two;        // over the square of that
-  Mask far;        // they have turned so far against each other that the series for `rotation` does not hold
-};
-
-ERBS_INLINE BlockMotionPair block_motion(Pack3 ua, Quat<Pack> qa, Pack3 ub, Quat<Pack> qb, Pack3 arm_a, Pack3 arm_b) {
-  constexpr double c[] = {2, 2.0 / 3, 4.0 / 15, 4.0 / 35, 16.0 / 315, 16.0 / 693};  // 2 acos(w) / |v| in 1 - w
-  Pack w = qb.w * qa.w + (qb.x * qa.x + qb.y * qa.y + qb.z * qa.z);
-  if (any(w < 0)) {  // one of them has turned all the way round: the other quaternion of its attitude
-    const Pack side = select(w < 0, Pack(-1), Pack(1));
-    qb = {side * qb.x, side * qb.y, side * qb.z, side * qb.w}, w = side * w;
-  }
-  const Pack3 va{qa.x, qa.y, qa.z}, vb{qb.x, qb.y, qb.z}, v = qa.w * vb - qb.w * va - cross(vb, va);
-  const Pack y = 1 - w;
-  BlockMotionPair out;
-  out.far = y > 2e-3;
-  out.rotation = (c[0] + y * (c[1] + y * (c[2] + y * (c[3] + y * (c[4] + y * c[5]))))) * v;
-  out.sum = {qa.x + qb.x, qa.y + qb.y, qa.z + qb.z, qa.w + qb.w};
-  out.two = 1 / (1 + w);
-  const Pack3 rotated_a = rotation_change(qa, arm_a), rotated_b = rotation_change(qb, arm_b);
-  out.gap = (ub - ua) + rotated_b - rotated_a;
-  out.arm_a = arm_a + rotated_a;
-  out.arm_b = arm_b + rotated_b;
-  return out;
-}
-
 static void pose(PosePack& p, JointPack& out) {
-  const BlockMotionPair of = block_motion(gathered3(p.ua, pack_size), gathered4(p.qa), gathered3(p.ub, pack_size), gathered4(p.qb),
-                                          gathered3(p.arm_a, 1), gathered3(p.arm_b, 1));
+  const auto of = block_motion(gathered3(p.ua, pack_size), gathered4(p.qa), gathered3(p.ub, pack_size), gathered4(p.qb),
+                               gathered3(p.arm_a, 1), gathered3(p.arm_b, 1));
   store(p.far, select(of.far, Pack(1), Pack(0)));
   store3(out.arm_a, of.arm_a);
   store3(out.arm_b, of.arm_b);
@@ -67,7 +33,7 @@ static void pose(PosePack& p, JointPack& out) {
     store3(out.frame + 3 * i, mean * Pack3{gathered(p.rest, 3 * i), gathered(p.rest, 3 * i + 1), gathered(p.rest, 3 * i + 2)});
 }
 
-// The relative rotation where blocks have turned far against each other: rotation_vector of vec.h, lane by lane.
+// The relative rotation of blocks far rotated against each other: `rotation_vector()` of vec.h, lane by lane.
 [[gnu::noinline, maybe_unused]] static void large_rotation(const Pack a[4], const Pack b[4], unsigned far, Pack rotation[3]) {
   double out[3][pack_size];
   for (int i = 0; i < 3; ++i) rotation[i].store(out[i]);
@@ -95,8 +61,8 @@ ERBS_INLINE void relative_motion(const CrackedPack& B, const FacePack& face, con
   Pack a[8], b[8];
   rows_to_pack(poses, begins(B.a).at, a);
   rows_to_pack(poses, begins(B.b).at, b);
-  BlockMotionPair of = block_motion({a[0], a[1], a[2]}, {a[3], a[4], a[5], a[6]}, {b[0], b[1], b[2]}, {b[3], b[4], b[5], b[6]},
-                                    load3(B.arm_a), load3(B.arm_b));
+  auto of = block_motion(Pack3{a[0], a[1], a[2]}, Quat<Pack>{a[3], a[4], a[5], a[6]}, Pack3{b[0], b[1], b[2]},
+                         Quat<Pack>{b[3], b[4], b[5], b[6]}, load3(B.arm_a), load3(B.arm_b));
   if (any(of.far)) {
     Pack rotation[3] = {of.rotation.x, of.rotation.y, of.rotation.z};
     large_rotation(a + 3, b + 3, bits(of.far), rotation);

@@ -1,9 +1,16 @@
 #include "engine/joints/response.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
+#include "engine/geometry/clip.h"
+#include "engine/laws/yield.h"
+
 namespace erbs {
+
+using namespace ERBS_TARGET;  // the laws, for one number
+
 namespace {
 
 struct PointGap {
@@ -38,26 +45,15 @@ Positive positive_part(const Eigen::Vector2d* corner, int corners, const double*
   Positive sum;
   std::array<Corner, 3> fan{};
   int count = 0;
-  const auto add_corner = [&](const Corner& c) {
-    if (count < 2) {
-      fan[std::size_t(count++)] = c;
-      return;
-    }
-    fan[2] = c;
-    add_triangle(fan[0], fan[1], fan[2], sum);
-    fan[1] = fan[2];
-  };
-  const auto at = [&](int i) { return Corner{corner[i].x(), corner[i].y(), sign * gap_at(gap, corner[i].x(), corner[i].y()).n}; };
-  Corner last = at(corners - 1);
-  for (int i = 0; i < corners; ++i) {
-    const Corner now = at(i);
-    if ((last.p > 0) != (now.p > 0)) {
-      const double x = last.p / (last.p - now.p);
-      add_corner({last.s + x * (now.s - last.s), last.t + x * (now.t - last.t), 0});
-    }
-    if (now.p > 0) add_corner(now);
-    last = now;
-  }
+  const auto value = [&](int i) { return sign * gap_at(gap, corner[i].x(), corner[i].y()).n; };
+  cut_polygon(
+      corners, [&](int i) -> const Vec2& { return corner[i]; }, value,
+      [&](const Vec2& at, double p) {
+        fan[std::size_t(std::min(count++, 2))] = {at.x(), at.y(), p};
+        if (count < 3) return;
+        add_triangle(fan[0], fan[1], fan[2], sum);
+        fan[1] = fan[2];
+      });
   return sum;
 }
 
@@ -110,39 +106,22 @@ double widest(const Model& m, int i, const double* gap, double at_point, double 
   return most;
 }
 
-struct Shear {
-  double s, t;  // N
-};
-
-// Radial return of one point. `normal`: its compressive force (N); `sigma`: its tension (Pa).
-Shear shear(const PointLaw& law, const Point& point, double normal, double sigma, const double* gap_before, const PointGap& g1,
-            PointHistory& h, JointEnergy& energy) {
-  const double weight = point.weight, k = law.ks * weight;
-  Shear now{k * (g1.s - h.slip_s), k * (g1.t - h.slip_t)};
-  const auto limit = [&](double p) { return (p < 1 ? bond_shear(law, sigma, p) * weight : 0) + friction_at(law, p) * normal; };
-  const double cap = limit(h.damage), square = now.s * now.s + now.t * now.t;
-  if (square <= cap * cap || k == 0) return now;
-  const double size = std::sqrt(square);
-  const PointGap g0 = gap_at(gap_before, point.s, point.t);
-  const Shear before{k * (g0.s - h.slip_s), k * (g0.t - h.slip_t)};
-  const bool bonded = h.damage < 1 && law.c > 0;
-  double slip = (size - cap) / k;
-  if (bonded) {
-    // Softening: the limit falls linearly with the slip that it allows, size - k slip = cap + slope slip.
-    const double slope = law.slip_ultimate > 0 ? ((law.mu_residual - law.mu) * normal - law.c * weight) / law.slip_ultimate : -k;
-    damage_to(law, h, k + slope > 0 ? h.damage + (size - cap) / (k + slope) / law.slip_ultimate : 1);
-    slip = (size - limit(h.damage)) / k;
-  }
-  const double ds = slip * now.s / size, dt = slip * now.t / size;
-  h.slip_s += ds;
-  h.slip_t += dt;
-  now.s -= k * ds;
-  now.t -= k * dt;
-  const double work = 0.5 * ((before.s + now.s) * ds + (before.t + now.t) * dt);
-  const double by_friction = bonded ? std::min(work, friction_at(law, h.damage) * normal * slip) : work;
-  energy.friction += by_friction;
-  energy.fracture += work - by_friction;  // loss of the bond beyond friction
-  return now;
+// Shear of one point. `normal`: its compressive force (N); `sigma`: its tension (Pa); `limit` receives what it can transmit (N).
+InPlane<double> shear(const PointLaw& law, const Point& point, double normal, double sigma, const double* gap_before, const PointGap& now,
+                      Bond<double>& bond, PointHistory& h, JointEnergy& energy, double& limit) {
+  const double k = law.ks * point.weight;
+  const auto strength = [&] { return bond_shear(law, sigma, bond.damage) * point.weight + friction_at(law, bond.damage) * normal; };
+  SlipReturn<double> slip{{now.s - h.slip_s, now.t - h.slip_t}, {h.slip_s, h.slip_t}, 0, 0};
+  limit = strength();
+  const double size = k * std::sqrt(square(slip.elastic));
+  if (size <= limit) return {k * slip.elastic.s, k * slip.elastic.t};
+  const PointGap then = gap_at(gap_before, point.s, point.t);
+  return_slip(law, bond, law.has_bond(), true, k, point.weight, size, limit, normal, sigma, {then.s - h.slip_s, then.t - h.slip_t}, slip);
+  limit = strength();
+  h.slip_s = slip.plastic.s, h.slip_t = slip.plastic.t;
+  energy.friction += slip.friction;
+  energy.fracture += slip.fracture;
+  return {k * slip.elastic.s, k * slip.elastic.t};
 }
 
 // For rules that are not exact in bending: an intact joint has the stiffness of its points, a cracked joint that of its true faces. The
@@ -154,34 +133,73 @@ double change_of_form(const Joint& joint, const double* gap_before, const double
                 joint.type->face[2] * (gap_before[3] * gap_now[4] + gap_before[4] * gap_now[3]));
 }
 
-bool passes(const PointLaw& law, const PointGap& g) {
-  const double sigma = law.kn * g.n, tau = law.ks * std::sqrt(g.s * g.s + g.t * g.t);
-  return sigma > law.ft || tau > bond_shear(law, std::max(0.0, sigma), 0) + law.mu * std::max(0.0, -sigma);
-}
+}  // namespace
 
-bool stays_intact(const Model& m, const Joint& joint, const PointLaw& law, const double* gap) {
-  for (int i = 0; (law.dry || law.fc > 0) && i < joint.type->corners; ++i) {
+bool stays_intact(const Model& m, const Joint& joint, const double* gap) {
+  const PointLaw& law = m.laws[std::size_t(joint.type->law)];
+  for (int i = 0; i < joint.type->corners; ++i) {
     const auto& c = m.overlap_corner[std::size_t(joint.type->first_corner + i)];
-    const double opening = gap_at(gap, c.x(), c.y()).n;
-    if (law.dry && opening > 0) return false;
-    if (law.fc > 0 && -law.kn * opening > law.fc) return false;
+    if (corner_yields(law, gap_at(gap, c.x(), c.y()).n)) return false;
   }
   for (int i = 0; i < joint.type->points; ++i) {
     const Point& x = m.point[std::size_t(joint.type->first_cell + i)];
-    if (passes(law, gap_at(gap, x.s, x.t))) return false;
+    const PointGap g = gap_at(gap, x.s, x.t);
+    if (point_yields(law, g.n, g.s * g.s + g.t * g.t)) return false;
   }
   return true;
 }
 
-}  // namespace
-
-double share_within(double s, double t, double ds, double dt, double limit) {
-  const double a = ds * ds + dt * dt, b = s * ds + t * dt, c = std::max(0.0, limit * limit - s * s - t * t);
-  return a + 2 * b > c ? (std::sqrt(b * b + a * c) - b) / a : 1;
+JointPast past_of(const Model& m, State& s, int j) {
+  return {&s.joints.history[std::size_t(m.joint[std::size_t(j)].first_point)],
+          s.joints.crushed.empty() ? nullptr : &s.joints.crushed[std::size_t(j)]};
 }
 
-JointPast past_of(const Model& m, State& s, int j) {
-  return {&s.history[std::size_t(m.joint[std::size_t(j)].first_point)], s.crushed.empty() ? nullptr : &s.crushed[std::size_t(j)]};
+double asperity_lift(const PointLaw& law, const JointMemory& memory) {
+  double lift = 0;
+  with_face(law, [&](auto face) {
+    if constexpr (decltype(face)::lifts) lift = memory.own[face.uplift];
+  });
+  return lift;
+}
+
+double lift_by_asperities(const Model& m, const Joint& joint, const JointMemory& memory, double gap[6]) {
+  const PointLaw& law = m.laws[std::size_t(joint.type->law)];
+  double lift = asperity_lift(law, memory);
+  gap[2] -= lift;
+  with_face(law, [&](auto face) {
+    if constexpr (decltype(face)::lifts) {
+      const double force = compression(m, joint, gap, law.kn).force;
+      const double rise = face.coming_rise(law, memory.own, gap[0], gap[1], force, joint.type->stiffness[0] / law.ks);
+      gap[2] -= rise;
+      lift += rise;
+    }
+  });
+  return lift;
+}
+
+double advance_asperities(const Model& m, const Joint& joint, const PointHistory* point, double across, double lift, JointMemory& memory) {
+  const PointLaw& law = m.laws[std::size_t(joint.type->law)];
+  double work = 0;
+  with_face(law, [&](auto face) {
+    if constexpr (decltype(face)::lifts) {
+      work = across * (lift - memory.own[face.used]);
+      InPlane<double> slip{0, 0};
+      for (int i = 0; i < joint.type->points; ++i) {
+        const double share = m.point[std::size_t(joint.type->first_cell + i)].weight / joint.type->area;
+        slip = {slip.s + share * point[i].slip_s, slip.t + share * point[i].slip_t};
+      }
+      face.advance(law, memory.own, slip, lift);
+    }
+  });
+  return work;
+}
+
+bool may_release(const Joint& joint, const PointLaw& law, const JointMemory& memory) {
+  double released = 1;
+  with_face(law, [&](auto face) {
+    if constexpr (decltype(face)::lifts) released = face.released(law, memory.own, memory.gap, joint.type->half_s, joint.type->half_t);
+  });
+  return released > 0;
 }
 
 CompressionFace compression_face(const Model& m, const Joint& joint) {
@@ -215,18 +233,12 @@ void distribute_pressure(const Model& m, const Joint& joint, const CrushedFace* 
 // Replaces the pressure of a point by its mean pressure, where that is higher and the joint slides slowly (`interlock.h`).
 void apply_interlock(const Model& m, const Joint& joint, const double* gap_before, const double* gap, const JointPast& past,
                      double* pressure) {
-  const Interlock& now = past.interlock;
-  if (!(now.gap > 0)) return;
+  if (!(past.interlock.gap > 0)) return;
   const Point* point = &m.point[std::size_t(joint.type->first_cell)];
-  const double ds = gap[0] - gap_before[0], dt = gap[1] - gap_before[1], twist = (gap[5] - gap_before[5]) * joint.type->radius;
-  const bool slow = ds * ds + dt * dt + twist * twist < now.slow;
-  for (int i = 0; i < joint.type->points; ++i) {
-    double& mean_pressure = past.point[i].mean_pressure;
-    const double stress = pressure[i] / point[i].weight;
-    const bool near = gap_at(gap, point[i].s, point[i].t).n < now.gap;
-    if (now.rate > 0) mean_pressure = !near ? 0 : mean_pressure > 0 ? mean_pressure + (stress - mean_pressure) * now.rate : stress;
-    if (near && slow && mean_pressure > stress) pressure[i] = mean_pressure * point[i].weight;
-  }
+  const bool slow = slides_slowly(past.interlock, gap, gap_before, joint.type->radius);
+  for (int i = 0; i < joint.type->points; ++i)
+    pressure[i] = point[i].weight * interlocked_stress(past.interlock, past.point[i].mean_pressure, gap_at(gap, point[i].s, point[i].t).n,
+                                                       pressure[i] / point[i].weight, slow);
 }
 
 }  // namespace
@@ -234,22 +246,23 @@ void apply_interlock(const Model& m, const Joint& joint, const double* gap_befor
 Interlock interlock_now(const Model& m, const State& s) {
   const double g = m.gravity.norm();
   if (!(g > 0 && m.settlement > 0)) return {};
-  const double way = interlock_speed * std::sqrt(g * m.settlement) * s.last_dt, since = interlock_every * s.last_dt,
+  const double way = interlock_speed * std::sqrt(g * m.settlement) * s.time.last_dt, since = interlock_every * s.time.last_dt,
                time = interlock_time * std::sqrt(m.settlement / g);
-  return {interlock_gap * m.settlement, way * way, s.step % interlock_every == 0 && since > 0 ? since / (since + time) : 0};
+  return {interlock_gap * m.settlement, way * way, s.time.step % interlock_every == 0 && since > 0 ? since / (since + time) : 0};
 }
 
 Interlock contact_interlock(const Model& m, const State& s) {
   const double g = m.gravity.norm(), d = m.settlement;
   if (!(g > 0 && d > 0)) return {};
-  return {interlock_gap * d, interlock_speed * interlock_speed * g * d, s.last_dt / (s.last_dt + interlock_time * std::sqrt(d / g))};
+  return {interlock_gap * d, interlock_speed * interlock_speed * g * d,
+          s.time.last_dt / (s.time.last_dt + interlock_time * std::sqrt(d / g))};
 }
 
 bool respond(const Model& m, int j, bool intact, const double* gap_before, const double* gap, JointPast past, double* resultant,
              JointEnergy& energy, double* shear_limit) {
   const Joint& joint = m.joint[std::size_t(j)];
   const PointLaw& law = m.laws[std::size_t(joint.type->law)];
-  if (intact && stays_intact(m, joint, law, gap)) {
+  if (intact && stays_intact(m, joint, gap)) {
     for (int i = 0; i < 6; ++i) {
       resultant[i] = joint.type->stiffness[i] * gap[i];
       energy.elastic += 0.5 * resultant[i] * gap[i];
@@ -258,8 +271,9 @@ bool respond(const Model& m, int j, bool intact, const double* gap_before, const
   }
   const Point* point = &m.point[std::size_t(joint.type->first_cell)];
   std::array<double, most_points_per_joint> pressure;  // N, compressive force of each point
-  if (law.fc > 0) energy.crushing += crush(compression_face(m, joint), *past.crushed, gap_plane(gap_before).data(), gap_plane(gap).data());
-  const CrushedFace* crushed = law.fc > 0 ? past.crushed : nullptr;
+  if (law.crushes())
+    energy.crushing += crush(compression_face(m, joint), *past.crushed, gap_plane(gap_before).data(), gap_plane(gap).data());
+  const CrushedFace* crushed = law.crushes() ? past.crushed : nullptr;
   const Pressed closed = compression(m, joint, crushed, gap, law.kn);
   resultant[0] = resultant[1] = resultant[5] = 0;
   resultant[2] = -closed.force;
@@ -271,38 +285,35 @@ bool respond(const Model& m, int j, bool intact, const double* gap_before, const
   apply_interlock(m, joint, gap_before, gap, past, pressure.data());
   for (int i = 0; i < joint.type->points; ++i) {
     PointHistory& h = past.point[i];
-    const double damage_before = h.damage;
     const PointGap g = gap_at(gap, point[i].s, point[i].t);
-    const bool bonded = damage_before < 1 && !law.dry;
-    const double k0 = damage_before > 0 ? h.secant : law.kn;
-    const double wide = bonded ? widest(m, joint.type->first_cell + i, gap, g.n) : 0;
-    if (bonded && wide > (damage_before > 0 ? h.kappa : law.opening_peak))
-      damage_to(law, h,
-                law.opening_ultimate > law.opening_peak ? (wide - law.opening_peak) / (law.opening_ultimate - law.opening_peak) : 1);
-    if (bonded && law.closing_ultimate > 0 &&
-        widest(m, joint.type->first_cell + i, gap, g.n, -1) > std::max(law.closing_ultimate, law.fc / law.kn))
-      damage_to(law, h, 1);
-    const double sigma = bonded && g.n > 0 ? (h.damage > 0 ? h.secant : law.kn) * g.n : 0;
-    const Shear tau = shear(law, point[i], pressure[std::size_t(i)], sigma, gap_before, g, h, energy);
-    if (shear_limit != nullptr)
-      shear_limit[i] =
-          (h.damage < 1 ? bond_shear(law, sigma, h.damage) * point[i].weight : 0) + friction_at(law, h.damage) * pressure[std::size_t(i)];
+    const int cell = joint.type->first_cell + i;
+    const bool holds = h.damage < 1 && law.has_bond();
+    Bond<double> bond{h.damage, h.secant, h.kappa};
+    const double before = bond.stiffness(law);
+    double sigma = 0, limit = 0;
+    if (holds) {
+      sigma = damage_by_opening(law, bond, holds, widest(m, cell, gap, g.n), g.n);
+      if (law.closing_ultimate > 0) damage_by_closing(law, bond, holds, widest(m, cell, gap, g.n, -1), sigma);
+    }
+    const InPlane<double> tau = shear(law, point[i], pressure[std::size_t(i)], sigma, gap_before, g, bond, h, energy, limit);
+    h.damage = bond.damage, h.secant = bond.secant, h.kappa = bond.kappa;
+    if (shear_limit != nullptr) shear_limit[i] = limit;
     resultant[0] += tau.s;
     resultant[1] += tau.t;
     resultant[5] += tau.t * point[i].s - tau.s * point[i].t;
     energy.elastic += 0.5 * (tau.s * (g.s - h.slip_s) + tau.t * (g.t - h.slip_t));
-    if (!bonded) continue;
-    const double k1 = h.damage > 0 ? h.secant : law.kn;
-    const Pull pull = pull_of(m, joint.type->first_cell + i, gap);
+    if (!holds) continue;
+    const double after = bond.stiffness(law);
+    const Pull pull = pull_of(m, cell, gap);
     // Half the loss of stiffness times Int g0 g1 over the open part of the cell, as the mean over the open parts before and after.
-    if (k0 != k1) {
-      const double both = work_of(pull, gap_before) + work_of(pull_of(m, joint.type->first_cell + i, gap_before), gap);
-      energy.fracture += 0.25 * (k0 - k1) * std::max(0.0, both);
+    if (before != after) {
+      const double both = work_of(pull, gap_before) + work_of(pull_of(m, cell, gap_before), gap);
+      energy.fracture += 0.25 * (before - after) * std::max(0.0, both);
     }
-    resultant[2] += k1 * pull.n;
-    resultant[3] += k1 * pull.t;
-    resultant[4] -= k1 * pull.s;
-    energy.elastic += 0.5 * k1 * work_of(pull, gap);
+    resultant[2] += after * pull.n;
+    resultant[3] += after * pull.t;
+    resultant[4] -= after * pull.s;
+    energy.elastic += 0.5 * after * work_of(pull, gap);
   }
   return false;
 }
@@ -316,10 +327,10 @@ void viscous_response(const Model& m, int j, const double* gap_before, const dou
     const Point& point = m.point[std::size_t(joint.type->first_cell + i)];
     const PointHistory& h = after.point[i];
     const PointGap g0 = gap_at(gap_before, point.s, point.t), g1 = gap_at(gap, point.s, point.t);
-    const bool holds = h.damage < 1 && !law.dry;
+    const bool holds = h.damage < 1 && law.has_bond();
     if ((holds || g1.n < 0) && h.slip_s == before[i].slip_s && h.slip_t == before[i].slip_t) {
       const double k = law.ks * point.weight, s = rate * k * (g1.s - g0.s), t = rate * k * (g1.t - g0.t);
-      const double x = share_within(k * (g1.s - h.slip_s), k * (g1.t - h.slip_t), s, t, shear_limit[i]);
+      const double x = share_of_drag({k * (g1.s - h.slip_s), k * (g1.t - h.slip_t)}, {s, t}, shear_limit[i]);
       resultant[0] += x * s;
       resultant[1] += x * t;
       resultant[5] += x * (t * point.s - s * point.t);
@@ -331,7 +342,7 @@ void viscous_response(const Model& m, int j, const double* gap_before, const dou
     resultant[3] += k * (p1.t - p0.t);
     resultant[4] -= k * (p1.s - p0.s);
   }
-  const CrushedFace* crushed = law.fc > 0 ? after.crushed : nullptr;
+  const CrushedFace* crushed = law.crushes() ? after.crushed : nullptr;
   const Pressed now = compression(m, joint, crushed, gap, law.kn), then = compression(m, joint, crushed, gap_before, law.kn);
   const double pull = rate * (then.force - now.force), share = pull > now.force ? rate * now.force / pull : rate;
   resultant[2] += share * (then.force - now.force);

@@ -1,6 +1,6 @@
 // Resultants of one joint from its contact points, for joints that may be beyond their elastic bound.
 #pragma once
-#include "engine/laws/interlock.h"
+#include "engine/laws/slip.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
 
@@ -35,8 +35,26 @@ CompressionFace compression_face(const Model& model, const Joint& joint);
 bool respond(const Model& model, int j, bool intact, const double* gap_before, const double* gap, JointPast past, double* resultant,
              JointEnergy& energy, double* shear_limit = nullptr);
 
-// Largest x <= 1 for which (s, t) + x (ds, dt) is within the limit.
-double share_within(double s, double t, double ds, double dt, double limit);
+// True while no point of an intact joint yields (laws/yield.h).
+bool stays_intact(const Model& model, const Joint& joint, const double* gap);
+
+// m, uplift of the slip so far, if the joint's law knows asperities (laws/face.h).
+double asperity_lift(const PointLaw& law, const JointMemory& memory);
+// Turns the relative displacement of the faces into that of the asperities, as `respond()` and `JointMemory` have it, with the uplift of
+// this step's slip. Returns the lift (m).
+double lift_by_asperities(const Model& model, const Joint& joint, const JointMemory& memory, double gap[6]);
+// Advances their history after `respond()`, once `memory.resultant` is the present one. `across` (N): mean normal force of this step and
+// the one before, tension positive. Returns the work of the change of lift (J), a part of the friction.
+double advance_asperities(const Model& model, const Joint& joint, const PointHistory* point, double across, double lift,
+                          JointMemory& memory);
+// True if the law does not mind that the joint goes over to contact.
+bool may_release(const Joint& joint, const PointLaw& law, const JointMemory& memory);
+
+// `share_within()` of laws/slip.h for one joint: the largest x <= 1 for which `present` + x `drag` is within the limit.
+inline double share_of_drag(scalar::InPlane<double> present, scalar::InPlane<double> drag, double limit) {
+  const bool past = square(scalar::InPlane<double>{present.s + drag.s, present.t + drag.t}) > std::max(square(present), limit * limit);
+  return share_within(present, drag, limit, past);
+}
 
 // Dashpots of a cracked joint from `gap_before` to q: the change of its spring forces over the step, without the points that slipped and
 // the stiffness that was lost, times `rate` (b / dt). Dashpots do not pull closed faces, and no point is sheared beyond its limit (N, from

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 
+#include "engine/geometry/clip.h"
+
 namespace erbs {
 namespace {
 
 struct Plane {
   double c = 0, s = 0, t = 0;
-  double at(double x, double y) const { return c + s * x + t * y; }
+  double at(const Vec2& x) const { return c + s * x.x() + t * x.y(); }
 };
 Plane operator-(const Plane& a, const Plane& b) { return {a.c - b.c, a.s - b.s, a.t - b.t}; }
 bool same(const Plane& a, const Plane& b) { return a.c == b.c && a.s == b.s && a.t == b.t; }
@@ -33,47 +35,28 @@ Envelope envelope(const CrushedFace& crushed) {
 struct Loop {
   static constexpr int most = CompressionFace::most_corners + 2 * (CrushedFace::most + 2) + 2;
   int count = 0;
-  double s[most], t[most];
+  Vec2 corner[most];
   Loop() = default;
   Loop(const Loop& other) { *this = other; }
   Loop& operator=(const Loop& other) {  // copies the used corners only
     count = other.count;
-    std::copy_n(other.s, count, s);
-    std::copy_n(other.t, count, t);
+    std::copy_n(other.corner, count, corner);
     return *this;
   }
-  void add(double x, double y) {
-    s[count] = x;
-    t[count++] = y;
-  }
+  void add(const Vec2& x) { corner[count++] = x; }
 };
 
-// The part of a convex loop where f >= 0.
-void clip(const Loop& in, const Plane& f, Loop& out) {
-  out.count = 0;
-  double s0 = in.s[in.count - 1], t0 = in.t[in.count - 1], f0 = f.at(s0, t0);
-  for (int i = 0; i < in.count; ++i) {
-    const double s1 = in.s[i], t1 = in.t[i], f1 = f.at(s1, t1);
-    if ((f0 >= 0) != (f1 >= 0)) {
-      const double x = f0 / (f0 - f1);
-      out.add(s0 + x * (s1 - s0), t0 + x * (t1 - t0));
-    }
-    if (f1 >= 0) out.add(s1, t1);
-    s0 = s1, t0 = t1, f0 = f1;
-  }
-  if (out.count < 3) out.count = 0;
-}
-
+// Cuts a convex loop to the part where f >= 0.
 void clip_to(Loop& loop, const Plane& f) {
+  const auto value = [&](int i) { return f.at(loop.corner[i]); };
   int inside = 0;
-  for (int i = 0; i < loop.count; ++i) inside += f.at(loop.s[i], loop.t[i]) >= 0;
+  for (int i = 0; i < loop.count; ++i) inside += value(i) >= 0;
   if (inside == loop.count) return;
-  if (inside == 0) {
-    loop.count = 0;
-    return;
-  }
   Loop part;
-  clip(loop, f, part);
+  if (inside > 0)
+    cut_polygon(
+        loop.count, [&](int i) -> const Vec2& { return loop.corner[i]; }, value, [&](const Vec2& x, double) { part.add(x); });
+  if (part.count < 3) part.count = 0;
   loop = part;
 }
 
@@ -83,31 +66,35 @@ void clip_to_region(Loop& loop, const Envelope& z, int k) {
     if (j != k) clip_to(loop, z.plane[j] - z.plane[k]);
 }
 
+Vec2 corner(const CompressionFace& face, int i) { return {face.corner[2 * i], face.corner[2 * i + 1]}; }
+
 Loop whole(const CompressionFace& face) {
   Loop loop;
-  for (int i = 0; i < face.corners; ++i) loop.add(face.corner[2 * i], face.corner[2 * i + 1]);
+  for (int i = 0; i < face.corners; ++i) loop.add(corner(face, i));
   return loop;
 }
 
-// Calls f(area, i, j, k) for each triangle of the fan from the first corner; i, j, k number its corners.
+// Calls f(area, x, y, z) for each triangle of the fan from the first corner; x, y, z: its corners.
 template <class F>
 void triangles(const Loop& loop, const F& f) {
-  for (int i = 2; i < loop.count; ++i)
-    f(0.5 * ((loop.s[i - 1] - loop.s[0]) * (loop.t[i] - loop.t[0]) - (loop.s[i] - loop.s[0]) * (loop.t[i - 1] - loop.t[0])), 0, i - 1, i);
+  const Vec2& x = loop.corner[0];
+  for (int i = 2; i < loop.count; ++i) {
+    const Vec2 &y = loop.corner[i - 1], &z = loop.corner[i];
+    f(0.5 * ((y.x() - x.x()) * (z.y() - x.y()) - (z.x() - x.x()) * (y.y() - x.y())), x, y, z);
+  }
 }
 
 double area(const Loop& loop) {
   double sum = 0;
-  triangles(loop, [&](double a, int, int, int) { sum += a; });
+  triangles(loop, [&](double a, const Vec2&, const Vec2&, const Vec2&) { sum += a; });
   return sum;
 }
 
 // Int u v dA of linear u and v; over a triangle A/12 (sum u sum v + sum u_i v_i).
 double product(const Loop& loop, const Plane& u, const Plane& v) {
   double sum = 0;
-  triangles(loop, [&](double a, int i, int j, int k) {
-    const double u0 = u.at(loop.s[i], loop.t[i]), u1 = u.at(loop.s[j], loop.t[j]), u2 = u.at(loop.s[k], loop.t[k]);
-    const double v0 = v.at(loop.s[i], loop.t[i]), v1 = v.at(loop.s[j], loop.t[j]), v2 = v.at(loop.s[k], loop.t[k]);
+  triangles(loop, [&](double a, const Vec2& x, const Vec2& y, const Vec2& z) {
+    const double u0 = u.at(x), u1 = u.at(y), u2 = u.at(z), v0 = v.at(x), v1 = v.at(y), v2 = v.at(z);
     sum += a / 12 * ((u0 + u1 + u2) * (v0 + v1 + v2) + u0 * v0 + u1 * v1 + u2 * v2);
   });
   return sum;
@@ -153,13 +140,13 @@ void thin_out(const CompressionFace& face, Envelope& z) {
 bool passes(const CompressionFace& face, const Envelope& z, const Plane& lower) {
   const double round_off = 1e-12 * face.limit;
   bool below = false;
-  for (int i = 0; i < face.corners; ++i) below = below || lower.at(face.corner[2 * i], face.corner[2 * i + 1]) < -round_off;
+  for (int i = 0; i < face.corners; ++i) below = below || lower.at(corner(face, i)) < -round_off;
   for (int k = 0; below && k < z.count; ++k) {
     Loop loop = whole(face);
     clip_to_region(loop, z, k);
     const Plane over = z.plane[k] - lower;
     for (int i = 0; i < loop.count; ++i)
-      if (over.at(loop.s[i], loop.t[i]) > round_off) return true;
+      if (over.at(loop.corner[i]) > round_off) return true;
   }
   return false;
 }
@@ -212,8 +199,8 @@ double crush(const CompressionFace& face, CrushedFace& crushed, const double bef
 double pressed_depth(const CompressionFace& face, const CrushedFace& crushed, const double gap[3], double s, double t) {
   const Envelope z = envelope(crushed);
   double lowest = 0;
-  for (int k = 1; k < z.count; ++k) lowest = std::min(lowest, z.plane[k].at(s, t));
-  return std::clamp(lowest - plane(gap).at(s, t), 0.0, face.limit);
+  for (int k = 1; k < z.count; ++k) lowest = std::min(lowest, z.plane[k].at({s, t}));
+  return std::clamp(lowest - plane(gap).at({s, t}), 0.0, face.limit);
 }
 
 }  // namespace erbs

@@ -4,8 +4,27 @@
 // This is the ASSUMED reading of Fig. 5 of Gu and Miao, since its curves are lost. The joint is elastic to the peak, softens (or drops
 // brittly) to the ultimate deformation, and is then a unilateral frictional contact.
 #pragma once
-#include "engine/base/field.h"
+#include "engine/laws/crushing.h"
+#include "engine/laws/face.h"
+#include "engine/laws/law.h"
 
+namespace erbs {
+struct Mortar;
+}
+
+namespace erbs::ERBS_TARGET {
+
+struct MortarFace : ElasticFace {
+  static constexpr bool has_bond = true, yields = true;
+};
+template <>
+struct FaceOf<Mortar> {
+  using type = MortarFace;
+};
+
+}  // namespace erbs::ERBS_TARGET
+
+#ifdef ERBS_HOST
 namespace erbs {
 
 struct Mortar {
@@ -29,6 +48,8 @@ struct Mortar {
   std::string coupling = "coulomb";  // coulomb | linear | ellipse
 
   static constexpr std::string_view law_name = "mortar";
+  static constexpr std::string_view help =
+      "A mortar joint: linear, with tension cut-off, Coulomb shear with cohesion, and optional softening.";
   static Fields<Mortar> fields() {
     return {
         {"E", &Mortar::E, "Pa", "Young's modulus of the mortar", 0, 1e14},
@@ -52,6 +73,78 @@ struct Mortar {
         {"coupling", &Mortar::coupling, "", "tension-shear coupling: coulomb, linear or ellipse", 0, 0, false, "coulomb|linear|ellipse"},
     };
   }
+  std::string complete() {
+    if (kn == 0 && E == 0) return "there is no stiffness; give E (with the thickness of the bed) or kn";
+    if (kn > 0 && ks == 0 && G == 0 && E == 0) ks = 0.4 * kn;
+    return "";
+  }
+  std::string share_thickness(double& of_joint, bool given) {
+    if (!given) of_joint = thickness;
+    if (thickness == 0) thickness = of_joint;
+    if (kn > 0 || E == 0 || thickness > 0) return "";
+    return "the mortar has E but no thickness; give thickness = 5*mm here or in mortar{}";
+  }
+  std::vector<std::string> mistakes() const {
+    std::vector<std::string> out;
+    if (kn == 0 && (E == 0 || thickness == 0))
+      out.push_back("the mortar has no normal stiffness; give kn, or E and the thickness of the bed");
+    if (ks == 0 && (thickness == 0 || (G == 0 && E == 0)) && (kn == 0 || E == 0))
+      out.push_back("the mortar has no shear stiffness; give ks, or G or E and the thickness of the bed");
+    if (mu_residual != -1 && mu_residual < 0) out.push_back("mu_residual is negative; leave it out for mu, or give 0 and more");
+    return out;
+  }
+  PointLaw compile() const {
+    PointLaw p;
+    const double shear = G > 0 ? G : E / (2 * (1 + nu));
+    p.kn = kn > 0 ? kn : E / thickness;
+    p.modulus = E;
+    p.ks = ks > 0 ? ks : (shear > 0 ? shear / thickness : p.kn / (2 * (1 + nu)));
+    p.c = c;
+    p.mu = mu;
+    p.mu_residual = mu_residual >= 0 ? mu_residual : mu;
+    p.coupling = coupling == "linear"    ? PointLaw::Coupling::linear
+                 : coupling == "ellipse" ? PointLaw::Coupling::ellipse
+                                         : PointLaw::Coupling::coulomb;
+    // The apex of the Coulomb cone caps the tension of a point; `warnings()` says so.
+    p.ft = p.coupling == PointLaw::Coupling::coulomb && mu > 0 ? std::min(ft, c / mu) : ft;
+    p.opening_peak = p.ft / p.kn;
+    const double from_energy = p.ft > 0 ? 2 * Gf1 / p.ft : 0;
+    p.opening_ultimate = std::max(p.opening_peak, un_ultimate > 0 ? un_ultimate : from_energy);
+    // Plastic slip at zero cohesion: the elastic part c / ks does not count.
+    p.slip_ultimate = us_ultimate > 0 ? std::max(0.0, us_ultimate - c / p.ks) : (c > 0 ? 2 * Gf2 / c : 0);
+    p.fc = fc;
+    p.closing_ultimate = uc_ultimate;
+    p.damping = damping;
+    p.dry = p.ft == 0 && p.c == 0;
+    return p;
+  }
+  static LawEffects<Mortar> effects() {
+    return {{"softening in tension", [](const Mortar& m) { return m.Gf1 > 0 || m.un_ultimate > 0; },
+             [](Mortar& m) { m.Gf1 = m.un_ultimate = 0; }},
+            {"softening in shear", [](const Mortar& m) { return m.Gf2 > 0 || m.us_ultimate > 0; },
+             [](Mortar& m) { m.Gf2 = m.us_ultimate = 0; }},
+            {"compression plateau", [](const Mortar& m) { return m.fc > 0; }, [](Mortar& m) { m.fc = m.uc_ultimate = 0; }}};
+  }
+  std::vector<std::pair<const char*, double>> strengths() const { return {{"ft", ft}, {"c", c}, {"fc", fc}}; }  // Pa
+  std::vector<std::string> warnings() const {
+    std::vector<std::string> out;
+    if (coupling == "coulomb" && mu > 0 && ft > c / mu)
+      out.push_back(fmt::format("ft = {:g} Pa lies above the tip of the Coulomb cone, c / mu = {:g} Pa; it is capped there", ft, c / mu));
+    if (kn <= 0 && thickness <= 0) return out;
+    const PointLaw p = compile();
+    if (Gf1 > 0 && Gf1 < ft * ft / (2 * p.kn))
+      out.push_back(
+          fmt::format("Gf1 = {:g} J/m2 is less than the elastic energy at the peak, ft^2 / (2 kn) = {:g} J/m2; the joint snaps "
+                      "back (breaks at once)",
+                      Gf1, ft * ft / (2 * p.kn)));
+    if (Gf2 > 0 && p.ks > 0 && Gf2 < c * c / (2 * p.ks))
+      out.push_back(
+          fmt::format("Gf2 = {:g} J/m2 is less than the elastic energy at the peak, c^2 / (2 ks) = {:g} J/m2; the joint snaps "
+                      "back in shear (its bond goes at once)",
+                      Gf2, c * c / (2 * p.ks)));
+    return out;
+  }
 };
 
 }  // namespace erbs
+#endif

@@ -16,7 +16,14 @@ struct PointLaw {
   double damping = 0;           // viscous ratio of a cracked joint, of its own critical value
   bool interlock = true;        // interlock.h
   Coupling coupling = Coupling::coulomb;
-  bool dry = false;  // no bond from the start
+  bool dry = false;        // no bond from the start
+  int type = 0;            // of `Laws` (laws.h)
+  double modulus = 0;      // Pa, Young's modulus of the layer; 0: unknown
+  double own[2] = {0, 0};  // numbers that only this type of law knows
+
+  bool has_bond() const { return !dry; }
+  double mu_debonded() const { return dry ? mu : mu_residual; }
+  bool crushes() const { return fc > 0; }  // has a plateau in compression
 };
 
 // History of a contact point. Damage p grows from 0 (intact) to 1 (no tensile strength, no cohesion) and never falls.

@@ -22,4 +22,8 @@ double end_time(const Wave& wave) {
   return std::visit([](const auto& w) { return end_time(w); }, wave);
 }
 
+double resolution(const Wave& wave) {
+  return std::visit([](const auto& w) { return resolution(w); }, wave);
+}
+
 }  // namespace erbs

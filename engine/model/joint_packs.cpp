@@ -4,6 +4,8 @@
 #include <limits>
 #include <numeric>
 
+#include "engine/laws/yield.h"
+
 namespace erbs {
 namespace {
 
@@ -87,11 +89,9 @@ void set_constants(const Model& m, int j, JointPack& pack, int l) {
   const Joint& joint = m.joint[z(j)];
   const PointLaw& law = m.laws[z(joint.type->law)];
   for (int i = 0; i < 6; ++i) pack.stiffness[i][l] = joint.type->stiffness[i];
-  // Couplings with zero shear at ft have no linear bound: in any tension the joint is checked point by point.
-  pack.open_limit[l] = law.coupling == PointLaw::Coupling::coulomb ? law.ft / law.kn : 0;
-  pack.slip_limit[l] = law.ks > 0 ? law.c / law.ks : infinite;
-  pack.slip_slope[l] = law.ks > 0 ? law.mu * law.kn / law.ks : 0;
-  pack.close_limit[l] = law.fc > 0 ? law.fc / law.kn : infinite;
+  const auto limits = scalar::yield_limits(law);
+  pack.open_limit[l] = limits.open, pack.close_limit[l] = limits.close;
+  pack.slip_limit[l] = limits.slip, pack.slip_slope[l] = limits.slope;
   pack.half_s[l] = joint.type->half_s;
   pack.half_t[l] = joint.type->half_t;
   pack.radius[l] = joint.type->radius;
@@ -102,15 +102,15 @@ void set_constants(const Model& m, int j, JointPack& pack, int l) {
 }
 
 int add_empty_pack(const Model& m, State& s) {
-  s.pack.push_back(JointPack{});
-  for (int l = 0; l < pack_size; ++l) clear_lane(m, s.pack.back(), l);
-  return int(s.pack.size()) - 1;
+  s.joints.pack.push_back(JointPack{});
+  for (int l = 0; l < pack_size; ++l) clear_lane(m, s.joints.pack.back(), l);
+  return int(s.joints.pack.size()) - 1;
 }
 
 void set_slots(const Model& m, State& s) {
-  s.pack.clear();
-  s.slot.resize(z(m.njoint));
-  std::iota(s.slot.begin(), s.slot.end(), 0);
+  s.joints.pack.clear();
+  s.joints.slot.resize(z(m.njoint));
+  std::iota(s.joints.slot.begin(), s.joints.slot.end(), 0);
 }
 
 }  // namespace erbs

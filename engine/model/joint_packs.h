@@ -1,6 +1,6 @@
 // Joints in packs of eight lanes: which batch holds which joint. Intact joints lie in the order of their number. The State does not
 // store their batches: the content follows from the poses of the last update of the reference (`intact_pack` in kinematics.h). A joint
-// that cracks moves to a batch of State::pack; a joint released to contact leaves its lane empty.
+// that cracks moves to a batch of JointState::pack; a joint released to contact leaves its lane empty.
 #pragma once
 #include "engine/model/model.h"
 #include "engine/model/state.h"
@@ -17,7 +17,7 @@ inline bool owner_computes(const Model& model) {
 inline int intact_packs(const Model& model) { return (model.njoint + pack_size - 1) / pack_size; }
 
 void set_slots(const Model& model, State& state);      // all joints intact, each in its own lane
-int add_empty_pack(const Model& model, State& state);  // returns its index in State::pack
+int add_empty_pack(const Model& model, State& state);  // returns its index in JointState::pack
 void clear_lane(const Model& model, JointPack& pack, int lane);
 void set_constants(const Model& model, int j, JointPack& pack, int lane);  // data of joint j that no update of the reference changes
 

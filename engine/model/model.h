@@ -1,12 +1,11 @@
-// The Model: all data that stay constant after build. All data that change are in state.h. A step is a function of both.
+// The Model: all data that stay constant after the run is prepared. All data that change are in state.h. A step is a function of both.
 #pragma once
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include "engine/laws/point_law.h"
+#include "engine/laws/laws.h"
 #include "engine/model/joint_pack.h"
 #include "engine/model/owner_schedule.h"
 #include "engine/scene/scene.h"
@@ -38,7 +37,7 @@ struct Joint {
   int a = 0, b = 0;
   int part_a = 0, part_b = 0;  // of the blocks
   int face_a = 0, face_b = 0;  // of the parts
-  int first_point = 0;         // first of its points in State::history
+  int first_point = 0;         // first of its points in JointState::history
   bool owned_by_b = false;     // owner of the intact joint, in whose lane it is evaluated: b, else a (`choose_owners`)
   Vec3 arm_a, arm_b;           // m, from the centroids to the weighted centre of its contact points, at rest
   double viscous = 0;          // s, dashpot coefficient b of the intact joint, c = b k
@@ -111,10 +110,8 @@ struct Model {
   std::vector<PrescribedMotion> prescribed_motions;
   std::vector<Ground> grounds;
   std::vector<Tilt> tilts;
-  Vec3 gravity = Vec3::Zero();                                   // m/s2
-  double dt_critical = std::numeric_limits<double>::infinity();  // s, 2 / omega_max at rest, joints in their stiffer form; infinite without
-  double settlement = 0;                                         // m, estimated settlement of the top under self-weight (laws/interlock.h)
-  double dt_max = 0;                                             // s, longest step of a run, once contacts allow more than the joints did
+  Vec3 gravity = Vec3::Zero();  // m/s2
+  double settlement = 0;        // m, estimated settlement of the top under self-weight (laws/interlock.h)
   Damping damping;
   bool dashpots = false;          // some intact joint has dashpots
   bool dashpots_cracked = false;  // some joint has them once cracked
@@ -122,8 +119,6 @@ struct Model {
   bool damping_explicit = false, damping_all = false;
   std::vector<Material> materials;
   std::vector<Parts> parts;  // m, world axes at rest, the scene's own [nblock]
-  std::vector<std::string> warnings;
-  std::vector<std::string> notes;  // details of a summary warning, for log.txt
 
   int spare_wrench_row() const { return first_wrench_row.back(); }
   template <class F>

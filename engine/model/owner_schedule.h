@@ -15,11 +15,11 @@ struct OwnerSchedule {
   std::vector<int> first_pack;     // first batch of each group of blocks                    [groups + 1]
   std::vector<int> joint;          // joint in each lane of a batch; -1: none                [batches * lanes]
   std::vector<int> lane;           // batch * lanes + lane of each joint                     [njoint]
-  std::vector<GatherTable> other;  // gathers the other blocks of a batch from State::increment  [batches]
-  // Forces of joints on blocks that do not own them, in State::neighbour_force: gather tables of each group of moving blocks.
+  std::vector<GatherTable> other;  // gathers the other blocks of a batch from KernelCache::increment  [batches]
+  // Forces of joints on blocks that do not own them, in KernelCache::neighbour_force: gather tables of each group of moving blocks.
   std::vector<int> first_gather;  //                                                        [groups + 1]
   std::vector<GatherTable> gather_in;
-  // The same for each single block: positions in State::neighbour_force, in doubles.
+  // The same for each single block: positions in KernelCache::neighbour_force, in doubles.
   std::vector<int> first_end;  //                                                        [nblock + 1]
   std::vector<int> end;
 };

@@ -20,6 +20,7 @@ struct JointMemory {
   double gap[6] = {};        // at the last step (cracked joints only)
   double resultant[6] = {};  // N, N m
   double elastic = 0;        // J
+  double own[5] = {};        // history that only the joint's law knows (laws/face.h)
 };
 
 // All energy terms, in J; names as in metrics.json. Terms of the present state are filled at a sample, the others accumulate.
@@ -48,29 +49,41 @@ struct Energy {
   bool started = false;
 };
 
-struct State {
+// Time, and the length of the step.
+struct TimeStep {
   long step = 0;
   long start_step = 0;  // since the last change of dt: t = start_t + (step - start_step) dt, without a sum of roundings
   double start_t = 0;
-  double t = 0;        // s, of the positions; velocities lag half a step until the kick
-  double dt = 0;       // s, of the next drift
-  double last_dt = 0;  // s, of the drift that led here; 0 at the start
-  // blocks [nblock + 1]; the last is a block at rest, for unused lanes
-  BlockVec3 u;              // m, displacement of the centroid from rest, relative to the ground
-  BlockQuat q;              // rotation from rest
+  double t = 0;                 // s, of the positions; velocities lag half a step until the kick
+  double dt = 0;                // s, of the next drift
+  double last_dt = 0;           // s, of the drift that led here; 0 at the start
+  double dt_target = 0;         // s, target step of the run; dt may be shorter while contacts change
+  int steps_since_limited = 0;  // steps since contacts last limited dt
+  double event_dt = 0;          // s, step allowed by the next openings and closings (event_bound.h); 0: any
+};
+
+// Arrays of blocks are [nblock + 1]; the last is a block at rest, for unused lanes.
+struct BlockPoses {
+  BlockVec3 u;  // m, displacement of the centroid from rest, relative to the ground
+  BlockQuat q;  // rotation from rest
+};
+
+struct MotionState {
   BlockVec3 v;              // m/s, at the half step
   BlockVec3 spin_momentum;  // kg m2/s, about the centroid, world axes
   BlockVec3 w;              // rad/s, world axes, of the last drift
-  BlockVec3 ref_u;          // reference pose: the pose at its last update
-  BlockQuat ref_q;
-  std::vector<VectorPack<6>> increment;  // m, rad, increment of displacement and rotation since that update (kinematics.h)
-  Rows pose_row;                         // the same as one cache line of 8 doubles per block, for kernels that read rows
-  std::vector<int> island;               // group of blocks joined to each other, named by its lowest block
-  std::vector<std::uint8_t> grounded;    // the island has a joint to a fixed block, or a driven block
-  std::vector<std::uint8_t> joined;      // the block has a joint that is not released
-  int unjoined = 0;                      // number of moving blocks without such a joint
-  std::vector<std::uint8_t> loose;       // the block may meet new neighbours
-  // joints
+};
+
+// Which blocks are joined to each other.
+struct Topology {
+  std::vector<int> island;             // group of blocks joined to each other, named by its lowest block
+  std::vector<std::uint8_t> grounded;  // the island has a joint to a fixed block, or a driven block
+  std::vector<std::uint8_t> joined;    // the block has a joint that is not released
+  int unjoined = 0;                    // number of moving blocks without such a joint
+  std::vector<std::uint8_t> loose;     // the block may meet new neighbours
+};
+
+struct JointState {
   std::vector<JointPack> pack;  // batches of cracked joints (joint_packs.h)
   // lane of each joint: batch * lanes + lane, counting the batches of intact joints first; -1 once released to contact [njoint]
   std::vector<int> slot;
@@ -78,23 +91,51 @@ struct State {
   LazyArray<JointMemory> memory;    // [njoint]
   LazyArray<PointHistory> history;  // [npoint]
   LazyArray<CrushedFace> crushed;   // [njoint]; empty if no law has a compression plateau
-  Rows wrench;                      // rows of 8 doubles: force, moment on a block from one joint end (Model::wrench_row_a, wrench_row_b)
+  std::vector<double> viscous;      // N, N m, dashpot resultants of the last step [6 njoint]; empty without dashpots
+};
+
+struct ContactState {
+  PairList list;               // contact pairs of loose blocks
+  SeparationState separation;  // those of them that are separated
+};
+
+// Poses and forces in the layouts of the joint kernels.
+struct KernelCache {
+  BlockVec3 ref_u;  // reference pose: the pose at its last update
+  BlockQuat ref_q;
+  std::vector<VectorPack<6>> increment;  // m, rad, increment of displacement and rotation since that update (kinematics.h)
+  Rows pose_row;                         // the same as one cache line of 8 doubles per block, for kernels that read rows
+  Rows wrench;  // rows of 8 doubles: force, moment on a block from one joint end (Model::wrench_row_a, wrench_row_b)
   // Intact joints write no rows, except with dashpots and in the other kernels. `owner_sum`: force, moment on each block from all joints
   // that it owns. `neighbour_force`: force, moment on the other block of each joint of a batch (OwnerSchedule), then one record of zeros.
   std::vector<VectorPack<6>> owner_sum, neighbour_force;
-  std::vector<double> viscous;  // N, N m, dashpot resultants of the last step [6 njoint]; empty without dashpots
-  PairList contacts;            // contact pairs of loose blocks
-  SeparationState separation;   // their separated pairs
-  SleepState sleep;             // their sleeping blocks
-  double dt_target = 0;         // s, target step of the run; dt may be shorter while contacts change
-  int steps_since_limited = 0;  // steps since contacts last limited dt
-  double event_dt = 0;          // s, step allowed by the next openings and closings (event_bound.h); 0: any
+};
+
+// Gravity turned by a tilt, in the last step; the change since gives the work of tilting.
+struct TiltedGravity {
+  Vec3 gravity_before = Vec3::Zero();  // m/s2
+  Vec3 moment_before = Vec3::Zero();   // kg m, sum of m u
+};
+
+// Results observed during the run; no force depends on them.
+struct Observed {
   int joints_broken = 0;
-  Energy energy;
-  Vec3 gravity_before = Vec3::Zero();  // m/s2, of the last step; with the sum of m u at that time it gives the work of tilting
-  Vec3 moment_before = Vec3::Zero();   // kg m
   double max_penetration_relative = 0;
   double momentum_residual = 0;
+};
+
+struct State {
+  TimeStep time;
+  BlockPoses pose;
+  MotionState motion;
+  Topology topology;
+  JointState joints;
+  ContactState contacts;
+  SleepState sleep;
+  KernelCache cache;
+  Energy energy;
+  TiltedGravity tilt;
+  Observed observed;
 };
 
 }  // namespace erbs

@@ -1,5 +1,5 @@
-// Field list of the State: every member, once. Checkpoints and state_hash use this list: a member that is missing here does not survive
-// a restart. The structured binding below stops compiling when State gains or loses a member.
+// Field list of the State: every member of every part, once, in the order of the file. Checkpoints and state_hash use this list: a member
+// that is missing here does not survive a restart. A structured binding stops compiling when its part gains or loses a member.
 #pragma once
 #include <type_traits>
 
@@ -14,10 +14,16 @@ enum class Part { motion, history, carried };
 template <class S, class F>
 requires std::is_same_v<std::remove_const_t<S>, State>
 void each(S& state, F&& f) {
-  auto& [step, start_step, start_t, t, dt, last_dt, u, q, v, spin_momentum, w, ref_u, ref_q, pose_row, increment, island, grounded, joined,
-         unjoined, loose, pack, slot, stage, memory, history, crushed, wrench, owner_sum, neighbour_force, viscous, contacts, separation,
-         sleep, dt_target, steps_since_limited, event_dt, joints_broken, energy, gravity_before, moment_before, max_penetration_relative,
-         momentum_residual] = state;
+  auto& [time, pose, motion, topology, joints, contacts, sleep, cache, energy, tilt, observed] = state;
+  auto& [step, start_step, start_t, t, dt, last_dt, dt_target, steps_since_limited, event_dt] = time;
+  auto& [u, q] = pose;
+  auto& [v, spin_momentum, w] = motion;
+  auto& [island, grounded, joined, unjoined, loose] = topology;
+  auto& [pack, slot, stage, memory, history, crushed, viscous] = joints;
+  auto& [list, separation] = contacts;
+  auto& [ref_u, ref_q, increment, pose_row, wrench, owner_sum, neighbour_force] = cache;
+  auto& [gravity_before, moment_before] = tilt;
+  auto& [joints_broken, max_penetration_relative, momentum_residual] = observed;
   f("step", step, Part::carried);
   f("start_step", start_step, Part::carried);
   f("start_t", start_t, Part::carried);
@@ -48,7 +54,7 @@ void each(S& state, F&& f) {
   f("owner_sum", owner_sum, Part::carried);
   f("neighbour_force", neighbour_force, Part::carried);
   f("viscous", viscous, Part::carried);
-  f("contacts", contacts, Part::history);
+  f("contacts", list, Part::history);
   f("separation", separation, Part::carried);
   f("sleep", sleep, Part::carried);
   f("dt_target", dt_target, Part::carried);

@@ -5,7 +5,7 @@
 #include <unordered_map>
 
 #include "engine/base/spelling.h"
-#include "engine/laws/point_law.h"
+#include "engine/laws/laws.h"
 #include "engine/scene/scene.h"
 
 namespace erbs {
@@ -69,17 +69,6 @@ void check_blocks(Report& report, const Scene& scene) {
   }
 }
 
-void check_law(Report&, const DryFriction&, const Place&) {}
-
-void check_law(Report& report, const Mortar& law, const Place& place) {
-  if (law.kn == 0 && (law.E == 0 || law.thickness == 0))
-    report.say(place, "joint: the mortar has no normal stiffness; give kn, or E and the thickness of the bed");
-  const bool shear = law.ks > 0 || (law.thickness > 0 && (law.G > 0 || law.E > 0)) || (law.kn > 0 && law.E > 0);
-  if (!shear) report.say(place, "joint: the mortar has no shear stiffness; give ks, or G or E and the thickness of the bed");
-  if (law.mu_residual != -1 && law.mu_residual < 0)
-    report.say(place, "joint: mu_residual is negative; leave it out for mu, or give 0 and more");
-}
-
 std::vector<std::string> groups_of(const Scene& scene) {
   std::vector<std::string> groups;
   for (const Block& block : scene.blocks)
@@ -121,7 +110,8 @@ void check_joints(Report& report, const Scene& scene) {
         [&](const auto& law) {
           using L = std::decay_t<decltype(law)>;
           check_fields(report, law, std::string(L::law_name), rule.place);
-          check_law(report, law, rule.place);
+          if constexpr (requires { law.mistakes(); })
+            for (const std::string& mistake : law.mistakes()) report.say(rule.place, "joint: {}", mistake);
         },
         rule.law);
   }
@@ -242,11 +232,14 @@ void doubt_units(Report& report, const Scene& scene) {
     const PointLaw law = compile(rule.law);
     if (law.kn > 0 && law.kn < 1e6)
       doubts.add("stiffnesses are in Pa/m: write 10*MPa/mm", rule.place, "joint: its normal stiffness is {:g} Pa/m", law.kn);
-    const auto* mortar = std::get_if<Mortar>(&rule.law);
-    if (!mortar) continue;
-    for (const auto& [name, strength] : {std::pair{"ft", mortar->ft}, std::pair{"c", mortar->c}, std::pair{"fc", mortar->fc}})
-      if ((strength > 0 && strength < 1000) || strength > 1e9)
-        doubts.add("strengths are in Pa: write 0.1*MPa", rule.place, "mortar: {} = {:g} Pa", name, strength);
+    std::visit(
+        [&]<class L>(const L& one) {
+          if constexpr (requires { one.strengths(); })
+            for (const auto& [name, strength] : one.strengths())
+              if ((strength > 0 && strength < 1000) || strength > 1e9)
+                doubts.add("strengths are in Pa: write 0.1*MPa", rule.place, "{}: {} = {:g} Pa", L::law_name, name, strength);
+        },
+        rule.law);
   }
   doubts.tell(report);
 }
@@ -271,24 +264,13 @@ std::vector<std::string> warnings(const Scene& scene) {
   doubt_units(report, scene);
   name_groups(report, scene, false);
   for (const JointRule& rule : scene.joint_rules) {
-    const auto* law = rule.none ? nullptr : std::get_if<Mortar>(&rule.law);
-    if (!law) continue;
-    if (law->coupling == "coulomb" && law->mu > 0 && law->ft > law->c / law->mu)
-      report.say(rule.place, "mortar: ft = {:g} Pa lies above the tip of the Coulomb cone, c / mu = {:g} Pa; it is capped there", law->ft,
-                 law->c / law->mu);
-    const double kn = law->kn > 0 ? law->kn : law->thickness > 0 ? law->E / law->thickness : 0;
-    if (law->Gf1 > 0 && kn > 0 && law->Gf1 < law->ft * law->ft / (2 * kn))
-      report.say(rule.place,
-                 "mortar: Gf1 = {:g} J/m2 is less than the elastic energy at the peak, ft^2 / (2 kn) = {:g} J/m2; the joint snaps back "
-                 "(breaks at once)",
-                 law->Gf1, law->ft * law->ft / (2 * kn));
-    const double ks = kn > 0 ? compile(rule.law).ks : 0;
-    if (law->Gf2 > 0 && ks > 0 && law->Gf2 < law->c * law->c / (2 * ks))
-      report.say(
-          rule.place,
-          "mortar: Gf2 = {:g} J/m2 is less than the elastic energy at the peak, c^2 / (2 ks) = {:g} J/m2; the joint snaps back in shear "
-          "(its bond goes at once)",
-          law->Gf2, law->c * law->c / (2 * ks));
+    if (rule.none) continue;
+    std::visit(
+        [&]<class L>(const L& law) {
+          if constexpr (requires { law.warnings(); })
+            for (const std::string& warning : law.warnings()) report.say(rule.place, "{}: {}", L::law_name, warning);
+        },
+        rule.law);
   }
   return report.mistakes;
 }

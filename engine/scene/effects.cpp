@@ -5,15 +5,6 @@ namespace {
 
 Effect effect(std::string name, const Place* place) { return {std::move(name), place != nullptr, place != nullptr ? place->text() : ""}; }
 
-template <class Law>
-const Place* rule_with(const Scene& scene, bool (*has)(const Law&)) {
-  for (const JointRule& rule : scene.joint_rules) {
-    const auto* law = std::get_if<Law>(&rule.law);
-    if (law != nullptr && !rule.none && has(*law)) return &rule.place;
-  }
-  return nullptr;
-}
-
 const Place* load_with(const Scene& scene, Load::Kind kind, int component = -1) {
   for (const Load& load : scene.loads)
     if (load.kind == kind && (component < 0 || load.direction[component] != 0)) return &load.place;
@@ -55,10 +46,37 @@ void drop(Scene& scene, Load::Kind kind) {
   std::erase_if(scene.loads, [=](const Load& load) { return load.kind == kind; });
 }
 
-template <class Law>
-void change_laws(Scene& scene, void (*change)(Law&)) {
-  for (JointRule& rule : scene.joint_rules)
-    if (auto* law = std::get_if<Law>(&rule.law)) change(*law);
+// Calls f(effect) for each effect of each joint law, in their order.
+template <class F, class... L>
+void each_law_effect(F&& f, LawList<L...>) {
+  const auto of_one = [&]<class One>(const One*) {
+    if constexpr (requires { One::effects(); })
+      for (const LawEffect<One>& effect : One::effects()) f(effect);
+  };
+  (of_one(static_cast<const L*>(nullptr)), ...);
+}
+
+template <class L>
+const Place* rule_with(const Scene& scene, const LawEffect<L>& effect) {
+  for (const JointRule& rule : scene.joint_rules) {
+    const auto* law = std::get_if<L>(&rule.law);
+    if (law != nullptr && !rule.none && effect.on(*law)) return &rule.place;
+  }
+  return nullptr;
+}
+
+// True if `name` is an effect of a joint law.
+bool switch_off_in_laws(Scene& scene, const std::string& name) {
+  bool known = false;
+  each_law_effect(
+      [&]<class L>(const LawEffect<L>& effect) {
+        if (name != effect.name) return;
+        known = true;
+        for (JointRule& rule : scene.joint_rules)
+          if (auto* law = std::get_if<L>(&rule.law)) effect.off(*law);
+      },
+      Laws{});
+  return known;
 }
 
 struct Switch {
@@ -75,10 +93,6 @@ const Switch switches[] = {
     {"tilting gravity", [](Scene& s) { drop(s, Load::Kind::tilt); }},
     {"prescribed motion", [](Scene& s) { drop(s, Load::Kind::motion); }},
     {"mass damping", [](Scene& s) { s.damping.mass = 0; }},
-    {"damping of dry joints", [](Scene& s) { change_laws<DryFriction>(s, [](DryFriction& d) { d.damping = 0; }); }},
-    {"softening in tension", [](Scene& s) { change_laws<Mortar>(s, [](Mortar& m) { m.Gf1 = m.un_ultimate = 0; }); }},
-    {"softening in shear", [](Scene& s) { change_laws<Mortar>(s, [](Mortar& m) { m.Gf2 = m.us_ultimate = 0; }); }},
-    {"compression plateau", [](Scene& s) { change_laws<Mortar>(s, [](Mortar& m) { m.fc = m.uc_ultimate = 0; }); }},
     {"rotation of joint frames", [](Scene& s) { s.analysis.lazy_rotation = 1e9; }},  // small rotations about the start only
     {"debris contact", [](Scene& s) { s.analysis.debris = false; }},
     {"contact dashpots",
@@ -96,6 +110,7 @@ const Switch switches[] = {
 void switch_off(Scene& scene, const std::string& name) {
   for (const Switch& item : switches)
     if (name == item.name) return item.off(scene);
+  if (switch_off_in_laws(scene, name)) return;
   throw Error("there is no effect \"" + name + "\"; erbs check lists those of a scene");
 }
 
@@ -114,11 +129,9 @@ std::vector<Effect> effects_of(const Scene& scene) {
   const bool dashpots = scene.damping.stiffness > 0 || scene.damping.joint_ratio > 0;
   out.push_back(effect("dashpots of joints", dashpots ? &scene.damping.place : nullptr));
   const bool sweeps = scene.analysis.solver == "sequential";  // the sequential solver has no dashpots
-  out.push_back(effect("damping of dry joints",
-                       sweeps ? nullptr : rule_with<DryFriction>(scene, [](const DryFriction& d) { return d.damping > 0; })));
-  out.push_back(effect("softening in tension", rule_with<Mortar>(scene, [](const Mortar& m) { return m.Gf1 > 0 || m.un_ultimate > 0; })));
-  out.push_back(effect("softening in shear", rule_with<Mortar>(scene, [](const Mortar& m) { return m.Gf2 > 0 || m.us_ultimate > 0; })));
-  out.push_back(effect("compression plateau", rule_with<Mortar>(scene, [](const Mortar& m) { return m.fc > 0; })));
+  each_law_effect(
+      [&](const auto& of_law) { out.push_back(effect(of_law.name, sweeps && of_law.dashpots ? nullptr : rule_with(scene, of_law))); },
+      Laws{});
   out.push_back(effect("sequential sweep", sweeps ? &scene.analysis.place : nullptr));
   const Place* joined = any_joint(scene);
   const Place* debris = may_meet(scene);

@@ -1,6 +1,6 @@
-// Eight doubles side by side, as so many registers as the instruction set needs, and the same words for a single number: code written
-// as a template on `double` or `Pack` reads alike for both. Spelled as std::simd and xsimd spell it. Elementwise only, min and max as
-// the processor has them (a < b ? a : b), no fused operations: the same bits whatever the width.
+// Eight doubles side by side, in as many registers as the instruction set needs, with the same functions for a single number: a template
+// on `double` or `Pack` reads alike for both. Names follow std::simd and xsimd. All operations are elementwise and none is fused, min and
+// max are the processor's own (a < b ? a : b); so the bits do not depend on the register width.
 #pragma once
 #include <math.h>
 #if defined(__SSE2__)
@@ -85,7 +85,7 @@ struct PackOf<register_size> {
     return p;
   }
   ERBS_INLINE void store(double* x) const { __builtin_memcpy(x, &v, sizeof v); }
-  // Lane l from from[l][i], straight into a register: stored one by one and read back whole they would wait for one another.
+  // Lane l from from[l][i], straight into a register: a store of single numbers followed by a load of the whole register would stall.
   static ERBS_INLINE PackOf gather(const double* const* from, int i) {
 #if defined(__AVX512F__)
     return Register{from[0][i], from[1][i], from[2][i], from[3][i], from[4][i], from[5][i], from[6][i], from[7][i]};
@@ -103,7 +103,7 @@ struct PackOf<register_size> {
   friend ERBS_INLINE PackOf operator-(PackOf a) { return -a.v; }
 
 #if defined(__AVX512F__)
-  // the forms without a mask warn of a value that is not set: GCC 12
+  // The forms without a mask make GCC 12 warn of an uninitialised value.
   friend ERBS_INLINE M operator<(PackOf a, PackOf b) { return {_mm512_cmp_pd_mask(__m512d(a.v), __m512d(b.v), _CMP_LT_OQ)}; }
   friend ERBS_INLINE M operator<=(PackOf a, PackOf b) { return {_mm512_cmp_pd_mask(__m512d(a.v), __m512d(b.v), _CMP_LE_OQ)}; }
   friend ERBS_INLINE M operator>(PackOf a, PackOf b) { return {_mm512_cmp_pd_mask(__m512d(a.v), __m512d(b.v), _CMP_GT_OQ)}; }
@@ -212,7 +212,7 @@ ERBS_INLINE MaskOf<n>& operator|=(MaskOf<n>& a, MaskOf<n> b) {
   return a = a | b;
 }
 
-// The same words for one number.
+// The same functions for one number.
 ERBS_INLINE double select(bool m, double a, double b) { return m ? a : b; }
 ERBS_INLINE double min(double a, double b) { return a < b ? a : b; }
 ERBS_INLINE double max(double a, double b) { return a > b ? a : b; }
@@ -220,22 +220,36 @@ ERBS_INLINE double abs(double x) { return fabs(x); }
 ERBS_INLINE double sqrt(double x) { return ::sqrt(x); }
 ERBS_INLINE bool any(bool m) { return m; }
 
+// The mask of a scalar type: `Mask` of packs, bool of numbers.
+template <class T>
+inline constexpr int lanes_of = 1;
+template <>
+inline constexpr int lanes_of<Pack> = 8;
+template <class T>
+using MaskFor = decltype(T() < T());
+
 ERBS_INLINE Pack load(const double* x) { return Pack::load(x); }
 ERBS_INLINE void store(double* x, Pack p) { p.store(x); }
+template <class T>
+ERBS_INLINE T load(const double* x) {
+  if constexpr (lanes_of<T> == 1) return *x;
+  else return T::load(x);
+}
+ERBS_INLINE void store(double* x, double p) { *x = p; }
 ERBS_INLINE void add_to(double* x, Pack p) { store(x, load(x) + p); }
 
-// A divisor that harms nobody where its quotient is not used.
+// A safe divisor in lanes whose quotient is not used.
 template <class T>
 ERBS_INLINE T nonzero(T x) {
   return select(x > 0, x, 1);
 }
-// Of x >= 0, to divide what is no greater than x; zero over zero comes out as zero.
+// A divisor x >= 0 of a number that is not greater than x: zero over zero gives zero.
 template <class T>
 ERBS_INLINE T not_quite_zero(T x) {
   return max(x, 1e-300);
 }
 
-// Asks for what is read soon.
+// Prefetches an object that is read soon.
 template <class T>
 ERBS_INLINE void prefetch(const T* from) {
   for (long i = 0; i < long(sizeof(T)); i += 64) __builtin_prefetch(reinterpret_cast<const char*>(from) + i);

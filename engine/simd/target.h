@@ -5,6 +5,7 @@
 
 #ifndef ERBS_TARGET
 #define ERBS_TARGET scalar  // ordinary files: the same templates on plain numbers
+#define ERBS_HOST           // parts of a header that kernels must not see
 #endif
 
 #define ERBS_INLINE inline __attribute__((always_inline))

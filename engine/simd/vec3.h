@@ -63,9 +63,11 @@ ERBS_INLINE Mat3<T> rotation_of(Quat<T> q) {
 
 using Pack3 = Vec3<Pack>;
 
-// Eight of them side by side, a row of memory for each component.
+// Eight of them side by side, or a single one, with a row of memory for each component.
 ERBS_INLINE Pack3 load3(const double (*x)[8]) { return {load(x[0]), load(x[1]), load(x[2])}; }
+ERBS_INLINE Vec3<double> load3(const double (*x)[1]) { return {x[0][0], x[1][0], x[2][0]}; }
 ERBS_INLINE void store3(double (*x)[8], Pack3 a) { store(x[0], a.x), store(x[1], a.y), store(x[2], a.z); }
+ERBS_INLINE void store3(double (*x)[1], Vec3<double> a) { store(x[0], a.x), store(x[1], a.y), store(x[2], a.z); }
 ERBS_INLINE Quat<Pack> load4(const double (*x)[8]) { return {load(x[0]), load(x[1]), load(x[2]), load(x[3])}; }
 ERBS_INLINE SymMat3<Pack> load6(const double (*x)[8]) { return {load(x[0]), load(x[1]), load(x[2]), load(x[3]), load(x[4]), load(x[5])}; }
 

@@ -1,8 +1,16 @@
 #include "engine/solve/energy.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace erbs {
+namespace {
+
+constexpr int ledger_every = 32;     // steps between two closings of the ledger, ...
+constexpr int ledger_slowly = 128;   // ... with contacts, ...
+constexpr int ledger_seldom = 4096;  // ... in a scene without a ledger
+
+}  // namespace
 
 double dissipated(const Energy& e) { return e.friction + e.fracture + e.crushing + e.damping + e.contact_damping + e.reset + e.sleep; }
 
@@ -33,6 +41,87 @@ void settle(Energy& e, double floor, double t, int worst_joint) {
     e.largest_jump_time = t;
     e.largest_jump_joint = worst_joint;
   }
+}
+
+Ledger::Ledger(const Model& model, State& state) : model_(model), state_(state) {
+  double low = 1e300, high = -1e300;
+  const Vec3 up = model.gravity.norm() > 0 ? Vec3(-model.gravity.normalized()) : Vec3::UnitZ();
+  for (std::size_t b = 0; b < model.kind.size(); ++b) {
+    if (model.kind[b] != Kind::moving) continue;
+    low = std::min(low, up.dot(model.rest[b]) - 0.5 * model.smallest_edge[b]);
+    high = std::max(high, up.dot(model.rest[b]) + 0.5 * model.smallest_edge[b]);
+    mass_ += model.mass[b];
+  }
+  const double weight = mass_ * model.gravity.norm();
+  high = std::max(high, low);
+  floor_ = std::max(1e-300, 1e-12 * weight * (high - low));
+  lift_ = 1e-3 * weight * (high - low);
+  state.energy.reference = std::max(state.energy.reference, lift_);
+}
+
+bool Ledger::due(bool contacts) {
+  every_ = !model_.analysis.ledger ? ledger_seldom : contacts ? ledger_slowly : ledger_every;
+  return state_.time.step % every_ == 0;
+}
+
+void Ledger::add(const BlockSums& sums) {
+  Energy& e = state_.energy;
+  const BlockWork& w = sums.work;
+  for (int l = 0; l < pack_size; ++l) {
+    e.kinetic += w.kinetic[l];
+    e.gravity += w.height[l];
+    e.base_work += w.base[l];
+    e.damping += w.damping[l];
+    e.absolute_work += w.absolute[l];
+    e.base_next += w.base_after[l];
+    e.damping_next += w.damping_after[l];
+    e.absolute_next += w.absolute_after[l];
+  }
+  e.external_work += sums.external_work;
+  e.absolute_work += sums.external_absolute;
+  e.external_next += sums.external_after;
+  e.absolute_next += sums.external_absolute_after;
+}
+
+void Ledger::close(std::span<JointSums> joints, std::span<JointSums> cracked, std::span<BlockSums> blocks, double elastic, bool events) {
+  Energy& e = state_.energy;
+  const double gravity_before = e.gravity;
+  e.kinetic = e.gravity = e.elastic = 0;
+  int worst = -1;
+  double error = 0;
+  for (const std::span<JointSums> all : {joints, cracked})
+    for (JointSums& sums : all) {
+      e.elastic += sums.energy.elastic;
+      e.friction += sums.energy.friction;
+      e.fracture += sums.energy.fracture;
+      e.crushing += sums.energy.crushing;
+      e.damping += sums.energy.damping;
+      if (sums.largest_error > error) error = sums.largest_error, worst = sums.worst_joint;
+      sums = JointSums{};
+    }
+  e.base_work += e.base_next;
+  e.damping += e.damping_next;
+  e.absolute_work += e.absolute_next;
+  e.base_next = e.damping_next = e.absolute_next = 0;
+  if (model_.prescribed_motions.empty()) {
+    e.external_work += e.external_next;
+    e.external_next = 0;
+  }
+  for (BlockSums& sums : blocks) {
+    add(sums);
+    const bool outdated = sums.outdated, broken = sums.broken;
+    sums = BlockSums{};
+    sums.outdated = outdated;
+    sums.broken = broken;
+  }
+  e.elastic += elastic;
+  if (e.started) e.height_flux += std::fabs(e.gravity - gravity_before);
+  // The structure's own measure counts once something may open or close, or has changed the step: until then all is exact.
+  settle(e, events || state_.time.start_step > 0 ? std::max(floor_, lift_) : floor_, state_.time.t, worst);
+  if (state_.time.step % every_ != 0) return;
+  const double loss = e.friction + e.fracture + e.crushing + e.damping + e.contact_damping;
+  e.reference = std::max(e.reference, std::fabs(e.kinetic) + std::fabs(e.elastic - e.elastic_at_start) + std::max(0.0, loss));
+  e.event_residual = e.residual;
 }
 
 }  // namespace erbs

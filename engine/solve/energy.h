@@ -1,8 +1,12 @@
 // The energy ledger, a discrete identity of leapfrog. T_n = v- m v+ / 2; the work of a force over a step is the mean of its two end values
 // times the mid velocity. For linear springs the sum closes to round-off, so that a residual is an error.
 #pragma once
+#include <span>
+
+#include "engine/joints/joint_forces.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
+#include "engine/solve/blocks/integrate.h"
 
 namespace erbs {
 
@@ -14,5 +18,27 @@ void settle(Energy& energy, double floor, double t, int worst_joint);
 
 double dissipated(const Energy& energy);
 double worked(const Energy& energy);
+
+// When the ledger closes, and what it then adds up.
+class Ledger {
+ public:
+  Ledger(const Model& model, State& state);
+
+  // True if the ledger closes at this step without being asked to. `contacts`: some are active, whose energy costs as much as their forces.
+  bool due(bool contacts);
+  // Adds the sums of all chunks, which clears them, then closes. `elastic`: J, of contacts. `events`: something may open or close.
+  void close(std::span<JointSums> joints, std::span<JointSums> cracked, std::span<BlockSums> blocks, double elastic, bool events);
+  double mass() const { return mass_; }  // kg, of all moving blocks
+
+ private:
+  void add(const BlockSums& sums);
+
+  const Model& model_;
+  State& state_;
+  double floor_ = 0;  // J, least scale of the ledger
+  double lift_ = 0;   // J, work that lifts all blocks by a thousandth of the structure's height
+  double mass_ = 0;
+  int every_ = 1;  // steps between two closings
+};
 
 }  // namespace erbs

@@ -3,117 +3,109 @@
 //   gather contact forces, release joints | integrate: kick and drift of blocks | barrier
 //   close the ledger, update the topology, choose the next step length
 #pragma once
-#include <functional>
 #include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "engine/base/system/team.h"
-#include "engine/joints/cracked/cracked.h"
-#include "engine/joints/intact/intact.h"
-#include "engine/joints/joint_forces.h"
 #include "engine/solve/blocks/integrate.h"
+#include "engine/solve/blocks/step_loads.h"
 #include "engine/solve/contacts/contacts.h"
+#include "engine/solve/energy.h"
+#include "engine/solve/joint_phase.h"
 #include "engine/solve/long_steps.h"
 #include "engine/solve/sequential/sequential.h"
 
 namespace erbs {
 
-// The instant of a sample: all quantities at time t.
+// When the next sample is due: at the first step at or after `next`, and at the step nearest to `end`.
+struct SamplePlan {
+  double next = std::numeric_limits<double>::infinity(), end = next;  // s
+  bool wrenches = false;                                              // a sample has the wrenches on blocks
+
+  bool due(double t, double dt) const { return t + 1e-9 * dt >= next || t >= end - 0.5 * dt; }
+};
+
+// The instant of a sample: all quantities at time t. The State has drifted on by then, save energies, joints and contacts.
 struct SampleState {
-  double t = 0;
-  Excitation excitation;  // means over the kick about t
-  // Velocities and spin momenta half a step before t. During `sampled()` the state has the values half a step after t. [nblock + 1]
-  BlockVec3 v_before, w_before, spin_before;  // m/s, rad/s, kg m2/s
-  BlockVec3 u;                                // m, poses at t; the state has drifted on, so they are swapped with it during `sampled()`
-  BlockQuat q;
+  double t = 0, dt = 0, last_dt = 0;  // s, of the step that began at t, and of the one before
+  Excitation excitation;              // means over the kick about t
+  BlockPoses pose;
+  MotionState before;  // half a step before t; the State has the values half a step after
+  // Of joints and contacts, and of loads: N, N m about the centroid; empty unless the plan asks for them [nblock]
+  std::vector<Vec6> block_wrench, load_wrench;
 };
 
 class Solver {
  public:
-  Solver(const Model& model, State& state, int threads);
+  Solver(const Model& model, State& state, const StepRange& range, int threads);
 
-  // Runs steps until `stop()` is true or a number is not finite. A step at a wanted time is a sample: the ledger closes there, the state
-  // has the poses at t, `sample_state()` has the velocities about t, and `sampled()` is called. The ledger also closes every few steps in
-  // between (`ledger_every` of `step.cpp`). `stop()` is called after each of these steps; the state is complete then, fit for a checkpoint.
-  struct Hooks {
-    std::function<bool(double t)> wanted;
-    std::function<void()> sampled;
-    std::function<bool()> stop;
-  };
-  void run(const Hooks& hooks);
-
-  const SampleState& sample_state() const { return sample_state_; }
-  bool broken() const { return broken_; }
-  Vec6 block_wrench(int b) const;    // N, N m about the centroid, of joints and contacts
-  Vec6 load_wrench(int b) const;     // of loads; for a driven block the reaction that prescribes its motion
-  std::vector<int> take_released();  // joints released to contact since the last call
-  std::vector<JointRelease> take_releases() { return contacts_.take_releases(); }
-  // s, time step that the present contacts allow; `critical` is the limit of the intact structure.
-  double stable_dt(double critical) const {
-    const double contacts = has_contacts_ ? contacts_.stable_dt() : state_.dt_target, goal = state_.dt_target;
-    return contacts < goal ? std::min(contacts, critical) : contacts > goal ? std::max(contacts, critical) : critical;
+  // Runs steps until the ledger closes, at a sample or every few steps (`Ledger`), or until a number is not finite. The State is complete
+  // then, fit for a checkpoint, and the team waits at its barrier.
+  enum class Stop { none, ledger, sample };
+  Stop advance(const SamplePlan& plan = {});
+  // Without samples, until `stop()`, which is called whenever the ledger has closed.
+  template <class F>
+  void advance_until(F&& stop) {
+    do advance();
+    while (!broken_ && !stop());
   }
-  LongSteps take_long_steps() { return std::exchange(long_steps_, {}); }  // since the last call
-  int touching() const { return contacts_.touching(); }
-  long touched() const { return contacts_.touched(); }
-  long slept() const { return contacts_.slept(); }
-  double contact_seconds() const { return contact_seconds_; }
-  std::vector<int> take_cracked();  // joints that cracked since the last call, in ascending order
+
+  const SampleState& sample() const { return sample_; }
+  bool broken() const { return broken_; }
+  Vec6 block_wrench(int b) const;                                            // N, N m about the centroid, of joints and contacts
+  Vec6 load_wrench(int b) const;                                             // of loads; of a driven block the reaction that moves it
+  std::vector<int> take_released() { return std::exchange(released_, {}); }  // joints released to contact since the last call
+  std::vector<int> take_cracked() { return joints_.take_cracked(); }         // joints that cracked since then, in ascending order
+  LongSteps take_long_steps() { return std::exchange(long_steps_, {}); }     // since the last call
+  // s, time step that the present contacts allow; `critical` is the limit of the intact structure.
+  double stable_dt(double critical) const;
+  Contacts& contacts() { return contacts_; }
+  const Contacts& contacts() const { return contacts_; }
 
  private:
-  enum class Sample { none, ledger, full };
-  void prepare_step(const Hooks& hooks);
-  void excite();
+  bool sampling() const { return stop_ != Stop::none; }
+  void prepare_step(const SamplePlan& plan);
+  void work(int thread);
   void forces(int thread);
   void transitions();
   void integrate(int thread);
+  void close_step(const SamplePlan& plan);
+  void begin_sample();
+  void end_sample(bool wrenches);
   void update_outdated();
   void note_sleep();
+  void apply_prescribed_motions();
+  void check_momentum();
+  // time_step.cpp
   void adapt_time_step();
   double event_rate_of_first_openings() const;
   void foresee_events();
   bool may_grow(double dt) const;
   double vibration() const;
   void judge_step();
-  void close_step(const Hooks& hooks);
-  void apply_prescribed_motions();
-  void settle_ledger();
-  void note_cracks();
-  void check_momentum();
 
   const Model& model_;
   State& state_;
-  const int threads_;
-  const bool reference_;
-  // Work items of the joint phase: block groups with the intact joints they own, packs with dashpots, or joints of the reference kernel.
-  const int joint_items_, joint_grain_;
-  double floor_ = 0;      // J, least scale of the ledger
-  double lift_ = 0;       // J, work that lifts all blocks by a thousandth of the structure's height
-  double budget_ = 0;     // J, `event_budget()` of this step
-  int ledger_steps_ = 1;  // steps between two closings of the ledger
-  double mass_ = 0;       // kg, of all moving blocks
-  Excitation now_;
-  Rows contact_wrench_, load_;  // N, N m: wrenches of contacts (once there are any) and of loads, one row per block
-  std::vector<LoadedBlock> loaded_;
-  std::vector<BlockConstants> constants_;
-  std::vector<std::uint8_t> outdated_;                // blocks with a new reference pose
-  std::vector<std::uint8_t> idle_;                    // groups in which every block sleeps
-  std::vector<JointSums> joint_sums_, cracked_sums_;  // per chunk
-  std::vector<BlockSums> block_sums_;
-  std::vector<int> newly_cracked_, released_, leaving_;
-  Cracked cracked_;
-  IntactJoints intact_;  // the joints that have not cracked
+  StepLoads loads_;
+  JointPhase joints_;
   Contacts contacts_;
+  Ledger ledger_;
   std::optional<Sequential> sequential_;  // replaces the phases `forces` and `integrate`
-  bool any_cracked_ = false;
-  double contact_seconds_ = 0;
-  std::vector<JointStage> stage_before_;
+  Rows contact_wrench_;                   // N, N m: wrenches of contacts once there are any, one row per block
+  std::vector<BlockConstants> constants_;
+  std::vector<BlockSums> block_sums_;   // per chunk
+  std::vector<std::uint8_t> outdated_;  // blocks with a new reference pose
+  std::vector<std::uint8_t> idle_;      // groups in which every block sleeps
+  std::vector<int> released_;
   LongSteps long_steps_;
-  SampleState sample_state_;
-  Sample sample_ = Sample::none;
-  bool broken_ = false, stop_ = false, has_contacts_ = false, has_transitions_ = false;
+  SampleState sample_;
+  double budget_ = 0;  // J, `event_budget()` of this step
+  Stop stop_ = Stop::none;
+  bool broken_ = false, has_contacts_ = false, has_transitions_ = false;
+  const int threads_;
+  Team team_;
 };
 
 }  // namespace erbs

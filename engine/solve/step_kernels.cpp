@@ -34,7 +34,16 @@ double work_registers(long rounds) {
 
 }  // namespace
 
-const StepKernels kernels{ERBS_TARGET_NAME, elastic, respond, friction,        wrenches,      intact,
-                          intact_ends,      advance, pose,    intact_geometry, work_registers};
+template <class... L>
+constexpr StepKernels table(LawList<L...>) {
+  StepKernels out{ERBS_TARGET_NAME, elastic, {}, {}, wrenches, intact, intact_ends, advance, pose, intact_geometry, work_registers};
+  int type = 0;
+  ((FaceOf<L>::type::has_bond ? void(out.respond[type++] = respond<typename FaceOf<L>::type>) : void(++type)), ...);
+  type = 0;
+  ((out.friction[type++] = friction<typename FaceOf<L>::type>), ...);
+  return out;
+}
+
+const StepKernels kernels = table(Laws{});
 
 }  // namespace erbs::ERBS_TARGET

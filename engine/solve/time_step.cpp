@@ -20,31 +20,36 @@ double on_scale(double dt) { return std::exp2(std::floor(32 * std::log2(dt)) / 3
 
 }  // namespace
 
+double Solver::stable_dt(double critical) const {
+  const double target = state_.time.dt_target, contacts = has_contacts_ ? contacts_.bound().stable_dt() : target;
+  return contacts < target ? std::min(contacts, critical) : contacts > target ? std::max(contacts, critical) : critical;
+}
+
 // Judges the last step by the contacts at its end.
 void Solver::judge_step() {
-  if (!has_contacts_ || !(state_.last_dt > step_slack * contacts_.allowed_dt())) return;
-  long_steps_.add(state_.last_dt / contacts_.stable_dt());
+  if (!has_contacts_ || !(state_.time.last_dt > step_slack * contacts_.bound().allowed_dt())) return;
+  long_steps_.add(state_.time.last_dt / contacts_.bound().stable_dt());
 }
 
 // The step follows the contacts. It shrinks at once. It grows after 100 steps without a limit, and by half at most, because impacts are
 // predicted only a few steps ahead.
 void Solver::adapt_time_step() {
   State& s = state_;
-  double allowed = has_contacts_ ? contacts_.allowed_dt() : s.dt_target;
-  if (s.event_dt > 0) allowed = std::min(allowed, s.event_dt);
-  double dt = s.dt;
-  if (allowed < s.dt) {
+  double allowed = has_contacts_ ? contacts_.bound().allowed_dt() : s.time.dt_target;
+  if (s.time.event_dt > 0) allowed = std::min(allowed, s.time.event_dt);
+  double dt = s.time.dt;
+  if (allowed < s.time.dt) {
     dt = on_scale(0.95 * allowed);
-    s.steps_since_limited = 0;
-  } else if (s.dt < std::max(allowed, s.dt_target) && ++s.steps_since_limited > 100) {
-    if (allowed > 1.1 * s.dt) dt = std::min(on_scale(0.95 * allowed), 1.5 * s.dt);
-    if (!may_grow(dt)) dt = s.dt;
-    s.steps_since_limited = 0;
+    s.time.steps_since_limited = 0;
+  } else if (s.time.dt < std::max(allowed, s.time.dt_target) && ++s.time.steps_since_limited > 100) {
+    if (allowed > 1.1 * s.time.dt) dt = std::min(on_scale(0.95 * allowed), 1.5 * s.time.dt);
+    if (!may_grow(dt)) dt = s.time.dt;
+    s.time.steps_since_limited = 0;
   }
-  if (dt == s.dt) return;
-  s.dt = dt;
-  s.start_t = s.t;
-  s.start_step = s.step;
+  if (dt == s.time.dt) return;
+  s.time.dt = dt;
+  s.time.start_t = s.time.t;
+  s.time.start_step = s.time.step;
 }
 
 // Event rate (1/s) of intact dry joints that are about to open for the first time. The kernel of intact joints evaluates nothing but their
@@ -53,16 +58,16 @@ void Solver::adapt_time_step() {
 // bounces from the first step on; a change of dt would then err by more than an opening (`may_grow()`), as in all that vibrates strongly.
 double Solver::event_rate_of_first_openings() const {
   double event_rate = 0;
-  if (model_.njoint > few_joints || !(state_.last_dt > 0) || model_.analysis.start == "rest") return event_rate;
-  const double dt = state_.last_dt, allowance = event_allowance(model_, state_);
+  if (model_.njoint > few_joints || !(state_.time.last_dt > 0) || model_.analysis.start == "rest") return event_rate;
+  const double dt = state_.time.last_dt, allowance = event_allowance(model_, state_);
   for (int j = 0; j < model_.njoint; ++j) {
     const Joint& joint = model_.joint[z(j)];
-    if (state_.stage[z(j)] != JointStage::intact || !model_.laws[z(joint.type->law)].dry) continue;
+    if (state_.joints.stage[z(j)] != JointStage::intact || model_.laws[z(joint.type->law)].has_bond()) continue;
     const std::size_t a = z(joint.a), b = z(joint.b);
     const JointPose now = joint_pose(model_, state_, j);
-    const Vec3 wa = state_.w[a], wb = state_.w[b];
-    const Vec3 speed = now.frame.transpose() *
-                       (Vec3(state_.v[b]) - Vec3(state_.v[a]) + wb.cross(state_.q[b] * joint.arm_b) - wa.cross(state_.q[a] * joint.arm_a));
+    const Vec3 wa = state_.motion.w[a], wb = state_.motion.w[b];
+    const Vec3 speed = now.frame.transpose() * (Vec3(state_.motion.v[b]) - Vec3(state_.motion.v[a]) +
+                                                wb.cross(state_.pose.q[b] * joint.arm_b) - wa.cross(state_.pose.q[a] * joint.arm_a));
     const Vec3 spin = now.frame.transpose() * (wb - wa);
     double before[6];
     for (int i = 0; i < 3; ++i) before[i] = now.gap[i] - dt * speed[i], before[3 + i] = now.gap[3 + i] - dt * spin[i];
@@ -76,26 +81,25 @@ double Solver::event_rate_of_first_openings() const {
 
 // Time step that the next openings and closings allow (`event_bound.h`).
 void Solver::foresee_events() {
-  double event_rate = 0;
-  for (std::vector<JointSums>* of : {&joint_sums_, &cracked_sums_})
-    for (JointSums& sums : *of) event_rate = std::max(event_rate, std::exchange(sums.event_rate, 0.0));
+  double event_rate = joints_.take_event_rate();
   const double first = event_rate_of_first_openings();
   if (!(budget_ > 0)) {
-    if (first > 0) state_.event_dt = state_.event_dt > 0 ? std::min(state_.event_dt, 1 / first) : 1 / first;
+    if (first > 0) state_.time.event_dt = state_.time.event_dt > 0 ? std::min(state_.time.event_dt, 1 / first) : 1 / first;
     return;
   }
-  event_rate = std::max(first, state_.last_dt > 0 ? event_rate / state_.last_dt : 0);
-  if (has_contacts_) event_rate = std::max(event_rate, contacts_.event_rate());
-  const double falls = (now_.gravity - now_.ground).norm() * std::sqrt(mass_ / (8 * budget_));  // in flight the net force is the weight
+  event_rate = std::max(first, state_.time.last_dt > 0 ? event_rate / state_.time.last_dt : 0);
+  if (has_contacts_) event_rate = std::max(event_rate, contacts_.bound().event_rate());
+  const double falls = (loads_.now().gravity - loads_.now().ground).norm() *
+                       std::sqrt(ledger_.mass() / (8 * budget_));  // in flight the net force is the weight
   if (event_rate > trembling * falls) event_rate = std::max(event_rate, falls);
-  state_.event_dt = event_rate > 0 ? 1 / event_rate : 0;
+  state_.time.event_dt = event_rate > 0 ? 1 / event_rate : 0;
 }
 
 // A change of dt changes the energy of a block that vibrates on its springs by F^2 (dt_1^2 - dt_0^2) / (8 m). A longer step is allowed
 // while the sum over all blocks stays within the event tolerance.
 bool Solver::may_grow(double dt) const {
-  const double budget = event_tolerance * state_.energy.reference, more = (dt * dt - state_.dt * state_.dt) / 8;
-  if (!(dt > state_.dt) || !(budget > 0) || model_.analysis.unstable || sequential_) return true;
+  const double budget = event_tolerance * state_.energy.reference, more = (dt * dt - state_.time.dt * state_.time.dt) / 8;
+  if (!(dt > state_.time.dt) || !(budget > 0) || model_.analysis.unstable || sequential_) return true;
   return more * vibration() <= budget;
 }
 
@@ -105,8 +109,8 @@ double Solver::vibration() const {
   for (int b = 0; b < model_.nblock; ++b) {
     if (model_.kind[z(b)] != Kind::moving) continue;
     const Vec6 w = block_wrench(b) + load_wrench(b);
-    const Vec3 f = w.head<3>() + model_.mass[z(b)] * (now_.gravity - now_.ground);
-    const Quat& q = state_.q[z(b)];
+    const Vec3 f = w.head<3>() + model_.mass[z(b)] * (loads_.now().gravity - loads_.now().ground);
+    const Quat& q = state_.pose.q[z(b)];
     const Vec3 m = q.conjugate() * Vec3(w.tail<3>());
     sum += model_.inverse_mass[z(b)] * f.squaredNorm() + m.dot(model_.inverse_inertia[z(b)] * m);
   }

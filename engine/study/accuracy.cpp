@@ -7,7 +7,7 @@
 
 #include "engine/base/error.h"
 
-namespace erbs {
+namespace erbs::study {
 namespace {
 
 using Series = std::vector<std::pair<double, double>>;  // size, value
@@ -221,4 +221,4 @@ std::string plain_sentence(const Goal& q, std::size_t index, const std::vector<M
   return text;
 }
 
-}  // namespace erbs
+}  // namespace erbs::study

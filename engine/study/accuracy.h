@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-namespace erbs {
+namespace erbs::study {
 
 // One setting of a knob.
 struct Setting {
@@ -71,4 +71,4 @@ std::optional<std::size_t> best_within(const Goal& quantity, std::size_t index, 
 // Names the largest part of the remaining error of the best setting: "the points, not the step, are the error".
 std::string what_limits(const Goal& quantity, std::size_t index, const std::vector<Measured>& all);
 
-}  // namespace erbs
+}  // namespace erbs::study

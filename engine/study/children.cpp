@@ -13,7 +13,7 @@
 #include "engine/record/format/csv.h"
 #include "engine/record/format/json.h"
 
-namespace erbs {
+namespace erbs::study {
 namespace {
 
 namespace fs = std::filesystem;
@@ -182,4 +182,4 @@ Carried carry_out(const Study& study, const Children& children) {
   } catch (const Interrupted&) { return {{}, true}; }
 }
 
-}  // namespace erbs
+}  // namespace erbs::study

@@ -7,7 +7,7 @@
 
 #include "engine/study/study.h"
 
-namespace erbs {
+namespace erbs::study {
 
 struct Children {
   std::string scene;      // path of the script
@@ -29,4 +29,4 @@ struct Carried {
 
 Carried carry_out(const Study& study, const Children& children);
 
-}  // namespace erbs
+}  // namespace erbs::study

@@ -12,7 +12,7 @@
 
 #include "engine/joints/kernels.h"
 
-namespace erbs {
+namespace erbs::study {
 
 double processor_seconds() {
   rusage used{};
@@ -73,4 +73,4 @@ double InstructionCounter::read() const {
   return double(count);
 }
 
-}  // namespace erbs
+}  // namespace erbs::study

@@ -2,7 +2,7 @@
 #pragma once
 #include <cstddef>
 
-namespace erbs {
+namespace erbs::study {
 
 double processor_seconds();  // s, user time of this process so far, all threads
 double wall_seconds();
@@ -24,4 +24,4 @@ class InstructionCounter {
   int file_ = -1;
 };
 
-}  // namespace erbs
+}  // namespace erbs::study

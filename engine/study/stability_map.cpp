@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-namespace erbs {
+namespace erbs::study {
 
 Stiffness stiffer(Stiffness s, double factor) { return {s.critical / std::sqrt(factor), s.block / std::sqrt(factor), s.feed * factor}; }
 
@@ -48,4 +48,4 @@ const char* word(MapRun::Verdict verdict) {
   return "";
 }
 
-}  // namespace erbs
+}  // namespace erbs::study

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace erbs {
+namespace erbs::study {
 
 // Time integration of a run.
 struct Scheme {
@@ -57,4 +57,4 @@ std::optional<double> ratio_of(const MapRun& run, const MapRun& reference);
 // Prediction of the theory: whether the run stays bounded.
 bool foretold(const MapRun& run, const Stiffness& nominal);
 
-}  // namespace erbs
+}  // namespace erbs::study

@@ -7,7 +7,7 @@
 
 #include "engine/base/random.h"
 
-namespace erbs {
+namespace erbs::study {
 namespace {
 
 std::string said(const Answer& a) { return fmt::format("{:.6g}: {}", a.x, a.reason); }
@@ -156,4 +156,4 @@ std::vector<double> seeds(double seed, int n) {
   return out;
 }
 
-}  // namespace erbs
+}  // namespace erbs::study

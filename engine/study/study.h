@@ -9,7 +9,7 @@
 
 #include "engine/base/error.h"
 
-namespace erbs {
+namespace erbs::study {
 
 struct Study {
   enum class Kind { bisect, converge, ensemble } kind = Kind::bisect;
@@ -51,4 +51,4 @@ std::vector<std::string> metric_names(const Study& study);
 // Seeds of an ensemble: whole numbers below 2^31, with a different sequence for each `seed` (splitmix64, Steele, Lea and Flood 2014).
 std::vector<double> seeds(double seed, int n);
 
-}  // namespace erbs
+}  // namespace erbs::study

@@ -9,7 +9,7 @@
 #include "engine/solve/step.h"
 #include "engine/study/machine.h"
 
-namespace erbs {
+namespace erbs::study {
 namespace {
 
 constexpr int stretches = 7;
@@ -23,8 +23,8 @@ double median(std::vector<double> x) {
 
 std::uint64_t hash_of(const State& s) {
   std::uint64_t value = fnv1a("");
-  for (std::size_t b = 0; b < s.u.size(); ++b) {
-    const Vec3 u = s.u[b], v = s.v[b];
+  for (std::size_t b = 0; b < s.pose.u.size(); ++b) {
+    const Vec3 u = s.pose.u[b], v = s.motion.v[b];
     value = fnv1a({reinterpret_cast<const char*>(u.data()), sizeof u}, value);
     value = fnv1a({reinterpret_cast<const char*>(v.data()), sizeof v}, value);
   }
@@ -33,65 +33,65 @@ std::uint64_t hash_of(const State& s) {
 
 }  // namespace
 
-void run_in(const Model& m, State& state, int threads) {
-  Solver solver(m, state, threads);
-  const long end = state.step + hash_steps;
-  solver.run({[](double) { return false; }, [] {}, [&] { return state.step >= end; }});
+void run_in(const Model& m, State& state, const StepRange& range, int threads) {
+  Solver solver(m, state, range, threads);
+  const long end = state.time.step + hash_steps;
+  solver.advance_until([&] { return state.time.step >= end; });
 }
 
-Timing time_steps(const Model& model, State state, const std::string& kernel, int threads, double seconds) {
+Timing time_steps(const Model& model, State state, const StepRange& range, const std::string& kernel, int threads, double seconds) {
   Model m = model;
   m.analysis.kernel = kernel;
   Timing out;
-  Solver solver(m, state, threads);
+  Solver solver(m, state, range, threads);
   long next = hash_steps;
   const auto run_to = [&](long step) {
     next = step;
-    solver.run({[](double) { return false; }, [] {}, [&] { return state.step >= next; }});
+    solver.advance_until([&] { return state.time.step >= next; });
   };
   // Every 32nd step (128th with contacts) settles the ledger and calls stop(). The timed stretches are whole multiples of that.
   const double first = processor_seconds(), first_wall = wall_seconds();
-  run_to(state.step + hash_steps);
+  run_to(state.time.step + hash_steps);
   out.hash = hash_of(state);
   const double each = std::max({1e-7, processor_seconds() - first, wall_seconds() - first_wall}) / hash_steps;
   const long length = std::max(128L, long(seconds / stretches / each) / 128 * 128);
   std::vector<double> user, wall;
-  const double t0 = state.t;
-  const long touched = solver.touched();
+  const double t0 = state.time.t;
+  const long touched = solver.contacts().touched();
   for (int i = 0; i < stretches; ++i) {
     const double user0 = processor_seconds(), wall0 = wall_seconds();
-    const long before = state.step;
+    const long before = state.time.step;
     run_to(before + length);
-    const double steps = double(state.step - before);
+    const double steps = double(state.time.step - before);
     user.push_back((processor_seconds() - user0) / steps);
     wall.push_back((wall_seconds() - wall0) / steps);
-    out.steps += state.step - before;
+    out.steps += state.time.step - before;
   }
   out.user = median(user);
   out.wall = median(wall);
-  out.touching = double(solver.touched() - touched) / double(out.steps);
-  out.dt = (state.t - t0) / double(out.steps);
+  out.touching = double(solver.contacts().touched() - touched) / double(out.steps);
+  out.dt = (state.time.t - t0) / double(out.steps);
   return out;
 }
 
-Timing time_course(const Model& model, State state, int threads, double until) {
+Timing time_course(const Model& model, State state, const StepRange& range, int threads, double until) {
   Timing out;
-  Solver solver(model, state, threads);
-  const double t0 = state.t, user = processor_seconds(), wall = wall_seconds();
-  const long first = state.step;
-  const auto run_while = [&](const auto& more) { solver.run({[](double) { return false; }, [] {}, [&] { return !more(); }}); };
-  run_while([&] { return state.step < first + hash_steps; });
+  Solver solver(model, state, range, threads);
+  const double t0 = state.time.t, user = processor_seconds(), wall = wall_seconds();
+  const long first = state.time.step;
+  const auto run_while = [&](const auto& more) { solver.advance_until([&] { return !more(); }); };
+  run_while([&] { return state.time.step < first + hash_steps; });
   out.hash = hash_of(state);
-  run_while([&] { return state.t < until; });
-  out.steps = state.step - first;
+  run_while([&] { return state.time.t < until; });
+  out.steps = state.time.step - first;
   out.user = (processor_seconds() - user) / double(out.steps);
   out.wall = (wall_seconds() - wall) / double(out.steps);
-  out.touching = double(solver.touched()) / double(out.steps);
-  out.dt = (state.t - t0) / double(out.steps);
+  out.touching = double(solver.contacts().touched()) / double(out.steps);
+  out.dt = (state.time.t - t0) / double(out.steps);
   return out;
 }
 
-double instructions_over_bare(const Model& model, const State& state) {
+double instructions_over_bare(const Model& model, const State& state, const StepRange& range) {
   const InstructionCounter counter;
   if (!counter.works()) return 0;
   Model m = model;
@@ -104,16 +104,16 @@ double instructions_over_bare(const Model& model, const State& state) {
   m.damping.mass = 0;
   constexpr long steps = 2000;
   State stepped = state, bare = state;
-  Solver solver(m, stepped, 1);
+  Solver solver(m, stepped, range, 1);
   const double before = counter.read();
-  solver.run({[](double) { return false; }, [] {}, [&] { return stepped.step >= state.step + steps; }});
+  solver.advance_until([&] { return stepped.time.step >= state.time.step + steps; });
   const double between = counter.read();
-  const double each = (between - before) / double(stepped.step - state.step);
+  const double each = (between - before) / double(stepped.time.step - state.time.step);
   IntactJoints intact(m, bare);
   const std::vector<BlockConstants> constants = block_constants(m, bare);
   std::vector<BlockSums> sums(1);
-  const Excitation e{Vec3::Zero(), m.gravity, bare.dt};
-  bare.last_dt = bare.dt;
+  const Excitation e{Vec3::Zero(), m.gravity, bare.time.dt};
+  bare.time.last_dt = bare.time.dt;
   const double start = counter.read();
   for (long k = 0; k < steps; ++k) {
     intact.forces(0, intact.groups(), step_kernels(), nullptr);
@@ -124,8 +124,8 @@ double instructions_over_bare(const Model& model, const State& state) {
 
 State all_broken(const Model& m, State s) {
   for (int j = 0; j < m.njoint; ++j) {
-    s.stage[z(j)] = JointStage::cracked;
-    JointMemory& memory = s.memory[z(j)];
+    s.joints.stage[z(j)] = JointStage::cracked;
+    JointMemory& memory = s.joints.memory[z(j)];
     joint_gap(m, s, j, memory.gap);
     memory.elastic = 0;
     for (int i = 0; i < 6; ++i) {
@@ -133,7 +133,7 @@ State all_broken(const Model& m, State s) {
       memory.elastic += 0.5 * memory.resultant[i] * memory.gap[i];
     }
   }
-  for (PointHistory& h : s.history) h.damage = 1;
+  for (PointHistory& h : s.joints.history) h.damage = 1;
   return s;
 }
 
@@ -153,4 +153,4 @@ Demand demand(const Model& m) {
   return out;
 }
 
-}  // namespace erbs
+}  // namespace erbs::study

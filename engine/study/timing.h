@@ -5,8 +5,9 @@
 
 #include "engine/model/model.h"
 #include "engine/model/state.h"
+#include "engine/solve/contacts/time_step_bound.h"
 
-namespace erbs {
+namespace erbs::study {
 
 struct Timing {
   double user = 0, wall = 0;  // s per step: processor time of all threads, and elapsed time
@@ -17,17 +18,17 @@ struct Timing {
 };
 
 // Advances `state` by the first steps of a run.
-void run_in(const Model& model, State& state, int threads);
+void run_in(const Model& model, State& state, const StepRange& range, int threads);
 
 // Steps a copy of `state` for about `seconds` of processor time. Times are medians of several stretches: for structures that only sway.
-Timing time_steps(const Model& model, State state, const std::string& kernel, int threads, double seconds);
+Timing time_steps(const Model& model, State state, const StepRange& range, const std::string& kernel, int threads, double seconds);
 
 // Steps a copy of `state` to the time `until` (s). Times are means: for structures that fall apart. The work does not depend on the speed.
-Timing time_course(const Model& model, State state, int threads, double until);
+Timing time_course(const Model& model, State state, const StepRange& range, int threads, double until);
 
 // Instructions of a step of the intact structure with every effect off, relative to the plain passes over joints and blocks. These passes
 // contain no code for effects. 0 if instructions cannot be counted.
-double instructions_over_bare(const Model& model, const State& state);
+double instructions_over_bare(const Model& model, const State& state, const StepRange& range);
 
 // The same state with every joint cracked, without bond or cohesion.
 State all_broken(const Model& model, State state);
@@ -38,4 +39,4 @@ struct Demand {
 };
 Demand demand(const Model& model);
 
-}  // namespace erbs
+}  // namespace erbs::study

@@ -5,7 +5,7 @@
 
 #include "engine/record/folder/motion_file.h"
 
-namespace erbs {
+namespace erbs::study {
 namespace {
 
 double apart(const MotionFrame& a, const MotionFrame& b) {
@@ -37,4 +37,4 @@ std::optional<double> parting_time(const std::string& run, const std::string& tw
   return std::nullopt;
 }
 
-}  // namespace erbs
+}  // namespace erbs::study

@@ -5,7 +5,7 @@
 #include "engine/base/error.h"
 #include "lua/program/progress.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 // s on one core. Intact joints: walls of 43 and 262 joints and the house of the bench with 2812 take 0.47, 2.35 and 22 to 25 us a step
@@ -21,11 +21,6 @@ constexpr double pairs_falling = 0.7, pairs_lying = 1.6, pairs_of_joints = 0.5;
 // Impacts and sliding shorten the step: 1.2 to 1.7 times as many steps in heaps, 1.0 to 3.0 times in dry structures.
 constexpr double more_steps = 2;
 
-bool is_dry(const Model& m, const Joint& joint) {
-  const PointLaw& law = m.laws[std::size_t(joint.type->law)];
-  return law.ft == 0 && law.c == 0;
-}
-
 }  // namespace
 
 Cost estimated_cost(const Model& m, double steps, bool debris) {
@@ -35,7 +30,8 @@ Cost estimated_cost(const Model& m, double steps, bool debris) {
   if (m.njoint == 0)
     return {loose(pairs_falling * moving), more_steps * loose(pairs_lying * moving), "while all blocks fall", "when all lie in a heap"};
   const double cracked = steps * (step_cost + cracked_point_cost * m.npoint);
-  const bool dry = std::all_of(m.joint.begin(), m.joint.end(), [&](const Joint& joint) { return is_dry(m, joint); });
+  const bool dry =
+      std::all_of(m.joint.begin(), m.joint.end(), [&](const Joint& joint) { return !m.laws[std::size_t(joint.type->law)].has_bond(); });
   const std::string all_sound = dry ? "if no joint opens or slides" : "if all joints stay intact";
   if (!debris) return {intact, std::max(intact, cracked), all_sound, "if all joints are cracked or slide"};
   const double worst = more_steps * loose(std::max(pairs_of_joints * m.njoint, pairs_lying * moving));
@@ -49,4 +45,4 @@ std::string cost_text(const Cost& cost) {
                      cost.most_text);
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -4,7 +4,7 @@
 
 #include "engine/model/model.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 struct Cost {
   double least, most;      // s on one core
@@ -17,4 +17,4 @@ struct Cost {
 Cost estimated_cost(const Model& model, double steps, bool debris);
 std::string cost_text(const Cost& cost);
 
-}  // namespace erbs
+}  // namespace erbs::lua

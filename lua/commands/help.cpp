@@ -10,13 +10,13 @@
 #include "lua/program/options.h"
 #include "lua/program/say.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 // A value of a list in the spelling of a script.
 std::string written(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
-  if (value.is_number()) return erbs::written(value.get<double>());
+  if (value.is_number()) return lua::written(value.get<double>());
   if (!value.is_array()) return value.dump();
   std::vector<std::string> items;
   for (const Json& item : value) items.push_back(written(item));
@@ -278,12 +278,12 @@ std::string editor_file() {
   return text;
 }
 
-int verb_help(const Options& options, const std::string& usage) {
-  if (options.words.empty()) say("{}\n{}", usage, functions_list());
-  else if (options.words.front() == "--editor") say("{}", editor_file());
+int verb_help(const std::vector<std::string>& words, const std::string& usage) {
+  if (words.empty()) say("{}\n{}", usage, functions_list());
+  else if (words.front() == "--editor") say("{}", editor_file());
   else
-    for (const auto& word : options.words) say("{}", function_help(word));
+    for (const auto& word : words) say("{}", function_help(word));
   return exit_ok;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

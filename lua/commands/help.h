@@ -6,7 +6,7 @@
 
 #include "lua/language/api.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 std::vector<Function> all_functions();               // the functions of the table, then the ones written in Lua
 std::string function_help(const std::string& name);  // throws Error with the nearest known name
@@ -70,4 +70,4 @@ start_noise = 0 -- noise in the initial state of every free block: erbs run --no
 
 )";
 
-}  // namespace erbs
+}  // namespace erbs::lua

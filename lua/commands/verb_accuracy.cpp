@@ -11,36 +11,36 @@
 #include "lua/reports/accuracy.h"
 #include "lua/reports/book.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
 
-std::string error_text(const Goal& q, const std::optional<double>& error) {
+std::string error_text(const study::Goal& q, const std::optional<double>& error) {
   if (!error) return "-";
   return q.reference != 0 ? fmt::format("{:.3g} %", 100 * *error) : fmt::format("{:.3g} {}", *error, q.unit);
 }
 
 void print_table(const AccuracyStudy& s) {
-  const Goal& q = s.quantity();
+  const study::Goal& q = s.quantity();
   say("{}: {}\n{} = {:.8g} {} by {}{}\n\n", s.name, s.title, q.name, q.reference, q.unit, q.from,
       q.uncertainty > 0 ? fmt::format(", uncertainty {:.2g}", q.uncertainty) : "");
   say("{:<22}  {:<32}  {:>14}  {:>12}  {:>9}  {:>12}\n", "knob", "setting", "value", "error", "cpu s", "evaluations");
   std::vector<std::size_t> order(s.all.size());
   for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    const Setting &x = s.all[a].setting, &y = s.all[b].setting;
+    const study::Setting &x = s.all[a].setting, &y = s.all[b].setting;
     return x.knob != y.knob ? x.knob < y.knob : x.size > y.size;
   });
   for (const std::size_t i : order) {
-    const Measured& m = s.all[i];
+    const study::Measured& m = s.all[i];
     const auto& value = m.values[s.main];
     say("{:<22}  {:<32}  {:>14}  {:>12}  {:>9.3f}  {:>12.3g}{}\n", m.setting.knob, m.setting.name,
         value ? fmt::format("{:.8g}", *value) : "-", error_text(q, error_of(q, value)), m.cpu, m.updates,
         m.reason.empty() ? "" : "  " + m.reason);
   }
   for (const auto& text : s.not_applicable) say("{:<22}  not applicable\n", text);
-  for (const Curve& c : curves_of(q, s.main, s.all))
+  for (const study::Curve& c : curves_of(q, s.main, s.all))
     if (c.slope)
       say("{}: the error falls with the power {:.2f} of {}\n", c.knob, *c.slope,
           c.knob == "time step"          ? "dt"
@@ -49,18 +49,18 @@ void print_table(const AccuracyStudy& s) {
 }
 
 // Answers --target and --budget: the setting, and the line to write into the scene.
-int answer(const AccuracyStudy& s, const Options& options) {
-  const Goal& q = s.quantity();
+int answer(const AccuracyStudy& s, const AccuracyCommand& command) {
+  const study::Goal& q = s.quantity();
   const auto tell_of = [&](std::size_t i) {
-    const Measured& m = s.all[i];
+    const study::Measured& m = s.all[i];
     say("  {} costs {:.3g} s, with an error of {}\n", m.setting.name, m.cpu, error_text(q, error_of(q, m.values[s.main])));
     say("  {}\n", m.setting.line.empty() ? "no change is needed" : m.setting.line);
   };
   int code = exit_ok;
   const std::vector<std::size_t> front = pareto(q, s.main, s.all, true);
-  if (options.target > 0) {
-    say("target {:g} %:\n", 100 * options.target);
-    if (const auto found = cheapest(q, s.main, s.all, options.target)) {
+  if (command.target > 0) {
+    say("target {:g} %:\n", 100 * command.target);
+    if (const auto found = cheapest(q, s.main, s.all, command.target)) {
       tell_of(*found);
     } else if (front.empty()) {
       say("  no run gave a value\n");
@@ -71,18 +71,18 @@ int answer(const AccuracyStudy& s, const Options& options) {
       code = exit_expectation;
     }
   }
-  if (options.budget > 0) {
-    say("budget {}:\n", duration_text(options.budget));
-    if (const auto found = best_within(q, s.main, s.all, options.budget)) tell_of(*found);
+  if (command.budget > 0) {
+    say("budget {}:\n", duration_text(command.budget));
+    if (const auto found = best_within(q, s.main, s.all, command.budget)) tell_of(*found);
     else say("  no run that gave a value fits; the cheapest takes {:.3g} s\n", front.empty() ? 0.0 : s.all[front.front()].cpu);
-    if (!best_within(q, s.main, s.all, options.budget)) code = exit_expectation;
+    if (!best_within(q, s.main, s.all, command.budget)) code = exit_expectation;
   }
   return code;
 }
 
-void check_folder(const std::string& directory, const Options& options) {
+void check_folder(const std::string& directory, const AccuracyCommand& command) {
   if (!fs::exists(directory)) return;
-  if (!options.force && !options.resume)
+  if (!command.output.force && !command.batch.resume)
     throw Error(fmt::format("{} exists; write --resume to keep its runs, or --force to make them again", directory));
 }
 
@@ -94,9 +94,9 @@ void write_study(const AccuracyStudy& s) {
 
 // The row of the study's README.md: best slopes, cheapest settings for 1 % and 0.1 %.
 std::string study_row(const AccuracyStudy& s) {
-  const Goal& q = s.quantity();
+  const study::Goal& q = s.quantity();
   std::string slopes;
-  for (const Curve& c : curves_of(q, s.main, s.all))
+  for (const study::Curve& c : curves_of(q, s.main, s.all))
     if (c.slope && (c.knob == "time step" || c.knob.starts_with("points")))
       slopes += fmt::format("{}{} {:.2f}", slopes.empty() ? "" : ", ", c.knob, *c.slope);
   const auto cost = [&](double target) {
@@ -111,8 +111,9 @@ std::string study_row(const AccuracyStudy& s) {
 // The row of a problem in the table of qualities: the error of each, and its number of evaluations over that of standard.
 std::string quality_row(const AccuracyStudy& s) {
   const auto find = [&](const Quality& q) {
-    return std::find_if(s.all.begin(), s.all.end(),
-                        [&](const Measured& m) { return m.setting.knob == quality_knob && m.setting.name.ends_with(q.name); });
+    return std::find_if(s.all.begin(), s.all.end(), [&](const study::Measured& m) {
+      return m.setting.knob == study::quality_knob && m.setting.name.ends_with(q.name);
+    });
   };
   std::string errors, costs;
   const auto standard = find(qualities[1]);
@@ -128,8 +129,8 @@ std::string quality_row(const AccuracyStudy& s) {
                      uncertain > 0 ? fmt::format("{:.2g} %", 100 * uncertain) : "exact", costs);
 }
 
-int whole_study(const Options& options) {
-  const std::string folder = options.words.empty() ? "scenes/accuracy" : options.words.front();
+int whole_study(const AccuracyCommand& command) {
+  const std::string folder = command.words.empty() ? "scenes/accuracy" : command.words.front();
   if (!fs::is_directory(folder)) throw Error(fmt::format("there is no folder {}; the study needs its problems", folder));
   std::vector<std::string> scenes;
   for (const auto& entry : fs::directory_iterator(folder))
@@ -141,8 +142,8 @@ int whole_study(const Options& options) {
     if (entry.path().filename().string().ends_with("_quality.lua")) scenes.push_back(fs::relative(entry.path()).string());
   std::sort(scenes.begin() + static_cast<std::ptrdiff_t>(problems), scenes.end());
   if (problems == 0) throw Error(fmt::format("{} holds no problem p1_... of the study", folder));
-  const std::string out = options.directory.empty() ? "runs/accuracy" : options.directory;
-  check_folder(out, options);
+  const std::string out = command.output.directory.empty() ? "runs/accuracy" : command.output.directory;
+  check_folder(out, command);
   std::vector<AccuracyStudy> all;
   std::string table =
       "| problem | | quantity | order of the error in | cheapest for 1 % | cheapest for 0.1 % | best |\n|---|---|---|---|---|---|---|\n";
@@ -152,7 +153,7 @@ int whole_study(const Options& options) {
       "|---|---|---|---|---|---|---|---|---|\n";
   double wall = 0;
   for (const auto& scene : scenes) {
-    all.push_back(carry_out_accuracy(scene, out + "/" + fs::path(scene).stem().string(), options));
+    all.push_back(carry_out_accuracy(scene, out + "/" + fs::path(scene).stem().string(), command));
     const AccuracyStudy& s = all.back();
     write_study(s);
     quality += quality_row(s);
@@ -173,25 +174,27 @@ int whole_study(const Options& options) {
 
 }  // namespace
 
-int verb_accuracy(const Options& options) {
-  if (options.whole_study) return whole_study(options);
-  if (options.words.size() != 1) throw Error("accuracy takes one scene; write erbs accuracy SCENE.lua, or erbs accuracy --study");
-  const std::string& scene = options.words.front();
+int verb_accuracy(const AccuracyCommand& command) {
+  if (command.whole_study) return whole_study(command);
+  if (command.words.size() != 1) throw Error("accuracy takes one scene; write erbs accuracy SCENE.lua, or erbs accuracy --study");
+  const std::string& scene = command.words.front();
   if (!fs::is_regular_file(scene)) throw Error(fmt::format("there is no scene {}; check the path", scene));
-  const std::string directory = options.directory.empty() ? "runs/accuracy_" + fs::path(scene).stem().string() : options.directory;
-  check_folder(directory, options);
-  const AccuracyStudy s = carry_out_accuracy(scene, directory, options);
+  const std::string directory =
+      command.output.directory.empty() ? "runs/accuracy_" + fs::path(scene).stem().string() : command.output.directory;
+  check_folder(directory, command);
+  const AccuracyStudy s = carry_out_accuracy(scene, directory, command);
   print_table(s);
   write_study(s);
   say("\n{}\n", plain_sentence(s.quantity(), s.main, s.all));
-  const int code = answer(s, options);
+  const int code = answer(s, command);
   say("{} runs, {} of processor time, {} of wall-clock time; {}/accuracy.csv, accuracy.svg, accuracy.png\n", s.all.size(),
       duration_text(s.cpu), duration_text(s.wall), directory);
   if (s.waiting > 0)
-    say("{} of them did not fit into {}; --resume makes them, --within 10m allows more time\n", s.waiting, duration_text(options.within));
-  const bool any = std::any_of(s.all.begin(), s.all.end(), [&](const Measured& m) { return m.values[s.main].has_value(); });
-  const bool refused = std::all_of(s.all.begin(), s.all.end(), [](const Measured& m) { return m.reason.starts_with("exit code 2"); });
+    say("{} of them did not fit into {}; --resume makes them, --within 10m allows more time\n", s.waiting, duration_text(command.within));
+  const bool any = std::any_of(s.all.begin(), s.all.end(), [&](const study::Measured& m) { return m.values[s.main].has_value(); });
+  const bool refused =
+      std::all_of(s.all.begin(), s.all.end(), [](const study::Measured& m) { return m.reason.starts_with("exit code 2"); });
   return any ? code : refused ? exit_usage : exit_numbers;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

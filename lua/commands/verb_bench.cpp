@@ -15,13 +15,13 @@
 #include "lua/program/say.h"
 #include "lua/reports/bench_report.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
 size_t z(int i) { return static_cast<size_t>(i); }
 
-Json to_json(const Timing& t, double per) {
+Json to_json(const study::Timing& t, double per) {
   return {{"user_us_per_step", 1e6 * t.user},
           {"wall_us_per_step", 1e6 * t.wall},
           {"steps", t.steps},
@@ -34,44 +34,48 @@ Json to_json(const Timing& t, double per) {
 
 // Makes all blocks search for neighbours: contact detection at every step, as in other codes.
 void loosen(const Model& m, State& s) {
-  for (int b = 0; b < m.nblock; ++b) s.loose[z(b)] = m.kind[z(b)] == Kind::moving;
+  for (int b = 0; b < m.nblock; ++b) s.topology.loose[z(b)] = m.kind[z(b)] == Kind::moving;
 }
 
 // s to simulate of a structure that falls apart: its whole duration, or less if blocks times steps exceed the limit.
 double span(const Model& m, const State& s) {
   constexpr double most = 1e7;
-  return std::min(m.analysis.duration, most / m.nblock * s.dt);
+  return std::min(m.analysis.duration, most / m.nblock * s.time.dt);
 }
 
 // Measures the cost of one scene. Each way of running it takes about `seconds`.
-Json measure(const std::string& path, const Options& options, double seconds) {
+Json measure(const std::string& path, const SceneOptions& options, double seconds) {
   Script script(script_options(options, true));
   script.load(path, options.overrides);
   Scene scene = script.take_scene();
-  Prepared run = prepare(scene, true);
+  analysis::Prepared run = analysis::prepare(scene, true);
   const Model& m = run.model;
   start_at_rest(scene, run, 1);
   scene.blocks = std::vector<Block>();  // as a run does
-  const bool mortared = m.njoint > 0 && !m.laws[z(m.joint.front().type->law)].dry;
+  const bool mortared = m.njoint > 0 && m.laws[z(m.joint.front().type->law)].has_bond();
   if (!mortared && m.njoint > 0) loosen(m, run.state);
   const double points = m.npoint;
   // Memory of a run after its first step; measured before timing makes copies of the state.
-  run_in(run.model, run.state, 1);
+  study::run_in(run.model, run.state, run.range, 1);
   const double memory = double(peak_memory_bytes());
-  Json out{
-      {"scene", fs::path(path).stem().string()}, {"blocks", m.nblock}, {"joints", m.njoint}, {"points", m.npoint}, {"dt_s", run.state.dt}};
+  Json out{{"scene", fs::path(path).stem().string()},
+           {"blocks", m.nblock},
+           {"joints", m.njoint},
+           {"points", m.npoint},
+           {"dt_s", run.state.time.dt}};
   const auto timed = [&](int threads) {
-    return mortared ? time_steps(m, run.state, "fast", threads, threads * seconds) : time_course(m, run.state, threads, span(m, run.state));
+    return mortared ? study::time_steps(m, run.state, run.range, "fast", threads, threads * seconds)
+                    : study::time_course(m, run.state, run.range, threads, span(m, run.state));
   };
-  const Timing one = timed(1);
+  const study::Timing one = timed(1);
   out["one_thread"] = to_json(one, points);
-  const Timing two = timed(2);
+  const study::Timing two = timed(2);
   out["two_threads"] = to_json(two, points);
   out["same_bits_with_two_threads"] = one.hash == two.hash;
   out["two_threads_over_one"] = one.wall / two.wall;
   if (m.njoint > 0) {
-    const Demand d = demand(m);
-    const double bandwidth = triad(static_cast<size_t>(d.bytes)), peak = flop_peak();
+    const study::Demand d = study::demand(m);
+    const double bandwidth = study::triad(static_cast<size_t>(d.bytes)), peak = study::flop_peak();
     const double least = std::max(d.bytes / bandwidth, d.flop / peak);
     out["roofline"] = {{"bytes_per_point", d.bytes / points},         {"flop_per_point", d.flop / points},
                        {"triad_of_that_size_bytes_per_s", bandwidth}, {"flop_peak_per_s", peak},
@@ -79,13 +83,14 @@ Json measure(const std::string& path, const Options& options, double seconds) {
     out["bytes_per_point"] = memory / points;
   }
   if (mortared && m.nblock < 5000) {
-    const Timing reference = time_steps(m, run.state, "reference", 1, seconds);
-    const State broken = all_broken(m, run.state);
-    const Timing broken_fast = time_steps(m, broken, "fast", 1, seconds), broken_reference = time_steps(m, broken, "reference", 1, seconds);
+    const study::Timing reference = study::time_steps(m, run.state, run.range, "reference", 1, seconds);
+    const State broken = study::all_broken(m, run.state);
+    const study::Timing broken_fast = study::time_steps(m, broken, run.range, "fast", 1, seconds),
+                        broken_reference = study::time_steps(m, broken, run.range, "reference", 1, seconds);
     out["reference"] = to_json(reference, points);
     out["broken"] = to_json(broken_fast, points);
     out["broken_reference"] = to_json(broken_reference, points);
-    const double over = instructions_over_bare(m, run.state);
+    const double over = study::instructions_over_bare(m, run.state, run.range);
     if (over > 0) out["effects_off_instructions"] = over;
     out["intact_vs_reference"] = reference.user / one.user;
     out["broken_vs_reference"] = broken_reference.user / broken_fast.user;
@@ -125,40 +130,40 @@ Json child(const Case& item, const std::string& scenes, const std::string& direc
   return {{"scene", item.name}, {"failed", last_words(log, code, item.scene)}};
 }
 
-int bench_scenes(const Options& options) {
+int bench_scenes(const TimingCommand& command) {
   Json rows = Json::array();
-  for (const auto& path : options.words) {
-    if (!options.quiet)
+  for (const auto& path : command.words) {
+    if (!command.output.quiet)
       tell(
           stderr,
           path + ": timing kernel and reference with intact and with broken joints, on one and two threads; some minutes with many blocks");
-    rows.push_back(measure(path, options, 1.5));
-    if (!options.quiet) print_bench_row(rows.back());
+    rows.push_back(measure(path, command.scene, 1.5));
+    if (!command.output.quiet) print_bench_row(rows.back());
     std::fflush(stdout);
   }
-  if (!options.directory.empty()) write_json(options.directory, rows);
+  if (!command.output.directory.empty()) write_json(command.output.directory, rows);
   return exit_ok;
 }
 
 }  // namespace
 
-int verb_bench(const Options& options) {
-  if (!options.words.empty()) return bench_scenes(options);
-  const std::string directory = options.directory.empty() ? "runs/bench" : options.directory, scenes = folder_of_scenes();
-  if (fs::exists(directory + "/bench.json") && !options.force)
+int verb_bench(const TimingCommand& command) {
+  if (!command.words.empty()) return bench_scenes(command);
+  const std::string directory = command.output.directory.empty() ? "runs/bench" : command.output.directory, scenes = folder_of_scenes();
+  if (fs::exists(directory + "/bench.json") && !command.output.force)
     throw Error(fmt::format("\"{}\" holds an earlier bench; overwrite it with --force, or choose another folder with -o DIR", directory));
   fs::create_directories(directory);
   Json rows = Json::object();
   for (const Case& item : cases()) {
     rows[item.name] = child(item, scenes, directory);
-    if (!options.quiet) print_bench_row(rows[item.name]);
+    if (!command.output.quiet) print_bench_row(rows[item.name]);
   }
   const Json all = bench_summary(rows);
   write_json(directory + "/bench.json", all);
   print_bench_summary(all);
   write_bench_figure(rows, directory + "/bench.svg");
-  if (!options.quiet) say("{}\n{}\n", directory + "/bench.json", directory + "/bench.svg");
+  if (!command.output.quiet) say("{}\n{}\n", directory + "/bench.json", directory + "/bench.svg");
   return exit_ok;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -13,7 +13,7 @@
 #include "lua/program/options.h"
 #include "lua/program/say.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 // bytes of the program and its libraries without a model: the peak of the pier (scenes/first.lua)
@@ -47,9 +47,9 @@ void print_effects(const Scene& scene) {
   say("effects off: {}\n", off.empty() ? "none" : off);
 }
 
-void print_run(const Scene& scene, const Prepared& run) {
+void print_run(const Scene& scene, const analysis::Prepared& run) {
   const Model& model = run.model;
-  const double dt = run.state.dt, steps = std::ceil(scene.analysis.duration / dt);
+  const double dt = run.state.time.dt, steps = std::ceil(scene.analysis.duration / dt);
   say("model: {} blocks, {} joints, {} contact points\n", model.nblock, model.njoint, model.npoint);
   say("dt = {:.4g} s: {}\n  dt_critical {:.4g} s, dt_block_bound {:.4g} s{}\n", dt, run.dt_rule, run.bounds.critical, run.bounds.block,
       run.bounds.stiffest_block >= 0 ? ", set by block " + model.block_name[static_cast<size_t>(run.bounds.stiffest_block)] : "");
@@ -59,19 +59,19 @@ void print_run(const Scene& scene, const Prepared& run) {
 
 void print_rocking(const Model& model) {
   constexpr size_t shown = 3;
-  const std::vector<FlatBed> beds = flat_beds(model);
+  const std::vector<analysis::FlatBed> beds = analysis::flat_beds(model);
   for (size_t i = 0; i < std::min(shown, beds.size()); ++i) say("rocking: {}\n", told(model, beds[i]));
   if (beds.size() > shown) say("rocking: and {} more blocks on flat beds of their own\n", beds.size() - shown);
 }
 
-void check_scene(const std::string& path, const Options& options) {
-  Script script(script_options(options, options.quiet));
-  const Scene scene = script.load(path, options.overrides);
-  const Prepared run = prepare(scene, options.allow_unstable);
+void check_scene(const std::string& path, const CheckCommand& command) {
+  Script script(script_options(command.scene, command.quiet));
+  const Scene scene = script.load(path, command.scene.overrides);
+  const analysis::Prepared run = analysis::prepare(scene, command.scene.allow_unstable);
   const Recorders recorders(scene, run.model);  // throws Error if two columns have one name
   for (const auto& warning : warnings(scene)) tell(stderr, "warning: " + warning);
-  for (const auto& warning : run.model.warnings) tell(stderr, "warning: " + warning);
-  if (options.quiet) return;
+  for (const auto& warning : run.warnings) tell(stderr, "warning: " + warning);
+  if (command.quiet) return;
   print_scene(scene);
   print_run(scene, run);
   print_rocking(run.model);
@@ -80,12 +80,12 @@ void check_scene(const std::string& path, const Options& options) {
 
 }  // namespace
 
-int verb_check(const Options& options) {
-  if (options.words.empty()) throw Error("check takes a scene; write erbs check SCENE.lua");
+int verb_check(const CheckCommand& command) {
+  if (command.words.empty()) throw Error("check takes a scene; write erbs check SCENE.lua");
   int code = exit_ok;
-  for (const auto& path : options.words) {
+  for (const auto& path : command.words) {
     try {
-      check_scene(path, options);
+      check_scene(path, command);
     } catch (const Errors& mistakes) {
       tell(stderr, mistakes.what());
       code = exit_usage;
@@ -98,4 +98,4 @@ int verb_check(const Options& options) {
   return code;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

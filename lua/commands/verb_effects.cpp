@@ -10,12 +10,12 @@
 #include "engine/base/system/process.h"
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/format/json.h"
-#include "engine/record/plot/gnuplot.h"
+#include "engine/record/plot/figure.h"
 #include "engine/scene/effects.h"
 #include "lua/program/options.h"
 #include "lua/program/say.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
@@ -37,14 +37,13 @@ double children_seconds() {
 }
 
 // One run at a time, so that runs do not compete for processor and memory.
-Measured run_without(const std::string& scene, const Options& options, const std::string& directory, const std::string& effect) {
+Measured run_without(const std::string& scene, const SceneOptions& options, const std::string& directory, const std::string& effect) {
   std::string name = effect.empty() ? "all" : effect;
   std::replace(name.begin(), name.end(), ' ', '_');
   const std::string folder = directory + "/" + name;
   std::vector<std::string> command{own_path(), "run", scene, "-o", folder, "--force", "--quiet", "--threads", "1", "--no-figures"};
   if (!effect.empty()) command.insert(command.end(), {"--without", effect});
-  for (const auto& [key, value] : options.overrides) command.insert(command.end(), {"-D", key + "=" + value});
-  const std::vector<std::string> more = permissions(options);
+  const std::vector<std::string> more = scene_arguments(options);
   command.insert(command.end(), more.begin(), more.end());
   Measured out;
   out.effect = effect;
@@ -104,35 +103,40 @@ void write_table(const std::vector<Row>& rows, const std::string& path) {
 }
 
 void draw(const std::vector<Row>& rows, const std::string& scene, const std::string& path) {
-  std::string text = fmt::format(
-      "set terminal svg size 1100,{} dynamic font \"DejaVu Sans,13\" background \"#ffffff\"\nset encoding utf8\nset multiplot layout 1,2 "
-      "title {} "
-      "noenhanced\nset border 3 lc rgb \"#5a5a5a\" lw 1\nset tics out nomirror scale 0.6 tc rgb \"#333333\"\nset grid x lc rgb \"#e3e3e3\" "
-      "lw 1 lt 1\n"
-      "unset key\nset style fill solid 1.0 noborder\nset yrange [-0.6:{}] reverse\n$effects << END\n",
-      140 + 34 * rows.size(), gnuplot_quoted("What the effects of " + scene + " cost and change"), static_cast<double>(rows.size()) - 0.4);
+  std::string text;
   for (size_t i = 0; i < rows.size(); ++i)
     text += fmt::format("{} \"{}\" {:.6g} {:.6g}\n", i, rows[i].without.effect, rows[i].percent, std::max(1e-6, rows[i].moved.second));
-  text +=
-      "END\nset lmargin 26\nset ytics noenhanced\nset xlabel 'cost: share of the run (%)'\n"
-      "plot $effects using (0.5*$3):0:(0.5*abs($3)):(0.35):ytic(2) with boxxyerror lc rgb '#2f6b8f'\n"
-      "set lmargin 4\nset format y ''\nset logscale x\nset xrange [1e-6:2]\nset xlabel 'largest relative change of a metric without it'\n"
-      "plot $effects using (sqrt(1e-6*$4)):0:(1e-6):4:($0-0.35):($0+0.35) with boxxyerror lc rgb '#b5432e'\nunset multiplot\n";
-  run_gnuplot(text, path);
+  const double height = 140 + 34 * double(rows.size());
+  plot::Figure figure{1100, height};
+  figure.grid = "x";
+  figure.labels = {{"What the effects of " + scene + " cost and change", fmt::format("screen 0.5,{:.5f}", 1 - 20 / height), "center"}};
+  const std::string data = figure.add_rows(text);
+  plot::Panel cost, change;
+  cost.axes = {0.215, 0.475, 69 / height, 1 - 39 / height};
+  change.axes = {0.533, 0.975, 69 / height, 1 - 39 / height};
+  cost.x.label = "cost: share of the run (%)";
+  change.x = {"largest relative change of a metric without it", "[1e-6:2]", "", "10^{%T}", "", true};
+  cost.y = change.y = {"", fmt::format("[-0.6:{}] reverse", double(rows.size()) - 0.4), "noenhanced"};
+  change.y.format = "none";
+  cost.settings = change.settings = "set style fill solid 1.0 noborder\n";
+  cost.series = {{data + " using (0.5*$3):0:(0.5*abs($3)):(0.35):ytic(2)", "boxxyerror lc rgb '#2f6b8f'"}};
+  change.series = {{data + " using (sqrt(1e-6*$4)):0:(1e-6):4:($0-0.35):($0+0.35)", "boxxyerror lc rgb '#b5432e'"}};
+  figure.panels = {cost, change};
+  plot::draw(figure, path);
 }
 
 }  // namespace
 
-int verb_effects(const Options& options) {
-  if (options.words.size() != 1) throw Error("effects takes one scene; write erbs effects SCENE.lua");
-  const std::string path = options.words.front();
-  Script script(script_options(options, true));
-  const Scene scene = script.load(path, options.overrides);
-  const std::string directory = options.directory.empty() ? "runs/" + scene.name + "_effects" : options.directory;
-  if (fs::exists(directory + "/effects.csv") && !options.force)
+int verb_effects(const TimingCommand& command) {
+  if (command.words.size() != 1) throw Error("effects takes one scene; write erbs effects SCENE.lua");
+  const std::string path = command.words.front();
+  Script script(script_options(command.scene, true));
+  const Scene scene = script.load(path, command.scene.overrides);
+  const std::string directory = command.output.directory.empty() ? "runs/" + scene.name + "_effects" : command.output.directory;
+  if (fs::exists(directory + "/effects.csv") && !command.output.force)
     throw Error(fmt::format("\"{}\" holds an earlier table; overwrite it with --force, or choose another folder with -o DIR", directory));
   fs::create_directories(directory);
-  const Measured all = run_without(path, options, directory, "");
+  const Measured all = run_without(path, command.scene, directory, "");
   if (!all.trouble.empty()) throw Error(path + ": " + all.trouble);
   const double updates = std::max(1.0, all.points) * all.steps;
   say("{}: {:.3g} s of one core, {:g} steps, {:g} points: {:.4f} ns per point and step, {:.1f} bytes per point\n\n", scene.name, all.user,
@@ -141,7 +145,7 @@ int verb_effects(const Options& options) {
   std::vector<Row> rows;
   for (const Effect& effect : effects_of(scene)) {
     if (!effect.on) continue;
-    Row row{run_without(path, options, directory, effect.name), 0, 0, 0, {}};
+    Row row{run_without(path, command.scene, directory, effect.name), 0, 0, 0, {}};
     row.without.because = effect.because;
     // per step: without an effect a run may end earlier or take other steps
     const double each = all.user / all.steps, now = row.without.user / std::max(1.0, row.without.steps);
@@ -158,4 +162,4 @@ int verb_effects(const Options& options) {
   return exit_ok;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

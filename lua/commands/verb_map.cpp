@@ -18,11 +18,11 @@
 #include "lua/reports/cases.h"
 #include "lua/reports/stability_map.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
-using Verdict = MapRun::Verdict;
+using Verdict = study::MapRun::Verdict;
 
 // Shares of the window that the runs reach one after the other. Runs that diverge do so early. If the time runs out, every run has at
 // least been tried.
@@ -72,7 +72,7 @@ void choose_window(MapStudy& study, const Scene& scene, double asked) {
 void choose_steps(MapStudy& study, const Scene& scene) {
   Scene free = scene;
   free.analysis.solver = "leapfrog";
-  const Prepared p = prepare(free, true);
+  const analysis::Prepared p = analysis::prepare(free, true);
   if (!std::isfinite(p.bounds.critical))
     throw Error(fmt::format("{} has no joints: nothing in it is elastic, and no time step is too long", scene.file));
   study.nominal = {p.bounds.critical, std::sqrt(2.0) * p.bounds.block, sweep_feed(p.model, p.state)};
@@ -106,21 +106,21 @@ void choose_dampings(MapStudy& study, const Scene& scene) {
 
 // Sort key of the runs: the stiffness of the scene first, short runs first. A sequential step costs about 6 leapfrog steps (768 blocks,
 // one thread).
-double work(const MapRun& r) { return (r.factor == 1 ? 1e-6 : 1) * (r.scheme.sequential ? 6 : 1) / r.dt; }
+double work(const study::MapRun& r) { return (r.factor == 1 ? 1e-6 : 1) * (r.scheme.sequential ? 6 : 1) / r.dt; }
 
-std::string stem(const MapRun& r) {
+std::string stem(const study::MapRun& r) {
   return fmt::format("{}{}_k{:g}_dt{:.4g}_c{:.4g}", r.scheme.sequential ? "sequential" : "leapfrog",
                      r.scheme.explicit_damping ? "_explicit" : "", r.factor, r.dt, r.damping);
 }
 
-std::vector<MapRun> plan(const MapStudy& study) {
-  std::vector<MapRun> all;
+std::vector<study::MapRun> plan(const MapStudy& study) {
+  std::vector<study::MapRun> all;
   for (const double factor : study.factors)
-    for (const Scheme scheme : {Scheme{false, false}, Scheme{true, false}, Scheme{true, true}})
+    for (const study::Scheme scheme : {study::Scheme{false, false}, study::Scheme{true, false}, study::Scheme{true, true}})
       for (const auto& [step, dt] : study.steps)
         for (std::size_t i = 0; i < study.dampings.size(); i += scheme.sequential ? 1 : 2) {  // leapfrog's limit does not depend on damping
           const double c = study.dampings[i];
-          MapRun r;
+          study::MapRun r;
           r.scheme = scheme, r.factor = factor, r.step = step, r.dt = dt, r.damping = c;
           const auto set = [&](const std::string& text) { r.words.insert(r.words.end(), {"--set", text}); };
           set(fmt::format("dt={}", dt));
@@ -151,7 +151,7 @@ bool own_doing(const Json& metrics) {
 
 // Reads the result of a run. The energy ledger judges it besides divergence: if the ledger does not close, the numbers are wrong, however
 // small they are.
-void read(MapRun& r, const Case& run, const std::string& quantity) {
+void read(study::MapRun& r, const Case& run, const std::string& quantity) {
   r.cpu += run.cpu;
   try {
     const Json metrics = read_metrics(run.directory);
@@ -176,9 +176,9 @@ void read(MapRun& r, const Case& run, const std::string& quantity) {
   r.reason = tame ? "" : last_words(run.log, run.code, run.scene);
 }
 
-Json json_of(const MapRun& r, const std::string& key) {
+Json json_of(const study::MapRun& r, const std::string& key) {
   Json seen = Json::array();
-  for (const MapRun::Seen& one : r.seen) seen.push_back({one.until, one.value});
+  for (const study::MapRun::Seen& one : r.seen) seen.push_back({one.until, one.value});
   return {{"key", key},
           {"seen", seen},
           {"verdict", int(r.verdict)},
@@ -190,7 +190,7 @@ Json json_of(const MapRun& r, const std::string& key) {
           {"reason", r.reason}};
 }
 
-void read_note(MapRun& r, const std::string& path, const std::string& key) {
+void read_note(study::MapRun& r, const std::string& path, const std::string& key) {
   try {
     if (!fs::exists(path)) return;
     const Json note = read_json(path);
@@ -203,35 +203,36 @@ void read_note(MapRun& r, const std::string& path, const std::string& key) {
 }
 
 void settle_ratios(MapStudy& study) {
-  const auto tame = [](const MapRun& r) { return r.verdict == Verdict::converged || r.verdict == Verdict::bounded; };
-  for (MapRun& r : study.all)
-    for (const MapRun& reference : study.all)
+  const auto tame = [](const study::MapRun& r) { return r.verdict == Verdict::converged || r.verdict == Verdict::bounded; };
+  for (study::MapRun& r : study.all)
+    for (const study::MapRun& reference : study.all)
       if (!reference.scheme.sequential && reference.factor == r.factor && reference.dt == study.steps.front().second &&
           reference.damping == study.dampings.front() && tame(reference) && tame(r))
         r.ratio = ratio_of(r, reference);
 }
 
-void carry_out(MapStudy& study, const Options& given, const std::string& key) {
-  Options options = given;
-  options.threads = 1;
+void carry_out(MapStudy& study, const AccuracyCommand& command, const std::string& key) {
+  BatchOptions batch = command.batch;
+  batch.quiet = command.output.quiet;
+  batch.threads = 1;
   const auto begin = std::chrono::steady_clock::now();
   const auto spent = [&] { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(); };
-  const double budget = given.budget > 0 ? given.budget : 3600;
-  const auto folder_of = [&](const MapRun& r) { return study.directory + "/runs/" + stem(r); };
-  for (MapRun& r : study.all) {
-    if (given.resume) read_note(r, folder_of(r) + ".json", key);
+  const double budget = command.budget > 0 ? command.budget : 3600;
+  const auto folder_of = [&](const study::MapRun& r) { return study.directory + "/runs/" + stem(r); };
+  for (study::MapRun& r : study.all) {
+    if (batch.resume) read_note(r, folder_of(r) + ".json", key);
     if (r.verdict == Verdict::bounded && !fs::exists(folder_of(r) + "/checkpoint.bin")) r.verdict = Verdict::waiting, r.seen.clear();
   }
   for (const double share : shares) {
     std::vector<std::size_t> which;
     for (std::size_t i = 0; i < study.all.size(); ++i) {
-      const MapRun& r = study.all[i];
+      const study::MapRun& r = study.all[i];
       if (r.verdict == Verdict::waiting || (r.verdict == Verdict::bounded && r.until < 0.999 * share * study.window)) which.push_back(i);
     }
     std::stable_sort(which.begin(), which.end(), [&](std::size_t a, std::size_t b) { return work(study.all[a]) < work(study.all[b]); });
     std::vector<Case> cases;
     for (const std::size_t i : which) {
-      const MapRun& r = study.all[i];
+      const study::MapRun& r = study.all[i];
       Case run;
       run.scene = study.scene, run.name = stem(r), run.directory = folder_of(r), run.log = run.directory + ".log", run.extra = r.words;
       run.resume = r.verdict == Verdict::bounded;
@@ -243,9 +244,9 @@ void carry_out(MapStudy& study, const Options& given, const std::string& key) {
     if (spent() >= budget) break;
     fmt::print(stderr, "{} runs up to {:.3g} s of the window, {} left\n", cases.size(), share * study.window,
                duration_text(budget - spent()));
-    options.budget = budget - spent();
-    run_cases(cases, options, [&](const Case& run) {
-      MapRun& r = study.all[which[std::size_t(&run - cases.data())]];
+    batch.budget = budget - spent();
+    run_cases(cases, command.scene, batch, [&](const Case& run) {
+      study::MapRun& r = study.all[which[std::size_t(&run - cases.data())]];
       read(r, run, study.quantity);
       if (run.overdue || !was_killed(run.code)) write_json(run.directory + ".json", json_of(r, key));
     });
@@ -257,7 +258,7 @@ void print_map(const MapStudy& study) {
   say("{}: {:g} s from t = {:.4g} s; 2/omega_max {:.4g} s, 2/omega_block {:.4g} s, the sweep feeds dt / 2 x {:.4g} 1/s2\n", study.name,
       study.window, study.from, study.nominal.critical, study.nominal.block, study.nominal.feed);
   int count[6] = {}, other = 0;
-  for (const MapRun& r : study.all) {
+  for (const study::MapRun& r : study.all) {
     ++count[int(r.verdict)];
     const bool tame = r.verdict == Verdict::converged || r.verdict == Verdict::bounded;
     const bool told = r.verdict != Verdict::waiting && r.verdict != Verdict::failed;
@@ -277,35 +278,36 @@ void print_map(const MapStudy& study) {
 
 }  // namespace
 
-int verb_map(const Options& options) {
-  if (options.words.size() != 1) throw Error("accuracy --map takes one scene; write erbs accuracy SCENE.lua --map");
+int verb_map(const AccuracyCommand& command) {
+  if (command.words.size() != 1) throw Error("accuracy --map takes one scene; write erbs accuracy SCENE.lua --map");
   MapStudy study;
-  study.scene = options.words.front();
+  study.scene = command.words.front();
   if (!fs::is_regular_file(study.scene)) throw Error(fmt::format("there is no scene {}; check the path", study.scene));
-  Script script(script_options(options, true));
-  const Scene scene = script.load(study.scene, options.overrides);
+  Script script(script_options(command.scene, true));
+  const Scene scene = script.load(study.scene, command.scene.overrides);
   study.name = scene.name;
-  study.directory = options.directory.empty() ? "runs/map_" + scene.name : options.directory;
-  if (fs::exists(study.directory) && !options.force && !options.resume)
+  study.directory = command.output.directory.empty() ? "runs/map_" + scene.name : command.output.directory;
+  if (fs::exists(study.directory) && !command.output.force && !command.batch.resume)
     throw Error(fmt::format("{} exists; write --resume to keep its runs, or --force to make them again", study.directory));
-  choose_quantity(study, scene, options.quantity);
-  choose_window(study, scene, options.window);
+  choose_quantity(study, scene, command.quantity);
+  choose_window(study, scene, command.window);
   choose_steps(study, scene);
   choose_dampings(study, scene);
   study.factors = {1, 0.25, 4};
   study.all = plan(study);
-  std::string key = program_version(), command = "erbs run " + study.scene;
+  std::string key = program_version(), line = "erbs run " + study.scene;
   for (const auto& [file, hash] : scene.inputs) key += "\n" + hash;
-  for (const auto& [name, value] : options.overrides) key += "\n" + name + "=" + value, command += fmt::format(" -D '{}={}'", name, value);
+  for (const auto& [name, value] : command.scene.overrides)
+    key += "\n" + name + "=" + value, line += fmt::format(" -D '{}={}'", name, value);
   key += fmt::format("\n{} {} {}", study.from, study.window, study.quantity);
   fs::create_directories(study.directory + "/runs");
-  carry_out(study, options, hash_text(fnv1a(key)));
+  carry_out(study, command, hash_text(fnv1a(key)));
   print_map(study);
-  write_map_csv(study, command, run_file(study.directory, "map.csv"));
+  write_map_csv(study, line, run_file(study.directory, "map.csv"));
   draw_map(study, run_file(study.directory, "map.svg"));
   draw_map(study, run_file(study.directory, "map.png"));
   say("{0}/map.csv, map.svg, map.png\n", study.directory);
   return exit_ok;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -9,7 +9,7 @@
 #include "lua/program/options.h"
 #include "lua/program/say.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,24 +68,25 @@ std::string write_folder(const fs::path& folder, const Record& record, const Rec
 
 }  // namespace
 
-int verb_record(const Options& options) {
-  if (options.words.empty()) throw Error("record takes a file; write erbs record FILE");
-  if (options.words.size() > 1 && !options.directory.empty())
-    throw Error(
-        fmt::format("-o {} is one folder for {} records; leave it out, and each gets its own", options.directory, options.words.size()));
-  for (const auto& file : options.words) {
-    Record wanted = options.record;
+int verb_record(const RecordCommand& command) {
+  if (command.words.empty()) throw Error("record takes a file; write erbs record FILE");
+  if (command.words.size() > 1 && !command.output.directory.empty())
+    throw Error(fmt::format("-o {} is one folder for {} records; leave it out, and each gets its own", command.output.directory,
+                            command.words.size()));
+  for (const auto& file : command.words) {
+    Record wanted = command.record;
     wanted.file = file;
     const Record record = read_record(wanted);
     const RecordReport numbers = report(record);
     std::ostringstream table;
     print(table, numbers);
     say("{}", table.str());
-    const fs::path folder = options.directory.empty() ? fs::path("runs") / fs::path(file).stem() : fs::path(options.directory);
-    const std::string picture = write_folder(folder, record, numbers, options.force);
-    if (!options.quiet) say("{:<22} {}\n", "picture", picture);
+    const fs::path folder =
+        command.output.directory.empty() ? fs::path("runs") / fs::path(file).stem() : fs::path(command.output.directory);
+    const std::string picture = write_folder(folder, record, numbers, command.output.force);
+    if (!command.output.quiet) say("{:<22} {}\n", "picture", picture);
   }
   return exit_ok;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

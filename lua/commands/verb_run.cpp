@@ -24,7 +24,7 @@
 #include "lua/reports/figures.h"
 #include "lua/reports/studies.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 std::string text_of(const std::string& path) {
@@ -85,7 +85,7 @@ void print_summary(const Scene& scene, const std::string& directory, const Json&
       number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")), number_at(metrics, "realtime_factor"),
       metrics.value("blocks", 0), metrics.value("joints", 0), metrics.value("joints_broken", 0));
   say("{}\nenergy residual {:.1e}\n{}\n", collapse_text(metrics), number_at(metrics, "energy.residual_relative"),
-      diagnostics_line(diagnostics_of(metrics)));
+      analysis::diagnostics_line(diagnostics_of(metrics)));
   for (const auto& [name, unit] : scene.metric_units) {
     const Json* value = find_key(metrics, "metrics." + name);
     say("  {} = {} {}\n", name, value && value->is_number() ? fmt::format("{:.6g}", value->get<double>()) : "none", unit);
@@ -103,7 +103,7 @@ void print_summary(const Scene& scene, const std::string& directory, const Json&
   std::fflush(stdout);
 }
 
-int exit_code(const Scene& scene, const Options& options, const RunOutcome& outcome, const Json& metrics,
+int exit_code(const Scene& scene, const RunCommand& command, const analysis::RunOutcome& outcome, const Json& metrics,
               const std::vector<Verdict>& verdicts) {
   const std::string& status = outcome.metrics.status;
   if (status == "interrupted") return exit_interrupted;
@@ -112,7 +112,7 @@ int exit_code(const Scene& scene, const Options& options, const RunOutcome& outc
   for (const Verdict& verdict : verdicts)
     if (!verdict.passed) return exit_expectation;
   const Json* collapsed = find_key(metrics, "collapse.collapsed");
-  if (options.fail_on_collapse && collapsed && *collapsed == true) return exit_expectation;
+  if (command.fail_on_collapse && collapsed && *collapsed == true) return exit_expectation;
   return exit_ok;
 }
 
@@ -121,7 +121,7 @@ constexpr double twin_noise = 1e-9, twin_apart = 1e-3;  // m
 // The twin: the same run again with tiny noise, in a folder inside that of the run.
 class Twin {
  public:
-  Twin(const std::string& scene, const std::string& directory, const Options& options)
+  Twin(const std::string& scene, const std::string& directory, const RunCommand& command)
       : run_(directory), twin_(run_file(directory, "twin")) {
     command_ = {own_path(),
                 "run",
@@ -134,19 +134,19 @@ class Twin {
                 "twin",
                 "--twin-noise",
                 fmt::format("{:g}", twin_noise)};
-    for (const auto& [name, value] : options.overrides) command_.insert(command_.end(), {"-D", name + "=" + value});
-    for (const auto& more : {override_arguments(options), permissions(options)}) command_.insert(command_.end(), more.begin(), more.end());
-    if (options.until) command_.insert(command_.end(), {"--until", fmt::format("{}", *options.until)});
-    if (options.max_wall) command_.insert(command_.end(), {"--max-wall", fmt::format("{}s", *options.max_wall)});
-    if (options.threads > 0) command_.insert(command_.end(), {"--threads", std::to_string(options.threads)});
-    command_.emplace_back(options.resume && std::filesystem::exists(run_file(twin_, "checkpoint.bin")) ? "--resume" : "--force");
+    for (const auto& more : {override_arguments(command), scene_arguments(command.scene)})
+      command_.insert(command_.end(), more.begin(), more.end());
+    if (command.until) command_.insert(command_.end(), {"--until", fmt::format("{}", *command.until)});
+    if (command.max_wall) command_.insert(command_.end(), {"--max-wall", fmt::format("{}s", *command.max_wall)});
+    if (command.threads > 0) command_.insert(command_.end(), {"--threads", std::to_string(command.threads)});
+    command_.emplace_back(command.resume && std::filesystem::exists(run_file(twin_, "checkpoint.bin")) ? "--resume" : "--force");
   }
 
   // Runs the twin and notes the time at which it parts from the run. Returns "", or the reason why there is no such time.
   std::string compare(Json& metrics) const {
     const int code = wait_for(start(command_, twin_ + ".log"));
     if (code != exit_ok) return "the twin run failed: " + last_words(twin_ + ".log", code, "");
-    const std::optional<double> parted = parting_time(run_, twin_, twin_apart);
+    const std::optional<double> parted = study::parting_time(run_, twin_, twin_apart);
     metrics["trust"]["twin"] = true;
     metrics["trust"]["chaos_horizon_s"] = parted ? Json(*parted) : Json();
     return "";
@@ -160,36 +160,36 @@ class Twin {
 // Default: all processors, but one thread for few blocks, since a step of 12 bricks takes 7 us, about as long as two synchronisations
 // of two threads. Never more threads than processors: threads that share a processor would wait for each other in every step. The
 // results of a run do not depend on the number of threads.
-int threads_of(const Scene& scene, const Options& options) {
+int threads_of(const Scene& scene, const RunCommand& command) {
   const int usable = usable_processors();
-  if (options.threads <= 0) return scene.blocks.size() < 100 ? 1 : usable;
-  if (options.threads > usable)
-    tell(stderr, fmt::format("warning: --threads {}: this process may use {} processor{}; it runs with as many threads", options.threads,
+  if (command.threads <= 0) return scene.blocks.size() < 100 ? 1 : usable;
+  if (command.threads > usable)
+    tell(stderr, fmt::format("warning: --threads {}: this process may use {} processor{}; it runs with as many threads", command.threads,
                              usable, usable > 1 ? "s" : ""));
-  return std::min(options.threads, usable);
+  return std::min(command.threads, usable);
 }
 
 // Hands one scene to the engine, which writes one run folder.
-RunOutcome run_scene(Scene scene, const std::string& script, const std::vector<std::string>& notes, const std::string& directory,
-                     const Options& options) {
-  RunOptions run;
+analysis::RunOutcome run_scene(Scene scene, const std::string& script, const std::vector<std::string>& notes, const std::string& directory,
+                               const RunCommand& command) {
+  analysis::RunOptions run;
   run.directory = directory;
   run.notes = notes;
-  run.override_arguments = override_arguments(options);
-  if (options.twin_noise > 0)
-    run.override_arguments.insert(run.override_arguments.end(), {"--twin-noise", fmt::format("{}", options.twin_noise)});
-  run.existing = options.resume ? Existing::resume : options.force ? Existing::force : Existing::refuse;
-  run.threads = threads_of(scene, options);
-  run.until = options.until;
-  run.max_wall = options.max_wall.value_or(0);
-  run.checkpoint_every = options.checkpoint_every.value_or(60);
-  run.allow_unstable = options.allow_unstable;
-  run.noise = options.noise;
-  run.twin_noise = options.twin_noise;
+  run.override_arguments = override_arguments(command);
+  if (command.twin_noise > 0)
+    run.override_arguments.insert(run.override_arguments.end(), {"--twin-noise", fmt::format("{}", command.twin_noise)});
+  run.existing = command.resume ? Existing::resume : command.output.force ? Existing::force : Existing::refuse;
+  run.threads = threads_of(scene, command);
+  run.until = command.until;
+  run.max_wall = command.max_wall.value_or(0);
+  run.checkpoint_every = command.checkpoint_every.value_or(60);
+  run.allow_unstable = command.scene.allow_unstable;
+  run.noise = command.changes.noise;
+  run.twin_noise = command.twin_noise;
   run.interrupted = &catch_interrupts();
-  ProgressPrinter printer(options.quiet, options.log_json);
-  run.progress = [&](const Progress& now) { printer.show(now); };
-  return run_dynamic(std::move(scene), script, run);
+  ProgressPrinter printer(command.output.quiet, command.log_json);
+  run.progress = [&](const analysis::Progress& now) { printer.show(now); };
+  return analysis::run_dynamic(std::move(scene), script, run);
 }
 
 // Draws histories.svg and energy.svg. A failure is only a warning.
@@ -201,39 +201,40 @@ void draw_curves(const std::string& directory) {
 }
 
 // Work after the run itself: studies, twin, metrics and pictures. Returns the exit code.
-int complete(Script& script, const std::string& path, const std::string& directory, const RunOutcome& outcome, const Options& options) {
+int complete(Script& script, const std::string& path, const std::string& directory, const analysis::RunOutcome& outcome,
+             const RunCommand& command) {
   const std::atomic<bool>& interrupted = catch_interrupts();
   Json metrics;
   std::vector<Verdict> verdicts;
   const std::string& status = outcome.metrics.status;
   const bool whole = status == "completed" || status == "inaccurate" || status == "diverged";
   StudiesOutcome studies;
-  if (whole && options.study.empty()) studies = run_studies(script, path, directory, options, interrupted);
+  if (whole && command.study.empty()) studies = run_studies(script, path, directory, command, interrupted);
   if (studies.interrupted) {
     tell(stderr, "interrupted; finished runs of the studies are kept: continue with --resume");
     return exit_interrupted;
   }
-  if (whole && options.twin) {
+  if (whole && command.twin) {
     Json now = read_metrics(directory);
-    const std::string trouble = Twin(path, directory, options).compare(now);
+    const std::string trouble = Twin(path, directory, command).compare(now);
     if (interrupted) return exit_interrupted;
     if (!trouble.empty()) tell(stderr, path + ": " + trouble);
     write_json(run_file(directory, "metrics.json"), now);
   }
   auto failures = complete_metrics(script, directory, whole, studies, metrics, verdicts);
-  if (whole && options.study.empty() && (options.figures || options.figure_scripts)) write_figures(script, directory, options.figures);
+  if (whole && command.study.empty() && (command.figures || command.figure_scripts)) write_figures(script, directory, command.figures);
   for (const auto& trouble : studies.troubles) tell(stderr, trouble);
   for (const auto& message : failures) tell(stderr, message);
-  if (!options.quiet) print_summary(script.scene(), directory, metrics, verdicts);
-  int code = exit_code(script.scene(), options, outcome, metrics, verdicts);
+  if (!command.output.quiet) print_summary(script.scene(), directory, metrics, verdicts);
+  int code = exit_code(script.scene(), command, outcome, metrics, verdicts);
   if (code == exit_ok && !failures.empty()) code = exit_usage;
-  if (options.video && status != "interrupted") {
+  if (command.video && status != "interrupted") {
     std::vector<std::string> words{directory, "--video"};
-    if (options.force) words.push_back("--force");
-    if (options.quiet) words.push_back("--quiet");
+    if (command.output.force) words.push_back("--force");
+    if (command.output.quiet) words.push_back("--quiet");
     const int drawn = run_renderer(words);
     if (code == exit_ok) code = drawn;
-  } else if (status != "interrupted" && options.figures) {
+  } else if (status != "interrupted" && command.figures) {
     draw_curves(directory);
   }
   return code;
@@ -250,42 +251,42 @@ int no_room(const WriteError& trouble, const std::string& directory) {
 
 }  // namespace
 
-int verb_run(const Options& options) {
-  if (options.words.size() != 1) throw Error(fmt::format("run takes one scene, not {}; erbs test runs several", options.words.size()));
+int verb_run(const RunCommand& command) {
+  if (command.words.size() != 1) throw Error(fmt::format("run takes one scene, not {}; erbs test runs several", command.words.size()));
   // a path that begins with "-" would be an option to other programs
   const auto no_option = [](const std::string& name) { return name.starts_with("-") ? "./" + name : name; };
-  const std::string path = no_option(options.words.front());
-  if (options.video) check_programs({renderer_path(), "ffmpeg"});
-  Script::Options how = script_options(options, options.quiet);
-  how.study = options.study;
-  how.noise = options.noise;
-  how.quality = quality_of(options);
+  const std::string path = no_option(command.words.front());
+  if (command.video) check_programs({renderer_path(), "ffmpeg"});
+  Script::Options how = script_options(command.scene, command.output.quiet);
+  how.study = command.study;
+  how.noise = command.changes.noise;
+  how.quality = quality_of(command.changes);
   Script script(how);
-  script.load(path, options.overrides);
+  script.load(path, command.scene.overrides);
   Scene scene = script.take_scene();
-  for (const auto& effect : options.without) switch_off(scene, effect);
+  for (const auto& effect : command.changes.without) switch_off(scene, effect);
   std::vector<std::string> notes = script.output();
-  for (const auto& note : apply_overrides(scene, options)) notes.push_back(note);
-  if (!options.settings.empty())  // values of --set pass the same checks as the scene
+  for (const auto& note : apply_overrides(scene, command)) notes.push_back(note);
+  if (!command.changes.settings.empty())  // values of --set pass the same checks as the scene
     if (const auto mistakes = check(scene); !mistakes.empty()) throw Errors(mistakes);
   for (const auto& warning : warnings(scene)) {
     tell(stderr, "warning: " + warning);
     notes.push_back("warning: " + warning);
   }
-  const std::string directory = no_option(options.directory.empty() ? "runs/" + scene.name : options.directory);
+  const std::string directory = no_option(command.output.directory.empty() ? "runs/" + scene.name : command.output.directory);
   catch_interrupts();
   try {
-    RunOutcome outcome;  // if only the studies of a finished run continue: its status alone
-    if (options.resume && studies_left(script, directory)) {
+    analysis::RunOutcome outcome;  // if only the studies of a finished run continue: its status alone
+    if (command.resume && studies_left(script, directory)) {
       outcome.lock = std::make_shared<FolderLock>(directory);
       outcome.metrics.status = read_metrics(directory).value("status", "");
     } else {
-      outcome = run_scene(std::move(scene), text_of(path), notes, directory, options);
+      outcome = run_scene(std::move(scene), text_of(path), notes, directory, command);
     }
     for (const auto& warning : outcome.warnings) tell(stderr, "warning: " + warning);
     if (!outcome.trouble.empty()) tell(stderr, path + ": " + outcome.trouble);
-    return complete(script, path, directory, outcome, options);
+    return complete(script, path, directory, outcome, command);
   } catch (const WriteError& trouble) { return no_room(trouble, directory); }
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -9,12 +9,12 @@
 #include "lua/program/options.h"
 #include "lua/program/say.h"
 
-namespace erbs {
+namespace erbs::lua {
 
-int verb_render(const Options& options) {
-  if (options.words.empty()) throw Error("render takes a run folder; write erbs render DIR");
+int verb_render(const std::vector<std::string>& words) {
+  if (words.empty()) throw Error("render takes a run folder; write erbs render DIR");
   catch_interrupts();  // the interrupt is passed on to erbs-render
-  return run_renderer(options.words);
+  return run_renderer(words);
 }
 
 int verb_version() {
@@ -49,4 +49,4 @@ double share_of(const std::string& text, const std::string& option) {
   return unit == "%" ? value / 100 : value;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -11,7 +11,7 @@
 #include "lua/reports/cases.h"
 #include "lua/reports/grid.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 struct Row {
@@ -64,12 +64,13 @@ void print_table(const std::vector<Row>& rows) {
 
 }  // namespace
 
-int verb_test(const Options& options) {
-  if (options.words.empty()) throw Error("test takes scenes or folders; write erbs test scenes/verify");
-  if (options.grid || options.seeds > 0) return run_grid(options);
-  std::vector<Case> cases = find_cases(options, options.directory.empty() ? "runs/test" : options.directory, options.quick ? "quick" : "");
+int verb_test(const TestCommand& command) {
+  if (command.words.empty()) throw Error("test takes scenes or folders; write erbs test scenes/verify");
+  if (command.grid || command.seeds > 0) return run_grid(command);
+  std::vector<Case> cases =
+      find_cases(command.words, command.scene, command.directory.empty() ? "runs/test" : command.directory, command.quick ? "quick" : "");
   const auto begin = std::chrono::steady_clock::now();
-  run_cases(cases, options);
+  run_cases(cases, command.scene, command.batch);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   std::vector<CaseResult> results;
   std::vector<Row> rows;
@@ -84,10 +85,10 @@ int verb_test(const Options& options) {
       rows.size() - static_cast<size_t>(failed), failed, failed_cases, duration_text(wall));
   say("{}\n", summary_line(families_of(results)));
   std::fflush(stdout);
-  if (!options.book.empty()) write_book(results, options, wall);
+  if (!command.book.empty()) write_book(results, command, wall);
   const auto left = std::count_if(results.begin(), results.end(), [](const CaseResult& r) { return !r.started; });
   if (left > 0) tell(stderr, fmt::format("{} of {} cases were not started: the time of --budget was over; give more", left, cases.size()));
   return failed > 0 ? exit_expectation : left > 0 ? exit_stopped : exit_ok;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -7,7 +7,7 @@
 
 #include "engine/base/text.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 const std::vector<Function>& api() {
   static const std::vector<Function> table = [] {
@@ -166,4 +166,4 @@ void open_api(lua_State* lua) {
   }
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

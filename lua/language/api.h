@@ -6,7 +6,7 @@
 #include "lua/reading/input.h"
 #include "lua/reading/read.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 struct Function;
 
@@ -60,4 +60,4 @@ void load_chunk(lua_State* lua, Context& context, const std::string& text, const
 
 void open_api(lua_State* lua);
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -3,7 +3,7 @@
 
 #include "lua/language/api.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 int damping(Call& call) {
@@ -103,4 +103,4 @@ std::vector<Function> analysis_functions() {
   };
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

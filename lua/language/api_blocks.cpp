@@ -8,7 +8,7 @@
 #include "engine/scene/mesh_file.h"
 #include "lua/language/api.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 static constexpr double far = 1e6;                // m, limit of every coordinate
 static constexpr int most_given_vertices = 5000;  // the cost of a hull grows with their square
@@ -376,4 +376,4 @@ std::vector<Function> block_functions() {
   };
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

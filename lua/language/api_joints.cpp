@@ -4,40 +4,33 @@
 
 #include "lua/language/api.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
-
-std::string text_of(std::string_view law) {
-  if (law == "mortar") return "A mortar joint: linear, with tension cut-off, Coulomb shear with cohesion, and optional softening.";
-  if (law == "dry") return "A dry joint: linear in compression, no tension, Coulomb friction.";
-  return fmt::format("The joint law {}.", law);
-}
-
-void complete(Call&, Arguments&, auto&) {}
-
-void complete(Call&, Arguments& arguments, DryFriction& law) {
-  if (!arguments.has("ks")) law.ks = 0.4 * law.kn;
-}
-
-void complete(Call&, Arguments& arguments, Mortar& law) {
-  if (law.kn == 0 && law.E == 0) arguments.mistake("there is no stiffness; give E (with the thickness of the bed) or kn");
-  if (law.kn > 0 && law.ks == 0 && law.G == 0 && law.E == 0) law.ks = 0.4 * law.kn;
-}
 
 template <class L>
 int make_law(Call& call) {
   Arguments arguments = call.arguments();
   L law;
   arguments.read(law);
-  complete(call, arguments, law);
+  if (const std::string mistake = law.complete(); !mistake.empty()) arguments.mistake(mistake);
   push_law(call.lua, call.context, law);
   return 1;
 }
 
+// "dry{ ... } or mortar{ ... }", of all laws.
 template <class... L>
-void add_laws(std::vector<Function>& functions, const std::variant<L...>*) {
+std::string any_law(LawList<L...>) {
+  std::vector<std::string> names;
+  (names.push_back(std::string(L::law_name) + "{ ... }"), ...);
+  std::string all = names.front();
+  for (std::size_t i = 1; i < names.size(); ++i) all += (i + 1 < names.size() ? ", " : " or ") + names[i];
+  return all;
+}
+
+template <class... L>
+void add_laws(std::vector<Function>& functions, LawList<L...>) {
   (functions.push_back(
-       {std::string(L::law_name), make_law<L>, "{ ... }", "law: for joint{ law = ... }", text_of(L::law_name), keys_of<L>()}),
+       {std::string(L::law_name), make_law<L>, "{ ... }", "law: for joint{ law = ... }", std::string(L::help), keys_of<L>()}),
    ...);
 }
 
@@ -82,14 +75,14 @@ int joint(Call& call) {
   }
   const auto law = arguments.law("law");
   if (law) rule.law = *law;
-  else if (!arguments.has("law") && !rule.none)
-    arguments.mistake("\"law\" is missing; give law = mortar{ ... } or dry{ ... }, or none = true");
-  if (auto* mortar = std::get_if<Mortar>(&rule.law)) {
-    if (!rule.has_thickness) rule.thickness = mortar->thickness;
-    if (mortar->thickness == 0) mortar->thickness = rule.thickness;
-    if (mortar->kn == 0 && mortar->E > 0 && mortar->thickness == 0)
-      arguments.mistake("the mortar has E but no thickness; give thickness = 5*mm here or in mortar{}");
-  }
+  else if (!arguments.has("law") && !rule.none) arguments.mistake("\"law\" is missing; give law = " + any_law(Laws{}) + ", or none = true");
+  std::visit(
+      [&](auto& one) {
+        if constexpr (requires { one.share_thickness(rule.thickness, rule.has_thickness); })
+          if (const std::string mistake = one.share_thickness(rule.thickness, rule.has_thickness); !mistake.empty())
+            arguments.mistake(mistake);
+      },
+      rule.law);
   if (!arguments.has("points") && !arguments.has("rule")) call.context.plain_rules.push_back(call.context.scene.joint_rules.size());
   call.context.scene.joint_rules.push_back(std::move(rule));
   return 0;
@@ -99,11 +92,11 @@ int joint(Call& call) {
 
 std::vector<Function> joint_functions() {
   std::vector<Function> functions;
-  add_laws(functions, static_cast<const Law*>(nullptr));
+  add_laws(functions, Laws{});
   functions.push_back(
       {"joint", joint, "{ ... }", "",
        "Joins faces that face each other at rest by a law. The last rule that matches a pair of blocks applies.",
-       joined({{{"law", "law", "", "a law value: mortar{ ... } or dry{ ... }"},
+       joined({{{"law", "law", "", "a law value: " + any_law(Laws{})},
                 {"between", "strings", "", "two groups, { \"wall\", \"slab\" }; \"\" is any group (default: any two groups)"}},
                keys_of<JointRule>(),
                {{"points", "points_per_face", "", "contact points: { along the longer side, along the shorter side }, or one square number",
@@ -111,4 +104,4 @@ std::vector<Function> joint_functions() {
   return functions;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

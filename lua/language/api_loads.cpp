@@ -3,7 +3,7 @@
 
 #include "lua/language/api.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 // The wave of a load: a wave value, a number, or a Lua function. A function is sampled later, when the duration is known.
@@ -112,4 +112,4 @@ std::vector<Function> load_functions() {
   };
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

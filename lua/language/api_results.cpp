@@ -6,7 +6,7 @@
 #include "engine/base/text.h"
 #include "lua/language/api.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 const Keys& tolerance_keys() {
   static const Keys keys = {
@@ -225,4 +225,4 @@ std::vector<Function> result_functions() {
   };
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -6,7 +6,7 @@
 #include "engine/analysis/rocking.h"
 #include "lua/language/api.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 Keys block_keys() {
@@ -21,7 +21,7 @@ Keys block_keys() {
   };
 }
 
-RockingBlock read_block(Call& call, Arguments& arguments) {
+analysis::RockingBlock read_block(Call& call, Arguments& arguments) {
   double width = 1, height = 1, gravity = call.context.scene.gravity.norm();
   arguments.read("width", width);
   arguments.read("height", height);
@@ -33,7 +33,7 @@ RockingBlock read_block(Call& call, Arguments& arguments) {
     arguments.mistake("the scene has no gravity; give gravity = 9.81");
     gravity = standard_g;
   }
-  RockingBlock block = homogeneous_block(width, height, gravity);
+  analysis::RockingBlock block = analysis::homogeneous_block(width, height, gravity);
   arguments.read("alpha", block.alpha);
   if (arguments.has("alpha")) block.mu = std::max(0.0, 1 - 1.5 * std::pow(std::sin(block.alpha), 2));
   arguments.read("p", block.p);
@@ -59,7 +59,7 @@ void set(lua_State* lua, const char* key, const std::vector<double>& values, dou
   lua_setfield(lua, -2, key);
 }
 
-void describe(lua_State* lua, const RockingBlock& block) {
+void describe(lua_State* lua, const analysis::RockingBlock& block) {
   set(lua, "alpha", block.alpha);
   set(lua, "p", block.p);
   set(lua, "mu", block.mu);
@@ -77,8 +77,8 @@ std::optional<Wave> read_wave(Arguments& arguments, double duration) {
 
 int rocking(Call& call) {
   Arguments arguments = call.arguments();
-  const RockingBlock block = read_block(call, arguments);
-  RockingStart start;
+  const analysis::RockingBlock block = read_block(call, arguments);
+  analysis::RockingStart start;
   double duration = 0;
   arguments.read("theta", start.theta);
   arguments.read("spin", start.spin);
@@ -87,7 +87,7 @@ int rocking(Call& call) {
   if (std::fabs(start.theta) >= block.alpha)
     arguments.mistake(
         fmt::format("theta = {} rad is past alpha = {:.4g} rad: the block falls at once; make it smaller", start.theta, block.alpha));
-  RockingRun run;
+  analysis::RockingRun run;
   if (duration > 0) run = rock(block, {wave ? &*wave : nullptr, 1}, start, duration);
   lua_newtable(call.lua);
   describe(call.lua, block);
@@ -103,7 +103,7 @@ int rocking(Call& call) {
 
 int rocking_overturning(Call& call) {
   Arguments arguments = call.arguments();
-  const RockingBlock block = read_block(call, arguments);
+  const analysis::RockingBlock block = read_block(call, arguments);
   std::string criterion = "overturning";
   double low = 0.9, high = 20;
   int points = 1000;
@@ -118,8 +118,8 @@ int rocking_overturning(Call& call) {
   if (wave && duration == 0 && std::isfinite(end_time(*wave))) duration = end_time(*wave) + 12 / block.p;
   if (duration == 0 && (wave || arguments.is_function("wave")))
     arguments.mistake("the wave does not end; say how long to watch: duration = ...");
-  std::vector<OverturningBand> bands;
-  const Criterion asked = criterion == "alpha_at_end" ? Criterion::alpha_at_end : Criterion::overturning;
+  std::vector<analysis::OverturningBand> bands;
+  const analysis::Criterion asked = criterion == "alpha_at_end" ? analysis::Criterion::alpha_at_end : analysis::Criterion::overturning;
   if (wave && low < high && duration > 0) bands = overturning_bands(block, *wave, asked, low, high, points, duration);
   lua_newtable(call.lua);
   describe(call.lua, block);
@@ -168,4 +168,4 @@ std::vector<Function> companion_functions() {
   };
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

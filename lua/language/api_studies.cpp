@@ -8,7 +8,7 @@
 #include "engine/base/text.h"
 #include "lua/language/api.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 // The param of this name, or nullptr. It must be declared above the study, so that -D of the runs finds it.
@@ -19,20 +19,20 @@ const Param* param_of(const Context& context, const std::string& name) {
 }
 
 // Registers the question of a study: a function of the scene that each of its runs evaluates like a metric.
-void question(Call& call, Arguments& arguments, const char* key, const Study& study) {
+void question(Call& call, Arguments& arguments, const char* key, const study::Study& study) {
   const int function = arguments.function(key);
   if (call.context.study == study.name && function != LUA_NOREF) call.context.metrics.push_back({"study", "", 0, function, call.place});
 }
 
-int add(Call& call, Arguments& arguments, Study study, const char* key) {
+int add(Call& call, Arguments& arguments, study::Study study, const char* key) {
   Context& context = call.context;
   const Param* param = param_of(context, study.param);
   if (!study.param.empty() && !param)
     arguments.mistake(fmt::format("there is no param \"{}\" yet; write param(\"{}\", ...) above", study.param, study.param));
-  if (param && study.kind == Study::Kind::bisect) study.unit = param->unit;
+  if (param && study.kind == study::Study::Kind::bisect) study.unit = param->unit;
   if (!is_name(study.name))
     arguments.mistake(fmt::format("name = \"{}\" becomes that of metrics and a folder: letters, digits, _, + and - only", study.name));
-  for (const Study& other : context.studies)
+  for (const study::Study& other : context.studies)
     if (other.name == study.name)
       arguments.mistake(fmt::format("a study \"{}\" was given before, at {}; add name = ...", study.name, other.place.text()));
   study.place = call.place;
@@ -45,7 +45,7 @@ int add(Call& call, Arguments& arguments, Study study, const char* key) {
 
 int bisect(Call& call) {
   Arguments arguments = call.arguments();
-  Study study;
+  study::Study study;
   arguments.read("param", study.param);
   study.name = "collapse_" + study.param;
   arguments.read("name", study.name);
@@ -60,8 +60,8 @@ int bisect(Call& call) {
 
 int converge(Call& call) {
   Arguments arguments = call.arguments();
-  Study study;
-  study.kind = Study::Kind::converge;
+  study::Study study;
+  study.kind = study::Study::Kind::converge;
   arguments.read("param", study.param);
   study.name = "converge_" + study.param;
   arguments.read("name", study.name);
@@ -88,8 +88,8 @@ int converge(Call& call) {
 
 int ensemble(Call& call) {
   Arguments arguments = call.arguments();
-  Study study;
-  study.kind = Study::Kind::ensemble;
+  study::Study study;
+  study.kind = study::Study::Kind::ensemble;
   study.name = "ensemble";
   study.param = "seed";
   arguments.read("name", study.name);
@@ -126,7 +126,8 @@ int figure(Call& call) {
     table.read("x", curve.x);
     table.read("y", curve.y);
     table.read("metrics", curve.metrics);
-    const bool known = std::any_of(context.studies.begin(), context.studies.end(), [&](const Study& s) { return s.name == curve.study; });
+    const bool known =
+        std::any_of(context.studies.begin(), context.studies.end(), [&](const study::Study& s) { return s.name == curve.study; });
     if (!curve.study.empty() && !known) table.mistake(fmt::format("there is no study \"{}\" yet; give it above", curve.study));
     if (curve.study.empty() == curve.x.empty() || curve.x.size() != curve.y.size() + curve.metrics.size())
       table.mistake("give study = ..., or x with as many y or metrics");
@@ -249,4 +250,4 @@ std::vector<Function> study_functions() {
   };
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -3,18 +3,8 @@
 
 #include "lua/language/api.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
-
-std::string text_of(std::string_view wave) {
-  if (wave == "sine") return "A sine from `start` on, for `duration`: amplitude sin(2 pi frequency (t - start) + phase).";
-  if (wave == "half_sine") return "One lobe of a sine, from any phase to its zero at pi.";
-  if (wave == "full_sine") return "One cycle of a sine, from any phase to its zero at 2 pi.";
-  if (wave == "pulse") return "A rectangular pulse, exact at its edges whatever the time step.";
-  if (wave == "table_wave") return "Given values at given times, linear in between.";
-  if (wave == "record") return "A ground-motion record from a file, scaled in amplitude and time.";
-  return fmt::format("The wave {}.", wave);
-}
 
 void finish(Call&, Arguments&, auto&) {}
 
@@ -72,7 +62,7 @@ Keys wave_keys() {
 template <class... W>
 void add_waves(std::vector<Function>& functions, const std::variant<W...>*) {
   (functions.push_back({std::string(W::wave_name), make_wave<W>, "{ ... }", "wave: for a load; wave(t) is its value at time t",
-                        text_of(W::wave_name), wave_keys<W>()}),
+                        std::string(W::help), wave_keys<W>()}),
    ...);
 }
 
@@ -84,4 +74,4 @@ std::vector<Function> wave_functions() {
   return functions;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -9,7 +9,7 @@
 #include "lua/language/api.h"
 #include "lua/masonry/embedded.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 const char* const language_key = "erbs.language";  // in the registry: the globals of the language
@@ -183,4 +183,4 @@ void open_language(lua_State* lua, Context& context, double noise) {
   lua_pop(lua, 1);
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -5,7 +5,7 @@
 
 #include "lua/reading/context.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 inline constexpr const char* scene_key = "erbs.scene";  // in the registry of Lua: the globals of the scene
 
@@ -14,4 +14,4 @@ void open_language(lua_State* lua, Context& context, double noise);
 
 std::vector<std::string> lines_of(const std::string& text);  // without the empty lines
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -9,7 +9,7 @@
 #include "lua/language/api.h"
 #include "lua/language/script.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 void push_json(lua_State* lua, const Json& value) {
@@ -252,4 +252,4 @@ Json Script::lua_functions() {
   return functions;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -18,7 +18,7 @@
 #include "lua/language/language.h"
 #include "lua/reading/quality.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 // The text of a scene as Lua can read it: without the byte order mark of some editors and without a first line for a shell.
@@ -107,7 +107,7 @@ void check_names(Context& context) {
   std::vector<std::string> params, metrics;
   for (const Param& param : context.scene.params) params.push_back(param.name);
   for (const Metric& metric : context.metrics) metrics.push_back("metrics." + metric.name);
-  for (const Study& study : context.studies)
+  for (const study::Study& study : context.studies)
     for (const std::string& name : metric_names(study)) {
       if (std::find(metrics.begin(), metrics.end(), "metrics." + name) != metrics.end())
         context.mistake(study.place,
@@ -263,7 +263,7 @@ void Script::finish(bool whole) {
   throw Errors(context.mistakes);
 }
 
-const std::vector<Study>& Script::studies() const { return context_->studies; }
+const std::vector<study::Study>& Script::studies() const { return context_->studies; }
 
 const std::vector<Figure>& Script::figures() const { return context_->figures; }
 const ParamFamily& Script::family() const { return context_->family; }
@@ -279,4 +279,4 @@ Scene Script::take_scene() {
 
 const std::vector<std::string>& Script::output() const { return context_->output; }
 
-}  // namespace erbs
+}  // namespace erbs::lua

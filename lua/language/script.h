@@ -13,7 +13,7 @@
 
 struct lua_State;
 
-namespace erbs {
+namespace erbs::lua {
 
 struct Context;
 struct ParamFamily;
@@ -60,7 +60,7 @@ class Script {
 
   const Scene& scene() const;
   Scene take_scene();  // scene() with its blocks, which the script gives up
-  const std::vector<Study>& studies() const;
+  const std::vector<study::Study>& studies() const;
   const std::vector<Figure>& figures() const;
   const ParamFamily& family() const;               // without values if the scene declares none
   const std::vector<std::string>& output() const;  // lines the script has printed
@@ -74,4 +74,4 @@ class Script {
   lua_State* lua_ = nullptr;
 };
 
-}  // namespace erbs
+}  // namespace erbs::lua

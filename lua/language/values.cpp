@@ -4,7 +4,7 @@
 
 #include "lua/language/api.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 constexpr const char* law_type = "law";
@@ -108,4 +108,4 @@ int Arguments::function(const std::string& key) {
   return LUA_NOREF;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-namespace erbs {
+namespace erbs::lua {
 
 struct Embedded {
   std::string_view name, text;
@@ -11,4 +11,4 @@ struct Embedded {
 
 const std::vector<Embedded>& embedded();
 
-}  // namespace erbs
+}  // namespace erbs::lua

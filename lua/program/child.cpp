@@ -1,27 +1,10 @@
 #include "lua/program/child.h"
 
-#include <unistd.h>
-
-#include <cstdlib>
 #include <filesystem>
-#include <sstream>
 
 #include "engine/base/error.h"
 
-namespace erbs {
-namespace {
-
-bool can_start(const std::string& name) {
-  if (name.find('/') != std::string::npos) return ::access(name.c_str(), X_OK) == 0;
-  const char* path = std::getenv("PATH");
-  std::istringstream folders(path ? path : "/bin:/usr/bin");
-  for (std::string folder; std::getline(folders, folder, ':');)
-    if (::access((folder + "/" + name).c_str(), X_OK) == 0) return true;
-  return false;
-}
-
-}  // namespace
-
+namespace erbs::lua {
 std::string renderer_path() {
   std::error_code ignored;
   const auto beside = std::filesystem::path(own_path()).parent_path() / "erbs-render";
@@ -42,4 +25,4 @@ void check_programs(const std::vector<std::string>& names) {
           name == "ffmpeg" ? "install the package ffmpeg, or leave --video out" : "it belongs beside erbs: build or install both"));
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -2,7 +2,7 @@
 #pragma once
 #include "engine/base/system/process.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 std::string renderer_path();  // path of erbs-render: beside erbs, otherwise found by PATH
 int run_renderer(const std::vector<std::string>& arguments);
@@ -10,4 +10,4 @@ int run_renderer(const std::vector<std::string>& arguments);
 // Throws Error if one of these programs cannot be started: a user should learn it before a long run, not after it.
 void check_programs(const std::vector<std::string>& names);
 
-}  // namespace erbs
+}  // namespace erbs::lua

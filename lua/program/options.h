@@ -7,28 +7,34 @@
 #include "engine/loads/record/record.h"
 #include "lua/language/script.h"
 
-namespace erbs {
+namespace erbs::lua {
 
-struct Options {
-  std::vector<std::string> words;  // arguments of the verb: scenes, folders, files
-  Overrides overrides;             // -D name=value
-  std::string directory;           // -o; "": runs/<scene name>
-  bool force = false, quiet = false;
-  int threads = 0;              // 0: as many as the machine has
-  std::optional<double> until;  // s, simulated
-  bool resume = false;
-  std::optional<double> max_wall;          // s, of wall clock
-  std::optional<double> checkpoint_every;  // s, of wall clock
-  bool video = false, log_json = false, allow_unstable = false, fail_on_collapse = false;
-  int jobs = 0;                        // 0: as many as the machine has
-  Record record;                       // of erbs record: --dt, --unit, --column
-  std::string study;                   // name of the study that started this run
-  bool figures = true;                 // draw the curves of a run
-  bool figure_scripts = false;         // write the figures of figure{} as gnuplot scripts, which a book draws later
+// How a scene is read.
+struct SceneOptions {
+  Overrides overrides;                 // -D name=value
   std::vector<std::string> allow;      // folders that a scene may read besides its own
   int max_blocks = 0, max_points = 0;  // limits of a scene; 0: the limits of Scene
+  bool allow_unstable = false;
+};
 
-  // of erbs run: overrides of the scene
+// Where results go.
+struct OutputOptions {
+  std::string directory;  // -o; "": chosen by the verb
+  bool force = false, quiet = false;
+};
+
+// How runs are made side by side.
+struct BatchOptions {
+  int jobs = 0;                    // runs at once; 0: as many as the machine has
+  int threads = 0;                 // of each; 0: chosen by their number
+  std::optional<double> max_wall;  // s, wall clock of each
+  double budget = 0;               // s, wall clock of all; 0: none
+  bool resume = false;             // keep finished runs
+  bool quiet = false;
+};
+
+// Changes of a scene.
+struct SceneChanges {
   std::optional<double> dt_fraction;  // of dt_critical
   int points = 0;                     // contact points per joint, a square number; 0: as the scene says
   std::string rule;                   // quadrature rule of the contact points; "": as the scene says
@@ -39,31 +45,71 @@ struct Options {
   std::optional<double> from;         // s, time at which the loads begin
   std::vector<std::string> without;   // effects that are switched off
   double noise = 0;                   // m and rad, noise in the initial state of every free block
-  double twin_noise = 0;              // m and rad, further noise from another seed, which makes a twin
+};
+
+// What each verb reads; words: its arguments, such as scenes, folders, files.
+struct RunCommand {
+  std::vector<std::string> words;
+  OutputOptions output;
+  SceneOptions scene;
+  SceneChanges changes;
+  int threads = 0;              // 0: as many as the machine has
+  std::optional<double> until;  // s, simulated
+  bool resume = false;
+  std::optional<double> max_wall, checkpoint_every;  // s, wall clock
+  bool video = false, log_json = false, fail_on_collapse = false;
+  bool figures = true;          // draw the curves of a run
+  bool figure_scripts = false;  // write the figures of figure{} as gnuplot scripts, which a book draws later
+  std::string study;            // name of the study that started this run
   bool twin = false;
-
-  // of erbs test
+  double twin_noise = 0;  // m and rad, further noise from another seed, which makes a twin
+};
+struct CheckCommand {
+  std::vector<std::string> words;
+  SceneOptions scene;
+  bool quiet = false;
+};
+struct RecordCommand {
+  std::vector<std::string> words;
+  OutputOptions output;
+  Record record;  // --dt, --unit, --column
+};
+struct TestCommand {
+  std::vector<std::string> words;
+  SceneOptions scene;
+  BatchOptions batch;
+  std::string directory;
   bool quick = false, grid = false;
-  int seeds = 0;      // every scene with seeds 1 to this number; 0: as the scene says
-  std::string book;   // path of the book; "": none is written
-  double budget = 0;  // s: of erbs test, wall clock of all runs together; of erbs accuracy, of one run; 0: none
-
-  // of erbs accuracy
+  int seeds = 0;     // every scene with seeds 1 to this number; 0: as the scene says
+  std::string book;  // path of the book; "": none is written
+};
+struct AccuracyCommand {
+  std::vector<std::string> words;
+  OutputOptions output;
+  SceneOptions scene;
+  BatchOptions batch;
   double target = 0;         // wanted relative error; 0: none
+  double budget = 0;         // s, wall clock of one run; of all runs of a map; 0: none
   double within = 120;       // s, wall clock of all runs of a scene together; 0: no limit
   std::string quantity;      // the quantity of the figure; "": chosen by the program
   bool whole_study = false;  // all problems of a folder
   bool map = false;          // stability map of step, stiffness and damping
   double window = 0;         // s around the peak of the ground motion, for a map; 0: 2 s
 };
+// Of erbs bench and erbs effects.
+struct TimingCommand {
+  std::vector<std::string> words;
+  OutputOptions output;
+  SceneOptions scene;
+};
 
-// The overrides of this run as arguments for another run of erbs.
-std::vector<std::string> override_arguments(const Options& options);
-
-// The arguments that let another run of erbs read the same folders and build as large a scene.
-std::vector<std::string> permissions(const Options& options);
+// The changes as arguments for another run of erbs.
+std::vector<std::string> override_arguments(const RunCommand& command);
+// The arguments that let another run of erbs read the same folders and build as large a scene; with -D as well.
+std::vector<std::string> permissions(const SceneOptions& options);
+std::vector<std::string> scene_arguments(const SceneOptions& options);
 // The options under which a script is read.
-Script::Options script_options(const Options& options, bool quiet);
+Script::Options script_options(const SceneOptions& options, bool quiet);
 
 // "30m", "90s", "1.5h", "500ms" or plain seconds; throws Error naming the option.
 double seconds_of(const std::string& text, const std::string& option);
@@ -71,19 +117,19 @@ double seconds_of(const std::string& text, const std::string& option);
 double share_of(const std::string& text, const std::string& option);
 
 // The verbs; each returns the exit code of the program.
-int verb_run(const Options& options);
-int verb_check(const Options& options);
-int verb_record(const Options& options);
-int verb_render(const Options& options);
-int verb_test(const Options& options);
-int verb_accuracy(const Options& options);
-int verb_map(const Options& options);
-int verb_bench(const Options& options);
-int verb_effects(const Options& options);
-int verb_help(const Options& options, const std::string& usage);
+int verb_run(const RunCommand& command);
+int verb_check(const CheckCommand& command);
+int verb_record(const RecordCommand& command);
+int verb_render(const std::vector<std::string>& words);
+int verb_test(const TestCommand& command);
+int verb_accuracy(const AccuracyCommand& command);
+int verb_map(const AccuracyCommand& command);
+int verb_bench(const TimingCommand& command);
+int verb_effects(const TimingCommand& command);
+int verb_help(const std::vector<std::string>& words, const std::string& usage);
 int verb_version();
 
 // Exit codes that users rely on.
 enum Exit { exit_ok = 0, exit_numbers = 1, exit_usage = 2, exit_stopped = 3, exit_expectation = 4, exit_interrupted = 130 };
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -10,7 +10,7 @@
 #include "engine/loads/earlier.h"
 #include "lua/reading/quality.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 constexpr std::string_view quality_is = "quality=";
@@ -66,53 +66,54 @@ void stiffen(JointRule& rule, double factor) {
 
 }  // namespace
 
-std::vector<std::string> apply_overrides(Scene& scene, const Options& options) {
+std::vector<std::string> apply_overrides(Scene& scene, const RunCommand& command) {
+  const SceneChanges& changes = command.changes;
   std::vector<std::string> notes;
-  if (options.dt_fraction) {
+  if (changes.dt_fraction) {
     scene.analysis.dt = 0;
     scene.analysis.dt_rule = "limit";
-    scene.analysis.dt_fraction = *options.dt_fraction;
-    notes.push_back(fmt::format("--dt-fraction {:g}", *options.dt_fraction));
+    scene.analysis.dt_fraction = *changes.dt_fraction;
+    notes.push_back(fmt::format("--dt-fraction {:g}", *changes.dt_fraction));
   }
-  for (const auto& setting : options.settings) {
+  for (const auto& setting : changes.settings) {
     if (!setting.starts_with(quality_is)) set_analysis(scene.analysis, setting);
     notes.push_back("--set " + setting);
   }
-  if (!options.rule.empty()) {
-    for (JointRule& rule : scene.joint_rules) rule.rule = options.rule;
-    notes.push_back("--rule " + options.rule);
+  if (!changes.rule.empty()) {
+    for (JointRule& rule : scene.joint_rules) rule.rule = changes.rule;
+    notes.push_back("--rule " + changes.rule);
   }
-  if (options.points > 0) {
-    const int side = static_cast<int>(std::lround(std::sqrt(options.points)));
-    if (side * side != options.points)
-      throw Error(fmt::format("--points {}: not a square number; write 4, 9, 16 or 25 (2, 3, 4 or 5 along each side)", options.points));
+  if (changes.points > 0) {
+    const int side = static_cast<int>(std::lround(std::sqrt(changes.points)));
+    if (side * side != changes.points)
+      throw Error(fmt::format("--points {}: not a square number; write 4, 9, 16 or 25 (2, 3, 4 or 5 along each side)", changes.points));
     for (JointRule& rule : scene.joint_rules) rule.points_long = rule.points_short = side;
-    notes.push_back(fmt::format("--points {}", options.points));
+    notes.push_back(fmt::format("--points {}", changes.points));
   }
-  if (options.stiffness) {
-    for (JointRule& rule : scene.joint_rules) stiffen(rule, *options.stiffness);
-    notes.push_back(fmt::format("--stiffness {:g}", *options.stiffness));
+  if (changes.stiffness) {
+    for (JointRule& rule : scene.joint_rules) stiffen(rule, *changes.stiffness);
+    notes.push_back(fmt::format("--stiffness {:g}", *changes.stiffness));
   }
-  if (options.damping) {
-    scene.damping.mass = *options.damping;
-    notes.push_back(fmt::format("--damping {:g}", *options.damping));
+  if (changes.damping) {
+    scene.damping.mass = *changes.damping;
+    notes.push_back(fmt::format("--damping {:g}", *changes.damping));
   }
-  if (!options.damping_form.empty()) {
-    scene.damping.form = options.damping_form;
-    notes.push_back("--damping-form " + options.damping_form);
+  if (!changes.damping_form.empty()) {
+    scene.damping.form = changes.damping_form;
+    notes.push_back("--damping-form " + changes.damping_form);
   }
-  if (options.from) {
-    for (Load& load : scene.loads) load.wave = earlier(load.wave, *options.from);
-    notes.push_back(fmt::format("--from {:g}", *options.from));
+  if (changes.from) {
+    for (Load& load : scene.loads) load.wave = earlier(load.wave, *changes.from);
+    notes.push_back(fmt::format("--from {:g}", *changes.from));
   }
-  if (options.allow_unstable) scene.analysis.unstable = true;
-  if (options.noise > 0) notes.push_back(fmt::format("--noise {:g}", options.noise));
+  if (command.scene.allow_unstable) scene.analysis.unstable = true;
+  if (changes.noise > 0) notes.push_back(fmt::format("--noise {:g}", changes.noise));
   return notes;
 }
 
-std::string quality_of(const Options& options) {
+std::string quality_of(const SceneChanges& changes) {
   std::string quality;
-  for (const auto& setting : options.settings) {
+  for (const auto& setting : changes.settings) {
     if (!setting.starts_with(quality_is)) continue;
     quality = setting.substr(quality_is.size());
     if (std::none_of(std::begin(qualities), std::end(qualities), [&](const Quality& q) { return quality == q.name; }))
@@ -121,7 +122,7 @@ std::string quality_of(const Options& options) {
   return quality;
 }
 
-std::vector<std::string> permissions(const Options& options) {
+std::vector<std::string> permissions(const SceneOptions& options) {
   std::vector<std::string> words;
   for (const auto& folder : options.allow) words.insert(words.end(), {"--allow", folder});
   if (options.max_blocks > 0) words.insert(words.end(), {"--max-blocks", std::to_string(options.max_blocks)});
@@ -129,7 +130,13 @@ std::vector<std::string> permissions(const Options& options) {
   return words;
 }
 
-Script::Options script_options(const Options& options, bool quiet) {
+std::vector<std::string> scene_arguments(const SceneOptions& options) {
+  std::vector<std::string> words = permissions(options);
+  for (const auto& [name, value] : options.overrides) words.insert(words.end(), {"-D", name + "=" + value});
+  return words;
+}
+
+Script::Options script_options(const SceneOptions& options, bool quiet) {
   Script::Options out;
   out.quiet = quiet;
   out.allow = options.allow;
@@ -138,20 +145,21 @@ Script::Options script_options(const Options& options, bool quiet) {
   return out;
 }
 
-std::vector<std::string> override_arguments(const Options& options) {
+std::vector<std::string> override_arguments(const RunCommand& command) {
+  const SceneChanges& changes = command.changes;
   std::vector<std::string> words;
-  if (options.dt_fraction) words.insert(words.end(), {"--dt-fraction", fmt::format("{}", *options.dt_fraction)});
-  if (options.points > 0) words.insert(words.end(), {"--points", std::to_string(options.points)});
-  if (!options.rule.empty()) words.insert(words.end(), {"--rule", options.rule});
-  for (const auto& setting : options.settings) words.insert(words.end(), {"--set", setting});
-  for (const auto& effect : options.without) words.insert(words.end(), {"--without", effect});
-  if (options.stiffness) words.insert(words.end(), {"--stiffness", fmt::format("{}", *options.stiffness)});
-  if (options.damping) words.insert(words.end(), {"--damping", fmt::format("{}", *options.damping)});
-  if (!options.damping_form.empty()) words.insert(words.end(), {"--damping-form", options.damping_form});
-  if (options.from) words.insert(words.end(), {"--from", fmt::format("{}", *options.from)});
-  if (options.noise > 0) words.insert(words.end(), {"--noise", fmt::format("{}", options.noise)});
-  if (options.allow_unstable) words.emplace_back("--allow-unstable");
+  if (changes.dt_fraction) words.insert(words.end(), {"--dt-fraction", fmt::format("{}", *changes.dt_fraction)});
+  if (changes.points > 0) words.insert(words.end(), {"--points", std::to_string(changes.points)});
+  if (!changes.rule.empty()) words.insert(words.end(), {"--rule", changes.rule});
+  for (const auto& setting : changes.settings) words.insert(words.end(), {"--set", setting});
+  for (const auto& effect : changes.without) words.insert(words.end(), {"--without", effect});
+  if (changes.stiffness) words.insert(words.end(), {"--stiffness", fmt::format("{}", *changes.stiffness)});
+  if (changes.damping) words.insert(words.end(), {"--damping", fmt::format("{}", *changes.damping)});
+  if (!changes.damping_form.empty()) words.insert(words.end(), {"--damping-form", changes.damping_form});
+  if (changes.from) words.insert(words.end(), {"--from", fmt::format("{}", *changes.from)});
+  if (changes.noise > 0) words.insert(words.end(), {"--noise", fmt::format("{}", changes.noise)});
+  if (command.scene.allow_unstable) words.emplace_back("--allow-unstable");
   return words;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -3,13 +3,13 @@
 #include "engine/scene/scene.h"
 #include "lua/program/options.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 // Applies the overrides to the scene. Returns their text, for the log.
-std::vector<std::string> apply_overrides(Scene& scene, const Options& options);
+std::vector<std::string> apply_overrides(Scene& scene, const RunCommand& command);
 
 // The quality of --set quality=...: draft, standard or reference; "" without one. It holds for values the script leaves open.
 // Throws Error.
-std::string quality_of(const Options& options);
+std::string quality_of(const SceneChanges& changes);
 
-}  // namespace erbs
+}  // namespace erbs::lua

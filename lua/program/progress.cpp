@@ -9,7 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/record/format/json.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 double seconds(std::chrono::steady_clock::duration d) { return std::chrono::duration<double>(d).count(); }
@@ -42,7 +42,7 @@ ProgressPrinter::ProgressPrinter(bool quiet, bool json)
 
 ProgressPrinter::~ProgressPrinter() { end(); }
 
-void ProgressPrinter::show(const Progress& now) {
+void ProgressPrinter::show(const analysis::Progress& now) {
   if (first_time_ < 0) {
     first_time_ = last_time_ = now.t;
     first_steps_ = last_steps_ = now.steps;
@@ -88,4 +88,4 @@ void ProgressPrinter::end() {
   open_ = false;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

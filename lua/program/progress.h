@@ -5,7 +5,7 @@
 
 #include "engine/analysis/dynamic.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 class ProgressPrinter {
  public:
@@ -13,8 +13,8 @@ class ProgressPrinter {
   ~ProgressPrinter();
   ProgressPrinter(const ProgressPrinter&) = delete;
   ProgressPrinter& operator=(const ProgressPrinter&) = delete;
-  void show(const Progress& now);  // cheap to call often: prints only when a line is due
-  void end();                      // clears the line on a terminal
+  void show(const analysis::Progress& now);  // cheap to call often: prints only when a line is due
+  void end();                                // clears the line on a terminal
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -28,4 +28,4 @@ class ProgressPrinter {
 std::string duration_text(double seconds);  // "3.2 s", "4 min 05 s", "2 h 10 min"
 bool colors(int file);                      // the output is a terminal and NO_COLOR is not set
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -6,7 +6,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 // Prints to stdout like fmt::print, with two differences: names of files and scenes in the text cannot control the terminal, and a
 // full stdout throws nothing; main() reports it at the end.
@@ -16,4 +16,4 @@ void say(fmt::format_string<A...> text, A&&... values) {
   std::fwrite(all.data(), 1, all.size(), stdout);
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -10,7 +10,7 @@
 #include "lua/reading/family.h"
 #include "lua/reading/sandbox.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 // x -> rotation x + shift: the transformation of everything that is built inside transform{}.
 struct Frame {
@@ -76,7 +76,7 @@ struct Context {
   std::vector<Override> overrides;
   std::vector<Metric> metrics;
   std::vector<Sampling> samplings;
-  std::vector<Study> studies;
+  std::vector<study::Study> studies;
   std::vector<Figure> figures;
   ParamFamily family;
   std::string study;  // name of the study that started this run; "" if no study did
@@ -109,4 +109,4 @@ Context& context_of(lua_State* lua);
 // The script line that runs now: the innermost one in a file of the user, not in the parts of the language written in Lua.
 Place current_place(lua_State* lua);
 
-}  // namespace erbs
+}  // namespace erbs::lua

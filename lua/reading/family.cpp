@@ -4,7 +4,7 @@
 
 #include "engine/base/random.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 std::vector<Choice> one_at_a_time(const ParamFamily& family) {
   std::vector<Choice> all;
@@ -21,4 +21,4 @@ Choice combination(const ParamFamily& family, int i) {
   return choice;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

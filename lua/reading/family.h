@@ -6,7 +6,7 @@
 
 #include "engine/base/error.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 struct ParamFamily {
   std::vector<std::pair<std::string, std::vector<double>>> values;  // values of each param, in the order of declaration
@@ -22,4 +22,4 @@ std::vector<Choice> one_at_a_time(const ParamFamily& family);
 // The i-th random combination: one drawn value for every param.
 Choice combination(const ParamFamily& family, int i);
 
-}  // namespace erbs
+}  // namespace erbs::lua

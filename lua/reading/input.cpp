@@ -9,7 +9,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/text.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
@@ -93,4 +93,4 @@ std::string read_input(Context& context, const fs::path& path, const Place& plac
   return text.str();
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -7,7 +7,7 @@
 
 #include "lua/reading/context.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 // These folders with all links resolved; the scene's own folder is the first.
 std::vector<std::filesystem::path> readable_folders(const Context& context);
@@ -20,4 +20,4 @@ std::filesystem::path find_input(const Context& context, const std::string& file
 // Returns the content of the file and keeps its hash for the manifest. Throws Error.
 std::string read_input(Context& context, const std::filesystem::path& path, const Place& place);
 
-}  // namespace erbs
+}  // namespace erbs::lua

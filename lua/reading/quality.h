@@ -1,7 +1,7 @@
 // Three settings of step and points, measured by the study of accuracy (scenes/accuracy/README.md: errors and costs).
 #pragma once
 
-namespace erbs {
+namespace erbs::lua {
 
 struct Quality {
   const char* name;
@@ -10,4 +10,4 @@ struct Quality {
 };
 constexpr Quality qualities[] = {{"draft", 0.9, 2}, {"standard", 0.9, 3}, {"reference", 0.25, 5}};
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -8,7 +8,7 @@
 #include "engine/base/spelling.h"
 #include "engine/base/text.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 std::string written(double value) {
   if (std::isinf(value)) return value > 0 ? "math.huge" : "-math.huge";
@@ -394,4 +394,4 @@ std::vector<Arguments> Arguments::tables(const std::string& key, const Keys& key
   return list;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

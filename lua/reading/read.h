@@ -10,7 +10,7 @@
 
 struct lua_State;
 
-namespace erbs {
+namespace erbs::lua {
 
 // Description of one key, for reading, help and the editor file.
 struct Key {
@@ -130,4 +130,4 @@ std::string described(lua_State* lua, int index);
 // The mistake in a string that is_plain() refuses.
 std::string not_plain(const std::string& text);
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -11,7 +11,7 @@
 #include "engine/base/text.h"
 #include "lua/reading/context.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 Context& context_of(lua_State* lua) { return **static_cast<Context**>(lua_getextraspace(lua)); }
 
@@ -212,4 +212,4 @@ Stretch::~Stretch() {
   lua_sethook(lua_, nullptr, 0, 0);
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

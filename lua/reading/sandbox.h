@@ -10,7 +10,7 @@
 
 struct lua_State;
 
-namespace erbs {
+namespace erbs::lua {
 
 struct Context;
 
@@ -80,4 +80,4 @@ class Cap {
 // A new state with these libraries and without their dangerous functions. Its extra space points to the context.
 lua_State* open_sandbox(Context& context);
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -16,7 +16,7 @@
 #include "lua/reading/quality.h"
 #include "lua/reports/cases.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,7 +28,7 @@ bool has_setting(const std::string& key) {
   return std::any_of(fields.begin(), fields.end(), [&](const auto& field) { return field.name == key; });
 }
 
-void add_steps(std::vector<Setting>& all, double finest) {
+void add_steps(std::vector<study::Setting>& all, double finest) {
   for (double f = finest; f < 1; f = f < 0.5 ? 2 * f : f + 0.4)
     all.push_back({"time step",
                    fmt::format("dt {:g} of the limit", f),
@@ -37,7 +37,7 @@ void add_steps(std::vector<Setting>& all, double finest) {
                    f});
 }
 
-void add_points(std::vector<Setting>& all, bool fine, bool all_rules) {
+void add_points(std::vector<study::Setting>& all, bool fine, bool all_rules) {
   for (const char* rule : {"simpson", "midpoint", "trapezoid", "gauss"})
     for (const int side : {13, 9, 7, 5, 3, 2, 1}) {
       const std::string_view name = rule;
@@ -53,7 +53,7 @@ void add_points(std::vector<Setting>& all, bool fine, bool all_rules) {
     }
 }
 
-void add_lazy(std::vector<Setting>& all) {
+void add_lazy(std::vector<study::Setting>& all) {
   for (const double angle : {1e-6, 1e-4, 1e-3, 1e-2})
     all.push_back({"lazy rotation",
                    fmt::format("lazy_rotation {:g}", angle),
@@ -63,7 +63,7 @@ void add_lazy(std::vector<Setting>& all) {
 }
 
 // The solver of Gu and Miao and its repairs. They are here for comparison only; nobody should use them for results.
-void add_sequential(std::vector<Setting>& all) {
+void add_sequential(std::vector<study::Setting>& all) {
   static const struct {
     const char *name, *variant, *order;
   } kinds[] = {{"literal", "literal", "random"}, {"centred", "centred", "random"}, {"coloured", "literal", "coloured"}};
@@ -79,20 +79,20 @@ void add_sequential(std::vector<Setting>& all) {
                      false});
 }
 
-void add_units(std::vector<Setting>& all) {
+void add_units(std::vector<study::Setting>& all) {
   for (const double unit : {0.5, 1.0, 2.0})
     all.push_back(
         {"block size", fmt::format("unit {:g}", unit), fmt::format("-D unit={:g}", unit), {"-D", fmt::format("unit={:g}", unit)}, unit});
 }
 
 // The settings that each word of `quality` stands for. A setting that the scene fixes itself is left out.
-void add_qualities(std::vector<Setting>& all, bool steps, bool points) {
+void add_qualities(std::vector<study::Setting>& all, bool steps, bool points) {
   for (const Quality& q : qualities) {
-    Setting s{quality_knob,
-              fmt::format("quality {}", q.name),
-              fmt::format("analysis {{ quality = \"{}\" }}", q.name),
-              {},
-              q.dt_fraction / (q.points * q.points)};
+    study::Setting s{study::quality_knob,
+                     fmt::format("quality {}", q.name),
+                     fmt::format("analysis {{ quality = \"{}\" }}", q.name),
+                     {},
+                     q.dt_fraction / (q.points * q.points)};
     if (steps) s.words.insert(s.words.end(), {"--dt-fraction", fmt::format("{}", q.dt_fraction)});
     if (points) s.words.insert(s.words.end(), {"--rule", "simpson", "--points", std::to_string(q.points * q.points)});
     all.push_back(std::move(s));
@@ -100,7 +100,7 @@ void add_qualities(std::vector<Setting>& all, bool steps, bool points) {
 }
 
 struct Plan {
-  std::vector<Setting> settings;
+  std::vector<study::Setting> settings;
   std::vector<std::string> not_applicable;
 };
 
@@ -133,14 +133,14 @@ bool ends_with_any(const std::string& text, std::initializer_list<const char*> e
 }
 
 // The numeric quantities of the scene: its metrics, the keys of its expectations, and the residual of the energy ledger.
-std::vector<Goal> quantities_of(const Script& script) {
+std::vector<study::Goal> quantities_of(const Script& script) {
   const Scene& scene = script.scene();
-  std::vector<Goal> all;
+  std::vector<study::Goal> all;
   for (const auto& [name, unit] : scene.metric_units)
     if (!ends_with_any(name, {"_runs", "_failed"})) all.push_back({"metrics." + name, unit, std::nullopt, 0, 0, ""});
   for (const Expectation& e : scene.expectations) {
     if (e.kind != Expectation::Kind::rel && e.kind != Expectation::Kind::abs) continue;
-    auto found = std::find_if(all.begin(), all.end(), [&](const Goal& q) { return q.name == e.key; });
+    auto found = std::find_if(all.begin(), all.end(), [&](const study::Goal& q) { return q.name == e.key; });
     if (found == all.end()) found = all.insert(all.end(), {e.key, "", std::nullopt, 0, 0, ""});
     found->expected = e.value;
   }
@@ -153,12 +153,12 @@ std::vector<Goal> quantities_of(const Script& script) {
   return all;
 }
 
-std::size_t main_of(const std::vector<Goal>& all, const std::string& asked) {
+std::size_t main_of(const std::vector<study::Goal>& all, const std::string& asked) {
   for (std::size_t i = 0; i < all.size(); ++i)
     if (all[i].name == asked || all[i].name == "metrics." + asked) return i;
   if (!asked.empty()) {
     std::vector<std::string> names;
-    for (const Goal& q : all) names.push_back(q.name);
+    for (const study::Goal& q : all) names.push_back(q.name);
     throw Error(fmt::format("--quantity {}: the scene has {}", asked, fmt::join(names, ", ")));
   }
   return 0;
@@ -166,11 +166,11 @@ std::size_t main_of(const std::vector<Goal>& all, const std::string& asked) {
 
 // Index of the first quantity that any setting changes; a quantity with an expected value goes before the others.
 // The last one, the residual of the energy ledger, is never chosen.
-std::size_t telling(const std::vector<Goal>& goals, const std::vector<Measured>& all) {
+std::size_t telling(const std::vector<study::Goal>& goals, const std::vector<study::Measured>& all) {
   std::vector<std::size_t> moved;
   for (std::size_t i = 0; i + 1 < goals.size(); ++i) {
     std::optional<double> first;
-    const bool moves = std::any_of(all.begin(), all.end(), [&](const Measured& m) {
+    const bool moves = std::any_of(all.begin(), all.end(), [&](const study::Measured& m) {
       if (!m.values[i]) return false;
       if (!first) first = m.values[i];
       return *m.values[i] != *first;
@@ -182,7 +182,7 @@ std::size_t telling(const std::vector<Goal>& goals, const std::vector<Measured>&
   return moved.empty() ? 0 : moved.front();
 }
 
-std::string file_name(const Setting& s) {
+std::string file_name(const study::Setting& s) {
   std::string name = s.knob.empty() ? "as_it_is" : s.name;
   for (char& c : name)
     if (std::isalnum(static_cast<unsigned char>(c)) == 0 && c != '.') c = '_';
@@ -198,8 +198,8 @@ std::optional<double> value_at(const Json& metrics, const std::string& key) {
   return value->get<double>();
 }
 
-Measured measured_of(const Case& run, const Setting& setting, const std::vector<Goal>& quantities) {
-  Measured m{setting, std::vector<std::optional<double>>(quantities.size()), "", run.cpu, 0};
+study::Measured measured_of(const Case& run, const study::Setting& setting, const std::vector<study::Goal>& quantities) {
+  study::Measured m{setting, std::vector<std::optional<double>>(quantities.size()), "", run.cpu, 0};
   const CaseResult result = result_of(run);
   m.updates = result.updates;
   const bool bad = run.overdue || (run.code != exit_ok && run.code != exit_expectation);
@@ -212,13 +212,13 @@ Measured measured_of(const Case& run, const Setting& setting, const std::vector<
   return m;
 }
 
-Json json_of(const Measured& m, const std::string& key) {
+Json json_of(const study::Measured& m, const std::string& key) {
   Json values = Json::array();
   for (const auto& value : m.values) values.push_back(value ? Json(*value) : Json());
   return {{"key", key}, {"values", values}, {"reason", m.reason}, {"cpu_s", m.cpu}, {"updates", m.updates}};
 }
 
-bool read_note(const std::string& path, const std::string& key, Measured& m) {
+bool read_note(const std::string& path, const std::string& key, study::Measured& m) {
   try {
     if (!fs::exists(path)) return false;
     const Json note = read_json(path);
@@ -231,11 +231,11 @@ bool read_note(const std::string& path, const std::string& key, Measured& m) {
 }
 
 // Rough cost of a run relative to the scene as it is. Points cost time only in cracked joints; one sweep costs about six steps.
-double dearness(const Setting& s) {
+double dearness(const study::Setting& s) {
   if (s.knob.empty()) return 0;  // the unit of this measure
   if (s.knob == "time step") return 0.9 / s.size;
   if (s.knob == "block size") return 1 / s.size;
-  if (s.knob == quality_knob) return 0.8 / s.size / 9;
+  if (s.knob == study::quality_knob) return 0.8 / s.size / 9;
   if (s.knob.starts_with("sequential")) return 6 / s.size;
   return s.knob.starts_with("points") ? 0.5 + 1 / (18 * s.size * s.size) : 1;
 }
@@ -247,58 +247,59 @@ std::string text_of(const std::string& path) {
 
 }  // namespace
 
-AccuracyStudy carry_out_accuracy(const std::string& scene, const std::string& directory, const Options& given) {
-  Options options = given;
-  if (!options.max_wall) options.max_wall = 300;
-  options.budget = options.whole_study ? 0 : options.within;
-  Script script(script_options(options, true));
-  script.load(scene, options.overrides);
+AccuracyStudy carry_out_accuracy(const std::string& scene, const std::string& directory, const AccuracyCommand& command) {
+  BatchOptions batch = command.batch;
+  batch.quiet = command.output.quiet;
+  batch.threads = 1;
+  if (!batch.max_wall) batch.max_wall = 300;
+  batch.budget = command.whole_study ? 0 : command.within;
+  Script script(script_options(command.scene, true));
+  script.load(scene, command.scene.overrides);
   AccuracyStudy study;
   study.scene = scene, study.directory = directory, study.name = script.scene().name, study.title = title_of(text_of(scene));
   study.command = "erbs run " + scene + " --threads 1";
-  for (const auto& [name, value] : options.overrides) study.command += fmt::format(" -D '{}={}'", name, value);
-  if (options.allow_unstable) study.command += " --allow-unstable";
+  for (const auto& [name, value] : command.scene.overrides) study.command += fmt::format(" -D '{}={}'", name, value);
+  if (command.scene.allow_unstable) study.command += " --allow-unstable";
   study.quantities = quantities_of(script);
-  study.main = main_of(study.quantities, options.quantity);
+  study.main = main_of(study.quantities, command.quantity);
   Plan plan = plan_of(script.scene());
   study.not_applicable = plan.not_applicable;
   std::stable_sort(plan.settings.begin(), plan.settings.end(),
-                   [](const Setting& a, const Setting& b) { return dearness(a) > dearness(b); });
+                   [](const study::Setting& a, const study::Setting& b) { return dearness(a) > dearness(b); });
   std::string key = program_version();
   for (const auto& [file, hash] : script.scene().inputs) key += "\n" + hash;
-  for (const auto& [name, value] : options.overrides) key += "\n" + name + "=" + value;
+  for (const auto& [name, value] : command.scene.overrides) key += "\n" + name + "=" + value;
   std::vector<Case> runs;
   std::map<std::string, std::size_t> index;
-  for (const Setting& s : plan.settings) {
+  for (const study::Setting& s : plan.settings) {
     Case run;
     run.scene = scene, run.name = file_name(s), run.directory = directory + "/runs/" + run.name, run.log = run.directory + ".log",
     run.extra = s.words, run.within_budget = true;
-    Measured m{s, std::vector<std::optional<double>>(study.quantities.size()), "", 0, 0};
-    const bool known = options.resume && read_note(run.directory + ".json", hash_text(fnv1a(key + run.name)), m);
+    study::Measured m{s, std::vector<std::optional<double>>(study.quantities.size()), "", 0, 0};
+    const bool known = batch.resume && read_note(run.directory + ".json", hash_text(fnv1a(key + run.name)), m);
     if (!known) m.reason = did_not_fit;
     index[run.name] = study.all.size();
     study.all.push_back(std::move(m));
     if (!known) runs.push_back(std::move(run));
   }
   const auto begin = std::chrono::steady_clock::now();
-  options.threads = 1;
   // With a time limit the cheapest runs go first, so that only expensive runs are left out.
   // Without a limit the most expensive runs go first, so that the processors finish together.
   const auto cost = [&](const Case& run) { return dearness(study.all[index.at(run.name)].setting); };
-  if (options.budget > 0) std::stable_sort(runs.begin(), runs.end(), [&](const Case& a, const Case& b) { return cost(a) < cost(b); });
+  if (batch.budget > 0) std::stable_sort(runs.begin(), runs.end(), [&](const Case& a, const Case& b) { return cost(a) < cost(b); });
   const auto time_is_up = [&] {
-    return options.budget > 0 && std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > options.budget - 1;
+    return batch.budget > 0 && std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() > batch.budget - 1;
   };
-  run_cases(runs, options, [&](const Case& run) {
-    Measured& m = study.all[index.at(run.name)];
+  run_cases(runs, command.scene, batch, [&](const Case& run) {
+    study::Measured& m = study.all[index.at(run.name)];
     const bool cut = (run.overdue || run.code == exit_stopped) && time_is_up();
     if (cut) return;
     m = measured_of(run, m.setting, study.quantities);
     if (run.overdue || !was_killed(run.code)) write_json(run.directory + ".json", json_of(m, hash_text(fnv1a(key + run.name))));
   });
   study.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  for (const Measured& m : study.all) study.cpu += m.cpu, study.waiting += m.reason == did_not_fit;
-  if (options.quantity.empty()) study.main = telling(study.quantities, study.all);
+  for (const study::Measured& m : study.all) study.cpu += m.cpu, study.waiting += m.reason == did_not_fit;
+  if (command.quantity.empty()) study.main = telling(study.quantities, study.all);
   for (std::size_t i = 0; i < study.quantities.size(); ++i) settle_reference(study.quantities[i], i, study.all);
   return study;
 }
@@ -307,9 +308,9 @@ void write_accuracy_csv(const AccuracyStudy& study, const std::string& path) {
   CsvWriter table(path, {"knob", "setting", "quantity", "unit", "value", "reference", "uncertainty", "error", "cpu_s", "point_updates",
                          "command", "reason"});
   const auto number = [](const std::optional<double>& value) { return value ? fmt::format("{}", *value) : std::string("nan"); };
-  for (const Measured& m : study.all)
+  for (const study::Measured& m : study.all)
     for (std::size_t i = 0; i < study.quantities.size(); ++i) {
-      const Goal& q = study.quantities[i];
+      const study::Goal& q = study.quantities[i];
       table.text_row({m.setting.knob, m.setting.name, q.name, q.unit, number(m.values[i]), number(q.reference), number(q.uncertainty),
                       number(error_of(q, m.values[i])), fmt::format("{:.3f}", m.cpu), fmt::format("{:.0f}", m.updates),
                       fmt::format("{} {}", study.command, fmt::join(m.setting.words, " ")), m.reason});
@@ -317,4 +318,4 @@ void write_accuracy_csv(const AccuracyStudy& study, const std::string& path) {
   table.flush();
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

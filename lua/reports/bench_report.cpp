@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "engine/base/error.h"
-#include "engine/record/plot/gnuplot.h"
+#include "engine/record/plot/figure.h"
 #include "lua/program/say.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 // A number at a dotted key of a row; NaN if the case failed or has no such number.
@@ -69,26 +69,28 @@ void print_bench_summary(const Json& summary) {
 
 // Figure: nanoseconds per contact point and step of every case, beside the least time that the machine allows.
 void write_bench_figure(const Json& rows, const std::string& path) {
-  std::string text =
-      "set terminal svg size 1100,560 dynamic font \"DejaVu Sans,13\" background \"#ffffff\"\nset encoding utf8\n"
-      "set border 3 lc rgb \"#5a5a5a\" lw 1\nset tics out nomirror scale 0.6 tc rgb \"#333333\"\nset grid y lc rgb \"#e3e3e3\" lw 1 lt 1\n"
-      "set style data histograms\nset style histogram clustered gap 1\nset style fill solid 1.0 noborder\nset logscale y\n"
-      "set ylabel 'ns per contact point and step, one thread'\nset key top left\nset yrange [0.05:*]\n$bench << END\n";
+  std::string text;
   for (const auto& [name, row] : rows.items()) {
     if (!row.contains("points") || row["points"].get<int>() == 0) continue;
-    const auto value = [&row = row](const char* key) {
-      return std::isfinite(number(row, key)) ? fmt::format("{:.5g}", number(row, key)) : std::string("-");
-    };
-    text += fmt::format("\"{}\" {} {} {} {}\n", name, value("reference.ns_per_point"), value("one_thread.ns_per_point"),
-                        value("broken.ns_per_point"), value("roofline.least_ns_per_point"));
+    text += '"' + name + '"';
+    for (const char* key : {"reference.ns_per_point", "one_thread.ns_per_point", "broken.ns_per_point", "roofline.least_ns_per_point"})
+      text += std::isfinite(number(row, key)) ? fmt::format(" {:.5g}", number(row, key)) : " -";
+    text += "\n";
   }
-  text +=
-      "END\nset datafile missing '-'\nset xtics noenhanced\nplot $bench using 2:xtic(1) title 'reference, intact' lc rgb '#9a9a9a', '' "
-      "using 3 title "
-      "'kernel' lc rgb '#2f6b8f', '' using 4 title 'kernel, all joints broken' lc rgb '#b5432e', '' using 5 title 'limit of the machine' "
-      "lc rgb "
-      "'#3c7a4b'\n";
-  run_gnuplot(text, path);
+  plot::Figure figure{1100, 560};
+  figure.grid = "y";
+  plot::Panel p;
+  p.settings = "set style histogram clustered gap 1\nset style fill solid 1.0 noborder\nset datafile missing '-'\n";
+  p.key = "top left";
+  p.x.tics = "noenhanced";
+  p.y = {"ns per contact point and step, one thread", "[0.05:*]", "", "", "", true};
+  const std::string data = figure.add_rows(text);
+  p.series = {{data + " using 2:xtic(1)", "histograms lc rgb '#9a9a9a'", "reference, intact"},
+              {data + " using 3", "histograms lc rgb '#2f6b8f'", "kernel"},
+              {data + " using 4", "histograms lc rgb '#b5432e'", "kernel, all joints broken"},
+              {data + " using 5", "histograms lc rgb '#3c7a4b'", "limit of the machine"}};
+  figure.panels = {p};
+  plot::draw(figure, path);
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

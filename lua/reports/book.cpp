@@ -14,7 +14,7 @@
 #include "engine/record/plot/gnuplot.h"
 #include "lua/program/progress.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
@@ -35,7 +35,7 @@ size_t family_index(const CaseResult& result) {
   const auto [letter, number] = number_of(result.name);
   if (letter == 'h' || result.scene.find("/hard/") != std::string::npos) return 4;
   if (letter != 'v' || number < 0) return 5;
-  return number <= 27 ? 0 : number <= 36 ? 1 : number <= 45 ? 2 : 3;
+  return number <= 27 || number > 46 ? 0 : number <= 36 ? 1 : number <= 45 ? 2 : 3;
 }
 
 std::string trimmed(const std::string& text) {
@@ -250,8 +250,8 @@ bool replace_marked(const std::string& file, const std::string& mark, const std:
   return true;
 }
 
-void write_book(const std::vector<CaseResult>& results, const Options& options, double wall) {
-  const std::string& book = options.book;
+void write_book(const std::vector<CaseResult>& results, const TestCommand& command, double wall) {
+  const std::string& book = command.book;
   const fs::path folder = fs::absolute(book).parent_path();
   const fs::path media = fs::is_directory(folder.parent_path() / "media") ? folder.parent_path() / "media" : folder;
   const std::vector<Family> families = families_of(results);
@@ -259,8 +259,8 @@ void write_book(const std::vector<CaseResult>& results, const Options& options, 
   std::string text = fmt::format("# Verification book\n\n{}", how_to_write_a_case);
   text +=
       fmt::format("Written by `erbs test {}{} --book {}`, never edited by hand: {}, {}, {} on {} processors, with erbs {}.\n\n",
-                  fmt::join(options.words, " "), options.quick ? " --quick" : "", fs::proximate(book).generic_string(), duration_text(wall),
-                  machine_isa(), options.jobs > 0 ? fmt::format("{} runs at a time", options.jobs) : "one run per processor",
+                  fmt::join(command.words, " "), command.quick ? " --quick" : "", fs::proximate(book).generic_string(), duration_text(wall),
+                  machine_isa(), command.batch.jobs > 0 ? fmt::format("{} runs at a time", command.batch.jobs) : "one run per processor",
                   usable_processors(), program_version());
   text += "**" + summary + "**\n\n" + overview(families) + "\n";
   text += "The share is the error over its tolerance; 1 is the limit. Cost: processor seconds and evaluations of contact points.\n";
@@ -280,4 +280,4 @@ void write_book(const std::vector<CaseResult>& results, const Options& options, 
     replace_marked(readme, "verification", fmt::format("[The verification book]({}): {}", relative_link(readme, book), summary));
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -2,7 +2,7 @@
 #pragma once
 #include "lua/reports/cases.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 // Cases of one kind. The number in the name of a scene tells its family.
 struct Family {
@@ -26,9 +26,9 @@ std::string code_cell(const std::string& name);
 // Replaces the text between <!-- mark --> and <!-- /mark --> in a file; false if the file has no such marks.
 bool replace_marked(const std::string& file, const std::string& mark, const std::string& text);
 
-void write_book(const std::vector<CaseResult>& results, const Options& options, double wall);
+void write_book(const std::vector<CaseResult>& results, const TestCommand& command, double wall);
 
 // Ratio of error to tolerance of every expectation, one row per case.
 void draw_family(const Family& family, const std::string& path);
 
-}  // namespace erbs
+}  // namespace erbs::lua

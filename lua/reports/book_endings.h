@@ -1,7 +1,7 @@
 // The texts of the verification book that no run writes: how to write a case, and how a run ends.
 #pragma once
 
-namespace erbs {
+namespace erbs::lua {
 
 inline constexpr const char* how_to_write_a_case = R"(## How to write a case
 1. A case is a scene in `scenes/verify` (v01 to v46 by problem) or `scenes/hard` (h and m). Its name decides its family below.
@@ -47,4 +47,4 @@ OpenGL's drivers), `asan` (the same by g++), `tsan` (the threaded tests). At -O1
 longest 53 s; the threaded tests under `tsan` 12 min, the longest 3 min. `ERBS_ISA=sse2` or `avx2` before a command selects the other kernels.
 )";
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -16,7 +16,7 @@
 #include "engine/record/folder/run_folder.h"
 #include "lua/program/child.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
@@ -52,7 +52,7 @@ std::vector<std::string> scenes_of(const std::string& word) {
 }
 
 // A scene that cannot be read stays in the list: the run of its case then reports the mistake.
-bool carries(const std::string& scene, const std::string& label, const Options& options) {
+bool carries(const std::string& scene, const std::string& label, const SceneOptions& options) {
   try {
     Script script(script_options(options, true));
     const auto& labels = script.load(scene, options.overrides).labels;
@@ -78,14 +78,13 @@ void hurry(std::map<int, Running>& running) {
   }
 }
 
-Child launch(const Case& item, const Options& options, int threads, std::optional<double> max_wall) {
+Child launch(const Case& item, const SceneOptions& options, int threads, std::optional<double> max_wall) {
   std::vector<std::string> command{
       own_path(), "run", item.scene, "-o", item.directory, item.resume ? "--resume" : "--force", "--no-figures", "--figure-scripts"};
   if (threads > 0) command.insert(command.end(), {"--threads", std::to_string(threads)});
-  for (const auto& [name, value] : options.overrides) command.insert(command.end(), {"-D", name + "=" + value});
   if (options.allow_unstable) command.emplace_back("--allow-unstable");
   if (max_wall) command.insert(command.end(), {"--max-wall", fmt::format("{}s", *max_wall)});
-  for (const auto& more : {item.extra, permissions(options)}) command.insert(command.end(), more.begin(), more.end());
+  for (const auto& more : {item.extra, scene_arguments(options)}) command.insert(command.end(), more.begin(), more.end());
   for (const char* old : {"expectations.json", "metrics.json"}) fs::remove(run_file(item.directory, old));
   return start(command, item.log);
 }
@@ -101,10 +100,11 @@ bool CaseResult::passed() const {
   return trouble.empty() && std::all_of(verdicts.begin(), verdicts.end(), [](const Verdict& v) { return v.passed; });
 }
 
-std::vector<Case> find_cases(const Options& options, const std::string& out, const std::string& label) {
+std::vector<Case> find_cases(const std::vector<std::string>& words, const SceneOptions& options, const std::string& out,
+                             const std::string& label) {
   std::vector<Case> cases;
   std::set<std::string> names, files;
-  for (const auto& word : options.words)
+  for (const auto& word : words)
     for (const auto& scene : scenes_of(word)) {
       if (!files.insert(fs::weakly_canonical(scene).string()).second) continue;
       if (!label.empty() && !carries(scene, label, options)) continue;
@@ -117,18 +117,19 @@ std::vector<Case> find_cases(const Options& options, const std::string& out, con
   return cases;
 }
 
-void run_cases(std::vector<Case>& cases, const Options& options, const std::function<void(const Case&)>& ended) {
+void run_cases(std::vector<Case>& cases, const SceneOptions& options, const BatchOptions& batch,
+               const std::function<void(const Case&)>& ended) {
   const int machine = usable_processors();
-  const size_t jobs = static_cast<size_t>(options.jobs > 0 ? options.jobs : machine);
+  const size_t jobs = static_cast<size_t>(batch.jobs > 0 ? batch.jobs : machine);
   // with as many runs at once as processors, each run gets one thread; with fewer runs, each chooses by itself (0)
-  const int threads = options.threads > 0 ? options.threads : static_cast<int>(std::min(jobs, cases.size())) >= machine ? 1 : 0;
+  const int threads = batch.threads > 0 ? batch.threads : static_cast<int>(std::min(jobs, cases.size())) >= machine ? 1 : 0;
   std::map<int, Running> running;
   size_t next = 0, done = 0;
-  const bool live = isatty(STDERR_FILENO) != 0 && !options.quiet;
+  const bool live = isatty(STDERR_FILENO) != 0 && !batch.quiet;
   const auto begin = Clock::now();
   auto told = begin;
-  const auto left_of_budget = [&] { return options.budget - std::chrono::duration<double>(Clock::now() - begin).count(); };
-  const auto in_time = [&] { return options.budget <= 0 || left_of_budget() > 0; };
+  const auto left_of_budget = [&] { return batch.budget - std::chrono::duration<double>(Clock::now() - begin).count(); };
+  const auto in_time = [&] { return batch.budget <= 0 || left_of_budget() > 0; };
   const std::atomic<bool>& interrupted = catch_interrupts();
   bool told_all = false;
   while (!running.empty() || (next < cases.size() && in_time() && !interrupted)) {
@@ -140,8 +141,8 @@ void run_cases(std::vector<Case>& cases, const Options& options, const std::func
       Case& item = cases[next++];
       item.started = true;
       fs::create_directories(fs::path(item.directory).parent_path());
-      std::optional<double> max_wall = options.max_wall;
-      if (item.within_budget && options.budget > 0) max_wall = std::min(max_wall.value_or(1e9), std::max(1.0, left_of_budget()));
+      std::optional<double> max_wall = batch.max_wall;
+      if (item.within_budget && batch.budget > 0) max_wall = std::min(max_wall.value_or(1e9), std::max(1.0, left_of_budget()));
       running[launch(item, options, threads, max_wall).pid] = {&item, Clock::now(), max_wall};
     }
     if (live) {
@@ -150,7 +151,7 @@ void run_cases(std::vector<Case>& cases, const Options& options, const std::func
       fmt::print(stderr, "\r\033[K{} of {} cases, about {:.0f} s left, running {}", done, cases.size(), left,
                  shown(running.begin()->second.item->name, 60));
     }
-    if (!live && !options.quiet && done > 0 && Clock::now() - told > std::chrono::seconds(10)) {
+    if (!live && !batch.quiet && done > 0 && Clock::now() - told > std::chrono::seconds(10)) {
       told = Clock::now();
       const double spent = std::chrono::duration<double>(told - begin).count();
       fmt::print(stderr, "{} of {} cases, about {:.0f} s left\n", done, cases.size(),
@@ -198,4 +199,4 @@ CaseResult result_of(const Case& item) {
 
 std::string cost_text(const CaseResult& result) { return fmt::format("{:.2f} s, {:.2g} pt", result.cpu, result.updates); }
 
-}  // namespace erbs
+}  // namespace erbs::lua

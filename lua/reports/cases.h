@@ -8,7 +8,7 @@
 #include "lua/reports/expectations.h"
 #include "lua/reports/figures.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 struct Case {
   std::string scene, name, directory, log;  // name: of the scene, made unique by a number
@@ -34,14 +34,16 @@ struct CaseResult {
   bool passed() const;
 };
 
-// The scenes named by options.words; folders are searched for scenes with expectations. `label`: only scenes that carry it.
-std::vector<Case> find_cases(const Options& options, const std::string& out, const std::string& label);
+// The scenes named by `words`; folders are searched for scenes with expectations. `label`: only scenes that carry it.
+std::vector<Case> find_cases(const std::vector<std::string>& words, const SceneOptions& options, const std::string& out,
+                             const std::string& label);
 
-// Runs the cases, options.jobs at once, each for at most options.max_wall. Calls `ended` after each of them.
-// Starts no further case when options.budget is spent.
-void run_cases(std::vector<Case>& cases, const Options& options, const std::function<void(const Case&)>& ended = {});
+// Runs the cases, `jobs` at once, each for at most `max_wall`. Calls `ended` after each of them.
+// Starts no further case when the budget is spent.
+void run_cases(std::vector<Case>& cases, const SceneOptions& options, const BatchOptions& batch,
+               const std::function<void(const Case&)>& ended = {});
 
 CaseResult result_of(const Case& item);
 std::string cost_text(const CaseResult& result);  // "0.31 s, 2.1e+06 pt"
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 std::string short_number(double value) { return fmt::format("{:.6g}", value); }
@@ -143,4 +143,4 @@ bool expects_status(const Scene& scene, const std::string& status) {
                      [&](const Expectation& item) { return item.key == "status" && item.text_value == status; });
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

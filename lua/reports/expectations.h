@@ -6,7 +6,7 @@
 #include "engine/record/format/json.h"
 #include "engine/scene/scene.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 struct Verdict {
   bool passed = false;
@@ -19,4 +19,4 @@ Json to_json(const std::vector<Verdict>& verdicts);
 std::vector<Verdict> verdicts_of(const Json& json);  // from expectations.json
 bool expects_status(const Scene& scene, const std::string& status);
 
-}  // namespace erbs
+}  // namespace erbs::lua

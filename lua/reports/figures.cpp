@@ -8,11 +8,12 @@
 
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/format/csv.h"
+#include "engine/record/plot/figure.h"
 #include "engine/record/plot/gnuplot.h"
 #include "engine/record/results/metrics.h"
 #include "lua/reading/context.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
@@ -44,33 +45,31 @@ std::string title_in(const std::string& script) {
   return title.is_string() ? title.get<std::string>() : "";
 }
 
-std::string script_of(const Figure& figure, const std::string& directory) {
-  std::string data, plots;
+std::string script_for(const Figure& figure, const std::string& directory) {
+  plot::Panel panel;
+  plot::Figure sheet{860, 420};
   for (size_t i = 0; i < figure.curves.size(); ++i) {
     const FigureCurve& curve = figure.curves[i];
     const std::string numbers = numbers_of(curve, directory);
     if (numbers.empty()) continue;
-    data += fmt::format("$curve{} << END\n{}END\n", i, numbers);
-    plots += fmt::format("{}$curve{} using 1:2 {} lc rgb '{}' title {}", plots.empty() ? "" : ", ", i,
-                         curve.measured() ? "with points pt 7 ps 0.8" : "with lines lw 2", colours[i % std::size(colours)],
-                         gnuplot_quoted(curve.label));
+    panel.series.push_back(
+        {sheet.add_rows(numbers) + " using 1:2",
+         fmt::format("{} lc rgb '{}'", curve.measured() ? "points pt 7 ps 0.8" : "lines lw 2", colours[i % std::size(colours)]),
+         curve.label});
   }
-  if (plots.empty()) return "";
-  return fmt::format(
-             "# {}\nset terminal svg size 860,420 dynamic font 'DejaVu Sans,13' background '#ffffff'\nset encoding utf8\n"
-             "set border 3 lc rgb '#5a5a5a' lw 1\nset tics out nomirror scale 0.6 tc rgb '#222222'\n"
-             "set grid lc rgb '#dddddd' lw 1 lt 1\nset key below\nset title {} tc rgb '#111111'\n"
-             "set xlabel {} tc rgb '#222222'\nset ylabel {} tc rgb '#222222'\n",
-             Json(figure.title).dump(-1, ' ', false, Json::error_handler_t::replace), gnuplot_quoted(figure.title),
-             gnuplot_quoted(figure.x), gnuplot_quoted(figure.y)) +
-         data + "plot " + plots + "\n";
+  if (panel.series.empty()) return "";
+  panel.key = "below spacing 1.4";
+  panel.settings = fmt::format("set title {} tc rgb '#111111'\n", gnuplot_quoted(figure.title));
+  panel.x.label = figure.x, panel.y.label = figure.y;
+  sheet.panels = {panel};
+  return fmt::format("# {}\n", Json(figure.title).dump(-1, ' ', false, Json::error_handler_t::replace)) + script_of(sheet);
 }
 
 }  // namespace
 
 void write_figures(const Script& script, const std::string& directory, bool draw) {
   for (const Figure& figure : script.figures()) {
-    const std::string text = script_of(figure, directory);
+    const std::string text = script_for(figure, directory);
     if (text.empty()) continue;
     const std::string stem = run_file(directory, "figures/" + figure.name);
     fs::create_directories(fs::path(stem).parent_path());
@@ -93,4 +92,4 @@ std::vector<LeftFigure> figures_of(const std::string& directory) {
   return found;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

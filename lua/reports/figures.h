@@ -5,7 +5,7 @@
 
 #include "lua/language/script.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 // A figure that a run has left as a gnuplot script, to be drawn later.
 struct LeftFigure {
@@ -16,4 +16,4 @@ struct LeftFigure {
 void write_figures(const Script& script, const std::string& directory, bool draw);
 std::vector<LeftFigure> figures_of(const std::string& directory);  // sorted by name
 
-}  // namespace erbs
+}  // namespace erbs::lua

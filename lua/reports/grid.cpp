@@ -18,7 +18,7 @@
 #include "lua/reports/book.h"
 #include "lua/reports/cases.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
@@ -65,7 +65,7 @@ Variant variant_of(const Case& scene, const std::string& key, const Choice& choi
 }
 
 // The reason why the scene cannot be built with this choice; "" if it can.
-std::string refusal(const Case& scene, const Options& options, const Choice& choice) {
+std::string refusal(const Case& scene, const SceneOptions& options, const Choice& choice) {
   Overrides overrides = options.overrides;
   for (const auto& [name, value] : choice) overrides.emplace_back(name, fmt::format("{:.17g}", value));
   try {
@@ -75,7 +75,7 @@ std::string refusal(const Case& scene, const Options& options, const Choice& cho
 }
 
 // Variants of a scene with a family: other time steps, every value alone, and random combinations. Params given by -D stay fixed.
-std::vector<Variant> family_of(const Case& scene, const Options& options, ParamFamily family, const std::string& key, bool fixed_dt) {
+std::vector<Variant> family_of(const Case& scene, const SceneOptions& options, ParamFamily family, const std::string& key, bool fixed_dt) {
   const Overrides& overrides = options.overrides;
   std::erase_if(family.values, [&](const auto& list) {
     return std::any_of(overrides.begin(), overrides.end(), [&](const auto& given) { return given.first == list.first; });
@@ -107,19 +107,19 @@ std::string key_of(const Script& script, const Overrides& overrides) {
   return key;
 }
 
-std::vector<Variant> seeds_of(const Case& scene, const Options& options) {
-  const Overrides& overrides = options.overrides;
-  Script script(script_options(options, true));
+std::vector<Variant> seeds_of(const Case& scene, const TestCommand& command) {
+  const Overrides& overrides = command.scene.overrides;
+  Script script(script_options(command.scene, true));
   const auto& params = script.load(scene.scene, overrides).params;
   if (std::none_of(params.begin(), params.end(), [](const Param& param) { return param.name == "seed"; }))
     throw Error(fmt::format("{} has no param \"seed\"; write param(\"seed\", 1, \"\") in it, or leave --seeds out", scene.scene));
   std::vector<Variant> all;
-  for (int i = 1; i <= options.seeds; ++i) all.push_back(variant_of(scene, key_of(script, overrides), {{"seed", i}}));
+  for (int i = 1; i <= command.seeds; ++i) all.push_back(variant_of(scene, key_of(script, overrides), {{"seed", i}}));
   return all;
 }
 
 // Variants of a scene. A scene with a family is run over it. A scene with a fixed step keeps it; one without joints keeps its points.
-std::vector<Variant> variants_of(const Case& scene, const Options& options) {
+std::vector<Variant> variants_of(const Case& scene, const SceneOptions& options) {
   const Overrides& overrides = options.overrides;
   bool fixed_dt = false, joints = true;
   std::string key = program_version();
@@ -256,7 +256,7 @@ void print(const Grid& grid) {
   std::fflush(stdout);
 }
 
-void write_page(const Grid& grid, const Options& options, double wall) {
+void write_page(const Grid& grid, const TestCommand& command, double wall) {
   std::string text = "# The hard cases over a grid of settings\n\n";
   text += fmt::format(
       "Written by `erbs test {} --grid --book {}`, never edited by hand: {} of processor time{}, erbs {}. Every scene runs at "
@@ -265,7 +265,7 @@ void write_page(const Grid& grid, const Options& options, double wall) {
       "joints has no points to vary. A scene with a family runs at 0.25, 0.5 and 0.9 of the limit, and at its default step with each value "
       "of the family and some combinations. "
       "Each row is the worst value of one invariant over these runs.\n\n**{}**\n\n",
-      fmt::join(options.words, " "), fs::proximate(options.book).generic_string(), duration_text(grid.cpu),
+      fmt::join(command.words, " "), fs::proximate(command.book).generic_string(), duration_text(grid.cpu),
       wall > 0 ? fmt::format(", {} of wall-clock time", duration_text(wall)) : "", program_version(), noise, summary_of(grid));
   text += "| case | invariant | bound | worst | share of the bound | at | runs | verdict |\n|---|---|---|---|---|---|---|---|\n";
   std::string last;
@@ -277,32 +277,32 @@ void write_page(const Grid& grid, const Options& options, double wall) {
   }
   if (!grid.refused.empty()) text += "\nRefused by a limit of the scene:\n\n";
   for (const auto& refused : grid.refused) text += "- " + refused + "\n";
-  write_text_atomically(options.book, text);
-  const std::string readme = (fs::absolute(options.book).parent_path().parent_path() / "README.md").string();
+  write_text_atomically(command.book, text);
+  const std::string readme = (fs::absolute(command.book).parent_path().parent_path() / "README.md").string();
   if (fs::exists(readme))
     replace_marked(readme, "grid",
-                   fmt::format("[The hard cases over a grid of settings]({}): {}.", relative_link(readme, options.book), summary_of(grid)));
+                   fmt::format("[The hard cases over a grid of settings]({}): {}.", relative_link(readme, command.book), summary_of(grid)));
 }
 
 }  // namespace
 
-int run_grid(const Options& given) {
-  Options options = given;
-  if (!options.max_wall) options.max_wall = 900;  // three poured piles at 0.2 of the limit, on busy processors
-  if (options.budget <= 0) options.budget = 3600;
-  const std::string out = options.directory.empty() ? (options.seeds > 0 ? "runs/seeds" : "runs/grid") : options.directory;
+int run_grid(const TestCommand& command) {
+  BatchOptions batch = command.batch;
+  if (!batch.max_wall) batch.max_wall = 900;  // three poured piles at 0.2 of the limit, on busy processors
+  if (batch.budget <= 0) batch.budget = 3600;
+  const std::string out = command.directory.empty() ? (command.seeds > 0 ? "runs/seeds" : "runs/grid") : command.directory;
   const auto begin = std::chrono::steady_clock::now();
   std::vector<Variant> variants;
-  for (const Case& scene : find_cases(options, out, ""))
-    for (Variant& v : options.seeds > 0 ? seeds_of(scene, options) : variants_of(scene, options)) variants.push_back(std::move(v));
+  for (const Case& scene : find_cases(command.words, command.scene, out, ""))
+    for (Variant& v : command.seeds > 0 ? seeds_of(scene, command) : variants_of(scene, command.scene)) variants.push_back(std::move(v));
   std::vector<Case> runs;
   std::map<std::string, Variant*> of_name;
   for (Variant& v : variants) {
-    if (!v.refused.empty() || (options.resume && read_note(v))) continue;
+    if (!v.refused.empty() || (batch.resume && read_note(v))) continue;
     runs.push_back(v.run);
     of_name[v.run.name] = &v;
   }
-  run_cases(runs, options, [&](const Case& run) {
+  run_cases(runs, command.scene, batch, [&](const Case& run) {
     Variant& v = *of_name.at(run.name);
     v.result = result_of(run);
     v.done = true;
@@ -311,7 +311,7 @@ int run_grid(const Options& given) {
   const Grid grid = worst_of(variants);
   print(grid);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-  if (!options.book.empty()) write_page(grid, options, options.resume ? 0 : wall);  // of a resumed grid the total time is unknown
+  if (!command.book.empty()) write_page(grid, command, batch.resume ? 0 : wall);  // of a resumed grid the total time is unknown
   if (grid.missing > 0) {
     say("out of time; the same command with --resume makes the remaining runs\n");
     return exit_stopped;
@@ -319,4 +319,4 @@ int run_grid(const Options& given) {
   return std::any_of(grid.rows.begin(), grid.rows.end(), [](const Worst& w) { return !w.failed.empty(); }) ? exit_expectation : exit_ok;
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -2,8 +2,8 @@
 #pragma once
 #include "lua/program/options.h"
 
-namespace erbs {
+namespace erbs::lua {
 
-int run_grid(const Options& options);
+int run_grid(const TestCommand& command);
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -10,7 +10,7 @@
 #include "engine/study/children.h"
 #include "lua/program/progress.h"
 
-namespace erbs {
+namespace erbs::lua {
 namespace {
 
 std::string key_of(const Scene& scene) {
@@ -21,24 +21,24 @@ std::string key_of(const Scene& scene) {
 
 }  // namespace
 
-StudiesOutcome run_studies(const Script& script, const std::string& path, const std::string& directory, const Options& options,
+StudiesOutcome run_studies(const Script& script, const std::string& path, const std::string& directory, const RunCommand& command,
                            const std::atomic<bool>& interrupted) {
   StudiesOutcome out;
-  Children children{path,
-                    directory,
-                    key_of(script.scene()),
-                    options.overrides,
-                    override_arguments(options),
-                    permissions(options),
-                    options.max_wall.value_or(0),
-                    options.threads,
-                    &interrupted};
-  if (isatty(STDERR_FILENO) != 0 && !options.quiet)
+  study::Children children{path,
+                           directory,
+                           key_of(script.scene()),
+                           command.scene.overrides,
+                           override_arguments(command),
+                           permissions(command.scene),
+                           command.max_wall.value_or(0),
+                           command.threads,
+                           &interrupted};
+  if (isatty(STDERR_FILENO) != 0 && !command.output.quiet)
     children.progress = [](const std::string& study, int done, int asked) {
       fmt::print(stderr, "\r\033[K{}: {} of {} runs", study, done, asked);
     };
-  for (const Study& study : script.studies()) {
-    const Carried carried = carry_out(study, children);
+  for (const study::Study& study : script.studies()) {
+    const study::Carried carried = carry_out(study, children);
     if (children.progress) fmt::print(stderr, "\r\033[K");
     if (carried.interrupted) {
       out.interrupted = true;
@@ -58,4 +58,4 @@ bool studies_left(const Script& script, const std::string& directory) {
   return status == "completed" || status == "inaccurate";
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -6,7 +6,7 @@
 #include "engine/record/format/json.h"
 #include "lua/program/options.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 struct StudiesOutcome {
   Json metrics = Json::object();      // by name, to be merged with the metrics of the scene
@@ -15,10 +15,10 @@ struct StudiesOutcome {
   bool interrupted = false;
 };
 
-StudiesOutcome run_studies(const Script& script, const std::string& path, const std::string& directory, const Options& options,
+StudiesOutcome run_studies(const Script& script, const std::string& path, const std::string& directory, const RunCommand& command,
                            const std::atomic<bool>& interrupted);
 
 // True if the own run in this folder is finished but its studies are not: --resume then continues with the studies.
 bool studies_left(const Script& script, const std::string& directory);
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -10,10 +10,14 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
+#include <sstream>
 #include <thread>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/system/interrupt.h"
@@ -27,6 +31,55 @@ double seconds_of(const rusage& used) {
   return double(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1e-6 * double(used.ru_utime.tv_usec + used.ru_stime.tv_usec);
 }
 
+struct Pipe {
+  int from = -1, to = -1;
+  bool open() {
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) return false;
+    from = ends[0], to = ends[1];
+    return true;
+  }
+  static void close_end(int& end) {
+    if (end >= 0) close(end);
+    end = -1;
+  }
+  static int release(int& end) { return std::exchange(end, -1); }
+  ~Pipe() { close_end(from), close_end(to); }
+};
+
+// fork(); the child gets `signal` when the thread that started it ends, however that ends.
+pid_t fork_bound(int signal) {
+  const pid_t parent = getpid(), pid = fork();
+  if (pid == 0) {
+    prctl(PR_SET_PDEATHSIG, signal);
+    if (getppid() != parent) _exit(128 + signal);
+  }
+  return pid;
+}
+
+void redirect(const std::string& path, std::initializer_list<int> streams) {
+  const int file = path.empty() ? -1 : open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  for (const int stream : streams)
+    if (file >= 0) dup2(file, stream);
+}
+
+// In the child: becomes the program. Returns only if that fails. The program gets back the default handling of a closed pipe and of a
+// file's size limit.
+void become(const std::vector<char*>& words, const Launch& how, int input) {
+  std::signal(SIGPIPE, SIG_DFL);
+  std::signal(SIGXFSZ, SIG_DFL);
+  if (how.own_group) setpgid(0, 0);
+  if (how.fed) dup2(input, STDIN_FILENO);
+  if (how.output == how.errors) {
+    redirect(how.output, {STDOUT_FILENO, STDERR_FILENO});
+  } else {
+    redirect(how.output, {STDOUT_FILENO});
+    redirect(how.errors, {STDERR_FILENO});
+  }
+  if (!how.folder.empty() && chdir(how.folder.c_str()) != 0) return;
+  execvp(words[0], words.data());
+}
+
 }  // namespace
 
 std::string own_path() {
@@ -35,45 +88,73 @@ std::string own_path() {
   return trouble ? "erbs" : path.string();
 }
 
-Child start(const std::vector<std::string>& command, const std::string& log) {
+bool can_start(const std::string& name) {
+  if (name.find('/') != std::string::npos) return access(name.c_str(), X_OK) == 0;
+  const char* path = std::getenv("PATH");
+  std::istringstream folders(path ? path : "/bin:/usr/bin");
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (access((folder + "/" + name).c_str(), X_OK) == 0) return true;
+  return false;
+}
+
+Child start(const std::vector<std::string>& command, const Launch& how) {
   std::vector<char*> words;
   for (const auto& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
-  int failure[2];  // a successful exec closes this pipe, a failed one writes errno
-  if (pipe2(failure, O_CLOEXEC) != 0) throw Error(fmt::format("cannot start {}: {}", command.front(), std::strerror(errno)));
-  const pid_t parent = getpid(), pid = fork();
+  const auto refuse = [&](int number) {
+    throw Error(fmt::format("the program {} cannot be started: {}{}{}", command.front(), std::strerror(number),
+                            how.remedy.empty() ? "" : "; ", how.remedy));
+  };
+  if (how.fed) std::signal(SIGPIPE, SIG_IGN);  // send() reports a program that died
+  Pipe failure, input;                         // a successful exec closes the first one, a failed one writes errno into it
+  if (!failure.open() || (how.fed && !input.open())) refuse(errno);
+  const pid_t pid = fork_bound(SIGTERM);
   if (pid == 0) {
-    // The child ends with this thread, however that ends. It gets back the default handling of a closed pipe and of a file's size limit.
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
-    if (getppid() != parent) _exit(128 + SIGTERM);
-    std::signal(SIGPIPE, SIG_DFL);
-    std::signal(SIGXFSZ, SIG_DFL);
-    if (!log.empty()) {
-      const int file = open(log.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
-      if (file >= 0) {
-        dup2(file, STDOUT_FILENO);
-        dup2(file, STDERR_FILENO);
-      }
-    }
-    execvp(words[0], words.data());
+    become(words, how, input.from);
     const int number = errno;
-    [[maybe_unused]] const auto written = write(failure[1], &number, sizeof number);
+    send(failure.to, &number, sizeof number);
     _exit(127);
   }
-  close(failure[1]);
   int number = pid < 0 ? errno : 0;
-  if (pid > 0 && read(failure[0], &number, sizeof number) == sizeof number) waitpid(pid, nullptr, 0);
-  close(failure[0]);
-  if (number != 0) throw Error(fmt::format("cannot start {}: {}", command.front(), std::strerror(number)));
-  return {pid};
+  failure.close_end(failure.to);
+  if (pid > 0 && receive(failure.from, &number, sizeof number)) waitpid(pid, nullptr, 0);
+  if (number != 0) refuse(number);
+  return {pid, input.release(input.to)};
 }
 
-Ended wait_for_any() {
-  int status = 0;
-  rusage used{};
-  const pid_t pid = wait4(-1, &status, 0, &used);
-  if (pid < 0) return {};
-  return {pid, code_of(status), seconds_of(used)};
+Child start(const std::vector<std::string>& command, const std::string& log) { return start(command, Launch{log, log}); }
+
+Child start_copy(const std::function<void(int, int)>& body) {
+  std::signal(SIGPIPE, SIG_IGN);  // send() reports a process that died
+  Pipe orders, answers;
+  const pid_t pid = orders.open() && answers.open() ? fork_bound(SIGKILL) : -1;
+  if (pid < 0) throw Error("no more processes can be started; ask for fewer --threads");
+  if (pid == 0) {
+    orders.close_end(orders.to), answers.close_end(answers.from);
+    body(orders.from, answers.to);
+    _exit(0);
+  }
+  return {pid, orders.release(orders.to), answers.release(answers.from)};
+}
+
+bool send(int pipe, const void* bytes, std::size_t count) {
+  for (const char* at = static_cast<const char*>(bytes); count > 0;) {
+    const ssize_t n = write(pipe, at, count);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    at += n, count -= static_cast<std::size_t>(n);
+  }
+  return true;
+}
+
+bool receive(int pipe, void* bytes, std::size_t count) {
+  for (char* at = static_cast<char*>(bytes); count > 0;) {
+    const ssize_t n = read(pipe, at, count);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    at += n, count -= static_cast<std::size_t>(n);
+  }
+  return true;
 }
 
 Ended wait_for_any(double seconds) {
@@ -97,6 +178,14 @@ int wait_for(const Child& child) {
     std::this_thread::sleep_for(pause);
     pause = std::min(2 * pause, std::chrono::milliseconds(20));
   }
+  return code_of(status);
+}
+
+int finish(Child& child) {
+  Pipe::close_end(child.to), Pipe::close_end(child.from);
+  int status = 0;
+  while (waitpid(child.pid, &status, 0) < 0 && errno == EINTR) {}
+  child.pid = -1;
   return code_of(status);
 }
 

@@ -1,18 +1,39 @@
-// Child processes: start them, wait for them, end them.
+// Child processes: start them, exchange bytes with them, wait for them, end them.
 #pragma once
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace erbs {
 
-std::string own_path();  // of this executable
+std::string own_path();                   // of this executable
+bool can_start(const std::string& name);  // a path, or a name that PATH finds
 
 struct Child {
   int pid = -1;
+  int to = -1, from = -1;  // our ends of the pipes to its input and from its output; -1: no pipe
 };
-// Starts a program; with `log` its stdout and stderr go into that file. The child gets SIGTERM when the thread that started it ends.
-// Throws Error if the program cannot be started.
-Child start(const std::vector<std::string>& command, const std::string& log = "");
+
+// How a program is started. Its standard streams are those of this program where nothing else is said.
+struct Launch {
+  std::string output = {}, errors = {};  // files for stdout and stderr
+  std::string folder = {};               // its working folder
+  std::string remedy = {};               // end of the message if it cannot be started
+  bool fed = false;                      // its standard input is Child::to
+  bool own_group = false;                // Ctrl-C does not reach it
+};
+// Starts a program. It gets SIGTERM when the thread that started it ends. Throws Error if it cannot be started.
+Child start(const std::vector<std::string>& command, const Launch& how);
+Child start(const std::vector<std::string>& command, const std::string& log = "");  // with `log`, stdout and stderr go into that file
+// A copy of this process that calls `body` with its ends of both pipes, and ends. It is killed when the thread that started it ends.
+// Throws Error.
+Child start_copy(const std::function<void(int from, int to)>& body);
+
+// Send or receive all `count` bytes; false if the other end has closed the pipe.
+bool send(int pipe, const void* bytes, std::size_t count);
+bool receive(int pipe, void* bytes, std::size_t count);
+
 // A child that has ended: its pid and exit code (128 + signal if a signal killed it). pid = -1: a signal interrupted the wait, or there
 // is no child.
 struct Ended {
@@ -21,9 +42,9 @@ struct Ended {
 };
 // Killed by a foreign signal or for lack of memory: the result is unknown. 130 is an interrupt of the user.
 constexpr bool was_killed(int code) { return code > 128 && code != 130; }
-Ended wait_for_any();
 Ended wait_for_any(double seconds);  // waits at most so long; pid = -1 if no child has ended by then
 int wait_for(const Child& child);    // exit code; forwards a caught interrupt to the child
+int finish(Child& child);            // closes the pipes and returns the exit code; leaves interrupts to the child
 void interrupt(const Child& child);  // SIGINT, like Ctrl-C
 void stop_hard(const Child& child);  // SIGKILL, for a child that ignores SIGINT
 

@@ -1,4 +1,4 @@
-// A team of threads that lives for a whole run, with a barrier cheap enough to be passed twice per step.
+// A team of threads that lives as long as its Solver, with a barrier cheap enough to be passed twice per step.
 //
 // std::thread and atomics replace OpenMP: spinning then needs no environment variable before main, and the thread sanitizer
 // understands the code.
@@ -11,11 +11,13 @@
 #pragma once
 #include <atomic>
 #include <chrono>
-#include <exception>
 #include <functional>
+#include <optional>
 #include <thread>
+#include <utility>
 #include <vector>
 
+#include "engine/base/error.h"
 #include "engine/base/system/affinity.h"
 
 namespace erbs {
@@ -37,22 +39,31 @@ class Barrier {
   // other threads get false.
   template <class F>
   bool wait(int thread, F&& alone) {
-    const unsigned round = arrive(thread);
     if (thread != 0) {
-      wait_for(thread, opened_, round);
+      enter(thread);
       return !failed_;
     }
-    for (int other = 1; other < count_; ++other) wait_for(0, slot_[std::size_t(other)].arrived, round);
+    close();
     try {
       alone();
     } catch (...) {
       failed_ = true;
-      signal(opened_, round);
+      open();
       throw;
     }
-    signal(opened_, round);
+    open();
     return true;
   }
+  // The same in two halves. After `close()` all other threads wait in `enter()`, and thread 0 is alone until `open()`.
+  void close() {
+    if (count_ == 1) return;
+    const unsigned round = arrive(0);
+    for (int other = 1; other < count_; ++other) wait_for(0, slot_[std::size_t(other)].arrived, round);
+  }
+  void open() {
+    if (count_ > 1) signal(opened_, slot_[0].arrived.load(std::memory_order_relaxed));
+  }
+  void enter(int thread) { wait_for(thread, opened_, arrive(thread)); }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -118,23 +129,47 @@ class Barrier {
   alignas(64) std::atomic<unsigned> opened_{0};
 };
 
-// Runs body(thread) on `threads` threads at once, including the caller. An exception of any thread is rethrown after all have ended.
-// A body that throws must not leave other threads waiting at a barrier: throw on all threads, or inside Barrier::wait(thread, alone).
-inline void run_team(int threads, const std::function<void(int)>& body) {
-  std::vector<std::exception_ptr> failed(std::size_t(threads), nullptr);
-  const auto guarded = [&](int i) {
-    const OwnCore core(i, threads);
-    try {
-      body(i);
-    } catch (...) { failed[std::size_t(i)] = std::current_exception(); }
-  };
-  std::vector<std::thread> others;
-  for (int i = 1; i < threads; ++i) others.emplace_back(guarded, i);
-  guarded(0);
-  for (auto& t : others) t.join();
-  for (const auto& f : failed)
-    if (f) std::rethrow_exception(f);
-}
+// Threads that work in rounds. The caller is thread 0; between two rounds it is alone, and all others wait at the barrier.
+class Team {
+ public:
+  // `work(thread)` is one round. Within it only `alone` of `Barrier::wait(thread, alone)` may throw.
+  Team(int threads, std::function<void(int thread)> work) : barrier_(threads), work_(std::move(work)) {
+    for (int i = 1; i < threads; ++i) others_.emplace_back([this, i, threads] { join_rounds(i, threads); });
+    core_.emplace(0, threads);  // not earlier: a new thread inherits the binding of the caller
+    barrier_.close();
+  }
+  ~Team() {
+    ended_ = true;
+    if (!closed_) barrier_.close();
+    barrier_.open();
+    for (std::thread& other : others_) other.join();
+  }
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
+
+  // Runs one round on all threads. Throws what `alone` has thrown; the team is of no further use then.
+  void run() {
+    ERBS_ASSERT(closed_);
+    barrier_.open();
+    closed_ = false;
+    work_(0);
+    barrier_.close();
+    closed_ = true;
+  }
+  Barrier& barrier() { return barrier_; }
+
+ private:
+  void join_rounds(int thread, int threads) {
+    const OwnCore core(thread, threads);
+    for (barrier_.enter(thread); !ended_; barrier_.enter(thread)) work_(thread);
+  }
+
+  Barrier barrier_;
+  const std::function<void(int)> work_;
+  bool ended_ = false, closed_ = true;
+  std::vector<std::thread> others_;
+  std::optional<OwnCore> core_;
+};
 
 // Slice [first, last) of n items that thread `i` of `threads` owns, in whole chunks of `grain` items.
 struct Range {

@@ -1,4 +1,4 @@
-// Boxes that may touch, eight side by side.
+// Balls and boxes that may touch, eight side by side.
 #pragma once
 #include "engine/contact/law/pair_lanes.h"
 #include "engine/contact/law/pair_rows.h"
@@ -6,7 +6,7 @@
 
 namespace erbs::ERBS_TARGET {
 
-// Which of the balls from `from` to `to`, side by side, are no farther from one than `margin`; returns their number.
+// Finds the balls from `from` to `to` that are no farther from `one` than `margin`; returns their number.
 static int close_balls(const Balls& all, int from, int to, const double one[4], double margin, int* found) {
   int count = 0;
   for (int k = from; k < to; k += 8) {
@@ -19,8 +19,8 @@ static int close_balls(const Balls& all, int from, int to, const double one[4], 
   return count;
 }
 
-// Separating axes of two oriented boxes grown by the margin: the three faces of each and the nine products of edges. Returns those of the
-// eight that none of them shows apart, as bits.
+// Returns as bits which of eight boxes no separating axis keeps apart from `one` by the margin. The axes are the three face normals of each
+// box and the nine products of their edges.
 static unsigned close_boxes(const OrientedBox& one, const OrientedBox* const other[8], double margin) {
   const double* from[8];
   for (int l = 0; l < 8; ++l) from[l] = other[l]->centre;
@@ -50,7 +50,7 @@ static unsigned close_boxes(const OrientedBox& one, const OrientedBox* const oth
   for (int i = 0; i < 3; ++i) {
     const int k = (i + 1) % 3, m = (i + 2) % 3;
     for (int j = 0; j < 3; ++j) {
-      const int p = (j + 1) % 3, q = (j + 2) % 3;  // axis = e_i x turn_j: its parts along k and m are -turn[m][j] and turn[k][j]
+      const int p = (j + 1) % 3, q = (j + 2) % 3;  // axis = e_i x column j of `rotation`
       const Pack square = rotation[k][j] * rotation[k][j] + rotation[m][j] * rotation[m][j],
                  along = rotation[k][j] * d[m] - rotation[m][j] * d[k];
       const Pack beyond = abs(along) - (size[m][j] * a[k] + size[k][j] * a[m] + size[i][q] * h[p] + size[i][p] * h[q]);

@@ -11,7 +11,7 @@ struct EdgeAtRest {
   PairPose pose;
   Vec3 at = Vec3::Zero();          // m, a corner of the other body there, pair axes
   double lever = 0, movement = 0;  // m, to the farthest point of both; relative motion up to which the pair carries almost no force
-  double slowest = 1;              // greatest ratio of this motion to the travel in `Contacts::surely_separated()`
+  double slowest = 1;              // greatest ratio of this motion to the travel in `MotionBounds::surely_separated()`
 };
 
 inline constexpr double next_to_nothing = 1e-4;  // of the weight of the lighter block

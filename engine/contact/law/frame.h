@@ -1,5 +1,6 @@
 // A contact pair seen from its reference body.
 #pragma once
+#include "engine/contact/law/pair_lanes.h"
 #include "engine/contact/overlap/general.h"
 #include "engine/model/contact_pair.h"
 
@@ -27,6 +28,16 @@ inline PairFrame pair_frame(const ContactPair& pair, const ContactShapes& shapes
   s.pose.shift = s.reference_block->rotation.transpose() * apart;
   s.pose.rotation = s.reference_block->rotation.transpose() * s.other_block->rotation;
   return s;
+}
+
+// Makes a pair lane `l` of a pack.
+template <int n>
+void set_lane(PairPackOf<n>& w, int l, ContactPair& pair, const ContactBlock& reference, const ContactBlock& other, double contact_count) {
+  w.pair[l] = &pair.law.kn;
+  w.reference[l] = reference.u.data();
+  w.other[l] = other.u.data();
+  w.swapped[l] = pair.b_is_reference;
+  w.contact_count[l] = contact_count;
 }
 
 }  // namespace erbs

@@ -5,99 +5,90 @@
 
 #include "engine/base/units.h"
 #include "engine/contact/law/frame.h"
-#include "engine/contact/law/friction.h"
 #include "engine/contact/law/impact_bound.h"
+#include "engine/contact/law/pair_law.h"
+#include "engine/contact/law/point_friction.h"
 
 namespace erbs {
 namespace {
 
-// Velocities belong to half a step before the pose, so the vector between the bodies is that of the same instant. Otherwise a pair in rigid
-// rotation would seem to separate at dt / 2 w x (w x r).
-Motion motion_of(const PairFrame& s, double dt) {
-  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
-  const Vec3 away = o.v - r.v, apart = r.rotation * s.pose.shift - 0.5 * dt * away;
-  return {r.rotation.transpose() * (away - r.w.cross(apart)), r.rotation.transpose() * (o.w - r.w)};
+Vec3 vec(const double (*x)[1]) { return {x[0][0], x[1][0], x[2][0]}; }
+void set(double (*to)[1], const Vec3& x) {
+  for (int i = 0; i < 3; ++i) to[i][0] = x[i];
 }
 
-// Wrench on the other body in pair axes, as force on b and moments on a and b in world axes.
-PairWrench to_world(const ContactPair& pair, const PairFrame& s, const Vec3& force, const Vec3& moment) {
-  const Mat3& rotation = s.reference_block->rotation;
-  const Vec3 f = rotation * force, m_other = rotation * moment, m_reference = -(rotation * (moment + s.pose.shift.cross(force)));
-  PairWrench w;
-  w.force = pair.b_is_reference ? Vec3(-f) : f;
-  w.moment_a = pair.b_is_reference ? m_other : m_reference;
-  w.moment_b = pair.b_is_reference ? m_reference : m_other;
-  return w;
+// The rows of a pair with a patch, up to the pose.
+void fill(OnePair& w, ContactPair& pair, const PairFrame& s, const Patch& patch, double contact_count) {
+  set_lane(w, 0, pair, *s.reference_block, *s.other_block, contact_count);
+  scalar::gather_pairs<double>(w);
+  w.total[0] = patch.total, w.area[0] = patch.area, w.size[0] = patch.force.norm(), w.gyration[0] = patch.gyration;
+  w.max_depth[0] = patch.max_depth;
+  set(w.force, patch.force), set(w.moment, patch.moment), set(w.normal, patch.normal);
+  set(w.pressure_centre, patch.pressure_centre), set(w.centroid, patch.centroid);
+  const Mat3& m = patch.second;
+  set(w.second, m.diagonal()), set(w.second + 3, {m(0, 1), m(1, 2), m(2, 0)});
 }
 
-void add(PairWrench& to, const PairWrench& w) {
-  to.force += w.force;
-  to.moment_a += w.moment_a;
-  to.moment_b += w.moment_b;
+// Unstretched springs at this patch and pose.
+void start_springs(ContactPair& pair, const PairFrame& s, const Patch& patch) {
+  pair.n = patch.normal;
+  pair.c = patch.centroid + s.pose.shift;
+  pair.area = patch.area;
+  pair.gyration = patch.gyration;
+  pair.u.setZero();
+  pair.psi = 0;
+  pair.touching = 1;
+  pair.rotation = s.pose.rotation;
+  pair.shift = s.pose.shift;
 }
 
-// Inverse effective mass of both bodies at x (pair axes, from the centroid of the other) along the unit vector n (1/kg).
-double inverse_mass_along(const PairFrame& s, const Vec3& x, const Vec3& n) {
-  const Vec3 r = (x + s.pose.shift).cross(n), o = s.pose.rotation.transpose() * x.cross(n);
-  return s.reference_block->inverse_mass + s.other_block->inverse_mass + r.dot(s.reference_block->inverse_tensor * r) +
-         o.dot(s.other_block->inverse_tensor * o);
+// Friction of a pair that has slipped since its last step, or that is `new_here`. The slip of the latter would be round-off, which is much
+// against the first depths.
+void limit_friction(OnePair& w, const PairSettings& settings, bool new_here) {
+  scalar::stretch_springs<double>(w);
+  if (new_here) {
+    for (int i = 0; i < 3; ++i) w.u1[i][0] = w.u0[i][0];
+    w.psi1[0] = w.psi0[0];
+  }
+  scalar::trial_forces<double>(w, settings);
+  scalar::return_map<double>(w);
+  if (!(w.holds[0] > 0)) return_point(w);
 }
 
-// Interlock acts where faces lie flat on each other, not at edges and corners: with interlock there, bodies of a heap tremble for ever.
-bool lies_flat(const PairFrame& s, const Patch& patch) {
-  const ContactBlock &r = *s.reference_block, &o = *s.other_block;
-  return patch.area * (r.inverse_inertia + o.inverse_inertia) > flat_face * (r.inverse_mass + o.inverse_mass);
-}
-
-// Its upper bound for any direction.
-double inverse_mass_at(const PairFrame& s, const Vec3& x) {
-  return s.reference_block->inverse_mass + s.other_block->inverse_mass +
-         (x + s.pose.shift).squaredNorm() * s.reference_block->inverse_inertia + x.squaredNorm() * s.other_block->inverse_inertia;
-}
-
-struct Dashpot {
-  double chi = 0;    // s/m
-  double limit = 1;  // of the factor 1 + chi closing
-};
-
-// Hunt and Crossley's factor for the present impact, plus a small linear one for the settled contact. The linear one is written in the same
-// form; its coefficient is 2 settling sqrt(kn A m). The explicit step caps the sum, with x = dt^2 kn A / m:
-//   one contact with the velocity of half a step before: x + 2 c dt / m < 4;
-//   n equal contacts on each block count n-fold in the worst mode: c dt / m < (4 / n - x) / 2, of which 0.9 is used;
-//   at least a quarter, which a heap allows (`time_step_bound.cpp`), and at most 1 / (1 + n), since others may close in the same step.
-// A capped dashpot misses the requested restitution. Bricks that fall flat rebound with at least 0.43 at a cap of a quarter, and with
-// 0.19 to 0.33 at a half (V22).
-Dashpot dashpot(ContactPair& pair, const Patch& patch, double inverse_mass, const ContactSettings& settings, double dt,
-                double contact_count) {
-  Dashpot d;
-  // Slow decay against the duration of a soft impact (about 3 depth / speed on a corner).
-  const double memory =
-      pair.peak_closing_speed > 0 ? std::max(settings.memory, 30 * patch.max_depth / pair.peak_closing_speed) : settings.memory;
-  pair.peak_closing_speed =
-      std::max({pair.peak_closing_speed * (1 - std::min(1.0, dt / memory)), patch.closing_speed, settings.reference_speed});
-  if (!(inverse_mass > 0)) return d;
-  const double kn = pair.law.kn, x = pair.impact;
-  const double slow = settings.reference_speed / pair.peak_closing_speed,
-               share = settings.settling * slow * slow;  // fades with speed: restitution governs an impact
-  d.chi = x / pair.peak_closing_speed + 2 * share * std::sqrt(kn * patch.area / inverse_mass) / (kn * patch.total);
-  const double square = kn * patch.area * inverse_mass * (dt * dt);
-  const double bears = std::max(0.25, std::min(1 / (1 + contact_count), 0.45 * (4 / contact_count - square)));
-  if (dt > 0) d.chi = std::min(d.chi, bears / (inverse_mass * kn * patch.total * dt));
-  d.limit = 1 + std::max(x, 1.0);
-  return d;
-}
-
-// Books half a step of work of the last wrench and half a step of the present one (J, done on the bodies).
-double trapezoid(PairWrench& last, const PairWrench& now, const ContactBlock& a, const ContactBlock& b, double dt) {
-  const double work = 0.5 * dt * (power(last, a, b) + power(now, a, b));
-  last = now;
-  return work;
+// The force and the history of a pair that touches.
+void press(ContactPair& pair, const PairFrame& s, Patch& patch, const PairSettings& settings, double contact_count, OverlapRoom& room,
+           PairResult& result) {
+  const bool new_here = !pair.touching;
+  if (new_here) start_springs(pair, s, patch);
+  OnePair w;
+  fill(w, pair, s, patch, contact_count);
+  scalar::relative_motion<double>(w, settings);
+  closing_speeds(room, vec(w.linear), vec(w.angular), patch);
+  w.closing_speed[0] = patch.closing_speed;
+  scalar::dashpot<double>(w, settings);
+  Vec3 first;
+  w.damping[0][0] = damping(room, patch.normal, w.chi[0], w.limit[0], first);
+  set(w.damping + 1, first);
+  limit_friction(w, settings, new_here);
+  scalar::finish<double>(w, settings);
+  scalar::write(w.p, pair_rows, &pair.law.kn);
+  scalar::write(w.result, result_rows, result.wrench.force.data());
+  result.touching = true;
 }
 
 void forget_contact(ContactPair& pair) {
   pair.touching = 0;
   pair.u.setZero();
   pair.psi = pair.area = pair.gyration = pair.tangential = 0;
+}
+
+// The bodies have separated: half a step of the last wrenches is still to be booked, and the springs lose their energy.
+void let_go(ContactPair& pair, const ContactBlock& a, const ContactBlock& b, double dt, PairResult& result) {
+  result.friction = pair.tangential - 0.5 * dt * power(pair.friction, a, b);
+  result.damping = -0.5 * dt * power(pair.damping, a, b);
+  pair.friction = pair.damping = {};
+  pair.peak_closing_speed = 0;
+  forget_contact(pair);
 }
 
 PairPose lifted(const ContactPair& pair, PairPose pose) {
@@ -137,63 +128,38 @@ double lift(ContactPair& pair, const PairFrame& s, double wanted, const Patch& p
 }
 
 // Gives the friction springs the force and torsion that acted along the face, as far as friction allows.
-Friction take_shear(ContactPair& pair, const PairFrame& s, const Patch& patch, const Vec3& force, const Vec3& moment, double pressed) {
-  const Motion rest{Vec3::Zero(), Vec3::Zero()};
-  pair.touching = 0;
-  patch_friction(pair, patch, s.pose, rest, pressed, 0, 0);  // first touch at this pose
+void take_shear(ContactPair& pair, const PairFrame& s, const Patch& patch, const Vec3& force, const Vec3& moment, double pressed) {
+  start_springs(pair, s, patch);
   const double kt = pair.law.ks * pair.area, kr = kt * pair.gyration * pair.gyration;
   if (kt > 0) pair.u = -(force - force.dot(pair.n) * pair.n) / kt;
-  pair.psi = kr > 0 ? -(moment - patch.centroid.cross(force)).dot(pair.n) / kr : 0.0;
-  pair.touching = 1;
-  pair.rotation = s.pose.rotation;
-  pair.shift = s.pose.shift;
+  if (kr > 0) pair.psi = -(moment - patch.centroid.cross(force)).dot(pair.n) / kr;
   pair.mean_normal_force = pressed;
-  const Friction f = patch_friction(pair, patch, s.pose, rest, pressed, 0, 0);
-  pair.tangential = f.stored;
-  return f;
+  OnePair w;
+  fill(w, pair, s, patch, saturated_contacts);
+  w.size[0] = pressed / pair.law.kn;
+  set(w.linear, Vec3::Zero()), set(w.angular, Vec3::Zero());
+  limit_friction(w, PairSettings{}, false);
+  const scalar::Springs<double> springs = scalar::springs_after<double>(w);
+  pair.u = {springs.u.x, springs.u.y, springs.u.z};
+  pair.psi = springs.psi;
+  pair.tangential = springs.stored;
 }
 
-// The patch resists with at most kn A along its normal and kt across; its spread about the centroid adds the gyration to the arms.
-//
-// Dashpots are not in the sum, since they act on the velocity of half a step before. `dashpot()` and the cap of the tangential dashpot
-// limit each to a quarter of m / dt. An explicit step allows this beside springs at this bound (dt^2 k / m + 2 c dt / m < 4).
-//
-// Rotations first count with the greatest inverse inertia J. For a slender body this is far too much; then the tensor A (pair axes) counts:
-// tr(A N S N^T) for a pressure of second moment S about an axis across n, n.A n gyration^2 about n, tr(A) r^2 - r.A r for a force at r.
-void stability(const ContactPair& pair, const PairFrame& s, const Patch& patch, PairResult& result) {
-  const double normal = pair.law.kn * patch.area, tangential = pair.law.ks * pair.area, spread = pair.gyration * pair.gyration;
-  const Vec3 n = patch.normal;
-  const auto rate = [&](const ContactBlock& block, const Vec3& arm, const Vec3& lever, bool with_tensor) {
-    const double mass = block.inverse_mass, inertia = block.inverse_inertia, square = arm.squaredNorm();
-    double bend = spread * inertia, twist = bend, sway = square * inertia;
-    if (bend + sway > slender * mass) {
-      const Mat3 A = with_tensor ? Mat3(s.pose.rotation * block.inverse_tensor * s.pose.rotation.transpose()) : block.inverse_tensor,
-                 N = cross_matrix(n);
-      const Mat3 second = patch.second - patch.area * patch.centroid * patch.centroid.transpose();
-      bend = std::min(bend, (A * (N * second * N.transpose())).trace() / patch.area);
-      twist = std::min(twist, spread * n.dot(A * n));
-      sway = std::min(sway, A.trace() * square - arm.dot(A * arm));
-    }
-    return normal * (mass + lever.dot(block.inverse_tensor * lever) + bend) + tangential * (mass + sway + twist);
-  };
-  const Vec3 arm = patch.centroid + s.pose.shift;
-  const double other = rate(*s.other_block, patch.centroid, s.pose.rotation.transpose() * patch.centroid.cross(n), true);
-  const double reference = rate(*s.reference_block, arm, arm.cross(n), false);
-  result.omega2_a = pair.b_is_reference ? other : reference;
-  result.omega2_b = pair.b_is_reference ? reference : other;
+// Wrench on the other body in pair axes, as force on b and moments on a and b in world axes.
+PairWrench to_world(const ContactPair& pair, const PairFrame& s, const Vec3& force, const Vec3& moment) {
+  const Mat3& rotation = s.reference_block->rotation;
+  const Vec3 f = rotation * force, m_other = rotation * moment, m_reference = -(rotation * (moment + s.pose.shift.cross(force)));
+  return pair.b_is_reference ? PairWrench{-f, m_other, m_reference} : PairWrench{f, m_reference, m_other};
 }
 
 }  // namespace
 
-double power(const PairWrench& w, const ContactBlock& a, const ContactBlock& b) {
-  return w.force.dot(b.v - a.v) + w.moment_a.dot(a.w) + w.moment_b.dot(b.w);
+PairSettings pair_settings(const ContactSettings& s, double dt) {
+  return {dt, s.memory, s.reference_speed, s.settling, s.settling_tangential, s.interlock.slow, s.interlock.rate, flat_face, slender};
 }
 
-double torsion_radius(double area, double gyration) {
-  if (!(gyration > 0)) return 0;
-  // Interpolation between line and square by area / gyration^2 (6 for a square).
-  const double fill = std::min(1.1, area / (6 * gyration * gyration));
-  return gyration * (0.866 + 0.0711 * fill * std::cbrt(fill));
+double power(const PairWrench& w, const ContactBlock& a, const ContactBlock& b) {
+  return w.force.dot(b.v - a.v) + w.moment_a.dot(a.w) + w.moment_b.dot(b.w);
 }
 
 double impact_factor(double restitution) {
@@ -226,51 +192,19 @@ bool pair_force(ContactPair& pair, const ContactShapes& shapes, const ContactBlo
   result = PairResult{};
   const PairFrame s = pair_frame(pair, shapes, a, b);
   Patch patch = find_overlap(*s.reference, *s.other, lifted(pair, s.pose), pair.separating_axis, room);
-  const bool touches = patch.total > 0;
-  if (!touches) {
-    come_apart(pair, room.apart);
-    impact_bound(pair, s, settings, room.apart, dt, result);
-    if (room.apart >= 0) result.apart = room.apart;
-    if (room.apart > settings.interlock.gap) pair.mean_normal_force = 0;
-    if (!pair.touching) return false;
+  if (patch.total > 0) {
+    press(pair, s, patch, pair_settings(settings, dt), contact_count, room, result);
+    if (want_energy) result.elastic = pair.law.kn * overlap_energy(*s.reference, *s.other, lifted(pair, s.pose), room);
+    return true;
   }
-
-  PairWrench elastic, damping, friction;
-  const double stored_before = pair.tangential;
-  if (touches) {
-    const Motion motion = motion_of(s, dt);
-    closing_speeds(room, motion.linear, motion.angular, patch);
-    const double kn = pair.law.kn;
-    const double along = inverse_mass_along(s, patch.pressure_centre, patch.normal);
-    elastic = to_world(pair, s, kn * patch.force, kn * patch.moment);
-    const Dashpot d = dashpot(pair, patch, along, settings, dt, contact_count);
-    Vec3 damping_force, damping_moment;
-    damping_wrench(room, patch.normal, d.chi, d.limit, damping_force, damping_moment);
-    const double inverse_mass = inverse_mass_at(s, patch.centroid);
-    const Friction f = patch_friction(pair, patch, s.pose, motion, kn * patch.force.norm(), inverse_mass, settings.settling_tangential,
-                                      lies_flat(s, patch) ? settings.interlock : Interlock{});
-    damping = to_world(pair, s, kn * damping_force + f.viscous_force, kn * damping_moment + f.viscous_moment);
-    friction = to_world(pair, s, f.force, f.moment);
-    if (f.slipped > 0) result.slip_omega2 = kn * patch.area * along;
-    pair.tangential = f.stored;
-    pair.touching = 1;
-    result.touching = true;
-    result.depth = patch.max_depth;
-    stability(pair, s, patch, result);
-    if (want_energy) result.elastic = kn * overlap_energy(*s.reference, *s.other, lifted(pair, s.pose), room);
-  } else if (pair.touching) {
-    forget_contact(pair);
-    pair.peak_closing_speed = 0;
-  }
+  come_apart(pair, room.apart);
+  impact_bound(pair, s, settings, room.apart, dt, result);
+  if (room.apart >= 0) result.apart = room.apart;
+  if (room.apart > settings.interlock.gap) pair.mean_normal_force = 0;
+  if (!pair.touching) return false;
+  let_go(pair, a, b, dt, result);
   pair.rotation = s.pose.rotation;
   pair.shift = s.pose.shift;
-
-  result.friction = -trapezoid(pair.friction, friction, a, b, dt) - (pair.tangential - stored_before);
-  result.damping = -trapezoid(pair.damping, damping, a, b, dt);
-  result.tangential = pair.tangential;
-  result.wrench = elastic;
-  add(result.wrench, damping);
-  add(result.wrench, friction);
   return true;
 }
 
@@ -292,7 +226,8 @@ double release_to_contact(ContactPair& pair, const ContactShapes& shapes, const 
   if (patch.total > 0) {
     const double pressed = std::max(0.0, force.dot(patch.force.normalized())), of_now = pressed / (kn * patch.force.norm());
     const double squeezed = kn * overlap_energy(*s.reference, *s.other, lifted(pair, s.pose), room) * of_now * of_now;
-    const double sheared = take_shear(pair, s, patch, force, moment, pressed).stored;
+    take_shear(pair, s, patch, force, moment, pressed);
+    const double sheared = pair.tangential;
     kept = lift(pair, s, squeezed, patch, room) + sheared;
     if (std::fabs(stored - kept) > most) {
       const double share = squeezed + sheared > 0 ? stored / (squeezed + sheared) : 0;

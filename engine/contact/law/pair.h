@@ -5,7 +5,8 @@
 
 namespace erbs {
 
-struct PairFrame;  // `frame.h`
+struct PairFrame;     // `frame.h`
+struct PairSettings;  // `pair_lanes.h`
 
 inline constexpr double saturated_contacts = 3;  // from this number of contacts on, dashpots have their lowest cap
 inline constexpr double flat_face = 2;           // area over the squared least radius of inertia, from which on a patch is a flat face
@@ -35,7 +36,7 @@ struct PairResult {
 
 // Evaluates `pair` at the present pose and updates its memory. dt (s): the step that led here, 0 at the start of a run. Returns false if
 // the bodies are apart and the pair stored nothing before; the result is then zero except for the prediction of impacts. `contact_count`:
-// number of contacts on either body, at least 1; it limits the dashpots (`dashpot()` of `pair.cpp`).
+// number of contacts on either body, at least 1; it limits the dashpots (`dashpot()` of `pair_law.h`).
 bool pair_force(ContactPair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b,
                 const ContactSettings& settings, double dt, bool want_energy, OverlapRoom& room, PairResult& result,
                 double contact_count = saturated_contacts);
@@ -54,9 +55,7 @@ double release_to_contact(ContactPair& pair, const ContactShapes& shapes, const 
 // Crossley 1975).
 double impact_factor(double restitution);
 
-// Radius r of the torsion limit mu N r of a patch with this area and polar radius of gyration; within 0.4 % for rectangles (.866 gyration
-// for a line, .937 for a square; Int |x| dA / A in closed form).
-double torsion_radius(double area, double gyration);
+PairSettings pair_settings(const ContactSettings& settings, double dt);
 
 // Power of a pair's wrench at the velocities of `a` and `b` (W).
 double power(const PairWrench& wrench, const ContactBlock& a, const ContactBlock& b);

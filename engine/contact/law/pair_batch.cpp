@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "engine/contact/law/frame.h"
-#include "engine/contact/law/friction.h"
+#include "engine/contact/law/point_friction.h"
 
 namespace erbs {
 namespace {
@@ -31,11 +31,7 @@ void fill(const PairTask* task, int count, PairPack& w) {
   for (int l = 0; l < 8; ++l) {
     const PairTask& j = task[l < count ? l : 0];
     const bool swapped = j.bodies.swapped;
-    w.pair[l] = &j.pair->law.kn;
-    w.reference[l] = (swapped ? j.b : j.a)->u.data();
-    w.other[l] = (swapped ? j.a : j.b)->u.data();
-    w.swapped[l] = swapped;
-    w.contact_count[l] = j.contact_count;
+    set_lane(w, l, *j.pair, swapped ? *j.b : *j.a, swapped ? *j.a : *j.b, j.contact_count);
   }
 }
 
@@ -64,22 +60,6 @@ unsigned overlaps(const PairTask* task, int count, PairPack& w, Triangles* trian
     }
   }
   return left_out;
-}
-
-// Return map of one pair, for a patch without size or pressure.
-void return_map_one(PairPack& w, int l) {
-  Patch patch;
-  patch.area = w.area[l];
-  patch.centroid = vec(w.centroid, l);
-  const double second[6] = {w.second[0][l], w.second[1][l], w.second[2][l], w.second[3][l], w.second[4][l], w.second[5][l]};
-  patch.second = symmetric(second);
-  const double gyration = w.p[28][l];
-  const PatchLimit patch_limit{w.most[l], w.radius[l], 0, gyration * gyration, vec(w.lever, l)};
-  const ReturnResult result = return_map(patch_limit, patch, {vec(w.springs, l), w.torsion[l]}, {vec(w.dashpots, l), w.dashpot_torsion[l]});
-  for (int i = 0; i < 3; ++i) w.springs[i][l] = result.springs.force[i];
-  w.torsion[l] = result.springs.torsion;
-  w.share[l] = result.share;
-  w.slips[l] = result.slips;
 }
 
 // From the poses of eight pairs to the trial forces of their friction springs. Returns as bits the pairs left out.
@@ -138,16 +118,7 @@ bool fits_pack(const ContactPair& pair, const PairBodies& bodies) {
 }
 
 unsigned pair_forces(const PairTask* task, int count, const ContactSettings& settings, double dt, bool want_energy, PairBatch& batch) {
-  const PairSettings set{dt,
-                         settings.memory,
-                         settings.reference_speed,
-                         settings.settling,
-                         settings.settling_tangential,
-                         surely_within,
-                         settings.interlock.slow,
-                         settings.interlock.rate,
-                         slender,
-                         flat_face};
+  const PairSettings set = pair_settings(settings, dt);
   unsigned left_out[2] = {};
   const int of[2] = {std::min(count, 8), std::max(count - 8, 0)};
   for (int k = 0; k < 2; ++k) {
@@ -168,7 +139,7 @@ unsigned pair_forces(const PairTask* task, int count, const ContactSettings& set
     const auto stays = [&](int l) { return (left_out[k] >> l & 1u) == 0; };
     if (of[k] == 0) continue;
     for (int l = 0; l < of[k]; ++l)
-      if (stays(l) && !(w.holds[l] > 0)) return_map_one(w, l);
+      if (stays(l) && !(w.holds[l] > 0)) return_point(w, l);
     pair_kernels().finish(w, set);
     write_back(tasks, of[k], left_out[k], w);
   }

@@ -1,5 +1,5 @@
-// Eight touching pairs as a pack: from overlap to forces, as `pair.cpp` does for one pair. Plain data, compiled once per instruction set
-// (`pair_kernel.h`). All operations are elementwise, so that a pair's numbers do not depend on its neighbours.
+// Touching pairs side by side, in packs of eight or alone. Plain data, compiled once per instruction set (`pair_law.h`). All operations are
+// elementwise, so that a pair's numbers do not depend on its neighbours.
 #pragma once
 #include "engine/contact/overlap/clip.h"
 
@@ -8,32 +8,37 @@ namespace erbs {
 // One number per lane; vectors by component, matrices row by row; in pair axes unless stated otherwise.
 using PackArray = double[8];
 
-// Rows of eight numbers, in the layout of Pair, `ContactBlock` and `PairResult`.
+// Rows of eight numbers, in the layout of `ContactPair`, `ContactBlock` and `PairResult`.
 inline constexpr int pair_rows = 7, block_rows = 4, result_rows = 2;
 
-struct alignas(64) PairPack {
-  const double *pair[8], *reference[8], *other[8];  // addresses of the input
-  PackArray p[8 * pair_rows], r[8 * block_rows], o[8 * block_rows];
-  PackArray swapped;        // 1 if block b is the reference, else 0
-  PackArray contact_count;  // as in `pair_force()`
-  PackArray rotation[9], shift[3];
-  OverlapSums sums[8];
-  PackArray max_depth;  // m
-  PackArray total, area, force[3], moment[3], normal[3], size, pressure_centre[3], centroid[3], second[6], gyration;
-  PackArray linear[3], angular[3];     // m/s, rad/s, motion of the other body
-  PackArray along, angular_part[3];    // for `ClipKernels::closing_speeds`
-  PackArray closing_speed;             // m/s
-  PackArray inverse_mass, chi, limit;  // of the dashpot
-  PackArray damping[4];                // total and first moment from `ClipKernels::damp`, kn = 1
+template <int n>
+struct alignas(64) PairPackOf {
+  using Row = double[n];
+  const double *pair[n], *reference[n], *other[n];  // addresses of the input
+  Row p[8 * pair_rows], r[8 * block_rows], o[8 * block_rows];
+  Row swapped;        // 1 if block b is the reference, else 0
+  Row contact_count;  // as in `pair_force()`
+  Row rotation[9], shift[3];
+  OverlapSums sums[n];
+  Row max_depth;  // m
+  Row total, area, force[3], moment[3], normal[3], size, pressure_centre[3], centroid[3], second[6], gyration;
+  Row linear[3], angular[3];     // m/s, rad/s, motion of the other body
+  Row along, angular_part[3];    // for `ClipKernels::closing_speeds`
+  Row closing_speed;             // m/s
+  Row inverse_mass, chi, limit;  // of the dashpot
+  Row damping[4];                // total and first moment from `ClipKernels::damp`, kn = 1
   // Friction: springs with their slip, dashpots, and the part within the limit.
-  PackArray u0[3], psi0, u1[3], psi1, kt, kr, springs[3], torsion, dashpots[3], dashpot_torsion, lever[3], most, radius, share;
-  PackArray holds;  // 1: springs and dashpots are surely within the limit
-  PackArray slips;
-  PackArray result[8 * result_rows];
+  Row u0[3], psi0, u1[3], psi1, kt, kr, springs[3], torsion, dashpots[3], dashpot_torsion, lever[3], most, radius, share;
+  Row holds;  // 1: springs and dashpots are surely within the limit
+  Row slips;
+  Row result[8 * result_rows];
 };
+using PairPack = PairPackOf<8>;
+using OnePair = PairPackOf<1>;
 
 struct PairSettings {
-  double dt, memory, reference_speed, settling, settling_tangential, surely_within, slow, rate, slender, flat_face;
+  double dt, memory, reference_speed, settling, settling_tangential, slow, rate;  // as in ContactSettings and Interlock
+  double flat_face, slender;                                                      // `pair.h`
 };
 
 // Eight blocks side by side as in State, and their rows as pairs read them.

@@ -1,10 +1,15 @@
-// Rows of eight numbers, of eight pairs or blocks, turned into lanes and back; where each number stands in them.
+// The rows of eight numbers in which pairs, blocks and results are stored, transposed to lanes and back.
 #pragma once
 #include "engine/contact/law/pair_lanes.h"
 #include "engine/simd/transpose.h"
 #include "engine/simd/vec3.h"
 
 namespace erbs::ERBS_TARGET {
+
+template <class T>
+using Lanes = double[lanes_of<T>];
+template <class T>
+using PairPackFor = PairPackOf<lanes_of<T>>;
 
 // Places of numbers in the rows.
 enum : int {
@@ -33,12 +38,18 @@ enum : int {
   f_omega2_b = 15
 };
 
-// As Eigen keeps a matrix.
-ERBS_INLINE Mat3<Pack> columns(const PackArray* x) { return transposed(Mat3<Pack>{load3(x), load3(x + 3), load3(x + 6)}); }
+// A matrix stored by column, as Eigen does.
+template <class T>
+ERBS_INLINE Mat3<T> columns(const Lanes<T>* x) {
+  return transposed(Mat3<T>{load3(x), load3(x + 3), load3(x + 6)});
+}
 
-ERBS_INLINE Mat3<Pack> relative_rotation(const PairPack& w) { return {{load3(w.rotation), load3(w.rotation + 3), load3(w.rotation + 6)}}; }
+template <class T>
+ERBS_INLINE Mat3<T> relative_rotation(const PairPackFor<T>& w) {
+  return {{load3(w.rotation), load3(w.rotation + 3), load3(w.rotation + 6)}};
+}
 
-static void read(const double* const from[8], int rows, PackArray* to) {
+[[maybe_unused]] static void read(const double* const from[8], int rows, PackArray* to) {
   for (int i = 0; i < rows; ++i) {
     Pack a[8], b[8];
     for (int l = 0; l < 8; ++l) a[l] = load(from[l] + 8 * i);
@@ -47,7 +58,15 @@ static void read(const double* const from[8], int rows, PackArray* to) {
   }
 }
 
-static void write(const PackArray* from, int rows, double* const to[8]) {
+ERBS_INLINE void read(const double* const from[1], int rows, double (*to)[1]) {
+  for (int i = 0; i < 8 * rows; ++i) to[i][0] = from[0][i];
+}
+
+ERBS_INLINE void write(const double (*from)[1], int rows, double* to) {
+  for (int i = 0; i < 8 * rows; ++i) to[i] = from[i][0];
+}
+
+[[maybe_unused]] static void write(const PackArray* from, int rows, double* const to[8]) {
   for (int i = 0; i < rows; ++i) {
     Pack a[8], b[8];
     for (int k = 0; k < 8; ++k) a[k] = load(from[8 * i + k]);

@@ -19,7 +19,8 @@ static void track(const BlockPosePack& g, unsigned marked, double soon, PackArra
     store(g.last_q[i], select(which, q[i], last));
   }
   for (int i = 0; i < 3; ++i) store(g.last_u[i], select(which, load(g.u[i]), load(g.last_u[i])));
-  // The chord of the turn by an angle is 2 sin(angle / 2), that of its quaternions 2 sin(angle / 4): at least half of it.
+  // A rotation by an angle moves a point at distance 1 by 2 sin(angle / 2). The quaternions differ by at least half of that,
+  // 2 sin(angle / 4).
   const Pack reach = load(g.reach), rotated = reach * (2 * sqrt(square)), spin = reach * sqrt(dot(w, w)), speed = sqrt(dot(v, v));
   const Pack rotation_travel = select(which, rotated, Pack(0)) + load(g.rotation_travel),
              travel = select(which, sqrt(dot(moved, moved)) + rotated, Pack(0)) + load(g.travel);

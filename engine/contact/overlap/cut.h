@@ -1,23 +1,23 @@
-// Convex polygons of up to eight corners, a corner a lane, cut without a branch: which corners stay, and where new ones come in,
-// follows from the signs by a table.
+// Cuts convex polygons of up to eight corners, with a corner in each lane and without a branch. A table gives, for the signs at the
+// corners, which corners stay and where new ones come in. `cut_polygon()` in geometry/clip.h does the same for any polygon.
 #pragma once
 #include "engine/contact/overlap/clip.h"
 #include "engine/simd/permute.h"
 
 namespace erbs::ERBS_TARGET {
 
-// Part of a face of b; what is left to do with it, and where it belongs.
+// Part of a face of b, with the pair that it belongs to and the cuts that are left.
 struct Polygon {
   Pack x[3];               // m; lanes from n on repeat the first corner
-  int n, pair;             // of those clipped together
+  int n, pair;             // number of corners; number of the pair among those clipped together
   unsigned face, nearest;  // of b; of a
   unsigned left;           // faces of a that are still to cut it, as bits
 };
 
-// For a polygon of n corners of which those marked stay: the corners that are left, in order; lane i of it stays corner i, 8 + i is the
-// point where the edge from corner i to the next is cut.
+// The corners, in order, of a polygon of which some corners stay: i stands for corner i, 8 + i for the point where the edge from corner i
+// to the next is cut.
 struct alignas(16) Cutting {
-  unsigned char from[few], count, no_room;  // count: 0 where there is no room
+  unsigned char from[few], count, no_room;  // `count` is 0 if there is no room
 };
 constexpr Cutting cutting(int n, unsigned stays) {
   Cutting out{};
@@ -45,40 +45,41 @@ constexpr Cuttings all_cuttings() {
 }
 inline constexpr Cuttings cuttings = all_cuttings();
 
-// The corners that stay, and the points where edges are cut.
+// Sets the corners of `out`: those that stay, and the points `cut_at` where edges are cut.
 ERBS_INLINE void apply_cut(const Cutting& c, const Pack x[3], const Pack cut_at[3], Polygon& out) {
   const Picks from = picks(c.from);
   for (int i = 0; i < 3; ++i) out.x[i] = pick(x[i], cut_at[i], from);
   out.n = c.count;
 }
 
-// Where d, linear and given at the corners, is zero on the edge from each corner to the next; anything where it has no zero.
+// Finds the zero of d, linear and given at the corners, on the edge from each corner to the next. Edges without a zero get any point.
 ERBS_INLINE void edge_cuts(const Pack x[3], Pack d, Pack at[3]) {
   const Pack share = d / (d - next(d));
   for (int i = 0; i < 3; ++i) at[i] = x[i] + share * (next(x[i]) - x[i]);
 }
 
-// How a polygon is to be cut. Found for many polygons first, then done: what waits for the signs of d should not wait in line with the
-// next polygon's arithmetic.
+// How a polygon is to be cut. All polygons of a stage are planned before the first is cut, so that the arithmetic of one does not wait for
+// the signs of another.
 struct CutPlan {
-  Pack at[3];                // crossings()
-  const Cutting *stay, *go;  // of the part where d >= 0, and of the rest
-  bool splits;               // something of the rest
+  Pack at[3];                // edge_cuts()
+  const Cutting *stay, *go;  // corners of the part where d >= 0, and of the rest
+  bool splits;               // the rest is not empty
 };
 
-static inline unsigned either(bool first, unsigned a, unsigned b) {  // never a jump
+static inline unsigned either(bool first, unsigned a, unsigned b) {  // without a branch
   const unsigned mask = 0u - static_cast<unsigned>(first);
   return (a & mask) | (b & ~mask);
 }
 
-// Leaves the part where d >= 0: of a polygon in the plane nothing.
+// Plans to keep the part where d >= 0. A polygon in the plane of the cut is dropped.
 ERBS_INLINE void plan_cut(const Polygon& g, const Pack x[3], Pack d, CutPlan& k) {
   const unsigned corners = (1u << g.n) - 1, above = bits(d > 0) & corners, below = bits(d < 0) & corners;
   k.stay = &cuttings.of[g.n][either((above != 0) & (below == 0), corners, above)];
   edge_cuts(x, d, k.at);
 }
 
-// Where all of it would be taken, g remains as it is and is said to be near `other`.
+// Plans to split g into the part where d >= 0 and the rest, which is nearer to `other`. If all of g is the rest, g stays whole and changes
+// its nearest face.
 ERBS_INLINE void plan_split(Polygon& g, const Pack x[3], Pack d, unsigned other, CutPlan& k) {
   const unsigned corners = (1u << g.n) - 1, above = bits(d > 0) & corners, below = bits(d < 0) & corners;
   const bool up = above != 0, down = below != 0;
@@ -90,7 +91,7 @@ ERBS_INLINE void plan_split(Polygon& g, const Pack x[3], Pack d, unsigned other,
   edge_cuts(x, d, k.at);
 }
 
-// Leaves one of the two parts that a diagonal makes, for more room; the other in `rest`.
+// Splits g by a diagonal, to make room for more corners. One part stays in g, the other goes to `rest`.
 static inline void split_by_diagonal(Polygon& g, Polygon& rest) {
   const int middle = g.n / 2;
   unsigned char first[few] = {}, second[few] = {};

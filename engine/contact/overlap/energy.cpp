@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/contact/overlap/general.h"
+#include "engine/geometry/clip.h"
 
 namespace erbs {
 namespace {
@@ -26,17 +27,14 @@ double square_integral(const Vec3* x, const double* d, size_t count, const Vec3&
 // A convex loop, clipped in place; each plane may add a corner.
 struct Loop {
   Vec3 x[4 + 2 * most_faces];
-  size_t size = 0;
+  int size = 0;
 
   void cut_by(const Vec3& n, double c) {
     Vec3 kept[4 + 2 * most_faces];
-    size_t count = 0;
-    for (size_t i = 0; i < size; ++i) {
-      const Vec3 &p = x[i], &q = x[i + 1 < size ? i + 1 : 0];
-      const double dp = c - n.dot(p), dq = c - n.dot(q);
-      if (dp >= 0) kept[count++] = p;
-      if ((dp < 0 && dq > 0) || (dp > 0 && dq < 0)) kept[count++] = p + dp / (dp - dq) * (q - p);
-    }
+    int count = 0;
+    const auto corner = [&](int i) -> const Vec3& { return x[i]; };
+    cut_polygon(
+        size, corner, [&](int i) { return c - n.dot(x[i]); }, [&](const Vec3& p, double) { kept[count++] = p; });
     std::copy_n(kept, count, x);
     size = count;
   }
@@ -77,8 +75,8 @@ double wall_integral(const ContactShape& a, const ContactShape& b, const PairPos
   }
   if (loop.size < 3) return 0;
   double d[4 + 2 * most_faces];
-  for (size_t i = 0; i < loop.size; ++i) d[i] = c[f] - a.normal[f].dot(loop.x[i]);
-  return length * std::abs(square_integral(loop.x, d, loop.size, n)) / 2;
+  for (int i = 0; i < loop.size; ++i) d[i] = c[f] - a.normal[f].dot(loop.x[i]);
+  return length * std::abs(square_integral(loop.x, d, static_cast<size_t>(loop.size), n)) / 2;
 }
 
 // Sum over all walls. `near`: the faces of A that are nearest to some part of B's surface. Any other face that is nearest somewhere in the

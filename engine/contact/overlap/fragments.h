@@ -1,6 +1,6 @@
-// Faces of the other bodies of up to eight pairs, clipped and split stage by stage. A polygon's next cut waits for the one before, some
-// sixty cycles; so each stage goes through the polygons of all pairs, which do not wait for one another, and without branches that
-// depend on their shape. What becomes of a pair's own polygons, and their order, does not depend on the others.
+// Clips and splits the faces of the other bodies of up to eight pairs, stage by stage. A polygon's next cut waits some sixty cycles for the
+// one before. So each stage goes through the polygons of all pairs, which do not wait for one another. No branch depends on their shape.
+// A pair's polygons and their order do not depend on the other pairs.
 #pragma once
 #include "engine/contact/overlap/clip.h"
 #include "engine/contact/overlap/cut.h"
@@ -13,8 +13,8 @@ struct ClipFragments {
   Polygon of[8 * most_fragments];
   int count = 0;
   int of_pair[8] = {};
-  Polygon* list[2][8 * most_fragments];  // those that a stage still has to do with, now and next
-  CutPlan plan[8 * most_fragments];      // of those listed now
+  Polygon* list[2][8 * most_fragments];  // polygons with work left, in this round and in the next
+  CutPlan plan[8 * most_fragments];      // of the polygons in this round
   Triangles* out[8];
 };
 
@@ -28,14 +28,14 @@ static Pack depth_between(const Triangles& w, unsigned e, unsigned f, const Pack
   return (p[3][e] - p[3][f]) - ((p[0][e] - p[0][f]) * x[0] + (p[1][e] - p[1][f]) * x[1] + (p[2][e] - p[2][f]) * x[2]);
 }
 
-// Room for one more piece of a pair behind the last; false if there is none.
+// True if a pair has room for one more piece; otherwise its overlap is marked as too large.
 static bool has_room(ClipFragments& all, int pair) {
   if (all.of_pair[pair] < most_fragments) return true;
   all.out[pair]->overflow = true;
   return false;
 }
 
-// Planes of both bodies and corners of b in the axes of the pair.
+// Sets the planes of both bodies and the corners of b in pair axes.
 static inline void place_bodies(const ClipTask& task, Pack vertex[3]) {
   const SmallShape &a = *task.a, &b = *task.b;
   const SmallPose& pose = task.pose;
@@ -53,12 +53,12 @@ static inline void place_bodies(const ClipTask& task, Pack vertex[3]) {
   }
 }
 
-// Lists the faces of b that are not outside of a face of a altogether.
+// Lists the faces of b of which no face of a has all corners on its outer side.
 static void list_faces(const ClipTask& task, const Pack vertex[3], int pair, ClipFragments& all) {
   const SmallShape &a = *task.a, &b = *task.b;
   Triangles& out = *task.out;
   all.out[pair] = &out;
-  // a byte for each face of a: the vertices of b inside of it
+  // a byte for each face of a, with the vertices of b on its inner side as bits
   constexpr unsigned long long ones = 0x0101010101010101ull, tops = 0x8080808080808080ull;
   unsigned long long inside = ~0ull;
   for (int f = 0; f < a.faces; ++f) {
@@ -78,7 +78,7 @@ static void list_faces(const ClipTask& task, const Pack vertex[3], int pair, Cli
     g.n = b.count[j];
     g.pair = pair;
     g.face = static_cast<unsigned>(j);
-    const unsigned long long top_of_each = (((not_in & ~tops) + ~tops) | not_in) & tops;  // of the bytes that are not zero
+    const unsigned long long top_of_each = (((not_in & ~tops) + ~tops) | not_in) & tops;  // top bits of the bytes that are not zero
     g.left = static_cast<unsigned>((top_of_each >> 7) * 0x0102040810204080ull >> 56);
     all.count += !outside;
     all.of_pair[pair] += !outside;
@@ -94,7 +94,7 @@ static int list_unfinished(ClipFragments& all) {
   return count;
 }
 
-// Cuts all polygons by the faces of a that are left of each.
+// Cuts all polygons by the faces of a in `Polygon::left`.
 static void cut_all(ClipFragments& all) {
   Polygon **now = all.list[0], **then = all.list[1];
   for (int count = list_unfinished(all); count > 0;) {
@@ -128,8 +128,8 @@ static void cut_all(ClipFragments& all) {
   }
 }
 
-// The faces of a that may be the nearest somewhere on g, as bits: those whose least depth is below the smallest of the greatest
-// depths.
+// The faces of a that may be nearest somewhere on g, as bits. Only a face whose least depth is at most the smallest of the greatest depths
+// can be.
 static unsigned nearest_faces(const Polygon& g, const Triangles& w) {
   const Pack nx = load(w.plane[0]), ny = load(w.plane[1]), nz = load(w.plane[2]), below = load(w.plane[3]);
   const auto depth = [&](int i) { return below - (nx * g.x[0][i] + ny * g.x[1][i] + nz * g.x[2][i]); };
@@ -139,13 +139,13 @@ static unsigned nearest_faces(const Polygon& g, const Triangles& w) {
     least = min(d, least);
     most = max(d, most);
   };
-  take(1), take(2), take(3), take(4), take(5);  // the first once more, where there are fewer
+  take(1), take(2), take(3), take(4), take(5);  // lanes beyond the last corner repeat the first
   if (g.n > 6) take(6), take(7);
   const double bound = least_of(max(most, Pack(0)));
   return bits(bound - least >= 0);
 }
 
-// Which faces of a are to be told apart on each polygon.
+// Finds the faces of a that may be nearest on each polygon. Polygons with many such faces are split for room.
 static void find_nearest(ClipFragments& all) {
   for (int i = 0; i < all.count; ++i) {
     Polygon& g = all.of[i];
@@ -153,7 +153,7 @@ static void find_nearest(ClipFragments& all) {
     if (g.n == 0) continue;
     const Triangles& w = *all.out[g.pair];
     unsigned found = nearest_faces(g, w);
-    while (g.n + __builtin_popcount(found) - 1 > few && g.n > 3 && has_room(all, g.pair)) {  // there might not be room for all corners
+    while (g.n + __builtin_popcount(found) - 1 > few && g.n > 3 && has_room(all, g.pair)) {  // all corners might not fit
       split_by_diagonal(g, all.of[all.count++]);
       ++all.of_pair[g.pair];
       found = nearest_faces(g, w);
@@ -163,7 +163,7 @@ static void find_nearest(ClipFragments& all) {
   }
 }
 
-// One face after the other takes from every piece of a polygon where it is nearer.
+// Splits the polygons by nearest face: each candidate face in turn takes the part of every piece where it is nearer.
 static void split_by_nearest_face(ClipFragments& all) {
   Polygon **now = all.list[0], **then = all.list[1];
   for (int count = list_unfinished(all); count > 0;) {
@@ -204,7 +204,7 @@ static void split_by_nearest_face(ClipFragments& all) {
   }
 }
 
-// Four triangles of a polygon, those between its first corner and the edges from corner `first` to corner first + 4.
+// Appends four triangles of a polygon: those between its first corner and the edges from corner `first` to corner first + 4.
 template <int first>
 ERBS_INLINE void append(const Polygon& g, int t, Triangles& out) {
   for (int i = 0; i < 3; ++i) {
@@ -214,7 +214,7 @@ ERBS_INLINE void append(const Polygon& g, int t, Triangles& out) {
   }
 }
 
-// Fills up to a multiple of eight with empty triangles at a corner that is there already.
+// Adds empty triangles at an existing corner, up to a multiple of eight.
 static void fill_up(Triangles& out) {
   const int t = out.count;
   if (t % 8 == 0) return;
@@ -227,9 +227,9 @@ static void fill_up(Triangles& out) {
 
 [[gnu::noinline, maybe_unused]] static void append_rest(const Polygon& g, int t, Triangles& out) { append<5>(g, t, out); }
 
-// The triangles of the pieces, all of a piece from its first corner.
+// Divides the pieces into triangles, fans from their first corners.
 static void append_all(const ClipFragments& all, int pairs) {
-  unsigned long long counts = 0;  // a byte for each pair
+  unsigned long long counts = 0;  // of triangles, a byte for each pair
   for (int i = 0; i < all.count; ++i) {
     const Polygon& g = all.of[i];
     const int t = counts >> 8 * g.pair & 0xff, triangles = g.n > 2 ? g.n - 2 : 0;

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/contact/overlap/ramp.h"
+#include "engine/geometry/clip.h"
 
 namespace erbs {
 namespace {
@@ -38,11 +39,8 @@ bool cut(const Loop& in, const Vec3& n, double c, bool keep_zero, Loop& out) {
   }
   out.n = 0;
   if (!positive && (negative || !keep_zero)) return false;
-  for (int i = 0, last = in.n - 1; i < in.n; last = i++) {
-    if ((d[last] < 0 && d[i] > 0) || (d[last] > 0 && d[i] < 0))
-      out.p[out.n++] = in.p[last] + d[last] / (d[last] - d[i]) * (in.p[i] - in.p[last]);
-    if (d[i] >= 0) out.p[out.n++] = in.p[i];
-  }
+  cut_polygon(
+      in.n, [&](int i) -> const Vec3& { return in.p[i]; }, [&](int i) { return d[i]; }, [&](const Vec3& p, double) { out.p[out.n++] = p; });
   return out.n >= 3;
 }
 
@@ -319,41 +317,31 @@ void closing_speeds(Fragments& w, const Vec3& linear, const Vec3& angular, Patch
   }
 }
 
-void damping_wrench(const Fragments& w, const Vec3& normal, double chi, double limit, Vec3& force, Vec3& moment) {
+double damping(const Fragments& w, const Vec3& normal, double chi, double limit, Vec3& first) {
   double total = 0;
-  Vec3 first = Vec3::Zero();
+  first.setZero();
   for (const Fragment& fragment : w.fragment) {
     const Vec3& n = w.n[fragment.face];
-    const double share = -normal.dot(n);  // share of its pressure along the normal of the patch
-    if (share <= 0) continue;
-    const Vec3* x = &w.vertex[at(fragment.first)];
-    const double* phi = &w.depth[at(fragment.first)];
-    const double* closing_speed = &w.closing_speed[at(fragment.first)];
-    double i0 = 0, i1[3] = {};
+    const double along = -normal.dot(n);  // share of its pressure along the normal of the patch
+    if (along <= 0) continue;
     for (int k = 1; k + 1 < fragment.count; ++k) {
-      const int corner[3] = {0, k, k + 1};
-      const double dS = 0.5 * n.dot((x[k] - x[0]).cross(x[k + 1] - x[0]));
-      // s - 1 clamped: chi v where it is above -1, less its excess over limit - 1.
-      double f[3], above[3], over[3], held[3], place[3][3], pulled = 0, first_pulled[3] = {}, capped = 0, first_capped[3] = {};
-      for (int c = 0; c < 3; ++c) {
-        const double extra = chi * closing_speed[corner[c]];
-        f[c] = phi[corner[c]];
-        above[c] = extra + 1;
-        over[c] = extra - (limit - 1);
-        held[c] = 1;
-        for (int i = 0; i < 3; ++i) place[c][i] = x[corner[c]][i];
+      double f[3], s[3], x[3][3], change[4], i0 = 0, i1[3] = {};
+      const int corner[3] = {fragment.first, fragment.first + k, fragment.first + k + 1};
+      for (size_t c = 0; c < 3; ++c) {
+        const size_t from = at(corner[c]);
+        f[c] = w.depth[from];
+        s[c] = chi * w.closing_speed[from];
+        std::copy_n(w.vertex[from].data(), 3, x[c]);
       }
-      add_ramp(f, above, place, dS, i0, i1);
-      add_ramp(f, held, place, dS, pulled, first_pulled);
-      add_ramp(f, over, place, dS, capped, first_capped);
-      i0 -= pulled + capped;
-      for (int i = 0; i < 3; ++i) i1[i] -= first_pulled[i] + first_capped[i];
+      const Vec3 &p = w.vertex[at(corner[0])], &q = w.vertex[at(corner[1])], &r = w.vertex[at(corner[2])];
+      const double dS = along * (0.5 * n.dot((q - p).cross(r - p)));
+      scalar::add_product<double>(f, s, x, dS, true, i0, i1);
+      scalar::clamp_change<double>(f, s, x, dS, limit - 1, true, change);
+      total += i0 + change[0];
+      first += Vec3(i1[0] + change[1], i1[1] + change[2], i1[2] + change[3]);
     }
-    total += share * i0;
-    first += share * Vec3(i1[0], i1[1], i1[2]);
   }
-  force = total * normal;
-  moment = first.cross(normal);
+  return total;
 }
 
 }  // namespace erbs

@@ -70,10 +70,10 @@ Mat3 symmetric(const double* six);  // xx, yy, zz, xy, yz, zx
 // centroid at the origin.
 void closing_speeds(Fragments& fragments, const Vec3& linear, const Vec3& angular, Patch& patch);
 
-// Damping pressure phi (s - 1), s = 1 + chi closing clamped to [0, limit]. The clamp is integrated exactly: damping never pulls, and its
-// power is never positive. Damping acts along the normal of the patch, not of the faces. Otherwise an edge that slides over a face would be
-// resisted at its two flanks, and a leaning brick would creep at a steady speed.
-void damping_wrench(const Fragments& fragments, const Vec3& normal, double chi, double limit, Vec3& force, Vec3& moment);
+// The integral over the patch of the damping pressure phi (s - 1), s = 1 + chi closing clamped to [0, limit], and its first moment, kn = 1.
+// The clamp is integrated exactly: damping never pulls, and its power is never positive. Damping acts along the normal of the patch, not of
+// the faces. Otherwise an edge that slides over a face would be resisted at its two flanks, and a leaning brick would creep steadily.
+double damping(const Fragments& fragments, const Vec3& normal, double chi, double limit, Vec3& first);
 
 // E / kn (m4) of the pieces, or of the summed triangles, found last for the same bodies.
 double energy_integral(const ContactShape& a, const ContactShape& b, const PairPose& pose, const Fragments& fragments);

@@ -1,7 +1,8 @@
-// The sums over the triangles of an overlap; see clip.h. They run in eight partial sums whatever the width, so that every instruction set
-// gives the same bits.
+// Sums over the triangles of an overlap (clip.h). Each is made of eight partial sums at any register width, so that all instruction sets
+// give the same bits.
 #pragma once
 #include "engine/contact/overlap/clip.h"
+#include "engine/contact/overlap/ramp.h"
 #include "engine/simd/permute.h"
 
 namespace erbs::ERBS_TARGET {
@@ -25,7 +26,7 @@ static void sum_second(const Triangles& w, Pack out[6]) {
   out[0] = xx, out[1] = yy, out[2] = zz, out[3] = xy, out[4] = yz, out[5] = zx;
 }
 
-// In two passes: the sums of one would not find room in registers.
+// Two passes: the sums of a single one do not fit into the registers.
 static void sum(Triangles& w, OverlapSums& out) {
   static_assert(sizeof out == 24 * sizeof(double));  // in the order of its members
   Pack total{}, area{}, max_depth{}, pressure[3] = {}, centroid[3] = {}, force[3] = {}, moment[3] = {};
@@ -85,55 +86,18 @@ static double closing_speeds(Triangles& w, double along, const double angular_pa
   return -least_of(-most);
 }
 
-// add_ramp() of ramp.h on eight triangles side by side, term by term.
-static inline void add_products(const Pack F[3], const Pack G[3], const Pack X[3][3], Pack size, unsigned where, Pack& i0, Pack i1[3]) {
-  const Pack sf = F[0] + F[1] + F[2], sg = G[0] + G[1] + G[2], even = sf * sg + F[0] * G[0] + F[1] * G[1] + F[2] * G[2];
-  const Pack twelfth = size / 12, sixtieth = size / 60;
-  i0 += select(Mask::of_bits(where), twelfth * even, Pack(0));
-  for (int k = 0; k < 3; ++k) {
-    const Pack weight = sixtieth * (even + sg * F[k] + sf * G[k] + 2 * F[k] * G[k]);
-    for (int i = 0; i < 3; ++i) i1[i] += select(Mask::of_bits(where), weight * X[k][i], Pack(0));
-  }
-}
-
-static void add_ramp(const Pack f[3], const Pack g[3], const Pack x[3][3], Pack dS, unsigned marked, Pack& i0, Pack i1[3]) {
-  const unsigned up[3] = {bits(g[0] > 0), bits(g[1] > 0), bits(g[2] > 0)};
-  const unsigned three = up[0] & up[1] & up[2], most = (up[0] & up[1]) | (up[1] & up[2]) | (up[2] & up[0]), two = most & ~three,
-                 one = (up[0] ^ up[1] ^ up[2]) & ~three;
-  if ((most & marked) != 0) add_products(f, g, x, dS, most & marked, i0, i1);
-  if (((one | two) & marked) == 0) return;
-  const unsigned first = (one & up[0]) | (two & ~up[0]), second = (one & up[1]) | (two & ~up[1]);  // whether it is the lone corner
-  const auto rotated = [&](Pack a, Pack b, Pack c) { return select(Mask::of_bits(first), a, select(Mask::of_bits(second), b, c)); };
-  const Pack own = rotated(g[0], g[1], g[2]), lone = rotated(f[0], f[1], f[2]);
-  Pack F[3] = {lone}, G[3] = {select(Mask::of_bits(one), own, -own), Pack(0), Pack(0)}, X[3][3], size = dS;
-  for (int i = 0; i < 3; ++i) X[0][i] = rotated(x[0][i], x[1][i], x[2][i]);
-  for (int k = 1; k < 3; ++k) {
-    const int p = k, q = (1 + k) % 3, r = (2 + k) % 3;
-    const Pack share = own / (own - rotated(g[p], g[q], g[r]));
-    F[k] = lone + share * (rotated(f[p], f[q], f[r]) - lone);
-    for (int i = 0; i < 3; ++i) X[k][i] = X[0][i] + share * (rotated(x[p][i], x[q][i], x[r][i]) - X[0][i]);
-    size *= share;
-  }
-  add_products(F, G, X, size, (one | two) & marked, i0, i1);
-}
-
-// What the clamp of s - 1 to [-1, limit - 1] changes on those marked of the eight triangles from t on: a contact about to let go or met
-// too fast. `along`: the share of their faces of b that pushes along the normal of the patch.
+// Adds what the clamp of s - 1 to [-1, limit - 1] changes on the marked ones of the eight triangles from t on. It acts where a contact lets
+// go or an impact is too fast. `along`: the share of their faces of b that presses along the normal of the patch.
 static void clamp(const Triangles& w, int t, unsigned marked, Pack along, double chi, double limit, double& total, double first[3]) {
-  Pack f[3], under[3], over[3], x[3][3], pulled{}, first_pulled[3] = {}, capped{}, first_capped[3] = {};
+  Pack f[3], s[3], x[3][3], changes[4];
   for (int k = 0; k < 3; ++k) {
-    const Pack extra = chi * load(&w.closing_speed[k][t]);
+    s[k] = chi * load(&w.closing_speed[k][t]);
     f[k] = load(&w.depth[k][t]);
-    under[k] = -1 - extra;
-    over[k] = extra - (limit - 1);
     for (int i = 0; i < 3; ++i) x[k][i] = load(&w.corner[k][i][t]);
   }
-  const Pack size = along * load(&w.size[t]);
-  add_ramp(f, under, x, size, marked, pulled, first_pulled);
-  add_ramp(f, over, x, size, marked, capped, first_capped);
+  clamp_change<Pack>(f, s, x, along * load(&w.size[t]), limit - 1, Mask::of_bits(marked), changes);
   alignas(64) double change[4][8];
-  store(change[0], pulled - capped);
-  for (int i = 0; i < 3; ++i) store(change[1 + i], first_pulled[i] - first_capped[i]);
+  for (int k = 0; k < 4; ++k) store(change[k], changes[k]);
   for (; marked != 0; marked &= marked - 1) {
     const int l = __builtin_ctz(marked);
     total += change[0][l];

@@ -1,14 +1,14 @@
-// The overlap of a pair by the planes that meet in its corners. Between two steps corners move, but mostly the same planes meet in
-// them: then the overlap is found without a cut, and what remains is the proof that nothing has changed.
+// The overlap of a pair from the planes that meet in its corners. Corners move between two steps, but mostly the same planes meet in them.
+// Then the overlap is found without a cut, and only the proof is left that nothing has changed.
 //
-// Every face j of b has, below each face f of a, a convex piece: inside of the other faces of b, inside of a, and nearer to f than to any
-// other face of a. A corner is where three planes meet: faces of b, planes half-way between two faces of a, faces of a. If all
-// corners of the known pieces satisfy all conditions strictly but those that make them, each is a corner of the true piece, each side a
-// side of it, and so, since the sides close, the pieces are the true ones. Along edges of b pieces continue on the next face, so that
-// only a piece apart from all others could be missed. phi is concave on a face: such a piece comes into being where a corner of a
-// leaves b, and those inside of b are known too.
+// Each face j of b has a convex piece for each face f of a. The piece is inside b, inside a, and nearer to f than to any other face of a.
+// Three planes meet at a corner: faces of b, faces of a, planes half-way between two faces of a. A known corner is tested against all
+// conditions other than those that make it. If it satisfies them strictly, it is a corner of the true piece, and so are its sides. If all
+// corners do, the sides close, and the pieces are the true ones. Along edges of b pieces continue on the next face. So only a piece apart
+// from all others could be missed. Since phi is concave on a face, such a piece arises where a corner of a leaves b. The corners of a
+// inside b are known too.
 //
-// Corners are counted in the order of their planes and pieces in that of their faces: what comes out depends on the pose alone, not on
+// Corners are numbered in the order of their planes, pieces in the order of their faces. So the result depends on the pose alone, not on
 // when the corners were found.
 #pragma once
 #include <cstdint>
@@ -19,10 +19,10 @@
 
 namespace erbs::ERBS_TARGET {
 
-// Shares of the smallest edge of b: up to where a corner is on a plane, and from where it surely is not.
+// Shares of the smallest edge of b: greatest distance of a corner on a plane, and least distance of one that surely is not on it.
 inline constexpr double on_plane = 1e-12, off_plane = 1e-10, off_over_sine = 1e-13;
 
-// The planes of both bodies as one table, pair axes: normal . x <= the fourth.
+// The planes of both bodies, pair axes: normal (components 0 to 2) . x <= component 3.
 struct Planes {
   Pack a[4], b[4];
 };
@@ -33,7 +33,7 @@ ERBS_INLINE Planes planes_of(const ClipTask& task) {
           {load(w.normal[0]), load(w.normal[1]), load(w.normal[2]), load(task.b->offset)}};
 }
 
-// Corners of a inside of b, as bits.
+// Corners of a inside b, as bits.
 static inline unsigned corners_inside(const ClipTask& task) {
   const SmallShape &a = *task.a, &b = *task.b;
   Pack x[3];
@@ -44,17 +44,17 @@ static inline unsigned corners_inside(const ClipTask& task) {
   return inside;
 }
 
-// Which lanes are at least `last`, a power of two, as bits.
+// The lanes with the bit `last`, as bits.
 ERBS_INLINE unsigned beyond(const unsigned char from[8], unsigned last) {
   unsigned bits = 0;
   for (int i = 0; i < 8; ++i) bits |= unsigned((from[i] & last) != 0) << i;
   return bits;
 }
 
-// a - b in the lanes marked, else a.
+// a - b in the marked lanes, else a.
 ERBS_INLINE Pack subtract_where(Mask m, Pack a, Pack b) { return select(m, a - b, a); }
 
-// Eight corners from the `from`th on: where their planes meet. False if one of them is none.
+// Finds eight corners, from number `from` on, where their planes meet. False if one of them no longer is a corner.
 ERBS_INLINE bool intersect_planes(const ClipTask& task, const Planes& p, const Pack vertex[3], const Corners& c, int from, Pack x[3]) {
   const SmallShape &a = *task.a, &b = *task.b;
   const Words of_corner = words(c.planes + from);
@@ -88,12 +88,13 @@ ERBS_INLINE bool intersect_planes(const ClipTask& task, const Planes& p, const P
   return bits((nearer - phi > margin) & (inside > margin)) == 0xff;
 }
 
-// The overlap of a placed pair by what is known of it. False if that does not hold now.
+// Finds the overlap of a placed pair from its known corners. False if they no longer hold.
 static bool by_corners(const ClipTask& task, const Pack vertex[3], const Corners& c) {
   Triangles& out = *task.out;
   const Planes p = planes_of(task);
   Pack x[3][3];
-  bool holds = intersect_planes(task, p, vertex, c, 0, x[0]) & (corners_inside(task) == c.inside);
+  bool holds = corners_inside(task) == c.inside;
+  holds &= intersect_planes(task, p, vertex, c, 0, x[0]);  // both are computed: no branch
   for (int i = 0; i < 3; ++i) x[1][i] = x[0][i];
   if (c.count > 8) holds &= intersect_planes(task, p, vertex, c, 8, x[1]);
   if (c.count > 16) holds &= intersect_planes(task, p, vertex, c, 16, x[2]);
@@ -113,11 +114,11 @@ static bool by_corners(const ClipTask& task, const Pack vertex[3], const Corners
   return true;
 }
 
-// --- finding the planes of an overlap that has been cut ---
+// Planes of an overlap that has been cut
 
-inline constexpr int most_found = 32;  // corners, before those that are none are left out
+inline constexpr int most_found = 32;  // corners of all polygons
 
-// Corners of an overlap, each once, by the planes they are on.
+// Corners of an overlap, each once, with the planes on which they lie.
 struct Found {
   alignas(64) unsigned planes[most_found];
   double x[most_found][3];
@@ -125,7 +126,7 @@ struct Found {
   int count = 0, fragments = 0;
 };
 
-// The planes through the corners of a polygon, as bits: as in Corners::on. A sum of powers of two, exact.
+// The planes through each corner of a polygon, as bits in the order of Corners::on. The sum of powers of two is exact.
 static inline Pack planes_at(const ClipTask& task, const Pack x[3]) {
   const Triangles& w = *task.out;
   const SmallShape &a = *task.a, &b = *task.b;
@@ -142,7 +143,7 @@ static inline Pack planes_at(const ClipTask& task, const Pack x[3]) {
   return planes;
 }
 
-// What Found::planes will hold, kept in registers while corners come in: read from memory each would wait for the one before.
+// A copy of Found::planes in registers. A search in memory would make each new corner wait for the store of the one before.
 typedef unsigned W16 __attribute__((vector_size(64)));
 struct Known {
   W16 planes[most_found / 16] = {};
@@ -165,7 +166,7 @@ struct Known {
   }
 };
 
-// Takes up the corners and the piece of a polygon; false where there is no room.
+// Adds the corners and the piece of a polygon; false if there is no room.
 static inline bool take(const Polygon& g, Pack planes, Known& known, Found& found) {
   const unsigned face = g.face + few * g.nearest;
   bool is_new = true;
@@ -178,14 +179,14 @@ static inline bool take(const Polygon& g, Pack planes, Known& known, Found& foun
     known.put(found.count, p);
     found.planes[found.count] = p;
     for (int i = 0; i < 3; ++i) found.x[found.count][i] = g.x[i][l];
-    // Fewer than three planes: where a side was cut in two, as that of a piece from two others.
+    // A corner on fewer than three planes divides a side, as where two other pieces meet; it is none of this piece.
     found.count += !is_there & (__builtin_popcount(p) >= 4);
     if (found.count == most_found) return false;
   }
   return true;
 }
 
-// In the order of their planes.
+// Sorts corners by their planes and pieces by their faces.
 static void sort(Found& found) {
   Found out;
   for (int i = 0; i < found.count; ++i) {
@@ -206,7 +207,7 @@ static void sort(Found& found) {
   for (int i = 0; i < found.fragments; ++i) found.faces[i] = out.faces[i];
 }
 
-// The three planes of corner i; false where it is on more.
+// Sets the three planes of corner i; false if it is on more.
 static bool set_planes(const SmallShape& b, unsigned planes, int i, Corners& c) {
   const auto low = [](unsigned bits) { return static_cast<unsigned>(__builtin_ctz(bits)); };
   unsigned on_a = planes & 0xffu, on_b = planes >> few & 0xffu;
@@ -220,12 +221,12 @@ static bool set_planes(const SmallShape& b, unsigned planes, int i, Corners& c) 
     return true;
   };
   on_a &= on_a - 1, on_b &= on_b - 1;
-  if (on_b == 0 && surface) return set(face, nearest, 0, low(on_a), 0);  // where an edge of a pierces a face of b
+  if (on_b == 0 && surface) return set(face, nearest, 0, low(on_a), 0);  // an edge of a pierces a face of b
   if (on_b == 0) {
     c.second_half |= bit, c.third_half |= bit;
     return set(face, nearest, low(on_a), nearest, low(on_a & (on_a - 1)));
   }
-  if ((on_b & (on_b - 1)) == 0 && surface) return set(face, few + low(on_b), 0, nearest, 0);  // where an edge of b pierces a face of a
+  if ((on_b & (on_b - 1)) == 0 && surface) return set(face, few + low(on_b), 0, nearest, 0);  // an edge of b pierces a face of a
   if ((on_b & (on_b - 1)) == 0) {
     c.third_half |= bit;
     return set(face, few + low(on_b), 0, nearest, low(on_a));
@@ -237,7 +238,8 @@ static bool set_planes(const SmallShape& b, unsigned planes, int i, Corners& c) 
   return __builtin_popcount(corner) == 1;
 }
 
-// The corners of the piece of `face` (as in Triangles), counter-clockwise from the lowest; 0 where they do not close.
+// Finds the corners of the piece of `face` (as in Triangles), counter-clockwise from the lowest. Returns their number; 0 if they do not
+// close.
 static int find_loop(const ClipTask& task, const Found& found, const Corners& c, unsigned face, unsigned char* loop) {
   const unsigned own = 1u << face / few | 1u << (few + face % few);
   const std::uint32_t fragment = c.on[face / few] & c.on[few + face % few];
@@ -270,7 +272,7 @@ static int find_loop(const ClipTask& task, const Found& found, const Corners& c,
   return (beside(at) >> loop[0] & 1u) != 0 ? size : 0;
 }
 
-// Which planes make an overlap; nothing where corners coincide, or there is no room for all.
+// Stores the planes that make an overlap; nothing if corners coincide or do not fit.
 static void make_corners(const ClipTask& task, const Found& found, Corners& c) {
   c = Corners();
   if (found.count > Corners::most || found.count < 3) return;
@@ -292,7 +294,7 @@ static void make_corners(const ClipTask& task, const Found& found, Corners& c) {
   }
   c.triangles = static_cast<std::uint8_t>(triangles);
   while (triangles % 8 != 0) put(found.faces[found.fragments - 1], loop[0], loop[0], loop[0]);  // empty ones
-  // lanes that are left: the last corner again
+  // the other lanes repeat the last corner
   for (int i = found.count; i < Corners::most; ++i) c.planes[i] = c.planes[found.count - 1];
   const auto repeat = [&](std::uint32_t& bits) { bits |= (0u - (bits >> (found.count - 1) & 1u)) << (found.count - 1); };
   for (std::uint32_t& bits : c.on) repeat(bits);
@@ -301,8 +303,8 @@ static void make_corners(const ClipTask& task, const Found& found, Corners& c) {
   c.count = static_cast<std::uint8_t>(found.count);
 }
 
-// Keeps what has been cut, the polygons of pair `pair`, for the next step, and takes it at once, so that it does not matter when it was
-// found.
+// Stores the corners of pair `pair`, whose polygons have been cut, for the next step. The present overlap is computed from them too, so
+// that it does not depend on when they were found.
 static void store_corners(const ClipTask& task, const Pack vertex[3], const ClipFragments& all, int pair, Corners& c) {
   c.count = 0;
   if (task.out->overflow || task.out->count == 0) return;

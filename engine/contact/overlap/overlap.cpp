@@ -69,12 +69,11 @@ void closing_speeds(OverlapRoom& room, const Vec3& linear, const Vec3& angular, 
   patch.closing_speed = clip_kernels().closing_speeds(room.triangles, -patch.normal.dot(linear), angular_part.data());
 }
 
-void damping_wrench(const OverlapRoom& room, const Vec3& normal, double chi, double limit, Vec3& force, Vec3& moment) {
-  if (!room.fast) return damping_wrench(room.fragments, normal, chi, limit, force, moment);
-  double total = 0, first[3];
-  clip_kernels().damp(room.triangles, normal.data(), chi, limit, total, first);
-  force = total * normal;
-  moment = vec(first).cross(normal);
+double damping(const OverlapRoom& room, const Vec3& normal, double chi, double limit, Vec3& first) {
+  if (!room.fast) return damping(room.fragments, normal, chi, limit, first);
+  double total = 0;
+  clip_kernels().damp(room.triangles, normal.data(), chi, limit, total, first.data());
+  return total;
 }
 
 double overlap_energy(const ContactShape& a, const ContactShape& b, const PairPose& pose, OverlapRoom& room) {

@@ -22,7 +22,7 @@ Patch find_overlap(const ContactShape& a, const ContactShape& b, const PairPose&
 
 // As in `general.h`, for the last overlap.
 void closing_speeds(OverlapRoom& room, const Vec3& linear, const Vec3& angular, Patch& patch);
-void damping_wrench(const OverlapRoom& room, const Vec3& normal, double chi, double limit, Vec3& force, Vec3& moment);
+double damping(const OverlapRoom& room, const Vec3& normal, double chi, double limit, Vec3& first);
 // E / kn (m4) of the last overlap; the same bodies.
 double overlap_energy(const ContactShape& a, const ContactShape& b, const PairPose& pose, OverlapRoom& room);
 

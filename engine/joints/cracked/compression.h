@@ -1,26 +1,27 @@
-// Faces that press, eight joints of one law side by side: their closed compression, and what of it every point gets.
+// Compression of cracked joints, eight of one law side by side: the closed-form integral over a face, and the share of each point.
 //
-// The compression integral needs no clipping here: by the divergence theorem the integrals of p+ = max(p, 0), p linear with the
-// gradient g, over the polygon are sums over its edges,
+// The integral needs no clipping: by the divergence theorem the integrals of p+ = max(p, 0), p linear with the gradient g, over the polygon
+// are sums over its edges,
 //   Int p dA = 1/(2 g.g) sum (g.n) Int p+^2 ds,   Int p^2 dA = 1/(3 g.g) sum (g.n) Int p+^3 ds,
 //   Int p x dA = 1/(2 g.g) (sum (g.n) Int x p+^2 ds - g Int p^2 dA),
-// well conditioned wherever the joint is partly open: p then runs through zero inside, so that its gradient is not small.
+// which is well conditioned where the joint is partly open: p then changes sign inside, so its gradient is not small.
 #pragma once
 #include "engine/joints/elastic_kernel.h"
 #include "engine/joints/kernels.h"
 #include "engine/joints/relative_pose.h"
 #include "engine/laws/crushing.h"
-#include "engine/laws/point.h"
+#include "engine/laws/laws.h"
 #include "engine/simd/vec3.h"
 
 namespace erbs::ERBS_TARGET {
 
-// Relative displacement of the joint now and one step ago, its resultant, and the joules of the step.
+// Relative displacement of the joint now and one step ago, its resultant, and its energies in this step (J).
 struct Cracking {
   Pack gap[6], gap_before[6], resultant[6];
   Pack stored, friction, fracture, crushing;
-  Pack rate, debonded_rate;  // of dashpots, b over the last step; the same of points without bond
+  Pack rate, debonded_rate;  // of dashpots, b over the last step; the same of points without a bond
   Pack drag[6];              // dashpots (viscous_response)
+  Pack lift;                 // m, by asperities; set where the law has them
 };
 
 // The gap at a point, m.
@@ -30,7 +31,7 @@ struct EdgeSums {
   Pack p, s, t, square;  // sums of (g.n) Int p+^2 / 2, x p+^2 / 2, p+^3 ds times 3, 3, 4; then Int p, p x, p^2 dA
 };
 
-// A corner: where, p+, |p| and p+^2.
+// A corner: its position, p+, |p| and p+^2.
 struct Corner {
   Pack s, t, p, size, square;
 };
@@ -39,7 +40,7 @@ ERBS_INLINE Corner corner_of(const CornerPack& of, Pack p_0, Pack gs, Pack gt) {
   return {s, t, positive, abs(p), positive * positive};
 }
 
-// On the edge p+ is linear over the part of it where p is positive, from one end's p+ to the other's.
+// On an edge p+ is linear where p is positive, from its value at one end to that at the other.
 ERBS_INLINE void add_edge(const Corner& a, const Corner& b, Pack gs, Pack gt, EdgeSums& sum) {
   const Pack ds = b.s - a.s, dt = b.t - a.t, both = a.p + b.p, part = both / not_quite_zero(a.size + b.size);
   const Pack from = select(a.size > a.p, 1 - part, Pack(0)), squares = a.square + b.square, share = (gs * dt - gt * ds) * part;
@@ -50,7 +51,7 @@ ERBS_INLINE void add_edge(const Corner& a, const Corner& b, Pack gs, Pack gt, Ed
   sum.square += share * (both * squares);
 }
 
-// Integrals of p+, p = p_0 + gs s + gt t, over the loop; meaningful in the lanes marked, where p runs through zero inside.
+// Integrals of p+, p = p_0 + gs s + gt t, over the loop; valid in the lanes `marked`, where p changes sign inside.
 static inline EdgeSums positive_part(const CornerPack* corner, int corners, Pack p_0, Pack gs, Pack gt, Mask marked) {
   EdgeSums sum{};
   Corner last = corner_of(corner[corners - 1], p_0, gs, gt);
@@ -91,7 +92,7 @@ ERBS_INLINE Compression compression(double kn, const CrackedShape& shape, const 
   return {force, ms, mt, energy};
 }
 
-// The compression joins the resultant, and with it dashpots of the closed part: the change of its pressure, which may not pull.
+// Adds the compression to the resultant, and the dashpots of the closed part: the change of its pressure, which may not pull.
 template <bool damped>
 ERBS_INLINE void add_compression(const Compression& now, const Compression& then, Cracking& c) {
   c.resultant[2] -= now.force;
@@ -108,7 +109,7 @@ ERBS_INLINE void add_compression(const Compression& now, const Compression& then
   c.drag[4] -= rate * (then.ms - now.ms);
 }
 
-// Faces that have been crushed, or may be now: lane by lane, they are few.
+// Faces that are crushed, or may be in this step. They are few, so they are evaluated lane by lane.
 struct Crushing {
   Pack gap[6], gap_before[6];
   Compression now, then;
@@ -151,7 +152,7 @@ ERBS_INLINE void crush(const PointLaw& law, const CrackedShape& shape, Cracking&
   now = of.now, then = of.then, c.crushing += of.work;
 }
 
-// Where no point is pressed, all of the force goes to the first of the deepest; the lanes marked.
+// Where no point is pressed (the lanes `lone`), the first of the deepest points receives the whole force.
 ERBS_INLINE void assign_to_deepest(const CrackedShape& shape, const Pack* gap, Mask lone, Pack* depth) {
   Pack least = Pack(1e300);
   for (int i = 0; i < shape.points; ++i) {
@@ -165,16 +166,16 @@ ERBS_INLINE void assign_to_deepest(const CrackedShape& shape, const Pack* gap, M
   }
 }
 
-// What presses the points, `now` being the compression of the whole face: its force is shared out by their own depths. `depth` gets
-// these; a point's share (N) is the scale returned times its depth and weight.
-template <bool damped>
+// Distributes the compression `now` of the whole face by the depths of its points, which `depth` receives. A point's share (N) is the
+// returned scale times its depth and weight.
+template <class Face, bool damped>
 ERBS_INLINE Pack compress(const PointLaw& law, const CrackedShape& shape, Cracking& c, Compression now, Compression then, Pack* depth) {
   Pack sum{};
   for (int i = 0; i < shape.points; ++i) {
     depth[i] = max(-gap_of(shape.point[i], c.gap), 0);
     sum += load(shape.point[i].weight) * depth[i];
   }
-  if (law.fc > 0) {
+  if (Face::yields && law.crushes()) {
     crush(law, shape, c, now, then, depth);
     sum = Pack(0);
     for (int i = 0; i < shape.points; ++i) sum += load(shape.point[i].weight) * depth[i];
@@ -182,42 +183,23 @@ ERBS_INLINE Pack compress(const PointLaw& law, const CrackedShape& shape, Cracki
   add_compression<damped>(now, then, c);
   const Mask lone = (sum <= 0) & (now.force > 0);
   if (any(lone))
-    assign_to_deepest(shape, c.gap, lone, depth), c.debonded_rate = select(lone, Pack(0), c.rate);  // nothing presses it but this share
+    assign_to_deepest(shape, c.gap, lone, depth), c.debonded_rate = select(lone, Pack(0), c.rate);  // only this share presses it
   return select(sum > 0, now.force / nonzero(sum), now.force);
 }
 
-// interlock.h: whether a joint slides slowly.
-ERBS_INLINE Mask slow(const CrackedShape& shape, const Cracking& c) {
-  const Pack ds = c.gap[0] - c.gap_before[0], dt = c.gap[1] - c.gap_before[1],
-             rotation = (c.gap[5] - c.gap_before[5]) * load(shape.face->radius);
-  return ds * ds + dt * dt + rotation * rotation < shape.interlock.slow;
-}
-
-// The pressure (Pa) that the friction of a point goes by, `stress` being that of the moment.
+// `interlocked_stress()` of a point of the pack, with its mean pressure in memory.
 ERBS_INLINE Pack interlocked_stress(const CrackedShape& shape, SlipPack& slip, Pack gap, Pack stress, Mask slow) {
   Pack mean = load(slip.mean_pressure);
-  const Mask near = gap < shape.interlock.gap;
-  if (shape.interlock.rate > 0) {
-    mean = select(near, select(mean > 0, mean + (stress - mean) * shape.interlock.rate, stress), Pack(0));
-    store(slip.mean_pressure, mean);
-  }
-  return select(near & slow & (mean > stress), mean, stress);
+  const Pack held = interlocked_stress(shape.interlock, mean, gap, stress, slow);
+  if (shape.interlock.rate > 0) store(slip.mean_pressure, mean);
+  return held;
+}
+ERBS_INLINE Mask slides_slowly(const CrackedShape& shape, const Cracking& c) {
+  return slides_slowly(shape.interlock, c.gap, c.gap_before, load(shape.face->radius));
 }
 
-// What of a dashpot's shear (s, t) a point can take beside what it bears already, within its limit.
-struct Shear {
-  Pack s, t;
-};
-ERBS_INLINE Shear drag_within(Shear drag, Shear present, Pack limit, Mask past) {
-  const Pack size = drag.s * drag.s + drag.t * drag.t, along = present.s * drag.s + present.t * drag.t,
-             room = max(limit * limit - present.s * present.s - present.t * present.t, 0);
-  const Pack share = select(past, (sqrt(along * along + size * room) - along) / nonzero(size), Pack(1));
-  return {share * drag.s, share * drag.t};
-}
-ERBS_INLINE Pack square_of(Pack s, Pack t) { return s * s + t * t; }
-
-// Relative displacement now and one step ago, and an account with nothing in it.
-template <bool damped>
+// Relative displacement now and one step ago, and an empty account. Asperities that lift the faces close the gap.
+template <class Face, bool damped>
 ERBS_INLINE void start(const CrackedShape& shape, const CrackedPack& lane, const JointMotion& now, Cracking& c) {
   c.stored = c.friction = c.fracture = c.crushing = Pack(0);
   c.rate = c.debonded_rate = damped ? shape.per_step * load(lane.viscous) : Pack(0);
@@ -227,6 +209,40 @@ ERBS_INLINE void start(const CrackedShape& shape, const CrackedPack& lane, const
     c.resultant[i] = Pack(0);
     if (damped) c.drag[i] = Pack(0);
   }
+  if constexpr (Face::lifts) c.gap[2] -= load(lane.own(shape.points)[Face::uplift]);
+}
+
+// Lifts the faces of a law with asperities by the slip of this step, which needs their force at the uplift so far.
+template <class Face>
+ERBS_INLINE void lift(const PointLaw& law, const CrackedShape& shape, const CrackedPack& lane, Cracking& c, Compression& now) {
+  const FacePack& face = *shape.face;
+  Pack own[Face::numbers];
+  for (int i = 0; i < Face::numbers; ++i) own[i] = load(lane.own(shape.points)[i]);
+  const Pack rise = Face::coming_rise(law, own, c.gap[0], c.gap[1], now.force, load(face.stiffness[0]) / law.ks);
+  c.gap[2] -= rise;
+  c.lift = own[Face::uplift] + rise;
+  now = compression(law.kn, shape, c.gap);
+}
+
+// Books the work of the change of lift and advances the asperities.
+template <class Face, bool damped>
+ERBS_INLINE void advance_asperities(const PointLaw& law, const CrackedShape& shape, const Cracking& c, CrackedPack& lane,
+                                    CrackedSums& sums) {
+  Pack own[Face::numbers];
+  auto* memory = lane.own(shape.points);
+  for (int i = 0; i < Face::numbers; ++i) own[i] = load(memory[i]);
+  Pack across = load(lane.resultant[2]) + c.resultant[2], area{};
+  if (damped) across += load(lane.drag[2]) + c.drag[2];
+  add_to(sums.friction, 0.5 * across * (c.lift - own[Face::used]));
+  InPlane<Pack> slip{Pack(0), Pack(0)};
+  for (int i = 0; i < shape.points; ++i) {
+    const Pack weight = load(shape.point[i].weight);
+    slip = {slip.s + weight * load(lane.slip()[i].s), slip.t + weight * load(lane.slip()[i].t)};
+    area += weight;
+  }
+  Face::advance(law, own, InPlane<Pack>{slip.s / nonzero(area), slip.t / nonzero(area)}, c.lift);
+  for (int i = 0; i < Face::numbers; ++i) store(memory[i], own[i]);
+  store(lane.least_damage, Face::released(law, own, c.gap, load(shape.face->half_s), load(shape.face->half_t)));
 }
 
 // event_bound.h, by the corners of the face.
@@ -247,8 +263,9 @@ static inline void foresee(const CrackedShape& shape, const Cracking& c, Cracked
 }
 
 // Memory and account of the step, once the resultant is known; dashpots join it.
-template <bool damped>
-ERBS_INLINE void finish_step(const CrackedShape& shape, Cracking& c, CrackedPack& lane, CrackedSums& sums) {
+template <class Face, bool damped>
+ERBS_INLINE void finish_step(const PointLaw& law, const CrackedShape& shape, Cracking& c, CrackedPack& lane, CrackedSums& sums) {
+  if constexpr (Face::lifts) advance_asperities<Face, damped>(law, shape, c, lane, sums);
   if (shape.event_budget > 0) foresee(shape, c, sums);
   Pack work{}, damping{};
   for (int i = 0; i < 6; ++i) {
@@ -271,7 +288,7 @@ ERBS_INLINE void finish_step(const CrackedShape& shape, Cracking& c, CrackedPack
   if (damped) add_to(sums.damping, 0.5 * damping);
 }
 
-// Where a joint may have moved beyond what its fixed faces can tell: the bounds of out_of_range, taken a little tighter.
+// True if a joint may be out of range: the limits of `out_of_range()`, slightly tighter.
 ERBS_INLINE bool may_be_out_of_range(const FacePack& face, const Pack* gap) {
   const Pack half_s = load(face.half_s), half_t = load(face.half_t), side = 2 * min(half_s, half_t);
   const Pack room = 0.00999 * side - abs(gap[5]) * load(face.radius), least_gap = gap[2] - abs(gap[3]) * half_t - abs(gap[4]) * half_s;

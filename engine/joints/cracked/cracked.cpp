@@ -18,30 +18,40 @@ bool pressed_by_gravity(const Model& model, const Joint& joint) {
   return std::fabs(normal.dot(down)) > 0.5;
 }
 
+// Numbers of a joint that only its law knows.
+int own_numbers(const PointLaw& law) {
+  int numbers = 0;
+  with_face(law, [&](auto face) {
+    static_assert(std::size_t(decltype(face)::numbers) * sizeof(double) <= sizeof(JointMemory::own), "JointMemory::own needs more room");
+    numbers = decltype(face)::numbers;
+  });
+  return numbers;
+}
+
 double total(const double* x) { return ((x[0] + x[1]) + (x[2] + x[3])) + ((x[4] + x[5]) + (x[6] + x[7])); }
 
 }  // namespace
 
 void Cracked::Group::update_debonded(const PointLaw& of) {
-  debonded = of.dry || std::all_of(bond.begin(), bond.end(), [](const BondPack& b) {
-               return std::all_of(b.damage, b.damage + pack_size, [](double damage) { return damage >= 1; });
-             });
+  debonded = !of.has_bond() || std::all_of(bond.begin(), bond.end(), [](const BondPack& b) {
+    return std::all_of(b.damage, b.damage + pack_size, [](double damage) { return damage >= 1; });
+  });
 }
 
 Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state) {
   const int intact = intact_packs(model);
   // Groups of a stopped run: each joint returns to its lane, so that sums continue in the same order.
-  for (int k = 0; k < int(state.pack.size()); ++k) {
+  for (int k = 0; k < int(state.joints.pack.size()); ++k) {
     group_.push_back({});
     group_.back().law = -1, group_.back().pack = k;
     std::fill_n(group_.back().joint, pack_size, -1);
   }
   std::vector<int> held;  // in the order of their lanes, in which a step passes through memory
   for (int j = 0; j < model.njoint; ++j)
-    if (state.slot[z(j)] >= intact * pack_size) held.push_back(j);
-  std::sort(held.begin(), held.end(), [&](int a, int b) { return state.slot[z(a)] < state.slot[z(b)]; });
+    if (state.joints.slot[z(j)] >= intact * pack_size) held.push_back(j);
+  std::sort(held.begin(), held.end(), [&](int a, int b) { return state.joints.slot[z(a)] < state.joints.slot[z(b)]; });
   for (const int j : held) {
-    const int at = state.slot[z(j)] - intact * pack_size;
+    const int at = state.joints.slot[z(j)] - intact * pack_size;
     Group& group = group_[z(at / pack_size)];
     const Joint& joint = model.joint[z(j)];
     if (group.law < 0) set_empty(group, joint);
@@ -51,7 +61,7 @@ Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state
   if (model.analysis.kernel == "reference" || model.analysis.solver == "sequential") return;
   std::vector<int> joints;
   for (int j = 0; j < model.njoint; ++j)
-    if (state.stage[z(j)] == JointStage::cracked && state.slot[z(j)] < intact * pack_size) joints.push_back(j);
+    if (state.joints.stage[z(j)] == JointStage::cracked && state.joints.slot[z(j)] < intact * pack_size) joints.push_back(j);
   take_all(joints);
 }
 
@@ -71,6 +81,7 @@ void Cracked::clear(Group& group, int l) {
   lane.stored[l] = 0;
   lane.least_damage[l] = 1;
   for (int i = 0; i < group.points; ++i) lane.slip()[i].s[l] = lane.slip()[i].t[l] = lane.slip()[i].mean_pressure[l] = 0;
+  for (int i = 0; i < group.own_numbers; ++i) lane.own(group.points)[i][l] = 0;
   MeanSlipPack& mean_slip = lane.mean_slip;
   for (auto* x : {mean_slip.s, mean_slip.t, mean_slip.rotation, mean_slip.apart, mean_slip.stored, mean_slip.outdated}) x[l] = 0;
   for (BondPack& p : group.bond) p.secant[l] = p.kappa[l] = 0, p.damage[l] = 1;  // no bond
@@ -135,29 +146,31 @@ void Cracked::add_shape(Group& group, int l, const JointType& type) {
 
 void Cracked::fill(Group& group, int l, int j) {
   const Joint& joint = model_.joint[z(j)];
-  const JointMemory& memory = state_.memory[z(j)];
+  const JointMemory& memory = state_.joints.memory[z(j)];
   add_shape(group, l, *joint.type);
   CrackedPack& lane = memory_of(group);
   group.joint[l] = j;
   lane.viscous[l] = joint.viscous_cracked;
   group.used |= 1U << l;
   group.maybe_out_of_range = true;
-  if (model_.laws[z(joint.type->law)].fc > 0)
-    group.crushed[l] = &state_.crushed[z(j)], group.face_corner[l] = model_.overlap_corner[z(joint.type->first_corner)].data();
+  const PointLaw& law = model_.laws[z(joint.type->law)];
+  if (law.crushes())
+    group.crushed[l] = &state_.joints.crushed[z(j)], group.face_corner[l] = model_.overlap_corner[z(joint.type->first_corner)].data();
   for (int i = 0; i < 6; ++i) lane.gap[i][l] = memory.gap[i], lane.resultant[i][l] = memory.resultant[i];
   lane.stored[l] = memory.elastic;
-  lane.least_damage[l] = 1;
+  lane.least_damage[l] = may_release(joint, law, memory) ? 1 : 0;
+  for (int i = 0; i < group.own_numbers; ++i) lane.own(group.points)[i][l] = memory.own[i];
   lane.mean_slip.outdated[l] = 1;
   if (model_.dashpots_cracked)
-    for (int i = 0; i < 6; ++i) lane.drag[i][l] = state_.viscous[6 * z(j) + z(i)];
+    for (int i = 0; i < 6; ++i) lane.drag[i][l] = state_.joints.viscous[6 * z(j) + z(i)];
   for (int i = 0; i < joint.type->points; ++i) {
-    const PointHistory& h = state_.history[z(joint.first_point + i)];
+    const PointHistory& h = state_.joints.history[z(joint.first_point + i)];
     lane.slip()[i].s[l] = h.slip_s, lane.slip()[i].t[l] = h.slip_t, lane.slip()[i].mean_pressure[l] = h.mean_pressure;
     BondPack& b = group.bond[z(i)];
     b.damage[l] = h.damage, b.secant[l] = h.secant, b.kappa[l] = h.kappa;
-    if (!model_.laws[z(joint.type->law)].dry) lane.least_damage[l] = std::min(lane.least_damage[l], h.damage);
+    if (law.has_bond()) lane.least_damage[l] = std::min(lane.least_damage[l], h.damage);
   }
-  group.update_debonded(model_.laws[z(joint.type->law)]);
+  group.update_debonded(law);
 }
 
 void Cracked::set_empty(Group& group, const Joint& joint) {
@@ -165,10 +178,12 @@ void Cracked::set_empty(Group& group, const Joint& joint) {
   fresh.law = joint.type->law, fresh.points = joint.type->points, fresh.corners = joint.type->corners, fresh.pack = group.pack,
   fresh.pressed_by_gravity = pressed_by_gravity(model_, joint);
   fresh.bond.resize(z(fresh.points));
+  fresh.own_numbers = own_numbers(model_.laws[z(fresh.law)]);
   fresh.at = group.at, fresh.room = group.room;
-  if (fresh.room < fresh.points) {
-    fresh.at = memory_.size(), fresh.room = fresh.points;
-    memory_.resize(memory_.size() + (sizeof(CrackedPack) + z(fresh.points) * sizeof(SlipPack)) / sizeof(Line));
+  const std::size_t lines = (sizeof(CrackedPack) + z(fresh.points) * sizeof(SlipPack)) / sizeof(Line) + z(fresh.own_numbers);
+  if (fresh.room < lines) {
+    fresh.at = memory_.size(), fresh.room = lines;
+    memory_.resize(memory_.size() + lines);
     new (&memory_of(fresh)) CrackedPack;
     new (memory_of(fresh).slip()) SlipPack[z(fresh.points)];
   }
@@ -210,14 +225,14 @@ void Cracked::put(int j) {
   Group& group = group_[z(at / pack_size)];
   if (group.empty()) set_empty(group, joint);
   fill(group, at % pack_size, j);
-  state_.slot[z(j)] = (intact_packs(model_) + group.pack) * pack_size + at % pack_size;
+  state_.joints.slot[z(j)] = (intact_packs(model_) + group.pack) * pack_size + at % pack_size;
   set_ends(j);
 }
 
 void Cracked::set_ends(int j) {
   const Joint& joint = model_.joint[z(j)];
-  const int at = state_.slot[z(j)] - intact_packs(model_) * pack_size;
-  JointPack& pack = state_.pack[z(at / pack_size)];
+  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
+  JointPack& pack = state_.joints.pack[z(at / pack_size)];
   set_constants(model_, j, pack, at % pack_size);
   for (int i = 0; i < 3; ++i) pack.arm_a[i][at % pack_size] = joint.arm_a[i], pack.arm_b[i][at % pack_size] = joint.arm_b[i];
   copy_ends(group_[z(at / pack_size)], at % pack_size);
@@ -230,7 +245,7 @@ void Cracked::set_ends(int j) {
 }
 
 void Cracked::copy_ends(const Group& group, int l) {
-  const JointPack& from = state_.pack[z(group.pack)];
+  const JointPack& from = state_.joints.pack[z(group.pack)];
   CrackedPack& to = memory_of(group);
   to.a[l] = from.a[l], to.b[l] = from.b[l], to.wrench_row_a[l] = from.wrench_row_a[l], to.wrench_row_b[l] = from.wrench_row_b[l];
   for (int i = 0; i < 3; ++i) to.arm_a[i][l] = from.arm_a[i][l], to.arm_b[i][l] = from.arm_b[i][l];
@@ -238,8 +253,8 @@ void Cracked::copy_ends(const Group& group, int l) {
 
 void Cracked::copy_pose(int b) {
   if (pose_.empty()) return;
-  const Vec3 u = state_.u[z(b)];
-  const Quat q = state_.q[z(b)];
+  const Vec3 u = state_.pose.u[z(b)];
+  const Quat q = state_.pose.q[z(b)];
   const double row[8] = {u.x(), u.y(), u.z(), q.x(), q.y(), q.z(), q.w(), 0};
   std::copy_n(row, 8, &pose_[8 * z(b)]);
 }
@@ -261,27 +276,27 @@ void Cracked::find_type(Group& group) {
 }
 
 void Cracked::drop(int j) {
-  const int at = state_.slot[z(j)] - intact_packs(model_) * pack_size;
+  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
   if (at >= 0) {
     Group& group = group_[z(at / pack_size)];
     group.used &= ~(1U << at % pack_size);
     clear(group, at % pack_size);
     find_type(group);
-    clear_lane(model_, state_.pack[z(at / pack_size)], at % pack_size);
+    clear_lane(model_, state_.joints.pack[z(at / pack_size)], at % pack_size);
     copy_ends(group, at % pack_size);
   }
-  state_.slot[z(j)] = -1;
-  state_.memory[z(j)] = JointMemory{};
-  if (model_.dashpots_cracked) std::fill_n(&state_.viscous[6 * z(j)], 6, 0.0);
-  for (const int row : {model_.wrench_row_a[z(j)], model_.wrench_row_b[z(j)]}) std::fill_n(&state_.wrench[z(row) * 8], 8, 0.0);
+  state_.joints.slot[z(j)] = -1;
+  state_.joints.memory[z(j)] = JointMemory{};
+  if (model_.dashpots_cracked) std::fill_n(&state_.joints.viscous[6 * z(j)], 6, 0.0);
+  for (const int row : {model_.wrench_row_a[z(j)], model_.wrench_row_b[z(j)]}) std::fill_n(&state_.cache.wrench[z(row) * 8], 8, 0.0);
 }
 
 void Cracked::forces(int first, int last, bool sample, double budget, JointSums& sums, const StepKernels& kernels) {
   const double* poses = pose_.data();
-  double* wrench_rows = state_.wrench.data();
+  double* wrench_rows = state_.cache.wrench.data();
   if (sample) sums.energy.elastic = 0;
-  const bool damped = model_.dashpots_cracked && state_.last_dt > 0;
-  const double per_step = damped ? 1 / state_.last_dt : 0;
+  const bool damped = model_.dashpots_cracked && state_.time.last_dt > 0;
+  const double per_step = damped ? 1 / state_.time.last_dt : 0;
   CrackedSums done{};
   const Interlock interlock = interlock_now(model_, state_);
   for (int g = first; g < last; ++g) {
@@ -307,9 +322,9 @@ void Cracked::forces(int first, int last, bool sample, double budget, JointSums&
                              budget,
                              law.interlock ? interlock : Interlock{}};
     if (group.debonded) {
-      group.maybe_out_of_range = kernels.friction(law, shape, lane, poses, wrench_rows, done);
+      group.maybe_out_of_range = kernels.friction[law.type](law, shape, lane, poses, wrench_rows, done);
     } else {
-      group.maybe_out_of_range = kernels.respond(law, shape, group.bond.data(), lane, poses, wrench_rows, done);
+      group.maybe_out_of_range = kernels.respond[law.type](law, shape, group.bond.data(), lane, poses, wrench_rows, done);
       std::fill_n(lane.mean_slip.outdated, pack_size, 1.0);
       group.damage_changed = true;
       group.debonded = std::all_of(lane.least_damage, lane.least_damage + pack_size, [](double damage) { return damage >= 1; });
@@ -334,12 +349,13 @@ void Cracked::store() {
     for (int l = 0; l < pack_size; ++l) {
       const int j = group.joint[l];
       if (j < 0) continue;
-      JointMemory& memory = state_.memory[z(j)];
+      JointMemory& memory = state_.joints.memory[z(j)];
       for (int i = 0; i < 6; ++i) memory.gap[i] = lane.gap[i][l], memory.resultant[i] = lane.resultant[i][l];
       memory.elastic = lane.stored[l];
+      for (int i = 0; i < group.own_numbers; ++i) memory.own[i] = lane.own(group.points)[i][l];
       if (model_.dashpots_cracked)
-        for (int i = 0; i < 6; ++i) state_.viscous[6 * z(j) + z(i)] = lane.drag[i][l];
-      PointHistory* h = &state_.history[z(model_.joint[z(j)].first_point)];
+        for (int i = 0; i < 6; ++i) state_.joints.viscous[6 * z(j) + z(i)] = lane.drag[i][l];
+      PointHistory* h = &state_.joints.history[z(model_.joint[z(j)].first_point)];
       for (int i = 0; i < group.points; ++i) {
         h[i].slip_s = lane.slip()[i].s[l], h[i].slip_t = lane.slip()[i].t[l], h[i].mean_pressure = lane.slip()[i].mean_pressure[l];
         if (!damage_changed) continue;
@@ -356,7 +372,7 @@ bool Cracked::none_ready_for_contact() const {
 }
 
 bool Cracked::ready_for_contact(int j) const {
-  const int at = state_.slot[z(j)] - intact_packs(model_) * pack_size;
+  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
   if (at < 0)
     return !owner_computes(model_) &&
            joint_ready_for_contact(model_, state_, j);  // a joint that cracked in this step enters a group after it

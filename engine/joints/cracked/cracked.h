@@ -42,7 +42,7 @@ class Cracked {
   };
   struct alignas(64) Group {
     int law, points, corners;
-    int pack;                         // index in `State::pack`
+    int pack;                         // index in `JointState::pack`
     unsigned used = 0;                // occupied lanes, as bits
     bool pressed_by_gravity = false;  // joints compressed by gravity
     bool maybe_out_of_range = true;   // some joint may be beyond its faces
@@ -50,7 +50,8 @@ class Cracked {
     bool damage_changed = false;      // damage has changed since `store()`
     std::size_t at = 0;               // index in `memory_`
     std::shared_ptr<Shapes> shapes;
-    int room = -1;  // points that fit there
+    std::size_t room = 0;  // lines that fit there
+    int own_numbers = 0;   // of the law (laws/face.h)
     // A step reads the members above. It reads the members below only for joints that crush or have bonds.
     int joint[pack_size];             // -1: empty
     CrushedFace* crushed[pack_size];  // null without a plateau in compression
@@ -73,7 +74,7 @@ class Cracked {
   void find_type(Group& group);
   void put(int j);                            // finds a lane and fills it
   void set_ends(int j);                       // blocks, rows and arms of its lane
-  void copy_ends(const Group& group, int l);  // from its pack in `State::pack`
+  void copy_ends(const Group& group, int l);  // from its pack in `JointState::pack`
   void take_all(std::vector<int>& joints);    // sorted by type
 
   const Model& model_;
@@ -82,7 +83,7 @@ class Cracked {
     std::byte of[64];
   };
   std::vector<Group> group_;
-  std::vector<Line> memory_;  // of all groups: `CrackedPack` and the slips of their points
+  std::vector<Line> memory_;  // of all groups: `CrackedPack`, the slips of their points, the numbers of their law
   Rows pose_;
   std::map<const JointType*, std::shared_ptr<Shapes>> of_type_;
 };

@@ -1,17 +1,17 @@
-// Joints that have no bond left, eight of one law side by side: they press and rub.
+// Response of cracked joints without a bond, eight of one law side by side: compression and friction.
 //
-// Slips s_i of the points, the shear stiffness k_i = ks w_i: with the rigid motion a nearest to them (weighted least squares) and the
-// rest r_i, points that all stick bear K (q - a), K the sound joint's shear and torsion, and store (q - a) K (q - a) / 2 + sum k_i r_i^2
-// / 2. They all stick while no point can pass its limit: |q - a| at the farthest corner + the greatest |r_i| against the least pressure.
+// Let s_i be the slips of the points and k_i = ks w_i their shear stiffness. The rigid motion a nearest to the slips (weighted least
+// squares) leaves the residuals r_i. Points that all stick transmit K (q - a), where K is the shear and torsion of the intact joint. They
+// store (q - a) K (q - a) / 2 + sum k_i r_i^2 / 2. They all stick while no point can exceed its limit: |q - a| at the farthest corner plus
+// the greatest |r_i| against the least pressure.
 #pragma once
 #include "engine/joints/cracked/compression.h"
 #include "engine/joints/kernels.h"
 #include "engine/joints/relative_pose.h"
-#include "engine/laws/point.h"
 
 namespace erbs::ERBS_TARGET {
 
-// What the slips of the points have in common, found again where they have changed.
+// Finds the rigid motion nearest to the slips of the points, after they have changed.
 static inline void find_mean_slip(double ks, const CrackedShape& shape, const SlipPack* slip, MeanSlipPack& mean_slip) {
   Pack s{}, t{}, rotation{}, apart{}, square{};
   for (int i = 0; i < shape.points; ++i) {
@@ -38,13 +38,13 @@ static inline void find_mean_slip(double ks, const CrackedShape& shape, const Sl
   store(mean_slip.outdated, Pack(0));
 }
 
-// Where all points stick, and the shear then.
+// Lanes in which all points stick, and their shear.
 struct StickState {
   Mask mask;
   Pack s, t, rotation, stored;  // N; N m; J
 };
 
-// `closed_by`: m, where the face is closed all over, how much at least.
+// `closed_by`: m, least closing of a face that is closed all over.
 template <bool damped>
 ERBS_INLINE StickState try_stick(const PointLaw& law, double mu, const CrackedShape& shape, const SlipPack* slip, Pack closed_by,
                                  MeanSlipPack& mean_slip, Cracking& c) {
@@ -70,29 +70,28 @@ ERBS_INLINE StickState try_stick(const PointLaw& law, double mu, const CrackedSh
   return out;
 }
 
-// Sums over points, of weight times gaps in the face: times ks they are the shear; its work.
+// Sums over points of weight times elastic slip: times ks they are the shear, its stored energy and its work.
 struct SlipSums {
   Pack s, t, rotation, stored, work;
   Pack drag_s, drag_t, drag_rotation;
   Mask slid;
 };
 
-// A point without bond: what presses it, `depth`, is all that it can rub with, and lets it be `limit` off its slip.
+// Friction of a point without a bond. Its pressure, given by `depth`, allows an elastic slip of `limit` (m).
 template <bool damped>
 ERBS_INLINE void friction_at_point(const PointPack& point, SlipPack& slip, Pack depth, Pack limit, const Cracking& c, SlipSums& sum) {
   const Pack s = load(point.s), t = load(point.t), weight = load(point.weight), slip_s = load(slip.s), slip_t = load(slip.t);
   const Pack rigid_s = c.gap[0] - c.gap[5] * t, rigid_t = c.gap[1] + c.gap[5] * s;
   Pack gs = rigid_s - slip_s, gt = rigid_t - slip_t;
-  const Pack square = square_of(gs, gt), most = limit * limit;
-  const Mask slides = square > most;
+  const Pack trial = square(InPlane<Pack>{gs, gt}), most = limit * limit;
+  const Mask slides = trial > most;
   if (any(slides)) {
-    const Pack keep = select(slides, limit / sqrt(square), Pack(1));  // what nothing presses slides all the way, as in hang
-    const Pack left_s = keep * gs, left_t = keep * gt, s0 = c.gap_before[0] - c.gap_before[5] * t - slip_s,
-               t0 = c.gap_before[1] + c.gap_before[5] * s - slip_t;
-    store(slip.s, select(slides, rigid_s - left_s, slip_s));
-    store(slip.t, select(slides, rigid_t - left_t, slip_t));
-    sum.work += weight * ((s0 + left_s) * (gs - left_s) + (t0 + left_t) * (gt - left_t));
-    gs = left_s, gt = left_t;
+    const InPlane<Pack> left = radial_return(InPlane<Pack>{gs, gt}, sqrt(trial), limit, slides);
+    const Pack s0 = c.gap_before[0] - c.gap_before[5] * t - slip_s, t0 = c.gap_before[1] + c.gap_before[5] * s - slip_t;
+    store(slip.s, select(slides, rigid_s - left.s, slip_s));
+    store(slip.t, select(slides, rigid_t - left.t, slip_t));
+    sum.work += weight * ((s0 + left.s) * (gs - left.s) + (t0 + left.t) * (gt - left.t));
+    gs = left.s, gt = left.t;
     sum.slid |= slides;
   }
   const Pack ws = weight * gs, wt = weight * gt;
@@ -101,34 +100,38 @@ ERBS_INLINE void friction_at_point(const PointPack& point, SlipPack& slip, Pack 
   sum.rotation += wt * s - ws * t;
   sum.stored += ws * gs + wt * gt;
   if (!damped) return;
-  const Pack rate = select((square <= most) & (depth > 0), c.debonded_rate, Pack(0)), rotation = c.gap[5] - c.gap_before[5];
-  Shear drag{rate * ((c.gap[0] - c.gap_before[0]) - rotation * t), rate * ((c.gap[1] - c.gap_before[1]) + rotation * s)};
-  const Mask past = square_of(gs + drag.s, gt + drag.t) > max(square, most);
-  if (any(past)) drag = drag_within(drag, {gs, gt}, limit, past);
+  const Pack rate = select((trial <= most) & (depth > 0), c.debonded_rate, Pack(0)), rotation = c.gap[5] - c.gap_before[5];
+  const InPlane<Pack> elastic{gs, gt};
+  InPlane<Pack> drag{rate * ((c.gap[0] - c.gap_before[0]) - rotation * t), rate * ((c.gap[1] - c.gap_before[1]) + rotation * s)};
+  const Mask past = square(InPlane<Pack>{gs + drag.s, gt + drag.t}) > max(trial, most);
+  if (any(past)) {
+    const Pack share = share_within(elastic, drag, limit, past);
+    drag = {share * drag.s, share * drag.t};
+  }
   const Pack drag_s = weight * drag.s, drag_t = weight * drag.t;
   sum.drag_s += drag_s;
   sum.drag_t += drag_t;
   sum.drag_rotation += drag_t * s - drag_s * t;
 }
 
-// Points of faces that hang free and did so before: they go where the faces go.
+// Points of faces that are open, and were so before, follow the faces.
 ERBS_INLINE void follow_open_faces(const CrackedShape& shape, const PointPack& point, SlipPack& slip, const Cracking& c, Mask slow) {
   if (shape.interlock.rate > 0) interlocked_stress(shape, slip, gap_of(point, c.gap), Pack(0), slow);
   store(slip.s, c.gap[0] - c.gap[5] * load(point.t));
   store(slip.t, c.gap[1] + c.gap[5] * load(point.s));
 }
 
-// All points of the register, where not all of its joints stick.
+// Friction of all points, if not all joints of the pack stick.
 template <bool damped>
 ERBS_INLINE void friction_at_points(const PointLaw& law, double mu, Pack scale, const Pack* depth, const CrackedShape& shape,
                                     SlipPack* slip, MeanSlipPack& mean_slip, const StickState& stick, Cracking& c) {
   SlipSums sum{};
   const double lets = mu / law.ks;
-  const Mask slides_slowly = slow(shape, c);
+  const Mask slow = slides_slowly(shape, c);
   for (int i = 0; i < shape.points; ++i) {
-    const Pack held = interlocked_stress(shape, slip[i], gap_of(shape.point[i], c.gap), scale * depth[i], slides_slowly);
-    friction_at_point<damped>(shape.point[i], slip[i], depth[i], select(stick.mask, Pack(1e150), lets * held), c,
-                              sum);  // those that stick are not asked
+    const Pack held = interlocked_stress(shape, slip[i], gap_of(shape.point[i], c.gap), scale * depth[i], slow);
+    // no limit where all stick
+    friction_at_point<damped>(shape.point[i], slip[i], depth[i], select(stick.mask, Pack(1e150), lets * held), c, sum);
   }
   c.resultant[0] = select(stick.mask, stick.s, law.ks * sum.s);
   c.resultant[1] = select(stick.mask, stick.t, law.ks * sum.t);
@@ -142,63 +145,64 @@ ERBS_INLINE void friction_at_points(const PointLaw& law, double mu, Pack scale, 
   c.drag[5] = select(stick.mask, c.drag[5], law.ks * sum.drag_rotation);
 }
 
-// The means of what presses the points, where all stick: closed all over.
+// Updates the mean pressures where all points stick and the faces are closed all over.
 static inline void update_mean_pressure(const CrackedShape& shape, Pack force, SlipPack* slip, const Cracking& c) {
-  const Mask slides_slowly = slow(shape, c);
+  const Mask slow = slides_slowly(shape, c);
   Pack sum{};
   for (int i = 0; i < shape.points; ++i) sum += load(shape.point[i].weight) * max(-gap_of(shape.point[i], c.gap), 0);
   const Pack scale = force / nonzero(sum);
   for (int i = 0; i < shape.points; ++i) {
     const Pack gap = gap_of(shape.point[i], c.gap);
-    interlocked_stress(shape, slip[i], gap, scale * max(-gap, 0), slides_slowly);
+    interlocked_stress(shape, slip[i], gap, scale * max(-gap, 0), slow);
   }
 }
 
-// The compression one step ago: without bond and crushing it is what the joint bore across its face.
-template <bool damped>
+// The compression one step ago: without a bond and crushing it is the joint's resultant across its face.
+template <class Face, bool damped>
 ERBS_INLINE Compression before(const PointLaw& law, const CrackedShape& shape, const CrackedPack& lane, const Cracking& c) {
   if (!damped) return Compression{};
-  if (law.fc > 0) return compression(law.kn, shape, c.gap_before);
+  if (Face::yields && law.crushes()) return compression(law.kn, shape, c.gap_before);
   return {-load(lane.resultant[2]), load(lane.resultant[4]), -load(lane.resultant[3]), Pack(0)};
 }
 
-template <bool damped>
+template <class Face, bool damped>
 static bool friction_pack(const PointLaw& law, const CrackedShape& shape, CrackedPack& lane, const double* poses, double* wrench_rows,
                           CrackedSums& sums) {
   SlipPack* slip = lane.slip();
   MeanSlipPack& mean_slip = lane.mean_slip;
-  const double mu = law.dry ? law.mu : law.mu_residual;
+  const double mu = law.mu_debonded();
+  const bool crushes = Face::yields && law.crushes();
   Pack depth[most_points_per_joint];
-  bool out_of_range = false;
   JointMotion now;
   Cracking c;
   relative_motion(lane, *shape.face, poses, now);
-  start<damped>(shape, lane, now, c);
-  const Compression pressed = compression(law.kn, shape, c.gap);
+  start<Face, damped>(shape, lane, now, c);
+  Compression pressed = compression(law.kn, shape, c.gap);
+  if constexpr (Face::lifts) lift<Face>(law, shape, lane, c, pressed);
   const Pack closed_by = -c.gap[2] - (abs(c.gap[3]) * load(shape.face->half_t) + abs(c.gap[4]) * load(shape.face->half_s));
-  const StickState stick = law.fc > 0 ? StickState{} : try_stick<damped>(law, mu, shape, slip, closed_by, mean_slip, c);
+  const StickState stick = crushes ? StickState{} : try_stick<damped>(law, mu, shape, slip, closed_by, mean_slip, c);
   if (!any(Mask::of_bits(shape.used) & !stick.mask)) {
-    add_compression<damped>(pressed, before<damped>(law, shape, lane, c), c);
+    add_compression<damped>(pressed, before<Face, damped>(law, shape, lane, c), c);
     c.resultant[0] = stick.s, c.resultant[1] = stick.t, c.resultant[5] = stick.rotation;
     c.stored += stick.stored;
     if (shape.interlock.rate > 0) update_mean_pressure(shape, pressed.force, slip, c);
-  } else if (law.fc > 0 || any(pressed.force > 0) || any(load(lane.stored) > 0)) {
-    const Pack scale = compress<damped>(law, shape, c, pressed, before<damped>(law, shape, lane, c), depth);
+  } else if (crushes || any(pressed.force > 0) || any(load(lane.stored) > 0)) {
+    const Pack scale = compress<Face, damped>(law, shape, c, pressed, before<Face, damped>(law, shape, lane, c), depth);
     friction_at_points<damped>(law, mu, scale, depth, shape, slip, mean_slip, stick, c);
   } else {
-    const Mask slides_slowly = slow(shape, c);
-    for (int i = 0; i < shape.points; ++i) follow_open_faces(shape, shape.point[i], slip[i], c, slides_slowly);
+    const Mask slow = slides_slowly(shape, c);
+    for (int i = 0; i < shape.points; ++i) follow_open_faces(shape, shape.point[i], slip[i], c, slow);
     store(mean_slip.outdated, Pack(1));
   }
-  finish_step<damped>(shape, c, lane, sums);
+  finish_step<Face, damped>(law, shape, c, lane, sums);
   write_joint_wrenches(lane, now, c.resultant, wrench_rows);
-  out_of_range = may_be_out_of_range(*shape.face, c.gap) || out_of_range;
-  return out_of_range;
+  return may_be_out_of_range(*shape.face, c.gap);
 }
 
+template <class Face>
 static bool friction(const PointLaw& law, const CrackedShape& shape, CrackedPack& lane, const double* poses, double* wrench_rows,
                      CrackedSums& sums) {
-  return (shape.per_step > 0 ? friction_pack<true> : friction_pack<false>)(law, shape, lane, poses, wrench_rows, sums);
+  return (shape.per_step > 0 ? friction_pack<Face, true> : friction_pack<Face, false>)(law, shape, lane, poses, wrench_rows, sums);
 }
 
 }  // namespace erbs::ERBS_TARGET

@@ -91,7 +91,7 @@ IntactJoints::IntactJoints(const Model& model, State& state)
 void IntactJoints::joints_in_slots(int k, int joints[pack_size]) const {
   for (int l = 0; l < pack_size; ++l) {
     const int j = model_.owner_schedule.joint[z(k * pack_size + l)];
-    joints[l] = j >= 0 && state_.slot[z(j)] == j ? j : -1;
+    joints[l] = j >= 0 && state_.joints.slot[z(j)] == j ? j : -1;
   }
 }
 
@@ -152,8 +152,8 @@ void IntactJoints::replace_by_cracked(int j, const JointPack& pack, const Elasti
   const int k = model_.owner_schedule.lane[z(j)] / pack_size, lane = model_.owner_schedule.lane[z(j)] % pack_size, owner = model_.owner(j);
   const int own = 8 * (by_b ? pack_size + lane : lane), other = 8 * (by_b ? lane : pack_size + lane);
   for (int i = 0; i < 6; ++i) {
-    state_.owner_sum[z(owner / pack_size)].x[i][owner % pack_size] += is[own + i] - was[own + i];
-    state_.neighbour_force[z(k)].x[i][lane] = is[other + i];
+    state_.cache.owner_sum[z(owner / pack_size)].x[i][owner % pack_size] += is[own + i] - was[own + i];
+    state_.cache.neighbour_force[z(k)].x[i][lane] = is[other + i];
   }
 }
 
@@ -175,7 +175,7 @@ void IntactJoints::check_points(int k, bool sample, JointSums& sums) {
     const int ends[2] = {model_.joint[z(joints[l])].a, model_.joint[z(joints[l])].b};
     for (int end = 0; end < 2; ++end)
       for (int i = 0; i < 6; ++i)
-        rows[8 * (pack_size * end + l) + i] = state_.increment[z(ends[end] / pack_size)].x[i][ends[end] % pack_size];
+        rows[8 * (pack_size * end + l) + i] = state_.cache.increment[z(ends[end] / pack_size)].x[i][ends[end] % pack_size];
   }
   step_kernels().elastic(B, rows, o);
   for (int l = 0; l < pack_size; ++l) {
@@ -184,19 +184,19 @@ void IntactJoints::check_points(int k, bool sample, JointSums& sums) {
     double gap[6], resultant[6], stored = 0;
     for (int i = 0; i < 6; ++i) gap[i] = o.gap[i][l], stored += 0.5 * o.resultant[i][l] * o.gap[i][l];
     joint_by_points(model_, state_, j, gap, resultant, sums, &B, l);
-    if (state_.stage[z(j)] == JointStage::intact) continue;
+    if (state_.joints.stage[z(j)] == JointStage::intact) continue;
     ElasticPack cracked = o;
     for (int i = 0; i < 6; ++i) cracked.resultant[i][l] = resultant[i];
     replace_by_cracked(j, B, o, cracked);
-    if (sample) sums.energy.elastic += state_.memory[z(j)].elastic - stored;
+    if (sample) sums.energy.elastic += state_.joints.memory[z(j)].elastic - stored;
   }
 }
 
 int IntactJoints::forces(int first, int last, const StepKernels& kernels, double* stored) {
   const int* first_pack = model_.owner_schedule.first_pack.data();
   const CornerCheck corner_check{any_checked_.load(std::memory_order_relaxed) ? corner_check_.data() : nullptr, carried_, ahead_};
-  return kernels.intact(pack_.data(), corner_check, first_pack, first, last, state_.increment.data(), state_.owner_sum.data(),
-                        state_.neighbour_force.data(), stored, &may_yield_[z(first_pack[first])]);
+  return kernels.intact(pack_.data(), corner_check, first_pack, first, last, state_.cache.increment.data(), state_.cache.owner_sum.data(),
+                        state_.cache.neighbour_force.data(), stored, &may_yield_[z(first_pack[first])]);
 }
 
 void IntactJoints::forces(Range groups, bool sample, std::vector<JointSums>& all) {
@@ -228,17 +228,17 @@ void forget_other_kernel(const Model& m, State& s) {
   if (!owner_computes(m)) {
     std::vector<std::uint8_t> intact(z(m.nblock), 0);
     for (int j = 0; j < m.njoint; ++j)
-      if (s.stage[z(j)] == JointStage::intact) intact[z(m.joint[z(j)].a)] = intact[z(m.joint[z(j)].b)] = 1;
+      if (s.joints.stage[z(j)] == JointStage::intact) intact[z(m.joint[z(j)].a)] = intact[z(m.joint[z(j)].b)] = 1;
     for (int b = 0; b < m.nblock; ++b)
       if (!intact[z(b)]) set_pose_row(s, b);
     for (int b = 0; b < m.nblock; ++b)
-      for (int i = 0; i < 6; ++i) s.pose_row[z(8 * b + i)] = s.increment[z(b / pack_size)].x[i][b % pack_size];
-    for (auto* sums : {&s.owner_sum, &s.neighbour_force}) std::fill(sums->begin(), sums->end(), VectorPack<6>{});
+      for (int i = 0; i < 6; ++i) s.cache.pose_row[z(8 * b + i)] = s.cache.increment[z(b / pack_size)].x[i][b % pack_size];
+    for (auto* sums : {&s.cache.owner_sum, &s.cache.neighbour_force}) std::fill(sums->begin(), sums->end(), VectorPack<6>{});
     return;
   }
   for (int j = 0; j < m.njoint; ++j)
     for (const int row : {m.wrench_row_a[z(j)], m.wrench_row_b[z(j)]})
-      for (double* x = &s.wrench[8 * z(row)]; s.stage[z(j)] == JointStage::intact && x < &s.wrench[8 * z(row)] + 8; ++x)
+      for (double* x = &s.cache.wrench[8 * z(row)]; s.joints.stage[z(j)] == JointStage::intact && x < &s.cache.wrench[8 * z(row)] + 8; ++x)
         if (*x != 0) *x = 0;  // a page of zeros takes no memory until it is written
 }
 

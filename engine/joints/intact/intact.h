@@ -1,8 +1,8 @@
 // Intact joints as the step reads them: in world axes and without points. All data follow from the reference poses.
 //
 // Owner computes: each joint is evaluated in the lane of the block that owns it (`Joint::owned_by_b`). The displacements of eight blocks
-// are read once for all joints that they own. Forces on the owners are summed in registers (`State::owner_sum`); forces on the neighbours
-// are stored in the lanes of the joints (`State::neighbour_force`).
+// are read once for all joints that they own. Forces on the owners are summed in registers (`KernelCache::owner_sum`); forces on the
+// neighbours are stored in the lanes of the joints (`KernelCache::neighbour_force`).
 #pragma once
 #include <atomic>
 #include <cstring>

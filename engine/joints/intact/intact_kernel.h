@@ -1,11 +1,11 @@
-// Sound joints in one pass: displacements of blocks to wrenches, nothing stored between.
+// Intact joints in one pass: displacements of blocks to wrenches, with nothing stored in between.
 //
-// kinematics.h in world axes, all vectors turned back by the mean rotation m of the two blocks since the refresh. With half their
-// rotations h = th/2, c = h x A the first-order half turn of an arm, e = c_b - c_a, s = c_a + c_b, G = D_ref + du, d = h_b - h_a, to second
-// order:
+// These are the formulas of kinematics.h in world axes. All vectors are rotated back by m, the mean rotation of the two blocks since the
+// reference poses. With half rotations h = th/2, c = h x A (the first-order half rotation of an arm), e = c_b - c_a, s = c_a + c_b,
+// G = D_ref + du and d = h_b - h_a, to second order:
 //   D = G + 2e - m x (G + e) + d x s,   rho/2 = rho_ref/2 + d - h_a x h_b,   m = h_a + h_b.
-// Resultants ks D + (kn - ks) n n.D and B rho turn forward by m; they act at A_a + s + G/2 and A_b + s - G/2, the same point of space, so
-// that momentum is kept to round-off. Stiffnesses are stored with their sign turned: the resultants on b.
+// The resultants ks D + (kn - ks) n n.D and B rho are rotated forward by m. They act at A_a + s + G/2 and A_b + s - G/2, the same point of
+// space, so that momentum is conserved to round-off. Stiffnesses are stored with reversed sign: they give the resultants on b.
 #pragma once
 #include "engine/joints/gather.h"
 #include "engine/joints/kernels.h"
@@ -14,29 +14,24 @@
 
 namespace erbs::ERBS_TARGET {
 
-// Where this is positive a joint may be beyond a limit: its greatest opening, slip and closing each taken with the whole relative
-// rotation at the farthest corner. `n` is the opening at the centre. Slip: |q_t| > L is written q_t^2 > L |L|, which needs no root.
-ERBS_INLINE Pack limits_bound(const IntactConstants& L, Pack3 gap, Pack3 rotation, Pack n) {
-  const Pack swing = load(L.diameter) * sqrt(dot(rotation, rotation)), opening = n + swing;
-  const Pack room = (load(L.slip_limit) - load(L.slip_slope) * opening) - swing;
-  const Pack slid = (dot(gap, gap) - n * n) - room * abs(room), torn = opening - load(L.open_limit),
-             crushed = (swing - n) - load(L.close_limit);
-  return max(max(torn, slid), crushed);
+// Bound of yielding in world axes: the opening, slip and closing at the centre, each with the whole relative rotation at the farthest
+// corner. `n`: opening at the centre (m).
+ERBS_INLINE Pack bound_by_diameter(const IntactConstants& L, Pack3 gap, Pack3 rotation, Pack n) {
+  const Pack swing = load(L.diameter) * sqrt(dot(rotation, rotation));
+  return yield_bound(limits_of(L), n + swing, swing - n, dot(gap, gap) - n * n, swing);
 }
 
-// The same looked at more closely: the bounds of nearness() in elastic_kernel.h, with room for what joints are carried apart in either way.
+// The closer bound, `face_bound()` of laws/yield.h, with a margin for the error of joints since their reference poses.
 ERBS_INLINE Mask corners_may_yield(const JointPack& B, double carried, Pack3 gap, Pack3 rotation, Pack n, Pack3 apart) {
   const auto about = [&](int axis) { return 2 * abs(dot(load3(B.frame + 3 * axis), rotation)); };
   const Pack bend = about(0) * load(B.half_t) + about(1) * load(B.half_s), swing = about(2) * load(B.radius);
-  const Pack slid = sqrt(max(dot(gap, gap) - n * n, 0)) + swing;
-  const Pack amiss = carried * (abs(apart.x) + abs(apart.y) + abs(apart.z)) + 1e-6 * (abs(n) + bend + slid);
-  const Pack opening = n + bend + amiss;
-  return (opening > load(B.open_limit)) | (slid + amiss + load(B.slip_slope) * opening > load(B.slip_limit)) |
-         (bend - n + amiss > load(B.close_limit));
+  const Pack slip = dot(gap, gap) - n * n;
+  const Pack error = carried * (abs(apart.x) + abs(apart.y) + abs(apart.z)) + 1e-6 * (abs(n) + bend + swing + sqrt(max(slip, 0)));
+  return yield_bound(limits_of(B), n + bend + error, bend - n + error, slip, swing + error) > 0;
 }
 
-// Displacements and half rotations of blocks a, displacements and rotations of blocks b, to what the joints take off a and put on b; where
-// this answers true one of them may be past a limit.
+// Displacements and half rotations of blocks a, displacements and rotations of blocks b, to the wrenches: `off_a` is subtracted from a,
+// `on_b` acts on b. Returns the lanes whose joint may yield.
 template <bool energy, bool at_corners>
 ERBS_INLINE Mask intact_forces(const IntactPack& B, const JointPack* corner_pack, double carried, const Pack a[6], const Pack b[6],
                                Pack off_a[6], Pack on_b[6], Pack& stored) {
@@ -45,11 +40,11 @@ ERBS_INLINE Mask intact_forces(const IntactPack& B, const JointPack* corner_pack
   const Pack3 G = load3(B.gap) + Pack3{b[0] - a[0], b[1] - a[1], b[2] - a[2]}, w = G + e;
   const Pack3 gap = ((w + e) - cross(m, w)) + cross(d, s);
   const Pack3 rotation = (load3(B.rotation) + d) - cross(ha, hb);
-  // the same stiffness in every direction of the faces, another across them
+  // One stiffness in all directions of the faces, another across them.
   const IntactConstants& L = *B.law;
   const Pack3 normal = load3(B.normal);
   const Pack across = dot(normal, gap), shear = load(L.shear), more = load(L.across) * across;
-  Mask yields = limits_bound(L, gap, rotation, across) > 0;
+  Mask yields = bound_by_diameter(L, gap, rotation, across) > 0;
   if (at_corners && corner_pack != nullptr && any(yields))
     yields &= corners_may_yield(*corner_pack, carried, gap, rotation, across, arm_a - arm_b);
   const Pack3 f = shear * gap + more * normal;
@@ -63,7 +58,7 @@ ERBS_INLINE Mask intact_forces(const IntactPack& B, const JointPack* corner_pack
   return yields;
 }
 
-// Eight blocks and the joints they keep: their own displacements are in their lanes, what acts on them stays in registers.
+// Eight blocks and the joints they own: displacements of the owners are in their lanes, forces on them stay in registers.
 template <bool energy, bool at_corners>
 ERBS_INLINE int intact_group(IntactPack* pack, const CornerCheck& corner_check, int first, int last, const VectorPack<6>& own,
                              const VectorPack<6>* increment, VectorPack<6>& owner_sum, VectorPack<6>* neighbour_force, double* stored,

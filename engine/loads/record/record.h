@@ -31,6 +31,7 @@ struct Record {
   Polyline acceleration;  // s after `start`, and m/s2; both scaled
 
   static constexpr std::string_view wave_name = "record";
+  static constexpr std::string_view help = "A ground-motion record from a file, scaled in amplitude and time.";
   static Fields<Record> fields() {
     return {
         {"file", &Record::file, "", "PEER AT2, CSV or text of one or two columns", -unbounded, unbounded, true},
@@ -49,11 +50,12 @@ struct Record {
 // Reads wanted.file and applies the other members. `place`: the script line of the record. A mistake in the file names file and line.
 Record read_record(Record wanted, const Place& place = {});
 
-// loads.h explains the five functions. area is the velocity of the ground, double_area its displacement.
+// loads.h explains the six functions. area is the velocity of the ground, double_area its displacement.
 double value(const Record& wave, double t);
 double area(const Record& wave, double t);
 double double_area(const Record& wave, double t);
 double mean(const Record& wave, double t0, double t1);
 double end_time(const Record& wave);
+inline double resolution(const Record& wave) { return shortest_interval(wave.acceleration); }
 
 }  // namespace erbs

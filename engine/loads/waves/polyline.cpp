@@ -88,4 +88,10 @@ double area_between(const Polyline& p, double t0, double t1) {
   return head + (p.area[j] - p.area[i + 1]) + tail;
 }
 
+double shortest_interval(const Polyline& line) {
+  double least = line.times.back() - line.times.front();
+  for (std::size_t i = 1; i < line.times.size(); ++i) least = std::min(least, line.times[i] - line.times[i - 1]);
+  return least;
+}
+
 }  // namespace erbs

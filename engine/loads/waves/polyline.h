@@ -24,5 +24,6 @@ double area_inside(const Polyline& line, double t);         // from times[0]
 double double_area_inside(const Polyline& line, double t);  // from times[0]
 // Int from t0 to t1 without the cancellation of a difference of integrals: exact for any short interval.
 double area_between(const Polyline& line, double t0, double t1);
+double shortest_interval(const Polyline& line);  // s
 
 }  // namespace erbs

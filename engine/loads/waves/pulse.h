@@ -10,6 +10,7 @@ struct Pulse {
   double duration = unbounded;  // s
 
   static constexpr std::string_view wave_name = "pulse";
+  static constexpr std::string_view help = "A rectangular pulse, exact at its edges whatever the time step.";
   static Fields<Pulse> fields() {
     return {
         {"amplitude", &Pulse::amplitude, "", "value inside, in the unit of the load", -unbounded, unbounded, true},
@@ -19,11 +20,12 @@ struct Pulse {
   }
 };
 
-// loads.h explains the five functions.
+// loads.h explains the six functions.
 double value(const Pulse& wave, double t);
 double area(const Pulse& wave, double t);
 double double_area(const Pulse& wave, double t);
 double mean(const Pulse& wave, double t0, double t1);
 double end_time(const Pulse& wave);
+inline double resolution(const Pulse& wave) { return 0.1 * wave.duration; }
 
 }  // namespace erbs

@@ -15,6 +15,7 @@ struct Sine {
   double duration = unbounded;  // s
 
   static constexpr std::string_view wave_name = "sine";
+  static constexpr std::string_view help = "A sine from `start` on, for `duration`: amplitude sin(2 pi frequency (t - start) + phase).";
   static Fields<Sine> fields() {
     return {
         {"amplitude", &Sine::amplitude, "", "peak value, in the unit of the load", -unbounded, unbounded, true},
@@ -34,6 +35,7 @@ struct HalfSine {
   double start = 0;      // s
 
   static constexpr std::string_view wave_name = "half_sine";
+  static constexpr std::string_view help = "One lobe of a sine, from any phase to its zero at pi.";
   static Fields<HalfSine> fields() {
     return {
         {"amplitude", &HalfSine::amplitude, "", "peak value, in the unit of the load", -unbounded, unbounded, true},
@@ -52,6 +54,7 @@ struct FullSine {
   double start = 0;      // s
 
   static constexpr std::string_view wave_name = "full_sine";
+  static constexpr std::string_view help = "One cycle of a sine, from any phase to its zero at 2 pi.";
   static Fields<FullSine> fields() {
     return {
         {"amplitude", &FullSine::amplitude, "", "peak value, in the unit of the load", -unbounded, unbounded, true},
@@ -62,7 +65,7 @@ struct FullSine {
   }
 };
 
-// loads.h explains the five functions.
+// loads.h explains the six functions.
 double value(const Sine& wave, double t);
 double value(const HalfSine& wave, double t);
 double value(const FullSine& wave, double t);
@@ -78,5 +81,8 @@ double mean(const FullSine& wave, double t0, double t1);
 double end_time(const Sine& wave);
 double end_time(const HalfSine& wave);
 double end_time(const FullSine& wave);
+inline double resolution(const Sine& wave) { return 0.02 / wave.frequency; }
+inline double resolution(const HalfSine& wave) { return 0.02 / wave.frequency; }
+inline double resolution(const FullSine& wave) { return 0.02 / wave.frequency; }
 
 }  // namespace erbs

@@ -155,7 +155,7 @@ void add_joint(const Scene& scene, const Interface& face, Model& m, Types& types
   type.stiffness[2] = law.kn * type.area;
   type.first_corner = int(m.overlap_corner.size());
   type.corners = int(flat.size());
-  if (law.fc > 0 && type.corners > CompressionFace::most_corners)
+  if (law.crushes() && type.corners > CompressionFace::most_corners)
     throw Error(fmt::format("the joint between {} and {} has {} corners; a law with fc takes up to {}", m.block_name[z(face.a)],
                             m.block_name[z(face.b)], type.corners, CompressionFace::most_corners),
                 scene.blocks[z(face.a)].place);

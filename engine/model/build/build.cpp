@@ -162,15 +162,15 @@ void check_points(const Scene& scene, const Interfaces& found, std::vector<std::
                     scene.file, found.all.size(), points, scene.most_points));
 }
 
-void check_blocks(const Scene& scene, const Interfaces& found, Model& m, std::vector<std::string>& errors) {
+void check_blocks(const Scene& scene, const Interfaces& found, Built& out, std::vector<std::string>& errors) {
   check_points(scene, found, errors);
-  check_overlaps(scene, found.overlaps, found.cut, errors, m.warnings, m.notes);
+  check_overlaps(scene, found.overlaps, found.cut, errors, out.warnings, out.notes);
   if (found.cut) {
     if (errors.empty())
       errors.push_back(fmt::format("{}: more than {} pairs of blocks overlap; part them", scene.file, found.overlaps.size() - 1));
     return;
   }
-  check_joined(scene, found, m.kind, errors, m.warnings);
+  check_joined(scene, found, out.model.kind, errors, out.warnings);
   for (const Interface& face : found.all) {
     const JointRule& rule = scene.joint_rules[z(face.rule)];
     if (rule.points_long * rule.points_short > most_points_per_joint) {
@@ -184,38 +184,38 @@ void check_blocks(const Scene& scene, const Interfaces& found, Model& m, std::ve
 State start(const Scene& scene, const Model& m) {
   State s;
   const std::size_t n = z(m.nblock) + 1;
-  s.u.assign(n, Vec3::Zero());
-  s.q.assign(n, Quat::Identity());
-  s.v = s.spin_momentum = s.w = s.ref_u = s.u;
-  s.ref_q = s.q;
-  s.pose_row.assign(block_groups(m.nblock) * pack_size, 0.0);
-  s.increment.assign(block_groups(m.nblock), {});
-  s.island.assign(n, -1);
-  s.grounded.assign(n, 0);
-  s.loose.assign(n, 0);
-  s.joined.assign(n, 0);
+  s.pose.u.assign(n, Vec3::Zero());
+  s.pose.q.assign(n, Quat::Identity());
+  s.motion.v = s.motion.spin_momentum = s.motion.w = s.cache.ref_u = s.pose.u;
+  s.cache.ref_q = s.pose.q;
+  s.cache.pose_row.assign(block_groups(m.nblock) * pack_size, 0.0);
+  s.cache.increment.assign(block_groups(m.nblock), {});
+  s.topology.island.assign(n, -1);
+  s.topology.grounded.assign(n, 0);
+  s.topology.loose.assign(n, 0);
+  s.topology.joined.assign(n, 0);
   for (int b = 0; b < m.nblock; ++b) {
     const Initial& i = scene.blocks[z(b)].initial();
     if (i.given) {
-      s.q[z(b)] = rotation(i.rotation);
+      s.pose.q[z(b)] = rotation(i.rotation);
       const Vec3 arm = i.has_about ? Vec3(m.rest[z(b)] - i.about) : Vec3(Vec3::Zero());
-      s.u[z(b)] = i.position + s.q[z(b)] * arm - arm;
+      s.pose.u[z(b)] = i.position + s.pose.q[z(b)] * arm - arm;
     }
     if (m.kind[z(b)] != Kind::moving) continue;
-    s.v[z(b)] = i.velocity;
-    s.w[z(b)] = i.spin;
-    const Mat3 r = s.q[z(b)].toRotationMatrix();
-    s.spin_momentum[z(b)] = r * (m.inertia[z(b)] * (r.transpose() * i.spin));
+    s.motion.v[z(b)] = i.velocity;
+    s.motion.w[z(b)] = i.spin;
+    const Mat3 r = s.pose.q[z(b)].toRotationMatrix();
+    s.motion.spin_momentum[z(b)] = r * (m.inertia[z(b)] * (r.transpose() * i.spin));
   }
   set_slots(m, s);
-  s.stage.assign(z(m.njoint), JointStage::intact);
-  s.memory.clear(z(m.njoint));
-  s.history.clear(z(m.npoint));
-  if (std::any_of(m.laws.begin(), m.laws.end(), [](const PointLaw& law) { return law.fc > 0; })) s.crushed.clear(z(m.njoint));
-  if (m.dashpots_cracked) s.viscous.assign(6 * z(m.njoint), 0.0);
-  s.wrench.assign(z(m.spare_wrench_row()) + 1, 0.0);
-  s.owner_sum.assign(block_groups(m.nblock), {});
-  s.neighbour_force.assign(m.owner_schedule.other.size() + 1, {});
+  s.joints.stage.assign(z(m.njoint), JointStage::intact);
+  s.joints.memory.clear(z(m.njoint));
+  s.joints.history.clear(z(m.npoint));
+  if (std::any_of(m.laws.begin(), m.laws.end(), [](const PointLaw& law) { return law.crushes(); })) s.joints.crushed.clear(z(m.njoint));
+  if (m.dashpots_cracked) s.joints.viscous.assign(6 * z(m.njoint), 0.0);
+  s.cache.wrench.assign(z(m.spare_wrench_row()) + 1, 0.0);
+  s.cache.owner_sum.assign(block_groups(m.nblock), {});
+  s.cache.neighbour_force.assign(m.owner_schedule.other.size() + 1, {});
   return s;
 }
 
@@ -236,7 +236,7 @@ Built build(const Scene& scene) {
   add_loads(scene, m);
   Interfaces found = find_interfaces(interface_blocks(scene), scene.joint_rules, 0.05, pairs_of(scene));
   std::vector<std::string> errors;
-  check_blocks(scene, found, m, errors);
+  check_blocks(scene, found, out, errors);
   if (!errors.empty()) throw Errors(errors);
   add_joints(scene, found.all, m);
   found = {};

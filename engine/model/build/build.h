@@ -8,6 +8,8 @@ namespace erbs {
 struct Built {
   Model model;
   State state;
+  std::vector<std::string> warnings;
+  std::vector<std::string> notes;  // details of a summary warning, for log.txt
 };
 
 // Throws Errors with one message per mistake (overlap, block without joint, joint with too many points ...).

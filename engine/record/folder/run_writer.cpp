@@ -41,7 +41,7 @@ MotionJoint joint_of(const Scene& scene, const Model& model, const Joint& joint)
   drawn.b = joint.b;
   drawn.normal = joint.type->frame.col(2);
   // Each joint rule gives one law. A dry joint has no mortar to draw.
-  if (!model.laws[std::size_t(joint.type->law)].dry && std::size_t(joint.type->rule) < scene.joint_rules.size())
+  if (model.laws[std::size_t(joint.type->law)].has_bond() && std::size_t(joint.type->rule) < scene.joint_rules.size())
     drawn.thickness = scene.joint_rules[std::size_t(joint.type->rule)].thickness;
   drawn.polygon.reserve(std::size_t(joint.type->corners));
   for (int i = joint.type->first_corner; i < joint.type->first_corner + joint.type->corners; ++i) {
@@ -91,7 +91,7 @@ RunWriter::RunWriter(const std::string& dir, const Scene& scene, const Model& mo
 
 void RunWriter::row(const Snapshot& snapshot) {
   histories_.row(recorders_.sample(snapshot));
-  const Energy& energy = snapshot.state.energy;
+  const Energy& energy = snapshot.energy;
   std::vector<double> values{snapshot.t};
   for (const auto& [name, value] : energy_terms(energy)) values.push_back(value);
   values.push_back(energy.residual);
@@ -102,16 +102,15 @@ void RunWriter::row(const Snapshot& snapshot) {
 
 void RunWriter::frame(const Snapshot& snapshot) {
   const Model& model = snapshot.model;
-  const State& state = snapshot.state;
   frame_.t = snapshot.t;
   float* pose = frame_.poses.data();
   for (std::size_t b = 0; b < std::size_t(model.nblock); ++b) {
-    const Vec3 centre = model.rest[b] + state.u[b];
-    const Quat& q = state.q[b];
+    const Vec3 centre = model.rest[b] + snapshot.pose.u[b];
+    const Quat& q = snapshot.pose.q[b];
     for (const double value : {centre.x(), centre.y(), centre.z(), q.w(), q.x(), q.y(), q.z()}) *pose++ = float(value);
   }
   for (int j = 0; j < model.njoint; ++j) {
-    const JointCondition condition = joint_condition(model, state, j);
+    const JointCondition condition = joint_condition(model, snapshot.joints, snapshot.pose, j);
     // Rounded up: a joint with any damage is not drawn as intact.
     frame_.damage[std::size_t(j)] = std::uint8_t(std::ceil(255 * std::clamp(condition.damage, 0.0, 1.0)));
     frame_.opening[std::size_t(j)] = float(condition.opening);

@@ -6,45 +6,34 @@
 
 #include "engine/base/error.h"
 #include "engine/base/units.h"
-#include "engine/record/plot/gnuplot.h"
+#include "engine/record/plot/figure.h"
 
 namespace erbs {
 namespace {
 
-struct Panel {
-  std::string_view title, label, color;
+struct Quantity {
+  std::string title, symbol, unit, color;
   int column;
-  Peak peak;         // in the unit of the panel
-  std::string note;  // text beside the marker
+  Peak peak;  // in the unit
   double bottom, top;
 };
-
-constexpr std::string_view head = R"(set terminal svg size 1240,780 dynamic font "DejaVu Sans,13" background "#ffffff"
-set encoding utf8
-set multiplot
-set border 3 lc rgb "#5a5a5a" lw 1
-set tics out nomirror scale 0.6 tc rgb "#333333"
-set grid lc rgb "#e3e3e3" lw 1 lt 1
-set style fill solid noborder
-unset key
-)";
 
 // Rows of time, a (g), v (m/s), d (m). Short records get points in between, since v and d are curved; long ones would make large files.
 std::string histories(const Polyline& a) {
   const int parts = a.times.size() < 2500 ? 3 : 1;
-  std::string text = "$history << END\n";
+  std::string text;
   for (size_t i = 0; i < a.times.size(); ++i)
     for (int k = 0; k < (i + 1 < a.times.size() ? parts : 1); ++k) {
       const double t = k == 0 ? a.times[i] : a.times[i] + k * (a.times[i + 1] - a.times[i]) / parts;
       text += fmt::format("{:.6g} {:.6g} {:.6g} {:.6g}\n", t, value_inside(a, t) / standard_g, area_inside(a, t), double_area_inside(a, t));
     }
-  return text + "END\n";
+  return text;
 }
 
 std::string spectrum(const RecordReport& r) {
-  std::string text = "$spectrum << END\n";
+  std::string text;
   for (const ResponsePoint& point : r.spectrum) text += fmt::format("{:.6g} {:.6g}\n", point.period, point.acceleration / standard_g);
-  return text + "END\n";
+  return text;
 }
 
 // The step (1, 2 or 5 times a power of ten) that gives one to four tics up to `reach`.
@@ -55,48 +44,51 @@ double tic_step(double reach) {
 }
 
 // A circle at the peak, with its value on the side that has room.
-std::string marker(const Panel& p, double duration) {
-  const bool left = p.peak.time > 0.6 * duration;
-  return fmt::format("set label 1 at {:.8g},{:.8g} {} {} offset {},{} point pt 7 ps 0.8 lc rgb '{}' tc rgb '#222222' noenhanced front\n",
-                     p.peak.time, p.peak.value, gnuplot_quoted(p.note), left ? "right" : "left", left ? -1.0 : 1.0,
-                     p.peak.value > 0 ? 0.0 : -0.4, p.color);
+plot::Label marker(double x, double y, const std::string& text, bool left, double gap, double lift, const std::string& color) {
+  return {text, fmt::format("{:.8g},{:.8g}", x, y),
+          fmt::format("{} offset {},{} point pt 7 ps 0.8 lc rgb '{}' front", left ? "right" : "left", left ? -gap : gap, lift, color)};
 }
 
-std::string panel(const Panel& p, const RecordReport& r, bool last) {
-  const double reach = std::max(1.28 * std::abs(p.peak.value), 1e-12);  // gives a record of zeros an axis too
-  std::string text = fmt::format(
-      "set lmargin at screen 0.075\nset rmargin at screen 0.6\nset bmargin at screen {}\nset tmargin at screen {}\n"
-      "set label 4 '{}' at graph 0, graph 1.1 left tc rgb '{}' font ',14'\n"
-      "set label 5 '{}' at screen 0.02,{} center rotate by 90 tc rgb '#333333'\n"  // a ylabel would move with the tic labels
-      "set xrange [0:{:.8g}]\nset yrange [{:.8g}:{:.8g}]\nset format x '{}'\n{}\n",
-      p.bottom, p.top, p.title, p.color, p.label, 0.5 * (p.bottom + p.top), r.duration, -reach, reach, last ? "%g" : "",
-      last ? "set xlabel 'time (s)' offset 0,0.3 tc rgb '#333333'" : "unset xlabel");
-  text += fmt::format("set object 1 rectangle from {:.8g}, graph 0 to {:.8g}, graph 1 fc rgb '#f3efe8' fs solid noborder behind\n",
-                      r.time_5, r.time_95);
-  text += fmt::format("set ytics {:.8g}\n", tic_step(reach)) + marker(p, r.duration);
-  text += "set arrow 1 from graph 0, first 0 to graph 1, first 0 nohead lc rgb '#9a9a9a' lw 1\n";
-  return text + fmt::format("plot $history using 1:{} with lines lw 1.1 lc rgb '{}'\n", p.column, p.color);
+plot::Panel history_panel(const Quantity& q, const RecordReport& r, const std::string& rows) {
+  const double reach = std::max(1.28 * std::abs(q.peak.value), 1e-12);  // gives a record of zeros an axis too
+  const bool last = q.column == 4;
+  plot::Panel p;
+  p.axes = {0.075, 0.6, q.bottom, q.top};
+  p.x = {last ? "time (s)" : "", fmt::format("[0:{:.8g}]", r.duration), "", last ? "" : "none", "offset 0,0.3"};
+  p.y = {"", fmt::format("[{:.8g}:{:.8g}]", -reach, reach), fmt::format("{:.8g}", tic_step(reach))};
+  p.settings = fmt::format("set object rectangle from {:.8g}, graph 0 to {:.8g}, graph 1 fc rgb '#f3efe8' fs solid noborder behind\n",
+                           r.time_5, r.time_95);
+  p.add_horizontal(0, "lc rgb '#9a9a9a' lw 1");
+  p.labels = {{q.title, "graph 0, graph 1.1", fmt::format("left tc rgb '{}' font ',14'", q.color)},
+              // a ylabel would move with the tic labels
+              {fmt::format("{} ({})", q.symbol, q.unit), fmt::format("screen 0.02,{}", 0.5 * (q.bottom + q.top)), "center rotate by 90"},
+              marker(q.peak.time, q.peak.value, fmt::format("{:.4f} {} at {:.2f} s", std::abs(q.peak.value), q.unit, q.peak.time),
+                     q.peak.time > 0.6 * r.duration, 1, q.peak.value > 0 ? 0 : -0.4, q.color)};
+  p.series = {{fmt::format("{} using 1:{}", rows, q.column), fmt::format("lines lw 1.1 lc rgb '{}'", q.color)}};
+  return p;
 }
 
-std::string spectrum_panel(const RecordReport& r) {
+plot::Panel spectrum_panel(const RecordReport& r, const std::string& rows) {
   const double top = std::max(r.spectrum_peak.acceleration / standard_g, 1e-12);
-  std::string text =
-      "unset object 1\nunset arrow 1\nset lmargin at screen 0.685\nset rmargin at screen 0.975\nset bmargin at screen 0.40\nset tmargin at "
-      "screen 0.865\n"
-      "unset label 5\nset label 4 'Response spectrum, 5 % damping' at graph 0, graph 1.045 left tc rgb '#5b3a78' font ',14'\n"
-      "set ylabel 'pseudo-acceleration Sa (g)' offset 0.6,0 tc rgb '#333333'\nset xlabel 'period T (s)' offset 0,0.3 tc rgb '#333333'\n"
-      "set ytics auto\nset logscale x\nset format x '%g'\nset xtics (0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5)\n";
-  text +=
-      fmt::format("set xrange [{:.8g}:{:.8g}]\nset yrange [0:{:.8g}]\n", r.spectrum.front().period, r.spectrum.back().period, 1.2 * top);
-  const bool left = r.spectrum_peak.period > 0.5;
-  text += fmt::format(
-      "set label 1 at {:.8g},{:.8g} '{:.3f} g at {:.2f} s' {} offset {},0.2 point pt 7 ps 0.8 lc rgb '#5b3a78' tc rgb '#222222' front\n",
-      r.spectrum_peak.period, top, top, r.spectrum_peak.period, left ? "right" : "left", left ? -0.6 : 0.6);
-  return text + "plot $spectrum using 1:2 with lines lw 1.8 lc rgb '#5b3a78'\n";
+  plot::Panel p;
+  p.axes = {0.685, 0.975, 0.40, 0.865};
+  p.x = {"period T (s)",
+         fmt::format("[{:.8g}:{:.8g}]", r.spectrum.front().period, r.spectrum.back().period),
+         "(0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5)",
+         "",
+         "offset 0,0.3",
+         true};
+  p.y = {"pseudo-acceleration Sa (g)", fmt::format("[0:{:.8g}]", 1.2 * top), "", "", "offset 0.6,0"};
+  const char* color = "#5b3a78";
+  p.labels = {{"Response spectrum, 5 % damping", "graph 0, graph 1.045", fmt::format("left tc rgb '{}' font ',14'", color)},
+              marker(r.spectrum_peak.period, top, fmt::format("{:.3f} g at {:.2f} s", top, r.spectrum_peak.period),
+                     r.spectrum_peak.period > 0.5, 0.6, 0.2, color)};
+  p.series = {{rows + " using 1:2", fmt::format("lines lw 1.8 lc rgb '{}'", color)}};
+  return p;
 }
 
 // Names and values below the spectrum.
-std::string summary(const RecordReport& r) {
+void add_summary(const RecordReport& r, std::vector<plot::Label>& labels) {
   const std::pair<std::string, std::string> rows[] = {
       {"points, step", fmt::format("{}, {}", r.points, r.dt > 0 ? fmt::format("{:.5g} s", r.dt) : "uneven")},
       {"PGA", fmt::format("{:.5f} g", std::abs(r.pga.value) / standard_g)},
@@ -107,42 +99,30 @@ std::string summary(const RecordReport& r) {
       {"Arias intensity", fmt::format("{:.3f} m/s", r.arias)},
       {"duration D5-95 (shaded)", fmt::format("{:.2f} s", r.time_95 - r.time_5)},
   };
-  std::string text;
-  int tag = 10;
   double y = 0.285;
   for (const auto& [name, value] : rows) {
-    text += fmt::format("set label {} {} at screen 0.685,{:.4f} left noenhanced tc rgb '#555555'\n", tag++, gnuplot_quoted(name), y);
-    text += fmt::format("set label {} {} at screen 0.975,{:.4f} right noenhanced tc rgb '#111111'\n", tag++, gnuplot_quoted(value), y);
+    labels.push_back({name, fmt::format("screen 0.685,{:.4f}", y), "left tc rgb '#555555'"});
+    labels.push_back({value, fmt::format("screen 0.975,{:.4f}", y), "right tc rgb '#111111'"});
     y -= 0.0315;
   }
-  return text;
 }
 
 }  // namespace
 
 void write_record_plot(const Record& record, const RecordReport& r, const std::string& path) {
-  const std::string name = std::filesystem::path(r.file).filename().string();
   std::string title = r.title.substr(0, 110);
   if (title.size() < r.title.size()) title += " ...";
-  std::string script(head);
-  script += histories(record.acceleration) + spectrum(r);
-  script += fmt::format("set label 2 {} at screen 0.075,0.965 left font ',16' noenhanced tc rgb '#111111'\n", gnuplot_quoted(name));
-  script += fmt::format("set label 3 {} at screen 0.075,0.93 left font ',12' noenhanced tc rgb '#666666'\n", gnuplot_quoted(title));
-  const double pga = r.pga.value / standard_g;
-  const auto note = [](std::string_view unit, const Peak& peak, double value) {
-    return fmt::format("{:.4f} {} at {:.2f} s", std::abs(value), unit, peak.time);
-  };
-  const Panel panels[] = {
-      {"Acceleration", "a (g)", "#b5432e", 2, {pga, r.pga.time}, note("g", r.pga, pga), 0.645, 0.865},
-      {"Velocity", "v (m/s)", "#2f6b8f", 3, r.pgv, note("m/s", r.pgv, r.pgv.value), 0.365, 0.585},
-      {"Displacement", "d (m)", "#3c7a4b", 4, r.pgd, note("m", r.pgd, r.pgd.value), 0.085, 0.305},
-  };
-  for (const Panel& p : panels) {
-    script += panel(p, r, p.column == 4);
-    script += "unset label 2\nunset label 3\n";
-  }
-  script += summary(r) + spectrum_panel(r) + "unset multiplot\n";
-  run_gnuplot(script, path);
+  plot::Figure figure{1240, 780};
+  figure.labels = {{std::filesystem::path(r.file).filename().string(), "screen 0.075,0.965", "left font ',16' tc rgb '#111111'"},
+                   {title, "screen 0.075,0.93", "left font ',12' tc rgb '#666666'"}};
+  add_summary(r, figure.labels);
+  const std::string rows = figure.add_rows(histories(record.acceleration));
+  const Quantity quantities[] = {{"Acceleration", "a", "g", "#b5432e", 2, {r.pga.value / standard_g, r.pga.time}, 0.645, 0.865},
+                                 {"Velocity", "v", "m/s", "#2f6b8f", 3, r.pgv, 0.365, 0.585},
+                                 {"Displacement", "d", "m", "#3c7a4b", 4, r.pgd, 0.085, 0.305}};
+  for (const Quantity& q : quantities) figure.panels.push_back(history_panel(q, r, rows));
+  figure.panels.push_back(spectrum_panel(r, figure.add_rows(spectrum(r))));
+  plot::draw(figure, path);
 }
 
 }  // namespace erbs

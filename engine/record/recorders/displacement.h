@@ -60,17 +60,17 @@ struct BlockMotion {
  private:
   Vec3 of_block(const Snapshot& s, std::size_t b) const {
     const Vec3 rest_arm = has_point ? Vec3(point - s.model.rest[b]) : Vec3(Vec3::Zero());
-    const Vec3 rotated = rotation_change(s.state.q[b], rest_arm), arm = rest_arm + rotated;
+    const Vec3 rotated = rotation_change(s.pose.q[b], rest_arm), arm = rest_arm + rotated;
     const MovingBlock m = what == What::displacement || what == What::rotation ? MovingBlock{} : s.motion(b);
     switch (what) {
       case What::displacement:
-        return s.state.u[b] + rotated + (absolute ? s.ground_u : Vec3(Vec3::Zero()));
+        return s.pose.u[b] + rotated + (absolute ? s.ground_u : Vec3(Vec3::Zero()));
       case What::velocity:
         return m.v + m.w.cross(arm) + (absolute ? s.ground_v : Vec3(Vec3::Zero()));
       case What::acceleration:
         return m.a + m.alpha.cross(arm) + m.w.cross(m.w.cross(arm)) + (absolute ? s.ground_a : Vec3(Vec3::Zero()));
       case What::rotation:
-        return rotation_vector(s.state.q[b]);
+        return rotation_vector(s.pose.q[b]);
       case What::spin:
         return m.w;
     }

@@ -50,7 +50,7 @@ struct Count {
 
   std::vector<std::string> columns() const { return {name + (what == What::contact_points ? "_contact_points" : "_joints_broken")}; }
   void needs(Needs&) const {}
-  void sample(const Snapshot& s, double* out) const { out[0] = what == What::contact_points ? s.contact_points : s.state.joints_broken; }
+  void sample(const Snapshot& s, double* out) const { out[0] = what == What::contact_points ? s.contact_points : s.joints_broken; }
 };
 
 }  // namespace erbs

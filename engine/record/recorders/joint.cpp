@@ -33,30 +33,30 @@ void JointQuantity::sample(const Snapshot& s, double* out) const {
     const Joint& joint = s.model.joint[std::size_t(j)];
     switch (what) {
       case What::opening:
-        largest = std::max(largest, joint_condition(s.model, s.state, j).opening);
+        largest = std::max(largest, joint_condition(s.model, s.joints, s.pose, j).opening);
         break;
       case What::slip:
-        largest = std::max(largest, joint_condition(s.model, s.state, j).slip);
+        largest = std::max(largest, joint_condition(s.model, s.joints, s.pose, j).slip);
         break;
       case What::damage:
-        damaged += joint.type->area * joint_damage(s.model, s.state, j);
+        damaged += joint.type->area * joint_damage(s.model, s.joints, j);
         area += joint.type->area;
         break;
       case What::broken:
-        broken += joint_broken(s.model, s.state, j) ? 1 : 0;
+        broken += joint_broken(s.model, s.joints, j) ? 1 : 0;
         break;
       case What::normal_force:
       case What::shear_force:
       case What::joint_moment: {
         ERBS_ASSERT(s.joint_force.size() >= std::size_t(s.model.njoint));
         const auto& f = s.joint_force[std::size_t(j)];
-        const Mat3 frame = joint_frame(s.model, s.state, j);
+        const Mat3 frame = joint_frame(s.model, s.pose, j);
         const auto a = std::size_t(joint.a), b = std::size_t(joint.b);
         const Vec3 force = frame * Vec3(f[0], f[1], f[2]);
         // The force acts midway between the two material points that coincided at rest (kinematics.h).
         const Vec3 at =
             s.model.rest[a] + joint.arm_a +
-            0.5 * (s.state.u[a] + s.state.u[b] + rotation_change(s.state.q[a], joint.arm_a) + rotation_change(s.state.q[b], joint.arm_b));
+            0.5 * (s.pose.u[a] + s.pose.u[b] + rotation_change(s.pose.q[a], joint.arm_a) + rotation_change(s.pose.q[b], joint.arm_b));
         normal += f[2];
         along += sign[i] * (force - frame.col(2) * f[2]);
         moment += sign[i] * (frame * Vec3(f[3], f[4], f[5]) + Vec3(at - centre).cross(force));

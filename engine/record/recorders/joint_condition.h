@@ -12,9 +12,9 @@ struct JointCondition {
   double damage = 0;   // 0..1, area share of points with any damage; 1 after release to contact
 };
 
-JointCondition joint_condition(const Model& model, const State& state, int j);
-double joint_damage(const Model& model, const State& state, int j);  // JointCondition::damage alone
-bool joint_broken(const Model& model, const State& state, int j);    // every point is debonded, or the joint is released to contact
-Mat3 joint_frame(const Model& model, const State& state, int j);     // columns s, t, n, rotated by the mean rotation of its blocks
+JointCondition joint_condition(const Model& model, const JointState& joints, const BlockPoses& pose, int j);
+double joint_damage(const Model& model, const JointState& joints, int j);  // JointCondition::damage alone
+bool joint_broken(const Model& model, const JointState& joints, int j);    // every point is debonded, or the joint is released to contact
+Mat3 joint_frame(const Model& model, const BlockPoses& pose, int j);       // columns s, t, n, rotated by the mean rotation of its blocks
 
 }  // namespace erbs

@@ -42,7 +42,7 @@ struct Momentum {
       const auto b = std::size_t(i);
       const MovingBlock m = s.motion(b);
       const Vec3 p = s.model.mass[b] * m.v;
-      sum += what == What::momentum ? p : Vec3(m.spin_momentum + Vec3(s.model.rest[b] + s.state.u[b] - point).cross(p));
+      sum += what == What::momentum ? p : Vec3(m.spin_momentum + Vec3(s.model.rest[b] + s.pose.u[b] - point).cross(p));
     }
     put_axes(sum, axis, out);
   }

@@ -41,13 +41,13 @@ struct Reaction {
   void needs(Needs& n) const { (of_load() ? n.load_wrench : n.block_wrench) = true; }
 
   void sample(const Snapshot& s, double* out) const {
-    const std::vector<Vec6>& wrench = of_load() ? s.load_wrench : s.block_wrench;
+    const std::span<const Vec6> wrench = of_load() ? s.load_wrench : s.block_wrench;
     ERBS_ASSERT(wrench.size() >= std::size_t(s.model.nblock));
     Vec3 sum = Vec3::Zero();
     for (const int i : blocks) {
       const auto b = std::size_t(i);
       const Vec3 force = wrench[b].head<3>();
-      if (of_moment()) sum += wrench[b].tail<3>() + Vec3(s.model.rest[b] + s.state.u[b] - point).cross(force);
+      if (of_moment()) sum += wrench[b].tail<3>() + Vec3(s.model.rest[b] + s.pose.u[b] - point).cross(force);
       else sum += force;
     }
     put_axes(sum, axis, out);

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "engine/model/model.h"
@@ -25,14 +26,17 @@ struct MovingBlock {
 
 struct Snapshot {
   const Model& model;
-  const State& state;
+  const BlockPoses& pose;
+  const JointState& joints;
+  const Energy& energy;
   double t = 0;                                                                    // s
   std::function<MovingBlock(std::size_t block)> motion = {};                       // computed on request of a recorder
   Vec3 ground_a = Vec3::Zero(), ground_v = Vec3::Zero(), ground_u = Vec3::Zero();  // m/s2, m/s, m, of the ground
-  int contact_points = 0;                                                          // of joints, and touching ones of contacts
+  int joints_broken = 0;
+  int contact_points = 0;  // of joints, and touching ones of contacts
   // Filled only if a recorder needs them.
-  std::vector<Vec6> block_wrench = {};  // N, N m about the centroid: joints and contacts on each block [nblock]
-  std::vector<Vec6> load_wrench = {};   // N, N m about the centroid: force, moment and motion loads [nblock]
+  std::span<const Vec6> block_wrench = {};  // N, N m about the centroid: joints and contacts on each block [nblock]
+  std::span<const Vec6> load_wrench = {};   // N, N m about the centroid: force, moment and motion loads [nblock]
   // Resultant on block a of each joint, in the joint's rotated frame: s, t, n in N, then N m about the joint's centre. Tension is positive.
   // Zero after release to contact. [njoint]
   std::vector<std::array<double, 6>> joint_force = {};

@@ -5,13 +5,13 @@
 namespace erbs {
 namespace {
 
-bool down(const Collapse& collapse, const Model& model, const State& state, std::size_t b) {
-  return model.kind[b] == Kind::moving && collapse.start[b] - state.u[b].z() > 0.5 * model.smallest_edge[b];
+bool down(const Collapse& collapse, const Model& model, const BlockPoses& pose, std::size_t b) {
+  return model.kind[b] == Kind::moving && collapse.start[b] - pose.u[b].z() > 0.5 * model.smallest_edge[b];
 }
 
 }  // namespace
 
-Collapse watch_collapse(const Model& model, const State& start) {
+Collapse watch_collapse(const Model& model, const BlockPoses& start) {
   Collapse collapse;
   collapse.start.resize(std::size_t(model.nblock));
   for (std::size_t b = 0; b < collapse.start.size(); ++b) collapse.start[b] = start.u[b].z();
@@ -19,14 +19,14 @@ Collapse watch_collapse(const Model& model, const State& start) {
   return collapse;
 }
 
-bool update(Collapse& collapse, const Model& model, const State& state, double t, std::vector<int>* newly) {
+bool update(Collapse& collapse, const Model& model, const BlockPoses& pose, double t, std::vector<int>* newly) {
   double fallen = 0, moving = 0;  // kg
   const double far = model.analysis.stop_when_moved;
   for (std::size_t b = 0; b < collapse.start.size(); ++b) {
     if (model.kind[b] != Kind::moving) continue;
-    if (far > 0 && state.u[b].squaredNorm() > far * far) collapse.moved = true;
+    if (far > 0 && pose.u[b].squaredNorm() > far * far) collapse.moved = true;
     moving += model.mass[b];
-    if (!down(collapse, model, state, b)) continue;
+    if (!down(collapse, model, pose, b)) continue;
     fallen += model.mass[b];
     if (!collapse.fallen[b] && newly) newly->push_back(int(b));
     collapse.fallen[b] = 1;
@@ -35,16 +35,16 @@ bool update(Collapse& collapse, const Model& model, const State& state, double t
   if (collapse.collapsed || fallen == 0 || collapse.fallen_fraction < model.analysis.collapse_fraction) return false;
   collapse.collapsed = true;
   collapse.time = t;
-  collapse.mechanism = mechanism_of(model, state, t);
+  collapse.mechanism = mechanism_of(model, pose, t);
   return true;
 }
 
-std::optional<std::array<double, 2>> collapse_direction(const Collapse& collapse, const Model& model, const State& state) {
+std::optional<std::array<double, 2>> collapse_direction(const Collapse& collapse, const Model& model, const BlockPoses& pose) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   double lengths = 0;
   for (std::size_t b = 0; b < collapse.start.size(); ++b) {
-    if (!down(collapse, model, state, b)) continue;
-    const Eigen::Vector2d horizontal = state.u[b].head<2>();
+    if (!down(collapse, model, pose, b)) continue;
+    const Eigen::Vector2d horizontal = pose.u[b].head<2>();
     sum += horizontal;
     lengths += horizontal.norm();
   }

@@ -37,14 +37,14 @@ void each(C& c, F&& f) {
   f("collapse_mechanism", c.mechanism);
 }
 
-Collapse watch_collapse(const Model& model, const State& start);
+Collapse watch_collapse(const Model& model, const BlockPoses& start);
 
-// Updates the criterion with the state at time t. Appends blocks that have fallen for the first time to `newly`, if given. Returns true at
+// Updates the criterion with the poses at time t. Appends blocks that have fallen for the first time to `newly`, if given. Returns true at
 // the moment of collapse.
-bool update(Collapse& collapse, const Model& model, const State& state, double t, std::vector<int>* newly = nullptr);
+bool update(Collapse& collapse, const Model& model, const BlockPoses& pose, double t, std::vector<int>* newly = nullptr);
 
 // Mean horizontal displacement (x, y) of the blocks that are down now, as a unit vector. Empty if no block is down. Empty also if the mean
 // vector is shorter than a tenth of the mean length: the blocks fell in all directions.
-std::optional<std::array<double, 2>> collapse_direction(const Collapse& collapse, const Model& model, const State& state);
+std::optional<std::array<double, 2>> collapse_direction(const Collapse& collapse, const Model& model, const BlockPoses& pose);
 
 }  // namespace erbs

@@ -13,18 +13,18 @@ namespace {
 constexpr double share_of_most = 0.1, share_of_size = 1e-3;
 
 // Movement of one joint. A joint without corners keeps a zero movement.
-MovedJoint moved_joint(const Model& model, const State& state, int j) {
+MovedJoint moved_joint(const Model& model, const BlockPoses& pose, int j) {
   const Joint& joint = model.joint[std::size_t(j)];
   const auto a = std::size_t(joint.a), b = std::size_t(joint.b);
-  const Mat3 frame = joint_frame(model, state, j);
+  const Mat3 frame = joint_frame(model, pose, j);
   MovedJoint moved;
   moved.joint = j;
   std::vector<Vec3> gap, place;
   for (int i = joint.type->first_corner; i < joint.type->first_corner + joint.type->corners; ++i) {
     const Eigen::Vector2d& c = model.overlap_corner[std::size_t(i)];
     const Vec3 across = joint.type->frame.col(0) * c.x() + joint.type->frame.col(1) * c.y();
-    gap.push_back(frame.transpose() * (state.u[b] - state.u[a] + rotation_change(state.q[b], joint.arm_b + across) -
-                                       rotation_change(state.q[a], joint.arm_a + across)));
+    gap.push_back(frame.transpose() * (pose.u[b] - pose.u[a] + rotation_change(pose.q[b], joint.arm_b + across) -
+                                       rotation_change(pose.q[a], joint.arm_a + across)));
     place.push_back(model.rest[a] + joint.arm_a + across);
   }
   if (gap.empty()) return moved;
@@ -42,7 +42,7 @@ MovedJoint moved_joint(const Model& model, const State& state, int j) {
   }
   closed /= corners;
   std::copy_n(closed.data(), 3, moved.at);
-  moved.rotation = rotation_vector(state.q[b] * state.q[a].conjugate()).norm();
+  moved.rotation = rotation_vector(pose.q[b] * pose.q[a].conjugate()).norm();
   const double most = std::max({moved.gap, moved.opening, moved.slip});
   moved.kind = most == moved.gap ? Movement::part : most == moved.opening ? Movement::hinge : Movement::slide;
   return moved;
@@ -74,12 +74,12 @@ const char* past_tense(Movement kind, int n) {
 
 const char* word(Movement kind) { return kind == Movement::hinge ? "hinge" : kind == Movement::slide ? "slide" : "part"; }
 
-Mechanism mechanism_of(const Model& model, const State& state, double t) {
+Mechanism mechanism_of(const Model& model, const BlockPoses& pose, double t) {
   Mechanism out;
   out.time = t;
   double most = 0;
   for (int j = 0; j < model.njoint; ++j) {
-    MovedJoint moved = moved_joint(model, state, j);
+    MovedJoint moved = moved_joint(model, pose, j);
     if (movement(moved) <= share_of_size * 2 * model.joint[std::size_t(j)].type->radius) continue;
     most = std::max(most, movement(moved));
     out.moved.push_back(moved);

@@ -35,7 +35,7 @@ void each(M& m, F&& f) {
 
 // Selects joints that moved by at least a tenth of the largest movement, and by more than a thousandth of their own size. The largest of
 // three movements gives the kind. Narrowest gap: the joint has parted. Opening: hinge. Otherwise: slide.
-Mechanism mechanism_of(const Model& model, const State& state, double t);
+Mechanism mechanism_of(const Model& model, const BlockPoses& pose, double t);
 
 int count(const Mechanism& mechanism, Movement kind);
 

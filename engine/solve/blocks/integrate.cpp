@@ -17,10 +17,10 @@ std::size_t z(int i) { return std::size_t(i); }
 KickDrift kick_of(const Model& m, const State& s, const Excitation& e) {
   KickDrift k{};
   k.kick = e.kick;
-  k.dt = s.dt;
-  k.half_last = 0.5 * s.last_dt;
-  k.half_next = 0.5 * s.dt;
-  k.first = s.last_dt == 0;
+  k.dt = s.time.dt;
+  k.half_last = 0.5 * s.time.last_dt;
+  k.half_next = 0.5 * s.time.dt;
+  k.first = s.time.last_dt == 0;
   k.damping = m.damping.mass;
   k.damping_explicit = m.damping_explicit;
   const double f = 0.5 * k.damping * k.kick;
@@ -34,27 +34,27 @@ KickDrift kick_of(const Model& m, const State& s, const Excitation& e) {
 
 BlockArrays arrays(const Model& m, State& s, const std::vector<BlockConstants>& constants, const ExternalForces& external, double* poses) {
   return {constants.data(),
-          s.u.data(),
-          s.v.data(),
-          s.spin_momentum.data(),
-          s.w.data(),
-          s.q.data(),
-          s.ref_u.data(),
-          s.ref_q.data(),
-          owner_computes(m) ? nullptr : s.pose_row.data(),
+          s.pose.u.data(),
+          s.motion.v.data(),
+          s.motion.spin_momentum.data(),
+          s.motion.w.data(),
+          s.pose.q.data(),
+          s.cache.ref_u.data(),
+          s.cache.ref_q.data(),
+          owner_computes(m) ? nullptr : s.cache.pose_row.data(),
           poses,
-          s.increment.data(),
-          s.owner_sum.data(),
-          s.neighbour_force.data(),
+          s.cache.increment.data(),
+          s.cache.owner_sum.data(),
+          s.cache.neighbour_force.data(),
           m.owner_schedule.gather_in.data(),
-          s.wrench.data(),
+          s.cache.wrench.data(),
           external.contacts,
           external.loads};
 }
 
 double power(const State& s, const double* loads, const LoadedBlock& l) {
   const auto load = Eigen::Map<const Vec6>(loads + 8 * l.block);
-  return load.head<3>().dot(s.v[z(l.block)]) + load.tail<3>().dot(l.inverse_inertia * s.spin_momentum[z(l.block)]);
+  return load.head<3>().dot(s.motion.v[z(l.block)]) + load.tail<3>().dot(l.inverse_inertia * s.motion.spin_momentum[z(l.block)]);
 }
 
 // The blocks with loads among [first, last).
@@ -69,9 +69,9 @@ void work_before(const Model& m, const State& s, const ExternalForces& external,
   sums.external_absolute += sums.external_absolute_after;
   sums.external_after = sums.external_absolute_after = 0;
   for (LoadedBlock& l : loaded) {
-    const Mat3 r = s.q[z(l.block)].toRotationMatrix();
+    const Mat3 r = s.pose.q[z(l.block)].toRotationMatrix();
     l.inverse_inertia = r * m.inverse_inertia[z(l.block)] * r.transpose();
-    const double work = 0.5 * s.last_dt * power(s, external.loads, l);
+    const double work = 0.5 * s.time.last_dt * power(s, external.loads, l);
     sums.external_work += work;
     sums.external_absolute += std::fabs(work);
   }
@@ -79,7 +79,7 @@ void work_before(const Model& m, const State& s, const ExternalForces& external,
 
 void work_after(const State& s, const ExternalForces& external, std::span<LoadedBlock> loaded, BlockSums& sums) {
   for (const LoadedBlock& l : loaded) {
-    const double work = 0.5 * s.dt * power(s, external.loads, l);
+    const double work = 0.5 * s.time.dt * power(s, external.loads, l);
     sums.external_after += work;
     sums.external_absolute_after += std::fabs(work);
   }
@@ -92,7 +92,7 @@ void set_constants(const Model& m, const State& s, int b, bool moving, BlockCons
   if (moving && !s.sleep.asleep.empty() && s.sleep.asleep[z(b)]) moving = false;  // its mass still counts in the potential energy
   c.moving[l] = moving;
   c.inverse_mass[l] = moving ? m.inverse_mass[z(b)] : 0;
-  c.damped[l] = moving && (m.damping_all || s.grounded[z(b)]);
+  c.damped[l] = moving && (m.damping_all || s.topology.grounded[z(b)]);
   for (int i = 0; i < 6; ++i) c.inverse_inertia[i][l] = moving ? m.inverse_inertia[z(b)](row[i], column[i]) : 0;
 }
 
@@ -110,8 +110,8 @@ std::vector<BlockConstants> block_constants(const Model& m, const State& s) {
   // Groups on which an intact joint acts. A joint that cracked in this step still counts: its lane has its forces until the next step.
   std::vector<std::uint8_t> intact(out.size(), 0);
   for (int j = 0; j < m.njoint; ++j)
-    if (s.stage[z(j)] == JointStage::intact) intact[z(m.joint[z(j)].a / pack_size)] = intact[z(m.joint[z(j)].b / pack_size)] = 1;
-  const double* const neighbour_force = owner_computes(m) ? s.neighbour_force.front().x[0] : nullptr;
+    if (s.joints.stage[z(j)] == JointStage::intact) intact[z(m.joint[z(j)].a / pack_size)] = intact[z(m.joint[z(j)].b / pack_size)] = 1;
+  const double* const neighbour_force = owner_computes(m) ? s.cache.neighbour_force.front().x[0] : nullptr;
   for (int b = 0; owner_computes(m) && b < m.nblock; ++b)
     for (int k = m.owner_schedule.first_end[z(b)]; k < m.owner_schedule.first_end[z(b) + 1]; ++k)
       for (int i = 0; i < 6; ++i) intact[z(b / pack_size)] |= neighbour_force[m.owner_schedule.end[z(k)] + pack_size * i] != 0;
@@ -125,7 +125,8 @@ std::vector<BlockConstants> block_constants(const Model& m, const State& s) {
     if (intact[z(g)]) out[z(g)].gathers = m.owner_schedule.first_gather[z(g) + 1] - out[z(g)].first_gather;
   }
   for (int j = 0; j < m.njoint; ++j)
-    if (s.stage[z(j)] != JointStage::intact) count_wrench_slots(m, m.joint[z(j)].a, out), count_wrench_slots(m, m.joint[z(j)].b, out);
+    if (s.joints.stage[z(j)] != JointStage::intact)
+      count_wrench_slots(m, m.joint[z(j)].a, out), count_wrench_slots(m, m.joint[z(j)].b, out);
   set_rotation_limits(m, s, out);
   return out;
 }
@@ -136,7 +137,7 @@ void set_rotation_limits(const Model& m, const State& s, std::vector<BlockConsta
     c.carried = !owner_computes(m);
   }
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.stage[z(j)] != JointStage::intact) continue;
+    if (s.joints.stage[z(j)] != JointStage::intact) continue;
     for (const int b : {m.joint[z(j)].a, m.joint[z(j)].b}) {
       BlockConstants& c = constants[z(b / pack_size)];
       c.carried = true;
@@ -149,7 +150,7 @@ void use_wrench_rows(const Model& m, State& s, int b, std::vector<BlockConstants
   count_wrench_slots(m, b, constants);
   if (owner_computes(m)) return;  // no kernel reads pose rows then
   for (int of_group = b / pack_size * pack_size; of_group < std::min((b / pack_size + 1) * pack_size, m.nblock); ++of_group)
-    for (int i = 0; i < 6; ++i) s.pose_row[z(8 * of_group + i)] = s.increment[z(b / pack_size)].x[i][of_group % pack_size];
+    for (int i = 0; i < 6; ++i) s.cache.pose_row[z(8 * of_group + i)] = s.cache.increment[z(b / pack_size)].x[i][of_group % pack_size];
 }
 
 std::vector<std::uint8_t> idle_groups(const Model& m, const State& s) {
@@ -169,10 +170,10 @@ std::vector<std::uint8_t> idle_groups(const Model& m, const State& s) {
 Vec6 joint_wrench(const Model& m, const State& s, int b) {
   alignas(64) double sum[8] = {};
   m.each_wrench_row(b, [&](int row) {
-    for (int i = 0; i < 6; ++i) sum[i] += s.wrench[z(row) * 8 + z(i)];
+    for (int i = 0; i < 6; ++i) sum[i] += s.cache.wrench[z(row) * 8 + z(i)];
   });
-  for (int i = 0; i < 6; ++i) sum[i] += s.owner_sum[z(b / pack_size)].x[i][b % pack_size];
-  const double* const neighbour_force = s.neighbour_force.front().x[0];
+  for (int i = 0; i < 6; ++i) sum[i] += s.cache.owner_sum[z(b / pack_size)].x[i][b % pack_size];
+  const double* const neighbour_force = s.cache.neighbour_force.front().x[0];
   for (int k = m.owner_schedule.first_end[z(b)]; k < m.owner_schedule.first_end[z(b) + 1]; ++k)
     for (int i = 0; i < 6; ++i) sum[i] += neighbour_force[m.owner_schedule.end[z(k)] + pack_size * i];
   return Eigen::Map<const Vec6>(sum);
@@ -235,14 +236,14 @@ void BlockGather::copy_in(int b, int lane) {
   const Vec6 wrench = b < model_.nblock ? joint_wrench(model_, s, b) : Vec6(Vec6::Zero());
   for (int i = 0; i < 6; ++i) wrench_.x[i][to] = wrench[i];
   for (int i = 0; i < 3; ++i) {
-    u_.x[i][to] = s.u.data()[k].x[i][l];
-    v_.x[i][to] = s.v.data()[k].x[i][l];
-    momentum_.x[i][to] = s.spin_momentum.data()[k].x[i][l];
-    ref_u_.x[i][to] = s.ref_u.data()[k].x[i][l];
+    u_.x[i][to] = s.pose.u.data()[k].x[i][l];
+    v_.x[i][to] = s.motion.v.data()[k].x[i][l];
+    momentum_.x[i][to] = s.motion.spin_momentum.data()[k].x[i][l];
+    ref_u_.x[i][to] = s.cache.ref_u.data()[k].x[i][l];
   }
   for (int i = 0; i < 4; ++i) {
-    q_.x[i][to] = s.q.data()[k].x[i][l];
-    ref_q_.x[i][to] = s.ref_q.data()[k].x[i][l];
+    q_.x[i][to] = s.pose.q.data()[k].x[i][l];
+    ref_q_.x[i][to] = s.cache.ref_q.data()[k].x[i][l];
   }
   if (external_.contacts != nullptr) std::copy_n(external_.contacts + 8 * z(b), 8, contact_wrench_ + 8 * to);
   if (external_.loads != nullptr) std::copy_n(external_.loads + 8 * z(b), 8, load_ + 8 * to);
@@ -253,13 +254,13 @@ void BlockGather::copy_out(int b, int lane) {
   const int l = b % pack_size;
   State& s = state_;
   for (int i = 0; i < 3; ++i) {
-    s.u.data()[k].x[i][l] = u_.x[i][from];
-    s.v.data()[k].x[i][l] = v_.x[i][from];
-    s.spin_momentum.data()[k].x[i][l] = momentum_.x[i][from];
-    s.w.data()[k].x[i][l] = w_.x[i][from];
+    s.pose.u.data()[k].x[i][l] = u_.x[i][from];
+    s.motion.v.data()[k].x[i][l] = v_.x[i][from];
+    s.motion.spin_momentum.data()[k].x[i][l] = momentum_.x[i][from];
+    s.motion.w.data()[k].x[i][l] = w_.x[i][from];
   }
-  for (int i = 0; i < 4; ++i) s.q.data()[k].x[i][l] = q_.x[i][from];
-  for (int i = 0; i < 6; ++i) s.increment[k].x[i][l] = s.pose_row[8 * z(b) + z(i)] = increment_.x[i][from];
+  for (int i = 0; i < 4; ++i) s.pose.q.data()[k].x[i][l] = q_.x[i][from];
+  for (int i = 0; i < 6; ++i) s.cache.increment[k].x[i][l] = s.cache.pose_row[8 * z(b) + z(i)] = increment_.x[i][from];
 }
 
 template <class F>

@@ -40,7 +40,8 @@ std::vector<BlockConstants> block_constants(const Model& model, const State& sta
 // Call when a joint of block b is no longer intact: the group of b then sums wrench rows. Writes the pose rows of the group too, since this
 // step may have skipped them.
 void use_wrench_rows(const Model& model, State& state, int b, std::vector<BlockConstants>& constants);
-// Sets the limit of rotation of blocks with intact joints. Other blocks rotate freely and their `State::increment` may be out of date.
+// Sets the limit of rotation of blocks with intact joints. Other blocks rotate freely and their `KernelCache::increment` may be out of
+// date.
 void set_rotation_limits(const Model& model, const State& state, std::vector<BlockConstants>& constants);
 
 // Forces on blocks besides their joints, as rows of eight doubles (force, moment). `contacts`: contact wrenches. `loads`: external loads,

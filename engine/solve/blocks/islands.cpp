@@ -17,46 +17,46 @@ int root(std::vector<int>& parent, int b) {
 }  // namespace
 
 void find_islands(const Model& m, State& s) {
-  std::iota(s.island.begin(), s.island.end(), 0);
-  std::fill(s.joined.begin(), s.joined.end(), std::uint8_t(0));
-  std::fill(s.grounded.begin(), s.grounded.end(), std::uint8_t(0));
+  std::iota(s.topology.island.begin(), s.topology.island.end(), 0);
+  std::fill(s.topology.joined.begin(), s.topology.joined.end(), std::uint8_t(0));
+  std::fill(s.topology.grounded.begin(), s.topology.grounded.end(), std::uint8_t(0));
   const auto anchors = [&](int b) { return m.kind[z(b)] == Kind::fixed; };
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.stage[z(j)] == JointStage::contact) continue;
+    if (s.joints.stage[z(j)] == JointStage::contact) continue;
     const int a = m.joint[z(j)].a, b = m.joint[z(j)].b;
-    s.joined[z(a)] = s.joined[z(b)] = 1;
+    s.topology.joined[z(a)] = s.topology.joined[z(b)] = 1;
     // the ground does not rotate, so it does not make one island of all blocks on it
     if (anchors(a) || anchors(b)) continue;
-    const int ra = root(s.island, a), rb = root(s.island, b);
-    s.island[z(std::max(ra, rb))] = std::min(ra, rb);
+    const int ra = root(s.topology.island, a), rb = root(s.topology.island, b);
+    s.topology.island[z(std::max(ra, rb))] = std::min(ra, rb);
   }
-  s.unjoined = 0;
+  s.topology.unjoined = 0;
   for (int b = 0; b < m.nblock; ++b) {
-    s.island[z(b)] = root(s.island, b);
-    s.unjoined += m.kind[z(b)] == Kind::moving && !s.joined[z(b)];
+    s.topology.island[z(b)] = root(s.topology.island, b);
+    s.topology.unjoined += m.kind[z(b)] == Kind::moving && !s.topology.joined[z(b)];
   }
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.stage[z(j)] == JointStage::contact) continue;
+    if (s.joints.stage[z(j)] == JointStage::contact) continue;
     const int a = m.joint[z(j)].a, b = m.joint[z(j)].b;
-    if (anchors(a) && !anchors(b)) s.grounded[z(s.island[z(b)])] = 1;
-    if (anchors(b) && !anchors(a)) s.grounded[z(s.island[z(a)])] = 1;
+    if (anchors(a) && !anchors(b)) s.topology.grounded[z(s.topology.island[z(b)])] = 1;
+    if (anchors(b) && !anchors(a)) s.topology.grounded[z(s.topology.island[z(a)])] = 1;
   }
   for (int b = 0; b < m.nblock; ++b)
-    if (m.kind[z(b)] == Kind::driven) s.grounded[z(s.island[z(b)])] = 1;
-  for (int b = 0; b < m.nblock; ++b) s.grounded[z(b)] = s.grounded[z(s.island[z(b)])];
+    if (m.kind[z(b)] == Kind::driven) s.topology.grounded[z(s.topology.island[z(b)])] = 1;
+  for (int b = 0; b < m.nblock; ++b) s.topology.grounded[z(b)] = s.topology.grounded[z(s.topology.island[z(b)])];
 }
 
 // Block by block: a joint's geometry follows from the reference poses of its two blocks.
 bool take_outdated_poses(const Model& m, State& s, std::vector<std::uint8_t>& outdated) {
   outdated.assign(z(m.nblock) + 1, 0);
   for (int j = 0; j < m.njoint; ++j)  // blocks with an intact joint; other joints are evaluated at the present poses
-    if (s.stage[z(j)] == JointStage::intact) outdated[z(m.joint[z(j)].a)] = outdated[z(m.joint[z(j)].b)] = 1;
+    if (s.joints.stage[z(j)] == JointStage::intact) outdated[z(m.joint[z(j)].a)] = outdated[z(m.joint[z(j)].b)] = 1;
   const double limit = m.analysis.lazy_rotation * m.analysis.lazy_rotation;
   bool past = false;
   for (int b = 0; b < m.nblock; ++b) {
     double square = 0;
     for (int i = 3; i < 6; ++i)
-      square += s.increment[z(b / pack_size)].x[i][b % pack_size] * s.increment[z(b / pack_size)].x[i][b % pack_size];
+      square += s.cache.increment[z(b / pack_size)].x[i][b % pack_size] * s.cache.increment[z(b / pack_size)].x[i][b % pack_size];
     past = past || (outdated[z(b)] && square > limit);
     outdated[z(b)] = outdated[z(b)] && square > 0.25 * limit;
   }

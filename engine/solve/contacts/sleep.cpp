@@ -59,7 +59,7 @@ Sleep::Sleep(const Model& model, State& state) : model_(model), state_(state), g
 }
 
 bool Sleep::may_sleep(int b) const {
-  return model_.kind[z(b)] == Kind::moving && state_.loose[z(b)] && !state_.joined[z(b)] && !loaded_[z(b)];
+  return model_.kind[z(b)] == Kind::moving && state_.topology.loose[z(b)] && !state_.topology.joined[z(b)] && !loaded_[z(b)];
 }
 
 bool Sleep::rests(const ContactPair& p) const {
@@ -82,7 +82,7 @@ void Sleep::add_resting(const Resting& one) {
 }
 
 void Sleep::sort(const std::vector<int>& involved, const std::function<PairResult(int i)>& evaluate) {
-  const std::vector<ContactPair>& pair = state_.contacts.pair;
+  const std::vector<ContactPair>& pair = state_.contacts.list.pair;
   live_.clear();
   in_live_pairs_.clear();
   awake_.clear();
@@ -123,7 +123,7 @@ void Sleep::add_omega2() {
   if (!on_) return;
   omega2_.assign(z(model_.nblock), 0.0);
   for (const Resting& one : resting_) {
-    const ContactPair& pair = state_.contacts.pair[z(one.pair)];
+    const ContactPair& pair = state_.contacts.list.pair[z(one.pair)];
     omega2_[z(one.a)] += std::max(0.0, one.result.omega2_a - pair.bound_share_a);
     omega2_[z(one.b)] += std::max(0.0, one.result.omega2_b - pair.bound_share_b);
   }
@@ -139,7 +139,7 @@ bool Sleep::update(const Excitation& e, const double* contact_wrench, const Cont
   effective_gravity_ = e.gravity - e.ground;
   bool changed = wake_all();
   changed = wake_pressed(contact_wrench, blocks) || changed;
-  if (state_.step % update_every == 0) changed = try_sleep(e.kick, contact_wrench, blocks) || changed;
+  if (state_.time.step % update_every == 0) changed = try_sleep(e.kick, contact_wrench, blocks) || changed;
   slept_ += state_.sleep.count;
   return changed;
 }
@@ -150,7 +150,7 @@ bool Sleep::wake_all() {
   if ((effective_gravity_ - sleep.effective_gravity).norm() <= sleep_acceleration * g_) return false;
   sleep.effective_gravity = effective_gravity_;
   for (double& at : sleep.last_motion)
-    if (at < state_.t) at = state_.t;
+    if (at < state_.time.t) at = state_.time.t;
   std::vector<int> woken;
   for (int b = 0; b < model_.nblock && sleep.count > 0; ++b)
     if (asleep(b)) woken.push_back(b);
@@ -175,12 +175,12 @@ void Sleep::wake(const std::vector<int>& blocks) {
   const auto since = [&](int b) { return asleep(b) ? sleep.slept_at[z(b)] : 0.0; };
   for (const Resting& r : resting_)
     if (mark_[z(r.a)] || mark_[z(r.b)]) {
-      double& peak_closing_speed = state_.contacts.pair[z(r.pair)].peak_closing_speed;
-      peak_closing_speed = forgotten(peak_closing_speed, r.result.depth, state_.t - std::max(since(r.a), since(r.b)));
+      double& peak_closing_speed = state_.contacts.list.pair[z(r.pair)].peak_closing_speed;
+      peak_closing_speed = forgotten(peak_closing_speed, r.result.depth, state_.time.t - std::max(since(r.a), since(r.b)));
     }
   for (const int b : blocks) {
     sleep.asleep[z(b)] = 0;
-    sleep.last_motion[z(b)] = state_.t;
+    sleep.last_motion[z(b)] = state_.time.t;
     --sleep.count;
   }
 }
@@ -194,7 +194,7 @@ Sleep::Motion Sleep::motion_of(int b, const double* contact_wrench, const Contac
 }
 
 bool Sleep::try_sleep(double kick, const double* contact_wrench, std::span<const ContactBlock> blocks) {
-  const double t = state_.t;
+  const double t = state_.time.t;
   std::vector<double>& last_motion = state_.sleep.last_motion;
   for (const int b : awake_) {
     const Motion motion = motion_of(b, contact_wrench, blocks[z(b)]);
@@ -208,7 +208,7 @@ bool Sleep::try_sleep(double kick, const double* contact_wrench, std::span<const
   };
   for (const int b : awake_) mark_[z(b)] = may_sleep(b) && is_still(b);
   for (const int i : live_) {
-    const ContactPair& p = state_.contacts.pair[z(i)];
+    const ContactPair& p = state_.contacts.list.pair[z(i)];
     if (!p.touching) continue;
     if (!is_still(p.a)) mark_[z(p.b)] = 0;
     if (!is_still(p.b)) mark_[z(p.a)] = 0;
@@ -227,16 +227,16 @@ void Sleep::put_to_sleep(int b, double kick, const double* contact_wrench) {
   State& s = state_;
   const double* row = contact_wrench + 8 * z(b);
   const Vec3 force(row[0], row[1], row[2]), moment(row[3], row[4], row[5]);
-  const Vec3 v0 = s.v[z(b)], v1 = v0 + kick * (force * model_.inverse_mass[z(b)] + effective_gravity_);
-  const Mat3 back = s.q[z(b)].toRotationMatrix().transpose();
-  const Vec3 spin = s.spin_momentum[z(b)], p0 = back * spin, p1 = back * (spin + kick * moment);
+  const Vec3 v0 = s.motion.v[z(b)], v1 = v0 + kick * (force * model_.inverse_mass[z(b)] + effective_gravity_);
+  const Mat3 back = s.pose.q[z(b)].toRotationMatrix().transpose();
+  const Vec3 spin = s.motion.spin_momentum[z(b)], p0 = back * spin, p1 = back * (spin + kick * moment);
   s.energy.sleep += 0.5 * (model_.mass[z(b)] * v0.dot(v1) + p1.dot(model_.inverse_inertia[z(b)] * p0));
-  s.v[z(b)].setZero();
-  s.w[z(b)].setZero();
-  s.spin_momentum[z(b)].setZero();
-  s.q[z(b)] = fixed_point(s.q[z(b)]);
+  s.motion.v[z(b)].setZero();
+  s.motion.w[z(b)].setZero();
+  s.motion.spin_momentum[z(b)].setZero();
+  s.pose.q[z(b)] = fixed_point(s.pose.q[z(b)]);
   s.sleep.asleep[z(b)] = 1;
-  s.sleep.slept_at[z(b)] = s.t;
+  s.sleep.slept_at[z(b)] = s.time.t;
   ++s.sleep.count;
 }
 

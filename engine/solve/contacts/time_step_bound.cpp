@@ -31,19 +31,19 @@ double inverse_square(double on_a_block, double share) { return on_a_block * (1 
 
 // 1 / dt^2 of the joints, at the share of the bound that the run requested, at least 0.9.
 double ContactLimit::intact() const {
-  const double share = std::clamp(state_.dt_target / model_.dt_critical, safe_share, 1.0) * model_.dt_critical;
+  const double share = std::clamp(state_.time.dt_target / range_.critical, safe_share, 1.0) * range_.critical;
   return 1 / (share * share);
 }
 
 bool ContactLimit::due(double allowed) const {
-  const PairList& list = state_.contacts;
-  if (list.pair.empty() || allowed >= model_.dt_max) return false;
-  return state_.step - list.bound_updated_at >= (allowed < state_.dt ? update_soon : update_every);
+  const PairList& list = state_.contacts.list;
+  if (list.pair.empty() || allowed >= range_.longest) return false;
+  return state_.time.step - list.bound_updated_at >= (allowed < state_.time.dt ? update_soon : update_every);
 }
 
 void ContactLimit::update_bound(const ContactShapes& shapes, std::span<const ContactBlock> blocks, const std::vector<double>& scalars,
                                 OverlapRoom& room) {
-  PairList& list = state_.contacts;
+  PairList& list = state_.contacts.list;
   std::vector<Mat6> k(blocks.size(), Mat6::Zero());
   for (ContactPair& p : list.pair) {
     PatchStiffness patch;
@@ -62,20 +62,20 @@ void ContactLimit::update_bound(const ContactShapes& shapes, std::span<const Con
     if (list.by_blocks) list.bound_at_last_update = 0, list.block_bounds = std::move(of);
   }
   ++list.bound_updates;
-  list.bound_updated_at = state_.step;
+  list.bound_updated_at = state_.time.step;
 }
 
 // Adds remaining joints and former joints with the greatest stiffness that they may reach, and with their dashpots (`stiffness.cpp`).
 void ContactLimit::add_joints(std::span<Mat6> to) const {
   for (int j = 0; j < model_.njoint; ++j) {
     const Joint& joint = model_.joint[z(j)];
-    if (state_.stage[z(j)] == JointStage::contact) {
-      const int pair = find_pair(state_.contacts, joint.a, joint.part_a, joint.b, joint.part_b);
-      if (pair < 0 || !state_.contacts.pair[z(pair)].former_joint) continue;
+    if (state_.joints.stage[z(j)] == JointStage::contact) {
+      const int pair = find_pair(state_.contacts.list, joint.a, joint.part_a, joint.b, joint.part_b);
+      if (pair < 0 || !state_.contacts.list.pair[z(pair)].former_joint) continue;
     }
     const JointMap map = joint_map(model_, state_, j);
     constexpr double other_share = contact_share * contact_share / (safe_share * safe_share);
-    const Mat6 k = other_share * (1 + 2 * std::max(joint.viscous, joint.viscous_cracked) / state_.dt) * stiffest(joint);
+    const Mat6 k = other_share * (1 + 2 * std::max(joint.viscous, joint.viscous_cracked) / state_.time.dt) * stiffest(joint);
     to[z(joint.a)] += map.a.transpose() * k * map.a;
     to[z(joint.b)] += map.b.transpose() * k * map.b;
   }
@@ -106,7 +106,7 @@ std::vector<double> ContactLimit::by_matrices(std::span<const ContactBlock> bloc
 }
 
 double ContactLimit::on_block(int b, double omega2, double impact_omega2) const {
-  const PairList& list = state_.contacts;
+  const PairList& list = state_.contacts.list;
   return (list.bound_updates > 0 ? list.block_bounds[z(b)] : 0) + inverse_square(omega2, safe_share) +
          inverse_square(impact_omega2, impact_share);
 }
@@ -119,11 +119,11 @@ double ContactLimit::on_most(std::span<const int> blocks, std::span<const double
 }
 
 double ContactLimit::allowed(double most) const {
-  const PairList& list = state_.contacts;
+  const PairList& list = state_.contacts.list;
   const double bound = 1 / std::sqrt((list.bound_updates > 0 ? list.bound_at_last_update : intact()) + most);
   // Beyond the step that the run requested, its requested share of the limit still applies.
-  const double share = std::isfinite(model_.dt_critical) ? std::min(1.0, state_.dt_target / model_.dt_critical / safe_share) : 1.0;
-  return std::max(std::min(state_.dt_target, bound), std::min(model_.dt_max, share * bound));
+  const double share = std::isfinite(range_.critical) ? std::min(1.0, state_.time.dt_target / range_.critical / safe_share) : 1.0;
+  return std::max(std::min(state_.time.dt_target, bound), std::min(range_.longest, share * bound));
 }
 
 }  // namespace erbs

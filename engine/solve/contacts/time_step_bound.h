@@ -1,7 +1,8 @@
 // Bound on the time step by joints and contacts together, while contacts come and go.
 //
 // Two upper bounds of omega^2 of the whole system; the lower one counts:
-//   by joints   omega^2 of the intact structure at rest (`4 / dt_critical^2`), plus twice the largest eigenvalue of the other contacts'
+//   by joints   omega^2 of the intact structure at rest (`4 / StepRange::critical^2`), plus twice the largest eigenvalue of the other
+//   contacts'
 //               stiffness on a block (Weyl's inequality). A cracked joint, or the contact that replaced it, is no stiffer.
 //   by blocks   twice the largest eigenvalue of the total stiffness on a block, remaining joints included. Since
 //               (x - y) K (x - y) <= 2 (x K x + y K y), 2 / omega is the block bound of the present structure.
@@ -9,6 +10,7 @@
 // rates of its contacts beyond the last update (`PairResult::omega2_a`, `omega2_b`), and the rate of a face that may strike it next. The
 // block with the greatest sum decides. So the step may exceed the limit of the intact structure once stiff joints are gone.
 #pragma once
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -18,10 +20,17 @@
 
 namespace erbs {
 
+// Time steps of a structure and of a run.
+struct StepRange {
+  double critical = std::numeric_limits<double>::infinity();  // s, 2 / omega_max at rest, joints in their stiffer form; infinite without
+  double longest = 0;                                         // s, longest step of a run, once contacts allow more than the joints did
+};
+
 class ContactLimit {
  public:
-  ContactLimit(const Model& model, State& state) : model_(model), state_(state) {}
+  ContactLimit(const Model& model, State& state, const StepRange& range) : model_(model), state_(state), range_(range) {}
 
+  const StepRange& range() const { return range_; }
   // 1/s2, share of block b in 1 / dt^2. `omega2` (1/s2): its contacts beyond the last update; `impact_omega2` (1/s2): a face that may
   // strike it.
   double on_block(int b, double omega2, double impact_omega2) const;
@@ -43,6 +52,7 @@ class ContactLimit {
 
   const Model& model_;
   State& state_;
+  const StepRange range_;
 };
 
 }  // namespace erbs

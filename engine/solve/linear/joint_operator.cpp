@@ -21,7 +21,7 @@ Freedom grounded_freedoms(const Model& m, const State& s) {
   Freedom f;
   f.first.assign(z(m.nblock) + 1, -1);
   for (int b = 0; b < m.nblock; ++b)
-    if (m.kind[z(b)] == Kind::moving && s.grounded[z(b)]) f.first[z(b)] = f.count, f.count += 6;
+    if (m.kind[z(b)] == Kind::moving && s.topology.grounded[z(b)]) f.first[z(b)] = f.count, f.count += 6;
   return f;
 }
 
@@ -29,7 +29,7 @@ JointOperator::JointOperator(const Model& m, const State& s, const Freedom& f) :
   ends_.reserve(z(m.njoint));
   for (int j = 0; j < m.njoint; ++j) {
     const int a = f.first[z(m.joint[z(j)].a)], b = f.first[z(m.joint[z(j)].b)];
-    if (s.stage[z(j)] == JointStage::contact || (a < 0 && b < 0)) continue;
+    if (s.joints.stage[z(j)] == JointStage::contact || (a < 0 && b < 0)) continue;
     const JointPose pose = joint_pose(m, s, j);
     ends_.push_back({pose.frame, 0.5 * (pose.sum + pose.apart), 0.5 * (pose.sum - pose.apart), j, a, b});
   }
@@ -64,7 +64,7 @@ void JointOperator::add(const End& e, const JointForm& form, const VecX& x, VecX
 RootMass::RootMass(const Model& m, const State& s, const Freedom& f) : of_block_(z(m.nblock), -1) {
   for (int b = 0; b < m.nblock; ++b) {
     if (f.first[z(b)] < 0) continue;
-    const Mat3 r = s.q[z(b)].toRotationMatrix();
+    const Mat3 r = s.pose.q[z(b)].toRotationMatrix();
     const Eigen::SelfAdjointEigenSolver<Mat3> eigen(Mat3(r * m.inertia[z(b)] * r.transpose()));
     of_block_[z(b)] = int(part_.size());
     part_.push_back({f.first[z(b)], 1 / std::sqrt(m.mass[z(b)]), eigen.operatorInverseSqrt()});

@@ -124,7 +124,7 @@ Sparse stiffness(const Model& m, const State& s, const Freedom& f) {
   Triplets entries;
   entries.reserve(z(m.njoint) * 144);
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.stage[z(j)] == JointStage::contact) continue;
+    if (s.joints.stage[z(j)] == JointStage::contact) continue;
     const JointMap map = joint_map(m, s, j);
     const Mat6 k = diagonal(m.joint[z(j)]);
     const int end[2] = {f.first[z(m.joint[z(j)].a)], f.first[z(m.joint[z(j)].b)]};
@@ -142,13 +142,13 @@ Sparse stiffness(const Model& m, const State& s, const Freedom& f) {
   return out;
 }
 
-StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
+StepBounds step_bounds(const Model& m, const State& s) {
   StepBounds out{infinite, infinite, infinite, infinite, infinite, -1};
   const Freedom f = freedoms(m);
   const double viscous = greatest(m, &Joint::viscous_cracked);
   std::vector<Mat6> own(z(m.nblock), Mat6::Zero()), damping(viscous > 0 ? own.size() : 0, Mat6::Zero());
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.stage[z(j)] == JointStage::contact) continue;
+    if (s.joints.stage[z(j)] == JointStage::contact) continue;
     const Joint& joint = m.joint[z(j)];
     const JointMap map = joint_map(m, s, j);
     const Mat6 k = diagonal(joint);
@@ -161,9 +161,8 @@ StepBounds step_bounds(const Scene& scene, const Model& m, const State& s) {
     if (m.kind[z(joint.a)] != Kind::moving && m.kind[z(joint.b)] != Kind::moving) continue;
     const int light = m.kind[z(joint.b)] == Kind::moving ? joint.b : joint.a;
     const double distance = (joint.arm_a - joint.arm_b).norm();
-    const auto* mortar = std::get_if<Mortar>(&scene.joint_rules[z(joint.type->rule)].law);
-    const double modulus =
-        mortar != nullptr && mortar->E > 0 ? mortar->E : m.laws[z(joint.type->law)].kn * (joint.gap > 1e-6 ? joint.gap : distance);
+    const PointLaw& law = m.laws[z(joint.type->law)];
+    const double modulus = law.modulus > 0 ? law.modulus : law.kn * (joint.gap > 1e-6 ? joint.gap : distance);
     out.wave_passage = std::min(out.wave_passage, distance / std::sqrt(modulus / m.materials[z(m.material[z(light)])].density));
   }
   const RootMass roots(m, s, f);

@@ -27,6 +27,6 @@ struct StepBounds {
   double wave_passage = 0;    // s, least distance of joined centres / sqrt(E / rho): rule (5) of Gu and Miao
   int stiffest_block = -1;
 };
-StepBounds step_bounds(const Scene& scene, const Model& model, const State& state);
+StepBounds step_bounds(const Model& model, const State& state);
 
 }  // namespace erbs

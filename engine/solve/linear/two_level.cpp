@@ -49,7 +49,7 @@ void TwoLevel::group(const Model& m, const State& s, const Freedom& f) {
   const auto each_pair = [&](const auto& use) {
     for (int j = 0; j < m.njoint; ++j) {
       const int a = number(f, m.joint[z(j)].a), b = number(f, m.joint[z(j)].b);
-      if (a >= 0 && b >= 0 && s.stage[z(j)] != JointStage::contact) use(a, b);
+      if (a >= 0 && b >= 0 && s.joints.stage[z(j)] != JointStage::contact) use(a, b);
     }
   };
   each_pair([&](int a, int b) { ++first[z(a) + 1], ++first[z(b) + 1]; });
@@ -81,7 +81,7 @@ void TwoLevel::group(const Model& m, const State& s, const Freedom& f) {
   arm_.resize(count);
   for (int b = 0; b < m.nblock; ++b)
     if (const int i = number(f, b); i >= 0) {
-      arm_[z(i)] = m.rest[z(b)] - m.rest.front() + s.u[z(b)];
+      arm_[z(i)] = m.rest[z(b)] - m.rest.front() + s.pose.u[z(b)];
       middle[z(piece_[z(i)])] += arm_[z(i)];
       ++size[z(piece_[z(i)])];
     }
@@ -97,7 +97,7 @@ TwoLevel::TwoLevel(const Model& m, const State& s, const Freedom& f, const Form&
     if (p >= q) coupled.try_emplace({p, q}, Mat6::Zero()).first->second += k;
   };
   for (int j = 0; j < m.njoint; ++j) {
-    if (s.stage[z(j)] == JointStage::contact) continue;
+    if (s.joints.stage[z(j)] == JointStage::contact) continue;
     const int end[2] = {number(f, m.joint[z(j)].a), number(f, m.joint[z(j)].b)};
     const JointMap map = joint_map(m, s, j);
     const std::array<double, 6> diagonal = form(j);

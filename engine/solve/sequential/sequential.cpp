@@ -5,9 +5,11 @@
 #include <numeric>
 #include <utility>
 
+#include "engine/base/random.h"
 #include "engine/joints/intact/intact.h"
 #include "engine/joints/kinematics.h"
 #include "engine/joints/response.h"
+#include "engine/laws/yield.h"
 #include "engine/model/joint_packs.h"
 
 namespace erbs {
@@ -15,18 +17,9 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// splitmix64 (Steele, Lea and Flood 2014): the state advances by the golden ratio, the output is mixed.
-std::uint64_t draw(std::uint64_t& state) {
-  std::uint64_t x = state += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
 void shuffle(std::vector<int>& order, std::uint64_t seed, std::uint64_t step) {
-  std::uint64_t state = seed;
-  state = draw(state) ^ step;
-  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[draw(state) % i]);  // Fisher and Yates; bias 1e-15
+  Random random{Random{seed}.next() ^ step};
+  for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.next() % i]);  // Fisher and Yates; bias 1e-15
 }
 
 void colour(const Model& m, std::vector<int>& order) {
@@ -53,19 +46,16 @@ void write_wrench(const Model& m, State& s, int j, const JointPose& pose, const 
   const Vec3 force = pose.frame * Vec3(resultant[0], resultant[1], resultant[2]),
              moment = pose.frame * Vec3(resultant[3], resultant[4], resultant[5]);
   const Vec3 arm_a = 0.5 * (pose.sum + pose.apart), arm_b = 0.5 * (pose.sum - pose.apart);
-  write(s.wrench, m.wrench_row_a[z(j)], force, arm_a.cross(force) + moment);
-  write(s.wrench, m.wrench_row_b[z(j)], -force, -(arm_b.cross(force) + moment));
+  write(s.cache.wrench, m.wrench_row_a[z(j)], force, arm_a.cross(force) + moment);
+  write(s.cache.wrench, m.wrench_row_b[z(j)], -force, -(arm_b.cross(force) + moment));
 }
 
-bool in_contact(const State& s, int j) { return s.stage[z(j)] == JointStage::contact; }
+bool in_contact(const State& s, int j) { return s.joints.stage[z(j)] == JointStage::contact; }
 
 // True if joint j may be beyond its limits: the bound of the elastic kernel, for one joint.
 bool may_yield_now(const Model& m, int j, const double gap[6]) {
-  JointPack B;
-  set_constants(m, j, B, 0);
-  const double bend = std::fabs(gap[3]) * B.half_t[0] + std::fabs(gap[4]) * B.half_s[0], opening = gap[2] + bend;
-  const double slip = std::hypot(gap[0], gap[1]) + std::fabs(gap[5]) * B.radius[0];
-  return opening > B.open_limit[0] || bend - gap[2] > B.close_limit[0] || slip + B.slip_slope[0] * opening > B.slip_limit[0];
+  const JointType& type = *m.joint[z(j)].type;
+  return scalar::face_bound(scalar::yield_limits(m.laws[z(type.law)]), gap, type.half_s, type.half_t, type.radius) > 0;
 }
 
 }  // namespace
@@ -109,7 +99,7 @@ Sequential::Sequential(const Model& model, State& state)
     int taken = 0;
     for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1] && model.kind[z(b)] != Kind::fixed; ++k) {
       const int j = end_[z(k)];
-      if (state.stage[z(j)] != JointStage::intact || plain_) {
+      if (state.joints.stage[z(j)] != JointStage::intact || plain_) {
         ++broken_[z(b)];
         continue;
       }
@@ -136,7 +126,7 @@ Sequential::Sequential(const Model& model, State& state)
 
 // Schedules each block in the round after the last of its neighbours that precede it.
 void Sequential::schedule_blocks() {
-  const std::vector<int> order = sweep_order(model_, std::uint64_t(model_.analysis.seed), std::uint64_t(state_.step));
+  const std::vector<int> order = sweep_order(model_, std::uint64_t(model_.analysis.seed), std::uint64_t(state_.time.step));
   level_.assign(z(model_.nblock), -1);
   round_.assign(1, 0);
   for (const int b : order) {
@@ -199,23 +189,27 @@ void Sequential::leave(int j) {
 void Sequential::update_joint(int j, JointSums& sums) {
   State& s = state_;
   if (in_contact(s, j)) return;
-  const JointPose pose = joint_pose(model_, s, j);
-  JointMemory& memory = s.memory[z(j)];
-  const bool intact = s.stage[z(j)] == JointStage::intact;
+  JointPose pose = joint_pose(model_, s, j);
+  JointMemory& memory = s.joints.memory[z(j)];
+  const Joint& joint = model_.joint[z(j)];
+  const double lift = lift_by_asperities(model_, joint, memory, pose.gap);
+  const bool intact = s.joints.stage[z(j)] == JointStage::intact;
   JointEnergy e;
   double resultant[6];
   const bool still = respond(model_, j, intact, memory.gap, pose.gap, past_of(model_, s, j), resultant, e);
   if (still && !plain_) return;
   if (intact && !still) {
-    s.stage[z(j)] = JointStage::cracked;
+    s.joints.stage[z(j)] = JointStage::cracked;
     ++sums.cracked_now;
   }
   double work = 0;
   for (int i = 0; i < 6; ++i) work += 0.5 * (memory.resultant[i] + resultant[i]) * (pose.gap[i] - memory.gap[i]);
   const double error = std::fabs(work - (e.elastic - memory.elastic) - e.friction - e.fracture - e.crushing);
   if (error > sums.largest_error) sums.largest_error = error, sums.worst_joint = j;
+  const double across = 0.5 * (memory.resultant[2] + resultant[2]);
   for (int i = 0; i < 6; ++i) memory.gap[i] = pose.gap[i], memory.resultant[i] = resultant[i];
   memory.elastic = e.elastic;
+  e.friction += advance_asperities(model_, joint, &s.joints.history[z(joint.first_point)], across, lift, memory);
   s.energy.friction_next += e.friction;
   s.energy.fracture_next += e.fracture;
   s.energy.crushing_next += e.crushing;
@@ -229,14 +223,14 @@ void Sequential::check_points(int pack, int b, double moved, JointSums& sums) {
   for (int l = 0; l < pack_size; ++l) {
     const int j = joint_[z(pack * pack_size + l)];
     if (j < 0 || !may_yield_now(model_, j, joint_pose(model_, s, j).gap)) continue;
-    const Vec3 u = s.u[z(b)];
-    const Quat q = s.q[z(b)];
-    s.u[z(b)] = Vec3(u - moved * Vec3(s.v[z(b)]));
-    s.q[z(b)] = Quat(rotation(-moved * Vec3(s.w[z(b)])) * q);
+    const Vec3 u = s.pose.u[z(b)];
+    const Quat q = s.pose.q[z(b)];
+    s.pose.u[z(b)] = Vec3(u - moved * Vec3(s.motion.v[z(b)]));
+    s.pose.q[z(b)] = Quat(rotation(-moved * Vec3(s.motion.w[z(b)])) * q);
     const JointPose before = joint_pose(model_, s, j);
-    s.u[z(b)] = u;
-    s.q[z(b)] = q;
-    JointMemory& memory = s.memory[z(j)];
+    s.pose.u[z(b)] = u;
+    s.pose.q[z(b)] = q;
+    JointMemory& memory = s.joints.memory[z(j)];
     memory.elastic = 0;
     for (int i = 0; i < 6; ++i) {
       memory.gap[i] = before.gap[i];
@@ -244,13 +238,13 @@ void Sequential::check_points(int pack, int b, double moved, JointSums& sums) {
       memory.elastic += 0.5 * memory.resultant[i] * before.gap[i];
     }
     update_joint(j, sums);
-    if (s.stage[z(j)] != JointStage::intact) leave(j);
+    if (s.joints.stage[z(j)] != JointStage::intact) leave(j);
   }
 }
 
 bool Sequential::rotated_far(int b) const {
-  const double *row = &state_.pose_row[z(b) * 8], limit = model_.analysis.lazy_rotation;
-  return state_.joined[z(b)] != 0 && !plain_ && row[3] * row[3] + row[4] * row[4] + row[5] * row[5] > limit * limit;
+  const double *row = &state_.cache.pose_row[z(b) * 8], limit = model_.analysis.lazy_rotation;
+  return state_.topology.joined[z(b)] != 0 && !plain_ && row[3] * row[3] + row[4] * row[4] + row[5] * row[5] > limit * limit;
 }
 
 // Updates all joints of block b, which has moved for `moved` seconds while its neighbours were fixed.
@@ -263,9 +257,9 @@ void Sequential::visit(int b, double moved, JointSums& sums) {
   }
   if (broken_[z(b)] > 0)
     for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k)
-      if (plain_ || s.stage[z(end_[z(k)])] == JointStage::cracked) update_joint(end_[z(k)], sums);
-  const int candidates = step_kernels().intact_ends(pack_.data(), ends_.data(), first_pack_[z(b)], first_pack_[z(b) + 1], s.pose_row.data(),
-                                                    s.wrench.data(), may_yield_.data());
+      if (plain_ || s.joints.stage[z(end_[z(k)])] == JointStage::cracked) update_joint(end_[z(k)], sums);
+  const int candidates = step_kernels().intact_ends(pack_.data(), ends_.data(), first_pack_[z(b)], first_pack_[z(b) + 1],
+                                                    s.cache.pose_row.data(), s.cache.wrench.data(), may_yield_.data());
   for (int i = 0; i < candidates; ++i) check_points(may_yield_[z(i)], b, moved, sums);
 }
 
@@ -273,40 +267,42 @@ void Sequential::visit(int b, double moved, JointSums& sums) {
 void Sequential::try_out(int j) {
   State& s = state_;
   const Joint& joint = model_.joint[z(j)];
-  const JointPose pose = joint_pose(model_, s, j);
-  trial_.assign(&s.history[z(joint.first_point)], &s.history[z(joint.first_point)] + joint.type->points);
-  CrushedFace crushed = s.crushed.empty() ? CrushedFace{} : s.crushed[z(j)];
+  JointPose pose = joint_pose(model_, s, j);
+  lift_by_asperities(model_, joint, s.joints.memory[z(j)], pose.gap);
+  trial_.assign(&s.joints.history[z(joint.first_point)], &s.joints.history[z(joint.first_point)] + joint.type->points);
+  CrushedFace crushed = s.joints.crushed.empty() ? CrushedFace{} : s.joints.crushed[z(j)];
   JointEnergy unused;
   double resultant[6];
-  respond(model_, j, s.stage[z(j)] == JointStage::intact, s.stage[z(j)] == JointStage::intact && !plain_ ? pose.gap : s.memory[z(j)].gap,
-          pose.gap, {trial_.data(), s.crushed.empty() ? nullptr : &crushed}, resultant, unused);
+  respond(model_, j, s.joints.stage[z(j)] == JointStage::intact,
+          s.joints.stage[z(j)] == JointStage::intact && !plain_ ? pose.gap : s.joints.memory[z(j)].gap, pose.gap,
+          {trial_.data(), s.joints.crushed.empty() ? nullptr : &crushed}, resultant, unused);
   write_wrench(model_, s, j, pose, resultant);
 }
 
 // Forces on block b at its pose half a step ahead, at the present velocity.
 void Sequential::predict(int b) {
   State& s = state_;
-  const Vec3 u = s.u[z(b)];
-  const Quat q = s.q[z(b)];
+  const Vec3 u = s.pose.u[z(b)];
+  const Quat q = s.pose.q[z(b)];
   double row[6];
-  std::copy_n(&s.pose_row[8 * z(b)], 6, row);
-  s.u[z(b)] = Vec3(u + 0.5 * s.dt * Vec3(s.v[z(b)]));
-  s.q[z(b)] = Quat(rotation(0.5 * s.dt * Vec3(s.w[z(b)])) * q);
+  std::copy_n(&s.cache.pose_row[8 * z(b)], 6, row);
+  s.pose.u[z(b)] = Vec3(u + 0.5 * s.time.dt * Vec3(s.motion.v[z(b)]));
+  s.pose.q[z(b)] = Quat(rotation(0.5 * s.time.dt * Vec3(s.motion.w[z(b)])) * q);
   set_pose_row(s, b);
   const bool all = plain_ || rotated_far(b);
   if (all || broken_[z(b)] > 0)
     for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k)
-      if (all ? !in_contact(s, end_[z(k)]) : s.stage[z(end_[z(k)])] == JointStage::cracked) try_out(end_[z(k)]);
+      if (all ? !in_contact(s, end_[z(k)]) : s.joints.stage[z(end_[z(k)])] == JointStage::cracked) try_out(end_[z(k)]);
   const int candidates = all ? 0
                              : step_kernels().intact_ends(pack_.data(), ends_.data(), first_pack_[z(b)], first_pack_[z(b) + 1],
-                                                          s.pose_row.data(), s.wrench.data(), may_yield_.data());
+                                                          s.cache.pose_row.data(), s.cache.wrench.data(), may_yield_.data());
   for (int i = 0; i < candidates; ++i)
     for (int l = 0; l < pack_size; ++l) {
       const int j = joint_[z(may_yield_[z(i)] * pack_size + l)];
       if (j >= 0 && may_yield_now(model_, j, joint_pose(model_, s, j).gap)) try_out(j);
     }
-  s.u[z(b)] = u;
-  s.q[z(b)] = q;
+  s.pose.u[z(b)] = u;
+  s.pose.q[z(b)] = q;
   put_pose_row(s, b, row);
 }
 
@@ -315,23 +311,23 @@ double Sequential::stored() const {
   ElasticPack o;
   double sum = 0;
   for (int k = 0; k < intact_packs(model_); ++k) {
-    step_kernels().elastic(intact_pack(model_, state_, k), state_.pose_row.data(), o);
+    step_kernels().elastic(intact_pack(model_, state_, k), state_.cache.pose_row.data(), o);
     for (int j = k * pack_size; j < std::min((k + 1) * pack_size, model_.njoint); ++j)
-      if (state_.stage[z(j)] == JointStage::intact && !plain_)
+      if (state_.joints.stage[z(j)] == JointStage::intact && !plain_)
         for (int i = 0; i < 6; ++i) sum += 0.5 * o.resultant[i][j % pack_size] * o.gap[i][j % pack_size];
-      else if (!in_contact(state_, j)) sum += state_.memory[z(j)].elastic;
+      else if (!in_contact(state_, j)) sum += state_.joints.memory[z(j)].elastic;
   }
   return sum;
 }
 
 // Adds the wrench that is about to move block b, of its joints with other moving blocks.
 void Sequential::note_momentum(int b) {
-  const Vec3 arm = model_.rest[z(b)] - model_.rest.front() + state_.u[z(b)];
+  const Vec3 arm = model_.rest[z(b)] - model_.rest.front() + state_.pose.u[z(b)];
   for (int k = first_end_[z(b)]; k < first_end_[z(b) + 1]; ++k) {
     const int j = end_[z(k)];
     const Joint& joint = model_.joint[z(j)];
     if (model_.kind[z(joint.a)] != Kind::moving || model_.kind[z(joint.b)] != Kind::moving) continue;
-    const double* row = &state_.wrench[z(joint.a == b ? model_.wrench_row_a[z(j)] : model_.wrench_row_b[z(j)]) * 8];
+    const double* row = &state_.cache.wrench[z(joint.a == b ? model_.wrench_row_a[z(j)] : model_.wrench_row_b[z(j)]) * 8];
     const Vec3 f(row[0], row[1], row[2]), m = arm.cross(f) + Vec3(row[3], row[4], row[5]);
     force_ += f;
     moment_ += m;
@@ -348,16 +344,16 @@ void Sequential::sweep(const Excitation& e, const ExternalForces& external, cons
   joints.energy.friction += std::exchange(ledger.friction_next, 0);
   joints.energy.fracture += std::exchange(ledger.fracture_next, 0);
   joints.energy.crushing += std::exchange(ledger.crushing_next, 0);
-  if (s.step == 0) {
+  if (s.time.step == 0) {
     for (int j = 0; j < model_.njoint; ++j)
-      if (s.stage[z(j)] == JointStage::intact) joint_gap(model_, s, j, s.memory[z(j)].gap);
+      if (s.joints.stage[z(j)] == JointStage::intact) joint_gap(model_, s, j, s.joints.memory[z(j)].gap);
     for (int b = 0; b < model_.nblock; ++b)
       if (model_.kind[z(b)] == Kind::moving) visit(b, 0, joints);
   }
-  for (const int b : driven_) visit(b, s.last_dt, joints);
+  for (const int b : driven_) visit(b, s.time.last_dt, joints);
   if (sample) {
     joints.energy.elastic = stored();
-    wrench_before_ = s.wrench;
+    wrench_before_ = s.cache.wrench;
     force_ = moment_ = Vec3::Zero();
     forces_ = moments_ = 0;
   }
@@ -370,7 +366,7 @@ void Sequential::sweep(const Excitation& e, const ExternalForces& external, cons
       for (int i = 0; i < count && centred_; ++i) predict(some[i]);
       for (int i = 0; i < count && sample; ++i) note_momentum(some[i]);
       blocks.advance(some, count, sample, sums);
-      for (int i = 0; i < count; ++i) visit(some[i], s.dt, joints);
+      for (int i = 0; i < count; ++i) visit(some[i], s.time.dt, joints);
     }
 }
 

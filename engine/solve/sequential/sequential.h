@@ -34,7 +34,7 @@ class Sequential {
   // Sum of the joint forces of the last sampled sweep over all pairs of moving blocks, over the sum of their magnitudes: 0 if action equals
   // reaction exactly.
   double momentum_residual() const;
-  // `State::wrench` at the start of a sampled sweep, for recorders.
+  // `KernelCache::wrench` at the start of a sampled sweep, for recorders.
   Rows& wrench_before() { return wrench_before_; }
 
  private:

@@ -1,0 +1,68 @@
+// Forces of contact pairs, by threads. The share of a thread does not change results, since pairs are summed in their order.
+#pragma once
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "engine/contact/law/pair_batch.h"
+#include "engine/model/state.h"
+#include "engine/solve/contacts/bodies.h"
+#include "engine/solve/contacts/motion_bounds.h"
+
+namespace erbs {
+
+class ContactForces {
+ public:
+  // Results of a thread in this step, in the order of the pairs.
+  struct Force {
+    int pair;
+    PairResult result;
+  };
+  struct SeparatedPair {
+    int pair;
+    double apart, impact_omega2_a, impact_omega2_b, event_rate;  // as in `PairResult`
+  };
+  struct ThreadPairs {
+    std::vector<int> at;                   // pairs to evaluate
+    std::vector<Force> forces;             // pairs with forces
+    std::vector<SeparatedPair> separated;  // separated pairs
+  };
+
+  ContactForces(State& state, const ContactBodies& bodies, MotionBounds& motion, int threads);
+  void list_pairs();                        // after the list of pairs has changed
+  void mark_changed() { changed_ = true; }  // the laws of some pairs have changed
+  void prepare();                           // before the forces of a step
+  void set(double budget, const Interlock& interlock) { settings_.event_budget = budget, settings_.interlock = interlock; }
+  // Forces of this thread's share of the `live` pairs.
+  void evaluate(int thread, std::span<const int> live, bool sample);
+  void balance_threads();  // for the next step
+  std::span<const ThreadPairs> results() const { return thread_pairs_; }
+  const ContactSettings& settings() const { return settings_; }
+
+ private:
+  void find_due(ThreadPairs& found, std::span<const int> mine);
+  bool evaluate_one(int i, bool sample, OverlapRoom& room, PairResult& result);
+  void foresee_touching(ThreadPairs& found);
+  double idle(int i) const;
+  double contact_count(int a, int b) const;  // number of contacts for the dashpots of `pair_force()`
+
+  struct PairCache {
+    PairBodies bodies;
+    bool known = false, fits = false;  // fits: `fits_pack()`
+    int axis = -1;                     // `cached_axis()`
+  };
+  State& state_;
+  const ContactBodies& bodies_;
+  MotionBounds& motion_;
+  ContactSettings settings_;
+  std::vector<PairCache> cache_;  // per pair, data that a step reads first
+  bool changed_ = true;
+  std::vector<int> edge_of_pair_;  // per pair, index into `edges_`; -1: none
+  std::vector<EdgeAtRest> edges_;
+  std::vector<int> first_pair_;                    // first pair of each thread; balances the number of evaluations
+  std::vector<ThreadPairs> thread_pairs_;          // per thread
+  std::vector<OverlapRoom> room_;                  // per thread
+  std::vector<std::unique_ptr<PairBatch>> batch_;  // per thread
+};
+
+}  // namespace erbs
