@@ -8,6 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/units.h"
+#include "engine/record/plot/figure.h"
 #include "engine/record/plot/gnuplot.h"
 #include "render/draw/draw.h"
 
@@ -74,118 +75,127 @@ void choose_unit(Panel& panel, const CsvTable& table, const std::string& suffix)
 
 constexpr std::array<const char*, 8> colors{"#23527c", "#c0502d", "#4f8a4c", "#8a5a9e", "#b08a1e", "#3b9aa8", "#7d7d7d", "#a33a5a"};
 
-// A quantity without a unit is labelled by its column name. The label is quoted, since a run folder may come from anywhere.
-std::string label(const Panel& panel) { return gnuplot_quoted(panel.label); }
+std::string name_of(const CsvTable& table, int column) { return words_of(table.names[static_cast<std::size_t>(column)]); }
 
-// All curves of a panel, every `every`-th row.
-std::string plot(const std::string& file, const CsvTable& table, const Panel& panel, const std::string& value, std::size_t every) {
-  std::string script = "plot ";
-  for (std::size_t i = 0; i < panel.columns.size(); ++i) {
-    const int column = panel.columns[i];
-    const char* style = panel.columns.size() > colors.size() && i >= colors.size() ? " dashtype 2" : "";
-    script += fmt::format("{}{} every {}::1 using 1:({}) with lines lw 1.3 lc rgb '{}'{} title {}", i ? ", " : "", gnuplot_quoted(file),
-                          every, fmt::format(fmt::runtime(value), fmt::arg("c", column + 1), fmt::arg("f", panel.factor)),
-                          colors[i % colors.size()], style, gnuplot_quoted(words_of(table.names[static_cast<std::size_t>(column)])));
+// All curves of a panel. The name of the file is quoted, since a run folder may come from anywhere.
+std::vector<plot::Series> curves(const std::string& file, const CsvTable& table, const Panel& panel, const std::string& value) {
+  std::vector<plot::Series> all;
+  for (const int column : panel.columns) {
+    const std::size_t i = all.size();
+    all.push_back({fmt::format("{} every {}::1 using 1:({})", gnuplot_quoted(file), std::max<std::size_t>(1, table.rows() / 6000),
+                               fmt::format(fmt::runtime(value), fmt::arg("c", column + 1), fmt::arg("f", panel.factor))),
+                   fmt::format("lines lw 1.3 lc rgb '{}'{}", colors[i % colors.size()], i >= colors.size() ? " dashtype 2" : ""),
+                   name_of(table, column)});
   }
-  return script + "\n";
+  return all;
 }
 
-// Range that holds the whole curves, with tics at a fifth of the height.
-std::string vertical(const CsvTable& table, const Panel& panel) {
+// Range that holds the whole curves, with tics at a fifth of the height. A quantity without a unit is labelled by its column name.
+plot::Axis vertical(const CsvTable& table, const Panel& panel) {
   double low = 0, high = 0;
   for (int c : panel.columns)
     for (double value : table.columns[static_cast<std::size_t>(c)])
       if (std::isfinite(value)) low = std::min(low, value * panel.factor), high = std::max(high, value * panel.factor);
-  if (!(high > low)) return "set yrange [-1:1]\nset ytics 1\n";
+  if (!(high > low)) return {panel.label, "[-1:1]", "1", "", "noenhanced"};
   const double step = round_length((high - low) / 5);
-  return fmt::format("set yrange [{:g}:{:g}]\nset ytics {:g}\n", step * std::floor(low / step), step * std::ceil(high / step), step);
+  return {panel.label, fmt::format("[{:g}:{:g}]", step * std::floor(low / step), step * std::ceil(high / step)), fmt::format("{:g}", step),
+          "", "noenhanced"};
 }
 
-// A vertical line at the first event of each kind, in the plots that follow; its name only with `named`.
-std::string marks_script(const Run& run, double last_time, bool named) {
-  std::string script = "unset arrow\nunset label\n";
+// A vertical line at the first event of each kind; its name only with `named`.
+void add_marks(const Run& run, double last_time, bool named, plot::Panel& p) {
   double row = 0.7;  // names stand below each other to avoid overlap
   for (const Mark& mark : run.marks) {
     if (mark.t > last_time) continue;
-    script += fmt::format("set arrow from first {0},graph 0 to first {0},graph 1 nohead back lc rgb '#8a2f20' lw 1 dashtype 3\n", mark.t);
-    if (named) {
-      const bool right = mark.t > 0.75 * last_time;
-      script += fmt::format("set label {} at first {},graph 1 {} offset {},-{} front textcolor rgb '#8a2f20' font ',11' noenhanced\n",
-                            gnuplot_quoted(fmt::format("{} {:.2f} s", mark.name, mark.t)), mark.t, right ? "right" : "left",
-                            right ? -0.6 : 0.6, row);
-      row += 1;
-    }
+    p.add_vertical(mark.t, "back lc rgb '#8a2f20' lw 1 dashtype 3");
+    if (!named) continue;
+    const bool right = mark.t > 0.75 * last_time;
+    p.labels.push_back(
+        {fmt::format("{} {:.2f} s", mark.name, mark.t), fmt::format("first {},graph 1", mark.t),
+         fmt::format("{} offset {},-{} front tc rgb '#8a2f20' font ',11'", right ? "right" : "left", right ? -0.6 : 0.6, row)});
+    row += 1;
   }
-  return script;
 }
 
 // A sheet of `rows` by `columns` panels, with room at the right of each for names of `name_length` letters.
-std::string opening(std::size_t rows, std::size_t columns, std::size_t name_length, double last_time, const std::string& title) {
-  return fmt::format(
-      "set terminal svg size {},{} dynamic enhanced font 'DejaVu Sans,13' background rgb 'white'\n"
-      "set encoding utf8\nset datafile separator comma\nset datafile missing 'nan'\n"
-      "set border 3 lc rgb '#707070'\nset tics nomirror out scale 0.6 textcolor rgb '#303030'\n"
-      "set grid xtics ytics lc rgb '#e3e3e3' lt 1 lw 0.8\nset zeroaxis lc rgb '#b0b0b0' lt 1 lw 0.8\n"
-      "set key at graph 1.015,1 left top Left reverse samplen 1.6 spacing 1.05 noenhanced\n"
-      "set lmargin 12\nset rmargin {}\nset xrange [0:{}]\n"
-      "set multiplot layout {},{} columnsfirst title {} noenhanced font ',15'\n",
-      columns == 1 ? 1000 : 850 * columns, 70 + 210 * rows, 8 + name_length * 4 / 5, last_time, rows, columns, gnuplot_quoted(title));
+plot::Figure sheet(std::size_t rows, std::size_t columns, std::size_t name_length, const std::string& title) {
+  plot::Figure figure{columns == 1 ? 1000 : 850 * double(columns), 70 + 210 * double(rows)};
+  figure.settings = fmt::format(
+      "set datafile separator comma\nset datafile missing 'nan'\nset zeroaxis lc rgb '#b0b0b0' lt 1 lw 0.8\n"
+      "set lmargin 12\nset rmargin {}\n",
+      8 + name_length * 4 / 5);
+  figure.labels = {{title, fmt::format("screen 0.5,{:.5f}", 1 - 19 / figure.height), "center font ',15'"}};
+  return figure;
 }
 
-std::string histories_script(const std::string& csv, const CsvTable& table, const Run& run) {
+constexpr const char* beside = "at graph 1.015,1 left top Left reverse samplen 1.6 spacing 1.05 noenhanced";
+
+plot::Figure histories_figure(const std::string& csv, const CsvTable& table, const Run& run) {
   std::vector<std::string> left_out;
   const std::vector<Panel> panels = history_panels(table, &left_out);
-  const std::size_t every = std::max<std::size_t>(1, table.rows() / 6000);
   const std::size_t columns = panels.size() > 6 ? 2 : 1, rows = (panels.size() + columns - 1) / columns;
+  const double last_time = table.columns[0].back();
   std::size_t longest = 0;
   for (const Panel& panel : panels)
-    for (int c : panel.columns) longest = std::max(longest, words_of(table.names[static_cast<std::size_t>(c)]).size());
-  std::string script = opening(rows, columns, longest, table.columns[0].back(), run.title);
+    for (int c : panel.columns) longest = std::max(longest, name_of(table, c).size());
+  plot::Figure figure = sheet(rows, columns, longest, run.title);
+  const double width = 1 / double(columns), height = (1 - 22 / figure.height) / double(rows);
   for (std::size_t i = 0; i < panels.size(); ++i) {
-    script += marks_script(run, table.columns[0].back(), i % rows == 0);
-    if ((i + 1) % rows == 0 || i + 1 == panels.size()) script += "set xlabel 'time [s]'\n";
-    else script += "unset xlabel\n";
+    plot::Panel p;
+    const double left = double(i / rows) * width, bottom = double(rows - 1 - i % rows) * height;
+    p.cell = {left, left + width, bottom, bottom + height};
+    p.key = beside;
+    p.x = {"", fmt::format("[0:{}]", last_time), "", "", "noenhanced"};
+    p.y = vertical(table, panels[i]);
+    if ((i + 1) % rows == 0 || i + 1 == panels.size()) p.x.label = "time [s]";
     if (i + 1 == panels.size() && !left_out.empty())
-      script += fmt::format(
-          "set xlabel {} noenhanced\n",
-          gnuplot_quoted(fmt::format("time [s]     (not drawn, below 2 % of the other direction: {})", fmt::join(left_out, ", "))));
-    script += vertical(table, panels[i]) + "set ylabel " + label(panels[i]) + " noenhanced\n" +
-              plot(csv, table, panels[i], "column({c})*{f}", every);
+      p.x.label += fmt::format("     (not drawn, below 2 % of the other direction: {})", fmt::join(left_out, ", "));
+    add_marks(run, last_time, i % rows == 0, p);
+    p.series = curves(csv, table, panels[i], "column({c})*{f}");
+    figure.panels.push_back(p);
   }
-  return script + "unset multiplot\n";
+  return figure;
 }
 
-std::string energy_script(const std::string& csv, const CsvTable& table, const Run& run) {
+plot::Figure energy_figure(const std::string& csv, const CsvTable& table, const Run& run) {
   Panel terms{"energy", 1, {}};
   for (std::size_t c = 1; c < table.names.size(); ++c)
     if (unit_of(table.names[c]) == "J" && table.names[c] != "residual_J" && peak_of(table, {static_cast<int>(c)}) > 0)
       terms.columns.push_back(static_cast<int>(c));
   choose_unit(terms, table, "J");
+  const double last_time = table.columns[0].back();
   const int residual = table.find("residual_relative");
-  const std::size_t every = std::max<std::size_t>(1, table.rows() / 6000);
-  std::string script = opening(3, 1, 18, table.columns[0].back(), run.title + ": energy");
-  script += fmt::format("set size 1,0.60\nset origin 0,0.36\nset ylabel {} noenhanced\n", label(terms));
-  script += marks_script(run, table.columns[0].back(), true) + vertical(table, terms);
-  script += terms.columns.empty() ? "plot 0 notitle\n" : plot(csv, table, terms, "column({c})*{f}", every);
-  script +=
-      "set size 1,0.36\nset origin 0,0.0\nset xlabel 'time [s]'\nset ylabel 'residual, relative'\nset logscale y\nset format y "
-      "'10^{%T}'\nset ytics 1e-18,1e3\nunset mytics\n";
   const double worst = residual >= 0 ? peak_of(table, {residual}) : 0;
+  plot::Figure figure = sheet(3, 1, 18, run.title + ": energy");
+  plot::Panel above, below;
+  above.cell = {0, 1, 0.36, 0.96};
+  below.cell = {0, 1, 0, 0.36};
+  above.key = beside;
+  above.x.range = below.x.range = fmt::format("[0:{}]", last_time);
+  above.y = vertical(table, terms);
+  add_marks(run, last_time, true, above), add_marks(run, last_time, false, below);
+  above.series = curves(csv, table, terms, "column({c})*{f}");
+  if (above.series.empty()) above.series = {{"0", "lines"}};
   // Energy tolerance of the run. If the scene leaves it to the kind of run, all three standard tolerances.
   std::vector<std::pair<double, std::string>> tolerances{{run.energy_tolerance, "gate"}};
   if (run.energy_tolerance <= 0) tolerances = {{1e-6, "gate, elastic"}, {1e-3, "gate, cracked"}, {1e-2, "gate, collapse"}};
-  script +=
-      fmt::format("set yrange [{}:{}]\n", std::min(1e-12, worst > 0 ? worst * 1e-4 : 1e-12), std::max(worst, tolerances.back().first) * 10);
-  script += "unset label\nset key off\n";
+  below.x.label = "time [s]";
+  below.y = {"residual, relative",
+             fmt::format("[{}:{}]", std::min(1e-12, worst > 0 ? worst * 1e-4 : 1e-12), std::max(worst, tolerances.back().first) * 10),
+             "1e-18,1e3",
+             "10^{%T}",
+             "",
+             true};
+  below.settings = "unset mytics\n";
   for (const auto& [tolerance, name] : tolerances) {
-    script += fmt::format(
-        "set arrow from graph 0, first {0} to graph 1, first {0} nohead lc rgb '#c07060' dashtype 2\n"
-        "set label '{1} {0:g}' at graph 1.015, first {0} left textcolor rgb '#b03020' font ',11' noenhanced\n",
-        tolerance, name);
+    below.add_horizontal(tolerance, "lc rgb '#c07060' dashtype 2");
+    below.labels.push_back(
+        {fmt::format("{} {:g}", name, tolerance), fmt::format("graph 1.015, first {:g}", tolerance), "left tc rgb '#b03020' font ',11'"});
   }
-  if (worst > 0) script += plot(csv, table, {"", 1, {residual}}, "abs(column({c})) > 1e-16 ? abs(column({c})) : 1e-16", every);
-  else script += "plot 1e-16 notitle\n";
-  return script + "unset multiplot\n";
+  below.series = {{"1e-16", "lines"}};
+  if (worst > 0) below.series = curves(csv, table, {"", 1, {residual}}, "abs(column({c})) > 1e-16 ? abs(column({c})) : 1e-16");
+  figure.panels = {above, below};
+  return figure;
 }
 
 }  // namespace
@@ -266,7 +276,7 @@ std::vector<std::string> write_figures(const Run& run) {
     if (!fs::exists(dir / csv)) continue;
     const CsvTable table = read_csv((dir / csv).string());
     if (table.rows() < 2 || table.names.size() < 2 || table.columns[0].back() <= 0) continue;
-    run_gnuplot(name == "energy" ? energy_script(csv, table, run) : histories_script(csv, table, run), svg);
+    plot::draw(name == "energy" ? energy_figure(csv, table, run) : histories_figure(csv, table, run), svg);
     written.push_back(svg);
   }
   return written;

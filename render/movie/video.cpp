@@ -10,29 +10,29 @@ namespace erbs::render {
 Video::Video(std::string path, int width, int height, double fps) : path_(std::move(path)), unfinished_(path_ + ".part") {
   if (width % 2 || height % 2) throw Error(fmt::format("a video of {}x{} cannot be made; width and height must be even", width, height));
   const std::string size = fmt::format("{}x{}", width, height), rate = fmt::format("{:g}", fps);
-  ffmpeg_.emplace(
-      std::vector<std::string>{"ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r",
-                               rate, "-i", "pipe:0", "-an", "-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-c:v",
-                               "libx264", "-crf", "20", "-preset", "medium", "-color_primaries", "bt709", "-color_trc", "bt709",
-                               "-colorspace", "bt709", "-color_range", "tv", "-movflags", "+faststart", "-f", "mp4",
-                               // This name can be neither an option nor a protocol of ffmpeg.
-                               "file:" + std::filesystem::absolute(unfinished_).string()},
-      "install ffmpeg, or ask for pictures alone with --no-video");
+  ffmpeg_ =
+      start({"ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", rate, "-i",
+             "pipe:0", "-an", "-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-c:v", "libx264", "-crf", "20", "-preset",
+             "medium", "-color_primaries", "bt709", "-color_trc", "bt709", "-colorspace", "bt709", "-color_range", "tv", "-movflags",
+             "+faststart", "-f", "mp4",
+             // This name can be neither an option nor a protocol of ffmpeg.
+             "file:" + std::filesystem::absolute(unfinished_).string()},
+            {.output = "/dev/null", .remedy = "install ffmpeg, or ask for pictures alone with --no-video", .fed = true, .own_group = true});
 }
 
 Video::~Video() {
-  ffmpeg_.reset();
+  if (ffmpeg_.pid > 0) erbs::finish(ffmpeg_);
   std::error_code ignored;
   std::filesystem::remove(unfinished_, ignored);
 }
 
 void Video::add(const Image& image) {
-  if (!ffmpeg_->write(image.rgb.data(), image.rgb.size()))
+  if (!send(ffmpeg_.to, image.rgb.data(), image.rgb.size()))
     throw Error("ffmpeg has given up (see its message above); is the disk full? --no-video gives pictures alone", {path_, 0});
 }
 
 void Video::finish() {
-  if (const int code = ffmpeg_->finish(); code != 0)
+  if (const int code = erbs::finish(ffmpeg_); code != 0)
     throw Error(fmt::format("ffmpeg ended with code {}; --no-video gives pictures alone", code), {path_, 0});
   std::filesystem::rename(unfinished_, path_);
 }

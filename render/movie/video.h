@@ -1,10 +1,9 @@
 // An MP4 file that ffmpeg makes from raw pictures.
 #pragma once
-#include <optional>
 #include <string>
 
+#include "engine/base/system/process.h"
 #include "render/image/image.h"
-#include "render/movie/process.h"
 
 namespace erbs::render {
 
@@ -19,7 +18,7 @@ class Video {
 
  private:
   std::string path_, unfinished_;
-  std::optional<Process> ffmpeg_;
+  Child ffmpeg_;
 };
 
 }  // namespace erbs::render

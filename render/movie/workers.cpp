@@ -1,13 +1,8 @@
 #include "render/movie/workers.h"
 
-#include <fcntl.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
-#include <cerrno>
 #include <csignal>
 #include <cstring>
 #include <stdexcept>
@@ -27,28 +22,6 @@ struct Answer {
   bool users_mistake = false;
 };
 
-bool send(int to, const void* bytes, std::size_t count) {
-  for (const char* at = static_cast<const char*>(bytes); count > 0;) {
-    const ssize_t n = write(to, at, count);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    at += n;
-    count -= static_cast<std::size_t>(n);
-  }
-  return true;
-}
-
-bool receive(int from, void* bytes, std::size_t count) {
-  for (char* at = static_cast<char*>(bytes); count > 0;) {
-    const ssize_t n = read(from, at, count);
-    if (n < 0 && errno == EINTR) continue;
-    if (n <= 0) return false;
-    at += n;
-    count -= static_cast<std::size_t>(n);
-  }
-  return true;
-}
-
 void answer(int to, const std::string& text, bool users_mistake) {
   const Answer head{text.size(), users_mistake};
   if (!send(to, &head, sizeof head) || !send(to, text.data(), text.size())) _exit(1);
@@ -63,56 +36,38 @@ Workers::Workers(std::size_t count, int width, int height, const MotionFrame& li
       openings_(like.opening.size() * sizeof(float)),
       damages_(like.damage.size()),
       pixels_(Image(width, height).rgb.size()) {
-  signal(SIGPIPE, SIG_IGN);  // write() reports a process that died
   for (std::size_t i = 0; i < count; ++i) {
     Worker w;
-    std::array<int, 2> orders{}, answers{};
     void* shared = mmap(nullptr, poses_ + openings_ + damages_ + pixels_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (shared == MAP_FAILED || pipe2(orders.data(), O_CLOEXEC) != 0 || pipe2(answers.data(), O_CLOEXEC) != 0)
-      throw Error("no more drawing processes can be started; ask for fewer --threads");
+    if (shared == MAP_FAILED) throw Error("no more drawing processes can be started; ask for fewer --threads");
     w.shared = static_cast<unsigned char*>(shared);
-    const pid_t parent = getpid();
-    w.pid = fork();
-    if (w.pid == 0) {
-      prctl(PR_SET_PDEATHSIG, SIGKILL);  // it must not outlive its parent
-      if (getppid() != parent) _exit(1);
-      for (const Worker& other : workers_) close(other.orders), close(other.answers);
-      close(orders[1]), close(answers[0]);
-      w.orders = orders[0], w.answers = answers[1];
-      serve(w, prepare);
-    }
-    close(orders[0]), close(answers[1]);
-    w.orders = orders[1], w.answers = answers[0];
+    w.process = start_copy([&](int orders, int answers) { serve(w, orders, answers, prepare); });
     workers_.push_back(w);
-    if (w.pid < 0) throw Error("no more drawing processes can be started; ask for fewer --threads");
   }
 }
 
 Workers::~Workers() {
-  for (const Worker& w : workers_) close(w.orders), close(w.answers);
-  for (const Worker& w : workers_) {
-    while (w.pid > 0 && waitpid(w.pid, nullptr, 0) < 0 && errno == EINTR) {}
+  for (Worker& w : workers_) {
+    finish(w.process);
     munmap(w.shared, poses_ + openings_ + damages_ + pixels_);
   }
 }
 
 // Main loop of a drawing process. It ends when its orders end. Only the parent reacts to Ctrl-C.
-void Workers::serve(Worker& w, const std::function<Draw()>& prepare) {
-  signal(SIGINT, SIG_IGN);
-  signal(SIGTERM, SIG_IGN);
-  signal(SIGHUP, SIG_IGN);
+void Workers::serve(const Worker& w, int orders, int answers, const std::function<Draw()>& prepare) {
+  for (const Worker& other : workers_) close(other.process.to), close(other.process.from);
+  for (const int stop : {SIGINT, SIGTERM, SIGHUP}) signal(stop, SIG_IGN);
   Draw draw;
-  for (Order order; receive(w.orders, &order, sizeof order);) {
+  for (Order order; receive(orders, &order, sizeof order);) {
     try {
       if (!draw) draw = prepare();
       const Image image = draw(order.index, get(w, order.t));
       std::memcpy(pixels(w), image.rgb.data(), pixels_);
-      answer(w.answers, "", false);
-    } catch (const Error& e) { answer(w.answers, e.what(), true); } catch (const std::exception& e) {
-      answer(w.answers, e.what(), false);
+      answer(answers, "", false);
+    } catch (const Error& e) { answer(answers, e.what(), true); } catch (const std::exception& e) {
+      answer(answers, e.what(), false);
     }
   }
-  _exit(0);
 }
 
 void Workers::put(Worker& w, const MotionFrame& f) const {
@@ -133,17 +88,17 @@ MotionFrame Workers::get(const Worker& w, double t) const {
 void Workers::order(std::size_t worker, std::size_t index, const MotionFrame& frame) {
   put(workers_[worker], frame);
   const Order order{index, frame.t};
-  send(workers_[worker].orders, &order, sizeof order);  // collect() reports a process that no longer reads
+  send(workers_[worker].process.to, &order, sizeof order);  // collect() reports a process that no longer reads
 }
 
 Image Workers::collect(std::size_t worker) {
   const Worker& w = workers_[worker];
   Answer head;
-  if (!receive(w.answers, &head, sizeof head))
+  if (!receive(w.process.from, &head, sizeof head))
     throw std::runtime_error("a drawing process has died; is the memory full? try --threads 1, or the other --context");
   if (head.text > 0) {
     std::string text(head.text, ' ');
-    receive(w.answers, text.data(), text.size());
+    receive(w.process.from, text.data(), text.size());
     if (head.users_mistake) throw Error(text);
     throw std::runtime_error(text);
   }

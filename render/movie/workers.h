@@ -1,11 +1,10 @@
 // Processes that draw frames in parallel. Threads would not help: llvmpipe lets only one thread of a process draw at a time, with any
 // number of contexts. 50 frames of the house took 11.8 s both with one thread and with two.
 #pragma once
-#include <sys/types.h>
-
 #include <functional>
 #include <vector>
 
+#include "engine/base/system/process.h"
 #include "engine/record/folder/motion_file.h"
 #include "render/image/image.h"
 
@@ -26,11 +25,10 @@ class Workers {
 
  private:
   struct Worker {
-    pid_t pid = -1;
-    int orders = -1, answers = -1;  // our ends of the pipes
+    Child process;  // takes orders and sends answers
     unsigned char* shared = nullptr;
   };
-  [[noreturn]] void serve(Worker& worker, const std::function<Draw()>& prepare);
+  void serve(const Worker& worker, int orders, int answers, const std::function<Draw()>& prepare);
   void put(Worker& worker, const MotionFrame& frame) const;
   MotionFrame get(const Worker& worker, double t) const;
   unsigned char* pixels(const Worker& worker) const { return worker.shared + poses_ + openings_ + damages_; }

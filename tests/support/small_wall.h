@@ -20,16 +20,16 @@ inline Scene small_wall(const std::string& more, const std::string& law = "morta
       end
     end
   )" + more;
-  Script script(Script::Options{.quiet = true});
+  lua::Script script(lua::Script::Options{.quiet = true});
   return script.load_text(text, "small_wall.lua");
 }
 
 // Runs to `until` (s) and leaves the prepared run in `out`.
-inline void run_to(const Scene& scene, int threads, double until, Prepared& out) {
-  out = prepare(scene, false);
+inline void run_to(const Scene& scene, int threads, double until, analysis::Prepared& out) {
+  out = analysis::prepare(scene, false);
   start_at_rest(scene, out, threads);
-  Solver solver(out.model, out.state, threads);
-  solver.run({[](double) { return false; }, [] {}, [&] { return out.state.t >= until; }});
+  Solver solver(out.model, out.state, out.range, threads);
+  solver.advance_until([&] { return out.state.time.t >= until; });
 }
 
 }  // namespace erbs::test

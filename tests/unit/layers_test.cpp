@@ -16,7 +16,8 @@ using Levels = std::vector<std::vector<std::string>>;
 // The rooms, lowest first. Rooms of one level do not know each other.
 const Levels rooms{{"base"},
                    {"simd"},
-                   {"geometry", "laws", "loads"},
+                   {"geometry"},
+                   {"laws", "loads"},
                    {"scene"},
                    {"model"},
                    {"joints", "contact"},
@@ -57,7 +58,7 @@ const std::vector<std::pair<std::string, std::string>> doors{
 };
 
 const std::regex seen_by_render(
-    "engine/(base|geometry)/.*|engine/record/(folder/(motion_file|motion_scene|run_folder)|format/json|plot/gnuplot)\\.h|"
+    "engine/(base|geometry)/.*|engine/record/(folder/(motion_file|motion_scene|run_folder)|format/json|plot/(figure|gnuplot))\\.h|"
     "engine/scene/scene\\.h|render/.*");
 
 // The level of `name`, -1 where none has it.

@@ -10,6 +10,8 @@
 #include "lua/language/script.h"
 
 using namespace erbs;
+using namespace erbs::analysis;
+using namespace erbs::lua;
 
 namespace {
 
@@ -70,13 +72,12 @@ analysis{ duration = 0.4 }
     start_at_rest(scene, run, 1);
     int threads = 1, should_change = 0;
     for (bool ended = false; !ended;) {
-      Solver solver(run.model, run.state, threads);
-      solver.run(
-          {[](double) { return false; }, [] {}, [&] { return (ended = run.state.t >= 0.4) || (changing && ++should_change % 5 == 0); }});
+      Solver solver(run.model, run.state, run.range, threads);
+      solver.advance_until([&] { return (ended = run.state.time.t >= 0.4) || (changing && ++should_change % 5 == 0); });
       threads = 3 - threads;
     }
     hash[changing] = state_hash(run.state);
-    CHECK(run.state.contacts.pair.size() > 0);
+    CHECK(run.state.contacts.list.pair.size() > 0);
   }
   CHECK(hash[0] == hash[1]);
 }

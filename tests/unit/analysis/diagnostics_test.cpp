@@ -3,17 +3,18 @@
 #include "engine/analysis/diagnostics.h"
 
 using namespace erbs;
+using namespace erbs::analysis;
 
 namespace {
 
 // Diagnostics of 1000 steps: `past` steps at `ratio` times their limit, the others at half of it.
 RunDiagnostics watched(long past, double ratio, State& s) {
   RunDiagnostics watch;
-  s.last_dt = 1e-4;
-  s.step = past;
-  update_diagnostics(watch, s, s.last_dt / ratio, 1e-3);
-  s.step = 1000;
-  update_diagnostics(watch, s, 2 * s.last_dt, 1e-3);
+  s.time.last_dt = 1e-4;
+  s.time.step = past;
+  update_diagnostics(watch, s, s.time.last_dt / ratio, 1e-3);
+  s.time.step = 1000;
+  update_diagnostics(watch, s, 2 * s.time.last_dt, 1e-3);
   return watch;
 }
 

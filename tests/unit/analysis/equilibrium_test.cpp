@@ -3,6 +3,8 @@
 #include "tests/support/small_wall.h"
 
 using namespace erbs;
+using namespace erbs::analysis;
+using namespace erbs::lua;
 
 namespace {
 
@@ -45,7 +47,7 @@ Scene dry_wall(const std::string& more) {
 
 double turn(const Prepared& run, const std::string& block) {
   const auto at = std::find(run.model.block_name.begin(), run.model.block_name.end(), block) - run.model.block_name.begin();
-  return rotation_vector(run.state.q[std::size_t(at)]).y();
+  return rotation_vector(run.state.pose.q[std::size_t(at)]).y();
 }
 
 Prepared started(Scene scene, const std::string& start, double ramp_time = 0) {
@@ -59,9 +61,9 @@ Prepared started(Scene scene, const std::string& start, double ramp_time = 0) {
 // Largest difference of displacement, relative to the largest displacement.
 double difference(const Prepared& a, const Prepared& b) {
   double size = 0, worst = 0;
-  for (std::size_t i = 0; i < a.state.u.size(); ++i) {
-    size = std::max(size, b.state.u[i].norm());
-    worst = std::max(worst, (a.state.u[i] - b.state.u[i]).norm());
+  for (std::size_t i = 0; i < a.state.pose.u.size(); ++i) {
+    size = std::max(size, b.state.pose.u[i].norm());
+    worst = std::max(worst, (a.state.pose.u[i] - b.state.pose.u[i]).norm());
   }
   return worst / size;
 }
@@ -96,7 +98,7 @@ TEST_CASE("a load past the edge of its joint has no equilibrium, and says which 
   for (std::size_t b = 0; b < std::size_t(run.model.nblock); ++b) {  // its neighbours have theirs all the same
     CAPTURE(run.model.block_name[b]);
     const bool rests = run.model.block_name[b] == "free1" || run.model.block_name[b] == "free3";
-    CHECK((state.u[b] != run.state.u[b]) == rests);
+    CHECK((state.pose.u[b] != run.state.pose.u[b]) == rests);
     CHECK(bool(found.found[b]) == rests);
   }
 }
@@ -127,7 +129,8 @@ TEST_CASE("a mortared wall cracked by an eccentric load is found, and near what 
       "for i=0,3 do force{block='b5_'..i, wave=2000, direction={0,0,-1}, point={i*.26+.2,.1,.65}} end analysis{duration=1}");
   const Prepared direct = started(scene, "equilibrium");
   REQUIRE(direct.equilibrium.converged);
-  CHECK(std::any_of(direct.state.stage.begin(), direct.state.stage.end(), [](JointStage t) { return t == JointStage::cracked; }));
+  CHECK(std::any_of(direct.state.joints.stage.begin(), direct.state.joints.stage.end(),
+                    [](JointStage t) { return t == JointStage::cracked; }));
   // Cracks and slips depend on the path: one step to the full load breaks other joints than a growing load. Ramps of 0.5 to 4 s all end
   // 0.028 from here.
   CHECK(difference(direct, started(scene, "ramp", 0.5)) < 0.04);
@@ -198,7 +201,7 @@ TEST_CASE("without equilibrium iterations say what factors say", "[analysis]") {
   CHECK_FALSE(iterated.found.converged);
   CHECK_THAT(iterated.found.why, Catch::Contains("block over"));
   CHECK_THAT(direct.found.why, Catch::Contains("block over"));
-  CHECK(iterated.run.state.u[1] == Vec3::Zero());
+  CHECK(iterated.run.state.pose.u[1] == Vec3::Zero());
 }
 
 namespace {
@@ -240,15 +243,15 @@ TEST_CASE("of many stacks only the one past its friction limit is not at rest, a
   CHECK(falling_share(run) == Approx(1.0 / 6));
   for (std::size_t b = 0; b < run.model.block_name.size(); ++b) {
     if (run.model.block_name[b].starts_with("s3_")) continue;
-    CHECK(run.state.u[b] == direct.run.state.u[b]);
-    CHECK(run.state.q[b].coeffs() == direct.run.state.q[b].coeffs());
+    CHECK(run.state.pose.u[b] == direct.run.state.pose.u[b]);
+    CHECK(run.state.pose.q[b].coeffs() == direct.run.state.pose.q[b].coeffs());
   }
   for (int j = 0; j < run.model.njoint; ++j) {
     const Joint& joint = run.model.joint[std::size_t(j)];
     if (run.model.joint_name(j).starts_with("s3_")) continue;
-    CHECK(run.state.stage[std::size_t(j)] == direct.run.state.stage[std::size_t(j)]);
+    CHECK(run.state.joints.stage[std::size_t(j)] == direct.run.state.joints.stage[std::size_t(j)]);
     for (int i = joint.first_point; i < joint.first_point + joint.type->points; ++i)
-      CHECK(run.state.history[std::size_t(i)].slip_s == direct.run.state.history[std::size_t(i)].slip_s);
+      CHECK(run.state.joints.history[std::size_t(i)].slip_s == direct.run.state.joints.history[std::size_t(i)].slip_s);
   }
 }
 

@@ -10,6 +10,8 @@
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;
+using namespace erbs::analysis;
+using namespace erbs::lua;
 
 TEST_CASE("an impulse at the edge keeps what Housner's block keeps", "[flat_bed]") {
   for (const double width : {0.15, 0.3, 0.6}) {

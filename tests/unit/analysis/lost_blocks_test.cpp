@@ -7,6 +7,8 @@
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;
+using namespace erbs::analysis;
+using namespace erbs::lua;
 
 TEST_CASE("a block beyond the ground is told with its place and a ground that reaches below it", "[analysis]") {
   Script script(quiet());
@@ -17,11 +19,11 @@ TEST_CASE("a block beyond the ground is told with its place and a ground that re
       "lost.lua");
   Built built = build(scene);
   CHECK(lost_blocks(built.model, built.state).empty());
-  built.state.u[2] = Vec3(0.5, 0, -30);
+  built.state.pose.u[2] = Vec3(0.5, 0, -30);
   const std::string said = lost_blocks(built.model, built.state);
   CHECK(contains(said, "1 block fell past the ground"));
   CHECK(contains(said, "'b2' the first of the scene, now at (7.5, -3, -29.5) m"));
   CHECK(contains(said, "ground{ size = 17 } reaches below it"));  // 2 x (7.5 + .1) + 1, rounded up
-  built.state.u[1] = Vec3(-20, 0, -30);
+  built.state.pose.u[1] = Vec3(-20, 0, -30);
   CHECK(contains(lost_blocks(built.model, built.state), "reaches below all of them"));
 }

@@ -3,6 +3,8 @@
 #include "tests/support/small_wall.h"
 
 using namespace erbs;
+using namespace erbs::analysis;
+using namespace erbs::lua;
 
 TEST_CASE("gravity by factorisation and by a damped ramp give the same wall", "[analysis]") {
   Prepared direct, ramped;
@@ -16,9 +18,9 @@ TEST_CASE("gravity by factorisation and by a damped ramp give the same wall", "[
   ramped = prepare(slow, false);
   start_at_rest(slow, ramped, 2);
   double size = 0, difference = 0;
-  for (std::size_t b = 0; b < direct.state.u.size(); ++b) {
-    size = std::max(size, direct.state.u[b].norm());
-    difference = std::max(difference, (direct.state.u[b] - ramped.state.u[b]).norm());
+  for (std::size_t b = 0; b < direct.state.pose.u.size(); ++b) {
+    size = std::max(size, direct.state.pose.u[b].norm());
+    difference = std::max(difference, (direct.state.pose.u[b] - ramped.state.pose.u[b]).norm());
   }
   CHECK(size > 0);
   CHECK(difference < 1e-3 * size);  // oscillation that remains after the damped ramp
@@ -29,11 +31,11 @@ TEST_CASE("a wall in equilibrium stays there", "[analysis]") {
   const Scene scene = test::small_wall("analysis{duration=1}");
   run = prepare(scene, false);
   start_at_rest(scene, run, 1);
-  const BlockVec3 start = run.state.u;
-  Solver solver(run.model, run.state, 1);
-  solver.run({[](double) { return false; }, [] {}, [&] { return run.state.t >= 0.5; }});
-  for (std::size_t b = 0; b < start.size(); ++b) CHECK((run.state.u[b] - start[b]).norm() < 0.5e-6 * 0.1);
-  CHECK(std::all_of(run.state.stage.begin(), run.state.stage.end(), [](JointStage t) { return t == JointStage::intact; }));
+  const BlockVec3 start = run.state.pose.u;
+  Solver solver(run.model, run.state, run.range, 1);
+  solver.advance_until([&] { return run.state.time.t >= 0.5; });
+  for (std::size_t b = 0; b < start.size(); ++b) CHECK((run.state.pose.u[b] - start[b]).norm() < 0.5e-6 * 0.1);
+  CHECK(std::all_of(run.state.joints.stage.begin(), run.state.joints.stage.end(), [](JointStage t) { return t == JointStage::intact; }));
 }
 
 TEST_CASE("a step past the limit is refused with the reason", "[analysis]") {
@@ -45,8 +47,8 @@ TEST_CASE("a step past the limit is refused with the reason", "[analysis]") {
     scene.analysis.dt_rule = rule;
     scene.analysis.dt_fraction = 0.5;
     const Prepared run = prepare(scene, false);
-    CHECK(run.state.dt > 0);
-    CHECK(run.state.dt < run.bounds.critical);
+    CHECK(run.state.time.dt > 0);
+    CHECK(run.state.time.dt < run.bounds.critical);
   }
 }
 
@@ -64,7 +66,7 @@ TEST_CASE("dashpots of joints shorten the step to the limit of explicit damping"
     const Prepared run = prepare(test::small_wall(fmt::format("damping{{stiffness={}}} analysis{{duration=1}}", 2 * xi / omega)), false);
     CHECK(run.bounds.critical == Approx(limit).epsilon(1e-5));
     CHECK(run.bounds.block <= run.bounds.critical * (1 + 1e-6));
-    CHECK(run.state.dt == Approx(0.9 * run.bounds.critical));
+    CHECK(run.state.time.dt == Approx(0.9 * run.bounds.critical));
   }
   // With each joint's own damping ratio: b = 2 xi / omega_j.
   const Prepared own = prepare(test::small_wall("damping{joint_ratio=0.1} analysis{duration=1}"), false);
@@ -86,8 +88,8 @@ TEST_CASE("a scene whose only moving block is driven runs in tenths of its rows"
                                        "driven.lua");
   Prepared run;
   test::run_to(scene, 1, 0.25, run);
-  CHECK(run.state.dt == Approx(0.001));
-  CHECK(run.state.u[1].x() == Approx(0.01).epsilon(1e-3));
+  CHECK(run.state.time.dt == Approx(0.001));
+  CHECK(run.state.pose.u[1].x() == Approx(0.01).epsilon(1e-3));
 }
 
 TEST_CASE("overlaps and lonely blocks are found together", "[analysis]") {

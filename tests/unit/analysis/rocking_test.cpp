@@ -7,6 +7,7 @@
 #include "engine/base/units.h"
 
 using namespace erbs;
+using namespace erbs::analysis;
 
 namespace {
 

@@ -11,10 +11,10 @@ TEST_CASE("nobody sleeps on at a barrier that has opened, however waits and arri
   constexpr long rounds = 100000;
   for (const int threads : {2, 3})
     for (const int spins : {0, 100}) {
-      Barrier barrier(threads, spins);
       std::vector<long> done(std::size_t(threads), 0);
       std::atomic<long> behind = 0;
-      run_team(threads, [&](int thread) {
+      Barrier barrier(threads, spins);
+      const auto work = [&](int thread) {
         unsigned x = unsigned(thread) + 1;
         for (long i = 0; i < rounds; ++i) {
           x = x * 1664525u + 1013904223u;
@@ -26,7 +26,8 @@ TEST_CASE("nobody sleeps on at a barrier that has opened, however waits and arri
             for (const long other : done) behind += other != i + 1;
           });
         }
-      });
+      };
+      Team(threads, work).run();
       CHECK(behind == 0);
       for (const long n : done) CHECK(n == rounds);
     }
@@ -40,10 +41,33 @@ TEST_CASE("as many threads as there are cores have one each, and give it back", 
   };
   const int cores = cores_of_this_thread();
   std::vector<int> core(std::size_t(cores), -1);
-  run_team(cores, [&](int thread) { core[std::size_t(thread)] = this_core(); });
+  Team(cores, [&](int thread) { core[std::size_t(thread)] = this_core(); }).run();
   std::sort(core.begin(), core.end());
   if (cores > 1) CHECK(std::adjacent_find(core.begin(), core.end()) == core.end());
   CHECK(cores_of_this_thread() == cores);
-  run_team(cores + 1, [&](int) {});
+  Team(cores + 1, [](int) {}).run();
   CHECK(cores_of_this_thread() == cores);
+}
+
+TEST_CASE("between two rounds the caller is alone, also after a round that has thrown", "[parallel]") {
+  for (const int threads : {1, 2, 3}) {
+    std::vector<int> rounds(std::size_t(threads), 0);
+    Team* all = nullptr;
+    Team team(threads, [&](int thread) {
+      ++rounds[std::size_t(thread)];
+      if (!all->barrier().wait(thread, [&] {
+            if (rounds.front() == 4) throw Error("no space left");
+          }))
+        return;
+      ++rounds[std::size_t(thread)];
+    });
+    all = &team;
+    for (int round = 1; round <= 2; ++round) {
+      team.run();
+      for (const int n : rounds) CHECK(n == 2 * round);
+      if (round == 1) std::this_thread::sleep_for(std::chrono::milliseconds(20));  // the others fall asleep
+    }
+    rounds.assign(rounds.size(), 3);
+    CHECK_THROWS_AS(team.run(), Error);
+  }
 }

@@ -8,6 +8,8 @@
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;
+using namespace erbs::analysis;
+using namespace erbs::lua;
 using namespace erbs::trial;
 
 namespace {
@@ -99,10 +101,10 @@ TEST_CASE("diagonal neighbours of a wall that slides as one are left alone", "[s
   const Scene scene = script.load_text(stack_bond, "wall.lua");
   Prepared run = prepare(scene, false);
   start_at_rest(scene, run, 1);
-  Solver solver(run.model, run.state, 1);
-  solver.run({[](double) { return false; }, [] {}, [&] { return run.state.t >= 0.15; }});
-  const double steps = double(run.state.step);
-  CHECK(run.state.u[1].norm() > 1e-4);                 // the wall has slid
-  CHECK(double(solver.touched()) < 1.5 * 20 * steps);  // its former joint, and few more: 114 pairs meet along edges
-  CHECK(run.state.max_penetration_relative < 1e-3);
+  Solver solver(run.model, run.state, run.range, 1);
+  solver.advance_until([&] { return run.state.time.t >= 0.15; });
+  const double steps = double(run.state.time.step);
+  CHECK(run.state.pose.u[1].norm() > 1e-4);                       // the wall has slid
+  CHECK(double(solver.contacts().touched()) < 1.5 * 20 * steps);  // its former joint, and few more: 114 pairs meet along edges
+  CHECK(run.state.observed.max_penetration_relative < 1e-3);
 }

@@ -2,7 +2,8 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "engine/contact/law/friction.h"
+#include "engine/contact/law/frame.h"
+#include "engine/contact/law/pair_law.h"
 #include "tests/unit/contact/bodies.h"
 
 using namespace erbs;
@@ -39,7 +40,7 @@ TEST_CASE("the factor of an impact answers for its restitution", "[contact]") {
 TEST_CASE("the torsion radius is that of Int |x| dA / A", "[contact]") {
   for (double q : {0.01, 0.0625, 0.15}) {
     const double p = 0.15, exact = (std::hypot(p, q) + p * p / (2 * q) * std::asinh(q / p) + q * q / (2 * p) * std::asinh(p / q)) / 3;
-    CHECK(torsion_radius(4 * p * q, std::sqrt((p * p + q * q) / 3)) == Approx(exact).epsilon(4e-3));
+    CHECK(scalar::torsion_radius<double>(4 * p * q, std::sqrt((p * p + q * q) / 3)) == Approx(exact).epsilon(4e-3));
   }
 }
 
@@ -121,8 +122,12 @@ TEST_CASE("slip of a patch takes energy in every step, wherever its pressure lie
     patch.pressure_centre = {off, 0.7 * off, 0};
     ContactPair pair;
     pair.law = {stiffness, 0.4 * stiffness, 0.6, 0.3};
+    pair.n = patch.normal, pair.area = patch.area, pair.gyration = patch.gyration;
     const double normal = 100, reach = pair.law.mu * normal / (pair.law.ks * patch.area);
-    PairPose pose{Mat3::Identity(), Vec3::Zero()};
+    ContactBlock below, above;
+    below.inverse_mass = below.inverse_inertia = above.inverse_inertia = 0;
+    above.inverse_mass = 1e-3;
+    const PairSettings settings = pair_settings({0.01, 0.05, 0.2, 0.05, 0, {}}, 1e-3);
     double least = 0, sum = 0, stored = 0, work = 0;
     Vec3 force = Vec3::Zero();
     double torsion = 0;
@@ -131,18 +136,26 @@ TEST_CASE("slip of a patch takes energy in every step, wherever its pressure lie
       const Vec3 kick = random_vector(random);
       speed = 0.9 * speed + 0.2 * reach * kick;  // slip x, slip y, rotation times the radius of gyration
       moved += speed;
-      const double turn = moved.z() / patch.gyration;
-      pose.shift = {moved.x(), moved.y(), 0};
-      pose.rotation = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
-      const Motion motion{1e3 * Vec3(speed.x(), speed.y(), 0), {0, 0, 1e3 * speed.z() / patch.gyration}};
-      const Friction f = patch_friction(pair, patch, pose, motion, normal, 1e-3, 0.05);
-      work += -0.5 * ((f.force + force).head<2>().dot(speed.head<2>()) + (f.moment.z() + torsion) * speed.z() / patch.gyration);
-      force = f.force, torsion = f.moment.z();
-      pair.touching = 1, pair.rotation = pose.rotation, pair.shift = pose.shift;
+      above.u = {moved.x(), moved.y(), 0};
+      above.rotation = Eigen::AngleAxisd(moved.z() / patch.gyration, Vec3::UnitZ()).toRotationMatrix();
+      OnePair w{};
+      set_lane(w, 0, pair, below, above, 1);
+      scalar::gather_pairs<double>(w);
+      w.total[0] = w.normal[2][0] = 1, w.area[0] = patch.area, w.gyration[0] = patch.gyration, w.size[0] = normal / stiffness;
+      for (int i = 0; i < 3; ++i) w.second[i][0] = patch.second(i, i), w.pressure_centre[i][0] = patch.pressure_centre[i];
+      w.linear[0][0] = 1e3 * speed.x(), w.linear[1][0] = 1e3 * speed.y(), w.angular[2][0] = 1e3 * speed.z() / patch.gyration;
+      scalar::springs<double>(w, settings);
+      scalar::return_map<double>(w);
+      const scalar::Springs<double> f = scalar::springs_after<double>(w);
+      const Vec3 now(f.force.x, f.force.y, f.force.z);
+      work += -0.5 * ((now + force).head<2>().dot(speed.head<2>()) + (f.torsion + torsion) * speed.z() / patch.gyration);
+      force = now, torsion = f.torsion;
+      scalar::finish<double>(w, settings);
+      scalar::write(w.p, pair_rows, &pair.law.kn);
       least = std::min(least, f.slipped);
       sum += f.slipped;
       stored = f.stored;
-      const Vec3 whole = f.force + f.viscous_force;
+      const Vec3 whole = now + w.share[0] * Vec3(w.dashpots[0][0], w.dashpots[1][0], w.dashpots[2][0]);
       CHECK(whole.norm() <= pair.law.mu * normal * (1 + 1e-9));
     }
     const double scale = pair.law.mu * normal * reach;

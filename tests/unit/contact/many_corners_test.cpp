@@ -8,6 +8,8 @@
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;
+using namespace erbs::analysis;
+using namespace erbs::lua;
 using namespace erbs::trial;
 
 namespace {
@@ -113,9 +115,9 @@ TEST_CASE("a heap of stones of many corners is the same for any number of thread
                                          "stones.lua");
     Prepared run = prepare(scene, false);
     start_at_rest(scene, run, threads);
-    Solver solver(run.model, run.state, threads);
-    solver.run({[](double) { return false; }, [] {}, [&] { return run.state.t >= 0.3; }});
-    CHECK(run.state.max_penetration_relative < 0.05);
+    Solver solver(run.model, run.state, run.range, threads);
+    solver.advance_until([&] { return run.state.time.t >= 0.3; });
+    CHECK(run.state.observed.max_penetration_relative < 0.05);
     return state_hash(run.state);
   };
   const std::string one = after(1);

@@ -8,6 +8,8 @@
 #include "tests/support/small_wall.h"
 
 using namespace erbs;
+using namespace erbs::analysis;
+using namespace erbs::lua;
 
 namespace {
 
@@ -79,8 +81,9 @@ TEST_CASE("a cracked joint is nowhere stiffer than a sound one", "[solve][cracke
     std::vector<PointHistory> history(std::size_t(m.npoint));
     for (PointHistory& h : history) {
       const double kind = any(random);
-      if (kind < -0.3) damage_to(point_law, h, 1);
-      else if (kind < 0.3) damage_to(point_law, h, 0.5 + 0.5 * any(random));
+      scalar::Bond<double> bond{0, 0, 0};
+      scalar::damage_to(point_law, bond, kind < 0.3, kind < -0.3 ? 1 : 0.5 + 0.5 * any(random));
+      h.damage = bond.damage, h.secant = bond.secant, h.kappa = bond.kappa;
     }
     worst = std::max(worst, against(tangent(m, 0, history, q, length), stiffest(joint)));
   }

@@ -7,7 +7,10 @@
 #include "engine/solve/step.h"
 #include "lua/language/script.h"
 
-namespace erbs {
+using namespace erbs;
+using namespace erbs::analysis;
+using namespace erbs::lua;
+
 namespace {
 
 struct Ran {
@@ -22,12 +25,11 @@ Ran ran(const std::string& text, double until) {
   start_at_rest(scene, out.run, 1);
   State& s = out.run.state;
   const std::size_t last = std::size_t(out.run.model.nblock - 1);
-  Solver solver(out.run.model, s, 1);
-  solver.run({[](double) { return false; }, [] {},
-              [&] {
-                out.highest = std::max(out.highest, s.u[last].z());
-                return s.t >= until;
-              }});
+  Solver solver(out.run.model, out.run.state, out.run.range, 1);
+  solver.advance_until([&] {
+    out.highest = std::max(out.highest, s.pose.u[last].z());
+    return s.time.t >= until;
+  });
   return out;
 }
 
@@ -69,8 +71,8 @@ TEST_CASE("a block that topples falls flat and lies there", "[solve][event]") {
                       4);
   const State& s = one.run.state;
   CHECK(s.energy.residual_worst < 1e-3);
-  CHECK(s.u[1].z() == Approx(-.35).margin(2e-3));
-  CHECK(s.v[1].norm() < 1e-3);
+  CHECK(s.pose.u[1].z() == Approx(-.35).margin(2e-3));
+  CHECK(s.motion.v[1].norm() < 1e-3);
   CHECK(one.highest < 0.03);  // rise over its edge: sqrt(.15^2 + .5^2) - .5
   CHECK(s.energy.contact_damping > 0);
   CHECK(std::fabs(s.energy.reset) < 2e-3 * s.energy.reference);
@@ -91,11 +93,11 @@ TEST_CASE("plates on a slope come to rest after a bump", "[solve][interlock]") {
   )",
                       1.7);
   Prepared run = one.run;
-  const Vec3 before = run.state.u[8];
-  const double from = run.state.t;
-  Solver solver(run.model, run.state, 1);
-  solver.run({[](double) { return false; }, [] {}, [&] { return run.state.t >= from + 0.5; }});
-  CHECK((run.state.u[8] - before).norm() / 0.5 < 1e-6 * 0.4);
+  const Vec3 before = run.state.pose.u[8];
+  const double from = run.state.time.t;
+  Solver solver(run.model, run.state, run.range, 1);
+  solver.advance_until([&] { return run.state.time.t >= from + 0.5; });
+  CHECK((run.state.pose.u[8] - before).norm() / 0.5 < 1e-6 * 0.4);
   CHECK(run.state.energy.residual_worst < 1e-3);
 }
 
@@ -112,5 +114,3 @@ TEST_CASE("what comes near is met with as many steps to go, and by as short a st
   CHECK(foresee(run.model, joint, before, far, 1e3) == Approx(std::sqrt(event_share * k * rate * rate / 1e3)).epsilon(1e-6));
   CHECK(foresee(run.model, joint, far, before, 1e-9) == 0);  // it moves away
 }
-
-}  // namespace erbs

@@ -12,6 +12,8 @@
 #include "tests/support/small_wall.h"
 
 using namespace erbs;
+using namespace erbs::analysis;
+using namespace erbs::lua;
 
 namespace {
 
@@ -21,8 +23,8 @@ const std::string shake = "ground_motion{wave=sine{amplitude=0.5*g, frequency=8}
 void turn_rigidly(const Model& m, State& s, double strain) {
   for (int b = 1; b < m.nblock; ++b) {
     const Vec3 theta = 1e-4 * Vec3(0.6, -0.48, 0.64), arm = m.rest[std::size_t(b)];
-    s.q[std::size_t(b)] = rotation(theta + strain * Vec3(std::sin(b), std::cos(b), 1));
-    s.u[std::size_t(b)] = rotation(theta) * arm - arm + strain * Vec3(std::cos(3 * b), std::sin(2 * b), 0.3);
+    s.pose.q[std::size_t(b)] = rotation(theta + strain * Vec3(std::sin(b), std::cos(b), 1));
+    s.pose.u[std::size_t(b)] = rotation(theta) * arm - arm + strain * Vec3(std::cos(3 * b), std::sin(2 * b), 0.3);
     set_pose_row(s, b);
   }
 }
@@ -37,7 +39,7 @@ TEST_CASE("carried geometry answers as exact geometry within the tolerance of a 
   ElasticPack o;
   for (int j = 0; j < run.model.njoint; ++j) {
     if (run.model.joint[std::size_t(j)].a == 0) continue;  // the foot does not rotate
-    step_kernels().elastic(intact_pack(run.model, s, j / pack_size), s.pose_row.data(), o);
+    step_kernels().elastic(intact_pack(run.model, s, j / pack_size), s.cache.pose_row.data(), o);
     double q[6];
     joint_gap(run.model, s, j, q);
     for (int i = 0; i < 6; ++i) CHECK(o.gap[i][j % pack_size] == Approx(q[i]).margin(1e-15));
@@ -65,12 +67,12 @@ TEST_CASE("cracked joints see their blocks exactly, however far these have turne
   const Model& m = run.model;
   State& s = run.state;
   const double apart = GENERATE(1e-9, 0.1, 0.13, 0.7);  // rad; beyond .126 a series no longer converges
-  for (int j = 0; j < m.njoint; ++j) s.stage[std::size_t(j)] = JointStage::cracked;
+  for (int j = 0; j < m.njoint; ++j) s.joints.stage[std::size_t(j)] = JointStage::cracked;
   for (int b = 1; b < m.nblock; ++b) {
     const Vec3 theta(0.9, -0.8, 0.4), arm = m.rest[std::size_t(b)];
-    s.q[std::size_t(b)] = rotation(theta) * rotation(apart * Vec3(std::sin(b), std::cos(b), 1));
-    if (b % 3 == 0) s.q[std::size_t(b)] = Quat(-Quat(s.q[std::size_t(b)]).coeffs());  // the same orientation
-    s.u[std::size_t(b)] = rotation(theta) * arm - arm + 1e-6 * Vec3(std::cos(3 * b), std::sin(2 * b), 0.3);
+    s.pose.q[std::size_t(b)] = rotation(theta) * rotation(apart * Vec3(std::sin(b), std::cos(b), 1));
+    if (b % 3 == 0) s.pose.q[std::size_t(b)] = Quat(-Quat(s.pose.q[std::size_t(b)]).coeffs());  // the same orientation
+    s.pose.u[std::size_t(b)] = rotation(theta) * arm - arm + 1e-6 * Vec3(std::cos(3 * b), std::sin(2 * b), 0.3);
   }
   for (const StepKernels* kernels : {&step_kernels(), &sse2::kernels}) {
     Cracked cracked(m, s);
@@ -80,7 +82,7 @@ TEST_CASE("cracked joints see their blocks exactly, however far these have turne
     for (int j = 0; j < m.njoint; ++j) {
       double q[6];
       joint_gap(m, s, j, q);
-      for (int i = 0; i < 6; ++i) CHECK(s.memory[std::size_t(j)].gap[i] == Approx(q[i]).margin(2e-15));
+      for (int i = 0; i < 6; ++i) CHECK(s.joints.memory[std::size_t(j)].gap[i] == Approx(q[i]).margin(2e-15));
     }
   }
 }
@@ -90,10 +92,10 @@ TEST_CASE("a refresh by whole batches gives what all joints anew would", "[solve
   const Model& m = run.model;
   State& s = run.state;
   IntactJoints intact(m, s);
-  std::vector<std::uint8_t> outdated(s.u.size(), 0);
+  std::vector<std::uint8_t> outdated(s.pose.u.size(), 0);
   for (int b = 1; b < m.nblock; b += 2) {
-    s.q[std::size_t(b)] = rotation(1e-3 * Vec3(std::sin(b), std::cos(b), 1));
-    s.u[std::size_t(b)] = 1e-3 * Vec3(std::cos(3 * b), std::sin(2 * b), 0.3);
+    s.pose.q[std::size_t(b)] = rotation(1e-3 * Vec3(std::sin(b), std::cos(b), 1));
+    s.pose.u[std::size_t(b)] = 1e-3 * Vec3(std::cos(3 * b), std::sin(2 * b), 0.3);
     set_reference(s, b);
     outdated[std::size_t(b)] = 1;
   }
@@ -115,8 +117,8 @@ TEST_CASE("sound joints that have been looked at once are passed by only where t
   Prepared run = prepare(test::small_wall(shake + "fast\"} gravity(g)", "dry{kn=1e10, mu=0.5}"), false);
   const Model& m = run.model;  // overhanging corners would fall, so it runs only until its joints are under load
   {
-    Solver solver(m, run.state, 1);
-    solver.run({[](double) { return false; }, [] {}, [&] { return run.state.t >= 4e-4; }});
+    Solver solver(m, run.state, run.range, 1);
+    solver.advance_until([&] { return run.state.time.t >= 4e-4; });
     update_all_references(run.model, run.state);
   }
   const State rest = run.state;
@@ -124,7 +126,7 @@ TEST_CASE("sound joints that have been looked at once are passed by only where t
   IntactJoints intact(m, s);
   const auto sway = [&](double size, int phase) {
     for (int b = 1; b < m.nblock; ++b)
-      for (int i = 0; i < 6; ++i) s.increment[std::size_t(b / pack_size)].x[i][b % pack_size] = size * std::sin(7.0 * b + i + phase);
+      for (int i = 0; i < 6; ++i) s.cache.increment[std::size_t(b / pack_size)].x[i][b % pack_size] = size * std::sin(7.0 * b + i + phase);
   };
   std::vector<JointSums> sums(std::size_t(intact.groups()));
   sway(1e-6, 0);
@@ -137,8 +139,8 @@ TEST_CASE("sound joints that have been looked at once are passed by only where t
     IntactJoints anew(m, other);
     now += intact.forces(0, intact.groups(), step_kernels(), nullptr), before += anew.forces(0, anew.groups(), step_kernels(), nullptr);
     intact.forces({0, intact.groups()}, false, sums), anew.forces({0, anew.groups()}, false, sums);
-    REQUIRE(s.stage == other.stage);
-    cracked += int(std::count(s.stage.begin(), s.stage.end(), JointStage::cracked));
+    REQUIRE(s.joints.stage == other.joints.stage);
+    cracked += int(std::count(s.joints.stage.begin(), s.joints.stage.end(), JointStage::cracked));
   }
   CHECK(cracked > 0);
   CHECK(now < before);

@@ -22,7 +22,9 @@ std::vector<Wave> examples() {
           Pulse{4, -0.5, 0.8},
           make_table({0.1, 0.4, 0.55}, {1, -3, 2}, false),
           make_table({-0.2, 0.4, 0.55}, {1, -3, 2}, true),
-          record};
+          record,
+          Ricker{2, 0.7, -2.2},
+          Ricker{-1, 0.9, -1.5}};
 }
 
 // Integral from t0 to t1 by the midpoint rule on n pieces, from values only.

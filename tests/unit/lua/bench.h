@@ -11,7 +11,7 @@
 #include "tests/support/folder.h"
 #include "tests/unit/lua/load.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 inline std::string text_of(const std::filesystem::path& path) {
   std::ifstream stream(path);
@@ -53,4 +53,4 @@ struct Bench {
   std::string out() const { return (folder / "out").string(); }
 };
 
-}  // namespace erbs
+}  // namespace erbs::lua

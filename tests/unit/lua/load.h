@@ -6,7 +6,7 @@
 
 #include "lua/language/script.h"
 
-namespace erbs {
+namespace erbs::lua {
 
 inline Script::Options quiet(double seconds = 10, size_t bytes = size_t{256} << 20) {
   Script::Options options;
@@ -48,4 +48,4 @@ inline bool mentions(const std::vector<std::string>& messages, const std::string
   return std::any_of(messages.begin(), messages.end(), [&](const std::string& m) { return contains(m, part); });
 }
 
-}  // namespace erbs
+}  // namespace erbs::lua

@@ -6,6 +6,8 @@
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;
+using namespace erbs::analysis;
+using namespace erbs::lua;
 
 namespace {
 
@@ -44,7 +46,7 @@ TEST_CASE("joints across a gap that is not the rule's are counted", "[model]") {
   const auto told = [](const std::string& rule) {
     return build(scene_with(rule + "box{ name = 'a', size = {.3, .2, .1}, at = {0, 0, 4*mm} }\n"
                                    "box{ name = 'b', size = {.3, .2, .1}, at = {0, 0, 106*mm} }\n"))
-        .model.warnings;
+        .warnings;
   };
   const auto said = told("joint{ law = dry{ kn = 1e9, mu = .6 }, thickness = 4*mm }\n");
   CHECK(mentions(said, "scene.lua:5: 1 joint of this rule bridges gaps of 2 to 2 mm, not the 4 mm it says (first between 'a' and 'b')"));
@@ -52,22 +54,21 @@ TEST_CASE("joints across a gap that is not the rule's are counted", "[model]") {
 }
 
 TEST_CASE("faces that miss their joint by a little are counted", "[model]") {
-  const auto said =
-      build(scene_with("for i = 0, 2 do box{ name = 'b' .. i, size = {.3, .2, .1}, at = {i * .303, 0, 0} } end\n")).model.warnings;
+  const auto said = build(scene_with("for i = 0, 2 do box{ name = 'b' .. i, size = {.3, .2, .1}, at = {i * .303, 0, 0} } end\n")).warnings;
   CHECK(mentions(said, "2 pairs of blocks face each other across gaps of 3 to 3 mm and are not joined (first 'b0' and 'b1')"));
 }
 
 TEST_CASE("overlaps that are let be are one warning, their list is for the log", "[model]") {
-  const Model model = build(scene_with("analysis{ overlap = 'stress_free' }\n"
-                                       "for i = 0, 2 do\n"
-                                       "  box{ name = 'a' .. i, size = {.3, .2, .1}, at = {.5*i, 0, 0} }\n"
-                                       "  box{ name = 'b' .. i, size = {.3, .2, .1}, at = {.5*i, 0, .099} }\n"
-                                       "end\nbox{ name = 'c', size = {.3, .2, .1}, at = {0, 0, .197} }\n"))
-                          .model;
-  REQUIRE(model.warnings.size() == 1);
-  CHECK(contains(model.warnings[0], "4 pairs of blocks overlap"));
-  CHECK(contains(model.warnings[0], "'b0' (scene.lua:8) and 'c' (scene.lua:10) overlap by 2 mm"));
-  CHECK(model.notes.size() == 2);
+  const Built built =
+      build(scene_with("analysis{ overlap = 'stress_free' }\n"
+                       "for i = 0, 2 do\n"
+                       "  box{ name = 'a' .. i, size = {.3, .2, .1}, at = {.5*i, 0, 0} }\n"
+                       "  box{ name = 'b' .. i, size = {.3, .2, .1}, at = {.5*i, 0, .099} }\n"
+                       "end\nbox{ name = 'c', size = {.3, .2, .1}, at = {0, 0, .197} }\n"));
+  REQUIRE(built.warnings.size() == 1);
+  CHECK(contains(built.warnings[0], "4 pairs of blocks overlap"));
+  CHECK(contains(built.warnings[0], "'b0' (scene.lua:8) and 'c' (scene.lua:10) overlap by 2 mm"));
+  CHECK(built.notes.size() == 2);
 }
 
 TEST_CASE("two joints of the same blocks have names of their own", "[model]") {

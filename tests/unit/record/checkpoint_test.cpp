@@ -18,14 +18,14 @@ namespace {
 
 State moved() {
   State s = test::two_bricks().state;
-  s.step = 7, s.t = 0.1, s.dt = 1e-4, s.joints_broken = 1;
-  s.u[1] = Vec3(1.0 / 3, 2, 3);
-  s.q[1] = rotation(Vec3(0.1, 0.2, 0.3));
-  s.history[2].damage = 0.5;
-  s.stage[0] = JointStage::cracked;
-  s.memory[0].resultant[2] = 12;
-  s.pack[0].rotation[2][7] = 0.25;
-  s.pose_row.assign(3, 2.5);
+  s.time.step = 7, s.time.t = 0.1, s.time.dt = 1e-4, s.observed.joints_broken = 1;
+  s.pose.u[1] = Vec3(1.0 / 3, 2, 3);
+  s.pose.q[1] = rotation(Vec3(0.1, 0.2, 0.3));
+  s.joints.history[2].damage = 0.5;
+  s.joints.stage[0] = JointStage::cracked;
+  s.joints.memory[0].resultant[2] = 12;
+  s.joints.pack[0].rotation[2][7] = 0.25;
+  s.cache.pose_row.assign(3, 2.5);
   s.energy.friction = 4;
   s.energy.largest_jump_joint = 3;
   return s;
@@ -94,9 +94,9 @@ TEST_CASE("a checkpoint brings everything back", "[record][checkpoint]") {
   const std::string first = slurp(scratch.path + "/checkpoint.bin");
   write_checkpoint(scratch.path, key, back, again);
   CHECK(slurp(scratch.path + "/checkpoint.bin") == first);
-  CHECK(back.u[1] == s.u[1]);
-  CHECK(back.q[1].coeffs() == s.q[1].coeffs());
-  CHECK(back.pack[0].rotation[2][7] == 0.25);
+  CHECK(back.pose.u[1] == s.pose.u[1]);
+  CHECK(back.pose.q[1].coeffs() == s.pose.q[1].coeffs());
+  CHECK(back.joints.pack[0].rotation[2][7] == 0.25);
   CHECK(back.energy.largest_jump_joint == 3);
   CHECK(again.lists == nested.lists);
   CHECK(again.word == "words");
@@ -108,20 +108,20 @@ TEST_CASE("what is longer than the writer's pieces comes back, and zeros stay un
   const test::Scratch scratch("long");
   std::filesystem::create_directories(scratch.path);
   State s = moved();
-  s.history.clear(300000);
-  s.history[123456].damage = 0.25;
-  s.history[299999].kappa = 3;
-  s.slot.assign(50001, 7);
+  s.joints.history.clear(300000);
+  s.joints.history[123456].damage = 0.25;
+  s.joints.history[299999].kappa = 3;
+  s.joints.slot.assign(50001, 7);
   write_checkpoint(scratch.path, {1, 1}, s);
   State back;
   read_checkpoint(scratch.path, {1, 1}, back);
   unsigned char there[3] = {};  // residency in memory of the pages around a zero item
-  const auto page = reinterpret_cast<std::uintptr_t>(&back.history[60000]) / 4096 * 4096;
+  const auto page = reinterpret_cast<std::uintptr_t>(&back.joints.history[60000]) / 4096 * 4096;
   REQUIRE(mincore(reinterpret_cast<void*>(page), 3 * 4096, there) == 0);
   CHECK((there[0] & 1) == 0);
   CHECK(state_hash(back) == state_hash(s));
-  CHECK(back.slot == s.slot);
-  CHECK(back.history[299999].kappa == 3);
+  CHECK(back.joints.slot == s.joints.slot);
+  CHECK(back.joints.history[299999].kappa == 3);
 }
 
 TEST_CASE("a checkpoint of another scene or step, cut short or damaged, is refused", "[record][checkpoint]") {
@@ -158,7 +158,7 @@ TEST_CASE("a failed checkpoint leaves the one before it", "[record][checkpoint]"
   CHECK_THROWS_AS(write_checkpoint(scratch.path, key, State()), Error);
   State back;
   read_checkpoint(scratch.path, key, back);
-  CHECK(back.step == 7);
+  CHECK(back.time.step == 7);
 }
 
 TEST_CASE("state_hash sees positions, velocities and histories, not caches", "[record][checkpoint]") {
@@ -169,13 +169,13 @@ TEST_CASE("state_hash sees positions, velocities and histories, not caches", "[r
     change(s);
     return state_hash(s) != before;
   };
-  CHECK(changed([](State& s) { s.u[1].x() = std::nextafter(s.u[1].x(), 1); }));
-  CHECK(changed([](State& s) { s.q[1] = Quat(s.q[1].w(), s.q[1].x(), s.q[1].y(), s.q[1].z() + 1e-16); }));
-  CHECK(changed([](State& s) { s.v[2].y() = 1e-300; }));
-  CHECK(changed([](State& s) { s.spin_momentum[2].y() = 1e-300; }));
-  CHECK(changed([](State& s) { s.history[0].slip_t = 1e-20; }));
-  CHECK(changed([](State& s) { s.stage[0] = JointStage::contact; }));
-  CHECK_FALSE(changed([](State& s) { s.pack[0].gap[0][0] = 1; }));
+  CHECK(changed([](State& s) { s.pose.u[1].x() = std::nextafter(s.pose.u[1].x(), 1); }));
+  CHECK(changed([](State& s) { s.pose.q[1] = Quat(s.pose.q[1].w(), s.pose.q[1].x(), s.pose.q[1].y(), s.pose.q[1].z() + 1e-16); }));
+  CHECK(changed([](State& s) { s.motion.v[2].y() = 1e-300; }));
+  CHECK(changed([](State& s) { s.motion.spin_momentum[2].y() = 1e-300; }));
+  CHECK(changed([](State& s) { s.joints.history[0].slip_t = 1e-20; }));
+  CHECK(changed([](State& s) { s.joints.stage[0] = JointStage::contact; }));
+  CHECK_FALSE(changed([](State& s) { s.joints.pack[0].gap[0][0] = 1; }));
   CHECK_FALSE(changed([](State& s) { s.energy.kinetic = 1; }));
 }
 

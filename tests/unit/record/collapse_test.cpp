@@ -8,18 +8,18 @@ using namespace erbs;
 
 TEST_CASE("a block has fallen below half its smallest edge from where it started", "[record][collapse]") {
   auto t = test::two_bricks();
-  t.state.u[1].z() = -0.02;  // settlement before the start does not count
-  Collapse c = watch_collapse(t.model, t.state);
-  t.state.u[1].z() = -0.0699;
-  CHECK_FALSE(update(c, t.model, t.state, 1.0));
+  t.state.pose.u[1].z() = -0.02;  // settlement before the start does not count
+  Collapse c = watch_collapse(t.model, t.state.pose);
+  t.state.pose.u[1].z() = -0.0699;
+  CHECK_FALSE(update(c, t.model, t.state.pose, 1.0));
   CHECK(c.fallen_fraction == 0);
-  t.state.u[1].z() = -0.0701;
+  t.state.pose.u[1].z() = -0.0701;
   std::vector<int> newly;
-  CHECK(update(c, t.model, t.state, 1.5, &newly));
+  CHECK(update(c, t.model, t.state.pose, 1.5, &newly));
   CHECK(newly == std::vector<int>{1});
   CHECK(c.fallen_fraction == Approx(0.25));  // 1 kg of the 4 kg of moving mass
   CHECK(c.time == 1.5);
-  CHECK_FALSE(update(c, t.model, t.state, 2.0, &newly));  // reported only once
+  CHECK_FALSE(update(c, t.model, t.state.pose, 2.0, &newly));  // reported only once
   CHECK(newly.size() == 1);
   CHECK(c.time == 1.5);
 }
@@ -27,37 +27,37 @@ TEST_CASE("a block has fallen below half its smallest edge from where it started
 TEST_CASE("the share that makes a collapse is the scene's", "[record][collapse]") {
   auto t = test::two_bricks();
   t.model.analysis.collapse_fraction = 0.5;
-  Collapse c = watch_collapse(t.model, t.state);
-  t.state.u[1].z() = -1;
-  CHECK_FALSE(update(c, t.model, t.state, 1.0));
-  t.state.u[2].z() = -1;
-  CHECK(update(c, t.model, t.state, 2.0));
+  Collapse c = watch_collapse(t.model, t.state.pose);
+  t.state.pose.u[1].z() = -1;
+  CHECK_FALSE(update(c, t.model, t.state.pose, 1.0));
+  t.state.pose.u[2].z() = -1;
+  CHECK(update(c, t.model, t.state.pose, 2.0));
   CHECK(c.fallen_fraction == 1);
 }
 
 TEST_CASE("supports that are moved down have not fallen", "[record][collapse]") {
   auto t = test::two_bricks();
   t.model.kind[0] = Kind::driven;
-  Collapse c = watch_collapse(t.model, t.state);
-  t.state.u[0].z() = -1;
-  CHECK_FALSE(update(c, t.model, t.state, 1.0));
+  Collapse c = watch_collapse(t.model, t.state.pose);
+  t.state.pose.u[0].z() = -1;
+  CHECK_FALSE(update(c, t.model, t.state.pose, 1.0));
   CHECK(c.fallen_fraction == 0);
 }
 
 TEST_CASE("the direction is the unit mean, and none where blocks fall every way", "[record][collapse]") {
   auto t = test::two_bricks();
-  Collapse c = watch_collapse(t.model, t.state);
-  CHECK_FALSE(collapse_direction(c, t.model, t.state));
-  t.state.u[1] = Vec3(3, 1, -1);
-  t.state.u[2] = Vec3(0, 3, -1);
-  update(c, t.model, t.state, 1.0);
-  const auto d = collapse_direction(c, t.model, t.state);
+  Collapse c = watch_collapse(t.model, t.state.pose);
+  CHECK_FALSE(collapse_direction(c, t.model, t.state.pose));
+  t.state.pose.u[1] = Vec3(3, 1, -1);
+  t.state.pose.u[2] = Vec3(0, 3, -1);
+  update(c, t.model, t.state.pose, 1.0);
+  const auto d = collapse_direction(c, t.model, t.state.pose);
   REQUIRE(d);
   CHECK((*d)[0] == Approx(0.6));
   CHECK((*d)[1] == Approx(0.8));
-  t.state.u[1] = Vec3(1, 0, -1);
-  t.state.u[2] = Vec3(-0.83, 0, -1);  // mean 0.085, mean length 0.915: 0.0929
-  CHECK_FALSE(collapse_direction(c, t.model, t.state));
-  t.state.u[2] = Vec3(-0.80, 0, -1);  // 0.1 / 0.9: 0.111
-  CHECK(collapse_direction(c, t.model, t.state));
+  t.state.pose.u[1] = Vec3(1, 0, -1);
+  t.state.pose.u[2] = Vec3(-0.83, 0, -1);  // mean 0.085, mean length 0.915: 0.0929
+  CHECK_FALSE(collapse_direction(c, t.model, t.state.pose));
+  t.state.pose.u[2] = Vec3(-0.80, 0, -1);  // 0.1 / 0.9: 0.111
+  CHECK(collapse_direction(c, t.model, t.state.pose));
 }

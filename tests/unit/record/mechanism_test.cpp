@@ -12,8 +12,8 @@ namespace {
 test::TwoBricks turned(double angle, const Vec3& shift) {
   auto t = test::two_bricks();
   const Vec3 edge(0.1, 0, 0.05), arm = t.model.rest[1] - edge;
-  t.state.q[1] = rotation(Vec3(0, angle, 0));
-  t.state.u[1] = t.state.q[1] * arm - arm + shift;
+  t.state.pose.q[1] = rotation(Vec3(0, angle, 0));
+  t.state.pose.u[1] = t.state.pose.q[1] * arm - arm + shift;
   return t;
 }
 
@@ -21,7 +21,7 @@ test::TwoBricks turned(double angle, const Vec3& shift) {
 
 TEST_CASE("a block on its edge is a hinge, and the edge is found", "[record][mechanism]") {
   const auto t = turned(0.1, Vec3::Zero());
-  const Mechanism m = mechanism_of(t.model, t.state, 2.0);
+  const Mechanism m = mechanism_of(t.model, t.state.pose, 2.0);
   REQUIRE(m.moved.size() == 1);
   CHECK(m.moved[0].kind == Movement::hinge);
   CHECK(m.moved[0].rotation == Approx(0.1));
@@ -35,11 +35,12 @@ TEST_CASE("a block on its edge is a hinge, and the edge is found", "[record][mec
 
 TEST_CASE("a shifted block has slid, a lifted one has parted, a still one is no mechanism", "[record][mechanism]") {
   const auto slid = turned(0.01, {0.03, 0, 0}), lifted = turned(0.01, {0, 0.001, 0.04}), still = turned(0, {1e-5, 0, 0});
-  CHECK(summary(mechanism_of(slid.model, slid.state, 0), slid.model) == "1 joint slid: between base and top by 30 mm");
-  CHECK(summary(mechanism_of(slid.model, slid.state, 0), slid.model, 0) ==
+  CHECK(summary(mechanism_of(slid.model, slid.state.pose, 0), slid.model) == "1 joint slid: between base and top by 30 mm");
+  CHECK(summary(mechanism_of(slid.model, slid.state.pose, 0), slid.model, 0) ==
         "1 joint slid, most of all between base and top by 30 mm; metrics.json lists them all");
-  CHECK(summary(mechanism_of(lifted.model, lifted.state, 0), lifted.model).starts_with("1 joint separated: between base and top by 4"));
-  CHECK(count(mechanism_of(lifted.model, lifted.state, 0), Movement::part) == 1);
-  CHECK(mechanism_of(still.model, still.state, 0).moved.empty());
-  CHECK(summary(mechanism_of(still.model, still.state, 0), still.model).empty());
+  CHECK(
+      summary(mechanism_of(lifted.model, lifted.state.pose, 0), lifted.model).starts_with("1 joint separated: between base and top by 4"));
+  CHECK(count(mechanism_of(lifted.model, lifted.state.pose, 0), Movement::part) == 1);
+  CHECK(mechanism_of(still.model, still.state.pose, 0).moved.empty());
+  CHECK(summary(mechanism_of(still.model, still.state.pose, 0), still.model).empty());
 }

@@ -17,7 +17,7 @@ Recorder recorder(const std::string& name, const std::string& quantity, std::vec
 std::vector<MovingBlock> moving;  // motion of the blocks in a snapshot
 
 Snapshot snapshot_of(const test::TwoBricks& t) {
-  Snapshot s{.model = t.model, .state = t.state};
+  Snapshot s{.model = t.model, .pose = t.state.pose, .joints = t.state.joints, .energy = t.state.energy};
   s.t = 0.5;
   moving.assign(3, {});
   s.motion = [](std::size_t b) { return moving[b]; };
@@ -53,8 +53,8 @@ TEST_CASE("columns carry name, axis, frame and unit; the ground is written where
 
 TEST_CASE("displacement is averaged, of a material point, relative or absolute", "[record][recorder]") {
   auto t = test::two_bricks();
-  t.state.u[1] = Vec3(1, 0, 0);
-  t.state.u[2] = Vec3(2, 0, 0);
+  t.state.pose.u[1] = Vec3(1, 0, 0);
+  t.state.pose.u[2] = Vec3(2, 0, 0);
   Snapshot s = snapshot_of(t);
   s.ground_u = Vec3(10, 0, 0);
   CHECK(row(t, s, recorder("a", "displacement", {"top", "stray"})) == std::vector<double>{1.5});
@@ -64,7 +64,7 @@ TEST_CASE("displacement is averaged, of a material point, relative or absolute",
   r.frame = "rel";
   r.has_point = true;
   r.point = Vec3(0.1, 0, 0.1);  // 0.1 m beside the centroid
-  t.state.q[1] = rotation(Vec3(0, 0, pi / 2));
+  t.state.pose.q[1] = rotation(Vec3(0, 0, pi / 2));
   const auto at = row(t, s, r);
   CHECK(at[0] == Approx(0.9));
   CHECK(at[1] == Approx(0.1));
@@ -91,9 +91,10 @@ TEST_CASE("a turning point has the velocity and acceleration of its circle", "[r
 TEST_CASE("the reaction without blocks is that of all supports; its moment is about the point", "[record][recorder]") {
   auto t = test::two_bricks();
   Snapshot s = snapshot_of(t);
-  s.block_wrench.assign(3, Vec6::Zero());
-  s.block_wrench[0] << 0, 0, -9.81, 0.5, 0, 0;
-  s.block_wrench[1] << 0, 0, 9.81, 0, 0, 0;
+  std::vector<Vec6> on_blocks(3, Vec6::Zero()), of_loads(3, Vec6::Zero());
+  on_blocks[0] << 0, 0, -9.81, 0.5, 0, 0;
+  on_blocks[1] << 0, 0, 9.81, 0, 0, 0;
+  s.block_wrench = on_blocks;
   CHECK(row(t, s, recorder("base", "reaction", {}, "z")) == std::vector<double>{-9.81});
   Recorder r = recorder("base", "reaction_moment", {}, "xy");
   r.has_point = true;
@@ -101,8 +102,8 @@ TEST_CASE("the reaction without blocks is that of all supports; its moment is ab
   const auto m = row(t, s, r);
   CHECK(m[0] == Approx(0.5));
   CHECK(m[1] == Approx(9.81));  // (1,0,0) x (0,0,-9.81)
-  s.load_wrench.assign(3, Vec6::Zero());
-  s.load_wrench[2] << 7, 0, 0, 0, 0, 0;
+  of_loads[2] << 7, 0, 0, 0, 0, 0;
+  s.load_wrench = of_loads;
   CHECK(row(t, s, recorder("push", "load", {})) == std::vector<double>{7});
 }
 
@@ -111,15 +112,15 @@ TEST_CASE("a joint shows its largest opening and slip at any rotation", "[record
   // The top brick rocks about its edge x = 0.1, z = 0.05 by 0.1 rad. The far edge opens by 0.2 sin(0.1) along the normal of the lower
   // brick, and by 2 (0.2) sin(0.05) cos(0) along the mean normal.
   const Vec3 edge(0.1, 0, 0.05), arm = t.model.rest[1] - edge;
-  t.state.q[1] = rotation(Vec3(0, 0.1, 0));
-  t.state.u[1] = t.state.q[1] * arm - arm;
+  t.state.pose.q[1] = rotation(Vec3(0, 0.1, 0));
+  t.state.pose.u[1] = t.state.pose.q[1] * arm - arm;
   Snapshot s = snapshot_of(t);
   CHECK(row(t, s, recorder("bed", "opening", {"top"}))[0] == Approx(2 * 0.2 * std::sin(0.05)).epsilon(1e-12));
   CHECK(row(t, s, recorder("bed", "slip", {"top"}))[0] == Approx(0).margin(1e-15));
   // Both blocks rotate together as one rigid body: no opening.
-  t.state.q[0] = t.state.q[1];
-  t.state.u[0] = Vec3::Zero();
-  t.state.u[1] = t.state.q[0] * t.model.rest[1] - t.model.rest[1];
+  t.state.pose.q[0] = t.state.pose.q[1];
+  t.state.pose.u[0] = Vec3::Zero();
+  t.state.pose.u[1] = t.state.pose.q[0] * t.model.rest[1] - t.model.rest[1];
   CHECK(row(t, s, recorder("bed", "opening", {"top"}))[0] == Approx(0).margin(1e-15));
 }
 
@@ -138,12 +139,12 @@ TEST_CASE("joint forces are summed with the side asked for", "[record][recorder]
 
 TEST_CASE("damage is the share of area that has any", "[record][recorder]") {
   auto t = test::two_bricks();
-  t.state.stage[0] = JointStage::cracked;
-  t.state.history[0].damage = 1;
+  t.state.joints.stage[0] = JointStage::cracked;
+  t.state.joints.history[0].damage = 1;
   const Snapshot s = snapshot_of(t);
   CHECK(row(t, s, recorder("bed", "damage", {"top"}))[0] == Approx(0.25));
   CHECK(row(t, s, recorder("bed", "broken", {"top"}))[0] == 0);
-  for (auto& h : t.state.history) h.damage = 1;
+  for (auto& h : t.state.joints.history) h.damage = 1;
   CHECK(row(t, s, recorder("bed", "broken", {"top"}))[0] == 1);
 }
 
@@ -179,6 +180,6 @@ TEST_CASE("momentum is summed over the blocks that move, about a point", "[recor
   CHECK(row(t, s, recorder("all", "angular_momentum", {}, "xyz")) == std::vector<double>{7, 0.2, 5 + 3});
   Recorder r = recorder("one", "angular_momentum", {"stray"}, "z");
   r.has_point = true, r.point = Vec3(3, 0, 0);
-  t.state.u[2] = Vec3(-1, 0, 0);
+  t.state.pose.u[2] = Vec3(-1, 0, 0);
   CHECK(row(t, s, r) == std::vector<double>{3 * -3});
 }

@@ -32,9 +32,9 @@ std::string slurp(const std::string& path) {
 
 // Writes row i; an event every third row, a frame every tenth.
 void step(RunWriter& writer, test::TwoBricks& t, int i) {
-  t.state.u[1] = Vec3(0.1 * i, 0, 0);
+  t.state.pose.u[1] = Vec3(0.1 * i, 0, 0);
   t.state.energy.friction = i;
-  Snapshot s{.model = t.model, .state = t.state};
+  Snapshot s{.model = t.model, .pose = t.state.pose, .joints = t.state.joints, .energy = t.state.energy};
   s.t = 0.01 * i;
   s.motion = [](std::size_t) { return MovingBlock{}; };
   writer.row(s);

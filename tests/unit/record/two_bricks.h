@@ -64,16 +64,16 @@ inline TwoBricks two_bricks() {
   m.overlap_corner = {{-0.1, -0.05}, {0.1, -0.05}, {0.1, 0.05}, {-0.1, 0.05}};
   m.laws.resize(1);
   State& s = t.state;
-  s.u.assign(4, Vec3::Zero());
-  s.q.assign(4, Quat::Identity());
-  s.v.assign(4, Vec3::Zero());
-  s.spin_momentum.assign(4, Vec3::Zero());
-  s.w.assign(4, Vec3::Zero());
-  s.stage.assign(1, JointStage::intact);
-  s.memory.resize(1);
-  s.history.resize(4);
-  s.pack.resize(1);
-  s.slot.assign(1, 0);
+  s.pose.u.assign(4, Vec3::Zero());
+  s.pose.q.assign(4, Quat::Identity());
+  s.motion.v.assign(4, Vec3::Zero());
+  s.motion.spin_momentum.assign(4, Vec3::Zero());
+  s.motion.w.assign(4, Vec3::Zero());
+  s.joints.stage.assign(1, JointStage::intact);
+  s.joints.memory.resize(1);
+  s.joints.history.resize(4);
+  s.joints.pack.resize(1);
+  s.joints.slot.assign(1, 0);
   return t;
 }
 

@@ -11,6 +11,8 @@
 #include "tests/unit/record/two_bricks.h"
 
 using namespace erbs;
+using namespace erbs::analysis;
+using namespace erbs::lua;
 
 namespace {
 

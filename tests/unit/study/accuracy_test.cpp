@@ -4,6 +4,7 @@
 #include <cmath>
 
 using namespace erbs;
+using namespace erbs::study;
 
 namespace {
 
@@ -16,7 +17,7 @@ Measured run(const std::string& knob, double size, double dt, double n) {
   return m;
 }
 
-std::vector<Measured> study() {
+std::vector<Measured> measurements() {
   std::vector<Measured> all = {run("", 0, 0.9, 3)};
   for (const double dt : {0.9, 0.5, 0.25, 0.125}) all.push_back(run("time step", dt, dt, 3));
   for (const double n : {3.0, 5.0, 7.0}) all.push_back(run("points, simpson", 1 / n, 0.9, n));
@@ -35,7 +36,7 @@ TEST_CASE("Richardson's limit of a known order, and its uncertainty", "[study]")
 }
 
 TEST_CASE("the reference adds what is left of each knob, an expectation comes first", "[study]") {
-  std::vector<Measured> all = study();
+  std::vector<Measured> all = measurements();
   Goal q{"x", "m", {}, 0, 0, ""};
   settle_reference(q, 0, all);
   CHECK(q.reference == Approx(1).epsilon(1e-4));
@@ -49,7 +50,7 @@ TEST_CASE("the reference adds what is left of each knob, an expectation comes fi
 }
 
 TEST_CASE("slopes are those of each knob's own error, whatever the others leave", "[study]") {
-  const std::vector<Measured> all = study();
+  const std::vector<Measured> all = measurements();
   Goal q{"x", "m", 1.0, 0, 0, ""};
   settle_reference(q, 0, all);
   const auto curves = curves_of(q, 0, all);
@@ -62,7 +63,7 @@ TEST_CASE("slopes are those of each knob's own error, whatever the others leave"
 }
 
 TEST_CASE("the front holds what nothing beats; target and budget find their settings; the sentence names the limit", "[study]") {
-  const std::vector<Measured> all = study();
+  const std::vector<Measured> all = measurements();
   Goal q{"x", "m", 1.0, 0, 0, ""};
   settle_reference(q, 0, all);
   const auto front = pareto(q, 0, all, true);
@@ -83,7 +84,7 @@ TEST_CASE("the front holds what nothing beats; target and budget find their sett
 }
 
 TEST_CASE("what is run for comparison only is never advised, however well it does", "[study]") {
-  std::vector<Measured> all = study();
+  std::vector<Measured> all = measurements();
   Goal q{"x", "m", 1.0, 0, 0, ""};
   settle_reference(q, 0, all);
   const auto before = pareto(q, 0, all, true);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 using namespace erbs;
+using namespace erbs::study;
 
 namespace {
 

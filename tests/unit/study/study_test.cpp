@@ -5,6 +5,7 @@
 #include <set>
 
 using namespace erbs;
+using namespace erbs::study;
 
 namespace {
 

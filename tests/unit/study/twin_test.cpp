@@ -9,6 +9,7 @@
 #include "tests/support/folder.h"
 
 using namespace erbs;
+using namespace erbs::study;
 
 namespace {
 

@@ -7,6 +7,7 @@
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
+using namespace erbs::lua;
 using namespace std::string_literals;
 namespace fs = std::filesystem;
 

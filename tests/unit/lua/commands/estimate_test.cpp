@@ -6,6 +6,7 @@
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;
+using namespace erbs::lua;
 
 namespace {
 

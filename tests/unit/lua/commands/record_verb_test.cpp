@@ -4,6 +4,7 @@
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
+using namespace erbs::lua;
 namespace fs = std::filesystem;
 
 TEST_CASE("El Centro's numbers are those of the catalogue", "[record][program]") {

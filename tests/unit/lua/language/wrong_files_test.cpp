@@ -7,6 +7,7 @@
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
+using namespace erbs::lua;
 namespace fs = std::filesystem;
 
 namespace {

@@ -10,6 +10,7 @@
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
+using namespace erbs::lua;
 
 namespace {
 
@@ -28,8 +29,10 @@ const std::map<std::string, Words> sound_calls{
     {"transform", {{"1", "function() end"}}},
     {"dry", {{"kn", "1e9"}, {"mu", ".6"}}},
     {"mortar", {{"kn", "1e9"}, {"ft", "1e5"}, {"c", "1e5"}, {"mu", ".6"}}},
+    {"dilatant", {{"kn", "1e9"}, {"mu", ".6"}, {"psi", ".1"}, {"wear_slip", "5e-3"}}},
     {"joint", {{"law", "dry{ kn = 1e9, mu = .6 }"}}},
     {"sine", {{"amplitude", "1"}, {"frequency", "1"}}},
+    {"ricker", {{"amplitude", "1"}, {"frequency", "1"}}},
     {"half_sine", {{"amplitude", "1"}, {"frequency", "1"}}},
     {"full_sine", {{"amplitude", "1"}, {"frequency", "1"}}},
     {"pulse", {{"amplitude", "1"}}},

@@ -8,6 +8,7 @@
 #include "lua/language/script.h"
 
 using namespace erbs;
+using namespace erbs::lua;
 
 namespace {
 
@@ -171,12 +172,13 @@ TEST_CASE("head joints that a builder widened are joined by the rule that joins 
         "joint{ law = mortar{ E = 1e10, thickness = 10*mm, ft = 1e5, c = 1e5, mu = 0.6 } }\n" +
             text,
         "t.lua");
-    const Model model = build(scene).model;
-    for (const std::string& warning : model.warnings) CHECK(warning.find("not joined") == std::string::npos);
+    const Built built = build(scene);
+    const Model& model = built.model;
+    for (const std::string& warning : built.warnings) CHECK(warning.find("not joined") == std::string::npos);
     const auto wide = std::count_if(model.joint.begin(), model.joint.end(), [](const Joint& j) { return j.gap > 10.2e-3; });
     widened += wide > 0;
     const auto says = [](const std::string& warning) { return warning.find("its masonry made wider") != std::string::npos; };
-    CHECK(std::ranges::any_of(model.warnings, says) == (wide > 0));
+    CHECK(std::ranges::any_of(built.warnings, says) == (wide > 0));
   }
   CHECK(widened > 4);
 }

@@ -4,6 +4,7 @@
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;
+using namespace erbs::lua;
 
 TEST_CASE("a sound scene has no mistakes", "[lua]") { CHECK(mistakes_in("").empty()); }
 

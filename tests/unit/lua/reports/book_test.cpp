@@ -5,6 +5,7 @@
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
+using namespace erbs::lua;
 
 namespace {
 

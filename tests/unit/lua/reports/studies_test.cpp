@@ -14,6 +14,7 @@
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;
+using namespace erbs::lua;
 namespace fs = std::filesystem;
 
 namespace {
