@@ -263,6 +263,7 @@ void ramp(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& foun
   slow.damping.mass = 20 / time;
   slow.damping_all = false;
   slow.damping_explicit = false;
+  slow.analysis.levels = 1;
   const BlockVec3 v = p.state.motion.v, L = p.state.motion.spin_momentum;
   const double dt = p.state.time.dt;
   p.state.motion.v.assign(v.size(), Vec3::Zero());
@@ -284,10 +285,10 @@ void ramp(const Scene& scene, Prepared& p, const std::vector<std::uint8_t>& foun
   p.state.motion.spin_momentum = L;
   p.state.motion.w.assign(p.state.motion.w.size(), Vec3::Zero());
   find_islands(p.model, p.state);
-  p.state.time.step = p.state.time.start_step = 0;
-  p.state.time.t = p.state.time.start_t = p.state.time.last_dt = p.state.time.event_dt = 0;
+  const double target = p.state.time.dt_target;
+  p.state.time = TimeStep{};
   p.state.time.dt = dt;
-  p.state.time.steps_since_limited = 0;
+  p.state.time.dt_target = target;
   p.state.energy = Energy{};
 }
 

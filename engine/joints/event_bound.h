@@ -8,7 +8,7 @@
 //   in_time  = the time until the event, over `event_steps`,
 // and the step is at most the greater of the two. Its reciprocal is the event rate (1/s). The step thus shortens while blocks still fly, at
 // no cost: a change of dt errs by F^2 (dt_0^2 - dt_1^2) / (8 m), F the net force. The step grows again once this error is below the budget
-// too (`Solver::adapt_time_step()`).
+// too (`Solver::next_dt()`).
 #pragma once
 #include "engine/model/model.h"
 #include "engine/model/state.h"

@@ -158,6 +158,8 @@ struct alignas(64) BlockWork {
 
 struct KickDrift {
   double kick, dt, half_last, half_next;     // s
+  double joints;                             // impulse of joints over the kick: 1 with one level, 0 in a step in which they do not act
+  double more, more_load;                    // as `book()` says; s
   double damping, damped_keep, damped_kick;  // 1/s; a damped kick is `(1 + damped_keep) v + kick (1 + damped_kick) contact_wrench`
   double ground[3], gravity[3];              // m/s2
   bool first;                                // no drift has come before

@@ -6,6 +6,7 @@
 
 #include "engine/geometry/clip.h"
 #include "engine/laws/yield.h"
+#include "engine/model/levels.h"
 
 namespace erbs {
 
@@ -246,9 +247,14 @@ void apply_interlock(const Model& m, const Joint& joint, const double* gap_befor
 Interlock interlock_now(const Model& m, const State& s) {
   const double g = m.gravity.norm();
   if (!(g > 0 && m.settlement > 0)) return {};
-  const double way = interlock_speed * std::sqrt(g * m.settlement) * s.time.last_dt, since = interlock_every * s.time.last_dt,
+  const TimeStep& t = s.time;
+  const bool levels = has_levels(t);
+  const int macro_steps = std::max(1, interlock_every / t.substeps);  // between two updates, with levels
+  const bool due = levels ? at_macro_step(t) && t.macro % macro_steps == 0 : t.step % interlock_every == 0;
+  const double way = interlock_speed * std::sqrt(g * m.settlement) * t.since_joints,
+               since = (levels ? macro_steps * t.last_substeps : interlock_every) * t.last_dt,
                time = interlock_time * std::sqrt(m.settlement / g);
-  return {interlock_gap * m.settlement, way * way, s.time.step % interlock_every == 0 && since > 0 ? since / (since + time) : 0};
+  return {interlock_gap * m.settlement, way * way, due && since > 0 ? since / (since + time) : 0};
 }
 
 Interlock contact_interlock(const Model& m, const State& s) {

@@ -24,6 +24,7 @@ struct ContactSettings {
   double memory = 0.05;               // s, over which the peak approach speed decays
   double settling = 0.2;              // share of critical damping of a settled contact, normal; it fades with the impact speed
   double settling_tangential = 0.05;  // the same of a sticking contact, tangential
+  double horizon = 0;                 // s, time before a predicted event can change a step (model/levels.h)
   double event_budget = 0;            // J, energy error allowed per impact (event_bound.h); 0: no limit
   Interlock interlock;                // interlock.h, for contacts: m, m2/s2 and share per step
 };
@@ -69,6 +70,8 @@ struct alignas(64) ContactPair {
   // 1: the pair has the faces and the stiffness of a former joint; once separated it is debris. 2: its stiffness is changing to that of
   // debris.
   std::uint8_t former_joint = 0;
+  // The pair acts every 2^level steps (model/levels.h); the next macro step has `next_level`.
+  std::uint8_t level = 0, next_level = 0;
   Corners corners;  // cache only
 };
 
@@ -122,8 +125,8 @@ template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, ContactPair>
 void each(P& p, F&& f) {
   f("a", p.a), f("b", p.b), f("part_a", p.part_a), f("part_b", p.part_b), f("law", p.law);
-  f("b_is_reference", p.b_is_reference), f("touching", p.touching), f("former_joint", p.former_joint),
-      f("separating_axis", p.separating_axis);
+  f("b_is_reference", p.b_is_reference), f("touching", p.touching), f("former_joint", p.former_joint), f("level", p.level),
+      f("next_level", p.next_level), f("separating_axis", p.separating_axis);
   f("rotation", p.rotation), f("shift", p.shift), f("n", p.n), f("c", p.c), f("u", p.u), f("psi", p.psi);
   f("area", p.area), f("gyration", p.gyration), f("mean_normal_force", p.mean_normal_force), f("peak_closing_speed", p.peak_closing_speed),
       f("impact", p.impact);

@@ -60,6 +60,13 @@ struct TimeStep {
   double dt_target = 0;         // s, target step of the run; dt may be shorter while contacts change
   int steps_since_limited = 0;  // steps since contacts last limited dt
   double event_dt = 0;          // s, step allowed by the next openings and closings (event_bound.h); 0: any
+  // Levels (model/levels.h): all interactions act at the start of a macro step of `substeps` steps, of which `substep` is the next.
+  long macro = 0;  // macro steps before this one
+  int substep = 0, substeps = 1, last_substeps = 1, next_substeps = 1;
+  int joint_level = 0, next_joint_level = 0;  // joints act every 2^level steps
+  double next_dt = 0;                         // s, of the steps of the next macro step
+  double joints_dt = 0;                       // s, step of joints, which follows their limits and events; with one level it is the step
+  double since_joints = 0;                    // s, since joints acted last; 0 at the start
 };
 
 // Arrays of blocks are [nblock + 1]; the last is a block at rest, for unused lanes.

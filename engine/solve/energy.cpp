@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/model/levels.h"
+
 namespace erbs {
 namespace {
 
@@ -60,8 +62,9 @@ Ledger::Ledger(const Model& model, State& state) : model_(model), state_(state) 
 }
 
 bool Ledger::due(bool contacts) {
-  every_ = !model_.analysis.ledger ? ledger_seldom : contacts ? ledger_slowly : ledger_every;
-  return state_.time.step % every_ == 0;
+  const int every = !model_.analysis.ledger ? ledger_seldom : contacts ? ledger_slowly : ledger_every;
+  const TimeStep& time = state_.time;
+  return due_ = at_macro_step(time) && time.macro % std::max(1, every / time.substeps) == 0;
 }
 
 void Ledger::add(const BlockSums& sums) {
@@ -83,7 +86,8 @@ void Ledger::add(const BlockSums& sums) {
   e.absolute_next += sums.external_absolute_after;
 }
 
-void Ledger::close(std::span<JointSums> joints, std::span<JointSums> cracked, std::span<BlockSums> blocks, double elastic, bool events) {
+void Ledger::close(std::span<JointSums> joints, std::span<JointSums> cracked, std::span<BlockSums> blocks, double elastic, double kinetic,
+                   bool events) {
   Energy& e = state_.energy;
   const double gravity_before = e.gravity;
   e.kinetic = e.gravity = e.elastic = 0;
@@ -115,10 +119,11 @@ void Ledger::close(std::span<JointSums> joints, std::span<JointSums> cracked, st
     sums.broken = broken;
   }
   e.elastic += elastic;
+  e.kinetic += kinetic;
   if (e.started) e.height_flux += std::fabs(e.gravity - gravity_before);
   // The structure's own measure counts once something may open or close, or has changed the step: until then all is exact.
   settle(e, events || state_.time.start_step > 0 ? std::max(floor_, lift_) : floor_, state_.time.t, worst);
-  if (state_.time.step % every_ != 0) return;
+  if (!due_) return;
   const double loss = e.friction + e.fracture + e.crushing + e.damping + e.contact_damping;
   e.reference = std::max(e.reference, std::fabs(e.kinetic) + std::fabs(e.elastic - e.elastic_at_start) + std::max(0.0, loss));
   e.event_residual = e.residual;

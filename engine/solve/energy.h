@@ -26,8 +26,10 @@ class Ledger {
 
   // True if the ledger closes at this step without being asked to. `contacts`: some are active, whose energy costs as much as their forces.
   bool due(bool contacts);
-  // Adds the sums of all chunks, which clears them, then closes. `elastic`: J, of contacts. `events`: something may open or close.
-  void close(std::span<JointSums> joints, std::span<JointSums> cracked, std::span<BlockSums> blocks, double elastic, bool events);
+  // Adds the sums of all chunks, which clears them, then closes. `elastic`: J, of contacts. `kinetic`: J, of their levels
+  // (`Contacts::kinetic_correction`). `events`: something may open or close.
+  void close(std::span<JointSums> joints, std::span<JointSums> cracked, std::span<BlockSums> blocks, double elastic, double kinetic,
+             bool events);
   double mass() const { return mass_; }  // kg, of all moving blocks
 
  private:
@@ -38,7 +40,7 @@ class Ledger {
   double floor_ = 0;  // J, least scale of the ledger
   double lift_ = 0;   // J, work that lifts all blocks by a thousandth of the structure's height
   double mass_ = 0;
-  int every_ = 1;  // steps between two closings
+  bool due_ = false;  // the ledger closes at this step without being asked to
 };
 
 }  // namespace erbs

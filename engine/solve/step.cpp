@@ -5,6 +5,8 @@
 
 #include "engine/joints/event_bound.h"
 #include "engine/joints/kinematics.h"
+#include "engine/model/joint_packs.h"
+#include "engine/model/levels.h"
 #include "engine/solve/blocks/islands.h"
 
 namespace erbs {
@@ -16,6 +18,9 @@ constexpr int soften_every = 8;      // ... and between two steps of their softe
 constexpr int activate_every = 256;  // steps between two searches for blocks that have moved far
 std::size_t z(int i) { return std::size_t(i); }
 
+// True once in `steps` steps, at the start of a macro step.
+bool every(int steps, const TimeStep& time) { return at_macro_step(time) && time.macro % std::max(1, steps / time.substeps) == 0; }
+
 }  // namespace
 
 Solver::Solver(const Model& model, State& state, const StepRange& range, int threads)
@@ -25,6 +30,8 @@ Solver::Solver(const Model& model, State& state, const StepRange& range, int thr
       joints_(model, state),
       contacts_(model, state, range, threads),
       ledger_(model, state),
+      may_have_levels_(model.analysis.levels > 1 && !model.analysis.unstable && model.analysis.solver == "leapfrog" &&
+                       owner_computes(model) && !model.dashpots),
       threads_(threads),
       team_(threads, [this](int thread) { work(thread); }) {
   if (state.time.dt_target == 0) state.time.dt_target = state.time.dt;
@@ -56,16 +63,20 @@ void Solver::work(int thread) {
 
 void Solver::prepare_step(const SamplePlan& plan) {
   const TimeStep& time = state_.time;
-  const bool due = ledger_.due(contacts_.active());
-  stop_ = plan.due(time.t, time.dt) ? Stop::sample : due ? Stop::ledger : Stop::none;
+  const bool together = at_macro_step(time), due = ledger_.due(contacts_.active());
+  stop_ = !together ? Stop::none : plan.due(time.t, time.dt) ? Stop::sample : due ? Stop::ledger : Stop::none;
   if (std::ranges::any_of(block_sums_, &BlockSums::outdated)) update_outdated();
   const bool debris = model_.analysis.debris, cracked = joints_.any_cracked();
-  if (debris && time.step % activate_every == 0 && (cracked || contacts_.active() || time.step == 0)) contacts_.activate_loose_blocks();
+  if (debris && every(activate_every, time) && (cracked || contacts_.active() || time.step == 0)) contacts_.activate_loose_blocks();
   has_contacts_ = contacts_.active();
-  budget_ = event_budget(model_, state_);
-  has_transitions_ = has_contacts_ || (debris && cracked && time.step % release_every == 0);
-  if (has_contacts_) contacts_.prepare(budget_, contact_interlock(model_, state_));
-  if (has_contacts_ && contact_wrench_.empty()) contact_wrench_.assign(constants_.size() * pack_size, 0.0);
+  budget_ = together && has_levels(time) ? event_allowance(model_, state_) : event_budget(model_, state_);
+  has_transitions_ = has_contacts_ || (debris && cracked && every(release_every, time));
+  if (has_contacts_ && together) contacts_.prepare(budget_, contact_interlock(model_, state_));
+  else if (has_contacts_) contacts_.prepare_substep(contact_interlock(model_, state_));
+  if (has_contacts_ && contact_wrench_.empty()) {
+    contact_wrench_.assign(constants_.size() * pack_size, 0.0);
+    if (model_.analysis.levels > 1) contact_kick_ = contact_wrench_;
+  }
   loads_.evaluate();
   if (stop_ == Stop::sample) begin_sample();
 }
@@ -79,23 +90,35 @@ void Solver::update_outdated() {
 
 void Solver::forces(int thread) {
   if (has_contacts_) contacts_.forces(thread, sampling());
-  joints_.forces(thread, threads_, sampling(), budget_);
+  if (joints_act(state_.time)) joints_.forces(thread, threads_, sampling(), budget_);
 }
 
 // Between forces and drift, on one thread: contact forces are gathered, and joints beyond their range are released to contact.
 void Solver::transitions() {
-  const TimeStep& time = state_.time;
-  if (has_contacts_) contacts_.gather(contact_wrench_.data(), sampling());
+  TimeStep& time = state_.time;
+  if (!at_macro_step(time)) {
+    if (has_contacts_) contacts_.gather_substep(contact_kick_.data());
+    return;
+  }
+  const bool may_release = model_.analysis.debris && joints_.any_cracked() && every(release_every, time);
+  if (has_contacts_ && time.substeps > 1 && may_release && contacts_.joints_are_ready(joints_.cracked())) {
+    contacts_.reset_levels();  // the new contacts act in the next step
+    time.substeps = 1;
+    time.joint_level = 0;
+  }
+  if (has_contacts_) contacts_.gather(contact_wrench_.data(), has_levels(time) ? contact_kick_.data() : nullptr, sampling());
   if (time.step == 0 && has_contacts_ && contacts_.bound().allowed_dt() < time.dt) {  // contacts present at the start limit the first drift
-    adapt_time_step();
+    set_dt(time.joints_dt = next_dt(time.dt));
     loads_.evaluate();
   }
+  relisted_ = false;
   const double softened = event_tolerance * state_.energy.reference;
-  if (has_contacts_ && time.step % soften_every == 0) contacts_.soften_former_joints(softened, time.step % find_soft_every == 0);
+  if (has_contacts_ && every(soften_every, time)) contacts_.soften_former_joints(softened, every(find_soft_every, time));
   if (has_contacts_ && contacts_.sleep(loads_.now(), contact_wrench_.data())) note_sleep();
-  if (!model_.analysis.debris || !joints_.any_cracked() || time.step % release_every != 0) return;
+  if (!may_release) return;
   const std::vector<int> released = contacts_.release_joints(joints_.cracked());
   if (released.empty()) return;
+  relisted_ = true;
   released_.insert(released_.end(), released.begin(), released.end());
   joints_.leave(released);
   find_islands(model_, state_);
@@ -110,7 +133,8 @@ void Solver::note_sleep() {
 }
 
 void Solver::integrate(int thread) {
-  const ExternalForces external{has_contacts_ ? contact_wrench_.data() : nullptr, loads_.rows(), loads_.loaded_blocks()};
+  const double* contacts = !has_contacts_ ? nullptr : has_levels(state_.time) ? contact_kick_.data() : contact_wrench_.data();
+  const ExternalForces external{contacts, loads_.rows(), loads_.loaded_blocks()};
   const int groups = int(constants_.size()), grain = sequential_ ? groups : block_grain;  // a sweep runs on one thread
   const Range mine = slice(groups, grain, thread, threads_);
   if (!sequential_)
@@ -146,7 +170,7 @@ void Solver::apply_prescribed_motions() {
     }
     if (!rotates) at = s.pose.q[z(b)];  // no prescribed rotation: the attitude stays
     const Vec3 v = (to - s.pose.u[z(b)]) / s.time.dt, w = rotation_vector(at * s.pose.q[z(b)].conjugate()) / s.time.dt;
-    const Vec6 wrench = block_wrench(b);
+    const Vec6 wrench = kick_wrench(b);
     const Vec3 force = wrench.head<3>(), moment = wrench.tail<3>();
     const double before = -0.5 * s.time.last_dt * (force.dot(s.motion.v[z(b)]) + moment.dot(s.motion.w[z(b)])),
                  after = -0.5 * s.time.dt * (force.dot(v) + moment.dot(w));
@@ -172,8 +196,8 @@ void Solver::close_step(const SamplePlan& plan) {
   joints_.move_cracked(constants_);
   foresee_events();
   if (sampling()) {
-    const double elastic = has_contacts_ ? contacts_.elastic() : 0;
-    ledger_.close(joints_.sums(), joints_.cracked_sums(), block_sums_, elastic, joints_.any_cracked() || has_contacts_);
+    const double elastic = has_contacts_ ? contacts_.elastic() : 0, kinetic = has_contacts_ ? contacts_.kinetic_correction() : 0;
+    ledger_.close(joints_.sums(), joints_.cracked_sums(), block_sums_, elastic, kinetic, joints_.any_cracked() || has_contacts_);
     joints_.store();
   }
   contacts_.former_joints().book_release();
@@ -182,8 +206,18 @@ void Solver::close_step(const SamplePlan& plan) {
   s.time.t = s.time.start_t + double(s.time.step + 1 - s.time.start_step) * s.time.dt;
   ++s.time.step;
   s.time.last_dt = s.time.dt;
-  judge_step();
-  adapt_time_step();
+  s.time.since_joints = (joints_act(s.time) ? 0 : s.time.since_joints) + s.time.dt;
+  if (at_macro_step(s.time)) {
+    judge_step();
+    plan_macro_step(plan.end);
+  }
+  if (++s.time.substep < s.time.substeps) return;
+  ++s.time.macro;
+  s.time.substep = 0;
+  s.time.last_substeps = s.time.substeps;
+  s.time.substeps = s.time.next_substeps;
+  s.time.joint_level = s.time.next_joint_level;
+  set_dt(s.time.next_dt);
 }
 
 void Solver::begin_sample() {
@@ -199,7 +233,8 @@ void Solver::begin_sample() {
 void Solver::end_sample(bool wrenches) {
   if (sequential_) std::swap(sequential_->wrench_before(), state_.cache.wrench);
   else check_momentum();
-  sample_.block_wrench.clear(), sample_.load_wrench.clear();
+  sample_.block_wrench.clear(), sample_.load_wrench.clear(), sample_.kick_excess.clear();
+  for (int b = 0; has_levels(state_.time) && b < model_.nblock; ++b) sample_.kick_excess.push_back(kick_wrench(b) - block_wrench(b));
   for (int b = 0; wrenches && b < model_.nblock; ++b)
     sample_.block_wrench.push_back(block_wrench(b)), sample_.load_wrench.push_back(load_wrench(b));
   if (sequential_) std::swap(sequential_->wrench_before(), state_.cache.wrench);
@@ -225,6 +260,12 @@ void Solver::check_momentum() {
 Vec6 Solver::block_wrench(int b) const {
   const Vec6 joints = joint_wrench(model_, state_, b);
   return contact_wrench_.empty() ? joints : Vec6(joints + Eigen::Map<const Vec6>(&contact_wrench_[8 * z(b)]));
+}
+
+Vec6 Solver::kick_wrench(int b) const {
+  if (!has_levels(state_.time)) return block_wrench(b);
+  const Vec6 joints = joints_share(state_.time) * joint_wrench(model_, state_, b);
+  return has_contacts_ ? Vec6(joints + Eigen::Map<const Vec6>(&contact_kick_[8 * z(b)])) : joints;
 }
 
 Vec6 Solver::load_wrench(int b) const { return model_.kind[z(b)] == Kind::driven ? Vec6(-block_wrench(b)) : loads_.wrench(b); }

@@ -35,6 +35,7 @@ struct SampleState {
   MotionState before;  // half a step before t; the State has the values half a step after
   // Of joints and contacts, and of loads: N, N m about the centroid; empty unless the plan asks for them [nblock]
   std::vector<Vec6> block_wrench, load_wrench;
+  std::vector<Vec6> kick_excess;  // N, N m, by which the kick of contacts with levels exceeds their wrench; empty without levels [nblock]
 };
 
 class Solver {
@@ -55,6 +56,7 @@ class Solver {
   const SampleState& sample() const { return sample_; }
   bool broken() const { return broken_; }
   Vec6 block_wrench(int b) const;                                            // N, N m about the centroid, of joints and contacts
+  Vec6 kick_wrench(int b) const;                                             // as `block_wrench`, over the kick of this step (levels.h)
   Vec6 load_wrench(int b) const;                                             // of loads; of a driven block the reaction that moves it
   std::vector<int> take_released() { return std::exchange(released_, {}); }  // joints released to contact since the last call
   std::vector<int> take_cracked() { return joints_.take_cracked(); }         // joints that cracked since then, in ascending order
@@ -79,10 +81,12 @@ class Solver {
   void apply_prescribed_motions();
   void check_momentum();
   // time_step.cpp
-  void adapt_time_step();
+  void plan_macro_step(double end);
+  double next_dt(double dt_now, bool levels = false);
+  void set_dt(double dt);
   double event_rate_of_first_openings() const;
   void foresee_events();
-  bool may_grow(double dt) const;
+  bool may_grow(double from, double dt) const;
   double vibration() const;
   void judge_step();
 
@@ -94,6 +98,7 @@ class Solver {
   Ledger ledger_;
   std::optional<Sequential> sequential_;  // replaces the phases `forces` and `integrate`
   Rows contact_wrench_;                   // N, N m: wrenches of contacts once there are any, one row per block
+  Rows contact_kick_;                     // the same with levels: impulse of the contacts that act in this step, over the kick
   std::vector<BlockConstants> constants_;
   std::vector<BlockSums> block_sums_;   // per chunk
   std::vector<std::uint8_t> outdated_;  // blocks with a new reference pose
@@ -104,6 +109,8 @@ class Solver {
   double budget_ = 0;  // J, `event_budget()` of this step
   Stop stop_ = Stop::none;
   bool broken_ = false, has_contacts_ = false, has_transitions_ = false;
+  const bool may_have_levels_;
+  bool relisted_ = false;  // joints were released to contact in this step: the results of its pairs are void
   const int threads_;
   Team team_;
 };

@@ -6,6 +6,7 @@
 
 #include "engine/joints/event_bound.h"
 #include "engine/joints/kinematics.h"
+#include "engine/model/levels.h"
 #include "engine/solve/step.h"
 
 namespace erbs {
@@ -32,24 +33,56 @@ void Solver::judge_step() {
 }
 
 // The step follows the contacts. It shrinks at once. It grows after 100 steps without a limit, and by half at most, because impacts are
-// predicted only a few steps ahead.
-void Solver::adapt_time_step() {
+// predicted only a few steps ahead. With levels this is the step of joints, which contacts about to land leave as it is.
+double Solver::next_dt(double dt_now, bool levels) {
   State& s = state_;
-  double allowed = has_contacts_ ? contacts_.bound().allowed_dt() : s.time.dt_target;
+  double allowed = !has_contacts_ ? s.time.dt_target : levels ? contacts_.joints_dt() : contacts_.bound().allowed_dt();
   if (s.time.event_dt > 0) allowed = std::min(allowed, s.time.event_dt);
-  double dt = s.time.dt;
-  if (allowed < s.time.dt) {
+  double dt = dt_now;
+  if (allowed < dt_now) {
     dt = on_scale(0.95 * allowed);
     s.time.steps_since_limited = 0;
-  } else if (s.time.dt < std::max(allowed, s.time.dt_target) && ++s.time.steps_since_limited > 100) {
-    if (allowed > 1.1 * s.time.dt) dt = std::min(on_scale(0.95 * allowed), 1.5 * s.time.dt);
-    if (!may_grow(dt)) dt = s.time.dt;
+  } else if (dt_now < std::max(allowed, s.time.dt_target) && (s.time.steps_since_limited += s.time.substeps) > 100) {
+    if (allowed > 1.1 * dt_now) dt = std::min(on_scale(0.95 * allowed), 1.5 * dt_now);
+    if (!may_grow(dt_now, dt)) dt = dt_now;
     s.time.steps_since_limited = 0;
   }
-  if (dt == s.time.dt) return;
-  s.time.dt = dt;
-  s.time.start_t = s.time.t;
-  s.time.start_step = s.time.step;
+  return dt;
+}
+
+void Solver::set_dt(double dt) {
+  TimeStep& time = state_.time;
+  if (dt == time.dt) return;
+  time.dt = dt;
+  time.start_t = time.t;
+  time.start_step = time.step;
+}
+
+// Step and levels of the next macro step. Joints keep the interval `joints_dt`, and the step is a power of two below it, as short as any
+// pair asks for. All intervals thus stay as they are while the step varies: a change of an interval errs as a change of dt does
+// (`may_grow`).
+void Solver::plan_macro_step(double end) {
+  TimeStep& time = state_.time;
+  const bool choose = has_contacts_ && may_have_levels_ && !relisted_;
+  if (choose) contacts_.find_pair_steps();
+  time.joints_dt = next_dt(time.joints_dt > 0 ? time.joints_dt : time.dt, choose);
+  time.next_dt = time.joints_dt;
+  time.next_substeps = 1;
+  time.next_joint_level = 0;
+  if (!choose) return;
+  const int highest = model_.analysis.levels - 1;
+  const double longest = 0.95 * contacts_.least_pair_dt();
+  double dt = time.joints_dt;
+  while (time.next_joint_level < highest && dt > longest) dt *= 0.5, ++time.next_joint_level;
+  if (dt > longest) {  // more levels would be needed
+    dt = on_scale(longest);
+    time.joints_dt = (1 << time.next_joint_level) * dt;
+  }
+  const double left = end - (time.t + (time.substeps - 1) * time.dt), macro = std::min(left, 2 * macro_dt(time));
+  int most = highest;
+  while (most > time.next_joint_level && (1 << most) * dt > macro) --most;
+  time.next_dt = dt;
+  time.next_substeps = 1 << std::max(time.next_joint_level, contacts_.choose_levels(dt, most));
 }
 
 // Event rate (1/s) of intact dry joints that are about to open for the first time. The kernel of intact joints evaluates nothing but their
@@ -87,8 +120,8 @@ void Solver::foresee_events() {
     if (first > 0) state_.time.event_dt = state_.time.event_dt > 0 ? std::min(state_.time.event_dt, 1 / first) : 1 / first;
     return;
   }
-  event_rate = std::max(first, state_.time.last_dt > 0 ? event_rate / state_.time.last_dt : 0);
-  if (has_contacts_) event_rate = std::max(event_rate, contacts_.bound().event_rate());
+  event_rate = std::max(first, state_.time.since_joints > 0 ? event_rate / state_.time.since_joints : 0);
+  if (has_contacts_ && !may_have_levels_) event_rate = std::max(event_rate, contacts_.bound().event_rate());
   const double falls = (loads_.now().gravity - loads_.now().ground).norm() *
                        std::sqrt(ledger_.mass() / (8 * budget_));  // in flight the net force is the weight
   if (event_rate > trembling * falls) event_rate = std::max(event_rate, falls);
@@ -97,9 +130,9 @@ void Solver::foresee_events() {
 
 // A change of dt changes the energy of a block that vibrates on its springs by F^2 (dt_1^2 - dt_0^2) / (8 m). A longer step is allowed
 // while the sum over all blocks stays within the event tolerance.
-bool Solver::may_grow(double dt) const {
-  const double budget = event_tolerance * state_.energy.reference, more = (dt * dt - state_.time.dt * state_.time.dt) / 8;
-  if (!(dt > state_.time.dt) || !(budget > 0) || model_.analysis.unstable || sequential_) return true;
+bool Solver::may_grow(double from, double dt) const {
+  const double budget = event_tolerance * state_.energy.reference, more = (dt * dt - from * from) / 8;
+  if (!(dt > from) || !(budget > 0) || model_.analysis.unstable || sequential_) return true;
   return more * vibration() <= budget;
 }
 

@@ -12,6 +12,7 @@ namespace {
 // Event rate (`event_bound.h`) of a spring of stiffness k (N/m) that opens or closes at `speed` (m/s) after the distance `left` (m).
 double event_rate(double k, double speed, double left, const ContactSettings& settings) {
   if (!(settings.event_budget > 0 && speed > 0)) return 0;
+  left -= speed * settings.horizon;
   return std::min(speed * std::sqrt(event_share * k / settings.event_budget), left > 0 ? event_steps * speed / left : 1e300);
 }
 

@@ -83,7 +83,8 @@ void forget_contact(ContactPair& pair) {
 }
 
 // The bodies have separated: half a step of the last wrenches is still to be booked, and the springs lose their energy.
-void let_go(ContactPair& pair, const ContactBlock& a, const ContactBlock& b, double dt, PairResult& result) {
+void let_go(ContactPair& pair, const ContactBlock& a, const ContactBlock& b, const PairInterval& interval, PairResult& result) {
+  const double dt = interval.booked ? 0 : interval.since;
   result.friction = pair.tangential - 0.5 * dt * power(pair.friction, a, b);
   result.damping = -0.5 * dt * power(pair.damping, a, b);
   pair.friction = pair.damping = {};
@@ -154,8 +155,18 @@ PairWrench to_world(const ContactPair& pair, const PairFrame& s, const Vec3& for
 
 }  // namespace
 
-PairSettings pair_settings(const ContactSettings& s, double dt) {
-  return {dt, s.memory, s.reference_speed, s.settling, s.settling_tangential, s.interlock.slow, s.interlock.rate, flat_face, slender};
+PairSettings pair_settings(const ContactSettings& s, const PairInterval& interval) {
+  return {interval.since,
+          interval.drift,
+          interval.booked ? 1.0 : 0.0,
+          s.memory,
+          s.reference_speed,
+          s.settling,
+          s.settling_tangential,
+          s.interlock.slow,
+          s.interlock.rate,
+          flat_face,
+          slender};
 }
 
 double power(const PairWrench& w, const ContactBlock& a, const ContactBlock& b) {
@@ -188,21 +199,22 @@ ContactPair new_pair(int a, int part_a, int b, int part_b, const PairLaw& law, d
 }
 
 bool pair_force(ContactPair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b,
-                const ContactSettings& settings, double dt, bool want_energy, OverlapRoom& room, PairResult& result, double contact_count) {
+                const ContactSettings& settings, const PairInterval& interval, bool want_energy, OverlapRoom& room, PairResult& result,
+                double contact_count) {
   result = PairResult{};
   const PairFrame s = pair_frame(pair, shapes, a, b);
   Patch patch = find_overlap(*s.reference, *s.other, lifted(pair, s.pose), pair.separating_axis, room);
   if (patch.total > 0) {
-    press(pair, s, patch, pair_settings(settings, dt), contact_count, room, result);
+    press(pair, s, patch, pair_settings(settings, interval), contact_count, room, result);
     if (want_energy) result.elastic = pair.law.kn * overlap_energy(*s.reference, *s.other, lifted(pair, s.pose), room);
     return true;
   }
   come_apart(pair, room.apart);
-  impact_bound(pair, s, settings, room.apart, dt, result);
+  impact_bound(pair, s, settings, room.apart, interval.horizon, result);
   if (room.apart >= 0) result.apart = room.apart;
   if (room.apart > settings.interlock.gap) pair.mean_normal_force = 0;
   if (!pair.touching) return false;
-  let_go(pair, a, b, dt, result);
+  let_go(pair, a, b, interval, result);
   pair.rotation = s.pose.rotation;
   pair.shift = s.pose.shift;
   return true;

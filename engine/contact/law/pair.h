@@ -34,11 +34,23 @@ struct PairResult {
   bool touching = false;
 };
 
-// Evaluates `pair` at the present pose and updates its memory. dt (s): the step that led here, 0 at the start of a run. Returns false if
+// Time since the last evaluation of a pair. With one level it is the last step.
+struct PairInterval {
+  double since;         // s, 0 at the start of a run
+  double drift;         // s, of the last drift: velocities lag half of it behind poses
+  double horizon;       // s: what strikes within `look_ahead` times this counts
+  bool booked = false;  // the work of the last wrenches after their kick is booked already (model/levels.h)
+
+  PairInterval(double dt) : since(dt), drift(dt), horizon(dt) {}
+  PairInterval(double from, double last_drift, double ahead, bool is_booked)
+      : since(from), drift(last_drift), horizon(ahead), booked(is_booked) {}
+};
+
+// Evaluates `pair` at the present pose and updates its memory. Returns false if
 // the bodies are apart and the pair stored nothing before; the result is then zero except for the prediction of impacts. `contact_count`:
 // number of contacts on either body, at least 1; it limits the dashpots (`dashpot()` of `pair_law.h`).
 bool pair_force(ContactPair& pair, const ContactShapes& shapes, const ContactBlock& a, const ContactBlock& b,
-                const ContactSettings& settings, double dt, bool want_energy, OverlapRoom& room, PairResult& result,
+                const ContactSettings& settings, const PairInterval& interval, bool want_energy, OverlapRoom& room, PairResult& result,
                 double contact_count = saturated_contacts);
 
 // A new pair; its reference body never changes. `impact`: `impact_factor()` of its restitution.
@@ -55,7 +67,7 @@ double release_to_contact(ContactPair& pair, const ContactShapes& shapes, const 
 // Crossley 1975).
 double impact_factor(double restitution);
 
-PairSettings pair_settings(const ContactSettings& settings, double dt);
+PairSettings pair_settings(const ContactSettings& settings, const PairInterval& interval);
 
 // Power of a pair's wrench at the velocities of `a` and `b` (W).
 double power(const PairWrench& wrench, const ContactBlock& a, const ContactBlock& b);

@@ -117,8 +117,9 @@ bool fits_pack(const ContactPair& pair, const PairBodies& bodies) {
   return bodies.reference->small.faces > 0 && bodies.other->small.faces > 0;  // `small` is read next, by clipping
 }
 
-unsigned pair_forces(const PairTask* task, int count, const ContactSettings& settings, double dt, bool want_energy, PairBatch& batch) {
-  const PairSettings set = pair_settings(settings, dt);
+unsigned pair_forces(const PairTask* task, int count, const ContactSettings& settings, const PairInterval& interval, bool want_energy,
+                     PairBatch& batch) {
+  const PairSettings set = pair_settings(settings, interval);
   unsigned left_out[2] = {};
   const int of[2] = {std::min(count, 8), std::max(count - 8, 0)};
   for (int k = 0; k < 2; ++k) {

@@ -35,6 +35,7 @@ bool fits_pack(const ContactPair& pair, const PairBodies& bodies);
 
 // Evaluates up to `pairs_per_batch` pairs and updates their memory; `fits_pack()` must be true for all. Returns as bits the pairs left
 // unchanged for `pair_force()`: bodies that have separated, or overlaps with more pieces than there is room for.
-unsigned pair_forces(const PairTask* task, int count, const ContactSettings& settings, double dt, bool want_energy, PairBatch& batch);
+unsigned pair_forces(const PairTask* task, int count, const ContactSettings& settings, const PairInterval& interval, bool want_energy,
+                     PairBatch& batch);
 
 }  // namespace erbs

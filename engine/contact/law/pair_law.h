@@ -26,7 +26,7 @@ template <class T>
 ERBS_INLINE void relative_motion(PairPackFor<T>& w, const PairSettings& set) {
   const Mat3<T> rotation = columns<T>(w.r + b_rotation), back = transposed(rotation);
   const Vec3<T> away = load3(w.o + b_v) - load3(w.r + b_v), rw = load3(w.r + b_w), n = load3(w.normal);
-  const Vec3<T> apart = rotation * load3(w.shift) - 0.5 * set.dt * away;
+  const Vec3<T> apart = rotation * load3(w.shift) - 0.5 * set.drift * away;
   const Vec3<T> linear = back * (away - cross(rw, apart)), angular = back * (load3(w.o + b_w) - rw);
   store3(w.linear, linear);
   store3(w.angular, angular);
@@ -188,7 +188,8 @@ ERBS_INLINE void act(PairPackFor<T>& w, const PairSettings& set, const Springs<T
   const Vec3<T> speed = load3(w.o + b_v) - load3(w.r + b_v), spin_other = load3(w.o + b_w), spin = load3(w.r + b_w);
   const auto power = [&](const Wrench<T>& a) { return dot(a.force, speed) + dot(a.other, spin_other) + dot(a.reference, spin); };
   const auto work = [&](const Lanes<T>* last, const Wrench<T>& now) {
-    return 0.5 * set.dt * (power(load_wrench<T>(last, swapped)) + power(now));
+    const T before = power(load_wrench<T>(last, swapped));
+    return 0.5 * set.dt * ((set.booked > 0 ? T(0) : before) + power(now));
   };
   store(w.result[f_friction], -work(w.p + p_friction, friction) - (springs.stored - load<T>(w.p[p_tangential])));
   store(w.result[f_damping], -work(w.p + p_damping, damped));

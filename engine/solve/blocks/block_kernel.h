@@ -9,22 +9,33 @@ namespace erbs::ERBS_TARGET {
 
 // What acts on eight blocks: what sound joints do that they keep and that others keep, then wrench rows of other joints, what contacts push
 // and what loads do.
-ERBS_INLINE void sum_wrenches(const BlockArrays& A, const BlockConstants& c, int group, Pack out[6]) {
+ERBS_INLINE void sum_wrenches(const KickDrift& s, const BlockArrays& A, const BlockConstants& c, int group, Pack out[6]) {
   const long first = 8L * pack_size * group;
-  for (int i = 0; i < 6; ++i) out[i] = c.carried ? load(A.owner_sum[group].x[i]) : Pack(0);
-  for (int k = c.first_gather; c.carried && k < c.first_gather + c.gathers; ++k) {
+  const bool carried = c.carried && s.joints != 0;
+  const int wrench_slots = s.joints != 0 ? c.wrench_slots : 0;
+  for (int i = 0; i < 6; ++i) out[i] = carried ? load(A.owner_sum[group].x[i]) : Pack(0);
+  for (int k = c.first_gather; carried && k < c.first_gather + c.gathers; ++k) {
     Pack from_neighbours[6];
     gather(A.neighbour_force, A.gather_in[k], from_neighbours);
     for (int i = 0; i < 6; ++i) out[i] += from_neighbours[i];
   }
-  if (A.contact_wrench == nullptr && A.load_wrench == nullptr && c.wrench_slots == 0) return;
+  if (s.joints != 1 && carried)
+    for (int i = 0; i < 6; ++i) out[i] = s.joints * out[i];
+  if (A.contact_wrench == nullptr && A.load_wrench == nullptr && wrench_slots == 0) return;
   Pack rows[pack_size] = {}, sum[8];
   const auto add = [&](const double* row) {
     for (int l = 0; l < pack_size; ++l) rows[l] += load(row + 8 * l);
   };
   if (A.contact_wrench != nullptr) add(A.contact_wrench + first);
   if (A.load_wrench != nullptr) add(A.load_wrench + first);
-  for (int k = 0; k < c.wrench_slots; ++k) add(A.wrench + 8L * pack_size * (c.first_wrench_slot + k));  // none where there are no rows
+  if (s.joints == 1) {
+    for (int k = 0; k < wrench_slots; ++k) add(A.wrench + 8L * pack_size * (c.first_wrench_slot + k));  // none where there are no rows
+  } else {
+    for (int k = 0; k < wrench_slots; ++k) {
+      const double* const row = A.wrench + 8L * pack_size * (c.first_wrench_slot + k);
+      for (int l = 0; l < pack_size; ++l) rows[l] += s.joints * load(row + 8 * l);
+    }
+  }
   transpose<8>(rows, sum);
   for (int i = 0; i < 6; ++i) out[i] += sum[i];
 }
@@ -111,8 +122,12 @@ ERBS_INLINE void book(const KickDrift& s, const BlockConstants& c, Pack3 v0, Pac
   const Pack3 old = s.first ? 2.0 * v0 - v1 : v0, old_spin = s.first ? 2.0 * s0 - s1 : s0;
   // where the step changes, the new velocity is the one that the last step would have led to: with another the identity of energy.h does
   // not hold
-  const double more = s.first ? 0 : 2 * s.half_last / s.kick - 1;
-  const Pack3 v = v1 + more * (v1 - v0), p = p1 + more * (p1 - p0);
+  const double more = s.first ? 0 : s.more, loads = s.first ? 0 : s.more_load;
+  const Pack moving = load(c.moving);
+  const auto led = [&](int i) { return loads * (moving * (s.gravity[i] - s.ground[i])); };
+  Pack3 v = v1 + more * (v1 - v0);
+  const Pack3 p = p1 + more * (p1 - p0);
+  if (loads != 0) v = v + Pack3{led(0), led(1), led(2)};
   add_to(work.kinetic, 0.5 * (mass * dot(old, v) + dot(old_spin, p)));
   add_to(work.height, -(mass * (s.gravity[0] * u.x + s.gravity[1] * u.y + s.gravity[2] * u.z)));
 }
@@ -196,7 +211,7 @@ static bool advance_pass(const KickDrift& step, const BlockArrays& A, int first,
     bool rows = false, carried = false;
     for (int k = from; k < to; ++k) rows |= A.constant[k].wrench_slots > 0, carried |= A.constant[k].carried;
     if (rows) {
-      for (int k = from; k < to; ++k) sum_wrenches(A, A.constant[k], k, wrench[k - from]);
+      for (int k = from; k < to; ++k) sum_wrenches(step, A, A.constant[k], k, wrench[k - from]);
       for (int k = from; k < to; ++k) broken |= kick<damped, sample>(step, A, k, wrench[k - from], w[k - from], work);
       if (carried) rotate_groups<true, true>(step, A, from, to, w, work);
       else rotate_groups<true, false>(step, A, from, to, w, work);
@@ -204,7 +219,7 @@ static bool advance_pass(const KickDrift& step, const BlockArrays& A, int first,
     }
     for (int k = from; k < to; ++k) {
       Pack sum[6];
-      sum_wrenches(A, A.constant[k], k, sum);
+      sum_wrenches(step, A, A.constant[k], k, sum);
       broken |= kick<damped, sample>(step, A, k, sum, w[k - from], work);
     }
     if (carried) rotate_groups<false, true>(step, A, from, to, w, work);

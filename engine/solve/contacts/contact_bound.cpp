@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/contact/law/impact_bound.h"
+#include "engine/model/levels.h"
 
 namespace erbs {
 namespace {
@@ -88,10 +89,44 @@ void ContactBound::bound_elsewhere() {
     if (!here[z(b)] && model_.kind[z(b)] == Kind::moving) elsewhere_ = std::max(elsewhere_, limit_.on_block(b, sleep_.omega2(b), 0));
 }
 
+void ContactBound::find_stiff_blocks(const FormerJoints& former, const Sleep& sleep) {
+  stiff_ = state_.topology.joined;
+  for (const int i : sleep.live()) {
+    if (former.of_pair(i).joint < 0) continue;
+    const ContactPair& pair = state_.contacts.list.pair[z(i)];
+    stiff_[z(pair.a)] = stiff_[z(pair.b)] = 1;
+  }
+}
+
+double ContactBound::joints_dt() const {
+  double stiff = 0, any = 0;
+  for (const int b : sleep_.in_live_pairs()) {
+    if (model_.kind[z(b)] != Kind::moving) continue;
+    any = std::max(any, limit_.on_block(b, omega2_[z(b)], 0));
+    if (stiff_[z(b)]) stiff = std::max(stiff, limit_.on_block(b, omega2_[z(b)], impact_omega2_[z(b)]));
+  }
+  for (int b = 0; b < model_.nblock; ++b)
+    if (stiff_[z(b)]) stiff = std::max(stiff, limit_.on_block(b, 0, 0));
+  return std::min(limit_.range().longest, limit_.allowed(any_stiff() ? stiff : any));
+}
+
+double ContactBound::pair_dt(const MotionBounds::PairBound& pair, double slip_omega2, double event_rate, double apart) const {
+  double rate = event_rate * event_rate;
+  for (const int b : {pair.a, pair.b})
+    if (model_.kind[z(b)] == Kind::moving)
+      rate = std::max(rate, (stiff_[z(b)] ? limit_.common() : 0) + limit_.on_block(b, omega2_[z(b)], impact_omega2_[z(b)]));
+  double dt = rate > 0 ? 1 / std::sqrt(rate) : std::numeric_limits<double>::infinity();
+  if (slip_omega2 > 0) dt = std::min(dt, max_slip_omega_dt / std::sqrt(slip_omega2));
+  const double speed = (bodies_.block[z(pair.a)].v - bodies_.block[z(pair.b)].v).norm();
+  const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);
+  if (apart <= look_ahead * macro_dt(state_.time) * speed && speed * dt > 0.25 * thin) dt = 0.25 * thin / speed;
+  return dt;
+}
+
 // No body may pass through another unseen: at most a quarter of the thinner body per step.
 void ContactBound::limit_passing(const ContactForces& forces, const MotionBounds& motion) {
   if (motion.fastest_pair() * allowed_ <= 0.25 * (1 - MotionBounds::round_off) * thinnest_) return;
-  const double soon = look_ahead * std::max(state_.time.dt, state_.time.last_dt);
+  const double soon = look_ahead * std::max(macro_dt(state_.time), state_.time.last_dt);
   const auto pass = [&](int i, double apart) {
     const MotionBounds::PairBound& pair = motion.pair(i);
     const double thin = std::min(model_.smallest_edge[z(pair.a)], model_.smallest_edge[z(pair.b)]);

@@ -37,9 +37,21 @@ class ContactBound {
     if (former.joint < 0) add_impact(pair, one.impact_omega2_a, one.impact_omega2_b);
   }
   void end(const ContactForces& forces, FormerJoints& former, Sleep& sleep, MotionBounds& motion);
+  // s, interval that one pair allows (model/levels.h): all that acts on its two blocks, and its own coming events. After
+  // `find_stiff_blocks()`.
+  void find_stiff_blocks(const FormerJoints& former, const Sleep& sleep);
+  double pair_dt(const ContactForces::Force& force, const MotionBounds::PairBound& pair) const {
+    return pair_dt(pair, force.result.slip_omega2, force.result.event_rate, force.result.apart);
+  }
+  double pair_dt(const ContactForces::SeparatedPair& one, const MotionBounds::PairBound& pair) const {
+    return pair_dt(pair, 0, one.event_rate, one.apart);
+  }
   // Bound of blocks without a live pair: joined blocks, and sleepers as if awake, so that it is valid when one wakes.
   void bound_elsewhere();
 
+  // s, step of joints: all that acts on blocks with joints or former joints. Without any of these, of all touching blocks.
+  double joints_dt() const;
+  bool any_stiff() const { return std::ranges::find(stiff_, 1) != stiff_.end(); }
   double allowed_dt() const { return allowed_; }     // s, at most `StepRange::longest`
   double stable_dt() const;                          // s, of present contacts, without coming impacts; the last step is judged by it
   double event_rate() const { return event_rate_; }  // 1/s: one over the step that the next openings and closings allow (`event_bound.h`)
@@ -51,6 +63,7 @@ class ContactBound {
     b = std::max(b, omega2_b);
   }
   void update(const ContactForces& forces, FormerJoints& former, Sleep& sleep);
+  double pair_dt(const MotionBounds::PairBound& pair, double slip_omega2, double event_rate, double apart) const;
   double limit() const;                     // s, time step that contacts and joints allow, ...
   double limited_by_slip(double dt) const;  // s, ... and slipping patches
   void limit_passing(const ContactForces& forces, const MotionBounds& motion);
@@ -63,6 +76,7 @@ class ContactBound {
   OverlapRoom room_;
   std::vector<double> omega2_;         // 1/s2, of contacts beyond the bound of `limit_` [nblock]
   std::vector<double> impact_omega2_;  // 1/s2, of the stiffest face that may strike the block next; there is room for only one [nblock]
+  std::vector<std::uint8_t> stiff_;    // blocks with joints or former joints, on which the bound of the structure acts [nblock]
   double elsewhere_ = 0;               // 1/s2, greatest `on_block()` of blocks without a live pair
   double allowed_ = 0, event_rate_ = 0, slip_omega2_ = 0;
   double thinnest_ = 0;  // m, thinnest extent of all blocks

@@ -7,6 +7,7 @@
 
 #include "engine/contact/law/frame.h"
 #include "engine/contact/law/impact_bound.h"
+#include "engine/model/levels.h"
 
 namespace erbs {
 namespace {
@@ -30,9 +31,11 @@ void ContactForces::list_pairs() {
   changed_ = true;
   edge_of_pair_.clear();
   edges_.clear();
+  level_.clear(), next_level_.clear();
   while (batch_.size() < room_.size()) batch_.push_back(std::make_unique<PairBatch>());
   for (const ContactPair& p : state_.contacts.list.pair) {
     const EdgeAtRest edge = bodies_.edge_of(p);
+    level_.push_back(p.level), next_level_.push_back(p.next_level);
     edge_of_pair_.push_back(edge.touches ? int(edges_.size()) : -1);
     if (edge.touches) edges_.push_back(edge);
   }
@@ -40,6 +43,50 @@ void ContactForces::list_pairs() {
 
 void ContactForces::prepare() {
   if (std::exchange(changed_, false)) cache_.assign(state_.contacts.list.pair.size(), {});
+}
+
+void ContactForces::set(double budget, const Interlock& interlock) {
+  settings_.event_budget = budget, settings_.interlock = interlock;
+  settings_.horizon =
+      has_levels(state_.time) ? 3 * macro_dt(state_.time) : 0;  // this macro step and the next, which is twice as long at most
+}
+
+PairInterval ContactForces::interval(int level) const {
+  const TimeStep& time = state_.time;
+  return {level > 0 ? (1 << level) * time.last_dt : time.last_dt, time.last_dt, has_levels(time) ? macro_dt(time) : time.last_dt,
+          level > 0};
+}
+
+// The mean pressure is updated over the interval of the pair.
+ContactSettings ContactForces::settings_of(int level) const {
+  ContactSettings settings = settings_;
+  double& rate = settings.interlock.rate;
+  if (level > 0 && rate > 0) rate = (1 << level) * rate / (1 + ((1 << level) - 1) * rate);
+  return settings;
+}
+
+double ContactForces::start_level(int i) {
+  const TimeStep& time = state_.time;
+  std::uint8_t &now = level_[z(i)], next = next_level_[z(i)];
+  if (now == 0 && next == 0) return 1;
+  const double factor = ((1 << now) * time.last_dt + (1 << next) * time.dt) / (time.last_dt + time.dt);
+  if (now != next) state_.contacts.list.pair[z(i)].level = now = next;
+  return factor;
+}
+
+void ContactForces::book_after_kick(std::span<const int> live) {
+  const TimeStep& time = state_.time;
+  if (time.substep == 0) return;
+  for (const int i : live) {
+    const int level = level_[z(i)];
+    if (level == 0 || !acts(level, time.substep - 1)) continue;
+    const ContactPair& pair = state_.contacts.list.pair[z(i)];
+    if (!pair.touching) continue;
+    const ContactBlock &a = bodies_.block[z(pair.a)], &b = bodies_.block[z(pair.b)];
+    const double half = 0.5 * (1 << level) * time.dt;
+    state_.energy.friction -= half * power(pair.friction, a, b);
+    state_.energy.contact_damping -= half * power(pair.damping, a, b);
+  }
 }
 
 // m, further travel during which a pair needs no evaluation, although it may overlap along an edge; zero or less: evaluate it.
@@ -59,9 +106,10 @@ void ContactForces::find_due(ThreadPairs& found, std::span<const int> mine) {
   found.at.clear(), found.forces.clear(), found.separated.clear();
   found.at.resize(mine.size());
   std::size_t due = 0, stay = 0;
+  const int substep = state_.time.substep;
   for (const int i : mine) {  // without a branch: the sequence of due pairs has no pattern
     found.at[due] = i;
-    due += !motion_.waits(i);
+    due += unsigned(!motion_.waits(i)) & unsigned(acts(level_[z(i)], substep));
   }
   for (std::size_t k = 0; k < due; ++k) {
     const int i = found.at[k];
@@ -76,19 +124,20 @@ bool ContactForces::evaluate_one(int i, bool sample, OverlapRoom& room, PairResu
   ContactPair& pair = state_.contacts.list.pair[z(i)];
   const MotionBounds::PairBound& known = motion_.pair(i);
   const ContactBlock &a = bodies_.block[z(known.a)], &b = bodies_.block[z(known.b)];
-  const double dt = state_.time.last_dt;
+  const PairInterval interval = this->interval(level_[z(i)]);
+  const ContactSettings settings = settings_of(level_[z(i)]);
   PairCache& cache = cache_[z(i)];
   if (const double way = idle(i); way > 0) {
     motion_.note_separation(i, r.apart = way);
     return false;
   }
   const PairBodies& bodies = cache.bodies;
-  if (still_separated(cache.axis, pair, frame_of(bodies, a, b), settings_, dt, r)) {
+  if (still_separated(cache.axis, pair, frame_of(bodies, a, b), settings, interval.horizon, r)) {
     motion_.note_separation(i, r.apart);
     if (r.apart > settings_.interlock.gap) pair.mean_normal_force = 0;
     return false;
   }
-  const bool counts = pair_force(pair, bodies_.shapes, a, b, settings_, dt, sample, room, r, contact_count(known.a, known.b));
+  const bool counts = pair_force(pair, bodies_.shapes, a, b, settings, interval, sample, room, r, contact_count(known.a, known.b));
   cache.fits = fits_pack(pair, bodies);
   cache.axis = cached_axis(pair, *bodies.reference, *bodies.other);
   motion_.note_separation(i, counts ? 0 : r.apart);
@@ -101,13 +150,17 @@ void ContactForces::evaluate(int thread, std::span<const int> live, bool sample)
   find_due(found, std::span<const int>(from(thread), from(thread + 1)));
   OverlapRoom& room = room_[z(thread)];
   PairBatch& batch = *batch_[z(thread)];
-  PairTask task[pairs_per_batch];
-  int at[pairs_per_batch], count = 0;
-  const auto evaluate_batch = [&] {
-    const unsigned left_out = pair_forces(task, count, settings_, state_.time.last_dt, sample, batch);
-    for (int l = 0; l < count; ++l)
-      if ((left_out >> l & 1u) != 0) evaluate_one(at[l], sample, room, *task[l].result);
-    count = 0;
+  struct Collected {
+    PairTask task[pairs_per_batch];
+    int at[pairs_per_batch], count = 0;
+  };
+  Collected of_level[most_levels];  // pairs of one level have one interval
+  const auto evaluate_batch = [&](int level) {
+    Collected& w = of_level[level];
+    const unsigned left_out = pair_forces(w.task, w.count, settings_of(level), interval(level), sample, batch);
+    for (int l = 0; l < w.count; ++l)
+      if ((left_out >> l & 1u) != 0) evaluate_one(w.at[l], sample, room, *w.task[l].result);
+    w.count = 0;
   };
   for (const int i : found.at) {
     ContactPair& pair = state_.contacts.list.pair[z(i)];
@@ -120,23 +173,25 @@ void ContactForces::evaluate(int thread, std::span<const int> live, bool sample)
     if (cache.fits) {
       found.forces.push_back({i, {}});
       const ContactBlock &a = bodies_.block[z(known.a)], &b = bodies_.block[z(known.b)];
-      task[count] = {&pair, cache.bodies, &a, &b, &found.forces.back().result, contact_count(known.a, known.b)};
-      at[count++] = i;
-      if (count == pairs_per_batch) evaluate_batch();
+      Collected& w = of_level[level_[z(i)]];
+      w.task[w.count] = {&pair, cache.bodies, &a, &b, &found.forces.back().result, contact_count(known.a, known.b)};
+      w.at[w.count++] = i;
+      if (w.count == pairs_per_batch) evaluate_batch(level_[z(i)]);
       continue;
     }
     PairResult r;
     if (evaluate_one(i, sample, room, r)) found.forces.push_back({i, r});
     else found.separated.push_back({i, r.apart, r.impact_omega2_a, r.impact_omega2_b, r.event_rate});
   }
-  if (count > 0) evaluate_batch();
-  foresee_touching(found);
+  for (int level = 0; level < most_levels; ++level)
+    if (of_level[level].count > 0) evaluate_batch(level);
+  if (at_macro_step(state_.time)) foresee_touching(found);
 }
 
 // Predicts events of touching pairs with enough kinetic energy. With less, an event stays within the budget at any step.
 void ContactForces::foresee_touching(ThreadPairs& found) {
   if (!(settings_.event_budget > 0)) return;
-  const double soon = 1.5 * std::max(state_.time.dt, state_.time.last_dt);
+  const double soon = 1.5 * std::max(macro_dt(state_.time), state_.time.last_dt);
   for (Force& one : found.forces) {
     const MotionBounds::PairBound& pair = motion_.pair(one.pair);
     const ContactBlock &a = bodies_.block[z(pair.a)], &b = bodies_.block[z(pair.b)];

@@ -32,9 +32,18 @@ class ContactForces {
   void list_pairs();                        // after the list of pairs has changed
   void mark_changed() { changed_ = true; }  // the laws of some pairs have changed
   void prepare();                           // before the forces of a step
-  void set(double budget, const Interlock& interlock) { settings_.event_budget = budget, settings_.interlock = interlock; }
+  void set(double budget, const Interlock& interlock);
   // Forces of this thread's share of the `live` pairs.
   void evaluate(int thread, std::span<const int> live, bool sample);
+  // Books the work of friction and dashpots of slow pairs, from their kick in the last step to their next one.
+  void book_after_kick(std::span<const int> live);
+  // Levels of pairs (model/levels.h).
+  int level(int i) const { return level_[std::size_t(i)]; }
+  // Times its force per step: impulse of pair i at the start of a macro step. The pair then has its next level.
+  double start_level(int i);
+  void set_next_level(int i, int level) {
+    state_.contacts.list.pair[std::size_t(i)].next_level = next_level_[std::size_t(i)] = std::uint8_t(level);
+  }
   void balance_threads();  // for the next step
   std::span<const ThreadPairs> results() const { return thread_pairs_; }
   const ContactSettings& settings() const { return settings_; }
@@ -44,6 +53,8 @@ class ContactForces {
   bool evaluate_one(int i, bool sample, OverlapRoom& room, PairResult& result);
   void foresee_touching(ThreadPairs& found);
   double idle(int i) const;
+  PairInterval interval(int level) const;
+  ContactSettings settings_of(int level) const;
   double contact_count(int a, int b) const;  // number of contacts for the dashpots of `pair_force()`
 
   struct PairCache {
@@ -57,7 +68,8 @@ class ContactForces {
   ContactSettings settings_;
   std::vector<PairCache> cache_;  // per pair, data that a step reads first
   bool changed_ = true;
-  std::vector<int> edge_of_pair_;  // per pair, index into `edges_`; -1: none
+  std::vector<std::uint8_t> level_, next_level_;  // per pair, as in `ContactPair`
+  std::vector<int> edge_of_pair_;                 // per pair, index into `edges_`; -1: none
   std::vector<EdgeAtRest> edges_;
   std::vector<int> first_pair_;                    // first pair of each thread; balances the number of evaluations
   std::vector<ThreadPairs> thread_pairs_;          // per thread

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "engine/contact/broad/search.h"
 #include "engine/model/build/add_joints.h"
+#include "engine/model/levels.h"
 
 namespace erbs {
 namespace {
@@ -95,6 +97,14 @@ void Contacts::prepare(double budget, const Interlock& interlock) {
   forces_.prepare();
 }
 
+void Contacts::prepare_substep(const Interlock& interlock) {
+  forces_.set(0, interlock);
+  motion_.prepare_substep(involved_, unsorted_);
+  if (unsorted_) sort();  // in a resumed run
+  forces_.book_after_kick(sleep_.live());
+  forces_.prepare();
+}
+
 // Updates the poses of all blocks, since `track()` leaves out blocks without a live pair, and searches for pairs if necessary.
 void Contacts::update() {
   PairList& list = state_.contacts.list;
@@ -153,20 +163,30 @@ bool Contacts::sleep(const Excitation& now, const double* contact_wrench) {
   return changed;
 }
 
-void Contacts::add_up(const ContactForces::ThreadPairs& found, double* contact_wrench, bool sample) {
+namespace {
+
+// Adds the wrench of a pair, times `share`, to the rows of its blocks.
+void add_wrench(double* rows, std::size_t a, std::size_t b, const PairWrench& wrench, double share) {
   static_assert(sizeof(PairWrench) == 9 * sizeof(double));
   static const Vec6 from_a = (Vec6() << -1, -1, -1, 1, 1, 1).finished();
+  const double* w = wrench.force.data();
+  Vec6::Map(rows + 8 * a) += share * from_a.cwiseProduct(Vec6::Map(w));
+  Vec3::Map(rows + 8 * b) += share * Vec3::Map(w);
+  Vec3::Map(rows + 8 * b + 3) += share * Vec3::Map(w + 6);
+}
+
+}  // namespace
+
+void Contacts::add_up(const ContactForces::ThreadPairs& found, double* contact_wrench, double* kick, bool sample) {
   const double* const edge = model_.smallest_edge.data();
   double friction = state_.energy.friction, damping = state_.energy.contact_damping, penetration = state_.observed.max_penetration_relative;
   int *const contacts = state_.contacts.list.contact_count.data(), touching = 0;
   for (const ContactForces::Force& one : found.forces) {
     const MotionBounds::PairBound& pair = motion_.pair(one.pair);
     const PairResult& r = one.result;
-    const double* w = r.wrench.force.data();
     const std::size_t a = z(pair.a), b = z(pair.b);
-    Vec6::Map(contact_wrench + 8 * a) += from_a.cwiseProduct(Vec6::Map(w));
-    Vec3::Map(contact_wrench + 8 * b) += Vec3::Map(w);
-    Vec3::Map(contact_wrench + 8 * b + 3) += Vec3::Map(w + 6);
+    add_wrench(contact_wrench, a, b, r.wrench, 1);
+    if (kick) add_kick(one, kick, sample);
     friction += r.friction;
     damping += r.damping;
     if (sample) elastic_ += r.elastic + r.tangential;
@@ -177,34 +197,130 @@ void Contacts::add_up(const ContactForces::ThreadPairs& found, double* contact_w
     const double thin = std::min(edge[a], edge[b]);
     if (r.depth > penetration * thin) penetration = std::max(penetration, r.depth / thin);
   }
-  for (const ContactForces::SeparatedPair& one : found.separated) bound_.add(one, motion_.pair(one.pair), former_.of_pair(one.pair));
+  for (const ContactForces::SeparatedPair& one : found.separated) {
+    bound_.add(one, motion_.pair(one.pair), former_.of_pair(one.pair));
+    if (kick) forces_.start_level(one.pair);
+  }
   state_.energy.friction = friction, state_.energy.contact_damping = damping;
   state_.observed.max_penetration_relative = penetration;
   touching_ += touching;
   touched_ += touching;
 }
 
-void Contacts::gather(double* contact_wrench, bool sample) {
+// Kinetic energy belongs to the velocity to which the last interval of each pair would have led (`book()` of `block_kernel.h`).
+void Contacts::add_kick(const ContactForces::Force& one, double* kick, bool sample) {
+  const MotionBounds::PairBound& pair = motion_.pair(one.pair);
+  const TimeStep& time = state_.time;
+  const double since = (1 << forces_.level(one.pair)) * time.last_dt, share = forces_.start_level(one.pair);
+  add_wrench(kick, z(pair.a), z(pair.b), one.result.wrench, share);
+  if (!sample) return;
+  // s, of the kick that `book()` extrapolates to the last interval of joints
+  const double next = (1 << time.joint_level) * time.dt,
+               used = share * time.since_joints / (time.since_joints + next) * (time.last_dt + time.dt);
+  kinetic_correction_ += 0.5 * (since - used) * power(one.result.wrench, bodies_.block[z(pair.a)], bodies_.block[z(pair.b)]);
+}
+
+void Contacts::start_rows(double* rows) const {
+  const bool rested = sleep_.has_resting();
+  for (const int b : sleep_.in_live_pairs()) {
+    if (rested) std::copy_n(sleep_.resting_wrench(b), 8, rows + 8 * b);
+    else std::fill_n(rows + 8 * b, 8, 0.0);
+  }
+}
+
+void Contacts::gather(double* contact_wrench, double* kick, bool sample) {
   std::vector<int>& count = state_.contacts.list.contact_count;
   const bool rested = sleep_.has_resting();
   if (std::exchange(relisted_, false)) {
     if (rested) std::copy_n(sleep_.resting_wrench(0), 8 * z(model_.nblock), contact_wrench);
     else std::fill_n(contact_wrench, 8 * z(model_.nblock), 0.0);
   }
-  for (const int b : sleep_.in_live_pairs()) {
-    if (rested) std::copy_n(sleep_.resting_wrench(b), 8, contact_wrench + 8 * b);
-    else std::fill_n(contact_wrench + 8 * b, 8, 0.0);
-    count[z(b)] = rested ? sleep_.contacts(b) : 0;
-  }
+  start_rows(contact_wrench);
+  for (const int b : sleep_.in_live_pairs()) count[z(b)] = rested ? sleep_.contacts(b) : 0;
+  if (kick) std::copy_n(contact_wrench, 8 * z(model_.nblock), kick);
   bound_.begin();
   touching_ = sleep_.touching();
+  kinetic_correction_ = 0;
   if (sample) elastic_ = sleep_.elastic();
-  for (const ContactForces::ThreadPairs& found : forces_.results()) add_up(found, contact_wrench, sample);
+  for (const ContactForces::ThreadPairs& found : forces_.results()) add_up(found, contact_wrench, kick, sample);
   for (const int b : sleep_.in_live_pairs())
     if (model_.kind[z(b)] != Kind::moving) count[z(b)] = 0;                         // no limit for dashpots on a fixed or driven block
     else if (state_.topology.joined[z(b)]) count[z(b)] += int(saturated_contacts);  // joints use up this block's share
   forces_.balance_threads();
   bound_.end(forces_, former_, sleep_, motion_);
+}
+
+void Contacts::gather_substep(double* kick) {
+  if (std::exchange(relisted_, false)) {  // after a resumption within a macro step
+    if (sleep_.has_resting()) std::copy_n(sleep_.resting_wrench(0), 8 * z(model_.nblock), kick);
+    else std::fill_n(kick, 8 * z(model_.nblock), 0.0);
+  }
+  start_rows(kick);
+  const double* const edge = model_.smallest_edge.data();
+  for (const ContactForces::ThreadPairs& found : forces_.results())
+    for (const ContactForces::Force& one : found.forces) {
+      const MotionBounds::PairBound& pair = motion_.pair(one.pair);
+      const PairResult& r = one.result;
+      add_wrench(kick, z(pair.a), z(pair.b), r.wrench, 1 << forces_.level(one.pair));
+      state_.energy.friction += r.friction;
+      state_.energy.contact_damping += r.damping;
+      touched_ += r.touching;
+      double& penetration = state_.observed.max_penetration_relative;
+      penetration = std::max(penetration, r.depth / std::min(edge[pair.a], edge[pair.b]));
+    }
+}
+
+void Contacts::reset_levels() {
+  for (const int i : sleep_.live()) forces_.set_next_level(i, 0);
+}
+
+// s, interval in which a patch that moves at this relative speed errs by the budget of an event (`event_bound.h`).
+double Contacts::accurate_dt(int i) const {
+  const ContactPair& pair = state_.contacts.list.pair[z(i)];
+  const double speed = (bodies_.block[z(pair.b)].v - bodies_.block[z(pair.a)].v).norm() + motion_.spin(pair.a) + motion_.spin(pair.b);
+  const double rate = speed * std::sqrt(event_share * pair.law.kn * pair.area / forces_.settings().event_budget);
+  return rate > 0 ? 1 / rate : std::numeric_limits<double>::infinity();
+}
+
+void Contacts::find_pair_steps() {
+  bound_.find_stiff_blocks(former_, sleep_);
+  pair_dt_.clear();
+  least_pair_dt_ = std::numeric_limits<double>::infinity();
+  for (const ContactForces::ThreadPairs& found : forces_.results()) {
+    for (const ContactForces::Force& one : found.forces) {
+      const double allowed = bound_.pair_dt(one, motion_.pair(one.pair));
+      least_pair_dt_ = std::min(least_pair_dt_, allowed);
+      pair_dt_.push_back({one.pair, std::min(allowed, accurate_dt(one.pair))});
+    }
+    // Separated pairs act in every step. They limit it once they may touch before the end of the next macro step, which is twice as long at
+    // most. Pairs farther apart may wait (`MotionBounds::waits`), and must not count for that reason either.
+    for (const ContactForces::SeparatedPair& one : found.separated) {
+      const MotionBounds::PairBound& pair = motion_.pair(one.pair);
+      const double speed = (bodies_.block[z(pair.b)].v - bodies_.block[z(pair.a)].v).norm() + motion_.spin(pair.a) + motion_.spin(pair.b);
+      if (one.apart <= 3 * macro_dt(state_.time) * speed) least_pair_dt_ = std::min(least_pair_dt_, bound_.pair_dt(one, pair));
+    }
+  }
+}
+
+int Contacts::level_of(double allowed, double dt, int most) {
+  constexpr double margin = 0.95;  // as in `Solver::next_dt`
+  int level = 0;
+  while (level < most && margin * allowed >= (2 << level) * dt) ++level;
+  return level;
+}
+
+int Contacts::choose_levels(double dt, int most) {
+  while (most > 0 && motion_.fastest_pair() * (1 << most) * dt > 0.2 * state_.contacts.list.margin) --most;
+  for (const int i : sleep_.live())
+    if (forces_.level(i) > 0) forces_.set_next_level(i, 0);  // separated pairs that were not evaluated
+  int highest = 0;
+  for (const auto& [pair, allowed] : pair_dt_) {
+    const int level =
+        std::min(level_of(allowed, dt, most), forces_.level(pair) + 1);  // the dashpots of this step are limited by its interval
+    forces_.set_next_level(pair, level);
+    highest = std::max(highest, level);
+  }
+  return highest;
 }
 
 void Contacts::soften_former_joints(double most, bool find) {

@@ -27,9 +27,23 @@ class Contacts {
   // Before the forces of a step: the remaining poses, and every few steps the check whether a new search is necessary. `budget`: J, of
   // events (`event_bound.h`).
   void prepare(double budget, const Interlock& interlock);
+  // The same within a macro step (model/levels.h): the list of pairs stays.
+  void prepare_substep(const Interlock& interlock);
   // Forces of this thread's pairs. Afterwards `gather()` sums them on one thread, in the order of the pairs.
   void forces(int thread, bool sample) { forces_.evaluate(thread, sleep_.live(), sample); }
-  void gather(double* contact_wrench, bool sample);
+  // At the start of a macro step; `kick`: the same, each pair times its impulse over that of a step, null without levels.
+  void gather(double* contact_wrench, double* kick, bool sample);
+  void gather_substep(double* kick);  // within a macro step: of the pairs that act in this step
+  // Intervals that pairs allow, from the evaluation at the start of this macro step; then the least one, and that of joints (s).
+  void find_pair_steps();
+  double least_pair_dt() const { return least_pair_dt_; }
+  double joints_dt() const { return bound_.joints_dt(); }
+  // Chooses the levels of all pairs for the next macro step of steps `dt` (s), at most `most`. Returns the highest one.
+  int choose_levels(double dt, int most);
+  void reset_levels();  // all pairs act in the next step again
+  // J, of the sample: kinetic energy is that of the last interval of each pair, the kick may be for another one.
+  double kinetic_correction() const { return kinetic_correction_; }
+  bool joints_are_ready(const Cracked& cracked) const { return !cracked.none_ready_for_contact() && !ready_joints(cracked).empty(); }
   // Releases joints without bond and beyond their range (`joint_ready_for_contact()`) to contact and returns them. Called between forces
   // and drift: this step still has the wrench and stored energy of the joint, the next step has those of the contact.
   std::vector<int> release_joints(Cracked& cracked);
@@ -55,7 +69,11 @@ class Contacts {
   std::vector<int> search_pairs(double& reset, std::span<const std::uint8_t> still);
   void sort();
   void find_still();
-  void add_up(const ContactForces::ThreadPairs& found, double* contact_wrench, bool sample);
+  void add_up(const ContactForces::ThreadPairs& found, double* contact_wrench, double* kick, bool sample);
+  double accurate_dt(int i) const;
+  static int level_of(double allowed, double dt, int most);
+  void add_kick(const ContactForces::Force& force, double* kick, bool sample);
+  void start_rows(double* rows) const;
   std::vector<int> ready_joints(const Cracked& cracked) const;
 
   const Model& model_;
@@ -70,7 +88,9 @@ class Contacts {
   std::vector<std::uint64_t> jointed_;  // pairs of blocks that still have a joint, sorted
   std::vector<std::uint8_t> still_;     // sleepers with the pose of the last search [nblock]; empty without sleepers
   bool relisted_ = true, unsorted_ = true;
-  double elastic_ = 0;
+  double elastic_ = 0, kinetic_correction_ = 0;
+  std::vector<std::pair<int, double>> pair_dt_;  // s, interval that each evaluated pair allows
+  double least_pair_dt_ = 0;
   int touching_ = 0;
   long touched_ = 0;
 };

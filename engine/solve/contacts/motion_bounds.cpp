@@ -6,6 +6,7 @@
 
 #include "engine/contact/law/impact_bound.h"
 #include "engine/contact/law/pair_lanes.h"
+#include "engine/model/levels.h"
 
 namespace erbs {
 namespace {
@@ -66,7 +67,7 @@ void MotionBounds::update(BlockGroup blocks, MaxSpeed& fastest) {
   const ContactBodies::Axes* axes = bodies_.axes_of_group(g);
   at.axes = axes ? axes->row.x : nullptr;
   for (int l = 0; l < pack_size; ++l) at.row[l] = (blocks.which >> l & 1u) != 0 ? bodies_.block[first + z(l)].u.data() : nullptr;
-  pair_kernels().track(at, blocks.which, look_ahead * 1.5 * std::max(state_.time.dt, state_.time.last_dt), fastest.speed);
+  pair_kernels().track(at, blocks.which, look_ahead * 1.5 * std::max(macro_dt(state_.time), state_.time.last_dt), fastest.speed);
 }
 
 void MotionBounds::update_all(const Sleep* sleep) {
@@ -111,7 +112,15 @@ bool MotionBounds::prepare(const std::vector<int>& involved, bool unsorted) {
   double speed = *std::ranges::max_element(late.speed);
   for (const MaxSpeed& one : fastest_) speed = std::max(speed, *std::ranges::max_element(one.speed));
   fastest_pair_ = 2 * speed;
-  return state_.time.step % update_every == 0 || std::sqrt(fastest) * state_.time.dt * update_every > 0.25 * state_.contacts.list.margin;
+  return state_.time.macro % update_every == 0 ||
+         std::sqrt(fastest) * macro_dt(state_.time) * update_every > 0.25 * state_.contacts.list.margin;
+}
+
+void MotionBounds::prepare_substep(const std::vector<int>& involved, bool unsorted) {
+  MaxSpeed late;
+  std::vector<BlockGroup> all;
+  for (const int b : unsorted ? involved : std::vector<int>{}) add_to_group(all, b);
+  for (const BlockGroup& blocks : unsorted ? all : driven_) update(blocks, late);
 }
 
 bool MotionBounds::surely_separated(int i) {
@@ -120,7 +129,7 @@ bool MotionBounds::surely_separated(int i) {
   PairBound& pair = pair_bounds_[z(i)];
   const ContactBlock &a = bodies_.block[z(pair.a)], &b = bodies_.block[z(pair.b)];
   const std::vector<double>& rotation_travel = state_.contacts.separation.rotation_travel;
-  const double soon = look_ahead * 1.5 * std::max(state_.time.dt, state_.time.last_dt);  // the next step may be 1.5 times as long
+  const double soon = look_ahead * 1.5 * std::max(macro_dt(state_.time), state_.time.last_dt);  // the next step may be 1.5 times as long
   const double left = known.distance - ((b.u - a.u) - known.relative_u).norm() -
                       (rotation_travel[z(pair.a)] + rotation_travel[z(pair.b)] - known.rotation_travel) -
                       round_off * state_.contacts.list.margin;

@@ -25,6 +25,7 @@ class MotionBounds {
   void track(int thread, int first, int last);
   // The remaining poses before the forces of a step; of all `involved` blocks if `unsorted`. True if a block travels far in few steps.
   bool prepare(const std::vector<int>& involved, bool unsorted);
+  void prepare_substep(const std::vector<int>& involved, bool unsorted);  // the same within a macro step
   // Updates the poses of all blocks; those asleep keep their pose if `sleep` is given.
   void update_all(const Sleep* sleep);
 

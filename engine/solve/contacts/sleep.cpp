@@ -139,7 +139,8 @@ bool Sleep::update(const Excitation& e, const double* contact_wrench, const Cont
   effective_gravity_ = e.gravity - e.ground;
   bool changed = wake_all();
   changed = wake_pressed(contact_wrench, blocks) || changed;
-  if (state_.time.step % update_every == 0) changed = try_sleep(e.kick, contact_wrench, blocks) || changed;
+  if (state_.time.macro % std::max(1, update_every / state_.time.substeps) == 0)
+    changed = try_sleep(e.kick, contact_wrench, blocks) || changed;
   slept_ += state_.sleep.count;
   return changed;
 }

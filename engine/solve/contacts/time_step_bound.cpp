@@ -118,9 +118,13 @@ double ContactLimit::on_most(std::span<const int> blocks, std::span<const double
   return most;
 }
 
-double ContactLimit::allowed(double most) const {
+double ContactLimit::common() const {
   const PairList& list = state_.contacts.list;
-  const double bound = 1 / std::sqrt((list.bound_updates > 0 ? list.bound_at_last_update : intact()) + most);
+  return list.bound_updates > 0 ? list.bound_at_last_update : intact();
+}
+
+double ContactLimit::allowed(double most) const {
+  const double bound = 1 / std::sqrt(common() + most);
   // Beyond the step that the run requested, its requested share of the limit still applies.
   const double share = std::isfinite(range_.critical) ? std::min(1.0, state_.time.dt_target / range_.critical / safe_share) : 1.0;
   return std::max(std::min(state_.time.dt_target, bound), std::min(range_.longest, share * bound));

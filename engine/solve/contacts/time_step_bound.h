@@ -34,6 +34,7 @@ class ContactLimit {
   // 1/s2, share of block b in 1 / dt^2. `omega2` (1/s2): its contacts beyond the last update; `impact_omega2` (1/s2): a face that may
   // strike it.
   double on_block(int b, double omega2, double impact_omega2) const;
+  double common() const;  // 1/s2, the share of the structure that is common to all blocks
   // The greatest share among moving `blocks`; `omega2` and `impact_omega2` of each block of the model [nblock].
   double on_most(std::span<const int> blocks, std::span<const double> omega2, std::span<const double> impact_omega2) const;
   // s, time step allowed if the greatest share is `most`.

@@ -1,0 +1,79 @@
+// Levels (model/levels.h): with several, contacts act at intervals of their own. Accounts stay exact, and bits do not depend on threads or
+// stops.
+#include <catch2/catch.hpp>
+#include <optional>
+
+#include "engine/analysis/dynamic.h"
+#include "engine/model/levels.h"
+#include "tests/support/small_wall.h"
+#include "tests/unit/record/two_bricks.h"
+
+using namespace erbs;
+using namespace erbs::analysis;
+using namespace erbs::lua;
+
+namespace {
+
+// A dry wall is thrown over; its bricks fall on each other and on soft ground.
+std::string falling(int levels) {
+  return R"(
+    material{ name = "brick", density = 1800, friction = 0.6, kn = 1e10 }
+    material{ name = "earth", density = 1800, friction = 0.6, kn = 5e8 }
+    ground{ size = 20, material = "earth" }
+    wall{ name = "w", at = {0, 0, 0}, length = 1.2, courses = 6, brick = {length = 0.3, width = 0.125, height = 0.1}, joint = 0, quiet = true }
+    joint{ law = dry{ kn = 2e11, mu = 0.6 } }
+    ground_motion{ wave = half_sine{ amplitude = 2*g, frequency = 2 }, direction = "y" }
+    analysis{ duration = 1, levels = )" +
+         std::to_string(levels) + " }";
+}
+
+Metrics run(const std::string& text, const std::string& directory, Existing existing, std::optional<double> until = {}, int threads = 1) {
+  Script script(Script::Options{.quiet = true});
+  RunOptions options;
+  options.directory = directory;
+  options.existing = existing;
+  options.until = until;
+  options.threads = threads;
+  return run_dynamic(script.load_text(text, "scene.lua"), text, options).metrics;
+}
+
+}  // namespace
+
+TEST_CASE("an interaction of level l acts at every 2^l-th step, and all act together at the start of a macro step", "[levels]") {
+  int acted[4] = {};
+  for (int substep = 0; substep < 8; ++substep)
+    for (int level = 0; level < 4; ++level) acted[level] += acts(level, substep);
+  for (int level = 0; level < 4; ++level) {
+    CHECK(acted[level] == 8 >> level);
+    CHECK(acts(level, 0));
+  }
+}
+
+TEST_CASE("the ledger and the fall are those of one level", "[levels]") {
+  Metrics of[2];
+  for (const int levels : {1, 4}) {
+    const test::Scratch to("levels_fall");
+    Metrics& m = of[levels > 1];
+    m = run(falling(levels), to.path, Existing::refuse);
+    INFO("levels " << levels);
+    CHECK(m.status == "completed");
+    CHECK(m.collapse.collapsed);
+    CHECK(m.residual_relative < 2e-3);
+    CHECK(m.momentum_residual < 1e-9);
+  }
+  CHECK(of[1].collapse.time_s.value_or(0) == Approx(of[0].collapse.time_s.value_or(1)).margin(0.02));
+  CHECK(of[1].state_hash != of[0].state_hash);  // levels were used
+}
+
+TEST_CASE("a run with levels has the same bits for any number of threads, and when it was stopped within macro steps", "[levels][resume]") {
+  const std::string text = falling(5);
+  const test::Scratch whole("levels_whole"), threads("levels_threads"), parts("levels_parts");
+  const Metrics expected = run(text, whole.path, Existing::refuse);
+  CHECK(run(text, threads.path, Existing::refuse, {}, 3).state_hash == expected.state_hash);
+  Existing existing = Existing::refuse;
+  for (const double until : {0.3, 0.45, 0.5203, 0.61, 0.8}) run(text, parts.path, existing, until), existing = Existing::resume;
+  const Metrics got = run(text, parts.path, existing);
+  CHECK(got.steps == expected.steps);
+  CHECK(got.state_hash == expected.state_hash);
+  CHECK(got.energy == expected.energy);
+}
