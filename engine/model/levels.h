@@ -2,9 +2,9 @@
 // Grubmueller, Heller, Windemuth and Schulten 1991; Tuckerman, Berne and Martyna 1992).
 //
 // A macro step of `TimeStep::substeps` steps begins with an evaluation of all interactions. A pair of level l acts at every 2^l-th step,
-// with an impulse of 2^l times its force; between these steps it does not act. Joints and loads act in every step. Where the interval
-// changes, the impulse has the mean of the last and the next interval, as the kick of the integrator has. With one level this is the
-// integrator of integrate.h to the last bit.
+// with an impulse of 2^l times its force; between these steps it does not act. Loads act in every step; joints in every step, or in
+// every 2^joint_level-th while contacts about to land need a shorter one. Where an interval changes, the impulse has the mean of the last
+// and the next interval, as the kick of the integrator has. With one level this is the integrator of integrate.h to the last bit.
 //
 // Work. A kick J changes the kinetic energy by J (v- + v+) / 2. So the second half of the work of friction and dashpots is booked with the
 // velocity right after the kick (`ContactForces::book_after_kick`). Elastic energy is a function of the pose. What is left in the ledger is
@@ -14,6 +14,8 @@
 // Resonance. Impulses of a slow spring excite a mode of frequency w when w H comes near a multiple of pi (Biesiadecki and Skeel 1993; Fong,
 // Darve and Lew 2008). The interval of a pair is therefore bounded by all that acts on its two blocks, not by the pair alone: w H stays at
 // or below 1, with w from the stiffness on the block, joints included. A pair on a block with stiff joints acts as often as they do.
+//
+// On trial, and off by default: tests/bench/README.md lists the scenes that fail with it.
 #pragma once
 #include "engine/model/state.h"
 

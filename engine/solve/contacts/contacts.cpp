@@ -274,11 +274,15 @@ void Contacts::reset_levels() {
   for (const int i : sleep_.live()) forces_.set_next_level(i, 0);
 }
 
+// m/s, upper bound of the speed of any two points of blocks a and b relative to each other.
+double Contacts::relative_speed(int a, int b) const {
+  return (bodies_.block[z(b)].v - bodies_.block[z(a)].v).norm() + motion_.spin(a) + motion_.spin(b);
+}
+
 // s, interval in which a patch that moves at this relative speed errs by the budget of an event (`event_bound.h`).
 double Contacts::accurate_dt(int i) const {
   const ContactPair& pair = state_.contacts.list.pair[z(i)];
-  const double speed = (bodies_.block[z(pair.b)].v - bodies_.block[z(pair.a)].v).norm() + motion_.spin(pair.a) + motion_.spin(pair.b);
-  const double rate = speed * std::sqrt(event_share * pair.law.kn * pair.area / forces_.settings().event_budget);
+  const double rate = relative_speed(pair.a, pair.b) * std::sqrt(event_share * pair.law.kn * pair.area / forces_.settings().event_budget);
   return rate > 0 ? 1 / rate : std::numeric_limits<double>::infinity();
 }
 
@@ -296,8 +300,8 @@ void Contacts::find_pair_steps() {
     // most. Pairs farther apart may wait (`MotionBounds::waits`), and must not count for that reason either.
     for (const ContactForces::SeparatedPair& one : found.separated) {
       const MotionBounds::PairBound& pair = motion_.pair(one.pair);
-      const double speed = (bodies_.block[z(pair.b)].v - bodies_.block[z(pair.a)].v).norm() + motion_.spin(pair.a) + motion_.spin(pair.b);
-      if (one.apart <= 3 * macro_dt(state_.time) * speed) least_pair_dt_ = std::min(least_pair_dt_, bound_.pair_dt(one, pair));
+      const double way = 3 * macro_dt(state_.time) * relative_speed(pair.a, pair.b);
+      if (one.apart <= way) least_pair_dt_ = std::min(least_pair_dt_, bound_.pair_dt(one, pair));
     }
   }
 }

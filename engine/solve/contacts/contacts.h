@@ -70,6 +70,7 @@ class Contacts {
   void sort();
   void find_still();
   void add_up(const ContactForces::ThreadPairs& found, double* contact_wrench, double* kick, bool sample);
+  double relative_speed(int a, int b) const;
   double accurate_dt(int i) const;
   static int level_of(double allowed, double dt, int most);
   void add_kick(const ContactForces::Force& force, double* kick, bool sample);
