@@ -164,19 +164,23 @@ Snapshot Run::snapshot() const {
   const Model& m = run_.model;
   const JointState& joints = run_.state.joints;
   Snapshot s{.model = m, .pose = now.pose, .joints = joints, .energy = run_.state.energy, .t = now.t};
-  s.motion = [&m, &now, &after = run_.state.motion, kick = now.excitation.kick, half = 0.5 * now.last_dt](std::size_t b) {
+  s.motion = [&m, &now, &after = run_.state.motion, kick = now.excitation.kick](std::size_t b) {
     const MotionState& before = now.before;
     MovingBlock o;
     o.a = (after.v[b] - before.v[b]) / kick;
     o.alpha = (after.w[b] - before.w[b]) / kick;
-    o.v = before.v[b] + half * o.a;
-    o.w = before.w[b] + half * o.alpha;
-    o.spin_momentum = before.spin_momentum[b] + half / kick * (after.spin_momentum[b] - before.spin_momentum[b]);
-    if (!now.kick_excess.empty()) {  // contacts with levels act by impulses for several steps
+    Vec3 moment = (after.spin_momentum[b] - before.spin_momentum[b]) / kick;
+    const bool levels = !now.kick_excess.empty();
+    if (levels) {  // contacts with levels act by impulses for several steps
       const Mat3 r = now.pose.q[b].toRotationMatrix();
       o.a -= m.inverse_mass[b] * now.kick_excess[b].head<3>();
       o.alpha -= r * m.inverse_inertia[b] * r.transpose() * now.kick_excess[b].tail<3>();
+      moment -= now.kick_excess[b].tail<3>();
     }
+    const double half = 0.5 * (levels ? now.since[b] : now.last_dt);
+    o.v = before.v[b] + half * o.a;
+    o.w = before.w[b] + half * o.alpha;
+    o.spin_momentum = before.spin_momentum[b] + half * moment;
     return o;
   };
   for (const auto& g : m.grounds) {

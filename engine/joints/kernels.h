@@ -146,6 +146,8 @@ struct BlockArrays {
   const VectorPack<6>*owner_sum, *neighbour_force;
   const GatherTable* gather_in;
   const double *wrench, *contact_wrench, *load_wrench;
+  // s, interval of loads before and after this kick where contacts have levels (model/levels.h), one number per block; null: the steps
+  const double *load_since = nullptr, *load_next = nullptr;
 };
 
 // Work of blocks in this step, summed lane by lane, so that totals do not depend on the width of registers.
@@ -159,7 +161,7 @@ struct alignas(64) BlockWork {
 struct KickDrift {
   double kick, dt, half_last, half_next;     // s
   double joints;                             // impulse of joints over the kick: 1 with one level, 0 in a step in which they do not act
-  double more, more_load;                    // as `book()` says; s
+  double more;                               // as `book()` says
   double damping, damped_keep, damped_kick;  // 1/s; a damped kick is `(1 + damped_keep) v + kick (1 + damped_kick) contact_wrench`
   double ground[3], gravity[3];              // m/s2
   bool first;                                // no drift has come before

@@ -2,9 +2,10 @@
 // Grubmueller, Heller, Windemuth and Schulten 1991; Tuckerman, Berne and Martyna 1992).
 //
 // A macro step of `TimeStep::substeps` steps begins with an evaluation of all interactions. A pair of level l acts at every 2^l-th step,
-// with an impulse of 2^l times its force; between these steps it does not act. Loads act in every step; joints in every step, or in
-// every 2^joint_level-th while contacts about to land need a shorter one. Where an interval changes, the impulse has the mean of the last
-// and the next interval, as the kick of the integrator has. With one level this is the integrator of integrate.h to the last bit.
+// with an impulse of 2^l times its force; between these steps it does not act. Joints act in every step, or in every 2^joint_level-th while
+// contacts about to land need a shorter one. Loads and ground motion act on a block together with its joints, or with its slowest pair
+// (solve/contacts/block_levels.h). Where an interval changes, the impulse has the mean of the last and the next interval, as the kick of
+// the integrator has. With one level this is the integrator of integrate.h to the last bit.
 //
 // Work. A kick J changes the kinetic energy by J (v- + v+) / 2. So the second half of the work of friction and dashpots is booked with the
 // velocity right after the kick (`ContactForces::book_after_kick`). Elastic energy is a function of the pose. What is left in the ledger is
@@ -15,7 +16,10 @@
 // Darve and Lew 2008). The interval of a pair is therefore bounded by all that acts on its two blocks, not by the pair alone: w H stays at
 // or below 1, with w from the stiffness on the block, joints included. A pair on a block with stiff joints acts as often as they do.
 //
-// On trial, and off by default: tests/bench/README.md lists the scenes that fail with it.
+// Longer intervals. Leapfrog returns the energy error F^2 H^2 / 8m of a spring when its force returns to zero; a longer H in between keeps
+// it. So intervals grow only while all that grow together err by less than events may, and none grows in an impact.
+//
+// On trial, and off by default: tests/bench/README.md lists what differs with it.
 #pragma once
 #include "engine/model/state.h"
 

@@ -134,7 +134,10 @@ void Solver::note_sleep() {
 
 void Solver::integrate(int thread) {
   const double* contacts = !has_contacts_ ? nullptr : has_levels(state_.time) ? contact_kick_.data() : contact_wrench_.data();
-  const ExternalForces external{contacts, loads_.rows(), loads_.loaded_blocks()};
+  const BlockLevels& levels = contacts_.block_levels();
+  const bool apart = has_levels(state_.time);
+  const ExternalForces external{contacts, loads_.rows(), loads_.loaded_blocks(), apart ? levels.since() : nullptr,
+                                apart ? levels.next() : nullptr};
   const int groups = int(constants_.size()), grain = sequential_ ? groups : block_grain;  // a sweep runs on one thread
   const Range mine = slice(groups, grain, thread, threads_);
   if (!sequential_)
@@ -233,11 +236,21 @@ void Solver::begin_sample() {
 void Solver::end_sample(bool wrenches) {
   if (sequential_) std::swap(sequential_->wrench_before(), state_.cache.wrench);
   else check_momentum();
-  sample_.block_wrench.clear(), sample_.load_wrench.clear(), sample_.kick_excess.clear();
-  for (int b = 0; has_levels(state_.time) && b < model_.nblock; ++b) sample_.kick_excess.push_back(kick_wrench(b) - block_wrench(b));
+  sample_.block_wrench.clear(), sample_.load_wrench.clear(), sample_.kick_excess.clear(), sample_.since.clear();
+  for (int b = 0; has_levels(state_.time) && b < model_.nblock; ++b) note_excess(b);
   for (int b = 0; wrenches && b < model_.nblock; ++b)
     sample_.block_wrench.push_back(block_wrench(b)), sample_.load_wrench.push_back(load_wrench(b));
   if (sequential_) std::swap(sequential_->wrench_before(), state_.cache.wrench);
+}
+
+// The impulses on block b in the kick of a sample with levels, beyond its forces times the kick; and the interval before them.
+void Solver::note_excess(int b) {
+  const BlockLevels& levels = contacts_.block_levels();
+  Vec6 load = loads_.wrench(b);
+  load.head<3>() += model_.mass[z(b)] * (loads_.now().gravity - loads_.now().ground);
+  const double share = (levels.since()[b] + levels.next()[b]) / (2 * loads_.now().kick);
+  sample_.kick_excess.push_back(kick_wrench(b) - block_wrench(b) + (share - 1) * load);
+  sample_.since.push_back(levels.since()[b]);
 }
 
 // Joints and contacts conserve the momentum of all blocks, supports included: their forces and moments must sum to zero.

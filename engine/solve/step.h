@@ -35,7 +35,9 @@ struct SampleState {
   MotionState before;  // half a step before t; the State has the values half a step after
   // Of joints and contacts, and of loads: N, N m about the centroid; empty unless the plan asks for them [nblock]
   std::vector<Vec6> block_wrench, load_wrench;
-  std::vector<Vec6> kick_excess;  // N, N m, by which the kick of contacts with levels exceeds their wrench; empty without levels [nblock]
+  // With levels: N, N m, impulses of the kick beyond the forces times its length; s, interval of loads before it; else empty [nblock]
+  std::vector<Vec6> kick_excess;
+  std::vector<double> since;
 };
 
 class Solver {
@@ -76,6 +78,7 @@ class Solver {
   void close_step(const SamplePlan& plan);
   void begin_sample();
   void end_sample(bool wrenches);
+  void note_excess(int b);
   void update_outdated();
   void note_sleep();
   void apply_prescribed_motions();

@@ -60,23 +60,38 @@ void Solver::set_dt(double dt) {
 
 // Step and levels of the next macro step. Joints keep the interval `joints_dt`, and the step is a power of two below it, as short as any
 // pair asks for. All intervals thus stay as they are while the step varies: a change of an interval errs as a change of dt does
-// (`may_grow`).
+// (`may_grow`). The step becomes shorter at once. It grows once no pair has asked for it for some steps, since a face that is about to land
+// asks in some steps only, and not once it touches. Nor may its pairs err by more than events may.
 void Solver::plan_macro_step(double end) {
+  constexpr int quiet_steps = 64;  // before the step grows
   TimeStep& time = state_.time;
-  const bool choose = has_contacts_ && may_have_levels_ && !relisted_;
+  if (may_have_levels_ && relisted_ && time.joints_dt > 0) {  // nothing is known about the new pairs
+    time.next_dt = time.dt;
+    time.next_joint_level = std::clamp(int(std::lround(std::log2(time.joints_dt / time.dt))), 0, model_.analysis.levels - 1);
+    time.next_substeps = 1 << time.next_joint_level;
+    return;
+  }
+  const bool choose = has_contacts_ && may_have_levels_;
   if (choose) contacts_.find_pair_steps();
+  const int unlimited = time.steps_since_limited;
   time.joints_dt = next_dt(time.joints_dt > 0 ? time.joints_dt : time.dt, choose);
   time.next_dt = time.joints_dt;
   time.next_substeps = 1;
-  time.next_joint_level = 0;
+  const int last_level = std::exchange(time.next_joint_level, 0);
   if (!choose) return;
   const int highest = model_.analysis.levels - 1;
-  const double longest = 0.95 * contacts_.least_pair_dt();
+  const double longest = contacts_.least_pair_dt();
   double dt = time.joints_dt;
   while (time.next_joint_level < highest && dt > longest) dt *= 0.5, ++time.next_joint_level;
   if (dt > longest) {  // more levels would be needed
-    dt = on_scale(longest);
+    dt = on_scale(0.95 * longest);
     time.joints_dt = (1 << time.next_joint_level) * dt;
+  }
+  if (time.next_joint_level > 0 && time.next_joint_level >= last_level) time.steps_since_limited = 0;
+  else if (time.steps_since_limited == unlimited) time.steps_since_limited += time.substeps;
+  if (time.next_joint_level < last_level && (time.steps_since_limited <= quiet_steps || !contacts_.may_act_every(dt))) {
+    dt /= 1 << (last_level - time.next_joint_level);
+    time.next_joint_level = last_level;
   }
   const double left = end - (time.t + (time.substeps - 1) * time.dt), macro = std::min(left, 2 * macro_dt(time));
   int most = highest;

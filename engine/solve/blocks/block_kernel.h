@@ -27,7 +27,11 @@ ERBS_INLINE void sum_wrenches(const KickDrift& s, const BlockArrays& A, const Bl
     for (int l = 0; l < pack_size; ++l) rows[l] += load(row + 8 * l);
   };
   if (A.contact_wrench != nullptr) add(A.contact_wrench + first);
-  if (A.load_wrench != nullptr) add(A.load_wrench + first);
+  if (A.load_wrench != nullptr && A.load_since == nullptr) add(A.load_wrench + first);
+  for (int l = 0; l < pack_size && A.load_wrench != nullptr && A.load_since != nullptr; ++l) {
+    const long b = 1L * pack_size * group + l;
+    rows[l] += (A.load_since[b] + A.load_next[b]) / (2 * s.kick) * load(A.load_wrench + 8 * b);
+  }
   if (s.joints == 1) {
     for (int k = 0; k < wrench_slots; ++k) add(A.wrench + 8L * pack_size * (c.first_wrench_slot + k));  // none where there are no rows
   } else {
@@ -89,14 +93,25 @@ ERBS_INLINE Pack3 rotation_since(Quat<Pack> q, Quat<Pack> b) {
           sign * (b.w * q.z - q.w * b.z - q.x * b.y + q.y * b.x)};
 }
 
+// Parts of the impulse of a load before and after this kick, over its force (s).
+struct LoadInterval {
+  Pack since, next;
+};
+ERBS_INLINE LoadInterval load_interval(const KickDrift& s, const BlockArrays& A, int group) {
+  if (A.load_since == nullptr) return {Pack(s.half_last), Pack(s.half_next)};
+  const long first = 1L * pack_size * group;
+  return {0.5 * load(A.load_since + first), 0.5 * load(A.load_next + first)};
+}
+
 // Work of this step's forces: half the last drift with the old velocity, half the next with the new one. A sample keeps the halves
 // apart, for the ledger is settled between them.
 template <bool damped, bool sample>
-ERBS_INLINE void book(const KickDrift& s, const BlockConstants& c, Pack3 v0, Pack3 v1, Pack3 p0, Pack3 p1, Pack3 u, BlockWork& work) {
+ERBS_INLINE void book(const KickDrift& s, const BlockConstants& c, LoadInterval load_for, Pack3 v0, Pack3 v1, Pack3 p0, Pack3 p1, Pack3 u,
+                      bool apart, BlockWork& work) {
   const Pack mass = load(c.mass);
   const auto ground = [&](Pack3 v) { return -(s.ground[0] * v.x + s.ground[1] * v.y + s.ground[2] * v.z); };
   if (!sample && s.shaken) {
-    const Pack base = mass * ground(s.half_last * v0 + s.half_next * v1);
+    const Pack base = mass * ground(load_for.since * v0 + load_for.next * v1);
     add_to(work.base, base);
     add_to(work.absolute, abs(base));
   }
@@ -109,7 +124,7 @@ ERBS_INLINE void book(const KickDrift& s, const BlockConstants& c, Pack3 v0, Pac
     return;
   }
   const Pack3 s0 = load6(c.inverse_inertia) * p0, s1 = load6(c.inverse_inertia) * p1;
-  const Pack base0 = s.half_last * (mass * ground(v0)), base1 = s.half_next * (mass * ground(v1));
+  const Pack base0 = load_for.since * (mass * ground(v0)), base1 = load_for.next * (mass * ground(v1));
   add_to(work.base, base0);
   add_to(work.absolute, abs(base0));
   add_to(work.base_after, base1);
@@ -122,12 +137,13 @@ ERBS_INLINE void book(const KickDrift& s, const BlockConstants& c, Pack3 v0, Pac
   const Pack3 old = s.first ? 2.0 * v0 - v1 : v0, old_spin = s.first ? 2.0 * s0 - s1 : s0;
   // where the step changes, the new velocity is the one that the last step would have led to: with another the identity of energy.h does
   // not hold
-  const double more = s.first ? 0 : s.more, loads = s.first ? 0 : s.more_load;
-  const Pack moving = load(c.moving);
-  const auto led = [&](int i) { return loads * (moving * (s.gravity[i] - s.ground[i])); };
+  const double more = s.first ? 0 : s.more;
   Pack3 v = v1 + more * (v1 - v0);
   const Pack3 p = p1 + more * (p1 - p0);
-  if (loads != 0) v = v + Pack3{led(0), led(1), led(2)};
+  if (apart) {  // loads have an interval of their own
+    const Pack rest = (2 * load_for.since - (1 + more) * (load_for.since + load_for.next)) * load(c.moving);
+    v = v + Pack3{rest * (s.gravity[0] - s.ground[0]), rest * (s.gravity[1] - s.ground[1]), rest * (s.gravity[2] - s.ground[2])};
+  }
   add_to(work.kinetic, 0.5 * (mass * dot(old, v) + dot(old_spin, p)));
   add_to(work.height, -(mass * (s.gravity[0] * u.x + s.gravity[1] * u.y + s.gravity[2] * u.z)));
 }
@@ -145,13 +161,16 @@ ERBS_INLINE Mask kick(const KickDrift& s, const BlockArrays& A, int group, const
     kick = s.kick * (1 + load(c.damped) * s.damped_kick);
   }
   const auto kicked = [&](Pack x, Pack force) { return damped ? keep * x + kick * force : x + kick * force; };
-  const auto pushed = [&](int i) { return wrench[i] * inverse + moving * (s.gravity[i] - s.ground[i]); };
+  const bool apart = A.load_since != nullptr;
+  const LoadInterval interval = load_interval(s, A, group);
+  const Pack loaded = apart ? moving * ((interval.since + interval.next) / s.kick) : moving;
+  const auto pushed = [&](int i) { return wrench[i] * inverse + loaded * (s.gravity[i] - s.ground[i]); };
   const Pack3 v1{kicked(v0.x, pushed(0)), kicked(v0.y, pushed(1)), kicked(v0.z, pushed(2))};
   const Pack3 L1{kicked(L0.x, moving * wrench[3]), kicked(L0.y, moving * wrench[4]), kicked(L0.z, moving * wrench[5])};
   const Mat3<Pack> t = rotation_of(load4(A.q[group].x)), back = transposed(t);
   const Pack3 p1 = back * L1;
-  if (damped || sample) book<damped, sample>(s, c, v0, v1, back * L0, p1, u0, work);
-  else book<damped, sample>(s, c, v0, v1, Pack3{}, Pack3{}, Pack3{}, work);
+  if (damped || sample) book<damped, sample>(s, c, interval, v0, v1, back * L0, p1, u0, apart, work);
+  else book<damped, sample>(s, c, interval, v0, v1, Pack3{}, Pack3{}, Pack3{}, apart, work);
   const Pack dt = s.dt * moving;
   store3(u, u0 + dt * v1);
   store3(v, v1);

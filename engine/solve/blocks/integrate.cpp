@@ -27,7 +27,6 @@ KickDrift kick_of(const Model& m, const State& s, const Excitation& e) {
   k.joints = joints_share(s.time);
   k.more =
       has_levels(s.time) ? (joints_act(s.time) && since + next > 0 ? 2 * since / (since + next) - 1 : 0) : 2 * k.half_last / k.kick - 1;
-  k.more_load = has_levels(s.time) ? s.time.last_dt - (1 + k.more) * k.kick : 0;
   k.damping = m.damping.mass;
   k.damping_explicit = m.damping_explicit;
   const double f = 0.5 * k.damping * k.kick;
@@ -56,7 +55,9 @@ BlockArrays arrays(const Model& m, State& s, const std::vector<BlockConstants>& 
           m.owner_schedule.gather_in.data(),
           s.cache.wrench.data(),
           external.contacts,
-          external.loads};
+          external.loads,
+          external.load_since,
+          external.load_next};
 }
 
 double power(const State& s, const double* loads, const LoadedBlock& l) {
@@ -78,7 +79,8 @@ void work_before(const Model& m, const State& s, const ExternalForces& external,
   for (LoadedBlock& l : loaded) {
     const Mat3 r = s.pose.q[z(l.block)].toRotationMatrix();
     l.inverse_inertia = r * m.inverse_inertia[z(l.block)] * r.transpose();
-    const double work = 0.5 * s.time.last_dt * power(s, external.loads, l);
+    const double since = external.load_since ? external.load_since[l.block] : s.time.last_dt;
+    const double work = 0.5 * since * power(s, external.loads, l);
     sums.external_work += work;
     sums.external_absolute += std::fabs(work);
   }
@@ -86,7 +88,8 @@ void work_before(const Model& m, const State& s, const ExternalForces& external,
 
 void work_after(const State& s, const ExternalForces& external, std::span<LoadedBlock> loaded, BlockSums& sums) {
   for (const LoadedBlock& l : loaded) {
-    const double work = 0.5 * s.time.dt * power(s, external.loads, l);
+    const double next = external.load_next ? external.load_next[l.block] : s.time.dt;
+    const double work = 0.5 * next * power(s, external.loads, l);
     sums.external_after += work;
     sums.external_absolute_after += std::fabs(work);
   }

@@ -49,6 +49,7 @@ void set_rotation_limits(const Model& model, const State& state, std::vector<Blo
 struct ExternalForces {
   const double *contacts = nullptr, *loads = nullptr;
   std::span<LoadedBlock> loaded = {};
+  const double *load_since = nullptr, *load_next = nullptr;  // as in `BlockArrays`
 };
 
 // Integrates groups of blocks: sums wrench rows and external forces, kicks by `e.kick`, drifts by `s.dt`. `sums`: one per chunk of

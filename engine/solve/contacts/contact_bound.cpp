@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/contact/law/impact_bound.h"
 #include "engine/model/levels.h"
@@ -79,6 +80,11 @@ double ContactBound::stable_dt() const {
 
 double ContactBound::limited_by_slip(double dt) const {
   return slip_omega2_ > 0 ? std::min(dt, max_slip_omega_dt / std::sqrt(slip_omega2_)) : dt;
+}
+
+double ContactBound::limited_by_slip(const ContactForces::Force& force) {
+  const double omega2 = force.result.slip_omega2;
+  return omega2 > 0 ? max_slip_omega_dt / std::sqrt(omega2) : std::numeric_limits<double>::infinity();
 }
 
 void ContactBound::bound_elsewhere() {

@@ -43,6 +43,11 @@ class ContactBound {
   double pair_dt(const ContactForces::Force& force, const MotionBounds::PairBound& pair) const {
     return pair_dt(pair, force.result.slip_omega2, force.result.event_rate, force.result.apart);
   }
+  double steady_dt(const ContactForces::Force& force, const MotionBounds::PairBound& pair) const {
+    return pair_dt(pair, force.result.slip_omega2, 0, -1);
+  }
+  bool on_stiff_block(const MotionBounds::PairBound& pair) const { return stiff_[std::size_t(pair.a)] || stiff_[std::size_t(pair.b)]; }
+  static double limited_by_slip(const ContactForces::Force& force);  // s; infinite if the patch does not slip
   double pair_dt(const ContactForces::SeparatedPair& one, const MotionBounds::PairBound& pair) const {
     return pair_dt(pair, 0, one.event_rate, one.apart);
   }

@@ -24,7 +24,8 @@ Contacts::Contacts(const Model& model, State& state, const StepRange& range, int
       former_(model, state, bodies_),
       forces_(state, bodies_, motion_, threads),
       sleep_(model, state),
-      bound_(model, state, range, bodies_, sleep_) {
+      bound_(model, state, range, bodies_, sleep_),
+      block_levels_(model, state) {
   PairList& list = state.contacts.list;
   if (list.start.empty()) {
     list.start.reserve(state.pose.u.size());
@@ -197,10 +198,7 @@ void Contacts::add_up(const ContactForces::ThreadPairs& found, double* contact_w
     const double thin = std::min(edge[a], edge[b]);
     if (r.depth > penetration * thin) penetration = std::max(penetration, r.depth / thin);
   }
-  for (const ContactForces::SeparatedPair& one : found.separated) {
-    bound_.add(one, motion_.pair(one.pair), former_.of_pair(one.pair));
-    if (kick) forces_.start_level(one.pair);
-  }
+  for (const ContactForces::SeparatedPair& one : found.separated) { bound_.add(one, motion_.pair(one.pair), former_.of_pair(one.pair)); }
   state_.energy.friction = friction, state_.energy.contact_damping = damping;
   state_.observed.max_penetration_relative = penetration;
   touching_ += touching;
@@ -237,12 +235,13 @@ void Contacts::gather(double* contact_wrench, double* kick, bool sample) {
   }
   start_rows(contact_wrench);
   for (const int b : sleep_.in_live_pairs()) count[z(b)] = rested ? sleep_.contacts(b) : 0;
-  if (kick) std::copy_n(contact_wrench, 8 * z(model_.nblock), kick);
+  if (kick) std::copy_n(contact_wrench, 8 * z(model_.nblock), kick), block_levels_.start(sleep_.live());
   bound_.begin();
   touching_ = sleep_.touching();
   kinetic_correction_ = 0;
   if (sample) elastic_ = sleep_.elastic();
   for (const ContactForces::ThreadPairs& found : forces_.results()) add_up(found, contact_wrench, kick, sample);
+  for (std::size_t k = 0; kick && k < sleep_.live().size(); ++k) forces_.start_level(sleep_.live()[k]);  // pairs without a force too
   for (const int b : sleep_.in_live_pairs())
     if (model_.kind[z(b)] != Kind::moving) count[z(b)] = 0;                         // no limit for dashpots on a fixed or driven block
     else if (state_.topology.joined[z(b)]) count[z(b)] += int(saturated_contacts);  // joints use up this block's share
@@ -251,6 +250,7 @@ void Contacts::gather(double* contact_wrench, double* kick, bool sample) {
 }
 
 void Contacts::gather_substep(double* kick) {
+  block_levels_.substep(sleep_.live(), relisted_);
   if (std::exchange(relisted_, false)) {  // after a resumption within a macro step
     if (sleep_.has_resting()) std::copy_n(sleep_.resting_wrench(0), 8 * z(model_.nblock), kick);
     else std::fill_n(kick, 8 * z(model_.nblock), 0.0);
@@ -268,63 +268,6 @@ void Contacts::gather_substep(double* kick) {
       double& penetration = state_.observed.max_penetration_relative;
       penetration = std::max(penetration, r.depth / std::min(edge[pair.a], edge[pair.b]));
     }
-}
-
-void Contacts::reset_levels() {
-  for (const int i : sleep_.live()) forces_.set_next_level(i, 0);
-}
-
-// m/s, upper bound of the speed of any two points of blocks a and b relative to each other.
-double Contacts::relative_speed(int a, int b) const {
-  return (bodies_.block[z(b)].v - bodies_.block[z(a)].v).norm() + motion_.spin(a) + motion_.spin(b);
-}
-
-// s, interval in which a patch that moves at this relative speed errs by the budget of an event (`event_bound.h`).
-double Contacts::accurate_dt(int i) const {
-  const ContactPair& pair = state_.contacts.list.pair[z(i)];
-  const double rate = relative_speed(pair.a, pair.b) * std::sqrt(event_share * pair.law.kn * pair.area / forces_.settings().event_budget);
-  return rate > 0 ? 1 / rate : std::numeric_limits<double>::infinity();
-}
-
-void Contacts::find_pair_steps() {
-  bound_.find_stiff_blocks(former_, sleep_);
-  pair_dt_.clear();
-  least_pair_dt_ = std::numeric_limits<double>::infinity();
-  for (const ContactForces::ThreadPairs& found : forces_.results()) {
-    for (const ContactForces::Force& one : found.forces) {
-      const double allowed = bound_.pair_dt(one, motion_.pair(one.pair));
-      least_pair_dt_ = std::min(least_pair_dt_, allowed);
-      pair_dt_.push_back({one.pair, std::min(allowed, accurate_dt(one.pair))});
-    }
-    // Separated pairs act in every step. They limit it once they may touch before the end of the next macro step, which is twice as long at
-    // most. Pairs farther apart may wait (`MotionBounds::waits`), and must not count for that reason either.
-    for (const ContactForces::SeparatedPair& one : found.separated) {
-      const MotionBounds::PairBound& pair = motion_.pair(one.pair);
-      const double way = 3 * macro_dt(state_.time) * relative_speed(pair.a, pair.b);
-      if (one.apart <= way) least_pair_dt_ = std::min(least_pair_dt_, bound_.pair_dt(one, pair));
-    }
-  }
-}
-
-int Contacts::level_of(double allowed, double dt, int most) {
-  constexpr double margin = 0.95;  // as in `Solver::next_dt`
-  int level = 0;
-  while (level < most && margin * allowed >= (2 << level) * dt) ++level;
-  return level;
-}
-
-int Contacts::choose_levels(double dt, int most) {
-  while (most > 0 && motion_.fastest_pair() * (1 << most) * dt > 0.2 * state_.contacts.list.margin) --most;
-  for (const int i : sleep_.live())
-    if (forces_.level(i) > 0) forces_.set_next_level(i, 0);  // separated pairs that were not evaluated
-  int highest = 0;
-  for (const auto& [pair, allowed] : pair_dt_) {
-    const int level =
-        std::min(level_of(allowed, dt, most), forces_.level(pair) + 1);  // the dashpots of this step are limited by its interval
-    forces_.set_next_level(pair, level);
-    highest = std::max(highest, level);
-  }
-  return highest;
 }
 
 void Contacts::soften_former_joints(double most, bool find) {

@@ -8,6 +8,7 @@
 #include "engine/joints/cracked/cracked.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
+#include "engine/solve/contacts/block_levels.h"
 #include "engine/solve/contacts/bodies.h"
 #include "engine/solve/contacts/contact_bound.h"
 #include "engine/solve/contacts/contact_forces.h"
@@ -37,10 +38,13 @@ class Contacts {
   // Intervals that pairs allow, from the evaluation at the start of this macro step; then the least one, and that of joints (s).
   void find_pair_steps();
   double least_pair_dt() const { return least_pair_dt_; }
-  double joints_dt() const { return bound_.joints_dt(); }
+  double joints_dt() const { return joints_dt_; }
+  // True if no pair with a shorter interval would err by more than the tolerance of events, were it to act once in `dt` (s).
+  bool may_act_every(double dt) const;
   // Chooses the levels of all pairs for the next macro step of steps `dt` (s), at most `most`. Returns the highest one.
   int choose_levels(double dt, int most);
-  void reset_levels();  // all pairs act in the next step again
+  void reset_levels();                                               // all pairs act in the next step again
+  const BlockLevels& block_levels() const { return block_levels_; }  // of loads
   // J, of the sample: kinetic energy is that of the last interval of each pair, the kick may be for another one.
   double kinetic_correction() const { return kinetic_correction_; }
   bool joints_are_ready(const Cracked& cracked) const { return !cracked.none_ready_for_contact() && !ready_joints(cracked).empty(); }
@@ -72,7 +76,9 @@ class Contacts {
   void add_up(const ContactForces::ThreadPairs& found, double* contact_wrench, double* kick, bool sample);
   double relative_speed(int a, int b) const;
   double accurate_dt(int i) const;
-  static int level_of(double allowed, double dt, int most);
+  bool strikes(int i) const;
+  std::vector<double> steady_dt_of_heaps() const;
+  static int level_of(double allowed, double dt, int most, int now);
   void add_kick(const ContactForces::Force& force, double* kick, bool sample);
   void start_rows(double* rows) const;
   std::vector<int> ready_joints(const Cracked& cracked) const;
@@ -85,13 +91,19 @@ class Contacts {
   ContactForces forces_;
   Sleep sleep_;
   ContactBound bound_;
+  BlockLevels block_levels_;
   std::vector<int> involved_;           // blocks that are loose or listed in a pair
   std::vector<std::uint64_t> jointed_;  // pairs of blocks that still have a joint, sorted
   std::vector<std::uint8_t> still_;     // sleepers with the pose of the last search [nblock]; empty without sleepers
   bool relisted_ = true, unsorted_ = true;
   double elastic_ = 0, kinetic_correction_ = 0;
-  std::vector<std::pair<int, double>> pair_dt_;  // s, interval that each evaluated pair allows
-  double least_pair_dt_ = 0;
+  // Interval that each evaluated pair allows, and the energy by which a longer one errs over its square.
+  struct PairStep {
+    int pair;
+    double allowed, steady, change;  // s; s, without events; J/s2
+  };
+  std::vector<PairStep> pair_dt_;
+  double least_pair_dt_ = 0, joints_dt_ = 0;
   int touching_ = 0;
   long touched_ = 0;
 };
