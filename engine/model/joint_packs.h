@@ -7,6 +7,8 @@
 
 namespace erbs {
 
+inline constexpr int cracked_chunk = 8;  // packs of cracked joints that one thread works on at a time
+
 // Chooses the owner of each joint, Joint::owned_by_b. A group of eight blocks evaluates its joints in rounds: the first joint of each
 // block, then the second. It needs as many rounds as its busiest block owns joints. Few rounds in total mean few empty lanes.
 void choose_owners(Model& model);

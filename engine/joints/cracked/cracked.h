@@ -9,6 +9,7 @@
 
 #include "engine/joints/joint_forces.h"
 #include "engine/joints/kernels.h"
+#include "engine/model/joint_packs.h"
 
 namespace erbs {
 
@@ -22,7 +23,7 @@ class Cracked {
   double* poses() { return pose_.empty() ? nullptr : pose_.data(); }
   void copy_pose(int b);
   // Groups per chunk.
-  static constexpr int grain = 8;
+  static constexpr int grain = cracked_chunk;
   // Writes the wrench rows of groups [first, last); fills `sums.energy.elastic` if `sample`. `budget`: J, for `event_bound.h`.
   void forces(int first, int last, bool sample, double budget, JointSums& sums, const StepKernels& kernels = step_kernels());
   void store();
