@@ -105,7 +105,7 @@ void damped_joint_forces(const Model& m, State& s, const std::vector<JointPack>&
   if (sample) sums.energy.elastic = 0;
   for (int k = first; k < last; ++k) {
     const JointPack& B = pack[z(k)];
-    if (std::all_of(B.wrench_row_a, B.wrench_row_a + pack_size, [&](int row) { return row == m.spare_wrench_row(); }))
+    if (std::all_of(B.wrench_row_a, B.wrench_row_a + pack_size, [&](int row) { return row >= m.spare_wrench_row(); }))
       continue;  // all have cracked
     kernels.elastic(B, s.cache.pose_row.data(), o);
     unsigned may_yield = 0;

@@ -22,7 +22,6 @@ struct JointSums {
 void joint_by_points(const Model& model, State& state, int j, const double gap[6], double resultant[6], JointSums& sums,
                      const JointPack* pack = nullptr, int lane = 0);
 
-inline constexpr int pack_grain = 8;  // packs, or joints of the reference kernel, per chunk
 // Intact joints with dashpots: writes the wrench rows of packs [first, last) of `pack`, as `intact.h` does for joints without dashpots.
 void damped_joint_forces(const Model& model, State& state, const std::vector<JointPack>& pack, int first, int last, bool sample,
                          JointSums& sums);

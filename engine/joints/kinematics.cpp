@@ -94,7 +94,10 @@ JointPack intact_pack(const Model& m, const State& s, int k) {
     const int j = k * pack_size + l;
     joints[l] = j < m.njoint && s.joints.slot[z(j)] == j ? j : -1;
   }
-  return pack_of(m, s, joints);
+  JointPack pack = pack_of(m, s, joints);
+  for (int l = 0; l < pack_size; ++l)
+    if (joints[l] < 0) pack.wrench_row_a[l] = pack.wrench_row_b[l] = spare_row_of_intact(m, k);
+  return pack;
 }
 
 void update_all_references(const Model& m, State& s) {

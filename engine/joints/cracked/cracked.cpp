@@ -248,8 +248,7 @@ void Cracked::copy_ends(const Group& group, int l) {
   const JointPack& from = state_.joints.pack[z(group.pack)];
   CrackedPack& to = memory_of(group);
   to.a[l] = from.a[l], to.b[l] = from.b[l], to.wrench_row_a[l] = from.wrench_row_a[l], to.wrench_row_b[l] = from.wrench_row_b[l];
-  // An empty lane writes too: to a spare row of its chunk, since threads work on several chunks at a time.
-  if (group.joint[l] < 0) to.wrench_row_a[l] = to.wrench_row_b[l] = model_.spare_wrench_row() + 1 + int(&group - group_.data()) / grain;
+  if (group.joint[l] < 0) to.wrench_row_a[l] = to.wrench_row_b[l] = spare_row_of_cracked(model_, int(&group - group_.data()));
   for (int i = 0; i < 3; ++i) to.arm_a[i][l] = from.arm_a[i][l], to.arm_b[i][l] = from.arm_b[i][l];
 }
 

@@ -128,7 +128,7 @@ void IntactJoints::set_pack(int k) {
 }
 
 void IntactJoints::leave(int j) {
-  if (!damped_.empty()) clear_lane(model_, damped_[z(j / pack_size)], j % pack_size);
+  if (!damped_.empty()) damped_[z(j / pack_size)] = intact_pack(model_, state_, j / pack_size);
   if (pack_.empty()) return;
   const int lane = model_.owner_schedule.lane[z(j)], k = lane / pack_size;
   checked_[z(k)].reset();

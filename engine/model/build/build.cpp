@@ -213,8 +213,7 @@ State start(const Scene& scene, const Model& m) {
   s.joints.history.clear(z(m.npoint));
   if (std::any_of(m.laws.begin(), m.laws.end(), [](const PointLaw& law) { return law.crushes(); })) s.joints.crushed.clear(z(m.njoint));
   if (m.dashpots_cracked) s.joints.viscous.assign(6 * z(m.njoint), 0.0);
-  const int chunks = m.njoint / cracked_chunk + 1;  // of cracked joints at most, each with a spare row of its own
-  s.cache.wrench.assign(z(m.spare_wrench_row() + chunks) + 1, 0.0);
+  s.cache.wrench.assign(z(spare_row_of_intact(m, intact_packs(m))) + 1, 0.0);
   s.cache.owner_sum.assign(block_groups(m.nblock), {});
   s.cache.neighbour_force.assign(m.owner_schedule.other.size() + 1, {});
   return s;
