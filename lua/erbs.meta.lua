@@ -196,6 +196,8 @@ function dry(keys) end
 ---@field us_ultimate? number slip at which cohesion is lost (default from Gf2) [m; 0 to 1]
 ---@field fc? number compressive strength, a plateau (0: unlimited) [Pa; 0 to 1e+10; default 0]
 ---@field uc_ultimate? number closing at which the mortar is crushed and its bond lost (0: never) [m; 0 to 1; default 0]
+---@field kn_cracked? number normal stiffness once no bond is left and the bed bears by its asperities; it fades to this value within some 0.03 s (default kn) [Pa/m; 0 to 1e+16]
+---@field ks_cracked? number shear stiffness once no bond is left (default kn_cracked ks / kn) [Pa/m; 0 to 1e+16]
 ---@field damping? number viscous ratio of the cracked joint, relative to its critical value [0 to 1; default 0]
 ---@field coupling? "coulomb"|"linear"|"ellipse" tension-shear coupling: coulomb, linear or ellipse [default coulomb]
 

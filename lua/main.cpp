@@ -136,6 +136,7 @@ void add_run(CLI::App& app, RunCommand& command) {
   run.add_option("--without", changes.without, "run without an effect of the scene, by its name in erbs check")
       ->type_name("EFFECT")
       ->take_all();
+  run.add_flag("--profile", command.profile, "print where the time went, and what kept the steps short");
   run.add_flag("--log-json", command.log_json, "print progress as lines of JSON");
   run.add_flag("--fail-on-collapse", command.fail_on_collapse, "exit with 4 when the structure collapses");
 }

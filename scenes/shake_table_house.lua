@@ -26,6 +26,7 @@ local c = param("c", 0.30 * MPa, "cohesion of the bed, assumed: 1.5 ft [Pa]")
 local mu = param("mu", 0.6, "friction of the bed, assumed, before and after failure")
 local Gf1 = param("Gf1", 10, "fracture energy in tension, assumed; 0 is brittle: one crack then runs through the whole house at 0.4 g [J/m2]")
 local Gf2 = param("Gf2", 100, "fracture energy in shear, assumed ten times that in tension [J/m2]")
+local kn_cracked = param("kn_cracked", 0, "normal stiffness of beds without bond; 0: as with bond [Pa/m]")
 -- Bricks are rigid and the mortar of the source is stiff: the first mode along x is at 123.5 Hz (measured by a short pulse), ten times
 -- that of a real house. 5 % of critical damping at 10 Hz is 0.4 % there; 5 % there would be 78 1/s and would brake all rocking.
 local damping_ratio = param("damping_ratio", 0.05, "share of critical damping, assumed: usual for masonry")
@@ -73,7 +74,7 @@ local house = building {
 -- The tolerance includes the head joints of 6 and 6.25 mm; they get the stiffness of 5 mm.
 joint {
   name = "mortar",
-  law = mortar { E = 1.07e10 * Pa, nu = 0.2, thickness = t, ft = ft, c = c, mu = mu, Gf1 = Gf1, Gf2 = Gf2 },
+  law = mortar { E = 1.07e10 * Pa, nu = 0.2, thickness = t, ft = ft, c = c, mu = mu, Gf1 = Gf1, Gf2 = Gf2, kn_cracked = kn_cracked },
   thickness = t,
   tolerance = 1.5 * mm,
 }

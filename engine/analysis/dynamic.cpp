@@ -60,6 +60,7 @@ class Run {
   void watch(const BlockVec3& built);
   void record(const Snapshot& now);
   bool stop();
+  void take_counts();
   void change_threads();
   Snapshot snapshot() const;
   int broken_joints() const;
@@ -81,6 +82,7 @@ class Run {
   std::optional<Solver> solver_;
   std::optional<Crew> crew_;
   long touched_ = 0, slept_ = 0;
+  double searched_ = 0, solved_ = 0;  // s
   std::optional<RunWriter> writer_;
   RunOutcome out_;
   double dt_at_start_ = 0;
@@ -259,7 +261,7 @@ bool Run::stop() {
   if (options_.progress && now - last_progress_ > 0.1) {
     last_progress_ = now;
     options_.progress({run_.state.time.t, scene_.analysis.duration, now - solve_start_, run_.state.time.step - steps_at_start_,
-                       run_.state.observed.joints_broken, e.residual_relative});
+                       run_.state.observed.joints_broken, e.residual_relative, run_.state.time.dt, text(solver_->limit(), run_.model)});
   }
   const double sampled_t = run_.state.time.t - run_.state.time.last_dt;
   if (sampled_t >= scene_.analysis.duration - 0.5 * run_.state.time.dt) return true;
@@ -293,7 +295,11 @@ Metrics Run::metrics() const {
   m.wall_s.total = seconds() - born_;
   m.wall_s.setup = setup_;
   m.wall_s.record = record_;
-  m.wall_s.solve = seconds() - solve_start_ - record_;
+  m.wall_s.solve = solved_;
+  m.wall_s.search = searched_;
+  const auto phase = out_.profile.seconds(solved_ - searched_);
+  m.wall_s.contact = phase[std::size_t(Phase::contact)], m.wall_s.joints = phase[std::size_t(Phase::joints)];
+  m.wall_s.integrate = phase[std::size_t(Phase::integrate)], m.wall_s.ledger = phase[std::size_t(Phase::ledger)];
   m.simulated_s = m.time_s - started_at_;
   m.point_updates = std::uint64_t(s.time.step - steps_at_start_) * std::uint64_t(run_.model.npoint);
   m.peak_memory_bytes = peak_memory_bytes();
@@ -327,11 +333,18 @@ void Run::judge() {
   writer_->log(fmt::format("status {}; {}", status, ledger_line(so_far())));
 }
 
+// Of the present Solver, before it ends.
+void Run::take_counts() {
+  touched_ += solver_->contacts().touched(), slept_ += solver_->contacts().slept();
+  searched_ += solver_->contacts().searched();
+  out_.profile += solver_->profile();
+}
+
 // The run continues from its state, as a resumed run does.
 void Run::change_threads() {
   const double began = seconds();
   take_events(output_.joints, *solver_);
-  touched_ += solver_->contacts().touched(), slept_ += solver_->contacts().slept();
+  take_counts();
   solver_.emplace(run_.model, run_.state, run_.range, crew_->threads());
   crew_->took(seconds() - began);
 }
@@ -355,8 +368,9 @@ void Run::step_on() {
 RunOutcome Run::go() {
   begin();
   step_on();
+  solved_ = seconds() - solve_start_ - record_;
   if (solver_->broken()) out_.metrics.status = "diverged";
-  touched_ += solver_->contacts().touched(), slept_ += solver_->contacts().slept();
+  take_counts();
   judge();
   const std::string& status = out_.metrics.status;
   if (!out_.trouble.empty()) writer_->log(out_.trouble);
@@ -373,6 +387,7 @@ RunOutcome Run::go() {
   if (status == "stopped" || status == "interrupted") save();
   else write_last_events(output_.joints, run_.state.time.t - run_.state.time.last_dt, run_.model, run_.state.energy, *writer_);
   solver_.reset();
+  out_.limits = limit_lines(out_.profile, run_.model);
   out_.metrics = metrics();
   writer_->log(diagnostics_line(out_.metrics.diagnostics));
   if (output_.joints.first_crack >= 0) writer_->log(fmt::format("first crack at t = {:.6g} s", output_.joints.first_crack));

@@ -9,6 +9,7 @@
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/results/metrics.h"
 #include "engine/scene/scene.h"
+#include "engine/solve/profile.h"
 
 namespace erbs::analysis {
 
@@ -17,7 +18,9 @@ struct Progress {
   double wall = 0;             // s, of stepping until now
   long steps = 0;              // steps of this call
   int joints_broken = 0;
-  double residual = 0;  // relative, of the energy ledger
+  double residual = 0;     // relative, of the energy ledger
+  double dt = 0;           // s, of the present step
+  std::string limited_by;  // what keeps it from being longer
 };
 
 struct RunOptions {
@@ -37,7 +40,9 @@ struct RunOptions {
 
 struct RunOutcome {
   Metrics metrics;
-  std::string trouble;  // error in the numbers: its place and the setting that cures it
+  Profile profile;
+  std::vector<std::string> limits;  // what limited the step, most frequent first: "87 % contacts of south.c03.b04"
+  std::string trouble;              // error in the numbers: its place and the setting that cures it
   std::vector<std::string> warnings;
   std::shared_ptr<const FolderLock> lock;  // while it is held, no other run writes to the folder
 };

@@ -68,6 +68,7 @@ struct alignas(64) CrackedPack {
   int a[pack_size], b[pack_size], wrench_row_a[pack_size], wrench_row_b[pack_size];
   double arm_a[3][pack_size], arm_b[3][pack_size];  // m, from the centroids to the joint, world, at rest
   double viscous[pack_size];                        // s, coefficient b of the dashpots; 0 in empty lanes
+  double share_n[pack_size], share_s[pack_size];    // of the stiffness of the intact joint (fading.h)
   double gap[6][pack_size];                         // at the last step, like `resultant` and `stored`
   MeanSlipPack mean_slip;
   double resultant[6][pack_size], stored[pack_size];

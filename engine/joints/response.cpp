@@ -60,12 +60,13 @@ Positive positive_part(const Eigen::Vector2d* corner, int corners, const double*
 
 // The no-tension integral over the overlap polygon: N = kn Int max(-g, 0) dA, its first moments and its energy.
 Pressed compression(const Model& m, const Joint& joint, const double* gap, double kn) {
+  const double share = kn / m.laws[std::size_t(joint.type->law)].kn;
   // open everywhere: no force; closed everywhere: a linear pressure about the centroid
   const double reach = std::fabs(gap[3]) * joint.type->half_t + std::fabs(gap[4]) * joint.type->half_s;
   if (gap[2] - reach >= 0) return {};
   if (gap[2] + reach < 0) {
-    const Pressed c{-joint.type->stiffness[2] * gap[2], joint.type->face[1] * gap[4] - joint.type->face[2] * gap[3],
-                    joint.type->face[2] * gap[4] - joint.type->face[0] * gap[3], 0};
+    const Pressed c{share * (-joint.type->stiffness[2] * gap[2]), share * (joint.type->face[1] * gap[4] - joint.type->face[2] * gap[3]),
+                    share * (joint.type->face[2] * gap[4] - joint.type->face[0] * gap[3]), 0};
     return {c.force, c.s, c.t, 0.5 * (c.s * gap[4] - c.force * gap[2] - c.t * gap[3])};
   }
   const Positive p = positive_part(&m.overlap_corner[std::size_t(joint.type->first_corner)], joint.type->corners, gap, -1);
@@ -78,7 +79,7 @@ std::array<double, 3> gap_plane(const double* gap) { return {gap[2], -gap[4], ga
 // The same for a face that may have been crushed.
 Pressed compression(const Model& m, const Joint& joint, const CrushedFace* crushed, const double* gap, double kn) {
   if (crushed == nullptr || crushed->planes == 0) return compression(m, joint, gap, kn);
-  return pressed(compression_face(m, joint), *crushed, gap_plane(gap).data());
+  return pressed(compression_face(m, joint, kn), *crushed, gap_plane(gap).data());
 }
 
 // Tension of the cell of point i at unit stiffness: Int max(g, 0) dA and its first moments. The cells of undamaged points and the
@@ -91,6 +92,12 @@ Pull pull_of(const Model& m, int i, const double* gap) {
   const Cell& cell = m.cell[std::size_t(i)];
   const Positive p = positive_part(&m.cell_loop[std::size_t(cell.first)], cell.corners, gap, 1);
   return {p.p, p.s, p.t};
+}
+
+PointLaw law_of(const Model& m, const Joint& joint, const JointPast& past) {
+  PointLaw law = m.laws[std::size_t(joint.type->law)];
+  law.kn *= past.share.n, law.ks *= past.share.s;
+  return law;
 }
 
 double work_of(const Pull& p, const double* gap) { return p.n * gap[2] + p.t * gap[3] - p.s * gap[4]; }
@@ -151,8 +158,15 @@ bool stays_intact(const Model& m, const Joint& joint, const double* gap) {
 }
 
 JointPast past_of(const Model& m, State& s, int j) {
-  return {&s.joints.history[std::size_t(m.joint[std::size_t(j)].first_point)],
-          s.joints.crushed.empty() ? nullptr : &s.joints.crushed[std::size_t(j)]};
+  JointPast past(&s.joints.history[std::size_t(m.joint[std::size_t(j)].first_point)],
+                 s.joints.crushed.empty() ? nullptr : &s.joints.crushed[std::size_t(j)]);
+  past.share = stiffness_share(s, j);
+  return past;
+}
+
+double stored_in_compression(const Model& m, const Joint& joint, const JointPast& past, const double* gap) {
+  const PointLaw law = law_of(m, joint, past);
+  return compression(m, joint, law.crushes() ? past.crushed : nullptr, gap, law.kn).energy;
 }
 
 double asperity_lift(const PointLaw& law, const JointMemory& memory) {
@@ -203,20 +217,20 @@ bool may_release(const Joint& joint, const PointLaw& law, const JointMemory& mem
   return released > 0;
 }
 
-CompressionFace compression_face(const Model& m, const Joint& joint) {
-  const PointLaw& law = m.laws[std::size_t(joint.type->law)];
-  return {law.kn, law.fc / law.kn, joint.type->corners, m.overlap_corner[std::size_t(joint.type->first_corner)].data()};
+CompressionFace compression_face(const Model& m, const Joint& joint, double kn) {
+  return {kn, m.laws[std::size_t(joint.type->law)].fc / kn, joint.type->corners,
+          m.overlap_corner[std::size_t(joint.type->first_corner)].data()};
 }
 
 namespace {
 
 // Friction needs the pressure at the points: the force of the closed-form integral is distributed by the depths of the points. If no point
 // is pressed, the deepest one receives all of it.
-void distribute_pressure(const Model& m, const Joint& joint, const CrushedFace* crushed, const double* gap, double force,
+void distribute_pressure(const Model& m, const Joint& joint, const CrushedFace* crushed, const double* gap, double kn, double force,
                          double* at_points) {
   const Point* point = &m.point[std::size_t(joint.type->first_cell)];
   const bool flattened = crushed != nullptr && crushed->planes > 0;
-  const CompressionFace face = compression_face(m, joint);
+  const CompressionFace face = compression_face(m, joint, kn);
   double share = 0, least = 0;
   int deepest = 0;
   for (int i = 0; i < joint.type->points; ++i) {
@@ -267,7 +281,7 @@ Interlock contact_interlock(const Model& m, const State& s) {
 bool respond(const Model& m, int j, bool intact, const double* gap_before, const double* gap, JointPast past, double* resultant,
              JointEnergy& energy, double* shear_limit) {
   const Joint& joint = m.joint[std::size_t(j)];
-  const PointLaw& law = m.laws[std::size_t(joint.type->law)];
+  const PointLaw law = law_of(m, joint, past);
   if (intact && stays_intact(m, joint, gap)) {
     for (int i = 0; i < 6; ++i) {
       resultant[i] = joint.type->stiffness[i] * gap[i];
@@ -278,7 +292,7 @@ bool respond(const Model& m, int j, bool intact, const double* gap_before, const
   const Point* point = &m.point[std::size_t(joint.type->first_cell)];
   std::array<double, most_points_per_joint> pressure;  // N, compressive force of each point
   if (law.crushes())
-    energy.crushing += crush(compression_face(m, joint), *past.crushed, gap_plane(gap_before).data(), gap_plane(gap).data());
+    energy.crushing += crush(compression_face(m, joint, law.kn), *past.crushed, gap_plane(gap_before).data(), gap_plane(gap).data());
   const CrushedFace* crushed = law.crushes() ? past.crushed : nullptr;
   const Pressed closed = compression(m, joint, crushed, gap, law.kn);
   resultant[0] = resultant[1] = resultant[5] = 0;
@@ -287,7 +301,7 @@ bool respond(const Model& m, int j, bool intact, const double* gap_before, const
   resultant[4] = closed.s;
   energy.elastic += closed.energy;
   if (intact) energy.fracture += change_of_form(joint, gap_before, gap);
-  distribute_pressure(m, joint, crushed, gap, closed.force, pressure.data());
+  distribute_pressure(m, joint, crushed, gap, law.kn, closed.force, pressure.data());
   apply_interlock(m, joint, gap_before, gap, past, pressure.data());
   for (int i = 0; i < joint.type->points; ++i) {
     PointHistory& h = past.point[i];
@@ -327,7 +341,7 @@ bool respond(const Model& m, int j, bool intact, const double* gap_before, const
 void viscous_response(const Model& m, int j, const double* gap_before, const double* gap, const PointHistory* before, JointPast after,
                       const double* shear_limit, double rate, double* resultant) {
   const Joint& joint = m.joint[std::size_t(j)];
-  const PointLaw& law = m.laws[std::size_t(joint.type->law)];
+  const PointLaw law = law_of(m, joint, after);
   for (int i = 0; i < 6; ++i) resultant[i] = 0;
   for (int i = 0; i < joint.type->points; ++i) {
     const Point& point = m.point[std::size_t(joint.type->first_cell + i)];

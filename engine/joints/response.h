@@ -18,14 +18,16 @@ struct JointPast {
   PointHistory* point;   // [points]
   CrushedFace* crushed;  // null without a plateau in compression
   Interlock interlock;   // default: no interlock
+  StiffnessShare share;
 };
 JointPast past_of(const Model& model, State& state, int j);
 
 Interlock interlock_now(const Model& model, const State& state);      // of the step that led to the present pose
 Interlock contact_interlock(const Model& model, const State& state);  // the same for contacts, updated in every step; `slow` in m2/s2
 
-// The face of a joint, as its compression law needs it.
-CompressionFace compression_face(const Model& model, const Joint& joint);
+// The face of a joint with the normal stiffness kn (Pa/m), as its compression law needs it.
+CompressionFace compression_face(const Model& model, const Joint& joint, double kn);
+double stored_in_compression(const Model& model, const Joint& joint, const JointPast& past, const double* gap);  // J, of a cracked joint
 
 // Relative displacement q of a joint in its frame: (s, t, n) in m, then the rotation vector about (s, t, n) in rad. Resultant f on block a
 // (N, N m, about the joint's centre), tension positive; block b receives -f. Returns true while the joint is intact: no point has a history

@@ -44,6 +44,8 @@ struct Mortar {
   double us_ultimate = 0;            // m, slip at zero cohesion; 0: from Gf2
   double fc = 0;                     // Pa, compression plateau; 0: none (elastic, unlimited)
   double uc_ultimate = 0;            // m, closing at which the mortar is crushed and its bond lost; 0: never
+  double kn_cracked = 0;             // Pa/m, once the bond is gone; 0: kn
+  double ks_cracked = 0;             // Pa/m, likewise; 0: in the ratio of ks to kn
   double damping = 0;                // of critical, once the joint has cracked; before that damping{} applies
   std::string coupling = "coulomb";  // coulomb | linear | ellipse
 
@@ -69,6 +71,11 @@ struct Mortar {
         {"us_ultimate", &Mortar::us_ultimate, "m", "slip at which cohesion is lost (default from Gf2)", 0, 1},
         {"fc", &Mortar::fc, "Pa", "compressive strength, a plateau (0: unlimited)", 0, 1e10},
         {"uc_ultimate", &Mortar::uc_ultimate, "m", "closing at which the mortar is crushed and its bond lost (0: never)", 0, 1},
+        {"kn_cracked", &Mortar::kn_cracked, "Pa/m",
+         "normal stiffness once no bond is left and the bed bears by its asperities; it fades to this value within some 0.03 s (default "
+         "kn)",
+         0, 1e16},
+        {"ks_cracked", &Mortar::ks_cracked, "Pa/m", "shear stiffness once no bond is left (default kn_cracked ks / kn)", 0, 1e16},
         {"damping", &Mortar::damping, "", "viscous ratio of the cracked joint, relative to its critical value", 0, 1},
         {"coupling", &Mortar::coupling, "", "tension-shear coupling: coulomb, linear or ellipse", 0, 0, false, "coulomb|linear|ellipse"},
     };
@@ -90,6 +97,17 @@ struct Mortar {
       out.push_back("the mortar has no normal stiffness; give kn, or E and the thickness of the bed");
     if (ks == 0 && (thickness == 0 || (G == 0 && E == 0)) && (kn == 0 || E == 0))
       out.push_back("the mortar has no shear stiffness; give ks, or G or E and the thickness of the bed");
+    if (out.empty()) {
+      const PointLaw p = compile();
+      const auto too_stiff = [&](const char* name, double of, double intact) {
+        if (of > intact * (1 + 1e-12))
+          out.push_back(
+              fmt::format("{}_cracked = {:g} Pa/m lies above {} = {:g} Pa/m: a bed is no stiffer without its bond; lower it, "
+                          "or leave it out",
+                          name, of, name, intact));
+      };
+      too_stiff("kn", kn_cracked, p.kn), too_stiff("ks", ks_cracked, p.ks);
+    }
     if (mu_residual != -1 && mu_residual < 0) out.push_back("mu_residual is negative; leave it out for mu, or give 0 and more");
     return out;
   }
@@ -115,6 +133,10 @@ struct Mortar {
     p.fc = fc;
     p.closing_ultimate = uc_ultimate;
     p.damping = damping;
+    if (kn_cracked > 0 || ks_cracked > 0) {
+      p.kn_debonded = kn_cracked > 0 ? kn_cracked : p.kn;
+      p.ks_debonded = ks_cracked > 0 ? ks_cracked : p.ks * p.kn_debonded / p.kn;
+    }
     p.dry = p.ft == 0 && p.c == 0;
     return p;
   }
@@ -123,7 +145,9 @@ struct Mortar {
              [](Mortar& m) { m.Gf1 = m.un_ultimate = 0; }},
             {"softening in shear", [](const Mortar& m) { return m.Gf2 > 0 || m.us_ultimate > 0; },
              [](Mortar& m) { m.Gf2 = m.us_ultimate = 0; }},
-            {"compression plateau", [](const Mortar& m) { return m.fc > 0; }, [](Mortar& m) { m.fc = m.uc_ultimate = 0; }}};
+            {"compression plateau", [](const Mortar& m) { return m.fc > 0; }, [](Mortar& m) { m.fc = m.uc_ultimate = 0; }},
+            {"softer beds without bond", [](const Mortar& m) { return m.kn_cracked > 0 || m.ks_cracked > 0; },
+             [](Mortar& m) { m.kn_cracked = m.ks_cracked = 0; }}};
   }
   std::vector<std::pair<const char*, double>> strengths() const { return {{"ft", ft}, {"c", c}, {"fc", fc}}; }  // Pa
   std::vector<std::string> warnings() const {

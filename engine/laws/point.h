@@ -8,13 +8,14 @@ struct PointLaw {
   double kn = 0, ks = 0;  // Pa/m
   double ft = 0, c = 0;   // Pa
   double mu = 0, mu_residual = 0;
-  double opening_peak = 0;      // m, ft / kn
-  double opening_ultimate = 0;  // m, opening at zero tensile strength; = opening_peak if brittle
-  double slip_ultimate = 0;     // m, plastic slip at zero cohesion; 0: brittle
-  double fc = 0;                // Pa; 0: unlimited
-  double closing_ultimate = 0;  // m, closing at which the bond is lost; 0: never
-  double damping = 0;           // viscous ratio of a cracked joint, of its own critical value
-  bool interlock = true;        // interlock.h
+  double opening_peak = 0;                  // m, ft / kn
+  double opening_ultimate = 0;              // m, opening at zero tensile strength; = opening_peak if brittle
+  double slip_ultimate = 0;                 // m, plastic slip at zero cohesion; 0: brittle
+  double fc = 0;                            // Pa; 0: unlimited
+  double closing_ultimate = 0;              // m, closing at which the bond is lost; 0: never
+  double kn_debonded = 0, ks_debonded = 0;  // Pa/m, once no bond is left; 0: as before (joints/cracked/fading.h)
+  double damping = 0;                       // viscous ratio of a cracked joint, of its own critical value
+  bool interlock = true;                    // interlock.h
   Coupling coupling = Coupling::coulomb;
   bool dry = false;        // no bond from the start
   int type = 0;            // of `Laws` (laws.h)
@@ -23,6 +24,7 @@ struct PointLaw {
 
   bool has_bond() const { return !dry; }
   double mu_debonded() const { return dry ? mu : mu_residual; }
+  bool fades() const { return kn_debonded > 0; }
   bool crushes() const { return fc > 0; }  // has a plateau in compression
 };
 

@@ -90,15 +90,21 @@ struct Topology {
   std::vector<std::uint8_t> loose;     // the block may meet new neighbours
 };
 
+// Stiffness of a joint now over that of the intact joint, across its faces and along them.
+struct StiffnessShare {
+  double n = 1, s = 1;
+};
+
 struct JointState {
   std::vector<JointPack> pack;  // batches of cracked joints (joint_packs.h)
   // lane of each joint: batch * lanes + lane, counting the batches of intact joints first; -1 once released to contact [njoint]
   std::vector<int> slot;
-  std::vector<JointStage> stage;    // [njoint]
-  LazyArray<JointMemory> memory;    // [njoint]
-  LazyArray<PointHistory> history;  // [npoint]
-  LazyArray<CrushedFace> crushed;   // [njoint]; empty if no law has a compression plateau
-  std::vector<double> viscous;      // N, N m, dashpot resultants of the last step [6 njoint]; empty without dashpots
+  std::vector<JointStage> stage;      // [njoint]
+  LazyArray<JointMemory> memory;      // [njoint]
+  LazyArray<PointHistory> history;    // [npoint]
+  LazyArray<CrushedFace> crushed;     // [njoint]; empty if no law has a compression plateau
+  std::vector<StiffnessShare> share;  // of the intact stiffness that is left (joints/cracked/fading.h) [njoint]; empty where no law fades
+  std::vector<double> viscous;        // N, N m, dashpot resultants of the last step [6 njoint]; empty without dashpots
 };
 
 struct ContactState {
@@ -144,5 +150,9 @@ struct State {
   TiltedGravity tilt;
   Observed observed;
 };
+
+inline StiffnessShare stiffness_share(const State& state, int joint) {
+  return state.joints.share.empty() ? StiffnessShare{} : state.joints.share[std::size_t(joint)];
+}
 
 }  // namespace erbs

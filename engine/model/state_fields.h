@@ -20,7 +20,7 @@ void each(S& state, F&& f) {
   auto& [u, q] = pose;
   auto& [v, spin_momentum, w] = motion;
   auto& [island, grounded, joined, unjoined, loose] = topology;
-  auto& [pack, slot, stage, memory, history, crushed, viscous] = joints;
+  auto& [pack, slot, stage, memory, history, crushed, share, viscous] = joints;
   auto& [list, separation] = contacts;
   auto& [ref_u, ref_q, increment, pose_row, wrench, owner_sum, neighbour_force] = cache;
   auto& [gravity_before, moment_before] = tilt;
@@ -51,6 +51,7 @@ void each(S& state, F&& f) {
   f("memory", memory, Part::carried);
   f("history", history, Part::history);
   f("crushed", crushed, Part::history);
+  f("share", share, Part::history);
   f("wrench", wrench, Part::carried);
   f("owner_sum", owner_sum, Part::carried);
   f("neighbour_force", neighbour_force, Part::carried);

@@ -15,6 +15,7 @@ namespace {
 constexpr int release_every = 8;     // steps between two searches for joints to release to contact
 constexpr int find_soft_every = 64;  // steps between two searches for former joints that must soften, ...
 constexpr int soften_every = 8;      // ... and between two steps of their softening
+constexpr int fade_every = 8;        // steps between two reductions of the stiffness of beds without bond
 constexpr int activate_every = 256;  // steps between two searches for blocks that have moved far
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -28,6 +29,7 @@ Solver::Solver(const Model& model, State& state, const StepRange& range, int thr
       state_(state),
       loads_(model, state),
       joints_(model, state),
+      fading_(model, state),
       contacts_(model, state, range, threads),
       ledger_(model, state),
       may_have_levels_(model.analysis.levels > 1 && !model.analysis.unstable && model.analysis.solver == "leapfrog" &&
@@ -47,6 +49,7 @@ Solver::Solver(const Model& model, State& state, const StepRange& range, int thr
 
 Solver::Stop Solver::advance(const SamplePlan& plan) {
   do {
+    if (profile_.begin(state_.time)) searched_ = contacts_.searched();
     prepare_step(plan);
     team_.run();
     close_step(plan);
@@ -58,7 +61,13 @@ void Solver::work(int thread) {
   forces(thread);
   if (!has_transitions_) team_.barrier().wait(thread);
   else if (!team_.barrier().wait(thread, [this] { transitions(); })) return;
+  if (thread == 0) lap(has_transitions_ ? Phase::contact : Phase::joints);
   integrate(thread);
+}
+
+// Searches have an account of their own.
+void Solver::lap(Phase phase) {
+  if (profile_.measured()) profile_.lap(phase, contacts_.searched() - std::exchange(searched_, contacts_.searched()));
 }
 
 void Solver::prepare_step(const SamplePlan& plan) {
@@ -67,6 +76,7 @@ void Solver::prepare_step(const SamplePlan& plan) {
   stop_ = !together ? Stop::none : plan.due(time.t, time.dt) ? Stop::sample : due ? Stop::ledger : Stop::none;
   if (std::ranges::any_of(block_sums_, &BlockSums::outdated)) update_outdated();
   const bool debris = model_.analysis.debris, cracked = joints_.any_cracked();
+  if (cracked && !state_.joints.share.empty() && every(fade_every, time)) fading_.fade(joints_.cracked(), fade_every * time.last_dt);
   if (debris && every(activate_every, time) && (cracked || contacts_.active() || time.step == 0)) contacts_.activate_loose_blocks();
   has_contacts_ = contacts_.active();
   budget_ = together && has_levels(time) ? event_allowance(model_, state_) : event_budget(model_, state_);
@@ -90,7 +100,9 @@ void Solver::update_outdated() {
 
 void Solver::forces(int thread) {
   if (has_contacts_) contacts_.forces(thread, sampling());
+  if (thread == 0) lap(Phase::contact);
   if (joints_act(state_.time)) joints_.forces(thread, threads_, sampling(), budget_);
+  if (thread == 0) lap(Phase::joints);
 }
 
 // Between forces and drift, on one thread: contact forces are gathered, and joints beyond their range are released to contact.
@@ -193,11 +205,14 @@ void Solver::apply_prescribed_motions() {
 void Solver::close_step(const SamplePlan& plan) {
   State& s = state_;
   apply_prescribed_motions();
+  lap(Phase::integrate);
   double& residual = s.observed.momentum_residual;
   if (sequential_) residual = std::max(residual, sequential_->momentum_residual());
   broken_ = broken_ || std::ranges::any_of(block_sums_, &BlockSums::broken);
+  fading_.book(joints_.cracked());
   joints_.move_cracked(constants_);
   foresee_events();
+  lap(Phase::joints);
   if (sampling()) {
     const double elastic = has_contacts_ ? contacts_.elastic() : 0, kinetic = has_contacts_ ? contacts_.kinetic_correction() : 0;
     ledger_.close(joints_.sums(), joints_.cracked_sums(), block_sums_, elastic, kinetic, joints_.any_cracked() || has_contacts_);
@@ -206,6 +221,7 @@ void Solver::close_step(const SamplePlan& plan) {
   contacts_.former_joints().book_release();
   if (stop_ == Stop::sample) end_sample(plan.wrenches);
   joints_.drop_released();
+  lap(Phase::ledger);
   s.time.t = s.time.start_t + double(s.time.step + 1 - s.time.start_step) * s.time.dt;
   ++s.time.step;
   s.time.last_dt = s.time.dt;
@@ -213,6 +229,11 @@ void Solver::close_step(const SamplePlan& plan) {
   if (at_macro_step(s.time)) {
     judge_step();
     plan_macro_step(plan.end);
+    if (profile_.measured()) {
+      profile_.note(limit(), macro_dt(s.time));
+      if (has_contacts_ && may_have_levels_) profile_.note_levels(contacts_.evaluations_by_level());
+    }
+    lap(Phase::contact);
   }
   if (++s.time.substep < s.time.substeps) return;
   ++s.time.macro;

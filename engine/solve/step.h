@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "engine/base/system/team.h"
+#include "engine/joints/cracked/fading.h"
 #include "engine/solve/blocks/integrate.h"
 #include "engine/solve/blocks/step_loads.h"
 #include "engine/solve/contacts/contacts.h"
 #include "engine/solve/energy.h"
 #include "engine/solve/joint_phase.h"
 #include "engine/solve/long_steps.h"
+#include "engine/solve/profile.h"
 #include "engine/solve/sequential/sequential.h"
 
 namespace erbs {
@@ -62,6 +64,8 @@ class Solver {
   Vec6 load_wrench(int b) const;                                             // of loads; of a driven block the reaction that moves it
   std::vector<int> take_released() { return std::exchange(released_, {}); }  // joints released to contact since the last call
   std::vector<int> take_cracked() { return joints_.take_cracked(); }         // joints that cracked since then, in ascending order
+  const Profile& profile() const { return profile_; }                        // of the steps of this Solver
+  StepLimit limit() const;                                                   // what limits the time step now
   LongSteps take_long_steps() { return std::exchange(long_steps_, {}); }     // since the last call
   // s, time step that the present contacts allow; `critical` is the limit of the intact structure.
   double stable_dt(double critical) const;
@@ -87,6 +91,7 @@ class Solver {
   void plan_macro_step(double end);
   double next_dt(double dt_now, bool levels = false);
   void set_dt(double dt);
+  void lap(Phase phase);
   double event_rate_of_first_openings() const;
   void foresee_events();
   bool may_grow(double from, double dt) const;
@@ -97,6 +102,7 @@ class Solver {
   State& state_;
   StepLoads loads_;
   JointPhase joints_;
+  Fading fading_;
   Contacts contacts_;
   Ledger ledger_;
   std::optional<Sequential> sequential_;  // replaces the phases `forces` and `integrate`
@@ -108,6 +114,8 @@ class Solver {
   std::vector<std::uint8_t> idle_;      // groups in which every block sleeps
   std::vector<int> released_;
   LongSteps long_steps_;
+  Profile profile_;
+  double searched_ = 0;  // s, until the last lap of the profile
   SampleState sample_;
   double budget_ = 0;  // J, `event_budget()` of this step
   Stop stop_ = Stop::none;

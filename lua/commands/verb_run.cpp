@@ -22,6 +22,7 @@
 #include "lua/program/say.h"
 #include "lua/reports/expectations.h"
 #include "lua/reports/figures.h"
+#include "lua/reports/profile_text.h"
 #include "lua/reports/studies.h"
 
 namespace erbs::lua {
@@ -226,6 +227,7 @@ int complete(Script& script, const std::string& path, const std::string& directo
   for (const auto& trouble : studies.troubles) tell(stderr, trouble);
   for (const auto& message : failures) tell(stderr, message);
   if (!command.output.quiet) print_summary(script.scene(), directory, metrics, verdicts);
+  if (command.profile) say("{}", profile_text(outcome));
   int code = exit_code(script.scene(), command, outcome, metrics, verdicts);
   if (code == exit_ok && !failures.empty()) code = exit_usage;
   if (command.video && status != "interrupted") {

@@ -57,7 +57,7 @@ struct RunCommand {
   std::optional<double> until;  // s, simulated
   bool resume = false;
   std::optional<double> max_wall, checkpoint_every;  // s, wall clock
-  bool video = false, log_json = false, fail_on_collapse = false;
+  bool video = false, log_json = false, profile = false, fail_on_collapse = false;
   bool figures = true;          // draw the curves of a run
   bool figure_scripts = false;  // write the figures of figure{} as gnuplot scripts, which a book draws later
   std::string study;            // name of the study that started this run

@@ -68,12 +68,14 @@ void ProgressPrinter::show(const analysis::Progress& now) {
                        {"steps_per_s", rate},
                        {"joints_broken", now.joints_broken},
                        {"residual_relative", now.residual},
+                       {"dt_s", now.dt},
+                       {"dt_limited_by", now.limited_by},
                        {"left_s", left}};
     fmt::print(stderr, "{}\n", line.dump());
   } else {
-    const std::string line =
-        fmt::format("{:.2f} of {:g} s, {:.3g} x real time, {:.3g} steps/s, {} joints broken, energy residual {:.1e}, {} left", now.t,
-                    now.duration, speed, rate, now.joints_broken, now.residual, left_text(soonest, left));
+    const std::string line = fmt::format(
+        "{:.2f} of {:g} s, {:.3g} x real time, {:.3g} steps/s, {} joints broken, energy residual {:.1e}, {} left, dt {:.3g} us: {}", now.t,
+        now.duration, speed, rate, now.joints_broken, now.residual, left_text(soonest, left), 1e6 * now.dt, now.limited_by);
     fmt::print(stderr, "{}{}{}", terminal_ ? "\r\033[K" : "", line, terminal_ ? "" : "\n");
     open_ = terminal_;
   }

@@ -21,6 +21,7 @@ joint {
     E = 1.07e10, nu = 0.2, thickness = 10 * mm, mu = 0.6,
     ft = param("ft", 20 * MPa, "tensile strength, by default such that nothing gives way [Pa]"),
     c = param("c", 30 * MPa, "cohesion, likewise [Pa]"),
+    kn_cracked = param("kn_cracked", 0, "normal stiffness of beds without bond; 0: as with bond [Pa/m]"),
   },
   thickness = 10 * mm, tolerance = 5 * mm,
 }

@@ -19,6 +19,8 @@ namespace erbs::ERBS_TARGET {
 struct Cracking {
   Pack gap[6], gap_before[6], resultant[6];
   Pack stored, friction, fracture, crushing;
+  Pack share_n, kn, ks;  // stiffness now: share of the intact joint's kn; Pa/m (fading.h)
+  Pack share_s;
   Pack rate, debonded_rate;  // of dashpots, b over the last step; the same of points without a bond
   Pack drag[6];              // dashpots (viscous_response)
   Pack lift;                 // m, by asperities; set where the law has them
@@ -72,8 +74,8 @@ struct Compression {
   Pack force, ms, mt, energy;  // N; N m; J
 };
 
-// The no-tension integral over the true overlap polygon.
-ERBS_INLINE Compression compression(double kn, const CrackedShape& shape, const Pack* gap) {
+// The no-tension integral over the true overlap polygon. `share`: of the intact stiffness.
+ERBS_INLINE Compression compression(double kn, Pack share, const CrackedShape& shape, const Pack* gap) {
   const FacePack& face = *shape.face;
   const Pack reach = abs(gap[3]) * load(face.half_t) + abs(gap[4]) * load(face.half_s);
   const Mask closed = gap[2] + reach < 0, pressed = gap[2] - reach < 0, partly = pressed & !closed;
@@ -89,7 +91,7 @@ ERBS_INLINE Compression compression(double kn, const CrackedShape& shape, const 
     mt = select(partly, kn * sum.t, mt);
     energy = select(partly, 0.5 * kn * sum.square, energy);
   }
-  return {force, ms, mt, energy};
+  return {share * force, share * ms, share * mt, share * energy};
 }
 
 // Adds the compression to the resultant, and the dashpots of the closed part: the change of its pressure, which may not pull.
@@ -111,7 +113,7 @@ ERBS_INLINE void add_compression(const Compression& now, const Compression& then
 
 // Faces that are crushed, or may be in this step. They are few, so they are evaluated lane by lane.
 struct Crushing {
-  Pack gap[6], gap_before[6];
+  Pack gap[6], gap_before[6], kn;
   Compression now, then;
   Pack work;
 };
@@ -127,12 +129,12 @@ static inline void put(const Pressed& from, int l, Compression& to) {
 }
 
 [[gnu::noinline, maybe_unused]] static void crush_lanes(const PointLaw& law, const CrackedShape& shape, Crushing& c, Pack* depth) {
-  const double limit = law.fc / law.kn;
+  const Pack limit = law.fc / c.kn;
   const Pack deepest = abs(c.gap[3]) * load(shape.face->half_t) + abs(c.gap[4]) * load(shape.face->half_s) - c.gap[2];
   for (int l = 0; l < pack_size; ++l) {
     CrushedFace* crushed = shape.crushed[l];
-    if (crushed == nullptr || (crushed->planes == 0 && deepest[l] <= limit)) continue;
-    const CompressionFace face{law.kn, limit, shape.corners, shape.face_corner[l]};
+    if (crushed == nullptr || (crushed->planes == 0 && deepest[l] <= limit[l])) continue;
+    const CompressionFace face{c.kn[l], limit[l], shape.corners, shape.face_corner[l]};
     const double before[3] = {c.gap_before[2][l], -c.gap_before[4][l], c.gap_before[3][l]},
                  gap[3] = {c.gap[2][l], -c.gap[4][l], c.gap[3][l]};
     set_lane(c.work, l, erbs::crush(face, *crushed, before, gap));
@@ -147,7 +149,7 @@ static inline void put(const Pressed& from, int l, Compression& to) {
 ERBS_INLINE void crush(const PointLaw& law, const CrackedShape& shape, Cracking& c, Compression& now, Compression& then, Pack* depth) {
   Crushing of{};
   for (int i = 0; i < 6; ++i) of.gap[i] = c.gap[i], of.gap_before[i] = c.gap_before[i];
-  of.now = now, of.then = then;
+  of.now = now, of.then = then, of.kn = c.kn;
   crush_lanes(law, shape, of, depth);
   now = of.now, then = of.then, c.crushing += of.work;
 }
@@ -200,7 +202,9 @@ ERBS_INLINE Mask slides_slowly(const CrackedShape& shape, const Cracking& c) {
 
 // Relative displacement now and one step ago, and an empty account. Asperities that lift the faces close the gap.
 template <class Face, bool damped>
-ERBS_INLINE void start(const CrackedShape& shape, const CrackedPack& lane, const JointMotion& now, Cracking& c) {
+ERBS_INLINE void start(const PointLaw& law, const CrackedShape& shape, const CrackedPack& lane, const JointMotion& now, Cracking& c) {
+  c.share_n = load(lane.share_n), c.share_s = load(lane.share_s);
+  c.kn = law.kn * c.share_n, c.ks = law.ks * c.share_s;
   c.stored = c.friction = c.fracture = c.crushing = Pack(0);
   c.rate = c.debonded_rate = damped ? shape.per_step * load(lane.viscous) : Pack(0);
   for (int i = 0; i < 6; ++i) {
@@ -221,7 +225,7 @@ ERBS_INLINE void lift(const PointLaw& law, const CrackedShape& shape, const Crac
   const Pack rise = Face::coming_rise(law, own, c.gap[0], c.gap[1], now.force, load(face.stiffness[0]) / law.ks);
   c.gap[2] -= rise;
   c.lift = own[Face::uplift] + rise;
-  now = compression(law.kn, shape, c.gap);
+  now = compression(law.kn, c.share_n, shape, c.gap);
 }
 
 // Books the work of the change of lift and advances the asperities.
@@ -257,7 +261,7 @@ static inline void foresee(const CrackedShape& shape, const Cracking& c, Cracked
     square += select(ahead, rate * rate, Pack(0));
     soon = max(near, soon);
   }
-  const Pack errs = sqrt((event_share / (shape.corners * shape.event_budget)) * load(shape.face->stiffness[2]) * square),
+  const Pack errs = sqrt((event_share / (shape.corners * shape.event_budget)) * load(shape.face->stiffness[2]) * c.share_n * square),
              event_rate = event_steps * soon, both = min(errs, event_rate), most = load(sums.event_rate);
   store(sums.event_rate, max(both, most));
 }

@@ -77,6 +77,7 @@ void Cracked::clear(Group& group, int l) {
   group.face_corner[l] = nullptr;
   CrackedPack& lane = memory_of(group);
   lane.viscous[l] = 0;
+  lane.share_n[l] = lane.share_s[l] = 1;
   for (int i = 0; i < 6; ++i) lane.gap[i][l] = lane.resultant[i][l] = lane.drag[i][l] = 0;
   lane.stored[l] = 0;
   lane.least_damage[l] = 1;
@@ -151,13 +152,13 @@ void Cracked::fill(Group& group, int l, int j) {
   CrackedPack& lane = memory_of(group);
   group.joint[l] = j;
   lane.viscous[l] = joint.viscous_cracked;
+  set_share(lane, l, j);
   group.used |= 1U << l;
   group.maybe_out_of_range = true;
   const PointLaw& law = model_.laws[z(joint.type->law)];
   if (law.crushes())
     group.crushed[l] = &state_.joints.crushed[z(j)], group.face_corner[l] = model_.overlap_corner[z(joint.type->first_corner)].data();
-  for (int i = 0; i < 6; ++i) lane.gap[i][l] = memory.gap[i], lane.resultant[i][l] = memory.resultant[i];
-  lane.stored[l] = memory.elastic;
+  for (int i = 0; i < 6; ++i) lane.gap[i][l] = memory.gap[i];
   lane.least_damage[l] = may_release(joint, law, memory) ? 1 : 0;
   for (int i = 0; i < group.own_numbers; ++i) lane.own(group.points)[i][l] = memory.own[i];
   lane.mean_slip.outdated[l] = 1;
@@ -171,6 +172,20 @@ void Cracked::fill(Group& group, int l, int j) {
     if (law.has_bond()) lane.least_damage[l] = std::min(lane.least_damage[l], h.damage);
   }
   group.update_debonded(law);
+}
+
+// Stiffness of joint j, and what depends on it.
+void Cracked::set_share(CrackedPack& lane, int l, int j) const {
+  const StiffnessShare share = stiffness_share(state_, j);
+  const JointMemory& memory = state_.joints.memory[z(j)];
+  lane.share_n[l] = share.n, lane.share_s[l] = share.s;
+  lane.stored[l] = memory.elastic;
+  for (int i = 0; i < 6; ++i) lane.resultant[i][l] = memory.resultant[i];
+}
+
+void Cracked::set_share(int j) {
+  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
+  if (at >= 0) set_share(memory_of(group_[z(at / pack_size)]), at % pack_size, j);
 }
 
 void Cracked::set_empty(Group& group, const Joint& joint) {
@@ -346,25 +361,37 @@ void Cracked::store() {
   for (Group& group : group_) {
     if (group.empty()) continue;
     const bool damage_changed = std::exchange(group.damage_changed, false);
-    const CrackedPack& lane = memory_of(group);
-    for (int l = 0; l < pack_size; ++l) {
-      const int j = group.joint[l];
-      if (j < 0) continue;
-      JointMemory& memory = state_.joints.memory[z(j)];
-      for (int i = 0; i < 6; ++i) memory.gap[i] = lane.gap[i][l], memory.resultant[i] = lane.resultant[i][l];
-      memory.elastic = lane.stored[l];
-      for (int i = 0; i < group.own_numbers; ++i) memory.own[i] = lane.own(group.points)[i][l];
-      if (model_.dashpots_cracked)
-        for (int i = 0; i < 6; ++i) state_.joints.viscous[6 * z(j) + z(i)] = lane.drag[i][l];
-      PointHistory* h = &state_.joints.history[z(model_.joint[z(j)].first_point)];
-      for (int i = 0; i < group.points; ++i) {
-        h[i].slip_s = lane.slip()[i].s[l], h[i].slip_t = lane.slip()[i].t[l], h[i].mean_pressure = lane.slip()[i].mean_pressure[l];
-        if (!damage_changed) continue;
-        const BondPack& b = group.bond[z(i)];
-        h[i].damage = b.damage[l], h[i].secant = b.secant[l], h[i].kappa = b.kappa[l];
-      }
-    }
+    for (int l = 0; l < pack_size; ++l)
+      if (group.joint[l] >= 0) store(group, l, damage_changed);
   }
+}
+
+void Cracked::store(int j) {
+  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
+  if (at >= 0) store(group_[z(at / pack_size)], at % pack_size, true);
+}
+
+void Cracked::store(const Group& group, int l, bool damage_changed) {
+  const CrackedPack& lane = memory_of(group);
+  const int j = group.joint[l];
+  JointMemory& memory = state_.joints.memory[z(j)];
+  for (int i = 0; i < 6; ++i) memory.gap[i] = lane.gap[i][l], memory.resultant[i] = lane.resultant[i][l];
+  memory.elastic = lane.stored[l];
+  for (int i = 0; i < group.own_numbers; ++i) memory.own[i] = lane.own(group.points)[i][l];
+  if (model_.dashpots_cracked)
+    for (int i = 0; i < 6; ++i) state_.joints.viscous[6 * z(j) + z(i)] = lane.drag[i][l];
+  PointHistory* h = &state_.joints.history[z(model_.joint[z(j)].first_point)];
+  for (int i = 0; i < group.points; ++i) {
+    h[i].slip_s = lane.slip()[i].s[l], h[i].slip_t = lane.slip()[i].t[l], h[i].mean_pressure = lane.slip()[i].mean_pressure[l];
+    if (!damage_changed) continue;
+    const BondPack& b = group.bond[z(i)];
+    h[i].damage = b.damage[l], h[i].secant = b.secant[l], h[i].kappa = b.kappa[l];
+  }
+}
+
+bool Cracked::debonded(int j) const {
+  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
+  return at >= 0 && memory_of(group_[z(at / pack_size)]).least_damage[at % pack_size] >= 1;
 }
 
 bool Cracked::none_ready_for_contact() const {

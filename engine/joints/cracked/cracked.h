@@ -27,6 +27,9 @@ class Cracked {
   // Writes the wrench rows of groups [first, last); fills `sums.energy.elastic` if `sample`. `budget`: J, for `event_bound.h`.
   void forces(int first, int last, bool sample, double budget, JointSums& sums, const StepKernels& kernels = step_kernels());
   void store();
+  void store(int j);                    // the same for one joint
+  void set_share(int j);                // after its stiffness has changed in the State (fading.h)
+  bool debonded(int j) const;           // no point has a bond left
   bool none_ready_for_contact() const;  // true: certainly no joint can be released
   // True if the joint has no bond left and is beyond the range of its fixed faces (`out_of_range()`).
   bool ready_for_contact(int j) const;
@@ -69,6 +72,8 @@ class Cracked {
   int find_lane(const Joint& joint);                        // group * lanes + lane; adds a group if necessary
   void fill(Group& group, int l, int j);
   void clear(Group& group, int l);
+  void store(const Group& group, int l, bool damage_changed);
+  void set_share(CrackedPack& lane, int l, int j) const;
   void set_shape(Shapes& shapes, int l, const JointType& type) const;
   std::shared_ptr<Shapes> shared_shapes(const JointType& type);  // for a pack of this type alone
   void add_shape(Group& group, int l, const JointType& type);

@@ -57,7 +57,7 @@ static inline void slide(const PointLaw& law, SlipPack& p, const PointSample& x,
   SlipReturn<Pack> slip{{gs, gt}, {load(p.s), load(p.t)}, {}, {}};
   const InPlane<Pack> before{c.gap_before[0] - c.gap_before[5] * x.t - slip.plastic.s,
                              c.gap_before[1] + c.gap_before[5] * x.s - slip.plastic.t};
-  return_slip(law, b, bonds, slides, Pack(law.ks * x.weight), x.weight, size, cap, pressure, sigma, before, slip);
+  return_slip(law, b, bonds, slides, c.ks * x.weight, x.weight, size, cap, pressure, sigma, before, slip);
   store(p.s, slip.plastic.s);
   store(p.t, slip.plastic.t);
   gs = slip.elastic.s, gt = slip.elastic.t;
@@ -123,7 +123,7 @@ ERBS_INLINE Pack point_response(const PointLaw& law, const CrackedShape& shape, 
     if (law.closing_ultimate > 0) damage_by_closing(law, b, holds, -min(tension_span.least, x.n), sigma);
     strength = bond_shear(law, sigma, b.damage);
   }
-  const Pack k = law.ks * x.weight;
+  const Pack k = c.ks * x.weight;
   Pack gs = c.gap[0] - c.gap[5] * x.t - load(p.s), gt = c.gap[1] + c.gap[5] * x.s - load(p.t);
   Pack ts = k * gs, tt = k * gt;
   const Pack cap = strength * x.weight + friction_at(law, b.damage) * pressure, square = ts * ts + tt * tt;
@@ -149,10 +149,10 @@ static bool respond_pack(const PointLaw& law, const CrackedShape& shape, BondPac
   JointMotion now;
   Cracking c;
   relative_motion(lane, *shape.face, poses, now);
-  start<Face, damped>(shape, lane, now, c);
-  Compression closed = compression(law.kn, shape, c.gap);
+  start<Face, damped>(law, shape, lane, now, c);
+  Compression closed = compression(law.kn, c.share_n, shape, c.gap);
   if constexpr (Face::lifts) lift<Face>(law, shape, lane, c, closed);
-  const Compression then = damped ? compression(law.kn, shape, c.gap_before) : Compression{};
+  const Compression then = damped ? compression(law.kn, c.share_n, shape, c.gap_before) : Compression{};
   const bool pressed = (Face::yields && law.crushes()) || any(closed.force > 0);
   const Pack scale = pressed ? compress<Face, damped>(law, shape, c, closed, then, depth) : Pack(0);
   const Mask slow = slides_slowly(shape, c);

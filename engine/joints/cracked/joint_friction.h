@@ -55,12 +55,12 @@ ERBS_INLINE StickState try_stick(const PointLaw& law, double mu, const CrackedSh
   const Pack s = c.gap[0] - load(mean_slip.s), t = c.gap[1] - load(mean_slip.t), rotation = c.gap[5] - load(mean_slip.rotation),
              radius = load(shape.face->radius);
   const Pack ds = c.gap[0] - c.gap_before[0], dt = c.gap[1] - c.gap_before[1], rotated = c.gap[5] - c.gap_before[5];
-  Pack room = mu * law.kn * closed_by - law.ks * (abs(rotation) * radius + load(mean_slip.apart));
-  if (damped) room -= law.ks * c.rate * (abs(ds) + abs(dt) + abs(rotated) * radius);
-  out.mask = closed & (room > 0) & (law.ks * law.ks * (s * s + t * t) < room * room);
-  const Pack k = load(shape.face->stiffness[0]), twist = load(shape.face->stiffness[5]);
+  Pack room = mu * c.kn * closed_by - c.ks * (abs(rotation) * radius + load(mean_slip.apart));
+  if (damped) room -= c.ks * c.rate * (abs(ds) + abs(dt) + abs(rotated) * radius);
+  out.mask = closed & (room > 0) & (c.ks * c.ks * (s * s + t * t) < room * room);
+  const Pack k = c.share_s * load(shape.face->stiffness[0]), twist = c.share_s * load(shape.face->stiffness[5]);
   out.s = k * s, out.t = k * t, out.rotation = twist * rotation;
-  out.stored = 0.5 * (out.s * s + out.t * t + out.rotation * rotation) + load(mean_slip.stored);
+  out.stored = 0.5 * (out.s * s + out.t * t + out.rotation * rotation) + c.share_s * load(mean_slip.stored);
   if (damped) {
     const Pack rate = select(out.mask, c.rate, Pack(0));
     c.drag[0] = k * rate * ds;
@@ -123,26 +123,26 @@ ERBS_INLINE void follow_open_faces(const CrackedShape& shape, const PointPack& p
 
 // Friction of all points, if not all joints of the pack stick.
 template <bool damped>
-ERBS_INLINE void friction_at_points(const PointLaw& law, double mu, Pack scale, const Pack* depth, const CrackedShape& shape,
-                                    SlipPack* slip, MeanSlipPack& mean_slip, const StickState& stick, Cracking& c) {
+ERBS_INLINE void friction_at_points(double mu, Pack scale, const Pack* depth, const CrackedShape& shape, SlipPack* slip,
+                                    MeanSlipPack& mean_slip, const StickState& stick, Cracking& c) {
   SlipSums sum{};
-  const double lets = mu / law.ks;
+  const Pack lets = mu / c.ks;
   const Mask slow = slides_slowly(shape, c);
   for (int i = 0; i < shape.points; ++i) {
     const Pack held = interlocked_stress(shape, slip[i], gap_of(shape.point[i], c.gap), scale * depth[i], slow);
     // no limit where all stick
     friction_at_point<damped>(shape.point[i], slip[i], depth[i], select(stick.mask, Pack(1e150), lets * held), c, sum);
   }
-  c.resultant[0] = select(stick.mask, stick.s, law.ks * sum.s);
-  c.resultant[1] = select(stick.mask, stick.t, law.ks * sum.t);
-  c.resultant[5] = select(stick.mask, stick.rotation, law.ks * sum.rotation);
-  c.stored += select(stick.mask, stick.stored, 0.5 * law.ks * sum.stored);
-  c.friction = 0.5 * law.ks * sum.work;
+  c.resultant[0] = select(stick.mask, stick.s, c.ks * sum.s);
+  c.resultant[1] = select(stick.mask, stick.t, c.ks * sum.t);
+  c.resultant[5] = select(stick.mask, stick.rotation, c.ks * sum.rotation);
+  c.stored += select(stick.mask, stick.stored, 0.5 * c.ks * sum.stored);
+  c.friction = 0.5 * c.ks * sum.work;
   if (any(sum.slid)) store(mean_slip.outdated, select(sum.slid, Pack(1), load(mean_slip.outdated)));
   if (!damped) return;
-  c.drag[0] = select(stick.mask, c.drag[0], law.ks * sum.drag_s);
-  c.drag[1] = select(stick.mask, c.drag[1], law.ks * sum.drag_t);
-  c.drag[5] = select(stick.mask, c.drag[5], law.ks * sum.drag_rotation);
+  c.drag[0] = select(stick.mask, c.drag[0], c.ks * sum.drag_s);
+  c.drag[1] = select(stick.mask, c.drag[1], c.ks * sum.drag_t);
+  c.drag[5] = select(stick.mask, c.drag[5], c.ks * sum.drag_rotation);
 }
 
 // Updates the mean pressures where all points stick and the faces are closed all over.
@@ -161,7 +161,7 @@ static inline void update_mean_pressure(const CrackedShape& shape, Pack force, S
 template <class Face, bool damped>
 ERBS_INLINE Compression before(const PointLaw& law, const CrackedShape& shape, const CrackedPack& lane, const Cracking& c) {
   if (!damped) return Compression{};
-  if (Face::yields && law.crushes()) return compression(law.kn, shape, c.gap_before);
+  if (Face::yields && law.crushes()) return compression(law.kn, c.share_n, shape, c.gap_before);
   return {-load(lane.resultant[2]), load(lane.resultant[4]), -load(lane.resultant[3]), Pack(0)};
 }
 
@@ -176,8 +176,8 @@ static bool friction_pack(const PointLaw& law, const CrackedShape& shape, Cracke
   JointMotion now;
   Cracking c;
   relative_motion(lane, *shape.face, poses, now);
-  start<Face, damped>(shape, lane, now, c);
-  Compression pressed = compression(law.kn, shape, c.gap);
+  start<Face, damped>(law, shape, lane, now, c);
+  Compression pressed = compression(law.kn, c.share_n, shape, c.gap);
   if constexpr (Face::lifts) lift<Face>(law, shape, lane, c, pressed);
   const Pack closed_by = -c.gap[2] - (abs(c.gap[3]) * load(shape.face->half_t) + abs(c.gap[4]) * load(shape.face->half_s));
   const StickState stick = crushes ? StickState{} : try_stick<damped>(law, mu, shape, slip, closed_by, mean_slip, c);
@@ -188,7 +188,7 @@ static bool friction_pack(const PointLaw& law, const CrackedShape& shape, Cracke
     if (shape.interlock.rate > 0) update_mean_pressure(shape, pressed.force, slip, c);
   } else if (crushes || any(pressed.force > 0) || any(load(lane.stored) > 0)) {
     const Pack scale = compress<Face, damped>(law, shape, c, pressed, before<Face, damped>(law, shape, lane, c), depth);
-    friction_at_points<damped>(law, mu, scale, depth, shape, slip, mean_slip, stick, c);
+    friction_at_points<damped>(mu, scale, depth, shape, slip, mean_slip, stick, c);
   } else {
     const Mask slow = slides_slowly(shape, c);
     for (int i = 0; i < shape.points; ++i) follow_open_faces(shape, shape.point[i], slip[i], c, slow);

@@ -212,6 +212,7 @@ State start(const Scene& scene, const Model& m) {
   s.joints.memory.clear(z(m.njoint));
   s.joints.history.clear(z(m.npoint));
   if (std::any_of(m.laws.begin(), m.laws.end(), [](const PointLaw& law) { return law.crushes(); })) s.joints.crushed.clear(z(m.njoint));
+  if (std::any_of(m.laws.begin(), m.laws.end(), [](const PointLaw& law) { return law.fades(); })) s.joints.share.resize(z(m.njoint));
   if (m.dashpots_cracked) s.joints.viscous.assign(6 * z(m.njoint), 0.0);
   s.cache.wrench.assign(z(spare_row_of_intact(m, intact_packs(m))) + 1, 0.0);
   s.cache.owner_sum.assign(block_groups(m.nblock), {});

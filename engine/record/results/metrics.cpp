@@ -82,8 +82,9 @@ Json to_json(const Metrics& m) {
   json["contact_points"] = m.contact_points;
   json["joints_broken"] = m.joints_broken;
   json["blocks_asleep"] = m.blocks_asleep;
-  json["wall_s"] = {
-      {"total", m.wall_s.total}, {"setup", m.wall_s.setup}, {"solve", solve}, {"contact", m.wall_s.contact}, {"record", m.wall_s.record}};
+  json["wall_s"] = {{"total", m.wall_s.total},   {"setup", m.wall_s.setup},         {"solve", solve},
+                    {"joints", m.wall_s.joints}, {"contact", m.wall_s.contact},     {"search", m.wall_s.search},
+                    {"ledger", m.wall_s.ledger}, {"integrate", m.wall_s.integrate}, {"record", m.wall_s.record}};
   json["realtime_factor"] = solve > 0 ? simulated / solve : 0.0;
   json["point_updates"] = m.point_updates;
   json["point_updates_per_s"] = solve > 0 ? double(m.point_updates) / solve : 0.0;

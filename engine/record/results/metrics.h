@@ -23,7 +23,8 @@ struct Metrics {
   int threads = 1;
   int blocks = 0, joints = 0, contact_points = 0, joints_broken = 0, blocks_asleep = 0;
   struct Wall {
-    double total = 0, setup = 0, solve = 0, contact = 0, record = 0;  // s
+    // s; `solve` is the sum of those between it and `record` (solve/profile.h)
+    double total = 0, setup = 0, solve = 0, joints = 0, contact = 0, search = 0, integrate = 0, ledger = 0, record = 0;
   } wall_s;
   std::uint64_t point_updates = 0;
   // Derived on writing: realtime_factor = simulated_s / wall_s.solve and point_updates_per_s = point_updates / wall_s.solve. Both describe

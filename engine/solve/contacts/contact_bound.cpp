@@ -78,6 +78,21 @@ double ContactBound::stable_dt() const {
   return limited_by_slip(bears);
 }
 
+StepLimit ContactBound::step_limit() const {
+  using enum StepLimit::By;
+  if (allowed_ >= limit_.range().longest) return {};
+  double most = 0;
+  StepLimit out;
+  for (int b = 0; b < model_.nblock; ++b) {
+    if (model_.kind[z(b)] != Kind::moving) continue;
+    const double pressed = limit_.on_block(b, omega2_[z(b)], 0), all = limit_.on_block(b, omega2_[z(b)], impact_omega2_[z(b)]);
+    if (all > most) most = all, out = {all > 1.2 * pressed ? impact : contacts, b};
+  }
+  const double bears = std::min(limit_.range().longest, limit_.allowed(most));
+  if (limited_by_slip(bears) < bears) out = {slip, -1};
+  return allowed_ < 0.99 * limited_by_slip(bears) ? StepLimit{passing, -1} : out;
+}
+
 double ContactBound::limited_by_slip(double dt) const {
   return slip_omega2_ > 0 ? std::min(dt, max_slip_omega_dt / std::sqrt(slip_omega2_)) : dt;
 }

@@ -11,6 +11,7 @@
 #include "engine/solve/contacts/former_joints.h"
 #include "engine/solve/contacts/motion_bounds.h"
 #include "engine/solve/contacts/sleep.h"
+#include "engine/solve/contacts/step_limit.h"
 #include "engine/solve/contacts/time_step_bound.h"
 
 namespace erbs {
@@ -59,6 +60,7 @@ class ContactBound {
   bool any_stiff() const { return std::ranges::find(stiff_, 1) != stiff_.end(); }
   double allowed_dt() const { return allowed_; }     // s, at most `StepRange::longest`
   double stable_dt() const;                          // s, of present contacts, without coming impacts; the last step is judged by it
+  StepLimit step_limit() const;                      // what limits `allowed_dt()`
   double event_rate() const { return event_rate_; }  // 1/s: one over the step that the next openings and closings allow (`event_bound.h`)
 
  private:

@@ -1,6 +1,7 @@
 #include "engine/solve/contacts/contacts.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -122,10 +123,13 @@ void Contacts::update() {
 
 // Returns the new pairs. `reset`: J, receives the energy of pairs that are dropped.
 std::vector<int> Contacts::search_pairs(double& reset, std::span<const std::uint8_t> still) {
+  using Clock = std::chrono::steady_clock;
+  const Clock::time_point began = Clock::now();
   std::vector<int> fresh;
   reset += search(
       state_.contacts.list, bodies_.shapes, bodies_.block, state_.topology.loose, jointed_,
       [this](int a, int b) { return bodies_.law(a, b); }, still, &fresh);
+  searched_ += std::chrono::duration<double>(Clock::now() - began).count();
   return fresh;
 }
 

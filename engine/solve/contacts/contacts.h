@@ -1,11 +1,13 @@
 // Contacts between blocks, phase by phase: release of joints to contact, search for new neighbours of loose blocks, contact forces, and
 // their bound on the time step. An intact structure needs nothing of this: storage is allocated when the first block is loose.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
 
 #include "engine/joints/cracked/cracked.h"
+#include "engine/model/levels.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
 #include "engine/solve/contacts/block_levels.h"
@@ -64,6 +66,11 @@ class Contacts {
   int touching() const { return touching_; }
   long slept() const { return sleep_.slept(); }  // steps of sleeping blocks, since the start of this Solver
   long touched() const { return touched_; }      // touching pairs, summed over the steps of this Solver
+  double searched() const { return searched_; }  // s, spent on searches by this Solver
+  // What limits the step that all pairs allow; with levels, the shortest interval of a pair.
+  StepLimit limit() const { return bound_.step_limit(); }
+  StepLimit limit_of_levels() const { return least_limit_; }
+  std::array<long, most_levels> evaluations_by_level() const;  // of pairs in this macro step
 
  private:
   void initialise();
@@ -104,8 +111,10 @@ class Contacts {
   };
   std::vector<PairStep> pair_dt_;
   double least_pair_dt_ = 0, joints_dt_ = 0;
+  StepLimit least_limit_;
   int touching_ = 0;
   long touched_ = 0;
+  double searched_ = 0;
 };
 
 }  // namespace erbs

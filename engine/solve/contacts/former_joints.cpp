@@ -30,7 +30,10 @@ void FormerJoints::bound(ContactPair& p) {
   p.bound_share_a = p.bound_share_b = 0;
   for (int j = first; j < bodies_.end_of_same_parts(first, model_.njoint); ++j) {
     const Joint& joint = model_.joint[z(j)];
-    const double *k = joint.type->stiffness, k_rotation = k[3] + k[4] + k[5];
+    const StiffnessShare share = stiffness_share(state_, j);
+    double k[6];
+    for (int i = 0; i < 6; ++i) k[i] = (i >= 2 && i < 5 ? share.n : share.s) * joint.type->stiffness[i];
+    const double k_rotation = k[3] + k[4] + k[5];
     const auto rate = [&](int b, const Vec3& arm) {
       const ContactBlock& block = bodies_.block[z(b)];
       const Vec3 lever = arm.cross(joint.type->frame.col(2));
@@ -53,14 +56,29 @@ bool FormerJoints::displaced(const ContactPair& p, int j) const {
   return !p.touching && !((a - b).norm() < parted * std::sqrt(2.0));  // a rocking block rotates and returns to its place
 }
 
+// Stiffness to which a former joint softens: that of its bed without bond (fading.h), of displaced faces that of debris if that is lower.
+PairLaw FormerJoints::softest(const ContactPair& p, int joint) const {
+  const PointLaw& law = model_.laws[z(model_.joint[z(joint)].type->law)];
+  const PairLaw debris = bodies_.law(p.a, p.b);
+  if (!law.fades()) return p.former_joint == ContactPair::softening || displaced(p, joint) ? debris : p.law;
+  PairLaw to = p.law;
+  to.kn = law.kn_debonded, to.ks = law.ks_debonded;
+  if (displaced(p, joint)) to.kn = std::min(to.kn, debris.kn), to.ks = std::min(to.ks, debris.ks);
+  return to;
+}
+
 // A former joint has the stiffness of a mortar layer between matching faces. Faces that slide on each other match no more; their stiffness
 // falls in small steps to that of debris, if that is lower. Otherwise blocks that drag each other along would limit the step of a collapse.
 bool FormerJoints::find_softening(const ContactSettings& settings, const Sleep& sleep, double most) {
   for (std::size_t i = 0; i < of_pair_.size(); ++i) {
     ContactPair& p = state_.contacts.list.pair[i];
-    if (p.former_joint != 1 || !p.touching || sleep.asleep(p.a) || sleep.asleep(p.b) || !displaced(p, of_pair_[i].joint)) continue;
-    const PairLaw to = bodies_.law(p.a, p.b);
-    if (to.kn >= p.law.kn || to.ks >= p.law.ks) continue;
+    if (!p.former_joint || sleep.asleep(p.a) || sleep.asleep(p.b)) continue;
+    const int joint = of_pair_[i].joint;
+    const bool fades = model_.laws[z(model_.joint[z(joint)].type->law)].fades();
+    if (fades && !p.touching) soften_open(i);
+    if (p.former_joint != 1 || !p.touching) continue;
+    const PairLaw to = softest(p, joint);
+    if (fades ? to.kn >= p.law.kn && to.ks >= p.law.ks : to.kn >= p.law.kn || to.ks >= p.law.ks) continue;
     p.former_joint = ContactPair::softening;
   }
   return soften(settings, sleep, most);
@@ -79,24 +97,51 @@ bool FormerJoints::soften(const ContactSettings& settings, const Sleep& sleep, d
     PairResult now;
     ContactPair copy = p;
     if (!pair_force(copy, bodies_.shapes, a, b, settings, 0.0, true, room_, now)) continue;
-    const PairLaw to = bodies_.law(p.a, p.b);
-    if ((now.elastic + now.tangential) * p.law.kn / to.kn > most) continue;
+    const int joint = of_pair_[i].joint;
+    const PairLaw to = softest(p, joint);
+    const bool fades = model_.laws[z(model_.joint[z(joint)].type->law)].fades();  // then the loss is that of the bed
+    if (!fades && (now.elastic + now.tangential) * p.law.kn / to.kn > most) continue;
     const double kn = std::max(to.kn, at_once * p.law.kn) / p.law.kn, ks = std::max(to.ks, at_once * p.law.ks) / p.law.ks;
     p.law.kn *= kn;
     p.law.ks *= ks;
     p.tangential *= ks;
-    reset_energy_ += (1 - kn) * now.elastic + (1 - ks) * now.tangential;
+    (fades ? crushing_ : reset_energy_) += (1 - kn) * now.elastic + (1 - ks) * now.tangential;
     // The lost part of the force still does half a step of work on the way to the next pose, as friction does.
     p.friction.force += (1 - kn) * (now.wrench.force - copy.friction.force);
     p.friction.moment_a += (1 - kn) * (now.wrench.moment_a - copy.friction.moment_a);
     p.friction.moment_b += (1 - kn) * (now.wrench.moment_b - copy.friction.moment_b);
     any = true;
-    if (p.law.kn > to.kn || p.law.ks > to.ks) continue;
+    const bool done = p.law.kn <= to.kn && p.law.ks <= to.ks;
+    if (!state_.joints.share.empty()) note_share(i);
+    if (!done) continue;
+    p.former_joint = 1;
+    if (fades && !displaced(p, joint)) continue;
     p.former_joint = 0;
     p.bound_share_a = p.bound_share_b = 0;
     of_pair_[i] = {};
   }
   return any;
+}
+
+// Open faces store nothing: they are as soft at once as they will be.
+void FormerJoints::soften_open(std::size_t i) {
+  ContactPair& p = state_.contacts.list.pair[i];
+  const PairLaw to = softest(p, of_pair_[i].joint);
+  if (p.law.kn <= to.kn && p.law.ks <= to.ks) return;
+  p.law.kn = to.kn, p.law.ks = to.ks;
+  note_share(i);
+}
+
+// The joints of pair i have its stiffness now, and so has the bound.
+void FormerJoints::note_share(std::size_t i) {
+  ContactPair& p = state_.contacts.list.pair[i];
+  const int first = of_pair_[i].joint;
+  for (int j = first; j < bodies_.end_of_same_parts(first, model_.njoint); ++j) {
+    const PointLaw& law = model_.laws[z(model_.joint[z(j)].type->law)];
+    state_.joints.share[z(j)] = {p.law.kn / law.kn, p.law.ks / law.ks};
+  }
+  bound(p);
+  of_pair_[i].omega2_a = p.bound_share_a, of_pair_[i].omega2_b = p.bound_share_b;
 }
 
 void FormerJoints::forget_displaced() {
@@ -140,8 +185,9 @@ void FormerJoints::release_pair(std::span<const int> joints) {
   ContactPair& pair = state_.contacts.list.pair[z(at)];
   pair.former_joint = 1;
   bound(pair);
-  pair.law.kn = joint_law.kn;
-  pair.law.ks = joint_law.ks;
+  const StiffnessShare share = stiffness_share(state_, joints.front());
+  pair.law.kn = share.n * joint_law.kn;
+  pair.law.ks = share.s * joint_law.ks;
   pair.law.mu = joint_law.mu_residual;
   const ContactBlock &a = bodies_.block[z(pair.a)], &b = bodies_.block[z(pair.b)];
   if (!uplift.isZero(0)) pair.lift = pair.b_is_reference ? Vec3(b.rotation.transpose() * uplift) : Vec3(-(a.rotation.transpose() * uplift));

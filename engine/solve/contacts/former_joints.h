@@ -35,7 +35,10 @@ class FormerJoints {
   // springs (J).
   double start_fresh(std::span<const int> pairs);
   void add_reset(double energy) { reset_energy_ += energy; }
-  void book_release() { state_.energy.reset += std::exchange(reset_energy_, 0.0); }  // after the ledger of this step has closed
+  void book_release() {  // after the ledger of this step has closed
+    state_.energy.reset += std::exchange(reset_energy_, 0.0);
+    state_.energy.crushing += std::exchange(crushing_, 0.0);
+  }
   std::vector<JointRelease> take_releases() { return std::exchange(releases_, {}); }
 
   struct FormerJoint {
@@ -50,6 +53,9 @@ class FormerJoints {
   void note_release(int joint, double energy);
   void bound(ContactPair& pair);
   bool displaced(const ContactPair& pair, int joint) const;
+  PairLaw softest(const ContactPair& pair, int joint) const;
+  void soften_open(std::size_t i);
+  void note_share(std::size_t i);
 
   const Model& model_;
   State& state_;
@@ -57,6 +63,7 @@ class FormerJoints {
   OverlapRoom room_;
   std::vector<FormerJoint> of_pair_;
   std::vector<JointRelease> releases_;
+  double crushing_ = 0;      // J, lost by beds without bond that soften, booked like the next one
   double reset_energy_ = 0;  // J, set free by the last releases and still contained in the sums of this step
 };
 

@@ -47,12 +47,15 @@ void Contacts::find_pair_steps() {
   pair_dt_.clear();
   joints_dt_ = bound_.joints_dt();
   least_pair_dt_ = std::numeric_limits<double>::infinity();
+  const auto note = [this](double dt, StepLimit::By by, int block) {
+    if (dt < least_pair_dt_) least_pair_dt_ = dt, least_limit_ = {by, block};
+  };
   for (const ContactForces::ThreadPairs& found : forces_.results()) {
     for (const ContactForces::Force& one : found.forces) {
       const MotionBounds::PairBound& pair = motion_.pair(one.pair);
       const double allowed = bound_.pair_dt(one, pair);
       if (bound_.on_stiff_block(pair)) joints_dt_ = std::min(joints_dt_, bound_.limited_by_slip(one));
-      least_pair_dt_ = std::min(least_pair_dt_, allowed);
+      note(allowed, allowed < 0.9 * bound_.steady_dt(one, pair) ? StepLimit::By::event : StepLimit::By::contacts, pair.a);
       const double inverse_mass = bodies_.block[z(pair.a)].inverse_mass + bodies_.block[z(pair.b)].inverse_mass;
       pair_dt_.push_back({one.pair, std::min(allowed, accurate_dt(one.pair)), bound_.steady_dt(one, pair),
                           one.result.wrench.force.squaredNorm() * inverse_mass / 8});
@@ -62,7 +65,7 @@ void Contacts::find_pair_steps() {
     for (const ContactForces::SeparatedPair& one : found.separated) {
       const MotionBounds::PairBound& pair = motion_.pair(one.pair);
       const double way = std::max(3 * macro_dt(state_.time), 7 * state_.time.dt) * relative_speed(pair.a, pair.b);
-      if (one.apart <= way) least_pair_dt_ = std::min(least_pair_dt_, bound_.pair_dt(one, pair));
+      if (one.apart <= way) note(bound_.pair_dt(one, pair), StepLimit::By::impact, pair.a);
     }
   }
 }
@@ -100,6 +103,12 @@ std::vector<double> Contacts::steady_dt_of_heaps() const {
   }
   for (int b = 0; b < model_.nblock; ++b)
     if (loose(b)) out[z(b)] = least[z(root(b))];
+  return out;
+}
+
+std::array<long, most_levels> Contacts::evaluations_by_level() const {
+  std::array<long, most_levels> out{};
+  for (const PairStep& of : pair_dt_) out[z(forces_.level(of.pair))] += std::max(1, state_.time.substeps >> forces_.level(of.pair));
   return out;
 }
 

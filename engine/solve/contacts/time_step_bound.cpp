@@ -73,9 +73,11 @@ void ContactLimit::add_joints(std::span<Mat6> to) const {
       const int pair = find_pair(state_.contacts.list, joint.a, joint.part_a, joint.b, joint.part_b);
       if (pair < 0 || !state_.contacts.list.pair[z(pair)].former_joint) continue;
     }
+    const StiffnessShare share = stiffness_share(state_, j);
     const JointMap map = joint_map(model_, state_, j);
     constexpr double other_share = contact_share * contact_share / (safe_share * safe_share);
-    const Mat6 k = other_share * (1 + 2 * std::max(joint.viscous, joint.viscous_cracked) / state_.time.dt) * stiffest(joint);
+    const Mat6 k = std::max(share.n, share.s) * other_share * (1 + 2 * std::max(joint.viscous, joint.viscous_cracked) / state_.time.dt) *
+                   stiffest(joint);
     to[z(joint.a)] += map.a.transpose() * k * map.a;
     to[z(joint.b)] += map.b.transpose() * k * map.b;
   }

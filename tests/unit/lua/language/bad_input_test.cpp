@@ -85,6 +85,8 @@ TEST_CASE("what a scene says wrong is one message with its place and remedy", "[
       {"expect('metrics.top', 3, { rel = .1 })", {at, "there is no metric \"top\""}},
       {"expect('energy.kinetic', 3, { rel = .1 })", {at, "no key \"energy.kinetic\"; did you mean \"energy.kinetic_J\"?"}},
       {"joint{ between = {'piers', ''}, law = dry{ kn = 1e9, mu = .6 } }", {at, "no block is of group \"piers\"; did you mean \"pier\"?"}},
+      {"joint{ between = {'pier', 'pier'}, law = mortar{ kn = 1e9, ft = 1e5, c = 1e5, mu = .6, kn_cracked = 2e9 } }",
+       {at, "kn_cracked = 2e+09 Pa/m lies above kn = 1e+09 Pa/m", "lower it, or leave it out"}},
       {"ground_motion{ wave = 1, direction = {0, 0, 0} }", {at, "direction has no length; give a vector such as { 1, 0, 0 }"}},
       {"ground_motion{ wave = record{ file = el_centro, peak = -1 } }", {at, "peak = -1 m/s2 is out of range"}},
       {"mesh{ file = 'no.obj', free = true }", {at, "\"no.obj\" is not there; looked for", "correct the name"}},
