@@ -18,7 +18,7 @@ using erbs::Error;
 namespace render = erbs::render;
 
 struct Arguments {
-  std::string dir, size = "1280x720", time, stills, color = "material";
+  std::string dir, size = "1280x720", time, stills, eye, target, color = "material";
   std::vector<std::string> cameras;
   bool figures_only = false, no_figures = false;
   render::Movie movie;
@@ -57,6 +57,26 @@ void read_times(const Arguments& a, render::Movie& movie) {
   }
 }
 
+// A point "x,y,z" (m).
+std::optional<erbs::Vec3> read_point(const std::string& option, const std::string& text) {
+  if (text.empty()) return std::nullopt;
+  erbs::Vec3 point;
+  std::size_t at = 0;
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t comma = std::min(text.find(',', at), text.size());
+    if (at > text.size() || !read_number(text.substr(at, comma - at), point[i]) || (i == 2 && comma != text.size()))
+      throw Error(option + " " + text + " is not a point in m; try " + option + " 6,-7,4");
+    at = comma + 1;
+  }
+  return point;
+}
+
+void read_camera(const Arguments& a, render::Movie& movie) {
+  movie.eye = read_point("--eye", a.eye), movie.target = read_point("--target", a.target);
+  if (movie.eye && !movie.cameras.empty()) throw Error("--eye is a camera of its own; leave out --camera");
+  if (!movie.eye && (movie.target || movie.fit)) throw Error("--target and --fit belong to a camera of your own; give --eye x,y,z as well");
+}
+
 void write_figures(const render::Run& folder, bool quiet) {
   try {
     for (const std::string& path : render::write_figures(folder))
@@ -69,6 +89,7 @@ int run(Arguments& a) {
   read_size(a.size, movie.look);
   read_times(a, movie);
   movie.cameras = a.cameras;
+  read_camera(a, movie);
   movie.look.coloring = a.color == "damage" ? render::Coloring::damage : render::Coloring::material;
   const render::Run folder = render::read_run(a.dir);
   if (!a.no_figures) write_figures(folder, movie.quiet);
@@ -98,7 +119,13 @@ int main(int argc, char** argv) {
   CLI::App app("Pictures, videos and figures of a run of erbs.", "erbs-render");
   app.add_option("DIR", a.dir, "the run folder")->required();
   app.add_option("--size", a.size, "pixels of a picture")->capture_default_str();
-  app.add_option("--camera", a.cameras, "a camera of the scene by name, or all (default: the first)")->delimiter(',');
+  app.add_option("--camera", a.cameras,
+                 "a camera of the scene by name, or all; from_-x, from_+x, from_-y, from_+y, from_above (default: the first)")
+      ->delimiter(',');
+  app.add_option("--eye", a.eye, "x,y,z: position of a camera of your own (m)");
+  app.add_option("--target", a.target, "x,y,z: the point that it looks at (m; default: the middle of the building)");
+  app.add_option("--fov", a.movie.fov, "its vertical angle of view (deg)")->check(within(0.1, 170.0))->capture_default_str();
+  app.add_flag("--fit", a.movie.fit, "move it along its line of sight until building and heap are visible");
   app.add_option("--fps", a.movie.fps, "pictures a second of the video")->check(within(1.0, 240.0))->capture_default_str();
   app.add_option("--slow", a.movie.slow, "seconds of video for one second of the run")->check(within(0.001, 1000.0))->capture_default_str();
   app.add_option("--frames", a.movie.frames, "every: each recorded frame once; N: so many, evenly spread");

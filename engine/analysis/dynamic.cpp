@@ -17,7 +17,7 @@
 #include "engine/base/hash.h"
 #include "engine/joints/kinematics.h"
 #include "engine/record/folder/checkpoint.h"
-#include "engine/record/results/collapse.h"
+#include "engine/record/results/course.h"
 #include "engine/scene/effects.h"
 #include "engine/solve/energy.h"
 #include "engine/solve/step.h"
@@ -71,6 +71,7 @@ class Run {
 
   Scene scene_;
   std::vector<Effect> effects_;
+  std::vector<std::string> group_;  // of each block
   const std::string& script_;
   const RunOptions& options_;
   double born_ = seconds(), setup_ = 0, solve_start_ = 0, record_ = 0, last_save_ = 0, last_progress_ = 0, started_at_ = 0;
@@ -126,6 +127,7 @@ void Run::begin() {
   create_run_folder(options_.directory, options_.existing, script_, manifest);
   if (!out_.lock) out_.lock = std::make_shared<FolderLock>(options_.directory);
   writer_.emplace(options_.directory, scene_, run_.model, resume ? &written : nullptr);
+  for (const Block& block : scene_.blocks) group_.push_back(block.group);
   scene_.blocks = std::vector<Block>();
   return_free_memory();
   if (!resume)
@@ -314,6 +316,10 @@ Metrics Run::metrics() const {
   m.collapse.under_gravity = collapse_.under_gravity;
   if (collapse_.collapsed && !collapse_.under_gravity) m.collapse.time_s = collapse_.time;
   m.collapse.direction = collapse_direction(collapse_, run_.model, s.pose);
+  const Course course = course_of(collapse_, run_.model, group_, m.collapse.direction);
+  m.collapse.course = course.text;
+  for (const GroupFall& one : course.groups)
+    m.collapse.sequence.push_back({{"group", one.group}, {"time_s", one.time}, {"share", one.share}});
   m.diagnostics = diagnostics_of(diagnostics_, run_.model, s);
   m.collapse.mechanism =
       mechanism_metrics(collapse_.collapsed ? collapse_.mechanism : mechanism_of(run_.model, s.pose, m.time_s), run_.model);

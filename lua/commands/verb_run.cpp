@@ -77,6 +77,8 @@ std::string collapse_text(const Json& metrics) {
                                    : fmt::format("collapse at {:.3f} s{}; {:.0f} % of the mass has fallen by the end",
                                                  number_at(metrics, "collapse.time_s"), towards, 100 * share);
   const Json* mechanism = find_key(metrics, "collapse.mechanism.summary");
+  const Json* course = find_key(metrics, "collapse.course");
+  if (course && course->is_string() && *course != "") text += "\ncourse: " + course->get<std::string>();
   if (mechanism && mechanism->is_string() && *mechanism != "") text += "\nmechanism: " + mechanism->get<std::string>();
   return text;
 }

@@ -200,14 +200,13 @@ void Overlay::draw_scale(Image& image) const {
 void Overlay::draw_axes(Image& image) const {
   const double u = unit_, length = 30 * u, x = (margin + 46) * u, y = image.height - look_.bottom - 52 * u;
   fill_box(image, x - 46 * u, y - 42 * u, x + 46 * u, y + 50 * u, panel);
-  for (int i = 0; i < 3; ++i) {
-    const std::string name(1, "xyz"[i]);
-    const bool shaken = name == run_.record.axis;
+  const auto arrow = [&](const Vec3& direction, const std::string& name, bool shaken) {
     const Ink ink = shaken ? accent : quiet_ink;
-    const double dx = static_cast<double>(turn_(0, i)) * length, dy = -static_cast<double>(turn_(1, i)) * length;
+    const Eigen::Vector3f seen_from = turn_ * direction.cast<float>();
+    const double dx = static_cast<double>(seen_from.x()) * length, dy = -static_cast<double>(seen_from.y()) * length;
     const double seen = std::hypot(dx, dy), width = (shaken ? 2.4 : 1.5) * u;
     draw_line(image, shaken ? x - dx : x, shaken ? y - dy : y, x + dx, y + dy, width, ink);
-    if (seen < 0.25 * length) continue;  // along the view: no room for an arrow and a letter
+    if (seen < 0.25 * length) return;  // along the view: no room for an arrow and a letter
     const double ex = dx / seen, ey = dy / seen, head = 6 * u;
     for (double end : {1.0, -1.0}) {
       if (end < 0 && !shaken) continue;
@@ -216,7 +215,14 @@ void Overlay::draw_axes(Image& image) const {
                   y + end * (dy - head * (0.85 * ey - side * 0.55 * ex)), width, ink);
     }
     regular_.draw(image, name, x + dx + 8 * u * ex, y + dy + 8 * u * ey + 4 * u, 12 * u, ink, Font::Align::middle);
+  };
+  bool along_axis = false;
+  for (int i = 0; i < 3; ++i) {
+    const std::string name(1, "xyz"[i]);
+    along_axis = along_axis || name == run_.record.axis;
+    arrow(Vec3::Unit(i), name, name == run_.record.axis);
   }
+  if (!along_axis && !run_.record.axis.empty()) arrow(run_.record.direction, "", true);
   if (!run_.record.axis.empty()) regular_.draw(image, "shaking", x, y + 46 * u, 11.5 * u, accent, Font::Align::middle);
 }
 

@@ -24,15 +24,32 @@ using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
+Camera own_camera(const Movie& movie, const Stage& stage, double aspect) {
+  Camera camera;
+  camera.name = "own";
+  camera.eye = *movie.eye;
+  camera.target = movie.target.value_or(stage.building.center());
+  camera.fov = movie.fov * pi / 180;
+  const Vec3 back = camera.eye - camera.target;
+  if (!(back.norm() > 1e-9)) throw Error("--eye and --target are the same point, so that the camera looks nowhere; move one of them");
+  if (back.cross(camera.up).norm() < 1e-6 * back.norm()) camera.up = Vec3(0, 1, 0);
+  if (movie.fit) fit_camera(camera, back, stage, aspect);
+  return camera;
+}
+
 std::vector<Camera> chosen_cameras(const Run& run, const Show& show, const Movie& movie) {
   const Look& l = movie.look;
-  const std::vector<Camera> all = run.cameras.empty() ? choose_cameras(show.stage, l.width / (l.height - l.top - l.bottom)) : run.cameras;
+  const double aspect = l.width / (l.height - l.top - l.bottom);
+  if (movie.eye) return {own_camera(movie, show.stage, aspect)};
+  std::vector<Camera> all = run.cameras.empty() ? choose_cameras(show.stage, aspect) : run.cameras;
   if (movie.cameras.empty()) return {all.front()};
+  const std::size_t own = all.size();
+  for (const Camera& one : elevations(show.stage, aspect)) all.push_back(one);
   std::vector<Camera> chosen;
   for (const std::string& name : movie.cameras) {
     const std::size_t before = chosen.size();
-    for (const Camera& c : all)
-      if (name == "all" || c.name == name) chosen.push_back(c);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if ((name == "all" && i < own) || all[i].name == name) chosen.push_back(all[i]);
     if (chosen.size() > before) continue;
     std::string known;
     for (const Camera& c : all) known += " " + c.name;

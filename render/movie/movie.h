@@ -13,6 +13,9 @@ namespace erbs::render {
 struct Movie {
   Look look;
   std::vector<std::string> cameras;                // names; empty: the first camera; "all": all cameras
+  std::optional<Vec3> eye, target;                 // m, of a camera of one's own, which is then drawn alone
+  double fov = 31;                                 // degrees, of that camera
+  bool fit = false;                                // moves it along its line of sight until all is visible
   double fps = 25;                                 // of the video
   double slow = 1;                                 // seconds of video per second of the run
   std::string frames;                              // "": as fps and slow require; "every": each recorded frame; a number: that many frames

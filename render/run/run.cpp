@@ -10,19 +10,42 @@
 namespace erbs::render {
 namespace {
 
-GroundRecord strongest_component(const CsvTable& histories) {
-  GroundRecord best;
+// "x", "-y" reads "y", any other direction "(0.71, 0.71, 0)".
+std::string axis_name(const Vec3& d) {
+  for (int i = 0; i < 3; ++i)
+    if (std::fabs(d[i]) > 0.9995) return std::string(1, "xyz"[i]);
+  return fmt::format("({:.2f}, {:.2f}, {:.2f})", d.x(), d.y(), d.z());
+}
+
+// The ground motion along its principal direction, in which the sum of its squares is greatest.
+GroundRecord principal_component(const CsvTable& histories) {
+  GroundRecord out;
   const int time = histories.find("time_s");
-  if (time < 0) return best;
-  for (const std::string axis : {"x", "y", "z"}) {
-    const int column = histories.find("ground_a" + axis + "_m_s2");
-    if (column < 0) continue;
-    const std::vector<double>& a = histories.columns[static_cast<std::size_t>(column)];
-    double peak = 0;
-    for (double value : a) peak = std::max(peak, std::abs(value));
-    if (peak > best.peak) best = {axis, histories.columns[static_cast<std::size_t>(time)], a, peak};
+  if (time < 0) return out;
+  const std::vector<double>* along[3] = {};
+  Mat3 squares = Mat3::Zero();
+  for (int i = 0; i < 3; ++i)
+    if (const int column = histories.find(std::string("ground_a") + "xyz"[i] + "_m_s2"); column >= 0)
+      along[i] = &histories.columns[static_cast<std::size_t>(column)];
+  const auto at = [&](std::size_t row) {
+    Vec3 a = Vec3::Zero();
+    for (int i = 0; i < 3; ++i)
+      if (along[i] != nullptr && std::isfinite((*along[i])[row])) a[i] = (*along[i])[row];
+    return a;
+  };
+  const std::vector<double>& t = histories.columns[static_cast<std::size_t>(time)];
+  for (std::size_t row = 0; row < t.size(); ++row) squares += at(row) * at(row).transpose();
+  if (!(squares.trace() > 0)) return out;
+  Vec3 direction = Eigen::SelfAdjointEigenSolver<Mat3>(squares).eigenvectors().col(2);
+  int largest = 0;
+  direction.cwiseAbs().maxCoeff(&largest);
+  if (direction[largest] < 0) direction = -direction;
+  out.axis = axis_name(direction), out.direction = direction, out.t = t;
+  for (std::size_t row = 0; row < t.size(); ++row) {
+    out.a.push_back(at(row).dot(direction));
+    out.peak = std::max(out.peak, std::fabs(out.a.back()));
   }
-  return best;
+  return out;
 }
 
 // First crack (in dry masonry: first joint that opened), and collapse.
@@ -66,7 +89,7 @@ Run read_run(const std::string& dir) {
   if (const std::string metrics = run_file(dir, "metrics.json"); std::filesystem::exists(metrics))
     run.status = read_json(metrics).value("status", "");
   if (run.status == "completed") run.status.clear();
-  if (std::filesystem::exists(histories)) run.record = strongest_component(read_csv(histories));
+  if (std::filesystem::exists(histories)) run.record = principal_component(read_csv(histories));
   if (const std::string events = run_file(dir, "events.csv"); std::filesystem::exists(events)) run.marks = first_events(read_csv(events));
   return run;
 }

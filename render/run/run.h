@@ -13,9 +13,10 @@ struct Paint {
   Vec3 color{0.70, 0.35, 0.25};  // linear 0..1
 };
 
-// One component of the ground motion over the whole run.
+// The ground motion along its principal direction, over the whole run.
 struct GroundRecord {
-  std::string axis;       // "x", "y", "z"; empty without ground motion
+  std::string axis;  // of that direction: "x", "y", "z", or its components; empty without ground motion
+  Vec3 direction = Vec3::Zero();
   std::vector<double> t;  // s
   std::vector<double> a;  // m/s2
   double peak = 0;        // m/s2, largest absolute value

@@ -89,8 +89,10 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
   return stage;
 }
 
-std::vector<Camera> choose_cameras(const Stage& stage, double aspect) {
-  // Points that must be visible: the building, and room on the ground for what falls beside it.
+namespace {
+
+// Points that must be visible: the building, room on the ground for what falls beside it, and the heap at the end.
+std::vector<Vec3> seen_points(const Stage& stage) {
   std::vector<Vec3> seen;
   const Vec3 size = stage.building.sizes(), aside = 0.14 * size.z() * Vec3(1, 1, 0);
   for (int i = 0; i < 8; ++i) {
@@ -99,29 +101,57 @@ std::vector<Camera> choose_cameras(const Stage& stage, double aspect) {
     if (i < 4) seen.push_back(p + aside.cwiseProduct((p - stage.building.center()).cwiseSign()));  // the lower corners
     if (!stage.heap.isEmpty()) seen.push_back(stage.heap.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
   }
+  return seen;
+}
+
+}  // namespace
+
+void fit_camera(Camera& c, const Vec3& direction, const Stage& stage, double aspect) {
+  const std::vector<Vec3> seen = seen_points(stage);
+  c.target = stage.building.center();
+  const Vec3 back = direction.normalized();
+  Vec3 right = c.up.cross(back);
+  if (right.norm() < 1e-6) c.up = Vec3(0, 1, 0), right = c.up.cross(back);
+  right.normalize();
+  const Vec3 up = back.cross(right);
+  const double half = std::tan(0.5 * c.fov);
+  double distance = std::max(1e-3, 3 * stage.size() / std::min(1.0, 4 * half));
+  for (int iteration = 0; iteration < 8; ++iteration) {  // approaches in iterations and centres the target on the visible points
+    Eigen::AlignedBox2d shown;
+    for (const Vec3& p : seen) {
+      const Vec3 v = p - c.target;
+      shown.extend(Eigen::Vector2d(v.dot(right) / aspect, v.dot(up)) / (half * (distance - v.dot(back))));
+    }
+    c.target += distance * half * (shown.center().x() * aspect * right + shown.center().y() * up);
+    distance *= 1.06 * 0.5 * shown.sizes().maxCoeff();
+  }
+  c.eye = c.target + distance * back;
+}
+
+std::vector<Camera> choose_cameras(const Stage& stage, double aspect) {
   std::vector<Camera> cameras(2);
   const Vec3 directions[2] = {Vec3(0.62, -1, 0.34), Vec3(-1, -0.50, 0.42)};
   const char* names[2] = {"corner", "side"};
   for (std::size_t k = 0; k < 2; ++k) {
-    Camera& c = cameras[k];
-    c.name = names[k];
-    c.fov = 26 * pi / 180;
-    c.target = stage.building.center();
-    const Vec3 back = directions[k].normalized(), right = Vec3(0, 0, 1).cross(back).normalized(), up = back.cross(right);
-    const double half = std::tan(0.5 * c.fov);
-    double distance = std::max(1e-3, 3 * stage.size());
-    for (int iteration = 0; iteration < 8; ++iteration) {  // approaches in iterations and centres the target on the visible points
-      Eigen::AlignedBox2d shown;
-      for (const Vec3& p : seen) {
-        const Vec3 v = p - c.target;
-        shown.extend(Eigen::Vector2d(v.dot(right) / aspect, v.dot(up)) / (half * (distance - v.dot(back))));
-      }
-      c.target += distance * half * (shown.center().x() * aspect * right + shown.center().y() * up);
-      distance *= 1.06 * 0.5 * shown.sizes().maxCoeff();
-    }
-    c.eye = c.target + distance * back;
+    cameras[k].name = names[k];
+    cameras[k].fov = 26 * pi / 180;
+    fit_camera(cameras[k], directions[k], stage, aspect);
   }
   return cameras;
+}
+
+std::vector<Camera> elevations(const Stage& stage, double aspect) {
+  const std::pair<const char*, Vec3> views[] = {
+      {"from_-x", {-1, 0, 0}}, {"from_+x", {1, 0, 0}}, {"from_-y", {0, -1, 0}}, {"from_+y", {0, 1, 0}}, {"from_above", {0, 0, 1}}};
+  std::vector<Camera> out;
+  for (const auto& [name, direction] : views) {
+    Camera camera;
+    camera.name = name;
+    camera.fov = 1.5 * pi / 180;  // from so far that parallel lines stay parallel within 1 %
+    fit_camera(camera, direction, stage, aspect);
+    out.push_back(camera);
+  }
+  return out;
 }
 
 namespace {

@@ -21,6 +21,11 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
 // Two cameras, each from one corner. They show the whole building and its final heap, in a picture of this width/height.
 std::vector<Camera> choose_cameras(const Stage& stage, double aspect);
 
+// Elevations and a plan, from_-x ... from_+y and from_above: seen from very far, so that they are nearly parallel projections.
+std::vector<Camera> elevations(const Stage& stage, double aspect);
+// Places the camera in this direction from the building so that all of it and its heap are visible; keeps its fov.
+void fit_camera(Camera& camera, const Vec3& direction, const Stage& stage, double aspect);
+
 // View of a camera. The overlay covers the top and bottom of the picture; field of view and target of the camera refer to the part between.
 struct View {
   Eigen::Matrix4f projection, view;  // view: world to camera

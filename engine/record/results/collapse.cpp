@@ -16,6 +16,7 @@ Collapse watch_collapse(const Model& model, const BlockPoses& start) {
   collapse.start.resize(std::size_t(model.nblock));
   for (std::size_t b = 0; b < collapse.start.size(); ++b) collapse.start[b] = start.u[b].z();
   collapse.fallen.assign(collapse.start.size(), 0);
+  collapse.fall_time.assign(collapse.start.size(), 0.0);
   return collapse;
 }
 
@@ -28,8 +29,10 @@ bool update(Collapse& collapse, const Model& model, const BlockPoses& pose, doub
     moving += model.mass[b];
     if (!down(collapse, model, pose, b)) continue;
     fallen += model.mass[b];
-    if (!collapse.fallen[b] && newly) newly->push_back(int(b));
+    if (collapse.fallen[b]) continue;
+    if (newly) newly->push_back(int(b));
     collapse.fallen[b] = 1;
+    collapse.fall_time[b] = t;
   }
   collapse.fallen_fraction = moving > 0 ? fallen / moving : 0;
   if (collapse.collapsed || fallen == 0 || collapse.fallen_fraction < model.analysis.collapse_fraction) return false;

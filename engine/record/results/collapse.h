@@ -15,7 +15,8 @@ namespace erbs {
 
 struct Collapse {
   std::vector<double> start;         // m, height of each centroid above rest, at the start [nblock]
-  std::vector<std::uint8_t> fallen;  // the block has fallen at some time [nblock]
+  std::vector<std::uint8_t> fallen;  // the block has fallen at some time [nblock], ...
+  std::vector<double> fall_time;     // s, ... for the first time at this one [nblock]
   double fallen_fraction = 0;        // fallen share of the moving mass, now
   bool collapsed = false;            // the share has once reached Analysis::collapse_fraction
   double time = 0;                   // s, time of collapse
@@ -29,6 +30,7 @@ requires std::is_same_v<std::remove_const_t<C>, Collapse>
 void each(C& c, F&& f) {
   f("collapse_start", c.start);
   f("collapse_fallen", c.fallen);
+  f("collapse_fall_time", c.fall_time);
   f("collapse_fraction", c.fallen_fraction);
   f("collapse_collapsed", c.collapsed);
   f("collapse_time", c.time);

@@ -115,6 +115,8 @@ Json to_json(const Metrics& m) {
                    {"twin", m.diagnostics.twin},
                    {"chaos_horizon_s", m.diagnostics.chaos_horizon ? Json(*m.diagnostics.chaos_horizon) : Json()}};
   collapse["moved"] = m.collapse.moved;
+  collapse["course"] = m.collapse.course;
+  collapse["sequence"] = m.collapse.sequence;
   const auto& mechanism = m.collapse.mechanism;
   collapse["mechanism"] = {{"time_s", mechanism.time_s ? Json(*mechanism.time_s) : Json()},
                            {"summary", mechanism.summary},

@@ -42,8 +42,10 @@ struct Metrics {
     std::optional<double> time_s;
     std::optional<std::array<double, 2>> direction;  // unit vector, x and y
     double fallen_fraction = 0;
-    bool moved = false;  // Analysis::stop_when_moved ended the run
-    struct Mechanism {   // at the collapse; without a collapse, at the end
+    bool moved = false;             // Analysis::stop_when_moved ended the run
+    std::string course;             // in words (results/course.h)
+    Json sequence = Json::array();  // { group, time_s, share }, in the order in which the groups fell
+    struct Mechanism {              // at the collapse; without a collapse, at the end
       std::optional<double> time_s;
       std::string summary;
       int hinges = 0, slides = 0, parted = 0;

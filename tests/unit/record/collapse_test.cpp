@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "engine/record/results/course.h"
 #include "tests/unit/record/two_bricks.h"
 
 using namespace erbs;
@@ -60,4 +61,23 @@ TEST_CASE("the direction is the unit mean, and none where blocks fall every way"
   CHECK_FALSE(collapse_direction(c, t.model, t.state.pose));
   t.state.pose.u[2] = Vec3(-0.80, 0, -1);  // 0.1 / 0.9: 0.111
   CHECK(collapse_direction(c, t.model, t.state.pose));
+}
+
+TEST_CASE("the course of a collapse names groups in the order of their falls", "[record][collapse]") {
+  auto t = test::two_bricks();
+  Collapse c = watch_collapse(t.model, t.state.pose);
+  CHECK(course_of(c, t.model, {"base", "east", "west"}, std::nullopt).text.empty());
+  t.state.pose.u[2] = Vec3(2, 0, -1);
+  update(c, t.model, t.state.pose, 1.0);
+  t.state.pose.u[1] = Vec3(3, 0.1, -1);
+  update(c, t.model, t.state.pose, 1.25);
+  const Course course = course_of(c, t.model, {"base", "east", "west"}, collapse_direction(c, t.model, t.state.pose));
+  REQUIRE(course.groups.size() == 2);
+  CHECK(course.groups[0].group == "west");
+  CHECK(course.groups[0].time == 1.0);
+  CHECK(course.groups[1].time == 1.25);
+  CHECK(course.groups[1].share == 1);
+  CHECK(course.text.find("west (1.00 s), east (1.25 s); towards +x") != std::string::npos);
+  const Course one = course_of(c, t.model, {"base", "east", "west"}, std::nullopt, 1);
+  CHECK(one.text.find("west (1.00 s) and 1 more") != std::string::npos);
 }

@@ -79,7 +79,15 @@ TEST_CASE("the ground is the wide fixed block, and cameras see the building", "[
   CHECK(std::count(stage.hidden.begin(), stage.hidden.end(), true) == 1);
   CHECK(stage.ground_z == Approx(-0.005));
   CHECK(stage.building.sizes().x() == Approx(1.525));
-  for (const Camera& camera : choose_cameras(stage, 1280.0 / 560)) {
+  std::vector<Camera> cameras = choose_cameras(stage, 1280.0 / 560);
+  for (const Camera& camera : elevations(stage, 1280.0 / 560)) {
+    cameras.push_back(camera);
+    const Vec3 sight = (camera.target - camera.eye).normalized();  // along an axis
+    CHECK(sight.cwiseAbs().maxCoeff() == Approx(1));
+  }
+  REQUIRE(cameras.size() == 7);
+  for (const Camera& camera : cameras) {
+    INFO(camera.name);
     const View v = look(camera, stage, 1280, 720, 58, 102);
     for (int i = 0; i < 8; ++i) {
       const Vec3 p = stage.building.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));

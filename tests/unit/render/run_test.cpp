@@ -44,7 +44,7 @@ TEST_CASE("a run folder is read", "[render][run]") {
   manifest.materials[0].color = Vec3(0.5, 0.2, 0.1);
   manifest.settings = {{"analysis", {{"energy_gate", {{"value", 1e-3}}}}}};
   write_manifest(dir.path.string(), manifest);
-  dir.write("histories.csv", "time_s,ground_ax_m_s2,ground_ay_m_s2\n0,0,0\n0.1,1,-3\n0.2,2,1\n0.3,5");
+  dir.write("histories.csv", "time_s,ground_ax_m_s2,ground_ay_m_s2\n0,0,0\n0.1,0,-3\n0.2,0,1\n0.3,5");
   const Run run = read_run(dir.path.string());
   CHECK(run.title == "A house");
   REQUIRE(run.cameras.size() == 1);
@@ -54,6 +54,11 @@ TEST_CASE("a run folder is read", "[render][run]") {
   CHECK(run.record.axis == "y");
   CHECK(run.record.peak == 3);
   CHECK(run.record.t.size() == 3);  // the incomplete last line is ignored
+  dir.write("histories.csv", "time_s,ground_ax_m_s2,ground_ay_m_s2\n0,0,0\n0.1,1,1\n0.2,-2,-2\n");
+  const Run diagonal = read_run(dir.path.string());
+  CHECK(diagonal.record.axis == "(0.71, 0.71, 0.00)");
+  CHECK(diagonal.record.peak == Approx(std::sqrt(8.0)));
+  CHECK(diagonal.record.a.back() == Approx(-std::sqrt(8.0)));
   CHECK(run.energy_tolerance == 1e-3);
   CHECK(run.marks.empty());
   dir.write("events.csv",
