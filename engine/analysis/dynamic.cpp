@@ -13,9 +13,9 @@
 #include "engine/analysis/lost_blocks.h"
 #include "engine/analysis/prepare.h"
 #include "engine/analysis/resume.h"
+#include "engine/analysis/snapshot.h"
 #include "engine/analysis/verdict.h"
 #include "engine/base/hash.h"
-#include "engine/joints/kinematics.h"
 #include "engine/record/folder/checkpoint.h"
 #include "engine/record/results/course.h"
 #include "engine/scene/effects.h"
@@ -62,8 +62,6 @@ class Run {
   bool stop();
   void take_counts();
   void change_threads();
-  Snapshot snapshot() const;
-  int broken_joints() const;
   void save();
   RunSoFar so_far() const;
   void judge();
@@ -161,66 +159,6 @@ void Run::watch(const BlockVec3& built) {
   if (run_.fallers.empty() || falling_share(run_) < scene_.analysis.collapse_fraction) return;
   collapse_.collapsed = collapse_.under_gravity = true;
   collapse_.mechanism = mechanism_of(run_.model, run_.state.pose, 0);
-}
-
-Snapshot Run::snapshot() const {
-  const SampleState& now = solver_->sample();
-  const Model& m = run_.model;
-  const JointState& joints = run_.state.joints;
-  Snapshot s{.model = m, .pose = now.pose, .joints = joints, .energy = run_.state.energy, .t = now.t};
-  s.motion = [&m, &now, &after = run_.state.motion, kick = now.excitation.kick](std::size_t b) {
-    const MotionState& before = now.before;
-    MovingBlock o;
-    o.a = (after.v[b] - before.v[b]) / kick;
-    o.alpha = (after.w[b] - before.w[b]) / kick;
-    Vec3 moment = (after.spin_momentum[b] - before.spin_momentum[b]) / kick;
-    const bool levels = !now.kick_excess.empty();
-    if (levels) {  // contacts with levels act by impulses for several steps
-      const Mat3 r = now.pose.q[b].toRotationMatrix();
-      o.a -= m.inverse_mass[b] * now.kick_excess[b].head<3>();
-      o.alpha -= r * m.inverse_inertia[b] * r.transpose() * now.kick_excess[b].tail<3>();
-      moment -= now.kick_excess[b].tail<3>();
-    }
-    const double half = 0.5 * (levels ? now.since[b] : now.last_dt);
-    o.v = before.v[b] + half * o.a;
-    o.w = before.w[b] + half * o.alpha;
-    o.spin_momentum = before.spin_momentum[b] + half * moment;
-    return o;
-  };
-  for (const auto& g : m.grounds) {
-    s.ground_a += value(g.wave, now.t) * g.direction;
-    s.ground_v += integral(g.wave, now.t) * g.direction;
-    s.ground_u += second_integral(g.wave, now.t) * g.direction;
-  }
-  s.block_wrench = now.block_wrench, s.load_wrench = now.load_wrench;
-  for (int j = 0; writer_->needs().joint_force && j < m.njoint; ++j) {
-    const Joint& joint = m.joint[z(j)];
-    const std::size_t a = z(joint.a), b = z(joint.b);
-    std::array<double, 6> f{};
-    if (joints.stage[z(j)] == JointStage::cracked) std::copy_n(joints.memory[z(j)].resultant, 6, f.begin());
-    if (joints.stage[z(j)] == JointStage::intact) {
-      const JointPose pose = pose_of(joint, now.pose.u[a], now.pose.q[a], now.pose.u[b], now.pose.q[b]);
-      for (std::size_t i = 0; i < 6; ++i) f[i] = pose.gap[i] * joint.type->stiffness[i];
-    }
-    s.joint_force.push_back(f);
-  }
-  s.joints_broken = broken_joints();
-  for (int j = 0; j < m.njoint; ++j)
-    if (joints.stage[z(j)] != JointStage::contact) s.contact_points += m.joint[z(j)].type->points;
-  s.contact_points += solver_->contacts().touching();
-  return s;
-}
-
-// A joint is broken if none of its points carries tension or cohesion any more. Dry joints have none to lose.
-int Run::broken_joints() const {
-  int broken = 0;
-  for (int j = 0; j < run_.model.njoint; ++j) {
-    const Joint& joint = run_.model.joint[z(j)];
-    if (run_.state.joints.stage[z(j)] == JointStage::intact || !run_.model.laws[z(joint.type->law)].has_bond()) continue;
-    const auto first = run_.state.joints.history.begin() + joint.first_point;
-    broken += std::all_of(first, first + joint.type->points, [](const PointHistory& h) { return h.damage >= 1; });
-  }
-  return broken;
 }
 
 void Run::record(const Snapshot& now) {
@@ -365,7 +303,7 @@ void Run::step_on() {
   }
   while (true) {
     const Solver::Stop at = solver_->advance(output_.next(scene_.analysis, writer_->needs()));
-    if (at == Solver::Stop::sample) record(snapshot());
+    if (at == Solver::Stop::sample) record(snapshot_of(run_.model, run_.state, *solver_, writer_->needs().joint_force));
     if (solver_->broken() || stop()) return;
     if (crew_->should_change(run_.state.time.step)) change_threads();
   }

@@ -16,6 +16,8 @@ std::string text(StepLimit::By by) {
   switch (by) {
     case structure:
       return "joints of the structure";
+    case joints:
+      return "joints and contacts";
     case contacts:
       return "contacts";
     case impact:

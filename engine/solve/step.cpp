@@ -19,6 +19,9 @@ constexpr int fade_every = 8;        // steps between two reductions of the stif
 constexpr int activate_every = 256;  // steps between two searches for blocks that have moved far
 std::size_t z(int i) { return std::size_t(i); }
 
+// s, between two calls that are due `every()` so many steps.
+double interval(int steps, const TimeStep& time) { return std::max(steps, time.last_substeps) * time.last_dt; }
+
 // True once in `steps` steps, at the start of a macro step.
 bool every(int steps, const TimeStep& time) { return at_macro_step(time) && time.macro % std::max(1, steps / time.substeps) == 0; }
 
@@ -76,7 +79,7 @@ void Solver::prepare_step(const SamplePlan& plan) {
   stop_ = !together ? Stop::none : plan.due(time.t, time.dt) ? Stop::sample : due ? Stop::ledger : Stop::none;
   if (std::ranges::any_of(block_sums_, &BlockSums::outdated)) update_outdated();
   const bool debris = model_.analysis.debris, cracked = joints_.any_cracked();
-  if (cracked && !state_.joints.share.empty() && every(fade_every, time)) fading_.fade(joints_.cracked(), fade_every * time.last_dt);
+  if (cracked && !state_.joints.share.empty() && every(fade_every, time)) fading_.fade(joints_.cracked(), interval(fade_every, time));
   if (debris && every(activate_every, time) && (cracked || contacts_.active() || time.step == 0)) contacts_.activate_loose_blocks();
   has_contacts_ = contacts_.active();
   budget_ = together && has_levels(time) ? event_allowance(model_, state_) : event_budget(model_, state_);
@@ -125,9 +128,11 @@ void Solver::transitions() {
   }
   relisted_ = false;
   const double softened = event_tolerance * state_.energy.reference;
-  if (has_contacts_ && every(soften_every, time)) contacts_.soften_former_joints(softened, every(find_soft_every, time));
+  if (has_contacts_ && every(soften_every, time))
+    contacts_.soften_former_joints(softened, every(find_soft_every, time), interval(soften_every, time));
   if (has_contacts_ && contacts_.sleep(loads_.now(), contact_wrench_.data())) note_sleep();
   if (!may_release) return;
+  fading_.book(joints_.cracked());  // before a release clears the memory of its joints
   const std::vector<int> released = contacts_.release_joints(joints_.cracked());
   if (released.empty()) return;
   relisted_ = true;

@@ -54,11 +54,11 @@ StepLimit Solver::limit() const {
   const TimeStep& time = state_.time;
   const double event = time.event_dt > 0 ? time.event_dt : std::numeric_limits<double>::infinity();
   const bool levels = has_contacts_ && may_have_levels_;
-  if (levels && time.next_joint_level > 0) return contacts_.limit_of_levels();
+  if (levels && time.next_joint_level > 0) return contacts_.limit_of_pairs();
   const double contacts = !has_contacts_ ? time.dt_target : levels ? contacts_.joints_dt() : contacts_.bound().allowed_dt();
   if (std::min(event, contacts) > 1.2 * time.next_dt && time.next_dt < 0.9 * time.dt_target) return {StepLimit::By::growth, -1};
   if (event < std::min(contacts, time.dt_target)) return {StepLimit::By::event, -1};
-  return has_contacts_ && !levels && contacts != time.dt_target ? contacts_.limit() : StepLimit{};
+  return has_contacts_ && contacts != time.dt_target ? contacts_.bound().step_limit(levels) : StepLimit{};
 }
 
 void Solver::set_dt(double dt) {

@@ -19,7 +19,10 @@ material { name = "stone", density = 2400 }
 local area, heavy = side ^ 2, 0.5 * side  -- of the free blocks
 local weight = 2400 * 9.80665 * area * heavy
 local ks, shear, crushing = 0.4 * kn, 4 * depth, 0
-local t1, t2 = 0.02, 0.15  -- the bond is gone; the end
+-- The dashpots of a bed soften with it, so that its viscous ratio falls with the root of the stiffness: e^-8 of the swing is left.
+local rate = 0.05 * share * math.sqrt(kn / (2400 * 0.5 * side))  -- 1/s, decay of the free block
+local t1 = 0.02  -- the bond is gone
+local t2 = math.max(0.15, 3 * t1 + 8 / rate)
 local quick = 1e-4  -- s; a bed that slides while it fades rubs with the pressure that it bore before (interlock)
 local dt = 0.1 * 2 / math.sqrt(kn / (2400 * 0.1))
 

@@ -19,11 +19,10 @@ namespace erbs::ERBS_TARGET {
 struct Cracking {
   Pack gap[6], gap_before[6], resultant[6];
   Pack stored, friction, fracture, crushing;
-  Pack share_n, kn, ks;  // stiffness now: share of the intact joint's kn; Pa/m (fading.h)
-  Pack share_s;
-  Pack rate, debonded_rate;  // of dashpots, b over the last step; the same of points without a bond
-  Pack drag[6];              // dashpots (viscous_response)
-  Pack lift;                 // m, by asperities; set where the law has them
+  Pack share_n, share_s, kn, ks;  // stiffness now: as shares of the intact one, and in Pa/m (fading.h)
+  Pack rate, debonded_rate;       // of dashpots, b over the last step; the same of points without a bond
+  Pack drag[6];                   // dashpots (viscous_response)
+  Pack lift;                      // m, by asperities; set where the law has them
 };
 
 // The gap at a point, m.

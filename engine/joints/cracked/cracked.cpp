@@ -89,62 +89,6 @@ void Cracked::clear(Group& group, int l) {
   group.update_debonded(model_.laws[z(group.law)]);
 }
 
-// Writes the shape of one type to lane l of `shapes`, which has the same number of points and corners.
-void Cracked::set_shape(Shapes& shapes, int l, const JointType& type) const {
-  for (int i = 0; i < type.corners; ++i) {
-    const auto& c = model_.overlap_corner[z(type.first_corner + i)];
-    shapes.overlap_corner[z(i)].s[l] = c.x(), shapes.overlap_corner[z(i)].t[l] = c.y();
-  }
-  const Quat frame(type.frame);
-  for (int i = 0; i < 4; ++i) shapes.face.frame[i][l] = frame.coeffs()[i];
-  for (int i = 0; i < 6; ++i) shapes.face.stiffness[i][l] = type.stiffness[i];
-  shapes.face.half_s[l] = type.half_s, shapes.face.half_t[l] = type.half_t, shapes.face.radius[l] = type.radius;
-  shapes.face.bend_s[l] = type.face[0], shapes.face.bend_t[l] = type.face[1], shapes.face.twist[l] = type.face[2];
-  const int first = model_.cell[z(type.first_cell)].first;
-  for (int i = 0; i < int(shapes.cell_loop.size()); ++i) {
-    const auto &c = model_.cell_loop[z(first + i)], &w = model_.tension_loop[z(first + i)];
-    shapes.cell_loop[z(i)].s[l] = c.x(), shapes.cell_loop[z(i)].t[l] = c.y();
-    if (!shapes.tension_loop.empty()) shapes.tension_loop[z(i)].s[l] = w.x(), shapes.tension_loop[z(i)].t[l] = w.y();
-  }
-  for (int i = 0; i < type.points; ++i) {
-    const Point& from = model_.point[z(type.first_cell + i)];
-    const Cell& cell = model_.cell[z(type.first_cell + i)];
-    CellPack& k = shapes.cell[z(i)];
-    k.s[l] = cell.s, k.t[l] = cell.t, k.ss[l] = cell.ss, k.st[l] = cell.st, k.tt[l] = cell.tt;
-    PointPack& p = shapes.point[z(i)];
-    p.s[l] = from.s, p.t[l] = from.t, p.weight[l] = from.weight;
-  }
-}
-
-std::shared_ptr<Cracked::Shapes> Cracked::shared_shapes(const JointType& type) {
-  std::shared_ptr<Shapes>& shared = of_type_[&type];
-  if (!shared) {
-    shared = std::make_shared<Shapes>();
-    shared->overlap_corner.resize(z(type.corners));
-    shared->point.resize(z(type.points));
-    shared->cell.resize(z(type.points));
-    shared->first.push_back(0);
-    for (int i = type.first_cell; i < type.first_cell + type.points; ++i)
-      shared->first.push_back(shared->first.back() + model_.cell[z(i)].corners);
-    shared->cell_loop.resize(z(shared->first.back()));
-    if (type.inset) shared->tension_loop.resize(shared->cell_loop.size());
-    for (int k = 0; k < pack_size; ++k) set_shape(*shared, k, type);
-  }
-  return shared;
-}
-
-// Lanes without a joint may have any shape: they neither move nor transmit a force.
-void Cracked::add_shape(Group& group, int l, const JointType& type) {
-  if (group.empty()) {
-    group.type = &type;
-    group.shapes = shared_shapes(type);
-  } else if (group.type != &type) {
-    if (group.type != nullptr) group.shapes = std::make_shared<Shapes>(*group.shapes);
-    group.type = nullptr;
-    set_shape(*group.shapes, l, type);
-  }
-}
-
 void Cracked::fill(Group& group, int l, int j) {
   const Joint& joint = model_.joint[z(j)];
   const JointMemory& memory = state_.joints.memory[z(j)];

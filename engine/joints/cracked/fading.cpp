@@ -1,7 +1,6 @@
 #include "engine/joints/cracked/fading.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "engine/joints/response.h"
 
@@ -26,13 +25,13 @@ bool Fading::debonded(const Cracked& cracked, int j) const {
 }
 
 void Fading::fade(Cracked& cracked, double dt) {
-  const double keeps = std::max(least_share, std::exp(-dt / fade_time));
+  const double left = keeps(dt);
   for (const int j : joints_) {
     const PointLaw& law = model_.laws[z(model_.joint[z(j)].type->law)];
     const StiffnessShare now = state_.joints.share[z(j)], last{law.kn_debonded / law.kn, law.ks_debonded / law.ks};
     if (state_.joints.stage[z(j)] != JointStage::cracked || (now.n <= last.n && now.s <= last.s) || !debonded(cracked, j)) continue;
     if (!reference_) cracked.store(j);
-    fade(j, {std::max(last.n, keeps * now.n), std::max(last.s, keeps * now.s)});
+    fade(j, {std::max(last.n, left * now.n), std::max(last.s, left * now.s)});
     if (!reference_) cracked.set_share(j);
   }
 }
@@ -45,10 +44,10 @@ void Fading::fade(int j, StiffnessShare to) {
   const double pressed = stored_in_compression(model_, joint, past_of(model_, state_, j), memory.gap), sheared = memory.elastic - pressed;
   Faded one{j, {}, {}};
   for (int i = 0; i < 6; ++i) {
-    const double keeps = i >= 2 && i < 5 ? n : s;
+    const double of = i >= 2 && i < 5 ? n : s;
     one.gap[i] = memory.gap[i];
-    one.lost[i] = (1 - keeps) * memory.resultant[i];
-    memory.resultant[i] *= keeps;
+    one.lost[i] = (1 - of) * memory.resultant[i];
+    memory.resultant[i] *= of;
   }
   state_.energy.crushing += (1 - n) * pressed + (1 - s) * sheared;
   memory.elastic = n * pressed + s * sheared;

@@ -6,6 +6,8 @@
 // The difference is lost as crushing. The force before the fall still acts in the half step to the next pose; the work of its lost part,
 // half of it times the way, is booked once that pose is known. The identity of the energy ledger then holds as for constant stiffness.
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "engine/joints/cracked/cracked.h"
@@ -16,6 +18,8 @@ class Fading {
  public:
   static constexpr double fade_time = 0.01;    // s
   static constexpr double least_share = 0.98;  // of the stiffness that is left after one call
+
+  static double keeps(double dt) { return std::max(least_share, std::exp(-dt / fade_time)); }  // share left after `dt` (s)
 
   Fading(const Model& model, State& state);
   // Between two steps, before the forces of the next one. `dt`: s, since the last call.

@@ -78,16 +78,19 @@ double ContactBound::stable_dt() const {
   return limited_by_slip(bears);
 }
 
-StepLimit ContactBound::step_limit() const {
+StepLimit ContactBound::step_limit(bool of_joints) const {
   using enum StepLimit::By;
-  if (allowed_ >= limit_.range().longest) return {};
+  const double now = of_joints ? joints_dt() : allowed_;
+  if (now >= limit_.range().longest) return {};
+  const bool stiff_only = of_joints && any_stiff();
   double most = 0;
   StepLimit out;
   for (int b = 0; b < model_.nblock; ++b) {
-    if (model_.kind[z(b)] != Kind::moving) continue;
+    if (model_.kind[z(b)] != Kind::moving || (stiff_only && !stiff_[z(b)])) continue;
     const double pressed = limit_.on_block(b, omega2_[z(b)], 0), all = limit_.on_block(b, omega2_[z(b)], impact_omega2_[z(b)]);
-    if (all > most) most = all, out = {all > 1.2 * pressed ? impact : contacts, b};
+    if (all > most) most = all, out = {all > 1.2 * pressed ? impact : state_.topology.joined[z(b)] ? joints : contacts, b};
   }
+  if (of_joints) return out;
   const double bears = std::min(limit_.range().longest, limit_.allowed(most));
   if (limited_by_slip(bears) < bears) out = {slip, -1};
   return allowed_ < 0.99 * limited_by_slip(bears) ? StepLimit{passing, -1} : out;

@@ -60,7 +60,7 @@ class ContactBound {
   bool any_stiff() const { return std::ranges::find(stiff_, 1) != stiff_.end(); }
   double allowed_dt() const { return allowed_; }     // s, at most `StepRange::longest`
   double stable_dt() const;                          // s, of present contacts, without coming impacts; the last step is judged by it
-  StepLimit step_limit() const;                      // what limits `allowed_dt()`
+  StepLimit step_limit(bool of_joints) const;        // what limits `allowed_dt()`, or `joints_dt()`
   double event_rate() const { return event_rate_; }  // 1/s: one over the step that the next openings and closings allow (`event_bound.h`)
 
  private:

@@ -202,7 +202,7 @@ void Contacts::add_up(const ContactForces::ThreadPairs& found, double* contact_w
     const double thin = std::min(edge[a], edge[b]);
     if (r.depth > penetration * thin) penetration = std::max(penetration, r.depth / thin);
   }
-  for (const ContactForces::SeparatedPair& one : found.separated) { bound_.add(one, motion_.pair(one.pair), former_.of_pair(one.pair)); }
+  for (const ContactForces::SeparatedPair& one : found.separated) bound_.add(one, motion_.pair(one.pair), former_.of_pair(one.pair));
   state_.energy.friction = friction, state_.energy.contact_damping = damping;
   state_.observed.max_penetration_relative = penetration;
   touching_ += touching;
@@ -274,9 +274,9 @@ void Contacts::gather_substep(double* kick) {
     }
 }
 
-void Contacts::soften_former_joints(double most, bool find) {
+void Contacts::soften_former_joints(double most, bool find, double dt) {
   const ContactSettings& settings = forces_.settings();
-  const bool changed = find ? former_.find_softening(settings, sleep_, most) : former_.soften(settings, sleep_, most);
+  const bool changed = find ? former_.find_softening(settings, sleep_, most, dt) : former_.soften(settings, sleep_, most, dt);
   if (changed) forces_.mark_changed();
 }
 

@@ -54,7 +54,7 @@ class Contacts {
   // and drift: this step still has the wrench and stored energy of the joint, the next step has those of the contact.
   std::vector<int> release_joints(Cracked& cracked);
   // Softens former joints at the same place (`FormerJoints`), all of them or those that soften already.
-  void soften_former_joints(double most, bool find);
+  void soften_former_joints(double most, bool find, double dt);
   // Afterwards: puts blocks to sleep and wakes sleepers (`sleep.h`). True if the set of sleepers has changed.
   bool sleep(const Excitation& now, const double* contact_wrench);
   // Updates the poses of blocks [first, last) after their drift; each thread has its own range.
@@ -64,12 +64,10 @@ class Contacts {
   FormerJoints& former_joints() { return former_; }
   double elastic() const { return elastic_; }  // J, stored in contacts at the last sample
   int touching() const { return touching_; }
-  long slept() const { return sleep_.slept(); }  // steps of sleeping blocks, since the start of this Solver
-  long touched() const { return touched_; }      // touching pairs, summed over the steps of this Solver
-  double searched() const { return searched_; }  // s, spent on searches by this Solver
-  // What limits the step that all pairs allow; with levels, the shortest interval of a pair.
-  StepLimit limit() const { return bound_.step_limit(); }
-  StepLimit limit_of_levels() const { return least_limit_; }
+  long slept() const { return sleep_.slept(); }                // steps of sleeping blocks, since the start of this Solver
+  long touched() const { return touched_; }                    // touching pairs, summed over the steps of this Solver
+  double searched() const { return searched_; }                // s, spent on searches by this Solver
+  StepLimit limit_of_pairs() const { return least_limit_; }    // what limits `least_pair_dt()`
   std::array<long, most_levels> evaluations_by_level() const;  // of pairs in this macro step
 
  private:

@@ -5,6 +5,7 @@
 
 #include "engine/contact/broad/search.h"
 #include "engine/contact/law/frame.h"
+#include "engine/joints/cracked/fading.h"
 #include "engine/joints/kinematics.h"
 #include "engine/joints/response.h"
 
@@ -58,7 +59,7 @@ bool FormerJoints::displaced(const ContactPair& p, int j) const {
 
 // Stiffness to which a former joint softens: that of its bed without bond (fading.h), of displaced faces that of debris if that is lower.
 PairLaw FormerJoints::softest(const ContactPair& p, int joint) const {
-  const PointLaw& law = model_.laws[z(model_.joint[z(joint)].type->law)];
+  const PointLaw& law = law_of(joint);
   const PairLaw debris = bodies_.law(p.a, p.b);
   if (!law.fades()) return p.former_joint == ContactPair::softening || displaced(p, joint) ? debris : p.law;
   PairLaw to = p.law;
@@ -69,25 +70,25 @@ PairLaw FormerJoints::softest(const ContactPair& p, int joint) const {
 
 // A former joint has the stiffness of a mortar layer between matching faces. Faces that slide on each other match no more; their stiffness
 // falls in small steps to that of debris, if that is lower. Otherwise blocks that drag each other along would limit the step of a collapse.
-bool FormerJoints::find_softening(const ContactSettings& settings, const Sleep& sleep, double most) {
+bool FormerJoints::find_softening(const ContactSettings& settings, const Sleep& sleep, double most, double dt) {
   for (std::size_t i = 0; i < of_pair_.size(); ++i) {
     ContactPair& p = state_.contacts.list.pair[i];
     if (!p.former_joint || sleep.asleep(p.a) || sleep.asleep(p.b)) continue;
     const int joint = of_pair_[i].joint;
-    const bool fades = model_.laws[z(model_.joint[z(joint)].type->law)].fades();
+    const bool fades = law_of(joint).fades();
     if (fades && !p.touching) soften_open(i);
     if (p.former_joint != 1 || !p.touching) continue;
     const PairLaw to = softest(p, joint);
     if (fades ? to.kn >= p.law.kn && to.ks >= p.law.ks : to.kn >= p.law.kn || to.ks >= p.law.ks) continue;
     p.former_joint = ContactPair::softening;
   }
-  return soften(settings, sleep, most);
+  return soften(settings, sleep, most, dt);
 }
 
 // Faces pressed by a force N store N^2 / (2 kn A). Softer faces at the same pose store less; the difference is lost. The total loss down to
 // the stiffness of debris is about the energy stored at the end. If that exceeds `most` (J), the pair waits until it is pressed less.
-bool FormerJoints::soften(const ContactSettings& settings, const Sleep& sleep, double most) {
-  constexpr double at_once = 0.992;  // of the stiffness, in each call
+bool FormerJoints::soften(const ContactSettings& settings, const Sleep& sleep, double most, double dt) {
+  constexpr double kept = 0.992;  // of the stiffness, in each call
   bool any = false;
   for (std::size_t i = 0; i < of_pair_.size(); ++i) {
     ContactPair& p = state_.contacts.list.pair[i];
@@ -99,8 +100,9 @@ bool FormerJoints::soften(const ContactSettings& settings, const Sleep& sleep, d
     if (!pair_force(copy, bodies_.shapes, a, b, settings, 0.0, true, room_, now)) continue;
     const int joint = of_pair_[i].joint;
     const PairLaw to = softest(p, joint);
-    const bool fades = model_.laws[z(model_.joint[z(joint)].type->law)].fades();  // then the loss is that of the bed
+    const bool fades = law_of(joint).fades();  // then the loss is that of the bed
     if (!fades && (now.elastic + now.tangential) * p.law.kn / to.kn > most) continue;
+    const double at_once = fades ? Fading::keeps(dt) : kept;
     const double kn = std::max(to.kn, at_once * p.law.kn) / p.law.kn, ks = std::max(to.ks, at_once * p.law.ks) / p.law.ks;
     p.law.kn *= kn;
     p.law.ks *= ks;
@@ -137,7 +139,7 @@ void FormerJoints::note_share(std::size_t i) {
   ContactPair& p = state_.contacts.list.pair[i];
   const int first = of_pair_[i].joint;
   for (int j = first; j < bodies_.end_of_same_parts(first, model_.njoint); ++j) {
-    const PointLaw& law = model_.laws[z(model_.joint[z(j)].type->law)];
+    const PointLaw& law = law_of(j);
     state_.joints.share[z(j)] = {p.law.kn / law.kn, p.law.ks / law.ks};
   }
   bound(p);

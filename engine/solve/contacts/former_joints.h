@@ -23,9 +23,9 @@ class FormerJoints {
 
   void list_pairs();  // after the list of pairs has changed
   // Softens former joints with displaced faces to the stiffness of debris. `find_softening()` searches for displaced faces first. A pair
-  // softens only if its total loss of energy will not exceed `most` (J). True if a pair has changed.
-  bool find_softening(const ContactSettings& settings, const Sleep& sleep, double most);
-  bool soften(const ContactSettings& settings, const Sleep& sleep, double most);
+  // softens only if its total loss of energy will not exceed `most` (J). `dt`: s, since the last call. True if a pair has changed.
+  bool find_softening(const ContactSettings& settings, const Sleep& sleep, double most, double dt);
+  bool soften(const ContactSettings& settings, const Sleep& sleep, double most, double dt);
   // Faces that have separated and moved are no longer a former joint: their blocks next touch with the stiffness of debris. Separated faces
   // store nothing, so the change costs no energy.
   void forget_displaced();
@@ -53,6 +53,7 @@ class FormerJoints {
   void note_release(int joint, double energy);
   void bound(ContactPair& pair);
   bool displaced(const ContactPair& pair, int joint) const;
+  const PointLaw& law_of(int joint) const { return model_.laws[std::size_t(model_.joint[std::size_t(joint)].type->law)]; }
   PairLaw softest(const ContactPair& pair, int joint) const;
   void soften_open(std::size_t i);
   void note_share(std::size_t i);

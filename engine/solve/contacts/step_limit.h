@@ -5,7 +5,7 @@
 namespace erbs {
 
 struct StepLimit {
-  enum class By { structure, contacts, impact, slip, event, passing, growth } by = By::structure;
+  enum class By { structure, joints, contacts, impact, slip, event, passing, growth } by = By::structure;
   int block = -1;  // in the model; -1: none in particular
 
   auto operator<=>(const StepLimit&) const = default;

@@ -1,0 +1,75 @@
+#include "engine/analysis/snapshot.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "engine/joints/kinematics.h"
+
+namespace erbs::analysis {
+namespace {
+
+std::size_t z(int i) { return std::size_t(i); }
+
+// A joint is broken if none of its points carries tension or cohesion any more. Dry joints have none to lose.
+int broken_joints(const Model& model, const JointState& joints) {
+  int broken = 0;
+  for (int j = 0; j < model.njoint; ++j) {
+    const Joint& joint = model.joint[z(j)];
+    if (joints.stage[z(j)] == JointStage::intact || !model.laws[z(joint.type->law)].has_bond()) continue;
+    const auto first = joints.history.begin() + joint.first_point;
+    broken += std::all_of(first, first + joint.type->points, [](const PointHistory& h) { return h.damage >= 1; });
+  }
+  return broken;
+}
+
+}  // namespace
+
+Snapshot snapshot_of(const Model& m, const State& state, const Solver& solver, bool joint_forces) {
+  const SampleState& now = solver.sample();
+  const JointState& joints = state.joints;
+  Snapshot s{.model = m, .pose = now.pose, .joints = joints, .energy = state.energy, .t = now.t};
+  s.motion = [&m, &now, &after = state.motion, kick = now.excitation.kick](std::size_t b) {
+    const MotionState& before = now.before;
+    MovingBlock o;
+    o.a = (after.v[b] - before.v[b]) / kick;
+    o.alpha = (after.w[b] - before.w[b]) / kick;
+    Vec3 moment = (after.spin_momentum[b] - before.spin_momentum[b]) / kick;
+    const bool levels = !now.kick_excess.empty();
+    if (levels) {  // contacts with levels act by impulses for several steps
+      const Mat3 r = now.pose.q[b].toRotationMatrix();
+      o.a -= m.inverse_mass[b] * now.kick_excess[b].head<3>();
+      o.alpha -= r * m.inverse_inertia[b] * r.transpose() * now.kick_excess[b].tail<3>();
+      moment -= now.kick_excess[b].tail<3>();
+    }
+    const double half = 0.5 * (levels ? now.since[b] : now.last_dt);
+    o.v = before.v[b] + half * o.a;
+    o.w = before.w[b] + half * o.alpha;
+    o.spin_momentum = before.spin_momentum[b] + half * moment;
+    return o;
+  };
+  for (const auto& g : m.grounds) {
+    s.ground_a += value(g.wave, now.t) * g.direction;
+    s.ground_v += integral(g.wave, now.t) * g.direction;
+    s.ground_u += second_integral(g.wave, now.t) * g.direction;
+  }
+  s.block_wrench = now.block_wrench, s.load_wrench = now.load_wrench;
+  for (int j = 0; joint_forces && j < m.njoint; ++j) {
+    const Joint& joint = m.joint[z(j)];
+    const std::size_t a = z(joint.a), b = z(joint.b);
+    std::array<double, 6> f{};
+    if (joints.stage[z(j)] == JointStage::cracked) std::copy_n(joints.memory[z(j)].resultant, 6, f.begin());
+    if (joints.stage[z(j)] == JointStage::intact) {
+      const JointPose pose = pose_of(joint, now.pose.u[a], now.pose.q[a], now.pose.u[b], now.pose.q[b]);
+      for (std::size_t i = 0; i < 6; ++i) f[i] = pose.gap[i] * joint.type->stiffness[i];
+    }
+    s.joint_force.push_back(f);
+  }
+  s.joints_broken = broken_joints(m, joints);
+  for (int j = 0; j < m.njoint; ++j)
+    if (joints.stage[z(j)] != JointStage::contact) s.contact_points += m.joint[z(j)].type->points;
+  s.contact_points += solver.contacts().touching();
+  return s;
+}
+
+}  // namespace erbs::analysis

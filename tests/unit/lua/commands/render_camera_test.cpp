@@ -1,0 +1,42 @@
+// A camera given after the run: what it refuses, and the elevations that every run has.
+#include <catch2/catch.hpp>
+
+#include "tests/unit/lua/bench.h"
+
+using namespace erbs;
+using namespace erbs::lua;
+namespace fs = std::filesystem;
+
+TEST_CASE("a camera of one's own looks where it should, or says why it cannot", "[program][render]") {
+  Bench bench;
+  REQUIRE(bench.run(four_bricks() + "joint{ law = dry{ kn = 1*GPa, mu = .6 } } analysis{ duration = .02 }") == 0);
+  const auto render = [&](std::vector<std::string> more) {
+    std::vector<std::string> words{"render", bench.out(), "--stills", "0", "--size", "160x120", "--force", "--no-figures"};
+    words.insert(words.end(), more.begin(), more.end());
+    return bench.erbs(words);
+  };
+  const std::pair<std::vector<std::string>, std::string> wrong[] = {
+      {{"--eye", "1,2"}, "--eye 1,2 is not a point in m; try --eye 6,-7,4"},
+      {{"--eye", "1,2,3,4"}, "is not a point in m"},
+      {{"--eye", "1,2,x"}, "is not a point in m"},
+      {{"--eye", "1,2,nan"}, "is not a point in m"},
+      {{"--eye=1,-2,1", "--target=1,-2,1"}, "--eye and --target are the same point"},
+      {{"--target", "0,0,0"}, "give --eye x,y,z as well"},
+      {{"--fit"}, "give --eye x,y,z as well"},
+      {{"--eye", "1,2,3", "--camera", "corner"}, "leave out --camera"},
+      {{"--eye", "1,2,3", "--fov", "180"}, "--fov"},
+      {{"--camera", "from_x"}, "from_above"},
+  };
+  for (const auto& [words, reason] : wrong) {
+    INFO(reason);
+    CHECK(render(words) == 2);
+    INFO(bench.said);
+    CHECK(contains(bench.said, reason));
+  }
+  CHECK_FALSE(fs::exists(fs::path(bench.out()) / "frames"));
+  CHECK(render({"--eye=1,-2,1", "--fit"}) == 0);
+  CHECK(render({"--eye=0,0,5", "--target=0,0,0"}) == 0);  // straight down
+  CHECK(render({"--camera", "from_-x,from_above"}) == 0);
+  for (const char* name : {"own", "from_-x", "from_above"})
+    CHECK(fs::exists(fs::path(bench.out()) / "frames" / (std::string(name) + "_t0.000s.png")));
+}
