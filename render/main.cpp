@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <map>
 
 #include "engine/base/error.h"
 #include "engine/base/system/interrupt.h"
@@ -23,6 +24,12 @@ struct Arguments {
   bool figures_only = false, no_figures = false;
   render::Movie movie;
 };
+
+const std::map<std::string, render::Coloring> colorings{{"material", render::Coloring::material},
+                                                        {"damage", render::Coloring::damage},
+                                                        {"displacement", render::Coloring::displacement},
+                                                        {"speed", render::Coloring::speed},
+                                                        {"opening", render::Coloring::opening}};
 
 // Reads a finite number; false if the text holds anything else.
 bool read_number(std::string_view text, double& value) {
@@ -90,14 +97,16 @@ int run(Arguments& a) {
   read_times(a, movie);
   movie.cameras = a.cameras;
   read_camera(a, movie);
-  movie.look.coloring = a.color == "damage" ? render::Coloring::damage : render::Coloring::material;
+  movie.look.coloring = colorings.at(a.color);
   const render::Run folder = render::read_run(a.dir);
   if (!a.no_figures) write_figures(folder, movie.quiet);
   if (a.figures_only) return 0;
   std::fflush(stdout);
   const erbs::MotionReader reader(a.dir);
   render::prepare_contexts();
-  return render::make_movie(folder, reader, movie, erbs::catch_interrupts()) ? 0 : 130;
+  if (!render::make_movie(folder, reader, movie, erbs::catch_interrupts())) return 130;
+  if (!movie.quiet && !folder.verdict.empty()) erbs::tell(stdout, folder.verdict);
+  return 0;
 }
 
 }  // namespace
@@ -131,8 +140,13 @@ int main(int argc, char** argv) {
   app.add_option("--frames", a.movie.frames, "every: each recorded frame once; N: so many, evenly spread");
   app.add_option("--time", a.time, "T0:T1, only this span (s)");
   app.add_option("--stills", a.stills, "t1,t2,..: single pictures at these times (s), no video");
-  app.add_option("--color", a.color, "material or damage")->check(CLI::IsMember({"material", "damage"}))->capture_default_str();
+  app.add_option("--color", a.color, "of blocks: material, damage, displacement, speed, or largest opening of their joints")
+      ->check(CLI::IsMember(colorings))
+      ->capture_default_str();
+  app.add_option("--magnify", a.movie.look.magnify, "factor on the displacements drawn")->check(within(1e-3, 1e6))->capture_default_str();
+  app.add_flag("!--no-overlay", a.movie.look.overlay, "the scene alone: no title, clock, legend, scale, axes and ground motion");
   app.add_flag("--video,!--no-video", a.movie.video, "an MP4 a camera (default), or pictures alone");
+  app.add_flag("--webp", a.movie.webp, "an animated WebP that repeats itself in place of the MP4, for pages such as a README");
   app.add_flag("--figures", a.figures_only, "only histories.svg and energy.svg");
   app.add_flag("--no-figures", a.no_figures, "no figures");
   app.add_option("--threads", a.movie.threads, "frames drawn at a time, each by a process (default: one a processor)")

@@ -173,7 +173,7 @@ struct Painter::Hidden {
     use(solid, light, light.camera);
     vector(solid, "mortar", {0.50F, 0.475F, 0.43F});
     number(solid, "darker_edge", show.mortared ? 0.12 : 0.42);
-    number(solid, "by_damage", look_.coloring == Coloring::damage ? 1 : 0);
+    number(solid, "by_damage", look_.coloring == Coloring::material ? 0 : 1);
     draw(bricks);
     gl.Disable(GL_CULL_FACE);
     use(crack, light, light.camera);

@@ -9,12 +9,15 @@
 
 namespace erbs::render {
 
-enum class Coloring { material, damage };
+// What the colour of a block shows: its material, the broken share of its joint area, or a quantity on a scale from 0 to Show::scale.
+enum class Coloring { material, damage, displacement, speed, opening };
 
 struct Look {
   Coloring coloring = Coloring::material;
   int width = 1280, height = 720;
   double top = 0, bottom = 0;  // pixels covered by the overlay
+  bool overlay = true;         // title, clock, legend, scale, axes and ground motion
+  double magnify = 1;          // factor on the displacements drawn
 };
 
 // Constant data of a picture, common to all frames and threads.
@@ -27,6 +30,7 @@ struct Show {
   bool mortared = false;          // joints have thickness: mortar between the bricks, not an edge
   double grid = 1;                // m, spacing of the lines on the ground
   std::vector<float> joint_area;  // m2 [joints]
+  double scale = 1;               // m or m/s, the value that has the last colour of the map
   std::vector<Vec3> block_color;  // linear, by material with a slight variation between bricks [blocks]
 };
 Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<MotionFrame>& some_frames);
@@ -36,6 +40,15 @@ double round_length(double size);
 
 // Colour of a block in the legend, by the broken share of its joint area, 0..1 (linear).
 Vec3 damage_color(double damage);
+
+// Colour of a quantity at this share of its scale, 0..1 (linear): viridis, even in perceived lightness.
+Vec3 map_color(double share);
+
+// Displacement (m), speed (m/s) or largest joint opening (m) of each block, as the colouring says [blocks].
+std::vector<double> block_values(const MotionScene& scene, const MotionFrame& frame, Coloring coloring);
+
+// The scale of a colouring: what 98 % of the blocks never exceed in these frames, rounded up to 1, 2 or 5 times a power of ten.
+double color_scale(const MotionScene& scene, const std::vector<MotionFrame>& frames, Coloring coloring);
 
 // Input of the shaders, 12 floats per block and 4 per joint, and the visible triangles.
 struct FrameTexels {

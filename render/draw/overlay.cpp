@@ -27,7 +27,23 @@ double value_at(const GroundRecord& r, double t) {
 }
 
 std::string length_text(double m) {
-  return m >= 1 ? fmt::format("{:g} m", m) : m >= 0.01 ? fmt::format("{:g} cm", 100 * m) : fmt::format("{:g} mm", 1000 * m);
+  return m >= 1      ? fmt::format("{:g} m", m)
+         : m >= 0.01 ? fmt::format("{:g} cm", 100 * m)
+         : m >= 1e-4 ? fmt::format("{:g} mm", 1000 * m)
+                     : fmt::format("{:g} um", 1e6 * m);
+}
+
+const char* quantity_name(Coloring coloring) {
+  switch (coloring) {
+    case Coloring::displacement:
+      return "displacement";
+    case Coloring::speed:
+      return "speed";
+    case Coloring::opening:
+      return "largest joint opening";
+    default:
+      return "joints broken or open";
+  }
 }
 
 }  // namespace
@@ -80,6 +96,7 @@ void Overlay::draw_title(Image& image, double t) const {
   std::string beside = run_.status.empty() ? camera_ : run_.status + "   " + camera_;
   if (std::abs(slow_ - 1) > 0.02)
     beside += slow_ > 1 ? fmt::format("   slow motion {:.3g} : 1", slow_) : fmt::format("   time lapse 1 : {:.3g}", 1 / slow_);
+  if (look_.magnify != 1) beside = fmt::format("displacements x {:g}   ", look_.magnify) + beside;
   // Text beside the clock must not move: it ends at the start of the widest clock text.
   const double right = image.width - margin * u - bold_.width("00.00 s", 24 * u) - 18 * u;
   regular_.draw(image, beside, right, base, 14 * u, quiet_ink, Font::Align::right);
@@ -143,16 +160,24 @@ void Overlay::draw_times(Image& image, double top, double bottom, double now) co
 void Overlay::draw_legend(Image& image) const {
   const double u = unit_, right = image.width - margin * u, size = 13 * u;
   double y = 78 * u;
-  if (look_.coloring == Coloring::damage) {
+  if (look_.coloring != Coloring::material) {
+    const bool share = look_.coloring == Coloring::damage;
+    const auto number = [&](double part) {
+      if (share) return fmt::format("{:g}{}", 100 * part, part > 0 ? " %" : "");
+      if (part == 0) return std::string("0");
+      return look_.coloring == Coloring::speed
+                 ? fmt::format("{:g} m/s", part * show_.scale)
+                 : length_text(part * show_.scale / (look_.coloring == Coloring::displacement ? look_.magnify : 1));
+    };
     const double width = 170 * u, left = right - width;
     fill_box(image, left - 10 * u, y - 18 * u, right + 10 * u, y + 36 * u, panel);
-    regular_.draw(image, "joints broken or open", left, y, size, text_ink);
+    regular_.draw(image, quantity_name(look_.coloring), left, y, size, text_ink);
     y += 8 * u;
     for (int c = 0; c < static_cast<int>(width); ++c)
-      fill_box(image, left + c, y, left + c + 1, y + 11 * u, display(damage_color(c / width)));
-    regular_.draw(image, "0", left, y + 25 * u, size, quiet_ink);
-    regular_.draw(image, "50 %", 0.5 * (left + right), y + 25 * u, size, quiet_ink, Font::Align::middle);
-    regular_.draw(image, "100 %", right, y + 25 * u, size, quiet_ink, Font::Align::right);
+      fill_box(image, left + c, y, left + c + 1, y + 11 * u, display(share ? damage_color(c / width) : map_color(c / width)));
+    regular_.draw(image, number(0), left, y + 25 * u, size, quiet_ink);
+    regular_.draw(image, number(0.5), 0.5 * (left + right), y + 25 * u, size, quiet_ink, Font::Align::middle);
+    regular_.draw(image, number(1), right, y + 25 * u, size, quiet_ink, Font::Align::right);
     return;
   }
   struct Row {
@@ -171,7 +196,7 @@ void Overlay::draw_legend(Image& image) const {
   if (rows.size() > 6) rows.clear();
   if (!show_.scene->joints.empty()) {
     rows.push_back({show_.mortared ? "cracked joint" : "joint that opened", {82, 72, 66, 1}, 0.8});
-    rows.push_back({"open by " + length_text(show_.open_crack) + " or more", {20, 18, 18, 1}, 1.6});
+    rows.push_back({"open by " + length_text(show_.open_crack / look_.magnify) + " or more", {20, 18, 18, 1}, 1.6});
   }
   double widest = 0;
   for (const Row& row : rows) widest = std::max(widest, regular_.width(row.name, size));

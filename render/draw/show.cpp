@@ -137,6 +137,7 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
   t.blocks.resize(12 * std::max<std::size_t>(1, nb));
   t.joints.resize(4 * std::max<std::size_t>(1, nj));
   std::vector<float> broken(nb), area(nb);
+  const std::vector<double> value = block_values(scene, frame, coloring);
   for (std::size_t j = 0; j < nj; ++j) {
     const MotionJoint& joint = scene.joints[j];
     const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
@@ -150,7 +151,9 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
   }
   for (std::size_t b = 0; b < nb; ++b) {
     const float share = area[b] > 0 ? broken[b] / area[b] : 0;
-    const Vec3 color = coloring == Coloring::damage ? damage_color(static_cast<double>(share)) : show.block_color[b];
+    const Vec3 color = coloring == Coloring::material ? show.block_color[b]
+                       : coloring == Coloring::damage ? damage_color(static_cast<double>(share))
+                                                      : map_color(value[b] / show.scale);
     const float* p = &frame.poses[7 * b];
     const Eigen::Vector3f c = color.cast<float>();
     const float values[12] = {p[0], p[1], p[2], share, p[4], p[5], p[6], p[3], c.x(), c.y(), c.z(), 0};

@@ -79,7 +79,8 @@ struct Files {
 Files prepare_files(const Run& run, const Movie& movie, const Camera& camera, const Schedule& schedule) {
   const fs::path dir(run.dir);
   Files files{dir / "frames", file_name(camera.name), "", !movie.stills.empty()};
-  if (movie.video && movie.stills.empty()) files.video = (dir / fmt::format("{}_{}.mp4", file_name(run.name), files.stem)).string();
+  if (movie.video && movie.stills.empty())
+    files.video = (dir / fmt::format("{}_{}.{}", file_name(run.name), files.stem, movie.webp ? "webp" : "mp4")).string();
   for (const std::string& path : {files.video, files.picture(0, schedule.times.front())})
     if (!movie.force && !path.empty() && fs::exists(path)) throw Error("it exists already; --force writes it anew", {path, 0});
   std::error_code failed;
@@ -99,7 +100,7 @@ Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const
   const auto overlay = std::make_shared<Overlay>(run, show, l, camera, view, files.stills ? 1 : schedule.slow);
   return [=, &files](std::size_t index, const MotionFrame& frame) {
     Image image = painter->draw(frame, camera);
-    overlay->draw(image, frame.t);
+    if (l.overlay) overlay->draw(image, frame.t);
     write_png(files.picture(index, frame.t), image);
     return image;
   };
@@ -127,17 +128,21 @@ class Progress {
   Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 
+MotionFrame frame_to_draw(const MotionReader& reader, const Movie& movie, double t) {
+  MotionFrame frame = frame_at(reader, t);
+  frame.t = t;
+  if (movie.look.coloring == Coloring::speed) derive_speeds(reader, frame);
+  magnify(reader.scene(), movie.look.magnify, frame);
+  return frame;
+}
+
 bool film(const Run& run, const Show& show, const MotionReader& reader, const Movie& movie, const Camera& camera, const Schedule& schedule,
           const std::atomic<bool>& stop) {
   const Files files = prepare_files(run, movie, camera, schedule);
   const std::size_t all = schedule.times.size();
   const auto wish = static_cast<std::size_t>(movie.threads > 0 ? movie.threads : usable_processors());
   const auto start = Clock::now();
-  const auto ordered = [&](std::size_t i) {
-    MotionFrame f = frame_at(reader, schedule.times[i]);
-    f.t = schedule.times[i];
-    return f;
-  };
+  const auto ordered = [&](std::size_t i) { return frame_to_draw(reader, movie, schedule.times[i]); };
   std::size_t made = 0;
   // Started before ffmpeg; otherwise these processes would hold its input open.
   Workers workers(std::clamp<std::size_t>(wish, 1, all), movie.look.width, movie.look.height, ordered(0),
@@ -169,14 +174,20 @@ bool film(const Run& run, const Show& show, const MotionReader& reader, const Mo
 
 bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, const std::atomic<bool>& stop) {
   Movie movie = wish;
-  movie.look.top = overlay_top(movie.look.height);
-  movie.look.bottom = overlay_bottom(movie.look.height, !run.record.axis.empty());
+  movie.look.top = movie.look.overlay ? overlay_top(movie.look.height) : 0;
+  movie.look.bottom = movie.look.overlay ? overlay_bottom(movie.look.height, !run.record.axis.empty()) : 0;
   const Schedule schedule = schedule_of(movie, reader.times());
   std::vector<MotionFrame> some;
   const std::size_t step = std::max<std::size_t>(1, reader.times().size() / 24);
   for (std::size_t i = 0; i < reader.times().size(); i += step) some.push_back(reader.read(static_cast<int>(i)));
   some.push_back(reader.read(static_cast<int>(reader.times().size()) - 1));
-  const Show show = prepare_show(reader.scene(), run, some);
+  const Coloring coloring = movie.look.coloring;
+  if (coloring == Coloring::speed)
+    for (MotionFrame& frame : some) derive_speeds(reader, frame);
+  const double scale = color_scale(reader.scene(), some, coloring);
+  for (MotionFrame& frame : some) magnify(reader.scene(), movie.look.magnify, frame);
+  Show show = prepare_show(reader.scene(), run, some);
+  show.scale = coloring == Coloring::displacement ? scale * movie.look.magnify : scale;  // of the poses drawn
   for (const Camera& camera : chosen_cameras(run, show, movie))
     if (!film(run, show, reader, movie, camera, schedule, stop)) return false;
   return true;

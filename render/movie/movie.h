@@ -22,7 +22,8 @@ struct Movie {
   std::optional<std::pair<double, double>> range;  // s
   std::vector<double> stills;                      // s; disables the video
   bool video = true, force = false, quiet = false;
-  int threads = 0;  // 0: one per processor
+  bool webp = false;  // an animated WebP in place of the MP4
+  int threads = 0;    // 0: one per processor
   std::string context = "auto";
 };
 
@@ -35,6 +36,12 @@ Schedule schedule_of(const Movie& movie, const std::vector<double>& recorded);
 
 // State at time t: a recorded frame, or an interpolation of two (positions linear, rotations along the shortest arc).
 MotionFrame frame_at(const MotionReader& reader, double t);
+
+// Fills frame.speed from the two recorded frames around its time, or from the last two.
+void derive_speeds(const MotionReader& reader, MotionFrame& frame);
+
+// Multiplies displacements and rotations from rest by a factor; openings and damage stay.
+void magnify(const MotionScene& scene, double factor, MotionFrame& frame);
 
 // Draws and writes everything, and prints the paths written. False if `stop` was set meanwhile.
 bool make_movie(const Run& run, const MotionReader& reader, const Movie& movie, const std::atomic<bool>& stop);

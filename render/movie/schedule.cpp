@@ -73,4 +73,31 @@ MotionFrame frame_at(const MotionReader& reader, double t) {
   return f;
 }
 
+void derive_speeds(const MotionReader& reader, MotionFrame& frame) {
+  const std::vector<double>& times = reader.times();
+  frame.speed.assign(frame.poses.size() / 7, 0);
+  if (times.size() < 2) return;
+  const auto found = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), frame.t + 1e-9) - times.begin());
+  const std::size_t after = std::clamp<std::size_t>(found, 1, times.size() - 1);
+  const MotionFrame f = reader.read(static_cast<int>(after) - 1), g = reader.read(static_cast<int>(after));
+  const auto seconds = static_cast<float>(times[after] - times[after - 1]);
+  for (std::size_t b = 0; b < frame.speed.size(); ++b)
+    frame.speed[b] =
+        (Eigen::Map<const Eigen::Vector3f>(&g.poses[7 * b]) - Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * b])).norm() / seconds;
+}
+
+void magnify(const MotionScene& scene, double factor, MotionFrame& frame) {
+  if (factor == 1) return;
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
+    float* p = &frame.poses[7 * b];
+    Eigen::Map<Eigen::Vector3f> centre(p);
+    centre = (scene.blocks[b].rest + factor * (centre.cast<double>() - scene.blocks[b].rest)).cast<float>();
+    Eigen::AngleAxisd rotation(Eigen::Quaterniond(p[3], p[4], p[5], p[6]).normalized());
+    if (rotation.angle() > pi) rotation.angle() -= 2 * pi;
+    rotation.angle() *= factor;
+    const Eigen::Quaternionf q(Eigen::Quaterniond(rotation).cast<float>());
+    p[3] = q.w(), p[4] = q.x(), p[5] = q.y(), p[6] = q.z();
+  }
+}
+
 }  // namespace erbs::render

@@ -8,15 +8,38 @@
 namespace erbs::render {
 
 Video::Video(std::string path, int width, int height, double fps) : path_(std::move(path)), unfinished_(path_ + ".part") {
-  if (width % 2 || height % 2) throw Error(fmt::format("a video of {}x{} cannot be made; width and height must be even", width, height));
+  const bool webp = path_.ends_with(".webp");
+  if (!webp && (width % 2 || height % 2))
+    throw Error(fmt::format("a video of {}x{} cannot be made; width and height must be even", width, height));
   const std::string size = fmt::format("{}x{}", width, height), rate = fmt::format("{:g}", fps);
+  std::vector<std::string> words{"ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt",
+                                 "rgb24",  "-s", size,       "-r",        rate,    "-i", "pipe:0",   "-an"};
+  const std::vector<std::string> mp4{"-vf",
+                                     "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",
+                                     "-c:v",
+                                     "libx264",
+                                     "-crf",
+                                     "20",
+                                     "-preset",
+                                     "medium",
+                                     "-color_primaries",
+                                     "bt709",
+                                     "-color_trc",
+                                     "bt709",
+                                     "-colorspace",
+                                     "bt709",
+                                     "-color_range",
+                                     "tv",
+                                     "-movflags",
+                                     "+faststart",
+                                     "-f",
+                                     "mp4"};
+  const std::vector<std::string> repeated{"-c:v", "libwebp_anim", "-quality", "60", "-compression_level", "5", "-loop", "0", "-f", "webp"};
+  for (const std::string& word : webp ? repeated : mp4) words.push_back(word);
+  // This name can be neither an option nor a protocol of ffmpeg.
+  words.push_back("file:" + std::filesystem::absolute(unfinished_).string());
   ffmpeg_ =
-      start({"ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt", "rgb24", "-s", size, "-r", rate, "-i",
-             "pipe:0", "-an", "-vf", "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p", "-c:v", "libx264", "-crf", "20", "-preset",
-             "medium", "-color_primaries", "bt709", "-color_trc", "bt709", "-colorspace", "bt709", "-color_range", "tv", "-movflags",
-             "+faststart", "-f", "mp4",
-             // This name can be neither an option nor a protocol of ffmpeg.
-             "file:" + std::filesystem::absolute(unfinished_).string()},
+      start(words,
             {.output = "/dev/null", .remedy = "install ffmpeg, or ask for pictures alone with --no-video", .fed = true, .own_group = true});
 }
 

@@ -1,4 +1,4 @@
-// An MP4 file that ffmpeg makes from raw pictures.
+// An MP4 file, or an animated WebP that repeats itself, which ffmpeg makes from raw pictures. The extension of the path decides.
 #pragma once
 #include <string>
 

@@ -65,6 +65,14 @@ std::vector<Mark> first_events(const CsvTable& events) {
   return marks;
 }
 
+// "collapse at 1.70 s: gives way between ..."; "" while it stands.
+std::string verdict_of(const Json& metrics) {
+  const Json *time = find_key(metrics, "collapse.time_s"), *course = find_key(metrics, "collapse.course");
+  if (!time || !time->is_number()) return {};
+  const std::string how = course && course->is_string() ? course->get<std::string>() : "";
+  return fmt::format("collapse at {:.2f} s{}{}", time->get<double>(), how.empty() ? "" : ": ", how);
+}
+
 Vec3 linear(const Vec3& srgb) { return srgb.cwiseMax(0).cwiseMin(1).array().pow(2.2); }  // the shaders convert back
 
 }  // namespace
@@ -86,8 +94,11 @@ Run read_run(const std::string& dir) {
   for (const Material& a : m.materials) run.materials.push_back({a.name, linear(a.color)});
   if (const Json* tolerance = find_key(m.settings, "analysis.energy_gate.value"); tolerance && tolerance->is_number())
     run.energy_tolerance = tolerance->get<double>();
-  if (const std::string metrics = run_file(dir, "metrics.json"); std::filesystem::exists(metrics))
-    run.status = read_json(metrics).value("status", "");
+  if (const std::string metrics = run_file(dir, "metrics.json"); std::filesystem::exists(metrics)) {
+    const Json now = read_json(metrics);
+    run.status = now.value("status", "");
+    run.verdict = verdict_of(now);
+  }
   if (run.status == "completed") run.status.clear();
   if (std::filesystem::exists(histories)) run.record = principal_component(read_csv(histories));
   if (const std::string events = run_file(dir, "events.csv"); std::filesystem::exists(events)) run.marks = first_events(read_csv(events));

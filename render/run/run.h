@@ -35,6 +35,7 @@ struct Run {
   GroundRecord record;           // the strongest component
   std::vector<Mark> marks;       // in order of time
   double energy_tolerance = 0;   // relative; 0: unknown
+  std::string verdict;           // one sentence on a collapse; "" without one
   std::string status;            // status of an unreliable run; "" if completed or still running
 };
 

@@ -133,6 +133,22 @@ TEST_CASE("a video appears whole or not at all", "[render][video]") {
   CHECK_FALSE(fs::exists(other));
   CHECK_FALSE(fs::exists(other + ".part"));
   CHECK_THROWS_AS(Video(other, 63, 64, 25), Error);
+  const std::string repeated = (dir.path / "v.webp").string();
+  {
+    Video video(repeated, 63, 64, 25);
+    Image image(63, 64);
+    for (std::uint8_t i = 0; i < 5; ++i) {
+      image.pixel(10 * i, 7)[0] = 255;  // frames that do not change are joined
+      video.add(image);
+    }
+    video.finish();
+  }
+  const std::string file = bytes_of(repeated);
+  CHECK(file.substr(0, 4) == "RIFF");
+  CHECK(file.substr(8, 4) == "WEBP");
+  std::size_t frames = 0;
+  for (std::size_t at = file.find("ANMF"); at != std::string::npos; at = file.find("ANMF", at + 4)) ++frames;
+  CHECK(frames == 5);
   const std::string search = std::getenv("PATH");
   setenv("PATH", "/nowhere", 1);
   CHECK_THROWS_WITH(Video(other, 64, 64, 25), Catch::Contains("install ffmpeg"));
@@ -155,6 +171,43 @@ TEST_CASE("nothing is written over without --force, and names are checked", "[re
   const std::atomic<bool> stop{true};
   movie.cameras.clear();
   CHECK_FALSE(make_movie(run, reader, movie, stop));
+}
+
+TEST_CASE("colours show displacement, speed and opening on a scale of round numbers", "[render][draw]") {
+  const Folder dir;
+  fs::create_directories(dir.path);
+  MotionScene scene;
+  scene.blocks = {{"base", "", 0, true, Vec3::Zero(), {}}, {"a", "", 0, false, Vec3(1, 0, 0), {}}, {"b", "", 0, false, Vec3(2, 0, 0), {}}};
+  scene.joints.resize(2);
+  scene.joints[0].a = 0, scene.joints[0].b = 1, scene.joints[1].a = 1, scene.joints[1].b = 2;
+  MotionWriter writer(dir.path.string(), scene);
+  MotionFrame f{0, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1, 0, 0, 0, 2, 0, 0, 1, 0, 0, 0}, {0, 0}, {0, 0}, {}};
+  writer.write(f);
+  f.t = 0.5;
+  f.poses[7] += 0.3F, f.poses[8] += 0.4F;                      // a moves by 0.5 m
+  f.poses[17] = std::cos(0.1F), f.poses[20] = std::sin(0.1F);  // b turns by 0.2 rad
+  f.opening = {0.001F, 0.003F};
+  writer.write(f);
+  writer.close();
+  const MotionReader reader(dir.path.string());
+  MotionFrame frame = reader.read(1);
+  derive_speeds(reader, frame);
+  CHECK(block_values(scene, frame, Coloring::displacement)[1] == Approx(0.5));
+  CHECK(block_values(scene, frame, Coloring::displacement)[2] == 0);
+  CHECK(block_values(scene, frame, Coloring::speed)[1] == Approx(1));
+  CHECK(block_values(scene, frame, Coloring::opening)[1] == Approx(0.003));
+  CHECK(block_values(scene, frame, Coloring::opening)[0] == Approx(0.001));
+  CHECK(color_scale(scene, {frame}, Coloring::displacement) == Approx(0.5));
+  CHECK(color_scale(scene, {frame}, Coloring::opening) == Approx(0.005));
+  CHECK(color_scale(scene, {}, Coloring::displacement) == 1e-6);  // nothing moves
+  magnify(scene, 10, frame);
+  CHECK(frame.poses[7] == Approx(4));
+  CHECK(frame.poses[17] == Approx(std::cos(1.0)));
+  CHECK(frame.poses[20] == Approx(std::sin(1.0)));
+  CHECK(frame.poses[3] == 1);
+  // Even steps of the map are even steps of lightness: Y of linear sRGB rises all along.
+  const auto luminance = [](double share) { return map_color(share).dot(Vec3(0.2126, 0.7152, 0.0722)); };
+  for (int i = 0; i < 20; ++i) CHECK(luminance((i + 1) / 20.0) > luminance(i / 20.0));
 }
 
 TEST_CASE("between two recorded frames, blocks move on a straight line and turn evenly", "[render][schedule]") {

@@ -68,6 +68,9 @@ TEST_CASE("a run folder is read", "[render][run]") {
   CHECK(marks[0].name == "first crack");
   CHECK(marks[0].t == 0.2);
   CHECK(marks[1].name == "collapse");
+  CHECK(read_run(dir.path.string()).verdict.empty());
+  dir.write("metrics.json", R"({"status": "completed", "collapse": {"time_s": 0.4, "course": "gives way between 1 and 2 m"}})");
+  CHECK(read_run(dir.path.string()).verdict == "collapse at 0.40 s: gives way between 1 and 2 m");
   manifest.cameras[0].target = manifest.cameras[0].eye;
   write_manifest(dir.path.string(), manifest);
   CHECK_THROWS_WITH(read_run(dir.path.string()), Catch::Contains("camera front looks nowhere"));
