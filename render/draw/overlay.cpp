@@ -27,10 +27,10 @@ double value_at(const GroundRecord& r, double t) {
 }
 
 std::string length_text(double m) {
-  return m >= 1      ? fmt::format("{:g} m", m)
-         : m >= 0.01 ? fmt::format("{:g} cm", 100 * m)
-         : m >= 1e-4 ? fmt::format("{:g} mm", 1000 * m)
-                     : fmt::format("{:g} um", 1e6 * m);
+  return m >= 1      ? fmt::format("{:.3g} m", m)
+         : m >= 0.01 ? fmt::format("{:.3g} cm", 100 * m)
+         : m >= 1e-4 ? fmt::format("{:.3g} mm", 1000 * m)
+                     : fmt::format("{:.3g} um", 1e6 * m);
 }
 
 const char* quantity_name(Coloring coloring) {

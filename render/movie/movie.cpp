@@ -182,12 +182,13 @@ bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, c
   for (std::size_t i = 0; i < reader.times().size(); i += step) some.push_back(reader.read(static_cast<int>(i)));
   some.push_back(reader.read(static_cast<int>(reader.times().size()) - 1));
   const Coloring coloring = movie.look.coloring;
-  if (coloring == Coloring::speed)
-    for (MotionFrame& frame : some) derive_speeds(reader, frame);
-  const double scale = color_scale(reader.scene(), some, coloring);
   for (MotionFrame& frame : some) magnify(reader.scene(), movie.look.magnify, frame);
   Show show = prepare_show(reader.scene(), run, some);
-  show.scale = coloring == Coloring::displacement ? scale * movie.look.magnify : scale;  // of the poses drawn
+  some.clear();  // the scale is that of what is shown
+  const std::size_t stride = std::max<std::size_t>(1, schedule.times.size() / 24);
+  if (coloring != Coloring::material && coloring != Coloring::damage)
+    for (std::size_t i = 0; i < schedule.times.size(); i += stride) some.push_back(frame_to_draw(reader, movie, schedule.times[i]));
+  show.scale = color_scale(reader.scene(), some, coloring);
   for (const Camera& camera : chosen_cameras(run, show, movie))
     if (!film(run, show, reader, movie, camera, schedule, stop)) return false;
   return true;
