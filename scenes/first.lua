@@ -5,7 +5,7 @@
 local shake = param("shake", 0.35*g, "peak acceleration of the ground [m/s2]")
 
 material{ name = "brick", density = 1800, friction = 0.6 }
-ground{ size = 4 }
+ground{ size = 8 }
 for course = 0, 11 do
   box{ name = "brick" .. course, group = "pier", size = { 30*cm, 12.5*cm, 10*cm }, at = { -15*cm, -6.25*cm, course * 10*cm } }
 end

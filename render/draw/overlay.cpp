@@ -63,6 +63,7 @@ Overlay::Overlay(const Run& run, const Show& show, const Look& look, const Camer
       regular_(Font::Face::regular),
       bold_(Font::Face::bold) {
   std::replace(camera_.begin(), camera_.end(), '_', ' ');
+  if (camera_ == "own") camera_.clear();  // a camera given after the run has no name to show
   strip_left_ = (margin + 128) * unit_;
   strip_right_ = look.width - (margin + 12) * unit_;
   const GroundRecord& r = run.record;
@@ -100,15 +101,27 @@ void Overlay::draw_title(Image& image, double t) const {
   // Text beside the clock must not move: it ends at the start of the widest clock text.
   const double right = image.width - margin * u - bold_.width("00.00 s", 24 * u) - 18 * u;
   regular_.draw(image, beside, right, base, 14 * u, quiet_ink, Font::Align::right);
-  // A long title is drawn smaller, then cut.
+  // A long title is drawn smaller, then on two lines; what these cannot hold is cut.
   const double room = right - regular_.width(beside, 14 * u) - 2 * margin * u;
-  const double size = std::clamp(21 * u * room / std::max(1.0, bold_.width(run_.title, 21 * u)), 13 * u, 21 * u);
-  std::string title = run_.title;
-  while (bold_.width(title, size) > room && title.size() > 4) {
-    const std::size_t space = title.find_last_of(' ', title.size() - 5);
-    title = title.substr(0, space == std::string::npos ? 0 : space) + " ...";
+  const double fitting = 21 * u * room / std::max(1.0, bold_.width(run_.title, 21 * u));
+  if (fitting >= 16 * u) {
+    bold_.draw(image, run_.title, margin * u, base, std::min(fitting, 21 * u), text_ink);
+    return;
   }
-  bold_.draw(image, title, margin * u, base, size, text_ink);
+  const double size = 15 * u;
+  const auto cut = [&](std::string text, const char* end) {  // the words that fit
+    if (bold_.width(text, size) <= room) return text;
+    while (text.size() > 1 && bold_.width(text + end, size) > room) {
+      const std::size_t space = text.find_last_of(' ');
+      text = text.substr(0, space == std::string::npos ? text.size() - 1 : space);
+    }
+    return text + end;
+  };
+  const std::string first = cut(run_.title, "");
+  std::string rest = run_.title.substr(first.size());
+  rest.erase(0, rest.find_first_not_of(' '));
+  bold_.draw(image, first, margin * u, base - 10 * u, size, text_ink);
+  if (!rest.empty()) bold_.draw(image, cut(rest, " ..."), margin * u, base + 10 * u, size, text_ink);
 }
 
 double Overlay::column(double t) const { return strip_left_ + std::clamp(t / end_time_, 0.0, 1.0) * (strip_right_ - strip_left_); }

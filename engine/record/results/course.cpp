@@ -62,6 +62,13 @@ std::string side(const std::array<double, 2>& d) {
   return fmt::format("{:.0f} deg from x to y", std::atan2(d[1], d[0]) * 180 / pi);
 }
 
+// "at its base", "0.3 m above its base", or a range of heights.
+std::string where(const std::array<double, 2>& height) {
+  const std::string low = fmt::format("{:.2g}", height[0]), high = fmt::format("{:.2g}", height[1]);
+  if (low != high) return fmt::format("between {} and {} m above its base", low, high);
+  return std::fabs(height[0]) < 1e-3 ? "at its base" : low + " m above its base";
+}
+
 }  // namespace
 
 Course course_of(const Collapse& collapse, const Model& model, const std::vector<std::string>& group,
@@ -70,7 +77,7 @@ Course course_of(const Collapse& collapse, const Model& model, const std::vector
   if (!collapse.collapsed) return out;
   out.groups = falls(collapse, model, group);
   out.height = height_of(collapse.mechanism, model);
-  if (out.height) out.text = fmt::format("gives way between {:.2g} and {:.2g} m above its base", (*out.height)[0], (*out.height)[1]);
+  if (out.height) out.text = "gives way " + where(*out.height);
   for (int i = 0; i < std::min(names, int(out.groups.size())); ++i) {
     const GroupFall& one = out.groups[z(i)];
     out.text += fmt::format("{}{} ({:.2f} s)",
