@@ -42,6 +42,7 @@ struct CommandLine {
   RunCommand run;
   CheckCommand check;
   RecordCommand record;
+  ExportCommand exported;
   TestCommand test;
   AccuracyCommand accuracy;
   TimingCommand bench, effects;
@@ -151,6 +152,19 @@ void add_others(CLI::App& app, CommandLine& line) {
   render.set_help_flag();  // erbs-render explains its own options
   render.prefix_command();
 
+  CLI::App& exported = *app.add_subcommand("export", "write a run for other programs: glTF, VTU, OBJ, CSV");
+  exported.add_option("DIR", line.exported.words, "the run folder")->required();
+  exported
+      .add_option(
+          "--format", line.exported.formats,
+          "gltf: animated blocks, for Blender; vtu: blocks with damage and velocity, for ParaView; obj: one instant; csv: all poses")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"gltf", "vtu", "obj", "csv"}));
+  exported.add_option("--time", line.exported.time, "only this span, s")->type_name("T0:T1");
+  exported.add_option("--every", line.exported.every, "every N-th frame")->check(within(1, 1000000));
+  exported.add_option("--at", line.exported.at, "the instant of an OBJ, s (default: the last frame)")->check(within(-1e9, 1e9));
+  add_output(exported, line.exported.output, "DIR/export");
+
   CLI::App& record = *app.add_subcommand("record", "report a ground motion: points, dt, peaks, end values, Arias intensity, spectrum");
   record.add_option("FILE", line.record.words, "PEER AT2, CSV or text of one or two columns")->required();
   add_output(record, line.record.output, "runs/<file name>");
@@ -258,6 +272,7 @@ int call(const CLI::App& app, const CommandLine& line) {
     throw Error("--force and --resume exclude each other; keep one");
   if (name == "run") return verb_run(line.run);
   if (name == "check") return verb_check(line.check);
+  if (name == "export") return verb_export(line.exported);
   if (name == "record") return verb_record(line.record);
   if (name == "accuracy") return accuracy.map ? verb_map(accuracy) : verb_accuracy(accuracy);
   if (name == "test") return verb_test(line.test);

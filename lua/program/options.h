@@ -1,5 +1,6 @@
 // Options of the command line.
 #pragma once
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -74,6 +75,13 @@ struct RecordCommand {
   OutputOptions output;
   Record record;  // --dt, --unit, --column
 };
+struct ExportCommand {
+  std::vector<std::string> words, formats{"gltf"};
+  OutputOptions output;
+  std::string time;  // --time T0:T1
+  int every = 1;
+  double at = NAN;  // s, of an OBJ
+};
 struct TestCommand {
   std::vector<std::string> words;
   SceneOptions scene;
@@ -120,6 +128,7 @@ double share_of(const std::string& text, const std::string& option);
 int verb_run(const RunCommand& command);
 int verb_check(const CheckCommand& command);
 int verb_record(const RecordCommand& command);
+int verb_export(const ExportCommand& command);
 int verb_render(const std::vector<std::string>& words);
 int verb_test(const TestCommand& command);
 int verb_accuracy(const AccuracyCommand& command);

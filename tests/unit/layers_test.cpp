@@ -33,7 +33,7 @@ const std::map<std::string, Levels> sub_rooms{
     {"joints", {{""}, {"intact", "cracked"}}},
     {"contact", {{"overlap"}, {"law"}, {"broad"}, {""}}},
     {"solve", {{"blocks", "linear"}, {"contacts", "sequential"}, {""}}},
-    {"record", {{"format", "plot"}, {"recorders"}, {"results"}, {"folder"}}},
+    {"record", {{"format", "plot"}, {"recorders"}, {"results"}, {"folder"}, {"export"}}},
     {"lua", {{"reading", "masonry"}, {"language"}, {"program"}, {"reports"}, {"commands"}, {""}}},
     {"render", {{"image", "run"}, {"gl"}, {"draw"}, {"movie"}, {""}}},
 };

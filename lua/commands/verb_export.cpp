@@ -1,0 +1,94 @@
+// erbs export DIR: a run as files of other programs, in DIR/export.
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "engine/record/export/export.h"
+#include "lua/program/options.h"
+#include "lua/program/say.h"
+
+namespace erbs::lua {
+namespace {
+
+namespace fs = std::filesystem;
+
+double number_of(const std::string& text, std::size_t from, std::size_t to) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data() + from, text.data() + to, value);
+  return error == std::errc() && end == text.data() + to && std::isfinite(value) ? value : NAN;
+}
+
+struct Span {
+  double from = -HUGE_VAL, to = HUGE_VAL;  // s
+};
+
+Span span_of(const ExportCommand& command) {
+  if (command.time.empty()) return {};
+  const std::size_t colon = std::min(command.time.find(':'), command.time.size());
+  const Span span{number_of(command.time, 0, colon),
+                  number_of(command.time, std::min(colon + 1, command.time.size()), command.time.size())};
+  if (!(span.from <= span.to)) throw Error(fmt::format("--time {} is not a span of seconds; try 2:4.5", shown(command.time, 60)));
+  return span;
+}
+
+// The frame nearest to --at; the last one without it.
+int frame_at(const ExportedRun& run, double at) {
+  if (std::isnan(at)) return static_cast<int>(run.frames.size()) - 1;
+  const double first = run.frames.front().t, last = run.frames.back().t;
+  if (at < first - 1e-3 || at > last + 1e-3)
+    throw Error(fmt::format("--at {} is not within the frames exported, from {} s to {} s", at, first, last));
+  int nearest = 0;
+  for (std::size_t i = 0; i < run.frames.size(); ++i)
+    if (std::fabs(run.frames[i].t - at) < std::fabs(run.frames[static_cast<std::size_t>(nearest)].t - at)) nearest = static_cast<int>(i);
+  return nearest;
+}
+
+std::string file_stem(std::string name) {
+  for (char& c : name)
+    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
+  return name.empty() ? "run" : name;
+}
+
+// What one format writes first; the others of its files lie beside it.
+std::string target(const fs::path& folder, const std::string& stem, const std::string& format) {
+  const std::string ending = format == "gltf" ? ".glb" : format == "vtu" ? ".pvd" : "." + format;
+  return (folder / (stem + ending)).string();
+}
+
+}  // namespace
+
+int verb_export(const ExportCommand& command) {
+  if (command.words.size() != 1)
+    throw Error(fmt::format("export takes one run folder, not {}; e.g. erbs export runs/first", command.words.size()));
+  const std::string& dir = command.words.front();
+  const Span span = span_of(command);
+  const ExportedRun run = read_exported_run(dir, span.from, span.to, command.every);
+  const fs::path folder = command.output.directory.empty() ? fs::path(dir) / "export" : fs::path(command.output.directory);
+  const std::string stem = file_stem(run.manifest.scene_name);
+  const int instant = frame_at(run, command.at);
+  for (const std::string& format : command.formats)
+    if (const std::string path = target(folder, stem, format); !command.output.force && fs::exists(path))
+      throw Error("it exists already; --force writes it anew", {path, 0});
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) throw Error("the folder cannot be made; may you write there? choose another with -o DIR", {folder.string(), 0});
+  for (const std::string& format : command.formats) {
+    const std::string path = target(folder, stem, format);
+    const std::vector<std::string> paths = format == "gltf"  ? write_gltf(run, path)
+                                           : format == "vtu" ? write_vtu(run, (folder / stem).string())
+                                           : format == "obj" ? write_obj(run, instant, path)
+                                                             : write_pose_table(run, path);
+    std::uintmax_t bytes = 0;
+    for (const std::string& one : paths) bytes += fs::file_size(one);
+    if (!command.output.quiet)
+      say("{:<5} {} ({} block{}, {}, {:.3g} MB)\n", format, shown(path, 400), run.scene.blocks.size(),
+          run.scene.blocks.size() == 1 ? "" : "s",
+          format == "obj" ? fmt::format("at {:.4g} s", run.frames[static_cast<std::size_t>(instant)].t)
+                          : fmt::format("{} frames", run.frames.size()),
+          1e-6 * static_cast<double>(bytes));
+  }
+  return exit_ok;
+}
+
+}  // namespace erbs::lua
