@@ -43,6 +43,7 @@ struct CommandLine {
   CheckCommand check;
   RecordCommand record;
   ExportCommand exported;
+  PlotCommand plot;
   TestCommand test;
   AccuracyCommand accuracy;
   TimingCommand bench, effects;
@@ -140,6 +141,31 @@ void add_run(CLI::App& app, RunCommand& command) {
   run.add_flag("--profile", command.profile, "print where the time went, and what kept the steps short");
   run.add_flag("--log-json", command.log_json, "print progress as lines of JSON");
   run.add_flag("--fail-on-collapse", command.fail_on_collapse, "exit with 4 when the structure collapses");
+}
+
+void add_plot(CLI::App& app, PlotCommand& command) {
+  CLI::App& plot = *app.add_subcommand("plot", "draw columns of histories.csv and energy.csv, of several runs over each other");
+  plot.add_option("DIR", command.words, "the run folders")->required();
+  plot.add_option("--y", command.y, "columns to draw: names, their beginnings, or patterns with * and ?")
+      ->delimiter(',')
+      ->check(filled())
+      ->type_name("COL,COL");
+  plot.add_option("--x", command.x, "column of the horizontal axis (default time_s)")->check(filled())->type_name("COL");
+  plot.add_flag("--list", command.list, "list the columns with their units, and draw nothing");
+  plot.add_flag("--spectrum", command.spectrum, "Fourier amplitudes over frequency");
+  plot.add_flag("--response", command.response, "pseudo-acceleration response spectrum of accelerations over period");
+  const auto read_damping = [&command](const std::string& value) { command.damping = share_of(value, "--damping"); };
+  plot.add_option_function<std::string>("--damping", read_damping, "damping ratio of --response (default 0.05)")
+      ->check(filled())
+      ->type_name("0.05");
+  plot.add_flag("--envelope", command.envelope, "running maximum of the absolute value");
+  plot.add_option("--time", command.time, "only this span, s")->check(filled())->type_name("T0:T1");
+  plot.add_option("-o", command.output.directory, "the picture, SVG or PNG by its ending (default DIR/plot.svg)")
+      ->check(filled())
+      ->type_name("FILE");
+  plot.add_flag("--png", command.png, "a PNG, DIR/plot.png by default");
+  plot.add_flag("--force", command.output.force, "replace an earlier picture");
+  plot.add_flag("-q,--quiet", command.output.quiet, "print errors only");
 }
 
 void add_others(CLI::App& app, CommandLine& line) {
@@ -273,6 +299,7 @@ int call(const CLI::App& app, const CommandLine& line) {
   if (name == "run") return verb_run(line.run);
   if (name == "check") return verb_check(line.check);
   if (name == "export") return verb_export(line.exported);
+  if (name == "plot") return verb_plot(line.plot);
   if (name == "record") return verb_record(line.record);
   if (name == "accuracy") return accuracy.map ? verb_map(accuracy) : verb_accuracy(accuracy);
   if (name == "test") return verb_test(line.test);
@@ -328,6 +355,7 @@ int run_program(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "erbs " + program_version(), "the version and the commit it was built from");
   add_run(app, line.run);
+  add_plot(app, line.plot);
   add_others(app, line);
   return finish_streams(answer(app, line, argc, argv), exit_usage);
 }

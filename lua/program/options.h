@@ -82,6 +82,14 @@ struct ExportCommand {
   int every = 1;
   double at = NAN;  // s, of an OBJ
 };
+struct PlotCommand {
+  std::vector<std::string> words, y;
+  std::string x = "time_s";
+  OutputOptions output;  // directory: the picture
+  std::string time;      // --time T0:T1
+  bool spectrum = false, response = false, envelope = false, list = false, png = false;
+  std::optional<double> damping;  // ratio, of --response
+};
 struct TestCommand {
   std::vector<std::string> words;
   SceneOptions scene;
@@ -129,6 +137,7 @@ int verb_run(const RunCommand& command);
 int verb_check(const CheckCommand& command);
 int verb_record(const RecordCommand& command);
 int verb_export(const ExportCommand& command);
+int verb_plot(const PlotCommand& command);
 int verb_render(const std::vector<std::string>& words);
 int verb_test(const TestCommand& command);
 int verb_accuracy(const AccuracyCommand& command);

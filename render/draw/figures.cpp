@@ -17,42 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A unit in column names, its quantity, and its displayed units. The first displayed unit applies whose `from` is not above the peak.
-struct Shown {
-  double from, factor;
-  const char* unit;
-};
-struct Unit {
-  const char* suffix;
-  const char* quantity;
-  std::vector<Shown> shown;
-};
-// Longer endings come first.
-const std::vector<Unit>& units() {
-  static const std::vector<Unit> list{
-      {"rad_s2", "angular acceleration", {{0, 1, "rad/s²"}}},
-      {"m_s2", "acceleration", {{0, 1, "m/s²"}}},
-      {"rad_s", "spin", {{0, 1, "rad/s"}}},
-      {"m_s", "velocity", {{0.5, 1, "m/s"}, {0, 1e3, "mm/s"}}},
-      {"N_m", "moment", {{1e3, 1e-3, "kN m"}, {0, 1, "N m"}}},
-      {"Pa", "stress", {{1e5, 1e-6, "MPa"}, {1e2, 1e-3, "kPa"}, {0, 1, "Pa"}}},
-      {"rad", "rotation", {{0.05, 1, "rad"}, {0, 1e3, "mrad"}}},
-      {"deg", "angle", {{0, 1, "deg"}}},
-      {"Hz", "frequency", {{0, 1, "Hz"}}},
-      {"kg", "mass", {{0, 1, "kg"}}},
-      {"N", "force", {{1e6, 1e-6, "MN"}, {1e3, 1e-3, "kN"}, {0, 1, "N"}}},
-      {"J", "energy", {{1e6, 1e-6, "MJ"}, {1e3, 1e-3, "kJ"}, {1, 1, "J"}, {0, 1e3, "mJ"}}},
-      {"m", "displacement", {{1, 1, "m"}, {1e-4, 1e3, "mm"}, {0, 1e6, "µm"}}},
-  };
-  return list;
-}
-
-const Unit* find_unit(const std::string& suffix) {
-  for (const Unit& u : units())
-    if (suffix == u.suffix) return &u;
-  return nullptr;
-}
-
 double peak_of(const CsvTable& table, const std::vector<int>& columns) {
   double peak = 0;
   for (int c : columns)
@@ -62,15 +26,11 @@ double peak_of(const CsvTable& table, const std::vector<int>& columns) {
 }
 
 void choose_unit(Panel& panel, const CsvTable& table, const std::string& suffix) {
-  const Unit* unit = find_unit(suffix);
+  const plot::Unit* unit = plot::find_unit(suffix);
   if (!unit) return;
-  const double peak = peak_of(table, panel.columns);
-  for (const Shown& s : unit->shown) {
-    if (peak < s.from) continue;
-    panel.factor = s.factor;
-    panel.label += fmt::format(" [{}]", s.unit);
-    return;
-  }
+  const plot::ShownUnit& shown = plot::shown_unit(*unit, peak_of(table, panel.columns));
+  panel.factor = shown.factor;
+  panel.label += fmt::format(" [{}]", shown.name);
 }
 
 constexpr std::array<const char*, 8> colors{"#23527c", "#c0502d", "#4f8a4c", "#8a5a9e", "#b08a1e", "#3b9aa8", "#7d7d7d", "#a33a5a"};
@@ -200,21 +160,6 @@ plot::Figure energy_figure(const std::string& csv, const CsvTable& table, const 
 
 }  // namespace
 
-std::string unit_of(const std::string& column) {
-  for (const Unit& u : units()) {
-    const std::string end = std::string("_") + u.suffix;
-    if (column.size() > end.size() && column.compare(column.size() - end.size(), end.size(), end) == 0) return u.suffix;
-  }
-  return "";
-}
-
-std::string words_of(const std::string& column) {
-  const std::string unit = unit_of(column);
-  std::string words = column.substr(0, column.size() - (unit.empty() ? 0 : unit.size() + 1));
-  std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
-}
-
 std::vector<Panel> history_panels(const CsvTable& table, std::vector<std::string>* left_out) {
   Panel ground{"ground [g]", 1 / standard_g, {}};
   std::vector<std::pair<std::string, Panel>> by_unit;
@@ -238,7 +183,7 @@ std::vector<Panel> history_panels(const CsvTable& table, std::vector<std::string
     const std::string key = unit + "/" + axis + frame + (unit.empty() ? words : "");
     auto known = std::find_if(by_unit.begin(), by_unit.end(), [&](const auto& p) { return p.first == key; });
     if (known == by_unit.end()) {
-      const Unit* u = find_unit(unit);
+      const plot::Unit* u = plot::find_unit(unit);
       by_unit.push_back({key, {(u ? u->quantity : words) + (axis.empty() ? "" : " " + axis) + frame, 1, {}, !axis.empty()}});
       known = by_unit.end() - 1;
     }

@@ -1,6 +1,7 @@
 // Draws histories.svg and energy.svg from the CSV files beside them, with gnuplot.
 #pragma once
 #include "engine/record/folder/run_folder.h"
+#include "engine/record/plot/unit.h"
 #include "render/run/run.h"
 
 namespace erbs::render {
@@ -19,8 +20,6 @@ struct Panel {
 // direction are dropped if `left_out` is given, and named in it.
 std::vector<Panel> history_panels(const CsvTable& table, std::vector<std::string>* left_out = nullptr);
 
-// unit_of: the unit at the end of a column's name ("m_s2"), or "". words_of: the rest of the name in plain words.
-std::string unit_of(const std::string& column);
-std::string words_of(const std::string& column);
+using plot::unit_of, plot::words_of;
 
 }  // namespace erbs::render

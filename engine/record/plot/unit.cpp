@@ -1,0 +1,58 @@
+#include "engine/record/plot/unit.h"
+
+#include <algorithm>
+
+namespace erbs::plot {
+namespace {
+
+// Longer endings come first.
+const std::vector<Unit>& units() {
+  static const std::vector<Unit> list{
+      {"rad_s2", "angular acceleration", {{0, 1, "rad/s²"}}},
+      {"m_s2", "acceleration", {{0, 1, "m/s²"}}},
+      {"rad_s", "spin", {{0, 1, "rad/s"}}},
+      {"m_s", "velocity", {{0.5, 1, "m/s"}, {0, 1e3, "mm/s"}}},
+      {"N_m", "moment", {{1e3, 1e-3, "kN m"}, {0, 1, "N m"}}},
+      {"Pa", "stress", {{1e5, 1e-6, "MPa"}, {1e2, 1e-3, "kPa"}, {0, 1, "Pa"}}},
+      {"rad", "rotation", {{0.05, 1, "rad"}, {0, 1e3, "mrad"}}},
+      {"deg", "angle", {{0, 1, "deg"}}},
+      {"Hz", "frequency", {{0, 1, "Hz"}}},
+      {"kg", "mass", {{0, 1, "kg"}}},
+      {"N", "force", {{1e6, 1e-6, "MN"}, {1e3, 1e-3, "kN"}, {0, 1, "N"}}},
+      {"J", "energy", {{1e6, 1e-6, "MJ"}, {1e3, 1e-3, "kJ"}, {1, 1, "J"}, {0, 1e3, "mJ"}}},
+      {"m", "displacement", {{1, 1, "m"}, {1e-4, 1e3, "mm"}, {0, 1e6, "µm"}}},
+      {"s", "time", {{0, 1, "s"}}},
+  };
+  return list;
+}
+
+}  // namespace
+
+const Unit* find_unit(const std::string& suffix) {
+  for (const Unit& u : units())
+    if (suffix == u.suffix) return &u;
+  return nullptr;
+}
+
+const ShownUnit& shown_unit(const Unit& unit, double peak) {
+  for (const ShownUnit& s : unit.shown)
+    if (peak >= s.from) return s;
+  return unit.shown.back();
+}
+
+std::string unit_of(const std::string& column) {
+  for (const Unit& u : units()) {
+    const std::string end = std::string("_") + u.suffix;
+    if (column.size() > end.size() && column.ends_with(end)) return u.suffix;
+  }
+  return "";
+}
+
+std::string words_of(const std::string& column) {
+  const std::string unit = unit_of(column);
+  std::string words = column.substr(0, column.size() - (unit.empty() ? 0 : unit.size() + 1));
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return words;
+}
+
+}  // namespace erbs::plot

@@ -1,0 +1,130 @@
+// erbs plot DIR...: columns of histories.csv and energy.csv as curves, of one run or of several over each other.
+#include <algorithm>
+#include <filesystem>
+
+#include "engine/base/system/process.h"
+#include "engine/record/plot/unit.h"
+#include "engine/record/results/curve_figure.h"
+#include "lua/program/options.h"
+#include "lua/program/say.h"
+
+namespace erbs::lua {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct ReadRun {
+  std::string folder, name;
+  CsvTable table;
+};
+
+// Names of folders, or whole paths if two of these are the same.
+std::vector<ReadRun> read_runs(const std::vector<std::string>& folders) {
+  std::vector<ReadRun> runs;
+  for (const std::string& folder : folders) {
+    ReadRun run{folder, "", read_columns(folder)};
+    run.name = fs::canonical(folder).filename().string();
+    runs.push_back(std::move(run));
+  }
+  std::vector<std::string> names;
+  for (const ReadRun& run : runs) names.push_back(run.name);
+  for (ReadRun& run : runs)
+    if (std::count(names.begin(), names.end(), run.name) > 1) run.name = run.folder;
+  return runs;
+}
+
+void list_columns(const std::vector<ReadRun>& runs) {
+  for (const ReadRun& run : runs) {
+    if (runs.size() > 1) say("{}\n", shown(run.folder, 400));
+    for (std::size_t c = 0; c < run.table.names.size(); ++c) {
+      if (!run.table.text[c].empty()) continue;
+      const plot::Unit* unit = plot::find_unit(plot::unit_of(run.table.names[c]));
+      say("{:<32} {:<8} {}\n", run.table.names[c], unit ? unit->shown.front().factor == 1 ? unit->shown.front().name : unit->suffix : "-",
+          unit ? unit->quantity : "");
+    }
+  }
+}
+
+CurveKind kind_of(const PlotCommand& command) {
+  if (command.spectrum + command.response + command.envelope > 1)
+    throw Error("--spectrum, --response and --envelope exclude each other; keep one");
+  if (command.damping && !command.response) throw Error("--damping is that of --response; add --response, or leave it out");
+  if (command.damping && *command.damping >= 1) throw Error("--damping must be below 1, a share of critical damping; try 0.05");
+  if ((command.spectrum || command.response) && command.x != "time_s")
+    throw Error("--spectrum and --response have their own horizontal axis; leave out --x");
+  return command.spectrum   ? CurveKind::spectrum
+         : command.response ? CurveKind::response
+         : command.envelope ? CurveKind::envelope
+                            : CurveKind::history;
+}
+
+std::string picture_of(const PlotCommand& command) {
+  std::string path = command.output.directory;
+  if (path.empty()) path = (fs::path(command.words.front()) / (command.png ? "plot.png" : "plot.svg")).string();
+  const std::string ending = fs::path(path).extension().string();
+  if (command.png && ending != ".png") throw Error("--png and the ending of -o disagree; let the name end with .png", {path});
+  if (ending != ".svg" && ending != ".png") throw Error("the name of a picture ends with .svg or .png; change it", {path});
+  if (fs::is_directory(path)) throw Error("it is a folder; choose another name with -o FILE", {path});
+  if (fs::exists(path) && !command.output.force) throw Error("it exists already; --force writes it anew, -o FILE another", {path});
+  const fs::path folder = fs::absolute(path).parent_path();
+  if (!fs::is_directory(folder)) throw Error("its folder does not exist; make it, or choose another name with -o FILE", {path});
+  return path;
+}
+
+// Adds the curves of the columns that each pattern fits, each column once.
+void add_curves(const ReadRun& run, const PlotCommand& command, CurveKind kind, std::vector<HistoryCurve>& curves) {
+  const std::vector<int> x = choose_columns(run.table, command.x);
+  if (x.size() > 1) {
+    std::vector<std::string> names;
+    for (const int c : x) names.push_back(run.table.names[std::size_t(c)]);
+    throw Error(fmt::format("--x {} fits {} columns, {}; name one of them", shown(command.x, 60), x.size(), fmt::join(names, ", ")));
+  }
+  const TimeSpan span = command.time.empty() ? TimeSpan{} : time_span_of(command.time);
+  std::vector<int> chosen;
+  for (const std::string& pattern : command.y)
+    for (const int c : choose_columns(run.table, pattern))
+      if (std::find(chosen.begin(), chosen.end(), c) == chosen.end()) chosen.push_back(c);
+  for (const int c : chosen) {
+    HistoryCurve curve = curve_of(run.table, x.front(), c, span);
+    curve.run = run.name;
+    if (kind == CurveKind::envelope) curve.y = envelope_of(curve.y);
+    if (kind == CurveKind::spectrum) curve = amplitude_spectrum(curve);
+    if (kind == CurveKind::response) curve = response_curve(curve, command.damping.value_or(0.05));
+    curves.push_back(std::move(curve));
+  }
+}
+
+std::string note_of(const PlotCommand& command, CurveKind kind) {
+  std::string note = kind == CurveKind::spectrum   ? "Fourier amplitude spectrum, Hann window"
+                     : kind == CurveKind::response ? fmt::format("response spectrum, {:g} % damping", 100 * command.damping.value_or(0.05))
+                     : kind == CurveKind::envelope ? "running maximum of the absolute value"
+                                                   : "";
+  if (command.time.empty()) return note;
+  const TimeSpan span = time_span_of(command.time);
+  return note + fmt::format("{}{:g} s to {:g} s", note.empty() ? "" : ", ", span.from, span.to);
+}
+
+}  // namespace
+
+int verb_plot(const PlotCommand& command) {
+  if (command.words.empty()) throw Error("plot takes a run folder; write erbs plot DIR --y COLUMN");
+  const CurveKind kind = kind_of(command);
+  if (!command.time.empty()) time_span_of(command.time);
+  const std::vector<ReadRun> runs = read_runs(command.words);
+  if (command.list) return (list_columns(runs), exit_ok);
+  if (command.y.empty()) throw Error("plot takes columns; write --y COLUMN, and erbs plot DIR --list lists them");
+  const std::string path = picture_of(command);
+  std::vector<HistoryCurve> curves;
+  for (const ReadRun& run : runs) try {
+      add_curves(run, command, kind, curves);
+    } catch (const Error& mistake) {
+      if (!mistake.place.file.empty()) throw;
+      throw Error(mistake.what(), {run.folder});
+    }
+  if (!can_start("gnuplot")) throw Error("pictures need gnuplot, which is not installed; install the package gnuplot-nox");
+  plot::draw(curve_figure(curves, kind, note_of(command, kind)), path);
+  if (!command.output.quiet) say("picture {} ({} curve{})\n", shown(path, 400), curves.size(), curves.size() == 1 ? "" : "s");
+  return exit_ok;
+}
+
+}  // namespace erbs::lua
