@@ -1,10 +1,10 @@
 // erbs export DIR: a run as files of other programs, in DIR/export.
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 
 #include "engine/record/export/export.h"
+#include "engine/record/results/curves.h"
 #include "lua/program/options.h"
 #include "lua/program/say.h"
 
@@ -12,25 +12,6 @@ namespace erbs::lua {
 namespace {
 
 namespace fs = std::filesystem;
-
-double number_of(const std::string& text, std::size_t from, std::size_t to) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data() + from, text.data() + to, value);
-  return error == std::errc() && end == text.data() + to && std::isfinite(value) ? value : NAN;
-}
-
-struct Span {
-  double from = -HUGE_VAL, to = HUGE_VAL;  // s
-};
-
-Span span_of(const ExportCommand& command) {
-  if (command.time.empty()) return {};
-  const std::size_t colon = std::min(command.time.find(':'), command.time.size());
-  const Span span{number_of(command.time, 0, colon),
-                  number_of(command.time, std::min(colon + 1, command.time.size()), command.time.size())};
-  if (!(span.from <= span.to)) throw Error(fmt::format("--time {} is not a span of seconds; try 2:4.5", shown(command.time, 60)));
-  return span;
-}
 
 // The frame nearest to --at; the last one without it.
 int frame_at(const ExportedRun& run, double at) {
@@ -62,7 +43,7 @@ int verb_export(const ExportCommand& command) {
   if (command.words.size() != 1)
     throw Error(fmt::format("export takes one run folder, not {}; e.g. erbs export runs/first", command.words.size()));
   const std::string& dir = command.words.front();
-  const Span span = span_of(command);
+  const TimeSpan span = command.time.empty() ? TimeSpan{} : time_span_of(command.time);
   const ExportedRun run = read_exported_run(dir, span.from, span.to, command.every);
   const fs::path folder = command.output.directory.empty() ? fs::path(dir) / "export" : fs::path(command.output.directory);
   const std::string stem = file_stem(run.manifest.scene_name);

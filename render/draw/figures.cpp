@@ -72,7 +72,7 @@ void add_marks(const Run& run, double last_time, bool named, plot::Panel& p) {
     const bool right = mark.t > 0.75 * last_time;
     p.labels.push_back(
         {fmt::format("{} {:.2f} s", mark.name, mark.t), fmt::format("first {},graph 1", mark.t),
-         fmt::format("{} offset {},-{} front tc rgb '#8a2f20' font ',11'", right ? "right" : "left", right ? -0.6 : 0.6, row)});
+         fmt::format("{} offset {},-{} front boxed tc rgb '#8a2f20' font ',11'", right ? "right" : "left", right ? -0.6 : 0.6, row)});
     row += 1;
   }
 }
@@ -82,7 +82,7 @@ plot::Figure sheet(std::size_t rows, std::size_t columns, std::size_t name_lengt
   plot::Figure figure{columns == 1 ? 1000 : 850 * double(columns), 70 + 210 * double(rows)};
   figure.settings = fmt::format(
       "set datafile separator comma\nset datafile missing 'nan'\nset zeroaxis lc rgb '#b0b0b0' lt 1 lw 0.8\n"
-      "set lmargin 12\nset rmargin {}\n",
+      "set style textbox opaque noborder fc rgb '#ffffff' margins 0.4,0.2\nset lmargin 12\nset rmargin {}\n",
       8 + name_length * 4 / 5);
   figure.labels = {{title, fmt::format("screen 0.5,{:.5f}", 1 - 19 / figure.height), "center font ',15'"}};
   return figure;
@@ -118,24 +118,34 @@ plot::Figure histories_figure(const std::string& csv, const CsvTable& table, con
 }
 
 plot::Figure energy_figure(const std::string& csv, const CsvTable& table, const Run& run) {
-  Panel terms{"energy", 1, {}};
+  Panel large{"energy", 1, {}}, small{"energy, small terms", 1, {}};
+  std::vector<int> terms;
   for (std::size_t c = 1; c < table.names.size(); ++c)
     if (unit_of(table.names[c]) == "J" && table.names[c] != "residual_J" && peak_of(table, {static_cast<int>(c)}) > 0)
-      terms.columns.push_back(static_cast<int>(c));
-  choose_unit(terms, table, "J");
+      terms.push_back(static_cast<int>(c));
+  // Beside the potential energy of a fall, the terms that caused it would be flat lines.
+  const double largest = peak_of(table, terms);
+  for (const int c : terms) (peak_of(table, {c}) < 0.05 * largest ? small : large).columns.push_back(c);
+  choose_unit(large, table, "J"), choose_unit(small, table, "J");
   const double last_time = table.columns[0].back();
   const int residual = table.find("residual_relative");
   const double worst = residual >= 0 ? peak_of(table, {residual}) : 0;
-  plot::Figure figure = sheet(3, 1, 18, run.title + ": energy");
-  plot::Panel above, below;
-  above.cell = {0, 1, 0.36, 0.96};
-  below.cell = {0, 1, 0, 0.36};
-  above.key = beside;
-  above.x.range = below.x.range = fmt::format("[0:{}]", last_time);
-  above.y = vertical(table, terms);
-  add_marks(run, last_time, true, above), add_marks(run, last_time, false, below);
-  above.series = curves(csv, table, terms, "column({c})*{f}");
+  plot::Figure figure = sheet(small.columns.empty() ? 3 : 4, 1, 18, run.title + ": energy");
+  const double top = 1 - 30 / figure.height, rest = small.columns.empty() ? 0.36 : 0.27, middle = small.columns.empty() ? rest : 0.54;
+  plot::Panel above, between, below;
+  above.cell = {0, 1, middle, top};
+  between.cell = {0, 1, rest, middle};
+  below.cell = {0, 1, 0, rest};
+  above.key = between.key = beside;
+  above.x.range = between.x.range = below.x.range = fmt::format("[0:{}]", last_time);
+  above.y = vertical(table, large);
+  add_marks(run, last_time, true, above), add_marks(run, last_time, false, between), add_marks(run, last_time, false, below);
+  above.series = curves(csv, table, large, "column({c})*{f}");
   if (above.series.empty()) above.series = {{"0", "lines"}};
+  if (!small.columns.empty()) {
+    between.y = vertical(table, small);
+    between.series = curves(csv, table, small, "column({c})*{f}");
+  }
   // Energy tolerance of the run. If the scene leaves it to the kind of run, all three standard tolerances.
   std::vector<std::pair<double, std::string>> tolerances{{run.energy_tolerance, "gate"}};
   if (run.energy_tolerance <= 0) tolerances = {{1e-6, "gate, elastic"}, {1e-3, "gate, cracked"}, {1e-2, "gate, collapse"}};
@@ -154,7 +164,7 @@ plot::Figure energy_figure(const std::string& csv, const CsvTable& table, const 
   }
   below.series = {{"1e-16", "lines"}};
   if (worst > 0) below.series = curves(csv, table, {"", 1, {residual}}, "abs(column({c})) > 1e-16 ? abs(column({c})) : 1e-16");
-  figure.panels = {above, below};
+  figure.panels = {above, between, below};  // one without series is left out
   return figure;
 }
 

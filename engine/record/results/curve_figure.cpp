@@ -12,13 +12,13 @@ namespace erbs {
 namespace {
 
 // Okabe and Ito 2008, seven of eight: their yellow is too pale for a line on white. Seven colours and five patterns have no common
-// divisor, so that 35 curves differ, and neighbours differ in print without colours as well.
+// divisor, so that 35 curves differ; neighbours differ in grey print as well.
 constexpr std::array<const char*, 7> colors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
-constexpr std::array<const char*, 5> dashes{"1", "(9,3)", "(2,2)", "(9,3,2,3)", "(5,2)"};
+constexpr std::array<const char*, 5> dashes{"1", "(14,5)", "(4,4)", "(14,4,3,4)", "(8,3)"};
 constexpr std::size_t most_curves = colors.size() * dashes.size();
 
 // Places of a panel, in px.
-constexpr double left = 95, width = 720, head = 62, foot = 58, gap = 26, letter = 8;
+constexpr double left = 95, width = 720, foot = 68, gap = 26, letter = 8;
 
 struct Group {
   std::string unit;
@@ -70,8 +70,8 @@ std::string axis_label(const Group& group, CurveKind kind, const std::string& un
   const bool one = std::all_of(group.curves.begin(), group.curves.end(), [&](const auto* c) { return c->y_name == name; });
   const plot::Unit* known = plot::find_unit(group.unit);
   const std::string words = one || known == nullptr ? plot::words_of(name) : known->quantity;
-  const char* before = kind == CurveKind::spectrum ? "amplitude, " : kind == CurveKind::envelope ? "maximum, " : "";
-  return fmt::format("{}{} [{}]", before, shortened(words, 40), unit);
+  return fmt::format("{}{}{} [{}]", kind == CurveKind::envelope ? "largest " : "", shortened(words, 40),
+                     kind == CurveKind::spectrum ? " amplitude" : "", unit);
 }
 
 // A range for curves without any; otherwise gnuplot chooses.
@@ -79,6 +79,15 @@ std::string range_of(double low, double high, bool from_zero) {
   if (high > low) return from_zero ? "[0:*]" : "";
   const double half = low == 0 ? 1 : 0.1 * std::abs(low);
   return fmt::format("[{:.8g}:{:.8g}]", low - half, high + half);
+}
+
+// 1, 2, 5 in each decade: gnuplot alone would name the decades only.
+std::string log_tics(double low, double high) {
+  std::string tics;
+  for (double decade = std::pow(10, std::floor(std::log10(low))); decade <= high; decade *= 10)
+    for (const double lead : {1, 2, 5})
+      if (lead * decade >= low && lead * decade <= high) tics += fmt::format("{}{:g}", tics.empty() ? "" : ",", lead * decade);
+  return "(" + tics + ")";
 }
 
 }  // namespace
@@ -98,7 +107,7 @@ plot::Figure curve_figure(const std::vector<HistoryCurve>& curves, CurveKind kin
   std::size_t longest = 0;
   for (const HistoryCurve& curve : curves) {
     const std::string words = shortened(plot::words_of(curve.y_name), 40);
-    names.push_back(runs.size() == 1 ? words : shortened(curve.run, 32) + ": " + words);
+    names.push_back(runs.size() == 1 ? words : shortened(curve.run, 48) + ": " + words);
     longest = std::max(longest, names.back().size());
   }
   const bool over_log = kind == CurveKind::spectrum || kind == CurveKind::response;
@@ -110,6 +119,7 @@ plot::Figure curve_figure(const std::vector<HistoryCurve>& curves, CurveKind kin
   for (const HistoryCurve& curve : curves)
     for (const double value : curve.x) x_low = std::min(x_low, value * x.factor), x_high = std::max(x_high, value * x.factor);
 
+  const double head = note.empty() ? 40 : 62;
   std::vector<double> heights;
   double total = head + foot - gap;
   for (const Group& group : groups) {
@@ -134,13 +144,13 @@ plot::Figure curve_figure(const std::vector<HistoryCurve>& curves, CurveKind kin
     p.key = "at graph 1.015,1 left top Left reverse samplen 3.2 spacing 1.1 noenhanced";
     p.x = {last ? fmt::format("{} [{}]", shortened(plot::words_of(x_name), 60), x_unit) : "",
            x_high > x_low ? fmt::format("[{:.8g}:{:.8g}]", x_low, x_high) : range_of(x_low, x_high, false),
-           "",
+           over_log ? log_tics(x_low, x_high) : "",
            last ? "" : "none",
            "noenhanced",
            over_log};
     double low = HUGE_VAL, high = -HUGE_VAL;
     for (const HistoryCurve* curve : group.curves) {
-      const std::size_t i = std::size_t(curve - curves.data());
+      const std::size_t i = p.series.size();
       std::string rows;
       const HistoryCurve drawn = thinned(*curve, 6000);
       for (std::size_t k = 0; k < drawn.x.size(); ++k) {
@@ -150,7 +160,7 @@ plot::Figure curve_figure(const std::vector<HistoryCurve>& curves, CurveKind kin
       }
       p.series.push_back({figure.add_rows(rows) + " using 1:2",
                           fmt::format("lines lw 1.6 lc rgb '{}' dashtype {}", colors[i % colors.size()], dashes[i % dashes.size()]),
-                          names[i]});
+                          names[std::size_t(curve - curves.data())]});
     }
     p.y = {axis_label(group, kind, y.unit), range_of(low, high, kind != CurveKind::history), "", "", "noenhanced"};
     figure.panels.push_back(p);

@@ -99,7 +99,7 @@ std::vector<int> choose_columns(const CsvTable& table, const std::string& patter
   }
   if (chosen.empty())
     throw Error(
-        fmt::format("there is no column \"{}\"{}; erbs plot DIR --list lists all", shown(pattern, 60), did_you_mean(pattern, known)));
+        fmt::format("there is no column \"{}\" (erbs plot DIR --list lists all){}", shown(pattern, 60), did_you_mean(pattern, known)));
   return chosen;
 }
 

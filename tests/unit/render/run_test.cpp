@@ -157,3 +157,17 @@ TEST_CASE("a run folder from anywhere is drawn, and runs nothing", "[render][fig
   CHECK_FALSE(std::filesystem::exists(folder.path / "pwned"));
   CHECK_FALSE(std::filesystem::exists("pwned"));
 }
+
+TEST_CASE("energies that are small beside a fall have a panel of their own", "[render][figures]") {
+  const test::Folder dir;
+  Run run;
+  run.dir = dir.path.string();
+  const auto drawn = [&](const std::string& rows) {
+    std::ofstream(dir.path / "energy.csv") << "time_s,gravity_J,fracture_J,residual_relative\n" << rows;
+    REQUIRE(write_figures(run).size() == 1);
+    std::ifstream in(dir.path / "energy.svg");
+    return std::string{std::istreambuf_iterator<char>(in), {}};
+  };
+  CHECK(drawn("0,0,0,0\n1,-1000,49,1e-9\n").find("energy, small terms [J]") != std::string::npos);
+  CHECK(drawn("0,0,0,0\n1,-1000,51,1e-9\n").find("small terms") == std::string::npos);
+}

@@ -1,0 +1,104 @@
+// The command erbs plot DIR: pictures of columns, and a cause and a remedy for each mistake.
+#include <catch2/catch.hpp>
+
+#include "tests/unit/lua/bench.h"
+
+using namespace erbs;
+using namespace erbs::lua;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A run folder of eleven rows, as far as erbs plot reads it.
+std::string run_folder(const Bench& bench, const std::string& name, double factor = 1) {
+  fs::create_directories(bench.folder / name);
+  std::string histories = "time_s,top_ux_m,top_ax_m_s2,base_fx_N\n", energy = "time_s,kinetic_J,unknown_J\n";
+  for (int i = 0; i <= 10; ++i) {
+    histories += fmt::format("{},{},{},{}\n", 0.1 * i, factor * 0.01 * i, factor * (i % 3), 1000 * i);
+    energy += fmt::format("{},{},{}\n", 0.1 * i, i * i, i == 7 ? "nan" : "1");
+  }
+  bench.write(name + "/histories.csv", histories);
+  bench.write(name + "/energy.csv", energy);
+  return (bench.folder / name).string();
+}
+
+}  // namespace
+
+TEST_CASE("two runs are drawn over each other, whatever their names", "[plot][program]") {
+  Bench bench;
+  const std::string plain = run_folder(bench, "first"), odd = run_folder(bench, "Häuschen \"q\" it's $HOME `id` a_b\\n", 2);
+  REQUIRE(bench.erbs({"plot", plain, odd, "--y", "top_ux_m,kinetic_J"}) == 0);
+  CHECK(contains(bench.said, "4 curves"));
+  const std::string svg = text_of(plain + "/plot.svg");
+  for (const char* text : {"</svg>", "time [s]", "top ux [mm]", "kinetic [J]", "first: top ux", "it's $HOME `id` a_b\\n: top ux"}) {
+    INFO(text);
+    CHECK(contains(svg, text));
+  }
+  REQUIRE(bench.erbs({"plot", odd, "--x", "top_ux_m", "--y", "base", "--png", "-q"}) == 0);
+  CHECK(bench.said.empty());
+  CHECK(text_of(odd + "/plot.png").substr(1, 3) == "PNG");
+  CHECK(std::distance(fs::directory_iterator(odd), {}) == 3);  // no leftovers
+}
+
+TEST_CASE("spectra, envelopes and spans are drawn", "[plot][program]") {
+  Bench bench;
+  const std::string run = run_folder(bench, "first"), picture = (bench.folder / "a picture.svg").string();
+  CHECK(bench.erbs({"plot", run, "--y", "top*", "--spectrum", "-o", picture}) == 0);
+  CHECK(contains(text_of(picture), "frequency [Hz]"));
+  CHECK(bench.erbs({"plot", run, "--y", "top_ax", "--response", "--damping", "0.02", "--force", "-o", picture}) == 0);
+  CHECK(contains(text_of(picture), "2 % damping"));
+  CHECK(bench.erbs({"plot", run, "--y", "top_ux", "--envelope", "--time", "0.2:0.6", "--force", "-o", picture}) == 0);
+  CHECK(contains(text_of(picture), "0.2 s to 0.6 s"));
+  CHECK(bench.erbs({"plot", run, "--y", "unknown_J", "--time", "0:0.5", "--force", "-o", picture}) == 0);
+  CHECK(bench.erbs({"plot", run, "--list"}) == 0);
+  CHECK(contains(bench.said, "base_fx_N"));
+  CHECK(contains(bench.said, "m/s²"));
+}
+
+TEST_CASE("each mistake has its cause and its remedy", "[plot][program]") {
+  Bench bench;
+  const std::string run = run_folder(bench, "first");
+  fs::create_directories(bench.folder / "empty");
+  fs::create_directories(bench.folder / "begun");
+  bench.write("begun/histories.csv", "time_s,top_ux_m\n");
+  const auto refused = [&](std::vector<std::string> words, const char* why) {
+    words.insert(words.begin(), "plot");
+    INFO(fmt::format("{}", fmt::join(words, " ")));
+    CHECK(bench.erbs(words) == 2);
+    INFO(bench.said);
+    CHECK(contains(bench.said, why));
+  };
+  refused({(bench.folder / "absent").string(), "--y", "a"}, "erbs run SCENE.lua");
+  refused({(bench.folder / "empty").string(), "--y", "a"}, "neither histories.csv nor energy.csv");
+  refused({(bench.folder / "begun").string(), "--y", "top_ux_m"}, "no rows");
+  refused({run}, "--list lists them");
+  refused({run, "--y", "top_vx_m"}, "did you mean \"top_ux_m\"");
+  refused({run, "--y", "top_ux_m", "--x", "top"}, "name one of them");
+  refused({run, "--y", "top_ux_m", "--time", "3:1"}, "try 2:4.5");
+  refused({run, "--y", "top_ux_m", "--time", "7:9"}, "choose a longer span");
+  refused({run, "--y", "unknown_J"}, "not finite at 0.7 s");
+  refused({run, "--y", "base_fx_N", "--response"}, "_m_s2");
+  refused({run, "--y", "top_ux_m", "--time", "0:0.3", "--spectrum"}, "eight rows");
+  refused({run, "--y", "top_ux_m", "--spectrum", "--envelope"}, "keep one");
+  refused({run, "--y", "top_ax", "--damping", "0.1"}, "add --response");
+  refused({run, "--y", "top_ax", "--response", "--damping", "2"}, "below 1");
+  refused({run, "--y", "top_ux_m", "--spectrum", "--x", "base_fx_N"}, "leave out --x");
+  refused({run, "--y", "top_ux_m", "-o", (bench.folder / "a.pdf").string()}, ".svg or .png");
+  refused({run, "--y", "top_ux_m", "-o", (bench.folder / "no" / "a.svg").string()}, "does not exist");
+  CHECK_FALSE(fs::exists(run + "/plot.svg"));
+  bench.write("first/plot.svg", "mine");
+  refused({run, "--y", "top_ux_m"}, "--force");
+  CHECK(text_of(run + "/plot.svg") == "mine");
+  CHECK(bench.erbs({"plot", run, "--y", "top_ux_m", "--force"}) == 0);
+}
+
+TEST_CASE("without gnuplot nothing is written", "[plot][program]") {
+  Bench bench;
+  const std::string run = run_folder(bench, "first");
+  const int code =
+      wait_for(start({"/usr/bin/env", "PATH=" + bench.folder.string(), ERBS_BINARY_DIR "/erbs", "plot", run, "--y", "top_ux_m"},
+                     (bench.folder / "log").string()));
+  CHECK(code == 2);
+  CHECK(contains(text_of(bench.folder / "log"), "gnuplot-nox"));
+  CHECK(std::distance(fs::directory_iterator(run), {}) == 2);
+}
