@@ -355,8 +355,8 @@ int run_program(int argc, char** argv) {
   app.require_subcommand(1);
   app.set_version_flag("--version", "erbs " + program_version(), "the version and the commit it was built from");
   add_run(app, line.run);
-  add_plot(app, line.plot);
   add_others(app, line);
+  add_plot(app, line.plot);
   return finish_streams(answer(app, line, argc, argv), exit_usage);
 }
 
