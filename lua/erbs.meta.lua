@@ -37,7 +37,7 @@ pi, deg = math.pi, math.pi / 180 -- rad
 g = 9.81 -- m/s2
 start_noise = 0 -- noise in the initial state of every free block: erbs run --noise, erbs test --grid [m and rad]
 
----@alias erbs.quantity "displacement"|"velocity"|"acceleration"|"rotation"|"spin"|"momentum"|"angular_momentum"|"reaction"|"reaction_moment"|"load"|"load_moment"|"opening"|"slip"|"normal_force"|"shear_force"|"joint_moment"|"damage"|"broken"|"ground_acceleration"|"ground_velocity"|"ground_displacement"|"contact_points"|"joints_broken"
+---@alias erbs.quantity "displacement"|"velocity"|"acceleration"|"rotation"|"spin"|"momentum"|"angular_momentum"|"reaction"|"reaction_moment"|"load"|"load_moment"|"opening"|"slip"|"normal_force"|"shear_force"|"joint_moment"|"damage"|"broken"|"ground_acceleration"|"ground_velocity"|"ground_displacement"|"gravity"|"contact_points"|"joints_broken"
 
 ---@class erbs.initial
 ---@field position? erbs.vec3 displacement from rest [m; -1e+06 to 1e+06; default { 0, 0, 0 }]

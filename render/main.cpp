@@ -19,7 +19,7 @@ using erbs::Error;
 namespace render = erbs::render;
 
 struct Arguments {
-  std::string dir, size = "1280x720", time, stills, eye, target, color = "material";
+  std::string dir, size = "1280x720", time, stills, eye, target, color = "material", tilt = "table";
   std::vector<std::string> cameras;
   bool figures_only = false, no_figures = false;
   render::Movie movie;
@@ -84,11 +84,15 @@ void read_camera(const Arguments& a, render::Movie& movie) {
   if (!movie.eye && (movie.target || movie.fit)) throw Error("--target and --fit belong to a camera of your own; give --eye x,y,z as well");
 }
 
-void write_figures(const render::Run& folder, bool quiet) {
+// Curves that cannot be drawn keep neither pictures nor videos from being made.
+void write_figures(const render::Run& folder, const Arguments& a) {
   try {
     for (const std::string& path : render::write_figures(folder))
-      if (!quiet) erbs::tell(stdout, "figure: " + path);
-  } catch (const Error& e) { throw Error(std::string(e.what()) + "; --no-figures leaves the figures out"); }
+      if (!a.movie.quiet) erbs::tell(stdout, "figure: " + path);
+  } catch (const Error& e) {
+    if (a.figures_only) throw;
+    erbs::tell(stderr, fmt::format("warning: the curves could not be drawn: {}; --no-figures leaves them out", e.what()));
+  }
 }
 
 int run(Arguments& a) {
@@ -98,8 +102,9 @@ int run(Arguments& a) {
   movie.cameras = a.cameras;
   read_camera(a, movie);
   movie.look.coloring = colorings.at(a.color);
+  movie.look.table_turns = a.tilt == "table";
   const render::Run folder = render::read_run(a.dir);
-  if (!a.no_figures) write_figures(folder, movie.quiet);
+  if (!a.no_figures) write_figures(folder, a);
   if (a.figures_only) return 0;
   std::fflush(stdout);
   const erbs::MotionReader reader(a.dir);
@@ -144,6 +149,9 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember(colorings))
       ->capture_default_str();
   app.add_option("--magnify", a.movie.look.magnify, "factor on the displacements drawn")->check(within(1e-3, 1e6))->capture_default_str();
+  app.add_option("--tilt", a.tilt, "of a tilting test: the table turns, or the camera stays level with it")
+      ->check(CLI::IsMember({"table", "camera"}))
+      ->capture_default_str();
   app.add_flag("!--no-overlay", a.movie.look.overlay, "the scene alone: no title, clock, legend, scale, axes and ground motion");
   app.add_flag("--video,!--no-video", a.movie.video, "an MP4 a camera (default), or pictures alone");
   app.add_flag("--webp", a.movie.webp, "an animated WebP that repeats itself in place of the MP4, for pages such as a README");

@@ -53,6 +53,8 @@ Snapshot snapshot_of(const Model& m, const State& state, const Solver& solver, b
     s.ground_v += integral(g.wave, now.t) * g.direction;
     s.ground_u += second_integral(g.wave, now.t) * g.direction;
   }
+  s.gravity = m.gravity;
+  for (const auto& tilt : m.tilts) s.gravity = rotation(value(tilt.wave, now.t) * tilt.axis) * s.gravity;
   s.block_wrench = now.block_wrench, s.load_wrench = now.load_wrench;
   for (int j = 0; joint_forces && j < m.njoint; ++j) {
     const Joint& joint = m.joint[z(j)];

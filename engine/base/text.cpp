@@ -1,6 +1,7 @@
 #include "engine/base/text.h"
 
 #include <algorithm>
+#include <cctype>
 
 #include "engine/base/error.h"
 
@@ -113,6 +114,13 @@ std::string for_files(std::string_view text) {
   each_letter(
       text, [&](std::string_view l) { out += l; }, [&](std::string_view, bool valid) { out += valid ? " " : "\xEF\xBF\xBD"; });
   return out;
+}
+
+std::string file_stem(std::string_view name) {
+  std::string stem = for_files(name);
+  for (char& c : stem)
+    if (static_cast<unsigned char>(c) < 0x80 && !std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
+  return stem.empty() ? "run" : stem;
 }
 
 }  // namespace erbs

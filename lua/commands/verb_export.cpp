@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "engine/base/text.h"
 #include "engine/record/export/export.h"
 #include "engine/record/results/curves.h"
 #include "lua/program/options.h"
@@ -23,12 +24,6 @@ int frame_at(const ExportedRun& run, double at) {
   for (std::size_t i = 0; i < run.frames.size(); ++i)
     if (std::fabs(run.frames[i].t - at) < std::fabs(run.frames[static_cast<std::size_t>(nearest)].t - at)) nearest = static_cast<int>(i);
   return nearest;
-}
-
-std::string file_stem(std::string name) {
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
-  return name.empty() ? "run" : name;
 }
 
 // What one format writes first; the others of its files lie beside it.

@@ -195,6 +195,19 @@ analysis::RunOutcome run_scene(Scene scene, const std::string& script, const std
   return analysis::run_dynamic(std::move(scene), script, run);
 }
 
+// A user should learn before a run, not after it, that its curves cannot be drawn.
+void check_drawing(RunCommand& command) {
+  if (!command.figures) return;
+  for (const auto& [name, remedy] : {std::pair<std::string, const char*>{"gnuplot", "install the package gnuplot-nox"},
+                                     {renderer_path(), "it belongs beside erbs: build or install both"}}) {
+    if (can_start(name)) continue;
+    tell(stderr, fmt::format("warning: curves need {}, which is not there; the run goes on without them; {}", name, remedy));
+    command.figures = false;
+    command.figure_scripts = true;
+    return;
+  }
+}
+
 // Draws histories.svg and energy.svg. A failure is only a warning.
 void draw_curves(const std::string& directory) {
   try {
@@ -236,6 +249,7 @@ int complete(Script& script, const std::string& path, const std::string& directo
     std::vector<std::string> words{directory, "--video"};
     if (command.output.force) words.push_back("--force");
     if (command.output.quiet) words.push_back("--quiet");
+    if (!command.figures) words.push_back("--no-figures");
     const int drawn = run_renderer(words);
     if (code == exit_ok) code = drawn;
   } else if (status != "interrupted" && command.figures) {
@@ -255,12 +269,14 @@ int no_room(const WriteError& trouble, const std::string& directory) {
 
 }  // namespace
 
-int verb_run(const RunCommand& command) {
+int verb_run(const RunCommand& wish) {
+  RunCommand command = wish;
   if (command.words.size() != 1) throw Error(fmt::format("run takes one scene, not {}; erbs test runs several", command.words.size()));
   // a path that begins with "-" would be an option to other programs
   const auto no_option = [](const std::string& name) { return name.starts_with("-") ? "./" + name : name; };
   const std::string path = no_option(command.words.front());
   if (command.video) check_programs({renderer_path(), "ffmpeg"});
+  check_drawing(command);
   Script::Options how = script_options(command.scene, command.output.quiet);
   how.study = command.study;
   how.noise = command.changes.noise;

@@ -167,7 +167,34 @@ struct Painter::Hidden {
     gl.BindTexture(GL_TEXTURE_2D, canvas->shadow_map());
   }
 
-  void draw_picture(const Light& light, const View& v) const {
+  // A rectangle of the ground, from its middle; with lines if `grid` > 0.
+  void draw_plane(const Light& light, const View& v, const Vec3& middle, const Vec3& along, const Vec3& across, bool lines) const {
+    const Stage& stage = show.stage;
+    use(ground, light, light.camera);
+    vector(ground, "middle", middle.cast<float>());
+    vector(ground, "along", along.cast<float>());
+    vector(ground, "across", across.cast<float>());
+    vector(ground, "normal", along.cross(across).normalized().cast<float>());
+    number(ground, "grid", lines ? show.grid : 1e9);
+    number(ground, "fade", 1.5 * stage.size());
+    number(ground, "far", std::max(static_cast<double>(v.target_distance), stage.size()));
+    draw(plane);
+  }
+
+  void draw_table(const Light& light, const View& v) const {
+    const Eigen::AlignedBox3d& table = show.stage.table;
+    const Vec3 middle = table.center(), half = 0.5 * table.sizes();
+    const auto face = [&](const Vec3& out, const Vec3& along, bool lines) {
+      draw_plane(light, v, middle + out.cwiseProduct(half), along.cwiseProduct(half), out.cross(along).cwiseProduct(half), lines);
+    };
+    face(Vec3::UnitZ(), Vec3::UnitX(), true);
+    for (const double sign : {-1.0, 1.0}) {
+      face(sign * Vec3::UnitX(), Vec3::UnitY(), false);
+      face(sign * Vec3::UnitY(), Vec3::UnitZ(), false);
+    }
+  }
+
+  void draw_picture(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position) const {
     const Stage& stage = show.stage;
     canvas->begin_picture();
     use(solid, light, light.camera);
@@ -183,17 +210,26 @@ struct Painter::Hidden {
     number(crack, "open", show.open_crack);
     number(crack, "widest", 60 * show.open_crack);
     draw(cracks);
-    use(ground, light, light.camera);
     const Vec3 middle(stage.building.center().x(), stage.building.center().y(), stage.ground_z);
-    vector(ground, "middle", middle.cast<float>());
-    number(ground, "reach", 12 * (stage.size() + static_cast<double>(v.target_distance)));
-    number(ground, "grid", show.grid);
-    number(ground, "fade", 1.5 * stage.size());
-    number(ground, "far", std::max(static_cast<double>(v.target_distance), stage.size()));
-    draw(plane);
+    const double reach = 12 * (stage.size() + static_cast<double>(v.target_distance));
+    if (!position) draw_plane(light, v, middle, reach * Vec3::UnitX(), reach * Vec3::UnitY(), true);
+    if (position && stage.on_ground) draw_table(light, v);
     gl.DepthFunc(GL_LEQUAL);
     use(sky, light, light.camera);
     matrix(sky, "to_world", light.camera.inverse());
+    const Vec3 zenith = position ? Vec3(position->linear().transpose().col(2)) : Vec3(Vec3::UnitZ());
+    vector(sky, "zenith", zenith.cast<float>());
+    number(sky, "with_floor", position ? 1 : 0);
+    if (position) {
+      const Eigen::AlignedBox3d& table = stage.table;
+      const Vec3 below(table.center().x(), table.center().y(), table.min().z());
+      vector(sky, "floor_point", (position->inverse() * below).cast<float>());
+      vector(sky, "table_middle", below.cast<float>());
+      gl.Uniform2f(gl.GetUniformLocation(sky, "table_half"), static_cast<float>(0.5 * table.sizes().x()),
+                   static_cast<float>(0.5 * table.sizes().y()));
+      number(sky, "softest", 0.01 * stage.size());
+      number(sky, "far", std::max(static_cast<double>(v.target_distance), stage.size()));
+    }
     gl.BindVertexArray(plane.vao);
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
     gl.DepthFunc(GL_LESS);
@@ -203,11 +239,14 @@ struct Painter::Hidden {
 Painter::Painter(const Show& show, const Look& look, const std::string& kind) : hidden_(new Hidden(show, look, kind)) {}
 Painter::~Painter() = default;
 
-Image Painter::draw(const MotionFrame& frame, const Camera& camera) {
+Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const std::optional<Mat3>& levelling) {
   Hidden& h = *hidden_;
   const Look& l = h.look_;
+  std::optional<Eigen::Isometry3d> position;
+  if (levelling) position = table_position(h.show.stage, *levelling);
+  const Camera camera = position ? in_scene(level_camera, *position) : level_camera;
   const View v = look(camera, h.show.stage, l.width, l.height, l.top, l.bottom);
-  Hidden::Light light{v.projection * v.view, {}, v.eye, sun_of(camera), 0};
+  Hidden::Light light{v.projection * v.view, {}, v.eye, sun_of(level_camera), 0};
   light.to_shadow = shadow_view(h.show.stage, light.sun);
   light.shadow_texel = 2.0 / Canvas::shadow_side / static_cast<double>(light.to_shadow.row(0).head<3>().norm());
   const FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye);
@@ -218,7 +257,7 @@ Image Painter::draw(const MotionFrame& frame, const Camera& camera) {
   choose(h.gl, h.bricks, texels.index);
   choose(h.gl, h.cracks, texels.crack_index);
   h.draw_shadow(light);
-  h.draw_picture(light, v);
+  h.draw_picture(light, v, position);
   Image image = h.canvas->finish(v.projection, 0.022 * h.show.stage.size());
   if (const GLenum error = h.gl.GetError(); error != GL_NO_ERROR)
     throw std::logic_error(fmt::format("internal error: OpenGL reports {:#x}; please report it", error));

@@ -1,6 +1,7 @@
 // Draws one frame of a run from one camera.
 #pragma once
 #include <memory>
+#include <optional>
 
 #include "render/gl/canvas.h"
 #include "render/run/mesh.h"
@@ -18,6 +19,7 @@ struct Look {
   double top = 0, bottom = 0;  // pixels covered by the overlay
   bool overlay = true;         // title, clock, legend, scale, axes and ground motion
   double magnify = 1;          // factor on the displacements drawn
+  bool table_turns = true;     // a tilting test is drawn level, with its table turning; otherwise gravity turns
 };
 
 // Constant data of a picture, common to all frames and threads.
@@ -62,7 +64,8 @@ class Painter {
   // Makes a context current in the calling thread. Only this thread may use the object.
   Painter(const Show& show, const Look& look, const std::string& context_kind);
   ~Painter();
-  Image draw(const MotionFrame& frame, const Camera& camera);
+  // levelling: of the instant, where the table turns. The camera is that of the level world.
+  Image draw(const MotionFrame& frame, const Camera& camera, const std::optional<Mat3>& levelling = std::nullopt);
 
  private:
   struct Hidden;

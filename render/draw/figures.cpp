@@ -171,13 +171,17 @@ plot::Figure energy_figure(const std::string& csv, const CsvTable& table, const 
 }  // namespace
 
 std::vector<Panel> history_panels(const CsvTable& table, std::vector<std::string>* left_out) {
-  Panel ground{"ground [g]", 1 / standard_g, {}};
+  Panel ground{"ground [g]", 1 / standard_g, {}}, gravity{"gravity [g]", 1 / standard_g, {}};
   std::vector<std::pair<std::string, Panel>> by_unit;
   for (std::size_t c = 1; c < table.names.size(); ++c) {
     const std::string& name = table.names[c];
     const int column = static_cast<int>(c);
     if (name.rfind("ground_a", 0) == 0 && unit_of(name) == "m_s2") {
       if (peak_of(table, {column}) > 0) ground.columns.push_back(column);
+      continue;
+    }
+    if (name.rfind("gravity_a", 0) == 0 && unit_of(name) == "m_s2") {
+      if (peak_of(table, {column}) > 0) gravity.columns.push_back(column);
       continue;
     }
     const std::string unit = unit_of(name);
@@ -201,6 +205,7 @@ std::vector<Panel> history_panels(const CsvTable& table, std::vector<std::string
   }
   std::vector<Panel> panels;
   if (!ground.columns.empty()) panels.push_back(ground);
+  if (!gravity.columns.empty()) panels.push_back(gravity);
   // Panels with hardly any movement, compared to another direction of the same quantity, are left out.
   std::map<std::string, double> largest;  // largest value by unit and frame
   const auto sort_of = [](const std::string& key, bool directed) {

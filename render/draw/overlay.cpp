@@ -66,7 +66,7 @@ Overlay::Overlay(const Run& run, const Show& show, const Look& look, const Camer
   if (camera_ == "own") camera_.clear();  // a camera given after the run has no name to show
   strip_left_ = (margin + 128) * unit_;
   strip_right_ = look.width - (margin + 12) * unit_;
-  const GroundRecord& r = run.record;
+  const GroundRecord& r = run.strip();
   end_time_ = r.t.empty() ? 0 : r.t.back();
   if (r.axis.empty() || end_time_ <= 0) return;
   const auto columns = static_cast<std::size_t>(std::max(1.0, strip_right_ - strip_left_));
@@ -86,7 +86,7 @@ void Overlay::draw(Image& image, double t) const {
   draw_title(image, t);
   draw_legend(image);
   draw_scale(image);
-  draw_axes(image);
+  draw_axes(image, t);
   if (!strip_.empty()) draw_record(image, t);
 }
 
@@ -130,9 +130,14 @@ void Overlay::draw_record(Image& image, double t) const {
   const double u = unit_, height = 88 * u, bottom = image.height - 14 * u, top = bottom - height;
   fill_box(image, margin * u, top, image.width - margin * u, bottom, panel);
   const double x = (margin + 14) * u;
-  regular_.draw(image, "ground, along " + run_.record.axis, x, top + 25 * u, 12.5 * u, quiet_ink);
-  bold_.draw(image, fmt::format("{:+.2f} g", value_at(run_.record, t) / standard_g), x, top + 49 * u, 17 * u, text_ink);
-  regular_.draw(image, fmt::format("peak {:.3g} g", run_.record.peak / standard_g), x, top + 71 * u, 12.5 * u, quiet_ink);
+  const GroundRecord& r = run_.strip();
+  const bool tilting = run_.record.axis.empty();
+  const double one = tilting ? 1 : standard_g;
+  const char* unit = tilting ? "\u00b0" : " g";
+  regular_.draw(image, (tilting ? "tilt, about " : "ground, along ") + r.axis, x, top + 25 * u, 12.5 * u, quiet_ink);
+  const double now_shown = std::round(100 * value_at(r, t) / one) / 100 + 0.0;  // no -0.00
+  bold_.draw(image, fmt::format("{:+.2f}{}", now_shown, unit), x, top + 49 * u, 17 * u, text_ink);
+  regular_.draw(image, fmt::format("peak {:.3g}{}", r.peak / one, unit), x, top + 71 * u, 12.5 * u, quiet_ink);
   const double upper = top + (run_.marks.empty() ? 6 : 18) * u, lower = bottom - 19 * u, middle = 0.5 * (upper + lower);
   const double half = 0.5 * (lower - upper), thin = 0.65 * u, now = column(t);
   draw_times(image, top, lower + 2 * u, now);
@@ -143,7 +148,7 @@ void Overlay::draw_record(Image& image, double t) const {
     fill_box(image, left, middle - half * strip_[c].high - thin, left + 1, middle - half * strip_[c].low + thin, ink);
   }
   fill_box(image, now - 0.9 * u, top + 3 * u, now + 0.9 * u, lower + 3 * u, accent);
-  const double at = middle - half * value_at(run_.record, t) / run_.record.peak;
+  const double at = middle - half * value_at(r, t) / r.peak;
   fill_box(image, now - 3.5 * u, at - 3.5 * u, now + 3.5 * u, at + 3.5 * u, accent);
 }
 
@@ -226,7 +231,8 @@ void Overlay::draw_scale(Image& image) const {
   const double u = unit_, wish = 110 * u * pixel_, ten = std::pow(10.0, std::floor(std::log10(wish)));
   const double length = ten * (wish < 2 * ten ? 1 : wish < 5 * ten ? 2 : 5), width = length / pixel_;
   const double right = image.width - margin * u, y = image.height - look_.bottom - 14 * u;
-  const std::string grid = "grid " + length_text(show_.grid);
+  const bool lines = show_.stage.on_ground || run_.gravity.empty() || !look_.table_turns;
+  const std::string grid = lines ? "grid " + length_text(show_.grid) : "";
   fill_box(image, right - width - 34 * u - regular_.width(grid, 12 * u), y - 26 * u, right + 10 * u, y + 10 * u, panel);
   fill_box(image, right - width, y - u, right, y + u, text_ink);
   for (double x : {right - width, right - 1.6 * u}) fill_box(image, x, y - 5 * u, x + 1.6 * u, y + 5 * u, text_ink);
@@ -234,13 +240,15 @@ void Overlay::draw_scale(Image& image) const {
   regular_.draw(image, grid, right - width - 14 * u, y + 4.5 * u, 12 * u, quiet_ink, Font::Align::right);
 }
 
-// World axes as the camera sees them. The axis of shaking has arrows at both ends.
-void Overlay::draw_axes(Image& image) const {
+// Axes of the scene as the camera sees them. The axis of shaking has arrows at both ends; gravity has one where a test tilts.
+void Overlay::draw_axes(Image& image, double t) const {
   const double u = unit_, length = 30 * u, x = (margin + 46) * u, y = image.height - look_.bottom - 52 * u;
+  const bool tilting = !run_.gravity.empty();
+  const Mat3 level = tilting && look_.table_turns ? levelling(run_.gravity, t) : Mat3(Mat3::Identity());
   fill_box(image, x - 46 * u, y - 42 * u, x + 46 * u, y + 50 * u, panel);
   const auto arrow = [&](const Vec3& direction, const std::string& name, bool shaken) {
     const Ink ink = shaken ? accent : quiet_ink;
-    const Eigen::Vector3f seen_from = turn_ * direction.cast<float>();
+    const Eigen::Vector3f seen_from = turn_ * (level * direction).cast<float>();
     const double dx = static_cast<double>(seen_from.x()) * length, dy = -static_cast<double>(seen_from.y()) * length;
     const double seen = std::hypot(dx, dy), width = (shaken ? 2.4 : 1.5) * u;
     draw_line(image, shaken ? x - dx : x, shaken ? y - dy : y, x + dx, y + dy, width, ink);
@@ -261,6 +269,7 @@ void Overlay::draw_axes(Image& image) const {
     arrow(Vec3::Unit(i), name, name == run_.record.axis);
   }
   if (!along_axis && !run_.record.axis.empty()) arrow(run_.record.direction, "", true);
+  if (tilting) arrow(gravity_at(run_.gravity, t).normalized(), "g", false);
   if (!run_.record.axis.empty()) regular_.draw(image, "shaking", x, y + 46 * u, 11.5 * u, accent, Font::Align::middle);
 }
 

@@ -22,7 +22,7 @@ class Overlay {
   void draw_times(Image& image, double top, double bottom, double now) const;
   void draw_legend(Image& image) const;
   void draw_scale(Image& image) const;
-  void draw_axes(Image& image) const;
+  void draw_axes(Image& image, double t) const;
   double column(double t) const;  // pixel column of the strip at time t
   const Run& run_;
   const Show& show_;

@@ -11,6 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/system/affinity.h"
+#include "engine/base/system/process.h"
 #include "engine/base/text.h"
 #include "render/draw/overlay.h"
 #include "render/movie/video.h"
@@ -58,13 +59,6 @@ std::vector<Camera> chosen_cameras(const Run& run, const Show& show, const Movie
   return chosen;
 }
 
-// Name for files: letters, digits, - and _; other characters become _.
-std::string file_name(std::string name) {
-  for (char& c : name)
-    if (!std::isalnum(static_cast<unsigned char>(c)) && c != '_' && c != '-') c = '_';
-  return name;
-}
-
 // Output paths of one camera.
 struct Files {
   fs::path frames;
@@ -78,9 +72,9 @@ struct Files {
 // With --force, removes the pictures of an earlier and perhaps longer movie. Without it, Error if an output exists.
 Files prepare_files(const Run& run, const Movie& movie, const Camera& camera, const Schedule& schedule) {
   const fs::path dir(run.dir);
-  Files files{dir / "frames", file_name(camera.name), "", !movie.stills.empty()};
+  Files files{dir / "frames", file_stem(camera.name), "", !movie.stills.empty()};
   if (movie.video && movie.stills.empty())
-    files.video = (dir / fmt::format("{}_{}.{}", file_name(run.name), files.stem, movie.webp ? "webp" : "mp4")).string();
+    files.video = (dir / fmt::format("{}_{}.{}", file_stem(run.name), files.stem, movie.webp ? "webp" : "mp4")).string();
   for (const std::string& path : {files.video, files.picture(0, schedule.times.front())})
     if (!movie.force && !path.empty() && fs::exists(path)) throw Error("it exists already; --force writes it anew", {path, 0});
   std::error_code failed;
@@ -99,7 +93,9 @@ Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const
   const auto painter = std::make_shared<Painter>(show, l, movie.context);
   const auto overlay = std::make_shared<Overlay>(run, show, l, camera, view, files.stills ? 1 : schedule.slow);
   return [=, &files](std::size_t index, const MotionFrame& frame) {
-    Image image = painter->draw(frame, camera);
+    std::optional<Mat3> level;
+    if (!run.gravity.empty() && l.table_turns) level = levelling(run.gravity, frame.t);
+    Image image = painter->draw(frame, camera, level);
     if (l.overlay) overlay->draw(image, frame.t);
     write_png(files.picture(index, frame.t), image);
     return image;
@@ -174,8 +170,12 @@ bool film(const Run& run, const Show& show, const MotionReader& reader, const Mo
 
 bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, const std::atomic<bool>& stop) {
   Movie movie = wish;
+  if (movie.video && movie.stills.empty() && !can_start("ffmpeg")) {
+    tell(stderr, "warning: a video needs ffmpeg, which is not there: its frames are written without it; install the package ffmpeg");
+    movie.video = false;
+  }
   movie.look.top = movie.look.overlay ? overlay_top(movie.look.height) : 0;
-  movie.look.bottom = movie.look.overlay ? overlay_bottom(movie.look.height, !run.record.axis.empty()) : 0;
+  movie.look.bottom = movie.look.overlay ? overlay_bottom(movie.look.height, !run.strip().axis.empty()) : 0;
   const Schedule schedule = schedule_of(movie, reader.times());
   std::vector<MotionFrame> some;
   const std::size_t step = std::max<std::size_t>(1, reader.times().size() / 24);
@@ -184,6 +184,8 @@ bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, c
   const Coloring coloring = movie.look.coloring;
   for (MotionFrame& frame : some) magnify(reader.scene(), movie.look.magnify, frame);
   Show show = prepare_show(reader.scene(), run, some);
+  if (!run.gravity.empty() && movie.look.table_turns)
+    for (const MotionFrame& frame : some) show.stage.positions.push_back(table_position(show.stage, levelling(run.gravity, frame.t)));
   some.clear();  // the scale is that of what is shown
   const std::size_t stride = std::max<std::size_t>(1, schedule.times.size() / 24);
   if (coloring != Coloring::material && coloring != Coloring::damage)

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "engine/base/error.h"
+#include "engine/base/units.h"
 #include "engine/record/folder/run_folder.h"
 
 namespace erbs::render {
@@ -48,6 +49,45 @@ GroundRecord principal_component(const CsvTable& histories) {
   return out;
 }
 
+GravityRecord gravity_of(const CsvTable& histories) {
+  GravityRecord out;
+  const int time = histories.find("time_s");
+  int column[3];
+  for (int i = 0; i < 3; ++i) column[i] = histories.find(std::string("gravity_a") + "xyz"[i] + "_m_s2");
+  if (time < 0 || *std::min_element(column, column + 3) < 0) return out;
+  for (std::size_t row = 0; row < histories.rows(); ++row) {
+    const auto at = [&](int c) { return histories.columns[static_cast<std::size_t>(c)][row]; };
+    const Vec3 g(at(column[0]), at(column[1]), at(column[2]));
+    if (!g.allFinite() || !(g.norm() > 0)) continue;
+    out.t.push_back(at(time)), out.g.push_back(g);
+  }
+  return out;
+}
+
+// Rotation vector (rad) by which gravity leans from the vertical.
+Vec3 lean_of(const Vec3& gravity) {
+  const Eigen::AngleAxisd turn(Eigen::Quaterniond::FromTwoVectors(-Vec3::UnitZ(), gravity));
+  return turn.angle() * turn.axis();
+}
+
+// Of the sign that the scene gives: positive where gravity turns by the right hand about the axis.
+GroundRecord tilt_of(const GravityRecord& gravity) {
+  GroundRecord out;
+  Mat3 squares = Mat3::Zero();
+  for (const Vec3& g : gravity.g) squares += lean_of(g) * lean_of(g).transpose();
+  if (!(squares.trace() > 0)) return out;
+  Vec3 direction = Eigen::SelfAdjointEigenSolver<Mat3>(squares).eigenvectors().col(2);
+  int largest = 0;
+  direction.cwiseAbs().maxCoeff(&largest);
+  if (direction[largest] < 0) direction = -direction;
+  out.axis = axis_name(direction), out.direction = direction, out.t = gravity.t;
+  for (const Vec3& g : gravity.g) {
+    out.a.push_back(lean_of(g).dot(direction) * 180 / pi);
+    out.peak = std::max(out.peak, std::fabs(out.a.back()));
+  }
+  return out;
+}
+
 // First crack (in dry masonry: first joint that opened), and collapse.
 std::vector<Mark> first_events(const CsvTable& events) {
   std::vector<Mark> marks;
@@ -77,6 +117,19 @@ Vec3 linear(const Vec3& srgb) { return srgb.cwiseMax(0).cwiseMin(1).array().pow(
 
 }  // namespace
 
+Vec3 gravity_at(const GravityRecord& gravity, double t) {
+  if (gravity.empty()) return {0, 0, -standard_g};
+  const auto after = static_cast<std::size_t>(std::upper_bound(gravity.t.begin(), gravity.t.end(), t) - gravity.t.begin());
+  if (after == 0) return gravity.g.front();
+  if (after == gravity.t.size()) return gravity.g.back();
+  const double s = (t - gravity.t[after - 1]) / (gravity.t[after] - gravity.t[after - 1]);
+  return (1 - s) * gravity.g[after - 1] + s * gravity.g[after];
+}
+
+Mat3 levelling(const GravityRecord& gravity, double t) {
+  return Eigen::Quaterniond::FromTwoVectors(gravity_at(gravity, t), -Vec3::UnitZ()).toRotationMatrix();
+}
+
 Run read_run(const std::string& dir) {
   const std::string manifest = run_file(dir, "manifest.json"), histories = run_file(dir, "histories.csv");
   if (!std::filesystem::exists(dir)) throw Error("no such folder; give the folder of a run, e.g. runs/first", {dir, 0});
@@ -100,7 +153,12 @@ Run read_run(const std::string& dir) {
     run.verdict = verdict_of(now);
   }
   if (run.status == "completed") run.status.clear();
-  if (std::filesystem::exists(histories)) run.record = principal_component(read_csv(histories));
+  if (std::filesystem::exists(histories)) {
+    const CsvTable table = read_csv(histories);
+    run.record = principal_component(table);
+    run.gravity = gravity_of(table);
+    run.tilt = tilt_of(run.gravity);
+  }
   if (const std::string events = run_file(dir, "events.csv"); std::filesystem::exists(events)) run.marks = first_events(read_csv(events));
   return run;
 }

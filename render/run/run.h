@@ -22,6 +22,16 @@ struct GroundRecord {
   double peak = 0;        // m/s2, largest absolute value
 };
 
+// Gravity of a test that tilts; empty where it keeps its direction.
+struct GravityRecord {
+  std::vector<double> t;  // s
+  std::vector<Vec3> g;    // m/s2
+  bool empty() const { return t.empty(); }
+};
+Vec3 gravity_at(const GravityRecord& gravity, double t);  // linear between rows, constant outside
+// Rotation from the scene to a level world, in which gravity points down.
+Mat3 levelling(const GravityRecord& gravity, double t);
+
 // First event of a kind, for figures and the strip below pictures.
 struct Mark {
   double t = 0;      // s
@@ -33,10 +43,14 @@ struct Run {
   std::vector<Camera> cameras;   // from the scene; may be empty
   std::vector<Paint> materials;  // by material index
   GroundRecord record;           // the strongest component
-  std::vector<Mark> marks;       // in order of time
-  double energy_tolerance = 0;   // relative; 0: unknown
-  std::string verdict;           // one sentence on a collapse; "" without one
-  std::string status;            // status of an unreliable run; "" if completed or still running
+  GravityRecord gravity;
+  GroundRecord tilt;            // the same as angle about a horizontal axis; a and peak in degrees
+  std::vector<Mark> marks;      // in order of time
+  double energy_tolerance = 0;  // relative; 0: unknown
+  std::string verdict;          // one sentence on a collapse; "" without one
+  std::string status;           // status of an unreliable run; "" if completed or still running
+
+  const GroundRecord& strip() const { return record.axis.empty() ? tilt : record; }  // what the strip below pictures shows
 };
 
 // Error if DIR is no run folder.

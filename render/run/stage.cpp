@@ -47,6 +47,23 @@ Eigen::AlignedBox3d heap_of(const MotionFrame& frame, const std::vector<bool>& h
   return heap;
 }
 
+// The plate that turns: the part of the ground near the building, a fifth of the building's size wider than what lies on it, or the
+// fixed blocks.
+void set_table(Stage& stage, const MotionScene& scene, const std::vector<Eigen::AlignedBox3d>& boxes) {
+  Eigen::AlignedBox3d fixed;
+  for (std::size_t b = 0; b < boxes.size(); ++b)
+    if (scene.blocks[b].fixed && stage.hidden[b] == stage.on_ground) fixed.extend(boxes[b]);
+  if (fixed.isEmpty()) fixed = stage.building;
+  stage.table = fixed;
+  if (!stage.on_ground) return;
+  const Vec3 aside = 0.2 * stage.size() * Vec3(1, 1, 0);
+  stage.table = Eigen::AlignedBox3d(stage.reach.min() - aside, stage.reach.max() + aside).intersection(fixed);
+  stage.table.max().z() = stage.ground_z;
+  stage.table.min().z() = stage.ground_z - 0.03 * stage.size();
+  for (int i = 0; i < 2; ++i)
+    if (!(stage.table.sizes()[i] > 0)) stage.table.min()[i] = fixed.min()[i], stage.table.max()[i] = fixed.max()[i];
+}
+
 }  // namespace
 
 Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_frames) {
@@ -82,6 +99,8 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
       lowest = std::min(lowest, at.z() - 0.5 * boxes[b].sizes().minCoeff());
     }
   if (!ground) stage.ground_z = lowest;
+  stage.on_ground = ground;
+  set_table(stage, scene, boxes);
   if (some_frames.empty()) return stage;
   // Blocks thrown far away are ignored; a view that includes them would show the building too small.
   const Vec3 aside = 0.6 * stage.size() * Vec3(1, 1, 0);
@@ -101,10 +120,36 @@ std::vector<Vec3> seen_points(const Stage& stage) {
     if (i < 4) seen.push_back(p + aside.cwiseProduct((p - stage.building.center()).cwiseSign()));  // the lower corners
     if (!stage.heap.isEmpty()) seen.push_back(stage.heap.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
   }
-  return seen;
+  if (stage.positions.empty()) return seen;
+  const Vec3 near = 0.4 * stage.size() * Vec3(1, 1, 1);
+  const Eigen::AlignedBox3d table = stage.table.intersection({stage.building.min() - near, stage.building.max() + near});
+  if (!table.isEmpty())
+    for (int i = 0; i < 8; ++i) seen.push_back(table.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+  std::vector<Vec3> turned;
+  for (const Eigen::Isometry3d& position : stage.positions)
+    for (const Vec3& p : seen) turned.push_back(position * p);
+  return turned;
 }
 
 }  // namespace
+
+Eigen::Isometry3d table_position(const Stage& stage, const Mat3& levelling) {
+  const Vec3 middle = stage.table.center();
+  double lowest = HUGE_VAL;
+  for (int i = 0; i < 8; ++i)
+    lowest = std::min(lowest, (levelling * (stage.table.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)) - middle)).z());
+  Eigen::Isometry3d position = Eigen::Isometry3d::Identity();
+  position.linear() = levelling;
+  position.translation() = Vec3(middle.x(), middle.y(), stage.table.min().z() - lowest) - levelling * middle;
+  return position;
+}
+
+Camera in_scene(const Camera& camera, const Eigen::Isometry3d& position) {
+  Camera seen = camera;
+  const Eigen::Isometry3d back = position.inverse();
+  seen.eye = back * camera.eye, seen.target = back * camera.target, seen.up = back.linear() * camera.up;
+  return seen;
+}
 
 void fit_camera(Camera& c, const Vec3& direction, const Stage& stage, double aspect) {
   const std::vector<Vec3> seen = seen_points(stage);

@@ -12,11 +12,19 @@ struct Stage {
   Eigen::AlignedBox3d reach;                               // m, its visible extent over the whole run (for the shadow)
   Eigen::AlignedBox3d heap;                                // m, extent of nearly all block centroids at the end
   double ground_z = 0;                                     // m
+  Eigen::AlignedBox3d table;                               // m, what turns in a tilting test: the ground under all that is visible
+  bool on_ground = false;                                  // a ground block is drawn as a plane
+  std::vector<Eigen::Isometry3d> positions;                // of the table over the run; empty: it stays
   std::vector<bool> hidden;                                // ground blocks, drawn as a plane [blocks]
   double size() const { return building.sizes().norm(); }  // m
 };
 
 Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_frames);
+
+// Position of the table in the level world, from the scene: it rests on its lowest edge, on the floor.
+Eigen::Isometry3d table_position(const Stage& stage, const Mat3& levelling);
+// The camera of the level world, as the scene sees it.
+Camera in_scene(const Camera& camera, const Eigen::Isometry3d& position);
 
 // Two cameras, each from one corner. They show the whole building and its final heap, in a picture of this width/height.
 std::vector<Camera> choose_cameras(const Stage& stage, double aspect);

@@ -8,13 +8,14 @@
 namespace erbs {
 
 struct GroundMotion {
-  enum class What { acceleration, velocity, displacement } what;
+  enum class What { acceleration, velocity, displacement, gravity } what;
   std::string name, axis;
 
   static std::vector<Quantity> quantities() {
     return {{"ground_acceleration", "acceleration of the ground (m/s2); always written, as ground_ax_m_s2 ..., where the ground moves"},
             {"ground_velocity", "velocity of the ground (m/s)"},
-            {"ground_displacement", "displacement of the ground (m)"}};
+            {"ground_displacement", "displacement of the ground (m)"},
+            {"gravity", "gravity (m/s2); always written, as gravity_ax_m_s2 ..., where it tilts"}};
   }
 
   explicit GroundMotion(const RecorderRequest& request)
@@ -23,6 +24,7 @@ struct GroundMotion {
   std::vector<std::string> columns() const {
     switch (what) {
       case What::acceleration:
+      case What::gravity:
         return axis_columns(name, axis, "a", "m_s2");
       case What::velocity:
         return axis_columns(name, axis, "v", "m_s");
@@ -33,7 +35,8 @@ struct GroundMotion {
   }
   void needs(Needs&) const {}
   void sample(const Snapshot& s, double* out) const {
-    put_axes(what == What::acceleration ? s.ground_a : what == What::velocity ? s.ground_v : s.ground_u, axis, out);
+    const Vec3* values[] = {&s.ground_a, &s.ground_v, &s.ground_u, &s.gravity};
+    put_axes(*values[int(what)], axis, out);
   }
 };
 

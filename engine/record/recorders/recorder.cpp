@@ -100,11 +100,13 @@ Recorders::Recorders(const Scene& scene, const Model& model) : kinds_(std::make_
   for (int b = 0; b < model.nblock; ++b) number[model.block_name[std::size_t(b)]] = b;
 
   std::vector<Recorder> wanted;
-  if (!model.grounds.empty()) {
+  const auto always = [&](const char* name, const char* quantity) {
     wanted.emplace_back();
-    wanted.back().name = "ground";
-    wanted.back().quantity = "ground_acceleration";
-  }
+    wanted.back().name = name;
+    wanted.back().quantity = quantity;
+  };
+  if (!model.grounds.empty()) always("ground", "ground_acceleration");
+  if (!model.tilts.empty()) always("gravity", "gravity");
   wanted.insert(wanted.end(), scene.recorders.begin(), scene.recorders.end());
   std::set<std::string> taken{"time_s"};
   for (const Recorder& recorder : wanted) {

@@ -32,6 +32,7 @@ struct Snapshot {
   double t = 0;                                                                    // s
   std::function<MovingBlock(std::size_t block)> motion = {};                       // computed on request of a recorder
   Vec3 ground_a = Vec3::Zero(), ground_v = Vec3::Zero(), ground_u = Vec3::Zero();  // m/s2, m/s, m, of the ground
+  Vec3 gravity = Vec3::Zero();                                                     // m/s2
   int joints_broken = 0;
   int contact_points = 0;  // of joints, and touching ones of contacts
   // Filled only if a recorder needs them.

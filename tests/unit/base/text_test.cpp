@@ -26,6 +26,13 @@ TEST_CASE("text in a message is escaped and cut between letters", "[text]") {
   CHECK(for_files("a\nb\xff") == "a b\xEF\xBF\xBD");
 }
 
+TEST_CASE("a file is named after a scene in any language", "[text]") {
+  CHECK(file_stem("Häuschen 'Süd' 1.2") == "Häuschen__Süd__1_2");
+  CHECK(file_stem("../a b;c") == "___a_b_c");
+  CHECK(file_stem("\xff") == "\xEF\xBF\xBD");
+  CHECK(file_stem("") == "run");
+}
+
 TEST_CASE("a name is letters and digits", "[text]") {
   for (const char* good : {"a", "kn_1e-09", "x+1", "7"}) CHECK(is_name(good));
   for (const char* bad : {"", "-a", "a b", "a/b", "a.b", "ä", "a'", "a\n", "<"}) CHECK_FALSE(is_name(bad));

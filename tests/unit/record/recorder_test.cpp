@@ -51,6 +51,17 @@ TEST_CASE("columns carry name, axis, frame and unit; the ground is written where
   CHECK_FALSE(recorders.needs().load_wrench);
 }
 
+TEST_CASE("gravity is written where it tilts", "[record][recorder]") {
+  auto t = test::two_bricks();
+  CHECK(Recorders(t.scene, t.model).columns() == std::vector<std::string>{"time_s"});
+  t.model.tilts.resize(1);
+  Recorders recorders(t.scene, t.model);
+  CHECK(recorders.columns() == std::vector<std::string>{"time_s", "gravity_ax_m_s2", "gravity_ay_m_s2", "gravity_az_m_s2"});
+  Snapshot s = snapshot_of(t);
+  s.gravity = Vec3(1, 2, -9);
+  CHECK(recorders.sample(s) == std::vector<double>{0.5, 1, 2, -9});
+}
+
 TEST_CASE("displacement is averaged, of a material point, relative or absolute", "[record][recorder]") {
   auto t = test::two_bricks();
   t.state.pose.u[1] = Vec3(1, 0, 0);
