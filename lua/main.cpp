@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
@@ -275,18 +276,29 @@ void check_verb(const CLI::App& app, int argc, char** argv) {
     throw Error(fmt::format("there is no verb {}{}; see erbs help", shown(word, 60), did_you_mean(word, verbs)));
 }
 
-// Refuses a value for an option that takes none: CLI11 would read --force=1e400 as --force.
-void check_flags(const CLI::App& app, int argc, char** argv) {
+// Refuses what CLI11 would blame on the scene, or take: an unknown option, and a value for an option that takes none (--force=1e400).
+void check_options(const CLI::App& app, int argc, char** argv) {
   const CLI::App* verb = nullptr;
   for (const CLI::App* known : app.get_subcommands({}))
     if (argc > 1 && known->get_name() == argv[1]) verb = known;
   if (verb == nullptr || verb->get_prefix_command()) return;
   for (int i = 2; i < argc; ++i) {
     const std::string_view word = argv[i];
-    const std::string name(word.substr(0, word.find('=')));
-    if (!word.starts_with("--") || name.size() == word.size()) continue;
+    if (word == "--") return;
+    const bool is_long = word.starts_with("--");
+    if (!is_long && (word.size() < 2 || word[0] != '-' || std::isalpha(static_cast<unsigned char>(word[1])) == 0)) continue;
+    const std::string name(is_long ? word.substr(0, word.find('=')) : word.substr(0, 2));
     const CLI::Option* option = verb->get_option_no_throw(name);
-    if (option != nullptr && option->get_items_expected_max() == 0) throw Error(fmt::format("{} takes no value; write {}", name, name));
+    if (option == nullptr) {
+      std::vector<std::string> names;
+      for (const CLI::Option* known : verb->get_options())
+        for (const std::string& one : known->get_lnames()) names.push_back("--" + one);
+      throw Error(fmt::format("erbs {} has no option {}{}; see erbs help {}", verb->get_name(), shown(name, 60), did_you_mean(name, names),
+                              verb->get_name()));
+    }
+    const bool takes_value = option->get_items_expected_max() > 0;
+    if (is_long && name.size() < word.size() && !takes_value) throw Error(fmt::format("{} takes no value; write {}", name, name));
+    if (takes_value && name.size() == word.size()) ++i;  // its value, whatever it begins with
   }
 }
 
@@ -324,7 +336,7 @@ int answer(CLI::App& app, CommandLine& line, int argc, char** argv) {
   };
   try {
     check_verb(app, argc, argv);
-    check_flags(app, argc, argv);
+    check_options(app, argc, argv);
     app.parse(argc, argv);
     chosen_isa();  // refuses an unknown ERBS_ISA
     return call(app, line);

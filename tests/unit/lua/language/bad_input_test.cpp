@@ -226,10 +226,17 @@ TEST_CASE("an option -D must name a param of the scene and give a number, once",
 TEST_CASE("options out of range are refused before anything is written", "[bad_input]") {
   Bench bench;
   const std::pair<std::vector<std::string>, std::string> list[] = {
-      {{"--threads", "0"}, "not in range 1 to 1024"}, {{"--until", "-1"}, "--until -1: not a length of time"},
-      {{"--until", "inf"}, "not a length of time"},   {{"--max-wall", "0"}, "leaves no time to run"},
-      {{"--max-wall", "x"}, "not a length of time"},  {{"--resume"}, "nothing to resume: there is no folder"},
-      {{"--resume", "--force"}, "exclude each other"}};
+      {{"--threads", "0"}, "not in range 1 to 1024"},
+      {{"--until", "-1"}, "--until -1: not a length of time"},
+      {{"--until", "inf"}, "not a length of time"},
+      {{"--max-wall", "0"}, "leaves no time to run"},
+      {{"--max-wall", "x"}, "not a length of time"},
+      {{"--resume"}, "nothing to resume: there is no folder"},
+      {{"--resume", "--force"}, "exclude each other"},
+      {{"--threds", "2"}, "erbs run has no option --threds; did you mean \"--threads\"?"},
+      {{"--frobnicate=3"}, "erbs run has no option --frobnicate"},
+      {{"-z", "2"}, "erbs run has no option -z"},
+      {{"--force=1"}, "--force takes no value"}};
   for (const auto& [words, message] : list) {
     CHECK(bench.run(pier, words) == 2);
     INFO(bench.said);
