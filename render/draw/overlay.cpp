@@ -140,7 +140,6 @@ void Overlay::draw_record(Image& image, double t) const {
   regular_.draw(image, fmt::format("peak {:.3g}{}", r.peak / one, unit), x, top + 71 * u, 12.5 * u, quiet_ink);
   const double upper = top + (run_.marks.empty() ? 6 : 18) * u, lower = bottom - 19 * u, middle = 0.5 * (upper + lower);
   const double half = 0.5 * (lower - upper), thin = 0.65 * u, now = column(t);
-  draw_times(image, top, lower + 2 * u, now);
   fill_box(image, strip_left_, middle - 0.5, strip_right_, middle + 0.5, {150, 156, 163, 0.8});
   for (std::size_t c = 0; c < strip_.size(); ++c) {
     const double left = strip_left_ + static_cast<double>(c);
@@ -150,6 +149,7 @@ void Overlay::draw_record(Image& image, double t) const {
   fill_box(image, now - 0.9 * u, top + 3 * u, now + 0.9 * u, lower + 3 * u, accent);
   const double at = middle - half * value_at(r, t) / r.peak;
   fill_box(image, now - 3.5 * u, at - 3.5 * u, now + 3.5 * u, at + 3.5 * u, accent);
+  draw_times(image, top, lower + 2 * u, now);  // names lie over the cursor
 }
 
 // Seconds below the strip, and event names above it.
@@ -169,6 +169,9 @@ void Overlay::draw_times(Image& image, double top, double bottom, double now) co
     fill_box(image, x - 0.6 * u, top + 4 * u, x + 0.6 * u, bottom, ink);
     // The first name stands before its line and later names behind theirs, if there is room.
     const bool before = (&mark == &run_.marks.front() || x + width + 5 * u > strip_right_) && x - width - 5 * u > last;
+    const double left = before ? x - 5 * u - width : x + 5 * u;
+    if (now > left - 3 * u && now < left + width + 3 * u)
+      fill_box(image, left - 2 * u, top + 2 * u, left + width + 2 * u, top + 16 * u, {250, 251, 252, 0.9});
     regular_.draw(image, mark.name, before ? x - 5 * u : x + 5 * u, top + 13 * u, size, ink,
                   before ? Font::Align::right : Font::Align::left);
     last = before ? x : x + 5 * u + width;
