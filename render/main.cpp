@@ -19,7 +19,7 @@ using erbs::Error;
 namespace render = erbs::render;
 
 struct Arguments {
-  std::string dir, size = "1280x720", time, stills, eye, target, color = "material", tilt = "table";
+  std::string dir, size = "1280x720", time, stills, eye, target, color = "material", tilt = "table", background = "sky";
   std::vector<std::string> cameras;
   bool figures_only = false, no_figures = false;
   render::Movie movie;
@@ -102,6 +102,7 @@ int run(Arguments& a) {
   movie.cameras = a.cameras;
   read_camera(a, movie);
   movie.look.coloring = colorings.at(a.color);
+  movie.look.white = a.background == "white";
   movie.look.table_turns = a.tilt == "table";
   const render::Run folder = render::read_run(a.dir);
   if (!a.no_figures) write_figures(folder, a);
@@ -152,6 +153,7 @@ int main(int argc, char** argv) {
   app.add_option("--tilt", a.tilt, "of a tilting test: the table turns, or the camera stays level with it")
       ->check(CLI::IsMember({"table", "camera"}))
       ->capture_default_str();
+  app.add_option("--background", a.background, "sky, or white for print")->check(CLI::IsMember({"sky", "white"}))->capture_default_str();
   app.add_flag("!--no-overlay", a.movie.look.overlay, "the scene alone: no title, clock, legend, scale, axes and ground motion");
   app.add_flag("--video,!--no-video", a.movie.video, "an MP4 a camera (default), or pictures alone");
   app.add_flag("--webp", a.movie.webp, "an animated WebP that repeats itself in place of the MP4, for pages such as a README");

@@ -9,6 +9,16 @@
 namespace erbs::render {
 namespace {
 
+// Linear colours around the model.
+struct Backdrop {
+  Eigen::Vector3f horizon, high, ground, floor;  // high: of the sky
+};
+Backdrop backdrop(bool white) {
+  const Eigen::Vector3f paper = Eigen::Vector3f::Ones();
+  if (white) return {paper, paper, {0.84F, 0.84F, 0.85F}, paper};
+  return {{0.80F, 0.83F, 0.86F}, {0.46F, 0.60F, 0.76F}, {0.54F, 0.535F, 0.52F}, {0.56F, 0.57F, 0.58F}};
+}
+
 // Buffers of one kind of geometry.
 struct Drawable {
   GLuint vao = 0, vertices = 0, index = 0;
@@ -57,6 +67,7 @@ struct Texels {
 struct Painter::Hidden {
   const Show& show;
   Look look_;
+  Backdrop around;
   std::unique_ptr<Context> context;
   Gl gl;
   std::unique_ptr<Canvas> canvas;
@@ -64,7 +75,8 @@ struct Painter::Hidden {
   Drawable bricks, shades, cracks, plane;
   Texels blocks, joints;
 
-  Hidden(const Show& s, const Look& l, const std::string& kind) : show(s), look_(l), context(make_context(kind)), gl(load_gl(*context)) {
+  Hidden(const Show& s, const Look& l, const std::string& kind)
+      : show(s), look_(l), around(backdrop(l.white)), context(make_context(kind)), gl(load_gl(*context)) {
     canvas = std::make_unique<Canvas>(gl, l.width, l.height);
     solid = make_program(gl, shader_common, solid_vertex, solid_fragment);
     shade = make_program(gl, shader_common, shade_vertex, shade_fragment);
@@ -144,7 +156,7 @@ struct Painter::Hidden {
     matrix(program, "to_shadow", light.to_shadow);
     vector(program, "eye", light.eye);
     vector(program, "sun", light.sun);
-    vector(program, "horizon", {0.80F, 0.83F, 0.86F});
+    vector(program, "horizon", around.horizon);
     number(program, "shadow_texel", light.shadow_texel);
     number(program, "shadow_step", 1.0 / Canvas::shadow_side);
     const std::array<const char*, 3> samplers{"blocks", "joints", "shadow"};
@@ -175,6 +187,7 @@ struct Painter::Hidden {
     vector(ground, "along", along.cast<float>());
     vector(ground, "across", across.cast<float>());
     vector(ground, "normal", along.cross(across).normalized().cast<float>());
+    vector(ground, "tone", around.ground);
     number(ground, "grid", lines ? show.grid : 1e9);
     number(ground, "fade", 1.5 * stage.size());
     number(ground, "far", std::max(static_cast<double>(v.target_distance), stage.size()));
@@ -219,6 +232,8 @@ struct Painter::Hidden {
     matrix(sky, "to_world", light.camera.inverse());
     const Vec3 zenith = position ? Vec3(position->linear().transpose().col(2)) : Vec3(Vec3::UnitZ());
     vector(sky, "zenith", zenith.cast<float>());
+    vector(sky, "high", around.high);
+    vector(sky, "floor_tone", around.floor);
     number(sky, "with_floor", position ? 1 : 0);
     if (position) {
       const Eigen::AlignedBox3d& table = stage.table;

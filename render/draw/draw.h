@@ -19,6 +19,7 @@ struct Look {
   double top = 0, bottom = 0;  // pixels covered by the overlay
   bool overlay = true;         // title, clock, legend, scale, axes and ground motion
   double magnify = 1;          // factor on the displacements drawn
+  bool white = false;          // background and ground, for print
   bool table_turns = true;     // a tilting test is drawn level, with its table turning; otherwise gravity turns
 };
 

@@ -133,7 +133,7 @@ void main() {
 )";
 const std::string ground_fragment = lighting + R"(
 in vec3 world;
-uniform vec3 middle, normal;
+uniform vec3 middle, normal, tone;  // tone: linear colour of the ground
 uniform float grid, fade, far;  // m: lines, where they end, where the ground is lost in the haze
 out vec4 color;
 // Coverage of lines of the given width, one each `period`, as a box filter of the pixel would see them.
@@ -146,7 +146,7 @@ void main() {
   vec2 p = world.xy;
   float line = max(lines(p.x, grid, 0.016 * grid), lines(p.y, grid, 0.016 * grid));
   float r = distance(world.xy, middle.xy) / fade;
-  vec3 base = mix(vec3(0.54, 0.535, 0.52), vec3(0.33, 0.31, 0.31), line * 0.6 * clamp(1.8 - r, 0.0, 1.0));
+  vec3 base = mix(tone, 0.6 * tone, line * 0.6 * clamp(1.8 - r, 0.0, 1.0));
   vec3 c = lit(base, world, normal, 1.0);
   color = srgb(mix(c, horizon, smoothstep(1.0, 5.0, distance(eye, world) / far)));
 }
@@ -164,6 +164,7 @@ const std::string sky_fragment = R"(
 in vec2 uv;
 uniform mat4 to_world;        // clip to world
 uniform vec3 zenith;          // of the level world
+uniform vec3 high, floor_tone;  // linear colours of the sky above and of the floor
 // The floor below a table that turns, with the table's shadow: softer, the higher the table stands above it.
 uniform float with_floor;
 uniform vec3 floor_point, table_middle;
@@ -174,7 +175,7 @@ void main() {
   vec4 end = to_world * vec4(uv * 2.0 - 1.0, 1.0, 1.0);
   vec3 ray = normalize(end.xyz / end.w - eye);
   float up = dot(ray, zenith);
-  vec3 c = mix(horizon, vec3(0.46, 0.60, 0.76), smoothstep(0.0, 0.55, up));
+  vec3 c = mix(horizon, high, smoothstep(0.0, 0.55, up));
   if (with_floor > 0.5 && up < -1e-4) {
     float s = dot(floor_point - eye, zenith) / up;
     vec3 p = eye + s * ray;
@@ -182,7 +183,7 @@ void main() {
     vec2 beyond = abs((p + height * zenith - table_middle).xy) - table_half;
     float d = length(max(beyond, 0.0)) + min(max(beyond.x, beyond.y), 0.0), soft = softest + 0.5 * max(height, 0.0);
     float shade = 0.42 * (1.0 - smoothstep(-0.7 * soft, soft, d));
-    c = mix(vec3(0.56, 0.57, 0.58) * (1.0 - shade), horizon, smoothstep(1.0, 5.0, s / far));
+    c = mix(floor_tone * (1.0 - shade), horizon, smoothstep(1.0, 5.0, s / far));
   }
   color = srgb(c);
 }

@@ -93,3 +93,26 @@ TEST_CASE("a tilting test is drawn tilting, or from a camera that stays level wi
   CHECK(drawn("camera", false).rgb == upright.rgb);
   CHECK(drawn("table", true).rgb != upright.rgb);
 }
+
+TEST_CASE("a white background is white where nothing stands", "[render][draw]") {
+  prepare_contexts();
+  const test::Folder dir;
+  write_brick_house(dir.path.string(), {1.2, 1.2, 4, 0.2, 0.1});
+  const MotionReader reader(dir.path.string());
+  Movie movie;
+  movie.look.width = 320, movie.look.height = 180;
+  movie.look.overlay = false, movie.look.white = true;
+  movie.stills = {0.1};
+  movie.quiet = movie.force = true;
+  REQUIRE(make_movie(read_run(dir.path.string()), reader, movie, std::atomic<bool>{false}));
+  const Image image = read_png(std::filesystem::directory_iterator(dir.path / "frames")->path().string());
+  std::size_t paper = 0, dark = 0;
+  for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
+    const int least = std::min({image.rgb[i], image.rgb[i + 1], image.rgb[i + 2]});
+    paper += least >= 250;
+    dark += least < 120;
+  }
+  for (const auto& [x, y] : {std::pair{0, 0}, {319, 0}, {160, 2}}) CHECK(int(*image.pixel(x, y)) == 255);
+  CHECK(paper > image.rgb.size() / 3 / 3);  // sky, and the ground in the sun
+  CHECK(dark > image.rgb.size() / 3 / 50);  // the bricks
+}
