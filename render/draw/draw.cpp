@@ -201,6 +201,7 @@ struct Painter::Hidden {
       draw_plane(light, v, middle + out.cwiseProduct(half), along.cwiseProduct(half), out.cross(along).cwiseProduct(half), lines);
     };
     face(Vec3::UnitZ(), Vec3::UnitX(), true);
+    face(-Vec3::UnitZ(), Vec3::UnitX(), false);
     for (const double sign : {-1.0, 1.0}) {
       face(sign * Vec3::UnitX(), Vec3::UnitY(), false);
       face(sign * Vec3::UnitY(), Vec3::UnitZ(), false);

@@ -234,7 +234,7 @@ void Overlay::draw_scale(Image& image) const {
   const double u = unit_, wish = 110 * u * pixel_, ten = std::pow(10.0, std::floor(std::log10(wish)));
   const double length = ten * (wish < 2 * ten ? 1 : wish < 5 * ten ? 2 : 5), width = length / pixel_;
   const double right = image.width - margin * u, y = image.height - look_.bottom - 14 * u;
-  const bool lines = show_.stage.on_ground || run_.gravity.empty() || !look_.table_turns;
+  const bool lines = show_.stage.on_ground || show_.stage.positions.empty();
   const std::string grid = lines ? "grid " + length_text(show_.grid) : "";
   fill_box(image, right - width - 34 * u - regular_.width(grid, 12 * u), y - 26 * u, right + 10 * u, y + 10 * u, panel);
   fill_box(image, right - width, y - u, right, y + u, text_ink);
@@ -247,7 +247,7 @@ void Overlay::draw_scale(Image& image) const {
 void Overlay::draw_axes(Image& image, double t) const {
   const double u = unit_, length = 30 * u, x = (margin + 46) * u, y = image.height - look_.bottom - 52 * u;
   const bool tilting = !run_.gravity.empty();
-  const Mat3 level = tilting && look_.table_turns ? levelling(run_.gravity, t) : Mat3(Mat3::Identity());
+  const Mat3 level = look_.table_turns ? levelling(run_.gravity, t) : Mat3(Mat3::Identity());
   fill_box(image, x - 46 * u, y - 42 * u, x + 46 * u, y + 50 * u, panel);
   const auto arrow = [&](const Vec3& direction, const std::string& name, bool shaken) {
     const Ink ink = shaken ? accent : quiet_ink;

@@ -92,7 +92,7 @@ Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const
   const View view = look(camera, show.stage, l.width, l.height, l.top, l.bottom);
   const auto painter = std::make_shared<Painter>(show, l, movie.context);
   const auto overlay = std::make_shared<Overlay>(run, show, l, camera, view, files.stills ? 1 : schedule.slow);
-  return [=, &files](std::size_t index, const MotionFrame& frame) {
+  return [=, &files, &run](std::size_t index, const MotionFrame& frame) {
     std::optional<Mat3> level;
     if (!run.gravity.empty() && l.table_turns) level = levelling(run.gravity, frame.t);
     Image image = painter->draw(frame, camera, level);

@@ -18,74 +18,46 @@ std::string axis_name(const Vec3& d) {
   return fmt::format("({:.2f}, {:.2f}, {:.2f})", d.x(), d.y(), d.z());
 }
 
-// The ground motion along its principal direction, in which the sum of its squares is greatest.
-GroundRecord principal_component(const CsvTable& histories) {
+// The part of a vector along its principal direction, in which the sum of its squares is greatest.
+GroundRecord along_principal(const std::vector<double>& t, const std::vector<Vec3>& values) {
   GroundRecord out;
-  const int time = histories.find("time_s");
-  if (time < 0) return out;
-  const std::vector<double>* along[3] = {};
   Mat3 squares = Mat3::Zero();
-  for (int i = 0; i < 3; ++i)
-    if (const int column = histories.find(std::string("ground_a") + "xyz"[i] + "_m_s2"); column >= 0)
-      along[i] = &histories.columns[static_cast<std::size_t>(column)];
-  const auto at = [&](std::size_t row) {
-    Vec3 a = Vec3::Zero();
-    for (int i = 0; i < 3; ++i)
-      if (along[i] != nullptr && std::isfinite((*along[i])[row])) a[i] = (*along[i])[row];
-    return a;
-  };
-  const std::vector<double>& t = histories.columns[static_cast<std::size_t>(time)];
-  for (std::size_t row = 0; row < t.size(); ++row) squares += at(row) * at(row).transpose();
+  for (const Vec3& value : values) squares += value * value.transpose();
   if (!(squares.trace() > 0)) return out;
   Vec3 direction = Eigen::SelfAdjointEigenSolver<Mat3>(squares).eigenvectors().col(2);
   int largest = 0;
   direction.cwiseAbs().maxCoeff(&largest);
   if (direction[largest] < 0) direction = -direction;
   out.axis = axis_name(direction), out.direction = direction, out.t = t;
-  for (std::size_t row = 0; row < t.size(); ++row) {
-    out.a.push_back(at(row).dot(direction));
+  for (const Vec3& value : values) {
+    out.a.push_back(value.dot(direction));
     out.peak = std::max(out.peak, std::fabs(out.a.back()));
   }
   return out;
 }
 
-GravityRecord gravity_of(const CsvTable& histories) {
-  GravityRecord out;
-  const int time = histories.find("time_s");
-  int column[3];
-  for (int i = 0; i < 3; ++i) column[i] = histories.find(std::string("gravity_a") + "xyz"[i] + "_m_s2");
-  if (time < 0 || *std::min_element(column, column + 3) < 0) return out;
-  for (std::size_t row = 0; row < histories.rows(); ++row) {
-    const auto at = [&](int c) { return histories.columns[static_cast<std::size_t>(c)][row]; };
-    const Vec3 g(at(column[0]), at(column[1]), at(column[2]));
-    if (!g.allFinite() || !(g.norm() > 0)) continue;
-    out.t.push_back(at(time)), out.g.push_back(g);
-  }
+// Columns NAMEx_m_s2, NAMEy_m_s2 and NAMEz_m_s2, row by row; what is absent or not finite is zero.
+std::vector<Vec3> vectors_of(const CsvTable& histories, const std::string& name) {
+  std::vector<Vec3> out(histories.rows(), Vec3::Zero());
+  for (int i = 0; i < 3; ++i)
+    if (const int column = histories.find(name + "xyz"[i] + "_m_s2"); column >= 0)
+      for (std::size_t row = 0; row < out.size(); ++row)
+        if (const double value = histories.columns[static_cast<std::size_t>(column)][row]; std::isfinite(value)) out[row][i] = value;
   return out;
 }
 
-// Rotation vector (rad) by which gravity leans from the vertical.
+GravityRecord gravity_of(const std::vector<double>& t, const CsvTable& histories) {
+  GravityRecord out;
+  const std::vector<Vec3> values = vectors_of(histories, "gravity_a");
+  for (std::size_t row = 0; row < values.size(); ++row)
+    if (values[row].norm() > 0) out.t.push_back(t[row]), out.g.push_back(values[row]);
+  return out;
+}
+
+// Rotation vector (degrees) by which gravity leans from the vertical; of the sign that a scene gives to a tilt.
 Vec3 lean_of(const Vec3& gravity) {
   const Eigen::AngleAxisd turn(Eigen::Quaterniond::FromTwoVectors(-Vec3::UnitZ(), gravity));
-  return turn.angle() * turn.axis();
-}
-
-// Of the sign that the scene gives: positive where gravity turns by the right hand about the axis.
-GroundRecord tilt_of(const GravityRecord& gravity) {
-  GroundRecord out;
-  Mat3 squares = Mat3::Zero();
-  for (const Vec3& g : gravity.g) squares += lean_of(g) * lean_of(g).transpose();
-  if (!(squares.trace() > 0)) return out;
-  Vec3 direction = Eigen::SelfAdjointEigenSolver<Mat3>(squares).eigenvectors().col(2);
-  int largest = 0;
-  direction.cwiseAbs().maxCoeff(&largest);
-  if (direction[largest] < 0) direction = -direction;
-  out.axis = axis_name(direction), out.direction = direction, out.t = gravity.t;
-  for (const Vec3& g : gravity.g) {
-    out.a.push_back(lean_of(g).dot(direction) * 180 / pi);
-    out.peak = std::max(out.peak, std::fabs(out.a.back()));
-  }
-  return out;
+  return turn.angle() * 180 / pi * turn.axis();
 }
 
 // First crack (in dry masonry: first joint that opened), and collapse.
@@ -155,9 +127,15 @@ Run read_run(const std::string& dir) {
   if (run.status == "completed") run.status.clear();
   if (std::filesystem::exists(histories)) {
     const CsvTable table = read_csv(histories);
-    run.record = principal_component(table);
-    run.gravity = gravity_of(table);
-    run.tilt = tilt_of(run.gravity);
+    if (const int time = table.find("time_s"); time >= 0) {
+      const std::vector<double>& t = table.columns[static_cast<std::size_t>(time)];
+      run.record = along_principal(t, vectors_of(table, "ground_a"));
+      run.gravity = gravity_of(t, table);
+      std::vector<Vec3> leans;
+      for (const Vec3& g : run.gravity.g) leans.push_back(lean_of(g));
+      run.tilt = along_principal(run.gravity.t, leans);
+      if (run.tilt.axis.empty()) run.gravity = {};  // it never leans
+    }
   }
   if (const std::string events = run_file(dir, "events.csv"); std::filesystem::exists(events)) run.marks = first_events(read_csv(events));
   return run;

@@ -30,7 +30,7 @@ struct GravityRecord {
 };
 Vec3 gravity_at(const GravityRecord& gravity, double t);  // linear between rows, constant outside
 // Rotation from the scene to a level world, in which gravity points down.
-Mat3 levelling(const GravityRecord& gravity, double t);
+Mat3 levelling(const GravityRecord& gravity, double t);  // the identity without a record
 
 // First event of a kind, for figures and the strip below pictures.
 struct Mark {
