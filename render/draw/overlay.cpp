@@ -73,7 +73,7 @@ Overlay::Overlay(const Run& run, const Show& show, const Look& look, const Camer
   const double per_column = end_time_ / static_cast<double>(columns);
   std::size_t row = 0;
   for (std::size_t c = 0; c < columns; ++c) {
-    const double t0 = static_cast<double>(c) * per_column, t1 = t0 + per_column;
+    const double t0 = static_cast<double>(c) * per_column, t1 = std::min(t0 + per_column, end_time_);
     const double a0 = value_at(r, t0), a1 = value_at(r, t1);
     Reach reach{std::min(a0, a1), std::max(a0, a1)};
     for (; row < r.t.size() && r.t[row] < t1; ++row)
