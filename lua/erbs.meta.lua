@@ -58,6 +58,19 @@ start_noise = 0 -- noise in the initial state of every free block: erbs run --no
 ---@field between? number[] { lowest, highest }
 ---@field source? string where the number is from
 
+---@class erbs.stored
+---@field rel? number largest relative change [0 to 1e+09]
+---@field abs? number largest absolute change [at least 0]
+---@field source? string what sets the tolerance
+
+---@class erbs.picture
+---@field pixels? number largest share of pixels that differ by more than 4/255 in a channel [0 to 1; default 0.01]
+---@field ssim? number least structural similarity (Wang et al. 2004); 1: equal [0 to 1; default 0.98]
+---@field width? integer width of the picture, pixels [64 to 4096; default 480]
+---@field height? integer height of the picture, pixels [64 to 4096; default 270]
+---@field color? "material"|"damage"|"displacement"|"speed"|"opening" color of blocks [default material]
+---@field source? string what sets the tolerance
+
 ---@class erbs.material_keys
 ---@field name string name by which blocks refer to it
 ---@field density number mass per volume of the block [kg/m3; 0.01 to 100000]
@@ -495,6 +508,17 @@ function use_limit(keys) end
 ---@param file string path, relative to the scene
 ---@return any # what the file returns
 function include(file) end
+
+---States that a key of metrics.json keeps the value that is stored beside the scene; erbs test --bless stores it anew.
+---@param key string dotted key of a number: "metrics.x", "collapse.time_s"
+---@param how erbs.stored { rel = | abs =, source = "..." }
+function expect_stored(key, how) end
+
+---States that the picture at the time t looks like the one stored beside the scene; erbs test --bless stores it anew.
+---@param camera string a camera of the scene, or from_-x, from_+x, from_-y, from_+y, from_above
+---@param t number time of the picture [s; 0 to 1e+06]
+---@param how? erbs.picture { pixels = 0.01, ssim = 0.98, width = 480, height = 270, source = "..." }
+function expect_image(camera, t, how) end
 
 ---@class erbs.bisect_keys
 ---@field param string name of the param that the runs change

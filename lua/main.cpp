@@ -208,6 +208,8 @@ void add_others(CLI::App& app, CommandLine& line) {
   test.add_option("-o", line.test.directory, "folder for the runs (default runs/test)")->check(filled())->type_name("DIR");
   test.add_flag("-q,--quiet", line.test.batch.quiet, "no progress");
   test.add_flag("--quick", line.test.quick, "only scenes with label(\"quick\")");
+  test.add_flag("--bless", line.test.bless,
+                "after the table: keep the pictures and values of these runs as those that expect_image and expect_stored ask for");
   test.add_option("--book", line.test.book, "write the verification book to this file, with its figures and its summary in README.md")
       ->type_name("FILE.md");
   test.add_flag("--grid", line.test.grid,

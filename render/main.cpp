@@ -101,6 +101,8 @@ int run(Arguments& a) {
   read_times(a, movie);
   movie.cameras = a.cameras;
   read_camera(a, movie);
+  if (!movie.expected.empty() && (movie.stills.size() != 1 || (movie.cameras.size() != 1 && !movie.eye)))
+    throw Error("--expect compares one picture; give one time with --stills and one camera with --camera");
   movie.look.coloring = colorings.at(a.color);
   movie.look.white = a.background == "white";
   movie.look.table_turns = a.tilt == "table";
@@ -161,6 +163,8 @@ int main(int argc, char** argv) {
   app.add_flag("--no-figures", a.no_figures, "no figures");
   app.add_option("--threads", a.movie.threads, "frames drawn at a time, each by a process (default: one a processor)")
       ->check(within(1, 256));
+  app.add_option("--expect", a.movie.expected,
+                 "a PNG that the one still of --stills is compared with; the result is in DIR/pictures (expect_image of a scene uses it)");
   app.add_option("--context", a.movie.context, "source of OpenGL: osmesa, egl or auto")->check(CLI::IsMember({"osmesa", "egl", "auto"}));
   app.add_flag("--force", a.movie.force, "write over pictures and videos that are there");
   app.add_flag("-q,--quiet", a.movie.quiet, "no progress and no summary");

@@ -259,8 +259,32 @@ struct Expectation {
   enum class Kind { rel, abs, below, above, between, equal } kind = Kind::rel;
   double tolerance = 0;      // rel or abs; the bound for below and above
   double low = 0, high = 0;  // between
+  bool stored = false;       // the value is kept in a file beside the scene, and not a number yet
   std::string source;
   Place place;
+};
+
+// expect_image(camera, t, {...}): the picture looks like the one kept beside the scene.
+struct PictureExpectation {
+  std::string camera;
+  double t = 0;                    // s
+  double pixels = 0.01;            // largest share of pixels that differ by more than 4/255 in a channel
+  double ssim = 0.98;              // least structural similarity
+  int width = 480, height = 270;   // pixels
+  std::string color = "material";  // of blocks
+  std::string source;
+  Place place;
+
+  static Fields<PictureExpectation> fields() {
+    return {
+        {"pixels", &PictureExpectation::pixels, "", "largest share of pixels that differ by more than 4/255 in a channel", 0, 1},
+        {"ssim", &PictureExpectation::ssim, "", "least structural similarity (Wang et al. 2004); 1: equal", 0, 1},
+        {"width", &PictureExpectation::width, "", "width of the picture, pixels", 64, 4096},
+        {"height", &PictureExpectation::height, "", "height of the picture, pixels", 64, 4096},
+        {"color", &PictureExpectation::color, "", "color of blocks", 0, 0, false, "material|damage|displacement|speed|opening"},
+        {"source", &PictureExpectation::source, "", "what sets the tolerance"},
+    };
+  }
 };
 
 // Limits beyond which a scene is not valid, with the reason. A coarser run is refused.
@@ -312,6 +336,7 @@ struct Scene {
   std::vector<Camera> cameras;
   std::vector<Param> params;
   std::vector<Expectation> expectations;
+  std::vector<PictureExpectation> pictures;
   std::vector<std::pair<std::string, std::string>> metric_units;  // of the scene's own metrics: name, unit
   std::map<std::string, std::string> inputs;                      // path of each file read -> its hash
   int most_blocks = 300000, most_points = 20000000;               // limits, checked before memory is allocated

@@ -74,6 +74,8 @@ std::string shown_type(const Key& key) {
                                                               {"question", "function(run)"},
                                                               {"expected", "number or word"},
                                                               {"tolerance", "table"},
+                                                              {"stored", "table"},
+                                                              {"picture", "table"},
                                                               {"family", "table"},
                                                               {"family_how", "table"},
                                                               {"initial", "table"},
@@ -178,6 +180,8 @@ std::string editor_type(const Key& key) {
                                                               {"family", "table<string, number[]>"},
                                                               {"family_how", "{ combinations?: integer, seed?: number }"},
                                                               {"tolerance", "erbs.tolerance"},
+                                                              {"stored", "erbs.stored"},
+                                                              {"picture", "erbs.picture"},
                                                               {"quantity", "erbs.quantity"}};
   if (!key.inner.empty()) {
     std::vector<std::string> members;
@@ -272,7 +276,11 @@ std::string editor_file() {
   std::vector<std::string> quantities;
   for (const Quantity& quantity : recorder_quantities()) quantities.push_back(fmt::format("\"{}\"", quantity.name));
   text += fmt::format("---@alias erbs.quantity {}\n\n", fmt::join(quantities, "|"));
-  for (const auto& [name, keys] : {std::pair{"initial", keys_of<Initial>()}, {"part", part_keys()}, {"tolerance", tolerance_keys()}})
+  for (const auto& [name, keys] : {std::pair{"initial", keys_of<Initial>()},
+                                   {"part", part_keys()},
+                                   {"tolerance", tolerance_keys()},
+                                   {"stored", stored_keys()},
+                                   {"picture", keys_of<PictureExpectation>()}})
     text += fmt::format("---@class erbs.{}\n{}\n", name, editor_fields(keys));
   for (const Function& function : all_functions()) text += editor_function(function);
   return text;

@@ -23,6 +23,7 @@
 #include "lua/reports/expectations.h"
 #include "lua/reports/figures.h"
 #include "lua/reports/profile_text.h"
+#include "lua/reports/stored.h"
 #include "lua/reports/studies.h"
 
 namespace erbs::lua {
@@ -33,9 +34,22 @@ std::string text_of(const std::string& path) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
+// Stored pictures and values are those of the scene as it is written: a run that is changed by options is not compared with them.
+std::vector<Verdict> judge_all(const Scene& scene, const std::string& path, const std::string& directory, bool as_written,
+                               const Json& metrics) {
+  std::vector<Expectation> expectations = scene.expectations;
+  if (!as_written) std::erase_if(expectations, [](const Expectation& item) { return item.stored; });
+  expectations = with_stored_values(std::move(expectations), path);
+  std::vector<Verdict> verdicts = judge(expectations, metrics);
+  name_stored_values(expectations, path, verdicts);
+  if (as_written)
+    for (Verdict& verdict : judge_pictures(scene, path, directory)) verdicts.push_back(std::move(verdict));
+  return verdicts;
+}
+
 // Evaluates the metrics and expectations of the scene and writes them into the run folder. Returns the messages of failed metrics.
-std::vector<std::string> complete_metrics(Script& script, const std::string& directory, bool whole, const StudiesOutcome& studies,
-                                          Json& metrics, std::vector<Verdict>& verdicts) {
+std::vector<std::string> complete_metrics(Script& script, const std::string& path, const std::string& directory, bool whole,
+                                          bool as_written, const StudiesOutcome& studies, Json& metrics, std::vector<Verdict>& verdicts) {
   std::vector<std::string> failures;
   metrics = read_metrics(directory);
   metrics["metrics"] = studies.metrics;  // first the results of the studies: metrics of the scene may use them
@@ -48,7 +62,7 @@ std::vector<std::string> complete_metrics(Script& script, const std::string& dir
   for (const auto& [name, value] : studies.metrics.items()) own[name] = value;
   metrics["metrics"] = own;
   if (!script.studies().empty()) metrics["study_point_updates"] = studies.updates;
-  if (whole) verdicts = judge(script.scene().expectations, metrics);
+  if (whole) verdicts = judge_all(script.scene(), path, directory, as_written, metrics);
   int passed = 0;
   for (const Verdict& verdict : verdicts) passed += verdict.passed;
   metrics["expectations"] = {{"passed", passed}, {"failed", static_cast<int>(verdicts.size()) - passed}};
@@ -237,7 +251,8 @@ int complete(Script& script, const std::string& path, const std::string& directo
     if (!trouble.empty()) tell(stderr, path + ": " + trouble);
     write_json(run_file(directory, "metrics.json"), now);
   }
-  auto failures = complete_metrics(script, directory, whole, studies, metrics, verdicts);
+  const bool as_written = command.scene.overrides.empty() && override_arguments(command).empty();
+  auto failures = complete_metrics(script, path, directory, whole, as_written, studies, metrics, verdicts);
   if (whole && command.study.empty() && (command.figures || command.figure_scripts)) write_figures(script, directory, command.figures);
   for (const auto& trouble : studies.troubles) tell(stderr, trouble);
   for (const auto& message : failures) tell(stderr, message);

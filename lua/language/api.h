@@ -41,11 +41,13 @@ std::vector<Function> wave_functions();
 std::vector<Function> load_functions();
 std::vector<Function> analysis_functions();
 std::vector<Function> result_functions();
+std::vector<Function> stored_functions();
 std::vector<Function> study_functions();
 std::vector<Function> companion_functions();
 
 const Keys& part_keys();       // of block{ parts = { ... } }
 const Keys& tolerance_keys();  // of expect(key, value, { ... })
+const Keys& stored_keys();     // of expect_stored(key, { ... })
 
 // Pushes a C function that runs `body` with the memory cap lifted. It turns an Error into a Lua error only after all C++ objects
 // are destroyed, because an error of Lua is a jump that runs no destructors.

@@ -130,6 +130,20 @@ void check_names(Context& context) {
   }
 }
 
+// Stored pictures name a camera of the scene, or an elevation, and a time within the run.
+void check_pictures(Context& context) {
+  std::vector<std::string> cameras{"from_-x", "from_+x", "from_-y", "from_+y", "from_above"};
+  for (const Camera& camera : context.scene.cameras) cameras.push_back(camera.name);
+  for (const PictureExpectation& item : context.scene.pictures) {
+    if (!context.scene.cameras.empty() && std::find(cameras.begin(), cameras.end(), item.camera) == cameras.end())
+      context.mistake(item.place,
+                      fmt::format("expect_image: there is no camera \"{}\"{}", item.camera, did_you_mean(item.camera, cameras)));
+    if (item.t > context.scene.analysis.duration)
+      context.mistake(item.place, fmt::format("expect_image: t = {} s is past the end of the run, {} s; choose an earlier time", item.t,
+                                              context.scene.analysis.duration));
+  }
+}
+
 // Applies the quality to values that the scene leaves open. Values of the scene take precedence.
 void take_quality(Context& context) {
   for (const Quality& quality : qualities) {
@@ -227,6 +241,7 @@ void Script::finish(bool whole) {
   if (whole) try {
       resolve_groups(context);
       check_names(context);
+      check_pictures(context);
       sample_waves(lua_, context);
     } catch (const std::exception& error) { add_messages(context.mistakes, error.what()); }
   if (whole) {
@@ -254,6 +269,7 @@ void Script::finish(bool whole) {
   }
   if (!context.study.empty()) {
     context.scene.expectations.clear();
+    context.scene.pictures.clear();
     std::erase_if(context.metrics, [](const Metric& metric) { return metric.name != "study"; });
   }
   if (context.mistakes.empty()) return;

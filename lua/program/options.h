@@ -96,6 +96,7 @@ struct TestCommand {
   BatchOptions batch;
   std::string directory;
   bool quick = false, grid = false;
+  bool bless = false;  // store pictures and values of the runs beside the scenes, where they differ from those stored
   int seeds = 0;     // every scene with seeds 1 to this number; 0: as the scene says
   std::string book;  // path of the book; "": none is written
 };

@@ -87,6 +87,7 @@ Verdict judge(const Expectation& item, const Json& metrics) {
     if (verdict.passed) verdict.used = 0;
   } else if (value->is_number()) {
     verdict.got = short_number(value->get<double>());
+    verdict.actual = value->dump();
     judge_number(item, value->get<double>(), verdict);
     verdict.used = used_of(item, value->get<double>());
   } else {
@@ -114,7 +115,9 @@ Json to_json(const std::vector<Verdict>& verdicts) {
                     {"passed", v.passed},
                     {"used", v.used},
                     {"source", v.source},
-                    {"place", v.place}});
+                    {"place", v.place},
+                    {"stored", v.stored},
+                    {"actual", v.actual}});
   return list;
 }
 
@@ -131,7 +134,9 @@ std::vector<Verdict> verdicts_of(const Json& json) {
                                     {"error", &v.error},
                                     {"tolerance", &v.tolerance},
                                     {"source", &v.source},
-                                    {"place", &v.place}})
+                                    {"place", &v.place},
+                                    {"stored", &v.stored},
+                                    {"actual", &v.actual}})
       *into = item.value(key, "");
     verdicts.push_back(std::move(v));
   }

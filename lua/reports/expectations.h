@@ -11,7 +11,8 @@ namespace erbs::lua {
 struct Verdict {
   bool passed = false;
   std::string key, expected, got, error, tolerance, source, place;  // as printed in tables
-  double used = 0;  // error over tolerance: 1 at the limit, infinite if the run gives no value
+  std::string stored, actual;  // file beside the scene, and what replaces its content; "": nothing is stored
+  double used = 0;             // error over tolerance: 1 at the limit, infinite if the run gives no value
 };
 
 std::vector<Verdict> judge(const std::vector<Expectation>& expectations, const Json& metrics);

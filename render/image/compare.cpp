@@ -24,6 +24,14 @@ double window_ssim(const Image& a, const Image& b, int x0, int y0) {
   return (2 * ma * mb + c1) * (2 * cov + c2) / ((ma * ma + mb * mb + c1) * (va + vb + c2));
 }
 
+// Largest difference of a channel, of the pixel that begins at `i`.
+int channel_difference(const Image& a, const Image& b, std::size_t i) {
+  int worst = 0;
+  for (std::size_t c = i; c < i + 3; ++c) worst = std::max(worst, std::abs(a.rgb[c] - b.rgb[c]));
+  return worst;
+}
+constexpr int visible = 4;  // of 255; what drivers round differently is less
+
 }  // namespace
 
 Difference compare(const Image& a, const Image& b) {
@@ -31,11 +39,7 @@ Difference compare(const Image& a, const Image& b) {
   d.same_size = a.width == b.width && a.height == b.height && a.width >= 8 && a.height >= 8;
   if (!d.same_size) return d;
   std::size_t failed = 0;
-  for (std::size_t i = 0; i + 2 < a.rgb.size(); i += 3) {
-    int worst = 0;
-    for (std::size_t c = i; c < i + 3; ++c) worst = std::max(worst, std::abs(a.rgb[c] - b.rgb[c]));
-    failed += worst > 4 ? 1 : 0;
-  }
+  for (std::size_t i = 0; i + 2 < a.rgb.size(); i += 3) failed += channel_difference(a, b, i) > visible ? 1 : 0;
   d.failed_fraction = static_cast<double>(failed) / (static_cast<double>(a.rgb.size()) / 3);
   double sum = 0;
   int windows = 0;
@@ -43,6 +47,18 @@ Difference compare(const Image& a, const Image& b) {
     for (int x = 0; x + 8 <= a.width; x += 4, ++windows) sum += window_ssim(a, b, x, y);
   d.ssim = sum / windows;
   return d;
+}
+
+Image difference_picture(const Image& a, const Image& b) {
+  Image out(a.width, a.height);
+  for (std::size_t i = 0; i + 2 < a.rgb.size() && i + 2 < b.rgb.size(); i += 3) {
+    const double pale = 255 - 0.35 * (255 - brightness(&a.rgb[i]));
+    const int worst = channel_difference(a, b, i);
+    const double red = worst > visible ? std::min(1.0, 0.4 + 0.6 * worst / 128) : 0;
+    const double paint[3] = {214, 32, 32};
+    for (std::size_t c = 0; c < 3; ++c) out.rgb[i + c] = static_cast<std::uint8_t>(std::lround((1 - red) * pale + red * paint[c]));
+  }
+  return out;
 }
 
 }  // namespace erbs::render

@@ -13,4 +13,7 @@ struct Difference {
 };
 Difference compare(const Image& a, const Image& b);
 
+// The first picture in pale grey; pixels that differ by more than 4/255 in red, the deeper the more. Both of one size.
+Image difference_picture(const Image& a, const Image& b);
+
 }  // namespace erbs::render

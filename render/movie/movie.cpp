@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <thread>
 
@@ -14,6 +15,7 @@
 #include "engine/base/system/process.h"
 #include "engine/base/text.h"
 #include "render/draw/overlay.h"
+#include "render/image/compare.h"
 #include "render/movie/video.h"
 #include "render/movie/workers.h"
 
@@ -102,6 +104,30 @@ Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const
   };
 }
 
+// Leaves DIR/pictures/NAME_{actual,expected,difference}.png and NAME.json, with `stored` false if there is no picture to compare with.
+// The JSON is written last.
+void compare_with(const std::string& expected, const Image& actual, const Run& run, const std::string& name) {
+  const fs::path folder = fs::path(run.dir) / "pictures";
+  std::error_code failed;
+  fs::create_directories(folder, failed);
+  if (failed) throw Error("the folder cannot be made; may you write there?", {folder.string(), 0});
+  const auto file = [&](const std::string& ending) { return (folder / (name + ending)).string(); };
+  for (const char* old : {"_expected.png", "_difference.png", ".json"}) fs::remove(file(old), failed);
+  write_png(file("_actual.png"), actual);
+  const bool stored = fs::exists(expected);
+  Difference difference;
+  if (stored) {
+    const Image wanted = read_png(expected);
+    difference = compare(actual, wanted);
+    write_png(file("_expected.png"), wanted);
+    if (difference.same_size) write_png(file("_difference.png"), difference_picture(actual, wanted));
+  }
+  std::ofstream out(file(".json"));
+  out << fmt::format("{{\"stored\": {}, \"same_size\": {}, \"failed_fraction\": {}, \"ssim\": {}}}\n", stored, difference.same_size,
+                     difference.failed_fraction, difference.ssim);
+  if (!out.flush()) throw WriteError("the comparison cannot be written; is the disk full?", {file(".json"), 0});
+}
+
 // Progress as one updated line on a terminal, otherwise as a new line every ten seconds.
 class Progress {
  public:
@@ -153,6 +179,8 @@ bool film(const Run& run, const Show& show, const MotionReader& reader, const Mo
       const Image image = workers.collect(worker);
       if (next < all) workers.order(worker, next, ordered(next));
       if (video) video->add(image);
+      if (!movie.expected.empty())
+        compare_with(movie.expected, image, run, fs::path(files.picture(made, schedule.times[made])).stem().string());
       progress.tell(camera.name, made + 1, all);
     }
   }

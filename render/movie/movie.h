@@ -25,6 +25,7 @@ struct Movie {
   bool webp = false;  // an animated WebP in place of the MP4
   int threads = 0;    // 0: one per processor
   std::string context = "auto";
+  std::string expected;  // path of a picture that the one still is compared with; "": none
 };
 
 // Times (s) of the pictures, and the slow-motion factor of the video.

@@ -7,8 +7,8 @@
 
 namespace erbs::ERBS_TARGET {
 
-// What acts on eight blocks: what sound joints do that they keep and that others keep, then wrench rows of other joints, what contacts push
-// and what loads do.
+// Total wrench on eight blocks: intact joints that they own, intact joints that their neighbours own, wrench rows of other joints, contacts
+// and loads.
 ERBS_INLINE void sum_wrenches(const KickDrift& s, const BlockArrays& A, const BlockConstants& c, int group, Pack out[6]) {
   const long first = 8L * pack_size * group;
   const bool carried = c.carried && s.joints != 0;
