@@ -30,7 +30,8 @@ std::string text_of(const fs::path& path) {
 bool carries_expectations(const fs::path& path) {
   const std::string text = text_of(path);
   for (size_t at = text.find("expect"); at != std::string::npos; at = text.find("expect", at + 1)) {
-    const size_t next = text.find_first_not_of(" \t", at + 6);
+    const size_t word_end = text.find_first_not_of("abcdefghijklmnopqrstuvwxyz_", at + 6);  // expect, expect_image, expect_stored
+    const size_t next = text.find_first_not_of(" \t", word_end);
     const size_t line = text.rfind('\n', at) + 1;  // npos + 1 is 0
     if (next != std::string::npos && (text[next] == '(' || text[next] == '=') &&
         text.substr(line, at - line).find("--") == std::string::npos)
