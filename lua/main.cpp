@@ -160,6 +160,10 @@ void add_plot(CLI::App& app, PlotCommand& command) {
       ->check(filled())
       ->type_name("0.05");
   plot.add_flag("--envelope", command.envelope, "running maximum of the absolute value");
+  plot.add_flag("--drift", command.drift,
+                "instead of columns: displacement and drift over the height of the structure, until it collapses");
+  plot.add_option("--group", command.group, "blocks of this group alone, such as a wall, of --drift")->check(filled())->type_name("GROUP");
+  plot.add_option("--levels", command.levels, "levels of --drift at most, each of as many courses (default 24)")->check(within(2, 1000));
   plot.add_option("--time", command.time, "only this span, s")->check(filled())->type_name("T0:T1");
   plot.add_option("-o", command.output.directory, "the picture, SVG or PNG by its ending (default DIR/plot.svg)")
       ->check(filled())

@@ -3,8 +3,11 @@
 #include <filesystem>
 
 #include "engine/base/system/process.h"
+#include "engine/record/folder/run_folder.h"
 #include "engine/record/plot/unit.h"
 #include "engine/record/results/curve_figure.h"
+#include "engine/record/results/drift.h"
+#include "engine/record/results/metrics.h"
 #include "lua/program/options.h"
 #include "lua/program/say.h"
 
@@ -94,6 +97,10 @@ void add_curves(const ReadRun& run, const PlotCommand& command, CurveKind kind, 
   }
 }
 
+void check_gnuplot() {
+  if (!can_start("gnuplot")) throw Error("pictures need gnuplot, which is not installed; install the package gnuplot-nox");
+}
+
 std::string note_of(const PlotCommand& command, CurveKind kind) {
   std::string note = kind == CurveKind::spectrum   ? "Fourier amplitude spectrum, Hann window"
                      : kind == CurveKind::response ? fmt::format("response spectrum, {:g} % damping", 100 * command.damping.value_or(0.05))
@@ -104,12 +111,55 @@ std::string note_of(const PlotCommand& command, CurveKind kind) {
   return note + fmt::format("{}{:g} s to {:g} s", note.empty() ? "" : ", ", span.from, span.to);
 }
 
+// The frames of a run within the span; without a span until its collapse, since the drift of debris means nothing.
+DriftProfile profile_of(const std::string& folder, const PlotCommand& command) {
+  const MotionReader reader(folder);
+  TimeSpan span;
+  if (!command.time.empty()) span = time_span_of(command.time);
+  else if (fs::exists(run_file(folder, "metrics.json"))) {
+    const Json metrics = read_metrics(folder);
+    const Json* fall = find_key(metrics, "collapse.time_s");
+    if (fall != nullptr && fall->is_number()) span.to = fall->get<double>();
+  }
+  std::vector<MotionFrame> frames;
+  for (std::size_t i = 0; i < reader.times().size(); ++i)
+    if (reader.times()[i] >= span.from && reader.times()[i] <= span.to) frames.push_back(reader.read(int(i)));
+  return drift_profile(reader.scene(), frames, command.levels, command.group);
+}
+
+void draw_drift(const PlotCommand& command, const std::string& path) {
+  std::vector<DriftProfile> profiles;
+  for (const std::string& folder : command.words) try {
+      profiles.push_back(profile_of(folder, command));
+      profiles.back().run = fs::canonical(folder).filename().string();
+      for (std::size_t i = 0; i + 1 < profiles.size(); ++i)
+        if (profiles[i].run == profiles.back().run) profiles.back().run = folder;
+    } catch (const Error& mistake) {
+      if (!mistake.place.file.empty()) throw;
+      throw Error(mistake.what(), {folder});
+    }
+  const std::string span = command.time.empty() ? "until a collapse" : note_of(command, CurveKind::history);
+  plot::draw(drift_figure(profiles, fmt::format("{}, {} levels, {}", command.group.empty() ? "all blocks" : command.group,
+                                                profiles.front().height.size(), span)),
+             path);
+}
+
 }  // namespace
 
 int verb_plot(const PlotCommand& command) {
   if (command.words.empty()) throw Error("plot takes a run folder; write erbs plot DIR --y COLUMN");
   const CurveKind kind = kind_of(command);
   if (!command.time.empty()) time_span_of(command.time);
+  if (command.drift && (!command.y.empty() || kind != CurveKind::history || command.list))
+    throw Error("--drift draws no columns; leave out --y, --spectrum, --response, --envelope and --list");
+  if (command.drift) {
+    const std::string path = picture_of(command);
+    check_gnuplot();
+    draw_drift(command, path);
+    if (!command.output.quiet)
+      say("picture {} (drift of {} run{})\n", shown(path, 400), command.words.size(), command.words.size() == 1 ? "" : "s");
+    return exit_ok;
+  }
   const std::vector<ReadRun> runs = read_runs(command.words);
   if (command.list) return (list_columns(runs), exit_ok);
   if (command.y.empty()) throw Error("plot takes columns; write --y COLUMN, and erbs plot DIR --list lists them");
@@ -121,7 +171,7 @@ int verb_plot(const PlotCommand& command) {
       if (!mistake.place.file.empty()) throw;
       throw Error(mistake.what(), {run.folder});
     }
-  if (!can_start("gnuplot")) throw Error("pictures need gnuplot, which is not installed; install the package gnuplot-nox");
+  check_gnuplot();
   plot::draw(curve_figure(curves, kind, note_of(command, kind)), path);
   if (!command.output.quiet) say("picture {} ({} curve{})\n", shown(path, 400), curves.size(), curves.size() == 1 ? "" : "s");
   return exit_ok;

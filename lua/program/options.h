@@ -87,7 +87,9 @@ struct PlotCommand {
   std::string x = "time_s";
   OutputOptions output;  // directory: the picture
   std::string time;      // --time T0:T1
-  bool spectrum = false, response = false, envelope = false, list = false, png = false;
+  bool spectrum = false, response = false, envelope = false, drift = false, list = false, png = false;
+  int levels = 24;                // of --drift
+  std::string group;              // of --drift; "": all blocks
   std::optional<double> damping;  // ratio, of --response
 };
 struct TestCommand {
@@ -97,8 +99,8 @@ struct TestCommand {
   std::string directory;
   bool quick = false, grid = false;
   bool bless = false;  // store pictures and values of the runs beside the scenes, where they differ from those stored
-  int seeds = 0;     // every scene with seeds 1 to this number; 0: as the scene says
-  std::string book;  // path of the book; "": none is written
+  int seeds = 0;       // every scene with seeds 1 to this number; 0: as the scene says
+  std::string book;    // path of the book; "": none is written
 };
 struct AccuracyCommand {
   std::vector<std::string> words;

@@ -102,3 +102,28 @@ TEST_CASE("without gnuplot nothing is written", "[plot][program]") {
   CHECK(contains(text_of(bench.folder / "log"), "gnuplot-nox"));
   CHECK(std::distance(fs::directory_iterator(run), {}) == 2);
 }
+
+TEST_CASE("drift over height is drawn from the poses of a run, for a group too", "[plot][drift][program]") {
+  Bench bench;
+  REQUIRE(bench.run(four_bricks() + "joint{ law = dry{ kn = 1e8, ks = 4e7, mu = .6 } }\nground_motion{ wave = sine{ amplitude = .2 * g, "
+                                    "frequency = 2 }, direction = 'y' }\nanalysis{ duration = .2 }",
+                    {"--no-figures"}) == 0);
+  REQUIRE(bench.erbs({"plot", bench.out(), "--drift", "--levels", "4"}) == 0);
+  const std::string svg = text_of(bench.out() + "/plot.svg");
+  for (const char* text : {"</svg>", "largest drift [%]", "height above the support [m]", "along y", "all blocks, 4 levels"}) {
+    INFO(text);
+    CHECK(contains(svg, text));
+  }
+  CHECK(bench.erbs({"plot", bench.out(), "--drift", "--group", "pier", "--force", "--time", "0:0.1"}) == 0);
+  CHECK(contains(text_of(bench.out() + "/plot.svg"), "pier, 4 levels, 0 s to 0.1 s"));
+  for (const auto& [words, said] : {std::pair<std::vector<std::string>, std::string>{{"--group", "peer"}, "did you mean \"pier\"?"},
+                                    {{"--time", "5:6"}, "no frame lies within the span"},
+                                    {{"--y", "top"}, "--drift draws no columns"},
+                                    {{"--levels", "1"}, "--levels"}}) {
+    std::vector<std::string> all{"plot", bench.out(), "--drift", "--force"};
+    all.insert(all.end(), words.begin(), words.end());
+    CHECK(bench.erbs(all) == 2);
+    INFO(bench.said);
+    CHECK(contains(bench.said, said));
+  }
+}
