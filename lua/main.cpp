@@ -45,6 +45,7 @@ struct CommandLine {
   RecordCommand record;
   ExportCommand exported;
   PlotCommand plot;
+  ReportCommand report;
   TestCommand test;
   AccuracyCommand accuracy;
   TimingCommand bench, effects;
@@ -171,6 +172,14 @@ void add_plot(CLI::App& app, PlotCommand& command) {
   plot.add_flag("--png", command.png, "a PNG, DIR/plot.png by default");
   plot.add_flag("--force", command.output.force, "replace an earlier picture");
   plot.add_flag("-q,--quiet", command.output.quiet, "print errors only");
+}
+
+void add_report(CLI::App& app, ReportCommand& command) {
+  CLI::App& report = *app.add_subcommand("report", "write a run as one web page: verdict, replay in 3D, curves, events, parameters");
+  report.add_option("DIR", command.words, "the run folder")->required();
+  report.add_option("-o", command.output.directory, "the page (default DIR/report.html)")->check(filled())->type_name("FILE");
+  report.add_flag("--force", command.output.force, "replace an earlier page");
+  report.add_flag("-q,--quiet", command.output.quiet, "print errors only");
 }
 
 void add_others(CLI::App& app, CommandLine& line) {
@@ -318,6 +327,7 @@ int call(const CLI::App& app, const CommandLine& line) {
   if (name == "check") return verb_check(line.check);
   if (name == "export") return verb_export(line.exported);
   if (name == "plot") return verb_plot(line.plot);
+  if (name == "report") return verb_report(line.report);
   if (name == "record") return verb_record(line.record);
   if (name == "accuracy") return accuracy.map ? verb_map(accuracy) : verb_accuracy(accuracy);
   if (name == "test") return verb_test(line.test);
@@ -375,6 +385,7 @@ int run_program(int argc, char** argv) {
   add_run(app, line.run);
   add_others(app, line);
   add_plot(app, line.plot);
+  add_report(app, line.report);
   return finish_streams(answer(app, line, argc, argv), exit_usage);
 }
 

@@ -92,6 +92,10 @@ struct PlotCommand {
   std::string group;              // of --drift; "": all blocks
   std::optional<double> damping;  // ratio, of --response
 };
+struct ReportCommand {
+  std::vector<std::string> words;
+  OutputOptions output;  // directory: the page
+};
 struct TestCommand {
   std::vector<std::string> words;
   SceneOptions scene;
@@ -141,6 +145,7 @@ int verb_check(const CheckCommand& command);
 int verb_record(const RecordCommand& command);
 int verb_export(const ExportCommand& command);
 int verb_plot(const PlotCommand& command);
+int verb_report(const ReportCommand& command);
 int verb_render(const std::vector<std::string>& words);
 int verb_test(const TestCommand& command);
 int verb_accuracy(const AccuracyCommand& command);

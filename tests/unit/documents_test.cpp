@@ -26,7 +26,8 @@ std::vector<fs::path> documents() {
   std::vector<fs::path> found{root / "README.md"};
   for (const char* top : {"engine", "lua", "render", "scenes", "tests"})
     for (const auto& entry : fs::recursive_directory_iterator(root / top))
-      if (entry.path().extension() == ".md") found.push_back(entry.path());
+      if (entry.path().extension() == ".md" && entry.path().string().find("/node_modules/") == std::string::npos)
+        found.push_back(entry.path());
   return found;
 }
 

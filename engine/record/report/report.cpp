@@ -1,0 +1,157 @@
+#include "engine/record/report/report.h"
+
+#include <cmath>
+#include <filesystem>
+#include <limits>
+#include <map>
+
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "engine/record/folder/run_folder.h"
+#include "engine/record/report/pack.h"
+
+namespace erbs {
+namespace {
+
+namespace fs = std::filesystem;
+
+CsvTable table_of(const std::string& dir, const char* name) {
+  const std::string path = run_file(dir, name);
+  if (!fs::exists(path) || fs::file_size(path) == 0) return {};
+  return read_csv(path);
+}
+
+// Numbers and words of a column as JSON.
+Json cell(const CsvTable& table, int column, std::size_t row) {
+  if (column < 0) return nullptr;
+  const auto c = static_cast<std::size_t>(column);
+  if (!table.text[c].empty()) return for_files(table.text[c][row]);
+  const double value = table.columns[c][row];
+  return std::isfinite(value) ? Json(value) : Json(nullptr);
+}
+
+// Rare events stay, all of them; cracks and openings can be many.
+void take_events(const CsvTable& table, ReportedRun& run) {
+  const char* names[] = {"time_s", "event", "name", "value", "unit"};
+  std::size_t common = 0;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    Json event = Json::array();
+    for (const char* name : names) event.push_back(cell(table, table.find(name), row));
+    const bool rare = event[1] != "crack" && event[1] != "open" && event[1] != "hand over";
+    if (!rare && ++common > most_events_of_a_page) ++run.events_left_out;
+    else run.events.push_back(std::move(event));
+  }
+}
+
+double rounded(double value) { return std::round(1e6 * value) / 1e6; }  // to 1 um
+
+Json shape_json(const MotionScene& scene, const std::vector<int>& parts) {
+  const Triangles triangles = triangles_of(scene, parts);
+  Json vertices = Json::array();
+  for (const float v : triangles.vertices) vertices.push_back(rounded(v));
+  return {{"vertices", vertices}, {"index", triangles.index}};
+}
+
+// Shapes are shared: blocks of equal parts name one.
+Json scene_json(const ExportedRun& run) {
+  Json shapes = Json::array(), blocks = Json::array(), joints = Json::array();
+  std::map<std::vector<int>, std::size_t> known;
+  for (std::size_t b = 0; b < run.scene.blocks.size(); ++b) {
+    const MotionBlock& block = run.scene.blocks[b];
+    const auto [shape, fresh] = known.try_emplace(block.parts, shapes.size());
+    if (fresh) shapes.push_back(shape_json(run.scene, block.parts));
+    blocks.push_back({for_files(run.name(static_cast<int>(b))), for_files(block.group), block.material, block.fixed ? 1 : 0, shape->second,
+                      rounded(block.rest.x()), rounded(block.rest.y()), rounded(block.rest.z())});
+  }
+  for (const MotionJoint& joint : run.scene.joints) joints.push_back({joint.a, joint.b});
+  return {{"shapes", shapes}, {"blocks", blocks}, {"joints", joints}};
+}
+
+Json table_json(const CsvTable& table) { return {{"names", table.names}, {"rows", table.rows()}}; }
+
+// All characters beyond ASCII and each "<" are escapes: no text of a user ends the script element that holds them.
+std::string safe_json(const Json& json) {
+  std::string out;
+  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace)) {
+    if (c == '<') out += "\\u003c";
+    else out += c;
+  }
+  return out;
+}
+
+std::string safe_html(const std::string& text) {
+  const std::map<char, const char*> escapes{{'<', "&lt;"}, {'>', "&gt;"}, {'&', "&amp;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
+  std::string out;
+  for (const char c : text) {
+    if (const auto escape = escapes.find(c); escape != escapes.end()) out += escape->second;
+    else out += c;
+  }
+  return out;
+}
+
+// Replaces {{name}} in one pass: what is filled in is not read again.
+std::string filled(std::string_view html, const std::map<std::string_view, std::string>& values) {
+  std::string out;
+  for (std::size_t at = 0; at < html.size();) {
+    const std::size_t open = html.find("{{", at), close = html.find("}}", open);
+    out += html.substr(at, open - at);
+    if (close == std::string_view::npos) break;
+    out += values.at(html.substr(open + 2, close - open - 2));
+    at = close + 2;
+  }
+  return out;
+}
+
+}  // namespace
+
+ReportedRun read_reported_run(const std::string& dir) {
+  ReportedRun out;
+  if (fs::exists(run_file(dir, "manifest.json")) && fs::exists(run_file(dir, "motion.h5"))) {
+    const MotionReader reader(dir);
+    const std::size_t poses = reader.times().size() * reader.scene().blocks.size();
+    out.every = static_cast<int>(std::max<std::size_t>(1, (poses + most_poses_of_a_page - 1) / most_poses_of_a_page));
+  }
+  const double all = std::numeric_limits<double>::infinity();
+  out.run = read_exported_run(dir, -all, all, out.every);
+  out.manifest = read_json(run_file(dir, "manifest.json"));
+  if (const std::string path = run_file(dir, "metrics.json"); fs::exists(path)) out.metrics = read_json(path);
+  const CsvTable histories = table_of(dir, "histories.csv");
+  out.history_rows = histories.rows();
+  out.histories = thinned(histories);
+  out.energy = thinned(table_of(dir, "energy.csv"));
+  take_events(table_of(dir, "events.csv"), out);
+  for (const char* name :
+       {"histories.csv", "energy.csv", "events.csv", "metrics.json", "manifest.json", "scene.lua", "log.txt", "motion.h5"})
+    if (fs::exists(run_file(dir, name))) out.files.push_back(name);
+  return out;
+}
+
+std::string report_html(const ReportedRun& run, const ReportPage& page, const std::string& folder) {
+  Json data = scene_json(run.run);
+  Json times = Json::array();
+  for (const MotionFrame& frame : run.run.frames) times.push_back(frame.t);
+  data["times"] = times;
+  data["every"] = run.every;
+  data["rotation_step"] = rotation_step;
+  data["folder"] = for_files(folder);
+  data["files"] = run.files;
+  data["histories"] = table_json(run.histories);
+  data["energy"] = table_json(run.energy);
+  data["history_rows"] = run.history_rows;
+  data["events"] = run.events;
+  data["events_left_out"] = run.events_left_out;
+  data["manifest"] = run.manifest;
+  data["metrics"] = run.metrics;
+  const auto packed = [](const std::string& bytes) { return base64(deflated(bytes)); };
+  const std::string& title = run.run.manifest.title.empty() ? run.run.manifest.scene_name : run.run.manifest.title;
+  return filled(page.html, {{"title", safe_html(for_files(title))},
+                            {"style", std::string(page.style)},
+                            {"script", std::string(page.script)},
+                            {"run", safe_json(data)},
+                            {"poses", packed(pose_bytes(run.run.frames, run.run.scene.blocks.size()))},
+                            {"damage", packed(damage_bytes(run.run.frames, run.run.scene.joints.size()))},
+                            {"histories", packed(column_bytes(run.histories))},
+                            {"energy", packed(column_bytes(run.energy))}});
+}
+
+}  // namespace erbs

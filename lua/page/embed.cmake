@@ -1,0 +1,11 @@
+# cmake -DOUTPUT=page.cpp -DHTML=page.html [-DSTYLE=main.css -DSCRIPT=main.js] -P embed.cmake: makes the page part of the program.
+set(text "// Made by lua/page/embed.cmake.\n#include \"lua/page/page.h\"\n\nnamespace erbs::lua {\n\nconst ReportPage& report_page() {\n  static const ReportPage page{\n")
+foreach(part HTML STYLE SCRIPT)
+  set(content "")
+  if(DEFINED ${part})
+    file(READ ${${part}} content)
+  endif()
+  string(APPEND text "      R\"page~(${content})page~\",\n")
+endforeach()
+string(APPEND text "  };\n  return page;\n}\n\n}  // namespace erbs::lua\n")
+file(WRITE ${OUTPUT} "${text}")

@@ -1,0 +1,204 @@
+// The blocks in 3D: one instanced mesh for each shape, turned by the pointer or the keys, picked by a click.
+import * as THREE from 'three';
+import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
+import {run} from './data.js';
+
+// Colours of a scale from 0 to 1, dark to bright, even in lightness: viridis (van der Walt and Smith 2015).
+const scale = ['#440154', '#3b528b', '#21918c', '#5ec962', '#fde725'].map((hex) => new THREE.Color(hex));
+export const scaleCss = 'linear-gradient(90deg, #440154, #3b528b, #21918c, #5ec962, #fde725)';
+
+function scaleColor(value, out) {
+  const x = 4 * Math.min(1, Math.max(0, value)), i = Math.min(3, Math.floor(x));
+  return out.copy(scale[i]).lerp(scale[i + 1], x - i);
+}
+
+export function materialCss(material) {
+  const color = run.manifest.materials?.[material]?.color ?? [0.6, 0.6, 0.6];
+  return `rgb(${color.map((c) => Math.round(255 * Math.min(1, Math.max(0, c)))).join(' ')})`;
+}
+
+// A fixed pseudo-random shade for each block, so that neighbours can be told apart.
+const shade = (block) => 0.86 + 0.22 * (((block * 2654435761) >>> 8) % 1000) / 1000;
+
+export class Replay {
+  constructor(canvas, motion, onPick) {
+    this.canvas = canvas, this.motion = motion, this.colour = 'material', this.chosen = -1, this.wanted = false;
+    this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: true, preserveDrawingBuffer: true});
+    this.scene = new THREE.Scene();
+    this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 1000);
+    this.camera.up.set(0, 0, 1);
+    this.controls = new OrbitControls(this.camera, canvas);
+    this.controls.addEventListener('change', () => this.draw());
+    this.#light();
+    this.#addBlocks();
+    this.#frameView();
+    this.#listen(onPick);
+  }
+
+  #light() {
+    this.scene.add(new THREE.HemisphereLight('#ffffff', '#8a8378', 2.0));
+    this.lamp = new THREE.DirectionalLight('#ffffff', 2.0);
+    this.scene.add(this.lamp, this.lamp.target);
+  }
+
+  #addBlocks() {
+    this.place = run.blocks.map(() => null);
+    this.meshes = run.shapes.flatMap((shape, s) => {
+      const blocks = run.blocks.flatMap((block, b) => (block[4] === s ? [b] : []));
+      if (!shape.index.length || !blocks.length) return [];
+      const geometry = new THREE.BufferGeometry();
+      geometry.setAttribute('position', new THREE.Float32BufferAttribute(shape.vertices, 3));
+      geometry.setIndex(shape.index);
+      geometry.computeVertexNormals();
+      const mesh = new THREE.InstancedMesh(geometry, new THREE.MeshLambertMaterial(), blocks.length);
+      mesh.frustumCulled = false;
+      mesh.userData.blocks = blocks;
+      blocks.forEach((b, i) => (this.place[b] = {mesh, index: i}));
+      this.scene.add(mesh);
+      return [mesh];
+    });
+    this.outline = new THREE.LineSegments(new THREE.BufferGeometry(), new THREE.LineBasicMaterial({color: '#ff3fd0', depthTest: false}));
+    this.outline.visible = false, this.outline.frustumCulled = false;
+    this.scene.add(this.outline);
+  }
+
+  // The box of all blocks that move, at rest.
+  #frameView() {
+    const box = new THREE.Box3(), {motion} = this;
+    for (const b of motion.moving.length ? motion.moving : run.blocks.keys()) {
+      const {vertices} = run.shapes[run.blocks[b][4]], rest = run.blocks[b].slice(5, 8);
+      for (let i = 0; i < vertices.length; i += 3)
+        box.expandByPoint(new THREE.Vector3(vertices[i] + rest[0], vertices[i + 1] + rest[1], vertices[i + 2] + rest[2]));
+    }
+    this.middle = box.getCenter(new THREE.Vector3());
+    this.radius = Math.max(0.05, box.getSize(new THREE.Vector3()).length() / 2);
+    this.camera.near = this.radius / 200, this.camera.far = this.radius * 400;
+  }
+
+  // `name`: three quarter, front, side, top, or "scene N" of the scene's own cameras.
+  look(name) {
+    const own = /^scene (\d+)$/.exec(name), {camera, controls} = this;
+    if (own) {
+      const given = run.manifest.cameras[Number(own[1])];
+      camera.position.set(...given.eye), controls.target.set(...given.target), camera.up.set(...given.up);
+      camera.fov = Math.min(100, (given.fov_rad * 180) / Math.PI * Math.max(1, 1.3 / camera.aspect));
+    } else {
+      const ways = {front: [0, -1, 0.12], side: [1, 0, 0.12], top: [0, -0.01, 1], 'three quarter': [0.75, -1, 0.55]};
+      const way = new THREE.Vector3(...ways[name]).normalize();
+      camera.up.set(0, 0, 1), camera.fov = 35, controls.target.copy(this.middle);
+      const distance = (1.15 * this.radius) / Math.sin((camera.fov * Math.PI) / 360) / Math.min(1, camera.aspect);
+      camera.position.copy(this.middle).addScaledVector(way, distance);
+    }
+    camera.updateProjectionMatrix();
+    controls.update();
+    this.draw();
+  }
+
+  resize() {
+    const {clientWidth, clientHeight} = this.canvas;
+    if (!clientWidth || !clientHeight) return;
+    this.renderer.setPixelRatio(Math.min(2, window.devicePixelRatio));
+    this.renderer.setSize(clientWidth, clientHeight, false);
+    this.camera.aspect = clientWidth / clientHeight;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  #color(block, frame, out) {
+    const [, , material, fixed] = run.blocks[block], {motion, colour} = this;
+    if (colour === 'material' || fixed) {
+      const rgb = run.manifest.materials?.[material]?.color ?? [0.6, 0.6, 0.6];
+      out.setRGB(...rgb, THREE.SRGBColorSpace);
+      return fixed && colour !== 'material' ? out.setRGB(0.5, 0.5, 0.5) : out.multiplyScalar(fixed ? 1 : shade(block));
+    }
+    if (colour === 'damage') return scaleColor(motion.blockDamage(block, frame), out);
+    return scaleColor(motion[colour](block, frame) / (motion.most[colour] || 1), out);
+  }
+
+  // Shows the poses of motion.now; colours by the values of `frame`.
+  show(frame) {
+    this.shown = frame;
+    const matrix = new THREE.Matrix4(), color = new THREE.Color(), one = new THREE.Vector3(1, 1, 1), {now} = this.motion;
+    const position = new THREE.Vector3(), rotation = new THREE.Quaternion();
+    for (const mesh of this.meshes) {
+      mesh.userData.blocks.forEach((b, i) => {
+        position.fromArray(now, 7 * b);
+        rotation.set(now[7 * b + 4], now[7 * b + 5], now[7 * b + 6], now[7 * b + 3]);
+        mesh.setMatrixAt(i, matrix.compose(position, rotation, one));
+        mesh.setColorAt(i, this.#color(b, frame, color));
+      });
+      mesh.instanceMatrix.needsUpdate = mesh.instanceColor.needsUpdate = true;
+      mesh.boundingSphere = null;  // the blocks have moved
+    }
+    this.#placeOutline();
+    this.draw();
+  }
+
+  #placeOutline() {
+    if (!this.outline.visible) return;
+    const {mesh, index} = this.place[this.chosen];
+    mesh.getMatrixAt(index, this.outline.matrix);
+    this.outline.matrixAutoUpdate = false;
+  }
+
+  choose(block) {
+    this.chosen = block;
+    this.outline.visible = block >= 0 && this.place[block] !== null;
+    if (this.outline.visible) {
+      this.outline.geometry.dispose();
+      this.outline.geometry = new THREE.EdgesGeometry(this.place[block].mesh.geometry, 1);
+    }
+    this.#placeOutline();
+    this.draw();
+  }
+
+  // The block under a point of the canvas, in pixels from its corner; -1 where there is none.
+  pick(x, y) {
+    const ray = new THREE.Raycaster(), {clientWidth, clientHeight} = this.canvas;
+    ray.setFromCamera(new THREE.Vector2((2 * x) / clientWidth - 1, 1 - (2 * y) / clientHeight), this.camera);
+    const [hit] = ray.intersectObjects(this.meshes, false);
+    return hit ? hit.object.userData.blocks[hit.instanceId] : -1;
+  }
+
+  // Turns the view about its target, rad, and changes the distance by a factor.
+  turn(aside, up, factor = 1) {
+    const {camera, controls} = this, way = camera.position.clone().sub(controls.target);
+    const toY = new THREE.Quaternion().setFromUnitVectors(camera.up, new THREE.Vector3(0, 1, 0));
+    const s = new THREE.Spherical().setFromVector3(way.applyQuaternion(toY));
+    s.theta += aside, s.phi -= up, s.radius *= factor;
+    s.makeSafe();
+    camera.position.setFromSpherical(s).applyQuaternion(toY.invert()).add(controls.target);
+    controls.update();
+    this.draw();
+  }
+
+  #listen(onPick) {
+    let down = null;
+    this.canvas.addEventListener('pointerdown', (event) => (down = [event.offsetX, event.offsetY]));
+    this.canvas.addEventListener('pointerup', (event) => {
+      if (down && Math.hypot(event.offsetX - down[0], event.offsetY - down[1]) < 5) onPick(this.pick(event.offsetX, event.offsetY));
+      down = null;
+    });
+    const keys = {ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1],
+                  '+': [0, 0, 0.9], '=': [0, 0, 0.9], '-': [0, 0, 1.1]};
+    this.canvas.addEventListener('keydown', (event) => {
+      if (!keys[event.key] || event.ctrlKey || event.metaKey) return;
+      this.turn(...keys[event.key]);
+      event.preventDefault();
+    });
+    new ResizeObserver(() => this.resize()).observe(this.canvas);
+  }
+
+  // Draws once before the next repaint, however often it is called.
+  draw() {
+    if (this.wanted) return;
+    this.wanted = true;
+    requestAnimationFrame(() => {
+      this.wanted = false;
+      this.lamp.position.copy(this.middle).add(new THREE.Vector3(0.6, -0.8, 1.4).multiplyScalar(this.radius * 3));
+      this.lamp.target.position.copy(this.middle);
+      this.lamp.target.updateMatrixWorld();
+      this.renderer.render(this.scene, this.camera);
+    });
+  }
+}

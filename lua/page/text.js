@@ -1,0 +1,131 @@
+// The parts of the page that are read: verdict, trust, events, parameters, effects, provenance.
+import {rareEvent, run, short, unitName, withUnit} from './data.js';
+
+const at = (id) => document.getElementById(id);
+
+// An element with text or children. Texts of the run enter as text only, never as HTML.
+export function make(tag, content, attributes = {}) {
+  const element = document.createElement(tag);
+  for (const [name, value] of Object.entries(attributes)) element.setAttribute(name, value);
+  element.append(...(Array.isArray(content) ? content : [content ?? '']));
+  return element;
+}
+
+export function table(caption, head, rows) {
+  const body = rows.map((row) => make('tr', row.map((cell, i) => (i === 0 ? make('th', cell, {scope: 'row'}) : make('td', cell)))));
+  return make('table', [make('caption', caption), make('thead', make('tr', head.map((name) => make('th', name, {scope: 'col'})))),
+                        make('tbody', body)]);
+}
+
+function card(kind, heading, lead, lines) {
+  return make('section', [make('p', heading, {class: 'quiet'}), make('strong', lead), make('ul', lines.map((line) => make('li', line)))],
+              {class: `card ${kind}`, 'aria-label': heading});
+}
+
+function verdictCard(metrics) {
+  if (!metrics) return card('warn', 'Verdict', 'No result', ['The run did not end: its folder has no metrics.json. The frames written until then are shown.']);
+  const {collapse = {}} = metrics, lines = [];
+  if (collapse.course) lines.push(`Course: ${collapse.course}`);
+  if (collapse.mechanism?.summary) lines.push(`Mechanism: ${collapse.mechanism.summary}`);
+  if (collapse.fallen_fraction !== undefined) lines.push(`${short(100 * collapse.fallen_fraction)} % of the mass has fallen by the end`);
+  lines.push(`${metrics.joints_broken} of ${metrics.joints} joints broken; ${metrics.blocks} blocks`);
+  const ended = metrics.status === 'completed' ? '' : ` (run ${metrics.status})`;
+  const lead = collapse.collapsed ? `Collapses at ${short(collapse.time_s)} s` : 'Does not collapse';
+  return card(collapse.collapsed ? 'bad' : 'good', 'Verdict', lead + ended, lines);
+}
+
+function trustCard(metrics) {
+  if (!metrics?.trust) return card('warn', 'Trust', 'Unknown', ['The run left no figures by which to judge it.']);
+  const t = metrics.trust, percent = (share) => `${short(100 * share)} %`, warned = t.warned_share > 0;
+  const bad = metrics.status === 'failed' || t.past_gate_share > 0;
+  const lead = bad ? 'With care: the energy passed its tolerance'
+               : warned ? `Energy accounted for; ${percent(t.warned_share)} of steps with a warning` : 'Energy accounted for, no warnings';
+  const lines = [`Largest energy residual ${short(t.energy_residual)} of all energy, at ${short(t.energy_residual_time_s ?? 0)} s`,
+                 `Penetration at most ${percent(t.max_penetration_relative)} of a block's smallest edge`,
+                 `Time step at most ${short(t.dt_margin)} of its limit`, `Momentum residual ${short(t.momentum_residual ?? 0)}`];
+  if (t.sinking_share > 0) lines.push(`Deepening penetration in ${percent(t.sinking_share)} of steps`);
+  if (t.past_step_share > 0) lines.push(`Time step above its limit in ${percent(t.past_step_share)} of steps`);
+  lines.push(t.twin ? (t.chaos_horizon_s === null ? 'A perturbed twin stayed within 1 mm' : `A perturbed twin differs by 1 mm from ${short(t.chaos_horizon_s)} s on`)
+                    : 'No perturbed twin was run: erbs run --twin tells how long single blocks can be foreseen');
+  return card(bad ? 'bad' : warned ? 'warn' : 'good', 'Trust', lead, lines);
+}
+
+function costCard(manifest, metrics) {
+  const lines = [`Gravity ${short(Math.hypot(...manifest.gravity_m_s2))} m/s² at rest`,
+                 `Time step ${short(manifest.dt_s)} s`];
+  if (metrics) lines.push(`${metrics.steps} steps in ${short(metrics.wall_s?.total ?? 0)} s of wall clock`);
+  lines.push(`${run.times.length} frames shown${run.every > 1 ? `, each ${run.every}th of the run` : ''}`);
+  return card('', 'Run', `${short(metrics?.time_s ?? run.times.at(-1))} s of ${short(manifest.duration_s)} s simulated`, lines);
+}
+
+function metricsCard(metrics) {
+  const own = Object.entries(metrics?.metrics ?? {}), checks = metrics?.expectations ?? {};
+  if (!own.length && !(checks.passed + checks.failed)) return [];
+  const units = Object.fromEntries((run.manifest.metrics ?? []).map((m) => [m.name, m.unit]));
+  const lines = own.map(([name, value]) => `${name}: ${withUnit(typeof value === 'object' ? JSON.stringify(value) : value, units[name])}`);
+  const lead = checks.passed + checks.failed ? `${checks.passed} expectations met, ${checks.failed} not` : `${own.length} figures of the scene`;
+  return [card(checks.failed ? 'bad' : 'good', 'Figures', lead, lines)];
+}
+
+function showParameters() {
+  const rows = (run.manifest.params ?? []).map((p) => {
+    const marks = [];
+    if (/assum|guess|estimat/i.test(p.text)) marks.push(make('span', 'assumed', {class: 'mark'}), ' ');
+    if (p.value !== p.default) marks.push(make('span', `changed from ${withUnit(p.default, p.unit)}`, {class: 'mark'}));
+    return [p.name, withUnit(p.value, p.unit), p.text, marks];
+  });
+  for (const m of run.manifest.materials ?? [])
+    rows.push([`material ${m.name}`, `${short(m.density_kg_m3)} kg/m³`, `friction ${short(m.friction)}, restitution ${short(m.restitution)}, ` +
+      `normal stiffness ${short(m.kn_Pa_m)} Pa/m, shear stiffness ${short(m.ks_Pa_m)} Pa/m`, []]);
+  at('parameters').append(table('Values the scene was run with. All others stand in manifest.json with their units.',
+                                ['Name', 'Value', 'Meaning', 'Mark'], rows));
+}
+
+function showEffects() {
+  const {on = [], off = []} = run.manifest.effects ?? {};
+  for (const [name, list] of [['On', on], ['Off', off]])
+    at('effects').append(make('div', [make('h3', `${name} (${list.length})`),
+                                      make('ul', list.map((effect) => make('li', `${name === 'On' ? '✓' : '–'} ${effect}`)), {class: 'plain'})]));
+}
+
+function showProvenance() {
+  const m = run.manifest;
+  const rows = [['Program', `ERBS ${m.version}`], ['Commit', m.git_hash], ['Compiler', m.compiler], ['Instructions', m.isa],
+                ['Threads', String(m.threads)], ['Started', m.started], ['Scene', `${m.scene.name}, hash ${m.scene.hash}`]];
+  for (const [path, hash] of Object.entries(m.inputs ?? {})) rows.push([`Input ${path.split('/').pop()}`, `${path}, hash ${hash}`]);
+  if (run.metrics?.state_hash) rows.push(['State at the end', `hash ${run.metrics.state_hash}`]);
+  for (const departure of m.departures ?? []) rows.push(['Departure', typeof departure === 'string' ? departure : JSON.stringify(departure)]);
+  rows.push(['Time step', `${short(m.dt_s)} s: ${m.dt_rule}`]);
+  at('provenance').append(table('By which program and from which files the run was made.', ['What', 'Value'], rows));
+  const folder = run.folder.split('/').map(encodeURIComponent).join('/');
+  at('files').append('Files of the run: ', ...run.files.flatMap((name, i) => [i ? ', ' : '', make('a', name, {href: `${folder}/${name}`})]));
+}
+
+const mostRows = 300;
+
+function showEvents(kind, goTo) {
+  const chosen = run.events.filter((e) => (kind === 'rare' ? rareEvent(e) : kind === 'all' || e[1] === kind));
+  const rows = chosen.slice(0, mostRows).map((e) => {
+    const button = make('button', `${short(e[0])} s`, {type: 'button', 'aria-label': `Go to ${short(e[0])} s`});
+    button.addEventListener('click', () => goTo(e[0]));
+    return [button, String(e[1]), String(e[2] ?? ''), withUnit(e[3], e[4])];
+  });
+  const more = chosen.length > mostRows ? ` The first ${mostRows} are listed; events.csv holds all.` : '';
+  const caption = `${chosen.length} events. The time moves the replay there.${more}`;
+  at('events').replaceChildren(table(caption, ['Time', 'Event', 'Where', 'Value'], rows));
+}
+
+export function showTexts(goTo) {
+  const {manifest, metrics} = run;
+  at('scene-name').textContent = `Scene ${manifest.scene.name}`;
+  at('verdict').append(verdictCard(metrics), trustCard(metrics), ...metricsCard(metrics), costCard(manifest, metrics));
+  showParameters();
+  showEffects();
+  showProvenance();
+  const kinds = [...new Set(run.events.map((e) => e[1]))];
+  const select = at('event-kind'), rare = run.events.some(rareEvent);
+  if (rare) select.append(make('option', 'all but cracks and openings', {value: 'rare'}));
+  select.append(make('option', 'all', {value: 'all'}), ...kinds.map((kind) => make('option', kind, {value: kind})));
+  select.addEventListener('change', () => showEvents(select.value, goTo));
+  showEvents(select.value, goTo);
+}
