@@ -63,8 +63,11 @@ function metricsCard(metrics) {
   if (!own.length && !(checks.passed + checks.failed)) return [];
   const units = Object.fromEntries((run.manifest.metrics ?? []).map((m) => [m.name, m.unit]));
   const lines = own.map(([name, value]) => `${name}: ${withUnit(typeof value === 'object' ? JSON.stringify(value) : value, units[name])}`);
-  const lead = checks.passed + checks.failed ? `${checks.passed} expectations met, ${checks.failed} not` : `${own.length} figures of the scene`;
-  return [card(checks.failed ? 'bad' : 'good', 'Figures', lead, lines)];
+  const lead = `${checks.passed} expectations met, ${checks.failed} not`;
+  const details = make('details', [make('summary', `${own.length} figures of the scene`), make('ul', lines.map((line) => make('li', line)))]);
+  const all = card(checks.failed ? 'bad' : checks.passed ? 'good' : '', 'Figures', checks.passed + checks.failed ? lead : 'As the scene defines them', []);
+  if (own.length) all.lastChild.replaceWith(details);
+  return [all];
 }
 
 function showParameters() {
@@ -85,7 +88,7 @@ function showEffects() {
   const {on = [], off = []} = run.manifest.effects ?? {};
   for (const [name, list] of [['On', on], ['Off', off]])
     at('effects').append(make('div', [make('h3', `${name} (${list.length})`),
-                                      make('ul', list.map((effect) => make('li', `${name === 'On' ? '✓' : '–'} ${effect}`)), {class: 'plain'})]));
+                                      make('ul', list.map((effect) => make('li', `${name === 'On' ? '✓' : '–'} ${effect.replace(/\([^()]*\//, '(')}`)), {class: 'plain'})]));
 }
 
 function showProvenance() {
@@ -124,7 +127,7 @@ export function showTexts(goTo) {
   showProvenance();
   const kinds = [...new Set(run.events.map((e) => e[1]))];
   const select = at('event-kind'), rare = run.events.some(rareEvent);
-  if (rare) select.append(make('option', 'all but cracks and openings', {value: 'rare'}));
+  if (rare) select.append(make('option', 'falls and collapse', {value: 'rare'}));
   select.append(make('option', 'all', {value: 'all'}), ...kinds.map((kind) => make('option', kind, {value: kind})));
   select.addEventListener('change', () => showEvents(select.value, goTo));
   showEvents(select.value, goTo);
