@@ -24,6 +24,7 @@ function marks(time) {
       if (x < bbox.left || x > bbox.left + bbox.width) return;
       ctx.save();
       ctx.strokeStyle = colour, ctx.lineWidth = width * devicePixelRatio;
+      ctx.setLineDash([]);
       ctx.beginPath(), ctx.moveTo(x, bbox.top), ctx.lineTo(x, bbox.top + bbox.height), ctx.stroke();
       ctx.restore();
     };

@@ -29,6 +29,8 @@ function verdictCard(metrics) {
   if (collapse.mechanism?.summary) lines.push(`Mechanism: ${collapse.mechanism.summary}`);
   if (collapse.fallen_fraction !== undefined) lines.push(`${short(100 * collapse.fallen_fraction)} % of the mass has fallen by the end`);
   lines.push(`${metrics.joints_broken} of ${metrics.joints} joints broken; ${metrics.blocks} blocks`);
+  const checks = metrics.expectations ?? {};
+  if (checks.passed + checks.failed) lines.push(`Expectations of the scene: ${checks.passed} met, ${checks.failed} not`);
   const ended = metrics.status === 'completed' ? '' : ` (run ${metrics.status})`;
   const lead = collapse.collapsed ? `Collapses at ${short(collapse.time_s)} s` : 'Does not collapse';
   return card(collapse.collapsed ? 'bad' : 'good', 'Verdict', lead + ended, lines);
@@ -46,7 +48,7 @@ function trustCard(metrics) {
   if (t.sinking_share > 0) lines.push(`Deepening penetration in ${percent(t.sinking_share)} of steps`);
   if (t.past_step_share > 0) lines.push(`Time step above its limit in ${percent(t.past_step_share)} of steps`);
   lines.push(t.twin ? (t.chaos_horizon_s === null ? 'A perturbed twin stayed within 1 mm' : `A perturbed twin differs by 1 mm from ${short(t.chaos_horizon_s)} s on`)
-                    : 'No perturbed twin was run: erbs run --twin tells how long single blocks can be foreseen');
+                    : ['No perturbed twin was run; ', make('code', 'erbs run --twin'), ' tells how long single blocks can be foreseen']);
   return card(bad ? 'bad' : warned ? 'warn' : 'good', 'Trust', lead, lines);
 }
 
@@ -58,16 +60,13 @@ function costCard(manifest, metrics) {
   return card('', 'Run', `${short(metrics?.time_s ?? run.times.at(-1))} s of ${short(manifest.duration_s)} s simulated`, lines);
 }
 
-function metricsCard(metrics) {
-  const own = Object.entries(metrics?.metrics ?? {}), checks = metrics?.expectations ?? {};
-  if (!own.length && !(checks.passed + checks.failed)) return [];
+// The metrics that the scene defines, folded away.
+function figures(metrics) {
+  const own = Object.entries(metrics?.metrics ?? {});
+  if (!own.length) return [];
   const units = Object.fromEntries((run.manifest.metrics ?? []).map((m) => [m.name, m.unit]));
   const lines = own.map(([name, value]) => `${name}: ${withUnit(typeof value === 'object' ? JSON.stringify(value) : value, units[name])}`);
-  const lead = `${checks.passed} expectations met, ${checks.failed} not`;
-  const details = make('details', [make('summary', `${own.length} figures of the scene`), make('ul', lines.map((line) => make('li', line)))]);
-  const all = card(checks.failed ? 'bad' : checks.passed ? 'good' : '', 'Figures', checks.passed + checks.failed ? lead : 'As the scene defines them', []);
-  if (own.length) all.lastChild.replaceWith(details);
-  return [all];
+  return [make('details', [make('summary', `${own.length} figures of the scene`), make('ul', lines.map((line) => make('li', line)))])];
 }
 
 function showParameters() {
@@ -121,7 +120,9 @@ function showEvents(kind, goTo) {
 export function showTexts(goTo) {
   const {manifest, metrics} = run;
   at('scene-name').textContent = `Scene ${manifest.scene.name}`;
-  at('verdict').append(verdictCard(metrics), trustCard(metrics), ...metricsCard(metrics), costCard(manifest, metrics));
+  const cost = costCard(manifest, metrics);
+  cost.append(...figures(metrics));
+  at('verdict').append(verdictCard(metrics), trustCard(metrics), cost);
   showParameters();
   showEffects();
   showProvenance();

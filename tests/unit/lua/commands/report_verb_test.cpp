@@ -12,13 +12,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const char* const dry = "joints{ law = dry{ kn = 5 * GPa, ks = 2 * GPa, mu = 0.6 } }\n";
+const char* const dry = "joint{ law = dry{ kn = 5e9, ks = 2e9, mu = 0.6 } }\n";
 
 std::string pier(double duration) {
   return "-- A pier's \"fall\" <b>über</b>\n" + four_bricks() + dry +
          fmt::format(
              "ground_motion{{ wave = sine{{ amplitude = 8, frequency = 2 }}, direction = \"y\" }}\n"
-             "record{{ \"displacement\", of = \"b3\", name = \"top\" }}\nanalysis{{ duration = {} }}\n",
+             "recorder{{ name = \"top\", quantity = \"displacement\", block = \"b3\" }}\nanalysis{{ duration = {} }}\n",
              duration);
 }
 
