@@ -24,10 +24,17 @@ function marks(time) {
       if (x < bbox.left || x > bbox.left + bbox.width) return;
       ctx.save();
       ctx.strokeStyle = colour, ctx.lineWidth = width * devicePixelRatio;
+      ctx.setLineDash([]);
       ctx.beginPath(), ctx.moveTo(x, bbox.top), ctx.lineTo(x, bbox.top + bbox.height), ctx.stroke();
       ctx.restore();
     };
-    for (const event of run.events) if (rareEvent(event)) line(event[0], `${css('--bad')}${event[1] === 'collapse' ? 'ff' : '55'}`, 1);
+    const bad = css('--bad'), seen = new Set();
+    for (const event of run.events) {
+      const fell = event[1] === 'collapse', x = Math.round(plot.valToPos(event[0], 'x') / 4);
+      if (!rareEvent(event) || (!fell && seen.has(x))) continue;  // one line for all events of four pixels
+      seen.add(x);
+      line(event[0], `${bad}${fell ? 'ff' : '40'}`, fell ? 2 : 1);
+    }
     line(time(), css('--accent'), 2);
   }}};
 }

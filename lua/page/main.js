@@ -66,7 +66,7 @@ function showLegend() {
   const bar = make('span', '', {class: 'bar'}), unit = {displacement: 'm', speed: 'm/s'}[colour];
   bar.style.background = scaleCss;
   const most = colour === 'damage' ? 'broken' : withUnit(motion.most[colour], unit);
-  const what = {damage: 'damage of the worst joint', displacement: 'displacement from rest', speed: 'speed'}[colour];
+  const what = {damage: 'mean damage of its joints', displacement: 'displacement from rest', speed: 'speed'}[colour];
   legend.replaceChildren(`${what}: ${colour === 'damage' ? 'intact' : '0'}`, bar, most);
 }
 

@@ -59,8 +59,9 @@ export class Motion {
 
   jointDamage(joint, frame) { return this.damage[joint * this.nframe + frame] / 255; }
 
-  // The largest damage of its joints, 0 to 1.
+  // The mean damage of its joints, 0 to 1.
   blockDamage(block, frame) {
-    return this.jointsOf[block].reduce((most, joint) => Math.max(most, this.jointDamage(joint, frame)), 0);
+    const joints = this.jointsOf[block];
+    return joints.reduce((sum, joint) => sum + this.jointDamage(joint, frame), 0) / (joints.length || 1);
   }
 }

@@ -195,7 +195,8 @@ export class Replay {
     this.wanted = true;
     requestAnimationFrame(() => {
       this.wanted = false;
-      this.lamp.position.copy(this.middle).add(new THREE.Vector3(0.6, -0.8, 1.4).multiplyScalar(this.radius * 3));
+      // The light comes over the viewer's left shoulder: each face that is seen is lit.
+      this.lamp.position.set(-0.8, 0.7, 0.4).multiplyScalar(this.radius).applyQuaternion(this.camera.quaternion).add(this.camera.position);
       this.lamp.target.position.copy(this.middle);
       this.lamp.target.updateMatrixWorld();
       this.renderer.render(this.scene, this.camera);

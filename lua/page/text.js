@@ -29,6 +29,8 @@ function verdictCard(metrics) {
   if (collapse.mechanism?.summary) lines.push(`Mechanism: ${collapse.mechanism.summary}`);
   if (collapse.fallen_fraction !== undefined) lines.push(`${short(100 * collapse.fallen_fraction)} % of the mass has fallen by the end`);
   lines.push(`${metrics.joints_broken} of ${metrics.joints} joints broken; ${metrics.blocks} blocks`);
+  const checks = metrics.expectations ?? {};
+  if (checks.passed + checks.failed) lines.push(`Expectations of the scene: ${checks.passed} met, ${checks.failed} not`);
   const ended = metrics.status === 'completed' ? '' : ` (run ${metrics.status})`;
   const lead = collapse.collapsed ? `Collapses at ${short(collapse.time_s)} s` : 'Does not collapse';
   return card(collapse.collapsed ? 'bad' : 'good', 'Verdict', lead + ended, lines);
@@ -46,7 +48,7 @@ function trustCard(metrics) {
   if (t.sinking_share > 0) lines.push(`Deepening penetration in ${percent(t.sinking_share)} of steps`);
   if (t.past_step_share > 0) lines.push(`Time step above its limit in ${percent(t.past_step_share)} of steps`);
   lines.push(t.twin ? (t.chaos_horizon_s === null ? 'A perturbed twin stayed within 1 mm' : `A perturbed twin differs by 1 mm from ${short(t.chaos_horizon_s)} s on`)
-                    : 'No perturbed twin was run: erbs run --twin tells how long single blocks can be foreseen');
+                    : ['No perturbed twin was run; ', make('code', 'erbs run --twin'), ' tells how long single blocks can be foreseen']);
   return card(bad ? 'bad' : warned ? 'warn' : 'good', 'Trust', lead, lines);
 }
 
@@ -58,13 +60,13 @@ function costCard(manifest, metrics) {
   return card('', 'Run', `${short(metrics?.time_s ?? run.times.at(-1))} s of ${short(manifest.duration_s)} s simulated`, lines);
 }
 
-function metricsCard(metrics) {
-  const own = Object.entries(metrics?.metrics ?? {}), checks = metrics?.expectations ?? {};
-  if (!own.length && !(checks.passed + checks.failed)) return [];
+// The metrics that the scene defines, folded away.
+function figures(metrics) {
+  const own = Object.entries(metrics?.metrics ?? {});
+  if (!own.length) return [];
   const units = Object.fromEntries((run.manifest.metrics ?? []).map((m) => [m.name, m.unit]));
   const lines = own.map(([name, value]) => `${name}: ${withUnit(typeof value === 'object' ? JSON.stringify(value) : value, units[name])}`);
-  const lead = checks.passed + checks.failed ? `${checks.passed} expectations met, ${checks.failed} not` : `${own.length} figures of the scene`;
-  return [card(checks.failed ? 'bad' : 'good', 'Figures', lead, lines)];
+  return [make('details', [make('summary', `${own.length} figures of the scene`), make('ul', lines.map((line) => make('li', line)))])];
 }
 
 function showParameters() {
@@ -85,7 +87,7 @@ function showEffects() {
   const {on = [], off = []} = run.manifest.effects ?? {};
   for (const [name, list] of [['On', on], ['Off', off]])
     at('effects').append(make('div', [make('h3', `${name} (${list.length})`),
-                                      make('ul', list.map((effect) => make('li', `${name === 'On' ? '✓' : '–'} ${effect}`)), {class: 'plain'})]));
+                                      make('ul', list.map((effect) => make('li', `${name === 'On' ? '✓' : '–'} ${effect.replace(/\([^()]*\//, '(')}`)), {class: 'plain'})]));
 }
 
 function showProvenance() {
@@ -118,13 +120,15 @@ function showEvents(kind, goTo) {
 export function showTexts(goTo) {
   const {manifest, metrics} = run;
   at('scene-name').textContent = `Scene ${manifest.scene.name}`;
-  at('verdict').append(verdictCard(metrics), trustCard(metrics), ...metricsCard(metrics), costCard(manifest, metrics));
+  const cost = costCard(manifest, metrics);
+  cost.append(...figures(metrics));
+  at('verdict').append(verdictCard(metrics), trustCard(metrics), cost);
   showParameters();
   showEffects();
   showProvenance();
   const kinds = [...new Set(run.events.map((e) => e[1]))];
   const select = at('event-kind'), rare = run.events.some(rareEvent);
-  if (rare) select.append(make('option', 'all but cracks and openings', {value: 'rare'}));
+  if (rare) select.append(make('option', 'falls and collapse', {value: 'rare'}));
   select.append(make('option', 'all', {value: 'all'}), ...kinds.map((kind) => make('option', kind, {value: kind})));
   select.addEventListener('change', () => showEvents(select.value, goTo));
   showEvents(select.value, goTo);

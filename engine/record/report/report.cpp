@@ -30,14 +30,15 @@ Json cell(const CsvTable& table, int column, std::size_t row) {
   return std::isfinite(value) ? Json(value) : Json(nullptr);
 }
 
-// Rare events stay, all of them; cracks and openings can be many.
+// What happens to the structure stays, all of it (lua/page/data.js marks it); what happens to a joint can be much.
 void take_events(const CsvTable& table, ReportedRun& run) {
   const char* names[] = {"time_s", "event", "name", "value", "unit"};
   std::size_t common = 0;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     Json event = Json::array();
     for (const char* name : names) event.push_back(cell(table, table.find(name), row));
-    const bool rare = event[1] != "crack" && event[1] != "open" && event[1] != "hand over";
+    bool rare = false;
+    for (const char* kind : {"collapse", "fall", "hinge", "slide", "part"}) rare = rare || event[1] == kind;
     if (!rare && ++common > most_events_of_a_page) ++run.events_left_out;
     else run.events.push_back(std::move(event));
   }

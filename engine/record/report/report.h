@@ -22,7 +22,7 @@ struct ReportedRun {
   CsvTable histories, energy;       // thinned; without columns where the file is absent
   std::size_t history_rows = 0;     // in the folder
   Json events = Json::array();      // [[time s, event, name, value, unit], ...]
-  std::size_t events_left_out = 0;  // cracks and openings beyond most_events_of_a_page
+  std::size_t events_left_out = 0;  // events of single joints beyond most_events_of_a_page
   Json files = Json::array();       // names of the run's files that exist
 };
 

@@ -1,0 +1,134 @@
+// node browser.mjs REPORT.html [FOLDER]: uses the page of erbs report as a reader does, in headless Chromium, by its real controls.
+// Prints what went wrong and ends with 1, or prints "page: all well". With FOLDER, leaves screenshots there.
+import {createRequire} from 'node:module';
+import path from 'node:path';
+import {pathToFileURL} from 'node:url';
+
+const require = createRequire(new URL('../../lua/page/package.json', import.meta.url));
+const {chromium} = require('playwright-core');
+const [report, folder] = process.argv.slice(2);
+const wrong = [];
+const check = (fact, what) => { if (!fact) wrong.push(what); };
+
+const browser = await chromium.launch({
+  executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+  args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader', '--disable-quic', '--no-first-run',
+         '--disable-background-networking', '--disable-component-update', '--disable-sync'],
+});
+
+async function open(options) {
+  const page = await (await browser.newContext(options)).newPage();
+  page.on('console', (message) => { if (message.type() === 'error') wrong.push(`console: ${message.text()}`); });
+  page.on('pageerror', (error) => wrong.push(`error: ${error.message}`));
+  page.on('request', (request) => { if (/^(https?|wss?):/.test(request.url())) wrong.push(`the page loads ${request.url()}`); });
+  const started = Date.now();
+  await page.goto(pathToFileURL(path.resolve(report)).href);
+  await page.waitForSelector('html[data-ready=yes]', {timeout: 30000});
+  return {page, seconds: (Date.now() - started) / 1000};
+}
+
+const shot = async (page, name, options = {}) => { if (folder) await page.screenshot({path: path.join(folder, `${name}.png`), ...options}); };
+const picture = (page) => page.$eval('#view', (canvas) => canvas.toDataURL());
+const settled = (page) => page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+
+async function replay(page) {
+  const clock = () => page.textContent('#clock');
+  await settled(page);
+  const start = await picture(page);
+  await page.focus('#scrub');
+  await page.keyboard.press('End');
+  await settled(page);
+  check((await clock()) !== '0.000 s', 'the scrub bar does not move the time');
+  check((await picture(page)) !== start, 'the scrub bar does not move the blocks');
+  await page.keyboard.press('Home');
+  await page.click('#play');
+  await page.waitForFunction(() => Number.parseFloat(document.getElementById('clock').textContent) > 0.1);
+  await page.click('#play');
+  check((await page.textContent('#play')) === 'Play', 'the play button does not pause');
+  const paused = await clock();
+  await page.focus('#view');
+  await page.keyboard.press('.');
+  check((await clock()) !== paused, 'the full stop does not step a frame');
+  const before = await picture(page);
+  await page.keyboard.press('ArrowLeft');
+  await settled(page);
+  check((await picture(page)) !== before, 'the arrow keys do not turn the view');
+  await page.click('#next');
+}
+
+// Clicks a grid of points until one names a block that moves.
+async function pick(page) {
+  const box = await page.locator('#view').boundingBox();
+  await page.selectOption('#camera', 'front');
+  await settled(page);
+  for (const y of [0.5, 0.4, 0.6, 0.7, 0.3])
+    for (const x of [0.5, 0.45, 0.55, 0.4, 0.6, 0.3, 0.7]) {
+      await page.mouse.click(box.x + x * box.width, box.y + y * box.height);
+      if ((await page.textContent('#block-title')) === 'No block chosen') continue;
+      check(/Group .*moves at most/.test(await page.textContent('#block-facts')), 'a picked block has no facts');
+      check((await page.locator('#block-curve canvas').count()) === 1, 'a picked block has no displacement curve');
+      return;
+    }
+  wrong.push('no click on the canvas picks a block');
+}
+
+async function colours(page) {
+  const seen = new Set();
+  for (const colour of ['material', 'damage', 'displacement', 'speed']) {
+    await page.selectOption('#colour', colour);
+    await settled(page);
+    seen.add(await picture(page));
+  }
+  check(seen.size > 2, 'colours do not change the replay');
+  await page.selectOption('#colour', 'material');
+}
+
+async function curves(page) {
+  check((await page.locator('#curves canvas').count()) === 1, 'there are no curves');
+  const drawn = () => page.$eval('#curves canvas', (canvas) => canvas.toDataURL());
+  const whole = await drawn();
+  await page.click('#zoom-in');
+  await settled(page);
+  check((await drawn()) !== whole, 'Zoom in does not change the curves');
+  await page.click('#zoom-all');
+}
+
+// Every control has a name, and no element is wider than the window.
+async function readable(page, width) {
+  const nameless = await page.$$eval('button, select, input, canvas#view', (all) => all.filter((one) =>
+    !one.getAttribute('aria-label') && !one.textContent.trim() && !one.labels?.length).map((one) => one.id));
+  check(nameless.length === 0, `controls without a name: ${nameless}`);
+  const wide = await page.evaluate(() => document.documentElement.scrollWidth);
+  check(wide <= width, `at ${width} px the page is ${wide} px wide`);
+}
+
+try {
+  const {page, seconds} = await open({viewport: {width: 1280, height: 900}});
+  console.log(`ready after ${seconds.toFixed(2)} s`);
+  await readable(page, 1280);
+  await replay(page);
+  await pick(page);
+  await colours(page);
+  await curves(page);
+  await shot(page, 'desktop', {fullPage: true});
+  if (folder) await page.pdf({path: path.join(folder, 'print.pdf'), format: 'A4'});
+  const small = (await open({viewport: {width: 360, height: 740}, hasTouch: true, isMobile: true, deviceScaleFactor: 2})).page;
+  await readable(small, 360);
+  await shot(small, 'phone', {fullPage: true});
+  const dark = (await open({viewport: {width: 1280, height: 900}, colorScheme: 'dark', reducedMotion: 'reduce'})).page;
+  await dark.selectOption('#colour', 'damage');
+  await dark.focus('#scrub');
+  await dark.keyboard.press('End');
+  await settled(dark);
+  await shot(dark, 'dark', {fullPage: true});
+  if (folder) {
+    const large = (await open({viewport: {width: 3840, height: 2160}})).page;
+    await readable(large, 3840);
+    await shot(large, 'large');
+  }
+} catch (error) {
+  wrong.push(error.message);
+}
+await browser.close();
+console.log(wrong.length ? wrong.join('\n') : 'page: all well');
+process.exit(wrong.length ? 1 : 0);

@@ -1,0 +1,102 @@
+// The command erbs report DIR: one page that loads nothing, used in a browser where there is one.
+#include <catch2/catch.hpp>
+#include <regex>
+
+#include "engine/base/system/process.h"
+#include "lua/page/page.h"
+#include "tests/unit/lua/bench.h"
+
+using namespace erbs;
+using namespace erbs::lua;
+namespace fs = std::filesystem;
+
+namespace {
+
+const char* const dry = "joint{ law = dry{ kn = 5e9, ks = 2e9, mu = 0.6 } }\n";
+
+std::string pier(double duration) {
+  return "-- A pier's \"fall\" <b>über</b>\n" + four_bricks() + dry +
+         fmt::format(
+             "ground_motion{{ wave = sine{{ amplitude = 8, frequency = 2 }}, direction = \"y\" }}\n"
+             "recorder{{ name = \"top\", quantity = \"displacement\", block = \"b3\" }}\nanalysis{{ duration = {} }}\n",
+             duration);
+}
+
+bool page_is_built() {
+  if (!report_page().script.empty()) return true;
+  WARN("the packages of the page were absent when this was built; sh .ci/setup installs them");
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("a page holds a run and loads nothing from elsewhere", "[report][program]") {
+  if (!page_is_built()) return;
+  Bench bench;
+  REQUIRE(bench.run(pier(0.5)) == 0);
+  REQUIRE(bench.erbs({"report", bench.out()}) == 0);
+  CHECK(contains(bench.said, "report.html"));
+  const std::string html = text_of(bench.out() + "/report.html");
+  CHECK(contains(html, "A pier&#39;s &quot;fall&quot; &lt;b&gt;über&lt;/b&gt;"));
+  CHECK_FALSE(contains(html, "<link"));
+  CHECK_FALSE(std::regex_search(html.substr(0, html.find("</head>")), std::regex("src=|url\\(|@import")));
+  CHECK_FALSE(contains(html, "<script src"));
+  std::size_t addresses = 0, names = 0;  // of the XHTML name space, which is no place to load from
+  for (std::size_t at = 0; (at = html.find("://", at)) != std::string::npos; ++at) ++addresses;
+  for (std::size_t at = 0; (at = html.find("http://www.w3.org/", at)) != std::string::npos; ++at) ++names;
+  CHECK(addresses == names);
+  CHECK(bench.erbs({"report", bench.out()}) == 2);
+  CHECK(contains(bench.said, "--force"));
+  CHECK(bench.erbs({"report", bench.out(), "--force", "-q"}) == 0);
+  CHECK(bench.said.empty());
+  const std::string other = (bench.folder / "eine Seite.html").string();
+  CHECK(bench.erbs({"report", bench.out(), "-o", other}) == 0);
+  CHECK(contains(text_of(other), "\"folder\":\"out\""));
+  CHECK_FALSE(fs::exists(other + ".part"));
+}
+
+TEST_CASE("each folder without a run has its cause and its remedy", "[report][program]") {
+  if (!page_is_built()) return;
+  Bench bench;
+  REQUIRE(bench.run(pier(0.2)) == 0);
+  const auto refused = [&](const std::vector<std::string>& words, const char* why) {
+    INFO(fmt::format("{}", fmt::join(words, " ")));
+    CHECK(bench.erbs(words) == 2);
+    INFO(bench.said);
+    CHECK(contains(bench.said, why));
+  };
+  refused({"report", (bench.folder / "nowhere").string()}, "no such folder");
+  fs::create_directories(bench.folder / "empty");
+  refused({"report", (bench.folder / "empty").string()}, "no manifest.json");
+  refused({"report", bench.out(), "-o", (bench.folder / "page.pdf").string()}, ".html");
+  refused({"report", bench.out(), "-o", (bench.folder / "no" / "page.html").string()}, "does not exist");
+  fs::resize_file(bench.out() + "/motion.h5", fs::file_size(bench.out() + "/motion.h5") / 3);
+  refused({"report", bench.out()}, "motion.h5");
+  CHECK_FALSE(fs::exists(bench.out() + "/report.html"));
+  fs::remove(bench.out() + "/motion.h5");
+  refused({"report", bench.out()}, "motion.h5");
+  for (const auto& entry : fs::directory_iterator(bench.out())) CHECK(entry.path().extension() != ".part");
+}
+
+TEST_CASE("a run that did not end has a page too", "[report][program]") {
+  if (!page_is_built()) return;
+  Bench bench;
+  REQUIRE(bench.run(pier(0.3)) == 0);
+  for (const char* file : {"metrics.json", "histories.csv", "energy.csv", "events.csv"}) fs::remove(fs::path(bench.out()) / file);
+  CHECK(bench.erbs({"report", bench.out()}) == 0);
+}
+
+TEST_CASE("a browser replays, picks and zooms the page", "[report][browser]") {
+  if (!page_is_built()) return;
+  if (!fs::exists("/usr/bin/chromium") || !can_start("node") || !fs::exists(ERBS_SOURCE_DIR "/lua/page/node_modules/playwright-core")) {
+    WARN("no browser test: it needs chromium, node and the packages of sh .ci/setup");
+    return;
+  }
+  Bench bench;
+  REQUIRE(bench.run(pier(1)) == 0);
+  REQUIRE(bench.erbs({"report", bench.out()}) == 0);
+  const std::string log = (bench.folder / "browser.log").string();
+  const int code = wait_for(start({"node", ERBS_SOURCE_DIR "/tests/page/browser.mjs", bench.out() + "/report.html"}, log));
+  INFO(text_of(log));
+  CHECK(code == 0);
+}
