@@ -45,6 +45,7 @@ struct CommandLine {
   RecordCommand record;
   ExportCommand exported;
   PlotCommand plot;
+  CompareCommand compare;
   TestCommand test;
   AccuracyCommand accuracy;
   TimingCommand bench, effects;
@@ -167,6 +168,26 @@ void add_plot(CLI::App& app, PlotCommand& command) {
   plot.add_flag("--png", command.png, "a PNG, DIR/plot.png by default");
   plot.add_flag("--force", command.output.force, "replace an earlier picture");
   plot.add_flag("-q,--quiet", command.output.quiet, "print errors only");
+}
+
+void add_compare(CLI::App& app, CompareCommand& command) {
+  CLI::App& compare = *app.add_subcommand("compare", "errors of a run against another run or measured displacements");
+  compare.add_option("DIR REFERENCE", command.words, "the run folder; another one, or a CSV file with time_s and columns named alike")
+      ->required();
+  compare.add_option("--align", command.align, "how times are brought together (default none for a run, otherwise correlation)")
+      ->check(CLI::IsMember({"none", "first-motion", "correlation"}));
+  add_time(compare, "--reach", command.reach, "the largest lag that is searched (default 5s)", "5s");
+  compare.add_option("--columns", command.columns, "further pairs of columns of the two")
+      ->delimiter(',')
+      ->check(filled())
+      ->type_name("RUN=REF");
+  compare
+      .add_option("--expect", command.expect,
+                  "limits, exit code 4 beyond: peak, rms, difference, frequency (5%), lag (s), correlation>.9, "
+                  "collapse_time (s), direction (deg), sequence<1")
+      ->check(filled())
+      ->type_name("'peak<5%,lag<.01'");
+  add_output(compare, command.output, "DIR/compare");
 }
 
 void add_others(CLI::App& app, CommandLine& line) {
@@ -312,6 +333,7 @@ int call(const CLI::App& app, const CommandLine& line) {
   if (name == "check") return verb_check(line.check);
   if (name == "export") return verb_export(line.exported);
   if (name == "plot") return verb_plot(line.plot);
+  if (name == "compare") return verb_compare(line.compare);
   if (name == "record") return verb_record(line.record);
   if (name == "accuracy") return accuracy.map ? verb_map(accuracy) : verb_accuracy(accuracy);
   if (name == "test") return verb_test(line.test);
@@ -369,6 +391,7 @@ int run_program(int argc, char** argv) {
   add_run(app, line.run);
   add_others(app, line);
   add_plot(app, line.plot);
+  add_compare(app, line.compare);
   return finish_streams(answer(app, line, argc, argv), exit_usage);
 }
 

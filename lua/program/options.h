@@ -90,6 +90,12 @@ struct PlotCommand {
   bool spectrum = false, response = false, envelope = false, list = false, png = false;
   std::optional<double> damping;  // ratio, of --response
 };
+struct CompareCommand {
+  std::vector<std::string> words, columns;  // words: run and reference; columns: RUN=REFERENCE
+  OutputOptions output;
+  std::string align, expect;  // align: none, first-motion, correlation; "": as the reference asks
+  double reach = 5;           // s, largest lag
+};
 struct TestCommand {
   std::vector<std::string> words;
   SceneOptions scene;
@@ -138,6 +144,7 @@ int verb_check(const CheckCommand& command);
 int verb_record(const RecordCommand& command);
 int verb_export(const ExportCommand& command);
 int verb_plot(const PlotCommand& command);
+int verb_compare(const CompareCommand& command);
 int verb_render(const std::vector<std::string>& words);
 int verb_test(const TestCommand& command);
 int verb_accuracy(const AccuracyCommand& command);
