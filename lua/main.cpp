@@ -15,6 +15,7 @@
 #include "engine/base/text.h"
 #include "engine/record/folder/manifest.h"
 #include "lua/program/options.h"
+#include "lua/program/overrides.h"
 #include "lua/program/say.h"
 
 namespace erbs::lua {
@@ -73,15 +74,6 @@ void add_output(CLI::App& verb, OutputOptions& output, const std::string& place 
   verb.add_option("-o", output.directory, "folder for the results (default " + place + ")")->check(filled())->type_name("DIR");
   verb.add_flag("--force", output.force, "replace an earlier run there");
   verb.add_flag("-q,--quiet", output.quiet, "print errors only");
-}
-
-// -D name=value, after parsing.
-void read_defines(const std::vector<std::string>& defines, Overrides& overrides) {
-  for (const auto& define : defines) {
-    const size_t equals = define.find('=');
-    if (equals == std::string::npos || equals == 0) throw Error("-D " + shown(define) + ": write -D name=value, such as -D pga=0.8*g");
-    overrides.emplace_back(define.substr(0, equals), define.substr(equals + 1));
-  }
 }
 
 void add_scene(CLI::App& verb, SceneOptions& scene) {
@@ -171,8 +163,10 @@ void add_plot(CLI::App& app, PlotCommand& command) {
 }
 
 void add_compare(CLI::App& app, CompareCommand& command) {
-  CLI::App& compare = *app.add_subcommand("compare", "errors of a run against another run or measured displacements");
-  compare.add_option("DIR REFERENCE", command.words, "the run folder; another one, or a CSV file with time_s and columns named alike")
+  CLI::App& compare = *app.add_subcommand("compare", "errors of a run against another run, measured displacements or a film");
+  compare
+      .add_option("DIR REFERENCE", command.words,
+                  "the run folder; another one, a CSV file with time_s and columns named alike, a film, or a folder of PNG frames")
       ->required();
   compare.add_option("--align", command.align, "how times are brought together (default none for a run, otherwise correlation)")
       ->check(CLI::IsMember({"none", "first-motion", "correlation"}));
@@ -182,11 +176,16 @@ void add_compare(CLI::App& app, CompareCommand& command) {
       ->check(filled())
       ->type_name("RUN=REF");
   compare
-      .add_option("--expect", command.expect,
-                  "limits, exit code 4 beyond: peak, rms, difference, frequency (5%), lag (s), correlation>.9, "
-                  "collapse_time (s), direction (deg), sequence<1")
+      .add_option(
+          "--expect", command.expect,
+          "limits, exit code 4 beyond: peak, rms, difference, frequency (5%), lag (s), correlation>.9, "
+          "collapse_time (s), direction (deg), sequence<1; of a film: shift (s), iou>.9, ssim>.9, flow, direction (deg), camera (px)")
       ->check(filled())
       ->type_name("'peak<5%,lag<.01'");
+  for (const auto& [name, text] : film_options()) {
+    const auto pass = [&command, name = name](const std::string& value) { command.film.insert(command.film.end(), {name, value}); };
+    compare.add_option_function<std::string>(name, pass, "of a film: " + text)->check(filled());
+  }
   add_output(compare, command.output, "DIR/compare");
 }
 

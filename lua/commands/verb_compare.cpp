@@ -1,15 +1,17 @@
-// erbs compare DIR REFERENCE: a run against another run, or against measured displacements.
+// erbs compare DIR REFERENCE: a run against another run, measured displacements, or a film, which erbs-render reads.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <set>
 
+#include "engine/base/system/interrupt.h"
 #include "engine/base/system/process.h"
 #include "engine/record/folder/motion_file.h"
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/results/compare_runs.h"
 #include "engine/record/results/curve_figure.h"
 #include "engine/record/results/limits.h"
+#include "lua/program/child.h"
 #include "lua/program/options.h"
 #include "lua/program/say.h"
 
@@ -119,16 +121,84 @@ std::string draw_figure(const plot::Figure& figure, const fs::path& place) {
   return path;
 }
 
+bool is_table(const std::string& path) {
+  const std::string ending = fs::path(path).extension().string();
+  return !fs::is_directory(path) && (ending == ".csv" || ending == ".txt" || ending == ".CSV");
+}
+
+double number_in(const Json& json, const char* key) {
+  const Json* value = find_key(json, key);
+  return value != nullptr && value->is_number() ? value->get<double>() : NAN;
+}
+
+// Of frames.json, by the names of limits.
+std::vector<double> values_of(const Json& frames, const std::string& quantity) {
+  for (const auto& [name, key] : {std::pair{"shift", "alignment.lag_s"},
+                                  {"iou", "iou_mean"},
+                                  {"ssim", "ssim_mean"},
+                                  {"flow", "flow_angle_mean_deg"},
+                                  {"direction", "direction_error_deg"},
+                                  {"camera", "camera.residual_px"},
+                                  {"correlation", "alignment.correlation"}})
+    if (quantity == name) return {number_in(frames, key)};
+  return {};
+}
+
+bool all_passed(const std::vector<Judged>& judged) {
+  return std::all_of(judged.begin(), judged.end(), [](const Judged& j) { return j.passed; });
+}
+
+// Lets erbs-render draw and measure, then judges what it found.
+int compare_pictures(const CompareCommand& command, const fs::path& place, const std::vector<Limit>& limits) {
+  judge(limits, [](const std::string& quantity) { return values_of(Json::object(), quantity); });  // refuses what is not measured
+  check_programs({renderer_path(), "ffmpeg"});
+  std::vector<std::string> words{command.words[0], "--compare",
+                                 command.words[1], "--compare-to",
+                                 place.string(),   "--no-figures",
+                                 "--align",        command.align.empty() ? "correlation" : command.align,
+                                 "--reach",        fmt::format("{}", command.reach)};
+  words.insert(words.end(), command.film.begin(), command.film.end());
+  if (command.output.force) words.emplace_back("--force");
+  if (command.output.quiet) words.emplace_back("--quiet");
+  catch_interrupts();
+  if (const int code = run_renderer(words); code != exit_ok) return code;
+  const std::string found = (place / "frames.json").string();
+  const Json frames = read_json(found);
+  const std::vector<Judged> judged = judge(limits, [&](const std::string& quantity) { return values_of(frames, quantity); });
+  Json json{{"run", fs::canonical(command.words[0]).string()}, {"reference", fs::canonical(command.words[1]).string()}};
+  for (const auto& [key, value] : frames.items())
+    if (key != "frames") json[key] = value;
+  if (!limits.empty()) json["expectations"] = json_of(judged), json["passed"] = all_passed(judged);
+  write_json((place / "compare.json").string(), json);
+  if (!command.output.quiet)
+    say("{}results in {}: compare.json, frames.json, frames.svg, compare_*.mp4\n", table_of(judged), shown(place.string(), 400));
+  return all_passed(judged) ? exit_ok : exit_expectation;
+}
+
 }  // namespace
+
+std::vector<std::pair<std::string, std::string>> film_options() {
+  return {{"--camera", "camera of the scene, by name (default: the first)"},
+          {"--eye", "x,y,z: position of a camera of your own (m)"},
+          {"--target", "x,y,z: the point that it looks at (m)"},
+          {"--fov", "its vertical angle of view (deg)"},
+          {"--points", "x,y,z:u,v;..: four or more points (m) and their places in the picture (px), which give the camera"},
+          {"--fps", "pictures a second of a folder of frames (default 25)"},
+          {"--slow", "seconds of film for one second of the test (default 1)"},
+          {"--film-background", "rows: the median of each row of its first picture (default); drawn: the run without blocks; or a PNG"}};
+}
 
 int verb_compare(const CompareCommand& command) {
   if (command.words.size() != 2) throw Error("compare takes a run folder and a reference; write erbs compare DIR REFERENCE");
   const std::vector<Limit> limits = command.expect.empty() ? std::vector<Limit>{} : limits_of(command.expect);
   const std::string &run = command.words[0], &reference = command.words[1];
   const fs::path place = place_of(command);
+  const bool of_run = is_run_folder(reference);
+  if (!fs::exists(reference))
+    throw Error("there is no such file or folder; name a run folder, a CSV file, a film or a folder of PNG frames", {reference});
+  if (!of_run && !is_table(reference)) return compare_pictures(command, place, limits);
+  if (!command.film.empty()) throw Error(fmt::format("{} belongs to a film or a folder of frames; leave it out", command.film.front()));
   const CsvTable own = read_histories(run);
-  const bool of_run = fs::is_directory(reference);
-  if (!of_run && !fs::exists(reference)) throw Error("there is no such file or folder; name a run folder or a CSV file", {reference});
   const CsvTable other = of_run ? read_histories(reference) : read_csv(reference);
   if (of_run) check_blocks(run, reference);
   RunComparison comparison;
@@ -141,7 +211,7 @@ int verb_compare(const CompareCommand& command) {
 
   Json json{{"run", fs::canonical(run).string()}, {"reference", fs::canonical(reference).string()}};
   json.update(json_of(comparison));
-  const bool passed = std::all_of(judged.begin(), judged.end(), [](const Judged& j) { return j.passed; });
+  const bool passed = all_passed(judged);
   if (!limits.empty()) json["expectations"] = json_of(judged), json["passed"] = passed;
   fs::create_directories(place);
   const std::string figure = draw_figure(
