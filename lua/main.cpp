@@ -15,6 +15,7 @@
 #include "engine/base/text.h"
 #include "engine/record/folder/manifest.h"
 #include "lua/program/options.h"
+#include "lua/program/overrides.h"
 #include "lua/program/say.h"
 
 namespace erbs::lua {
@@ -46,6 +47,7 @@ struct CommandLine {
   ExportCommand exported;
   PlotCommand plot;
   ReportCommand report;
+  CompareCommand compare;
   TestCommand test;
   AccuracyCommand accuracy;
   TimingCommand bench, effects;
@@ -73,15 +75,6 @@ void add_output(CLI::App& verb, OutputOptions& output, const std::string& place 
   verb.add_option("-o", output.directory, "folder for the results (default " + place + ")")->check(filled())->type_name("DIR");
   verb.add_flag("--force", output.force, "replace an earlier run there");
   verb.add_flag("-q,--quiet", output.quiet, "print errors only");
-}
-
-// -D name=value, after parsing.
-void read_defines(const std::vector<std::string>& defines, Overrides& overrides) {
-  for (const auto& define : defines) {
-    const size_t equals = define.find('=');
-    if (equals == std::string::npos || equals == 0) throw Error("-D " + shown(define) + ": write -D name=value, such as -D pga=0.8*g");
-    overrides.emplace_back(define.substr(0, equals), define.substr(equals + 1));
-  }
 }
 
 void add_scene(CLI::App& verb, SceneOptions& scene) {
@@ -180,6 +173,33 @@ void add_report(CLI::App& app, ReportCommand& command) {
   report.add_option("-o", command.output.directory, "the page (default DIR/report.html)")->check(filled())->type_name("FILE");
   report.add_flag("--force", command.output.force, "replace an earlier page");
   report.add_flag("-q,--quiet", command.output.quiet, "print errors only");
+}
+
+void add_compare(CLI::App& app, CompareCommand& command) {
+  CLI::App& compare = *app.add_subcommand("compare", "errors of a run against another run, measured displacements or a film");
+  compare
+      .add_option("DIR REFERENCE", command.words,
+                  "the run folder; another one, a CSV file with time_s and columns named alike, a film, or a folder of PNG frames")
+      ->required();
+  compare.add_option("--align", command.align, "how times are brought together (default none for a run, otherwise correlation)")
+      ->check(CLI::IsMember({"none", "first-motion", "correlation"}));
+  add_time(compare, "--reach", command.reach, "the largest lag that is searched (default 5s)", "5s");
+  compare.add_option("--columns", command.columns, "further pairs of columns of the two")
+      ->delimiter(',')
+      ->check(filled())
+      ->type_name("RUN=REF");
+  compare
+      .add_option(
+          "--expect", command.expect,
+          "limits, exit code 4 beyond: peak, rms, difference, frequency (5%), lag (s), correlation>.9, "
+          "collapse_time (s), direction (deg), sequence<1; of a film: shift (s), iou>.9, ssim>.9, flow, direction (deg), camera (px)")
+      ->check(filled())
+      ->type_name("'peak<5%,lag<.01'");
+  for (const auto& [name, text] : film_options()) {
+    const auto pass = [&command, name = name](const std::string& value) { command.film.insert(command.film.end(), {name, value}); };
+    compare.add_option_function<std::string>(name, pass, "of a film: " + text)->check(filled());
+  }
+  add_output(compare, command.output, "DIR/compare");
 }
 
 void add_others(CLI::App& app, CommandLine& line) {
@@ -328,6 +348,7 @@ int call(const CLI::App& app, const CommandLine& line) {
   if (name == "export") return verb_export(line.exported);
   if (name == "plot") return verb_plot(line.plot);
   if (name == "report") return verb_report(line.report);
+  if (name == "compare") return verb_compare(line.compare);
   if (name == "record") return verb_record(line.record);
   if (name == "accuracy") return accuracy.map ? verb_map(accuracy) : verb_accuracy(accuracy);
   if (name == "test") return verb_test(line.test);
@@ -386,6 +407,7 @@ int run_program(int argc, char** argv) {
   add_others(app, line);
   add_plot(app, line.plot);
   add_report(app, line.report);
+  add_compare(app, line.compare);
   return finish_streams(answer(app, line, argc, argv), exit_usage);
 }
 

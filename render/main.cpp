@@ -8,10 +8,15 @@
 
 #include "engine/base/error.h"
 #include "engine/base/system/interrupt.h"
+#include "engine/base/system/process.h"
 #include "engine/base/system/streams.h"
 #include "engine/base/text.h"
+#include "engine/base/units.h"
+#include "render/compare/compare_film.h"
 #include "render/draw/figures.h"
+#include "render/movie/film_reader.h"
 #include "render/movie/movie.h"
+#include "render/run/camera_points.h"
 
 namespace {
 
@@ -19,10 +24,12 @@ using erbs::Error;
 namespace render = erbs::render;
 
 struct Arguments {
-  std::string dir, size = "1280x720", time, stills, eye, target, color = "material", tilt = "table", background = "sky";
+  std::string dir, size = "1280x720", time, stills, eye, target, color = "material", tilt = "table", background = "sky", points;
+  bool known_fov = false;
   std::vector<std::string> cameras;
   bool figures_only = false, no_figures = false;
   render::Movie movie;
+  render::FilmComparison comparison{"", "rows", "correlation", "", 5, NAN};
 };
 
 const std::map<std::string, render::Coloring> colorings{{"material", render::Coloring::material},
@@ -95,6 +102,34 @@ void write_figures(const render::Run& folder, const Arguments& a) {
   }
 }
 
+// From marked points, in the size of the film.
+void find_camera(Arguments& a) {
+  if (a.movie.eye || !a.movie.cameras.empty()) throw Error("--points is a camera of its own; leave out --eye and --camera");
+  const std::vector<render::MarkedPoint> points = render::marked_points(a.points);
+  const render::FilmReader film(a.comparison.film, a.movie.fps);
+  const auto fov = a.known_fov ? std::optional<double>(a.movie.fov * erbs::pi / 180) : std::nullopt;
+  const render::FoundCamera found = render::camera_from(points, film.width(), film.height(), fov);
+  a.movie.camera = found.camera, a.comparison.residual = found.residual;
+  if (a.movie.quiet) return;
+  const erbs::Camera& c = found.camera;
+  erbs::tell(
+      stdout,
+      fmt::format("camera      eye {:.3f},{:.3f},{:.3f} m, target {:.3f},{:.3f},{:.3f} m, fov {:.2f} deg; residual {:.2f} px", c.eye.x(),
+                  c.eye.y(), c.eye.z(), c.target.x(), c.target.y(), c.target.z(), c.fov * 180 / erbs::pi, found.residual));
+}
+
+// Against a film: 0, or 130 if interrupted.
+int compare(const render::Run& folder, Arguments& a) {
+  if (a.comparison.place.empty()) a.comparison.place = a.dir + "/compare";
+  if (!a.movie.force && std::filesystem::exists(a.comparison.place + "/frames.json"))
+    throw Error("it exists already; --force writes it anew", {a.comparison.place + "/frames.json"});
+  if (!erbs::can_start("ffmpeg")) throw Error("films of a comparison need ffmpeg, which is not installed; install the package ffmpeg");
+  const erbs::MotionReader reader(a.dir);
+  if (!a.points.empty()) find_camera(a);
+  render::prepare_contexts();
+  return render::compare_film(folder, reader, a.movie, a.comparison, erbs::catch_interrupts()) ? 0 : 130;
+}
+
 int run(Arguments& a) {
   render::Movie& movie = a.movie;
   read_size(a.size, movie.look);
@@ -107,6 +142,7 @@ int run(Arguments& a) {
   movie.look.white = a.background == "white";
   movie.look.table_turns = a.tilt == "table";
   const render::Run folder = render::read_run(a.dir);
+  if (!a.comparison.film.empty()) return compare(folder, a);
   if (!a.no_figures) write_figures(folder, a);
   if (a.figures_only) return 0;
   std::fflush(stdout);
@@ -130,6 +166,19 @@ CLI::Validator within(double low, double high) {
       fmt::format("{} to {}", low, high));
 }
 
+// Options of a comparison with a film.
+void add_comparison(CLI::App& app, Arguments& a) {
+  app.add_option("--compare", a.comparison.film, "a film, or a folder of PNG files: compare the run with it");
+  app.add_option("--compare-to", a.comparison.place, "folder of the comparison (default DIR/compare)");
+  app.add_option("--film-background", a.comparison.background, "of that film: rows (medians of its first picture), drawn, or a PNG")
+      ->capture_default_str();
+  app.add_option("--points", a.points, "x,y,z:u,v;..: four or more points (m) and their places in that film (px) give the camera");
+  app.add_option("--align", a.comparison.align, "times of that film")
+      ->check(CLI::IsMember({"none", "first-motion", "correlation"}))
+      ->capture_default_str();
+  app.add_option("--reach", a.comparison.reach, "largest lag that is searched (s)")->check(within(0.0, 1e6))->capture_default_str();
+}
+
 int main(int argc, char** argv) {
   erbs::prepare_streams();
   Arguments a;
@@ -141,7 +190,8 @@ int main(int argc, char** argv) {
       ->delimiter(',');
   app.add_option("--eye", a.eye, "x,y,z: position of a camera of your own (m)");
   app.add_option("--target", a.target, "x,y,z: the point that it looks at (m; default: the middle of the building)");
-  app.add_option("--fov", a.movie.fov, "its vertical angle of view (deg)")->check(within(0.1, 170.0))->capture_default_str();
+  const CLI::Option* fov =
+      app.add_option("--fov", a.movie.fov, "its vertical angle of view (deg)")->check(within(0.1, 170.0))->capture_default_str();
   app.add_flag("--fit", a.movie.fit, "move it along its line of sight until building and heap are visible");
   app.add_option("--fps", a.movie.fps, "pictures a second of the video")->check(within(1.0, 240.0))->capture_default_str();
   app.add_option("--slow", a.movie.slow, "seconds of video for one second of the run")->check(within(0.001, 1000.0))->capture_default_str();
@@ -166,10 +216,12 @@ int main(int argc, char** argv) {
   app.add_option("--expect", a.movie.expected,
                  "a PNG that the one still of --stills is compared with; the result is in DIR/pictures (expect_image of a scene uses it)");
   app.add_option("--context", a.movie.context, "source of OpenGL: osmesa, egl or auto")->check(CLI::IsMember({"osmesa", "egl", "auto"}));
+  add_comparison(app, a);
   app.add_flag("--force", a.movie.force, "write over pictures and videos that are there");
   app.add_flag("-q,--quiet", a.movie.quiet, "no progress and no summary");
   try {
     app.parse(argc, argv);
+    a.known_fov = fov->count() > 0;
     return erbs::finish_streams(run(a), 2);
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return erbs::finish_streams(app.exit(e), 2);

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/loads/record/record.h"
@@ -96,6 +97,13 @@ struct ReportCommand {
   std::vector<std::string> words;
   OutputOptions output;  // directory: the page
 };
+struct CompareCommand {
+  std::vector<std::string> words, columns;  // words: run and reference; columns: RUN=REFERENCE
+  OutputOptions output;
+  std::string align, expect;      // align: none, first-motion, correlation; "": as the reference asks
+  double reach = 5;               // s, largest lag
+  std::vector<std::string> film;  // options for erbs-render, each with its value
+};
 struct TestCommand {
   std::vector<std::string> words;
   SceneOptions scene;
@@ -146,6 +154,8 @@ int verb_record(const RecordCommand& command);
 int verb_export(const ExportCommand& command);
 int verb_plot(const PlotCommand& command);
 int verb_report(const ReportCommand& command);
+int verb_compare(const CompareCommand& command);
+std::vector<std::pair<std::string, std::string>> film_options();  // names and texts of CompareCommand::film
 int verb_render(const std::vector<std::string>& words);
 int verb_test(const TestCommand& command);
 int verb_accuracy(const AccuracyCommand& command);

@@ -111,6 +111,14 @@ std::vector<std::string> apply_overrides(Scene& scene, const RunCommand& command
   return notes;
 }
 
+void read_defines(const std::vector<std::string>& defines, Overrides& overrides) {
+  for (const auto& define : defines) {
+    const size_t equals = define.find('=');
+    if (equals == std::string::npos || equals == 0) throw Error("-D " + shown(define) + ": write -D name=value, such as -D pga=0.8*g");
+    overrides.emplace_back(define.substr(0, equals), define.substr(equals + 1));
+  }
+}
+
 std::string quality_of(const SceneChanges& changes) {
   std::string quality;
   for (const auto& setting : changes.settings) {

@@ -8,6 +8,9 @@ namespace erbs::lua {
 // Applies the overrides to the scene. Returns their text, for the log.
 std::vector<std::string> apply_overrides(Scene& scene, const RunCommand& command);
 
+// Reads -D name=value. Throws Error.
+void read_defines(const std::vector<std::string>& defines, Overrides& overrides);
+
 // The quality of --set quality=...: draft, standard or reference; "" without one. It holds for values the script leaves open.
 // Throws Error.
 std::string quality_of(const SceneChanges& changes);

@@ -40,27 +40,6 @@ Camera own_camera(const Movie& movie, const Stage& stage, double aspect) {
   return camera;
 }
 
-std::vector<Camera> chosen_cameras(const Run& run, const Show& show, const Movie& movie) {
-  const Look& l = movie.look;
-  const double aspect = l.width / (l.height - l.top - l.bottom);
-  if (movie.eye) return {own_camera(movie, show.stage, aspect)};
-  std::vector<Camera> all = run.cameras.empty() ? choose_cameras(show.stage, aspect) : run.cameras;
-  if (movie.cameras.empty()) return {all.front()};
-  const std::size_t own = all.size();
-  for (const Camera& one : elevations(show.stage, aspect)) all.push_back(one);
-  std::vector<Camera> chosen;
-  for (const std::string& name : movie.cameras) {
-    const std::size_t before = chosen.size();
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if ((name == "all" && i < own) || all[i].name == name) chosen.push_back(all[i]);
-    if (chosen.size() > before) continue;
-    std::string known;
-    for (const Camera& c : all) known += " " + c.name;
-    throw Error("--camera " + shown(name, 60) + " is none of this run's:" + known + " (or all)");
-  }
-  return chosen;
-}
-
 // Output paths of one camera.
 struct Files {
   fs::path frames;
@@ -196,6 +175,40 @@ bool film(const Run& run, const Show& show, const MotionReader& reader, const Mo
 
 }  // namespace
 
+std::vector<Camera> chosen_cameras(const Run& run, const Show& show, const Movie& movie) {
+  const Look& l = movie.look;
+  const double aspect = l.width / (l.height - l.top - l.bottom);
+  if (movie.camera) return {*movie.camera};
+  if (movie.eye) return {own_camera(movie, show.stage, aspect)};
+  std::vector<Camera> all = run.cameras.empty() ? choose_cameras(show.stage, aspect) : run.cameras;
+  if (movie.cameras.empty()) return {all.front()};
+  const std::size_t own = all.size();
+  for (const Camera& one : elevations(show.stage, aspect)) all.push_back(one);
+  std::vector<Camera> chosen;
+  for (const std::string& name : movie.cameras) {
+    const std::size_t before = chosen.size();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if ((name == "all" && i < own) || all[i].name == name) chosen.push_back(all[i]);
+    if (chosen.size() > before) continue;
+    std::string known;
+    for (const Camera& c : all) known += " " + c.name;
+    throw Error("--camera " + shown(name, 60) + " is none of this run's:" + known + " (or all)");
+  }
+  return chosen;
+}
+
+Show show_of(const Run& run, const MotionReader& reader, const Movie& movie) {
+  std::vector<MotionFrame> some;
+  const std::size_t step = std::max<std::size_t>(1, reader.times().size() / 24);
+  for (std::size_t i = 0; i < reader.times().size(); i += step) some.push_back(reader.read(static_cast<int>(i)));
+  some.push_back(reader.read(static_cast<int>(reader.times().size()) - 1));
+  for (MotionFrame& frame : some) magnify(reader.scene(), movie.look.magnify, frame);
+  Show show = prepare_show(reader.scene(), run, some);
+  if (!run.gravity.empty() && movie.look.table_turns)
+    for (const MotionFrame& frame : some) show.stage.positions.push_back(table_position(show.stage, levelling(run.gravity, frame.t)));
+  return show;
+}
+
 bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, const std::atomic<bool>& stop) {
   Movie movie = wish;
   if (movie.video && movie.stills.empty() && !can_start("ffmpeg")) {
@@ -205,16 +218,9 @@ bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, c
   movie.look.top = movie.look.overlay ? overlay_top(movie.look.height) : 0;
   movie.look.bottom = movie.look.overlay ? overlay_bottom(movie.look.height, !run.strip().axis.empty()) : 0;
   const Schedule schedule = schedule_of(movie, reader.times());
-  std::vector<MotionFrame> some;
-  const std::size_t step = std::max<std::size_t>(1, reader.times().size() / 24);
-  for (std::size_t i = 0; i < reader.times().size(); i += step) some.push_back(reader.read(static_cast<int>(i)));
-  some.push_back(reader.read(static_cast<int>(reader.times().size()) - 1));
+  Show show = show_of(run, reader, movie);
   const Coloring coloring = movie.look.coloring;
-  for (MotionFrame& frame : some) magnify(reader.scene(), movie.look.magnify, frame);
-  Show show = prepare_show(reader.scene(), run, some);
-  if (!run.gravity.empty() && movie.look.table_turns)
-    for (const MotionFrame& frame : some) show.stage.positions.push_back(table_position(show.stage, levelling(run.gravity, frame.t)));
-  some.clear();  // the scale is that of what is shown
+  std::vector<MotionFrame> some;  // the scale is that of what is shown
   const std::size_t stride = std::max<std::size_t>(1, schedule.times.size() / 24);
   if (coloring != Coloring::material && coloring != Coloring::damage)
     for (std::size_t i = 0; i < schedule.times.size(); i += stride) some.push_back(frame_to_draw(reader, movie, schedule.times[i]));

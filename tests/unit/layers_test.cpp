@@ -35,7 +35,7 @@ const std::map<std::string, Levels> sub_rooms{
     {"solve", {{"blocks", "linear"}, {"contacts", "sequential"}, {""}}},
     {"record", {{"format", "plot"}, {"recorders"}, {"results"}, {"folder"}, {"export"}, {"report"}}},
     {"lua", {{"reading", "masonry", "page"}, {"language"}, {"program"}, {"reports"}, {"commands"}, {""}}},
-    {"render", {{"image", "run"}, {"gl"}, {"draw"}, {"movie"}, {""}}},
+    {"render", {{"image", "run"}, {"gl"}, {"draw"}, {"movie"}, {"compare"}, {""}}},
 };
 
 // Package -> the files it may enter by. The first that fits counts.

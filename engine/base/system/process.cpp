@@ -65,7 +65,7 @@ void redirect(const std::string& path, std::initializer_list<int> streams) {
 
 // In the child: becomes the program. Returns only if that fails. The program gets back the default handling of a closed pipe and of a
 // file's size limit.
-void become(const std::vector<char*>& words, const Launch& how, int input) {
+void become(const std::vector<char*>& words, const Launch& how, int input, int output) {
   std::signal(SIGPIPE, SIG_DFL);
   std::signal(SIGXFSZ, SIG_DFL);
   if (how.own_group) setpgid(0, 0);
@@ -76,6 +76,7 @@ void become(const std::vector<char*>& words, const Launch& how, int input) {
     redirect(how.output, {STDOUT_FILENO});
     redirect(how.errors, {STDERR_FILENO});
   }
+  if (how.heard) dup2(output, STDOUT_FILENO);
   if (!how.folder.empty() && chdir(how.folder.c_str()) != 0) return;
   execvp(words[0], words.data());
 }
@@ -106,11 +107,11 @@ Child start(const std::vector<std::string>& command, const Launch& how) {
                             how.remedy.empty() ? "" : "; ", how.remedy));
   };
   if (how.fed) std::signal(SIGPIPE, SIG_IGN);  // send() reports a program that died
-  Pipe failure, input;                         // a successful exec closes the first one, a failed one writes errno into it
-  if (!failure.open() || (how.fed && !input.open())) refuse(errno);
+  Pipe failure, input, output;                 // a successful exec closes the first one, a failed one writes errno into it
+  if (!failure.open() || (how.fed && !input.open()) || (how.heard && !output.open())) refuse(errno);
   const pid_t pid = fork_bound(SIGTERM);
   if (pid == 0) {
-    become(words, how, input.from);
+    become(words, how, input.from, output.to);
     const int number = errno;
     send(failure.to, &number, sizeof number);
     _exit(127);
@@ -119,7 +120,7 @@ Child start(const std::vector<std::string>& command, const Launch& how) {
   failure.close_end(failure.to);
   if (pid > 0 && receive(failure.from, &number, sizeof number)) waitpid(pid, nullptr, 0);
   if (number != 0) refuse(number);
-  return {pid, input.release(input.to)};
+  return {pid, input.release(input.to), output.release(output.from)};
 }
 
 Child start(const std::vector<std::string>& command, const std::string& log) { return start(command, Launch{log, log}); }

@@ -21,6 +21,7 @@ struct Launch {
   std::string folder = {};               // its working folder
   std::string remedy = {};               // end of the message if it cannot be started
   bool fed = false;                      // its standard input is Child::to
+  bool heard = false;                    // its standard output is Child::from
   bool own_group = false;                // Ctrl-C does not reach it
 };
 // Starts a program. It gets SIGTERM when the thread that started it ends. Throws Error if it cannot be started.

@@ -1,0 +1,80 @@
+// The comparison as a table and as JSON.
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "engine/record/results/compare_runs.h"
+
+namespace erbs {
+namespace {
+
+std::string percent(double share) { return std::isfinite(share) ? fmt::format("{:+.2f} %", 100 * share) : "-"; }
+
+// "0.780 s", or that it stands.
+std::string fall_of(bool collapsed, double time) { return collapsed ? fmt::format("{:.3f} s", time) : "stands"; }
+
+std::string list_of(const std::vector<std::string>& names) { return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")); }
+
+std::string collapse_text(const CollapseErrors& c) {
+  std::string text = fmt::format("collapse    run {}, reference {}", fall_of(c.run, c.time_run), fall_of(c.reference, c.time_reference));
+  if (c.run && c.reference) text += fmt::format("; error {:+.4f} s after the alignment, direction {:.1f} deg apart", c.time, c.direction);
+  return text + fmt::format("\nsequence    run {}; reference {}; {}\n", list_of(c.order_run), list_of(c.order_reference),
+                            c.same_sequence ? "the same" : "another");
+}
+
+}  // namespace
+
+std::string words_of(Alignment how) {
+  return how == Alignment::none ? "none" : how == Alignment::first_motion ? "first-motion" : "correlation";
+}
+
+std::string table_of(const RunComparison& c) {
+  std::string text = fmt::format("time        aligned by {}", words_of(c.shift.how));
+  if (c.shift.how != Alignment::none) text += fmt::format(" of {}: the run is {:+.4f} s later", c.shift.column, c.shift.lag);
+  text += "\n";
+  if (c.shift.at_edge) text += "warning: the best lag is the largest one searched; the true one may lie beyond, see --reach\n";
+  if (!c.columns.empty())
+    text += fmt::format("{:<28} {:>11} {:>11} {:>10} {:>10} {:>10} {:>9} {:>8} {:>18}\n", "column (SI)", "peak run", "reference", "error",
+                        "rms error", "rms diff.", "lag s", "correl.", "frequency error");
+  for (const ColumnErrors& e : c.columns)
+    text +=
+        fmt::format("{:<28} {:>11.4g} {:>11.4g} {:>10} {:>10} {:>10} {:>9.4f} {:>8.4f} {:>18}\n", e.name, e.peak_run, e.peak_reference,
+                    percent(e.peak_error), percent(e.rms_error), percent(e.difference), e.lag, e.correlation, percent(e.frequency_error));
+  return c.collapse.known ? text + collapse_text(c.collapse) : text;
+}
+
+Json json_of(const RunComparison& c) {
+  Json json;
+  json["alignment"] = {{"method", words_of(c.shift.how)},
+                       {"column", c.shift.column},
+                       {"lag_s", c.shift.lag},
+                       {"correlation", c.shift.correlation},
+                       {"at_edge", c.shift.at_edge}};
+  json["columns"] = Json::object();
+  for (const ColumnErrors& e : c.columns)
+    json["columns"][e.name] = {{"peak_run", e.peak_run},
+                               {"peak_reference", e.peak_reference},
+                               {"peak_error", e.peak_error},
+                               {"rms_run", e.rms_run},
+                               {"rms_reference", e.rms_reference},
+                               {"rms_error", e.rms_error},
+                               {"difference", e.difference},
+                               {"lag_s", e.lag},
+                               {"correlation", e.correlation},
+                               {"frequency_run_Hz", e.frequency_run},
+                               {"frequency_reference_Hz", e.frequency_reference},
+                               {"frequency_error", e.frequency_error}};
+  const CollapseErrors& f = c.collapse;
+  if (f.known)
+    json["collapse"] = {{"run", f.run},
+                        {"reference", f.reference},
+                        {"time_run_s", f.time_run},
+                        {"time_reference_s", f.time_reference},
+                        {"time_error_s", f.time},
+                        {"direction_error_deg", f.direction},
+                        {"sequence_run", f.order_run},
+                        {"sequence_reference", f.order_reference},
+                        {"same_sequence", f.same_sequence}};
+  return json;
+}
+
+}  // namespace erbs

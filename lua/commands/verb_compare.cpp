@@ -1,0 +1,227 @@
+// erbs compare DIR REFERENCE: a run against another run, measured displacements, or a film, which erbs-render reads.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "engine/base/system/interrupt.h"
+#include "engine/base/system/process.h"
+#include "engine/record/folder/motion_file.h"
+#include "engine/record/folder/run_folder.h"
+#include "engine/record/results/compare_runs.h"
+#include "engine/record/results/curve_figure.h"
+#include "engine/record/results/limits.h"
+#include "lua/program/child.h"
+#include "lua/program/options.h"
+#include "lua/program/say.h"
+
+namespace erbs::lua {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t most_drawn = 8;  // columns in the figure
+
+// Names of the free blocks of a run; none where it has no motion.h5.
+std::set<std::string> block_names(const std::string& folder) {
+  std::set<std::string> names;
+  if (!fs::exists(run_file(folder, "motion.h5"))) return names;
+  const MotionReader reader(folder);
+  for (const MotionBlock& block : reader.scene().blocks)
+    if (!block.fixed) names.insert(block.name);
+  return names;
+}
+
+// Error for two scenes without a block in common; a warning if some differ.
+void check_blocks(const std::string& run, const std::string& reference) {
+  const std::set<std::string> a = block_names(run), b = block_names(reference);
+  if (a.empty() || b.empty() || a == b) return;
+  std::vector<std::string> common, alone;
+  std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(common));
+  std::set_symmetric_difference(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(alone));
+  if (common.empty())
+    throw Error(
+        fmt::format("it is a run of another scene: no block has the name of one of {}, such as {}; name a run of the same structure",
+                    shown(run, 200), shown(*a.begin(), 60)),
+        {reference});
+  tell(stderr, fmt::format("warning: {}: {} of the block names are in one run only, such as {}; are the scenes the same?",
+                           shown(reference, 200), alone.size(), shown(alone.front(), 60)));
+}
+
+CsvTable read_histories(const std::string& folder) {
+  if (!is_run_folder(folder)) throw Error("it is no run folder; name one that erbs run wrote", {folder});
+  const std::string path = run_file(folder, "histories.csv");
+  if (!fs::exists(path)) throw Error("it has no histories.csv; run its scene again", {folder});
+  CsvTable table = read_csv(path);
+  if (table.rows() < 2) throw Error("it has fewer than two rows; let the run go on", {path});
+  return table;
+}
+
+Json metrics_of(const std::string& folder) {
+  const std::string path = run_file(folder, "metrics.json");
+  return fs::exists(path) ? read_json(path) : Json::object();
+}
+
+Alignment alignment_of(const CompareCommand& command, bool of_run) {
+  if (command.align == "none" || (command.align.empty() && of_run)) return Alignment::none;
+  return command.align == "first-motion" ? Alignment::first_motion : Alignment::correlation;
+}
+
+// The columns of the largest peaks come first.
+plot::Figure figure_of(const std::vector<ColumnPair>& pairs, const TimeShift& shift, const std::string& run, const std::string& reference) {
+  std::vector<HistoryCurve> curves;
+  for (std::size_t i = 0; i < std::min(pairs.size(), most_drawn); ++i) {
+    const ColumnPair& pair = pairs[i];
+    HistoryCurve own{"run " + run, "time_s", pair.name, pair.run.t, pair.run.y};
+    for (double& t : own.x) t -= shift.lag;
+    curves.push_back(own);
+    curves.push_back({"reference " + reference, "time_s", pair.name, pair.reference.t, pair.reference.y});
+  }
+  std::string note = shift.how == Alignment::none
+                         ? "times as recorded"
+                         : fmt::format("time of the reference; the run is {:+.4f} s later, by {}", shift.lag, words_of(shift.how));
+  if (pairs.size() > most_drawn) note += fmt::format("; {} of {} columns", most_drawn, pairs.size());
+  return curve_figure(curves, CurveKind::history, note);
+}
+
+std::vector<double> values_of(const RunComparison& c, const std::string& quantity) {
+  std::vector<double> values;
+  const auto each = [&](double ColumnErrors::*member) {
+    for (const ColumnErrors& e : c.columns) values.push_back(e.*member);
+  };
+  if (quantity == "peak") each(&ColumnErrors::peak_error);
+  if (quantity == "rms") each(&ColumnErrors::rms_error);
+  if (quantity == "difference") each(&ColumnErrors::difference);
+  if (quantity == "lag") each(&ColumnErrors::lag);
+  if (quantity == "correlation") each(&ColumnErrors::correlation);
+  if (quantity == "frequency") each(&ColumnErrors::frequency_error);
+  if (quantity == "shift") values = {c.shift.lag};
+  if (c.collapse.known && quantity == "collapse_time") values = {c.collapse.time};
+  if (c.collapse.known && quantity == "direction") values = {c.collapse.direction};
+  if (c.collapse.known && quantity == "sequence") values = {c.collapse.same_sequence ? 0.0 : 1.0};
+  return values;
+}
+
+// The folder for the results; an error if it holds some already.
+fs::path place_of(const CompareCommand& command) {
+  const fs::path place = command.output.directory.empty() ? fs::path(command.words[0]) / "compare" : fs::path(command.output.directory);
+  if (fs::exists(place / "compare.json") && !command.output.force)
+    throw Error("it exists already; --force writes it anew, -o DIR another", {(place / "compare.json").string()});
+  if (fs::exists(place) && !fs::is_directory(place)) throw Error("it is no folder; choose another name with -o DIR", {place.string()});
+  return place;
+}
+
+std::string draw_figure(const plot::Figure& figure, const fs::path& place) {
+  if (!can_start("gnuplot")) {
+    tell(stderr, "warning: the figure needs gnuplot, which is not installed: it is left out; install the package gnuplot-nox");
+    return "";
+  }
+  const std::string path = (place / "compare.svg").string();
+  plot::draw(figure, path);
+  return path;
+}
+
+bool is_table(const std::string& path) {
+  const std::string ending = fs::path(path).extension().string();
+  return !fs::is_directory(path) && (ending == ".csv" || ending == ".txt" || ending == ".CSV");
+}
+
+double number_in(const Json& json, const char* key) {
+  const Json* value = find_key(json, key);
+  return value != nullptr && value->is_number() ? value->get<double>() : NAN;
+}
+
+// Of frames.json, by the names of limits.
+std::vector<double> values_of(const Json& frames, const std::string& quantity) {
+  for (const auto& [name, key] : {std::pair{"shift", "alignment.lag_s"},
+                                  {"iou", "iou_mean"},
+                                  {"ssim", "ssim_mean"},
+                                  {"flow", "flow_angle_mean_deg"},
+                                  {"direction", "direction_error_deg"},
+                                  {"camera", "camera.residual_px"},
+                                  {"correlation", "alignment.correlation"}})
+    if (quantity == name) return {number_in(frames, key)};
+  return {};
+}
+
+bool all_passed(const std::vector<Judged>& judged) {
+  return std::all_of(judged.begin(), judged.end(), [](const Judged& j) { return j.passed; });
+}
+
+// Lets erbs-render draw and measure, then judges what it found.
+int compare_pictures(const CompareCommand& command, const fs::path& place, const std::vector<Limit>& limits) {
+  judge(limits, [](const std::string& quantity) { return values_of(Json::object(), quantity); });  // refuses what is not measured
+  check_programs({renderer_path(), "ffmpeg"});
+  std::vector<std::string> words{command.words[0], "--compare",
+                                 command.words[1], "--compare-to",
+                                 place.string(),   "--no-figures",
+                                 "--align",        command.align.empty() ? "correlation" : command.align,
+                                 "--reach",        fmt::format("{}", command.reach)};
+  words.insert(words.end(), command.film.begin(), command.film.end());
+  if (command.output.force) words.emplace_back("--force");
+  if (command.output.quiet) words.emplace_back("--quiet");
+  catch_interrupts();
+  if (const int code = run_renderer(words); code != exit_ok) return code;
+  const std::string found = (place / "frames.json").string();
+  const Json frames = read_json(found);
+  const std::vector<Judged> judged = judge(limits, [&](const std::string& quantity) { return values_of(frames, quantity); });
+  Json json{{"run", fs::canonical(command.words[0]).string()}, {"reference", fs::canonical(command.words[1]).string()}};
+  for (const auto& [key, value] : frames.items())
+    if (key != "frames") json[key] = value;
+  if (!limits.empty()) json["expectations"] = json_of(judged), json["passed"] = all_passed(judged);
+  write_json((place / "compare.json").string(), json);
+  if (!command.output.quiet)
+    say("{}results in {}: compare.json, frames.json, frames.svg, compare_*.mp4\n", table_of(judged), shown(place.string(), 400));
+  return all_passed(judged) ? exit_ok : exit_expectation;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> film_options() {
+  return {{"--camera", "camera of the scene, by name (default: the first)"},
+          {"--eye", "x,y,z: position of a camera of your own (m)"},
+          {"--target", "x,y,z: the point that it looks at (m)"},
+          {"--fov", "its vertical angle of view (deg)"},
+          {"--points", "x,y,z:u,v;..: four or more points (m) and their places in the picture (px), which give the camera"},
+          {"--fps", "pictures a second of a folder of frames (default 25)"},
+          {"--slow", "seconds of film for one second of the test (default 1)"},
+          {"--film-background", "rows: the median of each row of its first picture (default); drawn: the run without blocks; or a PNG"}};
+}
+
+int verb_compare(const CompareCommand& command) {
+  if (command.words.size() != 2) throw Error("compare takes a run folder and a reference; write erbs compare DIR REFERENCE");
+  const std::vector<Limit> limits = command.expect.empty() ? std::vector<Limit>{} : limits_of(command.expect);
+  const std::string &run = command.words[0], &reference = command.words[1];
+  const fs::path place = place_of(command);
+  const bool of_run = is_run_folder(reference);
+  if (!fs::exists(reference))
+    throw Error("there is no such file or folder; name a run folder, a CSV file, a film or a folder of PNG frames", {reference});
+  if (!of_run && !is_table(reference)) return compare_pictures(command, place, limits);
+  if (!command.film.empty()) throw Error(fmt::format("{} belongs to a film or a folder of frames; leave it out", command.film.front()));
+  const CsvTable own = read_histories(run);
+  const CsvTable other = of_run ? read_histories(reference) : read_csv(reference);
+  if (of_run) check_blocks(run, reference);
+  RunComparison comparison;
+  const std::vector<ColumnPair> pairs =
+      pair_columns(own, other, command.columns, of_run ? run_file(reference, "histories.csv") : reference);
+  comparison.shift = find_shift(pairs, alignment_of(command, of_run), command.reach);
+  for (const ColumnPair& pair : pairs) comparison.columns.push_back(errors_of(pair, comparison.shift.lag, command.reach));
+  if (of_run) comparison.collapse = compare_collapse(metrics_of(run), metrics_of(reference), comparison.shift.lag);
+  const std::vector<Judged> judged = judge(limits, [&](const std::string& quantity) { return values_of(comparison, quantity); });
+
+  Json json{{"run", fs::canonical(run).string()}, {"reference", fs::canonical(reference).string()}};
+  json.update(json_of(comparison));
+  const bool passed = all_passed(judged);
+  if (!limits.empty()) json["expectations"] = json_of(judged), json["passed"] = passed;
+  fs::create_directories(place);
+  const std::string figure = draw_figure(
+      figure_of(pairs, comparison.shift, fs::canonical(run).filename().string(), fs::canonical(reference).filename().string()), place);
+  write_json((place / "compare.json").string(), json);
+  if (!command.output.quiet) {
+    say("{}{}", table_of(comparison), table_of(judged));
+    say("results in {}{}\n", shown(place.string(), 400), figure.empty() ? "" : ": compare.json, compare.svg");
+  }
+  return passed ? exit_ok : exit_expectation;
+}
+
+}  // namespace erbs::lua

@@ -1,0 +1,223 @@
+#include "render/compare/compare_film.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <memory>
+
+#include "engine/base/correlation.h"
+#include "engine/base/error.h"
+#include "engine/base/system/affinity.h"
+#include "render/compare/films.h"
+#include "render/image/compare.h"
+#include "render/movie/film_reader.h"
+#include "render/movie/workers.h"
+
+namespace erbs::render {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr int signal_width = 320, measured_width = 640;  // px
+
+int reduction_to(int width, int most) { return std::max(1, (width + most - 1) / most); }
+
+// Draws the run from one camera at given times, in order, by several processes.
+struct RunDrawer {
+  const Run& run;
+  const MotionReader& reader;
+  Movie movie;
+  Show show;
+  Camera camera;
+
+  // The picture without the blocks that move: they lie far below the ground.
+  MotionFrame frame_of(double t, bool empty) const {
+    MotionFrame frame = frame_at(reader, t);
+    frame.t = t;
+    magnify(reader.scene(), movie.look.magnify, frame);
+    if (empty)
+      for (std::size_t b = 0; b < reader.scene().blocks.size(); ++b)
+        if (!reader.scene().blocks[b].fixed) frame.poses[7 * b + 2] -= 1e4f;
+    return frame;
+  }
+
+  // Calls take(index, picture); false from it ends the work.
+  void draw(const std::vector<double>& times, int width, int height, bool empty,
+            const std::function<bool(std::size_t, Image)>& take) const {
+    if (times.empty()) return;
+    Look sized = movie.look;
+    sized.width = width, sized.height = height;
+    const auto prepare = [&]() -> Workers::Draw {
+      const auto painter = std::make_shared<Painter>(show, sized, movie.context);
+      return [this, painter](std::size_t, const MotionFrame& frame) {
+        std::optional<Mat3> level;
+        if (!run.gravity.empty() && movie.look.table_turns) level = levelling(run.gravity, frame.t);
+        return painter->draw(frame, camera, level);
+      };
+    };
+    const auto wish = std::size_t(movie.threads > 0 ? movie.threads : usable_processors());
+    Workers workers(std::clamp<std::size_t>(wish, 1, times.size()), width, height, frame_of(times[0], empty), prepare);
+    for (std::size_t i = 0; i < workers.count(); ++i) workers.order(i, i, frame_of(times[i], empty));
+    for (std::size_t i = 0; i < times.size(); ++i) {
+      Image image = workers.collect(i % workers.count());
+      const std::size_t next = i + workers.count();
+      if (next < times.size()) workers.order(i % workers.count(), next, frame_of(times[next], empty));
+      if (!take(i, std::move(image))) return;
+    }
+  }
+};
+
+// Adds the change from the last picture to this one, over `step` s that end at t.
+struct SignalMeter {
+  MotionSignal signal;
+  Gray last;
+  void add(const Image& image, double t, double step) {
+    Gray now = gray_of(image);
+    if (!last.v.empty()) signal.t.push_back(t - 0.5 * step), signal.y.push_back(mean_difference(last, now) / step);
+    last = std::move(now);
+  }
+};
+
+MotionSignal signal_of_film(const FilmComparison& wish, const Movie& movie, double step) {
+  FilmReader film(wish.film, movie.fps);
+  SignalMeter meter;
+  const int factor = reduction_to(film.width(), signal_width);
+  while (const std::optional<Image> image = film.next()) meter.add(reduced(*image, factor), double(film.read() - 1) * step, step);
+  if (meter.signal.t.size() < 2) throw Error("it has fewer than three pictures that can be read; name a longer film", {wish.film});
+  return meter.signal;
+}
+
+MotionSignal signal_of_run(const RunDrawer& drawer, int width, int height, double step, const std::atomic<bool>& stop) {
+  const std::vector<double>& recorded = drawer.reader.times();
+  std::vector<double> times;
+  for (double t = recorded.front(); t <= recorded.back() + 1e-9; t += step) times.push_back(t);
+  SignalMeter meter;
+  const int factor = reduction_to(width, signal_width);
+  drawer.draw(times, width, height, false, [&](std::size_t i, const Image& image) {
+    meter.add(reduced(image, factor), times[i], step);
+    return !stop;
+  });
+  return meter.signal;
+}
+
+void align(FilmErrors& errors, const FilmComparison& wish) {
+  const Samples run{errors.run.t, errors.run.y}, film{errors.film.t, errors.film.y};
+  const Lag found = lag_of(run, film, wish.reach);
+  errors.correlation = found.correlation;
+  if (wish.align == "correlation") errors.lag = found.lag, errors.at_edge = found.at_edge;
+  if (wish.align == "first-motion") errors.lag = first_motion(run) - first_motion(film);
+  if (!std::isfinite(errors.lag) || (wish.align == "correlation" && !std::isfinite(found.correlation)))
+    throw Error("nothing moves in it, or it has no time in common with the run, so that the times cannot be aligned; add --align none",
+                {wish.film});
+}
+
+Image background_of(const FilmComparison& wish, const Image& first, const Image& drawn) {
+  if (wish.background == "rows") return row_medians(first);
+  if (wish.background == "drawn") return drawn;
+  Image image = read_png(wish.background);
+  if (image.width != first.width || image.height != first.height)
+    throw Error(fmt::format("it has {}x{} pixels, the film {}x{}; make both alike", image.width, image.height, first.width, first.height),
+                {wish.background});
+  return image;
+}
+
+// Measures pairs of pictures one after another.
+struct Meter {
+  int factor;
+  Image run_background, film_background;  // reduced
+  Gray run_last, film_last;
+  FrameErrors errors(const Image& run, const Image& film, double time) {
+    const Image a = reduced(run, factor), b = reduced(film, factor);
+    FrameErrors e;
+    e.time = time;
+    e.overlap = overlap(silhouette(a, run_background), silhouette(b, film_background));
+    e.ssim = compare(a, b).ssim;
+    const int further = reduction_to(a.width, signal_width);
+    Gray run_now = gray_of(reduced(a, further)), film_now = gray_of(reduced(b, further));
+    if (!run_last.v.empty()) {
+      e.flow_run = flow_between(run_last, run_now), e.flow_film = flow_between(film_last, film_now);
+      e.angle = angle_between(e.flow_run, e.flow_film);
+    }
+    run_last = std::move(run_now), film_last = std::move(film_now);
+    return e;
+  }
+};
+
+// The pictures of the film that lie within the run: index of the first one, and their times in the run.
+std::vector<double> times_in_run(const FilmErrors& e, const std::vector<double>& recorded, std::size_t& first) {
+  std::vector<double> times;
+  for (std::size_t i = 0; i <= e.film.t.size(); ++i) {
+    const double t = double(i) / e.fps + e.lag;
+    if (t < recorded.front() - 1e-9 || t > recorded.back() + 1e-9) continue;
+    if (times.empty()) first = i;
+    times.push_back(t);
+  }
+  return times;
+}
+
+bool measure(const RunDrawer& drawer, FilmErrors& errors, const FilmComparison& wish, const std::atomic<bool>& stop) {
+  const Movie& movie = drawer.movie;
+  const int width = movie.look.width, height = movie.look.height;
+  std::size_t first = 0;
+  const std::vector<double> times = times_in_run(errors, drawer.reader.times(), first);
+  errors.outside = errors.film.t.size() + 1 - times.size();
+  if (times.size() < 2)
+    throw Error(
+        fmt::format("none of its pictures lies within the run, {:g} s to {:g} s, with a lag of {:g} s; give --fps, --slow or --align",
+                    drawer.reader.times().front(), drawer.reader.times().back(), errors.lag),
+        {wish.film});
+  Image empty;
+  drawer.draw({times.front()}, width, height, true, [&](std::size_t, Image image) { return (empty = std::move(image), false); });
+  FilmReader film(wish.film, movie.fps);
+  std::optional<Image> picture = film.next();
+  const Image background = background_of(wish, *picture, empty);
+  errors.reduction = reduction_to(width, measured_width);
+  Meter meter{errors.reduction, reduced(empty, errors.reduction), reduced(background, errors.reduction), {}, {}};
+  for (std::size_t i = 0; i < first; ++i) picture = film.next();
+  ComparisonFilms films(wish.place, width, height, movie.fps);
+  drawer.draw(times, width, height, false, [&](std::size_t i, const Image& image) {
+    if (!picture || stop) return false;
+    const double t = double(first + i) / errors.fps;
+    errors.frames.push_back(meter.errors(image, *picture, t));
+    films.add(image, *picture, t);
+    picture = film.next();
+    return true;
+  });
+  if (!stop) films.finish();
+  return !stop;
+}
+
+}  // namespace
+
+bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const FilmComparison& wish, const std::atomic<bool>& stop) {
+  const auto start = Clock::now();
+  FilmErrors errors;
+  {
+    const FilmReader film(wish.film, movie.fps);
+    movie.look.width = film.width(), movie.look.height = film.height(), movie.fps = film.fps();
+  }
+  if (movie.look.width % 2 != 0 || movie.look.height % 2 != 0)
+    throw Error(fmt::format("its pictures have {}x{} pixels; cut them to even numbers", movie.look.width, movie.look.height), {wish.film});
+  movie.look.overlay = false;
+  errors.fps = movie.fps * movie.slow;
+  const double step = 1 / errors.fps;
+  Show show = show_of(run, reader, movie);
+  const Camera camera = chosen_cameras(run, show, movie).front();
+  errors.camera = camera.name;
+  const RunDrawer drawer{run, reader, movie, std::move(show), camera};
+  errors.film = signal_of_film(wish, movie, step);
+  const int factor = reduction_to(movie.look.width, signal_width);
+  errors.run = signal_of_run(drawer, movie.look.width / factor, movie.look.height / factor, step, stop);
+  if (stop) return false;
+  align(errors, wish);
+  fs::create_directories(wish.place);
+  if (!measure(drawer, errors, wish, stop)) return false;
+  errors.wall = std::chrono::duration<double>(Clock::now() - start).count();
+  write_film_errors(errors, wish, movie.quiet);
+  return true;
+}
+
+}  // namespace erbs::render

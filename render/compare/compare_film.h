@@ -1,0 +1,52 @@
+// A run against a film of the test: the run is drawn at the times, in the size and from the camera of the film, and both are measured.
+#pragma once
+#include <atomic>
+#include <string>
+#include <vector>
+
+#include "render/image/measures.h"
+#include "render/movie/movie.h"
+
+namespace erbs::render {
+
+struct FilmComparison {
+  std::string film;        // a film, or a folder of PNG files
+  std::string background;  // of the film: "rows", "drawn", or a PNG
+  std::string align;       // none, first-motion, correlation
+  std::string place;       // folder of the results
+  double reach = 5;        // s, largest lag
+  double residual = NAN;   // px, of a camera from marked points
+};
+
+// Errors of one picture of the film; time is that of the film (s).
+struct FrameErrors {
+  double time = 0, overlap = 0, ssim = 0;
+  Flow flow_run, flow_film;
+  double angle = NAN;  // deg between the two
+};
+
+// Signals of motion: mean absolute change of brightness a second between two pictures, at their mean time. They are measured on pictures
+// of at most 320 pixels in width.
+struct MotionSignal {
+  std::vector<double> t, y;  // s, 1/s of brightness 0..255
+};
+
+struct FilmErrors {
+  double lag = 0, correlation = NAN;  // s, by which the run is later than the film
+  bool at_edge = false;
+  double fps = 0;          // of the film, in time of the test
+  MotionSignal run, film;  // each in its own time
+  std::vector<FrameErrors> frames;
+  std::size_t outside = 0;  // pictures of the film outside the run
+  int reduction = 1;        // pixels of a picture for one of the measures, along each side
+  std::string camera;
+  double wall = 0;  // s
+};
+
+// Writes compare_side.mp4, compare_blend.mp4, compare_difference.mp4, frames.json and frames.svg. False if `stop` was set meanwhile.
+bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const FilmComparison& wish, const std::atomic<bool>& stop);
+
+// frames.json and frames.svg.
+void write_film_errors(const FilmErrors& errors, const FilmComparison& wish, bool quiet);
+
+}  // namespace erbs::render

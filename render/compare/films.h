@@ -1,0 +1,27 @@
+// Three films of two pictures each: side by side, blended, and their difference, with one clock.
+#pragma once
+#include <string>
+
+#include "render/image/text.h"
+#include "render/movie/video.h"
+
+namespace erbs::render {
+
+class ComparisonFilms {
+ public:
+  ComparisonFilms(const std::string& folder, int width, int height, double fps);
+  void add(const Image& run, const Image& film, double t);  // t: s, of the film
+  void finish();
+
+ private:
+  void label(Image& image, const std::string& left, const std::string& right, double t) const;
+  Video side_, blend_, difference_;
+  Font font_;
+};
+
+Image side_by_side(const Image& left, const Image& right);
+Image blended(const Image& a, const Image& b);
+// Grey where both agree, orange where the first is brighter, blue where the second one is.
+Image difference_of(const Image& a, const Image& b);
+
+}  // namespace erbs::render

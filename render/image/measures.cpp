@@ -1,0 +1,103 @@
+#include "render/image/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "engine/base/units.h"
+
+namespace erbs::render {
+namespace {
+
+constexpr int side = 16, reach = 8;  // px, of block matching
+
+// Sum of absolute differences of a square of `after` and the square of `before` that lies (dx, dy) away. Stops above `most`.
+float mismatch(const Gray& before, const Gray& after, int x0, int y0, int dx, int dy, float most) {
+  float sum = 0;
+  for (int y = y0; y < y0 + side && sum < most; ++y) {
+    const float *p = &after.v[std::size_t(y * after.width + x0)], *q = &before.v[std::size_t((y + dy) * before.width + x0 + dx)];
+    for (int x = 0; x < side; ++x) sum += std::abs(p[x] - q[x]);
+  }
+  return sum;
+}
+
+}  // namespace
+
+Gray gray_of(const Image& image) {
+  Gray gray{image.width, image.height, std::vector<float>(image.rgb.size() / 3)};
+  for (std::size_t i = 0; i < gray.v.size(); ++i)
+    gray.v[i] = 0.2126f * float(image.rgb[3 * i]) + 0.7152f * float(image.rgb[3 * i + 1]) + 0.0722f * float(image.rgb[3 * i + 2]);
+  return gray;
+}
+
+Image reduced(const Image& image, int factor) {
+  if (factor <= 1) return image;
+  Image small(image.width / factor, image.height / factor);
+  for (int y = 0; y < small.height; ++y)
+    for (int x = 0; x < small.width; ++x) {
+      int sum[3] = {0, 0, 0};
+      for (int j = 0; j < factor; ++j)
+        for (int i = 0; i < factor; ++i)
+          for (int c = 0; c < 3; ++c) sum[c] += image.pixel(x * factor + i, y * factor + j)[c];
+      for (int c = 0; c < 3; ++c) small.pixel(x, y)[c] = std::uint8_t((sum[c] + factor * factor / 2) / (factor * factor));
+    }
+  return small;
+}
+
+double mean_difference(const Gray& a, const Gray& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.v.size(); ++i) sum += std::abs(double(a.v[i]) - double(b.v[i]));
+  return a.v.empty() ? 0 : sum / double(a.v.size());
+}
+
+Image row_medians(const Image& image) {
+  Image background(image.width, image.height);
+  std::vector<std::uint8_t> row(std::size_t(image.width));
+  for (int y = 0; y < image.height; ++y)
+    for (int c = 0; c < 3; ++c) {
+      for (int x = 0; x < image.width; ++x) row[std::size_t(x)] = image.pixel(x, y)[c];
+      std::nth_element(row.begin(), row.begin() + image.width / 2, row.end());
+      for (int x = 0; x < image.width; ++x) background.pixel(x, y)[c] = row[std::size_t(image.width / 2)];
+    }
+  return background;
+}
+
+Mask silhouette(const Image& image, const Image& background, int threshold) {
+  Mask mask(image.rgb.size() / 3);
+  for (std::size_t i = 0; i < mask.size(); ++i)
+    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
+      if (std::abs(image.rgb[c] - background.rgb[c]) > threshold) mask[i] = 1;
+  return mask;
+}
+
+double overlap(const Mask& a, const Mask& b) {
+  std::size_t both = 0, any = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) both += a[i] & b[i], any += a[i] | b[i];
+  return any == 0 ? 1 : double(both) / double(any);
+}
+
+Flow flow_between(const Gray& before, const Gray& after) {
+  Flow flow;
+  int all = 0, moving = 0;
+  for (int y = reach; y + side + reach <= after.height; y += side)
+    for (int x = reach; x + side + reach <= after.width; x += side, ++all) {
+      const float rest = mismatch(before, after, x, y, 0, 0, HUGE_VALF);
+      if (rest < 3 * side * side) continue;
+      float best = 0.9f * rest;
+      int bx = 0, by = 0;
+      for (int dy = -reach; dy <= reach; ++dy)
+        for (int dx = -reach; dx <= reach; ++dx)
+          if (const float now = mismatch(before, after, x, y, dx, dy, best); now < best) best = now, bx = dx, by = dy;
+      if (bx != 0 || by != 0) flow.x -= bx, flow.y += by, ++moving;
+    }
+  if (moving > 0) flow.x /= moving, flow.y /= moving;
+  flow.moving = all > 0 ? double(moving) / all : 0;
+  return flow;
+}
+
+double angle_between(const Flow& a, const Flow& b) {
+  if (std::hypot(a.x, a.y) < 0.1 || std::hypot(b.x, b.y) < 0.1) return NAN;
+  return std::abs(std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y)) * 180 / pi;
+}
+
+}  // namespace erbs::render

@@ -1,0 +1,56 @@
+// erbs compare as a user calls it.
+#include <catch2/catch.hpp>
+
+#include "engine/record/format/json.h"
+#include "lua/program/options.h"
+#include "tests/unit/lua/bench.h"
+
+using namespace erbs;
+using namespace erbs::lua;
+
+namespace {
+
+// Four bricks that shake without falling, in a folder of their own.
+std::string shaken(Bench& bench, const std::string& name, const std::string& amplitude, const std::string& brick = "b") {
+  std::string text = four_bricks();
+  text.replace(text.find("\"b\""), 3, "\"" + brick + "\"");
+  bench.write(name + ".lua", text + R"(joint{ law = dry{ kn = 1*GPa, mu = 0.6 } }
+ground_motion{ wave = sine{ amplitude = )" +
+                                 amplitude + R"(, frequency = 3*Hz, duration = .3 }, direction = "y" }
+analysis{ duration = .5 }
+recorder{ name = "top", quantity = "displacement", block = ")" +
+                                 brick + R"(3" })");
+  const std::string out = (bench.folder / name).string();
+  REQUIRE(bench.erbs({"run", (bench.folder / (name + ".lua")).string(), "-o", out, "-q", "--no-figures"}) == exit_ok);
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("erbs compare judges a run against another run", "[compare][program]") {
+  Bench bench;
+  const std::string a = shaken(bench, "a", "0.1*g"), b = shaken(bench, "b", "0.12*g"), other = shaken(bench, "c", "0.1*g", "stone");
+  const std::string limits = "peak<5%,rms<5%,difference<1%,lag<1ms";
+  CHECK(bench.erbs({"compare", a, a, "--expect", "peak<5%,rms<5%,difference<1%,lag<.001,collapse_time<.01"}) == exit_ok);
+  const Json same = read_json(a + "/compare/compare.json");
+  CHECK(same["passed"] == true);
+  CHECK(same["columns"]["top_uy_rel_m"]["peak_error"] == 0.0);
+  CHECK(bench.erbs({"compare", a, b}) == exit_usage);  // there already
+  CHECK(bench.erbs({"compare", a, b, "--force", "--expect", "peak<5%"}) == exit_expectation);
+  CHECK(bench.said.find("FAILED") != std::string::npos);
+  CHECK(read_json(a + "/compare/compare.json")["columns"]["ground_ay_m_s2"]["peak_error"] == Approx(-1. / 6).margin(1e-3));
+
+  const std::string place = (bench.folder / "none").string();
+  CHECK(bench.erbs({"compare", a, b, "-o", place, "--expect", limits}) == exit_usage);
+  CHECK(bench.erbs({"compare", a, b, "-o", place, "--expect", "peek<5%"}) == exit_usage);
+  CHECK(bench.erbs({"compare", a, other, "-o", place}) == exit_usage);
+  CHECK(bench.said.find("another scene") != std::string::npos);
+  CHECK(bench.erbs({"compare", a, "nowhere", "-o", place}) == exit_usage);
+  std::filesystem::resize_file(b + "/motion.h5", 1000);
+  CHECK(bench.erbs({"compare", a, b, "-o", place}) == exit_usage);
+  CHECK(bench.said.find("motion.h5") != std::string::npos);
+  bench.write("m.csv", "depth_m,top_uy_rel_m\n0,1\n1,2\n");
+  CHECK(bench.erbs({"compare", a, (bench.folder / "m.csv").string(), "-o", place}) == exit_usage);
+  CHECK(bench.said.find("m.csv:1") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(place));
+}

@@ -1,0 +1,91 @@
+// Measures of pictures, and a run against films of itself and of another run.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/base/system/process.h"
+#include "engine/record/format/json.h"
+#include "render/compare/films.h"
+#include "render/image/measures.h"
+#include "render/movie/film_reader.h"
+#include "tests/unit/lua/bench.h"
+#include "tests/unit/render/brick_house.h"
+
+using namespace erbs;
+using namespace erbs::render;
+
+namespace {
+
+// A textured square on white, its corner at (x, y).
+Image square(int x, int y) {
+  Image image(160, 120);
+  std::fill(image.rgb.begin(), image.rgb.end(), std::uint8_t(250));
+  for (int j = 0; j < 40; ++j)
+    for (int i = 0; i < 40; ++i)
+      for (int c = 0; c < 3; ++c) image.pixel(x + i, y + j)[c] = std::uint8_t(40 + (i * i * 7 + j * 31 + i * j * 3) % 97);
+  return image;
+}
+
+struct Films {
+  lua::Bench bench;
+  std::string run = (bench.folder / "house").string();
+  Films() {
+    std::filesystem::create_directories(run);
+    write_brick_house(run, {.courses = 14, .duration = 2, .frame_dt = 0.02});
+  }
+  // A film of the run from `from` s on.
+  std::string film(double from, const std::string& fps, const std::string& size) const {
+    const std::string renderer = ERBS_BINARY_DIR "/erbs-render", span = std::to_string(from) + ":1.9";
+    REQUIRE(wait_for(start({renderer, run, "--no-overlay", "--size", size, "--fps", fps, "--time", span, "--no-figures", "-q", "--force"},
+                           (bench.folder / "log").string())) == 0);
+    for (const auto& entry : std::filesystem::directory_iterator(run))
+      if (entry.path().extension() == ".mp4") {
+        std::filesystem::rename(entry.path(), bench.folder / "film.mp4");
+        return (bench.folder / "film.mp4").string();
+      }
+    return "";
+  }
+};
+
+}  // namespace
+
+TEST_CASE("motion and silhouettes of pictures are measured", "[render][compare]") {
+  const Flow right = flow_between(gray_of(square(50, 40)), gray_of(square(54, 40))),
+             up = flow_between(gray_of(square(50, 40)), gray_of(square(50, 37)));
+  CHECK(std::atan2(right.y, right.x) == Approx(0).margin(0.3));
+  CHECK(std::atan2(up.y, up.x) == Approx(std::acos(-1) / 2).margin(0.3));
+  CHECK(angle_between(right, up) == Approx(90).margin(20));
+  CHECK(std::isnan(angle_between(right, flow_between(gray_of(square(50, 40)), gray_of(square(50, 40))))));
+  const Image background = row_medians(square(50, 40));
+  CHECK(overlap(silhouette(square(50, 40), background), silhouette(square(50, 40), background)) == 1);
+  CHECK(overlap(silhouette(square(50, 40), background), silhouette(square(60, 40), background)) == Approx(0.6));
+  CHECK(reduced(square(50, 40), 4).width == 40);
+  CHECK(difference_of(square(50, 40), square(50, 40)).pixel(60, 50)[0] == 245);
+}
+
+TEST_CASE("the shift of a film is found to half a picture, and its noise tells nothing apart", "[render][compare][program]") {
+  Films films;
+  for (const std::string fps : {"25", "40"}) {
+    CAPTURE(fps);
+    const std::string film = films.film(0.137, fps, "192x144"), place = (films.bench.folder / ("found" + fps)).string();
+    const std::string limits =
+        "shift<" + std::to_string(0.137 + 0.5 / std::stod(fps)) + ",shift>" + std::to_string(0.137 - 0.5 / std::stod(fps));
+    CHECK(films.bench.erbs(
+              {"compare", films.run, film, "-o", place, "--film-background", "drawn", "--expect", limits + ",iou>.8,ssim>.9"}) == 0);
+    INFO(films.bench.said);
+    CHECK(std::filesystem::exists(place + "/compare_side.mp4"));
+    CHECK(read_json(place + "/compare.json")["passed"] == true);
+  }
+}
+
+TEST_CASE("what is no film is refused, and nothing is written", "[render][compare][program]") {
+  Films films;
+  films.bench.write("text.mp4", "no film");
+  const std::string place = (films.bench.folder / "none").string();
+  CHECK(films.bench.erbs({"compare", films.run, (films.bench.folder / "text.mp4").string(), "-o", place}) == 2);
+  CHECK(films.bench.said.find("finds no film") != std::string::npos);
+  std::filesystem::create_directories(films.bench.folder / "empty");
+  CHECK(films.bench.erbs({"compare", films.run, (films.bench.folder / "empty").string(), "-o", place}) == 2);
+  CHECK(films.bench.said.find("no two PNG files") != std::string::npos);
+  CHECK(films.bench.erbs({"compare", films.run, (films.bench.folder / "text.mp4").string(), "-o", place, "--expect", "peak<5%"}) == 2);
+  CHECK_FALSE(std::filesystem::exists(place));
+}
