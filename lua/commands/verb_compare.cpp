@@ -151,7 +151,7 @@ bool all_passed(const std::vector<Judged>& judged) {
 // Lets erbs-render draw and measure, then judges what it found.
 int compare_pictures(const CompareCommand& command, const fs::path& place, const std::vector<Limit>& limits) {
   judge(limits, [](const std::string& quantity) { return values_of(Json::object(), quantity); });  // refuses what is not measured
-  check_programs({renderer_path(), "ffmpeg"});
+  check_programs({renderer_path()});
   std::vector<std::string> words{command.words[0], "--compare",
                                  command.words[1], "--compare-to",
                                  place.string(),   "--no-figures",

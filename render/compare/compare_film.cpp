@@ -177,6 +177,7 @@ bool measure(const RunDrawer& drawer, FilmErrors& errors, const FilmComparison& 
   errors.reduction = reduction_to(width, measured_width);
   Meter meter{errors.reduction, reduced(empty, errors.reduction), reduced(background, errors.reduction), {}, {}};
   for (std::size_t i = 0; i < first; ++i) picture = film.next();
+  fs::create_directories(wish.place);
   ComparisonFilms films(wish.place, width, height, movie.fps);
   drawer.draw(times, width, height, false, [&](std::size_t i, const Image& image) {
     if (!picture || stop) return false;
@@ -213,7 +214,6 @@ bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const
   errors.run = signal_of_run(drawer, movie.look.width / factor, movie.look.height / factor, step, stop);
   if (stop) return false;
   align(errors, wish);
-  fs::create_directories(wish.place);
   if (!measure(drawer, errors, wish, stop)) return false;
   errors.wall = std::chrono::duration<double>(Clock::now() - start).count();
   write_film_errors(errors, wish, movie.quiet);
