@@ -19,7 +19,7 @@ using erbs::Error;
 namespace render = erbs::render;
 
 struct Arguments {
-  std::string dir, size = "1280x720", time, stills, eye, target, color = "material", tilt = "table", background = "sky";
+  std::string dir, size = "1280x720", time, stills, eye, target, color = "material", section, tilt = "table", background = "sky";
   std::vector<std::string> cameras;
   bool figures_only = false, no_figures = false;
   render::Movie movie;
@@ -101,6 +101,7 @@ int run(Arguments& a) {
   read_times(a, movie);
   movie.cameras = a.cameras;
   read_camera(a, movie);
+  if (!a.section.empty()) movie.section = render::read_section(a.section);
   movie.look.coloring = colorings.at(a.color);
   movie.look.white = a.background == "white";
   movie.look.table_turns = a.tilt == "table";
@@ -149,6 +150,10 @@ int main(int argc, char** argv) {
   app.add_option("--color", a.color, "of blocks: material, damage, displacement, speed, or largest opening of their joints")
       ->check(CLI::IsMember(colorings))
       ->capture_default_str();
+  app.add_option("--hide", a.movie.hide, "groups of blocks that are not drawn, with their joints")->delimiter(',');
+  app.add_option("--ghost", a.movie.ghost, "groups of blocks drawn translucent")->delimiter(',');
+  app.add_option("--section", a.section,
+                 "x=1.2, y<0.5 or z>2: cut the blocks, where they are at rest, and draw what lies behind, below or above (m)");
   app.add_option("--magnify", a.movie.look.magnify, "factor on the displacements drawn")->check(within(1e-3, 1e6))->capture_default_str();
   app.add_option("--tilt", a.tilt, "of a tilting test: the table turns, or the camera stays level with it")
       ->check(CLI::IsMember({"table", "camera"}))

@@ -208,14 +208,37 @@ struct Painter::Hidden {
     }
   }
 
-  void draw_picture(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position) const {
-    const Stage& stage = show.stage;
-    canvas->begin_picture();
+  void draw_bricks(const Light& light, double opacity) const {
     use(solid, light, light.camera);
     vector(solid, "mortar", {0.50F, 0.475F, 0.43F});
     number(solid, "darker_edge", show.mortared ? 0.12 : 0.42);
     number(solid, "by_damage", look_.coloring == Coloring::material ? 0 : 1);
+    number(solid, "opacity", opacity);
     draw(bricks);
+  }
+
+  // Translucent blocks over the finished picture: of each pixel the nearest surface only, whatever the order of drawing.
+  void draw_ghosts(const Light& light, const std::vector<std::uint32_t>& index) {
+    if (index.empty()) return;
+    choose(gl, bricks, index);
+    canvas->begin_translucent();
+    gl.Enable(GL_CULL_FACE);
+    gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    draw_bricks(light, 1);
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.Enable(GL_BLEND);
+    gl.BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    gl.DepthFunc(GL_LEQUAL);
+    draw_bricks(light, 0.28);
+    gl.DepthFunc(GL_LESS);
+    gl.Disable(GL_BLEND);
+    gl.Disable(GL_CULL_FACE);
+  }
+
+  void draw_picture(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position) const {
+    const Stage& stage = show.stage;
+    canvas->begin_picture();
+    draw_bricks(light, 1);
     gl.Disable(GL_CULL_FACE);
     use(crack, light, light.camera);
     number(crack, "pixel", v.pixel);
@@ -274,6 +297,7 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   choose(h.gl, h.cracks, texels.crack_index);
   h.draw_shadow(light);
   h.draw_picture(light, v, position);
+  h.draw_ghosts(light, texels.ghost_index);
   Image image = h.canvas->finish(v.projection, 0.022 * h.show.stage.size());
   if (const GLenum error = h.gl.GetError(); error != GL_NO_ERROR)
     throw std::logic_error(fmt::format("internal error: OpenGL reports {:#x}; please report it", error));

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "render/gl/canvas.h"
+#include "render/run/excerpt.h"
 #include "render/run/mesh.h"
 #include "render/run/run.h"
 #include "render/run/stage.h"
@@ -35,8 +36,11 @@ struct Show {
   std::vector<float> joint_area;  // m2 [joints]
   double scale = 1;               // m or m/s, the value that has the last colour of the map
   std::vector<Vec3> block_color;  // linear, by material with a slight variation between bricks [blocks]
+  std::vector<bool> ghost;        // drawn translucent, without shadow [blocks]
 };
 Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<MotionFrame>& some_frames);
+// The same on a stage that is set, with ghosts (empty: none) and a section whose side is known.
+Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::vector<bool> ghost, const std::optional<Section>& section);
 
 // Nearest to `size` among 1, 2 or 5 times a power of ten.
 double round_length(double size);
@@ -57,6 +61,7 @@ double color_scale(const MotionScene& scene, const std::vector<MotionFrame>& fra
 struct FrameTexels {
   std::vector<float> blocks, joints;
   std::vector<std::uint32_t> index, crack_index;
+  std::vector<std::uint32_t> ghost_index;  // triangles of translucent blocks
 };
 FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye);
 

@@ -118,9 +118,22 @@ void Canvas::begin_shadow() {
 
 void Canvas::begin_picture() {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
+  translucent_ = false;
   gl_.Viewport(0, 0, width_, height_);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void Canvas::resolve(GLenum what) {
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, sampled_.framebuffer);
+  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.framebuffer);
+  gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, what, GL_NEAREST);
+}
+
+void Canvas::begin_translucent() {
+  resolve(GL_DEPTH_BUFFER_BIT);
+  translucent_ = true;
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
 }
 
 void Canvas::screen_pass(GLuint program, const Target& target) {
@@ -145,9 +158,7 @@ void Canvas::occlusion_uniforms(GLuint program, const Eigen::Matrix4f& p, double
 }
 
 Image Canvas::finish(const Eigen::Matrix4f& projection, double radius) {
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, sampled_.framebuffer);
-  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.framebuffer);
-  gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  resolve(GL_COLOR_BUFFER_BIT | (translucent_ ? 0 : GL_DEPTH_BUFFER_BIT));
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_CULL_FACE);
   gl_.ActiveTexture(GL_TEXTURE0);

@@ -71,10 +71,12 @@ void main() {
 const std::string solid_fragment = lighting + R"(
 in vec3 world, n, albedo;
 uniform float darker_edge;
+uniform float opacity;        // of faces; edges are denser
 out vec4 color;
 void main() {
   float edge = clamp((1.0 - dot(n, n)) * 2.2, 0.0, 1.0);
   color = srgb(lit(albedo * (1.0 - darker_edge * edge), world, normalize(n), 1.0 - 0.25 * edge));
+  color.a = mix(opacity, 1.0, 0.4 * edge);
 }
 )";
 

@@ -12,9 +12,11 @@ namespace erbs::render {
 
 struct Movie {
   Look look;
-  std::vector<std::string> cameras;                // names; empty: the first camera; "all": all cameras
-  std::optional<Vec3> eye, target;                 // m, of a camera of one's own, which is then drawn alone
-  double fov = 31;                                 // degrees, of that camera
+  std::vector<std::string> cameras;      // names; empty: the first camera; "all": all cameras
+  std::optional<Vec3> eye, target;       // m, of a camera of one's own, which is then drawn alone
+  double fov = 31;                       // degrees, of that camera
+  std::vector<std::string> hide, ghost;  // groups of blocks that are not drawn, or translucent
+  std::optional<Section> section;
   bool fit = false;                                // moves it along its line of sight until all is visible
   double fps = 25;                                 // of the video
   double slow = 1;                                 // seconds of video per second of the run
