@@ -31,6 +31,9 @@ const std::map<std::string, render::Coloring> colorings{{"material", render::Col
                                                         {"speed", render::Coloring::speed},
                                                         {"opening", render::Coloring::opening}};
 
+const std::map<std::string, render::Background> backgrounds{
+    {"sky", render::Background::sky}, {"white", render::Background::white}, {"transparent", render::Background::transparent}};
+
 // Reads a finite number; false if the text holds anything else.
 bool read_number(std::string_view text, double& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -103,7 +106,9 @@ int run(Arguments& a) {
   read_camera(a, movie);
   if (!a.section.empty()) movie.section = render::read_section(a.section);
   movie.look.coloring = colorings.at(a.color);
-  movie.look.white = a.background == "white";
+  movie.look.background = backgrounds.at(a.background);
+  if (movie.look.background == render::Background::transparent && movie.video && movie.stills.empty() && !movie.webp)
+    throw Error("--background transparent: an MP4 has no transparent pixels; add --webp, --no-video or --stills t1,t2");
   movie.look.table_turns = a.tilt == "table";
   const render::Run folder = render::read_run(a.dir);
   if (!a.no_figures) write_figures(folder, a);
@@ -158,7 +163,9 @@ int main(int argc, char** argv) {
   app.add_option("--tilt", a.tilt, "of a tilting test: the table turns, or the camera stays level with it")
       ->check(CLI::IsMember({"table", "camera"}))
       ->capture_default_str();
-  app.add_option("--background", a.background, "sky, or white for print")->check(CLI::IsMember({"sky", "white"}))->capture_default_str();
+  app.add_option("--background", a.background, "sky, white for print, or transparent: pictures or a WebP of blocks and their shadow alone")
+      ->check(CLI::IsMember(backgrounds))
+      ->capture_default_str();
   app.add_flag("!--no-overlay", a.movie.look.overlay, "the scene alone: no title, clock, legend, scale, axes and ground motion");
   app.add_flag("--video,!--no-video", a.movie.video, "an MP4 a camera (default), or pictures alone");
   app.add_flag("--webp", a.movie.webp, "an animated WebP that repeats itself in place of the MP4, for pages such as a README");

@@ -14,14 +14,16 @@ namespace erbs::render {
 // What the colour of a block shows: its material, the broken share of its joint area, or a quantity on a scale from 0 to Show::scale.
 enum class Coloring { material, damage, displacement, speed, opening };
 
+enum class Background { sky, white, transparent };
+
 struct Look {
   Coloring coloring = Coloring::material;
   int width = 1280, height = 720;
-  double top = 0, bottom = 0;  // pixels covered by the overlay
-  bool overlay = true;         // title, clock, legend, scale, axes and ground motion
-  double magnify = 1;          // factor on the displacements drawn
-  bool white = false;          // background and ground, for print
-  bool table_turns = true;     // a tilting test is drawn level, with its table turning; otherwise gravity turns
+  double top = 0, bottom = 0;               // pixels covered by the overlay
+  bool overlay = true;                      // title, clock, legend, scale, axes and ground motion
+  double magnify = 1;                       // factor on the displacements drawn
+  Background background = Background::sky;  // white: with the ground, for print; transparent: of the ground, only its shadow
+  bool table_turns = true;                  // a tilting test is drawn level, with its table turning; otherwise gravity turns
 };
 
 // Constant data of a picture, common to all frames and threads.

@@ -39,8 +39,8 @@ class Canvas {
   void begin_picture();  // afterwards draw everything visible
   // Afterwards draw what is translucent: it darkens no corners.
   void begin_translucent();
-  // Darkens corners within `radius` (m), then returns the pixels.
-  Image finish(const Eigen::Matrix4f& projection, double radius);
+  // Darkens corners within `radius` (m), then returns the pixels, perhaps with their opacity.
+  Image finish(const Eigen::Matrix4f& projection, double radius, bool with_opacity);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -48,6 +48,7 @@ class Canvas {
   static constexpr int shadow_side = 2048;  // texels
 
  private:
+  Image read(bool with_opacity) const;
   void resolve(GLenum what);
   void screen_pass(GLuint program, const Target& target);
   void occlusion_uniforms(GLuint program, const Eigen::Matrix4f& projection, double radius);

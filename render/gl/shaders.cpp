@@ -154,6 +154,14 @@ void main() {
 }
 )";
 
+// The shadow alone, black and as dense as it darkens the ground.
+const std::string dim_fragment = lighting + R"(
+in vec3 world;
+uniform vec3 normal;
+out vec4 color;
+void main() { color = vec4(0.0, 0.0, 0.0, 0.36 * (1.0 - sunlight(world, normal, max(dot(normal, sun), 0.0)))); }
+)";
+
 const std::string screen_vertex = R"(
 out vec2 uv;
 void main() {
@@ -261,8 +269,9 @@ in vec2 uv;
 uniform sampler2D picture, occlusion;
 out vec4 color;
 void main() {
-  float open = texture(occlusion, uv).r;
-  color = vec4(texture(picture, uv).rgb * (0.30 + 0.70 * open), 1.0);
+  float bright = 0.30 + 0.70 * texture(occlusion, uv).r;
+  vec4 seen = texture(picture, uv);
+  color = vec4(seen.rgb * bright, 1.0 - (1.0 - seen.a) * bright);  // colours are times opacity
 }
 )";
 

@@ -142,10 +142,11 @@ bool film(const Run& run, const Show& show, const std::function<MotionFrame(doub
   const auto ordered = [&](std::size_t i) { return frame_of(schedule.times[i]); };
   std::size_t made = 0;
   // Started before ffmpeg; otherwise these processes would hold its input open.
-  Workers workers(std::clamp<std::size_t>(wish, 1, all), movie.look.width, movie.look.height, ordered(0),
+  const Image empty(movie.look.width, movie.look.height, movie.look.background == Background::transparent ? 4 : 3);
+  Workers workers(std::clamp<std::size_t>(wish, 1, all), empty, ordered(0),
                   [&] { return drawer(run, show, movie, camera, files, schedule); });
   std::optional<Video> video;
-  if (!files.video.empty()) video.emplace(files.video, movie.look.width, movie.look.height, movie.fps);
+  if (!files.video.empty()) video.emplace(files.video, movie.look.width, movie.look.height, movie.fps, empty.channels);
   {
     Progress progress(movie.quiet);
     for (std::size_t i = 0; i < workers.count(); ++i) workers.order(i, i, ordered(i));
