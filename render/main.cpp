@@ -24,7 +24,7 @@ using erbs::Error;
 namespace render = erbs::render;
 
 struct Arguments {
-  std::string dir, size = "1280x720", time, stills, eye, target, color = "material", tilt = "table", background = "sky", points;
+  std::string dir, size = "1280x720", time, stills, eye, target, color = "material", section, tilt = "table", background = "sky", points;
   bool known_fov = false;
   std::vector<std::string> cameras;
   bool figures_only = false, no_figures = false;
@@ -37,6 +37,9 @@ const std::map<std::string, render::Coloring> colorings{{"material", render::Col
                                                         {"displacement", render::Coloring::displacement},
                                                         {"speed", render::Coloring::speed},
                                                         {"opening", render::Coloring::opening}};
+
+const std::map<std::string, render::Background> backgrounds{
+    {"sky", render::Background::sky}, {"white", render::Background::white}, {"transparent", render::Background::transparent}};
 
 // Reads a finite number; false if the text holds anything else.
 bool read_number(std::string_view text, double& value) {
@@ -138,8 +141,11 @@ int run(Arguments& a) {
   read_camera(a, movie);
   if (!movie.expected.empty() && (movie.stills.size() != 1 || (movie.cameras.size() != 1 && !movie.eye)))
     throw Error("--expect compares one picture; give one time with --stills and one camera with --camera");
+  if (!a.section.empty()) movie.section = render::read_section(a.section);
   movie.look.coloring = colorings.at(a.color);
-  movie.look.white = a.background == "white";
+  movie.look.background = backgrounds.at(a.background);
+  if (movie.look.background == render::Background::transparent && movie.video && movie.stills.empty() && !movie.webp)
+    throw Error("--background transparent: an MP4 has no transparent pixels; add --webp, --no-video or --stills t1,t2");
   movie.look.table_turns = a.tilt == "table";
   const render::Run folder = render::read_run(a.dir);
   if (!a.comparison.film.empty()) return compare(folder, a);
@@ -201,11 +207,17 @@ int main(int argc, char** argv) {
   app.add_option("--color", a.color, "of blocks: material, damage, displacement, speed, or largest opening of their joints")
       ->check(CLI::IsMember(colorings))
       ->capture_default_str();
+  app.add_option("--hide", a.movie.hide, "groups of blocks that are not drawn, with their joints")->delimiter(',');
+  app.add_option("--ghost", a.movie.ghost, "groups of blocks drawn translucent")->delimiter(',');
+  app.add_option("--section", a.section,
+                 "x=1.2, y<0.5 or z>2: cut the blocks, where they are at rest, and draw what lies behind, below or above (m)");
   app.add_option("--magnify", a.movie.look.magnify, "factor on the displacements drawn")->check(within(1e-3, 1e6))->capture_default_str();
   app.add_option("--tilt", a.tilt, "of a tilting test: the table turns, or the camera stays level with it")
       ->check(CLI::IsMember({"table", "camera"}))
       ->capture_default_str();
-  app.add_option("--background", a.background, "sky, or white for print")->check(CLI::IsMember({"sky", "white"}))->capture_default_str();
+  app.add_option("--background", a.background, "sky, white for print, or transparent: pictures or a WebP of blocks and their shadow alone")
+      ->check(CLI::IsMember(backgrounds))
+      ->capture_default_str();
   app.add_flag("!--no-overlay", a.movie.look.overlay, "the scene alone: no title, clock, legend, scale, axes and ground motion");
   app.add_flag("--video,!--no-video", a.movie.video, "an MP4 a camera (default), or pictures alone");
   app.add_flag("--webp", a.movie.webp, "an animated WebP that repeats itself in place of the MP4, for pages such as a README");

@@ -59,7 +59,7 @@ struct RunDrawer {
       };
     };
     const auto wish = std::size_t(movie.threads > 0 ? movie.threads : usable_processors());
-    Workers workers(std::clamp<std::size_t>(wish, 1, times.size()), width, height, frame_of(times[0], empty), prepare);
+    Workers workers(std::clamp<std::size_t>(wish, 1, times.size()), Image(width, height), frame_of(times[0], empty), prepare);
     for (std::size_t i = 0; i < workers.count(); ++i) workers.order(i, i, frame_of(times[i], empty));
     for (std::size_t i = 0; i < times.size(); ++i) {
       Image image = workers.collect(i % workers.count());
@@ -206,7 +206,7 @@ bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const
   errors.fps = movie.fps * movie.slow;
   const double step = 1 / errors.fps;
   Show show = show_of(run, reader, movie);
-  const Camera camera = chosen_cameras(run, show, movie).front();
+  const Camera camera = chosen_cameras(run, show.stage, movie).front();
   errors.camera = camera.name;
   const RunDrawer drawer{run, reader, movie, std::move(show), camera};
   errors.film = signal_of_film(wish, movie, step);

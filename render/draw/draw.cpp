@@ -13,9 +13,9 @@ namespace {
 struct Backdrop {
   Eigen::Vector3f horizon, high, ground, floor;  // high: of the sky
 };
-Backdrop backdrop(bool white) {
+Backdrop backdrop(Background background) {
   const Eigen::Vector3f paper = Eigen::Vector3f::Ones();
-  if (white) return {paper, paper, {0.84F, 0.84F, 0.85F}, paper};
+  if (background != Background::sky) return {paper, paper, {0.84F, 0.84F, 0.85F}, paper};
   return {{0.80F, 0.83F, 0.86F}, {0.46F, 0.60F, 0.76F}, {0.54F, 0.535F, 0.52F}, {0.56F, 0.57F, 0.58F}};
 }
 
@@ -71,17 +71,18 @@ struct Painter::Hidden {
   std::unique_ptr<Context> context;
   Gl gl;
   std::unique_ptr<Canvas> canvas;
-  GLuint solid, shade, crack, ground, sky;
+  GLuint solid, shade, crack, ground, dim, sky;  // dim: a ground that only shows its shadow
   Drawable bricks, shades, cracks, plane;
   Texels blocks, joints;
 
   Hidden(const Show& s, const Look& l, const std::string& kind)
-      : show(s), look_(l), around(backdrop(l.white)), context(make_context(kind)), gl(load_gl(*context)) {
+      : show(s), look_(l), around(backdrop(l.background)), context(make_context(kind)), gl(load_gl(*context)) {
     canvas = std::make_unique<Canvas>(gl, l.width, l.height);
     solid = make_program(gl, shader_common, solid_vertex, solid_fragment);
     shade = make_program(gl, shader_common, shade_vertex, shade_fragment);
     crack = make_program(gl, shader_common, crack_vertex, crack_fragment);
     ground = make_program(gl, shader_common, ground_vertex, ground_fragment);
+    dim = make_program(gl, shader_common, ground_vertex, dim_fragment);
     sky = make_program(gl, shader_common, screen_vertex, sky_fragment);
     upload_geometry();
     for (Texels* t : {&blocks, &joints}) {
@@ -90,7 +91,7 @@ struct Painter::Hidden {
     }
   }
   ~Hidden() {
-    for (GLuint program : {solid, shade, crack, ground, sky}) gl.DeleteProgram(program);
+    for (GLuint program : {solid, shade, crack, ground, dim, sky}) gl.DeleteProgram(program);
     for (Drawable* d : {&bricks, &shades, &cracks, &plane}) {
       gl.DeleteVertexArrays(1, &d->vao);
       gl.DeleteBuffers(1, &d->vertices);
@@ -179,14 +180,18 @@ struct Painter::Hidden {
     gl.BindTexture(GL_TEXTURE_2D, canvas->shadow_map());
   }
 
-  // A rectangle of the ground, from its middle; with lines if `grid` > 0.
+  // A rectangle of the ground, from its middle.
+  void place_plane(GLuint program, const Light& light, const Vec3& middle, const Vec3& along, const Vec3& across) const {
+    use(program, light, light.camera);
+    vector(program, "middle", middle.cast<float>());
+    vector(program, "along", along.cast<float>());
+    vector(program, "across", across.cast<float>());
+    vector(program, "normal", along.cross(across).normalized().cast<float>());
+  }
+
   void draw_plane(const Light& light, const View& v, const Vec3& middle, const Vec3& along, const Vec3& across, bool lines) const {
     const Stage& stage = show.stage;
-    use(ground, light, light.camera);
-    vector(ground, "middle", middle.cast<float>());
-    vector(ground, "along", along.cast<float>());
-    vector(ground, "across", across.cast<float>());
-    vector(ground, "normal", along.cross(across).normalized().cast<float>());
+    place_plane(ground, light, middle, along, across);
     vector(ground, "tone", around.ground);
     number(ground, "grid", lines ? show.grid : 1e9);
     number(ground, "fade", 1.5 * stage.size());
@@ -208,14 +213,37 @@ struct Painter::Hidden {
     }
   }
 
-  void draw_picture(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position) const {
-    const Stage& stage = show.stage;
-    canvas->begin_picture();
+  void draw_bricks(const Light& light, double opacity) const {
     use(solid, light, light.camera);
     vector(solid, "mortar", {0.50F, 0.475F, 0.43F});
     number(solid, "darker_edge", show.mortared ? 0.12 : 0.42);
     number(solid, "by_damage", look_.coloring == Coloring::material ? 0 : 1);
+    number(solid, "opacity", opacity);
     draw(bricks);
+  }
+
+  // Translucent blocks over the finished picture: of each pixel the nearest surface only, whatever the order of drawing.
+  void draw_ghosts(const Light& light, const std::vector<std::uint32_t>& index) {
+    if (index.empty()) return;
+    choose(gl, bricks, index);
+    canvas->begin_translucent();
+    gl.Enable(GL_CULL_FACE);
+    gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    draw_bricks(light, 1);
+    gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    gl.Enable(GL_BLEND);
+    gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    gl.DepthFunc(GL_LEQUAL);
+    draw_bricks(light, 0.28);
+    gl.DepthFunc(GL_LESS);
+    gl.Disable(GL_BLEND);
+    gl.Disable(GL_CULL_FACE);
+  }
+
+  void draw_picture(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position) const {
+    const Stage& stage = show.stage;
+    canvas->begin_picture();
+    draw_bricks(light, 1);
     gl.Disable(GL_CULL_FACE);
     use(crack, light, light.camera);
     number(crack, "pixel", v.pixel);
@@ -226,8 +254,18 @@ struct Painter::Hidden {
     draw(cracks);
     const Vec3 middle(stage.building.center().x(), stage.building.center().y(), stage.ground_z);
     const double reach = 12 * (stage.size() + static_cast<double>(v.target_distance));
-    if (!position) draw_plane(light, v, middle, reach * Vec3::UnitX(), reach * Vec3::UnitY(), true);
+    const bool backed = look_.background != Background::transparent;
+    if (!position && backed) draw_plane(light, v, middle, reach * Vec3::UnitX(), reach * Vec3::UnitY(), true);
+    if (!position && !backed) {
+      place_plane(dim, light, middle, reach * Vec3::UnitX(), reach * Vec3::UnitY());
+      draw(plane);
+    }
     if (position && stage.on_ground) draw_table(light, v);
+    if (backed) draw_sky(light, v, position);
+  }
+
+  void draw_sky(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position) const {
+    const Stage& stage = show.stage;
     gl.DepthFunc(GL_LEQUAL);
     use(sky, light, light.camera);
     matrix(sky, "to_world", light.camera.inverse());
@@ -274,7 +312,8 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   choose(h.gl, h.cracks, texels.crack_index);
   h.draw_shadow(light);
   h.draw_picture(light, v, position);
-  Image image = h.canvas->finish(v.projection, 0.022 * h.show.stage.size());
+  h.draw_ghosts(light, texels.ghost_index);
+  Image image = h.canvas->finish(v.projection, 0.022 * h.show.stage.size(), l.background == Background::transparent);
   if (const GLenum error = h.gl.GetError(); error != GL_NO_ERROR)
     throw std::logic_error(fmt::format("internal error: OpenGL reports {:#x}; please report it", error));
   return image;

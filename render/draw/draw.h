@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "render/gl/canvas.h"
+#include "render/run/excerpt.h"
 #include "render/run/mesh.h"
 #include "render/run/run.h"
 #include "render/run/stage.h"
@@ -13,14 +14,16 @@ namespace erbs::render {
 // What the colour of a block shows: its material, the broken share of its joint area, or a quantity on a scale from 0 to Show::scale.
 enum class Coloring { material, damage, displacement, speed, opening };
 
+enum class Background { sky, white, transparent };
+
 struct Look {
   Coloring coloring = Coloring::material;
   int width = 1280, height = 720;
-  double top = 0, bottom = 0;  // pixels covered by the overlay
-  bool overlay = true;         // title, clock, legend, scale, axes and ground motion
-  double magnify = 1;          // factor on the displacements drawn
-  bool white = false;          // background and ground, for print
-  bool table_turns = true;     // a tilting test is drawn level, with its table turning; otherwise gravity turns
+  double top = 0, bottom = 0;               // pixels covered by the overlay
+  bool overlay = true;                      // title, clock, legend, scale, axes and ground motion
+  double magnify = 1;                       // factor on the displacements drawn
+  Background background = Background::sky;  // white: with the ground, for print; transparent: of the ground, only its shadow
+  bool table_turns = true;                  // a tilting test is drawn level, with its table turning; otherwise gravity turns
 };
 
 // Constant data of a picture, common to all frames and threads.
@@ -35,8 +38,11 @@ struct Show {
   std::vector<float> joint_area;  // m2 [joints]
   double scale = 1;               // m or m/s, the value that has the last colour of the map
   std::vector<Vec3> block_color;  // linear, by material with a slight variation between bricks [blocks]
+  std::vector<bool> ghost;        // drawn translucent, without shadow [blocks]
 };
 Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<MotionFrame>& some_frames);
+// The same on a stage that is set, with ghosts (empty: none) and a section whose side is known.
+Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::vector<bool> ghost, const std::optional<Section>& section);
 
 // Nearest to `size` among 1, 2 or 5 times a power of ten.
 double round_length(double size);
@@ -57,6 +63,7 @@ double color_scale(const MotionScene& scene, const std::vector<MotionFrame>& fra
 struct FrameTexels {
   std::vector<float> blocks, joints;
   std::vector<std::uint32_t> index, crack_index;
+  std::vector<std::uint32_t> ghost_index;  // triangles of translucent blocks
 };
 FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye);
 

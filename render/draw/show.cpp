@@ -56,9 +56,15 @@ Vec3 damage_color(double damage) {
 }
 
 Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<MotionFrame>& some_frames) {
+  return prepare_show(scene, run, set_stage(scene, some_frames), {}, std::nullopt);
+}
+
+Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::vector<bool> ghost, const std::optional<Section>& section) {
   Show show;
   show.scene = &scene;
-  show.stage = set_stage(scene, some_frames);
+  show.stage = std::move(stage);
+  show.ghost = std::move(ghost);
+  show.ghost.resize(scene.blocks.size());
   double thinnest = 0.024 * show.stage.size();
   for (const MotionShape& shape : scene.shapes) {  // large plates do not count
     Eigen::AlignedBox3f box;
@@ -76,8 +82,11 @@ Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<Mo
     show.chamfer = std::min(show.chamfer, 0.3 * joint.thickness);
     gap = std::max(gap, joint.thickness);
   }
-  show.mesh = build_mesh(scene, show.stage.hidden, show.chamfer);
-  add_shades(show.mesh, scene, show.stage.hidden, 0.55 * gap + 0.1 * show.open_crack);
+  const MotionScene solid = section ? cut_scene(scene, *section, show.stage.hidden) : scene;
+  show.mesh = build_mesh(solid, show.stage.hidden, show.chamfer);
+  std::vector<bool> no_shade = show.stage.hidden;
+  for (std::size_t b = 0; b < no_shade.size(); ++b) no_shade[b] = no_shade[b] || show.ghost[b];
+  add_shades(show.mesh, solid, no_shade, 0.55 * gap + 0.1 * show.open_crack);
   for (const MotionJoint& joint : scene.joints) show.joint_area.push_back(static_cast<float>(0.5 * area_normal(joint.polygon).norm()));
   show.grid = round_length(show.stage.size() / 5);
   std::vector<int> uses(run.materials.size() + 1);
@@ -103,7 +112,9 @@ void choose_triangles(const Show& show, const MotionFrame& frame, const Vec3& ey
   const float moved = static_cast<float>(0.1 * show.open_crack);
   std::vector<bool> quiet(scene.blocks.size(), true);
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
-    if (t.joints[4 * j + 1] < moved) continue;
+    const bool to_ghost =
+        show.ghost[static_cast<std::size_t>(scene.joints[j].a)] != show.ghost[static_cast<std::size_t>(scene.joints[j].b)];
+    if (t.joints[4 * j + 1] < moved && !to_ghost) continue;
     quiet[static_cast<std::size_t>(scene.joints[j].a)] = quiet[static_cast<std::size_t>(scene.joints[j].b)] = false;
   }
   const auto add = [](std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from, Span span) {
@@ -118,14 +129,22 @@ void choose_triangles(const Show& show, const MotionFrame& frame, const Vec3& ey
   }
   std::sort(order.begin(), order.end());
   for (const auto& [distance, b] : order) {
+    if (show.ghost[b]) continue;
     add(t.index, show.mesh.index, show.mesh.open[b]);
     if (!quiet[b]) add(t.index, show.mesh.index, show.mesh.buried[b]);
   }
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    const bool of_ghosts = show.ghost[static_cast<std::size_t>(scene.joints[j].a)];
+    if (of_ghosts != show.ghost[static_cast<std::size_t>(scene.joints[j].b)]) continue;
     const bool closed = quiet[static_cast<std::size_t>(scene.joints[j].a)] && quiet[static_cast<std::size_t>(scene.joints[j].b)];
-    add(t.index, show.mesh.index, closed ? show.mesh.pointing[j] : show.mesh.beds[j]);
-    if (frame.damage[j] > 0) add(t.crack_index, show.mesh.crack_index, show.mesh.crack[j]);
+    add(of_ghosts ? t.ghost_index : t.index, show.mesh.index, closed ? show.mesh.pointing[j] : show.mesh.beds[j]);
+    if (frame.damage[j] > 0 && !of_ghosts) add(t.crack_index, show.mesh.crack_index, show.mesh.crack[j]);
   }
+  for (const auto& [distance, b] : order)
+    if (show.ghost[b]) {
+      add(t.ghost_index, show.mesh.index, show.mesh.open[b]);
+      if (!quiet[b]) add(t.ghost_index, show.mesh.index, show.mesh.buried[b]);
+    }
 }
 
 }  // namespace

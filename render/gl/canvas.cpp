@@ -118,9 +118,22 @@ void Canvas::begin_shadow() {
 
 void Canvas::begin_picture() {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
+  translucent_ = false;
   gl_.Viewport(0, 0, width_, height_);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+void Canvas::resolve(GLenum what) {
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, sampled_.framebuffer);
+  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.framebuffer);
+  gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, what, GL_NEAREST);
+}
+
+void Canvas::begin_translucent() {
+  resolve(GL_DEPTH_BUFFER_BIT);
+  translucent_ = true;
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
 }
 
 void Canvas::screen_pass(GLuint program, const Target& target) {
@@ -144,10 +157,8 @@ void Canvas::occlusion_uniforms(GLuint program, const Eigen::Matrix4f& p, double
   gl_.Uniform1i(at("picture"), 0);
 }
 
-Image Canvas::finish(const Eigen::Matrix4f& projection, double radius) {
-  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, sampled_.framebuffer);
-  gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.framebuffer);
-  gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+Image Canvas::finish(const Eigen::Matrix4f& projection, double radius, bool with_opacity) {
+  resolve(GL_COLOR_BUFFER_BIT | (translucent_ ? 0 : GL_DEPTH_BUFFER_BIT));
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_CULL_FACE);
   gl_.ActiveTexture(GL_TEXTURE0);
@@ -166,14 +177,21 @@ Image Canvas::finish(const Eigen::Matrix4f& projection, double radius) {
   gl_.BindTexture(GL_TEXTURE_2D, resolved_.color);
   occlusion_uniforms(finish_program_, projection, radius);
   screen_pass(finish_program_, final_);
+  return read(with_opacity);
+}
 
-  Image image(width_, height_);
+Image Canvas::read(bool with_opacity) const {
+  Image image(width_, height_, with_opacity ? 4 : 3);
   std::vector<std::uint8_t> rgba(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
   gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
   for (int y = 0; y < height_; ++y) {
     const std::uint8_t* from = &rgba[static_cast<std::size_t>(height_ - 1 - y) * static_cast<std::size_t>(width_) * 4];
     std::uint8_t* to = image.pixel(0, y);
-    for (int x = 0; x < width_; ++x, from += 4, to += 3) to[0] = from[0], to[1] = from[1], to[2] = from[2];
+    for (int x = 0; x < width_; ++x, from += 4, to += image.channels) {
+      std::copy_n(from, image.channels, to);
+      if (with_opacity && from[3] > 0)  // read as a colour times its opacity
+        for (int c = 0; c < 3; ++c) to[c] = static_cast<std::uint8_t>(std::min(255, (255 * from[c] + from[3] / 2) / from[3]));
+    }
   }
   return image;
 }

@@ -37,8 +37,10 @@ class Canvas {
 
   void begin_shadow();   // afterwards draw everything that casts a shadow
   void begin_picture();  // afterwards draw everything visible
-  // Darkens corners within `radius` (m), then returns the pixels.
-  Image finish(const Eigen::Matrix4f& projection, double radius);
+  // Afterwards draw what is translucent: it darkens no corners.
+  void begin_translucent();
+  // Darkens corners within `radius` (m), then returns the pixels, perhaps with their opacity.
+  Image finish(const Eigen::Matrix4f& projection, double radius, bool with_opacity);
 
   int width() const { return width_; }
   int height() const { return height_; }
@@ -46,10 +48,13 @@ class Canvas {
   static constexpr int shadow_side = 2048;  // texels
 
  private:
+  Image read(bool with_opacity) const;
+  void resolve(GLenum what);
   void screen_pass(GLuint program, const Target& target);
   void occlusion_uniforms(GLuint program, const Eigen::Matrix4f& projection, double radius);
   const Gl& gl_;
   int width_, height_;
+  bool translucent_ = false;  // the depth of the picture is taken
   Target shadow_, sampled_, resolved_, occlusion_, blurred_, final_;
   GLuint occlusion_program_, blur_program_, finish_program_, empty_;
 };

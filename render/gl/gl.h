@@ -15,6 +15,7 @@
   X(BINDRENDERBUFFER, BindRenderbuffer)                             \
   X(BINDTEXTURE, BindTexture)                                       \
   X(BINDVERTEXARRAY, BindVertexArray)                               \
+  X(BLENDFUNCSEPARATE, BlendFuncSeparate)                           \
   X(BLITFRAMEBUFFER, BlitFramebuffer)                               \
   X(BUFFERDATA, BufferData)                                         \
   X(CHECKFRAMEBUFFERSTATUS, CheckFramebufferStatus)                 \

@@ -71,10 +71,12 @@ void main() {
 const std::string solid_fragment = lighting + R"(
 in vec3 world, n, albedo;
 uniform float darker_edge;
+uniform float opacity;        // of faces; edges are denser
 out vec4 color;
 void main() {
   float edge = clamp((1.0 - dot(n, n)) * 2.2, 0.0, 1.0);
   color = srgb(lit(albedo * (1.0 - darker_edge * edge), world, normalize(n), 1.0 - 0.25 * edge));
+  color.a = mix(opacity, 1.0, 0.4 * edge);
 }
 )";
 
@@ -150,6 +152,14 @@ void main() {
   vec3 c = lit(base, world, normal, 1.0);
   color = srgb(mix(c, horizon, smoothstep(1.0, 5.0, distance(eye, world) / far)));
 }
+)";
+
+// The shadow alone, black and as dense as it darkens the ground.
+const std::string dim_fragment = lighting + R"(
+in vec3 world;
+uniform vec3 normal;
+out vec4 color;
+void main() { color = vec4(0.0, 0.0, 0.0, 0.36 * (1.0 - sunlight(world, normal, max(dot(normal, sun), 0.0)))); }
 )";
 
 const std::string screen_vertex = R"(
@@ -259,8 +269,9 @@ in vec2 uv;
 uniform sampler2D picture, occlusion;
 out vec4 color;
 void main() {
-  float open = texture(occlusion, uv).r;
-  color = vec4(texture(picture, uv).rgb * (0.30 + 0.70 * open), 1.0);
+  float bright = 0.30 + 0.70 * texture(occlusion, uv).r;
+  vec4 seen = texture(picture, uv);
+  color = vec4(seen.rgb * bright, 1.0 - (1.0 - seen.a) * bright);  // colours are times opacity
 }
 )";
 

@@ -36,7 +36,7 @@ constexpr int visible = 4;  // of 255; what drivers round differently is less
 
 Difference compare(const Image& a, const Image& b) {
   Difference d;
-  d.same_size = a.width == b.width && a.height == b.height && a.width >= 8 && a.height >= 8;
+  d.same_size = a.width == b.width && a.height == b.height && a.channels == b.channels && a.width >= 8 && a.height >= 8;
   if (!d.same_size) return d;
   std::size_t failed = 0;
   for (std::size_t i = 0; i + 2 < a.rgb.size(); i += 3) failed += channel_difference(a, b, i) > visible ? 1 : 0;

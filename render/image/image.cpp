@@ -28,8 +28,9 @@ void write_png(const std::string& path, const Image& image) {
     throw WriteError("the picture cannot be written; is the disk full?", {path, 0});
   }
   png_init_io(png, file.get());
-  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width), static_cast<png_uint_32>(image.height), 8,
+               image.channels == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
+               PNG_FILTER_TYPE_DEFAULT);
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
   png_set_compression_level(png, 4);
   png_set_rows(png, info, rows.data());
@@ -45,8 +46,9 @@ Image read_png(const std::string& path) {
   png_image header{};
   header.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_file(&header, path.c_str())) throw Error("is no readable PNG picture", {path, 0});
-  header.format = PNG_FORMAT_RGB;
-  Image image(static_cast<int>(header.width), static_cast<int>(header.height));
+  const bool alpha = header.format & PNG_FORMAT_FLAG_ALPHA;
+  header.format = alpha ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
+  Image image(static_cast<int>(header.width), static_cast<int>(header.height), alpha ? 4 : 3);
   if (!png_image_finish_read(&header, nullptr, image.rgb.data(), 0, nullptr)) throw Error("is a damaged PNG picture", {path, 0});
   return image;
 }

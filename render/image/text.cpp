@@ -14,8 +14,14 @@
 namespace erbs::render {
 namespace {
 
-void blend(std::uint8_t* pixel, Ink ink, double cover) {
-  const double a = ink.opacity * cover;
+void blend(Image& image, int x, int y, Ink ink, double cover) {
+  std::uint8_t* pixel = image.pixel(x, y);
+  double a = ink.opacity * cover;
+  if (image.channels == 4 && a > 0) {  // over what is itself translucent: the share of the ink in the sum of both
+    const double below = pixel[3] / 255.0, sum = a + (1 - a) * below;
+    a /= sum;
+    pixel[3] = static_cast<std::uint8_t>(std::lround(255 * sum));
+  }
   const std::uint8_t to[3] = {ink.r, ink.g, ink.b};
   for (int c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>(std::lround(pixel[c] + a * (to[c] - pixel[c])));
 }
@@ -55,7 +61,7 @@ void fill_box(Image& image, double x0, double y0, double x1, double y1, Ink ink)
   const int top = std::max(0, static_cast<int>(std::floor(y0))), bottom = std::min(image.height, static_cast<int>(std::ceil(y1)));
   const int left = std::max(0, static_cast<int>(std::floor(x0))), right = std::min(image.width, static_cast<int>(std::ceil(x1)));
   for (int y = top; y < bottom; ++y)
-    for (int x = left; x < right; ++x) blend(image.pixel(x, y), ink, covered(x0, x1, x) * covered(y0, y1, y));
+    for (int x = left; x < right; ++x) blend(image, x, y, ink, covered(x0, x1, x) * covered(y0, y1, y));
 }
 
 void draw_line(Image& image, double x0, double y0, double x1, double y1, double width, Ink ink) {
@@ -68,7 +74,7 @@ void draw_line(Image& image, double x0, double y0, double x1, double y1, double 
     for (int x = left; x < right; ++x) {
       const double px = x + 0.5 - x0, py = y + 0.5 - y0, along = std::clamp((px * dx + py * dy) / squared, 0.0, 1.0);
       const double away = std::hypot(px - along * dx, py - along * dy);
-      if (away < half + 0.5) blend(image.pixel(x, y), ink, std::clamp(half + 0.5 - away, 0.0, 1.0));
+      if (away < half + 0.5) blend(image, x, y, ink, std::clamp(half + 0.5 - away, 0.0, 1.0));
     }
 }
 
@@ -76,7 +82,7 @@ void fill_fade(Image& image, int y0, int y1, Ink ink, double end) {
   for (int y = std::max(0, y0); y < std::min(image.height, y1); ++y) {
     Ink here = ink;
     here.opacity += (end - ink.opacity) * (y + 0.5 - y0) / (y1 - y0);
-    for (int x = 0; x < image.width; ++x) blend(image.pixel(x, y), here, 1);
+    for (int x = 0; x < image.width; ++x) blend(image, x, y, here, 1);
   }
 }
 
@@ -114,7 +120,7 @@ void Font::draw(Image& image, const std::string& text, double x, double y, doubl
     for (int row = 0; row < h; ++row)
       for (int column = 0; column < w; ++column) {
         const int px = static_cast<int>(cell) + left + column, py = base + top + row;
-        if (px >= 0 && py >= 0 && px < image.width && py < image.height) blend(image.pixel(px, py), ink, glyph[row * w + column] / 255.0);
+        if (px >= 0 && py >= 0 && px < image.width && py < image.height) blend(image, px, py, ink, glyph[row * w + column] / 255.0);
       }
     stbtt_FreeBitmap(glyph, nullptr);
     stbtt_GetCodepointHMetrics(&loaded_->info, point, &advance, &bearing);

@@ -129,27 +129,29 @@ class Progress {
   Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 
-MotionFrame frame_to_draw(const MotionReader& reader, const Movie& movie, double t) {
+MotionFrame frame_to_draw(const MotionReader& reader, const Excerpt& excerpt, const Movie& movie, double t) {
   MotionFrame frame = frame_at(reader, t);
   frame.t = t;
   if (movie.look.coloring == Coloring::speed) derive_speeds(reader, frame);
-  magnify(reader.scene(), movie.look.magnify, frame);
+  frame = excerpt_of(excerpt, std::move(frame));
+  magnify(excerpt.scene, movie.look.magnify, frame);
   return frame;
 }
 
-bool film(const Run& run, const Show& show, const MotionReader& reader, const Movie& movie, const Camera& camera, const Schedule& schedule,
-          const std::atomic<bool>& stop) {
+bool film(const Run& run, const Show& show, const std::function<MotionFrame(double)>& frame_of, const Movie& movie, const Camera& camera,
+          const Schedule& schedule, const std::atomic<bool>& stop) {
   const Files files = prepare_files(run, movie, camera, schedule);
   const std::size_t all = schedule.times.size();
   const auto wish = static_cast<std::size_t>(movie.threads > 0 ? movie.threads : usable_processors());
   const auto start = Clock::now();
-  const auto ordered = [&](std::size_t i) { return frame_to_draw(reader, movie, schedule.times[i]); };
+  const auto ordered = [&](std::size_t i) { return frame_of(schedule.times[i]); };
   std::size_t made = 0;
   // Started before ffmpeg; otherwise these processes would hold its input open.
-  Workers workers(std::clamp<std::size_t>(wish, 1, all), movie.look.width, movie.look.height, ordered(0),
+  const Image empty(movie.look.width, movie.look.height, movie.look.background == Background::transparent ? 4 : 3);
+  Workers workers(std::clamp<std::size_t>(wish, 1, all), empty, ordered(0),
                   [&] { return drawer(run, show, movie, camera, files, schedule); });
   std::optional<Video> video;
-  if (!files.video.empty()) video.emplace(files.video, movie.look.width, movie.look.height, movie.fps);
+  if (!files.video.empty()) video.emplace(files.video, movie.look.width, movie.look.height, movie.fps, empty.channels);
   {
     Progress progress(movie.quiet);
     for (std::size_t i = 0; i < workers.count(); ++i) workers.order(i, i, ordered(i));
@@ -173,17 +175,36 @@ bool film(const Run& run, const Show& show, const MotionReader& reader, const Mo
   return made == all;
 }
 
+// The stage of what is drawn, from frames spread over the run.
+Stage stage_of(const Run& run, const MotionReader& reader, const Excerpt& excerpt, const Movie& movie) {
+  std::vector<MotionFrame> some;
+  const std::size_t count = reader.times().size(), step = std::max<std::size_t>(1, count / 24);
+  const auto add = [&](std::size_t i) {
+    some.push_back(excerpt_of(excerpt, reader.read(static_cast<int>(i))));
+    magnify(excerpt.scene, movie.look.magnify, some.back());
+  };
+  for (std::size_t i = 0; i < count; i += step) add(i);
+  add(count - 1);
+  Stage stage = set_stage(excerpt.scene, some);
+  if (!run.gravity.empty() && movie.look.table_turns)
+    for (const MotionFrame& frame : some) stage.positions.push_back(table_position(stage, levelling(run.gravity, frame.t)));
+  return stage;
+}
+
+// What lies behind the section for this camera.
+double side_behind(const Section& section, const Camera& camera) { return camera.eye[section.axis] < section.at ? 1 : -1; }
+
 }  // namespace
 
-std::vector<Camera> chosen_cameras(const Run& run, const Show& show, const Movie& movie) {
+std::vector<Camera> chosen_cameras(const Run& run, const Stage& stage, const Movie& movie) {
   const Look& l = movie.look;
   const double aspect = l.width / (l.height - l.top - l.bottom);
   if (movie.camera) return {*movie.camera};
-  if (movie.eye) return {own_camera(movie, show.stage, aspect)};
-  std::vector<Camera> all = run.cameras.empty() ? choose_cameras(show.stage, aspect) : run.cameras;
+  if (movie.eye) return {own_camera(movie, stage, aspect)};
+  std::vector<Camera> all = run.cameras.empty() ? choose_cameras(stage, aspect) : run.cameras;
   if (movie.cameras.empty()) return {all.front()};
   const std::size_t own = all.size();
-  for (const Camera& one : elevations(show.stage, aspect)) all.push_back(one);
+  for (const Camera& one : elevations(stage, aspect)) all.push_back(one);
   std::vector<Camera> chosen;
   for (const std::string& name : movie.cameras) {
     const std::size_t before = chosen.size();
@@ -198,15 +219,8 @@ std::vector<Camera> chosen_cameras(const Run& run, const Show& show, const Movie
 }
 
 Show show_of(const Run& run, const MotionReader& reader, const Movie& movie) {
-  std::vector<MotionFrame> some;
-  const std::size_t step = std::max<std::size_t>(1, reader.times().size() / 24);
-  for (std::size_t i = 0; i < reader.times().size(); i += step) some.push_back(reader.read(static_cast<int>(i)));
-  some.push_back(reader.read(static_cast<int>(reader.times().size()) - 1));
-  for (MotionFrame& frame : some) magnify(reader.scene(), movie.look.magnify, frame);
-  Show show = prepare_show(reader.scene(), run, some);
-  if (!run.gravity.empty() && movie.look.table_turns)
-    for (const MotionFrame& frame : some) show.stage.positions.push_back(table_position(show.stage, levelling(run.gravity, frame.t)));
-  return show;
+  const Excerpt excerpt = without_groups(reader.scene(), {});
+  return prepare_show(excerpt.scene, run, stage_of(run, reader, excerpt, movie), {}, std::nullopt);
 }
 
 bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, const std::atomic<bool>& stop) {
@@ -218,15 +232,20 @@ bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, c
   movie.look.top = movie.look.overlay ? overlay_top(movie.look.height) : 0;
   movie.look.bottom = movie.look.overlay ? overlay_bottom(movie.look.height, !run.strip().axis.empty()) : 0;
   const Schedule schedule = schedule_of(movie, reader.times());
-  Show show = show_of(run, reader, movie);
-  const Coloring coloring = movie.look.coloring;
+  const Excerpt excerpt = without_groups(reader.scene(), movie.hide);
+  const auto frame_of = [&](double t) { return frame_to_draw(reader, excerpt, movie, t); };
+  const Stage stage = stage_of(run, reader, excerpt, movie);
+  const std::vector<Camera> cameras = chosen_cameras(run, stage, movie);
+  if (movie.section && movie.section->keep == 0) movie.section->keep = side_behind(*movie.section, cameras.front());
+  Show show = prepare_show(excerpt.scene, run, stage, in_groups(excerpt.scene, movie.ghost, "--ghost"), movie.section);
   std::vector<MotionFrame> some;  // the scale is that of what is shown
+  const Coloring coloring = movie.look.coloring;
   const std::size_t stride = std::max<std::size_t>(1, schedule.times.size() / 24);
   if (coloring != Coloring::material && coloring != Coloring::damage)
-    for (std::size_t i = 0; i < schedule.times.size(); i += stride) some.push_back(frame_to_draw(reader, movie, schedule.times[i]));
-  show.scale = color_scale(reader.scene(), some, coloring);
-  for (const Camera& camera : chosen_cameras(run, show, movie))
-    if (!film(run, show, reader, movie, camera, schedule, stop)) return false;
+    for (std::size_t i = 0; i < schedule.times.size(); i += stride) some.push_back(frame_of(schedule.times[i]));
+  show.scale = color_scale(excerpt.scene, some, coloring);
+  for (const Camera& camera : cameras)
+    if (!film(run, show, frame_of, movie, camera, schedule, stop)) return false;
   return true;
 }
 

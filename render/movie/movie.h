@@ -12,10 +12,12 @@ namespace erbs::render {
 
 struct Movie {
   Look look;
-  std::vector<std::string> cameras;                // names; empty: the first camera; "all": all cameras
-  std::optional<Vec3> eye, target;                 // m, of a camera of one's own, which is then drawn alone
-  std::optional<Camera> camera;                    // such as one from marked points; drawn alone
-  double fov = 31;                                 // degrees, of that camera
+  std::vector<std::string> cameras;      // names; empty: the first camera; "all": all cameras
+  std::optional<Vec3> eye, target;       // m, of a camera of one's own, which is then drawn alone
+  std::optional<Camera> camera;          // such as one from marked points; drawn alone
+  double fov = 31;                       // degrees, of that camera
+  std::vector<std::string> hide, ghost;  // groups of blocks that are not drawn, or translucent
+  std::optional<Section> section;
   bool fit = false;                                // moves it along its line of sight until all is visible
   double fps = 25;                                 // of the video
   double slow = 1;                                 // seconds of video per second of the run
@@ -48,7 +50,7 @@ void magnify(const MotionScene& scene, double factor, MotionFrame& frame);
 // The constant data of the pictures, with the extents of the building over the whole run.
 Show show_of(const Run& run, const MotionReader& reader, const Movie& movie);
 // The cameras that the movie asks for. Error for an unknown name.
-std::vector<Camera> chosen_cameras(const Run& run, const Show& show, const Movie& movie);
+std::vector<Camera> chosen_cameras(const Run& run, const Stage& stage, const Movie& movie);
 
 // Draws and writes everything, and prints the paths written. False if `stop` was set meanwhile.
 bool make_movie(const Run& run, const MotionReader& reader, const Movie& movie, const std::atomic<bool>& stop);

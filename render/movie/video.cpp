@@ -7,13 +7,14 @@
 
 namespace erbs::render {
 
-Video::Video(std::string path, int width, int height, double fps) : path_(std::move(path)), unfinished_(path_ + ".part") {
+Video::Video(std::string path, int width, int height, double fps, int channels) : path_(std::move(path)), unfinished_(path_ + ".part") {
   const bool webp = path_.ends_with(".webp");
   if (!webp && (width % 2 || height % 2))
     throw Error(fmt::format("a video of {}x{} cannot be made; width and height must be even", width, height));
   const std::string size = fmt::format("{}x{}", width, height), rate = fmt::format("{:g}", fps);
-  std::vector<std::string> words{"ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-f", "rawvideo", "-pix_fmt",
-                                 "rgb24",  "-s", size,       "-r",        rate,    "-i", "pipe:0",   "-an"};
+  std::vector<std::string> words{
+      "ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-f",     "rawvideo", "-pix_fmt", channels == 4 ? "rgba" : "rgb24",
+      "-s",     size, "-r",       rate,        "-i",    "pipe:0", "-an"};
   const std::vector<std::string> mp4{"-vf",
                                      "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",
                                      "-c:v",

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <cstring>
 #include <stdexcept>
+#include <utility>
 
 #include "engine/base/error.h"
 
@@ -29,14 +30,13 @@ void answer(int to, const std::string& text, bool users_mistake) {
 
 }  // namespace
 
-Workers::Workers(std::size_t count, int width, int height, const MotionFrame& like, const std::function<Draw()>& prepare)
-    : width_(width),
-      height_(height),
+Workers::Workers(std::size_t count, Image empty, const MotionFrame& like, const std::function<Draw()>& prepare)
+    : empty_(std::move(empty)),
       poses_(like.poses.size() * sizeof(float)),
       openings_(like.opening.size() * sizeof(float)),
       speeds_(like.speed.size() * sizeof(float)),
       damages_(like.damage.size()),
-      pixels_(Image(width, height).rgb.size()) {
+      pixels_(empty_.rgb.size()) {
   for (std::size_t i = 0; i < count; ++i) {
     Worker w;
     void* shared =
@@ -106,7 +106,7 @@ Image Workers::collect(std::size_t worker) {
     if (head.users_mistake) throw Error(text);
     throw std::runtime_error(text);
   }
-  Image image(width_, height_);
+  Image image = empty_;
   std::memcpy(image.rgb.data(), pixels(w), pixels_);
   return image;
 }

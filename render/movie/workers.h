@@ -13,8 +13,8 @@ namespace erbs::render {
 class Workers {
  public:
   using Draw = std::function<Image(std::size_t index, const MotionFrame& frame)>;
-  // Each process calls `prepare`, which returns its drawing function. All frames have the size of `like`.
-  Workers(std::size_t count, int width, int height, const MotionFrame& like, const std::function<Draw()>& prepare);
+  // Each process calls `prepare`, which returns its drawing function. All frames have the size of `like`, all pictures that of `empty`.
+  Workers(std::size_t count, Image empty, const MotionFrame& like, const std::function<Draw()>& prepare);
   ~Workers();  // waits for frames being drawn
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
@@ -33,7 +33,7 @@ class Workers {
   MotionFrame get(const Worker& worker, double t) const;
   unsigned char* pixels(const Worker& worker) const { return worker.shared + poses_ + openings_ + speeds_ + damages_; }
 
-  int width_, height_;
+  Image empty_;
   std::size_t poses_, openings_, speeds_, damages_, pixels_;  // bytes of each part of the shared memory, in this order
   std::vector<Worker> workers_;
 };

@@ -1,4 +1,4 @@
-// Tilting tests are drawn level: gravity of the run, position of the table, and the picture.
+// Tilting tests are drawn level: gravity of the run, position of the table, and the picture; backgrounds of pictures.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <filesystem>
@@ -6,6 +6,7 @@
 
 #include "engine/base/units.h"
 #include "engine/base/vec.h"
+#include "render/image/text.h"
 #include "render/movie/movie.h"
 #include "tests/support/folder.h"
 #include "tests/unit/render/brick_house.h"
@@ -131,7 +132,7 @@ TEST_CASE("a white background is white where nothing stands", "[render][draw]") 
   prepare_contexts();
   const test::Folder dir;
   write_brick_house(dir.path.string(), {1.2, 1.2, 4, 0.2, 0.1});
-  const Image image = picture(dir, [](Movie& movie) { movie.look.white = true; });
+  const Image image = picture(dir, [](Movie& movie) { movie.look.background = Background::white; });
   std::size_t paper = 0, bricks = 0;
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
@@ -142,4 +143,52 @@ TEST_CASE("a white background is white where nothing stands", "[render][draw]") 
   for (const auto& [x, y] : {std::pair{0, 0}, {319, 0}, {160, 2}}) CHECK(int(*image.pixel(x, y)) == 255);
   CHECK(paper > image.rgb.size() / 3 / 3);  // sky, and the ground in the sun
   CHECK(bricks > image.rgb.size() / 3 / 50);
+}
+
+TEST_CASE("a transparent background holds blocks and their shadow alone", "[render][draw]") {
+  prepare_contexts();
+  const test::Folder dir;
+  write_brick_house(dir.path.string(), {1.2, 1.2, 4, 0.2, 0.1});
+  const double magnified = GENERATE(1.0, 3.0);
+  const Image clear = picture(dir, [&](Movie& movie) {
+    movie.look.background = Background::transparent;
+    movie.look.magnify = magnified;
+  });
+  const Image paper = picture(dir, [&](Movie& movie) {
+    movie.look.background = Background::white;
+    movie.look.magnify = magnified;
+  });
+  REQUIRE(clear.channels == 4);
+  REQUIRE(paper.channels == 3);
+  std::size_t nothing = 0, shadow = 0, bricks = 0, other = 0;
+  for (int y = 0; y < clear.height; ++y)
+    for (int x = 0; x < clear.width; ++x) {
+      const std::uint8_t *p = clear.pixel(x, y), *q = paper.pixel(x, y);
+      nothing += p[3] == 0;
+      shadow += p[3] > 60 && p[3] < 120 && p[0] + p[1] + p[2] == 0;  // black, about a third
+      if (p[3] < 255) continue;
+      ++bricks;
+      other += !std::equal(p, p + 3, q);
+    }
+  const std::size_t all = static_cast<std::size_t>(clear.width * clear.height);
+  CHECK(nothing > all / 3);
+  CHECK(shadow > all / 200);
+  CHECK(bricks > all / 50);
+  CHECK(other == 0);  // blocks have the colours that they have on paper
+  CHECK(int(clear.pixel(0, 0)[3]) == 0);
+}
+
+TEST_CASE("text on a transparent picture is as dense as its ink", "[render][text]") {
+  Image image(20, 20, 4);
+  fill_box(image, 0, 0, 20, 20, {200, 100, 50, 0.5});
+  CHECK(int(image.pixel(3, 3)[0]) == 200);
+  CHECK(int(image.pixel(3, 3)[3]) == 128);
+  fill_box(image, 0, 0, 20, 20, {0, 0, 0, 0.5});  // over it: 0.75 in all, two thirds of it black
+  CHECK(int(image.pixel(3, 3)[0]) == 67);
+  CHECK(int(image.pixel(3, 3)[3]) == 192);
+  const test::Folder dir;
+  write_png(dir.file("a.png"), image);
+  const Image again = read_png(dir.file("a.png"));
+  CHECK(again.channels == 4);
+  CHECK(again.rgb == image.rgb);
 }

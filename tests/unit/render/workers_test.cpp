@@ -29,7 +29,7 @@ Workers::Draw echo() {
 }  // namespace
 
 TEST_CASE("processes draw what they are ordered to", "[render][workers]") {
-  Workers workers(2, 4, 2, frame_of(0), echo);
+  Workers workers(2, Image(4, 2), frame_of(0), echo);
   workers.order(0, 5, frame_of(0.5));
   workers.order(1, 6, frame_of(0.6));
   const Image a = workers.collect(0), b = workers.collect(1);
@@ -50,13 +50,13 @@ TEST_CASE("what goes wrong in a drawing process is told here", "[render][workers
       };
     };
   };
-  Workers full(1, 4, 2, frame_of(0), failing([] { throw Error("the disk is full"); }));
+  Workers full(1, Image(4, 2), frame_of(0), failing([] { throw Error("the disk is full"); }));
   full.order(0, 0, frame_of(0));
   CHECK_THROWS_AS(full.collect(0), Error);
-  Workers confused(1, 4, 2, frame_of(0), failing([] { throw std::logic_error("internal"); }));
+  Workers confused(1, Image(4, 2), frame_of(0), failing([] { throw std::logic_error("internal"); }));
   confused.order(0, 0, frame_of(0));
   CHECK_THROWS_WITH(confused.collect(0), "internal");
-  Workers dead(1, 4, 2, frame_of(0), failing([] { _exit(3); }));
+  Workers dead(1, Image(4, 2), frame_of(0), failing([] { _exit(3); }));
   dead.order(0, 0, frame_of(0));
   CHECK_THROWS_WITH(dead.collect(0), Catch::Contains("died"));
 }
