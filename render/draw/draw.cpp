@@ -213,11 +213,18 @@ struct Painter::Hidden {
     }
   }
 
+  void name_states(GLuint program) const {
+    number(program, "by_state", look_.coloring == Coloring::joint_state ? 1 : 0);
+    for (const JointState s : {JointState::intact, JointState::cracked, JointState::open})
+      vector(program, fmt::format("states[{}]", static_cast<int>(s)).c_str(), state_color(s).cast<float>());
+  }
+
   void draw_bricks(const Light& light, double opacity) const {
     use(solid, light, light.camera);
     vector(solid, "mortar", {0.50F, 0.475F, 0.43F});
     number(solid, "darker_edge", show.mortared ? 0.12 : 0.42);
     number(solid, "by_damage", look_.coloring == Coloring::material ? 0 : 1);
+    name_states(solid);
     number(solid, "opacity", opacity);
     draw(bricks);
   }
@@ -246,6 +253,7 @@ struct Painter::Hidden {
     draw_bricks(light, 1);
     gl.Disable(GL_CULL_FACE);
     use(crack, light, light.camera);
+    name_states(crack);
     number(crack, "pixel", v.pixel);
     number(crack, "thinnest", 2.2 * look_.height / 720.0);
     number(crack, "proud", 0.35 * show.chamfer);

@@ -11,8 +11,14 @@
 
 namespace erbs::render {
 
-// What the colour of a block shows: its material, the broken share of its joint area, or a quantity on a scale from 0 to Show::scale.
-enum class Coloring { material, damage, displacement, speed, opening };
+// What the colour of a block shows: its material, the broken share of its joint area, or a quantity on a scale that ends at Show::scale.
+// With joint_state the joints are coloured, not the blocks.
+enum class Coloring { material, damage, displacement, speed, opening, energy, joint_state };
+inline bool is_quantity(Coloring c) { return c >= Coloring::displacement && c <= Coloring::energy; }
+
+// Intact, damaged, or open by Show::open_crack or more.
+enum class JointState { intact, cracked, open };
+Vec3 state_color(JointState state);  // linear
 
 enum class Background { sky, white, transparent };
 
@@ -36,7 +42,7 @@ struct Show {
   bool mortared = false;          // joints have thickness: mortar between the bricks, not an edge
   double grid = 1;                // m, spacing of the lines on the ground
   std::vector<float> joint_area;  // m2 [joints]
-  double scale = 1;               // m or m/s, the value that has the last colour of the map
+  double scale = 1;               // m, m/s or J, the value that has the last colour of the map
   std::vector<Vec3> block_color;  // linear, by material with a slight variation between bricks [blocks]
   std::vector<bool> ghost;        // drawn translucent, without shadow [blocks]
 };
@@ -53,7 +59,11 @@ Vec3 damage_color(double damage);
 // Colour of a quantity at this share of its scale, 0..1 (linear): viridis, even in perceived lightness.
 Vec3 map_color(double share);
 
-// Displacement (m), speed (m/s) or largest joint opening (m) of each block, as the colouring says [blocks].
+// Share of the map, 0..1, of a value on a scale: linear, for energies logarithmic over so many decades.
+inline constexpr double energy_decades = 6;
+double map_share(double value, double scale, Coloring coloring);
+
+// Kinetic energy (J), displacement (m), speed (m/s) or largest joint opening (m) of each block, as the colouring says [blocks].
 std::vector<double> block_values(const MotionScene& scene, const MotionFrame& frame, Coloring coloring);
 
 // The scale of a colouring: what 98 % of the blocks never exceed in these frames, rounded up to 1, 2 or 5 times a power of ten.

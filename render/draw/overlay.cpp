@@ -41,6 +41,8 @@ const char* quantity_name(Coloring coloring) {
       return "speed";
     case Coloring::opening:
       return "largest joint opening";
+    case Coloring::energy:
+      return "kinetic energy, log scale";
     default:
       return "joints broken or open";
   }
@@ -178,29 +180,41 @@ void Overlay::draw_times(Image& image, double top, double bottom, double now) co
   }
 }
 
+// The number at a share of the map, with its unit.
+std::string Overlay::map_number(double share) const {
+  const double value = share * show_.scale;
+  switch (look_.coloring) {
+    case Coloring::damage:
+      return fmt::format("{:g}{}", 100 * share, share > 0 ? " %" : "");
+    case Coloring::energy: {
+      const double energy = show_.scale * std::pow(10.0, energy_decades * (share - 1));
+      if (energy >= 1) return energy >= 1000 ? fmt::format("{:g} kJ", energy / 1000) : fmt::format("{:g} J", energy);
+      return fmt::format("{:g} mJ", 1000 * energy);
+    }
+    case Coloring::speed:
+      return share == 0 ? "0" : fmt::format("{:g} m/s", value);
+    default:
+      return share == 0 ? "0" : length_text(value / (look_.coloring == Coloring::displacement ? look_.magnify : 1));
+  }
+}
+
+void Overlay::draw_map(Image& image) const {
+  const double u = unit_, right = image.width - margin * u, size = 13 * u, width = 170 * u, left = right - width, y = 78 * u;
+  fill_box(image, left - 10 * u, y - 18 * u, right + 10 * u, y + 36 * u, panel);
+  regular_.draw(image, quantity_name(look_.coloring), left, y, size, text_ink);
+  for (int c = 0; c < static_cast<int>(width); ++c)
+    fill_box(image, left + c, y + 8 * u, left + c + 1, y + 19 * u,
+             display(look_.coloring == Coloring::damage ? damage_color(c / width) : map_color(c / width)));
+  regular_.draw(image, map_number(0), left, y + 33 * u, size, quiet_ink);
+  regular_.draw(image, map_number(0.5), 0.5 * (left + right), y + 33 * u, size, quiet_ink, Font::Align::middle);
+  regular_.draw(image, map_number(1), right, y + 33 * u, size, quiet_ink, Font::Align::right);
+}
+
 void Overlay::draw_legend(Image& image) const {
+  if (look_.coloring == Coloring::damage || is_quantity(look_.coloring)) return draw_map(image);
   const double u = unit_, right = image.width - margin * u, size = 13 * u;
   double y = 78 * u;
-  if (look_.coloring != Coloring::material) {
-    const bool share = look_.coloring == Coloring::damage;
-    const auto number = [&](double part) {
-      if (share) return fmt::format("{:g}{}", 100 * part, part > 0 ? " %" : "");
-      if (part == 0) return std::string("0");
-      return look_.coloring == Coloring::speed
-                 ? fmt::format("{:g} m/s", part * show_.scale)
-                 : length_text(part * show_.scale / (look_.coloring == Coloring::displacement ? look_.magnify : 1));
-    };
-    const double width = 170 * u, left = right - width;
-    fill_box(image, left - 10 * u, y - 18 * u, right + 10 * u, y + 36 * u, panel);
-    regular_.draw(image, quantity_name(look_.coloring), left, y, size, text_ink);
-    y += 8 * u;
-    for (int c = 0; c < static_cast<int>(width); ++c)
-      fill_box(image, left + c, y, left + c + 1, y + 11 * u, display(share ? damage_color(c / width) : map_color(c / width)));
-    regular_.draw(image, number(0), left, y + 25 * u, size, quiet_ink);
-    regular_.draw(image, number(0.5), 0.5 * (left + right), y + 25 * u, size, quiet_ink, Font::Align::middle);
-    regular_.draw(image, number(1), right, y + 25 * u, size, quiet_ink, Font::Align::right);
-    return;
-  }
+  const bool by_state = look_.coloring == Coloring::joint_state;
   struct Row {
     std::string name;
     Ink ink;
@@ -214,10 +228,15 @@ void Overlay::draw_legend(Image& image) const {
   std::vector<Row> rows;
   for (std::size_t m = 0; m < used.size(); ++m)
     if (used[m] && !run_.materials[m].name.empty()) rows.push_back({run_.materials[m].name, display(run_.materials[m].color), 6});
-  if (rows.size() > 6) rows.clear();
-  if (!show_.scene->joints.empty()) {
+  if (rows.size() > 6 || by_state) rows.clear();
+  const std::string wide = "open by " + length_text(show_.open_crack / (by_state ? 1 : look_.magnify)) + " or more";
+  if (by_state) {
+    rows.push_back({"intact joint", display(state_color(JointState::intact)), 2});
+    rows.push_back({"damaged joint", display(state_color(JointState::cracked)), 2});
+    rows.push_back({wide, display(state_color(JointState::open)), 2});
+  } else if (!show_.scene->joints.empty()) {
     rows.push_back({show_.mortared ? "cracked joint" : "joint that opened", {82, 72, 66, 1}, 0.8});
-    rows.push_back({"open by " + length_text(show_.open_crack / look_.magnify) + " or more", {20, 18, 18, 1}, 1.6});
+    rows.push_back({wide, {20, 18, 18, 1}, 1.6});
   }
   double widest = 0;
   for (const Row& row : rows) widest = std::max(widest, regular_.width(row.name, size));

@@ -21,6 +21,8 @@ class Overlay {
   void draw_record(Image& image, double t) const;
   void draw_times(Image& image, double top, double bottom, double now) const;
   void draw_legend(Image& image) const;
+  void draw_map(Image& image) const;  // the legend of a colour map
+  std::string map_number(double share) const;
   void draw_scale(Image& image) const;
   void draw_axes(Image& image, double t) const;
   double column(double t) const;  // pixel column of the strip at time t

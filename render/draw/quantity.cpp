@@ -18,12 +18,23 @@ Vec3 map_color(double share) {
   return ((1 - t) * stops[k] + t * stops[k + 1]).array().pow(2.2);
 }
 
+double map_share(double value, double scale, Coloring coloring) {
+  const double share = value / scale;
+  return coloring == Coloring::energy ? 1 + std::log10(std::max(share, 1e-12)) / energy_decades : share;
+}
+
+Vec3 state_color(JointState state) {
+  static const std::array<Vec3, 3> colors{Vec3(0.36, 0.44, 0.52), Vec3(0.85, 0.33, 0.02), Vec3(0.33, 0.0, 0.02)};
+  return colors[static_cast<std::size_t>(state)];
+}
+
 std::vector<double> block_values(const MotionScene& scene, const MotionFrame& frame, Coloring coloring) {
   std::vector<double> value(scene.blocks.size());
   if (coloring == Coloring::displacement)
     for (std::size_t b = 0; b < value.size(); ++b)
       value[b] = (Eigen::Map<const Eigen::Vector3f>(&frame.poses[7 * b]).cast<double>() - scene.blocks[b].rest).norm();
-  if (coloring == Coloring::speed) std::copy_n(frame.speed.begin(), std::min(frame.speed.size(), value.size()), value.begin());
+  if (coloring == Coloring::speed || coloring == Coloring::energy)
+    std::copy_n(frame.derived.begin(), std::min(frame.derived.size(), value.size()), value.begin());
   if (coloring == Coloring::opening)
     for (std::size_t j = 0; j < scene.joints.size(); ++j)
       for (int block : {scene.joints[j].a, scene.joints[j].b}) {

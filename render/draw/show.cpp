@@ -107,7 +107,7 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
 namespace {
 
 // Selects the visible triangles. Around a joint that has visibly parted, everything is drawn.
-void choose_triangles(const Show& show, const MotionFrame& frame, const Vec3& eye, FrameTexels& t) {
+void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joints, const Vec3& eye, FrameTexels& t) {
   const MotionScene& scene = *show.scene;
   const float moved = static_cast<float>(0.1 * show.open_crack);
   std::vector<bool> quiet(scene.blocks.size(), true);
@@ -138,7 +138,7 @@ void choose_triangles(const Show& show, const MotionFrame& frame, const Vec3& ey
     if (of_ghosts != show.ghost[static_cast<std::size_t>(scene.joints[j].b)]) continue;
     const bool closed = quiet[static_cast<std::size_t>(scene.joints[j].a)] && quiet[static_cast<std::size_t>(scene.joints[j].b)];
     add(of_ghosts ? t.ghost_index : t.index, show.mesh.index, closed ? show.mesh.pointing[j] : show.mesh.beds[j]);
-    if (frame.damage[j] > 0 && !of_ghosts) add(t.crack_index, show.mesh.crack_index, show.mesh.crack[j]);
+    if ((all_joints || frame.damage[j] > 0) && !of_ghosts) add(t.crack_index, show.mesh.crack_index, show.mesh.crack[j]);
   }
   for (const auto& [distance, b] : order)
     if (show.ghost[b]) {
@@ -167,18 +167,21 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
     }
     t.joints[4 * j] = damage;
     t.joints[4 * j + 1] = parted(scene, joint, frame);
+    const bool open = static_cast<double>(frame.opening[j]) >= show.open_crack;
+    t.joints[4 * j + 2] = static_cast<float>(open ? JointState::open : damage > 0 ? JointState::cracked : JointState::intact);
   }
   for (std::size_t b = 0; b < nb; ++b) {
     const float share = area[b] > 0 ? broken[b] / area[b] : 0;
-    const Vec3 color = coloring == Coloring::material ? show.block_color[b]
-                       : coloring == Coloring::damage ? damage_color(static_cast<double>(share))
-                                                      : map_color(value[b] / show.scale);
+    const Vec3 color = coloring == Coloring::material      ? show.block_color[b]
+                       : coloring == Coloring::damage      ? damage_color(static_cast<double>(share))
+                       : coloring == Coloring::joint_state ? Vec3(0.66, 0.65, 0.63)
+                                                           : map_color(map_share(value[b], show.scale, coloring));
     const float* p = &frame.poses[7 * b];
     const Eigen::Vector3f c = color.cast<float>();
     const float values[12] = {p[0], p[1], p[2], share, p[4], p[5], p[6], p[3], c.x(), c.y(), c.z(), 0};
     std::copy_n(values, 12, &t.blocks[12 * b]);
   }
-  choose_triangles(show, frame, eye, t);
+  choose_triangles(show, frame, coloring == Coloring::joint_state, eye, t);
   return t;
 }
 

@@ -3,7 +3,7 @@
 namespace erbs::render {
 
 // Texels of `blocks`: 3 b: centroid and damage; 3 b + 1: quaternion x, y, z, w; 3 b + 2: colour (linear).
-// Texels of `joints`: damage 0..1, distance (m) of the two sides.
+// Texels of `joints`: damage 0..1, distance (m) of the two sides, state 0..2.
 const std::string shader_common = R"(
 uniform samplerBuffer blocks;
 uniform samplerBuffer joints;
@@ -51,7 +51,8 @@ layout(location = 1) in vec3 normal;
 layout(location = 2) in uint block;
 layout(location = 3) in uint joint;
 uniform vec3 mortar;
-uniform float by_damage;
+uniform float by_damage, by_state;
+uniform vec3 states[3];
 out vec3 world, n, albedo;
 void main() {
   int b = int(block) * 3;
@@ -62,6 +63,7 @@ void main() {
   if (joint != 0xffffffffu) {
     vec4 j = texelFetch(joints, int(joint));
     albedo = by_damage > 0.5 ? mix(albedo, vec3(0.75), 0.15) : mortar;
+    if (by_state > 0.5) albedo = states[int(j.z)];
   }
   gl_Position = camera * vec4(world, 1.0);
 }
@@ -100,8 +102,8 @@ layout(location = 2) in vec3 out_of;
 layout(location = 3) in vec3 normal;
 layout(location = 4) in uvec3 who;
 layout(location = 5) in float side;
-uniform float pixel, thinnest, proud, open, widest;
-out float strength;
+uniform float pixel, thinnest, proud, open, widest, by_state;
+out float strength, state;
 void main() {
   int a = int(who.x) * 3, b = int(who.y) * 3;
   vec4 qa = texelFetch(blocks, a + 1), qb = texelFetch(blocks, b + 1);
@@ -110,18 +112,24 @@ void main() {
   float parted = clamp(j.y / open, 0.0, 1.0);
   strength = j.x * (0.75 + 0.25 * parted);
   float gap = distance(pa, pb), at_pixel = pixel * distance(eye, pa);
-  float least = thinnest * at_pixel * (0.3 + 0.3 * j.x + 0.4 * parted);
+  float least = thinnest * at_pixel * (0.3 + 0.3 * j.x + 0.4 * parted) * (1.0 + 0.4 * by_state);
   float half_more = 0.5 * max(0.0, least - gap);
   vec4 q = side < 0.0 ? qa : qb;
   vec3 p = (side < 0.0 ? pa : pb) + turn(q, normal) * (side * half_more) + turn(q, out_of) * (max(proud, 0.15 * at_pixel) - max(0.0, gap - least));
-  bool shown = j.x > 0.05 && j.y < widest;
+  state = j.z;
+  bool shown = (j.x > 0.05 || by_state > 0.5) && j.y < widest;
   gl_Position = shown ? camera * vec4(p, 1.0) : vec4(0.0, 0.0, 2.0, 1.0);
 }
 )";
 const std::string crack_fragment = R"(
-in float strength;
+in float strength, state;
+uniform float by_state;
+uniform vec3 states[3];
 out vec4 color;
-void main() { color = srgb(mix(vec3(0.17, 0.14, 0.12), vec3(0.008, 0.007, 0.007), strength)); }
+void main() {
+  vec3 crack = mix(vec3(0.17, 0.14, 0.12), vec3(0.008, 0.007, 0.007), strength);
+  color = srgb(by_state > 0.5 ? states[int(state + 0.5)] : crack);
+}
 )";
 
 const std::string ground_vertex = R"(

@@ -129,10 +129,13 @@ class Progress {
   Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 
-MotionFrame frame_to_draw(const MotionReader& reader, const Excerpt& excerpt, const Movie& movie, double t) {
+// bodies: of the whole scene, where energies are shown.
+MotionFrame frame_to_draw(const MotionReader& reader, const Excerpt& excerpt, const std::vector<Body>& bodies, const Movie& movie,
+                          double t) {
   MotionFrame frame = frame_at(reader, t);
   frame.t = t;
   if (movie.look.coloring == Coloring::speed) derive_speeds(reader, frame);
+  if (movie.look.coloring == Coloring::energy) derive_energies(reader, bodies, frame);
   frame = excerpt_of(excerpt, std::move(frame));
   magnify(excerpt.scene, movie.look.magnify, frame);
   return frame;
@@ -233,15 +236,16 @@ bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, c
   movie.look.bottom = movie.look.overlay ? overlay_bottom(movie.look.height, !run.strip().axis.empty()) : 0;
   const Schedule schedule = schedule_of(movie, reader.times());
   const Excerpt excerpt = without_groups(reader.scene(), movie.hide);
-  const auto frame_of = [&](double t) { return frame_to_draw(reader, excerpt, movie, t); };
+  const Coloring coloring = movie.look.coloring;
+  const std::vector<Body> bodies = coloring == Coloring::energy ? bodies_of(reader.scene(), run) : std::vector<Body>();
+  const auto frame_of = [&](double t) { return frame_to_draw(reader, excerpt, bodies, movie, t); };
   const Stage stage = stage_of(run, reader, excerpt, movie);
   const std::vector<Camera> cameras = chosen_cameras(run, stage, movie);
   if (movie.section && movie.section->keep == 0) movie.section->keep = side_behind(*movie.section, cameras.front());
   Show show = prepare_show(excerpt.scene, run, stage, in_groups(excerpt.scene, movie.ghost, "--ghost"), movie.section);
   std::vector<MotionFrame> some;  // the scale is that of what is shown
-  const Coloring coloring = movie.look.coloring;
   const std::size_t stride = std::max<std::size_t>(1, schedule.times.size() / 24);
-  if (coloring != Coloring::material && coloring != Coloring::damage)
+  if (is_quantity(coloring))
     for (std::size_t i = 0; i < schedule.times.size(); i += stride) some.push_back(frame_of(schedule.times[i]));
   show.scale = color_scale(excerpt.scene, some, coloring);
   for (const Camera& camera : cameras)

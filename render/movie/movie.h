@@ -41,8 +41,20 @@ Schedule schedule_of(const Movie& movie, const std::vector<double>& recorded);
 // State at time t: a recorded frame, or an interpolation of two (positions linear, rotations along the shortest arc).
 MotionFrame frame_at(const MotionReader& reader, double t);
 
-// Fills frame.speed from the two recorded frames around its time, or from the last two.
+// The recorded frames before and after time t (s), or the last two; twice the same if the run has one frame.
+std::pair<MotionFrame, MotionFrame> frames_around(const MotionReader& reader, double t);
+
+// Fills frame.derived with the speeds (m/s) of the centroids between the frames around its time.
 void derive_speeds(const MotionReader& reader, MotionFrame& frame);
+
+// Mass (kg) and inertia (kg m2, about the centroid, axes at rest) of a block; zero for a fixed one.
+struct Body {
+  double mass = 0;
+  Mat3 inertia = Mat3::Zero();
+};
+std::vector<Body> bodies_of(const MotionScene& scene, const Run& run);
+// Fills frame.derived with the kinetic energies (J) relative to the ground, of translation and rotation.
+void derive_energies(const MotionReader& reader, const std::vector<Body>& bodies, MotionFrame& frame);
 
 // Multiplies displacements and rotations from rest by a factor; openings and damage stay.
 void magnify(const MotionScene& scene, double factor, MotionFrame& frame);

@@ -73,16 +73,21 @@ MotionFrame frame_at(const MotionReader& reader, double t) {
   return f;
 }
 
-void derive_speeds(const MotionReader& reader, MotionFrame& frame) {
+std::pair<MotionFrame, MotionFrame> frames_around(const MotionReader& reader, double t) {
   const std::vector<double>& times = reader.times();
-  frame.speed.assign(frame.poses.size() / 7, 0);
-  if (times.size() < 2) return;
-  const auto found = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), frame.t + 1e-9) - times.begin());
+  if (times.size() < 2) return {reader.read(0), reader.read(0)};
+  const auto found = static_cast<std::size_t>(std::upper_bound(times.begin(), times.end(), t + 1e-9) - times.begin());
   const std::size_t after = std::clamp<std::size_t>(found, 1, times.size() - 1);
-  const MotionFrame f = reader.read(static_cast<int>(after) - 1), g = reader.read(static_cast<int>(after));
-  const auto seconds = static_cast<float>(times[after] - times[after - 1]);
-  for (std::size_t b = 0; b < frame.speed.size(); ++b)
-    frame.speed[b] =
+  return {reader.read(static_cast<int>(after) - 1), reader.read(static_cast<int>(after))};
+}
+
+void derive_speeds(const MotionReader& reader, MotionFrame& frame) {
+  frame.derived.assign(frame.poses.size() / 7, 0);
+  const auto [f, g] = frames_around(reader, frame.t);
+  if (!(g.t > f.t)) return;
+  const auto seconds = static_cast<float>(g.t - f.t);
+  for (std::size_t b = 0; b < frame.derived.size(); ++b)
+    frame.derived[b] =
         (Eigen::Map<const Eigen::Vector3f>(&g.poses[7 * b]) - Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * b])).norm() / seconds;
 }
 

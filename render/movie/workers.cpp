@@ -34,13 +34,13 @@ Workers::Workers(std::size_t count, Image empty, const MotionFrame& like, const 
     : empty_(std::move(empty)),
       poses_(like.poses.size() * sizeof(float)),
       openings_(like.opening.size() * sizeof(float)),
-      speeds_(like.speed.size() * sizeof(float)),
+      derived_(like.derived.size() * sizeof(float)),
       damages_(like.damage.size()),
       pixels_(empty_.rgb.size()) {
   for (std::size_t i = 0; i < count; ++i) {
     Worker w;
     void* shared =
-        mmap(nullptr, poses_ + openings_ + speeds_ + damages_ + pixels_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+        mmap(nullptr, poses_ + openings_ + derived_ + damages_ + pixels_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared == MAP_FAILED) throw Error("no more drawing processes can be started; ask for fewer --threads");
     w.shared = static_cast<unsigned char*>(shared);
     w.process = start_copy([&](int orders, int answers) { serve(w, orders, answers, prepare); });
@@ -51,7 +51,7 @@ Workers::Workers(std::size_t count, Image empty, const MotionFrame& like, const 
 Workers::~Workers() {
   for (Worker& w : workers_) {
     finish(w.process);
-    munmap(w.shared, poses_ + openings_ + speeds_ + damages_ + pixels_);
+    munmap(w.shared, poses_ + openings_ + derived_ + damages_ + pixels_);
   }
 }
 
@@ -75,17 +75,17 @@ void Workers::serve(const Worker& w, int orders, int answers, const std::functio
 void Workers::put(Worker& w, const MotionFrame& f) const {
   std::memcpy(w.shared, f.poses.data(), poses_);
   std::memcpy(w.shared + poses_, f.opening.data(), openings_);
-  if (speeds_ > 0) std::memcpy(w.shared + poses_ + openings_, f.speed.data(), speeds_);
-  std::memcpy(w.shared + poses_ + openings_ + speeds_, f.damage.data(), damages_);
+  if (derived_ > 0) std::memcpy(w.shared + poses_ + openings_, f.derived.data(), derived_);
+  std::memcpy(w.shared + poses_ + openings_ + derived_, f.damage.data(), damages_);
 }
 
 MotionFrame Workers::get(const Worker& w, double t) const {
   MotionFrame f{t, std::vector<float>(poses_ / sizeof(float)), std::vector<std::uint8_t>(damages_),
-                std::vector<float>(openings_ / sizeof(float)), std::vector<float>(speeds_ / sizeof(float))};
+                std::vector<float>(openings_ / sizeof(float)), std::vector<float>(derived_ / sizeof(float))};
   std::memcpy(f.poses.data(), w.shared, poses_);
   std::memcpy(f.opening.data(), w.shared + poses_, openings_);
-  if (speeds_ > 0) std::memcpy(f.speed.data(), w.shared + poses_ + openings_, speeds_);
-  std::memcpy(f.damage.data(), w.shared + poses_ + openings_ + speeds_, damages_);
+  if (derived_ > 0) std::memcpy(f.derived.data(), w.shared + poses_ + openings_, derived_);
+  std::memcpy(f.damage.data(), w.shared + poses_ + openings_ + derived_, damages_);
   return f;
 }
 

@@ -31,10 +31,10 @@ class Workers {
   void serve(const Worker& worker, int orders, int answers, const std::function<Draw()>& prepare);
   void put(Worker& worker, const MotionFrame& frame) const;
   MotionFrame get(const Worker& worker, double t) const;
-  unsigned char* pixels(const Worker& worker) const { return worker.shared + poses_ + openings_ + speeds_ + damages_; }
+  unsigned char* pixels(const Worker& worker) const { return worker.shared + poses_ + openings_ + derived_ + damages_; }
 
   Image empty_;
-  std::size_t poses_, openings_, speeds_, damages_, pixels_;  // bytes of each part of the shared memory, in this order
+  std::size_t poses_, openings_, derived_, damages_, pixels_;  // bytes of each part of the shared memory, in this order
   std::vector<Worker> workers_;
 };
 

@@ -76,7 +76,7 @@ MotionFrame excerpt_of(const Excerpt& excerpt, MotionFrame frame) {
   for (const std::size_t b : excerpt.blocks) {
     part.poses.insert(part.poses.end(), frame.poses.begin() + static_cast<std::ptrdiff_t>(7 * b),
                       frame.poses.begin() + static_cast<std::ptrdiff_t>(7 * b + 7));
-    if (!frame.speed.empty()) part.speed.push_back(frame.speed[b]);
+    if (!frame.derived.empty()) part.derived.push_back(frame.derived[b]);
   }
   for (const std::size_t j : excerpt.joints) part.damage.push_back(frame.damage[j]), part.opening.push_back(frame.opening[j]);
   return part;

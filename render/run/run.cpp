@@ -116,7 +116,7 @@ Run read_run(const std::string& dir) {
   for (const Camera& c : run.cameras)
     if (!((c.eye - c.target).norm() > 1e-9 && c.fov > 0 && c.fov < pi))
       throw Error(fmt::format("camera {} looks nowhere; its eye and target must differ and 0 < fov < 180 deg", c.name), {manifest, 0});
-  for (const Material& a : m.materials) run.materials.push_back({a.name, linear(a.color)});
+  for (const Material& a : m.materials) run.materials.push_back({a.name, linear(a.color), a.density});
   if (const Json* tolerance = find_key(m.settings, "analysis.energy_gate.value"); tolerance && tolerance->is_number())
     run.energy_tolerance = tolerance->get<double>();
   if (const std::string metrics = run_file(dir, "metrics.json"); std::filesystem::exists(metrics)) {

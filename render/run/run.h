@@ -11,6 +11,7 @@ namespace erbs::render {
 struct Paint {
   std::string name;
   Vec3 color{0.70, 0.35, 0.25};  // linear 0..1
+  double density = 0;            // kg/m3
 };
 
 // The ground motion along its principal direction, over the whole run.

@@ -54,7 +54,7 @@ struct MotionFrame {
   std::vector<float> poses;          // centroid x,y,z (m, frame of the ground), then w,x,y,z of the rotation from rest [blocks*7]
   std::vector<std::uint8_t> damage;  // 0 intact .. 255 broken [joints]
   std::vector<float> opening;        // m, largest opening over the joint's corners [joints]
-  std::vector<float> speed{};        // m/s, of the centroids; not in the file, empty unless a reader derives it [blocks]
+  std::vector<float> derived{};      // m/s or J, speed or energy; not in the file, empty unless a reader derives it [blocks]
 };
 
 class MotionWriter {

@@ -1,0 +1,76 @@
+// Colours by quantities that follow from poses, densities and joints.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/base/error.h"
+#include "render/movie/movie.h"
+#include "tests/support/folder.h"
+#include "tests/unit/render/brick_house.h"
+
+using namespace erbs;
+using namespace erbs::render;
+
+namespace {
+
+// A fixed base and a loose box of 0.2 x 0.1 x 0.1 m; in 0.1 s the box moves by 0.03 m along y and turns by 0.2 rad about z.
+MotionScene box_on_base() {
+  MotionShape box{{}, {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}};
+  for (int i = 0; i < 8; ++i)
+    for (const float v : {i & 1 ? 0.1F : -0.1F, i & 2 ? 0.05F : -0.05F, i & 4 ? 0.05F : -0.05F}) box.vertices.push_back(v);
+  MotionScene scene;
+  const int shape = share_shape(scene, box);
+  scene.blocks = {{"base", "", 0, true, Vec3::Zero(), {shape}}, {"box", "", 0, false, Vec3(0, 0, 0.1), {shape}}};
+  return scene;
+}
+
+}  // namespace
+
+TEST_CASE("kinetic energy is that of translation and rotation", "[render][quantity]") {
+  const test::Folder dir;
+  const MotionScene scene = box_on_base();
+  MotionWriter writer(dir.path.string(), scene);
+  MotionFrame f{0, {0, 0, 0, 1, 0, 0, 0, 0, 0, 0.1F, 1, 0, 0, 0}, {}, {}, {}};
+  writer.write(f);
+  f.t = 0.1;
+  f.poses[8] = 0.03F;
+  f.poses[10] = std::cos(0.1F), f.poses[13] = std::sin(0.1F);
+  writer.write(f);
+  writer.close();
+  const MotionReader reader(dir.path.string());
+  Run run;
+  CHECK_THROWS_WITH(bodies_of(reader.scene(), run), Catch::Contains("density of block box"));
+  run.materials = {{"brick", Vec3::Ones(), 2000}};
+  const std::vector<Body> bodies = bodies_of(reader.scene(), run);
+  CHECK(bodies[0].mass == 0);
+  CHECK(bodies[1].mass == Approx(4));  // 2000 kg/m3 x 0.002 m3
+  MotionFrame frame = reader.read(1);
+  derive_energies(reader, bodies, frame);
+  const double inertia = 4 * (0.2 * 0.2 + 0.1 * 0.1) / 12;  // kg m2, about z
+  CHECK(static_cast<double>(frame.derived[1]) == Approx(0.5 * 4 * 0.3 * 0.3 + 0.5 * inertia * 2 * 2).epsilon(1e-4));
+  CHECK(frame.derived[0] == 0);
+  CHECK(block_values(scene, frame, Coloring::energy)[1] == Approx(static_cast<double>(frame.derived[1])));
+  CHECK(map_share(10, 10, Coloring::energy) == Approx(1));
+  CHECK(map_share(10e-3, 10, Coloring::energy) == Approx(0.5));  // six decades
+  CHECK(map_share(0, 10, Coloring::energy) < 0);
+  CHECK(map_share(5, 10, Coloring::speed) == 0.5);
+}
+
+TEST_CASE("joints have the state of their damage and opening", "[render][quantity]") {
+  const MotionScene scene = brick_house({1.2, 1.2, 6, 1, 0.5});
+  const Show show = prepare_show(scene, {}, {});
+  MotionFrame frame = brick_house_frame(scene, 0);
+  std::fill(frame.damage.begin(), frame.damage.end(), 0);
+  std::fill(frame.opening.begin(), frame.opening.end(), 0);
+  frame.damage[3] = frame.damage[4] = 255;
+  frame.opening[4] = frame.opening[5] = static_cast<float>(1.01 * show.open_crack);
+  frame.opening[6] = static_cast<float>(0.9 * show.open_crack);
+  const FrameTexels t = texels_of(show, frame, Coloring::joint_state, Vec3(5, -5, 3));
+  const auto state = [&](std::size_t j) { return static_cast<JointState>(static_cast<int>(t.joints[4 * j + 2])); };
+  CHECK(state(2) == JointState::intact);
+  CHECK(state(3) == JointState::cracked);
+  CHECK(state(4) == JointState::open);
+  CHECK(state(5) == JointState::open);
+  CHECK(state(6) == JointState::intact);
+  CHECK(t.crack_index.size() == show.mesh.crack_index.size());  // intact joints are lines as well
+  CHECK(texels_of(show, frame, Coloring::material, Vec3(5, -5, 3)).crack_index.size() < t.crack_index.size());
+}
