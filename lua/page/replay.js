@@ -70,7 +70,7 @@ export class Replay {
       for (let i = 0; i < vertices.length; i += 3)
         box.expandByPoint(new THREE.Vector3(vertices[i] + rest[0], vertices[i + 1] + rest[1], vertices[i + 2] + rest[2]));
     }
-    const reach = box.clone().expandByScalar(0.3 * box.getSize(new THREE.Vector3()).length()), end = new THREE.Vector3();
+    const reach = box.clone().expandByScalar(box.getSize(new THREE.Vector3()).length()), end = new THREE.Vector3();
     for (const b of motion.moving) box.expandByPoint(end.fromArray(motion.poses, motion.at(b, motion.nframe - 1)).clamp(reach.min, reach.max));
     this.middle = box.getCenter(new THREE.Vector3());
     this.radius = Math.max(0.05, box.getSize(new THREE.Vector3()).length() / 2);
