@@ -18,7 +18,7 @@ export function materialCss(material) {
 }
 
 // A fixed pseudo-random shade for each block, so that neighbours can be told apart.
-const shade = (block) => 0.86 + 0.22 * (((block * 2654435761) >>> 8) % 1000) / 1000;
+const shade = (block) => 0.8 + 0.12 * (block % 2) + 0.2 * (((block * 2654435761) >>> 8) % 1000) / 1000;
 
 export class Replay {
   constructor(canvas, motion, onPick) {
@@ -62,7 +62,7 @@ export class Replay {
     this.scene.add(this.outline);
   }
 
-  // The box of all blocks that move, at rest.
+  // The box of all blocks that move, at rest; and of where they end, unless that is far away.
   #frameView() {
     const box = new THREE.Box3(), {motion} = this;
     for (const b of motion.moving.length ? motion.moving : run.blocks.keys()) {
@@ -70,6 +70,8 @@ export class Replay {
       for (let i = 0; i < vertices.length; i += 3)
         box.expandByPoint(new THREE.Vector3(vertices[i] + rest[0], vertices[i + 1] + rest[1], vertices[i + 2] + rest[2]));
     }
+    const reach = box.clone().expandByScalar(box.getSize(new THREE.Vector3()).length()), end = new THREE.Vector3();
+    for (const b of motion.moving) box.expandByPoint(end.fromArray(motion.poses, motion.at(b, motion.nframe - 1)).clamp(reach.min, reach.max));
     this.middle = box.getCenter(new THREE.Vector3());
     this.radius = Math.max(0.05, box.getSize(new THREE.Vector3()).length() / 2);
     this.camera.near = this.radius / 200, this.camera.far = this.radius * 400;
@@ -109,7 +111,7 @@ export class Replay {
     if (colour === 'material' || fixed) {
       const rgb = run.manifest.materials?.[material]?.color ?? [0.6, 0.6, 0.6];
       out.setRGB(...rgb, THREE.SRGBColorSpace);
-      return fixed && colour !== 'material' ? out.setRGB(0.5, 0.5, 0.5) : out.multiplyScalar(fixed ? 1 : shade(block));
+      return fixed && colour !== 'material' ? out.setRGB(0.2, 0.2, 0.2) : out.multiplyScalar(fixed ? 1 : shade(block));
     }
     if (colour === 'damage') return scaleColor(motion.blockDamage(block, frame), out);
     return scaleColor(motion[colour](block, frame) / (motion.most[colour] || 1), out);

@@ -45,10 +45,13 @@ async function replay(page) {
   await page.waitForFunction(() => Number.parseFloat(document.getElementById('clock').textContent) > 0.1);
   await page.click('#play');
   check((await page.textContent('#play')) === 'Play', 'the play button does not pause');
-  const paused = await clock();
+  await page.focus('#scrub');
+  await page.keyboard.press('Home');
+  const first = await clock();
   await page.focus('#view');
   await page.keyboard.press('.');
-  check((await clock()) !== paused, 'the full stop does not step a frame');
+  const stepped = page.waitForFunction((t) => document.getElementById('clock').textContent !== t, first, {timeout: 5000});
+  check(await stepped.then(() => true, () => false), 'the full stop does not step a frame');
   const before = await picture(page);
   await page.keyboard.press('ArrowLeft');
   await settled(page);

@@ -26,7 +26,7 @@ struct ReportedRun {
   Json files = Json::array();       // names of the run's files that exist
 };
 
-inline constexpr std::size_t most_poses_of_a_page = 300000;  // 1,000 blocks x 300 frames
+inline constexpr std::size_t most_poses_of_a_page = 310000;  // 1,000 blocks and the ground x 300 frames
 inline constexpr std::size_t most_events_of_a_page = 3000;
 
 // Error with place and remedy if DIR is no run folder, holds no frame, or cannot be read.
