@@ -253,7 +253,8 @@ std::string function_help(const std::string& name) {
     if (function.name == name) return function_text(function);
     known.push_back(function.name);
   }
-  for (const char* verb : {"run", "check", "render", "export", "plot", "compare", "record", "test", "accuracy", "bench", "effects", "help", "version"})
+  for (const char* verb :
+       {"run", "check", "render", "export", "plot", "compare", "record", "test", "accuracy", "bench", "effects", "help", "version"})
     known.emplace_back(verb);
   throw Error(fmt::format("there is no verb and no function {}{}", name, did_you_mean(name, known)));
 }
