@@ -74,6 +74,20 @@ TEST_CASE("the shift of a film is found to half a picture, and its noise tells n
   }
 }
 
+TEST_CASE("a run with another peak is told apart from noise of H.264", "[render][compare][program]") {
+  Films films;
+  const std::string film = films.film(0, "25", "256x192"), coarse = (films.bench.folder / "coarse.mp4").string();
+  REQUIRE(wait_for(start({"ffmpeg", "-y", "-loglevel", "error", "-i", film, "-c:v", "libx264", "-crf", "28", coarse})) == 0);
+  const std::string stronger = (films.bench.folder / "stronger").string(), place = (films.bench.folder / "of_").string();
+  REQUIRE(films.bench.erbs({"run", ERBS_SOURCE_DIR "/scenes/first.lua", "-D", "shake=0.42*g", "-o", stronger, "-q", "--no-figures"}) == 0);
+  const std::vector<std::string> how{"--film-background", "drawn", "--expect", "iou>.9"};
+  std::vector<std::string> same{"compare", films.run, coarse, "-o", place + "same"},
+      other{"compare", stronger, coarse, "-o", place + "other"};
+  same.insert(same.end(), how.begin(), how.end()), other.insert(other.end(), how.begin(), how.end());
+  CHECK(films.bench.erbs(same) == 0);
+  CHECK(films.bench.erbs(other) == 4);
+}
+
 TEST_CASE("what is no film is refused, and nothing is written", "[render][compare][program]") {
   Films films;
   films.bench.write("text.mp4", "no film");
