@@ -141,6 +141,8 @@ int run(Arguments& a) {
   read_camera(a, movie);
   if (!movie.expected.empty() && (movie.stills.size() != 1 || (movie.cameras.size() != 1 && !movie.eye)))
     throw Error("--expect compares one picture; give one time with --stills and one camera with --camera");
+  if (!movie.expected.empty() && a.background == "transparent")
+    throw Error("--expect compares opaque pictures; choose --background sky or white");
   if (!a.section.empty()) movie.section = render::read_section(a.section);
   movie.look.coloring = colorings.at(a.color);
   movie.look.background = backgrounds.at(a.background);

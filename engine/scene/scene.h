@@ -281,7 +281,8 @@ struct PictureExpectation {
         {"ssim", &PictureExpectation::ssim, "", "least structural similarity (Wang et al. 2004); 1: equal", 0, 1},
         {"width", &PictureExpectation::width, "", "width of the picture, pixels", 64, 4096},
         {"height", &PictureExpectation::height, "", "height of the picture, pixels", 64, 4096},
-        {"color", &PictureExpectation::color, "", "color of blocks", 0, 0, false, "material|damage|displacement|speed|opening"},
+        {"color", &PictureExpectation::color, "", "color of blocks", 0, 0, false,
+         "material|damage|displacement|speed|opening|energy|joint_state"},
         {"source", &PictureExpectation::source, "", "what sets the tolerance"},
     };
   }

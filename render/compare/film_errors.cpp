@@ -118,6 +118,10 @@ void write_film_errors(const FilmErrors& e, const FilmComparison& wish, bool qui
   write_json(wish.place + "/frames.json", json);
   if (e.outside > 0) tell(stderr, fmt::format("warning: {} pictures of the film lie outside the run and are left out", e.outside));
   if (e.at_edge) tell(stderr, "warning: the best lag is the largest one searched; the true one may lie beyond, see --reach");
+  if (wish.align == "correlation" && e.correlation < 0.9)
+    tell(stderr,
+         fmt::format("warning: the motions correlate by {:.2f} only, so that their lag is doubtful; try --align none or another camera",
+                     e.correlation));
   if (quiet) return;
   tell(stdout, fmt::format("pictures    {} compared in {:.1f} s, {:.0f} a second; {} outside the run; measured at 1/{} of their size",
                            e.frames.size(), e.wall, double(e.frames.size()) / e.wall, e.outside, e.reduction));
