@@ -98,7 +98,7 @@ function quantities({histories, energy}) {
   const groups = new Map();
   for (const [table, where] of [[histories, 'recorders'], [energy, 'ledger']])
     table.names.forEach((column, c) => {
-      if (c === 0) return;
+      if (c === 0 || table.columns[0].length < 2) return;  // the time; a run killed before its first rows were written
       const unit = unitOf(column), ground = column.startsWith('ground_') ? 'ground ' : '';
       const name = where === 'ledger' ? (unit === 'J' ? 'energy' : 'energy residual, share') : `${ground}${units[unit] ?? 'other'}`;
       if (!groups.has(name)) groups.set(name, {name, unit: unit === 'relative' ? '' : unit, x: table.columns[0], series: []});
