@@ -33,7 +33,8 @@ async function posesOf() {
 // Uint8Array [joints][frames]
 async function damageOf() {
   const bytes = await inflated('damage'), nframe = run.times.length;
-  for (let i = 0; i < bytes.length; ++i) if (i % nframe) bytes[i] += bytes[i - 1];
+  for (let i = 0; i < bytes.length; ++i)
+    if (i % nframe) bytes[i] += bytes[i - 1];
   return bytes;
 }
 
@@ -71,5 +72,8 @@ export function short(value) {
 }
 
 export function unitName(unit) {
-  return (unit || '').replace(/m_s2|m\/s2/, 'm/s²').replace(/_/g, '/').replace(/\b(k?g|m)([23])\b/g, (_, u, n) => u + (n === '2' ? '²' : '³'));
+  return (unit || '')
+      .replace(/m_s2|m\/s2/, 'm/s²')
+      .replace(/_/g, '/')
+      .replace(/\b(k?g|m)([23])\b/g, (_, u, n) => u + (n === '2' ? '²' : '³'));
 }

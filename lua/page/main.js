@@ -36,8 +36,10 @@ function tick(now) {
   if (!playing) return;
   setTime(time + (Number(at('speed').value) * (now - before)) / 1000);
   before = now;
-  if (time >= last) play(false);
-  else requestAnimationFrame(tick);
+  if (time >= last)
+    play(false);
+  else
+    requestAnimationFrame(tick);
 }
 
 function step(frames) {
@@ -94,8 +96,9 @@ function choose(block) {
   }
   const [, group, material, fixed, , x, y, z] = run.blocks[block];
   const most = Math.max(...run.times.map((_, f) => motion.displacement(block, f)));
-  facts.textContent = `Group ${group || 'none'}; material ${run.manifest.materials?.[material]?.name ?? 'none'}; ${fixed ? 'fixed; ' : ''}` +
-    `centroid at rest (${short(x)}, ${short(y)}, ${short(z)}) m; moves at most ${withUnit(most, 'm')}.`;
+  facts.textContent =
+      `Group ${group || 'none'}; material ${run.manifest.materials?.[material]?.name ?? 'none'}; ${fixed ? 'fixed; ' : ''}` +
+      `centroid at rest (${short(x)}, ${short(y)}, ${short(z)}) m; moves at most ${withUnit(most, 'm')}.`;
   const axes = ['x', 'y', 'z'].map((name, i) => ({label: name, values: run.times.map((_, f) => motion.displacement(block, f, i))}));
   const factor = most < 0.1 ? 1000 : 1;
   for (const axis of axes) axis.values = axis.values.map((v) => factor * v);
@@ -138,10 +141,14 @@ function listen() {
     showLegend();
   });
   at('view').addEventListener('keydown', (event) => {
-    if (event.key === ' ') play(!playing);
-    else if (event.key === ',') step(-1);
-    else if (event.key === '.') step(1);
-    else return;
+    if (event.key === ' ')
+      play(!playing);
+    else if (event.key === ',')
+      step(-1);
+    else if (event.key === '.')
+      step(1);
+    else
+      return;
     event.preventDefault();
   });
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => (curves?.show(), choose(chosen)));
@@ -157,7 +164,8 @@ async function start() {
     replay.resize();
     replay.look(at('camera').value);
   } catch (reason) {
-    at('view-note').textContent = `The replay needs WebGL, which this browser does not offer (${reason.message}). Curves and tables work without it.`;
+    at('view-note').textContent =
+        `The replay needs WebGL, which this browser does not offer (${reason.message}). Curves and tables work without it.`;
     at('view-note').hidden = false;
     at('view').hidden = true;
   }

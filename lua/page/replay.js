@@ -1,6 +1,7 @@
 // The blocks in 3D: one instanced mesh for each shape, turned by the pointer or the keys, picked by a click.
 import * as THREE from 'three';
 import {OrbitControls} from 'three/examples/jsm/controls/OrbitControls.js';
+
 import {run} from './data.js';
 
 // Colours of a scale from 0 to 1, dark to bright, even in lightness: viridis (van der Walt and Smith 2015).
@@ -71,7 +72,8 @@ export class Replay {
         box.expandByPoint(new THREE.Vector3(vertices[i] + rest[0], vertices[i + 1] + rest[1], vertices[i + 2] + rest[2]));
     }
     const reach = box.clone().expandByScalar(box.getSize(new THREE.Vector3()).length()), end = new THREE.Vector3();
-    for (const b of motion.moving) box.expandByPoint(end.fromArray(motion.poses, motion.at(b, motion.nframe - 1)).clamp(reach.min, reach.max));
+    for (const b of motion.moving)
+      box.expandByPoint(end.fromArray(motion.poses, motion.at(b, motion.nframe - 1)).clamp(reach.min, reach.max));
     this.middle = box.getCenter(new THREE.Vector3());
     this.radius = Math.max(0.05, box.getSize(new THREE.Vector3()).length() / 2);
     this.camera.near = this.radius / 200, this.camera.far = this.radius * 400;
@@ -181,8 +183,15 @@ export class Replay {
       if (down && Math.hypot(event.offsetX - down[0], event.offsetY - down[1]) < 5) onPick(this.pick(event.offsetX, event.offsetY));
       down = null;
     });
-    const keys = {ArrowLeft: [-0.1, 0], ArrowRight: [0.1, 0], ArrowUp: [0, 0.1], ArrowDown: [0, -0.1],
-                  '+': [0, 0, 0.9], '=': [0, 0, 0.9], '-': [0, 0, 1.1]};
+    const keys = {
+      ArrowLeft: [-0.1, 0],
+      ArrowRight: [0.1, 0],
+      ArrowUp: [0, 0.1],
+      ArrowDown: [0, -0.1],
+      '+': [0, 0, 0.9],
+      '=': [0, 0, 0.9],
+      '-': [0, 0, 1.1]
+    };
     this.canvas.addEventListener('keydown', (event) => {
       if (!keys[event.key] || event.ctrlKey || event.metaKey) return;
       this.turn(...keys[event.key]);

@@ -13,17 +13,21 @@ export function make(tag, content, attributes = {}) {
 
 export function table(caption, head, rows) {
   const body = rows.map((row) => make('tr', row.map((cell, i) => (i === 0 ? make('th', cell, {scope: 'row'}) : make('td', cell)))));
-  return make('table', [make('caption', caption), make('thead', make('tr', head.map((name) => make('th', name, {scope: 'col'})))),
-                        make('tbody', body)]);
+  return make(
+      'table',
+      [make('caption', caption), make('thead', make('tr', head.map((name) => make('th', name, {scope: 'col'})))), make('tbody', body)]);
 }
 
 function card(kind, heading, lead, lines) {
-  return make('section', [make('p', heading, {class: 'quiet'}), make('strong', lead), make('ul', lines.map((line) => make('li', line)))],
-              {class: `card ${kind}`, 'aria-label': heading});
+  return make(
+      'section', [make('p', heading, {class: 'quiet'}), make('strong', lead), make('ul', lines.map((line) => make('li', line)))],
+      {class: `card ${kind}`, 'aria-label': heading});
 }
 
 function verdictCard(metrics) {
-  if (!metrics) return card('warn', 'Verdict', 'No result', ['The run did not end: its folder has no metrics.json. The frames written until then are shown.']);
+  if (!metrics)
+    return card(
+        'warn', 'Verdict', 'No result', ['The run did not end: its folder has no metrics.json. The frames written until then are shown.']);
   const {collapse = {}} = metrics, lines = [];
   if (collapse.course) lines.push(`Course: ${collapse.course}`);
   if (collapse.mechanism?.summary) lines.push(`Mechanism: ${collapse.mechanism.summary}`);
@@ -39,22 +43,26 @@ function verdictCard(metrics) {
 function trustCard(metrics) {
   if (!metrics?.trust) return card('warn', 'Trust', 'Unknown', ['The run left no figures by which to judge it.']);
   const t = metrics.trust, percent = (share) => `${short(100 * share)} %`, warned = t.warned_share > 0;
-  const bad = metrics.status === 'failed' || t.past_gate_share > 0;
-  const lead = bad ? 'With care: the energy passed its tolerance'
-               : warned ? `Energy accounted for; ${percent(t.warned_share)} of steps with a warning` : 'Energy accounted for, no warnings';
-  const lines = [`Largest energy residual ${short(t.energy_residual)} of all energy, at ${short(t.energy_residual_time_s ?? 0)} s`,
-                 `Penetration at most ${percent(t.max_penetration_relative)} of a block's smallest edge`,
-                 `Time step at most ${short(t.dt_margin)} of its limit`, `Momentum residual ${short(t.momentum_residual ?? 0)}`];
+  const bad = ['failed', 'inaccurate'].includes(metrics.status) || t.past_gate_share > 0;
+  const lead = bad ? 'With care: the numbers did not hold' :
+      warned       ? `Energy accounted for; ${percent(t.warned_share)} of steps with a warning` :
+                     'Energy accounted for, no warnings';
+  const lines = [
+    `Largest energy residual ${short(t.energy_residual)} of all energy, at ${short(t.energy_residual_time_s ?? 0)} s`,
+    `Penetration at most ${percent(t.max_penetration_relative)} of a block's smallest edge`,
+    `Time step at most ${short(t.dt_margin)} of its limit`, `Momentum residual ${short(t.momentum_residual ?? 0)}`
+  ];
   if (t.sinking_share > 0) lines.push(`Deepening penetration in ${percent(t.sinking_share)} of steps`);
   if (t.past_step_share > 0) lines.push(`Time step above its limit in ${percent(t.past_step_share)} of steps`);
-  lines.push(t.twin ? (t.chaos_horizon_s === null ? 'A perturbed twin stayed within 1 mm' : `A perturbed twin differs by 1 mm from ${short(t.chaos_horizon_s)} s on`)
-                    : ['No perturbed twin was run; ', make('code', 'erbs run --twin'), ' tells how long single blocks can be foreseen']);
+  lines.push(
+      t.twin ? (t.chaos_horizon_s === null ? 'A perturbed twin stayed within 1 mm' :
+                                             `A perturbed twin differs by 1 mm from ${short(t.chaos_horizon_s)} s on`) :
+                                             ['No perturbed twin was run; ', make('code', 'erbs run --twin'), ' tells how long single blocks can be foreseen']);
   return card(bad ? 'bad' : warned ? 'warn' : 'good', 'Trust', lead, lines);
 }
 
 function costCard(manifest, metrics) {
-  const lines = [`Gravity ${short(Math.hypot(...manifest.gravity_m_s2))} m/s² at rest`,
-                 `Time step ${short(manifest.dt_s)} s`];
+  const lines = [`Gravity ${short(Math.hypot(...manifest.gravity_m_s2))} m/s² at rest`, `Time step ${short(manifest.dt_s)} s`];
   if (metrics) lines.push(`${metrics.steps} steps in ${short(metrics.wall_s?.total ?? 0)} s of wall clock`);
   lines.push(`${run.times.length} frames shown${run.every > 1 ? `, each ${run.every}th of the run` : ''}`);
   return card('', 'Run', `${short(metrics?.time_s ?? run.times.at(-1))} s of ${short(manifest.duration_s)} s simulated`, lines);
@@ -77,30 +85,42 @@ function showParameters() {
     return [p.name, withUnit(p.value, p.unit), p.text, marks];
   });
   for (const m of run.manifest.materials ?? [])
-    rows.push([`material ${m.name}`, `${short(m.density_kg_m3)} kg/m³`, `friction ${short(m.friction)}, restitution ${short(m.restitution)}, ` +
-      `normal stiffness ${short(m.kn_Pa_m)} Pa/m, shear stiffness ${short(m.ks_Pa_m)} Pa/m`, []]);
-  at('parameters').append(table('Values the scene was run with. All others stand in manifest.json with their units.',
-                                ['Name', 'Value', 'Meaning', 'Mark'], rows));
+    rows.push([
+      `material ${m.name}`, `${short(m.density_kg_m3)} kg/m³`,
+      `friction ${short(m.friction)}, restitution ${short(m.restitution)}, ` +
+          `normal stiffness ${short(m.kn_Pa_m)} Pa/m, shear stiffness ${short(m.ks_Pa_m)} Pa/m`,
+      []
+    ]);
+  at('parameters')
+      .append(table(
+          'Values the scene was run with. All others stand in manifest.json with their units.', ['Name', 'Value', 'Meaning', 'Mark'],
+          rows));
 }
 
 function showEffects() {
   const {on = [], off = []} = run.manifest.effects ?? {};
   for (const [name, list] of [['On', on], ['Off', off]])
-    at('effects').append(make('div', [make('h3', `${name} (${list.length})`),
-                                      make('ul', list.map((effect) => make('li', `${name === 'On' ? '✓' : '–'} ${effect.replace(/\([^()]*\//, '(')}`)), {class: 'plain'})]));
+    at('effects').append(make('div', [
+      make('h3', `${name} (${list.length})`),
+      make('ul', list.map((effect) => make('li', `${name === 'On' ? '✓' : '–'} ${effect.replace(/\([^()]*\//, '(')}`)), {class: 'plain'})
+    ]));
 }
 
 function showProvenance() {
   const m = run.manifest;
-  const rows = [['Program', `ERBS ${m.version}`], ['Commit', m.git_hash], ['Compiler', m.compiler], ['Instructions', m.isa],
-                ['Threads', String(m.threads)], ['Started', m.started], ['Scene', `${m.scene.name}, hash ${m.scene.hash}`]];
+  const rows = [
+    ['Program', `ERBS ${m.version}`], ['Commit', m.git_hash], ['Compiler', m.compiler], ['Instructions', m.isa],
+    ['Threads', String(m.threads)], ['Started', m.started], ['Scene', `${m.scene.name}, hash ${m.scene.hash}`]
+  ];
   for (const [path, hash] of Object.entries(m.inputs ?? {})) rows.push([`Input ${path.split('/').pop()}`, `${path}, hash ${hash}`]);
   if (run.metrics?.state_hash) rows.push(['State at the end', `hash ${run.metrics.state_hash}`]);
-  for (const departure of m.departures ?? []) rows.push(['Departure', typeof departure === 'string' ? departure : JSON.stringify(departure)]);
+  for (const departure of m.departures ?? [])
+    rows.push(['Departure', typeof departure === 'string' ? departure : JSON.stringify(departure)]);
   rows.push(['Time step', `${short(m.dt_s)} s: ${m.dt_rule}`]);
   at('provenance').append(table('By which program and from which files the run was made.', ['What', 'Value'], rows));
   const folder = run.folder.split('/').map(encodeURIComponent).join('/');
-  at('files').append('Files of the run: ', ...run.files.flatMap((name, i) => [i ? ', ' : '', make('a', name, {href: `${folder}/${name}`})]));
+  at('files').append(
+      'Files of the run: ', ...run.files.flatMap((name, i) => [i ? ', ' : '', make('a', name, {href: `${folder}/${name}`})]));
 }
 
 const mostRows = 300;
