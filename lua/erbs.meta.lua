@@ -68,7 +68,7 @@ start_noise = 0 -- noise in the initial state of every free block: erbs run --no
 ---@field ssim? number least structural similarity (Wang et al. 2004); 1: equal [0 to 1; default 0.98]
 ---@field width? integer width of the picture, pixels [64 to 4096; default 480]
 ---@field height? integer height of the picture, pixels [64 to 4096; default 270]
----@field color? "material"|"damage"|"displacement"|"speed"|"opening" color of blocks [default material]
+---@field color? "material"|"damage"|"displacement"|"speed"|"opening"|"energy"|"joint_state" color of blocks [default material]
 ---@field source? string what sets the tolerance
 
 ---@class erbs.material_keys

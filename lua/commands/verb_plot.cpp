@@ -6,7 +6,7 @@
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/plot/unit.h"
 #include "engine/record/results/curve_figure.h"
-#include "engine/record/results/drift.h"
+#include "engine/record/report/drift.h"
 #include "engine/record/results/metrics.h"
 #include "lua/program/options.h"
 #include "lua/program/say.h"

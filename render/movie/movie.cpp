@@ -223,7 +223,7 @@ std::vector<Camera> chosen_cameras(const Run& run, const Stage& stage, const Mov
 
 Show show_of(const Run& run, const MotionReader& reader, const Movie& movie) {
   const Excerpt excerpt = without_groups(reader.scene(), {});
-  return prepare_show(excerpt.scene, run, stage_of(run, reader, excerpt, movie), {}, std::nullopt);
+  return prepare_show(reader.scene(), run, stage_of(run, reader, excerpt, movie), {}, std::nullopt);  // it keeps the scene's address
 }
 
 bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, const std::atomic<bool>& stop) {

@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/base/error.h"
-#include "engine/record/results/drift.h"
+#include "engine/record/report/drift.h"
 
 using namespace erbs;
 

@@ -1,4 +1,4 @@
-#include "engine/record/results/drift.h"
+#include "engine/record/report/drift.h"
 
 #include <algorithm>
 #include <cmath>
