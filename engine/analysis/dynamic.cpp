@@ -112,15 +112,8 @@ void Run::begin() {
     add_noise(run_, options_.twin_noise, 2);
     watch(built);
   }
-  Manifest manifest = manifest_of(scene_, script_);
-  manifest.threads = options_.threads;
+  Manifest manifest = manifest_of_run(scene_, script_, run_, options_);
   manifest.dt = dt_at_start_;
-  manifest.dt_critical = run_.bounds.critical;
-  manifest.dt_block_bound = run_.bounds.block;
-  manifest.dt_rule = run_.dt_rule;
-  manifest.override_arguments = options_.override_arguments;
-  for (const Effect& e : effects_)
-    (e.on ? manifest.effects_on : manifest.effects_off).push_back(e.on ? e.name + " (" + e.because + ")" : e.name);
   const Recorders wanted(scene_, run_.model);  // reports columns of equal names before anything is written
   create_run_folder(options_.directory, options_.existing, script_, manifest);
   if (!out_.lock) out_.lock = std::make_shared<FolderLock>(options_.directory);
@@ -261,6 +254,7 @@ Metrics Run::metrics() const {
   m.diagnostics = diagnostics_of(diagnostics_, run_.model, s);
   m.collapse.mechanism =
       mechanism_metrics(collapse_.collapsed ? collapse_.mechanism : mechanism_of(run_.model, s.pose, m.time_s), run_.model);
+  m.equilibrium = equilibrium_metrics(run_);
   m.state_hash = state_hash(s);
   return m;
 }
@@ -341,6 +335,19 @@ RunOutcome Run::go() {
 }
 
 }  // namespace
+
+Manifest manifest_of_run(const Scene& scene, const std::string& script, const Prepared& run, const RunOptions& options) {
+  Manifest manifest = manifest_of(scene, script);
+  manifest.threads = options.threads;
+  manifest.dt = run.state.time.dt;
+  manifest.dt_critical = run.bounds.critical;
+  manifest.dt_block_bound = run.bounds.block;
+  manifest.dt_rule = run.dt_rule;
+  manifest.override_arguments = options.override_arguments;
+  for (const Effect& e : effects_of(scene))
+    (e.on ? manifest.effects_on : manifest.effects_off).push_back(e.on ? e.name + " (" + e.because + ")" : e.name);
+  return manifest;
+}
 
 RunOutcome run_dynamic(Scene scene, const std::string& script, const RunOptions& options) {
   return Run(std::move(scene), script, options).go();

@@ -21,6 +21,7 @@ struct Progress {
   double residual = 0;     // relative, of the energy ledger
   double dt = 0;           // s, of the present step
   std::string limited_by;  // what keeps it from being longer
+  std::string line = {};   // a push has states instead of time: what to show
 };
 
 struct RunOptions {
@@ -46,6 +47,10 @@ struct RunOutcome {
   std::vector<std::string> warnings;
   std::shared_ptr<const FolderLock> lock;  // while it is held, no other run writes to the folder
 };
+
+struct Prepared;
+// manifest.json of a run that is ready to start.
+Manifest manifest_of_run(const Scene& scene, const std::string& script, const Prepared& run, const RunOptions& options);
 
 // Throws Error or Errors before anything is written. Afterwards it always leaves a complete run folder. The scene's blocks are freed once
 // the model exists.

@@ -1,6 +1,7 @@
 #include "engine/analysis/prepare.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <optional>
 
@@ -9,7 +10,6 @@
 #include "engine/contact/overlap/shape.h"
 #include "engine/joints/kinematics.h"
 #include "engine/model/build/add_joints.h"
-#include "engine/record/results/metrics.h"
 #include "engine/solve/blocks/islands.h"
 #include "engine/solve/step.h"
 
@@ -178,7 +178,7 @@ double settlement_of(const Model& m, double block_bound) {
 
 Prepared prepare(const Scene& scene, bool allow_unstable) {
   Built built = build(scene);
-  Prepared p{std::move(built.model), std::move(built.state), {}, {}, {}, {}, {}, std::move(built.warnings), std::move(built.notes)};
+  Prepared p{std::move(built.model), std::move(built.state), {}, {}, {}, {}, 0, {}, std::move(built.warnings), std::move(built.notes)};
   if (scene.analysis.levels > 1)
     p.warnings.push_back(fmt::format(
         "levels = {} is on trial: a contact may slip or rebound otherwise than with levels = 1; compare the two", scene.analysis.levels));
@@ -313,7 +313,12 @@ void warn_of_fallers(Prepared& p) {
 
 }  // namespace
 
+Metrics::Equilibrium equilibrium_metrics(const Prepared& p) {
+  return {p.equilibrium.iterations, p.equilibrium.given_up, p.equilibrium.unbalanced, p.equilibrium_wall};
+}
+
 void start_at_rest(const Scene& scene, Prepared& p, int threads) {
+  const auto began = std::chrono::steady_clock::now();
   const bool loaded = p.model.gravity.norm() > 0 || !p.model.force_loads.empty();
   if (scene.analysis.start == "equilibrium" && loaded && p.model.njoint > 0) {
     for (int iteration = 0; iteration < 3; ++iteration) {  // arms of the loads rotate with their blocks
@@ -327,6 +332,7 @@ void start_at_rest(const Scene& scene, Prepared& p, int threads) {
   } else if (scene.analysis.start == "ramp" && p.model.njoint > 0) {
     ramp(scene, p, {}, threads);
   }
+  p.equilibrium_wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   warn_of_fallers(p);
   update_all_references(p.model, p.state);
   return_free_memory();

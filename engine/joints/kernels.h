@@ -127,6 +127,7 @@ struct IntactEnds {
 struct alignas(64) BlockConstants {
   double mass[pack_size], inverse_mass[pack_size];  // kg, 1/kg; 0 for fixed and driven blocks; inverse 0 for sleepers
   double moving[pack_size], damped[pack_size];      // 0 or 1
+  double gravity_factor[pack_size];                 // Model::gravity_factor; read only if `KickDrift::relaxes`
   double inverse_inertia[6][pack_size];             // 1/(kg m2), axes at rest: xx yy zz yz xz xy
   double rotation_limit[pack_size];                 // rad2, of the rotation since the reference pose; infinite without intact joints
   int first_wrench_slot, wrench_slots;              // of eight wrench rows each; none: nobody reads pose rows of these blocks either
@@ -164,9 +165,11 @@ struct KickDrift {
   double joints;                             // impulse of joints over the kick: 1 with one level, 0 in a step in which they do not act
   double more;                               // as `book()` says
   double damping, damped_keep, damped_kick;  // 1/s; a damped kick is `(1 + damped_keep) v + kick (1 + damped_kick) contact_wrench`
+  double local;                              // Model::local_damping
   double ground[3], gravity[3];              // m/s2
   bool first;                                // no drift has come before
   bool damping_explicit, gyroscopic, shaken;
+  bool relaxes;  // damping, local damping or gravity factors
 };
 
 // Addresses of the poses and rest geometry of eight joints, and one result.

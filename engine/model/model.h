@@ -67,6 +67,9 @@ struct Model {
   std::vector<Mat3> inertia;          // kg m2, about the centroid, axes at rest
   std::vector<Mat3> inverse_inertia;  // 0 for fixed and driven
   std::vector<Vec3> rest;             // m, centroid at rest
+  // Gravity and the acceleration of the ground act on a block with this factor: its weight over g times `mass`, where a relaxation has
+  // scaled the masses (analysis/quasi_static). Empty: 1.
+  std::vector<double> gravity_factor;
   std::vector<double> smallest_edge;  // m, thinnest extent: the scale of drift, falling and penetration
   std::vector<int> material;
   // joints, sorted by lower block, higher block and their parts         [njoint]
@@ -113,6 +116,7 @@ struct Model {
   Vec3 gravity = Vec3::Zero();  // m/s2
   double settlement = 0;        // m, estimated settlement of the top under self-weight (laws/interlock.h)
   Damping damping;
+  double local_damping = 0;       // share of the unbalanced force that brakes a block (Cundall 1987); for relaxations only
   bool dashpots = false;          // some intact joint has dashpots
   bool dashpots_cracked = false;  // some joint has them once cracked
   Analysis analysis;

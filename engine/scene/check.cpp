@@ -165,8 +165,9 @@ void check_counts(Report& report, const Analysis& analysis, const Place& place) 
 void check_analysis(Report& report, const Scene& scene) {
   const Analysis& analysis = scene.analysis;
   const Place place = analysis.place.file.empty() ? Place{scene.file, 0} : analysis.place;
-  if (analysis.duration == 0) report.say(place, "the run has no duration; add analysis{{ duration = 10 }} (seconds)");
-  else check_fields(report, analysis, "analysis", place);
+  if (analysis.duration == 0 && !scene.push.quasi_static())
+    report.say(place, "the run has no duration; add analysis{{ duration = 10 }} (seconds)");
+  else if (analysis.duration > 0) check_fields(report, analysis, "analysis", place);
   check_counts(report, analysis, place);
   check_fields(report, scene.damping, "damping", scene.damping.place);
   if (scene.damping.at > 0 && scene.damping.joint_ratio <= 0)
@@ -264,6 +265,7 @@ std::vector<std::string> check(const Scene& scene) {
   check_loads(report, scene, index);
   check_cameras(report, scene);
   check_analysis(report, scene);
+  for (std::string& mistake : check_push(scene)) report.mistakes.push_back(std::move(mistake));
   return report.mistakes;
 }
 

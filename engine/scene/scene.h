@@ -13,6 +13,7 @@
 #include "engine/geometry/polyhedron.h"
 #include "engine/laws/laws.h"
 #include "engine/loads/loads.h"
+#include "engine/scene/push.h"
 
 namespace erbs {
 
@@ -333,6 +334,7 @@ struct Scene {
   std::vector<Load> loads;
   Damping damping;
   Analysis analysis;
+  Push push;
   std::vector<Recorder> recorders;
   std::vector<Camera> cameras;
   std::vector<Param> params;

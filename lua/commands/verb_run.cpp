@@ -10,6 +10,7 @@
 
 #include "engine/analysis/diagnostics.h"
 #include "engine/analysis/dynamic.h"
+#include "engine/analysis/quasi_static/push_run.h"
 #include "engine/base/system/affinity.h"
 #include "engine/base/system/interrupt.h"
 #include "engine/base/text.h"
@@ -97,12 +98,37 @@ std::string collapse_text(const Json& metrics) {
   return text;
 }
 
+// The result of a push: capacity, where it stands on its curve, and the mechanism.
+std::string capacity_text(const Push& push, const Json& metrics) {
+  const Json* capacity = find_key(metrics, "capacity");
+  if (!capacity) return "";
+  if (capacity->value("gravity_alone", false)) return "does not stand under its own weight";
+  const auto number = [&](const char* key) { return number_at(*capacity, key); };
+  const char* unit = push.tilts() || push.pattern.empty() ? " g" : "";
+  std::string text = push.tilts() ? fmt::format("tilts to {:.3f} deg (tangent {:.5g})", number("angle_deg"), number("multiplier"))
+                                  : fmt::format("capacity {:.5g}{}", number("multiplier"), unit);
+  text += (*capacity)["upper"].is_number() ? fmt::format("; no equilibrium at {:.5g}{}", number("upper"), unit)
+          : push.control == "displacement" ? "; the peak of the curve"
+                                           : "; no collapse up to there";
+  text += fmt::format("\nat the peak: displacement {:.4g} mm, base shear {:.4g} of the weight, {:.0f} joints opened, {:.0f} slid",
+                      1e3 * number("displacement_m"), number("base_shear_over_weight"), number("joints_opened"), number("joints_slid"));
+  if (const std::string mechanism = capacity->value("mechanism_text", ""); !mechanism.empty()) text += "\nmechanism: " + mechanism;
+  return text + fmt::format("\n{:.0f} states in {:.0f} attempts, {:.3g} steps; mean unbalanced force {:.1e} of the applied one",
+                            number("states"), number("attempts"), number("relaxation_steps"), number("unbalanced_relative"));
+}
+
 void print_summary(const Scene& scene, const std::string& directory, const Json& metrics, const std::vector<Verdict>& verdicts) {
-  say("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken\n", scene.name, metrics.value("status", ""),
-      number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")), number_at(metrics, "realtime_factor"),
-      metrics.value("blocks", 0), metrics.value("joints", 0), metrics.value("joints_broken", 0));
-  say("{}\nenergy residual {:.1e}\n{}\n", collapse_text(metrics), number_at(metrics, "energy.residual_relative"),
-      analysis::diagnostics_line(diagnostics_of(metrics)));
+  if (scene.push.quasi_static()) {
+    say("{}: {}, {} in {}; {} blocks, {} joints, {} broken\n{}\n", scene.name, metrics.value("status", ""), scene.push.kind,
+        duration_text(number_at(metrics, "wall_s.total")), metrics.value("blocks", 0), metrics.value("joints", 0),
+        metrics.value("joints_broken", 0), capacity_text(scene.push, metrics));
+  } else {
+    say("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken\n", scene.name, metrics.value("status", ""),
+        number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")), number_at(metrics, "realtime_factor"),
+        metrics.value("blocks", 0), metrics.value("joints", 0), metrics.value("joints_broken", 0));
+    say("{}\nenergy residual {:.1e}\n{}\n", collapse_text(metrics), number_at(metrics, "energy.residual_relative"),
+        analysis::diagnostics_line(diagnostics_of(metrics)));
+  }
   for (const auto& [name, unit] : scene.metric_units) {
     const Json* value = find_key(metrics, "metrics." + name);
     say("  {} = {} {}\n", name, value && value->is_number() ? fmt::format("{:.6g}", value->get<double>()) : "none", unit);
@@ -206,7 +232,7 @@ analysis::RunOutcome run_scene(Scene scene, const std::string& script, const std
   run.interrupted = &catch_interrupts();
   ProgressPrinter printer(command.output.quiet, command.log_json);
   run.progress = [&](const analysis::Progress& now) { printer.show(now); };
-  return analysis::run_dynamic(std::move(scene), script, run);
+  return scene.push.quasi_static() ? analysis::run_push(std::move(scene), script, run) : analysis::run_dynamic(std::move(scene), script, run);
 }
 
 // A user should learn before a run, not after it, that its curves cannot be drawn.
@@ -308,6 +334,8 @@ int verb_run(const RunCommand& wish) {
     tell(stderr, "warning: " + warning);
     notes.push_back("warning: " + warning);
   }
+  if (scene.push.quasi_static() && command.until)
+    throw Error("--until is a time, and a push has none; say analysis{ up_to = ... }, or leave it out", scene.push.place);
   const std::string directory = no_option(command.output.directory.empty() ? "runs/" + scene.name : command.output.directory);
   catch_interrupts();
   try {

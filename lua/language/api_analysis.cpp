@@ -13,6 +13,44 @@ int damping(Call& call) {
   return 0;
 }
 
+Keys monitor_keys() { return keys_of<Monitor>(); }
+
+// Keys of analysis{} besides the fields of `Push`.
+Keys push_keys() {
+  return {{"direction", "direction", "", "tilt: side that goes down; pushover: direction of the acceleration on the masses", -1e9, 1e9, false, "",
+           "\"x\""},
+          {"path", "numbers", "", "tilt, pushover: multipliers (tilt: rad) to visit in turn before the push to the end"},
+          {"pattern", "list of tables", "", "pushover: forces at the multiplier 1 (default: g times the mass of each block, along direction)",
+           -unbounded, unbounded, false, "", "", keys_of<PatternForce>()},
+          {"monitor", "table", "", "point whose displacement along direction is the abscissa of the curve", -unbounded, unbounded, false, "",
+           "", monitor_keys()}};
+}
+
+void read_push(Call& call, Arguments& arguments) {
+  static const Keys pattern = keys_of<PatternForce>(), monitor = monitor_keys();
+  const Frame& frame = call.context.frame();
+  Push& push = call.context.scene.push;
+  push.place = call.place;
+  arguments.read(push);
+  static const Keys own = joined({keys_of<Push>(), push_keys()});
+  for (const Key& key : own)
+    if (!push.quasi_static() && key.name != "kind" && arguments.has(key.name))
+      arguments.mistake(fmt::format("\"{}\" belongs to a push; add kind = \"tilt\" or \"pushover\", or remove it", key.name));
+  arguments.direction("direction", push.direction);
+  push.direction = frame.vector(push.direction);
+  arguments.read("path", push.path);
+  for (Arguments& one : arguments.tables("pattern", pattern)) {
+    PatternForce& force = push.pattern.emplace_back();
+    one.read(force);
+    force.force = frame.vector(force.force);
+  }
+  if (auto one = arguments.table("monitor", monitor)) {
+    one->read(push.monitor);
+    push.monitor.has_point = one->has("point");
+    push.monitor.point = frame.point(push.monitor.point);
+  }
+}
+
 int analysis(Call& call) {
   static const Keys step_keys = {{"1", "number", "s", "time step", 0, 1, true},
                                  {"unstable", "boolean", "", "allow a step beyond the limit"}};
@@ -21,6 +59,7 @@ int analysis(Call& call) {
   into.place = call.place;
   for (const auto& field : Analysis::fields())
     if (field.name != "dt") std::visit([&](auto member) { arguments.read(std::string(field.name), into.*member); }, field.member);
+  read_push(call, arguments);
   std::string quality;
   arguments.read("quality", quality);
   if (!quality.empty() && !call.context.quality_set) call.context.quality = quality;
@@ -84,9 +123,9 @@ Keys recorder_keys() {
 std::vector<Function> analysis_functions() {
   return {
       {"damping", damping, "{ ... }", "", "Damping of blocks and of joints.", keys_of<Damping>()},
-      {"analysis", analysis, "{ ... }", "", "Duration, time step and end of the run.",
+      {"analysis", analysis, "{ ... }", "", "Kind, duration, time step and end of the run.",
        joined(
-           {keys_of<Analysis>(),
+           {keys_of<Analysis>(), keys_of<Push>(), push_keys(),
             {{"quality", "string", "",
               "a measured pair of step (over its limit) and contact points, for values that the scene leaves open: 0.9 and 2 x 2, 0.9 and "
               "3 x 3, 0.25 and 5 x 5",

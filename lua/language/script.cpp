@@ -138,7 +138,7 @@ void check_pictures(Context& context) {
     if (!context.scene.cameras.empty() && std::find(cameras.begin(), cameras.end(), item.camera) == cameras.end())
       context.mistake(item.place,
                       fmt::format("expect_image: there is no camera \"{}\"{}", item.camera, did_you_mean(item.camera, cameras)));
-    if (item.t > context.scene.analysis.duration)
+    if (!context.scene.push.quasi_static() && item.t > context.scene.analysis.duration)
       context.mistake(item.place, fmt::format("expect_image: t = {} s is past the end of the run, {} s; choose an earlier time", item.t,
                                               context.scene.analysis.duration));
   }

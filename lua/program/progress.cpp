@@ -60,7 +60,11 @@ void ProgressPrinter::show(const analysis::Progress& now) {
   recent_ = recent_ < 0 ? speed : recent_ + share * (speed - recent_);
   const auto left_at = [&](double rate_of_time) { return rate_of_time > 0 ? (now.duration - now.t) / rate_of_time : INFINITY; };
   const double soonest = left_at(std::max(mean, recent_)), left = left_at(std::min(mean, recent_));
-  if (json_) {
+  if (!now.line.empty()) {
+    if (json_) fmt::print(stderr, "{}\n", Json{{"push", now.line}, {"steps", now.steps}, {"steps_per_s", rate}}.dump());
+    else fmt::print(stderr, "{}{}, {:.3g} steps/s{}", terminal_ ? "\r\033[K" : "", now.line, rate, terminal_ ? "" : "\n");
+    open_ = terminal_ && !json_;
+  } else if (json_) {
     const Json line = {{"time_s", now.t},
                        {"duration_s", now.duration},
                        {"steps", now.steps},

@@ -11,6 +11,7 @@
 #include "engine/record/plot/figure.h"
 #include "engine/record/plot/gnuplot.h"
 #include "render/draw/draw.h"
+#include "render/draw/push_figure.h"
 
 namespace erbs::render {
 namespace {
@@ -231,6 +232,13 @@ std::vector<Panel> history_panels(const CsvTable& table, std::vector<std::string
 std::vector<std::string> write_figures(const Run& run) {
   std::vector<std::string> written;
   const fs::path dir(run.dir);
+  if (fs::exists(dir / "curve.csv")) {  // a push has states instead of time
+    const CsvTable curve = read_csv((dir / "curve.csv").string());
+    if (curve.rows() < 2) return written;
+    written.push_back((dir / "curve.svg").string());
+    plot::draw(push_figure("curve.csv", curve, run), written.back());
+    return written;
+  }
   for (const std::string name : {"histories", "energy"}) {
     const std::string csv = name + ".csv", svg = (dir / (name + ".svg")).string();
     if (!fs::exists(dir / csv)) continue;

@@ -1,4 +1,4 @@
-// Draws histories.svg and energy.svg from the CSV files beside them, with gnuplot.
+// Draws histories.svg and energy.svg, or curve.svg of a push, from the CSV files beside them, with gnuplot.
 #pragma once
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/plot/unit.h"

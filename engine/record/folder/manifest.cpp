@@ -65,6 +65,18 @@ Json json_of_load(const Load& load) {
   return json;
 }
 
+Json json_of_push(const Push& push) {
+  Json json = json_of_fields(push);
+  json["direction"] = json_of(push.direction);
+  json["path"] = push.path;
+  json["pattern"] = Json::array();
+  for (const PatternForce& one : push.pattern)
+    json["pattern"].push_back({{"block", one.block}, {"group", one.group}, {"force_N", json_of(one.force)}});
+  json["monitor"] = {{"block", push.monitor.block}};
+  if (push.monitor.has_point) json["monitor"]["point_m"] = json_of(push.monitor.point);
+  return json;
+}
+
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
   std::tm parts{};
@@ -176,6 +188,7 @@ Manifest manifest_of(const Scene& scene, const std::string& script) {
   for (const JointRule& rule : scene.joint_rules) m.laws.push_back(json_of_rule(rule));
   for (const Load& load : scene.loads) m.loads.push_back(json_of_load(load));
   m.settings = {{"analysis", json_of_fields(scene.analysis)}, {"damping", json_of_fields(scene.damping)}};
+  if (scene.push.quasi_static()) m.settings["push"] = json_of_push(scene.push);
   return m;
 }
 

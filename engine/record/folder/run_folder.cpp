@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 constexpr std::string_view own_files[] = {
     "scene.lua",  "manifest.json", "metrics.json", "log.txt",           "energy.csv", "histories.csv", "events.csv",  "histories.svg",
     "energy.svg", "motion.h5",     "motion.xdmf",  "checkpoint.bin",    "frames",     "report.html",   "results.csv", "accuracy.csv",
-    "modes.csv",  "studies",       "figures",      "expectations.json", "plot.svg",   "plot.png",      "pictures"};
+    "modes.csv",  "studies",       "figures",      "expectations.json", "plot.svg",   "plot.png",      "pictures",
+    "curve.csv",  "curve.svg"};
 constexpr std::string_view own_endings[] = {".mp4", ".tmp", ".part"};
 
 bool is_own(const fs::path& path) {

@@ -36,6 +36,7 @@ std::vector<std::pair<std::string, double>> energy_terms(const Energy& e) {
 std::vector<std::string> metric_keys() {
   Metrics all;
   all.energy = energy_terms(Energy{});
+  all.capacity.emplace();
   std::vector<std::string> keys;
   const auto add = [&keys](auto& self, const Json& json, const std::string& before) -> void {
     for (const auto& [key, value] : json.items()) {
@@ -124,6 +125,11 @@ Json to_json(const Metrics& m) {
                            {"slides", mechanism.slides},
                            {"parted", mechanism.parted},
                            {"joints", mechanism.joints}};
+  if (m.capacity) json["capacity"] = to_json(*m.capacity);
+  json["equilibrium"] = {{"iterations", m.equilibrium.iterations},
+                         {"unbalanced_relative", m.equilibrium.unbalanced},
+                         {"islands_without", m.equilibrium.islands_without},
+                         {"wall_s", m.equilibrium.wall}};
   json["state_hash"] = m.state_hash;
   json["expectations"] = {{"passed", m.expectations_passed}, {"failed", m.expectations_failed}};
   json["metrics"] = numbers(m.metrics);

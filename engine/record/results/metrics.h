@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/record/format/json.h"
+#include "engine/record/results/capacity.h"
 
 namespace erbs {
 
@@ -65,6 +66,12 @@ struct Metrics {
     bool twin = false;                    // a twin run was made
     std::optional<double> chaos_horizon;  // s; none: the twins stay together to the end
   } diagnostics;
+  std::optional<Capacity> capacity;  // of a push
+  struct Equilibrium {               // of the start under gravity and constant loads (analysis/equilibrium.h)
+    int iterations = 0, islands_without = 0;
+    double unbalanced = 0;  // largest unbalanced force over the largest applied one of its island
+    double wall = 0;        // s
+  } equilibrium;
   std::string state_hash;
   int expectations_passed = 0, expectations_failed = 0;
   std::vector<std::pair<std::string, double>> metrics;  // of the scene, in its order

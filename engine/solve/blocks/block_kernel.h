@@ -108,10 +108,10 @@ ERBS_INLINE LoadInterval load_interval(const KickDrift& s, const BlockArrays& A,
 template <bool damped, bool sample>
 ERBS_INLINE void book(const KickDrift& s, const BlockConstants& c, LoadInterval load_for, Pack3 v0, Pack3 v1, Pack3 p0, Pack3 p1, Pack3 u,
                       bool apart, BlockWork& work) {
-  const Pack mass = load(c.mass);
+  const Pack mass = load(c.mass), heavy = damped ? mass * load(c.gravity_factor) : mass;
   const auto ground = [&](Pack3 v) { return -(s.ground[0] * v.x + s.ground[1] * v.y + s.ground[2] * v.z); };
   if (!sample && s.shaken) {
-    const Pack base = mass * ground(load_for.since * v0 + load_for.next * v1);
+    const Pack base = heavy * ground(load_for.since * v0 + load_for.next * v1);
     add_to(work.base, base);
     add_to(work.absolute, abs(base));
   }
@@ -124,7 +124,7 @@ ERBS_INLINE void book(const KickDrift& s, const BlockConstants& c, LoadInterval 
     return;
   }
   const Pack3 s0 = load6(c.inverse_inertia) * p0, s1 = load6(c.inverse_inertia) * p1;
-  const Pack base0 = load_for.since * (mass * ground(v0)), base1 = load_for.next * (mass * ground(v1));
+  const Pack base0 = load_for.since * (heavy * ground(v0)), base1 = load_for.next * (heavy * ground(v1));
   add_to(work.base, base0);
   add_to(work.absolute, abs(base0));
   add_to(work.base_after, base1);
@@ -145,7 +145,13 @@ ERBS_INLINE void book(const KickDrift& s, const BlockConstants& c, LoadInterval 
     v = v + Pack3{rest * (s.gravity[0] - s.ground[0]), rest * (s.gravity[1] - s.ground[1]), rest * (s.gravity[2] - s.ground[2])};
   }
   add_to(work.kinetic, 0.5 * (mass * dot(old, v) + dot(old_spin, p)));
-  add_to(work.height, -(mass * (s.gravity[0] * u.x + s.gravity[1] * u.y + s.gravity[2] * u.z)));
+  add_to(work.height, -(heavy * (s.gravity[0] * u.x + s.gravity[1] * u.y + s.gravity[2] * u.z)));
+}
+
+// Local damping: a force of this share of the unbalanced force, component by component, against the motion (Cundall 1987).
+ERBS_INLINE Pack3 braked(double share, Pack3 force, Pack3 motion) {
+  const auto one = [share](Pack f, Pack v) { return select(v > 0, -share * abs(f), select(v < 0, share * abs(f), Pack(0))); };
+  return {one(force.x, motion.x), one(force.y, motion.y), one(force.z, motion.z)};
 }
 
 // Velocities and momenta by the kick, positions by the drift; `w` is the spin of the drift, in the body.
@@ -163,10 +169,16 @@ ERBS_INLINE Mask kick(const KickDrift& s, const BlockArrays& A, int group, const
   const auto kicked = [&](Pack x, Pack force) { return damped ? keep * x + kick * force : x + kick * force; };
   const bool apart = A.load_since != nullptr;
   const LoadInterval interval = load_interval(s, A, group);
-  const Pack loaded = apart ? moving * ((interval.since + interval.next) / s.kick) : moving;
+  const Pack given = apart ? moving * ((interval.since + interval.next) / s.kick) : moving;
+  const Pack loaded = damped ? given * load(c.gravity_factor) : given;
   const auto pushed = [&](int i) { return wrench[i] * inverse + loaded * (s.gravity[i] - s.ground[i]); };
-  const Pack3 v1{kicked(v0.x, pushed(0)), kicked(v0.y, pushed(1)), kicked(v0.z, pushed(2))};
-  const Pack3 L1{kicked(L0.x, moving * wrench[3]), kicked(L0.y, moving * wrench[4]), kicked(L0.z, moving * wrench[5])};
+  Pack3 force{pushed(0), pushed(1), pushed(2)}, moment{moving * wrench[3], moving * wrench[4], moving * wrench[5]};
+  if (damped && s.local > 0) {
+    const Pack3 f = braked(s.local, force, v0), m = braked(s.local, moment, L0);
+    force = force + f, moment = moment + m;
+  }
+  const Pack3 v1{kicked(v0.x, force.x), kicked(v0.y, force.y), kicked(v0.z, force.z)};
+  const Pack3 L1{kicked(L0.x, moment.x), kicked(L0.y, moment.y), kicked(L0.z, moment.z)};
   const Mat3<Pack> t = rotation_of(load4(A.q[group].x)), back = transposed(t);
   const Pack3 p1 = back * L1;
   if (damped || sample) book<damped, sample>(s, c, interval, v0, v1, back * L0, p1, u0, apart, work);
@@ -248,7 +260,7 @@ static bool advance_pass(const KickDrift& step, const BlockArrays& A, int first,
 }
 
 static bool advance(const KickDrift& step, const BlockArrays& A, int first, int last, bool sample, BlockWork& work) {
-  if (step.damping > 0)
+  if (step.relaxes)
     return sample ? advance_pass<true, true>(step, A, first, last, work) : advance_pass<true, false>(step, A, first, last, work);
   return sample ? advance_pass<false, true>(step, A, first, last, work) : advance_pass<false, false>(step, A, first, last, work);
 }

@@ -28,6 +28,8 @@ KickDrift kick_of(const Model& m, const State& s, const Excitation& e) {
   k.more =
       has_levels(s.time) ? (joints_act(s.time) && since + next > 0 ? 2 * since / (since + next) - 1 : 0) : 2 * k.half_last / k.kick - 1;
   k.damping = m.damping.mass;
+  k.local = m.local_damping;
+  k.relaxes = k.damping > 0 || k.local > 0 || !m.gravity_factor.empty();
   k.damping_explicit = m.damping_explicit;
   const double f = 0.5 * k.damping * k.kick;
   k.damped_keep = m.damping_explicit ? -k.damping * k.kick : (1 - f) / (1 + f) - 1;
@@ -102,6 +104,7 @@ void set_constants(const Model& m, const State& s, int b, bool moving, BlockCons
   if (moving && !s.sleep.asleep.empty() && s.sleep.asleep[z(b)]) moving = false;  // its mass still counts in the potential energy
   c.moving[l] = moving;
   c.inverse_mass[l] = moving ? m.inverse_mass[z(b)] : 0;
+  c.gravity_factor[l] = m.gravity_factor.empty() ? 1 : m.gravity_factor[z(b)];
   c.damped[l] = moving && (m.damping_all || s.topology.grounded[z(b)]);
   for (int i = 0; i < 6; ++i) c.inverse_inertia[i][l] = moving ? m.inverse_inertia[z(b)](row[i], column[i]) : 0;
 }
@@ -205,7 +208,7 @@ void advance(const Model& m, State& s, const std::vector<BlockConstants>& consta
   const KickDrift step = kick_of(m, s, e);
   const BlockArrays blocks = arrays(m, s, constants, external, poses);
   const StepKernels& kernels = step_kernels();
-  const bool summed = sample || step.shaken || step.damping > 0 || !external.loaded.empty();
+  const bool summed = sample || step.shaken || step.relaxes || !external.loaded.empty();
   const int piece = summed ? block_grain : std::max(1, groups.last - groups.first);
   for (int first = groups.first; first < groups.last; first += piece) {
     const int last = std::min(first + piece, groups.last);
@@ -240,6 +243,7 @@ void BlockGather::copy_in(int b, int lane) {
   const BlockConstants& c = constants_[k];
   constant_.mass[to] = c.mass[l], constant_.inverse_mass[to] = c.inverse_mass[l];
   constant_.moving[to] = c.moving[l], constant_.damped[to] = c.damped[l];
+  constant_.gravity_factor[to] = c.gravity_factor[l];
   for (int i = 0; i < 6; ++i) constant_.inverse_inertia[i][to] = c.inverse_inertia[i][l];
   constant_.rotation_limit[to] = c.rotation_limit[l];
   const State& s = state_;

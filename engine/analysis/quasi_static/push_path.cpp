@@ -1,0 +1,57 @@
+#include "engine/analysis/quasi_static/push_path.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/units.h"
+
+namespace erbs::analysis {
+namespace {
+
+constexpr double default_step = 0.01, default_end = 2;                          // share of g, or of the pattern
+constexpr double default_tilt_step = 0.5 * pi / 180, default_tilt_end = pi / 3;  // rad
+constexpr double displacement_steps = 50;
+constexpr int parts_at_peak = 8;
+
+}  // namespace
+
+LoadPath::LoadPath(const Push& push)
+    : targets(push.path),
+      step(push.step > 0 ? push.step : push.tilts() ? default_tilt_step : default_step),
+      bracket(push.bracket) {
+  targets.push_back(push.up_to > 0 ? push.up_to : push.tilts() ? default_tilt_end : default_end);
+}
+
+bool LoadPath::bracketed() const {
+  return above && std::fabs(*above - at) <= std::max(bracket * std::fabs(*above), 1e-3 * bracket * step);
+}
+
+bool LoadPath::done() const { return bracketed() || target == int(targets.size()); }
+
+double LoadPath::next() const {
+  if (above) return 0.5 * (at + *above);
+  const double to = targets[std::size_t(target)], way = to - at;
+  return std::fabs(way) <= 1.000001 * step ? to : at + std::copysign(step, way);
+}
+
+void LoadPath::found() {
+  at = next();
+  if (!above && at == targets[std::size_t(target)]) ++target;
+}
+
+void LoadPath::failed() { above = next(); }
+
+MachinePath::MachinePath(const Push& push, double height)
+    : end(push.displacement), step(push.displacement_step > 0 ? push.displacement_step : push.displacement / displacement_steps) {
+  // A rigid block of height h on its edge loses less than 2 / h of its weight per displacement of its top.
+  stiffness = std::max(2 * (push.step > 0 ? push.step : default_step) / step, 10 / height);
+}
+
+void MachinePath::refine() { peaked = true, parts = parts_at_peak, left = 2 * parts_at_peak; }
+
+void MachinePath::found(double displaced) {
+  extension = next(), before = multiplier, multiplier = load(extension, displaced), displacement = displaced;
+  if (parts > 1 && --left == 0) parts = 1;
+}
+
+}  // namespace erbs::analysis

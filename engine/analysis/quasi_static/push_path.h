@@ -1,0 +1,75 @@
+// The order in which a push visits its loads: which multiplier comes next, and what is known of the capacity.
+#pragma once
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "engine/scene/push.h"
+
+namespace erbs::analysis {
+
+// Steps of the multiplier through the targets of a path. After the first load without equilibrium the interval to the last one with
+// equilibrium is halved until it is narrow enough.
+struct LoadPath {
+  std::vector<double> targets;
+  double step = 0, bracket = 0;
+  double at = 0;                // the last multiplier in equilibrium
+  std::optional<double> above;  // one without equilibrium
+  int target = 0;
+
+  LoadPath() = default;
+  explicit LoadPath(const Push& push);
+  bool done() const;
+  double next() const;
+  void found();
+  void failed();
+  bool bracketed() const;
+};
+
+// Displacement control: the load grows with the extension of a loading machine, multiplier = stiffness (extension - displacement of the
+// monitored point). The machine is stiffer than the structure is weak past its peak, so that each extension has one state of equilibrium;
+// all other freedoms are free. The displacement itself follows within a step. Where the multiplier falls for the first time the step is
+// repeated in eight parts, so that the peak is seen.
+struct MachinePath {
+  double end = 0, step = 0;  // m
+  double stiffness = 0;      // 1/m
+  double extension = 0;      // m
+  double multiplier = 0, displacement = 0, before = 0;
+  int parts = 1, left = 0;  // parts of a step, and how many of them are left
+  bool peaked = false;
+
+  MachinePath() = default;
+  MachinePath(const Push& push, double height);
+  bool done() const { return displacement >= end; }
+  double next() const { return extension + step / parts; }
+  double load(double extended, double displaced) const { return stiffness * (extended - displaced); }
+  bool passes_peak(double displaced) const { return !peaked && load(next(), displaced) < multiplier; }
+  void refine();  // the step that passed the peak, in parts
+  void found(double displaced);
+};
+
+template <class P, class F>
+requires std::is_same_v<std::remove_const_t<P>, LoadPath>
+void each(P& p, F&& f) {
+  f("path_at", p.at);
+  f("path_target", p.target);
+  bool has = p.above.has_value();
+  double above = has ? *p.above : 0;
+  f("path_has_above", has);
+  f("path_above", above);
+  if constexpr (!std::is_const_v<P>) p.above = has ? std::optional(above) : std::nullopt;
+}
+
+template <class P, class F>
+requires std::is_same_v<std::remove_const_t<P>, MachinePath>
+void each(P& p, F&& f) {
+  f("machine_extension", p.extension);
+  f("machine_multiplier", p.multiplier);
+  f("machine_displacement", p.displacement);
+  f("machine_before", p.before);
+  f("machine_parts", p.parts);
+  f("machine_left", p.left);
+  f("machine_peaked", p.peaked);
+}
+
+}  // namespace erbs::analysis

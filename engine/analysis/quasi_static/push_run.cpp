@@ -1,0 +1,404 @@
+#include "engine/analysis/quasi_static/push_run.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <filesystem>
+#include <limits>
+
+#include "engine/analysis/quasi_static/push_path.h"
+#include "engine/analysis/quasi_static/relaxation.h"
+#include "engine/analysis/resume.h"
+#include "engine/analysis/snapshot.h"
+#include "engine/base/hash.h"
+#include "engine/base/units.h"
+#include "engine/record/folder/checkpoint.h"
+#include "engine/record/folder/run_writer.h"
+#include "engine/record/recorders/joint_condition.h"
+#include "engine/record/results/collapse.h"
+#include "engine/record/results/mechanism_name.h"
+#include "engine/scene/effects.h"
+
+namespace erbs::analysis {
+namespace {
+
+constexpr double fall_duration = 4;        // s, of the fall that is drawn
+constexpr double joint_moved = 1e-4;       // of a joint's size: opened or slid
+constexpr double gate = 1e-2;              // relative, of the energy ledger of all relaxations
+constexpr int frames_of_last_step = 10;    // on the way to collapse
+
+std::size_t z(int i) { return std::size_t(i); }
+
+double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+// What a push has found so far, for the checkpoint.
+struct PushState {
+  LoadPath path;
+  MachinePath machine;
+  double multiplier = 0;  // of the last state in equilibrium, in the units of its path
+  double t = 0;           // s, of the next state in the run folder
+  CurvePoint peak;
+  long states = 0, attempts = 0, curve_rows = 0;
+  double steps = 0, worst_unbalanced = 0;
+  std::uint64_t curve_sum = 0;
+};
+
+template <class P, class F>
+requires std::is_same_v<std::remove_const_t<P>, PushState>
+void each(P& p, F&& f) {
+  each(p.path, f);
+  each(p.machine, f);
+  f("push_multiplier", p.multiplier);
+  f("push_t", p.t);
+  f("push_peak", p.peak);
+  f("push_states", p.states);
+  f("push_attempts", p.attempts);
+  f("push_steps", p.steps);
+  f("push_worst_unbalanced", p.worst_unbalanced);
+  f("push_curve_rows", p.curve_rows);
+  f("push_curve_sum", p.curve_sum);
+}
+
+double height_of(const Model& m) {
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (int b = 0; b < m.nblock; ++b) {
+    if (m.kind[z(b)] != Kind::moving) continue;
+    low = std::min(low, m.rest[z(b)].z() - 0.5 * m.smallest_edge[z(b)]), high = std::max(high, m.rest[z(b)].z() + 0.5 * m.smallest_edge[z(b)]);
+  }
+  return std::max(high - low, 1e-9);
+}
+
+std::vector<std::string> curve_columns(const Push& push) {
+  return {push.tilts() ? "multiplier_tan" : push.pattern.empty() ? "multiplier_g" : "multiplier",
+          "displacement_m", "largest_displacement_m", "base_shear_N", "base_shear_over_weight", "joints_opened", "joints_slid",
+          "unbalanced_relative", "relaxation_steps"};
+}
+
+class PushRun {
+ public:
+  PushRun(Scene scene, const std::string& script, const RunOptions& options)
+      : scene_(std::move(scene)), push_(scene_.push), effects_(effects_of(scene_)), script_(script), options_(options) {}
+  RunOutcome go();
+
+ private:
+  void begin();
+  bool stand();
+  void push_on();
+  void control_on();
+  void fall();
+  Relaxed attempt(const LoadCourse& course);
+  bool record(const Solver& solver, const Relaxed& now);
+  CurvePoint point_of(const Solver& solver, const Relaxed& now) const;
+  Snapshot snapshot(const Solver& solver) const;
+  bool interrupted();
+  void save(const WriterProgress& written);
+  double shown(double multiplier) const { return push_.tilts() ? std::tan(multiplier) : multiplier; }
+  Metrics metrics();
+
+  Scene scene_;
+  const Push push_;
+  std::vector<Effect> effects_;
+  std::vector<std::string> group_;
+  const std::string& script_;
+  const RunOptions& options_;
+  const double born_ = seconds();
+  double setup_ = 0, solve_start_ = 0, last_save_ = 0, record_ = 0;
+  Prepared run_;
+  CheckpointKey key_;
+  PushState so_far_;
+  Collapse collapse_;
+  std::optional<Relaxation> relaxation_;
+  std::optional<RunWriter> writer_;
+  std::optional<CsvWriter> curve_;
+  bool gravity_alone_ = false;
+  bool passed_peak_ = false;  // control by displacement: this step goes too far past the peak
+  NamedMechanism mechanism_;
+  double weight_ = 0;  // N, of the moving blocks
+  RunOutcome out_;
+};
+
+void PushRun::begin() {
+  check_run_folder(options_.directory, options_.existing);
+  if (std::filesystem::is_directory(options_.directory)) out_.lock = std::make_shared<FolderLock>(options_.directory);
+  const bool resume = options_.existing == Existing::resume;
+  if (resume) check_overrides(options_.directory, options_.override_arguments);
+  scene_.analysis.duration = 1e6;  // a push has none
+  run_ = prepare(scene_, options_.allow_unstable);
+  scene_.analysis.duration = 0;
+  const double dt = run_.state.time.dt;
+  key_ = {scene_hash(scene_, script_), run_.state.time.dt, fnv1a(fmt::format("{}", fmt::join(options_.override_arguments, "\n")))};
+  so_far_.path = LoadPath(push_);
+  so_far_.machine = MachinePath(push_, height_of(run_.model));
+  const BlockVec3 built = run_.state.pose.u;
+  WriterProgress written;
+  for (const Block& block : scene_.blocks) group_.push_back(block.group);
+  if (resume) {
+    const std::vector<std::size_t> sizes = sizes_of(run_.state);
+    read_checkpoint(options_.directory, key_, run_.state, written, collapse_, so_far_);
+    check_sizes(options_.directory, sizes, run_.state);
+  } else {
+    start_at_rest(scene_, run_, options_.threads);
+    add_noise(run_, options_.noise, 1);
+    add_noise(run_, options_.twin_noise, 2);
+    collapse_ = watch_collapse(run_.model, run_.state.pose);
+    for (const int b : run_.fallers) collapse_.start[z(b)] = built[z(b)].z();
+    gravity_alone_ = falling_share(run_) >= scene_.analysis.collapse_fraction;
+  }
+  Manifest manifest = manifest_of_run(scene_, script_, run_, options_);
+  manifest.dt = dt;
+  const Recorders wanted(scene_, run_.model);  // reports columns of equal names before anything is written
+  create_run_folder(options_.directory, options_.existing, script_, manifest);
+  if (!out_.lock) out_.lock = std::make_shared<FolderLock>(options_.directory);
+  writer_.emplace(options_.directory, scene_, run_.model, resume ? &written : nullptr);
+  const std::string curve = run_file(options_.directory, "curve.csv");
+  if (resume) curve_.emplace(curve, curve_columns(push_), so_far_.curve_rows, so_far_.curve_sum);
+  else curve_.emplace(curve, curve_columns(push_));
+  for (const std::string& note : resume ? std::vector<std::string>{} : options_.notes) writer_->log(note);
+  for (const std::string& w : run_.warnings) writer_->log("warning: " + w);
+  out_.warnings = run_.warnings;
+  for (int b = 0; b < run_.model.nblock; ++b)
+    if (run_.model.kind[z(b)] == Kind::moving) weight_ += run_.model.mass[z(b)] * run_.model.gravity.norm();
+  relaxation_.emplace(push_, group_, run_, options_.threads);
+  setup_ = seconds() - born_;
+  solve_start_ = last_save_ = seconds();
+}
+
+Snapshot PushRun::snapshot(const Solver& solver) const {
+  Snapshot now = snapshot_of(relaxation_->model(), run_.state, solver, writer_->needs().joint_force);
+  now.t = so_far_.t;
+  now.ground_v = now.ground_u = Vec3::Zero();
+  return now;
+}
+
+CurvePoint PushRun::point_of(const Solver& solver, const Relaxed& now) const {
+  CurvePoint p;
+  const Model& m = run_.model;
+  const BlockPoses& pose = solver.sample().pose;
+  p.multiplier = shown(relaxation_->loads().multiplier());
+  p.displacement = relaxation_->monitor().along(pose);
+  for (int b = 0; b < m.nblock; ++b)
+    if (m.kind[z(b)] == Kind::moving) p.most = std::max(p.most, pose.u[z(b)].dot(push_.direction));
+  p.base_shear = relaxation_->reaction(solver).dot(push_.direction);
+  p.base_shear_over_weight = weight_ > 0 ? p.base_shear / weight_ : 0;
+  for (int j = 0; j < m.njoint; ++j) {
+    if (run_.state.joints.stage[z(j)] == JointStage::intact) continue;
+    const JointCondition c = joint_condition(m, run_.state.joints, pose, j);
+    const double size = joint_moved * m.joint[z(j)].type->radius;
+    p.opened += c.opening > size, p.slid += c.slip > size && c.slip > c.opening;
+  }
+  p.unbalanced = now.unbalanced;
+  p.steps = double(now.steps);
+  return p;
+}
+
+// Writes a state in equilibrium.
+bool PushRun::record(const Solver& solver, const Relaxed& now) {
+  if (now.rest != Rest::equilibrium) return !interrupted();
+  const double began = seconds();
+  const CurvePoint p = point_of(solver, now);
+  passed_peak_ = push_.control == "displacement" && so_far_.machine.passes_peak(p.displacement);
+  if (passed_peak_) return true;
+  const Snapshot state = snapshot(solver);
+  curve_->row({p.multiplier, p.displacement, p.most, p.base_shear, p.base_shear_over_weight, double(p.opened), double(p.slid),
+               p.unbalanced, p.steps});
+  writer_->row(state);
+  writer_->frame(state);
+  run_.state.observed.joints_broken = state.joints_broken;
+  so_far_.t += scene_.analysis.frame_dt;
+  so_far_.curve_rows = curve_->rows(), so_far_.curve_sum = curve_->sum();
+  if (so_far_.states == 0 || p.multiplier > so_far_.peak.multiplier) so_far_.peak = p;
+  ++so_far_.states;
+  so_far_.worst_unbalanced = std::max(so_far_.worst_unbalanced, now.unbalanced);
+  record_ += seconds() - began;
+  return true;
+}
+
+bool PushRun::interrupted() {
+  const double now = seconds();
+  if (options_.progress) {
+    Progress p;
+    p.wall = now - solve_start_;
+    p.steps = long(so_far_.steps);
+    p.joints_broken = run_.state.observed.joints_broken;
+    p.residual = run_.state.energy.residual_relative;
+    p.dt = run_.state.time.dt;
+    p.line = fmt::format("multiplier {:.5g}, highest in equilibrium {:.5g}{}; {} states", shown(relaxation_->loads().multiplier()),
+                         so_far_.peak.multiplier, so_far_.path.above ? fmt::format(", none at {:.5g}", shown(*so_far_.path.above)) : "",
+                         so_far_.states);
+    options_.progress(p);
+  }
+  if (options_.interrupted != nullptr && options_.interrupted->load()) out_.metrics.status = "interrupted";
+  else if (options_.max_wall > 0 && now - born_ > options_.max_wall) out_.metrics.status = "stopped";
+  return out_.metrics.status != "completed";
+}
+
+// From the last state in equilibrium; back to it if there is none under this load.
+Relaxed PushRun::attempt(const LoadCourse& course) {
+  State before = run_.state;
+  const PushState known = so_far_;
+  const Relaxed r = relaxation_->relax(run_.state, course, [&](const Solver& solver, const Relaxed& now) { return record(solver, now); });
+  if (r.rest == Rest::stopped) {
+    so_far_ = known;
+  } else {
+    so_far_.steps += double(r.steps);
+    ++so_far_.attempts;
+    if (r.rest == Rest::broken) out_.metrics.status = "diverged";
+  }
+  if (!r.found()) run_.state = std::move(before);
+  const double now = seconds();
+  if (r.found() && now - last_save_ > options_.checkpoint_every) save(writer_->progress());
+  return r;
+}
+
+void PushRun::save(const WriterProgress& written) {
+  write_checkpoint(options_.directory, key_, run_.state, written, collapse_, so_far_);
+  last_save_ = seconds();
+}
+
+// Equilibrium without the push.
+bool PushRun::stand() {
+  if (so_far_.states > 0) return true;  // resumed
+  const Relaxed r = attempt([](double, double) { return 0.0; });
+  if (r.rest == Rest::collapse || r.rest == Rest::creep) gravity_alone_ = true;
+  return r.found();
+}
+
+void PushRun::push_on() {
+  while (!so_far_.path.done() && out_.metrics.status == "completed") {
+    const double from = so_far_.multiplier, to = so_far_.path.next();
+    const Relaxed r = attempt([=](double ramp, double) { return from + ramp * (to - from); });
+    if (r.rest == Rest::stopped || r.rest == Rest::broken) return;
+    if (r.found()) so_far_.path.found(), so_far_.multiplier = to;
+    else so_far_.path.failed();
+    writer_->log(fmt::format("multiplier {:.6g}: {} after {} steps, unbalanced {:.2e}", shown(to),
+                             r.found() ? "equilibrium" : r.rest == Rest::collapse ? "collapse" : "creeps", r.steps, r.unbalanced));
+  }
+}
+
+void PushRun::control_on() {
+  MachinePath& machine = so_far_.machine;
+  while (!machine.done() && out_.metrics.status == "completed") {
+    const State before = run_.state;
+    const double from = machine.extension, to = machine.next();
+    const Relaxed r = attempt([&, from, to](double ramp, double u) { return machine.load(from + ramp * (to - from), u); });
+    if (r.rest == Rest::stopped || r.rest == Rest::broken) return;
+    if (!r.found()) {
+      writer_->log(fmt::format("no equilibrium at the extension {:.6g} m: the structure has come apart", to));
+      return;
+    }
+    if (passed_peak_) {
+      run_.state = before;
+      machine.refine();
+      continue;
+    }
+    so_far_.multiplier = relaxation_->loads().multiplier();
+    machine.found(relaxation_->monitor().along(run_.state.pose));
+  }
+}
+
+// The collapse as it goes on from the least load without equilibrium, for pictures and for the mechanism.
+void PushRun::fall() {
+  const double from = so_far_.multiplier, to = so_far_.path.above ? *so_far_.path.above : from;
+  const double far = 0.5 / frames_of_last_step;
+  double shown = far;
+  const auto frame = [&](const Solver& solver) {
+    const Snapshot now = snapshot(solver);
+    writer_->frame(now);
+    writer_->row(now);
+    so_far_.t += scene_.analysis.frame_dt;
+    if (update(collapse_, run_.model, now.pose, now.t))
+      writer_->event(now.t, "collapse", scene_.name, collapse_.fallen_fraction, "share of mass");
+  };
+  relaxation_->relax(run_.state, [=](double ramp, double) { return from + ramp * (to - from); }, [&](const Solver& solver, const Relaxed& r) {
+    if (r.furthest >= 0 && r.moved > shown * run_.model.smallest_edge[z(r.furthest)]) frame(solver), shown += far;
+    return !interrupted();
+  });
+  if (out_.metrics.status != "completed") return;
+  collapse_.mechanism = mechanism_of(run_.model, run_.state.pose, so_far_.t);
+  mechanism_ = name_mechanism(run_.model, motions_of(run_.state.pose, run_.model.nblock), collapse_.mechanism, push_.direction);
+  relaxation_->release(run_.state, fall_duration, scene_.analysis.frame_dt, [&](const Solver& solver, const Relaxed&) {
+    frame(solver);
+    return !collapse_.collapsed && !interrupted();
+  });
+}
+
+Metrics PushRun::metrics() {
+  Metrics m = out_.metrics;
+  const State& s = run_.state;
+  m.time_s = so_far_.t;
+  m.steps = long(so_far_.steps);
+  m.dt_s = run_.state.time.dt;
+  m.dt_critical_s = run_.bounds.critical;
+  m.dt_block_bound_s = run_.bounds.block;
+  m.threads = options_.threads;
+  m.blocks = run_.model.nblock, m.joints = run_.model.njoint, m.contact_points = run_.model.npoint;
+  m.joints_broken = s.observed.joints_broken;
+  m.wall_s.total = seconds() - born_;
+  m.wall_s.setup = setup_, m.wall_s.record = record_;
+  m.wall_s.solve = seconds() - solve_start_ - record_;
+  m.point_updates = std::uint64_t(so_far_.steps) * std::uint64_t(run_.model.npoint);
+  m.peak_memory_bytes = peak_memory_bytes();
+  for (const Effect& e : effects_) (e.on ? m.effects_on : m.effects_off).push_back(e.name);
+  m.energy = energy_terms(s.energy);
+  m.residual_relative = s.energy.residual_worst;
+  m.momentum_residual = s.observed.momentum_residual;
+  m.max_penetration_relative = s.observed.max_penetration_relative;
+  m.collapse.collapsed = gravity_alone_ || collapse_.collapsed || so_far_.path.above.has_value();
+  m.collapse.under_gravity = gravity_alone_;
+  m.collapse.fallen_fraction = collapse_.fallen_fraction;
+  m.collapse.direction = collapse_direction(collapse_, run_.model, s.pose);
+  m.collapse.mechanism = mechanism_metrics(collapse_.mechanism, run_.model);
+  m.equilibrium = equilibrium_metrics(run_);
+  Capacity& c = m.capacity.emplace();
+  c.kind = push_.kind;
+  c.peak = so_far_.peak;
+  if (so_far_.path.above) c.above = shown(*so_far_.path.above);
+  c.gravity_alone = gravity_alone_;
+  c.states = int(so_far_.states), c.attempts = int(so_far_.attempts);
+  c.relaxation_steps = so_far_.steps;
+  c.worst_unbalanced = so_far_.worst_unbalanced;
+  c.mechanism = mechanism_.name, c.course = mechanism_.text;
+  m.state_hash = state_hash(s);
+  return m;
+}
+
+RunOutcome PushRun::go() {
+  begin();
+  if (!gravity_alone_ && stand()) {
+    if (push_.control == "displacement") control_on();
+    else push_on();
+  }
+  std::string& status = out_.metrics.status;
+  if (status == "interrupted" || status == "stopped") {
+    save(writer_->progress());
+  } else if (status == "completed" && (gravity_alone_ || so_far_.path.above)) {
+    const State before = run_.state;
+    const PushState known = so_far_;
+    const WriterProgress written = writer_->progress();
+    const Collapse watched = collapse_;
+    fall();
+    if (status != "completed") {  // resumed, it falls anew
+      run_.state = before, so_far_ = known, collapse_ = watched;
+      save(written);
+    }
+  }
+  if (status == "completed" && run_.state.energy.residual_worst > gate) {
+    status = "inaccurate";
+    out_.trouble = fmt::format("the energy ledger misses {:.2g} of all energy; take a smaller analysis{{ dt_fraction }}",
+                               run_.state.energy.residual_worst);
+  }
+  writer_->log(fmt::format("status {}", status));
+  out_.metrics = metrics();
+  writer_->close();
+  curve_->flush();
+  write_metrics(options_.directory, out_.metrics);
+  return std::move(out_);
+}
+
+}  // namespace
+
+RunOutcome run_push(Scene scene, const std::string& script, const RunOptions& options) {
+  return PushRun(std::move(scene), script, options).go();
+}
+
+}  // namespace erbs::analysis

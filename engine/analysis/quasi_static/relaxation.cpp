@@ -1,0 +1,175 @@
+#include "engine/analysis/quasi_static/relaxation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/analysis/quasi_static/scaled_inertia.h"
+#include "engine/base/units.h"
+
+namespace erbs::analysis {
+namespace {
+
+constexpr double checks = 20;              // of the balance, in a period
+constexpr int calm_checks = 3;             // in balance, one after the other
+constexpr double longest = 600;            // periods until a structure that still moves is said to creep
+constexpr double far_away = 0.5;           // of a block's smallest edge: it does not come to rest there
+constexpr int control_every = 16;          // steps between two readings of the displacement that controls the load
+constexpr double default_step_count = 50;  // steps in a period where the structure has no elastic one
+
+std::size_t z(int i) { return std::size_t(i); }
+
+// Damping on the way to equilibrium, by name. It reads the ledger whenever that has closed.
+// adaptive: mass damping whose power is held near half the rate of change of the kinetic energy (Cundall 1982, "adaptive global damping").
+//   Here the coefficient changes by a tenth where the ratio is off.
+// local: a force of 0.8 times the unbalanced one against the motion (Cundall 1987).
+// kinetic: velocities vanish at each peak of the kinetic energy (Cundall 1976; Barnes 1988).
+class Damper {
+ public:
+  Damper(const std::string& name, double period, Model& model) : model_(model), most_(4 * pi / period), kinetic_(name == "kinetic") {
+    adaptive_ = name == "adaptive";
+    model.damping_all = true, model.damping_explicit = false;
+    model.damping.mass = adaptive_ ? 0.3 * most_ : 0;
+    model.local_damping = name == "local" ? 0.8 : 0;
+  }
+
+  void read(State& s) {
+    const double kinetic = s.energy.kinetic, lost = s.energy.damping;
+    if (adaptive_) {
+      const bool strong = lost - lost_ > 0.5 * std::fabs(kinetic - kinetic_before_);
+      double& a = model_.damping.mass;
+      a = std::clamp(strong ? a / 1.1 : a * 1.1, 1e-4 * most_, most_);
+    }
+    if (kinetic_ && kinetic < kinetic_before_) {
+      stop(s);
+      kinetic_before_ = 0;
+    } else {
+      kinetic_before_ = kinetic;
+    }
+    lost_ = s.energy.damping;
+  }
+
+  // Takes the motion away; its energy counts as damping.
+  static void stop(State& s) {
+    s.energy.damping += s.energy.kinetic;
+    s.energy.kinetic = 0;
+    s.motion.v.assign(s.motion.v.size(), Vec3::Zero());
+    s.motion.spin_momentum.assign(s.motion.spin_momentum.size(), Vec3::Zero());
+    s.motion.w.assign(s.motion.w.size(), Vec3::Zero());
+  }
+
+ private:
+  Model& model_;
+  const double most_;  // 1/s, critical damping of the lowest mode
+  bool adaptive_ = false;
+  const bool kinetic_;
+  double kinetic_before_ = 0, lost_ = 0;
+};
+
+double smooth(double x) { return x >= 1 ? 1 : x * x * (3 - 2 * x); }
+
+}  // namespace
+
+Relaxation::Relaxation(const Push& push, const std::vector<std::string>& groups, const Prepared& run, int threads)
+    : push_(push), run_(run), threads_(threads), model_(run.model), loads_(push, groups, model_), monitor_(push, run.model) {
+  true_dt_ = dt_ = run.state.time.dt;
+  range_ = run.range;
+  if (std::isfinite(run.bounds.critical)) {
+    if (push.inertia == "scaled") scale_inertia(model_, run.state);
+    const StepBounds bounds = step_bounds(model_, run.state);
+    range_.critical = bounds.cracked;
+    range_.longest = dt_ = 0.9 * bounds.cracked;
+  }
+  const double w = push_frequency(model_, run.state, push.direction);
+  period_ = std::max(w > 0 ? 2 * pi / w : 0, default_step_count * dt_);
+}
+
+void Relaxation::start(State& s, double dt) const {
+  s.time = TimeStep{};
+  s.time.dt = s.time.dt_target = dt;
+}
+
+void Relaxation::end(State& s) const {
+  Damper::stop(s);
+  start(s, dt_);
+}
+
+std::array<double, 2> Relaxation::mean_forces(const Solver& solver) const {
+  const SampleState& now = solver.sample();
+  double unbalanced = 0, applied = 0;
+  for (int b = 0; b < model_.nblock; ++b) {
+    if (model_.kind[z(b)] != Kind::moving) continue;
+    const Vec3 load = loads_.weight(b) + now.load_wrench[z(b)].head<3>();
+    unbalanced += (load + now.block_wrench[z(b)].head<3>()).norm();
+    applied += load.norm();
+  }
+  return {unbalanced, applied};
+}
+
+Vec3 Relaxation::reaction(const Solver& solver) const {
+  Vec3 sum = Vec3::Zero();
+  for (int b = 0; b < model_.nblock; ++b)
+    if (model_.kind[z(b)] != Kind::moving) sum += solver.sample().block_wrench[z(b)].head<3>();
+  return sum;
+}
+
+bool Relaxation::far(const State& s, const BlockVec3& from, Relaxed& out) const {
+  out.moved = 0;
+  bool far = false;
+  for (int b = 0; b < model_.nblock; ++b) {
+    if (model_.kind[z(b)] != Kind::moving) continue;
+    const double moved = (s.pose.u[z(b)] - from[z(b)]).norm();
+    far = far || moved > far_away * model_.smallest_edge[z(b)];
+    if (moved > out.moved) out.moved = moved, out.furthest = b;
+  }
+  return far;
+}
+
+Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen) {
+  Relaxed out;
+  start(s, dt_);
+  const BlockVec3 from = s.pose.u;
+  const bool controlled = push_.control == "displacement";
+  Damper damper(push_.relaxation, period_, model_);
+  Solver solver(model_, s, range_, threads_);
+  const double check = period_ / checks;
+  double next_check = 0;
+  int calm = 0;
+  while (true) {
+    const double t = s.time.t, done = t / period_;
+    loads_.set(course(smooth(done), monitor_.along(s.pose)));
+    const double next = controlled ? std::min(next_check, t + control_every * s.time.dt) : next_check;
+    const Solver::Stop at = solver.advance({.next = next, .wrenches = true});
+    out.steps = s.time.step;
+    if (solver.broken()) {
+      out.rest = Rest::broken;
+      break;
+    }
+    damper.read(s);
+    if (at != Solver::Stop::sample || solver.sample().t < next_check) continue;
+    next_check += check;
+    const auto [unbalanced, applied] = mean_forces(solver);
+    out.unbalanced = applied > 0 ? unbalanced / applied : 0;
+    calm = done > 1 && out.unbalanced <= push_.unbalanced ? calm + 1 : 0;
+    if (far(s, from, out) && !controlled) out.rest = Rest::collapse;
+    else if (calm >= calm_checks) out.rest = Rest::equilibrium;
+    else if (done > longest) out.rest = Rest::creep;
+    if (!seen(solver, out) || out.rest != Rest::stopped) break;
+  }
+  end(s);
+  return out;
+}
+
+void Relaxation::release(State& s, double duration, double interval, const Seen& seen) {
+  Model falling = run_.model;
+  falling.grounds = model_.grounds, falling.tilts = model_.tilts, falling.force_loads = model_.force_loads;
+  start(s, true_dt_);
+  Solver solver(falling, s, run_.range, threads_);
+  for (double next = interval; next <= duration && !solver.broken();) {
+    if (solver.advance({.next = next, .wrenches = true}) != Solver::Stop::sample) continue;
+    next += interval;
+    if (!seen(solver, {})) break;
+  }
+  end(s);
+}
+
+}  // namespace erbs::analysis

@@ -1,0 +1,73 @@
+// Dynamic relaxation: from a state at rest to equilibrium under a load, or off to collapse. The time integration of a run finds the
+// equilibrium, with damping and masses chosen for speed, so that cracks, slip and contacts are those of a run.
+#pragma once
+#include <array>
+#include <functional>
+#include <string>
+
+#include "engine/analysis/prepare.h"
+#include "engine/analysis/quasi_static/push_loads.h"
+#include "engine/solve/step.h"
+
+namespace erbs::analysis {
+
+enum class Rest : std::uint8_t {
+  equilibrium,  // the mean unbalanced force is below its limit
+  collapse,     // a block has moved by half its smallest edge, and goes on
+  creep,        // still moving after the longest time: no equilibrium, and no block has gone far
+  broken,       // a number is not finite
+  stopped       // by the caller
+};
+
+struct Relaxed {
+  Rest rest = Rest::stopped;
+  long steps = 0;
+  double unbalanced = 0;  // mean unbalanced force over mean applied force
+  int furthest = -1;      // the block that moved furthest, ...
+  double moved = 0;       // m, ... by this
+  bool found() const { return rest == Rest::equilibrium; }
+};
+
+// The multiplier of the loads as a function of the share of the ramp done, 0 to 1, and of the displacement of the monitored point.
+using LoadCourse = std::function<double(double ramp, double displacement)>;
+
+class Relaxation {
+ public:
+  // `run` is at rest under its constant loads, and outlives this object, whose model is a copy with masses of its own. `groups`: of each
+  // block.
+  Relaxation(const Push& push, const std::vector<std::string>& groups, const Prepared& run, int threads);
+
+  // Ramps the loads over one period of the structure, then holds them. `seen` is called some times a period, with the solver at a sample;
+  // it returns false to stop. On return velocities are zero and time starts anew; in equilibrium the state may be relaxed further.
+  using Seen = std::function<bool(const Solver&, const Relaxed&)>;
+  Relaxed relax(State& state, const LoadCourse& course, const Seen& seen);
+  // Lets the structure go under the present loads, with its true masses and without damping, for at most `duration` (s). `seen` is called
+  // every `interval` (s).
+  void release(State& state, double duration, double interval, const Seen& seen);
+
+  const PushLoads& loads() const { return loads_; }
+  const MonitorPoint& monitor() const { return monitor_; }
+  const Model& model() const { return model_; }
+  double period() const { return period_; }  // s, of the relaxation's structure along the push
+  void set_load(double multiplier) { loads_.set(multiplier); }
+  // N, mean unbalanced and mean applied force on moving blocks; the solver is at a sample.
+  std::array<double, 2> mean_forces(const Solver& solver) const;
+  Vec3 reaction(const Solver& solver) const;  // N, on fixed and driven blocks
+
+ private:
+  void start(State& state, double dt) const;
+  void end(State& state) const;
+  bool far(const State& state, const BlockVec3& from, Relaxed& out) const;
+
+  const Push push_;
+  const Prepared& run_;
+  const int threads_;
+  Model model_;
+  PushLoads loads_;
+  MonitorPoint monitor_;
+  StepRange range_;
+  double dt_ = 0, true_dt_ = 0;  // s
+  double period_ = 0;
+};
+
+}  // namespace erbs::analysis

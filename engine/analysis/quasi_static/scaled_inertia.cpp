@@ -1,0 +1,67 @@
+#include "engine/analysis/quasi_static/scaled_inertia.h"
+
+#include <cmath>
+
+#include "engine/analysis/newton.h"
+#include "engine/solve/linear/stiffness.h"
+
+namespace erbs::analysis {
+namespace {
+
+std::size_t z(int i) { return std::size_t(i); }
+
+// 1/s2, the largest eigenvalue of M^-1/2 K_ii M^-1/2 of each moving block; 0 for a block without joints.
+std::vector<double> block_rates(const Model& m, const State& s) {
+  std::vector<Mat6> own(z(m.nblock), Mat6::Zero());
+  for (int j = 0; j < m.njoint; ++j) {
+    if (s.joints.stage[z(j)] == JointStage::contact) continue;
+    const JointMap map = joint_map(m, s, j);
+    const Mat6 k = stiffest(m.joint[z(j)]);
+    own[z(m.joint[z(j)].a)] += map.a.transpose() * k * map.a;
+    own[z(m.joint[z(j)].b)] += map.b.transpose() * k * map.b;
+  }
+  const RootMass roots(m, s, freedoms(m));
+  std::vector<double> out(z(m.nblock), 0.0);
+  for (int b = 0; b < m.nblock; ++b) {
+    if (m.kind[z(b)] != Kind::moving) continue;
+    const Mat6 root = roots.of(b);
+    out[z(b)] = std::max(0.0, Eigen::SelfAdjointEigenSolver<Mat6>(Mat6(root * own[z(b)] * root)).eigenvalues()[5]);
+  }
+  return out;
+}
+
+}  // namespace
+
+void scale_inertia(Model& m, const State& s) {
+  const std::vector<double> rate = block_rates(m, s);
+  double mass = 0, scaled = 0;
+  for (int b = 0; b < m.nblock; ++b)
+    if (rate[z(b)] > 0) mass += m.mass[z(b)], scaled += m.mass[z(b)] * rate[z(b)];
+  m.gravity_factor.assign(z(m.nblock), 1.0);
+  for (int b = 0; b < m.nblock; ++b) {
+    if (!(rate[z(b)] > 0)) continue;
+    const double factor = rate[z(b)] * mass / scaled;
+    m.mass[z(b)] *= factor, m.inverse_mass[z(b)] /= factor;
+    m.inertia[z(b)] *= factor, m.inverse_inertia[z(b)] /= factor;
+    m.gravity_factor[z(b)] = 1 / factor;
+  }
+}
+
+double push_frequency(const Model& m, const State& s, const Vec3& direction) {
+  const Freedom f = grounded_freedoms(m, s);
+  if (f.count == 0) return 0;
+  VecX load = VecX::Zero(f.count), x;
+  for (int b = 0; b < m.nblock; ++b)
+    if (f.first[z(b)] >= 0) load.segment<3>(f.first[z(b)]) = m.mass[z(b)] * direction;
+  NewtonSteps steps(m, s, f, Linear::by_size);
+  if (!steps.intact(load, x) || !(x.dot(load) > 0)) return 0;
+  double kinetic = 0;
+  for (int b = 0; b < m.nblock; ++b) {
+    if (f.first[z(b)] < 0) continue;
+    const Vec3 u = x.segment<3>(f.first[z(b)]), r = x.segment<3>(f.first[z(b)] + 3);
+    kinetic += m.mass[z(b)] * u.squaredNorm() + r.dot(m.inertia[z(b)] * r);
+  }
+  return std::sqrt(x.dot(load) / kinetic);
+}
+
+}  // namespace erbs::analysis

@@ -1,0 +1,30 @@
+#include "engine/record/results/capacity.h"
+
+#include <cmath>
+
+#include "engine/base/units.h"
+
+namespace erbs {
+
+Json to_json(const Capacity& c) {
+  const bool tilt = c.kind == "tilt";
+  const CurvePoint& p = c.peak;
+  Json json = {{"kind", c.kind}, {"multiplier", p.multiplier}, {"lower", p.multiplier}, {"upper", c.above ? Json(*c.above) : Json()}};
+  json["angle_deg"] = tilt ? Json(std::atan(p.multiplier) * 180 / pi) : Json();
+  json["displacement_m"] = p.displacement;
+  json["largest_displacement_m"] = p.most;
+  json["base_shear_N"] = p.base_shear;
+  json["base_shear_over_weight"] = p.base_shear_over_weight;
+  json["joints_opened"] = p.opened;
+  json["joints_slid"] = p.slid;
+  json["gravity_alone"] = c.gravity_alone;
+  json["mechanism"] = c.mechanism;
+  json["mechanism_text"] = c.course;
+  json["states"] = c.states;
+  json["attempts"] = c.attempts;
+  json["relaxation_steps"] = c.relaxation_steps;
+  json["unbalanced_relative"] = c.worst_unbalanced;
+  return json;
+}
+
+}  // namespace erbs

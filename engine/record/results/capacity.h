@@ -1,0 +1,35 @@
+// Result of a push: the largest load in equilibrium, with its bracket, and what had happened to the structure by then.
+#pragma once
+#include <optional>
+#include <string>
+
+#include "engine/record/format/json.h"
+
+namespace erbs {
+
+// A state of equilibrium on the curve of a push.
+struct CurvePoint {
+  double multiplier = 0;              // share of g or of the pattern; of a tilt the tangent of its angle
+  double displacement = 0;            // m, of the monitored point along the push
+  double most = 0;                    // m, of the block that moved most along the push
+  double base_shear = 0;              // N, along the push, on fixed blocks
+  double base_shear_over_weight = 0;  // of the weight of the moving blocks
+  int opened = 0, slid = 0;           // joints
+  double unbalanced = 0;              // mean unbalanced force over mean applied force
+  double steps = 0;                   // of relaxation
+};
+
+struct Capacity {
+  std::string kind;               // tilt | pushover
+  CurvePoint peak;                // the state with the largest multiplier
+  std::optional<double> above;    // the least multiplier without equilibrium; none: none was met
+  bool gravity_alone = false;     // there is no equilibrium without the push
+  std::string mechanism, course;  // in a word, and in words
+  int states = 0, attempts = 0;
+  double relaxation_steps = 0;
+  double worst_unbalanced = 0;  // of all states
+};
+
+Json to_json(const Capacity& capacity);
+
+}  // namespace erbs

@@ -1,0 +1,31 @@
+// The mechanism of a collapse in a word, from how the blocks move: overturning, sliding, hinges, shear.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "engine/record/results/mechanism.h"
+
+namespace erbs {
+
+// Displacements of all blocks, or velocities on the same scale. [nblock]
+struct BlockMotions {
+  std::vector<Vec3> u;      // m
+  std::vector<Vec3> theta;  // rad
+};
+BlockMotions motions_of(const BlockPoses& pose, int nblock);
+
+struct NamedMechanism {
+  std::string name;  // see name_mechanism(); "none" if nothing moves
+  std::string text;  // a sentence, with the share of the mass that moves and where
+  double moving_share = 0;
+};
+
+// `push`: unit vector of the load, horizontal. What moves is what moves by a fifth of the largest displacement.
+//   sliding                one body, with hardly any rotation
+//   overturning            one body that turns about a level axis; "overturning out of plane" where it is a wall less than half as thick as
+//                          wide, across which it falls; "overturning on a stepped crack" where its crack runs through bed and head joints
+//   hinges                 several bodies that turn against each other; joints open at edges
+//   shear                  several bodies that slide on each other: "shear along diagonal cracks" where bed and head joints take part
+NamedMechanism name_mechanism(const Model& model, const BlockMotions& motions, const Mechanism& joints, const Vec3& push);
+
+}  // namespace erbs

@@ -1,0 +1,108 @@
+#include "engine/scene/push.h"
+
+#include <cmath>
+
+#include "engine/base/spelling.h"
+#include "engine/scene/scene.h"
+
+namespace erbs {
+namespace {
+
+struct PushCheck {
+  const Scene& scene;
+  const Push& push;
+  std::vector<std::string> mistakes;
+
+  template <class... A>
+  void say(fmt::format_string<A...> text, A&&... values) {
+    mistakes.push_back(push.place.text() + ": analysis: " + fmt::format(text, std::forward<A>(values)...));
+  }
+  const Block* block(const std::string& name, const char* who) {
+    std::vector<std::string> names;
+    for (const Block& one : scene.blocks) {
+      if (one.name == name) return &one;
+      names.push_back(one.name);
+    }
+    say("{}: there is no block \"{}\"{}", who, name, did_you_mean(name, names));
+    return nullptr;
+  }
+};
+
+void check_pattern(PushCheck& c) {
+  for (const PatternForce& one : c.push.pattern) {
+    if (one.block.empty() == one.group.empty()) c.say("pattern: each force names one block, or one group");
+    else if (!one.block.empty()) {
+      if (const Block* block = c.block(one.block, "pattern"); block && block->fixed)
+        c.say("pattern: block \"{}\" is fixed and feels no force; name a free block", one.block);
+    } else {
+      std::vector<std::string> groups;
+      bool there = false;
+      for (const Block& block : c.scene.blocks) groups.push_back(block.group), there = there || (block.group == one.group && !block.fixed);
+      if (!there) c.say("pattern: group \"{}\" has no free blocks{}", one.group, did_you_mean(one.group, groups));
+    }
+    if (!(one.force.norm() > 0 && std::isfinite(one.force.norm()))) c.say("pattern: a force has no length; give {{x, y, z}} in N");
+  }
+}
+
+void check_monitor(PushCheck& c) {
+  const Monitor& monitor = c.push.monitor;
+  if (!monitor.block.empty()) {
+    if (const Block* block = c.block(monitor.block, "monitor"); block && block->fixed)
+      c.say("monitor: block \"{}\" is fixed and never moves; name a free block", monitor.block);
+  } else if (monitor.has_point) {
+    c.say("monitor: a point belongs to a block; add block = \"...\"");
+  }
+  if (!monitor.point.allFinite()) c.say("monitor: its point is not a finite place; give numbers");
+}
+
+void check_loads_of_push(PushCheck& c) {
+  for (const Load& load : c.scene.loads) {
+    const Pulse* pulse = std::get_if<Pulse>(&load.wave);  // of a number, without end
+    const bool constant =
+        (load.kind == Load::Kind::force || load.kind == Load::Kind::moment) && pulse && pulse->start <= 0 && std::isinf(pulse->duration);
+    if (!constant)
+      c.mistakes.push_back(load.place.text() + ": kind = \"" + c.push.kind +
+                           "\" has no time: it takes constant forces and moments only; remove this load, or take kind = \"dynamic\"");
+  }
+}
+
+void check_numbers(PushCheck& c) {
+  const Push& push = c.push;
+  if (!(std::abs(push.direction.norm() - 1) < 1e-6)) c.say("direction has no length; give a vector");
+  const double most = push.up_to > 0 ? push.up_to : push.tilts() ? 1.0 : 2.0;
+  if (push.step > most) c.say("step = {:g} is beyond up_to = {:g}; take a smaller step", push.step, most);
+  if (push.tilts() && push.up_to > 3.1) c.say("up_to = {:g} is beyond 3.1 rad; a table does not turn further", push.up_to);
+  for (const double one : push.path)
+    if (!(std::abs(one) <= most)) c.say("path: {:g} is beyond up_to = {:g}; raise up_to, or leave it out", one, most);
+  if (push.control == "displacement") {
+    if (push.tilts()) c.say("control = \"displacement\" belongs to a pushover; leave it out, or take kind = \"pushover\"");
+    if (!(push.displacement > 0)) c.say("control = \"displacement\" needs the displacement at which the push ends; add displacement = 50*mm, say");
+    if (!push.path.empty()) c.say("path is a list of multipliers, which control = \"displacement\" does not set; leave one of them out");
+  } else if (push.displacement > 0 || push.displacement_step > 0) {
+    c.say("displacement is for control = \"displacement\"; add it, or leave displacement out");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> check_push(const Scene& scene) {
+  const Push& push = scene.push;
+  if (!push.quasi_static()) return {};
+  PushCheck c{scene, push, {}};
+  check_numbers(c);
+  check_pattern(c);
+  check_monitor(c);
+  check_loads_of_push(c);
+  const Analysis& analysis = scene.analysis;
+  if (analysis.duration > 0) c.say("kind = \"{}\" has no duration: it ends with the collapse; leave duration out", push.kind);
+  if (analysis.solver == "sequential") c.say("kind = \"{}\" needs solver = \"leapfrog\"; leave solver out", push.kind);
+  if (analysis.levels > 1) c.say("kind = \"{}\" has one time level; leave levels out", push.kind);
+  if (push.tilts() && !push.pattern.empty()) c.say("a tilt turns gravity and takes no pattern; leave pattern out, or take kind = \"pushover\"");
+  const double g = scene.gravity.norm();
+  if (push.tilts() && g == 0) c.say("a tilt turns gravity, and there is none; add gravity(g)");
+  if (push.tilts() && g > 0 && scene.gravity.cross(push.direction).norm() < 1e-3 * g)
+    c.say("direction is that of gravity, so that nothing tilts; give a horizontal one");
+  return c.mistakes;
+}
+
+}  // namespace erbs
