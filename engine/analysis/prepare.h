@@ -16,7 +16,7 @@ struct Prepared {
   std::string dt_rule;  // the rule that gave dt, in words
   Equilibrium equilibrium;
   double equilibrium_wall = 0;  // s
-  std::vector<int> fallers;  // blocks still moving after a damped ramp of gravity
+  std::vector<int> fallers;     // blocks still moving after a damped ramp of gravity
   std::vector<std::string> warnings;
   std::vector<std::string> notes;  // details of a summary warning, for log.txt
 };

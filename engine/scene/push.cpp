@@ -76,7 +76,8 @@ void check_numbers(PushCheck& c) {
     if (!(std::abs(one) <= most)) c.say("path: {:g} is beyond up_to = {:g}; raise up_to, or leave it out", one, most);
   if (push.control == "displacement") {
     if (push.tilts()) c.say("control = \"displacement\" belongs to a pushover; leave it out, or take kind = \"pushover\"");
-    if (!(push.displacement > 0)) c.say("control = \"displacement\" needs the displacement at which the push ends; add displacement = 50*mm, say");
+    if (!(push.displacement > 0))
+      c.say("control = \"displacement\" needs the displacement at which the push ends; add displacement = 50*mm, say");
     if (!push.path.empty()) c.say("path is a list of multipliers, which control = \"displacement\" does not set; leave one of them out");
   } else if (push.displacement > 0 || push.displacement_step > 0) {
     c.say("displacement is for control = \"displacement\"; add it, or leave displacement out");
@@ -97,7 +98,8 @@ std::vector<std::string> check_push(const Scene& scene) {
   if (analysis.duration > 0) c.say("kind = \"{}\" has no duration: it ends with the collapse; leave duration out", push.kind);
   if (analysis.solver == "sequential") c.say("kind = \"{}\" needs solver = \"leapfrog\"; leave solver out", push.kind);
   if (analysis.levels > 1) c.say("kind = \"{}\" has one time level; leave levels out", push.kind);
-  if (push.tilts() && !push.pattern.empty()) c.say("a tilt turns gravity and takes no pattern; leave pattern out, or take kind = \"pushover\"");
+  if (push.tilts() && !push.pattern.empty())
+    c.say("a tilt turns gravity and takes no pattern; leave pattern out, or take kind = \"pushover\"");
   const double g = scene.gravity.norm();
   if (push.tilts() && g == 0) c.say("a tilt turns gravity, and there is none; add gravity(g)");
   if (push.tilts() && g > 0 && scene.gravity.cross(push.direction).norm() < 1e-3 * g)

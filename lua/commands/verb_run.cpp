@@ -232,7 +232,8 @@ analysis::RunOutcome run_scene(Scene scene, const std::string& script, const std
   run.interrupted = &catch_interrupts();
   ProgressPrinter printer(command.output.quiet, command.log_json);
   run.progress = [&](const analysis::Progress& now) { printer.show(now); };
-  return scene.push.quasi_static() ? analysis::run_push(std::move(scene), script, run) : analysis::run_dynamic(std::move(scene), script, run);
+  return scene.push.quasi_static() ? analysis::run_push(std::move(scene), script, run)
+                                   : analysis::run_dynamic(std::move(scene), script, run);
 }
 
 // A user should learn before a run, not after it, that its curves cannot be drawn.

@@ -17,13 +17,14 @@ Keys monitor_keys() { return keys_of<Monitor>(); }
 
 // Keys of analysis{} besides the fields of `Push`.
 Keys push_keys() {
-  return {{"direction", "direction", "", "tilt: side that goes down; pushover: direction of the acceleration on the masses", -1e9, 1e9, false, "",
-           "\"x\""},
-          {"path", "numbers", "", "tilt, pushover: multipliers (tilt: rad) to visit in turn before the push to the end"},
-          {"pattern", "list of tables", "", "pushover: forces at the multiplier 1 (default: g times the mass of each block, along direction)",
-           -unbounded, unbounded, false, "", "", keys_of<PatternForce>()},
-          {"monitor", "table", "", "point whose displacement along direction is the abscissa of the curve", -unbounded, unbounded, false, "",
-           "", monitor_keys()}};
+  return {
+      {"direction", "direction", "", "tilt: side that goes down; pushover: direction of the acceleration on the masses", -1e9, 1e9, false,
+       "", "\"x\""},
+      {"path", "numbers", "", "tilt, pushover: multipliers (tilt: rad) to visit in turn before the push to the end"},
+      {"pattern", "list of tables", "", "pushover: forces at the multiplier 1 (default: g times the mass of each block, along direction)",
+       -unbounded, unbounded, false, "", "", keys_of<PatternForce>()},
+      {"monitor", "table", "", "point whose displacement along direction is the abscissa of the curve", -unbounded, unbounded, false, "",
+       "", monitor_keys()}};
 }
 
 void read_push(Call& call, Arguments& arguments) {
@@ -125,7 +126,9 @@ std::vector<Function> analysis_functions() {
       {"damping", damping, "{ ... }", "", "Damping of blocks and of joints.", keys_of<Damping>()},
       {"analysis", analysis, "{ ... }", "", "Kind, duration, time step and end of the run.",
        joined(
-           {keys_of<Analysis>(), keys_of<Push>(), push_keys(),
+           {keys_of<Analysis>(),
+            keys_of<Push>(),
+            push_keys(),
             {{"quality", "string", "",
               "a measured pair of step (over its limit) and contact points, for values that the scene leaves open: 0.9 and 2 x 2, 0.9 and "
               "3 x 3, 0.25 and 5 x 5",

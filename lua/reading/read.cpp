@@ -344,9 +344,11 @@ void Arguments::read(const std::string& key, std::vector<std::vector<int>>& into
 
 void Arguments::direction(const std::string& key, Vec3& into) {
   if (!push(key)) return;
-  const std::string word = lua_type(lua_, -1) == LUA_TSTRING ? lua_tostring(lua_, -1) : "";
+  std::string word = lua_type(lua_, -1) == LUA_TSTRING ? lua_tostring(lua_, -1) : "";
+  const bool back = word.size() == 2 && word[0] == '-';
+  if (back) word.erase(0, 1);
   if (word == "x" || word == "y" || word == "z") {
-    into = Vec3::Unit(word[0] - 'x');
+    into = (back ? -1.0 : 1.0) * Vec3::Unit(word[0] - 'x');
   } else if (lua_istable(lua_, -1)) {
     if (const auto vector = vector_at_top(key, key)) {
       if (vector->norm() < 1e-12) mistake(fmt::format("{} has no length; give a vector such as {{ 1, 0, 0 }}", key));

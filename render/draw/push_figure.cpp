@@ -41,8 +41,8 @@ plot::Figure push_figure(const std::string& file, const CsvTable& curve, const R
   }
   plot::Panel joints{.cell = {0, 1, 0, 0.36}, .x = {.label = along}, .y = {.label = "joints"}, .key = "top left"};
   for (const auto& [name, title, look] : {std::array{"joints_opened", "opened", "#c0502d"}, std::array{"joints_slid", "slid", "#4f8a4c"}})
-    joints.series.push_back({fmt::format("{}{}:{}", source, x, curve.find(name) + 1),
-                             fmt::format("linespoints lw 1.3 pt 7 ps 0.4 lc rgb '{}'", look), title});
+    joints.series.push_back(
+        {fmt::format("{}{}:{}", source, x, curve.find(name) + 1), fmt::format("linespoints lw 1.3 pt 7 ps 0.4 lc rgb '{}'", look), title});
   figure.panels = {load, joints};
   return figure;
 }

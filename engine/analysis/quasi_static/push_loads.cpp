@@ -14,7 +14,7 @@ Wave constant(double value) { return Pulse{value, -1, unbounded}; }
 
 double g_of(const Model& m) { return m.gravity.norm() > 0 ? m.gravity.norm() : standard_g; }
 
-double weight_mass(const Model& m, int b) { return m.mass[z(b)] * (m.gravity_factor.empty() ? 1 : m.gravity_factor[z(b)]); }
+double weight_mass(const Model& m, int b) { return m.mass[z(b)] * m.weight_share(b); }
 
 // The moving blocks that a force of the pattern acts on, with their shares of it.
 std::vector<std::pair<int, double>> blocks_of(const PatternForce& force, const std::vector<std::string>& groups, const Model& m) {
@@ -33,7 +33,7 @@ std::vector<std::pair<int, double>> blocks_of(const PatternForce& force, const s
 }  // namespace
 
 PushLoads::PushLoads(const Push& push, const std::vector<std::string>& groups, Model& model)
-    : kind_(push.tilts()             ? Kind::tilt
+    : kind_(push.tilts()           ? Kind::tilt
             : push.pattern.empty() ? Kind::acceleration
                                    : Kind::pattern),
       model_(model),
@@ -78,8 +78,6 @@ MonitorPoint::MonitorPoint(const Push& push, const Model& m) : arm_(Vec3::Zero()
   if (push.monitor.has_point) arm_ = push.monitor.point - m.rest[z(block_)];
 }
 
-Vec3 MonitorPoint::displacement(const BlockPoses& pose) const {
-  return pose.u[z(block_)] + rotation_change(pose.q[z(block_)], arm_);
-}
+Vec3 MonitorPoint::displacement(const BlockPoses& pose) const { return pose.u[z(block_)] + rotation_change(pose.q[z(block_)], arm_); }
 
 }  // namespace erbs::analysis

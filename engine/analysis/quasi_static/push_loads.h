@@ -13,8 +13,8 @@ class PushLoads {
   // Adds the loads of `push` to `model`, at the multiplier 0. `blocks`: of the scene, for the groups of its pattern.
   PushLoads(const Push& push, const std::vector<std::string>& groups, Model& model);
 
-  void set(double multiplier);  // of the model given at the start; tilt: rad
-  Vec3 weight(int block) const;   // N, of gravity and the acceleration at the present multiplier, without forces
+  void set(double multiplier);   // of the model given at the start; tilt: rad
+  Vec3 weight(int block) const;  // N, of gravity and the acceleration at the present multiplier, without forces
   double multiplier() const { return multiplier_; }
   const Vec3& direction() const { return direction_; }
 
@@ -22,7 +22,7 @@ class PushLoads {
   enum class Kind { acceleration, tilt, pattern } kind_;
   Model& model_;
   Vec3 direction_;
-  std::size_t first_force_ = 0;   // in Model::force_loads
+  std::size_t first_force_ = 0;  // in Model::force_loads
   double multiplier_ = 0;
   Vec3 acceleration_ = Vec3::Zero();  // m/s2, on every block
 };

@@ -8,7 +8,7 @@
 namespace erbs::analysis {
 namespace {
 
-constexpr double default_step = 0.01, default_end = 2;                          // share of g, or of the pattern
+constexpr double default_step = 0.01, default_end = 2;                           // share of g, or of the pattern
 constexpr double default_tilt_step = 0.5 * pi / 180, default_tilt_end = pi / 3;  // rad
 constexpr double displacement_steps = 50;
 constexpr int parts_at_peak = 8;
@@ -17,14 +17,14 @@ constexpr int parts_at_peak = 8;
 
 LoadPath::LoadPath(const Push& push)
     : targets(push.path),
-      step(push.step > 0 ? push.step : push.tilts() ? default_tilt_step : default_step),
+      step(push.step > 0  ? push.step
+           : push.tilts() ? default_tilt_step
+                          : default_step),
       bracket(push.bracket) {
   targets.push_back(push.up_to > 0 ? push.up_to : push.tilts() ? default_tilt_end : default_end);
 }
 
-bool LoadPath::bracketed() const {
-  return above && std::fabs(*above - at) <= std::max(bracket * std::fabs(*above), 1e-3 * bracket * step);
-}
+bool LoadPath::bracketed() const { return above && std::fabs(*above - at) <= std::max(bracket * std::fabs(*above), 1e-3 * bracket * step); }
 
 bool LoadPath::done() const { return bracketed() || target == int(targets.size()); }
 

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <filesystem>
-#include <limits>
 
 #include "engine/analysis/quasi_static/push_path.h"
 #include "engine/analysis/quasi_static/relaxation.h"
@@ -22,10 +21,11 @@
 namespace erbs::analysis {
 namespace {
 
-constexpr double fall_duration = 4;        // s, of the fall that is drawn
-constexpr double joint_moved = 1e-4;       // of a joint's size: opened or slid
-constexpr double gate = 1e-2;              // relative, of the energy ledger of all relaxations
-constexpr int frames_of_last_step = 10;    // on the way to collapse
+constexpr double fall_duration = 4;      // s, of the fall that is drawn
+constexpr double joint_moved = 1e-4;     // of a joint's size: opened or slid
+constexpr double gate = 1e-2;            // relative, of the energy ledger of all relaxations
+constexpr double beyond = 1.02;          // the fall: the load over the least one without equilibrium
+constexpr int frames_of_last_step = 10;  // on the way to collapse
 
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -59,19 +59,32 @@ void each(P& p, F&& f) {
   f("push_curve_sum", p.curve_sum);
 }
 
-double height_of(const Model& m) {
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (int b = 0; b < m.nblock; ++b) {
-    if (m.kind[z(b)] != Kind::moving) continue;
-    low = std::min(low, m.rest[z(b)].z() - 0.5 * m.smallest_edge[z(b)]), high = std::max(high, m.rest[z(b)].z() + 0.5 * m.smallest_edge[z(b)]);
-  }
-  return std::max(high - low, 1e-9);
+std::vector<std::string> curve_columns(const Push& push) {
+  return {push.tilts()           ? "multiplier_tan"
+          : push.pattern.empty() ? "multiplier_g"
+                                 : "multiplier",
+          "displacement_m",
+          "largest_displacement_m",
+          "base_shear_N",
+          "base_shear_over_weight",
+          "joints_opened",
+          "joints_slid",
+          "unbalanced_relative",
+          "relaxation_steps"};
 }
 
-std::vector<std::string> curve_columns(const Push& push) {
-  return {push.tilts() ? "multiplier_tan" : push.pattern.empty() ? "multiplier_g" : "multiplier",
-          "displacement_m", "largest_displacement_m", "base_shear_N", "base_shear_over_weight", "joints_opened", "joints_slid",
-          "unbalanced_relative", "relaxation_steps"};
+// A block that no joint holds to a fixed one has no equilibrium, and would hide that of the others.
+void refuse_floating(const Prepared& run, const Place& place) {
+  std::vector<std::string> names;
+  for (int b = 0; b < run.model.nblock; ++b)
+    if (run.model.kind[z(b)] == Kind::moving && !run.state.topology.grounded[z(b)]) names.push_back(run.model.block_name[z(b)]);
+  if (names.empty()) return;
+  const std::size_t shown = std::min<std::size_t>(names.size(), 5);
+  const std::vector<std::string> first(names.begin(), names.begin() + std::ptrdiff_t(shown));
+  throw Error(fmt::format("no joint leads from {}{} to a fixed block; a push needs one: add a joint rule, a support, or remove {}",
+                          fmt::join(first, ", "), names.size() > shown ? fmt::format(" and {} more", names.size() - shown) : "",
+                          names.size() > 1 ? "them" : "it"),
+              place);
 }
 
 class PushRun {
@@ -125,6 +138,7 @@ void PushRun::begin() {
   scene_.analysis.duration = 1e6;  // a push has none
   run_ = prepare(scene_, options_.allow_unstable);
   scene_.analysis.duration = 0;
+  refuse_floating(run_, push_.place);
   const double dt = run_.state.time.dt;
   key_ = {scene_hash(scene_, script_), run_.state.time.dt, fnv1a(fmt::format("{}", fmt::join(options_.override_arguments, "\n")))};
   so_far_.path = LoadPath(push_);
@@ -199,8 +213,8 @@ bool PushRun::record(const Solver& solver, const Relaxed& now) {
   passed_peak_ = push_.control == "displacement" && so_far_.machine.passes_peak(p.displacement);
   if (passed_peak_) return true;
   const Snapshot state = snapshot(solver);
-  curve_->row({p.multiplier, p.displacement, p.most, p.base_shear, p.base_shear_over_weight, double(p.opened), double(p.slid),
-               p.unbalanced, p.steps});
+  curve_->row({p.multiplier, p.displacement, p.most, p.base_shear, p.base_shear_over_weight, double(p.opened), double(p.slid), p.unbalanced,
+               p.steps});
   writer_->row(state);
   writer_->frame(state);
   run_.state.observed.joints_broken = state.joints_broken;
@@ -271,7 +285,10 @@ void PushRun::push_on() {
     if (r.found()) so_far_.path.found(), so_far_.multiplier = to;
     else so_far_.path.failed();
     writer_->log(fmt::format("multiplier {:.6g}: {} after {} steps, unbalanced {:.2e}", shown(to),
-                             r.found() ? "equilibrium" : r.rest == Rest::collapse ? "collapse" : "creeps", r.steps, r.unbalanced));
+                             r.found()                  ? "equilibrium"
+                             : r.rest == Rest::collapse ? "collapse"
+                                                        : "creeps",
+                             r.steps, r.unbalanced));
   }
 }
 
@@ -298,7 +315,7 @@ void PushRun::control_on() {
 
 // The collapse as it goes on from the least load without equilibrium, for pictures and for the mechanism.
 void PushRun::fall() {
-  const double from = so_far_.multiplier, to = so_far_.path.above ? *so_far_.path.above : from;
+  const double from = so_far_.multiplier, to = so_far_.path.above ? beyond * *so_far_.path.above : from;
   const double far = 0.5 / frames_of_last_step;
   double shown = far;
   const auto frame = [&](const Solver& solver) {
@@ -309,10 +326,12 @@ void PushRun::fall() {
     if (update(collapse_, run_.model, now.pose, now.t))
       writer_->event(now.t, "collapse", scene_.name, collapse_.fallen_fraction, "share of mass");
   };
-  relaxation_->relax(run_.state, [=](double ramp, double) { return from + ramp * (to - from); }, [&](const Solver& solver, const Relaxed& r) {
-    if (r.furthest >= 0 && r.moved > shown * run_.model.smallest_edge[z(r.furthest)]) frame(solver), shown += far;
-    return !interrupted();
-  });
+  relaxation_->relax(
+      run_.state, [=](double ramp, double) { return from + ramp * (to - from); },
+      [&](const Solver& solver, const Relaxed& r) {
+        if (r.furthest >= 0 && r.moved > shown * run_.model.smallest_edge[z(r.furthest)]) frame(solver), shown += far;
+        return !interrupted();
+      });
   if (out_.metrics.status != "completed") return;
   collapse_.mechanism = mechanism_of(run_.model, run_.state.pose, so_far_.t);
   mechanism_ = name_mechanism(run_.model, motions_of(run_.state.pose, run_.model.nblock), collapse_.mechanism, push_.direction);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/analysis/quasi_static/scaled_inertia.h"
 #include "engine/base/units.h"
@@ -9,10 +10,13 @@
 namespace erbs::analysis {
 namespace {
 
-constexpr double checks = 20;              // of the balance, in a period
-constexpr int calm_checks = 3;             // in balance, one after the other
-constexpr double longest = 600;            // periods until a structure that still moves is said to creep
-constexpr double far_away = 0.5;           // of a block's smallest edge: it does not come to rest there
+constexpr double checks = 20;        // of the balance, in a period
+constexpr int calm_checks = 3;       // in balance, one after the other
+constexpr double longest = 600;      // periods until a structure that still moves is said to creep, ...
+constexpr double longest_fall = 30;  // ... and at least this many times sqrt(height / g), the time scale of rocking
+// Of a block's smallest edge. Beyond the first a block that still gains speed falls, beyond the second any.
+constexpr double gone = 0.1, far_away = 0.5;
+constexpr double local_share = 0.8;
 constexpr int control_every = 16;          // steps between two readings of the displacement that controls the load
 constexpr double default_step_count = 50;  // steps in a period where the structure has no elastic one
 
@@ -21,7 +25,8 @@ std::size_t z(int i) { return std::size_t(i); }
 // Damping on the way to equilibrium, by name. It reads the ledger whenever that has closed.
 // adaptive: mass damping whose power is held near half the rate of change of the kinetic energy (Cundall 1982, "adaptive global damping").
 //   Here the coefficient changes by a tenth where the ratio is off.
-// local: a force of 0.8 times the unbalanced one against the motion (Cundall 1987).
+// local: a force of 0.8 times the unbalanced one against the motion (Cundall 1987). Against the motion forces count 1.8 times, so that the
+//   limit of the step is shorter by the root of it.
 // kinetic: velocities vanish at each peak of the kinetic energy (Cundall 1976; Barnes 1988).
 class Damper {
  public:
@@ -29,7 +34,7 @@ class Damper {
     adaptive_ = name == "adaptive";
     model.damping_all = true, model.damping_explicit = false;
     model.damping.mass = adaptive_ ? 0.3 * most_ : 0;
-    model.local_damping = name == "local" ? 0.8 : 0;
+    model.local_damping = name == "local" ? local_share : 0;
   }
 
   void read(State& s) {
@@ -39,19 +44,20 @@ class Damper {
       double& a = model_.damping.mass;
       a = std::clamp(strong ? a / 1.1 : a * 1.1, 1e-4 * most_, most_);
     }
-    if (kinetic_ && kinetic < kinetic_before_) {
-      stop(s);
-      kinetic_before_ = 0;
-    } else {
-      kinetic_before_ = kinetic;
-    }
+    brakes_ = kinetic_ && kinetic < kinetic_before_ && !brakes_;
+    if (kinetic_) model_.damping.mass = brakes_ ? 2 / s.time.dt : 0;  // this coefficient leaves no velocity after one step
+    kinetic_before_ = brakes_ ? 0 : kinetic;
     lost_ = s.energy.damping;
   }
+  bool one_step() const { return brakes_; }  // until the next reading
 
   // Takes the motion away; its energy counts as damping.
-  static void stop(State& s) {
-    s.energy.damping += s.energy.kinetic;
-    s.energy.kinetic = 0;
+  static void stop(State& s, const Model& m) {
+    for (int b = 0; b < m.nblock; ++b) {
+      const Vec3 v = s.motion.v[z(b)];
+      if (m.kind[z(b)] == Kind::moving)
+        s.energy.damping += 0.5 * (m.mass[z(b)] * v.squaredNorm() + s.motion.w[z(b)].dot(Vec3(s.motion.spin_momentum[z(b)])));
+    }
     s.motion.v.assign(s.motion.v.size(), Vec3::Zero());
     s.motion.spin_momentum.assign(s.motion.spin_momentum.size(), Vec3::Zero());
     s.motion.w.assign(s.motion.w.size(), Vec3::Zero());
@@ -60,7 +66,7 @@ class Damper {
  private:
   Model& model_;
   const double most_;  // 1/s, critical damping of the lowest mode
-  bool adaptive_ = false;
+  bool adaptive_ = false, brakes_ = false;
   const bool kinetic_;
   double kinetic_before_ = 0, lost_ = 0;
 };
@@ -68,6 +74,17 @@ class Damper {
 double smooth(double x) { return x >= 1 ? 1 : x * x * (3 - 2 * x); }
 
 }  // namespace
+
+double height_of(const Model& m) {
+  const Vec3 up = m.gravity.norm() > 0 ? Vec3(-m.gravity.normalized()) : Vec3::UnitZ();
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (int b = 0; b < m.nblock; ++b) {
+    if (m.kind[z(b)] != Kind::moving) continue;
+    for (const Polyhedron& part : m.parts[z(b)])
+      for (const Vec3& v : part.vertices) low = std::min(low, up.dot(v)), high = std::max(high, up.dot(v));
+  }
+  return high > low ? high - low : 1;
+}
 
 Relaxation::Relaxation(const Push& push, const std::vector<std::string>& groups, const Prepared& run, int threads)
     : push_(push), run_(run), threads_(threads), model_(run.model), loads_(push, groups, model_), monitor_(push, run.model) {
@@ -77,10 +94,12 @@ Relaxation::Relaxation(const Push& push, const std::vector<std::string>& groups,
     if (push.inertia == "scaled") scale_inertia(model_, run.state);
     const StepBounds bounds = step_bounds(model_, run.state);
     range_.critical = bounds.cracked;
-    range_.longest = dt_ = 0.9 * bounds.cracked;
+    range_.longest = dt_ = 0.9 * bounds.cracked / (push.relaxation == "local" ? std::sqrt(1 + local_share) : 1);
   }
   const double w = push_frequency(model_, run.state, push.direction);
   period_ = std::max(w > 0 ? 2 * pi / w : 0, default_step_count * dt_);
+  const double g = run.model.gravity.norm() > 0 ? run.model.gravity.norm() : standard_g;
+  longest_ = std::max(longest * period_, longest_fall * std::sqrt(height_of(run.model) / g));
 }
 
 void Relaxation::start(State& s, double dt) const {
@@ -89,7 +108,7 @@ void Relaxation::start(State& s, double dt) const {
 }
 
 void Relaxation::end(State& s) const {
-  Damper::stop(s);
+  Damper::stop(s, model_);
   start(s, dt_);
 }
 
@@ -112,13 +131,13 @@ Vec3 Relaxation::reaction(const Solver& solver) const {
   return sum;
 }
 
-bool Relaxation::far(const State& s, const BlockVec3& from, Relaxed& out) const {
+bool Relaxation::far(const State& s, const BlockVec3& from, double share, Relaxed& out) const {
   out.moved = 0;
   bool far = false;
   for (int b = 0; b < model_.nblock; ++b) {
     if (model_.kind[z(b)] != Kind::moving) continue;
     const double moved = (s.pose.u[z(b)] - from[z(b)]).norm();
-    far = far || moved > far_away * model_.smallest_edge[z(b)];
+    far = far || moved > share * model_.smallest_edge[z(b)];
     if (moved > out.moved) out.moved = moved, out.furthest = b;
   }
   return far;
@@ -132,12 +151,12 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen) 
   Damper damper(push_.relaxation, period_, model_);
   Solver solver(model_, s, range_, threads_);
   const double check = period_ / checks;
-  double next_check = 0;
+  double next_check = 0, fastest_before = 0;  // s; J, largest kinetic energy
   int calm = 0;
   while (true) {
     const double t = s.time.t, done = t / period_;
     loads_.set(course(smooth(done), monitor_.along(s.pose)));
-    const double next = controlled ? std::min(next_check, t + control_every * s.time.dt) : next_check;
+    const double next = damper.one_step() ? t : controlled ? std::min(next_check, t + control_every * s.time.dt) : next_check;
     const Solver::Stop at = solver.advance({.next = next, .wrenches = true});
     out.steps = s.time.step;
     if (solver.broken()) {
@@ -150,9 +169,12 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen) 
     const auto [unbalanced, applied] = mean_forces(solver);
     out.unbalanced = applied > 0 ? unbalanced / applied : 0;
     calm = done > 1 && out.unbalanced <= push_.unbalanced ? calm + 1 : 0;
-    if (far(s, from, out) && !controlled) out.rest = Rest::collapse;
+    const double fastest = std::max(fastest_before, s.energy.kinetic);
+    const bool speeds_up = s.energy.kinetic >= fastest_before;
+    fastest_before = fastest;
+    if (far(s, from, speeds_up ? gone : far_away, out) && !controlled) out.rest = Rest::collapse;
     else if (calm >= calm_checks) out.rest = Rest::equilibrium;
-    else if (done > longest) out.rest = Rest::creep;
+    else if (t > longest_) out.rest = Rest::creep;
     if (!seen(solver, out) || out.rest != Rest::stopped) break;
   }
   end(s);

@@ -13,7 +13,7 @@ namespace erbs::analysis {
 
 enum class Rest : std::uint8_t {
   equilibrium,  // the mean unbalanced force is below its limit
-  collapse,     // a block has moved by half its smallest edge, and goes on
+  collapse,     // a block has moved by a tenth of its smallest edge and gains speed, or by half of it
   creep,        // still moving after the longest time: no equilibrium, and no block has gone far
   broken,       // a number is not finite
   stopped       // by the caller
@@ -27,6 +27,8 @@ struct Relaxed {
   double moved = 0;       // m, ... by this
   bool found() const { return rest == Rest::equilibrium; }
 };
+
+double height_of(const Model& model);  // m, of the moving blocks, against gravity
 
 // The multiplier of the loads as a function of the share of the ramp done, 0 to 1, and of the displacement of the monitored point.
 using LoadCourse = std::function<double(double ramp, double displacement)>;
@@ -57,7 +59,7 @@ class Relaxation {
  private:
   void start(State& state, double dt) const;
   void end(State& state) const;
-  bool far(const State& state, const BlockVec3& from, Relaxed& out) const;
+  bool far(const State& state, const BlockVec3& from, double share, Relaxed& out) const;
 
   const Push push_;
   const Prepared& run_;
@@ -66,8 +68,8 @@ class Relaxation {
   PushLoads loads_;
   MonitorPoint monitor_;
   StepRange range_;
-  double dt_ = 0, true_dt_ = 0;  // s
-  double period_ = 0;
+  double dt_ = 0, true_dt_ = 0;      // s
+  double period_ = 0, longest_ = 0;  // s; longest_: of one relaxation
 };
 
 }  // namespace erbs::analysis

@@ -173,14 +173,21 @@ ERBS_INLINE Mask kick(const KickDrift& s, const BlockArrays& A, int group, const
   const Pack loaded = damped ? given * load(c.gravity_factor) : given;
   const auto pushed = [&](int i) { return wrench[i] * inverse + loaded * (s.gravity[i] - s.ground[i]); };
   Pack3 force{pushed(0), pushed(1), pushed(2)}, moment{moving * wrench[3], moving * wrench[4], moving * wrench[5]};
+  Pack3 brake{}, brake_moment{};
   if (damped && s.local > 0) {
-    const Pack3 f = braked(s.local, force, v0), m = braked(s.local, moment, L0);
-    force = force + f, moment = moment + m;
+    brake = braked(s.local, force, v0), brake_moment = braked(s.local, moment, L0);
+    force = force + brake, moment = moment + brake_moment;
   }
   const Pack3 v1{kicked(v0.x, force.x), kicked(v0.y, force.y), kicked(v0.z, force.z)};
   const Pack3 L1{kicked(L0.x, moment.x), kicked(L0.y, moment.y), kicked(L0.z, moment.z)};
   const Mat3<Pack> t = rotation_of(load4(A.q[group].x)), back = transposed(t);
   const Pack3 p1 = back * L1;
+  if (damped && s.local > 0) {  // its work, as in `book()`
+    const Pack3 force_on = load(c.mass) * brake, spin0 = t * (load6(c.inverse_inertia) * (back * L0)),
+                spin1 = t * (load6(c.inverse_inertia) * p1);
+    add_to(work.damping, -s.half_last * (dot(force_on, v0) + dot(brake_moment, spin0)));
+    add_to(sample ? work.damping_after : work.damping, -s.half_next * (dot(force_on, v1) + dot(brake_moment, spin1)));
+  }
   if (damped || sample) book<damped, sample>(s, c, interval, v0, v1, back * L0, p1, u0, apart, work);
   else book<damped, sample>(s, c, interval, v0, v1, Pack3{}, Pack3{}, Pack3{}, apart, work);
   const Pack dt = s.dt * moving;

@@ -1,0 +1,98 @@
+// The order of loads of a push, without a structure: steps, bracket, path there and back, and the machine of displacement control.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "engine/analysis/quasi_static/push_path.h"
+
+using namespace erbs;
+using namespace erbs::analysis;
+
+namespace {
+
+// Follows the path of a structure that stands up to `capacity`; returns the number of attempts.
+int follow(LoadPath& path, double capacity) {
+  int attempts = 0;
+  for (; !path.done() && attempts < 1000; ++attempts)
+    if (std::abs(path.next()) <= capacity) path.found();
+    else path.failed();
+  return attempts;
+}
+
+}  // namespace
+
+TEST_CASE("a push brackets the capacity as narrowly as asked", "[push]") {
+  for (const double capacity : {0.0003, 0.0151, 0.2, 0.37361, 1.7}) {
+    for (const double bracket : {0.02, 0.002, 1e-4}) {
+      Push push;
+      push.kind = "pushover", push.bracket = bracket;
+      LoadPath path(push);
+      const int attempts = follow(path, capacity);
+      CAPTURE(capacity, bracket, attempts);
+      REQUIRE(path.above);
+      CHECK(path.at <= capacity);
+      CHECK(*path.above > capacity);
+      CHECK(*path.above - path.at <= bracket * *path.above + 1e-15);
+      CHECK(attempts < capacity / 0.01 + 25);
+    }
+  }
+}
+
+TEST_CASE("a push that never fails ends at its last load", "[push]") {
+  Push push;
+  push.kind = "pushover", push.up_to = 0.055, push.step = 0.02;
+  LoadPath path(push);
+  CHECK(follow(path, 10) == 3);
+  CHECK_FALSE(path.above);
+  CHECK(path.at == 0.055);
+}
+
+TEST_CASE("a path there and back visits its loads in turn", "[push]") {
+  Push push;
+  push.kind = "tilt", push.path = {-0.1, 0.05}, push.step = 0.04, push.up_to = 0.5;
+  LoadPath path(push);
+  std::vector<double> visited;
+  while (!path.done() && visited.size() < 100) visited.push_back(path.next()), path.found();
+  const std::vector<double> first{-0.04, -0.08, -0.1, -0.06, -0.02, 0.02, 0.05};
+  for (std::size_t i = 0; i < first.size(); ++i) CHECK(visited[i] == Approx(first[i]).margin(1e-12));
+  CHECK(visited.back() == 0.5);
+}
+
+TEST_CASE("a structure that falls on the way back is bracketed there", "[push]") {
+  Push push;
+  push.kind = "tilt", push.path = {-0.3}, push.step = 0.04;
+  LoadPath path(push);
+  follow(path, 0.17);
+  REQUIRE(path.above);
+  CHECK(path.at < 0);
+  CHECK(*path.above < -0.17);
+  CHECK(path.at - *path.above <= 0.002 * 0.18);
+}
+
+TEST_CASE("the machine passes a peak and goes on behind it", "[push]") {
+  // multiplier over displacement: steep up to .3 at 1 mm, then down to zero at .4 m
+  const auto curve = [](double u) { return u < 0.001 ? 300 * u : 0.3 * (0.4 - u) / 0.399; };
+  Push push;
+  push.kind = "pushover", push.control = "displacement", push.displacement = 0.2;
+  MachinePath machine(push, 2);
+  double peak = 0;
+  int states = 0;
+  while (!machine.done() && states < 1000) {
+    double low = 0, high = machine.next();  // where the machine and the structure agree
+    for (int i = 0; i < 200; ++i) {
+      const double u = 0.5 * (low + high);
+      (machine.load(machine.next(), u) > curve(u) ? low : high) = u;
+    }
+    if (machine.passes_peak(low)) {
+      machine.refine();
+      continue;
+    }
+    machine.found(low);
+    CHECK(machine.multiplier == Approx(curve(machine.displacement)).margin(1e-9));
+    peak = std::max(peak, machine.multiplier);
+    ++states;
+  }
+  CHECK(machine.displacement >= 0.2);
+  CHECK(peak <= 0.3);
+  CHECK(peak > 0.3 * (1 - 0.004));  // an eighth of a step of 4 mm on a way of .4 m
+  CHECK(states < 100);
+}

@@ -1,0 +1,162 @@
+// Pushes of small structures: capacity, mechanism, bits of any thread count and of interrupted runs, and wrong input.
+#include <catch2/catch.hpp>
+#include <atomic>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "engine/analysis/quasi_static/push_run.h"
+#include "tests/unit/lua/load.h"
+#include "tests/unit/record/two_bricks.h"
+
+using namespace erbs;
+using namespace erbs::analysis;
+using namespace erbs::lua;
+
+namespace {
+
+std::string slurp(const std::string& path) {
+  std::stringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+const std::string stone = R"(
+material{ name = "stone", density = 2000, kn = 1e10, ks = 4e9 }
+box{ name = "floor", size = {6, 6, .5}, at = {-3, -3, -.5}, fixed = true }
+)";
+
+// A dry wall of four courses, which cracks and slides on its way.
+const std::string wall_text = stone + R"(
+wall{ brick = { length = .4, width = .2, height = .2 }, length = 1.2, courses = 4, joint = 0, at = {-.6, -.1, 0}, material = "stone", quiet = true }
+joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .6 } }
+)";
+
+struct PushOutcome {
+  Metrics metrics;
+  std::string curve;
+};
+
+PushOutcome push(const std::string& text, const std::string& dir, int threads = 1, Existing existing = Existing::refuse, int stop_at = -1) {
+  Script script(quiet());
+  Scene scene = script.load_text(text, "scene.lua", {});
+  std::atomic<bool> interrupted{false};
+  int calls = 0;
+  RunOptions options;
+  options.directory = dir, options.threads = threads, options.existing = existing, options.interrupted = &interrupted;
+  options.progress = [&](const Progress&) { interrupted = ++calls == stop_at; };
+  const RunOutcome outcome = run_push(std::move(scene), text, options);
+  return {outcome.metrics, slurp(dir + "/curve.csv")};
+}
+
+}  // namespace
+
+TEST_CASE("a push gives the same bits with any number of threads", "[push]") {
+  const std::string text = wall_text + "analysis{ kind = 'pushover', direction = 'y', step = .05, bracket = .05 }";
+  const test::Scratch one("push_one"), two("push_two");
+  const PushOutcome a = push(text, one.path), b = push(text, two.path, 2);
+  CHECK(a.metrics.status == "completed");
+  CHECK(a.metrics.capacity->peak.multiplier > 0.2);
+  CHECK(a.metrics.state_hash == b.metrics.state_hash);
+  CHECK(a.curve == b.curve);
+}
+
+TEST_CASE("an interrupted push that is resumed gives the same curve, to the bit", "[push][resume]") {
+  for (const std::string kind : {"kind = 'pushover', step = .05, bracket = .05", "kind = 'tilt', step = 4*deg, bracket = .05, path = { -2*deg }",
+                                 "kind = 'pushover', control = 'displacement', displacement = 20*mm, displacement_step = 2*mm"}) {
+    CAPTURE(kind);
+    const std::string text = wall_text + "analysis{ " + kind + ", direction = 'y' }";
+    const test::Scratch whole("push_whole"), parts("push_parts");
+    const PushOutcome expected = push(text, whole.path);
+    CHECK(expected.metrics.status == "completed");
+    Existing existing = Existing::refuse;
+    for (const int calls : {3, 90, 200}) {
+      const PushOutcome stopped = push(text, parts.path, 1, existing, calls);
+      CHECK(stopped.metrics.status == "interrupted");
+      existing = Existing::resume;
+    }
+    const PushOutcome got = push(text, parts.path, 1, Existing::resume);
+    CHECK(got.metrics.status == "completed");
+    CHECK(got.metrics.state_hash == expected.metrics.state_hash);
+    CHECK(got.curve == expected.curve);
+    CHECK(got.metrics.capacity->peak.multiplier == expected.metrics.capacity->peak.multiplier);
+    CHECK(slurp(parts.path + "/histories.csv") == slurp(whole.path + "/histories.csv"));
+  }
+}
+
+TEST_CASE("a push names its mechanism", "[push]") {
+  const auto mechanism = [](const std::string& text) {
+    const test::Scratch dir("push_name");
+    return push(text, dir.path).metrics.capacity->mechanism;
+  };
+  const auto block = [](const char* size, const char* mu) {
+    return stone + "box{ name = 'b', size = " + size + ", at = {-.2, -.2, 0} } joint{ law = dry{ kn = 1e10, ks = 4e9, mu = " + mu +
+           " } } analysis{ kind = 'pushover', step = .05, bracket = .05 }";
+  };
+  CHECK(mechanism(block("{.4, .4, .5}", ".3")) == "sliding");
+  CHECK(mechanism(block("{.4, .4, 1.2}", ".7")) == "overturning");
+  CHECK(mechanism(block("{.2, 1.2, 1.2}", ".7")) == "overturning out of plane");
+  CHECK(mechanism(R"(
+material{ name = "stone", density = 2000, kn = 1e11, ks = 4e10, friction = 3 }
+arch{ radius = 2, thickness = .4, width = .5, voussoirs = 9, embrace = 150*deg }
+joint{ law = dry{ kn = 1e11, ks = 4e10, mu = 3 } }
+analysis{ kind = "pushover", step = .05, bracket = .05 })") == "hinges");
+}
+
+TEST_CASE("a structure that does not stand has that as its verdict", "[push]") {
+  const test::Scratch dir("push_gravity");
+  const PushOutcome got = push(stone + R"(
+box{ name = "foot", size = {.4, .4, .4}, at = {0, 0, 0} }
+box{ name = "overhang", size = {1, .4, .2}, at = {.15, 0, .4} }
+joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .6 } }
+analysis{ kind = "pushover" })",
+                               dir.path);
+  CHECK(got.metrics.status == "completed");
+  CHECK(got.metrics.capacity->gravity_alone);
+  CHECK(got.metrics.collapse.under_gravity);
+  CHECK(got.metrics.capacity->peak.multiplier == 0);
+  CHECK_FALSE(got.metrics.capacity->mechanism.empty());
+}
+
+TEST_CASE("a push keeps its ledger", "[push]") {
+  for (const std::string how : {"adaptive", "local", "kinetic"}) {
+    const test::Scratch dir("push_ledger");
+    const PushOutcome got =
+        push(wall_text + "analysis{ kind = 'pushover', direction = 'y', step = .05, bracket = .05, relaxation = '" + how + "' }", dir.path);
+    CAPTURE(how);
+    CHECK(got.metrics.residual_relative < 5e-3);
+    CHECK(got.metrics.capacity->worst_unbalanced <= 1e-5);
+  }
+}
+
+TEST_CASE("wrong input of a push is met with its remedy", "[push][bad-input]") {
+  const auto says = [](const std::string& analysis, const std::string& part, const std::string& more = "") {
+    CAPTURE(analysis, part);
+    CHECK(mentions(mistakes_of(wall_text + more + "\nanalysis{ " + analysis + " }"), part));
+  };
+  says("kind = 'pushover', direction = {0, 0, 0}", "direction");
+  says("kind = 'push'", "dynamic");
+  says("kind = 'pushover', monitor = { block = 'wal.c04.b01' }", "there is no block \"wal.c04.b01\"; did you mean");
+  says("kind = 'pushover', monitor = { block = 'floor' }", "never moves");
+  says("kind = 'pushover', monitor = { point = {0, 0, 1} }", "belongs to a block");
+  says("kind = 'pushover', control = 'displacement'", "displacement = 50*mm");
+  says("kind = 'pushover', displacement = .1", "control = \"displacement\"");
+  says("kind = 'pushover', pattern = { { block = 'nobody', force = {1, 0, 0} } }", "there is no block \"nobody\"");
+  says("kind = 'pushover', pattern = { { group = 'walls', force = {1, 0, 0} } }", "no free blocks; did you mean \"wall\"");
+  says("kind = 'pushover', pattern = { { force = {1, 0, 0} } }", "one block, or one group");
+  says("kind = 'pushover', pattern = { { group = 'wall', force = {0, 0, 0} } }", "no length");
+  says("kind = 'pushover', duration = 3", "leave duration out");
+  says("kind = 'pushover', levels = 2", "one time level");
+  says("kind = 'pushover', path = { 3 }", "beyond up_to");
+  says("kind = 'tilt', direction = 'z'", "horizontal");
+  says("kind = 'tilt', pattern = { { group = 'wall', force = {1, 0, 0} } }", "takes no pattern");
+  says("kind = 'tilt'", "there is none; add gravity", "gravity(0)");
+  says("kind = 'pushover'", "remove this load", "ground_motion{ wave = sine{ amplitude = 1, frequency = 1 } }");
+  says("duration = 1, direction = 'y'", "belongs to a push");
+}
+
+TEST_CASE("a part that rests on nothing is named before the push", "[push][bad-input]") {
+  const test::Scratch dir("push_floating");
+  CHECK_THROWS_WITH(push(stone + "box{ name = 'moon', size = {.2, .2, .2}, at = {0, 0, 1} } analysis{ kind = 'pushover' }", dir.path),
+                    Catch::Contains("moon"));
+}
