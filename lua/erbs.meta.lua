@@ -439,9 +439,23 @@ function damping(keys) end
 ---@field gyroscopic? boolean the gyroscopic term w x (I w) [default true]
 ---@field output_dt? number time between rows of histories.csv and energy.csv [s; 1e-09 to 1e+06; default 0.01]
 ---@field frame_dt? number time between poses for pictures [s; 1e-09 to 1e+06; default 0.04]
+---@field kind? "dynamic"|"tilt"|"pushover" time history, or a push through states of equilibrium until the structure collapses [default dynamic]
+---@field step? number tilt, pushover: first step of the multiplier, a share of g or of the pattern; of a tilt in rad (0: 0.01; 0.5 deg) [0 to 1e+06; default 0]
+---@field up_to? number tilt, pushover: largest multiplier; of a tilt in rad (0: 2; 60 deg) [0 to 1e+06; default 0]
+---@field bracket? number tilt, pushover: width of the bracket of the capacity, relative [1e-06 to 0.5; default 0.002]
+---@field control? "load"|"displacement" pushover: steps of the multiplier, or of the displacement of the monitored point, past the peak [default load]
+---@field displacement? number control by displacement: where the push ends [m; 0 to 1e+06; default 0]
+---@field displacement_step? number control by displacement: step (0: a fiftieth of displacement) [m; 0 to 1e+06; default 0]
+---@field relaxation? "adaptive"|"local"|"kinetic" tilt, pushover: damping on the way to equilibrium [default adaptive]
+---@field inertia? "scaled"|"true" tilt, pushover: masses on the way to equilibrium, scaled to one time step or true [default scaled]
+---@field unbalanced? number tilt, pushover: mean unbalanced force over mean applied force in equilibrium [1e-09 to 0.01; default 1e-05]
+---@field direction? "x"|"y"|"z"|erbs.vec3 tilt: side that goes down; pushover: direction of the acceleration on the masses [-1e+09 to 1e+09; default "x"]
+---@field path? number[] tilt, pushover: multipliers (tilt: rad) to visit in turn before the push to the end
+---@field pattern? { block?: string, group?: string, force: erbs.vec3 } pushover: forces at the multiplier 1 (default: g times the mass of each block, along direction)
+---@field monitor? { block?: string, point?: erbs.vec3 } point whose displacement along direction is the abscissa of the curve
 ---@field quality? "draft"|"standard"|"reference" a measured pair of step (over its limit) and contact points, for values that the scene leaves open: 0.9 and 2 x 2, 0.9 and 3 x 3, 0.25 and 5 x 5
 
----Duration, time step and end of the run.
+---Kind, duration, time step and end of the run.
 ---@param keys erbs.analysis_keys
 function analysis(keys) end
 

@@ -85,7 +85,7 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
     dt /= a.iterations;
     p.dt_rule += fmt::format(", in {} sweeps", a.iterations);
   }
-  if (dt > a.duration)
+  if (dt > a.duration && !scene.push.quasi_static())
     throw Error(
         fmt::format("analysis: the time step {:.4g} s ({}) is longer than the duration {:g} s: nothing would be computed; say a longer "
                     "duration or a shorter dt",

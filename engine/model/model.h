@@ -124,7 +124,6 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Parts> parts;  // m, world axes at rest, the scene's own [nblock]
 
-  double weight_share(int b) const { return gravity_factor.empty() ? 1 : gravity_factor[std::size_t(b)]; }
   int spare_wrench_row() const { return first_wrench_row.back(); }
   template <class F>
   void each_wrench_row(int b, F&& f) const {

@@ -168,7 +168,7 @@ double Solver::vibration() const {
   for (int b = 0; b < model_.nblock; ++b) {
     if (model_.kind[z(b)] != Kind::moving) continue;
     const Vec6 w = block_wrench(b) + load_wrench(b);
-    const Vec3 f = w.head<3>() + model_.mass[z(b)] * model_.weight_share(b) * (loads_.now().gravity - loads_.now().ground);
+    const Vec3 f = w.head<3>() + model_.mass[z(b)] * weight_share(model_, b) * (loads_.now().gravity - loads_.now().ground);
     const Quat& q = state_.pose.q[z(b)];
     const Vec3 m = q.conjugate() * Vec3(w.tail<3>());
     sum += model_.inverse_mass[z(b)] * f.squaredNorm() + m.dot(model_.inverse_inertia[z(b)] * m);

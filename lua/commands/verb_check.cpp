@@ -6,6 +6,7 @@
 
 #include "engine/analysis/flat_bed.h"
 #include "engine/analysis/prepare.h"
+#include "engine/analysis/quasi_static/push_run.h"
 #include "engine/base/text.h"
 #include "engine/record/recorders/recorder.h"
 #include "engine/scene/effects.h"
@@ -53,6 +54,12 @@ void print_run(const Scene& scene, const analysis::Prepared& run) {
   say("model: {} blocks, {} joints, {} contact points\n", model.nblock, model.njoint, model.npoint);
   say("dt = {:.4g} s: {}\n  dt_critical {:.4g} s, dt_block_bound {:.4g} s{}\n", dt, run.dt_rule, run.bounds.critical, run.bounds.block,
       run.bounds.stiffest_block >= 0 ? ", set by block " + model.block_name[static_cast<size_t>(run.bounds.stiffest_block)] : "");
+  if (scene.push.quasi_static()) {
+    constexpr double some = 1e5;
+    say("estimate: some thousand steps for each state of the {}; {:g} steps: {:.0f} MiB; {}\n", scene.push.kind, some,
+        (static_cast<double>(bytes_of(model)) + own_memory) / 1048576.0, cost_text(estimated_cost(model, some, scene.analysis.debris)));
+    return;
+  }
   say("estimate: {:g} steps for {:g} s, {:.0f} MiB; {}\n", steps, scene.analysis.duration,
       (static_cast<double>(bytes_of(model)) + own_memory) / 1048576.0, cost_text(estimated_cost(model, steps, scene.analysis.debris)));
 }
@@ -68,6 +75,7 @@ void check_scene(const std::string& path, const CheckCommand& command) {
   Script script(script_options(command.scene, command.quiet));
   const Scene scene = script.load(path, command.scene.overrides);
   const analysis::Prepared run = analysis::prepare(scene, command.scene.allow_unstable);
+  if (scene.push.quasi_static()) analysis::refuse_floating(run, scene.push.place);
   const Recorders recorders(scene, run.model);  // throws Error if two columns have one name
   for (const auto& warning : warnings(scene)) tell(stderr, "warning: " + warning);
   for (const auto& warning : run.warnings) tell(stderr, "warning: " + warning);

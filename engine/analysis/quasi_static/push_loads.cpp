@@ -4,6 +4,7 @@
 
 #include "engine/base/rotation.h"
 #include "engine/base/units.h"
+#include "engine/solve/blocks/integrate.h"
 
 namespace erbs::analysis {
 namespace {
@@ -14,7 +15,7 @@ Wave constant(double value) { return Pulse{value, -1, unbounded}; }
 
 double g_of(const Model& m) { return m.gravity.norm() > 0 ? m.gravity.norm() : standard_g; }
 
-double weight_mass(const Model& m, int b) { return m.mass[z(b)] * m.weight_share(b); }
+double weight_mass(const Model& m, int b) { return m.mass[z(b)] * weight_share(m, b); }
 
 // The moving blocks that a force of the pattern acts on, with their shares of it.
 std::vector<std::pair<int, double>> blocks_of(const PatternForce& force, const std::vector<std::string>& groups, const Model& m) {

@@ -47,11 +47,13 @@ MachinePath::MachinePath(const Push& push, double height)
   stiffness = std::max(2 * (push.step > 0 ? push.step : default_step) / step, 10 / height);
 }
 
-void MachinePath::refine() { peaked = true, parts = parts_at_peak, left = 2 * parts_at_peak; }
+void MachinePath::refine() { parts = parts_at_peak, left = 2 * parts_at_peak; }
 
 void MachinePath::found(double displaced) {
-  extension = next(), before = multiplier, multiplier = load(extension, displaced), displacement = displaced;
-  if (parts > 1 && --left == 0) parts = 1;
+  const double now = load(next(), displaced);
+  peaked = peaked || (parts > 1 && now < multiplier);
+  extension = next(), before = multiplier, multiplier = now, displacement = displaced;
+  if (parts > 1 && --left == 0) parts = 1, before = multiplier - stiffness * step;  // a step ahead of the next bend
 }
 
 }  // namespace erbs::analysis

@@ -28,8 +28,8 @@ struct LoadPath {
 
 // Displacement control: the load grows with the extension of a loading machine, multiplier = stiffness (extension - displacement of the
 // monitored point). The machine is stiffer than the structure is weak past its peak, so that each extension has one state of equilibrium;
-// all other freedoms are free. The displacement itself follows within a step. Where the multiplier falls for the first time the step is
-// repeated in eight parts, so that the peak is seen.
+// all other freedoms are free. The displacement itself follows within a step. Until the peak is passed, a step in which the curve bends
+// down is repeated in eight parts.
 struct MachinePath {
   double end = 0, step = 0;  // m
   double stiffness = 0;      // 1/m
@@ -43,8 +43,11 @@ struct MachinePath {
   bool done() const { return displacement >= end; }
   double next() const { return extension + step / parts; }
   double load(double extended, double displaced) const { return stiffness * (extended - displaced); }
-  bool passes_peak(double displaced) const { return !peaked && load(next(), displaced) < multiplier; }
-  void refine();  // the step that passed the peak, in parts
+  // The curve bends down within this step: it rises by less than half as much as in the step before.
+  bool passes_peak(double displaced) const {
+    return !peaked && parts == 1 && load(next(), displaced) - multiplier < 0.5 * (multiplier - before);
+  }
+  void refine();  // that step, in parts
   void found(double displaced);
 };
 

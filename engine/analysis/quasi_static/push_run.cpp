@@ -73,20 +73,6 @@ std::vector<std::string> curve_columns(const Push& push) {
           "relaxation_steps"};
 }
 
-// A block that no joint holds to a fixed one has no equilibrium, and would hide that of the others.
-void refuse_floating(const Prepared& run, const Place& place) {
-  std::vector<std::string> names;
-  for (int b = 0; b < run.model.nblock; ++b)
-    if (run.model.kind[z(b)] == Kind::moving && !run.state.topology.grounded[z(b)]) names.push_back(run.model.block_name[z(b)]);
-  if (names.empty()) return;
-  const std::size_t shown = std::min<std::size_t>(names.size(), 5);
-  const std::vector<std::string> first(names.begin(), names.begin() + std::ptrdiff_t(shown));
-  throw Error(fmt::format("no joint leads from {}{} to a fixed block; a push needs one: add a joint rule, a support, or remove {}",
-                          fmt::join(first, ", "), names.size() > shown ? fmt::format(" and {} more", names.size() - shown) : "",
-                          names.size() > 1 ? "them" : "it"),
-              place);
-}
-
 class PushRun {
  public:
   PushRun(Scene scene, const std::string& script, const RunOptions& options)
@@ -135,9 +121,7 @@ void PushRun::begin() {
   if (std::filesystem::is_directory(options_.directory)) out_.lock = std::make_shared<FolderLock>(options_.directory);
   const bool resume = options_.existing == Existing::resume;
   if (resume) check_overrides(options_.directory, options_.override_arguments);
-  scene_.analysis.duration = 1e6;  // a push has none
   run_ = prepare(scene_, options_.allow_unstable);
-  scene_.analysis.duration = 0;
   refuse_floating(run_, push_.place);
   const double dt = run_.state.time.dt;
   key_ = {scene_hash(scene_, script_), run_.state.time.dt, fnv1a(fmt::format("{}", fmt::join(options_.override_arguments, "\n")))};
@@ -146,6 +130,7 @@ void PushRun::begin() {
   const BlockVec3 built = run_.state.pose.u;
   WriterProgress written;
   for (const Block& block : scene_.blocks) group_.push_back(block.group);
+  relaxation_.emplace(push_, group_, run_, options_.threads);  // of the intact structure, so that a resumed push has the same
   if (resume) {
     const std::vector<std::size_t> sizes = sizes_of(run_.state);
     read_checkpoint(options_.directory, key_, run_.state, written, collapse_, so_far_);
@@ -167,12 +152,12 @@ void PushRun::begin() {
   const std::string curve = run_file(options_.directory, "curve.csv");
   if (resume) curve_.emplace(curve, curve_columns(push_), so_far_.curve_rows, so_far_.curve_sum);
   else curve_.emplace(curve, curve_columns(push_));
+  so_far_.curve_rows = curve_->rows(), so_far_.curve_sum = curve_->sum();
   for (const std::string& note : resume ? std::vector<std::string>{} : options_.notes) writer_->log(note);
   for (const std::string& w : run_.warnings) writer_->log("warning: " + w);
   out_.warnings = run_.warnings;
   for (int b = 0; b < run_.model.nblock; ++b)
     if (run_.model.kind[z(b)] == Kind::moving) weight_ += run_.model.mass[z(b)] * run_.model.gravity.norm();
-  relaxation_.emplace(push_, group_, run_, options_.threads);
   setup_ = seconds() - born_;
   solve_start_ = last_save_ = seconds();
 }
@@ -415,6 +400,19 @@ RunOutcome PushRun::go() {
 }
 
 }  // namespace
+
+void refuse_floating(const Prepared& run, const Place& place) {
+  std::vector<std::string> names;
+  for (int b = 0; b < run.model.nblock; ++b)
+    if (run.model.kind[z(b)] == Kind::moving && !run.state.topology.grounded[z(b)]) names.push_back(run.model.block_name[z(b)]);
+  if (names.empty()) return;
+  const std::size_t shown = std::min<std::size_t>(names.size(), 5);
+  const std::vector<std::string> first(names.begin(), names.begin() + std::ptrdiff_t(shown));
+  throw Error(fmt::format("no joint leads from {}{} to a fixed block; a push needs one: add a joint rule, a support, or remove {}",
+                          fmt::join(first, ", "), names.size() > shown ? fmt::format(" and {} more", names.size() - shown) : "",
+                          names.size() > 1 ? "them" : "it"),
+              place);
+}
 
 RunOutcome run_push(Scene scene, const std::string& script, const RunOptions& options) {
   return PushRun(std::move(scene), script, options).go();

@@ -35,8 +35,7 @@ using LoadCourse = std::function<double(double ramp, double displacement)>;
 
 class Relaxation {
  public:
-  // `run` is at rest under its constant loads, and outlives this object, whose model is a copy with masses of its own. `groups`: of each
-  // block.
+  // `run` as prepared, unloaded; it outlives this object, whose model is a copy with masses of its own. `groups`: of each block.
   Relaxation(const Push& push, const std::vector<std::string>& groups, const Prepared& run, int threads);
 
   // Ramps the loads over one period of the structure, then holds them. `seen` is called some times a period, with the solver at a sample;

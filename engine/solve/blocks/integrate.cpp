@@ -104,7 +104,7 @@ void set_constants(const Model& m, const State& s, int b, bool moving, BlockCons
   if (moving && !s.sleep.asleep.empty() && s.sleep.asleep[z(b)]) moving = false;  // its mass still counts in the potential energy
   c.moving[l] = moving;
   c.inverse_mass[l] = moving ? m.inverse_mass[z(b)] : 0;
-  c.gravity_factor[l] = moving ? m.weight_share(b) : 1;
+  c.gravity_factor[l] = moving ? weight_share(m, b) : 1;
   c.damped[l] = moving && (m.damping_all || s.topology.grounded[z(b)]);
   for (int i = 0; i < 6; ++i) c.inverse_inertia[i][l] = moving ? m.inverse_inertia[z(b)](row[i], column[i]) : 0;
 }

@@ -17,6 +17,9 @@ struct Excitation {
   double kick = 0;              // s: half the last plus half the next drift
 };
 
+// Weight of block b over g times its mass: 1, unless a relaxation has scaled the masses.
+inline double weight_share(const Model& m, int b) { return m.gravity_factor.empty() ? 1 : m.gravity_factor[std::size_t(b)]; }
+
 // A block with external loads and its inverse inertia in world axes at the positions of the step.
 struct LoadedBlock {
   int block = 0;

@@ -45,7 +45,7 @@ void StepLoads::tilt() {
   State& s = state_;
   Vec3 moment = Vec3::Zero();
   for (int b = 0; b < model_.nblock; ++b)
-    if (model_.kind[z(b)] == Kind::moving) moment += model_.mass[z(b)] * model_.weight_share(b) * s.pose.u[z(b)];
+    if (model_.kind[z(b)] == Kind::moving) moment += model_.mass[z(b)] * weight_share(model_, b) * s.pose.u[z(b)];
   const double work = s.time.step > 0 ? -(now_.gravity - s.tilt.gravity_before).dot(0.5 * (moment + s.tilt.moment_before)) : 0;
   s.energy.tilt_work += work;
   s.energy.absolute_work += std::fabs(work);
