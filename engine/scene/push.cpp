@@ -10,7 +10,7 @@ namespace {
 
 struct PushCheck {
   const Scene& scene;
-  const Push& push;
+  const PushSettings& push;
   std::vector<std::string> mistakes;
 
   template <class... A>
@@ -67,7 +67,7 @@ void check_loads_of_push(PushCheck& c) {
 }
 
 void check_numbers(PushCheck& c) {
-  const Push& push = c.push;
+  const PushSettings& push = c.push;
   if (!(std::abs(push.direction.norm() - 1) < 1e-6)) c.say("direction has no length; give a vector");
   const double most = push.up_to > 0 ? push.up_to : push.tilts() ? 1.0 : 2.0;
   if (push.step > most) c.say("step = {:g} is beyond up_to = {:g}; take a smaller step", push.step, most);
@@ -87,7 +87,7 @@ void check_numbers(PushCheck& c) {
 }  // namespace
 
 std::vector<std::string> check_push(const Scene& scene) {
-  const Push& push = scene.push;
+  const PushSettings& push = scene.push;
   if (!push.quasi_static()) return {};
   PushCheck c{scene, push, {}};
   check_numbers(c);

@@ -36,7 +36,7 @@ struct Monitor {
   }
 };
 
-struct Push {
+struct PushSettings {
   std::string kind = "dynamic";         // dynamic: there is none | tilt | pushover
   Vec3 direction{1, 0, 0};              // unit vector: of the acceleration that acts on the masses, or towards the side that a tilt lowers
   std::vector<PatternForce> pattern;    // empty: an acceleration of the multiplier times g on every block
@@ -56,22 +56,26 @@ struct Push {
   bool quasi_static() const { return kind != "dynamic"; }
   bool tilts() const { return kind == "tilt"; }
 
-  static Fields<Push> fields() {
+  static Fields<PushSettings> fields() {
     return {
-        {"kind", &Push::kind, "", "time history, or a push through states of equilibrium until the structure collapses", 0, 0, false,
-         "dynamic|tilt|pushover"},
-        {"step", &Push::step, "",
+        {"kind", &PushSettings::kind, "", "time history, or a push through states of equilibrium until the structure collapses", 0, 0,
+         false, "dynamic|tilt|pushover"},
+        {"step", &PushSettings::step, "",
          "tilt, pushover: first step of the multiplier, a share of g or of the pattern; of a tilt in rad (0: 0.01; 0.5 deg)", 0, 1e6},
-        {"up_to", &Push::up_to, "", "tilt, pushover: largest multiplier; of a tilt in rad (0: 2; 60 deg)", 0, 1e6},
-        {"bracket", &Push::bracket, "", "tilt, pushover: width of the bracket of the capacity, relative", 1e-6, 0.5},
-        {"control", &Push::control, "", "pushover: steps of the multiplier, or of the displacement of the monitored point, past the peak",
-         0, 0, false, "load|displacement"},
-        {"displacement", &Push::displacement, "m", "control by displacement: where the push ends", 0, 1e6},
-        {"displacement_step", &Push::displacement_step, "m", "control by displacement: step (0: a fiftieth of displacement)", 0, 1e6},
-        {"relaxation", &Push::relaxation, "", "tilt, pushover: damping on the way to equilibrium", 0, 0, false, "adaptive|local|kinetic"},
-        {"inertia", &Push::inertia, "", "tilt, pushover: masses on the way to equilibrium, scaled to one time step or true", 0, 0, false,
-         "scaled|true"},
-        {"unbalanced", &Push::unbalanced, "", "tilt, pushover: mean unbalanced force over mean applied force in equilibrium", 1e-9, 1e-2},
+        {"up_to", &PushSettings::up_to, "", "tilt, pushover: largest multiplier; of a tilt in rad (0: 2; 60 deg)", 0, 1e6},
+        {"bracket", &PushSettings::bracket, "", "tilt, pushover: width of the bracket of the capacity, relative", 1e-6, 0.5},
+        {"control", &PushSettings::control, "",
+         "pushover: steps of the multiplier, or of the displacement of the monitored point, past the peak", 0, 0, false,
+         "load|displacement"},
+        {"displacement", &PushSettings::displacement, "m", "control by displacement: where the push ends", 0, 1e6},
+        {"displacement_step", &PushSettings::displacement_step, "m", "control by displacement: step (0: a fiftieth of displacement)", 0,
+         1e6},
+        {"relaxation", &PushSettings::relaxation, "", "tilt, pushover: damping on the way to equilibrium", 0, 0, false,
+         "adaptive|local|kinetic"},
+        {"inertia", &PushSettings::inertia, "", "tilt, pushover: masses on the way to equilibrium, scaled to one time step or true", 0, 0,
+         false, "scaled|true"},
+        {"unbalanced", &PushSettings::unbalanced, "", "tilt, pushover: mean unbalanced force over mean applied force in equilibrium", 1e-9,
+         1e-2},
     };
   }
 };

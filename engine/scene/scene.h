@@ -334,7 +334,7 @@ struct Scene {
   std::vector<Load> loads;
   Damping damping;
   Analysis analysis;
-  Push push;
+  PushSettings push;
   std::vector<Recorder> recorders;
   std::vector<Camera> cameras;
   std::vector<Param> params;

@@ -99,7 +99,7 @@ std::string collapse_text(const Json& metrics) {
 }
 
 // The result of a push: capacity, where it stands on its curve, and the mechanism.
-std::string capacity_text(const Push& push, const Json& metrics) {
+std::string capacity_text(const PushSettings& push, const Json& metrics) {
   const Json* capacity = find_key(metrics, "capacity");
   if (!capacity) return "";
   if (capacity->value("gravity_alone", false)) return "does not stand under its own weight";

@@ -15,7 +15,7 @@ int damping(Call& call) {
 
 Keys monitor_keys() { return keys_of<Monitor>(); }
 
-// Keys of analysis{} besides the fields of `Push`.
+// Keys of analysis{} besides the fields of `PushSettings`.
 Keys push_keys() {
   return {
       {"direction", "direction", "", "tilt: side that goes down; pushover: direction of the acceleration on the masses", -1e9, 1e9, false,
@@ -30,10 +30,10 @@ Keys push_keys() {
 void read_push(Call& call, Arguments& arguments) {
   static const Keys pattern = keys_of<PatternForce>(), monitor = monitor_keys();
   const Frame& frame = call.context.frame();
-  Push& push = call.context.scene.push;
+  PushSettings& push = call.context.scene.push;
   push.place = call.place;
   arguments.read(push);
-  static const Keys own = joined({keys_of<Push>(), push_keys()});
+  static const Keys own = joined({keys_of<PushSettings>(), push_keys()});
   for (const Key& key : own)
     if (!push.quasi_static() && key.name != "kind" && arguments.has(key.name))
       arguments.mistake(fmt::format("\"{}\" belongs to a push; add kind = \"tilt\" or \"pushover\", or remove it", key.name));
@@ -127,7 +127,7 @@ std::vector<Function> analysis_functions() {
       {"analysis", analysis, "{ ... }", "", "Kind, duration, time step and end of the run.",
        joined(
            {keys_of<Analysis>(),
-            keys_of<Push>(),
+            keys_of<PushSettings>(),
             push_keys(),
             {{"quality", "string", "",
               "a measured pair of step (over its limit) and contact points, for values that the scene leaves open: 0.9 and 2 x 2, 0.9 and "

@@ -33,6 +33,7 @@ const std::map<std::string, Levels> sub_rooms{
     {"joints", {{""}, {"intact", "cracked"}}},
     {"contact", {{"overlap"}, {"law"}, {"broad"}, {""}}},
     {"solve", {{"blocks", "linear"}, {"contacts", "sequential"}, {""}}},
+    {"analysis", {{""}, {"quasi_static"}}},
     {"record", {{"format", "plot"}, {"recorders"}, {"results"}, {"folder"}, {"export"}, {"report"}}},
     {"lua", {{"reading", "masonry", "page"}, {"language"}, {"program"}, {"reports"}, {"commands"}, {""}}},
     {"render", {{"image", "run"}, {"gl"}, {"draw"}, {"movie"}, {"compare"}, {""}}},

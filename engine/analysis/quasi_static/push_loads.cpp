@@ -33,7 +33,7 @@ std::vector<std::pair<int, double>> blocks_of(const PatternForce& force, const s
 
 }  // namespace
 
-PushLoads::PushLoads(const Push& push, const std::vector<std::string>& groups, Model& model)
+PushLoads::PushLoads(const PushSettings& push, const std::vector<std::string>& groups, Model& model)
     : kind_(push.tilts()           ? Kind::tilt
             : push.pattern.empty() ? Kind::acceleration
                                    : Kind::pattern),
@@ -68,7 +68,7 @@ void PushLoads::set(double multiplier) {
 
 Vec3 PushLoads::weight(int b) const { return weight_mass(model_, b) * acceleration_; }
 
-MonitorPoint::MonitorPoint(const Push& push, const Model& m) : arm_(Vec3::Zero()), direction_(push.direction) {
+MonitorPoint::MonitorPoint(const PushSettings& push, const Model& m) : arm_(Vec3::Zero()), direction_(push.direction) {
   const Vec3 up = m.gravity.norm() > 0 ? Vec3(-m.gravity.normalized()) : Vec3::UnitZ();
   double highest = -1e300;
   for (int b = 0; b < m.nblock; ++b) {

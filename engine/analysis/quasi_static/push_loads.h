@@ -11,7 +11,7 @@ namespace erbs::analysis {
 class PushLoads {
  public:
   // Adds the loads of `push` to `model`, at the multiplier 0. `blocks`: of the scene, for the groups of its pattern.
-  PushLoads(const Push& push, const std::vector<std::string>& groups, Model& model);
+  PushLoads(const PushSettings& push, const std::vector<std::string>& groups, Model& model);
 
   void set(double multiplier);   // of the model given at the start; tilt: rad
   Vec3 weight(int block) const;  // N, of gravity and the acceleration at the present multiplier, without forces
@@ -30,7 +30,7 @@ class PushLoads {
 // The monitored point of a push.
 class MonitorPoint {
  public:
-  MonitorPoint(const Push& push, const Model& model);
+  MonitorPoint(const PushSettings& push, const Model& model);
   Vec3 displacement(const BlockPoses& pose) const;  // m
   double along(const BlockPoses& pose) const { return displacement(pose).dot(direction_); }
   int block() const { return block_; }

@@ -15,7 +15,7 @@ constexpr int parts_at_peak = 8;
 
 }  // namespace
 
-LoadPath::LoadPath(const Push& push)
+LoadPath::LoadPath(const PushSettings& push)
     : targets(push.path),
       step(push.step > 0  ? push.step
            : push.tilts() ? default_tilt_step
@@ -41,7 +41,7 @@ void LoadPath::found() {
 
 void LoadPath::failed() { above = next(); }
 
-MachinePath::MachinePath(const Push& push, double height)
+MachinePath::MachinePath(const PushSettings& push, double height)
     : end(push.displacement), step(push.displacement_step > 0 ? push.displacement_step : push.displacement / displacement_steps) {
   // A rigid block of height h on its edge loses less than 2 / h of its weight per displacement of its top.
   stiffness = std::max(2 * (push.step > 0 ? push.step : default_step) / step, 10 / height);

@@ -18,7 +18,7 @@ struct LoadPath {
   int target = 0;
 
   LoadPath() = default;
-  explicit LoadPath(const Push& push);
+  explicit LoadPath(const PushSettings& push);
   bool done() const;
   double next() const;
   void found();
@@ -39,7 +39,7 @@ struct MachinePath {
   bool peaked = false;
 
   MachinePath() = default;
-  MachinePath(const Push& push, double height);
+  MachinePath(const PushSettings& push, double height);
   bool done() const { return displacement >= end; }
   double next() const { return extension + step / parts; }
   double load(double extended, double displaced) const { return stiffness * (extended - displaced); }

@@ -21,11 +21,11 @@
 namespace erbs::analysis {
 namespace {
 
-constexpr double fall_duration = 4;      // s, of the fall that is drawn
-constexpr double joint_moved = 1e-4;     // of a joint's size: opened or slid
-constexpr double gate = 1e-2;            // relative, of the energy ledger of all relaxations
-constexpr double beyond = 1.02;          // the fall: the load over the least one without equilibrium
-constexpr int frames_of_last_step = 10;  // on the way to collapse
+constexpr double fall_duration = 4;        // s, of the fall that is drawn
+constexpr double joint_moved = 1e-4;       // of a joint's size: opened or slid
+constexpr double ledger_tolerance = 1e-2;  // relative, of the energy ledger of all relaxations
+constexpr double beyond = 1.02;            // the fall: the load over the least one without equilibrium
+constexpr int frames_of_last_step = 10;    // on the way to collapse
 
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -59,7 +59,7 @@ void each(P& p, F&& f) {
   f("push_curve_sum", p.curve_sum);
 }
 
-std::vector<std::string> curve_columns(const Push& push) {
+std::vector<std::string> curve_columns(const PushSettings& push) {
   return {push.tilts()           ? "multiplier_tan"
           : push.pattern.empty() ? "multiplier_g"
                                  : "multiplier",
@@ -95,7 +95,7 @@ class PushRun {
   Metrics metrics();
 
   Scene scene_;
-  const Push push_;
+  const PushSettings push_;
   std::vector<Effect> effects_;
   std::vector<std::string> group_;
   const std::string& script_;
@@ -183,7 +183,7 @@ CurvePoint PushRun::point_of(const Solver& solver, const Relaxed& now) const {
     if (run_.state.joints.stage[z(j)] == JointStage::intact) continue;
     const JointCondition c = joint_condition(m, run_.state.joints, pose, j);
     const double size = joint_moved * m.joint[z(j)].type->radius;
-    p.opened += c.opening > size, p.slid += c.slip > size && c.slip > c.opening;
+    p.opening += c.opening > size, p.slid += c.slip > size && c.slip > c.opening;
   }
   p.unbalanced = now.unbalanced;
   p.steps = double(now.steps);
@@ -192,14 +192,14 @@ CurvePoint PushRun::point_of(const Solver& solver, const Relaxed& now) const {
 
 // Writes a state in equilibrium.
 bool PushRun::record(const Solver& solver, const Relaxed& now) {
-  if (now.rest != Rest::equilibrium) return !interrupted();
+  if (now.ending != Ending::equilibrium) return !interrupted();
   const double began = seconds();
   const CurvePoint p = point_of(solver, now);
   passed_peak_ = push_.control == "displacement" && so_far_.machine.passes_peak(p.displacement);
   if (passed_peak_) return true;
   const Snapshot state = snapshot(solver);
-  curve_->row({p.multiplier, p.displacement, p.most, p.base_shear, p.base_shear_over_weight, double(p.opened), double(p.slid), p.unbalanced,
-               p.steps});
+  curve_->row({p.multiplier, p.displacement, p.most, p.base_shear, p.base_shear_over_weight, double(p.opening), double(p.slid),
+               p.unbalanced, p.steps});
   writer_->row(state);
   writer_->frame(state);
   run_.state.observed.joints_broken = state.joints_broken;
@@ -236,12 +236,12 @@ Relaxed PushRun::attempt(const LoadCourse& course) {
   State before = run_.state;
   const PushState known = so_far_;
   const Relaxed r = relaxation_->relax(run_.state, course, [&](const Solver& solver, const Relaxed& now) { return record(solver, now); });
-  if (r.rest == Rest::stopped) {
+  if (r.ending == Ending::stopped) {
     so_far_ = known;
   } else {
     so_far_.steps += double(r.steps);
     ++so_far_.attempts;
-    if (r.rest == Rest::broken) out_.metrics.status = "diverged";
+    if (r.ending == Ending::broken) out_.metrics.status = "diverged";
   }
   if (!r.found()) run_.state = std::move(before);
   const double now = seconds();
@@ -258,7 +258,7 @@ void PushRun::save(const WriterProgress& written) {
 bool PushRun::stand() {
   if (so_far_.states > 0) return true;  // resumed
   const Relaxed r = attempt([](double, double) { return 0.0; });
-  if (r.rest == Rest::collapse || r.rest == Rest::creep) gravity_alone_ = true;
+  if (r.ending == Ending::collapse || r.ending == Ending::creep) gravity_alone_ = true;
   return r.found();
 }
 
@@ -266,13 +266,13 @@ void PushRun::push_on() {
   while (!so_far_.path.done() && out_.metrics.status == "completed") {
     const double from = so_far_.multiplier, to = so_far_.path.next();
     const Relaxed r = attempt([=](double ramp, double) { return from + ramp * (to - from); });
-    if (r.rest == Rest::stopped || r.rest == Rest::broken) return;
+    if (r.ending == Ending::stopped || r.ending == Ending::broken) return;
     if (r.found()) so_far_.path.found(), so_far_.multiplier = to;
     else so_far_.path.failed();
     writer_->log(fmt::format("multiplier {:.6g}: {} after {} steps, unbalanced {:.2e}", shown(to),
-                             r.found()                  ? "equilibrium"
-                             : r.rest == Rest::collapse ? "collapse"
-                                                        : "creeps",
+                             r.found()                      ? "equilibrium"
+                             : r.ending == Ending::collapse ? "collapse"
+                                                            : "creeps",
                              r.steps, r.unbalanced));
   }
 }
@@ -283,7 +283,7 @@ void PushRun::control_on() {
     const State before = run_.state;
     const double from = machine.extension, to = machine.next();
     const Relaxed r = attempt([&, from, to](double ramp, double u) { return machine.load(from + ramp * (to - from), u); });
-    if (r.rest == Rest::stopped || r.rest == Rest::broken) return;
+    if (r.ending == Ending::stopped || r.ending == Ending::broken) return;
     if (!r.found()) {
       writer_->log(fmt::format("no equilibrium at the extension {:.6g} m: the structure has come apart", to));
       return;
@@ -386,7 +386,7 @@ RunOutcome PushRun::go() {
       save(written);
     }
   }
-  if (status == "completed" && run_.state.energy.residual_worst > gate) {
+  if (status == "completed" && run_.state.energy.residual_worst > ledger_tolerance) {
     status = "inaccurate";
     out_.trouble = fmt::format("the energy ledger misses {:.2g} of all energy; take a smaller analysis{{ dt_fraction }}",
                                run_.state.energy.residual_worst);

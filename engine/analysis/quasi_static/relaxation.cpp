@@ -11,7 +11,7 @@ namespace erbs::analysis {
 namespace {
 
 constexpr double checks = 20;        // of the balance, in a period
-constexpr int calm_checks = 3;       // in balance, one after the other
+constexpr int balanced_checks = 3;   // in balance, one after the other
 constexpr double longest = 600;      // periods until a structure that still moves is said to creep, ...
 constexpr double longest_fall = 30;  // ... and at least this many times sqrt(height / g), the time scale of rocking
 // Of a block's smallest edge. Beyond the first a block that still gains speed falls, beyond the second any.
@@ -86,7 +86,7 @@ double height_of(const Model& m) {
   return high > low ? high - low : 1;
 }
 
-Relaxation::Relaxation(const Push& push, const std::vector<std::string>& groups, const Prepared& run, int threads)
+Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>& groups, const Prepared& run, int threads)
     : push_(push), run_(run), threads_(threads), model_(run.model), loads_(push, groups, model_), monitor_(push, run.model) {
   true_dt_ = dt_ = run.state.time.dt;
   range_ = run.range;
@@ -152,7 +152,7 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen) 
   Solver solver(model_, s, range_, threads_);
   const double check = period_ / checks;
   double next_check = 0, fastest_before = 0;  // s; J, largest kinetic energy
-  int calm = 0;
+  int balanced = 0;
   while (true) {
     const double t = s.time.t, done = t / period_;
     loads_.set(course(smooth(done), monitor_.along(s.pose)));
@@ -160,7 +160,7 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen) 
     const Solver::Stop at = solver.advance({.next = next, .wrenches = true});
     out.steps = s.time.step;
     if (solver.broken()) {
-      out.rest = Rest::broken;
+      out.ending = Ending::broken;
       break;
     }
     damper.read(s);
@@ -168,14 +168,14 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen) 
     next_check += check;
     const auto [unbalanced, applied] = mean_forces(solver);
     out.unbalanced = applied > 0 ? unbalanced / applied : 0;
-    calm = done > 1 && out.unbalanced <= push_.unbalanced ? calm + 1 : 0;
+    balanced = done > 1 && out.unbalanced <= push_.unbalanced ? balanced + 1 : 0;
     const double fastest = std::max(fastest_before, s.energy.kinetic);
     const bool speeds_up = s.energy.kinetic >= fastest_before;
     fastest_before = fastest;
-    if (far(s, from, speeds_up ? gone : far_away, out) && !controlled) out.rest = Rest::collapse;
-    else if (calm >= calm_checks) out.rest = Rest::equilibrium;
-    else if (t > longest_) out.rest = Rest::creep;
-    if (!seen(solver, out) || out.rest != Rest::stopped) break;
+    if (far(s, from, speeds_up ? gone : far_away, out) && !controlled) out.ending = Ending::collapse;
+    else if (balanced >= balanced_checks) out.ending = Ending::equilibrium;
+    else if (t > longest_) out.ending = Ending::creep;
+    if (!seen(solver, out) || out.ending != Ending::stopped) break;
   }
   end(s);
   return out;

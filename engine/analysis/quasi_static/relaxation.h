@@ -11,7 +11,7 @@
 
 namespace erbs::analysis {
 
-enum class Rest : std::uint8_t {
+enum class Ending : std::uint8_t {
   equilibrium,  // the mean unbalanced force is below its limit
   collapse,     // a block has moved by a tenth of its smallest edge and gains speed, or by half of it
   creep,        // still moving after the longest time: no equilibrium, and no block has gone far
@@ -20,12 +20,12 @@ enum class Rest : std::uint8_t {
 };
 
 struct Relaxed {
-  Rest rest = Rest::stopped;
+  Ending ending = Ending::stopped;
   long steps = 0;
   double unbalanced = 0;  // mean unbalanced force over mean applied force
   int furthest = -1;      // the block that moved furthest, ...
   double moved = 0;       // m, ... by this
-  bool found() const { return rest == Rest::equilibrium; }
+  bool found() const { return ending == Ending::equilibrium; }
 };
 
 double height_of(const Model& model);  // m, of the moving blocks, against gravity
@@ -36,7 +36,7 @@ using LoadCourse = std::function<double(double ramp, double displacement)>;
 class Relaxation {
  public:
   // `run` as prepared, unloaded; it outlives this object, whose model is a copy with masses of its own. `groups`: of each block.
-  Relaxation(const Push& push, const std::vector<std::string>& groups, const Prepared& run, int threads);
+  Relaxation(const PushSettings& push, const std::vector<std::string>& groups, const Prepared& run, int threads);
 
   // Ramps the loads over one period of the structure, then holds them. `seen` is called some times a period, with the solver at a sample;
   // it returns false to stop. On return velocities are zero and time starts anew; in equilibrium the state may be relaxed further.
@@ -60,7 +60,7 @@ class Relaxation {
   void end(State& state) const;
   bool far(const State& state, const BlockVec3& from, double share, Relaxed& out) const;
 
-  const Push push_;
+  const PushSettings push_;
   const Prepared& run_;
   const int threads_;
   Model model_;

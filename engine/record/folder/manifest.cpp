@@ -65,7 +65,7 @@ Json json_of_load(const Load& load) {
   return json;
 }
 
-Json json_of_push(const Push& push) {
+Json json_of_push(const PushSettings& push) {
   Json json = json_of_fields(push);
   json["direction"] = json_of(push.direction);
   json["path"] = push.path;

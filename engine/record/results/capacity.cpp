@@ -15,7 +15,7 @@ Json to_json(const Capacity& c) {
   json["largest_displacement_m"] = p.most;
   json["base_shear_N"] = p.base_shear;
   json["base_shear_over_weight"] = p.base_shear_over_weight;
-  json["joints_opened"] = p.opened;
+  json["joints_opened"] = p.opening;
   json["joints_slid"] = p.slid;
   json["gravity_alone"] = c.gravity_alone;
   json["mechanism"] = c.mechanism;

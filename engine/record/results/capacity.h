@@ -14,7 +14,7 @@ struct CurvePoint {
   double most = 0;                    // m, of the block that moved most along the push
   double base_shear = 0;              // N, along the push, on fixed blocks
   double base_shear_over_weight = 0;  // of the weight of the moving blocks
-  int opened = 0, slid = 0;           // joints
+  int opening = 0, slid = 0;          // joints that are open, that have slid
   double unbalanced = 0;              // mean unbalanced force over mean applied force
   double steps = 0;                   // of relaxation
 };

@@ -169,8 +169,8 @@ ERBS_INLINE Mask kick(const KickDrift& s, const BlockArrays& A, int group, const
   const auto kicked = [&](Pack x, Pack force) { return damped ? keep * x + kick * force : x + kick * force; };
   const bool apart = A.load_since != nullptr;
   const LoadInterval interval = load_interval(s, A, group);
-  const Pack given = apart ? moving * ((interval.since + interval.next) / s.kick) : moving;
-  const Pack loaded = damped ? given * load(c.gravity_factor) : given;
+  const Pack full = apart ? moving * ((interval.since + interval.next) / s.kick) : moving;
+  const Pack loaded = damped ? full * load(c.gravity_factor) : full;
   const auto pushed = [&](int i) { return wrench[i] * inverse + loaded * (s.gravity[i] - s.ground[i]); };
   Pack3 force{pushed(0), pushed(1), pushed(2)}, moment{moving * wrench[3], moving * wrench[4], moving * wrench[5]};
   Pack3 brake{}, brake_moment{};

@@ -23,7 +23,7 @@ int follow(LoadPath& path, double capacity) {
 TEST_CASE("a push brackets the capacity as narrowly as asked", "[push]") {
   for (const double capacity : {0.0003, 0.0151, 0.2, 0.37361, 1.7}) {
     for (const double bracket : {0.02, 0.002, 1e-4}) {
-      Push push;
+      PushSettings push;
       push.kind = "pushover", push.bracket = bracket;
       LoadPath path(push);
       const int attempts = follow(path, capacity);
@@ -38,7 +38,7 @@ TEST_CASE("a push brackets the capacity as narrowly as asked", "[push]") {
 }
 
 TEST_CASE("a push that never fails ends at its last load", "[push]") {
-  Push push;
+  PushSettings push;
   push.kind = "pushover", push.up_to = 0.055, push.step = 0.02;
   LoadPath path(push);
   CHECK(follow(path, 10) == 3);
@@ -47,7 +47,7 @@ TEST_CASE("a push that never fails ends at its last load", "[push]") {
 }
 
 TEST_CASE("a path there and back visits its loads in turn", "[push]") {
-  Push push;
+  PushSettings push;
   push.kind = "tilt", push.path = {-0.1, 0.05}, push.step = 0.04, push.up_to = 0.5;
   LoadPath path(push);
   std::vector<double> visited;
@@ -58,7 +58,7 @@ TEST_CASE("a path there and back visits its loads in turn", "[push]") {
 }
 
 TEST_CASE("a structure that falls on the way back is bracketed there", "[push]") {
-  Push push;
+  PushSettings push;
   push.kind = "tilt", push.path = {-0.3}, push.step = 0.04;
   LoadPath path(push);
   follow(path, 0.17);
@@ -71,7 +71,7 @@ TEST_CASE("a structure that falls on the way back is bracketed there", "[push]")
 TEST_CASE("the machine passes a peak and goes on behind it", "[push]") {
   // multiplier over displacement: steep up to .3 at 1 mm, then down to zero at .4 m
   const auto curve = [](double u) { return u < 0.001 ? 300 * u : 0.3 * (0.4 - u) / 0.399; };
-  Push push;
+  PushSettings push;
   push.kind = "pushover", push.control = "displacement", push.displacement = 0.2;
   MachinePath machine(push, 2);
   double peak = 0;

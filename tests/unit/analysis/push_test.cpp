@@ -1,6 +1,6 @@
 // Pushes of small structures: capacity, mechanism, bits of any thread count and of interrupted runs, and wrong input.
-#include <catch2/catch.hpp>
 #include <atomic>
+#include <catch2/catch.hpp>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -62,8 +62,9 @@ TEST_CASE("a push gives the same bits with any number of threads", "[push]") {
 }
 
 TEST_CASE("an interrupted push that is resumed gives the same curve, to the bit", "[push][resume]") {
-  for (const std::string kind : {"kind = 'pushover', step = .05, bracket = .05", "kind = 'tilt', step = 4*deg, bracket = .05, path = { -2*deg }",
-                                 "kind = 'pushover', control = 'displacement', displacement = 20*mm, displacement_step = 2*mm"}) {
+  for (const std::string kind :
+       {"kind = 'pushover', step = .05, bracket = .05", "kind = 'tilt', step = 4*deg, bracket = .05, path = { -2*deg }",
+        "kind = 'pushover', control = 'displacement', displacement = 20*mm, displacement_step = 2*mm"}) {
     CAPTURE(kind);
     const std::string text = wall_text + "analysis{ " + kind + ", direction = 'y' }";
     const test::Scratch whole("push_whole"), parts("push_parts");
