@@ -241,6 +241,7 @@ function dilatant(keys) end
 ---@field tolerance? number largest excess of a gap over `thickness`; a gap that is narrower by more is joined with a warning [m; 0 to 1; default 0.0001]
 ---@field rule? "simpson"|"midpoint"|"trapezoid"|"gauss" quadrature rule of the contact points [default simpson]
 ---@field none? boolean pairs that match get no joint [default false]
+---@field optional? boolean a group it names may have no blocks in this variant of the scene [default false]
 ---@field points? integer|integer[] contact points: { along the longer side, along the shorter side }, or one square number [1 to 64; default { 3, 3 }]
 
 ---Joins faces that face each other at rest by a law. The last rule that matches a pair of blocks applies.
@@ -401,6 +402,31 @@ function turning(keys) end
 ---Gravity as gravity(9.81), downwards, or gravity{ 0, 0, -9.81 }.
 ---@param keys erbs.gravity_keys
 function gravity(keys) end
+
+---@class erbs.settle_keys
+---@field supports string|string[] names of fixed blocks, or of groups of them; each entry moves as one; they are built before
+---@field by number distance [m; -1e+06 to 1e+06]
+---@field direction? "x"|"y"|"z"|erbs.vec3 "x", "y", "z" or a vector [-1e+09 to 1e+09; default { 0, 0, -1 }]
+---@field start? number time at which they begin to move [s; 0 to 1e+06; default 0]
+---@field duration? number time they take; speed and acceleration begin and end at zero [s; 0.001 to 1e+06; default 1]
+---@field name? string name, for reports
+
+---Moves supports together, downwards unless a direction is given, along a smooth ramp.
+---@param keys erbs.settle_keys
+function settle(keys) end
+
+---@class erbs.spread_keys
+---@field supports string|string[] names of fixed blocks, or of groups of them; each entry moves as one; they are built before
+---@field by number how much farther apart the first and the last are in the end; negative: closer [m; -1e+06 to 1e+06]
+---@field direction? "x"|"y"|"z"|erbs.vec3 "x", "y", "z" or a vector [-1e+09 to 1e+09; default "x"]
+---@field start? number time at which they begin to move [s; 0 to 1e+06; default 0]
+---@field duration? number time they take; speed and acceleration begin and end at zero [s; 0.001 to 1e+06; default 1]
+---@field name? string name, for reports
+---@field ends? "both"|"first"|"last" which of them move: both by half of it, or only the first or the last along the direction [default both]
+
+---Moves supports apart along a smooth ramp, each in proportion to its place between the first and the last along the direction.
+---@param keys erbs.spread_keys
+function spread(keys) end
 
 ---@class erbs.damping_keys
 ---@field mass? number coefficient a of the mass damping c = a m [1/s; 0 to 1e+07; default 0]
@@ -647,6 +673,7 @@ function rocking_overturning(keys) end
 
 ---A free-standing straight wall in running bond, both ends plain.
 ---@param keys erbs.wall_keys
+---@return table # blocks (names), walls (groups), slabs, lintels, base, height (m), volume (m3), tops (m, of each storey), top (names: the slab or the last course), storey_top (the same of each storey), openings (by name, of a building as south.window1: kind, storey, lo, hi, sill, width, height, at, size, center (m); left, right, above, below (names), lintel), report, summary
 function wall(keys) end
 
 ---@class erbs.building_keys
@@ -672,6 +699,7 @@ function wall(keys) end
 
 ---Walls along a plan with interlocked corners, storey on storey, with openings, lintels and slabs.
 ---@param keys erbs.building_keys
+---@return table # blocks (names), walls (groups), slabs, lintels, base, height (m), volume (m3), tops (m, of each storey), top (names: the slab or the last course), storey_top (the same of each storey), openings (by name, of a building as south.window1: kind, storey, lo, hi, sill, width, height, at, size, center (m); left, right, above, below (names), lintel), report, summary
 function building(keys) end
 
 ---@class erbs.arch_keys
@@ -690,8 +718,28 @@ function building(keys) end
 
 ---An arch of voussoirs with radial joints and straight sides, round or pointed (two arcs). Blocks are called arch.v01, ... from the left.
 ---@param keys erbs.arch_keys
----@return table # blocks, abutments, volume (m3), centre_line (m)
+---@return table # blocks (names), abutments (names), crown (names of the blocks at the crown), span (m, clear), height (m, of the crown's back above at), volume (m3), centre_line (m)
 function arch(keys) end
+
+---@class erbs.barrel_keys
+---@field name? string first word of the names of its blocks [default barrel]
+---@field group? string group of the voussoirs; default the name; abutments are in <group>_abutment
+---@field at? erbs.vec3 middle of the span, at the height of the centre of the circle [m; default { 0, 0, 0 }]
+---@field radius number radius of the centre line [m; at least 0]
+---@field thickness number radial thickness of the ring [m; at least 0]
+---@field width number width across the span [m; at least 0]
+---@field voussoirs integer number of voussoirs (even for a pointed arch) [at least 1]
+---@field embrace? number angle of a round arch from springing to springing [rad; 0 to 4.71239; default 3.14159]
+---@field offset? number pointed arch: distance of the centres of its two arcs from the middle; 0: round arch [m; at least 0; default 0]
+---@field axis? "x"|"y" direction of the span [default x]
+---@field abutments? boolean fixed blocks at the springings [default true]
+---@field material? string material of all its blocks; default: the only one there is
+---@field rows integer blocks across the width; in every other voussoir shifted by half a block [at least 2]
+
+---A barrel vault in bond: an arch of several blocks across its width, staggered from voussoir to voussoir. Blocks are called barrel.v01.r1, ... (voussoir from the left, row across).
+---@param keys erbs.barrel_keys
+---@return table # blocks (names), abutments (names), crown (names of the blocks at the crown), span (m, clear), height (m, of the crown's back above at), volume (m3), centre_line (m)
+function barrel(keys) end
 
 ---@class erbs.column_keys
 ---@field name? string first word of the names of its blocks, and their group [default column]
@@ -707,6 +755,51 @@ function arch(keys) end
 
 ---A stack of equal blocks, square or round (a prism of many sides). Blocks are called column.b01, ... from the bottom.
 ---@param keys erbs.column_keys
----@return table # blocks, height (m)
+---@return table # blocks (names), top (names of the last), height (m), volume (m3)
 function column(keys) end
+
+---@class erbs.arcade_keys
+---@field name? string first word of the names of its blocks [default arcade]
+---@field group? string first word of its groups; default the name
+---@field at? erbs.vec3 left end of its foot, in the middle of its width [m; default { 0, 0, 0 }]
+---@field axis? "x"|"y" direction it runs in [default x]
+---@field spans any clear width between the piers: a number, or a list with one for each arch [m]
+---@field piers any width of the piers: a number, or a list with one for each pier [m]
+---@field bays? integer number of arches, where spans is one number [at least 1]
+---@field ends? "pier"|"half" half: the first and the last arch are cut at their crown [default pier]
+---@field width number width across the axis [m; at least 0]
+---@field rows? integer blocks across the width; in every other course shifted by half a block [at least 1; default 1]
+---@field block { length: number, height: number } size of a block: { length*, height* }
+---@field least? number narrowest piece that a perpend may leave; default 0.4 of the length [m; at least 0]
+---@field tiers { springing: number, top: number, thickness: number, crown?: integer }[] from the bottom up: a list of { springing*, top*, thickness*, crown }
+---@field fixed_courses? integer courses at the foot that are part of the ground [at least 0; default 0]
+---@field material? string material of its blocks; default: the only one there is
+---@field ring_material? string material of the voussoirs; default that of the blocks
+---@field quiet? boolean true: do not print the summary [default false]
+
+---Piers, round arches of voussoirs and the courses above them, cut along the arches, in one tier or several. Blocks meet without gaps; they are called arcade.c012.b003.r1 (course, number, row across) and arcade.t1.a02.v05.r1 (tier, arch, voussoir, row). Groups are <group>_pier, <group>_ring and <group>_spandrel.
+---@param keys erbs.arcade_keys
+---@return table # blocks (names), base (names of the fixed ones), top (names of the last course), tops (m, of each tier), height, length (m), volume (m3), openings (by name, as t1.a02: tier, bay, span, thickness, springing, crown, center (m); ring, left, right (names)), piers (axis, width (m), courses: names at its axis, by course), summary
+function arcade(keys) end
+
+---@class erbs.buttress_keys
+---@field name? string first word of the names of its blocks, and their group [default buttress]
+---@field group? string group of the blocks; default the name
+---@field at? erbs.vec3 point of the wall's face in the middle of its width, at the foot [m; default { 0, 0, 0 }]
+---@field towards? "x"|"-x"|"y"|"-y" direction away from the wall [default x]
+---@field width number width along the wall [m; at least 0]
+---@field depth number projection from the wall at the foot [m; at least 0]
+---@field top_depth? number projection at the top; default that at the foot [m; at least 0]
+---@field steps? integer 0: the outer face leans evenly; else the number of set-backs between foot and top [at least 0; default 0]
+---@field courses integer number of courses [at least 1]
+---@field block { length: number, height: number } size of a block: { length*, height* }
+---@field rows? integer blocks along the wall; in every other course shifted by half a block [at least 1; default 1]
+---@field joint? number thickness of bed joints, and of the joint to the wall; 0 is dry [m; at least 0; default 0]
+---@field least? number narrowest piece that a perpend may leave; default 0.4 of the length [m; at least 0]
+---@field material? string material of its blocks; default: the only one there is
+
+---A pier against a wall, in bond: battered (its outer face leans), stepped, or upright. Blocks are called buttress.c03.b02.r1 (course, number from the wall, row along the wall).
+---@param keys erbs.buttress_keys
+---@return table # blocks (names), foot, top, back (names of the first course, of the last, and of the blocks at the wall), depths (m, of each course at its middle), height (m), volume (m3)
+function buttress(keys) end
 

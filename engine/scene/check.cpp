@@ -88,14 +88,18 @@ bool misspelt(const std::string& group, const std::vector<std::string>& groups) 
   return !near.empty() && without_digits(near) != without_digits(group);
 }
 
-// Reports groups named by rules to which no block belongs. `slips`: only misspelt names, else only the others.
-void name_groups(Report& report, const Scene& scene, bool slips) {
-  const std::vector<std::string> groups = groups_of(scene);
+// Reports groups named by rules to which no block belongs. `mistakes`: misspelt names in rules that are not optional. Else the doubts: all
+// others, less groups that a builder left empty, and less names in optional rules that resemble no group.
+void name_groups(Report& report, const Scene& scene, bool mistakes) {
+  std::vector<std::string> groups = groups_of(scene);
+  groups.insert(groups.end(), scene.empty_groups.begin(), scene.empty_groups.end());
   for (const JointRule& rule : scene.joint_rules)
     for (const std::string& group : {rule.group_a, rule.group_b}) {
-      if (group.empty() || std::find(groups.begin(), groups.end(), group) != groups.end() || misspelt(group, groups) != slips) continue;
-      report.say(rule.place, "joint: no block is of group \"{}\"{}{}", group, slips ? "" : ", so that this rule joins nothing",
-                 did_you_mean(group, groups));
+      if (group.empty() || std::find(groups.begin(), groups.end(), group) != groups.end()) continue;
+      const bool slip = misspelt(group, groups);
+      if ((slip && !rule.optional) != mistakes || (rule.optional && !slip)) continue;
+      report.say(rule.place, "joint: no block is of group \"{}\"{}{}{}", group, mistakes ? "" : ", so that this rule joins nothing",
+                 did_you_mean(group, groups), mistakes ? " (optional = true admits a group that this variant of the scene lacks)" : "");
     }
 }
 

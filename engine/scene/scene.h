@@ -101,6 +101,7 @@ struct JointRule {
   std::string rule = "simpson";           // simpson | midpoint | trapezoid | gauss
   int points_long = 3, points_short = 3;  // contact points along the longer and the shorter side of a rectangle
   bool none = false;                      // matching pairs get no joint
+  bool optional = false;                  // a group may have no blocks in this variant of the scene
   Place place;
 
   static Fields<JointRule> fields() {
@@ -112,6 +113,7 @@ struct JointRule {
          "largest excess of a gap over `thickness`; a gap that is narrower by more is joined with a warning", 0, 1},
         {"rule", &JointRule::rule, "", "quadrature rule of the contact points", 0, 0, false, "simpson|midpoint|trapezoid|gauss"},
         {"none", &JointRule::none, "", "pairs that match get no joint"},
+        {"optional", &JointRule::optional, "", "a group it names may have no blocks in this variant of the scene"},
     };
   }
 };
@@ -331,6 +333,7 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<JointRule> joint_rules;
   std::vector<Block> blocks;
+  std::vector<std::string> empty_groups;  // groups of blocks that a builder would have made, such as lintels: they may have no block
   std::vector<Load> loads;
   Damping damping;
   Analysis analysis;

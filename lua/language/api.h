@@ -39,6 +39,7 @@ std::vector<Function> block_functions();
 std::vector<Function> joint_functions();
 std::vector<Function> wave_functions();
 std::vector<Function> load_functions();
+std::vector<Function> support_functions();
 std::vector<Function> analysis_functions();
 std::vector<Function> result_functions();
 std::vector<Function> stored_functions();

@@ -100,8 +100,8 @@ void push_view(lua_State* lua) {
   lua_pop(lua, 2);
 }
 
-// Functions for the parts of the language that are written in Lua: did_you_mean(word, names), escaped(text), note_mistakes(lines)
-// and widen_joint(joint, width).
+// Functions for the parts of the language that are written in Lua: did_you_mean(word, names), escaped(text), note_mistakes(lines),
+// widen_joint(joint, width) and empty_group(name).
 int suggest(lua_State* lua, Context&) {
   std::vector<std::string> names;
   const auto n = static_cast<lua_Integer>(lua_rawlen(lua, 2));
@@ -137,8 +137,18 @@ int widen_joint(lua_State* lua, Context& context) {
   return 0;
 }
 
-constexpr std::pair<const char*, Body> inner_functions[] = {
-    {"did_you_mean", suggest}, {"escaped", escaped}, {"note_mistakes", note_mistakes}, {"widen_joint", widen_joint}};
+// empty_group(name): a builder made no blocks of this group, such as lintels of a wall without openings. Joint rules may name it.
+int empty_group(lua_State* lua, Context& context) {
+  std::vector<std::string>& groups = context.scene.empty_groups;
+  if (const std::string name = lua_tostring(lua, 1); std::find(groups.begin(), groups.end(), name) == groups.end()) groups.push_back(name);
+  return 0;
+}
+
+constexpr std::pair<const char*, Body> inner_functions[] = {{"did_you_mean", suggest},
+                                                            {"escaped", escaped},
+                                                            {"note_mistakes", note_mistakes},
+                                                            {"widen_joint", widen_joint},
+                                                            {"empty_group", empty_group}};
 
 }  // namespace
 

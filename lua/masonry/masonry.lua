@@ -7,7 +7,8 @@
 
 local parts, eps = masonry_parts, masonry_parts.eps
 local fail, millimetres, piece_kind, ends = parts.fail, parts.millimetres, parts.piece_kind, parts.ends
-masonry_parts = nil  -- scenes see only wall, building, arch, column and masonry_functions
+local empty_group = empty_group  -- function of the program, hidden from scenes
+masonry_parts = nil  -- scenes see only the builders and masonry_functions
 
 -- Lays all courses from the support up, storey by storey, each storey with its slab.
 local function build(masonry, runs)
@@ -140,7 +141,7 @@ local function raise(k, title, corners, closed, names, courses)
     fail("closer = %s is more than half a brick; at most %s is allowed", millimetres(masonry.closer), millimetres(masonry.half))
   end
   masonry.out = {
-    blocks = {}, slabs = {}, lintels = {}, tops = {}, walls = {},
+    blocks = {}, slabs = {}, lintels = {}, tops = {}, walls = {}, openings = {}, storey_top = {}, top = {},
     report = empty_report(k.brick.length),
   }
   local runs = parts.make_runs(corners, closed, names, masonry.width)
@@ -152,21 +153,26 @@ local function raise(k, title, corners, closed, names, courses)
   parts.place_openings(masonry, runs, k.openings)
   build_base(masonry)
   build(masonry, runs)
+  parts.describe(masonry, runs)
   summarise(masonry, runs)
+  local report = masonry.out.report
+  masonry.out.volume = report.brick_volume + report.lintel_volume + report.slab_volume
+  if #masonry.out.lintels == 0 then empty_group(masonry.lintel.group) end
   if not k.quiet then print(masonry.out.summary) end
   return masonry.out
 end
 
 -- Wraps a function so that its mistakes are reported at the line that called it. The script continues with masonry of no blocks, so
 -- that later mistakes are reported as well.
-local note_mistakes = note_mistakes  -- function of the program, hidden from scenes
+local note_mistakes = note_mistakes  -- functions of the program, hidden from scenes
 local function public(body)
   return function(...)
     local ok, result = pcall(body, ...)
     if ok then return result end
     if type(result) ~= "table" or not result.masonry then error(result, 0) end
     note_mistakes(result.masonry)
-    return { blocks = {}, walls = {}, slabs = {}, lintels = {}, tops = {}, height = 0, report = empty_report(0), summary = "" }
+    return { blocks = {}, walls = {}, slabs = {}, lintels = {}, tops = {}, openings = {}, storey_top = {}, top = {}, height = 0, volume = 0,
+      report = empty_report(0), summary = "" }
   end
 end
 
@@ -236,6 +242,25 @@ end
 ---@field courses integer|integer[]  per storey: a number, or a list with one for each
 ---@field slab? masonry_slab  a rigid plate on the walls of every storey; default none
 
+---@class masonry_hole
+---@field name string
+---@field wall string
+---@field kind "window"|"door"
+---@field storey integer
+---@field lo number         m, jambs along the wall
+---@field hi number
+---@field sill number       m, above the floor of its storey
+---@field width number      m, between the jambs
+---@field height number     m
+---@field at number[]       m, its lower corner
+---@field size number[]     m, along x, y, z
+---@field center number[]   m
+---@field lintel? string
+---@field left string[]     names of the blocks at its jambs, from the bottom up, seen from outside
+---@field right string[]
+---@field above string[]    lintel, bricks or slab
+---@field below string[]    bricks, slab or base
+
 ---@class masonry_result
 ---@field blocks string[]   names, from the bottom up
 ---@field walls string[]    groups of the walls, in the order of the plan
@@ -243,7 +268,11 @@ end
 ---@field lintels string[]
 ---@field base? string
 ---@field tops number[]     m, top of every storey above the support
+---@field top string[]      names at the top: the slab, or the last course
+---@field storey_top string[][]  the same of each storey
+---@field openings table<string, masonry_hole>  by name: window1 of a wall, south.window1 of a building
 ---@field height number     m
+---@field volume number     m3, of all blocks but the base
 ---@field report table      pieces, cuts, head_joints, patterns, openings, stacked, short_laps, least_lap, shortest, volumes (m3)
 ---@field summary string    the report in words
 

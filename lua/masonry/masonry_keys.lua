@@ -1,5 +1,5 @@
 -- Keys of wall{...} and building{...}: one table serves reading, messages and help. The reader reports all mistakes at once.
--- First of five files: masonry_keys, masonry_bond, masonry_runs, masonry_arch, masonry. Each adds to masonry_parts for the next ones.
+-- First of the masonry files, in the order of CMakeLists.txt. Each adds to masonry_parts for the next ones.
 
 -- type: number (ends `low` and `high` are allowed, end `above` is not), integer, string, boolean, vec (three numbers), table
 
@@ -68,11 +68,16 @@ local function with_common(keys)
   return whole
 end
 
+local masonry_returns = "blocks (names), walls (groups), slabs, lintels, base, height (m), volume (m3), tops (m, of each storey), "
+  .. "top (names: the slab or the last course), storey_top (the same of each storey), openings (by name, of a building as south.window1: "
+  .. "kind, storey, lo, hi, sill, width, height, at, size, center (m); left, right, above, below (names), lintel), report, summary"
+
 --- All functions that these files add to the language, for help, editors and tests.
 masonry_functions = {
   {
     name = "wall",
     help = "A free-standing straight wall in running bond, both ends plain.",
+    returns = masonry_returns,
     keys = with_common {
       { name = "name", type = "string", default = "wall", help = "first word of the names of its blocks, and their group" },
       { name = "group", type = "string", help = "group of the bricks; default the name" },
@@ -85,6 +90,7 @@ masonry_functions = {
   {
     name = "building",
     help = "Walls along a plan with interlocked corners, storey on storey, with openings, lintels and slabs.",
+    returns = masonry_returns,
     keys = with_common {
       { name = "name", type = "string", default = "", help = "first word of all block names; default none" },
       { name = "group", type = "string", default = "wall", help = "groups of the walls are <group>_<wall>" },
@@ -139,7 +145,9 @@ local function read_value(what, key, value, mistakes)
     return wrong("holds control characters or bytes that are no UTF-8, or is longer than 1000: \"%s\"; write it in plain letters",
       escaped(value):sub(1, 60))
   end
-  if key.choice and value ~= key.choice[1] and value ~= key.choice[2] then
+  local allowed = not key.choice
+  for _, choice in ipairs(key.choice or {}) do allowed = allowed or value == choice end
+  if not allowed then
     return wrong("= \"%s\" is not known; allowed: %s", value, table.concat(key.choice, ", "))
   end
   if key.type == "integer" then return math.tointeger(value) end  -- -D gives a float even for a whole number

@@ -19,7 +19,7 @@ local function make_runs(corners, closed, names, width)
       fail("plan: the stretch from corner %d to %d is not parallel to x or y; turn the whole building with transform{}", i,
         i % #corners + 1)
     end
-    runs[i] = { name = names[i] or "wall" .. i, origin = a, d = { dx / length, dy / length }, length = length, openings = {} }
+    runs[i] = { name = names[i] or "wall" .. i, origin = a, d = { dx / length, dy / length }, length = length, openings = {}, pieces = {} }
     runs[i].n = { -runs[i].d[2], runs[i].d[1] }  -- to the left of d: inward for a counter-clockwise plan
   end
   for i, run in ipairs(runs) do
@@ -163,12 +163,16 @@ end
 -- ---- building it ---------------------------------------------------------------------------------------------------------------
 
 -- A box from u = lo to hi along the run, through the wall's thickness, with its bottom at z.
-local function run_box(masonry, run, name, lo, hi, z, height, material, group)
+local function run_extent(masonry, run, lo, hi, z, height)
   local x0, y0 = run.origin[1] + run.d[1] * lo, run.origin[2] + run.d[2] * lo
   local x1 = run.origin[1] + run.d[1] * hi + run.n[1] * masonry.width
   local y1 = run.origin[2] + run.d[2] * hi + run.n[2] * masonry.width
   local at = { masonry.at[1] + math.min(x0, x1), masonry.at[2] + math.min(y0, y1), z }
-  local size = { math.abs(x1 - x0), math.abs(y1 - y0), height }
+  return at, { math.abs(x1 - x0), math.abs(y1 - y0), height }
+end
+
+local function run_box(masonry, run, name, lo, hi, z, height, material, group)
+  local at, size = run_extent(masonry, run, lo, hi, z, height)
   masonry.out.blocks[#masonry.out.blocks + 1] = box { name = name, size = size, at = at, material = material, group = group }
   return size[1] * size[2] * size[3]
 end
@@ -226,10 +230,13 @@ local function lay_lintel(masonry, run, o, z)
     masonry.lintel.material or masonry.material, masonry.lintel.group)
   masonry.out.report.lintel_volume = masonry.out.report.lintel_volume + volume
   masonry.out.lintels[#masonry.out.lintels + 1] = name
+  o.hole.lintel_name = name
+  local l = o.lintel
+  run.pieces[#run.pieces + 1] = { name = name, lo = l.lo, hi = l.hi, storey = o.hole.storey, bottom = l.bottom, top = l.top }
 end
 
 -- Lays the bricks of a stretch, numbered from `brick` + 1; returns the last number.
-local function lay_pieces(masonry, run, laid, stem, brick, z)
+local function lay_pieces(masonry, run, storey, course, laid, stem, brick, z)
   local report = masonry.out.report
   for i, piece in ipairs(laid.pieces) do
     brick = brick + 1
@@ -240,8 +247,9 @@ local function lay_pieces(masonry, run, laid, stem, brick, z)
       report.cuts[key] = (report.cuts[key] or 0) + 1
       report.shortest = math.min(report.shortest, piece.length)
     end
-    local volume = run_box(masonry, run, string.format("%sb%02d", stem, brick), piece.u, piece.u + piece.length, z, masonry.height,
-      masonry.material, run.group)
+    local name = string.format("%sb%02d", stem, brick)
+    local volume = run_box(masonry, run, name, piece.u, piece.u + piece.length, z, masonry.height, masonry.material, run.group)
+    run.pieces[#run.pieces + 1] = { name = name, lo = piece.u, hi = piece.u + piece.length, storey = storey, bottom = course, top = course }
     report.brick_volume = report.brick_volume + volume
     for k = math.max(1, i - 1), math.min(i, #laid.joints) do  -- so that the joint rule of the masonry also bridges wider joints
       if masonry.t > 0 and laid.joints[k].width > masonry.t + eps then widen_joint(masonry.t, laid.joints[k].width) end
@@ -280,11 +288,60 @@ local function lay_course(masonry, index, run, storey, course, number, z, below,
       fail("wall \"%s\", course %d: nothing fits from %s to %s with pieces of at least %s; move the opening beside it", run.name, number,
         millimetres(part[1]), millimetres(part[2]), millimetres(masonry.closer))
     end
-    brick = lay_pieces(masonry, run, laid, stem, brick, z)
+    brick = lay_pieces(masonry, run, storey, course, laid, stem, brick, z)
     for _, j in ipairs(laid.joints) do joint(j.u, j.width) end
   end
   return joints
 end
 
+-- ---- what stands where ---------------------------------------------------------------------------------------------------------
+
+-- The opening as a scene sees it: its place, its size, and the names of the blocks around it, from the left or from below.
+local function describe_opening(masonry, run, hole)
+  local floor = masonry.out.tops[hole.storey - 1] or 0
+  local at, size = run_extent(masonry, run, hole.lo, hole.hi, masonry.at[3] + floor + hole.sill, hole.height)
+  local found = {
+    name = hole.name, wall = run.name, kind = hole.kind, storey = hole.storey, lo = hole.lo, hi = hole.hi, sill = hole.sill,
+    width = hole.hi - hole.lo, height = hole.height, at = at, size = size, lintel = hole.lintel_name,
+    left = {}, right = {}, above = {}, below = {},
+    center = { at[1] + size[1] / 2, at[2] + size[2] / 2, at[3] + size[3] / 2 },
+  }
+  local function put(side, piece) found[side][#found[side] + 1] = piece.name end
+  for _, p in ipairs(run.pieces) do
+    if p.storey == hole.storey then
+      local over = p.lo < hole.hi - eps and p.hi > hole.lo + eps
+      if over and p.top == hole.bottom - 1 then put("below", p) end
+      if over and p.bottom == hole.top + 1 then put("above", p) end
+      if p.top >= hole.bottom and p.bottom <= hole.top then
+        if math.abs(p.hi - hole.lo) < eps then put("left", p) end
+        if math.abs(p.lo - hole.hi) < eps then put("right", p) end
+      end
+    end
+  end
+  if #found.above == 0 then found.above[1] = masonry.out.slabs[hole.storey] end
+  if #found.below == 0 then found.below[1] = masonry.out.slabs[hole.storey - 1] or masonry.out.base end
+  return found
+end
+
+-- Fills in openings, top and storey_top of the result. Several walls: openings are called south.window1, ...
+local function describe(masonry, runs)
+  local out = masonry.out
+  for s, courses in ipairs(masonry.courses) do
+    local names = { out.slabs[s] }
+    for _, run in ipairs(out.slabs[s] and {} or runs) do
+      for _, p in ipairs(run.pieces) do
+        if p.storey == s and p.top == courses then names[#names + 1] = p.name end
+      end
+    end
+    out.storey_top[s], out.top = names, names
+  end
+  for _, run in ipairs(runs) do
+    for _, hole in ipairs(run.openings) do
+      out.openings[(#runs > 1 and run.name .. "." or "") .. hole.name] = describe_opening(masonry, run, hole)
+    end
+  end
+end
+
+masonry_parts.describe = describe
 masonry_parts.make_runs, masonry_parts.make_patterns, masonry_parts.ends = make_runs, make_patterns, ends
 masonry_parts.place_openings, masonry_parts.lay_course = place_openings, lay_course

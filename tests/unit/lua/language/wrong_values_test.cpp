@@ -17,6 +17,8 @@ namespace {
 using Words = std::vector<std::pair<std::string, std::string>>;  // key, value as a script writes it
 
 const std::string corners = "{ {5,5,5}, {6,5,5}, {5,6,5}, {5,5,6} }", brick = "{ length = .25, width = .12, height = .06 }";
+const std::string supports =
+    "{ box{ size = {1, 1, 1}, at = {9, 9, 0}, fixed = true }, box{ size = {1, 1, 1}, at = {12, 9, 0}, fixed = true } }";
 
 // A correct call of each function: the keys needed beside the wrong one.
 const std::map<std::string, Words> sound_calls{
@@ -44,6 +46,8 @@ const std::map<std::string, Words> sound_calls{
     {"tilt", {{"wave", "1"}}},
     {"motion", {{"block", "'b'"}, {"wave", "1"}}},
     {"turning", {{"block", "'b'"}, {"wave", "1"}}},
+    {"settle", {{"supports", supports}, {"by", ".1"}}},
+    {"spread", {{"supports", supports}, {"by", ".1"}}},
     {"damping", {}},
     {"analysis", {{"duration", "1"}}},
     {"recorder", {{"name", "'r'"}, {"quantity", "'displacement'"}, {"block", "'b'"}}},
@@ -58,6 +62,16 @@ const std::map<std::string, Words> sound_calls{
     {"wall", {{"length", "1"}, {"courses", "2"}, {"brick", brick}, {"joint", ".01"}, {"quiet", "true"}, {"at", "{20, 20, 0}"}}},
     {"building", {{"plan", "{2, 2}"}, {"courses", "4"}, {"brick", brick}, {"joint", ".01"}, {"quiet", "true"}, {"at", "{20, 20, 0}"}}},
     {"arch", {{"radius", "1"}, {"thickness", ".2"}, {"width", ".3"}, {"voussoirs", "6"}, {"at", "{20, 20, 0}"}}},
+    {"barrel", {{"radius", "1"}, {"thickness", ".2"}, {"width", ".6"}, {"voussoirs", "6"}, {"rows", "2"}, {"at", "{20, 20, 0}"}}},
+    {"arcade",
+     {{"spans", "{2}"},
+      {"piers", "1.5"},
+      {"width", "1"},
+      {"block", "{ length = .5, height = .25 }"},
+      {"tiers", "{ { springing = 1, top = 3, thickness = .3 } }"},
+      {"quiet", "true"},
+      {"at", "{20, 20, 0}"}}},
+    {"buttress", {{"width", "1"}, {"depth", "1"}, {"courses", "4"}, {"block", "{ length = .5, height = .25 }"}, {"at", "{20, 20, 0}"}}},
     {"column", {{"blocks", "2"}, {"size", "{.2, .2, .2}"}, {"at", "{20, 20, 0}"}}},
 };
 

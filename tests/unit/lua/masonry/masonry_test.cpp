@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/geometry/mass.h"
 #include "engine/model/build/build.h"
 #include "lua/language/script.h"
 
@@ -219,6 +220,49 @@ TEST_CASE("the summary says what was cut and widened", "[lua][masonry]") {
   CHECK(said.find("4 whole + closer of 45 mm") != std::string::npos);
 }
 
+TEST_CASE("masonry says what stands where: openings, tops and volume", "[lua][masonry]") {
+  Script script({.seconds = 100, .quiet = true});
+  const Scene& scene = script.load_text(
+      "material{ name = 'brick', density = 1800 }\nground{}\nanalysis{ duration = 1 }\n"
+      "joint{ law = dry{ kn = 1e10, mu = 0.6 }, thickness = 5*mm, tolerance = 2.5*mm }\n" +
+          std::string(house) + R"(
+local door, window = h.openings["south.door1"], h.openings["east.window2"]
+param("volume", h.volume) param("width", door.width) param("height", door.height) param("x", door.center[1]) param("z", door.at[3])
+param("sill", window.at[3]) param("courses_left", #door.left) param("courses_right", #door.right)
+print(door.lintel, door.above[1], window.above[1], #door.below, window.wall, window.storey, h.top[1], h.storey_top[1][1])
+print(table.concat(door.left, " "), table.concat(window.below, " "))
+local w = wall{ length = 1.525, courses = 6, brick = {length = 0.3, width = 0.125, height = 0.1}, joint = 5*mm, quiet = true, at = {5, 0, 0} }
+print(#w.top, w.top[1], #w.storey_top[1]) param("wall_volume", w.volume)
+)",
+      "t.lua");
+  const auto bricks = bricks_of(scene);
+  const auto value = [&](const std::string& name) {
+    return std::find_if(scene.params.begin(), scene.params.end(), [&](const Param& p) { return p.name == name; })->value;
+  };
+  double volume = 0, wall = 0;
+  for (const Brick& b : bricks) (b.group == "wall" ? wall : volume) += (b.high - b.low).prod();
+  CHECK(value("volume") == Approx(volume).epsilon(1e-12));
+  CHECK(value("wall_volume") == Approx(wall).epsilon(1e-12));
+  CHECK(value("width") == Approx(0.45));
+  CHECK(value("height") == Approx(10 * 0.105 + 0.005));
+  CHECK(value("x") == Approx(-0.7 + 0.7625));
+  CHECK(value("z") == Approx(0).margin(1e-12));
+  CHECK(value("sill") == Approx(1.42 + 4 * 0.105));  // of the upper storey: .42 m above its floor
+  CHECK(value("courses_left") == 10);
+  CHECK(value("courses_right") == 10);
+  CHECK(script.output()[0].find("lintel.south.door1\tlintel.south.door1\tlintel.east.window2\t0\teast\t2\tslab2\tslab1") == 0);
+  CHECK(script.output()[2].find("5\twall.c06.b01\t5") == 0);
+  // The blocks at the jamb end there; those below the window lie under it.
+  std::istringstream names(script.output()[1]);
+  std::string name;
+  for (int i = 0; names >> name; ++i) {
+    const auto brick = std::find_if(bricks.begin(), bricks.end(), [&](const Brick& b) { return b.name == name; });
+    REQUIRE(brick != bricks.end());
+    if (i < 10) CHECK(brick->high.x() == Approx(-0.7 + 0.5375));
+    else CHECK(brick->high.z() == Approx(1.42 + 4 * 0.105));
+  }
+}
+
 TEST_CASE("mistakes in masonry are named with line and remedy, all at once", "[lua][masonry]") {
   const auto some = mistakes_of("wall{ lenght = 2, courses = 3,\n  brick = {length = 0.3, width = 0.125, height = -0.1}, joint = 5*mm }");
   REQUIRE(some.size() == 2);
@@ -264,4 +308,43 @@ TEST_CASE("the house of the shaking table has the blocks it should", "[lua][maso
   for (const Brick& b : bricks) low = low.cwiseMin(b.low), high = high.cwiseMax(b.high);
   CHECK((high - low - Vec3(1.525, 1.83, 4.255)).norm() < 1e-9);  // 4260 with the bed joint beneath
   for (const char* wall : {"wall_south", "wall_north"}) CHECK(shortest_lap(head_joints(bricks, wall)) >= 0.075);  // a quarter brick
+}
+
+TEST_CASE("the aqueduct of Valens has the size and the number of blocks of its source", "[lua][masonry]") {
+  for (const auto& [model, length, blocks] : {std::tuple{"1", 102., 16920.}, std::tuple{"2", 195., 29695.}}) {
+    Script script({.seconds = 100, .quiet = true});
+    const Scene& scene = script.load(ERBS_SOURCE_DIR "/scenes/valens_aqueduct.lua", {{"model", model}});
+    Vec3 low = Vec3::Constant(1e9), high = -low;
+    double count = 0;
+    for (const Block& block : scene.blocks) {
+      if (block.name == "ground") continue;
+      ++count;
+      for (const Vec3& v : block.parts[0].vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+      CHECK((!block.fixed || block.group == "valens_pier"));
+    }
+    CHECK((high - low - Vec3(length, 5.25, 28.5)).norm() < 1e-9);
+    CHECK(count == Approx(blocks).epsilon(0.03));
+  }
+}
+
+TEST_CASE("a pier of the aqueduct stands between its planes of symmetry without gaps", "[lua][masonry]") {
+  Script script({.seconds = 100, .quiet = true});
+  const Built one = build(script.load(ERBS_SOURCE_DIR "/scenes/valens_aqueduct.lua", {{"bays", "1"}}));
+  CHECK(one.warnings.empty());
+  for (const Joint& joint : one.model.joint) CHECK(std::abs(joint.gap) < 1e-9);
+}
+
+TEST_CASE("the METU house has the size and the roof of its source", "[lua][masonry]") {
+  Script script({.seconds = 100, .quiet = true});
+  const Scene& scene = script.load(ERBS_SOURCE_DIR "/scenes/metu_house.lua");
+  Vec3 low = Vec3::Constant(1e9), high = -low;
+  double roof = 0;
+  for (const Block& block : scene.blocks) {
+    if (block.group == "log") roof += scene.materials[size_t(block.material)].density * 9.81 * mass_properties(block.parts).volume;
+    if (block.group.starts_with("wall"))
+      for (const Vec3& v : block.parts[0].vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+  }
+  CHECK(roof == Approx(55e3).epsilon(1e-12));
+  CHECK((high - low - Vec3(3, 4, 2.4 - 0.015)).norm() < 1e-9);  // 2.4 m with the bed joint beneath
+  CHECK(build(scene).warnings.empty());
 }

@@ -1,0 +1,99 @@
+-- The Valens aqueduct: two tiers of arches, pushed out of their plane
+--
+-- What happens   The aqueduct stands in equilibrium under its own weight. Then an acceleration grows slowly across it. Joints open at the
+--                foot of the piers on the windward side, cracks climb towards the toe, and the piers overturn between the end walls.
+-- Source         The Valens (Bozdogan) aqueduct by discrete elements: full model of 29,695 blocks over 195 m, partial one of 16,920
+--                over 102 m; capacity .22 and .21 g. Given: width 5.25 m, height 28 to 29 m, spans 2.4 to 6.15 m, two tiers, E = 5 GPa,
+--                joints every .5 m, kn = E / h = 10 GPa/m, ks = kn / (2 (1 + nu)), ft = .25 MPa, blocks half as high as long, fixed
+--                base. Not given, and assumed here, each a param: heights of the tiers, piers, rings, end walls, rows of blocks across
+--                the width, density, cohesion, friction, nu. The ground is level; spans grow evenly from the ends to the middle.
+-- How to run     erbs check scenes/valens_aqueduct.lua                     the partial model; -D model=2: the full one
+--                erbs run scenes/valens_aqueduct.lua --until 0.01          equilibrium under gravity only
+--                erbs run scenes/valens_aqueduct.lua -D bays=1             a pier with half an arch on either side; erbs render with
+--                                                                          --hide plane leaves its planes of symmetry out
+--                erbs run scenes/valens_aqueduct.lua --video
+-- What to look at  metrics.top_m: displacement of the top above the middle pier; cracks on the windward side, down to the toe.
+
+local model = param("model", 1, "1: partial, 102 m; 2: full, 195 m")
+local bays = param("bays", 0, "piers of a cut-out from the middle, between planes of symmetry; 0: the model")
+local peak = param("peak", 0.3 * g, "acceleration across the aqueduct at the end [m/s2]")
+local ramp = param("ramp", 8, "time in which it grows to that, slow beside the period of .6 s [s]")
+
+local width = param("width", 5.25, "of the whole aqueduct [m]")
+local height = param("height", 28.5, "28 to 29 m; the whole length is as high as the middle, assumed [m]")
+local span_least = param("span_least", 2.4, "of the first and the last arch, the least of the source; place assumed [m]")
+local span_most = param("span_most", 6.15, "of the arch in the middle, the greatest of the source; place assumed [m]")
+local pier = param("pier", 3.9, "width of the piers along the aqueduct, assumed [m]")
+local springing1 = param("springing1", 10.5, "springing line of the lower tier, assumed [m]")
+local top1 = param("top1", 15, "top of the lower tier, where the upper piers begin, assumed [m]")
+local springing2 = param("springing2", 21.5, "springing line of the upper tier, assumed [m]")
+local ring = param("ring", 0.55, "least thickness of the arches, assumed; they end in the middle of a course [m]")
+local length = param("length", 1.1, "of a whole block, so that both models have about as many blocks as the source's, assumed [m]")
+local rows = param("rows", 4, "blocks across the width, assumed for the same reason")
+local density = param("density", 2200, "assumed [kg/m3]")
+local E = param("E", 5 * GPa, "of the masonry [Pa]")
+local spacing = param("spacing", 0.5, "of the bed joints, the height of a course [m]")
+local nu = param("nu", 0.2, "assumed")
+local ft = param("ft", 0.25 * MPa, "tensile strength of the joints [Pa]")
+local c = param("c", 0.4 * MPa, "cohesion, assumed: 1.6 ft; lost with the first slip [Pa]")
+local mu = param("mu", 0.7, "friction, assumed: 35 degrees")
+local fc = param("fc", 0, "compressive strength of the joints; 0: unlimited, as in the source's first model [Pa]")
+
+-- Spans grow evenly from both ends to the middle. The walls at the ends take what remains of the length.
+local function spans_of(count)
+  local spans = {}
+  for i = 1, count do spans[i] = span_least + (span_most - span_least) * (1 - math.abs(2 * i - count - 1) / (count - 1)) end
+  return spans
+end
+local arches, long = model == 2 and 23 or 11, model == 2 and 195 or 102
+local spans, piers = spans_of(arches), {}
+if bays > 0 then
+  local all = spans
+  spans = {}
+  for i = 0, bays do spans[i + 1] = all[math.max(1, math.min(#all, (#all + 1) // 2 + i - bays // 2))] end
+  for i = 1, bays do piers[i] = pier end
+else
+  local rest = long
+  for i, span in ipairs(spans) do rest = rest - span - (i > 1 and pier or 0) end
+  for i = 1, arches + 1 do piers[i] = (i == 1 or i > arches) and rest / 2 or pier end
+end
+
+local total = 0
+for i, span in ipairs(spans) do total = total + (bays > 0 and (i == 1 or i == #spans) and span / 2 or span) end
+for _, wide in ipairs(piers) do total = total + wide end
+
+local kn, ks = E / spacing, E / spacing / (2 * (1 + nu))
+material { name = "stone", density = density, friction = mu, restitution = 0.1, kn = kn, ks = ks, color = { 0.74, 0.68, 0.58 } }
+material { name = "ring", density = density, friction = mu, restitution = 0.1, kn = kn, ks = ks, color = { 0.63, 0.47, 0.37 } }
+joint { law = mortar { kn = kn, ks = ks, ft = ft, c = c, mu = mu, fc = fc }, tolerance = 1 * mm }
+
+ground { size = total + 120, friction = mu }
+local built = arcade {
+  name = "valens", at = { -total / 2, 0, 0 }, spans = spans, piers = piers, ends = bays > 0 and "half" or "pier", width = width,
+  rows = rows, block = { length = length, height = spacing }, fixed_courses = 1, material = "stone", ring_material = "ring",
+  tiers = { { springing = springing1, top = top1, thickness = ring }, { springing = springing2, top = height, thickness = ring } },
+}
+if bays > 0 then  -- planes of symmetry: plates without friction, along which the ends of the half arches slide
+  material { name = "plane", density = density, friction = 0, restitution = 0, kn = kn, ks = ks, color = { 0.8, 0.8, 0.8 } }
+  joint { between = { "plane", "" }, law = dry { kn = kn, ks = ks, mu = 0 }, tolerance = 1 * mm }
+  for side = 0, 1 do
+    box { name = "plane" .. side, group = "plane", material = "plane", fixed = true, size = { 0.5, 3 * width, 1.1 * height },
+      at = { side == 0 and -total / 2 - 0.5 or total / 2, -width, 0 } }
+  end
+end
+
+gravity(g)
+-- The ground accelerates towards -y, which pushes the aqueduct towards +y.
+ground_motion { wave = table_wave { times = { 0, ramp }, values = { 0, peak }, hold = true }, direction = { 0, -1, 0 } }
+damping { mass = 1 }
+analysis { duration = ramp + 2, stop_after_collapse = 2, output_dt = 0.02, frame_dt = 0.1 }
+
+local middle = built.piers[(#built.piers + 1) // 2]
+recorder { name = "top", quantity = "displacement", blocks = middle and middle.courses[#middle.courses], axis = "y" }
+metric("top_m", "m", function(run) return run.peak("top_uy_rel_m") end)
+metric("blocks_per_metre", "1/m", (#built.blocks + #built.base) / total)
+
+local far = math.max(0.9 * total, 1.9 * height)
+camera { name = "windward", eye = { -0.35 * far, -far, 0.55 * height }, target = { 0, 0, 0.46 * height }, fov = 38 * deg }
+camera { name = "leeward", eye = { 0.35 * far, far, 0.55 * height }, target = { 0, 0, 0.46 * height }, fov = 38 * deg }
+camera { name = "along", eye = { -0.5 * total - 1.6 * height, -0.5 * height, 0.6 * height }, target = { 0, 0, 12 }, fov = 40 * deg }
