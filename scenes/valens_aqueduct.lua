@@ -1,23 +1,29 @@
 -- The Valens aqueduct: two tiers of arches, pushed out of their plane
 --
--- What happens   The aqueduct stands in equilibrium under its own weight. Then an acceleration grows slowly across it. Joints open at the
---                foot of the piers on the windward side, cracks climb towards the toe, and the piers overturn between the end walls.
+-- What happens   The aqueduct stands in equilibrium under its own weight. Then an acceleration across it grows in steps of .01 g, each in
+--                equilibrium, until there is none. Joints open at the foot of the piers on the windward side, cracks climb towards the
+--                toe, and the piers overturn between the end walls.
 -- Source         The Valens (Bozdogan) aqueduct by discrete elements: full model of 29,695 blocks over 195 m, partial one of 16,920
 --                over 102 m; capacity .22 and .21 g. Given: width 5.25 m, height 28 to 29 m, spans 2.4 to 6.15 m, two tiers, E = 5 GPa,
 --                joints every .5 m, kn = E / h = 10 GPa/m, ks = kn / (2 (1 + nu)), ft = .25 MPa, blocks half as high as long, fixed
 --                base. Not given, and assumed here, each a param: heights of the tiers, piers, rings, end walls, rows of blocks across
 --                the width, density, cohesion, friction, nu. The ground is level; spans grow evenly from the ends to the middle.
 -- How to run     erbs check scenes/valens_aqueduct.lua                     the partial model; -D model=2: the full one
---                erbs run scenes/valens_aqueduct.lua --until 0.01          equilibrium under gravity only
+--                erbs run scenes/valens_aqueduct.lua -D up_to=0            equilibrium under gravity only
 --                erbs run scenes/valens_aqueduct.lua -D bays=1             a pier with half an arch on either side; erbs render with
 --                                                                          --hide plane leaves its planes of symmetry out
---                erbs run scenes/valens_aqueduct.lua --video
--- What to look at  metrics.top_m: displacement of the top above the middle pier; cracks on the windward side, down to the toe.
+--                erbs run scenes/valens_aqueduct.lua -D dynamic=1 --video  the acceleration grows in time
+-- What to look at  curve.svg: acceleration over the displacement of the top above the middle pier; capacity.multiplier, .21 g (partial) and
+--                .22 g (full) in the source; capacity.mechanism; cracks on the windward side, down to the toe.
 
 local model = param("model", 1, "1: partial, 102 m; 2: full, 195 m")
 local bays = param("bays", 0, "piers of a cut-out from the middle, between planes of symmetry; 0: the model")
-local peak = param("peak", 0.3 * g, "acceleration across the aqueduct at the end [m/s2]")
-local ramp = param("ramp", 8, "time in which it grows to that, slow beside the period of .6 s [s]")
+local step = param("step", 0.01, "of the acceleration [g]")
+local up_to = math.max(1e-6, param("up_to", 0.5, "largest acceleration [g]"))
+local bracket = param("bracket", 0.02, "of the capacity, relative")
+local dynamic = param("dynamic", 0, "1: the acceleration grows in time, for films")
+local peak = param("peak", 0.3 * g, "dynamic: acceleration across the aqueduct at the end [m/s2]")
+local ramp = param("ramp", 8, "dynamic: time in which it grows to that, slow beside the period of .6 s [s]")
 
 local width = param("width", 5.25, "of the whole aqueduct [m]")
 local height = param("height", 28.5, "28 to 29 m; the whole length is as high as the middle, assumed [m]")
@@ -83,14 +89,18 @@ if bays > 0 then  -- planes of symmetry: plates without friction, along which th
 end
 
 gravity(g)
--- The ground accelerates towards -y, which pushes the aqueduct towards +y.
-ground_motion { wave = table_wave { times = { 0, ramp }, values = { 0, peak }, hold = true }, direction = { 0, -1, 0 } }
-damping { mass = 1 }
-analysis { duration = ramp + 2, stop_after_collapse = 2, output_dt = 0.02, frame_dt = 0.1 }
-
 local middle = built.piers[(#built.piers + 1) // 2]
-recorder { name = "top", quantity = "displacement", blocks = middle and middle.courses[#middle.courses], axis = "y" }
-metric("top_m", "m", function(run) return run.peak("top_uy_rel_m") end)
+local top = middle.courses[#middle.courses]
+if dynamic == 1 then
+  -- The ground accelerates towards -y, which pushes the aqueduct towards +y.
+  ground_motion { wave = table_wave { times = { 0, ramp }, values = { 0, peak }, hold = true }, direction = { 0, -1, 0 } }
+  damping { mass = 1 }
+  analysis { duration = ramp + 2, stop_after_collapse = 2, output_dt = 0.02, frame_dt = 0.1 }
+else
+  analysis { kind = "pushover", direction = "y", step = math.min(step, up_to), up_to = up_to, bracket = bracket,
+    monitor = { block = top[(#top + 1) // 2] } }
+end
+recorder { name = "top", quantity = "displacement", blocks = top, axis = "y" }
 metric("blocks_per_metre", "1/m", (#built.blocks + #built.base) / total)
 
 local far = math.max(0.9 * total, 1.9 * height)
