@@ -1,6 +1,6 @@
 // The curve of a push as a figure: the multiplier over the displacement of the monitored point, and the joints that have opened and slid.
 #pragma once
-#include "engine/record/format/csv.h"
+#include "engine/record/folder/run_folder.h"
 #include "engine/record/plot/figure.h"
 #include "render/run/run.h"
 
