@@ -477,7 +477,7 @@ function damping(keys) end
 ---@field unbalanced? number tilt, pushover: mean unbalanced force over mean applied force in equilibrium [1e-09 to 0.01; default 1e-05]
 ---@field direction? "x"|"y"|"z"|erbs.vec3 tilt: side that goes down; pushover: direction of the acceleration on the masses [-1e+09 to 1e+09; default "x"]
 ---@field path? number[] tilt, pushover: multipliers (tilt: rad) to visit in turn before the push to the end
----@field pattern? { block?: string, group?: string, force: erbs.vec3 } pushover: forces at the multiplier 1 (default: g times the mass of each block, along direction)
+---@field pattern? { block?: string, group?: string, force: erbs.vec3 }[] pushover: forces at the multiplier 1 (default: g times the mass of each block, along direction)
 ---@field monitor? { block?: string, point?: erbs.vec3 } point whose displacement along direction is the abscissa of the curve
 ---@field quality? "draft"|"standard"|"reference" a measured pair of step (over its limit) and contact points, for values that the scene leaves open: 0.9 and 2 x 2, 0.9 and 3 x 3, 0.25 and 5 x 5
 

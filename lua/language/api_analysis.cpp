@@ -17,14 +17,13 @@ Keys monitor_keys() { return keys_of<Monitor>(); }
 
 // Keys of analysis{} besides the fields of `PushSettings`.
 Keys push_keys() {
-  return {
-      {"direction", "direction", "", "tilt: side that goes down; pushover: direction of the acceleration on the masses", -1e9, 1e9, false,
-       "", "\"x\""},
-      {"path", "numbers", "", "tilt, pushover: multipliers (tilt: rad) to visit in turn before the push to the end"},
-      {"pattern", "list of tables", "", "pushover: forces at the multiplier 1 (default: g times the mass of each block, along direction)",
-       -unbounded, unbounded, false, "", "", keys_of<PatternForce>()},
-      {"monitor", "table", "", "point whose displacement along direction is the abscissa of the curve", -unbounded, unbounded, false, "",
-       "", monitor_keys()}};
+  return {{"direction", "direction", "", "tilt: side that goes down; pushover: direction of the acceleration on the masses", -1e9, 1e9,
+           false, "", "\"x\""},
+          {"path", "numbers", "", "tilt, pushover: multipliers (tilt: rad) to visit in turn before the push to the end"},
+          {"pattern", "list", "", "pushover: forces at the multiplier 1 (default: g times the mass of each block, along direction)",
+           -unbounded, unbounded, false, "", "", keys_of<PatternForce>()},
+          {"monitor", "table", "", "point whose displacement along direction is the abscissa of the curve", -unbounded, unbounded, false,
+           "", "", monitor_keys()}};
 }
 
 void read_push(Call& call, Arguments& arguments) {

@@ -133,6 +133,7 @@ TEST_CASE("metrics.json has the keys of the contract, unknown numbers are null",
                         "max_penetration_relative",
                         "collapse",
                         "trust",
+                        "equilibrium",
                         "state_hash",
                         "expectations",
                         "metrics"};

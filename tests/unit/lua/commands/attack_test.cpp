@@ -42,7 +42,8 @@ std::vector<std::string> sentences(const std::string& text) {
         if (is_text(key)) all.push_back(fmt::format("{}{{ {} = {} }}", function.name, key.name, in_lua(text)));
         for (const Key& inner : key.inner)
           if (is_text(inner))
-            all.push_back(fmt::format("{}{{ {} = {{ {{ {} = {} }} }} }}", function.name, key.name, inner.name, in_lua(text)));
+            all.push_back(fmt::format(fmt::runtime(key.type == "table" ? "{}{{ {} = {{ {} = {} }} }}" : "{}{{ {} = {{ {{ {} = {} }} }} }}"),
+                                      function.name, key.name, inner.name, in_lua(text)));
       }
       continue;
     }
