@@ -12,6 +12,8 @@ namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
 
+double weight_mass(const Model& m, int b) { return m.mass[z(b)] * (m.gravity_factor.empty() ? 1 : m.gravity_factor[z(b)]); }  // kg
+
 // A place of a joint with the area of its bond.
 struct Place2 {
   Vec3 at;          // m, world
@@ -89,8 +91,8 @@ struct Loads {
 Loads loads_of(const Model& m, const LimitLoad& load, double g) {
   Loads out{std::vector<Twist>(z(m.nblock)), std::vector<Twist>(z(m.nblock))};
   for (int b = 0; b < m.nblock; ++b) {
-    out.constant[z(b)].linear = m.mass[z(b)] * m.gravity;
-    if (load.pattern.empty()) out.push[z(b)].linear = m.mass[z(b)] * g * load.direction;
+    out.constant[z(b)].linear = weight_mass(m, b) * m.gravity;
+    if (load.pattern.empty()) out.push[z(b)].linear = weight_mass(m, b) * g * load.direction;
   }
   for (const auto& one : m.force_loads) {
     const Vec3 f = value(one.wave, 0) * one.direction;
@@ -177,13 +179,11 @@ ContactPoint contact_point(const Model& m, const LimitProblem& p, int j, const P
 }
 
 // In a plane problem, places behind each other count as one.
-std::vector<Place2> in_plane(const LimitProblem& p, const std::vector<Place2>& places, double radius) {
+std::vector<Place2> in_plane(const LimitProblem& p, const std::vector<Place2>& places, const Vec3& middle, double radius) {
   std::vector<Place2> out;
   for (Place2 one : places) {
-    const auto same = std::find_if(out.begin(), out.end(), [&](const Place2& other) {
-      const Vec3 way = other.at - one.at;
-      return std::hypot(way.dot(p.axes[0]), way.dot(p.axes[1])) < 1e-7 * radius;
-    });
+    one.at -= p.axes[2].dot(one.at - middle) * p.axes[2];
+    const auto same = std::find_if(out.begin(), out.end(), [&](const Place2& other) { return (other.at - one.at).norm() < 1e-7 * radius; });
     if (same == out.end()) out.push_back(one);
     else same->area += one.area;
   }
@@ -193,12 +193,14 @@ std::vector<Place2> in_plane(const LimitProblem& p, const std::vector<Place2>& p
 }  // namespace
 
 LimitProblem limit_problem(const Model& m, const LimitLoad& load, const LimitModelling& modelling) {
+  if (load.pattern.empty() && std::fabs(load.direction.norm() - 1) > 1e-6)
+    throw Error("limit analysis: the direction of the load has no length; give one such as x, -x or 1,1,0");
   LimitProblem p;
   number_bodies(m, p);
   refuse_floating(m);
   const double g = m.gravity.norm() > 0 ? m.gravity.norm() : standard_g;
   double mass = 0;
-  for (const int b : p.block_of) mass += m.mass[z(b)];
+  for (const int b : p.block_of) mass += weight_mass(m, b);
   p.force = mass * g / p.nbody;
   p.length = 0;
   for (const Joint& joint : m.joint) p.length += joint.type->radius / m.njoint;
@@ -209,7 +211,7 @@ LimitProblem limit_problem(const Model& m, const LimitLoad& load, const LimitMod
     PointLaw law = m.laws[z(joint.type->law)];
     if (modelling.no_tension) law.ft = law.c = 0;
     std::vector<Place2> places = places_of(m, joint, law.ft > 0 || law.c > 0);
-    if (p.plane) places = in_plane(p, places, joint.type->radius);
+    if (p.plane) places = in_plane(p, places, m.rest[z(p.block_of.front())], joint.type->radius);
     for (const Place2& place : places) p.contacts.push_back(contact_point(m, p, j, place, law, load));
   }
   p.constant = p.push = VecX::Zero(p.nbody * p.rows);
