@@ -96,7 +96,10 @@ std::string thrust_rows(const LimitResult& r, const Model& m, const View& view, 
     const auto from = view.flat(one.at - half), to = view.flat(one.at + half);
     text += fmt::format("{:.6g} {:.6g}\n{:.6g} {:.6g}\n\n", from.x(), from.y(), to.x(), to.y());
   }
-  for (int b = 0; b < m.nblock; ++b) {
+  // an arch or a column: every block passes its thrust from one joint to the next
+  bool chain = true;
+  for (int b = 0; b < m.nblock; ++b) chain = chain && (m.kind[z(b)] != Kind::moving || pressed[z(b)].size() <= 2);
+  for (int b = 0; chain && b < m.nblock; ++b) {
     if (m.kind[z(b)] != Kind::moving || pressed[z(b)].size() != 2) continue;
     const auto from = view.flat(all[z(pressed[z(b)][0])].at), to = view.flat(all[z(pressed[z(b)][1])].at);
     text += fmt::format("{:.6g} {:.6g}\n{:.6g} {:.6g}\n\n", from.x(), from.y(), to.x(), to.y());
@@ -140,7 +143,7 @@ void draw_limit(const LimitResult& r, const LimitLoad& load, const Model& m, con
   const std::string ground = figure.add_rows(outlines(m, view, still, false, bounds) + "0 0\n");
   const std::string blocks = figure.add_rows(outlines(m, view, still, true, bounds));
   const Eigen::Vector2d size = bounds.high - bounds.low;
-  const BlockPoses pose = poses_of(r, m, 0.07 * size.maxCoeff());
+  const BlockPoses pose = poses_of(r, m, 0.05 * size.maxCoeff());
   const std::string moved = figure.add_rows(outlines(m, view, pose, true, bounds));
   const LimitMechanism found = limit_mechanism(r, m);
   const double margin = 0.06 * size.maxCoeff();
@@ -148,7 +151,7 @@ void draw_limit(const LimitResult& r, const LimitLoad& load, const Model& m, con
   const std::string x_range = fmt::format("[{:.6g}:{:.6g}]", low.x(), high.x()),
                     y_range = fmt::format("[{:.6g}:{:.6g}]", low.y(), high.y());
   const double share = std::clamp((high.y() - low.y()) / (high.x() - low.x()), 0.3, 2.0);
-  const double side = share > 1.2 ? 480 : 620, top = 92, foot = 62, left = 66;  // px
+  const double side = share > 1.2 ? 480 : 620, top = 92, foot = 70, left = 76;  // px
   figure.width = 2 * (side + left) + 30, figure.height = side * share + top + foot;
   figure.grid = "";
   const double w = figure.width, h = figure.height;
@@ -171,7 +174,7 @@ void draw_limit(const LimitResult& r, const LimitLoad& load, const Model& m, con
     } else {
       panel.series.push_back({blocks + " using 1:2", line + "'#dccfbf'"});
       panel.series.push_back({moved + " using 1:2", line + "'#5a4630'"});
-      panel.key = "bottom right opaque";
+      panel.key = "at graph 1, -0.17 right horizontal";
       const auto add = [&](Movement kind, const char* look, const char* words) {
         const std::string rows = joint_rows(found, m, view, pose, kind);
         if (!rows.empty()) panel.series.push_back({figure.add_rows(rows) + " using 1:2", std::string("points ") + look, words});

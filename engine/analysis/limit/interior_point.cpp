@@ -9,7 +9,7 @@ namespace erbs::analysis {
 namespace {
 
 constexpr int most_iterations = 100;
-constexpr double kept_gap = 1e-2;  // relative gap of the iterate kept for a warm start
+constexpr double kept_gap = 50;  // gap of the iterate kept for a warm start, over the tolerance
 
 // A frictionless point has the component n alone.
 Mat3 inverse_of(const ContactCone& cone, const Mat3& stiffness, int columns) {
@@ -93,7 +93,7 @@ void InteriorPoint::residuals(Iterate& at) const {
   at.kinematic = constants - constant_.dot(at.y);
 }
 
-bool InteriorPoint::factorize(const Iterate& at) {
+bool InteriorPoint::factorize() {
   matrix_->clear();
   flexibility_.resize(cone_.size());
   for (std::size_t i = 0; i < cone_.size(); ++i) {
@@ -101,7 +101,6 @@ bool InteriorPoint::factorize(const Iterate& at) {
     if (!flexibility_[i].allFinite()) return false;
     matrix_->add(problem_.contacts[i], flexibility_[i]);
   }
-  (void)at;
   if (!matrix_->factorize()) return false;
   along_push_ = matrix_->solve(push_);
   return along_push_.allFinite();
@@ -154,7 +153,7 @@ bool InteriorPoint::start(Iterate& at) {
   for (ContactCone& cone : cone_) cone.set_unit_scaling();
   residuals(at);
   at.s_most = at.z_most = 1;  // their ratio is the scaling
-  if (!factorize(at)) return false;
+  if (!factorize()) return false;
   Steps first;
   newton(at, -1, nullptr, first);
   at.f = first.f, at.lambda = first.lambda, at.y = first.y, at.s = first.s, at.z = first.z;
@@ -183,8 +182,45 @@ bool InteriorPoint::start_warm(Iterate& at) {
   return true;
 }
 
-void InteriorPoint::scale(Iterate& at) {
+// The longest steps along `way` that stay in the cones of slack and of multipliers, at most 1, shortened by `share`.
+std::pair<double, double> InteriorPoint::longest(const Iterate& at, const Steps& way, double share) const {
+  double s = way.s_most < 0 ? -at.s_most / way.s_most : 1e3, z = way.z_most < 0 ? -at.z_most / way.z_most : 1e3;
+  for (std::size_t i = 0; i < cone_.size(); ++i) {
+    s = cone_[i].longest_step(at.s[i], way.s[i], s);
+    z = cone_[i].longest_step(at.z[i], way.z[i], z);
+  }
+  return {std::min(1.0, share * s), std::min(1.0, share * z)};
+}
+
+// s' z after steps of these lengths.
+double InteriorPoint::coming_gap(const Iterate& at, const Steps& way, double s_step, double z_step) const {
+  double sum = (at.s_most + s_step * way.s_most) * (at.z_most + z_step * way.z_most);
+  for (std::size_t i = 0; i < cone_.size(); ++i) {
+    const ContactCone& c = cone_[i];
+    sum += c.dot(at.s[i], at.z[i]) + s_step * c.dot(way.s[i], at.z[i]) + z_step * c.dot(at.s[i], way.z[i]) +
+           s_step * z_step * c.dot(way.s[i], way.z[i]);
+  }
+  return sum;
+}
+
+// One iteration; false where it gets no further.
+bool InteriorPoint::advance(Iterate& at) {
   for (std::size_t i = 0; i < cone_.size(); ++i) cone_[i].set_scaling(at.s[i], at.z[i]);
+  if (!factorize()) return false;
+  Steps predictor, step;
+  newton(at, 0, nullptr, predictor);
+  const auto [s_most, z_most] = longest(at, predictor, 1);
+  const double share = std::clamp(coming_gap(at, predictor, s_most, z_most) / at.gap, 1e-6, 1.0);
+  newton(at, share * share * share * at.gap / degree_, &predictor, step);
+  const auto [s_step, z_step] = longest(at, step, 0.98);
+  for (std::size_t i = 0; i < cone_.size(); ++i) {
+    at.f[i] += s_step * step.f[i];
+    for (int k = 0; k < 3; ++k) at.s[i].line[k] += s_step * step.s[i].line[k], at.z[i].line[k] += z_step * step.z[i].line[k];
+    at.s[i].round += s_step * step.s[i].round, at.z[i].round += z_step * step.z[i].round;
+  }
+  at.lambda += s_step * step.lambda, at.s_most += s_step * step.s_most;
+  at.y += z_step * step.y, at.z_most += z_step * step.z_most;
+  return std::max(s_step, z_step) > 1e-7;
 }
 
 LimitSolution InteriorPoint::solve(const VecX& constant, const VecX& push, const std::vector<Strength>& strength, double most,
@@ -195,16 +231,15 @@ LimitSolution InteriorPoint::solve(const VecX& constant, const VecX& push, const
   LimitSolution out;
   if (!(warm && start_warm(at)) && !start(at)) return out;
   kept_.reset();
-  Steps predictor, step;
   double best = 1e300;
   for (; out.iterations < most_iterations; ++out.iterations) {
     residuals(at);
-    const double primal = at.r_p.lpNorm<Eigen::Infinity>(), scale_of = 1 + std::fabs(at.statical);
+    const double primal = at.r_p.lpNorm<Eigen::Infinity>();
     double dual = std::fabs(at.r_lambda);
     for (const Vec3& r : at.r_f) dual = std::max(dual, r.lpNorm<Eigen::Infinity>() / (1 + at.y.lpNorm<Eigen::Infinity>()));
     if (!std::isfinite(primal + dual + at.gap)) break;
-    const double difference = std::max(at.gap, std::fabs(at.kinematic - at.statical)) / scale_of;
-    if (!kept_ && difference < kept_gap) kept_ = std::make_unique<Iterate>(at);
+    const double difference = std::max(at.gap, std::fabs(at.kinematic - at.statical)) / (1 + std::fabs(at.statical));
+    if (!kept_ && difference < kept_gap * tolerance) kept_ = std::make_unique<Iterate>(at);
     const double wrong = std::max({primal, dual, difference});
     if (wrong > 10 * best && best < 100 * tolerance) break;  // round-off has taken over
     if (wrong < best) {
@@ -212,40 +247,7 @@ LimitSolution InteriorPoint::solve(const VecX& constant, const VecX& push, const
       out.out_of_balance = primal, out.statical = at.statical, out.kinematic = at.kinematic, out.force = at.f, out.rates = at.y;
     }
     out.converged = best < tolerance;
-    if (out.converged) break;
-    scale(at);
-    if (!factorize(at)) break;
-    newton(at, 0, nullptr, predictor);
-    const auto longest = [&](const Steps& way, double& s_step, double& z_step) {
-      s_step = way.s_most < 0 ? -at.s_most / way.s_most : 1e3;
-      z_step = way.z_most < 0 ? -at.z_most / way.z_most : 1e3;
-      for (std::size_t i = 0; i < cone_.size(); ++i) {
-        s_step = cone_[i].longest_step(at.s[i], way.s[i], s_step);
-        z_step = cone_[i].longest_step(at.z[i], way.z[i], z_step);
-      }
-    };
-    double s_step = 1, z_step = 1;
-    longest(predictor, s_step, z_step);
-    s_step = std::min(1.0, s_step), z_step = std::min(1.0, z_step);
-    const auto dotted = [&](std::size_t i, double ps, double pz) {
-      const ContactCone& c = cone_[i];
-      return c.dot(at.s[i], at.z[i]) + ps * c.dot(predictor.s[i], at.z[i]) + pz * c.dot(at.s[i], predictor.z[i]) +
-             ps * pz * c.dot(predictor.s[i], predictor.z[i]);
-    };
-    double coming = (at.s_most + s_step * predictor.s_most) * (at.z_most + z_step * predictor.z_most);
-    for (std::size_t i = 0; i < cone_.size(); ++i) coming += dotted(i, s_step, z_step);
-    const double share = std::clamp(coming / at.gap, 1e-6, 1.0);
-    newton(at, share * share * share * at.gap / degree_, &predictor, step);
-    longest(step, s_step, z_step);
-    s_step = std::min(1.0, 0.98 * s_step), z_step = std::min(1.0, 0.98 * z_step);
-    if (std::max(s_step, z_step) < 1e-7) break;
-    for (std::size_t i = 0; i < cone_.size(); ++i) {
-      at.f[i] += s_step * step.f[i];
-      for (int k = 0; k < 3; ++k) at.s[i].line[k] += s_step * step.s[i].line[k], at.z[i].line[k] += z_step * step.z[i].line[k];
-      at.s[i].round += s_step * step.s[i].round, at.z[i].round += z_step * step.z[i].round;
-    }
-    at.lambda += s_step * step.lambda, at.s_most += s_step * step.s_most;
-    at.y += z_step * step.y, at.z_most += z_step * step.z_most;
+    if (out.converged || !advance(at)) break;
   }
   return out;
 }

@@ -3,6 +3,7 @@
 // forces gives the statical multiplier, the multipliers of equilibrium are the velocities of the mechanism.
 #pragma once
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "engine/analysis/limit/cone.h"
@@ -26,11 +27,13 @@ class InteriorPoint {
   struct Matrix;
   void set_cones(const std::vector<Strength>& strength);
   void residuals(Iterate& at) const;
-  bool factorize(const Iterate& at);
+  bool factorize();
+  bool advance(Iterate& at);
+  std::pair<double, double> longest(const Iterate& at, const Steps& way, double share) const;
+  double coming_gap(const Iterate& at, const Steps& way, double s_step, double z_step) const;
   void newton(const Iterate& at, double target, const Steps* predictor, Steps& out) const;
   bool start(Iterate& at);
   bool start_warm(Iterate& at);
-  void scale(Iterate& at);
 
   const LimitProblem& problem_;
   std::vector<ContactCone> cone_;

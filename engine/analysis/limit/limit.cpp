@@ -16,8 +16,11 @@ std::size_t z(int i) { return std::size_t(i); }
 
 // Contact points up to which a plane problem is solved by the simplex method, whose mechanism is a single one.
 constexpr std::size_t simplex_points = 1500;
-constexpr double gap = 1e-6;         // of the two multipliers, relative
-constexpr double coarse_gap = 1e-5;  // within the non-associated iteration
+constexpr double gap = 1e-6;  // of the two multipliers, relative
+// Of the non-associated iteration: dilatant share of mu, gap of a round, change of the multiplier at which it has settled, share of all
+// shear above the friction limit that is tolerated.
+constexpr double dilatant = 0.01, round_gap = 2e-5, settled = 1e-4, bearable = 0.02;
+constexpr int most_rounds = 60;
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -100,41 +103,43 @@ class Analysis {
 
   // Gilbert, Casapulla and Ahmed replace Coulomb's cone by |s| <= (1 - a) mu N + a mu n, with N the normal force of the last round, so that
   // sliding lifts the faces by the small share a of mu; N follows n with a weight. We do this at each contact point instead of each joint,
-  // and keep the cohesion of a bond beside it. It ends when two rounds in a row change the multiplier by less than 1e-4.
+  // and keep the cohesion of a bond beside it. It ends when two rounds in a row have settled.
   void nonassociated() {
-    constexpr double dilatant = 0.01, weight = 0.5, settled = 1e-4, bearable = 2e-3;
-    constexpr int most_rounds = 60;
     const auto start = std::chrono::steady_clock::now();
-    const std::size_t n = p().contacts.size();
-    std::vector<double> normal(n);
-    for (std::size_t i = 0; i < n; ++i) normal[i] = last_.force[i].x();
-    std::vector<Strength> strength(n);
+    std::vector<double> normal;
+    for (const Vec3& f : last_.force) normal.push_back(f.x());
     std::unique_ptr<FacetedProblem> linear;
     Multiplier& out = result_.nonassociated;
-    double before = last_.statical;
+    double weight = 0.5;
     int steady = 0;
     for (result_.rounds = 0; result_.rounds < most_rounds && !(steady >= 2 && excess() < bearable); ++result_.rounds) {
-      for (std::size_t i = 0; i < n; ++i) {
-        const ContactPoint& c = p().contacts[i];
-        if (result_.rounds > 0) normal[i] += weight * (last_.force[i].x() - normal[i]);
-        strength[i] = {c.tension, std::max(0.0, c.cohesion + (1 - dilatant) * c.mu * normal[i]), dilatant * c.mu};
-      }
-      if (simplex_ && !linear)
-        linear = std::make_unique<FacetedProblem>(p(), p().constant, p().push, strength, facets(), false, true, options_.most);
-      const LimitSolution found = simplex_ ? linear->solve(strength)
-                                           : interior_->solve(p().constant, p().push, strength, 2 * std::fabs(result_.associated.upper) + 1,
-                                                              coarse_gap, result_.rounds > 0);
+      if (result_.rounds > 0)
+        for (std::size_t i = 0; i < normal.size(); ++i) normal[i] += weight * (last_.force[i].x() - normal[i]);
+      weight = 0.5 * std::min(1.0, 6.0 / (result_.rounds + 1));  // less and less, against cycles
+      const LimitSolution found = round(normal, linear);
       out.iterations += found.iterations;
-      if (!found.converged && found.force.empty()) break;
+      if (found.force.empty()) break;
+      const double change = std::fabs(found.statical - last_.statical);
+      steady = change < settled * std::max(std::fabs(found.statical), 1e-3) ? steady + 1 : 0;
       last_ = found;
-      steady = std::fabs(last_.statical - before) < settled * std::max(std::fabs(before), 1e-3) ? steady + 1 : 0;
-      before = last_.statical;
     }
     out.lower = last_.statical, out.upper = last_.kinematic, out.converged = steady >= 2 && excess() < bearable;
     out.seconds = seconds_since(start);
     result_.has_nonassociated = true;
     result_.friction_excess = excess();
     keep(last_);
+  }
+
+  LimitSolution round(const std::vector<double>& normal, std::unique_ptr<FacetedProblem>& linear) {
+    std::vector<Strength> strength;
+    for (std::size_t i = 0; i < normal.size(); ++i) {
+      const ContactPoint& c = p().contacts[i];
+      strength.push_back({c.tension, std::max(0.0, c.cohesion + (1 - dilatant) * c.mu * normal[i]), dilatant * c.mu});
+    }
+    if (!simplex_)
+      return interior_->solve(p().constant, p().push, strength, 2 * std::fabs(result_.associated.upper) + 1, round_gap, result_.rounds > 0);
+    if (!linear) linear = std::make_unique<FacetedProblem>(p(), p().constant, p().push, strength, facets(), false, true, options_.most);
+    return linear->solve(strength);
   }
 
   // Share of the shear forces of the last solution that lies above cohesion + mu n.
