@@ -106,16 +106,41 @@ struct ContactCone {
     return out;
   }
 
-  // g' W^-2 g
-  Mat3 stiffness() const {
+  // (g' W^-2 g)^-1. The sides of a friction cone give it as g^-1 W^2 g'^-1 without the inverse of a matrix that reaches from what presses
+  // to what slides; the lower limit of n is added as a change of rank one (Sherman and Morrison 1950).
+  Mat3 flexibility() const {
     Mat3 out = Mat3::Zero();
-    for (int i = 0; i < lines; ++i) out += g[i] * g[i].transpose() / (w[i] * w[i]);
-    if (!round) return out;
-    Mat3 rows;
-    rows.col(0) = unscale(Vec3(slope, 0, 0));
-    rows.col(1) = unscale(Vec3(0, 1, 0));
-    rows.col(2) = unscale(Vec3(0, 0, 1));
-    return out + rows.transpose() * rows;
+    const double limit = w[0] * w[0];  // of n, the first line where it is there
+    if (!rubs) return out(0, 0) = limit, out;
+    const double slope_now = round ? slope : g[lines - 1].x();
+    if (slope_now <= 0) return without_friction(limit);
+    if (round) {
+      Mat3 scaling = 2 * beta * v * v.transpose();
+      scaling(0, 0) -= beta, scaling(1, 1) += beta, scaling(2, 2) += beta;
+      scaling.row(0) /= slope_now;
+      out = scaling * scaling.transpose();
+    } else {
+      const double a = w[lines - 2] * w[lines - 2], b = w[lines - 1] * w[lines - 1];
+      out(0, 0) = (a + b) / (4 * slope_now * slope_now);
+      out(0, 1) = out(1, 0) = (a - b) / (4 * slope_now);
+      out(1, 1) = (a + b) / 4;
+    }
+    if (lines == (round ? 0 : 2)) return out;
+    const Vec3 n = out.col(0);
+    return out - n * n.transpose() / (limit + n.x());
+  }
+  // Cohesion alone: n and the shear do not know each other.
+  Mat3 without_friction(double limit) const {
+    Mat3 out = Mat3::Zero();
+    out(0, 0) = limit;
+    if (round) {
+      Eigen::Matrix<double, 3, 2> rows;
+      rows.col(0) = unscale(Vec3(0, 1, 0)), rows.col(1) = unscale(Vec3(0, 0, 1));
+      out.bottomRightCorner<2, 2>() = (rows.transpose() * rows).inverse();
+    } else {
+      out(1, 1) = 1 / (1 / (w[lines - 2] * w[lines - 2]) + 1 / (w[lines - 1] * w[lines - 1]));
+    }
+    return out;
   }
 
   // The right-hand side of the complementarity: scaled \ (target e - scaled o scaled - ds o dz), ds and dz scaled.

@@ -11,15 +11,6 @@ namespace {
 constexpr int most_iterations = 100;
 constexpr double kept_gap = 50;  // gap of the iterate kept for a warm start, over the tolerance
 
-// A frictionless point has the component n alone.
-Mat3 inverse_of(const ContactCone& cone, const Mat3& stiffness, int columns) {
-  Mat3 out = Mat3::Zero();
-  if (!cone.rubs) out(0, 0) = 1 / stiffness(0, 0);
-  else if (columns == 2) out.topLeftCorner<2, 2>() = stiffness.topLeftCorner<2, 2>().inverse();
-  else out = stiffness.inverse();
-  return out;
-}
-
 }  // namespace
 
 struct InteriorPoint::Matrix : ContactMatrix {
@@ -97,7 +88,7 @@ bool InteriorPoint::factorize() {
   matrix_->clear();
   flexibility_.resize(cone_.size());
   for (std::size_t i = 0; i < cone_.size(); ++i) {
-    flexibility_[i] = inverse_of(cone_[i], cone_[i].stiffness(), problem_.columns);
+    flexibility_[i] = cone_[i].flexibility();
     if (!flexibility_[i].allFinite()) return false;
     matrix_->add(problem_.contacts[i], flexibility_[i]);
   }

@@ -16,7 +16,7 @@ std::size_t z(int i) { return std::size_t(i); }
 
 // Contact points up to which a plane problem is solved by the simplex method, whose mechanism is a single one.
 constexpr std::size_t simplex_points = 1500;
-constexpr double gap = 1e-6;  // of the two multipliers, relative
+constexpr double gap = 1e-5;  // of the two multipliers, relative
 // Of the non-associated iteration: dilatant share of mu, gap of a round, change of the multiplier at which it has settled, share of all
 // shear above the friction limit that is tolerated.
 constexpr double dilatant = 0.01, round_gap = 2e-5, settled = 1e-4, bearable = 0.02;
@@ -77,7 +77,7 @@ class Analysis {
     if (size == 0) return result_.stands = true, result_.standing_share = 1, true;
     const LimitSolution found = solved(VecX::Zero(p().constant.size()), p().constant, strengths_of(p()), 1, false);
     result_.standing_share = std::clamp(found.statical, 0.0, 1.0);
-    result_.stands = found.statical > 1 - 1e-5;
+    result_.stands = found.statical > 1 - 10 * gap;
     if (!result_.stands) keep(found);
     return result_.stands;
   }

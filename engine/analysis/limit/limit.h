@@ -45,7 +45,7 @@ struct LimitResult {
   double friction_excess = 0;  // share of its shear forces that lies above cohesion + mu n
   double seconds = 0;
   // Of the last solution: non-associated, associated, or of standing where it does not stand.
-  std::vector<Vec3> force;      // N: n, s, t on the upper block                [contact points]
+  std::vector<Vec3> force;      // N: n, s, t on block b                [contact points]
   std::vector<Twist> velocity;  // scaled so that the fastest block moves by 1 m/s; spin in rad/s   [nblock]
   const Multiplier& last() const { return has_nonassociated ? nonassociated : associated; }
 };

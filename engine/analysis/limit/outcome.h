@@ -15,7 +15,7 @@ LimitLoad limit_load(const Scene& scene, const Model& model);
 // Resultant of a joint's contact forces.
 struct Thrust {
   Vec3 at = Vec3::Zero();     // m, centre of pressure; the centre of the joint where nothing presses
-  Vec3 force = Vec3::Zero();  // N, on the upper block (b of the joint)
+  Vec3 force = Vec3::Zero();  // N, on block b of the joint
   double normal = 0;          // N, compression positive
   double shear = 0;           // N
 };

@@ -34,7 +34,7 @@ struct ContactPoint {
   Vec3 at = Vec3::Zero();            // m, world
   double tension = 0, cohesion = 0;  // N; cohesion >= mu tension
   double mu = 0;
-  int body[2] = {-1, -1};             // block below and above; -1: part of the ground
+  int body[2] = {-1, -1};             // blocks a and b of the joint; -1: part of the ground
   Eigen::Matrix<double, 6, 3> on[2];  // force on each, scaled rows, by (n, s, t); only the first rows and columns in a plane problem
 };
 
@@ -63,7 +63,7 @@ struct LimitSolution {
   double kinematic = 0;       // of the mechanism: an upper bound
   double out_of_balance = 0;  // largest residual of equilibrium, over the mean weight of a block
   int iterations = 0;
-  std::vector<Vec3> force;  // n, s, t on the upper block at each contact point, scaled
+  std::vector<Vec3> force;  // n, s, t on block b at each contact point, scaled
   VecX rates;               // of the bodies, scaled; the pushing load has the power 1
 };
 
