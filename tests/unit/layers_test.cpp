@@ -35,7 +35,7 @@ const std::map<std::string, Levels> sub_rooms{
     {"solve", {{"blocks", "linear"}, {"contacts", "sequential"}, {""}}},
     {"analysis", {{""}, {"quasi_static"}}},
     {"record", {{"format", "plot"}, {"recorders"}, {"results"}, {"folder"}, {"export"}, {"report"}}},
-    {"analysis", {{"limit"}, {""}}},
+    {"analysis", {{"limit"}, {""}, {"quasi_static"}}},
     {"lua", {{"reading", "masonry", "page"}, {"language"}, {"program"}, {"reports"}, {"commands"}, {""}}},
     {"render", {{"image", "run"}, {"gl"}, {"draw"}, {"movie"}, {"compare"}, {""}}},
 };

@@ -7,9 +7,9 @@
 
 namespace erbs::analysis {
 
-// Adds the force f (n, s, t on the upper block) to the equilibrium of both blocks.
+// Adds the force f (n, s, t on block b) to the equilibrium of both blocks.
 void add_force(const LimitProblem& problem, const ContactPoint& contact, const Vec3& f, VecX& rows);
-// Velocity of the upper block relative to the lower one, along n, s, t.
+// Velocity of block b relative to block a, along n, s, t.
 Vec3 relative_velocity(const LimitProblem& problem, const ContactPoint& contact, const VecX& rates);
 
 class ContactMatrix {

@@ -12,13 +12,13 @@ namespace {
 std::size_t z(int i) { return std::size_t(i); }
 
 // The plane that is drawn: along the push (to the right) and up.
-struct View {
+struct DrawnPlane {
   Vec3 right, up, towards;  // towards: the eye
   Eigen::Vector2d flat(const Vec3& p) const { return {right.dot(p), up.dot(p)}; }
 };
 
-View view_of(const LimitLoad& load, const Model& m) {
-  View v;
+DrawnPlane drawn_plane(const LimitLoad& load, const Model& m) {
+  DrawnPlane v;
   v.up = m.gravity.norm() > 0 ? Vec3(-m.gravity.normalized()) : Vec3(Vec3::UnitZ());
   v.right = load.direction - load.direction.dot(v.up) * v.up;
   if (v.right.norm() < 1e-6) v.right = Vec3::UnitX() - v.up.x() * v.up;
@@ -66,13 +66,13 @@ struct Bounds {
 };
 
 // Outlines of the blocks of one kind at their displaced places.
-std::string outlines(const Model& m, const View& view, const BlockPoses& pose, bool moving, Bounds& bounds) {
+std::string outlines(const Model& m, const DrawnPlane& plane, const BlockPoses& pose, bool moving, Bounds& bounds) {
   std::string text;
   for (int b = 0; b < m.nblock; ++b) {
     if ((m.kind[z(b)] == Kind::moving) != moving) continue;
     for (const Polyhedron& part : m.parts[z(b)]) {
       std::vector<Eigen::Vector2d> flat;
-      for (const Vec3& v : part.vertices) flat.push_back(view.flat(place_of(m, pose, b, v)));
+      for (const Vec3& v : part.vertices) flat.push_back(plane.flat(place_of(m, pose, b, v)));
       if (moving)
         for (const auto& p : flat) bounds.add(p);
       text += rows_of(outline(flat));
@@ -82,7 +82,7 @@ std::string outlines(const Model& m, const View& view, const BlockPoses& pose, b
 }
 
 // Two lines of a segment through `at` along `force`, `length` long; and the points through which blocks of two joints pass their thrust.
-std::string thrust_rows(const LimitResult& r, const Model& m, const View& view, double longest) {
+std::string thrust_rows(const LimitResult& r, const Model& m, const DrawnPlane& plane, double longest) {
   const std::vector<Thrust> all = thrusts(r, m);
   std::vector<std::vector<int>> pressed(z(m.nblock));
   double most = 1e-300;
@@ -93,7 +93,7 @@ std::string thrust_rows(const LimitResult& r, const Model& m, const View& view, 
     if (one.force.norm() < 1e-3 * most) continue;
     pressed[z(m.joint[z(j)].a)].push_back(j), pressed[z(m.joint[z(j)].b)].push_back(j);
     const Vec3 half = 0.5 * longest * std::sqrt(one.force.norm() / most) * one.force.normalized();
-    const auto from = view.flat(one.at - half), to = view.flat(one.at + half);
+    const auto from = plane.flat(one.at - half), to = plane.flat(one.at + half);
     text += fmt::format("{:.6g} {:.6g}\n{:.6g} {:.6g}\n\n", from.x(), from.y(), to.x(), to.y());
   }
   // an arch or a column: every block passes its thrust from one joint to the next
@@ -101,20 +101,20 @@ std::string thrust_rows(const LimitResult& r, const Model& m, const View& view, 
   for (int b = 0; b < m.nblock; ++b) chain = chain && (m.kind[z(b)] != Kind::moving || pressed[z(b)].size() <= 2);
   for (int b = 0; chain && b < m.nblock; ++b) {
     if (m.kind[z(b)] != Kind::moving || pressed[z(b)].size() != 2) continue;
-    const auto from = view.flat(all[z(pressed[z(b)][0])].at), to = view.flat(all[z(pressed[z(b)][1])].at);
+    const auto from = plane.flat(all[z(pressed[z(b)][0])].at), to = plane.flat(all[z(pressed[z(b)][1])].at);
     text += fmt::format("{:.6g} {:.6g}\n{:.6g} {:.6g}\n\n", from.x(), from.y(), to.x(), to.y());
   }
   return text;
 }
 
-// Places of the joints of one kind, displaced with their lower block.
-std::string joint_rows(const LimitMechanism& found, const Model& m, const View& view, const BlockPoses& pose, Movement kind) {
+// Places of the joints of one kind, displaced with their block a.
+std::string joint_rows(const LimitMechanism& found, const Model& m, const DrawnPlane& plane, const BlockPoses& pose, Movement kind) {
   std::string text;
   for (const MovedJoint& one : found.joints.moved) {
     if (one.kind != kind) continue;
     const int a = m.joint[z(one.joint)].a;
     const Vec3 at(one.at[0], one.at[1], one.at[2]);
-    const auto p = view.flat(place_of(m, pose, a, at));
+    const auto p = plane.flat(place_of(m, pose, a, at));
     text += fmt::format("{:.6g} {:.6g}\n", p.x(), p.y());
   }
   return text;
@@ -136,22 +136,22 @@ std::string multiplier_text(const LimitResult& r) {
 }  // namespace
 
 void draw_limit(const LimitResult& r, const LimitLoad& load, const Model& m, const std::string& title, const std::string& path) {
-  const View view = view_of(load, m);
+  const DrawnPlane plane = drawn_plane(load, m);
   Bounds bounds;
   const BlockPoses still = poses_of(r, m, 0);
   plot::Figure figure;
-  const std::string ground = figure.add_rows(outlines(m, view, still, false, bounds) + "0 0\n");
-  const std::string blocks = figure.add_rows(outlines(m, view, still, true, bounds));
+  const std::string ground = figure.add_rows(outlines(m, plane, still, false, bounds) + "nan nan\n");  // there may be no ground
+  const std::string blocks = figure.add_rows(outlines(m, plane, still, true, bounds));
   const Eigen::Vector2d size = bounds.high - bounds.low;
   const BlockPoses pose = poses_of(r, m, 0.05 * size.maxCoeff());
-  const std::string moved = figure.add_rows(outlines(m, view, pose, true, bounds));
+  const std::string moved = figure.add_rows(outlines(m, plane, pose, true, bounds));
   const LimitMechanism found = limit_mechanism(r, m);
   const double margin = 0.06 * size.maxCoeff();
   const Eigen::Vector2d low = bounds.low.array() - margin, high = bounds.high.array() + margin;
   const std::string x_range = fmt::format("[{:.6g}:{:.6g}]", low.x(), high.x()),
                     y_range = fmt::format("[{:.6g}:{:.6g}]", low.y(), high.y());
   const double share = std::clamp((high.y() - low.y()) / (high.x() - low.x()), 0.3, 2.0);
-  const double side = share > 1.2 ? 480 : 620, top = 92, foot = 70, left = 76;  // px
+  const double side = share > 1.2 ? 480 : 620, top = 92, foot = 84, left = 76;  // px
   figure.width = 2 * (side + left) + 30, figure.height = side * share + top + foot;
   figure.grid = "";
   const double w = figure.width, h = figure.height;
@@ -169,15 +169,15 @@ void draw_limit(const LimitResult& r, const LimitLoad& load, const Model& m, con
     panel.series = {{ground + " using 1:2", "filledcurves closed lc rgb '#dddddd'"}, {ground + " using 1:2", line + "'#999999'"}};
     if (i == 0) {
       panel.series.push_back({blocks + " using 1:2", line + "'#b5a089'"});
-      const std::string rows = thrust_rows(r, m, view, 0.8 * mean_size(m));
+      const std::string rows = thrust_rows(r, m, plane, 0.8 * mean_size(m));
       if (!rows.empty()) panel.series.push_back({figure.add_rows(rows) + " using 1:2", "lines lw 2 lc rgb '#c02020'"});
     } else {
       panel.series.push_back({blocks + " using 1:2", line + "'#dccfbf'"});
       panel.series.push_back({moved + " using 1:2", line + "'#5a4630'"});
-      panel.key = "at graph 1, -0.17 right horizontal";
-      const auto add = [&](Movement kind, const char* look, const char* words) {
-        const std::string rows = joint_rows(found, m, view, pose, kind);
-        if (!rows.empty()) panel.series.push_back({figure.add_rows(rows) + " using 1:2", std::string("points ") + look, words});
+      panel.key = fmt::format("at screen {:.5f}, screen {:.5f} right center horizontal", (from + side) / w, 14 / h);
+      const auto add = [&](Movement kind, const char* style, const char* words) {
+        const std::string rows = joint_rows(found, m, plane, pose, kind);
+        if (!rows.empty()) panel.series.push_back({figure.add_rows(rows) + " using 1:2", std::string("points ") + style, words});
       };
       add(Movement::slide, "pt 4 ps 0.9 lw 1.5 lc rgb '#1060c0'", "slides");
       add(Movement::hinge, "pt 7 ps 0.8 lc rgb '#c02020'", "opens");

@@ -12,7 +12,7 @@ std::size_t z(int i) { return std::size_t(i); }
 
 constexpr double still = 1e-3;  // share of the fastest block's speed
 
-// Direction of component k of the force at a contact point on the upper block.
+// Direction of component k of the force at a contact point on block b.
 Vec3 direction_of(const LimitProblem& p, const ContactPoint& c, int k) {
   const int side = c.body[1] >= 0 ? 1 : 0;
   Vec3 out = Vec3::Zero();
@@ -57,9 +57,12 @@ bool rigid(const LimitResult& r, const Model& m) {
 
 std::string names(const Model& m, const Mechanism& joints, Movement kind, const char* verb) {
   constexpr int shown = 4;
+  const auto size = [](const MovedJoint& j) { return std::max({j.gap, j.opening, j.slip}); };
+  std::vector<MovedJoint> all = joints.moved;  // the largest movement first
+  std::stable_sort(all.begin(), all.end(), [&](const MovedJoint& a, const MovedJoint& b) { return size(a) > size(b) * (1 + 1e-6); });
   std::string text;
   int n = 0;
-  for (const MovedJoint& moved : joints.moved) {
+  for (const MovedJoint& moved : all) {
     if (moved.kind != kind || ++n > shown) continue;
     text += (n == 1 ? "" : ", ") + m.joint_name(moved.joint);
   }
