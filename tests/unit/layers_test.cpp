@@ -33,7 +33,6 @@ const std::map<std::string, Levels> sub_rooms{
     {"joints", {{""}, {"intact", "cracked"}}},
     {"contact", {{"overlap"}, {"law"}, {"broad"}, {""}}},
     {"solve", {{"blocks", "linear"}, {"contacts", "sequential"}, {""}}},
-    {"analysis", {{""}, {"quasi_static"}}},
     {"record", {{"format", "plot"}, {"recorders"}, {"results"}, {"folder"}, {"export"}, {"report"}}},
     {"analysis", {{"limit"}, {""}, {"quasi_static"}}},
     {"lua", {{"reading", "masonry", "page"}, {"language"}, {"program"}, {"reports"}, {"commands"}, {""}}},
