@@ -32,6 +32,7 @@ struct CommandLine {
   CompareCommand compare;
   TestCommand test;
   AccuracyCommand accuracy;
+  LimitCommand limit;
   TimingCommand bench, effects;
   std::vector<std::string> words;  // of erbs help
 };
@@ -115,6 +116,30 @@ void add_report(CLI::App& app, ReportCommand& command) {
   report.add_option("-o", command.output.directory, "the page (default DIR/report.html)")->check(filled())->type_name("FILE");
   report.add_flag("--force", command.output.force, "replace an earlier page");
   report.add_flag("-q,--quiet", command.output.quiet, "print errors only");
+}
+
+void add_limit(CLI::App& app, LimitCommand& command) {
+  CLI::App& limit = *app.add_subcommand(
+      "limit", "limit analysis: the multiplier of a load at which the blocks become a mechanism, with its bracket, without a run");
+  limit.add_option("SCENE.lua", command.words, "the scene")->required()->expected(1);
+  limit.add_option("-o", command.output.directory, "folder for limit.json, mechanism.csv, thrust.csv and the figure (default: none)")
+      ->check(filled())
+      ->type_name("DIR");
+  limit.add_flag("--force", command.output.force, "replace an earlier analysis there");
+  limit.add_flag("-q,--quiet", command.output.quiet, "print errors only");
+  add_scene(limit, command.scene);
+  limit
+      .add_option("--direction", command.direction,
+                  "of an acceleration on all masses, instead of the scene's load: x, -x, y, -y, z, -z or x,y,z (default: analysis{} of the "
+                  "scene, else x)")
+      ->check(filled())
+      ->type_name("x|-x|x,y,z");
+  limit
+      .add_option("--facets", command.facets,
+                  "friction cones with this many facets, inscribed and circumscribed, as two linear programs (default: round cones)")
+      ->check(within(4, 256));
+  limit.add_flag("--no-tension", command.no_tension, "without tensile strength and cohesion of the joints");
+  limit.add_flag("--associated", command.associated, "only with dilatancy equal to friction, without the non-associated iteration");
 }
 
 void add_compare(CLI::App& app, CompareCommand& command) {
@@ -295,6 +320,7 @@ int call(const CLI::App& app, const CommandLine& line) {
   if (name == "accuracy") return accuracy.map ? verb_map(accuracy) : verb_accuracy(accuracy);
   if (name == "test") return verb_test(line.test);
   if (name == "bench") return verb_bench(line.bench);
+  if (name == "limit") return verb_limit(line.limit);
   if (name == "effects") return verb_effects(line.effects);
   if (name == "version") return verb_version();
   std::vector<std::string> words = line.words;
@@ -350,6 +376,7 @@ int run_program(int argc, char** argv) {
   add_plot(app, line.plot);
   add_report(app, line.report);
   add_compare(app, line.compare);
+  add_limit(app, line.limit);
   return finish_streams(answer(app, line, argc, argv), exit_usage);
 }
 

@@ -10,7 +10,7 @@
 #include "engine/base/text.h"
 #include "engine/record/recorders/recorder.h"
 #include "engine/scene/effects.h"
-#include "lua/commands/estimate.h"
+#include "lua/program/estimate.h"
 #include "lua/program/options.h"
 #include "lua/program/say.h"
 

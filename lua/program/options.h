@@ -127,6 +127,14 @@ struct AccuracyCommand {
   bool map = false;          // stability map of step, stiffness and damping
   double window = 0;         // s around the peak of the ground motion, for a map; 0: 2 s
 };
+struct LimitCommand {
+  std::vector<std::string> words;
+  OutputOptions output;  // directory: "" writes no files
+  SceneOptions scene;
+  std::string direction;  // "": the scene's
+  int facets = 0;         // of friction cones; 0: round cones
+  bool no_tension = false, associated = false;
+};
 // Of erbs bench and erbs effects.
 struct TimingCommand {
   std::vector<std::string> words;
@@ -152,6 +160,7 @@ int verb_run(const RunCommand& command);
 int verb_check(const CheckCommand& command);
 int verb_record(const RecordCommand& command);
 int verb_export(const ExportCommand& command);
+int verb_limit(const LimitCommand& command);
 int verb_plot(const PlotCommand& command);
 int verb_report(const ReportCommand& command);
 int verb_compare(const CompareCommand& command);

@@ -33,8 +33,8 @@ const std::map<std::string, Levels> sub_rooms{
     {"joints", {{""}, {"intact", "cracked"}}},
     {"contact", {{"overlap"}, {"law"}, {"broad"}, {""}}},
     {"solve", {{"blocks", "linear"}, {"contacts", "sequential"}, {""}}},
-    {"analysis", {{""}, {"quasi_static"}}},
     {"record", {{"format", "plot"}, {"recorders"}, {"results"}, {"folder"}, {"export"}, {"report"}}},
+    {"analysis", {{"limit"}, {""}, {"quasi_static"}}},
     {"lua", {{"reading", "masonry", "page"}, {"language"}, {"program"}, {"reports"}, {"commands"}, {""}}},
     {"render", {{"image", "run"}, {"gl"}, {"draw"}, {"movie"}, {"compare"}, {""}}},
 };
@@ -54,6 +54,7 @@ const std::vector<std::pair<std::string, std::string>> doors{
     {"GL/.*|EGL/.*", "render/gl/context_.*\\.cpp"},
     {"png\\.h", "render/image/image\\.cpp"},
     {"stb.*", "render/image/text\\.cpp"},
+    {"Clp.*|Coin.*", "engine/analysis/limit/linear_program\\.cpp"},
     {"zlib\\.h", "engine/record/report/pack\\.cpp"},
     {"sys/.*|linux/.*|(unistd|math|fcntl|sched|spawn|signal|poll|dlfcn|termios|malloc|immintrin)\\.h|[a-z_0-9]+",
      ".*"},  // the system's and the language's own

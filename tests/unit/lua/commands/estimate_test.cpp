@@ -2,7 +2,7 @@
 #include <catch2/catch.hpp>
 
 #include "engine/model/build/build.h"
-#include "lua/commands/estimate.h"
+#include "lua/program/estimate.h"
 #include "tests/unit/lua/load.h"
 
 using namespace erbs;

@@ -1,4 +1,4 @@
-#include "lua/commands/estimate.h"
+#include "lua/program/estimate.h"
 
 #include <algorithm>
 

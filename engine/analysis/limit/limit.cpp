@@ -1,0 +1,186 @@
+#include "engine/analysis/limit/limit.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <functional>
+#include <memory>
+
+#include "engine/analysis/limit/facets.h"
+#include "engine/analysis/limit/interior_point.h"
+
+namespace erbs::analysis {
+namespace {
+
+std::size_t z(int i) { return std::size_t(i); }
+
+// Contact points up to which a plane problem is solved by the simplex method, whose mechanism is a single one.
+constexpr std::size_t simplex_points = 1500;
+constexpr double gap = 1e-5;  // of the two multipliers, relative
+// Of the non-associated iteration: dilatant share of mu, gap of a round, change of the multiplier at which it has settled, share of all
+// shear above the friction limit that is tolerated.
+constexpr double dilatant = 0.01, round_gap = 2e-5, settled = 1e-4, bearable = 0.02;
+constexpr int most_rounds = 60;
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// The limits of the associated problem.
+std::vector<Strength> strengths_of(const LimitProblem& p) {
+  std::vector<Strength> out;
+  for (const ContactPoint& c : p.contacts) out.push_back({c.tension, c.cohesion, c.mu});
+  return out;
+}
+
+class Analysis {
+ public:
+  Analysis(const Model& model, const LimitLoad& load, const LimitOptions& options) : model_(model), options_(options) {
+    result_.problem = limit_problem(model, load, {options.no_tension});
+    using Solver = LimitOptions::Solver;
+    simplex_ = options.facets > 0 || options.solver == Solver::simplex ||
+               (options.solver == Solver::automatic && p().plane && p().contacts.size() <= simplex_points);
+    result_.method = !simplex_ ? "interior point, round cones" : p().plane ? "linear program, plane" : "linear programs, cones with facets";
+    if (!simplex_) interior_ = std::make_unique<InteriorPoint>(p());
+  }
+
+  LimitResult run() {
+    const auto start = std::chrono::steady_clock::now();
+    if (stand()) {
+      associated();
+      if (!result_.unbounded && !options_.associated_only) nonassociated();
+    }
+    result_.seconds = seconds_since(start);
+    return std::move(result_);
+  }
+
+ private:
+  const LimitProblem& p() const { return result_.problem; }
+
+  LimitSolution solved(const VecX& constant, const VecX& push, const std::vector<Strength>& strength, double most, bool circumscribed) {
+    LimitSolution out = simplex_ ? FacetedProblem(p(), constant, push, strength, facets(), circumscribed, bonded(), most).solve(strength)
+                                 : interior_->solve(constant, push, strength, most, gap);
+    if (!out.converged && std::fabs(out.kinematic - out.statical) > 1e-3 * (1 + std::fabs(out.statical)))
+      throw NumbersError(
+          fmt::format("limit analysis found no solution: after {} iterations the multiplier lies between {:g} and {:g}, out "
+                      "of balance by {:.2g} weights; try --facets 8",
+                      out.iterations, out.statical, out.kinematic, out.out_of_balance));
+    return out;
+  }
+  bool bonded() const {
+    return std::any_of(p().contacts.begin(), p().contacts.end(), [](const ContactPoint& c) { return c.cohesion > 0; });
+  }
+  int facets() const { return options_.facets > 0 ? options_.facets : 2; }
+
+  bool stand() {
+    const double size = p().constant.lpNorm<Eigen::Infinity>();
+    if (size == 0) return result_.stands = true, result_.standing_share = 1, true;
+    const LimitSolution found = solved(VecX::Zero(p().constant.size()), p().constant, strengths_of(p()), 1, false);
+    result_.standing_share = std::clamp(found.statical, 0.0, 1.0);
+    result_.stands = found.statical > 1 - 10 * gap;
+    if (!result_.stands) keep(found);
+    return result_.stands;
+  }
+
+  void associated() {
+    const auto start = std::chrono::steady_clock::now();
+    const std::vector<Strength> strength = strengths_of(p());
+    // The interior point method begins in the middle of its cones: a bound near the multiplier saves it iterations.
+    for (double most = simplex_ ? options_.most : std::min(10.0, options_.most);; most = std::min(100 * most, options_.most)) {
+      last_ = solved(p().constant, p().push, strength, most, false);
+      if (last_.statical < 0.5 * most || most >= options_.most) break;
+    }
+    Multiplier& out = result_.associated;
+    out = {last_.statical, last_.kinematic, last_.converged, last_.iterations, 0};
+    if (simplex_ && !p().plane) {
+      const LimitSolution above = solved(p().constant, p().push, strength, options_.most, true);
+      out.upper = above.kinematic, out.iterations += above.iterations;
+    }
+    out.seconds = seconds_since(start);
+    result_.unbounded = out.lower > options_.most * (1 - 1e-6);
+    keep(last_);
+  }
+
+  // Gilbert, Casapulla and Ahmed replace Coulomb's cone by |s| <= (1 - a) mu N + a mu n, with N the normal force of the last round, so that
+  // sliding lifts the faces by the small share a of mu; N follows n with a weight. We do this at each contact point instead of each joint,
+  // and keep the cohesion of a bond beside it. It ends when two rounds in a row have settled.
+  void nonassociated() {
+    const auto start = std::chrono::steady_clock::now();
+    std::vector<double> normal;
+    for (const Vec3& f : last_.force) normal.push_back(f.x());
+    std::unique_ptr<FacetedProblem> linear;
+    Multiplier& out = result_.nonassociated;
+    double weight = 0.5;
+    int steady = 0;
+    for (result_.rounds = 0; result_.rounds < most_rounds && !(steady >= 2 && excess() < bearable); ++result_.rounds) {
+      if (result_.rounds > 0)
+        for (std::size_t i = 0; i < normal.size(); ++i) normal[i] += weight * (last_.force[i].x() - normal[i]);
+      weight = 0.5 * std::min(1.0, 6.0 / (result_.rounds + 1));  // less and less, against cycles
+      const LimitSolution found = round(normal, linear);
+      out.iterations += found.iterations;
+      if (found.force.empty()) break;
+      const double change = std::fabs(found.statical - last_.statical);
+      steady = change < settled * std::max(std::fabs(found.statical), 1e-3) ? steady + 1 : 0;
+      last_ = found;
+    }
+    out.lower = last_.statical, out.upper = last_.kinematic, out.converged = steady >= 2 && excess() < bearable;
+    out.seconds = seconds_since(start);
+    result_.has_nonassociated = true;
+    result_.friction_excess = excess();
+    keep(last_);
+  }
+
+  LimitSolution round(const std::vector<double>& normal, std::unique_ptr<FacetedProblem>& linear) {
+    std::vector<Strength> strength;
+    for (std::size_t i = 0; i < normal.size(); ++i) {
+      const ContactPoint& c = p().contacts[i];
+      strength.push_back({c.tension, std::max(0.0, c.cohesion + (1 - dilatant) * c.mu * normal[i]), dilatant * c.mu});
+    }
+    if (!simplex_)
+      return interior_->solve(p().constant, p().push, strength, 2 * std::fabs(result_.associated.upper) + 1, round_gap, result_.rounds > 0);
+    if (!linear) linear = std::make_unique<FacetedProblem>(p(), p().constant, p().push, strength, facets(), false, true, options_.most);
+    return linear->solve(strength);
+  }
+
+  // Share of the shear forces of the last solution that lies above cohesion + mu n.
+  double excess() const {
+    double above = 0, all = 1e-300;
+    for (std::size_t i = 0; i < p().contacts.size(); ++i) {
+      const ContactPoint& c = p().contacts[i];
+      const Vec3& f = last_.force[i];
+      const double shear = std::hypot(f.y(), f.z());
+      above += std::max(0.0, shear - c.cohesion - c.mu * f.x());
+      all += shear;
+    }
+    return above / all;
+  }
+
+  void keep(const LimitSolution& found) {
+    result_.force = found.force;
+    for (Vec3& f : result_.force) f *= p().force;
+    result_.velocity.assign(z(model_.nblock), {});
+    double fastest = 0;
+    for (int i = 0; i < p().nbody; ++i) {
+      const int b = p().block_of[z(i)];
+      const Twist v = result_.velocity[z(b)] = velocity_of(p(), found.rates, i);
+      fastest = std::max(fastest, v.linear.norm() + v.angular.norm() * 0.5 * model_.smallest_edge[z(b)]);
+    }
+    for (Twist& v : result_.velocity)
+      if (fastest > 0) v.linear /= fastest, v.angular /= fastest;
+  }
+
+  const Model& model_;
+  const LimitOptions options_;
+  LimitResult result_;
+  bool simplex_ = false;
+  std::unique_ptr<InteriorPoint> interior_;
+  LimitSolution last_;
+};
+
+}  // namespace
+
+LimitResult limit_analysis(const Model& model, const LimitLoad& load, const LimitOptions& options) {
+  return Analysis(model, load, options).run();
+}
+
+}  // namespace erbs::analysis

@@ -1,0 +1,80 @@
+// The command erbs limit SCENE: the table on stdout, the files in a folder, what it refuses.
+#include <catch2/catch.hpp>
+
+#include "tests/unit/lua/bench.h"
+
+using namespace erbs;
+using namespace erbs::lua;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr const char* block = R"(
+material { name = "stone", density = 2000 }
+box { name = "floor", size = { 8, 8, 1 }, at = { -4, -4, -1 }, fixed = true, material = "stone" }
+joint { law = dry { kn = 1e10, mu = 0.7 } }
+box { name = "block", size = { 1, 2, param("h", 4, "") }, at = { 0, 0, 0 }, material = "stone" }
+analysis { duration = 1 }
+)";
+
+}  // namespace
+
+TEST_CASE("erbs limit says multiplier, tilting angle and mechanism", "[limit][program]") {
+  Bench bench;
+  bench.write("block.lua", block);
+  const std::string scene = (bench.folder / "block.lua").string();
+  REQUIRE(bench.erbs({"limit", scene}) == 0);
+  for (const char* part :
+       {"associated          0.25000", "non-associated      0.25000", "tilting angle    14.036 deg", "overturning", "floor | block"}) {
+    INFO(part);
+    CHECK(contains(bench.said, part));
+  }
+  REQUIRE(bench.erbs({"limit", scene, "--direction", "-y"}) == 0);
+  CHECK(contains(bench.said, "0.50000"));
+  REQUIRE(bench.erbs({"limit", scene, "-D", "h=1", "--associated", "--facets", "8"}) == 0);
+  CHECK(contains(bench.said, "0.70000"));
+  CHECK(contains(bench.said, "sliding"));
+  CHECK_FALSE(contains(bench.said, "non-associated"));
+  REQUIRE(bench.erbs({"limit", scene, "-q"}) == 0);
+  CHECK(bench.said.empty());
+}
+
+TEST_CASE("erbs limit writes its numbers, its thrusts and a figure", "[limit][program]") {
+  Bench bench;
+  bench.write("block.lua", block);
+  const std::string scene = (bench.folder / "block.lua").string();
+  REQUIRE(bench.erbs({"limit", scene, "-o", bench.out()}) == 0);
+  const Json numbers = read_json(bench.out() + "/limit.json");
+  CHECK(numbers["associated"]["lower"].get<double>() == Approx(0.25));
+  CHECK(numbers["tilt_deg"].get<double>() == Approx(14.0362));
+  CHECK(numbers["mechanism"]["hinges"] == 1);
+  const CsvTable thrust = read_csv(bench.out() + "/thrust.csv");
+  REQUIRE(thrust.rows() == 1);
+  CHECK(thrust.column("compression_N").front() == Approx(2000 * 8 * 9.81));
+  CHECK(thrust.column("x_m").front() == Approx(1));  // all of it at the toe
+  CHECK(thrust.column("fx_N").front() == Approx(-0.25 * 2000 * 8 * 9.81));
+  const CsvTable mechanism = read_csv(bench.out() + "/mechanism.csv");
+  CHECK(mechanism.column("wy_rad_s").back() > 0);
+  CHECK(text_of(bench.out() + "/limit.svg").find("</svg>") != std::string::npos);
+  CHECK(fs::file_size(bench.out() + "/limit.png") > 5000);
+  CHECK(bench.erbs({"limit", scene, "-o", bench.out()}) == 2);
+  CHECK(contains(bench.said, "--force"));
+  CHECK(bench.erbs({"limit", scene, "-o", bench.out(), "--force"}) == 0);
+}
+
+TEST_CASE("erbs limit refuses what has no answer, with the remedy", "[limit][program]") {
+  Bench bench;
+  bench.write("block.lua", block);
+  const std::string scene = (bench.folder / "block.lua").string();
+  const std::pair<std::vector<std::string>, const char*> wrong[]{
+      {{"--direction", "0,0,0"}, "no length"},   {{"--direction", "up"}, "it is no direction"},
+      {{"--direction", "1,2"}, "three numbers"}, {{"--direction=-z"}, "push in another direction"},
+      {{"--facets", "7"}, "even number"},        {{"-o", bench.folder.string()}, "no folder of erbs limit"}};
+  for (const auto& [options, said] : wrong) {
+    std::vector<std::string> words{"limit", scene};
+    words.insert(words.end(), options.begin(), options.end());
+    INFO(said);
+    CHECK(bench.erbs(words) == 2);
+    CHECK(contains(bench.said, said));
+  }
+}
