@@ -145,6 +145,14 @@ local function raise(k, title, corners, closed, names, courses)
     report = empty_report(k.brick.length),
   }
   local runs = parts.make_runs(corners, closed, names, masonry.width)
+  for _, run in ipairs(runs) do  -- the plan reaches to the inner faces too: an open one has nothing opposite
+    for _, s in ipairs { 0, run.length } do
+      for i = 1, 2 do
+        local inner = run.origin[i] + s * run.d[i] + masonry.width * run.n[i]
+        lo[i], hi[i] = math.min(lo[i], inner), math.max(hi[i], inner)
+      end
+    end
+  end
   for i, run in ipairs(runs) do
     run.group = k.wall_group(run.name)
     masonry.out.walls[i] = run.group

@@ -207,6 +207,26 @@ TEST_CASE("open and re-entrant plans fit as well", "[lua][masonry]") {
   check_fit(built("building{ shift = 1, plan = {{0,0},{3,0},{3,1.5},{1.5,1.5},{1.5,3},{0,3}}" + rest), 5e-3);
 }
 
+TEST_CASE("the base of an open plan reaches beyond the walls on every side", "[lua][masonry]") {
+  const std::string brick = "brick = {length=.3, width=.125, height=.1}, joint = 0, base = {thickness=.1, margin=.05}, quiet = true";
+  for (const std::string& text :
+       {"wall{ length = 1.2, courses = 2, at = {1, 2, 0}, " + brick + " }", "wall{ length = 1.2, axis = 'y', courses = 2, " + brick + " }",
+        "building{ plan = {{0,0}, {1.5,0}, {1.5,1.2}}, closed = false, courses = 2, " + brick + " }"}) {
+    CAPTURE(text);
+    Script script({.seconds = 100, .quiet = true});
+    const Scene scene = script.load_text("material{ name = 'brick', density = 1800 }\nanalysis{ duration = 1 }\n" + text, "t.lua");
+    Vec3 low = Vec3::Constant(1e9), high = -low;
+    for (const Brick& one : bricks_of(scene)) low = low.cwiseMin(one.low), high = high.cwiseMax(one.high);
+    for (const Block& block : scene.blocks) {
+      if (!block.fixed) continue;
+      Vec3 from = Vec3::Constant(1e9), to = -from;
+      for (const Vec3& v : block.parts[0].vertices) from = from.cwiseMin(v), to = to.cwiseMax(v);
+      CHECK((low - from).head<2>().isApprox(Eigen::Vector2d(0.05, 0.05), 1e-9));
+      CHECK((to - high).head<2>().isApprox(Eigen::Vector2d(0.05, 0.05), 1e-9));
+    }
+  }
+}
+
 TEST_CASE("the summary says what was cut and widened", "[lua][masonry]") {
   Script script({.seconds = 100, .quiet = true});
   script.load_text(
