@@ -128,7 +128,7 @@ void Cracked::set_share(CrackedPack& lane, int l, int j) const {
 }
 
 void Cracked::set_share(int j) {
-  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
+  const int at = lane_of(j);
   if (at >= 0) set_share(memory_of(group_[z(at / pack_size)]), at % pack_size, j);
 }
 
@@ -162,10 +162,13 @@ bool Cracked::fits(const Group& group, const Joint& joint) const {
   return true;
 }
 
-int Cracked::find_lane(const Joint& joint) {
+int Cracked::lane_of(int j) const { return state_.joints.slot[z(j)] - intact_packs(model_) * pack_size; }
+
+int Cracked::find_lane(const Joint& joint, bool debonded) {
   int other = -1;
   for (int g = 0; g < groups(); ++g) {
     const Group& group = group_[z(g)];
+    if (!group.empty() && group.debonded != debonded) continue;
     const int* free = std::find(group.joint, group.joint + pack_size, -1);
     if (free == group.joint + pack_size || (other >= 0 && (group.empty() || group.type != joint.type)) || !fits(group, joint)) continue;
     other = g * pack_size + int(free - group.joint);
@@ -180,7 +183,14 @@ int Cracked::find_lane(const Joint& joint) {
 
 void Cracked::put(int j) {
   const Joint& joint = model_.joint[z(j)];
-  const int at = find_lane(joint);
+  const auto first = state_.joints.history.begin() + joint.first_point;
+  const bool debonded = !model_.laws[z(joint.type->law)].has_bond() ||
+                        std::all_of(first, first + joint.type->points, [](const PointHistory& h) { return h.damage >= 1; });
+  put(j, find_lane(joint, debonded));
+}
+
+void Cracked::put(int j, int at) {
+  const Joint& joint = model_.joint[z(j)];
   Group& group = group_[z(at / pack_size)];
   if (group.empty()) set_empty(group, joint);
   fill(group, at % pack_size, j);
@@ -190,7 +200,7 @@ void Cracked::put(int j) {
 
 void Cracked::set_ends(int j) {
   const Joint& joint = model_.joint[z(j)];
-  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
+  const int at = lane_of(j);
   JointPack& pack = state_.joints.pack[z(at / pack_size)];
   set_constants(model_, j, pack, at % pack_size);
   for (int i = 0; i < 3; ++i) pack.arm_a[i][at % pack_size] = joint.arm_a[i], pack.arm_b[i][at % pack_size] = joint.arm_b[i];
@@ -235,16 +245,18 @@ void Cracked::find_type(Group& group) {
   group.shapes = shared_shapes(*type);
 }
 
+void Cracked::vacate(int at) {
+  Group& group = group_[z(at / pack_size)];
+  group.used &= ~(1U << at % pack_size);
+  clear(group, at % pack_size);
+  find_type(group);
+  clear_lane(model_, state_.joints.pack[z(at / pack_size)], at % pack_size);
+  copy_ends(group, at % pack_size);
+}
+
 void Cracked::drop(int j) {
-  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
-  if (at >= 0) {
-    Group& group = group_[z(at / pack_size)];
-    group.used &= ~(1U << at % pack_size);
-    clear(group, at % pack_size);
-    find_type(group);
-    clear_lane(model_, state_.joints.pack[z(at / pack_size)], at % pack_size);
-    copy_ends(group, at % pack_size);
-  }
+  const int at = lane_of(j);
+  if (at >= 0) vacate(at);
   state_.joints.slot[z(j)] = -1;
   state_.joints.memory[z(j)] = JointMemory{};
   if (model_.dashpots_cracked) std::fill_n(&state_.joints.viscous[6 * z(j)], 6, 0.0);
@@ -311,7 +323,7 @@ void Cracked::store() {
 }
 
 void Cracked::store(int j) {
-  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
+  const int at = lane_of(j);
   if (at >= 0) store(group_[z(at / pack_size)], at % pack_size, true);
 }
 
@@ -334,7 +346,7 @@ void Cracked::store(const Group& group, int l, bool damage_changed) {
 }
 
 bool Cracked::debonded(int j) const {
-  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
+  const int at = lane_of(j);
   return at >= 0 && memory_of(group_[z(at / pack_size)]).least_damage[at % pack_size] >= 1;
 }
 
@@ -344,7 +356,7 @@ bool Cracked::none_ready_for_contact() const {
 }
 
 bool Cracked::ready_for_contact(int j) const {
-  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
+  const int at = lane_of(j);
   if (at < 0)
     return !owner_computes(model_) &&
            joint_ready_for_contact(model_, state_, j);  // a joint that cracked in this step enters a group after it

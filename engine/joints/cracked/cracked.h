@@ -19,6 +19,9 @@ class Cracked {
   int groups() const { return int(group_.size()); }
   void take(int j);  // adds a joint that has cracked
   void drop(int j);  // removes a joint released to contact
+  // Between two steps: fills the lanes that joints have left, and parts joints without a bond from those with one. Fewer and purer packs
+  // cost less; the force of a joint does not depend on its lane.
+  void regroup();
   // Pose rows of eight doubles (displacement, attitude) of the blocks with cracked joints, as the drift leaves them.
   double* poses() { return pose_.empty() ? nullptr : pose_.data(); }
   void copy_pose(int b);
@@ -69,7 +72,8 @@ class Cracked {
   CrackedPack& memory_of(const Group& group) { return *reinterpret_cast<CrackedPack*>(&memory_[group.at]); }
   const CrackedPack& memory_of(const Group& group) const { return *reinterpret_cast<const CrackedPack*>(&memory_[group.at]); }
   bool fits(const Group& group, const Joint& joint) const;  // equal law and numbers, and compressed alike
-  int find_lane(const Joint& joint);                        // group * lanes + lane; adds a group if necessary
+  int find_lane(const Joint& joint, bool debonded);         // group * lanes + lane; adds a group if necessary
+  int lane_of(int j) const;                                 // the same of joint j; negative: in none
   void fill(Group& group, int l, int j);
   void clear(Group& group, int l);
   void store(const Group& group, int l, bool damage_changed);
@@ -79,6 +83,10 @@ class Cracked {
   void add_shape(Group& group, int l, const JointType& type);
   void find_type(Group& group);
   void put(int j);                            // finds a lane and fills it
+  void put(int j, int at);                    // fills lane `at`, numbered as in `find_lane()`
+  void vacate(int at);                        // empties it
+  void move(int j, int to);                   // to another lane
+  int fuller_lane(int j, int from) const;     // a free lane before group `from` that suits joint j; -1: none
   void set_ends(int j);                       // blocks, rows and arms of its lane
   void copy_ends(const Group& group, int l);  // from its pack in `JointState::pack`
   void take_all(std::vector<int>& joints);    // sorted by type
