@@ -39,6 +39,7 @@ void Cracked::Group::update_debonded(const PointLaw& of) {
 }
 
 Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state) {
+  for (const auto& type : model.joint_types) grid_[type.get()] = grid_of(*type);
   const int intact = intact_packs(model);
   // Groups of a stopped run: each joint returns to its lane, so that sums continue in the same order.
   for (int k = 0; k < int(state.joints.pack.size()); ++k) {
@@ -86,6 +87,7 @@ void Cracked::clear(Group& group, int l) {
   MeanSlipPack& mean_slip = lane.mean_slip;
   for (auto* x : {mean_slip.s, mean_slip.t, mean_slip.rotation, mean_slip.apart, mean_slip.stored, mean_slip.outdated}) x[l] = 0;
   for (BondPack& p : group.bond) p.secant[l] = p.kappa[l] = 0, p.damage[l] = 1;  // no bond
+  lane.tension_outdated = 1;
   group.update_debonded(model_.laws[z(group.law)]);
 }
 
@@ -106,6 +108,7 @@ void Cracked::fill(Group& group, int l, int j) {
   lane.least_damage[l] = may_release(joint, law, memory) ? 1 : 0;
   for (int i = 0; i < group.own_numbers; ++i) lane.own(group.points)[i][l] = memory.own[i];
   lane.mean_slip.outdated[l] = 1;
+  lane.tension_outdated = 1;
   if (model_.dashpots_cracked)
     for (int i = 0; i < 6; ++i) lane.drag[i][l] = state_.joints.viscous[6 * z(j) + z(i)];
   for (int i = 0; i < joint.type->points; ++i) {
@@ -157,6 +160,8 @@ bool Cracked::fits(const Group& group, const Joint& joint) const {
     return false;
   if (group.type == joint.type) return true;
   if (group.shapes->tension_loop.empty() == joint.type->inset) return false;
+  const CellGrid& grid = grid_.at(joint.type);
+  if (group.shapes->rectangles != grid.rectangle || group.shapes->line.size() != z(grid.lines > 0 ? grid.lines + 1 : 0)) return false;
   for (int i = 0; i < joint.type->points; ++i)
     if (group.shapes->first[z(i + 1)] - group.shapes->first[z(i)] != model_.cell[z(joint.type->first_cell + i)].corners) return false;
   return true;
@@ -292,7 +297,10 @@ void Cracked::forces(int first, int last, bool sample, double budget, JointSums&
                              group.crushed,
                              group.face_corner,
                              budget,
-                             law.interlock ? interlock : Interlock{}};
+                             law.interlock ? interlock : Interlock{},
+                             shapes.rectangles,
+                             std::max(0, int(shapes.line.size()) - 1),
+                             shapes.line.data()};
     if (group.debonded) {
       group.maybe_out_of_range = kernels.friction[law.type](law, shape, lane, poses, wrench_rows, done);
     } else {

@@ -46,6 +46,14 @@ class Cracked {
     std::vector<CellPack> cell;
     std::vector<int> first;                           // first corner of each loop [points + 1]
     std::vector<CornerPack> cell_loop, tension_loop;  // of the cells; `tension_loop` is empty if equal to `cell_loop`
+    bool rectangles = false;
+    std::vector<CornerPack> line;  // of the grid of cells; empty without
+  };
+  // Shape of the overlap and the cells of a type. Packs mix types only if they agree in `rectangle` and `lines`.
+  struct CellGrid {
+    bool rectangle = false;  // overlap along s and t, about the centre
+    int lines = 0;           // cells between so many lines and one more, along s and t; 0: no such grid
+    double s[most_cells_in_line + 1] = {}, t[most_cells_in_line + 1] = {};  // m, of the lines
   };
   struct alignas(64) Group {
     int law, points, corners;
@@ -81,6 +89,7 @@ class Cracked {
   void set_shape(Shapes& shapes, int l, const JointType& type) const;
   std::shared_ptr<Shapes> shared_shapes(const JointType& type);  // for a pack of this type alone
   void add_shape(Group& group, int l, const JointType& type);
+  CellGrid grid_of(const JointType& type) const;
   void find_type(Group& group);
   void put(int j);                            // finds a lane and fills it
   void put(int j, int at);                    // fills lane `at`, numbered as in `find_lane()`
@@ -99,6 +108,7 @@ class Cracked {
   std::vector<Group> group_;
   std::vector<Line> memory_;  // of all groups: `CrackedPack`, the slips of their points, the numbers of their law
   Rows pose_;
+  std::map<const JointType*, CellGrid> grid_;
   std::map<const JointType*, std::shared_ptr<Shapes>> of_type_;
 };
 
