@@ -44,6 +44,12 @@ struct alignas(64) FacePack {
   double stiffness[6][pack_size], half_s[pack_size], half_t[pack_size], radius[pack_size];  // as in `JointPack`
   double bend_s[pack_size], bend_t[pack_size], twist[pack_size];                            // N m, `JointType::face`
 };
+inline constexpr int most_cells_in_line = 5;  // of a grid of cells
+// Tension of all cells of a joint that is open all over, which is linear: integrals of the secant stiffness of the points over their cells.
+struct TensionPack {
+  double k[pack_size], s[pack_size], t[pack_size];     // N/m; N, times s and t
+  double ss[pack_size], st[pack_size], tt[pack_size];  // N m
+};
 // Shapes of eight joints of one law with equal numbers of overlap corners, points and cell corners.
 struct CrackedShape {
   int corners, points;
@@ -62,6 +68,9 @@ struct CrackedShape {
   const double* const* face_corner;
   double event_budget;  // J, for `event_bound.h`; 0: no prediction
   Interlock interlock;
+  bool rectangles;         // the overlaps are rectangles along s and t about the centre
+  int lines;               // > 0: so are the cells, in a grid of as many along s and t (strips.h)
+  const CornerPack* line;  // between these lines: at s, and at t [lines + 1]
 };
 // All other data of eight cracked joints that a step reads and writes, in the order of access and in one piece.
 struct alignas(64) CrackedPack {
@@ -74,6 +83,8 @@ struct alignas(64) CrackedPack {
   double resultant[6][pack_size], stored[pack_size];
   double least_damage[pack_size];  // of all points; 1 for dry joints
   double drag[6][pack_size];       // N, N m, of the dashpots at the last step, not contained in `resultant`
+  TensionPack tension;
+  int tension_outdated;  // the secant stiffness of a point has changed since
   // Stored behind this object: the slips [points], then the numbers that only the joint's law knows (laws/face.h).
   SlipPack* slip() { return reinterpret_cast<SlipPack*>(this + 1); }
   const SlipPack* slip() const { return reinterpret_cast<const SlipPack*>(this + 1); }

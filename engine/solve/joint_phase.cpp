@@ -61,7 +61,15 @@ void JointPhase::move_cracked(std::vector<BlockConstants>& constants) {
     for (const int b : {model_.joint[z(j)].a, model_.joint[z(j)].b}) use_wrench_rows(model_, state_, b, constants);
   }
   set_rotation_limits(model_, state_, constants);
-  cracked_sums_.resize(z(chunks(cracked_.groups(), Cracked::grain)));
+  fit_sums();
+}
+
+// Never fewer: chunks that have lost their packs may hold losses that are not booked yet.
+void JointPhase::fit_sums() { cracked_sums_.resize(std::max(cracked_sums_.size(), z(chunks(cracked_.groups(), Cracked::grain)))); }
+
+void JointPhase::regroup() {
+  cracked_.regroup();
+  fit_sums();
 }
 
 void JointPhase::drop_released() {

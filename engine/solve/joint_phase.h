@@ -25,6 +25,7 @@ class JointPhase {
   // Joints released to contact act until the step is closed: a sample needs their forces.
   void leave(std::vector<int> released) { leaving_ = std::move(released); }
   void drop_released();
+  void regroup();  // of cracked joints, between two steps
   void store() { cracked_.store(); }
   double take_event_rate();  // greatest `JointSums::event_rate` since the last call
   bool any_cracked() const { return any_cracked_; }
@@ -34,6 +35,8 @@ class JointPhase {
   std::vector<JointSums>& cracked_sums() { return cracked_sums_; }  // per chunk of cracked joints
 
  private:
+  void fit_sums();
+
   const Model& model_;
   State& state_;
   const bool reference_;

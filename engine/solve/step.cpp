@@ -16,6 +16,7 @@ constexpr int release_every = 8;     // steps between two searches for joints to
 constexpr int find_soft_every = 64;  // steps between two searches for former joints that must soften, ...
 constexpr int soften_every = 8;      // ... and between two steps of their softening
 constexpr int fade_every = 8;        // steps between two reductions of the stiffness of beds without bond
+constexpr int regroup_every = 256;   // steps between two orderings of cracked joints in their packs
 constexpr int activate_every = 256;  // steps between two searches for blocks that have moved far
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -79,6 +80,7 @@ void Solver::prepare_step(const SamplePlan& plan) {
   stop_ = !together ? Stop::none : plan.due(time.t, time.dt) ? Stop::sample : due ? Stop::ledger : Stop::none;
   if (std::ranges::any_of(block_sums_, &BlockSums::outdated)) update_outdated();
   const bool debris = model_.analysis.debris, cracked = joints_.any_cracked();
+  if (cracked && !joints_.reference() && every(regroup_every, time)) joints_.regroup();
   if (cracked && !state_.joints.share.empty() && every(fade_every, time)) fading_.fade(joints_.cracked(), interval(fade_every, time));
   if (debris && every(activate_every, time) && (cracked || contacts_.active() || time.step == 0)) contacts_.activate_loose_blocks();
   has_contacts_ = contacts_.active();

@@ -6,6 +6,7 @@
 //   Int p x dA = 1/(2 g.g) (sum (g.n) Int x p+^2 ds - g Int p^2 dA),
 // which is well conditioned where the joint is partly open: p then changes sign inside, so its gradient is not small.
 #pragma once
+#include "engine/joints/cracked/strips.h"
 #include "engine/joints/elastic_kernel.h"
 #include "engine/joints/kernels.h"
 #include "engine/joints/relative_pose.h"
@@ -29,7 +30,7 @@ struct Cracking {
 ERBS_INLINE Pack gap_of(const PointPack& p, const Pack* gap) { return gap[2] + gap[3] * load(p.t) - gap[4] * load(p.s); }
 
 struct EdgeSums {
-  Pack p, s, t, square;  // sums of (g.n) Int p+^2 / 2, x p+^2 / 2, p+^3 ds times 3, 3, 4; then Int p, p x, p^2 dA
+  Pack p, s, t, square;  // sums of (g.n) Int p+^2, x p+^2, p+^3 ds times 6, 6, 4
 };
 
 // A corner: its position, p+, |p| and p+^2.
@@ -53,7 +54,7 @@ ERBS_INLINE void add_edge(const Corner& a, const Corner& b, Pack gs, Pack gt, Ed
 }
 
 // Integrals of p+, p = p_0 + gs s + gt t, over the loop; valid in the lanes `marked`, where p changes sign inside.
-static inline EdgeSums positive_part(const CornerPack* corner, int corners, Pack p_0, Pack gs, Pack gt, Mask marked) {
+static inline StripIntegrals positive_part(const CornerPack* corner, int corners, Pack p_0, Pack gs, Pack gt, Mask marked) {
   EdgeSums sum{};
   Corner last = corner_of(corner[corners - 1], p_0, gs, gt);
   for (int i = 0; i < corners; ++i) {
@@ -62,11 +63,8 @@ static inline EdgeSums positive_part(const CornerPack* corner, int corners, Pack
     last = next;
   }
   const Pack inverse = 1 / select(marked, nonzero(gs * gs + gt * gt), Pack(1)), twelfth = (1.0 / 12) * inverse, half = 0.5 * inverse;
-  sum.square *= twelfth;
-  sum.p *= twelfth;
-  sum.s = twelfth * sum.s - half * sum.square * gs;
-  sum.t = twelfth * sum.t - half * sum.square * gt;
-  return sum;
+  const Pack square = twelfth * sum.square;
+  return {twelfth * sum.p, twelfth * sum.s - half * square * gs, twelfth * sum.t - half * square * gt, square};
 }
 
 struct Compression {
@@ -84,7 +82,8 @@ ERBS_INLINE Compression compression(double kn, Pack share, const CrackedShape& s
   Pack ms = select(closed, load(face.bend_t) * gap[4] - twist * gap[3], Pack(0));
   Pack energy = 0.5 * (ms * gap[4] - force * gap[2] - mt * gap[3]);
   if (any(partly)) {
-    const EdgeSums sum = positive_part(shape.overlap_corner, shape.corners, -gap[2], gap[4], -gap[3], partly);
+    const StripIntegrals sum = shape.rectangles ? positive_part_of_rectangle(face, -gap[2], gap[4], -gap[3], partly)
+                                                : positive_part(shape.overlap_corner, shape.corners, -gap[2], gap[4], -gap[3], partly);
     force = select(partly, kn * sum.p, force);
     ms = select(partly, kn * sum.s, ms);
     mt = select(partly, kn * sum.t, mt);

@@ -39,6 +39,7 @@ void Cracked::Group::update_debonded(const PointLaw& of) {
 }
 
 Cracked::Cracked(const Model& model, State& state) : model_(model), state_(state) {
+  for (const auto& type : model.joint_types) grid_[type.get()] = grid_of(*type);
   const int intact = intact_packs(model);
   // Groups of a stopped run: each joint returns to its lane, so that sums continue in the same order.
   for (int k = 0; k < int(state.joints.pack.size()); ++k) {
@@ -86,6 +87,7 @@ void Cracked::clear(Group& group, int l) {
   MeanSlipPack& mean_slip = lane.mean_slip;
   for (auto* x : {mean_slip.s, mean_slip.t, mean_slip.rotation, mean_slip.apart, mean_slip.stored, mean_slip.outdated}) x[l] = 0;
   for (BondPack& p : group.bond) p.secant[l] = p.kappa[l] = 0, p.damage[l] = 1;  // no bond
+  lane.tension_outdated = 1;
   group.update_debonded(model_.laws[z(group.law)]);
 }
 
@@ -106,6 +108,7 @@ void Cracked::fill(Group& group, int l, int j) {
   lane.least_damage[l] = may_release(joint, law, memory) ? 1 : 0;
   for (int i = 0; i < group.own_numbers; ++i) lane.own(group.points)[i][l] = memory.own[i];
   lane.mean_slip.outdated[l] = 1;
+  lane.tension_outdated = 1;
   if (model_.dashpots_cracked)
     for (int i = 0; i < 6; ++i) lane.drag[i][l] = state_.joints.viscous[6 * z(j) + z(i)];
   for (int i = 0; i < joint.type->points; ++i) {
@@ -128,7 +131,7 @@ void Cracked::set_share(CrackedPack& lane, int l, int j) const {
 }
 
 void Cracked::set_share(int j) {
-  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
+  const int at = lane_of(j);
   if (at >= 0) set_share(memory_of(group_[z(at / pack_size)]), at % pack_size, j);
 }
 
@@ -157,15 +160,20 @@ bool Cracked::fits(const Group& group, const Joint& joint) const {
     return false;
   if (group.type == joint.type) return true;
   if (group.shapes->tension_loop.empty() == joint.type->inset) return false;
+  const CellGrid& grid = grid_.at(joint.type);
+  if (group.shapes->rectangles != grid.rectangle || group.shapes->line.size() != z(grid.lines > 0 ? grid.lines + 1 : 0)) return false;
   for (int i = 0; i < joint.type->points; ++i)
     if (group.shapes->first[z(i + 1)] - group.shapes->first[z(i)] != model_.cell[z(joint.type->first_cell + i)].corners) return false;
   return true;
 }
 
-int Cracked::find_lane(const Joint& joint) {
+int Cracked::lane_of(int j) const { return state_.joints.slot[z(j)] - intact_packs(model_) * pack_size; }
+
+int Cracked::find_lane(const Joint& joint, bool debonded) {
   int other = -1;
   for (int g = 0; g < groups(); ++g) {
     const Group& group = group_[z(g)];
+    if (!group.empty() && group.debonded != debonded) continue;
     const int* free = std::find(group.joint, group.joint + pack_size, -1);
     if (free == group.joint + pack_size || (other >= 0 && (group.empty() || group.type != joint.type)) || !fits(group, joint)) continue;
     other = g * pack_size + int(free - group.joint);
@@ -180,7 +188,14 @@ int Cracked::find_lane(const Joint& joint) {
 
 void Cracked::put(int j) {
   const Joint& joint = model_.joint[z(j)];
-  const int at = find_lane(joint);
+  const auto first = state_.joints.history.begin() + joint.first_point;
+  const bool debonded = !model_.laws[z(joint.type->law)].has_bond() ||
+                        std::all_of(first, first + joint.type->points, [](const PointHistory& h) { return h.damage >= 1; });
+  put(j, find_lane(joint, debonded));
+}
+
+void Cracked::put(int j, int at) {
+  const Joint& joint = model_.joint[z(j)];
   Group& group = group_[z(at / pack_size)];
   if (group.empty()) set_empty(group, joint);
   fill(group, at % pack_size, j);
@@ -190,7 +205,7 @@ void Cracked::put(int j) {
 
 void Cracked::set_ends(int j) {
   const Joint& joint = model_.joint[z(j)];
-  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
+  const int at = lane_of(j);
   JointPack& pack = state_.joints.pack[z(at / pack_size)];
   set_constants(model_, j, pack, at % pack_size);
   for (int i = 0; i < 3; ++i) pack.arm_a[i][at % pack_size] = joint.arm_a[i], pack.arm_b[i][at % pack_size] = joint.arm_b[i];
@@ -235,16 +250,18 @@ void Cracked::find_type(Group& group) {
   group.shapes = shared_shapes(*type);
 }
 
+void Cracked::vacate(int at) {
+  Group& group = group_[z(at / pack_size)];
+  group.used &= ~(1U << at % pack_size);
+  clear(group, at % pack_size);
+  find_type(group);
+  clear_lane(model_, state_.joints.pack[z(at / pack_size)], at % pack_size);
+  copy_ends(group, at % pack_size);
+}
+
 void Cracked::drop(int j) {
-  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
-  if (at >= 0) {
-    Group& group = group_[z(at / pack_size)];
-    group.used &= ~(1U << at % pack_size);
-    clear(group, at % pack_size);
-    find_type(group);
-    clear_lane(model_, state_.joints.pack[z(at / pack_size)], at % pack_size);
-    copy_ends(group, at % pack_size);
-  }
+  const int at = lane_of(j);
+  if (at >= 0) vacate(at);
   state_.joints.slot[z(j)] = -1;
   state_.joints.memory[z(j)] = JointMemory{};
   if (model_.dashpots_cracked) std::fill_n(&state_.joints.viscous[6 * z(j)], 6, 0.0);
@@ -280,7 +297,10 @@ void Cracked::forces(int first, int last, bool sample, double budget, JointSums&
                              group.crushed,
                              group.face_corner,
                              budget,
-                             law.interlock ? interlock : Interlock{}};
+                             law.interlock ? interlock : Interlock{},
+                             shapes.rectangles,
+                             std::max(0, int(shapes.line.size()) - 1),
+                             shapes.line.data()};
     if (group.debonded) {
       group.maybe_out_of_range = kernels.friction[law.type](law, shape, lane, poses, wrench_rows, done);
     } else {
@@ -311,7 +331,7 @@ void Cracked::store() {
 }
 
 void Cracked::store(int j) {
-  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
+  const int at = lane_of(j);
   if (at >= 0) store(group_[z(at / pack_size)], at % pack_size, true);
 }
 
@@ -334,7 +354,7 @@ void Cracked::store(const Group& group, int l, bool damage_changed) {
 }
 
 bool Cracked::debonded(int j) const {
-  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
+  const int at = lane_of(j);
   return at >= 0 && memory_of(group_[z(at / pack_size)]).least_damage[at % pack_size] >= 1;
 }
 
@@ -344,7 +364,7 @@ bool Cracked::none_ready_for_contact() const {
 }
 
 bool Cracked::ready_for_contact(int j) const {
-  const int at = state_.joints.slot[z(j)] - intact_packs(model_) * pack_size;
+  const int at = lane_of(j);
   if (at < 0)
     return !owner_computes(model_) &&
            joint_ready_for_contact(model_, state_, j);  // a joint that cracked in this step enters a group after it

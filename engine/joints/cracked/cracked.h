@@ -19,6 +19,9 @@ class Cracked {
   int groups() const { return int(group_.size()); }
   void take(int j);  // adds a joint that has cracked
   void drop(int j);  // removes a joint released to contact
+  // Between two steps: fills the lanes that joints have left, and parts joints without a bond from those with one. Fewer and purer packs
+  // cost less; the force of a joint does not depend on its lane.
+  void regroup();
   // Pose rows of eight doubles (displacement, attitude) of the blocks with cracked joints, as the drift leaves them.
   double* poses() { return pose_.empty() ? nullptr : pose_.data(); }
   void copy_pose(int b);
@@ -43,6 +46,14 @@ class Cracked {
     std::vector<CellPack> cell;
     std::vector<int> first;                           // first corner of each loop [points + 1]
     std::vector<CornerPack> cell_loop, tension_loop;  // of the cells; `tension_loop` is empty if equal to `cell_loop`
+    bool rectangles = false;
+    std::vector<CornerPack> line;  // of the grid of cells; empty without
+  };
+  // Shape of the overlap and the cells of a type. Packs mix types only if they agree in `rectangle` and `lines`.
+  struct CellGrid {
+    bool rectangle = false;  // overlap along s and t, about the centre
+    int lines = 0;           // cells between so many lines and one more, along s and t; 0: no such grid
+    double s[most_cells_in_line + 1] = {}, t[most_cells_in_line + 1] = {};  // m, of the lines
   };
   struct alignas(64) Group {
     int law, points, corners;
@@ -69,7 +80,8 @@ class Cracked {
   CrackedPack& memory_of(const Group& group) { return *reinterpret_cast<CrackedPack*>(&memory_[group.at]); }
   const CrackedPack& memory_of(const Group& group) const { return *reinterpret_cast<const CrackedPack*>(&memory_[group.at]); }
   bool fits(const Group& group, const Joint& joint) const;  // equal law and numbers, and compressed alike
-  int find_lane(const Joint& joint);                        // group * lanes + lane; adds a group if necessary
+  int find_lane(const Joint& joint, bool debonded);         // group * lanes + lane; adds a group if necessary
+  int lane_of(int j) const;                                 // the same of joint j; negative: in none
   void fill(Group& group, int l, int j);
   void clear(Group& group, int l);
   void store(const Group& group, int l, bool damage_changed);
@@ -77,8 +89,13 @@ class Cracked {
   void set_shape(Shapes& shapes, int l, const JointType& type) const;
   std::shared_ptr<Shapes> shared_shapes(const JointType& type);  // for a pack of this type alone
   void add_shape(Group& group, int l, const JointType& type);
+  CellGrid grid_of(const JointType& type) const;
   void find_type(Group& group);
   void put(int j);                            // finds a lane and fills it
+  void put(int j, int at);                    // fills lane `at`, numbered as in `find_lane()`
+  void vacate(int at);                        // empties it
+  void move(int j, int to);                   // to another lane
+  int fuller_lane(int j, int from) const;     // a free lane before group `from` that suits joint j; -1: none
   void set_ends(int j);                       // blocks, rows and arms of its lane
   void copy_ends(const Group& group, int l);  // from its pack in `JointState::pack`
   void take_all(std::vector<int>& joints);    // sorted by type
@@ -91,6 +108,7 @@ class Cracked {
   std::vector<Group> group_;
   std::vector<Line> memory_;  // of all groups: `CrackedPack`, the slips of their points, the numbers of their law
   Rows pose_;
+  std::map<const JointType*, CellGrid> grid_;
   std::map<const JointType*, std::shared_ptr<Shapes>> of_type_;
 };
 

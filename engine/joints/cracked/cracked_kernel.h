@@ -38,7 +38,7 @@ static inline Pull pull_of(const CrackedShape& shape, int i, const Pack* gap, Sp
            select(whole, gap[2] * s + gap[3] * st - gap[4] * load(cell.ss), Pack(0)),
            select(whole, gap[2] * t + gap[3] * load(cell.tt) - gap[4] * st, Pack(0))};
   if (!any(partly_open)) return out;
-  const EdgeSums sum =
+  const StripIntegrals sum =
       positive_part(shape.cell_loop + shape.first[i], shape.first[i + 1] - shape.first[i], gap[2], -gap[4], gap[3], partly_open);
   return {select(partly_open, sum.p, out.n), select(partly_open, sum.s, out.s), select(partly_open, sum.t, out.t)};
 }
@@ -79,17 +79,21 @@ ERBS_INLINE void add_drag(const PointSample& x, Pack k, Mask sticking, InPlane<P
   c.drag[5] += drag.t * x.s - drag.s * x.t;
 }
 
-// Tension of the cell of a point that `holds`, from its stiffness before and after this step's damage (Pa/m). Half the loss of stiffness
-// times Int g0 g1 over the open part of the cell is fracture energy, as the mean over the open parts before and after.
+// Fracture energy of a cell whose stiffness falls in this step (Pa/m): half the loss times Int g0 g1 over the open part of the cell, as the
+// mean over the open parts before and after.
+ERBS_INLINE void book_fracture(const CrackedShape& shape, int i, const Pull& pull, Mask holds, Mask damage_changed, Pack before, Pack after,
+                               Cracking& c) {
+  const Pack both = work_of(pull, c.gap_before) + work_of(pull_of(shape, i, c.gap_before, holds), c.gap);
+  c.fracture += select(damage_changed, 0.25 * (before - after) * max(both, 0), Pack(0));
+}
+
+// Tension of the cell of a point that `holds`, from its stiffness before and after this step's damage (Pa/m).
 template <bool damped>
 ERBS_INLINE void add_tension(const CrackedShape& shape, int i, Span span, Mask holds, Mask still_holds, Pack before, Pack after,
                              Cracking& c) {
   const Pull pull = pull_of(shape, i, c.gap, span, holds);
   const Mask damage_changed = holds & (before != after);
-  if (any(damage_changed)) {
-    const Pack both = work_of(pull, c.gap_before) + work_of(pull_of(shape, i, c.gap_before, holds), c.gap);
-    c.fracture += select(damage_changed, 0.25 * (before - after) * max(both, 0), Pack(0));
-  }
+  if (any(damage_changed)) book_fracture(shape, i, pull, holds, damage_changed, before, after, c);
   const Pack k = select(holds, after, Pack(0));
   c.resultant[2] += k * pull.n;
   c.resultant[3] += k * pull.t;
@@ -103,10 +107,72 @@ ERBS_INLINE void add_tension(const CrackedShape& shape, int i, Span span, Mask h
   c.drag[4] -= left * (pull.s - then.s);
 }
 
+// Tension of all cells of a face whose cells form a grid. A joint that is open all over has a linear tension.
+struct GridTension {
+  Pack k[most_cells_in_line * most_cells_in_line];              // Pa/m, of each point; 0 without a bond
+  Pack most_s[most_cells_in_line], most_t[most_cells_in_line];  // m, greatest parts of the gap by rotation in each strip
+  Pack least_s[most_cells_in_line], least_t[most_cells_in_line];
+  bool damage_changed = false;
+
+  ERBS_INLINE Span span(const CrackedShape& shape, int i, const Pack* gap) const {
+    const int a = i % shape.lines, b = i / shape.lines;
+    return {(gap[2] + least_t[b]) - most_s[a], (gap[2] + most_t[b]) - least_s[a]};
+  }
+};
+
+ERBS_INLINE void set_spans(const CrackedShape& shape, const Pack* gap, GridTension& grid) {
+  Pack s = gap[4] * load(shape.line[0].s), t = gap[3] * load(shape.line[0].t);
+  for (int i = 0; i < shape.lines; ++i) {
+    const Pack next_s = gap[4] * load(shape.line[i + 1].s), next_t = gap[3] * load(shape.line[i + 1].t);
+    grid.least_s[i] = min(s, next_s), grid.most_s[i] = max(s, next_s);
+    grid.least_t[i] = min(t, next_t), grid.most_t[i] = max(t, next_t);
+    s = next_s, t = next_t;
+  }
+}
+
+static inline void update_tension(const CrackedShape& shape, const Pack* k, TensionPack& out) {
+  Pack sum{}, s{}, t{}, ss{}, st{}, tt{};
+  for (int i = 0; i < shape.points; ++i) {
+    const CellPack& cell = shape.cell[i];
+    sum += k[i] * load(shape.point[i].weight);
+    s += k[i] * load(cell.s), t += k[i] * load(cell.t);
+    ss += k[i] * load(cell.ss), st += k[i] * load(cell.st), tt += k[i] * load(cell.tt);
+  }
+  store(out.k, sum), store(out.s, s), store(out.t, t), store(out.ss, ss), store(out.st, st), store(out.tt, tt);
+}
+
+ERBS_INLINE void add_grid_tension(const CrackedShape& shape, const GridTension& grid, CrackedPack& lane, Cracking& c) {
+  const Pack* gap = c.gap;
+  const Pack reach = abs(gap[3]) * load(shape.face->half_t) + abs(gap[4]) * load(shape.face->half_s);
+  const Mask open = gap[2] - reach >= 0, closed = gap[2] + reach < 0, partly = !(open | closed);
+  StripIntegrals sum{};
+  Pack twice_stored{};
+  if (grid.damage_changed || lane.tension_outdated != 0) update_tension(shape, grid.k, lane.tension), lane.tension_outdated = 0;
+  if (any(open)) {
+    const TensionPack& k = lane.tension;
+    const Pack s = load(k.s), t = load(k.t), st = load(k.st);
+    sum.p = select(open, gap[2] * load(k.k) + gap[3] * t - gap[4] * s, Pack(0));
+    sum.s = select(open, gap[2] * s + gap[3] * st - gap[4] * load(k.ss), Pack(0));
+    sum.t = select(open, gap[2] * t + gap[3] * load(k.tt) - gap[4] * st, Pack(0));
+    twice_stored = sum.p * gap[2] + sum.t * gap[3] - sum.s * gap[4];
+  }
+  if (any(partly)) {
+    const StripIntegrals cells = shape.lines == 3 ? positive_part_of_cells<3>(shape, grid.k, gap[2], -gap[4], gap[3], partly)
+                                                  : positive_part_of_cells<0>(shape, grid.k, gap[2], -gap[4], gap[3], partly);
+    sum = {select(partly, cells.p, sum.p), select(partly, cells.s, sum.s), select(partly, cells.t, sum.t), Pack(0)};
+    twice_stored = select(partly, cells.square, twice_stored);
+  }
+  c.resultant[2] += sum.p;
+  c.resultant[3] += sum.t;
+  c.resultant[4] -= sum.s;
+  c.stored += 0.5 * twice_stored;
+}
+
 // One point under the pressure `stress` (Pa): its bond, its friction, its tension. Returns its damage.
-template <bool damped>
+// `in_grid`: its tension is added later, with that of all cells of the grid.
+template <bool damped, bool in_grid>
 ERBS_INLINE Pack point_response(const PointLaw& law, const CrackedShape& shape, SlipPack& p, BondPack& bonded, int i, Pack stress,
-                                Mask slow, Cracking& c) {
+                                Mask slow, GridTension& grid, Cracking& c) {
   const PointSample x{load(shape.point[i].s), load(shape.point[i].t), load(shape.point[i].weight), gap_of(shape.point[i], c.gap)};
   const Pack pressure = x.weight * interlocked_stress(shape, p, x.n, stress, slow);
   Bond<Pack> b{load(bonded.damage), load(bonded.secant), load(bonded.kappa)};
@@ -116,7 +182,7 @@ ERBS_INLINE Pack point_response(const PointLaw& law, const CrackedShape& shape, 
   Pack sigma{}, strength{};
   Span span{};
   if (bonds) {
-    span = span_of(shape.cell_loop, shape.first[i], shape.first[i + 1], c.gap);
+    span = in_grid ? grid.span(shape, i, c.gap) : span_of(shape.cell_loop, shape.first[i], shape.first[i + 1], c.gap);
     const Span tension_span =
         shape.tension_loop == shape.cell_loop ? span : span_of(shape.tension_loop, shape.first[i], shape.first[i + 1], c.gap);
     sigma = damage_by_opening(law, b, holds, max(tension_span.most, x.n), x.n);
@@ -134,15 +200,20 @@ ERBS_INLINE Pack point_response(const PointLaw& law, const CrackedShape& shape, 
   c.resultant[5] += tt * x.s - ts * x.t;
   c.stored += 0.5 * (ts * gs + tt * gt);
   if (damped) add_drag(x, k, ((x.n < 0) | (b.damage < 1)) & !slides, InPlane<Pack>{ts, tt}, cap, c);
+  if (in_grid) grid.k[i] = select(holds, b.stiffness(law), Pack(0));
   if (!bonds) return b.damage;
-  add_tension<damped>(shape, i, span, holds, b.damage < 1, before, b.stiffness(law), c);
+  if (!in_grid) add_tension<damped>(shape, i, span, holds, b.damage < 1, before, b.stiffness(law), c);
+  else if (const Mask damage_changed = holds & (before != b.stiffness(law)); any(damage_changed)) {
+    book_fracture(shape, i, pull_of(shape, i, c.gap, span, damage_changed), damage_changed, damage_changed, before, b.stiffness(law), c);
+    grid.damage_changed = true;
+  } else if (!any(b.damage != load(bonded.damage))) return b.damage;
   store(bonded.damage, b.damage);
   store(bonded.secant, b.secant);
   store(bonded.kappa, b.kappa);
   return b.damage;
 }
 
-template <class Face, bool damped>
+template <class Face, bool damped, bool in_grid>
 static bool respond_pack(const PointLaw& law, const CrackedShape& shape, BondPack* bond, CrackedPack& lane, const double* poses,
                          double* wrench_rows, CrackedSums& sums) {
   Pack depth[most_points_per_joint];
@@ -157,10 +228,14 @@ static bool respond_pack(const PointLaw& law, const CrackedShape& shape, BondPac
   const Pack scale = pressed ? compress<Face, damped>(law, shape, c, closed, then, depth) : Pack(0);
   const Mask slow = slides_slowly(shape, c);
   Pack least = Pack(1);
+  GridTension grid;
+  if (in_grid) set_spans(shape, c.gap, grid);
   for (int i = 0; i < shape.points; ++i) {
-    const Pack damage = point_response<damped>(law, shape, lane.slip()[i], bond[i], i, pressed ? scale * depth[i] : Pack(0), slow, c);
+    const Pack stress = pressed ? scale * depth[i] : Pack(0);
+    const Pack damage = point_response<damped, in_grid>(law, shape, lane.slip()[i], bond[i], i, stress, slow, grid, c);
     least = min(damage, least);
   }
+  if (in_grid) add_grid_tension(shape, grid, lane, c);
   store(lane.least_damage, least);
   finish_step<Face, damped>(law, shape, c, lane, sums);
   write_joint_wrenches(lane, now, c.resultant, wrench_rows);
@@ -170,7 +245,10 @@ static bool respond_pack(const PointLaw& law, const CrackedShape& shape, BondPac
 template <class Face>
 static bool respond(const PointLaw& law, const CrackedShape& shape, BondPack* bond, CrackedPack& lane, const double* poses,
                     double* wrench_rows, CrackedSums& sums) {
-  return (shape.per_step > 0 ? respond_pack<Face, true> : respond_pack<Face, false>)(law, shape, bond, lane, poses, wrench_rows, sums);
+  const auto pack = shape.per_step > 0 ? respond_pack<Face, true, false>
+                    : shape.lines > 0  ? respond_pack<Face, false, true>
+                                       : respond_pack<Face, false, false>;
+  return pack(law, shape, bond, lane, poses, wrench_rows, sums);
 }
 
 }  // namespace erbs::ERBS_TARGET
