@@ -19,7 +19,7 @@ case { b = 2, h = 10, kn = 1e11, mu = 0.7 }
 case { b = 0.2, h = 1, kn = 1e11, mu = 0.7, direction = { 0.6, 0.8, 0 } }
 case { b = 0.2, h = 1, kn = 1e11, mu = 0.7, direction = "-x" }
 case { b = 0.2, h = 1, kn = 1e11, mu = 0.7, relaxation = "local" }
-case { b = 0.2, h = 1, kn = 1e11, mu = 0.7, relaxation = "kinetic" }
+case { b = 0.2, h = 1, kn = 1e11, mu = 0.7, relaxation = "adaptive" }
 case { b = 0.2, h = 1, kn = 1e11, mu = 0.7, inertia = "true" }
 case { b = 0.2, h = 1, kn = 1e11, mu = 0.7, kind = "tilt" }
 case { b = 0.2, h = 1, kn = 1e12, mu = 0.15, kind = "tilt" }

@@ -200,6 +200,7 @@ bool PushRun::record(const Solver& solver, const Relaxed& now) {
   const Snapshot state = snapshot(solver);
   curve_->row({p.multiplier, p.displacement, p.most, p.base_shear, p.base_shear_over_weight, double(p.opening), double(p.slid),
                p.unbalanced, p.steps});
+  curve_->flush();
   writer_->row(state);
   writer_->frame(state);
   run_.state.observed.joints_broken = state.joints_broken;

@@ -33,7 +33,7 @@ class Damper {
   Damper(const std::string& name, double period, Model& model) : model_(model), most_(4 * pi / period), kinetic_(name == "kinetic") {
     adaptive_ = name == "adaptive";
     model.damping_all = true, model.damping_explicit = false;
-    model.damping.mass = adaptive_ ? 0.7 * most_ : 0;
+    model.damping.mass = adaptive_ ? 0.3 * most_ : 0;
     model.local_damping = name == "local" ? local_share : 0;
   }
 
