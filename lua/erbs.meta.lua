@@ -472,7 +472,7 @@ function damping(keys) end
 ---@field control? "load"|"displacement" pushover: steps of the multiplier, or of the displacement of the monitored point, past the peak [default load]
 ---@field displacement? number control by displacement: where the push ends [m; 0 to 1e+06; default 0]
 ---@field displacement_step? number control by displacement: step (0: a fiftieth of displacement) [m; 0 to 1e+06; default 0]
----@field relaxation? "adaptive"|"local"|"kinetic" tilt, pushover: damping on the way to equilibrium [default adaptive]
+---@field relaxation? "kinetic"|"adaptive"|"local" tilt, pushover: damping on the way to equilibrium [default kinetic]
 ---@field inertia? "scaled"|"true" tilt, pushover: masses on the way to equilibrium, scaled to one time step or true [default scaled]
 ---@field unbalanced? number tilt, pushover: mean unbalanced force over mean applied force in equilibrium [1e-09 to 0.01; default 1e-05]
 ---@field direction? "x"|"y"|"z"|erbs.vec3 tilt: side that goes down; pushover: direction of the acceleration on the masses [-1e+09 to 1e+09; default "x"]
