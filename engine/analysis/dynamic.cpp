@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -15,7 +14,6 @@
 #include "engine/analysis/resume.h"
 #include "engine/analysis/snapshot.h"
 #include "engine/analysis/verdict.h"
-#include "engine/base/hash.h"
 #include "engine/record/folder/checkpoint.h"
 #include "engine/record/results/course.h"
 #include "engine/scene/effects.h"
@@ -93,12 +91,10 @@ Run::Run(Scene scene, const std::string& script, const RunOptions& options)
     : scene_(std::move(scene)), effects_(effects_of(scene_)), script_(script), options_(options) {}
 
 void Run::begin() {
-  check_run_folder(options_.directory, options_.existing);
-  if (std::filesystem::is_directory(options_.directory)) out_.lock = std::make_shared<FolderLock>(options_.directory);
-  if (options_.existing == Existing::resume) check_overrides(options_.directory, options_.override_arguments);
+  out_.lock = reserve_folder(options_.directory, options_.existing, options_.override_arguments);
   run_ = prepare(scene_, options_.allow_unstable);
   dt_at_start_ = run_.state.time.dt;
-  key_ = {scene_hash(scene_, script_), dt_at_start_, fnv1a(fmt::format("{}", fmt::join(options_.override_arguments, "\n")))};
+  key_ = checkpoint_key(scene_, script_, dt_at_start_, options_.override_arguments);
   const bool resume = options_.existing == Existing::resume;
   WriterProgress written;
   if (resume) {

@@ -1,6 +1,8 @@
 #include "engine/analysis/resume.h"
 
-#include "engine/record/folder/run_folder.h"
+#include <filesystem>
+
+#include "engine/base/hash.h"
 
 namespace erbs::analysis {
 
@@ -15,6 +17,19 @@ void check_overrides(const std::string& directory, const std::vector<std::string
       fmt::format("the run in \"{}\" was started with other options: {}; now they are: {}. Resume with those of the run, or start anew "
                   "with --force",
                   directory, words(before), words(override_arguments)));
+}
+
+std::shared_ptr<const FolderLock> reserve_folder(const std::string& directory, Existing existing,
+                                                 const std::vector<std::string>& override_arguments) {
+  check_run_folder(directory, existing);
+  std::shared_ptr<const FolderLock> lock;
+  if (std::filesystem::is_directory(directory)) lock = std::make_shared<FolderLock>(directory);
+  if (existing == Existing::resume) check_overrides(directory, override_arguments);
+  return lock;
+}
+
+CheckpointKey checkpoint_key(const Scene& scene, const std::string& script, double dt, const std::vector<std::string>& override_arguments) {
+  return {scene_hash(scene, script), dt, fnv1a(fmt::format("{}", fmt::join(override_arguments, "\n")))};
 }
 
 std::vector<std::size_t> sizes_of(const State& s) {

@@ -6,7 +6,7 @@
 
 #include "engine/analysis/flat_bed.h"
 #include "engine/analysis/prepare.h"
-#include "engine/analysis/quasi_static/push_run.h"
+#include "engine/analysis/quasi_static/relaxation.h"
 #include "engine/base/text.h"
 #include "engine/record/recorders/recorder.h"
 #include "engine/scene/effects.h"

@@ -3,17 +3,14 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <filesystem>
 
+#include "engine/analysis/quasi_static/push_curve.h"
 #include "engine/analysis/quasi_static/push_path.h"
 #include "engine/analysis/quasi_static/relaxation.h"
 #include "engine/analysis/resume.h"
 #include "engine/analysis/snapshot.h"
-#include "engine/base/hash.h"
-#include "engine/base/units.h"
 #include "engine/record/folder/checkpoint.h"
 #include "engine/record/folder/run_writer.h"
-#include "engine/record/recorders/joint_condition.h"
 #include "engine/record/results/collapse.h"
 #include "engine/record/results/mechanism_name.h"
 #include "engine/scene/effects.h"
@@ -22,7 +19,6 @@ namespace erbs::analysis {
 namespace {
 
 constexpr double fall_duration = 4;        // s, of the fall that is drawn
-constexpr double joint_moved = 1e-4;       // of a joint's size: opened or slid
 constexpr double ledger_tolerance = 1e-2;  // relative, of the energy ledger of all relaxations
 constexpr double beyond = 1.02;            // the fall: the load over the least one without equilibrium
 constexpr int frames_of_last_step = 10;    // on the way to collapse
@@ -59,20 +55,6 @@ void each(P& p, F&& f) {
   f("push_curve_sum", p.curve_sum);
 }
 
-std::vector<std::string> curve_columns(const PushSettings& push) {
-  return {push.tilts()           ? "multiplier_tan"
-          : push.pattern.empty() ? "multiplier_g"
-                                 : "multiplier",
-          "displacement_m",
-          "largest_displacement_m",
-          "base_shear_N",
-          "base_shear_over_weight",
-          "joints_opened",
-          "joints_slid",
-          "unbalanced_relative",
-          "relaxation_steps"};
-}
-
 class PushRun {
  public:
   PushRun(Scene scene, const std::string& script, const RunOptions& options)
@@ -87,11 +69,11 @@ class PushRun {
   void fall();
   Relaxed attempt(const LoadCourse& course);
   bool record(const Solver& solver, const Relaxed& now);
-  CurvePoint point_of(const Solver& solver, const Relaxed& now) const;
   Snapshot snapshot(const Solver& solver) const;
   bool interrupted();
   void save(const WriterProgress& written);
-  double shown(double multiplier) const { return push_.tilts() ? std::tan(multiplier) : multiplier; }
+  void save_when_due();
+  double shown(double multiplier) const { return shown_multiplier(push_, multiplier); }
   Metrics metrics();
 
   Scene scene_;
@@ -112,19 +94,16 @@ class PushRun {
   bool gravity_alone_ = false;
   bool passed_peak_ = false;  // control by displacement: this step goes too far past the peak
   NamedMechanism mechanism_;
-  double weight_ = 0;  // N, of the moving blocks
   RunOutcome out_;
 };
 
 void PushRun::begin() {
-  check_run_folder(options_.directory, options_.existing);
-  if (std::filesystem::is_directory(options_.directory)) out_.lock = std::make_shared<FolderLock>(options_.directory);
+  out_.lock = reserve_folder(options_.directory, options_.existing, options_.override_arguments);
   const bool resume = options_.existing == Existing::resume;
-  if (resume) check_overrides(options_.directory, options_.override_arguments);
   run_ = prepare(scene_, options_.allow_unstable);
   refuse_floating(run_, push_.place);
   const double dt = run_.state.time.dt;
-  key_ = {scene_hash(scene_, script_), run_.state.time.dt, fnv1a(fmt::format("{}", fmt::join(options_.override_arguments, "\n")))};
+  key_ = checkpoint_key(scene_, script_, dt, options_.override_arguments);
   so_far_.path = LoadPath(push_);
   so_far_.machine = MachinePath(push_, height_of(run_.model));
   const BlockVec3 built = run_.state.pose.u;
@@ -156,8 +135,6 @@ void PushRun::begin() {
   for (const std::string& note : resume ? std::vector<std::string>{} : options_.notes) writer_->log(note);
   for (const std::string& w : run_.warnings) writer_->log("warning: " + w);
   out_.warnings = run_.warnings;
-  for (int b = 0; b < run_.model.nblock; ++b)
-    if (run_.model.kind[z(b)] == Kind::moving) weight_ += run_.model.mass[z(b)] * run_.model.gravity.norm();
   setup_ = seconds() - born_;
   solve_start_ = last_save_ = seconds();
 }
@@ -169,44 +146,24 @@ Snapshot PushRun::snapshot(const Solver& solver) const {
   return now;
 }
 
-CurvePoint PushRun::point_of(const Solver& solver, const Relaxed& now) const {
-  CurvePoint p;
-  const Model& m = run_.model;
-  const BlockPoses& pose = solver.sample().pose;
-  p.multiplier = shown(relaxation_->loads().multiplier());
-  p.displacement = relaxation_->monitor().along(pose);
-  for (int b = 0; b < m.nblock; ++b)
-    if (m.kind[z(b)] == Kind::moving) p.most = std::max(p.most, pose.u[z(b)].dot(push_.direction));
-  p.base_shear = relaxation_->reaction(solver).dot(push_.direction);
-  p.base_shear_over_weight = weight_ > 0 ? p.base_shear / weight_ : 0;
-  for (int j = 0; j < m.njoint; ++j) {
-    if (run_.state.joints.stage[z(j)] == JointStage::intact) continue;
-    const JointCondition c = joint_condition(m, run_.state.joints, pose, j);
-    const double size = joint_moved * m.joint[z(j)].type->radius;
-    p.opening += c.opening > size, p.slid += c.slip > size && c.slip > c.opening;
-  }
-  p.unbalanced = now.unbalanced;
-  p.steps = double(now.steps);
-  return p;
-}
-
 // Writes a state in equilibrium.
 bool PushRun::record(const Solver& solver, const Relaxed& now) {
   if (now.ending != Ending::equilibrium) return !interrupted();
   const double began = seconds();
-  const CurvePoint p = point_of(solver, now);
+  CurvePoint p = curve_point(run_.model, run_.state, *relaxation_, solver, push_);
+  p.unbalanced = now.unbalanced, p.steps = double(now.steps);
   passed_peak_ = push_.control == "displacement" && so_far_.machine.passes_peak(p.displacement);
   if (passed_peak_) return true;
   const Snapshot state = snapshot(solver);
-  curve_->row({p.multiplier, p.displacement, p.most, p.base_shear, p.base_shear_over_weight, double(p.opening), double(p.slid),
-               p.unbalanced, p.steps});
+  curve_->row(curve_row(p));
   curve_->flush();
   writer_->row(state);
   writer_->frame(state);
   run_.state.observed.joints_broken = state.joints_broken;
   so_far_.t += scene_.analysis.frame_dt;
   so_far_.curve_rows = curve_->rows(), so_far_.curve_sum = curve_->sum();
-  if (so_far_.states == 0 || p.multiplier > so_far_.peak.multiplier) so_far_.peak = p;
+  // Steps of the load end at its bracket, or at the last load of the path.
+  if (push_.control == "load" || so_far_.states == 0 || p.multiplier > so_far_.peak.multiplier) so_far_.peak = p;
   ++so_far_.states;
   so_far_.worst_unbalanced = std::max(so_far_.worst_unbalanced, now.unbalanced);
   record_ += seconds() - began;
@@ -245,9 +202,12 @@ Relaxed PushRun::attempt(const LoadCourse& course) {
     if (r.ending == Ending::broken) out_.metrics.status = "diverged";
   }
   if (!r.found()) run_.state = std::move(before);
-  const double now = seconds();
-  if (r.found() && now - last_save_ > options_.checkpoint_every) save(writer_->progress());
   return r;
+}
+
+// Once the path has taken note of a state, so that a run killed later does not visit it again.
+void PushRun::save_when_due() {
+  if (seconds() - last_save_ > options_.checkpoint_every) save(writer_->progress());
 }
 
 void PushRun::save(const WriterProgress& written) {
@@ -275,6 +235,7 @@ void PushRun::push_on() {
                              : r.ending == Ending::collapse ? "collapse"
                                                             : "creeps",
                              r.steps, r.unbalanced));
+    save_when_due();
   }
 }
 
@@ -296,6 +257,7 @@ void PushRun::control_on() {
     }
     so_far_.multiplier = relaxation_->loads().multiplier();
     machine.found(relaxation_->monitor().along(run_.state.pose));
+    save_when_due();
   }
 }
 
@@ -401,19 +363,6 @@ RunOutcome PushRun::go() {
 }
 
 }  // namespace
-
-void refuse_floating(const Prepared& run, const Place& place) {
-  std::vector<std::string> names;
-  for (int b = 0; b < run.model.nblock; ++b)
-    if (run.model.kind[z(b)] == Kind::moving && !run.state.topology.grounded[z(b)]) names.push_back(run.model.block_name[z(b)]);
-  if (names.empty()) return;
-  const std::size_t shown = std::min<std::size_t>(names.size(), 5);
-  const std::vector<std::string> first(names.begin(), names.begin() + std::ptrdiff_t(shown));
-  throw Error(fmt::format("no joint leads from {}{} to a fixed block; a push needs one: add a joint rule, a support, or remove {}",
-                          fmt::join(first, ", "), names.size() > shown ? fmt::format(" and {} more", names.size() - shown) : "",
-                          names.size() > 1 ? "them" : "it"),
-              place);
-}
 
 RunOutcome run_push(Scene scene, const std::string& script, const RunOptions& options) {
   return PushRun(std::move(scene), script, options).go();

@@ -2,14 +2,10 @@
 // a time history, with curve.csv beside it.
 #pragma once
 #include "engine/analysis/dynamic.h"
-#include "engine/analysis/prepare.h"
 
 namespace erbs::analysis {
 
 // As run_dynamic(). Times in the run folder number the states: each state in equilibrium takes one `frame_dt`, and the fall its own time.
 RunOutcome run_push(Scene scene, const std::string& script, const RunOptions& options);
-
-// Error if no joint leads from a block to a fixed one: it has no equilibrium, and would hide that of the others.
-void refuse_floating(const Prepared& run, const Place& place);
 
 }  // namespace erbs::analysis

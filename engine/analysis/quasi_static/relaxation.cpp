@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "engine/analysis/quasi_static/scaled_inertia.h"
+#include "engine/base/error.h"
 #include "engine/base/units.h"
 
 namespace erbs::analysis {
@@ -86,6 +87,19 @@ double height_of(const Model& m) {
   return high > low ? high - low : 1;
 }
 
+void refuse_floating(const Prepared& run, const Place& place) {
+  std::vector<std::string> names;
+  for (int b = 0; b < run.model.nblock; ++b)
+    if (run.model.kind[z(b)] == Kind::moving && !run.state.topology.grounded[z(b)]) names.push_back(run.model.block_name[z(b)]);
+  if (names.empty()) return;
+  const std::size_t shown = std::min<std::size_t>(names.size(), 5);
+  const std::vector<std::string> first(names.begin(), names.begin() + std::ptrdiff_t(shown));
+  throw Error(fmt::format("no joint leads from {}{} to a fixed block; a push needs one: add a joint rule, a support, or remove {}",
+                          fmt::join(first, ", "), names.size() > shown ? fmt::format(" and {} more", names.size() - shown) : "",
+                          names.size() > 1 ? "them" : "it"),
+              place);
+}
+
 Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>& groups, const Prepared& run, int threads)
     : push_(push), run_(run), threads_(threads), model_(run.model), loads_(push, groups, model_), monitor_(push, run.model) {
   true_dt_ = dt_ = run.state.time.dt;
@@ -151,7 +165,7 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen) 
   Damper damper(push_.relaxation, period_, model_);
   Solver solver(model_, s, range_, threads_);
   const double check = period_ / checks;
-  double next_check = 0, fastest_before = 0;  // s; J, largest kinetic energy
+  double next_check = 0, fastest = 0;  // s; J, largest kinetic energy
   int balanced = 0;
   while (true) {
     const double t = s.time.t, done = t / period_;
@@ -169,9 +183,8 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen) 
     const auto [unbalanced, applied] = mean_forces(solver);
     out.unbalanced = applied > 0 ? unbalanced / applied : 0;
     balanced = done > 1 && out.unbalanced <= push_.unbalanced ? balanced + 1 : 0;
-    const double fastest = std::max(fastest_before, s.energy.kinetic);
-    const bool speeds_up = s.energy.kinetic >= fastest_before;
-    fastest_before = fastest;
+    const bool speeds_up = s.energy.kinetic >= fastest;
+    fastest = std::max(fastest, s.energy.kinetic);
     if (far(s, from, speeds_up ? gone : far_away, out) && !controlled) out.ending = Ending::collapse;
     else if (balanced >= balanced_checks) out.ending = Ending::equilibrium;
     else if (t > longest_) out.ending = Ending::creep;

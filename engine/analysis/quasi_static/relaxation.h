@@ -28,6 +28,8 @@ struct Relaxed {
   bool found() const { return ending == Ending::equilibrium; }
 };
 
+// Error if no joint leads from a block to a fixed one: it has no equilibrium, and would hide that of the others.
+void refuse_floating(const Prepared& run, const Place& place);
 double height_of(const Model& model);  // m, of the moving blocks, against gravity
 
 // The multiplier of the loads as a function of the share of the ramp done, 0 to 1, and of the displacement of the monitored point.

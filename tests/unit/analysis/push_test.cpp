@@ -2,6 +2,7 @@
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -37,14 +38,19 @@ struct PushOutcome {
   std::string curve;
 };
 
-PushOutcome push(const std::string& text, const std::string& dir, int threads = 1, Existing existing = Existing::refuse, int stop_at = -1) {
+PushOutcome push(const std::string& text, const std::string& dir, int threads = 1, Existing existing = Existing::refuse, int stop_at = -1,
+                 const std::string& copy_to = "") {
   Script script(quiet());
   Scene scene = script.load_text(text, "scene.lua", {});
   std::atomic<bool> interrupted{false};
   int calls = 0;
   RunOptions options;
   options.directory = dir, options.threads = threads, options.existing = existing, options.interrupted = &interrupted;
-  options.progress = [&](const Progress&) { interrupted = ++calls == stop_at; };
+  options.progress = [&](const Progress&) {
+    interrupted = ++calls == stop_at;
+    if (calls == 200 && !copy_to.empty()) std::filesystem::copy(dir, copy_to, std::filesystem::copy_options::recursive);
+  };
+  if (!copy_to.empty()) options.checkpoint_every = 0;
   const RunOutcome outcome = run_push(std::move(scene), text, options);
   return {outcome.metrics, slurp(dir + "/curve.csv")};
 }
@@ -82,6 +88,33 @@ TEST_CASE("an interrupted push that is resumed gives the same curve, to the bit"
     CHECK(got.curve == expected.curve);
     CHECK(got.metrics.capacity->peak.multiplier == expected.metrics.capacity->peak.multiplier);
     CHECK(slurp(parts.path + "/histories.csv") == slurp(whole.path + "/histories.csv"));
+  }
+}
+
+TEST_CASE("a push that is killed goes on from its last checkpoint, to the bit", "[push][resume]") {
+  for (const std::string kind : {"kind = 'pushover', step = .05, bracket = .05",
+                                 "kind = 'pushover', control = 'displacement', displacement = 20*mm, displacement_step = 2*mm"}) {
+    CAPTURE(kind);
+    const std::string text = wall_text + "analysis{ " + kind + ", direction = 'y' }";
+    const test::Scratch whole("push_alive"), parts("push_killed");
+    const PushOutcome expected = push(text, whole.path, 1, Existing::refuse, -1, parts.path);
+    const PushOutcome got = push(text, parts.path, 1, Existing::resume);
+    CHECK(got.metrics.state_hash == expected.metrics.state_hash);
+    CHECK(got.curve == expected.curve);
+  }
+}
+
+TEST_CASE("a structure that falls on the way of its path has its capacity there", "[push]") {
+  for (const std::string kind :
+       {"kind = 'pushover', path = { -1 }, step = .05", "kind = 'tilt', path = { 3*deg, -40*deg }, step = 3*deg"}) {
+    CAPTURE(kind);
+    const test::Scratch dir("push_back");
+    const Capacity got = *push(wall_text + "analysis{ " + kind + ", bracket = .02, direction = 'y' }", dir.path).metrics.capacity;
+    REQUIRE(got.above);
+    CHECK(got.peak.multiplier < -0.2);
+    CHECK(*got.above < got.peak.multiplier);
+    CHECK(*got.above > 1.025 * got.peak.multiplier);
+    CHECK(got.peak.base_shear < 0);
   }
 }
 

@@ -1,0 +1,58 @@
+#include "engine/analysis/quasi_static/push_curve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/record/recorders/joint_condition.h"
+
+namespace erbs::analysis {
+namespace {
+
+constexpr double joint_moved = 1e-4;  // of a joint's size: it has opened or slid
+
+std::size_t z(int i) { return std::size_t(i); }
+
+}  // namespace
+
+double shown_multiplier(const PushSettings& push, double multiplier) { return push.tilts() ? std::tan(multiplier) : multiplier; }
+
+CurvePoint curve_point(const Model& m, const State& s, const Relaxation& relaxation, const Solver& solver, const PushSettings& push) {
+  CurvePoint p;
+  const BlockPoses& pose = solver.sample().pose;
+  p.multiplier = shown_multiplier(push, relaxation.loads().multiplier());
+  p.displacement = relaxation.monitor().along(pose);
+  double weight = 0;  // N
+  for (int b = 0; b < m.nblock; ++b)
+    if (m.kind[z(b)] == Kind::moving)
+      p.most = std::max(p.most, pose.u[z(b)].dot(push.direction)), weight += m.mass[z(b)] * m.gravity.norm();
+  p.base_shear = relaxation.reaction(solver).dot(push.direction);
+  p.base_shear_over_weight = weight > 0 ? p.base_shear / weight : 0;
+  for (int j = 0; j < m.njoint; ++j) {
+    if (s.joints.stage[z(j)] == JointStage::intact) continue;
+    const JointCondition c = joint_condition(m, s.joints, pose, j);
+    const double size = joint_moved * m.joint[z(j)].type->radius;
+    p.opening += c.opening > size, p.slid += c.slip > size && c.slip > c.opening;
+  }
+  return p;
+}
+
+std::vector<std::string> curve_columns(const PushSettings& push) {
+  return {push.tilts()           ? "multiplier_tan"
+          : push.pattern.empty() ? "multiplier_g"
+                                 : "multiplier",
+          "displacement_m",
+          "largest_displacement_m",
+          "base_shear_N",
+          "base_shear_over_weight",
+          "joints_opened",
+          "joints_slid",
+          "unbalanced_relative",
+          "relaxation_steps"};
+}
+
+std::vector<double> curve_row(const CurvePoint& p) {
+  return {p.multiplier,      p.displacement, p.most,       p.base_shear, p.base_shear_over_weight,
+          double(p.opening), double(p.slid), p.unbalanced, p.steps};
+}
+
+}  // namespace erbs::analysis
