@@ -104,7 +104,7 @@ std::string capacity_text(const PushSettings& push, const Json& metrics) {
   if (!capacity) return "";
   if (capacity->value("gravity_alone", false)) return "does not stand under its own weight";
   const auto number = [&](const char* key) { return number_at(*capacity, key); };
-  const char* unit = push.tilts() || push.pattern.empty() ? " g" : "";
+  const char* unit = !push.tilts() && push.pattern.empty() ? " g" : "";
   std::string text = push.tilts() ? fmt::format("tilts to {:.3f} deg (tangent {:.5g})", number("angle_deg"), number("multiplier"))
                                   : fmt::format("capacity {:.5g}{}", number("multiplier"), unit);
   text += (*capacity)["upper"].is_number() ? fmt::format("; no equilibrium at {:.5g}{}", number("upper"), unit)

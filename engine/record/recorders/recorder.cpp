@@ -106,7 +106,7 @@ Recorders::Recorders(const Scene& scene, const Model& model) : kinds_(std::make_
     wanted.back().quantity = quantity;
   };
   if (!model.grounds.empty()) always("ground", "ground_acceleration");
-  if (!model.tilts.empty()) always("gravity", "gravity");
+  if (!model.tilts.empty() || scene.push.tilts()) always("gravity", "gravity");
   wanted.insert(wanted.end(), scene.recorders.begin(), scene.recorders.end());
   std::set<std::string> taken{"time_s"};
   for (const Recorder& recorder : wanted) {

@@ -115,6 +115,9 @@ TEST_CASE("a structure that falls on the way of its path has its capacity there"
     CHECK(*got.above < got.peak.multiplier);
     CHECK(*got.above > 1.025 * got.peak.multiplier);
     CHECK(got.peak.base_shear < 0);
+    // A tilting test is drawn tilting: its gravity is in the histories.
+    const CsvTable histories = read_csv(dir.path + "/histories.csv");
+    CHECK((histories.find("gravity_ay_m_s2") >= 0) == (kind.find("tilt") != std::string::npos));
   }
 }
 
