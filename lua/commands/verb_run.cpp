@@ -107,9 +107,10 @@ std::string capacity_text(const PushSettings& push, const Json& metrics) {
   const char* unit = !push.tilts() && push.pattern.empty() ? " g" : "";
   std::string text = push.tilts() ? fmt::format("tilts to {:.3f} deg (tangent {:.5g})", number("angle_deg"), number("multiplier"))
                                   : fmt::format("capacity {:.5g}{}", number("multiplier"), unit);
-  text += (*capacity)["upper"].is_number() ? fmt::format("; no equilibrium at {:.5g}{}", number("upper"), unit)
-          : push.control == "displacement" ? "; the peak of the curve"
-                                           : "; no collapse up to there";
+  text += (*capacity)["upper"].is_number()             ? fmt::format("; no equilibrium at {:.5g}{}", number("upper"), unit)
+          : metrics.value("status", "") != "completed" ? " so far"
+          : push.control == "displacement"             ? "; the peak of the curve"
+                                                       : "; no collapse up to there";
   text += fmt::format("\nat the peak: displacement {:.4g} mm, base shear {:.4g} of the weight, {:.0f} joints opened, {:.0f} slid",
                       1e3 * number("displacement_m"), number("base_shear_over_weight"), number("joints_opened"), number("joints_slid"));
   if (const std::string mechanism = capacity->value("mechanism_text", ""); !mechanism.empty()) text += "\nmechanism: " + mechanism;
