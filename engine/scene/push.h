@@ -50,6 +50,7 @@ struct PushSettings {
   std::string relaxation = "kinetic";  // kinetic | adaptive | local: damping on the way to equilibrium
   std::string inertia = "scaled";      // scaled | true
   double unbalanced = 1e-5;            // mean unbalanced force over mean applied force in equilibrium
+  std::string limit = "auto";          // auto | always | never: limit analysis beside the capacity
   Monitor monitor;
   Place place;
 
@@ -76,6 +77,10 @@ struct PushSettings {
          false, "scaled|true"},
         {"unbalanced", &PushSettings::unbalanced, "", "tilt, pushover: mean unbalanced force over mean applied force in equilibrium", 1e-9,
          1e-2},
+        {"limit", &PushSettings::limit, "",
+         "tilt, pushover: limit analysis beside the capacity; auto: where it takes seconds, which is up to some 2000 blocks in a plane "
+         "problem and some 100 in space",
+         0, 0, false, "auto|always|never"},
     };
   }
 };

@@ -113,6 +113,16 @@ std::string capacity_text(const PushSettings& push, const Json& metrics) {
                                                        : "; no collapse up to there";
   text += fmt::format("\nat the peak: displacement {:.4g} mm, base shear {:.4g} of the weight, {:.0f} joints opened, {:.0f} slid",
                       1e3 * number("displacement_m"), number("base_shear_over_weight"), number("joints_opened"), number("joints_slid"));
+  if (const Json& limit = (*capacity)["limit"]; limit.is_object()) {
+    const auto bracket = [](const Json& b) {
+      return !b["stands"].get<bool>() ? std::string("does not stand")
+             : b["lower"].is_number() ? fmt::format("{:.5g}", 0.5 * (b["lower"].get<double>() + b["upper"].get<double>()))
+                                      : std::string("no mechanism");
+    };
+    text +=
+        fmt::format("\nlimit analysis: {}{}", bracket(limit["dry"]),
+                    limit["bonded"].is_object() ? fmt::format(" without bond; {} with it, as if ductile", bracket(limit["bonded"])) : "");
+  }
   if (const std::string mechanism = capacity->value("mechanism_text", ""); !mechanism.empty()) text += "\nmechanism: " + mechanism;
   return text + fmt::format("\n{:.0f} states in {:.0f} attempts, {:.3g} steps; mean unbalanced force {:.1e} of the applied one",
                             number("states"), number("attempts"), number("relaxation_steps"), number("unbalanced_relative"));

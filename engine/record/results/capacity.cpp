@@ -5,6 +5,19 @@
 #include "engine/base/units.h"
 
 namespace erbs {
+namespace {
+
+Json bracket_json(const LimitBracket& b) {
+  Json json = {{"stands", b.stands}, {"mechanism", b.mechanism}};
+  for (const auto& [key, value] : {std::pair{"lower", b.lower},
+                                   {"upper", b.upper},
+                                   {"associated_lower", b.associated_lower},
+                                   {"associated_upper", b.associated_upper}})
+    json[key] = b.stands && !b.unbounded ? Json(value) : Json();
+  return json;
+}
+
+}  // namespace
 
 Json to_json(const Capacity& c) {
   const bool tilt = c.kind == "tilt";
@@ -24,6 +37,8 @@ Json to_json(const Capacity& c) {
   json["attempts"] = c.attempts;
   json["relaxation_steps"] = c.relaxation_steps;
   json["unbalanced_relative"] = c.worst_unbalanced;
+  json["limit"] = Json();
+  if (c.limit) json["limit"] = {{"dry", bracket_json(c.limit->dry)}, {"bonded", c.limit->bonded ? bracket_json(*c.limit->bonded) : Json()}};
   return json;
 }
 

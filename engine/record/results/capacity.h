@@ -19,6 +19,18 @@ struct CurvePoint {
   double steps = 0;                   // of relaxation
 };
 
+// What limit analysis says of the multiplier (engine/analysis/limit).
+struct LimitBracket {
+  bool stands = true, unbounded = false;  // without the push; no multiple of it makes a mechanism
+  double lower = 0, upper = 0;            // friction without dilatancy
+  double associated_lower = 0, associated_upper = 0;
+  std::string mechanism;
+};
+struct LimitBeside {
+  LimitBracket dry;                    // without the bond of the mortar
+  std::optional<LimitBracket> bonded;  // with it, as if it were ductile; none: there is no bond
+};
+
 struct Capacity {
   std::string kind;               // tilt | pushover
   CurvePoint peak;                // the state with the largest multiplier
@@ -28,6 +40,7 @@ struct Capacity {
   int states = 0, attempts = 0;
   double relaxation_steps = 0;
   double worst_unbalanced = 0;  // of all states
+  std::optional<LimitBeside> limit;
 };
 
 Json to_json(const Capacity& capacity);

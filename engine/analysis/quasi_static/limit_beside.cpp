@@ -1,0 +1,52 @@
+#include "engine/analysis/quasi_static/limit_beside.h"
+
+#include <algorithm>
+
+#include "engine/analysis/limit/limit.h"
+#include "engine/analysis/limit/outcome.h"
+#include "engine/base/error.h"
+
+namespace erbs::analysis {
+namespace {
+
+// Contact points up to which it takes seconds.
+constexpr std::size_t quick_plane = 10000, quick_space = 600;
+
+bool quick(const LimitProblem& p) { return p.contacts.size() <= (p.plane ? quick_plane : quick_space); }
+
+LimitBracket bracket_of(const LimitResult& r, const Model& model) {
+  LimitBracket out;
+  out.stands = r.stands;
+  if (r.stands && !r.unbounded) {
+    out.lower = r.last().lower, out.upper = r.last().upper;
+    out.associated_lower = r.associated.lower, out.associated_upper = r.associated.upper;
+  }
+  out.unbounded = r.unbounded;
+  out.mechanism = limit_mechanism(r, model).kind;
+  return out;
+}
+
+}  // namespace
+
+std::optional<LimitBeside> limit_beside(const Scene& scene, const Model& model, std::string& why) {
+  if (scene.push.limit == "never") return std::nullopt;
+  try {
+    const LimitLoad load = limit_load(scene, model);
+    const LimitProblem problem = limit_problem(model, load, {});
+    if (scene.push.limit == "auto" && !quick(problem)) return std::nullopt;
+    LimitBeside out;
+    LimitOptions options;
+    options.no_tension = true;
+    out.dry = bracket_of(limit_analysis(model, load, options), model);
+    const bool bond = std::any_of(problem.contacts.begin(), problem.contacts.end(),
+                                  [](const ContactPoint& c) { return c.tension > 0 || c.cohesion > 0; });
+    options.no_tension = false;
+    if (bond) out.bonded = bracket_of(limit_analysis(model, load, options), model);
+    return out;
+  } catch (const std::exception& mistake) {
+    why = mistake.what();
+    return std::nullopt;
+  }
+}
+
+}  // namespace erbs::analysis
