@@ -33,6 +33,10 @@ std::string length_text(double m) {
                      : fmt::format("{:.3g} um", 1e6 * m);
 }
 
+std::string stress_text(double pa) {
+  return pa >= 1e5 ? fmt::format("{:.3g} MPa", 1e-6 * pa) : pa >= 100 ? fmt::format("{:.3g} kPa", 1e-3 * pa) : fmt::format("{:.3g} Pa", pa);
+}
+
 const char* quantity_name(Coloring coloring) {
   switch (coloring) {
     case Coloring::displacement:
@@ -43,6 +47,10 @@ const char* quantity_name(Coloring coloring) {
       return "largest joint opening";
     case Coloring::energy:
       return "kinetic energy, log scale";
+    case Coloring::normal_stress:
+      return "compression of joints, mean";
+    case Coloring::shear_stress:
+      return "shear stress of joints, mean";
     default:
       return "joints broken or open";
   }
@@ -191,6 +199,9 @@ std::string Overlay::map_number(double share) const {
       if (energy >= 1) return energy >= 1000 ? fmt::format("{:g} kJ", energy / 1000) : fmt::format("{:g} J", energy);
       return fmt::format("{:g} mJ", 1000 * energy);
     }
+    case Coloring::normal_stress:
+    case Coloring::shear_stress:
+      return share == 0 ? "0" : stress_text(value);
     case Coloring::speed:
       return share == 0 ? "0" : fmt::format("{:g} m/s", value);
     default:
