@@ -10,8 +10,8 @@ label("quick")
 local H, B = param("side", 0.5, "h, side along the eccentricity [m]"), param("width", 0.3, "b, the other side [m]")
 local kn, height = param("kn", 1e11, "[Pa/m]"), param("height", 0.2, "of the blocks [m]")
 local courses, density = param("courses", 6, "of the columns"), param("density", 2000, "[kg/m3]")
-local rule = param("rule", 1, "1: simpson, 2: gauss, 3: midpoint, points along a side: 3")
-local rules = { "simpson", "gauss", "midpoint" }
+local rule = param("rule", 1, "1: simpson, 2: gauss; points along a side: 3")
+local rules = { "simpson", "gauss" }
 gravity(10)
 material { name = "stone", density = density }
 local unit = density * 10  -- Pa/m
@@ -68,16 +68,14 @@ for _, law in ipairs { "mortar", "weak", "dry" } do
     local theta = open and -least / kn / (3 * (0.5 - e) * H) or bend / kn / (H / 2)
     local shift = theta * height / 2 / H
     local tolerance = 1e-6 + settled + 10 * shift / (0.5 - e)
-    -- A midpoint rule is not exact in bending while the joint is intact: the stiffness of n strips is 1 - 1/n^2 of the true one.
-    local soft = (rules[rule] == "midpoint" and law == "mortar") and 1 / (1 - 1 / 9) or 1
     ratio("mean_" .. name, name .. "_normal_stress_mean_Pa", mean, 1e-6 + settled, "N / A")
-    ratio("edge_" .. name, name .. "_normal_stress_min_Pa", open and least or mean - soft * bend, tolerance,
+    ratio("edge_" .. name, name .. "_normal_stress_min_Pa", open and least or mean - bend, tolerance,
       open and "2 N / (3 b (h/2 - e))" or "N / A + 6 N e / (b h^2)")
     if open then
       metric("other_edge_" .. name, "Pa", function(run) return run.first(name .. "_normal_stress_max_Pa") end)
       expect("metrics.other_edge_" .. name, 0, { abs = 1e-9, source = "an open bed pulls nowhere" })
     else
-      ratio("other_edge_" .. name, name .. "_normal_stress_max_Pa", mean + soft * bend, tolerance * bend / math.abs(mean + soft * bend) + tolerance,
+      ratio("other_edge_" .. name, name .. "_normal_stress_max_Pa", mean + bend, tolerance * bend / math.abs(mean + bend) + tolerance,
         "N / A - 6 N e / (b h^2)")
     end
   end
