@@ -48,9 +48,9 @@ const char* quantity_name(Coloring coloring) {
     case Coloring::energy:
       return "kinetic energy, log scale";
     case Coloring::normal_stress:
-      return "compression of joints, mean";
+      return "compression in joints";
     case Coloring::shear_stress:
-      return "shear stress of joints, mean";
+      return "shear stress in joints";
     default:
       return "joints broken or open";
   }

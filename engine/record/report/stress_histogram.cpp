@@ -102,8 +102,7 @@ plot::Figure stress_figure(const std::vector<StressSample>& samples, const std::
   for (const StressSample& sample : samples) names += (names.empty() ? "" : ", ") + sample.run + fmt::format(" at {:.4g} s", sample.t);
   figure.labels = {
       {names, fmt::format("screen 0.10,{:.4f}", 1 - 22 / height), "left font ',15' tc rgb '#111111' noenhanced"},
-      {fmt::format("mean stress of each joint, in bins of {:g} {}; joints that are open, or replaced by contact, count as zero",
-                   unit.factor * bins.width, unit.name),
+      {fmt::format("mean stress of each joint, bins of {:g} {}; zero once contact has replaced it", unit.factor * bins.width, unit.name),
        fmt::format("screen 0.10,{:.4f}", 1 - 45 / height), "left font ',12' tc rgb '#555555' noenhanced"}};
   plot::Panel p;
   p.axes = plot::Box{0.10, 0.96, 0.14, 0.86};
