@@ -15,7 +15,7 @@ using analysis::Prepared;
 
 namespace {
 
-constexpr double b = 0.3, t = 0.2, area = b * t;  // m, m, m2: side along the bending, the other side
+constexpr double b = 0.3, t = 0.2, face = b * t;  // m, m, m2: side along the bending, the other side
 
 Prepared bed(const std::string& law, const std::string& rule = "simpson") {
   Script script(Script::Options{.quiet = true});
@@ -63,10 +63,10 @@ TEST_CASE("the edge of a bed has N / A + 6 M / (t b^2) while closed, 2 N / (3 t 
     Bent joint(law, rule);
     const JointStress s = joint.at(1e-4, turn);
     const double N = -joint.force[2], M = joint.moment(), e = M / N;
-    CHECK(s.normal == Approx(-N / area));
+    CHECK(s.normal == Approx(-N / face));
     if (bonded || e <= b / 6) {
-      CHECK(s.least == Approx(-N / area - 6 * M / (t * b * b)));
-      CHECK(s.greatest == Approx(-N / area + 6 * M / (t * b * b)).margin(1));
+      CHECK(s.least == Approx(-N / face - 6 * M / (t * b * b)));
+      CHECK(s.greatest == Approx(-N / face + 6 * M / (t * b * b)).margin(1));
     } else {
       CHECK(s.least == Approx(-2 * N / (3 * t * (b / 2 - e))));
       CHECK(s.greatest == 0);
