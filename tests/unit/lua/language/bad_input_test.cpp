@@ -66,7 +66,7 @@ TEST_CASE("what a scene says wrong is one message with its place and remedy", "[
       {"masonry_stiffness{ E = 5*GPa, spacing = 0 }", {at, "spacing = 0 m is out of range"}},
       {"masonry_stiffness{ E = -1, spacing = .5 }", {at, "E = -1 Pa is out of range"}},
       {"masonry_stiffness{ E = 1e9, spacing = .5, nu = .6 }", {at, "nu = 0.6 is out of range; allowed is -0.99 to 0.5"}},
-      {"masonry_stiffness{ E = 1e9, h = .5 }", {at, "unknown key \"h\""}},
+      {"masonry_stiffness{ E = 1e9, spacing = .5, h = .5 }", {at, "unknown key \"h\""}},
       {"masonry_stiffness(5)", {at, "masonry_stiffness takes a table of keys"}},
       {"joint{ law = mortar{ kn = 1e10, ft = 0, c = 0, mu = .6, fc = 10*MPa, Gc = 4000 } }",
        {at, "Gc = 4000 J/m2 is not above the elastic energy at the peak", "= 5000 J/m2", "give Gc more than that"}},
