@@ -33,8 +33,10 @@ std::string length_text(double m) {
                      : fmt::format("{:.3g} um", 1e6 * m);
 }
 
-std::string stress_text(double pa) {
-  return pa >= 1e5 ? fmt::format("{:.3g} MPa", 1e-6 * pa) : pa >= 100 ? fmt::format("{:.3g} kPa", 1e-3 * pa) : fmt::format("{:.3g} Pa", pa);
+// At a share of a scale (Pa); the unit stands at its end only, where there is room.
+std::string stress_text(double share, double scale) {
+  const bool mega = scale >= 1e5, kilo = scale >= 100;
+  return fmt::format("{:.3g}{}", share * scale * (mega ? 1e-6 : kilo ? 1e-3 : 1), share < 1 ? "" : mega ? " MPa" : kilo ? " kPa" : " Pa");
 }
 
 const char* quantity_name(Coloring coloring) {
@@ -201,7 +203,7 @@ std::string Overlay::map_number(double share) const {
     }
     case Coloring::normal_stress:
     case Coloring::shear_stress:
-      return share == 0 ? "0" : stress_text(value);
+      return stress_text(share, show_.scale);
     case Coloring::speed:
       return share == 0 ? "0" : fmt::format("{:g} m/s", value);
     default:
