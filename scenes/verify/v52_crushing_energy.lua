@@ -12,6 +12,7 @@ local fc, ductility = param("fc", 10 * MPa, "[Pa]"), param("ductility", 1.6 * mm
 local kn = param("kn", 1e10, "of the softest beds; others have 3 and 20 times this [Pa/m]")
 local H, B = param("side", 0.5, "[m]"), param("width", 0.3, "[m]")
 local steps = param("steps", 4000, "of the whole run")
+family({ kn = { 1e10, 1e11, 1e12 }, fc = { 2e6, 1e7 }, ductility = { 0.6e-3, 1.6e-3, 5e-3 }, steps = { 1000, 10000 } }, { combinations = 6 })
 gravity(0)
 material { name = "stone", density = 2000 }
 local dt = 1e-5
