@@ -98,10 +98,11 @@ plot::Figure stress_figure(const std::vector<StressSample>& samples, const std::
   const plot::ShownUnit& unit = plot::shown_unit(*plot::find_unit("Pa"), greatest_of(samples));
   constexpr double height = 460;
   plot::Figure figure{760, height};
-  std::string names;
-  for (const StressSample& sample : samples) names += (names.empty() ? "" : ", ") + sample.run + fmt::format(" at {:.4g} s", sample.t);
+  const bool several = samples.size() > 1;  // named in the legend
+  const auto title_of = [](const StressSample& sample) { return fmt::format("{} at {:.4g} s", sample.run, sample.t); };
+  const std::string title = several ? fmt::format("{} runs", samples.size()) : title_of(samples.front());
   figure.labels = {
-      {names, fmt::format("screen 0.10,{:.4f}", 1 - 22 / height), "left font ',15' tc rgb '#111111' noenhanced"},
+      {title, fmt::format("screen 0.10,{:.4f}", 1 - 22 / height), "left font ',15' tc rgb '#111111' noenhanced"},
       {fmt::format("mean stress of each joint, bins of {:g} {}; zero once contact has replaced it", unit.factor * bins.width, unit.name),
        fmt::format("screen 0.10,{:.4f}", 1 - 45 / height), "left font ',12' tc rgb '#555555' noenhanced"}};
   plot::Panel p;
@@ -109,7 +110,8 @@ plot::Figure stress_figure(const std::vector<StressSample>& samples, const std::
   p.x = {fmt::format("{} [{}]", quantity == "shear_stress" ? "shear stress" : "normal stress, tension positive", unit.name)};
   p.y = {"share of the joints' area [%]", "[0:*]"};
   p.settings = "set style fill solid 0.55 noborder\n";
-  if (samples.size() > 1) p.key = "top right Left reverse samplen 2 noenhanced";
+  // Compression lies far to the left, in few joints; shear to the right.
+  if (several) p.key = fmt::format("top {} Left reverse samplen 2 noenhanced", quantity == "shear_stress" ? "right" : "left");
   for (std::size_t i = 0; i < samples.size(); ++i) {
     std::string rows;
     // The outline steps down to zero at both ends.
@@ -121,8 +123,8 @@ plot::Figure stress_figure(const std::vector<StressSample>& samples, const std::
     }
     row(bins.low + double(bins.share[i].size()) * bins.width, 0);
     const std::string source = figure.add_rows(rows) + " using 1:2";
-    if (samples.size() == 1) p.series.push_back({source, fmt::format("filledcurves y1=0 lc rgb '{}'", colors[i])});
-    p.series.push_back({source, fmt::format("lines lw 1.6 lc rgb '{}'", colors[i]), samples.size() > 1 ? samples[i].run : ""});
+    if (!several) p.series.push_back({source, fmt::format("filledcurves y1=0 lc rgb '{}'", colors[i])});
+    p.series.push_back({source, fmt::format("lines lw 1.6 lc rgb '{}'", colors[i]), several ? title_of(samples[i]) : ""});
   }
   figure.panels.push_back(p);
   return figure;
