@@ -37,7 +37,7 @@ pi, deg = math.pi, math.pi / 180 -- rad
 g = 9.81 -- m/s2
 start_noise = 0 -- noise in the initial state of every free block: erbs run --noise, erbs test --grid [m and rad]
 
----@alias erbs.quantity "displacement"|"velocity"|"acceleration"|"rotation"|"spin"|"momentum"|"angular_momentum"|"reaction"|"reaction_moment"|"load"|"load_moment"|"opening"|"slip"|"normal_force"|"shear_force"|"joint_moment"|"damage"|"broken"|"ground_acceleration"|"ground_velocity"|"ground_displacement"|"gravity"|"contact_points"|"joints_broken"
+---@alias erbs.quantity "displacement"|"velocity"|"acceleration"|"rotation"|"spin"|"momentum"|"angular_momentum"|"reaction"|"reaction_moment"|"load"|"load_moment"|"opening"|"slip"|"normal_force"|"shear_force"|"joint_moment"|"damage"|"broken"|"normal_stress"|"shear_stress"|"crushing"|"ground_acceleration"|"ground_velocity"|"ground_displacement"|"gravity"|"contact_points"|"joints_broken"
 
 ---@class erbs.initial
 ---@field position? erbs.vec3 displacement from rest [m; -1e+06 to 1e+06; default { 0, 0, 0 }]
@@ -68,7 +68,7 @@ start_noise = 0 -- noise in the initial state of every free block: erbs run --no
 ---@field ssim? number least structural similarity (Wang et al. 2004); 1: equal [0 to 1; default 0.98]
 ---@field width? integer width of the picture, pixels [64 to 4096; default 480]
 ---@field height? integer height of the picture, pixels [64 to 4096; default 270]
----@field color? "material"|"damage"|"displacement"|"speed"|"opening"|"energy"|"joint_state" color of blocks [default material]
+---@field color? "material"|"damage"|"displacement"|"speed"|"opening"|"energy"|"joint_state"|"normal_stress"|"shear_stress" color of blocks [default material]
 ---@field source? string what sets the tolerance
 
 ---@class erbs.material_keys
@@ -207,8 +207,9 @@ function dry(keys) end
 ---@field Gf2? number fracture energy in shear (0: brittle) [J/m2; 0 to 1e+07; default 0]
 ---@field un_ultimate? number opening at which tensile strength is lost (default from Gf1) [m; 0 to 1]
 ---@field us_ultimate? number slip at which cohesion is lost (default from Gf2) [m; 0 to 1]
----@field fc? number compressive strength, a plateau (0: unlimited) [Pa; 0 to 1e+10; default 0]
----@field uc_ultimate? number closing at which the mortar is crushed and its bond lost (0: never) [m; 0 to 1; default 0]
+---@field fc? number compressive strength, a plateau without Gc (0: unlimited) [Pa; 0 to 1e+10; default 0]
+---@field Gc? number compressive fracture energy: the strength falls linearly to zero over a crushed depth of 2 Gc / fc, where the bond is lost too (usual: Gc = 1.6 mm fc; 0: a plateau) [J/m2; 0 to 1e+09; default 0]
+---@field uc_ultimate? number closing at which the mortar is crushed and its bond lost (0: never; with Gc: 2 Gc / fc) [m; 0 to 1; default 0]
 ---@field kn_cracked? number normal stiffness once no bond is left and the bed bears by its asperities; it fades to this value within some 0.03 s (default kn) [Pa/m; 0 to 1e+16]
 ---@field ks_cracked? number shear stiffness once no bond is left (default kn_cracked ks / kn) [Pa/m; 0 to 1e+16]
 ---@field damping? number viscous ratio of the cracked joint, relative to its critical value [0 to 1; default 0]
@@ -232,6 +233,16 @@ function mortar(keys) end
 ---@param keys erbs.dilatant_keys
 ---@return erbs.law # for joint{ law = ... }
 function dilatant(keys) end
+
+---@class erbs.masonry_stiffness_keys
+---@field E number Young's modulus of the masonry, units and mortar together [Pa; 1 to 1e+14]
+---@field nu? number Poisson's ratio of the masonry [-0.99 to 0.5; default 0.2]
+---@field spacing number distance h from joint to joint, across them [m; 1e-06 to 1000]
+
+---Stiffness of the joints of rigid blocks from that of masonry: kn = E / spacing, ks = kn / (2 (1 + nu)). Log and manifest tell what it did.
+---@param keys erbs.masonry_stiffness_keys
+---@return table # kn, ks (Pa/m), for mortar{ kn = k.kn, ks = k.ks, ... }
+function masonry_stiffness(keys) end
 
 ---@class erbs.joint_keys
 ---@field law? erbs.law a law value: dry{ ... }, mortar{ ... } or dilatant{ ... }
@@ -465,6 +476,7 @@ function damping(keys) end
 ---@field gyroscopic? boolean the gyroscopic term w x (I w) [default true]
 ---@field output_dt? number time between rows of histories.csv and energy.csv [s; 1e-09 to 1e+06; default 0.01]
 ---@field frame_dt? number time between poses for pictures [s; 1e-09 to 1e+06; default 0.04]
+---@field frame_stress? boolean keep the mean normal and shear stress of each joint with the poses, for colours and histograms [default false]
 ---@field kind? "dynamic"|"tilt"|"pushover" time history, or a push through states of equilibrium until the structure collapses [default dynamic]
 ---@field step? number tilt, pushover: first step of the multiplier, a share of g or of the pattern; of a tilt in rad (0: 0.01; 0.5 deg) [0 to 1e+06; default 0]
 ---@field up_to? number tilt, pushover: largest multiplier; of a tilt in rad (0: 2; 60 deg) [0 to 1e+06; default 0]

@@ -99,9 +99,15 @@ void add_plot(CLI::App& app, PlotCommand& command) {
   plot.add_flag("--envelope", command.envelope, "running maximum of the absolute value");
   plot.add_flag("--drift", command.drift,
                 "instead of columns: displacement and drift over the height of the structure, until it collapses");
+  plot.add_option("--histogram", command.histogram,
+                  "instead of columns: distribution of the mean normal_stress or shear_stress of the joints over their area, at --time")
+      ->check(CLI::IsMember({"normal_stress", "shear_stress"}))
+      ->type_name("STRESS");
   plot.add_option("--group", command.group, "blocks of this group alone, such as a wall, of --drift")->check(filled())->type_name("GROUP");
   plot.add_option("--levels", command.levels, "levels of --drift at most, each of as many courses (default 24)")->check(within(2, 1000));
-  plot.add_option("--time", command.time, "only this span, s")->check(filled())->type_name("T0:T1");
+  plot.add_option("--time", command.time, "only this span, s; of --histogram one time (default the last frame)")
+      ->check(filled())
+      ->type_name("T0:T1");
   plot.add_option("-o", command.output.directory, "the picture, SVG or PNG by its ending (default DIR/plot.svg)")
       ->check(filled())
       ->type_name("FILE");

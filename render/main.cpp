@@ -36,7 +36,8 @@ const std::map<std::string, render::Coloring> colorings{
     {"material", render::Coloring::material},         {"damage", render::Coloring::damage},
     {"displacement", render::Coloring::displacement}, {"speed", render::Coloring::speed},
     {"opening", render::Coloring::opening},           {"energy", render::Coloring::energy},
-    {"joint_state", render::Coloring::joint_state}};
+    {"joint_state", render::Coloring::joint_state},   {"normal_stress", render::Coloring::normal_stress},
+    {"shear_stress", render::Coloring::shear_stress}};
 
 const std::map<std::string, render::Background> backgrounds{
     {"sky", render::Background::sky}, {"white", render::Background::white}, {"transparent", render::Background::transparent}};
@@ -206,9 +207,10 @@ int main(int argc, char** argv) {
   app.add_option("--frames", a.movie.frames, "every: each recorded frame once; N: so many, evenly spread");
   app.add_option("--time", a.time, "T0:T1, only this span (s)");
   app.add_option("--stills", a.stills, "t1,t2,..: single pictures at these times (s), no video");
-  app.add_option(
-         "--color", a.color,
-         "of blocks: material, damage, displacement, speed, largest opening of their joints, or kinetic energy; or joint_state, of joints")
+  app.add_option("--color", a.color,
+                 "of blocks: material, damage, displacement, speed, largest opening of their joints, kinetic energy, or normal_stress "
+                 "(compression) or "
+                 "shear_stress of their most stressed joint; or joint_state, of joints")
       ->check(CLI::IsMember(colorings))
       ->capture_default_str();
   app.add_option("--hide", a.movie.hide, "groups of blocks that are not drawn, with their joints")->delimiter(',');

@@ -44,6 +44,7 @@ local ft = param("ft", 0.25 * MPa, "tensile strength of the joints [Pa]")
 local c = param("c", 0.4 * MPa, "cohesion, assumed: 1.6 ft; lost with the first slip [Pa]")
 local mu = param("mu", 0.7, "friction, assumed: 35 degrees")
 local fc = param("fc", 0, "compressive strength of the joints; 0: unlimited, as in the source's first model [Pa]")
+local Gc = param("Gc", 0, "compressive fracture energy; 0: a plateau at fc; usual: 1.6 mm fc [J/m2]")
 
 -- Spans grow evenly from both ends to the middle. The walls at the ends take what remains of the length.
 local function spans_of(count)
@@ -68,10 +69,11 @@ local total = 0
 for i, span in ipairs(spans) do total = total + (bays > 0 and (i == 1 or i == #spans) and span / 2 or span) end
 for _, wide in ipairs(piers) do total = total + wide end
 
-local kn, ks = E / spacing, E / spacing / (2 * (1 + nu))
+local joints = masonry_stiffness { E = E, nu = nu, spacing = spacing }
+local kn, ks = joints.kn, joints.ks
 material { name = "stone", density = density, friction = mu, restitution = 0.1, kn = kn, ks = ks, color = { 0.74, 0.68, 0.58 } }
 material { name = "ring", density = density, friction = mu, restitution = 0.1, kn = kn, ks = ks, color = { 0.63, 0.47, 0.37 } }
-joint { law = mortar { kn = kn, ks = ks, ft = ft, c = c, mu = mu, fc = fc }, tolerance = 1 * mm }
+joint { law = mortar { kn = kn, ks = ks, ft = ft, c = c, mu = mu, fc = fc, Gc = fc > 0 and Gc or 0 }, tolerance = 1 * mm }
 
 ground { size = total + 120, friction = mu }
 local built = arcade {

@@ -1,10 +1,9 @@
 #include "engine/analysis/snapshot.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 
-#include "engine/joints/kinematics.h"
+#include "engine/record/recorders/joint_stress.h"
 
 namespace erbs::analysis {
 namespace {
@@ -56,17 +55,7 @@ Snapshot snapshot_of(const Model& m, const State& state, const Solver& solver, b
   s.gravity = m.gravity;
   for (const auto& tilt : m.tilts) s.gravity = rotation(value(tilt.wave, now.t) * tilt.axis) * s.gravity;
   s.block_wrench = now.block_wrench, s.load_wrench = now.load_wrench;
-  for (int j = 0; joint_forces && j < m.njoint; ++j) {
-    const Joint& joint = m.joint[z(j)];
-    const std::size_t a = z(joint.a), b = z(joint.b);
-    std::array<double, 6> f{};
-    if (joints.stage[z(j)] == JointStage::cracked) std::copy_n(joints.memory[z(j)].resultant, 6, f.begin());
-    if (joints.stage[z(j)] == JointStage::intact) {
-      const JointPose pose = pose_of(joint, now.pose.u[a], now.pose.q[a], now.pose.u[b], now.pose.q[b]);
-      for (std::size_t i = 0; i < 6; ++i) f[i] = pose.gap[i] * joint.type->stiffness[i];
-    }
-    s.joint_force.push_back(f);
-  }
+  for (int j = 0; joint_forces && j < m.njoint; ++j) s.joint_force.push_back(joint_resultant(m, joints, now.pose, j));
   s.joints_broken = broken_joints(m, joints);
   for (int j = 0; j < m.njoint; ++j)
     if (joints.stage[z(j)] != JointStage::contact) s.contact_points += m.joint[z(j)].type->points;

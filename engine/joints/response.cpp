@@ -219,7 +219,7 @@ bool may_release(const Joint& joint, const PointLaw& law, const JointMemory& mem
 
 CompressionFace compression_face(const Model& m, const Joint& joint, double kn) {
   return {kn, m.laws[std::size_t(joint.type->law)].fc / kn, joint.type->corners,
-          m.overlap_corner[std::size_t(joint.type->first_corner)].data()};
+          m.overlap_corner[std::size_t(joint.type->first_corner)].data(), m.laws[std::size_t(joint.type->law)].crush_depth};
 }
 
 namespace {

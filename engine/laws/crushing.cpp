@@ -105,12 +105,27 @@ double positive_product(Loop loop, const Plane& u, const Plane& v) {
   return product(loop, u, v);
 }
 
-// Int z dA.
+// Cuts the loop, where `z` is the plastic closing, to the part that still bears.
+void clip_to_bearing(Loop& loop, const CompressionFace& face, const Plane& z) {
+  if (face.ultimate > 0) clip_to(loop, {z.c + face.ultimate, z.s, z.t});
+}
+void clip_to_spent(Loop& loop, const CompressionFace& face, const Plane& z) {
+  if (face.ultimate > 0) clip_to(loop, {-z.c - face.ultimate, -z.s, -z.t});
+  else loop.count = 0;
+}
+
+// Int z dA; -face.ultimate is the least that counts.
 double volume(const CompressionFace& face, const Envelope& z) {
   double sum = 0;
   for (int k = 1; k < z.count; ++k) {
     Loop loop = whole(face);
     clip_to_region(loop, z, k);
+    if (face.ultimate > 0) {
+      Loop spent = loop;
+      clip_to_spent(spent, face, z.plane[k]);
+      sum -= face.ultimate * area(spent);
+      clip_to_bearing(loop, face, z.plane[k]);
+    }
     sum += product(loop, z.plane[k], {1, 0, 0});
   }
   return sum;
@@ -144,11 +159,39 @@ bool passes(const CompressionFace& face, const Envelope& z, const Plane& lower) 
   for (int k = 0; below && k < z.count; ++k) {
     Loop loop = whole(face);
     clip_to_region(loop, z, k);
+    clip_to_bearing(loop, face, z.plane[k]);
     const Plane over = z.plane[k] - lower;
     for (int i = 0; i < loop.count; ++i)
       if (over.at(loop.corner[i]) > round_off) return true;
   }
   return false;
+}
+
+// Where a step from gap g0 to g1 crushes the bed, at a gap of `face`.
+Plane crushed_by(const CompressionFace& face, const Plane& g) {
+  const Plane z{g.c + face.limit, g.s, g.t};
+  if (!(face.ultimate > 0)) return z;
+  const double steeper = 1 / (1 - face.limit / face.ultimate);
+  return {steeper * z.c, steeper * z.s, steeper * z.t};
+}
+
+// Work (J) where the closing falls from z0 to z1 as the gap goes from g0 to g1, by the mean of the two pressures. A part that is spent by
+// it falls to g1 and bears nothing then; a part that was spent bears again only if its plane was dropped.
+double work_of(const CompressionFace& face, const Loop& loop, const Plane& z0, const Plane& z1, const Plane& g0, const Plane& g1) {
+  if (!(face.ultimate > 0)) {
+    const Plane fall = z0 - z1;
+    return 0.5 * face.kn * (positive_product(loop, fall, z0 - g0) + positive_product(loop, fall, z1 - g1));
+  }
+  Loop bore = loop, had_gone = loop;
+  clip_to_bearing(bore, face, z0);
+  clip_to_spent(had_gone, face, z0);
+  Loop bears = bore, goes = bore;
+  clip_to_bearing(bears, face, z1);
+  clip_to_spent(goes, face, z1);
+  clip_to_bearing(had_gone, face, z1);
+  return 0.5 * face.kn *
+         (positive_product(bears, z0 - z1, z0 - g0) + positive_product(bears, z0 - z1, z1 - g1) + positive_product(goes, z0 - g1, z0 - g0) +
+          positive_product(had_gone, g0 - z1, z1 - g1));
 }
 
 }  // namespace
@@ -161,6 +204,7 @@ Pressed pressed(const CompressionFace& face, const CrushedFace& crushed, const d
     const Plane y = z.plane[k] - plane(gap);
     clip_to(loop, y);
     clip_to_region(loop, z, k);
+    clip_to_bearing(loop, face, z.plane[k]);
     out.force += face.kn * product(loop, y, {1, 0, 0});
     out.s += face.kn * product(loop, y, {0, 1, 0});
     out.t += face.kn * product(loop, y, {0, 0, 1});
@@ -170,7 +214,7 @@ Pressed pressed(const CompressionFace& face, const CrushedFace& crushed, const d
 }
 
 double crush(const CompressionFace& face, CrushedFace& crushed, const double before[3], const double now[3]) {
-  const Plane g0 = plane(before), g1 = plane(now), lower{g1.c + face.limit, g1.s, g1.t};
+  const Plane g0 = plane(before), g1 = plane(now), lower = crushed_by(face, g1);
   const Envelope old = envelope(crushed);
   if (!passes(face, old, lower)) return 0;
   Envelope next = old;
@@ -184,8 +228,7 @@ double crush(const CompressionFace& face, CrushedFace& crushed, const double bef
       if (same(old.plane[k], next.plane[j])) continue;
       Loop loop = part;
       clip_to_region(loop, next, j);
-      const Plane fall = old.plane[k] - next.plane[j];
-      work += 0.5 * face.kn * (positive_product(loop, fall, old.plane[k] - g0) + positive_product(loop, fall, next.plane[j] - g1));
+      work += work_of(face, loop, old.plane[k], next.plane[j], g0, g1);
     }
   }
   crushed.planes = next.count - 1;
@@ -197,10 +240,20 @@ double crush(const CompressionFace& face, CrushedFace& crushed, const double bef
 }
 
 double pressed_depth(const CompressionFace& face, const CrushedFace& crushed, const double gap[3], double s, double t) {
-  const Envelope z = envelope(crushed);
+  const double z = -crushed_depth(crushed, s, t);
+  if (face.ultimate > 0 && z <= -face.ultimate) return 0;
+  return std::clamp(z - plane(gap).at({s, t}), 0.0, face.limit);
+}
+
+double crushed_depth(const CrushedFace& crushed, double s, double t) {
   double lowest = 0;
-  for (int k = 1; k < z.count; ++k) lowest = std::min(lowest, z.plane[k].at({s, t}));
-  return std::clamp(lowest - plane(gap).at({s, t}), 0.0, face.limit);
+  for (int k = 0; k < crushed.planes; ++k) lowest = std::min(lowest, plane(crushed.plane[k]).at({s, t}));
+  return -lowest;
+}
+
+double lost_strength(const CompressionFace& face, const CrushedFace& crushed) {
+  if (!(face.ultimate > 0) || crushed.planes == 0) return 0;
+  return -volume(face, envelope(crushed)) / (face.ultimate * area(whole(face)));
 }
 
 }  // namespace erbs

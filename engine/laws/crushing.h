@@ -1,11 +1,20 @@
-// Compression plateau: a bed of mortar that yields at fc, integrated over a whole face in closed form. The bed is perfectly plastic with
-// elastic unloading, position by position.
+// Compression: a bed of mortar that yields at fc, integrated over a whole face in closed form. The bed is plastic with elastic unloading,
+// position by position; its strength stays (a plateau) or softens.
 //
 // Gaps g are linear over a face. The bed resists with the pressure p = kn max(0, z - g). The crushed depth z <= 0 at a
 // position is the lowest value that g + fc / kn has ever had there, so that p <= fc. Hence z is the lower envelope of planes, and every
 // integral of p is a sum over convex polygons, exact for any rule of contact points. A face stores at most `most` of these planes. A load
 // path that needs more (a load that circles the face) drops the plane that matters least to the crushed volume. The work of that change is
-// booked like all other work. Plain data only: files compiled for several instruction sets include this header.
+// booked like all other work.
+//
+// Softening. The strength at a position falls linearly with its crushed depth w = -z, from fc to zero at `ultimate` = 2 Gc / fc, so that
+// crushing takes Gc per area (Lourenco 1996 has a compressive fracture energy; the linear branch is ours). Monotonic closing by u gives
+//   kn (u - w) = fc (1 - w / ultimate)   =>   w = (u - fc / kn) / (1 - limit / ultimate),   limit = fc / kn,
+// as long as limit < ultimate; the joint would snap back otherwise. So z is the envelope of the planes (g + limit) / (1 - limit /
+// ultimate), still linear, and the closed form stays exact. Where z reaches -ultimate the bed is spent: it bears nothing, and z is of no
+// interest.
+//
+// Plain data only: files compiled for several instruction sets include this header.
 #pragma once
 
 namespace erbs {
@@ -22,6 +31,7 @@ struct CompressionFace {
   double kn, limit;  // Pa/m; m, fc / kn
   int corners;
   const double* corner;  // [2 corners]
+  double ultimate = 0;   // m, crushed depth at which the strength is zero; 0: never
 };
 
 struct Pressed {
@@ -35,7 +45,10 @@ Pressed pressed(const CompressionFace& face, const CrushedFace& crushed, const d
 // its two pressures times the change of gap. Its plastic part is the same mean times the change of z.
 double crush(const CompressionFace& face, CrushedFace& crushed, const double before[3], const double now[3]);
 
-// Elastic compression (m) at the position s, t, at most bed.limit.
+// Elastic compression (m) at the position s, t, at most face.limit.
 double pressed_depth(const CompressionFace& face, const CrushedFace& crushed, const double gap[3], double s, double t);
+
+double crushed_depth(const CrushedFace& crushed, double s, double t);           // m, -z at the position s, t
+double lost_strength(const CompressionFace& face, const CrushedFace& crushed);  // 0..1, mean over the face; 0 on a plateau
 
 }  // namespace erbs

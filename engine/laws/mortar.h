@@ -1,6 +1,6 @@
 // Mortar joint: linear in compression, tension cut-off, Coulomb shear with cohesion and residual friction. Tension and shear are coupled;
-// damage is irreversible. Optional are linear softening with fracture energies and ultimate deformations, and a compression plateau up to
-// an ultimate deformation (crushing.h).
+// damage is irreversible. Optional are linear softening with fracture energies and ultimate deformations, and a compressive strength that
+// is a plateau up to an ultimate deformation or softens with a fracture energy of its own (crushing.h).
 // This is the ASSUMED reading of Fig. 5 of Gu and Miao, since its curves are lost. The joint is elastic to the peak, softens (or drops
 // brittly) to the ultimate deformation, and is then a unilateral frictional contact.
 #pragma once
@@ -42,7 +42,8 @@ struct Mortar {
   double Gf2 = 0;                    // J/m2, shear; 0: brittle
   double un_ultimate = 0;            // m, opening at zero tensile strength; 0: from Gf1
   double us_ultimate = 0;            // m, slip at zero cohesion; 0: from Gf2
-  double fc = 0;                     // Pa, compression plateau; 0: none (elastic, unlimited)
+  double fc = 0;                     // Pa, compressive strength; 0: none (elastic, unlimited)
+  double Gc = 0;                     // J/m2, compressive fracture energy; 0: a plateau
   double uc_ultimate = 0;            // m, closing at which the mortar is crushed and its bond lost; 0: never
   double kn_cracked = 0;             // Pa/m, once the bond is gone; 0: kn
   double ks_cracked = 0;             // Pa/m, likewise; 0: in the ratio of ks to kn
@@ -69,8 +70,13 @@ struct Mortar {
         {"Gf2", &Mortar::Gf2, "J/m2", "fracture energy in shear (0: brittle)", 0, 1e7},
         {"un_ultimate", &Mortar::un_ultimate, "m", "opening at which tensile strength is lost (default from Gf1)", 0, 1},
         {"us_ultimate", &Mortar::us_ultimate, "m", "slip at which cohesion is lost (default from Gf2)", 0, 1},
-        {"fc", &Mortar::fc, "Pa", "compressive strength, a plateau (0: unlimited)", 0, 1e10},
-        {"uc_ultimate", &Mortar::uc_ultimate, "m", "closing at which the mortar is crushed and its bond lost (0: never)", 0, 1},
+        {"fc", &Mortar::fc, "Pa", "compressive strength, a plateau without Gc (0: unlimited)", 0, 1e10},
+        {"Gc", &Mortar::Gc, "J/m2",
+         "compressive fracture energy: the strength falls linearly to zero over a crushed depth of 2 Gc / fc, where the bond is lost too "
+         "(usual: Gc = 1.6 mm fc; 0: a plateau)",
+         0, 1e9},
+        {"uc_ultimate", &Mortar::uc_ultimate, "m",
+         "closing at which the mortar is crushed and its bond lost (0: never; with Gc: 2 Gc / fc)", 0, 1},
         {"kn_cracked", &Mortar::kn_cracked, "Pa/m",
          "normal stiffness once no bond is left and the bed bears by its asperities; it fades to this value within some 0.03 s (default "
          "kn)",
@@ -107,7 +113,14 @@ struct Mortar {
                           name, of, name, intact));
       };
       too_stiff("kn", kn_cracked, p.kn), too_stiff("ks", ks_cracked, p.ks);
+      const double softest = p.fades() ? std::min(p.kn, p.kn_debonded) : p.kn, stored = fc * fc / (2 * softest);
+      if (Gc > 0 && fc > 0 && !(0.999 * Gc > stored))
+        out.push_back(
+            fmt::format("Gc = {:g} J/m2 is not above the elastic energy at the peak, fc^2 / (2 {}) = {:g} J/m2; the joint would snap back; "
+                        "give Gc more than that (usual: 1.6 mm fc = {:g} J/m2), or a stiffer joint",
+                        Gc, softest < p.kn ? "kn_cracked" : "kn", stored, 1.6e-3 * fc));
     }
+    if (Gc > 0 && fc == 0) out.push_back("Gc is the energy of crushing, but there is no strength to lose; give fc, or leave Gc out");
     if (mu_residual != -1 && mu_residual < 0) out.push_back("mu_residual is negative; leave it out for mu, or give 0 and more");
     return out;
   }
@@ -131,7 +144,8 @@ struct Mortar {
     // Plastic slip at zero cohesion: the elastic part c / ks does not count.
     p.slip_ultimate = us_ultimate > 0 ? std::max(0.0, us_ultimate - c / p.ks) : (c > 0 ? 2 * Gf2 / c : 0);
     p.fc = fc;
-    p.closing_ultimate = uc_ultimate;
+    p.crush_depth = fc > 0 ? 2 * Gc / fc : 0;
+    p.closing_ultimate = uc_ultimate > 0 ? uc_ultimate : p.crush_depth;
     p.damping = damping;
     if (kn_cracked > 0 || ks_cracked > 0) {
       p.kn_debonded = kn_cracked > 0 ? kn_cracked : p.kn;
@@ -145,7 +159,8 @@ struct Mortar {
              [](Mortar& m) { m.Gf1 = m.un_ultimate = 0; }},
             {"softening in shear", [](const Mortar& m) { return m.Gf2 > 0 || m.us_ultimate > 0; },
              [](Mortar& m) { m.Gf2 = m.us_ultimate = 0; }},
-            {"compression plateau", [](const Mortar& m) { return m.fc > 0; }, [](Mortar& m) { m.fc = m.uc_ultimate = 0; }},
+            {"compression plateau", [](const Mortar& m) { return m.fc > 0; }, [](Mortar& m) { m.fc = m.Gc = m.uc_ultimate = 0; }},
+            {"softening in compression", [](const Mortar& m) { return m.Gc > 0; }, [](Mortar& m) { m.Gc = 0; }},
             {"softer beds without bond", [](const Mortar& m) { return m.kn_cracked > 0 || m.ks_cracked > 0; },
              [](Mortar& m) { m.kn_cracked = m.ks_cracked = 0; }}};
   }

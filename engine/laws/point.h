@@ -12,6 +12,7 @@ struct PointLaw {
   double opening_ultimate = 0;              // m, opening at zero tensile strength; = opening_peak if brittle
   double slip_ultimate = 0;                 // m, plastic slip at zero cohesion; 0: brittle
   double fc = 0;                            // Pa; 0: unlimited
+  double crush_depth = 0;                   // m, crushed depth at zero compressive strength, 2 Gc / fc; 0: a plateau
   double closing_ultimate = 0;              // m, closing at which the bond is lost; 0: never
   double kn_debonded = 0, ks_debonded = 0;  // Pa/m, once no bond is left; 0: as before (joints/cracked/fading.h)
   double damping = 0;                       // viscous ratio of a cracked joint, of its own critical value
@@ -25,7 +26,8 @@ struct PointLaw {
   bool has_bond() const { return !dry; }
   double mu_debonded() const { return dry ? mu : mu_residual; }
   bool fades() const { return kn_debonded > 0; }
-  bool crushes() const { return fc > 0; }  // has a plateau in compression
+  bool crushes() const { return fc > 0; }                  // yields in compression
+  bool crushes_softly() const { return crush_depth > 0; }  // and loses its strength by it
 };
 
 // History of a contact point. Damage p grows from 0 (intact) to 1 (no tensile strength, no cohesion) and never falls.

@@ -102,7 +102,7 @@ struct JointState {
   std::vector<JointStage> stage;      // [njoint]
   LazyArray<JointMemory> memory;      // [njoint]
   LazyArray<PointHistory> history;    // [npoint]
-  LazyArray<CrushedFace> crushed;     // [njoint]; empty if no law has a compression plateau
+  LazyArray<CrushedFace> crushed;     // [njoint]; empty if no law yields in compression
   std::vector<StiffnessShare> share;  // of the intact stiffness that is left (joints/cracked/fading.h) [njoint]; empty where no law fades
   std::vector<double> viscous;        // N, N m, dashpot resultants of the last step [6 njoint]; empty without dashpots
 };

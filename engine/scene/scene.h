@@ -168,6 +168,7 @@ struct Analysis {
   bool gyroscopic = true;             // false: the scalar Euler equation of Gu and Miao eq. (1), for comparison only
   double output_dt = 0.01;            // s, rows of histories.csv and energy.csv
   double frame_dt = 0.04;             // s, poses for pictures
+  bool frame_stress = false;          // with the mean stresses of the joints
   Place place;
 
   static Fields<Analysis> fields() {
@@ -202,6 +203,8 @@ struct Analysis {
         {"gyroscopic", &Analysis::gyroscopic, "", "the gyroscopic term w x (I w)"},
         {"output_dt", &Analysis::output_dt, "s", "time between rows of histories.csv and energy.csv", 1e-9, 1e6},
         {"frame_dt", &Analysis::frame_dt, "s", "time between poses for pictures", 1e-9, 1e6},
+        {"frame_stress", &Analysis::frame_stress, "",
+         "keep the mean normal and shear stress of each joint with the poses, for colours and histograms"},
     };
   }
 };
@@ -285,7 +288,7 @@ struct PictureExpectation {
         {"width", &PictureExpectation::width, "", "width of the picture, pixels", 64, 4096},
         {"height", &PictureExpectation::height, "", "height of the picture, pixels", 64, 4096},
         {"color", &PictureExpectation::color, "", "color of blocks", 0, 0, false,
-         "material|damage|displacement|speed|opening|energy|joint_state"},
+         "material|damage|displacement|speed|opening|energy|joint_state|normal_stress|shear_stress"},
         {"source", &PictureExpectation::source, "", "what sets the tolerance"},
     };
   }
@@ -341,6 +344,7 @@ struct Scene {
   std::vector<Recorder> recorders;
   std::vector<Camera> cameras;
   std::vector<Param> params;
+  std::vector<std::string> notes;  // sentences on numbers that functions of the language have derived
   std::vector<Expectation> expectations;
   std::vector<PictureExpectation> pictures;
   std::vector<std::pair<std::string, std::string>> metric_units;  // of the scene's own metrics: name, unit

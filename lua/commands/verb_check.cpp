@@ -36,6 +36,7 @@ void print_scene(const Scene& scene) {
       scene.recorders.size(), scene.cameras.size());
   for (const Param& param : scene.params)
     say("  param {} = {:g} {}{}{}\n", param.name, param.value, param.unit, param.text.empty() ? "" : "  -- ", param.text);
+  for (const std::string& note : scene.notes) say("  {}\n", note);
 }
 
 void print_effects(const Scene& scene) {

@@ -6,6 +6,7 @@
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/plot/unit.h"
 #include "engine/record/report/drift.h"
+#include "engine/record/report/stress_histogram.h"
 #include "engine/record/results/curve_figure.h"
 #include "engine/record/results/metrics.h"
 #include "lua/program/options.h"
@@ -144,22 +145,45 @@ void draw_drift(const PlotCommand& command, const std::string& path) {
              path);
 }
 
+void draw_histogram(const PlotCommand& command, const std::string& path) {
+  std::vector<StressSample> samples;
+  for (const std::string& folder : command.words) try {
+      const MotionReader reader(folder);
+      samples.push_back(stress_sample(reader, command.histogram, command.time));
+      samples.back().run = fs::canonical(folder).filename().string();
+      for (std::size_t i = 0; i + 1 < samples.size(); ++i)
+        if (samples[i].run == samples.back().run) samples.back().run = folder;
+    } catch (const Error& mistake) {
+      if (!mistake.place.file.empty()) throw;
+      throw Error(mistake.what(), {folder});
+    }
+  plot::draw(stress_figure(samples, command.histogram), path);
+}
+
+// Figures of motion.h5 draw no columns.
+bool draws_frames(const PlotCommand& command, CurveKind kind) {
+  if (!command.drift && command.histogram.empty()) return false;
+  const std::string option = command.drift ? "--drift" : "--histogram";
+  if (command.drift && !command.histogram.empty()) throw Error("--drift and --histogram exclude each other; keep one");
+  if (!command.y.empty() || kind != CurveKind::history || command.list)
+    throw Error(option + " draws no columns; leave out --y, --spectrum, --response, --envelope and --list");
+  const std::string path = picture_of(command);
+  check_gnuplot();
+  if (command.drift) draw_drift(command, path);
+  else draw_histogram(command, path);
+  if (!command.output.quiet)
+    say("picture {} ({} of {} run{})\n", shown(path, 400), command.drift ? "drift" : "histogram", command.words.size(),
+        command.words.size() == 1 ? "" : "s");
+  return true;
+}
+
 }  // namespace
 
 int verb_plot(const PlotCommand& command) {
   if (command.words.empty()) throw Error("plot takes a run folder; write erbs plot DIR --y COLUMN");
   const CurveKind kind = kind_of(command);
-  if (!command.time.empty()) time_span_of(command.time);
-  if (command.drift && (!command.y.empty() || kind != CurveKind::history || command.list))
-    throw Error("--drift draws no columns; leave out --y, --spectrum, --response, --envelope and --list");
-  if (command.drift) {
-    const std::string path = picture_of(command);
-    check_gnuplot();
-    draw_drift(command, path);
-    if (!command.output.quiet)
-      say("picture {} (drift of {} run{})\n", shown(path, 400), command.words.size(), command.words.size() == 1 ? "" : "s");
-    return exit_ok;
-  }
+  if (!command.time.empty() && command.histogram.empty()) time_span_of(command.time);
+  if (draws_frames(command, kind)) return exit_ok;
   const std::vector<ReadRun> runs = read_runs(command.words);
   if (command.list) return (list_columns(runs), exit_ok);
   if (command.y.empty()) throw Error("plot takes columns; write --y COLUMN, and erbs plot DIR --list lists them");

@@ -1,4 +1,6 @@
-// Functions of a script: joint laws, made from their field lists, and the rules that assign them to faces.
+// Functions of a script: joint laws, made from their field lists, the stiffness of joints from that of masonry, and the rules that assign
+// laws to faces.
+#include <algorithm>
 #include <cmath>
 #include <lua5.4/lua.hpp>
 
@@ -32,6 +34,40 @@ void add_laws(std::vector<Function>& functions, LawList<L...>) {
   (functions.push_back(
        {std::string(L::law_name), make_law<L>, "{ ... }", "law: for joint{ law = ... }", std::string(L::help), keys_of<L>()}),
    ...);
+}
+
+// Masonry of rigid blocks: all deformation of a course lies in its joint.
+struct MasonryStiffness {
+  double E = 0, nu = 0.2, spacing = 0;  // Pa, -, m
+
+  static Fields<MasonryStiffness> fields() {
+    return {
+        {"E", &MasonryStiffness::E, "Pa", "Young's modulus of the masonry, units and mortar together", 1, 1e14, true},
+        {"nu", &MasonryStiffness::nu, "", "Poisson's ratio of the masonry", -0.99, 0.5},
+        {"spacing", &MasonryStiffness::spacing, "m", "distance h from joint to joint, across them", 1e-6, 1e3, true},
+    };
+  }
+};
+
+std::string gigapascals(double pa, const char* per) { return fmt::format("{:.4g} GPa{}", 1e-9 * pa, per); }
+
+int masonry_stiffness(Call& call) {
+  Arguments arguments = call.arguments();
+  MasonryStiffness of;
+  arguments.read(of);
+  const double h = of.spacing > 0 ? of.spacing : 1;  // the mistake is told
+  const double kn = of.E / h, ks = kn / (2 * (1 + of.nu));
+  const std::string note = fmt::format("{}: kn = E/h = {} from E = {}, h = {:.4g} m; ks = kn/(2(1+nu)) = {} from nu = {:.4g}{}",
+                                       call.place.text(), gigapascals(kn, "/m"), gigapascals(of.E, ""), of.spacing, gigapascals(ks, "/m"),
+                                       of.nu, arguments.has("nu") ? "" : " (default)");
+  std::vector<std::string>& notes = call.context.scene.notes;
+  if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  lua_createtable(call.lua, 0, 2);
+  lua_pushnumber(call.lua, kn);
+  lua_setfield(call.lua, -2, "kn");
+  lua_pushnumber(call.lua, ks);
+  lua_setfield(call.lua, -2, "ks");
+  return 1;
 }
 
 void read_points(Arguments& arguments, JointRule& rule) {
@@ -93,6 +129,10 @@ int joint(Call& call) {
 std::vector<Function> joint_functions() {
   std::vector<Function> functions;
   add_laws(functions, Laws{});
+  functions.push_back({"masonry_stiffness", masonry_stiffness, "{ ... }", "table: kn, ks (Pa/m), for mortar{ kn = k.kn, ks = k.ks, ... }",
+                       "Stiffness of the joints of rigid blocks from that of masonry: kn = E / spacing, ks = kn / (2 (1 + nu)). Log and "
+                       "manifest tell what it did.",
+                       keys_of<MasonryStiffness>()});
   functions.push_back(
       {"joint", joint, "{ ... }", "",
        "Joins faces that face each other at rest by a law. The last rule that matches a pair of blocks applies.",

@@ -90,6 +90,7 @@ struct PlotCommand {
   std::string time;      // --time T0:T1
   bool spectrum = false, response = false, envelope = false, drift = false, list = false, png = false;
   int levels = 24;                // of --drift
+  std::string histogram;          // --histogram: normal_stress or shear_stress
   std::string group;              // of --drift; "": all blocks
   std::optional<double> damping;  // ratio, of --response
 };

@@ -13,8 +13,9 @@ namespace erbs::render {
 
 // What the colour of a block shows: its material, the broken share of its joint area, or a quantity on a scale that ends at Show::scale.
 // With joint_state the joints are coloured, not the blocks.
-enum class Coloring { material, damage, displacement, speed, opening, energy, joint_state };
-inline bool is_quantity(Coloring c) { return c >= Coloring::displacement && c <= Coloring::energy; }
+enum class Coloring { material, damage, displacement, speed, opening, energy, normal_stress, shear_stress, joint_state };
+inline bool is_quantity(Coloring c) { return c >= Coloring::displacement && c <= Coloring::shear_stress; }
+inline bool is_stress(Coloring c) { return c == Coloring::normal_stress || c == Coloring::shear_stress; }
 
 // Intact, damaged, or open by Show::open_crack or more.
 enum class JointState { intact, cracked, open };
@@ -42,7 +43,7 @@ struct Show {
   bool mortared = false;          // joints have thickness: mortar between the bricks, not an edge
   double grid = 1;                // m, spacing of the lines on the ground
   std::vector<float> joint_area;  // m2 [joints]
-  double scale = 1;               // m, m/s or J, the value that has the last colour of the map
+  double scale = 1;               // m, m/s, J or Pa, the value that has the last colour of the map
   std::vector<Vec3> block_color;  // linear, by material with a slight variation between bricks [blocks]
   std::vector<bool> ghost;        // drawn translucent, without shadow [blocks]
 };
@@ -63,7 +64,8 @@ Vec3 map_color(double share);
 inline constexpr double energy_decades = 6;
 double map_share(double value, double scale, Coloring coloring);
 
-// Kinetic energy (J), displacement (m), speed (m/s) or largest joint opening (m) of each block, as the colouring says [blocks].
+// Kinetic energy (J), displacement (m), speed (m/s), largest joint opening (m), or largest mean compression or shear of its joints (Pa) of
+// each block, as the colouring says [blocks].
 std::vector<double> block_values(const MotionScene& scene, const MotionFrame& frame, Coloring coloring);
 
 // The scale of a colouring: what 98 % of the blocks never exceed in these frames, rounded up to 1, 2 or 5 times a power of ten.

@@ -33,6 +33,12 @@ std::string length_text(double m) {
                      : fmt::format("{:.3g} um", 1e6 * m);
 }
 
+// At a share of a scale (Pa); the unit stands at its end only, where there is room.
+std::string stress_text(double share, double scale) {
+  const bool mega = scale >= 1e5, kilo = scale >= 100;
+  return fmt::format("{:.3g}{}", share * scale * (mega ? 1e-6 : kilo ? 1e-3 : 1), share < 1 ? "" : mega ? " MPa" : kilo ? " kPa" : " Pa");
+}
+
 const char* quantity_name(Coloring coloring) {
   switch (coloring) {
     case Coloring::displacement:
@@ -43,6 +49,10 @@ const char* quantity_name(Coloring coloring) {
       return "largest joint opening";
     case Coloring::energy:
       return "kinetic energy, log scale";
+    case Coloring::normal_stress:
+      return "compression in joints";
+    case Coloring::shear_stress:
+      return "shear stress in joints";
     default:
       return "joints broken or open";
   }
@@ -191,6 +201,9 @@ std::string Overlay::map_number(double share) const {
       if (energy >= 1) return energy >= 1000 ? fmt::format("{:g} kJ", energy / 1000) : fmt::format("{:g} J", energy);
       return fmt::format("{:g} mJ", 1000 * energy);
     }
+    case Coloring::normal_stress:
+    case Coloring::shear_stress:
+      return stress_text(share, show_.scale);
     case Coloring::speed:
       return share == 0 ? "0" : fmt::format("{:g} m/s", value);
     default:

@@ -33,7 +33,7 @@ std::vector<double> block_values(const MotionScene& scene, const MotionFrame& fr
   if (coloring == Coloring::displacement)
     for (std::size_t b = 0; b < value.size(); ++b)
       value[b] = (Eigen::Map<const Eigen::Vector3f>(&frame.poses[7 * b]).cast<double>() - scene.blocks[b].rest).norm();
-  if (coloring == Coloring::speed || coloring == Coloring::energy)
+  if (coloring == Coloring::speed || coloring == Coloring::energy || is_stress(coloring))
     std::copy_n(frame.derived.begin(), std::min(frame.derived.size(), value.size()), value.begin());
   if (coloring == Coloring::opening)
     for (std::size_t j = 0; j < scene.joints.size(); ++j)

@@ -136,6 +136,7 @@ MotionFrame frame_to_draw(const MotionReader& reader, const Excerpt& excerpt, co
   frame.t = t;
   if (movie.look.coloring == Coloring::speed) derive_speeds(reader, frame);
   if (movie.look.coloring == Coloring::energy) derive_energies(reader, bodies, frame);
+  if (is_stress(movie.look.coloring)) derive_stresses(reader, movie.look.coloring == Coloring::shear_stress, frame);
   frame = excerpt_of(excerpt, std::move(frame));
   magnify(excerpt.scene, movie.look.magnify, frame);
   return frame;

@@ -47,6 +47,9 @@ std::pair<MotionFrame, MotionFrame> frames_around(const MotionReader& reader, do
 // Fills frame.derived with the speeds (m/s) of the centroids between the frames around its time.
 void derive_speeds(const MotionReader& reader, MotionFrame& frame);
 
+// Fills frame.derived with the largest mean compression, or shear stress, of the joints of each block (Pa). Error if the run kept none.
+void derive_stresses(const MotionReader& reader, bool shear, MotionFrame& frame);
+
 // Mass (kg) and inertia (kg m2, about the centroid, axes at rest) of a block; zero for a fixed one.
 struct Body {
   double mass = 0;

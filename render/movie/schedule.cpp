@@ -91,6 +91,19 @@ void derive_speeds(const MotionReader& reader, MotionFrame& frame) {
         (Eigen::Map<const Eigen::Vector3f>(&g.poses[7 * b]) - Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * b])).norm() / seconds;
 }
 
+void derive_stresses(const MotionReader& reader, bool shear, MotionFrame& frame) {
+  if (!reader.has_stress() && !reader.scene().joints.empty())
+    throw Error("the run has kept no stresses of its joints; say analysis{ frame_stress = true } and run the scene again");
+  frame.derived.assign(frame.poses.size() / 7, 0);
+  for (std::size_t j = 0; j < frame.normal_stress.size(); ++j) {
+    const float stress = shear ? frame.shear_stress[j] : -frame.normal_stress[j];
+    for (const int block : {reader.scene().joints[j].a, reader.scene().joints[j].b}) {
+      float& largest = frame.derived[static_cast<std::size_t>(block)];
+      largest = std::max(largest, stress);
+    }
+  }
+}
+
 void magnify(const MotionScene& scene, double factor, MotionFrame& frame) {
   if (factor == 1) return;
   for (std::size_t b = 0; b < scene.blocks.size(); ++b) {

@@ -96,6 +96,7 @@ Json json_of_manifest(const Manifest& m) {
   j["params"] = Json::array();
   for (const Param& p : m.params)
     j["params"].push_back({{"name", p.name}, {"value", p.value}, {"default", p.fallback}, {"unit", p.unit}, {"text", p.text}});
+  j["notes"] = m.notes;
   j["inputs"] = m.inputs;
   j["effects"] = {{"on", m.effects_on}, {"off", m.effects_off}};
   j["departures"] = m.override_arguments;
@@ -137,6 +138,7 @@ Manifest manifest_of_json(const Json& j) {
   if (scene.contains("labels")) m.labels = scene["labels"].get<std::vector<std::string>>();
   for (const Json& p : j.at("params"))
     m.params.push_back({p.at("name"), number(p.at("value")), number(p.at("default")), p.at("text"), p.at("unit"), {}});
+  if (j.contains("notes")) m.notes = j.at("notes").get<std::vector<std::string>>();
   m.inputs = j.at("inputs").get<std::map<std::string, std::string>>();
   m.effects_on = j.at("effects").at("on").get<std::vector<std::string>>();
   m.effects_off = j.at("effects").at("off").get<std::vector<std::string>>();
@@ -176,6 +178,7 @@ Manifest manifest_of(const Scene& scene, const std::string& script) {
   m.title = title_of(script);
   m.labels = scene.labels;
   m.params = scene.params;
+  m.notes = scene.notes;
   m.inputs = scene.inputs;
   m.duration = scene.analysis.duration;
   m.output_dt = scene.analysis.output_dt;

@@ -17,6 +17,7 @@ struct Manifest {
   std::string scene_name, scene_file, scene_hash, title;  // title: the first comment line of the script
   std::vector<std::string> labels;
   std::vector<Param> params;
+  std::vector<std::string> notes;             // Scene::notes
   std::map<std::string, std::string> inputs;  // path of each input file -> its hash
   std::vector<std::string> effects_on, effects_off;
   double duration = 0, output_dt = 0, frame_dt = 0;    // s

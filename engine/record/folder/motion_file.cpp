@@ -19,20 +19,29 @@ std::string in(const std::string& dir, const char* name) { return (std::filesyst
 // Arrays of the frames. The time is written last: a frame is complete if its time exists.
 struct Frames {
   std::optional<h5::Rows<float>> poses, opening;  // absent without blocks or joints
+  std::optional<h5::Rows<float>> normal_stress, shear_stress;
   std::optional<h5::Rows<std::uint8_t>> damage;
   std::optional<h5::Rows<double>> time;
 
-  void create(const h5::File& file, std::size_t nblock, std::size_t njoint) {
+  void create(const h5::File& file, std::size_t nblock, std::size_t njoint, bool stress) {
     using Row = std::vector<std::size_t>;
     if (nblock > 0) poses.emplace(file, "/poses", Row{nblock, 7}, 1);
     if (njoint > 0) damage.emplace(file, "/joint_damage", Row{njoint}, 1);
     if (njoint > 0) opening.emplace(file, "/joint_opening", Row{njoint}, 1);
+    if (stress && njoint > 0) {
+      normal_stress.emplace(file, "/joint_normal_stress", Row{njoint}, 1);
+      shear_stress.emplace(file, "/joint_shear_stress", Row{njoint}, 1);
+    }
     time.emplace(file, "/time", Row{}, 512);
   }
   void open(const h5::File& file) {
     if (file.has("/poses")) poses.emplace(file, "/poses");
     if (file.has("/joint_damage")) damage.emplace(file, "/joint_damage");
     if (file.has("/joint_opening")) opening.emplace(file, "/joint_opening");
+    if (file.has("/joint_normal_stress") && file.has("/joint_shear_stress")) {
+      normal_stress.emplace(file, "/joint_normal_stress");
+      shear_stress.emplace(file, "/joint_shear_stress");
+    }
     time.emplace(file, "/time");
   }
   std::size_t nblock() const { return poses ? poses->row().front() : 0; }
@@ -42,12 +51,14 @@ struct Frames {
     if (poses) n = std::min(n, poses->size());
     if (damage) n = std::min(n, damage->size());
     if (opening) n = std::min(n, opening->size());
+    if (normal_stress) n = std::min({n, normal_stress->size(), shear_stress->size()});
     return n;
   }
   void resize(std::size_t frames) {
     if (poses) poses->resize(frames);
     if (damage) damage->resize(frames);
     if (opening) opening->resize(frames);
+    if (normal_stress) normal_stress->resize(frames), shear_stress->resize(frames);
     time->resize(frames);
   }
 };
@@ -106,10 +117,10 @@ struct MotionWriter::File {
   std::optional<Sidecar> sidecar;
 };
 
-MotionWriter::MotionWriter(const std::string& dir, const MotionScene& scene)
+MotionWriter::MotionWriter(const std::string& dir, const MotionScene& scene, bool stress)
     : file_(new File{h5::File(in(dir, "motion.h5"), h5::File::Mode::create), {}, {}}) {
   put_scene(file_->file, scene);
-  file_->frames.create(file_->file, scene.blocks.size(), scene.joints.size());
+  file_->frames.create(file_->file, scene.blocks.size(), scene.joints.size(), stress);
   file_->file.single_writer();
   file_->sidecar.emplace(in(dir, "motion.xdmf"), scene.blocks.size());
 }
@@ -144,6 +155,11 @@ void MotionWriter::write(const MotionFrame& frame) {
   if (frames.poses) frames.poses->append(frame.poses.data());
   if (frames.damage) frames.damage->append(frame.damage.data());
   if (frames.opening) frames.opening->append(frame.opening.data());
+  if (frames.normal_stress) {
+    ERBS_ASSERT(frame.normal_stress.size() == frames.njoint() && frame.shear_stress.size() == frames.njoint());
+    frames.normal_stress->append(frame.normal_stress.data());
+    frames.shear_stress->append(frame.shear_stress.data());
+  }
   frames.time->append(&frame.t);
   file_->file.flush();
   file_->sidecar->frame(frames.size() - 1, frame.t);
@@ -174,6 +190,7 @@ MotionReader& MotionReader::operator=(MotionReader&&) noexcept = default;
 
 const MotionScene& MotionReader::scene() const { return file_->scene; }
 const std::vector<double>& MotionReader::times() const { return file_->times; }
+bool MotionReader::has_stress() const { return file_->frames.normal_stress.has_value(); }
 
 MotionFrame MotionReader::read(int frame) const {
   const auto at = static_cast<std::size_t>(frame);
@@ -184,6 +201,11 @@ MotionFrame MotionReader::read(int frame) const {
   if (frames.poses) frames.poses->read(at, f.poses.data());
   if (frames.damage) frames.damage->read(at, f.damage.data());
   if (frames.opening) frames.opening->read(at, f.opening.data());
+  if (frames.normal_stress) {
+    f.normal_stress.resize(frames.njoint()), f.shear_stress.resize(frames.njoint());
+    frames.normal_stress->read(at, f.normal_stress.data());
+    frames.shear_stress->read(at, f.shear_stress.data());
+  }
   return f;
 }
 

@@ -3,6 +3,7 @@
 //   /block_name /group_name /block_group /block_material /block_fixed /block_rest [blocks,3] /block_size [blocks,3]
 //   /shape_* (drawn parts, shared between equal blocks)  /joint_* (the blocks of each joint, and its polygon)
 //   /time [frames]  /poses [frames,blocks,7]  /joint_damage [frames,joints]  /joint_opening [frames,joints]
+//   /joint_normal_stress [frames,joints]  /joint_shear_stress [frames,joints], if the scene asks for them
 //
 // HDF5's single-writer mode and a flush after every frame keep each whole frame readable, even if the run is killed. Another program may
 // read while the file grows. motion.xdmf beside it shows the blocks in ParaView: 3D glyphs, a box scaled by block_size and rotated by the
@@ -54,13 +55,14 @@ struct MotionFrame {
   std::vector<float> poses;          // centroid x,y,z (m, frame of the ground), then w,x,y,z of the rotation from rest [blocks*7]
   std::vector<std::uint8_t> damage;  // 0 intact .. 255 broken [joints]
   std::vector<float> opening;        // m, largest opening over the joint's corners [joints]
-  std::vector<float> derived{};      // m/s or J, speed or energy; not in the file, empty unless a reader derives it [blocks]
+  std::vector<float> derived{};      // m/s, J or Pa: speed, energy or stress; not in the file, empty unless a reader derives it [blocks]
+  std::vector<float> normal_stress{}, shear_stress{};  // Pa, means, tension positive; empty without [joints]
 };
 
 class MotionWriter {
  public:
   // Starts a new DIR/motion.h5 and replaces an old one.
-  MotionWriter(const std::string& dir, const MotionScene& scene);
+  MotionWriter(const std::string& dir, const MotionScene& scene, bool stress = false);  // stress: with those of the joints
   // Continues DIR/motion.h5 and keeps its first `keep_frames` frames; a file left by a killed writer will do.
   MotionWriter(const std::string& dir, int keep_frames);
   ~MotionWriter();
@@ -85,6 +87,7 @@ class MotionReader {
 
   const MotionScene& scene() const;
   const std::vector<double>& times() const;  // s  [frames]
+  bool has_stress() const;
   MotionFrame read(int frame) const;
 
  private:

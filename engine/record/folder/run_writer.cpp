@@ -7,6 +7,7 @@
 
 #include "engine/base/text.h"
 #include "engine/record/folder/run_folder.h"
+#include "engine/record/recorders/joint_stress.h"
 #include "engine/record/results/metrics.h"
 
 namespace erbs {
@@ -81,11 +82,12 @@ RunWriter::RunWriter(const std::string& dir, const Scene& scene, const Model& mo
           table(run_file(dir, "energy.csv"), energy_columns(), resume, resume ? resume->energy_rows : 0, resume ? resume->energy_sum : 0)),
       events_(table(run_file(dir, "events.csv"), {"time_s", "event", "name", "value", "unit"}, resume, resume ? resume->event_rows : 0,
                     resume ? resume->event_sum : 0)),
-      motion_(resume ? MotionWriter(dir, resume->frames) : MotionWriter(dir, motion_scene(scene, model))),
+      motion_(resume ? MotionWriter(dir, resume->frames) : MotionWriter(dir, motion_scene(scene, model), scene.analysis.frame_stress)),
       flushed_(wall_clock()) {
   frame_.poses.resize(std::size_t(model.nblock) * 7);
   frame_.damage.resize(std::size_t(model.njoint));
   frame_.opening.resize(std::size_t(model.njoint));
+  if (scene.analysis.frame_stress) frame_.normal_stress.resize(frame_.opening.size()), frame_.shear_stress.resize(frame_.opening.size());
   if (!resume) write_text_atomically(run_file(dir, "log.txt"), "");
 }
 
@@ -114,6 +116,10 @@ void RunWriter::frame(const Snapshot& snapshot) {
     // Rounded up: a joint with any damage is not drawn as intact.
     frame_.damage[std::size_t(j)] = std::uint8_t(std::ceil(255 * std::clamp(condition.damage, 0.0, 1.0)));
     frame_.opening[std::size_t(j)] = float(condition.opening);
+    if (frame_.normal_stress.empty()) continue;
+    const JointStress stress = joint_stress(model, snapshot.joints, snapshot.pose, j);
+    frame_.normal_stress[std::size_t(j)] = float(stress.normal);
+    frame_.shear_stress[std::size_t(j)] = float(stress.shear);
   }
   motion_.write(frame_);
 }

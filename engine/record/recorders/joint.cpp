@@ -1,5 +1,7 @@
 #include "engine/record/recorders/joint.h"
 
+#include "engine/record/recorders/joint_stress.h"
+
 namespace erbs {
 
 JointQuantity::JointQuantity(const RecorderRequest& request)
@@ -27,6 +29,7 @@ JointQuantity::JointQuantity(const RecorderRequest& request)
 
 void JointQuantity::sample(const Snapshot& s, double* out) const {
   double largest = what == What::opening ? -unbounded : 0, normal = 0, damaged = 0, area = 0, broken = 0;
+  double least_stress = unbounded, greatest_stress = -unbounded;
   Vec3 along = Vec3::Zero(), moment = Vec3::Zero();
   for (std::size_t i = 0; i < joints.size(); ++i) {
     const int j = joints[i];
@@ -45,6 +48,18 @@ void JointQuantity::sample(const Snapshot& s, double* out) const {
       case What::broken:
         broken += joint_broken(s.model, s.joints, j) ? 1 : 0;
         break;
+      case What::crushing:
+        damaged += joint.type->area * joint_crushing(s.model, s.joints, j);
+        area += joint.type->area;
+        break;
+      case What::normal_stress:
+      case What::shear_stress: {
+        const JointStress stress = joint_stress(s.model, s.joints, s.pose, j);
+        least_stress = std::min(least_stress, stress.least);
+        greatest_stress = std::max(greatest_stress, what == What::normal_stress ? stress.greatest : stress.greatest_shear);
+        area += joint.type->area;
+        [[fallthrough]];
+      }
       case What::normal_force:
       case What::shear_force:
       case What::joint_moment: {
@@ -79,10 +94,17 @@ void JointQuantity::sample(const Snapshot& s, double* out) const {
       put_axes(moment, axis, out);
       break;
     case What::damage:
+    case What::crushing:
       out[0] = area > 0 ? damaged / area : 0;
       break;
     case What::broken:
       out[0] = broken;
+      break;
+    case What::normal_stress:
+      out[0] = area > 0 ? normal / area : 0, out[1] = least_stress, out[2] = greatest_stress;
+      break;
+    case What::shear_stress:
+      out[0] = area > 0 ? along.norm() / area : 0, out[1] = greatest_stress;
       break;
   }
 }

@@ -11,7 +11,7 @@ namespace erbs {
 
 // Joints with one side in `blocks` and the other in `others`; an empty set stands for all blocks.
 struct JointQuantity {
-  enum class What { opening, slip, normal_force, shear_force, joint_moment, damage, broken } what;
+  enum class What { opening, slip, normal_force, shear_force, joint_moment, damage, broken, normal_stress, shear_stress, crushing } what;
   std::string name, axis;
   std::vector<int> joints;
   std::vector<double> sign;  // +1 if side a is in `blocks`, -1 if side b is
@@ -24,7 +24,12 @@ struct JointQuantity {
             {"shear_force", "length of the sum of the forces along the joints (N)"},
             {"joint_moment", "moment of the joints on the blocks, about the common centre of the joints at rest (N m)"},
             {"damage", "share of the joints' area that is damaged, 0 to 1"},
-            {"broken", "number of joints with no bond left"}};
+            {"broken", "number of joints with no bond left"},
+            {"normal_stress",
+             "normal stress of the joints, tension positive (Pa): mean over their area, least (the greatest compression), greatest; "
+             "zero once contact has replaced a joint"},
+            {"shear_stress", "shear stress of the joints (Pa): shear force over their area, and the greatest at a contact point; likewise"},
+            {"crushing", "compressive strength that crushing has taken, as a share, mean over the joints' area (0 to 1)"}};
   }
 
   explicit JointQuantity(const RecorderRequest& request);
@@ -45,12 +50,20 @@ struct JointQuantity {
         return {name + "_damage"};
       case What::broken:
         return {name + "_broken"};
+      case What::normal_stress:
+        return {name + "_normal_stress_mean_Pa", name + "_normal_stress_min_Pa", name + "_normal_stress_max_Pa"};
+      case What::shear_stress:
+        return {name + "_shear_stress_mean_Pa", name + "_shear_stress_max_Pa"};
+      case What::crushing:
+        return {name + "_crushing"};
     }
     return {};
   }
 
   void needs(Needs& n) const {
-    if (what == What::normal_force || what == What::shear_force || what == What::joint_moment) n.joint_force = true;
+    if (what == What::normal_force || what == What::shear_force || what == What::joint_moment || what == What::normal_stress ||
+        what == What::shear_stress)
+      n.joint_force = true;
   }
 
   void sample(const Snapshot& s, double* out) const;

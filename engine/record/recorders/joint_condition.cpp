@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/laws/crushing.h"
+
 namespace erbs {
 
 Mat3 joint_frame(const Model& model, const BlockPoses& pose, int j) {
@@ -37,11 +39,14 @@ JointCondition joint_condition(const Model& model, const JointState& joints, con
 double joint_damage(const Model& model, const JointState& joints, int j) {
   if (joints.stage[std::size_t(j)] == JointStage::contact) return 1;
   const Joint& joint = model.joint[std::size_t(j)];
+  const CrushedFace* crushed = model.laws[std::size_t(joint.type->law)].crushes_softly() ? &joints.crushed[std::size_t(j)] : nullptr;
   double damaged = 0, whole = 0;
   for (int i = 0; i < joint.type->points; ++i) {
-    const double weight = model.point[std::size_t(joint.type->first_cell + i)].weight;
-    whole += weight;
-    if (joints.history[std::size_t(joint.first_point + i)].damage > 0) damaged += weight;
+    const Point& point = model.point[std::size_t(joint.type->first_cell + i)];
+    whole += point.weight;
+    if (joints.history[std::size_t(joint.first_point + i)].damage > 0 ||
+        (crushed != nullptr && crushed->planes > 0 && crushed_depth(*crushed, point.s, point.t) > 0))
+      damaged += point.weight;
   }
   return whole > 0 ? damaged / whole : 0.0;
 }

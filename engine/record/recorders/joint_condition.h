@@ -9,7 +9,7 @@ namespace erbs {
 struct JointCondition {
   double opening = 0;  // m, largest over the corners of the joint; negative: closed everywhere
   double slip = 0;     // m, largest over the corners
-  double damage = 0;   // 0..1, area share of points with any damage; 1 after release to contact
+  double damage = 0;   // 0..1, area share of points with any damage of bond or strength; 1 after release to contact
 };
 
 JointCondition joint_condition(const Model& model, const JointState& joints, const BlockPoses& pose, int j);

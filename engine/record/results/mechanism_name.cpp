@@ -74,6 +74,13 @@ Cracks cracks_of(const Model& m, const Mechanism& joints, const Vec3& up) {
   return out;
 }
 
+// One body on beds that may be crushed goes down rather than along.
+bool sinks(const Model& m, const BlockMotions& motions, const std::vector<int>& blocks, const Vec3& up) {
+  Vec3 mean = Vec3::Zero();
+  for (const int b : blocks) mean += m.mass[z(b)] * motions.u[z(b)];
+  return -mean.dot(up) > 0.7 * mean.norm() && std::any_of(m.laws.begin(), m.laws.end(), [](const PointLaw& law) { return law.crushes(); });
+}
+
 }  // namespace
 
 BlockMotions motions_of(const BlockPoses& pose, int nblock) {
@@ -97,7 +104,7 @@ NamedMechanism name_mechanism(const Model& m, const BlockMotions& motions, const
   const Cracks cracks = cracks_of(m, joints, up);
   const bool stepped = cracks.beds > 1 && cracks.heads > 1;
   if (body.residual < as_one && body.turning < without_turn) {
-    out.name = "sliding";
+    out.name = sinks(m, motions, blocks, up) ? "crushing" : "sliding";
   } else if (body.residual < as_one) {
     const Vec3 across = up.cross(push);
     const bool wall = extent(m, blocks, push) < thin * extent(m, blocks, across);

@@ -1,4 +1,4 @@
-// The mechanism of a collapse in a word, from how the blocks move: overturning, sliding, hinges, shear.
+// The mechanism of a collapse in a word, from how the blocks move: overturning, sliding, crushing, hinges, shear.
 #pragma once
 #include <string>
 #include <vector>
@@ -22,6 +22,7 @@ struct NamedMechanism {
 
 // `push`: unit vector of the load, horizontal. What moves is what moves by a fifth of the largest displacement.
 //   sliding                one body, with hardly any rotation
+//   crushing               the same, downwards, where a law yields in compression
 //   overturning            one body that turns about a level axis; "overturning out of plane" where it is a wall less than half as thick as
 //                          wide, across which it falls; "overturning on a stepped crack" where its crack runs through bed and head joints
 //   hinges                 several bodies that turn against each other; joints open at edges

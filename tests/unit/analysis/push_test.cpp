@@ -133,6 +133,9 @@ TEST_CASE("a push names its mechanism", "[push]") {
   CHECK(mechanism(block("{.4, .4, .5}", ".3")) == "sliding");
   CHECK(mechanism(block("{.4, .4, 1.2}", ".7")) == "overturning");
   CHECK(mechanism(block("{.2, 1.2, 1.2}", ".7")) == "overturning out of plane");
+  CHECK(mechanism(stone + "box{ name = 'b', size = {.4, .4, 1.2}, at = {-.2, -.2, 0} }"  // 24 kPa of weight
+                          "joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 0, c = 0, mu = .7, fc = 25*kPa, Gc = 30 } }"
+                          "analysis{ kind = 'pushover', step = .002, bracket = .05 }") == "crushing");
   CHECK(mechanism(R"(
 material{ name = "stone", density = 2000, kn = 1e11, ks = 4e10, friction = 3 }
 arch{ radius = 2, thickness = .4, width = .5, voussoirs = 9, embrace = 150*deg }

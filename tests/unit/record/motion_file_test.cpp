@@ -131,6 +131,33 @@ TEST_CASE("a motion file whose head does not fit its sum is refused soon", "[rec
   CHECK_THROWS_WITH(MotionReader(dir.path.string()), Catch::Contains("motion.h5") && Catch::Contains("run the scene again"));
 }
 
+TEST_CASE("stresses of joints are kept if asked for, through a resume too, and a file without them is read", "[record][motion_file]") {
+  const Folder dir;
+  const auto stressed = [](int i) {
+    MotionFrame f = frame_at(i);
+    f.normal_stress = {-1e6F * static_cast<float>(i)}, f.shear_stress = {2e5F};
+    return f;
+  };
+  MotionWriter writer(dir.path.string(), two_blocks(), true);
+  for (int i = 0; i < 3; ++i) writer.write(stressed(i));
+  writer.close();
+  MotionWriter again(dir.path.string(), 2);
+  again.write(stressed(7));
+  again.close();
+  const MotionReader reader(dir.path.string());
+  CHECK(reader.has_stress());
+  REQUIRE(reader.times().size() == 3);
+  CHECK(reader.read(1).normal_stress == std::vector<float>{-1e6F});
+  CHECK(reader.read(2).normal_stress == std::vector<float>{-7e6F});
+  CHECK(reader.read(2).shear_stress == std::vector<float>{2e5F});
+  MotionWriter plain(dir.path.string(), two_blocks());
+  plain.write(frame_at(0));
+  plain.close();
+  const MotionReader without(dir.path.string());
+  CHECK_FALSE(without.has_stress());
+  CHECK(without.read(0).normal_stress.empty());
+}
+
 TEST_CASE("a scene without joints and a file that is none", "[record][motion_file]") {
   const Folder dir;
   MotionScene scene = two_blocks();

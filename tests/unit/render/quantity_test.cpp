@@ -55,6 +55,33 @@ TEST_CASE("kinetic energy is that of translation and rotation", "[render][quanti
   CHECK(map_share(5, 10, Coloring::speed) == 0.5);
 }
 
+TEST_CASE("a block has the colour of its most stressed joint", "[render][quantity]") {
+  MotionScene scene;
+  const int part = share_shape(scene, {{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}});
+  for (int i = 0; i < 4; ++i) scene.blocks.push_back({"b", "wall", 0, i == 0, {0, 0, 1.0 * i}, {part}});
+  for (int i = 0; i < 3; ++i) scene.joints.push_back({i, i + 1, {{0, 0, 1}, {1, 0, 1}, {0, 1, 1}}, {0, 0, 1}, 0});
+  const bool kept = GENERATE(true, false);
+  const test::Folder dir;
+  MotionWriter writer(dir.path.string(), scene, kept);
+  MotionFrame f{0, std::vector<float>(28), {0, 0, 0}, {0, 0, 0}};
+  if (kept) f.normal_stress = {-3e5F, -2e5F, 1e5F}, f.shear_stress = {0, 5e4F, 1e4F};
+  writer.write(f);
+  writer.close();
+  const MotionReader reader(dir.path.string());
+  MotionFrame frame = reader.read(0);
+  if (!kept) {
+    CHECK_THROWS_WITH(derive_stresses(reader, false, frame), Catch::Contains("frame_stress = true"));
+    return;
+  }
+  derive_stresses(reader, false, frame);
+  CHECK(block_values(scene, frame, Coloring::normal_stress) == std::vector<double>{3e5, 3e5, 2e5, 0});  // tension is no compression
+  CHECK(color_scale(scene, {frame}, Coloring::normal_stress) == Approx(5e5));
+  derive_stresses(reader, true, frame);
+  CHECK(block_values(scene, frame, Coloring::shear_stress)[1] == Approx(5e4));
+  CHECK(is_quantity(Coloring::shear_stress));
+  CHECK_FALSE(is_quantity(Coloring::joint_state));
+}
+
 TEST_CASE("joints have the state of their damage and opening", "[render][quantity]") {
   const MotionScene scene = brick_house({1.2, 1.2, 6, 1, 0.5});
   const Show show = prepare_show(scene, {}, {});

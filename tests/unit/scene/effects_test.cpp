@@ -23,7 +23,7 @@ std::string why(const Scene& scene, const std::string& name) {
 
 TEST_CASE("each effect names the line that called for it", "[scene]") {
   const Scene scene = scene_of(
-      "joint{ law = mortar{ E = 1e9, thickness = .01, ft = 1e5, c = 1e5, mu = .6, Gf1 = 5, fc = 1e6 } }\n"
+      "joint{ law = mortar{ E = 1e9, thickness = .01, ft = 1e5, c = 1e5, mu = .6, Gf1 = 5, fc = 1e6, Gc = 3000 } }\n"
       "ground_motion{ wave = 1, direction = {3, 0, 4} }\n"
       "damping{ mass = 2 }\n"
       "box{ name = 'c', size = {1, 1, 1}, at = {5, 0, 0}, free = true }\n"
@@ -31,7 +31,8 @@ TEST_CASE("each effect names the line that called for it", "[scene]") {
       "recorder{ name = 'c', quantity = 'displacement', block = 'c' }\n");
   const auto& joint = scene.joint_rules.at(0).place;
   const auto line = [&](int n) { return Place{joint.file, joint.line + n}.text(); };
-  for (const char* name : {"softening in tension", "compression plateau", "rotation of joint frames", "debris contact"})
+  for (const char* name :
+       {"softening in tension", "compression plateau", "softening in compression", "rotation of joint frames", "debris contact"})
     CHECK(why(scene, name) == line(0));
   for (const char* name : {"ground x", "ground z"}) CHECK(why(scene, name) == line(1));
   CHECK(why(scene, "mass damping") == line(2));

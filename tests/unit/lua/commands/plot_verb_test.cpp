@@ -127,3 +127,33 @@ TEST_CASE("drift over height is drawn from the poses of a run, for a group too",
     CHECK(contains(bench.said, said));
   }
 }
+
+TEST_CASE("a histogram of joint stresses is drawn from the frames of a run", "[plot][histogram][program]") {
+  Bench bench;
+  const std::string wall =
+      "material{ name = 'stone', density = 2000 }\nbox{ name = 'floor', size = {3, 3, .5}, at = {-1, -1, -.5}, fixed = true }\n"
+      "column{ blocks = 4, size = {1, 1, .5} }\njoint{ law = dry{ kn = 1e10, mu = .7 } }\n";
+  bench.write("kept.lua", wall + "analysis{ duration = .01, frame_dt = .005, frame_stress = true }");
+  bench.write("plain.lua", wall + "analysis{ duration = .01 }");
+  const std::string kept = bench.folder / "kept", plain = bench.folder / "plain";
+  REQUIRE(bench.erbs({"run", bench.folder / "kept.lua", "-o", kept, "-q"}) == 0);
+  REQUIRE(bench.erbs({"run", bench.folder / "plain.lua", "-o", plain, "-q"}) == 0);
+  REQUIRE(bench.erbs({"plot", kept, "--histogram", "normal_stress"}) == 0);
+  CHECK(contains(bench.said, "histogram of 1 run"));
+  const std::string svg = text_of(kept + "/plot.svg");
+  for (const char* text : {"normal stress, tension positive [kPa]", "area [%]"}) {
+    INFO(text);
+    CHECK(contains(svg, text));
+  }
+  CHECK(bench.erbs({"plot", kept, kept, "--histogram", "shear_stress", "--time", "0.005", "--png"}) == 0);
+  const auto refused = [&](const std::vector<std::string>& line, const char* why) {
+    CHECK(bench.erbs(line) == 2);
+    INFO(bench.said);
+    CHECK(contains(bench.said, why));
+  };
+  refused({"plot", plain, "--histogram", "normal_stress"}, "frame_stress = true");
+  refused({"plot", kept, "--histogram", "stress"}, "normal_stress");
+  refused({"plot", kept, "--histogram", "normal_stress", "--drift"}, "exclude each other");
+  refused({"plot", kept, "--histogram", "normal_stress", "--force", "--time", "0:1"}, "one time");
+  refused({"plot", kept, "--histogram", "normal_stress", "--y", "x"}, "draws no columns");
+}

@@ -151,3 +151,18 @@ TEST_CASE("without figures nothing of figure{} is left, but for the book", "[pro
   REQUIRE(bench.run(scene, {"-q", "--no-figures", "--figure-scripts", "--force"}) == 0);
   CHECK(std::filesystem::exists(bench.out() + "/figures/f.gnuplot"));
 }
+
+TEST_CASE("what masonry_stiffness did stands in check, in the log and in the manifest", "[program]") {
+  Bench bench;
+  const std::string text = four_bricks() +
+                           "local k = masonry_stiffness{ E = 5*GPa, nu = .25, spacing = .5 }\n"
+                           "joint{ law = mortar{ kn = k.kn, ks = k.ks, ft = 1e5, c = 1e5, mu = .6 } }\nanalysis{ duration = .001 }\n";
+  const std::string sentence = "kn = E/h = 10 GPa/m from E = 5 GPa, h = 0.5 m; ks = kn/(2(1+nu)) = 4 GPa/m from nu = 0.25";
+  REQUIRE(bench.erbs({"check", bench.scene(text)}) == 0);
+  CHECK(contains(bench.said, sentence));
+  REQUIRE(bench.run(text) == 0);
+  CHECK(contains(text_of(bench.out() + "/log.txt"), sentence));
+  const Json notes = read_json(bench.out() + "/manifest.json")["notes"];
+  REQUIRE(notes.size() == 1);
+  CHECK(contains(notes[0].get<std::string>(), "scene.lua:4: " + sentence));
+}

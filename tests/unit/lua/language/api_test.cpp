@@ -126,6 +126,20 @@ TEST_CASE("joint rules and laws", "[lua]") {
   CHECK(mentions(mistakes_in("joint{ law = mortar{ E = 1e9, ft = 0, c = 0, mu = 0.5 } }"), "the mortar has E but no thickness"));
 }
 
+TEST_CASE("the stiffness of joints comes from that of masonry, and says how", "[lua]") {
+  const Scene scene = scene_of(
+      "local k = masonry_stiffness{ E = 5*GPa, nu = 0.25, spacing = 50*cm }\n"
+      "joint{ law = mortar{ kn = k.kn, ks = k.ks, ft = 0, c = 0, mu = 0.6 } }\n"
+      "for i = 1, 3 do joint{ law = dry{ kn = masonry_stiffness{ E = 2*GPa, spacing = 0.25 }.kn, mu = 0.6 } } end");
+  const PointLaw law = compile(scene.joint_rules.at(0).law);
+  CHECK(law.kn == Approx(10e9));
+  CHECK(law.ks == Approx(4e9));
+  CHECK(compile(scene.joint_rules.at(3).law).kn == Approx(8e9));
+  REQUIRE(scene.notes.size() == 2);  // a line in a loop says it once
+  CHECK(scene.notes[0] == "scene.lua:6: kn = E/h = 10 GPa/m from E = 5 GPa, h = 0.5 m; ks = kn/(2(1+nu)) = 4 GPa/m from nu = 0.25");
+  CHECK_THAT(scene.notes[1], Catch::Contains("from nu = 0.2 (default)"));
+}
+
 TEST_CASE("waves are values, can be called, and drive loads", "[lua]") {
   const Scene scene = scene_of(
       "local w = sine{ amplitude = 2, frequency = 1, phase = 90*deg }\n"

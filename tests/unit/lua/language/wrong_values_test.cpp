@@ -31,6 +31,7 @@ const std::map<std::string, Words> sound_calls{
     {"transform", {{"1", "function() end"}}},
     {"dry", {{"kn", "1e9"}, {"mu", ".6"}}},
     {"mortar", {{"kn", "1e9"}, {"ft", "1e5"}, {"c", "1e5"}, {"mu", ".6"}}},
+    {"masonry_stiffness", {{"E", "5e9"}, {"spacing", ".5"}}},
     {"dilatant", {{"kn", "1e9"}, {"mu", ".6"}, {"psi", ".1"}, {"wear_slip", "5e-3"}}},
     {"joint", {{"law", "dry{ kn = 1e9, mu = .6 }"}}},
     {"sine", {{"amplitude", "1"}, {"frequency", "1"}}},
