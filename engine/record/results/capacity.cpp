@@ -24,6 +24,7 @@ Json to_json(const Capacity& c) {
   json["attempts"] = c.attempts;
   json["relaxation_steps"] = c.relaxation_steps;
   json["unbalanced_relative"] = c.worst_unbalanced;
+  if (c.performance) json["performance"] = to_json(*c.performance);
   return json;
 }
 
