@@ -179,7 +179,8 @@ void add_capacity(CLI::App& app, CapacityCommand& command) {
       .add_option("DIR", command.words, "the run folder, and the keys of another spectrum{}: 'kind = \"TBSC 2018\", SDS = 0.9, SD1 = 0.25'")
       ->required()
       ->expected(1, 2);
-  capacity.add_flag("!--no-figures", command.figures, "do not draw performance.svg");
+  capacity.add_flag_callback(
+      "--no-figures", [&command] { command.figures = false; }, "do not draw performance.svg");
   capacity.add_flag("-q,--quiet", command.quiet, "print errors only");
 }
 

@@ -71,7 +71,7 @@ metric("gamma_on_paper", "", gamma)
 converge { param = "case", name = "performance_point",
   values = (function() local all = {} for i = 1, #cases do all[i] = i end return all end)(),
   value = function(run) return run.capacity.performance[variant].top_displacement_m / top end }
--- The corner of the curve lies between two states, an eighth of a step apart; a part of one bed's creep to its peak.
+-- The corner of the curve lies between two states, an eighth of a step apart.
 expect("metrics.performance_point_least", 1, { between = { 0.995, 1.001 }, source = "annex B of an elastic and perfectly plastic oscillator" })
 expect("metrics.performance_point_most", 1, { between = { 0.999, 1.005 }, source = "annex B of an elastic and perfectly plastic oscillator" })
 expect("capacity.performance.n2.verdict", "within the curve")
