@@ -33,6 +33,7 @@ struct CommandLine {
   TestCommand test;
   AccuracyCommand accuracy;
   LimitCommand limit;
+  CapacityCommand capacity;
   TimingCommand bench, effects;
   std::vector<std::string> words;  // of erbs help
 };
@@ -66,6 +67,9 @@ void add_run(CLI::App& app, RunCommand& command) {
   run.add_option("--noise", changes.noise,
                  "perturb the initial state of every free block by up to this (m and rad), always with the same seed")
       ->check(within(0.0, 1.0));
+  run.add_option("--push-to", changes.push_to,
+                 "push to this displacement of the monitored point (m) and no further, such as the one of the performance point")
+      ->check(within(1e-9, 1e3));
   run.add_option("--twin-noise", command.twin_noise)->group("");  // of the twin run that --twin starts
   run.add_flag("--twin", command.twin, "also run a twin perturbed by 1e-9, and report when the two differ by 1 mm (the chaos horizon)");
   run.add_flag_callback(
@@ -173,6 +177,17 @@ void add_compare(CLI::App& app, CompareCommand& command) {
     compare.add_option_function<std::string>(name, pass, "of a film: " + text)->check(filled());
   }
   add_output(compare, command.output, "DIR/compare");
+}
+
+void add_capacity(CLI::App& app, CapacityCommand& command) {
+  CLI::App& capacity = *app.add_subcommand("capacity", "performance point of a finished pushover, for its spectrum or another one");
+  capacity
+      .add_option("DIR", command.words, "the run folder, and the keys of another spectrum{}: 'kind = \"TBSC 2018\", SDS = 0.9, SD1 = 0.25'")
+      ->required()
+      ->expected(1, 2);
+  capacity.add_flag_callback(
+      "--no-figures", [&command] { command.figures = false; }, "do not draw performance.svg");
+  capacity.add_flag("-q,--quiet", command.quiet, "print errors only");
 }
 
 void add_others(CLI::App& app, CommandLine& line) {
@@ -327,6 +342,7 @@ int call(const CLI::App& app, const CommandLine& line) {
   if (name == "test") return verb_test(line.test);
   if (name == "bench") return verb_bench(line.bench);
   if (name == "limit") return verb_limit(line.limit);
+  if (name == "capacity") return verb_capacity(line.capacity);
   if (name == "effects") return verb_effects(line.effects);
   if (name == "version") return verb_version();
   std::vector<std::string> words = line.words;
@@ -383,6 +399,7 @@ int run_program(int argc, char** argv) {
   add_report(app, line.report);
   add_compare(app, line.compare);
   add_limit(app, line.limit);
+  add_capacity(app, line.capacity);
   return finish_streams(answer(app, line, argc, argv), exit_usage);
 }
 

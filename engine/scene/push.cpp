@@ -84,12 +84,27 @@ void check_numbers(PushCheck& c) {
   }
 }
 
+void check_performance(PushCheck& c) {
+  const PerformanceDemand& demand = c.scene.performance;
+  if (!demand.given()) return;
+  const auto say = [&](const std::string& text) { c.mistakes.push_back(demand.place.text() + ": spectrum: " + text); };
+  if (c.push.kind != "pushover")
+    say("a performance point lies on the curve of a pushover; take analysis{ kind = \"pushover\" }, or leave spectrum out");
+  for (const std::string& mistake : check_spectrum(demand.spectrum)) say(mistake);
+  if (demand.group.empty()) return;
+  std::vector<std::string> groups;
+  bool there = false;
+  for (const Block& block : c.scene.blocks) groups.push_back(block.group), there = there || (block.group == demand.group && !block.fixed);
+  if (!there) say(fmt::format("group \"{}\" has no free blocks{}", demand.group, did_you_mean(demand.group, groups)));
+}
+
 }  // namespace
 
 std::vector<std::string> check_push(const Scene& scene) {
   const PushSettings& push = scene.push;
-  if (!push.quasi_static()) return {};
   PushCheck c{scene, push, {}};
+  check_performance(c);
+  if (!push.quasi_static()) return c.mistakes;
   check_numbers(c);
   check_pattern(c);
   check_monitor(c);

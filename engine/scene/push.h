@@ -86,7 +86,7 @@ struct PushSettings {
 };
 
 struct Scene;
-// Mistakes of the push of a scene; none for a time history.
+// Mistakes of the push of a scene, and of the spectrum that asks for its performance point.
 std::vector<std::string> check_push(const Scene& scene);
 
 }  // namespace erbs

@@ -13,6 +13,7 @@
 #include "engine/geometry/polyhedron.h"
 #include "engine/laws/laws.h"
 #include "engine/loads/loads.h"
+#include "engine/scene/performance.h"
 #include "engine/scene/push.h"
 
 namespace erbs {
@@ -341,6 +342,7 @@ struct Scene {
   Damping damping;
   Analysis analysis;
   PushSettings push;
+  PerformanceDemand performance;  // of a pushover
   std::vector<Recorder> recorders;
   std::vector<Camera> cameras;
   std::vector<Param> params;

@@ -14,6 +14,7 @@
 #include "engine/base/system/affinity.h"
 #include "engine/base/system/interrupt.h"
 #include "engine/base/text.h"
+#include "engine/record/performance/performance_figure.h"
 #include "engine/scene/effects.h"
 #include "engine/study/twin.h"
 #include "lua/program/child.h"
@@ -130,9 +131,11 @@ std::string capacity_text(const PushSettings& push, const Json& metrics) {
 
 void print_summary(const Scene& scene, const std::string& directory, const Json& metrics, const std::vector<Verdict>& verdicts) {
   if (scene.push.quasi_static()) {
+    const Json* performance = find_key(metrics, "capacity.performance");
     say("{}: {}, {} in {}; {} blocks, {} joints, {} broken\n{}\n", scene.name, metrics.value("status", ""), scene.push.kind,
         duration_text(number_at(metrics, "wall_s.total")), metrics.value("blocks", 0), metrics.value("joints", 0),
         metrics.value("joints_broken", 0), capacity_text(scene.push, metrics));
+    if (performance) say("{}\n", performance_text(*performance));
   } else {
     say("{}: {}, {:g} s simulated in {} ({:.3g} x real time); {} blocks, {} joints, {} broken\n", scene.name, metrics.value("status", ""),
         number_at(metrics, "time_s"), duration_text(number_at(metrics, "wall_s.total")), number_at(metrics, "realtime_factor"),
@@ -268,6 +271,15 @@ void draw_curves(const std::string& directory) {
   tell(stderr, fmt::format("warning: the curves could not be drawn; erbs render {} --figures draws them", directory));
 }
 
+// Draws performance.svg of a run that has a performance point. A failure is only a warning.
+void draw_performance_point(const Scene& scene, const std::string& directory, const analysis::RunOutcome& outcome) {
+  const std::optional<Capacity>& capacity = outcome.metrics.capacity;
+  if (!capacity || !capacity->performance) return;
+  try {
+    draw_performance(directory, *capacity->performance, scene.performance.spectrum, scene.name);
+  } catch (const Error& error) { tell(stderr, fmt::format("warning: performance.svg could not be drawn: {}", error.what())); }
+}
+
 // Work after the run itself: studies, twin, metrics and pictures. Returns the exit code.
 int complete(Script& script, const std::string& path, const std::string& directory, const analysis::RunOutcome& outcome,
              const RunCommand& command) {
@@ -294,6 +306,7 @@ int complete(Script& script, const std::string& path, const std::string& directo
   if (whole && command.study.empty() && (command.figures || command.figure_scripts)) write_figures(script, directory, command.figures);
   for (const auto& trouble : studies.troubles) tell(stderr, trouble);
   for (const auto& message : failures) tell(stderr, message);
+  if (whole && command.figures) draw_performance_point(script.scene(), directory, outcome);
   if (!command.output.quiet) print_summary(script.scene(), directory, metrics, verdicts);
   if (command.profile) say("{}", profile_text(outcome));
   int code = exit_code(script.scene(), command, outcome, metrics, verdicts);
@@ -341,7 +354,7 @@ int verb_run(const RunCommand& wish) {
   std::vector<std::string> notes = script.output();
   notes.insert(notes.end(), scene.notes.begin(), scene.notes.end());
   for (const auto& note : apply_overrides(scene, command)) notes.push_back(note);
-  if (!command.changes.settings.empty())  // values of --set pass the same checks as the scene
+  if (!command.changes.settings.empty() || command.changes.push_to > 0)  // they pass the same checks as the scene
     if (const auto mistakes = check(scene); !mistakes.empty()) throw Errors(mistakes);
   for (const auto& warning : warnings(scene)) {
     tell(stderr, "warning: " + warning);

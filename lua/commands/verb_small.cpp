@@ -1,10 +1,14 @@
-// Short verbs: render and version. Also the parsers of durations and shares for all verbs.
+// Short verbs: render, version, and capacity, the performance point of a finished pushover. Also the parsers of durations and shares for
+// all verbs.
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 
 #include "engine/base/system/interrupt.h"
 #include "engine/base/text.h"
-#include "engine/record/folder/manifest.h"
+#include "engine/record/folder/run_folder.h"
+#include "engine/record/performance/performance_figure.h"
+#include "engine/record/performance/performance_folder.h"
 #include "lua/program/child.h"
 #include "lua/program/options.h"
 #include "lua/program/say.h"
@@ -19,6 +23,34 @@ int verb_render(const std::vector<std::string>& words) {
 
 int verb_version() {
   say("erbs {}\n", program_version());
+  return exit_ok;
+}
+
+// Without keys: that of the last spectrum.
+int verb_capacity(const CapacityCommand& command) {
+  const std::string& dir = command.words.front();
+  if (!is_run_folder(dir)) throw Error(fmt::format("{} is no run folder; name the one of a pushover", shown(dir, 200)));
+  if (command.words.size() == 1) {
+    const std::string last = run_file(dir, "performance.json");
+    if (!std::filesystem::is_regular_file(last))
+      throw Error("no spectrum has been applied to this run; add one: 'kind = \"EN 1998-1 type 1\", ground = \"B\", ag = 0.2*g'", {dir});
+    say("{}\n", performance_text(read_json(last)));
+    return exit_ok;
+  }
+  Script script;
+  const PerformanceDemand demand = script.load_spectrum(command.words[1], "spectrum");
+  const FolderLock lock(dir);
+  Performance performance;
+  try {
+    performance = evaluate_performance(dir, demand);
+  } catch (const Error& mistake) {
+    if (!mistake.place.file.empty()) throw;
+    throw Error(mistake.what(), {dir});
+  }
+  if (!command.quiet) say("{}\n", performance_text(to_json(performance)));
+  if (!command.figures) return exit_ok;
+  if (can_start("gnuplot")) draw_performance(dir, performance, demand.spectrum, std::filesystem::canonical(dir).filename().string());
+  else tell(stderr, "warning: performance.svg needs gnuplot, which is not there; install the package gnuplot-nox");
   return exit_ok;
 }
 

@@ -73,6 +73,36 @@ int analysis(Call& call) {
   return 0;
 }
 
+// Keys of spectrum{} besides the fields.
+const Keys& row_keys() {
+  static const Keys keys{{"T", "number", "s", "period", 0, 100, true}, {"Sa", "number", "m/s2", "elastic acceleration", 0, 1e3, true}};
+  return keys;
+}
+
+int spectrum(Call& call) {
+  Arguments arguments = call.arguments();
+  PerformanceDemand& demand = call.context.scene.performance;
+  if (demand.place.line > 0) {
+    arguments.mistake(
+        fmt::format("there is one at {} already; keep one, and evaluate others after the run with erbs capacity", demand.place.text()));
+    return 0;
+  }
+  demand.place = call.place;
+  arguments.read(demand);
+  DesignSpectrum& asked = demand.spectrum;
+  arguments.read(asked);
+  if (arguments.has("table")) {
+    for (Arguments& row : arguments.tables("table", row_keys())) {
+      row.read("T", asked.period.emplace_back());
+      row.read("Sa", asked.acceleration.emplace_back());
+    }
+    if (!arguments.has("kind")) asked.kind = "table";
+  }
+  if (!arguments.has("kind") && asked.kind.empty())
+    for (const std::string& mistake : check_spectrum(asked)) arguments.mistake(mistake);
+  return 0;
+}
+
 int recorder(Call& call) {
   Arguments arguments = call.arguments();
   Scene& scene = call.context.scene;
@@ -132,6 +162,12 @@ std::vector<Function> analysis_functions() {
               "a measured pair of step (over its limit) and contact points, for values that the scene leaves open: 0.9 and 2 x 2, 0.9 and "
               "3 x 3, 0.25 and 5 x 5",
               -unbounded, unbounded, false, "draft|standard|reference"}}})},
+      {"spectrum", spectrum, "{ ... }", "",
+       "Elastic spectrum whose performance point on the curve of the pushover is computed: capacity.performance, performance.svg.",
+       joined({keys_of<DesignSpectrum>(),
+               {{"table", "list", "", "rows { T = ..., Sa = ... } of another spectrum, from T = 0 on", -unbounded, unbounded, false, "", "",
+                 row_keys()}},
+               keys_of<PerformanceDemand>()})},
       {"recorder", recorder, "{ ... }", "",
        "Writes a quantity of a block to histories.csv; for several blocks their mean, for forces their sum.",
        joined({recorder_keys(),

@@ -206,7 +206,17 @@ const Scene& Script::load_text(const std::string& text, const std::string& name,
   return context_->scene;
 }
 
-void Script::run(const std::string& text, const std::string& name, const Overrides& overrides) {
+PerformanceDemand Script::load_spectrum(const std::string& keys, const std::string& name) {
+  run("spectrum{ " + keys + "\n}", name, {}, true);
+  PerformanceDemand demand = context_->scene.performance;
+  std::vector<std::string> mistakes = check_spectrum(demand.spectrum);
+  for (std::string& mistake : mistakes) mistake = name + ": " + mistake;
+  if (!mistakes.empty()) throw Errors(mistakes);
+  return demand;
+}
+
+// `part`: of a scene; what only a whole one has is not checked.
+void Script::run(const std::string& text, const std::string& name, const Overrides& overrides, bool part) {
   Context& context = *context_;
   context.scene.file = name;
   context.scene.name = std::filesystem::path(name).stem().string();
@@ -229,7 +239,7 @@ void Script::run(const std::string& text, const std::string& name, const Overrid
     whole = false;
     if (!context.incomplete || context.limits.expired) add_messages(context.mistakes, error.what());
   }
-  finish(whole && !context.incomplete);
+  finish(whole && !context.incomplete && !part);
   lua_gc(lua_, LUA_GCCOLLECT, 0);  // frees the garbage of reading; functions of metrics stay
 }
 

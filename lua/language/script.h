@@ -55,6 +55,9 @@ class Script {
   const Scene& load(const std::string& path, const Overrides& overrides = {});
   const Scene& load_text(const std::string& text, const std::string& name, const Overrides& overrides = {});
 
+  // A call of spectrum{} by its keys alone, as on a command line: kind = "TBSC 2018", SDS = 0.9, SD1 = 0.25. Throws Errors.
+  PerformanceDemand load_spectrum(const std::string& keys, const std::string& name);
+
   // The metrics of the scene, in its order.
   std::vector<MetricValue> evaluate_metrics(const RunResults& results);
 
@@ -68,7 +71,7 @@ class Script {
   Json lua_functions();
 
  private:
-  void run(const std::string& text, const std::string& name, const Overrides& overrides);
+  void run(const std::string& text, const std::string& name, const Overrides& overrides, bool part = false);
   void finish(bool whole);
   std::unique_ptr<Context> context_;
   lua_State* lua_ = nullptr;

@@ -47,6 +47,7 @@ struct SceneChanges {
   std::optional<double> from;         // s, time at which the loads begin
   std::vector<std::string> without;   // effects that are switched off
   double noise = 0;                   // m and rad, noise in the initial state of every free block
+  double push_to = 0;                 // m, displacement of the monitored point at which a pushover ends; 0: as the scene says
 };
 
 // What each verb reads; words: its arguments, such as scenes, folders, files.
@@ -136,6 +137,10 @@ struct LimitCommand {
   int facets = 0;         // of friction cones; 0: round cones
   bool no_tension = false, associated = false;
 };
+struct CapacityCommand {
+  std::vector<std::string> words;  // run folder, and keys of spectrum{} as in a scene
+  bool figures = true, quiet = false;
+};
 // Of erbs bench and erbs effects.
 struct TimingCommand {
   std::vector<std::string> words;
@@ -162,6 +167,7 @@ int verb_check(const CheckCommand& command);
 int verb_record(const RecordCommand& command);
 int verb_export(const ExportCommand& command);
 int verb_limit(const LimitCommand& command);
+int verb_capacity(const CapacityCommand& command);
 int verb_plot(const PlotCommand& command);
 int verb_report(const ReportCommand& command);
 int verb_compare(const CompareCommand& command);

@@ -106,6 +106,14 @@ std::vector<std::string> apply_overrides(Scene& scene, const RunCommand& command
     for (Load& load : scene.loads) load.wave = earlier(load.wave, *changes.from);
     notes.push_back(fmt::format("--from {:g}", *changes.from));
   }
+  if (changes.push_to > 0) {
+    if (scene.push.kind != "pushover")
+      throw Error("--push-to is a displacement of a pushover; take analysis{ kind = \"pushover\" }, or leave it out", scene.push.place);
+    scene.push.control = "displacement", scene.push.displacement = changes.push_to, scene.push.displacement_step = 0;
+    scene.push.path.clear();
+    scene.performance = {};  // of the whole curve
+    notes.push_back(fmt::format("--push-to {:g}", changes.push_to));
+  }
   if (command.scene.allow_unstable) scene.analysis.unstable = true;
   if (changes.noise > 0) notes.push_back(fmt::format("--noise {:g}", changes.noise));
   return notes;
@@ -166,6 +174,7 @@ std::vector<std::string> override_arguments(const RunCommand& command) {
   if (!changes.damping_form.empty()) words.insert(words.end(), {"--damping-form", changes.damping_form});
   if (changes.from) words.insert(words.end(), {"--from", fmt::format("{}", *changes.from)});
   if (changes.noise > 0) words.insert(words.end(), {"--noise", fmt::format("{}", changes.noise)});
+  if (changes.push_to > 0) words.insert(words.end(), {"--push-to", fmt::format("{}", changes.push_to)});
   if (command.scene.allow_unstable) words.emplace_back("--allow-unstable");
   return words;
 }

@@ -36,6 +36,32 @@ CurvePoint curve_point(const Model& m, const State& s, const Relaxation& relaxat
   return p;
 }
 
+void DisplacedShapes::take(const std::vector<double>& along, long state, bool is_peak) {
+  if (state == 0) gravity = along;
+  if (state == 1) elastic = along;
+  if (is_peak) peak = along;
+}
+
+std::vector<double> along_push(const Relaxation& relaxation, const Solver& solver, const Vec3& direction) {
+  const BlockPoses& pose = solver.sample().pose;
+  std::vector<double> along;
+  for (int b = 0; b < relaxation.model().nblock; ++b) along.push_back(pose.u[z(b)].dot(direction));
+  along.push_back(relaxation.monitor().along(pose));
+  return along;
+}
+
+PushShape push_shape(const Model& m, const std::vector<std::string>& groups, const DisplacedShapes& shapes) {
+  const Vec3 up = m.gravity.norm() > 0 ? Vec3(-m.gravity.normalized()) : Vec3(Vec3::UnitZ());
+  const auto moved = [&](const std::vector<double>& shape, int b) { return shape[z(b)] - shapes.gravity[z(b)]; };
+  PushShape out;
+  for (int b = 0; b < m.nblock; ++b)
+    if (m.kind[z(b)] == Kind::moving)
+      out.blocks.push_back(
+          {m.block_name[z(b)], groups[z(b)], m.mass[z(b)], m.rest[z(b)].dot(up), moved(shapes.elastic, b), moved(shapes.peak, b)});
+  out.elastic = moved(shapes.elastic, m.nblock), out.peak = moved(shapes.peak, m.nblock);
+  return out;
+}
+
 std::vector<std::string> curve_columns(const PushSettings& push) {
   return {push.tilts()           ? "multiplier_tan"
           : push.pattern.empty() ? "multiplier_g"

@@ -49,8 +49,11 @@ MachinePath::MachinePath(const PushSettings& push, double height)
 
 void MachinePath::refine() { parts = parts_at_peak, left = 2 * parts_at_peak; }
 
+double MachinePath::next() const { return extension + std::min(step / parts, (end - displacement) * std::max(0.3, 1 + slope / stiffness)); }
+
 void MachinePath::found(double displaced) {
   const double now = load(next(), displaced);
+  if (displaced != displacement) slope = (now - multiplier) / (displaced - displacement);
   peaked = peaked || (parts > 1 && now < multiplier);
   extension = next(), before = multiplier, multiplier = now, displacement = displaced;
   if (parts > 1 && --left == 0) parts = 1, before = multiplier - stiffness * step;  // a step ahead of the next bend

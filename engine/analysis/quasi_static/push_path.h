@@ -35,17 +35,18 @@ struct MachinePath {
   double stiffness = 0;      // 1/m
   double extension = 0;      // m
   double multiplier = 0, displacement = 0, before = 0;
+  double slope = 0;         // 1/m, of the multiplier over the displacement, in the last step
   int parts = 1, left = 0;  // parts of a step, and how many of them are left
   bool peaked = false;
 
   MachinePath() = default;
   MachinePath(const PushSettings& push, double height);
-  bool done() const { return displacement >= end; }
-  double next() const { return extension + step / parts; }
+  bool done() const { return displacement >= (1 - 1e-3) * end; }
+  double next() const;  // the last step ends where a curve that goes on with its slope reaches the end
   double load(double extended, double displaced) const { return stiffness * (extended - displaced); }
   // The curve bends down within this step: it rises by less than half as much as in the step before.
   bool passes_peak(double displaced) const {
-    return !peaked && parts == 1 && load(next(), displaced) - multiplier < 0.5 * (multiplier - before);
+    return !peaked && parts == 1 && load(next(), displaced) - multiplier < 0.5 * (multiplier - before) * (next() - extension) / step;
   }
   void refine();  // that step, in parts
   void found(double displaced);
@@ -70,6 +71,7 @@ void each(P& p, F&& f) {
   f("machine_multiplier", p.multiplier);
   f("machine_displacement", p.displacement);
   f("machine_before", p.before);
+  f("machine_slope", p.slope);
   f("machine_parts", p.parts);
   f("machine_left", p.left);
   f("machine_peaked", p.peaked);

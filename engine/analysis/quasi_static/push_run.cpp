@@ -12,6 +12,7 @@
 #include "engine/analysis/snapshot.h"
 #include "engine/record/folder/checkpoint.h"
 #include "engine/record/folder/run_writer.h"
+#include "engine/record/performance/performance_folder.h"
 #include "engine/record/results/collapse.h"
 #include "engine/record/results/mechanism_name.h"
 #include "engine/scene/effects.h"
@@ -41,6 +42,7 @@ struct PushState {
   long states = 0, attempts = 0, curve_rows = 0;
   double steps = 0, worst_unbalanced = 0;
   std::uint64_t curve_sum = 0;
+  DisplacedShapes shapes;
 };
 
 template <class P, class F>
@@ -60,6 +62,7 @@ void each(P& p, F&& f) {
   f("push_worst_unbalanced", p.worst_unbalanced);
   f("push_curve_rows", p.curve_rows);
   f("push_curve_sum", p.curve_sum);
+  each(p.shapes, f);
 }
 
 class PushRun {
@@ -81,6 +84,7 @@ class PushRun {
   void save(const WriterProgress& written);
   void save_when_due();
   double shown(double multiplier) const { return shown_multiplier(push_, multiplier); }
+  void assess();
   Metrics metrics();
 
   Scene scene_;
@@ -102,6 +106,7 @@ class PushRun {
   bool passed_peak_ = false;  // control by displacement: this step goes too far past the peak
   NamedMechanism mechanism_;
   std::optional<LimitBeside> limit_;
+  std::optional<Performance> performance_;
   RunOutcome out_;
 };
 
@@ -171,7 +176,9 @@ bool PushRun::record(const Solver& solver, const Relaxed& now) {
   so_far_.t += scene_.analysis.frame_dt;
   so_far_.curve_rows = curve_->rows(), so_far_.curve_sum = curve_->sum();
   // Steps of the load end at its bracket, or at the last load of the path.
-  if (push_.control == "load" || so_far_.states == 0 || p.multiplier > so_far_.peak.multiplier) so_far_.peak = p;
+  const bool peak = push_.control == "load" || so_far_.states == 0 || p.multiplier > so_far_.peak.multiplier;
+  if (peak) so_far_.peak = p;
+  so_far_.shapes.take(along_push(*relaxation_, solver, push_.direction), so_far_.states, peak);
   ++so_far_.states;
   so_far_.worst_unbalanced = std::max(so_far_.worst_unbalanced, now.unbalanced);
   record_ += seconds() - began;
@@ -303,6 +310,21 @@ void PushRun::fall() {
   });
 }
 
+// Writes the displaced shape of a pushover, and finds the performance point for the spectrum of the scene.
+void PushRun::assess() {
+  if (push_.kind != "pushover" || so_far_.states < 2) return;
+  write_shape(options_.directory, push_shape(run_.model, group_, so_far_.shapes));
+  if (!scene_.performance.given()) return;
+  try {
+    performance_ = evaluate_performance(options_.directory, scene_.performance);
+  } catch (const Error& error) {
+    performance_.emplace().spectrum = spectrum_name(scene_.performance.spectrum);
+    performance_->trouble = error.what();
+    out_.warnings.push_back(fmt::format("no performance point: {}", error.what()));
+    writer_->log("warning: " + out_.warnings.back());
+  }
+}
+
 Metrics PushRun::metrics() {
   Metrics m = out_.metrics;
   const State& s = run_.state;
@@ -340,6 +362,7 @@ Metrics PushRun::metrics() {
   c.worst_unbalanced = so_far_.worst_unbalanced;
   c.limit = limit_;
   c.mechanism = mechanism_.name, c.course = mechanism_.text;
+  c.performance = performance_;
   m.state_hash = state_hash(s);
   return m;
 }
@@ -375,9 +398,10 @@ RunOutcome PushRun::go() {
     if (!why.empty()) writer_->log("no limit analysis beside the capacity: " + why);
   }
   writer_->log(fmt::format("status {}", status));
+  curve_->flush(), writer_->flush();
+  if (status == "completed" || status == "inaccurate") assess();
   out_.metrics = metrics();
   writer_->close();
-  curve_->flush();
   write_metrics(options_.directory, out_.metrics);
   return std::move(out_);
 }

@@ -77,6 +77,13 @@ Json json_of_push(const PushSettings& push) {
   return json;
 }
 
+Json json_of_spectrum(const PerformanceDemand& demand) {
+  Json json = json_of_fields(demand.spectrum);
+  json.update(json_of_fields(demand));
+  json["table"] = {{"T_s", demand.spectrum.period}, {"Sa_m_s2", demand.spectrum.acceleration}};
+  return json;
+}
+
 std::string utc_now() {
   const std::time_t now = std::time(nullptr);
   std::tm parts{};
@@ -192,6 +199,7 @@ Manifest manifest_of(const Scene& scene, const std::string& script) {
   for (const Load& load : scene.loads) m.loads.push_back(json_of_load(load));
   m.settings = {{"analysis", json_of_fields(scene.analysis)}, {"damping", json_of_fields(scene.damping)}};
   if (scene.push.quasi_static()) m.settings["push"] = json_of_push(scene.push);
+  if (scene.performance.given()) m.settings["spectrum"] = json_of_spectrum(scene.performance);
   return m;
 }
 

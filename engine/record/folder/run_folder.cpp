@@ -16,11 +16,11 @@ namespace {
 namespace fs = std::filesystem;
 
 // Files and folders the programs write into a run folder. --force removes these only; notes of the user survive.
-constexpr std::string_view own_files[] = {"scene.lua",     "manifest.json",  "metrics.json",  "log.txt",     "energy.csv",
-                                          "histories.csv", "events.csv",     "histories.svg", "energy.svg",  "motion.h5",
-                                          "motion.xdmf",   "checkpoint.bin", "frames",        "report.html", "results.csv",
-                                          "accuracy.csv",  "modes.csv",      "studies",       "figures",     "expectations.json",
-                                          "plot.svg",      "plot.png",       "pictures",      "curve.csv",   "curve.svg"};
+constexpr std::string_view own_files[] = {
+    "scene.lua",  "manifest.json", "metrics.json",     "log.txt",           "energy.csv", "histories.csv", "events.csv",  "histories.svg",
+    "energy.svg", "motion.h5",     "motion.xdmf",      "checkpoint.bin",    "frames",     "report.html",   "results.csv", "accuracy.csv",
+    "modes.csv",  "studies",       "figures",          "expectations.json", "plot.svg",   "plot.png",      "pictures",    "curve.csv",
+    "curve.svg",  "shape.csv",     "performance.json", "performance.svg"};
 constexpr std::string_view own_endings[] = {".mp4", ".tmp", ".part"};
 
 bool is_own(const fs::path& path) {

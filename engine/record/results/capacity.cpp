@@ -39,6 +39,7 @@ Json to_json(const Capacity& c) {
   json["unbalanced_relative"] = c.worst_unbalanced;
   json["limit"] = Json();
   if (c.limit) json["limit"] = {{"dry", bracket_json(c.limit->dry)}, {"bonded", c.limit->bonded ? bracket_json(*c.limit->bonded) : Json()}};
+  if (c.performance) json["performance"] = to_json(*c.performance);
   return json;
 }
 

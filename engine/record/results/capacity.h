@@ -4,6 +4,7 @@
 #include <string>
 
 #include "engine/record/format/json.h"
+#include "engine/record/performance/performance.h"
 
 namespace erbs {
 
@@ -39,8 +40,9 @@ struct Capacity {
   std::string mechanism, course;  // in a word, and in words
   int states = 0, attempts = 0;
   double relaxation_steps = 0;
-  double worst_unbalanced = 0;  // of all states
   std::optional<LimitBeside> limit;
+  double worst_unbalanced = 0;             // of all states
+  std::optional<Performance> performance;  // of a scene with a spectrum
 };
 
 Json to_json(const Capacity& capacity);

@@ -36,7 +36,9 @@ std::vector<std::pair<std::string, double>> energy_terms(const Energy& e) {
 std::vector<std::string> metric_keys() {
   Metrics all;
   all.energy = energy_terms(Energy{});
-  all.capacity.emplace().limit.emplace().bonded.emplace();
+  all.capacity.emplace();
+  all.capacity->limit.emplace().bonded.emplace();
+  all.capacity->performance.emplace();
   std::vector<std::string> keys;
   const auto add = [&keys](auto& self, const Json& json, const std::string& before) -> void {
     for (const auto& [key, value] : json.items()) {
