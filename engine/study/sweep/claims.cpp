@@ -50,6 +50,7 @@ Claims::~Claims() {
   for (const auto& [point, held] : mine_) ::unlink(claim_of(point).c_str());
   ::unlink(file_.c_str());
   ::close(lock_);
+  ::rmdir(folder_.c_str());  // the last one out; it stays while others are there
 }
 
 std::string Claims::claim_of(std::int64_t point) const { return fmt::format("{}/{}.claim", folder_, point); }
@@ -110,9 +111,11 @@ void Claims::release(std::int64_t point) {
   mine_.erase(point);
 }
 
-void Claims::remove_folder() {
+void Claims::remove_void() {
   std::error_code ignored;
-  fs::remove_all(folder_, ignored);
+  std::uint64_t inode = 0;
+  for (const auto& entry : fs::directory_iterator(folder_, ignored))
+    if (is_void(entry.path().string(), inode)) fs::remove(entry.path(), ignored);
 }
 
 }  // namespace erbs::study

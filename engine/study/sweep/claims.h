@@ -15,15 +15,15 @@ namespace erbs::study {
 class Claims {
  public:
   explicit Claims(const std::string& folder);
-  ~Claims();  // gives up all claims
+  ~Claims();  // gives up all claims; the last process removes the folder
   Claims(const Claims&) = delete;
   Claims& operator=(const Claims&) = delete;
 
   enum class Taken { no, yes, from_the_dead };
   Taken take(std::int64_t point);
   void release(std::int64_t point);
-  void beat();           // sign of life; may be called often
-  void remove_folder();  // when all points are done
+  void beat();         // sign of life; may be called often
+  void remove_void();  // the files of processes that died
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -102,7 +102,7 @@ class Sweeper {
     runs_.sync();
     if (done_count_ == count_) {
       results_.sort();
-      claims_.remove_folder();
+      claims_.remove_void();
     }
     tell(true);
     return {count_, done_count_, failed_, made_, first_failure_, interrupted()};
