@@ -105,7 +105,7 @@ class Sweeper {
       claims_.remove_void();
     }
     tell(true);
-    return {count_, done_count_, failed_, made_, first_failure_, interrupted()};
+    return {count_, done_count_, failed_, made_, inherited_, first_failure_, interrupted()};
   }
 
  private:
@@ -182,6 +182,7 @@ class Sweeper {
     Active& active = active_[index];
     active.point = point_at(s_.plan, index);
     if (s_.plan.bisect) active.bracket.emplace(s_.plan.bisect->lo, s_.plan.bisect->hi, s_.plan.bisect->rel, s_.plan.bisect->points);
+    inherited_ += from_the_dead ? 1 : 0;
     if (from_the_dead) {  // its owner may have finished some of its runs
       half_.erase(index);
       runs_.rewind();
@@ -298,7 +299,7 @@ class Sweeper {
   Pool pool_;
   std::vector<bool> done_;
   std::int64_t first_, tried_ = 0;  // points looked at, from first_ on
-  std::int64_t done_count_ = 0, failed_ = 0, made_ = 0, begun_with_ = 0;
+  std::int64_t done_count_ = 0, failed_ = 0, made_ = 0, begun_with_ = 0, inherited_ = 0;
   std::map<std::int64_t, Active> active_;
   std::map<std::int64_t, std::vector<RunRow>> half_;  // runs of points that were left unfinished
   std::map<std::size_t, UnderWay> under_way_;

@@ -33,7 +33,8 @@ struct Sweep {
 
 struct Swept {
   std::int64_t points = 0, done = 0, failed = 0, runs = 0;
-  std::string first_failure;  // "row 12: diverged: ..."
+  std::int64_t inherited = 0;  // points of processes that died, taken up by this one
+  std::string first_failure;   // "row 12: diverged: ..."
   bool interrupted = false;
   bool complete() const { return done == points; }
 };

@@ -142,14 +142,17 @@ int write_job(const SweepStudy& study, const SweepCommand& command) {
 
 double machine_memory() { return double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGE_SIZE)); }
 
-int finish(const SweepStudy& study, const study::Swept& swept, double wall, bool quiet) {
+int finish(const SweepStudy& study, const study::Swept& swept, const study::Ranks& ranks, double wall, bool quiet) {
   const std::string results = in(study.sweep.directory, study::results_file);
   if (swept.interrupted) {
-    tell(stderr, fmt::format("interrupted; {} of {} points are done: continue with --resume", swept.done, swept.points));
+    tell(stderr, fmt::format("interrupted; {} of {} points are done: continue with --resume{}", swept.done, swept.points,
+                             ranks.size > 1 ? " (if a rank died: under mpirun --enable-recovery the other ranks go on)" : ""));
     return exit_interrupted;
   }
   if (!swept.first_failure.empty())
     tell(stderr, fmt::format("{} of {} points failed; the first: {}", swept.failed, swept.points, swept.first_failure));
+  if (!quiet && swept.inherited > 0)
+    tell(stderr, fmt::format("{} points of processes that had died were taken up and finished", swept.inherited));
   if (!quiet) {
     say("{}: {} of {} points done, {} failed; {} runs here in {}\n{}\n", study.name, swept.done, swept.points, swept.failed, swept.runs,
         duration_text(wall), results);
@@ -188,7 +191,7 @@ int verb_sweep(const SweepCommand& command) {
   const study::Swept swept = carry_out(sweep);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!first) return swept.interrupted ? exit_interrupted : exit_ok;
-  return finish(study, swept, wall, command.output.quiet);
+  return finish(study, swept, ranks, wall, command.output.quiet);
 }
 
 }  // namespace erbs::lua
