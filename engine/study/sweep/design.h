@@ -45,6 +45,12 @@ struct Bisection {
   Place place;
 };
 
+// A known curve beside the results in the figure.
+struct PlanCurve {
+  std::string label;
+  std::vector<double> x, y;
+};
+
 struct Plan {
   std::string scene;                 // as the study file says
   std::vector<Axis> axes;            // outermost first
@@ -52,7 +58,8 @@ struct Plan {
   std::vector<std::string> collect;  // keys of metrics.json
   std::string keep = "metrics";      // of each run: none, metrics, all
   double max_wall = 0, memory = 0;   // s and bytes, of each run; 0: no limit
-  std::string title;
+  std::string title;                 // of the figure
+  std::vector<PlanCurve> curves;
   Place place;
 };
 

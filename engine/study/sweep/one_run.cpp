@@ -51,7 +51,8 @@ void judge_end(const Sweep& sweep, const Finished& finished, const std::string& 
   if (finished.overdue) {
     row.status = "timeout";
     row.reason = fmt::format("took longer than max_wall = {:g} s and was ended", sweep.plan.max_wall);
-  } else if (cap > 0 && finished.code != 0 && (says(log, "not enough memory") || says(log, "Cannot allocate memory"))) {
+  } else if (cap > 0 && finished.code != 0 &&
+             (says(log, "not enough memory") || says(log, "MiB of memory") || says(log, "Cannot allocate memory"))) {
     row.status = "memory";
     row.reason = fmt::format("needs more than memory = {} and was ended at {}", bytes_text(cap), bytes_text(finished.memory));
   } else if (finished.code > 128) {
@@ -97,9 +98,17 @@ RunRow read_run(const Sweep& sweep, double x, const std::string& place, const Fi
       row.reason = last_words(log, finished.code, sweep.scene);
       return row;
     }
-    for (std::size_t k = 0; k < row.values.size(); ++k) row.values[k] = cell_of(find_key(metrics, sweep.plan.collect[k]));
+    std::string absent;
+    for (std::size_t k = 0; k < row.values.size(); ++k) {
+      const std::string& key = sweep.plan.collect[k];
+      row.values[k] = cell_of(find_key(metrics, key));
+      // A time of collapse may well be absent; a metric of the scene has lost its number.
+      if (row.values[k] == "nan" && key.starts_with("metrics.") && absent.empty())
+        absent = fmt::format("{} has no value: its function gave nil, or no finite number", key);
+    }
     if (sweep.plan.bisect) row.verdict = verdict_of(*sweep.plan.bisect, metrics, row.reason);
     if (!row.reason.empty()) row.status = "error";
+    else row.reason = absent;
   } catch (const std::exception& trouble) { row.status = "error", row.reason = trouble.what(); }
   return row;
 }

@@ -13,6 +13,7 @@
 #include "engine/base/system/process.h"
 #include "engine/base/text.h"
 #include "engine/study/sweep/ranks.h"
+#include "engine/study/sweep/sweep_figure.h"
 #include "lua/commands/sweep/sweep_study.h"
 #include "lua/program/progress.h"
 #include "lua/program/say.h"
@@ -23,7 +24,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* identity_file = "study.json";
-constexpr const char* files_of_sweep[] = {study::results_file, study::runs_file, identity_file, "runs", "work", "job.sh", "job_logs"};
+constexpr const char* figure_file = "results.svg";
+constexpr const char* files_of_sweep[] = {study::results_file, study::runs_file, identity_file, "runs", "work", "job.sh",
+                                          "job_logs",          figure_file};
 
 std::string in(const std::string& directory, const char* file) { return directory + "/" + file; }
 
@@ -142,6 +145,14 @@ int write_job(const SweepStudy& study, const SweepCommand& command) {
 
 double machine_memory() { return double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGE_SIZE)); }
 
+// A figure that cannot be drawn is no failure of the study.
+void draw(const study::Sweep& sweep) {
+  try {
+    if (can_start("gnuplot")) draw_results(sweep, in(sweep.directory, figure_file));
+    else tell(stderr, "warning: results.svg needs gnuplot, which is not there; install the package gnuplot-nox");
+  } catch (const std::exception& error) { tell(stderr, fmt::format("warning: results.svg could not be drawn: {}", error.what())); }
+}
+
 int finish(const SweepStudy& study, const study::Swept& swept, const study::Ranks& ranks, double wall, bool quiet) {
   const std::string results = in(study.sweep.directory, study::results_file);
   if (swept.interrupted) {
@@ -151,6 +162,7 @@ int finish(const SweepStudy& study, const study::Swept& swept, const study::Rank
   }
   if (!swept.first_failure.empty())
     tell(stderr, fmt::format("{} of {} points failed; the first: {}", swept.failed, swept.points, swept.first_failure));
+  if (swept.complete()) draw(study.sweep);
   if (!quiet && swept.inherited > 0)
     tell(stderr, fmt::format("{} points of processes that had died were taken up and finished", swept.inherited));
   if (!quiet) {

@@ -200,6 +200,13 @@ const Keys& bisect_keys() {
   return keys;
 }
 
+const Keys& plan_curve_keys() {
+  static const Keys keys = {{"label", "string", "", "its label in the legend", -unbounded, unbounded, true},
+                            {"x", "numbers", "", "along the param of the horizontal axis", -unbounded, unbounded, true},
+                            {"y", "numbers", "", "as many as x", -unbounded, unbounded, true}};
+  return keys;
+}
+
 // A number in SI, or text with a unit. `factors`: the units.
 double quantity(Arguments& arguments, Call& call, const char* key, const std::vector<std::pair<std::string, double>>& factors) {
   lua_getfield(call.lua, 1, key);
@@ -263,6 +270,14 @@ int study(Call& call) {
   if (!arguments.has("max_wall")) plan.max_wall = 3600;
   plan.memory = quantity(arguments, call, "memory", {{"MB", 1e6}, {"GB", 1e9}});
   read_axes(call, arguments, plan);
+  for (Arguments& table : arguments.tables("curves", plan_curve_keys())) {
+    study::PlanCurve curve;
+    table.read("label", curve.label);
+    table.read("x", curve.x);
+    table.read("y", curve.y);
+    if (curve.x.size() != curve.y.size()) table.mistake("give as many y as x");
+    plan.curves.push_back(std::move(curve));
+  }
   if (auto table = arguments.table("bisect", bisect_keys())) {
     study::Bisection bisect;
     bisect.place = call.place;
@@ -313,7 +328,8 @@ std::vector<Function> sweep_functions() {
          "", "1h"},
         {"memory", "bytes", "", "most memory of a run: bytes, or \"2GB\" (default: that of the machine over the runs at once)"},
         {"keep", "string", "", "what stays of each run in runs/", -unbounded, unbounded, false, "none|metrics|all", "metrics"},
-        {"title", "string", "", "title of the figure"}}},
+        {"title", "string", "", "title of results.svg, the figure of the bisected param or the first of collect"},
+        {"curves", "list", "", "known curves for the figure", -unbounded, unbounded, false, "", "", plan_curve_keys()}}},
       of_study({"grid",
                 grid,
                 "{ ... }",

@@ -16,14 +16,14 @@ using namespace erbs::lua;
 
 namespace {
 
-// A block that flies for two milliseconds. trouble: 1 error, 2 NaN, 3 no memory, 4 no end, 5 crash of the numbers
+// A block that flies for two milliseconds. trouble: 1 error, 2 NaN, 3 no memory, 4 no end
 const std::string tiny = R"(
 local h, trouble = param("h", 1, "height [m]"), param("trouble", 0)
 local motion = param("motion", "a.csv")
 material{ name = "stone", density = 2000 }
 box{ name = "b", size = { .3, .3, h }, at = { 0, 0, 5 }, free = true, material = "stone" }
 if trouble == 1 then error("no scene for this value") end
-if trouble == 3 then for i = 1, 200000 do box{ name = "c" .. i, size = { .1, .1, .1 }, at = { i, 0, 0 }, free = true, material = "stone" } end end
+if trouble == 3 then string.rep("x", 2^28) end
 analysis{ duration = trouble == 4 and 1e6 or .002, start = "rest", stop_after_collapse = 1e6 }
 metric("double", "m", function(run) if trouble == 2 then return 0 / 0 end return 2 * h end)
 metric("tall", "", function() return h > 1.37 and 1 or 0 end)
@@ -128,14 +128,14 @@ TEST_CASE("a run that fails is a row with its reason, and the others go on", "[s
   REQUIRE(table.rows() == 5);
   const auto& status = table.text[std::size_t(table.find("status"))];
   const auto& reason = table.text[std::size_t(table.find("reason"))];
-  CHECK(status == std::vector<std::string>{"completed", "error", "error", "memory", "timeout"});
+  CHECK(status == std::vector<std::string>{"completed", "error", "completed", "memory", "timeout"});
   CHECK(table.column("double_m")[0] == 2);
   for (std::size_t i = 1; i < 5; ++i) CHECK(std::isnan(table.column("double_m")[i]));
-  CHECK_THAT(reason[1], Catch::Contains("tiny.lua:7") && Catch::Contains("no scene for this value"));
-  CHECK_THAT(reason[2], Catch::Contains("double"));
+  CHECK_THAT(reason[1], Catch::Contains("tiny.lua:6") && Catch::Contains("no scene for this value"));
+  CHECK_THAT(reason[2], Catch::Contains("metrics.double has no value"));
   CHECK_THAT(reason[3], Catch::Contains("memory = 90 MB"));
   CHECK_THAT(reason[4], Catch::Contains("max_wall = 1.5 s"));
-  CHECK_THAT(study.said, Catch::Contains("4 of 5 points failed; the first: row 1"));
+  CHECK_THAT(study.said, Catch::Contains("3 of 5 points failed; the first: row 1"));
   CHECK(std::filesystem::exists(study.out() + "/runs/000001.log"));
   // no point with an answer
   CHECK(study.sweep("study{ scene = 'tiny.lua', vary = { grid{ trouble = { 1 } } }, collect = { 'metrics.double' } }", {"--force"}) == 1);
@@ -149,7 +149,7 @@ material{ name = "stone", density = 2000 }
 box{ name = "base", size = { 2, 2, .1 }, at = { -1, -1, -.1 }, fixed = true, material = "stone" }
 box{ name = "b", size = { .3, .3, .3 }, at = { 0, 0, 0 }, material = "stone" }
 joint{ law = mortar{ kn = 1e9, ks = 5e8, ft = 1e9, c = 1e9, mu = .6 } }
-analysis{ duration = .2, dt = { value = dt, unstable = true }, start = "ramp" }
+analysis{ duration = .2, dt = { dt, unstable = true }, start = "ramp" }
 )");
   REQUIRE(study.sweep("study{ scene = 'spring.lua', vary = { grid{ dt = { 1e-4, 2e-3 } } }, collect = { 'time_s' } }") == 0);
   const CsvTable table = study.table();
