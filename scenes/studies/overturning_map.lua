@@ -1,7 +1,7 @@
 -- Overturning map of one block: which half-sine pulses of the ground overturn it
 --
 -- What happens   Each run gives the block of overturning_block.lua one pulse of another frequency and amplitude. The map shows which ones
---                it survives, beside the threshold of the exact equation of a rocking block and Housner's bound.
+--                it survives, beside the threshold of the exact equation of a rocking block and Housner's estimate.
 -- Source         Housner 1963; Zhang and Makris 2001, Fig. 6: omega_p / p against a_p / (g tan alpha).
 -- How to run     erbs sweep scenes/studies/overturning_map.lua -D n=40        40 x 40 pulses take three minutes on two cores
 -- What to look at  results.svg, results.csv. Red cells are pulses that overturn it.
@@ -30,5 +30,5 @@ study {
   vary = { grid { omega = spread(0.2, highest_omega) }, grid { amplitude = spread(0.8, highest_amplitude) } },
   collect = { "metrics.overturned" },
   keep = "none",
-  curves = { { label = "exact equation", x = omega, y = exact }, { label = "Housner's bound", x = omega, y = housner } },
+  curves = { { label = "exact equation", x = omega, y = exact }, { label = "Housner 1963: sqrt(1 + omega^2)", x = omega, y = housner } },
 }

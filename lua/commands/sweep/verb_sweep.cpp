@@ -25,8 +25,9 @@ namespace fs = std::filesystem;
 
 constexpr const char* identity_file = "study.json";
 constexpr const char* figure_file = "results.svg";
+constexpr const char* picture_file = "results.png";
 constexpr const char* files_of_sweep[] = {study::results_file, study::runs_file, identity_file, "runs", "work", "job.sh",
-                                          "job_logs",          figure_file};
+                                          "job_logs",          figure_file,      picture_file};
 
 std::string in(const std::string& directory, const char* file) { return directory + "/" + file; }
 
@@ -148,7 +149,8 @@ double machine_memory() { return double(::sysconf(_SC_PHYS_PAGES)) * double(::sy
 // A figure that cannot be drawn is no failure of the study.
 void draw(const study::Sweep& sweep) {
   try {
-    if (can_start("gnuplot")) draw_results(sweep, in(sweep.directory, figure_file));
+    if (can_start("gnuplot"))
+      for (const char* file : {figure_file, picture_file}) draw_results(sweep, in(sweep.directory, file));
     else tell(stderr, "warning: results.svg needs gnuplot, which is not there; install the package gnuplot-nox");
   } catch (const std::exception& error) { tell(stderr, fmt::format("warning: results.svg could not be drawn: {}", error.what())); }
 }
