@@ -6,6 +6,7 @@
 ---@class erbs.law a joint law
 ---@class erbs.wave a function of time; wave(t) is its value
 ---@operator call(number): number
+---@class erbs.axes what a study varies
 
 ---@class erbs.run argument of a metric function: the keys of metrics.json, and
 ---@field metrics table metrics.json
@@ -525,9 +526,9 @@ function recorder(keys) end
 ---@param keys erbs.camera_keys
 function camera(keys) end
 
----Declares a number that -D and studies may change.
+---Declares a number, or a word such as the name of a record, that -D and studies may change.
 ---@param name string its name
----@param default number its value unless -D gives one
+---@param default number its value unless -D gives one; or a word: -D 'motion="b.AT2"'
 ---@param text? string meaning or assumption, with the unit at the end: "density of brick, assumed [kg/m3]"
 ---@return number # the default, or the value of -D name=value
 function param(name, default, text) end
@@ -624,6 +625,68 @@ function family(params, how) end
 ---Draws results of studies beside known values: figures/NAME.svg of the run, also in the book of erbs test.
 ---@param keys erbs.figure_keys
 function figure(keys) end
+
+---@class erbs.study_keys
+---@field scene string the scene, a path from the folder of the study
+---@field vary? erbs.axes|erbs.axes[] { grid{}, list{}, latin{}, random{}, records{} }: every combination, the last changing fastest
+---@field bisect? { param: string, lo: number, hi: number, rel?: number, points?: integer, key?: string, above?: number } threshold of a param at each of these points
+---@field collect? string|string[] keys of metrics.json for the columns; of a bisection, from its run at the upper end
+---@field max_wall? number|string longest time of a run: seconds, or "5m"; beyond it the run is ended [default 1h]
+---@field memory? number|string most memory of a run: bytes, or "2GB" (default: that of the machine over the runs at once)
+---@field keep? "none"|"metrics"|"all" what stays of each run in runs/ [default metrics]
+---@field title? string title of results.svg, the figure of the bisected param or the first of collect
+---@field curves? { label: string, x: number[], y: number[] }[] known curves for the figure
+
+---Many runs of a scene, by erbs sweep: what varies, what is bisected, and the columns of results.csv.
+---@param keys erbs.study_keys
+function study(keys) end
+
+---@class erbs.grid_keys
+---@field PARAM? number|string|(number|string)[] values of each param: numbers, or words
+
+---In a study: every combination of the values; params change in the order in which the scene declares them.
+---@param keys erbs.grid_keys
+---@return erbs.axes # for vary of study
+function grid(keys) end
+
+---@class erbs.list_keys
+---@field [1] list tables of values by the names of the params, all of the same params
+
+---In a study: points one by one.
+---@param keys erbs.list_keys
+---@return erbs.axes # for vary of study
+function list(keys) end
+
+---@class erbs.latin_keys
+---@field n integer number of points [1 to 1e+06]
+---@field seed? number seed of the draw; equal seeds give equal points [-1e+15 to 1e+15; default 1]
+---@field PARAM? number[] range of each param: { lowest, highest }, uniform in its logarithm with log = true
+
+---In a study: a Latin hypercube: each of n equal parts of each range holds one of the n points.
+---@param keys erbs.latin_keys
+---@return erbs.axes # for vary of study
+function latin(keys) end
+
+---@class erbs.random_keys
+---@field n integer number of points [1 to 1e+06]
+---@field seed? number seed of the draw; equal seeds give equal points [-1e+15 to 1e+15; default 1]
+---@field PARAM? number[] range of each param: { lowest, highest }, uniform in its logarithm with log = true
+
+---In a study: random points, independent of each other.
+---@param keys erbs.random_keys
+---@return erbs.axes # for vary of study
+function random(keys) end
+
+---@class erbs.records_keys
+---@field param string name of the param that takes the file, such as param("motion", "a.AT2")
+---@field files string|string[] the records, named as in the scene
+---@field scale? string name of the param that takes the peak acceleration
+---@field scales? number[] peak accelerations (m/s2)
+
+---In a study: ground motions by peak accelerations: incremental dynamic analysis.
+---@param keys erbs.records_keys
+---@return erbs.axes # for vary of study
+function records(keys) end
 
 ---@class erbs.rocking_keys
 ---@field width? number base of the block; with `height` it gives alpha, p and mu of a homogeneous block [m; 1e-06 to 1e+06]

@@ -31,6 +31,7 @@ struct CommandLine {
   ReportCommand report;
   CompareCommand compare;
   TestCommand test;
+  SweepCommand sweep;
   AccuracyCommand accuracy;
   LimitCommand limit;
   CapacityCommand capacity;
@@ -76,7 +77,8 @@ void add_run(CLI::App& app, RunCommand& command) {
       "--no-figures", [&command] { command.figures = false; }, "draw no curves");
   run.add_flag("--figure-scripts", command.figure_scripts)->group("");  // of the runs that erbs test starts
   run.add_flag("--video", command.video, "draw the run and make its video at the end");
-  run.add_option("--study", command.study)->group("");  // of the runs that a study starts
+  run.add_option("--study", command.study)->group("");                                        // of the runs that a study starts
+  run.add_flag_callback("--no-studies", [&command] { command.studies = false; })->group("");  // of the runs of erbs sweep
   run.add_option("--without", changes.without, "run without an effect of the scene, by its name in erbs check")
       ->type_name("EFFECT")
       ->take_all();
@@ -244,6 +246,17 @@ void add_others(CLI::App& app, CommandLine& line) {
   test.add_flag("--resume", line.test.batch.resume, "with --grid or --seeds: keep finished runs");
   add_time(test, "--budget", line.test.batch.budget, "wall-clock time of all runs together; no run starts after it (--grid: 60m)", "60m");
 
+  CLI::App& sweep = *app.add_subcommand("sweep", "run a study: many runs of a scene, and a table of their results (erbs help study)");
+  sweep.add_option("STUDY.lua", line.sweep.words, "the study")->required()->expected(1);
+  add_output(sweep, line.sweep.output, "runs/<study name>");
+  add_scene(sweep, line.sweep.scene);
+  sweep
+      .add_option("-j", line.sweep.jobs,
+                  "number of runs at once (default: one per processor; one under mpirun, whose ranks share the study); with --slurm: tasks")
+      ->check(within(1, 100000));
+  sweep.add_flag("--resume", line.sweep.resume, "keep finished runs, or join a sweep that is under way");
+  sweep.add_flag("--slurm", line.sweep.slurm, "run nothing; write DIR/job.sh, a job array for sbatch");
+
   CLI::App& accuracy =
       *app.add_subcommand("accuracy", "the cost of accuracy: run a scene with one setting changed at a time, errors over cost");
   accuracy.add_option("SCENE.lua", line.accuracy.words, "the scene; with --study, the folder of the problems (default scenes/accuracy)");
@@ -329,7 +342,8 @@ int call(const CLI::App& app, const CommandLine& line) {
   const CLI::App& verb = *app.get_subcommands().front();
   const std::string name = verb.get_name();
   const AccuracyCommand& accuracy = line.accuracy;
-  if ((line.run.output.force && line.run.resume) || (accuracy.output.force && accuracy.batch.resume))
+  if ((line.run.output.force && line.run.resume) || (accuracy.output.force && accuracy.batch.resume) ||
+      (line.sweep.output.force && line.sweep.resume))
     throw Error("--force and --resume exclude each other; keep one");
   if (name == "run") return verb_run(line.run);
   if (name == "check") return verb_check(line.check);
@@ -340,6 +354,7 @@ int call(const CLI::App& app, const CommandLine& line) {
   if (name == "record") return verb_record(line.record);
   if (name == "accuracy") return accuracy.map ? verb_map(accuracy) : verb_accuracy(accuracy);
   if (name == "test") return verb_test(line.test);
+  if (name == "sweep") return verb_sweep(line.sweep);
   if (name == "bench") return verb_bench(line.bench);
   if (name == "limit") return verb_limit(line.limit);
   if (name == "capacity") return verb_capacity(line.capacity);

@@ -1,17 +1,14 @@
 #include "engine/study/children.h"
 
-#include <chrono>
 #include <filesystem>
-#include <map>
-#include <thread>
 
 #include "engine/base/hash.h"
-#include "engine/base/system/affinity.h"
 #include "engine/base/system/process.h"
 #include "engine/record/folder/manifest.h"
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/format/csv.h"
 #include "engine/record/format/json.h"
+#include "engine/study/pool.h"
 
 namespace erbs::study {
 namespace {
@@ -33,25 +30,14 @@ class Runner {
       answers[i].x = xs[i];
       if (!finished(answers[i])) waiting.push_back(i);
     }
-    const std::size_t jobs = std::size_t(c_.at_once > 0 ? c_.at_once : usable_processors());
-    std::map<int, Running> running;
+    Pool pool(c_.at_once);
     std::size_t next = 0;
-    bool told = false;
-    while (!running.empty() || (next < waiting.size() && !interrupted())) {
-      while (next < waiting.size() && running.size() < jobs && !interrupted()) {
-        running[launch(xs[waiting[next]])] = {waiting[next], Clock::now()};
-        ++next;
-      }
-      if (interrupted() && !told) {
-        for (const auto& [pid, run] : running) interrupt({pid});
-        told = true;
-      }
-      const Ended ended = wait_for_any(1.0);
-      stop_overdue(running);
-      const auto found = running.find(ended.pid);
-      if (found == running.end()) continue;
-      read(answers[found->second.index], ended.code, found->second.overdue);
-      running.erase(found);
+    while (!pool.empty() || (next < waiting.size() && !interrupted())) {
+      for (; next < waiting.size() && !pool.full() && !interrupted(); ++next) pool.add(waiting[next], job(xs[waiting[next]]));
+      if (interrupted()) pool.interrupt_all();
+      const auto ended = pool.wait(1.0);
+      if (!ended) continue;
+      read(answers[ended->id], ended->code, ended->overdue);
       if (c_.progress) c_.progress(study_.name, ++done_, asked_ + int(waiting.size()));
     }
     if (interrupted()) throw Interrupted{};
@@ -68,29 +54,12 @@ class Runner {
   }
 
  private:
-  using Clock = std::chrono::steady_clock;
-  struct Running {
-    std::size_t index = 0;  // into the values requested
-    Clock::time_point begin;
-    bool overdue = false;
-  };
-
-  // A run stops itself at its time limit, with its results so far. A run that does not stop is killed.
-  void stop_overdue(std::map<int, Running>& running) const {
-    if (c_.max_wall <= 0) return;
-    for (auto& [pid, run] : running) {
-      if (run.overdue || std::chrono::duration<double>(Clock::now() - run.begin).count() < c_.max_wall + 15) continue;
-      run.overdue = true;
-      stop_hard({pid});
-    }
-  }
-
   bool interrupted() const { return c_.interrupted != nullptr && c_.interrupted->load(); }
   std::string folder_of(double x) const { return run_file(folder_, fmt::format("{}={}", study_.param, x)); }
   std::string file_of(double x) const { return folder_of(x) + ".json"; }
   std::string log_of(double x) const { return folder_of(x) + ".log"; }
 
-  int launch(double x) {
+  Job job(double x) {
     std::vector<std::string> command{own_path(), "run",       c_.scene, "-o",      folder_of(x), "--force",
                                      "--quiet",  "--threads", "1",      "--study", study_.name,  "--no-figures"};
     for (const auto& [name, value] : c_.overrides)
@@ -100,7 +69,8 @@ class Runner {
     if (c_.max_wall > 0) command.insert(command.end(), {"--max-wall", fmt::format("{}s", c_.max_wall)});
     std::error_code ignored;
     fs::remove_all(folder_of(x), ignored);  // left by an interrupted run
-    return start(command, log_of(x)).pid;
+    // A run stops itself at its time limit, with its results so far. A run that does not stop is killed.
+    return {command, {.output = log_of(x), .errors = log_of(x)}, 0, c_.max_wall > 0 ? c_.max_wall + 15 : 0};
   }
 
   // Reads the answer of the child, or the reason for its absence, and writes a note of it. A child that is interrupted, or killed from

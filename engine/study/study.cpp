@@ -10,14 +10,6 @@
 namespace erbs::study {
 namespace {
 
-std::string said(const Answer& a) { return fmt::format("{:.6g}: {}", a.x, a.reason); }
-
-std::string first_reason(const std::vector<Answer>& answers) {
-  for (const Answer& a : answers)
-    if (!a.value) return said(a);
-  return "";
-}
-
 struct Tally {
   int runs = 0, failed = 0;
   void add(const std::vector<Answer>& answers) {
@@ -26,42 +18,19 @@ struct Tally {
   }
 };
 
-// Multisection: `points` runs at a time between the ends. The smallest value that collapses is the new upper end. A run without an answer
-// does not change the bracket.
 StudyResult bisect(const Study& s, const RunAll& runs) {
   StudyResult out;
   Tally tally;
-  std::optional<double> lo, hi;  // fractions of the interval from s.lo to s.hi
-  const auto at = [&](double t) { return t == 0 ? s.lo : t == 1 ? s.hi : s.lo + t * (s.hi - s.lo); };
-  const std::vector<Answer> ends = runs({s.lo, s.hi});
-  tally.add(ends);
-  if (!ends[0].value || !ends[1].value) out.trouble = "no answer at an end: " + first_reason(ends);
-  else if (*ends[0].value != 0) out.trouble = fmt::format("collapses at lo = {:.6g} already; lower it", s.lo);
-  else if (*ends[1].value == 0) out.trouble = fmt::format("stands at hi = {:.6g} still; raise it", s.hi);
-  else lo = 0, hi = 1;
-  const auto wide = [&] { return std::fabs(at(*hi) - at(*lo)) > s.rel * std::max(std::fabs(at(*lo)), std::fabs(at(*hi))); };
-  while (lo && wide()) {
-    std::vector<double> xs, shares;
-    for (int i = 1; i <= s.points; ++i) {
-      shares.push_back(*lo + (*hi - *lo) * i / (s.points + 1));
-      xs.push_back(at(shares.back()));
-    }
+  Bracket bracket(s.lo, s.hi, s.rel, s.points);
+  for (std::vector<double> xs = bracket.next(); !xs.empty(); xs = bracket.next()) {
     const std::vector<Answer> answers = runs(xs);
     tally.add(answers);
-    const double from = *lo, to = *hi;
-    for (std::size_t i = 0; i < answers.size(); ++i)
-      if (answers[i].value && *answers[i].value != 0) hi = std::min(*hi, shares[i]);
-    for (std::size_t i = 0; i < answers.size(); ++i)
-      if (answers[i].value && *answers[i].value == 0 && shares[i] < *hi) lo = std::max(*lo, shares[i]);
-    if (*lo == from && *hi == to) {
-      out.trouble = "no run between " + fmt::format("{:.6g} and {:.6g}", at(from), at(to)) + " gave an answer: " + first_reason(answers);
-      break;
-    }
+    bracket.take(answers);
   }
-  const bool found = lo && out.trouble.empty();
-  out.metrics = {{s.name, found ? std::optional(0.5 * (at(*lo) + at(*hi))) : std::nullopt},
-                 {s.name + "_lo", lo ? std::optional(at(*lo)) : std::nullopt},
-                 {s.name + "_hi", lo ? std::optional(at(*hi)) : std::nullopt},
+  out.trouble = bracket.trouble();
+  out.metrics = {{s.name, bracket.found() ? std::optional(bracket.middle()) : std::nullopt},
+                 {s.name + "_lo", bracket.known() ? std::optional(bracket.lo()) : std::nullopt},
+                 {s.name + "_hi", bracket.known() ? std::optional(bracket.hi()) : std::nullopt},
                  {s.name + "_runs", tally.runs},
                  {s.name + "_failed", tally.failed}};
   return out;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/study/bracket.h"
 
 namespace erbs::study {
 
@@ -25,15 +26,6 @@ struct Study {
   int n = 0;                   // ensemble: number of runs
   double seed = 1;             // ensemble: seed of the seeds of its runs
   Place place;
-};
-
-// Answer of one run. Without a value `reason` gives the cause: crash, divergence, NaN, mistake of the scene.
-struct Answer {
-  double x = 0;  // value of the parameter
-  std::optional<double> value;
-  std::string reason;
-  double wall_s = 0;
-  double updates = 0;  // contact points evaluated
 };
 
 // Runs the scene at each x, in parallel; the answers keep the order of the values.

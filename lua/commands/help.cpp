@@ -78,6 +78,11 @@ std::string shown_type(const Key& key) {
                                                               {"picture", "table"},
                                                               {"family", "table"},
                                                               {"family_how", "table"},
+                                                              {"axes", "list of axes"},
+                                                              {"values", "{value, ...}"},
+                                                              {"range", "{lo, hi}"},
+                                                              {"duration", "number or text"},
+                                                              {"bytes", "number or text"},
                                                               {"initial", "table"},
                                                               {"parts", "list of tables"}};
   for (const auto& [type, shown] : names)
@@ -132,6 +137,13 @@ std::string example_of(const std::string& name) {
            "  analysis { duration = 1, dt_fraction = share }\n"
            "  converge { param = \"share\", values = { .4, .2, .1 }, slope = 1.9,  -- at least\n"
            "    error = function(run) return math.abs(run.period \"b_uz_rel_m\" / known - 1) end }\n";
+  if (name == "study")
+    return "  study { scene = \"pier.lua\", collect = { \"collapse.time_s\" },           -- for erbs sweep FILE\n"
+           "    vary = { grid { omega = { 1, 2, 4 } }, latin { n = 10, ft = { 1e5, 3e5 } } },  -- 30 points\n"
+           "    bisect = { param = \"amplitude\", lo = 0.1 * g, hi = 2 * g, rel = .01 } }      -- at each\n";
+  if (name == "records")
+    return "  records { param = \"motion\", files = { \"a.AT2\", \"b.AT2\" }, scale = \"pga\", scales = { .1 * g, .2 * g } }\n"
+           "  ground_motion { wave = record { file = param(\"motion\", \"a.AT2\"), peak = param(\"pga\", g) } }  -- in the scene\n";
   if (name == "ensemble")
     return "  local seed = param(\"seed\", 1)\n"
            "  ensemble { n = 20, seed = 1, name = \"falls_at\", value = function(run) return run.collapse.time_s end }\n"
@@ -179,6 +191,11 @@ std::string editor_type(const Key& key) {
                                                               {"expected", "number|string|boolean?"},
                                                               {"family", "table<string, number[]>"},
                                                               {"family_how", "{ combinations?: integer, seed?: number }"},
+                                                              {"axes", "erbs.axes|erbs.axes[]"},
+                                                              {"values", "number|string|(number|string)[]"},
+                                                              {"range", "number[]"},
+                                                              {"duration", "number|string"},
+                                                              {"bytes", "number|string"},
                                                               {"tolerance", "erbs.tolerance"},
                                                               {"stored", "erbs.stored"},
                                                               {"picture", "erbs.picture"},
@@ -225,8 +242,8 @@ std::string editor_function(const Function& function) {
   if (!function.returns.empty()) {
     const size_t colon = function.returns.find(": ");
     const std::string type = function.returns.substr(0, colon);
-    text +=
-        fmt::format("---@return {} # {}\n", type == "law" || type == "wave" ? "erbs." + type : type, function.returns.substr(colon + 2));
+    text += fmt::format("---@return {} # {}\n", type == "law" || type == "wave" || type == "axes" ? "erbs." + type : type,
+                        function.returns.substr(colon + 2));
   }
   return text + fmt::format("function {}({}) end\n\n", function.name, takes_table(function) ? "keys" : function.parameters);
 }
@@ -258,7 +275,7 @@ std::string function_help(const std::string& name) {
     known.push_back(function.name);
   }
   for (const char* verb : {"run", "check", "render", "export", "plot", "report", "compare", "record", "test", "accuracy", "bench",
-                           "effects", "help", "version"})
+                           "effects", "sweep", "help", "version"})
     known.emplace_back(verb);
   throw Error(fmt::format("there is no verb and no function {}{}", name, did_you_mean(name, known)));
 }

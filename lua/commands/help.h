@@ -37,6 +37,7 @@ inline constexpr std::string_view editor_head = R"(---@meta
 ---@class erbs.law a joint law
 ---@class erbs.wave a function of time; wave(t) is its value
 ---@operator call(number): number
+---@class erbs.axes what a study varies
 
 ---@class erbs.run argument of a metric function: the keys of metrics.json, and
 ---@field metrics table metrics.json

@@ -1,17 +1,17 @@
 // erbs effects SCENE.lua: the cost of each effect of a scene, and the change of its metrics without it. Each effect is switched off in
 // a run of its own.
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 
+#include "engine/base/system/interrupt.h"
 #include "engine/base/system/process.h"
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/format/json.h"
 #include "engine/record/plot/figure.h"
 #include "engine/scene/effects.h"
+#include "engine/study/pool.h"
 #include "lua/program/options.h"
 #include "lua/program/say.h"
 
@@ -22,19 +22,13 @@ namespace fs = std::filesystem;
 
 struct Measured {
   std::string effect, because, trouble;
-  double user = 0;    // s, of the whole child process
+  double cpu = 0;     // s, of the whole child process
   double memory = 0;  // bytes, peak
   double steps = 0, points = 0;
   std::string status;
   Json metrics = Json::object();  // of the scene
   bool collapsed = false;
 };
-
-double children_seconds() {
-  rusage used{};
-  getrusage(RUSAGE_CHILDREN, &used);
-  return static_cast<double>(used.ru_utime.tv_sec) + 1e-6 * static_cast<double>(used.ru_utime.tv_usec);
-}
 
 // One run at a time, so that runs do not compete for processor and memory.
 Measured run_without(const std::string& scene, const SceneOptions& options, const std::string& directory, const std::string& effect) {
@@ -47,11 +41,14 @@ Measured run_without(const std::string& scene, const SceneOptions& options, cons
   command.insert(command.end(), more.begin(), more.end());
   Measured out;
   out.effect = effect;
-  const double before = children_seconds();
-  const int code = wait_for(start(command, folder + ".log"));
-  out.user = children_seconds() - before;
+  study::Pool pool(1);
+  pool.add(0, {command, {.output = folder + ".log", .errors = folder + ".log"}});
+  std::optional<study::Finished> ended;
+  while (!(ended = pool.wait(1.0)))
+    if (is_interrupted()) pool.interrupt_all();
+  out.cpu = ended->cpu;
   if (!fs::exists(run_file(folder, "metrics.json"))) {
-    out.trouble = last_words(folder + ".log", code, fs::path(scene).filename().string());
+    out.trouble = last_words(folder + ".log", ended->code, fs::path(scene).filename().string());
     return out;
   }
   const Json metrics = read_json(run_file(folder, "metrics.json"));
@@ -139,8 +136,8 @@ int verb_effects(const TimingCommand& command) {
   const Measured all = run_without(path, command.scene, directory, "");
   if (!all.trouble.empty()) throw Error(path + ": " + all.trouble);
   const double updates = std::max(1.0, all.points) * all.steps;
-  say("{}: {:.3g} s of one core, {:g} steps, {:g} points: {:.4f} ns per point and step, {:.1f} bytes per point\n\n", scene.name, all.user,
-      all.steps, all.points, 1e9 * all.user / updates, all.memory / std::max(1.0, all.points));
+  say("{}: {:.3g} s of one core, {:g} steps, {:g} points: {:.4f} ns per point and step, {:.1f} bytes per point\n\n", scene.name, all.cpu,
+      all.steps, all.points, 1e9 * all.cpu / updates, all.memory / std::max(1.0, all.points));
   say("{:<26} {:>9} {:>7} {:>9}  {:>10}  {:<28} {}\n", "effect", "ns/point", "%", "B/point", "moves", "metric", "called for by");
   std::vector<Row> rows;
   for (const Effect& effect : effects_of(scene)) {
@@ -148,7 +145,7 @@ int verb_effects(const TimingCommand& command) {
     Row row{run_without(path, command.scene, directory, effect.name), 0, 0, 0, {}};
     row.without.because = effect.because;
     // per step: without an effect a run may end earlier or take other steps
-    const double each = all.user / all.steps, now = row.without.user / std::max(1.0, row.without.steps);
+    const double each = all.cpu / all.steps, now = row.without.cpu / std::max(1.0, row.without.steps);
     row.ns = 1e9 * (each - now) / std::max(1.0, all.points);
     row.percent = 100 * (each - now) / each;
     row.bytes = (all.memory - row.without.memory) / std::max(1.0, all.points);

@@ -289,7 +289,7 @@ int complete(Script& script, const std::string& path, const std::string& directo
   const std::string& status = outcome.metrics.status;
   const bool whole = status == "completed" || status == "inaccurate" || status == "diverged";
   StudiesOutcome studies;
-  if (whole && command.study.empty()) studies = run_studies(script, path, directory, command, interrupted);
+  if (whole && command.study.empty() && command.studies) studies = run_studies(script, path, directory, command, interrupted);
   if (studies.interrupted) {
     tell(stderr, "interrupted; finished runs of the studies are kept: continue with --resume");
     return exit_interrupted;

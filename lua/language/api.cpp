@@ -13,7 +13,7 @@ const std::vector<Function>& api() {
   static const std::vector<Function> table = [] {
     std::vector<Function> all;
     for (auto& topic : {block_functions(), joint_functions(), wave_functions(), load_functions(), support_functions(), analysis_functions(),
-                        result_functions(), stored_functions(), study_functions(), companion_functions()})
+                        result_functions(), stored_functions(), study_functions(), sweep_functions(), companion_functions()})
       all.insert(all.end(), topic.begin(), topic.end());
     return all;
   }();
@@ -161,6 +161,7 @@ void call_script(lua_State* lua, Context& context, int arguments, int results) {
 
 void open_api(lua_State* lua) {
   for (const Function& function : api()) {
+    if (function.of_study && !context_of(lua).study_file) continue;
     push_guarded(lua, call_api, &function);
     lua_setglobal(lua, function.name.c_str());
   }

@@ -28,6 +28,7 @@ struct Function {
   std::string returns;     // "string: the name of the block"; "" if the function returns nothing
   std::string text;        // one line
   Keys keys;               // keys of the table, or the positional parameters in their order
+  bool of_study = false;   // a word of study files alone, which a scene may use for itself
 };
 
 const std::vector<Function>& api();
@@ -44,6 +45,7 @@ std::vector<Function> analysis_functions();
 std::vector<Function> result_functions();
 std::vector<Function> stored_functions();
 std::vector<Function> study_functions();
+std::vector<Function> sweep_functions();
 std::vector<Function> companion_functions();
 
 const Keys& part_keys();       // of block{ parts = { ... } }

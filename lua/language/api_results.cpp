@@ -29,12 +29,34 @@ void split_unit(const std::string& text, Param& param) {
   while (param.text.ends_with(' ')) param.text.pop_back();
 }
 
+// param("motion", "a.AT2"): a word, such as the name of a record.
+int word_param(Call& call) {
+  WordParam item{call.text(1, "name"), call.text(2, "default"), call.place};
+  if (!is_name(item.name)) call.mistake(fmt::format("name = \"{}\" becomes a word of -D: letters, digits, _, + and - only", item.name));
+  if (!lua_isnoneornil(call.lua, 3)) call.text(3, "text");
+  for (Override& given : call.context.overrides) {
+    if (given.name != item.name) continue;
+    given.used = true;
+    if (given.is_word) item.value = given.word;
+    else if (given.valid) call.mistake(fmt::format("\"{0}\" takes a word, not a number; write -D '{0}=\"{1}\"'", item.name, item.value));
+  }
+  if (call.context.study.empty()) call.context.output.push_back(fmt::format("param {} = \"{}\"", item.name, item.value));
+  lua_pushlstring(call.lua, item.value.data(), item.value.size());
+  call.context.words.push_back(std::move(item));
+  return 1;
+}
+
 int param(Call& call) {
+  const std::string name = call.text(1, "name");
+  for (const WordParam& other : call.context.words)
+    if (other.name == name) call.mistake(fmt::format("\"{}\" was declared before, at {}; use another name", name, other.place.text()));
+  if (lua_type(call.lua, 2) == LUA_TSTRING) return word_param(call);
   Param item;
-  item.name = call.text(1, "name");
+  item.name = name;
   item.place = call.place;
   if (lua_type(call.lua, 2) != LUA_TNUMBER)
-    throw Error(fmt::format("param \"{}\": the default must be a number, not {}", item.name, described(call.lua, 2)), call.place);
+    throw Error(fmt::format("param \"{}\": the default must be a number, or a word, not {}", item.name, described(call.lua, 2)),
+                call.place);
   item.value = item.fallback = lua_tonumber(call.lua, 2);
   if (!is_name(item.name)) call.mistake(fmt::format("name = \"{}\" becomes a word of -D: letters, digits, _, + and - only", item.name));
   if (!std::isfinite(item.value))
@@ -47,7 +69,10 @@ int param(Call& call) {
   bool given = false;
   for (Override& override_ : call.context.overrides)
     if (override_.name == item.name) {
-      given = override_.valid;
+      given = override_.valid && !override_.is_word;
+      if (override_.is_word)
+        call.mistake(fmt::format("\"{0}\" takes a number, not the word \"{1}\"; write -D {0}={2}", item.name, shown(override_.word, 60),
+                                 written(item.fallback)));
       if (given) item.value = override_.value;
       override_.used = true;
     }
@@ -186,9 +211,9 @@ std::vector<Function> result_functions() {
        param,
        "name, default, text",
        "number: the default, or the value of -D name=value",
-       "Declares a number that -D and studies may change.",
+       "Declares a number, or a word such as the name of a record, that -D and studies may change.",
        {{"name", "string", "", "its name", -unbounded, unbounded, true},
-        {"default", "number", "", "its value unless -D gives one", -unbounded, unbounded, true},
+        {"default", "number", "", "its value unless -D gives one; or a word: -D 'motion=\"b.AT2\"'", -unbounded, unbounded, true},
         {"text", "string", "", "meaning or assumption, with the unit at the end: \"density of brick, assumed [kg/m3]\""}}},
       {"metric",
        metric,

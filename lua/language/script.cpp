@@ -63,9 +63,12 @@ void evaluate_overrides(lua_State* lua, Context& context) {
     try {
       load_chunk(lua, context, "return " + item.expression, name);
       call_script(lua, context, 0, 1);
-      if (lua_type(lua, -1) != LUA_TNUMBER || !std::isfinite(lua_tonumber(lua, -1)))
-        throw Error(fmt::format("{}: the value must be a finite number, such as 0.8*g, not {}", name, described(lua, -1)));
-      item.value = lua_tonumber(lua, -1);
+      item.is_word = lua_type(lua, -1) == LUA_TSTRING && is_plain(lua_tostring(lua, -1));
+      if (!item.is_word && (lua_type(lua, -1) != LUA_TNUMBER || !std::isfinite(lua_tonumber(lua, -1))))
+        throw Error(
+            fmt::format("{}: the value must be a finite number, such as 0.8*g, or a word in quotes, not {}", name, described(lua, -1)));
+      if (item.is_word) item.word = lua_tostring(lua, -1);
+      else item.value = lua_tonumber(lua, -1);
       item.valid = true;
       lua_pop(lua, 1);
     } catch (const Error& error) {
@@ -106,6 +109,7 @@ std::string without_index(const std::string& key) {
 void check_names(Context& context) {
   std::vector<std::string> params, metrics;
   for (const Param& param : context.scene.params) params.push_back(param.name);
+  for (const WordParam& param : context.words) params.push_back(param.name);
   for (const Metric& metric : context.metrics) metrics.push_back("metrics." + metric.name);
   for (const study::Study& study : context.studies)
     for (const std::string& name : metric_names(study)) {
@@ -115,7 +119,7 @@ void check_names(Context& context) {
       metrics.push_back("metrics." + name);
     }
   for (const Override& item : context.overrides)
-    if (!item.used)
+    if (!item.used && !context.study_file)
       context.mistake({}, fmt::format("-D {}={}: the scene has no param \"{}\"{}", item.name, item.expression, item.name,
                                       did_you_mean(item.name, params)));
   const std::vector<std::string> keys = metric_keys();
@@ -128,6 +132,14 @@ void check_names(Context& context) {
       context.mistake(item.place, fmt::format("expect: metrics.json has no key \"{}\"{}", item.key, did_you_mean(item.key, keys)));
     }
   }
+}
+
+// A study file makes no scene of its own. -D that it does not declare is for its scene.
+void check_study(Context& context) {
+  const Place place{context.scene.file, 0};
+  if (!context.plan) context.mistake(place, "it calls no study{ ... }, so it is no study; erbs run runs a scene");
+  if (!context.scene.blocks.empty())
+    context.mistake(context.scene.blocks.front().place, "a study makes no blocks; they belong into its scene");
 }
 
 // Stored pictures name a camera of the scene, or an elevation, and a time within the run.
@@ -180,6 +192,7 @@ Script::Script(const Options& options) : context_(std::make_unique<Context>()) {
   context_->scene.most_blocks = options.most_blocks;
   context_->scene.most_points = options.most_points;
   context_->quiet = options.quiet;
+  context_->study_file = options.study_file;
   context_->study = options.study;
   context_->quality = options.quality;
   context_->quality_set = !options.quality.empty();
@@ -251,10 +264,11 @@ void Script::finish(bool whole) {
   if (whole) try {
       resolve_groups(context);
       check_names(context);
+      if (context.study_file) check_study(context);
       check_pictures(context);
       sample_waves(lua_, context);
     } catch (const std::exception& error) { add_messages(context.mistakes, error.what()); }
-  if (whole) {
+  if (whole && !context.study_file) {
     // Drops messages on lines that reading has already reported.
     const std::vector<std::string> read = context.mistakes;
     std::vector<std::string> found = check(context.scene);
@@ -290,6 +304,26 @@ void Script::finish(bool whole) {
 }
 
 const std::vector<study::Study>& Script::studies() const { return context_->studies; }
+
+const std::optional<study::Plan>& Script::plan() const { return context_->plan; }
+
+Overrides Script::unused_overrides() const {
+  Overrides unused;
+  for (const Override& item : context_->overrides)
+    if (!item.used) unused.emplace_back(item.name, item.expression);
+  return unused;
+}
+
+std::vector<std::string> Script::param_names() const {
+  std::vector<std::string> names;
+  for (const Param& param : context_->scene.params) names.push_back(param.name);
+  for (const WordParam& param : context_->words) names.push_back(param.name);
+  return names;
+}
+
+bool Script::takes_word(const std::string& param) const {
+  return std::any_of(context_->words.begin(), context_->words.end(), [&](const WordParam& one) { return one.name == param; });
+}
 
 const std::vector<Figure>& Script::figures() const { return context_->figures; }
 const ParamFamily& Script::family() const { return context_->family; }

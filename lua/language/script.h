@@ -10,6 +10,7 @@
 #include "engine/record/format/json.h"
 #include "engine/scene/scene.h"
 #include "engine/study/study.h"
+#include "engine/study/sweep/design.h"
 
 struct lua_State;
 
@@ -45,6 +46,7 @@ class Script {
     std::string quality = {};             // takes precedence over the quality of analysis{}; "": none is given
     std::vector<std::string> allow = {};  // folders it may read besides its own
     int most_blocks = Scene().most_blocks, most_points = Scene().most_points;  // limits of a scene
+    bool study_file = false;                                                   // the script is a study for erbs sweep, not a scene
     double noise = 0;  // m and rad, noise in the initial state of every free block: start_noise of the script
   };
   Script();
@@ -65,8 +67,12 @@ class Script {
   Scene take_scene();  // scene() with its blocks, which the script gives up
   const std::vector<study::Study>& studies() const;
   const std::vector<Figure>& figures() const;
-  const ParamFamily& family() const;               // without values if the scene declares none
-  const std::vector<std::string>& output() const;  // lines the script has printed
+  const std::optional<study::Plan>& plan() const;   // of study{}
+  Overrides unused_overrides() const;               // -D for params that the script does not declare
+  std::vector<std::string> param_names() const;     // in the order of their declaration, those that take words last
+  bool takes_word(const std::string& param) const;  // its value is a word, not a number
+  const ParamFamily& family() const;                // without values if the scene declares none
+  const std::vector<std::string>& output() const;   // lines the script has printed
   // Entries of masonry_functions, the functions written in Lua (walls, arches): name, help, keys.
   Json lua_functions();
 

@@ -64,6 +64,7 @@ struct RunCommand {
   bool figures = true;          // draw the curves of a run
   bool figure_scripts = false;  // write the figures of figure{} as gnuplot scripts, which a book draws later
   std::string study;            // name of the study that started this run
+  bool studies = true;          // make the runs of the scene's studies
   bool twin = false;
   double twin_noise = 0;  // m and rad, further noise from another seed, which makes a twin
 };
@@ -105,6 +106,13 @@ struct CompareCommand {
   std::string align, expect;      // align: none, first-motion, correlation; "": as the reference asks
   double reach = 5;               // s, largest lag
   std::vector<std::string> film;  // options for erbs-render, each with its value
+};
+struct SweepCommand {
+  std::vector<std::string> words;
+  OutputOptions output;
+  SceneOptions scene;
+  int jobs = 0;  // runs at once, or tasks of the job array; 0: chosen by the verb
+  bool resume = false, slurm = false;
 };
 struct TestCommand {
   std::vector<std::string> words;
@@ -174,6 +182,7 @@ int verb_compare(const CompareCommand& command);
 std::vector<std::pair<std::string, std::string>> film_options();  // names and texts of CompareCommand::film
 int verb_render(const std::vector<std::string>& words);
 int verb_test(const TestCommand& command);
+int verb_sweep(const SweepCommand& command);
 int verb_accuracy(const AccuracyCommand& command);
 int verb_map(const AccuracyCommand& command);
 int verb_bench(const TimingCommand& command);

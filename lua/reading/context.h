@@ -2,11 +2,13 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/scene/scene.h"
 #include "engine/study/study.h"
+#include "engine/study/sweep/design.h"
 #include "lua/reading/family.h"
 #include "lua/reading/sandbox.h"
 
@@ -52,7 +54,9 @@ struct Sampling {
 struct Override {
   std::string name, expression;  // of -D name=expression
   double value = 0;
-  bool valid = false;  // the expression gave a number; otherwise a mistake is reported and the default holds
+  std::string word = {};  // instead of a number, for a param that is a word
+  bool is_word = false;   // the expression gave a word
+  bool valid = false;     // the expression gave a value; otherwise a mistake is reported and the default holds
   bool used = false;
 };
 
@@ -61,6 +65,12 @@ struct GroupRecorder {
   size_t recorder = 0;  // index into Scene::recorders
   std::string group;
   bool others = false;  // the group of the blocks on the other side of its joints
+};
+
+// A param whose value is a word, such as the name of a record.
+struct WordParam {
+  std::string name, value;
+  Place place;
 };
 
 struct RunResults;
@@ -79,6 +89,11 @@ struct Context {
   std::vector<study::Study> studies;
   std::vector<Figure> figures;
   ParamFamily family;
+  std::vector<WordParam> words;
+  bool study_file = false;          // the script is a study for erbs sweep, not a scene
+  std::optional<study::Plan> plan;  // of study{}
+  std::vector<study::Axis> axes;    // values of grid{} ... records{}; a script holds the number of a group of axes
+  int axis_groups = 0;
   std::string study;  // name of the study that started this run; "" if no study did
   std::vector<GroupRecorder> group_recorders;
   std::string quality;               // from the command line, otherwise from analysis{}; "": neither gives one

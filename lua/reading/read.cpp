@@ -35,7 +35,8 @@ std::string described(lua_State* lua, int index) {
   }
   if (type == LUA_TBOOLEAN) return lua_toboolean(lua, index) ? "true" : "false";
   if (type == LUA_TNIL || type == LUA_TNONE) return "nil";
-  if (type == LUA_TUSERDATA) return luaL_testudata(lua, index, "law") ? "a law" : "a wave";
+  if (type == LUA_TUSERDATA)
+    return luaL_testudata(lua, index, "law") ? "a law" : luaL_testudata(lua, index, "axis") ? "an axis of a study" : "a wave";
   return std::string("a ") + lua_typename(lua, type);
 }
 

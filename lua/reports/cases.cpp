@@ -6,14 +6,13 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <set>
-#include <thread>
 
 #include "engine/base/system/affinity.h"
 #include "engine/base/system/interrupt.h"
 #include "engine/base/text.h"
 #include "engine/record/folder/run_folder.h"
+#include "engine/study/pool.h"
 #include "lua/program/child.h"
 
 namespace erbs::lua {
@@ -61,25 +60,7 @@ bool carries(const std::string& scene, const std::string& label, const SceneOpti
   } catch (const std::exception&) { return true; }
 }
 
-struct Running {
-  Case* item;
-  Clock::time_point begin;
-  std::optional<double> max_wall;  // s
-  int asked = 0;                   // 1: asked to stop as by Ctrl-C; 2: killed
-};
-
-// Asks a case that exceeds its time to stop, and kills it if it still runs ten seconds later.
-void hurry(std::map<int, Running>& running) {
-  for (auto& [pid, run] : running) {
-    if (!run.max_wall) continue;
-    const double wall = std::chrono::duration<double>(Clock::now() - run.begin).count();
-    // a run stops at its limit by itself and keeps its results; its studies may not
-    if (run.asked == 0 && wall > *run.max_wall + 2) run.asked = 1, run.item->overdue = true, interrupt({pid});
-    if (run.asked == 1 && wall > *run.max_wall + 12) run.asked = 2, stop_hard({pid});
-  }
-}
-
-Child launch(const Case& item, const SceneOptions& options, int threads, std::optional<double> max_wall) {
+study::Job job_of(const Case& item, const SceneOptions& options, int threads, std::optional<double> max_wall) {
   std::vector<std::string> command{
       own_path(), "run", item.scene, "-o", item.directory, item.resume ? "--resume" : "--force", "--no-figures", "--figure-scripts"};
   if (threads > 0) command.insert(command.end(), {"--threads", std::to_string(threads)});
@@ -87,7 +68,9 @@ Child launch(const Case& item, const SceneOptions& options, int threads, std::op
   if (max_wall) command.insert(command.end(), {"--max-wall", fmt::format("{}s", *max_wall)});
   for (const auto& more : {item.extra, scene_arguments(options)}) command.insert(command.end(), more.begin(), more.end());
   for (const char* old : {"expectations.json", "metrics.json"}) fs::remove(run_file(item.directory, old));
-  return start(command, item.log);
+  // A run stops at its limit by itself and keeps its results; its studies may not.
+  const double most = max_wall.value_or(0);
+  return {command, {.output = item.log, .errors = item.log}, most > 0 ? most + 2 : 0, most > 0 ? most + 12 : 0};
 }
 
 double number_at(const Json& json, const char* key) {
@@ -121,10 +104,9 @@ std::vector<Case> find_cases(const std::vector<std::string>& words, const SceneO
 void run_cases(std::vector<Case>& cases, const SceneOptions& options, const BatchOptions& batch,
                const std::function<void(const Case&)>& ended) {
   const int machine = usable_processors();
-  const size_t jobs = static_cast<size_t>(batch.jobs > 0 ? batch.jobs : machine);
+  study::Pool pool(batch.jobs);
   // with as many runs at once as processors, each run gets one thread; with fewer runs, each chooses by itself (0)
-  const int threads = batch.threads > 0 ? batch.threads : static_cast<int>(std::min(jobs, cases.size())) >= machine ? 1 : 0;
-  std::map<int, Running> running;
+  const int threads = batch.threads > 0 ? batch.threads : static_cast<int>(std::min(pool.size(), cases.size())) >= machine ? 1 : 0;
   size_t next = 0, done = 0;
   const bool live = isatty(STDERR_FILENO) != 0 && !batch.quiet;
   const auto begin = Clock::now();
@@ -132,25 +114,21 @@ void run_cases(std::vector<Case>& cases, const SceneOptions& options, const Batc
   const auto left_of_budget = [&] { return batch.budget - std::chrono::duration<double>(Clock::now() - begin).count(); };
   const auto in_time = [&] { return batch.budget <= 0 || left_of_budget() > 0; };
   const std::atomic<bool>& interrupted = catch_interrupts();
-  bool told_all = false;
-  while (!running.empty() || (next < cases.size() && in_time() && !interrupted)) {
-    if (interrupted && !told_all) {
-      for (const auto& [pid, run] : running) interrupt({pid});
-      told_all = true;
-    }
-    while (next < cases.size() && running.size() < jobs && in_time() && !interrupted) {
-      Case& item = cases[next++];
+  while (!pool.empty() || (next < cases.size() && in_time() && !interrupted)) {
+    if (interrupted) pool.interrupt_all();
+    for (; next < cases.size() && !pool.full() && in_time() && !interrupted; ++next) {
+      Case& item = cases[next];
       item.started = true;
       fs::create_directories(fs::path(item.directory).parent_path());
       std::optional<double> max_wall = batch.max_wall;
       if (item.within_budget && batch.budget > 0) max_wall = std::min(max_wall.value_or(1e9), std::max(1.0, left_of_budget()));
-      running[launch(item, options, threads, max_wall).pid] = {&item, Clock::now(), max_wall};
+      pool.add(next, job_of(item, options, threads, max_wall));
     }
     if (live) {
       const double spent = std::chrono::duration<double>(Clock::now() - begin).count();
       const double left = done > 0 ? spent / static_cast<double>(done) * static_cast<double>(cases.size() - done) : 0;
       fmt::print(stderr, "\r\033[K{} of {} cases, about {:.0f} s left, running {}", done, cases.size(), left,
-                 shown(running.begin()->second.item->name, 60));
+                 shown(cases[pool.first()].name, 60));
     }
     if (!live && !batch.quiet && done > 0 && Clock::now() - told > std::chrono::seconds(10)) {
       told = Clock::now();
@@ -158,14 +136,11 @@ void run_cases(std::vector<Case>& cases, const SceneOptions& options, const Batc
       fmt::print(stderr, "{} of {} cases, about {:.0f} s left\n", done, cases.size(),
                  spent / static_cast<double>(done) * static_cast<double>(cases.size() - done));
     }
-    const Ended child = wait_for_any(1.0);
-    hurry(running);
-    const auto found = running.find(child.pid);
-    if (found == running.end()) continue;
-    found->second.item->code = child.code;
-    found->second.item->cpu = child.cpu;
-    if (ended) ended(*found->second.item);
-    running.erase(found);
+    const auto child = pool.wait(1.0);
+    if (!child) continue;
+    Case& item = cases[child->id];
+    item.code = child->code, item.cpu = child->cpu, item.overdue = child->overdue;
+    if (ended) ended(item);
     ++done;
   }
   if (live) fmt::print(stderr, "\r\033[K");

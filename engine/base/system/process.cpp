@@ -1,8 +1,10 @@
 #include "engine/base/system/process.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/syscall.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -69,6 +71,11 @@ void become(const std::vector<char*>& words, const Launch& how, int input, int o
   std::signal(SIGPIPE, SIG_DFL);
   std::signal(SIGXFSZ, SIG_DFL);
   if (how.own_group) setpgid(0, 0);
+  if (how.memory > 0) {
+    // The limit of data, not of addresses: libraries and stacks that are only reserved do not count.
+    const rlimit most{static_cast<rlim_t>(how.memory), static_cast<rlim_t>(how.memory)};
+    setrlimit(RLIMIT_DATA, &most);
+  }
   if (how.fed) dup2(input, STDIN_FILENO);
   if (how.output == how.errors) {
     redirect(how.output, {STDOUT_FILENO, STDERR_FILENO});
@@ -109,7 +116,7 @@ Child start(const std::vector<std::string>& command, const Launch& how) {
   if (how.fed) std::signal(SIGPIPE, SIG_IGN);  // send() reports a program that died
   Pipe failure, input, output;                 // a successful exec closes the first one, a failed one writes errno into it
   if (!failure.open() || (how.fed && !input.open()) || (how.heard && !output.open())) refuse(errno);
-  const pid_t pid = fork_bound(SIGTERM);
+  const pid_t pid = fork_bound(how.bound_hard ? SIGKILL : SIGTERM);
   if (pid == 0) {
     become(words, how, input.from, output.to);
     const int number = errno;
@@ -158,16 +165,33 @@ bool receive(int pipe, void* bytes, std::size_t count) {
   return true;
 }
 
-Ended wait_for_any(double seconds) {
-  const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
-  for (;;) {
-    int status = 0;
-    rusage used{};
-    const pid_t pid = wait4(-1, &status, WNOHANG, &used);
-    if (pid > 0) return {pid, code_of(status), seconds_of(used)};
-    if (std::chrono::steady_clock::now() >= end) return {};
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+Ended wait_for_one(const std::vector<int>& pids, double seconds) {
+  const auto ended = [&]() -> Ended {
+    for (const int pid : pids) {
+      int status = 0;
+      rusage used{};
+      if (wait4(pid, &status, WNOHANG, &used) == pid)
+        return {pid, code_of(status), seconds_of(used), 1024.0 * static_cast<double>(used.ru_maxrss)};
+    }
+    return {};
+  };
+  if (const Ended now = ended(); now.pid > 0 || seconds <= 0) return now;
+  // A descriptor of a process becomes readable when it ends: no time is lost between its end and the next run.
+  std::vector<pollfd> watched;
+  for (const int pid : pids) watched.push_back({static_cast<int>(syscall(SYS_pidfd_open, pid, 0)), POLLIN, 0});
+  const bool able = std::all_of(watched.begin(), watched.end(), [](const pollfd& one) { return one.fd >= 0; });
+  if (able) {
+    poll(watched.data(), watched.size(), static_cast<int>(1000 * seconds));
+  } else {  // a kernel before 5.3
+    const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
+    for (Ended now; std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+      if (now = ended(); now.pid > 0) {
+        for (pollfd& one : watched) Pipe::close_end(one.fd);
+        return now;
+      }
   }
+  for (pollfd& one : watched) Pipe::close_end(one.fd);
+  return ended();
 }
 
 int wait_for(const Child& child) {
@@ -196,6 +220,10 @@ void interrupt(const Child& child) {
 
 void stop_hard(const Child& child) {
   if (child.pid > 0) kill(child.pid, SIGKILL);
+}
+
+void stop_group(const Child& child) {
+  if (child.pid > 0) kill(-child.pid, SIGKILL);
 }
 
 std::string last_words(const std::string& log, int code, const std::string& file) {

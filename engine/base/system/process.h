@@ -23,6 +23,8 @@ struct Launch {
   bool fed = false;                      // its standard input is Child::to
   bool heard = false;                    // its standard output is Child::from
   bool own_group = false;                // Ctrl-C does not reach it
+  bool bound_hard = false;               // it gets SIGKILL, not SIGTERM, when the thread that started it ends
+  double memory = 0;                     // bytes that its data may take; 0: no limit
 };
 // Starts a program. It gets SIGTERM when the thread that started it ends. Throws Error if it cannot be started.
 Child start(const std::vector<std::string>& command, const Launch& how);
@@ -39,15 +41,18 @@ bool receive(int pipe, void* bytes, std::size_t count);
 // is no child.
 struct Ended {
   int pid = -1, code = 0;
-  double cpu = 0;  // s, processor time of the child and of all processes it waited for
+  double cpu = 0;     // s, processor time of the child and of all processes it waited for
+  double memory = 0;  // bytes, peak of the child or of one it waited for
 };
 // Killed by a foreign signal or for lack of memory: the result is unknown. 130 is an interrupt of the user.
 constexpr bool was_killed(int code) { return code > 128 && code != 130; }
-Ended wait_for_any(double seconds);  // waits at most so long; pid = -1 if no child has ended by then
-int wait_for(const Child& child);    // exit code; forwards a caught interrupt to the child
-int finish(Child& child);            // closes the pipes and returns the exit code; leaves interrupts to the child
-void interrupt(const Child& child);  // SIGINT, like Ctrl-C
-void stop_hard(const Child& child);  // SIGKILL, for a child that ignores SIGINT
+// Waits until one of these children ends, at most so long; pid = -1 if none has ended by then.
+Ended wait_for_one(const std::vector<int>& pids, double seconds);
+int wait_for(const Child& child);     // exit code; forwards a caught interrupt to the child
+int finish(Child& child);             // closes the pipes and returns the exit code; leaves interrupts to the child
+void interrupt(const Child& child);   // SIGINT, like Ctrl-C
+void stop_hard(const Child& child);   // SIGKILL, for a child that ignores SIGINT
+void stop_group(const Child& child);  // SIGKILL for a child with own_group and all processes it has started
 
 // Reason why a run of erbs gave no result: the signal, else the first line of its log that names `file`, else the last line.
 std::string last_words(const std::string& log, int code, const std::string& file);

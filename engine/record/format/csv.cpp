@@ -34,8 +34,29 @@ std::string_view trimmed(std::string_view cell) {
   return cell.substr(first, cell.find_last_not_of(" \t\r") - first + 1);
 }
 
-// Cells of one line. A cell in double quotes may hold commas, and quotes written twice.
-std::vector<std::string> split(std::string_view line) {
+std::string quote(const std::string& cell) {
+  const std::string plain = for_files(cell);  // keeps one row on one line
+  if (plain.find_first_of(",\"") == std::string::npos) return plain;
+  std::string out = "\"";
+  for (const char c : plain) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
+bool number(std::string_view cell, double& value) {
+  if (cell.empty() || cell == "nan") {
+    value = std::nan("");
+    return true;
+  }
+  const auto [end, failed] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  return failed == std::errc() && end == cell.data() + cell.size();
+}
+
+}  // namespace
+
+std::vector<std::string> csv_cells(std::string_view line) {
   std::vector<std::string> cells;
   std::string cell;
   bool quoted = false, was_quoted = false;
@@ -62,44 +83,22 @@ std::vector<std::string> split(std::string_view line) {
   return cells;
 }
 
-std::string quote(const std::string& cell) {
-  const std::string plain = for_files(cell);  // keeps one row on one line
-  if (plain.find_first_of(",\"") == std::string::npos) return plain;
-  std::string out = "\"";
-  for (const char c : plain) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
-
-std::string line_of(const std::vector<std::string>& cells) {
+std::string csv_line(const std::vector<std::string>& cells) {
   std::string line;
   for (std::size_t i = 0; i < cells.size(); ++i) line += (i ? "," : "") + quote(cells[i]);
   return line + "\n";
 }
 
-bool number(std::string_view cell, double& value) {
-  if (cell.empty() || cell == "nan") {
-    value = std::nan("");
-    return true;
-  }
-  const auto [end, failed] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  return failed == std::errc() && end == cell.data() + cell.size();
-}
-
-}  // namespace
-
 CsvWriter::CsvWriter(const std::string& path, const std::vector<std::string>& names) : columns_(names.size()), path_(path) {
   file_ = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_APPEND | O_CLOEXEC, 0644);
   if (file_ < 0) throw WriteError(fmt::format("cannot be written: {}", std::strerror(errno)), {path, 0});
-  add(line_of(names));
+  add(csv_line(names));
   flush();
 }
 
 CsvWriter::CsvWriter(const std::string& path, const std::vector<std::string>& names, long keep_rows, std::optional<std::uint64_t> sum)
     : columns_(names.size()), rows_(keep_rows), path_(path) {
-  const std::string text = read_all(path), head = line_of(names);
+  const std::string text = read_all(path), head = csv_line(names);
   if (text.compare(0, head.size(), head) != 0)
     throw Error("its columns are not those of this scene; resume with the scene of the run, or start anew with --force", {path, 1});
   std::size_t end = head.size();
@@ -165,7 +164,7 @@ void CsvWriter::row(const std::vector<double>& values) {
 void CsvWriter::text_row(const std::vector<std::string>& cells) {
   ERBS_ASSERT(cells.size() == columns_);
   ++rows_;
-  add(line_of(cells));
+  add(csv_line(cells));
 }
 
 void CsvWriter::flush() {
@@ -210,7 +209,7 @@ CsvTable read_csv(const std::string& path) {
     const std::string_view text = std::string_view(all).substr(at, end - at);
     at = end + 1;
     if (trimmed(text).empty()) continue;
-    const std::vector<std::string> cells = split(text);
+    const std::vector<std::string> cells = csv_cells(text);
     if (table.names.empty()) {
       table.names = cells;
       table.columns.resize(cells.size());

@@ -46,6 +46,10 @@ struct CsvTable {
   const std::vector<double>& column(std::string_view name) const;  // Error with the nearest name if there is none
 };
 
+// Cells of one line, and one line of cells. A cell in double quotes may hold commas, and quotes written twice.
+std::vector<std::string> csv_cells(std::string_view line);
+std::string csv_line(const std::vector<std::string>& cells);
+
 // Ignores an incomplete last line: the writer was killed or is still writing.
 CsvTable read_csv(const std::string& path);
 

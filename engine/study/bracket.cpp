@@ -1,0 +1,54 @@
+#include "engine/study/bracket.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/base/error.h"
+
+namespace erbs::study {
+
+std::string said(const Answer& a) { return fmt::format("{:.6g}: {}", a.x, a.reason); }
+
+std::string first_reason(const std::vector<Answer>& answers) {
+  for (const Answer& a : answers)
+    if (!a.value) return said(a);
+  return "";
+}
+
+Bracket::Bracket(double lo, double hi, double rel, int points) : first_(lo), last_(hi), rel_(rel), points_(points) {}
+
+std::vector<double> Bracket::next() const {
+  if (!trouble_.empty()) return {};
+  if (!asked_) return {first_, last_};
+  std::vector<double> xs;
+  if (std::fabs(hi() - lo()) > rel_ * std::max(std::fabs(lo()), std::fabs(hi())))
+    for (int i = 1; i <= points_; ++i) xs.push_back(at(lo_ + (hi_ - lo_) * i / (points_ + 1)));
+  return xs;
+}
+
+void Bracket::take_ends(const std::vector<Answer>& ends) {
+  asked_ = true;
+  if (!ends[0].value || !ends[1].value) {
+    trouble_ = "no answer at an end: " + first_reason(ends);
+    return;
+  }
+  const bool low = *ends[0].value != 0, high = *ends[1].value != 0;
+  if (low && high) trouble_ = fmt::format("collapses at lo = {:.6g} already; lower it", first_);
+  else if (low) trouble_ = fmt::format("collapses at lo = {:.6g} and stands at hi = {:.6g}; exchange them", first_, last_);
+  else if (!high) trouble_ = fmt::format("stands at hi = {:.6g} still; raise it", last_);
+  else known_ = true;
+}
+
+void Bracket::take(const std::vector<Answer>& answers) {
+  if (!asked_) return take_ends(answers);
+  const double from = lo_, to = hi_;
+  const auto share = [&](std::size_t i) { return from + (to - from) * double(i + 1) / (points_ + 1); };
+  for (std::size_t i = 0; i < answers.size(); ++i)
+    if (answers[i].value && *answers[i].value != 0) hi_ = std::min(hi_, share(i));
+  for (std::size_t i = 0; i < answers.size(); ++i)
+    if (answers[i].value && *answers[i].value == 0 && share(i) < hi_) lo_ = std::max(lo_, share(i));
+  if (lo_ == from && hi_ == to)
+    trouble_ = fmt::format("no run between {:.6g} and {:.6g} gave an answer: {}", at(from), at(to), first_reason(answers));
+}
+
+}  // namespace erbs::study

@@ -1,0 +1,76 @@
+// What a sweep varies: the points of a study, each a value for every varied param of its scene. Plain data, as the study file says.
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "engine/base/error.h"
+
+namespace erbs::study {
+
+using Value = std::variant<double, std::string>;  // of a param: a number, or a word such as the name of a record
+std::string text_of(const Value& value);          // for a table: shortest digits that read back to the same number, or the word
+std::string expression_of(const Value& value);    // for -D: the same, a word in quotes
+
+// Params that change together, with their values row by row.
+struct Axis {
+  std::vector<std::string> params;
+  std::vector<std::vector<Value>> rows;  // [rows][params]
+  int group = 0;                         // number of the call that made it
+  bool by_scene = false;                 // of a grid{}: the axes of the group follow the order of the scene's params
+  Place place;
+};
+
+// Range of a random param. The values are uniform in x, or in ln x.
+struct Range {
+  std::string param;
+  double lo = 0, hi = 1;
+  bool log = false;
+};
+// Latin hypercube (McKay, Beckman and Conover 1979): each of n equal strata of each range holds one value, at a random place in it.
+Axis latin_hypercube(const std::vector<Range>& ranges, int n, double seed);
+Axis random_points(const std::vector<Range>& ranges, int n, double seed);  // independent of each other
+
+// Bisection of a param at every point.
+struct Bisection {
+  std::string param;
+  double lo = 0, hi = 0;
+  double rel = 0.01;
+  int points = 1;
+  std::string key = "collapse.collapsed";  // of metrics.json; the verdict is yes where it is true or not 0, ...
+  std::optional<double> above;             // ... or above this number
+  Place place;
+};
+
+// A known curve beside the results in the figure.
+struct PlanCurve {
+  std::string label;
+  std::vector<double> x, y;
+};
+
+struct Plan {
+  std::string scene;                 // as the study file says
+  std::vector<Axis> axes;            // outermost first
+  std::optional<Bisection> bisect;   // none: one run per point
+  std::vector<std::string> collect;  // keys of metrics.json
+  std::string keep = "metrics";      // of each run: none, metrics, all
+  double max_wall = 0, memory = 0;   // s and bytes, of each run; 0: no limit
+  std::string title;                 // of the figure
+  std::vector<PlanCurve> curves;
+  Place place;
+};
+
+using Point = std::vector<std::pair<std::string, Value>>;  // params with their values
+
+// Number of points: the product of the axes. Throws Error beyond ten million.
+std::int64_t point_count(const Plan& plan);
+Point point_at(const Plan& plan, std::int64_t index);  // the last axis changes fastest
+std::vector<std::string> varied_params(const Plan& plan);
+
+// Sorts the axes of each grid in the order of the scene's params: a table of Lua has no order.
+void order_grids(Plan& plan, const std::vector<std::string>& params);
+
+}  // namespace erbs::study

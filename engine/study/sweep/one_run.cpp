@@ -1,0 +1,125 @@
+#include "engine/study/sweep/one_run.h"
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "engine/record/format/json.h"
+
+namespace erbs::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string folder_of(const Sweep& sweep, const std::string& place) { return sweep.directory + "/runs/" + place; }
+std::string log_of(const Sweep& sweep, const std::string& place) { return folder_of(sweep, place) + ".log"; }
+
+std::string cell_of(const Json* value) {
+  if (value == nullptr || value->is_null()) return "nan";
+  if (value->is_boolean()) return value->get<bool>() ? "1" : "0";
+  if (value->is_number_integer()) return fmt::format("{}", value->get<std::int64_t>());
+  if (value->is_number()) return fmt::format("{}", value->get<double>());
+  if (value->is_string()) return value->get<std::string>();
+  return value->dump();
+}
+
+bool says(const std::string& log, const char* what) {
+  std::ifstream stream(log);
+  for (std::string line; std::getline(stream, line);)
+    if (line.find(what) != std::string::npos) return true;
+  return false;
+}
+
+std::string bytes_text(double bytes) { return fmt::format("{:.3g} MB", 1e-6 * bytes); }
+
+// The verdict at the key; none, with its reason, if the run gives none.
+std::string verdict_of(const Bisection& bisect, const Json& metrics, std::string& reason) {
+  const Json* value = find_key(metrics, bisect.key);
+  if (value != nullptr && value->is_boolean()) return value->get<bool>() ? "1" : "0";
+  if (value != nullptr && value->is_number() && std::isfinite(value->get<double>())) {
+    const double number = value->get<double>();
+    return (bisect.above ? number > *bisect.above : number != 0) ? "1" : "0";
+  }
+  reason = fmt::format("{} has no value in this run", bisect.key);
+  return "nan";
+}
+
+// Why the run has no result by its end alone; "" if it has one.
+void judge_end(const Sweep& sweep, const Finished& finished, const std::string& log, RunRow& row) {
+  const std::string words = last_words(log, finished.code, sweep.scene);
+  const double cap = sweep.plan.memory;
+  if (finished.overdue) {
+    row.status = "timeout";
+    row.reason = fmt::format("took longer than max_wall = {:g} s and was ended", sweep.plan.max_wall);
+  } else if (cap > 0 && finished.code != 0 &&
+             (says(log, "not enough memory") || says(log, "MiB of memory") || says(log, "Cannot allocate memory"))) {
+    row.status = "memory";
+    row.reason = fmt::format("needs more than memory = {} and was ended at {}", bytes_text(cap), bytes_text(finished.memory));
+  } else if (finished.code > 128) {
+    row.status = "crash";
+    row.reason = fmt::format("{}{}", words, finished.code == 128 + 9 ? ", by another program or for lack of memory" : "");
+  } else if (finished.code == 2 || finished.code == 127) {
+    row.status = "error";
+    row.reason = words;
+  }
+}
+
+}  // namespace
+
+Job job_of(const Sweep& sweep, const Point& point, double x, const std::string& place) {
+  const std::string folder = folder_of(sweep, place);
+  std::vector<std::string> command{own_path(), "run", sweep.scene, "-o", folder, "--force", "--quiet", "--threads", "1", "--no-figures"};
+  for (const auto& [param, value] : point) command.insert(command.end(), {"-D", param + "=" + expression_of(value)});
+  if (sweep.plan.bisect) command.insert(command.end(), {"-D", fmt::format("{}={}", sweep.plan.bisect->param, x)});
+  command.insert(command.end(), sweep.arguments.begin(), sweep.arguments.end());
+  std::error_code ignored;
+  fs::remove_all(folder, ignored);  // left by a run that was killed
+  const std::string log = log_of(sweep, place);
+  return {
+      command, {.output = log, .errors = log, .own_group = true, .bound_hard = true, .memory = sweep.plan.memory}, 0, sweep.plan.max_wall};
+}
+
+RunRow read_run(const Sweep& sweep, double x, const std::string& place, const Finished& finished) {
+  const std::string file = folder_of(sweep, place) + "/metrics.json", log = log_of(sweep, place);
+  RunRow row;
+  row.x = x, row.wall = finished.wall, row.cpu = finished.cpu, row.memory = finished.memory;
+  row.verdict = "nan";
+  row.values.assign(sweep.plan.collect.size(), "nan");
+  judge_end(sweep, finished, log, row);
+  if (!row.status.empty()) return row;
+  try {
+    if (!fs::exists(file)) {
+      row.status = "error", row.reason = last_words(log, finished.code, sweep.scene);
+      return row;
+    }
+    const Json metrics = read_json(file);
+    row.status = metrics.value("status", "");
+    if (row.status != "completed") {
+      row.reason = last_words(log, finished.code, sweep.scene);
+      return row;
+    }
+    std::string absent;
+    for (std::size_t k = 0; k < row.values.size(); ++k) {
+      const std::string& key = sweep.plan.collect[k];
+      row.values[k] = cell_of(find_key(metrics, key));
+      // A time of collapse may well be absent; a metric of the scene has lost its number.
+      if (row.values[k] == "nan" && key.starts_with("metrics.") && absent.empty())
+        absent = fmt::format("{} has no value: its function gave nil, or no finite number", key);
+    }
+    if (sweep.plan.bisect) row.verdict = verdict_of(*sweep.plan.bisect, metrics, row.reason);
+    if (!row.reason.empty()) row.status = "error";
+    else row.reason = absent;
+  } catch (const std::exception& trouble) { row.status = "error", row.reason = trouble.what(); }
+  return row;
+}
+
+void tidy(const Sweep& sweep, const RunRow& row, const std::string& place) {
+  if (sweep.plan.keep == "all") return;
+  const std::string folder = folder_of(sweep, place);
+  std::error_code ignored;
+  if (sweep.plan.keep == "metrics") fs::rename(folder + "/metrics.json", folder + ".json", ignored);
+  fs::remove_all(folder, ignored);
+  if (row.answered() || sweep.plan.keep == "none") fs::remove(log_of(sweep, place), ignored);
+}
+
+}  // namespace erbs::study

@@ -1,0 +1,15 @@
+// The process among those that one command of MPI or Slurm has started, by the environment that these set. The program needs neither: the
+// processes share their work through a folder.
+#pragma once
+#include <string>
+
+namespace erbs::study {
+
+struct Ranks {
+  int rank = 0, size = 1;
+  std::string launch;       // the same for all ranks of one launch, another one for each launch; "": not known
+  bool array_task = false;  // of a job array
+};
+Ranks ranks_of_environment();  // OpenMPI, MPICH and others with PMI, srun
+
+}  // namespace erbs::study

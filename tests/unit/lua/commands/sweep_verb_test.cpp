@@ -1,0 +1,317 @@
+// erbs sweep as a user calls it: results, resumption after kill -9, failures as rows, mistakes.
+#include <sys/wait.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <cmath>
+#include <csignal>
+#include <random>
+#include <thread>
+
+#include "engine/record/format/csv.h"
+#include "tests/unit/lua/bench.h"
+
+using namespace erbs;
+using namespace erbs::lua;
+
+namespace {
+
+// A block that flies for two milliseconds. trouble: 1 error, 2 NaN, 3 no memory, 4 no end
+const std::string tiny = R"(
+local h, trouble = param("h", 1, "height [m]"), param("trouble", 0)
+local motion = param("motion", "a.csv")
+material{ name = "stone", density = 2000 }
+box{ name = "b", size = { .3, .3, h }, at = { 0, 0, 5 }, free = true, material = "stone" }
+if trouble == 1 then error("no scene for this value") end
+if trouble == 3 then string.rep("x", 2^28) end
+analysis{ duration = trouble == 4 and 1e6 or .002, start = "rest", stop_after_collapse = 1e6 }
+metric("double", "m", function(run) if trouble == 2 then return 0 / 0 end return 2 * h end)
+metric("tall", "", function() return h > 1.37 and 1 or 0 end)
+)";
+
+struct Study : Bench {
+  Study() { write("tiny.lua", tiny); }
+  int sweep(const std::string& study, const std::vector<std::string>& more = {}, const std::string& directory = "") {
+    write("study.lua", study);
+    std::vector<std::string> words{"sweep", (folder / "study.lua").string(), "-o", directory.empty() ? out() : directory};
+    words.insert(words.end(), more.begin(), more.end());
+    return erbs(words);
+  }
+  std::string results(const std::string& directory = "") const { return text_of((directory.empty() ? out() : directory) + "/results.csv"); }
+  CsvTable table() const { return read_csv(out() + "/results.csv"); }
+};
+
+const std::string grid = R"(study{ scene = "tiny.lua", vary = { grid{ h = { 1, 2, 3, 4 } }, latin{ n = 5, trouble = { 10, 20 } } },
+  collect = { "metrics.double", "status", "collapse.time_s" } })";
+const std::string threshold =
+    "study{ scene = 'tiny.lua', bisect = { param = 'h', lo = 1, hi = 2, rel = .001, points = 1, key = 'metrics.tall' }, collect = { "
+    "'metrics.double' }, vary = grid{ trouble = { 10, 11 } } }";
+
+}  // namespace
+
+TEST_CASE("a sweep gives a row for each point, the same for any number of runs at once", "[sweep]") {
+  Study study;
+  REQUIRE(study.sweep(grid, {"-j", "1"}) == 0);
+  const CsvTable table = study.table();
+  REQUIRE(table.rows() == 20);
+  CHECK(table.names[1] == "h_m");
+  for (std::size_t i = 0; i < 20; ++i) {
+    CHECK(table.column("index")[i] == double(i));
+    CHECK(table.column("h_m")[i] == double(1 + i / 5));
+    CHECK(table.column("double_m")[i] == 2 * table.column("h_m")[i]);
+  }
+  const std::string first = study.results();
+  for (const char* jobs : {"2", "3"}) {
+    const std::string other = (study.folder / ("j" + std::string(jobs))).string();
+    REQUIRE(study.sweep(grid, {"-j", jobs}, other) == 0);
+    CHECK(study.results(other) == first);
+  }
+  CHECK(read_csv(study.out() + "/runs.csv").rows() == 20);
+  CHECK(std::filesystem::exists(study.out() + "/runs/000000.json"));
+  CHECK_FALSE(std::filesystem::exists(study.out() + "/runs/000000.log"));
+  CHECK_FALSE(std::filesystem::exists(study.out() + "/work"));
+}
+
+TEST_CASE("a sweep finds a threshold at each point to the width asked for", "[sweep]") {
+  Study study;
+  for (const char* points : {"1", "3"}) {
+    std::string text = threshold;
+    text.replace(text.find("points = 1"), 10, std::string("points = ") + points);
+    REQUIRE(study.sweep(text, {"--force"}) == 0);
+    const CsvTable table = study.table();
+    REQUIRE(table.rows() == 2);
+    for (std::size_t i = 0; i < 2; ++i) {
+      CHECK(table.column("h_m_lo")[i] <= 1.37);
+      CHECK(table.column("h_m_hi")[i] > 1.37);
+      CHECK(table.column("h_m_hi")[i] - table.column("h_m_lo")[i] <= .001 * table.column("h_m_hi")[i]);
+      CHECK(table.column("double_m")[i] == 2 * table.column("h_m_hi")[i]);
+    }
+    double runs = 0;
+    for (const double n : table.column("runs")) runs += n;
+    CHECK(double(read_csv(study.out() + "/runs.csv").rows()) == runs);
+  }
+}
+
+TEST_CASE("a sweep that is killed at random moments loses nothing", "[sweep]") {
+  std::mt19937 random(7);
+  for (const std::string& text : {grid, threshold}) {
+    Study study;
+    const std::string whole = (study.folder / "whole").string();
+    REQUIRE(study.sweep(text, {"-j", "2"}, whole) == 0);
+    const std::vector<std::string> words =
+        study.command({"sweep", (study.folder / "study.lua").string(), "-o", study.out(), "-j", "2", "--resume"});
+    for (int i = 0; i < 5; ++i) {
+      const Child child = start(words, (study.folder / "log").string());
+      std::this_thread::sleep_for(std::chrono::milliseconds(30 + random() % 250));
+      stop_hard(child);
+      waitpid(child.pid, nullptr, 0);
+    }
+    REQUIRE(study.sweep(text, {"-j", "2", "--resume"}) == 0);
+    CHECK(study.results() == study.results(whole));
+    const CsvTable runs = read_csv(study.out() + "/runs.csv");
+    CHECK(runs.rows() >= read_csv(whole + "/runs.csv").rows());
+    CHECK(runs.rows() <= read_csv(whole + "/runs.csv").rows() + 10);  // a run whose sweep died before it took note of it
+    const auto written = text_of(study.out() + "/runs.csv");
+    std::ofstream(study.out() + "/results.csv", std::ios::app) << "3,4,";
+    REQUIRE(study.sweep(text, {"--resume"}) == 0);
+    CHECK(study.results() == study.results(whole));
+    CHECK(text_of(study.out() + "/runs.csv") == written);  // nothing was run again
+  }
+}
+
+TEST_CASE("a run that fails is a row with its reason, and the others go on", "[sweep]") {
+  Study study;
+  REQUIRE(study.sweep("study{ scene = 'tiny.lua', vary = { grid{ trouble = { 0, 1, 2, 3, 4 } } }, collect = { 'metrics.double' }, "
+                      "max_wall = '1.5s', memory = '90MB' }",
+                      {"-j", "2"}) == 0);
+  const CsvTable table = study.table();
+  REQUIRE(table.rows() == 5);
+  const auto& status = table.text[std::size_t(table.find("status"))];
+  const auto& reason = table.text[std::size_t(table.find("reason"))];
+  CHECK(status == std::vector<std::string>{"completed", "error", "completed", "memory", "timeout"});
+  CHECK(table.column("double_m")[0] == 2);
+  for (std::size_t i = 1; i < 5; ++i) CHECK(std::isnan(table.column("double_m")[i]));
+  CHECK_THAT(reason[1], Catch::Contains("tiny.lua:6") && Catch::Contains("no scene for this value"));
+  CHECK_THAT(reason[2], Catch::Contains("metrics.double has no value"));
+  CHECK_THAT(reason[3], Catch::Contains("memory = 90 MB"));
+  CHECK_THAT(reason[4], Catch::Contains("max_wall = 1.5 s"));
+  CHECK_THAT(study.said, Catch::Contains("3 of 5 points failed; the first: row 1"));
+  CHECK(std::filesystem::exists(study.out() + "/runs/000001.log"));
+  // no point with an answer
+  CHECK(study.sweep("study{ scene = 'tiny.lua', vary = { grid{ trouble = { 1 } } }, collect = { 'metrics.double' } }", {"--force"}) == 1);
+}
+
+TEST_CASE("a run that diverges, or does not close its ledger, is a row", "[sweep]") {
+  Study study;
+  study.write("spring.lua", R"(
+local dt = param("dt", 1e-4, "[s]")
+material{ name = "stone", density = 2000 }
+box{ name = "base", size = { 2, 2, .1 }, at = { -1, -1, -.1 }, fixed = true, material = "stone" }
+box{ name = "b", size = { .3, .3, .3 }, at = { 0, 0, 0 }, material = "stone" }
+joint{ law = mortar{ kn = 1e9, ks = 5e8, ft = 1e9, c = 1e9, mu = .6 } }
+analysis{ duration = .2, dt = { dt, unstable = true }, start = "ramp" }
+)");
+  REQUIRE(study.sweep("study{ scene = 'spring.lua', vary = { grid{ dt = { 1e-4, 2e-3 } } }, collect = { 'time_s' } }") == 0);
+  const CsvTable table = study.table();
+  const auto& status = table.text[std::size_t(table.find("status"))];
+  CHECK(status[0] == "completed");
+  CHECK((status[1] == "diverged" || status[1] == "inaccurate"));
+  CHECK(std::isnan(table.column("time_s")[1]));
+}
+
+TEST_CASE("a bracket whose ends agree is a row that says what to change", "[sweep]") {
+  Study study;
+  const auto reason = [&](const std::string& ends) {
+    study.sweep("study{ scene = 'tiny.lua', bisect = { param = 'h', " + ends + ", key = 'metrics.tall' } }", {"--force"});
+    const CsvTable table = study.table();
+    CHECK(table.text[std::size_t(table.find("status"))][0] == "no bracket");
+    return table.text[std::size_t(table.find("reason"))][0];
+  };
+  CHECK_THAT(reason("lo = 1.5, hi = 2"), Catch::Contains("collapses at lo = 1.5 already; lower it"));
+  CHECK_THAT(reason("lo = 1, hi = 1.2"), Catch::Contains("stands at hi = 1.2 still; raise it"));
+  CHECK_THAT(reason("lo = 2, hi = 1"), Catch::Contains("exchange them"));
+}
+
+TEST_CASE("mistakes of a study are refused with line and remedy, before any run", "[sweep]") {
+  const std::string collect = ", collect = { 'metrics.double' } }";
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"study{ scene = 'tiny.lua', vary = grid{ heigth = { 1 } }" + collect, "has no param \"heigth\""},
+      {"study{ scene = 'tiny.lua', vary = grid{ hh = { 1 } }" + collect, "did you mean \"h\""},
+      {"study{ scene = 'tiny.lua', vary = grid{ h = {} }" + collect, "h has no values"},
+      {"study{ scene = 'tiny.lua', vary = grid{}" + collect, "it is empty"},
+      {"study{ scene = 'tiny.lua', vary = list{}" + collect, "it is empty"},
+      {"study{ scene = 'tiny.lua', vary = list{ { h = 1 }, { trouble = 1 } }" + collect, "give the same params"},
+      {"study{ scene = 'tiny.lua', vary = {}" + collect, "vary must be a list"},
+      {"study{ scene = 'tiny.lua', vary = { 3 }" + collect, "its item 1 must be grid"},
+      {"study{ scene = 'tiny.lua'" + collect, "it varies nothing"},
+      {"study{ scene = 'tiny.lua', vary = grid{ h = { 1 } } }", "it collects nothing"},
+      {"study{ scene = 'tiny.lua', vary = grid{ h = { 1 } }, collect = 'metrics.doubel' }", "did you mean \"metrics.double\""},
+      {"study{ scene = 'tiny.lua', vary = { grid{ h = { 1 } }, grid{ h = { 2 } } }" + collect, "varied twice"},
+      {"study{ scene = 'tiny.lua', vary = grid{ h = { 'a' } }" + collect, "takes a number"},
+      {"study{ scene = 'tiny.lua', vary = grid{ motion = { 1 } }" + collect, "takes a word"},
+      {"study{ scene = 'no.lua', vary = grid{ h = { 1 } }" + collect, "there is no scene"},
+      {"study{ scene = 'tiny.lua', vary = grid{ h = { 0/0 } }" + collect, "finite numbers"},
+      {"study{ scene = 'tiny.lua', vary = latin{ n = 0, h = { 1, 2 } }" + collect, "n must be a number"},
+      {"study{ scene = 'tiny.lua', vary = latin{ n = 3, h = { 2, 1 } }" + collect, "{ lowest, highest }"},
+      {"study{ scene = 'tiny.lua', vary = random{ n = 3, h = { 0, 1, log = true } }" + collect, "above zero"},
+      {"study{ scene = 'tiny.lua', vary = random{ n = 3 }" + collect, "it varies nothing"},
+      {"study{ scene = 'tiny.lua', vary = records{ param = 'motion', files = {}, scale = 'h' }" + collect, "files is empty"},
+      {"study{ scene = 'tiny.lua', bisect = { param = 'h', lo = 1, hi = 1 } }", "lo and hi are the same"},
+      {"study{ scene = 'tiny.lua', bisect = { param = 'motion', lo = 1, hi = 2 } }", "only a number can be bisected"},
+      {"study{ scene = 'tiny.lua', bisect = { param = 'h', lo = 1, high = 2 } }", "\"high\""},
+      {"study{ scene = 'tiny.lua', vary = grid{ h = { 1 } }, max_wall = '5 parsec'" + collect, "max_wall must be"},
+      {"study{ scene = 'tiny.lua', vary = grid{ h = { 1 } }, memory = -1" + collect, "memory must be"},
+      {"study{ scene = 'tiny.lua', vary = grid{ h = { 1 } }, keep = 'some'" + collect, "none"},
+      {"local x = 1", "no study"},
+      {"material{ name = 's', density = 1 } box{ name = 'b', size = { 1, 1, 1 }, at = { 0, 0, 0 }, material = 's' } study{ scene = "
+       "'tiny.lua', vary = grid{ h = { 1 } }" +
+           collect,
+       "makes no blocks"}};
+  Study study;
+  for (const auto& [text, wanted] : cases) {
+    INFO(text);
+    CHECK(study.sweep(text) == 2);
+    CHECK_THAT(study.said, Catch::Contains(wanted));
+    CHECK_FALSE(std::filesystem::exists(study.out()));
+  }
+  CHECK(study.sweep(grid, {"-D", "h=2"}) == 2);
+  CHECK_THAT(study.said, Catch::Contains("varied by the study, and -D h=2 sets it"));
+  CHECK(study.sweep(grid, {"-D", "hight=2"}) == 2);
+  CHECK(study.sweep(grid, {"--force", "--resume"}) == 2);
+  CHECK(study.run("study{ scene = 'tiny.lua' }") == 2);
+  CHECK_THAT(study.said, Catch::Contains("erbs sweep"));
+}
+
+TEST_CASE("a folder is taken up by its own study only", "[sweep]") {
+  Study study;
+  REQUIRE(study.sweep(grid) == 0);
+  CHECK(study.sweep(grid) == 2);
+  CHECK_THAT(study.said, Catch::Contains("--resume") && Catch::Contains("--force"));
+  CHECK(study.sweep(threshold, {"--resume"}) == 2);
+  CHECK_THAT(study.said, Catch::Contains("another study") && Catch::Contains("-o DIR"));
+  study.write("tiny.lua", tiny + "-- changed\n");
+  CHECK(study.sweep(grid, {"--resume"}) == 2);
+  CHECK_THAT(study.said, Catch::Contains("the scene, or a file that it reads, has changed"));
+  study.write("tiny.lua", tiny);
+  CHECK(study.sweep(grid + "-- another limit of time is the same study\n", {"--resume"}) == 0);
+  // a results file alone, from elsewhere
+  const std::string other = (study.folder / "other").string();
+  std::filesystem::create_directories(other);
+  std::filesystem::copy_file(study.out() + "/results.csv", other + "/results.csv");
+  study.write("tiny.lua", tiny + "-- changed\n");
+  CHECK(study.sweep(grid, {"--resume"}, other) == 2);
+  CHECK_THAT(study.said, Catch::Contains("of another study"));
+  // a folder of something else
+  std::ofstream(study.folder / "mine.txt") << "mine";
+  CHECK(study.sweep(grid, {"--force"}, study.folder.string()) == 2);
+  CHECK(text_of(study.folder / "mine.txt") == "mine");
+}
+
+TEST_CASE("records vary by their files and peaks, and a study has params of its own", "[sweep]") {
+  Study study;
+  for (const char* name : {"a.csv", "b.csv"}) study.write(name, "0,0\n0.01,1\n0.02,0\n");
+  study.write("tiny.lua",
+              tiny + "ground_motion{ wave = record{ file = motion, unit = 'm/s2', peak = param('pga', 1, '[m/s2]') }, direction = 'x' }\n");
+  const std::string text =
+      "study{ scene = 'tiny.lua', vary = records{ param = 'motion', files = { 'a.csv', 'b.csv' }, scale = 'pga', scales = { param('low', "
+      ".1) "
+      "* g, .2 * g, .3 * g } }, collect = { 'metrics.double' } }";
+  REQUIRE(study.sweep(text, {"-D", "low=.05", "-D", "h=3"}) == 0);
+  const CsvTable table = study.table();
+  REQUIRE(table.rows() == 6);
+  CHECK(table.column("pga_m_s2")[3] == Approx(.05 * 9.81));
+  CHECK(table.text[std::size_t(table.find("motion"))][3] == "b.csv");
+  CHECK(table.column("double_m")[5] == 6);
+  study.write("b.csv", "0,0\n0.01,2\n0.02,0\n");
+  CHECK(study.sweep(text, {"-D", "low=.05", "-D", "h=3", "--resume"}) == 2);
+  CHECK_THAT(study.said, Catch::Contains("has changed"));
+  std::filesystem::remove(study.folder / "b.csv");
+  CHECK(study.sweep(text, {"--force"}) == 2);
+  CHECK_THAT(study.said, Catch::Contains("study.lua:1") && Catch::Contains("b.csv"));
+}
+
+TEST_CASE("what stays of each run is as the study asks", "[sweep]") {
+  Study study;
+  for (const auto& [keep, folder, metrics] : {std::tuple{"none", false, false}, {"metrics", false, true}, {"all", true, false}}) {
+    REQUIRE(study.sweep(
+                fmt::format("study{{ scene = 'tiny.lua', vary = grid{{ h = {{ 1 }} }}, collect = 'metrics.double', keep = '{}' }}", keep),
+                {"--force"}) == 0);
+    CHECK(std::filesystem::exists(study.out() + "/runs/000000/metrics.json") == folder);
+    CHECK(std::filesystem::exists(study.out() + "/runs/000000.json") == metrics);
+  }
+}
+
+TEST_CASE("the ranks of mpirun share a study, and so do the tasks of a job array", "[sweep]") {
+  Study study;
+  const std::string alone = (study.folder / "alone").string();
+  REQUIRE(study.sweep(grid, {"-j", "1"}, alone) == 0);
+  SECTION("mpirun") {
+    if (!can_start("mpirun")) {
+      WARN("skipped: mpirun is not installed (package openmpi-bin)");
+      return;
+    }
+    for (const char* ranks : {"1", "2", "3"}) {
+      std::vector<std::string> words{"mpirun", "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-n", ranks};
+      for (const auto& word : study.command({"sweep", (study.folder / "study.lua").string(), "-o", study.out(), "--force"}))
+        words.push_back(word);
+      CHECK(wait_for(start(words, (study.folder / "log").string())) == 0);
+      INFO(text_of(study.folder / "log"));
+      CHECK(study.results() == study.results(alone));
+    }
+  }
+  SECTION("tasks of the job that --slurm writes, one of which is killed") {
+    REQUIRE(study.sweep(grid, {"--slurm", "-j", "3"}) == 0);
+    CHECK_THAT(text_of(study.out() + "/job.sh"), Catch::Contains("#SBATCH --array=0-2"));
+    std::vector<Child> tasks;
+    for (const char* task : {"0", "1", "2"})
+      tasks.push_back(start({"env", std::string("SLURM_ARRAY_TASK_ID=") + task, "SLURM_PROCID=0", "sh", study.out() + "/job.sh"},
+                            (study.folder / "log").string()));
+    std::this_thread::sleep_for(std::chrono::milliseconds(150));
+    stop_hard(tasks[1]);
+    waitpid(tasks[1].pid, nullptr, 0);
+    CHECK(wait_for(tasks[0]) == 0);
+    CHECK(wait_for(tasks[2]) == 0);
+    REQUIRE(study.sweep(grid, {"--resume"}) == 0);  // collects
+    CHECK(study.results() == study.results(alone));
+  }
+}
