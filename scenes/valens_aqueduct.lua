@@ -44,6 +44,8 @@ local ft = param("ft", 0.25 * MPa, "tensile strength of the joints [Pa]")
 local c = param("c", 0.4 * MPa, "cohesion, assumed: 1.6 ft; lost with the first slip [Pa]")
 local mu = param("mu", 0.7, "friction, assumed: 35 degrees")
 local fc = param("fc", 0, "compressive strength of the joints; 0: unlimited, as in the source's first model [Pa]")
+local SDS = param("SDS", 0.975, "DD-2 on ground ZB: 2.5 times the design PGA of the source, .39 g [share of g]")
+local SD1 = param("SD1", 0.22, "the same, at 1 s; not given, assumed: .8 times an S1 of .27 [share of g]")
 
 -- Spans grow evenly from both ends to the middle. The walls at the ends take what remains of the length.
 local function spans_of(count)
@@ -99,6 +101,7 @@ if dynamic == 1 then
 else
   analysis { kind = "pushover", direction = "y", step = math.min(step, up_to), up_to = up_to, bracket = bracket,
     monitor = { block = top[(#top + 1) // 2] } }
+  if up_to > step then spectrum { kind = "TBSC 2018", SDS = SDS, SD1 = SD1, shape = "elastic", nodes = 8 } end
 end
 recorder { name = "top", quantity = "displacement", blocks = top, axis = "y" }
 metric("blocks_per_metre", "1/m", (#built.blocks + #built.base) / total)
