@@ -499,6 +499,27 @@ function damping(keys) end
 ---@param keys erbs.analysis_keys
 function analysis(keys) end
 
+---@class erbs.spectrum_keys
+---@field kind? "EN 1998-1 type 1"|"EN 1998-1 type 2"|"TBSC 2018"|"table" code of the elastic spectrum (default with `table`: table)
+---@field ground? "A"|"B"|"C"|"D"|"E" EN 1998-1: ground type, which gives S, TB, TC and TD
+---@field ag? number EN 1998-1: design ground acceleration on ground A [m/s2; 0 to 50; default 0]
+---@field damping? number EN 1998-1: viscous damping ratio [0.001 to 0.5; default 0.05]
+---@field S? number EN 1998-1: soil factor of a national annex (0: of the ground type) [0 to 5; default 0]
+---@field TB? number EN 1998-1: where the plateau begins (0: of the ground type) [s; 0 to 10; default 0]
+---@field TC? number where the plateau ends; needed with `table` (0: of the ground type) [s; 0 to 10; default 0]
+---@field TD? number EN 1998-1: where the displacement becomes constant (0: of the ground type) [s; 0 to 20; default 0]
+---@field SDS? number TBSC 2018: design coefficient of short periods, a share of g: 0.9, not 0.9*g [0 to 4; default 0]
+---@field SD1? number TBSC 2018: design coefficient of the period of 1 s, a share of g [0 to 4; default 0]
+---@field table? { T: number, Sa: number }[] rows { T = ..., Sa = ... } of another spectrum, from T = 0 on
+---@field shape? "peak"|"elastic" displaced shape of the mass nodes: of the state with the largest load, or of the first state under load [default peak]
+---@field nodes? integer mass nodes, levels of equal height (0: each block is one) [0 to 10000; default 0]
+---@field group? string blocks that give the displaced shape, such as a pier (default: all)
+---@field iterate? boolean repeat the bilinear curve up to the target displacement until both agree, instead of up to the largest load [default false]
+
+---Elastic spectrum whose performance point on the curve of the pushover is computed: capacity.performance, performance.svg.
+---@param keys erbs.spectrum_keys
+function spectrum(keys) end
+
 ---@class erbs.recorder_keys
 ---@field name string stem of its columns in histories.csv
 ---@field quantity erbs.quantity quantity to write

@@ -103,7 +103,7 @@ plot::Figure performance_figure(const Performance& p, const DesignSpectrum& spec
     acceleration = std::max(acceleration, spectral_acceleration(spectrum, period));
   const plot::ShownUnit& unit = plot::shown_unit(*plot::find_unit("m"), length);
   scale.length = unit.factor, scale.unit = unit.name;
-  scale.x = 1.15 * length * scale.length, scale.y = 1.1 * acceleration / standard_g;
+  scale.x = 1.15 * length * scale.length, scale.y = 1.5 * acceleration / standard_g;  // room for the legend
   plot::Figure figure{.width = 1120, .height = 620};
   figure.labels.push_back({title, "screen 0.5,0.965", "center font ',15'"});
   figure.labels.push_back({fmt::format("{}; shape at the {}, {} mass nodes, Gamma = {:.4g}", p.spectrum,
