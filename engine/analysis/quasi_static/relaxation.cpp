@@ -175,9 +175,9 @@ bool Relaxation::far(const State& s, const BlockVec3& from, double share, Relaxe
 void Relaxation::carry(State& s, const Expected& ahead, double duration) const {
   for (int b = 0; b < model_.nblock; ++b) {
     if (model_.kind[z(b)] != Kind::moving) continue;
-    const Vec3 way = s.pose.u[z(b)] - ahead.from->u[z(b)], turn = rotation_vector(s.pose.q[z(b)] * ahead.from->q[z(b)].conjugate());
+    const Vec3 way = s.pose.u[z(b)] - ahead.from->u[z(b)], rotated = rotation_vector(s.pose.q[z(b)] * ahead.from->q[z(b)].conjugate());
     const Mat3 r = s.pose.q[z(b)].toRotationMatrix();
-    const Vec3 v = ahead.share / duration * way, w = ahead.share / duration * turn, L = r * (model_.inertia[z(b)] * (r.transpose() * w));
+    const Vec3 v = ahead.share / duration * way, w = ahead.share / duration * rotated, L = r * (model_.inertia[z(b)] * (r.transpose() * w));
     s.motion.v[z(b)] = v, s.motion.w[z(b)] = w, s.motion.spin_momentum[z(b)] = L;
     const double energy = 0.5 * (model_.mass[z(b)] * v.squaredNorm() + w.dot(L));
     s.energy.external_work += energy, s.energy.absolute_work += energy;
