@@ -52,7 +52,7 @@ void add_period(plot::Panel& panel, double period, const std::string& name, cons
   panel.lines.push_back(fmt::format("from first 0,0 to first {:.6g},{:.6g} nohead back lw 0.8 dt (4,4) lc rgb '{}'", x, y, grey));
   const bool above = x < scale.x * (1 - 1e-9);
   panel.labels.push_back({name, fmt::format("first {:.6g},{:.6g}", x, y),
-                          fmt::format("{} font ',11' tc rgb '#5a5a5a'", above ? "center offset 0,0.6" : "left offset 0.4,0")});
+                          fmt::format("{} font ',11' tc rgb '#5a5a5a'", above ? "center offset 0,0.6" : "right offset -0.4,0.7")});
 }
 
 plot::Panel panel_of(plot::Figure& figure, const Performance& p, const PerformancePoint& point, const DesignSpectrum& spectrum,

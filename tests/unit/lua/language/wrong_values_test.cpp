@@ -51,6 +51,7 @@ const std::map<std::string, Words> sound_calls{
     {"spread", {{"supports", supports}, {"by", ".1"}}},
     {"damping", {}},
     {"analysis", {{"duration", "1"}}},
+    {"spectrum", {{"kind", "'EN 1998-1 type 1'"}, {"ground", "'B'"}, {"ag", "2"}}},
     {"recorder", {{"name", "'r'"}, {"quantity", "'displacement'"}, {"block", "'b'"}}},
     {"camera", {{"name", "'c'"}}},
     {"use_limit", {{"reason", "'it walks'"}}},
@@ -232,7 +233,9 @@ TEST_CASE("the sound call of every function is sound", "[wrong]") {
   for (const auto& [name, words] : sound_calls) {
     const auto mistakes = mistakes_at(beside.bench.folder.string(), call_of(name, words));
     INFO(name << ": " << fmt::format("{}", fmt::join(mistakes, "\n")));
-    CHECK(mistakes.empty());
+    if (name == "spectrum")
+      CHECK((mistakes.size() == 1 && mentions(mistakes, "take analysis{ kind = \"pushover\" }")));  // not of this scene
+    else CHECK(mistakes.empty());
   }
 }
 
