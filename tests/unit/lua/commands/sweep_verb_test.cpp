@@ -188,6 +188,8 @@ TEST_CASE("mistakes of a study are refused with line and remedy, before any run"
       {"study{ scene = 'tiny.lua', vary = list{}" + collect, "it is empty"},
       {"study{ scene = 'tiny.lua', vary = list{ { h = 1 }, { trouble = 1 } }" + collect, "give the same params"},
       {"study{ scene = 'tiny.lua', vary = {}" + collect, "vary must be a list"},
+      {"study{ scene = 'tiny.lua', vary = grid{ h = { 1 } }, title = 'a\\27[31m'" + collect, "title holds control characters"},
+      {"study{ scene = 'ti\\10ny.lua', vary = grid{ h = { 1 } }" + collect, "scene holds control characters"},
       {"study{ scene = 'tiny.lua', vary = { 3 }" + collect, "its item 1 must be grid"},
       {"study{ scene = 'tiny.lua'" + collect, "it varies nothing"},
       {"study{ scene = 'tiny.lua', vary = grid{ h = { 1 } } }", "it collects nothing"},

@@ -151,6 +151,7 @@ std::vector<Bad> all_bad() {
   std::vector<Bad> all;
   for (const Function& function : all_functions()) {
     if (!takes_table(function) || function.name == "gravity") continue;
+    if (function.of_study || function.name == "study") continue;  // of files for erbs sweep
     const std::string& name = function.name;
     REQUIRE(sound_calls.contains(name));  // every new function of the language needs a line above
     for (const char* other : {"5", "'x'", "nil", "true"}) all.push_back({fmt::format("{}({})", name, other), name});
@@ -163,7 +164,7 @@ std::vector<Bad> all_bad() {
   }
   const std::pair<const char*, const char*> positional[] = {{"param({})", "param"},
                                                             {"param('q')", "param"},
-                                                            {"param('q', 'x')", "param"},
+                                                            {"param('q', {})", "param"},
                                                             {"param('q', 0/0)", "param"},
                                                             {"param('q', 1, 5)", "param"},
                                                             {"metric()", "metric"},
