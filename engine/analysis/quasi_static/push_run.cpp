@@ -23,7 +23,6 @@ namespace {
 constexpr double fall_duration = 4;        // s, of the fall that is drawn
 constexpr double ledger_tolerance = 1e-2;  // relative, of the energy ledger of all relaxations
 constexpr double beyond = 1.02;            // the fall: the load over the least one without equilibrium
-constexpr double farthest_ahead = 2;       // times the last step, of what is expected of the next
 constexpr int frames_of_last_step = 10;    // on the way to collapse
 
 std::size_t z(int i) { return std::size_t(i); }
@@ -35,8 +34,6 @@ struct PushState {
   LoadPath path;
   MachinePath machine;
   double multiplier = 0;  // of the last state in equilibrium, in the units of its path
-  BlockPoses before;      // the state before that, ...
-  double before_at = 0;   // ... and its multiplier, or the extension of the machine (m)
   double t = 0;           // s, of the next state in the run folder
   CurvePoint peak;
   long states = 0, attempts = 0, curve_rows = 0;
@@ -51,9 +48,6 @@ void each(P& p, F&& f) {
   each(p.path, f);
   each(p.machine, f);
   f("push_multiplier", p.multiplier);
-  f("push_before_u", p.before.u);
-  f("push_before_q", p.before.q);
-  f("push_before_at", p.before_at);
   f("push_t", p.t);
   f("push_peak", p.peak);
   f("push_states", p.states);
@@ -77,7 +71,7 @@ class PushRun {
   void push_on();
   void control_on();
   void fall();
-  Relaxed attempt(const LoadCourse& course, double from, double to);
+  Relaxed attempt(const LoadCourse& course);
   bool record(const Solver& solver, const Relaxed& now);
   Snapshot snapshot(const Solver& solver) const;
   bool interrupted();
@@ -204,16 +198,11 @@ bool PushRun::interrupted() {
   return out_.metrics.status != "completed";
 }
 
-// From the last state in equilibrium; back to it if there is none under this load. `from`, `to`: of the multiplier, or of the extension.
-// The structure is expected to go on as in the last step, but not if the path turns back.
-Relaxed PushRun::attempt(const LoadCourse& course, double from, double to) {
+// From the last state in equilibrium; back to it if there is none under this load.
+Relaxed PushRun::attempt(const LoadCourse& course) {
   State before = run_.state;
   const PushState known = so_far_;
-  Expected ahead;
-  if (so_far_.states > 1 && from != so_far_.before_at) ahead = {&known.before, (to - from) / (from - so_far_.before_at)};
-  if (!(ahead.share > 0 && ahead.share <= farthest_ahead)) ahead = {};
-  const Relaxed r = relaxation_->relax(
-      run_.state, course, [&](const Solver& solver, const Relaxed& now) { return record(solver, now); }, ahead);
+  const Relaxed r = relaxation_->relax(run_.state, course, [&](const Solver& solver, const Relaxed& now) { return record(solver, now); });
   if (r.ending == Ending::stopped) {
     so_far_ = known;
   } else {
@@ -222,7 +211,6 @@ Relaxed PushRun::attempt(const LoadCourse& course, double from, double to) {
     if (r.ending == Ending::broken) out_.metrics.status = "diverged";
   }
   if (!r.found()) run_.state = std::move(before);
-  else if (!passed_peak_) so_far_.before = std::move(before.pose), so_far_.before_at = from;
   return r;
 }
 
@@ -239,7 +227,7 @@ void PushRun::save(const WriterProgress& written) {
 // Equilibrium without the push.
 bool PushRun::stand() {
   if (so_far_.states > 0) return true;  // resumed
-  const Relaxed r = attempt([](double, double) { return 0.0; }, 0, 0);
+  const Relaxed r = attempt([](double, double) { return 0.0; });
   if (r.ending == Ending::collapse || r.ending == Ending::creep) gravity_alone_ = true;
   return r.found();
 }
@@ -247,7 +235,7 @@ bool PushRun::stand() {
 void PushRun::push_on() {
   while (!so_far_.path.done() && out_.metrics.status == "completed") {
     const double from = so_far_.multiplier, to = so_far_.path.next();
-    const Relaxed r = attempt([=](double ramp, double) { return from + ramp * (to - from); }, from, to);
+    const Relaxed r = attempt([=](double ramp, double) { return from + ramp * (to - from); });
     if (r.ending == Ending::stopped || r.ending == Ending::broken) return;
     if (r.found()) so_far_.path.found(), so_far_.multiplier = to;
     else so_far_.path.failed();
@@ -265,7 +253,7 @@ void PushRun::control_on() {
   while (!machine.done() && out_.metrics.status == "completed") {
     const State before = run_.state;
     const double from = machine.extension, to = machine.next();
-    const Relaxed r = attempt([&, from, to](double ramp, double u) { return machine.load(from + ramp * (to - from), u); }, from, to);
+    const Relaxed r = attempt([&, from, to](double ramp, double u) { return machine.load(from + ramp * (to - from), u); });
     if (r.ending == Ending::stopped || r.ending == Ending::broken) return;
     if (!r.found()) {
       writer_->log(fmt::format("no equilibrium at the extension {:.6g} m: the structure has come apart", to));

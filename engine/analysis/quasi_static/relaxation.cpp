@@ -23,8 +23,6 @@ constexpr double default_step_count = 50;  // steps in a period where the struct
 
 std::size_t z(int i) { return std::size_t(i); }
 
-constexpr double carry_steps = 64, carry_parts = 16;  // in which a structure is carried to where it is expected, and the load grows
-
 // Damping on the way to equilibrium, by name. It reads the ledger whenever that has closed.
 // adaptive: mass damping whose power is held near half the rate of change of the kinetic energy (Cundall 1982, "adaptive global damping").
 //   Here the coefficient changes by a tenth where the ratio is off.
@@ -35,31 +33,22 @@ class Damper {
  public:
   Damper(const std::string& name, double period, Model& model) : model_(model), most_(4 * pi / period), kinetic_(name == "kinetic") {
     adaptive_ = name == "adaptive";
-    local_ = name == "local" ? local_share : 0;
-    if (adaptive_) mass_ = 0.3 * most_;
     model.damping_all = true, model.damping_explicit = false;
-    take(mass_, local_);
+    model.damping.mass = adaptive_ ? 0.3 * most_ : 0;
+    model.local_damping = name == "local" ? local_share : 0;
   }
 
   void read(State& s) {
     const double kinetic = s.energy.kinetic, lost = s.energy.damping;
-    if (adaptive_ && !brakes_) {
+    if (adaptive_) {
       const bool strong = lost - lost_ > 0.5 * std::fabs(kinetic - kinetic_before_);
-      mass_ = std::clamp(strong ? mass_ / 1.1 : mass_ * 1.1, 1e-4 * most_, most_);
+      double& a = model_.damping.mass;
+      a = std::clamp(strong ? a / 1.1 : a * 1.1, 1e-4 * most_, most_);
     }
-    const bool peak = kinetic_ && kinetic < kinetic_before_ && !brakes_;
-    if (brakes_ || adaptive_) take(mass_, local_);
-    brakes_ = false;
-    if (peak) brake(s.time.dt);
+    brakes_ = kinetic_ && kinetic < kinetic_before_ && !brakes_;
+    if (kinetic_) model_.damping.mass = brakes_ ? 2 / s.time.dt : 0;  // this coefficient leaves no velocity after one step
     kinetic_before_ = brakes_ ? 0 : kinetic;
-    lost_ = lost;
-  }
-  void rest() const { take(0, 0); }  // until the next reading, or brake
-  // Velocities vanish in the next step.
-  void brake(double dt) {
-    take(2 / dt, 0);  // this coefficient leaves no velocity after one step
-    brakes_ = true;
-    kinetic_before_ = 0;
+    lost_ = s.energy.damping;
   }
   bool one_step() const { return brakes_; }  // until the next reading
 
@@ -76,13 +65,10 @@ class Damper {
   }
 
  private:
-  void take(double mass, double local) const { model_.damping.mass = mass, model_.local_damping = local; }
-
   Model& model_;
   const double most_;  // 1/s, critical damping of the lowest mode
   bool adaptive_ = false, brakes_ = false;
   const bool kinetic_;
-  double mass_ = 0, local_ = 0;  // of the method
   double kinetic_before_ = 0, lost_ = 0;
 };
 
@@ -171,53 +157,32 @@ bool Relaxation::far(const State& s, const BlockVec3& from, double share, Relaxe
   return far;
 }
 
-// Sets the blocks going, so that they reach the expected poses within `duration`. The ledger takes it for work from outside.
-void Relaxation::carry(State& s, const Expected& ahead, double duration) const {
-  for (int b = 0; b < model_.nblock; ++b) {
-    if (model_.kind[z(b)] != Kind::moving) continue;
-    const Vec3 way = s.pose.u[z(b)] - ahead.from->u[z(b)], rotated = rotation_vector(s.pose.q[z(b)] * ahead.from->q[z(b)].conjugate());
-    const Mat3 r = s.pose.q[z(b)].toRotationMatrix();
-    const Vec3 v = ahead.share / duration * way, w = ahead.share / duration * rotated, L = r * (model_.inertia[z(b)] * (r.transpose() * w));
-    s.motion.v[z(b)] = v, s.motion.w[z(b)] = w, s.motion.spin_momentum[z(b)] = L;
-    const double energy = 0.5 * (model_.mass[z(b)] * v.squaredNorm() + w.dot(L));
-    s.energy.external_work += energy, s.energy.absolute_work += energy;
-  }
-}
-
-Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, const Expected& ahead) {
+Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen) {
   Relaxed out;
   start(s, dt_);
-  BlockVec3 from = s.pose.u;
+  const BlockVec3 from = s.pose.u;
   const bool controlled = push_.control == "displacement";
   Damper damper(push_.relaxation, period_, model_);
-  bool carried = ahead.from != nullptr;
-  const double ramp = carried ? carry_steps * dt_ : period_;
-  if (carried) carry(s, ahead, ramp), damper.rest();
   Solver solver(model_, s, range_, threads_);
   const double check = period_ / checks;
-  double next_check = carried ? ramp : 0, fastest = 0;  // s; J, largest kinetic energy
+  double next_check = 0, fastest = 0;  // s; J, largest kinetic energy
   int balanced = 0;
   while (true) {
-    const double t = s.time.t;
-    if (carried && t > ramp - 0.5 * s.time.dt) carried = false, from = s.pose.u, damper.brake(s.time.dt);
-    loads_.set(course(carried || ahead.from ? std::min(1.0, t / ramp) : smooth(t / ramp), monitor_.along(s.pose)));
-    const double next = damper.one_step() ? t
-                        : carried         ? std::min(ramp, t + ramp / carry_parts) - s.time.dt
-                        : controlled      ? std::min(next_check, t + control_every * s.time.dt)
-                                          : next_check;
+    const double t = s.time.t, done = t / period_;
+    loads_.set(course(smooth(done), monitor_.along(s.pose)));
+    const double next = damper.one_step() ? t : controlled ? std::min(next_check, t + control_every * s.time.dt) : next_check;
     const Solver::Stop at = solver.advance({.next = next, .wrenches = true});
     out.steps = s.time.step;
     if (solver.broken()) {
       out.ending = Ending::broken;
       break;
     }
-    if (carried) continue;
     damper.read(s);
     if (at != Solver::Stop::sample || solver.sample().t < next_check) continue;
     next_check += check;
     const auto [unbalanced, applied] = mean_forces(solver);
     out.unbalanced = applied > 0 ? unbalanced / applied : 0;
-    balanced = t > ramp && out.unbalanced <= push_.unbalanced ? balanced + 1 : 0;
+    balanced = done > 1 && out.unbalanced <= push_.unbalanced ? balanced + 1 : 0;
     const bool speeds_up = s.energy.kinetic >= fastest;
     fastest = std::max(fastest, s.energy.kinetic);
     if (far(s, from, speeds_up ? gone : far_away, out) && !controlled) out.ending = Ending::collapse;

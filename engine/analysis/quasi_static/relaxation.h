@@ -32,13 +32,6 @@ struct Relaxed {
 void refuse_floating(const Prepared& run, const Place& place);
 double height_of(const Model& model);  // m, of the moving blocks, against gravity
 
-// Where the next state is expected: the way from the poses `from` to the present ones, times `share`. A structure of one stiffness is in
-// equilibrium all along it while its load grows.
-struct Expected {
-  const BlockPoses* from = nullptr;  // none: no idea
-  double share = 0;
-};
-
 // The multiplier of the loads as a function of the share of the ramp done, 0 to 1, and of the displacement of the monitored point.
 using LoadCourse = std::function<double(double ramp, double displacement)>;
 
@@ -47,11 +40,10 @@ class Relaxation {
   // `run` as prepared, unloaded; it outlives this object, whose model is a copy with masses of its own. `groups`: of each block.
   Relaxation(const PushSettings& push, const std::vector<std::string>& groups, const Prepared& run, int threads);
 
-  // Ramps the loads, then holds them: over one period of the structure, or over the few steps in which it is carried to where it is
-  // expected. `seen` is called some times a period, with the solver at a sample; it returns false to stop. On return velocities are zero
-  // and time starts anew; in equilibrium the state may be relaxed further.
+  // Ramps the loads over one period of the structure, then holds them. `seen` is called some times a period, with the solver at a sample;
+  // it returns false to stop. On return velocities are zero and time starts anew; in equilibrium the state may be relaxed further.
   using Seen = std::function<bool(const Solver&, const Relaxed&)>;
-  Relaxed relax(State& state, const LoadCourse& course, const Seen& seen, const Expected& ahead = {});
+  Relaxed relax(State& state, const LoadCourse& course, const Seen& seen);
   // Lets the structure go under the present loads, with its true masses and without damping, for at most `duration` (s). `seen` is called
   // every `interval` (s).
   void release(State& state, double duration, double interval, const Seen& seen);
@@ -68,7 +60,6 @@ class Relaxation {
  private:
   void start(State& state, double dt) const;
   void end(State& state) const;
-  void carry(State& state, const Expected& ahead, double duration) const;
   bool far(const State& state, const BlockVec3& from, double share, Relaxed& out) const;
 
   const PushSettings push_;
