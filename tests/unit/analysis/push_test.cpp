@@ -200,3 +200,26 @@ TEST_CASE("a part that rests on nothing is named before the push", "[push][bad-i
   CHECK_THROWS_WITH(push(stone + "box{ name = 'moon', size = {.2, .2, .2}, at = {0, 0, 1} } analysis{ kind = 'pushover' }", dir.path),
                     Catch::Contains("moon"));
 }
+
+TEST_CASE("limit analysis stands beside the capacity of a push", "[push][limit]") {
+  // A block 0.4 x 0.4 x 1 m overturns about its toe at 0.4, or slides at mu.
+  for (const double mu : {0.3, 0.7})
+    for (const std::string bond : {"dry{", "mortar{ ft = 1e5, c = 1e5,"}) {
+      const std::string text = stone + "box{ name = 'pier', size = {.4, .4, 1}, at = {-.2, -.2, 0} }" +
+                               fmt::format("joint{{ law = {} kn = 1e11, ks = 4e10, mu = {} }} }}", bond, mu) +
+                               "analysis{ kind = 'pushover', step = .1, bracket = .01, up_to = 4 }";
+      CAPTURE(text);
+      const test::Scratch folder("push_limit");
+      const Capacity c = *push(text, folder.path).metrics.capacity;
+      REQUIRE(c.limit.has_value());
+      const double dry = std::min(0.4, mu);
+      CHECK(c.limit->dry.stands);
+      CHECK(c.limit->dry.lower <= Approx(dry).epsilon(1e-3));
+      CHECK(c.limit->dry.upper == Approx(dry).epsilon(1e-3));
+      CHECK(c.limit->bonded.has_value() == (bond != "dry{"));
+      if (c.limit->bonded) CHECK(c.limit->bonded->lower > dry);
+      else CHECK(c.peak.multiplier == Approx(dry).epsilon(0.03));
+    }
+  const test::Scratch folder("push_limit");
+  CHECK_FALSE(push(wall_text + "analysis{ kind = 'pushover', up_to = .02, limit = 'never' }", folder.path).metrics.capacity->limit);
+}
