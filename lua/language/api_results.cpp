@@ -70,10 +70,10 @@ int param(Call& call) {
   for (Override& override_ : call.context.overrides)
     if (override_.name == item.name) {
       given = override_.valid && !override_.is_word;
-      if (override_.is_word)
-        call.mistake(fmt::format("\"{0}\" takes a number, not the word \"{1}\"; write -D {0}={2}", item.name, shown(override_.word, 60),
-                                 written(item.fallback)));
       if (given) item.value = override_.value;
+      if (override_.is_word)
+        call.context.mistake({}, fmt::format("-D {}={}: the value must be a finite number, such as 0.8*g, not the string \"{}\"", item.name,
+                                             shown(override_.expression, 60), shown(override_.word, 60)));
       override_.used = true;
     }
   // An integer stays an integer, because scripts make names of it.

@@ -65,8 +65,7 @@ void evaluate_overrides(lua_State* lua, Context& context) {
       call_script(lua, context, 0, 1);
       item.is_word = lua_type(lua, -1) == LUA_TSTRING && is_plain(lua_tostring(lua, -1));
       if (!item.is_word && (lua_type(lua, -1) != LUA_TNUMBER || !std::isfinite(lua_tonumber(lua, -1))))
-        throw Error(
-            fmt::format("{}: the value must be a finite number, such as 0.8*g, or a word in quotes, not {}", name, described(lua, -1)));
+        throw Error(fmt::format("{}: the value must be a finite number, such as 0.8*g, not {}", name, described(lua, -1)));
       if (item.is_word) item.word = lua_tostring(lua, -1);
       else item.value = lua_tonumber(lua, -1);
       item.valid = true;

@@ -25,8 +25,8 @@ Ranks ranks_of_environment() {
   Ranks ranks;
   ranks.array_task = variable("SLURM_ARRAY_TASK_ID") != nullptr;
   // Slurm's variables count only within a step of srun: the script of a batch job sees them too, and is one process.
-  if (!take(ranks, "OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE") && !take(ranks, "PMI_RANK", "PMI_SIZE") && variable("SLURM_STEP_ID"))
-    take(ranks, "SLURM_PROCID", "SLURM_STEP_NUM_TASKS");
+  ranks.launched = take(ranks, "OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE") || take(ranks, "PMI_RANK", "PMI_SIZE") ||
+                   (variable("SLURM_STEP_ID") && take(ranks, "SLURM_PROCID", "SLURM_STEP_NUM_TASKS"));
   if (ranks.size == 1) return ranks;
   for (const char* name : {"PMIX_NAMESPACE", "OMPI_MCA_ess_base_jobid", "PMI_JOBID"})
     if (ranks.launch.empty() && variable(name)) ranks.launch = std::string(name) + "=" + variable(name);

@@ -8,6 +8,7 @@ namespace erbs::study {
 struct Ranks {
   int rank = 0, size = 1;
   std::string launch;       // the same for all ranks of one launch, another one for each launch; "": not known
+  bool launched = false;    // by MPI or srun, be it alone
   bool array_task = false;  // of a job array
 };
 Ranks ranks_of_environment();  // OpenMPI, MPICH and others with PMI, srun

@@ -194,7 +194,7 @@ int verb_sweep(const SweepCommand& command) {
   if (first) prepare_folder(study, command, ranks);
   else await_folder(study, ranks);
   if (command.slurm) return first ? write_job(study, command) : exit_ok;
-  sweep.at_once = command.jobs > 0 ? command.jobs : ranks.size > 1 ? 1 : usable_processors();
+  sweep.at_once = command.jobs > 0 ? command.jobs : ranks.launched ? 1 : usable_processors();
   if (sweep.plan.memory <= 0) sweep.plan.memory = machine_memory() / sweep.at_once;
   sweep.begin_at = double(ranks.rank) / ranks.size;
   sweep.wait = !ranks.array_task;

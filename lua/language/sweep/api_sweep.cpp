@@ -44,7 +44,7 @@ std::vector<std::string> names_of(Call& call, int index) {
   index = lua_absindex(call.lua, index);
   for (lua_pushnil(call.lua); lua_next(call.lua, index) != 0; lua_pop(call.lua, 1)) {
     if (lua_type(call.lua, -2) == LUA_TSTRING) names.push_back(shown(lua_tostring(call.lua, -2), 60));
-    else call.mistake("its keys are names of params, such as { amplitude = { 1, 2, 3 } }");
+    else call.mistake("its keys must be names of params, such as { amplitude = { 1, 2, 3 } }");
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -88,7 +88,11 @@ int grid(Call& call) {
 int list(Call& call) {
   need_table(call, "list{ { ft = 1e5, mu = .5 }, { ft = 2e5, mu = .6 } }");
   Axis axis;
-  for (lua_Integer i = 1; i <= lua_Integer(lua_rawlen(call.lua, 1)); ++i) {
+  const auto items = lua_Integer(lua_rawlen(call.lua, 1));
+  for (lua_pushnil(call.lua); lua_next(call.lua, 1) != 0; lua_pop(call.lua, 1))
+    if (lua_isinteger(call.lua, -2) == 0 || lua_tointeger(call.lua, -2) < 1 || lua_tointeger(call.lua, -2) > items)
+      call.mistake("it takes tables one after the other, without keys; write list{ { ft = 1e5 }, { ft = 2e5 } }");
+  for (lua_Integer i = 1; i <= items; ++i) {
     if (lua_rawgeti(call.lua, 1, i) != LUA_TTABLE)
       throw Error(fmt::format("list: its item {} must be a table of values by the names of params, not {}", i, described(call.lua, -1)),
                   call.place);
@@ -121,10 +125,12 @@ std::vector<study::Range> ranges_of(Call& call, int& n, double& seed) {
     const bool absent = lua_isnil(call.lua, -1) && std::isfinite(fallback);
     lua_pop(call.lua, 1);
     if (absent) return fallback;
-    if (!(value >= low && value <= high)) call.mistake(fmt::format("{} must be a number from {:g} to {:g}", key, low, high));
-    return value >= low && value <= high ? value : low;
+    const bool valid = value >= low && value <= high && (std::isfinite(fallback) || value == std::floor(value));
+    if (!valid)
+      call.mistake(fmt::format("{} must be a {}number from {:g} to {:g}", key, std::isfinite(fallback) ? "" : "whole ", low, high));
+    return valid ? value : low;
   };
-  n = int(std::floor(number("n", 1, 1e6, std::nan(""))));
+  n = int(number("n", 1, 1e6, std::nan("")));
   seed = number("seed", -1e15, 1e15, 1);
   std::vector<study::Range> ranges;
   for (const std::string& name : names_of(call, 1)) {
@@ -257,8 +263,6 @@ void read_axes(Call& call, Arguments& arguments, study::Plan& plan) {
 int study(Call& call) {
   Context& context = call.context;
   Arguments arguments = call.arguments();
-  if (!context.study_file)
-    throw Error("study belongs into a file of its own, which erbs sweep runs; a scene has bisect, converge and ensemble", call.place);
   if (context.plan) arguments.mistake(fmt::format("one was given before, at {}; write one study a file", context.plan->place.text()));
   study::Plan plan;
   plan.place = call.place;
@@ -275,6 +279,7 @@ int study(Call& call) {
     table.read("label", curve.label);
     table.read("x", curve.x);
     table.read("y", curve.y);
+    if (curve.x.empty()) table.mistake("x has no values; give numbers, and as many y");
     if (curve.x.size() != curve.y.size()) table.mistake("give as many y as x");
     plan.curves.push_back(std::move(curve));
   }
@@ -298,6 +303,8 @@ int study(Call& call) {
   if (plan.axes.empty() && !plan.bisect) arguments.mistake("it varies nothing; give vary = { grid{ ... } }, or bisect = { ... }");
   if (plan.collect.empty() && !plan.bisect)
     arguments.mistake("it collects nothing; give collect = { \"collapse.collapsed\" }, or other keys of metrics.json");
+  if (!context.study_file)
+    arguments.mistake("it belongs into a file of its own, which erbs sweep runs; use bisect, converge and ensemble in a scene");
   context.plan = std::move(plan);
   return 0;
 }

@@ -37,7 +37,6 @@ bool is_text(const Key& key) { return key.type == "string" || key.type == "strin
 std::vector<std::string> sentences(const std::string& text) {
   std::vector<std::string> all;
   for (const Function& function : api()) {
-    if (function.of_study || function.name == "study") continue;  // of files for erbs sweep
     if (takes_table(function)) {
       for (const Key& key : function.keys) {
         if (is_text(key)) all.push_back(fmt::format("{}{{ {} = {} }}", function.name, key.name, in_lua(text)));
@@ -67,7 +66,12 @@ TEST_CASE("no string of the language takes control characters or bytes that are 
     REQUIRE(all.size() > 40);
     for (const std::string& sentence : all) {
       INFO(sentence);
-      const auto mistakes = mistakes_in(sentence);
+      auto mistakes = mistakes_in(sentence);
+      if (mentions(mistakes, "unknown name")) {  // a word of study files alone
+        Script::Options options = quiet();
+        options.study_file = true;
+        mistakes = mistakes_of("\n\n\n\n\n" + sentence, {}, options);
+      }
       CHECK(mentions(mistakes, "scene.lua:6: "));
       CHECK(mentions(mistakes, "holds control characters or bytes that are no UTF-8"));
       for (const auto& mistake : mistakes) CHECK(is_plain(mistake));

@@ -199,7 +199,7 @@ TEST_CASE("mistakes of a study are refused with line and remedy, before any run"
       {"study{ scene = 'tiny.lua', vary = grid{ motion = { 1 } }" + collect, "takes a word"},
       {"study{ scene = 'no.lua', vary = grid{ h = { 1 } }" + collect, "there is no scene"},
       {"study{ scene = 'tiny.lua', vary = grid{ h = { 0/0 } }" + collect, "finite numbers"},
-      {"study{ scene = 'tiny.lua', vary = latin{ n = 0, h = { 1, 2 } }" + collect, "n must be a number"},
+      {"study{ scene = 'tiny.lua', vary = latin{ n = 0, h = { 1, 2 } }" + collect, "n must be a whole number"},
       {"study{ scene = 'tiny.lua', vary = latin{ n = 3, h = { 2, 1 } }" + collect, "{ lowest, highest }"},
       {"study{ scene = 'tiny.lua', vary = random{ n = 3, h = { 0, 1, log = true } }" + collect, "above zero"},
       {"study{ scene = 'tiny.lua', vary = random{ n = 3 }" + collect, "it varies nothing"},

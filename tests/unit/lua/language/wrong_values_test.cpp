@@ -7,6 +7,7 @@
 
 #include "engine/base/text.h"
 #include "lua/commands/help.h"
+#include "lua/language/api.h"
 #include "tests/unit/lua/bench.h"
 
 using namespace erbs;
@@ -74,6 +75,12 @@ const std::map<std::string, Words> sound_calls{
       {"quiet", "true"},
       {"at", "{20, 20, 0}"}}},
     {"buttress", {{"width", "1"}, {"depth", "1"}, {"courses", "4"}, {"block", "{ length = .5, height = .25 }"}, {"at", "{20, 20, 0}"}}},
+    {"study", {{"scene", "'s.lua'"}, {"vary", "grid{ p = 1 }"}, {"collect", "'time_s'"}}},
+    {"grid", {{"PARAM", "{1, 2}"}}},
+    {"list", {{"1", "{ p = 1 }"}}},
+    {"latin", {{"n", "3"}, {"PARAM", "{1, 2}"}}},
+    {"random", {{"n", "3"}, {"PARAM", "{1, 2}"}}},
+    {"records", {{"param", "'motion'"}, {"files", "{'a.csv'}"}}},
     {"column", {{"blocks", "2"}, {"size", "{.2, .2, .2}"}, {"at", "{20, 20, 0}"}}},
 };
 
@@ -101,6 +108,11 @@ const std::map<std::string, std::vector<std::string>> wrong_of_type{
     {"parts", {"5", "{}", "{5}", "{ { vertexes = {} } }", "{ {} }"}},
     {"list", {"5", "{5}", "{ { unheard = 1 } }"}},
     {"table", {"5", "'x'"}},
+    {"axes", {"5", "'x'", "{}", "{5}"}},
+    {"values", {"{}", "true", "{0/0}", "{{}}", "0/0", "'a\\nb'"}},
+    {"range", {"5", "'x'", "{1}", "{2, 1}", "{0/0, 1}", "{1, 2, 3}"}},
+    {"duration", {"'5 parsec'", "{}", "true", "-1", "0/0"}},
+    {"bytes", {"'5 parsec'", "{}", "true", "-1", "0/0"}},
 };
 
 // Values beyond both ends of a key's range.
@@ -151,20 +163,20 @@ std::vector<Bad> all_bad() {
   std::vector<Bad> all;
   for (const Function& function : all_functions()) {
     if (!takes_table(function) || function.name == "gravity") continue;
-    if (function.of_study || function.name == "study") continue;  // of files for erbs sweep
     const std::string& name = function.name;
     REQUIRE(sound_calls.contains(name));  // every new function of the language needs a line above
     for (const char* other : {"5", "'x'", "nil", "true"}) all.push_back({fmt::format("{}({})", name, other), name});
     all.push_back({with(name, "7", "").insert(name.size() + 1, " [1.5] = 1, "), ""});
+    const bool names_params = std::any_of(function.keys.begin(), function.keys.end(), [](const Key& key) { return key.name == "PARAM"; });
     for (const Key& key : function.keys) {
       add_wrong(all, name, key, [&](const std::string& value) { return with(name, key.name, value); });
-      if (key.name != "1") all.push_back({with(name, key.name + "z", "1"), key.name + "z"});
+      if (key.name != "1" && !names_params) all.push_back({with(name, key.name + "z", "1"), key.name + "z"});
       if (key.required) all.push_back({with(name, key.name, ""), key.name == "1" ? "" : key.name});
     }
   }
   const std::pair<const char*, const char*> positional[] = {{"param({})", "param"},
                                                             {"param('q')", "param"},
-                                                            {"param('q', {})", "param"},
+                                                            {"param('q', true)", "param"},
                                                             {"param('q', 0/0)", "param"},
                                                             {"param('q', 1, 5)", "param"},
                                                             {"metric()", "metric"},
@@ -209,10 +221,19 @@ const std::regex remedy(
     "must be|allowed|did you mean|known:|not one of|add |give |write |keys:|correct|check |takes |put |choose |make |use |name |keep "
     "|leave |remove |need");
 
+// A word of study files is tried in one.
+bool in_study(const std::string& call) {
+  const Function* function = find_function(call.substr(0, call.find_first_of("{(")));
+  return function != nullptr && (function->of_study || function->name == "study");
+}
+
 std::vector<std::string> mistakes_at(const std::string& folder, const std::string& call) {
-  Script script(quiet());
+  Script::Options options = quiet();
+  options.study_file = in_study(call);
+  const std::string rest = call.starts_with("study") ? "" : "\nstudy{ scene = 's.lua', vary = grid{ p = 1 }, collect = 'time_s' }";
+  Script script(options);
   try {
-    script.load_text(before + "\n" + call, folder + "/scene.lua");
+    script.load_text(options.study_file ? "\n\n\n\n\n\n" + call + rest : before + "\n" + call, folder + "/scene.lua");
   } catch (const Errors& errors) { return errors.messages; }
   return {};
 }
