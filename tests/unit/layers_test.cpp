@@ -50,7 +50,7 @@ const std::vector<std::pair<std::string, std::string>> doors{
     {"hdf5.*", "engine/record/format/h5\\.cpp"},
     {"assimp/.*", "engine/scene/mesh_file\\.cpp"},
     {"lua.*", "lua/(language|reading)/.*"},
-    {"CLI/.*", "(lua|render)/main\\.cpp|lua/program/option_kinds\\.h"},
+    {"CLI/.*", "(lua|render)/main\\.cpp|lua/program/(option_kinds|command_line)\\.(h|cpp)"},
     {"GL/glcorearb\\.h", "render/gl/gl\\.h"},  // types and names only, no library
     {"GL/.*|EGL/.*", "render/gl/context_.*\\.cpp"},
     {"png\\.h", "render/image/image\\.cpp"},

@@ -1,0 +1,30 @@
+// The verbs of the program erbs with their options, as CLI11 reads them.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "lua/program/option_kinds.h"
+#include "lua/program/options.h"
+
+namespace erbs::lua {
+
+struct CommandLine {
+  RunCommand run;
+  CheckCommand check;
+  RecordCommand record;
+  ExportCommand exported;
+  PlotCommand plot;
+  ReportCommand report;
+  CompareCommand compare;
+  TestCommand test;
+  SweepCommand sweep;
+  AccuracyCommand accuracy;
+  LimitCommand limit;
+  CapacityCommand capacity;
+  TimingCommand bench, effects;
+  std::vector<std::string> words;  // of erbs help
+};
+
+void add_verbs(CLI::App& app, CommandLine& line);
+
+}  // namespace erbs::lua
