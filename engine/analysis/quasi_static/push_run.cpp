@@ -5,8 +5,7 @@
 #include <cmath>
 
 #include "engine/analysis/quasi_static/limit_beside.h"
-#include "engine/analysis/quasi_static/push_curve.h"
-#include "engine/analysis/quasi_static/push_path.h"
+#include "engine/analysis/quasi_static/push_state.h"
 #include "engine/analysis/quasi_static/relaxation.h"
 #include "engine/analysis/resume.h"
 #include "engine/analysis/snapshot.h"
@@ -28,36 +27,6 @@ constexpr int frames_of_last_step = 10;    // on the way to collapse
 std::size_t z(int i) { return std::size_t(i); }
 
 double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-// What a push has found so far, for the checkpoint.
-struct PushState {
-  LoadPath path;
-  MachinePath machine;
-  double multiplier = 0;  // of the last state in equilibrium, in the units of its path
-  double t = 0;           // s, of the next state in the run folder
-  CurvePoint peak;
-  long states = 0, attempts = 0, curve_rows = 0;
-  double steps = 0, worst_unbalanced = 0;
-  std::uint64_t curve_sum = 0;
-  DisplacedShapes shapes;
-};
-
-template <class P, class F>
-requires std::is_same_v<std::remove_const_t<P>, PushState>
-void each(P& p, F&& f) {
-  each(p.path, f);
-  each(p.machine, f);
-  f("push_multiplier", p.multiplier);
-  f("push_t", p.t);
-  f("push_peak", p.peak);
-  f("push_states", p.states);
-  f("push_attempts", p.attempts);
-  f("push_steps", p.steps);
-  f("push_worst_unbalanced", p.worst_unbalanced);
-  f("push_curve_rows", p.curve_rows);
-  f("push_curve_sum", p.curve_sum);
-  each(p.shapes, f);
-}
 
 class PushRun {
  public:

@@ -8,17 +8,15 @@
 
 #include "engine/laws/crushing.h"
 #include "engine/laws/mortar.h"
+#include "tests/unit/laws/faces.h"
 
 using namespace erbs;
 
 namespace {
 
-using Gap = std::array<double, 3>;
-double at(const Gap& g, double s, double t) { return g[0] + g[1] * s + g[2] * t; }
-
-const std::vector<std::vector<double>> faces{{-.15, -.06, .15, -.06, .15, .06, -.15, .06},
-                                             {-.1, -.05, .2, -.05, -.1, .1},
-                                             {-.1, -.06, .08, -.07, .14, 0, .1, .06, -.05, .08, -.12, .02}};
+using test::at;
+using test::faces;
+using test::Gap;
 
 CompressionFace face(const std::vector<double>& corners, double ultimate) {
   return {1e10, 1e-4, int(corners.size()) / 2, corners.data(), ultimate};
@@ -34,23 +32,8 @@ double area_of(const std::vector<double>& corners) {
 }
 
 // Independent points of equal area. Each knows its crushed depth w; it yields where kn (u - w) would exceed fc (1 - w / ultimate).
-struct Places {
-  std::vector<std::array<double, 3>> place;  // s, t, w
-  double area = 0;
-  explicit Places(const std::vector<double>& corners, int n = 500) {
-    const double h = 0.5 / n;
-    area = h * h;
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
-        const double s = -.25 + (i + .5) * h, t = -.25 + (j + .5) * h;
-        bool inside = true;
-        for (std::size_t k = 0; k < corners.size(); k += 2) {
-          const std::size_t l = (k + 2) % corners.size();
-          inside = inside && (corners[l] - corners[k]) * (t - corners[k + 1]) >= (corners[l + 1] - corners[k + 1]) * (s - corners[k]);
-        }
-        if (inside) place.push_back({s, t, 0});
-      }
-  }
+struct Places : test::Grid {
+  explicit Places(const std::vector<double>& corners, int n = 500) : Grid(corners, n) {}
   void go(const CompressionFace& f, const Gap& g) {
     for (auto& [s, t, w] : place) {
       const double u = -at(g, s, t), left = std::max(0.0, 1 - w / f.ultimate);

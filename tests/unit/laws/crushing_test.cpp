@@ -8,38 +8,21 @@
 #include <random>
 #include <vector>
 
+#include "tests/unit/laws/faces.h"
+
 using namespace erbs;
 
 namespace {
 
-using Gap = std::array<double, 3>;
-double at(const Gap& g, double s, double t) { return g[0] + g[1] * s + g[2] * t; }
-
-// Rectangle, triangle, and an irregular hexagon.
-const std::vector<std::vector<double>> faces{{-.15, -.06, .15, -.06, .15, .06, -.15, .06},
-                                             {-.1, -.05, .2, -.05, -.1, .1},
-                                             {-.1, -.06, .08, -.07, .14, 0, .1, .06, -.05, .08, -.12, .02}};
+using test::at;
+using test::faces;
+using test::Gap;
 
 CompressionFace face(const std::vector<double>& corners) { return {1e10, 1e-4, int(corners.size()) / 2, corners.data()}; }
 
 // Points of equal area (m2) over a face, each with its own permanent set.
-struct Places {
-  std::vector<std::array<double, 3>> place;  // s, t, z
-  double area = 0;
-  explicit Places(const std::vector<double>& corners, int n = 700) {
-    const double h = 0.5 / n;
-    area = h * h;
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
-        const double s = -.25 + (i + .5) * h, t = -.25 + (j + .5) * h;
-        bool inside = true;
-        for (std::size_t k = 0; k < corners.size(); k += 2) {
-          const std::size_t l = (k + 2) % corners.size();
-          inside = inside && (corners[l] - corners[k]) * (t - corners[k + 1]) >= (corners[l + 1] - corners[k + 1]) * (s - corners[k]);
-        }
-        if (inside) place.push_back({s, t, 0});
-      }
-  }
+struct Places : test::Grid {
+  explicit Places(const std::vector<double>& corners, int n = 700) : Grid(corners, n) {}
   void go(const Gap& g, double limit) {
     for (auto& [s, t, z] : place) z = std::min(z, at(g, s, t) + limit);
   }
