@@ -33,6 +33,11 @@ std::vector<Strength> strengths_of(const LimitProblem& p) {
   return out;
 }
 
+// Whether the two multipliers of a solution bound each other.
+bool is_bracket(const LimitSolution& s) {
+  return !s.force.empty() && (s.converged || std::fabs(s.kinematic - s.statical) <= 1e-3 * (1 + std::fabs(s.statical)));
+}
+
 class Analysis {
  public:
   Analysis(const Model& model, const LimitLoad& load, const LimitOptions& options) : model_(model), options_(options) {
@@ -60,7 +65,7 @@ class Analysis {
   LimitSolution solved(const VecX& constant, const VecX& push, const std::vector<Strength>& strength, double most, bool circumscribed) {
     LimitSolution out = simplex_ ? FacetedProblem(p(), constant, push, strength, facets(), circumscribed, bonded(), most).solve(strength)
                                  : interior_->solve(constant, push, strength, most, gap);
-    if (!out.converged && std::fabs(out.kinematic - out.statical) > 1e-3 * (1 + std::fabs(out.statical)))
+    if (!is_bracket(out))
       throw NumbersError(
           fmt::format("limit analysis found no solution: after {} iterations the multiplier lies between {:g} and {:g}, out "
                       "of balance by {:.2g} weights; try --facets 8",
@@ -118,14 +123,14 @@ class Analysis {
       weight = 0.5 * std::min(1.0, 6.0 / (result_.rounds + 1));  // less and less, against cycles
       const LimitSolution found = round(normal, linear);
       out.iterations += found.iterations;
-      if (found.force.empty()) break;
+      if (!is_bracket(found)) break;  // the answer is that of the round before, and has not converged
       const double change = std::fabs(found.statical - last_.statical);
       steady = change < settled * std::max(std::fabs(found.statical), 1e-3) ? steady + 1 : 0;
       last_ = found;
     }
     out.lower = last_.statical, out.upper = last_.kinematic, out.converged = steady >= 2 && excess() < bearable;
     out.seconds = seconds_since(start);
-    result_.has_nonassociated = true;
+    result_.has_nonassociated = result_.rounds > 0;
     result_.friction_excess = excess();
     keep(last_);
   }
@@ -136,8 +141,12 @@ class Analysis {
       const ContactPoint& c = p().contacts[i];
       strength.push_back({c.tension, std::max(0.0, c.cohesion + (1 - dilatant) * c.mu * normal[i]), dilatant * c.mu});
     }
-    if (!simplex_)
-      return interior_->solve(p().constant, p().push, strength, 2 * std::fabs(result_.associated.upper) + 1, round_gap, result_.rounds > 0);
+    if (!simplex_) {
+      const double most = 2 * std::fabs(result_.associated.upper) + 1;
+      LimitSolution out = interior_->solve(p().constant, p().push, strength, most, round_gap, result_.rounds > 0);
+      if (result_.rounds > 0 && !is_bracket(out)) out = interior_->solve(p().constant, p().push, strength, most, round_gap);
+      return out;
+    }
     if (!linear) linear = std::make_unique<FacetedProblem>(p(), p().constant, p().push, strength, facets(), false, true, options_.most);
     return linear->solve(strength);
   }
