@@ -13,9 +13,10 @@
 --                erbs run scenes/valens_aqueduct.lua -D bays=1             a pier with half an arch on either side; erbs render with
 --                                                                          --hide plane leaves its planes of symmetry out
 --                erbs run scenes/valens_aqueduct.lua -D dynamic=1 --video  the acceleration grows in time
--- What is found  Some .13 to .14 g (one pier .1275 to .1325, the partial model .14 by a variant of the relaxation), a third less than the
---                source: blocks as wide as the aqueduct (-D rows=1) bear no more, .1375 g. It is the assumed heights and piers that make
---                this geometry top-heavy: level ground, upper arches as wide as the lower ones.
+-- What is found  One pier (-D bays=1) bears .1275 g and none at .13; of blocks as wide as the aqueduct (-D rows=1) .1375, none at .14. Rigid
+--                blocks without bond would bear .163 (erbs limit -D bays=1 -D rows=1 --no-tension). So the .21 g of the source is out of
+--                reach of this geometry: the assumed heights and piers make it top-heavy, with level ground and upper arches as wide as
+--                the lower ones.
 -- What to look at  curve.svg: acceleration over the displacement of the top above the middle pier; capacity.multiplier, .21 g (partial) and
 --                .22 g (full) in the source; capacity.mechanism; cracks on the windward side, down to the toe.
 

@@ -78,8 +78,8 @@ struct PushSettings {
         {"unbalanced", &PushSettings::unbalanced, "", "tilt, pushover: mean unbalanced force over mean applied force in equilibrium", 1e-9,
          1e-2},
         {"limit", &PushSettings::limit, "",
-         "tilt, pushover: limit analysis beside the capacity; auto: where it takes seconds, which is up to some 2000 blocks in a plane "
-         "problem and some 100 in space",
+         "tilt, pushover: limit analysis beside the capacity; auto: up to 12000 contact points of the limit problem, where it takes "
+         "seconds",
          0, 0, false, "auto|always|never"},
     };
   }

@@ -117,7 +117,8 @@ std::string capacity_text(const PushSettings& push, const Json& metrics) {
   if (const Json& limit = (*capacity)["limit"]; limit.is_object()) {
     const auto bracket = [](const Json& b) {
       return !b["stands"].get<bool>() ? std::string("does not stand")
-             : b["lower"].is_number() ? fmt::format("{:.5g}", 0.5 * (b["lower"].get<double>() + b["upper"].get<double>()))
+             : b["lower"].is_number() ? fmt::format("{:.5g}{}", 0.5 * (b["lower"].get<double>() + b["upper"].get<double>()),
+                                                    b["converged"].get<bool>() ? "" : " (not converged)")
                                       : std::string("no mechanism");
     };
     text +=

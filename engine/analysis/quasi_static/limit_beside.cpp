@@ -9,15 +9,15 @@
 namespace erbs::analysis {
 namespace {
 
-// Contact points up to which it takes seconds.
-constexpr std::size_t quick_plane = 10000, quick_space = 600;
-
-bool quick(const LimitProblem& p) { return p.contacts.size() <= (p.plane ? quick_plane : quick_space); }
+// Contact points up to which it takes seconds. Walls of 410 and 1,820 blocks in space (10,539 and 47,844 points) take .6 and 7 s; what
+// slides much takes more rounds: a room of 639 blocks (7,256 points without bond) 28 s.
+constexpr std::size_t quick = 12000;
 
 LimitBracket bracket_of(const LimitResult& r, const Model& model) {
   LimitBracket out;
   out.stands = r.stands;
   if (r.stands && !r.unbounded) {
+    out.converged = r.has_nonassociated && r.nonassociated.converged;
     out.lower = r.last().lower, out.upper = r.last().upper;
     out.associated_lower = r.associated.lower, out.associated_upper = r.associated.upper;
   }
@@ -33,7 +33,7 @@ std::optional<LimitBeside> limit_beside(const Scene& scene, const Model& model, 
   try {
     const LimitLoad load = limit_load(scene, model);
     const LimitProblem problem = limit_problem(model, load, {});
-    if (scene.push.limit == "auto" && !quick(problem)) return std::nullopt;
+    if (scene.push.limit == "auto" && problem.contacts.size() > quick) return std::nullopt;
     LimitBeside out;
     LimitOptions options;
     options.no_tension = true;
@@ -43,7 +43,7 @@ std::optional<LimitBeside> limit_beside(const Scene& scene, const Model& model, 
     options.no_tension = false;
     if (bond) out.bonded = bracket_of(limit_analysis(model, load, options), model);
     return out;
-  } catch (const std::exception& mistake) {
+  } catch (const std::runtime_error& mistake) {  // the push stands without it
     why = mistake.what();
     return std::nullopt;
   }

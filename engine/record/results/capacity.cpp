@@ -8,7 +8,7 @@ namespace erbs {
 namespace {
 
 Json bracket_json(const LimitBracket& b) {
-  Json json = {{"stands", b.stands}, {"mechanism", b.mechanism}};
+  Json json = {{"stands", b.stands}, {"converged", b.converged}, {"mechanism", b.mechanism}};
   for (const auto& [key, value] : {std::pair{"lower", b.lower},
                                    {"upper", b.upper},
                                    {"associated_lower", b.associated_lower},

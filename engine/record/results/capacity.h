@@ -23,7 +23,8 @@ struct CurvePoint {
 // What limit analysis says of the multiplier (engine/analysis/limit).
 struct LimitBracket {
   bool stands = true, unbounded = false;  // without the push; no multiple of it makes a mechanism
-  double lower = 0, upper = 0;            // friction without dilatancy
+  bool converged = false;                 // the iteration for friction without dilatancy has settled
+  double lower = 0, upper = 0;            // of its last round
   double associated_lower = 0, associated_upper = 0;
   std::string mechanism;
 };
