@@ -862,6 +862,7 @@ function column(keys) end
 ---@field axis? "x"|"y" direction it runs in [default x]
 ---@field spans any clear width between the piers: a number, or a list with one for each arch [m]
 ---@field piers any width of the piers: a number, or a list with one for each pier [m]
+---@field feet? any where the ground is not level: height of the foot of the piers above that of the arcade, rounded to courses: a number, or a list with one for each pier; default 0 [m]
 ---@field bays? integer number of arches, where spans is one number [at least 1]
 ---@field ends? "pier"|"half" half: the first and the last arch are cut at their crown [default pier]
 ---@field width number width across the axis [m; at least 0]
@@ -869,14 +870,14 @@ function column(keys) end
 ---@field block { length: number, height: number } size of a block: { length*, height* }
 ---@field least? number narrowest piece that a perpend may leave; default 0.4 of the length [m; at least 0]
 ---@field tiers { springing: number, top: number, thickness: number, crown?: integer }[] from the bottom up: a list of { springing*, top*, thickness*, crown }
----@field fixed_courses? integer courses at the foot that are part of the ground [at least 0; default 0]
+---@field fixed_courses? integer courses at the foot of a pier that are part of the ground [at least 0; default 0]
 ---@field material? string material of its blocks; default: the only one there is
 ---@field ring_material? string material of the voussoirs; default that of the blocks
 ---@field quiet? boolean true: do not print the summary [default false]
 
 ---Piers, round arches of voussoirs and the courses above them, cut along the arches, in one tier or several. Blocks meet without gaps; they are called arcade.c012.b003.r1 (course, number, row across) and arcade.t1.a02.v05.r1 (tier, arch, voussoir, row). Groups are <group>_pier, <group>_ring and <group>_spandrel.
 ---@param keys erbs.arcade_keys
----@return table # blocks (names), base (names of the fixed ones), top (names of the last course), tops (m, of each tier), height, length (m), volume (m3), openings (by name, as t1.a02: tier, bay, span, thickness, springing, crown, center (m); ring, left, right (names)), piers (axis, width (m), courses: names at its axis, by course), summary
+---@return table # blocks (names), base (names of the fixed ones), top (names of the last course), tops (m, of each tier), height, length (m), volume (m3), openings (by name, as t1.a02: tier, bay, span, thickness, springing, crown, center (m); ring, left, right (names)), piers (axis, width, foot (m); courses: names at its axis, by course from the foot of the arcade), summary
 function arcade(keys) end
 
 ---@class erbs.buttress_keys

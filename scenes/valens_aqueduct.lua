@@ -30,15 +30,17 @@ local peak = param("peak", 0.3 * g, "dynamic: acceleration across the aqueduct a
 local ramp = param("ramp", 8, "dynamic: time in which it grows to that, slow beside the period of .6 s [s]")
 
 local width = param("width", 5.25, "of the whole aqueduct [m]")
-local height = param("height", 28.5, "28 to 29 m; the whole length is as high as the middle, assumed [m]")
+local height = param("height", 28.5, "in the middle, where it is highest: 28 to 29 m [m]")
+local valley = param("valley", 10.5, "rise of the ground over 120 m from the middle, where the two tiers end, assumed; 0: level [m]")
+local span = param("span", 4, "of the arches, but for three [m]")
 local span_least = param("span_least", 2.4, "of the first and the last arch, the least of the source; place assumed [m]")
 local span_most = param("span_most", 6.15, "of the arch in the middle, the greatest of the source; place assumed [m]")
-local pier = param("pier", 3.9, "width of the piers along the aqueduct, assumed [m]")
+local pier = param("pier", 3.7, "width of the piers along the aqueduct [m]")
 local springing1 = param("springing1", 10.5, "springing line of the lower tier, assumed [m]")
 local top1 = param("top1", 15, "top of the lower tier, where the upper piers begin, assumed [m]")
 local springing2 = param("springing2", 21.5, "springing line of the upper tier, assumed [m]")
 local ring = param("ring", 0.55, "least thickness of the arches, assumed; they end in the middle of a course [m]")
-local length = param("length", 1.1, "of a whole block, so that both models have about as many blocks as the source's, assumed [m]")
+local length = param("length", 1.03, "of a whole block, so that both models have about as many blocks as the source's, assumed [m]")
 local rows = param("rows", 4, "blocks across the width, assumed for the same reason")
 local density = param("density", 2200, "assumed [kg/m3]")
 local E = param("E", 5 * GPa, "of the masonry [Pa]")
@@ -52,10 +54,10 @@ local Gc = param("Gc", 0, "compressive fracture energy; 0: a plateau at fc; usua
 local SDS = param("SDS", 0.975, "DD-2 on ground ZB: 2.5 times the design PGA of the source, .39 g [share of g]")
 local SD1 = param("SD1", 0.22, "the same, at 1 s; not given, assumed: .8 times an S1 of .27 [share of g]")
 
--- Spans grow evenly from both ends to the middle. The walls at the ends take what remains of the length.
+-- The widest arch in the middle, the narrowest at the ends. The walls beyond take what remains of the length.
 local function spans_of(count)
   local spans = {}
-  for i = 1, count do spans[i] = span_least + (span_most - span_least) * (1 - math.abs(2 * i - count - 1) / (count - 1)) end
+  for i = 1, count do spans[i] = (i == 1 or i == count) and span_least or 2 * i == count + 1 and span_most or span end
   return spans
 end
 local arches, long = model == 2 and 23 or 11, model == 2 and 195 or 102
@@ -81,9 +83,28 @@ material { name = "stone", density = density, friction = mu, restitution = 0.1, 
 material { name = "ring", density = density, friction = mu, restitution = 0.1, kn = kn, ks = ks, color = { 0.63, 0.47, 0.37 } }
 joint { law = mortar { kn = kn, ks = ks, ft = ft, c = c, mu = mu, fc = fc, Gc = fc > 0 and Gc or 0 }, tolerance = 1 * mm }
 
+-- The valley: the ground rises evenly from the two piers in the middle, in steps from one pier to the next.
+local feet, steps, u = {}, {}, -total / 2
+for i, wide in ipairs(piers) do
+  local left, right = spans[bays > 0 and i or i - 1] or 0, spans[bays > 0 and i + 1 or i] or 0
+  if bays > 0 and i == 1 then u = u + left / 2 end
+  local beyond = math.max(0, math.abs(u + wide / 2) - (span_most + pier) / 2)
+  feet[i] = bays > 0 and 0 or spacing * math.floor(valley * beyond / 120 / spacing + 0.5)
+  steps[i] = { from = u - left / 2, to = u + wide + right / 2, top = feet[i] }
+  u = u + wide + right
+end
 ground { size = total + 120, friction = mu }
+if valley > 0 and bays == 0 then
+  for i, s in ipairs(steps) do
+    local from, to = i > 1 and s.from or s.from - 8, i < #steps and s.to or s.to + 8
+    if s.top > 0 then
+      box { name = "rock" .. i, group = "rock", material = "stone", fixed = true, size = { to - from, width + 40, s.top },
+        at = { from, -width / 2 - 20, 0 } }
+    end
+  end
+end
 local built = arcade {
-  name = "valens", at = { -total / 2, 0, 0 }, spans = spans, piers = piers, ends = bays > 0 and "half" or "pier", width = width,
+  name = "valens", at = { -total / 2, 0, 0 }, spans = spans, piers = piers, feet = feet, ends = bays > 0 and "half" or "pier", width = width,
   rows = rows, block = { length = length, height = spacing }, fixed_courses = 1, material = "stone", ring_material = "ring",
   tiers = { { springing = springing1, top = top1, thickness = ring }, { springing = springing2, top = height, thickness = ring } },
 }

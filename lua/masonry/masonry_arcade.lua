@@ -30,7 +30,7 @@ masonry_functions[#masonry_functions + 1] = {
     .. "Groups are <group>_pier, <group>_ring and <group>_spandrel.",
   returns = "blocks (names), base (names of the fixed ones), top (names of the last course), tops (m, of each tier), height, length (m), "
     .. "volume (m3), openings (by name, as t1.a02: tier, bay, span, thickness, springing, crown, center (m); ring, left, right (names)), "
-    .. "piers (axis, width (m), courses: names at its axis, by course), summary",
+    .. "piers (axis, width, foot (m); courses: names at its axis, by course from the foot of the arcade), summary",
   keys = {
     { name = "name", type = "string", default = "arcade", help = "first word of the names of its blocks" },
     { name = "group", type = "string", help = "first word of its groups; default the name" },
@@ -39,6 +39,9 @@ masonry_functions[#masonry_functions + 1] = {
     { name = "spans", unit = "m", type = "any", required = true,
       help = "clear width between the piers: a number, or a list with one for each arch" },
     { name = "piers", unit = "m", type = "any", required = true, help = "width of the piers: a number, or a list with one for each pier" },
+    { name = "feet", unit = "m", type = "any",
+      help = "where the ground is not level: height of the foot of the piers above that of the arcade, rounded to courses: a number, or a "
+        .. "list with one for each pier; default 0" },
     { name = "bays", type = "integer", low = 1, help = "number of arches, where spans is one number" },
     { name = "ends", type = "string", default = "pier", choice = { "pier", "half" },
       help = "half: the first and the last arch are cut at their crown" },
@@ -50,7 +53,7 @@ masonry_functions[#masonry_functions + 1] = {
       help = "narrowest piece that a perpend may leave; default 0.4 of the length" },
     { name = "tiers", type = "table", list = tier_keys, required = true,
       help = "from the bottom up: a list of { springing*, top*, thickness*, crown }" },
-    { name = "fixed_courses", type = "integer", low = 0, default = 0, help = "courses at the foot that are part of the ground" },
+    { name = "fixed_courses", type = "integer", low = 0, default = 0, help = "courses at the foot of a pier that are part of the ground" },
     { name = "material", type = "string", help = "material of its blocks; default: the only one there is" },
     { name = "ring_material", type = "string", help = "material of the voussoirs; default that of the blocks" },
     { name = "quiet", type = "boolean", default = false, help = "true: do not print the summary" },
@@ -59,7 +62,7 @@ masonry_functions[#masonry_functions + 1] = {
 local arcade_keys = masonry_functions[#masonry_functions].keys
 
 -- The list of lengths that a key gives as a number or a list.
-local function lengths(k, key, count, of_what)
+local function lengths(k, key, count, of_what, zero)
   local given, list = k[key], {}
   if type(given) == "number" then
     for i = 1, count or 0 do list[i] = given end
@@ -69,14 +72,16 @@ local function lengths(k, key, count, of_what)
     fail("arcade: %s must be a length in m or a list of lengths, not a %s", key, type(given))
   end
   for i, v in ipairs(list) do
-    if type(v) ~= "number" or not (v > 0 and v < 1e6) then fail("arcade: %s[%d] must be a length above 0 m", key, i) end
+    if type(v) ~= "number" or not (v < 1e6 and (v > 0 or zero and v == 0)) then
+      fail("arcade: %s[%d] must be a %s", key, i, zero and "height of 0 m or more" or "length above 0 m")
+    end
   end
   if #list == 0 then fail("arcade: %s is an empty list; give one length for each %s", key, of_what) end
   if count and #list ~= count then fail("arcade: %s has %d lengths for %d; give one for each %s", key, #list, count, of_what) end
   return list
 end
 
--- Positions along the axis: bays { lo, hi, middle, half }, piers { lo, hi, axis }, length, and the knots between which perpends are spread.
+-- Positions along the axis: bays { lo, hi, middle, half }, piers { lo, hi, axis, foot }, length, and the knots between which perpends are spread.
 local function plan_of(k)
   if type(k.spans) == "number" and not k.bays then fail("arcade: spans is one number; give bays = ... as well, the number of arches") end
   local spans = lengths(k, "spans", k.bays, "arch")
@@ -86,7 +91,7 @@ local function plan_of(k)
   end
   local widths = lengths(k, "piers", half and #spans - 1 or #spans + 1, "pier")
   local function pier(i)
-    piers[i] = { lo = u, hi = u + widths[i], width = widths[i], axis = u + widths[i] / 2 }
+    piers[i] = { lo = u, hi = u + widths[i], width = widths[i], axis = u + widths[i] / 2, foot = 0 }
     u = u + widths[i]
   end
   if not half then pier(1) end
@@ -97,6 +102,7 @@ local function plan_of(k)
     u = last and bays[i].middle or bays[i].hi
     if not last then pier(#piers + 1) end
   end
+  for i, foot in ipairs(k.feet and lengths(k, "feet", #piers, "pier", true) or {}) do piers[i].foot = foot end
   local knots = { 0 }
   for i, p in ipairs(piers) do
     if half or (i > 1 and i < #piers) then knots[#knots + 1] = p.axis end
@@ -172,6 +178,13 @@ local function tiers_of(k, plan)
           (tier.first + ring.n - 0.5) * h, tier.last * h, (tier.first + ring.n) * h)
       end
     end
+    for i, pier in ipairs(t == 1 and plan.piers or {}) do
+      pier.first = math.floor(pier.foot / h + 0.5)  -- its lowest course
+      if pier.first > 0 and pier.first + k.fixed_courses >= tier.first then
+        wrong("arcade: feet[%d] = %g m leaves no pier below the springing line at %g m%s; at most %g m is allowed", i, pier.foot,
+          tier.first * h, k.fixed_courses > 0 and " above its fixed courses" or "", (tier.first - k.fixed_courses - 1) * h)
+      end
+    end
     for i, pier in ipairs(plan.piers) do
       local b = k.ends == "half" and i or i - 1  -- bay to its left
       local left, right = tier.rings[b], tier.rings[b + 1]
@@ -204,20 +217,21 @@ local function lay_course(k, plan, out, laid, c, all, group)
   local top, number, edges = (c + 1) * k.block.height, 0, parts.row_edges(k.width, k.rows, c % 2 == 1)
   laid[c] = {}
   for _, points in ipairs(all) do
+    local fixed = c < (points.first or 0) + k.fixed_courses
     for _, polygon in ipairs(parts.cut(points, top, parts.perpends_of(points, top, plan.bond[c % 2], k.least))) do
       number = number + 1
       local names, volume = parts.lay_across(k, polygon, edges, {
         name = string.format("%s.c%03d.b%03d", k.name, c + 1, number), group = k.group .. group, material = k.material,
-        fixed = c < k.fixed_courses,
+        fixed = fixed,
       })
       local lo, hi = math.huge, -math.huge
       for _, p in ipairs(polygon) do lo, hi = math.min(lo, p[1]), math.max(hi, p[1]) end
       laid[c][#laid[c] + 1] = { names = names, lo = lo, hi = hi }
       for _, name in ipairs(names) do
-        local list = c < k.fixed_courses and out.base or out.blocks
+        local list = fixed and out.base or out.blocks
         list[#list + 1] = name
       end
-      if c >= k.fixed_courses then out.volume = out.volume + volume end
+      if not fixed then out.volume = out.volume + volume end
     end
   end
 end
@@ -255,7 +269,7 @@ end
 
 local function describe_piers(k, plan, out, laid)
   for i, pier in ipairs(plan.piers) do
-    out.piers[i] = { axis = place(k, pier.axis, 0), width = pier.width, courses = {} }
+    out.piers[i] = { axis = place(k, pier.axis, 0), width = pier.width, foot = pier.first * k.block.height, courses = {} }
     for c = 0, k.tiers[#k.tiers].last - 1 do
       local names = {}
       for _, piece in ipairs(laid[c]) do
@@ -276,7 +290,9 @@ local function raise(k, plan)
   for t, tier in ipairs(k.tiers) do
     for c = tier.from, tier.first - 1 do
       local all = {}
-      for i, pier in ipairs(plan.piers) do all[i] = { { pier.lo, c * h }, { pier.hi, c * h } } end
+      for _, pier in ipairs(plan.piers) do
+        if c >= pier.first then all[#all + 1] = { { pier.lo, c * h }, { pier.hi, c * h }, first = pier.first } end
+      end
       lay_course(k, plan, out, laid, c, all, "_pier")
     end
     for b, ring in ipairs(tier.rings) do describe_opening(k, out, laid, t, b, plan.bays[b], ring, lay_ring(k, out, t, b, ring)) end

@@ -173,6 +173,36 @@ param("volume", a.volume)
   CHECK(m.scene.params.back().value == Approx(free).epsilon(1e-12));
 }
 
+TEST_CASE("the piers of an arcade stand on ground of any height", "[lua][masonry]") {
+  const std::string level(two_tiers);
+  const auto on_ground = [&](const std::string& feet) {
+    std::string piece = level;
+    return piece.insert(piece.find("quiet"), "feet = " + feet + ", ") +
+           "for i, p in ipairs(a.piers) do print(p.foot, #p.courses, #p.courses[2], #p.courses[4]) end param('volume', a.volume)";
+  };
+  const Masonry m(on_ground("{ 1.1, 0, 2 }"));  // rounded to two courses, none, four
+  CHECK(check(m.scene).empty());
+  CHECK(m.joints.unjoined.empty());
+  CHECK(m.said.starts_with("1.0\t22\t0\t2 0.0\t22\t2\t3 2.0\t22\t0\t0"));
+  CHECK(Masonry(level).volume() - m.volume() == Approx((3.4 * 1 + 5 * 2) * 2).epsilon(1e-12));
+  // The lowest course of each pier is fixed, and no other.
+  std::map<double, double> base;  // height of its underside -> volume
+  double free = 0;
+  for (const Block& block : m.scene.blocks) {
+    const double volume = mass_properties(block.parts).volume;
+    double low = 1e9;
+    for (const Vec3& v : block.parts[0].vertices) low = std::min(low, v.z());
+    if (block.fixed) base[std::round(low * 1e6) / 1e6] += volume;
+    else free += volume;
+  }
+  REQUIRE(base.size() == 3);
+  CHECK(base[2] == Approx(3.4 * 0.5 * 2));
+  CHECK(base[1] == Approx(3 * 0.5 * 2));
+  CHECK(base[3] == Approx(5 * 0.5 * 2));
+  CHECK(m.scene.params.back().value == Approx(free).epsilon(1e-12));
+  CHECK(Masonry(level).volume() - Masonry(on_ground("1.5")).volume() == Approx(11.4 * 1.5 * 2).epsilon(1e-12));
+}
+
 TEST_CASE("half arches end at their crown", "[lua][masonry]") {
   const Masonry m(
       "arcade{ spans = 4, bays = 2, piers = 3, ends = 'half', width = 1, block = { length = 1, height = .5 }, at = {10, 0, 0},\n"
@@ -274,6 +304,10 @@ TEST_CASE("mistakes of arcades, vaults and buttresses are told with their line a
   CHECK(mentions(wrong("arcade{ spans = {4}, piers = 3" + rest + "tiers = { { springing = .1, top = 11, thickness = .6 } } }"),
                  "springs at"));
   CHECK(mentions(wrong("arcade{ spans = {4}, piers = 3, fixed_courses = 30" + rest + tier), "fixed_courses = 30"));
+  CHECK(mentions(wrong("arcade{ spans = {4}, piers = 3, feet = {0, 8.5}, fixed_courses = 1" + rest + tier),
+                 "feet[2] = 8.5 m leaves no pier below the springing line at 9 m above its fixed courses; at most 8 m is allowed"));
+  CHECK(mentions(wrong("arcade{ spans = {4}, piers = 3, feet = {0, -1}" + rest + tier), "feet[2] must be a height of 0 m or more"));
+  CHECK(mentions(wrong("arcade{ spans = {4}, piers = 3, feet = {0, 1, 2}" + rest + tier), "feet has 3 lengths for 2"));
   CHECK(mentions(wrong("arcade{ spans = {4}, piers = 3, least = .8" + rest + tier), "at most 0.5 m"));
   CHECK(mentions(wrong("arcade{ spans = {.1}, piers = 3" + rest + "tiers = { { springing = 9, top = 14, thickness = .1 } } }"),
                  "lower than two courses"));
