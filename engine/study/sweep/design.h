@@ -59,6 +59,8 @@ struct Plan {
   std::string keep = "metrics";      // of each run: none, metrics, all
   double max_wall = 0, memory = 0;   // s and bytes, of each run; 0: no limit
   std::string title;                 // of the figure
+  std::string x, y;                  // labels of its axes; "": the columns
+  std::string split;                 // param each of whose values has a figure of its own; "": none
   std::vector<PlanCurve> curves;
   Place place;
 };

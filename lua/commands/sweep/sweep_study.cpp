@@ -47,6 +47,10 @@ class Checker {
       check_key(plan_.bisect->key);
     }
     for (const std::string& key : plan_.collect) check_key(key);
+    const std::vector<std::string> varied = varied_params(plan_);
+    if (!plan_.split.empty() && std::find(varied.begin(), varied.end(), plan_.split) == varied.end())
+      add(plan_.place, fmt::format("split = \"{}\" is no param that vary varies{}", plan_.split,
+                                   varied.empty() ? "; leave it out" : did_you_mean(plan_.split, varied)));
     if (!mistakes_.empty()) throw Errors(mistakes_);
     order_grids(plan_, params_);
     point_count(plan_);

@@ -268,6 +268,9 @@ int study(Call& call) {
   plan.place = call.place;
   arguments.read("scene", plan.scene);
   arguments.read("title", plan.title);
+  arguments.read("x", plan.x);
+  arguments.read("y", plan.y);
+  arguments.read("split", plan.split);
   arguments.read("collect", plan.collect);
   arguments.read("keep", plan.keep);
   plan.max_wall = quantity(arguments, call, "max_wall", {{"s", 1}, {"h", 3600}, {"m", 60}});
@@ -336,6 +339,9 @@ std::vector<Function> sweep_functions() {
         {"memory", "bytes", "", "most memory of a run: bytes, or \"2GB\" (default: that of the machine over the runs at once)"},
         {"keep", "string", "", "what stays of each run in runs/", -unbounded, unbounded, false, "none|metrics|all", "metrics"},
         {"title", "string", "", "title of results.svg, the figure of the bisected param or the first of collect"},
+        {"x", "string", "", "label of its horizontal axis: quantity and unit (default the column)"},
+        {"y", "string", "", "label of its vertical axis (default the column)"},
+        {"split", "string", "", "a varied param; each of its values has a figure of its own, such as results_method_1.svg"},
         {"curves", "list", "", "known curves for the figure", -unbounded, unbounded, false, "", "", plan_curve_keys()}}},
       of_study({"grid",
                 grid,

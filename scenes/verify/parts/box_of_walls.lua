@@ -78,7 +78,7 @@ return function(keys)
   ground_motion { wave = sine { amplitude = -amplitude * gravity_of_source * alpha, frequency = rate / (2 * pi), phase = psi }, direction = direction }
   local at_zero = criterion == "alpha_at_zero"
   analysis { duration = at_zero and zero or (keys.cycles or 3) * 2 * pi / rate, output_dt = at_zero and zero / 200 or 0.01, frame_dt = 0.05,
-    stop_after_collapse = at_zero and -1 or 0.5 }
+    stop_after_collapse = at_zero and 0 or 0.5 }
 
   local walls = direction == "x" and { front = "east", back = "west", side = { "north", "south" } } or { front = "north", back = "south", side = { "east", "west" } }
   local about, other = direction == "x" and "y" or "x", direction == "x" and "x" or "y"
