@@ -5,7 +5,8 @@
 --                wall at the back, wedged between them, holds it too.
 -- Source         P. J. S. Gomes, Modelling of masonry structures by means of the discrete element method (IST Lisbon): geometry, cases, contacts
 --                between walls (50 MPa/m, frictionless) and under the ring (1 GPa/m, 30 degrees), phase and both criteria. Density of the ring
---                with its share of the roof from its Table 2. The calibrated contact of wall and base is not printed.
+--                with its share of the roof from its Table 2. The calibrated contact of wall and base is not printed:
+--                ours is what erbs calibrate finds with scenes/studies/calibrate_wall.lua and calibrate_wall_pena.lua (on feet).
 -- How to run     erbs run scenes/box_lintel.lua [-D case=3] [-D method=2] [-D omega=1] [-D amplitude=2.3] [-D 'direction="y"']
 --                [-D side_friction=0] [-D mitre_kn=1e3] [-D 'criterion="alpha"']
 --                Figs. 9 and 10: erbs sweep scenes/studies/box_collapse_relation.lua

@@ -24,5 +24,5 @@ study {
   keep = "none",
   x = "omega / p [-]", y = "least a / (g alpha) [-]", split = "method",
   max_wall = "5m",
-  curves = { { label = "theta = alpha at the end, exact equation", x = omega, y = theory }, { label = "Housner 1963", x = omega, y = housner } },
+  curves = { { label = "theta = alpha, exact equation", x = omega, y = theory }, { label = "Housner 1963", x = omega, y = housner } },
 }

@@ -12,6 +12,7 @@ namespace {
 
 constexpr const char* known_look = "lw 2 lc rgb '#777777'";
 constexpr const char* now_look = "lw 2 lc rgb '#b5432e'";
+constexpr const char* legend_above = "at screen 0.5,0.927 center top horizontal maxcols 3 samplen 3 noenhanced";
 constexpr const char* before_look = "lw 1 dt 2 lc rgb '#1f5f8b'";
 
 std::string rows_of(const std::vector<double>& x, const std::vector<double>& y) {
@@ -44,7 +45,7 @@ void add_history(Sheet& sheet, const Sweep& s, const KnownHistory& known, double
   upper.axes = {0.1, 0.97, middle + 0.02, top}, lower.axes = {0.1, 0.97, bottom + 0.055, middle - 0.01};
   upper.x = {"", "", "", "none"}, upper.y = {known.label, "", "", "", "noenhanced"};
   lower.x = {"time [s]"}, lower.y = {"run less known", "", "", "", "noenhanced"};
-  upper.key = "top right noenhanced";
+  upper.key = legend_above;
   const double end = known.t.back();
   upper.x.range = lower.x.range = fmt::format("[0:{}]", end);
   sheet.add(upper, known.t, known.values, std::string("lines ") + known_look, known.known);
@@ -78,8 +79,8 @@ void add_target(Sheet& sheet, const CalibrationTarget& target, const std::vector
   }
   const std::string range = fmt::format("[0.5:{}]", double(x.size()) + 0.5);
   upper.x = {"", range, "1", "none"}, lower.x = {"number", range, "1"};
-  upper.y = {target.label, "", "", "", "noenhanced"}, lower.y = {fmt::format("residual [% of {:.3g}]", target.scale)};
-  if (legend) upper.key = "top left noenhanced";
+  upper.y = {target.label, "", "", "", "noenhanced"}, lower.y = {fmt::format("[% of {:.3g}]", target.scale)};
+  if (legend) upper.key = legend_above;
   sheet.add(upper, x, target.values, std::string("linespoints pt 6 ps 1.1 ") + known_look, "known");
   sheet.add(upper, x, old_values, "points pt 2 ps 0.9 lc rgb '#1f5f8b'", "as the scene is written");
   sheet.add(upper, x, values, "points pt 7 ps 0.7 lc rgb '#b5432e'", "fitted");
@@ -94,6 +95,7 @@ void add_target(Sheet& sheet, const CalibrationTarget& target, const std::vector
 void draw_calibration(const Sweep& s, const Calibrated& result) {
   const Calibration& c = *s.plan.calibration;
   constexpr std::size_t most_targets = 4;
+  constexpr double top = 0.895;
   Sheet sheet{{1000, c.history ? 980.0 : 620.0}};
   const std::string title = s.plan.title.empty() ? s.scene.substr(s.scene.find_last_of('/') + 1) : s.plan.title;
   std::string fitted;
@@ -101,13 +103,13 @@ void draw_calibration(const Sweep& s, const Calibrated& result) {
   sheet.figure.labels = {{title, "screen 0.5,0.975", "center font ',16'"},
                          {fmt::format("{}; rms {:.3g} % of the scales", fitted, 100 * result.rms), "screen 0.5,0.945", "center"}};
   const double share = c.history ? 0.46 : 0.0;
-  if (c.history) add_history(sheet, s, *c.history, 1 - share - 0.04, 0.92);
+  if (c.history) add_history(sheet, s, *c.history, 1 - share - 0.04, top);
   const std::size_t count = std::min(most_targets, c.targets.size());
   std::size_t from = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const double width = 0.9 / double(count), left = 0.1 + double(i) * width;
     add_target(sheet, c.targets[i], result.got_before, result.got, from,
-               {left, left + width - (i + 1 < count ? 0.09 : 0.03), 0.01, c.history ? 0.47 : 0.92}, i == 0);
+               {left, left + width - (i + 1 < count ? 0.09 : 0.03), 0.01, c.history ? 0.47 : top}, i == 0 && !c.history);
     from += c.targets[i].values.size();
   }
   for (const char* format : {".svg", ".png"}) plot::draw(sheet.figure, s.directory + "/" + calibration_stem + format);

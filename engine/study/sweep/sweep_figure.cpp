@@ -143,12 +143,13 @@ void add_lines(plot::Figure& figure, plot::Panel& panel, const View& view) {
 
 // The legend below the label of the x axis, in as many columns as the sheet holds; the axes leave it room.
 void place_legend(const plot::Figure& figure, plot::Panel& panel, bool with_scale) {
-  constexpr double character = 7.6, sample = 60, line = 20, labels = 70, title = 46, left = 80;  // px
+  constexpr double character = 8, sample = 80, line = 20, labels = 72, title = 46, left = 80;  // px
   std::size_t entries = 0, longest = 0;
   for (const plot::Series& series : panel.series) entries += !series.title.empty(), longest = std::max(longest, series.title.size());
   if (entries > 1 || !panel.key.empty()) {
     const double width = character * double(longest) + sample;
-    const auto columns = std::clamp<std::size_t>(std::size_t(figure.width / width), 1, std::max<std::size_t>(entries, 1));
+    const double room = 0.97 * figure.width - left;  // gnuplot makes no more columns than fit below the axes
+    const auto columns = std::clamp<std::size_t>(std::size_t(room / width), 1, std::max<std::size_t>(entries, 1));
     const double rows = double((entries + columns - 1) / columns);
     panel.key = fmt::format("at screen 0.5,{:.4f} center bottom horizontal maxcols {} samplen 3 noenhanced", 8 / figure.height, columns);
     panel.axes = {left / figure.width, with_scale ? 0.86 : 0.97, (labels + line * rows) / figure.height, 1 - title / figure.height};
@@ -165,7 +166,8 @@ void draw_view(const View& view, const std::string& title, const std::string& st
       view.sweep.bisected.empty() && view.axes.size() == 2 && numbers_of(view.axes[0]).size() > 2 && numbers_of(view.axes[1]).size() > 2;
   plot::Figure figure{900, 680};
   figure.grid = map ? "" : "x y";
-  figure.labels = {{title, "screen 0.5,0.965", "center font ',16'"}};
+  const double wanted = 16 * figure.width / (10.5 * double(std::max<std::size_t>(1, title.size())));  // px of type that fit the sheet
+  figure.labels = {{title, "screen 0.5,0.965", fmt::format("center font ',{:.0f}'", std::clamp(wanted, 9.0, 16.0))}};
   plot::Panel panel;
   if (map) add_map(figure, panel, view);
   else add_lines(figure, panel, view);
