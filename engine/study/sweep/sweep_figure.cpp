@@ -166,7 +166,7 @@ void draw_view(const View& view, const std::string& title, const std::string& st
       view.sweep.bisected.empty() && view.axes.size() == 2 && numbers_of(view.axes[0]).size() > 2 && numbers_of(view.axes[1]).size() > 2;
   plot::Figure figure{900, 680};
   figure.grid = map ? "" : "x y";
-  const double wanted = 16 * figure.width / (10.5 * double(std::max<std::size_t>(1, title.size())));  // px of type that fit the sheet
+  const double wanted = 16 * figure.width / (12 * double(std::max<std::size_t>(1, title.size())));  // px of type that fit the sheet
   figure.labels = {{title, "screen 0.5,0.965", fmt::format("center font ',{:.0f}'", std::clamp(wanted, 9.0, 16.0))}};
   plot::Panel panel;
   if (map) add_map(figure, panel, view);
