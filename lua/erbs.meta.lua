@@ -712,6 +712,20 @@ function random(keys) end
 ---@return erbs.axes # for vary of study
 function records(keys) end
 
+---@class erbs.calibration_keys
+---@field scene string the scene, a path from the folder of this file
+---@field stages { fit?: table, raise?: table, key?: string, below?: number }[] one after the other, each with what those before it have found
+---@field targets { label: string, keys: string|string[], values: number[], scale?: number }[] known values of metrics
+---@field history? { column: string, label: string, known?: string, t: number[], values: number[] } a known history to draw beside that of the fitted run
+---@field title? string title of calibration.svg
+---@field rel? number smallest step, a share of the range of a param [1e-09 to 0.5; default 0.001]
+---@field rounds? integer steps of a stage, at most [1 to 1000; default 20]
+---@field max_wall? number longest time of a run [s; 0.001 to 1e+07; default 3600]
+
+---Fits params of a scene to known values by least squares, by erbs calibrate.
+---@param keys erbs.calibration_keys
+function calibration(keys) end
+
 ---@class erbs.rocking_keys
 ---@field width? number base of the block; with `height` it gives alpha, p and mu of a homogeneous block [m; 1e-06 to 1e+06]
 ---@field height? number height of the block [m; 1e-06 to 1e+06]

@@ -145,7 +145,8 @@ std::string example_of(const std::string& name) {
     return "  calibration { scene = \"block.lua\", stages = {                            -- for erbs calibrate FILE\n"
            "      { raise = { ks = { 1e9, 1e12, log = true } }, key = \"metrics.slip\", below = 1e-3 },\n"
            "      { fit = { kn = { 1e9, 1e13, log = true }, restitution = { .05, .95 } } } },\n"
-           "    targets = { { label = \"time of impact [s]\", keys = { \"metrics.t_1\", \"metrics.t_2\" }, values = { .366, 1.039 } } } }\n";
+           "    targets = { { label = \"time of impact [s]\", keys = { \"metrics.t_1\", \"metrics.t_2\" }, values = { .366, 1.039 } } } "
+           "}\n";
   if (name == "records")
     return "  records { param = \"motion\", files = { \"a.AT2\", \"b.AT2\" }, scale = \"pga\", scales = { .1 * g, .2 * g } }\n"
            "  ground_motion { wave = record { file = param(\"motion\", \"a.AT2\"), peak = param(\"pga\", g) } }  -- in the scene\n";
