@@ -12,6 +12,7 @@
 --                Figs. 9 and 10: erbs sweep scenes/studies/box_collapse_relation.lua
 -- What to look at  metrics.collapse (1: the criterion is met), turn_at_zero, turn_front, turn_back, turn_side, all over alpha
 local keys = {
+  beds = include "verify/parts/calibrated_beds.lua",
   case = param("case", 2, "1 no ring, 2 ring, 3 ring with the roof, 4 ring with three times the roof"),
   method = param("method", 1, "calibration of the contact of wall and base: 1 stiffness and friction, 2 stiffness and damping"),
   omega = param("omega", 1, "circular frequency of the ground over p of a wall [-]"),

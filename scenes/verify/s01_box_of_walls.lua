@@ -8,14 +8,14 @@
 -- How to run     erbs run scenes/verify/s01_box_of_walls.lua
 -- What to look at  figures/relation.svg; alone_w and ring_w: a / (g alpha) at omega / p = w
 label("quick")
-local build = include "parts/box_of_walls.lua"
+local build, beds = include "parts/box_of_walls.lua", include "parts/calibrated_beds.lua"
 
 -- Each study changes the param of its own name; its runs see from it which box to build.
 local frequencies, unchanged, cases, chosen = { 0.5, 1, 1.5, 2 }, -1, {}, nil
 local function case(name, keys, lo, hi)
   local at = param(name, unchanged, "a / (g alpha)")
   local one = { name = name, keys = keys, lo = lo, hi = hi }
-  one.keys.amplitude = at
+  one.keys.amplitude, one.keys.beds = at, beds
   cases[#cases + 1] = one
   if at ~= unchanged then chosen = one end
 end
@@ -33,7 +33,7 @@ case("alone_y", { case = 1, omega = 1, direction = "y" }, 1.2, 1.6)
 case("ring_y", { case = 2, omega = 1, direction = "y" }, 1.56, 2.8)
 case("alone_damped", { case = 1, omega = 1, method = 2 }, 1.2, 1.6)
 case("ring_damped", { case = 2, omega = 1, method = 2 }, 1.56, 2.8)
-local box = build(chosen and chosen.keys or { case = 2, omega = 1, amplitude = 2.3 })  -- the scene's own run: just above the least amplitude
+local box = build(chosen and chosen.keys or { case = 2, omega = 1, amplitude = 2.3, beds = beds })  -- the scene's own run: just above the least amplitude
 for _, one in ipairs(cases) do
   bisect { param = one.name, name = "least_" .. one.name, lo = one.lo, hi = one.hi, rel = 0.005, points = 1, collapsed_when = box.collapsed }
 end

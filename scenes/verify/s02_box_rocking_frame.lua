@@ -9,10 +9,10 @@
 --                gamma the mass of the beam over that of the columns; exact equation by rocking_overturning.
 -- How to run     erbs run scenes/verify/s02_box_rocking_frame.lua
 -- What to look at  frame_over_theory_*; smooth_over_whole_*, smooth_over_frame_*
-local build = include "parts/box_of_walls.lua"
+local build, beds = include "parts/box_of_walls.lua", include "parts/calibrated_beds.lua"
 local unchanged, cases, chosen = -1, {}, nil
 local function case(name, keys, lo, hi)
-  keys.amplitude = param(name, unchanged, "a / (g alpha)")
+  keys.amplitude, keys.beds = param(name, unchanged, "a / (g alpha)"), beds
   cases[#cases + 1] = { name = name, keys = keys, lo = lo, hi = hi }
   if keys.amplitude ~= unchanged then chosen = keys end
 end
@@ -24,7 +24,7 @@ for _, w in ipairs { 0.5, 1, 2 } do
   case("smooth_" .. tag, { case = 2, omega = w, side_friction = 0 }, most, 1.5 * most)
   case("whole_" .. tag, { case = 2, omega = w }, most, 1.5 * most)
 end
-local box = build(chosen or { case = 2, omega = 1, side_friction = 0, mitre_kn = 1e3, amplitude = 1.6 })
+local box = build(chosen or { case = 2, omega = 1, side_friction = 0, mitre_kn = 1e3, amplitude = 1.6, beds = beds })
 for _, one in ipairs(cases) do
   bisect { param = one.name, name = "least_" .. one.name, lo = one.lo, hi = one.hi, rel = 0.005, points = 1, collapsed_when = box.collapsed }
 end

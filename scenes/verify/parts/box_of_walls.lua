@@ -1,7 +1,7 @@
 -- Four mitred walls of .6 x 3 x 4 m on a base, with or without a ring of reinforced concrete on top, on ground that shakes as a sine.
 --
 -- box_of_walls { case =, method =, omega =, amplitude =, direction =, side_friction =, criterion =, ... }, keys as the params of box_lintel.lua
--- of the same names. It builds everything, analysis{} included, and returns
+-- of the same names, and beds = include "parts/calibrated_beds.lua". It builds everything, analysis{} included, and returns
 --   alpha, p     of a wall as thick all along: rad, rad/s
 --   zero         s, when the acceleration first vanishes
 --   turn(run, which)  greatest rotation of "front", "back" or "side" (out of its plane), over alpha
@@ -10,13 +10,6 @@
 local width, height, outer = 0.6, 3.0, 4.0  -- m
 local ring_height, overhang, base_height = 0.7, 1.5, 0.4
 local gravity_of_source = 9.8  -- m/s2, by which its densities are weights
-
--- Contact of wall and base by each method: what `erbs calibrate` finds with scenes/studies/calibrate_wall.lua, and with calibrate_wall_pena.lua on
--- feet (xi = .362). Method 1 has no damping.
-local calibrated = {
-  { kn = 6.0e10, ks = 1.22e9, mu = 0.58, restitution = 1, damping = 0 },
-  { kn = 1.06e11, ks = 1.06e11, mu = math.tan(30 * deg), restitution = 0.295, damping = 0.362 },
-}
 
 -- Corners of the mitred side that faces `quarter` times 90 degrees from +x, between the heights z0 and z1.
 local function side(quarter, z0, z1)
@@ -46,7 +39,7 @@ return function(keys)
   gravity(gravity_of_source)
   local alpha, p = math.atan(width / height), rocking { width = width, height = height, duration = 1e-3, gravity = gravity_of_source }.p
 
-  local bed = calibrated[method]
+  local bed = keys.beds[method]
   local kn, ks = keys.kn_bed or bed.kn, keys.kn_bed or bed.ks
   local rub = math.tan((keys.angle or 30) * deg)
   -- Friction of debris is that of the bed and of the ring. Former joints keep their own as long as they touch, mitres so stay frictionless.
