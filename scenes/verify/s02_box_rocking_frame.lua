@@ -24,7 +24,7 @@ for _, w in ipairs { 0.5, 1, 2 } do
   case("smooth_" .. tag, { case = 2, omega = w, side_friction = 0 }, most, 1.5 * most)
   case("whole_" .. tag, { case = 2, omega = w }, most, 1.5 * most)
 end
-local box = build(chosen or { case = 2, omega = 1, side_friction = 0, mitre_kn = 1e3, amplitude = 1.6, beds = beds })
+local box = build(chosen or { case = 2, omega = 1, side_friction = 0, amplitude = 2.3, beds = beds })
 for _, one in ipairs(cases) do
   bisect { param = one.name, name = "least_" .. one.name, lo = one.lo, hi = one.hi, rel = 0.005, points = 1, collapsed_when = box.collapsed }
 end

@@ -66,3 +66,18 @@ TEST_CASE("the toe of a block on a bed: balance of moments, and the static thres
   for (int i = 0; i < 4; ++i)
     CHECK(toe_on_bed(b, h, (b * b + h * h) / 3, ratios[i] * b, standard_g).threshold == Approx(v30[i]).margin(3e-3));
 }
+
+TEST_CASE("rocking{} tells what a bed does to the block, in its result and in the notes of the scene", "[flat_bed]") {
+  const auto scene_with = [](const std::string& keys) {
+    return scene_of("joint{ law = dry{ kn = 1e10, mu = 0.6 } }\nlocal it = rocking{ width = .25, height = 1, duration = 1, " + keys +
+                    " }\nif it.bed then metric('threshold', '', it.bed.threshold / it.threshold) end");
+  };
+  const Scene rigid = scene_with("theta = .1"), bed = scene_with("kn = 1e10, density = 2670");
+  CHECK(rigid.notes.empty());
+  REQUIRE(bed.notes.size() == 1);
+  for (const char* words : {"scene.lua:", "toe of", "inside the edge", "0.93", "Housner", "footed_block"})
+    CHECK_THAT(bed.notes[0], Catch::Contains(words));
+  CHECK_THROWS_WITH(scene_with("kn = 1e10"), Catch::Contains("density of the block"));
+  CHECK_THROWS_WITH(scene_with("density = 2000"), Catch::Contains("give kn"));
+  CHECK_THROWS_WITH(scene_with("kn = 10, density = 2000"), Catch::Contains("out of range"));
+}
