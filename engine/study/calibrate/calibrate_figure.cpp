@@ -29,6 +29,17 @@ double at(const std::vector<double>& x, const std::vector<double>& y, double t) 
   return y[i - 1] + (y[i] - y[i - 1]) * (t - x[i - 1]) / (x[i] - x[i - 1]);
 }
 
+// A symmetric range with tics at its ends, wide enough for all residuals.
+plot::Axis around_zero(const std::string& label, const std::vector<double>& residuals) {
+  double most = 0;
+  for (const double x : residuals)
+    if (std::isfinite(x)) most = std::max(most, std::fabs(x));
+  if (!(most > 0)) most = 1;
+  const double decade = std::pow(10.0, std::floor(std::log10(most)));
+  const double end = decade * (most <= decade ? 1 : most <= 2 * decade ? 2 : most <= 5 * decade ? 5 : 10);
+  return {label, fmt::format("[{}:{}]", -1.15 * end, 1.15 * end), fmt::format("{}", end), "", "noenhanced"};
+}
+
 struct Sheet {
   plot::Figure figure;
   void add(plot::Panel& panel, const std::vector<double>& x, const std::vector<double>& y, const std::string& look,
@@ -38,13 +49,13 @@ struct Sheet {
   }
 };
 
-// Both runs over the known history, above the distance of either from it.
+// Both runs over the known history, above the distance of the fitted one from it.
 void add_history(Sheet& sheet, const Sweep& s, const KnownHistory& known, double bottom, double top) {
   const double middle = bottom + 0.4 * (top - bottom);
   plot::Panel upper, lower;
   upper.axes = {0.1, 0.97, middle + 0.02, top}, lower.axes = {0.1, 0.97, bottom + 0.055, middle - 0.01};
   upper.x = {"", "", "", "none"}, upper.y = {known.label, "", "", "", "noenhanced"};
-  lower.x = {"time [s]"}, lower.y = {"run less known", "", "", "", "noenhanced"};
+  lower.x = {"time [s]"};
   upper.key = legend_above;
   const double end = known.t.back();
   upper.x.range = lower.x.range = fmt::format("[0:{}]", end);
@@ -54,11 +65,13 @@ void add_history(Sheet& sheet, const Sweep& s, const KnownHistory& known, double
     if (!std::filesystem::exists(file)) continue;
     const CsvTable table = read_csv(file);
     const std::vector<double>&t = table.column("time_s"), &y = table.column(known.column);
-    std::vector<double> less;
-    for (std::size_t i = 0; i < t.size(); ++i) less.push_back(t[i] <= end ? y[i] - at(known.t, known.values, t[i]) : NAN);
     const std::string look = std::string("lines ") + (now ? now_look : before_look);
     sheet.add(upper, t, y, look, now ? "fitted" : "as the scene is written");
+    if (!now) continue;
+    std::vector<double> less;
+    for (std::size_t i = 0; i < t.size(); ++i) less.push_back(t[i] <= end ? y[i] - at(known.t, known.values, t[i]) : NAN);
     sheet.add(lower, t, less, look, "");
+    lower.y = around_zero("residual", less);
   }
   lower.add_horizontal(0, "lc rgb '#777777'");
   sheet.figure.panels.insert(sheet.figure.panels.end(), {upper, lower});
@@ -70,21 +83,19 @@ void add_target(Sheet& sheet, const CalibrationTarget& target, const std::vector
   const double middle = cell.bottom + 0.42 * (cell.top - cell.bottom);
   plot::Panel upper, lower;
   upper.axes = {cell.left, cell.right, middle + 0.02, cell.top}, lower.axes = {cell.left, cell.right, cell.bottom + 0.055, middle - 0.01};
-  std::vector<double> x, old_less, less, old_values, values;
+  std::vector<double> x, less, old_values, values;
   for (std::size_t i = 0; i < target.values.size(); ++i) {
     x.push_back(double(i + 1));
     old_values.push_back(before[from + i]), values.push_back(now[from + i]);
-    old_less.push_back(100 * (before[from + i] - target.values[i]) / target.scale);
     less.push_back(100 * (now[from + i] - target.values[i]) / target.scale);
   }
   const std::string range = fmt::format("[0.5:{}]", double(x.size()) + 0.5);
   upper.x = {"", range, "1", "none"}, lower.x = {"number", range, "1"};
-  upper.y = {target.label, "", "", "", "noenhanced"}, lower.y = {fmt::format("[% of {:.3g}]", target.scale)};
+  upper.y = {target.label, "", "", "", "noenhanced"}, lower.y = around_zero(fmt::format("[% of {:.3g}]", target.scale), less);
   if (legend) upper.key = legend_above;
   sheet.add(upper, x, target.values, std::string("linespoints pt 6 ps 1.1 ") + known_look, "known");
   sheet.add(upper, x, old_values, "points pt 2 ps 0.9 lc rgb '#1f5f8b'", "as the scene is written");
   sheet.add(upper, x, values, "points pt 7 ps 0.7 lc rgb '#b5432e'", "fitted");
-  sheet.add(lower, x, old_less, "points pt 2 ps 0.9 lc rgb '#1f5f8b'", "");
   sheet.add(lower, x, less, "impulses lw 4 lc rgb '#b5432e'", "");
   lower.add_horizontal(0, "lc rgb '#777777'");
   sheet.figure.panels.insert(sheet.figure.panels.end(), {upper, lower});
