@@ -65,7 +65,8 @@ study::CalibrationStage read_stage(Call& call, Arguments& table, int number) {
   else if (fits && (table.has("key") || table.has("below")))
     table.mistake("key and below belong to raise; remove them from a stage that fits");
   else if (raises && stage.params.size() > 1) table.mistake("raise takes one param; write a stage for each");
-  else if (stage.params.empty()) table.mistake("it names no param; give ranges, such as { kn = { 1e9, 1e12, log = true } }");
+  else if (stage.params.empty())
+    table.mistake(fmt::format("{} names no param; give ranges, such as {{ kn = {{ 1e9, 1e12, log = true }} }}", raises ? "raise" : "fit"));
   return stage;
 }
 

@@ -82,7 +82,7 @@ TEST_CASE("mistakes of a calibration are met with place and remedy", "[calibrate
   refused(study_of("{ fit = { c = { 1, 2 } } }"), "no param \"c\"");
   refused(study_of("{ fit = { a = { 2, 1 } } }"), "must be a range");
   refused(study_of("{ fit = { a = { 0, 1, log = true } } }"), "above zero");
-  refused(study_of("{ fit = {} }"), "it names no param");
+  refused(study_of("{ fit = {} }"), "fit names no param");
   refused(study_of("{ raise = { ks = { 1, 2 } } }"), "give key and below");
   refused(study_of("{ raise = { ks = { 1, 2 }, a = { 1, 2 } }, key = 'metrics.slip', below = 1 }"), "raise takes one param");
   refused(study_of("{ fit = { a = { 1, 2 } }, key = 'metrics.slip', below = 1 }"), "belong to raise");

@@ -81,6 +81,11 @@ const std::map<std::string, Words> sound_calls{
     {"latin", {{"n", "3"}, {"PARAM", "{1, 2}"}}},
     {"random", {{"n", "3"}, {"PARAM", "{1, 2}"}}},
     {"records", {{"param", "'motion'"}, {"files", "{'a.csv'}"}}},
+    {"calibration",
+     {{"scene", "'s.lua'"},
+      {"stages", "{ { fit = { p = {1, 2} } } }"},
+      {"targets", "{ { label = 't', keys = {'time_s'}, values = {1} } }"}}},
+    {"footed_block", {{"size", "{.2, .2, 1}"}, {"at", "{20, 20, 0}"}, {"free", "true"}}},
     {"column", {{"blocks", "2"}, {"size", "{.2, .2, .2}"}, {"at", "{20, 20, 0}"}}},
 };
 
