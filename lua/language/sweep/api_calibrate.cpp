@@ -135,7 +135,7 @@ int calibrate(Call& call) {
   if (calibration.stages.empty()) arguments.mistake("it fits nothing; give stages = { { fit = { kn = { 1e9, 1e12, log = true } } } }");
   if (calibration.targets.empty())
     arguments.mistake("it has no targets; give targets = { { label = \"...\", keys = { ... }, values = { ... } } }");
-  if (!context.study_file) arguments.mistake("it belongs into a file of its own, which erbs calibrate runs");
+  if (!context.study_file) arguments.mistake("put it into a file of its own, which erbs calibrate runs");
   plan.collect = calibrated_keys(calibration);
   plan.axes = ends_of(calibration, call.place);
   plan.calibration = std::move(calibration);
