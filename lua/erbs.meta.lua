@@ -656,6 +656,9 @@ function figure(keys) end
 ---@field memory? number|string most memory of a run: bytes, or "2GB" (default: that of the machine over the runs at once)
 ---@field keep? "none"|"metrics"|"all" what stays of each run in runs/ [default metrics]
 ---@field title? string title of results.svg, the figure of the bisected param or the first of collect
+---@field x? string label of its horizontal axis: quantity and unit (default the column)
+---@field y? string label of its vertical axis (default the column)
+---@field split? string a varied param; each of its values has a figure of its own, such as results_method_1.svg
 ---@field curves? { label: string, x: number[], y: number[] }[] known curves for the figure
 
 ---Many runs of a scene, by erbs sweep: what varies, what is bisected, and the columns of results.csv.
@@ -709,6 +712,20 @@ function random(keys) end
 ---@return erbs.axes # for vary of study
 function records(keys) end
 
+---@class erbs.calibration_keys
+---@field scene string the scene, a path from the folder of this file
+---@field stages { fit?: table, raise?: table, key?: string, below?: number }[] one after the other, each with what those before it have found
+---@field targets { label: string, keys: string|string[], values: number[], scale?: number }[] known values of metrics
+---@field history? { column: string, label: string, known?: string, t: number[], values: number[] } a known history to draw beside that of the fitted run
+---@field title? string title of calibration.svg
+---@field rel? number smallest step, a share of the range of a param [1e-09 to 0.5; default 0.001]
+---@field rounds? integer steps of a stage, at most [1 to 1000; default 20]
+---@field max_wall? number longest time of a run [s; 0.001 to 1e+07; default 3600]
+
+---Fits params of a scene to known values by least squares, by erbs calibrate.
+---@param keys erbs.calibration_keys
+function calibration(keys) end
+
 ---@class erbs.rocking_keys
 ---@field width? number base of the block; with `height` it gives alpha, p and mu of a homogeneous block [m; 1e-06 to 1e+06]
 ---@field height? number height of the block [m; 1e-06 to 1e+06]
@@ -721,11 +738,14 @@ function records(keys) end
 ---@field sample? number sampling step of a Lua function [s; 1e-06 to 10; default 0.001]
 ---@field theta? number tilt at the start [rad; -1.5 to 1.5; default 0]
 ---@field spin? number spin at the start [rad/s; -1000 to 1000; default 0]
+---@field kn? number stiffness of a bed, of which erbs check and the log then tell what it does to this block [Pa/m; 1000 to 1e+16]
+---@field density? number of the block on the bed [kg/m3; 0.01 to 100000]
+---@field restitution? number of the block on the bed [0 to 1; default 0.3]
 ---@field duration number simulated time [s; 1e-09 to 100000]
 
 ---Solution of Housner's equations for a rigid rocking block, to compare with a scene of one block.
 ---@param keys erbs.rocking_keys
----@return table # alpha, p, mu, threshold (m/s2), t, theta (rad), impacts (s), amplitudes (over alpha, before each impact), overturned, overturned_at
+---@return table # alpha, p, mu, threshold (m/s2), t, theta (rad), impacts (s), amplitudes (over alpha, before each impact), overturned, overturned_at; with kn: bed = { toe, inwards (m, from the edge to the line about which the block turns), alpha, p, mu, threshold }, as the bed changes them
 function rocking(keys) end
 
 ---@class erbs.rocking_overturning_keys
@@ -879,6 +899,23 @@ function column(keys) end
 ---@param keys erbs.arcade_keys
 ---@return table # blocks (names), base (names of the fixed ones), top (names of the last course), tops (m, of each tier), height, length (m), volume (m3), openings (by name, as t1.a02: tier, bay, span, thickness, springing, crown, center (m); ring, left, right (names)), piers (axis, width, foot (m); courses: names at its axis, by course from the foot of the arcade), summary
 function arcade(keys) end
+
+---@class erbs.footed_block_keys
+---@field name? string name of the block [default block]
+---@field group? string group of the block
+---@field size erbs.vec3 size along x, y, z, feet included [m]
+---@field at? erbs.vec3 middle of its lower face, on the bed [m; default { 0, 0, 0 }]
+---@field rocks? "x"|"y"|"xy" direction in which it rocks: feet along both edges across it; xy: four feet at the corners [default x]
+---@field foot? number width of a foot over that of the block [0 to 0.5; default 0.008]
+---@field hollow? number height of the feet over that of the block [0 to 0.5; default 0.001]
+---@field material? string material of the block; default: the only one there is
+---@field free? boolean allowed to have no joint: its feet are contacts from the start [default false]
+---@field initial? table initial state as in block{}: { position, rotation, velocity, spin, about }
+
+---A block that stands on small feet along its lower edges instead of its whole face, like test blocks with a slightly hollow base. An impact then acts at its edges, as Housner assumes.
+---@param keys erbs.footed_block_keys
+---@return table # name, width and height of a foot (m), share of the feet in the face: a joint or contact presses them like the whole face if its kn is divided by it
+function footed_block(keys) end
 
 ---@class erbs.buttress_keys
 ---@field name? string first word of the names of its blocks, and their group [default buttress]

@@ -72,6 +72,7 @@ int call(const CLI::App& app, const CommandLine& line) {
   if (name == "accuracy") return accuracy.map ? verb_map(accuracy) : verb_accuracy(accuracy);
   if (name == "test") return verb_test(line.test);
   if (name == "sweep") return verb_sweep(line.sweep);
+  if (name == "calibrate") return verb_calibrate(line.calibrate);
   if (name == "bench") return verb_bench(line.bench);
   if (name == "limit") return verb_limit(line.limit);
   if (name == "capacity") return verb_capacity(line.capacity);

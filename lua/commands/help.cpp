@@ -141,6 +141,12 @@ std::string example_of(const std::string& name) {
     return "  study { scene = \"pier.lua\", collect = { \"collapse.time_s\" },           -- for erbs sweep FILE\n"
            "    vary = { grid { omega = { 1, 2, 4 } }, latin { n = 10, ft = { 1e5, 3e5 } } },  -- 30 points\n"
            "    bisect = { param = \"amplitude\", lo = 0.1 * g, hi = 2 * g, rel = .01 } }      -- at each\n";
+  if (name == "calibration")
+    return "  calibration { scene = \"block.lua\", stages = {                            -- for erbs calibrate FILE\n"
+           "      { raise = { ks = { 1e9, 1e12, log = true } }, key = \"metrics.slip\", below = 1e-3 },\n"
+           "      { fit = { kn = { 1e9, 1e13, log = true }, restitution = { .05, .95 } } } },\n"
+           "    targets = { { label = \"time of impact [s]\", keys = { \"metrics.t_1\", \"metrics.t_2\" }, values = { .366, 1.039 } } } "
+           "}\n";
   if (name == "records")
     return "  records { param = \"motion\", files = { \"a.AT2\", \"b.AT2\" }, scale = \"pga\", scales = { .1 * g, .2 * g } }\n"
            "  ground_motion { wave = record { file = param(\"motion\", \"a.AT2\"), peak = param(\"pga\", g) } }  -- in the scene\n";
@@ -275,7 +281,7 @@ std::string function_help(const std::string& name) {
     known.push_back(function.name);
   }
   for (const char* verb : {"run", "check", "render", "export", "plot", "report", "compare", "record", "test", "accuracy", "bench",
-                           "effects", "sweep", "help", "version"})
+                           "effects", "sweep", "calibrate", "help", "version"})
     known.emplace_back(verb);
   throw Error(fmt::format("there is no verb and no function {}{}", name, did_you_mean(name, known)));
 }

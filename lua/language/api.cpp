@@ -12,8 +12,9 @@ namespace erbs::lua {
 const std::vector<Function>& api() {
   static const std::vector<Function> table = [] {
     std::vector<Function> all;
-    for (auto& topic : {block_functions(), joint_functions(), wave_functions(), load_functions(), support_functions(), analysis_functions(),
-                        result_functions(), stored_functions(), study_functions(), sweep_functions(), companion_functions()})
+    for (auto& topic :
+         {block_functions(), joint_functions(), wave_functions(), load_functions(), support_functions(), analysis_functions(),
+          result_functions(), stored_functions(), study_functions(), sweep_functions(), calibration_functions(), companion_functions()})
       all.insert(all.end(), topic.begin(), topic.end());
     return all;
   }();

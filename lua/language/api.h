@@ -46,6 +46,7 @@ std::vector<Function> result_functions();
 std::vector<Function> stored_functions();
 std::vector<Function> study_functions();
 std::vector<Function> sweep_functions();
+std::vector<Function> calibration_functions();
 std::vector<Function> companion_functions();
 
 const Keys& part_keys();       // of block{ parts = { ... } }

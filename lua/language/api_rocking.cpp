@@ -3,6 +3,7 @@
 #include <cmath>
 #include <lua5.4/lua.hpp>
 
+#include "engine/analysis/flat_bed.h"
 #include "engine/analysis/rocking.h"
 #include "lua/language/api.h"
 
@@ -75,9 +76,48 @@ std::optional<Wave> read_wave(Arguments& arguments, double duration) {
   return arguments.wave("wave", duration, sample);
 }
 
+// The bed of the keys kn, density and restitution.
+struct Bed {
+  analysis::BedToe toe;
+  double kept = 0;  // spin after an impact of the whole face over the spin before
+};
+
+std::optional<Bed> read_bed(Call& call, Arguments& arguments, const analysis::RockingBlock& block) {
+  double width = 0, height = 0, kn = 0, density = 0, restitution = 0.3;
+  arguments.read("width", width);
+  arguments.read("height", height);
+  arguments.read("kn", kn);
+  arguments.read("density", density);
+  arguments.read("restitution", restitution);
+  if (!arguments.has("kn")) {
+    for (const char* key : {"density", "restitution"})
+      if (arguments.has(key))
+        arguments.mistake(fmt::format("\"{}\" is of the block on a bed; give kn, the stiffness of the bed, or remove it", key));
+    return std::nullopt;
+  }
+  if (!arguments.has("width") || !arguments.has("density")) {
+    arguments.mistake("a bed of the stiffness kn asks for width, height and density of the block; give them");
+    return std::nullopt;
+  }
+  if (!(width > 0 && height > 0 && kn > 0 && density > 0)) return std::nullopt;
+  const double b = width / 2, h = height / 2, radius2 = (b * b + h * h) / 3;
+  const Bed bed{analysis::toe_on_bed(b, h, radius2, density * block.gravity * height / kn, block.gravity),
+                analysis::spin_kept(radius2 + h * h, b, b * analysis::impulse_share(restitution))};
+  const analysis::RockingBlock rigid = analysis::homogeneous_block(width, height, block.gravity);
+  const std::string note = fmt::format(
+      "{}: rocking: a block of {:g} x {:g} m on a bed of {:.3g} Pa/m. {}. With its whole face on the bed an impact keeps about {:.3f} of "
+      "the "
+      "spin where Housner's block keeps {:.3f}; feet at its edges make it his: footed_block{{}}",
+      call.place.text(), width, height, kn, told(bed.toe, b, rigid.alpha, rigid.p), bed.kept, rigid.mu);
+  std::vector<std::string>& notes = call.context.scene.notes;
+  if (std::find(notes.begin(), notes.end(), note) == notes.end()) notes.push_back(note);
+  return bed;
+}
+
 int rocking(Call& call) {
   Arguments arguments = call.arguments();
   const analysis::RockingBlock block = read_block(call, arguments);
+  const std::optional<Bed> bed = read_bed(call, arguments, block);
   analysis::RockingStart start;
   double duration = 0;
   arguments.read("theta", start.theta);
@@ -91,6 +131,16 @@ int rocking(Call& call) {
   if (duration > 0) run = rock(block, {wave ? &*wave : nullptr, 1}, start, duration);
   lua_newtable(call.lua);
   describe(call.lua, block);
+  if (bed) {
+    lua_newtable(call.lua);
+    set(call.lua, "toe", bed->toe.width);
+    set(call.lua, "inwards", bed->toe.inwards);
+    set(call.lua, "alpha", bed->toe.alpha);
+    set(call.lua, "p", bed->toe.p);
+    set(call.lua, "mu", bed->kept);
+    set(call.lua, "threshold", bed->toe.threshold * block.gravity * std::tan(block.alpha));
+    lua_setfield(call.lua, -2, "bed");
+  }
   set(call.lua, "t", run.t);
   set(call.lua, "theta", run.theta);
   set(call.lua, "impacts", run.impact);
@@ -143,13 +193,19 @@ std::vector<Function> companion_functions() {
   return {
       {"rocking", rocking, "{ ... }",
        "table: alpha, p, mu, threshold (m/s2), t, theta (rad), impacts (s), amplitudes (over alpha, before each impact), overturned, "
-       "overturned_at",
+       "overturned_at; with kn: bed = { toe, inwards (m, from the edge to the line about which the block turns), alpha, p, mu, threshold "
+       "}, "
+       "as the bed changes them",
        "Solution of Housner's equations for a rigid rocking block, to compare with a scene of one block.",
        joined({block_keys(),
                {{"wave", "wave", "m/s2", "acceleration of the ground (default: none, free rocking)"},
                 sample,
                 {"theta", "number", "rad", "tilt at the start", -1.5, 1.5, false, "", "0"},
                 {"spin", "number", "rad/s", "spin at the start", -1e3, 1e3, false, "", "0"},
+                {"kn", "number", "Pa/m", "stiffness of a bed, of which erbs check and the log then tell what it does to this block", 1e3,
+                 1e16},
+                {"density", "number", "kg/m3", "of the block on the bed", 0.01, 1e5},
+                {"restitution", "number", "", "of the block on the bed", 0, 1, false, "", "0.3"},
                 {"duration", "number", "s", "simulated time", 1e-9, 1e5, true}}})},
       {"rocking_overturning", rocking_overturning, "{ ... }",
        "table: alpha, p, mu, threshold (m/s2), lowest (factor), bands { { from, to, impacts }, ... } whose gaps are safe islands",

@@ -136,7 +136,8 @@ void check_names(Context& context) {
 // A study file makes no scene of its own. -D that it does not declare is for its scene.
 void check_study(Context& context) {
   const Place place{context.scene.file, 0};
-  if (!context.plan) context.mistake(place, "it calls no study{ ... }, so it is no study; erbs run runs a scene");
+  if (!context.plan)
+    context.mistake(place, "it calls neither study{ ... } nor calibration{ ... }, so it is no study; erbs run runs a scene");
   if (!context.scene.blocks.empty())
     context.mistake(context.scene.blocks.front().place, "a study makes no blocks; they belong into its scene");
 }

@@ -221,6 +221,13 @@ void add_others(CLI::App& app, CommandLine& line) {
   sweep.add_flag("--resume", line.sweep.resume, "keep finished runs, or join a sweep that is under way");
   sweep.add_flag("--slurm", line.sweep.slurm, "run nothing; write DIR/job.sh, a job array for sbatch");
 
+  CLI::App& calibrate =
+      *app.add_subcommand("calibrate", "fit params of a scene to known values by least squares, and draw it (erbs help calibration)");
+  calibrate.add_option("STUDY.lua", line.calibrate.words, "the file with calibration{}")->required()->expected(1);
+  add_output(calibrate, line.calibrate.output, "runs/<study name>");
+  add_scene(calibrate, line.calibrate.scene);
+  calibrate.add_option("-j", line.calibrate.jobs, "number of runs at once (default: one per processor)")->check(within(1, 1024));
+
   CLI::App& accuracy =
       *app.add_subcommand("accuracy", "the cost of accuracy: run a scene with one setting changed at a time, errors over cost");
   accuracy.add_option("SCENE.lua", line.accuracy.words, "the scene; with --study, the folder of the problems (default scenes/accuracy)");

@@ -18,6 +18,7 @@ struct CommandLine {
   CompareCommand compare;
   TestCommand test;
   SweepCommand sweep;
+  CalibrateCommand calibrate;
   AccuracyCommand accuracy;
   LimitCommand limit;
   CapacityCommand capacity;

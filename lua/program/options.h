@@ -114,6 +114,12 @@ struct SweepCommand {
   int jobs = 0;  // runs at once, or tasks of the job array; 0: chosen by the verb
   bool resume = false, slurm = false;
 };
+struct CalibrateCommand {
+  std::vector<std::string> words;
+  OutputOptions output;
+  SceneOptions scene;
+  int jobs = 0;  // runs at once; 0: one per processor
+};
 struct TestCommand {
   std::vector<std::string> words;
   SceneOptions scene;
@@ -183,6 +189,7 @@ std::vector<std::pair<std::string, std::string>> film_options();  // names and t
 int verb_render(const std::vector<std::string>& words);
 int verb_test(const TestCommand& command);
 int verb_sweep(const SweepCommand& command);
+int verb_calibrate(const CalibrateCommand& command);
 int verb_accuracy(const AccuracyCommand& command);
 int verb_map(const AccuracyCommand& command);
 int verb_bench(const TimingCommand& command);

@@ -9,21 +9,11 @@ local omega = param("omega", 2, "circular frequency of the pulse over p [-]")
 local settlement = param("settlement", 1e-5, "of the full base under the weight, over half the width [-]")
 local amplitude = param("amplitude", 2, "of the pulse over g tan(alpha) [-]")
 
-local b, density, foot, hollow = width / 2, 2500, 0.008 * width, 1e-3 * height
+local b, density = width / 2, 2500
 local kn = density * g * height / (settlement * b)
 material { name = "stone", density = density, kn = kn, ks = 0.4 * kn, friction = 2, restitution = 0.24 }
 box { name = "base", material = "stone", fixed = true, size = { 6 * height, 1.5 * width, height / 2 }, at = { -3 * height, -0.75 * width, -height / 2 } }
-local function part(x0, x1, z0, z1)
-  local v = {}
-  for _, x in ipairs { x0, x1 } do
-    for _, y in ipairs { -b, b } do
-      for _, z in ipairs { z0, z1 } do v[#v + 1] = { x, y, z } end
-    end
-  end
-  return { vertices = v }
-end
-block { name = "block", material = "stone", free = true,
-  parts = { part(-b, -b + foot, 0, hollow), part(b - foot, b, 0, hollow), part(-b, b, hollow, height) } }
+footed_block { name = "block", material = "stone", free = true, size = { width, width, height } }
 
 local alpha = math.atan(width / height)
 local p = math.sqrt(3 * g / (4 * math.sqrt(width ^ 2 + height ^ 2) / 2))

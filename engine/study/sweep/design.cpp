@@ -18,11 +18,6 @@ Random random_of(double seed) {
   return random;
 }
 
-double in_range(const Range& range, double share) {
-  if (!range.log) return range.lo + share * (range.hi - range.lo);
-  return range.lo * std::exp(share * std::log(range.hi / range.lo));
-}
-
 Axis axis_of(const std::vector<Range>& ranges, int n) {
   Axis axis;
   for (const Range& range : ranges) axis.params.push_back(range.param);
@@ -31,6 +26,11 @@ Axis axis_of(const std::vector<Range>& ranges, int n) {
 }
 
 }  // namespace
+
+double in_range(const Range& range, double share) {
+  if (!range.log) return range.lo + share * (range.hi - range.lo);
+  return range.lo * std::exp(share * std::log(range.hi / range.lo));
+}
 
 std::string text_of(const Value& value) {
   if (const auto* number = std::get_if<double>(&value)) return fmt::format("{}", *number);

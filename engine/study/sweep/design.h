@@ -31,6 +31,7 @@ struct Range {
   bool log = false;
 };
 // Latin hypercube (McKay, Beckman and Conover 1979): each of n equal strata of each range holds one value, at a random place in it.
+double in_range(const Range& range, double share);  // the value at a share of the range, 0 to 1
 Axis latin_hypercube(const std::vector<Range>& ranges, int n, double seed);
 Axis random_points(const std::vector<Range>& ranges, int n, double seed);  // independent of each other
 
@@ -51,6 +52,30 @@ struct PlanCurve {
   std::vector<double> x, y;
 };
 
+// Calibration: params of the scene are fitted so that its metrics come near to known values.
+struct CalibrationStage {
+  std::vector<Range> params;  // fitted by least squares; or one that is raised until ...
+  std::string key;            // ... this key of metrics.json is below a number; "": least squares
+  double below = 0;
+};
+struct CalibrationTarget {
+  std::string label;
+  std::vector<std::string> keys;  // of metrics.json
+  std::vector<double> values;     // wanted, as many as keys
+  double scale = 1;               // a residual is (got - wanted) / scale
+};
+struct KnownHistory {
+  std::string column, label, known;  // of histories.csv; label of the axis; of the known curve
+  std::vector<double> t, values;     // s, of the known curve
+};
+struct Calibration {
+  std::vector<CalibrationStage> stages;  // one after the other; a stage keeps what those before it have found
+  std::vector<CalibrationTarget> targets;
+  std::optional<KnownHistory> history;
+  double rel = 1e-3;  // of a range: the smallest step
+  int rounds = 20;    // of a stage, at most
+};
+
 struct Plan {
   std::string scene;                 // as the study file says
   std::vector<Axis> axes;            // outermost first
@@ -59,7 +84,10 @@ struct Plan {
   std::string keep = "metrics";      // of each run: none, metrics, all
   double max_wall = 0, memory = 0;   // s and bytes, of each run; 0: no limit
   std::string title;                 // of the figure
+  std::string x, y;                  // labels of its axes; "": the columns
+  std::string split;                 // param each of whose values has a figure of its own; "": none
   std::vector<PlanCurve> curves;
+  std::optional<Calibration> calibration;  // of calibration{}: then axes holds the ends of the fitted ranges, for checks only
   Place place;
 };
 

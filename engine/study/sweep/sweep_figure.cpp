@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "engine/base/text.h"
 #include "engine/record/format/csv.h"
 #include "engine/record/plot/figure.h"
 
@@ -38,6 +39,21 @@ std::pair<double, double> cell_of(const std::vector<double>& values, double x) {
   return {x - before / 2, x + after / 2};
 }
 
+// What one figure shows: with Plan::split the rows of one value of that param, and the other params.
+struct View {
+  const Sweep& sweep;
+  const CsvTable& table;
+  std::vector<std::size_t> rows;
+  std::vector<Axis> axes;
+  std::vector<std::string> params;  // column names with units
+  std::string answer;
+};
+
+// A cell as the legend and the name of a file show it.
+std::string word_of(const CsvTable& table, std::size_t column, std::size_t row) {
+  return table.text[column].empty() ? fmt::format("{:.4g}", table.columns[column][row]) : table.text[column][row];
+}
+
 void add_curves(plot::Figure& figure, plot::Panel& panel, const Plan& plan, bool on_map) {
   int i = 0;
   for (const PlanCurve& curve : plan.curves) {
@@ -50,13 +66,15 @@ void add_curves(plot::Figure& figure, plot::Panel& panel, const Plan& plan, bool
 }
 
 // A map over two params: the first along x, the second along y. An answer of yes and no has two colours.
-void add_map(plot::Figure& figure, plot::Panel& panel, const Sweep& s, const CsvTable& table, const std::string& answer) {
-  const std::vector<double> xs = numbers_of(s.plan.axes[0]), ys = numbers_of(s.plan.axes[1]);
-  const auto &x = table.columns[column_of(table, s.params[0])], &y = table.columns[column_of(table, s.params[1])];
+void add_map(plot::Figure& figure, plot::Panel& panel, const View& view) {
+  const std::string& answer = view.answer;
+  const CsvTable& table = view.table;
+  const std::vector<double> xs = numbers_of(view.axes[0]), ys = numbers_of(view.axes[1]);
+  const auto &x = table.columns[column_of(table, view.params[0])], &y = table.columns[column_of(table, view.params[1])];
   const auto& z = table.columns[column_of(table, answer)];
   const bool binary = std::all_of(z.begin(), z.end(), [](double v) { return !std::isfinite(v) || v == 0 || v == 1; });
   std::map<std::string, std::string> rows;  // by look
-  for (std::size_t i = 0; i < table.rows(); ++i) {
+  for (const std::size_t i : view.rows) {
     const auto [x0, x1] = cell_of(xs, x[i]);
     const auto [y0, y1] = cell_of(ys, y[i]);
     const std::string look = !std::isfinite(z[i]) ? "rgb '#9a9a9a'" : !binary ? "palette" : z[i] == 1 ? "rgb '#e2907f'" : "rgb '#cfe3ee'";
@@ -73,17 +91,17 @@ void add_map(plot::Figure& figure, plot::Panel& panel, const Sweep& s, const Csv
   const auto edge = [](const std::vector<double>& v) {
     return fmt::format("[{}:{}]", cell_of(v, v.front()).first, cell_of(v, v.back()).second);
   };
-  panel.x = {s.params[0], edge(xs), "", "", "noenhanced"};
-  panel.y = {s.params[1], edge(ys), "", "", "noenhanced"};
+  panel.x = {view.params[0], edge(xs), "", "", "noenhanced"};
+  panel.y = {view.params[1], edge(ys), "", "", "noenhanced"};
   panel.settings = "set style fill solid 1.0 noborder\nset palette defined (0 '#f7fbff', 0.5 '#6baed6', 1 '#08306b')\n";
   if (!binary) panel.settings += "set cblabel \"" + answer + "\" noenhanced\n";
   if (!binary) figure.labels.back().text += ": " + answer;
 }
 
 // The param along x: of the longest axis of numbers.
-std::size_t param_along_x(const Plan& plan) {
+std::size_t param_along_x(const std::vector<Axis>& axes) {
   std::size_t best = 0, most = 0, param = 0;
-  for (const Axis& axis : plan.axes) {
+  for (const Axis& axis : axes) {
     const bool number = !axis.rows.empty() && std::holds_alternative<double>(axis.rows[0][0]);
     if (number && axis.rows.size() > most) most = axis.rows.size(), best = param;
     param += axis.params.size();
@@ -92,20 +110,18 @@ std::size_t param_along_x(const Plan& plan) {
 }
 
 // Lines over one param, one for each choice of the others; points where params change together.
-void add_lines(plot::Figure& figure, plot::Panel& panel, const Sweep& s, const CsvTable& table, const std::string& answer) {
-  const std::size_t along = param_along_x(s.plan);
-  const bool together = std::any_of(s.plan.axes.begin(), s.plan.axes.end(), [](const Axis& axis) { return axis.params.size() > 1; });
-  const auto &x = table.columns[column_of(table, s.params[along])], &z = table.columns[column_of(table, answer)];
+void add_lines(plot::Figure& figure, plot::Panel& panel, const View& view) {
+  const CsvTable& table = view.table;
+  const std::size_t along = param_along_x(view.axes);
+  const bool together = std::any_of(view.axes.begin(), view.axes.end(), [](const Axis& axis) { return axis.params.size() > 1; });
+  const auto &x = table.columns[column_of(table, view.params[along])], &z = table.columns[column_of(table, view.answer)];
   std::vector<std::string> order;
   std::map<std::string, std::vector<std::pair<double, double>>> lines;
-  for (std::size_t i = 0; i < table.rows(); ++i) {
+  for (const std::size_t i : view.rows) {
     std::string name;
-    for (std::size_t k = 0; k < s.params.size() && !together; ++k) {
-      if (k == along) continue;
-      const std::size_t c = column_of(table, s.params[k]);
-      name += fmt::format("{}{} {}", name.empty() ? "" : ", ", s.params[k],
-                          table.text[c].empty() ? fmt::format("{:.4g}", table.columns[c][i]) : table.text[c][i]);
-    }
+    for (std::size_t k = 0; k < view.params.size() && !together; ++k)
+      if (k != along)
+        name += fmt::format("{}{} {}", name.empty() ? "" : ", ", view.params[k], word_of(table, column_of(table, view.params[k]), i));
     if (!lines.contains(name)) order.push_back(name);
     if (std::isfinite(z[i]) && std::isfinite(x[i])) lines[name].emplace_back(x[i], z[i]);
   }
@@ -121,33 +137,85 @@ void add_lines(plot::Figure& figure, plot::Panel& panel, const Sweep& s, const C
                      colors[i % 6]),
          order[i]});
   }
-  panel.x = {s.params[along], "", "", "", "noenhanced"};
-  panel.y = {answer, "", "", "", "noenhanced"};
+  panel.x = {view.params[along], "", "", "", "noenhanced"};
+  panel.y = {view.answer, "", "", "", "noenhanced"};
+}
+
+// The legend below the label of the x axis, in as many columns as the sheet holds; the axes leave it room.
+void place_legend(const plot::Figure& figure, plot::Panel& panel, bool with_scale) {
+  constexpr double character = 8, sample = 80, line = 20, labels = 72, title = 46, left = 80;  // px
+  std::size_t entries = 0, longest = 0;
+  for (const plot::Series& series : panel.series) entries += !series.title.empty(), longest = std::max(longest, series.title.size());
+  if (entries > 1 || !panel.key.empty()) {
+    const double width = character * double(longest) + sample;
+    const double room = 0.97 * figure.width - left;  // gnuplot makes no more columns than fit below the axes
+    const auto columns = std::clamp<std::size_t>(std::size_t(room / width), 1, std::max<std::size_t>(entries, 1));
+    const double rows = double((entries + columns - 1) / columns);
+    panel.key = fmt::format("at screen 0.5,{:.4f} center bottom horizontal maxcols {} samplen 3 noenhanced", 8 / figure.height, columns);
+    panel.axes = {left / figure.width, with_scale ? 0.86 : 0.97, (labels + line * rows) / figure.height, 1 - title / figure.height};
+  } else {
+    panel.axes = {left / figure.width, with_scale ? 0.86 : 0.97, labels / figure.height, 1 - title / figure.height};
+  }
+}
+
+void draw_view(const View& view, const std::string& title, const std::string& stem) {
+  const Plan& plan = view.sweep.plan;
+  const auto& z = view.table.columns[column_of(view.table, view.answer)];
+  if (std::none_of(view.rows.begin(), view.rows.end(), [&](std::size_t i) { return std::isfinite(z[i]); })) return;
+  const bool map =
+      view.sweep.bisected.empty() && view.axes.size() == 2 && numbers_of(view.axes[0]).size() > 2 && numbers_of(view.axes[1]).size() > 2;
+  plot::Figure figure{900, 680};
+  figure.grid = map ? "" : "x y";
+  const double wanted = 16 * figure.width / (12 * double(std::max<std::size_t>(1, title.size())));  // px of type that fit the sheet
+  figure.labels = {{title, "screen 0.5,0.965", fmt::format("center font ',{:.0f}'", std::clamp(wanted, 9.0, 16.0))}};
+  plot::Panel panel;
+  if (map) add_map(figure, panel, view);
+  else add_lines(figure, panel, view);
+  add_curves(figure, panel, plan, map);
+  if (!plan.x.empty()) panel.x.label = plan.x;
+  if (!plan.y.empty()) panel.y.label = plan.y;
+  if (!plan.curves.empty()) panel.key = "on";
+  place_legend(figure, panel, panel.settings.find("cblabel") != std::string::npos);
+  figure.panels = {panel};
+  for (const char* format : {".svg", ".png"}) plot::draw(figure, view.sweep.directory + "/" + stem + format);
 }
 
 }  // namespace
 
-void draw_results(const Sweep& s, const std::string& path) {
-  if (s.plan.axes.empty()) return;
+void draw_results(const Sweep& s) {
+  const Plan& plan = s.plan;
+  if (plan.axes.empty()) return;
   const CsvTable table = read_csv(s.directory + "/" + results_file);
   std::string answer = s.bisected;
   for (const std::string& name : s.collected)
     if (answer.empty() && table.find(name) >= 0 && any_number(table.columns[column_of(table, name)])) answer = name;
   if (answer.empty() || !any_number(table.columns[column_of(table, answer)])) return;
-  const bool map =
-      s.bisected.empty() && s.plan.axes.size() == 2 && numbers_of(s.plan.axes[0]).size() > 2 && numbers_of(s.plan.axes[1]).size() > 2;
-  plot::Figure figure{900, 680};
-  figure.grid = map ? "" : "x y";
-  figure.labels = {
-      {s.plan.title.empty() ? s.scene.substr(s.scene.find_last_of('/') + 1) : s.plan.title, "screen 0.5,0.965", "center font ',16'"}};
-  plot::Panel panel;
-  panel.cell = {0, 1, 0, 0.94};
-  if (map) add_map(figure, panel, s, table, answer);
-  else add_lines(figure, panel, s, table, answer);
-  add_curves(figure, panel, s.plan, map);
-  panel.key = panel.series.size() > 1 || !s.plan.curves.empty() ? "outside bottom center horizontal noenhanced" : "";
-  figure.panels = {panel};
-  plot::draw(figure, path);
+  const std::string title = plan.title.empty() ? s.scene.substr(s.scene.find_last_of('/') + 1) : plan.title;
+  View whole{s, table, {}, plan.axes, s.params, answer};
+  for (std::size_t i = 0; i < table.rows(); ++i) whole.rows.push_back(i);
+  const std::vector<std::string> varied = varied_params(plan);
+  const auto split = std::size_t(std::find(varied.begin(), varied.end(), plan.split) - varied.begin());
+  if (plan.split.empty() || split == varied.size() || varied.size() == 1) return draw_view(whole, title, results_stem);
+  const std::size_t column = column_of(table, s.params[split]);
+  std::vector<std::string> words;  // in the order of the table
+  for (const std::size_t i : whole.rows)
+    if (const std::string word = word_of(table, column, i); std::find(words.begin(), words.end(), word) == words.end())
+      words.push_back(word);
+  View part = whole;
+  part.params.erase(part.params.begin() + std::ptrdiff_t(split));
+  for (Axis& axis : part.axes)
+    if (const auto k = std::find(axis.params.begin(), axis.params.end(), plan.split); k != axis.params.end()) {
+      for (auto& row : axis.rows) row.erase(row.begin() + (k - axis.params.begin()));
+      axis.params.erase(k);
+    }
+  std::erase_if(part.axes, [](const Axis& axis) { return axis.params.empty(); });
+  for (const std::string& word : words) {
+    part.rows.clear();
+    for (const std::size_t i : whole.rows)
+      if (word_of(table, column, i) == word) part.rows.push_back(i);
+    draw_view(part, fmt::format("{}: {} {}", title, s.params[split], word),
+              file_stem(fmt::format("{}_{}_{}", results_stem, plan.split, word)));
+  }
 }
 
 }  // namespace erbs::study

@@ -6,7 +6,10 @@
 
 namespace erbs::study {
 
-// Draws results.csv in the folder of the sweep. Does nothing if there is no number to draw. Throws Error.
-void draw_results(const Sweep& sweep, const std::string& path);
+constexpr const char* results_stem = "results";  // of the names of the figures
+
+// Draws results.csv as results.svg and results.png in the folder of the sweep. With Plan::split each value of that param has files of its
+// own, such as results_method_1.svg. Does nothing if there is no number to draw. Throws Error.
+void draw_results(const Sweep& sweep);
 
 }  // namespace erbs::study

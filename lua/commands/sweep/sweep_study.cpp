@@ -47,6 +47,10 @@ class Checker {
       check_key(plan_.bisect->key);
     }
     for (const std::string& key : plan_.collect) check_key(key);
+    const std::vector<std::string> varied = varied_params(plan_);
+    if (!plan_.split.empty() && std::find(varied.begin(), varied.end(), plan_.split) == varied.end())
+      add(plan_.place, fmt::format("split = \"{}\" is no param that vary varies{}", plan_.split,
+                                   varied.empty() ? "; leave it out" : did_you_mean(plan_.split, varied)));
     if (!mistakes_.empty()) throw Errors(mistakes_);
     order_grids(plan_, params_);
     point_count(plan_);
@@ -110,6 +114,7 @@ Json plan_json(const Plan& plan) {
     j["bisect"] = {{"param", b.param}, {"lo", b.lo}, {"hi", b.hi}, {"rel", b.rel}, {"points", b.points}, {"key", b.key}};
     j["bisect"]["above"] = b.above ? Json(*b.above) : Json();
   }
+  if (plan.calibration) j["calibration"] = plan.collect;
   return j;
 }
 
@@ -157,7 +162,7 @@ std::string collected_column(const Scene& scene, const std::string& key) {
 
 }  // namespace
 
-SweepStudy read_sweep_study(const std::string& path, const SceneOptions& options, bool quiet) {
+SweepStudy read_sweep_study(const std::string& path, const SceneOptions& options, bool quiet, StudyKind kind) {
   if (!fs::is_regular_file(path)) throw Error(fmt::format("there is no study {}; check the path", path));
   Script::Options how = script_options(options, quiet);
   how.study_file = true;
@@ -168,6 +173,9 @@ SweepStudy read_sweep_study(const std::string& path, const SceneOptions& options
   study::Sweep& sweep = out.sweep;
   sweep.plan = *file.plan();
   Plan& plan = sweep.plan;
+  if (plan.calibration.has_value() != (kind == StudyKind::calibration))
+    throw Error(plan.calibration ? "the file calibrates a scene; run it by erbs calibrate" : "the file is a sweep; run it by erbs sweep",
+                plan.place);
   sweep.scene = (fs::path(path).parent_path() / plan.scene).lexically_normal().string();
   if (!fs::is_regular_file(sweep.scene))
     throw Error(fmt::format("there is no scene {}; scene is a path from the folder of the study", sweep.scene), plan.place);

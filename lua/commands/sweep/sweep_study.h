@@ -14,8 +14,10 @@ struct SweepStudy {
   Json identity;  // what the key of the study consists of, for study.json
 };
 
-// Reads the study file and its scene. Throws Error or Errors: a param that the scene does not declare, an unknown key, a file that is not
-// there.
-SweepStudy read_sweep_study(const std::string& path, const SceneOptions& options, bool quiet);
+enum class StudyKind { sweep, calibration };  // of study{} and of calibration{}
+
+// Reads the study file and its scene. Throws Error or Errors: a study of the other kind, a param that the scene does not declare, an
+// unknown key, a file that is not there.
+SweepStudy read_sweep_study(const std::string& path, const SceneOptions& options, bool quiet, StudyKind kind = StudyKind::sweep);
 
 }  // namespace erbs::lua

@@ -24,15 +24,24 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* identity_file = "study.json";
-constexpr const char* figure_file = "results.svg";
-constexpr const char* picture_file = "results.png";
-constexpr const char* files_of_sweep[] = {study::results_file, study::runs_file, identity_file, "runs", "work", "job.sh",
-                                          "job_logs",          figure_file,      picture_file};
+constexpr const char* files_of_sweep[] = {study::results_file, study::runs_file, identity_file, "runs", "work", "job.sh", "job_logs"};
 
 std::string in(const std::string& directory, const char* file) { return directory + "/" + file; }
 
 bool is_sweep_folder(const std::string& directory) {
   return fs::exists(in(directory, identity_file)) || fs::exists(in(directory, study::results_file));
+}
+
+bool is_figure(const fs::path& file) {
+  return file.stem().string().starts_with(study::results_stem) && (file.extension() == ".svg" || file.extension() == ".png");
+}
+
+void remove_sweep(const std::string& directory) {
+  for (const char* file : files_of_sweep) fs::remove_all(in(directory, file));
+  std::vector<fs::path> figures;
+  for (const auto& entry : fs::directory_iterator(directory))
+    if (is_figure(entry.path())) figures.push_back(entry.path());
+  for (const fs::path& figure : figures) fs::remove(figure);
 }
 
 // The part of the identity in which two studies differ, in words.
@@ -54,8 +63,7 @@ void prepare_folder(const SweepStudy& study, const SweepCommand& command, const 
   if (there && !command.output.force && !command.resume)
     throw Error(
         fmt::format("\"{}\" exists; go on with --resume, replace it with --force, or choose another folder with -o DIR", directory));
-  if (there && command.output.force)
-    for (const char* file : files_of_sweep) fs::remove_all(in(directory, file));
+  if (there && command.output.force) remove_sweep(directory);
   fs::create_directories(directory);
   const std::string identity = in(directory, identity_file);
   Json now = study.identity;
@@ -149,8 +157,7 @@ double machine_memory() { return double(::sysconf(_SC_PHYS_PAGES)) * double(::sy
 // A figure that cannot be drawn is no failure of the study.
 void draw(const study::Sweep& sweep) {
   try {
-    if (can_start("gnuplot"))
-      for (const char* file : {figure_file, picture_file}) draw_results(sweep, in(sweep.directory, file));
+    if (can_start("gnuplot")) draw_results(sweep);
     else tell(stderr, "warning: results.svg needs gnuplot, which is not there; install the package gnuplot-nox");
   } catch (const std::exception& error) { tell(stderr, fmt::format("warning: results.svg could not be drawn: {}", error.what())); }
 }

@@ -6,6 +6,7 @@
 #include "engine/base/spelling.h"
 #include "engine/base/text.h"
 #include "lua/language/api.h"
+#include "lua/language/sweep/ranges.h"
 
 namespace erbs::lua {
 namespace {
@@ -36,18 +37,6 @@ int push_axes(Call& call, std::vector<Axis> axes) {
 void need_table(const Call& call, const char* example) {
   if (!lua_istable(call.lua, 1))
     throw Error(fmt::format("{} takes a table, not {}; write {}", call.function.name, described(call.lua, 1), example), call.place);
-}
-
-// The string keys of the table at `index`, in alphabetical order; a key of another type is a mistake.
-std::vector<std::string> names_of(Call& call, int index) {
-  std::vector<std::string> names;
-  index = lua_absindex(call.lua, index);
-  for (lua_pushnil(call.lua); lua_next(call.lua, index) != 0; lua_pop(call.lua, 1)) {
-    if (lua_type(call.lua, -2) == LUA_TSTRING) names.push_back(shown(lua_tostring(call.lua, -2), 60));
-    else call.mistake("its keys must be names of params, such as { amplitude = { 1, 2, 3 } }");
-  }
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 // The number or word on top of the stack; none, and a mistake, if it is neither.
@@ -135,23 +124,7 @@ std::vector<study::Range> ranges_of(Call& call, int& n, double& seed) {
   std::vector<study::Range> ranges;
   for (const std::string& name : names_of(call, 1)) {
     if (name == "n" || name == "seed") continue;
-    study::Range range{name, 0, 1, false};
-    lua_getfield(call.lua, 1, name.c_str());
-    bool valid = lua_istable(call.lua, -1) && lua_rawlen(call.lua, -1) == 2;
-    for (int i = 1; valid && i <= 2; ++i) {
-      valid = lua_rawgeti(call.lua, -1, i) == LUA_TNUMBER && std::isfinite(lua_tonumber(call.lua, -1));
-      (i == 1 ? range.lo : range.hi) = lua_tonumber(call.lua, -1);
-      lua_pop(call.lua, 1);
-    }
-    if (valid) {
-      lua_getfield(call.lua, -1, "log");
-      range.log = lua_toboolean(call.lua, -1) != 0;
-      lua_pop(call.lua, 1);
-    }
-    lua_pop(call.lua, 1);
-    if (!valid || range.lo >= range.hi) call.mistake(fmt::format("{} must be a range {{ lowest, highest }}, such as {{ 1e5, 3e5 }}", name));
-    else if (range.log && range.lo <= 0) call.mistake(fmt::format("{}: a range with log = true lies above zero", name));
-    else ranges.push_back(range);
+    if (auto one = range_of(call, 1, name)) ranges.push_back(*one);
   }
   if (ranges.empty())
     call.mistake(fmt::format("it varies nothing; give ranges, such as {}{{ n = 100, ft = {{ 1e5, 3e5 }} }}", call.function.name));
@@ -268,6 +241,9 @@ int study(Call& call) {
   plan.place = call.place;
   arguments.read("scene", plan.scene);
   arguments.read("title", plan.title);
+  arguments.read("x", plan.x);
+  arguments.read("y", plan.y);
+  arguments.read("split", plan.split);
   arguments.read("collect", plan.collect);
   arguments.read("keep", plan.keep);
   plan.max_wall = quantity(arguments, call, "max_wall", {{"s", 1}, {"h", 3600}, {"m", 60}});
@@ -336,6 +312,9 @@ std::vector<Function> sweep_functions() {
         {"memory", "bytes", "", "most memory of a run: bytes, or \"2GB\" (default: that of the machine over the runs at once)"},
         {"keep", "string", "", "what stays of each run in runs/", -unbounded, unbounded, false, "none|metrics|all", "metrics"},
         {"title", "string", "", "title of results.svg, the figure of the bisected param or the first of collect"},
+        {"x", "string", "", "label of its horizontal axis: quantity and unit (default the column)"},
+        {"y", "string", "", "label of its vertical axis (default the column)"},
+        {"split", "string", "", "a varied param; each of its values has a figure of its own, such as results_method_1.svg"},
         {"curves", "list", "", "known curves for the figure", -unbounded, unbounded, false, "", "", plan_curve_keys()}}},
       of_study({"grid",
                 grid,

@@ -11,25 +11,14 @@ return function(keys)
   rocking_blocks = rocking_blocks + 1
   local name, width, height = keys.name, keys.width, keys.height
   local b, depth, density = width / 2, keys.depth or width, keys.density or 2500
-  local foot, hollow = (keys.foot or 0.008) * width, 1e-3 * height
   local kn = density * g * height / ((keys.settlement or 1.7e-6) * b)
   local at = keys.at or { 0, rocking_blocks * 2 * depth }
   local theory = rocking { width = width, height = height, theta = keys.theta or 0, duration = keys.duration, wave = keys.wave }
   local stone = "stone_" .. name
   material { name = stone, density = density, kn = kn, ks = 0.4 * kn, friction = 2, restitution = keys.restitution or 0.24 }
   box { name = "base_" .. name, material = stone, fixed = true, size = { 6 * height, 1.5 * depth, height / 2 }, at = { at[1] - 3 * height, at[2] - 0.75 * depth, -height / 2 } }
-  local function part(x0, x1, z0, z1)
-    local v = {}
-    for _, x in ipairs { x0, x1 } do
-      for _, y in ipairs { -depth / 2, depth / 2 } do
-        for _, z in ipairs { z0, z1 } do v[#v + 1] = { at[1] + x, at[2] + y, z } end
-      end
-    end
-    return { vertices = v }
-  end
   local turned = keys.theta and { rotation = { 0, keys.theta, 0 }, about = { at[1] + b, at[2], 0 } }
-  block { name = name, material = stone, free = true, initial = turned,
-    parts = { part(-b, -b + foot, 0, hollow), part(b - foot, b, 0, hollow), part(-b, b, hollow, height) } }
+  footed_block { name = name, material = stone, free = true, initial = turned, size = { width, depth, height }, at = { at[1], at[2], 0 }, foot = keys.foot or 0.008 }
   recorder { name = name, quantity = "rotation", block = name, axis = "y" }
   local column = name .. "_ry_rad"
 

@@ -323,3 +323,21 @@ TEST_CASE("the ranks of mpirun share a study, and so do the tasks of a job array
     CHECK(study.results() == study.results(alone));
   }
 }
+
+TEST_CASE("a sweep's figure has the labels it is given, and a file for each value of split", "[sweep]") {
+  Study study;
+  const std::string common =
+      "study{ scene = 'tiny.lua', vary = grid{ h = { 1, 2, 3 }, trouble = { 10, 11 } }, collect = { 'metrics.double' }, ";
+  REQUIRE(study.sweep(common + "x = 'height [m]', y = 'twice the height [m]', split = 'trouble' }") == 0);
+  const auto exists = [&](const char* file) { return std::filesystem::exists(study.out() + "/" + file); };
+  for (const char* file : {"results_trouble_10.svg", "results_trouble_11.svg", "results_trouble_11.png"}) CHECK(exists(file));
+  CHECK_FALSE(exists("results.svg"));
+  const std::string figure = text_of(study.out() + "/results_trouble_11.svg");
+  for (const char* words : {"height [m]", "twice the height [m]", "trouble 11"}) CHECK_THAT(figure, Catch::Contains(words));
+  REQUIRE(study.sweep(common + "title = 'both' }", {"--force"}) == 0);  // the figures of before are gone
+  CHECK(exists("results.svg"));
+  CHECK_FALSE(exists("results_trouble_10.svg"));
+  CHECK_THAT(text_of(study.out() + "/results.svg"), Catch::Contains("h_m"));
+  CHECK(study.sweep(common + "split = 'truble' }", {"--force"}) == 2);
+  CHECK_THAT(study.said, Catch::Contains("study.lua:1") && Catch::Contains("did you mean \"trouble\""));
+}

@@ -81,6 +81,11 @@ const std::map<std::string, Words> sound_calls{
     {"latin", {{"n", "3"}, {"PARAM", "{1, 2}"}}},
     {"random", {{"n", "3"}, {"PARAM", "{1, 2}"}}},
     {"records", {{"param", "'motion'"}, {"files", "{'a.csv'}"}}},
+    {"calibration",
+     {{"scene", "'s.lua'"},
+      {"stages", "{ { fit = { p = {1, 2} } } }"},
+      {"targets", "{ { label = 't', keys = {'time_s'}, values = {1} } }"}}},
+    {"footed_block", {{"size", "{.2, .2, 1}"}, {"at", "{20, 20, 0}"}, {"free", "true"}}},
     {"column", {{"blocks", "2"}, {"size", "{.2, .2, .2}"}, {"at", "{20, 20, 0}"}}},
 };
 
@@ -224,13 +229,15 @@ const std::regex remedy(
 // A word of study files is tried in one.
 bool in_study(const std::string& call) {
   const Function* function = find_function(call.substr(0, call.find_first_of("{(")));
-  return function != nullptr && (function->of_study || function->name == "study");
+  return function != nullptr && (function->of_study || function->name == "study" || function->name == "calibration");
 }
 
 std::vector<std::string> mistakes_at(const std::string& folder, const std::string& call) {
   Script::Options options = quiet();
   options.study_file = in_study(call);
-  const std::string rest = call.starts_with("study") ? "" : "\nstudy{ scene = 's.lua', vary = grid{ p = 1 }, collect = 'time_s' }";
+  const std::string rest = call.starts_with("study") || call.starts_with("calibration")
+                               ? ""
+                               : "\nstudy{ scene = 's.lua', vary = grid{ p = 1 }, collect = 'time_s' }";
   Script script(options);
   try {
     script.load_text(options.study_file ? "\n\n\n\n\n\n" + call + rest : before + "\n" + call, folder + "/scene.lua");

@@ -1,0 +1,233 @@
+#include "engine/study/calibrate/calibrate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "engine/record/format/csv.h"
+#include "engine/study/bracket.h"
+#include "engine/study/calibrate/least_squares.h"
+#include "engine/study/pool.h"
+#include "engine/study/sweep/one_run.h"
+
+namespace erbs::study {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Interrupted {};
+
+using Values = std::map<std::string, double>;  // of the params that have been fitted so far, and of the stage under way
+
+class Calibrator {
+ public:
+  explicit Calibrator(const Sweep& sweep) : s_(sweep), c_(*sweep.plan.calibration), keys_(sweep.plan.collect) {
+    std::vector<std::string> names{"run", "stage"};
+    names.insert(names.end(), s_.params.begin(), s_.params.end());
+    names.insert(names.end(), s_.collected.begin(), s_.collected.end());
+    names.insert(names.end(), {"sum_of_squares", "status", "reason"});
+    table_ = CsvWriter(s_.directory + "/" + calibration_table, names);
+  }
+
+  Calibrated run() {
+    try {
+      for (const CalibrationStage& stage : c_.stages) {
+        ++stage_;
+        if (stage.key.empty()) fit(stage);
+        else raise(stage);
+      }
+      finish();
+    } catch (const Interrupted&) { out_.interrupted = true; }
+    return std::move(out_);
+  }
+
+ private:
+  struct Row {
+    std::vector<double> got;  // of keys_
+    bool sound = false;
+    std::string reason;
+  };
+
+  // Runs the scene with each of the values, side by side. A run that was made before is not repeated.
+  std::vector<Row> evaluate(const std::vector<Values>& all, const std::string& name = "") {
+    std::vector<std::size_t> waiting;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if ((!name.empty() || !known_.contains(all[i])) &&
+          std::find(all.begin(), all.begin() + std::ptrdiff_t(i), all[i]) == all.begin() + std::ptrdiff_t(i))
+        waiting.push_back(i);
+    Pool pool(s_.at_once);
+    std::vector<RunRow> rows(all.size());
+    std::size_t next = 0;
+    const auto place = [&](std::size_t i) { return name.empty() ? fmt::format("r{:04}", out_.runs + int(i) + 1) : name; };
+    while (!pool.empty() || (next < waiting.size() && !interrupted())) {
+      for (; next < waiting.size() && !pool.full() && !interrupted(); ++next) {
+        Point point;
+        for (const auto& [param, value] : all[waiting[next]]) point.emplace_back(param, value);
+        fs::create_directories(s_.directory + "/runs");
+        pool.add(next, job_of(s_, point, 0, place(next)));
+      }
+      if (interrupted()) pool.interrupt_all();
+      const auto ended = pool.wait(0.5);
+      if (!ended) continue;
+      rows[waiting[ended->id]] = read_run(s_, 0, place(ended->id), *ended);
+      if (name.empty()) tidy(s_, rows[waiting[ended->id]], place(ended->id));
+    }
+    if (interrupted()) throw Interrupted{};
+    for (const std::size_t i : waiting) note(all[i], rows[i]);
+    if (s_.progress) s_.progress({.points = 0, .done = out_.runs, .failed = failed_, .runs = out_.runs});
+    std::vector<Row> answers;
+    for (const Values& values : all) answers.push_back(known_.at(values));
+    return answers;
+  }
+
+  bool interrupted() const { return s_.interrupted != nullptr && s_.interrupted->load(); }
+
+  void note(const Values& values, const RunRow& run) {
+    Row row;
+    row.sound = run.answered();
+    row.reason = run.reason.empty() ? run.status : run.status + ": " + run.reason;
+    for (const std::string& cell : run.values) {
+      char* end = nullptr;
+      const double value = std::strtod(cell.c_str(), &end);
+      const bool number = end != cell.c_str() && *end == 0 && std::isfinite(value);
+      row.got.push_back(number ? value : NAN);
+      if (!number && row.sound) row.sound = false, row.reason = fmt::format("{} has no number in this run", keys_[row.got.size() - 1]);
+    }
+    ++out_.runs, failed_ += !row.sound;
+    std::vector<std::string> cells{fmt::format("{}", out_.runs), fmt::format("{}", stage_)};
+    for (const std::string& param : varied_params(s_.plan))
+      cells.push_back(values.contains(param) ? fmt::format("{}", values.at(param)) : "nan");
+    for (const double x : row.got) cells.push_back(fmt::format("{}", x));
+    cells.push_back(row.sound ? fmt::format("{:.6g}", sum_of_squares(residuals(row))) : "nan");
+    cells.insert(cells.end(), {run.status, row.sound ? "" : row.reason});
+    table_.text_row(cells);
+    table_.flush();
+    known_[values] = std::move(row);
+  }
+
+  double got(const Row& row, const std::string& key) const {
+    return row.got[std::size_t(std::find(keys_.begin(), keys_.end(), key) - keys_.begin())];
+  }
+
+  std::vector<double> residuals(const Row& row) const {
+    std::vector<double> out;
+    for (const CalibrationTarget& target : c_.targets)
+      for (std::size_t i = 0; i < target.keys.size(); ++i) out.push_back((got(row, target.keys[i]) - target.values[i]) / target.scale);
+    return out;
+  }
+
+  Values with(const CalibrationStage& stage, const Shares& shares) const {
+    Values values = fitted_;
+    for (std::size_t k = 0; k < stage.params.size(); ++k) values[stage.params[k].param] = in_range(stage.params[k], shares[k]);
+    return values;
+  }
+
+  void fit(const CalibrationStage& stage) {
+    std::string first_reason;
+    const EvaluateAll all = [&](const std::vector<Shares>& points) {
+      std::vector<Values> values;
+      for (const Shares& shares : points) values.push_back(with(stage, shares));
+      std::vector<Residuals> out;
+      for (const Row& row : evaluate(values)) {
+        out.push_back(row.sound ? Residuals(residuals(row)) : std::nullopt);
+        if (!row.sound && first_reason.empty()) first_reason = row.reason;
+      }
+      return out;
+    };
+    const Minimum minimum = least_squares(stage.params.size(), all, {c_.rel, c_.rounds});
+    if (!minimum.found)
+      throw Error(fmt::format("stage {}: no run gives all targets; the first says: {}", stage_, first_reason), s_.plan.place);
+    FittedStage done;
+    fitted_ = with(stage, minimum.best);
+    for (std::size_t k = 0; k < stage.params.size(); ++k) {
+      const Range& range = stage.params[k];
+      const double value = fitted_.at(range.param), width = range.log ? value * std::log(range.hi / range.lo) : range.hi - range.lo;
+      done.params.push_back({range.param, value, width * minimum.deviation[k], minimum.best[k] <= 0 || minimum.best[k] >= 1});
+    }
+    done.rms = std::sqrt(minimum.sum / double(minimum.residuals.size()));
+    done.converged = minimum.converged;
+    out_.stages.push_back(done);
+  }
+
+  // The least value of the param at which the key is below its number: multisection of the range.
+  void raise(const CalibrationStage& stage) {
+    std::vector<double> seen;
+    const auto answers = [&](const std::vector<double>& shares) {
+      std::vector<Values> values;
+      for (const double share : shares) values.push_back(with(stage, {share - 1}));
+      std::vector<Answer> out;
+      for (const Row& row : evaluate(values)) {
+        Answer answer{shares[out.size()], {}, row.reason};
+        if (const double value = got(row, stage.key); row.sound && std::isfinite(value)) answer.value = value < stage.below ? 1 : 0;
+        out.push_back(answer);
+      }
+      return out;
+    };
+    Bracket bracket(1, 2, std::max(c_.rel, 0.01), 2);  // shares, shifted by one: the width of a bracket is relative
+    double share = 1;
+    const std::vector<Answer> ends = answers({1, 2});
+    if (!(ends[0].value && *ends[0].value == 1)) {
+      bracket.take(ends);
+      for (std::vector<double> next = bracket.next(); !next.empty(); next = bracket.next()) bracket.take(answers(next));
+      if (!bracket.found()) {
+        const bool stays = ends[0].value && ends[1].value && *ends[1].value == 0;
+        throw Error(
+            fmt::format("stage {}: {} {}; {}", stage_, stage.key,
+                        stays ? fmt::format("stays above {:g} up to {} = {:g}", stage.below, stage.params[0].param, stage.params[0].hi)
+                              : bracket.trouble(),
+                        stays ? "raise the upper end of its range, or the number" : "see " + std::string(calibration_table)),
+            s_.plan.place);
+      }
+      share = bracket.hi();
+    }
+    fitted_ = with(stage, {share - 1});
+    const Row& row = known_.at(fitted_);
+    FittedStage done;
+    done.raised = done.converged = true;
+    done.params.push_back({stage.params[0].param, fitted_.at(stage.params[0].param), 0, share <= 1});
+    done.key_value = got(row, stage.key);
+    done.rms = std::sqrt(sum_of_squares(residuals(row)) / double(std::max<std::size_t>(1, residuals(row).size())));
+    out_.stages.push_back(done);
+  }
+
+  // The run with the fitted params and the one of the scene as it is written stay, with their histories.
+  void finish() {
+    stage_ = 0;
+    const auto of = [&](const Values& values, const char* name, std::vector<double>& targets, double& rms) {
+      const Row row = evaluate({values}, name).front();
+      for (const CalibrationTarget& target : c_.targets)
+        for (const std::string& key : target.keys) targets.push_back(got(row, key));
+      rms = std::sqrt(sum_of_squares(residuals(row)) / double(targets.size()));
+    };
+    of({}, first_run, out_.got_before, out_.rms_before);
+    of(fitted_, best_run, out_.got, out_.rms);
+    out_.values.assign(fitted_.begin(), fitted_.end());
+  }
+
+  const Sweep& s_;
+  const Calibration& c_;
+  const std::vector<std::string>& keys_;
+  CsvWriter table_;
+  std::map<Values, Row> known_;
+  Values fitted_;
+  Calibrated out_;
+  int stage_ = 0, failed_ = 0;
+};
+
+}  // namespace
+
+Calibrated calibrate(const Sweep& sweep) { return Calibrator(sweep).run(); }
+
+std::vector<std::string> calibrated_keys(const Calibration& calibration) {
+  std::vector<std::string> keys;
+  const auto add = [&](const std::string& key) {
+    if (!key.empty() && std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
+  };
+  for (const CalibrationTarget& target : calibration.targets)
+    for (const std::string& key : target.keys) add(key);
+  for (const CalibrationStage& stage : calibration.stages) add(stage.key);
+  return keys;
+}
+
+}  // namespace erbs::study

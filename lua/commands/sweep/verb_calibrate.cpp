@@ -1,0 +1,139 @@
+// erbs calibrate STUDY.lua: params of a scene fitted to known values, by runs side by side.
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "engine/base/system/affinity.h"
+#include "engine/base/system/interrupt.h"
+#include "engine/base/system/process.h"
+#include "engine/base/text.h"
+#include "engine/study/calibrate/calibrate.h"
+#include "lua/commands/sweep/sweep_study.h"
+#include "lua/program/progress.h"
+#include "lua/program/say.h"
+
+namespace erbs::lua {
+namespace {
+
+namespace fs = std::filesystem;
+
+void prepare_folder(const std::string& directory, bool force) {
+  const bool there = fs::exists(directory) && !(fs::is_directory(directory) && fs::is_empty(directory));
+  const std::string table = directory + "/" + study::calibration_table;
+  if (there && !fs::exists(table))
+    throw Error(fmt::format("\"{}\" exists and is no folder of a calibration; choose another folder with -o DIR", directory));
+  if (there && !force) throw Error(fmt::format("\"{}\" exists; replace it with --force, or choose another folder with -o DIR", directory));
+  if (there) {
+    for (const char* file : {study::calibration_table, study::calibration_file, "calibration.svg", "calibration.png", "runs"})
+      fs::remove_all(directory + "/" + file);
+  }
+  fs::create_directories(directory);
+}
+
+std::string column_of(const study::Sweep& sweep, const std::string& param) {
+  const std::vector<std::string> params = varied_params(sweep.plan);
+  for (std::size_t i = 0; i < params.size(); ++i)
+    if (params[i] == param) return sweep.params[i];
+  return param;
+}
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json json_of(const study::Sweep& sweep, const study::Calibrated& result) {
+  const study::Calibration& calibration = *sweep.plan.calibration;
+  Json out{{"program", program_version()}, {"scene", sweep.scene}, {"runs", result.runs}};
+  out["values"] = Json::object();
+  for (const auto& [param, value] : result.values) out["values"][param] = value;
+  out["rms"] = number(result.rms), out["rms_before"] = number(result.rms_before);
+  out["stages"] = Json::array();
+  for (std::size_t i = 0; i < result.stages.size(); ++i) {
+    const study::FittedStage& stage = result.stages[i];
+    Json one{
+        {"kind", stage.raised ? "raise" : "fit"}, {"converged", stage.converged}, {"rms", number(stage.rms)}, {"params", Json::array()}};
+    if (stage.raised) one["key"] = calibration.stages[i].key, one["value"] = number(stage.key_value);
+    for (const study::FittedParam& param : stage.params)
+      one["params"].push_back(
+          {{"param", param.param}, {"value", param.value}, {"deviation", number(param.deviation)}, {"at_end_of_range", param.at_end}});
+    out["stages"].push_back(std::move(one));
+  }
+  out["targets"] = Json::array();
+  std::size_t k = 0;
+  for (const study::CalibrationTarget& target : calibration.targets)
+    for (std::size_t i = 0; i < target.keys.size(); ++i, ++k)
+      out["targets"].push_back({{"key", target.keys[i]},
+                                {"wanted", target.values[i]},
+                                {"got", number(result.got[k])},
+                                {"got_before", number(result.got_before[k])},
+                                {"residual", number((result.got[k] - target.values[i]) / target.scale)}});
+  return out;
+}
+
+void print_stage(const study::Sweep& sweep, std::size_t i, const study::FittedStage& stage) {
+  const study::CalibrationStage& asked = sweep.plan.calibration->stages[i];
+  for (const study::FittedParam& param : stage.params) {
+    std::string text = fmt::format("  stage {}: {} = {:.5g}", i + 1, column_of(sweep, param.param), param.value);
+    if (stage.raised)
+      text += fmt::format(", where {} = {:.3g} is below {:g}{}", asked.key, stage.key_value, asked.below,
+                          param.at_end ? " from the start" : "");
+    else if (!std::isfinite(param.deviation)) text += "; it moves no target";
+    else text += fmt::format(" +- {:.2g}{}", param.deviation, param.at_end ? ", at the end of its range: a wider one may fit better" : "");
+    say("{}\n", text);
+  }
+  say("           rms of all residuals {:.3g} % of their scales{}\n", 100 * stage.rms,
+      stage.converged ? "" : "; steps had not ended after the last round");
+}
+
+void print_targets(const study::Sweep& sweep, const study::Calibrated& result) {
+  std::size_t k = 0;
+  for (const study::CalibrationTarget& target : sweep.plan.calibration->targets) {
+    say("  {}\n", target.label);
+    for (std::size_t i = 0; i < target.keys.size(); ++i, ++k)
+      say("    {:<24} wanted {:<12.6g} got {:<12.6g} residual {:+.2f} %\n", target.keys[i], target.values[i], result.got[k],
+          100 * (result.got[k] - target.values[i]) / target.scale);
+  }
+}
+
+void draw(const study::Sweep& sweep, const study::Calibrated& result) {
+  try {
+    if (can_start("gnuplot")) draw_calibration(sweep, result);
+    else tell(stderr, "warning: calibration.svg needs gnuplot, which is not there; install the package gnuplot-nox");
+  } catch (const std::exception& error) { tell(stderr, fmt::format("warning: calibration.svg could not be drawn: {}", error.what())); }
+}
+
+}  // namespace
+
+int verb_calibrate(const CalibrateCommand& command) {
+  const bool quiet = command.output.quiet;
+  SweepStudy study = read_sweep_study(command.words.front(), command.scene, quiet, StudyKind::calibration);
+  study::Sweep& sweep = study.sweep;
+  sweep.directory = command.output.directory.empty() ? "runs/" + study.name : command.output.directory;
+  if (sweep.directory.starts_with("-")) sweep.directory = "./" + sweep.directory;
+  prepare_folder(sweep.directory, command.output.force);
+  const std::atomic<bool>& interrupted = catch_interrupts();
+  sweep.at_once = command.jobs > 0 ? command.jobs : usable_processors();
+  sweep.interrupted = &interrupted;
+  const bool live = isatty(STDERR_FILENO) != 0;
+  if (!quiet && live)
+    sweep.progress = [](const study::Sweep::Progress& now) { fmt::print(stderr, "\r\033[K{} runs, {} failed", now.runs, now.failed); };
+  const auto begin = std::chrono::steady_clock::now();
+  const study::Calibrated result = calibrate(sweep);
+  const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  if (!quiet && live) fmt::print(stderr, "\r\033[K");
+  if (result.interrupted) {
+    tell(stderr, fmt::format("interrupted after {} runs; begin anew with --force", result.runs));
+    return exit_interrupted;
+  }
+  write_json(sweep.directory + "/" + study::calibration_file, json_of(sweep, result));
+  draw(sweep, result);
+  if (quiet) return exit_ok;
+  say("{}: {} runs in {}\n", study.name, result.runs, duration_text(wall));
+  for (std::size_t i = 0; i < result.stages.size(); ++i) print_stage(sweep, i, result.stages[i]);
+  print_targets(sweep, result);
+  say("{}/{}\n", sweep.directory, study::calibration_file);
+  return exit_ok;
+}
+
+}  // namespace erbs::lua
