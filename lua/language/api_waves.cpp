@@ -1,4 +1,6 @@
 // Functions of a script: waves (functions of time), made from their field lists.
+#include <algorithm>
+#include <filesystem>
 #include <lua5.4/lua.hpp>
 
 #include "lua/language/api.h"
@@ -27,6 +29,7 @@ void finish(Call& call, Arguments& arguments, Record& wave) {
   wave.file = find_input(call.context, wave.file, call.place).string();
   wave = read_record(std::move(wave), call.place);
   call.context.scene.inputs[wave.file] = wave.hash;
+  note_record(call.context, wave, call.place);
 }
 
 size_t points_of(const Record& wave) { return wave.acceleration.times.size(); }
@@ -67,6 +70,13 @@ void add_waves(std::vector<Function>& functions, const std::variant<W...>*) {
 }
 
 }  // namespace
+
+void note_record(Context& context, const Record& record, const Place& place) {
+  if (record.note.empty()) return;
+  const std::string note = fmt::format("{}: {}: {}", place.text(), std::filesystem::path(record.file).filename().string(), record.note);
+  if (std::find(context.scene.notes.begin(), context.scene.notes.end(), note) == context.scene.notes.end())
+    context.scene.notes.push_back(note);
+}
 
 std::vector<Function> wave_functions() {
   std::vector<Function> functions;
