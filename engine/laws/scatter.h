@@ -11,8 +11,8 @@ struct Scatter {
 
   static Fields<Scatter> fields() {
     return {
-        {"cv", &Scatter::cv, "", "coefficient of variation; each joint multiplies ft, c, Gf1 and Gf2 by one lognormal factor of mean 1", 0, 2,
-         true},
+        {"cv", &Scatter::cv, "", "coefficient of variation; each joint multiplies ft, c, Gf1 and Gf2 by one lognormal factor of mean 1", 0,
+         2, true},
         {"length", &Scatter::length, "m", "correlation length: exp(-(r / length)^2) between joints r apart (0: independent)", 0, 1e6},
         {"seed", &Scatter::seed, "", "seed of the field; equal seeds give equal strengths", 0, 2147483647},
     };

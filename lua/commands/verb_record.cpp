@@ -61,8 +61,11 @@ std::optional<Uncorrected> uncorrected(const Record& wanted) {
 }
 
 Json end_values(const RecordReport& r) {
-  return {{"pga_m_s2", std::abs(r.pga.value)}, {"pgv_m_s", std::abs(r.pgv.value)}, {"pgd_m", std::abs(r.pgd.value)},
-          {"end_velocity_m_s", r.end_velocity}, {"end_displacement_m", r.end_displacement}};
+  return {{"pga_m_s2", std::abs(r.pga.value)},
+          {"pgv_m_s", std::abs(r.pgv.value)},
+          {"pgd_m", std::abs(r.pgd.value)},
+          {"end_velocity_m_s", r.end_velocity},
+          {"end_displacement_m", r.end_displacement}};
 }
 
 std::string write_folder(const fs::path& folder, const Record& record, const RecordReport& r, const std::optional<Uncorrected>& before,

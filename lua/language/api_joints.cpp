@@ -18,8 +18,8 @@ template <class L>
 Keys law_keys() {
   if constexpr (requires(L law) { law.scatter; })
     return joined({keys_of<L>(),
-                   {{"scatter", "table", "", "lognormal scatter of the bond from joint to joint (default: none)", -unbounded, unbounded, false,
-                     "", "", scatter_keys()}}});
+                   {{"scatter", "table", "", "lognormal scatter of the bond from joint to joint (default: none)", -unbounded, unbounded,
+                     false, "", "", scatter_keys()}}});
   return keys_of<L>();
 }
 

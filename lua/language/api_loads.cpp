@@ -150,7 +150,8 @@ std::vector<Function> load_functions() {
        "and pushes the structure the other way.",
        load_keys("m/s2", "direction", "\"x\", \"y\", \"z\" or a vector", false)},
       {"ground_records", ground_records, "{ ... }", "",
-       "Shakes the ground by up to three components of one recorded motion, along x, y and z: one time axis and one scale. The other keys are "
+       "Shakes the ground by up to three components of one recorded motion, along x, y and z: one time axis and one scale. The other keys "
+       "are "
        "those of record{}.",
        ground_records_keys()},
       {"force", force, "{ ... }", "", "A force on a block.", force_keys},

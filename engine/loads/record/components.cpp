@@ -20,10 +20,11 @@ void check_axes(const std::array<Record, 3>& read, const Place& place) {
       first = &one, first_axis = i;
     } else if (std::fabs(step_of(one) - step_of(*first)) > 1e-6 * step_of(*first) || (one.file_dt > 0) != (first->file_dt > 0)) {
       const auto step = [](const Record& r) { return r.file_dt > 0 ? fmt::format("{:.6g} s", r.file_dt) : std::string("uneven"); };
-      throw Error(fmt::format("the components have no common time axis: the step of {} ({}) is {}, of {} ({}) {}; give files of one station "
-                              "and one step",
-                              axes[first_axis], first->file, step(*first), axes[i], one.file, step(one)),
-                  place);
+      throw Error(
+          fmt::format("the components have no common time axis: the step of {} ({}) is {}, of {} ({}) {}; give files of one station "
+                      "and one step",
+                      axes[first_axis], first->file, step(*first), axes[i], one.file, step(one)),
+          place);
     }
   }
 }
@@ -40,7 +41,8 @@ Components read_components(const std::array<Record, 3>& wanted, const std::strin
     Record plain = wanted[i];
     plain.peak = 0, plain.scale = 1;
     out.of[i] = read_record(plain, place);
-    const bool leads = named == "strongest" ? leading < 0 || out.of[i].file_peak > out.of[std::size_t(leading)].file_peak : named == axes[i];
+    const bool leads =
+        named == "strongest" ? leading < 0 || out.of[i].file_peak > out.of[std::size_t(leading)].file_peak : named == axes[i];
     if (leads) leading = int(i);
   }
   if (leading < 0)
@@ -62,7 +64,8 @@ Components read_components(const std::array<Record, 3>& wanted, const std::strin
     lengths += fmt::format("{}{} {:.4g} m/s2 over {:.2f} s", lengths.empty() ? "" : ", ", axes[i], std::fabs(factor) * out.of[i].file_peak,
                            out.of[i].acceleration.times.back());
   }
-  out.note = fmt::format("components of one motion, all times {:.6g} (peak of {}): {}; each rests after its end", factor, axes[leading], lengths);
+  out.note =
+      fmt::format("components of one motion, all times {:.6g} (peak of {}): {}; each rests after its end", factor, axes[leading], lengths);
   return out;
 }
 

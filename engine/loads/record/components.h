@@ -12,9 +12,9 @@ struct Components {
   std::string note;          // scale and lengths, in a sentence
 };
 
-// Reads the files of `wanted` and scales all by one factor: wanted[..].peak becomes the peak of the component `named` ("x", "y", "z"), or of
-// the "strongest". Their steps must agree; a shorter component rests after its end. The other members of `wanted` should be alike. `place`:
-// the script line.
+// Reads the files of `wanted` and scales all by one factor: wanted[..].peak becomes the peak of the component `named` ("x", "y", "z"), or
+// of the "strongest". Their steps must agree; a shorter component rests after its end. The other members of `wanted` should be alike.
+// `place`: the script line.
 Components read_components(const std::array<Record, 3>& wanted, const std::string& named, const Place& place);
 
 }  // namespace erbs

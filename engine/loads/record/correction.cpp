@@ -39,18 +39,6 @@ void run(const Section& s, std::vector<double>& x) {
   }
 }
 
-// The step. The tolerance of 1e-3 accepts times printed with few digits.
-double even_step(const std::vector<double>& times, const Place& file) {
-  const double step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
-  for (size_t i = 1; i < times.size(); ++i)
-    if (std::abs(times[i] - times[i - 1] - step) > 1e-3 * step)
-      throw Error(fmt::format("the step varies: {:.6g} s before t = {:.6g} s, {:.6g} s on average; a band-pass needs an even step: resample "
-                              "the record, or leave low and high out",
-                              times[i] - times[i - 1], times[i], step),
-                  file);
-  return step;
-}
-
 }  // namespace
 
 int baseline_degree(std::string_view word) {
@@ -77,13 +65,14 @@ void remove_baseline(const std::vector<double>& times, std::vector<double>& acce
   for (Eigen::Index i = 0; i < n; ++i) acceleration[static_cast<size_t>(i)] -= baseline[i];
 }
 
-void band_pass(const std::vector<double>& times, std::vector<double>& values, const Band& band, const Place& file) {
-  const double dt = even_step(times, file), nyquist = 0.5 / dt;
+void band_pass(double dt, std::vector<double>& values, const Band& band, const Place& file) {
+  const double nyquist = 0.5 / dt;
   for (const auto& [name, corner] : {std::pair{"low", band.low}, std::pair{"high", band.high}})
     if (corner >= nyquist)
-      throw Error(fmt::format("{} = {:g} Hz does not lie below half the sampling rate, {:.6g} Hz (step {:.6g} s); lower it, or leave it out",
-                              name, corner, nyquist, dt),
-                  file);
+      throw Error(
+          fmt::format("{} = {:g} Hz does not lie below half the sampling rate, {:.6g} Hz (step {:.6g} s); lower it, or leave it out", name,
+                      corner, nyquist, dt),
+          file);
   const double longest = 1.5 * band.order / (band.low > 0 ? band.low : band.high);
   constexpr double most = 2e7;
   if (longest / dt > most)

@@ -21,8 +21,8 @@ struct Band {
 // High-pass and low-pass of Butterworth type (Oppenheim and Schafer 1989, section 7.1: bilinear transform, corners prewarped), each run
 // forwards and backwards. The phase is zero, and the amplitude
 //   1 / ((1 + (tan(pi low dt) / tan(pi f dt))^(2 order)) (1 + (tan(pi f dt) / tan(pi high dt))^(2 order))).
-// The record is padded with rest on both sides for 1.5 order / low (Converse and Brady 1992); the pads are cut off afterwards, so that times
-// stay. Throws Error if the step varies or a corner lies at or above half the sampling rate.
-void band_pass(const std::vector<double>& times, std::vector<double>& values, const Band& band, const Place& file);
+// The record is padded with rest on both sides for 1.5 order / low (Converse and Brady 1992); the pads are cut off afterwards, so that
+// times stay. dt: s, the even step. Throws Error if a corner lies at or above half the sampling rate.
+void band_pass(double dt, std::vector<double>& values, const Band& band, const Place& file);
 
 }  // namespace erbs

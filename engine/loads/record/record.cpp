@@ -49,8 +49,12 @@ double factor_to_si(std::string_view in_file, const Record& wanted, const Place&
   const std::string_view known = known_units(quantity);
   if (in_file.empty() && wanted.unit.empty())
     throw Error(
-        fmt::format("the file does not say the unit of its values; add unit = \"{0}\" in the scene, or --unit {0} to erbs record (one of {1})",
-                    quantity == "acceleration" ? "g" : quantity == "velocity" ? "m/s" : "m", known),
+        fmt::format(
+            "the file does not say the unit of its values; add unit = \"{0}\" in the scene, or --unit {0} to erbs record (one of {1})",
+            quantity == "acceleration" ? "g"
+            : quantity == "velocity"   ? "m/s"
+                                       : "m",
+            known),
         place);
   const std::optional<double> said = in_file.empty() ? std::nullopt : unit_factor(quantity, in_file);
   if (!in_file.empty() && !said) {
@@ -72,10 +76,11 @@ void check_quantity(std::string_view in_file, const Record& wanted, const Place&
   const bool known = in_file == "acceleration" || in_file == "velocity" || in_file == "displacement";
   if (!known || in_file == wanted.quantity) return;
   if (in_file == "acceleration")
-    throw Error(fmt::format("the file holds an acceleration, the script says quantity = \"{}\"; leave quantity out", wanted.quantity), place);
-  throw Error(fmt::format("the file holds a {0}; give the acceleration (.AT2), or quantity = \"{0}\" with smoothing to differentiate it",
-                          in_file),
-              place);
+    throw Error(fmt::format("the file holds an acceleration, the script says quantity = \"{}\"; leave quantity out", wanted.quantity),
+                place);
+  throw Error(
+      fmt::format("the file holds a {0}; give the acceleration (.AT2), or quantity = \"{0}\" with smoothing to differentiate it", in_file),
+      place);
 }
 
 double checked_step(double in_file, const Record& wanted, const Place& place) {
@@ -87,8 +92,8 @@ double checked_step(double in_file, const Record& wanted, const Place& place) {
 
 void check_count(size_t found, double promised, std::string_view name, const Place& place) {
   if (static_cast<double>(found) == promised) return;
-  throw Error(fmt::format("{0} promises {1:.0f} values, the file holds {2}; it is {3}: fetch it again or correct {0}", name, promised, found,
-                          static_cast<double>(found) < promised ? "cut short" : "longer than it says"),
+  throw Error(fmt::format("{0} promises {1:.0f} values, the file holds {2}; it is {3}: fetch it again or correct {0}", name, promised,
+                          found, static_cast<double>(found) < promised ? "cut short" : "longer than it says"),
               place);
 }
 
@@ -116,9 +121,28 @@ void check_wanted(const Record& record, const Place& place) {
                             record.quantity),
                 place);
   if (record.low > 0 && record.high > 0 && record.low >= record.high)
-    throw Error(fmt::format("the corners of the band-pass do not rise: low = {} Hz, high = {} Hz; give low below high", record.low,
-                            record.high),
-                place);
+    throw Error(
+        fmt::format("the corners of the band-pass do not rise: low = {} Hz, high = {} Hz; give low below high", record.low, record.high),
+        place);
+}
+
+// The step of a record that must have one; the median tells a gap from its neighbours.
+double required_step(const RecordFile& file, const std::string& path) {
+  if (const double step = even_step(file.times); step > 0) return step;
+  std::vector<double> steps;
+  for (size_t i = 1; i < file.times.size(); ++i) steps.push_back(file.times[i] - file.times[i - 1]);
+  std::vector<double> sorted = steps;
+  std::sort(sorted.begin(), sorted.end());
+  const double usual = sorted[sorted.size() / 2];
+  const auto odd = static_cast<size_t>(
+      std::find_if(steps.begin(), steps.end(), [&](double step) { return std::abs(step - usual) > 1e-3 * usual; }) - steps.begin());
+  const size_t at = std::min(odd, steps.size() - 1) + 1, added = file.times.size() - std::min(file.lines.size(), file.times.size());
+  const int line = !file.lines.empty() && at >= added ? file.lines[at - added] : 0;
+  throw Error(
+      fmt::format("the step varies: {:.6g} s before t = {:.6g} s, else {:.6g} s; a band-pass needs an even step: resample the record, "
+                  "or leave low and high out",
+                  steps[at - 1], file.times[at], usual),
+      {path, line});
 }
 
 // Turns the values into a corrected acceleration and says so in the note.
@@ -133,22 +157,28 @@ void correct(RecordFile& file, Record& record, const Place& place) {
   }
   add_rest(file);
   const bool band = record.low > 0 || record.high > 0;
+  double rest = 0;  // m/s2
   const int degree = baseline_degree(record.baseline);
   remove_baseline(file.times, file.values, degree);
   if (band) {
-    band_pass(file.times, file.values, {record.low, record.high, record.band_order}, {record.file, 0});
+    band_pass(required_step(file, record.file), file.values, {record.low, record.high, record.band_order}, {record.file, 0});
     remove_baseline(file.times, file.values, degree);  // of what the filter had carried beyond the ends of the record
+    // What lies beyond the end is cut off, and with it what would have stopped the ground. A constant acceleration stops it instead.
+    rest = make_polyline(file.times, file.values).area.back() / (file.times.back() - file.times.front());
+    for (double& value : file.values) value -= rest;
   }
   const auto say = [&](const std::string& what) { record.note += (record.note.empty() ? "" : "; ") + what; };
   if (degree >= 0)
     say(fmt::format("{} baseline taken from the acceleration, fitted to the velocity{}", record.baseline,
                     band ? " before and after the band-pass" : ""));
   if (band)
-    say(fmt::format("Butterworth band-pass {} Hz of order {}, forwards and backwards: zero phase, half amplitude at each corner",
+    say(
+        fmt::format("Butterworth band-pass {} Hz of order {}, forwards and backwards: zero phase, half amplitude at each corner; "
+                    "a constant of {:.1e} m/s2 taken off, so that the ground is at rest at the end",
                     record.low > 0 && record.high > 0 ? fmt::format("{:g} to {:g}", record.low, record.high)
                     : record.low > 0                  ? fmt::format("from {:g}", record.low)
                                                       : fmt::format("up to {:g}", record.high),
-                    record.band_order));
+                    record.band_order, rest));
 }
 
 }  // namespace

@@ -11,15 +11,15 @@ namespace erbs {
 
 struct Record {
   // From the script.
-  std::string file;        // path that can be opened
-  double peak = 0;         // m/s2, required peak acceleration; 0: as recorded times scale
-  double scale = 1;        // factor on the acceleration
-  double time_factor = 1;  // factor on time: 0.707 for a model at half scale; displacement scales with its square
-  double start = 0;        // s, simulated time at time 0 of the file
-  int column = 0;          // of the values in a file of several columns, from 1; 0: the column after time
-  double dt = 0;           // s, step of a file without times (one column of values)
-  double first_time = 0;   // s, time of the first value of such a file
-  std::string unit;        // of the values, if the file names none: g, m/s2, cm/s2, gal, ...
+  std::string file;                       // path that can be opened
+  double peak = 0;                        // m/s2, required peak acceleration; 0: as recorded times scale
+  double scale = 1;                       // factor on the acceleration
+  double time_factor = 1;                 // factor on time: 0.707 for a model at half scale; displacement scales with its square
+  double start = 0;                       // s, simulated time at time 0 of the file
+  int column = 0;                         // of the values in a file of several columns, from 1; 0: the column after time
+  double dt = 0;                          // s, step of a file without times (one column of values)
+  double first_time = 0;                  // s, time of the first value of such a file
+  std::string unit;                       // of the values, if the file names none: g, m/s2, cm/s2, gal, ...
   std::string decimal = "auto";           // decimal mark of the file: auto | point | comma
   std::string quantity = "acceleration";  // of the file: acceleration | velocity | displacement
   double smoothing = 0;                   // Hz, corner of the spline that turns a velocity or displacement into an acceleration
@@ -57,9 +57,8 @@ struct Record {
          "acceleration|velocity|displacement"},
         {"smoothing", &Record::smoothing, "Hz",
          "corner at which the spline that differentiates a velocity or displacement halves its amplitude", 0, 1e4},
-        {"baseline", &Record::baseline, "",
-         "polynomial taken from the acceleration, by the best fit of its integral to the velocity", 0, 0, false,
-         "none|constant|linear|quadratic|cubic"},
+        {"baseline", &Record::baseline, "", "polynomial taken from the acceleration, by the best fit of its integral to the velocity", 0, 0,
+         false, "none|constant|linear|quadratic|cubic"},
         {"low", &Record::low, "Hz", "lower corner of a Butterworth band-pass without phase lag (0: none)", 0, 1e4},
         {"high", &Record::high, "Hz", "its upper corner, below half the sampling rate (0: none)", 0, 1e4},
         {"band_order", &Record::band_order, "", "order of the band-pass in each of its two passes, forwards and backwards", 1, 10},

@@ -61,7 +61,7 @@ RecordFile parse_at2(RecordText& text, const Record& wanted, size_t npts_line) {
   size_t unit_line = 0;
   const std::string unit = header_unit(text, wanted, npts_line, unit_line);
   const double factor = factor_to_si(unit, wanted, {text.path, static_cast<int>(unit_line) + 1});
-  RecordFile file{npts_line >= 2 ? std::string(trim(text.lines[1])) : "", "PEER AT2", {}, {}};
+  RecordFile file{npts_line >= 2 ? std::string(trim(text.lines[1])) : "", "PEER AT2", {}, {}, {}};
   file.values = numbers_of(text, npts_line + 1, text.lines.size(), wanted);
   check_count(file.values.size(), header.points, "NPTS", header_place);
   for (double& value : file.values) value *= factor;

@@ -107,7 +107,7 @@ RecordFile parse_values(const RecordText& text, const Rows& rows, const Record& 
                 place);
   const std::string unit = rows.columns.empty() ? "" : rows.columns[0].unit;
   const double factor = factor_to_si(unit, wanted, {text.path, rows.names_line > 0 ? rows.names_line : rows.lines.front()});
-  RecordFile file{rows.title, rows.cells.front().size() == 1 ? "text, values" : "text, values along the lines", {}, {}};
+  RecordFile file{rows.title, rows.cells.front().size() == 1 ? "text, values" : "text, values along the lines", {}, {}, {}};
   for (const std::vector<double>& row : rows.cells)
     for (const double value : row) file.values.push_back(value * factor);
   for (size_t i = 0; i < file.values.size(); ++i) file.times.push_back(wanted.first_time + static_cast<double>(i) * wanted.dt);
@@ -146,7 +146,7 @@ RecordFile parse_time_and_value(const RecordText& text, const Rows& rows, const 
   if (wanted.dt > 0) throw Error("the file has its own times; leave dt out (time_factor stretches time)", {text.path, head});
   const double seconds = time_factor(text, rows, time);
   const double factor = factor_to_si(rows.columns.empty() ? "" : rows.columns[column].unit, wanted, {text.path, head});
-  RecordFile file{rows.title, rows.columns.empty() ? fmt::format("text, {} columns", width) : "CSV", {}, {}};
+  RecordFile file{rows.title, rows.columns.empty() ? fmt::format("text, {} columns", width) : "CSV", {}, {}, {}};
   for (size_t r = 0; r < rows.cells.size(); ++r) {
     const double t = rows.cells[r][time] * seconds;
     const Place place{text.path, rows.lines[r]};
@@ -154,6 +154,7 @@ RecordFile parse_time_and_value(const RecordText& text, const Rows& rows, const 
     if (r > 0 && t <= file.times.back())
       throw Error(fmt::format("time {} s does not come after {} s; times must increase", t, file.times.back()), place);
     file.times.push_back(t);
+    file.lines.push_back(rows.lines[r]);
     file.values.push_back(rows.cells[r][column] * factor);
   }
   return file;

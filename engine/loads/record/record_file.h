@@ -14,6 +14,7 @@ struct RecordFile {
   std::string title, format;
   std::vector<double> times;   // s
   std::vector<double> values;  // m/s2, m/s or m, by the quantity of the record
+  std::vector<int> lines;      // of the file, for each value; empty where the format itself spaces them evenly
 };
 
 // The format by its marks: ESM (keys with a colon), COSMOS and CSMIP V2 (the line before the data), PEER AT2 (a header line with NPTS),

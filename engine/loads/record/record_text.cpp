@@ -176,15 +176,24 @@ struct Unit {
   double factor;  // to SI
 };
 constexpr double foot = 0.3048;
-constexpr std::array<Unit, 18> units{{{"acceleration", "g", standard_g}, {"acceleration", "mg", 1e-3 * standard_g},
-                                      {"acceleration", "m/s2", 1},       {"acceleration", "cm/s2", 0.01},
-                                      {"acceleration", "gal", 0.01},     {"acceleration", "mm/s2", 0.001},
-                                      {"acceleration", "ft/s2", foot},   {"acceleration", "in/s2", foot / 12},
-                                      {"velocity", "m/s", 1},            {"velocity", "cm/s", 0.01},
-                                      {"velocity", "mm/s", 0.001},       {"velocity", "ft/s", foot},
-                                      {"velocity", "in/s", foot / 12},   {"displacement", "m", 1},
-                                      {"displacement", "cm", 0.01},      {"displacement", "mm", 0.001},
-                                      {"displacement", "ft", foot},      {"displacement", "in", foot / 12}}};
+constexpr std::array<Unit, 18> units{{{"acceleration", "g", standard_g},
+                                      {"acceleration", "mg", 1e-3 * standard_g},
+                                      {"acceleration", "m/s2", 1},
+                                      {"acceleration", "cm/s2", 0.01},
+                                      {"acceleration", "gal", 0.01},
+                                      {"acceleration", "mm/s2", 0.001},
+                                      {"acceleration", "ft/s2", foot},
+                                      {"acceleration", "in/s2", foot / 12},
+                                      {"velocity", "m/s", 1},
+                                      {"velocity", "cm/s", 0.01},
+                                      {"velocity", "mm/s", 0.001},
+                                      {"velocity", "ft/s", foot},
+                                      {"velocity", "in/s", foot / 12},
+                                      {"displacement", "m", 1},
+                                      {"displacement", "cm", 0.01},
+                                      {"displacement", "mm", 0.001},
+                                      {"displacement", "ft", foot},
+                                      {"displacement", "in", foot / 12}}};
 
 }  // namespace
 

@@ -18,7 +18,9 @@ constexpr std::array<std::string_view, 3> quantities{"acceleration", "velocity",
 int line_number(size_t index) { return static_cast<int>(index) + 1; }
 
 bool is_cosmos(const std::string& line) { return line.find(" pts") != std::string::npos && line.find("units=") != std::string::npos; }
-bool is_csmip(const std::string& line) { return line.find("points of ") != std::string::npos && line.find("equally spaced at") != std::string::npos; }
+bool is_csmip(const std::string& line) {
+  return line.find("points of ") != std::string::npos && line.find("equally spaced at") != std::string::npos;
+}
 
 // "acceleration" or "accel", "velocity" or "veloc", "displacement" or "displ"; "" for another line.
 std::string_view announced(const std::string& line) {
@@ -124,7 +126,7 @@ RecordFile parse_volume2(RecordText& text, const Record& wanted, size_t data_lin
   std::string unit = unit_of(line, cosmos);
   while (!unit.empty() && unit.back() == '.') unit.pop_back();
   const double factor = factor_to_si(unit, wanted, place);
-  RecordFile file{std::string(trim(text.lines.front())), cosmos ? "COSMOS V2" : "CSMIP V2", {}, {}};
+  RecordFile file{std::string(trim(text.lines.front())), cosmos ? "COSMOS V2" : "CSMIP V2", {}, {}, {}};
   file.values = numbers_of(text, data_line + 1, end_of_values(text, data_line), wanted);
   check_count(file.values.size(), points, "this line", place);
   for (double& value : file.values) value *= factor;

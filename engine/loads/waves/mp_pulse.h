@@ -20,7 +20,8 @@ struct MpPulse {
 
   static constexpr std::string_view wave_name = "mp_pulse";
   static constexpr std::string_view help =
-      "The near-fault pulse of Mavroeidis and Papageorgiou (2003), given by its velocity, as an acceleration. It leaves the ground at rest, "
+      "The near-fault pulse of Mavroeidis and Papageorgiou (2003), given by its velocity, as an acceleration. It leaves the ground at "
+      "rest, "
       "displaced by -amplitude cos(phase) sin(pi gamma) / (2 pi frequency (gamma^2 - 1)).";
   static Fields<MpPulse> fields() {
     return {

@@ -38,7 +38,8 @@ struct HalfSine {
   double start = 0;      // s
 
   static constexpr std::string_view wave_name = "half_sine";
-  static constexpr std::string_view help = "One lobe of a sine, from any phase to its zero at pi. From phase 0 it leaves the ground at the velocity amplitude / (pi frequency).";
+  static constexpr std::string_view help =
+      "One lobe of a sine, from any phase to its zero at pi. From phase 0 it leaves the ground at the velocity amplitude / (pi frequency).";
   static Fields<HalfSine> fields() {
     return {
         {"amplitude", &HalfSine::amplitude, "", "peak value, in the unit of the load", -unbounded, unbounded, true},
@@ -57,7 +58,9 @@ struct FullSine {
   double start = 0;      // s
 
   static constexpr std::string_view wave_name = "full_sine";
-  static constexpr std::string_view help = "One cycle of a sine, from any phase to its zero at 2 pi. From phase 0 it leaves the ground at rest, displaced by amplitude / (2 pi frequency^2).";
+  static constexpr std::string_view help =
+      "One cycle of a sine, from any phase to its zero at 2 pi. From phase 0 it leaves the ground at rest, displaced by amplitude / (2 pi "
+      "frequency^2).";
   static Fields<FullSine> fields() {
     return {
         {"amplitude", &FullSine::amplitude, "", "peak value, in the unit of the load", -unbounded, unbounded, true},

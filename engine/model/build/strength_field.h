@@ -21,7 +21,7 @@ class StrengthField {
   // Index in Model::laws for joint number `joint` of a rule; adds the law where it is new.
   int law_of(int rule, int joint, const Vec3& centre);
 
-  static constexpr double classes = 4;  // of strength, per standard deviation
+  static constexpr double classes = 4;   // of strength, per standard deviation
   static constexpr double farthest = 4;  // standard deviations
 
  private:

@@ -122,8 +122,7 @@ void write_record_plot(const Record& record, const RecordReport& r, const std::s
   plot::Figure figure{1240, 780};
   figure.labels = {{std::filesystem::path(r.file).filename().string(), "screen 0.075,0.965", "left font ',16' tc rgb '#111111'"},
                    {title, "screen 0.075,0.93", fmt::format("left font ',{}' tc rgb '#666666'", title.size() > 120 ? 10 : 12)}};
-  if (before != nullptr)
-    figure.labels.push_back({"grey: before correction", "screen 0.975,0.965", "right font ',13' tc rgb '#8a8478'"});
+  if (before != nullptr) figure.labels.push_back({"grey: before correction", "screen 0.975,0.965", "right font ',13' tc rgb '#8a8478'"});
   add_summary(r, figure.labels);
   const std::string rows = figure.add_rows(histories(record.acceleration));
   const std::string old_rows = before != nullptr ? figure.add_rows(histories(before->record.acceleration)) : "";

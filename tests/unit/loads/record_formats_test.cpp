@@ -5,9 +5,9 @@
 #include "tests/unit/loads/record_input.h"
 
 using namespace erbs;
+using Catch::Contains;
 using test::mistake_in;
 using test::read_text;
-using Catch::Contains;
 
 namespace {
 
@@ -35,7 +35,8 @@ std::string cosmos(const std::string& announcement, const std::string& values, d
 
 std::string tone(int n, double step, const char* form = "{:10.5f}") {
   std::string text;
-  for (int i = 0; i < n; ++i) text += fmt::format(fmt::runtime(form), 100 * std::sin(2 * i * step)) + (i % 8 == 7 || i + 1 == n ? "\n" : "");
+  for (int i = 0; i < n; ++i)
+    text += fmt::format(fmt::runtime(form), 100 * std::sin(2 * i * step)) + (i % 8 == 7 || i + 1 == n ? "\n" : "");
   return text;
 }
 
@@ -91,7 +92,8 @@ TEST_CASE("of a file with several quantities the wanted one is read", "[loads][r
 }
 
 TEST_CASE("CSMIP V2 says its step beside the count", "[loads][record]") {
-  const std::string head = "CORRECTED ACCELEROGRAM 24436-S2496\nText\n   24 points of accel data equally spaced at  .020 sec, in cm/sec2. (8f10.3)\n";
+  const std::string head =
+      "CORRECTED ACCELEROGRAM 24436-S2496\nText\n   24 points of accel data equally spaced at  .020 sec, in cm/sec2. (8f10.3)\n";
   const Record r = read_text(head + tone(24, 0.02, "{:10.3f}") + "/&  ----------  End of data for channel  1\n");
   CHECK(r.format == "CSMIP V2");
   CHECK(r.points == 24);
@@ -108,14 +110,14 @@ TEST_CASE("decimal commas are told from commas between columns", "[loads][record
     CHECK(r.acceleration.values == std::vector<double>{1.5, -2.5});
     CHECK(r.file_dt == Approx(0.01));
   }
-  CHECK(read_text("0,1\n1,2\n", in_g).acceleration.values == std::vector<double>{1, 2});     // two columns
+  CHECK(read_text("0,1\n1,2\n", in_g).acceleration.values == std::vector<double>{1, 2});  // two columns
   CHECK(read_text("0, 1.5\n1, 2.5\n", in_g).acceleration.values == std::vector<double>{1.5, 2.5});
   CHECK(read_text("0; 1.5\n1; 2.5\n", in_g).acceleration.values == std::vector<double>{1.5, 2.5});
   const auto lone = [](Record& r) { r.unit = "g", r.dt = 0.01; };
   CHECK(read_text("0,5\n-0,25\n", lone).acceleration.values[1] == Approx(-0.25 * standard_g));
   const auto said = [](Record& r) { r.unit = "m/s2", r.dt = 0.01, r.decimal = "comma"; };
   CHECK(read_text("3,5\n4\n", said).acceleration.values == std::vector<double>{3.5, 4});
-  CHECK_THAT(mistake_in("0; 1,5,2\n1; 2\n", in_g), Contains("motion.txt:1"));
+  CHECK_THAT(mistake_in("0; 1,5,2\n1; 2\n", in_g), Contains("motion.txt:2") && Contains("complete the line"));
   const std::string at2 = "PEER\nX\nACCELERATION TIME SERIES IN UNITS OF G\nNPTS= 4, DT= .0100 SEC\n";
   CHECK(read_text(at2 + " ,1E-01-,2E-01 ,3 ,4\n").acceleration.values[1] == Approx(-0.02 * standard_g));
 }

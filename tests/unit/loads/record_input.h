@@ -10,7 +10,8 @@
 
 namespace erbs::test {
 
-inline Record read_text(const std::string& text, const std::function<void(Record&)>& set = [](Record&) {}) {
+inline Record read_text(
+    const std::string& text, const std::function<void(Record&)>& set = [](Record&) {}) {
   const Folder folder;
   Record wanted;
   wanted.file = folder.file("motion.txt");
@@ -19,7 +20,8 @@ inline Record read_text(const std::string& text, const std::function<void(Record
   return read_record(wanted, {"scene.lua", 7});
 }
 
-inline std::string mistake_in(const std::string& text, const std::function<void(Record&)>& set = [](Record&) {}) {
+inline std::string mistake_in(
+    const std::string& text, const std::function<void(Record&)>& set = [](Record&) {}) {
   try {
     read_text(text, set);
   } catch (const Error& error) { return error.what(); }

@@ -27,7 +27,7 @@ std::vector<Wave> examples() {
           Ricker{-1, 0.9, -1.5},
           FullCosine{2, 1.7, 0.17},
           MpPulse{0.4, 1.6, 0.9, 1.7, 0.12},
-          MpPulse{-0.7, 3.1, -1.2, 2.6, -0.2}};
+          MpPulse{-0.7, 1.1, -1.2, 2.6, -0.2}};
 }
 
 // Integral from t0 to t1 by the midpoint rule on n pieces, from values only.
