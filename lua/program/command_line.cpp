@@ -29,9 +29,11 @@ void add_run(CLI::App& app, RunCommand& command) {
   run.add_option("--damping-form", changes.damping_form, "velocity that mass damping uses: the mean over the step, or the one before it")
       ->check(CLI::IsMember({"centred", "explicit"}));
   add_time(run, "--from", changes.from, "start the loads at this time, with the structure at rest: a window of a long record", "T");
-  run.add_option("--noise", changes.noise,
-                 "perturb the initial state of every free block by up to this (m and rad), always with the same seed")
+  run.add_option(
+         "--noise", changes.noise,
+         "perturb the initial state of every free block by up to this (m and rad), with the same seed unless --noise-seed says another")
       ->check(within(0.0, 1.0));
+  run.add_option("--noise-seed", changes.noise_seed, "seed of --noise (default: 1)")->check(within(1, 1000000));
   run.add_option("--push-to", changes.push_to,
                  "push to this displacement of the monitored point (m) and no further, such as the one of the performance point")
       ->check(within(1e-9, 1e3));

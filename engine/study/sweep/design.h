@@ -20,6 +20,7 @@ struct Axis {
   std::vector<std::string> params;
   std::vector<std::vector<Value>> rows;  // [rows][params]
   int group = 0;                         // number of the call that made it
+  double noise = 0;                      // m and rad, of perturbations{}
   bool by_scene = false;                 // of a grid{}: the axes of the group follow the order of the scene's params
   Place place;
 };
@@ -51,6 +52,19 @@ struct PlanCurve {
   std::vector<double> x, y;
 };
 
+// Fragility of the structure from the runs of the study (study/fragility).
+struct FragilityPlan {
+  std::string im;                    // intensity: a varied or bisected param, or a key of metrics.json
+  std::string collapse = "verdict";  // 1 or 0: a key of metrics.json, or the verdict of a bisection
+  std::optional<double> above;       // collapse is where the key lies above this number
+  std::vector<std::string> damage;   // keys whose fractiles are wanted
+  std::vector<std::string> by;       // params that tell structures apart: one fragility for each combination
+  std::string along;                 // the param that grows within a case; "": im, if it is one
+  Place place;
+};
+
+constexpr const char* perturbation = "perturbation";  // name of the axis of perturbations{}: seeds of a noise, and no param of the scene
+
 struct Plan {
   std::string scene;                 // as the study file says
   std::vector<Axis> axes;            // outermost first
@@ -60,6 +74,8 @@ struct Plan {
   double max_wall = 0, memory = 0;   // s and bytes, of each run; 0: no limit
   std::string title;                 // of the figure
   std::vector<PlanCurve> curves;
+  std::optional<FragilityPlan> fragility;
+  double noise = 1e-9;  // m and rad, of perturbations{}
   Place place;
 };
 

@@ -6,6 +6,7 @@
 #include "engine/base/spelling.h"
 #include "engine/base/text.h"
 #include "lua/language/api.h"
+#include "lua/language/sweep/fragility.h"
 
 namespace erbs::lua {
 namespace {
@@ -194,6 +195,27 @@ int records(Call& call) {
   return push_axes(call, std::move(axes));
 }
 
+struct Perturbations {
+  int n = 0;
+  double size = 1e-9;  // m and rad
+
+  static Fields<Perturbations> fields() {
+    return {{"n", &Perturbations::n, "", "number of runs, each with its own seed", 1, 1000000, true},
+            {"size", &Perturbations::size, "m and rad", "largest shift and turn of each free block at the start", 0, 1}};
+  }
+};
+
+int perturbations(Call& call) {
+  Arguments arguments = call.arguments();
+  Perturbations wanted;
+  arguments.read(wanted);
+  Axis axis;
+  axis.params = {study::perturbation};
+  axis.noise = wanted.size;
+  for (int i = 1; i <= std::max(1, wanted.n); ++i) axis.rows.push_back({double(i)});
+  return push_axes(call, {std::move(axis)});
+}
+
 const Keys& bisect_keys() {
   static const Keys keys = {{"param", "string", "", "name of the param", -unbounded, unbounded, true},
                             {"lo", "number", "", "value at which the verdict is no (it may be the larger one)", -1e300, 1e300, true},
@@ -250,7 +272,10 @@ void read_axes(Call& call, Arguments& arguments, study::Plan& plan) {
     else lua_rawgeti(call.lua, -1, i);
     if (const auto* group = static_cast<int*>(luaL_testudata(call.lua, -1, axis_type))) {
       for (const Axis& axis : context.axes)
-        if (axis.group == *group) plan.axes.push_back(axis);
+        if (axis.group == *group) {
+          plan.axes.push_back(axis);
+          if (axis.params.front() == study::perturbation) plan.noise = axis.noise;
+        }
     } else {
       arguments.mistake(fmt::format("vary: its item {} must be grid{{}}, list{{}}, latin{{}}, random{{}} or records{{}}, not {}", i,
                                     described(call.lua, -1)));
@@ -300,6 +325,7 @@ int study(Call& call) {
     if (bisect.lo == bisect.hi) table->mistake("lo and hi are the same, and nothing lies between; give two values");
     plan.bisect = std::move(bisect);
   }
+  if (auto table = arguments.table("fragility", fragility_keys())) read_fragility(*table, plan);
   if (plan.axes.empty() && !plan.bisect) arguments.mistake("it varies nothing; give vary = { grid{ ... } }, or bisect = { ... }");
   if (plan.collect.empty() && !plan.bisect)
     arguments.mistake("it collects nothing; give collect = { \"collapse.collapsed\" }, or other keys of metrics.json");
@@ -328,7 +354,8 @@ std::vector<Function> sweep_functions() {
        "",
        "Many runs of a scene, by erbs sweep: what varies, what is bisected, and the columns of results.csv.",
        {{"scene", "string", "", "the scene, a path from the folder of the study", -unbounded, unbounded, true},
-        {"vary", "axes", "", "{ grid{}, list{}, latin{}, random{}, records{} }: every combination, the last changing fastest"},
+        {"vary", "axes", "",
+         "{ grid{}, list{}, latin{}, random{}, records{}, perturbations{} }: every combination, the last changing fastest"},
         {"bisect", "table", "", "threshold of a param at each of these points", -unbounded, unbounded, false, "", "", bisect_keys()},
         {"collect", "strings", "", "keys of metrics.json for the columns; of a bisection, from its run at the upper end"},
         {"max_wall", "duration", "", "longest time of a run: seconds, or \"5m\"; beyond it the run is ended", -unbounded, unbounded, false,
@@ -336,7 +363,9 @@ std::vector<Function> sweep_functions() {
         {"memory", "bytes", "", "most memory of a run: bytes, or \"2GB\" (default: that of the machine over the runs at once)"},
         {"keep", "string", "", "what stays of each run in runs/", -unbounded, unbounded, false, "none|metrics|all", "metrics"},
         {"title", "string", "", "title of results.svg, the figure of the bisected param or the first of collect"},
-        {"curves", "list", "", "known curves for the figure", -unbounded, unbounded, false, "", "", plan_curve_keys()}}},
+        {"curves", "list", "", "known curves for the figure", -unbounded, unbounded, false, "", "", plan_curve_keys()},
+        {"fragility", "table", "", "lognormal fragility and fractiles of damage from these runs: fragility.csv and others, with figures",
+         -unbounded, unbounded, false, "", "", fragility_keys()}}},
       of_study({"grid",
                 grid,
                 "{ ... }",
@@ -361,6 +390,10 @@ std::vector<Function> sweep_functions() {
                 "axes: for vary of study",
                 "In a study: random points, independent of each other.",
                 {n, seed, range}}),
+      of_study(
+          {"perturbations", perturbations, "{ ... }", "axes: for vary of study",
+           "In a study: the same run n times, each free block displaced and turned a little at random at the start (erbs run --noise).",
+           keys_of<Perturbations>()}),
       of_study({"records",
                 records,
                 "{ ... }",
