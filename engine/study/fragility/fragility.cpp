@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/text.h"
 #include "engine/record/format/csv.h"
+#include "engine/record/format/json.h"
 
 namespace erbs::study {
 namespace {
