@@ -48,19 +48,13 @@ Likelihood likelihood(const std::vector<Interval>& data, double a, double b) {
 // What the observations say before any number is sought.
 FitEnd limit_case(const std::vector<Interval>& data, Fit& fit) {
   double least_hi = infinite, most_lo = 0;
-  bool same = true;
-  double level = 0;
-  for (const Interval& one : data) {
-    least_hi = std::min(least_hi, one.hi), most_lo = std::max(most_lo, one.lo);
-    for (const double end : {one.lo, one.hi})
-      if (end > 0 && std::isfinite(end)) same = same && (level == 0 || end == level), level = end;
-  }
+  for (const Interval& one : data) least_hi = std::min(least_hi, one.hi), most_lo = std::max(most_lo, one.lo);
   fit.theta_lo = most_lo, fit.theta_hi = least_hi;
   if (data.empty()) return FitEnd::empty;
   if (fit.collapsed == 0) return FitEnd::none;
   if (most_lo == 0) return FitEnd::all;
-  if (same) return FitEnd::level;
-  return most_lo <= least_hi ? FitEnd::separated : FitEnd::fitted;
+  if (most_lo == least_hi) return FitEnd::level;
+  return most_lo < least_hi ? FitEnd::separated : FitEnd::fitted;
 }
 
 // Newton's method with halved steps, from a fair guess.

@@ -19,7 +19,7 @@ enum class FitEnd {
   none,       // no collapse: theta lies above
   all,        // nothing stands: theta lies below
   separated,  // one intensity parts all that stand from all that collapse: beta has no lower bound
-  level,      // collapses and stands at one intensity alone
+  level,      // collapses and standing runs overlap at one intensity alone, so that beta has no lower bound either
   falling,    // collapses do not grow with the intensity
 };
 

@@ -74,18 +74,18 @@ Fit fit_of(std::vector<std::pair<double, double>> intervals) {
 }  // namespace
 
 TEST_CASE("maximum likelihood finds median and dispersion within its own bands", "[fragility]") {
-  // 1000 draws: a share of 95 % is met within 3 x .7 %. Capped at 1.2 theta for some: a third of the cases never collapses.
+  // 500 draws: a share of 95 % is met within 3 x 1 %. Capped at 1.2 theta for some: a third of the cases never collapses.
   for (const double theta : {0.3, 2.0})
     for (const double beta : {0.2, 0.5})
       for (const bool incremental : {true, false})
         for (const double cap : {2.5, 1.2}) {
-          const Coverage c = coverage(100, 10, cap * theta, theta, beta, incremental, 1000);
+          const Coverage c = coverage(incremental ? 100 : 30, 10, cap * theta, theta, beta, incremental, 500);
           INFO("theta " << theta << " beta " << beta << " incremental " << incremental << " cap " << cap << ": " << c.theta << " "
                         << c.beta);
-          CHECK(c.fitted == 1000);
-          CHECK(c.theta == Approx(0.95).margin(0.025));
-          CHECK(c.beta == Approx(0.95).margin(0.025));
-          CHECK(c.curve == Approx(0.95).margin(0.025));
+          CHECK(c.fitted == 500);
+          CHECK(c.theta == Approx(0.95).margin(0.03));
+          CHECK(c.beta == Approx(0.95).margin(0.03));
+          CHECK(c.curve == Approx(0.95).margin(0.03));
           CHECK(std::fabs(c.bias_theta) < 0.02);
           CHECK(std::fabs(c.bias_beta) < 0.04);
         }
@@ -143,8 +143,9 @@ TEST_CASE("limit cases are told and give no numbers that look like a fit", "[fra
   check(fit_of({{1, 2}, {1.2, infinite}, {0, 1.5}}), FitEnd::separated, "up to 1.2 m/s2 and all collapse from 1.5 m/s2");
   check(fit_of({{1, 2}, {1, 2}, {1, 2}}), FitEnd::separated, "too small to be seen");
   check(fit_of({{0, 2}, {2, infinite}}), FitEnd::level, "at 2 m/s2 alone");
+  check(fit_of({{1, 2}, {2, 3}, {0, 3}}), FitEnd::level, "at 2 m/s2 alone");
   check(fit_of({{0, 1}, {0, 1}, {1, infinite}, {0, 2}, {2, infinite}, {2, infinite}}), FitEnd::falling, "do not grow");
-  CHECK(words(fit_of({{0, 1}, {1, infinite}, {0, 2}, {0, 2}, {1, 2}}), "").empty());
+  CHECK(words(fit_of({{0, 1}, {1, infinite}, {0, 2}, {0, 2}, {2, infinite}}), "").empty());
 }
 
 TEST_CASE("fractiles count a collapse as infinite, and a case only as far as it was run", "[fragility]") {
