@@ -157,15 +157,14 @@ void correct(RecordFile& file, Record& record, const Place& place) {
   }
   add_rest(file);
   const bool band = record.low > 0 || record.high > 0;
-  double rest = 0;  // m/s2
+  double end_velocity = 0, end_displacement = 0;  // m/s, m, before scaling
   const int degree = baseline_degree(record.baseline);
   remove_baseline(file.times, file.values, degree);
   if (band) {
     band_pass(required_step(file, record.file), file.values, {record.low, record.high, record.band_order}, {record.file, 0});
     remove_baseline(file.times, file.values, degree);  // of what the filter had carried beyond the ends of the record
-    // What lies beyond the end is cut off, and with it what would have stopped the ground. A constant acceleration stops it instead.
-    rest = make_polyline(file.times, file.values).area.back() / (file.times.back() - file.times.front());
-    for (double& value : file.values) value -= rest;
+    const Polyline line = make_polyline(file.times, file.values);
+    end_velocity = line.area.back(), end_displacement = line.double_area.back();
   }
   const auto say = [&](const std::string& what) { record.note += (record.note.empty() ? "" : "; ") + what; };
   if (degree >= 0)
@@ -174,11 +173,11 @@ void correct(RecordFile& file, Record& record, const Place& place) {
   if (band)
     say(
         fmt::format("Butterworth band-pass {} Hz of order {}, forwards and backwards: zero phase, half amplitude at each corner; "
-                    "a constant of {:.1e} m/s2 taken off, so that the ground is at rest at the end",
+                    "its tails beyond both ends are cut off, which leaves the ground at {:.2g} m/s and {:.2g} m (before scaling)",
                     record.low > 0 && record.high > 0 ? fmt::format("{:g} to {:g}", record.low, record.high)
                     : record.low > 0                  ? fmt::format("from {:g}", record.low)
                                                       : fmt::format("up to {:g}", record.high),
-                    record.band_order, rest));
+                    record.band_order, end_velocity, end_displacement));
 }
 
 }  // namespace
