@@ -116,12 +116,16 @@ void add_summary(const RecordReport& r, std::vector<plot::Label>& labels) {
 }  // namespace
 
 void write_record_plot(const Record& record, const RecordReport& r, const std::string& path, const Uncorrected* before) {
-  const std::string under = r.note.empty() ? r.title : r.note;
-  std::string title = under.substr(0, 190);
-  if (title.size() < under.size()) title += " ...";
+  std::string title = r.title.substr(0, 110);
+  if (title.size() < r.title.size()) title += " ...";
   plot::Figure figure{1240, 780};
   figure.labels = {{std::filesystem::path(r.file).filename().string(), "screen 0.075,0.965", "left font ',16' tc rgb '#111111'"},
-                   {title, "screen 0.075,0.93", fmt::format("left font ',{}' tc rgb '#666666'", title.size() > 120 ? 10 : 12)}};
+                   {title, "screen 0.075,0.935", "left font ',12' tc rgb '#666666'"}};
+  if (!r.note.empty()) {
+    std::string note = r.note.substr(0, 230);
+    if (note.size() < r.note.size()) note.replace(std::min(note.rfind(' '), note.size()), std::string::npos, " ...");
+    figure.labels.push_back({note, "screen 0.075,0.912", "left font ',9' tc rgb '#8a8478'"});
+  }
   if (before != nullptr) figure.labels.push_back({"grey: before correction", "screen 0.975,0.965", "right font ',13' tc rgb '#8a8478'"});
   add_summary(r, figure.labels);
   const std::string rows = figure.add_rows(histories(record.acceleration));

@@ -79,6 +79,17 @@ void draw_probability(const Sweep& sweep, const std::vector<Group>& groups, cons
   plot::draw(figure, sweep.directory + "/fragility." + ending);
 }
 
+// The highest of the runs up to the first collapse of each case.
+double highest_capacity(const std::vector<Group>& groups) {
+  double top = 0;
+  for (const Group& group : groups)
+    for (const Case& one : group.cases) {
+      const Interval capacity = one.capacity();
+      top = std::max(top, std::isfinite(capacity.hi) ? capacity.hi : capacity.lo);
+    }
+  return top;
+}
+
 double largest_damage(const Group& group) {
   double most = 0;
   for (const Case& one : group.cases)
@@ -110,7 +121,7 @@ void draw_curves(const Sweep& sweep, const std::vector<Group>& groups, const std
   for (const Group& group : groups)
     for (const Case& one : group.cases) {
       panel.series.push_back({figure.add_rows(curve_of(one, right)) + " using 1:2", "linespoints lw 1 pt 7 ps 0.35 lc rgb '#b4b4b4'",
-                              first ? "each case; it leaves to the right where it collapses" : ""});
+                              first ? "each case" : ""});
       first = false;
     }
   for (std::size_t g = 0; g < std::min(groups.size(), most_groups); ++g) {
@@ -134,7 +145,9 @@ void draw_curves(const Sweep& sweep, const std::vector<Group>& groups, const std
   const auto& keys = sweep.plan.collect;
   const auto at = std::size_t(std::find(keys.begin(), keys.end(), damage) - keys.begin());
   panel.x = {at < sweep.collected.size() ? sweep.collected[at] : damage, fmt::format("[0:{}]", right), "", "", "noenhanced"};
-  panel.y = {unit_of_im(sweep), fmt::format("[0:{}]", 1.05 * highest(groups)), "", "", "noenhanced"};
+  panel.y = {unit_of_im(sweep), fmt::format("[0:{}]", std::min(1.05 * highest(groups), 1.1 * highest_capacity(groups))), "", "",
+             "noenhanced"};
+  panel.labels.push_back({"a case leaves to the right where it collapses", "graph 0.02, graph 0.96", "left font ',11' tc rgb '#666666'"});
   panel.key = "outside bottom center horizontal noenhanced";
   figure.panels = {panel};
   plot::draw(figure, sweep.directory + "/ida." + ending);
