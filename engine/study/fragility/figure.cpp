@@ -45,7 +45,7 @@ void add_fit(plot::Figure& figure, plot::Panel& panel, const Fragility& one, con
 }
 
 // Fractions of the stripes, if several runs share an intensity; else each run at 0 or 1.
-void add_fractions(plot::Figure& figure, plot::Panel& panel, const Group& group, const char* color) {
+void add_fractions(plot::Figure& figure, plot::Panel& panel, const Group& group, const char* color, bool titled) {
   std::string rows;
   for (const double im : levels_of(group)) {
     int runs = 0, collapsed = 0;
@@ -55,19 +55,19 @@ void add_fractions(plot::Figure& figure, plot::Panel& panel, const Group& group,
     rows += fmt::format("{} {}\n", im, double(collapsed) / runs);
   }
   panel.series.push_back({figure.add_rows(rows) + " using 1:2", fmt::format("points pt 7 ps 0.9 lc rgb '{}'", color),
-                          (group.name.empty() ? "" : group.name + ": ") + "share of runs that collapse"});
+                          titled ? "share of runs that collapse" : ""});
 }
 
 void draw_probability(const Sweep& sweep, const std::vector<Group>& groups, const std::vector<Fragility>& found,
                       const std::string& ending) {
-  plot::Figure figure = sheet(sweep, "probability of collapse");
+  plot::Figure figure = sheet(sweep, "collapse, with 95 % confidence");
   plot::Panel panel = panel_of();
   const double top = 1.05 * highest(groups);
   for (std::size_t g = 0; g < std::min(groups.size(), most_groups); ++g) {
     const auto one = std::find_if(found.begin(), found.end(), [&](const Fragility& f) { return f.group == groups[g].name; });
     if (one != found.end() && one->fit.end == FitEnd::fitted) add_fit(figure, panel, *one, colors[g], top);
     // Intensities that a bisection chose are no sample.
-    if (!sweep.plan.bisect) add_fractions(figure, panel, groups[g], colors[g]);
+    if (!sweep.plan.bisect) add_fractions(figure, panel, groups[g], colors[g], g == 0);
     if (one != found.end() && one->fit.end != FitEnd::fitted)
       panel.labels.push_back({one->words, fmt::format("graph 0.03, graph {}", 0.95 - 0.06 * double(g)),
                               fmt::format("left font ',11' tc rgb '{}' noenhanced", colors[g])});

@@ -111,7 +111,8 @@ std::vector<Group> read_groups(const Sweep& sweep) {
   while (std::getline(file, line)) {
     const std::vector<std::string> cells = csv_cells(line);
     if (cells.size() <= at.status) continue;
-    const std::string group = joined(cells, at.by);
+    std::string group;
+    for (std::size_t k = 0; k < at.by.size(); ++k) group += (k == 0 ? "" : ", ") + wanted.by[k] + " " + cells[at.by[k]];
     std::string name = joined(cells, at.of_case);
     if (wanted.along.empty() && !sweep.plan.bisect) name += (name.empty() ? "run " : ", run ") + cells.front();
     const double im = number_of(cells[at.im]), collapse = number_of(cells[at.collapse]);
