@@ -64,6 +64,7 @@ struct FragilityPlan {
 };
 
 constexpr const char* perturbation = "perturbation";  // name of the axis of perturbations{}: seeds of a noise, and no param of the scene
+inline bool is_perturbation(const Axis& axis) { return axis.params == std::vector<std::string>{perturbation}; }
 
 struct Plan {
   std::string scene;                 // as the study file says

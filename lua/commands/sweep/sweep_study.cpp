@@ -101,7 +101,7 @@ class Checker {
 Json plan_json(const Plan& plan) {
   Json j{{"axes", Json::array()}, {"collect", plan.collect}};
   for (const Axis& axis : plan.axes)
-    if (axis.params.front() == study::perturbation) j["noise"] = plan.noise;
+    if (is_perturbation(axis)) j["noise"] = plan.noise;
   for (const Axis& axis : plan.axes) {
     std::uint64_t hash = fnv1a("");
     for (const auto& row : axis.rows)

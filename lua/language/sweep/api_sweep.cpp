@@ -251,7 +251,7 @@ void read_axes(Call& call, Arguments& arguments, study::Plan& plan) {
       for (const Axis& axis : context.axes)
         if (axis.group == *group) {
           plan.axes.push_back(axis);
-          if (axis.params.front() == study::perturbation) plan.noise = axis.noise;
+          if (is_perturbation(axis)) plan.noise = axis.noise;
         }
     } else {
       arguments.mistake(fmt::format("vary: its item {} must be grid{{}}, list{{}}, latin{{}}, random{{}} or records{{}}, not {}", i,

@@ -11,12 +11,16 @@ namespace {
 
 // Towers of small bricks in a row: towers times 20 joints, one above the other.
 Scene towers(int count, const std::string& scatter) {
-  return lua::scene_of(fmt::format(R"(
+  lua::Script script(lua::quiet());
+  const std::string text = fmt::format(R"(
+material{{ name = "brick", density = 1800 }}
+analysis{{ duration = 1 }}
 for k = 1, {} do
   for i = 0, 20 do box{{ name = k .. "_" .. i, size = {{ .1, .1, .1 }}, at = {{ 3 + .3 * k, 0, .1 * i }}, material = "brick", group = "t" .. k, fixed = i == 0 }} end
   joint{{ between = {{ "t" .. k, "t" .. k }}, law = mortar{{ kn = 1e9, ft = 2e5, c = 3e5, mu = .6, Gf1 = 10, Gf2 = 50{} }} }}
 end)",
-                                   count, scatter));
+                                       count, scatter);
+  return script.load_text(text, "scene.lua", {});
 }
 
 // ln of the strength of each joint over its nominal value, with its height and its rule.

@@ -37,7 +37,7 @@ TEST_CASE("three components of a record come by one call", "[lua][record]") {
   CHECK(value(scene.loads[0].wave, 0.01) == -2);
   CHECK(value(scene.loads[1].wave, 0.01) == 1);
   CHECK(value(scene.loads[2].wave, 0.01) == 0.5);
-  CHECK(scene.inputs.size() == 3);
+  CHECK(scene.inputs.size() == 4);  // with the scene
   CHECK(mentions(scene.notes, "peak of x"));
   const Scene named = files.load("ground_records{ x = 'x.txt', y = 'y.txt', unit = 'm/s2', peak = 2, of = 'y' }\n");
   REQUIRE(named.loads.size() == 2);
