@@ -116,8 +116,8 @@ void check_wanted(const Record& record, const Place& place) {
   if (record.quantity == "acceleration" && record.smoothing > 0)
     throw Error("smoothing is for a file of velocities or displacements; leave it out, or take the band-pass high", place);
   if (record.quantity != "acceleration" && !(record.smoothing > 0))
-    throw Error(fmt::format("a {} is differentiated through a smoothing spline; say its corner, such as smoothing = 25 (Hz): above it lies "
-                            "noise",
+    throw Error(fmt::format("a {} is differentiated through a smoothing spline; say its corner in Hz, smoothing = 25 in the "
+                            "scene, or --smoothing 25 to erbs record: above it lies noise",
                             record.quantity),
                 place);
   if (record.low > 0 && record.high > 0 && record.low >= record.high)
