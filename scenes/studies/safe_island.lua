@@ -3,9 +3,9 @@
 -- What happens   Each run gives the block of pulse_column.lua a full sine of another frequency and amplitude. Small pulses overturn it after one
 --                impact, larger ones leave it standing again, still larger ones overturn it without an impact.
 -- Source         Zhang and Makris 2001, Fig. 6: omega_p / p against a_p / (g alpha); the island of the exact equation is drawn beside.
--- How to run     erbs sweep scenes/studies/safe_island.lua -D n=40
+-- How to run     erbs sweep scenes/studies/safe_island.lua          576 pulses take two minutes on two cores
 -- What to look at  results.svg: the blue cells between the two red regions, for omega / p from 3 to 6
-local n = param("n", 16, "pulses along each side of the map")
+local n = param("n", 24, "pulses along each side of the map")
 local function spread(lo, hi)
   local values = {}
   for i = 1, n do values[i] = lo + (hi - lo) * (i - 0.5) / n end

@@ -38,8 +38,7 @@ void add_fit(plot::Figure& figure, plot::Panel& panel, const Fragility& one, con
     rows += fmt::format("{} {} {} {}\n", im, one.fit.probability(im), one.fit.band(im, -1), one.fit.band(im, 1));
   }
   const std::string data = figure.add_rows(rows), name = one.group.empty() ? "" : one.group + ": ";
-  panel.series.push_back(
-      {data + " using 1:3:4", fmt::format("filledcurves fs transparent solid 0.18 noborder lc rgb '{}'", color), name + "95 % confidence"});
+  panel.series.push_back({data + " using 1:3:4", fmt::format("filledcurves fs transparent solid 0.18 noborder lc rgb '{}'", color), ""});
   panel.series.push_back({data + " using 1:2", fmt::format("lines lw 2.5 lc rgb '{}'", color),
                           fmt::format("{}median {:.3g}, dispersion {:.2f}", name, one.fit.theta, one.fit.beta)});
 }
