@@ -215,6 +215,7 @@ function dry(keys) end
 ---@field ks_cracked? number shear stiffness once no bond is left (default kn_cracked ks / kn) [Pa/m; 0 to 1e+16]
 ---@field damping? number viscous ratio of the cracked joint, relative to its critical value [0 to 1; default 0]
 ---@field coupling? "coulomb"|"linear"|"ellipse" tension-shear coupling: coulomb, linear or ellipse [default coulomb]
+---@field scatter? { cv: number, length?: number, seed?: integer } lognormal scatter of the bond from joint to joint (default: none)
 
 ---A mortar joint: linear, with tension cut-off, Coulomb shear with cohesion, and optional softening.
 ---@param keys erbs.mortar_keys
@@ -278,7 +279,7 @@ function sine(keys) end
 ---@field phase? number phase at the start; the pulse ends at pi [rad; 0 to 3.14159; default 0]
 ---@field start? number time of the first value [s; -1e+09 to 1e+09; default 0]
 
----One lobe of a sine, from any phase to its zero at pi.
+---One lobe of a sine, from any phase to its zero at pi. From phase 0 it leaves the ground at the velocity amplitude / (pi frequency).
 ---@param keys erbs.half_sine_keys
 ---@return erbs.wave # for a load; wave(t) is its value at time t
 function half_sine(keys) end
@@ -289,7 +290,7 @@ function half_sine(keys) end
 ---@field phase? number phase at the start; the pulse ends at 2 pi [rad; 0 to 6.28319; default 0]
 ---@field start? number time of the first value [s; -1e+09 to 1e+09; default 0]
 
----One cycle of a sine, from any phase to its zero at 2 pi.
+---One cycle of a sine, from any phase to its zero at 2 pi. From phase 0 it leaves the ground at rest, displaced by amplitude / (2 pi frequency^2).
 ---@param keys erbs.full_sine_keys
 ---@return erbs.wave # for a load; wave(t) is its value at time t
 function full_sine(keys) end
@@ -315,7 +316,7 @@ function pulse(keys) end
 function table_wave(keys) end
 
 ---@class erbs.record_keys
----@field file string PEER AT2, CSV or text of one or two columns
+---@field file string PEER AT2, ESM, COSMOS or CSMIP V2, CSV or text of columns
 ---@field peak? number largest absolute acceleration after scaling (default: as recorded) [m/s2; 0 to 10000]
 ---@field scale? number factor on the acceleration, instead of peak [-1e+06 to 1e+06; default 1]
 ---@field time_factor? number factor on time [0.001 to 1000; default 1]
@@ -323,7 +324,14 @@ function table_wave(keys) end
 ---@field column? integer column of the values, counted from 1 (default: the one after time) [0 to 1000]
 ---@field dt? number time step, for a file with one column of values [s; 0 to 1000; default 0]
 ---@field first_time? number time of the first value of such a file [s; 0 to 1000; default 0]
----@field unit? string unit of the values, if the file does not give one: g, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2
+---@field unit? string unit of the values, if the file does not give one: g, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2; m/s, ... or m, ... by quantity
+---@field decimal? "auto"|"point"|"comma" decimal mark of the file (auto: a comma where commas cannot part columns) [default auto]
+---@field quantity? "acceleration"|"velocity"|"displacement" what the file holds; all but an acceleration needs `smoothing` [default acceleration]
+---@field smoothing? number corner at which the spline that differentiates a velocity or displacement halves its amplitude [Hz; 0 to 10000; default 0]
+---@field baseline? "none"|"constant"|"linear"|"quadratic"|"cubic" polynomial taken from the acceleration, by the best fit of its integral to the velocity [default none]
+---@field low? number lower corner of a Butterworth band-pass without phase lag (0: none) [Hz; 0 to 10000; default 0]
+---@field high? number its upper corner, below half the sampling rate (0: none) [Hz; 0 to 10000; default 0]
+---@field band_order? integer order of the band-pass in each of its two passes, forwards and backwards [1 to 10; default 4]
 
 ---A ground-motion record from a file, scaled in amplitude and time.
 ---@param keys erbs.record_keys
@@ -340,6 +348,38 @@ function record(keys) end
 ---@return erbs.wave # for a load; wave(t) is its value at time t
 function ricker(keys) end
 
+---@class erbs.full_cosine_keys
+---@field amplitude number peak value, in the unit of the load
+---@field frequency number frequency; the cycle lasts 1 / frequency [Hz; 1e-09 to 1e+09]
+---@field start? number time of the first value [s; -1e+09 to 1e+09; default 0]
+
+---One cycle of a cosine, from peak to peak. It leaves the ground at rest at its place.
+---@param keys erbs.full_cosine_keys
+---@return erbs.wave # for a load; wave(t) is its value at time t
+function full_cosine(keys) end
+
+---@class erbs.mp_pulse_keys
+---@field amplitude number amplitude A of the velocity's envelope [m/s]
+---@field frequency number prevailing frequency f_p [Hz; 1e-09 to 1e+09]
+---@field phase? number phase nu: 0 for a symmetric velocity, 90 deg for an antisymmetric one [rad; -1000 to 1000; default 0]
+---@field gamma number oscillatory character: the pulse lasts gamma / f_p [1.0001 to 1000]
+---@field start? number time of the first value; the envelope peaks gamma / (2 f_p) later [s; -1e+09 to 1e+09; default 0]
+
+---The near-fault pulse of Mavroeidis and Papageorgiou (2003), given by its velocity, as an acceleration. It leaves the ground at rest, displaced by -amplitude cos(phase) sin(pi gamma) / (2 pi frequency (gamma^2 - 1)).
+---@param keys erbs.mp_pulse_keys
+---@return erbs.wave # for a load; wave(t) is its value at time t
+function mp_pulse(keys) end
+
+---@class erbs.spectral_acceleration_keys
+---@field wave erbs.wave|number|fun(t: number): number the acceleration of the ground [m/s2]
+---@field period number period of the oscillator [s; 0.001 to 1000]
+---@field damping? number its damping ratio [0 to 0.99; default 0.05]
+
+---Pseudo-acceleration of an oscillator under a wave as the acceleration of the ground: Sa(T), a measure of intensity.
+---@param keys erbs.spectral_acceleration_keys
+---@return number # m/s2
+function spectral_acceleration(keys) end
+
 ---@class erbs.ground_motion_keys
 ---@field wave erbs.wave|number|fun(t: number): number a wave, a number, or a function of time [m/s2]
 ---@field direction? "x"|"y"|"z"|erbs.vec3 "x", "y", "z" or a vector [-1e+09 to 1e+09; default "x"]
@@ -349,6 +389,31 @@ function ricker(keys) end
 ---Shakes the ground by an acceleration; several ground motions add up. A positive acceleration moves the ground along its direction and pushes the structure the other way.
 ---@param keys erbs.ground_motion_keys
 function ground_motion(keys) end
+
+---@class erbs.ground_records_keys
+---@field x? string file of the component along x
+---@field y? string file of the component along y
+---@field z? string file of the component along z, upwards
+---@field of? "strongest"|"x"|"y"|"z" component whose peak becomes `peak`; all components have one scale [default strongest]
+---@field peak? number largest absolute acceleration after scaling (default: as recorded) [m/s2; 0 to 10000]
+---@field scale? number factor on the acceleration, instead of peak [-1e+06 to 1e+06; default 1]
+---@field time_factor? number factor on time [0.001 to 1000; default 1]
+---@field start? number simulated time of time 0 in the file [s; -1e+09 to 1e+09; default 0]
+---@field column? integer column of the values, counted from 1 (default: the one after time) [0 to 1000]
+---@field dt? number time step, for a file with one column of values [s; 0 to 1000; default 0]
+---@field first_time? number time of the first value of such a file [s; 0 to 1000; default 0]
+---@field unit? string unit of the values, if the file does not give one: g, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2; m/s, ... or m, ... by quantity
+---@field decimal? "auto"|"point"|"comma" decimal mark of the file (auto: a comma where commas cannot part columns) [default auto]
+---@field quantity? "acceleration"|"velocity"|"displacement" what the file holds; all but an acceleration needs `smoothing` [default acceleration]
+---@field smoothing? number corner at which the spline that differentiates a velocity or displacement halves its amplitude [Hz; 0 to 10000; default 0]
+---@field baseline? "none"|"constant"|"linear"|"quadratic"|"cubic" polynomial taken from the acceleration, by the best fit of its integral to the velocity [default none]
+---@field low? number lower corner of a Butterworth band-pass without phase lag (0: none) [Hz; 0 to 10000; default 0]
+---@field high? number its upper corner, below half the sampling rate (0: none) [Hz; 0 to 10000; default 0]
+---@field band_order? integer order of the band-pass in each of its two passes, forwards and backwards [1 to 10; default 4]
+
+---Shakes the ground by up to three components of one recorded motion, along x, y and z: one time axis and one scale. The other keys are those of record{}.
+---@param keys erbs.ground_records_keys
+function ground_records(keys) end
 
 ---@class erbs.force_keys
 ---@field block string name of the block
@@ -649,7 +714,7 @@ function figure(keys) end
 
 ---@class erbs.study_keys
 ---@field scene string the scene, a path from the folder of the study
----@field vary? erbs.axes|erbs.axes[] { grid{}, list{}, latin{}, random{}, records{} }: every combination, the last changing fastest
+---@field vary? erbs.axes|erbs.axes[] { grid{}, list{}, latin{}, random{}, records{}, perturbations{} }: every combination, the last changing fastest
 ---@field bisect? { param: string, lo: number, hi: number, rel?: number, points?: integer, key?: string, above?: number } threshold of a param at each of these points
 ---@field collect? string|string[] keys of metrics.json for the columns; of a bisection, from its run at the upper end
 ---@field max_wall? number|string longest time of a run: seconds, or "5m"; beyond it the run is ended [default 1h]
@@ -660,6 +725,7 @@ function figure(keys) end
 ---@field y? string label of its vertical axis (default the column)
 ---@field split? string a varied param; each of its values has a figure of its own, such as results_method_1.svg
 ---@field curves? { label: string, x: number[], y: number[] }[] known curves for the figure
+---@field fragility? { im: string, collapse?: string, above?: number, along?: string, damage?: string|string[], by?: string|string[] } lognormal fragility and fractiles of damage from these runs: fragility.csv and others, with figures
 
 ---Many runs of a scene, by erbs sweep: what varies, what is bisected, and the columns of results.csv.
 ---@param keys erbs.study_keys
@@ -700,6 +766,15 @@ function latin(keys) end
 ---@param keys erbs.random_keys
 ---@return erbs.axes # for vary of study
 function random(keys) end
+
+---@class erbs.perturbations_keys
+---@field n integer number of runs, each with its own seed [1 to 1e+06]
+---@field size? number largest shift and turn of each free block at the start [m and rad; 0 to 1; default 1e-09]
+
+---In a study: the same run n times, each free block displaced and turned a little at random at the start (erbs run --noise).
+---@param keys erbs.perturbations_keys
+---@return erbs.axes # for vary of study
+function perturbations(keys) end
 
 ---@class erbs.records_keys
 ---@field param string name of the param that takes the file, such as param("motion", "a.AT2")

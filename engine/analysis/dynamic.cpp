@@ -104,7 +104,7 @@ void Run::begin() {
   } else {
     const BlockVec3 built = run_.state.pose.u;
     start_at_rest(scene_, run_, options_.threads);
-    add_noise(run_, options_.noise, 1);
+    add_noise(run_, options_.noise, options_.noise_seed);
     add_noise(run_, options_.twin_noise, 2);
     watch(built);
   }

@@ -34,7 +34,8 @@ struct RunOptions {
   double max_wall = 0;           // s; 0: no limit
   double checkpoint_every = 60;  // s of wall time
   bool allow_unstable = false;
-  double noise = 0, twin_noise = 0;  // m and rad, perturbation of every movable block at the start; each from a fixed seed
+  double noise = 0, twin_noise = 0;  // m and rad, perturbation of every movable block at the start; each from its seed
+  unsigned noise_seed = 1;           // of `noise`
   const std::atomic<bool>* interrupted = nullptr;
   std::function<void(const Progress&)> progress;  // about ten calls per second
 };

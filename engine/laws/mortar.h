@@ -25,6 +25,8 @@ struct FaceOf<Mortar> {
 }  // namespace erbs::ERBS_TARGET
 
 #ifdef ERBS_HOST
+#include "engine/laws/scatter.h"
+
 namespace erbs {
 
 struct Mortar {
@@ -49,6 +51,7 @@ struct Mortar {
   double ks_cracked = 0;             // Pa/m, likewise; 0: in the ratio of ks to kn
   double damping = 0;                // of critical, once the joint has cracked; before that damping{} applies
   std::string coupling = "coulomb";  // coulomb | linear | ellipse
+  Scatter scatter;                   // of the strength, from joint to joint
 
   static constexpr std::string_view law_name = "mortar";
   static constexpr std::string_view help =
@@ -85,6 +88,12 @@ struct Mortar {
         {"damping", &Mortar::damping, "", "viscous ratio of the cracked joint, relative to its critical value", 0, 1},
         {"coupling", &Mortar::coupling, "", "tension-shear coupling: coulomb, linear or ellipse", 0, 0, false, "coulomb|linear|ellipse"},
     };
+  }
+  // The bond of a joint that is `factor` times as strong; the openings and slips at which it is lost stay.
+  Mortar scaled(double factor) const {
+    Mortar out = *this;
+    for (double Mortar::*part : {&Mortar::ft, &Mortar::c, &Mortar::Gf1, &Mortar::Gf2}) out.*part *= factor;
+    return out;
   }
   std::string complete() {
     if (kn == 0 && E == 0) return "there is no stiffness; give E (with the thickness of the bed) or kn";
@@ -162,7 +171,8 @@ struct Mortar {
             {"compression plateau", [](const Mortar& m) { return m.fc > 0; }, [](Mortar& m) { m.fc = m.Gc = m.uc_ultimate = 0; }},
             {"softening in compression", [](const Mortar& m) { return m.Gc > 0; }, [](Mortar& m) { m.Gc = 0; }},
             {"softer beds without bond", [](const Mortar& m) { return m.kn_cracked > 0 || m.ks_cracked > 0; },
-             [](Mortar& m) { m.kn_cracked = m.ks_cracked = 0; }}};
+             [](Mortar& m) { m.kn_cracked = m.ks_cracked = 0; }},
+            {"scatter of strength", [](const Mortar& m) { return m.scatter.cv > 0; }, [](Mortar& m) { m.scatter.cv = 0; }}};
   }
   std::vector<std::pair<const char*, double>> strengths() const { return {{"ft", ft}, {"c", c}, {"fc", fc}}; }  // Pa
   std::vector<std::string> warnings() const {

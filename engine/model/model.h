@@ -79,7 +79,7 @@ struct Model {
   std::vector<Eigen::Vector2d> overlap_corner;           // m, of the overlap polygon in the joint frame
   std::vector<Cell> cell;                                // one for each of `point`
   std::vector<Eigen::Vector2d> cell_loop, tension_loop;  // m, joint frame: loops of the cells, and the loops on which they check tension
-  std::vector<PointLaw> laws;                            // one per joint rule
+  std::vector<PointLaw> laws;                            // one per joint rule, then the strengths of those with scatter
   OwnerSchedule owner_schedule;                          // owner schedule of intact joints
   // Wrench rows, one per joint end. Group g of eight moving blocks owns slots [first_wrench_slot[g], first_wrench_slot[g+1]); a slot has
   // eight rows, one for each block. The rows of other blocks follow behind all slots. The last row is a spare one.

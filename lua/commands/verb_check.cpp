@@ -39,6 +39,18 @@ void print_scene(const Scene& scene) {
   for (const std::string& note : scene.notes) say("  {}\n", note);
 }
 
+// Where each ground motion that ends leaves the ground.
+void print_motions(const Scene& scene) {
+  for (const Load& load : scene.loads) {
+    if (load.kind != Load::Kind::ground) continue;
+    const double end = end_time(load.wave);
+    const std::string kind = std::visit([](const auto& w) { return std::string(std::decay_t<decltype(w)>::wave_name); }, load.wave);
+    if (!std::isfinite(end)) continue;
+    say("  ground motion {} along ({:g}, {:g}, {:g}): ends at {:.4g} s with the velocity {:.3g} m/s and the displacement {:.3g} m\n", kind,
+        load.direction.x(), load.direction.y(), load.direction.z(), end, integral(load.wave, end), second_integral(load.wave, end));
+  }
+}
+
 void print_effects(const Scene& scene) {
   std::string off;
   say("effects on:\n");
@@ -82,6 +94,7 @@ void check_scene(const std::string& path, const CheckCommand& command) {
   for (const auto& warning : run.warnings) tell(stderr, "warning: " + warning);
   if (command.quiet) return;
   print_scene(scene);
+  print_motions(scene);
   print_run(scene, run);
   print_rocking(run.model);
   print_effects(scene);

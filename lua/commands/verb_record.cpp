@@ -1,8 +1,10 @@
 // erbs record FILE: the key numbers of a ground motion, and its plot in a folder.
 #include <cmath>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 
+#include "engine/base/units.h"
 #include "engine/loads/record/record_report.h"
 #include "engine/record/format/json.h"
 #include "engine/record/plot/record_plot.h"
@@ -21,6 +23,7 @@ Json to_json(const RecordReport& r) {
           {"hash", r.hash},
           {"title", r.title},
           {"format", r.format},
+          {"corrected", r.note},
           {"points", r.points},
           {"dt_s", r.dt > 0 ? Json(r.dt) : Json(nullptr)},
           {"duration_s", r.duration},
@@ -47,14 +50,35 @@ void check_folder(const fs::path& folder, const RecordReport& r, bool force) {
                             folder.string()));
 }
 
-std::string write_folder(const fs::path& folder, const Record& record, const RecordReport& r, bool force) {
+// The record without its corrections; none if there are none.
+std::optional<Uncorrected> uncorrected(const Record& wanted) {
+  if (wanted.baseline == "none" && wanted.low <= 0 && wanted.high <= 0) return std::nullopt;
+  Record plain = wanted;
+  plain.baseline = "none", plain.low = plain.high = 0;
+  Uncorrected out{read_record(plain), {}};
+  out.report = report(out.record);
+  return out;
+}
+
+Json end_values(const RecordReport& r) {
+  return {{"pga_m_s2", std::abs(r.pga.value)},
+          {"pgv_m_s", std::abs(r.pgv.value)},
+          {"pgd_m", std::abs(r.pgd.value)},
+          {"end_velocity_m_s", r.end_velocity},
+          {"end_displacement_m", r.end_displacement}};
+}
+
+std::string write_folder(const fs::path& folder, const Record& record, const RecordReport& r, const std::optional<Uncorrected>& before,
+                         bool force) {
   check_folder(folder, r, force);
   const bool made = !fs::exists(folder);
   const std::string picture = (folder / "record.svg").string();
   try {
     fs::create_directories(folder);
-    write_record_plot(record, r, picture);
-    write_json((folder / "record.json").string(), to_json(r));
+    write_record_plot(record, r, picture, before ? &*before : nullptr);
+    Json json = to_json(r);
+    if (before) json["before_correction"] = end_values(before->report);
+    write_json((folder / "record.json").string(), json);
   } catch (const std::exception& trouble) {
     std::error_code ignored;
     if (made) fs::remove_all(folder, ignored);
@@ -80,10 +104,15 @@ int verb_record(const RecordCommand& command) {
     const RecordReport numbers = report(record);
     std::ostringstream table;
     print(table, numbers);
+    const std::optional<Uncorrected> before = uncorrected(wanted);
+    if (before)
+      table << fmt::format("{:<22} PGA {:.5f} g, PGV {:.4f} m/s, PGD {:.4f} m, end velocity {:.1e} m/s, end displacement {:.1f} mm\n",
+                           "before correction", std::abs(before->report.pga.value) / standard_g, std::abs(before->report.pgv.value),
+                           std::abs(before->report.pgd.value), before->report.end_velocity, 1e3 * before->report.end_displacement);
     say("{}", table.str());
     const fs::path folder =
         command.output.directory.empty() ? fs::path("runs") / fs::path(file).stem() : fs::path(command.output.directory);
-    const std::string picture = write_folder(folder, record, numbers, command.output.force);
+    const std::string picture = write_folder(folder, record, numbers, before, command.output.force);
     if (!command.output.quiet) say("{:<22} {}\n", "picture", picture);
   }
   return exit_ok;

@@ -243,6 +243,7 @@ analysis::RunOutcome run_scene(Scene scene, const std::string& script, const std
   run.checkpoint_every = command.checkpoint_every.value_or(60);
   run.allow_unstable = command.scene.allow_unstable;
   run.noise = command.changes.noise;
+  run.noise_seed = unsigned(command.changes.noise_seed);
   run.twin_noise = command.twin_noise;
   run.interrupted = &catch_interrupts();
   ProgressPrinter printer(command.output.quiet, command.log_json);

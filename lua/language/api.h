@@ -49,6 +49,9 @@ std::vector<Function> sweep_functions();
 std::vector<Function> calibration_functions();
 std::vector<Function> companion_functions();
 
+// Tells in check, log and manifest what has been done to the values of a record.
+void note_record(Context& context, const Record& record, const Place& place);
+
 const Keys& part_keys();       // of block{ parts = { ... } }
 const Keys& tolerance_keys();  // of expect(key, value, { ... })
 const Keys& stored_keys();     // of expect_stored(key, { ... })

@@ -9,11 +9,27 @@
 namespace erbs::lua {
 namespace {
 
+const Keys& scatter_keys() {
+  static const Keys keys = keys_of<Scatter>();
+  return keys;
+}
+
+template <class L>
+Keys law_keys() {
+  if constexpr (requires(L law) { law.scatter; })
+    return joined({keys_of<L>(),
+                   {{"scatter", "table", "", "lognormal scatter of the bond from joint to joint (default: none)", -unbounded, unbounded,
+                     false, "", "", scatter_keys()}}});
+  return keys_of<L>();
+}
+
 template <class L>
 int make_law(Call& call) {
   Arguments arguments = call.arguments();
   L law;
   arguments.read(law);
+  if constexpr (requires { law.scatter; })
+    if (auto table = arguments.table("scatter", scatter_keys())) table->read(law.scatter);
   if (const std::string mistake = law.complete(); !mistake.empty()) arguments.mistake(mistake);
   push_law(call.lua, call.context, law);
   return 1;
@@ -32,7 +48,7 @@ std::string any_law(LawList<L...>) {
 template <class... L>
 void add_laws(std::vector<Function>& functions, LawList<L...>) {
   (functions.push_back(
-       {std::string(L::law_name), make_law<L>, "{ ... }", "law: for joint{ law = ... }", std::string(L::help), keys_of<L>()}),
+       {std::string(L::law_name), make_law<L>, "{ ... }", "law: for joint{ law = ... }", std::string(L::help), law_keys<L>()}),
    ...);
 }
 

@@ -1,6 +1,8 @@
 // Functions of a script: ground motions, forces, moments, tilt, prescribed motions and gravity.
+#include <array>
 #include <lua5.4/lua.hpp>
 
+#include "engine/loads/record/components.h"
 #include "lua/language/api.h"
 
 namespace erbs::lua {
@@ -48,6 +50,63 @@ int motion(Call& call) { return add_load(call, Load::Kind::motion, "direction");
 
 int turning(Call& call) { return add_load(call, Load::Kind::turning, "axis"); }
 
+struct MotionKeys {  // of ground_records{}
+  std::string x, y, z, of = "strongest";
+
+  static Fields<MotionKeys> fields() {
+    return {
+        {"x", &MotionKeys::x, "", "file of the component along x"},
+        {"y", &MotionKeys::y, "", "file of the component along y"},
+        {"z", &MotionKeys::z, "", "file of the component along z, upwards"},
+        {"of", &MotionKeys::of, "", "component whose peak becomes `peak`; all components have one scale", 0, 0, false, "strongest|x|y|z"},
+    };
+  }
+};
+
+Keys ground_records_keys() {
+  Keys of_record = keys_of<Record>();
+  std::erase_if(of_record, [](const Key& key) { return key.name == "file"; });
+  return joined({keys_of<MotionKeys>(), of_record});
+}
+
+int ground_records(Call& call) {
+  Arguments arguments = call.arguments();
+  MotionKeys files;
+  Record common;
+  arguments.read(files);
+  for (const auto& field : Record::fields())
+    if (field.name != "file") std::visit([&](auto member) { arguments.read(std::string(field.name), common.*member); }, field.member);
+  if (arguments.has("peak") && arguments.has("scale")) arguments.mistake("\"peak\" and \"scale\" exclude each other; keep one");
+  std::array<Record, 3> wanted{common, common, common};
+  const std::string* names[] = {&files.x, &files.y, &files.z};
+  Components motion;
+  try {
+    for (std::size_t i = 0; i < 3; ++i)
+      if (!names[i]->empty()) wanted[i].file = find_input(call.context, *names[i], call.place).string();
+    motion = read_components(wanted, files.of, call.place);
+  } catch (const Error& error) {  // of the script line, or of a file with its own place
+    if (error.place.file == call.place.file) call.context.mistake({}, error.what());
+    else call.mistake(error.what());
+    return 0;
+  }
+  Context& context = call.context;
+  for (int i = 0; i < 3; ++i) {
+    Record& one = motion.of[std::size_t(i)];
+    if (one.file.empty()) continue;
+    context.scene.inputs[one.file] = one.hash;
+    note_record(context, one, call.place);
+    context.took(4 * sizeof(double) * one.acceleration.times.size());
+    Load load;
+    load.kind = Load::Kind::ground;
+    load.place = call.place;
+    load.direction = context.frame().vector(Vec3::Unit(i));
+    load.wave = std::move(one);
+    context.scene.loads.push_back(std::move(load));
+  }
+  context.scene.notes.push_back(call.place.text() + ": " + motion.note);
+  return 0;
+}
+
 int gravity(Call& call) {
   Scene& scene = call.context.scene;
   if (lua_type(call.lua, 1) == LUA_TNUMBER) {
@@ -90,6 +149,11 @@ std::vector<Function> load_functions() {
        "Shakes the ground by an acceleration; several ground motions add up. A positive acceleration moves the ground along its direction "
        "and pushes the structure the other way.",
        load_keys("m/s2", "direction", "\"x\", \"y\", \"z\" or a vector", false)},
+      {"ground_records", ground_records, "{ ... }", "",
+       "Shakes the ground by up to three components of one recorded motion, along x, y and z: one time axis and one scale. The other keys "
+       "are "
+       "those of record{}.",
+       ground_records_keys()},
       {"force", force, "{ ... }", "", "A force on a block.", force_keys},
       {"moment", moment, "{ ... }", "", "A moment on a block.",
        load_keys("N m", "direction", "axis of the moment: \"x\", \"y\", \"z\" or a vector", true)},

@@ -1,6 +1,10 @@
 // Functions of a script: waves (functions of time), made from their field lists.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
 #include <lua5.4/lua.hpp>
 
+#include "engine/loads/record/response_spectrum.h"
 #include "lua/language/api.h"
 
 namespace erbs::lua {
@@ -27,6 +31,7 @@ void finish(Call& call, Arguments& arguments, Record& wave) {
   wave.file = find_input(call.context, wave.file, call.place).string();
   wave = read_record(std::move(wave), call.place);
   call.context.scene.inputs[wave.file] = wave.hash;
+  note_record(call.context, wave, call.place);
 }
 
 size_t points_of(const Record& wave) { return wave.acceleration.times.size(); }
@@ -59,6 +64,40 @@ Keys wave_keys() {
   return keys_of<W>();
 }
 
+// The acceleration of a wave as a line through its points; waves with a formula are sampled forty times a period and at their features.
+Polyline line_of(const Wave& wave, double period, const Call& call) {
+  if (const auto* record = std::get_if<Record>(&wave)) return record->acceleration;
+  if (const auto* table = std::get_if<Table>(&wave)) return table->line;
+  const double end = end_time(wave), step = std::min(period / 40, resolution(wave));
+  if (!(end > 0 && end / step < 1e7))
+    throw Error("spectral_acceleration: this wave has no end, or is too long for the period; give one of finite duration", call.place);
+  std::vector<double> times, values;
+  const auto n = std::max<std::size_t>(2, static_cast<std::size_t>(std::ceil(end / step)));
+  for (std::size_t i = 0; i <= n; ++i) {
+    times.push_back(end * static_cast<double>(i) / static_cast<double>(n));
+    values.push_back(value(wave, times.back()));
+  }
+  return make_polyline(times, values);
+}
+
+struct Oscillator {
+  double period = 1, damping = 0.05;  // s, ratio
+
+  static Fields<Oscillator> fields() {
+    return {{"period", &Oscillator::period, "s", "period of the oscillator", 1e-3, 1e3, true},
+            {"damping", &Oscillator::damping, "", "its damping ratio", 0, 0.99}};
+  }
+};
+
+int spectral_acceleration(Call& call) {
+  Arguments arguments = call.arguments();
+  Oscillator of;
+  arguments.read(of);
+  const auto wave = arguments.wave("wave");
+  lua_pushnumber(call.lua, wave ? response_spectrum(line_of(*wave, of.period, call), {of.period}, of.damping).front().acceleration : 0);
+  return 1;
+}
+
 template <class... W>
 void add_waves(std::vector<Function>& functions, const std::variant<W...>*) {
   (functions.push_back({std::string(W::wave_name), make_wave<W>, "{ ... }", "wave: for a load; wave(t) is its value at time t",
@@ -68,9 +107,20 @@ void add_waves(std::vector<Function>& functions, const std::variant<W...>*) {
 
 }  // namespace
 
+void note_record(Context& context, const Record& record, const Place& place) {
+  if (record.note.empty()) return;
+  const std::string note = fmt::format("{}: {}: {}", place.text(), std::filesystem::path(record.file).filename().string(), record.note);
+  if (std::find(context.scene.notes.begin(), context.scene.notes.end(), note) == context.scene.notes.end())
+    context.scene.notes.push_back(note);
+}
+
 std::vector<Function> wave_functions() {
   std::vector<Function> functions;
   add_waves(functions, static_cast<const Wave*>(nullptr));
+  functions.push_back(
+      {"spectral_acceleration", spectral_acceleration, "{ ... }", "number: m/s2",
+       "Pseudo-acceleration of an oscillator under a wave as the acceleration of the ground: Sa(T), a measure of intensity.",
+       joined({{{"wave", "wave", "m/s2", "the acceleration of the ground", -unbounded, unbounded, true}}, keys_of<Oscillator>()})});
   return functions;
 }
 

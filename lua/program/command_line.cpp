@@ -29,9 +29,11 @@ void add_run(CLI::App& app, RunCommand& command) {
   run.add_option("--damping-form", changes.damping_form, "velocity that mass damping uses: the mean over the step, or the one before it")
       ->check(CLI::IsMember({"centred", "explicit"}));
   add_time(run, "--from", changes.from, "start the loads at this time, with the structure at rest: a window of a long record", "T");
-  run.add_option("--noise", changes.noise,
-                 "perturb the initial state of every free block by up to this (m and rad), always with the same seed")
+  run.add_option(
+         "--noise", changes.noise,
+         "perturb the initial state of every free block by up to this (m and rad), with the same seed unless --noise-seed says another")
       ->check(within(0.0, 1.0));
+  run.add_option("--noise-seed", changes.noise_seed, "seed of --noise (default: 1)")->check(within(1, 1000000));
   run.add_option("--push-to", changes.push_to,
                  "push to this displacement of the monitored point (m) and no further, such as the one of the performance point")
       ->check(within(1e-9, 1e3));
@@ -180,11 +182,22 @@ void add_others(CLI::App& app, CommandLine& line) {
   add_output(exported, line.exported.output, "DIR/export");
 
   CLI::App& record = *app.add_subcommand("record", "report a ground motion: points, dt, peaks, end values, Arias intensity, spectrum");
-  record.add_option("FILE", line.record.words, "PEER AT2, CSV or text of one or two columns")->required();
+  record.add_option("FILE", line.record.words, "PEER AT2, ESM, COSMOS or CSMIP V2, CSV or text of columns")->required();
   add_output(record, line.record.output, "runs/<file name>");
   record.add_option("--dt", line.record.record.dt, "time step of a file that has values only, s")->check(within(1e-6, 1e3));
   record.add_option("--unit", line.record.record.unit, "unit of the values, if the file does not give one: g, m/s2, cm/s2, gal, ...");
   record.add_option("--column", line.record.record.column, "column of the values, from 1")->check(within(1, 1000));
+  record.add_option("--decimal", line.record.record.decimal, "decimal mark of the file (default: auto)")
+      ->check(CLI::IsMember({"auto", "point", "comma"}));
+  record.add_option("--quantity", line.record.record.quantity, "what the file holds (default: acceleration)")
+      ->check(CLI::IsMember({"acceleration", "velocity", "displacement"}));
+  record.add_option("--smoothing", line.record.record.smoothing, "corner of the spline that differentiates a velocity or displacement, Hz")
+      ->check(within(1e-6, 1e4));
+  record.add_option("--baseline", line.record.record.baseline, "polynomial taken from the acceleration (default: none)")
+      ->check(CLI::IsMember({"none", "constant", "linear", "quadratic", "cubic"}));
+  record.add_option("--low", line.record.record.low, "lower corner of a Butterworth band-pass of zero phase, Hz")->check(within(1e-6, 1e4));
+  record.add_option("--high", line.record.record.high, "its upper corner, Hz")->check(within(1e-6, 1e4));
+  record.add_option("--band-order", line.record.record.band_order, "its order in each of two passes (default: 4)")->check(within(1, 10));
 
   CLI::App& test = *app.add_subcommand("test", "run scenes with expectations, and print the table of results");
   test.add_option("DIR|SCENE.lua", line.test.words, "folders and scenes")->required();

@@ -47,7 +47,8 @@ struct SceneChanges {
   std::optional<double> from;         // s, time at which the loads begin
   std::vector<std::string> without;   // effects that are switched off
   double noise = 0;                   // m and rad, noise in the initial state of every free block
-  double push_to = 0;                 // m, displacement of the monitored point at which a pushover ends; 0: as the scene says
+  int noise_seed = 1;
+  double push_to = 0;  // m, displacement of the monitored point at which a pushover ends; 0: as the scene says
 };
 
 // What each verb reads; words: its arguments, such as scenes, folders, files.

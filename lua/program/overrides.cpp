@@ -115,7 +115,9 @@ std::vector<std::string> apply_overrides(Scene& scene, const RunCommand& command
     notes.push_back(fmt::format("--push-to {:g}", changes.push_to));
   }
   if (command.scene.allow_unstable) scene.analysis.unstable = true;
-  if (changes.noise > 0) notes.push_back(fmt::format("--noise {:g}", changes.noise));
+  if (changes.noise > 0)
+    notes.push_back(
+        fmt::format("--noise {:g}{}", changes.noise, changes.noise_seed != 1 ? fmt::format(" --noise-seed {}", changes.noise_seed) : ""));
   return notes;
 }
 
@@ -174,6 +176,7 @@ std::vector<std::string> override_arguments(const RunCommand& command) {
   if (!changes.damping_form.empty()) words.insert(words.end(), {"--damping-form", changes.damping_form});
   if (changes.from) words.insert(words.end(), {"--from", fmt::format("{}", *changes.from)});
   if (changes.noise > 0) words.insert(words.end(), {"--noise", fmt::format("{}", changes.noise)});
+  if (changes.noise_seed != 1) words.insert(words.end(), {"--noise-seed", std::to_string(changes.noise_seed)});
   if (changes.push_to > 0) words.insert(words.end(), {"--push-to", fmt::format("{}", changes.push_to)});
   if (command.scene.allow_unstable) words.emplace_back("--allow-unstable");
   return words;

@@ -35,7 +35,7 @@ const std::map<std::string, Levels> sub_rooms{
     {"solve", {{"blocks", "linear"}, {"contacts", "sequential"}, {""}}},
     {"record", {{"format", "plot"}, {"recorders", "performance"}, {"results"}, {"folder"}, {"export"}, {"report"}}},
     {"analysis", {{"limit"}, {""}, {"quasi_static"}}},
-    {"study", {{""}, {"sweep"}, {"calibrate"}}},
+    {"study", {{""}, {"sweep"}, {"calibrate", "fragility"}}},
     {"lua", {{"reading", "masonry", "page"}, {"language"}, {"program"}, {"reports"}, {"commands"}, {""}}},
     {"render", {{"image", "run"}, {"gl"}, {"draw"}, {"movie"}, {"compare"}, {""}}},
 };

@@ -92,7 +92,7 @@ void PushRun::begin() {
     check_sizes(options_.directory, sizes, run_.state);
   } else {
     start_at_rest(scene_, run_, options_.threads);
-    add_noise(run_, options_.noise, 1);
+    add_noise(run_, options_.noise, options_.noise_seed);
     add_noise(run_, options_.twin_noise, 2);
     collapse_ = watch_collapse(run_.model, run_.state.pose);
     for (const int b : run_.fallers) collapse_.start[z(b)] = built[z(b)].z();

@@ -37,12 +37,12 @@ Header parse_header(const RecordText& text, size_t index) {
 }
 
 // Unit from "ACCELERATION TIME SERIES IN UNITS OF G" and its variants; "" if no line names it.
-std::string header_unit(const RecordText& text, size_t npts_line, size_t& at_line) {
+std::string header_unit(const RecordText& text, const Record& wanted, size_t npts_line, size_t& at_line) {
   for (size_t i = 0; i < npts_line; ++i) {
     const std::string line = lower(text.lines[i]);
     at_line = i;
-    if (line.rfind("velocity", 0) == 0 || line.rfind("displacement", 0) == 0)
-      throw Error("the file holds a velocity or displacement; give the acceleration (.AT2)", {text.path, static_cast<int>(i) + 1});
+    for (const std::string_view quantity : {"acceleration", "velocity", "displacement"})
+      if (line.rfind(quantity, 0) == 0) check_quantity(quantity, wanted, {text.path, static_cast<int>(i) + 1});
     const size_t found = line.find("units of");
     if (found == std::string::npos) continue;
     const std::string_view rest = trim(std::string_view(line).substr(found + 8));
@@ -54,23 +54,16 @@ std::string header_unit(const RecordText& text, size_t npts_line, size_t& at_lin
 
 }  // namespace
 
-RecordFile parse_at2(const RecordText& text, const Record& wanted, size_t npts_line) {
+RecordFile parse_at2(RecordText& text, const Record& wanted, size_t npts_line) {
   const Header header = parse_header(text, npts_line);
   const Place header_place{text.path, static_cast<int>(npts_line) + 1};
-  if (wanted.dt > 0 && std::abs(wanted.dt - header.dt) > 1e-9 * header.dt)
-    throw Error(
-        fmt::format("the file says DT = {} s, the script dt = {} s; leave dt out (time_factor stretches time)", header.dt, wanted.dt),
-        header_place);
+  checked_step(header.dt, wanted, header_place);
   size_t unit_line = 0;
-  const std::string unit = header_unit(text, npts_line, unit_line);
+  const std::string unit = header_unit(text, wanted, npts_line, unit_line);
   const double factor = factor_to_si(unit, wanted, {text.path, static_cast<int>(unit_line) + 1});
-  RecordFile file{npts_line >= 2 ? std::string(trim(text.lines[1])) : "", "PEER AT2", {}, {}};
-  for (size_t i = npts_line + 1; i < text.lines.size(); ++i) append_numbers(text, i, true, file.values);
-  if (file.values.size() != static_cast<size_t>(header.points))
-    throw Error(
-        fmt::format("NPTS promises {} values, the file holds {}; it is {}: fetch it again or correct NPTS", header.points,
-                    file.values.size(), file.values.size() < static_cast<size_t>(header.points) ? "cut short" : "longer than it says"),
-        header_place);
+  RecordFile file{npts_line >= 2 ? std::string(trim(text.lines[1])) : "", "PEER AT2", {}, {}, {}};
+  file.values = numbers_of(text, npts_line + 1, text.lines.size(), wanted);
+  check_count(file.values.size(), header.points, "NPTS", header_place);
   for (double& value : file.values) value *= factor;
   for (int i = 0; i < header.points; ++i) file.times.push_back(wanted.first_time + i * header.dt);
   return file;

@@ -24,7 +24,7 @@ Column parse_name(std::string_view text) {
   }
   for (size_t at = text.find_first_of("_ "); at != std::string_view::npos; at = text.find_first_of("_ ", at + 1)) {
     const std::string_view unit = text.substr(at + 1);
-    if (acceleration_unit(unit) || unit == "s" || unit == "ms") return {std::string(text.substr(0, at)), std::string(unit)};
+    if (!quantity_of_unit(unit).empty() || unit == "s" || unit == "ms") return {std::string(text.substr(0, at)), std::string(unit)};
   }
   return {std::string(text), ""};
 }
@@ -55,8 +55,22 @@ struct Rows {
   std::string title;
 };
 
-Rows parse_rows(const RecordText& text) {
+// Commas as decimal marks. A step in the script says that each line holds one number; then a lone comma is a mark too.
+bool decimal_commas(const RecordText& text, const Record& wanted) {
+  if (wanted.decimal != "auto") return wanted.decimal == "comma";
+  size_t first = 0;
+  while (first < text.lines.size() && (is_blank(text.lines[first]) || is_comment(text.lines[first]))) ++first;
+  if (first < text.lines.size() && is_names(text.lines[first])) {
+    const bool by_commas = text.lines[first].find_first_of(";\t") == std::string::npos && text.lines[first].find(',') != std::string::npos;
+    if (by_commas) return false;
+    ++first;
+  }
+  return has_decimal_commas(text, first, text.lines.size(), wanted.dt > 0);
+}
+
+Rows parse_rows(RecordText& text, const Record& wanted) {
   Rows rows;
+  const bool commas = decimal_commas(text, wanted);
   for (size_t i = 0; i < text.lines.size(); ++i) {
     const std::string& line = text.lines[i];
     if (is_blank(line)) continue;
@@ -71,6 +85,7 @@ Rows parse_rows(const RecordText& text) {
     }
     rows.cells.emplace_back();
     rows.lines.push_back(static_cast<int>(i) + 1);
+    if (commas) replace_decimal_commas(text, i, i + 1);
     append_numbers(text, i, false, rows.cells.back());
   }
   return rows;
@@ -92,7 +107,7 @@ RecordFile parse_values(const RecordText& text, const Rows& rows, const Record& 
                 place);
   const std::string unit = rows.columns.empty() ? "" : rows.columns[0].unit;
   const double factor = factor_to_si(unit, wanted, {text.path, rows.names_line > 0 ? rows.names_line : rows.lines.front()});
-  RecordFile file{rows.title, rows.cells.front().size() == 1 ? "text, values" : "text, values along the lines", {}, {}};
+  RecordFile file{rows.title, rows.cells.front().size() == 1 ? "text, values" : "text, values along the lines", {}, {}, {}};
   for (const std::vector<double>& row : rows.cells)
     for (const double value : row) file.values.push_back(value * factor);
   for (size_t i = 0; i < file.values.size(); ++i) file.times.push_back(wanted.first_time + static_cast<double>(i) * wanted.dt);
@@ -131,7 +146,7 @@ RecordFile parse_time_and_value(const RecordText& text, const Rows& rows, const 
   if (wanted.dt > 0) throw Error("the file has its own times; leave dt out (time_factor stretches time)", {text.path, head});
   const double seconds = time_factor(text, rows, time);
   const double factor = factor_to_si(rows.columns.empty() ? "" : rows.columns[column].unit, wanted, {text.path, head});
-  RecordFile file{rows.title, rows.columns.empty() ? fmt::format("text, {} columns", width) : "CSV", {}, {}};
+  RecordFile file{rows.title, rows.columns.empty() ? fmt::format("text, {} columns", width) : "CSV", {}, {}, {}};
   for (size_t r = 0; r < rows.cells.size(); ++r) {
     const double t = rows.cells[r][time] * seconds;
     const Place place{text.path, rows.lines[r]};
@@ -139,6 +154,7 @@ RecordFile parse_time_and_value(const RecordText& text, const Rows& rows, const 
     if (r > 0 && t <= file.times.back())
       throw Error(fmt::format("time {} s does not come after {} s; times must increase", t, file.times.back()), place);
     file.times.push_back(t);
+    file.lines.push_back(rows.lines[r]);
     file.values.push_back(rows.cells[r][column] * factor);
   }
   return file;
@@ -146,8 +162,8 @@ RecordFile parse_time_and_value(const RecordText& text, const Rows& rows, const 
 
 }  // namespace
 
-RecordFile parse_columns(const RecordText& text, const Record& wanted) {
-  const Rows rows = parse_rows(text);
+RecordFile parse_columns(RecordText& text, const Record& wanted) {
+  const Rows rows = parse_rows(text, wanted);
   if (rows.cells.empty()) throw Error("the record file holds no numbers; give a file with values", {text.path});
   const size_t width = rows.cells.front().size();
   if (width == 1 || (width > 2 && wanted.dt > 0 && rows.columns.empty() && wanted.column == 0)) {

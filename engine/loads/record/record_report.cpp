@@ -81,6 +81,7 @@ RecordReport report(const Record& record) {
   r.title = record.title;
   r.format = record.format;
   r.hash = record.hash;
+  r.note = record.note;
   r.points = record.points;
   r.dt = record.file_dt * record.time_factor;
   r.duration = a.times.back();
@@ -104,6 +105,7 @@ void print(std::ostream& out, const RecordReport& r) {
   row("file", r.file);
   if (!r.title.empty()) row("title", r.title);
   row("format", fmt::format("{}, fnv1a {}", r.format, r.hash));
+  if (!r.note.empty()) row("corrected", r.note);
   row("points", fmt::format("{}", r.points));
   row("dt", step);
   row("duration", fmt::format("{:.6g} s", r.duration));

@@ -16,7 +16,7 @@ struct Peak {
 };
 
 struct RecordReport {
-  std::string file, title, format, hash;
+  std::string file, title, format, hash, note;
   int points = 0;                                 // values in the file
   double dt = 0;                                  // s, as scaled; 0: uneven
   double duration = 0;                            // s

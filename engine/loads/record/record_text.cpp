@@ -8,7 +8,6 @@
 #include <fstream>
 #include <iterator>
 #include <system_error>
-#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
@@ -139,24 +138,86 @@ void append_numbers(const RecordText& text, size_t index, bool touching, std::ve
   }
 }
 
-std::optional<double> acceleration_unit(std::string_view name) {
+bool has_decimal_commas(const RecordText& text, size_t first, size_t last, bool single) {
+  bool any = false, parted = single;
+  for (size_t i = first; i < last; ++i) {
+    const std::string_view line = trim(text.lines[i]);
+    if (line.empty() || is_comment(line)) continue;
+    if (line.find('.') != std::string_view::npos) return false;
+    bool used = false;  // the number at hand has its mark
+    for (size_t at = 0; at < line.size(); ++at) {
+      if (separator(line[at]) && line[at] != ',') {
+        used = false;
+        parted = true;
+      } else if (line[at] == ',') {
+        if (used || at + 1 == line.size() || !digit(line[at + 1])) return false;
+        used = any = true;
+      } else if (sign(line[at]) && at > 0 && !exponent_mark(line[at - 1])) {
+        used = false;  // columns that touch
+      }
+    }
+  }
+  return any && parted;
+}
+
+void replace_decimal_commas(RecordText& text, size_t first, size_t last) {
+  for (size_t i = first; i < last; ++i) {
+    std::string& line = text.lines[i];
+    if (is_comment(line)) continue;
+    for (size_t at = 0; at + 1 < line.size(); ++at)
+      if (line[at] == ',' && digit(line[at + 1])) line[at] = '.';
+  }
+}
+
+namespace {
+
+struct Unit {
+  std::string_view quantity, name;
+  double factor;  // to SI
+};
+constexpr double foot = 0.3048;
+constexpr std::array<Unit, 18> units{{{"acceleration", "g", standard_g},
+                                      {"acceleration", "mg", 1e-3 * standard_g},
+                                      {"acceleration", "m/s2", 1},
+                                      {"acceleration", "cm/s2", 0.01},
+                                      {"acceleration", "gal", 0.01},
+                                      {"acceleration", "mm/s2", 0.001},
+                                      {"acceleration", "ft/s2", foot},
+                                      {"acceleration", "in/s2", foot / 12},
+                                      {"velocity", "m/s", 1},
+                                      {"velocity", "cm/s", 0.01},
+                                      {"velocity", "mm/s", 0.001},
+                                      {"velocity", "ft/s", foot},
+                                      {"velocity", "in/s", foot / 12},
+                                      {"displacement", "m", 1},
+                                      {"displacement", "cm", 0.01},
+                                      {"displacement", "mm", 0.001},
+                                      {"displacement", "ft", foot},
+                                      {"displacement", "in", foot / 12}}};
+
+}  // namespace
+
+std::optional<double> unit_factor(std::string_view quantity, std::string_view name) {
   std::string unit;
   for (const char c : lower(trim(name)))
     if (c != ' ' && c != '^' && c != '*' && c != '.') unit += c == '_' ? '/' : c;
   for (size_t at; (at = unit.find("sec")) != std::string::npos;) unit.replace(at, 3, 1, 's');
   if (const size_t at = unit.find("/s/s"); at != std::string::npos) unit.replace(at, 4, std::string("/s2"));
-  constexpr double foot = 0.3048;
-  static constexpr std::array<std::pair<std::string_view, double>, 8> units{{{"g", standard_g},
-                                                                             {"mg", 1e-3 * standard_g},
-                                                                             {"m/s2", 1},
-                                                                             {"cm/s2", 0.01},
-                                                                             {"gal", 0.01},
-                                                                             {"mm/s2", 0.001},
-                                                                             {"ft/s2", foot},
-                                                                             {"in/s2", foot / 12}}};
-  for (const auto& [known, factor] : units)
-    if (unit == known) return factor;
+  for (const Unit& known : units)
+    if (known.quantity == quantity && known.name == unit) return known.factor;
   return std::nullopt;
+}
+
+std::string_view known_units(std::string_view quantity) {
+  return quantity == "velocity"       ? "m/s, cm/s, mm/s, ft/s, in/s"
+         : quantity == "displacement" ? "m, cm, mm, ft, in"
+                                      : "g, mg, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2";
+}
+
+std::string_view quantity_of_unit(std::string_view name) {
+  for (const std::string_view quantity : {"acceleration", "velocity", "displacement"})
+    if (unit_factor(quantity, name)) return quantity;
+  return "";
 }
 
 }  // namespace erbs

@@ -25,8 +25,15 @@ bool is_blank(std::string_view line);
 // ends the number before it (Fortran columns that fill their width). Any other text is an Error with line and column.
 void append_numbers(const RecordText& text, size_t index, bool touching, std::vector<double>& out);
 
-// m/s2 per unit; none if the unit is unknown. Reads g, m/s2, m/s^2, m/s/s, cm/sec**2, gal, ...
-std::optional<double> acceleration_unit(std::string_view name);
-inline constexpr std::string_view known_units = "g, mg, m/s2, cm/s2, gal, mm/s2, ft/s2, in/s2";
+// True if commas of these lines can only be decimal marks: each stands between digits, none of the lines has a point, and blanks, tabs or
+// semicolons part the numbers. `single`: the numbers need no other separator, since each line has one.
+bool has_decimal_commas(const RecordText& text, size_t first, size_t last, bool single);
+void replace_decimal_commas(RecordText& text, size_t first, size_t last);  // by points, so that columns keep their places
+
+// SI units per unit of an "acceleration", "velocity" or "displacement"; none if the unit is unknown. Reads g, m/s2, m/s^2, m/s/s,
+// cm/sec**2, gal, ...
+std::optional<double> unit_factor(std::string_view quantity, std::string_view name);
+std::string_view known_units(std::string_view quantity);
+std::string_view quantity_of_unit(std::string_view name);  // "" if no quantity has this unit
 
 }  // namespace erbs

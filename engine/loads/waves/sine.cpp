@@ -7,7 +7,7 @@
 namespace erbs {
 namespace {
 
-// Common form of the three waves: a sine inside a window of time.
+// Common form of the four waves: a sine inside a window of time.
 struct Window {
   double amplitude, omega, phase, start, length;
 };
@@ -21,6 +21,8 @@ Window window(const FullSine& w) {
   const double omega = 2 * pi * w.frequency;
   return {w.amplitude, omega, w.phase, w.start, (2 * pi - w.phase) / omega};
 }
+
+Window window(const FullCosine& w) { return {w.amplitude, 2 * pi * w.frequency, 0.5 * pi, w.start, 1 / w.frequency}; }
 
 // x - sin x without loss of digits near 0.
 double x_minus_sin(double x) {
@@ -66,17 +68,22 @@ double mean_in(const Window& w, double t0, double t1) {
 double value(const Sine& wave, double t) { return value_in(window(wave), t); }
 double value(const HalfSine& wave, double t) { return value_in(window(wave), t); }
 double value(const FullSine& wave, double t) { return value_in(window(wave), t); }
+double value(const FullCosine& wave, double t) { return value_in(window(wave), t); }
 double area(const Sine& wave, double t) { return area_in(window(wave), t); }
 double area(const HalfSine& wave, double t) { return area_in(window(wave), t); }
 double area(const FullSine& wave, double t) { return area_in(window(wave), t); }
+double area(const FullCosine& wave, double t) { return area_in(window(wave), t); }
 double double_area(const Sine& wave, double t) { return double_area_in(window(wave), t); }
 double double_area(const HalfSine& wave, double t) { return double_area_in(window(wave), t); }
 double double_area(const FullSine& wave, double t) { return double_area_in(window(wave), t); }
+double double_area(const FullCosine& wave, double t) { return double_area_in(window(wave), t); }
 double mean(const Sine& wave, double t0, double t1) { return mean_in(window(wave), t0, t1); }
 double mean(const HalfSine& wave, double t0, double t1) { return mean_in(window(wave), t0, t1); }
 double mean(const FullSine& wave, double t0, double t1) { return mean_in(window(wave), t0, t1); }
+double mean(const FullCosine& wave, double t0, double t1) { return mean_in(window(wave), t0, t1); }
 double end_time(const Sine& wave) { return wave.start + wave.duration; }
 double end_time(const HalfSine& wave) { return wave.start + window(wave).length; }
 double end_time(const FullSine& wave) { return wave.start + window(wave).length; }
+double end_time(const FullCosine& wave) { return wave.start + window(wave).length; }
 
 }  // namespace erbs

@@ -1,5 +1,8 @@
 // Sine waves: endless or cut off, and the half-sine and full-sine pulses of the overturning literature (Housner 1963). Pulses may begin at
 // any phase and always end at a zero of the sine. All are exactly zero outside their duration.
+// As the acceleration of the ground from rest, amplitude a, omega = 2 pi f, phase 0: a half sine leaves it at the velocity 2 a / omega; a
+// full sine (the type-A pulse of Makris 1997) stops it at the displacement 2 pi a / omega^2; a full cosine (type B) brings it back to rest
+// at its place.
 #pragma once
 #include "engine/base/field.h"
 #include "engine/base/units.h"
@@ -35,7 +38,8 @@ struct HalfSine {
   double start = 0;      // s
 
   static constexpr std::string_view wave_name = "half_sine";
-  static constexpr std::string_view help = "One lobe of a sine, from any phase to its zero at pi.";
+  static constexpr std::string_view help =
+      "One lobe of a sine, from any phase to its zero at pi. From phase 0 it leaves the ground at the velocity amplitude / (pi frequency).";
   static Fields<HalfSine> fields() {
     return {
         {"amplitude", &HalfSine::amplitude, "", "peak value, in the unit of the load", -unbounded, unbounded, true},
@@ -54,7 +58,9 @@ struct FullSine {
   double start = 0;      // s
 
   static constexpr std::string_view wave_name = "full_sine";
-  static constexpr std::string_view help = "One cycle of a sine, from any phase to its zero at 2 pi.";
+  static constexpr std::string_view help =
+      "One cycle of a sine, from any phase to its zero at 2 pi. From phase 0 it leaves the ground at rest, displaced by amplitude / (2 pi "
+      "frequency^2).";
   static Fields<FullSine> fields() {
     return {
         {"amplitude", &FullSine::amplitude, "", "peak value, in the unit of the load", -unbounded, unbounded, true},
@@ -65,24 +71,47 @@ struct FullSine {
   }
 };
 
+// One cycle of a cosine from its peak to its next one. Duration 1 / frequency.
+struct FullCosine {
+  double amplitude = 0;  // in the unit of its load
+  double frequency = 0;  // Hz
+  double start = 0;      // s
+
+  static constexpr std::string_view wave_name = "full_cosine";
+  static constexpr std::string_view help = "One cycle of a cosine, from peak to peak. It leaves the ground at rest at its place.";
+  static Fields<FullCosine> fields() {
+    return {
+        {"amplitude", &FullCosine::amplitude, "", "peak value, in the unit of the load", -unbounded, unbounded, true},
+        {"frequency", &FullCosine::frequency, "Hz", "frequency; the cycle lasts 1 / frequency", 1e-9, 1e9, true},
+        {"start", &FullCosine::start, "s", "time of the first value", -1e9, 1e9},
+    };
+  }
+};
+
 // loads.h explains the six functions.
 double value(const Sine& wave, double t);
 double value(const HalfSine& wave, double t);
 double value(const FullSine& wave, double t);
+double value(const FullCosine& wave, double t);
 double area(const Sine& wave, double t);
 double area(const HalfSine& wave, double t);
 double area(const FullSine& wave, double t);
+double area(const FullCosine& wave, double t);
 double double_area(const Sine& wave, double t);
 double double_area(const HalfSine& wave, double t);
 double double_area(const FullSine& wave, double t);
+double double_area(const FullCosine& wave, double t);
 double mean(const Sine& wave, double t0, double t1);
 double mean(const HalfSine& wave, double t0, double t1);
 double mean(const FullSine& wave, double t0, double t1);
+double mean(const FullCosine& wave, double t0, double t1);
 double end_time(const Sine& wave);
 double end_time(const HalfSine& wave);
 double end_time(const FullSine& wave);
+double end_time(const FullCosine& wave);
 inline double resolution(const Sine& wave) { return 0.02 / wave.frequency; }
 inline double resolution(const HalfSine& wave) { return 0.02 / wave.frequency; }
 inline double resolution(const FullSine& wave) { return 0.02 / wave.frequency; }
+inline double resolution(const FullCosine& wave) { return 0.02 / wave.frequency; }
 
 }  // namespace erbs

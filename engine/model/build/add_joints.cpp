@@ -14,6 +14,7 @@
 #include "engine/base/units.h"
 #include "engine/geometry/quadrature.h"
 #include "engine/laws/crushing.h"
+#include "engine/model/build/strength_field.h"
 
 namespace erbs {
 namespace {
@@ -78,7 +79,7 @@ struct Pieces {
 };
 
 Pieces pieces_of(const Model& m, const JointType& type) {
-  std::vector<int> numbers{type.rule, type.points, type.corners};
+  std::vector<int> numbers{type.rule, type.law, type.points, type.corners};
   int corners = 0;
   for (int i = 0; i < type.points; ++i) {
     numbers.push_back(m.cell[z(type.first_cell + i)].corners);
@@ -116,7 +117,7 @@ const JointType* shared_type(Model& m, const JointType& type, Types& types) {
 }
 
 // The joint of one interface: contact points, principal frame, diagonal stiffness.
-void add_joint(const Scene& scene, const Interface& face, Model& m, Types& types) {
+void add_joint(const Scene& scene, const Interface& face, Model& m, StrengthField& strength, Types& types) {
   const JointRule& rule = scene.joint_rules[z(face.rule)];
   const Vec3 origin = face.polygon.front(), n = face.normal;
   const Vec3 e1 = (face.polygon[1] - origin).normalized(), e2 = n.cross(e1);
@@ -130,14 +131,15 @@ void add_joint(const Scene& scene, const Interface& face, Model& m, Types& types
     return Vec2(cosine * dx + sine * dy, cosine * dy - sine * dx);
   };
   JointType type;
-  type.law = type.rule = face.rule;
+  type.rule = face.rule;
   type.frame.col(0) = cosine * e1 + sine * e2;
   type.frame.col(1) = cosine * e2 - sine * e1;
   type.frame.col(2) = n;
   const Vec3 centre = origin + axes.centroid.x() * e1 + axes.centroid.y() * e2;
   type.first_cell = int(m.point.size());
   type.points = int(points.size());
-  const PointLaw& law = m.laws[z(face.rule)];
+  type.law = strength.law_of(face.rule, int(m.joint.size()), centre);
+  const PointLaw& law = m.laws[z(type.law)];
   for (const auto& p : points) {
     const Vec2 x = local(p.x, p.y);
     m.point.push_back({x.x(), x.y(), p.weight});
@@ -184,8 +186,9 @@ void add_joint(const Scene& scene, const Interface& face, Model& m, Types& types
 
 void add_joints(const Scene& scene, const std::vector<Interface>& faces, Model& m) {
   Types types;
+  StrengthField strength(scene, m);
   m.joint.reserve(faces.size());
-  for (const Interface& face : faces) add_joint(scene, face, m, types);
+  for (const Interface& face : faces) add_joint(scene, face, m, strength, types);
 }
 
 void each_contact_part(const Model& m, const std::function<void(int, const Polyhedron&)>& use) {

@@ -50,6 +50,8 @@ Json json_of_rule(const JointRule& rule) {
         [](const auto& law) {
           Json inner = {{"kind", std::string(std::decay_t<decltype(law)>::law_name)}};
           inner.update(json_of_fields(law));
+          if constexpr (requires { law.scatter; })
+            if (law.scatter.cv > 0) inner["scatter"] = json_of_fields(law.scatter);
           return inner;
         },
         rule.law);

@@ -16,7 +16,10 @@ struct Quantity {
   int column;
   Peak peak;  // in the unit
   double bottom, top;
+  double before = 0;  // largest value before correction, in the unit
 };
+
+constexpr const char* grey = "#b9b3a8";
 
 // Rows of time, a (g), v (m/s), d (m). Short records get points in between, since v and d are curved; long ones would make large files.
 std::string histories(const Polyline& a) {
@@ -49,8 +52,9 @@ plot::Label marker(double x, double y, const std::string& text, bool left, doubl
           fmt::format("{} offset {},{} point pt 7 ps 0.8 lc rgb '{}' front", left ? "right" : "left", left ? -gap : gap, lift, color)};
 }
 
-plot::Panel history_panel(const Quantity& q, const RecordReport& r, const std::string& rows) {
-  const double reach = std::max(1.28 * std::abs(q.peak.value), 1e-12);  // gives a record of zeros an axis too
+plot::Panel history_panel(const Quantity& q, const RecordReport& r, const std::string& rows, const std::string& before) {
+  // At least 1e-12 gives a record of zeros an axis too. A drift before correction is cut at thrice the corrected peak.
+  const double own = std::max(1.28 * std::abs(q.peak.value), 1e-12), reach = std::clamp(1.05 * std::abs(q.before), own, 3 * own);
   const bool last = q.column == 4;
   plot::Panel p;
   p.axes = {0.075, 0.6, q.bottom, q.top};
@@ -64,11 +68,12 @@ plot::Panel history_panel(const Quantity& q, const RecordReport& r, const std::s
               {fmt::format("{} ({})", q.symbol, q.unit), fmt::format("screen 0.02,{}", 0.5 * (q.bottom + q.top)), "center rotate by 90"},
               marker(q.peak.time, q.peak.value, fmt::format("{:.4f} {} at {:.2f} s", std::abs(q.peak.value), q.unit, q.peak.time),
                      q.peak.time > 0.6 * r.duration, 1, q.peak.value > 0 ? 0 : -0.4, q.color)};
-  p.series = {{fmt::format("{} using 1:{}", rows, q.column), fmt::format("lines lw 1.1 lc rgb '{}'", q.color)}};
+  if (!before.empty()) p.series.push_back({fmt::format("{} using 1:{}", before, q.column), fmt::format("lines lw 1.1 lc rgb '{}'", grey)});
+  p.series.push_back({fmt::format("{} using 1:{}", rows, q.column), fmt::format("lines lw 1.1 lc rgb '{}'", q.color)});
   return p;
 }
 
-plot::Panel spectrum_panel(const RecordReport& r, const std::string& rows) {
+plot::Panel spectrum_panel(const RecordReport& r, const std::string& rows, const std::string& before, double before_top) {
   const double top = std::max(r.spectrum_peak.acceleration / standard_g, 1e-12);
   plot::Panel p;
   p.axes = {0.685, 0.975, 0.40, 0.865};
@@ -78,12 +83,13 @@ plot::Panel spectrum_panel(const RecordReport& r, const std::string& rows) {
          "",
          "offset 0,0.3",
          true};
-  p.y = {"pseudo-acceleration Sa (g)", fmt::format("[0:{:.8g}]", 1.2 * top), "", "", "offset 0.6,0"};
+  p.y = {"pseudo-acceleration Sa (g)", fmt::format("[0:{:.8g}]", 1.2 * std::max(top, before_top)), "", "", "offset 0.6,0"};
   const char* color = "#5b3a78";
   p.labels = {{"Response spectrum, 5 % damping", "graph 0, graph 1.045", fmt::format("left tc rgb '{}' font ',14'", color)},
               marker(r.spectrum_peak.period, top, fmt::format("{:.3f} g at {:.2f} s", top, r.spectrum_peak.period),
                      r.spectrum_peak.period > 0.5, 0.6, 0.2, color)};
-  p.series = {{rows + " using 1:2", fmt::format("lines lw 1.8 lc rgb '{}'", color)}};
+  if (!before.empty()) p.series.push_back({before + " using 1:2", fmt::format("lines lw 1.8 lc rgb '{}'", grey)});
+  p.series.push_back({rows + " using 1:2", fmt::format("lines lw 1.8 lc rgb '{}'", color)});
   return p;
 }
 
@@ -109,19 +115,30 @@ void add_summary(const RecordReport& r, std::vector<plot::Label>& labels) {
 
 }  // namespace
 
-void write_record_plot(const Record& record, const RecordReport& r, const std::string& path) {
+void write_record_plot(const Record& record, const RecordReport& r, const std::string& path, const Uncorrected* before) {
   std::string title = r.title.substr(0, 110);
   if (title.size() < r.title.size()) title += " ...";
   plot::Figure figure{1240, 780};
   figure.labels = {{std::filesystem::path(r.file).filename().string(), "screen 0.075,0.965", "left font ',16' tc rgb '#111111'"},
-                   {title, "screen 0.075,0.93", "left font ',12' tc rgb '#666666'"}};
+                   {title, "screen 0.075,0.935", "left font ',12' tc rgb '#666666'"}};
+  if (!r.note.empty()) {
+    std::string note = r.note.substr(0, 230);
+    if (note.size() < r.note.size()) note.replace(std::min(note.rfind(' '), note.size()), std::string::npos, " ...");
+    figure.labels.push_back({note, "screen 0.075,0.912", "left font ',9' tc rgb '#8a8478'"});
+  }
+  if (before != nullptr) figure.labels.push_back({"grey: before correction", "screen 0.975,0.965", "right font ',13' tc rgb '#8a8478'"});
   add_summary(r, figure.labels);
   const std::string rows = figure.add_rows(histories(record.acceleration));
-  const Quantity quantities[] = {{"Acceleration", "a", "g", "#b5432e", 2, {r.pga.value / standard_g, r.pga.time}, 0.645, 0.865},
-                                 {"Velocity", "v", "m/s", "#2f6b8f", 3, r.pgv, 0.365, 0.585},
-                                 {"Displacement", "d", "m", "#3c7a4b", 4, r.pgd, 0.085, 0.305}};
-  for (const Quantity& q : quantities) figure.panels.push_back(history_panel(q, r, rows));
-  figure.panels.push_back(spectrum_panel(r, figure.add_rows(spectrum(r))));
+  const std::string old_rows = before != nullptr ? figure.add_rows(histories(before->record.acceleration)) : "";
+  const RecordReport& old = before != nullptr ? before->report : r;
+  const Quantity quantities[] = {
+      {"Acceleration", "a", "g", "#b5432e", 2, {r.pga.value / standard_g, r.pga.time}, 0.645, 0.865, old.pga.value / standard_g},
+      {"Velocity", "v", "m/s", "#2f6b8f", 3, r.pgv, 0.365, 0.585, old.pgv.value},
+      {"Displacement", "d", "m", "#3c7a4b", 4, r.pgd, 0.085, 0.305, old.pgd.value}};
+  for (const Quantity& q : quantities) figure.panels.push_back(history_panel(q, r, rows, old_rows));
+  const std::string old_spectrum = before != nullptr ? figure.add_rows(spectrum(old)) : "";
+  figure.panels.push_back(
+      spectrum_panel(r, figure.add_rows(spectrum(r)), old_spectrum, before != nullptr ? old.spectrum_peak.acceleration / standard_g : 0));
   plot::draw(figure, path);
 }
 

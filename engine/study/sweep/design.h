@@ -20,6 +20,7 @@ struct Axis {
   std::vector<std::string> params;
   std::vector<std::vector<Value>> rows;  // [rows][params]
   int group = 0;                         // number of the call that made it
+  double noise = 0;                      // m and rad, of perturbations{}
   bool by_scene = false;                 // of a grid{}: the axes of the group follow the order of the scene's params
   Place place;
 };
@@ -76,6 +77,20 @@ struct Calibration {
   int rounds = 20;    // of a stage, at most
 };
 
+// Fragility of the structure from the runs of the study (study/fragility).
+struct FragilityPlan {
+  std::string im;                    // intensity: a varied or bisected param, or a key of metrics.json
+  std::string collapse = "verdict";  // 1 or 0: a key of metrics.json, or the verdict of a bisection
+  std::optional<double> above;       // collapse is where the key lies above this number
+  std::vector<std::string> damage;   // keys whose fractiles are wanted
+  std::vector<std::string> by;       // params that tell structures apart: one fragility for each combination
+  std::string along;                 // the param that grows within a case; "": im, if it is one
+  Place place;
+};
+
+constexpr const char* perturbation = "perturbation";  // name of the axis of perturbations{}: seeds of a noise, and no param of the scene
+inline bool is_perturbation(const Axis& axis) { return axis.params == std::vector<std::string>{perturbation}; }
+
 struct Plan {
   std::string scene;                 // as the study file says
   std::vector<Axis> axes;            // outermost first
@@ -88,6 +103,8 @@ struct Plan {
   std::string split;                 // param each of whose values has a figure of its own; "": none
   std::vector<PlanCurve> curves;
   std::optional<Calibration> calibration;  // of calibration{}: then axes holds the ends of the fitted ranges, for checks only
+  std::optional<FragilityPlan> fragility;
+  double noise = 1e-9;  // m and rad, of perturbations{}
   Place place;
 };
 

@@ -69,7 +69,10 @@ void judge_end(const Sweep& sweep, const Finished& finished, const std::string& 
 Job job_of(const Sweep& sweep, const Point& point, double x, const std::string& place) {
   const std::string folder = folder_of(sweep, place);
   std::vector<std::string> command{own_path(), "run", sweep.scene, "-o", folder, "--force", "--quiet", "--threads", "1", "--no-figures"};
-  for (const auto& [param, value] : point) command.insert(command.end(), {"-D", param + "=" + expression_of(value)});
+  for (const auto& [param, value] : point)
+    if (param == perturbation)
+      command.insert(command.end(), {"--noise", fmt::format("{}", sweep.plan.noise), "--noise-seed", expression_of(value)});
+    else command.insert(command.end(), {"-D", param + "=" + expression_of(value)});
   if (sweep.plan.bisect) command.insert(command.end(), {"-D", fmt::format("{}={}", sweep.plan.bisect->param, x)});
   command.insert(command.end(), sweep.arguments.begin(), sweep.arguments.end());
   std::error_code ignored;

@@ -77,6 +77,7 @@ class Checker {
   void check_axis(const Axis& axis) {
     for (std::size_t k = 0; k < axis.params.size(); ++k) {
       const std::string& param = axis.params[k];
+      if (param == study::perturbation) continue;
       check_param(param, axis.place);
       const bool word = scene_.takes_word(param);
       for (const auto& row : axis.rows)
@@ -103,6 +104,8 @@ class Checker {
 // Values of the plan, for its key.
 Json plan_json(const Plan& plan) {
   Json j{{"axes", Json::array()}, {"collect", plan.collect}};
+  for (const Axis& axis : plan.axes)
+    if (is_perturbation(axis)) j["noise"] = plan.noise;
   for (const Axis& axis : plan.axes) {
     std::uint64_t hash = fnv1a("");
     for (const auto& row : axis.rows)

@@ -12,6 +12,7 @@
 #include "engine/base/system/interrupt.h"
 #include "engine/base/system/process.h"
 #include "engine/base/text.h"
+#include "engine/study/fragility/fragility.h"
 #include "engine/study/sweep/ranks.h"
 #include "engine/study/sweep/sweep_figure.h"
 #include "lua/commands/sweep/sweep_study.h"
@@ -38,6 +39,7 @@ bool is_figure(const fs::path& file) {
 
 void remove_sweep(const std::string& directory) {
   for (const char* file : files_of_sweep) fs::remove_all(in(directory, file));
+  for (const char* file : study::fragility_files) fs::remove_all(in(directory, file));
   std::vector<fs::path> figures;
   for (const auto& entry : fs::directory_iterator(directory))
     if (is_figure(entry.path())) figures.push_back(entry.path());
@@ -162,6 +164,26 @@ void draw(const study::Sweep& sweep) {
   } catch (const std::exception& error) { tell(stderr, fmt::format("warning: results.svg could not be drawn: {}", error.what())); }
 }
 
+// The fragility of a finished study: tables, figures, and a line for each fit.
+void tell_fragility(const study::Sweep& sweep, bool quiet) {
+  const std::vector<study::Group> groups = read_groups(sweep);
+  const std::vector<study::Fragility> found = write_fragility(sweep, groups);
+  for (const study::Fragility& one : found) {
+    if (quiet) break;
+    const study::Fit& fit = one.fit;
+    const std::string name = fmt::format("fragility{} by {} ({} of {} collapse)", one.group.empty() ? "" : " of " + one.group, one.method,
+                                         fit.collapsed, fit.observations);
+    if (fit.end == study::FitEnd::fitted)
+      say("{}: median {} = {:.4g} [{:.4g}, {:.4g}], dispersion {:.3f} [{:.3f}, {:.3f}]{}\n", name, unit_of_im(sweep), fit.theta,
+          fit.theta_lo, fit.theta_hi, fit.beta, fit.beta_lo, fit.beta_hi, one.words.empty() ? "" : "; " + one.words);
+    else say("{}: {}\n", name, one.words);
+  }
+  try {
+    if (can_start("gnuplot")) draw_fragility(sweep, groups, found);
+    else tell(stderr, "warning: fragility.svg needs gnuplot, which is not there; install the package gnuplot-nox");
+  } catch (const std::exception& error) { tell(stderr, fmt::format("warning: fragility.svg could not be drawn: {}", error.what())); }
+}
+
 int finish(const SweepStudy& study, const study::Swept& swept, const study::Ranks& ranks, double wall, bool quiet) {
   const std::string results = in(study.sweep.directory, study::results_file);
   if (swept.interrupted) {
@@ -172,6 +194,7 @@ int finish(const SweepStudy& study, const study::Swept& swept, const study::Rank
   if (!swept.first_failure.empty())
     tell(stderr, fmt::format("{} of {} points failed; the first: {}", swept.failed, swept.points, swept.first_failure));
   if (swept.complete()) draw(study.sweep);
+  if (swept.complete() && study.sweep.plan.fragility) tell_fragility(study.sweep, quiet);
   if (!quiet && swept.inherited > 0)
     tell(stderr, fmt::format("{} points of processes that had died were taken up and finished", swept.inherited));
   if (!quiet) {

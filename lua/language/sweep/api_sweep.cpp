@@ -7,6 +7,8 @@
 #include "engine/base/text.h"
 #include "lua/language/api.h"
 #include "lua/language/sweep/ranges.h"
+#include "lua/language/sweep/fragility.h"
+#include "lua/language/sweep/with_unit.h"
 
 namespace erbs::lua {
 namespace {
@@ -167,6 +169,27 @@ int records(Call& call) {
   return push_axes(call, std::move(axes));
 }
 
+struct Perturbations {
+  int n = 0;
+  double size = 1e-9;  // m and rad
+
+  static Fields<Perturbations> fields() {
+    return {{"n", &Perturbations::n, "", "number of runs, each with its own seed", 1, 1000000, true},
+            {"size", &Perturbations::size, "m and rad", "largest shift and turn of each free block at the start", 0, 1}};
+  }
+};
+
+int perturbations(Call& call) {
+  Arguments arguments = call.arguments();
+  Perturbations wanted;
+  arguments.read(wanted);
+  Axis axis;
+  axis.params = {study::perturbation};
+  axis.noise = wanted.size;
+  for (int i = 1; i <= std::max(1, wanted.n); ++i) axis.rows.push_back({double(i)});
+  return push_axes(call, {std::move(axis)});
+}
+
 const Keys& bisect_keys() {
   static const Keys keys = {{"param", "string", "", "name of the param", -unbounded, unbounded, true},
                             {"lo", "number", "", "value at which the verdict is no (it may be the larger one)", -1e300, 1e300, true},
@@ -186,30 +209,6 @@ const Keys& plan_curve_keys() {
   return keys;
 }
 
-// A number in SI, or text with a unit. `factors`: the units.
-double quantity(Arguments& arguments, Call& call, const char* key, const std::vector<std::pair<std::string, double>>& factors) {
-  lua_getfield(call.lua, 1, key);
-  double value = lua_type(call.lua, -1) == LUA_TNUMBER ? lua_tonumber(call.lua, -1) : 0;
-  if (lua_type(call.lua, -1) == LUA_TSTRING) {
-    const std::string text = lua_tostring(call.lua, -1);
-    char* end = nullptr;
-    value = std::strtod(text.c_str(), &end);
-    const std::string unit = end;
-    const auto found = std::find_if(factors.begin(), factors.end(), [&](const auto& factor) { return factor.first == unit; });
-    value = found == factors.end() ? 0 : value * found->second;
-  }
-  const bool given = !lua_isnil(call.lua, -1);
-  lua_pop(call.lua, 1);
-  if (given && !(value > 0 && value < 1e18)) {
-    std::string units;
-    for (const auto& [name, factor] : factors) units += (units.empty() ? "" : ", ") + name;
-    arguments.mistake(
-        fmt::format("{} must be a number above 0, or text with one of the units {}, such as \"5{}\"", key, units, factors.back().first));
-    return 0;
-  }
-  return value;
-}
-
 void read_axes(Call& call, Arguments& arguments, study::Plan& plan) {
   Context& context = call.context;
   lua_getfield(call.lua, 1, "vary");
@@ -223,7 +222,10 @@ void read_axes(Call& call, Arguments& arguments, study::Plan& plan) {
     else lua_rawgeti(call.lua, -1, i);
     if (const auto* group = static_cast<int*>(luaL_testudata(call.lua, -1, axis_type))) {
       for (const Axis& axis : context.axes)
-        if (axis.group == *group) plan.axes.push_back(axis);
+        if (axis.group == *group) {
+          plan.axes.push_back(axis);
+          if (is_perturbation(axis)) plan.noise = axis.noise;
+        }
     } else {
       arguments.mistake(fmt::format("vary: its item {} must be grid{{}}, list{{}}, latin{{}}, random{{}} or records{{}}, not {}", i,
                                     described(call.lua, -1)));
@@ -276,6 +278,7 @@ int study(Call& call) {
     if (bisect.lo == bisect.hi) table->mistake("lo and hi are the same, and nothing lies between; give two values");
     plan.bisect = std::move(bisect);
   }
+  if (auto table = arguments.table("fragility", fragility_keys())) read_fragility(*table, plan);
   if (plan.axes.empty() && !plan.bisect) arguments.mistake("it varies nothing; give vary = { grid{ ... } }, or bisect = { ... }");
   if (plan.collect.empty() && !plan.bisect)
     arguments.mistake("it collects nothing; give collect = { \"collapse.collapsed\" }, or other keys of metrics.json");
@@ -304,7 +307,8 @@ std::vector<Function> sweep_functions() {
        "",
        "Many runs of a scene, by erbs sweep: what varies, what is bisected, and the columns of results.csv.",
        {{"scene", "string", "", "the scene, a path from the folder of the study", -unbounded, unbounded, true},
-        {"vary", "axes", "", "{ grid{}, list{}, latin{}, random{}, records{} }: every combination, the last changing fastest"},
+        {"vary", "axes", "",
+         "{ grid{}, list{}, latin{}, random{}, records{}, perturbations{} }: every combination, the last changing fastest"},
         {"bisect", "table", "", "threshold of a param at each of these points", -unbounded, unbounded, false, "", "", bisect_keys()},
         {"collect", "strings", "", "keys of metrics.json for the columns; of a bisection, from its run at the upper end"},
         {"max_wall", "duration", "", "longest time of a run: seconds, or \"5m\"; beyond it the run is ended", -unbounded, unbounded, false,
@@ -315,7 +319,9 @@ std::vector<Function> sweep_functions() {
         {"x", "string", "", "label of its horizontal axis: quantity and unit (default the column)"},
         {"y", "string", "", "label of its vertical axis (default the column)"},
         {"split", "string", "", "a varied param; each of its values has a figure of its own, such as results_method_1.svg"},
-        {"curves", "list", "", "known curves for the figure", -unbounded, unbounded, false, "", "", plan_curve_keys()}}},
+        {"curves", "list", "", "known curves for the figure", -unbounded, unbounded, false, "", "", plan_curve_keys()},
+        {"fragility", "table", "", "lognormal fragility and fractiles of damage from these runs: fragility.csv and others, with figures",
+         -unbounded, unbounded, false, "", "", fragility_keys()}}},
       of_study({"grid",
                 grid,
                 "{ ... }",
@@ -340,6 +346,10 @@ std::vector<Function> sweep_functions() {
                 "axes: for vary of study",
                 "In a study: random points, independent of each other.",
                 {n, seed, range}}),
+      of_study(
+          {"perturbations", perturbations, "{ ... }", "axes: for vary of study",
+           "In a study: the same run n times, each free block displaced and turned a little at random at the start (erbs run --noise).",
+           keys_of<Perturbations>()}),
       of_study({"records",
                 records,
                 "{ ... }",

@@ -24,7 +24,10 @@ std::vector<Wave> examples() {
           make_table({-0.2, 0.4, 0.55}, {1, -3, 2}, true),
           record,
           Ricker{2, 0.7, -2.2},
-          Ricker{-1, 0.9, -1.5}};
+          Ricker{-1, 0.9, -1.5},
+          FullCosine{2, 1.7, 0.17},
+          MpPulse{0.4, 1.6, 0.9, 1.7, 0.12},
+          MpPulse{-0.7, 1.1, -1.2, 2.6, -0.2}};
 }
 
 // Integral from t0 to t1 by the midpoint rule on n pieces, from values only.
@@ -88,6 +91,47 @@ TEST_CASE("pulses last as long as their phase leaves", "[loads]") {
   CHECK(integral(full, 10) == Approx(0).margin(1e-15));
   CHECK(second_integral(full, 0.5) == Approx(3 * 0.5 / (4 * pi)));  // a T / omega
   CHECK(std::isinf(end_time(Sine{1, 1})));
+}
+
+TEST_CASE("pulses leave the ground as their formulas say", "[loads]") {
+  const double a = 3, f = 1.6, w = 2 * pi * f;
+  const auto leaves = [](const Wave& wave, double v, double d) {
+    const double end = end_time(wave);
+    CHECK(integral(wave, end) == Approx(v).margin(1e-14));
+    CHECK(second_integral(wave, end) == Approx(d).margin(1e-14));
+    CHECK(second_integral(wave, end + 2) == Approx(d + 2 * v).margin(1e-13));
+  };
+  leaves(HalfSine{a, f}, 2 * a / w, pi * a / (w * w));
+  leaves(FullSine{a, f}, 0, 2 * pi * a / (w * w));
+  leaves(FullCosine{a, f}, 0, 0);
+  leaves(Ricker{a, f}, 0, 0);
+  for (const double gamma : {1.01, 1.5, 2.0, 2.6, 3.0})
+    for (const double nu : {0.0, 0.5 * pi, -0.5 * pi, 1.1}) {
+      INFO("gamma " << gamma << " nu " << nu);
+      const MpPulse pulse{a, f, nu, gamma};
+      leaves(pulse, 0, residual_displacement(pulse));
+      CHECK(end_time(pulse) == Approx(gamma / f));
+    }
+  CHECK(residual_displacement(MpPulse{a, f, 0, 2}) == Approx(0).margin(1e-15));
+  CHECK(residual_displacement(MpPulse{a, f, pi / 2, 1.4}) == Approx(0).margin(1e-15));
+}
+
+TEST_CASE("the pulse of Mavroeidis and Papageorgiou is the one of their equations", "[loads]") {
+  // Velocity by eq. (3), acceleration by eq. (4), written out as there.
+  for (const double gamma : {1.2, 2.0, 3.4})
+    for (const double nu : {0.0, 0.7, 2.4}) {
+      const double A = 0.8, fp = 0.6, start = 0.3, t0 = start + 0.5 * gamma / fp;
+      const MpPulse pulse{A, fp, nu, gamma, start};
+      CHECK(value(pulse, start) == Approx(0).margin(1e-13));
+      for (int i = 0; i <= 40; ++i) {
+        const double t = start + gamma / fp * i / 40, x = 2 * pi * fp * (t - t0);
+        CHECK(area(pulse, t) == Approx(A * 0.5 * (1 + std::cos(x / gamma)) * std::cos(x + nu)).margin(1e-14));
+        if (i < 40)
+          CHECK(value(pulse, t) == Approx(-A * pi * fp / gamma *
+                                          (std::sin(x / gamma) * std::cos(x + nu) + gamma * std::sin(x + nu) * (1 + std::cos(x / gamma))))
+                                       .margin(1e-13));
+      }
+    }
 }
 
 TEST_CASE("a rectangular pulse gives a step its share", "[loads]") {
