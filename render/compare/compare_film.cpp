@@ -206,7 +206,7 @@ bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const
   errors.fps = movie.fps * movie.slow;
   const double step = 1 / errors.fps;
   Show show = show_of(run, reader, movie);
-  const Camera camera = chosen_cameras(run, show.stage, movie).front();
+  const Camera camera = chosen_cameras(run, show.stage, movie, static_cast<double>(movie.look.width) / movie.look.height).front();
   errors.camera = camera.name;
   const RunDrawer drawer{run, reader, movie, std::move(show), camera};
   errors.film = signal_of_film(wish, movie, step);
