@@ -41,20 +41,20 @@ void draw_marks(Image& image, const Marks& marks, const View& view, double unit)
     const auto y = [&](const Eigen::Vector4d& p) { return 0.5 * (1 - p.y() / p.w()) * image.height; };
     lines.push_back({x(a), y(a), x(b), y(b)});
   }
-  const auto draw = [&](double more, const auto& ink_of) {
+  const auto draw = [&](bool around, const auto& ink_of) {
     for (std::size_t i = 0; i < lines.size(); ++i) {
       const Line& l = lines[i];
       const Stroke& s = marks.strokes[i];
       const double far = 4.0 * (image.width + image.height);
       if (!(std::fabs(l.x0) < far && std::fabs(l.y0) < far && std::fabs(l.x1) < far && std::fabs(l.y1) < far)) continue;
-      const double width = s.width * unit + more;
+      const double width = (s.width + (around ? std::min(2.0, 0.4 + 0.7 * s.width) : 0)) * unit;
       draw_line(image, l.x0, l.y0, l.x1, l.y1, width, ink_of(s));
       if (s.head)
         for (const Line& h : head_of(l, (5 + 2 * s.width) * unit)) draw_line(image, h.x0, h.y0, h.x1, h.y1, width, ink_of(s));
     }
   };
-  draw(2 * unit, [](const Stroke&) { return halo; });
-  draw(0, [](const Stroke& s) { return display(s.color); });
+  draw(true, [](const Stroke&) { return halo; });
+  draw(false, [](const Stroke& s) { return display(s.color); });
 }
 
 void draw_mark_legend(Image& image, const std::vector<MarkRow>& rows, double top, double margin, double unit, const Font& font) {

@@ -64,7 +64,7 @@ TEST_CASE("a block has the colour of its most stressed joint", "[render][quantit
   const test::Folder dir;
   MotionWriter writer(dir.path.string(), scene, kept);
   MotionFrame f{0, std::vector<float>(28), {0, 0, 0}, {0, 0, 0}};
-  if (kept) f.normal_stress = {-3e5F, -2e5F, 1e5F}, f.shear_stress = {0, 5e4F, 1e4F};
+  if (kept) f.normal_stress = {-3e5F, -2e5F, 1e5F}, f.shear_stress = {0, 5e4F, 1e4F}, f.force.resize(9), f.force_at.resize(9);
   writer.write(f);
   writer.close();
   const MotionReader reader(dir.path.string());
