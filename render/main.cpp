@@ -156,6 +156,8 @@ int run(Arguments& a) {
     throw Error("--expect compares one picture; give one time with --stills and one camera with --camera");
   if (movie.svg && (!movie.expected.empty() || movie.webp || a.color != "material" || !a.comparison.film.empty()))
     throw Error("--svg makes line drawings alone; leave out --color, --webp, --expect and --compare");
+  if (movie.dust && (movie.look.magnify != 1 || movie.svg || !a.comparison.film.empty()))
+    throw Error("--dust illustrates true motion in pictures; leave out --magnify, --svg and --compare");
   if (!movie.expected.empty() && a.background == "transparent")
     throw Error("--expect compares opaque pictures; choose --background sky or white");
   if (!a.section.empty()) movie.section = render::read_section(a.section);
@@ -250,6 +252,7 @@ int main(int argc, char** argv) {
   app.add_flag("--thrust", a.movie.marks.thrust, "the line of thrust of blocks between two joints (of a scene with frame_stress)");
   app.add_option("--mechanism", a.movie.marks.mechanism,
                  "arrows of velocities and rotations: motion, of this run, or the mechanism.csv of erbs limit SCENE -o FOLDER");
+  app.add_flag("--dust", a.movie.dust, "clouds of dust where blocks hit something: an illustration, not computed");
   app.add_flag("--svg", a.movie.svg,
                "line drawings in place of pictures, at the times of --stills: outlines and cracks, with --forces .. too");
   app.add_flag("!--no-overlay", a.movie.look.overlay, "the scene alone: no title, clock, legend, scale, axes and ground motion");

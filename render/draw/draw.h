@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "render/draw/dust.h"
 #include "render/gl/canvas.h"
 #include "render/run/excerpt.h"
 #include "render/run/mesh.h"
@@ -89,7 +90,8 @@ class Painter {
   Painter(const Show& show, const Look& look, const std::string& context_kind);
   ~Painter();
   // levelling: of the instant, where the table turns. The camera is that of the level world.
-  Image draw(const MotionFrame& frame, const Camera& camera, const std::optional<Mat3>& levelling = std::nullopt);
+  Image draw(const MotionFrame& frame, const Camera& camera, const std::optional<Mat3>& levelling = std::nullopt,
+             const std::vector<Puff>& dust = {});
 
  private:
   struct Hidden;

@@ -60,9 +60,10 @@ Files prepare_files(const Run& run, const Movie& movie, const Camera& camera, co
 struct Tiles {
   std::vector<Shot> shots;
   int columns = 1, rows = 1;
-  Look look;                 // of a tile
-  std::vector<Marks> marks;  // of each picture; empty: none
-  double top = 0;            // px above the tiles
+  Look look;                    // of a tile
+  std::vector<Marks> marks;     // of each picture; empty: none
+  std::vector<Impact> impacts;  // that raise dust
+  double top = 0;               // px above the tiles
   bool split() const { return columns * rows > 1; }
   std::pair<int, int> corner(std::size_t k) const {  // px, of a tile: left, top
     const int column = static_cast<int>(k) % columns, row = static_cast<int>(k) / columns;
@@ -113,7 +114,7 @@ Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const
     }
     for (std::size_t k = 0; k < tiles.shots.size(); ++k) {
       const Camera camera = tiles.shots[k].at(frame.t);
-      Image tile = painter->draw(frame, camera, level);
+      Image tile = painter->draw(frame, camera, level, dust_at(tiles.impacts, frame.t));
       const Camera in_the_scene = level ? in_scene(camera, table_position(show.stage, *level)) : camera;
       draw_marks(tile, marks, look(in_the_scene, show.stage, of.width, of.height, of.top, of.bottom), l.height / 720.0);
       const View view = look(camera, show.stage, of.width, of.height, of.top, of.bottom);
@@ -244,6 +245,7 @@ bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, c
   const Show show = scenery.show(schedule.times);
   if (movie.marks.any())
     for (const double t : schedule.times) tiles.marks.push_back(scenery.marks(t));
+  if (movie.dust) tiles.impacts = scenery.impacts();
   for (std::size_t k = 0; k < scenery.shots().size(); k += together) {
     const auto first = scenery.shots().begin() + static_cast<std::ptrdiff_t>(k);
     tiles.shots.assign(first, first + static_cast<std::ptrdiff_t>(together));

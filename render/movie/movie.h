@@ -24,6 +24,7 @@ struct Movie {
   bool split = false;        // all cameras in one picture
   bool svg = false;          // line drawings in place of pictures
   MarkChoice marks;
+  bool dust = false;                               // clouds where blocks hit something
   double fps = 25;                                 // of the video
   double slow = 1;                                 // seconds of video per second of the run
   std::string frames;                              // "": as fps and slow require; "every": each recorded frame; a number: that many frames

@@ -72,6 +72,12 @@ Marks Scenery::marks(double t) const {
   return marks_of(movie_.marks, excerpt_.scene, stage_, actual(t), drawn(t), rates(t), mark_scale_);
 }
 
+std::vector<Impact> Scenery::impacts() const {
+  ImpactFinder finder(excerpt_.scene);
+  for (std::size_t i = 0; i < reader_.times().size(); ++i) finder.add(excerpt_of(excerpt_, reader_.read(static_cast<int>(i))));
+  return finder.impacts;
+}
+
 Show Scenery::show(const std::vector<double>& times) {
   Show show = prepare_show(excerpt_.scene, run_, stage_, in_groups(excerpt_.scene, movie_.ghost, "--ghost"), section_);
   std::vector<MotionFrame> some;  // the scale is that of what is shown

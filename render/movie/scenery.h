@@ -26,8 +26,9 @@ class Scenery {
   const Stage& stage() const { return stage_; }
   const std::vector<Shot>& shots() const { return shots_; }
   const std::optional<Section>& section() const { return section_; }
-  MotionFrame drawn(double t) const;  // magnified, with the quantity that is coloured
-  Marks marks(double t) const;        // empty unless the movie asks for some
+  MotionFrame drawn(double t) const;    // magnified, with the quantity that is coloured
+  Marks marks(double t) const;          // empty unless the movie asks for some
+  std::vector<Impact> impacts() const;  // of all recorded frames
   // Sets the scales of colours and marks to what these times need.
   Show show(const std::vector<double>& times);
 
