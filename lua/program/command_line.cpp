@@ -166,14 +166,15 @@ void add_others(CLI::App& app, CommandLine& line) {
   render.set_help_flag();  // erbs-render explains its own options
   render.prefix_command();
 
-  CLI::App& exported = *app.add_subcommand("export", "write a run for other programs: glTF, VTU, OBJ, CSV");
+  CLI::App& exported = *app.add_subcommand("export", "write a run for other programs: glTF, VTU, XDMF, HDF5, OBJ, CSV");
   exported.add_option("DIR", line.exported.words, "the run folder")->required();
   exported
       .add_option(
           "--format", line.exported.formats,
-          "gltf: animated blocks, for Blender; vtu: blocks with damage and velocity, for ParaView; obj: one instant; csv: all poses")
+          "gltf: animated blocks, and a script that loads them in Blender; vtu or xdmf: blocks with damage and velocity, joints with "
+          "tractions, for ParaView; hdf5: the same for scripts, with units; obj: one instant; csv: all poses")
       ->delimiter(',')
-      ->check(CLI::IsMember({"gltf", "vtu", "obj", "csv"}));
+      ->check(CLI::IsMember({"gltf", "vtu", "xdmf", "hdf5", "obj", "csv"}));
   exported.add_option("--time", line.exported.time, "only this span, s")->type_name("T0:T1");
   exported.add_option("--every", line.exported.every, "every N-th frame")->check(within(1, 1000000));
   exported.add_option("--at", line.exported.at, "the instant of an OBJ, s (default: the last frame)")->check(within(-1e9, 1e9));
