@@ -87,8 +87,9 @@ void add_plot(CLI::App& app, PlotCommand& command) {
 }
 
 void add_report(CLI::App& app, ReportCommand& command) {
-  CLI::App& report = *app.add_subcommand("report", "write a run as one web page: verdict, replay in 3D, curves, events, parameters");
-  report.add_option("DIR", command.words, "the run folder")->required();
+  CLI::App& report = *app.add_subcommand(
+      "report", "write a run as one web page: verdict, replay in 3D, curves, events, parameters; or a study: its answer, charts, rows");
+  report.add_option("DIR", command.words, "the folder of a run, of erbs sweep or of erbs accuracy")->required();
   report.add_option("-o", command.output.directory, "the page (default DIR/report.html)")->check(filled())->type_name("FILE");
   report.add_flag("--force", command.output.force, "replace an earlier page");
   report.add_flag("-q,--quiet", command.output.quiet, "print errors only");

@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/record/folder/run_folder.h"
+#include "engine/record/report/fill.h"
 #include "engine/record/report/pack.h"
 
 namespace erbs {
@@ -70,39 +71,6 @@ Json scene_json(const ExportedRun& run) {
 
 Json table_json(const CsvTable& table) { return {{"names", table.names}, {"rows", table.rows()}}; }
 
-// All characters beyond ASCII and each "<" are escapes: no text of a user ends the script element that holds them.
-std::string safe_json(const Json& json) {
-  std::string out;
-  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace)) {
-    if (c == '<') out += "\\u003c";
-    else out += c;
-  }
-  return out;
-}
-
-std::string safe_html(const std::string& text) {
-  const std::map<char, const char*> escapes{{'<', "&lt;"}, {'>', "&gt;"}, {'&', "&amp;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
-  std::string out;
-  for (const char c : text) {
-    if (const auto escape = escapes.find(c); escape != escapes.end()) out += escape->second;
-    else out += c;
-  }
-  return out;
-}
-
-// Replaces {{name}} in one pass: what is filled in is not read again.
-std::string filled(std::string_view html, const std::map<std::string_view, std::string>& values) {
-  std::string out;
-  for (std::size_t at = 0; at < html.size();) {
-    const std::size_t open = html.find("{{", at), close = html.find("}}", open);
-    out += html.substr(at, open - at);
-    if (close == std::string_view::npos) break;
-    out += values.at(html.substr(open + 2, close - open - 2));
-    at = close + 2;
-  }
-  return out;
-}
-
 }  // namespace
 
 ReportedRun read_reported_run(const std::string& dir) {
@@ -121,8 +89,8 @@ ReportedRun read_reported_run(const std::string& dir) {
   out.histories = thinned(histories);
   out.energy = thinned(table_of(dir, "energy.csv"));
   take_events(table_of(dir, "events.csv"), out);
-  for (const char* name :
-       {"histories.csv", "energy.csv", "events.csv", "metrics.json", "manifest.json", "scene.lua", "log.txt", "motion.h5"})
+  for (const char* name : {"histories.csv", "energy.csv", "events.csv", "metrics.json", "manifest.json", "scene.lua", "log.txt",
+                           "motion.h5", "studies/report.html"})
     if (fs::exists(run_file(dir, name))) out.files.push_back(name);
   return out;
 }
