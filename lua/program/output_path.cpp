@@ -14,7 +14,7 @@ std::string output_path(const OutputOptions& output, const std::string& ordinary
     throw Error(fmt::format("the name of {} ends with {}; change it", thing, fmt::join(endings, " or ")), {path, 0});
   if (fs::is_directory(path)) throw Error("it is a folder; choose another name with -o FILE", {path, 0});
   if (fs::exists(path) && !output.force) throw Error("it exists already; --force writes it anew, -o FILE another", {path, 0});
-  if (!fs::is_directory(fs::absolute(path).parent_path()))
+  if (!output.directory.empty() && !fs::is_directory(fs::absolute(path).parent_path()))
     throw Error("its folder does not exist; make it, or choose another name with -o FILE", {path, 0});
   return path;
 }

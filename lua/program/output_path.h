@@ -8,7 +8,7 @@
 namespace erbs::lua {
 
 // What -o names, else `ordinary`. Error if the name has another ending than these (".svg"), if a folder has it, if the file exists without
-// --force, or if its folder does not exist; `thing`: "a picture".
+// --force, or if the folder that -o names does not exist; `thing`: "a picture".
 std::string output_path(const OutputOptions& output, const std::string& ordinary, const std::string& thing,
                         const std::vector<std::string>& endings);
 

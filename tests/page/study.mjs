@@ -23,6 +23,7 @@ for (const [name, options] of [['wide', {viewport: {width: 1280, height: 900}}],
   page.on('request', (request) => { if (/^(https?|wss?):/.test(request.url())) wrong.push(`the page loads ${request.url()}`); });
   await page.goto(pathToFileURL(path.resolve(report)).href);
   await page.waitForSelector('html[data-ready=yes]', {timeout: 15000});
+  if (folder) await page.screenshot({path: path.join(folder, `study_${name}.png`), fullPage: true});
   const points = () => page.$$eval('.chart svg[role=img] title', (all) => all.length);
   check((await points()) > 0, `${name}: the chart has no points`);
   check((await page.$$('tbody tr')).length > 0, `${name}: the table has no rows`);
@@ -44,7 +45,6 @@ for (const [name, options] of [['wide', {viewport: {width: 1280, height: 900}}],
   await page.keyboard.press('Enter');
   check((await page.$$('tbody tr')).length < 2 || rising !== (await first()), `${name}: a second press does not turn the order round`);
   check((await page.locator('th').first().getAttribute('aria-sort')) === 'descending', `${name}: the order is not told to screen readers`);
-  if (folder) await page.screenshot({path: path.join(folder, `study_${name}.png`), fullPage: true});
 }
 await browser.close();
 console.log(wrong.length ? wrong.join('\n') : 'page: all well');

@@ -93,7 +93,7 @@ void read_sweep(const fs::path& dir, const std::string& page, ReportedStudy& stu
       if (std::isfinite(v)) values.push_back(v);
     if (!values.empty()) {
       const auto [low, high] = std::minmax_element(values.begin(), values.end());
-      study.answers.emplace_back(rows.names[static_cast<std::size_t>(answer)],
+      study.answers.emplace_back(plot::label_of(rows.names[static_cast<std::size_t>(answer)]),
                                  fmt::format("{} to {}", number_text(*low), number_text(*high)));
     }
   }
@@ -136,33 +136,24 @@ void read_scene_studies(const fs::path& dir, const std::string& page, ReportedSt
   }
 }
 
-// "shake_m_s2" reads "shake [m/s2]".
-std::string label_of(const std::string& column) {
-  const std::string suffix = plot::unit_of(column);
-  const plot::Unit* unit = plot::find_unit(suffix);
-  std::string words = column.substr(0, column.size() - (unit && column.size() > suffix.size() + 1 ? suffix.size() + 1 : 0)), shown;
-  std::replace(words.begin(), words.end(), '_', ' ');
-  if (!unit) return words;
-  for (const plot::ShownUnit& one : unit->shown)
-    if (one.factor == 1) shown = one.name;
-  return words + " [" + (shown.empty() ? suffix : shown) + "]";
-}
-
 Json table_json(const StudyTable& table) {
   const CsvTable& csv = table.table;
   Json rows = Json::array(), labels = Json::array(), links = Json::array();
-  for (const std::string& name : csv.names) labels.push_back(for_files(label_of(name)));
+  // The hash of the study in its last column tells a reader nothing.
+  const std::size_t columns = csv.names.size() - (!csv.names.empty() && csv.names.back() == "study" ? 1 : 0);
+  for (const std::string& name : csv.names) labels.push_back(for_files(plot::label_of(name)));
   for (std::size_t row = 0; row < csv.rows(); ++row) {
     Json cells = Json::array();
-    for (std::size_t c = 0; c < csv.names.size(); ++c) {
+    for (std::size_t c = 0; c < columns; ++c) {
       if (!csv.text[c].empty()) cells.push_back(for_files(csv.text[c][row]));
       else cells.push_back(std::isfinite(csv.columns[c][row]) ? Json(csv.columns[c][row]) : Json(nullptr));
     }
     rows.push_back(cells);
     links.push_back(row < table.links.size() && !table.links[row].empty() ? Json(for_files(table.links[row])) : Json(nullptr));
   }
+  labels.erase(labels.begin() + static_cast<std::ptrdiff_t>(columns), labels.end());
   return {{"name", for_files(table.name)},
-          {"columns", csv.names},
+          {"columns", std::vector<std::string>(csv.names.begin(), csv.names.begin() + static_cast<std::ptrdiff_t>(columns))},
           {"labels", labels},
           {"rows", rows},
           {"links", links},

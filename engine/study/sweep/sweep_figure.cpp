@@ -6,6 +6,7 @@
 
 #include "engine/record/format/csv.h"
 #include "engine/record/plot/figure.h"
+#include "engine/record/plot/unit.h"
 
 namespace erbs::study {
 namespace {
@@ -73,11 +74,11 @@ void add_map(plot::Figure& figure, plot::Panel& panel, const Sweep& s, const Csv
   const auto edge = [](const std::vector<double>& v) {
     return fmt::format("[{}:{}]", cell_of(v, v.front()).first, cell_of(v, v.back()).second);
   };
-  panel.x = {s.params[0], edge(xs), "", "", "noenhanced"};
-  panel.y = {s.params[1], edge(ys), "", "", "noenhanced"};
+  panel.x = {plot::label_of(s.params[0]), edge(xs), "", "", "noenhanced"};
+  panel.y = {plot::label_of(s.params[1]), edge(ys), "", "", "noenhanced"};
   panel.settings = "set style fill solid 1.0 noborder\nset palette defined (0 '#f7fbff', 0.5 '#6baed6', 1 '#08306b')\n";
-  if (!binary) panel.settings += "set cblabel \"" + answer + "\" noenhanced\n";
-  if (!binary) figure.labels.back().text += ": " + answer;
+  if (!binary) panel.settings += "set cblabel \"" + plot::label_of(answer) + "\" noenhanced\n";
+  if (!binary) figure.labels.back().text += ": " + plot::label_of(answer);
 }
 
 // The param along x: of the longest axis of numbers.
@@ -121,8 +122,8 @@ void add_lines(plot::Figure& figure, plot::Panel& panel, const Sweep& s, const C
                      colors[i % 6]),
          order[i]});
   }
-  panel.x = {s.params[along], "", "", "", "noenhanced"};
-  panel.y = {answer, "", "", "", "noenhanced"};
+  panel.x = {plot::label_of(s.params[along]), "", "", "", "noenhanced"};
+  panel.y = {plot::label_of(answer), "", "", "", "noenhanced"};
 }
 
 }  // namespace
