@@ -179,6 +179,7 @@ struct Painter::Hidden {
     gl.BindTexture(GL_TEXTURE_2D, 0);
     canvas->begin_shadow();
     gl.Enable(GL_CULL_FACE);
+    if (!look_.shadow) return gl.BindTexture(GL_TEXTURE_2D, canvas->shadow_map());
     gl.CullFace(GL_FRONT);  // back faces cast the shadows, so lit faces do not shadow themselves
     use(shade, light, light.to_shadow);
     draw(shades);

@@ -32,6 +32,7 @@ struct Look {
   bool overlay = true;                      // title, clock, legend, scale, axes and ground motion
   double magnify = 1;                       // factor on the displacements drawn
   Background background = Background::sky;  // white: with the ground, for print; transparent: of the ground, only its shadow
+  bool shadow = true;                       // of the sun
   bool table_turns = true;                  // a tilting test is drawn level, with its table turning; otherwise gravity turns
 };
 
@@ -51,7 +52,9 @@ struct Show {
 };
 Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<MotionFrame>& some_frames);
 // The same on a stage that is set, with ghosts (empty: none) and a section whose side is known.
-Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::vector<bool> ghost, const std::optional<Section>& section);
+// `sharp`: blocks alone, without chamfers, mortar and cracks, for pictures too small to show them.
+Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::vector<bool> ghost, const std::optional<Section>& section,
+                  bool sharp = false);
 
 // Nearest to `size` among 1, 2 or 5 times a power of ten.
 double round_length(double size);

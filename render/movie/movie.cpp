@@ -224,9 +224,9 @@ bool film(const Run& run, const Show& show, const Scenery& scenery, const Movie&
 
 }  // namespace
 
-Show show_of(const Run& run, const MotionReader& reader, const Movie& movie) {
+Show show_of(const Run& run, const MotionReader& reader, const Movie& movie, bool sharp) {
   const Excerpt excerpt = without_groups(reader.scene(), {});
-  return prepare_show(reader.scene(), run, stage_of(run, reader, excerpt, movie), {}, std::nullopt);  // it keeps the scene's address
+  return prepare_show(reader.scene(), run, stage_of(run, reader, excerpt, movie), {}, std::nullopt, sharp);  // it keeps the scene's address
 }
 
 bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, const std::atomic<bool>& stop) {

@@ -73,7 +73,7 @@ void derive_energies(const MotionReader& reader, const std::vector<Body>& bodies
 void magnify(const MotionScene& scene, double factor, MotionFrame& frame);
 
 // The constant data of the pictures, with the extents of the building over the whole run.
-Show show_of(const Run& run, const MotionReader& reader, const Movie& movie);
+Show show_of(const Run& run, const MotionReader& reader, const Movie& movie, bool sharp = false);
 // The cameras that the movie asks for; `aspect`: width over height of what they see. Error for an unknown name.
 std::vector<Camera> chosen_cameras(const Run& run, const Stage& stage, const Movie& movie, double aspect);
 
