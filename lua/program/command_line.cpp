@@ -1,5 +1,7 @@
 #include "lua/program/command_line.h"
 
+#include "engine/record/results/limits.h"
+
 namespace erbs::lua {
 namespace {
 
@@ -133,10 +135,9 @@ void add_compare(CLI::App& app, CompareCommand& command) {
       ->check(filled())
       ->type_name("RUN=REF");
   compare
-      .add_option(
-          "--expect", command.expect,
-          "limits, exit code 4 beyond: peak, rms, difference, frequency (5%), lag (s), correlation>.9, "
-          "collapse_time (s), direction (deg), sequence<1; of a film: shift (s), iou>.9, ssim>.9, flow, direction (deg), camera (px)")
+      .add_option("--expect", command.expect,
+                  "limits such as peak<5%,correlation>.9; exit code 4 beyond. Of runs: " + compared_names(false) +
+                      "; of a film: " + compared_names(true))
       ->check(filled())
       ->type_name("'peak<5%,lag<.01'");
   for (const auto& [name, text] : film_options()) {
