@@ -71,15 +71,16 @@ class Lines {
     LineGroup ground{"ground", {"#b9bcc0", 0.7 * unit_}, {}}, outline{"outlines", {"#1d2126", (d_.show.mortared ? 0.8 : 1.1) * unit_}, {}};
     LineGroup crease{"edges", {"#5b6168", 0.6 * unit_}, {}}, ghost{"ghosts", {"#a4a9af", 0.5 * unit_}, {}};
     LineGroup aslant{"edges of faces seen aslant", {"#8b9096", 0.25 * unit_}, {}};
+    const bool many = bodies_.size() > 200;  // whose lines merge on a face seen aslant
     if (!d_.position) add_ground(ground);
     for (const Body& body : bodies_)
       for (const Solid::Edge& e : body.solid.edges) {
         const bool left = front(body.solid, e.left), right = front(body.solid, e.right);
         if ((!left && !right) || (body.in_many_parts && inner(body, e))) continue;
-        LineGroup& to = body.ghost                                                                    ? ghost
-                        : std::max(facing(body.solid, e.left), facing(body.solid, e.right)) < grazing ? aslant
-                        : left && right                                                               ? crease
-                                                                                                      : outline;
+        LineGroup& to = body.ghost                                                                            ? ghost
+                        : many && std::max(facing(body.solid, e.left), facing(body.solid, e.right)) < grazing ? aslant
+                        : left && right                                                                       ? crease
+                                                                                                              : outline;
         append(to, hidden_.visible(e.p, e.q, body.id));
       }
     for (LineGroup* group : {&ground, &ghost, &aslant, &crease, &outline})
