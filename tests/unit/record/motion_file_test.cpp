@@ -153,7 +153,7 @@ TEST_CASE("stresses of joints are kept if asked for, through a resume too, and a
   CHECK(reader.read(2).shear_stress == std::vector<float>{2e5F});
   CHECK(reader.has_forces());
   CHECK(reader.read(2).force == std::vector<float>{1, 2, 3});
-  CHECK(reader.read(2).force_at == std::vector<float>{4, 5, 2});
+  CHECK(reader.read(2).force_at == std::vector<float>{4, 5, 7});
   MotionWriter plain(dir.path.string(), two_blocks());
   plain.write(frame_at(0));
   plain.close();

@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "engine/base/error.h"
+#include "engine/record/plot/unit.h"
 #include "tests/support/folder.h"
 
 using namespace erbs;
@@ -63,6 +64,13 @@ TEST_CASE("the page of accuracy has errors over cost, on logarithmic axes", "[re
   CHECK(table.table.names[std::size_t(table.y)] == "error");
   CHECK(table.table.names[std::size_t(table.colour)] == "knob");
   CHECK(table.logarithmic);
+}
+
+TEST_CASE("axes of a study carry the unit of their column", "[record][report][study_page]") {
+  CHECK(plot::label_of("shake_m_s2") == "shake [m/s²]");
+  CHECK(plot::label_of("top_drift_m") == "top drift [m]");
+  CHECK(plot::label_of("base_shear_N") == "base shear [N]");
+  CHECK(plot::label_of("overturned") == "overturned");
 }
 
 TEST_CASE("a folder without a study is refused with what would do", "[record][report][study_page][bad_input]") {

@@ -1,4 +1,5 @@
 // A camera given after the run: what it refuses, and the elevations that every run has.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "tests/unit/lua/bench.h"
@@ -11,7 +12,8 @@ TEST_CASE("a camera of one's own looks where it should, or says why it cannot", 
   Bench bench;
   REQUIRE(bench.run(four_bricks() + "joint{ law = dry{ kn = 1*GPa, mu = .6 } } analysis{ duration = .02 }") == 0);
   const auto render = [&](std::vector<std::string> more) {
-    std::vector<std::string> words{"render", bench.out(), "--stills", "0", "--size", "160x120", "--force", "--no-figures"};
+    std::vector<std::string> words{"render", bench.out(), "--stills", "0", "--force", "--no-figures"};
+    if (std::find(more.begin(), more.end(), "--size") == more.end()) words.insert(words.end(), {"--size", "160x120"});
     words.insert(words.end(), more.begin(), more.end());
     return bench.erbs(words);
   };
