@@ -158,6 +158,8 @@ int run(Arguments& a) {
     throw Error("--svg makes line drawings alone; leave out --color, --webp, --expect and --compare");
   if (movie.dust && (movie.look.magnify != 1 || movie.svg || !a.comparison.film.empty()))
     throw Error("--dust illustrates true motion in pictures; leave out --magnify, --svg and --compare");
+  if (movie.svg && movie.stills.empty() && (movie.range || !movie.frames.empty()))
+    throw Error("--svg draws instants; give them with --stills t1,t2 in place of --time and --frames");
   if (!movie.expected.empty() && a.background == "transparent")
     throw Error("--expect compares opaque pictures; choose --background sky or white");
   if (!a.section.empty()) movie.section = render::read_section(a.section);

@@ -130,8 +130,11 @@ class Lines {
       if (!front(body.solid, face)) continue;
       const Vec3 n = normal_of(body.solid.faces[static_cast<std::size_t>(face)]);
       bool goes_on = false;
-      for (const Body& other : bodies_) {
-        if (other.block != body.block || &other == &body) continue;
+      auto first = static_cast<std::size_t>(body.id);  // the parts of a block lie side by side
+      while (first > 0 && bodies_[first - 1].block == body.block) --first;
+      for (std::size_t k = first; k < bodies_.size() && bodies_[k].block == body.block; ++k) {
+        const Body& other = bodies_[k];
+        if (other.id == body.id) continue;
         for (const std::vector<Vec3>& loop : other.solid.faces) {
           if (normal_of(loop).dot(n) < 0.9999 || std::fabs((middle - loop.front()).dot(n)) > eps_) continue;
           bool within = true;
