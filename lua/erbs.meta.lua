@@ -542,7 +542,7 @@ function damping(keys) end
 ---@field gyroscopic? boolean the gyroscopic term w x (I w) [default true]
 ---@field output_dt? number time between rows of histories.csv and energy.csv [s; 1e-09 to 1e+06; default 0.01]
 ---@field frame_dt? number time between poses for pictures [s; 1e-09 to 1e+06; default 0.04]
----@field frame_stress? boolean keep the mean normal and shear stress of each joint with the poses, for colours and histograms [default false]
+---@field frame_stress? boolean keep the mean stresses and the resultant of each joint with the poses, for colours, histograms and lines of thrust [default false]
 ---@field kind? "dynamic"|"tilt"|"pushover" time history, or a push through states of equilibrium until the structure collapses [default dynamic]
 ---@field step? number tilt, pushover: first step of the multiplier, a share of g or of the pattern; of a tilt in rad (0: 0.01; 0.5 deg) [0 to 1e+06; default 0]
 ---@field up_to? number tilt, pushover: largest multiplier; of a tilt in rad (0: 2; 60 deg) [0 to 1e+06; default 0]

@@ -16,7 +16,9 @@
 #include "render/draw/figures.h"
 #include "render/movie/film_reader.h"
 #include "render/movie/movie.h"
+#include "render/movie/scenery.h"
 #include "render/run/camera_points.h"
+#include "render/vector/drawing.h"
 
 namespace {
 
@@ -32,12 +34,16 @@ struct Arguments {
   render::FilmComparison comparison{"", "rows", "correlation", "", 5, NAN};
 };
 
-const std::map<std::string, render::Coloring> colorings{
-    {"material", render::Coloring::material},         {"damage", render::Coloring::damage},
-    {"displacement", render::Coloring::displacement}, {"speed", render::Coloring::speed},
-    {"opening", render::Coloring::opening},           {"energy", render::Coloring::energy},
-    {"joint_state", render::Coloring::joint_state},   {"normal_stress", render::Coloring::normal_stress},
-    {"shear_stress", render::Coloring::shear_stress}};
+const std::map<std::string, render::Coloring> colorings{{"material", render::Coloring::material},
+                                                        {"damage", render::Coloring::damage},
+                                                        {"displacement", render::Coloring::displacement},
+                                                        {"speed", render::Coloring::speed},
+                                                        {"opening", render::Coloring::opening},
+                                                        {"slip", render::Coloring::slip},
+                                                        {"energy", render::Coloring::energy},
+                                                        {"joint_state", render::Coloring::joint_state},
+                                                        {"normal_stress", render::Coloring::normal_stress},
+                                                        {"shear_stress", render::Coloring::shear_stress}};
 
 const std::map<std::string, render::Background> backgrounds{
     {"sky", render::Background::sky}, {"white", render::Background::white}, {"transparent", render::Background::transparent}};
@@ -92,7 +98,13 @@ std::optional<erbs::Vec3> read_point(const std::string& option, const std::strin
 void read_camera(const Arguments& a, render::Movie& movie) {
   movie.eye = read_point("--eye", a.eye), movie.target = read_point("--target", a.target);
   if (movie.eye && !movie.cameras.empty()) throw Error("--eye is a camera of its own; leave out --camera");
-  if (!movie.eye && (movie.target || movie.fit)) throw Error("--target and --fit belong to a camera of your own; give --eye x,y,z as well");
+  if (!movie.eye && movie.target) throw Error("--target belongs to a camera of your own; give --eye x,y,z as well");
+  if (!movie.path.empty() && (movie.eye || !movie.cameras.empty() || !movie.follow.empty()))
+    throw Error("--path is a camera of its own; leave out --eye, --camera and --follow");
+  if (!movie.path.empty()) render::camera_path(movie.path);
+  if (movie.split && (movie.eye || !movie.path.empty()))
+    throw Error("--split needs several cameras; name them with --camera, and leave out --eye and --path");
+  if (movie.svg && movie.split) throw Error("--svg draws each camera by itself; leave out --split");
 }
 
 // Curves that cannot be drawn keep neither pictures nor videos from being made.
@@ -142,6 +154,12 @@ int run(Arguments& a) {
   read_camera(a, movie);
   if (!movie.expected.empty() && (movie.stills.size() != 1 || (movie.cameras.size() != 1 && !movie.eye)))
     throw Error("--expect compares one picture; give one time with --stills and one camera with --camera");
+  if (movie.svg && (!movie.expected.empty() || movie.webp || a.color != "material" || !a.comparison.film.empty()))
+    throw Error("--svg makes line drawings alone; leave out --color, --webp, --expect and --compare");
+  if (movie.dust && (movie.look.magnify != 1 || movie.svg || !a.comparison.film.empty()))
+    throw Error("--dust illustrates true motion in pictures; leave out --magnify, --svg and --compare");
+  if (movie.svg && movie.stills.empty() && (movie.range || !movie.frames.empty()))
+    throw Error("--svg draws instants; give them with --stills t1,t2 in place of --time and --frames");
   if (!movie.expected.empty() && a.background == "transparent")
     throw Error("--expect compares opaque pictures; choose --background sky or white");
   if (!a.section.empty()) movie.section = render::read_section(a.section);
@@ -156,6 +174,7 @@ int run(Arguments& a) {
   if (a.figures_only) return 0;
   std::fflush(stdout);
   const erbs::MotionReader reader(a.dir);
+  if (movie.svg) return render::make_drawings(folder, reader, movie, erbs::catch_interrupts()) ? 0 : 130;
   render::prepare_contexts();
   if (!render::make_movie(folder, reader, movie, erbs::catch_interrupts())) return 130;
   if (!movie.quiet && !folder.verdict.empty()) erbs::tell(stdout, folder.verdict);
@@ -201,16 +220,22 @@ int main(int argc, char** argv) {
   app.add_option("--target", a.target, "x,y,z: the point that it looks at (m; default: the middle of the building)");
   const CLI::Option* fov =
       app.add_option("--fov", a.movie.fov, "its vertical angle of view (deg)")->check(within(0.1, 170.0))->capture_default_str();
-  app.add_flag("--fit", a.movie.fit, "move it along its line of sight until building and heap are visible");
+  app.add_flag("--fit", a.movie.fit, "move each camera along its line of sight until building and heap are visible");
+  app.add_option("--path", a.movie.path,
+                 "\"t:x,y,z:x,y,z; ..\": a camera that moves; time (s), eye and target (m) of two or more keyframes");
+  app.add_option("--follow", a.movie.follow,
+                 "a group, a block, or debris (what has fallen at the end): the camera moves with it; --fit: closely");
+  app.add_flag("--split", a.movie.split, "all cameras, or those of --camera, side by side in one picture");
   app.add_option("--fps", a.movie.fps, "pictures a second of the video")->check(within(1.0, 240.0))->capture_default_str();
   app.add_option("--slow", a.movie.slow, "seconds of video for one second of the run")->check(within(0.001, 1000.0))->capture_default_str();
   app.add_option("--frames", a.movie.frames, "every: each recorded frame once; N: so many, evenly spread");
   app.add_option("--time", a.time, "T0:T1, only this span (s)");
   app.add_option("--stills", a.stills, "t1,t2,..: single pictures at these times (s), no video");
-  app.add_option("--color", a.color,
-                 "of blocks: material, damage, displacement, speed, largest opening of their joints, kinetic energy, or normal_stress "
-                 "(compression) or "
-                 "shear_stress of their most stressed joint; or joint_state, of joints")
+  app.add_option(
+         "--color", a.color,
+         "of blocks: material, damage, displacement, speed, largest opening or slip of their joints, kinetic energy, or normal_stress "
+         "(compression) or "
+         "shear_stress of their most stressed joint; or joint_state, of joints")
       ->check(CLI::IsMember(colorings))
       ->capture_default_str();
   app.add_option("--hide", a.movie.hide, "groups of blocks that are not drawn, with their joints")->delimiter(',');
@@ -224,6 +249,14 @@ int main(int argc, char** argv) {
   app.add_option("--background", a.background, "sky, white for print, or transparent: pictures or a WebP of blocks and their shadow alone")
       ->check(CLI::IsMember(backgrounds))
       ->capture_default_str();
+  app.add_flag("--forces", a.movie.marks.forces,
+               "lines of the normal forces of joints, as wide as the force (of a scene with frame_stress)");
+  app.add_flag("--thrust", a.movie.marks.thrust, "the line of thrust of blocks between two joints (of a scene with frame_stress)");
+  app.add_option("--mechanism", a.movie.marks.mechanism,
+                 "arrows of velocities and rotations: motion, of this run, or the mechanism.csv of erbs limit SCENE -o FOLDER");
+  app.add_flag("--dust", a.movie.dust, "clouds of dust where blocks hit something: an illustration, not computed");
+  app.add_flag("--svg", a.movie.svg,
+               "line drawings in place of pictures, at the times of --stills: outlines and cracks, with --forces .. too");
   app.add_flag("!--no-overlay", a.movie.look.overlay, "the scene alone: no title, clock, legend, scale, axes and ground motion");
   app.add_flag("--video,!--no-video", a.movie.video, "an MP4 a camera (default), or pictures alone");
   app.add_flag("--webp", a.movie.webp, "an animated WebP that repeats itself in place of the MP4, for pages such as a README");

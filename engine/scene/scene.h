@@ -169,7 +169,7 @@ struct Analysis {
   bool gyroscopic = true;             // false: the scalar Euler equation of Gu and Miao eq. (1), for comparison only
   double output_dt = 0.01;            // s, rows of histories.csv and energy.csv
   double frame_dt = 0.04;             // s, poses for pictures
-  bool frame_stress = false;          // with the mean stresses of the joints
+  bool frame_stress = false;          // with the mean stresses and the resultants of the joints
   Place place;
 
   static Fields<Analysis> fields() {
@@ -205,7 +205,7 @@ struct Analysis {
         {"output_dt", &Analysis::output_dt, "s", "time between rows of histories.csv and energy.csv", 1e-9, 1e6},
         {"frame_dt", &Analysis::frame_dt, "s", "time between poses for pictures", 1e-9, 1e6},
         {"frame_stress", &Analysis::frame_stress, "",
-         "keep the mean normal and shear stress of each joint with the poses, for colours and histograms"},
+         "keep the mean stresses and the resultant of each joint with the poses, for colours, histograms and lines of thrust"},
     };
   }
 };

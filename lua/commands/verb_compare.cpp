@@ -84,24 +84,6 @@ plot::Figure figure_of(const std::vector<ColumnPair>& pairs, const TimeShift& sh
   return curve_figure(curves, CurveKind::history, note);
 }
 
-std::vector<double> values_of(const RunComparison& c, const std::string& quantity) {
-  std::vector<double> values;
-  const auto each = [&](double ColumnErrors::*member) {
-    for (const ColumnErrors& e : c.columns) values.push_back(e.*member);
-  };
-  if (quantity == "peak") each(&ColumnErrors::peak_error);
-  if (quantity == "rms") each(&ColumnErrors::rms_error);
-  if (quantity == "difference") each(&ColumnErrors::difference);
-  if (quantity == "lag") each(&ColumnErrors::lag);
-  if (quantity == "correlation") each(&ColumnErrors::correlation);
-  if (quantity == "frequency") each(&ColumnErrors::frequency_error);
-  if (quantity == "shift") values = {c.shift.lag};
-  if (c.collapse.known && quantity == "collapse_time") values = {c.collapse.time};
-  if (c.collapse.known && quantity == "direction") values = {c.collapse.direction};
-  if (c.collapse.known && quantity == "sequence") values = {c.collapse.same_sequence ? 0.0 : 1.0};
-  return values;
-}
-
 // The folder for the results; an error if it holds some already.
 fs::path place_of(const CompareCommand& command) {
   const fs::path place = command.output.directory.empty() ? fs::path(command.words[0]) / "compare" : fs::path(command.output.directory);
@@ -124,24 +106,6 @@ std::string draw_figure(const plot::Figure& figure, const fs::path& place) {
 bool is_table(const std::string& path) {
   const std::string ending = fs::path(path).extension().string();
   return !fs::is_directory(path) && (ending == ".csv" || ending == ".txt" || ending == ".CSV");
-}
-
-double number_in(const Json& json, const char* key) {
-  const Json* value = find_key(json, key);
-  return value != nullptr && value->is_number() ? value->get<double>() : NAN;
-}
-
-// Of frames.json, by the names of limits.
-std::vector<double> values_of(const Json& frames, const std::string& quantity) {
-  for (const auto& [name, key] : {std::pair{"shift", "alignment.lag_s"},
-                                  {"iou", "iou_mean"},
-                                  {"ssim", "ssim_mean"},
-                                  {"flow", "flow_angle_mean_deg"},
-                                  {"direction", "direction_error_deg"},
-                                  {"camera", "camera.residual_px"},
-                                  {"correlation", "alignment.correlation"}})
-    if (quantity == name) return {number_in(frames, key)};
-  return {};
 }
 
 bool all_passed(const std::vector<Judged>& judged) {

@@ -28,7 +28,7 @@ int frame_at(const ExportedRun& run, double at) {
 
 // What one format writes first; the others of its files lie beside it.
 std::string target(const fs::path& folder, const std::string& stem, const std::string& format) {
-  const std::string ending = format == "gltf" ? ".glb" : format == "vtu" ? ".pvd" : "." + format;
+  const std::string ending = format == "gltf" ? ".glb" : format == "vtu" ? ".pvd" : format == "hdf5" ? ".h5" : "." + format;
   return (folder / (stem + ending)).string();
 }
 
@@ -51,10 +51,12 @@ int verb_export(const ExportCommand& command) {
   if (failed) throw Error("the folder cannot be made; may you write there? choose another with -o DIR", {folder.string(), 0});
   for (const std::string& format : command.formats) {
     const std::string path = target(folder, stem, format);
-    const std::vector<std::string> paths = format == "gltf"  ? write_gltf(run, path)
-                                           : format == "vtu" ? write_vtu(run, (folder / stem).string())
-                                           : format == "obj" ? write_obj(run, instant, path)
-                                                             : write_pose_table(run, path);
+    const std::vector<std::string> paths = format == "gltf"   ? write_gltf(run, path)
+                                           : format == "vtu"  ? write_vtu(run, (folder / stem).string())
+                                           : format == "hdf5" ? write_hdf5(run, path)
+                                           : format == "xdmf" ? write_xdmf(run, path)
+                                           : format == "obj"  ? write_obj(run, instant, path)
+                                                              : write_pose_table(run, path);
     std::uintmax_t bytes = 0;
     for (const std::string& one : paths) bytes += fs::file_size(one);
     if (!command.output.quiet)

@@ -10,6 +10,7 @@
 #include "engine/record/results/curve_figure.h"
 #include "engine/record/results/metrics.h"
 #include "lua/program/options.h"
+#include "lua/program/output_path.h"
 #include "lua/program/say.h"
 
 namespace erbs::lua {
@@ -63,16 +64,10 @@ CurveKind kind_of(const PlotCommand& command) {
 }
 
 std::string picture_of(const PlotCommand& command) {
-  std::string path = command.output.directory;
-  if (path.empty()) path = (fs::path(command.words.front()) / (command.png ? "plot.png" : "plot.svg")).string();
-  const std::string ending = fs::path(path).extension().string();
-  if (command.png && ending != ".png") throw Error("--png and the ending of -o disagree; let the name end with .png", {path});
-  if (ending != ".svg" && ending != ".png") throw Error("the name of a picture ends with .svg or .png; change it", {path});
-  if (fs::is_directory(path)) throw Error("it is a folder; choose another name with -o FILE", {path});
-  if (fs::exists(path) && !command.output.force) throw Error("it exists already; --force writes it anew, -o FILE another", {path});
-  const fs::path folder = fs::absolute(path).parent_path();
-  if (!fs::is_directory(folder)) throw Error("its folder does not exist; make it, or choose another name with -o FILE", {path});
-  return path;
+  if (command.png && !command.output.directory.empty() && fs::path(command.output.directory).extension() != ".png")
+    throw Error("--png and the ending of -o disagree; let the name end with .png", {command.output.directory});
+  return output_path(command.output, (fs::path(command.words.front()) / (command.png ? "plot.png" : "plot.svg")).string(), "a picture",
+                     {".svg", ".png"});
 }
 
 // Adds the curves of the columns that each pattern fits, each column once.

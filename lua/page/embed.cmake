@@ -1,4 +1,5 @@
-# cmake -DOUTPUT=page.cpp -DHTML=page.html [-DSTYLE=main.css -DSCRIPT=main.js] -P embed.cmake: makes the page part of the program.
+# cmake -DOUTPUT=page.cpp -DHTML=page.html -DSTUDY_PAGE=study.html -DSTUDY_STYLE=page.css [-DSTYLE=main.css -DSCRIPT=main.js] -P embed.cmake:
+# makes the pages part of the program.
 set(text "// Made by lua/page/embed.cmake.\n#include \"lua/page/page.h\"\n\nnamespace erbs::lua {\n\nconst ReportPage& report_page() {\n  static const ReportPage page{\n")
 foreach(part HTML STYLE SCRIPT)
   set(content "")
@@ -7,5 +8,11 @@ foreach(part HTML STYLE SCRIPT)
   endif()
   string(APPEND text "      R\"page~(${content})page~\",\n")
 endforeach()
-string(APPEND text "  };\n  return page;\n}\n\n}  // namespace erbs::lua\n")
+string(APPEND text "  };\n  return page;\n}\n\n")
+foreach(part page style)
+  string(TOUPPER STUDY_${part} file)
+  file(READ ${${file}} content)
+  string(APPEND text "std::string_view study_${part}() {\n  return R\"page~(${content})page~\";\n}\n\n")
+endforeach()
+string(APPEND text "}  // namespace erbs::lua\n")
 file(WRITE ${OUTPUT} "${text}")

@@ -1,5 +1,7 @@
 #include "lua/program/command_line.h"
 
+#include "engine/record/results/limits.h"
+
 namespace erbs::lua {
 namespace {
 
@@ -89,8 +91,9 @@ void add_plot(CLI::App& app, PlotCommand& command) {
 }
 
 void add_report(CLI::App& app, ReportCommand& command) {
-  CLI::App& report = *app.add_subcommand("report", "write a run as one web page: verdict, replay in 3D, curves, events, parameters");
-  report.add_option("DIR", command.words, "the run folder")->required();
+  CLI::App& report = *app.add_subcommand(
+      "report", "write a run as one web page: verdict, replay in 3D, curves, events, parameters; or a study: its answer, charts, rows");
+  report.add_option("DIR", command.words, "the folder of a run, of erbs sweep or of erbs accuracy")->required();
   report.add_option("-o", command.output.directory, "the page (default DIR/report.html)")->check(filled())->type_name("FILE");
   report.add_flag("--force", command.output.force, "replace an earlier page");
   report.add_flag("-q,--quiet", command.output.quiet, "print errors only");
@@ -134,10 +137,9 @@ void add_compare(CLI::App& app, CompareCommand& command) {
       ->check(filled())
       ->type_name("RUN=REF");
   compare
-      .add_option(
-          "--expect", command.expect,
-          "limits, exit code 4 beyond: peak, rms, difference, frequency (5%), lag (s), correlation>.9, "
-          "collapse_time (s), direction (deg), sequence<1; of a film: shift (s), iou>.9, ssim>.9, flow, direction (deg), camera (px)")
+      .add_option("--expect", command.expect,
+                  "limits such as peak<5%,correlation>.9; exit code 4 beyond. Of runs: " + compared_names(false) +
+                      "; of a film: " + compared_names(true))
       ->check(filled())
       ->type_name("'peak<5%,lag<.01'");
   for (const auto& [name, text] : film_options()) {
@@ -168,14 +170,15 @@ void add_others(CLI::App& app, CommandLine& line) {
   render.set_help_flag();  // erbs-render explains its own options
   render.prefix_command();
 
-  CLI::App& exported = *app.add_subcommand("export", "write a run for other programs: glTF, VTU, OBJ, CSV");
+  CLI::App& exported = *app.add_subcommand("export", "write a run for other programs: glTF, VTU, XDMF, HDF5, OBJ, CSV");
   exported.add_option("DIR", line.exported.words, "the run folder")->required();
   exported
       .add_option(
           "--format", line.exported.formats,
-          "gltf: animated blocks, for Blender; vtu: blocks with damage and velocity, for ParaView; obj: one instant; csv: all poses")
+          "gltf: animated blocks, and a script that loads them in Blender; vtu or xdmf: blocks with damage and velocity, joints with "
+          "tractions, for ParaView; hdf5: the same for scripts, with units; obj: one instant; csv: all poses")
       ->delimiter(',')
-      ->check(CLI::IsMember({"gltf", "vtu", "obj", "csv"}));
+      ->check(CLI::IsMember({"gltf", "vtu", "xdmf", "hdf5", "obj", "csv"}));
   exported.add_option("--time", line.exported.time, "only this span, s")->type_name("T0:T1");
   exported.add_option("--every", line.exported.every, "every N-th frame")->check(within(1, 1000000));
   exported.add_option("--at", line.exported.at, "the instant of an OBJ, s (default: the last frame)")->check(within(-1e9, 1e9));

@@ -93,7 +93,7 @@ void draw_accuracy(const AccuracyStudy& s, const std::string& path) {
                     "screen 0.03,0.925", "left tc rgb '#555555'"}};
   plot::Panel left = panel_of(s, false, false, figure), right = panel_of(s, true, true, figure);
   left.axes = {0.075, 0.39, 0.11, 0.88};
-  left.x.label = "seconds of processor";
+  left.x.label = "processor time [s]";
   left.y.label = error_label(q), left.y.look = "noenhanced";
   right.axes = {0.46, 0.775, 0.11, 0.88};
   right.x.label = "contact points evaluated";

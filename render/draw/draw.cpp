@@ -1,5 +1,6 @@
 #include "render/draw/draw.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -71,8 +72,8 @@ struct Painter::Hidden {
   std::unique_ptr<Context> context;
   Gl gl;
   std::unique_ptr<Canvas> canvas;
-  GLuint solid, shade, crack, ground, dim, sky;  // dim: a ground that only shows its shadow
-  Drawable bricks, shades, cracks, plane;
+  GLuint solid, shade, crack, ground, dim, sky, cloud;  // dim: a ground that only shows its shadow
+  Drawable bricks, shades, cracks, plane, discs;
   Texels blocks, joints;
 
   Hidden(const Show& s, const Look& l, const std::string& kind)
@@ -84,6 +85,7 @@ struct Painter::Hidden {
     ground = make_program(gl, shader_common, ground_vertex, ground_fragment);
     dim = make_program(gl, shader_common, ground_vertex, dim_fragment);
     sky = make_program(gl, shader_common, screen_vertex, sky_fragment);
+    cloud = make_program(gl, shader_common, dust_vertex, dust_fragment);
     upload_geometry();
     for (Texels* t : {&blocks, &joints}) {
       gl.GenBuffers(1, &t->buffer);
@@ -91,8 +93,8 @@ struct Painter::Hidden {
     }
   }
   ~Hidden() {
-    for (GLuint program : {solid, shade, crack, ground, dim, sky}) gl.DeleteProgram(program);
-    for (Drawable* d : {&bricks, &shades, &cracks, &plane}) {
+    for (GLuint program : {solid, shade, crack, ground, dim, sky, cloud}) gl.DeleteProgram(program);
+    for (Drawable* d : {&bricks, &shades, &cracks, &plane, &discs}) {
       gl.DeleteVertexArrays(1, &d->vao);
       gl.DeleteBuffers(1, &d->vertices);
       gl.DeleteBuffers(1, &d->index);
@@ -122,6 +124,10 @@ struct Painter::Hidden {
     floats<CrackVertex>(gl, 3, 3, offsetof(CrackVertex, normal));
     integers<CrackVertex>(gl, 4, 3, offsetof(CrackVertex, a));
     floats<CrackVertex>(gl, 5, 1, offsetof(CrackVertex, side));
+    using Disc = std::array<float, 8>;
+    discs = upload(gl, std::vector<Disc>{});
+    floats<Disc>(gl, 0, 4, 0);
+    floats<Disc>(gl, 1, 4, 4 * sizeof(float));
     using Corner = std::array<float, 2>;
     plane = upload(gl, std::vector<Corner>{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}});
     floats<Corner>(gl, 0, 2, 0);
@@ -173,6 +179,7 @@ struct Painter::Hidden {
     gl.BindTexture(GL_TEXTURE_2D, 0);
     canvas->begin_shadow();
     gl.Enable(GL_CULL_FACE);
+    if (!look_.shadow) return gl.BindTexture(GL_TEXTURE_2D, canvas->shadow_map());
     gl.CullFace(GL_FRONT);  // back faces cast the shadows, so lit faces do not shadow themselves
     use(shade, light, light.to_shadow);
     draw(shades);
@@ -247,6 +254,46 @@ struct Painter::Hidden {
     gl.Disable(GL_CULL_FACE);
   }
 
+  // Far clouds first. They do not hide each other, and take no part in the darkening of corners.
+  void draw_dust(const Light& light, const View& v, std::vector<Puff> dust) {
+    if (dust.empty()) return;
+    const Vec3 eye = light.eye.cast<double>();
+    std::stable_sort(dust.begin(), dust.end(),
+                     [&](const Puff& a, const Puff& b) { return (a.at - eye).squaredNorm() > (b.at - eye).squaredNorm(); });
+    std::vector<std::array<float, 8>> corners;
+    std::vector<std::uint32_t> index;
+    for (const Puff& puff : dust) {
+      const auto first = static_cast<std::uint32_t>(corners.size());
+      const Eigen::Vector3f at = puff.at.cast<float>();
+      for (const auto& [x, y] : {std::pair{-1.0F, -1.0F}, {1.0F, -1.0F}, {1.0F, 1.0F}, {-1.0F, 1.0F}})
+        corners.push_back({at.x(), at.y(), at.z(), static_cast<float>(puff.radius), x, y, static_cast<float>(puff.opacity),
+                           static_cast<float>(puff.seed)});
+      index.insert(index.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
+    }
+    canvas->begin_translucent();
+    choose(gl, discs, index);
+    gl.BindBuffer(GL_ARRAY_BUFFER, discs.vertices);
+    gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(corners[0])), corners.data(), GL_STREAM_DRAW);
+    use(cloud, light, light.camera);
+    gl.ActiveTexture(GL_TEXTURE3);
+    gl.BindTexture(GL_TEXTURE_2D, canvas->depth_map());
+    gl.Uniform1i(gl.GetUniformLocation(cloud, "depth"), 3);
+    const Eigen::Matrix4f& p = v.projection;
+    gl.Uniform2f(gl.GetUniformLocation(cloud, "depth_range"), p(2, 3) / (p(2, 2) - 1), p(2, 3) / (p(2, 2) + 1));
+    gl.Uniform2f(gl.GetUniformLocation(cloud, "size"), static_cast<float>(look_.width), static_cast<float>(look_.height));
+    vector(cloud, "right", v.view.row(0).head<3>().transpose());
+    vector(cloud, "up", v.view.row(1).head<3>().transpose());
+    vector(cloud, "tone", {0.60F, 0.545F, 0.48F});
+    gl.Disable(GL_DEPTH_TEST);
+    gl.Enable(GL_BLEND);
+    gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    draw(discs);
+    gl.Disable(GL_BLEND);
+    gl.Enable(GL_DEPTH_TEST);
+    gl.BindTexture(GL_TEXTURE_2D, 0);
+    gl.ActiveTexture(GL_TEXTURE0);
+  }
+
   void draw_picture(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position) const {
     const Stage& stage = show.stage;
     canvas->begin_picture();
@@ -301,7 +348,8 @@ struct Painter::Hidden {
 Painter::Painter(const Show& show, const Look& look, const std::string& kind) : hidden_(new Hidden(show, look, kind)) {}
 Painter::~Painter() = default;
 
-Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const std::optional<Mat3>& levelling) {
+Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const std::optional<Mat3>& levelling,
+                    const std::vector<Puff>& dust) {
   Hidden& h = *hidden_;
   const Look& l = h.look_;
   std::optional<Eigen::Isometry3d> position;
@@ -321,6 +369,7 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   h.draw_shadow(light);
   h.draw_picture(light, v, position);
   h.draw_ghosts(light, texels.ghost_index);
+  h.draw_dust(light, v, dust);
   Image image = h.canvas->finish(v.projection, 0.022 * h.show.stage.size(), l.background == Background::transparent);
   if (const GLenum error = h.gl.GetError(); error != GL_NO_ERROR)
     throw std::logic_error(fmt::format("internal error: OpenGL reports {:#x}; please report it", error));

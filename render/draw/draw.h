@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "render/draw/dust.h"
 #include "render/gl/canvas.h"
 #include "render/run/excerpt.h"
 #include "render/run/mesh.h"
@@ -13,7 +14,7 @@ namespace erbs::render {
 
 // What the colour of a block shows: its material, the broken share of its joint area, or a quantity on a scale that ends at Show::scale.
 // With joint_state the joints are coloured, not the blocks.
-enum class Coloring { material, damage, displacement, speed, opening, energy, normal_stress, shear_stress, joint_state };
+enum class Coloring { material, damage, displacement, speed, opening, slip, energy, normal_stress, shear_stress, joint_state };
 inline bool is_quantity(Coloring c) { return c >= Coloring::displacement && c <= Coloring::shear_stress; }
 inline bool is_stress(Coloring c) { return c == Coloring::normal_stress || c == Coloring::shear_stress; }
 
@@ -27,9 +28,11 @@ struct Look {
   Coloring coloring = Coloring::material;
   int width = 1280, height = 720;
   double top = 0, bottom = 0;               // pixels covered by the overlay
+  double unit = 0;                          // of the overlay's lengths, px; 0: height / 720
   bool overlay = true;                      // title, clock, legend, scale, axes and ground motion
   double magnify = 1;                       // factor on the displacements drawn
   Background background = Background::sky;  // white: with the ground, for print; transparent: of the ground, only its shadow
+  bool shadow = true;                       // of the sun
   bool table_turns = true;                  // a tilting test is drawn level, with its table turning; otherwise gravity turns
 };
 
@@ -49,7 +52,9 @@ struct Show {
 };
 Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<MotionFrame>& some_frames);
 // The same on a stage that is set, with ghosts (empty: none) and a section whose side is known.
-Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::vector<bool> ghost, const std::optional<Section>& section);
+// `sharp`: blocks alone, without chamfers, mortar and cracks, for pictures too small to show them.
+Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::vector<bool> ghost, const std::optional<Section>& section,
+                  bool sharp = false);
 
 // Nearest to `size` among 1, 2 or 5 times a power of ten.
 double round_length(double size);
@@ -64,9 +69,12 @@ Vec3 map_color(double share);
 inline constexpr double energy_decades = 6;
 double map_share(double value, double scale, Coloring coloring);
 
-// Kinetic energy (J), displacement (m), speed (m/s), largest joint opening (m), or largest mean compression or shear of its joints (Pa) of
-// each block, as the colouring says [blocks].
+// Kinetic energy (J), displacement (m), speed (m/s), largest joint opening or slip (m), or largest mean compression or shear of its joints
+// (Pa) of each block, as the colouring says [blocks].
 std::vector<double> block_values(const MotionScene& scene, const MotionFrame& frame, Coloring coloring);
+
+// The next of 1, 2 or 5 times a power of ten; `value` itself if it is one, up to rounding.
+double round_up(double value);
 
 // The scale of a colouring: what 98 % of the blocks never exceed in these frames, rounded up to 1, 2 or 5 times a power of ten.
 double color_scale(const MotionScene& scene, const std::vector<MotionFrame>& frames, Coloring coloring);
@@ -85,7 +93,8 @@ class Painter {
   Painter(const Show& show, const Look& look, const std::string& context_kind);
   ~Painter();
   // levelling: of the instant, where the table turns. The camera is that of the level world.
-  Image draw(const MotionFrame& frame, const Camera& camera, const std::optional<Mat3>& levelling = std::nullopt);
+  Image draw(const MotionFrame& frame, const Camera& camera, const std::optional<Mat3>& levelling = std::nullopt,
+             const std::vector<Puff>& dust = {});
 
  private:
   struct Hidden;

@@ -12,11 +12,6 @@ namespace {
 constexpr Ink text_ink{38, 42, 48, 1}, quiet_ink{95, 102, 110, 1}, panel{250, 251, 252, 0.80}, accent{176, 48, 28, 1};
 constexpr double margin = 22;  // in rows of a picture with 720 rows, as all lengths here
 
-Ink display(const Vec3& linear) {
-  const auto byte = [](double x) { return static_cast<std::uint8_t>(std::lround(255 * std::pow(std::clamp(x, 0.0, 1.0), 1 / 2.2))); };
-  return {byte(linear.x()), byte(linear.y()), byte(linear.z()), 1};
-}
-
 // The record at time t: linear between rows, zero outside.
 double value_at(const GroundRecord& r, double t) {
   if (r.t.empty() || t < r.t.front() || t > r.t.back()) return 0;
@@ -24,13 +19,6 @@ double value_at(const GroundRecord& r, double t) {
   if (after == r.t.size()) return r.a.back();
   const double s = (t - r.t[after - 1]) / (r.t[after] - r.t[after - 1]);
   return r.a[after - 1] + s * (r.a[after] - r.a[after - 1]);
-}
-
-std::string length_text(double m) {
-  return m >= 1      ? fmt::format("{:.3g} m", m)
-         : m >= 0.01 ? fmt::format("{:.3g} cm", 100 * m)
-         : m >= 1e-4 ? fmt::format("{:.3g} mm", 1000 * m)
-                     : fmt::format("{:.3g} um", 1e6 * m);
 }
 
 // At a share of a scale (Pa); the unit stands at its end only, where there is room.
@@ -47,6 +35,8 @@ const char* quantity_name(Coloring coloring) {
       return "speed";
     case Coloring::opening:
       return "largest joint opening";
+    case Coloring::slip:
+      return "largest joint slip";
     case Coloring::energy:
       return "kinetic energy, log scale";
     case Coloring::normal_stress:
@@ -60,18 +50,23 @@ const char* quantity_name(Coloring coloring) {
 
 }  // namespace
 
+std::string length_text(double m) {
+  return m >= 1      ? fmt::format("{:.3g} m", m)
+         : m >= 0.01 ? fmt::format("{:.3g} cm", 100 * m)
+         : m >= 1e-4 ? fmt::format("{:.3g} mm", 1000 * m)
+                     : fmt::format("{:.3g} um", 1e6 * m);
+}
+
 double overlay_top(int height) { return 58.0 * height / 720; }
 double overlay_bottom(int height, bool with_record) { return (with_record ? 116.0 : 34.0) * height / 720; }
 
-Overlay::Overlay(const Run& run, const Show& show, const Look& look, const Camera& camera, const View& view, double slow)
+Overlay::Overlay(const Run& run, const Show& show, const Look& look, const std::string& camera, double slow)
     : run_(run),
       show_(show),
       look_(look),
-      camera_(camera.name),
-      turn_(view.view.topLeftCorner<3, 3>()),
-      pixel_(static_cast<double>(view.pixel * view.target_distance)),
+      camera_(camera),
       slow_(slow),
-      unit_(look.height / 720.0),
+      unit_(look.unit > 0 ? look.unit : look.height / 720.0),
       regular_(Font::Face::regular),
       bold_(Font::Face::bold) {
   std::replace(camera_.begin(), camera_.end(), '_', ' ');
@@ -94,9 +89,35 @@ Overlay::Overlay(const Run& run, const Show& show, const Look& look, const Camer
   }
 }
 
-void Overlay::draw(Image& image, double t) const {
+void Overlay::see(const View& view) {
+  turn_ = view.view.topLeftCorner<3, 3>();
+  pixel_ = static_cast<double>(view.pixel * view.target_distance);
+}
+
+void Overlay::draw_legends(Image& image, const std::vector<MarkRow>& marks) const {
+  draw_mark_legend(image, marks, draw_legend(image), margin, unit_, regular_);
+}
+
+void Overlay::draw_in_tile(Image& image, double t, const View& view) {
+  see(view);
+  draw_scale(image);
+  draw_axes(image, t);
+  const double u = unit_, size = 13 * u, width = regular_.width(camera_, size);
+  if (camera_.empty()) return;
+  fill_box(image, margin * u - 10 * u, 12 * u, margin * u + width + 10 * u, 36 * u, panel);
+  regular_.draw(image, camera_, margin * u, 29 * u, size, text_ink);
+}
+
+void Overlay::draw_around_tiles(Image& image, double t, const std::vector<MarkRow>& marks) const {
   draw_title(image, t);
-  draw_legend(image);
+  draw_legends(image, marks);
+  if (!strip_.empty()) draw_record(image, t);
+}
+
+void Overlay::draw(Image& image, double t, const View& view, const std::vector<MarkRow>& marks) {
+  see(view);
+  draw_title(image, t);
+  draw_legends(image, marks);
   draw_scale(image);
   draw_axes(image, t);
   if (!strip_.empty()) draw_record(image, t);
@@ -211,7 +232,7 @@ std::string Overlay::map_number(double share) const {
   }
 }
 
-void Overlay::draw_map(Image& image) const {
+double Overlay::draw_map(Image& image) const {
   const double u = unit_, right = image.width - margin * u, size = 13 * u, width = 170 * u, left = right - width, y = 78 * u;
   fill_box(image, left - 10 * u, y - 18 * u, right + 10 * u, y + 36 * u, panel);
   regular_.draw(image, quantity_name(look_.coloring), left, y, size, text_ink);
@@ -221,9 +242,10 @@ void Overlay::draw_map(Image& image) const {
   regular_.draw(image, map_number(0), left, y + 33 * u, size, quiet_ink);
   regular_.draw(image, map_number(0.5), 0.5 * (left + right), y + 33 * u, size, quiet_ink, Font::Align::middle);
   regular_.draw(image, map_number(1), right, y + 33 * u, size, quiet_ink, Font::Align::right);
+  return y + 36 * u;
 }
 
-void Overlay::draw_legend(Image& image) const {
+double Overlay::draw_legend(Image& image) const {
   if (look_.coloring == Coloring::damage || is_quantity(look_.coloring)) return draw_map(image);
   const double u = unit_, right = image.width - margin * u, size = 13 * u;
   double y = 78 * u;
@@ -260,6 +282,7 @@ void Overlay::draw_legend(Image& image) const {
     fill_box(image, right - 12 * u, y - row.half * u, right, y + row.half * u, row.ink);
     y += 20 * u;
   }
+  return y - 6 * u;
 }
 
 void Overlay::draw_scale(Image& image) const {

@@ -1,6 +1,7 @@
 // Overlay of a picture: title, time, ground motion with a moving cursor, scale and legend.
 #pragma once
 #include "render/draw/draw.h"
+#include "render/draw/marks_picture.h"
 #include "render/image/text.h"
 #include "render/run/stage.h"
 
@@ -10,18 +11,26 @@ namespace erbs::render {
 double overlay_top(int height);
 double overlay_bottom(int height, bool with_record);
 
+std::string length_text(double m);  // "1.5 m", "20 cm", "3 mm"
+
 class Overlay {
  public:
-  // slow: seconds of video per second of the run.
-  Overlay(const Run& run, const Show& show, const Look& look, const Camera& camera, const View& view, double slow);
-  void draw(Image& image, double t) const;  // t: s
+  // camera: its name; slow: seconds of video per second of the run.
+  Overlay(const Run& run, const Show& show, const Look& look, const std::string& camera, double slow);
+  // Of a picture of one camera, which has this view at time t (s). `marks`: legend of the lines laid over it.
+  void draw(Image& image, double t, const View& view, const std::vector<MarkRow>& marks);
+  // Of a picture of several cameras: what belongs to one tile, and what belongs to all of them.
+  void draw_in_tile(Image& image, double t, const View& view);
+  void draw_around_tiles(Image& image, double t, const std::vector<MarkRow>& marks) const;
 
  private:
+  void see(const View& view);
   void draw_title(Image& image, double t) const;
   void draw_record(Image& image, double t) const;
   void draw_times(Image& image, double top, double bottom, double now) const;
-  void draw_legend(Image& image) const;
-  void draw_map(Image& image) const;  // the legend of a colour map
+  void draw_legends(Image& image, const std::vector<MarkRow>& marks) const;
+  double draw_legend(Image& image) const;  // returns the row at which it ends (px)
+  double draw_map(Image& image) const;     // the legend of a colour map
   std::string map_number(double share) const;
   void draw_scale(Image& image) const;
   void draw_axes(Image& image, double t) const;
@@ -30,9 +39,9 @@ class Overlay {
   const Show& show_;
   Look look_;
   std::string camera_;
-  Eigen::Matrix3f turn_;  // rotation from world to picture: right, up, towards the eye
-  double pixel_;          // m, size of a pixel at the distance of the camera's target
-  double slow_, unit_;    // unit_: pixels per row of a picture with 720 rows
+  Eigen::Matrix3f turn_ = Eigen::Matrix3f::Identity();  // rotation from world to picture: right, up, towards the eye
+  double pixel_ = 1;                                    // m, size of a pixel at the distance of the camera's target
+  double slow_, unit_;                                  // unit_: pixels per row of a picture with 720 rows
   Font regular_, bold_;
   struct Reach {
     double low, high;

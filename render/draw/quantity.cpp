@@ -33,7 +33,7 @@ std::vector<double> block_values(const MotionScene& scene, const MotionFrame& fr
   if (coloring == Coloring::displacement)
     for (std::size_t b = 0; b < value.size(); ++b)
       value[b] = (Eigen::Map<const Eigen::Vector3f>(&frame.poses[7 * b]).cast<double>() - scene.blocks[b].rest).norm();
-  if (coloring == Coloring::speed || coloring == Coloring::energy || is_stress(coloring))
+  if (coloring == Coloring::speed || coloring == Coloring::slip || coloring == Coloring::energy || is_stress(coloring))
     std::copy_n(frame.derived.begin(), std::min(frame.derived.size(), value.size()), value.begin());
   if (coloring == Coloring::opening)
     for (std::size_t j = 0; j < scene.joints.size(); ++j)
@@ -42,6 +42,13 @@ std::vector<double> block_values(const MotionScene& scene, const MotionFrame& fr
         largest = std::max(largest, static_cast<double>(frame.opening[j]));
       }
   return value;
+}
+
+double round_up(double value) {
+  const double ten = std::pow(10.0, std::floor(std::log10(value)));
+  for (const double step : {1.0, 2.0, 5.0})
+    if (value <= step * ten * (1 + 1e-9)) return step * ten;
+  return 10 * ten;
 }
 
 double color_scale(const MotionScene& scene, const std::vector<MotionFrame>& frames, Coloring coloring) {
@@ -60,10 +67,7 @@ double color_scale(const MotionScene& scene, const std::vector<MotionFrame>& fra
   std::sort(largest.begin(), largest.end());
   const double top = largest[std::min(largest.size() - 1, static_cast<std::size_t>(0.98 * static_cast<double>(largest.size())))];
   if (!(top > 1e-9)) return 1e-6;  // nothing moved by more than rounding
-  const double ten = std::pow(10.0, std::floor(std::log10(top)));
-  for (double step : {1.0, 2.0, 5.0})
-    if (top <= step * ten * (1 + 1e-9)) return step * ten;
-  return 10 * ten;
+  return round_up(top);
 }
 
 }  // namespace erbs::render

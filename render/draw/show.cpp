@@ -59,7 +59,8 @@ Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<Mo
   return prepare_show(scene, run, set_stage(scene, some_frames), {}, std::nullopt);
 }
 
-Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::vector<bool> ghost, const std::optional<Section>& section) {
+Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::vector<bool> ghost, const std::optional<Section>& section,
+                  bool sharp) {
   Show show;
   show.scene = &scene;
   show.stage = std::move(stage);
@@ -83,7 +84,10 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
     gap = std::max(gap, joint.thickness);
   }
   const MotionScene solid = section ? cut_scene(scene, *section, show.stage.hidden) : scene;
+  if (sharp) show.chamfer = 0;
   show.mesh = build_mesh(solid, show.stage.hidden, show.chamfer);
+  if (sharp)
+    for (std::vector<Span>* spans : {&show.mesh.pointing, &show.mesh.beds, &show.mesh.crack}) spans->assign(spans->size(), Span{});
   std::vector<bool> no_shade = show.stage.hidden;
   for (std::size_t b = 0; b < no_shade.size(); ++b) no_shade[b] = no_shade[b] || show.ghost[b];
   add_shades(show.mesh, solid, no_shade, 0.55 * gap + 0.1 * show.open_crack);

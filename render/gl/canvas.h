@@ -45,7 +45,8 @@ class Canvas {
   int width() const { return width_; }
   int height() const { return height_; }
   GLuint shadow_map() const { return shadow_.depth; }
-  static constexpr int shadow_side = 2048;  // texels
+  GLuint depth_map() const { return resolved_.depth; }  // after begin_translucent()
+  static constexpr int shadow_side = 2048;              // texels
 
  private:
   Image read(bool with_opacity) const;

@@ -170,6 +170,56 @@ out vec4 color;
 void main() { color = vec4(0.0, 0.0, 0.0, 0.36 * (1.0 - sunlight(world, normal, max(dot(normal, sun), 0.0)))); }
 )";
 
+// Clouds of dust: discs that face the eye, denser in the middle and mottled, and thinner where something solid is near behind them.
+const std::string dust_vertex = R"(
+layout(location = 0) in vec4 ball;   // m: middle, radius
+layout(location = 1) in vec4 form;   // corner of the disc, opacity, seed
+uniform vec3 right, up;
+out vec2 at;
+out vec2 kind;                // opacity, seed
+out float radius;
+out vec3 world;
+void main() {
+  at = form.xy;
+  kind = form.zw;
+  radius = ball.w;
+  world = ball.xyz + ball.w * (form.x * right + form.y * up);
+  gl_Position = camera * vec4(world, 1.0);
+}
+)";
+const std::string dust_fragment = R"(
+in vec2 at;
+in vec2 kind;
+in float radius;
+in vec3 world;
+uniform sampler2D depth;
+uniform vec2 depth_range;     // near, far (m)
+uniform vec2 size;            // px
+uniform vec3 right, up, tone;
+out vec4 color;
+float scatter(vec2 p) { return fract(sin(dot(p, vec2(127.1, 311.7))) * 43758.5453); }
+float mottle(vec2 p) {
+  vec2 i = floor(p), f = fract(p);
+  f = f * f * (3.0 - 2.0 * f);
+  return mix(mix(scatter(i), scatter(i + vec2(1.0, 0.0)), f.x), mix(scatter(i + vec2(0.0, 1.0)), scatter(i + vec2(1.0, 1.0)), f.x), f.y);
+}
+float along(float z) {
+  z = z * 2.0 - 1.0;
+  return 2.0 * depth_range.x * depth_range.y / (depth_range.y + depth_range.x - z * (depth_range.y - depth_range.x));
+}
+void main() {
+  float d = length(at), ball = sqrt(max(0.0, 1.0 - d * d));
+  vec2 p = at * 1.7 + 31.0 * kind.y;
+  float cloud = 0.6 * mottle(p * 1.3) + 0.4 * mottle(p * 2.9);
+  float dense = smoothstep(1.0, 0.15, d + 0.55 * (cloud - 0.5));
+  float behind = along(texture(depth, gl_FragCoord.xy / size).r) - along(gl_FragCoord.z);
+  float alpha = kind.x * dense * clamp((behind + radius * ball) / (1.2 * radius), 0.0, 1.0);
+  vec3 n = at.x * right + at.y * up;
+  float lit = 0.80 + 0.22 * dot(n, sun) + 0.10 * at.y;
+  color = vec4(srgb(tone * lit).rgb, alpha);
+}
+)";
+
 const std::string screen_vertex = R"(
 out vec2 uv;
 void main() {

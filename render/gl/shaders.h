@@ -8,7 +8,7 @@ extern const std::string shader_common;
 extern const std::string solid_vertex, solid_fragment;  // bricks and mortar
 extern const std::string shade_vertex, shade_fragment;  // the same for the shadow map
 extern const std::string crack_vertex, crack_fragment;
-extern const std::string ground_vertex, ground_fragment, dim_fragment;
+extern const std::string ground_vertex, ground_fragment, dim_fragment, dust_vertex, dust_fragment;
 extern const std::string screen_vertex;  // one triangle that covers the whole picture
 extern const std::string sky_fragment, occlusion_fragment, blur_fragment, finish_fragment;
 

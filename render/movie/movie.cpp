@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -14,8 +15,10 @@
 #include "engine/base/system/affinity.h"
 #include "engine/base/system/process.h"
 #include "engine/base/text.h"
+#include "render/draw/marks_picture.h"
 #include "render/draw/overlay.h"
 #include "render/image/compare.h"
+#include "render/movie/scenery.h"
 #include "render/movie/video.h"
 #include "render/movie/workers.h"
 
@@ -26,19 +29,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 double since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
-
-Camera own_camera(const Movie& movie, const Stage& stage, double aspect) {
-  Camera camera;
-  camera.name = "own";
-  camera.eye = *movie.eye;
-  camera.target = movie.target.value_or(stage.building.center());
-  camera.fov = movie.fov * pi / 180;
-  const Vec3 back = camera.eye - camera.target;
-  if (!(back.norm() > 1e-9)) throw Error("--eye and --target are the same point, so that the camera looks nowhere; move one of them");
-  if (back.cross(camera.up).norm() < 1e-6 * back.norm()) camera.up = Vec3(0, 1, 0);
-  if (movie.fit) fit_camera(camera, back, stage, aspect);
-  return camera;
-}
 
 // Output paths of one camera.
 struct Files {
@@ -66,18 +56,82 @@ Files prepare_files(const Run& run, const Movie& movie, const Camera& camera, co
   return files;
 }
 
+// The cameras of a film side by side, each in a tile of the picture; one tile where there is one camera.
+struct Tiles {
+  std::vector<Shot> shots;
+  int columns = 1, rows = 1;
+  Look look;                    // of a tile
+  std::vector<Marks> marks;     // of each picture; empty: none
+  std::vector<Impact> impacts;  // that raise dust
+  double top = 0;               // px above the tiles
+  bool split() const { return columns * rows > 1; }
+  std::pair<int, int> corner(std::size_t k) const {  // px, of a tile: left, top
+    const int column = static_cast<int>(k) % columns, row = static_cast<int>(k) / columns;
+    return {column * look.width, static_cast<int>(top) + row * look.height};
+  }
+};
+
+Tiles tiles_of(const Look& whole, std::size_t cameras) {
+  Tiles tiles;
+  tiles.look = whole;
+  if (cameras < 2) return tiles;
+  tiles.columns =
+      cameras == 2 && whole.height > whole.width ? 1 : static_cast<int>(std::ceil(std::sqrt(static_cast<double>(cameras)) - 1e-9));
+  tiles.rows = (static_cast<int>(cameras) + tiles.columns - 1) / tiles.columns;
+  tiles.top = std::ceil(whole.top);
+  tiles.look.width = whole.width / tiles.columns;
+  tiles.look.height = static_cast<int>(whole.height - tiles.top - whole.bottom) / tiles.rows;
+  tiles.look.top = tiles.look.bottom = 0;
+  tiles.look.unit = whole.height / 720.0;
+  if (tiles.look.width < 64 || tiles.look.height < 64)
+    throw Error(fmt::format("--split: {} cameras in {}x{} leave each less than 64 pixels; ask for a larger --size, or fewer cameras",
+                            cameras, whole.width, whole.height));
+  return tiles;
+}
+
+void put(Image& image, const Image& tile, int left, int top) {
+  for (int y = 0; y < tile.height; ++y) std::copy_n(tile.pixel(0, y), tile.width * tile.channels, image.pixel(left, top + y));
+}
+
 // Drawing of single frames in a process of its own: the picture, its overlay, and its file.
-Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const Camera& camera, const Files& files,
+Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const Tiles& tiles, const Files& files,
                      const Schedule& schedule) {
   const Look& l = movie.look;
-  const View view = look(camera, show.stage, l.width, l.height, l.top, l.bottom);
-  const auto painter = std::make_shared<Painter>(show, l, movie.context);
-  const auto overlay = std::make_shared<Overlay>(run, show, l, camera, view, files.stills ? 1 : schedule.slow);
-  return [=, &files, &run](std::size_t index, const MotionFrame& frame) {
+  const double slow = files.stills ? 1 : schedule.slow;
+  const auto painter = std::make_shared<Painter>(show, tiles.look, movie.context);
+  const auto frame_of_tiles = std::make_shared<Overlay>(run, show, l, "", slow);
+  std::vector<std::shared_ptr<Overlay>> overlays;
+  for (const Shot& shot : tiles.shots) overlays.push_back(std::make_shared<Overlay>(run, show, tiles.look, shot.camera.name, slow));
+  return [=, &files, &run, &show, &tiles](std::size_t index, const MotionFrame& frame) {
     std::optional<Mat3> level;
     if (!run.gravity.empty() && l.table_turns) level = levelling(run.gravity, frame.t);
-    Image image = painter->draw(frame, camera, level);
-    if (l.overlay) overlay->draw(image, frame.t);
+    const Marks none, &marks = tiles.marks.empty() ? none : tiles.marks[index];
+    const Look& of = tiles.look;
+    Image image;
+    if (tiles.split()) {
+      image = Image(l.width, l.height, l.background == Background::transparent ? 4 : 3);
+      std::fill(image.rgb.begin(), image.rgb.end(), std::uint8_t{252});
+    }
+    for (std::size_t k = 0; k < tiles.shots.size(); ++k) {
+      const Camera camera = tiles.shots[k].at(frame.t);
+      Image tile = painter->draw(frame, camera, level, dust_at(tiles.impacts, frame.t));
+      const Camera in_the_scene = level ? in_scene(camera, table_position(show.stage, *level)) : camera;
+      draw_marks(tile, marks, look(in_the_scene, show.stage, of.width, of.height, of.top, of.bottom), l.height / 720.0);
+      const View view = look(camera, show.stage, of.width, of.height, of.top, of.bottom);
+      if (!tiles.split()) {
+        if (l.overlay) overlays[k]->draw(tile, frame.t, view, marks.legend);
+        image = std::move(tile);
+        break;
+      }
+      if (l.overlay) overlays[k]->draw_in_tile(tile, frame.t, view);
+      const auto [left, top] = tiles.corner(k);
+      put(image, tile, left, top);
+      const double thin = 1.5 * l.height / 720;
+      fill_box(image, left - thin, top, left + thin, top + tile.height, {252, 252, 252, 1});
+      if (k >= static_cast<std::size_t>(tiles.columns))
+        fill_box(image, left, top - thin, left + tile.width, top + thin, {252, 252, 252, 1});
+    }
+    if (tiles.split() && l.overlay) frame_of_tiles->draw_around_tiles(image, frame.t, marks.legend);
     write_png(files.picture(index, frame.t), image);
     return image;
   };
@@ -129,31 +183,20 @@ class Progress {
   Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 
-// bodies: of the whole scene, where energies are shown.
-MotionFrame frame_to_draw(const MotionReader& reader, const Excerpt& excerpt, const std::vector<Body>& bodies, const Movie& movie,
-                          double t) {
-  MotionFrame frame = frame_at(reader, t);
-  frame.t = t;
-  if (movie.look.coloring == Coloring::speed) derive_speeds(reader, frame);
-  if (movie.look.coloring == Coloring::energy) derive_energies(reader, bodies, frame);
-  if (is_stress(movie.look.coloring)) derive_stresses(reader, movie.look.coloring == Coloring::shear_stress, frame);
-  frame = excerpt_of(excerpt, std::move(frame));
-  magnify(excerpt.scene, movie.look.magnify, frame);
-  return frame;
-}
-
-bool film(const Run& run, const Show& show, const std::function<MotionFrame(double)>& frame_of, const Movie& movie, const Camera& camera,
-          const Schedule& schedule, const std::atomic<bool>& stop) {
-  const Files files = prepare_files(run, movie, camera, schedule);
+bool film(const Run& run, const Show& show, const Scenery& scenery, const Movie& movie, const Tiles& tiles, const Schedule& schedule,
+          const std::atomic<bool>& stop) {
+  Camera named = tiles.shots.front().camera;
+  if (tiles.split()) named.name = "split";
+  const Files files = prepare_files(run, movie, named, schedule);
   const std::size_t all = schedule.times.size();
   const auto wish = static_cast<std::size_t>(movie.threads > 0 ? movie.threads : usable_processors());
   const auto start = Clock::now();
-  const auto ordered = [&](std::size_t i) { return frame_of(schedule.times[i]); };
+  const auto ordered = [&](std::size_t i) { return scenery.drawn(schedule.times[i]); };
   std::size_t made = 0;
   // Started before ffmpeg; otherwise these processes would hold its input open.
   const Image empty(movie.look.width, movie.look.height, movie.look.background == Background::transparent ? 4 : 3);
   Workers workers(std::clamp<std::size_t>(wish, 1, all), empty, ordered(0),
-                  [&] { return drawer(run, show, movie, camera, files, schedule); });
+                  [&] { return drawer(run, show, movie, tiles, files, schedule); });
   std::optional<Video> video;
   if (!files.video.empty()) video.emplace(files.video, movie.look.width, movie.look.height, movie.fps, empty.channels);
   {
@@ -166,7 +209,7 @@ bool film(const Run& run, const Show& show, const std::function<MotionFrame(doub
       if (video) video->add(image);
       if (!movie.expected.empty())
         compare_with(movie.expected, image, run, fs::path(files.picture(made, schedule.times[made])).stem().string());
-      progress.tell(camera.name, made + 1, all);
+      progress.tell(named.name, made + 1, all);
     }
   }
   if (video && made == all) video->finish();  // a video is complete or absent
@@ -179,52 +222,11 @@ bool film(const Run& run, const Show& show, const std::function<MotionFrame(doub
   return made == all;
 }
 
-// The stage of what is drawn, from frames spread over the run.
-Stage stage_of(const Run& run, const MotionReader& reader, const Excerpt& excerpt, const Movie& movie) {
-  std::vector<MotionFrame> some;
-  const std::size_t count = reader.times().size(), step = std::max<std::size_t>(1, count / 24);
-  const auto add = [&](std::size_t i) {
-    some.push_back(excerpt_of(excerpt, reader.read(static_cast<int>(i))));
-    magnify(excerpt.scene, movie.look.magnify, some.back());
-  };
-  for (std::size_t i = 0; i < count; i += step) add(i);
-  add(count - 1);
-  Stage stage = set_stage(excerpt.scene, some);
-  if (!run.gravity.empty() && movie.look.table_turns)
-    for (const MotionFrame& frame : some) stage.positions.push_back(table_position(stage, levelling(run.gravity, frame.t)));
-  return stage;
-}
-
-// What lies behind the section for this camera.
-double side_behind(const Section& section, const Camera& camera) { return camera.eye[section.axis] < section.at ? 1 : -1; }
-
 }  // namespace
 
-std::vector<Camera> chosen_cameras(const Run& run, const Stage& stage, const Movie& movie) {
-  const Look& l = movie.look;
-  const double aspect = l.width / (l.height - l.top - l.bottom);
-  if (movie.camera) return {*movie.camera};
-  if (movie.eye) return {own_camera(movie, stage, aspect)};
-  std::vector<Camera> all = run.cameras.empty() ? choose_cameras(stage, aspect) : run.cameras;
-  if (movie.cameras.empty()) return {all.front()};
-  const std::size_t own = all.size();
-  for (const Camera& one : elevations(stage, aspect)) all.push_back(one);
-  std::vector<Camera> chosen;
-  for (const std::string& name : movie.cameras) {
-    const std::size_t before = chosen.size();
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if ((name == "all" && i < own) || all[i].name == name) chosen.push_back(all[i]);
-    if (chosen.size() > before) continue;
-    std::string known;
-    for (const Camera& c : all) known += " " + c.name;
-    throw Error("--camera " + shown(name, 60) + " is none of this run's:" + known + " (or all)");
-  }
-  return chosen;
-}
-
-Show show_of(const Run& run, const MotionReader& reader, const Movie& movie) {
+Show show_of(const Run& run, const MotionReader& reader, const Movie& movie, bool sharp) {
   const Excerpt excerpt = without_groups(reader.scene(), {});
-  return prepare_show(reader.scene(), run, stage_of(run, reader, excerpt, movie), {}, std::nullopt);  // it keeps the scene's address
+  return prepare_show(reader.scene(), run, stage_of(run, reader, excerpt, movie), {}, std::nullopt, sharp);  // it keeps the scene's address
 }
 
 bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, const std::atomic<bool>& stop) {
@@ -236,21 +238,19 @@ bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, c
   movie.look.top = movie.look.overlay ? overlay_top(movie.look.height) : 0;
   movie.look.bottom = movie.look.overlay ? overlay_bottom(movie.look.height, !run.strip().axis.empty()) : 0;
   const Schedule schedule = schedule_of(movie, reader.times());
-  const Excerpt excerpt = without_groups(reader.scene(), movie.hide);
-  const Coloring coloring = movie.look.coloring;
-  const std::vector<Body> bodies = coloring == Coloring::energy ? bodies_of(reader.scene(), run) : std::vector<Body>();
-  const auto frame_of = [&](double t) { return frame_to_draw(reader, excerpt, bodies, movie, t); };
-  const Stage stage = stage_of(run, reader, excerpt, movie);
-  const std::vector<Camera> cameras = chosen_cameras(run, stage, movie);
-  if (movie.section && movie.section->keep == 0) movie.section->keep = side_behind(*movie.section, cameras.front());
-  Show show = prepare_show(excerpt.scene, run, stage, in_groups(excerpt.scene, movie.ghost, "--ghost"), movie.section);
-  std::vector<MotionFrame> some;  // the scale is that of what is shown
-  const std::size_t stride = std::max<std::size_t>(1, schedule.times.size() / 24);
-  if (is_quantity(coloring))
-    for (std::size_t i = 0; i < schedule.times.size(); i += stride) some.push_back(frame_of(schedule.times[i]));
-  show.scale = color_scale(excerpt.scene, some, coloring);
-  for (const Camera& camera : cameras)
-    if (!film(run, show, frame_of, movie, camera, schedule, stop)) return false;
+  const std::size_t together = movie.split ? cameras_of(run, movie) : 1;
+  Tiles tiles = tiles_of(movie.look, together);
+  const Look& l = tiles.look;
+  Scenery scenery(run, reader, movie, l.width / (l.height - l.top - l.bottom));
+  const Show show = scenery.show(schedule.times);
+  if (movie.marks.any())
+    for (const double t : schedule.times) tiles.marks.push_back(scenery.marks(t));
+  if (movie.dust) tiles.impacts = scenery.impacts();
+  for (std::size_t k = 0; k < scenery.shots().size(); k += together) {
+    const auto first = scenery.shots().begin() + static_cast<std::ptrdiff_t>(k);
+    tiles.shots.assign(first, first + static_cast<std::ptrdiff_t>(together));
+    if (!film(run, show, scenery, movie, tiles, schedule, stop)) return false;
+  }
   return true;
 }
 

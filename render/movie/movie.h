@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "render/draw/draw.h"
+#include "render/run/marks.h"
 
 namespace erbs::render {
 
@@ -18,7 +19,12 @@ struct Movie {
   double fov = 31;                       // degrees, of that camera
   std::vector<std::string> hide, ghost;  // groups of blocks that are not drawn, or translucent
   std::optional<Section> section;
-  bool fit = false;                                // moves it along its line of sight until all is visible
+  bool fit = false;          // moves each camera along its line of sight until building and heap are visible
+  std::string path, follow;  // of a camera that moves (movie/scenery.h); "": none
+  bool split = false;        // all cameras in one picture
+  bool svg = false;          // line drawings in place of pictures
+  MarkChoice marks;
+  bool dust = false;                               // clouds where blocks hit something
   double fps = 25;                                 // of the video
   double slow = 1;                                 // seconds of video per second of the run
   std::string frames;                              // "": as fps and slow require; "every": each recorded frame; a number: that many frames
@@ -50,6 +56,10 @@ void derive_speeds(const MotionReader& reader, MotionFrame& frame);
 // Fills frame.derived with the largest mean compression, or shear stress, of the joints of each block (Pa). Error if the run kept none.
 void derive_stresses(const MotionReader& reader, bool shear, MotionFrame& frame);
 
+// Fills frame.derived with the largest slip of the joints of each block (m): how far the corners of a joint have moved along it. Joints
+// whose faces have parted by more than a quarter of their width do not count.
+void derive_slips(const MotionScene& scene, MotionFrame& frame);
+
 // Mass (kg) and inertia (kg m2, about the centroid, axes at rest) of a block; zero for a fixed one.
 struct Body {
   double mass = 0;
@@ -63,9 +73,15 @@ void derive_energies(const MotionReader& reader, const std::vector<Body>& bodies
 void magnify(const MotionScene& scene, double factor, MotionFrame& frame);
 
 // The constant data of the pictures, with the extents of the building over the whole run.
-Show show_of(const Run& run, const MotionReader& reader, const Movie& movie);
-// The cameras that the movie asks for. Error for an unknown name.
-std::vector<Camera> chosen_cameras(const Run& run, const Stage& stage, const Movie& movie);
+Show show_of(const Run& run, const MotionReader& reader, const Movie& movie, bool sharp = false);
+// The cameras that the movie asks for; `aspect`: width over height of what they see. Error for an unknown name.
+std::vector<Camera> chosen_cameras(const Run& run, const Stage& stage, const Movie& movie, double aspect);
+
+// How many of them there are.
+std::size_t cameras_of(const Run& run, const Movie& movie);
+
+// The stage of what is drawn, from frames spread over the run.
+Stage stage_of(const Run& run, const MotionReader& reader, const Excerpt& excerpt, const Movie& movie);
 
 // Draws and writes everything, and prints the paths written. False if `stop` was set meanwhile.
 bool make_movie(const Run& run, const MotionReader& reader, const Movie& movie, const std::atomic<bool>& stop);

@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "render/movie/movie.h"
+#include "render/run/mesh.h"
 
 namespace erbs::render {
 namespace {
@@ -101,6 +102,30 @@ void derive_stresses(const MotionReader& reader, bool shear, MotionFrame& frame)
       float& largest = frame.derived[static_cast<std::size_t>(block)];
       largest = std::max(largest, stress);
     }
+  }
+}
+
+void derive_slips(const MotionScene& scene, MotionFrame& frame) {
+  frame.derived.assign(scene.blocks.size(), 0);
+  const auto turn = [&](std::size_t b) {
+    const float* p = &frame.poses[7 * b];
+    return Eigen::Quaterniond(p[3], p[4], p[5], p[6]).normalized();
+  };
+  for (const MotionJoint& joint : scene.joints) {
+    const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
+    const Eigen::Quaterniond qa = turn(a), qb = turn(b);
+    const Vec3 between =
+        (Eigen::Map<const Eigen::Vector3f>(&frame.poses[7 * b]) - Eigen::Map<const Eigen::Vector3f>(&frame.poses[7 * a])).cast<double>();
+    const Vec3 n = qa * joint_normal(scene, joint), to_b = scene.blocks[b].rest - scene.blocks[a].rest;
+    const double width = std::sqrt(0.5 * area_normal(joint.polygon).norm());
+    double slip = 0, gap = 0;
+    for (const Vec3& p : joint.polygon) {
+      const Vec3 way = between + qb * (p - to_b) - qa * p;
+      gap = std::max(gap, std::fabs(way.dot(n)));
+      slip = std::max(slip, (way - way.dot(n) * n).norm());
+    }
+    if (!(gap < 0.25 * width)) continue;
+    for (const std::size_t block : {a, b}) frame.derived[block] = std::max(frame.derived[block], static_cast<float>(slip));
   }
 }
 

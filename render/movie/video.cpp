@@ -7,7 +7,8 @@
 
 namespace erbs::render {
 
-Video::Video(std::string path, int width, int height, double fps, int channels) : path_(std::move(path)), unfinished_(path_ + ".part") {
+Video::Video(std::string path, int width, int height, double fps, int channels, const std::string& preset)
+    : path_(std::move(path)), unfinished_(path_ + ".part") {
   const bool webp = path_.ends_with(".webp");
   if (!webp && (width % 2 || height % 2))
     throw Error(fmt::format("a video of {}x{} cannot be made; width and height must be even", width, height));
@@ -22,7 +23,7 @@ Video::Video(std::string path, int width, int height, double fps, int channels) 
                                      "-crf",
                                      "20",
                                      "-preset",
-                                     "medium",
+                                     preset,
                                      "-color_primaries",
                                      "bt709",
                                      "-color_trc",

@@ -78,7 +78,13 @@ MotionFrame excerpt_of(const Excerpt& excerpt, MotionFrame frame) {
                       frame.poses.begin() + static_cast<std::ptrdiff_t>(7 * b + 7));
     if (!frame.derived.empty()) part.derived.push_back(frame.derived[b]);
   }
-  for (const std::size_t j : excerpt.joints) part.damage.push_back(frame.damage[j]), part.opening.push_back(frame.opening[j]);
+  for (const std::size_t j : excerpt.joints) {
+    part.damage.push_back(frame.damage[j]), part.opening.push_back(frame.opening[j]);
+    if (frame.force.empty()) continue;
+    const auto at = static_cast<std::ptrdiff_t>(3 * j);
+    part.force.insert(part.force.end(), frame.force.begin() + at, frame.force.begin() + at + 3);
+    part.force_at.insert(part.force_at.end(), frame.force_at.begin() + at, frame.force_at.begin() + at + 3);
+  }
   return part;
 }
 

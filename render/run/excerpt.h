@@ -28,7 +28,7 @@ std::vector<bool> in_groups(const MotionScene& scene, const std::vector<std::str
 
 // The scene without the blocks of these groups and without their joints. Error if no loose block is left.
 Excerpt without_groups(const MotionScene& scene, const std::vector<std::string>& groups);
-// The same part of a frame of the whole scene.
+// The same part of a frame of the whole scene, without the stresses of its joints.
 MotionFrame excerpt_of(const Excerpt& excerpt, MotionFrame frame);
 
 // The parts of blocks and joints behind a section, with closed cut faces. Blocks and joints keep their places in the lists; what is

@@ -97,6 +97,16 @@ Vec3 joint_normal(const MotionScene& scene, const MotionJoint& joint) {
 
 void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double chamfer, const std::vector<bool>& buried_face,
               std::vector<std::uint32_t>& open, std::vector<std::uint32_t>& buried) {
+  if (chamfer <= 0) {
+    for (std::size_t f = 0; f < shape.faces.size(); ++f) {
+      const Loop loop = loop_of(shape, shape.faces[f]);
+      const Vec3 n = area_normal(loop).normalized();
+      std::vector<std::uint32_t> corners;
+      for (const Vec3& p : loop) corners.push_back(add_vertex(mesh, p, n, block, no_joint));
+      add_fan(buried_face[f] ? buried : open, corners);
+    }
+    return;
+  }
   // Vertices for each corner of each face. The faces around a corner are found by the directed edge that leaves it.
   std::vector<std::vector<std::uint32_t>> ids;
   std::map<std::pair<int, int>, std::pair<std::size_t, std::size_t>> edge;  // from, to -> face, position in its loop

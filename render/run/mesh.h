@@ -47,8 +47,8 @@ struct Mesh {
   std::vector<Span> crack;  // of each joint, in crack_index [joints]
 };
 
-// `hidden[block]`: not drawn, since the ground is a plane of its own. `chamfer`: m, width cut off each edge. Normals are those of the
-// faces, so a chamfer is shaded round.
+// `hidden[block]`: not drawn, since the ground is a plane of its own. `chamfer`: m, width cut off each edge; 0: sharp edges. Normals are
+// those of the faces, so a chamfer is shaded round.
 Mesh build_mesh(const MotionScene& scene, const std::vector<bool>& hidden, double chamfer);
 
 // Fills mesh.shades. `grow`: m, outward offset of each face.

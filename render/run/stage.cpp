@@ -30,8 +30,8 @@ bool is_ground(const MotionBlock& block, const Eigen::AlignedBox3d& box, const M
   return own.x() > free.x() + 0.5 * base && own.y() > free.y() + 0.5 * base && box.max().z() < rest.center().z();
 }
 
-// Extent of most blocks: along each axis, all but the outermost 5 % on each side.
-Eigen::AlignedBox3d heap_of(const MotionFrame& frame, const std::vector<bool>& hidden) {
+// Extent of most block centroids: along each axis, all but the outermost 1/share on each side.
+Eigen::AlignedBox3d heap_of(const MotionFrame& frame, const std::vector<bool>& hidden, std::size_t share) {
   Eigen::AlignedBox3d heap(Vec3::Zero(), Vec3::Zero());
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> at;
@@ -40,7 +40,7 @@ Eigen::AlignedBox3d heap_of(const MotionFrame& frame, const std::vector<bool>& h
         at.push_back(static_cast<double>(x));
     if (at.empty()) return {};
     std::sort(at.begin(), at.end());
-    const std::size_t out = at.size() / 20;
+    const std::size_t out = at.size() / share;
     heap.min()[axis] = at[out];
     heap.max()[axis] = at[at.size() - 1 - out];
   }
@@ -104,20 +104,27 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
   if (some_frames.empty()) return stage;
   // Blocks thrown far away are ignored; a view that includes them would show the building too small.
   const Vec3 aside = 0.6 * stage.size() * Vec3(1, 1, 0);
-  stage.heap = heap_of(some_frames.back(), stage.hidden).intersection({stage.building.min() - aside, stage.building.max() + aside});
+  const auto near = [&](const Vec3& around) { return Eigen::AlignedBox3d(stage.building.min() - around, stage.building.max() + around); };
+  stage.heap = heap_of(some_frames.back(), stage.hidden, 20).intersection(near(aside));
+  stage.debris = heap_of(some_frames.back(), stage.hidden, 200).intersection(near(2.5 * aside));
+  double radius = 0;  // m, mean of the blocks
+  for (std::size_t b = 0; b < boxes.size(); ++b)
+    radius += stage.hidden[b] ? 0 : 0.5 * boxes[b].sizes().norm() / static_cast<double>(boxes.size());
+  if (!stage.debris.isEmpty()) stage.debris.min() -= Vec3::Constant(radius), stage.debris.max() += Vec3::Constant(radius);
   return stage;
 }
 
 namespace {
 
 // Points that must be visible: the building, room on the ground for what falls beside it, and the heap at the end.
-std::vector<Vec3> seen_points(const Stage& stage) {
+std::vector<Vec3> seen_points(const Stage& stage, bool debris) {
   std::vector<Vec3> seen;
   const Vec3 size = stage.building.sizes(), aside = 0.14 * size.z() * Vec3(1, 1, 0);
   for (int i = 0; i < 8; ++i) {
     const Vec3 p = stage.building.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
     seen.push_back(p);
     if (i < 4) seen.push_back(p + aside.cwiseProduct((p - stage.building.center()).cwiseSign()));  // the lower corners
+    if (debris && !stage.debris.isEmpty()) seen.push_back(stage.debris.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
     if (!stage.heap.isEmpty()) seen.push_back(stage.heap.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
   }
   if (stage.positions.empty()) return seen;
@@ -151,8 +158,8 @@ Camera in_scene(const Camera& camera, const Eigen::Isometry3d& position) {
   return seen;
 }
 
-void fit_camera(Camera& c, const Vec3& direction, const Stage& stage, double aspect) {
-  const std::vector<Vec3> seen = seen_points(stage);
+void fit_camera(Camera& c, const Vec3& direction, const Stage& stage, double aspect, bool debris) {
+  const std::vector<Vec3> seen = seen_points(stage, debris);
   c.target = stage.building.center();
   const Vec3 back = direction.normalized();
   Vec3 right = c.up.cross(back);

@@ -37,7 +37,7 @@ const std::map<std::string, Levels> sub_rooms{
     {"analysis", {{"limit"}, {""}, {"quasi_static"}}},
     {"study", {{""}, {"sweep"}, {"calibrate", "fragility"}}},
     {"lua", {{"reading", "masonry", "page"}, {"language"}, {"program"}, {"reports"}, {"commands"}, {""}}},
-    {"render", {{"image", "run"}, {"gl"}, {"draw"}, {"movie"}, {"compare"}, {""}}},
+    {"render", {{"image", "run"}, {"gl"}, {"draw"}, {"movie"}, {"compare", "vector"}, {""}}},
 };
 
 // Package -> the files it may enter by. The first that fits counts.

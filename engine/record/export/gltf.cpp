@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <map>
 
 #include "engine/base/error.h"
@@ -148,7 +149,9 @@ std::vector<std::string> write_gltf(const ExportedRun& run, const std::string& p
     file["accessors"] = buffer.accessors;
   }
   write_whole(path, with_header(file.dump(-1, ' ', false, Json::error_handler_t::replace), buffer.bytes));
-  return {path};
+  const std::filesystem::path own(path), script = own.parent_path() / (own.stem().string() + "_blender.py");
+  write_whole(script.string(), blender_script(own.filename().string(), script.filename().string()));
+  return {path, script.string()};
 }
 
 }  // namespace erbs

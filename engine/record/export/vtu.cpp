@@ -1,4 +1,4 @@
-// VTK's XML files: whole blocks as polygons, with displacement, speed and damage of their block, and the list of times.
+// VTK's XML files: whole blocks as polygons, with displacement, velocity and damage, joints with their tractions, and the list of times.
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -24,59 +24,52 @@ struct Appended {
   }
 };
 
-// Share of the area of its joints that is broken [blocks].
-std::vector<float> damage_of(const ExportedRun& run, const MotionFrame& frame) {
-  std::vector<float> broken(run.scene.blocks.size()), area(broken.size());
-  for (std::size_t j = 0; j < run.scene.joints.size(); ++j)
-    for (int block : {run.scene.joints[j].a, run.scene.joints[j].b}) {
-      broken[static_cast<std::size_t>(block)] += run.joint_area[j] * static_cast<float>(frame.damage[j]) / 255.0F;
-      area[static_cast<std::size_t>(block)] += run.joint_area[j];
-    }
-  for (std::size_t b = 0; b < broken.size(); ++b) broken[b] = area[b] > 0 ? broken[b] / area[b] : 0;
-  return broken;
+// Values of each owner, once for each of its polygons.
+template <class T>
+std::vector<T> spread(const std::vector<T>& values, const std::vector<std::int32_t>& owner, std::size_t width) {
+  std::vector<T> out;
+  for (const std::int32_t one : owner)
+    out.insert(out.end(), values.begin() + static_cast<std::ptrdiff_t>(width) * one,
+               values.begin() + static_cast<std::ptrdiff_t>(width) * (one + 1));
+  return out;
 }
 
-std::string grid_of(const ExportedRun& run, std::size_t at) {
-  const MotionFrame& frame = run.frames[at];
-  const MotionFrame& before = run.frames[at > 0 ? at - 1 : 0];
-  const auto seconds = static_cast<float>(frame.t - before.t);
-  const std::vector<float> damage = damage_of(run, frame);
-  std::vector<float> points, moved, velocity, broken;
-  std::vector<std::int64_t> corners, ends;
-  std::vector<std::int32_t> owner;
-  for (std::size_t b = 0; b < run.scene.blocks.size(); ++b) {
-    const MotionBlock& block = run.scene.blocks[b];
-    const Eigen::Map<const Eigen::Vector3f> here(&frame.poses[7 * b]), there(&before.poses[7 * b]);
-    const Eigen::Vector3f displacement = here - block.rest.cast<float>();
-    const Eigen::Vector3f v = seconds > 0 ? Eigen::Vector3f((here - there) / seconds) : Eigen::Vector3f::Zero();
-    for (int part : block.parts) {
-      const MotionShape& shape = run.scene.shapes[static_cast<std::size_t>(part)];
-      const auto first = static_cast<std::int64_t>(points.size() / 3);
-      for (std::size_t i = 0; i + 2 < shape.vertices.size(); i += 3) {
-        const Eigen::Vector3f p = placed(frame, static_cast<int>(b), Eigen::Map<const Eigen::Vector3f>(&shape.vertices[i]));
-        points.insert(points.end(), p.data(), p.data() + 3);
-      }
-      for (const std::vector<int>& loop : shape.faces) {
-        for (int corner : loop) corners.push_back(first + corner);
-        ends.push_back(static_cast<std::int64_t>(corners.size()));
-        owner.push_back(static_cast<std::int32_t>(b));
-        broken.push_back(damage[b]);
-        moved.insert(moved.end(), displacement.data(), displacement.data() + 3);
-        velocity.insert(velocity.end(), v.data(), v.data() + 3);
-      }
-    }
-  }
-  const std::vector<std::uint8_t> kinds(ends.size(), 7);  // VTK_POLYGON
-  Appended data;
+std::string head_of(const Polygons& polygons, const std::vector<float>& points, Appended& data) {
+  const std::vector<std::uint8_t> kinds(polygons.ends.size(), 7);  // VTK_POLYGON
   std::string xml =
       "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" byte_order=\"LittleEndian\" header_type=\"UInt64\">\n";
-  xml += fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", points.size() / 3, ends.size());
+  xml += fmt::format("<UnstructuredGrid>\n<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n", polygons.points, polygons.ends.size());
   xml += "<Points>\n" + data.add(points, "Float32", "points_m", 3) + "</Points>\n<Cells>\n";
-  xml += data.add(corners, "Int64", "connectivity", 1) + data.add(ends, "Int64", "offsets", 1) + data.add(kinds, "UInt8", "types", 1);
-  xml += "</Cells>\n<CellData>\n" + data.add(owner, "Int32", "block", 1) + data.add(broken, "Float32", "damage", 1);
-  xml += data.add(moved, "Float32", "displacement_m", 3) + data.add(velocity, "Float32", "velocity_m_s", 3);
-  xml += "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-  return xml + data.bytes + "\n</AppendedData>\n</VTKFile>\n";
+  xml += data.add(polygons.corners, "Int64", "connectivity", 1) + data.add(polygons.ends, "Int64", "offsets", 1) +
+         data.add(kinds, "UInt8", "types", 1);
+  return xml + "</Cells>\n<CellData>\n";
+}
+
+std::string tail_of(const Appended& data) {
+  return "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_" + data.bytes + "\n</AppendedData>\n</VTKFile>\n";
+}
+
+std::string grid_of_blocks(const ExportedRun& run, const Polygons& polygons, std::size_t at) {
+  const MotionFrame& frame = run.frames[at];
+  std::vector<float> moved;
+  for (std::size_t b = 0; b < run.scene.blocks.size(); ++b)
+    for (int i = 0; i < 3; ++i)
+      moved.push_back(frame.poses[7 * b + static_cast<std::size_t>(i)] - static_cast<float>(run.scene.blocks[b].rest[i]));
+  Appended data;
+  std::string xml = head_of(polygons, block_points(run.scene, frame), data);
+  xml += data.add(polygons.owner, "Int32", "block", 1) + data.add(spread(damage_of(run, frame), polygons.owner, 1), "Float32", "damage", 1);
+  xml += data.add(spread(moved, polygons.owner, 3), "Float32", "displacement_m", 3);
+  xml += data.add(spread(velocity_of(run, at), polygons.owner, 3), "Float32", "velocity_m_s", 3);
+  return xml + tail_of(data);
+}
+
+std::string grid_of_joints(const ExportedRun& run, const Polygons& polygons, std::size_t at) {
+  Appended data;
+  std::string xml = head_of(polygons, joint_points(run.scene, run.frames[at]), data);
+  xml += data.add(polygons.owner, "Int32", "joint", 1);
+  for (const JointField& field : joint_fields(run.frames[at]))
+    xml += data.add(spread(field.values, polygons.owner, static_cast<std::size_t>(field.width)), "Float32", field.name, field.width);
+  return xml + tail_of(data);
 }
 
 // For an attribute in double quotes.
@@ -91,13 +84,17 @@ std::string escaped(const std::string& text) {
 std::vector<std::string> write_vtu(const ExportedRun& run, const std::string& stem) {
   std::vector<std::string> paths{stem + ".pvd"};
   std::string list = "<?xml version=\"1.0\"?>\n<VTKFile type=\"Collection\" version=\"1.0\" byte_order=\"LittleEndian\">\n<Collection>\n";
-  for (std::size_t i = 0; i < run.frames.size(); ++i) {
-    const std::string path = fmt::format("{}_{:05}.vtu", stem, i);
-    write_whole(path, grid_of(run, i));
-    list += fmt::format("<DataSet timestep=\"{:.9g}\" file=\"{}\"/>\n", run.frames[i].t,
+  const Polygons blocks = block_polygons(run.scene), joints = joint_polygons(run.scene);
+  const auto add = [&](std::size_t i, const char* kind, const char* part, const std::string& grid) {
+    const std::string path = fmt::format("{}{}_{:05}.vtu", stem, kind, i);
+    write_whole(path, grid);
+    list += fmt::format("<DataSet timestep=\"{:.9g}\"{} file=\"{}\"/>\n", run.frames[i].t, part,
                         escaped(std::filesystem::path(path).filename().string()));
     paths.push_back(path);
-  }
+  };
+  for (std::size_t i = 0; i < run.frames.size(); ++i) add(i, "", "", grid_of_blocks(run, blocks, i));
+  if (!joints.owner.empty())
+    for (std::size_t i = 0; i < run.frames.size(); ++i) add(i, "_joints", " part=\"1\"", grid_of_joints(run, joints, i));
   write_whole(paths.front(), list + "</Collection>\n</VTKFile>\n");
   return paths;
 }

@@ -19,7 +19,7 @@ std::string in(const std::string& dir, const char* name) { return (std::filesyst
 // Arrays of the frames. The time is written last: a frame is complete if its time exists.
 struct Frames {
   std::optional<h5::Rows<float>> poses, opening;  // absent without blocks or joints
-  std::optional<h5::Rows<float>> normal_stress, shear_stress;
+  std::optional<h5::Rows<float>> normal_stress, shear_stress, force, force_at;
   std::optional<h5::Rows<std::uint8_t>> damage;
   std::optional<h5::Rows<double>> time;
 
@@ -31,6 +31,8 @@ struct Frames {
     if (stress && njoint > 0) {
       normal_stress.emplace(file, "/joint_normal_stress", Row{njoint}, 1);
       shear_stress.emplace(file, "/joint_shear_stress", Row{njoint}, 1);
+      force.emplace(file, "/joint_force", Row{njoint, 3}, 1);
+      force_at.emplace(file, "/joint_force_at", Row{njoint, 3}, 1);
     }
     time.emplace(file, "/time", Row{}, 512);
   }
@@ -42,6 +44,10 @@ struct Frames {
       normal_stress.emplace(file, "/joint_normal_stress");
       shear_stress.emplace(file, "/joint_shear_stress");
     }
+    if (file.has("/joint_force") && file.has("/joint_force_at")) {
+      force.emplace(file, "/joint_force");
+      force_at.emplace(file, "/joint_force_at");
+    }
     time.emplace(file, "/time");
   }
   std::size_t nblock() const { return poses ? poses->row().front() : 0; }
@@ -52,6 +58,7 @@ struct Frames {
     if (damage) n = std::min(n, damage->size());
     if (opening) n = std::min(n, opening->size());
     if (normal_stress) n = std::min({n, normal_stress->size(), shear_stress->size()});
+    if (force) n = std::min({n, force->size(), force_at->size()});
     return n;
   }
   void resize(std::size_t frames) {
@@ -59,6 +66,7 @@ struct Frames {
     if (damage) damage->resize(frames);
     if (opening) opening->resize(frames);
     if (normal_stress) normal_stress->resize(frames), shear_stress->resize(frames);
+    if (force) force->resize(frames), force_at->resize(frames);
     time->resize(frames);
   }
 };
@@ -160,6 +168,11 @@ void MotionWriter::write(const MotionFrame& frame) {
     frames.normal_stress->append(frame.normal_stress.data());
     frames.shear_stress->append(frame.shear_stress.data());
   }
+  if (frames.force) {
+    ERBS_ASSERT(frame.force.size() == 3 * frames.njoint() && frame.force_at.size() == 3 * frames.njoint());
+    frames.force->append(frame.force.data());
+    frames.force_at->append(frame.force_at.data());
+  }
   frames.time->append(&frame.t);
   file_->file.flush();
   file_->sidecar->frame(frames.size() - 1, frame.t);
@@ -191,6 +204,7 @@ MotionReader& MotionReader::operator=(MotionReader&&) noexcept = default;
 const MotionScene& MotionReader::scene() const { return file_->scene; }
 const std::vector<double>& MotionReader::times() const { return file_->times; }
 bool MotionReader::has_stress() const { return file_->frames.normal_stress.has_value(); }
+bool MotionReader::has_forces() const { return file_->frames.force.has_value(); }
 
 MotionFrame MotionReader::read(int frame) const {
   const auto at = static_cast<std::size_t>(frame);
@@ -205,6 +219,11 @@ MotionFrame MotionReader::read(int frame) const {
     f.normal_stress.resize(frames.njoint()), f.shear_stress.resize(frames.njoint());
     frames.normal_stress->read(at, f.normal_stress.data());
     frames.shear_stress->read(at, f.shear_stress.data());
+  }
+  if (frames.force) {
+    f.force.resize(3 * frames.njoint()), f.force_at.resize(3 * frames.njoint());
+    frames.force->read(at, f.force.data());
+    frames.force_at->read(at, f.force_at.data());
   }
   return f;
 }

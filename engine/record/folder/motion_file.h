@@ -3,7 +3,8 @@
 //   /block_name /group_name /block_group /block_material /block_fixed /block_rest [blocks,3] /block_size [blocks,3]
 //   /shape_* (drawn parts, shared between equal blocks)  /joint_* (the blocks of each joint, and its polygon)
 //   /time [frames]  /poses [frames,blocks,7]  /joint_damage [frames,joints]  /joint_opening [frames,joints]
-//   /joint_normal_stress [frames,joints]  /joint_shear_stress [frames,joints], if the scene asks for them
+//   /joint_normal_stress [frames,joints]  /joint_shear_stress [frames,joints]
+//   /joint_force [frames,joints,3]  /joint_force_at [frames,joints,3], these four if the scene asks for stresses
 //
 // HDF5's single-writer mode and a flush after every frame keep each whole frame readable, even if the run is killed. Another program may
 // read while the file grows. motion.xdmf beside it shows the blocks in ParaView: 3D glyphs, a box scaled by block_size and rotated by the
@@ -57,6 +58,8 @@ struct MotionFrame {
   std::vector<float> opening;        // m, largest opening over the joint's corners [joints]
   std::vector<float> derived{};      // m/s, J or Pa: speed, energy or stress; not in the file, empty unless a reader derives it [blocks]
   std::vector<float> normal_stress{}, shear_stress{};  // Pa, means, tension positive; empty without [joints]
+  // N, of b on a, and m, where its normal part acts in the plane of the joint; world axes, empty without [joints*3]
+  std::vector<float> force{}, force_at{};
 };
 
 class MotionWriter {
@@ -88,6 +91,7 @@ class MotionReader {
   const MotionScene& scene() const;
   const std::vector<double>& times() const;  // s  [frames]
   bool has_stress() const;
+  bool has_forces() const;
   MotionFrame read(int frame) const;
 
  private:

@@ -87,7 +87,10 @@ RunWriter::RunWriter(const std::string& dir, const Scene& scene, const Model& mo
   frame_.poses.resize(std::size_t(model.nblock) * 7);
   frame_.damage.resize(std::size_t(model.njoint));
   frame_.opening.resize(std::size_t(model.njoint));
-  if (scene.analysis.frame_stress) frame_.normal_stress.resize(frame_.opening.size()), frame_.shear_stress.resize(frame_.opening.size());
+  if (scene.analysis.frame_stress) {
+    frame_.normal_stress.resize(frame_.opening.size()), frame_.shear_stress.resize(frame_.opening.size());
+    frame_.force.resize(3 * frame_.opening.size()), frame_.force_at.resize(3 * frame_.opening.size());
+  }
   if (!resume) write_text_atomically(run_file(dir, "log.txt"), "");
 }
 
@@ -120,6 +123,11 @@ void RunWriter::frame(const Snapshot& snapshot) {
     const JointStress stress = joint_stress(model, snapshot.joints, snapshot.pose, j);
     frame_.normal_stress[std::size_t(j)] = float(stress.normal);
     frame_.shear_stress[std::size_t(j)] = float(stress.shear);
+    const JointThrust thrust = joint_thrust(model, snapshot.joints, snapshot.pose, j);
+    for (int i = 0; i < 3; ++i) {
+      frame_.force[std::size_t(3 * j + i)] = float(thrust.force[i]);
+      frame_.force_at[std::size_t(3 * j + i)] = float(thrust.at[i]);
+    }
   }
   motion_.write(frame_);
 }

@@ -68,9 +68,17 @@ Handle open_set(const File& file, const std::string& name) {
   return set;
 }
 
+// Properties of a new array: groups of its name are made.
+Handle with_groups() {
+  Handle how = property(H5P_LINK_CREATE);
+  H5Pset_create_intermediate_group(how.id(), 1);
+  return how;
+}
+
 void put_raw(const File& file, const std::string& name, hid_t type, const void* data, const Shape& dims) {
   const Handle s = space(dims);
-  const Handle set(H5Dcreate2(file.id(), name.c_str(), type, s.id(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
+  const Handle link = with_groups();
+  const Handle set(H5Dcreate2(file.id(), name.c_str(), type, s.id(), link.id(), H5P_DEFAULT, H5P_DEFAULT), H5Dclose);
   if (!set.ok()) file.unwritable(name);
   if (count(dims) > 0 && H5Dwrite(set.id(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) file.unwritable(name);
 }
@@ -191,7 +199,8 @@ Rows<T>::Rows(const File& file, const std::string& name, std::vector<std::size_t
   H5Pset_deflate(how.id(), 1);
   const Handle access = property(H5P_DATASET_ACCESS);
   H5Pset_chunk_cache(access.id(), 521, most_cached, 1);
-  set_ = Handle(H5Dcreate2(file.id(), name.c_str(), type_of<T>(), s.id(), H5P_DEFAULT, how.id(), access.id()), H5Dclose);
+  const Handle link = with_groups();
+  set_ = Handle(H5Dcreate2(file.id(), name.c_str(), type_of<T>(), s.id(), link.id(), how.id(), access.id()), H5Dclose);
   if (!set_.ok()) file.unwritable(name);
 }
 

@@ -55,4 +55,13 @@ std::string words_of(const std::string& column) {
   return words;
 }
 
+std::string label_of(const std::string& column) {
+  const Unit* unit = find_unit(unit_of(column));
+  if (!unit) return words_of(column);
+  std::string shown = unit->suffix;
+  for (const ShownUnit& one : unit->shown)
+    if (one.factor == 1) shown = one.name;
+  return words_of(column) + " [" + shown + "]";
+}
+
 }  // namespace erbs::plot

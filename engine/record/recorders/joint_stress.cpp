@@ -58,6 +58,17 @@ std::array<double, 6> joint_resultant(const Model& m, const JointState& joints, 
   return f;
 }
 
+JointThrust joint_thrust(const Model& m, const JointState& joints, const BlockPoses& pose, int j) {
+  const Joint& joint = m.joint[z(j)];
+  const std::size_t a = z(joint.a), b = z(joint.b);
+  const JointPose of = pose_of(joint, pose.u[a], pose.q[a], pose.u[b], pose.q[b]);
+  const std::array<double, 6> f = joint_resultant(m, joints, pose, j);
+  JointThrust thrust{of.frame * Vec3(f[0], f[1], f[2]), m.rest[a] + pose.u[a] + 0.5 * (of.sum + of.apart)};
+  // The moment of a normal force at (s, t) about the centre is (t, -s) times the force.
+  if (f[2] != 0) thrust.at += of.frame * Vec3(-f[4] / f[2], f[3] / f[2], 0);
+  return thrust;
+}
+
 JointStress joint_stress(const Model& m, const JointState& joints, const BlockPoses& pose, int j) {
   JointStress stress;
   const Joint& joint = m.joint[z(j)];

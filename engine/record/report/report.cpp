@@ -2,12 +2,15 @@
 
 #include <cmath>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <limits>
 #include <map>
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/record/folder/run_folder.h"
+#include "engine/record/report/fill.h"
 #include "engine/record/report/pack.h"
 
 namespace erbs {
@@ -70,37 +73,40 @@ Json scene_json(const ExportedRun& run) {
 
 Json table_json(const CsvTable& table) { return {{"names", table.names}, {"rows", table.rows()}}; }
 
-// All characters beyond ASCII and each "<" are escapes: no text of a user ends the script element that holds them.
-std::string safe_json(const Json& json) {
-  std::string out;
-  for (const char c : json.dump(-1, ' ', true, Json::error_handler_t::replace)) {
-    if (c == '<') out += "\\u003c";
-    else out += c;
-  }
-  return out;
+// What the curve of a push says, as text.
+std::vector<std::pair<std::string, std::string>> push_answers(const Json& metrics) {
+  std::vector<std::pair<std::string, std::string>> answers;
+  const auto add = [&](const char* what, const char* key, const char* unit) {
+    if (const Json* value = find_key(metrics, key); value && value->is_number())
+      answers.emplace_back(what, fmt::format("{:.4g}{}", value->get<double>(), unit));
+  };
+  const Json* kind = find_key(metrics, "capacity.kind");
+  add(kind && *kind == "tilt" ? "largest tangent of the tilt" : "largest multiplier of the load", "capacity.multiplier", "");
+  add("angle", "capacity.angle_deg", " deg");
+  add("multiplier without equilibrium", "capacity.upper", "");
+  add("displacement there", "capacity.displacement_m", " m");
+  add("base shear there", "capacity.base_shear_N", " N");
+  add("base shear over weight", "capacity.base_shear_over_weight", "");
+  if (const Json* course = find_key(metrics, "capacity.mechanism_text");
+      course && course->is_string() && !course->get<std::string>().empty())
+    answers.emplace_back("mechanism", course->get<std::string>());
+  return answers;
 }
 
-std::string safe_html(const std::string& text) {
-  const std::map<char, const char*> escapes{{'<', "&lt;"}, {'>', "&gt;"}, {'&', "&amp;"}, {'"', "&quot;"}, {'\'', "&#39;"}};
-  std::string out;
-  for (const char c : text) {
-    if (const auto escape = escapes.find(c); escape != escapes.end()) out += escape->second;
-    else out += c;
-  }
-  return out;
-}
-
-// Replaces {{name}} in one pass: what is filled in is not read again.
-std::string filled(std::string_view html, const std::map<std::string_view, std::string>& values) {
-  std::string out;
-  for (std::size_t at = 0; at < html.size();) {
-    const std::size_t open = html.find("{{", at), close = html.find("}}", open);
-    out += html.substr(at, open - at);
-    if (close == std::string_view::npos) break;
-    out += values.at(html.substr(open + 2, close - open - 2));
-    at = close + 2;
-  }
-  return out;
+// A section of the page; "" for a run that is no push.
+std::string capacity_html(const ReportedRun& run) {
+  if (run.push_figures.empty()) return "";
+  std::string html = "<section aria-labelledby=\"capacity-title\">\n<h2 id=\"capacity-title\">Capacity</h2>\n<div class=\"cards\">\n";
+  for (const auto& [what, value] : run.push_answers)
+    html += fmt::format("<div class=\"card\"><span class=\"quiet\">{}</span><strong>{}</strong></div>\n", safe_html(what),
+                        safe_html(for_files(value)));
+  html += "</div>\n<div class=\"columns\">\n";
+  for (const auto& [name, svg] : run.push_figures)
+    html += fmt::format("<figure class=\"push\"><img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\"></figure>\n",
+                        name == "curve.svg" ? "Multiplier of the load over the displacement of the monitored point"
+                                            : "Capacity and demand, with the performance point",
+                        base64(svg));
+  return html + "</div>\n<p class=\"quiet\">The replay above shows the states of the push, one after another.</p>\n</section>\n";
 }
 
 }  // namespace
@@ -121,8 +127,14 @@ ReportedRun read_reported_run(const std::string& dir) {
   out.histories = thinned(histories);
   out.energy = thinned(table_of(dir, "energy.csv"));
   take_events(table_of(dir, "events.csv"), out);
-  for (const char* name :
-       {"histories.csv", "energy.csv", "events.csv", "metrics.json", "manifest.json", "scene.lua", "log.txt", "motion.h5"})
+  if (fs::exists(run_file(dir, "curve.csv"))) {
+    for (const char* name : {"curve.svg", "performance.svg"})
+      if (std::ifstream in(run_file(dir, name), std::ios::binary); in)
+        out.push_figures.emplace_back(name, std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()));
+    out.push_answers = push_answers(out.metrics);
+  }
+  for (const char* name : {"histories.csv", "energy.csv", "events.csv", "metrics.json", "manifest.json", "curve.csv", "performance.json",
+                           "scene.lua", "log.txt", "motion.h5", "studies/report.html"})
     if (fs::exists(run_file(dir, name))) out.files.push_back(name);
   return out;
 }
@@ -152,6 +164,7 @@ std::string report_html(const ReportedRun& run, const ReportPage& page, const st
                             {"poses", packed(pose_bytes(run.run.frames, run.run.scene.blocks.size()))},
                             {"damage", packed(damage_bytes(run.run.frames, run.run.scene.joints.size()))},
                             {"histories", packed(column_bytes(run.histories))},
+                            {"capacity", capacity_html(run)},
                             {"energy", packed(column_bytes(run.energy))}});
 }
 

@@ -10,7 +10,7 @@
 namespace erbs {
 
 // The page without a run. Its html names the places to fill: {{title}}, {{style}}, {{script}}, {{run}}, {{poses}}, {{damage}},
-// {{histories}}, {{energy}}.
+// {{histories}}, {{energy}}, {{capacity}}.
 struct ReportPage {
   std::string_view html, style, script;
 };
@@ -24,6 +24,8 @@ struct ReportedRun {
   Json events = Json::array();      // [[time s, event, name, value, unit], ...]
   std::size_t events_left_out = 0;  // events of single joints beyond most_events_of_a_page
   Json files = Json::array();       // names of the run's files that exist
+  // Of a push: names and bytes of its figures (curve.svg, performance.svg), and what its multipliers are.
+  std::vector<std::pair<std::string, std::string>> push_figures, push_answers;
 };
 
 inline constexpr std::size_t most_poses_of_a_page = 310000;  // 1,000 blocks and the ground x 300 frames

@@ -16,6 +16,17 @@ std::string without_spaces(std::string text) {
   return text;
 }
 
+template <double ColumnErrors::*member>
+std::vector<double> of_columns(const RunComparison& c) {
+  std::vector<double> values;
+  for (const ColumnErrors& e : c.columns) values.push_back(e.*member);
+  return values;
+}
+
+std::vector<double> of_collapse(const RunComparison& c, double value) {
+  return c.collapse.known ? std::vector<double>{value} : std::vector<double>{};
+}
+
 Limit limit_of(const std::string& part) {
   std::vector<std::string> known;
   for (const ComparedQuantity& q : compared_quantities()) known.emplace_back(q.name);
@@ -39,23 +50,51 @@ Limit limit_of(const std::string& part) {
 }  // namespace
 
 const std::vector<ComparedQuantity>& compared_quantities() {
+  using Comparison = const RunComparison&;
   static const std::vector<ComparedQuantity> list{
-      {"peak", "", "error of the peak of each column"},
-      {"rms", "", "error of the root mean square of each column"},
-      {"difference", "", "rms of run - reference over the peak of the reference, of each column"},
-      {"lag", "s", "lag of each column that remains after the alignment"},
-      {"shift", "s", "lag that the alignment found"},
-      {"correlation", "", "Pearson's coefficient of each column"},
-      {"frequency", "", "error of the dominant frequency of each column"},
-      {"collapse_time", "s", "error of the time of collapse"},
-      {"direction", "deg", "angle between the directions of collapse"},
-      {"sequence", "", "0 if groups fall in the same order, otherwise 1"},
-      {"iou", "", "mean overlap of the silhouettes in the pictures"},
-      {"ssim", "", "mean structural similarity of the pictures"},
-      {"flow", "deg", "mean angle between the motions in the pictures"},
-      {"camera", "px", "reprojection residual of the marked points"},
+      {"peak", "", "error of the peak of each column", of_columns<&ColumnErrors::peak_error>, ""},
+      {"rms", "", "error of the root mean square of each column", of_columns<&ColumnErrors::rms_error>, ""},
+      {"difference", "", "rms of run - reference over the peak of the reference, of each column", of_columns<&ColumnErrors::difference>,
+       ""},
+      {"lag", "s", "lag of each column that remains after the alignment", of_columns<&ColumnErrors::lag>, ""},
+      {"shift", "s", "lag that the alignment found", [](Comparison c) { return std::vector{c.shift.lag}; }, "alignment.lag_s"},
+      {"correlation", "", "Pearson's coefficient of each column", of_columns<&ColumnErrors::correlation>, "alignment.correlation"},
+      {"frequency", "", "error of the dominant frequency of each column", of_columns<&ColumnErrors::frequency_error>, ""},
+      {"collapse_time", "s", "error of the time of collapse", [](Comparison c) { return of_collapse(c, c.collapse.time); }, ""},
+      {"direction", "deg", "angle between the directions of collapse", [](Comparison c) { return of_collapse(c, c.collapse.direction); },
+       "direction_error_deg"},
+      {"sequence", "", "0 if groups fall in the same order, otherwise 1",
+       [](Comparison c) { return of_collapse(c, c.collapse.same_sequence ? 0 : 1); }, ""},
+      {"iou", "", "mean overlap of the silhouettes in the pictures", nullptr, "iou_mean"},
+      {"ssim", "", "mean structural similarity of the pictures", nullptr, "ssim_mean"},
+      {"flow", "deg", "mean angle between the motions in the pictures", nullptr, "flow_angle_mean_deg"},
+      {"camera", "px", "reprojection residual of the marked points", nullptr, "camera.residual_px"},
   };
   return list;
+}
+
+std::string compared_names(bool of_film) {
+  std::string names;
+  for (const ComparedQuantity& q : compared_quantities()) {
+    if (of_film ? *q.of_film == '\0' : q.of_runs == nullptr) continue;
+    names += fmt::format("{}{}{}", names.empty() ? "" : ", ", q.name, *q.unit == '\0' ? "" : fmt::format(" ({})", q.unit));
+  }
+  return names;
+}
+
+std::vector<double> values_of(const RunComparison& comparison, const std::string& quantity) {
+  for (const ComparedQuantity& q : compared_quantities())
+    if (quantity == q.name && q.of_runs != nullptr) return q.of_runs(comparison);
+  return {};
+}
+
+std::vector<double> values_of(const Json& frames, const std::string& quantity) {
+  for (const ComparedQuantity& q : compared_quantities()) {
+    if (quantity != q.name || *q.of_film == '\0') continue;
+    const Json* value = find_key(frames, q.of_film);
+    return {value != nullptr && value->is_number() ? value->get<double>() : NAN};
+  }
+  return {};
 }
 
 std::vector<Limit> limits_of(const std::string& text) {

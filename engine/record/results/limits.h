@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/record/format/json.h"
+#include "engine/record/results/compare_runs.h"
 
 namespace erbs {
 
@@ -14,11 +15,19 @@ struct Limit {
   double bound = 0;  // in the unit of the quantity
 };
 
-// What a comparison can measure: name, unit, meaning.
+// What a comparison can measure: name, unit, meaning, its values of two runs, and its key in frames.json of a comparison with a film ("":
+// none).
 struct ComparedQuantity {
   const char *name, *unit, *text;
+  std::vector<double> (*of_runs)(const RunComparison&);
+  const char* of_film;
 };
 const std::vector<ComparedQuantity>& compared_quantities();
+// "peak, rms, .., shift (s), ..": those of two runs, or those of a film.
+std::string compared_names(bool of_film);
+// Empty where the reference does not say it.
+std::vector<double> values_of(const RunComparison& comparison, const std::string& quantity);
+std::vector<double> values_of(const Json& frames, const std::string& quantity);
 
 // Error that names the part which is malformed and the quantities known.
 std::vector<Limit> limits_of(const std::string& text);

@@ -7,6 +7,7 @@
 #include "engine/base/text.h"
 #include "engine/record/format/csv.h"
 #include "engine/record/plot/figure.h"
+#include "engine/record/plot/unit.h"
 
 namespace erbs::study {
 namespace {
@@ -91,11 +92,11 @@ void add_map(plot::Figure& figure, plot::Panel& panel, const View& view) {
   const auto edge = [](const std::vector<double>& v) {
     return fmt::format("[{}:{}]", cell_of(v, v.front()).first, cell_of(v, v.back()).second);
   };
-  panel.x = {view.params[0], edge(xs), "", "", "noenhanced"};
-  panel.y = {view.params[1], edge(ys), "", "", "noenhanced"};
+  panel.x = {plot::label_of(view.params[0]), edge(xs), "", "", "noenhanced"};
+  panel.y = {plot::label_of(view.params[1]), edge(ys), "", "", "noenhanced"};
   panel.settings = "set style fill solid 1.0 noborder\nset palette defined (0 '#f7fbff', 0.5 '#6baed6', 1 '#08306b')\n";
-  if (!binary) panel.settings += "set cblabel \"" + answer + "\" noenhanced\n";
-  if (!binary) figure.labels.back().text += ": " + answer;
+  if (!binary) panel.settings += "set cblabel \"" + plot::label_of(answer) + "\" noenhanced\n";
+  if (!binary) figure.labels.back().text += ": " + plot::label_of(answer);
 }
 
 // The param along x: of the longest axis of numbers.
@@ -137,8 +138,8 @@ void add_lines(plot::Figure& figure, plot::Panel& panel, const View& view) {
                      colors[i % 6]),
          order[i]});
   }
-  panel.x = {view.params[along], "", "", "", "noenhanced"};
-  panel.y = {view.answer, "", "", "", "noenhanced"};
+  panel.x = {plot::label_of(view.params[along]), "", "", "", "noenhanced"};
+  panel.y = {plot::label_of(view.answer), "", "", "", "noenhanced"};
 }
 
 // The legend below the label of the x axis, in as many columns as the sheet holds; the axes leave it room.

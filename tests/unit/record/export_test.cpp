@@ -11,6 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/record/export/export.h"
+#include "engine/record/format/h5.h"
 #include "engine/record/format/json.h"
 #include "tests/support/folder.h"
 #include "tests/unit/record/two_bricks.h"
@@ -161,4 +162,27 @@ TEST_CASE("what cannot be exported is told, and leaves nothing", "[record][expor
   CHECK_THROWS_AS(write_whole(dir.path.string(), "a folder is no file"), Error);
   CHECK(std::filesystem::is_empty(dir.path));
   CHECK_FALSE(std::filesystem::exists(dir.path.string() + ".part"));
+}
+
+TEST_CASE("HDF5 holds frames with units in the names, and XDMF names what is there", "[record][export]") {
+  const test::Folder dir;
+  const ExportedRun run = bricks_that_move();
+  write_hdf5(run, dir.file("run.h5"));
+  const h5::File file(dir.file("run.h5"), h5::File::Mode::read);
+  CHECK(file.get<double>("/time_s") == std::vector<double>{0.5, 0.6, 0.8});
+  CHECK(file.get_names("/blocks/name") == std::vector<std::string>{"base", "Ziegel, ä"});
+  CHECK(file.get<float>("/blocks/position_m").size() == 18);
+  CHECK(file.get<float>("/blocks/position_m")[9 + 0] == 0.2F);
+  CHECK(file.get<float>("/blocks/velocity_m_s")[15] == Approx(0.5));
+  CHECK(file.get<float>("/blocks/damage")[5] == 1);
+  CHECK(file.get<float>("/joints/area_m2") == std::vector<float>{0.02F});
+  CHECK_FALSE(file.has("/joints/force_N"));  // this run has kept no forces
+  CHECK(file.get<float>("/block_mesh/points_m").size() == 3 * 48);
+  CHECK(file.get<int>("/block_mesh/topology").size() == 12 * 6);
+  const std::vector<std::string> paths = write_xdmf(run, dir.file("run.xdmf"));
+  REQUIRE(paths.size() == 2);
+  const std::string xml = bytes_of(paths[0]);
+  CHECK(xml.find("<Time Value=\"0.8\"/>") != std::string::npos);
+  CHECK(xml.find("run.xdmf.h5:/block_mesh/velocity_m_s") != std::string::npos);
+  CHECK_THROWS_AS(write_hdf5(run, "/nowhere/run.h5"), Error);
 }

@@ -136,6 +136,7 @@ TEST_CASE("stresses of joints are kept if asked for, through a resume too, and a
   const auto stressed = [](int i) {
     MotionFrame f = frame_at(i);
     f.normal_stress = {-1e6F * static_cast<float>(i)}, f.shear_stress = {2e5F};
+    f.force = {1, 2, 3}, f.force_at = {4, 5, static_cast<float>(i)};
     return f;
   };
   MotionWriter writer(dir.path.string(), two_blocks(), true);
@@ -150,6 +151,9 @@ TEST_CASE("stresses of joints are kept if asked for, through a resume too, and a
   CHECK(reader.read(1).normal_stress == std::vector<float>{-1e6F});
   CHECK(reader.read(2).normal_stress == std::vector<float>{-7e6F});
   CHECK(reader.read(2).shear_stress == std::vector<float>{2e5F});
+  CHECK(reader.has_forces());
+  CHECK(reader.read(2).force == std::vector<float>{1, 2, 3});
+  CHECK(reader.read(2).force_at == std::vector<float>{4, 5, 7});
   MotionWriter plain(dir.path.string(), two_blocks());
   plain.write(frame_at(0));
   plain.close();

@@ -25,6 +25,7 @@ std::string run_of(const test::Folder& dir, int n, bool kept, F&& stress) {
   for (int f = 0; f < 3; ++f) {
     MotionFrame frame{0.5 * f, std::vector<float>(14), std::vector<std::uint8_t>(std::size_t(n)), std::vector<float>(std::size_t(n))};
     for (int j = 0; kept && j < n; ++j) frame.normal_stress.push_back(float(stress(f, j))), frame.shear_stress.push_back(float(7 * f));
+    if (kept) frame.force.resize(std::size_t(3 * n)), frame.force_at.resize(std::size_t(3 * n));
     writer.write(frame);
   }
   writer.close();

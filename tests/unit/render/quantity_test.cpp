@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/base/vec.h"
 #include "render/movie/movie.h"
 #include "tests/support/folder.h"
 #include "tests/unit/render/brick_house.h"
@@ -64,7 +65,7 @@ TEST_CASE("a block has the colour of its most stressed joint", "[render][quantit
   const test::Folder dir;
   MotionWriter writer(dir.path.string(), scene, kept);
   MotionFrame f{0, std::vector<float>(28), {0, 0, 0}, {0, 0, 0}};
-  if (kept) f.normal_stress = {-3e5F, -2e5F, 1e5F}, f.shear_stress = {0, 5e4F, 1e4F};
+  if (kept) f.normal_stress = {-3e5F, -2e5F, 1e5F}, f.shear_stress = {0, 5e4F, 1e4F}, f.force.resize(9), f.force_at.resize(9);
   writer.write(f);
   writer.close();
   const MotionReader reader(dir.path.string());
@@ -100,4 +101,26 @@ TEST_CASE("joints have the state of their damage and opening", "[render][quantit
   CHECK(state(6) == JointState::intact);
   CHECK(t.crack_index.size() == show.mesh.crack_index.size());  // intact joints are lines as well
   CHECK(texels_of(show, frame, Coloring::material, Vec3(5, -5, 3)).crack_index.size() < t.crack_index.size());
+}
+
+TEST_CASE("the slip of a joint is its motion along its face, while the faces are near", "[render][quantity]") {
+  MotionScene scene;
+  const int part = share_shape(scene, {{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}});
+  for (int i = 0; i < 3; ++i) scene.blocks.push_back({"b", "wall", 0, i == 0, {0, 0, 1.0 * i}, {part}});
+  const std::vector<Vec3> square{{0, 0, 0.5}, {0.4, 0, 0.5}, {0.4, 0.4, 0.5}, {0, 0.4, 0.5}};
+  for (int i = 0; i < 2; ++i) scene.joints.push_back({i, i + 1, square, {0, 0, 1}, 0});
+  const double along = GENERATE(0.0, 0.003, 0.2), apart = GENERATE(0.0, 0.001, 0.2), turn = GENERATE(0.0, 0.3);
+  MotionFrame f{0, {}, {0, 0}, {0, 0}};
+  for (int i = 0; i < 3; ++i) {
+    const double x = i == 2 ? along : 0, z = i + (i == 2 ? apart : 0);
+    // All turn together about the x axis: that is no slip.
+    const Vec3 at = rotation(Vec3(turn, 0, 0)) * Vec3(x, 0, z);
+    for (const double v : {at.x(), at.y(), at.z(), std::cos(0.5 * turn), std::sin(0.5 * turn), 0.0, 0.0})
+      f.poses.push_back(static_cast<float>(v));
+  }
+  derive_slips(scene, f);
+  const double slip = apart < 0.1 ? along : 0;  // a quarter of the width
+  CHECK(f.derived[0] == Approx(0).margin(1e-6));
+  CHECK(f.derived[1] == Approx(slip).margin(1e-6));
+  CHECK(f.derived[2] == Approx(slip).margin(1e-6));
 }

@@ -1,4 +1,5 @@
 // A camera given after the run: what it refuses, and the elevations that every run has.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "tests/unit/lua/bench.h"
@@ -11,7 +12,8 @@ TEST_CASE("a camera of one's own looks where it should, or says why it cannot", 
   Bench bench;
   REQUIRE(bench.run(four_bricks() + "joint{ law = dry{ kn = 1*GPa, mu = .6 } } analysis{ duration = .02 }") == 0);
   const auto render = [&](std::vector<std::string> more) {
-    std::vector<std::string> words{"render", bench.out(), "--stills", "0", "--size", "160x120", "--force", "--no-figures"};
+    std::vector<std::string> words{"render", bench.out(), "--stills", "0", "--force", "--no-figures"};
+    if (std::find(more.begin(), more.end(), "--size") == more.end()) words.insert(words.end(), {"--size", "160x120"});
     words.insert(words.end(), more.begin(), more.end());
     return bench.erbs(words);
   };
@@ -22,7 +24,21 @@ TEST_CASE("a camera of one's own looks where it should, or says why it cannot", 
       {{"--eye", "1,2,nan"}, "is not a point in m"},
       {{"--eye=1,-2,1", "--target=1,-2,1"}, "--eye and --target are the same point"},
       {{"--target", "0,0,0"}, "give --eye x,y,z as well"},
-      {{"--fit"}, "give --eye x,y,z as well"},
+      {{"--path", "0:1,2,3:0,0,0"}, "two or more keyframes"},
+      {{"--path", "0:1,2,3:0,0,0; 1:1,2:0,0,0"}, "two or more keyframes"},
+      {{"--path", "1:1,2,3:0,0,0; 1:2,2,3:0,0,0"}, "order them by time"},
+      {{"--path", "0:1,2,3:1,2,3; 1:2,2,3:0,0,0"}, "looks nowhere"},
+      {{"--path", "0:1,2,3:0,0,0; 1:2,2,3:0,0,0", "--camera", "corner"}, "leave out --eye, --camera and --follow"},
+      {{"--follow", "debris"}, "no block has fallen"},
+      {{"--follow", "brick"}, "no group and no block"},
+      {{"--split", "--eye", "1,2,3"}, "--split needs several cameras"},
+      {{"--split", "--camera", "from_-x,from_+x", "--size", "100x100"}, "larger --size"},
+      {{"--svg", "--split"}, "leave out --split"},
+      {{"--svg", "--color", "speed"}, "leave out --color"},
+      {{"--forces"}, "frame_stress = true"},
+      {{"--dust", "--magnify", "3"}, "leave out --magnify"},
+      {{"--mechanism", "nowhere.csv"}, "nowhere.csv"},
+      {{"--mechanism", (fs::path(bench.out()) / "energy.csv").string()}, "it is no mechanism"},
       {{"--eye", "1,2,3", "--camera", "corner"}, "leave out --camera"},
       {{"--eye", "1,2,3", "--fov", "180"}, "--fov"},
       {{"--camera", "from_x"}, "from_above"},
@@ -34,6 +50,10 @@ TEST_CASE("a camera of one's own looks where it should, or says why it cannot", 
     CHECK(contains(bench.said, reason));
   }
   CHECK_FALSE(fs::exists(fs::path(bench.out()) / "frames"));
+  CHECK(render({"--fit"}) == 0);
+  CHECK(render({"--split", "--camera", "from_-x,from_-y,from_above", "--size", "480x360"}) == 0);
+  CHECK(fs::exists(fs::path(bench.out()) / "frames/split_t0.000s.png"));
+  CHECK(render({"--path", "0:3,2,3:0,0,0; 1:2,2,3:0,0,0"}) == 0);
   CHECK(render({"--eye=1,-2,1", "--fit"}) == 0);
   CHECK(render({"--eye=0,0,5", "--target=0,0,0"}) == 0);  // straight down
   CHECK(render({"--camera", "from_-x,from_above"}) == 0);

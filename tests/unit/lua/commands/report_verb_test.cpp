@@ -100,3 +100,24 @@ TEST_CASE("a browser replays, picks and zooms the page", "[report][browser]") {
   INFO(text_of(log));
   CHECK(code == 0);
 }
+
+TEST_CASE("studies of a scene have a page beside the page of their run, which a browser uses", "[report][browser][study_page]") {
+  if (!page_is_built()) return;
+  Bench bench;
+  REQUIRE(bench.run("local seed, push = param('seed', 0, ''), param('push', 1, '')\n" + four_bricks() +
+                    "joint{ law = dry{ kn = 1*GPa, mu = .6 } } analysis{ duration = .01 }\n"
+                    "ensemble{ n = 3, seed = 1, name = 'twins', value = function(run) return seed % 7 end }\n") == 0);
+  REQUIRE(bench.erbs({"report", bench.out()}) == 0);
+  const fs::path page = fs::path(bench.out()) / "studies/report.html";
+  REQUIRE(fs::exists(page));
+  CHECK(contains(text_of(fs::path(bench.out()) / "report.html"), "studies/report.html"));
+  CHECK(bench.erbs({"report", bench.out() + "/studies"}) == 2);
+  if (!fs::exists("/usr/bin/chromium") || !can_start("node") || !fs::exists(ERBS_SOURCE_DIR "/lua/page/node_modules/playwright-core")) {
+    WARN("no browser test: it needs chromium, node and the packages of sh .ci/setup");
+    return;
+  }
+  const std::string log = (bench.folder / "study.log").string();
+  const int code = wait_for(start({"node", ERBS_SOURCE_DIR "/tests/page/study.mjs", page.string()}, log));
+  INFO(text_of(log));
+  CHECK(code == 0);
+}

@@ -1,0 +1,58 @@
+// The cameras that a movie asks for.
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "render/movie/movie.h"
+
+namespace erbs::render {
+namespace {
+
+Camera own_camera(const Movie& movie, const Stage& stage) {
+  Camera camera;
+  camera.name = "own";
+  camera.eye = *movie.eye;
+  camera.target = movie.target.value_or(stage.building.center());
+  camera.fov = movie.fov * pi / 180;
+  const Vec3 back = camera.eye - camera.target;
+  if (!(back.norm() > 1e-9)) throw Error("--eye and --target are the same point, so that the camera looks nowhere; move one of them");
+  if (back.cross(camera.up).norm() < 1e-6 * back.norm()) camera.up = Vec3(0, 1, 0);
+  return camera;
+}
+
+std::vector<Camera> unfitted(const Run& run, const Stage& stage, const Movie& movie, double aspect) {
+  if (movie.camera) return {*movie.camera};
+  if (movie.eye) return {own_camera(movie, stage)};
+  if (!movie.path.empty()) {
+    Camera moving;
+    moving.name = "path";
+    moving.fov = movie.fov * pi / 180;
+    return {moving};
+  }
+  std::vector<Camera> all = run.cameras.empty() ? choose_cameras(stage, aspect) : run.cameras;
+  if (movie.cameras.empty()) return movie.split ? all : std::vector<Camera>{all.front()};
+  const std::size_t own = all.size();
+  for (const Camera& one : elevations(stage, aspect)) all.push_back(one);
+  std::vector<Camera> chosen;
+  for (const std::string& name : movie.cameras) {
+    const std::size_t before = chosen.size();
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if ((name == "all" && i < own) || all[i].name == name) chosen.push_back(all[i]);
+    if (chosen.size() > before) continue;
+    std::string known;
+    for (const Camera& c : all) known += " " + c.name;
+    throw Error("--camera " + shown(name, 60) + " is none of this run's:" + known + " (or all)");
+  }
+  return chosen;
+}
+
+}  // namespace
+
+std::size_t cameras_of(const Run& run, const Movie& movie) { return unfitted(run, set_stage({}, {}), movie, 1).size(); }
+
+std::vector<Camera> chosen_cameras(const Run& run, const Stage& stage, const Movie& movie, double aspect) {
+  std::vector<Camera> cameras = unfitted(run, stage, movie, aspect);
+  if (movie.fit && movie.path.empty() && movie.follow.empty())
+    for (Camera& camera : cameras) fit_camera(camera, camera.eye - camera.target, stage, aspect, true);
+  return cameras;
+}
+
+}  // namespace erbs::render

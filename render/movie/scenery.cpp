@@ -1,0 +1,98 @@
+#include "render/movie/scenery.h"
+
+#include <algorithm>
+
+#include "engine/base/error.h"
+
+namespace erbs::render {
+namespace {
+
+// What lies behind the section for this camera.
+double side_behind(const Section& section, const Camera& camera) { return camera.eye[section.axis] < section.at ? 1 : -1; }
+
+}  // namespace
+
+// The stage of what is drawn, from frames spread over the run.
+Stage stage_of(const Run& run, const MotionReader& reader, const Excerpt& excerpt, const Movie& movie) {
+  std::vector<MotionFrame> some;
+  const std::size_t count = reader.times().size(), step = std::max<std::size_t>(1, count / 24);
+  const auto add = [&](std::size_t i) {
+    some.push_back(excerpt_of(excerpt, reader.read(static_cast<int>(i))));
+    magnify(excerpt.scene, movie.look.magnify, some.back());
+  };
+  for (std::size_t i = 0; i < count; i += step) add(i);
+  add(count - 1);
+  Stage stage = set_stage(excerpt.scene, some);
+  if (!run.gravity.empty() && movie.look.table_turns)
+    for (const MotionFrame& frame : some) stage.positions.push_back(table_position(stage, levelling(run.gravity, frame.t)));
+  return stage;
+}
+
+Scenery::Scenery(const Run& run, const MotionReader& reader, const Movie& movie, double aspect)
+    : run_(run), reader_(reader), movie_(movie), excerpt_(without_groups(reader.scene(), movie.hide)), section_(movie.section) {
+  if (movie.look.coloring == Coloring::energy) bodies_ = bodies_of(reader.scene(), run);
+  stage_ = stage_of(run, reader, excerpt_, movie);
+  for (const Camera& camera : chosen_cameras(run, stage_, movie, aspect)) {
+    Shot shot{camera, [camera](double) { return camera; }};
+    if (!movie.path.empty()) shot.at = [camera, keys = camera_path(movie.path)](double t) { return along_path(camera, keys, t); };
+    if (!movie.follow.empty()) shot = follow(camera, movie.follow, movie.fit, reader, excerpt_, stage_, movie.look.magnify);
+    shots_.push_back(shot);
+  }
+  if (section_ && section_->keep == 0) section_->keep = side_behind(*section_, shots_.front().camera);
+  const std::string& mechanism = movie.marks.mechanism;
+  if (!mechanism.empty() && mechanism != "motion") mechanism_ = rates_of_mechanism(mechanism, excerpt_.scene);
+}
+
+MotionFrame Scenery::actual(double t) const {
+  MotionFrame frame = frame_at(reader_, t);
+  frame.t = t;
+  const Coloring coloring = movie_.look.coloring;
+  if (coloring == Coloring::speed) derive_speeds(reader_, frame);
+  if (coloring == Coloring::slip) derive_slips(reader_.scene(), frame);
+  if (coloring == Coloring::energy) derive_energies(reader_, bodies_, frame);
+  if (is_stress(coloring)) derive_stresses(reader_, coloring == Coloring::shear_stress, frame);
+  return excerpt_of(excerpt_, std::move(frame));
+}
+
+MotionFrame Scenery::drawn(double t) const {
+  MotionFrame frame = actual(t);
+  magnify(excerpt_.scene, movie_.look.magnify, frame);
+  return frame;
+}
+
+Rates Scenery::rates(double t) const {
+  if (mechanism_) return *mechanism_;
+  if (movie_.marks.mechanism.empty()) return {};
+  const auto [before, after] = frames_around(reader_, t);
+  return rates_between(excerpt_of(excerpt_, before), excerpt_of(excerpt_, after));
+}
+
+Marks Scenery::marks(double t) const {
+  if (!movie_.marks.any()) return {};
+  return marks_of(movie_.marks, excerpt_.scene, stage_, actual(t), drawn(t), rates(t), mark_scale_);
+}
+
+std::vector<Impact> Scenery::impacts() const {
+  ImpactFinder finder(excerpt_.scene);
+  for (std::size_t i = 0; i < reader_.times().size(); ++i) finder.add(excerpt_of(excerpt_, reader_.read(static_cast<int>(i))));
+  return finder.impacts;
+}
+
+Show Scenery::show(const std::vector<double>& times) {
+  Show show = prepare_show(excerpt_.scene, run_, stage_, in_groups(excerpt_.scene, movie_.ghost, "--ghost"), section_);
+  std::vector<MotionFrame> some;  // the scale is that of what is shown
+  const std::size_t stride = std::max<std::size_t>(1, times.size() / 24);
+  if (is_quantity(movie_.look.coloring))
+    for (std::size_t i = 0; i < times.size(); i += stride) some.push_back(drawn(times[i]));
+  show.scale = color_scale(excerpt_.scene, some, movie_.look.coloring);
+  if (!movie_.marks.any()) return show;
+  double force = 0, speed = 0;
+  for (std::size_t i = 0; i < times.size(); i += stride) {
+    if (movie_.marks.forces) force = std::max(force, largest_force(excerpt_.scene, actual(times[i])));
+    if (!movie_.marks.mechanism.empty()) speed = std::max(speed, largest_speed(excerpt_.scene, rates(times[i])));
+  }
+  mark_scale_ = {force > 0 ? round_up(force) : 1, speed > 0 ? speed : 1};
+  return show;
+}
+
+}  // namespace erbs::render

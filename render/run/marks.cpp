@@ -1,0 +1,223 @@
+#include "render/run/marks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "engine/base/units.h"
+#include "engine/record/folder/run_folder.h"
+#include "render/run/mesh.h"
+
+namespace erbs::render {
+namespace {
+
+const Vec3 force_color{0.02, 0.09, 0.32}, thrust_color{0.55, 0.0, 0.16}, motion_color{0.0, 0.22, 0.14};
+constexpr double widest = 9, thinnest_share = 0.015;  // px; of the scale, below which a force is not drawn
+
+Vec3 place_of(const MotionFrame& f, std::size_t b) { return Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * b]).cast<double>(); }
+Eigen::Quaterniond turn_of(const MotionFrame& f, std::size_t b) {
+  const float* p = &f.poses[7 * b];
+  return Eigen::Quaterniond(p[3], p[4], p[5], p[6]).normalized();
+}
+Vec3 vector_of(const std::vector<float>& values, std::size_t j) { return Eigen::Map<const Eigen::Vector3f>(&values[3 * j]).cast<double>(); }
+
+// The compression that a joint carries.
+struct Thrust {
+  double force = 0;     // N, normal part, compression positive
+  Vec3 at{0, 0, 0};     // m, as drawn
+  Vec3 along{0, 0, 0};  // unit, the normal as drawn, from a to b
+};
+
+// Force 0 where the joint is not pressed.
+Thrust thrust_of(const MotionScene& scene, std::size_t j, const MotionFrame& actual, const MotionFrame& drawn) {
+  const MotionJoint& joint = scene.joints[j];
+  const auto a = static_cast<std::size_t>(joint.a);
+  const Vec3 n = joint_normal(scene, joint), pull = vector_of(actual.force, j);
+  Thrust thrust;
+  const Eigen::Quaterniond back = turn_of(actual, a).conjugate();
+  thrust.force = -n.dot(back * pull);
+  if (!(thrust.force > 0)) return {};
+  thrust.along = turn_of(drawn, a) * n;
+  thrust.at = place_of(drawn, a) + turn_of(drawn, a) * (back * (vector_of(actual.force_at, j) - place_of(actual, a)));
+  if (!thrust.at.allFinite() || !thrust.along.allFinite()) return {};
+  return thrust;
+}
+
+std::vector<Thrust> thrusts_of(const MotionScene& scene, const MotionFrame& actual, const MotionFrame& drawn) {
+  std::vector<Thrust> all(scene.joints.size());
+  if (actual.force.size() != 3 * all.size())
+    throw Error("the run has kept no forces of its joints; say analysis{ frame_stress = true } and run the scene again");
+  for (std::size_t j = 0; j < all.size(); ++j) all[j] = thrust_of(scene, j, actual, drawn);
+  return all;
+}
+
+std::string force_text(double newton) {
+  return newton >= 1e6   ? fmt::format("{:.3g} MN", newton / 1e6)
+         : newton >= 1e3 ? fmt::format("{:.3g} kN", newton / 1e3)
+                         : fmt::format("{:.3g} N", newton);
+}
+
+// Each joint's normal force as a line through its centre of pressure, as long as the blocks are thick: their lines meet in the blocks.
+void add_forces(const MotionScene& scene, const std::vector<Thrust>& thrusts, const MotionFrame& drawn, double scale, Marks& marks) {
+  for (std::size_t j = 0; j < thrusts.size(); ++j) {
+    const Thrust& t = thrusts[j];
+    if (t.force < thinnest_share * scale) continue;
+    const auto [a, b] = std::pair(static_cast<std::size_t>(scene.joints[j].a), static_cast<std::size_t>(scene.joints[j].b));
+    double before = std::fabs((t.at - place_of(drawn, a)).dot(t.along)), after = std::fabs((place_of(drawn, b) - t.at).dot(t.along));
+    if (scene.blocks[a].fixed) before = std::min(before, after);  // the ground is large
+    if (scene.blocks[b].fixed) after = std::min(after, before);
+    marks.strokes.push_back({t.at - before * t.along, t.at + after * t.along, widest * std::min(1.0, t.force / scale), force_color, false});
+  }
+}
+
+// Through the centres of pressure of blocks between two pressed joints, as voussoirs and drums are.
+std::size_t add_thrust_line(const MotionScene& scene, const std::vector<Thrust>& thrusts, const std::vector<bool>& hidden, Marks& marks) {
+  std::vector<std::vector<std::size_t>> loaded(scene.blocks.size());
+  double largest = 0;
+  for (const Thrust& t : thrusts) largest = std::max(largest, t.force);
+  for (std::size_t j = 0; j < thrusts.size(); ++j)
+    if (thrusts[j].force > 1e-6 * largest)
+      for (const int block : {scene.joints[j].a, scene.joints[j].b}) loaded[static_cast<std::size_t>(block)].push_back(j);
+  std::size_t drawn = 0;
+  for (std::size_t b = 0; b < loaded.size(); ++b) {
+    if (loaded[b].size() != 2 || scene.blocks[b].fixed || hidden[b]) continue;
+    marks.strokes.push_back({thrusts[loaded[b][0]].at, thrusts[loaded[b][1]].at, 2.6, thrust_color, false});
+    ++drawn;
+  }
+  return drawn;
+}
+
+double radius_of(const MotionScene& scene, const MotionBlock& block) {  // m, of the sphere with the mean half size
+  Eigen::AlignedBox3d box;
+  for (const int part : block.parts) {
+    const std::vector<float>& v = scene.shapes[static_cast<std::size_t>(part)].vertices;
+    for (std::size_t i = 0; i + 2 < v.size(); i += 3) box.extend(Vec3(v[i], v[i + 1], v[i + 2]));
+  }
+  return box.isEmpty() ? 0 : box.sizes().sum() / 6;
+}
+
+// One block a cell of a grid over the building, so that arrows do not cover each other: the one nearest to its middle.
+std::vector<std::size_t> spread(const MotionScene& scene, const Stage& stage) {
+  const double side = stage.size() / 13;
+  std::map<std::array<long, 3>, std::pair<double, std::size_t>> nearest;
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
+    if (scene.blocks[b].fixed) continue;
+    const Vec3 at = (scene.blocks[b].rest - stage.building.min()) / side;
+    std::array<long, 3> cell{};
+    Vec3 middle;
+    for (int i = 0; i < 3; ++i) cell[static_cast<std::size_t>(i)] = std::lround(std::floor(at[i])), middle[i] = std::floor(at[i]) + 0.5;
+    const double away = (at - middle).squaredNorm();
+    const auto [found, fresh] = nearest.try_emplace(cell, away, b);
+    if (!fresh && away < found->second.first) found->second = {away, b};
+  }
+  std::vector<std::size_t> chosen;
+  for (const auto& [cell, at] : nearest) chosen.push_back(at.second);
+  return chosen;
+}
+
+// Arrows of the velocities of centroids, and arcs of the rotations, both over one span of time.
+void add_mechanism(const MotionScene& scene, const Stage& stage, const MotionFrame& drawn, const Rates& rates, double scale, Marks& marks) {
+  const double longest = 0.16 * stage.size(), span = longest / scale;  // s
+  for (const std::size_t b : spread(scene, stage)) {
+    const Vec3 centre = place_of(drawn, b), way = span * rates.velocity[b];
+    if (!centre.allFinite() || !way.allFinite()) continue;
+    const double share = way.norm() / longest;
+    if (share < 0.03) continue;
+    const Vec3 tip = centre + std::min(1.0, 1.6 / share) * way;
+    marks.strokes.push_back({centre, tip, 1.2 + 1.6 * std::min(1.0, share), motion_color, true});
+    const Vec3 turn = span * rates.spin[b];
+    const double angle = std::min(turn.norm(), 1.5 * pi), radius = radius_of(scene, scene.blocks[b]);
+    if (!(angle > 0.15) || radius < stage.size() / 90) continue;
+    const Vec3 axis = turn.normalized();
+    Vec3 start = axis.cross(std::fabs(axis.z()) < 0.9 ? Vec3(Vec3::UnitZ()) : Vec3(Vec3::UnitX())).normalized() * radius;
+    const int steps = 12;
+    for (int i = 0; i < steps; ++i) {
+      const auto at = [&](int k) { return Vec3(centre + Eigen::AngleAxisd(angle * k / steps, axis) * start); };
+      marks.strokes.push_back({at(i), at(i + 1), 1.4, motion_color, i + 1 == steps});
+    }
+  }
+}
+
+}  // namespace
+
+Rates rates_between(const MotionFrame& before, const MotionFrame& after) {
+  Rates rates;
+  const std::size_t blocks = before.poses.size() / 7;
+  rates.velocity.assign(blocks, Vec3::Zero()), rates.spin.assign(blocks, Vec3::Zero());
+  const double seconds = after.t - before.t;
+  if (!(seconds > 0)) return rates;
+  for (std::size_t b = 0; b < blocks; ++b) {
+    rates.velocity[b] = (place_of(after, b) - place_of(before, b)) / seconds;
+    Eigen::Quaterniond turn = turn_of(after, b) * turn_of(before, b).conjugate();
+    if (turn.w() < 0) turn.coeffs() *= -1;
+    const Eigen::AngleAxisd rotation(turn);
+    rates.spin[b] = rotation.angle() / seconds * rotation.axis();
+  }
+  return rates;
+}
+
+Rates rates_of_mechanism(const std::string& path, const MotionScene& scene) {
+  const CsvTable table = read_csv(path);
+  const int name = table.find("block");
+  std::array<int, 6> columns{};
+  const std::array<const char*, 6> names{"vx_m_s", "vy_m_s", "vz_m_s", "wx_rad_s", "wy_rad_s", "wz_rad_s"};
+  bool good = name >= 0;
+  for (std::size_t i = 0; i < 6; ++i) good = (columns[i] = table.find(names[i])) >= 0 && good;
+  if (!good) throw Error("it is no mechanism: erbs limit SCENE -o FOLDER writes one as FOLDER/mechanism.csv", {path});
+  std::map<std::string, std::size_t> block;
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b) block[scene.blocks[b].name] = b;
+  Rates rates;
+  rates.velocity.assign(scene.blocks.size(), Vec3::Zero()), rates.spin.assign(scene.blocks.size(), Vec3::Zero());
+  const auto cell = [&](int column, std::size_t row) { return table.columns[static_cast<std::size_t>(column)][row]; };
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const auto c = static_cast<std::size_t>(name);
+    const std::string own = table.text[c].empty() ? fmt::format("{}", table.columns[c][row]) : table.text[c][row];
+    const auto found = block.find(own);
+    if (found == block.end())
+      throw Error(
+          fmt::format("it is of another scene: the run has no block {}; repeat erbs limit with the scene of this run", shown(own, 60)),
+          {path});
+    for (int i = 0; i < 3; ++i) {
+      rates.velocity[found->second][i] = cell(columns[static_cast<std::size_t>(i)], row);
+      rates.spin[found->second][i] = cell(columns[static_cast<std::size_t>(i) + 3], row);
+    }
+  }
+  return rates;
+}
+
+double largest_force(const MotionScene& scene, const MotionFrame& frame) {
+  double largest = 0;
+  for (const Thrust& t : thrusts_of(scene, frame, frame)) largest = std::max(largest, t.force);
+  return largest;
+}
+
+double largest_speed(const MotionScene& scene, const Rates& rates) {
+  double largest = 0;
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b)
+    if (!scene.blocks[b].fixed && rates.velocity[b].allFinite()) largest = std::max(largest, rates.velocity[b].norm());
+  return largest;
+}
+
+Marks marks_of(const MarkChoice& choice, const MotionScene& scene, const Stage& stage, const MotionFrame& actual, const MotionFrame& drawn,
+               const Rates& rates, const MarkScale& scale) {
+  Marks marks;
+  if (choice.forces || choice.thrust) {
+    const std::vector<Thrust> thrusts = thrusts_of(scene, actual, drawn);
+    if (choice.forces) add_forces(scene, thrusts, drawn, scale.force, marks);
+    if (choice.thrust) add_thrust_line(scene, thrusts, stage.hidden, marks);
+  }
+  if (!choice.mechanism.empty()) add_mechanism(scene, stage, drawn, rates, scale.speed, marks);
+  if (choice.forces) {
+    marks.legend.push_back({"normal force " + force_text(scale.force), widest, force_color, false});
+    marks.legend.push_back({force_text(0.2 * scale.force), 0.2 * widest, force_color, false});
+  }
+  if (choice.thrust) marks.legend.push_back({"line of thrust", 2.6, thrust_color, false});
+  if (choice.mechanism == "motion")
+    marks.legend.push_back({fmt::format("velocity, longest {:.3g} m/s", scale.speed), 2.4, motion_color, true});
+  else if (!choice.mechanism.empty()) marks.legend.push_back({"mechanism", 2.4, motion_color, true});
+  return marks;
+}
+
+}  // namespace erbs::render

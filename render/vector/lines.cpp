@@ -1,0 +1,293 @@
+// The lines of a drawing: edges of blocks, cracks, and the ground.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "engine/base/error.h"
+#include "render/draw/marks_picture.h"
+#include "render/vector/drawing.h"
+
+namespace erbs::render {
+namespace {
+
+Vec3 place_of(const MotionFrame& f, std::size_t b) { return Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * b]).cast<double>(); }
+Eigen::Quaterniond turn_of(const MotionFrame& f, std::size_t b) {
+  const float* p = &f.poses[7 * b];
+  return Eigen::Quaterniond(p[3], p[4], p[5], p[6]).normalized();
+}
+
+Vec3 corner_of(const MotionShape& shape, int i) {
+  return Eigen::Map<const Eigen::Vector3f>(&shape.vertices[3 * static_cast<std::size_t>(i)]).cast<double>();
+}
+
+constexpr double grazing = 0.12;  // cosine; joints of a face seen more from its edge would merge to a dark stripe
+
+// A convex body in space: its faces, and for each edge the two faces that meet there.
+struct Solid {
+  std::vector<std::vector<Vec3>> faces;
+  struct Edge {
+    Vec3 p{0, 0, 0}, q{0, 0, 0};
+    int left = -1, right = -1;
+  };
+  std::vector<Edge> edges;
+};
+
+Solid solid_of(const MotionShape& shape, const Vec3& at, const Eigen::Quaterniond& turn) {
+  Solid solid;
+  std::map<std::pair<int, int>, std::size_t> known;
+  for (const std::vector<int>& loop : shape.faces) {
+    const int face = static_cast<int>(solid.faces.size());
+    solid.faces.emplace_back();
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const int i = loop[k], j = loop[(k + 1) % loop.size()];
+      solid.faces.back().push_back(at + turn * corner_of(shape, i));
+      const auto [edge, fresh] = known.try_emplace(std::minmax(i, j), solid.edges.size());
+      if (fresh) solid.edges.push_back({at + turn * corner_of(shape, i), at + turn * corner_of(shape, j), face, -1});
+      else solid.edges[edge->second].right = face;
+    }
+  }
+  return solid;
+}
+
+Vec3 normal_of(const std::vector<Vec3>& loop) { return area_normal(loop).normalized(); }
+
+class Lines {
+ public:
+  explicit Lines(const DrawnInstant& d)
+      : d_(d),
+        camera_(d.position ? in_scene(d.camera, *d.position) : d.camera),
+        projection_(camera_, d.parallel, d.look.width, d.look.height, d.look.top, d.look.bottom),
+        eps_(1e-3 * std::max(1e-6, thinnest())),
+        hidden_(projection_, d.look.width, d.look.height, eps_),
+        unit_(d.look.height / 720.0) {
+    for (std::size_t b = 0; b < d.solid.blocks.size(); ++b) add_block(b);
+    for (std::size_t j = 0; j < d.solid.joints.size(); ++j) add_mortar(j);
+    if (d.position && d.show.stage.on_ground) add_table();
+  }
+
+  std::vector<LineGroup> groups() {
+    std::vector<LineGroup> out;
+    LineGroup ground{"ground", {"#b9bcc0", 0.7 * unit_}, {}}, outline{"outlines", {"#1d2126", (d_.show.mortared ? 0.8 : 1.1) * unit_}, {}};
+    LineGroup crease{"edges", {"#5b6168", 0.6 * unit_}, {}}, ghost{"ghosts", {"#a4a9af", 0.5 * unit_}, {}};
+    LineGroup aslant{"edges of faces seen aslant", {"#8b9096", 0.25 * unit_}, {}};
+    const bool many = bodies_.size() > 200;  // whose lines merge on a face seen aslant
+    if (!d_.position) add_ground(ground);
+    for (const Body& body : bodies_)
+      for (const Solid::Edge& e : body.solid.edges) {
+        const bool left = front(body.solid, e.left), right = front(body.solid, e.right);
+        if ((!left && !right) || (body.in_many_parts && inner(body, e))) continue;
+        LineGroup& to = body.ghost                                                                            ? ghost
+                        : many && std::max(facing(body.solid, e.left), facing(body.solid, e.right)) < grazing ? aslant
+                        : left && right                                                                       ? crease
+                                                                                                              : outline;
+        append(to, hidden_.visible(e.p, e.q, body.id));
+      }
+    for (LineGroup* group : {&ground, &ghost, &aslant, &crease, &outline})
+      if (!group->pieces.empty()) out.push_back(std::move(*group));
+    add_cracks(out);
+    return out;
+  }
+
+ private:
+  struct Body {
+    Solid solid;
+    int id = 0;
+    bool ghost = false, in_many_parts = false;
+    std::size_t block = 0;
+  };
+
+  // m, the least thickness of a block.
+  double thinnest() const {
+    double least = HUGE_VAL;
+    for (const MotionShape& shape : d_.solid.shapes) {
+      Eigen::AlignedBox3f box;
+      for (std::size_t i = 0; i + 2 < shape.vertices.size(); i += 3)
+        box.extend(Eigen::Vector3f(shape.vertices[i], shape.vertices[i + 1], shape.vertices[i + 2]));
+      if (!box.isEmpty()) least = std::min(least, static_cast<double>(box.sizes().minCoeff()));
+    }
+    return std::isfinite(least) ? least : 1;
+  }
+
+  static void append(LineGroup& to, const std::vector<Piece>& pieces) { to.pieces.insert(to.pieces.end(), pieces.begin(), pieces.end()); }
+
+  // Cosine between the normal of a face and the direction to the eye; -1 without a face.
+  double facing(const Solid& solid, int face) const {
+    if (face < 0) return -1;
+    const std::vector<Vec3>& loop = solid.faces[static_cast<std::size_t>(face)];
+    return cosine(area_normal(loop), loop.front());
+  }
+  double cosine(const Vec3& direction, const Vec3& at) const {
+    const Vec3 view = projection_.parallel() ? projection_.back() : Vec3(projection_.eye() - at);
+    return direction.dot(view) / std::max(1e-300, direction.norm() * view.norm());
+  }
+  bool front(const Solid& solid, int face) const { return facing(solid, face) > 1e-7; }
+
+  // An edge where a part of its block goes on in one plane: no edge of the whole.
+  bool inner(const Body& body, const Solid::Edge& edge) const {
+    const Vec3 middle = 0.5 * (edge.p + edge.q);
+    for (const int face : {edge.left, edge.right}) {
+      if (!front(body.solid, face)) continue;
+      const Vec3 n = normal_of(body.solid.faces[static_cast<std::size_t>(face)]);
+      bool goes_on = false;
+      auto first = static_cast<std::size_t>(body.id);  // the parts of a block lie side by side
+      while (first > 0 && bodies_[first - 1].block == body.block) --first;
+      for (std::size_t k = first; k < bodies_.size() && bodies_[k].block == body.block; ++k) {
+        const Body& other = bodies_[k];
+        if (other.id == body.id) continue;
+        for (const std::vector<Vec3>& loop : other.solid.faces) {
+          if (normal_of(loop).dot(n) < 0.9999 || std::fabs((middle - loop.front()).dot(n)) > eps_) continue;
+          bool within = true;
+          for (std::size_t i = 0; i < loop.size() && within; ++i)
+            within = n.cross(loop[(i + 1) % loop.size()] - loop[i]).normalized().dot(middle - loop[i]) > -eps_;
+          goes_on = goes_on || within;
+        }
+      }
+      if (!goes_on) return false;
+    }
+    return true;
+  }
+
+  void add_solid(Solid solid, std::size_t block, bool ghost, bool in_many_parts) {
+    const int id = static_cast<int>(bodies_.size());
+    if (!ghost)
+      for (std::size_t f = 0; f < solid.faces.size(); ++f)
+        if (front(solid, static_cast<int>(f))) hidden_.add_face(solid.faces[f], id);
+    bodies_.push_back({std::move(solid), id, ghost, in_many_parts, block});
+  }
+
+  void add_block(std::size_t b) {
+    if (d_.show.stage.hidden[b] || !place_of(d_.frame, b).allFinite()) return;
+    const MotionBlock& block = d_.solid.blocks[b];
+    for (const int part : block.parts)
+      add_solid(solid_of(d_.solid.shapes[static_cast<std::size_t>(part)], place_of(d_.frame, b), turn_of(d_.frame, b)), b, d_.show.ghost[b],
+                block.parts.size() > 1);
+  }
+
+  void add_table() {
+    const Eigen::AlignedBox3d& table = d_.show.stage.table;
+    MotionShape box;
+    for (int i = 0; i < 8; ++i) {
+      const Vec3 p = table.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
+      for (int c = 0; c < 3; ++c) box.vertices.push_back(static_cast<float>(p[c]));
+    }
+    box.faces = {{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
+    add_solid(solid_of(box, Vec3::Zero(), Eigen::Quaterniond::Identity()), d_.solid.blocks.size(), false, false);
+  }
+
+  // A point of a joint, relative to a at rest, as each of its blocks has moved it.
+  std::pair<Vec3, Vec3> ends(const MotionJoint& joint, const Vec3& p) const {
+    const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
+    const Vec3 to_b = d_.solid.blocks[b].rest - d_.solid.blocks[a].rest;
+    return {place_of(d_.frame, a) + turn_of(d_.frame, a) * p, place_of(d_.frame, b) + turn_of(d_.frame, b) * (p - to_b)};
+  }
+  double parted(const MotionJoint& joint) const {  // m, slip included
+    double most = 0;
+    for (const Vec3& p : joint.polygon) {
+      const auto [pa, pb] = ends(joint, p);
+      most = std::max(most, (pa - pb).norm());
+    }
+    return most;
+  }
+
+  // Mortar of a joint that is not yet wide open hides what is behind it: half of the bed sticks to each block.
+  void add_mortar(std::size_t j) {
+    const MotionJoint& joint = d_.solid.joints[j];
+    const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
+    if (joint.thickness <= 0 || joint.polygon.size() < 3 || d_.show.ghost[a] || d_.show.ghost[b]) return;
+    if (!(parted(joint) < 0.5 * joint.thickness)) return;
+    const Vec3 n = joint_normal(d_.solid, joint), to_b = d_.solid.blocks[b].rest - d_.solid.blocks[a].rest;
+    Loop polygon = joint.polygon;
+    if (area_normal(polygon).dot(n) < 0) std::reverse(polygon.begin(), polygon.end());
+    for (const double side : {-0.5, 0.5}) {
+      const std::size_t block = side < 0 ? a : b;
+      const Eigen::Quaterniond turn = turn_of(d_.frame, block);
+      const auto at = [&](const Vec3& p, double along) {
+        return Vec3(place_of(d_.frame, block) + turn * (p - (side < 0 ? Vec3(Vec3::Zero()) : to_b) + along * n));
+      };
+      const double from = std::min(0.0, side * joint.thickness), to = std::max(0.0, side * joint.thickness);
+      Solid bed;
+      bed.faces.resize(2);
+      for (std::size_t i = 0; i < polygon.size(); ++i) {
+        const Vec3 &p = polygon[i], &q = polygon[(i + 1) % polygon.size()];
+        bed.faces.push_back({at(p, from), at(q, from), at(q, to), at(p, to)});
+        bed.faces[0].push_back(at(p, to));
+        bed.faces[1].insert(bed.faces[1].begin(), at(p, from));
+      }
+      for (std::size_t f = 0; f < bed.faces.size(); ++f)
+        if (front(bed, static_cast<int>(f))) hidden_.add_face(bed.faces[f], -1);
+    }
+  }
+
+  // In an elevation a line where the ground begins, else a grid.
+  void add_ground(LineGroup& ground) const {
+    const Stage& stage = d_.show.stage;
+    const double z = stage.ground_z, step = d_.show.grid;
+    if (projection_.parallel() && std::fabs(projection_.back().z()) < 1e-6) {
+      const Vec3 along = Vec3::UnitZ().cross(projection_.back()) * 20 * stage.size(),
+                 middle(stage.building.center().x(), stage.building.center().y(), z);
+      append(ground, hidden_.visible(middle - along, middle + along, -1, 10 * stage.size()));
+      return;
+    }
+    if (camera_.eye.z() < z) return;
+    Eigen::AlignedBox3d near = stage.building;
+    if (!stage.debris.isEmpty()) near.extend(stage.debris);
+    Eigen::Array2d low = ((near.min().head<2>().array() / step).floor() - 1) * step,
+                   high = ((near.max().head<2>().array() / step).ceil() + 1) * step;
+    for (int axis = 0; axis < 2; ++axis)
+      for (double x = low[axis]; x < high[axis] + 0.5 * step; x += step) {
+        Vec3 p(0, 0, z), q(0, 0, z);
+        p[axis] = q[axis] = x, p[1 - axis] = low[1 - axis], q[1 - axis] = high[1 - axis];
+        append(ground, hidden_.visible(p, q, -1));
+      }
+  }
+
+  // The sides of broken joints, in pieces as wide as the joint is open there.
+  void add_cracks(std::vector<LineGroup>& out) const {
+    std::map<std::pair<int, int>, LineGroup> groups;  // state, tenths of px
+    for (std::size_t j = 0; j < d_.solid.joints.size(); ++j) {
+      const MotionJoint& joint = d_.solid.joints[j];
+      const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
+      const bool open = static_cast<double>(d_.frame.opening[j]) >= d_.show.open_crack;
+      // From a twentieth of the damage on, as in pictures.
+      if (joint.polygon.size() < 3 || (d_.frame.damage[j] < 13 && !open) || d_.show.ghost[a] || d_.show.ghost[b]) continue;
+      if (!(parted(joint) < 60 * d_.show.open_crack)) continue;
+      const Vec3 n = joint_normal(d_.solid, joint), along = turn_of(d_.frame, a) * n;
+      const double turning = area_normal(joint.polygon).dot(n) < 0 ? -1 : 1;
+      const int pieces = open ? 6 : 1;
+      for (std::size_t i = 0; i < joint.polygon.size(); ++i)
+        for (int k = 0; k < pieces; ++k) {
+          const Vec3 &p = joint.polygon[i], side = joint.polygon[(i + 1) % joint.polygon.size()] - p;
+          const auto [a0, b0] = ends(joint, p + side * k / pieces);
+          const auto [a1, b1] = ends(joint, p + side * (k + 1) / pieces);
+          if (!(cosine(turning * (a1 - a0).cross(along), a0) > grazing)) continue;
+          const double gap = 0.5 * ((b0 - a0) + (b1 - a1)).dot(along) / d_.look.magnify;
+          const int tenths = static_cast<int>(std::lround(10 * crack_width(gap)));
+          const JointState state = open ? JointState::open : JointState::cracked;
+          LineGroup& group = groups[{static_cast<int>(state), tenths}];
+          append(group, hidden_.visible(0.5 * (a0 + b0), 0.5 * (a1 + b1), -1, 2 * eps_ + 0.2 * joint.thickness));
+          group.name = open ? "open joints" : "cracked joints";
+          const Ink ink = display(state_color(state));
+          group.ink = {fmt::format("#{:02x}{:02x}{:02x}", ink.r, ink.g, ink.b), 0.1 * tenths * unit_};
+        }
+    }
+    for (auto& [key, group] : groups)
+      if (!group.pieces.empty()) out.push_back(std::move(group));
+  }
+
+  const DrawnInstant& d_;
+  Camera camera_;
+  Projection projection_;
+  double eps_;
+  HiddenLines hidden_;
+  double unit_;
+  std::vector<Body> bodies_;
+};
+
+}  // namespace
+
+double crack_width(double opening) { return std::clamp(0.8 + std::log10(1 + std::max(0.0, opening) / 1e-4), 0.8, 5.0); }
+
+std::vector<LineGroup> lines_of(const DrawnInstant& instant) { return Lines(instant).groups(); }
+
+}  // namespace erbs::render

@@ -1,0 +1,43 @@
+// erbs export: all formats of one run say the same to VTK and h5py, and Blender loads its script.
+#include <catch2/catch.hpp>
+
+#include "engine/base/system/process.h"
+#include "tests/unit/lua/bench.h"
+
+using namespace erbs;
+using namespace erbs::lua;
+namespace fs = std::filesystem;
+
+namespace {
+
+const std::string falling =
+    "joint{ law = dry{ kn = 1*GPa, mu = .6 } }\n"
+    "ground_motion{ wave = sine{ amplitude = 9, frequency = 2*Hz }, direction = 'x' }\n"
+    "analysis{ duration = .3, frame_stress = true }";
+
+}  // namespace
+
+TEST_CASE("an exported run is read back by VTK and h5py", "[program][export]") {
+  Bench bench;
+  REQUIRE(bench.run(four_bricks() + falling) == 0);
+  const std::string folder = bench.out() + "/export";
+  REQUIRE(bench.erbs({"export", bench.out(), "--format", "gltf,vtu,xdmf,hdf5"}) == 0);
+  CHECK(bench.erbs({"export", bench.out(), "--format", "hdf5"}) == 2);
+  CHECK(contains(bench.said, "--force"));
+  std::string stem;
+  for (const auto& file : fs::directory_iterator(folder))
+    if (file.path().extension() == ".pvd") stem = file.path().stem().string();
+  const std::string python = fs::exists("/usr/bin/python3") ? "/usr/bin/python3" : "python3";
+  if (!can_start(python)) {
+    WARN("nothing was read back: it needs python3 with h5py and vtk");
+    return;
+  }
+  const fs::path log = fs::path(bench.out()) / "read_back.txt";
+  const int code = wait_for(start({python, ERBS_SOURCE_DIR "/tests/export/read_back.py", folder, stem}, log));
+  INFO(text_of(log));
+  if (code == 77) {
+    WARN("nothing was read back: it needs the packages python3-h5py and python3-vtk9");
+    return;
+  }
+  CHECK(code == 0);
+}
