@@ -6,8 +6,8 @@
 #include "engine/base/spelling.h"
 #include "engine/base/text.h"
 #include "lua/language/api.h"
-#include "lua/language/sweep/ranges.h"
 #include "lua/language/sweep/fragility.h"
+#include "lua/language/sweep/ranges.h"
 #include "lua/language/sweep/with_unit.h"
 
 namespace erbs::lua {

@@ -24,7 +24,7 @@ Polyhedron frustum(int n, double top = 0.1) {
   return hull(v);
 }
 
-struct Scatter {
+struct RandomNumbers {
   std::mt19937 random{20};
   double operator()(double a) { return a * (2 * std::uniform_real_distribution<double>()(random) - 1); }
 };
@@ -67,7 +67,7 @@ TEST_CASE("small bodies overlap the fast way as the general way", "[contact]") {
   CHECK_FALSE(shapes[4].is_small);
   const auto fast = std::make_unique<OverlapRoom>(), general = std::make_unique<OverlapRoom>();
   general->only_general = true;
-  Scatter scatter;
+  RandomNumbers scatter;
   int met = 0;
   for (int trial = 0; trial < 4000; ++trial) {
     const ContactShape &a = shapes[std::size_t(trial) % 5], &b = shapes[std::size_t(trial / 5) % 5];
@@ -89,7 +89,7 @@ TEST_CASE("instruction sets clip to the same bits, and a pair to the same whatev
   for (const ContactShape& shape : shapes) REQUIRE(shape.is_small);
   const auto narrow = std::make_unique<Triangles[]>(8), wide = std::make_unique<Triangles[]>(8);
   const auto alone = std::make_unique<Triangles>();
-  Scatter scatter;
+  RandomNumbers scatter;
   int met = 0;
   for (int trial = 0; trial < 300; ++trial) {
     ClipTask task[8];
@@ -152,7 +152,7 @@ namespace {
 
 // Two bodies that rest on each other, cross at edges or meet at a corner, and then move.
 struct Walk {
-  explicit Walk(const ContactShape& a, const ContactShape& b, Scatter& scatter, int kind)
+  explicit Walk(const ContactShape& a, const ContactShape& b, RandomNumbers& scatter, int kind)
       : spin(scatter(1), scatter(1), scatter(1)), speed(scatter(1), scatter(1), scatter(1)) {
     const bool resting = kind % 3 == 0;
     turn = rotation(Vec3(scatter(resting ? 1e-6 : 2), scatter(resting ? 1e-6 : 2), scatter(2))).toRotationMatrix();
@@ -198,7 +198,7 @@ TEST_CASE("an overlap known by its corners is the one that clipping finds, and t
   for (const ContactShape& shape : shapes) REQUIRE(shape.is_small);
   const auto kept = std::make_unique<Triangles>(), anew = std::make_unique<Triangles>(), clipped = std::make_unique<Triangles>(),
              narrow = std::make_unique<Triangles>();
-  Scatter scatter;
+  RandomNumbers scatter;
   int met = 0, known_before = 0, without = 0;
   for (int trial = 0; trial < 600; ++trial) {
     const ContactShape &a = shapes[std::size_t(trial) % 4], &b = shapes[std::size_t(trial / 4) % 4];

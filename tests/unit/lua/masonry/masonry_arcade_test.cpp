@@ -183,7 +183,7 @@ TEST_CASE("the piers of an arcade stand on ground of any height", "[lua][masonry
   const Masonry m(on_ground("{ 1.1, 0, 2 }"));  // rounded to two courses, none, four
   CHECK(check(m.scene).empty());
   CHECK(m.joints.unjoined.empty());
-  CHECK(m.said.starts_with("1.0\t22\t0\t2 0.0\t22\t2\t3 2.0\t22\t0\t0"));
+  CHECK(m.said.starts_with("1.0\t22\t0\t3 0.0\t22\t3\t3 2.0\t22\t0\t0"));
   CHECK(Masonry(level).volume() - m.volume() == Approx((3.4 * 1 + 5 * 2) * 2).epsilon(1e-12));
   // The lowest course of each pier is fixed, and no other.
   std::map<double, double> base;  // height of its underside -> volume
