@@ -337,7 +337,7 @@ TEST_CASE("a sweep's figure has the labels it is given, and a file for each valu
   REQUIRE(study.sweep(common + "title = 'both' }", {"--force"}) == 0);  // the figures of before are gone
   CHECK(exists("results.svg"));
   CHECK_FALSE(exists("results_trouble_10.svg"));
-  CHECK_THAT(text_of(study.out() + "/results.svg"), Catch::Contains("h_m"));
+  CHECK_THAT(text_of(study.out() + "/results.svg"), Catch::Contains("h [m]"));
   CHECK(study.sweep(common + "split = 'truble' }", {"--force"}) == 2);
   CHECK_THAT(study.said, Catch::Contains("study.lua:1") && Catch::Contains("did you mean \"trouble\""));
 }
