@@ -126,6 +126,11 @@ std::string capacity_text(const PushSettings& push, const Json& metrics) {
                     limit["bonded"].is_object() ? fmt::format(" without bond; {} with it, as if ductile", bracket(limit["bonded"])) : "");
   }
   if (const std::string mechanism = capacity->value("mechanism_text", ""); !mechanism.empty()) text += "\nmechanism: " + mechanism;
+  std::string walls;
+  const Json by_wall = capacity->value("walls", Json::object());
+  for (const auto& [group, does] : by_wall.items())
+    walls += fmt::format("{}{}: {}", walls.empty() ? "" : "; ", group, does.get<std::string>());
+  if (!walls.empty()) text += "\nwalls: " + walls;
   return text + fmt::format("\n{:.0f} states in {:.0f} attempts, {:.3g} steps; mean unbalanced force {:.1e} of the applied one",
                             number("states"), number("attempts"), number("relaxation_steps"), number("unbalanced_relative"));
 }

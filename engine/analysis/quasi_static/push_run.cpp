@@ -68,6 +68,7 @@ class PushRun {
   bool gravity_alone_ = false;
   bool passed_peak_ = false;  // control by displacement: this step goes too far past the peak
   NamedMechanism mechanism_;
+  std::vector<WallMechanism> walls_;
   std::optional<LimitBeside> limit_;
   std::optional<Performance> performance_;
   RunOutcome out_;
@@ -260,7 +261,9 @@ void PushRun::fall() {
       });
   if (out_.metrics.status != "completed") return;
   collapse_.mechanism = mechanism_of(run_.model, run_.state.pose, so_far_.t);
-  mechanism_ = name_mechanism(run_.model, motions_of(run_.state.pose, run_.model.nblock), collapse_.mechanism, push_.direction);
+  const BlockMotions motions = motions_of(run_.state.pose, run_.model.nblock);
+  mechanism_ = name_mechanism(run_.model, motions, collapse_.mechanism, push_.direction);
+  walls_ = wall_mechanisms(run_.model, motions, collapse_.mechanism, push_.direction, group_);
   relaxation_->release(run_.state, fall_duration, scene_.analysis.frame_dt, [&](const Solver& solver, const Relaxed&) {
     frame(solver);
     return !collapse_.collapsed && !interrupted();
@@ -318,7 +321,7 @@ Metrics PushRun::metrics() {
   c.relaxation_steps = so_far_.steps;
   c.worst_unbalanced = so_far_.worst_unbalanced;
   c.limit = limit_;
-  c.mechanism = mechanism_.name, c.course = mechanism_.text;
+  c.mechanism = mechanism_.name, c.course = mechanism_.text, c.walls = walls_;
   c.performance = performance_;
   m.state_hash = state_hash(s);
   return m;

@@ -33,6 +33,8 @@ Json to_json(const Capacity& c) {
   json["gravity_alone"] = c.gravity_alone;
   json["mechanism"] = c.mechanism;
   json["mechanism_text"] = c.course;
+  json["walls"] = Json::object();
+  for (const auto& [group, does] : c.walls) json["walls"][group] = does;
   json["states"] = c.states;
   json["attempts"] = c.attempts;
   json["relaxation_steps"] = c.relaxation_steps;

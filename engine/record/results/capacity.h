@@ -2,6 +2,8 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/record/format/json.h"
 #include "engine/record/performance/performance.h"
@@ -34,11 +36,12 @@ struct LimitBeside {
 };
 
 struct Capacity {
-  std::string kind;               // tilt | pushover
-  CurvePoint peak;                // the state with the largest multiplier
-  std::optional<double> above;    // the least multiplier without equilibrium; none: none was met
-  bool gravity_alone = false;     // there is no equilibrium without the push
-  std::string mechanism, course;  // in a word, and in words
+  std::string kind;                                        // tilt | pushover
+  CurvePoint peak;                                         // the state with the largest multiplier
+  std::optional<double> above;                             // the least multiplier without equilibrium; none: none was met
+  bool gravity_alone = false;                              // there is no equilibrium without the push
+  std::string mechanism, course;                           // in a word, and in words
+  std::vector<std::pair<std::string, std::string>> walls;  // what each wall does, by group
   int states = 0, attempts = 0;
   double relaxation_steps = 0;
   std::optional<LimitBeside> limit;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 #include "engine/base/error.h"
 #include "engine/base/units.h"
@@ -13,6 +15,8 @@ constexpr double moves = 0.2;          // of the largest displacement
 constexpr double as_one = 0.25;        // residual of a rigid motion, over the motion: one body
 constexpr double without_turn = 0.15;  // share of the motion that comes from rotation: sliding
 constexpr double thin = 0.5;           // thickness over width of a wall
+constexpr double takes_part = 0.1;     // share of the mass of a wall that moves
+constexpr double level_crack = 0.45;   // rise over run of a crack that is not yet diagonal, and run over rise: 24 degrees
 
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -81,6 +85,69 @@ bool sinks(const Model& m, const BlockMotions& motions, const std::vector<int>& 
   return -mean.dot(up) > 0.7 * mean.norm() && std::any_of(m.laws.begin(), m.laws.end(), [](const PointLaw& law) { return law.crushes(); });
 }
 
+// Blocks that move by a share of the largest displacement.
+std::vector<int> moving_blocks(const Model& m, const BlockMotions& motions) {
+  double most = 0;
+  for (int b = 0; b < m.nblock; ++b)
+    if (m.kind[z(b)] == Kind::moving) most = std::max(most, motions.u[z(b)].norm());
+  std::vector<int> out;
+  for (int b = 0; b < m.nblock; ++b)
+    if (m.kind[z(b)] == Kind::moving && motions.u[z(b)].norm() > moves * most && most > 0) out.push_back(b);
+  return out;
+}
+
+double mass_of(const Model& m, const std::vector<int>& blocks) {
+  double sum = 0;
+  for (const int b : blocks) sum += m.mass[z(b)];
+  return sum;
+}
+
+// Whether some crack of a wall, joints that share blocks, climbs through bed and head joints both along and up.
+bool has_diagonal_crack(const Model& m, const Mechanism& joints, const std::vector<char>& inside, const Vec3& along, const Vec3& up) {
+  std::vector<MovedJoint> own;
+  for (const MovedJoint& moved : joints.moved) {
+    const Joint& joint = m.joint[z(moved.joint)];
+    if (inside[z(joint.a)] && inside[z(joint.b)]) own.push_back(moved);
+  }
+  // Joints with a block in common belong to one crack.
+  std::vector<std::size_t> crack(own.size());
+  std::iota(crack.begin(), crack.end(), std::size_t(0));
+  const auto root = [&](std::size_t i) {
+    while (crack[i] != i) i = crack[i];
+    return i;
+  };
+  std::map<int, std::size_t> of_block;
+  for (std::size_t i = 0; i < own.size(); ++i)
+    for (const int b : {m.joint[z(own[i].joint)].a, m.joint[z(own[i].joint)].b})
+      if (const auto [at, fresh] = of_block.emplace(b, i); !fresh) crack[root(i)] = root(at->second);
+  struct Extent {
+    double low[2] = {1e300, 1e300}, high[2] = {-1e300, -1e300};
+    int beds = 0, heads = 0;
+  };
+  std::map<std::size_t, Extent> extents;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    Extent& e = extents[root(i)];
+    const Joint& joint = m.joint[z(own[i].joint)];
+    const Vec3 at = m.rest[z(joint.a)] + joint.arm_a;
+    const double place[2] = {at.dot(along), at.dot(up)};
+    for (int k = 0; k < 2; ++k) e.low[k] = std::min(e.low[k], place[k]), e.high[k] = std::max(e.high[k], place[k]);
+    (std::fabs(joint.type->frame.col(2).dot(up)) > 0.7 ? e.beds : e.heads) += 1;
+  }
+  return std::any_of(extents.begin(), extents.end(), [](const auto& one) {
+    const Extent& e = one.second;
+    const double run = e.high[0] - e.low[0], rise = e.high[1] - e.low[1];
+    return e.beds > 1 && e.heads > 1 && rise > level_crack * run && run > level_crack * rise;
+  });
+}
+
+// Joints between the blocks of a wall and to its supports that slide, and that open as hinges.
+Cracks cracks_within(const Model& m, const Mechanism& joints, const std::vector<char>& inside, const Vec3& up) {
+  Mechanism own;
+  for (const MovedJoint& moved : joints.moved)
+    if (inside[z(m.joint[z(moved.joint)].a)] || inside[z(m.joint[z(moved.joint)].b)]) own.moved.push_back(moved);
+  return cracks_of(m, own, up);
+}
+
 }  // namespace
 
 BlockMotions motions_of(const BlockPoses& pose, int nblock) {
@@ -91,14 +158,12 @@ BlockMotions motions_of(const BlockPoses& pose, int nblock) {
 
 NamedMechanism name_mechanism(const Model& m, const BlockMotions& motions, const Mechanism& joints, const Vec3& push) {
   NamedMechanism out{"none", "", 0};
-  double most = 0, all = 0, moving = 0;
-  for (int b = 0; b < m.nblock; ++b)
-    if (m.kind[z(b)] == Kind::moving) most = std::max(most, motions.u[z(b)].norm()), all += m.mass[z(b)];
-  std::vector<int> blocks;
-  for (int b = 0; b < m.nblock; ++b)
-    if (m.kind[z(b)] == Kind::moving && motions.u[z(b)].norm() > moves * most && most > 0) blocks.push_back(b), moving += m.mass[z(b)];
+  const std::vector<int> blocks = moving_blocks(m, motions);
   if (blocks.empty()) return out;
-  out.moving_share = moving / all;
+  double all = 0;
+  for (int b = 0; b < m.nblock; ++b)
+    if (m.kind[z(b)] == Kind::moving) all += m.mass[z(b)];
+  out.moving_share = mass_of(m, blocks) / all;
   const Vec3 up = m.gravity.norm() > 0 ? Vec3(-m.gravity.normalized()) : Vec3::UnitZ();
   const RigidMotion body = rigid_motion(m, motions, blocks);
   const Cracks cracks = cracks_of(m, joints, up);
@@ -117,6 +182,49 @@ NamedMechanism name_mechanism(const Model& m, const BlockMotions& motions, const
   }
   out.text = fmt::format("{} of {:.0f} % of the mass: {} bed and {} head joints move, {} of them as hinges and {} by sliding", out.name,
                          100 * out.moving_share, cracks.beds, cracks.heads, cracks.hinges, cracks.slides);
+  return out;
+}
+
+std::vector<WallMechanism> wall_mechanisms(const Model& m, const BlockMotions& motions, const Mechanism& joints, const Vec3& push,
+                                           const std::vector<std::string>& group) {
+  const Vec3 up = m.gravity.norm() > 0 ? Vec3(-m.gravity.normalized()) : Vec3::UnitZ();
+  const Vec3 level = push - push.dot(up) * up;
+  if (level.norm() < 0.1) return {};
+  const Vec3 along = level.normalized(), across = up.cross(along);
+  struct Wall {
+    std::string name;
+    std::vector<int> blocks, moving;
+  };
+  std::vector<Wall> walls;
+  const std::vector<int> moving = moving_blocks(m, motions);
+  for (int b = 0; b < m.nblock; ++b) {
+    if (m.kind[z(b)] != Kind::moving || group[z(b)].empty()) continue;
+    auto at = std::find_if(walls.begin(), walls.end(), [&](const Wall& wall) { return wall.name == group[z(b)]; });
+    if (at == walls.end()) at = walls.insert(walls.end(), {group[z(b)], {}, {}});
+    at->blocks.push_back(b);
+    if (std::binary_search(moving.begin(), moving.end(), b)) at->moving.push_back(b);
+  }
+  std::vector<WallMechanism> out;
+  for (const Wall& wall : walls) {
+    const double thick = extent(m, wall.blocks, along), wide = extent(m, wall.blocks, across), high = extent(m, wall.blocks, up);
+    const bool facing = thick < thin * wide && thick < thin * high, in_line = wide < thin * thick && wide < thin * high;
+    if (wall.blocks.size() < 4 || !(facing || in_line) || mass_of(m, wall.moving) < takes_part * mass_of(m, wall.blocks)) continue;
+    std::vector<char> inside(z(m.nblock));
+    for (const int b : wall.blocks) inside[z(b)] = 1;
+    const RigidMotion body = rigid_motion(m, motions, wall.moving);
+    const Cracks cracks = cracks_within(m, joints, inside, up);
+    const bool as_body = body.residual < as_one, turns = body.turning >= without_turn;
+    if (facing) {
+      const bool over = std::fabs(body.turn.normalized().dot(across)) > 0.7;
+      out.emplace_back(wall.name, as_body && !turns ? "sliding" : as_body && over ? "overturning out of plane" : "bending out of plane");
+    } else {
+      out.emplace_back(wall.name, has_diagonal_crack(m, joints, inside, along, up) ? "diagonal cracks"
+                                  : as_body && !turns                              ? "sliding"
+                                  : as_body                                        ? "rocking in plane"
+                                  : cracks.slides > cracks.hinges                  ? "shear"
+                                                                                   : "hinges");
+    }
+  }
   return out;
 }
 

@@ -1,6 +1,7 @@
 // The mechanism of a collapse in a word, from how the blocks move: overturning, sliding, crushing, hinges, shear.
 #pragma once
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/record/results/mechanism.h"
@@ -28,5 +29,14 @@ struct NamedMechanism {
 //   hinges                 several bodies that turn against each other; joints open at edges
 //   shear                  several bodies that slide on each other: "shear along diagonal cracks" where bed and head joints take part
 NamedMechanism name_mechanism(const Model& model, const BlockMotions& motions, const Mechanism& joints, const Vec3& push);
+
+// What each wall does in it, by the groups of the blocks that are walls (half as thick as wide) and of which a tenth of the mass moves, in
+// the order of their first blocks:
+//   across the push   "overturning out of plane" as one body, "sliding", "bending out of plane" as several
+//   along the push    "diagonal cracks" where a crack climbs through bed and head joints at 24 to 66 degrees, "rocking in plane" as one
+//                     body, "shear" or "hinges" otherwise
+using WallMechanism = std::pair<std::string, std::string>;  // group, what it does
+std::vector<WallMechanism> wall_mechanisms(const Model& model, const BlockMotions& motions, const Mechanism& joints, const Vec3& push,
+                                           const std::vector<std::string>& group);
 
 }  // namespace erbs

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/record/plot/figure.h"
+#include "engine/study/fragility/falls.h"
 #include "engine/study/fragility/fragility.h"
 
 namespace erbs::study {
@@ -159,6 +160,7 @@ void draw_fragility(const Sweep& sweep, const std::vector<Group>& groups, const 
   for (const char* ending : {"svg", "png"}) {
     draw_probability(sweep, groups, found, ending);
     if (!sweep.plan.fragility->damage.empty()) draw_curves(sweep, groups, ending);
+    if (sweep.plan.fragility->falls) draw_falls(sweep, groups, ending);
   }
 }
 

@@ -5,6 +5,7 @@
 
 #include "engine/record/format/csv.h"
 #include "engine/record/format/json.h"
+#include "engine/study/fragility/falls.h"
 
 namespace erbs::study {
 namespace {
@@ -104,6 +105,7 @@ std::vector<Fragility> write_fragility(const Sweep& sweep, const std::vector<Gro
               rows);
   write_stripes(sweep, groups);
   write_fractiles(sweep, groups);
+  if (sweep.plan.fragility->falls) write_falls(sweep, groups);
   return out;
 }
 

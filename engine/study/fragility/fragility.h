@@ -15,12 +15,12 @@ struct Fragility {
   std::string words;  // "" or what to think of it
 };
 
-inline constexpr const char* fragility_files[] = {"fragility.csv", "stripes.csv", "fractiles.csv", "fragility.svg",
-                                                  "fragility.png", "ida.svg",     "ida.png"};
+inline constexpr const char* fragility_files[] = {"fragility.csv", "stripes.csv", "fractiles.csv", "fragility.svg", "fragility.png",
+                                                  "ida.svg",       "ida.png",     "falls.csv",     "falls.svg",     "falls.png"};
 
-// Writes fragility.csv, stripes.csv and, with a damage, fractiles.csv into the folder of the sweep.
+// Writes fragility.csv, stripes.csv and, where wanted, fractiles.csv and falls.csv into the folder of the sweep.
 std::vector<Fragility> write_fragility(const Sweep& sweep, const std::vector<Group>& groups);
-// Draws fragility.* and ida.*. Throws Error.
+// Draws fragility.*, ida.* and falls.*. Throws Error.
 void draw_fragility(const Sweep& sweep, const std::vector<Group>& groups, const std::vector<Fragility>& found);
 
 std::string unit_of_im(const Sweep& sweep);  // column name of the intensity with its unit

@@ -24,7 +24,7 @@ double number_of(const std::string& cell) {
 // Places of the columns of runs.csv.
 struct Columns {
   std::size_t im = 0, collapse = 0, status = 0;
-  std::vector<std::size_t> damage, by, of_case;
+  std::vector<std::size_t> damage, by, of_case, fall;
 };
 
 Columns columns_of(const Sweep& sweep) {
@@ -42,6 +42,8 @@ Columns columns_of(const Sweep& sweep) {
   out.im = place_of(wanted.im), out.collapse = place_of(wanted.collapse), out.status = first_key + plan.collect.size();
   for (const std::string& key : wanted.damage) out.damage.push_back(place_of(key));
   for (const std::string& name : wanted.by) out.by.push_back(place_of(name));
+  if (wanted.falls)
+    for (const char* key : fall_keys) out.fall.push_back(place_of(key));
   for (const std::string& name : params)
     if (name != wanted.along && std::find(wanted.by.begin(), wanted.by.end(), name) == wanted.by.end())
       out.of_case.push_back(place_of(name));
@@ -123,6 +125,8 @@ std::vector<Group> read_groups(const Sweep& sweep) {
     }
     Run run{im, wanted.above ? collapse > *wanted.above : collapse != 0, {}};
     for (const std::size_t i : at.damage) run.damage.push_back(number_of(cells[i]));
+    if (wanted.falls && run.collapsed)
+      run.time = number_of(cells[at.fall[0]]), run.direction = {number_of(cells[at.fall[1]]), number_of(cells[at.fall[2]])};
     cases[name].emplace(im, std::move(run));
   }
   std::vector<Group> out;

@@ -1,5 +1,7 @@
 // The runs of a study as observations of fragility: cases, their intensities, who collapses, how far the others are damaged.
 #pragma once
+#include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,9 @@ struct Run {
   double im = 0;
   bool collapsed = false;
   std::vector<double> damage;  // in the order of FragilityPlan::damage; NaN without a value
+  // Of a collapse, where the plan asks for falls: s, and the unit vector of its direction in plan. NaN without.
+  double time = std::nan("");
+  std::array<double, 2> direction = {std::nan(""), std::nan("")};
 };
 
 // Runs that differ in intensity alone, by rising intensity: a record, a draw of strengths, a perturbation.

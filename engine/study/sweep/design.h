@@ -1,5 +1,6 @@
 // What a sweep varies: the points of a study, each a value for every varied param of its scene. Plain data, as the study file says.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -86,7 +87,11 @@ struct FragilityPlan {
   std::vector<std::string> by;       // params that tell structures apart: one fragility for each combination
   std::string along;                 // the param that grows within a case; "": im, if it is one
   Place place;
+  bool falls = false;  // time and direction of the collapses are wanted
 };
+
+// The keys of metrics.json that falls takes: s, and the unit vector in plan.
+inline constexpr std::array fall_keys = {"collapse.time_s", "collapse.direction.0", "collapse.direction.1"};
 
 constexpr const char* perturbation = "perturbation";  // name of the axis of perturbations{}: seeds of a noise, and no param of the scene
 inline bool is_perturbation(const Axis& axis) { return axis.params == std::vector<std::string>{perturbation}; }

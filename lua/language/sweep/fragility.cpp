@@ -10,6 +10,7 @@ namespace {
 struct FragilityKeys {
   std::string im, collapse = "verdict", along;
   double above = 0;
+  bool falls = false;
 
   static Fields<FragilityKeys> fields() {
     return {{"im", &FragilityKeys::im, "",
@@ -18,7 +19,8 @@ struct FragilityKeys {
             {"collapse", &FragilityKeys::collapse, "", "what tells a collapse: the verdict of bisect, or a key of metrics.json, 1 or 0"},
             {"above", &FragilityKeys::above, "", "collapse is where that key lies above this number, instead"},
             {"along", &FragilityKeys::along, "",
-             "the param that grows within a case, where im is a key of metrics.json (default: im; without it each run is a case)"}};
+             "the param that grows within a case, where im is a key of metrics.json (default: im; without it each run is a case)"},
+            {"falls", &FragilityKeys::falls, "", "whether time and direction of the collapses are wanted: falls.csv, falls.svg"}};
   }
 };
 
@@ -36,7 +38,7 @@ void read_fragility(Arguments& table, study::Plan& plan) {
   FragilityKeys keys;
   table.read(keys);
   study::FragilityPlan out;
-  out.im = keys.im, out.collapse = keys.collapse, out.along = keys.along, out.place = table.place();
+  out.im = keys.im, out.collapse = keys.collapse, out.along = keys.along, out.falls = keys.falls, out.place = table.place();
   if (table.has("above")) out.above = keys.above;
   table.read("damage", out.damage);
   table.read("by", out.by);
@@ -60,6 +62,8 @@ void read_fragility(Arguments& table, study::Plan& plan) {
   if (!bisected && !is_varied(out.im)) collect(out.im);
   if (out.collapse != "verdict") collect(out.collapse);
   for (const std::string& key : out.damage) collect(key);
+  if (out.falls)
+    for (const char* key : study::fall_keys) collect(key);
   plan.fragility = std::move(out);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 
 #include "engine/analysis/quasi_static/push_run.h"
@@ -141,6 +142,43 @@ material{ name = "stone", density = 2000, kn = 1e11, ks = 4e10, friction = 3 }
 arch{ radius = 2, thickness = .4, width = .5, voussoirs = 9, embrace = 150*deg }
 joint{ law = dry{ kn = 1e11, ks = 4e10, mu = 3 } }
 analysis{ kind = "pushover", step = .05, bracket = .05 })") == "hinges");
+}
+
+TEST_CASE("a push tells what each wall does", "[push]") {
+  const auto walls = [](const std::string& text) {
+    const test::Scratch dir("push_walls");
+    const auto pairs = push(text, dir.path).metrics.capacity->walls;
+    return std::map<std::string, std::string>(pairs.begin(), pairs.end());
+  };
+  const auto room = [](const char* direction) {
+    return stone +
+           "building{ plan = {2.4, 3}, at = {-1.2, -1.5, 0}, brick = { length = .6, width = .3, height = .2 }, courses = 8, joint = 0, "
+           "material = 'stone', quiet = true } joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .6 } } analysis{ kind = 'pushover', step = "
+           ".02, bracket = .05, direction = '" +
+           direction + "' }";
+  };
+  // Along x the walls east and west stand across the push, along y those in the south and north.
+  auto found = walls(room("x"));
+  CHECK(found["wall_east"].find("out of plane") != std::string::npos);
+  CHECK(found["wall_south"] == "diagonal cracks");
+  found = walls(room("y"));
+  CHECK(found["wall_north"].find("out of plane") != std::string::npos);
+  CHECK(found["wall_east"] == "diagonal cracks");
+  // In its own plane a long dry wall of high friction cracks in steps; on a smooth foot it slides as one body.
+  const auto wall = [](const char* length, const char* mu, const char* direction) {
+    return stone + "wall{ brick = { length = .4, width = .2, height = .2 }, length = " + length +
+           ", courses = 6, joint = 0, at = {-.6, -.1, 0}, material = 'stone', quiet = true } joint{ law = dry{ kn = 1e10, ks = 4e9, mu = " +
+           mu +
+           " } } joint{ between = { 'wall', 'wall' }, law = dry{ kn = 1e10, ks = 4e9, mu = .7 } } "
+           "analysis{ kind = 'pushover', step = .02, bracket = .05, direction = '" +
+           direction + "' }";
+  };
+  CHECK(walls(wall("1.2", ".7", "x"))["wall"] == "diagonal cracks");
+  CHECK(walls(wall("2.4", ".2", "x"))["wall"] == "sliding");
+  CHECK(walls(wall("2.4", ".7", "y"))["wall"] == "overturning out of plane");
+  CHECK(walls(stone + "box{ name = 'b', size = {.4, .4, .5}, at = {-.2, -.2, 0} } joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .3 } } "
+                      "analysis{ kind = 'pushover', step = .05, bracket = .05 }")
+            .empty());  // no wall
 }
 
 TEST_CASE("a structure that does not stand has that as its verdict", "[push]") {

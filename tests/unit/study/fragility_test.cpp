@@ -5,6 +5,7 @@
 #include "engine/base/random.h"
 #include "engine/base/units.h"
 #include "engine/record/format/csv.h"
+#include "engine/study/fragility/falls.h"
 #include "engine/study/fragility/fragility.h"
 #include "tests/support/folder.h"
 
@@ -208,4 +209,27 @@ TEST_CASE("the tables of a study depend on its rows, not on their order", "[frag
   CHECK_THAT(first, Catch::Contains("theta_pga_m_s2") && Catch::Contains("collapse") && !Catch::Contains("nan"));
   std::reverse(rows.begin(), rows.end());
   CHECK(tables(rows) == first);
+}
+
+TEST_CASE("falls of a study: fractiles of the time, mean and concentration of the direction", "[fragility]") {
+  const auto run = [](double im, double time, double degrees) {
+    return Run{im, true, {}, time, {std::cos(degrees * pi / 180), std::sin(degrees * pi / 180)}};
+  };
+  Group group;
+  group.cases = {{"a", {run(1, 3, 30), run(2, 2, 0)}},
+                 {"b", {run(1, 1, -30), run(2, 4, 180)}},
+                 {"c", {run(1, 2, 60), Run{2, true, {}}}},  // no direction
+                 {"d", {run(1, 4, -60), Run{2, false, {}}}}};
+  const std::vector<Falls> falls = falls_of({group});
+  REQUIRE(falls.size() == 2);
+  CHECK(falls[0].runs == 4);
+  CHECK(falls[0].times == std::vector<double>{1, 2, 3, 4});
+  CHECK(falls[0].mean_direction() == Approx(0).margin(1e-12));
+  CHECK(falls[0].concentration() == Approx((std::cos(pi / 6) + std::cos(pi / 3)) / 2));
+  CHECK(quarters(falls[0]) == std::array<double, 4>{0.5, 0.25, 0, 0.25});
+  CHECK(falls[1].runs == 4);
+  CHECK(falls[1].times.size() == 2);
+  CHECK(falls[1].concentration() == Approx(0).margin(1e-12));
+  CHECK(std::isnan(Falls{}.mean_direction()));
+  CHECK(std::isnan(Falls{}.concentration()));
 }
