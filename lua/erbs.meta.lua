@@ -614,7 +614,7 @@ function camera(keys) end
 
 ---Declares a number, or a word such as the name of a record, that -D and studies may change.
 ---@param name string its name
----@param default number its value unless -D gives one; or a word: -D 'motion="b.AT2"'
+---@param default number its value unless -D gives one; or a word: -D motion=b.AT2
 ---@param text? string meaning or assumption, with the unit at the end: "density of brick, assumed [kg/m3]"
 ---@return number # the default, or the value of -D name=value
 function param(name, default, text) end

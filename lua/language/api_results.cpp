@@ -38,6 +38,7 @@ int word_param(Call& call) {
     if (given.name != item.name) continue;
     given.used = true;
     if (given.is_word) item.value = given.word;
+    else if (!given.trouble.empty()) item.value = given.expression;  // a word without quotes
     else if (given.valid) call.mistake(fmt::format("\"{0}\" takes a word, not a number; write -D '{0}=\"{1}\"'", item.name, item.value));
   }
   if (call.context.study.empty()) call.context.output.push_back(fmt::format("param {} = \"{}\"", item.name, item.value));
@@ -70,6 +71,7 @@ int param(Call& call) {
   for (Override& override_ : call.context.overrides)
     if (override_.name == item.name) {
       given = override_.valid && !override_.is_word;
+      if (!override_.trouble.empty()) call.context.mistakes.push_back(override_.trouble);
       if (given) item.value = override_.value;
       if (override_.is_word)
         call.context.mistake({}, fmt::format("-D {}={}: the value must be a finite number, such as 0.8*g, not the string \"{}\"", item.name,
@@ -213,7 +215,7 @@ std::vector<Function> result_functions() {
        "number: the default, or the value of -D name=value",
        "Declares a number, or a word such as the name of a record, that -D and studies may change.",
        {{"name", "string", "", "its name", -unbounded, unbounded, true},
-        {"default", "number", "", "its value unless -D gives one; or a word: -D 'motion=\"b.AT2\"'", -unbounded, unbounded, true},
+        {"default", "number", "", "its value unless -D gives one; or a word: -D motion=b.AT2", -unbounded, unbounded, true},
         {"text", "string", "", "meaning or assumption, with the unit at the end: \"density of brick, assumed [kg/m3]\""}}},
       {"metric",
        metric,

@@ -1,8 +1,10 @@
 #include "lua/language/script.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <lua5.4/lua.hpp>
@@ -57,6 +59,11 @@ void add_messages(std::vector<std::string>& mistakes, const std::string& message
   }
 }
 
+bool is_bare_word(const std::string& text) {
+  return !text.empty() && std::isalpha(static_cast<unsigned char>(text[0])) != 0 &&
+         std::ranges::all_of(text, [](unsigned char c) { return std::isalnum(c) != 0 || std::strchr("_.-+", c) != nullptr; });
+}
+
 void evaluate_overrides(lua_State* lua, Context& context) {
   for (Override& item : context.overrides) {
     const std::string name = "-D " + item.name + "=" + item.expression;
@@ -72,7 +79,9 @@ void evaluate_overrides(lua_State* lua, Context& context) {
       lua_pop(lua, 1);
     } catch (const Error& error) {
       const std::string message = error.what(), place = name + ":1:";  // an expression has one line
-      context.mistakes.push_back(message.starts_with(place) ? name + ":" + message.substr(place.size()) : message);
+      std::string said = message.starts_with(place) ? name + ":" + message.substr(place.size()) : message;
+      if (is_bare_word(item.expression)) item.trouble = std::move(said);  // none for a param that takes a word: -D trend=tension
+      else context.mistakes.push_back(std::move(said));
     }
   }
 }

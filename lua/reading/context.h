@@ -58,6 +58,7 @@ struct Override {
   bool is_word = false;   // the expression gave a word
   bool valid = false;     // the expression gave a value; otherwise a mistake is reported and the default holds
   bool used = false;
+  std::string trouble = {};  // of an expression that may be a word without quotes
 };
 
 // A recorder of a group. The blocks of the group are known only when the script has ended.

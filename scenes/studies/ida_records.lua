@@ -4,7 +4,7 @@
 --                its last standing and its first collapsed run; some records never bring the pier down below the highest level.
 -- Source         Vamvatsikos and Cornell 2002; Baker 2015 for the likelihoods.
 -- How to run     erbs sweep scenes/studies/ida_records.lua --allow ../shared/data/records/peer      (PEER records in a folder of yours)
---                -D im='"metrics.sa_t1"' takes the spectral acceleration of a rocking pier instead of the peak
+--                -D im=metrics.sa_t1 takes the spectral acceleration of a rocking pier instead of the peak
 -- What to look at  fragility.svg, ida.svg; fragility.csv, stripes.csv, fractiles.csv
 local im = param("im", "pga")
 study {
