@@ -78,8 +78,9 @@ int Contacts::level_of(double allowed, double dt, int most, int now) {
 }
 
 // s, least steady interval in each group of loose blocks that touch each other, for each of these blocks. Weight acts on a block together
-// with its pairs (`BlockLevels`): where pairs of a heap at rest have several levels, its blocks tremble and do not fall asleep. Pairs with
-// a stiff block keep a level of their own, and so does what strikes.
+// with its pairs (`BlockLevels`): where pairs of a heap at rest have several levels, its blocks tremble and do not fall asleep. Sleepers
+// count as if awake, so that a heap has the same level with sleep and without. Pairs with a stiff block keep a level of their own, and so
+// does what strikes.
 std::vector<double> Contacts::steady_dt_of_heaps() const {
   std::vector<int> group(z(model_.nblock));
   for (int b = 0; b < model_.nblock; ++b) group[z(b)] = b;
@@ -88,19 +89,24 @@ std::vector<double> Contacts::steady_dt_of_heaps() const {
     return b;
   };
   const auto loose = [&](int b) { return model_.kind[z(b)] == Kind::moving && !state_.topology.joined[z(b)]; };
-  for (const PairStep& of : pair_dt_) {
-    const ContactPair& pair = state_.contacts.list.pair[z(of.pair)];
-    if (!loose(pair.a) || !loose(pair.b)) continue;
+  const auto each_pair = [&](auto&& f) {
+    for (const PairStep& of : pair_dt_) f(state_.contacts.list.pair[z(of.pair)], of.steady);
+    sleep_.each_resting([&](int i, const PairResult& r) {
+      const ContactPair& pair = state_.contacts.list.pair[z(i)];
+      f(pair, bound_.steady_dt(pair.a, pair.b, r));
+    });
+  };
+  each_pair([&](const ContactPair& pair, double) {
+    if (!loose(pair.a) || !loose(pair.b)) return;
     const int a = root(pair.a), b = root(pair.b);
     group[z(std::max(a, b))] = std::min(a, b);
-  }
+  });
   std::vector<double> least(z(model_.nblock), std::numeric_limits<double>::infinity()), out = least;
-  for (const PairStep& of : pair_dt_) {
-    const ContactPair& pair = state_.contacts.list.pair[z(of.pair)];
-    if (state_.topology.joined[z(pair.a)] || state_.topology.joined[z(pair.b)]) continue;
+  each_pair([&](const ContactPair& pair, double steady) {
+    if (state_.topology.joined[z(pair.a)] || state_.topology.joined[z(pair.b)]) return;
     for (const int b : {pair.a, pair.b})
-      if (loose(b)) least[z(root(b))] = std::min(least[z(root(b))], of.steady);
-  }
+      if (loose(b)) least[z(root(b))] = std::min(least[z(root(b))], steady);
+  });
   for (int b = 0; b < model_.nblock; ++b)
     if (loose(b)) out[z(b)] = least[z(root(b))];
   return out;
@@ -141,6 +147,11 @@ int Contacts::choose_levels(double dt, int most) {
     forces_.set_next_level(pair, level);
     highest = std::max(highest, level);
   }
+  // Pairs at rest do not act. They have the level of their heap, for the macro step in which they wake.
+  sleep_.each_resting([&](int i, const PairResult&) {
+    const ContactPair& ends = state_.contacts.list.pair[z(i)];
+    forces_.rest_at_level(i, level_of(std::min(steady[z(ends.a)], steady[z(ends.b)]), dt, highest, forces_.level(i)));
+  });
   return highest;
 }
 

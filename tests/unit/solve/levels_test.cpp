@@ -1,10 +1,12 @@
 // Levels (model/levels.h): with several, contacts act at intervals of their own. Accounts stay exact, and bits do not depend on threads or
 // stops.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <optional>
 
 #include "engine/analysis/dynamic.h"
 #include "engine/model/levels.h"
+#include "engine/record/format/csv.h"
 #include "tests/support/small_wall.h"
 #include "tests/unit/record/two_bricks.h"
 
@@ -86,6 +88,28 @@ TEST_CASE("the ledger of bricks at rest closes beside a shorter interval", "[lev
       INFO("kn " << kn << ", levels " << levels);
       CHECK(m.status == "completed");
       CHECK(m.residual_relative < 2e-5);
+    }
+}
+
+// Samples lie at the start of macro steps. None is left out, however short the time between them.
+TEST_CASE("a macro step is no longer than the time between two rows", "[levels]") {
+  const double dt = 2e-5, duration = 0.01;
+  for (const int steps : {1, 2, 3, 7})
+    for (const int levels : {1, 4, 8}) {
+      const std::string text = fmt::format(R"(
+    material{{ name = "soft", density = 1800, friction = 0.6, kn = 1e7 }}
+    ground{{ size = 20, material = "soft" }}
+    for i = 0, 3 do box{{ name = "brick" .. i, free = true, size = {{0.3, 0.125, 0.1}}, center = {{i, 0, 0.05}} }} end
+    analysis{{ duration = {}, dt = {}, output_dt = {}, levels = {} }})",
+                                           duration, dt, steps * dt, levels);
+      const test::Scratch to("levels_rows");
+      run(text, to.path, Existing::refuse);
+      const std::vector<double> t = read_csv(to.path + "/energy.csv").column("t_s");
+      INFO(steps << " steps, " << levels << " levels");
+      const double due = std::ceil(duration / (steps * dt) - 1e-6) + 1;
+      CHECK(double(t.size()) <= due);
+      CHECK(double(t.size()) >= due - 1);  // the last two may fall on one step
+      for (std::size_t i = 1; i + 1 < t.size(); ++i) CHECK(t[i] - t[i - 1] < 1.51 * steps * dt);
     }
 }
 
