@@ -88,8 +88,8 @@ void print_row(const Row& r) {
     say("{:<26} without it: {}\n", r.without.effect, r.without.trouble);
     return;
   }
-  say("{:<26} {:9.4f} {:7.1f} {:7.1f} {:9.1f}  {:>10.3g}  {:<28} {}\n", r.without.effect, r.ns, r.percent, r.steps, r.bytes,
-      r.moved.second, r.moved.first, r.without.because);
+  say("{:<26} {:9.4f} {:7.1f} {:7.1f} {:9.1f}  {:>10.3g}  {:<28} {}\n", r.without.effect, r.ns, r.percent, r.steps, r.bytes, r.moved.second,
+      r.moved.first, r.without.because);
   std::fflush(stdout);
 }
 

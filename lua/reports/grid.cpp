@@ -29,7 +29,7 @@ constexpr int point_numbers[] = {4, 9, 25};         // per joint
 constexpr double noise = 1e-8;                      // m and rad
 constexpr double family_fractions[] = {0.25, 0.5, 0.9};
 constexpr int level_numbers[] = {2, 4};  // of contacts, each at the step and the points of the scene
-constexpr int draws = 100;  // draws of one combination until the scene accepts one
+constexpr int draws = 100;               // draws of one combination until the scene accepts one
 
 struct Variant {
   Case run;
