@@ -24,7 +24,7 @@ recorder { name = "slider", quantity = "displacement", block = "slider", axis = 
 recorder { name = "faller", quantity = "displacement", block = "faller", axis = "z" }
 gravity(g)
 analysis { duration = 0.35, start = "rest", levels = levels, output_dt = 1e-3, frame_dt = 0.1 }
-metric("slide", "m", function(run) return run.final "slider_ux_rel_m" end)
+metric("slide", "m", function(run) local x = run.history "slider_ux_rel_m" return x[#x] end)
 metric("rebound", "m", function(run)  -- height of the first bounce
   local z, low, high = run.history("faller_uz_rel_m"), math.huge, 0
   for i = 1, #z do

@@ -127,6 +127,8 @@ void ContactBound::find_stiff_blocks(const FormerJoints& former, const Sleep& sl
 
 double ContactBound::joints_dt() const {
   double stiff = 0, any = 0;
+  for (int b = 0; sleep_.has_resting() && b < model_.nblock; ++b)
+    if (sleep_.asleep(b)) any = std::max(any, limit_.on_block(b, omega2_[z(b)], 0));
   for (const int b : sleep_.in_live_pairs()) {
     if (model_.kind[z(b)] != Kind::moving) continue;
     any = std::max(any, limit_.on_block(b, omega2_[z(b)], 0));

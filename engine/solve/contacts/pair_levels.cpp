@@ -58,7 +58,7 @@ void Contacts::find_pair_steps() {
       note(allowed, allowed < 0.9 * bound_.steady_dt(one, pair) ? StepLimit::By::event : StepLimit::By::contacts, pair.a);
       const double inverse_mass = bodies_.block[z(pair.a)].inverse_mass + bodies_.block[z(pair.b)].inverse_mass;
       pair_dt_.push_back({one.pair, std::min(allowed, accurate_dt(one.pair)), bound_.steady_dt(one, pair),
-                          one.result.wrench.force.squaredNorm() * inverse_mass / 8});
+                          one.result.wrench.force.squaredNorm() * inverse_mass / 8, false});
     }
     // Separated pairs act in every step. They limit it once they may touch before the end of the next macro step, which is twice as long at
     // most. Pairs farther apart may wait (`MotionBounds::waits`), and must not count for that reason either.
@@ -68,6 +68,15 @@ void Contacts::find_pair_steps() {
       if (one.apart <= way) note(bound_.pair_dt(one, pair), StepLimit::By::impact, pair.a);
     }
   }
+  // Pairs at rest do not act, but count as if awake: with sleep and without the steps are the same, and what wakes has its level.
+  sleep_.each_resting([&](int i, const PairResult& r) {
+    const ContactPair& pair = state_.contacts.list.pair[z(i)];
+    const double allowed = bound_.steady_dt(pair.a, pair.b, r);
+    note(allowed, StepLimit::By::contacts, pair.a);
+    const double inverse_mass = bodies_.block[z(pair.a)].inverse_mass + bodies_.block[z(pair.b)].inverse_mass;
+    pair_dt_.push_back({i, allowed, allowed, r.wrench.force.squaredNorm() * inverse_mass / 8, true});
+  });
+  if (sleep_.has_resting()) std::ranges::sort(pair_dt_, {}, &PairStep::pair);
 }
 
 // A pair stays at its level while that is allowed, and rises with the margin of `Solver::next_dt`.
@@ -78,9 +87,8 @@ int Contacts::level_of(double allowed, double dt, int most, int now) {
 }
 
 // s, least steady interval in each group of loose blocks that touch each other, for each of these blocks. Weight acts on a block together
-// with its pairs (`BlockLevels`): where pairs of a heap at rest have several levels, its blocks tremble and do not fall asleep. Sleepers
-// count as if awake, so that a heap has the same level with sleep and without. Pairs with a stiff block keep a level of their own, and so
-// does what strikes.
+// with its pairs (`BlockLevels`): where pairs of a heap at rest have several levels, its blocks tremble and do not fall asleep. Pairs with
+// a stiff block keep a level of their own, and so does what strikes.
 std::vector<double> Contacts::steady_dt_of_heaps() const {
   std::vector<int> group(z(model_.nblock));
   for (int b = 0; b < model_.nblock; ++b) group[z(b)] = b;
@@ -89,24 +97,19 @@ std::vector<double> Contacts::steady_dt_of_heaps() const {
     return b;
   };
   const auto loose = [&](int b) { return model_.kind[z(b)] == Kind::moving && !state_.topology.joined[z(b)]; };
-  const auto each_pair = [&](auto&& f) {
-    for (const PairStep& of : pair_dt_) f(state_.contacts.list.pair[z(of.pair)], of.steady);
-    sleep_.each_resting([&](int i, const PairResult& r) {
-      const ContactPair& pair = state_.contacts.list.pair[z(i)];
-      f(pair, bound_.steady_dt(pair.a, pair.b, r));
-    });
-  };
-  each_pair([&](const ContactPair& pair, double) {
-    if (!loose(pair.a) || !loose(pair.b)) return;
+  for (const PairStep& of : pair_dt_) {
+    const ContactPair& pair = state_.contacts.list.pair[z(of.pair)];
+    if (!loose(pair.a) || !loose(pair.b)) continue;
     const int a = root(pair.a), b = root(pair.b);
     group[z(std::max(a, b))] = std::min(a, b);
-  });
+  }
   std::vector<double> least(z(model_.nblock), std::numeric_limits<double>::infinity()), out = least;
-  each_pair([&](const ContactPair& pair, double steady) {
-    if (state_.topology.joined[z(pair.a)] || state_.topology.joined[z(pair.b)]) return;
+  for (const PairStep& of : pair_dt_) {
+    const ContactPair& pair = state_.contacts.list.pair[z(of.pair)];
+    if (state_.topology.joined[z(pair.a)] || state_.topology.joined[z(pair.b)]) continue;
     for (const int b : {pair.a, pair.b})
-      if (loose(b)) least[z(root(b))] = std::min(least[z(root(b))], steady);
-  });
+      if (loose(b)) least[z(root(b))] = std::min(least[z(root(b))], of.steady);
+  }
   for (int b = 0; b < model_.nblock; ++b)
     if (loose(b)) out[z(b)] = least[z(root(b))];
   return out;
@@ -114,7 +117,8 @@ std::vector<double> Contacts::steady_dt_of_heaps() const {
 
 std::array<long, most_levels> Contacts::evaluations_by_level() const {
   std::array<long, most_levels> out{};
-  for (const PairStep& of : pair_dt_) out[z(forces_.level(of.pair))] += std::max(1, state_.time.substeps >> forces_.level(of.pair));
+  for (const PairStep& of : pair_dt_)
+    if (!of.rests) out[z(forces_.level(of.pair))] += std::max(1, state_.time.substeps >> forces_.level(of.pair));
   return out;
 }
 
@@ -144,14 +148,10 @@ int Contacts::choose_levels(double dt, int most) {
     const double before = (1 << now) * state_.time.dt, next = (1 << level) * dt, error = of.change * (next * next - before * before);
     if (level > now && most_error > 0 && errs + error > most_error) level = now;
     else if (level > now) errs += error;
-    forces_.set_next_level(pair, level);
+    if (of.rests) forces_.rest_at_level(pair, level);
+    else forces_.set_next_level(pair, level);
     highest = std::max(highest, level);
   }
-  // Pairs at rest do not act. They have the level of their heap, for the macro step in which they wake.
-  sleep_.each_resting([&](int i, const PairResult&) {
-    const ContactPair& ends = state_.contacts.list.pair[z(i)];
-    forces_.rest_at_level(i, level_of(std::min(steady[z(ends.a)], steady[z(ends.b)]), dt, highest, forces_.level(i)));
-  });
   return highest;
 }
 
