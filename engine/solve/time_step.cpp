@@ -13,7 +13,6 @@ namespace erbs {
 namespace {
 
 constexpr double trembling = 0.1;  // of the event rate of free fall; below it a body at rest only trembles under the thresholds of sleep
-constexpr int few_joints = 16;     // in a structure of more joints the first opening of one is no significant event
 std::size_t z(int i) { return std::size_t(i); }
 
 // Rounds dt down to a scale of 32 steps per octave. Differences in the last digits, as sleeping blocks cause them, then leave dt equal.
