@@ -34,7 +34,8 @@ struct OutputSchedule {
   JointEvents joints;
 
   SamplePlan next(const Analysis& how, const Needs& needs) const {
-    return {std::min(double(rows) * how.output_dt, double(frames) * how.frame_dt), how.duration, needs.block_wrench || needs.load_wrench};
+    return {std::min(double(rows) * how.output_dt, double(frames) * how.frame_dt), how.duration, needs.block_wrench || needs.load_wrench,
+            std::min(how.output_dt, how.frame_dt)};
   }
 };
 

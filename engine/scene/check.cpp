@@ -6,6 +6,7 @@
 
 #include "engine/base/spelling.h"
 #include "engine/laws/laws.h"
+#include "engine/scene/effects.h"
 #include "engine/scene/scene.h"
 
 namespace erbs {
@@ -181,13 +182,7 @@ void check_analysis(Report& report, const Scene& scene) {
     report.say(scene.damping.place, "damping: the sequential solver knows no dashpots of joints; use mass, or solver = \"leapfrog\"");
   if (analysis.solver == "sequential" && analysis.sleep)
     report.say(place, "analysis: the sequential solver lets no debris sleep; leave sleep out, or take solver = \"leapfrog\"");
-  // Each of these evaluates all joints in every step, in ways that know one interval only.
-  const char* one_level = analysis.solver == "sequential"                                ? "the sequential solver"
-                          : analysis.kernel == "reference"                               ? "kernel = \"reference\""
-                          : analysis.unstable                                            ? "a step beyond the limit"
-                          : scene.damping.stiffness > 0 || scene.damping.joint_ratio > 0 ? "damping of intact joints"
-                                                                                         : nullptr;
-  if (analysis.levels > 1 && one_level != nullptr)
+  if (const char* one_level = one_level_only(scene); analysis.levels > 1 && one_level != nullptr)
     report.say(place, "analysis: {} has one level only; leave levels out, or give levels = 1", one_level);
   if (!inside(scene.gravity, -1000, 1000)) report.say({scene.file, 0}, "gravity is out of range; allowed is 0 to 1000 m/s2");
 }

@@ -100,6 +100,7 @@ const Switch switches[] = {
        for (Material& m : s.materials) m.restitution = 1;
      }},
     {"sleep of debris", [](Scene& s) { s.analysis.sleep = false; }},
+    {"levels of contacts", [](Scene& s) { s.analysis.levels = 1; }},
     {"gyroscopic term", [](Scene& s) { s.analysis.gyroscopic = false; }},
     {"energy ledger", [](Scene& s) { s.analysis.ledger = false; }},
     {"recorders", [](Scene& s) { s.recorders.clear(); }},
@@ -112,6 +113,13 @@ void switch_off(Scene& scene, const std::string& name) {
     if (name == item.name) return item.off(scene);
   if (switch_off_in_laws(scene, name)) return;
   throw Error("there is no effect \"" + name + "\"; erbs check lists those of a scene");
+}
+
+const char* one_level_only(const Scene& scene) {
+  if (scene.analysis.solver == "sequential") return "the sequential solver";
+  if (scene.analysis.kernel == "reference") return "kernel = \"reference\"";
+  if (scene.analysis.unstable) return "a step beyond the limit";
+  return scene.damping.stiffness > 0 || scene.damping.joint_ratio > 0 ? "damping of intact joints" : nullptr;
 }
 
 std::vector<Effect> effects_of(const Scene& scene) {
@@ -140,6 +148,8 @@ std::vector<Effect> effects_of(const Scene& scene) {
   out.push_back(effect("contact dashpots", debris != nullptr ? dissipating(scene) : nullptr));
   const bool sleeps = scene.analysis.sleep && debris != nullptr && !sweeps && scene.gravity.norm() > 0;
   out.push_back(effect("sleep of debris", sleeps ? &scene.analysis.place : nullptr));
+  const bool levels = scene.analysis.levels > 1 && debris != nullptr;
+  out.push_back(effect("levels of contacts", levels ? &scene.analysis.place : nullptr));
   out.push_back({"gyroscopic term", scene.analysis.gyroscopic, scene.analysis.gyroscopic ? "by default" : ""});
   out.push_back({"energy ledger", true, "every run"});
   out.push_back(effect("recorders", scene.recorders.empty() ? nullptr : &scene.recorders.front().place));

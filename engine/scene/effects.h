@@ -18,4 +18,7 @@ std::vector<Effect> effects_of(const Scene& scene);
 // Removes an effect from the scene, to measure its cost and its influence. Throws Error for an unknown name.
 void switch_off(Scene& scene, const std::string& name);
 
+// What in the scene evaluates all joints in every step, so that contacts have one level only (`Analysis::levels`); null: nothing.
+const char* one_level_only(const Scene& scene);
+
 }  // namespace erbs

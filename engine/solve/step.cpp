@@ -235,7 +235,7 @@ void Solver::close_step(const SamplePlan& plan) {
   s.time.since_joints = (joints_act(s.time) ? 0 : s.time.since_joints) + s.time.dt;
   if (at_macro_step(s.time)) {
     judge_step();
-    plan_macro_step(plan.end);
+    plan_macro_step(plan);
     if (profile_.measured()) {
       profile_.note(limit(), macro_dt(s.time));
       if (has_contacts_ && may_have_levels_) profile_.note_levels(contacts_.evaluations_by_level());

@@ -25,6 +25,7 @@ namespace erbs {
 struct SamplePlan {
   double next = std::numeric_limits<double>::infinity(), end = next;  // s
   bool wrenches = false;                                              // a sample has the wrenches on blocks
+  double every = std::numeric_limits<double>::infinity();             // s, between two samples; a macro step is no longer
 
   bool due(double t, double dt) const { return t + 1e-9 * dt >= next || t >= end - 0.5 * dt; }
 };
@@ -88,7 +89,7 @@ class Solver {
   void apply_prescribed_motions();
   void check_momentum();
   // time_step.cpp
-  void plan_macro_step(double end);
+  void plan_macro_step(const SamplePlan& plan);
   double next_dt(double dt_now, bool levels = false);
   void set_dt(double dt);
   void lap(Phase phase);

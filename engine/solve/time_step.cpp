@@ -13,7 +13,6 @@ namespace erbs {
 namespace {
 
 constexpr double trembling = 0.1;  // of the event rate of free fall; below it a body at rest only trembles under the thresholds of sleep
-constexpr int few_joints = 16;     // in a structure of more joints the first opening of one is no significant event
 std::size_t z(int i) { return std::size_t(i); }
 
 // Rounds dt down to a scale of 32 steps per octave. Differences in the last digits, as sleeping blocks cause them, then leave dt equal.
@@ -73,7 +72,7 @@ void Solver::set_dt(double dt) {
 // pair asks for. All intervals thus stay as they are while the step varies: a change of an interval errs as a change of dt does
 // (`may_grow`). The step becomes shorter at once. It grows once no pair has asked for it for some steps, since a face that is about to land
 // asks in some steps only, and not once it touches. Nor may its pairs err by more than events may.
-void Solver::plan_macro_step(double end) {
+void Solver::plan_macro_step(const SamplePlan& plan) {
   constexpr int quiet_steps = 64;  // before the step grows
   TimeStep& time = state_.time;
   if (may_have_levels_ && relisted_ && time.joints_dt > 0) {  // nothing is known about the new pairs
@@ -104,7 +103,9 @@ void Solver::plan_macro_step(double end) {
     dt /= 1 << (last_level - time.next_joint_level);
     time.next_joint_level = last_level;
   }
-  const double left = end - (time.t + (time.substeps - 1) * time.dt), macro = std::min(left, 2 * macro_dt(time));
+  // Samples are taken at the start of macro steps: none is left out, and the last one is at the end.
+  const double left = plan.end - (time.t + (time.substeps - 1) * time.dt),
+               macro = std::min({left, 2 * macro_dt(time), plan.every * (1 + 1e-9)});
   int most = highest;
   while (most > time.next_joint_level && (1 << most) * dt > macro) --most;
   time.next_dt = dt;

@@ -77,7 +77,9 @@ std::pair<std::string, double> moved(const Measured& all, const Measured& withou
 
 struct Row {
   Measured without;
-  double ns, percent, bytes;
+  double ns, percent;  // per step
+  double steps;        // %, of the steps of the run; negative: without the effect the run takes more
+  double bytes;
   std::pair<std::string, double> moved;
 };
 
@@ -86,16 +88,16 @@ void print_row(const Row& r) {
     say("{:<26} without it: {}\n", r.without.effect, r.without.trouble);
     return;
   }
-  say("{:<26} {:9.4f} {:7.1f} {:9.1f}  {:>10.3g}  {:<28} {}\n", r.without.effect, r.ns, r.percent, r.bytes, r.moved.second, r.moved.first,
-      r.without.because);
+  say("{:<26} {:9.4f} {:7.1f} {:7.1f} {:9.1f}  {:>10.3g}  {:<28} {}\n", r.without.effect, r.ns, r.percent, r.steps, r.bytes, r.moved.second,
+      r.moved.first, r.without.because);
   std::fflush(stdout);
 }
 
 void write_table(const std::vector<Row>& rows, const std::string& path) {
-  CsvWriter table(path, {"effect", "called_for_by", "ns_per_point_step", "percent", "bytes_per_point", "moves", "metric"});
+  CsvWriter table(path, {"effect", "called_for_by", "ns_per_point_step", "percent", "steps_percent", "bytes_per_point", "moves", "metric"});
   for (const Row& r : rows)
-    table.text_row({r.without.effect, r.without.because, fmt::format("{}", r.ns), fmt::format("{}", r.percent), fmt::format("{}", r.bytes),
-                    fmt::format("{}", r.moved.second), r.moved.first});
+    table.text_row({r.without.effect, r.without.because, fmt::format("{}", r.ns), fmt::format("{}", r.percent), fmt::format("{}", r.steps),
+                    fmt::format("{}", r.bytes), fmt::format("{}", r.moved.second), r.moved.first});
   table.flush();
 }
 
@@ -138,16 +140,18 @@ int verb_effects(const TimingCommand& command) {
   const double updates = std::max(1.0, all.points) * all.steps;
   say("{}: {:.3g} s of one core, {:g} steps, {:g} points: {:.4f} ns per point and step, {:.1f} bytes per point\n\n", scene.name, all.cpu,
       all.steps, all.points, 1e9 * all.cpu / updates, all.memory / std::max(1.0, all.points));
-  say("{:<26} {:>9} {:>7} {:>9}  {:>10}  {:<28} {}\n", "effect", "ns/point", "%", "B/point", "moves", "metric", "called for by");
+  say("{:<26} {:>9} {:>7} {:>7} {:>9}  {:>10}  {:<28} {}\n", "effect", "ns/point", "%", "steps %", "B/point", "moves", "metric",
+      "called for by");
   std::vector<Row> rows;
   for (const Effect& effect : effects_of(scene)) {
     if (!effect.on) continue;
-    Row row{run_without(path, command.scene, directory, effect.name), 0, 0, 0, {}};
+    Row row{run_without(path, command.scene, directory, effect.name), 0, 0, 0, 0, {}};
     row.without.because = effect.because;
     // per step: without an effect a run may end earlier or take other steps
     const double each = all.cpu / all.steps, now = row.without.cpu / std::max(1.0, row.without.steps);
     row.ns = 1e9 * (each - now) / std::max(1.0, all.points);
     row.percent = 100 * (each - now) / each;
+    row.steps = 100 * (all.steps - row.without.steps) / all.steps;
     row.bytes = (all.memory - row.without.memory) / std::max(1.0, all.points);
     row.moved = moved(all, row.without);
     print_row(row);

@@ -11,6 +11,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/system/process.h"
 #include "engine/record/folder/manifest.h"
+#include "engine/scene/effects.h"
 #include "lua/program/progress.h"
 #include "lua/program/say.h"
 #include "lua/reading/family.h"
@@ -27,7 +28,8 @@ constexpr double dt_fractions[] = {0.2, 0.5, 0.9};  // of dt_critical
 constexpr int point_numbers[] = {4, 9, 25};         // per joint
 constexpr double noise = 1e-8;                      // m and rad
 constexpr double family_fractions[] = {0.25, 0.5, 0.9};
-constexpr int draws = 100;  // draws of one combination until the scene accepts one
+constexpr int level_numbers[] = {2, 4};  // of contacts, each at the step and the points of the scene
+constexpr int draws = 100;               // draws of one combination until the scene accepts one
 
 struct Variant {
   Case run;
@@ -100,6 +102,17 @@ std::vector<Variant> family_of(const Case& scene, const SceneOptions& options, P
   return all;
 }
 
+// Contacts at levels of their own, where the scene has contacts and may have levels. One that names them keeps its own.
+void add_levels(std::vector<Variant>& all, const Case& scene, const Scene& s, const ParamFamily& family, const std::string& key) {
+  const std::vector<Effect> effects = effects_of(s);
+  const bool debris = s.analysis.debris && std::ranges::any_of(effects, [](const Effect& e) { return e.on && e.name == "debris contact"; });
+  const bool own = s.analysis.levels > 1 || std::ranges::any_of(family.values, [](const auto& list) { return list.first == "levels"; });
+  if (!debris || own || s.push.quasi_static() || one_level_only(s) != nullptr) return;
+  for (const int levels : level_numbers)
+    all.push_back(variant_of(scene, key, fmt::format("_levels{}", levels), fmt::format("{} levels", levels),
+                             {"--noise", fmt::format("{:g}", noise), "--set", fmt::format("levels={}", levels)}));
+}
+
 std::string key_of(const Script& script, const Overrides& overrides) {
   std::string key = program_version();
   for (const auto& [name, value] : overrides) key += "\n" + name + "=" + value;
@@ -123,13 +136,19 @@ std::vector<Variant> variants_of(const Case& scene, const SceneOptions& options)
   const Overrides& overrides = options.overrides;
   bool fixed_dt = false, joints = true;
   std::string key = program_version();
+  std::vector<Variant> levels;
   try {
     Script script(script_options(options, true));
     const Scene& s = script.load(scene.scene, overrides);
     key = key_of(script, overrides);
     fixed_dt = std::find(s.labels.begin(), s.labels.end(), "fixed_dt") != s.labels.end();
     joints = std::any_of(s.joint_rules.begin(), s.joint_rules.end(), [](const JointRule& rule) { return !rule.none; });
-    if (!script.family().values.empty()) return family_of(scene, options, script.family(), key, fixed_dt);
+    add_levels(levels, scene, s, script.family(), key);
+    if (!script.family().values.empty()) {
+      std::vector<Variant> all = family_of(scene, options, script.family(), key, fixed_dt);
+      all.insert(all.end(), levels.begin(), levels.end());
+      return all;
+    }
   } catch (const std::exception&) {}  // its run reports the mistake
   std::vector<Variant> all;
   for (size_t i = 0; i < (fixed_dt ? 1 : std::size(dt_fractions)); ++i)
@@ -146,6 +165,7 @@ std::vector<Variant> variants_of(const Case& scene, const SceneOptions& options)
       }
       all.push_back(variant_of(scene, key, stem, words, std::move(extra)));
     }
+  all.insert(all.end(), levels.begin(), levels.end());
   return all;
 }
 
@@ -263,7 +283,7 @@ void write_page(const Grid& grid, const TestCommand& command, double wall) {
       "0.2, 0.5 and 0.9 of the limit of the time step, with 4, 9 and 25 contact points per joint. Noise of {:g} (m, rad) in the initial "
       "state of every free block reveals instabilities that exact symmetry would hide. A scene with a fixed step keeps it; a scene without "
       "joints has no points to vary. A scene with a family runs at 0.25, 0.5 and 0.9 of the limit, and at its default step with each value "
-      "of the family and some combinations. "
+      "of the family and some combinations. Scenes with contacts run with 2 and 4 time levels too, unless they cannot have any. "
       "Each row is the worst value of one invariant over these runs.\n\n**{}**\n\n",
       fmt::join(command.words, " "), fs::proximate(command.book).generic_string(), duration_text(grid.cpu),
       wall > 0 ? fmt::format(", {} of wall-clock time", duration_text(wall)) : "", program_version(), noise, summary_of(grid));

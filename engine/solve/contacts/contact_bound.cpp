@@ -109,8 +109,11 @@ void ContactBound::bound_elsewhere() {
   std::vector<std::uint8_t> here(z(model_.nblock), 0);
   for (const int b : sleep_.in_live_pairs()) here[z(b)] = 1;
   elsewhere_ = 0;
-  for (int b = 0; b < model_.nblock; ++b)
-    if (!here[z(b)] && model_.kind[z(b)] == Kind::moving) elsewhere_ = std::max(elsewhere_, limit_.on_block(b, sleep_.omega2(b), 0));
+  for (int b = 0; b < model_.nblock; ++b) {
+    if (here[z(b)]) continue;
+    omega2_[z(b)] = sleep_.omega2(b), impact_omega2_[z(b)] = 0;
+    if (model_.kind[z(b)] == Kind::moving) elsewhere_ = std::max(elsewhere_, limit_.on_block(b, sleep_.omega2(b), 0));
+  }
 }
 
 void ContactBound::find_stiff_blocks(const FormerJoints& former, const Sleep& sleep) {
@@ -124,6 +127,8 @@ void ContactBound::find_stiff_blocks(const FormerJoints& former, const Sleep& sl
 
 double ContactBound::joints_dt() const {
   double stiff = 0, any = 0;
+  for (int b = 0; sleep_.has_resting() && b < model_.nblock; ++b)
+    if (sleep_.asleep(b)) any = std::max(any, limit_.on_block(b, omega2_[z(b)], 0));
   for (const int b : sleep_.in_live_pairs()) {
     if (model_.kind[z(b)] != Kind::moving) continue;
     any = std::max(any, limit_.on_block(b, omega2_[z(b)], 0));

@@ -47,6 +47,7 @@ class ContactBound {
   double steady_dt(const ContactForces::Force& force, const MotionBounds::PairBound& pair) const {
     return pair_dt(pair, force.result.slip_omega2, 0, -1);
   }
+  double steady_dt(int a, int b, const PairResult& at_rest) const { return pair_dt({a, b}, at_rest.slip_omega2, 0, -1); }
   bool on_stiff_block(const MotionBounds::PairBound& pair) const { return stiff_[std::size_t(pair.a)] || stiff_[std::size_t(pair.b)]; }
   static double limited_by_slip(const ContactForces::Force& force);  // s; infinite if the patch does not slip
   double pair_dt(const ContactForces::SeparatedPair& one, const MotionBounds::PairBound& pair) const {

@@ -44,6 +44,10 @@ class ContactForces {
   void set_next_level(int i, int level) {
     state_.contacts.list.pair[std::size_t(i)].next_level = next_level_[std::size_t(i)] = std::uint8_t(level);
   }
+  void rest_at_level(int i, int level) {  // a pair between sleepers
+    set_next_level(i, level);
+    state_.contacts.list.pair[std::size_t(i)].level = level_[std::size_t(i)] = std::uint8_t(level);
+  }
   void balance_threads();  // for the next step
   std::span<const ThreadPairs> results() const { return thread_pairs_; }
   const ContactSettings& settings() const { return settings_; }

@@ -106,6 +106,7 @@ class Contacts {
   struct PairStep {
     int pair;
     double allowed, steady, change;  // s; s, without events; J/s2
+    bool rests;                      // between sleepers
   };
   std::vector<PairStep> pair_dt_;
   double least_pair_dt_ = 0, joints_dt_ = 0;

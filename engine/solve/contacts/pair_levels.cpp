@@ -58,7 +58,7 @@ void Contacts::find_pair_steps() {
       note(allowed, allowed < 0.9 * bound_.steady_dt(one, pair) ? StepLimit::By::event : StepLimit::By::contacts, pair.a);
       const double inverse_mass = bodies_.block[z(pair.a)].inverse_mass + bodies_.block[z(pair.b)].inverse_mass;
       pair_dt_.push_back({one.pair, std::min(allowed, accurate_dt(one.pair)), bound_.steady_dt(one, pair),
-                          one.result.wrench.force.squaredNorm() * inverse_mass / 8});
+                          one.result.wrench.force.squaredNorm() * inverse_mass / 8, false});
     }
     // Separated pairs act in every step. They limit it once they may touch before the end of the next macro step, which is twice as long at
     // most. Pairs farther apart may wait (`MotionBounds::waits`), and must not count for that reason either.
@@ -68,6 +68,15 @@ void Contacts::find_pair_steps() {
       if (one.apart <= way) note(bound_.pair_dt(one, pair), StepLimit::By::impact, pair.a);
     }
   }
+  // Pairs at rest do not act, but count as if awake: with sleep and without the steps are the same, and what wakes has its level.
+  sleep_.each_resting([&](int i, const PairResult& r) {
+    const ContactPair& pair = state_.contacts.list.pair[z(i)];
+    const double allowed = bound_.steady_dt(pair.a, pair.b, r);
+    note(allowed, StepLimit::By::contacts, pair.a);
+    const double inverse_mass = bodies_.block[z(pair.a)].inverse_mass + bodies_.block[z(pair.b)].inverse_mass;
+    pair_dt_.push_back({i, allowed, allowed, r.wrench.force.squaredNorm() * inverse_mass / 8, true});
+  });
+  if (sleep_.has_resting()) std::ranges::sort(pair_dt_, {}, &PairStep::pair);
 }
 
 // A pair stays at its level while that is allowed, and rises with the margin of `Solver::next_dt`.
@@ -108,7 +117,8 @@ std::vector<double> Contacts::steady_dt_of_heaps() const {
 
 std::array<long, most_levels> Contacts::evaluations_by_level() const {
   std::array<long, most_levels> out{};
-  for (const PairStep& of : pair_dt_) out[z(forces_.level(of.pair))] += std::max(1, state_.time.substeps >> forces_.level(of.pair));
+  for (const PairStep& of : pair_dt_)
+    if (!of.rests) out[z(forces_.level(of.pair))] += std::max(1, state_.time.substeps >> forces_.level(of.pair));
   return out;
 }
 
@@ -138,7 +148,8 @@ int Contacts::choose_levels(double dt, int most) {
     const double before = (1 << now) * state_.time.dt, next = (1 << level) * dt, error = of.change * (next * next - before * before);
     if (level > now && most_error > 0 && errs + error > most_error) level = now;
     else if (level > now) errs += error;
-    forces_.set_next_level(pair, level);
+    if (of.rests) forces_.rest_at_level(pair, level);
+    else forces_.set_next_level(pair, level);
     highest = std::max(highest, level);
   }
   return highest;

@@ -66,3 +66,20 @@ TEST_CASE("a block alone calls for no contact, a rule of none for no joint", "[s
   CHECK(why(scene, "debris contact").empty());
   CHECK(why(scene, "contact dashpots").empty());
 }
+
+TEST_CASE("contacts have levels where the scene gives them and its solver knows them", "[scene][levels]") {
+  const std::string two = "box{ name = 'c', size = {1, 1, 1}, at = {5, 0, 0}, free = true }\n";
+  CHECK(why(scene_of(two), "levels of contacts").empty());
+  Scene scene = scene_of(two + "analysis{ duration = 1, levels = 4 }\n");
+  CHECK(why(scene, "levels of contacts") == Place{scene.file, 7}.text());
+  CHECK(one_level_only(scene) == nullptr);
+  Scene without = scene;
+  switch_off(without, "levels of contacts");
+  CHECK(without.analysis.levels == 1);
+  CHECK(why(without, "levels of contacts").empty());
+  for (const char* one : {"analysis{ duration = 1, solver = 'sequential' }", "analysis{ duration = 1, kernel = 'reference' }",
+                          "damping{ joint_ratio = .02, at = 10 }"}) {
+    INFO(one);
+    CHECK(one_level_only(scene_of(two + one)) != nullptr);
+  }
+}

@@ -1,10 +1,12 @@
 // Levels (model/levels.h): with several, contacts act at intervals of their own. Accounts stay exact, and bits do not depend on threads or
 // stops.
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <optional>
 
 #include "engine/analysis/dynamic.h"
 #include "engine/model/levels.h"
+#include "engine/record/format/csv.h"
 #include "tests/support/small_wall.h"
 #include "tests/unit/record/two_bricks.h"
 
@@ -87,6 +89,63 @@ TEST_CASE("the ledger of bricks at rest closes beside a shorter interval", "[lev
       CHECK(m.status == "completed");
       CHECK(m.residual_relative < 2e-5);
     }
+}
+
+// Samples lie at the start of macro steps. None is left out, however short the time between them.
+TEST_CASE("a macro step is no longer than the time between two rows", "[levels]") {
+  const double dt = 2e-5, duration = 0.01;
+  for (const int steps : {1, 2, 3, 7})
+    for (const int levels : {1, 4, 8}) {
+      const std::string text = fmt::format(R"(
+    material{{ name = "soft", density = 1800, friction = 0.6, kn = 1e7 }}
+    ground{{ size = 20, material = "soft" }}
+    for i = 0, 3 do box{{ name = "brick" .. i, free = true, size = {{0.3, 0.125, 0.1}}, center = {{i, 0, 0.05}} }} end
+    analysis{{ duration = {}, dt = {}, output_dt = {}, levels = {} }})",
+                                           duration, dt, steps * dt, levels);
+      const test::Scratch to("levels_rows");
+      run(text, to.path, Existing::refuse);
+      const std::vector<double> t = read_csv(to.path + "/energy.csv").column("time_s");
+      INFO(steps << " steps, " << levels << " levels");
+      const double due = std::ceil(duration / (steps * dt) - 1e-6) + 1;
+      CHECK(double(t.size()) <= due);
+      CHECK(double(t.size()) >= due - 1);  // the last two may fall on one step
+      for (std::size_t i = 1; i + 1 < t.size(); ++i) CHECK(t[i] - t[i - 1] < 1.51 * steps * dt);
+    }
+}
+
+// Between two kicks of a slow spring, once in an interval H, a fast mode of frequency w turns by the angle w H. The map of both together has
+// the trace 2 cos(w H) - (w H / r) sin(w H), r the ratio of the stiffnesses, and grows where its magnitude exceeds 2 (Biesiadecki and Skeel
+// 1993; Fong, Darve and Lew 2008): just below each multiple of pi, in a band of width pi / r. Intervals up to w H = 1 are far below.
+TEST_CASE("resonance of a slow spring with a fast mode lies beyond the intervals of levels", "[levels]") {
+  const auto trace = [](double angle, double ratio) { return 2 * std::cos(angle) - angle / ratio * std::sin(angle); };
+  for (double ratio = 1; ratio < 2e6; ratio *= 10) {
+    INFO("ratio " << ratio);
+    for (double angle = 0.01; angle <= 1; angle += 0.01) CHECK(std::fabs(trace(angle, ratio)) < 2);
+    const double pi = std::acos(-1.0);
+    CHECK(std::fabs(trace(pi - 0.5 / std::max(1.0, ratio), ratio)) > 2);
+    if (ratio >= 100) CHECK(std::fabs(trace(pi - 4 / ratio, ratio)) < 2);  // below the band
+  }
+}
+
+// Two springs on one mass: a bonded bed above, and below soft ground, whose contact alone would bear an interval of up to a thousand steps.
+TEST_CASE("a soft contact on a block with a stiff joint acts as often as the joint", "[levels]") {
+  for (const double ratio : {1.0, 1e2, 1e4, 1e6}) {
+    const std::string text = fmt::format(R"(
+    local soft, ratio = 1e7, {}
+    material{{ name = "brick", density = 1800, friction = 0.6, kn = soft }}
+    ground{{ size = 20, material = "brick" }}
+    box{{ name = "anvil", size = {{0.3, 0.125, 0.1}}, center = {{0, 0, 0.15}}, fixed = true }}
+    box{{ name = "brick", size = {{0.3, 0.125, 0.1}}, center = {{0, 0, 0.05}} }}
+    box{{ name = "free", size = {{0.3, 0.125, 0.1}}, center = {{1, 0, 0.05}}, free = true }}
+    joint{{ law = mortar{{ kn = ratio * soft, ks = 0.4 * ratio * soft, ft = 1e7, c = 1e7, mu = 0.6 }}, between = {{"anvil", "brick"}} }}
+    analysis{{ duration = 0.2, start = "rest", levels = 8 }})",
+                                         ratio);
+    const test::Scratch to("levels_two_springs");
+    const Metrics m = run(text, to.path, Existing::refuse);
+    INFO("ratio " << ratio);
+    CHECK(m.status == "completed");
+    CHECK(m.residual_relative < 1e-5);
+  }
 }
 
 TEST_CASE("a run with levels has the same bits for any number of threads, and when it was stopped within macro steps", "[levels][resume]") {

@@ -90,12 +90,15 @@ metric("points", "", function(run) return run.contact_points end)
   const std::vector<std::string> words = {"test", at("stack.lua"), at("fixed.lua"), at("limited.lua"), "--grid",
                                           "-o",   bench.out(),     "--book",        at("grid.md")};
   CHECK(bench.erbs(words) == 4);
-  CHECK(contains(bench.said, "19 runs"));  // 9, 1 and 9
-  CHECK(contains(bench.said, "3 runs refused"));
+  INFO(bench.said);
+  CHECK(contains(bench.said, "23 runs"));  // 9 and two with levels, 1, 9 and two with levels
+  CHECK(contains(bench.said, "5 runs refused"));
   CHECK(contains(bench.said, "FAILED 3"));  // with 25 points
   CHECK(contains(text_of(at("grid.md")), "it walks"));
   std::vector<std::string> again = words;
   again.emplace_back("--resume");
+  CHECK(std::filesystem::exists(bench.folder / "out/stack/run_levels4/metrics.json"));
+  CHECK_FALSE(std::filesystem::exists(bench.folder / "out/fixed/run_levels4/metrics.json"));  // a block alone touches nothing
   const auto made = std::filesystem::last_write_time(bench.folder / "out/stack/run_dt0.2_p4/metrics.json");
   CHECK(bench.erbs(again) == 4);
   CHECK(std::filesystem::last_write_time(bench.folder / "out/stack/run_dt0.2_p4/metrics.json") == made);
