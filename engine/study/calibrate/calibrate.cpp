@@ -70,7 +70,7 @@ class Calibrator {
       if (interrupted()) pool.interrupt_all();
       const auto ended = pool.wait(0.5);
       if (!ended) continue;
-      rows[waiting[ended->id]] = read_run(s_, 0, place(ended->id), *ended);
+      rows[waiting[ended->id]] = read_run(s_, {}, 0, place(ended->id), *ended);
       if (name.empty()) tidy(s_, rows[waiting[ended->id]], place(ended->id));
     }
     if (interrupted()) throw Interrupted{};
