@@ -243,6 +243,7 @@ void add_others(CLI::App& app, CommandLine& line) {
   add_output(calibrate, line.calibrate.output, "runs/<study name>");
   add_scene(calibrate, line.calibrate.scene);
   calibrate.add_option("-j", line.calibrate.jobs, "number of runs at once (default: one per processor)")->check(within(1, 1024));
+  calibrate.add_flag("--resume", line.calibrate.resume, "keep finished runs of a calibration that was interrupted");
 
   CLI::App& accuracy =
       *app.add_subcommand("accuracy", "the cost of accuracy: run a scene with one setting changed at a time, errors over cost");

@@ -120,6 +120,7 @@ struct CalibrateCommand {
   OutputOptions output;
   SceneOptions scene;
   int jobs = 0;  // runs at once; 0: one per processor
+  bool resume = false;
 };
 struct TestCommand {
   std::vector<std::string> words;
