@@ -82,7 +82,7 @@ int whole_study(const AccuracyCommand& command) {
   const std::string readme = (fs::weakly_canonical(folder) / "README.md").string();
   if (fs::exists(readme)) replace_marked(readme, "accuracy", table), replace_marked(readme, "quality", quality);
   if (fs::exists(home / "README.md")) replace_marked((home / "README.md").string(), "accuracy", sentence);
-  say("{}\n{}\n{}{} problems, {} runs, {} of processor time, {} of wall-clock time; {}/accuracy.csv, accuracy.svg, accuracy.png\n", table,
+  say("{}\n{}\n{}\n{} problems, {} runs, {} of processor time, {} of wall-clock time; {}/accuracy.csv, accuracy.svg, accuracy.png\n", table,
       quality, sentence, all.size(), result.runs, duration_text(result.cpu), duration_text(result.wall), out);
   return exit_ok;
 }

@@ -138,10 +138,12 @@ std::string seconds_sentence(const std::vector<AccuracyStudy>& studies) {
     const auto i = cheapest(s.quantity(), s.main, s.all, target);
     return i ? fmt::format("{:.2g}", s.all[*i].cpu) : std::string("-");
   };
-  std::string text = "[What accuracy costs](scenes/accuracy/README.md), in seconds of one processor for an error of 1 % and of 0.1 %:";
+  std::string text =
+      "[What accuracy costs](scenes/accuracy/README.md) by `erbs accuracy --study`, in seconds of one processor for an error of 1 % and of "
+      "0.1 %:";
   for (const AccuracyStudy& s : studies)
     text += fmt::format("{} `{}` {} and {}", &s == studies.data() ? "" : ",", s.name, seconds(s, 0.01), seconds(s, 0.001));
-  return text + " (-: not reached).\n";
+  return text + " (-: not reached).";
 }
 
 }  // namespace erbs::lua
