@@ -217,8 +217,8 @@ AccuracyPlan plan_of(const Script& script, const AccuracyCommand& command) {
     plan.not_applicable.emplace_back("points, lazy rotation: the scene has no joints");
   }
   if (steps || joints) add_qualities(plan.settings, steps, joints);
-  if (!brief && has_setting("solver") && joints) add_sequential(plan.settings);
-  else if (!brief) plan.not_applicable.emplace_back(joints ? "solver: this program has one" : "solver: the scene has no joints");
+  if (!brief && has_setting("solver") && joints && !command.whole_study) add_sequential(plan.settings);
+  else if (!brief && !command.whole_study) plan.not_applicable.emplace_back(joints ? "solver: this program has one" : "solver: the scene has no joints");
   for (const study::Knob& knob : knobs_of(script, command)) {
     const auto fixed = std::find_if(command.scene.overrides.begin(), command.scene.overrides.end(),
                                     [&](const auto& given) { return given.first == knob.param; });

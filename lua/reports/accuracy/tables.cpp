@@ -57,7 +57,8 @@ std::string accuracy_row(const AccuracyStudy& s) {
                      orders_text(s));
 }
 
-// The row of a problem in the table of qualities: the error of each, and its number of evaluations over that of standard.
+// The row of a problem in the table of qualities: the error of each against the scene's own limit, which is all that steps and points can
+// reach, and its number of evaluations over that of standard.
 std::string quality_row(const AccuracyStudy& s) {
   const auto find = [&](const Quality& q) {
     return std::find_if(s.all.begin(), s.all.end(), [&](const study::Measured& m) {
@@ -69,13 +70,13 @@ std::string quality_row(const AccuracyStudy& s) {
   for (const Quality& q : qualities) {
     const auto m = find(q);
     if (m == s.all.end() || standard == s.all.end()) return "";
-    errors += " " + error_text(s.quantity(), s.error(*m)) + " |";
+    errors += " " + error_text(s.quantity(), s.own_error(*m)) + " |";
     costs += m->updates > 0 && standard->updates > 0 ? fmt::format(" {:.2g} |", m->updates / standard->updates)
                                                      : fmt::format(" {:.2g} (s) |", m->cpu / standard->cpu);
   }
-  const double uncertain = s.quantity().reference != 0 ? s.quantity().uncertainty / std::fabs(s.quantity().reference) : 0;
-  return fmt::format("| `{}` | {} |{} {} |{}\n", s.name, code_cell(s.quantity().name), errors,
-                     uncertain > 0 ? fmt::format("{:.2g} %", 100 * uncertain) : "exact", costs);
+  const study::Goal& q = s.quantity();
+  const double uncertain = q.reference != 0 ? q.own_uncertainty / std::fabs(q.reference) : q.own_uncertainty;
+  return fmt::format("| `{}` | {} |{} {} |{}\n", s.name, code_cell(q.name), errors, error_text(q, uncertain), costs);
 }
 
 }  // namespace
@@ -126,7 +127,7 @@ std::string accuracy_table(const std::vector<AccuracyStudy>& studies) {
 
 std::string quality_table(const std::vector<AccuracyStudy>& studies) {
   std::string table =
-      "| problem | quantity | error of draft | standard | reference | what it is measured by, uncertain | cost of draft | standard | "
+      "| problem | quantity | error of draft | standard | reference | own limit, uncertain | cost of draft | standard | "
       "reference |\n"
       "|---|---|---|---|---|---|---|---|---|\n";
   for (const AccuracyStudy& s : studies) table += quality_row(s);
