@@ -137,7 +137,7 @@ int verb_calibrate(const CalibrateCommand& command) {
   if (!quiet && live)
     sweep.progress = [](const study::Sweep::Progress& now) { fmt::print(stderr, "\r\033[K{} runs, {} failed", now.runs, now.failed); };
   const auto begin = std::chrono::steady_clock::now();
-  const study::Calibrated result = calibrate(sweep, command.resume && !command.output.force);
+  const study::Calibrated result = calibrate(sweep, command.resume);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!quiet && live) fmt::print(stderr, "\r\033[K");
   if (result.interrupted) {
