@@ -271,6 +271,9 @@ std::optional<Ending> ending_of(const Goal& q, std::size_t index, const std::vec
   }
   // the part that no knob explains
   if (most.error < 0 || std::fabs(rest) > most.error) most = {"", std::fabs(rest)};
+  // Where theory is known, so is the error, unless those of several knobs cancel.
+  const double known = std::fabs(q.reference - *best.values[index]);
+  if (q.expected) most.error = declared_knobs(all).size() > 1 ? std::max(known, most.error) : known;
   most.error /= scale_of(q);
   return most;
 }

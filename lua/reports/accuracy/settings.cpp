@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 #include <map>
 
 #include "engine/base/spelling.h"
@@ -96,7 +97,10 @@ study::Setting setting_of(const std::vector<study::Knob>& knobs, const std::vect
   return s;
 }
 
-std::string name_of(const study::Knob& knob, double value) { return fmt::format("{} {}", knob.name, value); }
+std::string name_of(const study::Knob& knob, double value) {
+  const std::string brief = fmt::format("{:g}", value);  // 1e+12, not 1000000000000
+  return fmt::format("{} {}", knob.name, std::strtod(brief.c_str(), nullptr) == value ? brief : fmt::format("{}", value));
+}
 
 // Each knob alone, the others at their finest values; then all of them from coarse to fine together, which is how one would use them.
 void add_knobs(std::vector<study::Setting>& all, const std::vector<study::Knob>& knobs) {
@@ -107,7 +111,9 @@ void add_knobs(std::vector<study::Setting>& all, const std::vector<study::Knob>&
     for (const double value : knobs[k].values) {
       std::vector<double> values = finest;
       values[k] = value;
-      all.push_back(setting_of(knobs, values, knobs[k].name, name_of(knobs[k], value), knobs[k].size(value)));
+      study::Setting s = setting_of(knobs, values, knobs[k].name, name_of(knobs[k], value), knobs[k].size(value));
+      for (std::size_t j = 0; j < knobs.size() && knobs.size() > 1; ++j) s.parts.push_back(name_of(knobs[j], values[j]));
+      all.push_back(std::move(s));
     }
   for (std::size_t level = 0; knobs.size() > 1 && level < most; ++level) {
     std::vector<double> values;
@@ -218,7 +224,8 @@ AccuracyPlan plan_of(const Script& script, const AccuracyCommand& command) {
   }
   if (steps || joints) add_qualities(plan.settings, steps, joints);
   if (!brief && has_setting("solver") && joints && !command.whole_study) add_sequential(plan.settings);
-  else if (!brief && !command.whole_study) plan.not_applicable.emplace_back(joints ? "solver: this program has one" : "solver: the scene has no joints");
+  else if (!brief && !command.whole_study)
+    plan.not_applicable.emplace_back(joints ? "solver: this program has one" : "solver: the scene has no joints");
   for (const study::Knob& knob : knobs_of(script, command)) {
     const auto fixed = std::find_if(command.scene.overrides.begin(), command.scene.overrides.end(),
                                     [&](const auto& given) { return given.first == knob.param; });
@@ -229,7 +236,7 @@ AccuracyPlan plan_of(const Script& script, const AccuracyCommand& command) {
   // The scene as it is may have values of its knobs whose errors cancel by chance.
   for (const study::Knob& knob : plan.knobs)
     for (const double value : knob.values)
-      if (param_of(scene, knob.param)->value == value) plan.settings.front().parts.push_back(name_of(knob, value));
+      if (plan.knobs.size() > 1 && param_of(scene, knob.param)->value == value) plan.settings.front().parts.push_back(name_of(knob, value));
   if (plan.knobs.empty())
     plan.not_applicable.emplace_back("further knobs: the scene declares none; write accuracy{ param = ..., values = ... } or --knob");
   choose(plan, command.knobs);

@@ -146,8 +146,8 @@ TEST_CASE("the knobs of a scene: their limits, their fronts, and which of them e
   CHECK(*error_of(q, 0, all[front.front()], all) > 100 * *error_of(q, 0, all[front.back()], all) / 2);
   const auto ending = ending_of(q, 0, all);
   REQUIRE(ending);
-  CHECK(ending->knob == "bed");  // 0.2 (1e-6)^(1/3) / 2 = 0.1 %; the rate leaves 0.015 %
-  CHECK(ending->error == Approx(0.001).epsilon(0.03));
+  CHECK(ending->knob == "bed");  // 0.2 (1e-6)^(1/3) / 2 = 0.1 % too little; the rate gives 0.015 % back
+  CHECK(ending->error == Approx(0.001).epsilon(0.03));  // that they cancel in part is no merit
   CHECK(what_limits(q, 0, all) == "\"bed\", not step or points, is the error");
 }
 
