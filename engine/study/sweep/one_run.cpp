@@ -119,7 +119,8 @@ RunRow read_run(const Sweep& sweep, const Point& point, double x, const std::str
       const std::string& key = sweep.plan.collect[k];
       row.values[k] = cell_of(find_key(metrics, key));
       // A time of collapse may well be absent; a metric of the scene has lost its number.
-      if (row.values[k] == "nan" && key.starts_with("metrics.") && absent.empty())
+      // Variants may run scenes that have it not.
+      if (row.values[k] == "nan" && key.starts_with("metrics.") && absent.empty() && sweep.variants.empty())
         absent = fmt::format("{} has no value: its function gave nil, or no finite number", key);
     }
     if (sweep.plan.bisect) row.verdict = verdict_of(*sweep.plan.bisect, metrics, row.reason);

@@ -223,7 +223,7 @@ class Sweeper {
     ++active.runs;
     const std::size_t id = next_id_++;
     Job job = job_of(s_, active.point, active.round[slot], place);
-    const double left = std::max(1.0, s_.budget - seconds_since(begin_));
+    const double left = std::max(10.0, s_.budget - seconds_since(begin_));  // a run that has begun gets some time
     const bool cut = s_.budget > 0 && (job.kill_after <= 0 || left < job.kill_after);
     if (cut) job.kill_after = left;
     under_way_[id] = {index, slot, place, cut};

@@ -146,7 +146,7 @@ void draw_accuracy(const AccuracyStudy& s, const std::string& path) {
   const study::Goal& q = s.quantity();
   const Looks looks({&s});
   std::vector<std::pair<View, const char*>> views{{{false, false, false}, q.expected ? "against theory" : "against its own limit"},
-                                                  {{true, false, true}, "the same over work"}};
+                                                  {{true, false, true}, q.expected ? "against theory, over work" : "the same over work"}};
   if (q.expected) views.insert(views.begin() + 1, {{false, true, false}, "against its own limit"});
   const double panel = 460, gap = 95, key = 330, left = 100, width = left + double(views.size()) * (panel + gap) - gap + 20 + key;
   plot::Figure figure{width, 720, 14};
@@ -172,7 +172,7 @@ namespace {
 
 // Subtitle of a panel: how far the front falls, and what ends it.
 std::string fall(const AccuracyStudy& s) {
-  const std::vector<std::size_t> front = pareto(s.quantity(), s.main, s.all, true);
+  const std::vector<std::size_t> front = pareto(s.quantity(), s.main, s.all, false);
   const auto ending = ending_of(s.quantity(), s.main, s.all);
   if (front.empty() || !ending) return "no run gave a value";
   const double first = s.error(s.all[front.front()]).value_or(least), last = s.error(s.all[front.back()]).value_or(least);
@@ -232,7 +232,9 @@ void draw_accuracies(const std::vector<AccuracyStudy>& studies, const std::strin
     plot::Panel p = panel_of(s, view, looks, figure);
     // Where theory ends the fall, step and points may go on towards the scene's own limit.
     const View own{.own = true, .compared = false};
-    const std::string rest = s.quantity().expected ? rows_of(s, own, pareto(s.quantity(), s.main, s.all, false, true)) : "";
+    std::vector<std::size_t> own_front = pareto(s.quantity(), s.main, s.all, false, true);
+    std::erase_if(own_front, [&](std::size_t i) { return !(s.own_error(s.all[i]).value_or(0) > least); });  // they change nothing at all
+    const std::string rest = s.quantity().expected ? rows_of(s, own, own_front) : "";
     if (!rest.empty()) p.series.push_back({figure.add_rows(rest) + " using 1:2", own_front_look, ""});
     const double x = double(int(k) % columns), y = double(int(k) / columns), w = 1.0 / columns, h = 430.0 / height, top = 1 - 45.0 / height;
     p.axes = {(x + 0.17) * w, (x + 0.97) * w, top - y * h - 0.84 * h, top - y * h - 0.13 * h};

@@ -233,10 +233,11 @@ AccuracyPlan plan_of(const Script& script, const AccuracyCommand& command) {
     else plan.not_applicable.push_back(fmt::format("{}: -D {}={} fixes it", knob.name, fixed->first, fixed->second));
   }
   add_knobs(plan.settings, plan.knobs);
-  // The scene as it is may have values of its knobs whose errors cancel by chance.
+  // The scene as it is may have values of its knobs whose errors cancel by chance, at any step and points.
   for (const study::Knob& knob : plan.knobs)
     for (const double value : knob.values)
-      if (plan.knobs.size() > 1 && param_of(scene, knob.param)->value == value) plan.settings.front().parts.push_back(name_of(knob, value));
+      for (study::Setting& s : plan.settings)
+        if (plan.knobs.size() > 1 && !s.declared && param_of(scene, knob.param)->value == value) s.parts.push_back(name_of(knob, value));
   if (plan.knobs.empty())
     plan.not_applicable.emplace_back("further knobs: the scene declares none; write accuracy{ param = ..., values = ... } or --knob");
   choose(plan, command.knobs);

@@ -10,7 +10,7 @@
 namespace erbs::lua {
 namespace {
 
-std::vector<std::size_t> front_of(const AccuracyStudy& s, bool own = false) { return pareto(s.quantity(), s.main, s.all, true, own); }
+std::vector<std::size_t> front_of(const AccuracyStudy& s, bool own = false) { return pareto(s.quantity(), s.main, s.all, false, own); }
 
 bool has_order(const study::Curve& c) { return c.slope && c.knob != "lazy rotation" && !c.knob.starts_with("sequential"); }
 
