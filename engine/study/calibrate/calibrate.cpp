@@ -55,7 +55,10 @@ class Calibrator {
   long take_known(const std::string& path) {
     const CsvTable table = read_csv(path);
     const std::vector<std::string> params = varied_params(s_.plan);
-    const auto text = [&](const char* column, std::size_t i) { return table.text[std::size_t(table.find(column))][i]; };
+    const auto text = [&](const char* column, std::size_t i) {
+      const std::vector<std::string>& cells = table.text[std::size_t(table.find(column))];
+      return cells.empty() ? std::string() : cells[i];  // a column of empty cells has no text
+    };
     for (std::size_t i = 0; i < table.rows() && table.column("stage")[i] > 0; ++i) {
       Values values;
       for (std::size_t k = 0; k < params.size(); ++k)
