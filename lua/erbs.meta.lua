@@ -692,7 +692,7 @@ function converge(keys) end
 ---@field param? string name of the param that takes the seeds (whole numbers below 2^31) [default seed]
 ---@field name? string stem of its metrics [default ensemble]
 
----Runs the scene n times, each time with another seed in a param; metrics NAME_mean, NAME_deviation, NAME_least, NAME_most, NAME_median, NAME_runs, NAME_failed.
+---Runs the scene n times, each time with another seed in a param; metrics NAME_mean, NAME_deviation, NAME_least, NAME_most, NAME_median, NAME_error (standard error of the mean), NAME_runs, NAME_failed.
 ---@param keys erbs.ensemble_keys
 function ensemble(keys) end
 
@@ -700,6 +700,16 @@ function ensemble(keys) end
 ---@param params table<string, number[]> lists of values by the names of params given above
 ---@param how? { combinations?: integer, seed?: number } { combinations = their number (default 4), seed = seed of their draw (default 1) }
 function family(params, how) end
+
+---@class erbs.accuracy_keys
+---@field param string name of a param given above
+---@field values number[] its values from coarse to fine, above zero
+---@field name? string its name in tables and figures (default the param)
+---@field error? string metric that is itself the error of a run, such as NAME_error of ensemble (default: none)
+
+---Declares a param whose values decide how large the error of the scene is, such as the stiffness of a bed. erbs accuracy varies it, with the other such params at their finest values, and all of them together; erbs run ignores it.
+---@param keys erbs.accuracy_keys
+function accuracy(keys) end
 
 ---@class erbs.figure_keys
 ---@field name string name of the file

@@ -60,7 +60,8 @@ int call(const CLI::App& app, const CommandLine& line) {
   const std::string name = verb.get_name();
   const AccuracyCommand& accuracy = line.accuracy;
   if ((line.run.output.force && line.run.resume) || (accuracy.output.force && accuracy.batch.resume) ||
-      (line.sweep.output.force && line.sweep.resume))
+      (line.sweep.output.force && line.sweep.resume) || (line.calibrate.output.force && line.calibrate.resume) ||
+      (line.effects.output.force && line.effects.batch.resume))
     throw Error("--force and --resume exclude each other; keep one");
   if (name == "run") return verb_run(line.run);
   if (name == "check") return verb_check(line.check);

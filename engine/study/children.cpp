@@ -8,6 +8,7 @@
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/format/csv.h"
 #include "engine/record/format/json.h"
+#include "engine/study/machine.h"
 #include "engine/study/pool.h"
 
 namespace erbs::study {
@@ -31,6 +32,7 @@ class Runner {
       if (!finished(answers[i])) waiting.push_back(i);
     }
     Pool pool(c_.at_once);
+    memory_ = machine_memory() / double(pool.size());
     std::size_t next = 0;
     while (!pool.empty() || (next < waiting.size() && !interrupted())) {
       for (; next < waiting.size() && !pool.full() && !interrupted(); ++next) pool.add(waiting[next], job(xs[waiting[next]]));
@@ -38,7 +40,8 @@ class Runner {
       const auto ended = pool.wait(1.0);
       if (!ended) continue;
       read(answers[ended->id], ended->code, ended->overdue);
-      if (c_.progress) c_.progress(study_.name, ++done_, asked_ + int(waiting.size()));
+      failed_ += !answers[ended->id].value;
+      if (c_.progress) c_.progress({study_.name, ++done_, asked_ + int(waiting.size()), failed_, seconds_since_begin()});
     }
     if (interrupted()) throw Interrupted{};
     asked_ += int(waiting.size());
@@ -54,6 +57,7 @@ class Runner {
   }
 
  private:
+  double seconds_since_begin() const { return wall_seconds() - begin_; }
   bool interrupted() const { return c_.interrupted != nullptr && c_.interrupted->load(); }
   std::string folder_of(double x) const { return run_file(folder_, fmt::format("{}={}", study_.param, x)); }
   std::string file_of(double x) const { return folder_of(x) + ".json"; }
@@ -70,7 +74,8 @@ class Runner {
     std::error_code ignored;
     fs::remove_all(folder_of(x), ignored);  // left by an interrupted run
     // A run stops itself at its time limit, with its results so far. A run that does not stop is killed.
-    return {command, {.output = log_of(x), .errors = log_of(x)}, 0, c_.max_wall > 0 ? c_.max_wall + 15 : 0};
+    const Launch how{.output = log_of(x), .errors = log_of(x), .own_group = true, .bound_hard = true, .memory = memory_};
+    return {command, how, 0, c_.max_wall > 0 ? c_.max_wall + 15 : 0};
   }
 
   // Reads the answer of the child, or the reason for its absence, and writes a note of it. A child that is interrupted, or killed from
@@ -138,7 +143,9 @@ class Runner {
   const Children& c_;
   std::string folder_;
   std::vector<Answer> rows_;
-  int done_ = 0, asked_ = 0;
+  int done_ = 0, asked_ = 0, failed_ = 0;
+  double memory_ = 0;  // bytes, most of a run
+  double begin_ = wall_seconds();
 };
 
 }  // namespace

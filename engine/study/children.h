@@ -1,4 +1,5 @@
-// Runs of a study as child processes of this program, in parallel, one thread each. A finished run is not repeated.
+// Runs of a study as child processes of this program, in parallel, one thread each, with limits of time and memory. A run that fails is
+// a row with its reason. A finished run is not repeated.
 #pragma once
 #include <atomic>
 #include <string>
@@ -19,7 +20,12 @@ struct Children {
   double max_wall = 0;                                         // s, limit of each run; 0: none
   int at_once = 0;                                             // runs in parallel; 0: one per processor
   const std::atomic<bool>* interrupted = nullptr;
-  std::function<void(const std::string& study, int done, int asked)> progress = {};
+  struct Progress {
+    std::string study;
+    int done = 0, asked = 0, failed = 0;  // runs made now; a bisection asks for more as it goes on
+    double wall = 0;                      // s so far
+  };
+  std::function<void(const Progress&)> progress = {};
 };
 
 struct Carried {

@@ -22,6 +22,8 @@ double processor_seconds() {
 
 double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+double machine_memory() { return double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGE_SIZE)); }
+
 // STREAM triad (McCalpin 1995): 24 bytes per element. The read of a cache line before its write is not counted.
 double triad(std::size_t bytes) {
   const std::size_t n = std::max<std::size_t>(bytes / 24, 64);

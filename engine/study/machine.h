@@ -6,6 +6,7 @@ namespace erbs::study {
 
 double processor_seconds();  // s, user time of this process so far, all threads
 double wall_seconds();
+double machine_memory();  // bytes of main memory
 
 double triad(std::size_t bytes);  // bytes/s of a = b + s c over three arrays of `bytes` in total, one thread; median of several
 double flop_peak();               // flop/s of one core: independent multiplications and additions in registers, widest set in use

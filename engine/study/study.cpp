@@ -77,22 +77,22 @@ StudyResult ensemble(const Study& s, const RunAll& runs) {
   std::vector<double> v;
   for (const Answer& a : answers)
     if (a.value) v.push_back(*a.value);
-  std::optional<double> mean, deviation, least, most, median;
+  std::optional<double> mean, deviation, least, most, median, error;
   if (!v.empty()) {
     double sum = 0, square = 0;
     for (const double x : v) sum += x;
     mean = sum / double(v.size());
     for (const double x : v) square += (x - *mean) * (x - *mean);
-    if (v.size() > 1) deviation = std::sqrt(square / double(v.size() - 1));
+    if (v.size() > 1) deviation = std::sqrt(square / double(v.size() - 1)), error = *deviation / std::sqrt(double(v.size()));
     std::sort(v.begin(), v.end());
     least = v.front(), most = v.back();
     median = 0.5 * (v[(v.size() - 1) / 2] + v[v.size() / 2]);
   } else {
     out.trouble = "no run gave an answer: " + first_reason(answers);
   }
-  out.metrics = {{s.name + "_mean", mean},          {s.name + "_deviation", deviation}, {s.name + "_least", least},
-                 {s.name + "_most", most},          {s.name + "_median", median},       {s.name + "_runs", tally.runs},
-                 {s.name + "_failed", tally.failed}};
+  out.metrics = {{s.name + "_mean", mean},       {s.name + "_deviation", deviation}, {s.name + "_least", least},
+                 {s.name + "_most", most},       {s.name + "_median", median},       {s.name + "_error", error},
+                 {s.name + "_runs", tally.runs}, {s.name + "_failed", tally.failed}};
   return out;
 }
 
@@ -109,7 +109,7 @@ StudyResult carry_out(const Study& study, const RunAll& runs) {
 std::vector<std::string> metric_names(const Study& s) {
   std::vector<std::string> endings{"", "_lo", "_hi"};
   if (s.kind == Study::Kind::converge) endings = {"_slope", "_error", "_least", "_most"};
-  if (s.kind == Study::Kind::ensemble) endings = {"_mean", "_deviation", "_least", "_most", "_median"};
+  if (s.kind == Study::Kind::ensemble) endings = {"_mean", "_deviation", "_least", "_most", "_median", "_error"};
   std::vector<std::string> names;
   for (const auto& ending : endings) names.push_back(s.name + ending);
   names.push_back(s.name + "_runs");

@@ -130,7 +130,7 @@ Json child(const Case& item, const std::string& scenes, const std::string& direc
   return {{"scene", item.name}, {"failed", last_words(log, code, item.scene)}};
 }
 
-int bench_scenes(const TimingCommand& command) {
+int bench_scenes(const BenchCommand& command) {
   Json rows = Json::array();
   for (const auto& path : command.words) {
     if (!command.output.quiet)
@@ -147,7 +147,7 @@ int bench_scenes(const TimingCommand& command) {
 
 }  // namespace
 
-int verb_bench(const TimingCommand& command) {
+int verb_bench(const BenchCommand& command) {
   if (!command.words.empty()) return bench_scenes(command);
   const std::string directory = command.output.directory.empty() ? "runs/bench" : command.output.directory, scenes = folder_of_scenes();
   if (fs::exists(directory + "/bench.json") && !command.output.force)

@@ -3,72 +3,69 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
+#include <map>
 
-#include "engine/base/system/interrupt.h"
-#include "engine/base/system/process.h"
-#include "engine/record/folder/run_folder.h"
-#include "engine/record/format/json.h"
+#include "engine/record/format/csv.h"
 #include "engine/record/plot/figure.h"
 #include "engine/scene/effects.h"
-#include "engine/study/pool.h"
 #include "lua/program/options.h"
 #include "lua/program/say.h"
+#include "lua/reports/setting_runs.h"
 
 namespace erbs::lua {
 namespace {
 
-namespace fs = std::filesystem;
+constexpr const char *steps = "steps", *points = "contact_points", *memory = "peak_memory_bytes", *collapsed = "collapse.collapsed";
 
 struct Measured {
   std::string effect, because, trouble;
   double cpu = 0;     // s, of the whole child process
   double memory = 0;  // bytes, peak
   double steps = 0, points = 0;
-  std::string status;
-  Json metrics = Json::object();  // of the scene
+  std::map<std::string, double> metrics;  // of the scene
   bool collapsed = false;
 };
 
-// One run at a time, so that runs do not compete for processor and memory.
-Measured run_without(const std::string& scene, const SceneOptions& options, const std::string& directory, const std::string& effect) {
-  std::string name = effect.empty() ? "all" : effect;
-  std::replace(name.begin(), name.end(), ' ', '_');
-  const std::string folder = directory + "/" + name;
-  std::vector<std::string> command{own_path(), "run", scene, "-o", folder, "--force", "--quiet", "--threads", "1", "--no-figures"};
-  if (!effect.empty()) command.insert(command.end(), {"--without", effect});
-  const std::vector<std::string> more = scene_arguments(options);
-  command.insert(command.end(), more.begin(), more.end());
-  Measured out;
-  out.effect = effect;
-  study::Pool pool(1);
-  pool.add(0, {command, {.output = folder + ".log", .errors = folder + ".log"}});
-  std::optional<study::Finished> ended;
-  while (!(ended = pool.wait(1.0)))
-    if (is_interrupted()) pool.interrupt_all();
-  out.cpu = ended->cpu;
-  if (!fs::exists(run_file(folder, "metrics.json"))) {
-    out.trouble = last_words(folder + ".log", ended->code, fs::path(scene).filename().string());
-    return out;
+Measured measured_of(const SettingRow& row, const std::string& effect, const std::string& because) {
+  Measured m;
+  m.effect = effect, m.because = because, m.cpu = row.cpu;
+  if (!row.answered()) m.trouble = row.status == "error" ? row.reason : row.status + ": " + row.reason;
+  const auto at = [&](const char* key) { return row.values.contains(key) ? row.values.at(key) : 0; };
+  m.steps = at(steps), m.points = at(points), m.memory = at(memory), m.collapsed = at(collapsed) != 0;
+  for (const auto& [key, value] : row.values)
+    if (key.starts_with("metrics.")) m.metrics[key.substr(8)] = value;
+  return m;
+}
+
+// The scene as it is, then without each of its effects. One run at a time unless the user wants more, so that runs do not compete for
+// processor and memory.
+SettingRuns runs_of(const Script& script, const std::vector<Effect>& effects, const std::string& path, const std::string& directory,
+                    const EffectsCommand& command) {
+  SettingRuns runs;
+  runs.directory = directory, runs.jobs = std::max(1, command.batch.jobs), runs.quiet = command.output.quiet;
+  runs.max_wall = command.batch.max_wall.value_or(0);
+  for (const auto& [file, hash] : script.scene().inputs) runs.identity += hash + "\n";
+  runs.keys = {steps, points, memory, collapsed};
+  for (const auto& [name, unit] : script.scene().metric_units) runs.keys.push_back("metrics." + name);
+  std::vector<std::string> common = scene_arguments(command.scene);
+  if (command.scene.allow_unstable) common.emplace_back("--allow-unstable");
+  runs.settings.push_back({"all", {path, common}});
+  for (const Effect& effect : effects) {
+    study::Variant how{path, {"--without", effect.name}};
+    how.arguments.insert(how.arguments.end(), common.begin(), common.end());
+    runs.settings.emplace_back("without " + effect.name, std::move(how));
   }
-  const Json metrics = read_json(run_file(folder, "metrics.json"));
-  out.memory = metrics["peak_memory_bytes"].get<double>();
-  out.steps = metrics["steps"].get<double>();
-  out.points = metrics["contact_points"].get<double>();
-  out.status = metrics["status"].get<std::string>();
-  out.metrics = metrics.value("metrics", Json::object());
-  const Json* collapsed = find_key(metrics, "collapse.collapsed");
-  out.collapsed = collapsed != nullptr && *collapsed == true;
-  return out;
+  return runs;
 }
 
 // The metric with the largest relative change, and the change.
 std::pair<std::string, double> moved(const Measured& all, const Measured& without) {
   if (all.collapsed != without.collapsed) return {all.collapsed ? "stands" : "collapses", 1};
   std::pair<std::string, double> out{"-", 0};
-  for (const auto& [name, value] : all.metrics.items()) {
-    if (!value.is_number() || !without.metrics.contains(name) || !without.metrics[name].is_number()) continue;
-    const double a = value.get<double>(), b = without.metrics[name].get<double>(), scale = std::max(std::fabs(a), std::fabs(b));
+  for (const auto& [name, a] : all.metrics) {
+    const auto other = without.metrics.find(name);
+    if (other == without.metrics.end()) continue;
+    const double b = other->second, scale = std::max(std::fabs(a), std::fabs(b));
     const double change = scale > 0 ? std::fabs(b - a) / scale : 0;
     if (change > out.second) out = {name, change};
   }
@@ -94,10 +91,11 @@ void print_row(const Row& r) {
 }
 
 void write_table(const std::vector<Row>& rows, const std::string& path) {
-  CsvWriter table(path, {"effect", "called_for_by", "ns_per_point_step", "percent", "steps_percent", "bytes_per_point", "moves", "metric"});
+  CsvWriter table(
+      path, {"effect", "called_for_by", "ns_per_point_step", "percent", "steps_percent", "bytes_per_point", "moves", "metric", "reason"});
   for (const Row& r : rows)
     table.text_row({r.without.effect, r.without.because, fmt::format("{}", r.ns), fmt::format("{}", r.percent), fmt::format("{}", r.steps),
-                    fmt::format("{}", r.bytes), fmt::format("{}", r.moved.second), r.moved.first});
+                    fmt::format("{}", r.bytes), fmt::format("{}", r.moved.second), r.moved.first, r.without.trouble});
   table.flush();
 }
 
@@ -126,16 +124,17 @@ void draw(const std::vector<Row>& rows, const std::string& scene, const std::str
 
 }  // namespace
 
-int verb_effects(const TimingCommand& command) {
+int verb_effects(const EffectsCommand& command) {
   if (command.words.size() != 1) throw Error("effects takes one scene; write erbs effects SCENE.lua");
   const std::string path = command.words.front();
   Script script(script_options(command.scene, true));
   const Scene scene = script.load(path, command.scene.overrides);
   const std::string directory = command.output.directory.empty() ? "runs/" + scene.name + "_effects" : command.output.directory;
-  if (fs::exists(directory + "/effects.csv") && !command.output.force)
-    throw Error(fmt::format("\"{}\" holds an earlier table; overwrite it with --force, or choose another folder with -o DIR", directory));
-  fs::create_directories(directory);
-  const Measured all = run_without(path, command.scene, directory, "");
+  std::vector<Effect> effects = effects_of(scene);
+  std::erase_if(effects, [](const Effect& effect) { return !effect.on; });
+  prepare_settings_folder(directory, command.batch.resume, command.output.force, {"effects.csv", "effects.svg"});
+  const std::vector<SettingRow> made = run_settings(runs_of(script, effects, path, directory, command));
+  const Measured all = measured_of(made.front(), "", "");
   if (!all.trouble.empty()) throw Error(path + ": " + all.trouble);
   const double updates = std::max(1.0, all.points) * all.steps;
   say("{}: {:.3g} s of one core, {:g} steps, {:g} points: {:.4f} ns per point and step, {:.1f} bytes per point\n\n", scene.name, all.cpu,
@@ -143,21 +142,22 @@ int verb_effects(const TimingCommand& command) {
   say("{:<26} {:>9} {:>7} {:>7} {:>9}  {:>10}  {:<28} {}\n", "effect", "ns/point", "%", "steps %", "B/point", "moves", "metric",
       "called for by");
   std::vector<Row> rows;
-  for (const Effect& effect : effects_of(scene)) {
-    if (!effect.on) continue;
-    Row row{run_without(path, command.scene, directory, effect.name), 0, 0, 0, 0, {}};
-    row.without.because = effect.because;
-    // per step: without an effect a run may end earlier or take other steps
-    const double each = all.cpu / all.steps, now = row.without.cpu / std::max(1.0, row.without.steps);
-    row.ns = 1e9 * (each - now) / std::max(1.0, all.points);
-    row.percent = 100 * (each - now) / each;
-    row.steps = 100 * (all.steps - row.without.steps) / all.steps;
-    row.bytes = (all.memory - row.without.memory) / std::max(1.0, all.points);
-    row.moved = moved(all, row.without);
+  for (std::size_t i = 0; i < effects.size(); ++i) {
+    Row row{measured_of(made[i + 1], effects[i].name, effects[i].because), NAN, NAN, NAN, NAN, {"-", NAN}};
+    if (row.without.trouble.empty()) {
+      // per step: without an effect a run may end earlier or take other steps
+      const double each = all.cpu / all.steps, now = row.without.cpu / std::max(1.0, row.without.steps);
+      row.ns = 1e9 * (each - now) / std::max(1.0, all.points);
+      row.percent = 100 * (each - now) / each;
+      row.steps = 100 * (all.steps - row.without.steps) / all.steps;
+      row.bytes = (all.memory - row.without.memory) / std::max(1.0, all.points);
+      row.moved = moved(all, row.without);
+    }
     print_row(row);
-    if (row.without.trouble.empty()) rows.push_back(std::move(row));
+    rows.push_back(std::move(row));
   }
   write_table(rows, directory + "/effects.csv");
+  std::erase_if(rows, [](const Row& row) { return !row.without.trouble.empty(); });
   draw(rows, scene.name, directory + "/effects.svg");
   say("\n{}\n{}\n", directory + "/effects.csv", directory + "/effects.svg");
   return exit_ok;

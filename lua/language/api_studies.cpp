@@ -99,6 +99,35 @@ int ensemble(Call& call) {
   return add(call, arguments, std::move(study), "value");
 }
 
+// A param of the scene by which erbs accuracy varies the error; erbs run ignores it.
+int accuracy(Call& call) {
+  Context& context = call.context;
+  Arguments arguments = call.arguments();
+  study::Knob knob;
+  knob.place = call.place;
+  arguments.read("param", knob.param);
+  knob.name = knob.param;
+  arguments.read("name", knob.name);
+  arguments.read("values", knob.values);
+  arguments.read("error", knob.error);
+  if (!knob.error.empty() && !knob.error.starts_with("metrics.")) knob.error = "metrics." + knob.error;
+  std::vector<std::string> params;
+  for (const Param& param : context.scene.params) params.push_back(param.name);
+  if (!knob.param.empty() && !param_of(context, knob.param))
+    arguments.mistake(fmt::format("there is no param \"{0}\" yet{1}; write param(\"{0}\", ...) above", shown(knob.param, 60),
+                                  params.empty() ? "" : did_you_mean(knob.param, params)));
+  if (const std::string mistake = arguments.is_table("values") ? study::mistake_in(knob.values) : ""; !mistake.empty())
+    arguments.mistake(mistake);
+  for (const char* taken : {"time step", "points", "lazy rotation", "sequential", study::quality_knob, study::together_knob})
+    if (knob.name.starts_with(taken)) arguments.mistake(fmt::format("name = \"{}\" is a knob of every scene; give another one", taken));
+  for (const study::Knob& other : context.knobs)
+    if (other.param == knob.param || other.name == knob.name)
+      arguments.mistake(fmt::format("\"{}\" was given before, at {}; put all values into one call",
+                                    other.param == knob.param ? other.param : other.name, other.place.text()));
+  context.knobs.push_back(std::move(knob));
+  return 0;
+}
+
 const Keys& curve_keys() {
   static const Keys keys = {{"label", "string", "", "its label in the legend", -unbounded, unbounded, true},
                             {"study", "string", "", "name of a study above: its results over its param, as points"},
@@ -223,7 +252,7 @@ std::vector<Function> study_functions() {
        "{ ... }",
        "",
        "Runs the scene n times, each time with another seed in a param; metrics NAME_mean, NAME_deviation, NAME_least, NAME_most, "
-       "NAME_median, NAME_runs, NAME_failed.",
+       "NAME_median, NAME_error (standard error of the mean), NAME_runs, NAME_failed.",
        {{"n", "integer", "", "number of runs", 1, 100000, true},
         {"seed", "number", "", "seed from which the seeds of the runs are drawn; equal seeds give equal studies", -1e300, 1e300, true},
         {"value", "question", "", "function(run) that returns a number; the study reports its scatter", -unbounded, unbounded, true},
@@ -237,6 +266,16 @@ std::vector<Function> study_functions() {
        "Params that erbs test --grid varies: each value alone, and some combinations. erbs run ignores the family.",
        {{"params", "family", "", "lists of values by the names of params given above", -unbounded, unbounded, true},
         {"how", "family_how", "", "{ combinations = their number (default 4), seed = seed of their draw (default 1) }"}}},
+      {"accuracy",
+       accuracy,
+       "{ ... }",
+       "",
+       "Declares a param whose values decide how large the error of the scene is, such as the stiffness of a bed. erbs accuracy varies it, "
+       "with the other such params at their finest values, and all of them together; erbs run ignores it.",
+       {{"param", "string", "", "name of a param given above", -unbounded, unbounded, true},
+        {"values", "numbers", "", "its values from coarse to fine, above zero", -unbounded, unbounded, true},
+        {"name", "string", "", "its name in tables and figures (default the param)"},
+        {"error", "string", "", "metric that is itself the error of a run, such as NAME_error of ensemble (default: none)"}}},
       {"figure",
        figure,
        "{ ... }",

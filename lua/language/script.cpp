@@ -130,6 +130,10 @@ void check_names(Context& context) {
     if (!item.used && !context.study_file)
       context.mistake({}, fmt::format("-D {}={}: the scene has no param \"{}\"{}", item.name, item.expression, item.name,
                                       did_you_mean(item.name, params)));
+  for (const study::Knob& knob : context.knobs)
+    if (!knob.error.empty() && std::find(metrics.begin(), metrics.end(), knob.error) == metrics.end())
+      context.mistake(knob.place, fmt::format("accuracy: error = \"{}\" is no metric of the scene{}", knob.error.substr(8),
+                                              did_you_mean(knob.error, metrics)));
   const std::vector<std::string> keys = metric_keys();
   for (const Expectation& item : context.scene.expectations) {
     if (item.key.starts_with("metrics.")) {
@@ -313,6 +317,7 @@ void Script::finish(bool whole) {
 }
 
 const std::vector<study::Study>& Script::studies() const { return context_->studies; }
+const std::vector<study::Knob>& Script::knobs() const { return context_->knobs; }
 
 const std::optional<study::Plan>& Script::plan() const { return context_->plan; }
 

@@ -9,6 +9,7 @@
 #include "engine/record/format/csv.h"
 #include "engine/record/format/json.h"
 #include "engine/scene/scene.h"
+#include "engine/study/accuracy.h"
 #include "engine/study/study.h"
 #include "engine/study/sweep/design.h"
 
@@ -66,6 +67,7 @@ class Script {
   const Scene& scene() const;
   Scene take_scene();  // scene() with its blocks, which the script gives up
   const std::vector<study::Study>& studies() const;
+  const std::vector<study::Knob>& knobs() const;  // of accuracy{}
   const std::vector<Figure>& figures() const;
   const std::optional<study::Plan>& plan() const;   // of study{}
   Overrides unused_overrides() const;               // -D for params that the script does not declare

@@ -243,6 +243,7 @@ void add_others(CLI::App& app, CommandLine& line) {
   add_output(calibrate, line.calibrate.output, "runs/<study name>");
   add_scene(calibrate, line.calibrate.scene);
   calibrate.add_option("-j", line.calibrate.jobs, "number of runs at once (default: one per processor)")->check(within(1, 1024));
+  calibrate.add_flag("--resume", line.calibrate.resume, "keep finished runs of a calibration that was interrupted");
 
   CLI::App& accuracy =
       *app.add_subcommand("accuracy", "the cost of accuracy: run a scene with one setting changed at a time, errors over cost");
@@ -267,6 +268,13 @@ void add_others(CLI::App& app, CommandLine& line) {
            "wall-clock time of all runs of the scene, cheap ones first; runs that do not fit are reported, and --resume makes them "
            "(default 2m; 0: no limit, as with --study)",
            "2m");
+  accuracy
+      .add_option("--knob", line.accuracy.knobs,
+                  "only this knob, such as \"time step\" or one of accuracy{}; or vary this param of the scene, values from coarse to fine")
+      ->check(filled())
+      ->type_name("NAME|PARAM=V1,V2")
+      ->expected(1)
+      ->take_all();
   accuracy.add_flag("--study", line.accuracy.whole_study,
                     "every problem of the folder, media/accuracy.png and the tables of its README.md");
 
@@ -281,8 +289,12 @@ void add_others(CLI::App& app, CommandLine& line) {
 
   CLI::App& effects = *app.add_subcommand("effects", "the cost of each effect of a scene, and the change of the results without it");
   effects.add_option("SCENE.lua", line.effects.words, "the scene")->required()->expected(1);
-  add_output(effects, line.effects.output);
+  add_output(effects, line.effects.output, "runs/<scene name>_effects");
   add_scene(effects, line.effects.scene);
+  effects.add_option("-j", line.effects.batch.jobs, "number of runs at once (default 1: runs at once disturb each other's times)")
+      ->check(within(1, 1024));
+  effects.add_flag("--resume", line.effects.batch.resume, "keep finished runs");
+  add_max_wall(effects, line.effects.batch.max_wall, "end a run after this wall-clock time (default: never)", "30m");
 
   CLI::App& help = *app.add_subcommand("help", "this text, or the help of a verb or of a scene function");
   help.add_option("VERB|FUNCTION", line.words, "verb or function to explain");

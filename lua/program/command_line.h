@@ -22,7 +22,8 @@ struct CommandLine {
   AccuracyCommand accuracy;
   LimitCommand limit;
   CapacityCommand capacity;
-  TimingCommand bench, effects;
+  BenchCommand bench;
+  EffectsCommand effects;
   std::vector<std::string> words;  // of erbs help
 };
 

@@ -120,6 +120,7 @@ struct CalibrateCommand {
   OutputOptions output;
   SceneOptions scene;
   int jobs = 0;  // runs at once; 0: one per processor
+  bool resume = false;
 };
 struct TestCommand {
   std::vector<std::string> words;
@@ -136,13 +137,14 @@ struct AccuracyCommand {
   OutputOptions output;
   SceneOptions scene;
   BatchOptions batch;
-  double target = 0;         // wanted relative error; 0: none
-  double budget = 0;         // s, wall clock of one run; of all runs of a map; 0: none
-  double within = 120;       // s, wall clock of all runs of a scene together; 0: no limit
-  std::string quantity;      // the quantity of the figure; "": chosen by the program
-  bool whole_study = false;  // all problems of a folder
-  bool map = false;          // stability map of step, stiffness and damping
-  double window = 0;         // s around the peak of the ground motion, for a map; 0: 2 s
+  double target = 0;               // wanted relative error; 0: none
+  double budget = 0;               // s, wall clock of one run; of all runs of a map; 0: none
+  double within = 120;             // s, wall clock of all runs of a scene together; 0: no limit
+  std::string quantity;            // the quantity of the figure; "": chosen by the program
+  std::vector<std::string> knobs;  // chosen ones by their names, or PARAM=V1,V2,... from coarse to fine; empty: all
+  bool whole_study = false;        // all problems of a folder
+  bool map = false;                // stability map of step, stiffness and damping
+  double window = 0;               // s around the peak of the ground motion, for a map; 0: 2 s
 };
 struct LimitCommand {
   std::vector<std::string> words;
@@ -156,11 +158,16 @@ struct CapacityCommand {
   std::vector<std::string> words;  // run folder, and keys of spectrum{} as in a scene
   bool figures = true, quiet = false;
 };
-// Of erbs bench and erbs effects.
-struct TimingCommand {
+struct BenchCommand {
   std::vector<std::string> words;
   OutputOptions output;
   SceneOptions scene;
+};
+struct EffectsCommand {
+  std::vector<std::string> words;
+  OutputOptions output;
+  SceneOptions scene;
+  BatchOptions batch;
 };
 
 // The changes as arguments for another run of erbs.
@@ -193,8 +200,8 @@ int verb_sweep(const SweepCommand& command);
 int verb_calibrate(const CalibrateCommand& command);
 int verb_accuracy(const AccuracyCommand& command);
 int verb_map(const AccuracyCommand& command);
-int verb_bench(const TimingCommand& command);
-int verb_effects(const TimingCommand& command);
+int verb_bench(const BenchCommand& command);
+int verb_effects(const EffectsCommand& command);
 int verb_help(const std::vector<std::string>& words, const std::string& usage);
 int verb_version();
 

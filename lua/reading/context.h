@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/scene/scene.h"
+#include "engine/study/accuracy.h"
 #include "engine/study/study.h"
 #include "engine/study/sweep/design.h"
 #include "lua/reading/family.h"
@@ -88,6 +89,7 @@ struct Context {
   std::vector<Metric> metrics;
   std::vector<Sampling> samplings;
   std::vector<study::Study> studies;
+  std::vector<study::Knob> knobs;  // of accuracy{}
   std::vector<Figure> figures;
   ParamFamily family;
   std::vector<WordParam> words;

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 
@@ -34,8 +35,9 @@ StudiesOutcome run_studies(const Script& script, const std::string& path, const 
                            command.threads,
                            &interrupted};
   if (isatty(STDERR_FILENO) != 0 && !command.output.quiet)
-    children.progress = [](const std::string& study, int done, int asked) {
-      fmt::print(stderr, "\r\033[K{}: {} of {} runs", study, done, asked);
+    children.progress = [](const study::Children::Progress& now) {
+      fmt::print(stderr, "\r\033[K{}: {} of {} runs, {} failed, about {} left", now.study, now.done, now.asked, now.failed,
+                 duration_text(now.wall / std::max(1, now.done) * (now.asked - now.done)));
     };
   for (const study::Study& study : script.studies()) {
     const study::Carried carried = carry_out(study, children);

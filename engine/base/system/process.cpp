@@ -73,7 +73,9 @@ void become(const std::vector<char*>& words, const Launch& how, int input, int o
   if (how.own_group) setpgid(0, 0);
   if (how.memory > 0) {
     // The limit of data, not of addresses: libraries and stacks that are only reserved do not count.
-    const rlimit most{static_cast<rlim_t>(how.memory), static_cast<rlim_t>(how.memory)};
+    rlimit most{};
+    getrlimit(RLIMIT_DATA, &most);
+    most.rlim_cur = most.rlim_max = std::min(most.rlim_max, static_cast<rlim_t>(how.memory));  // a run of a run gets no more than that one
     setrlimit(RLIMIT_DATA, &most);
   }
   if (how.fed) dup2(input, STDIN_FILENO);

@@ -104,11 +104,11 @@ void read_accuracy(const fs::path& dir, ReportedStudy& study) {
   study.kind = "cost of accuracy";
   StudyTable table{"Errors over cost", read_csv((dir / "accuracy.csv").string()), {}};
   const CsvTable& rows = table.table;
-  table.x = std::max(0, first_of(rows, {"point_updates", "cpu_s"})), table.y = std::max(0, rows.find("error")),
+  table.x = std::max(0, first_of(rows, {"cpu_s", "point_updates"})), table.y = std::max(0, rows.find("error")),
   table.colour = rows.find("knob");
   table.logarithmic = true;
   table.links.assign(rows.rows(), "");
-  study.answers.emplace_back("runs", fmt::format("{}", rows.rows()));
+  study.answers.emplace_back("rows", fmt::format("{}", rows.rows()));
   if (const int quantity = rows.find("quantity");
       quantity >= 0 && rows.rows() > 0 && !rows.text[static_cast<std::size_t>(quantity)].empty())
     study.answers.emplace_back("quantity", rows.text[static_cast<std::size_t>(quantity)].front());
@@ -182,8 +182,8 @@ ReportedStudy read_reported_study(const std::string& dir, const std::string& pag
   if (!is_study_folder(dir))
     throw Error("it holds no study; name the folder of erbs sweep, of erbs accuracy, or of a run with studies", {dir, 0});
   study.title = fs::canonical(folder).filename().string();
-  if (fs::exists(folder / "results.csv")) read_sweep(folder, page, study);
-  else if (fs::exists(folder / "accuracy.csv")) read_accuracy(folder, study);
+  if (fs::exists(folder / "accuracy.csv")) read_accuracy(folder, study);  // its runs are those of a sweep, in results.csv
+  else if (fs::exists(folder / "results.csv")) read_sweep(folder, page, study);
   else read_scene_studies(folder, page, study);
   const bool of_scene = study.kind == "studies of a scene";
   for (const fs::path& file : files_with(of_scene ? folder / "studies" : folder, ".svg"))

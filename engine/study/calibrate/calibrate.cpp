@@ -22,12 +22,13 @@ using Values = std::map<std::string, double>;  // of the params that have been f
 
 class Calibrator {
  public:
-  explicit Calibrator(const Sweep& sweep) : s_(sweep), c_(*sweep.plan.calibration), keys_(sweep.plan.collect) {
+  Calibrator(const Sweep& sweep, bool resume) : s_(sweep), c_(*sweep.plan.calibration), keys_(sweep.plan.collect) {
     std::vector<std::string> names{"run", "stage"};
     names.insert(names.end(), s_.params.begin(), s_.params.end());
     names.insert(names.end(), s_.collected.begin(), s_.collected.end());
     names.insert(names.end(), {"sum_of_squares", "status", "reason"});
-    table_ = CsvWriter(s_.directory + "/" + calibration_table, names);
+    const std::string path = s_.directory + "/" + calibration_table;
+    table_ = resume && fs::exists(path) ? CsvWriter(path, names, take_known(path)) : CsvWriter(path, names);
   }
 
   Calibrated run() {
@@ -48,6 +49,28 @@ class Calibrator {
     bool sound = false;
     std::string reason;
   };
+
+  // Takes the runs of an earlier table up to the two that are kept, which are made anew. The fit goes the same way again, and so it finds
+  // them at once. Number of rows that stay.
+  long take_known(const std::string& path) {
+    const CsvTable table = read_csv(path);
+    const std::vector<std::string> params = varied_params(s_.plan);
+    const auto text = [&](const char* column, std::size_t i) {
+      const std::vector<std::string>& cells = table.text[std::size_t(table.find(column))];
+      return cells.empty() ? std::string() : cells[i];  // a column of empty cells has no text
+    };
+    for (std::size_t i = 0; i < table.rows() && table.column("stage")[i] > 0; ++i) {
+      Values values;
+      for (std::size_t k = 0; k < params.size(); ++k)
+        if (const double value = table.column(s_.params[k])[i]; std::isfinite(value)) values[params[k]] = value;
+      Row row;
+      for (const std::string& name : s_.collected) row.got.push_back(table.column(name)[i]);
+      row.reason = text("reason", i), row.sound = text("status", i) == "completed" && row.reason.empty();
+      ++out_.runs, failed_ += !row.sound;
+      known_[values] = std::move(row);
+    }
+    return out_.runs;
+  }
 
   // Runs the scene with each of the values, side by side. A run that was made before is not repeated.
   std::vector<Row> evaluate(const std::vector<Values>& all, const std::string& name = "") {
@@ -70,7 +93,7 @@ class Calibrator {
       if (interrupted()) pool.interrupt_all();
       const auto ended = pool.wait(0.5);
       if (!ended) continue;
-      rows[waiting[ended->id]] = read_run(s_, 0, place(ended->id), *ended);
+      rows[waiting[ended->id]] = read_run(s_, {}, 0, place(ended->id), *ended);
       if (name.empty()) tidy(s_, rows[waiting[ended->id]], place(ended->id));
     }
     if (interrupted()) throw Interrupted{};
@@ -217,7 +240,7 @@ class Calibrator {
 
 }  // namespace
 
-Calibrated calibrate(const Sweep& sweep) { return Calibrator(sweep).run(); }
+Calibrated calibrate(const Sweep& sweep, bool resume) { return Calibrator(sweep, resume).run(); }
 
 std::vector<std::string> calibrated_keys(const Calibration& calibration) {
   std::vector<std::string> keys;

@@ -38,8 +38,8 @@ constexpr const char* best_run = "best";
 constexpr const char* first_run = "start";
 
 // `sweep.plan.calibration` says what to fit, `sweep.collected` has a column for each of `calibrated_keys()`. Throws Error if no run of a
-// stage gives residuals, or a raised key stays above its number.
-Calibrated calibrate(const Sweep& sweep);
+// stage gives residuals, or a raised key stays above its number. `resume`: the runs of the table that is there are not made again.
+Calibrated calibrate(const Sweep& sweep, bool resume = false);
 
 std::vector<std::string> calibrated_keys(const Calibration& calibration);  // all keys it reads, without repetition
 

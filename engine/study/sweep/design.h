@@ -94,6 +94,7 @@ struct FragilityPlan {
 inline constexpr std::array fall_keys = {"collapse.time_s", "collapse.direction.0", "collapse.direction.1"};
 
 constexpr const char* perturbation = "perturbation";  // name of the axis of perturbations{}: seeds of a noise, and no param of the scene
+constexpr const char* variant = "setting";            // name of an axis whose values name Sweep::variants, and no param either
 inline bool is_perturbation(const Axis& axis) { return axis.params == std::vector<std::string>{perturbation}; }
 
 struct Plan {

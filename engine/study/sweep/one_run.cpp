@@ -45,8 +45,8 @@ std::string verdict_of(const Bisection& bisect, const Json& metrics, std::string
 }
 
 // Why the run has no result by its end alone; "" if it has one.
-void judge_end(const Sweep& sweep, const Finished& finished, const std::string& log, RunRow& row) {
-  const std::string words = last_words(log, finished.code, sweep.scene);
+void judge_end(const Sweep& sweep, const std::string& scene, const Finished& finished, const std::string& log, RunRow& row) {
+  const std::string words = last_words(log, finished.code, scene);
   const double cap = sweep.plan.memory;
   if (finished.overdue) {
     row.status = "timeout";
@@ -64,13 +64,25 @@ void judge_end(const Sweep& sweep, const Finished& finished, const std::string& 
   }
 }
 
+const Variant* variant_of(const Sweep& sweep, const std::string& param, const Value& value) {
+  return param == variant && !sweep.variants.empty() ? &sweep.variants.at(text_of(value)) : nullptr;
+}
+
 }  // namespace
+
+std::string scene_of(const Sweep& sweep, const Point& point) {
+  for (const auto& [param, value] : point)
+    if (const Variant* how = variant_of(sweep, param, value); how != nullptr && !how->scene.empty()) return how->scene;
+  return sweep.scene;
+}
 
 Job job_of(const Sweep& sweep, const Point& point, double x, const std::string& place) {
   const std::string folder = folder_of(sweep, place);
-  std::vector<std::string> command{own_path(), "run", sweep.scene, "-o", folder, "--force", "--quiet", "--threads", "1", "--no-figures"};
+  std::vector<std::string> command{own_path(),  "run", scene_of(sweep, point), "-o", folder, "--force", "--quiet",
+                                   "--threads", "1",   "--no-figures"};
   for (const auto& [param, value] : point)
-    if (param == perturbation)
+    if (const Variant* how = variant_of(sweep, param, value)) command.insert(command.end(), how->arguments.begin(), how->arguments.end());
+    else if (param == perturbation)
       command.insert(command.end(), {"--noise", fmt::format("{}", sweep.plan.noise), "--noise-seed", expression_of(value)});
     else command.insert(command.end(), {"-D", param + "=" + expression_of(value)});
   if (sweep.plan.bisect) command.insert(command.end(), {"-D", fmt::format("{}={}", sweep.plan.bisect->param, x)});
@@ -82,23 +94,24 @@ Job job_of(const Sweep& sweep, const Point& point, double x, const std::string& 
       command, {.output = log, .errors = log, .own_group = true, .bound_hard = true, .memory = sweep.plan.memory}, 0, sweep.plan.max_wall};
 }
 
-RunRow read_run(const Sweep& sweep, double x, const std::string& place, const Finished& finished) {
+RunRow read_run(const Sweep& sweep, const Point& point, double x, const std::string& place, const Finished& finished) {
+  const std::string scene = scene_of(sweep, point);
   const std::string file = folder_of(sweep, place) + "/metrics.json", log = log_of(sweep, place);
   RunRow row;
   row.x = x, row.wall = finished.wall, row.cpu = finished.cpu, row.memory = finished.memory;
   row.verdict = "nan";
   row.values.assign(sweep.plan.collect.size(), "nan");
-  judge_end(sweep, finished, log, row);
+  judge_end(sweep, scene, finished, log, row);
   if (!row.status.empty()) return row;
   try {
     if (!fs::exists(file)) {
-      row.status = "error", row.reason = last_words(log, finished.code, sweep.scene);
+      row.status = "error", row.reason = last_words(log, finished.code, scene);
       return row;
     }
     const Json metrics = read_json(file);
     row.status = metrics.value("status", "");
     if (row.status != "completed") {
-      row.reason = last_words(log, finished.code, sweep.scene);
+      row.reason = last_words(log, finished.code, scene);
       return row;
     }
     std::string absent;
@@ -106,7 +119,8 @@ RunRow read_run(const Sweep& sweep, double x, const std::string& place, const Fi
       const std::string& key = sweep.plan.collect[k];
       row.values[k] = cell_of(find_key(metrics, key));
       // A time of collapse may well be absent; a metric of the scene has lost its number.
-      if (row.values[k] == "nan" && key.starts_with("metrics.") && absent.empty())
+      // Variants may run scenes that have it not.
+      if (row.values[k] == "nan" && key.starts_with("metrics.") && absent.empty() && sweep.variants.empty())
         absent = fmt::format("{} has no value: its function gave nil, or no finite number", key);
     }
     if (sweep.plan.bisect) row.verdict = verdict_of(*sweep.plan.bisect, metrics, row.reason);

@@ -18,9 +18,10 @@ struct RunRow {
   bool answered() const { return status == "completed"; }
 };
 
+std::string scene_of(const Sweep& sweep, const Point& point);  // path of the script that the point runs
 // `place`: the folder of the run without DIR/runs/.
 Job job_of(const Sweep& sweep, const Point& point, double x, const std::string& place);
-RunRow read_run(const Sweep& sweep, double x, const std::string& place, const Finished& finished);
+RunRow read_run(const Sweep& sweep, const Point& point, double x, const std::string& place, const Finished& finished);
 // Removes what Plan::keep does not ask for.
 void tidy(const Sweep& sweep, const RunRow& row, const std::string& place);
 

@@ -88,10 +88,12 @@ class Sweeper {
   Swept carry_out() {
     while (done_count_ < count_ && !interrupted()) {
       claims_.beat();
-      while (!pool_.full() && !interrupted() && start_one()) {}
+      while (!pool_.full() && !interrupted() && !time_is_up() && start_one()) {}
       tell(false);
       if (!pool_.empty()) {
         if (const auto ended = pool_.wait(0.5)) take(*ended);
+      } else if (time_is_up()) {
+        break;
       } else if (active_.empty()) {
         refresh();
         if (done_count_ == count_ || (!s_.wait && tried_ >= count_)) break;
@@ -103,12 +105,16 @@ class Sweeper {
     if (done_count_ == count_) {
       results_.sort();
       claims_.remove_void();
+      std::error_code kept;
+      fs::remove(s_.directory + "/runs", kept);  // if nothing is in it
     }
     tell(true);
     return {count_, done_count_, failed_, made_, inherited_, first_failure_, interrupted()};
   }
 
  private:
+  // The first runs start in any case.
+  bool time_is_up() const { return s_.budget > 0 && next_id_ >= pool_.size() && seconds_since(begin_) > s_.budget; }
   bool interrupted() const { return s_.interrupted != nullptr && s_.interrupted->load(); }
 
   std::size_t index_of(const Cells& cells) const {
@@ -216,16 +222,24 @@ class Sweeper {
     const std::string place = active.bracket ? fmt::format("{:06}_{:02}", index, active.runs) : fmt::format("{:06}", index);
     ++active.runs;
     const std::size_t id = next_id_++;
-    under_way_[id] = {index, slot, place};
-    pool_.add(id, job_of(s_, active.point, active.round[slot], place));
+    Job job = job_of(s_, active.point, active.round[slot], place);
+    const double left = std::max(10.0, s_.budget - seconds_since(begin_));  // a run that has begun gets some time
+    const bool cut = s_.budget > 0 && (job.kill_after <= 0 || left < job.kill_after);
+    if (cut) job.kill_after = left;
+    under_way_[id] = {index, slot, place, cut};
+    pool_.add(id, job);
   }
 
   void take(const Finished& finished) {
     const UnderWay run = under_way_.at(finished.id);
     under_way_.erase(finished.id);
     if (interrupted()) return;
+    if (run.cut && finished.overdue) {  // it is made another time
+      tidy(s_, {}, run.place);
+      return;
+    }
     Active& active = active_.at(run.index);
-    RunRow row = read_run(s_, active.round[run.slot], run.place, finished);
+    RunRow row = read_run(s_, active.point, active.round[run.slot], run.place, finished);
     const Cells bracket = s_.bisected.empty() ? Cells{} : Cells{fmt::format("{}", row.x), row.verdict};
     runs_.append(joined(Cells{fmt::format("{}", run.index)}, cells_of(active.point), bracket, row.values,
                         Cells{row.status, row.reason, fmt::format("{:.4f}", row.wall), fmt::format("{:.4f}", row.cpu),
@@ -291,6 +305,7 @@ class Sweeper {
     std::int64_t index = 0;
     std::size_t slot = 0;
     std::string place;
+    bool cut = false;  // its time is what the budget leaves
   };
   const Sweep& s_;
   std::int64_t count_;

@@ -20,17 +20,35 @@ namespace {
 
 namespace fs = std::filesystem;
 
-void prepare_folder(const std::string& directory, bool force) {
+constexpr const char* identity_file = "study.json";
+
+// Makes the folder, or takes it up. Throws Error.
+void prepare_folder(const SweepStudy& study, const CalibrateCommand& command) {
+  const std::string& directory = study.sweep.directory;
   const bool there = fs::exists(directory) && !(fs::is_directory(directory) && fs::is_empty(directory));
-  const std::string table = directory + "/" + study::calibration_table;
-  if (there && !fs::exists(table))
+  const std::string identity = directory + "/" + identity_file;
+  if (there && !fs::exists(directory + "/" + study::calibration_table) && !fs::exists(identity))
     throw Error(fmt::format("\"{}\" exists and is no folder of a calibration; choose another folder with -o DIR", directory));
-  if (there && !force) throw Error(fmt::format("\"{}\" exists; replace it with --force, or choose another folder with -o DIR", directory));
-  if (there) {
-    for (const char* file : {study::calibration_table, study::calibration_file, "calibration.svg", "calibration.png", "runs"})
+  if (there && !command.output.force && !command.resume)
+    throw Error(
+        fmt::format("\"{}\" exists; go on with --resume, replace it with --force, or choose another folder with -o DIR", directory));
+  if (there && command.output.force) {
+    for (const char* file :
+         {study::calibration_table, study::calibration_file, identity_file, "calibration.svg", "calibration.png", "runs"})
       fs::remove_all(directory + "/" + file);
   }
+  if (there && !command.output.force) {
+    const Json before = fs::exists(identity) ? read_json(identity) : Json::object();
+    if (before.value("key", "") != study.sweep.key)
+      throw Error(
+          fmt::format("\"{}\" holds another calibration: its scene, its file or the program differ; choose another folder with "
+                      "-o DIR, or replace it with --force",
+                      directory));
+  }
   fs::create_directories(directory);
+  Json now = study.identity;
+  now["key"] = study.sweep.key;
+  write_json(identity, now);
 }
 
 std::string column_of(const study::Sweep& sweep, const std::string& param) {
@@ -111,7 +129,7 @@ int verb_calibrate(const CalibrateCommand& command) {
   study::Sweep& sweep = study.sweep;
   sweep.directory = command.output.directory.empty() ? "runs/" + study.name : command.output.directory;
   if (sweep.directory.starts_with("-")) sweep.directory = "./" + sweep.directory;
-  prepare_folder(sweep.directory, command.output.force);
+  prepare_folder(study, command);
   const std::atomic<bool>& interrupted = catch_interrupts();
   sweep.at_once = command.jobs > 0 ? command.jobs : usable_processors();
   sweep.interrupted = &interrupted;
@@ -119,11 +137,11 @@ int verb_calibrate(const CalibrateCommand& command) {
   if (!quiet && live)
     sweep.progress = [](const study::Sweep::Progress& now) { fmt::print(stderr, "\r\033[K{} runs, {} failed", now.runs, now.failed); };
   const auto begin = std::chrono::steady_clock::now();
-  const study::Calibrated result = calibrate(sweep);
+  const study::Calibrated result = calibrate(sweep, command.resume);
   const double wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
   if (!quiet && live) fmt::print(stderr, "\r\033[K");
   if (result.interrupted) {
-    tell(stderr, fmt::format("interrupted after {} runs; begin anew with --force", result.runs));
+    tell(stderr, fmt::format("interrupted after {} runs; continue with --resume", result.runs));
     return exit_interrupted;
   }
   write_json(sweep.directory + "/" + study::calibration_file, json_of(sweep, result));

@@ -1,6 +1,5 @@
 // erbs sweep STUDY.lua: many runs of a scene, on one machine, under mpirun or as a job array.
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,11 +12,13 @@
 #include "engine/base/system/process.h"
 #include "engine/base/text.h"
 #include "engine/study/fragility/fragility.h"
+#include "engine/study/machine.h"
 #include "engine/study/sweep/ranks.h"
 #include "engine/study/sweep/sweep_figure.h"
 #include "lua/commands/sweep/sweep_study.h"
 #include "lua/program/progress.h"
 #include "lua/program/say.h"
+#include "lua/program/sweep_printer.h"
 
 namespace erbs::lua {
 namespace {
@@ -97,28 +98,6 @@ void await_folder(const SweepStudy& study, const study::Ranks& ranks) {
                           study.sweep.directory));
 }
 
-class Printer {
- public:
-  Printer(bool quiet, bool bisects) : quiet_(quiet), bisects_(bisects), live_(isatty(STDERR_FILENO) != 0) {}
-
-  void show(const study::Sweep::Progress& now) {
-    if (quiet_) return;
-    if (live_ && now.end) fmt::print(stderr, "\r\033[K");
-    const auto time = std::chrono::steady_clock::now();
-    if (now.end || (!live_ && time - told_ < std::chrono::seconds(10))) return;
-    told_ = time;
-    const std::string made = bisects_ ? fmt::format(" ({} runs)", now.runs) : "";
-    const std::string text = fmt::format("{} of {} {}{}, {} failed{}", now.done, now.points, bisects_ ? "points" : "runs", made, now.failed,
-                                         now.left >= 0 ? ", about " + duration_text(now.left) + " left" : "");
-    if (live_) fmt::print(stderr, "\r\033[K{}", text);
-    else fmt::print(stderr, "{}\n", text);
-  }
-
- private:
-  bool quiet_, bisects_, live_;
-  std::chrono::steady_clock::time_point told_ = std::chrono::steady_clock::now();
-};
-
 std::string quoted(const std::string& word) {
   std::string out = "'";
   for (const char c : word) out += c == '\'' ? std::string("'\\''") : std::string(1, c);
@@ -153,8 +132,6 @@ int write_job(const SweepStudy& study, const SweepCommand& command) {
   say("{} points in {} tasks: sbatch {}/job.sh\n", points, tasks, directory);
   return exit_ok;
 }
-
-double machine_memory() { return double(::sysconf(_SC_PHYS_PAGES)) * double(::sysconf(_SC_PAGE_SIZE)); }
 
 // A figure that cannot be drawn is no failure of the study.
 void draw(const study::Sweep& sweep) {
@@ -225,11 +202,11 @@ int verb_sweep(const SweepCommand& command) {
   else await_folder(study, ranks);
   if (command.slurm) return first ? write_job(study, command) : exit_ok;
   sweep.at_once = command.jobs > 0 ? command.jobs : ranks.launched ? 1 : usable_processors();
-  if (sweep.plan.memory <= 0) sweep.plan.memory = machine_memory() / sweep.at_once;
+  if (sweep.plan.memory <= 0) sweep.plan.memory = study::machine_memory() / sweep.at_once;
   sweep.begin_at = double(ranks.rank) / ranks.size;
   sweep.wait = !ranks.array_task;
   sweep.interrupted = &interrupted;
-  Printer printer(command.output.quiet || !first, sweep.plan.bisect.has_value());
+  SweepPrinter printer(command.output.quiet || !first, sweep.plan.bisect.has_value());
   sweep.progress = [&](const study::Sweep::Progress& now) { printer.show(now); };
   const auto begin = std::chrono::steady_clock::now();
   const study::Swept swept = carry_out(sweep);

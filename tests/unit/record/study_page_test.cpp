@@ -57,10 +57,11 @@ TEST_CASE("the page of accuracy has errors over cost, on logarithmic axes", "[re
         "knob,setting,quantity,unit,value,reference,uncertainty,error,cpu_s,point_updates,command,reason\n"
         "time step,0.5,metrics.period,s,1,1.01,0,0.01,2,1000,erbs run,\ntime step,0.25,metrics.period,s,1,1.0025,0,0.0025,4,2000,erbs "
         "run,\n");
+  write(dir.path / "results.csv", "index,setting,runs,status,reason,study\n0,the scene as it is,1,completed,,0\n");  // of its runs
   const ReportedStudy study = read_reported_study(dir.path.string(), study_page_path(dir.path.string()));
   REQUIRE(study.tables.size() == 1);
   const StudyTable& table = study.tables[0];
-  CHECK(table.table.names[std::size_t(table.x)] == "point_updates");
+  CHECK(table.table.names[std::size_t(table.x)] == "cpu_s");
   CHECK(table.table.names[std::size_t(table.y)] == "error");
   CHECK(table.table.names[std::size_t(table.colour)] == "knob");
   CHECK(table.logarithmic);

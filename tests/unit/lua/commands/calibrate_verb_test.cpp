@@ -69,6 +69,28 @@ TEST_CASE("a calibration finds the params of known values, stage by stage, and d
   CHECK(bench.result()["stages"][0]["params"][0]["at_end_of_range"] == true);
 }
 
+TEST_CASE("a calibration that was cut off goes on, and ends with the same values", "[calibrate]") {
+  Calibration bench;
+  const std::string study = study_of(
+      "{ raise = { ks = { 1, 1e4, log = true } }, key = 'metrics.slip', below = .01 }, { fit = { a = { .1, 10, log = true }, b = { 0, 2 } "
+      "} }");
+  REQUIRE(bench.calibrate(study) == 0);
+  const Json whole = bench.result();
+  const std::string path = bench.out() + "/calibration.csv", table = text_of(path);
+  // Half of the table, its last line torn, as a kill may leave it.
+  std::ofstream(path) << table.substr(0, table.size() / 2);
+  fs::remove(bench.out() + "/calibration.json");
+  const std::size_t kept = read_csv(path).rows();
+  REQUIRE(bench.calibrate(study, {"--resume"}) == 0);
+  CHECK(bench.result() == whole);
+  CHECK(text_of(path) == table);
+  CHECK(kept > 5);
+  CHECK(bench.calibrate(study) == 2);
+  CHECK_THAT(bench.said, Catch::Contains("go on with --resume"));
+  CHECK(bench.calibrate(study_of("{ fit = { a = { .1, 10 } } }"), {"--resume"}) == 2);
+  CHECK_THAT(bench.said, Catch::Contains("holds another calibration"));
+}
+
 TEST_CASE("mistakes of a calibration are met with place and remedy", "[calibrate]") {
   Calibration bench;
   const auto refused = [&](const std::string& study, const std::string& words) {

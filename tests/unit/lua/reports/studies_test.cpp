@@ -114,6 +114,7 @@ TEST_CASE("a run of a study that fails is a row with its reason, and the others 
   CHECK((failed > 3 && failed < 24));
   CHECK(bench.metric("ensemble_failed") == failed);
   const double mean = bench.metric("ensemble_mean"), deviation = bench.metric("ensemble_deviation");
+  CHECK(bench.metric("ensemble_error") == Approx(deviation / std::sqrt(24.0 - failed)));
   REQUIRE(bench.run(scene, {"--force"}) == 0);
   CHECK(bench.metric("ensemble_mean") == mean);
   CHECK(bench.metric("ensemble_deviation") == deviation);

@@ -1,0 +1,47 @@
+// The command erbs effects from the user's side.
+#include <catch2/catch.hpp>
+
+#include "engine/record/format/csv.h"
+#include "tests/unit/lua/bench.h"
+
+using namespace erbs;
+using namespace erbs::lua;
+
+namespace {
+
+std::string pier(const std::string& analysis = "") {
+  return four_bricks() +
+         "joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 1e5, c = 2e5, mu = .6 } }\ndamping{ mass = 1 }\n"
+         "recorder{ name = 't', quantity = 'displacement', block = 'b3' }\n"
+         "ground_motion{ wave = sine{ amplitude = 2, frequency = 4 }, direction = 'x' }\nanalysis{ duration = .05" +
+         analysis + " }\nmetric('sway', 'm', function(run) return run.peak 't_ux_rel_m' end)\n";
+}
+
+}  // namespace
+
+TEST_CASE("effects runs a scene without each of its effects, and keeps what is done", "[program]") {
+  Bench bench;
+  const std::string scene = bench.scene(pier());
+  REQUIRE(bench.erbs({"effects", scene, "-o", bench.out()}) == 0);
+  INFO(bench.said);
+  const CsvTable table = read_csv(bench.out() + "/effects.csv");
+  REQUIRE(table.rows() >= 2);
+  CHECK(read_csv(bench.out() + "/results.csv").rows() == table.rows() + 1);
+  CHECK(std::filesystem::file_size(bench.folder / "out/effects.svg") > 500);
+  CHECK(bench.erbs({"effects", scene, "-o", bench.out()}) == 2);
+  CHECK(contains(bench.said, "--resume"));
+  const std::string before = text_of(bench.folder / "out/effects.csv");
+  REQUIRE(bench.erbs({"effects", scene, "-o", bench.out(), "--resume"}) == 0);
+  CHECK(text_of(bench.folder / "out/effects.csv") == before);  // no run was made again
+}
+
+TEST_CASE("a run of effects that fails is a row with its reason, and the scene itself must run", "[program]") {
+  Bench bench;
+  // Past the limit of the step: every run diverges, and says so.
+  const int code = bench.erbs({"effects", bench.scene(pier(", dt = { 1e-2, unstable = true }")), "-o", bench.out()});
+  INFO(bench.said);
+  CHECK(code == 2);
+  CHECK(contains(bench.said, "scene.lua"));
+  CHECK(bench.erbs({"effects", bench.scene(pier()), "-o", bench.out(), "--force", "--max-wall", "1ms", "-j", "2"}) == 2);
+  CHECK(contains(bench.said, "took longer than max_wall"));
+}
