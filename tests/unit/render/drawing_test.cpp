@@ -129,6 +129,25 @@ TEST_CASE("visible parts of lines among boxes are those that rays reach", "[rend
   CHECK(compared > 1000);
 }
 
+TEST_CASE("the face that is seen at a point is the nearest one, at its angle", "[render][drawing]") {
+  const bool parallel = GENERATE(true, false);
+  const Projection projection(camera_at({0, -10, 0}, {0, 0, 0}), parallel, 800, 600, 0, 0);
+  HiddenLines lines(projection, 800, 600, 1e-4);
+  lines.add_face({{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}}, 0);
+  lines.add_face({{0, 2, -1}, {2, 2, -1}, {2, 2, 1}, {0, 2, 1}}, 1);          // partly behind it
+  lines.add_face({{-1, 0, -1}, {-1, 0, 1}, {-1.2, 3, 1}, {-1.2, 3, -1}}, 2);  // a side seen nearly from its edge
+  const auto at = [&](const Vec3& p) { return lines.sight(projection.see(projection.in_camera(p)).at); };
+  REQUIRE(at({0.5, 0, 0.5}));
+  CHECK(projection.depth_of(at({0.5, 0, 0.5})->near) == Approx(10));
+  CHECK(at({0.5, 0, 0.5})->facing == Approx(1).margin(0.01));
+  REQUIRE(at({1.7, 2, 0.5}));
+  CHECK(projection.depth_of(at({1.7, 2, 0.5})->near) == Approx(12));
+  CHECK_FALSE(at({-3, 0, 0}));
+  if (!parallel) return;
+  REQUIRE(at({-1.1, 1.5, 0}));
+  CHECK(at({-1.1, 1.5, 0})->facing == Approx(std::sin(std::atan(0.2 / 3))).epsilon(1e-6));
+}
+
 TEST_CASE("the width of a crack tells a tenth of a millimetre from one, from ten and from a hundred", "[render][drawing]") {
   double before = crack_width(0);
   CHECK(before > 0.5);
@@ -161,6 +180,11 @@ TEST_CASE("a line drawing shows outlines, cracks by state, legend and scale", "[
     CHECK(svg.find(" mm</text>") != std::string::npos);
     CHECK(svg.find(" cm</text>") != std::string::npos);
   }
+  // A house seen along its walls: those lie nearly in the line of sight.
+  Movie aslant = movie;
+  aslant.cameras = {}, aslant.eye = Vec3(0.6, -9, 1), aslant.target = Vec3(0.75, 0.9, 1), aslant.stills = {0.0};
+  REQUIRE(make_drawings(run, reader, aslant, std::atomic<bool>{false}));
+  CHECK(text_of(dir.path / "frames/own_t0.000s.svg").find("data-name=\"edges\"") != std::string::npos);
   CHECK(still.find("data-name=\"open joints\"") == std::string::npos);  // nothing has cracked yet
   CHECK(later.find("data-name=\"open joints\"") != std::string::npos);
   CHECK_THROWS_WITH(make_drawings(run, reader, movie, std::atomic<bool>{false}), Catch::Contains("--force"));
