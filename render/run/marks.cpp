@@ -14,8 +14,8 @@ namespace erbs::render {
 namespace {
 
 const Vec3 force_color{0.02, 0.09, 0.32}, thrust_color{0.55, 0.0, 0.16}, motion_color{0.0, 0.22, 0.14};
-constexpr double widest = 9, thinnest_share = 0.015;          // px; of the scale, below which a force is not drawn
-constexpr double widest_thrust = 4.2, thinnest_thrust = 0.9;  // px
+constexpr double widest = 9, thinnest_share = 0.015;        // px; of the scale, below which a force is not drawn
+constexpr double widest_thrust = 8, thinnest_thrust = 0.6;  // px
 
 Vec3 place_of(const MotionFrame& f, std::size_t b) { return Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * b]).cast<double>(); }
 Eigen::Quaterniond turn_of(const MotionFrame& f, std::size_t b) {
@@ -75,10 +75,22 @@ void add_forces(const MotionScene& scene, const std::vector<Thrust>& thrusts, co
   }
 }
 
+// At rest, about its centroid (m).
+Eigen::AlignedBox3d extent_of(const MotionScene& scene, const MotionBlock& block) {
+  Eigen::AlignedBox3d box;
+  for (const int part : block.parts) {
+    const std::vector<float>& v = scene.shapes[static_cast<std::size_t>(part)].vertices;
+    for (std::size_t i = 0; i + 2 < v.size(); i += 3) box.extend(Vec3(v[i], v[i + 1], v[i + 2]));
+  }
+  return box;
+}
+
 // Where the forces on a block meet: the point nearest to their lines of action, and to that of its weight and inertia, by the squares of
-// the distances weighted with the forces. Where these lines are parallel, a small share of the distance to the points of attack decides.
+// the distances weighted with the forces. Where these lines are parallel, a small share of the distance to the points of attack decides. It
+// lies within the block: thrust does not leave the masonry.
 Vec3 meeting_of(const std::vector<Thrust>& thrusts, const std::vector<std::size_t>& joints, const MotionScene& scene, std::size_t b,
-                const Vec3& centroid) {
+                const MotionFrame& drawn) {
+  const Vec3 centroid = place_of(drawn, b);
   Mat3 sum = Mat3::Zero();
   Vec3 right = Vec3::Zero(), mean = Vec3::Zero(), rest = Vec3::Zero();
   double all = 0;
@@ -96,23 +108,42 @@ Vec3 meeting_of(const std::vector<Thrust>& thrusts, const std::vector<std::size_
   add_line(centroid, rest);
   const double share = 0.03 * all;
   sum += share * Mat3::Identity(), right += share * mean / all;
-  return sum.ldlt().solve(right);
+  const Eigen::AlignedBox3d box = extent_of(scene, scene.blocks[b]);
+  const Eigen::Quaterniond turn = turn_of(drawn, b);
+  const Vec3 within = turn.conjugate() * (Vec3(sum.ldlt().solve(right)) - centroid);
+  return centroid + turn * Vec3(within.cwiseMax(0.9 * box.min()).cwiseMin(0.9 * box.max()));
+}
+
+// Middle of a joint as drawn, and the distance of its farthest corner from it (m).
+std::pair<Vec3, double> middle_of(const MotionScene& scene, std::size_t j, const MotionFrame& drawn) {
+  const MotionJoint& joint = scene.joints[j];
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& p : joint.polygon) middle += p / static_cast<double>(joint.polygon.size());
+  double reach = 0;
+  for (const Vec3& p : joint.polygon) reach = std::max(reach, (p - middle).norm());
+  const auto a = static_cast<std::size_t>(joint.a);
+  return {place_of(drawn, a) + turn_of(drawn, a) * middle, reach};
 }
 
 // Through the centres of pressure of a block that is pressed from two sides, as voussoirs and drums are. In other blocks it branches, from
 // the point where the forces meet to each pressed joint.
-void add_thrust_line(const MotionScene& scene, const std::vector<Thrust>& thrusts, const MotionFrame& drawn,
-                     const std::vector<bool>& hidden, double scale, Marks& marks) {
+void add_thrust_line(const MotionScene& scene, std::vector<Thrust> thrusts, const MotionFrame& drawn, const std::vector<bool>& hidden,
+                     double scale, Marks& marks) {
   std::vector<double> largest(scene.blocks.size());
   const auto ends = [&](std::size_t j) {
     return std::array{static_cast<std::size_t>(scene.joints[j].a), static_cast<std::size_t>(scene.joints[j].b)};
   };
-  for (std::size_t j = 0; j < thrusts.size(); ++j)
+  for (std::size_t j = 0; j < thrusts.size(); ++j) {
     for (const std::size_t b : ends(j)) largest[b] = std::max(largest[b], thrusts[j].force);
+    // Bond may put the resultant far outside of the joint. The line then passes just outside of it, which says as much.
+    if (!(thrusts[j].force > 0)) continue;
+    const auto [middle, reach] = middle_of(scene, j, drawn);
+    if (const Vec3 away = thrusts[j].at - middle; away.norm() > 1.05 * reach) thrusts[j].at = middle + 1.05 * reach * away.normalized();
+  }
   std::vector<std::vector<std::size_t>> loaded(scene.blocks.size());
   for (std::size_t j = 0; j < thrusts.size(); ++j) {
     const auto [a, b] = ends(j);
-    if (!(thrusts[j].force > 0.01 * std::min(largest[a], largest[b]))) continue;  // next to nothing for both
+    if (!(thrusts[j].force > 0.03 * std::min(largest[a], largest[b]))) continue;  // next to nothing for both
     loaded[a].push_back(j), loaded[b].push_back(j);
   }
   const auto draw = [&](const Vec3& from, const Vec3& to, double force) {
@@ -128,18 +159,20 @@ void add_thrust_line(const MotionScene& scene, const std::vector<Thrust>& thrust
       draw(thrusts[joints[0]].at, thrusts[joints[1]].at, 0.5 * (thrusts[joints[0]].force + thrusts[joints[1]].force));
       continue;
     }
-    const Vec3 node = meeting_of(thrusts, joints, scene, b, place_of(drawn, b));
+    const Vec3 node = meeting_of(thrusts, joints, scene, b, drawn);
     if (!node.allFinite()) continue;
-    for (const std::size_t j : joints) draw(node, thrusts[j].at, thrusts[j].force);
+    // A plate that only rests on others hands its weight down where each of them bears it.
+    const bool on_one_side =
+        std::all_of(joints.begin(), joints.end(), [&](std::size_t j) { return outward(j).dot(outward(joints[0])) > 0.5; });
+    for (const std::size_t j : joints) {
+      const Vec3 out = outward(j);
+      draw(on_one_side ? Vec3(thrusts[j].at + (node - thrusts[j].at).dot(out) * out) : node, thrusts[j].at, thrusts[j].force);
+    }
   }
 }
 
 double radius_of(const MotionScene& scene, const MotionBlock& block) {  // m, of the sphere with the mean half size
-  Eigen::AlignedBox3d box;
-  for (const int part : block.parts) {
-    const std::vector<float>& v = scene.shapes[static_cast<std::size_t>(part)].vertices;
-    for (std::size_t i = 0; i + 2 < v.size(); i += 3) box.extend(Vec3(v[i], v[i + 1], v[i + 2]));
-  }
+  const Eigen::AlignedBox3d box = extent_of(scene, block);
   return box.isEmpty() ? 0 : box.sizes().sum() / 6;
 }
 

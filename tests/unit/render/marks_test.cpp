@@ -89,10 +89,10 @@ TEST_CASE("the thrust of a wall branches to the joints that bear it, and carries
   double carried = 0;
   for (const Stroke& s : marks.strokes) {
     const double low = std::min(s.from.z(), s.to.z()), high = std::max(s.from.z(), s.to.z());
-    CHECK(s.width <= 4.2 + 1e-9);
+    CHECK(s.width <= 8 + 1e-9);
     CHECK(low > -0.001);
     CHECK(high < 0.1 * courses + 0.001);
-    if (low < 0.005 && high > 0.005) carried += s.width / 4.2 * scale;
+    if (low < 0.005 && high > 0.005) carried += s.width / 8 * scale;
     // Each stroke stays within the width of a brick: it does not jump from one to the next.
     CHECK(std::fabs(s.from.x() - s.to.x()) < 0.2);
   }
