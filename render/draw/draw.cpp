@@ -75,8 +75,6 @@ struct Painter::Hidden {
   GLuint solid, shade, crack, ground, dim, sky, cloud;  // dim: a ground that only shows its shadow
   Drawable bricks, shades, cracks, plane, discs;
   Texels blocks, joints;
-  std::optional<Region> last_region;
-  Eigen::Matrix4f last_camera = Eigen::Matrix4f::Zero();
 
   Hidden(const Show& s, const Look& l, const std::string& kind)
       : show(s), look_(l), around(backdrop(l.background)), context(make_context(kind)), gl(load_gl(*context)) {
@@ -297,22 +295,9 @@ struct Painter::Hidden {
     gl.ActiveTexture(GL_TEXTURE0);
   }
 
-  // What has to be drawn anew: where blocks move, and where they were in the picture before. None: all of it.
-  std::optional<Region> changed(const MotionFrame& frame, const Light& light, const View& v, bool still) {
-    std::optional<Region> now;
-    if (still) now = moving_region(show, frame, v, light.sun, look_.width, look_.height);
-    std::optional<Region> both;
-    if (now && last_region && last_camera == light.camera)
-      both = Region{std::min(now->left, last_region->left), std::min(now->bottom, last_region->bottom),
-                    std::max(now->right, last_region->right), std::max(now->top, last_region->top)};
-    last_region = now, last_camera = light.camera;
-    return both;
-  }
-
-  void draw_picture(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position,
-                    const std::optional<Region>& region) const {
+  void draw_picture(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position) const {
     const Stage& stage = show.stage;
-    canvas->begin_picture(region);
+    canvas->begin_picture();
     draw_bricks(light, 1);
     gl.Disable(GL_CULL_FACE);
     use(crack, light, light.camera);
@@ -383,10 +368,10 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   choose(h.gl, h.bricks, texels.index);
   choose(h.gl, h.cracks, texels.crack_index);
   h.draw_shadow(light);
-  h.draw_picture(light, v, position, h.changed(frame, light, v, !position && dust.empty()));
+  h.draw_picture(light, v, position);
   h.draw_ghosts(light, texels.ghost_index);
   h.draw_dust(light, v, dust);
-  Image image = h.canvas->finish(v.projection, h.show.corner_radius(), l.background == Background::transparent);
+  Image image = h.canvas->finish(v.projection, 0.022 * h.show.stage.size(), l.background == Background::transparent);
   if (const GLenum error = h.gl.GetError(); error != GL_NO_ERROR)
     throw std::logic_error(fmt::format("internal error: OpenGL reports {:#x}; please report it", error));
   return image;

@@ -49,8 +49,6 @@ struct Show {
   double scale = 1;               // m, m/s, J or Pa, the value that has the last colour of the map
   std::vector<Vec3> block_color;  // linear, by material with a slight variation between bricks [blocks]
   std::vector<bool> ghost;        // drawn translucent, without shadow [blocks]
-  std::vector<double> reach;      // m, of a block from its centroid [blocks]
-  double corner_radius() const { return 0.022 * stage.size(); }  // m, within which corners are darkened
 };
 Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<MotionFrame>& some_frames);
 // The same on a stage that is set, with ghosts (empty: none) and a section whose side is known.
@@ -88,11 +86,6 @@ struct FrameTexels {
   std::vector<std::uint32_t> ghost_index;  // triangles of translucent blocks
 };
 FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye);
-
-// The part of a picture that holds the blocks, their shadows on the ground, and the corners that they darken; none where that may be all
-// of it. Elsewhere nothing changes from frame to frame.
-std::optional<Region> moving_region(const Show& show, const MotionFrame& frame, const View& view, const Eigen::Vector3f& sun, int width,
-                                    int height);
 
 class Painter {
  public:

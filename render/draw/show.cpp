@@ -92,14 +92,6 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
   for (std::size_t b = 0; b < no_shade.size(); ++b) no_shade[b] = no_shade[b] || show.ghost[b];
   add_shades(show.mesh, solid, no_shade, 0.55 * gap + 0.1 * show.open_crack);
   for (const MotionJoint& joint : scene.joints) show.joint_area.push_back(static_cast<float>(0.5 * area_normal(joint.polygon).norm()));
-  for (const MotionBlock& block : scene.blocks) {
-    double most = 0;
-    for (const int part : block.parts) {
-      const std::vector<float>& v = scene.shapes[static_cast<std::size_t>(part)].vertices;
-      for (std::size_t i = 0; i + 2 < v.size(); i += 3) most = std::max(most, static_cast<double>(std::hypot(v[i], v[i + 1], v[i + 2])));
-    }
-    show.reach.push_back(most);
-  }
   show.grid = round_length(show.stage.size() / 5);
   std::vector<int> uses(run.materials.size() + 1);
   const auto paint = [&](const MotionBlock& b) {
@@ -195,42 +187,6 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
   }
   choose_triangles(show, frame, coloring == Coloring::joint_state, eye, t);
   return t;
-}
-
-std::optional<Region> moving_region(const Show& show, const MotionFrame& frame, const View& view, const Eigen::Vector3f& sun, int width,
-                                    int height) {
-  Eigen::AlignedBox3d box;
-  for (std::size_t b = 0; b < show.reach.size(); ++b) {
-    if (show.stage.hidden[b]) continue;
-    const Vec3 at = Eigen::Map<const Eigen::Vector3f>(&frame.poses[7 * b]).cast<double>();
-    if (!at.allFinite()) return std::nullopt;
-    // Mortar, the band of a crack and the enlarged caster of a shadow reach a little farther than the block.
-    const Vec3 all = Vec3::Constant(1.1 * show.reach[b] + 0.01 * show.stage.size());
-    box.extend(Eigen::AlignedBox3d(at - all, at + all));
-  }
-  if (box.isEmpty()) return std::nullopt;
-  const Eigen::Matrix4d camera = (view.projection * view.view).cast<double>();
-  const Vec3 s = sun.cast<double>();
-  Eigen::AlignedBox2d seen;
-  double margin = 0;  // px
-  const auto extend = [&](const Vec3& p) {
-    const Eigen::Vector4d clip = camera * p.homogeneous();
-    if (!(clip.w() > 0.02 * static_cast<double>(view.target_distance))) return false;
-    seen.extend(Eigen::Vector2d(0.5 * (clip.x() / clip.w() + 1) * width, 0.5 * (clip.y() / clip.w() + 1) * height));
-    margin = std::max(margin, show.corner_radius() / (static_cast<double>(view.pixel) * clip.w()));
-    return true;
-  };
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 p = box.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
-    const double above = std::max(0.0, p.z() - show.stage.ground_z);
-    if (!extend(p) || !extend(p - above / s.z() * s)) return std::nullopt;
-  }
-  const Eigen::Array2d aside = Eigen::Array2d::Constant(12 + 2 * margin);
-  const Eigen::Array2d low = (seen.min().array() - aside).floor().max(0), high = (seen.max().array() + aside).ceil();
-  Region region{static_cast<int>(std::min<double>(low.x(), width)), static_cast<int>(std::min<double>(low.y(), height)), 0, 0};
-  region.right = static_cast<int>(std::clamp<double>(high.x(), region.left, width));
-  region.top = static_cast<int>(std::clamp<double>(high.y(), region.bottom, height));
-  return region;
 }
 
 }  // namespace erbs::render

@@ -116,16 +116,7 @@ void Canvas::begin_shadow() {
   gl_.Clear(GL_DEPTH_BUFFER_BIT);
 }
 
-void Canvas::limit_to(const std::optional<Region>& region, int share) const {
-  if (!region) return gl_.Disable(GL_SCISSOR_TEST);
-  const int left = region->left / share, bottom = region->bottom / share;
-  gl_.Enable(GL_SCISSOR_TEST);
-  gl_.Scissor(left, bottom, (region->right + share - 1) / share - left, (region->top + share - 1) / share - bottom);
-}
-
-void Canvas::begin_picture(const std::optional<Region>& region) {
-  region_ = region;
-  limit_to(region_, 1);
+void Canvas::begin_picture() {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
   translucent_ = false;
   gl_.Viewport(0, 0, width_, height_);
@@ -148,7 +139,6 @@ void Canvas::begin_translucent() {
 void Canvas::screen_pass(GLuint program, const Target& target) {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   gl_.Viewport(0, 0, target.width, target.height);
-  limit_to(region_, target.width < width_ ? 2 : 1);
   gl_.UseProgram(program);
   gl_.BindVertexArray(empty_);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
@@ -187,7 +177,6 @@ Image Canvas::finish(const Eigen::Matrix4f& projection, double radius, bool with
   gl_.BindTexture(GL_TEXTURE_2D, resolved_.color);
   occlusion_uniforms(finish_program_, projection, radius);
   screen_pass(finish_program_, final_);
-  limit_to(std::nullopt, 1);
   return read(with_opacity);
 }
 

@@ -1,6 +1,5 @@
 // Render targets of one picture: a multisampled image, its resolved copy with depth, the shadow map, and the final passes.
 #pragma once
-#include <optional>
 #include <vector>
 
 #include "engine/base/vec.h"
@@ -29,11 +28,6 @@ Target shadow_target(const Gl& gl, int side);
 Target multisampled_target(const Gl& gl, int width, int height, int samples);
 Target picture_target(const Gl& gl, int width, int height, bool with_depth);
 
-// Pixels of a picture, from the lower left.
-struct Region {
-  int left = 0, bottom = 0, right = 0, top = 0;
-};
-
 class Canvas {
  public:
   Canvas(const Gl& gl, int width, int height);
@@ -41,9 +35,8 @@ class Canvas {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  void begin_shadow();  // afterwards draw everything that casts a shadow
-  // Afterwards draw everything visible. With a region, all else stays as in the picture before.
-  void begin_picture(const std::optional<Region>& region = std::nullopt);
+  void begin_shadow();   // afterwards draw everything that casts a shadow
+  void begin_picture();  // afterwards draw everything visible
   // Afterwards draw what is translucent: it darkens no corners.
   void begin_translucent();
   // Darkens corners within `radius` (m), then returns the pixels, perhaps with their opacity.
@@ -58,13 +51,11 @@ class Canvas {
  private:
   Image read(bool with_opacity) const;
   void resolve(GLenum what);
-  void limit_to(const std::optional<Region>& region, int share) const;  // of a target with 1 / share of the pixels along each side
   void screen_pass(GLuint program, const Target& target);
   void occlusion_uniforms(GLuint program, const Eigen::Matrix4f& projection, double radius);
   const Gl& gl_;
   int width_, height_;
   bool translucent_ = false;  // the depth of the picture is taken
-  std::optional<Region> region_;
   Target shadow_, sampled_, resolved_, occlusion_, blurred_, final_;
   GLuint occlusion_program_, blur_program_, finish_program_, empty_;
 };

@@ -60,7 +60,6 @@
   X(READBUFFER, ReadBuffer)                                         \
   X(READPIXELS, ReadPixels)                                         \
   X(RENDERBUFFERSTORAGEMULTISAMPLE, RenderbufferStorageMultisample) \
-  X(SCISSOR, Scissor)                                               \
   X(SHADERSOURCE, ShaderSource)                                     \
   X(TEXBUFFER, TexBuffer)                                           \
   X(TEXIMAGE2D, TexImage2D)                                         \

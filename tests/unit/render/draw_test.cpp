@@ -90,39 +90,6 @@ TEST_CASE("both sources of OpenGL draw the same pixels", "[render][context]") {
   if (images.size() == 2) CHECK(compare(images[0], images[1]).alike());
 }
 
-TEST_CASE("a frame drawn after others is that of a fresh start, pixel by pixel", "[render][draw]") {
-  // Only what moves is drawn anew: blocks, their shadows and darkened corners must lie within, and what they leave must be restored.
-  const MotionScene scene = brick_house({1.2, 1.2, 6, 1, 0.1});
-  std::vector<MotionFrame> frames;
-  for (int i = 0; i < 4; ++i) {
-    MotionFrame frame = brick_house_frame(scene, 0);
-    for (std::size_t b = 0; b < scene.blocks.size(); b += 3) {
-      if (scene.blocks[b].fixed) continue;
-      frame.poses[7 * b] += 0.5F * static_cast<float>(i % 3), frame.poses[7 * b + 2] += 0.4F * static_cast<float>(i);
-    }
-    frames.push_back(frame);
-  }
-  const Run run;
-  const Show show = prepare_show(scene, run, frames);
-  const Camera camera = choose_cameras(show.stage, 4.0 / 3)[GENERATE(std::size_t{0}, std::size_t{1})];
-  Look look;
-  look.width = 320, look.height = 240;
-  look.background = GENERATE(Background::sky, Background::transparent);
-  const View view = render::look(camera, show.stage, look.width, look.height, 0, 0);
-  const auto region = moving_region(show, frames[0], view, sun_of(camera), look.width, look.height);
-  REQUIRE(region);
-  CHECK((region->right - region->left) * (region->top - region->bottom) < look.width * look.height);
-  Painter painter(show, look, "auto");
-  for (const MotionFrame& frame : frames) {
-    const Image later = painter.draw(frame, camera), fresh = Painter(show, look, "auto").draw(frame, camera);
-    CHECK(later.rgb == fresh.rgb);
-  }
-  // Another camera starts anew.
-  Camera other = camera;
-  other.eye += Vec3(0.3, 0, 0);
-  CHECK(painter.draw(frames[1], other).rgb == Painter(show, look, "auto").draw(frames[1], other).rgb);
-}
-
 TEST_CASE("broken joints are seen as dark lines, damage as colour", "[render][draw]") {
   prepare_contexts();
   const MotionScene scene = brick_house({1.525, 1.83, 13, 1, 0.5});
