@@ -251,7 +251,9 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   app.add_flag("--forces", a.movie.marks.forces,
                "lines of the normal forces of joints, as wide as the force (of a scene with frame_stress)");
-  app.add_flag("--thrust", a.movie.marks.thrust, "the line of thrust of blocks between two joints (of a scene with frame_stress)");
+  app.add_flag(
+      "--thrust", a.movie.marks.thrust,
+      "the line of thrust, as wide as the force: between the two joints of a voussoir, branching in a wall (of a scene with frame_stress)");
   app.add_option("--mechanism", a.movie.marks.mechanism,
                  "arrows of velocities and rotations: motion, of this run, or the mechanism.csv of erbs limit SCENE -o FOLDER");
   app.add_flag("--dust", a.movie.dust, "clouds of dust where blocks hit something: an illustration, not computed");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <memory>
 
 #include "engine/base/correlation.h"
@@ -32,9 +33,10 @@ struct RunDrawer {
   Movie movie;
   Show show;
   Camera camera;
+  int width = 0, height = 0;
 
   // The picture without the blocks that move: they lie far below the ground.
-  MotionFrame frame_of(double t, bool empty) const {
+  MotionFrame frame_of(double t, bool empty = false) const {
     MotionFrame frame = frame_at(reader, t);
     frame.t = t;
     magnify(reader.scene(), movie.look.magnify, frame);
@@ -44,13 +46,10 @@ struct RunDrawer {
     return frame;
   }
 
-  // Calls take(index, picture); false from it ends the work.
-  void draw(const std::vector<double>& times, int width, int height, bool empty,
-            const std::function<bool(std::size_t, Image)>& take) const {
-    if (times.empty()) return;
+  Workers start(std::size_t most) const {
     Look sized = movie.look;
     sized.width = width, sized.height = height;
-    const auto prepare = [&]() -> Workers::Draw {
+    const auto prepare = [this, sized]() -> Workers::Draw {
       const auto painter = std::make_shared<Painter>(show, sized, movie.context);
       return [this, painter](std::size_t, const MotionFrame& frame) {
         std::optional<Mat3> level;
@@ -59,12 +58,16 @@ struct RunDrawer {
       };
     };
     const auto wish = std::size_t(movie.threads > 0 ? movie.threads : usable_processors());
-    Workers workers(std::clamp<std::size_t>(wish, 1, times.size()), Image(width, height), frame_of(times[0], empty), prepare);
-    for (std::size_t i = 0; i < workers.count(); ++i) workers.order(i, i, frame_of(times[i], empty));
+    return Workers(std::clamp<std::size_t>(wish, 1, most), Image(width, height), frame_of(reader.times().front()), prepare);
+  }
+
+  // Calls take(index, picture); false from it ends the work.
+  void draw(Workers& workers, const std::vector<double>& times, const std::function<bool(std::size_t, Image)>& take) const {
+    for (std::size_t i = 0; i < std::min(workers.count(), times.size()); ++i) workers.order(i, i, frame_of(times[i]));
     for (std::size_t i = 0; i < times.size(); ++i) {
       Image image = workers.collect(i % workers.count());
       const std::size_t next = i + workers.count();
-      if (next < times.size()) workers.order(i % workers.count(), next, frame_of(times[next], empty));
+      if (next < times.size()) workers.order(i % workers.count(), next, frame_of(times[next]));
       if (!take(i, std::move(image))) return;
     }
   }
@@ -81,22 +84,21 @@ struct SignalMeter {
   }
 };
 
-MotionSignal signal_of_film(const FilmComparison& wish, const Movie& movie, double step) {
-  FilmReader film(wish.film, movie.fps);
+MotionSignal signal_of_film(FilmReader& film, const std::string& path, double step) {
   SignalMeter meter;
   const int factor = reduction_to(film.width(), signal_width);
   while (const std::optional<Image> image = film.next()) meter.add(reduced(*image, factor), double(film.read() - 1) * step, step);
-  if (meter.signal.t.size() < 2) throw Error("it has fewer than three pictures that can be read; name a longer film", {wish.film});
+  if (meter.signal.t.size() < 2) throw Error("it has fewer than three pictures that can be read; name a longer film", {path});
   return meter.signal;
 }
 
-MotionSignal signal_of_run(const RunDrawer& drawer, int width, int height, double step, const std::atomic<bool>& stop) {
+MotionSignal signal_of_run(const RunDrawer& drawer, int factor, double step, const std::atomic<bool>& stop) {
   const std::vector<double>& recorded = drawer.reader.times();
   std::vector<double> times;
   for (double t = recorded.front(); t <= recorded.back() + 1e-9; t += step) times.push_back(t);
   SignalMeter meter;
-  const int factor = reduction_to(width, signal_width);
-  drawer.draw(times, width, height, false, [&](std::size_t i, const Image& image) {
+  Workers workers = drawer.start(times.size());
+  drawer.draw(workers, times, [&](std::size_t i, const Image& image) {
     meter.add(reduced(image, factor), times[i], step);
     return !stop;
   });
@@ -159,9 +161,9 @@ std::vector<double> times_in_run(const FilmErrors& e, const std::vector<double>&
   return times;
 }
 
-bool measure(const RunDrawer& drawer, FilmErrors& errors, const FilmComparison& wish, const std::atomic<bool>& stop) {
-  const Movie& movie = drawer.movie;
-  const int width = movie.look.width, height = movie.look.height;
+// `workers` have been ordered the picture without blocks. The films wait for their end.
+bool measure(const RunDrawer& drawer, Workers& workers, FilmReader& film, FilmErrors& errors, const FilmComparison& wish,
+             std::optional<ComparisonFilms>& films, const std::atomic<bool>& stop) {
   std::size_t first = 0;
   const std::vector<double> times = times_in_run(errors, drawer.reader.times(), first);
   errors.outside = errors.film.t.size() + 1 - times.size();
@@ -170,25 +172,25 @@ bool measure(const RunDrawer& drawer, FilmErrors& errors, const FilmComparison& 
         fmt::format("none of its pictures lies within the run, {:g} s to {:g} s, with a lag of {:g} s; give --fps, --slow or --align",
                     drawer.reader.times().front(), drawer.reader.times().back(), errors.lag),
         {wish.film});
-  Image empty;
-  drawer.draw({times.front()}, width, height, true, [&](std::size_t, Image image) { return (empty = std::move(image), false); });
-  FilmReader film(wish.film, movie.fps);
+  film.rewind();
   std::optional<Image> picture = film.next();
+  Image empty;
+  for (std::size_t w = 0; w < workers.count(); ++w) empty = workers.collect(w);
   const Image background = background_of(wish, *picture, empty);
-  errors.reduction = reduction_to(width, measured_width);
+  errors.reduction = reduction_to(drawer.width, measured_width);
   Meter meter{errors.reduction, reduced(empty, errors.reduction), reduced(background, errors.reduction), {}, {}};
   for (std::size_t i = 0; i < first; ++i) picture = film.next();
   fs::create_directories(wish.place);
-  ComparisonFilms films(wish.place, width, height, movie.fps);
-  drawer.draw(times, width, height, false, [&](std::size_t i, const Image& image) {
+  films.emplace(wish.place, drawer.width, drawer.height, drawer.movie.fps);
+  drawer.draw(workers, times, [&](std::size_t i, const Image& image) {
     if (!picture || stop) return false;
     const double t = double(first + i) / errors.fps;
+    auto written = std::async(std::launch::async, [&] { films->add(image, *picture, t); });
     errors.frames.push_back(meter.errors(image, *picture, t));
-    films.add(image, *picture, t);
+    written.get();
     picture = film.next();
     return true;
   });
-  if (!stop) films.finish();
   return !stop;
 }
 
@@ -197,10 +199,8 @@ bool measure(const RunDrawer& drawer, FilmErrors& errors, const FilmComparison& 
 bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const FilmComparison& wish, const std::atomic<bool>& stop) {
   const auto start = Clock::now();
   FilmErrors errors;
-  {
-    const FilmReader film(wish.film, movie.fps);
-    movie.look.width = film.width(), movie.look.height = film.height(), movie.fps = film.fps();
-  }
+  FilmReader film(wish.film, movie.fps);
+  movie.look.width = film.width(), movie.look.height = film.height(), movie.fps = film.fps();
   if (movie.look.width % 2 != 0 || movie.look.height % 2 != 0)
     throw Error(fmt::format("its pictures have {}x{} pixels; cut them to even numbers", movie.look.width, movie.look.height), {wish.film});
   movie.look.overlay = false;
@@ -209,16 +209,23 @@ bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const
   Show show = show_of(run, reader, movie);
   const Camera camera = chosen_cameras(run, show.stage, movie, static_cast<double>(movie.look.width) / movie.look.height).front();
   errors.camera = camera.name;
-  const RunDrawer drawer{run, reader, movie, std::move(show), camera};
-  errors.film = signal_of_film(wish, movie, step);
-  const int factor = reduction_to(movie.look.width, signal_width);
+  const RunDrawer drawer{run, reader, movie, std::move(show), camera, film.width(), film.height()};
+  // These processes prepare themselves, and draw the picture without blocks, while the film is read.
+  Workers workers = drawer.start(reader.times().size());
+  for (std::size_t w = 0; w < workers.count(); ++w) workers.order(w, 0, drawer.frame_of(reader.times().front(), true));
+  errors.film = signal_of_film(film, wish.film, step);
   // Where and when something moves shows in small pictures of sharp blocks without shadows, for a third of the cost.
-  RunDrawer coarse{run, reader, movie, show_of(run, reader, movie, true), camera};
+  const int factor = reduction_to(film.width(), signal_width);
+  RunDrawer coarse{run, reader, movie, show_of(run, reader, movie, true), camera, film.width() / factor, film.height() / factor};
   coarse.movie.look.shadow = false;
-  errors.run = signal_of_run(coarse, movie.look.width / factor, movie.look.height / factor, step, stop);
+  errors.run = signal_of_run(coarse, reduction_to(coarse.width, signal_width), step, stop);
   if (stop) return false;
   align(errors, wish);
-  if (!measure(drawer, errors, wish, stop)) return false;
+  std::optional<ComparisonFilms> films;
+  if (!measure(drawer, workers, film, errors, wish, films, stop)) return false;
+  films->end();
+  draw_film_errors(errors, wish);  // while ffmpeg ends the films
+  films->finish();
   errors.wall = std::chrono::duration<double>(Clock::now() - start).count();
   write_film_errors(errors, wish, movie.quiet);
   return true;

@@ -46,7 +46,8 @@ struct FilmErrors {
 // Writes compare_side.mp4, compare_blend.mp4, compare_difference.mp4, frames.json and frames.svg. False if `stop` was set meanwhile.
 bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const FilmComparison& wish, const std::atomic<bool>& stop);
 
-// frames.json and frames.svg.
+void draw_film_errors(const FilmErrors& errors, const FilmComparison& wish);  // frames.svg
+// frames.json, and what is printed.
 void write_film_errors(const FilmErrors& errors, const FilmComparison& wish, bool quiet);
 
 }  // namespace erbs::render

@@ -90,6 +90,12 @@ Json list_of(const FilmErrors& e) {
 
 }  // namespace
 
+void draw_film_errors(const FilmErrors& e, const FilmComparison& wish) {
+  const std::string note = fmt::format("the run is {:+.4f} s later than the film, by {}; camera {}", e.lag, wish.align, e.camera);
+  if (can_start("gnuplot")) plot::draw(figure_of(e, note), wish.place + "/frames.svg");
+  else tell(stderr, "warning: the figure needs gnuplot, which is not installed: it is left out; install the package gnuplot-nox");
+}
+
 void write_film_errors(const FilmErrors& e, const FilmComparison& wish, bool quiet) {
   const double iou = mean_of(e.frames, [](const auto& f) { return f.overlap; });
   const double ssim = mean_of(e.frames, [](const auto& f) { return f.ssim; });
@@ -112,9 +118,6 @@ void write_film_errors(const FilmErrors& e, const FilmComparison& wish, bool qui
   json["direction_error_deg"] = angle_between(run, film);
   json["frames_compared"] = e.frames.size(), json["frames_outside"] = e.outside, json["wall_s"] = e.wall;
   json["frames"] = list_of(e);
-  const std::string note = fmt::format("the run is {:+.4f} s later than the film, by {}; camera {}", e.lag, wish.align, e.camera);
-  if (can_start("gnuplot")) plot::draw(figure_of(e, note), wish.place + "/frames.svg");
-  else tell(stderr, "warning: the figure needs gnuplot, which is not installed: it is left out; install the package gnuplot-nox");
   write_json(wish.place + "/frames.json", json);
   if (e.outside > 0) tell(stderr, fmt::format("warning: {} pictures of the film lie outside the run and are left out", e.outside));
   if (e.at_edge) tell(stderr, "warning: the best lag is the largest one searched; the true one may lie beyond, see --reach");

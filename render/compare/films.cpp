@@ -1,7 +1,10 @@
 #include "render/compare/films.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
+#include <vector>
 
 #include "engine/base/error.h"
 
@@ -23,13 +26,24 @@ Image blended(const Image& a, const Image& b) {
 }
 
 Image difference_of(const Image& a, const Image& b) {
+  using Color = std::array<std::uint8_t, 3>;
+  constexpr int most = 3 * 255;  // of the sum over three channels
+  // Full colour at a quarter of the range, by the mean change of a channel.
+  static const std::vector<Color> colors = [] {
+    const double orange[3] = {213, 94, 0}, blue[3] = {0, 114, 178};  // Okabe and Ito 2008
+    std::vector<Color> all(2 * most + 1);
+    for (int sum = -most; sum <= most; ++sum)
+      for (std::size_t c = 0; c < 3; ++c) {
+        const double share = std::min(1.0, std::abs(sum) / 3.0 / 64);
+        all[std::size_t(sum + most)][c] = std::uint8_t(245 + share * ((sum > 0 ? orange : blue)[c] - 245));
+      }
+    return all;
+  }();
   Image image(a.width, a.height);
-  const double orange[3] = {213, 94, 0}, blue[3] = {0, 114, 178};  // Okabe and Ito 2008
   for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
-    double change = 0;
-    for (std::size_t c = i; c < i + 3; ++c) change += (a.rgb[c] - b.rgb[c]) / 3.0;
-    const double share = std::min(1.0, std::abs(change) / 64);  // full colour at a quarter of the range
-    for (std::size_t c = 0; c < 3; ++c) image.rgb[i + c] = std::uint8_t(245 + share * ((change > 0 ? orange : blue)[c] - 245));
+    int sum = most;
+    for (std::size_t c = i; c < i + 3; ++c) sum += a.rgb[c] - b.rgb[c];
+    std::copy_n(colors[std::size_t(sum)].begin(), 3, &image.rgb[i]);
   }
   return image;
 }
@@ -61,7 +75,12 @@ void ComparisonFilms::add(const Image& run, const Image& film, double t) {
   difference_.add(image);
 }
 
+void ComparisonFilms::end() {
+  for (Video* video : {&side_, &blend_, &difference_}) video->end();
+}
+
 void ComparisonFilms::finish() {
+  end();
   for (Video* video : {&side_, &blend_, &difference_}) video->finish();
 }
 

@@ -11,6 +11,7 @@ class ComparisonFilms {
  public:
   ComparisonFilms(const std::string& folder, int width, int height, double fps);
   void add(const Image& run, const Image& film, double t);  // t: s, of the film
+  void end();                                               // after the last pair: the three are finished at the same time
   void finish();
 
  private:

@@ -166,6 +166,7 @@ struct Painter::Hidden {
     vector(program, "horizon", around.horizon);
     number(program, "shadow_texel", light.shadow_texel);
     number(program, "shadow_step", 1.0 / Canvas::shadow_side);
+    number(program, "shadowed", look_.shadow ? 1 : 0);
     const std::array<const char*, 3> samplers{"blocks", "joints", "shadow"};
     for (int unit = 0; unit < 3; ++unit) gl.Uniform1i(gl.GetUniformLocation(program, samplers[static_cast<std::size_t>(unit)]), unit);
   }
@@ -177,9 +178,9 @@ struct Painter::Hidden {
   void draw_shadow(const Light& light) const {
     gl.ActiveTexture(GL_TEXTURE2);
     gl.BindTexture(GL_TEXTURE_2D, 0);
-    canvas->begin_shadow();
     gl.Enable(GL_CULL_FACE);
-    if (!look_.shadow) return gl.BindTexture(GL_TEXTURE_2D, canvas->shadow_map());
+    if (!look_.shadow) return gl.BindTexture(GL_TEXTURE_2D, canvas->shadow_map());  // the map is not read
+    canvas->begin_shadow();
     gl.CullFace(GL_FRONT);  // back faces cast the shadows, so lit faces do not shadow themselves
     use(shade, light, light.to_shadow);
     draw(shades);

@@ -28,7 +28,7 @@ struct Look {
   Coloring coloring = Coloring::material;
   int width = 1280, height = 720;
   double top = 0, bottom = 0;               // pixels covered by the overlay
-  double unit = 0;                          // of the overlay's lengths, px; 0: height / 720
+  double unit = 0;                          // of the overlay's lengths, px; 0: as the height of the picture requires
   bool overlay = true;                      // title, clock, legend, scale, axes and ground motion
   double magnify = 1;                       // factor on the displacements drawn
   Background background = Background::sky;  // white: with the ground, for print; transparent: of the ground, only its shadow

@@ -57,8 +57,9 @@ std::string length_text(double m) {
                      : fmt::format("{:.3g} um", 1e6 * m);
 }
 
-double overlay_top(int height) { return 58.0 * height / 720; }
-double overlay_bottom(int height, bool with_record) { return (with_record ? 116.0 : 34.0) * height / 720; }
+double overlay_unit(int height) { return std::max(height / 720.0, std::min(0.75, height / 480.0)); }
+double overlay_top(int height) { return 58.0 * overlay_unit(height); }
+double overlay_bottom(int height, bool with_record) { return (with_record ? 116.0 : 34.0) * overlay_unit(height); }
 
 Overlay::Overlay(const Run& run, const Show& show, const Look& look, const std::string& camera, double slow)
     : run_(run),
@@ -66,7 +67,7 @@ Overlay::Overlay(const Run& run, const Show& show, const Look& look, const std::
       look_(look),
       camera_(camera),
       slow_(slow),
-      unit_(look.unit > 0 ? look.unit : look.height / 720.0),
+      unit_(look.unit > 0 ? look.unit : overlay_unit(look.height)),
       regular_(Font::Face::regular),
       bold_(Font::Face::bold) {
   std::replace(camera_.begin(), camera_.end(), '_', ' ');

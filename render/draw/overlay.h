@@ -7,6 +7,9 @@
 
 namespace erbs::render {
 
+// Pixels of the overlay's unit of length: a row of a picture with 720 rows. Smaller pictures have relatively larger text: at 360 rows its
+// smallest letters still have 8 pixels.
+double overlay_unit(int height);
 // Pixels of the overlay at top and bottom of the picture; the camera aims at the part between.
 double overlay_top(int height);
 double overlay_bottom(int height, bool with_record);

@@ -21,6 +21,7 @@ uniform sampler2DShadow shadow;
 uniform mat4 to_shadow;
 uniform float shadow_texel;   // m
 uniform float shadow_step;    // of the map
+uniform float shadowed;       // 0: no shadow is drawn
 
 // Share of the sun that reaches a point: 3 x 3 taps, each a bilinear comparison. The count of taps is zero where nothing can
 // throw a shadow: the software rasteriser leaves a loop early, but runs through both arms of an if.
@@ -28,7 +29,7 @@ float sunlight(vec3 p, vec3 n, float facing) {
   vec4 s = to_shadow * vec4(p + n * (2.0 * shadow_texel), 1.0);
   vec3 c = s.xyz * 0.5 + 0.5;
   bool outside = any(lessThan(c, vec3(0.0))) || any(greaterThan(c, vec3(1.0)));
-  int taps = outside || facing <= 0.0 ? 0 : 9;
+  int taps = outside || facing <= 0.0 || shadowed < 0.5 ? 0 : 9;
   float lit = 0.0;
   for (int i = 0; i < taps; ++i) {
     vec2 step = vec2(i / 3 - 1, i - (i / 3) * 3 - 1) * (1.4 * shadow_step);

@@ -69,21 +69,29 @@ FilmReader::FilmReader(std::string path, double fps) : path_(std::move(path)), f
           {path_});
   const Shape shape = shape_of(path_);
   width_ = shape.width, height_ = shape.height, fps_ = shape.fps;
-  // A film of uneven steps is read at even ones.
-  ffmpeg_ =
-      start({"ffmpeg", "-nostdin", "-loglevel", "error", "-noautorotate", "-i", "file:" + fs::absolute(path_).string(), "-vf",
-             fmt::format("fps={:.9g},scale=in_color_matrix=auto:out_range=pc", fps_), "-f", "rawvideo", "-pix_fmt", "rgb24", "pipe:1"},
-            {.errors = "/dev/null", .remedy = "install ffmpeg", .heard = true, .own_group = true});
 }
 
-FilmReader::~FilmReader() {
+FilmReader::~FilmReader() { stop(); }
+
+void FilmReader::stop() {
   if (ffmpeg_.pid <= 0) return;
   stop_hard(ffmpeg_);
   finish(ffmpeg_);
 }
 
+void FilmReader::rewind() {
+  stop();
+  read_ = 0;
+}
+
 std::optional<Image> FilmReader::next() {
   if (pictures_.empty()) {
+    // A film of uneven steps is read at even ones.
+    if (read_ == 0 && ffmpeg_.pid <= 0)
+      ffmpeg_ =
+          start({"ffmpeg", "-nostdin", "-loglevel", "error", "-noautorotate", "-i", "file:" + fs::absolute(path_).string(), "-vf",
+                 fmt::format("fps={:.9g},scale=in_color_matrix=auto:out_range=pc", fps_), "-f", "rawvideo", "-pix_fmt", "rgb24", "pipe:1"},
+                {.errors = "/dev/null", .remedy = "install ffmpeg", .heard = true, .own_group = true});
     Image image(width_, height_);
     if (!receive(ffmpeg_.from, image.rgb.data(), image.rgb.size())) return std::nullopt;
     ++read_;

@@ -22,9 +22,11 @@ class FilmReader {
   int height() const { return height_; }
   double fps() const { return fps_; }
   std::optional<Image> next();  // none after the last frame; a film that breaks off ends there
+  void rewind();                // to the first frame
   std::size_t read() const { return read_; }
 
  private:
+  void stop();
   std::string path_;
   std::vector<std::string> pictures_;  // of a folder, in the order of their names
   int width_ = 0, height_ = 0;

@@ -82,7 +82,7 @@ Tiles tiles_of(const Look& whole, std::size_t cameras) {
   tiles.look.width = whole.width / tiles.columns;
   tiles.look.height = static_cast<int>(whole.height - tiles.top - whole.bottom) / tiles.rows;
   tiles.look.top = tiles.look.bottom = 0;
-  tiles.look.unit = whole.height / 720.0;
+  tiles.look.unit = overlay_unit(whole.height);
   if (tiles.look.width < 64 || tiles.look.height < 64)
     throw Error(fmt::format("--split: {} cameras in {}x{} leave each less than 64 pixels; ask for a larger --size, or fewer cameras",
                             cameras, whole.width, whole.height));
@@ -116,7 +116,7 @@ Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const
       const Camera camera = tiles.shots[k].at(frame.t);
       Image tile = painter->draw(frame, camera, level, dust_at(tiles.impacts, frame.t));
       const Camera in_the_scene = level ? in_scene(camera, table_position(show.stage, *level)) : camera;
-      draw_marks(tile, marks, look(in_the_scene, show.stage, of.width, of.height, of.top, of.bottom), l.height / 720.0);
+      draw_marks(tile, marks, look(in_the_scene, show.stage, of.width, of.height, of.top, of.bottom), overlay_unit(l.height));
       const View view = look(camera, show.stage, of.width, of.height, of.top, of.bottom);
       if (!tiles.split()) {
         if (l.overlay) overlays[k]->draw(tile, frame.t, view, marks.legend);
@@ -222,6 +222,14 @@ bool film(const Run& run, const Show& show, const Scenery& scenery, const Movie&
   return made == all;
 }
 
+void tell_of_missing_times(const std::pair<double, double>& wish, const std::vector<double>& recorded) {
+  const double slack = 1e-6 + (recorded.back() - recorded.front()) / static_cast<double>(recorded.size());
+  if (wish.first < recorded.front() - slack || wish.second > recorded.back() + slack)
+    tell(stderr,
+         fmt::format("warning: --time {:g}:{:g} reaches beyond the run, which has frames from {:g} s to {:g} s; only these are shown",
+                     wish.first, wish.second, recorded.front(), recorded.back()));
+}
+
 }  // namespace
 
 Show show_of(const Run& run, const MotionReader& reader, const Movie& movie, bool sharp) {
@@ -238,10 +246,12 @@ bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, c
   movie.look.top = movie.look.overlay ? overlay_top(movie.look.height) : 0;
   movie.look.bottom = movie.look.overlay ? overlay_bottom(movie.look.height, !run.strip().axis.empty()) : 0;
   const Schedule schedule = schedule_of(movie, reader.times());
+  if (movie.range && movie.stills.empty()) tell_of_missing_times(*movie.range, reader.times());
   const std::size_t together = movie.split ? cameras_of(run, movie) : 1;
   Tiles tiles = tiles_of(movie.look, together);
   const Look& l = tiles.look;
   Scenery scenery(run, reader, movie, l.width / (l.height - l.top - l.bottom));
+  scenery.check_eyes(schedule.times);
   const Show show = scenery.show(schedule.times);
   if (movie.marks.any())
     for (const double t : schedule.times) tiles.marks.push_back(scenery.marks(t));

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "render/run/mesh.h"
 
 namespace erbs::render {
 namespace {
@@ -78,6 +80,38 @@ std::vector<Impact> Scenery::impacts() const {
   return finder.impacts;
 }
 
+void Scenery::check_eyes(const std::vector<double>& times) const {
+  const MotionScene scene = section_ ? cut_scene(excerpt_.scene, *section_, stage_.hidden) : excerpt_.scene;
+  const std::vector<bool> ghost = in_groups(scene, movie_.ghost, "--ghost");
+  const std::size_t stride = std::max<std::size_t>(1, times.size() / 24);
+  for (const Shot& shot : shots_) {
+    bool warned = false;
+    for (std::size_t i = 0; i < times.size() && !warned; i += stride) {
+      const double t = times[i];
+      const MotionFrame frame = drawn(t);
+      Vec3 eye = shot.at(t).eye;
+      if (!stage_.positions.empty()) eye = in_scene(shot.at(t), table_position(stage_, levelling(run_.gravity, t))).eye;
+      const std::string camera = shot.camera.name == "own" ? "the camera of --eye" : "the camera " + shown(shot.camera.name, 60);
+      for (std::size_t b = 0; b < scene.blocks.size() && !warned; ++b) {
+        const float* p = &frame.poses[7 * b];
+        const Vec3 from = eye - Vec3(p[0], p[1], p[2]);
+        if (stage_.hidden[b] || ghost[b] || !from.allFinite()) continue;
+        const Vec3 at_rest = Eigen::Quaterniond(p[3], p[4], p[5], p[6]).normalized().conjugate() * from + scene.blocks[b].rest;
+        if (!is_inside(scene, b, at_rest)) continue;
+        const std::string what =
+            fmt::format("{} stands inside block {} at {:g} s, so that it sees nothing else", camera, shown(scene.blocks[b].name, 60), t);
+        if (i == 0) throw Error(what + "; move it out, with --eye x,y,z or --fit");
+        tell(stderr, "warning: " + what);
+        warned = true;
+      }
+      if (!warned && stage_.on_ground && stage_.positions.empty() && eye.z() < stage_.ground_z) {
+        tell(stderr, "warning: " + camera + " stands below the ground and looks at the building from there; raise it with --eye x,y,z");
+        warned = true;
+      }
+    }
+  }
+}
+
 Show Scenery::show(const std::vector<double>& times) {
   Show show = prepare_show(excerpt_.scene, run_, stage_, in_groups(excerpt_.scene, movie_.ghost, "--ghost"), section_);
   std::vector<MotionFrame> some;  // the scale is that of what is shown
@@ -88,7 +122,7 @@ Show Scenery::show(const std::vector<double>& times) {
   if (!movie_.marks.any()) return show;
   double force = 0, speed = 0;
   for (std::size_t i = 0; i < times.size(); i += stride) {
-    if (movie_.marks.forces) force = std::max(force, largest_force(excerpt_.scene, actual(times[i])));
+    if (movie_.marks.forces || movie_.marks.thrust) force = std::max(force, largest_force(excerpt_.scene, actual(times[i])));
     if (!movie_.marks.mechanism.empty()) speed = std::max(speed, largest_speed(excerpt_.scene, rates(times[i])));
   }
   mark_scale_ = {force > 0 ? round_up(force) : 1, speed > 0 ? speed : 1};

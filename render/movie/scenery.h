@@ -29,6 +29,8 @@ class Scenery {
   MotionFrame drawn(double t) const;    // magnified, with the quantity that is coloured
   Marks marks(double t) const;          // empty unless the movie asks for some
   std::vector<Impact> impacts() const;  // of all recorded frames
+  // Error for a camera that stands inside a block at the first of these times; a warning where it does so later, or below the ground.
+  void check_eyes(const std::vector<double>& times) const;
   // Sets the scales of colours and marks to what these times need.
   Show show(const std::vector<double>& times);
 

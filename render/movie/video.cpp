@@ -56,6 +56,8 @@ void Video::add(const Image& image) {
     throw Error("ffmpeg has given up (see its message above); is the disk full? --no-video gives pictures alone", {path_, 0});
 }
 
+void Video::end() { end_input(ffmpeg_); }
+
 void Video::finish() {
   if (const int code = erbs::finish(ffmpeg_); code != 0)
     throw Error(fmt::format("ffmpeg ended with code {}; --no-video gives pictures alone", code), {path_, 0});

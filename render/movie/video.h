@@ -14,6 +14,7 @@ class Video {
   Video(const Video&) = delete;
   Video& operator=(const Video&) = delete;
   void add(const Image& image);
+  void end();     // after the last picture: lets ffmpeg finish while other work goes on
   void finish();  // gives the complete file its name
 
  private:

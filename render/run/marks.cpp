@@ -14,7 +14,8 @@ namespace erbs::render {
 namespace {
 
 const Vec3 force_color{0.02, 0.09, 0.32}, thrust_color{0.55, 0.0, 0.16}, motion_color{0.0, 0.22, 0.14};
-constexpr double widest = 9, thinnest_share = 0.015;  // px; of the scale, below which a force is not drawn
+constexpr double widest = 9, thinnest_share = 0.015;        // px; of the scale, below which a force is not drawn
+constexpr double widest_thrust = 8, thinnest_thrust = 0.6;  // px
 
 Vec3 place_of(const MotionFrame& f, std::size_t b) { return Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * b]).cast<double>(); }
 Eigen::Quaterniond turn_of(const MotionFrame& f, std::size_t b) {
@@ -28,6 +29,7 @@ struct Thrust {
   double force = 0;     // N, normal part, compression positive
   Vec3 at{0, 0, 0};     // m, as drawn
   Vec3 along{0, 0, 0};  // unit, the normal as drawn, from a to b
+  Vec3 pull{0, 0, 0};   // N, the whole force on a, as drawn; that on b is its opposite
 };
 
 // Force 0 where the joint is not pressed.
@@ -40,6 +42,7 @@ Thrust thrust_of(const MotionScene& scene, std::size_t j, const MotionFrame& act
   thrust.force = -n.dot(back * pull);
   if (!(thrust.force > 0)) return {};
   thrust.along = turn_of(drawn, a) * n;
+  thrust.pull = turn_of(drawn, a) * (back * pull);
   thrust.at = place_of(drawn, a) + turn_of(drawn, a) * (back * (vector_of(actual.force_at, j) - place_of(actual, a)));
   if (!thrust.at.allFinite() || !thrust.along.allFinite()) return {};
   return thrust;
@@ -72,29 +75,104 @@ void add_forces(const MotionScene& scene, const std::vector<Thrust>& thrusts, co
   }
 }
 
-// Through the centres of pressure of blocks between two pressed joints, as voussoirs and drums are.
-std::size_t add_thrust_line(const MotionScene& scene, const std::vector<Thrust>& thrusts, const std::vector<bool>& hidden, Marks& marks) {
-  std::vector<std::vector<std::size_t>> loaded(scene.blocks.size());
-  double largest = 0;
-  for (const Thrust& t : thrusts) largest = std::max(largest, t.force);
-  for (std::size_t j = 0; j < thrusts.size(); ++j)
-    if (thrusts[j].force > 1e-6 * largest)
-      for (const int block : {scene.joints[j].a, scene.joints[j].b}) loaded[static_cast<std::size_t>(block)].push_back(j);
-  std::size_t drawn = 0;
-  for (std::size_t b = 0; b < loaded.size(); ++b) {
-    if (loaded[b].size() != 2 || scene.blocks[b].fixed || hidden[b]) continue;
-    marks.strokes.push_back({thrusts[loaded[b][0]].at, thrusts[loaded[b][1]].at, 2.6, thrust_color, false});
-    ++drawn;
-  }
-  return drawn;
-}
-
-double radius_of(const MotionScene& scene, const MotionBlock& block) {  // m, of the sphere with the mean half size
+// At rest, about its centroid (m).
+Eigen::AlignedBox3d extent_of(const MotionScene& scene, const MotionBlock& block) {
   Eigen::AlignedBox3d box;
   for (const int part : block.parts) {
     const std::vector<float>& v = scene.shapes[static_cast<std::size_t>(part)].vertices;
     for (std::size_t i = 0; i + 2 < v.size(); i += 3) box.extend(Vec3(v[i], v[i + 1], v[i + 2]));
   }
+  return box;
+}
+
+// Where the forces on a block meet: the point nearest to their lines of action, and to that of its weight and inertia, by the squares of
+// the distances weighted with the forces. Where these lines are parallel, a small share of the distance to the points of attack decides. It
+// lies within the block: thrust does not leave the masonry.
+Vec3 meeting_of(const std::vector<Thrust>& thrusts, const std::vector<std::size_t>& joints, const MotionScene& scene, std::size_t b,
+                const MotionFrame& drawn) {
+  const Vec3 centroid = place_of(drawn, b);
+  Mat3 sum = Mat3::Zero();
+  Vec3 right = Vec3::Zero(), mean = Vec3::Zero(), rest = Vec3::Zero();
+  double all = 0;
+  const auto add_line = [&](const Vec3& at, const Vec3& force) {
+    const double size = force.norm();
+    if (!(size > 0)) return;
+    const Mat3 across = size * (Mat3::Identity() - force * force.transpose() / (size * size));
+    sum += across, right += across * at;
+  };
+  for (const std::size_t j : joints) {
+    const Vec3 force = static_cast<std::size_t>(scene.joints[j].a) == b ? thrusts[j].pull : Vec3(-thrusts[j].pull);
+    add_line(thrusts[j].at, force);
+    rest -= force, mean += thrusts[j].force * thrusts[j].at, all += thrusts[j].force;
+  }
+  add_line(centroid, rest);
+  const double share = 0.03 * all;
+  sum += share * Mat3::Identity(), right += share * mean / all;
+  const Eigen::AlignedBox3d box = extent_of(scene, scene.blocks[b]);
+  const Eigen::Quaterniond turn = turn_of(drawn, b);
+  const Vec3 within = turn.conjugate() * (Vec3(sum.ldlt().solve(right)) - centroid);
+  return centroid + turn * Vec3(within.cwiseMax(0.9 * box.min()).cwiseMin(0.9 * box.max()));
+}
+
+// Middle of a joint as drawn, and the distance of its farthest corner from it (m).
+std::pair<Vec3, double> middle_of(const MotionScene& scene, std::size_t j, const MotionFrame& drawn) {
+  const MotionJoint& joint = scene.joints[j];
+  Vec3 middle = Vec3::Zero();
+  for (const Vec3& p : joint.polygon) middle += p / static_cast<double>(joint.polygon.size());
+  double reach = 0;
+  for (const Vec3& p : joint.polygon) reach = std::max(reach, (p - middle).norm());
+  const auto a = static_cast<std::size_t>(joint.a);
+  return {place_of(drawn, a) + turn_of(drawn, a) * middle, reach};
+}
+
+// Through the centres of pressure of a block that is pressed from two sides, as voussoirs and drums are. In other blocks it branches, from
+// the point where the forces meet to each pressed joint.
+void add_thrust_line(const MotionScene& scene, std::vector<Thrust> thrusts, const MotionFrame& drawn, const std::vector<bool>& hidden,
+                     double scale, Marks& marks) {
+  std::vector<double> largest(scene.blocks.size());
+  const auto ends = [&](std::size_t j) {
+    return std::array{static_cast<std::size_t>(scene.joints[j].a), static_cast<std::size_t>(scene.joints[j].b)};
+  };
+  for (std::size_t j = 0; j < thrusts.size(); ++j) {
+    for (const std::size_t b : ends(j)) largest[b] = std::max(largest[b], thrusts[j].force);
+    // Bond may put the resultant far outside of the joint. The line then passes just outside of it, which says as much.
+    if (!(thrusts[j].force > 0)) continue;
+    const auto [middle, reach] = middle_of(scene, j, drawn);
+    if (const Vec3 away = thrusts[j].at - middle; away.norm() > 1.05 * reach) thrusts[j].at = middle + 1.05 * reach * away.normalized();
+  }
+  std::vector<std::vector<std::size_t>> loaded(scene.blocks.size());
+  for (std::size_t j = 0; j < thrusts.size(); ++j) {
+    const auto [a, b] = ends(j);
+    if (!(thrusts[j].force > 0.03 * std::min(largest[a], largest[b]))) continue;  // next to nothing for both
+    loaded[a].push_back(j), loaded[b].push_back(j);
+  }
+  const auto draw = [&](const Vec3& from, const Vec3& to, double force) {
+    marks.strokes.push_back({from, to, std::max(thinnest_thrust, widest_thrust * std::min(1.0, force / scale)), thrust_color, false});
+  };
+  for (std::size_t b = 0; b < loaded.size(); ++b) {
+    const std::vector<std::size_t>& joints = loaded[b];
+    if (joints.size() < 2 || scene.blocks[b].fixed || hidden[b] || !place_of(drawn, b).allFinite()) continue;
+    const auto outward = [&](std::size_t j) {
+      return static_cast<std::size_t>(scene.joints[j].a) == b ? thrusts[j].along : Vec3(-thrusts[j].along);
+    };
+    if (joints.size() == 2 && outward(joints[0]).dot(outward(joints[1])) < -0.5) {
+      draw(thrusts[joints[0]].at, thrusts[joints[1]].at, 0.5 * (thrusts[joints[0]].force + thrusts[joints[1]].force));
+      continue;
+    }
+    const Vec3 node = meeting_of(thrusts, joints, scene, b, drawn);
+    if (!node.allFinite()) continue;
+    // A plate that only rests on others hands its weight down where each of them bears it.
+    const bool on_one_side =
+        std::all_of(joints.begin(), joints.end(), [&](std::size_t j) { return outward(j).dot(outward(joints[0])) > 0.5; });
+    for (const std::size_t j : joints) {
+      const Vec3 out = outward(j);
+      draw(on_one_side ? Vec3(thrusts[j].at + (node - thrusts[j].at).dot(out) * out) : node, thrusts[j].at, thrusts[j].force);
+    }
+  }
+}
+
+double radius_of(const MotionScene& scene, const MotionBlock& block) {  // m, of the sphere with the mean half size
+  const Eigen::AlignedBox3d box = extent_of(scene, block);
   return box.isEmpty() ? 0 : box.sizes().sum() / 6;
 }
 
@@ -206,14 +284,14 @@ Marks marks_of(const MarkChoice& choice, const MotionScene& scene, const Stage& 
   if (choice.forces || choice.thrust) {
     const std::vector<Thrust> thrusts = thrusts_of(scene, actual, drawn);
     if (choice.forces) add_forces(scene, thrusts, drawn, scale.force, marks);
-    if (choice.thrust) add_thrust_line(scene, thrusts, stage.hidden, marks);
+    if (choice.thrust) add_thrust_line(scene, thrusts, drawn, stage.hidden, scale.force, marks);
   }
   if (!choice.mechanism.empty()) add_mechanism(scene, stage, drawn, rates, scale.speed, marks);
   if (choice.forces) {
     marks.legend.push_back({"normal force " + force_text(scale.force), widest, force_color, false});
     marks.legend.push_back({force_text(0.2 * scale.force), 0.2 * widest, force_color, false});
   }
-  if (choice.thrust) marks.legend.push_back({"line of thrust", 2.6, thrust_color, false});
+  if (choice.thrust) marks.legend.push_back({"line of thrust, " + force_text(scale.force), widest_thrust, thrust_color, false});
   if (choice.mechanism == "motion")
     marks.legend.push_back({fmt::format("velocity, longest {:.3g} m/s", scale.speed), 2.4, motion_color, true});
   else if (!choice.mechanism.empty()) marks.legend.push_back({"mechanism", 2.4, motion_color, true});

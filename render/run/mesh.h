@@ -54,6 +54,9 @@ Mesh build_mesh(const MotionScene& scene, const std::vector<bool>& hidden, doubl
 // Fills mesh.shades. `grow`: m, outward offset of each face.
 void add_shades(Mesh& mesh, const MotionScene& scene, const std::vector<bool>& hidden, double grow);
 
+// Is this point (m) within the block at rest, or on its surface?
+bool is_inside(const MotionScene& scene, std::size_t block, const Vec3& world);
+
 // Unit normal of the joint from a to b.
 Vec3 joint_normal(const MotionScene& scene, const MotionJoint& joint);
 

@@ -5,12 +5,9 @@
 #include "render/run/mesh.h"
 
 namespace erbs::render {
-namespace {
 
-std::uint32_t end_of(const std::vector<std::uint32_t>& index) { return static_cast<std::uint32_t>(index.size()); }
-
-bool inside(const MotionScene& scene, int block, const Vec3& world) {
-  const MotionBlock& b = scene.blocks[static_cast<std::size_t>(block)];
+bool is_inside(const MotionScene& scene, std::size_t block, const Vec3& world) {
+  const MotionBlock& b = scene.blocks[block];
   const Vec3 p = world - b.rest;
   for (int part : b.parts) {
     const MotionShape& s = scene.shapes[static_cast<std::size_t>(part)];
@@ -26,6 +23,10 @@ bool inside(const MotionScene& scene, int block, const Vec3& world) {
   }
   return false;
 }
+
+namespace {
+
+std::uint32_t end_of(const std::vector<std::uint32_t>& index) { return static_cast<std::uint32_t>(index.size()); }
 
 // Outward direction, in the plane of the joint, of the side from p to q; the loop is anticlockwise about n.
 Vec3 outward(const Vec3& p, const Vec3& q, const Vec3& n) { return (q - p).cross(n).normalized(); }
@@ -62,7 +63,9 @@ void add_pointing(Mesh& mesh, const MotionScene& scene, const std::vector<std::v
   for (std::size_t i = 0; i < base.size(); ++i) {
     const Vec3 &p = base[i], &q = base[(i + 1) % base.size()];
     const Vec3 beyond = origin + 0.5 * (p + q) + outward(p, q, n) * (2.2 * t);
-    const auto filled = [&](const Vec3& at) { return std::any_of(near.begin(), near.end(), [&](int b) { return inside(scene, b, at); }); };
+    const auto filled = [&](const Vec3& at) {
+      return std::any_of(near.begin(), near.end(), [&](int b) { return is_inside(scene, static_cast<std::size_t>(b), at); });
+    };
     if (filled(beyond + n * t) && filled(beyond - n * t)) continue;
     add_strip(mesh, p, q, n, -0.5 * t, 0.5 * t, static_cast<std::uint32_t>(joint.a), index);
   }

@@ -102,6 +102,7 @@ void HiddenLines::add_face(const std::vector<Vec3>& world, int body) {
   if (!(std::fabs(area) > 1e-4)) return;  // seen from its edge; not finite
   if (area < 0) std::reverse(face.corners.begin(), face.corners.end());
   face.nearness = projection_.nearness(n, n.dot(middle));
+  face.facing = std::fabs(projection_.parallel() ? n.z() : n.dot(middle.normalized()));
   if (!face.nearness.allFinite()) return;
   Eigen::AlignedBox2d box;
   for (const Eigen::Vector2d& p : face.corners) box.extend(p);
@@ -135,6 +136,21 @@ std::vector<int> HiddenLines::faces_near(const Eigen::Vector2d& p, const Eigen::
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
+}
+
+std::optional<HiddenLines::Sight> HiddenLines::sight(const Eigen::Vector2d& at) const {
+  if (!(at.x() >= 0 && at.y() >= 0 && at.x() < columns_ * cell && at.y() < rows_ * cell)) return std::nullopt;
+  std::optional<Sight> nearest;
+  for (const int index : cells_[static_cast<std::size_t>(static_cast<int>(at.y() / cell) * columns_ + static_cast<int>(at.x() / cell))]) {
+    const Face& face = faces_[static_cast<std::size_t>(index)];
+    const double near = face.nearness.x() * at.x() + face.nearness.y() * at.y() + face.nearness.z();
+    if (nearest && near <= nearest->near) continue;
+    bool within = true;
+    for (std::size_t i = 0; i < face.corners.size() && within; ++i)
+      within = cross(face.corners[(i + 1) % face.corners.size()] - face.corners[i], at - face.corners[i]) >= 0;
+    if (within) nearest = Sight{near, face.facing};
+  }
+  return nearest;
 }
 
 std::vector<Piece> HiddenLines::visible(const Vec3& from, const Vec3& to, int body, double lift) const {

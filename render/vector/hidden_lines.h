@@ -1,5 +1,6 @@
 // Line drawings: a projection of exact geometry to the plane of a picture, and the parts of lines that no face hides.
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "engine/scene/scene.h"
@@ -28,6 +29,7 @@ class Projection {
   const Vec3& back() const { return back_; }  // unit, from the target to the eye
   // Difference of nearness over a length `eps` (m) towards the eye, at this nearness.
   double nearness_of(double eps, double near) const { return parallel_ ? eps : eps * near * near; }
+  double depth_of(double near) const { return parallel_ ? -near : 1 / near; }  // m
 
  private:
   Vec3 eye_, right_, up_, back_;
@@ -49,12 +51,19 @@ class HiddenLines {
   void add_face(const std::vector<Vec3>& corners, int body);
   // Visible parts of the line from p to q; `lift`: m, further depth below a face at which it is still seen.
   std::vector<Piece> visible(const Vec3& p, const Vec3& q, int body, double lift = 0) const;
+  // The face that is seen at a point of the picture (px).
+  struct Sight {
+    double near = 0;    // as of Seen
+    double facing = 1;  // cosine between its normal and the direction to the eye
+  };
+  std::optional<Sight> sight(const Eigen::Vector2d& at) const;
 
  private:
   struct Face {
     std::vector<Eigen::Vector2d> corners;  // px, turning one way: inside is where all crosses are positive
     Vec3 nearness{0, 0, 0};
     int body = -1;
+    double facing = 1;
   };
   std::vector<int> faces_near(const Eigen::Vector2d& p, const Eigen::Vector2d& q) const;
   Projection projection_;

@@ -21,7 +21,8 @@ Vec3 corner_of(const MotionShape& shape, int i) {
   return Eigen::Map<const Eigen::Vector3f>(&shape.vertices[3 * static_cast<std::size_t>(i)]).cast<double>();
 }
 
-constexpr double grazing = 0.12;  // cosine; joints of a face seen more from its edge would merge to a dark stripe
+constexpr double grazing = 0.12;  // cosine; cracks of a face seen more from its edge would merge to a dark stripe
+constexpr double steep = 0.3;     // cosine; on a face seen more from its edge lines may crowd
 
 // A convex body in space: its faces, and for each edge the two faces that meet there.
 struct Solid {
@@ -50,6 +51,43 @@ Solid solid_of(const MotionShape& shape, const Vec3& at, const Eigen::Quaternion
   return solid;
 }
 
+// Without those lines that run beside one that stays, nearer than `apart` (px): on a face seen nearly from its edge they would merge.
+std::vector<Piece> thinned(std::vector<Piece> pieces, double apart) {
+  constexpr double cell = 8;  // px
+  std::map<std::pair<int, int>, std::vector<Piece>> kept;
+  const auto place = [](const Eigen::Vector2d& p) {
+    return std::pair(static_cast<int>(std::floor(p.x() / cell)), static_cast<int>(std::floor(p.y() / cell)));
+  };
+  const auto beside = [&](const Eigen::Vector2d& p, const Eigen::Vector2d& direction) {
+    const auto [x, y] = place(p);
+    for (int i = x - 1; i <= x + 1; ++i)
+      for (int j = y - 1; j <= y + 1; ++j)
+        if (const auto here = kept.find({i, j}); here != kept.end())
+          for (const Piece& k : here->second) {
+            const Eigen::Vector2d way = k.to - k.from, d = way.normalized();
+            if (std::fabs(d.dot(direction)) < 0.98) continue;  // 11 degrees
+            const double along = std::clamp((p - k.from).dot(d), 0.0, way.norm());
+            if ((p - k.from - along * d).norm() < apart) return true;
+          }
+    return false;
+  };
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return (a.to - a.from).norm() > (b.to - b.from).norm(); });
+  std::vector<Piece> out;
+  for (const Piece& piece : pieces) {
+    const Eigen::Vector2d way = piece.to - piece.from;
+    const double length = way.norm();
+    const auto at = [&](double s) { return Eigen::Vector2d(piece.from + s * way); };
+    // Short ones follow each other in one long line.
+    if (length > 2 * apart && beside(at(0.15), way / length) && beside(at(0.5), way / length) && beside(at(0.85), way / length)) continue;
+    out.push_back(piece);
+    const int steps = 1 + static_cast<int>(length / (0.5 * cell));
+    std::pair<int, int> last(-1000, -1000);
+    for (int i = 0; i <= steps; ++i)
+      if (const auto here = place(at(static_cast<double>(i) / steps)); here != last) kept[here].push_back(piece), last = here;
+  }
+  return out;
+}
+
 Vec3 normal_of(const std::vector<Vec3>& loop) { return area_normal(loop).normalized(); }
 
 class Lines {
@@ -59,6 +97,7 @@ class Lines {
         camera_(d.position ? in_scene(d.camera, *d.position) : d.camera),
         projection_(camera_, d.parallel, d.look.width, d.look.height, d.look.top, d.look.bottom),
         eps_(1e-3 * std::max(1e-6, thinnest())),
+        contour_step_(2 * std::max(1e-6, thinnest())),
         hidden_(projection_, d.look.width, d.look.height, eps_),
         unit_(d.look.height / 720.0) {
     for (std::size_t b = 0; b < d.solid.blocks.size(); ++b) add_block(b);
@@ -68,22 +107,22 @@ class Lines {
 
   std::vector<LineGroup> groups() {
     std::vector<LineGroup> out;
-    LineGroup ground{"ground", {"#b9bcc0", 0.7 * unit_}, {}}, outline{"outlines", {"#1d2126", (d_.show.mortared ? 0.8 : 1.1) * unit_}, {}};
-    LineGroup crease{"edges", {"#5b6168", 0.6 * unit_}, {}}, ghost{"ghosts", {"#a4a9af", 0.5 * unit_}, {}};
-    LineGroup aslant{"edges of faces seen aslant", {"#8b9096", 0.25 * unit_}, {}};
-    const bool many = bodies_.size() > 200;  // whose lines merge on a face seen aslant
+    LineGroup ground{"ground", {"#b9bcc0", 0.7 * unit_}, {}}, outline{"outlines", {"#14171b", 1.25 * unit_}, {}};
+    LineGroup edge{"edges", {"#3f454c", (d_.show.mortared ? 0.55 : 0.8) * unit_}, {}}, ghost{"ghosts", {"#a4a9af", 0.5 * unit_}, {}};
+    LineGroup aslant{"edges of faces seen aslant", {"#7b8187", 0.4 * unit_}, {}};
+    std::vector<Piece> crowded;
     if (!d_.position) add_ground(ground);
     for (const Body& body : bodies_)
       for (const Solid::Edge& e : body.solid.edges) {
-        const bool left = front(body.solid, e.left), right = front(body.solid, e.right);
-        if ((!left && !right) || (body.in_many_parts && inner(body, e))) continue;
-        LineGroup& to = body.ghost                                                                            ? ghost
-                        : many && std::max(facing(body.solid, e.left), facing(body.solid, e.right)) < grazing ? aslant
-                        : left && right                                                                       ? crease
-                                                                                                              : outline;
-        append(to, hidden_.visible(e.p, e.q, body.id));
+        if ((!front(body.solid, e.left) && !front(body.solid, e.right)) || (body.in_many_parts && inner(body, e))) continue;
+        for (const Piece& piece : hidden_.visible(e.p, e.q, body.id)) {
+          if (body.ghost) ghost.pieces.push_back(piece);
+          else if (const auto [contour, crowds] = sides_of(piece); contour) outline.pieces.push_back(piece);
+          else (crowds ? crowded : edge.pieces).push_back(piece);
+        }
       }
-    for (LineGroup* group : {&ground, &ghost, &aslant, &crease, &outline})
+    aslant.pieces = thinned(std::move(crowded), 2.6 * unit_);
+    for (LineGroup* group : {&ground, &ghost, &aslant, &edge, &outline})
       if (!group->pieces.empty()) out.push_back(std::move(*group));
     add_cracks(out);
     return out;
@@ -107,6 +146,21 @@ class Lines {
       if (!box.isEmpty()) least = std::min(least, static_cast<double>(box.sizes().minCoeff()));
     }
     return std::isfinite(least) ? least : 1;
+  }
+
+  // What lies on both sides of a visible line: is it a contour, behind which there is nothing or something far away? Does it lie on a face
+  // that is seen nearly from its edge, where lines crowd?
+  std::pair<bool, bool> sides_of(const Piece& piece) const {
+    const Eigen::Vector2d way = piece.to - piece.from, middle = 0.5 * (piece.from + piece.to);
+    const double aside = 1.2;  // px
+    const Eigen::Vector2d across = aside * Eigen::Vector2d(-way.y(), way.x()) / std::max(1e-9, way.norm());
+    const auto left = hidden_.sight(middle + across), right = hidden_.sight(middle - across);
+    if (!left || !right) return {true, false};
+    const double least = std::min(left->facing, right->facing),
+                 step = std::fabs(projection_.depth_of(left->near) - projection_.depth_of(right->near));
+    // A slanting face itself is deeper on one side of the line than on the other.
+    const double own = 2 * aside / projection_.pixels_per_metre() / std::max(0.02, least);
+    return {step > contour_step_ + own, least < steep};
   }
 
   static void append(LineGroup& to, const std::vector<Piece>& pieces) { to.pieces.insert(to.pieces.end(), pieces.begin(), pieces.end()); }
@@ -278,7 +332,7 @@ class Lines {
   const DrawnInstant& d_;
   Camera camera_;
   Projection projection_;
-  double eps_;
+  double eps_, contour_step_;  // m
   HiddenLines hidden_;
   double unit_;
   std::vector<Body> bodies_;

@@ -208,6 +208,8 @@ int wait_for(const Child& child) {
   return code_of(status);
 }
 
+void end_input(Child& child) { Pipe::close_end(child.to); }
+
 int finish(Child& child) {
   Pipe::close_end(child.to), Pipe::close_end(child.from);
   int status = 0;

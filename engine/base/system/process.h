@@ -49,6 +49,7 @@ constexpr bool was_killed(int code) { return code > 128 && code != 130; }
 // Waits until one of these children ends, at most so long; pid = -1 if none has ended by then.
 Ended wait_for_one(const std::vector<int>& pids, double seconds);
 int wait_for(const Child& child);     // exit code; forwards a caught interrupt to the child
+void end_input(Child& child);         // closes the pipe to its input
 int finish(Child& child);             // closes the pipes and returns the exit code; leaves interrupts to the child
 void interrupt(const Child& child);   // SIGINT, like Ctrl-C
 void stop_hard(const Child& child);   // SIGKILL, for a child that ignores SIGINT

@@ -129,6 +129,25 @@ TEST_CASE("visible parts of lines among boxes are those that rays reach", "[rend
   CHECK(compared > 1000);
 }
 
+TEST_CASE("the face that is seen at a point is the nearest one, at its angle", "[render][drawing]") {
+  const bool parallel = GENERATE(true, false);
+  const Projection projection(camera_at({0, -10, 0}, {0, 0, 0}), parallel, 800, 600, 0, 0);
+  HiddenLines lines(projection, 800, 600, 1e-4);
+  lines.add_face({{-1, 0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}}, 0);
+  lines.add_face({{0, 2, -1}, {2, 2, -1}, {2, 2, 1}, {0, 2, 1}}, 1);          // partly behind it
+  lines.add_face({{-1, 0, -1}, {-1, 0, 1}, {-1.2, 3, 1}, {-1.2, 3, -1}}, 2);  // a side seen nearly from its edge
+  const auto at = [&](const Vec3& p) { return lines.sight(projection.see(projection.in_camera(p)).at); };
+  REQUIRE(at({0.5, 0, 0.5}));
+  CHECK(projection.depth_of(at({0.5, 0, 0.5})->near) == Approx(10));
+  CHECK(at({0.5, 0, 0.5})->facing == Approx(1).margin(0.01));
+  REQUIRE(at({1.7, 2, 0.5}));
+  CHECK(projection.depth_of(at({1.7, 2, 0.5})->near) == Approx(12));
+  CHECK_FALSE(at({-3, 0, 0}));
+  if (!parallel) return;
+  REQUIRE(at({-1.1, 1.5, 0}));
+  CHECK(at({-1.1, 1.5, 0})->facing == Approx(std::sin(std::atan(0.2 / 3))).epsilon(1e-6));
+}
+
 TEST_CASE("the width of a crack tells a tenth of a millimetre from one, from ten and from a hundred", "[render][drawing]") {
   double before = crack_width(0);
   CHECK(before > 0.5);
@@ -166,4 +185,37 @@ TEST_CASE("a line drawing shows outlines, cracks by state, legend and scale", "[
   CHECK_THROWS_WITH(make_drawings(run, reader, movie, std::atomic<bool>{false}), Catch::Contains("--force"));
   movie.force = true, movie.stills = {99};
   CHECK_THROWS_WITH(make_drawings(run, reader, movie, std::atomic<bool>{false}), Catch::Contains("not within the run"));
+}
+
+TEST_CASE("lines of a wall seen nearly from its edge do not merge to a grey stripe", "[render][drawing]") {
+  const test::Folder dir;
+  write_brick_house(dir.path.string(), {1.525, 1.83, 40, 3, 0.1});
+  const Run run = read_run(dir.path.string());
+  const MotionReader reader(dir.path.string());
+  const MotionFrame frame = reader.read(0);
+  const Show show = prepare_show(reader.scene(), run, {frame});
+  Look look;
+  look.width = 960, look.height = 600;
+  const double x = GENERATE(-1.0, -0.4, 2.2);  // of the eye: walls along y are seen at different angles
+  const DrawnInstant instant{run, show, reader.scene(), look, camera_at({x, -9, 1.2}, {0.76, 0.9, 1.2}), false, frame, std::nullopt, {}};
+  std::size_t contours = 0;
+  for (const LineGroup& group : lines_of(instant)) {
+    if (group.name == "outlines") contours += group.pieces.size();
+    if (group.name != "edges of faces seen aslant") continue;
+    const double apart = 2.6 * look.height / 720;
+    std::vector<Piece> upright;  // edges of bricks one beside the other
+    for (const Piece& p : group.pieces)
+      if (std::fabs(p.to.x() - p.from.x()) < 0.1 * std::fabs(p.to.y() - p.from.y()) && (p.to - p.from).norm() > 2 * apart)
+        upright.push_back(p);
+    int beside = 0;
+    for (const Piece& p : upright)
+      for (const Piece& q : upright) {
+        const double y = 0.5 * (p.from.y() + p.to.y());
+        const bool same_height = (y - q.from.y()) * (y - q.to.y()) < 0;
+        const double away = std::fabs(0.5 * (p.from.x() + p.to.x()) - 0.5 * (q.from.x() + q.to.x()));
+        beside += &p != &q && same_height && away < 0.8 * apart;
+      }
+    CHECK(beside <= static_cast<int>(upright.size()) / 20);
+  }
+  CHECK(contours > 4);
 }

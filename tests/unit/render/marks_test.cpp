@@ -55,7 +55,7 @@ TEST_CASE("forces of a pier are the weights above, and its thrust leans with gra
     CHECK(at.x() == Approx(0.15 + 0.05 * above * std::tan(lean)).margin(2e-5));
     CHECK(at.y() == Approx(0.1).margin(2e-5));
     for (const Stroke& s : marks.strokes)
-      if (s.width != 2.6 && std::fabs(0.5 * (s.from + s.to).z() - at.z()) < 0.01) {
+      if (s.color.z() > s.color.x() && std::fabs(0.5 * (s.from + s.to).z() - at.z()) < 0.01) {
         ++forces;
         CHECK(s.width == Approx(9 * above / count * std::cos(lean)).epsilon(1e-3));
         CHECK((s.to - s.from).norm() == Approx(0.1).epsilon(1e-3));  // from the middle of one brick to that of the next
@@ -63,6 +63,40 @@ TEST_CASE("forces of a pier are the weights above, and its thrust leans with gra
   }
   CHECK(forces == std::size_t(count));
   CHECK(marks.strokes.size() == std::size_t(2 * count - 1));  // the line of thrust: each brick with two beds
+  CHECK(marks.legend[2].name.find("line of thrust") == 0);
+}
+
+TEST_CASE("the thrust of a wall branches to the joints that bear it, and carries all of its weight", "[render][marks]") {
+  // Bricks in running bond: each rests on two others, so that no brick lies between two joints alone.
+  const int courses = GENERATE(2, 5);
+  erbs::lua::Bench bench;
+  REQUIRE(bench.run(fmt::format("material{{name='brick', density=1800}} joint{{law=dry{{kn=1e10, mu=.9}}}} gravity(g)\n"
+                                "box{{name='foot', size={{1.2,.2,.1}}, at={{0,0,-.1}}, material='brick', fixed=true}}\n"
+                                "for i = 0, {} do local odd = i % 2; for k = 0, 4 + odd do\n"
+                                "local half = odd == 1 and (k == 0 or k == 5)\n"
+                                "local x = half and (k == 0 and .1 or 1) or .1 + .2*k - .1*odd\n"
+                                "box{{size={{half and .1 or .2,.2,.1}}, at={{x,0,.1*i}}, material='brick'}} end end\n"
+                                "analysis{{duration=.002, frame_dt=.001, frame_stress=true}}",
+                                courses - 1)) == 0);
+  const MotionReader reader(bench.out());
+  const MotionScene& scene = reader.scene();
+  const MotionFrame frame = reader.read(0);
+  const Stage stage = set_stage(scene, {frame});
+  const double scale = largest_force(scene, frame);
+  const Marks marks = marks_of({false, true, ""}, scene, stage, frame, frame, {}, {scale, 1});
+  REQUIRE_FALSE(marks.strokes.empty());
+  // Strokes that cross the level just above the foot carry the weight of the wall.
+  double carried = 0;
+  for (const Stroke& s : marks.strokes) {
+    const double low = std::min(s.from.z(), s.to.z()), high = std::max(s.from.z(), s.to.z());
+    CHECK(s.width <= 8 + 1e-9);
+    CHECK(low > -0.001);
+    CHECK(high < 0.1 * courses + 0.001);
+    if (low < 0.005 && high > 0.005) carried += s.width / 8 * scale;
+    // Each stroke stays within the width of a brick: it does not jump from one to the next.
+    CHECK(std::fabs(s.from.x() - s.to.x()) < 0.2);
+  }
+  CHECK(carried == Approx(5 * courses * 1800 * 0.2 * 0.2 * 0.1 * standard_g).epsilon(0.03));  // thin strokes are drawn wider
 }
 
 TEST_CASE("marks follow magnified blocks, and refuse runs without forces", "[render][marks]") {

@@ -42,6 +42,9 @@ TEST_CASE("a camera of one's own looks where it should, or says why it cannot", 
       {{"--eye", "1,2,3", "--camera", "corner"}, "leave out --camera"},
       {{"--eye", "1,2,3", "--fov", "180"}, "--fov"},
       {{"--camera", "from_x"}, "from_above"},
+      {{"--eye=.15,.06,.05", "--target=3,0,0"}, "the camera of --eye stands inside block b0 at 0 s"},
+      {{"--eye=.15,.06,.31", "--target=3,0,0", "--svg"}, "inside block b3"},
+      {{"--path", "0:.15,.06,.15:3,0,0; 1:4,4,4:0,0,0"}, "inside block b1"},
   };
   for (const auto& [words, reason] : wrong) {
     INFO(reason);
@@ -50,6 +53,13 @@ TEST_CASE("a camera of one's own looks where it should, or says why it cannot", 
     CHECK(contains(bench.said, reason));
   }
   CHECK_FALSE(fs::exists(fs::path(bench.out()) / "frames"));
+  CHECK(render({"--eye=.15,.06,.05", "--target=3,0,0", "--hide", "pier"}) == 2);  // nothing is left
+  CHECK(render({"--eye=.15,.06,.05", "--target=3,0,0", "--ghost", "pier"}) == 0);
+  CHECK(render({"--eye=.15,.06,.05", "--target=3,0,0", "--section", "x<.1"}) == 0);  // where it stands, all is cut away
+  CHECK(render({"--eye=2,2,-.5", "--target=0,0,0"}) == 0);
+  CHECK(contains(bench.said, "below the ground"));
+  CHECK(bench.erbs({"render", bench.out(), "--time", "0:9", "--size", "160x120", "--no-video", "--force", "--no-figures"}) == 0);
+  CHECK(contains(bench.said, "reaches beyond the run"));
   CHECK(render({"--fit"}) == 0);
   CHECK(render({"--split", "--camera", "from_-x,from_-y,from_above", "--size", "480x360"}) == 0);
   CHECK(fs::exists(fs::path(bench.out()) / "frames/split_t0.000s.png"));

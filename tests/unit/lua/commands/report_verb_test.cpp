@@ -95,10 +95,13 @@ TEST_CASE("a browser replays, picks and zooms the page", "[report][browser]") {
   Bench bench;
   REQUIRE(bench.run(pier(1)) == 0);
   REQUIRE(bench.erbs({"report", bench.out()}) == 0);
-  const std::string log = (bench.folder / "browser.log").string();
-  const int code = wait_for(start({"node", ERBS_SOURCE_DIR "/tests/page/browser.mjs", bench.out() + "/report.html"}, log));
+  const std::string log = (bench.folder / "browser.log").string(), shots = (bench.folder / "shots").string();
+  fs::create_directories(shots);
+  const int code = wait_for(
+      start({"node", ERBS_SOURCE_DIR "/tests/page/browser.mjs", bench.out() + "/report.html", shots, ERBS_SOURCE_DIR "/tests/page"}, log));
   INFO(text_of(log));
   CHECK(code == 0);
+  for (const char* name : {"desktop.png", "phone.png", "dark.png", "large.png", "print.pdf"}) CHECK(fs::exists(fs::path(shots) / name));
 }
 
 TEST_CASE("studies of a scene have a page beside the page of their run, which a browser uses", "[report][browser][study_page]") {
