@@ -30,7 +30,7 @@ std::vector<Option> options_of(Bench& bench, const std::string& verb) {
 // Free text: a folder, a file, a name. Any value may be intended.
 bool is_free(const std::string& type) {
   return type.starts_with("DIR") || type.starts_with("FILE") || type == "TEXT" || type.find("=value") != std::string::npos ||
-         type.starts_with("EFFECT");
+         type.starts_with("EFFECT") || type.starts_with("NAME");
 }
 
 const std::vector<std::string> hostile{"",
