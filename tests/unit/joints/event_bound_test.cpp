@@ -114,3 +114,55 @@ TEST_CASE("what comes near is met with as many steps to go, and by as short a st
   CHECK(foresee(run.model, joint, before, far, 1e3) == Approx(std::sqrt(event_share * k * rate * rate / 1e3)).epsilon(1e-6));
   CHECK(foresee(run.model, joint, far, before, 1e-9) == 0);  // it moves away
 }
+
+TEST_CASE("events of a blow may add up to less in a structure of many joints", "[event]") {
+  for (const int blocks : {1, 5, 16, 17, 40}) {
+    Script script(Script::Options{.quiet = true});
+    const Scene scene = script.load_text(fmt::format(R"(
+      material{{ name = "stone", density = 2000 }}
+      for i = 0, {} do box{{ name = "b" .. i, size = {{.4, .2, .05}}, at = {{0, 0, .05 * i}}, fixed = i == 0 }} end
+      joint{{ law = dry{{ kn = 1e9, mu = .6 }} }}
+      analysis{{ duration = 1 }})",
+                                                     blocks),
+                                         "event.lua");
+    Prepared run = prepare(scene, false);
+    INFO(blocks << " joints");
+    REQUIRE(run.model.njoint == blocks);
+    Energy& e = run.state.energy;
+    e.reference = 100;
+    const double sum = blocks > few_joints ? blow_sum : event_sum, whole = event_tolerance * e.reference;
+    CHECK(event_allowance(run.model, run.state) == Approx(whole));
+    for (const double sign : {-1.0, 1.0}) {
+      e.event_residual = sign * 0.25 * sum * e.reference;
+      CHECK(event_allowance(run.model, run.state) == Approx(0.75 * whole));
+      e.event_residual = sign * 2 * sum * e.reference;
+      CHECK(event_allowance(run.model, run.state) == Approx(0.01 * whole));
+    }
+  }
+}
+
+// Its budget is back once the blow has passed: what the ledger lost in it fades within some of its steps, however much that was.
+TEST_CASE("the residual of a blow fades in a structure of many joints, and stays in one of few", "[solve][event]") {
+  for (const int blocks : {4, 20}) {
+    Script script(Script::Options{.quiet = true});
+    const Scene scene = script.load_text(fmt::format(R"(
+      material{{ name = "stone", density = 2000 }}
+      for i = 0, {} do box{{ name = "b" .. i, size = {{.4, .2, .05}}, at = {{0, 0, .05 * i}}, fixed = i == 0 }} end
+      joint{{ law = dry{{ kn = 1e9, mu = .6 }} }}
+      analysis{{ duration = 1 }})",
+                                                     blocks),
+                                         "event.lua");
+    Prepared run = prepare(scene, false);
+    start_at_rest(scene, run, 1);
+    Solver solver(run.model, run.state, run.range, 1);
+    solver.advance();
+    Energy& e = run.state.energy;
+    e.residual += 1, e.start -= 1, e.event_residual = 1;  // J, an error of the past
+    const double t = run.state.time.t;
+    solver.advance_until([&] { return run.state.time.t > t + 4096 * run.state.time.dt; });
+    INFO(blocks << " joints, " << e.event_residual << " J of " << e.residual);
+    CHECK(e.residual == Approx(1));
+    if (blocks > few_joints) CHECK(e.event_residual < 1e-3);
+    else CHECK(e.event_residual == Approx(1));
+  }
+}
