@@ -145,7 +145,8 @@ TEST_CASE("a soft contact on a block with a stiff joint acts as often as the joi
   };
   for (const double ratio : {1.0, 1e2, 1e4, 1e6}) {
     INFO("ratio " << ratio);
-    CHECK(residual(ratio, 8) < 1.1 * residual(ratio, 1));  // the brick lifts off and lands by some 1e-7 m, with one level as well
+    // The brick lifts off and lands by some 1e-7 m, with one level as well; 2e-5 is the bound of the free brick at rest, as above.
+    CHECK(residual(ratio, 8) < 1.1 * residual(ratio, 1) + 2e-5);
   }
 }
 
