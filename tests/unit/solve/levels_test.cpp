@@ -113,9 +113,9 @@ TEST_CASE("a macro step is no longer than the time between two rows", "[levels]"
     }
 }
 
-// Between two kicks of a slow spring, once in an interval H, a fast mode of frequency w turns by the angle w H. The map of both together has
-// the trace 2 cos(w H) - (w H / r) sin(w H), r the ratio of the stiffnesses, and grows where its magnitude exceeds 2 (Biesiadecki and Skeel
-// 1993; Fong, Darve and Lew 2008): just below each multiple of pi, in a band of width pi / r. Intervals up to w H = 1 are far below.
+// Between two kicks of a slow spring, once in an interval H, a fast mode of frequency w turns by the angle w H. The map of both together
+// has the trace 2 cos(w H) - (w H / r) sin(w H), r the ratio of the stiffnesses, and grows where its magnitude exceeds 2 (Biesiadecki and
+// Skeel 1993; Fong, Darve and Lew 2008): just below each multiple of pi, in a band of width pi / r. Intervals up to w H = 1 are far below.
 TEST_CASE("resonance of a slow spring with a fast mode lies beyond the intervals of levels", "[levels]") {
   const auto trace = [](double angle, double ratio) { return 2 * std::cos(angle) - angle / ratio * std::sin(angle); };
   for (double ratio = 1; ratio < 2e6; ratio *= 10) {
@@ -129,22 +129,24 @@ TEST_CASE("resonance of a slow spring with a fast mode lies beyond the intervals
 
 // Two springs on one mass: a bonded bed above, and below soft ground, whose contact alone would bear an interval of up to a thousand steps.
 TEST_CASE("a soft contact on a block with a stiff joint acts as often as the joint", "[levels]") {
-  for (const double ratio : {1.0, 1e2, 1e4, 1e6}) {
+  const auto residual = [](double ratio, int levels) {
     const std::string text = fmt::format(R"(
     local soft, ratio = 1e7, {}
     material{{ name = "brick", density = 1800, friction = 0.6, kn = soft }}
     ground{{ size = 20, material = "brick" }}
-    box{{ name = "anvil", size = {{0.3, 0.125, 0.1}}, center = {{0, 0, 0.15}}, fixed = true }}
-    box{{ name = "brick", size = {{0.3, 0.125, 0.1}}, center = {{0, 0, 0.05}} }}
+    box{{ name = "anvil", group = "above", size = {{0.3, 0.125, 0.1}}, center = {{0, 0, 0.15}}, fixed = true }}
+    box{{ name = "brick", group = "below", size = {{0.3, 0.125, 0.1}}, center = {{0, 0, 0.05}} }}
     box{{ name = "free", size = {{0.3, 0.125, 0.1}}, center = {{1, 0, 0.05}}, free = true }}
-    joint{{ law = mortar{{ kn = ratio * soft, ks = 0.4 * ratio * soft, ft = 1e7, c = 1e7, mu = 0.6 }}, between = {{"anvil", "brick"}} }}
-    analysis{{ duration = 0.2, start = "rest", levels = 8 }})",
-                                         ratio);
+    joint{{ law = mortar{{ kn = ratio * soft, ks = 0.4 * ratio * soft, ft = 1e7, c = 1e7, mu = 0.6 }}, between = {{"above", "below"}} }}
+    analysis{{ duration = 0.2, start = "equilibrium", levels = {} }})",
+                                         ratio, levels);
     const test::Scratch to("levels_two_springs");
-    const Metrics m = run(text, to.path, Existing::refuse);
+    return run(text, to.path, Existing::refuse).residual_relative;
+  };
+  for (const double ratio : {1.0, 1e2, 1e4, 1e6}) {
     INFO("ratio " << ratio);
-    CHECK(m.status == "completed");
-    CHECK(m.residual_relative < 1e-5);
+    // The brick lifts off and lands by some 1e-7 m, with one level as well; 2e-5 is the bound of the free brick at rest, as above.
+    CHECK(residual(ratio, 8) < 1.1 * residual(ratio, 1) + 2e-5);
   }
 }
 
