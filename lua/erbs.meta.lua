@@ -735,7 +735,7 @@ function figure(keys) end
 ---@field y? string label of its vertical axis (default the column)
 ---@field split? string a varied param; each of its values has a figure of its own, such as results_method_1.svg
 ---@field curves? { label: string, x: number[], y: number[] }[] known curves for the figure
----@field fragility? { im: string, collapse?: string, above?: number, along?: string, damage?: string|string[], by?: string|string[] } lognormal fragility and fractiles of damage from these runs: fragility.csv and others, with figures
+---@field fragility? { im: string, collapse?: string, above?: number, along?: string, falls?: boolean, damage?: string|string[], by?: string|string[] } lognormal fragility and fractiles of damage from these runs: fragility.csv and others, with figures
 
 ---Many runs of a scene, by erbs sweep: what varies, what is bisected, and the columns of results.csv.
 ---@param keys erbs.study_keys

@@ -341,3 +341,14 @@ TEST_CASE("a sweep's figure has the labels it is given, and a file for each valu
   CHECK(study.sweep(common + "split = 'truble' }", {"--force"}) == 2);
   CHECK_THAT(study.said, Catch::Contains("study.lua:1") && Catch::Contains("did you mean \"trouble\""));
 }
+
+TEST_CASE("a param that is a word takes it without quotes, and one that is a number does not", "[sweep]") {
+  Study study;
+  study.write("b.csv", "0,0\n0.01,1\n");
+  const auto run = [&](const std::string& option) { return study.erbs({"check", (study.folder / "tiny.lua").string(), "-D", option}); };
+  for (const char* option : {"motion=b.csv", "motion='b.csv'", "motion=\"b.csv\""}) CHECK(run(option) == 0);
+  CHECK(run("h=tall") == 2);
+  CHECK_THAT(study.said, Catch::Contains("-D h=tall") && Catch::Contains("unknown name"));
+  CHECK(run("motion=2") == 2);
+  CHECK_THAT(study.said, Catch::Contains("takes a word"));
+}

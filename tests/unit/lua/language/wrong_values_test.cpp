@@ -62,6 +62,7 @@ const std::map<std::string, Words> sound_calls{
     {"use_limit", {{"reason", "'it walks'"}}},
     {"bisect", {{"param", "'p'"}, {"lo", "0"}, {"hi", "1"}}},
     {"converge", {{"param", "'p'"}, {"values", "{.1, .2}"}, {"value", "function(run) return 1 end"}}},
+    {"accuracy", {{"param", "'p'"}, {"values", "{ 2, 1 }"}}},
     {"ensemble", {{"n", "2"}, {"seed", "1"}, {"param", "'p'"}, {"value", "function(run) return 1 end"}}},
     {"figure", {{"name", "'f'"}, {"title", "'t'"}, {"x", "'x'"}, {"y", "'y'"}, {"curves", "{ { label = 'l', x = {1, 2}, y = {1, 2} } }"}}},
     {"rocking", {{"width", ".2"}, {"height", "1"}, {"theta", ".1"}, {"duration", "1"}}},
