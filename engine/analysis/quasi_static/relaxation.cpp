@@ -18,9 +18,9 @@ constexpr double longest_fall = 30;  // ... and at least this many times sqrt(he
 // Of a block's smallest edge. Beyond the first a block that still gains speed falls, beyond the second any.
 constexpr double gone = 0.1, far_away = 0.5;
 constexpr double local_share = 0.8;
-// Beside kinetic damping. Cracks leave short waves that fill the whole structure at random phases: its kinetic energy has no peaks then,
-// and they would never be braked.
-constexpr double local_share_beside = 0.1;
+// Beside kinetic damping, once a relaxation takes longer than this many periods. Cracks leave short waves that fill the whole structure at
+// random phases: its kinetic energy has no peaks then, and they would never be braked. The step is short enough for it: 0.9 sqrt(1.1) < 1.
+constexpr double local_share_beside = 0.1, patience = 10;
 constexpr int control_every = 16;          // steps between two readings of the displacement that controls the load
 constexpr double default_step_count = 50;  // steps in a period where the structure has no elastic one
 
@@ -31,14 +31,16 @@ std::size_t z(int i) { return std::size_t(i); }
 //   Here the coefficient changes by a tenth where the ratio is off.
 // local: a force of 0.8 times the unbalanced one against the motion (Cundall 1987). Against the motion forces count 1.8 times, so that the
 //   limit of the step is shorter by the root of it.
-// kinetic: velocities vanish at each peak of the kinetic energy (Cundall 1976; Barnes 1988), beside a local force of a tenth.
+// kinetic: velocities vanish at each peak of the kinetic energy (Cundall 1976; Barnes 1988), beside a local force of a tenth
+//   where that does not lead to rest.
 class Damper {
  public:
-  Damper(const std::string& name, double period, Model& model) : model_(model), most_(4 * pi / period), kinetic_(name == "kinetic") {
+  Damper(const std::string& name, double period, Model& model)
+      : model_(model), most_(4 * pi / period), patience_(patience * period), kinetic_(name == "kinetic") {
     adaptive_ = name == "adaptive";
     model.damping_all = true, model.damping_explicit = false;
     model.damping.mass = adaptive_ ? 0.3 * most_ : 0;
-    model.local_damping = share_of(name);
+    model.local_damping = name == "local" ? local_share : 0;
   }
 
   void read(State& s) {
@@ -50,12 +52,11 @@ class Damper {
     }
     brakes_ = kinetic_ && kinetic < kinetic_before_ && !brakes_;
     if (kinetic_) model_.damping.mass = brakes_ ? 2 / s.time.dt : 0;  // this coefficient leaves no velocity after one step
+    if (kinetic_ && s.time.t > patience_) model_.local_damping = local_share_beside;
     kinetic_before_ = brakes_ ? 0 : kinetic;
     lost_ = s.energy.damping;
   }
   bool one_step() const { return brakes_; }  // until the next reading
-
-  static double share_of(const std::string& name) { return name == "local" ? local_share : name == "kinetic" ? local_share_beside : 0; }
 
   // Takes the motion away; its energy counts as damping.
   static void stop(State& s, const Model& m) {
@@ -71,7 +72,8 @@ class Damper {
 
  private:
   Model& model_;
-  const double most_;  // 1/s, critical damping of the lowest mode
+  const double most_;      // 1/s, critical damping of the lowest mode
+  const double patience_;  // s, until short waves are braked as well
   bool adaptive_ = false, brakes_ = false;
   const bool kinetic_;
   double kinetic_before_ = 0, lost_ = 0;
@@ -113,7 +115,7 @@ Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>&
     if (push.inertia == "scaled") scale_inertia(model_, run.state);
     const StepBounds bounds = step_bounds(model_, run.state);
     range_.critical = bounds.cracked;
-    range_.longest = dt_ = 0.9 * bounds.cracked / std::sqrt(1 + Damper::share_of(push.relaxation));
+    range_.longest = dt_ = 0.9 * bounds.cracked / (push.relaxation == "local" ? std::sqrt(1 + local_share) : 1);
   }
   const double w = push_frequency(model_, run.state, push.direction);
   period_ = std::max(w > 0 ? 2 * pi / w : 0, default_step_count * dt_);
