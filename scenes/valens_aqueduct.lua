@@ -13,7 +13,7 @@
 --                erbs run scenes/valens_aqueduct.lua -D bays=1             a pier with half an arch on either side; erbs render with
 --                                                                          --hide plane leaves its planes of symmetry out
 --                erbs run scenes/valens_aqueduct.lua -D dynamic=1 --video  the acceleration grows in time
--- What is found  The partial model bears .15 g and not .155; of blocks as wide as the aqueduct (-D rows=1) .1575, none at .16. One pier
+-- What is found  The partial model bears .14 g and not .15; of blocks as wide as the aqueduct (-D rows=1) .1575, none at .16. One pier
 --                (-D bays=1) bears .135. Its piers overturn out of plane about their toes. Rigid blocks without bond would bear .196 to
 --                .202 (-D rows=1, erbs limit --no-tension): .21 g is out of reach of these heights and piers, whatever the joints do.
 --                With -D rows=1 the performance point is 3.6 cm (N2) and 4.4 cm (mass-proportional), 4.9 and 6.0 cm at the top; 4.1 and
