@@ -15,7 +15,7 @@
 --                erbs run scenes/valens_aqueduct.lua -D dynamic=1 --video  the acceleration grows in time
 -- What is found  The partial model bears .14 g and not .15; of blocks as wide as the aqueduct (-D rows=1) .1575, none at .16. One pier
 --                (-D bays=1) bears .135. Its piers overturn out of plane about their toes. Rigid blocks without bond would bear .196 to
---                .202 (-D rows=1, erbs limit --no-tension): .21 g is out of reach of these heights and piers, whatever the joints do.
+--                .202 (-D rows=1 -D valley=9, erbs limit --no-tension): .21 g is out of reach of these heights and piers, whatever the joints do.
 --                With -D rows=1 the performance point is 3.6 cm (N2) and 4.4 cm (mass-proportional), 4.9 and 6.0 cm at the top; 4.1 and
 --                6.19 cm in the source.
 -- What to look at  curve.svg: acceleration over the displacement of the top above the middle pier; capacity.multiplier, .21 g (partial) and

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 #include <lua5.4/lua.hpp>
+#include <set>
 #include <sstream>
 #include <utility>
 
@@ -106,13 +107,6 @@ void resolve_groups(Context& context) {
   }
 }
 
-// "collapse.direction.0" -> "collapse.direction"
-std::string without_index(const std::string& key) {
-  const size_t dot = key.rfind('.');
-  const bool index = dot != std::string::npos && dot + 1 < key.size() && key.find_first_not_of("0123456789", dot + 1) == std::string::npos;
-  return index ? key.substr(0, dot) : key;
-}
-
 // Names in -D and expect must exist, and the metrics of a study must have names of their own.
 void check_names(Context& context) {
   std::vector<std::string> params, metrics;
@@ -134,7 +128,7 @@ void check_names(Context& context) {
     if (!knob.error.empty() && std::find(metrics.begin(), metrics.end(), knob.error) == metrics.end())
       context.mistake(knob.place, fmt::format("accuracy: error = \"{}\" is no metric of the scene{}", knob.error.substr(8),
                                               did_you_mean(knob.error, metrics)));
-  const std::vector<std::string> keys = metric_keys();
+  const std::vector<std::string> keys = known_keys(context.scene);
   for (const Expectation& item : context.scene.expectations) {
     if (item.key.starts_with("metrics.")) {
       if (std::find(metrics.begin(), metrics.end(), item.key) == metrics.end())
@@ -352,5 +346,18 @@ Scene Script::take_scene() {
 }
 
 const std::vector<std::string>& Script::output() const { return context_->output; }
+
+std::string without_index(const std::string& key) {
+  const size_t dot = key.rfind('.');
+  const bool index = dot != std::string::npos && dot + 1 < key.size() && key.find_first_not_of("0123456789", dot + 1) == std::string::npos;
+  return index ? key.substr(0, dot) : key;
+}
+
+std::vector<std::string> known_keys(const Scene& scene) {
+  std::set<std::string> groups;
+  for (const Block& block : scene.blocks) groups.insert(block.group);
+  groups.erase("");
+  return metric_keys({groups.begin(), groups.end()});
+}
 
 }  // namespace erbs::lua

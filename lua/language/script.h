@@ -85,4 +85,7 @@ class Script {
   lua_State* lua_ = nullptr;
 };
 
+std::vector<std::string> known_keys(const Scene& scene);  // of metrics.json but for its own metrics
+std::string without_index(const std::string& key);        // "collapse.direction.0" -> "collapse.direction"
+
 }  // namespace erbs::lua

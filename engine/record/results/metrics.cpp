@@ -33,10 +33,11 @@ std::vector<std::pair<std::string, double>> energy_terms(const Energy& e) {
           {"sleep_J", e.sleep}};
 }
 
-std::vector<std::string> metric_keys() {
+std::vector<std::string> metric_keys(const std::vector<std::string>& groups) {
   Metrics all;
   all.energy = energy_terms(Energy{});
   all.capacity.emplace();
+  for (const std::string& group : groups) all.capacity->walls.emplace_back(group, "");
   all.capacity->limit.emplace().bonded.emplace();
   all.capacity->performance.emplace();
   std::vector<std::string> keys;

@@ -83,7 +83,8 @@ std::vector<std::pair<std::string, double>> energy_terms(const Energy& energy);
 Metrics::Collapse::Mechanism mechanism_metrics(const Mechanism& mechanism, const Model& model);
 
 Json to_json(const Metrics& metrics);
-std::vector<std::string> metric_keys();  // every dotted key of metrics.json except the scene's own metrics: "collapse.time_s"
+// Every dotted key of metrics.json except the scene's own metrics: "collapse.time_s"; with `groups` of blocks, "capacity.walls.GROUP".
+std::vector<std::string> metric_keys(const std::vector<std::string>& groups = {});
 Metrics::Diagnostics diagnostics_of(const Json& metrics);            // reads the diagnostics from metrics.json
 void write_metrics(const std::string& dir, const Metrics& metrics);  // DIR/metrics.json, atomically
 Json read_metrics(const std::string& dir);

@@ -26,13 +26,6 @@ std::string column(const std::string& name, const std::string& unit) {
   return text;
 }
 
-// "collapse.direction.0" -> "collapse.direction"
-std::string without_index(const std::string& key) {
-  const std::size_t dot = key.rfind('.');
-  const bool index = dot != std::string::npos && dot + 1 < key.size() && key.find_first_not_of("0123456789", dot + 1) == std::string::npos;
-  return index ? key.substr(0, dot) : key;
-}
-
 class Checker {
  public:
   Checker(Plan& plan, const Script& scene, const Overrides& fixed) : plan_(plan), scene_(scene), fixed_(fixed) {}
@@ -88,7 +81,7 @@ class Checker {
   }
 
   void check_key(const std::string& key) {
-    std::vector<std::string> known = metric_keys();
+    std::vector<std::string> known = known_keys(scene_.scene());
     for (const auto& [name, unit] : scene_.scene().metric_units) known.push_back("metrics." + name);
     if (std::find(known.begin(), known.end(), key) != known.end()) return;
     if (std::find(known.begin(), known.end(), without_index(key)) != known.end()) return;

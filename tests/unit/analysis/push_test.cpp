@@ -181,6 +181,13 @@ TEST_CASE("a push tells what each wall does", "[push]") {
             .empty());  // no wall
 }
 
+TEST_CASE("a scene may expect what a wall does, and no wall that is not there", "[push]") {
+  const std::string scene = wall_text + "analysis{ kind = 'pushover' } expect('capacity.walls.";
+  CHECK_NOTHROW(Script(quiet()).load_text(scene + "wall', 'overturning out of plane')", "scene.lua", {}));
+  CHECK_THROWS_WITH(Script(quiet()).load_text(scene + "wal', 'sliding')", "scene.lua", {}),
+                    Catch::Contains("did you mean \"capacity.walls.wall\""));
+}
+
 TEST_CASE("a structure that does not stand has that as its verdict", "[push]") {
   const test::Scratch dir("push_gravity");
   const PushOutcome got = push(stone + R"(

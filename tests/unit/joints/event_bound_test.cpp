@@ -115,16 +115,25 @@ TEST_CASE("what comes near is met with as many steps to go, and by as short a st
   CHECK(foresee(run.model, joint, far, before, 1e-9) == 0);  // it moves away
 }
 
+namespace {
+
+// A fixed block with so many others on it, one joint each.
+Scene pile_of(int blocks) {
+  Script script(Script::Options{.quiet = true});
+  return script.load_text(fmt::format(R"(
+    material{{ name = "stone", density = 2000 }}
+    for i = 0, {} do box{{ name = "b" .. i, size = {{.4, .2, .05}}, at = {{0, 0, .05 * i}}, fixed = i == 0 }} end
+    joint{{ law = dry{{ kn = 1e9, mu = .6 }} }}
+    analysis{{ duration = 1 }})",
+                                      blocks),
+                          "event.lua");
+}
+
+}  // namespace
+
 TEST_CASE("events of a blow may add up to less in a structure of many joints", "[event]") {
   for (const int blocks : {1, 5, 16, 17, 40}) {
-    Script script(Script::Options{.quiet = true});
-    const Scene scene = script.load_text(fmt::format(R"(
-      material{{ name = "stone", density = 2000 }}
-      for i = 0, {} do box{{ name = "b" .. i, size = {{.4, .2, .05}}, at = {{0, 0, .05 * i}}, fixed = i == 0 }} end
-      joint{{ law = dry{{ kn = 1e9, mu = .6 }} }}
-      analysis{{ duration = 1 }})",
-                                                     blocks),
-                                         "event.lua");
+    const Scene scene = pile_of(blocks);
     Prepared run = prepare(scene, false);
     INFO(blocks << " joints");
     REQUIRE(run.model.njoint == blocks);
@@ -144,14 +153,7 @@ TEST_CASE("events of a blow may add up to less in a structure of many joints", "
 // Its budget is back once the blow has passed: what the ledger lost in it fades within some of its steps, however much that was.
 TEST_CASE("the residual of a blow fades in a structure of many joints, and stays in one of few", "[solve][event]") {
   for (const int blocks : {4, 20}) {
-    Script script(Script::Options{.quiet = true});
-    const Scene scene = script.load_text(fmt::format(R"(
-      material{{ name = "stone", density = 2000 }}
-      for i = 0, {} do box{{ name = "b" .. i, size = {{.4, .2, .05}}, at = {{0, 0, .05 * i}}, fixed = i == 0 }} end
-      joint{{ law = dry{{ kn = 1e9, mu = .6 }} }}
-      analysis{{ duration = 1 }})",
-                                                     blocks),
-                                         "event.lua");
+    const Scene scene = pile_of(blocks);
     Prepared run = prepare(scene, false);
     start_at_rest(scene, run, 1);
     Solver solver(run.model, run.state, run.range, 1);
