@@ -140,8 +140,9 @@ TEST_CASE("acceleration, velocity and displacement of one pulse give one motion"
   }
   const Record from_a = read_text(a, [](Record& r) { r.unit = "m/s2"; });
   for (const auto& [text, quantity] : {std::pair{v, std::string("velocity")}, std::pair{u, std::string("displacement")}}) {
-    const Record r =
-        read_text(text, [&](Record& x) { x.quantity = quantity, x.unit = quantity == "velocity" ? "m/s" : "m", x.smoothing = 40; });
+    const Record r = read_text(text, [&, quantity = quantity](Record& x) {
+      x.quantity = quantity, x.unit = quantity == "velocity" ? "m/s" : "m", x.smoothing = 40;
+    });
     INFO(r.note);
     CHECK_THAT(r.note, Contains(quantity) && Contains("smoothing spline"));
     for (const double time : {0.5, 0.7, 0.8, 1.0, 1.5}) {
