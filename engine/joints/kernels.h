@@ -161,6 +161,7 @@ struct BlockArrays {
   const double *wrench, *contact_wrench, *load_wrench;
   // s, interval of loads before and after this kick where contacts have levels (model/levels.h), one number per block; null: the steps
   const double *load_since = nullptr, *load_next = nullptr;
+  const double* inertia = nullptr;  // force of a coarse inertia; null: none
 };
 
 // Work of blocks in this step, summed lane by lane, so that totals do not depend on the width of registers.
@@ -219,6 +220,8 @@ struct StepKernels {
                      int* may_yield);
   // Kick and drift of groups [first, last) of blocks (`integrate.h`); true if a number is not finite.
   bool (*advance)(const KickDrift& step, const BlockArrays& blocks, int first, int last, bool sample, BlockWork& work);
+  // All forces on the moving blocks of these groups, weights among them (N, N m).
+  void (*forces)(const KickDrift& step, const BlockArrays& blocks, int first, int last, VectorPack<6>* out);
   // Geometry of joints from the poses of their blocks: frame, arms, gap and rotation of `out`.
   void (*pose)(PosePack& joints, JointPack& out);
   // Geometry of intact joints in world axes from that of `pack`; constants stay.

@@ -66,6 +66,7 @@ void Solver::work(int thread) {
   if (!has_transitions_) team_.barrier().wait(thread);
   else if (!team_.barrier().wait(thread, [this] { transitions(); })) return;
   if (thread == 0) lap(has_transitions_ ? Phase::contact : Phase::joints);
+  if (inertia_ != nullptr) soften_inertia(thread);
   integrate(thread);
 }
 
@@ -151,12 +152,29 @@ void Solver::note_sleep() {
   idle_ = idle_groups(model_, state_);
 }
 
+void Solver::use(CoarseInertia& inertia) {
+  inertia_ = &inertia;
+  force_.resize(constants_.size());
+}
+
+void Solver::soften_inertia(int thread) {
+  const Range mine = slice(int(constants_.size()), block_grain, thread, threads_);
+  sum_forces(model_, state_, constants_, loads_.now(), {has_contacts_ ? contact_wrench_.data() : nullptr, loads_.rows()}, mine,
+             force_.data());
+  inertia_->gather(force_.data(), mine);
+  if (team_.barrier().wait(thread, [this] { inertia_->solve(); })) inertia_->scatter(state_, mine, block_sums_);
+}
+
 void Solver::integrate(int thread) {
   const double* contacts = !has_contacts_ ? nullptr : has_levels(state_.time) ? contact_kick_.data() : contact_wrench_.data();
   const BlockLevels& levels = contacts_.block_levels();
   const bool apart = has_levels(state_.time);
-  const ExternalForces external{contacts, loads_.rows(), loads_.loaded_blocks(), apart ? levels.since() : nullptr,
-                                apart ? levels.next() : nullptr};
+  const ExternalForces external{contacts,
+                                loads_.rows(),
+                                loads_.loaded_blocks(),
+                                apart ? levels.since() : nullptr,
+                                apart ? levels.next() : nullptr,
+                                inertia_ != nullptr ? inertia_->rows() : nullptr};
   const int groups = int(constants_.size()), grain = sequential_ ? groups : block_grain;  // a sweep runs on one thread
   const Range mine = slice(groups, grain, thread, threads_);
   if (!sequential_)

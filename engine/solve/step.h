@@ -12,6 +12,7 @@
 #include "engine/joints/cracked/fading.h"
 #include "engine/solve/blocks/integrate.h"
 #include "engine/solve/blocks/step_loads.h"
+#include "engine/solve/coarse_inertia.h"
 #include "engine/solve/contacts/contacts.h"
 #include "engine/solve/energy.h"
 #include "engine/solve/joint_phase.h"
@@ -58,6 +59,8 @@ class Solver {
     while (!broken_ && !stop());
   }
 
+  void use(CoarseInertia& inertia);  // from now on; for relaxations
+
   const SampleState& sample() const { return sample_; }
   bool broken() const { return broken_; }
   Vec6 block_wrench(int b) const;                                            // N, N m about the centroid, of joints and contacts
@@ -79,6 +82,7 @@ class Solver {
   void work(int thread);
   void forces(int thread);
   void transitions();
+  void soften_inertia(int thread);
   void integrate(int thread);
   void close_step(const SamplePlan& plan);
   void begin_sample();
@@ -109,6 +113,8 @@ class Solver {
   std::optional<Sequential> sequential_;  // replaces the phases `forces` and `integrate`
   Rows contact_wrench_;                   // N, N m: wrenches of contacts once there are any, one row per block
   Rows contact_kick_;                     // the same with levels: impulse of the contacts that act in this step, over the kick
+  CoarseInertia* inertia_ = nullptr;
+  std::vector<VectorPack<6>> force_;  // N, N m: on blocks, for `inertia_`
   std::vector<BlockConstants> constants_;
   std::vector<BlockSums> block_sums_;   // per chunk
   std::vector<std::uint8_t> outdated_;  // blocks with a new reference pose

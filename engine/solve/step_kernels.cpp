@@ -36,7 +36,7 @@ double work_registers(long rounds) {
 
 template <class... L>
 constexpr StepKernels table(LawList<L...>) {
-  StepKernels out{ERBS_TARGET_NAME, elastic, {}, {}, wrenches, intact, intact_ends, advance, pose, intact_geometry, work_registers};
+  StepKernels out{ERBS_TARGET_NAME, elastic, {}, {}, wrenches, intact, intact_ends, advance, forces, pose, intact_geometry, work_registers};
   int type = 0;
   ((FaceOf<L>::type::has_bond ? void(out.respond[type++] = respond<typename FaceOf<L>::type>) : void(++type)), ...);
   type = 0;

@@ -8,14 +8,17 @@
 local twins = param("twins", 20, "of each peak")
 local size = param("size", 1e-9, "of the perturbation [m and rad]")
 local kn_cracked = param("kn_cracked", 0, "normal stiffness of beds without bond; 0: as with bond [Pa/m]")
+-- The peak of the record comes at 1.5 s and its strong part ends at 4 s, in scaled time; a second burst follows until 9 s.
+local duration = param("duration", 9 * s, "of a run; 22 s: the whole record [s]")
 study {
   title = "House of Gu and Miao under El Centro",
   scene = "../shake_table_house.lua",
   vary = {
     grid { kn_cracked = { kn_cracked } },
     grid { after_collapse = { 0.3 } },
-    grid { pga = { 0.8 * g, 1.0 * g, 1.2 * g, 1.4 * g, 1.6 * g, 1.8 * g, 2.0 * g, 2.4 * g } },
+    grid { duration = { duration } },
     perturbations { n = twins, size = size },
+    grid { pga = { 1.0 * g, 1.2 * g, 1.4 * g, 1.6 * g, 1.8 * g, 2.0 * g, 2.2 * g, 2.5 * g } },
   },
   collect = { "collapse.collapsed", "metrics.drift_storey1", "metrics.first_crack_s" },
   fragility = { im = "pga", collapse = "collapse.collapsed", damage = { "metrics.drift_storey1" }, falls = true },

@@ -11,16 +11,22 @@
 namespace erbs::analysis {
 namespace {
 
-constexpr double checks = 20;        // of the balance, in a period
+constexpr double checks = 20;        // of the balance, in a period, ...
+constexpr double least_check = 8;    // ... but no sooner than after so many steps
 constexpr int balanced_checks = 3;   // in balance, one after the other
 constexpr double longest = 600;      // periods until a structure that still moves is said to creep, ...
 constexpr double longest_fall = 30;  // ... and at least this many times sqrt(height / g), the time scale of rocking
 // Of a block's smallest edge. Beyond the first a block that still gains speed falls, beyond the second any.
 constexpr double gone = 0.1, far_away = 0.5;
 constexpr double local_share = 0.8;
-// Beside kinetic damping, once a relaxation takes longer than this many periods. Cracks leave short waves that fill the whole structure at
-// random phases: its kinetic energy has no peaks then, and they would never be braked. The step is short enough for it: 0.9 sqrt(1.1) < 1.
+// Beside kinetic damping, with a coarse inertia or once a relaxation takes longer than this many periods. Cracks leave short waves that
+// fill the whole structure at random phases: its kinetic energy has no peaks then, and they would never be braked. The step is short enough
+// for it: 0.9 sqrt(1.1) < 1.
 constexpr double local_share_beside = 0.1, patience = 10;
+// A coarse inertia: period of its pieces in steps; where it is used, the structure's over that; blocks of a piece, and pieces, so that
+// their factors stay small beside a step.
+constexpr double quick_steps = 40, slow = 10;
+constexpr int least_piece = 40, most_pieces = 200;
 constexpr int control_every = 16;          // steps between two readings of the displacement that controls the load
 constexpr double default_step_count = 50;  // steps in a period where the structure has no elastic one
 
@@ -35,8 +41,8 @@ std::size_t z(int i) { return std::size_t(i); }
 //   where that does not lead to rest.
 class Damper {
  public:
-  Damper(const std::string& name, double period, Model& model)
-      : model_(model), most_(4 * pi / period), patience_(patience * period), kinetic_(name == "kinetic") {
+  Damper(const std::string& name, double period, bool at_once, Model& model)
+      : model_(model), most_(4 * pi / period), patience_(at_once ? 0 : patience * period), kinetic_(name == "kinetic") {
     adaptive_ = name == "adaptive";
     model.damping_all = true, model.damping_explicit = false;
     model.damping.mass = adaptive_ ? 0.3 * most_ : 0;
@@ -117,10 +123,27 @@ Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>&
     range_.critical = bounds.cracked;
     range_.longest = dt_ = 0.9 * bounds.cracked / (push.relaxation == "local" ? std::sqrt(1 + local_share) : 1);
   }
-  const double w = push_frequency(model_, run.state, push.direction);
-  period_ = std::max(w > 0 ? 2 * pi / w : 0, default_step_count * dt_);
+  soften_inertia();
   const double g = run.model.gravity.norm() > 0 ? run.model.gravity.norm() : standard_g;
   longest_ = std::max(longest * period_, longest_fall * std::sqrt(height_of(run.model) / g));
+}
+
+// Waits for no slow elastic motion: that of a structure of a hundred metres takes thousands of steps.
+void Relaxation::soften_inertia() {
+  const ElasticPush elastic = elastic_push(model_, run_.state, push_.direction);
+  double rate = elastic.frequency * elastic.frequency;  // 1/s2
+  const double quick = std::pow(2 * pi / (quick_steps * dt_), 2);
+  if (rate > 0 && rate * slow * slow < quick && push_.inertia == "scaled" && model_.analysis.solver == "leapfrog") {
+    const Freedom freedom = grounded_freedoms(model_, run_.state);
+    inertia_.emplace(model_, run_.state, freedom, std::max(least_piece, freedom.count / 6 / most_pieces));
+    if (!inertia_->definite()) inertia_.reset();
+  }
+  if (inertia_) {
+    inertia_->set_rate(quick);
+    rate += quick * inertia_->share(elastic.force, elastic.motion);
+    range_.longest = dt_ /= std::sqrt(1 + 0.25 * quick * dt_ * dt_);
+  }
+  period_ = std::max(rate > 0 ? 2 * pi / std::sqrt(rate) : 0, default_step_count * dt_);
 }
 
 void Relaxation::start(State& s, double dt) const {
@@ -169,9 +192,10 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen) 
   start(s, dt_);
   const BlockVec3 from = s.pose.u;
   const bool controlled = push_.control == "displacement";
-  Damper damper(push_.relaxation, period_, model_);
+  Damper damper(push_.relaxation, period_, inertia_.has_value(), model_);
   Solver solver(model_, s, range_, threads_);
-  const double check = period_ / checks;
+  if (inertia_) solver.use(*inertia_);
+  const double check = std::max(period_ / checks, least_check * dt_);
   double next_check = 0, fastest = 0;  // s; J, largest kinetic energy
   int balanced = 0;
   while (true) {

@@ -3,6 +3,7 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "engine/analysis/prepare.h"
@@ -58,6 +59,7 @@ class Relaxation {
   Vec3 reaction(const Solver& solver) const;  // N, on fixed and driven blocks
 
  private:
+  void soften_inertia();
   void start(State& state, double dt) const;
   void end(State& state) const;
   bool far(const State& state, const BlockVec3& from, double share, Relaxed& out) const;
@@ -69,6 +71,7 @@ class Relaxation {
   PushLoads loads_;
   MonitorPoint monitor_;
   StepRange range_;
+  std::optional<CoarseInertia> inertia_;
   double dt_ = 0, true_dt_ = 0;      // s
   double period_ = 0, longest_ = 0;  // s; longest_: of one relaxation
 };

@@ -47,21 +47,21 @@ void scale_inertia(Model& m, const State& s) {
   }
 }
 
-double push_frequency(const Model& m, const State& s, const Vec3& direction) {
+ElasticPush elastic_push(const Model& m, const State& s, const Vec3& direction) {
   const Freedom f = grounded_freedoms(m, s);
-  if (f.count == 0) return 0;
+  if (f.count == 0) return {};
   VecX load = VecX::Zero(f.count), x;
   for (int b = 0; b < m.nblock; ++b)
     if (f.first[z(b)] >= 0) load.segment<3>(f.first[z(b)]) = m.mass[z(b)] * direction;
   NewtonSteps steps(m, s, f, Linear::by_size);
-  if (!steps.intact(load, x) || !(x.dot(load) > 0)) return 0;
+  if (!steps.intact(load, x) || !(x.dot(load) > 0)) return {};
   double kinetic = 0;
   for (int b = 0; b < m.nblock; ++b) {
     if (f.first[z(b)] < 0) continue;
     const Vec3 u = x.segment<3>(f.first[z(b)]), r = x.segment<3>(f.first[z(b)] + 3);
     kinetic += m.mass[z(b)] * u.squaredNorm() + r.dot(m.inertia[z(b)] * r);
   }
-  return std::sqrt(x.dot(load) / kinetic);
+  return {std::sqrt(x.dot(load) / kinetic), load, x};
 }
 
 }  // namespace erbs::analysis

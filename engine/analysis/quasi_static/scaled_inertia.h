@@ -1,5 +1,6 @@
 // Masses of a relaxation. What is at rest does not depend on them, so they may be chosen for speed.
 #pragma once
+#include "engine/base/sparse.h"
 #include "engine/model/model.h"
 #include "engine/model/state.h"
 
@@ -9,8 +10,11 @@ namespace erbs::analysis {
 // blocks then no longer set the step of the others (Underwood 1983, Dynamic relaxation, section 5.3.2). Weights stay: `gravity_factor`.
 void scale_inertia(Model& model, const State& state);
 
-// 1/s, frequency of the elastic structure along the push: Rayleigh's quotient of its displacement under the masses' own weight along
-// `direction`. 0 if the structure is a mechanism.
-double push_frequency(const Model& model, const State& state, const Vec3& direction);
+// The elastic structure under its masses' own weight along `direction`.
+struct ElasticPush {
+  double frequency = 0;  // 1/s, Rayleigh's quotient of the motion; 0 if the structure is a mechanism
+  VecX force, motion;    // per unit of acceleration (kg; m / (m/s2)), of the blocks that joints connect to the ground
+};
+ElasticPush elastic_push(const Model& model, const State& state, const Vec3& direction);
 
 }  // namespace erbs::analysis

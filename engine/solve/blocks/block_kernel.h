@@ -21,12 +21,13 @@ ERBS_INLINE void sum_wrenches(const KickDrift& s, const BlockArrays& A, const Bl
   }
   if (s.joints != 1 && carried)
     for (int i = 0; i < 6; ++i) out[i] = s.joints * out[i];
-  if (A.contact_wrench == nullptr && A.load_wrench == nullptr && wrench_slots == 0) return;
+  if (A.contact_wrench == nullptr && A.load_wrench == nullptr && A.inertia == nullptr && wrench_slots == 0) return;
   Pack rows[pack_size] = {}, sum[8];
   const auto add = [&](const double* row) {
     for (int l = 0; l < pack_size; ++l) rows[l] += load(row + 8 * l);
   };
   if (A.contact_wrench != nullptr) add(A.contact_wrench + first);
+  if (A.inertia != nullptr) add(A.inertia + first);
   if (A.load_wrench != nullptr && A.load_since == nullptr) add(A.load_wrench + first);
   for (int l = 0; l < pack_size && A.load_wrench != nullptr && A.load_since != nullptr; ++l) {
     const long b = 1L * pack_size * group + l;
@@ -264,6 +265,17 @@ static bool advance_pass(const KickDrift& step, const BlockArrays& A, int first,
     else rotate_groups<false, false>(step, A, from, to, w, work);
   }
   return any(broken);
+}
+
+static void forces(const KickDrift& step, const BlockArrays& A, int first, int last, VectorPack<6>* out) {
+  for (int k = first; k < last; ++k) {
+    const BlockConstants& c = A.constant[k];
+    Pack sum[6];
+    sum_wrenches(step, A, c, k, sum);
+    const Pack moving = load(c.moving), heavy = moving * load(c.mass) * load(c.gravity_factor);
+    for (int i = 0; i < 3; ++i) store(out[k].x[i], moving * sum[i] + heavy * (step.gravity[i] - step.ground[i]));
+    for (int i = 3; i < 6; ++i) store(out[k].x[i], moving * sum[i]);
+  }
 }
 
 static bool advance(const KickDrift& step, const BlockArrays& A, int first, int last, bool sample, BlockWork& work) {

@@ -59,7 +59,8 @@ BlockArrays arrays(const Model& m, State& s, const std::vector<BlockConstants>& 
           external.contacts,
           external.loads,
           external.load_since,
-          external.load_next};
+          external.load_next,
+          external.inertia};
 }
 
 double power(const State& s, const double* loads, const LoadedBlock& l) {
@@ -229,6 +230,11 @@ void advance(const Model& m, State& s, const std::vector<BlockConstants>& consta
     if (!loaded.empty()) work_after(s, external, loaded, sums);
     gather_outdated(sums);
   }
+}
+
+void sum_forces(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Excitation& e, const ExternalForces& external,
+                Range groups, VectorPack<6>* out) {
+  step_kernels().forces(kick_of(m, s, e), arrays(m, s, constants, external, nullptr), groups.first, groups.last, out);
 }
 
 BlockGather::BlockGather(const Model& m, State& s, const std::vector<BlockConstants>& constants, const Excitation& e,

@@ -53,6 +53,7 @@ struct ExternalForces {
   const double *contacts = nullptr, *loads = nullptr;
   std::span<LoadedBlock> loaded = {};
   const double *load_since = nullptr, *load_next = nullptr;  // as in `BlockArrays`
+  const double* inertia = nullptr;                           // of a coarse inertia, with its work booked there
 };
 
 // Integrates groups of blocks: sums wrench rows and external forces, kicks by `e.kick`, drifts by `s.dt`. `sums`: one per chunk of
@@ -61,6 +62,10 @@ struct ExternalForces {
 void advance(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e,
              const ExternalForces& external, Range groups, bool sample, std::vector<BlockSums>& sums,
              std::span<const std::uint8_t> idle = {}, double* poses = nullptr);
+
+// All forces on the moving blocks of these groups, with their weights (N, N m).
+void sum_forces(const Model& model, State& state, const std::vector<BlockConstants>& constants, const Excitation& e,
+                const ExternalForces& external, Range groups, VectorPack<6>* out);
 
 // Groups in which every movable block sleeps; empty if none sleeps. Steps skip these groups, except samples (potential energy).
 std::vector<std::uint8_t> idle_groups(const Model& model, const State& state);

@@ -1,10 +1,10 @@
 // Matrix-free solution of the joints' linear system: a preconditioner of a few hundred bytes per block, and two iterative methods.
 #pragma once
-#include <array>
 #include <functional>
 #include <vector>
 
 #include "engine/solve/linear/joint_operator.h"
+#include "engine/solve/linear/rigid_pieces.h"
 
 namespace erbs {
 
@@ -15,22 +15,16 @@ namespace erbs {
 // as a coarse space for elasticity: Vanek, Mandel and Brezina 1996, Computing 56, 179).
 class TwoLevel {
  public:
-  // Diagonal stiffness of joint j in its frame.
-  using Form = std::function<std::array<double, 6>(int j)>;
+  using Form = RigidPieces::Form;
   // `more`: diagonal stiffness besides that of the joints [freedom.count], or empty.
   TwoLevel(const Model& model, const State& state, const Freedom& freedom, const Form& form, const VecX& more);
   bool definite() const { return definite_; }  // false: some piece or block is free to move
   VecX apply(const VecX& residual) const;
 
  private:
-  void group(const Model& model, const State& state, const Freedom& freedom);
-
-  // of each free block, in order                                           [freedom.count / 6]
-  std::vector<int> piece_;
-  std::vector<Vec3> arm_;                            // m, from the centre of its piece
-  std::vector<Eigen::Matrix<float, 6, 6>> inverse_;  // accurate enough for a preconditioner
-  int pieces_ = 0;
-  SparseLdlt coarse_;
+  RigidPieces pieces_;
+  CoarseSystem coarse_;
+  std::vector<Eigen::Matrix<float, 6, 6>> inverse_;  // of each free block, in order; accurate enough for a preconditioner
   bool definite_ = true;
 };
 

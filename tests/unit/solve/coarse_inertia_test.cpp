@@ -1,0 +1,114 @@
+// The coarse inertia of relaxations: what it does to a motion of its pieces and to one that is not, and that its work is accounted for.
+#include "engine/solve/coarse_inertia.h"
+
+#include <catch2/catch.hpp>
+
+#include "engine/analysis/quasi_static/push_run.h"
+#include "engine/solve/linear/stiffness.h"
+#include "tests/unit/lua/load.h"
+#include "tests/unit/record/two_bricks.h"
+
+using namespace erbs;
+using namespace erbs::analysis;
+using namespace erbs::lua;
+
+namespace {
+
+std::string tower(int courses, const std::string& more) {
+  return R"(
+    material{ name = "stone", density = 2000, kn = 1e10, ks = 4e9 }
+    box{ name = "floor", size = {6, 6, .5}, at = {-3, -3, -.5}, fixed = true }
+    wall{ brick = { length = .4, width = .2, height = .2 }, length = 1.6, courses = )" +
+         std::to_string(courses) + R"(, joint = 0, at = {-.8, -.1, 0}, material = "stone", quiet = true }
+    joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .6 } }
+  )" + more;
+}
+
+Prepared prepared(int courses) {
+  Script script(quiet());
+  return prepare(script.load_text(tower(courses, "analysis{ duration = 1 }"), "tower.lua", {}), false);
+}
+
+Metrics pushed(const std::string& text, const std::string& dir, int threads) {
+  Script script(quiet());
+  RunOptions options;
+  options.directory = dir, options.threads = threads;
+  return run_push(script.load_text(text, "tower.lua", {}), text, options).metrics;
+}
+
+}  // namespace
+
+TEST_CASE("a motion of rigid pieces takes part in the coarse inertia as a whole, any other in part", "[solve][coarse]") {
+  const Prepared run = prepared(30);
+  const Freedom f = grounded_freedoms(run.model, run.state);
+  const Sparse k = stiffness(run.model, run.state, f);
+  for (const int size : {10, 40, 1000}) {
+    CAPTURE(size);
+    const CoarseInertia inertia(run.model, run.state, f, size);
+    REQUIRE(inertia.definite());
+    const RigidPieces pieces(run.model, run.state, f, size);
+    std::srand(1);
+    VecX rigid(f.count), free = VecX::Random(f.count), of_piece = VecX::Random(6 * pieces.count());
+    for (int i = 0; 6 * i < f.count; ++i) rigid.segment<6>(6 * i) = pieces.carried(i, of_piece.segment<6>(6 * pieces.of(i)));
+    const auto force = [&](const VecX& x) { return VecX(k.selfadjointView<Eigen::Lower>() * x); };
+    CHECK(inertia.share(force(rigid), rigid) == Approx(1).epsilon(1e-9));
+    const double share = inertia.share(force(free), free);
+    CHECK(share > 0);
+    CHECK(share < 0.5);
+  }
+}
+
+// Its acceleration is rate R K^-1 R^T f: a symmetric and positive form of any two fields of forces.
+TEST_CASE("the coarse inertia is symmetric and positive", "[solve][coarse]") {
+  const Prepared run = prepared(30);
+  const Model& m = run.model;
+  CoarseInertia inertia(m, run.state, grounded_freedoms(m, run.state), 20);
+  inertia.set_rate(1e4);
+  const int groups = int(block_groups(m.nblock));
+  std::vector<BlockSums> sums(std::size_t(groups));
+  const auto field = [&](unsigned seed) {
+    std::srand(seed);
+    std::vector<VectorPack<6>> out(std::size_t(groups), VectorPack<6>{});
+    for (int b = 0; b < m.nblock; ++b)
+      for (int i = 0; i < 6; ++i)
+        if (m.kind[std::size_t(b)] == Kind::moving)
+          out[std::size_t(b / pack_size)].x[i][b % pack_size] = std::rand() / double(RAND_MAX) - 0.5;
+    return out;
+  };
+  const auto answer = [&](const std::vector<VectorPack<6>>& force) {  // accelerations
+    inertia.gather(force.data(), {0, groups});
+    inertia.solve();
+    inertia.scatter(run.state, {0, groups}, sums);
+    std::vector<Vec6> out;
+    for (int b = 0; b < m.nblock; ++b) {
+      Vec6 x = Eigen::Map<const Vec6>(inertia.rows() + 8 * b);
+      if (m.kind[std::size_t(b)] != Kind::moving) CHECK(x.norm() == 0);
+      else x.head<3>() /= m.mass[std::size_t(b)], x.tail<3>() = Vec3(m.inertia[std::size_t(b)].inverse() * Vec3(x.tail<3>()));
+      out.push_back(x);
+    }
+    return out;
+  };
+  const auto times = [&](const std::vector<VectorPack<6>>& force, const std::vector<Vec6>& x) {
+    double sum = 0;
+    for (int b = 0; b < m.nblock; ++b)
+      for (int i = 0; i < 6; ++i) sum += force[std::size_t(b / pack_size)].x[i][b % pack_size] * x[std::size_t(b)][i];
+    return sum;
+  };
+  const auto f = field(1), g = field(2);
+  const auto of_f = answer(f), of_g = answer(g);
+  CHECK(times(f, of_f) > 0);
+  CHECK(times(g, of_f) == Approx(times(f, of_g)).epsilon(1e-9));
+}
+
+// A wall of 60 courses is slow: thousands of steps. Rigid, it overturns at thickness over height, 1/60; the toe and its sway cost a little.
+TEST_CASE("a slender wall has its capacity by a coarse inertia, with a closed ledger and the same bits on two threads", "[solve][coarse]") {
+  const std::string text = tower(60, "analysis{ kind = 'pushover', direction = 'y', step = .004, bracket = .0005 }");
+  const test::Scratch one("coarse_one"), two("coarse_two");
+  const Metrics a = pushed(text, one.path, 1), b = pushed(text, two.path, 2);
+  REQUIRE(a.status == "completed");
+  CHECK(a.capacity->peak.multiplier < 1. / 60);
+  CHECK(a.capacity->peak.multiplier > 0.93 / 60);
+  CHECK(a.residual_relative < 1e-4);
+  CHECK(a.state_hash == b.state_hash);
+  CHECK(a.capacity->relaxation_steps < 60000);
+}
