@@ -71,13 +71,14 @@ TEST_CASE("a finished run of a study is not run again, unless the scene has chan
   Bench bench;
   REQUIRE(bench.run(slope) == 0);
   const double found = bench.metric("collapse_slope");
-  const fs::path note = bench.out() + "/studies/collapse_slope/slope=0.1.json";
-  const auto written = fs::last_write_time(note);
-  fs::remove(bench.out() + "/studies/collapse_slope/slope=1.json");  // as if interrupted before that run
+  const std::string study = bench.out() + "/studies/collapse_slope/";
+  const auto written = fs::last_write_time(study + "runs/000000_00/metrics.json");
+  fs::resize_file(study + "runs.csv", fs::file_size(study + "runs.csv") - 1);  // as if killed while it noted the last run
+  fs::remove(study + "results.csv");
   REQUIRE(bench.run(slope, {"--resume"}) == 0);
   CHECK(bench.metric("collapse_slope") == found);
-  CHECK(fs::last_write_time(note) == written);
-  CHECK(fs::exists(bench.out() + "/studies/collapse_slope/slope=1.json"));
+  CHECK(fs::last_write_time(study + "runs/000000_00/metrics.json") == written);
+  CHECK(double(read_csv(study + "runs.csv").rows()) == bench.metric("collapse_slope_runs"));
   REQUIRE(bench.run(slope, {"--resume", "-D", "mu=0.3"}) == 0);
   CHECK(bench.metric("collapse_slope") == Approx(0.3).epsilon(0.01));
 }
