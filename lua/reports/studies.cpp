@@ -31,8 +31,8 @@ std::string in(const study::Sweep& sweep, const char* file) { return sweep.direc
 
 // All that the runs of a study depend on.
 std::string key_of(const Study& s, const study::Sweep& sweep, const Scene& scene) {
-  std::string text = fmt::format("{}\n{} {} {} {} {} {}\n{} {}", program_version(), s.param, s.lo, s.hi, s.rel, s.points, s.collapse, s.n,
-                                 s.seed);
+  std::string text =
+      fmt::format("{}\n{} {} {} {} {} {}\n{} {}", program_version(), s.param, s.lo, s.hi, s.rel, s.points, s.collapse, s.n, s.seed);
   text += fmt::format("\n{}\n{}", fmt::join(s.values, " "), fmt::join(sweep.arguments, "\n"));
   for (const auto& [file, hash] : scene.inputs) text += "\n" + file + " " + hash;
   return hash_text(text);
