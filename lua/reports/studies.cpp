@@ -53,7 +53,7 @@ study::Sweep sweep_of(const Study& s, const Script& script, const std::string& p
   } else {
     study::Axis axis;
     axis.params = {s.param}, sweep.params = {"x"};
-    for (const double x : s.kind == Study::Kind::ensemble ? seeds(s.seed, s.n) : s.values) axis.rows.push_back({x});
+    for (const double x : s.kind == Study::Kind::ensemble ? study::seeds(s.seed, s.n) : s.values) axis.rows.push_back({x});
     plan.axes = {axis};
     plan.collect.emplace_back(question);
   }
@@ -63,7 +63,7 @@ study::Sweep sweep_of(const Study& s, const Script& script, const std::string& p
     if (name != s.param) sweep.arguments.insert(sweep.arguments.end(), {"-D", name + "=" + value});
   for (const auto& words : {override_arguments(command), permissions(command.scene)})
     sweep.arguments.insert(sweep.arguments.end(), words.begin(), words.end());
-  sweep.at_once = command.threads > 0 ? command.threads : usable_processors();
+  sweep.at_once = command.jobs > 0 ? command.jobs : command.threads > 0 ? command.threads : usable_processors();
   plan.memory = study::machine_memory() / sweep.at_once;
   sweep.key = key_of(s, sweep, script.scene());
   return sweep;

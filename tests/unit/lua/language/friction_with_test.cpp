@@ -30,13 +30,13 @@ std::string slope(const std::string& floor, const std::string& brick) {
 TEST_CASE("the friction between two materials is what either of them says of the other, else the smaller", "[lua][contact]") {
   const Scene scene = scene_of("material{ name = 's', density = 2000, friction = .3, friction_with = { s = .1, brick = .9 } }");
   const Material &brick = scene.materials[0], &stone = scene.materials[1];
-  CHECK(pair_law(brick, stone).friction == 0.9);
-  CHECK(pair_law(stone, brick).friction == 0.9);
-  CHECK(pair_law(stone, stone).friction == 0.1);
-  CHECK(pair_law(brick, brick).friction == brick.friction);
+  CHECK(pair_law(brick, stone).mu == 0.9);
+  CHECK(pair_law(stone, brick).mu == 0.9);
+  CHECK(pair_law(stone, stone).mu == 0.1);
+  CHECK(pair_law(brick, brick).mu == brick.friction);
   Material other = brick;
   other.name = "other";
-  CHECK(pair_law(other, stone).friction == 0.3);
+  CHECK(pair_law(other, stone).mu == 0.3);
 }
 
 TEST_CASE("a brick slides down where its material is slippery on that of the floor, by Coulomb's law", "[lua][contact]") {

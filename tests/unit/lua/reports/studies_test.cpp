@@ -121,6 +121,36 @@ TEST_CASE("a run of a study that fails is a row with its reason, and the others 
   CHECK(bench.metric("ensemble_deviation") == deviation);
 }
 
+TEST_CASE("studies of a scene give the same for any number of runs at once, and end runs that take too long", "[lua][study]") {
+  Bench bench;
+  const std::string scene = slope + R"(
+    converge { param = "mu", values = { .4, .2, .1 }, error = function(run) return run.last("block_ux_rel_m") + .1 end }
+    ensemble { n = 5, seed = 2, param = "mu", value = function(run) return run.time_s end })";
+  std::string first;
+  for (const char* jobs : {"1", "2", "5"}) {
+    REQUIRE(bench.run(scene, {"-j", jobs, "--force", "--no-figures"}) == 0);
+    std::string all = read_json(bench.out() + "/metrics.json")["metrics"].dump();
+    for (const char* name : {"collapse_slope", "converge_mu", "ensemble"}) {
+      const CsvTable table = read_csv(bench.out() + "/studies/" + name + ".csv");
+      for (std::size_t i = 0; i < table.rows(); ++i) {
+        all += fmt::format(" {} {}", table.columns[0][i], table.column("answer")[i]);
+        CHECK(fs::exists(bench.out() + "/studies/" + name + "/" + table.text[std::size_t(table.find("run"))][i] + "/metrics.json"));
+      }
+    }
+    if (first.empty()) first = all;
+    CHECK(all == first);
+  }
+  const std::string endless = R"(
+    local long = param("long", 0)
+    material { name = "stone", density = 2000 }
+    box { name = "block", size = { .4, .4, .1 }, at = { 0, 0, 0 }, free = true }
+    analysis { duration = long > 1 and 1e6 or .01, stop_after_collapse = 1e6 }
+    converge { param = "long", values = { 1, 2 }, value = function(run) return run.time_s end })";
+  REQUIRE(bench.run(endless, {"--max-wall", "1s", "--force", "--no-figures"}) == 0);
+  CHECK(bench.metric("converge_long_failed") == 1);
+  CHECK(bench.said.find("took longer than max_wall = 1 s") != std::string::npos);
+}
+
 TEST_CASE("an oscillator's error falls with the square of its step", "[lua][study]") {
   Bench bench;
   REQUIRE(bench.run(R"(
