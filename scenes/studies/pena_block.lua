@@ -7,7 +7,7 @@
 --                motion. The records are not at hand; the random motion is white between 1 and 8 Hz under a trapezium, from a seed.
 -- How to run     erbs run scenes/studies/pena_block.lua -D specimen=2 -D motion=harmonic -D level=3
 -- What to look at  metrics.peak: largest rotation over alpha; metrics.overturned; metrics.rest: time after which it stays below .05 alpha;
---                metrics.theory_overturned, theory_peak: the same by Housner's exact equation under the same motion (blocks 1 to 3)
+--                metrics.theory_overturned, theory_peak: the same by Housner's exact equation under the same motion (of block 4: with both edges cut)
 local specimen = param("specimen", 1, "1 to 4; 4 has a cut edge")
 local motion = param("motion", "free", "free, harmonic or random")
 local seed, level = param("seed", 1, "of the random motion"), param("level", 1.5, "peak acceleration over g tan(alpha)")
