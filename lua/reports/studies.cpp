@@ -104,7 +104,9 @@ std::map<double, Run> runs_of(const study::Sweep& sweep) {
   std::map<double, Run> runs;
   for (std::size_t i = 0; i < table.rows(); ++i) {
     const double x = table.columns[1][i], answer = answers[i];
-    Run& run = runs[x] = {{x, std::nullopt, ""}, table.column("wall_s")[i], table.column(updates)[i]};
+    Run& run = runs[x];
+    run.answer.x = x, run.answer.value.reset(), run.answer.reason.clear();
+    run.wall = table.column("wall_s")[i], run.updates = table.column(updates)[i];
     const std::string status = word("status", i), reason = word("reason", i);
     if (std::isfinite(answer)) run.answer.value = answer;
     else run.answer.reason = status == "diverged" || status == "inaccurate" || status == "stopped" ? status + "; " + reason : reason;

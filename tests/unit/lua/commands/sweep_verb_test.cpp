@@ -299,7 +299,8 @@ TEST_CASE("the ranks of mpirun share a study, and so do the tasks of a job array
       WARN("skipped: mpirun is not installed (package openmpi-bin)");
       return;
     }
-    for (const char* ranks : {"1", "2", "3"}) {
+    for (const auto& [text, ranks] : {std::pair{grid, "1"}, {grid, "2"}, {grid, "3"}, {threshold, "1"}, {threshold, "3"}}) {
+      REQUIRE(study.sweep(text, {"-j", "1", "--force"}, alone) == 0);
       std::vector<std::string> words{"mpirun", "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-n", ranks};
       for (const auto& word : study.command({"sweep", (study.folder / "study.lua").string(), "-o", study.out(), "--force"}))
         words.push_back(word);
