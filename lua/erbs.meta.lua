@@ -80,8 +80,9 @@ start_noise = 0 -- noise in the initial state of every free block: erbs run --no
 ---@field friction? number coefficient of friction of debris contacts [0 to 10; default 0.6]
 ---@field restitution? number restitution of a central impact: speed after over speed before [0 to 1; default 0.3]
 ---@field color? erbs.vec3 red, green, blue for the pictures [0 to 1; default { 0.7, 0.35, 0.25 }]
+---@field friction_with? table<string, number> coefficients against other materials, or its own, by their names: { stone = 0.3 }
 
----A material of blocks, and its behaviour as debris. Between two materials the smaller friction and the smaller restitution apply.
+---A material of blocks, and its behaviour as debris. Between two materials the smaller friction and the smaller restitution apply, unless one says its friction_with the other.
 ---@param keys erbs.material_keys
 ---@return string # its name
 function material(keys) end

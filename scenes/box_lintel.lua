@@ -8,7 +8,7 @@
 --                with its share of the roof from its Table 2. The calibrated contact of wall and base is not printed:
 --                ours is what erbs calibrate finds with scenes/studies/calibrate_wall.lua and calibrate_wall_pena.lua (on feet).
 -- How to run     erbs run scenes/box_lintel.lua [-D case=3] [-D method=2] [-D omega=1] [-D amplitude=2.3] [-D 'direction="y"']
---                [-D side_friction=0] [-D mitre_kn=1e3] [-D 'criterion="alpha"']
+--                [-D side_friction=0] [-D mitre_kn=1e3] [-D mitre_angle=15] [-D 'criterion="alpha"']
 --                Figs. 9 and 10: erbs sweep scenes/studies/box_collapse_relation.lua
 -- What to look at  metrics.collapse (1: the criterion is met), turn_at_zero, turn_front, turn_back, turn_side, all over alpha
 local keys = {
@@ -22,6 +22,7 @@ local keys = {
   criterion = param("criterion", "alpha_at_zero", "alpha_at_zero: theta = alpha when the acceleration first vanishes; alpha: at any time of the run"),
   cycles = param("cycles", 3, "of the sine, for the criterion alpha"),
   angle = param("angle", 30, "of friction under the ring [deg]"),
+  mitre_angle = param("mitre_angle", 0, "of friction in the mitres [deg]"),
   mitre_kn = param("mitre_kn", 50e6, "stiffness of the mitres; at 1e3 the walls along hold no other: with side_friction=0 a rocking frame [Pa/m]"),
 }
 local box = (include "verify/parts/box_of_walls.lua")(keys)

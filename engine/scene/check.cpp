@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <map>
 #include <set>
 #include <unordered_map>
 
@@ -48,6 +49,20 @@ void check_materials(Report& report, const Scene& scene) {
     if (!names.insert(material.name).second)
       report.say(material.place, "material \"{}\" is there twice; give one of them another name", material.name);
   }
+  std::map<std::pair<std::string, std::string>, double> said;
+  for (const Material& material : scene.materials)
+    for (const auto& [other, friction] : material.friction_with) {
+      if (!names.contains(other))
+        report.say(material.place, "material \"{}\": friction_with names \"{}\", and there is no such material{}", material.name, other,
+                   did_you_mean(other, {names.begin(), names.end()}));
+      if (!inside(friction, 0, 10))
+        report.say(material.place, "material \"{}\": friction_with {} = {:g} is out of range; allowed is 0 to 10", material.name, other,
+                   friction);
+      const auto [first, fresh] = said.emplace(std::minmax(material.name, other), friction);
+      if (!fresh && first->second != friction)
+        report.say(material.place, "material \"{0}\": friction_with {1} = {2:g}, and \"{1}\" says {3:g}; say it once", material.name, other,
+                   friction, first->second);
+    }
 }
 
 void check_blocks(Report& report, const Scene& scene) {

@@ -28,6 +28,7 @@ struct Material {
   double restitution = 0.3;      // of an impact through the centre, 0..1
   Vec3 color{0.70, 0.35, 0.25};  // sRGB 0..1 for the pictures
   Place place;
+  std::vector<std::pair<std::string, double>> friction_with;  // coefficients against other materials or its own, by their names
 
   static Fields<Material> fields() {
     return {

@@ -11,8 +11,6 @@ struct Answer {
   double x = 0;  // value of the parameter
   std::optional<double> value;
   std::string reason;
-  double wall_s = 0;
-  double updates = 0;  // contact points evaluated
 };
 
 std::string said(const Answer& answer);                        // "2.5: crashed"

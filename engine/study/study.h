@@ -1,5 +1,5 @@
 // Studies: many runs of one scene with a parameter varied. Kinds are a threshold by bisection, an order of convergence, and an ensemble.
-// This file chooses the runs and evaluates their answers; children.h carries them out.
+// This file chooses the runs and evaluates their answers; sweep/ makes them.
 #pragma once
 #include <functional>
 #include <optional>
@@ -34,7 +34,6 @@ using RunAll = std::function<std::vector<Answer>(const std::vector<double>&)>;
 struct StudyResult {
   std::vector<std::pair<std::string, std::optional<double>>> metrics;  // names as metric_names
   std::string trouble;                                                 // why a metric has no value; "" if all have one
-  double updates = 0;                                                  // contact points evaluated by its runs
 };
 
 StudyResult carry_out(const Study& study, const RunAll& runs);

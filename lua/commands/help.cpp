@@ -196,6 +196,7 @@ std::string editor_type(const Key& key) {
                                                               {"question", "fun(run: erbs.run): number|boolean?"},
                                                               {"expected", "number|string|boolean?"},
                                                               {"family", "table<string, number[]>"},
+                                                              {"frictions", "table<string, number>"},
                                                               {"family_how", "{ combinations?: integer, seed?: number }"},
                                                               {"axes", "erbs.axes|erbs.axes[]"},
                                                               {"values", "number|string|(number|string)[]"},

@@ -2,6 +2,7 @@
 #include <lua5.4/lua.hpp>
 
 #include "engine/base/spelling.h"
+#include "engine/base/text.h"
 #include "engine/contact/overlap/shape.h"
 #include "engine/geometry/mass.h"
 #include "engine/geometry/polyhedron.h"
@@ -33,9 +34,26 @@ Keys placed_keys() {
   return keys;
 }
 
+// Coefficients of friction by the names of materials, { stone = 0.3 }; Scene's check knows the names.
+void read_frictions(Call& call, Material& item) {
+  lua_getfield(call.lua, 1, "friction_with");
+  if (lua_istable(call.lua, -1)) {
+    for (lua_pushnil(call.lua); lua_next(call.lua, -2) != 0; lua_pop(call.lua, 1)) {
+      if (lua_type(call.lua, -2) != LUA_TSTRING || lua_type(call.lua, -1) != LUA_TNUMBER)
+        call.mistake("friction_with takes numbers by the names of materials, such as { stone = 0.3 }");
+      else item.friction_with.emplace_back(shown(lua_tostring(call.lua, -2), 60), lua_tonumber(call.lua, -1));
+    }
+    std::sort(item.friction_with.begin(), item.friction_with.end());
+  } else if (!lua_isnil(call.lua, -1)) {
+    call.mistake("friction_with must be a table of numbers by the names of materials, such as { stone = 0.3 }");
+  }
+  lua_pop(call.lua, 1);
+}
+
 int material(Call& call) {
   Material item;
   call.arguments().read(item);
+  read_frictions(call, item);
   item.place = call.place;
   lua_pushstring(call.lua, item.name.c_str());
   call.context.materials.push_back(static_cast<int>(call.context.scene.materials.size()));
@@ -326,8 +344,9 @@ std::vector<Function> block_functions() {
   const std::string name = "string: the name of the block";
   return {
       {"material", material, "{ ... }", "string: its name",
-       "A material of blocks, and its behaviour as debris. Between two materials the smaller friction and the smaller restitution apply.",
-       keys_of<Material>()},
+       "A material of blocks, and its behaviour as debris. Between two materials the smaller friction and the smaller restitution apply, unless one says its friction_with the other.",
+       joined({keys_of<Material>(),
+               {{"friction_with", "frictions", "", "coefficients against other materials, or its own, by their names: { stone = 0.3 }"}}})},
       {"box", box, "{ ... }", name, "A rectangular block.",
        joined({{{"size", "vec3", "m", "lengths along x, y, z", 1e-6, far, true, "", ""},
                 {"at", "vec3", "m", "its lower corner", -far, far, false, "", "{ 0, 0, 0 }"},

@@ -12,6 +12,7 @@ void add_run(CLI::App& app, RunCommand& command) {
   add_output(run, command.output);
   add_scene(run, command.scene);
   run.add_option("--threads", command.threads, "threads (default: as many as the machine has, 1 for few blocks)")->check(within(1, 1024));
+  run.add_option("-j", command.jobs, "runs of its studies at once (default: --threads, else one per processor)")->check(within(1, 1024));
   add_time(run, "--until", command.until, "stop at this simulated time, with a checkpoint", "T");
   run.add_flag("--resume", command.resume, "continue from the checkpoint in the folder");
   add_max_wall(run, command.max_wall, "stop after this wall-clock time, with a checkpoint", "30m");

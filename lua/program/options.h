@@ -58,6 +58,7 @@ struct RunCommand {
   SceneOptions scene;
   SceneChanges changes;
   int threads = 0;              // 0: as many as the machine has
+  int jobs = 0;                 // runs of its studies at once; 0: as many as threads, else one per processor
   std::optional<double> until;  // s, simulated
   bool resume = false;
   std::optional<double> max_wall, checkpoint_every;  // s, wall clock

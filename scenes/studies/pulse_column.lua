@@ -1,12 +1,13 @@
 -- A block, two stacked blocks or a column of drums under one pulse of the ground, for pulse_columns.lua and safe_island.lua
 --
--- What happens   n equal blocks stand dry on each other, the lowest on two narrow feet. The ground moves by one pulse. They fall, or rock
---                and slide back to rest.
+-- What happens   n equal blocks stand dry on each other, the lowest on two narrow feet; or round drums, on their whole rims. The ground moves by
+--                one pulse. They fall, or rock and slide back to rest.
 -- Source         Makris and Roussos 2000 and Zhang and Makris 2001 for the pulses and the axes; Psycharis 1990 for two blocks; Mavroeidis and
 --                Papageorgiou 2003 for the near-fault pulse. Feet and stiffness as in scenes/verify/parts/rocking_block.lua, which says why.
--- How to run     erbs run scenes/studies/pulse_column.lua -D n=3 -D pulse='"ricker"' -D omega=3 -D amplitude=2
+-- How to run     erbs run scenes/studies/pulse_column.lua -D n=3 [-D sides=16] -D pulse='"ricker"' -D omega=3 -D amplitude=2
 -- What to look at  metrics.overturned (1: it fell); metrics.theory: 1 if one rigid block of the outline falls, by its exact equation
 local n = param("n", 1, "blocks, one on the other")
+local sides = param("sides", 0, "of round drums, prisms whose corners lie on the circle; 0: square blocks")
 local pulse = param("pulse", "full_sine", "half_sine, full_sine, full_cosine, ricker, or mp_pulse: gamma 1.5, phase 0")
 local width, height = param("width", 0.4, "[m]"), param("height", 1.2, "of all blocks together [m]")
 local omega = param("omega", 2, "circular frequency of the pulse over p of the whole [-]")
@@ -26,10 +27,18 @@ local function part(x0, x1, z0, z1)
   end
   return { vertices = v }
 end
-block { name = "block1", material = "stone", free = true,
-  parts = { part(-b, -b + foot, 0, hollow), part(b - foot, b, 0, hollow), part(-b, b, hollow, each) } }
-for i = 2, n do
-  box { name = "block" .. i, material = "stone", free = true, size = { width, width, each }, at = { -b, -b, (i - 1) * each } }
+if sides > 0 then
+  local polygon = {}
+  for i = 1, sides do  -- a side faces +x and, of an even number, one -x
+    polygon[i] = { b * math.cos(2 * pi * (i - 0.5) / sides), b * math.sin(2 * pi * (i - 0.5) / sides) }
+  end
+  for i = 1, n do prism { name = "block" .. i, material = "stone", free = true, polygon = polygon, height = each, at = { 0, 0, (i - 1) * each } } end
+else
+  block { name = "block1", material = "stone", free = true,
+    parts = { part(-b, -b + foot, 0, hollow), part(b - foot, b, 0, hollow), part(-b, b, hollow, each) } }
+  for i = 2, n do
+    box { name = "block" .. i, material = "stone", free = true, size = { width, width, each }, at = { -b, -b, (i - 1) * each } }
+  end
 end
 
 local alpha = math.atan(width / height)

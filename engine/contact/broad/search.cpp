@@ -277,9 +277,16 @@ double search(PairList& list, const ContactShapes& shapes, std::span<const Conta
   return dropped;
 }
 
+double friction_between(const Material& a, const Material& b) {
+  for (const auto& [one, other] : {std::pair(&a, &b), std::pair(&b, &a)})
+    for (const auto& [name, friction] : one->friction_with)
+      if (name == other->name) return friction;
+  return std::min(a.friction, b.friction);
+}
+
 PairLaw pair_law(const Material& a, const Material& b) {
   auto series = [](double x, double y) { return x + y > 0 ? 2 * x * y / (x + y) : 0.0; };
-  return {series(a.kn, b.kn), series(a.ks, b.ks), std::min(a.friction, b.friction), std::min(a.restitution, b.restitution)};
+  return {series(a.kn, b.kn), series(a.ks, b.ks), friction_between(a, b), std::min(a.restitution, b.restitution)};
 }
 
 int find_pair(const PairList& list, int a, int part_a, int b, int part_b) {

@@ -122,7 +122,7 @@ Json json_of_manifest(const Manifest& m) {
     j["cameras"].push_back(
         {{"name", c.name}, {"eye", json_of(c.eye)}, {"target", json_of(c.target)}, {"up", json_of(c.up)}, {"fov_rad", c.fov}});
   j["materials"] = Json::array();
-  for (const Material& a : m.materials)
+  for (const Material& a : m.materials) {
     j["materials"].push_back({{"name", a.name},
                               {"color", json_of(a.color)},
                               {"density_kg_m3", a.density},
@@ -130,6 +130,8 @@ Json json_of_manifest(const Manifest& m) {
                               {"ks_Pa_m", a.ks},
                               {"friction", a.friction},
                               {"restitution", a.restitution}});
+    for (const auto& [other, friction] : a.friction_with) j["materials"].back()["friction_with"][other] = friction;
+  }
   j["metrics"] = Json::array();
   for (const auto& [name, unit] : m.metric_units) j["metrics"].push_back({{"name", name}, {"unit", unit}});
   j["laws"] = m.laws;
@@ -166,6 +168,7 @@ Manifest manifest_of_json(const Json& j) {
                            number(a.at("friction")),
                            number(a.at("restitution")),
                            vec3(a.at("color")),
+                           {},
                            {}});
   for (const Json& metric : j.at("metrics")) m.metric_units.emplace_back(metric.at("name"), metric.at("unit"));
   m.laws = j.at("laws"), m.loads = j.at("loads"), m.settings = j.at("settings");

@@ -84,7 +84,7 @@ void read_sweep(const fs::path& dir, const std::string& page, ReportedStudy& stu
         rows.text[static_cast<std::size_t>(status)][row] == "completed")
       ++done;
     const double place = index >= 0 ? rows.columns[static_cast<std::size_t>(index)][row] : static_cast<double>(row);
-    table.links.push_back(link_of(dir / "runs" / number_text(place), page));
+    table.links.push_back(link_of(dir / "runs" / fmt::format("{:06.0f}", place), page));
   }
   study.answers.emplace_back("points", fmt::format("{}, {} completed", rows.rows(), done));
   if (answer >= 0) {
@@ -124,10 +124,9 @@ void read_scene_studies(const fs::path& dir, const std::string& page, ReportedSt
     StudyTable table{name, read_csv(file.string()), {}};
     const CsvTable& rows = table.table;
     table.x = 0, table.y = std::max(0, rows.find("answer"));
-    for (std::size_t row = 0; row < rows.rows(); ++row)
-      table.links.push_back(rows.names.empty() || !rows.text[0].empty()
-                                ? ""
-                                : link_of(dir / "studies" / name / fmt::format("{}={}", rows.names[0], rows.columns[0][row]), page));
+    if (const int run = rows.find("run"); run >= 0)
+      for (const std::string& place : rows.text[static_cast<std::size_t>(run)])
+        table.links.push_back(link_of(dir / "studies" / name / place, page));
     study.tables.push_back(std::move(table));
     if (const Json* all = find_key(metrics, "metrics"); all && all->is_object())
       for (const auto& [key, value] : all->items())

@@ -45,6 +45,7 @@ struct Bisection {
   int points = 1;
   std::string key = "collapse.collapsed";  // of metrics.json; the verdict is yes where it is true or not 0, ...
   std::optional<double> above;             // ... or above this number
+  bool stability = false;                  // a run that diverged may answer yes, never no: for limits of stability
   Place place;
 };
 

@@ -70,6 +70,10 @@ const Variant* variant_of(const Sweep& sweep, const std::string& param, const Va
 
 }  // namespace
 
+std::string place_of(const Sweep& sweep, std::int64_t point, std::size_t run) {
+  return sweep.plan.bisect ? fmt::format("{:06}_{:02}", point, run) : fmt::format("{:06}", point);
+}
+
 std::string scene_of(const Sweep& sweep, const Point& point) {
   for (const auto& [param, value] : point)
     if (const Variant* how = variant_of(sweep, param, value); how != nullptr && !how->scene.empty()) return how->scene;
@@ -110,10 +114,12 @@ RunRow read_run(const Sweep& sweep, const Point& point, double x, const std::str
     }
     const Json metrics = read_json(file);
     row.status = metrics.value("status", "");
-    if (row.status != "completed") {
-      row.reason = last_words(log, finished.code, scene);
-      return row;
+    if (row.status == "diverged" && sweep.plan.bisect && sweep.plan.bisect->stability) {
+      std::string none;
+      if (verdict_of(*sweep.plan.bisect, metrics, none) == "1") row.verdict = "1";
     }
+    if (row.status != "completed") row.reason = last_words(log, finished.code, scene);
+    if (row.status != "completed" && row.verdict != "1") return row;
     std::string absent;
     for (std::size_t k = 0; k < row.values.size(); ++k) {
       const std::string& key = sweep.plan.collect[k];
@@ -123,6 +129,7 @@ RunRow read_run(const Sweep& sweep, const Point& point, double x, const std::str
       if (row.values[k] == "nan" && key.starts_with("metrics.") && absent.empty() && sweep.variants.empty())
         absent = fmt::format("{} has no value: its function gave nil, or no finite number", key);
     }
+    if (row.status != "completed") return row;
     if (sweep.plan.bisect) row.verdict = verdict_of(*sweep.plan.bisect, metrics, row.reason);
     if (!row.reason.empty()) row.status = "error";
     else row.reason = absent;

@@ -18,8 +18,9 @@ struct RunRow {
   bool answered() const { return status == "completed"; }
 };
 
+// The folder of a run without DIR/runs/; `run`: its number among those that a bisection asks for at the point.
+std::string place_of(const Sweep& sweep, std::int64_t point, std::size_t run);
 std::string scene_of(const Sweep& sweep, const Point& point);  // path of the script that the point runs
-// `place`: the folder of the run without DIR/runs/.
 Job job_of(const Sweep& sweep, const Point& point, double x, const std::string& place);
 RunRow read_run(const Sweep& sweep, const Point& point, double x, const std::string& place, const Finished& finished);
 // Removes what Plan::keep does not ask for.

@@ -63,6 +63,7 @@ struct Active {
   std::vector<double> round;                   // values of the present round
   std::vector<std::optional<RunRow>> answers;  // of the round
   std::size_t next = 0;                        // of the round, to be started
+  std::size_t before = 0;                      // values of the rounds before
   std::int64_t runs = 0;
 };
 
@@ -204,6 +205,7 @@ class Sweeper {
   }
 
   void begin_round(std::int64_t index, Active& active) {
+    active.before += active.round.size();
     active.round = active.bracket ? active.bracket->next() : active.runs == 0 ? std::vector<double>{0} : std::vector<double>{};
     active.answers.assign(active.round.size(), std::nullopt);
     active.next = 0;
@@ -219,7 +221,7 @@ class Sweeper {
   }
 
   void launch(std::int64_t index, Active& active, std::size_t slot) {
-    const std::string place = active.bracket ? fmt::format("{:06}_{:02}", index, active.runs) : fmt::format("{:06}", index);
+    const std::string place = place_of(s_, index, active.before + slot);
     ++active.runs;
     const std::size_t id = next_id_++;
     Job job = job_of(s_, active.point, active.round[slot], place);
@@ -256,8 +258,8 @@ class Sweeper {
     if (!active.bracket) return finish(index);
     std::vector<Answer> answers;
     for (const auto& row : active.answers) {
-      Answer answer{row->x, std::nullopt, row->reason, 0, 0};
-      if (row->answered()) answer.value = number_of(row->verdict);
+      Answer answer{row->x, std::nullopt, row->reason};
+      if (row->verdict != "nan") answer.value = number_of(row->verdict);
       answers.push_back(std::move(answer));
     }
     active.bracket->take(answers);

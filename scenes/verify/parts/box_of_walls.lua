@@ -42,27 +42,33 @@ return function(keys)
   local bed = keys.beds[method]
   local kn, ks = keys.kn_bed or bed.kn, keys.kn_bed or bed.ks
   local rub = math.tan((keys.angle or 30) * deg)
-  -- Friction of debris is that of the bed and of the ring. Former joints keep their own as long as they touch, mitres so stay frictionless.
-  local debris = { kn = math.max(kn, 1e9), ks = math.max(ks, 1e9), restitution = bed.restitution }  -- no joint is stiffer, so none softens
-  material { name = "wall", density = 1800, kn = debris.kn, ks = debris.ks, friction = bed.mu, restitution = debris.restitution }
-  box { name = "base", group = "base", material = "wall", fixed = true, size = { outer + 2 * overhang, outer + 2 * overhang, base_height },
+  local smooth, along_rub = math.tan((keys.mitre_angle or 0) * deg), side_friction * rub
+  -- Faces that part and meet again rub as they did: a mitre as a mitre, under the ring as under the ring.
+  -- No joint is stiffer than the contact that follows it, so none softens.
+  local function stone(name, density, friction_with, color)
+    material { name = name, density = density, kn = math.max(kn, 1e9), ks = math.max(ks, 1e9), friction = bed.mu, restitution = bed.restitution,
+      friction_with = friction_with, color = color }
+  end
+  stone("base", 1800)
+  stone("across", 1800, { across = smooth, along = smooth, ring = case > 1 and rub or nil })
+  stone("along", 1800, { along = smooth, ring = case > 1 and along_rub or nil })
+  box { name = "base", group = "base", material = "base", fixed = true, size = { outer + 2 * overhang, outer + 2 * overhang, base_height },
     at = { -outer / 2 - overhang, -outer / 2 - overhang, -base_height } }
   local names = { "east", "north", "west", "south" }  -- +x, +y, -x, -y
   local across = direction == "x" and { east = true, west = true } or { north = true, south = true }
   for quarter, name in ipairs(names) do
-    block { name = name, group = across[name] and "across" or "along", material = "wall", vertices = side(quarter - 1, 0, height).vertices }
+    block { name = name, group = across[name] and "across" or "along", material = across[name] and "across" or "along", vertices = side(quarter - 1, 0, height).vertices }
   end
   joint { law = dry { kn = kn, ks = ks, mu = bed.mu, damping = bed.damping } }
   local mitre = keys.mitre_kn or 50e6
-  joint { law = dry { kn = mitre, ks = mitre, mu = 0, damping = 0 }, between = { "across", "along" } }
+  joint { law = dry { kn = mitre, ks = mitre, mu = smooth, damping = 0 }, between = { "across", "along" } }
   if case > 1 then
     local parts = {}
     for quarter = 0, 3 do parts[#parts + 1] = side(quarter, height, height + ring_height) end
-    material { name = "ring", density = ({ [2] = 2551.02, [3] = 3408.51, [4] = 5123.48 })[case], kn = debris.kn, ks = debris.ks, friction = rub,
-      restitution = debris.restitution, color = { 0.75, 0.75, 0.78 } }
+    stone("ring", ({ [2] = 2551.02, [3] = 3408.51, [4] = 5123.48 })[case], nil, { 0.75, 0.75, 0.78 })
     block { name = "ring", group = "ring", material = "ring", parts = parts }
     joint { law = dry { kn = 1e9, ks = 1e9, mu = rub, damping = 0.1 }, between = { "across", "ring" } }
-    joint { law = dry { kn = 1e9, ks = 1e9, mu = side_friction * rub, damping = 0.1 }, between = { "along", "ring" } }
+    joint { law = dry { kn = 1e9, ks = 1e9, mu = along_rub, damping = 0.1 }, between = { "along", "ring" } }
   end
 
   -- a sin psi = g sin(alpha): the phase at which a wall as thick all along lifts off. Mitred walls lift off earlier, since their centroid lies

@@ -30,7 +30,7 @@ TEST_CASE("the page of a sweep shows its points over its params", "[record][repo
   write(dir.path / "study.json",
         R"({"scene": "wall.lua", "study": {"axes": [{"params": ["shake"]}, {"params": ["height"]}], "collect": ["metrics.collapsed"]}})");
   write(dir.path / "results.svg", "<svg xmlns='http://www.w3.org/2000/svg'/>");
-  write(dir.path / "runs/1/metrics.json", "{}");
+  write(dir.path / "runs/000001/metrics.json", "{}");
   const std::string path = study_page_path(dir.path.string());
   CHECK(path == (dir.path / "report.html").string());
   REQUIRE(is_study_folder(dir.path.string()));
@@ -40,7 +40,7 @@ TEST_CASE("the page of a sweep shows its points over its params", "[record][repo
   CHECK(study.tables[0].x == 1);
   CHECK(study.tables[0].y == 2);
   CHECK(study.tables[0].colour == 3);
-  CHECK(study.tables[0].links == std::vector<std::string>{"", "runs/1"});
+  CHECK(study.tables[0].links == std::vector<std::string>{"", "runs/000001"});
   CHECK(study.figures.size() == 1);
   CHECK(study.answers[1].second == "2, 1 completed");
   CHECK(study.answers[2] == std::pair<std::string, std::string>{"collapsed", "0 to 1"});

@@ -54,3 +54,32 @@ TEST_CASE("a folder of something else is left alone", "[record][program]") {
   CHECK(contains(bench.said, "choose another with -o DIR"));
   CHECK(std::distance(fs::directory_iterator(bench.out()), {}) == 1);
 }
+
+TEST_CASE("a corrected record is drawn before and after, with the end values of both", "[record][program]") {
+  Bench bench;
+  const std::string file = ERBS_SOURCE_DIR "/scenes/records/elcentro_1940_ns.csv";
+  const auto numbers = [&] { return read_json(bench.out() + "/record.json"); };
+  const auto drawn = [&] { return text_of(bench.out() + "/record.svg"); };
+  REQUIRE(bench.erbs({"record", file, "-o", bench.out()}) == 0);
+  CHECK_FALSE(numbers().contains("before_correction"));
+  const Json plain = numbers();
+  const std::string alone = drawn();
+  for (const std::vector<std::string>& correction :
+       {std::vector<std::string>{"--baseline", "quadratic"}, {"--low", "0.1", "--high", "20"}, {"--baseline", "linear", "--low", "0.2"}}) {
+    std::vector<std::string> words{"record", file, "-o", bench.out()};
+    words.insert(words.end(), correction.begin(), correction.end());
+    INFO(fmt::format("{}", fmt::join(correction, " ")));
+    REQUIRE(bench.erbs(words) == 0);
+    CHECK(contains(bench.said, "before correction"));
+    const Json before = numbers()["before_correction"];
+    for (const char* key : {"pga_m_s2", "pgv_m_s", "pgd_m", "end_velocity_m_s", "end_displacement_m"}) {
+      CHECK(before[key] == plain[key]);
+      CHECK(numbers()[key] != plain[key]);
+    }
+    CHECK(contains(drawn(), "before"));
+    CHECK_FALSE(contains(alone, "before"));
+    CHECK(2 * drawn().size() > 3 * alone.size());  // two curves of each quantity
+  }
+  CHECK(bench.erbs({"record", file, "-o", bench.out(), "--baseline", "cubik"}) == 2);
+  CHECK(bench.erbs({"record", file, "-o", bench.out(), "--low", "20", "--high", "1"}) == 2);
+}

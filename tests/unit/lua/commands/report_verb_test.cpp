@@ -114,6 +114,7 @@ TEST_CASE("studies of a scene have a page beside the page of their run, which a 
   const fs::path page = fs::path(bench.out()) / "studies/report.html";
   REQUIRE(fs::exists(page));
   CHECK(contains(text_of(fs::path(bench.out()) / "report.html"), "studies/report.html"));
+  for (const char* run : {"twins/runs/000000", "twins/runs/000002"}) CHECK(contains(text_of(page), run));  // links to the runs
   CHECK(bench.erbs({"report", bench.out() + "/studies"}) == 2);
   if (!fs::exists("/usr/bin/chromium") || !can_start("node") || !fs::exists(ERBS_SOURCE_DIR "/lua/page/node_modules/playwright-core")) {
     WARN("no browser test: it needs chromium, node and the packages of sh .ci/setup");

@@ -299,7 +299,8 @@ TEST_CASE("the ranks of mpirun share a study, and so do the tasks of a job array
       WARN("skipped: mpirun is not installed (package openmpi-bin)");
       return;
     }
-    for (const char* ranks : {"1", "2", "3"}) {
+    for (const auto& [text, ranks] : {std::pair{grid, "1"}, {grid, "2"}, {grid, "3"}, {threshold, "1"}, {threshold, "3"}}) {
+      REQUIRE(study.sweep(text, {"-j", "1", "--force"}, alone) == 0);
       std::vector<std::string> words{"mpirun", "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-n", ranks};
       for (const auto& word : study.command({"sweep", (study.folder / "study.lua").string(), "-o", study.out(), "--force"}))
         words.push_back(word);
@@ -307,6 +308,20 @@ TEST_CASE("the ranks of mpirun share a study, and so do the tasks of a job array
       INFO(text_of(study.folder / "log"));
       CHECK(study.results() == study.results(alone));
     }
+  }
+  SECTION("mpirun, a rank of which is killed") {
+    if (!can_start("mpirun")) return;
+    study.write("study.lua", grid);
+    std::vector<std::string> words{"mpirun", "--allow-run-as-root", "--oversubscribe", "--bind-to", "none", "-n", "2"};
+    for (const auto& word : study.command({"sweep", (study.folder / "study.lua").string(), "-o", study.out(), "--force"}))
+      words.push_back(word);
+    // The second rank ends itself as a node that fails would: without a word, in the midst of the study.
+    words.insert(words.begin(), {"timeout", "60"});
+    const std::string die = "if [ \"$OMPI_COMM_WORLD_RANK\" = 1 ]; then \"$@\" & sleep 0.15; kill -9 $!; kill -9 $$; fi; exec \"$@\"";
+    words.insert(words.begin() + 9, {"/bin/sh", "-c", die, "sh"});
+    CHECK(wait_for(start(words, (study.folder / "log").string())) != 0);
+    REQUIRE(study.sweep(grid, {"--resume"}) == 0);
+    CHECK(study.results() == study.results(alone));
   }
   SECTION("tasks of the job that --slurm writes, one of which is killed") {
     REQUIRE(study.sweep(grid, {"--slurm", "-j", "3"}) == 0);

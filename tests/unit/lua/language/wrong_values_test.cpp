@@ -121,6 +121,7 @@ const std::map<std::string, std::vector<std::string>> wrong_of_type{
     {"table", {"5", "'x'"}},
     {"axes", {"5", "'x'", "{}", "{5}"}},
     {"values", {"{}", "true", "{0/0}", "{{}}", "0/0", "'a\\nb'"}},
+    {"frictions", {"5", "'x'", "{5}", "{ nowhere = .5 }", "{ b = 'x' }", "{ b = {} }"}},
     {"range", {"5", "'x'", "{1}", "{2, 1}", "{0/0, 1}", "{1, 2, 3}"}},
     {"duration", {"'5 parsec'", "{}", "true", "-1", "0/0"}},
     {"bytes", {"'5 parsec'", "{}", "true", "-1", "0/0"}},

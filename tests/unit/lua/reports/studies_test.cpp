@@ -71,13 +71,14 @@ TEST_CASE("a finished run of a study is not run again, unless the scene has chan
   Bench bench;
   REQUIRE(bench.run(slope) == 0);
   const double found = bench.metric("collapse_slope");
-  const fs::path note = bench.out() + "/studies/collapse_slope/slope=0.1.json";
-  const auto written = fs::last_write_time(note);
-  fs::remove(bench.out() + "/studies/collapse_slope/slope=1.json");  // as if interrupted before that run
+  const std::string study = bench.out() + "/studies/collapse_slope/";
+  const auto written = fs::last_write_time(study + "runs/000000_00/metrics.json");
+  fs::resize_file(study + "runs.csv", fs::file_size(study + "runs.csv") - 1);  // as if killed while it noted the last run
+  fs::remove(study + "results.csv");
   REQUIRE(bench.run(slope, {"--resume"}) == 0);
   CHECK(bench.metric("collapse_slope") == found);
-  CHECK(fs::last_write_time(note) == written);
-  CHECK(fs::exists(bench.out() + "/studies/collapse_slope/slope=1.json"));
+  CHECK(fs::last_write_time(study + "runs/000000_00/metrics.json") == written);
+  CHECK(double(read_csv(study + "runs.csv").rows()) == bench.metric("collapse_slope_runs"));
   REQUIRE(bench.run(slope, {"--resume", "-D", "mu=0.3"}) == 0);
   CHECK(bench.metric("collapse_slope") == Approx(0.3).epsilon(0.01));
 }
@@ -118,6 +119,36 @@ TEST_CASE("a run of a study that fails is a row with its reason, and the others 
   REQUIRE(bench.run(scene, {"--force"}) == 0);
   CHECK(bench.metric("ensemble_mean") == mean);
   CHECK(bench.metric("ensemble_deviation") == deviation);
+}
+
+TEST_CASE("studies of a scene give the same for any number of runs at once, and end runs that take too long", "[lua][study]") {
+  Bench bench;
+  const std::string scene = slope + R"(
+    converge { param = "mu", values = { .4, .2, .1 }, error = function(run) return run.last("block_ux_rel_m") + .1 end }
+    ensemble { n = 5, seed = 2, param = "mu", value = function(run) return run.time_s end })";
+  std::string first;
+  for (const char* jobs : {"1", "2", "5"}) {
+    REQUIRE(bench.run(scene, {"-j", jobs, "--force", "--no-figures"}) == 0);
+    std::string all = read_json(bench.out() + "/metrics.json")["metrics"].dump();
+    for (const char* name : {"collapse_slope", "converge_mu", "ensemble"}) {
+      const CsvTable table = read_csv(bench.out() + "/studies/" + name + ".csv");
+      for (std::size_t i = 0; i < table.rows(); ++i) {
+        all += fmt::format(" {} {}", table.columns[0][i], table.column("answer")[i]);
+        CHECK(fs::exists(bench.out() + "/studies/" + name + "/" + table.text[std::size_t(table.find("run"))][i] + "/metrics.json"));
+      }
+    }
+    if (first.empty()) first = all;
+    CHECK(all == first);
+  }
+  const std::string endless = R"(
+    local long = param("long", 0)
+    material { name = "stone", density = 2000 }
+    box { name = "block", size = { .4, .4, .1 }, at = { 0, 0, 0 }, free = true }
+    analysis { duration = long > 1 and 1e6 or .01, stop_after_collapse = 1e6 }
+    converge { param = "long", values = { 1, 2 }, value = function(run) return run.time_s end })";
+  REQUIRE(bench.run(endless, {"--max-wall", "1s", "--force", "--no-figures"}) == 0);
+  CHECK(bench.metric("converge_long_failed") == 1);
+  CHECK(bench.said.find("took longer than max_wall = 1 s") != std::string::npos);
 }
 
 TEST_CASE("an oscillator's error falls with the square of its step", "[lua][study]") {
