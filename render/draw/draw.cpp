@@ -20,6 +20,9 @@ Backdrop backdrop(Background background) {
   return {{0.80F, 0.83F, 0.86F}, {0.46F, 0.60F, 0.76F}, {0.54F, 0.535F, 0.52F}, {0.56F, 0.57F, 0.58F}};
 }
 
+// Of a linear colour, as the shaders encode it.
+float encoded(float linear) { return std::pow(std::clamp(linear, 0.0F, 1.0F), 1 / 2.2F); }
+
 // Buffers of one kind of geometry.
 struct Drawable {
   GLuint vao = 0, vertices = 0, index = 0;
@@ -72,7 +75,7 @@ struct Painter::Hidden {
   std::unique_ptr<Context> context;
   Gl gl;
   std::unique_ptr<Canvas> canvas;
-  GLuint solid, shade, crack, ground, dim, sky, cloud;  // dim: a ground that only shows its shadow
+  GLuint solid, shade, crack, ground, dim, flat, sky, cloud;  // dim: a ground that only shows its shadow; flat: its depth alone
   Drawable bricks, shades, cracks, plane, discs;
   Texels blocks, joints;
 
@@ -84,6 +87,7 @@ struct Painter::Hidden {
     crack = make_program(gl, shader_common, crack_vertex, crack_fragment);
     ground = make_program(gl, shader_common, ground_vertex, ground_fragment);
     dim = make_program(gl, shader_common, ground_vertex, dim_fragment);
+    flat = make_program(gl, shader_common, ground_vertex, shade_fragment);
     sky = make_program(gl, shader_common, screen_vertex, sky_fragment);
     cloud = make_program(gl, shader_common, dust_vertex, dust_fragment);
     upload_geometry();
@@ -93,7 +97,7 @@ struct Painter::Hidden {
     }
   }
   ~Hidden() {
-    for (GLuint program : {solid, shade, crack, ground, dim, sky, cloud}) gl.DeleteProgram(program);
+    for (GLuint program : {solid, shade, crack, ground, dim, flat, sky, cloud}) gl.DeleteProgram(program);
     for (Drawable* d : {&bricks, &shades, &cracks, &plane, &discs}) {
       gl.DeleteVertexArrays(1, &d->vao);
       gl.DeleteBuffers(1, &d->vertices);
@@ -147,6 +151,9 @@ struct Painter::Hidden {
   void vector(GLuint program, const char* name, const Eigen::Vector3f& v) const {
     gl.Uniform3f(gl.GetUniformLocation(program, name), v.x(), v.y(), v.z());
   }
+  void four(GLuint program, const char* name, const Eigen::Vector4f& v) const {
+    gl.Uniform4f(gl.GetUniformLocation(program, name), v.x(), v.y(), v.z(), v.w());
+  }
   void matrix(GLuint program, const char* name, const Eigen::Matrix4f& m) const {
     gl.UniformMatrix4fv(gl.GetUniformLocation(program, name), 1, GL_FALSE, m.data());
   }
@@ -155,7 +162,9 @@ struct Painter::Hidden {
   struct Light {
     Eigen::Matrix4f camera, to_shadow;
     Eigen::Vector3f eye, sun;
-    double shadow_texel;  // m
+    double shadow_texel;          // m
+    Eigen::AlignedBox2f casters;  // of the shadow map
+    Eigen::Vector4f seen_side;    // of the ground
   };
   void use(GLuint program, const Light& light, const Eigen::Matrix4f& camera) const {
     gl.UseProgram(program);
@@ -166,7 +175,8 @@ struct Painter::Hidden {
     vector(program, "horizon", around.horizon);
     number(program, "shadow_texel", light.shadow_texel);
     number(program, "shadow_step", 1.0 / Canvas::shadow_side);
-    number(program, "shadowed", look_.shadow ? 1 : 0);
+    four(program, "casters", {light.casters.min().x(), light.casters.min().y(), light.casters.max().x(), light.casters.max().y()});
+    four(program, "seen_side", light.seen_side);
     const std::array<const char*, 3> samplers{"blocks", "joints", "shadow"};
     for (int unit = 0; unit < 3; ++unit) gl.Uniform1i(gl.GetUniformLocation(program, samplers[static_cast<std::size_t>(unit)]), unit);
   }
@@ -197,11 +207,13 @@ struct Painter::Hidden {
     vector(program, "normal", along.cross(across).normalized().cast<float>());
   }
 
-  void draw_plane(const Light& light, const View& v, const Vec3& middle, const Vec3& along, const Vec3& across, bool lines) const {
+  void draw_plane(const Light& light, const View& v, const Vec3& middle, const Vec3& along, const Vec3& across, bool lines,
+                  bool part_of_model) const {
     const Stage& stage = show.stage;
     place_plane(ground, light, middle, along, across);
     vector(ground, "tone", around.ground);
     number(ground, "grid", lines ? show.grid : 1e9);
+    number(ground, "last", part_of_model ? 1 : 0);
     number(ground, "fade", 1.5 * stage.size());
     number(ground, "far", std::max(static_cast<double>(v.target_distance), stage.size()));
     draw(plane);
@@ -211,7 +223,7 @@ struct Painter::Hidden {
     const Eigen::AlignedBox3d& table = show.stage.table;
     const Vec3 middle = table.center(), half = 0.5 * table.sizes();
     const auto face = [&](const Vec3& out, const Vec3& along, bool lines) {
-      draw_plane(light, v, middle + out.cwiseProduct(half), along.cwiseProduct(half), out.cross(along).cwiseProduct(half), lines);
+      draw_plane(light, v, middle + out.cwiseProduct(half), along.cwiseProduct(half), out.cross(along).cwiseProduct(half), lines, true);
     };
     face(Vec3::UnitZ(), Vec3::UnitX(), true);
     face(-Vec3::UnitZ(), Vec3::UnitX(), false);
@@ -237,12 +249,11 @@ struct Painter::Hidden {
     draw(bricks);
   }
 
-  // Translucent blocks over the finished picture: of each pixel the nearest surface only, whatever the order of drawing.
+  // Translucent blocks over the model: of each pixel the nearest surface only, whatever the order of drawing.
   void draw_ghosts(const Light& light, const std::vector<std::uint32_t>& index) {
-    if (index.empty()) return;
     choose(gl, bricks, index);
-    canvas->begin_translucent();
     gl.Enable(GL_CULL_FACE);
+    gl.Enable(GL_CLIP_DISTANCE0);
     gl.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     draw_bricks(light, 1);
     gl.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
@@ -252,12 +263,12 @@ struct Painter::Hidden {
     draw_bricks(light, 0.28);
     gl.DepthFunc(GL_LESS);
     gl.Disable(GL_BLEND);
+    gl.Disable(GL_CLIP_DISTANCE0);
     gl.Disable(GL_CULL_FACE);
   }
 
   // Far clouds first. They do not hide each other, and take no part in the darkening of corners.
   void draw_dust(const Light& light, const View& v, std::vector<Puff> dust) {
-    if (dust.empty()) return;
     const Vec3 eye = light.eye.cast<double>();
     std::stable_sort(dust.begin(), dust.end(),
                      [&](const Puff& a, const Puff& b) { return (a.at - eye).squaredNorm() > (b.at - eye).squaredNorm(); });
@@ -271,7 +282,6 @@ struct Painter::Hidden {
                            static_cast<float>(puff.seed)});
       index.insert(index.end(), {first, first + 1, first + 2, first, first + 2, first + 3});
     }
-    canvas->begin_translucent();
     choose(gl, discs, index);
     gl.BindBuffer(GL_ARRAY_BUFFER, discs.vertices);
     gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(corners.size() * sizeof(corners[0])), corners.data(), GL_STREAM_DRAW);
@@ -295,9 +305,8 @@ struct Painter::Hidden {
     gl.ActiveTexture(GL_TEXTURE0);
   }
 
-  void draw_picture(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position) const {
-    const Stage& stage = show.stage;
-    canvas->begin_picture();
+  void draw_model(const Light& light, const View& v, bool with_table) const {
+    gl.Enable(GL_CLIP_DISTANCE0);
     draw_bricks(light, 1);
     gl.Disable(GL_CULL_FACE);
     use(crack, light, light.camera);
@@ -308,23 +317,33 @@ struct Painter::Hidden {
     number(crack, "open", show.open_crack);
     number(crack, "widest", 60 * show.open_crack);
     draw(cracks);
+    gl.Disable(GL_CLIP_DISTANCE0);
+    if (with_table) draw_table(light, v);
+  }
+
+  // The level ground, or its depth or shadow alone.
+  void draw_ground(GLuint program, const Light& light, const View& v) const {
+    const Stage& stage = show.stage;
     const Vec3 middle(stage.building.center().x(), stage.building.center().y(), stage.ground_z);
     const double reach = 12 * (stage.size() + static_cast<double>(v.target_distance));
+    if (program == ground) return draw_plane(light, v, middle, reach * Vec3::UnitX(), reach * Vec3::UnitY(), true, false);
+    place_plane(program, light, middle, reach * Vec3::UnitX(), reach * Vec3::UnitY());
+    draw(plane);
+  }
+
+  void draw_backdrop(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position) const {
     const bool backed = look_.background != Background::transparent;
-    if (!position && backed) draw_plane(light, v, middle, reach * Vec3::UnitX(), reach * Vec3::UnitY(), true);
-    if (!position && !backed) {
-      place_plane(dim, light, middle, reach * Vec3::UnitX(), reach * Vec3::UnitY());
-      draw(plane);
-    }
-    if (position && stage.on_ground) draw_table(light, v);
+    const Eigen::Vector3f far = around.horizon.unaryExpr([](float c) { return encoded(c); });
+    canvas->begin_backdrop(backed ? Eigen::Vector4f(far.x(), far.y(), far.z(), 0) : Eigen::Vector4f(0, 0, 0, 1));
     if (backed) draw_sky(light, v, position);
+    if (!position) draw_ground(backed ? ground : dim, light, v);
   }
 
   void draw_sky(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position) const {
     const Stage& stage = show.stage;
-    gl.DepthFunc(GL_LEQUAL);
+    const Eigen::Matrix4f to_world = light.camera.inverse();
     use(sky, light, light.camera);
-    matrix(sky, "to_world", light.camera.inverse());
+    matrix(sky, "to_world", to_world);
     const Vec3 zenith = position ? Vec3(position->linear().transpose().col(2)) : Vec3(Vec3::UnitZ());
     vector(sky, "zenith", zenith.cast<float>());
     vector(sky, "high", around.high);
@@ -340,9 +359,21 @@ struct Painter::Hidden {
       number(sky, "softest", 0.01 * stage.size());
       number(sky, "far", std::max(static_cast<double>(v.target_distance), stage.size()));
     }
+    const Region whole{0, 0, look_.width, look_.height};
+    canvas->limit_to(position ? whole : rising(to_world, light.eye, zenith.cast<float>(), look_.width, look_.height));
     gl.BindVertexArray(plane.vao);
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
-    gl.DepthFunc(GL_LESS);
+    canvas->limit_to(whole);
+  }
+
+  // What blocks and dust may cover, or darken within `radius` (m).
+  std::vector<Sphere> extents(const MotionFrame& frame, const std::vector<Puff>& dust, double radius) const {
+    std::vector<Sphere> all;
+    for (std::size_t b = 0; b < show.radius.size(); ++b)
+      if (show.radius[b] > 0)
+        all.push_back({Eigen::Map<const Eigen::Vector3f>(&frame.poses[7 * b]), show.radius[b] + static_cast<float>(radius)});
+    for (const Puff& puff : dust) all.push_back({puff.at.cast<float>(), static_cast<float>(1.5 * puff.radius)});
+    return all;
   }
 };
 
@@ -357,9 +388,20 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   if (levelling) position = table_position(h.show.stage, *levelling);
   const Camera camera = position ? in_scene(level_camera, *position) : level_camera;
   const View v = look(camera, h.show.stage, l.width, l.height, l.top, l.bottom);
-  Hidden::Light light{v.projection * v.view, {}, v.eye, sun_of(level_camera), 0};
-  light.to_shadow = shadow_view(h.show.stage, light.sun);
+  const Stage& stage = h.show.stage;
+  const double radius = 0.022 * stage.size();  // m, within which corners are dark
+  Hidden::Light light{v.projection * v.view, {}, v.eye, sun_of(level_camera), 0, {}, {0, 0, 0, 1}};
+  light.to_shadow = shadow_view(stage, light.sun);
   light.shadow_texel = 2.0 / Canvas::shadow_side / static_cast<double>(light.to_shadow.row(0).head<3>().norm());
+  const std::vector<Sphere> spheres = h.extents(frame, dust, 1.6 * radius);
+  if (l.shadow) light.casters = box_of(spheres, light.to_shadow).intersection({Eigen::Vector2f::Zero(), Eigen::Vector2f::Ones()});
+  const bool above = light.eye.z() >= static_cast<float>(stage.ground_z);
+  if (!position) light.seen_side = Eigen::Vector4f(0, 0, 1, -static_cast<float>(stage.ground_z)) * (above ? 1.0F : -1.0F);
+  const bool with_table = position && stage.on_ground;
+  const double shade = 0.5 * l.height * static_cast<double>(v.projection(1, 1)) * radius / nearest_of(spheres, v.view, v.projection);  // px
+  const Region region =
+      with_table ? Region{0, 0, l.width, l.height}
+                 : region_of(spheres, v.view, v.projection, l.width, l.height, std::min<double>(l.width, shade + 2 + Canvas::border));
   const FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye);
   h.gl.ActiveTexture(GL_TEXTURE0);
   h.fill(h.blocks, texels.blocks);
@@ -368,10 +410,15 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   choose(h.gl, h.bricks, texels.index);
   choose(h.gl, h.cracks, texels.crack_index);
   h.draw_shadow(light);
-  h.draw_picture(light, v, position);
-  h.draw_ghosts(light, texels.ghost_index);
-  h.draw_dust(light, v, dust);
-  Image image = h.canvas->finish(v.projection, 0.022 * h.show.stage.size(), l.background == Background::transparent);
+  h.canvas->begin_model(region);
+  h.draw_model(light, v, with_table);
+  h.canvas->begin_depth();
+  if (!position) h.draw_ground(h.flat, light, v);
+  h.canvas->begin_translucent();
+  if (!texels.ghost_index.empty()) h.draw_ghosts(light, texels.ghost_index);
+  if (!dust.empty()) h.draw_dust(light, v, dust);
+  h.draw_backdrop(light, v, position);
+  Image image = h.canvas->finish(v.projection, radius, l.background == Background::transparent);
   if (const GLenum error = h.gl.GetError(); error != GL_NO_ERROR)
     throw std::logic_error(fmt::format("internal error: OpenGL reports {:#x}; please report it", error));
   return image;

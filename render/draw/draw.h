@@ -49,6 +49,7 @@ struct Show {
   double scale = 1;               // m, m/s, J or Pa, the value that has the last colour of the map
   std::vector<Vec3> block_color;  // linear, by material with a slight variation between bricks [blocks]
   std::vector<bool> ghost;        // drawn translucent, without shadow [blocks]
+  std::vector<float> radius;      // m, of a sphere about the centroid of each block, its mortar included; 0: not drawn [blocks]
 };
 Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<MotionFrame>& some_frames);
 // The same on a stage that is set, with ghosts (empty: none) and a section whose side is known.

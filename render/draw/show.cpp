@@ -92,6 +92,14 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
   for (std::size_t b = 0; b < no_shade.size(); ++b) no_shade[b] = no_shade[b] || show.ghost[b];
   add_shades(show.mesh, solid, no_shade, 0.55 * gap + 0.1 * show.open_crack);
   for (const MotionJoint& joint : scene.joints) show.joint_area.push_back(static_cast<float>(0.5 * area_normal(joint.polygon).norm()));
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
+    float square = 0;
+    for (int part : scene.blocks[b].parts) {
+      const std::vector<float>& v = scene.shapes[static_cast<std::size_t>(part)].vertices;
+      for (std::size_t i = 0; i + 2 < v.size(); i += 3) square = std::max(square, Eigen::Vector3f(v[i], v[i + 1], v[i + 2]).squaredNorm());
+    }
+    show.radius.push_back(show.stage.hidden[b] ? 0 : 1.001F * std::sqrt(square) + static_cast<float>(gap));
+  }
   show.grid = round_length(show.stage.size() / 5);
   std::vector<int> uses(run.materials.size() + 1);
   const auto paint = [&](const MotionBlock& b) {

@@ -8,12 +8,13 @@ const std::string shader_common = R"(
 uniform samplerBuffer blocks;
 uniform samplerBuffer joints;
 uniform mat4 camera;          // world to clip
+uniform vec4 seen_side;       // of a plane: what lies beyond is hidden by the ground
 uniform vec3 eye;
 uniform vec3 sun;
 uniform vec3 horizon;
 
 vec3 turn(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
-vec4 srgb(vec3 c) { return vec4(pow(clamp(c, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0); }
+vec3 srgb(vec3 c) { return pow(clamp(c, 0.0, 1.0), vec3(1.0 / 2.2)); }
 )";
 
 static const std::string lighting = R"(
@@ -21,21 +22,28 @@ uniform sampler2DShadow shadow;
 uniform mat4 to_shadow;
 uniform float shadow_texel;   // m
 uniform float shadow_step;    // of the map
-uniform float shadowed;       // 0: no shadow is drawn
+uniform vec4 casters;         // of the map, 0..1: the part that holds what throws a shadow; empty if none is drawn
 
-// Share of the sun that reaches a point: 3 x 3 taps, each a bilinear comparison. The count of taps is zero where nothing can
-// throw a shadow: the software rasteriser leaves a loop early, but runs through both arms of an if.
+// Share of the sun that reaches a point: 3 x 3 taps, each a bilinear comparison. Four of them, at the corners, tell most points that lie
+// wholly in the light or in the shade. The counts are zero where there is nothing to compare: the software rasteriser leaves a loop early,
+// but runs through both arms of an if.
 float sunlight(vec3 p, vec3 n, float facing) {
   vec4 s = to_shadow * vec4(p + n * (2.0 * shadow_texel), 1.0);
   vec3 c = s.xyz * 0.5 + 0.5;
-  bool outside = any(lessThan(c, vec3(0.0))) || any(greaterThan(c, vec3(1.0)));
-  int taps = outside || facing <= 0.0 || shadowed < 0.5 ? 0 : 9;
+  bool outside = any(lessThan(c.xy, casters.xy)) || any(greaterThan(c.xy, casters.zw)) || c.z > 1.0;
+  int corners = outside || facing <= 0.0 ? 0 : 4;
   float lit = 0.0;
-  for (int i = 0; i < taps; ++i) {
-    vec2 step = vec2(i / 3 - 1, i - (i / 3) * 3 - 1) * (1.4 * shadow_step);
+  for (int i = 0; i < corners; ++i) {
+    vec2 step = vec2(2 * (i & 1) - 1, (i & 2) - 1) * (1.4 * shadow_step);
     lit += texture(shadow, vec3(c.xy + step, c.z - 0.0004));
   }
-  return taps == 0 ? 1.0 : lit / 9.0;
+  int others = lit > 0.0 && lit < 4.0 ? 5 : 0;
+  float sum = lit;
+  for (int i = 0; i < others; ++i) {
+    vec2 step = vec2(i == 1 ? -1 : i == 2 ? 1 : 0, i == 3 ? -1 : i == 4 ? 1 : 0) * (1.4 * shadow_step);
+    sum += texture(shadow, vec3(c.xy + step, c.z - 0.0004));
+  }
+  return corners == 0 ? 1.0 : sum / float(corners + others);
 }
 
 vec3 lit(vec3 albedo, vec3 p, vec3 n, float cavity) {
@@ -67,6 +75,7 @@ void main() {
     if (by_state > 0.5) albedo = states[int(j.z)];
   }
   gl_Position = camera * vec4(world, 1.0);
+  gl_ClipDistance[0] = dot(seen_side, vec4(world, 1.0));
 }
 )";
 
@@ -78,7 +87,7 @@ uniform float opacity;        // of faces; edges are denser
 out vec4 color;
 void main() {
   float edge = clamp((1.0 - dot(n, n)) * 2.2, 0.0, 1.0);
-  color = srgb(lit(albedo * (1.0 - darker_edge * edge), world, normalize(n), 1.0 - 0.25 * edge));
+  color.rgb = srgb(lit(albedo * (1.0 - darker_edge * edge), world, normalize(n), 1.0 - 0.25 * edge));
   color.a = mix(opacity, 1.0, 0.4 * edge);
 }
 )";
@@ -120,6 +129,7 @@ void main() {
   state = j.z;
   bool shown = (j.x > 0.05 || by_state > 0.5) && j.y < widest;
   gl_Position = shown ? camera * vec4(p, 1.0) : vec4(0.0, 0.0, 2.0, 1.0);
+  gl_ClipDistance[0] = dot(seen_side, vec4(p, 1.0));
 }
 )";
 const std::string crack_fragment = R"(
@@ -129,7 +139,7 @@ uniform vec3 states[3];
 out vec4 color;
 void main() {
   vec3 crack = mix(vec3(0.17, 0.14, 0.12), vec3(0.008, 0.007, 0.007), strength);
-  color = srgb(by_state > 0.5 ? states[int(state + 0.5)] : crack);
+  color = vec4(srgb(by_state > 0.5 ? states[int(state + 0.5)] : crack), 1.0);
 }
 )";
 
@@ -146,6 +156,7 @@ const std::string ground_fragment = lighting + R"(
 in vec3 world;
 uniform vec3 middle, normal, tone;  // tone: linear colour of the ground
 uniform float grid, fade, far;  // m: lines, where they end, where the ground is lost in the haze
+uniform float last;           // component of the colour: opacity of what is part of the model, transparency of the backdrop
 out vec4 color;
 // Coverage of lines of the given width, one each `period`, as a box filter of the pixel would see them.
 float lines(float x, float period, float width) {
@@ -159,16 +170,16 @@ void main() {
   float r = distance(world.xy, middle.xy) / fade;
   vec3 base = mix(tone, 0.6 * tone, line * 0.6 * clamp(1.8 - r, 0.0, 1.0));
   vec3 c = lit(base, world, normal, 1.0);
-  color = srgb(mix(c, horizon, smoothstep(1.0, 5.0, distance(eye, world) / far)));
+  color = vec4(srgb(mix(c, horizon, smoothstep(1.0, 5.0, distance(eye, world) / far))), last);
 }
 )";
 
-// The shadow alone, black and as dense as it darkens the ground.
+// The shadow alone, black and as dense as it darkens the ground; the last component is transparency.
 const std::string dim_fragment = lighting + R"(
 in vec3 world;
 uniform vec3 normal;
 out vec4 color;
-void main() { color = vec4(0.0, 0.0, 0.0, 0.36 * (1.0 - sunlight(world, normal, max(dot(normal, sun), 0.0)))); }
+void main() { color = vec4(0.0, 0.0, 0.0, 1.0 - 0.36 * (1.0 - sunlight(world, normal, max(dot(normal, sun), 0.0)))); }
 )";
 
 // Clouds of dust: discs that face the eye, denser in the middle and mottled, and thinner where something solid is near behind them.
@@ -217,7 +228,7 @@ void main() {
   float alpha = kind.x * dense * clamp((behind + radius * ball) / (1.2 * radius), 0.0, 1.0);
   vec3 n = at.x * right + at.y * up;
   float lit = 0.80 + 0.22 * dot(n, sun) + 0.10 * at.y;
-  color = vec4(srgb(tone * lit).rgb, alpha);
+  color = vec4(srgb(tone * lit), alpha);
 }
 )";
 
@@ -254,7 +265,7 @@ void main() {
     float shade = 0.42 * (1.0 - smoothstep(-0.7 * soft, soft, d));
     c = mix(floor_tone * (1.0 - shade), horizon, smoothstep(1.0, 5.0, s / far));
   }
-  color = srgb(c);
+  color = vec4(srgb(c), 0.0);
 }
 )";
 
@@ -323,6 +334,7 @@ void main() {
 }
 )";
 
+// Lays the model, whose colours are times opacity, over the backdrop; the last component is transparency.
 const std::string finish_fragment = R"(
 in vec2 uv;
 uniform sampler2D picture, occlusion;
@@ -330,7 +342,7 @@ out vec4 color;
 void main() {
   float bright = 0.30 + 0.70 * texture(occlusion, uv).r;
   vec4 seen = texture(picture, uv);
-  color = vec4(seen.rgb * bright, 1.0 - (1.0 - seen.a) * bright);  // colours are times opacity
+  color = vec4(seen.rgb * bright, (1.0 - seen.a) * bright);
 }
 )";
 
