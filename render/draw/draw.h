@@ -42,6 +42,7 @@ struct Show {
   Stage stage;
   Mesh mesh;
   double chamfer = 0;             // m
+  double fine_width = 0;          // m, of chamfers and mortar
   double open_crack = 0;          // m, a hundredth of the thinnest brick: a joint parted this far is drawn as open
   bool mortared = false;          // joints have thickness: mortar between the bricks, not an edge
   double grid = 1;                // m, spacing of the lines on the ground
@@ -83,7 +84,9 @@ double color_scale(const MotionScene& scene, const std::vector<MotionFrame>& fra
 // Input of the shaders, 12 floats per block and 4 per joint, and the visible triangles.
 struct FrameTexels {
   std::vector<float> blocks, joints;
-  std::vector<std::uint32_t> index, crack_index;
+  std::vector<std::uint32_t> index;       // of faces
+  std::vector<std::uint32_t> fine_index;  // of chamfers and mortar
+  std::vector<std::uint32_t> crack_index;
   std::vector<std::uint32_t> ghost_index;  // triangles of translucent blocks
 };
 FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye);

@@ -83,6 +83,7 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
     show.chamfer = std::min(show.chamfer, 0.3 * joint.thickness);
     gap = std::max(gap, joint.thickness);
   }
+  show.fine_width = std::max(1.5 * show.chamfer, gap);
   const MotionScene solid = section ? cut_scene(scene, *section, show.stage.hidden) : scene;
   if (sharp) show.chamfer = 0;
   show.mesh = build_mesh(solid, show.stage.hidden, show.chamfer);
@@ -142,20 +143,26 @@ void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joint
   std::sort(order.begin(), order.end());
   for (const auto& [distance, b] : order) {
     if (show.ghost[b]) continue;
-    add(t.index, show.mesh.index, show.mesh.open[b]);
-    if (!quiet[b]) add(t.index, show.mesh.index, show.mesh.buried[b]);
+    for (const std::vector<Surface<Span>>* surfaces : {&show.mesh.open, &show.mesh.buried}) {
+      if (surfaces == &show.mesh.buried && quiet[b]) continue;
+      add(t.index, show.mesh.index, (*surfaces)[b].faces);
+      add(t.fine_index, show.mesh.index, (*surfaces)[b].edges);
+    }
   }
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const bool of_ghosts = show.ghost[static_cast<std::size_t>(scene.joints[j].a)];
     if (of_ghosts != show.ghost[static_cast<std::size_t>(scene.joints[j].b)]) continue;
     const bool closed = quiet[static_cast<std::size_t>(scene.joints[j].a)] && quiet[static_cast<std::size_t>(scene.joints[j].b)];
-    add(of_ghosts ? t.ghost_index : t.index, show.mesh.index, closed ? show.mesh.pointing[j] : show.mesh.beds[j]);
+    add(of_ghosts ? t.ghost_index : t.fine_index, show.mesh.index, closed ? show.mesh.pointing[j] : show.mesh.beds[j]);
     if ((all_joints || frame.damage[j] > 0) && !of_ghosts) add(t.crack_index, show.mesh.crack_index, show.mesh.crack[j]);
   }
   for (const auto& [distance, b] : order)
     if (show.ghost[b]) {
-      add(t.ghost_index, show.mesh.index, show.mesh.open[b]);
-      if (!quiet[b]) add(t.ghost_index, show.mesh.index, show.mesh.buried[b]);
+      for (const std::vector<Surface<Span>>* surfaces : {&show.mesh.open, &show.mesh.buried}) {
+        if (surfaces == &show.mesh.buried && quiet[b]) continue;
+        add(t.ghost_index, show.mesh.index, (*surfaces)[b].faces);
+        add(t.ghost_index, show.mesh.index, (*surfaces)[b].edges);
+      }
     }
 }
 

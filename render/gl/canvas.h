@@ -47,6 +47,7 @@ class Canvas {
   Image finish(const Eigen::Matrix4f& projection, double radius, bool with_opacity);
 
   void limit_to(const Region& region);  // draws there alone
+  Region whole() const { return {0, 0, width_, height_}; }
   int width() const { return width_; }
   int height() const { return height_; }
   GLuint shadow_map() const { return shadow_.depth; }

@@ -71,6 +71,14 @@ Eigen::AlignedBox2f box_of(const std::vector<Sphere>& spheres, const Eigen::Matr
   return {(box.min() + Eigen::Vector2f::Ones()) / 2, (box.max() + Eigen::Vector2f::Ones()) / 2};
 }
 
+std::vector<Sphere> fallen_shadows(std::vector<Sphere> spheres, const Eigen::Vector3f& sun, double ground_z) {
+  for (Sphere& s : spheres) {
+    s.middle -= (s.middle.z() - static_cast<float>(ground_z)) / sun.z() * sun;
+    s.radius /= sun.z();
+  }
+  return spheres;
+}
+
 Region rising(const Eigen::Matrix4f& to_world, const Eigen::Vector3f& eye, const Eigen::Vector3f& up, int width, int height) {
   // Along the far plane the rise is linear in the coordinates of the picture: the part that rises is a polygon.
   const std::array<Eigen::Vector2f, 4> corners{Eigen::Vector2f(-1, -1), {1, -1}, {1, 1}, {-1, 1}};

@@ -32,6 +32,9 @@ double nearest_of(const std::vector<Sphere>& spheres, const Eigen::Matrix4f& vie
 // The image of spheres in an orthographic projection such as the shadow map's, in 0..1 of it.
 Eigen::AlignedBox2f box_of(const std::vector<Sphere>& spheres, const Eigen::Matrix4f& projection);
 
+// Where the shadows of spheres lie on level ground, for this direction of the sun (unit).
+std::vector<Sphere> fallen_shadows(std::vector<Sphere> spheres, const Eigen::Vector3f& sun, double ground_z);
+
 // The rows and columns of a picture in which rays from the eye rise along `up` (unit): those with sky.
 Region rising(const Eigen::Matrix4f& to_world, const Eigen::Vector3f& eye, const Eigen::Vector3f& up, int width, int height);
 

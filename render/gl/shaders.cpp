@@ -17,6 +17,9 @@ vec3 turn(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w 
 vec3 srgb(vec3 c) { return pow(clamp(c, 0.0, 1.0), vec3(1.0 / 2.2)); }
 )";
 
+const std::string all_taps = "const float most_taps = 9.0;\n", one_tap = "const float most_taps = 1.0;\n",
+                  no_tap = "const float most_taps = 0.0;\n";
+
 static const std::string lighting = R"(
 uniform sampler2DShadow shadow;
 uniform mat4 to_shadow;
@@ -24,26 +27,22 @@ uniform float shadow_texel;   // m
 uniform float shadow_step;    // of the map
 uniform vec4 casters;         // of the map, 0..1: the part that holds what throws a shadow; empty if none is drawn
 
-// Share of the sun that reaches a point: 3 x 3 taps, each a bilinear comparison. Four of them, at the corners, tell most points that lie
-// wholly in the light or in the shade. The counts are zero where there is nothing to compare: the software rasteriser leaves a loop early,
-// but runs through both arms of an if.
+// Share of the sun that reaches a point: 3 x 3 taps, each a bilinear comparison. The first four, at the corners, tell most points that lie
+// wholly in the light or in the shade. The software rasteriser runs through both arms of an if, and through the rest of a loop after a
+// break: so it is one loop, left at its end.
 float sunlight(vec3 p, vec3 n, float facing) {
+  if (most_taps == 0.0) return 1.0;
   vec4 s = to_shadow * vec4(p + n * (2.0 * shadow_texel), 1.0);
   vec3 c = s.xyz * 0.5 + 0.5;
-  bool outside = any(lessThan(c.xy, casters.xy)) || any(greaterThan(c.xy, casters.zw)) || c.z > 1.0;
-  int corners = outside || facing <= 0.0 ? 0 : 4;
-  float lit = 0.0;
-  for (int i = 0; i < corners; ++i) {
-    vec2 step = vec2(2 * (i & 1) - 1, (i & 2) - 1) * (1.4 * shadow_step);
-    lit += texture(shadow, vec3(c.xy + step, c.z - 0.0004));
+  bool free = facing <= 0.0 || any(lessThan(c.xy, casters.xy)) || any(greaterThan(c.xy, casters.zw)) || c.z > 1.0;
+  float lit = 0.0, taps = 0.0;
+  for (;;) {
+    vec2 at = taps < 4.0 ? vec2(mod(taps, 2.0) * 2.0 - 1.0, taps < 2.0 ? -1.0 : 1.0) : vec2(taps == 5.0 ? -1.0 : taps == 6.0 ? 1.0 : 0.0, taps == 7.0 ? -1.0 : taps == 8.0 ? 1.0 : 0.0);
+    lit += textureLod(shadow, vec3(c.xy + at * (1.4 * shadow_step), c.z - 0.0004), 0.0);
+    taps += 1.0;
+    if (free || taps == most_taps || (taps == 4.0 && (lit == 0.0 || lit == 4.0))) break;
   }
-  int others = lit > 0.0 && lit < 4.0 ? 5 : 0;
-  float sum = lit;
-  for (int i = 0; i < others; ++i) {
-    vec2 step = vec2(i == 1 ? -1 : i == 2 ? 1 : 0, i == 3 ? -1 : i == 4 ? 1 : 0) * (1.4 * shadow_step);
-    sum += texture(shadow, vec3(c.xy + step, c.z - 0.0004));
-  }
-  return corners == 0 ? 1.0 : sum / float(corners + others);
+  return free ? 1.0 : lit / taps;
 }
 
 vec3 lit(vec3 albedo, vec3 p, vec3 n, float cavity) {
