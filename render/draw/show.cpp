@@ -87,8 +87,9 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
   const MotionScene solid = section ? cut_scene(scene, *section, show.stage.hidden) : scene;
   if (sharp) show.chamfer = 0;
   show.mesh = build_mesh(solid, show.stage.hidden, show.chamfer);
+  if (sharp) show.mesh.beds.assign(show.mesh.beds.size(), {});
   if (sharp)
-    for (std::vector<Span>* spans : {&show.mesh.pointing, &show.mesh.beds, &show.mesh.crack}) spans->assign(spans->size(), Span{});
+    for (std::vector<Span>* spans : {&show.mesh.pointing, &show.mesh.crack}) spans->assign(spans->size(), Span{});
   std::vector<bool> no_shade = show.stage.hidden;
   for (std::size_t b = 0; b < no_shade.size(); ++b) no_shade[b] = no_shade[b] || show.ghost[b];
   add_shades(show.mesh, solid, no_shade, 0.55 * gap + 0.1 * show.open_crack);
@@ -153,7 +154,12 @@ void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joint
     const bool of_ghosts = show.ghost[static_cast<std::size_t>(scene.joints[j].a)];
     if (of_ghosts != show.ghost[static_cast<std::size_t>(scene.joints[j].b)]) continue;
     const bool closed = quiet[static_cast<std::size_t>(scene.joints[j].a)] && quiet[static_cast<std::size_t>(scene.joints[j].b)];
-    add(of_ghosts ? t.ghost_index : t.fine_index, show.mesh.index, closed ? show.mesh.pointing[j] : show.mesh.beds[j]);
+    if (closed) {
+      add(of_ghosts ? t.ghost_index : t.fine_index, show.mesh.index, show.mesh.pointing[j]);
+    } else {
+      add(of_ghosts ? t.ghost_index : t.index, show.mesh.index, show.mesh.beds[j].faces);
+      add(of_ghosts ? t.ghost_index : t.fine_index, show.mesh.index, show.mesh.beds[j].edges);
+    }
     if ((all_joints || frame.damage[j] > 0) && !of_ghosts) add(t.crack_index, show.mesh.crack_index, show.mesh.crack[j]);
   }
   for (const auto& [distance, b] : order)

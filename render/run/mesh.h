@@ -44,7 +44,7 @@ struct Mesh {
   std::vector<std::uint32_t> index;
   std::vector<Surface<Span>> open, buried;  // of each block [blocks]
   std::vector<Span> pointing;               // visible mortar of a closed joint, at the wall's surface [joints]
-  std::vector<Span> beds;                   // mortar bed of a moved joint: half of it on each block [joints]
+  std::vector<Surface<Span>> beds;          // mortar bed of a moved joint, half of it on each block: its faces, and its sides [joints]
   // Shadow casters: bare blocks, enlarged until they meet across their joints, so that no light passes through mortar.
   std::vector<Vertex> shades;
   std::vector<std::uint32_t> shade_index;
