@@ -42,6 +42,7 @@ struct Show {
   Stage stage;
   Mesh mesh;
   double chamfer = 0;             // m
+  double fine_width = 0;          // m, of chamfers and mortar
   double open_crack = 0;          // m, a hundredth of the thinnest brick: a joint parted this far is drawn as open
   bool mortared = false;          // joints have thickness: mortar between the bricks, not an edge
   double grid = 1;                // m, spacing of the lines on the ground
@@ -49,6 +50,7 @@ struct Show {
   double scale = 1;               // m, m/s, J or Pa, the value that has the last colour of the map
   std::vector<Vec3> block_color;  // linear, by material with a slight variation between bricks [blocks]
   std::vector<bool> ghost;        // drawn translucent, without shadow [blocks]
+  std::vector<float> radius;      // m, of a sphere about the centroid of each block, its mortar included; 0: not drawn [blocks]
 };
 Show prepare_show(const MotionScene& scene, const Run& run, const std::vector<MotionFrame>& some_frames);
 // The same on a stage that is set, with ghosts (empty: none) and a section whose side is known.
@@ -82,7 +84,9 @@ double color_scale(const MotionScene& scene, const std::vector<MotionFrame>& fra
 // Input of the shaders, 12 floats per block and 4 per joint, and the visible triangles.
 struct FrameTexels {
   std::vector<float> blocks, joints;
-  std::vector<std::uint32_t> index, crack_index;
+  std::vector<std::uint32_t> index;       // of faces
+  std::vector<std::uint32_t> fine_index;  // of chamfers and mortar
+  std::vector<std::uint32_t> crack_index;
   std::vector<std::uint32_t> ghost_index;  // triangles of translucent blocks
 };
 FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye);

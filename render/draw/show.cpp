@@ -83,15 +83,25 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
     show.chamfer = std::min(show.chamfer, 0.3 * joint.thickness);
     gap = std::max(gap, joint.thickness);
   }
+  show.fine_width = std::max(1.5 * show.chamfer, gap);
   const MotionScene solid = section ? cut_scene(scene, *section, show.stage.hidden) : scene;
   if (sharp) show.chamfer = 0;
   show.mesh = build_mesh(solid, show.stage.hidden, show.chamfer);
+  if (sharp) show.mesh.beds.assign(show.mesh.beds.size(), {});
   if (sharp)
-    for (std::vector<Span>* spans : {&show.mesh.pointing, &show.mesh.beds, &show.mesh.crack}) spans->assign(spans->size(), Span{});
+    for (std::vector<Span>* spans : {&show.mesh.pointing, &show.mesh.crack}) spans->assign(spans->size(), Span{});
   std::vector<bool> no_shade = show.stage.hidden;
   for (std::size_t b = 0; b < no_shade.size(); ++b) no_shade[b] = no_shade[b] || show.ghost[b];
   add_shades(show.mesh, solid, no_shade, 0.55 * gap + 0.1 * show.open_crack);
   for (const MotionJoint& joint : scene.joints) show.joint_area.push_back(static_cast<float>(0.5 * area_normal(joint.polygon).norm()));
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
+    float square = 0;
+    for (int part : scene.blocks[b].parts) {
+      const std::vector<float>& v = scene.shapes[static_cast<std::size_t>(part)].vertices;
+      for (std::size_t i = 0; i + 2 < v.size(); i += 3) square = std::max(square, Eigen::Vector3f(v[i], v[i + 1], v[i + 2]).squaredNorm());
+    }
+    show.radius.push_back(show.stage.hidden[b] ? 0 : 1.001F * std::sqrt(square) + static_cast<float>(gap));
+  }
   show.grid = round_length(show.stage.size() / 5);
   std::vector<int> uses(run.materials.size() + 1);
   const auto paint = [&](const MotionBlock& b) {
@@ -134,20 +144,31 @@ void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joint
   std::sort(order.begin(), order.end());
   for (const auto& [distance, b] : order) {
     if (show.ghost[b]) continue;
-    add(t.index, show.mesh.index, show.mesh.open[b]);
-    if (!quiet[b]) add(t.index, show.mesh.index, show.mesh.buried[b]);
+    for (const std::vector<Surface<Span>>* surfaces : {&show.mesh.open, &show.mesh.buried}) {
+      if (surfaces == &show.mesh.buried && quiet[b]) continue;
+      add(t.index, show.mesh.index, (*surfaces)[b].faces);
+      add(t.fine_index, show.mesh.index, (*surfaces)[b].edges);
+    }
   }
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const bool of_ghosts = show.ghost[static_cast<std::size_t>(scene.joints[j].a)];
     if (of_ghosts != show.ghost[static_cast<std::size_t>(scene.joints[j].b)]) continue;
     const bool closed = quiet[static_cast<std::size_t>(scene.joints[j].a)] && quiet[static_cast<std::size_t>(scene.joints[j].b)];
-    add(of_ghosts ? t.ghost_index : t.index, show.mesh.index, closed ? show.mesh.pointing[j] : show.mesh.beds[j]);
+    if (closed) {
+      add(of_ghosts ? t.ghost_index : t.fine_index, show.mesh.index, show.mesh.pointing[j]);
+    } else {
+      add(of_ghosts ? t.ghost_index : t.index, show.mesh.index, show.mesh.beds[j].faces);
+      add(of_ghosts ? t.ghost_index : t.fine_index, show.mesh.index, show.mesh.beds[j].edges);
+    }
     if ((all_joints || frame.damage[j] > 0) && !of_ghosts) add(t.crack_index, show.mesh.crack_index, show.mesh.crack[j]);
   }
   for (const auto& [distance, b] : order)
     if (show.ghost[b]) {
-      add(t.ghost_index, show.mesh.index, show.mesh.open[b]);
-      if (!quiet[b]) add(t.ghost_index, show.mesh.index, show.mesh.buried[b]);
+      for (const std::vector<Surface<Span>>* surfaces : {&show.mesh.open, &show.mesh.buried}) {
+        if (surfaces == &show.mesh.buried && quiet[b]) continue;
+        add(t.ghost_index, show.mesh.index, (*surfaces)[b].faces);
+        add(t.ghost_index, show.mesh.index, (*surfaces)[b].edges);
+      }
     }
 }
 

@@ -116,32 +116,59 @@ void Canvas::begin_shadow() {
   gl_.Clear(GL_DEPTH_BUFFER_BIT);
 }
 
-void Canvas::begin_picture() {
+void Canvas::limit_to(const Region& r) {
+  gl_.Enable(GL_SCISSOR_TEST);
+  gl_.Scissor(r.left, r.bottom, std::max(0, r.width()), std::max(0, r.height()));
+}
+
+void Canvas::begin_model(const Region& within) {
+  region_ = within;
   gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
-  translucent_ = false;
   gl_.Viewport(0, 0, width_, height_);
   gl_.Enable(GL_DEPTH_TEST);
-  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);  // of the whole picture: faster than of a part
 }
 
 void Canvas::resolve(GLenum what) {
+  const Region& r = region_;
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, sampled_.framebuffer);
   gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.framebuffer);
-  gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, what, GL_NEAREST);
+  gl_.BlitFramebuffer(r.left, r.bottom, r.right, r.top, r.left, r.bottom, r.right, r.top, what, GL_NEAREST);
+}
+
+void Canvas::begin_depth() {
+  resolve(GL_DEPTH_BUFFER_BIT);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, resolved_.framebuffer);
+  limit_to(region_);
+  gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 }
 
 void Canvas::begin_translucent() {
-  resolve(GL_DEPTH_BUFFER_BIT);
-  translucent_ = true;
+  gl_.Disable(GL_SCISSOR_TEST);
+  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
 }
 
-void Canvas::screen_pass(GLuint program, const Target& target) {
+void Canvas::begin_backdrop(const Eigen::Vector4f& clear) {
+  gl_.Disable(GL_SCISSOR_TEST);
+  gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+  gl_.Disable(GL_DEPTH_TEST);
+  gl_.Disable(GL_CULL_FACE);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, final_.framebuffer);
+  gl_.Viewport(0, 0, width_, height_);
+  gl_.ClearColor(clear.x(), clear.y(), clear.z(), clear.w());
+  gl_.Clear(GL_COLOR_BUFFER_BIT);
+  gl_.ClearColor(0, 0, 0, 0);
+}
+
+void Canvas::screen_pass(GLuint program, const Target& target, const Region& within) {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   gl_.Viewport(0, 0, target.width, target.height);
+  limit_to(within);
   gl_.UseProgram(program);
   gl_.BindVertexArray(empty_);
   gl_.DrawArrays(GL_TRIANGLES, 0, 3);
+  gl_.Disable(GL_SCISSOR_TEST);
 }
 
 void Canvas::occlusion_uniforms(GLuint program, const Eigen::Matrix4f& p, double radius) {
@@ -158,25 +185,29 @@ void Canvas::occlusion_uniforms(GLuint program, const Eigen::Matrix4f& p, double
 }
 
 Image Canvas::finish(const Eigen::Matrix4f& projection, double radius, bool with_opacity) {
-  resolve(GL_COLOR_BUFFER_BIT | (translucent_ ? 0 : GL_DEPTH_BUFFER_BIT));
-  gl_.Disable(GL_DEPTH_TEST);
-  gl_.Disable(GL_CULL_FACE);
+  if (region_.empty()) return read(with_opacity);
+  resolve(GL_COLOR_BUFFER_BIT);
+  // Each pass reads beyond the pixel that it writes: the passes of the corners' darkness reach beyond the last one, on all sides.
+  const Region half{region_.left / 2, region_.bottom / 2, (region_.right + 1) / 2, (region_.top + 1) / 2};
   gl_.ActiveTexture(GL_TEXTURE0);
   gl_.BindTexture(GL_TEXTURE_2D, resolved_.depth);
   occlusion_uniforms(occlusion_program_, projection, radius);
   gl_.Uniform2f(gl_.GetUniformLocation(occlusion_program_, "texel"), 1.0F / static_cast<float>(width_), 1.0F / static_cast<float>(height_));
-  screen_pass(occlusion_program_, occlusion_);
+  screen_pass(occlusion_program_, occlusion_, half);
   gl_.ActiveTexture(GL_TEXTURE1);
   gl_.BindTexture(GL_TEXTURE_2D, occlusion_.color);
   occlusion_uniforms(blur_program_, projection, radius);
   gl_.Uniform2f(gl_.GetUniformLocation(blur_program_, "texel"), 1.0F / static_cast<float>(occlusion_.width),
                 1.0F / static_cast<float>(occlusion_.height));
-  screen_pass(blur_program_, blurred_);
+  screen_pass(blur_program_, blurred_, inset(half, 3, occlusion_.width, occlusion_.height));
   gl_.BindTexture(GL_TEXTURE_2D, blurred_.color);
   gl_.ActiveTexture(GL_TEXTURE0);
   gl_.BindTexture(GL_TEXTURE_2D, resolved_.color);
   occlusion_uniforms(finish_program_, projection, radius);
-  screen_pass(finish_program_, final_);
+  gl_.Enable(GL_BLEND);
+  gl_.BlendFuncSeparate(GL_ONE, GL_SRC_ALPHA, GL_ZERO, GL_SRC_ALPHA);
+  screen_pass(finish_program_, final_, inset(region_, Canvas::border, width_, height_));
+  gl_.Disable(GL_BLEND);
   return read(with_opacity);
 }
 
@@ -188,9 +219,11 @@ Image Canvas::read(bool with_opacity) const {
     const std::uint8_t* from = &rgba[static_cast<std::size_t>(height_ - 1 - y) * static_cast<std::size_t>(width_) * 4];
     std::uint8_t* to = image.pixel(0, y);
     for (int x = 0; x < width_; ++x, from += 4, to += image.channels) {
-      std::copy_n(from, image.channels, to);
-      if (with_opacity && from[3] > 0)  // read as a colour times its opacity
-        for (int c = 0; c < 3; ++c) to[c] = static_cast<std::uint8_t>(std::min(255, (255 * from[c] + from[3] / 2) / from[3]));
+      std::copy_n(from, 3, to);
+      if (!with_opacity) continue;
+      const int opacity = to[3] = static_cast<std::uint8_t>(255 - from[3]);
+      for (int c = 0; c < 3 && opacity > 0; ++c)  // read as a colour times its opacity
+        to[c] = static_cast<std::uint8_t>(std::min(255, (255 * from[c] + opacity / 2) / opacity));
     }
   }
   return image;

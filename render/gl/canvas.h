@@ -4,6 +4,7 @@
 
 #include "engine/base/vec.h"
 #include "render/gl/gl.h"
+#include "render/gl/region.h"
 #include "render/image/image.h"
 
 namespace erbs::render {
@@ -35,27 +36,33 @@ class Canvas {
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
 
-  void begin_shadow();   // afterwards draw everything that casts a shadow
-  void begin_picture();  // afterwards draw everything visible
-  // Afterwards draw what is translucent: it darkens no corners.
-  void begin_translucent();
-  // Darkens corners within `radius` (m), then returns the pixels, perhaps with their opacity.
+  // The steps of a picture, in this order. The model is drawn with several samples a pixel and only within a region, before nothing; the
+  // backdrop, which has no edges of its own, with one sample a pixel everywhere.
+  void begin_shadow();                     // afterwards draw everything that casts a shadow
+  void begin_model(const Region& within);  // afterwards draw what stands on the ground
+  void begin_depth();                      // takes the depth of the model; afterwards draw the ground, of which only the depth counts
+  void begin_translucent();                // afterwards draw what darkens no corners, if there is any
+  void begin_backdrop(const Eigen::Vector4f& clear);  // colour and transparency; afterwards draw ground and sky, with their transparency
+  // Darkens corners within `radius` (m), lays the model over the backdrop and returns the pixels, perhaps with their opacity.
   Image finish(const Eigen::Matrix4f& projection, double radius, bool with_opacity);
 
+  void limit_to(const Region& region);  // draws there alone
+  Region whole() const { return {0, 0, width_, height_}; }
   int width() const { return width_; }
   int height() const { return height_; }
   GLuint shadow_map() const { return shadow_.depth; }
-  GLuint depth_map() const { return resolved_.depth; }  // after begin_translucent()
+  GLuint depth_map() const { return resolved_.depth; }  // after begin_depth()
+  static constexpr int border = 8;                      // px, of the region around the model: without model
   static constexpr int shadow_side = 2048;              // texels
 
  private:
   Image read(bool with_opacity) const;
   void resolve(GLenum what);
-  void screen_pass(GLuint program, const Target& target);
+  void screen_pass(GLuint program, const Target& target, const Region& within);
   void occlusion_uniforms(GLuint program, const Eigen::Matrix4f& projection, double radius);
   const Gl& gl_;
   int width_, height_;
-  bool translucent_ = false;  // the depth of the picture is taken
+  Region region_;
   Target shadow_, sampled_, resolved_, occlusion_, blurred_, final_;
   GLuint occlusion_program_, blur_program_, finish_program_, empty_;
 };

@@ -61,6 +61,7 @@
   X(READPIXELS, ReadPixels)                                         \
   X(RENDERBUFFERSTORAGEMULTISAMPLE, RenderbufferStorageMultisample) \
   X(SHADERSOURCE, ShaderSource)                                     \
+  X(SCISSOR, Scissor)                                               \
   X(TEXBUFFER, TexBuffer)                                           \
   X(TEXIMAGE2D, TexImage2D)                                         \
   X(TEXPARAMETERI, TexParameteri)                                   \

@@ -8,34 +8,41 @@ const std::string shader_common = R"(
 uniform samplerBuffer blocks;
 uniform samplerBuffer joints;
 uniform mat4 camera;          // world to clip
+uniform vec4 seen_side;       // of a plane: what lies beyond is hidden by the ground
 uniform vec3 eye;
 uniform vec3 sun;
 uniform vec3 horizon;
 
 vec3 turn(vec4 q, vec3 v) { return v + 2.0 * cross(q.xyz, cross(q.xyz, v) + q.w * v); }
-vec4 srgb(vec3 c) { return vec4(pow(clamp(c, 0.0, 1.0), vec3(1.0 / 2.2)), 1.0); }
+vec3 srgb(vec3 c) { return pow(clamp(c, 0.0, 1.0), vec3(1.0 / 2.2)); }
 )";
+
+const std::string all_taps = "const float most_taps = 9.0;\n", one_tap = "const float most_taps = 1.0;\n",
+                  no_tap = "const float most_taps = 0.0;\n";
 
 static const std::string lighting = R"(
 uniform sampler2DShadow shadow;
 uniform mat4 to_shadow;
 uniform float shadow_texel;   // m
 uniform float shadow_step;    // of the map
-uniform float shadowed;       // 0: no shadow is drawn
+uniform vec4 casters;         // of the map, 0..1: the part that holds what throws a shadow; empty if none is drawn
 
-// Share of the sun that reaches a point: 3 x 3 taps, each a bilinear comparison. The count of taps is zero where nothing can
-// throw a shadow: the software rasteriser leaves a loop early, but runs through both arms of an if.
+// Share of the sun that reaches a point: 3 x 3 taps, each a bilinear comparison. The first four, at the corners, tell most points that lie
+// wholly in the light or in the shade. The software rasteriser runs through both arms of an if, and through the rest of a loop after a
+// break: so it is one loop, left at its end.
 float sunlight(vec3 p, vec3 n, float facing) {
+  if (most_taps == 0.0) return 1.0;
   vec4 s = to_shadow * vec4(p + n * (2.0 * shadow_texel), 1.0);
   vec3 c = s.xyz * 0.5 + 0.5;
-  bool outside = any(lessThan(c, vec3(0.0))) || any(greaterThan(c, vec3(1.0)));
-  int taps = outside || facing <= 0.0 || shadowed < 0.5 ? 0 : 9;
-  float lit = 0.0;
-  for (int i = 0; i < taps; ++i) {
-    vec2 step = vec2(i / 3 - 1, i - (i / 3) * 3 - 1) * (1.4 * shadow_step);
-    lit += texture(shadow, vec3(c.xy + step, c.z - 0.0004));
+  bool free = facing <= 0.0 || any(lessThan(c.xy, casters.xy)) || any(greaterThan(c.xy, casters.zw)) || c.z > 1.0;
+  float lit = 0.0, taps = 0.0;
+  for (;;) {
+    vec2 at = taps < 4.0 ? vec2(mod(taps, 2.0) * 2.0 - 1.0, taps < 2.0 ? -1.0 : 1.0) : vec2(taps == 5.0 ? -1.0 : taps == 6.0 ? 1.0 : 0.0, taps == 7.0 ? -1.0 : taps == 8.0 ? 1.0 : 0.0);
+    lit += textureLod(shadow, vec3(c.xy + at * (1.4 * shadow_step), c.z - 0.0004), 0.0);
+    taps += 1.0;
+    if (free || taps == most_taps || (taps == 4.0 && (lit == 0.0 || lit == 4.0))) break;
   }
-  return taps == 0 ? 1.0 : lit / 9.0;
+  return free ? 1.0 : lit / taps;
 }
 
 vec3 lit(vec3 albedo, vec3 p, vec3 n, float cavity) {
@@ -67,6 +74,7 @@ void main() {
     if (by_state > 0.5) albedo = states[int(j.z)];
   }
   gl_Position = camera * vec4(world, 1.0);
+  gl_ClipDistance[0] = dot(seen_side, vec4(world, 1.0));
 }
 )";
 
@@ -78,7 +86,7 @@ uniform float opacity;        // of faces; edges are denser
 out vec4 color;
 void main() {
   float edge = clamp((1.0 - dot(n, n)) * 2.2, 0.0, 1.0);
-  color = srgb(lit(albedo * (1.0 - darker_edge * edge), world, normalize(n), 1.0 - 0.25 * edge));
+  color.rgb = srgb(lit(albedo * (1.0 - darker_edge * edge), world, normalize(n), 1.0 - 0.25 * edge));
   color.a = mix(opacity, 1.0, 0.4 * edge);
 }
 )";
@@ -120,6 +128,7 @@ void main() {
   state = j.z;
   bool shown = (j.x > 0.05 || by_state > 0.5) && j.y < widest;
   gl_Position = shown ? camera * vec4(p, 1.0) : vec4(0.0, 0.0, 2.0, 1.0);
+  gl_ClipDistance[0] = dot(seen_side, vec4(p, 1.0));
 }
 )";
 const std::string crack_fragment = R"(
@@ -129,7 +138,7 @@ uniform vec3 states[3];
 out vec4 color;
 void main() {
   vec3 crack = mix(vec3(0.17, 0.14, 0.12), vec3(0.008, 0.007, 0.007), strength);
-  color = srgb(by_state > 0.5 ? states[int(state + 0.5)] : crack);
+  color = vec4(srgb(by_state > 0.5 ? states[int(state + 0.5)] : crack), 1.0);
 }
 )";
 
@@ -146,6 +155,7 @@ const std::string ground_fragment = lighting + R"(
 in vec3 world;
 uniform vec3 middle, normal, tone;  // tone: linear colour of the ground
 uniform float grid, fade, far;  // m: lines, where they end, where the ground is lost in the haze
+uniform float last;           // component of the colour: opacity of what is part of the model, transparency of the backdrop
 out vec4 color;
 // Coverage of lines of the given width, one each `period`, as a box filter of the pixel would see them.
 float lines(float x, float period, float width) {
@@ -159,16 +169,16 @@ void main() {
   float r = distance(world.xy, middle.xy) / fade;
   vec3 base = mix(tone, 0.6 * tone, line * 0.6 * clamp(1.8 - r, 0.0, 1.0));
   vec3 c = lit(base, world, normal, 1.0);
-  color = srgb(mix(c, horizon, smoothstep(1.0, 5.0, distance(eye, world) / far)));
+  color = vec4(srgb(mix(c, horizon, smoothstep(1.0, 5.0, distance(eye, world) / far))), last);
 }
 )";
 
-// The shadow alone, black and as dense as it darkens the ground.
+// The shadow alone, black and as dense as it darkens the ground; the last component is transparency.
 const std::string dim_fragment = lighting + R"(
 in vec3 world;
 uniform vec3 normal;
 out vec4 color;
-void main() { color = vec4(0.0, 0.0, 0.0, 0.36 * (1.0 - sunlight(world, normal, max(dot(normal, sun), 0.0)))); }
+void main() { color = vec4(0.0, 0.0, 0.0, 1.0 - 0.36 * (1.0 - sunlight(world, normal, max(dot(normal, sun), 0.0)))); }
 )";
 
 // Clouds of dust: discs that face the eye, denser in the middle and mottled, and thinner where something solid is near behind them.
@@ -217,7 +227,7 @@ void main() {
   float alpha = kind.x * dense * clamp((behind + radius * ball) / (1.2 * radius), 0.0, 1.0);
   vec3 n = at.x * right + at.y * up;
   float lit = 0.80 + 0.22 * dot(n, sun) + 0.10 * at.y;
-  color = vec4(srgb(tone * lit).rgb, alpha);
+  color = vec4(srgb(tone * lit), alpha);
 }
 )";
 
@@ -254,7 +264,7 @@ void main() {
     float shade = 0.42 * (1.0 - smoothstep(-0.7 * soft, soft, d));
     c = mix(floor_tone * (1.0 - shade), horizon, smoothstep(1.0, 5.0, s / far));
   }
-  color = srgb(c);
+  color = vec4(srgb(c), 0.0);
 }
 )";
 
@@ -323,6 +333,7 @@ void main() {
 }
 )";
 
+// Lays the model, whose colours are times opacity, over the backdrop; the last component is transparency.
 const std::string finish_fragment = R"(
 in vec2 uv;
 uniform sampler2D picture, occlusion;
@@ -330,7 +341,7 @@ out vec4 color;
 void main() {
   float bright = 0.30 + 0.70 * texture(occlusion, uv).r;
   vec4 seen = texture(picture, uv);
-  color = vec4(seen.rgb * bright, 1.0 - (1.0 - seen.a) * bright);  // colours are times opacity
+  color = vec4(seen.rgb * bright, (1.0 - seen.a) * bright);
 }
 )";
 

@@ -5,6 +5,8 @@
 namespace erbs::render {
 
 extern const std::string shader_common;
+// Before a fragment source that is lit by the sun: how finely the edge of a shadow is drawn.
+extern const std::string all_taps, one_tap, no_tap;
 extern const std::string solid_vertex, solid_fragment;  // bricks and mortar
 extern const std::string shade_vertex, shade_fragment;  // the same for the shadow map
 extern const std::string crack_vertex, crack_fragment;

@@ -96,14 +96,14 @@ Vec3 joint_normal(const MotionScene& scene, const MotionJoint& joint) {
 }
 
 void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double chamfer, const std::vector<bool>& buried_face,
-              std::vector<std::uint32_t>& open, std::vector<std::uint32_t>& buried) {
+              Surface<std::vector<std::uint32_t>>& open, Surface<std::vector<std::uint32_t>>& buried) {
   if (chamfer <= 0) {
     for (std::size_t f = 0; f < shape.faces.size(); ++f) {
       const Loop loop = loop_of(shape, shape.faces[f]);
       const Vec3 n = area_normal(loop).normalized();
       std::vector<std::uint32_t> corners;
       for (const Vec3& p : loop) corners.push_back(add_vertex(mesh, p, n, block, no_joint));
-      add_fan(buried_face[f] ? buried : open, corners);
+      add_fan((buried_face[f] ? buried : open).faces, corners);
     }
     return;
   }
@@ -115,7 +115,7 @@ void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double 
     const Vec3 n = area_normal(loop).normalized();
     ids.emplace_back();
     for (const Vec3& p : inset(loop, n, chamfer)) ids.back().push_back(add_vertex(mesh, p, n, block, no_joint));
-    add_fan(buried_face[ids.size() - 1] ? buried : open, ids.back());
+    add_fan((buried_face[ids.size() - 1] ? buried : open).faces, ids.back());
     for (std::size_t k = 0; k < face.size(); ++k) edge[{face[k], face[(k + 1) % face.size()]}] = {ids.size() - 1, k};
   }
   const auto next = [&](std::size_t face, std::size_t k) { return (k + 1) % shape.faces[face].size(); };
@@ -126,7 +126,8 @@ void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double 
     if (opposite == edge.end()) continue;
     const auto [f, k] = at;
     const auto [g, m] = opposite->second;
-    if (i < j) add_fan(buried_face[f] && buried_face[g] ? buried : open, {ids[f][next(f, k)], ids[f][k], ids[g][next(g, m)], ids[g][m]});
+    if (i < j)
+      add_fan((buried_face[f] && buried_face[g] ? buried : open).edges, {ids[f][next(f, k)], ids[f][k], ids[g][next(g, m)], ids[g][m]});
     if (done[i]) continue;
     done[i] = true;
     // Walks around corner i, anticlockwise seen from outside: the edge that enters at this face leaves at the next.
@@ -141,7 +142,7 @@ void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double 
       if (before == edge.end() || before->second == at) break;
       here = before->second;
     }
-    add_fan(all_buried ? buried : open, around);
+    add_fan((all_buried ? buried : open).edges, around);
   }
 }
 
@@ -181,15 +182,19 @@ Mesh build_mesh(const MotionScene& scene, const std::vector<bool>& hidden, doubl
   for (std::size_t j = 0; j < scene.joints.size(); ++j)
     for (int block : {scene.joints[j].a, scene.joints[j].b}) touching[static_cast<std::size_t>(block)].push_back(static_cast<int>(j));
   for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
-    std::vector<std::uint32_t> open, buried;
+    Surface<std::vector<std::uint32_t>> open, buried;
     for (int part : scene.blocks[b].parts) {
       if (hidden[b]) continue;
       const MotionShape& shape = scene.shapes[static_cast<std::size_t>(part)];
       add_part(mesh, shape, static_cast<std::uint32_t>(b), chamfer, find_buried(scene, static_cast<int>(b), shape, touching[b]), open,
                buried);
     }
-    mesh.open.push_back(append(mesh.index, open));
-    mesh.buried.push_back(append(mesh.index, buried));
+    const auto appended = [&](const Surface<std::vector<std::uint32_t>>& s) -> Surface<Span> {
+      const Span faces = append(mesh.index, s.faces);
+      return {faces, append(mesh.index, s.edges)};
+    };
+    mesh.open.push_back(appended(open));
+    mesh.buried.push_back(appended(buried));
   }
   add_joints(mesh, scene, touching, chamfer);
   return mesh;

@@ -31,14 +31,20 @@ struct Span {
   std::uint32_t begin = 0, end = 0;
 };
 
+// Triangles of whole faces, and of their chamfers, which are about a pixel wide.
+template <class T>
+struct Surface {
+  T faces, edges;
+};
+
 // Most of an intact wall is invisible: faces inside it, and mortar behind the pointing. These triangles are kept separate and drawn only
 // around joints that have moved.
 struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> index;
-  std::vector<Span> open, buried;  // of each block [blocks]
-  std::vector<Span> pointing;      // visible mortar of a closed joint, at the wall's surface [joints]
-  std::vector<Span> beds;          // mortar bed of a moved joint: half of it on each block [joints]
+  std::vector<Surface<Span>> open, buried;  // of each block [blocks]
+  std::vector<Span> pointing;               // visible mortar of a closed joint, at the wall's surface [joints]
+  std::vector<Surface<Span>> beds;          // mortar bed of a moved joint, half of it on each block: its faces, and its sides [joints]
   // Shadow casters: bare blocks, enlarged until they meet across their joints, so that no light passes through mortar.
   std::vector<Vertex> shades;
   std::vector<std::uint32_t> shade_index;
@@ -68,7 +74,7 @@ std::uint32_t add_vertex(Mesh& mesh, const Vec3& p, const Vec3& n, std::uint32_t
 void add_fan(std::vector<std::uint32_t>& index, const std::vector<std::uint32_t>& loop);
 // Adds a convex part. Its triangles go to `open`, or to `buried` if they touch only faces with buried_face.
 void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double chamfer, const std::vector<bool>& buried_face,
-              std::vector<std::uint32_t>& open, std::vector<std::uint32_t>& buried);
+              Surface<std::vector<std::uint32_t>>& open, Surface<std::vector<std::uint32_t>>& buried);
 // touching[block]: joints of each block.
 void add_joints(Mesh& mesh, const MotionScene& scene, const std::vector<std::vector<int>>& touching, double chamfer);
 

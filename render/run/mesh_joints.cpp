@@ -41,11 +41,12 @@ void add_strip(Mesh& mesh, const Vec3& p, const Vec3& q, const Vec3& n, double f
 }
 
 // The half of the mortar that stays on one block: from mid-thickness by `half` (m, signed) along n to the block's face.
-void add_bed(Mesh& mesh, const Loop& base, const Vec3& n, double half, std::uint32_t block, std::uint32_t joint) {
+void add_bed(Mesh& mesh, std::vector<std::uint32_t>& faces, const Loop& base, const Vec3& n, double half, std::uint32_t block,
+             std::uint32_t joint) {
   std::vector<std::uint32_t> cap;
   for (const Vec3& p : base) cap.push_back(add_vertex(mesh, p, half > 0 ? Vec3(-n) : n, block, joint));
   if (half > 0) std::reverse(cap.begin(), cap.end());
-  add_fan(mesh.index, cap);
+  add_fan(faces, cap);
   for (std::size_t i = 0; i < base.size(); ++i)
     add_strip(mesh, base[i], base[(i + 1) % base.size()], n, std::min(0.0, half), std::max(0.0, half), block, joint);
 }
@@ -104,6 +105,7 @@ void add_joints(Mesh& mesh, const MotionScene& scene, const std::vector<std::vec
     const auto index = static_cast<std::uint32_t>(j);
     const std::uint32_t begin = end_of(mesh.index), begin_crack = end_of(mesh.crack_index);
     std::uint32_t between = begin;
+    std::vector<std::uint32_t> faces;
     if (joint.polygon.size() >= 3) {
       const Vec3 n = joint_normal(scene, joint);
       const Vec3 to_b = scene.blocks[static_cast<std::size_t>(joint.b)].rest - scene.blocks[static_cast<std::size_t>(joint.a)].rest;
@@ -114,13 +116,15 @@ void add_joints(Mesh& mesh, const MotionScene& scene, const std::vector<std::vec
         Loop base = inset(polygon, n, 0.5 * chamfer);  // slightly raked
         add_pointing(mesh, scene, touching, joint, base, n, index);
         between = end_of(mesh.index);
-        add_bed(mesh, base, n, -0.5 * joint.thickness, static_cast<std::uint32_t>(joint.a), index);
+        add_bed(mesh, faces, base, n, -0.5 * joint.thickness, static_cast<std::uint32_t>(joint.a), index);
         for (Vec3& p : base) p -= to_b;
-        add_bed(mesh, base, n, 0.5 * joint.thickness, static_cast<std::uint32_t>(joint.b), index);
+        add_bed(mesh, faces, base, n, 0.5 * joint.thickness, static_cast<std::uint32_t>(joint.b), index);
       }
     }
     mesh.pointing.push_back({begin, between});
-    mesh.beds.push_back({between, end_of(mesh.index)});
+    const std::uint32_t sides = end_of(mesh.index);
+    mesh.index.insert(mesh.index.end(), faces.begin(), faces.end());
+    mesh.beds.push_back({{sides, end_of(mesh.index)}, {between, sides}});
     mesh.crack.push_back({begin_crack, end_of(mesh.crack_index)});
   }
 }
