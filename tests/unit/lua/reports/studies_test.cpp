@@ -125,7 +125,8 @@ TEST_CASE("studies of a scene give the same for any number of runs at once, and 
   Bench bench;
   const std::string scene = slope + R"(
     converge { param = "mu", values = { .4, .2, .1 }, error = function(run) return run.last("block_ux_rel_m") + .1 end }
-    ensemble { n = 5, seed = 2, param = "mu", value = function(run) return run.time_s end })";
+    local seed = param("seed", 1)
+    ensemble { n = 5, seed = 2, value = function(run) return run.time_s + seed end })";
   std::string first;
   for (const char* jobs : {"1", "2", "5"}) {
     REQUIRE(bench.run(scene, {"-j", jobs, "--force", "--no-figures"}) == 0);
