@@ -261,7 +261,7 @@ struct Painter::Hidden {
     u.number("thinnest", 2.2 * look_.height / 720.0);
     u.number("proud", 0.35 * show.chamfer);
     u.number("open", show.open_crack);
-    u.number("widest", 60 * show.open_crack);
+    u.number("widest", widest_crack * show.open_crack);
     draw_triangles(gl, cracks);
     gl.Disable(GL_CLIP_DISTANCE0);
     if (with_table) draw_table(light, v);
@@ -366,8 +366,9 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   h.canvas->begin_translucent();
   if (!texels.ghost_index.empty()) h.draw_ghosts(light, texels.ghost_index);
   if (!dust.empty()) h.draw_dust(light, v, dust);
-  const Region shaded = region_of(l.shadow ? fallen_shadows(spheres, light.sun, stage.ground_z) : std::vector<Sphere>{}, v.view,
-                                  v.projection, l.width, l.height, 2);
+  const Region shaded =
+      region_of(l.shadow ? fallen_shadows(h.extents(frame, {}, 4 * light.shadow_texel), light.sun, stage.ground_z) : std::vector<Sphere>{},
+                v.view, v.projection, l.width, l.height, 2);
   h.draw_backdrop(light, v, position, shaded);
   Image image = h.canvas->finish(v.projection, radius, l.background == Background::transparent);
   if (const GLenum error = h.gl.GetError(); error != GL_NO_ERROR)

@@ -22,6 +22,8 @@ inline bool is_stress(Coloring c) { return c == Coloring::normal_stress || c == 
 enum class JointState { intact, cracked, open };
 Vec3 state_color(JointState state);  // linear
 
+inline constexpr double widest_crack = 60;  // of Show::open_crack: in a wider gap no band is drawn
+
 enum class Background { sky, white, transparent };
 
 struct Look {

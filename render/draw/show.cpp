@@ -160,7 +160,10 @@ void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joint
       add(of_ghosts ? t.ghost_index : t.index, show.mesh.index, show.mesh.beds[j].faces);
       add(of_ghosts ? t.ghost_index : t.fine_index, show.mesh.index, show.mesh.beds[j].edges);
     }
-    if ((all_joints || frame.damage[j] > 0) && !of_ghosts) add(t.crack_index, show.mesh.crack_index, show.mesh.crack[j]);
+    // As the shader would drop it: wide open, or hardly damaged.
+    const bool shown =
+        static_cast<double>(t.joints[4 * j + 1]) <= widest_crack * show.open_crack && (all_joints || t.joints[4 * j] >= 0.05F);
+    if (shown && !of_ghosts) add(t.crack_index, show.mesh.crack_index, show.mesh.crack[j]);
   }
   for (const auto& [distance, b] : order)
     if (show.ghost[b]) {

@@ -32,9 +32,14 @@ uniform vec4 casters;         // of the map, 0..1: the part that holds what thro
 // break: so it is one loop, left at its end.
 float sunlight(vec3 p, vec3 n, float facing) {
   if (most_taps == 0.0) return 1.0;
+#ifdef GL_ARB_ES3_1_compatibility
+  bool unseen = gl_HelperInvocation;  // computed beside a covered pixel: it need not keep its neighbours in the loop
+#else
+  bool unseen = false;
+#endif
   vec4 s = to_shadow * vec4(p + n * (2.0 * shadow_texel), 1.0);
   vec3 c = s.xyz * 0.5 + 0.5;
-  bool free = facing <= 0.0 || any(lessThan(c.xy, casters.xy)) || any(greaterThan(c.xy, casters.zw)) || c.z > 1.0;
+  bool free = unseen || facing <= 0.0 || any(lessThan(c.xy, casters.xy)) || any(greaterThan(c.xy, casters.zw)) || c.z > 1.0;
   float lit = 0.0, taps = 0.0;
   for (;;) {
     vec2 at = taps < 4.0 ? vec2(mod(taps, 2.0) * 2.0 - 1.0, taps < 2.0 ? -1.0 : 1.0) : vec2(taps == 5.0 ? -1.0 : taps == 6.0 ? 1.0 : 0.0, taps == 7.0 ? -1.0 : taps == 8.0 ? 1.0 : 0.0);
