@@ -344,7 +344,8 @@ std::vector<Function> block_functions() {
   const std::string name = "string: the name of the block";
   return {
       {"material", material, "{ ... }", "string: its name",
-       "A material of blocks, and its behaviour as debris. Between two materials the smaller friction and the smaller restitution apply, unless one says its friction_with the other.",
+       "A material of blocks, and its behaviour as debris. Between two materials the smaller friction and the smaller restitution apply, "
+       "unless one says its friction_with the other.",
        joined({keys_of<Material>(),
                {{"friction_with", "frictions", "", "coefficients against other materials, or its own, by their names: { stone = 0.3 }"}}})},
       {"box", box, "{ ... }", name, "A rectangular block.",

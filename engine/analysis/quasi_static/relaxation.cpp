@@ -57,13 +57,18 @@ class Damper {
       a = std::clamp(strong ? a / 1.1 : a * 1.1, 1e-4 * most_, most_);
     }
     brakes_ = kinetic_ && kinetic < kinetic_before_ && !brakes_;
-    if (kinetic_) model_.damping.mass = brakes_ ? 2 / s.time.dt : 0;  // this coefficient leaves no velocity after one step
+    if (kinetic_) model_.damping.mass = brakes_ ? braking(s) : 0;
     if (kinetic_ && s.time.t > patience_) model_.local_damping = local_share_beside;
     kinetic_before_ = brakes_ ? 0 : kinetic;
     lost_ = s.energy.damping;
   }
   bool one_step() const { return brakes_; }  // until the next reading
 
+  // Before motion is taken away: the ledger of a step that leaves next to none closes, whatever forces acted.
+  void last_step(State& s, Solver& solver) {
+    model_.damping.mass = braking(s);
+    solver.advance({.next = s.time.t});
+  }
   // Takes the motion away; its energy counts as damping.
   static void stop(State& s, const Model& m) {
     for (int b = 0; b < m.nblock; ++b) {
@@ -77,6 +82,8 @@ class Damper {
   }
 
  private:
+  static double braking(const State& s) { return 2 / s.time.dt; }  // 1/s, leaves no velocity after one step
+
   Model& model_;
   const double most_;      // 1/s, critical damping of the lowest mode
   const double patience_;  // s, until short waves are braked as well
@@ -221,6 +228,7 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen) 
     else if (t > longest_) out.ending = Ending::creep;
     if (!seen(solver, out) || out.ending != Ending::stopped) break;
   }
+  if (!solver.broken()) damper.last_step(s, solver);
   end(s);
   return out;
 }
