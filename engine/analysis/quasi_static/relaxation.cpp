@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/analysis/quasi_static/scaled_inertia.h"
+#include "engine/analysis/quasi_static/push_path.h"
 #include "engine/base/error.h"
 #include "engine/base/units.h"
 
@@ -27,8 +27,9 @@ constexpr double local_share_beside = 0.1, patience = 10;
 // their factors stay small beside a step.
 constexpr double quick_steps = 40, slow = 10;
 constexpr int least_piece = 40, most_pieces = 200;
-constexpr int control_every = 16;          // steps between two readings of the displacement that controls the load
-constexpr double default_step_count = 50;  // steps in a period where the structure has no elastic one
+constexpr int control_every = 16;                        // steps between two readings of the displacement that controls the load
+constexpr double controlled_steps = 10 * control_every;  // at least, in a period of the pieces with the loading machine
+constexpr double default_step_count = 50;                // steps in a period where the structure has no elastic one
 
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -139,18 +140,35 @@ Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>&
 void Relaxation::soften_inertia() {
   const ElasticPush elastic = elastic_push(model_, run_.state, push_.direction);
   double rate = elastic.frequency * elastic.frequency;  // 1/s2
-  const double quick = std::pow(2 * pi / (quick_steps * dt_), 2);
-  if (rate > 0 && rate * slow * slow < quick && push_.inertia == "scaled" && model_.analysis.solver == "leapfrog") {
+  const bool forces = push_.control == "displacement" && !push_.pattern.empty();
+  if (rate > 0 && !forces && push_.inertia == "scaled" && model_.analysis.solver == "leapfrog") {
     const Freedom freedom = grounded_freedoms(model_, run_.state);
-    inertia_.emplace(model_, run_.state, freedom, std::max(least_piece, freedom.count / 6 / most_pieces));
-    if (!inertia_->definite()) inertia_.reset();
-  }
-  if (inertia_) {
-    inertia_->set_rate(quick);
-    rate += quick * inertia_->share(elastic.force, elastic.motion);
-    range_.longest = dt_ /= std::sqrt(1 + 0.25 * quick * dt_ * dt_);
+    const double quick = push_.control == "displacement"
+                             ? std::pow(2 * pi / (controlled_steps * dt_), 2) / (1 + machine_over_elastic(elastic, freedom))
+                             : std::pow(2 * pi / (quick_steps * dt_), 2);
+    if (rate * slow * slow < quick) inertia_.emplace(model_, run_.state, freedom, std::max(least_piece, freedom.count / 6 / most_pieces));
+    if (inertia_ && !inertia_->definite()) inertia_.reset();
+    if (inertia_) {
+      inertia_->set_rate(quick);
+      rate += quick * inertia_->share(elastic.force, elastic.motion);
+      range_.longest = dt_ /= std::sqrt(1 + 0.25 * quick * dt_ * dt_);
+    }
   }
   period_ = std::max(rate > 0 ? 2 * pi / std::sqrt(rate) : 0, default_step_count * dt_);
+}
+
+// The loading machine stiffens what it controls: its pieces swing faster by the root of 1 + this.
+double Relaxation::machine_over_elastic(const ElasticPush& elastic, const Freedom& freedom) const {
+  const int b = monitor_.block(), i = freedom.first[z(b)];
+  const double stiffness = MachinePath(push_, height_of(model_)).stiffness;
+  if (i < 0) return 0;
+  constexpr double small = 1e-6;  // s2/m, of the acceleration: rotations are small
+  BlockPoses pose = run_.state.pose;
+  const double before = monitor_.along(pose);
+  pose.u[z(b)] += small * elastic.motion.segment<3>(i);
+  pose.q[z(b)] = rotation(small * Vec3(elastic.motion.segment<3>(i + 3))) * Quat(pose.q[z(b)]);
+  const double g = model_.gravity.norm() > 0 ? model_.gravity.norm() : standard_g;
+  return stiffness * g * std::fabs(monitor_.along(pose) - before) / small;
 }
 
 void Relaxation::start(State& s, double dt) const {

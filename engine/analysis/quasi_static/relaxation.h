@@ -8,6 +8,7 @@
 
 #include "engine/analysis/prepare.h"
 #include "engine/analysis/quasi_static/push_loads.h"
+#include "engine/analysis/quasi_static/scaled_inertia.h"
 #include "engine/solve/step.h"
 
 namespace erbs::analysis {
@@ -60,6 +61,7 @@ class Relaxation {
 
  private:
   void soften_inertia();
+  double machine_over_elastic(const ElasticPush& elastic, const Freedom& freedom) const;
   void start(State& state, double dt) const;
   void end(State& state) const;
   bool far(const State& state, const BlockVec3& from, double share, Relaxed& out) const;
