@@ -12,6 +12,7 @@ constexpr double default_step = 0.01, default_end = 2;                          
 constexpr double default_tilt_step = 0.5 * pi / 180, default_tilt_end = pi / 3;  // rad
 constexpr double displacement_steps = 50;
 constexpr int parts_at_peak = 8;
+constexpr double nearby = 2;  // widths of the bracket
 
 }  // namespace
 
@@ -20,26 +21,35 @@ LoadPath::LoadPath(const PushSettings& push)
       step(push.step > 0  ? push.step
            : push.tilts() ? default_tilt_step
                           : default_step),
-      bracket(push.bracket) {
+      bracket(push.bracket),
+      stride(step) {
   targets.push_back(push.up_to > 0 ? push.up_to : push.tilts() ? default_tilt_end : default_end);
 }
 
-bool LoadPath::bracketed() const { return above && std::fabs(*above - at) <= std::max(bracket * std::fabs(*above), 1e-3 * bracket * step); }
+double LoadPath::width() const { return std::max(bracket * std::fabs(*above), 1e-3 * bracket * step); }
+
+bool LoadPath::bracketed() const { return narrow() && std::fabs(*above - tried_from) <= nearby * width(); }
 
 bool LoadPath::done() const { return bracketed() || target == int(targets.size()); }
 
 double LoadPath::next() const {
-  if (above) return 0.5 * (at + *above);
+  if (above) return narrow() ? *above : 0.5 * (at + *above);
   const double to = targets[std::size_t(target)], way = to - at;
-  return std::fabs(way) <= 1.000001 * step ? to : at + std::copysign(step, way);
+  return std::fabs(way) <= 1.000001 * stride ? to : at + std::copysign(stride, way);
 }
 
 void LoadPath::found() {
-  at = next();
+  const double to = next(), last = std::fabs(to - at);
+  if (above && to == *above) above.reset(), stride = last;
+  else if (!above) stride = std::min(step, 2 * stride);
+  at = to;
   if (!above && at == targets[std::size_t(target)]) ++target;
 }
 
-void LoadPath::failed() { above = next(); }
+void LoadPath::failed() {
+  above = next();
+  tried_from = at;
+}
 
 MachinePath::MachinePath(const PushSettings& push, double height)
     : end(push.displacement), step(push.displacement_step > 0 ? push.displacement_step : push.displacement / displacement_steps) {

@@ -1,5 +1,6 @@
 // The order in which a push visits its loads: which multiplier comes next, and what is known of the capacity.
 #pragma once
+#include <cmath>
 #include <optional>
 #include <type_traits>
 #include <vector>
@@ -9,12 +10,15 @@
 namespace erbs::analysis {
 
 // Steps of the multiplier through the targets of a path. After the first load without equilibrium the interval to the last one with
-// equilibrium is halved until it is narrow enough.
+// equilibrium is halved until it is narrow enough. Each step sways the structure beyond where it comes to rest, the longer the step the
+// further: a load that failed from afar is tried once more from nearby, and if it stands then, steps go on from there, each twice the last.
 struct LoadPath {
   std::vector<double> targets;
   double step = 0, bracket = 0;
   double at = 0;                // the last multiplier in equilibrium
-  std::optional<double> above;  // one without equilibrium
+  std::optional<double> above;  // one without equilibrium, ...
+  double tried_from = 0;        // ... that was tried from here
+  double stride = 0;            // of the next step
   int target = 0;
 
   LoadPath() = default;
@@ -24,6 +28,10 @@ struct LoadPath {
   void found();
   void failed();
   bool bracketed() const;
+
+ private:
+  double width() const;
+  bool narrow() const { return above && std::fabs(*above - at) <= width(); }
 };
 
 // Displacement control: the load grows with the extension of a loading machine, multiplier = stiffness (extension - displacement of the
@@ -61,6 +69,8 @@ void each(P& p, F&& f) {
   double above = has ? *p.above : 0;
   f("path_has_above", has);
   f("path_above", above);
+  f("path_tried_from", p.tried_from);
+  f("path_stride", p.stride);
   if constexpr (!std::is_const_v<P>) p.above = has ? std::optional(above) : std::nullopt;
 }
 

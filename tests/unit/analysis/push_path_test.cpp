@@ -37,6 +37,29 @@ TEST_CASE("a push brackets the capacity as narrowly as asked", "[push]") {
   }
 }
 
+// A structure that sways half a step beyond where it comes to rest falls too early under long steps.
+TEST_CASE("a push tries a load again that failed from afar", "[push]") {
+  for (const double capacity : {0.0151, 0.1425, 0.37361, 1.7}) {
+    for (const double bracket : {0.02, 0.002, 1e-4}) {
+      for (const double sway : {0.3, 1.}) {
+        PushSettings push;
+        push.kind = "pushover", push.bracket = bracket, push.step = 0.02;
+        LoadPath path(push);
+        int attempts = 0;
+        for (; !path.done() && attempts < 1000; ++attempts)
+          if (path.next() + sway * (path.next() - path.at) <= capacity) path.found();
+          else path.failed();
+        CAPTURE(capacity, bracket, sway, attempts);
+        REQUIRE(path.above);
+        CHECK(path.at <= capacity);
+        CHECK(*path.above - path.at <= bracket * *path.above + 1e-15);
+        CHECK(capacity - path.at <= (1 + 2 * sway) * bracket * *path.above + 1e-15);
+        CHECK(attempts < capacity / 0.02 + 25 + 50 * sway);
+      }
+    }
+  }
+}
+
 TEST_CASE("a push that never fails ends at its last load", "[push]") {
   PushSettings push;
   push.kind = "pushover", push.up_to = 0.055, push.step = 0.02;
