@@ -33,9 +33,10 @@ void Bracket::take_ends(const std::vector<Answer>& ends) {
     return;
   }
   const bool low = *ends[0].value != 0, high = *ends[1].value != 0;
-  if (low && high) trouble_ = fmt::format("collapses at lo = {:.6g} already; lower it", first_);
-  else if (low) trouble_ = fmt::format("collapses at lo = {:.6g} and stands at hi = {:.6g}; exchange them", first_, last_);
-  else if (!high) trouble_ = fmt::format("stands at hi = {:.6g} still; raise it", last_);
+  const bool rises = last_ > first_;  // lo may be the larger end
+  if (low && high) trouble_ = fmt::format("the verdict is yes at lo = {:.6g} already; {} it", first_, rises ? "lower" : "raise");
+  else if (low) trouble_ = fmt::format("the verdict is yes at lo = {:.6g} and no at hi = {:.6g}; exchange them", first_, last_);
+  else if (!high) trouble_ = fmt::format("the verdict is no at hi = {:.6g} still; {} it", last_, rises ? "raise" : "lower");
   else known_ = true;
 }
 

@@ -7,7 +7,7 @@
 namespace erbs::lua {
 std::string renderer_path() {
   std::error_code ignored;
-  const auto beside = std::filesystem::path(own_path()).parent_path() / "erbs-render";
+  const auto beside = std::filesystem::path(own_folder()) / "erbs-render";
   return std::filesystem::exists(beside, ignored) ? beside.string() : "erbs-render";
 }
 

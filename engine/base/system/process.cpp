@@ -94,8 +94,15 @@ void become(const std::vector<char*>& words, const Launch& how, int input, int o
 
 std::string own_path() {
   std::error_code trouble;
-  const auto path = std::filesystem::read_symlink("/proc/self/exe", trouble);
-  return trouble ? "erbs" : path.string();
+  const std::string path = std::filesystem::read_symlink("/proc/self/exe", trouble).string();
+  // The link leads to the file itself: a study goes on with the program that has begun it.
+  if (path.ends_with(" (deleted)")) return fmt::format("/proc/{}/exe", getpid());
+  return trouble ? "erbs" : path;
+}
+
+std::string own_folder() {
+  std::error_code trouble;
+  return std::filesystem::read_symlink("/proc/self/exe", trouble).parent_path().string();
 }
 
 bool can_start(const std::string& name) {

@@ -7,7 +7,8 @@
 
 namespace erbs {
 
-std::string own_path();                   // of this executable
+std::string own_path();                   // starts this executable, also one that an update has replaced since
+std::string own_folder();                 // where this executable lay when it was started
 bool can_start(const std::string& name);  // a path, or a name that PATH finds
 
 struct Child {

@@ -64,8 +64,8 @@ Components read_components(const std::array<Record, 3>& wanted, const std::strin
     lengths += fmt::format("{}{} {:.4g} m/s2 over {:.2f} s", lengths.empty() ? "" : ", ", axes[i], std::fabs(factor) * out.of[i].file_peak,
                            out.of[i].acceleration.times.back());
   }
-  out.note =
-      fmt::format("components of one motion, all times {:.6g} (peak of {}): {}; each rests after its end", factor, axes[leading], lengths);
+  out.note = fmt::format("components of one motion, all times {:.6g} (peak of {}): {}; none accelerates after its end", factor,
+                         axes[leading], lengths);
   return out;
 }
 

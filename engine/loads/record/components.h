@@ -13,8 +13,8 @@ struct Components {
 };
 
 // Reads the files of `wanted` and scales all by one factor: wanted[..].peak becomes the peak of the component `named` ("x", "y", "z"), or
-// of the "strongest". Their steps must agree; a shorter component rests after its end. The other members of `wanted` should be alike.
-// `place`: the script line.
+// of the "strongest". Their steps must agree; a shorter component does not accelerate after its end. The other members of `wanted` should
+// be alike. `place`: the script line.
 Components read_components(const std::array<Record, 3>& wanted, const std::string& named, const Place& place);
 
 }  // namespace erbs

@@ -114,11 +114,16 @@ RecordFile parse_values(const RecordText& text, const Rows& rows, const Record& 
   return file;
 }
 
+// A unit of time in brackets tells the column of times in any language: "Zeit [s]".
+double seconds_per(const std::string& unit) { return unit == "s" || unit == "sec" ? 1 : unit == "ms" ? 1e-3 : 0; }
+
 size_t time_column(const Rows& rows) {
   for (size_t c = 0; c < rows.columns.size(); ++c) {
     const std::string name = lower(rows.columns[c].name);
     if (name == "t" || name.rfind("time", 0) == 0) return c;
   }
+  for (size_t c = 0; c < rows.columns.size(); ++c)
+    if (seconds_per(lower(trim(rows.columns[c].unit))) > 0) return c;
   return 0;
 }
 
@@ -126,10 +131,8 @@ size_t time_column(const Rows& rows) {
 double time_factor(const RecordText& text, const Rows& rows, size_t column) {
   if (rows.columns.empty()) return 1;
   const std::string name = lower(rows.columns[column].name), unit = lower(trim(rows.columns[column].unit));
-  if (name == "t" || name == "time") {
-    if (unit.empty() || unit == "s" || unit == "sec") return 1;
-    if (unit == "ms") return 1e-3;
-  }
+  if (const double seconds = seconds_per(unit); seconds > 0) return seconds;
+  if (unit.empty() && (name == "t" || name == "time")) return 1;
   throw Error(fmt::format("the column of times is named \"{}\" [{}]; name it time_s or time_ms", shown(rows.columns[column].name, 24),
                           shown(unit, 24)),
               {text.path, rows.names_line});

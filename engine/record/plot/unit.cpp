@@ -55,13 +55,18 @@ std::string words_of(const std::string& column) {
   return words;
 }
 
-std::string label_of(const std::string& column) {
+std::string unit_name(const std::string& column) {
   const Unit* unit = find_unit(unit_of(column));
-  if (!unit) return words_of(column);
+  if (!unit) return "";
   std::string shown = unit->suffix;
   for (const ShownUnit& one : unit->shown)
     if (one.factor == 1) shown = one.name;
-  return words_of(column) + " [" + shown + "]";
+  return shown;
+}
+
+std::string label_of(const std::string& column) {
+  const std::string unit = unit_name(column);
+  return words_of(column) + (unit.empty() ? "" : " [" + unit + "]");
 }
 
 }  // namespace erbs::plot

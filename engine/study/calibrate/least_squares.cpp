@@ -119,9 +119,10 @@ class Search {
 
   void deviate() {
     out_.deviation.assign(n_, std::numeric_limits<double>::infinity());
-    if (jacobian_.size() == 0 || jacobian_.rows() <= jacobian_.cols()) return;
+    if (jacobian_.size() == 0) return;
     const Matrix normal = jacobian_.transpose() * jacobian_;
-    const double scatter = out_.sum / double(jacobian_.rows() - jacobian_.cols());
+    const auto spare = jacobian_.rows() - jacobian_.cols();
+    const double scatter = spare > 0 ? out_.sum / double(spare) : std::nan("");  // without spare residuals nothing scatters
     const Matrix inverse = normal.completeOrthogonalDecomposition().pseudoInverse();
     for (std::size_t k = 0; k < n_; ++k)
       if (normal(Eigen::Index(k), Eigen::Index(k)) > 1e-12)

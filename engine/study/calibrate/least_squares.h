@@ -23,8 +23,9 @@ struct Minimum {
   Shares best;
   std::vector<double> residuals;
   double sum = 0;  // of their squares
-  std::vector<double>
-      deviation;  // standard deviation of each share, from the scatter of the residuals (linear theory); infinite: it moves nothing
+  // Standard deviation of each share, from the scatter of the residuals (linear theory). Infinite: it moves nothing; not a number: there are
+  // no more residuals than params.
+  std::vector<double> deviation;
 };
 
 double sum_of_squares(const std::vector<double>& residuals);

@@ -6,6 +6,7 @@
 #include "engine/record/format/csv.h"
 #include "engine/record/format/json.h"
 #include "engine/record/plot/figure.h"
+#include "engine/record/plot/unit.h"
 #include "engine/study/fragility/fragility.h"
 
 namespace erbs::study {
@@ -45,8 +46,10 @@ std::vector<Falls> drawn_lines(const std::vector<Group>& groups) {
 
 std::string title_of(const Falls& falls, const std::string& im) {
   std::string text = falls.group;
-  if (falls.im > 0) text += fmt::format("{}{} {:.4g}", text.empty() ? "" : ", ", im, falls.im);
-  return fmt::format("{}{}{} of {}", text, text.empty() ? "" : ": ", falls.times.size(), falls.runs);
+  const std::string unit = plot::unit_name(im);
+  if (falls.im > 0)
+    text += fmt::format("{}{} {:.4g}{}{}", text.empty() ? "" : ", ", plot::words_of(im), falls.im, unit.empty() ? "" : " ", unit);
+  return fmt::format("{}{}{} of {} fall", text, text.empty() ? "" : ": ", falls.times.size(), falls.runs);
 }
 
 // Share of all runs that have fallen by a time, as steps up to the right edge.
@@ -121,8 +124,8 @@ double Falls::concentration() const {
 
 std::array<double, 4> quarters(const Falls& falls) {
   std::array<double, 4> out{0, 0, 0, 0};
-  for (const auto& [x, y] : falls.towards)
-    out[std::fabs(x) >= std::fabs(y) ? (x > 0 ? 0 : 2) : (y > 0 ? 1 : 3)] += 1.0 / double(falls.towards.size());
+  for (const auto& [x, y] : falls.towards) out[std::fabs(x) >= std::fabs(y) ? (x > 0 ? 0 : 2) : (y > 0 ? 1 : 3)] += 1;
+  for (double& share : out) share /= std::max(1.0, double(falls.towards.size()));
   return out;
 }
 

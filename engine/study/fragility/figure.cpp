@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "engine/record/plot/figure.h"
+#include "engine/record/plot/unit.h"
 #include "engine/study/fragility/falls.h"
 #include "engine/study/fragility/fragility.h"
 
@@ -72,7 +73,7 @@ void draw_probability(const Sweep& sweep, const std::vector<Group>& groups, cons
       panel.labels.push_back({one->words, fmt::format("graph 0.03, graph {}", 0.95 - 0.06 * double(g)),
                               fmt::format("left font ',11' tc rgb '{}' noenhanced", colors[g])});
   }
-  panel.x = {unit_of_im(sweep), fmt::format("[0:{}]", top), "", "", "noenhanced"};
+  panel.x = {plot::label_of(unit_of_im(sweep)), fmt::format("[0:{}]", top), "", "", "noenhanced"};
   panel.y = {"probability of collapse", "[-0.02:1.02]"};
   panel.key = "outside bottom center horizontal noenhanced";
   figure.panels = {panel};
@@ -144,9 +145,10 @@ void draw_curves(const Sweep& sweep, const std::vector<Group>& groups, const std
   }
   const auto& keys = sweep.plan.collect;
   const auto at = std::size_t(std::find(keys.begin(), keys.end(), damage) - keys.begin());
-  panel.x = {at < sweep.collected.size() ? sweep.collected[at] : damage, fmt::format("[0:{}]", right), "", "", "noenhanced"};
-  panel.y = {unit_of_im(sweep), fmt::format("[0:{}]", std::min(1.05 * highest(groups), 1.1 * highest_capacity(groups))), "", "",
+  panel.x = {plot::label_of(at < sweep.collected.size() ? sweep.collected[at] : damage), fmt::format("[0:{}]", right), "", "",
              "noenhanced"};
+  panel.y = {plot::label_of(unit_of_im(sweep)), fmt::format("[0:{}]", std::min(1.05 * highest(groups), 1.1 * highest_capacity(groups))), "",
+             "", "noenhanced"};
   panel.labels.push_back({"a case leaves to the right where it collapses", "graph 0.02, graph 0.96", "left font ',11' tc rgb '#666666'"});
   panel.key = "outside bottom center horizontal noenhanced";
   figure.panels = {panel};

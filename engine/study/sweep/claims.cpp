@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <ctime>
 #include <filesystem>
 
 #include "engine/base/error.h"
@@ -16,6 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char* worker_ending = ".worker";
 constexpr auto beat_every = std::chrono::seconds(5);
 constexpr auto silence = std::chrono::seconds(180);  // file systems of a network keep attributes for up to a minute
 
@@ -36,7 +38,7 @@ Claims::Claims(const std::string& folder) : folder_(folder), host_(machine()), b
   fs::create_directories(folder);
   for (int i = 0; lock_ < 0; ++i) {
     name_ = fmt::format("{}-{}-{}", host_, ::getpid(), i);
-    file_ = folder_ + "/" + name_ + ".worker";
+    file_ = folder_ + "/" + name_ + worker_ending;
     lock_ = ::open(file_.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
     if (lock_ < 0 && errno != EEXIST)
       throw WriteError(fmt::format("cannot be written: {}; choose another folder with -o DIR", std::strerror(errno)), {file_, 0});
@@ -90,6 +92,7 @@ Claims::Taken Claims::take(std::int64_t point) {
       mine_[point] = true;
       return how;
     }
+    if (errno == ENOENT) throw WriteError("cannot be made: its folder has been removed meanwhile; go on with --resume", {claim, 0});
     if (errno != EEXIST)
       throw WriteError(
           fmt::format("cannot be made: {}; choose a folder on a file system with hard links, with -o DIR", std::strerror(errno)),
@@ -116,6 +119,24 @@ void Claims::remove_void() {
   std::uint64_t inode = 0;
   for (const auto& entry : fs::directory_iterator(folder_, ignored))
     if (is_void(entry.path().string(), inode)) fs::remove(entry.path(), ignored);
+}
+
+std::string working_in(const std::string& folder) {
+  std::error_code ignored;
+  const std::string host = machine();
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+    if (entry.path().extension() != worker_ending) continue;
+    const int file = ::open(entry.path().c_str(), O_RDWR | O_CLOEXEC);
+    if (file < 0) continue;
+    char owner[256] = "";
+    struct stat there {};
+    bool works = false;
+    if (::pread(file, owner, sizeof owner - 1, 0) >= 0 && ::fstat(file, &there) == 0)
+      works = owner == host ? ::flock(file, LOCK_EX | LOCK_NB) != 0 : std::time(nullptr) - there.st_mtim.tv_sec < silence.count();
+    ::close(file);
+    if (works) return entry.path().stem().string();
+  }
+  return "";
 }
 
 }  // namespace erbs::study

@@ -40,4 +40,7 @@ class Claims {
   std::map<std::int64_t, bool> mine_;
 };
 
+// Who works in such a folder now: a process by its name, "host-process-number"; "" if nobody does.
+std::string working_in(const std::string& folder);
+
 }  // namespace erbs::study

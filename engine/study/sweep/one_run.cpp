@@ -40,7 +40,9 @@ std::string verdict_of(const Bisection& bisect, const Json& metrics, std::string
     const double number = value->get<double>();
     return (bisect.above ? number > *bisect.above : number != 0) ? "1" : "0";
   }
-  reason = fmt::format("{} has no value in this run", bisect.key);
+  if (value != nullptr && value->is_string())
+    reason = fmt::format("{} is the word \"{}\", and a verdict is a number, true or false", bisect.key, value->get<std::string>());
+  else reason = fmt::format("{} has no value in this run", bisect.key);
   return "nan";
 }
 
@@ -52,7 +54,8 @@ void judge_end(const Sweep& sweep, const std::string& scene, const Finished& fin
     row.status = "timeout";
     row.reason = fmt::format("took longer than max_wall = {:g} s and was ended", sweep.plan.max_wall);
   } else if (cap > 0 && finished.code != 0 &&
-             (says(log, "not enough memory") || says(log, "MiB of memory") || says(log, "Cannot allocate memory"))) {
+             (says(log, "not enough memory") || says(log, "MiB of memory") || says(log, "Cannot allocate memory") ||
+              says(log, "failed to map segment"))) {
     row.status = "memory";
     row.reason = fmt::format("needs more than memory = {} and was ended at {}", bytes_text(cap), bytes_text(finished.memory));
   } else if (finished.code > 128) {
@@ -109,7 +112,9 @@ RunRow read_run(const Sweep& sweep, const Point& point, double x, const std::str
   if (!row.status.empty()) return row;
   try {
     if (!fs::exists(file)) {
-      row.status = "error", row.reason = last_words(log, finished.code, scene);
+      row.status = "error";
+      row.reason = finished.code == 0 ? fmt::format("it ended well, but {} is not there: another program has removed it", file)
+                                      : last_words(log, finished.code, scene);
       return row;
     }
     const Json metrics = read_json(file);

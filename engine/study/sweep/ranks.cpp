@@ -1,5 +1,6 @@
 #include "engine/study/sweep/ranks.h"
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace erbs::study {
@@ -28,6 +29,8 @@ Ranks ranks_of_environment() {
   ranks.launched = take(ranks, "OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE") || take(ranks, "PMI_RANK", "PMI_SIZE") ||
                    (variable("SLURM_STEP_ID") && take(ranks, "SLURM_PROCID", "SLURM_STEP_NUM_TASKS"));
   if (ranks.size == 1) return ranks;
+  for (const char* name : {"OMPI_COMM_WORLD_LOCAL_SIZE", "MPI_LOCALNRANKS", "SLURM_NTASKS_PER_NODE"})
+    if (ranks.here == 1 && variable(name)) ranks.here = std::clamp(std::atoi(variable(name)), 1, ranks.size);
   for (const char* name : {"PMIX_NAMESPACE", "OMPI_MCA_ess_base_jobid", "PMI_JOBID"})
     if (ranks.launch.empty() && variable(name)) ranks.launch = std::string(name) + "=" + variable(name);
   if (ranks.launch.empty() && variable("SLURM_JOB_ID") && variable("SLURM_STEP_ID"))

@@ -7,6 +7,7 @@ namespace erbs::study {
 
 struct Ranks {
   int rank = 0, size = 1;
+  int here = 1;             // ranks on this machine, which share its memory
   std::string launch;       // the same for all ranks of one launch, another one for each launch; "": not known
   bool launched = false;    // by MPI or srun, be it alone
   bool array_task = false;  // of a job array

@@ -70,6 +70,7 @@ class Locked {
   }
   void write(const std::string& text) const {
     const ssize_t n = ::write(file_, text.data(), text.size());
+    if (n >= 0 && n != ssize_t(text.size())) errno = ENOSPC;  // a part of it still went in
     if (n != ssize_t(text.size())) fail();
   }
   void sync() const {
@@ -148,7 +149,7 @@ void SharedTable::read_new(const std::function<void(const Cells&)>& visit) {
   offset_ = std::max(offset_, end);
 }
 
-void SharedTable::sort() {
+std::int64_t SharedTable::sort() {
   const Locked file(path_, O_RDWR | O_APPEND);
   const std::string text = file.read(0, file.whole());
   std::map<long long, std::string_view> lines;
@@ -175,6 +176,7 @@ void SharedTable::sort() {
     file.sync();
   }
   unsynced_ = false;
+  return std::int64_t(lines.size());
 }
 
 }  // namespace erbs::study

@@ -21,7 +21,8 @@ class SharedTable {
   // Visits the whole lines that this or another process has added since the last call. Throws Error if one has another key.
   void read_new(const std::function<void(const Cells&)>& visit);
   void rewind();  // read_new() begins anew
-  void sort();    // rewrites it in the order of the indices, each once: the file of a finished study does not depend on who ran what
+  // Rewrites it in the order of the indices, each once: the file of a finished study does not depend on who ran what. Gives their number.
+  std::int64_t sort();
   void sync();
 
  private:

@@ -104,7 +104,10 @@ class Sweeper {
     }
     runs_.sync();
     if (done_count_ == count_) {
-      results_.sort();
+      if (const std::int64_t rows = results_.sort(); rows < count_)
+        throw WriteError(fmt::format("has lost rows: it holds {} of {}, and another program has changed it; make them again with --resume",
+                                     rows, count_),
+                         {s_.directory + "/" + results_file, 0});
       claims_.remove_void();
       std::error_code kept;
       fs::remove(s_.directory + "/runs", kept);  // if nothing is in it

@@ -99,44 +99,91 @@ void add_map(plot::Figure& figure, plot::Panel& panel, const View& view) {
   if (!binary) figure.labels.back().text += ": " + plot::label_of(answer);
 }
 
-// The param along x: of the longest axis of numbers.
+// The param along x: of the longest axis of numbers. The seeds of perturbations are no quantity.
 std::size_t param_along_x(const std::vector<Axis>& axes) {
   std::size_t best = 0, most = 0, param = 0;
   for (const Axis& axis : axes) {
     const bool number = !axis.rows.empty() && std::holds_alternative<double>(axis.rows[0][0]);
-    if (number && axis.rows.size() > most) most = axis.rows.size(), best = param;
+    const std::size_t length = is_perturbation(axis) ? 1 : axis.rows.size();
+    if (number && length > most) most = length, best = param;
     param += axis.params.size();
   }
   return best;
 }
 
-// Lines over one param, one for each choice of the others; points where params change together.
-void add_lines(plot::Figure& figure, plot::Panel& panel, const View& view) {
+struct Line {
+  std::string name;
+  std::vector<std::pair<double, double>> points;
+  std::size_t absent = 0;  // rows without an answer
+};
+
+// One line for each choice of the params but the one along x. Twins belong to one line.
+std::vector<Line> lines_of(const View& view, std::size_t along, bool together) {
   const CsvTable& table = view.table;
-  const std::size_t along = param_along_x(view.axes);
-  const bool together = std::any_of(view.axes.begin(), view.axes.end(), [](const Axis& axis) { return axis.params.size() > 1; });
   const auto &x = table.columns[column_of(table, view.params[along])], &z = table.columns[column_of(table, view.answer)];
-  std::vector<std::string> order;
-  std::map<std::string, std::vector<std::pair<double, double>>> lines;
+  std::vector<std::size_t> named;
+  for (std::size_t k = 0; k < view.params.size() && !together; ++k) {
+    const std::size_t column = column_of(table, view.params[k]);
+    const auto differs = [&](std::size_t i) { return word_of(table, column, i) != word_of(table, column, view.rows.front()); };
+    if (k != along && view.params[k] != perturbation && std::any_of(view.rows.begin(), view.rows.end(), differs)) named.push_back(k);
+  }
+  std::vector<Line> lines;
   for (const std::size_t i : view.rows) {
     std::string name;
-    for (std::size_t k = 0; k < view.params.size() && !together; ++k)
-      if (k != along)
-        name += fmt::format("{}{} {}", name.empty() ? "" : ", ", view.params[k], word_of(table, column_of(table, view.params[k]), i));
-    if (!lines.contains(name)) order.push_back(name);
-    if (std::isfinite(z[i]) && std::isfinite(x[i])) lines[name].emplace_back(x[i], z[i]);
+    for (const std::size_t k : named) {
+      const std::string unit = plot::unit_name(view.params[k]);
+      name += fmt::format("{}{} {}{}{}", name.empty() ? "" : ", ", plot::words_of(view.params[k]),
+                          word_of(table, column_of(table, view.params[k]), i), unit.empty() ? "" : " ", unit);
+    }
+    auto line = std::find_if(lines.begin(), lines.end(), [&](const Line& one) { return one.name == name; });
+    if (line == lines.end()) line = lines.insert(lines.end(), {name, {}, 0});
+    if (std::isfinite(z[i]) && std::isfinite(x[i])) line->points.emplace_back(x[i], z[i]);
+    else ++line->absent;
   }
-  for (std::size_t i = 0; i < order.size() && i < most_lines; ++i) {
-    auto& points = lines[order[i]];
-    if (points.empty()) continue;
-    std::sort(points.begin(), points.end());
-    std::string rows;
-    for (const auto& [u, v] : points) rows += fmt::format("{} {}\n", u, v);
+  for (Line& line : lines) std::sort(line.points.begin(), line.points.end());
+  return lines;
+}
+
+// The mean over the points of one x each.
+std::vector<std::pair<double, double>> means_of(const std::vector<std::pair<double, double>>& points) {
+  std::vector<std::pair<double, double>> means;
+  for (std::size_t i = 0, j = 0; i < points.size(); i = j) {
+    double sum = 0;
+    for (j = i; j < points.size() && points[j].first == points[i].first; ++j) sum += points[j].second;
+    means.emplace_back(points[i].first, sum / double(j - i));
+  }
+  return means;
+}
+
+std::string rows_of(const std::vector<std::pair<double, double>>& points) {
+  std::string rows;
+  for (const auto& [u, v] : points) rows += fmt::format("{} {}\n", u, v);
+  return rows;
+}
+
+// Lines over one param, one for each choice of the others; points where params change together. Of several answers at one x the line shows
+// their mean, and points show each.
+void add_lines(plot::Figure& figure, plot::Panel& panel, const View& view) {
+  const std::size_t along = param_along_x(view.axes);
+  const bool together = std::any_of(view.axes.begin(), view.axes.end(), [](const Axis& axis) { return axis.params.size() > 1; });
+  const std::vector<Line> lines = lines_of(view, along, together);
+  for (std::size_t i = 0; i < lines.size() && i < most_lines; ++i) {
+    const Line& line = lines[i];
+    const char* const color = colors[i % 6];
+    const auto means = means_of(line.points);
+    const bool scatter = !together && means.size() < line.points.size();
+    std::string title = line.name + (scatter ? (line.name.empty() ? "mean of the runs" : ": mean") : "");
+    if (line.absent > 0)
+      title += fmt::format("{}{} of {} without an answer", title.empty() ? "" : ": ", line.absent, line.absent + line.points.size());
+    if (scatter)
+      panel.series.push_back({figure.add_rows(rows_of(line.points)) + " using 1:2", fmt::format("points pt 6 ps 0.6 lc rgb '{}'", color),
+                              line.name.empty() ? "each run" : ""});
+    const std::string how = together ? "points pt 7 ps 0.7" : fmt::format("linespoints lw 2 pt 7 ps 0.6 dt {}", 1 + i / 6);
     panel.series.push_back(
-        {figure.add_rows(rows) + " using 1:2",
-         fmt::format("{} lc rgb '{}'", together ? "points pt 7 ps 0.7" : fmt::format("linespoints lw 2 pt 7 ps 0.6 dt {}", 1 + i / 6),
-                     colors[i % 6]),
-         order[i]});
+        {line.points.empty() ? "1/0" : figure.add_rows(rows_of(means)) + " using 1:2", fmt::format("{} lc rgb '{}'", how, color), title});
+  }
+  if (lines.size() > most_lines) {
+    panel.series.push_back({"1/0", "points pt 0", fmt::format("and {} more in {}", lines.size() - most_lines, results_file)});
   }
   panel.x = {plot::label_of(view.params[along]), "", "", "", "noenhanced"};
   panel.y = {plot::label_of(view.answer), "", "", "", "noenhanced"};
@@ -159,12 +206,20 @@ void place_legend(const plot::Figure& figure, plot::Panel& panel, bool with_scal
   }
 }
 
+// A map needs two axes of numbers. It is drawn for answers of yes and no, which lines show badly, and where both axes are long.
+bool is_map(const View& view, const std::vector<double>& z) {
+  if (!view.sweep.bisected.empty() || view.axes.size() != 2 || std::any_of(view.axes.begin(), view.axes.end(), is_perturbation)) return false;
+  const std::size_t least = std::min(numbers_of(view.axes[0]).size(), numbers_of(view.axes[1]).size());
+  const bool binary =
+      std::all_of(view.rows.begin(), view.rows.end(), [&](std::size_t i) { return !std::isfinite(z[i]) || z[i] == 0 || z[i] == 1; });
+  return least >= (binary ? 3U : 5U);
+}
+
 void draw_view(const View& view, const std::string& title, const std::string& stem) {
   const Plan& plan = view.sweep.plan;
   const auto& z = view.table.columns[column_of(view.table, view.answer)];
   if (std::none_of(view.rows.begin(), view.rows.end(), [&](std::size_t i) { return std::isfinite(z[i]); })) return;
-  const bool map =
-      view.sweep.bisected.empty() && view.axes.size() == 2 && numbers_of(view.axes[0]).size() > 2 && numbers_of(view.axes[1]).size() > 2;
+  const bool map = is_map(view, z);
   plot::Figure figure{900, 680};
   figure.grid = map ? "" : "x y";
   const double wanted = 16 * figure.width / (12 * double(std::max<std::size_t>(1, title.size())));  // px of type that fit the sheet
@@ -175,7 +230,7 @@ void draw_view(const View& view, const std::string& title, const std::string& st
   add_curves(figure, panel, plan, map);
   if (!plan.x.empty()) panel.x.label = plan.x;
   if (!plan.y.empty()) panel.y.label = plan.y;
-  if (!plan.curves.empty()) panel.key = "on";
+  if (!plan.curves.empty() || map) panel.key = "on";  // one colour of a map says nothing by itself
   place_legend(figure, panel, panel.settings.find("cblabel") != std::string::npos);
   figure.panels = {panel};
   for (const char* format : {".svg", ".png"}) plot::draw(figure, view.sweep.directory + "/" + stem + format);

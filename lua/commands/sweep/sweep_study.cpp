@@ -70,7 +70,12 @@ class Checker {
   void check_axis(const Axis& axis) {
     for (std::size_t k = 0; k < axis.params.size(); ++k) {
       const std::string& param = axis.params[k];
-      if (param == study::perturbation) continue;
+      if (param == study::perturbation) {
+        if (std::find(varied_.begin(), varied_.end(), param) != varied_.end())
+          add(axis.place, "perturbations{} is given twice; give one, with the n and size that are wanted");
+        varied_.push_back(param);
+        continue;
+      }
       check_param(param, axis.place);
       const bool word = scene_.takes_word(param);
       for (const auto& row : axis.rows)

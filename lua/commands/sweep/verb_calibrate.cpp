@@ -11,6 +11,7 @@
 #include "engine/base/system/process.h"
 #include "engine/base/text.h"
 #include "engine/study/calibrate/calibrate.h"
+#include "engine/study/sweep/claims.h"
 #include "lua/commands/sweep/sweep_study.h"
 #include "lua/program/progress.h"
 #include "lua/program/say.h"
@@ -21,6 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* identity_file = "study.json";
+constexpr const char* work_folder = "work";  // is there while a calibration is under way
 
 // Makes the folder, or takes it up. Throws Error.
 void prepare_folder(const SweepStudy& study, const CalibrateCommand& command) {
@@ -32,9 +34,14 @@ void prepare_folder(const SweepStudy& study, const CalibrateCommand& command) {
   if (there && !command.output.force && !command.resume)
     throw Error(
         fmt::format("\"{}\" exists; go on with --resume, replace it with --force, or choose another folder with -o DIR", directory));
+  if (const std::string who = study::working_in(directory + "/" + work_folder); !who.empty())
+    throw Error(
+        fmt::format("\"{}\" is that of a calibration under way, by {} (host, process); end it first, or choose another folder with "
+                    "-o DIR",
+                    directory, who));
   if (there && command.output.force) {
     for (const char* file :
-         {study::calibration_table, study::calibration_file, identity_file, "calibration.svg", "calibration.png", "runs"})
+         {study::calibration_table, study::calibration_file, identity_file, "calibration.svg", "calibration.png", "runs", work_folder})
       fs::remove_all(directory + "/" + file);
   }
   if (there && !command.output.force) {
@@ -96,6 +103,7 @@ void print_stage(const study::Sweep& sweep, std::size_t i, const study::FittedSt
     if (stage.raised)
       text += fmt::format(", where {} = {:.3g} is below {:g}{}", asked.key, stage.key_value, asked.below,
                           param.at_end ? " from the start" : "");
+    else if (std::isnan(param.deviation)) text += "; its deviation is unknown: there are no more known values than params";
     else if (!std::isfinite(param.deviation)) text += "; it moves no target";
     else text += fmt::format(" +- {:.2g}{}", param.deviation, param.at_end ? ", at the end of its range: a wider one may fit better" : "");
     say("{}\n", text);
@@ -130,6 +138,7 @@ int verb_calibrate(const CalibrateCommand& command) {
   sweep.directory = command.output.directory.empty() ? "runs/" + study.name : command.output.directory;
   if (sweep.directory.starts_with("-")) sweep.directory = "./" + sweep.directory;
   prepare_folder(study, command);
+  const study::Claims worker(sweep.directory + "/" + work_folder);
   const std::atomic<bool>& interrupted = catch_interrupts();
   sweep.at_once = command.jobs > 0 ? command.jobs : usable_processors();
   sweep.interrupted = &interrupted;

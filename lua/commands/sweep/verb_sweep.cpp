@@ -13,6 +13,7 @@
 #include "engine/base/text.h"
 #include "engine/study/fragility/fragility.h"
 #include "engine/study/machine.h"
+#include "engine/study/sweep/claims.h"
 #include "engine/study/sweep/ranks.h"
 #include "engine/study/sweep/sweep_figure.h"
 #include "lua/commands/sweep/sweep_study.h"
@@ -66,7 +67,14 @@ void prepare_folder(const SweepStudy& study, const SweepCommand& command, const 
   if (there && !command.output.force && !command.resume)
     throw Error(
         fmt::format("\"{}\" exists; go on with --resume, replace it with --force, or choose another folder with -o DIR", directory));
-  if (there && command.output.force) remove_sweep(directory);
+  if (there && command.output.force) {
+    if (const std::string who = study::working_in(in(directory, "work")); !who.empty())
+      throw Error(
+          fmt::format("\"{}\" is that of a sweep under way, by {} (host, process); end it first, join it with --resume, or choose "
+                      "another folder with -o DIR",
+                      directory, who));
+    remove_sweep(directory);
+  }
   fs::create_directories(directory);
   const std::string identity = in(directory, identity_file);
   Json now = study.identity;
@@ -202,7 +210,7 @@ int verb_sweep(const SweepCommand& command) {
   else await_folder(study, ranks);
   if (command.slurm) return first ? write_job(study, command) : exit_ok;
   sweep.at_once = command.jobs > 0 ? command.jobs : ranks.launched ? 1 : usable_processors();
-  if (sweep.plan.memory <= 0) sweep.plan.memory = study::machine_memory() / sweep.at_once;
+  if (sweep.plan.memory <= 0) sweep.plan.memory = study::machine_memory() / (sweep.at_once * ranks.here);
   sweep.begin_at = double(ranks.rank) / ranks.size;
   sweep.wait = !ranks.array_task;
   sweep.interrupted = &interrupted;

@@ -48,6 +48,9 @@ void read_fragility(Arguments& table, study::Plan& plan) {
     if (!is_varied(name)) table.mistake(fmt::format("{} = \"{}\" is no param of vary{}", key, name, did_you_mean(name, varied)));
   };
   const bool bisected = plan.bisect && plan.bisect->param == out.im;
+  if (!bisected && !is_varied(out.im) && !out.im.empty() && out.im.find('.') == std::string::npos)
+    table.mistake(fmt::format("im = \"{}\" is no param of vary or bisect, and no dotted key of metrics.json{}", out.im,
+                              did_you_mean(out.im, varied)));
   if (!out.along.empty()) need_param("along", out.along);
   for (const std::string& name : out.by) need_param("by", name);
   if (out.along.empty() && is_varied(out.im)) out.along = out.im;

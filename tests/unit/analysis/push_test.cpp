@@ -133,6 +133,16 @@ TEST_CASE("a push names its mechanism", "[push]") {
   };
   CHECK(mechanism(block("{.4, .4, .5}", ".3")) == "sliding");
   CHECK(mechanism(block("{.4, .4, 1.2}", ".7")) == "overturning");
+  // Walls of four courses: friction below thickness over height slides, above it overturns, whatever the proportion.
+  for (const double aspect : {1.5, 2.0, 3.0})
+    for (const double mu : {0.6 / aspect, 1.6 / aspect}) {
+      CAPTURE(aspect, mu);
+      const std::string name = mechanism(
+          stone + fmt::format("for i = 0, 3 do box{{ name = 'b' .. i, size = {{.3, 1, {0}}}, at = {{-.15, -.5, i * {0}}} }} end "
+                              "joint{{ law = dry{{ kn = 1e10, ks = 4e9, mu = {1} }} }} analysis{{ kind = 'tilt', bracket = .005 }}",
+                              0.075 * aspect, mu));
+      CHECK(name == (mu * aspect < 1 ? "sliding" : "overturning out of plane"));
+    }
   CHECK(mechanism(block("{.2, 1.2, 1.2}", ".7")) == "overturning out of plane");
   CHECK(mechanism(stone + "box{ name = 'b', size = {.4, .4, 1.2}, at = {-.2, -.2, 0} }"  // 24 kPa of weight
                           "joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 0, c = 0, mu = .7, fc = 25*kPa, Gc = 30 } }"

@@ -134,13 +134,19 @@ TEST_CASE("CSV columns say their units", "[loads][record]") {
                                                                                 {"Time [s],Acc [cm/s^2]", cm},
                                                                                 {"t,a (m/s/s)", 1},
                                                                                 {"\"time (sec)\";\"accel (gal)\"", cm},
-                                                                                {"\xEF\xBB\xBFtime_s,a_cm/sec2", cm}}) {
+                                                                                {"\xEF\xBB\xBFtime_s,a_cm/sec2", cm},
+                                                                                {"Zeit [s];a [m/s2]", 1},
+                                                                                {"Tempo (s);acc (cm/s2)", cm},
+                                                                                {"t_record_s,a_g", standard_g}}) {
     INFO(head);
     const std::string comma = head.find(';') != std::string::npos ? ";" : ",";
     const Record record = read(head + "\n0" + comma + "1\n1" + comma + "2\n");
     CHECK(record.acceleration.values == std::vector<double>{factor, 2 * factor});
   }
   CHECK(read("acceleration_g,time_ms\n1,0\n2,500\n").acceleration.times.back() == Approx(0.5));
+  CHECK(read("a [g];Zeit [ms]\n1;0\n2;500\n").acceleration.times.back() == Approx(0.5));
+  CHECK_THAT(mistake("Zeit [h];a [g]\n0;1\n1;2\n"),
+             Catch::Contains("motion.txt:1") && Catch::Contains("Zeit") && Catch::Contains("time_s"));
   CHECK_THAT(mistake("time_s,acceleration\n0,1\n1,2\n"), Catch::Contains("unit = "));
   CHECK_THAT(mistake("time_s,a (furlong)\n0,1\n1,2\n"), Catch::Contains("motion.txt:1") && Catch::Contains("furlong"));
   CHECK_THAT(mistake("time_h,a (g)\n0,1\n1,2\n"), Catch::Contains("time_h") && Catch::Contains("time_s"));

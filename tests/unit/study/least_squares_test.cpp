@@ -82,4 +82,9 @@ TEST_CASE("least squares passes over runs without an answer, and says that none 
   const Minimum unmoved = flat.solve(2);
   CHECK(std::isinf(unmoved.deviation[0]));
   CHECK(flat.runs < 200);
+  // As many params as residuals: each is found, and nothing tells how well.
+  Counted exact{[](const Shares& p) { return Residuals({{p[0] - 0.3, p[1] - 0.6}}); }};
+  const Minimum both = exact.solve(2);
+  CHECK(both.best[1] == Approx(0.6).margin(1e-3));
+  CHECK((std::isnan(both.deviation[0]) && std::isnan(both.deviation[1])));
 }

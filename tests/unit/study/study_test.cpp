@@ -49,8 +49,15 @@ TEST_CASE("bisection brackets a threshold, whichever end is the larger", "[study
 }
 
 TEST_CASE("bisection says where its ends are wrong, and goes on past runs that fail", "[study]") {
-  CHECK_THAT(carry_out(threshold(4, 10), answers([](double x) { return x > 3; })).trouble, Catch::Contains("collapses at lo = 4"));
-  CHECK_THAT(carry_out(threshold(0, 2), answers([](double x) { return x > 3; })).trouble, Catch::Contains("stands at hi = 2"));
+  CHECK_THAT(carry_out(threshold(4, 10), answers([](double x) { return x > 3; })).trouble,
+             Catch::Contains("yes at lo = 4 already; lower it"));
+  CHECK_THAT(carry_out(threshold(0, 2), answers([](double x) { return x > 3; })).trouble, Catch::Contains("no at hi = 2 still; raise it"));
+  // lo may be the larger end: the way out of the bracket turns
+  CHECK_THAT(carry_out(threshold(0.3, 0.1), answers([](double x) { return x < 0.37; })).trouble,
+             Catch::Contains("yes at lo = 0.3 already; raise it"));
+  CHECK_THAT(carry_out(threshold(1, 0.5), answers([](double x) { return x < 0.37; })).trouble,
+             Catch::Contains("no at hi = 0.5 still; lower it"));
+  CHECK_THAT(carry_out(threshold(0.1, 1), answers([](double x) { return x < 0.37; })).trouble, Catch::Contains("exchange them"));
   const StudyResult result = carry_out(threshold(0, 10), answers([](double x) -> std::optional<double> {
                                          if (x > 2 && x < 2.6) return std::nullopt;  // 2.5 is the first point inside
                                          return x > 3;

@@ -1,10 +1,14 @@
 // The parts of a sweep: its points, the table that many processes write, the claims on points.
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <set>
 
@@ -142,10 +146,35 @@ TEST_CASE("a sorted table has each index once, and takes further lines", "[sweep
   SharedTable table(own.file("t.csv"), {"index", "value"}, "key"), other(own.file("t.csv"), {"index", "value"}, "key");
   for (const char* index : {"10", "2", "1", "2"}) table.append({index, "v, w"});
   CHECK(indices(other).size() == 4);
-  table.sort();
+  CHECK(table.sort() == 3);
   CHECK(text_of_file(own.file("t.csv")) == "index,value,study\n1,\"v, w\",key\n2,\"v, w\",key\n10,\"v, w\",key\n");
   other.append({"11", "x"});
   CHECK(indices(other) == std::vector<std::string>{"1", "2", "10", "11"});  // a new file: read from its beginning
+}
+
+TEST_CASE("a table that finds no room says so", "[sweep]") {
+  const test::Folder own;
+  int said[2];
+  REQUIRE(pipe(said) == 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    SharedTable table(own.file("t.csv"), {"index", "value"}, "key");
+    const rlimit room{100, 100};  // as of a full disk: part of the line goes in
+    setrlimit(RLIMIT_FSIZE, &room);
+    std::signal(SIGXFSZ, SIG_IGN);
+    errno = ENOENT;  // of something before
+    std::string what = "no trouble";
+    try {
+      table.append({"1", std::string(200, 'a')});
+    } catch (const std::exception& error) { what = error.what(); }
+    _exit(write(said[1], what.data(), what.size()) == ssize_t(what.size()) ? 0 : 1);
+  }
+  waitpid(child, nullptr, 0);
+  std::string what(4096, ' ');
+  what.resize(std::size_t(std::max(ssize_t(0), read(said[0], what.data(), what.size()))));
+  CHECK_THAT(what, Catch::Contains("No space left on device") && Catch::Contains("t.csv") && Catch::Contains("--resume"));
+  SharedTable after(own.file("t.csv"), {"index", "value"}, "key");
+  CHECK(indices(after).empty());  // the torn line is gone
 }
 
 TEST_CASE("lines of several processes never mix", "[sweep]") {
@@ -185,6 +214,7 @@ TEST_CASE("a point belongs to one process, until that one dies", "[sweep]") {
   CHECK(ok == 'y');
   {
     Claims mine(own.file("work"));
+    CHECK(working_in(own.file("work")) != "");
     CHECK(mine.take(5) == Claims::Taken::no);
     CHECK(mine.take(6) == Claims::Taken::yes);
     CHECK(mine.take(6) == Claims::Taken::no);
@@ -197,6 +227,31 @@ TEST_CASE("a point belongs to one process, until that one dies", "[sweep]") {
     mine.remove_void();
   }
   CHECK_FALSE(std::filesystem::exists(own.file("work")));
+}
+
+TEST_CASE("a folder tells whether a process that lives works in it", "[sweep]") {
+  const test::Folder own;
+  CHECK(working_in(own.file("work")) == "");
+  int ready[2];
+  REQUIRE(pipe(ready) == 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    const Claims theirs(own.file("work"));
+    if (write(ready[1], "y", 1) != 1) _exit(1);
+    for (;;) pause();
+  }
+  char ok = 0;
+  REQUIRE(read(ready[0], &ok, 1) == 1);
+  CHECK_THAT(working_in(own.file("work")), Catch::Contains(std::to_string(child)));
+  kill(child, SIGKILL);
+  waitpid(child, nullptr, 0);
+  CHECK(working_in(own.file("work")) == "");  // its file is still there
+  // A process of another machine lives while it touches its file.
+  std::ofstream(own.file("work/elsewhere-12-0.worker")) << "elsewhere";
+  CHECK(working_in(own.file("work")) == "elsewhere-12-0");
+  std::filesystem::last_write_time(own.file("work/elsewhere-12-0.worker"),
+                                   std::filesystem::file_time_type::clock::now() - std::chrono::minutes(10));
+  CHECK(working_in(own.file("work")) == "");
 }
 
 TEST_CASE("a run that takes too long is ended with all that it has started", "[sweep]") {
@@ -237,9 +292,19 @@ TEST_CASE("a run beyond its memory gets no more, and its peak is known", "[sweep
 }
 
 TEST_CASE("ranks are those of the launcher's environment", "[sweep]") {
-  const std::vector<std::string> names{
-      "OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE", "PMIX_NAMESPACE",       "PMI_RANK",     "PMI_SIZE",
-      "SLURM_PROCID",         "SLURM_STEP_ID",        "SLURM_STEP_NUM_TASKS", "SLURM_JOB_ID", "SLURM_ARRAY_TASK_ID"};
+  const std::vector<std::string> names{"OMPI_COMM_WORLD_RANK",
+                                       "OMPI_COMM_WORLD_SIZE",
+                                       "PMIX_NAMESPACE",
+                                       "PMI_RANK",
+                                       "PMI_SIZE",
+                                       "SLURM_PROCID",
+                                       "SLURM_STEP_ID",
+                                       "SLURM_STEP_NUM_TASKS",
+                                       "SLURM_JOB_ID",
+                                       "SLURM_ARRAY_TASK_ID",
+                                       "OMPI_COMM_WORLD_LOCAL_SIZE",
+                                       "MPI_LOCALNRANKS",
+                                       "SLURM_NTASKS_PER_NODE"};
   const auto clear = [&] {
     for (const auto& name : names) unsetenv(name.c_str());
   };
@@ -255,5 +320,10 @@ TEST_CASE("ranks are those of the launcher's environment", "[sweep]") {
   setenv("OMPI_COMM_WORLD_RANK", "1", 1), setenv("OMPI_COMM_WORLD_SIZE", "2", 1), setenv("PMIX_NAMESPACE", "77", 1);
   CHECK(ranks_of_environment().rank == 1);
   CHECK(ranks_of_environment().launch == "PMIX_NAMESPACE=77");
+  CHECK(ranks_of_environment().here == 1);
+  setenv("OMPI_COMM_WORLD_LOCAL_SIZE", "2", 1);
+  CHECK(ranks_of_environment().here == 2);  // they share the memory of one machine
+  setenv("OMPI_COMM_WORLD_LOCAL_SIZE", "0", 1);
+  CHECK(ranks_of_environment().here == 1);
   clear();
 }

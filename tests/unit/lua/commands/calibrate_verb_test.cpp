@@ -1,7 +1,9 @@
 // erbs calibrate as a user calls it: what it finds and writes, and mistakes with their place.
 #include <catch2/catch.hpp>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <thread>
 
 #include "engine/record/format/csv.h"
 #include "engine/record/format/json.h"
@@ -67,6 +69,27 @@ TEST_CASE("a calibration finds the params of known values, stage by stage, and d
   CHECK(bench.calibrate(study_of("{ fit = { a = { .1, 10 } } }")) == 2);  // the folder exists
   CHECK(bench.calibrate(study_of("{ fit = { a = { .1, 2 } } }"), {"--force", "-D", "b=.4"}) == 0);
   CHECK(bench.result()["stages"][0]["params"][0]["at_end_of_range"] == true);
+  const std::string one = "calibration{ scene = 'tiny.lua', stages = { { fit = { a = { 1, 5 } } } }, targets = { { label = 'y', keys = {";
+  REQUIRE(bench.calibrate(one + "'metrics.y_1' }, values = { 1 } } } }", {"--force"}) == 0);
+  CHECK_THAT(bench.said, Catch::Contains("no more known values than params") && !Catch::Contains("moves no target"));
+  REQUIRE(bench.calibrate(one + "'metrics.slip' }, values = { 1 } } } }", {"--force"}) == 0);
+  CHECK_THAT(bench.said, Catch::Contains("moves no target"));
+}
+
+TEST_CASE("two calibrations do not share a folder", "[calibrate]") {
+  Calibration bench;
+  const std::string study = study_of("{ fit = { a = { .1, 10, log = true }, b = { 0, 2 } } }");
+  bench.write("study.lua", study);
+  const Child other = start(bench.command({"calibrate", (bench.folder / "study.lua").string(), "-o", bench.out(), "-j", "1"}),
+                            (bench.folder / "other").string());
+  for (int i = 0; i < 400 && !fs::exists(bench.out() + "/work"); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  for (const char* how : {"--force", "--resume"}) {
+    CHECK(bench.calibrate(study, {how}) == 2);
+    CHECK_THAT(bench.said, Catch::Contains("under way") && Catch::Contains("-o DIR"));
+  }
+  CHECK(wait_for(other) == 0);
+  CHECK_FALSE(fs::exists(bench.out() + "/work"));
+  CHECK(bench.calibrate(study, {"--resume"}) == 0);
 }
 
 TEST_CASE("a calibration that was cut off goes on, and ends with the same values", "[calibrate]") {

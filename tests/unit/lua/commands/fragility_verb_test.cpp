@@ -118,7 +118,9 @@ TEST_CASE("mistakes in a fragility name the key and the remedy", "[sweep][fragil
   };
   says("im = 'pga'", "collapse = \"verdict\" is that of a bisection");
   says("collapse = 'metrics.fell'", "im");
-  says("im = 'pgs', collapse = 'metrics.fell'", "no key \"pgs\"");
+  says("im = 'pgs', collapse = 'metrics.fell'", "im = \"pgs\" is no param of vary or bisect");
+  says("im = 'pgs', collapse = 'metrics.fell'", "did you mean \"pga\"");
+  says("im = 'metrics.pgs', collapse = 'metrics.fell'", "no key \"metrics.pgs\"");
   says("im = 'pga', collapse = 'metrics.fel'", "metrics.fell");
   says("im = 'pga', collapse = 'metrics.fell', by = { 'seed' }", "by = \"seed\" is no param of vary");
   says("im = 'pga', collapse = 'metrics.fell', along = 'pgg'", "along = \"pgg\"");

@@ -137,6 +137,10 @@ TEST_CASE("a run that fails is a row with its reason, and the others go on", "[s
   CHECK_THAT(reason[4], Catch::Contains("max_wall = 1.5 s"));
   CHECK_THAT(study.said, Catch::Contains("3 of 5 points failed; the first: row 1"));
   CHECK(std::filesystem::exists(study.out() + "/runs/000001.log"));
+  // a memory in which the program itself finds no room
+  CHECK(study.sweep("study{ scene = 'tiny.lua', vary = { grid{ h = { 1 } } }, collect = { 'metrics.double' }, memory = '1MB' }",
+                    {"--force"}) == 1);
+  CHECK(study.table().text[std::size_t(study.table().find("status"))][0] == "memory");
   // no point with an answer
   CHECK(study.sweep("study{ scene = 'tiny.lua', vary = { grid{ trouble = { 1 } } }, collect = { 'metrics.double' } }", {"--force"}) == 1);
 }
@@ -173,9 +177,12 @@ TEST_CASE("a bracket whose ends agree is a row that says what to change", "[swee
     CHECK(table.text[std::size_t(table.find("status"))][0] == "no bracket");
     return table.text[std::size_t(table.find("reason"))][0];
   };
-  CHECK_THAT(reason("lo = 1.5, hi = 2"), Catch::Contains("collapses at lo = 1.5 already; lower it"));
-  CHECK_THAT(reason("lo = 1, hi = 1.2"), Catch::Contains("stands at hi = 1.2 still; raise it"));
+  CHECK_THAT(reason("lo = 1.5, hi = 2"), Catch::Contains("yes at lo = 1.5 already; lower it"));
+  CHECK_THAT(reason("lo = 1, hi = 1.2"), Catch::Contains("no at hi = 1.2 still; raise it"));
   CHECK_THAT(reason("lo = 2, hi = 1"), Catch::Contains("exchange them"));
+  CHECK_THAT(reason("lo = 2, hi = 1.5"), Catch::Contains("yes at lo = 2 already; raise it"));
+  study.sweep("study{ scene = 'tiny.lua', bisect = { param = 'h', lo = 1, hi = 2, key = 'status' } }", {"--force"});
+  CHECK_THAT(study.results(), Catch::Contains("status is the word") && Catch::Contains("completed"));
 }
 
 TEST_CASE("mistakes of a study are refused with line and remedy, before any run", "[sweep]") {
@@ -196,6 +203,7 @@ TEST_CASE("mistakes of a study are refused with line and remedy, before any run"
       {"study{ scene = 'tiny.lua', vary = grid{ h = { 1 } }, collect = 'capacity.walls.nowhere' }", "has no key"},
       {"study{ scene = 'tiny.lua', vary = grid{ h = { 1 } }, collect = 'metrics.doubel' }", "did you mean \"metrics.double\""},
       {"study{ scene = 'tiny.lua', vary = { grid{ h = { 1 } }, grid{ h = { 2 } } }" + collect, "varied twice"},
+      {"study{ scene = 'tiny.lua', vary = { perturbations{ n = 2 }, perturbations{ n = 3 } }" + collect, "given twice"},
       {"study{ scene = 'tiny.lua', vary = grid{ h = { 'a' } }" + collect, "takes a number"},
       {"study{ scene = 'tiny.lua', vary = grid{ motion = { 1 } }" + collect, "takes a word"},
       {"study{ scene = 'no.lua', vary = grid{ h = { 1 } }" + collect, "there is no scene"},
@@ -227,8 +235,11 @@ TEST_CASE("mistakes of a study are refused with line and remedy, before any run"
   CHECK_THAT(study.said, Catch::Contains("varied by the study, and -D h=2 sets it"));
   CHECK(study.sweep(grid, {"-D", "hight=2"}) == 2);
   CHECK(study.sweep(grid, {"--force", "--resume"}) == 2);
-  CHECK(study.run("study{ scene = 'tiny.lua' }") == 2);
-  CHECK_THAT(study.said, Catch::Contains("erbs sweep"));
+  for (const char* text :
+       {"study{ scene = 'tiny.lua' }", "grid{ h = { 1 } }", "study{ scene = 'tiny.lua', vary = latin{ n = 2, h = { 1, 2 } } }"}) {
+    CHECK(study.run(text) == 2);
+    CHECK_THAT(study.said, Catch::Contains("erbs sweep") && Catch::Contains("scene.lua:1"));
+  }
 }
 
 TEST_CASE("a folder is taken up by its own study only", "[sweep]") {

@@ -39,6 +39,7 @@ TEST_CASE("three components of a record come by one call", "[lua][record]") {
   CHECK(value(scene.loads[2].wave, 0.01) == 0.5);
   CHECK(scene.inputs.size() == 4);  // with the scene
   CHECK(mentions(scene.notes, "peak of x"));
+  CHECK(mentions(scene.notes, "none accelerates after its end"));  // the ground goes on at its end velocity: it does not rest
   const Scene named = files.load("ground_records{ x = 'x.txt', y = 'y.txt', unit = 'm/s2', peak = 2, of = 'y' }\n");
   REQUIRE(named.loads.size() == 2);
   CHECK(value(named.loads[0].wave, 0.01) == -4);
