@@ -23,8 +23,8 @@ struct Minimum {
   Shares best;
   std::vector<double> residuals;
   double sum = 0;  // of their squares
-  // Standard deviation of each share, from the scatter of the residuals (linear theory). Infinite: it moves nothing; not a number: there are
-  // no more residuals than params.
+  // Standard deviation of each share, from the scatter of the residuals (linear theory). Infinite: it moves nothing; not a number: there
+  // are no more residuals than params.
   std::vector<double> deviation;
 };
 

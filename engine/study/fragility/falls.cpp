@@ -6,7 +6,6 @@
 #include "engine/record/format/csv.h"
 #include "engine/record/format/json.h"
 #include "engine/record/plot/figure.h"
-#include "engine/record/plot/unit.h"
 #include "engine/study/fragility/fragility.h"
 
 namespace erbs::study {
@@ -44,11 +43,9 @@ std::vector<Falls> drawn_lines(const std::vector<Group>& groups) {
   return out;
 }
 
-std::string title_of(const Falls& falls, const std::string& im) {
+std::string title_of(const Falls& falls, const ShownIntensity& shown) {
   std::string text = falls.group;
-  const std::string unit = plot::unit_name(im);
-  if (falls.im > 0)
-    text += fmt::format("{}{} {:.4g}{}{}", text.empty() ? "" : ", ", plot::words_of(im), falls.im, unit.empty() ? "" : " ", unit);
+  if (falls.im > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", shown.words, shown.number(falls.im));
   return fmt::format("{}{}{} of {} fall", text, text.empty() ? "" : ": ", falls.times.size(), falls.runs);
 }
 
@@ -64,7 +61,7 @@ std::string steps_of(const Falls& falls, double right) {
   return rows + fmt::format("{} {}\n", right, share);
 }
 
-plot::Panel times_panel(plot::Figure& figure, const std::vector<Falls>& lines, const std::string& im) {
+plot::Panel times_panel(plot::Figure& figure, const std::vector<Falls>& lines, const ShownIntensity& shown) {
   plot::Panel panel;
   panel.cell = {0, 0.58, 0.02, 0.92};
   double right = 0;
@@ -72,10 +69,10 @@ plot::Panel times_panel(plot::Figure& figure, const std::vector<Falls>& lines, c
     if (!one.times.empty()) right = std::max(right, 1.08 * one.times.back());
   for (std::size_t i = 0; i < lines.size(); ++i)
     panel.series.push_back({figure.add_rows(steps_of(lines[i], right)) + " using 1:2",
-                            fmt::format("lines lw 2.5 lc rgb '{}'", color_of(i, lines.size())), title_of(lines[i], im)});
+                            fmt::format("lines lw 2.5 lc rgb '{}'", color_of(i, lines.size())), title_of(lines[i], shown)});
   panel.x = {"time of collapse [s]", fmt::format("[0:{}]", right)};
   panel.y = {"share of runs that have fallen", "[-0.02:1.02]"};
-  panel.key = "top left Left reverse samplen 2 font ',11' noenhanced";
+  panel.key = "outside bottom center horizontal Left reverse samplen 2 font ',11' noenhanced";
   return panel;
 }
 
@@ -167,10 +164,10 @@ void write_falls(const Sweep& sweep, const std::vector<Group>& groups) {
 void draw_falls(const Sweep& sweep, const std::vector<Group>& groups, const std::string& ending) {
   const std::vector<Falls> lines = drawn_lines(groups);
   if (std::all_of(lines.begin(), lines.end(), [](const Falls& one) { return one.times.empty(); })) return;
-  plot::Figure figure{1080, 560};
+  plot::Figure figure{1080, 620};
   const std::string title = sweep.plan.title.empty() ? sweep.scene.substr(sweep.scene.find_last_of('/') + 1) : sweep.plan.title;
   figure.labels = {{title + ": time and direction of collapse", "screen 0.5,0.955", "center font ',16' noenhanced"}};
-  figure.panels.push_back(times_panel(figure, lines, unit_of_im(sweep)));
+  figure.panels.push_back(times_panel(figure, lines, shown_intensity(sweep)));
   figure.panels.push_back(compass(figure, lines));
   plot::draw(figure, sweep.directory + "/falls." + ending);
 }

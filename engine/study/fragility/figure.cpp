@@ -33,47 +33,55 @@ plot::Panel panel_of() {
   return panel;
 }
 
-void add_fit(plot::Figure& figure, plot::Panel& panel, const Fragility& one, const char* color, double top) {
+void add_fit(plot::Figure& figure, plot::Panel& panel, const Fragility& one, const char* color, double top, const ShownIntensity& shown) {
   std::string rows;
   for (int i = 1; i <= 200; ++i) {
     const double im = top * i / 200;
-    rows += fmt::format("{} {} {} {}\n", im, one.fit.probability(im), one.fit.band(im, -1), one.fit.band(im, 1));
+    rows += fmt::format("{} {} {} {}\n", shown.factor * im, one.fit.probability(im), one.fit.band(im, -1), one.fit.band(im, 1));
   }
   const std::string data = figure.add_rows(rows), name = one.group.empty() ? "" : one.group + ": ";
   panel.series.push_back({data + " using 1:3:4", fmt::format("filledcurves fs transparent solid 0.18 noborder lc rgb '{}'", color), ""});
   panel.series.push_back({data + " using 1:2", fmt::format("lines lw 2.5 lc rgb '{}'", color),
-                          fmt::format("{}median {:.3g}, dispersion {:.2f}", name, one.fit.theta, one.fit.beta)});
+                          fmt::format("{}median {}, dispersion {:.2f}", name, shown.number(one.fit.theta), one.fit.beta)});
 }
 
 // Fractions of the stripes, if several runs share an intensity; else each run at 0 or 1.
-void add_fractions(plot::Figure& figure, plot::Panel& panel, const Group& group, const char* color, bool titled) {
+void add_fractions(plot::Figure& figure, plot::Panel& panel, const Group& group, const char* color, bool titled, double factor) {
   std::string rows;
   for (const double im : levels_of(group)) {
     int runs = 0, collapsed = 0;
     for (const Case& one : group.cases)
       for (const Run& run : one.runs)
         if (run.im == im) ++runs, collapsed += run.collapsed ? 1 : 0;
-    rows += fmt::format("{} {}\n", im, double(collapsed) / runs);
+    rows += fmt::format("{} {}\n", factor * im, double(collapsed) / runs);
   }
   panel.series.push_back({figure.add_rows(rows) + " using 1:2", fmt::format("points pt 7 ps 0.9 lc rgb '{}'", color),
                           titled ? "share of runs that collapse" : ""});
+}
+
+// Of the fits of a group the first that found an answer; without one, the first, with its reason.
+std::vector<Fragility>::const_iterator best_of(const std::vector<Fragility>& found, const std::string& group) {
+  const auto fitted = [&](const Fragility& f) { return f.group == group && f.fit.end == FitEnd::fitted; };
+  const auto best = std::find_if(found.begin(), found.end(), fitted);
+  return best != found.end() ? best : std::find_if(found.begin(), found.end(), [&](const Fragility& f) { return f.group == group; });
 }
 
 void draw_probability(const Sweep& sweep, const std::vector<Group>& groups, const std::vector<Fragility>& found,
                       const std::string& ending) {
   plot::Figure figure = sheet(sweep, "collapse, with 95 % confidence");
   plot::Panel panel = panel_of();
+  const ShownIntensity shown = shown_intensity(sweep);
   const double top = 1.05 * highest(groups);
   for (std::size_t g = 0; g < std::min(groups.size(), most_groups); ++g) {
-    const auto one = std::find_if(found.begin(), found.end(), [&](const Fragility& f) { return f.group == groups[g].name; });
-    if (one != found.end() && one->fit.end == FitEnd::fitted) add_fit(figure, panel, *one, colors[g], top);
+    const auto one = best_of(found, groups[g].name);
+    if (one != found.end() && one->fit.end == FitEnd::fitted) add_fit(figure, panel, *one, colors[g], top, shown);
     // Intensities that a bisection chose are no sample.
-    if (!sweep.plan.bisect) add_fractions(figure, panel, groups[g], colors[g], g == 0);
-    if (one != found.end() && one->fit.end != FitEnd::fitted)
+    if (!sweep.plan.bisect) add_fractions(figure, panel, groups[g], colors[g], g == 0, shown.factor);
+    if (one != found.end() && !one->words.empty())
       panel.labels.push_back({one->words, fmt::format("graph 0.03, graph {}", 0.95 - 0.06 * double(g)),
                               fmt::format("left font ',11' tc rgb '{}' noenhanced", colors[g])});
   }
-  panel.x = {plot::label_of(unit_of_im(sweep)), fmt::format("[0:{}]", top), "", "", "noenhanced"};
+  panel.x = {shown.label(), fmt::format("[0:{}]", shown.factor * top), "", "", "noenhanced"};
   panel.y = {"probability of collapse", "[-0.02:1.02]"};
   panel.key = "outside bottom center horizontal noenhanced";
   figure.panels = {panel};
@@ -115,14 +123,16 @@ void draw_curves(const Sweep& sweep, const std::vector<Group>& groups, const std
   const std::string& damage = sweep.plan.fragility->damage.front();
   plot::Figure figure = sheet(sweep, "incremental dynamic analysis");
   plot::Panel panel = panel_of();
+  const ShownIntensity shown = shown_intensity(sweep);
+  const std::string columns = fmt::format(" using 1:(${}*{})", 2, shown.factor);
   double right = 0;
   for (const Group& group : groups) right = std::max(right, 1.15 * largest_damage(group));
   if (right <= 0) return;
   bool first = true;
   for (const Group& group : groups)
     for (const Case& one : group.cases) {
-      panel.series.push_back({figure.add_rows(curve_of(one, right)) + " using 1:2", "linespoints lw 1 pt 7 ps 0.35 lc rgb '#b4b4b4'",
-                              first ? "each case" : ""});
+      panel.series.push_back(
+          {figure.add_rows(curve_of(one, right)) + columns, "linespoints lw 1 pt 7 ps 0.35 lc rgb '#b4b4b4'", first ? "each case" : ""});
       first = false;
     }
   for (std::size_t g = 0; g < std::min(groups.size(), most_groups); ++g) {
@@ -138,7 +148,7 @@ void draw_curves(const Sweep& sweep, const std::vector<Group>& groups, const std
         last = f.im;
         if (!std::isfinite(value)) break;
       }
-      panel.series.push_back({figure.add_rows(rows) + " using 1:2",
+      panel.series.push_back({figure.add_rows(rows) + columns,
                               fmt::format("lines lw {} dt {} lc rgb '{}'", k == 1 ? 3 : 2, k == 1 ? 1 : k + 2, colors[g]),
                               (groups[g].name.empty() ? "" : groups[g].name + ": ") + lines[k].second});
     }
@@ -147,8 +157,8 @@ void draw_curves(const Sweep& sweep, const std::vector<Group>& groups, const std
   const auto at = std::size_t(std::find(keys.begin(), keys.end(), damage) - keys.begin());
   panel.x = {plot::label_of(at < sweep.collected.size() ? sweep.collected[at] : damage), fmt::format("[0:{}]", right), "", "",
              "noenhanced"};
-  panel.y = {plot::label_of(unit_of_im(sweep)), fmt::format("[0:{}]", std::min(1.05 * highest(groups), 1.1 * highest_capacity(groups))), "",
-             "", "noenhanced"};
+  panel.y = {shown.label(), fmt::format("[0:{}]", shown.factor * std::min(1.05 * highest(groups), 1.1 * highest_capacity(groups))), "", "",
+             "noenhanced"};
   panel.labels.push_back({"a case leaves to the right where it collapses", "graph 0.02, graph 0.96", "left font ',11' tc rgb '#666666'"});
   panel.key = "outside bottom center horizontal noenhanced";
   figure.panels = {panel};

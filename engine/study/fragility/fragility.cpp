@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/units.h"
 #include "engine/record/format/csv.h"
 #include "engine/record/format/json.h"
+#include "engine/record/plot/unit.h"
 #include "engine/study/fragility/falls.h"
 
 namespace erbs::study {
@@ -78,6 +80,16 @@ void write_fractiles(const Sweep& sweep, const std::vector<Group>& groups) {
 }
 
 }  // namespace
+
+std::string ShownIntensity::label() const { return unit.empty() ? words : fmt::format("{} [{}]", words, unit); }
+
+std::string ShownIntensity::number(double im) const { return fmt::format("{:.3g}{}{}", factor * im, unit.empty() ? "" : " ", unit); }
+
+ShownIntensity shown_intensity(const Sweep& sweep) {
+  const std::string column = unit_of_im(sweep);
+  if (plot::unit_of(column) == "m_s2") return {1 / standard_g, plot::words_of(column), "g"};
+  return {1, plot::words_of(column), plot::unit_name(column)};
+}
 
 std::string unit_of_im(const Sweep& sweep) {
   const std::string& im = sweep.plan.fragility->im;

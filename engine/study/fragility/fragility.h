@@ -25,4 +25,13 @@ void draw_fragility(const Sweep& sweep, const std::vector<Group>& groups, const 
 
 std::string unit_of_im(const Sweep& sweep);  // column name of the intensity with its unit
 
+// How figures write intensities: accelerations as shares of g, all else in SI.
+struct ShownIntensity {
+  double factor = 1;                    // from SI
+  std::string words, unit;              // "pga", "g"
+  std::string label() const;            // "pga [g]"
+  std::string number(double im) const;  // "1.2 g"
+};
+ShownIntensity shown_intensity(const Sweep& sweep);
+
 }  // namespace erbs::study

@@ -186,12 +186,16 @@ void add_lines(plot::Figure& figure, plot::Panel& panel, const View& view) {
     panel.series.push_back({"1/0", "points pt 0", fmt::format("and {} more in {}", lines.size() - most_lines, results_file)});
   }
   panel.x = {plot::label_of(view.params[along]), "", "", "", "noenhanced"};
-  panel.y = {plot::label_of(view.answer), "", "", "", "noenhanced"};
+  // Only yes and no, or shares of twins between them.
+  const bool binary = std::all_of(lines.begin(), lines.end(), [](const Line& line) {
+    return std::all_of(line.points.begin(), line.points.end(), [](const auto& point) { return point.second == 0 || point.second == 1; });
+  });
+  panel.y = {plot::label_of(view.answer), binary ? "[-0.05:1.05]" : "", "", "", "noenhanced"};
 }
 
 // The legend below the label of the x axis, in as many columns as the sheet holds; the axes leave it room.
 void place_legend(const plot::Figure& figure, plot::Panel& panel, bool with_scale) {
-  constexpr double character = 8, sample = 80, line = 20, labels = 72, title = 46, left = 80;  // px
+  constexpr double character = 8, sample = 80, line = 20, labels = 72, title = 46, left = 96;  // px
   std::size_t entries = 0, longest = 0;
   for (const plot::Series& series : panel.series) entries += !series.title.empty(), longest = std::max(longest, series.title.size());
   if (entries > 1 || !panel.key.empty()) {
@@ -208,7 +212,8 @@ void place_legend(const plot::Figure& figure, plot::Panel& panel, bool with_scal
 
 // A map needs two axes of numbers. It is drawn for answers of yes and no, which lines show badly, and where both axes are long.
 bool is_map(const View& view, const std::vector<double>& z) {
-  if (!view.sweep.bisected.empty() || view.axes.size() != 2 || std::any_of(view.axes.begin(), view.axes.end(), is_perturbation)) return false;
+  if (!view.sweep.bisected.empty() || view.axes.size() != 2 || std::any_of(view.axes.begin(), view.axes.end(), is_perturbation))
+    return false;
   const std::size_t least = std::min(numbers_of(view.axes[0]).size(), numbers_of(view.axes[1]).size());
   const bool binary =
       std::all_of(view.rows.begin(), view.rows.end(), [&](std::size_t i) { return !std::isfinite(z[i]) || z[i] == 0 || z[i] == 1; });
