@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "engine/analysis/quasi_static/push_run.h"
+#include "engine/base/units.h"
 #include "tests/unit/lua/load.h"
 #include "tests/unit/record/two_bricks.h"
 
@@ -135,7 +136,9 @@ TEST_CASE("what the machine does not hold falls at the capacity all the same", "
                       machine = push(text + "control = 'displacement', displacement = 1*mm }", by_machine.path);
     const Capacity &a = *load.metrics.capacity, &b = *machine.metrics.capacity;
     REQUIRE(machine.metrics.status == "completed");
-    CHECK(a.peak.multiplier == Approx(width).epsilon(0.05));
+    // The toe of the slender pier is pressed in: scenes/verify/v49_push_block.lua has the formula.
+    const double k = std::sqrt(2 * 2000 * width * 0.5 * standard_g / (1e10 * 0.5));
+    CHECK(a.peak.multiplier == Approx(width - 3 * std::pow(k / 3, 2. / 3)).epsilon(0.003));
     CHECK(b.peak.multiplier == Approx(a.peak.multiplier).epsilon(0.004));  // two brackets
     REQUIRE(b.above);
     CHECK(*b.above > b.peak.multiplier);
