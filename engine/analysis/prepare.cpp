@@ -77,6 +77,9 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
       p.dt_rule = said("2 / omega_max once joints have cracked, stiffer in bending than their points or damped", b.cracked, share);
     }
   }
+  if ((!(dt > 0) || !std::isfinite(dt)) &&
+      std::none_of(p.model.kind.begin(), p.model.kind.end(), [](Kind kind) { return kind == Kind::moving; }))
+    throw Error("every block is fixed, so that nothing moves; leave fixed = true out of those that shall", a.place);
   if (!(dt > 0) || !std::isfinite(dt))
     throw Error(
         fmt::format("no time step can be derived by dt_rule = \"{}\"; say analysis{{ dt = 1e-4 }}, or dt_rule = \"limit\"", a.dt_rule),

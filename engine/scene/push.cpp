@@ -1,6 +1,9 @@
 #include "engine/scene/push.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "engine/base/spelling.h"
 #include "engine/scene/scene.h"
@@ -42,13 +45,36 @@ void check_pattern(PushCheck& c) {
     }
     if (!(one.force.norm() > 0 && std::isfinite(one.force.norm()))) c.say("pattern: a force has no length; give {{x, y, z}} in N");
   }
+  // Forces at one place cancel; those of a couple do not.
+  std::map<std::pair<std::string, std::string>, Vec3> sums;
+  double most = 0;
+  for (const PatternForce& one : c.push.pattern) {
+    sums.try_emplace({one.block, one.group}, Vec3::Zero()).first->second += one.force;
+    most = std::max(most, one.force.norm());
+  }
+  if (most > 0 && std::all_of(sums.begin(), sums.end(), [most](const auto& sum) { return sum.second.norm() < 1e-9 * most; }))
+    c.say("pattern: its forces cancel each other on every block; leave one of them out");
+}
+
+// m, of a point from the box around a block; less than a hundredth of its size counts as on it.
+double distance_from(const Block& block, const Vec3& point) {
+  Vec3 low = Vec3::Constant(unbounded), high = -low;
+  for (const Polyhedron& part : block.parts)
+    for (const Vec3& v : part.vertices) low = low.cwiseMin(v), high = high.cwiseMax(v);
+  const double away = (point - point.cwiseMax(low).cwiseMin(high)).norm();
+  return away < 0.01 * (high - low).norm() ? 0 : away;
 }
 
 void check_monitor(PushCheck& c) {
   const Monitor& monitor = c.push.monitor;
   if (!monitor.block.empty()) {
-    if (const Block* block = c.block(monitor.block, "monitor"); block && block->fixed)
-      c.say("monitor: block \"{}\" is fixed and never moves; name a free block", monitor.block);
+    const Block* block = c.block(monitor.block, "monitor");
+    if (block && block->fixed) c.say("monitor: block \"{}\" is fixed and never moves; name a free block", monitor.block);
+    if (block && monitor.has_point && monitor.point.allFinite())
+      if (const double away = distance_from(*block, monitor.point); away > 0)
+        c.say(
+            "monitor: the point {{ {:g}, {:g}, {:g} }} lies {:.3g} m outside block \"{}\"; give a point of it at rest, or leave point out",
+            monitor.point.x(), monitor.point.y(), monitor.point.z(), away, monitor.block);
   } else if (monitor.has_point) {
     c.say("monitor: a point belongs to a block; add block = \"...\"");
   }
@@ -78,6 +104,8 @@ void check_numbers(PushCheck& c) {
     if (push.tilts()) c.say("control = \"displacement\" belongs to a pushover; leave it out, or take kind = \"pushover\"");
     if (!(push.displacement > 0))
       c.say("control = \"displacement\" needs the displacement at which the push ends; add displacement = 50*mm, say");
+    if (push.displacement > 0 && push.displacement_step > push.displacement)
+      c.say("displacement_step = {:g} m is beyond displacement = {:g} m; take a smaller step", push.displacement_step, push.displacement);
     if (!push.path.empty()) c.say("path is a list of multipliers, which control = \"displacement\" does not set; leave one of them out");
   } else if (push.displacement > 0 || push.displacement_step > 0) {
     c.say("displacement is for control = \"displacement\"; add it, or leave displacement out");

@@ -110,7 +110,8 @@ std::string capacity_text(const PushSettings& push, const Json& metrics) {
                                   : fmt::format("capacity {:.5g}{}", number("multiplier"), unit);
   text += (*capacity)["upper"].is_number()             ? fmt::format("; no equilibrium at {:.5g}{}", number("upper"), unit)
           : metrics.value("status", "") != "completed" ? " so far"
-          : push.control == "displacement"             ? "; the peak of the curve"
+          : capacity->value("past_peak", false)        ? "; the peak of the curve"
+          : push.control == "displacement"             ? "; the curve still rises at its end"
                                                        : "; no collapse up to there";
   text += fmt::format("\nat the peak: displacement {:.4g} mm, base shear {:.4g} of the weight, {:.0f} joints opened, {:.0f} slid",
                       1e3 * number("displacement_m"), number("base_shear_over_weight"), number("joints_opened"), number("joints_slid"));

@@ -15,41 +15,51 @@ namespace {
 
 constexpr std::string_view quality_is = "quality=";
 
-// --set key=value: a number or a word of analysis{}.
-void set_analysis(Analysis& analysis, const std::string& setting) {
-  const size_t equals = setting.find('=');
-  const std::string key = setting.substr(0, equals), value = equals == std::string::npos ? "" : setting.substr(equals + 1);
-  std::vector<std::string> known{"quality"};
-  for (const auto& field : Analysis::fields()) {
+// Sets a number or a word of a field list; false if it has no such key.
+template <class T>
+bool set_field(T& values, const std::string& key, const std::string& value, const std::string& setting, std::vector<std::string>& known) {
+  for (const auto& field : T::fields()) {
     known.emplace_back(field.name);
     if (field.name != key) continue;
     std::visit(
         [&](auto member) {
-          using T = std::decay_t<decltype(analysis.*member)>;
-          if constexpr (std::is_same_v<T, std::string>) {
+          using V = std::decay_t<decltype(values.*member)>;
+          if constexpr (std::is_same_v<V, std::string>) {
             if (!field.words.empty() && ("|" + std::string(field.words) + "|").find("|" + value + "|") == std::string::npos)
               throw Error(fmt::format("--set {}: must be one of {}", shown(setting), field.words));
-            analysis.*member = value;
-          } else if constexpr (std::is_same_v<T, double> || std::is_same_v<T, int> || std::is_same_v<T, bool>) {
+            values.*member = value;
+          } else if constexpr (std::is_same_v<V, double> || std::is_same_v<V, int> || std::is_same_v<V, bool>) {
             double number = 0;
             size_t used = 0;
             try {
               number = std::stod(value, &used);
             } catch (const std::exception&) {}
-            constexpr bool whole = !std::is_same_v<T, double>;
-            const bool ranged = field.low < field.high && !std::is_same_v<T, bool>;
+            constexpr bool whole = !std::is_same_v<V, double>;
+            const bool ranged = field.low < field.high && !std::is_same_v<V, bool>;
             const double low = ranged ? field.low : 0, high = ranged ? field.high : 1;
             if (value.empty() || used != value.size() || !(number >= low && number <= high) || (whole && number != std::floor(number)))
               throw Error(fmt::format("--set {}: must be a {}number from {:g} to {:g}", shown(setting), whole ? "whole " : "", low, high));
-            analysis.*member = static_cast<T>(number);
+            values.*member = static_cast<V>(number);
           } else {
             throw Error(fmt::format("--set {}: only numbers and words can be set", setting));
           }
         },
         field.member);
-    return;
+    return true;
   }
-  throw Error(fmt::format("--set {}: analysis has no key \"{}\"{}", setting, key, did_you_mean(key, known)));
+  return false;
+}
+
+// --set key=value of analysis{}.
+void set_analysis(Scene& scene, const std::string& setting) {
+  const size_t equals = setting.find('=');
+  const std::string key = setting.substr(0, equals), value = equals == std::string::npos ? "" : setting.substr(equals + 1);
+  std::vector<std::string> known{"quality"};
+  if (set_field(scene.analysis, key, value, setting, known)) return;
+  if (!set_field(scene.push, key, value, setting, known))
+    throw Error(fmt::format("--set {}: analysis has no key \"{}\"{}", setting, key, did_you_mean(key, known)));
+  if (!scene.push.quasi_static() && key != "kind")
+    throw Error(fmt::format("--set {}: \"{}\" belongs to a push; the scene has none", setting, key), scene.analysis.place);
 }
 
 // Multiplies every stiffness of a joint rule, whatever its law.
@@ -76,7 +86,7 @@ std::vector<std::string> apply_overrides(Scene& scene, const RunCommand& command
     notes.push_back(fmt::format("--dt-fraction {:g}", *changes.dt_fraction));
   }
   for (const auto& setting : changes.settings) {
-    if (!setting.starts_with(quality_is)) set_analysis(scene.analysis, setting);
+    if (!setting.starts_with(quality_is)) set_analysis(scene, setting);
     notes.push_back("--set " + setting);
   }
   if (!changes.rule.empty()) {
@@ -103,6 +113,7 @@ std::vector<std::string> apply_overrides(Scene& scene, const RunCommand& command
     notes.push_back("--damping-form " + changes.damping_form);
   }
   if (changes.from) {
+    if (scene.push.quasi_static()) throw Error("--from is a time, and a push has none; leave it out", scene.push.place);
     for (Load& load : scene.loads) load.wave = earlier(load.wave, *changes.from);
     notes.push_back(fmt::format("--from {:g}", *changes.from));
   }

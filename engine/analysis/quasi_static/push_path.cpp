@@ -52,20 +52,27 @@ void LoadPath::failed() {
 }
 
 MachinePath::MachinePath(const PushSettings& push, double height)
-    : end(push.displacement), step(push.displacement_step > 0 ? push.displacement_step : push.displacement / displacement_steps) {
+    : end(push.displacement),
+      step(push.displacement_step > 0 ? push.displacement_step : push.displacement / displacement_steps),
+      bracket(push.bracket) {
   // A rigid block of height h on its edge loses less than 2 / h of its weight per displacement of its top.
   stiffness = std::max(2 * (push.step > 0 ? push.step : default_step) / step, 10 / height);
 }
 
 void MachinePath::refine() { parts = parts_at_peak, left = 2 * parts_at_peak; }
 
-double MachinePath::next() const { return extension + std::min(step / parts, (end - displacement) * std::max(0.3, 1 + slope / stiffness)); }
+bool MachinePath::bracketed() const { return above && stiffness * (*above - extension) <= std::max(bracket * std::fabs(multiplier), 1e-9); }
+
+double MachinePath::next() const {
+  if (above) return 0.5 * (extension + *above);
+  return extension + std::min(step / parts, (end - displacement) * std::max(0.3, 1 + slope / stiffness));
+}
 
 void MachinePath::found(double displaced) {
-  const double now = load(next(), displaced);
+  const double to = next(), now = load(to, displaced);
   if (displaced != displacement) slope = (now - multiplier) / (displaced - displacement);
   peaked = peaked || (parts > 1 && now < multiplier);
-  extension = next(), before = multiplier, multiplier = now, displacement = displaced;
+  extension = to, before = multiplier, multiplier = now, displacement = displaced;
   if (parts > 1 && --left == 0) parts = 1, before = multiplier - stiffness * step;  // a step ahead of the next bend
 }
 

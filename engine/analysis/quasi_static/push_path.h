@@ -37,11 +37,14 @@ struct LoadPath {
 // Displacement control: the load grows with the extension of a loading machine, multiplier = stiffness (extension - displacement of the
 // monitored point). The machine is stiffer than the structure is weak past its peak, so that each extension has one state of equilibrium;
 // all other freedoms are free. The displacement itself follows within a step. Until the peak is passed, a step in which the curve bends
-// down is repeated in eight parts.
+// down is repeated in eight parts. A part of the structure that the monitored point has no share in may come apart all the same: the
+// interval to the first extension without equilibrium is halved until the multiplier there is known as narrowly as asked.
 struct MachinePath {
-  double end = 0, step = 0;  // m
-  double stiffness = 0;      // 1/m
-  double extension = 0;      // m
+  double end = 0, step = 0;     // m
+  double stiffness = 0;         // 1/m
+  double bracket = 0;           // relative, of the multiplier at which the structure comes apart
+  double extension = 0;         // m
+  std::optional<double> above;  // m, an extension without equilibrium
   double multiplier = 0, displacement = 0, before = 0;
   double slope = 0;         // 1/m, of the multiplier over the displacement, in the last step
   int parts = 1, left = 0;  // parts of a step, and how many of them are left
@@ -49,7 +52,8 @@ struct MachinePath {
 
   MachinePath() = default;
   MachinePath(const PushSettings& push, double height);
-  bool done() const { return displacement >= (1 - 1e-3) * end; }
+  bool done() const { return displacement >= (1 - 1e-3) * end || bracketed(); }
+  bool bracketed() const;
   double next() const;  // the last step ends where a curve that goes on with its slope reaches the end
   double load(double extended, double displaced) const { return stiffness * (extended - displaced); }
   // The curve bends down within this step: it rises by less than half as much as in the step before.
@@ -58,20 +62,27 @@ struct MachinePath {
   }
   void refine();  // that step, in parts
   void found(double displaced);
+  void failed() { above = next(); }
 };
+
+// In two words of a checkpoint.
+template <class Optional, class F>
+void each_optional(Optional& value, const char* has_name, const char* name, F&& f) {
+  bool has = value.has_value();
+  double number = has ? *value : 0;
+  f(has_name, has);
+  f(name, number);
+  if constexpr (!std::is_const_v<Optional>) value = has ? std::optional(number) : std::nullopt;
+}
 
 template <class P, class F>
 requires std::is_same_v<std::remove_const_t<P>, LoadPath>
 void each(P& p, F&& f) {
   f("path_at", p.at);
   f("path_target", p.target);
-  bool has = p.above.has_value();
-  double above = has ? *p.above : 0;
-  f("path_has_above", has);
-  f("path_above", above);
+  each_optional(p.above, "path_has_above", "path_above", f);
   f("path_tried_from", p.tried_from);
   f("path_stride", p.stride);
-  if constexpr (!std::is_const_v<P>) p.above = has ? std::optional(above) : std::nullopt;
 }
 
 template <class P, class F>
@@ -85,6 +96,7 @@ void each(P& p, F&& f) {
   f("machine_parts", p.parts);
   f("machine_left", p.left);
   f("machine_peaked", p.peaked);
+  each_optional(p.above, "machine_has_above", "machine_above", f);
 }
 
 }  // namespace erbs::analysis

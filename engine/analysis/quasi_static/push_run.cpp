@@ -39,7 +39,8 @@ class PushRun {
   bool stand();
   void push_on();
   void control_on();
-  void fall();
+  bool past_peak() const;
+  void fall(bool drawn);
   Relaxed attempt(const LoadCourse& course);
   bool record(const Solver& solver, const Relaxed& now);
   Snapshot snapshot(const Solver& solver) const;
@@ -47,6 +48,7 @@ class PushRun {
   void save(const WriterProgress& written);
   void save_when_due();
   double shown(double multiplier) const { return shown_multiplier(push_, multiplier); }
+  bool controlled() const { return push_.control == "displacement"; }
   void assess();
   Metrics metrics();
 
@@ -129,7 +131,7 @@ bool PushRun::record(const Solver& solver, const Relaxed& now) {
   const double began = seconds();
   CurvePoint p = curve_point(run_.model, run_.state, *relaxation_, solver, push_);
   p.unbalanced = now.unbalanced, p.steps = double(now.steps);
-  passed_peak_ = push_.control == "displacement" && so_far_.machine.passes_peak(p.displacement);
+  passed_peak_ = controlled() && so_far_.machine.passes_peak(p.displacement);
   if (passed_peak_) return true;
   const Snapshot state = snapshot(solver);
   curve_->row(curve_row(p));
@@ -140,7 +142,7 @@ bool PushRun::record(const Solver& solver, const Relaxed& now) {
   so_far_.t += scene_.analysis.frame_dt;
   so_far_.curve_rows = curve_->rows(), so_far_.curve_sum = curve_->sum();
   // Steps of the load end at its bracket, or at the last load of the path.
-  const bool peak = push_.control == "load" || so_far_.states == 0 || p.multiplier > so_far_.peak.multiplier;
+  const bool peak = !controlled() || so_far_.states == 0 || p.multiplier > so_far_.peak.multiplier;
   if (peak) so_far_.peak = p;
   so_far_.shapes.take(along_push(*relaxation_, solver, push_.direction), so_far_.states, peak);
   ++so_far_.states;
@@ -172,7 +174,9 @@ bool PushRun::interrupted() {
 Relaxed PushRun::attempt(const LoadCourse& course) {
   State before = run_.state;
   const PushState known = so_far_;
-  const Relaxed r = relaxation_->relax(run_.state, course, [&](const Solver& solver, const Relaxed& now) { return record(solver, now); });
+  const Relaxed r = relaxation_->relax(
+      run_.state, course, [&](const Solver& solver, const Relaxed& now) { return record(solver, now); },
+      so_far_.states > 0 && controlled());
   if (r.ending == Ending::stopped) {
     so_far_ = known;
   } else {
@@ -226,22 +230,28 @@ void PushRun::control_on() {
     const Relaxed r = attempt([&, from, to](double ramp, double u) { return machine.load(from + ramp * (to - from), u); });
     if (r.ending == Ending::stopped || r.ending == Ending::broken) return;
     if (!r.found()) {
-      writer_->log(fmt::format("no equilibrium at the extension {:.6g} m: the structure has come apart", to));
-      return;
-    }
-    if (passed_peak_) {
+      machine.failed();
+      writer_->log(fmt::format("extension {:.6g} m: {} after {} steps", to,
+                               r.ending == Ending::collapse ? "a part that the machine does not hold comes apart" : "creeps", r.steps));
+    } else if (passed_peak_) {
       run_.state = before;
       machine.refine();
       continue;
+    } else {
+      so_far_.multiplier = relaxation_->loads().multiplier();
+      machine.found(relaxation_->monitor().along(run_.state.pose));
     }
-    so_far_.multiplier = relaxation_->loads().multiplier();
-    machine.found(relaxation_->monitor().along(run_.state.pose));
     save_when_due();
   }
+  if (machine.bracketed()) so_far_.path.above = machine.load(*machine.above, machine.displacement);
 }
 
-// The collapse as it goes on from the least load without equilibrium, for pictures and for the mechanism.
-void PushRun::fall() {
+// Under the load of this state the structure falls.
+bool PushRun::past_peak() const { return controlled() && so_far_.multiplier < so_far_.peak.multiplier; }
+
+// The collapse as it goes on from the least load without equilibrium, or from a state past the peak, for the mechanism, and for pictures
+// where it is `drawn`.
+void PushRun::fall(bool drawn) {
   const double from = so_far_.multiplier, to = so_far_.path.above ? beyond * *so_far_.path.above : from;
   const double far = 0.5 / frames_of_last_step;
   double shown = far;
@@ -256,14 +266,16 @@ void PushRun::fall() {
   relaxation_->relax(
       run_.state, [=](double ramp, double) { return from + ramp * (to - from); },
       [&](const Solver& solver, const Relaxed& r) {
-        if (r.furthest >= 0 && r.moved > shown * run_.model.smallest_edge[z(r.furthest)]) frame(solver), shown += far;
+        if (drawn && r.furthest >= 0 && r.moved > shown * run_.model.smallest_edge[z(r.furthest)]) frame(solver), shown += far;
         return !interrupted();
       });
   if (out_.metrics.status != "completed") return;
-  collapse_.mechanism = mechanism_of(run_.model, run_.state.pose, so_far_.t);
+  const Mechanism joints = mechanism_of(run_.model, run_.state.pose, so_far_.t);
   const BlockMotions motions = motions_of(run_.state.pose, run_.model.nblock);
-  mechanism_ = name_mechanism(run_.model, motions, collapse_.mechanism, push_.direction);
-  walls_ = wall_mechanisms(run_.model, motions, collapse_.mechanism, push_.direction, group_);
+  mechanism_ = name_mechanism(run_.model, motions, joints, push_.direction);
+  walls_ = wall_mechanisms(run_.model, motions, joints, push_.direction, group_);
+  if (!drawn) return;
+  collapse_.mechanism = joints;
   relaxation_->release(run_.state, fall_duration, scene_.analysis.frame_dt, [&](const Solver& solver, const Relaxed&) {
     frame(solver);
     return !collapse_.collapsed && !interrupted();
@@ -315,7 +327,8 @@ Metrics PushRun::metrics() {
   Capacity& c = m.capacity.emplace();
   c.kind = push_.kind;
   c.peak = so_far_.peak;
-  if (so_far_.path.above) c.above = shown(*so_far_.path.above);
+  if (so_far_.path.above && !past_peak()) c.above = shown(*so_far_.path.above);
+  c.past_peak = past_peak();
   c.gravity_alone = gravity_alone_;
   c.states = int(so_far_.states), c.attempts = int(so_far_.attempts);
   c.relaxation_steps = so_far_.steps;
@@ -330,22 +343,21 @@ Metrics PushRun::metrics() {
 RunOutcome PushRun::go() {
   begin();
   if (!gravity_alone_ && stand()) {
-    if (push_.control == "displacement") control_on();
+    if (controlled()) control_on();
     else push_on();
   }
   std::string& status = out_.metrics.status;
   if (status == "interrupted" || status == "stopped") {
     save(writer_->progress());
-  } else if (status == "completed" && (gravity_alone_ || so_far_.path.above)) {
+  } else if (status == "completed" && (gravity_alone_ || so_far_.path.above || past_peak())) {
+    const bool drawn = gravity_alone_ || so_far_.path.above;
     const State before = run_.state;
     const PushState known = so_far_;
     const WriterProgress written = writer_->progress();
     const Collapse watched = collapse_;
-    fall();
-    if (status != "completed") {  // resumed, it falls anew
-      run_.state = before, so_far_ = known, collapse_ = watched;
-      save(written);
-    }
+    fall(drawn);
+    if (status != "completed" || !drawn) run_.state = before, so_far_ = known, collapse_ = watched;
+    if (status != "completed") save(written);  // resumed, it falls anew
   }
   if (status == "completed" && run_.state.energy.residual_worst > ledger_tolerance) {
     status = "inaccurate";

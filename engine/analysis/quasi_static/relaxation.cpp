@@ -18,6 +18,8 @@ constexpr double longest = 600;      // periods until a structure that still mov
 constexpr double longest_fall = 30;  // ... and at least this many times sqrt(height / g), the time scale of rocking
 // Of a block's smallest edge. Beyond the first a block that still gains speed falls, beyond the second any.
 constexpr double gone = 0.1, far_away = 0.5;
+// A block that moves by so many times the displacement of the monitored point hangs on no lever that a loading machine holds.
+constexpr double longest_lever = 30;
 constexpr double local_share = 0.8;
 // Beside kinetic damping, with a coarse inertia or once a relaxation takes longer than this many periods. Cracks leave short waves that
 // fill the whole structure at random phases: its kinetic energy has no peaks then, and they would never be braked. The step is short enough
@@ -122,7 +124,7 @@ void refuse_floating(const Prepared& run, const Place& place) {
 }
 
 Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>& groups, const Prepared& run, int threads)
-    : push_(push), run_(run), threads_(threads), model_(run.model), loads_(push, groups, model_), monitor_(push, run.model) {
+    : push_(push), run_(run), crew_(threads), model_(run.model), loads_(push, groups, model_), monitor_(push, run.model) {
   true_dt_ = dt_ = run.state.time.dt;
   range_ = run.range;
   if (std::isfinite(run.bounds.critical)) {
@@ -149,7 +151,7 @@ void Relaxation::soften_inertia() {
     if (rate * slow * slow < quick) inertia_.emplace(model_, run_.state, freedom, std::max(least_piece, freedom.count / 6 / most_pieces));
     if (inertia_ && !inertia_->definite()) inertia_.reset();
     if (inertia_) {
-      inertia_->set_rate(quick);
+      inertia_->set_rate(quick_ = quick);
       rate += quick * inertia_->share(elastic.force, elastic.motion);
       range_.longest = dt_ /= std::sqrt(1 + 0.25 * quick * dt_ * dt_);
     }
@@ -200,53 +202,64 @@ Vec3 Relaxation::reaction(const Solver& solver) const {
   return sum;
 }
 
-bool Relaxation::far(const State& s, const BlockVec3& from, double share, Relaxed& out) const {
+bool Relaxation::far(const State& s, const BlockVec3& from, double share, double least, Relaxed& out) const {
   out.moved = 0;
   bool far = false;
   for (int b = 0; b < model_.nblock; ++b) {
     if (model_.kind[z(b)] != Kind::moving) continue;
     const double moved = (s.pose.u[z(b)] - from[z(b)]).norm();
-    far = far || moved > share * model_.smallest_edge[z(b)];
+    far = far || moved > std::max(share * model_.smallest_edge[z(b)], least);
     if (moved > out.moved) out.moved = moved, out.furthest = b;
   }
   return far;
 }
 
-Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen) {
+Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, bool machine) {
   Relaxed out;
   start(s, dt_);
   const BlockVec3 from = s.pose.u;
-  const bool controlled = push_.control == "displacement";
+  const double monitored = monitor_.along(s.pose);
   Damper damper(push_.relaxation, period_, inertia_.has_value(), model_);
-  Solver solver(model_, s, range_, threads_);
-  if (inertia_) solver.use(*inertia_);
+  std::optional<Solver> solver;
+  const auto engage = [&] {
+    solver.emplace(model_, s, range_, crew_.threads());
+    if (inertia_) solver->use(*inertia_);
+  };
+  engage();
   const double check = std::max(period_ / checks, least_check * dt_);
   double next_check = 0, fastest = 0;  // s; J, largest kinetic energy
   int balanced = 0;
   while (true) {
+    if (crew_.should_change(steps_ + s.time.step)) engage();
     const double t = s.time.t, done = t / period_;
     loads_.set(course(smooth(done), monitor_.along(s.pose)));
-    const double next = damper.one_step() ? t : controlled ? std::min(next_check, t + control_every * s.time.dt) : next_check;
-    const Solver::Stop at = solver.advance({.next = next, .wrenches = true});
+    const double next = damper.one_step() ? t : machine ? std::min(next_check, t + control_every * s.time.dt) : next_check;
+    const Solver::Stop at = solver->advance({.next = next, .wrenches = true});
     out.steps = s.time.step;
-    if (solver.broken()) {
+    if (solver->broken()) {
       out.ending = Ending::broken;
       break;
     }
     damper.read(s);
-    if (at != Solver::Stop::sample || solver.sample().t < next_check) continue;
+    if (at != Solver::Stop::sample || solver->sample().t < next_check) continue;
     next_check += check;
-    const auto [unbalanced, applied] = mean_forces(solver);
+    const auto [unbalanced, applied] = mean_forces(*solver);
     out.unbalanced = applied > 0 ? unbalanced / applied : 0;
     balanced = done > 1 && out.unbalanced <= push_.unbalanced ? balanced + 1 : 0;
     const bool speeds_up = s.energy.kinetic >= fastest;
     fastest = std::max(fastest, s.energy.kinetic);
-    if (far(s, from, speeds_up ? gone : far_away, out) && !controlled) out.ending = Ending::collapse;
+    const double held = machine ? longest_lever * std::fabs(monitor_.along(s.pose) - monitored) : 0;  // m
+    if (far(s, from, speeds_up && !machine ? gone : far_away, held, out)) out.ending = Ending::collapse;
     else if (balanced >= balanced_checks) out.ending = Ending::equilibrium;
     else if (t > longest_) out.ending = Ending::creep;
-    if (!seen(solver, out) || out.ending != Ending::stopped) break;
+    if (!seen(*solver, out) || out.ending != Ending::stopped) break;
   }
-  if (!solver.broken()) damper.last_step(s, solver);
+  if (!solver->broken()) {
+    if (inertia_) inertia_->set_rate(0);  // the half of its work that follows a step would be left out of the ledger
+    damper.last_step(s, *solver);
+    if (inertia_) inertia_->set_rate(quick_);
+  }
+  steps_ += s.time.step;
   end(s);
   return out;
 }
@@ -255,7 +268,7 @@ void Relaxation::release(State& s, double duration, double interval, const Seen&
   Model falling = run_.model;
   falling.grounds = model_.grounds, falling.tilts = model_.tilts, falling.force_loads = model_.force_loads;
   start(s, true_dt_);
-  Solver solver(falling, s, run_.range, threads_);
+  Solver solver(falling, s, run_.range, crew_.threads());
   for (double next = interval; next <= duration && !solver.broken();) {
     if (solver.advance({.next = next, .wrenches = true}) != Solver::Stop::sample) continue;
     next += interval;

@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/analysis/crew.h"
 #include "engine/analysis/prepare.h"
 #include "engine/analysis/quasi_static/push_loads.h"
 #include "engine/analysis/quasi_static/scaled_inertia.h"
@@ -15,7 +16,8 @@ namespace erbs::analysis {
 
 enum class Ending : std::uint8_t {
   equilibrium,  // the mean unbalanced force is below its limit
-  collapse,     // a block has moved by a tenth of its smallest edge and gains speed, or by half of it
+  collapse,     // a block has moved by a tenth of its smallest edge and gains speed, or by half of it; under a loading machine, by half of
+                // it and far beyond what the machine moves
   creep,        // still moving after the longest time: no equilibrium, and no block has gone far
   broken,       // a number is not finite
   stopped       // by the caller
@@ -43,9 +45,10 @@ class Relaxation {
   Relaxation(const PushSettings& push, const std::vector<std::string>& groups, const Prepared& run, int threads);
 
   // Ramps the loads over one period of the structure, then holds them. `seen` is called some times a period, with the solver at a sample;
-  // it returns false to stop. On return velocities are zero and time starts anew; in equilibrium the state may be relaxed further.
+  // it returns false to stop. `machine`: the load follows the monitored point. On return velocities are zero and time starts anew; in
+  // equilibrium the state may be relaxed further.
   using Seen = std::function<bool(const Solver&, const Relaxed&)>;
-  Relaxed relax(State& state, const LoadCourse& course, const Seen& seen);
+  Relaxed relax(State& state, const LoadCourse& course, const Seen& seen, bool machine = false);
   // Lets the structure go under the present loads, with its true masses and without damping, for at most `duration` (s). `seen` is called
   // every `interval` (s).
   void release(State& state, double duration, double interval, const Seen& seen);
@@ -64,16 +67,19 @@ class Relaxation {
   double machine_over_elastic(const ElasticPush& elastic, const Freedom& freedom) const;
   void start(State& state, double dt) const;
   void end(State& state) const;
-  bool far(const State& state, const BlockVec3& from, double share, Relaxed& out) const;
+  // Whether a block has moved by this share of its smallest edge, and by `least` (m).
+  bool far(const State& state, const BlockVec3& from, double share, double least, Relaxed& out) const;
 
   const PushSettings push_;
   const Prepared& run_;
-  const int threads_;
+  Crew crew_;
+  long steps_ = 0;  // of all relaxations before, for the crew
   Model model_;
   PushLoads loads_;
   MonitorPoint monitor_;
   StepRange range_;
   std::optional<CoarseInertia> inertia_;
+  double quick_ = 0;                 // 1/s2, its rate
   double dt_ = 0, true_dt_ = 0;      // s
   double period_ = 0, longest_ = 0;  // s; longest_: of one relaxation
 };

@@ -30,6 +30,7 @@ Json to_json(const Capacity& c) {
   json["base_shear_over_weight"] = p.base_shear_over_weight;
   json["joints_opened"] = p.opening;
   json["joints_slid"] = p.slid;
+  json["past_peak"] = c.past_peak;
   json["gravity_alone"] = c.gravity_alone;
   json["mechanism"] = c.mechanism;
   json["mechanism_text"] = c.course;

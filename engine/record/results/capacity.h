@@ -39,6 +39,7 @@ struct Capacity {
   std::string kind;                                        // tilt | pushover
   CurvePoint peak;                                         // the state with the largest multiplier
   std::optional<double> above;                             // the least multiplier without equilibrium; none: none was met
+  bool past_peak = false;                                  // control by displacement: the curve falls at its end
   bool gravity_alone = false;                              // there is no equilibrium without the push
   std::string mechanism, course;                           // in a word, and in words
   std::vector<std::pair<std::string, std::string>> walls;  // what each wall does, by group

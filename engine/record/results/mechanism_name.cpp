@@ -67,6 +67,8 @@ double extent(const Model& m, const std::vector<int>& blocks, const Vec3& along)
 // Moved joints by the direction of their normal: bed joints lie level, head joints stand.
 struct Cracks {
   int beds = 0, heads = 0, slides = 0, hinges = 0;
+  // Courses that slide on each other, the upper ones further, look like one body that turns; no joint of it opens.
+  bool only_slide() const { return slides > 0 && hinges == 0 && slides == beds + heads; }
 };
 Cracks cracks_of(const Model& m, const Mechanism& joints, const Vec3& up) {
   Cracks out;
@@ -168,9 +170,7 @@ NamedMechanism name_mechanism(const Model& m, const BlockMotions& motions, const
   const RigidMotion body = rigid_motion(m, motions, blocks);
   const Cracks cracks = cracks_of(m, joints, up);
   const bool stepped = cracks.beds > 1 && cracks.heads > 1;
-  // A body that overturns opens a hinge; one that slides by little may turn as much, elastically.
-  const bool slips = cracks.slides > 0 && cracks.hinges == 0;
-  if (body.residual < as_one && (body.turning < without_turn || slips)) {
+  if (body.residual < as_one && (body.turning < without_turn || cracks.only_slide())) {
     out.name = sinks(m, motions, blocks, up) ? "crushing" : "sliding";
   } else if (body.residual < as_one) {
     const Vec3 across = up.cross(push);
@@ -215,8 +215,7 @@ std::vector<WallMechanism> wall_mechanisms(const Model& m, const BlockMotions& m
     for (const int b : wall.blocks) inside[z(b)] = 1;
     const RigidMotion body = rigid_motion(m, motions, wall.moving);
     const Cracks cracks = cracks_within(m, joints, inside, up);
-    const bool as_body = body.residual<as_one, slips = cracks.slides> 0 && cracks.hinges == 0;
-    const bool turns = body.turning >= without_turn && !slips;
+    const bool as_body = body.residual < as_one, turns = body.turning >= without_turn && !cracks.only_slide();
     if (facing) {
       const bool over = std::fabs(body.turn.normalized().dot(across)) > 0.7;
       out.emplace_back(wall.name, as_body && !turns ? "sliding" : as_body && over ? "overturning out of plane" : "bending out of plane");

@@ -22,7 +22,7 @@ struct NamedMechanism {
 };
 
 // `push`: unit vector of the load, horizontal. What moves is what moves by a fifth of the largest displacement.
-//   sliding                one body, with hardly any rotation
+//   sliding                one body, with hardly any rotation or without any joint that opens
 //   crushing               the same, downwards, where a law yields in compression
 //   overturning            one body that turns about a level axis; "overturning out of plane" where it is a wall less than half as thick as
 //                          wide, across which it falls; "overturning on a stepped crack" where its crack runs through bed and head joints

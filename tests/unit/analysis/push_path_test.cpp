@@ -119,3 +119,24 @@ TEST_CASE("the machine passes a peak and goes on behind it", "[push]") {
   CHECK(peak > 0.3 * (1 - 0.004));  // an eighth of a step of 4 mm on a way of .4 m
   CHECK(states < 100);
 }
+
+TEST_CASE("a machine whose structure comes apart brackets the load there", "[push]") {
+  // A part that the machine does not hold falls at the multiplier .25; the curve of the monitored point goes on rising.
+  for (const double bracket : {0.02, 0.002, 1e-4}) {
+    PushSettings push;
+    push.kind = "pushover", push.control = "displacement", push.displacement = 0.001, push.bracket = bracket;
+    MachinePath machine(push, 2);
+    int attempts = 0;
+    for (; !machine.done() && attempts < 1000; ++attempts) {
+      const double u = machine.stiffness * machine.next() / (machine.stiffness + 1e4);  // a spring of 1e4 per m
+      if (machine.load(machine.next(), u) > 0.25) machine.failed();
+      else machine.found(u);
+    }
+    CAPTURE(bracket, attempts);
+    CHECK(machine.bracketed());
+    CHECK(machine.multiplier <= 0.25);
+    CHECK(machine.load(*machine.above, machine.displacement) > 0.25);
+    CHECK(machine.load(*machine.above, machine.displacement) < machine.multiplier * (1 + bracket) + 1e-9);
+    CHECK(attempts < 60);
+  }
+}

@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include "engine/analysis/quasi_static/push_run.h"
+#include "engine/base/units.h"
 #include "tests/unit/lua/load.h"
 #include "tests/unit/record/two_bricks.h"
 
@@ -122,6 +123,52 @@ TEST_CASE("a structure that falls on the way of its path has its capacity there"
   }
 }
 
+// A pier of half the width of its height is held by the machine; a slender one beside it falls first.
+TEST_CASE("what the machine does not hold falls at the capacity all the same", "[push]") {
+  for (const double width : {0.2, 0.3}) {
+    const std::string text = stone + "box{ name = 'stocky', size = {.5, .5, 1}, at = {-1, 0, 0} }" +
+                             fmt::format("box{{ name = 'slender', size = {{ {}, .5, 1 }}, at = {{1, 0, 0}} }}", width) +
+                             "joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .7 } } analysis{ kind = 'pushover', limit = 'never', "
+                             "monitor = { block = 'stocky' }, ";
+    CAPTURE(width);
+    const test::Scratch by_load("push_by_load"), by_machine("push_by_machine");
+    const PushOutcome load = push(text + "}", by_load.path),
+                      machine = push(text + "control = 'displacement', displacement = 1*mm }", by_machine.path);
+    const Capacity &a = *load.metrics.capacity, &b = *machine.metrics.capacity;
+    REQUIRE(machine.metrics.status == "completed");
+    // The toe of the slender pier is pressed in: scenes/verify/v49_push_block.lua has the formula.
+    const double k = std::sqrt(2 * 2000 * width * 0.5 * standard_g / (1e10 * 0.5));
+    CHECK(a.peak.multiplier == Approx(width - 3 * std::pow(k / 3, 2. / 3)).epsilon(0.003));
+    CHECK(b.peak.multiplier == Approx(a.peak.multiplier).epsilon(0.004));  // two brackets
+    REQUIRE(b.above);
+    CHECK(*b.above > b.peak.multiplier);
+    CHECK(*b.above < 1.0021 * b.peak.multiplier);
+    CHECK(b.peak.most < 0.05);
+    CHECK(b.mechanism == a.mechanism);
+    CHECK(machine.metrics.collapse.collapsed);
+  }
+}
+
+TEST_CASE("control by displacement names the mechanism past the peak, and leaves the state there as it is", "[push]") {
+  const auto pushed = [](const char* far) {
+    const test::Scratch dir("push_past");
+    return push(stone +
+                    "box{ name = 'b', size = {.4, .4, 1.2}, at = {-.2, -.2, 0} } joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .7 } } "
+                    "analysis{ kind = 'pushover', limit = 'never', control = 'displacement', displacement = " +
+                    far + " }",
+                dir.path)
+        .metrics;
+  };
+  const Metrics past = pushed("20*mm"), before = pushed(".5*mm");
+  CHECK(past.capacity->past_peak);
+  CHECK(past.capacity->mechanism == "overturning");
+  CHECK_FALSE(past.capacity->above);
+  CHECK_FALSE(past.collapse.collapsed);
+  CHECK(past.residual_relative < 1e-5);
+  CHECK_FALSE(before.capacity->past_peak);
+  CHECK(before.capacity->mechanism.empty());
+}
+
 TEST_CASE("a push names its mechanism", "[push]") {
   const auto mechanism = [](const std::string& text) {
     const test::Scratch dir("push_name");
@@ -132,6 +179,9 @@ TEST_CASE("a push names its mechanism", "[push]") {
            " } } analysis{ kind = 'pushover', step = .05, bracket = .05 }";
   };
   CHECK(mechanism(block("{.4, .4, .5}", ".3")) == "sliding");
+  // Two beds slide, the upper one ahead of the lower one: what looks like a rotation is none.
+  CHECK(mechanism(stone + "column{ blocks = 4, size = {.8, .8, .3} } joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .2 } } "
+                          "analysis{ kind = 'pushover', step = .05, bracket = .05 }") == "sliding");
   CHECK(mechanism(block("{.4, .4, 1.2}", ".7")) == "overturning");
   // Walls of four courses: friction below thickness over height slides, above it overturns, whatever the proportion.
   for (const double aspect : {1.5, 2.0, 3.0})
@@ -234,6 +284,11 @@ TEST_CASE("wrong input of a push is met with its remedy", "[push][bad-input]") {
   says("kind = 'pushover', monitor = { block = 'wal.c04.b01' }", "there is no block \"wal.c04.b01\"; did you mean");
   says("kind = 'pushover', monitor = { block = 'floor' }", "never moves");
   says("kind = 'pushover', monitor = { point = {0, 0, 1} }", "belongs to a block");
+  says("kind = 'pushover', monitor = { block = 'wall.c04.b01', point = {5, 0, .7} }",
+       "m outside block \"wall.c04.b01\"; give a point of it");
+  CHECK(mistakes_of(wall_text + "analysis{ kind = 'pushover', monitor = { block = 'wall.c04.b01', point = {-.6, -.1, .8} } }").empty());
+  says("kind = 'pushover', control = 'displacement', displacement = 10*mm, displacement_step = 20*mm", "take a smaller step");
+  says("kind = 'pushover', pattern = { { group = 'wall', force = {1, 0, 0} }, { group = 'wall', force = {-1, 0, 0} } }", "cancel");
   says("kind = 'pushover', control = 'displacement'", "displacement = 50*mm");
   says("kind = 'pushover', displacement = .1", "control = \"displacement\"");
   says("kind = 'pushover', pattern = { { block = 'nobody', force = {1, 0, 0} } }", "there is no block \"nobody\"");
@@ -248,6 +303,11 @@ TEST_CASE("wrong input of a push is met with its remedy", "[push][bad-input]") {
   says("kind = 'tilt'", "there is none; add gravity", "gravity(0)");
   says("kind = 'pushover'", "remove this load", "ground_motion{ wave = sine{ amplitude = 1, frequency = 1 } }");
   says("duration = 1, direction = 'y'", "belongs to a push");
+}
+
+TEST_CASE("a push of blocks that are all fixed says so", "[push][bad-input]") {
+  const test::Scratch dir("push_fixed");
+  CHECK_THROWS_WITH(push(stone + "analysis{ kind = 'pushover' }", dir.path), Catch::Contains("every block is fixed"));
 }
 
 TEST_CASE("a part that rests on nothing is named before the push", "[push][bad-input]") {

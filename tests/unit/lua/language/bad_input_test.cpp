@@ -256,6 +256,20 @@ TEST_CASE("options out of range are refused before anything is written", "[bad_i
     CHECK(contains(bench.said, message));
     CHECK_FALSE(fs::exists(bench.out()));
   }
+  const std::string push = pier.substr(0, pier.find("analysis")) + "analysis{ kind = 'pushover', up_to = .02, limit = 'never' }\n";
+  const std::pair<std::vector<std::string>, std::string> of_push[] = {{{"--from", "1"}, "--from is a time, and a push has none"},
+                                                                      {{"--until", "1"}, "--until is a time, and a push has none"},
+                                                                      {{"--set", "bracket=2"}, "must be a number from 1e-06 to 0.5"},
+                                                                      {{"--set", "step=5"}, "step = 5 is beyond up_to = 0.02"},
+                                                                      {{"--set", "brackt=0.1"}, "did you mean \"bracket\"?"}};
+  for (const auto& [words, message] : of_push) {
+    CHECK(bench.run(push, words) == 2);
+    INFO(bench.said);
+    CHECK(contains(bench.said, message));
+  }
+  CHECK(bench.run(pier, {"--set", "bracket=0.1"}) == 2);
+  CHECK(contains(bench.said, "belongs to a push"));
+  CHECK(bench.run(push, {"--set", "bracket=0.1", "--set", "relaxation=local", "-q", "--no-figures"}) == 0);
   CHECK(bench.erbs({"frobnicate"}) == 2);
   CHECK(contains(bench.said, "there is no verb frobnicate; known: run, check"));
   CHECK(bench.erbs({"chek"}) == 2);
