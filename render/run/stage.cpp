@@ -102,32 +102,44 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
   stage.on_ground = ground;
   set_table(stage, scene, boxes);
   if (some_frames.empty()) return stage;
-  // Blocks thrown far away are ignored; a view that includes them would show the building too small.
-  const Vec3 aside = 0.6 * stage.size() * Vec3(1, 1, 0);
-  const auto near = [&](const Vec3& around) { return Eigen::AlignedBox3d(stage.building.min() - around, stage.building.max() + around); };
-  stage.heap = heap_of(some_frames.back(), stage.hidden, 20).intersection(near(aside));
-  stage.debris = heap_of(some_frames.back(), stage.hidden, 200).intersection(near(2.5 * aside));
   double radius = 0;  // m, mean of the blocks
   for (std::size_t b = 0; b < boxes.size(); ++b)
     radius += stage.hidden[b] ? 0 : 0.5 * boxes[b].sizes().norm() / static_cast<double>(boxes.size());
-  if (!stage.debris.isEmpty()) stage.debris.min() -= Vec3::Constant(radius), stage.debris.max() += Vec3::Constant(radius);
+  // Blocks thrown far away are ignored; a view that includes them would show the building too small. What stood above the ground may have
+  // fallen to it.
+  const auto heap = [&](std::size_t share, double aside) {
+    Eigen::AlignedBox3d near = stage.building;
+    near.min() -= aside * Vec3(1, 1, 0), near.max() += aside * Vec3(1, 1, 0);
+    near.min().z() = std::min(near.min().z(), ground ? stage.ground_z : std::max(lowest, near.min().z() - aside));
+    Eigen::AlignedBox3d box = heap_of(some_frames.back(), stage.hidden, share);
+    if (box.isEmpty()) return box;
+    box = Eigen::AlignedBox3d(box.min().cwiseMax(near.min()).cwiseMin(near.max()), box.max().cwiseMin(near.max()).cwiseMax(near.min()));
+    box.min() -= Vec3::Constant(radius), box.max() += Vec3::Constant(radius);
+    if (ground) box.min().z() = std::max(box.min().z(), stage.ground_z);
+    return box;
+  };
+  stage.heap = heap(50, 0.9 * stage.size());
+  stage.debris = heap(200, 1.5 * stage.size());
   return stage;
 }
 
 namespace {
 
-// Points that must be visible: the building, room on the ground for what falls beside it, and the heap at the end.
+// Points that must be visible: the building, room on the ground for what falls beside it, and the heap where it lies at the end.
 std::vector<Vec3> seen_points(const Stage& stage, bool debris) {
-  std::vector<Vec3> seen;
+  std::vector<Vec3> seen, heap;
   const Vec3 size = stage.building.sizes(), aside = 0.14 * size.z() * Vec3(1, 1, 0);
   for (int i = 0; i < 8; ++i) {
     const Vec3 p = stage.building.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
     seen.push_back(p);
     if (i < 4) seen.push_back(p + aside.cwiseProduct((p - stage.building.center()).cwiseSign()));  // the lower corners
-    if (debris && !stage.debris.isEmpty()) seen.push_back(stage.debris.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
-    if (!stage.heap.isEmpty()) seen.push_back(stage.heap.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+    const Eigen::AlignedBox3d& fallen = debris ? stage.debris : stage.heap;
+    if (!fallen.isEmpty()) heap.push_back(fallen.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
   }
-  if (stage.positions.empty()) return seen;
+  if (stage.positions.empty()) {
+    seen.insert(seen.end(), heap.begin(), heap.end());
+    return seen;
+  }
   const Vec3 near = 0.4 * stage.size() * Vec3(1, 1, 1);
   const Eigen::AlignedBox3d table = stage.table.intersection({stage.building.min() - near, stage.building.max() + near});
   if (!table.isEmpty())
@@ -135,6 +147,7 @@ std::vector<Vec3> seen_points(const Stage& stage, bool debris) {
   std::vector<Vec3> turned;
   for (const Eigen::Isometry3d& position : stage.positions)
     for (const Vec3& p : seen) turned.push_back(position * p);
+  for (const Vec3& p : heap) turned.push_back(stage.positions.back() * p);
   return turned;
 }
 

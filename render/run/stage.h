@@ -10,7 +10,7 @@ namespace erbs::render {
 struct Stage {
   Eigen::AlignedBox3d building;                            // m, all blocks except the ground, at rest
   Eigen::AlignedBox3d reach;                               // m, its visible extent over the whole run (for the shadow)
-  Eigen::AlignedBox3d heap;                                // m, extent of nearly all block centroids at the end
+  Eigen::AlignedBox3d heap;                                // m, extent of nearly all blocks at the end, each whole
   Eigen::AlignedBox3d debris;                              // m, extent of 99 % of the blocks at the end, each whole
   double ground_z = 0;                                     // m
   Eigen::AlignedBox3d table;                               // m, what turns in a tilting test: the ground under all that is visible

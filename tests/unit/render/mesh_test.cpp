@@ -123,6 +123,32 @@ TEST_CASE("cameras see where the blocks have come to lie", "[render][stage]") {
   }
 }
 
+TEST_CASE("cameras see the heap of a building that stood above the ground", "[render][stage]") {
+  const double height = GENERATE(0.0, 0.5, 2.0), aspect = GENERATE(0.8, 16.0 / 9);
+  MotionScene scene = brick_house({});
+  scene.blocks[0].rest.z() -= height;
+  MotionFrame fallen = brick_house_frame(scene, 0);
+  const auto count = static_cast<float>(scene.blocks.size());
+  for (std::size_t b = 1; b < scene.blocks.size(); ++b) {  // in a row along x, up to a length of the building away
+    fallen.poses[7 * b] += 1.5F * static_cast<float>(b) / count;
+    fallen.poses[7 * b + 2] = static_cast<float>(0.05 - height);
+  }
+  const Stage stage = set_stage(scene, {brick_house_frame(scene, 0), fallen});
+  const int width = static_cast<int>(720 * aspect);
+  for (const Camera& camera : choose_cameras(stage, width / 560.0)) {
+    const View v = look(camera, stage, width, 720, 58, 102);
+    std::size_t seen = 0;
+    for (std::size_t b = 1; b < scene.blocks.size(); ++b) {
+      const Eigen::Vector3f p = Eigen::Map<const Eigen::Vector3f>(&fallen.poses[7 * b]);
+      const Eigen::Vector4f c = v.projection * v.view * p.homogeneous();
+      const float row = 360 * (1 - c.y() / c.w());
+      seen += std::abs(c.x() / c.w()) < 1 && row > 58 && row < 720 - 102 ? 1 : 0;
+    }
+    INFO(camera.name << " " << height);
+    CHECK(seen == scene.blocks.size() - 1);
+  }
+}
+
 TEST_CASE("what throws shadow is a block grown on every side", "[render][mesh]") {
   MotionScene scene;
   scene.blocks = {{"a", "", 0, false, Vec3(1, 2, 3), {share_shape(scene, wedge())}}};
