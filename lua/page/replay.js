@@ -89,13 +89,17 @@ export class Replay {
   // that is far away.
   #frameView() {
     const rest = new THREE.Box3(), end = new THREE.Box3(), {motion} = this, moving = motion.moving.length ? motion.moving : [...run.blocks.keys()];
-    for (const b of moving) rest.union(boxOf(b));
+    let radius = 0;  // m, mean of the blocks
+    for (const b of moving) {
+      const box = boxOf(b);
+      rest.union(box), radius += box.getSize(new THREE.Vector3()).length() / 2 / moving.length;
+    }
     const reach = rest.clone().expandByScalar(0.6 * rest.getSize(new THREE.Vector3()).length()), out = Math.floor(moving.length / 50);
     for (let axis = 0; axis < 3; ++axis) {
       const ends = moving.map((b) => motion.poses[motion.at(b, motion.nframe - 1) + axis]).filter(Number.isFinite).sort((a, b) => a - b);
       if (!ends.length) continue;
       const x = 'xyz'[axis];
-      end.min[x] = Math.max(reach.min[x], ends[out]), end.max[x] = Math.min(reach.max[x], ends[ends.length - 1 - out]);
+      end.min[x] = Math.max(reach.min[x], ends[out]) - radius, end.max[x] = Math.min(reach.max[x], ends[ends.length - 1 - out]) + radius;
     }
     this.seen = [rest, end].flatMap((box) => (box.isEmpty() ? [] : corners(box)));
     const box = new THREE.Box3().setFromPoints(this.seen);
