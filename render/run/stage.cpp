@@ -151,6 +151,19 @@ std::vector<Vec3> seen_points(const Stage& stage, bool debris) {
   return turned;
 }
 
+// Whether the convex hull of the points reaches beyond this corner in both directions.
+bool reaches_corner(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& corner) {
+  for (const Eigen::Vector2d& p : points)
+    for (const Eigen::Vector2d& q : points) {
+      const Eigen::Vector2d a = p - corner, b = q - corner;
+      if (a.minCoeff() > 0) return true;
+      // Where x - y changes its sign on the side from p to q, the lesser of both is greatest.
+      const double from = a.x() - a.y(), to = b.x() - b.y();
+      if (from * to < 0 && (a + from / (from - to) * (b - a)).minCoeff() > 0) return true;
+    }
+  return false;
+}
+
 }  // namespace
 
 Eigen::Isometry3d table_position(const Stage& stage, const Mat3& levelling) {
@@ -173,23 +186,35 @@ Camera in_scene(const Camera& camera, const Eigen::Isometry3d& position) {
 
 void fit_camera(Camera& c, const Vec3& direction, const Stage& stage, double aspect, bool debris) {
   const std::vector<Vec3> seen = seen_points(stage, debris);
-  c.target = stage.building.center();
   const Vec3 back = direction.normalized();
   Vec3 right = c.up.cross(back);
   if (right.norm() < 1e-6) c.up = Vec3(0, 1, 0), right = c.up.cross(back);
   right.normalize();
   const Vec3 up = back.cross(right);
   const double half = std::tan(0.5 * c.fov);
-  double distance = std::max(1e-3, 3 * stage.size() / std::min(1.0, 4 * half));
-  for (int iteration = 0; iteration < 8; ++iteration) {  // approaches in iterations and centres the target on the visible points
-    Eigen::AlignedBox2d shown;
-    for (const Vec3& p : seen) {
-      const Vec3 v = p - c.target;
-      shown.extend(Eigen::Vector2d(v.dot(right) / aspect, v.dot(up)) / (half * (distance - v.dot(back))));
+  double distance = 0;
+  // Fits all points into the part of the picture, from -1 to 1, that a strip at its right leaves, and at its left one for the axes, which
+  // are little more than half as wide as a legend; returns their places.
+  const auto place = [&](double strip) {
+    const double beside = 0.55 * strip;
+    std::vector<Eigen::Vector2d> places(seen.size());
+    c.target = stage.building.center();
+    distance = std::max(1e-3, 3 * stage.size() / std::min(1.0, 4 * half));
+    for (int iteration = 0; iteration < 9; ++iteration) {  // approaches in iterations and centres the target on the visible points
+      Eigen::AlignedBox2d shown;
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        const Vec3 v = seen[i] - c.target;
+        places[i] = Eigen::Vector2d(v.dot(right) / aspect, v.dot(up)) / (half * (distance - v.dot(back)));
+        shown.extend(places[i]);
+      }
+      if (iteration == 8) break;
+      c.target += distance * half * ((shown.center().x() + strip - beside) * aspect * right + shown.center().y() * up);
+      distance *= 1.06 * 0.5 * std::max(shown.sizes().x() / (1 - strip - beside), shown.sizes().y());
     }
-    c.target += distance * half * (shown.center().x() * aspect * right + shown.center().y() * up);
-    distance *= 1.06 * 0.5 * shown.sizes().maxCoeff();
-  }
+    return places;
+  };
+  const double strip = stage.legend_width;
+  if (reaches_corner(place(0), {1 - 2 * strip, 1 - 2 * stage.legend_height})) place(strip);
   c.eye = c.target + distance * back;
 }
 

@@ -16,6 +16,7 @@ struct Stage {
   Eigen::AlignedBox3d table;                               // m, what turns in a tilting test: the ground under all that is visible
   bool on_ground = false;                                  // a ground block is drawn as a plane
   std::vector<Eigen::Isometry3d> positions;                // of the table over the run; empty: it stays
+  double legend_width = 0, legend_height = 0;              // shares of what a camera sees that a legend covers, at its upper right
   std::vector<bool> hidden;                                // ground blocks, drawn as a plane [blocks]
   double size() const { return building.sizes().norm(); }  // m
 };
