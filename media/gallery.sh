@@ -21,9 +21,9 @@ picture() {
 }
 
 picture first "" 0.95 0:2 2 "--eye 2.5,-2.9,1.3 --target 0,-0.25,0.5 --fov 26"
-picture wall_corner "" 0.72 0.1:1.6 2 "--camera corner"
+picture wall_corner "" 0.72 0.1:1.6 2 "--eye=3.5,-3.8,2.5 --target 0.15,-0.1,0.35 --fov 33"
 picture tilting_walls "" 6.5 3:7.4 1 "--eye 5.2,-5.2,3.6 --target 0.7,0.3,0.9 --fov 33"
-picture window_wall "-D peak=3*g" 1.15 0.1:2.2 2 "--camera corner"
+picture window_wall "-D peak=3*g" 1.15 0.1:2.1 2 "--eye=4.5,-5.0,2.9 --target 0.55,-0.2,0.8 --fov 34"
 picture dry_wall_verdict "-D peak=0.3*g" 1.8 0.6:1.85 2 "--eye 4.2,-5.2,2.6 --fov 34 --fit"
 picture house_quality "--set frame_dt=0.005" 0.2 0:0.25 12 "--camera three_quarter --color displacement --magnify 2000"
 picture sequential_study "" 0.4 0:0.6 4 "--camera front --color displacement --magnify 100"

@@ -19,11 +19,19 @@ int frame_at(const ExportedRun& run, double at) {
   if (std::isnan(at)) return static_cast<int>(run.frames.size()) - 1;
   const double first = run.frames.front().t, last = run.frames.back().t;
   if (at < first - 1e-3 || at > last + 1e-3)
-    throw Error(fmt::format("--at {} is not within the frames exported, from {} s to {} s", at, first, last));
+    throw Error(fmt::format("--at {} is not within the frames exported, from {:.6g} s to {:.6g} s", at, first, last));
   int nearest = 0;
   for (std::size_t i = 0; i < run.frames.size(); ++i)
     if (std::fabs(run.frames[i].t - at) < std::fabs(run.frames[static_cast<std::size_t>(nearest)].t - at)) nearest = static_cast<int>(i);
   return nearest;
+}
+
+// Formats that hold joints say nothing of forces that the run has not kept.
+void tell_missing_tractions(const ExportCommand& command, const ExportedRun& run) {
+  const auto holds_joints = [](const std::string& format) { return format == "vtu" || format == "xdmf" || format == "hdf5"; };
+  if (command.output.quiet || run.scene.joints.empty() || !run.frames.front().normal_stress.empty()) return;
+  if (std::any_of(command.formats.begin(), command.formats.end(), holds_joints))
+    say("joints have damage and opening, no tractions: the run kept none; analysis{{ frame_stress = true }} keeps them\n");
 }
 
 // What one format writes first; the others of its files lie beside it.
@@ -66,6 +74,7 @@ int verb_export(const ExportCommand& command) {
                           : fmt::format("{} frames", run.frames.size()),
           1e-6 * static_cast<double>(bytes));
   }
+  tell_missing_tractions(command, run);
   return exit_ok;
 }
 

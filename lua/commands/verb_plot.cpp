@@ -1,4 +1,5 @@
-// erbs plot DIR...: columns of histories.csv and energy.csv as curves, of one run or of several over each other.
+// erbs plot DIR...: columns of histories.csv and energy.csv, or of the curve.csv of a push, as curves, of one run or of several over each
+// other.
 #include <algorithm>
 #include <filesystem>
 
@@ -21,13 +22,14 @@ namespace fs = std::filesystem;
 struct ReadRun {
   std::string folder, name;
   CsvTable table;
+  std::optional<CsvTable> capacity;  // of a push
 };
 
 // Names of folders, or whole paths if two of these are the same.
 std::vector<ReadRun> read_runs(const std::vector<std::string>& folders) {
   std::vector<ReadRun> runs;
   for (const std::string& folder : folders) {
-    ReadRun run{folder, "", read_columns(folder)};
+    ReadRun run{folder, "", read_columns(folder), read_capacity(folder)};
     run.name = fs::canonical(folder).filename().string();
     runs.push_back(std::move(run));
   }
@@ -38,16 +40,34 @@ std::vector<ReadRun> read_runs(const std::vector<std::string>& folders) {
   return runs;
 }
 
+void list_columns(const CsvTable& table) {
+  for (std::size_t c = 0; c < table.names.size(); ++c) {
+    if (!table.text[c].empty()) continue;
+    const plot::Unit* unit = plot::find_unit(plot::unit_of(table.names[c]));
+    say("{:<32} {:<8} {}\n", table.names[c], unit ? unit->shown.front().factor == 1 ? unit->shown.front().name : unit->suffix : "-",
+        unit ? unit->quantity : "");
+  }
+}
+
 void list_columns(const std::vector<ReadRun>& runs) {
   for (const ReadRun& run : runs) {
     if (runs.size() > 1) say("{}\n", shown(run.folder, 400));
-    for (std::size_t c = 0; c < run.table.names.size(); ++c) {
-      if (!run.table.text[c].empty()) continue;
-      const plot::Unit* unit = plot::find_unit(plot::unit_of(run.table.names[c]));
-      say("{:<32} {:<8} {}\n", run.table.names[c], unit ? unit->shown.front().factor == 1 ? unit->shown.front().name : unit->suffix : "-",
-          unit ? unit->quantity : "");
-    }
+    list_columns(run.table);
+    if (!run.capacity) continue;
+    say("states of equilibrium, curve.csv:\n");
+    list_columns(*run.capacity);
   }
+}
+
+bool holds(const CsvTable& table, const std::string& pattern) {
+  try {
+    return !choose_columns(table, pattern).empty();
+  } catch (const Error&) { return false; }
+}
+
+// The columns of the capacity are those that the histories have not; both axes are of one table.
+const CsvTable& table_of(const ReadRun& run, const std::string& x) {
+  return run.capacity && !holds(run.table, x) && holds(*run.capacity, x) ? *run.capacity : run.table;
 }
 
 CurveKind kind_of(const PlotCommand& command) {
@@ -72,19 +92,20 @@ std::string picture_of(const PlotCommand& command) {
 
 // Adds the curves of the columns that each pattern fits, each column once.
 void add_curves(const ReadRun& run, const PlotCommand& command, CurveKind kind, std::vector<HistoryCurve>& curves) {
-  const std::vector<int> x = choose_columns(run.table, command.x);
+  const CsvTable& table = table_of(run, command.x);
+  const std::vector<int> x = choose_columns(table, command.x);
   if (x.size() > 1) {
     std::vector<std::string> names;
-    for (const int c : x) names.push_back(run.table.names[std::size_t(c)]);
+    for (const int c : x) names.push_back(table.names[std::size_t(c)]);
     throw Error(fmt::format("--x {} fits {} columns, {}; name one of them", shown(command.x, 60), x.size(), fmt::join(names, ", ")));
   }
   const TimeSpan span = command.time.empty() ? TimeSpan{} : time_span_of(command.time);
   std::vector<int> chosen;
   for (const std::string& pattern : command.y)
-    for (const int c : choose_columns(run.table, pattern))
+    for (const int c : choose_columns(table, pattern))
       if (std::find(chosen.begin(), chosen.end(), c) == chosen.end()) chosen.push_back(c);
   for (const int c : chosen) {
-    HistoryCurve curve = curve_of(run.table, x.front(), c, span);
+    HistoryCurve curve = curve_of(table, x.front(), c, span);
     curve.run = run.name;
     if (kind == CurveKind::envelope) curve.y = envelope_of(curve.y);
     if (kind == CurveKind::spectrum) curve = amplitude_spectrum(curve);

@@ -3,7 +3,7 @@ import './page.css';
 import {rareEvent, run, short, unpack, withUnit} from './data.js';
 import {Curves, plotOf} from './curves.js';
 import {Motion} from './motion.js';
-import {materialCss, Replay, scaleCss} from './replay.js';
+import {groundBlocks, materialCss, Replay, scaleCss} from './replay.js';
 import {make, showTexts, table} from './text.js';
 
 const at = (id) => document.getElementById(id);
@@ -58,7 +58,7 @@ function toEvent(way) {
 function showLegend() {
   const colour = at('colour').value, legend = at('legend');
   if (colour === 'material') {
-    const used = [...new Set(run.blocks.map((block) => block[2]))];
+    const ground = groundBlocks(), used = [...new Set(run.blocks.filter((block, b) => !ground.has(b)).map((block) => block[2]))];
     return legend.replaceChildren(...used.flatMap((m) => {
       const dot = make('span', '', {class: 'dot'});
       dot.style.background = materialCss(m);

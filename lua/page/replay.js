@@ -21,9 +21,31 @@ export function materialCss(material) {
 // A fixed pseudo-random shade for each block, so that neighbours can be told apart.
 const shade = (block) => 0.8 + 0.12 * (block % 2) + 0.2 * (((block * 2654435761) >>> 8) % 1000) / 1000;
 
+// Of a block at rest.
+function boxOf(block) {
+  const [, , , , shape, ...rest] = run.blocks[block], {vertices} = run.shapes[shape], box = new THREE.Box3(), p = new THREE.Vector3();
+  for (let i = 0; i < vertices.length; i += 3) box.expandByPoint(p.fromArray(vertices, i));
+  return box.isEmpty() ? box.setFromPoints([p.fromArray(rest)]) : box.translate(p.fromArray(rest));
+}
+
+function corners({min, max}) {
+  return [0, 1, 2, 3, 4, 5, 6, 7].map((i) => new THREE.Vector3(i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z));
+}
+
+// The fixed blocks that are wider than all that moves. They are drawn in the tone of the page, not of their material: a dark table would
+// outweigh the building on it.
+export function groundBlocks() {
+  const rest = new THREE.Box3(), size = new THREE.Vector3(), own = new THREE.Vector3();
+  run.blocks.forEach((block, b) => block[3] || rest.union(boxOf(b)));
+  rest.getSize(size);
+  const wide = (b) => (boxOf(b).getSize(own), own.x > 1.2 * size.x && own.y > 1.2 * size.y);
+  return new Set(rest.isEmpty() ? [] : run.blocks.flatMap((block, b) => (block[3] && wide(b) ? [b] : [])));
+}
+
 export class Replay {
   constructor(canvas, motion, onPick) {
     this.canvas = canvas, this.motion = motion, this.colour = 'material', this.chosen = -1, this.wanted = false;
+    this.ground = groundBlocks();
     this.renderer = new THREE.WebGLRenderer({canvas, antialias: true, alpha: true, preserveDrawingBuffer: true});
     this.scene = new THREE.Scene();
     this.camera = new THREE.PerspectiveCamera(35, 1, 0.01, 1000);
@@ -63,20 +85,47 @@ export class Replay {
     this.scene.add(this.outline);
   }
 
-  // The box of all blocks that move, at rest; and of where they end, unless that is far away.
+  // What a view shows: the corners of the box of all blocks that move, at rest, and of the box in which nearly all of them end, unless
+  // that is far away.
   #frameView() {
-    const box = new THREE.Box3(), {motion} = this;
-    for (const b of motion.moving.length ? motion.moving : run.blocks.keys()) {
-      const {vertices} = run.shapes[run.blocks[b][4]], rest = run.blocks[b].slice(5, 8);
-      for (let i = 0; i < vertices.length; i += 3)
-        box.expandByPoint(new THREE.Vector3(vertices[i] + rest[0], vertices[i + 1] + rest[1], vertices[i + 2] + rest[2]));
+    const rest = new THREE.Box3(), end = new THREE.Box3(), {motion} = this, moving = motion.moving.length ? motion.moving : [...run.blocks.keys()];
+    let radius = 0;  // m, mean of the blocks
+    for (const b of moving) {
+      const box = boxOf(b);
+      rest.union(box), radius += box.getSize(new THREE.Vector3()).length() / 2 / moving.length;
     }
-    const reach = box.clone().expandByScalar(box.getSize(new THREE.Vector3()).length()), end = new THREE.Vector3();
-    for (const b of motion.moving)
-      box.expandByPoint(end.fromArray(motion.poses, motion.at(b, motion.nframe - 1)).clamp(reach.min, reach.max));
+    const reach = rest.clone().expandByScalar(0.6 * rest.getSize(new THREE.Vector3()).length()), out = Math.floor(moving.length / 50);
+    for (let axis = 0; axis < 3; ++axis) {
+      const ends = moving.map((b) => motion.poses[motion.at(b, motion.nframe - 1) + axis]).filter(Number.isFinite).sort((a, b) => a - b);
+      if (!ends.length) continue;
+      const x = 'xyz'[axis];
+      end.min[x] = Math.max(reach.min[x], ends[out]) - radius, end.max[x] = Math.min(reach.max[x], ends[ends.length - 1 - out]) + radius;
+    }
+    this.seen = [rest, end].flatMap((box) => (box.isEmpty() ? [] : corners(box)));
+    const box = new THREE.Box3().setFromPoints(this.seen);
     this.middle = box.getCenter(new THREE.Vector3());
     this.radius = Math.max(0.05, box.getSize(new THREE.Vector3()).length() / 2);
     this.camera.near = this.radius / 200, this.camera.far = this.radius * 400;
+  }
+
+  // Places the camera in the direction `way` from all that is to be seen, as near as its angle of view allows.
+  #fit(way) {
+    const {camera, controls} = this, right = camera.up.clone().cross(way).normalize(), up = way.clone().cross(right);
+    const half = Math.tan((camera.fov * Math.PI) / 360), target = this.middle.clone(), p = new THREE.Vector3();
+    let distance = (3 * this.radius) / half;
+    for (let round = 0; round < 8; ++round) {  // approaches, and moves the target to the middle of the picture
+      const shown = new THREE.Box2(), point = new THREE.Vector2();
+      for (const corner of this.seen) {
+        p.copy(corner).sub(target);
+        const depth = half * (distance - p.dot(way));
+        shown.expandByPoint(point.set(p.dot(right) / camera.aspect / depth, p.dot(up) / depth));
+      }
+      const middle = shown.getCenter(point), size = shown.getSize(new THREE.Vector2());
+      target.addScaledVector(right, distance * half * camera.aspect * middle.x).addScaledVector(up, distance * half * middle.y);
+      distance = Math.max(distance * 0.58 * Math.max(size.x, size.y), 2 * camera.near);
+    }
+    controls.target.copy(target);
+    camera.position.copy(target).addScaledVector(way, distance);
   }
 
   // `name`: three quarter, front, side, top, or "scene N" of the scene's own cameras.
@@ -89,9 +138,8 @@ export class Replay {
     } else {
       const ways = {front: [0, -1, 0.12], side: [1, 0, 0.12], top: [0, -0.01, 1], 'three quarter': [0.75, -1, 0.55]};
       const way = new THREE.Vector3(...ways[name]).normalize();
-      camera.up.set(0, 0, 1), camera.fov = 35, controls.target.copy(this.middle);
-      const distance = (1.15 * this.radius) / Math.sin((camera.fov * Math.PI) / 360) / Math.min(1, camera.aspect);
-      camera.position.copy(this.middle).addScaledVector(way, distance);
+      camera.up.set(0, 0, 1), camera.fov = 35;
+      this.#fit(way);
     }
     camera.updateProjectionMatrix();
     controls.update();
@@ -110,6 +158,7 @@ export class Replay {
 
   #color(block, frame, out) {
     const [, , material, fixed] = run.blocks[block], {motion, colour} = this;
+    if (this.ground.has(block)) return out.set(matchMedia('(prefers-color-scheme: dark)').matches ? '#4a4c50' : '#c9c6bf');
     if (colour === 'material' || fixed) {
       const rgb = run.manifest.materials?.[material]?.color ?? [0.6, 0.6, 0.6];
       out.setRGB(...rgb, THREE.SRGBColorSpace);

@@ -5,6 +5,14 @@
 #include "engine/base/error.h"
 
 namespace erbs::lua {
+namespace {
+
+std::string remedy_of(const std::string& program) {
+  return program == "ffmpeg" ? "install the package ffmpeg, or leave --video out" : "it belongs beside erbs: build or install both";
+}
+
+}  // namespace
+
 std::string renderer_path() {
   std::error_code ignored;
   const auto beside = std::filesystem::path(own_folder()) / "erbs-render";
@@ -14,15 +22,14 @@ std::string renderer_path() {
 int run_renderer(const std::vector<std::string>& arguments) {
   std::vector<std::string> command{renderer_path()};
   for (const auto& word : arguments) command.push_back(word);
-  return wait_for(start(command));
+  Launch how;
+  how.remedy = remedy_of(command.front());
+  return wait_for(start(command, how));
 }
 
 void check_programs(const std::vector<std::string>& names) {
   for (const std::string& name : names)
-    if (!can_start(name))
-      throw Error(fmt::format(
-          "the program {} is not there; {}", name,
-          name == "ffmpeg" ? "install the package ffmpeg, or leave --video out" : "it belongs beside erbs: build or install both"));
+    if (!can_start(name)) throw Error(fmt::format("the program {} is not there; {}", name, remedy_of(name)));
 }
 
 }  // namespace erbs::lua

@@ -57,7 +57,8 @@ void add_run(CLI::App& app, RunCommand& command) {
 }
 
 void add_plot(CLI::App& app, PlotCommand& command) {
-  CLI::App& plot = *app.add_subcommand("plot", "draw columns of histories.csv and energy.csv, of several runs over each other");
+  CLI::App& plot = *app.add_subcommand(
+      "plot", "draw columns of histories.csv and energy.csv, or of the curve.csv of a push, of several runs over each other");
   plot.add_option("DIR", command.words, "the run folders")->required();
   plot.add_option("--y", command.y, "columns to draw: names, their beginnings, or patterns with * and ?")
       ->delimiter(',')
@@ -177,7 +178,8 @@ void add_others(CLI::App& app, CommandLine& line) {
       .add_option(
           "--format", line.exported.formats,
           "gltf: animated blocks, and a script that loads them in Blender; vtu or xdmf: blocks with damage and velocity, joints with "
-          "tractions, for ParaView; hdf5: the same for scripts, with units; obj: one instant; csv: all poses")
+          "tractions (of a scene with frame_stress), for ParaView; hdf5: the same for scripts, with units; obj: one instant; csv: all "
+          "poses")
       ->delimiter(',')
       ->check(CLI::IsMember({"gltf", "vtu", "xdmf", "hdf5", "obj", "csv"}));
   exported.add_option("--time", line.exported.time, "only this span, s")->type_name("T0:T1");

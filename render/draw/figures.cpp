@@ -34,7 +34,8 @@ void choose_unit(Panel& panel, const CsvTable& table, const std::string& suffix)
   panel.label += fmt::format(" [{}]", shown.name);
 }
 
-constexpr std::array<const char*, 8> colors{"#23527c", "#c0502d", "#4f8a4c", "#8a5a9e", "#b08a1e", "#3b9aa8", "#7d7d7d", "#a33a5a"};
+// Okabe and Ito (2008), which the colour-blind can tell apart; with a dash for each further round.
+constexpr std::array<const char*, 8> colors{"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999"};
 
 std::string name_of(const CsvTable& table, int column) { return words_of(table.names[static_cast<std::size_t>(column)]); }
 

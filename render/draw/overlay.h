@@ -13,6 +13,9 @@ double overlay_unit(int height);
 // Pixels of the overlay at top and bottom of the picture; the camera aims at the part between.
 double overlay_top(int height);
 double overlay_bottom(int height, bool with_record);
+// Of a legend of four rows at the upper right, with its margin; height from the part that the camera aims at on; in rows of a picture with
+// 720 rows.
+constexpr double legend_width = 214, legend_height = 100;
 
 std::string length_text(double m);  // "1.5 m", "20 cm", "3 mm"
 

@@ -34,14 +34,14 @@ plot::Figure push_figure(const std::string& file, const CsvTable& curve, const R
   figure.settings = "set datafile separator comma\nset lmargin 12\nset rmargin 4\nset autoscale xfix\n";
   figure.labels.push_back({run.title, "screen 0.5,0.97", "center font ',15' noenhanced"});
   plot::Panel load{.cell = {0, 1, 0.36, 0.95}, .y = {.label = label_of(curve.names.front())}, .key = "bottom right"};
-  load.series.push_back({fmt::format("{}{}:1", source, x), "linespoints lw 1.6 pt 7 ps 0.5 lc rgb '#23527c'", "states of equilibrium"});
+  load.series.push_back({fmt::format("{}{}:1", source, x), "linespoints lw 1.6 pt 7 ps 0.5 lc rgb '#0072b2'", "states of equilibrium"});
   if (const double highest = *std::max_element(curve.columns[0].begin(), curve.columns[0].end()); highest > 0) {
     load.add_horizontal(highest, "lw 1 dt 3 lc rgb '#7d7d7d'");
     load.labels.push_back({fmt::format("{:.4g}", highest), fmt::format("graph 0.01, first {}", highest), "offset 0,-0.7 tc rgb '#5d5d5d'"});
   }
   const bool few = std::max(peak_of(curve.column("joints_opened")), peak_of(curve.column("joints_slid"))) < 5;  // else halves are labelled
   plot::Panel joints{.cell = {0, 1, 0, 0.36}, .x = {.label = along}, .y = {.label = "joints", .tics = few ? "1" : ""}, .key = "top left"};
-  for (const auto& [name, title, look] : {std::array{"joints_opened", "opened", "#c0502d"}, std::array{"joints_slid", "slid", "#4f8a4c"}})
+  for (const auto& [name, title, look] : {std::array{"joints_opened", "opened", "#d55e00"}, std::array{"joints_slid", "slid", "#009e73"}})
     joints.series.push_back(
         {fmt::format("{}{}:{}", source, x, curve.find(name) + 1), fmt::format("linespoints lw 1.3 pt 7 ps 0.4 lc rgb '{}'", look), title});
   figure.panels = {load, joints};

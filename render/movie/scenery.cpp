@@ -4,6 +4,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "render/draw/overlay.h"
 #include "render/run/mesh.h"
 
 namespace erbs::render {
@@ -34,6 +35,10 @@ Scenery::Scenery(const Run& run, const MotionReader& reader, const Movie& movie,
     : run_(run), reader_(reader), movie_(movie), excerpt_(without_groups(reader.scene(), movie.hide)), section_(movie.section) {
   if (movie.look.coloring == Coloring::energy) bodies_ = bodies_of(reader.scene(), run);
   stage_ = stage_of(run, reader, excerpt_, movie);
+  if (movie.look.overlay && !movie.split && !movie.svg) {
+    stage_.legend_width = legend_width * overlay_unit(movie.look.height) / movie.look.width;
+    stage_.legend_height = legend_height * overlay_unit(movie.look.height) / (movie.look.height - movie.look.top - movie.look.bottom);
+  }
   for (const Camera& camera : chosen_cameras(run, stage_, movie, aspect)) {
     Shot shot{camera, [camera](double) { return camera; }};
     if (!movie.path.empty()) shot.at = [camera, keys = camera_path(movie.path)](double t) { return along_path(camera, keys, t); };

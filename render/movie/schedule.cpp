@@ -25,7 +25,7 @@ Schedule schedule_of(const Movie& movie, const std::vector<double>& recorded) {
     const double slack = 1e-9 + (recorded.size() > 1 ? 0.05 * (last - first) / static_cast<double>(recorded.size() - 1) : 0);
     for (double t : movie.stills) {
       if (t < first - slack || t > last + slack)
-        throw Error(fmt::format("--stills {} is not within the run, which has frames from {} s to {} s", t, first, last));
+        throw Error(fmt::format("--stills {} is not within the run, which has frames from {:.6g} s to {:.6g} s", t, first, last));
       s.times.push_back(t);
     }
     return s;
@@ -33,8 +33,8 @@ Schedule schedule_of(const Movie& movie, const std::vector<double>& recorded) {
   const double from = movie.range ? std::max(first, movie.range->first) : first;
   const double to = movie.range ? std::min(last, movie.range->second) : last;
   if (from > to)
-    throw Error(fmt::format("--time {}:{} holds no frame; the run has frames from {} s to {} s", movie.range->first, movie.range->second,
-                            first, last));
+    throw Error(fmt::format("--time {}:{} holds no frame; the run has frames from {:.6g} s to {:.6g} s", movie.range->first,
+                            movie.range->second, first, last));
   if (movie.frames.empty()) {
     const double step = 1 / (movie.fps * movie.slow);
     evenly(s, from, step, 1 + static_cast<int>((to - from) / step + 1e-6));

@@ -102,32 +102,44 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
   stage.on_ground = ground;
   set_table(stage, scene, boxes);
   if (some_frames.empty()) return stage;
-  // Blocks thrown far away are ignored; a view that includes them would show the building too small.
-  const Vec3 aside = 0.6 * stage.size() * Vec3(1, 1, 0);
-  const auto near = [&](const Vec3& around) { return Eigen::AlignedBox3d(stage.building.min() - around, stage.building.max() + around); };
-  stage.heap = heap_of(some_frames.back(), stage.hidden, 20).intersection(near(aside));
-  stage.debris = heap_of(some_frames.back(), stage.hidden, 200).intersection(near(2.5 * aside));
   double radius = 0;  // m, mean of the blocks
   for (std::size_t b = 0; b < boxes.size(); ++b)
     radius += stage.hidden[b] ? 0 : 0.5 * boxes[b].sizes().norm() / static_cast<double>(boxes.size());
-  if (!stage.debris.isEmpty()) stage.debris.min() -= Vec3::Constant(radius), stage.debris.max() += Vec3::Constant(radius);
+  // Blocks thrown far away are ignored; a view that includes them would show the building too small. What stood above the ground may have
+  // fallen to it.
+  const auto heap = [&](std::size_t share, double aside) {
+    Eigen::AlignedBox3d near = stage.building;
+    near.min() -= aside * Vec3(1, 1, 0), near.max() += aside * Vec3(1, 1, 0);
+    near.min().z() = std::min(near.min().z(), ground ? stage.ground_z : std::max(lowest, near.min().z() - aside));
+    Eigen::AlignedBox3d box = heap_of(some_frames.back(), stage.hidden, share);
+    if (box.isEmpty()) return box;
+    box = Eigen::AlignedBox3d(box.min().cwiseMax(near.min()).cwiseMin(near.max()), box.max().cwiseMin(near.max()).cwiseMax(near.min()));
+    box.min() -= Vec3::Constant(radius), box.max() += Vec3::Constant(radius);
+    if (ground) box.min().z() = std::max(box.min().z(), stage.ground_z);
+    return box;
+  };
+  stage.heap = heap(50, 0.9 * stage.size());
+  stage.debris = heap(200, 1.5 * stage.size());
   return stage;
 }
 
 namespace {
 
-// Points that must be visible: the building, room on the ground for what falls beside it, and the heap at the end.
+// Points that must be visible: the building, room on the ground for what falls beside it, and the heap where it lies at the end.
 std::vector<Vec3> seen_points(const Stage& stage, bool debris) {
-  std::vector<Vec3> seen;
+  std::vector<Vec3> seen, heap;
   const Vec3 size = stage.building.sizes(), aside = 0.14 * size.z() * Vec3(1, 1, 0);
   for (int i = 0; i < 8; ++i) {
     const Vec3 p = stage.building.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
     seen.push_back(p);
     if (i < 4) seen.push_back(p + aside.cwiseProduct((p - stage.building.center()).cwiseSign()));  // the lower corners
-    if (debris && !stage.debris.isEmpty()) seen.push_back(stage.debris.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
-    if (!stage.heap.isEmpty()) seen.push_back(stage.heap.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
+    const Eigen::AlignedBox3d& fallen = debris ? stage.debris : stage.heap;
+    if (!fallen.isEmpty()) heap.push_back(fallen.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
   }
-  if (stage.positions.empty()) return seen;
+  if (stage.positions.empty()) {
+    seen.insert(seen.end(), heap.begin(), heap.end());
+    return seen;
+  }
   const Vec3 near = 0.4 * stage.size() * Vec3(1, 1, 1);
   const Eigen::AlignedBox3d table = stage.table.intersection({stage.building.min() - near, stage.building.max() + near});
   if (!table.isEmpty())
@@ -135,7 +147,21 @@ std::vector<Vec3> seen_points(const Stage& stage, bool debris) {
   std::vector<Vec3> turned;
   for (const Eigen::Isometry3d& position : stage.positions)
     for (const Vec3& p : seen) turned.push_back(position * p);
+  for (const Vec3& p : heap) turned.push_back(stage.positions.back() * p);
   return turned;
+}
+
+// Whether the convex hull of the points reaches beyond this corner in both directions.
+bool reaches_corner(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& corner) {
+  for (const Eigen::Vector2d& p : points)
+    for (const Eigen::Vector2d& q : points) {
+      const Eigen::Vector2d a = p - corner, b = q - corner;
+      if (a.minCoeff() > 0) return true;
+      // Where x - y changes its sign on the side from p to q, the lesser of both is greatest.
+      const double from = a.x() - a.y(), to = b.x() - b.y();
+      if (from * to < 0 && (a + from / (from - to) * (b - a)).minCoeff() > 0) return true;
+    }
+  return false;
 }
 
 }  // namespace
@@ -160,23 +186,35 @@ Camera in_scene(const Camera& camera, const Eigen::Isometry3d& position) {
 
 void fit_camera(Camera& c, const Vec3& direction, const Stage& stage, double aspect, bool debris) {
   const std::vector<Vec3> seen = seen_points(stage, debris);
-  c.target = stage.building.center();
   const Vec3 back = direction.normalized();
   Vec3 right = c.up.cross(back);
   if (right.norm() < 1e-6) c.up = Vec3(0, 1, 0), right = c.up.cross(back);
   right.normalize();
   const Vec3 up = back.cross(right);
   const double half = std::tan(0.5 * c.fov);
-  double distance = std::max(1e-3, 3 * stage.size() / std::min(1.0, 4 * half));
-  for (int iteration = 0; iteration < 8; ++iteration) {  // approaches in iterations and centres the target on the visible points
-    Eigen::AlignedBox2d shown;
-    for (const Vec3& p : seen) {
-      const Vec3 v = p - c.target;
-      shown.extend(Eigen::Vector2d(v.dot(right) / aspect, v.dot(up)) / (half * (distance - v.dot(back))));
+  double distance = 0;
+  // Fits all points into the part of the picture, from -1 to 1, that a strip at its right leaves, and at its left one for the axes, which
+  // are little more than half as wide as a legend; returns their places.
+  const auto place = [&](double strip) {
+    const double beside = 0.55 * strip;
+    std::vector<Eigen::Vector2d> places(seen.size());
+    c.target = stage.building.center();
+    distance = std::max(1e-3, 3 * stage.size() / std::min(1.0, 4 * half));
+    for (int iteration = 0; iteration < 9; ++iteration) {  // approaches in iterations and centres the target on the visible points
+      Eigen::AlignedBox2d shown;
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        const Vec3 v = seen[i] - c.target;
+        places[i] = Eigen::Vector2d(v.dot(right) / aspect, v.dot(up)) / (half * (distance - v.dot(back)));
+        shown.extend(places[i]);
+      }
+      if (iteration == 8) break;
+      c.target += distance * half * ((shown.center().x() + strip - beside) * aspect * right + shown.center().y() * up);
+      distance *= 1.06 * 0.5 * std::max(shown.sizes().x() / (1 - strip - beside), shown.sizes().y());
     }
-    c.target += distance * half * (shown.center().x() * aspect * right + shown.center().y() * up);
-    distance *= 1.06 * 0.5 * shown.sizes().maxCoeff();
-  }
+    return places;
+  };
+  const double strip = stage.legend_width;
+  if (reaches_corner(place(0), {1 - 2 * strip, 1 - 2 * stage.legend_height})) place(strip);
   c.eye = c.target + distance * back;
 }
 

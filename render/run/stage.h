@@ -10,12 +10,13 @@ namespace erbs::render {
 struct Stage {
   Eigen::AlignedBox3d building;                            // m, all blocks except the ground, at rest
   Eigen::AlignedBox3d reach;                               // m, its visible extent over the whole run (for the shadow)
-  Eigen::AlignedBox3d heap;                                // m, extent of nearly all block centroids at the end
+  Eigen::AlignedBox3d heap;                                // m, extent of nearly all blocks at the end, each whole
   Eigen::AlignedBox3d debris;                              // m, extent of 99 % of the blocks at the end, each whole
   double ground_z = 0;                                     // m
   Eigen::AlignedBox3d table;                               // m, what turns in a tilting test: the ground under all that is visible
   bool on_ground = false;                                  // a ground block is drawn as a plane
   std::vector<Eigen::Isometry3d> positions;                // of the table over the run; empty: it stays
+  double legend_width = 0, legend_height = 0;              // shares of what a camera sees that a legend covers, at its upper right
   std::vector<bool> hidden;                                // ground blocks, drawn as a plane [blocks]
   double size() const { return building.sizes().norm(); }  // m
 };

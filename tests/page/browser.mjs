@@ -116,6 +116,26 @@ async function looks(page, name, key) {
   check(changed <= 0.01, `the replay has ${(100 * changed).toFixed(1)} % other pixels than ${file}`);
 }
 
+// What moves fills the view, which holds also the bricks that end nearer to the eye: rows or columns of the picture that hold some of the red of its bricks.
+async function filled(page) {
+  await page.selectOption('#camera', 'front');
+  await page.focus('#scrub');
+  await page.keyboard.press('Home');
+  await settled(page);
+  const share = await page.evaluate(async (url) => {
+    const image = new Image();
+    image.src = url;
+    await image.decode();
+    const [width, height] = [320, 180], context = Object.assign(document.createElement('canvas'), {width, height}).getContext('2d');
+    context.drawImage(image, 0, 0, width, height);
+    const {data} = context.getImageData(0, 0, width, height), rows = new Set(), columns = new Set();
+    for (let i = 0; i < width * height; ++i)
+      if (data[4 * i] > 1.3 * data[4 * i + 1]) rows.add(Math.floor(i / width)), columns.add(i % width);
+    return Math.max(rows.size / height, columns.size / width);
+  }, await picture(page));
+  check(share > 0.45, `the blocks fill only ${(100 * share).toFixed(0)} % of the view`);
+}
+
 async function curves(page) {
   check((await page.locator('#curves canvas').count()) === 1, 'there are no curves');
   const drawn = () => page.$eval('#curves canvas', (canvas) => canvas.toDataURL());
@@ -144,6 +164,7 @@ try {
   await colours(page);
   await curves(page);
   if (pictures) {
+    await filled(page);
     await looks(page, 'replay_start', 'Home');
     await looks(page, 'replay_end', 'End');
   }

@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/record/folder/motion_scene.h"
 #include "engine/record/format/h5.h"
+#include "engine/record/format/json.h"
 
 namespace erbs {
 namespace {
@@ -188,6 +189,25 @@ struct MotionReader::File {
   std::vector<double> times;
 };
 
+namespace {
+
+// A file of another run would be drawn under the title and verdict of this one.
+void check_belongs(const std::string& dir, const MotionScene& scene) {
+  if (!std::filesystem::exists(in(dir, "metrics.json"))) return;  // the run has not ended
+  const Json metrics = read_json(in(dir, "metrics.json"));
+  const auto count = [&](const char* key, std::size_t own) {
+    const Json* value = find_key(metrics, key);
+    return value && value->is_number_unsigned() ? value->get<std::size_t>() : own;
+  };
+  const std::size_t blocks = count("blocks", scene.blocks.size()), joints = count("joints", scene.joints.size());
+  if (blocks == scene.blocks.size() && joints == scene.joints.size()) return;
+  throw Error(fmt::format("it has {} blocks and {} joints, the run of this folder has {} and {}: it is of another run; run the scene again",
+                          scene.blocks.size(), scene.joints.size(), blocks, joints),
+              {in(dir, "motion.h5"), 0});
+}
+
+}  // namespace
+
 MotionReader::MotionReader(const std::string& dir) : file_(new File{h5::File(in(dir, "motion.h5"), h5::File::Mode::read), {}, {}, {}}) {
   file_->scene = get_scene(file_->file);
   file_->frames.open(file_->file);
@@ -195,6 +215,7 @@ MotionReader::MotionReader(const std::string& dir) : file_(new File{h5::File(in(
   if (file_->frames.njoint() != file_->scene.joints.size()) file_->file.unreadable("/joint_damage");
   file_->times = file_->file.get<double>("/time");
   file_->times.resize(file_->frames.size());
+  check_belongs(dir, file_->scene);
 }
 
 MotionReader::~MotionReader() = default;

@@ -81,6 +81,11 @@ CsvTable read_columns(const std::string& folder) {
   return table;
 }
 
+std::optional<CsvTable> read_capacity(const std::string& folder) {
+  const std::string path = (fs::path(folder) / "curve.csv").string();
+  return fs::exists(path) ? std::optional(read_csv(path)) : std::nullopt;
+}
+
 std::vector<int> choose_columns(const CsvTable& table, const std::string& pattern) {
   const bool is_glob = pattern.find_first_of("*?") != std::string::npos;
   // "***" would try every way to share a name among the stars.
@@ -104,8 +109,16 @@ std::vector<int> choose_columns(const CsvTable& table, const std::string& patter
 }
 
 HistoryCurve curve_of(const CsvTable& table, int x, int y, TimeSpan span) {
-  const std::vector<double>& t = table.column("time_s");
   HistoryCurve curve{"", table.names[std::size_t(x)], table.names[std::size_t(y)], {}, {}};
+  if (table.find("time_s") < 0) {
+    if (std::isfinite(span.from) || std::isfinite(span.to)) throw Error("states of equilibrium have no time; leave out --time");
+    for (std::size_t i = 0; i < table.rows(); ++i)
+      if (std::isfinite(table.columns[std::size_t(x)][i]) && std::isfinite(table.columns[std::size_t(y)][i]))
+        curve.x.push_back(table.columns[std::size_t(x)][i]), curve.y.push_back(table.columns[std::size_t(y)][i]);
+    if (curve.x.size() < 2) throw Error("a curve takes two states of equilibrium; let the push go on");
+    return curve;
+  }
+  const std::vector<double>& t = table.column("time_s");
   const double slack = 1e-9 * (1 + std::abs(t.back()));  // times of rows are sums of many steps
   for (std::size_t i = 0; i < t.size(); ++i) {
     if (!std::isfinite(t[i])) throw Error(fmt::format("the time in row {} is not finite; mend or remove that row", i + 1));

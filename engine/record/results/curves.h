@@ -1,6 +1,7 @@
 // Columns of run folders as curves: choice of columns by name, span of time, spectra, envelope.
 #pragma once
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,12 +22,15 @@ TimeSpan time_span_of(const std::string& text);
 
 // The columns of histories.csv, then those of energy.csv, in their common rows. Throws Error if there is no folder or no row.
 CsvTable read_columns(const std::string& folder);
+// curve.csv of a push or a tilting test, a row for each state of equilibrium; nothing without that file.
+std::optional<CsvTable> read_capacity(const std::string& folder);
 
 // The columns that `pattern` fits: the one of this name; with * and ? all that match; otherwise all that begin so. Columns of words are
 // left out. Error with the nearest names if there is none.
 std::vector<int> choose_columns(const CsvTable& table, const std::string& pattern);
 
-// Column y over column x in the rows of the span. Error for fewer than two rows or a value that is not finite.
+// Column y over column x in the rows of the span, or in all rows of a table without time. Error for fewer than two rows or a value that is
+// not finite.
 HistoryCurve curve_of(const CsvTable& table, int x, int y, TimeSpan span);
 
 std::vector<double> envelope_of(const std::vector<double>& y);  // running maximum of |y|

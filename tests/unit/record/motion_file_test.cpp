@@ -178,3 +178,18 @@ TEST_CASE("a scene without joints and a file that is none", "[record][motion_fil
   std::filesystem::remove(dir.path / "motion.h5");
   CHECK_THROWS_WITH(MotionReader(dir.path.string()), Catch::Contains("no such motion file"));
 }
+
+TEST_CASE("a motion file of another run is refused beside the results of this one", "[record][motion_file][bad_input]") {
+  const Folder dir;
+  MotionWriter(dir.path.string(), two_blocks()).write(frame_at(0));
+  const auto ended_with = [&](int blocks, int joints) {
+    std::ofstream(dir.path / "metrics.json") << fmt::format("{{\"blocks\": {}, \"joints\": {}}}", blocks, joints);
+  };
+  ended_with(2, 1);
+  CHECK(MotionReader(dir.path.string()).times().size() == 1);
+  for (const auto& [blocks, joints] : {std::pair(3, 1), {2, 0}, {20, 18}}) {
+    ended_with(blocks, joints);
+    CHECK_THROWS_WITH(MotionReader(dir.path.string()),
+                      Catch::Contains("it has 2 blocks and 1 joints") && Catch::Contains("of another run") && Catch::Contains("motion.h5"));
+  }
+}

@@ -123,6 +123,64 @@ TEST_CASE("cameras see where the blocks have come to lie", "[render][stage]") {
   }
 }
 
+TEST_CASE("cameras see the heap of a building that stood above the ground", "[render][stage]") {
+  const double height = GENERATE(0.0, 0.5, 2.0), aspect = GENERATE(0.8, 16.0 / 9);
+  MotionScene scene = brick_house({});
+  scene.blocks[0].rest.z() -= height;
+  MotionFrame fallen = brick_house_frame(scene, 0);
+  const auto count = static_cast<float>(scene.blocks.size());
+  for (std::size_t b = 1; b < scene.blocks.size(); ++b) {  // in a row along x, up to a length of the building away
+    fallen.poses[7 * b] += 1.5F * static_cast<float>(b) / count;
+    fallen.poses[7 * b + 2] = static_cast<float>(0.05 - height);
+  }
+  const Stage stage = set_stage(scene, {brick_house_frame(scene, 0), fallen});
+  const int width = static_cast<int>(720 * aspect);
+  for (const Camera& camera : choose_cameras(stage, width / 560.0)) {
+    const View v = look(camera, stage, width, 720, 58, 102);
+    std::size_t seen = 0;
+    for (std::size_t b = 1; b < scene.blocks.size(); ++b) {
+      const Eigen::Vector3f p = Eigen::Map<const Eigen::Vector3f>(&fallen.poses[7 * b]);
+      const Eigen::Vector4f c = v.projection * v.view * p.homogeneous();
+      const float row = 360 * (1 - c.y() / c.w());
+      seen += std::abs(c.x() / c.w()) < 1 && row > 58 && row < 720 - 102 ? 1 : 0;
+    }
+    INFO(camera.name << " " << height);
+    CHECK(seen == scene.blocks.size() - 1);
+  }
+}
+
+TEST_CASE("a legend covers no part of what cameras are fitted to", "[render][stage]") {
+  // From a tower to a long wall; the picture has 1280 x 720 pixels.
+  const auto [length, courses] =
+      GENERATE(std::pair(0.6, 40), std::pair(2.4, 30), std::pair(5.0, 25), std::pair(9.0, 40), std::pair(9.0, 12));
+  const MotionScene scene = brick_house({length, 0.6, courses, 1, 0.5});
+  Stage stage = set_stage(scene, {brick_house_frame(scene, 0)});
+  const double aspect = 1280.0 / 546;
+  const std::vector<Camera> plain = choose_cameras(stage, aspect);
+  stage.legend_width = 214.0 / 1280, stage.legend_height = 100.0 / 546;
+  std::vector<Camera> cameras = choose_cameras(stage, aspect);
+  const bool moved = (cameras.front().eye - plain.front().eye).norm() > 1e-9;
+  for (const Camera& camera : elevations(stage, aspect)) cameras.push_back(camera);
+  for (const Camera& camera : cameras) {
+    INFO(camera.name << ", " << length << " m, " << courses << " courses" << (moved ? ", moved" : ""));
+    const View v = look(camera, stage, 1280, 720, 58, 116);
+    int covered = 0, outside = 0;
+    for (int i = 0; i <= 20; ++i)  // points of the faces of the building
+      for (int j = 0; j <= 20; ++j)
+        for (int face = 0; face < 6; ++face) {
+          Vec3 share(0.05 * i, 0.05 * j, face % 2);
+          std::rotate(share.data(), share.data() + face / 2, share.data() + 3);
+          const Vec3 p = stage.building.min() + share.cwiseProduct(stage.building.sizes());
+          const Eigen::Vector4f c = v.projection * v.view * p.cast<float>().homogeneous();
+          const float x = 640 * (1 + c.x() / c.w()), y = 360 * (1 - c.y() / c.w());
+          covered += x > 1280 - 214 && y < 58 + 100 ? 1 : 0;
+          outside += x < 0 || x > 1280 || y < 58 || y > 720 - 116 ? 1 : 0;
+        }
+    CHECK(covered == 0);
+    CHECK(outside == 0);
+  }
+}
+
 TEST_CASE("what throws shadow is a block grown on every side", "[render][mesh]") {
   MotionScene scene;
   scene.blocks = {{"a", "", 0, false, Vec3(1, 2, 3), {share_shape(scene, wedge())}}};

@@ -37,3 +37,17 @@ TEST_CASE("without gnuplot and ffmpeg a run and its frames are still made", "[pr
   REQUIRE(bench.erbs({"render", bench.out(), "--frames", "2", "--size", "160x90", "--force", "--no-figures"}) == 0);
   CHECK(contains(bench.said, "Häuschen__q__corner.mp4"));
 }
+
+TEST_CASE("erbs without erbs-render says what belongs beside it", "[program][render]") {
+  Bench bench;
+  REQUIRE(bench.run(four_bricks() + "joint{ law = dry{ kn = 1e9, ks = 4e8, mu = .6 } } analysis{ duration = .02 }") == 0);
+  const std::string alone = (bench.folder / "erbs").string(), log = (bench.folder / "log").string();
+  fs::copy_file(bench.command({}).front(), alone);
+  for (const std::vector<std::string>& words :
+       {std::vector<std::string>{"render", bench.out()}, {"run", (bench.folder / "scene.lua").string(), "--video", "--force"}}) {
+    std::vector<std::string> command{"/usr/bin/env", "PATH=" + (bench.folder / "nowhere").string(), alone};
+    command.insert(command.end(), words.begin(), words.end());
+    CHECK(wait_for(start(command, log)) == 2);
+    CHECK(contains(text_of(log), "it belongs beside erbs: build or install both"));
+  }
+}

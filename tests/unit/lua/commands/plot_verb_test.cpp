@@ -55,6 +55,23 @@ TEST_CASE("spectra, envelopes and spans are drawn", "[plot][program]") {
   CHECK(contains(bench.said, "m/s²"));
 }
 
+TEST_CASE("the capacity of a push is drawn: base shear over displacement", "[plot][program]") {
+  Bench bench;
+  const std::string run = run_folder(bench, "push"), other = run_folder(bench, "other"), picture = run + "/plot.svg";
+  std::string states = "multiplier_g,displacement_m,base_shear_N,base_shear_over_weight\n";
+  for (int i = 0; i < 6; ++i) states += fmt::format("{},{},{},{}\n", 0.1 * i, 0.002 * i, 1000 * i, i == 5 ? "nan" : "0.1");
+  bench.write("push/curve.csv", states), bench.write("other/curve.csv", states);
+  REQUIRE(bench.erbs({"plot", run, other, "--x", "displacement_m", "--y", "base_shear_N"}) == 0);
+  CHECK(contains(bench.said, "2 curves"));
+  CHECK(contains(text_of(picture), "displacement [mm]"));
+  CHECK(contains(text_of(picture), "base shear [kN]"));
+  REQUIRE(bench.erbs({"plot", run, "--list"}) == 0);
+  CHECK(contains(bench.said, "base_shear_over_weight"));
+  CHECK(bench.erbs({"plot", run, "--x", "top_ux_m", "--y", "base_fx_N", "--force"}) == 0);  // of the histories, as before
+  CHECK(bench.erbs({"plot", run, "--x", "displacement_m", "--y", "base_shear_N", "--time", "0:1", "--force"}) == 2);
+  CHECK(contains(bench.said, "leave out --time"));
+}
+
 TEST_CASE("each mistake has its cause and its remedy", "[plot][program]") {
   Bench bench;
   const std::string run = run_folder(bench, "first");
