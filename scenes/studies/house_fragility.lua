@@ -5,6 +5,8 @@
 -- Source         Gu and Miao judge a simulation by time and direction of collapse; the house is theirs. Baker 2015 for the likelihood.
 -- How to run     erbs sweep scenes/studies/house_fragility.lua        160 runs; -D twins=4: 32 runs
 -- What to look at  fragility.svg, falls.svg; fragility.csv, stripes.csv, falls.csv
+-- What is found  None of 20 twins falls at 1.0 g, 9 at 1.2 g, 18 at 1.4 g, all from 1.6 g on: median 1.23 g [1.18, 1.28], dispersion .09,
+--                all of it chaos. Near the median they fall after 3.7 to 5.2 s (16 to 84 %) to either side, from 2.2 g on after 2.1 s to -x.
 local twins = param("twins", 20, "of each peak")
 local size = param("size", 1e-9, "of the perturbation [m and rad]")
 local kn_cracked = param("kn_cracked", 0, "normal stiffness of beds without bond; 0: as with bond [Pa/m]")

@@ -21,10 +21,11 @@ std::array<double, 2> mean_vector(const Falls& falls) {
 }
 
 // From blue at the lowest intensity to red at the highest.
+// Dark to bright, from the lowest intensity to the highest.
 std::string color_of(std::size_t i, std::size_t n) {
   const double t = n > 1 ? double(i) / double(n - 1) : 0.5;
   const auto mix = [&](double a, double b, double c) { return int(t < 0.5 ? a + 2 * t * (b - a) : b + (2 * t - 1) * (c - b)); };
-  return fmt::format("#{:02x}{:02x}{:02x}", mix(31, 150, 181), mix(95, 150, 67), mix(139, 150, 46));
+  return fmt::format("#{:02x}{:02x}{:02x}", mix(24, 190, 250), mix(30, 50, 170), mix(120, 110, 40));
 }
 
 // Intensities that a bisection chose differ from run to run: they are one sample then.
@@ -72,7 +73,8 @@ plot::Panel times_panel(plot::Figure& figure, const std::vector<Falls>& lines, c
                             fmt::format("lines lw 2.5 lc rgb '{}'", color_of(i, lines.size())), title_of(lines[i], shown)});
   panel.x = {"time of collapse [s]", fmt::format("[0:{}]", right)};
   panel.y = {"share of runs that have fallen", "[-0.02:1.02]"};
-  panel.key = "outside bottom center horizontal Left reverse samplen 2 font ',11' noenhanced";
+  panel.key = "at graph 0.5,-0.16 top center horizontal maxcols 3 Left reverse samplen 2 font ',11' noenhanced";
+  panel.axes = plot::Box{0.08, 0.555, 0.27, 0.9};
   return panel;
 }
 
