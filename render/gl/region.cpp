@@ -36,14 +36,14 @@ Region region_of(const std::vector<Sphere>& spheres, const Eigen::Matrix4f& view
     const float ahead = -at.z();
     if (!at.allFinite() || ahead + s.radius < near) continue;
     if (ahead - s.radius < near) return {0, 0, width, height};
-    for (int axis = 0; axis < 2; ++axis)
-      for (const float sign : {-1.0F, 1.0F}) {
-        const float edge = at[axis] + sign * s.radius;
-        const float slope = edge / (edge * sign > 0 ? ahead - s.radius : ahead + s.radius);
-        const float ndc = projection(axis, axis) * slope - projection(axis, 2);
+    for (int axis = 0; axis < 2; ++axis) {  // the rays that touch the sphere, in the plane of this axis and the view
+      const float towards = std::atan2(at[axis], ahead), half = std::asin(s.radius / std::hypot(at[axis], ahead));
+      for (const float angle : {towards - half, towards + half}) {
+        const float ndc = projection(axis, axis) * std::tan(angle) - projection(axis, 2);
         box.min()[axis] = std::min(box.min()[axis], ndc);
         box.max()[axis] = std::max(box.max()[axis], ndc);
       }
+    }
   }
   return pixels_of(box, width, height, margin);
 }

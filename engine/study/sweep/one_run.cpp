@@ -55,7 +55,7 @@ void judge_end(const Sweep& sweep, const std::string& scene, const Finished& fin
     row.reason = fmt::format("took longer than max_wall = {:g} s and was ended", sweep.plan.max_wall);
   } else if (cap > 0 && finished.code != 0 &&
              (says(log, "not enough memory") || says(log, "MiB of memory") || says(log, "Cannot allocate memory") ||
-              says(log, "failed to map segment"))) {
+              says(log, "while loading shared libraries"))) {  // those of the program that waits here: they are there, and find no room
     row.status = "memory";
     row.reason = fmt::format("needs more than memory = {} and was ended at {}", bytes_text(cap), bytes_text(finished.memory));
   } else if (finished.code > 128) {
