@@ -551,7 +551,7 @@ function damping(keys) end
 ---@field control? "load"|"displacement" pushover: steps of the multiplier, or of the displacement of the monitored point, past the peak [default load]
 ---@field displacement? number control by displacement: where the push ends [m; 0 to 1e+06; default 0]
 ---@field displacement_step? number control by displacement: step (0: a fiftieth of displacement) [m; 0 to 1e+06; default 0]
----@field relaxation? "kinetic"|"adaptive"|"local" tilt, pushover: damping on the way to equilibrium [default kinetic]
+---@field relaxation? "critical"|"kinetic"|"adaptive"|"local" tilt, pushover: damping on the way to equilibrium [default critical]
 ---@field inertia? "scaled"|"true" tilt, pushover: masses on the way to equilibrium, scaled to one time step or true [default scaled]
 ---@field unbalanced? number tilt, pushover: mean unbalanced force over mean applied force in equilibrium [1e-09 to 0.01; default 1e-05]
 ---@field limit? "auto"|"always"|"never" tilt, pushover: limit analysis beside the capacity; auto: up to 12000 contact points of the limit problem, where it takes seconds [default auto]

@@ -21,11 +21,11 @@ double clock_seconds(clockid_t clock) {
 
 }  // namespace
 
+double seconds() { return clock_seconds(CLOCK_MONOTONIC); }
+
 Crew::Crew(int threads) : most_(threads), now_(threads), window_(sample_every), rest_(least_rest) {}
 
-bool Crew::should_change(long step) {
-  return most_ > 1 && should_change(step, clock_seconds(CLOCK_MONOTONIC), clock_seconds(CLOCK_PROCESS_CPUTIME_ID));
-}
+bool Crew::should_change(long step) { return most_ > 1 && should_change(step, seconds(), clock_seconds(CLOCK_PROCESS_CPUTIME_ID)); }
 
 void Crew::begin(Phase phase, int threads, long step, double wall, double processor) {
   phase_ = phase;

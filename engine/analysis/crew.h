@@ -5,6 +5,8 @@
 
 namespace erbs::analysis {
 
+double seconds();  // s, of a clock that only goes forward
+
 class Crew {
  public:
   explicit Crew(int threads);

@@ -1,7 +1,6 @@
 #include "engine/analysis/dynamic.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -24,8 +23,6 @@ namespace erbs::analysis {
 namespace {
 
 std::size_t z(int i) { return std::size_t(i); }
-
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 // Output written so far, so that a resumed run continues at the same rows. Rows and frames are due at whole multiples of their interval.
 struct OutputSchedule {
@@ -227,9 +224,7 @@ Metrics Run::metrics() const {
   m.wall_s.record = record_;
   m.wall_s.solve = solved_;
   m.wall_s.search = searched_;
-  const auto phase = out_.profile.seconds(solved_ - searched_);
-  m.wall_s.contact = phase[std::size_t(Phase::contact)], m.wall_s.joints = phase[std::size_t(Phase::joints)];
-  m.wall_s.integrate = phase[std::size_t(Phase::integrate)], m.wall_s.ledger = phase[std::size_t(Phase::ledger)];
+  divide_solving(m.wall_s, out_.profile);
   m.simulated_s = m.time_s - started_at_;
   m.point_updates = std::uint64_t(s.time.step - steps_at_start_) * std::uint64_t(run_.model.npoint);
   m.peak_memory_bytes = peak_memory_bytes();
@@ -344,6 +339,12 @@ Manifest manifest_of_run(const Scene& scene, const std::string& script, const Pr
   for (const Effect& e : effects_of(scene))
     (e.on ? manifest.effects_on : manifest.effects_off).push_back(e.on ? e.name + " (" + e.because + ")" : e.name);
   return manifest;
+}
+
+void divide_solving(Metrics::Wall& wall, const Profile& profile) {
+  const auto phase = profile.seconds(wall.solve - wall.search);
+  wall.contact = phase[std::size_t(Phase::contact)], wall.joints = phase[std::size_t(Phase::joints)];
+  wall.integrate = phase[std::size_t(Phase::integrate)], wall.ledger = phase[std::size_t(Phase::ledger)];
 }
 
 RunOutcome run_dynamic(Scene scene, const std::string& script, const RunOptions& options) {

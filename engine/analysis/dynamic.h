@@ -49,6 +49,9 @@ struct RunOutcome {
   std::shared_ptr<const FolderLock> lock;  // while it is held, no other run writes to the folder
 };
 
+// Divides `solve`, less `search`, among its phases.
+void divide_solving(Metrics::Wall& wall, const Profile& profile);
+
 struct Prepared;
 // manifest.json of a run that is ready to start.
 Manifest manifest_of_run(const Scene& scene, const std::string& script, const Prepared& run, const RunOptions& options);

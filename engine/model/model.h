@@ -116,7 +116,9 @@ struct Model {
   Vec3 gravity = Vec3::Zero();  // m/s2
   double settlement = 0;        // m, estimated settlement of the top under self-weight (laws/interlock.h)
   Damping damping;
-  double local_damping = 0;       // share of the unbalanced force that brakes a block (Cundall 1987); for relaxations only
+  double local_damping = 0;  // share of the unbalanced force that brakes a block (Cundall 1987); for relaxations only
+  // Of the weight of the lighter block: joined neighbours that meet along an edge are no contact before it could bear this.
+  double edge_force = 1e-4;
   bool dashpots = false;          // some intact joint has dashpots
   bool dashpots_cracked = false;  // some joint has them once cracked
   Analysis analysis;

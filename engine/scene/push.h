@@ -37,20 +37,20 @@ struct Monitor {
 };
 
 struct PushSettings {
-  std::string kind = "dynamic";        // dynamic: there is none | tilt | pushover
-  Vec3 direction{1, 0, 0};             // unit vector: of the acceleration that acts on the masses, or towards the side that a tilt lowers
-  std::vector<PatternForce> pattern;   // empty: an acceleration of the multiplier times g on every block
-  std::vector<double> path;            // multipliers (tilt: rad) to visit in turn before the last push
-  double step = 0;                     // first step of the multiplier (tilt: rad); 0: 0.01 and 0.5 degrees
-  double up_to = 0;                    // largest multiplier (tilt: rad); 0: 2 and 60 degrees
-  double bracket = 0.002;              // width of the bracket of the capacity, relative
-  std::string control = "load";        // load | displacement: the multiplier follows from the displacement of the monitored point
-  double displacement = 0;             // m, control by displacement: where the push ends
-  double displacement_step = 0;        // m; 0: a fiftieth of `displacement`
-  std::string relaxation = "kinetic";  // kinetic | adaptive | local: damping on the way to equilibrium
-  std::string inertia = "scaled";      // scaled | true
-  double unbalanced = 1e-5;            // mean unbalanced force over mean applied force in equilibrium
-  std::string limit = "auto";          // auto | always | never: limit analysis beside the capacity
+  std::string kind = "dynamic";         // dynamic: there is none | tilt | pushover
+  Vec3 direction{1, 0, 0};              // unit vector: of the acceleration that acts on the masses, or towards the side that a tilt lowers
+  std::vector<PatternForce> pattern;    // empty: an acceleration of the multiplier times g on every block
+  std::vector<double> path;             // multipliers (tilt: rad) to visit in turn before the last push
+  double step = 0;                      // first step of the multiplier (tilt: rad); 0: 0.01 and 0.5 degrees
+  double up_to = 0;                     // largest multiplier (tilt: rad); 0: 2 and 60 degrees
+  double bracket = 0.002;               // width of the bracket of the capacity, relative
+  std::string control = "load";         // load | displacement: the multiplier follows from the displacement of the monitored point
+  double displacement = 0;              // m, control by displacement: where the push ends
+  double displacement_step = 0;         // m; 0: a fiftieth of `displacement`
+  std::string relaxation = "critical";  // critical | kinetic | adaptive | local: damping on the way to equilibrium
+  std::string inertia = "scaled";       // scaled | true
+  double unbalanced = 1e-5;             // mean unbalanced force over mean applied force in equilibrium
+  std::string limit = "auto";           // auto | always | never: limit analysis beside the capacity
   Monitor monitor;
   Place place;
 
@@ -72,7 +72,7 @@ struct PushSettings {
         {"displacement_step", &PushSettings::displacement_step, "m", "control by displacement: step (0: a fiftieth of displacement)", 0,
          1e6},
         {"relaxation", &PushSettings::relaxation, "", "tilt, pushover: damping on the way to equilibrium", 0, 0, false,
-         "kinetic|adaptive|local"},
+         "critical|kinetic|adaptive|local"},
         {"inertia", &PushSettings::inertia, "", "tilt, pushover: masses on the way to equilibrium, scaled to one time step or true", 0, 0,
          false, "scaled|true"},
         {"unbalanced", &PushSettings::unbalanced, "", "tilt, pushover: mean unbalanced force over mean applied force in equilibrium", 1e-9,

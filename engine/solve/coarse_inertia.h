@@ -32,6 +32,7 @@ class CoarseInertia {
   // The work of this inertia counts as damping: with it the ledger closes, and all of it is gone at rest.
   void scatter(const State& state, Range groups, std::vector<BlockSums>& sums);
   const double* rows() const { return row_.data(); }  // N, N m: the force that makes the difference, one row per block
+  Vec3 force(int b) const { return Eigen::Map<const Vec3>(rows() + pack_size * b); }  // N, of it on block b
 
  private:
   struct Block {

@@ -24,6 +24,7 @@ std::string profile_text(const analysis::RunOutcome& outcome) {
   const auto& level = profile.evaluations();
   const long all = std::accumulate(level.begin(), level.end(), 0L);
   if (all == 0) return out;
+  out += fmt::format("{:.3g} pairs of blocks evaluated in a step, on average\n", double(all) / double(profile.noted()));
   out += "pair evaluations by level, each twice the interval of the one before:\n ";
   for (std::size_t l = 0; l < level.size(); ++l)
     if (level[l] > 0) out += fmt::format(" {}: {:.1f} %", l, 100 * double(level[l]) / double(all));

@@ -1,7 +1,6 @@
 #include "engine/analysis/quasi_static/push_run.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "engine/analysis/quasi_static/limit_beside.h"
@@ -25,8 +24,6 @@ constexpr double beyond = 1.02;            // the fall: the load over the least 
 constexpr int frames_of_last_step = 10;    // on the way to collapse
 
 std::size_t z(int i) { return std::size_t(i); }
-
-double seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 class PushRun {
  public:
@@ -156,7 +153,7 @@ bool PushRun::interrupted() {
   if (options_.progress) {
     Progress p;
     p.wall = now - solve_start_;
-    p.steps = long(so_far_.steps);
+    p.steps = relaxation_->steps() + run_.state.time.step;
     p.joints_broken = run_.state.observed.joints_broken;
     p.residual = run_.state.energy.residual_relative;
     p.dt = run_.state.time.dt;
@@ -311,6 +308,8 @@ Metrics PushRun::metrics() {
   m.wall_s.total = seconds() - born_;
   m.wall_s.setup = setup_, m.wall_s.record = record_;
   m.wall_s.solve = seconds() - solve_start_ - record_;
+  m.wall_s.search = relaxation_ ? relaxation_->searched() : 0;
+  divide_solving(m.wall_s, out_.profile);
   m.point_updates = std::uint64_t(so_far_.steps) * std::uint64_t(run_.model.npoint);
   m.peak_memory_bytes = peak_memory_bytes();
   for (const Effect& e : effects_) (e.on ? m.effects_on : m.effects_off).push_back(e.name);
@@ -372,6 +371,7 @@ RunOutcome PushRun::go() {
   writer_->log(fmt::format("status {}", status));
   curve_->flush(), writer_->flush();
   if (status == "completed" || status == "inaccurate") assess();
+  if (relaxation_) out_.profile = relaxation_->profile(), out_.limits = limit_lines(out_.profile, run_.model);
   out_.metrics = metrics();
   writer_->close();
   write_metrics(options_.directory, out_.metrics);

@@ -21,9 +21,12 @@ constexpr double gone = 0.1, far_away = 0.5;
 // A block that moves by so many times the displacement of the monitored point hangs on no lever that a loading machine holds.
 constexpr double longest_lever = 30;
 constexpr double local_share = 0.8;
-// Beside kinetic damping, with a coarse inertia or once a relaxation takes longer than this many periods. Cracks leave short waves that
-// fill the whole structure at random phases: its kinetic energy has no peaks then, and they would never be braked. The step is short enough
-// for it: 0.9 sqrt(1.1) < 1.
+// Joined neighbours that meet along an edge: thousands of strips of a micron's slip would each cost as much as a joint.
+constexpr double edge_force = 0.1;
+constexpr double least_share = 0.01, follows = 0.3;  // of critical damping: of that of the elastic structure; of the way, in a reading
+// Beside kinetic and critical damping, with a coarse inertia or once a relaxation takes longer than this many periods. Cracks leave short
+// waves that fill the whole structure at random phases: its kinetic energy has no peaks then, and they would never be braked. The step is
+// short enough for it: 0.9 sqrt(1.1) < 1.
 constexpr double local_share_beside = 0.1, patience = 10;
 // A coarse inertia: period of its pieces in steps; where it is used, the structure's over that; blocks of a piece, and pieces, so that
 // their factors stay small beside a step.
@@ -35,20 +38,28 @@ constexpr double default_step_count = 50;                // steps in a period wh
 
 std::size_t z(int i) { return std::size_t(i); }
 
-// Damping on the way to equilibrium, by name. It reads the ledger whenever that has closed.
+// Damping on the way to equilibrium, by name.
+// critical: mass damping of twice the circular frequency w of the present motion. Rayleigh's quotient of what moved since the last reading
+//   gives it (Underwood 1983, Dynamic relaxation, section 5.3.3): w^2 = -du . M da / du . M du, a the accelerations of the unbalanced
+//   forces and of the coarse inertia. The coefficient goes a third of the way there, on a scale of ratios. Where cracks release more than
+//   the motion stores, w^2 is negative, and the coefficient falls.
+// kinetic: velocities vanish at each peak of the kinetic energy (Cundall 1976; Barnes 1988).
+// Beside both acts a local force of a tenth, with a coarse inertia or where the rest does not lead to equilibrium soon.
 // adaptive: mass damping whose power is held near half the rate of change of the kinetic energy (Cundall 1982, "adaptive global damping").
 //   Here the coefficient changes by a tenth where the ratio is off.
 // local: a force of 0.8 times the unbalanced one against the motion (Cundall 1987). Against the motion forces count 1.8 times, so that the
 //   limit of the step is shorter by the root of it.
-// kinetic: velocities vanish at each peak of the kinetic energy (Cundall 1976; Barnes 1988), beside a local force of a tenth
-//   where that does not lead to rest.
 class Damper {
  public:
   Damper(const std::string& name, double period, bool at_once, Model& model)
-      : model_(model), most_(4 * pi / period), patience_(at_once ? 0 : patience * period), kinetic_(name == "kinetic") {
-    adaptive_ = name == "adaptive";
+      : model_(model),
+        most_(4 * pi / period),
+        patience_(at_once ? 0 : patience * period),
+        adaptive_(name == "adaptive"),
+        kinetic_(name == "kinetic"),
+        critical_(name == "critical") {
     model.damping_all = true, model.damping_explicit = false;
-    model.damping.mass = adaptive_ ? 0.3 * most_ : 0;
+    model.damping.mass = critical_ ? most_ : adaptive_ ? 0.3 * most_ : 0;
     model.local_damping = name == "local" ? local_share : 0;
   }
 
@@ -61,9 +72,26 @@ class Damper {
     }
     brakes_ = kinetic_ && kinetic < kinetic_before_ && !brakes_;
     if (kinetic_) model_.damping.mass = brakes_ ? braking(s) : 0;
-    if (kinetic_ && s.time.t > patience_) model_.local_damping = local_share_beside;
+    if ((kinetic_ || critical_) && s.time.t > patience_) model_.local_damping = local_share_beside;
     kinetic_before_ = brakes_ ? 0 : kinetic;
     lost_ = s.energy.damping;
+  }
+  // At a sample. `unbalanced`: N, of each block, with the share of a coarse inertia.
+  void read(const State& s, const std::vector<Vec3>& unbalanced) {
+    if (!critical_) return;
+    double power = 0, size = 0;
+    for (int b = 0; b < model_.nblock && !force_.empty(); ++b) {
+      if (model_.kind[z(b)] != Kind::moving) continue;
+      const Vec3 moved = s.pose.u[z(b)] - u_[z(b)];
+      power += (force_[z(b)] - unbalanced[z(b)]).dot(moved);
+      size += model_.mass[z(b)] * moved.squaredNorm();
+    }
+    if (size > 0) {
+      const double to = std::clamp(2 * std::sqrt(std::max(0.0, power / size)), least_share * most_, most_);
+      model_.damping.mass *= std::pow(to / model_.damping.mass, follows);
+    }
+    u_ = s.pose.u;
+    force_ = unbalanced;
   }
   bool one_step() const { return brakes_; }  // until the next reading
 
@@ -90,9 +118,11 @@ class Damper {
   Model& model_;
   const double most_;      // 1/s, critical damping of the lowest mode
   const double patience_;  // s, until short waves are braked as well
-  bool adaptive_ = false, brakes_ = false;
-  const bool kinetic_;
+  const bool adaptive_, kinetic_, critical_;
+  bool brakes_ = false;
   double kinetic_before_ = 0, lost_ = 0;
+  BlockVec3 u_;              // m, at the last reading
+  std::vector<Vec3> force_;  // N, then
 };
 
 double smooth(double x) { return x >= 1 ? 1 : x * x * (3 - 2 * x); }
@@ -126,6 +156,9 @@ void refuse_floating(const Prepared& run, const Place& place) {
 Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>& groups, const Prepared& run, int threads)
     : push_(push), run_(run), crew_(threads), model_(run.model), loads_(push, groups, model_), monitor_(push, run.model) {
   true_dt_ = dt_ = run.state.time.dt;
+  // Nothing hops on the way to equilibrium. The mean pressure of the interlock would hold unloading beds for seconds, thousands of steps.
+  model_.settlement = 0;
+  model_.edge_force = edge_force;
   range_ = run.range;
   if (std::isfinite(run.bounds.critical)) {
     if (push.inertia == "scaled") scale_inertia(model_, run.state);
@@ -183,14 +216,16 @@ void Relaxation::end(State& s) const {
   start(s, dt_);
 }
 
-std::array<double, 2> Relaxation::mean_forces(const Solver& solver) const {
+std::array<double, 2> Relaxation::mean_forces(const Solver& solver) {
   const SampleState& now = solver.sample();
   double unbalanced = 0, applied = 0;
+  unbalanced_.resize(z(model_.nblock));
   for (int b = 0; b < model_.nblock; ++b) {
     if (model_.kind[z(b)] != Kind::moving) continue;
-    const Vec3 load = loads_.weight(b) + now.load_wrench[z(b)].head<3>();
-    unbalanced += (load + now.block_wrench[z(b)].head<3>()).norm();
+    const Vec3 load = loads_.weight(b) + now.load_wrench[z(b)].head<3>(), all = load + now.block_wrench[z(b)].head<3>();
+    unbalanced += all.norm();
     applied += load.norm();
+    unbalanced_[z(b)] = inertia_ ? all + inertia_->force(b) : all;
   }
   return {unbalanced, applied};
 }
@@ -222,6 +257,7 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, 
   Damper damper(push_.relaxation, period_, inertia_.has_value(), model_);
   std::optional<Solver> solver;
   const auto engage = [&] {
+    if (solver) take_times(*solver);
     solver.emplace(model_, s, range_, crew_.threads());
     if (inertia_) solver->use(*inertia_);
   };
@@ -230,7 +266,11 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, 
   double next_check = 0, fastest = 0;  // s; J, largest kinetic energy
   int balanced = 0;
   while (true) {
-    if (crew_.should_change(steps_ + s.time.step)) engage();
+    if (crew_.should_change(steps_ + s.time.step)) {
+      const double began = seconds();
+      engage();
+      crew_.took(seconds() - began);
+    }
     const double t = s.time.t, done = t / period_;
     loads_.set(course(smooth(done), monitor_.along(s.pose)));
     const double next = damper.one_step() ? t : machine ? std::min(next_check, t + control_every * s.time.dt) : next_check;
@@ -244,6 +284,7 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, 
     if (at != Solver::Stop::sample || solver->sample().t < next_check) continue;
     next_check += check;
     const auto [unbalanced, applied] = mean_forces(*solver);
+    damper.read(s, unbalanced_);
     out.unbalanced = applied > 0 ? unbalanced / applied : 0;
     balanced = done > 1 && out.unbalanced <= push_.unbalanced ? balanced + 1 : 0;
     const bool speeds_up = s.energy.kinetic >= fastest;
@@ -259,9 +300,15 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, 
     damper.last_step(s, *solver);
     if (inertia_) inertia_->set_rate(quick_);
   }
+  take_times(*solver);
   steps_ += s.time.step;
   end(s);
   return out;
+}
+
+void Relaxation::take_times(const Solver& solver) {
+  profile_ += solver.profile();
+  searched_ += solver.contacts().searched();
 }
 
 void Relaxation::release(State& s, double duration, double interval, const Seen& seen) {
@@ -274,6 +321,8 @@ void Relaxation::release(State& s, double duration, double interval, const Seen&
     next += interval;
     if (!seen(solver, {})) break;
   }
+  take_times(solver);
+  steps_ += s.time.step;
   end(s);
 }
 

@@ -56,13 +56,17 @@ class Relaxation {
   const PushLoads& loads() const { return loads_; }
   const MonitorPoint& monitor() const { return monitor_; }
   const Model& model() const { return model_; }
-  double period() const { return period_; }  // s, of the relaxation's structure along the push
+  double period() const { return period_; }            // s, of the relaxation's structure along the push
+  const Profile& profile() const { return profile_; }  // of all relaxations
+  double searched() const { return searched_; }        // s, for contacts in them
+  long steps() const { return steps_; }                // of all that have ended
   void set_load(double multiplier) { loads_.set(multiplier); }
-  // N, mean unbalanced and mean applied force on moving blocks; the solver is at a sample.
-  std::array<double, 2> mean_forces(const Solver& solver) const;
   Vec3 reaction(const Solver& solver) const;  // N, on fixed and driven blocks
 
  private:
+  // N, mean unbalanced and mean applied force on moving blocks; the solver is at a sample.
+  std::array<double, 2> mean_forces(const Solver& solver);
+  void take_times(const Solver& solver);
   void soften_inertia();
   double machine_over_elastic(const ElasticPush& elastic, const Freedom& freedom) const;
   void start(State& state, double dt) const;
@@ -73,7 +77,7 @@ class Relaxation {
   const PushSettings push_;
   const Prepared& run_;
   Crew crew_;
-  long steps_ = 0;  // of all relaxations before, for the crew
+  long steps_ = 0;
   Model model_;
   PushLoads loads_;
   MonitorPoint monitor_;
@@ -82,6 +86,9 @@ class Relaxation {
   double quick_ = 0;                 // 1/s2, its rate
   double dt_ = 0, true_dt_ = 0;      // s
   double period_ = 0, longest_ = 0;  // s; longest_: of one relaxation
+  std::vector<Vec3> unbalanced_;     // N, at the last check, with the share of the coarse inertia
+  Profile profile_;
+  double searched_ = 0;  // s
 };
 
 }  // namespace erbs::analysis

@@ -37,7 +37,7 @@ double extent(const ContactShape& body, const Vec3& n) {
 
 }  // namespace
 
-EdgeAtRest edge_at_rest(const ContactPair& pair, const PairFrame& s) {
+EdgeAtRest edge_at_rest(const ContactPair& pair, const PairFrame& s, double most) {
   EdgeAtRest edge;
   const std::vector<Vec3> between = planes_between(s);
   Vec3 along = Vec3::Zero(), towards = Vec3::Zero();
@@ -57,7 +57,7 @@ EdgeAtRest edge_at_rest(const ContactPair& pair, const PairFrame& s) {
   }
   const double length = std::min(extent(*s.reference, along), extent(*s.other, s.pose.rotation.transpose() * along));
   // A pressure of at most kn m, on two sides of a strip of this length, m / sine wide.
-  edge.movement = std::sqrt(next_to_nothing * standard_g / inverse_mass * sine / (2 * pair.law.kn * length));
+  edge.movement = std::sqrt(most * standard_g / inverse_mass * sine / (2 * pair.law.kn * length));
   edge.movement -= at_zero_gap * s.other->reach;
   edge.lever = 2 * s.other->reach;
   edge.slowest =

@@ -14,10 +14,8 @@ struct EdgeAtRest {
   double slowest = 1;              // greatest ratio of this motion to the travel in `MotionBounds::surely_separated()`
 };
 
-inline constexpr double next_to_nothing = 1e-4;  // of the weight of the lighter block
-
-// `rest`: the pair at rest.
-EdgeAtRest edge_at_rest(const ContactPair& pair, const PairFrame& rest);
+// `rest`: the pair at rest. `most`: what counts as almost no force, of the weight of the lighter block.
+EdgeAtRest edge_at_rest(const ContactPair& pair, const PairFrame& rest, double most);
 // m, remaining travel of both blocks, as `surely_separated()` measures it; zero or less: the pair needs an evaluation.
 double idle_way(const EdgeAtRest& edge, const PairPose& now);
 

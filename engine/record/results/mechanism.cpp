@@ -50,6 +50,12 @@ MovedJoint moved_joint(const Model& model, const BlockPoses& pose, int j) {
 
 double movement(const MovedJoint& m) { return std::max({m.gap, m.opening, m.slip}); }
 
+// A joint without friction or cohesion bears nothing along itself: it slides in every mechanism, as a plane of symmetry does.
+bool guides(const Model& model, const MovedJoint& m) {
+  const PointLaw& law = model.laws[std::size_t(model.joint[std::size_t(m.joint)].type->law)];
+  return m.kind == Movement::slide && std::max({law.mu, law.mu_residual, law.c}) == 0;
+}
+
 // Two digits, but never an exponent: "5.7", "30", "153".
 std::string short_number(double x) { return x < 100 ? fmt::format("{:.2g}", x) : fmt::format("{:.0f}", x); }
 
@@ -77,13 +83,14 @@ const char* word(Movement kind) { return kind == Movement::hinge ? "hinge" : kin
 Mechanism mechanism_of(const Model& model, const BlockPoses& pose, double t) {
   Mechanism out;
   out.time = t;
-  double most = 0;
   for (int j = 0; j < model.njoint; ++j) {
     MovedJoint moved = moved_joint(model, pose, j);
-    if (movement(moved) <= share_of_size * 2 * model.joint[std::size_t(j)].type->radius) continue;
-    most = std::max(most, movement(moved));
-    out.moved.push_back(moved);
+    if (movement(moved) > share_of_size * 2 * model.joint[std::size_t(j)].type->radius) out.moved.push_back(moved);
   }
+  const auto guide = [&](const MovedJoint& m) { return guides(model, m); };
+  if (!std::all_of(out.moved.begin(), out.moved.end(), guide)) std::erase_if(out.moved, guide);
+  double most = 0;
+  for (const MovedJoint& m : out.moved) most = std::max(most, movement(m));
   std::erase_if(out.moved, [most](const MovedJoint& m) { return movement(m) < share_of_most * most; });
   return out;
 }

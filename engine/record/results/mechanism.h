@@ -34,7 +34,8 @@ void each(M& m, F&& f) {
 }
 
 // Selects joints that moved by at least a tenth of the largest movement, and by more than a thousandth of their own size. The largest of
-// three movements gives the kind. Narrowest gap: the joint has parted. Opening: hinge. Otherwise: slide.
+// three movements gives the kind. Narrowest gap: the joint has parted. Opening: hinge. Otherwise: slide. Frictionless joints that slide,
+// as on a plane of symmetry, count only where nothing else moves.
 Mechanism mechanism_of(const Model& model, const BlockPoses& pose, double t);
 
 int count(const Mechanism& mechanism, Movement kind);

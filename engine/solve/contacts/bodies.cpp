@@ -102,7 +102,7 @@ EdgeAtRest ContactBodies::edge_of(const ContactPair& pair) const {
   ContactBlock a = block[z(pair.a)], b = block[z(pair.b)];
   a.u = b.u = Vec3::Zero();
   a.rotation = axes_of(pair.a), b.rotation = axes_of(pair.b);
-  return edge_at_rest(pair, pair_frame(pair, shapes, a, b));
+  return edge_at_rest(pair, pair_frame(pair, shapes, a, b), model.edge_force);
 }
 
 }  // namespace erbs

@@ -29,16 +29,11 @@ ContactForces::ContactForces(State& state, const ContactBodies& bodies, MotionBo
 
 void ContactForces::list_pairs() {
   changed_ = true;
-  edge_of_pair_.clear();
-  edges_.clear();
+  edge_known_.assign(state_.contacts.list.pair.size(), 0);
+  edge_.resize(state_.contacts.list.pair.size());
   level_.clear(), next_level_.clear();
   while (batch_.size() < room_.size()) batch_.push_back(std::make_unique<PairBatch>());
-  for (const ContactPair& p : state_.contacts.list.pair) {
-    const EdgeAtRest edge = bodies_.edge_of(p);
-    level_.push_back(p.level), next_level_.push_back(p.next_level);
-    edge_of_pair_.push_back(edge.touches ? int(edges_.size()) : -1);
-    if (edge.touches) edges_.push_back(edge);
-  }
+  for (const ContactPair& p : state_.contacts.list.pair) level_.push_back(p.level), next_level_.push_back(p.next_level);
 }
 
 void ContactForces::prepare() {
@@ -90,11 +85,13 @@ void ContactForces::book_after_kick(std::span<const int> live) {
 }
 
 // m, further travel during which a pair needs no evaluation, although it may overlap along an edge; zero or less: evaluate it.
-double ContactForces::idle(int i) const {
+double ContactForces::idle(int i) {
   const ContactPair& pair = state_.contacts.list.pair[z(i)];
-  if (edge_of_pair_[z(i)] < 0 || pair.touching) return 0;
+  if (pair.touching) return 0;
+  if (!std::exchange(edge_known_[z(i)], 1)) edge_[z(i)] = bodies_.edge_of(pair);
+  if (!edge_[z(i)].touches) return 0;
   const PairFrame now = pair_frame(pair, bodies_.shapes, bodies_.block[z(pair.a)], bodies_.block[z(pair.b)]);
-  return idle_way(edges_[z(edge_of_pair_[z(i)])], now.pose);
+  return idle_way(edge_[z(i)], now.pose);
 }
 
 double ContactForces::contact_count(int a, int b) const {

@@ -56,7 +56,7 @@ class ContactForces {
   void find_due(ThreadPairs& found, std::span<const int> mine);
   bool evaluate_one(int i, bool sample, OverlapRoom& room, PairResult& result);
   void foresee_touching(ThreadPairs& found);
-  double idle(int i) const;
+  double idle(int i);
   PairInterval interval(int level) const;
   ContactSettings settings_of(int level) const;
   double contact_count(int a, int b) const;  // number of contacts for the dashpots of `pair_force()`
@@ -72,9 +72,9 @@ class ContactForces {
   ContactSettings settings_;
   std::vector<PairCache> cache_;  // per pair, data that a step reads first
   bool changed_ = true;
-  std::vector<std::uint8_t> level_, next_level_;  // per pair, as in `ContactPair`
-  std::vector<int> edge_of_pair_;                 // per pair, index into `edges_`; -1: none
-  std::vector<EdgeAtRest> edges_;
+  std::vector<std::uint8_t> level_, next_level_;   // per pair, as in `ContactPair`
+  std::vector<std::uint8_t> edge_known_;           // per pair: found once it is asked for
+  std::vector<EdgeAtRest> edge_;                   // per pair
   std::vector<int> first_pair_;                    // first pair of each thread; balances the number of evaluations
   std::vector<ThreadPairs> thread_pairs_;          // per thread
   std::vector<OverlapRoom> room_;                  // per thread

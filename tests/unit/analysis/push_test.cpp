@@ -194,6 +194,11 @@ TEST_CASE("a push names its mechanism", "[push]") {
       CHECK(name == (mu * aspect < 1 ? "sliding" : "overturning out of plane"));
     }
   CHECK(mechanism(block("{.2, 1.2, 1.2}", ".7")) == "overturning out of plane");
+  // A stack of soft beds between planes of symmetry: each bed opens by little, while its sides slide along the planes by far more.
+  CHECK(mechanism(stone + "column{ blocks = 12, size = {.8, .8, .4} } joint{ law = dry{ kn = 2e8, ks = 1e8, mu = .7 } } "
+                          "for i = -1, 1, 2 do box{ name = 'plane' .. i, group = 'plane', fixed = true, size = {4, .5, 5}, "
+                          "at = {-2, i * .65 - .25, 0} } end joint{ between = {'plane', ''}, law = dry{ kn = 1e9, ks = 1e5, mu = 0 } } "
+                          "analysis{ kind = 'pushover', step = .02, bracket = .02 }") == "overturning");
   CHECK(mechanism(stone + "box{ name = 'b', size = {.4, .4, 1.2}, at = {-.2, -.2, 0} }"  // 24 kPa of weight
                           "joint{ law = mortar{ kn = 1e9, ks = 4e8, ft = 0, c = 0, mu = .7, fc = 25*kPa, Gc = 30 } }"
                           "analysis{ kind = 'pushover', step = .002, bracket = .05 }") == "crushing");

@@ -14,6 +14,8 @@ using namespace erbs::trial;
 
 namespace {
 
+constexpr double next_to_nothing = 1e-4;  // of the weight
+
 struct Two {
   Bodies bodies;
   ContactPair pair;
@@ -21,7 +23,7 @@ struct Two {
   Two(const Polyhedron& a, const Polyhedron& b)
       : bodies({{{a}, 1800}, {{b}, 1800}}, {5e10, 2e10, 0.6, 0.2}, 1e-5), pair(new_pair(0, 0, 1, 0, bodies.law, 0, bodies.shapes)) {}
   PairFrame frame() const { return pair_frame(pair, bodies.shapes, bodies.block[0], bodies.block[1]); }
-  EdgeAtRest edge() const { return edge_at_rest(pair, frame()); }
+  EdgeAtRest edge() const { return edge_at_rest(pair, frame(), next_to_nothing); }
 };
 
 Polyhedron brick_at(double x, double y, double z) { return translated(brick(), {x, y, z}); }
