@@ -23,8 +23,7 @@ constexpr double longest_lever = 30;
 constexpr double local_share = 0.8;
 // Joined neighbours that meet along an edge: thousands of strips of a micron's slip would each cost as much as a joint.
 constexpr double edge_force = 0.1;
-// Critical damping: least shares of that of the elastic structure, on the way to rest and in a fall; share of the way in a reading.
-constexpr double least_share = 0.01, least_falling = 1e-4, follows = 0.3;
+constexpr double least_share = 0.01, follows = 0.3;  // of critical damping: of that of the elastic structure; of the way, in a reading
 // Beside kinetic and critical damping, with a coarse inertia or once a relaxation takes longer than this many periods. Cracks leave short
 // waves that fill the whole structure at random phases: its kinetic energy has no peaks then, and they would never be braked. The step is
 // short enough for it: 0.9 sqrt(1.1) < 1.
@@ -87,9 +86,10 @@ class Damper {
       power += (force_[z(b)] - unbalanced[z(b)]).dot(moved);
       size += model_.mass[z(b)] * moved.squaredNorm();
     }
-    double& c = model_.damping.mass;
-    if (size > 0 && power > 0) c *= std::pow(std::clamp(2 * std::sqrt(power / size), least_share * most_, most_) / c, follows);
-    else if (size > 0) c = std::max(0.1 * c, least_falling * most_);
+    if (size > 0) {
+      const double to = std::clamp(2 * std::sqrt(std::max(0.0, power / size)), least_share * most_, most_);
+      model_.damping.mass *= std::pow(to / model_.damping.mass, follows);
+    }
     u_ = s.pose.u;
     force_ = unbalanced;
   }
