@@ -40,7 +40,7 @@ std::size_t z(int i) { return std::size_t(i); }
 
 // Damping on the way to equilibrium, by name.
 // critical: mass damping of twice the circular frequency w of the present motion. Rayleigh's quotient of what moved since the last reading
-//   gives it (Underwood 1983, Dynamic relaxation, section 5.3.3): w^2 = -du . M da / du . M du, a the accelerations of the unbalanced
+//   gives it (Underwood 1983, Dynamic relaxation): w^2 = -du . M da / du . M du, a the accelerations of the unbalanced
 //   forces and of the coarse inertia. The coefficient goes a third of the way there, on a scale of ratios. Where cracks release more than
 //   the motion stores, w^2 is negative, and the coefficient falls.
 // kinetic: velocities vanish at each peak of the kinetic energy (Cundall 1976; Barnes 1988).
