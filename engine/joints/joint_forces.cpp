@@ -123,9 +123,10 @@ void damped_joint_forces(const Model& m, State& s, const std::vector<JointPack>&
   }
 }
 
-bool out_of_range(const Joint& joint, const double gap[6]) {
+bool out_of_range(const Model& m, const Joint& joint, const double gap[6]) {
   const double side = std::min(joint.type->half_s, joint.type->half_t) * 2;
   const double least_gap = gap[2] - std::fabs(gap[3]) * joint.type->half_t - std::fabs(gap[4]) * joint.type->half_s;
+  if (m.crushed_beds_remain && least_gap < 0 && m.laws[z(joint.type->law)].crushes()) return false;
   return std::sqrt(gap[0] * gap[0] + gap[1] * gap[1]) + std::fabs(gap[5]) * joint.type->radius > 0.01 * side ||
          gap[3] * gap[3] + gap[4] * gap[4] > 0.03 * 0.03 || least_gap > 0.002 * side;
 }
@@ -138,7 +139,7 @@ bool joint_ready_for_contact(const Model& m, const State& s, int j) {
   if (law.has_bond())
     for (int i = 0; i < joint.type->points; ++i)
       if (s.joints.history[z(joint.first_point + i)].damage < 1) return false;
-  return out_of_range(joint, s.joints.memory[z(j)].gap);
+  return out_of_range(m, joint, s.joints.memory[z(j)].gap);
 }
 
 }  // namespace erbs

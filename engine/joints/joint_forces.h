@@ -31,7 +31,7 @@ void damped_joint_forces(const Model& model, State& state, const std::vector<Joi
 //   rotation of 0.03 rad: the gap of a rotated face, 2 sin(angle / 2) for the angle, errs by angle^3 / 24 of the side, 1e-6; the
 //     pairing of moment and rotation rate about the mean frame errs by angle^2 / 12, 8e-5;
 //   gap of 0.2 % of its side at the closest place.
-bool out_of_range(const Joint& joint, const double gap[6]);
+bool out_of_range(const Model& model, const Joint& joint, const double gap[6]);
 // Beyond its faces and without a bond: to be released to contact.
 bool joint_ready_for_contact(const Model& model, const State& state, int j);
 

@@ -119,8 +119,10 @@ struct Model {
   double local_damping = 0;  // share of the unbalanced force that brakes a block (Cundall 1987); for relaxations only
   // Of the weight of the lighter block: joined neighbours that meet along an edge are no contact before it could bear this.
   double edge_force = 1e-4;
-  bool dashpots = false;          // some intact joint has dashpots
-  bool dashpots_cracked = false;  // some joint has them once cracked
+  int release_every = 8;             // steps between two searches for joints to release to contact; each release searches for pairs anew
+  bool crushed_beds_remain = false;  // a closed bed that crushes is not released: stone on stone would bear what the bed does not
+  bool dashpots = false;             // some intact joint has dashpots
+  bool dashpots_cracked = false;     // some joint has them once cracked
   Analysis analysis;
   bool damping_explicit = false, damping_all = false;
   std::vector<Material> materials;

@@ -12,9 +12,6 @@
 namespace erbs {
 namespace {
 
-// Steps between two searches for joints to release to contact. Each release searches for pairs anew. On the way to equilibrium, where
-// thousands of joints open one by one, an open one may wait.
-constexpr int release_every = 8, release_rarely = 128;
 constexpr int find_soft_every = 64;  // steps between two searches for former joints that must soften, ...
 constexpr int soften_every = 8;      // ... and between two steps of their softening
 constexpr int fade_every = 8;        // steps between two reductions of the stiffness of beds without bond
@@ -27,8 +24,6 @@ double interval(int steps, const TimeStep& time) { return std::max(steps, time.l
 
 // True once in `steps` steps, at the start of a macro step.
 bool every(int steps, const TimeStep& time) { return at_macro_step(time) && time.macro % std::max(1, steps / time.substeps) == 0; }
-
-int releases(const CoarseInertia* inertia) { return inertia != nullptr ? release_rarely : release_every; }
 
 }  // namespace
 
@@ -90,7 +85,7 @@ void Solver::prepare_step(const SamplePlan& plan) {
   if (debris && every(activate_every, time) && (cracked || contacts_.active() || time.step == 0)) contacts_.activate_loose_blocks();
   has_contacts_ = contacts_.active();
   budget_ = together && has_levels(time) ? event_allowance(model_, state_) : event_budget(model_, state_);
-  has_transitions_ = has_contacts_ || (debris && cracked && every(releases(inertia_), time));
+  has_transitions_ = has_contacts_ || (debris && cracked && every(model_.release_every, time));
   if (has_contacts_ && together) contacts_.prepare(budget_, contact_interlock(model_, state_));
   else if (has_contacts_) contacts_.prepare_substep(contact_interlock(model_, state_));
   if (has_contacts_ && contact_wrench_.empty()) {
@@ -122,7 +117,7 @@ void Solver::transitions() {
     if (has_contacts_) contacts_.gather_substep(contact_kick_.data());
     return;
   }
-  const bool may_release = model_.analysis.debris && joints_.any_cracked() && every(releases(inertia_), time);
+  const bool may_release = model_.analysis.debris && joints_.any_cracked() && every(model_.release_every, time);
   if (has_contacts_ && time.substeps > 1 && may_release && contacts_.joints_are_ready(joints_.cracked())) {
     contacts_.reset_levels();  // the new contacts act in the next step
     time.substeps = 1;

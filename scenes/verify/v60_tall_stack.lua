@@ -13,14 +13,16 @@ local cases = {}
 for _, blocks in ipairs { 5, 12, 30 } do
   for _, kn in ipairs { 1e9, 3e9, 1e10, 1e11 } do cases[#cases + 1] = { blocks = blocks, kn = kn, height = 20 } end
 end
+for _, shear in ipairs { 4, 40 } do cases[#cases + 1] = { blocks = 12, kn = 1e9, height = 20, shear = shear } end
 local number = param("case", 1, "the case")
 local c = cases[number] or error("case is 1 to " .. #cases)
 local h = c.height / c.blocks
+local ks = (c.shear or 0.4) * c.kn
 
-material { name = "stone", density = density, kn = c.kn, ks = 0.4 * c.kn, friction = 0.7 }
+material { name = "stone", density = density, kn = c.kn, ks = ks, friction = 0.7 }
 box { name = "floor", size = { 12, 12, 1 }, at = { -6, -6, -1 }, fixed = true }
 column { name = "stack", blocks = c.blocks, size = { b, t, h } }
-joint { law = dry { kn = c.kn, ks = 0.4 * c.kn, mu = 0.7 } }
+joint { law = dry { kn = c.kn, ks = ks, mu = 0.7 } }
 analysis { kind = "pushover", bracket = 0.002 }
 
 local weight = density * b * t * h * g

@@ -23,6 +23,7 @@ constexpr double longest_lever = 30;
 constexpr double local_share = 0.8;
 // Joined neighbours that meet along an edge: thousands of strips of a micron's slip would each cost as much as a joint.
 constexpr double edge_force = 0.1;
+constexpr int release_rarely = 128;                  // steps, where thousands of joints open one by one: an open one may wait
 constexpr double least_share = 0.01, follows = 0.3;  // of critical damping: of that of the elastic structure; of the way, in a reading
 // Beside kinetic and critical damping, with a coarse inertia or once a relaxation takes longer than this many periods. Cracks leave short
 // waves that fill the whole structure at random phases: its kinetic energy has no peaks then, and they would never be braked. The step is
@@ -157,9 +158,12 @@ Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>&
     : push_(push), run_(run), crew_(threads), model_(run.model), loads_(push, groups, model_), monitor_(push, run.model) {
   true_dt_ = dt_ = run.state.time.dt;
   // Nothing hops on the way to equilibrium. The mean pressure of the interlock would hold unloading beds for seconds, thousands of steps.
-  // Beds that crush keep it: without it one of 28 in V53 comes to rest at 1.6 times its capacity, why is open.
-  if (std::none_of(model_.laws.begin(), model_.laws.end(), [](const PointLaw& law) { return law.crushes(); })) model_.settlement = 0;
+  model_.settlement = 0;
   model_.edge_force = edge_force;
+  model_.crushed_beds_remain = true;
+  // Nor do dashpots act at rest. A step bounded by them would make motions of the coarse inertia, which knows springs only, unstable.
+  for (Joint& joint : model_.joint) joint.viscous = joint.viscous_cracked = 0;
+  model_.dashpots = model_.dashpots_cracked = false;
   range_ = run.range;
   if (std::isfinite(run.bounds.critical)) {
     if (push.inertia == "scaled") scale_inertia(model_, run.state);
@@ -185,6 +189,7 @@ void Relaxation::soften_inertia() {
     if (rate * slow * slow < quick) inertia_.emplace(model_, run_.state, freedom, std::max(least_piece, freedom.count / 6 / most_pieces));
     if (inertia_ && !inertia_->definite()) inertia_.reset();
     if (inertia_) {
+      model_.release_every = release_rarely;
       inertia_->set_rate(quick_ = quick);
       rate += quick * inertia_->share(elastic.force, elastic.motion);
       range_.longest = dt_ /= std::sqrt(1 + 0.25 * quick * dt_ * dt_);
@@ -314,6 +319,7 @@ void Relaxation::take_times(const Solver& solver) {
 
 void Relaxation::release(State& s, double duration, double interval, const Seen& seen) {
   Model falling = run_.model;
+  falling.edge_force = edge_force;
   falling.grounds = model_.grounds, falling.tilts = model_.tilts, falling.force_loads = model_.force_loads;
   start(s, true_dt_);
   Solver solver(falling, s, run_.range, crew_.threads());

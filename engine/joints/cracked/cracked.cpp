@@ -374,7 +374,7 @@ bool Cracked::ready_for_contact(int j) const {
   if (lane.least_damage[at % pack_size] < 1) return false;
   double gap[6];
   for (int i = 0; i < 6; ++i) gap[i] = lane.gap[i][at % pack_size];
-  return out_of_range(model_.joint[z(j)], gap);
+  return out_of_range(model_, model_.joint[z(j)], gap);
 }
 
 }  // namespace erbs
