@@ -26,6 +26,7 @@ local bays = param("bays", 0, "piers of a cut-out from the middle, between plane
 local step = param("step", 0.01, "of the acceleration [g]")
 local up_to = math.max(1e-6, param("up_to", 0.5, "largest acceleration [g]"))
 local bracket = param("bracket", 0.02, "of the capacity, relative")
+local fall = param("fall", 2, "time of the fall drawn after a push [s]")
 local dynamic = param("dynamic", 0, "1: the acceleration grows in time, for films")
 local peak = param("peak", 0.3 * g, "dynamic: acceleration across the aqueduct at the end [m/s2]")
 local ramp = param("ramp", 8, "dynamic: time in which it grows to that, slow beside the period of .6 s [s]")
@@ -128,7 +129,7 @@ if dynamic == 1 then
   damping { mass = 1 }
   analysis { duration = ramp + 2, stop_after_collapse = 2, output_dt = 0.02, frame_dt = 0.1 }
 else
-  analysis { kind = "pushover", direction = "y", step = math.min(step, up_to), up_to = up_to, bracket = bracket,
+  analysis { kind = "pushover", direction = "y", step = math.min(step, up_to), up_to = up_to, bracket = bracket, fall = fall,
     monitor = { block = top[(#top + 1) // 2] } }
   if up_to > step then spectrum { kind = "TBSC 2018", SDS = SDS, SD1 = SD1, shape = "elastic", nodes = 8 } end
 end

@@ -51,6 +51,7 @@ struct PushSettings {
   std::string inertia = "scaled";       // scaled | true
   double unbalanced = 1e-5;             // mean unbalanced force over mean applied force in equilibrium
   std::string limit = "auto";           // auto | always | never: limit analysis beside the capacity
+  double fall = 4;                      // s, the longest time of the fall that is drawn
   Monitor monitor;
   Place place;
 
@@ -81,6 +82,10 @@ struct PushSettings {
          "tilt, pushover: limit analysis beside the capacity; auto: up to 12000 contact points of the limit problem, where it takes "
          "seconds",
          0, 0, false, "auto|always|never"},
+        {"fall", &PushSettings::fall, "s",
+         "tilt, pushover: the longest time of the fall that is drawn after the capacity is known (0: none; the mechanism is named all the "
+         "same)",
+         0, 1e3},
     };
   }
 };

@@ -53,6 +53,7 @@ StepLimit Solver::limit() const {
   const TimeStep& time = state_.time;
   const double event = time.event_dt > 0 ? time.event_dt : std::numeric_limits<double>::infinity();
   const bool levels = has_contacts_ && may_have_levels_;
+  if (levels && relisted_) return {StepLimit::By::growth, -1};  // nothing is known about the new pairs
   if (levels && time.next_joint_level > 0) return contacts_.limit_of_pairs();
   const double contacts = !has_contacts_ ? time.dt_target : levels ? contacts_.joints_dt() : contacts_.bound().allowed_dt();
   if (std::min(event, contacts) > 1.2 * time.next_dt && time.next_dt < 0.9 * time.dt_target) return {StepLimit::By::growth, -1};

@@ -18,7 +18,6 @@
 namespace erbs::analysis {
 namespace {
 
-constexpr double fall_duration = 4;        // s, of the fall that is drawn
 constexpr double ledger_tolerance = 1e-2;  // relative, of the energy ledger of all relaxations
 constexpr double beyond = 1.02;            // the fall: the load over the least one without equilibrium
 constexpr int frames_of_last_step = 10;    // on the way to collapse
@@ -173,7 +172,7 @@ Relaxed PushRun::attempt(const LoadCourse& course) {
   const PushState known = so_far_;
   const Relaxed r = relaxation_->relax(
       run_.state, course, [&](const Solver& solver, const Relaxed& now) { return record(solver, now); },
-      so_far_.states > 0 && controlled());
+      so_far_.states > 0 && controlled() ? Relaxation::Way::with_machine : Relaxation::Way::to_rest);
   if (r.ending == Ending::stopped) {
     so_far_ = known;
   } else {
@@ -260,20 +259,29 @@ void PushRun::fall(bool drawn) {
     if (update(collapse_, run_.model, now.pose, now.t))
       writer_->event(now.t, "collapse", scene_.name, collapse_.fallen_fraction, "share of mass");
   };
+  Mechanism joints;
+  bool named = false;
+  const auto name = [&] {
+    joints = mechanism_of(run_.model, run_.state.pose, so_far_.t);
+    const BlockMotions motions = motions_of(run_.state.pose, run_.model.nblock);
+    mechanism_ = name_mechanism(run_.model, motions, joints, push_.direction);
+    walls_ = wall_mechanisms(run_.model, motions, joints, push_.direction, group_);
+    named = true;
+  };
   relaxation_->relax(
       run_.state, [=](double ramp, double) { return from + ramp * (to - from); },
       [&](const Solver& solver, const Relaxed& r) {
-        if (drawn && r.furthest >= 0 && r.moved > shown * run_.model.smallest_edge[z(r.furthest)]) frame(solver), shown += far;
-        return !interrupted();
-      });
+        const double edges = r.furthest >= 0 ? r.moved / run_.model.smallest_edge[z(r.furthest)] : 0;
+        if (drawn && edges > shown) frame(solver), shown += far;
+        if (!named && edges > Relaxation::gone) name();
+        return !interrupted() && (!named || (drawn && push_.fall > 0));
+      },
+      Relaxation::Way::falling);
   if (out_.metrics.status != "completed") return;
-  const Mechanism joints = mechanism_of(run_.model, run_.state.pose, so_far_.t);
-  const BlockMotions motions = motions_of(run_.state.pose, run_.model.nblock);
-  mechanism_ = name_mechanism(run_.model, motions, joints, push_.direction);
-  walls_ = wall_mechanisms(run_.model, motions, joints, push_.direction, group_);
+  if (!named) name();
   if (!drawn) return;
   collapse_.mechanism = joints;
-  relaxation_->release(run_.state, fall_duration, scene_.analysis.frame_dt, [&](const Solver& solver, const Relaxed&) {
+  relaxation_->release(run_.state, push_.fall, scene_.analysis.frame_dt, [&](const Solver& solver, const Relaxed&) {
     frame(solver);
     return !collapse_.collapsed && !interrupted();
   });

@@ -16,8 +16,8 @@ constexpr double least_check = 8;    // ... but no sooner than after so many ste
 constexpr int balanced_checks = 3;   // in balance, one after the other
 constexpr double longest = 600;      // periods until a structure that still moves is said to creep, ...
 constexpr double longest_fall = 30;  // ... and at least this many times sqrt(height / g), the time scale of rocking
-// Of a block's smallest edge. Beyond the first a block that still gains speed falls, beyond the second any.
-constexpr double gone = 0.1, far_away = 0.5;
+// Of a block's smallest edge: any block that has moved so far falls.
+constexpr double far_away = 0.5;
 // A block that moves by so many times the displacement of the monitored point hangs on no lever that a loading machine holds.
 constexpr double longest_lever = 30;
 constexpr double local_share = 0.8;
@@ -255,7 +255,8 @@ bool Relaxation::far(const State& s, const BlockVec3& from, double share, double
   return far;
 }
 
-Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, bool machine) {
+Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, Way way) {
+  const bool machine = way == Way::with_machine;
   Relaxed out;
   start(s, dt_);
   const BlockVec3 from = s.pose.u;
@@ -296,7 +297,7 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, 
     const bool speeds_up = s.energy.kinetic >= fastest;
     fastest = std::max(fastest, s.energy.kinetic);
     const double held = machine ? longest_lever * std::fabs(monitor_.along(s.pose) - monitored) : 0;  // m
-    if (far(s, from, speeds_up && !machine ? gone : far_away, held, out)) out.ending = Ending::collapse;
+    if (far(s, from, speeds_up && way == Way::to_rest ? Relaxation::gone : far_away, held, out)) out.ending = Ending::collapse;
     else if (balanced >= balanced_checks) out.ending = Ending::equilibrium;
     else if (t > longest_) out.ending = Ending::creep;
     if (!seen(*solver, out) || out.ending != Ending::stopped) break;

@@ -41,14 +41,16 @@ using LoadCourse = std::function<double(double ramp, double displacement)>;
 
 class Relaxation {
  public:
+  static constexpr double gone = 0.1;  // of a block's smallest edge: it falls if it has moved so far and still gains speed
   // `run` as prepared, unloaded; it outlives this object, whose model is a copy with masses of its own. `groups`: of each block.
   Relaxation(const PushSettings& push, const std::vector<std::string>& groups, const Prepared& run, int threads);
 
   // Ramps the loads over one period of the structure, then holds them. `seen` is called some times a period, with the solver at a sample;
-  // it returns false to stop. `machine`: the load follows the monitored point. On return velocities are zero and time starts anew; in
-  // equilibrium the state may be relaxed further.
+  // it returns false to stop. `with_machine`: the load follows the monitored point. `falling`: a block must move far before this is a
+  // collapse. On return velocities are zero and time starts anew; in equilibrium the state may be relaxed further.
   using Seen = std::function<bool(const Solver&, const Relaxed&)>;
-  Relaxed relax(State& state, const LoadCourse& course, const Seen& seen, bool machine = false);
+  enum class Way : std::uint8_t { to_rest, with_machine, falling };
+  Relaxed relax(State& state, const LoadCourse& course, const Seen& seen, Way way = Way::to_rest);
   // Lets the structure go under the present loads, with its true masses and without damping, for at most `duration` (s). `seen` is called
   // every `interval` (s).
   void release(State& state, double duration, double interval, const Seen& seen);
