@@ -1,4 +1,5 @@
 // Pushes of small structures: capacity, mechanism, bits of any thread count and of interrupted runs, and wrong input.
+#include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -266,6 +267,21 @@ analysis{ kind = "pushover" })",
   CHECK(got.metrics.collapse.under_gravity);
   CHECK(got.metrics.capacity->peak.multiplier == 0);
   CHECK_FALSE(got.metrics.capacity->mechanism.empty());
+}
+
+TEST_CASE("a push draws no fall where none is wanted, and names the mechanism all the same", "[push]") {
+  const auto rows = [&](const std::string& fall) {
+    const test::Scratch out("push_fall" + fall);
+    const PushOutcome run =
+        push(wall_text + "analysis{ kind = 'pushover', direction = 'y', step = .05, bracket = .05, fall = " + fall + " }", out.path);
+    CHECK(run.metrics.status == "completed");
+    CHECK(run.metrics.capacity->mechanism.find("overturning") != std::string::npos);
+    const std::string energy = slurp(out.path + "/energy.csv");
+    return std::count(energy.begin(), energy.end(), '\n');
+  };
+  const auto none = rows("0"), brief = rows(".2"), whole = rows("4");
+  CHECK(none < brief);
+  CHECK(brief < whole);
 }
 
 TEST_CASE("a push keeps its ledger", "[push]") {
