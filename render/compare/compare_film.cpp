@@ -63,13 +63,8 @@ struct RunDrawer {
 
   // Calls take(index, picture); false from it ends the work.
   void draw(Workers& workers, const std::vector<double>& times, const std::function<bool(std::size_t, Image)>& take) const {
-    for (std::size_t i = 0; i < std::min(workers.count(), times.size()); ++i) workers.order(i, i, frame_of(times[i]));
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      Image image = workers.collect(i % workers.count());
-      const std::size_t next = i + workers.count();
-      if (next < times.size()) workers.order(i % workers.count(), next, frame_of(times[next]));
-      if (!take(i, std::move(image))) return;
-    }
+    workers.draw_in_order(
+        times.size(), [&](std::size_t i) { return frame_of(times[i]); }, take);
   }
 };
 
