@@ -202,7 +202,15 @@ bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const
   errors.fps = movie.fps * movie.slow;
   const double step = 1 / errors.fps;
   Show show = show_of(run, reader, movie);
-  const Camera camera = chosen_cameras(run, show.stage, movie, static_cast<double>(movie.look.width) / movie.look.height).front();
+  const double aspect = static_cast<double>(movie.look.width) / movie.look.height;
+  std::vector<Camera> cameras = chosen_cameras(run, show.stage, movie, aspect);
+  if (movie.fit)
+    fit_cameras(cameras, run, show.stage, reader.scene(), aspect, reader.times(), [&](double t) {
+      MotionFrame frame = frame_at(reader, t);
+      magnify(reader.scene(), movie.look.magnify, frame);
+      return frame;
+    });
+  const Camera camera = cameras.front();
   errors.camera = camera.name;
   const RunDrawer drawer{run, reader, movie, std::move(show), camera, film.width(), film.height()};
   // These processes prepare themselves, and draw the picture without blocks, while the film is read.

@@ -247,7 +247,7 @@ bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, c
   const std::size_t together = movie.split ? cameras_of(run, movie) : 1;
   Tiles tiles = tiles_of(movie.look, together);
   const Look& l = tiles.look;
-  Scenery scenery(run, reader, movie, l.width / (l.height - l.top - l.bottom));
+  Scenery scenery(run, reader, movie, l.width / (l.height - l.top - l.bottom), schedule.times);
   scenery.check_eyes(schedule.times);
   const Show show = scenery.show(schedule.times);
   if (movie.marks.any())

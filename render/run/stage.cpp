@@ -30,8 +30,8 @@ bool is_ground(const MotionBlock& block, const Eigen::AlignedBox3d& box, const M
   return own.x() > free.x() + 0.5 * base && own.y() > free.y() + 0.5 * base && box.max().z() < rest.center().z();
 }
 
-// Extent of most block centroids: along each axis, all but the outermost 1/share on each side.
-Eigen::AlignedBox3d heap_of(const MotionFrame& frame, const std::vector<bool>& hidden, std::size_t share) {
+// Extent of most block centroids: along each axis, all but the outermost 2 % on each side.
+Eigen::AlignedBox3d heap_of(const MotionFrame& frame, const std::vector<bool>& hidden) {
   Eigen::AlignedBox3d heap(Vec3::Zero(), Vec3::Zero());
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> at;
@@ -40,7 +40,7 @@ Eigen::AlignedBox3d heap_of(const MotionFrame& frame, const std::vector<bool>& h
         at.push_back(static_cast<double>(x));
     if (at.empty()) return {};
     std::sort(at.begin(), at.end());
-    const std::size_t out = at.size() / share;
+    const std::size_t out = at.size() / 50;
     heap.min()[axis] = at[out];
     heap.max()[axis] = at[at.size() - 1 - out];
   }
@@ -107,64 +107,17 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
     radius += stage.hidden[b] ? 0 : 0.5 * boxes[b].sizes().norm() / static_cast<double>(boxes.size());
   // Blocks thrown far away are ignored; a view that includes them would show the building too small. What stood above the ground may have
   // fallen to it.
-  const auto heap = [&](std::size_t share, double aside) {
-    Eigen::AlignedBox3d near = stage.building;
-    near.min() -= aside * Vec3(1, 1, 0), near.max() += aside * Vec3(1, 1, 0);
-    near.min().z() = std::min(near.min().z(), ground ? stage.ground_z : std::max(lowest, near.min().z() - aside));
-    Eigen::AlignedBox3d box = heap_of(some_frames.back(), stage.hidden, share);
-    if (box.isEmpty()) return box;
-    box = Eigen::AlignedBox3d(box.min().cwiseMax(near.min()).cwiseMin(near.max()), box.max().cwiseMin(near.max()).cwiseMax(near.min()));
-    box.min() -= Vec3::Constant(radius), box.max() += Vec3::Constant(radius);
-    if (ground) box.min().z() = std::max(box.min().z(), stage.ground_z);
-    return box;
-  };
-  stage.heap = heap(50, 0.9 * stage.size());
-  stage.debris = heap(200, 1.5 * stage.size());
+  const double aside = 0.9 * stage.size();
+  Eigen::AlignedBox3d near = stage.building, &heap = stage.heap;
+  near.min() -= aside * Vec3(1, 1, 0), near.max() += aside * Vec3(1, 1, 0);
+  near.min().z() = std::min(near.min().z(), ground ? stage.ground_z : std::max(lowest, near.min().z() - aside));
+  heap = heap_of(some_frames.back(), stage.hidden);
+  if (heap.isEmpty()) return stage;
+  heap = Eigen::AlignedBox3d(heap.min().cwiseMax(near.min()).cwiseMin(near.max()), heap.max().cwiseMin(near.max()).cwiseMax(near.min()));
+  heap.min() -= Vec3::Constant(radius), heap.max() += Vec3::Constant(radius);
+  if (ground) heap.min().z() = std::max(heap.min().z(), stage.ground_z);
   return stage;
 }
-
-namespace {
-
-// Points that must be visible: the building, room on the ground for what falls beside it, and the heap where it lies at the end.
-std::vector<Vec3> seen_points(const Stage& stage, bool debris) {
-  std::vector<Vec3> seen, heap;
-  const Vec3 size = stage.building.sizes(), aside = 0.14 * size.z() * Vec3(1, 1, 0);
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 p = stage.building.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
-    seen.push_back(p);
-    if (i < 4) seen.push_back(p + aside.cwiseProduct((p - stage.building.center()).cwiseSign()));  // the lower corners
-    const Eigen::AlignedBox3d& fallen = debris ? stage.debris : stage.heap;
-    if (!fallen.isEmpty()) heap.push_back(fallen.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
-  }
-  if (stage.positions.empty()) {
-    seen.insert(seen.end(), heap.begin(), heap.end());
-    return seen;
-  }
-  const Vec3 near = 0.4 * stage.size() * Vec3(1, 1, 1);
-  const Eigen::AlignedBox3d table = stage.table.intersection({stage.building.min() - near, stage.building.max() + near});
-  if (!table.isEmpty())
-    for (int i = 0; i < 8; ++i) seen.push_back(table.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
-  std::vector<Vec3> turned;
-  for (const Eigen::Isometry3d& position : stage.positions)
-    for (const Vec3& p : seen) turned.push_back(position * p);
-  for (const Vec3& p : heap) turned.push_back(stage.positions.back() * p);
-  return turned;
-}
-
-// Whether the convex hull of the points reaches beyond this corner in both directions.
-bool reaches_corner(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& corner) {
-  for (const Eigen::Vector2d& p : points)
-    for (const Eigen::Vector2d& q : points) {
-      const Eigen::Vector2d a = p - corner, b = q - corner;
-      if (a.minCoeff() > 0) return true;
-      // Where x - y changes its sign on the side from p to q, the lesser of both is greatest.
-      const double from = a.x() - a.y(), to = b.x() - b.y();
-      if (from * to < 0 && (a + from / (from - to) * (b - a)).minCoeff() > 0) return true;
-    }
-  return false;
-}
-
-}  // namespace
 
 Eigen::Isometry3d table_position(const Stage& stage, const Mat3& levelling) {
   const Vec3 middle = stage.table.center();
@@ -182,66 +135,6 @@ Camera in_scene(const Camera& camera, const Eigen::Isometry3d& position) {
   const Eigen::Isometry3d back = position.inverse();
   seen.eye = back * camera.eye, seen.target = back * camera.target, seen.up = back.linear() * camera.up;
   return seen;
-}
-
-void fit_camera(Camera& c, const Vec3& direction, const Stage& stage, double aspect, bool debris) {
-  const std::vector<Vec3> seen = seen_points(stage, debris);
-  const Vec3 back = direction.normalized();
-  Vec3 right = c.up.cross(back);
-  if (right.norm() < 1e-6) c.up = Vec3(0, 1, 0), right = c.up.cross(back);
-  right.normalize();
-  const Vec3 up = back.cross(right);
-  const double half = std::tan(0.5 * c.fov);
-  double distance = 0;
-  // Fits all points into the part of the picture, from -1 to 1, that a strip at its right leaves, and at its left one for the axes, which
-  // are little more than half as wide as a legend; returns their places.
-  const auto place = [&](double strip) {
-    const double beside = 0.55 * strip;
-    std::vector<Eigen::Vector2d> places(seen.size());
-    c.target = stage.building.center();
-    distance = std::max(1e-3, 3 * stage.size() / std::min(1.0, 4 * half));
-    for (int iteration = 0; iteration < 9; ++iteration) {  // approaches in iterations and centres the target on the visible points
-      Eigen::AlignedBox2d shown;
-      for (std::size_t i = 0; i < seen.size(); ++i) {
-        const Vec3 v = seen[i] - c.target;
-        places[i] = Eigen::Vector2d(v.dot(right) / aspect, v.dot(up)) / (half * (distance - v.dot(back)));
-        shown.extend(places[i]);
-      }
-      if (iteration == 8) break;
-      c.target += distance * half * ((shown.center().x() + strip - beside) * aspect * right + shown.center().y() * up);
-      distance *= 1.06 * 0.5 * std::max(shown.sizes().x() / (1 - strip - beside), shown.sizes().y());
-    }
-    return places;
-  };
-  const double strip = stage.legend_width;
-  if (reaches_corner(place(0), {1 - 2 * strip, 1 - 2 * stage.legend_height})) place(strip);
-  c.eye = c.target + distance * back;
-}
-
-std::vector<Camera> choose_cameras(const Stage& stage, double aspect) {
-  std::vector<Camera> cameras(2);
-  const Vec3 directions[2] = {Vec3(0.62, -1, 0.34), Vec3(-1, -0.50, 0.42)};
-  const char* names[2] = {"corner", "side"};
-  for (std::size_t k = 0; k < 2; ++k) {
-    cameras[k].name = names[k];
-    cameras[k].fov = 26 * pi / 180;
-    fit_camera(cameras[k], directions[k], stage, aspect);
-  }
-  return cameras;
-}
-
-std::vector<Camera> elevations(const Stage& stage, double aspect) {
-  const std::pair<const char*, Vec3> views[] = {
-      {"from_-x", {-1, 0, 0}}, {"from_+x", {1, 0, 0}}, {"from_-y", {0, -1, 0}}, {"from_+y", {0, 1, 0}}, {"from_above", {0, 0, 1}}};
-  std::vector<Camera> out;
-  for (const auto& [name, direction] : views) {
-    Camera camera;
-    camera.name = name;
-    camera.fov = 1.5 * pi / 180;  // from so far that parallel lines stay parallel within 1 %
-    fit_camera(camera, direction, stage, aspect);
-    out.push_back(camera);
-  }
-  return out;
 }
 
 namespace {
