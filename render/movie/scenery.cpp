@@ -29,8 +29,10 @@ Stage stage_of(const Run& run, const MotionReader& reader, const Excerpt& excerp
   for (std::size_t i = 0; i < count; i += step) add(i);
   add(count - 1);
   Stage stage = set_stage(excerpt.scene, some);
-  if (!run.gravity.empty() && movie.look.table_turns)
-    for (const MotionFrame& frame : some) stage.positions.push_back(table_position(stage, levelling(run.gravity, frame.t)));
+  if (run.gravity.empty() || !movie.look.table_turns) return stage;
+  std::vector<Mat3> level;
+  for (const MotionFrame& frame : some) level.push_back(levelling(run.gravity, frame.t));
+  turn_table(stage, excerpt.scene, some, level);
   return stage;
 }
 

@@ -47,17 +47,23 @@ Eigen::AlignedBox3d heap_of(const MotionFrame& frame, const std::vector<bool>& h
   return heap;
 }
 
-// The plate that turns: the part of the ground near the building, a fifth of the building's size wider than what lies on it, or the
-// fixed blocks.
-void set_table(Stage& stage, const MotionScene& scene, const std::vector<Eigen::AlignedBox3d>& boxes) {
-  Eigen::AlignedBox3d fixed;
+// The plate that turns: the fixed blocks or, of a ground, the part on which blocks ever lie, a fifth of the building's size wider on each
+// side. What slides down the ground thus stays on the plate that is drawn.
+void set_table(Stage& stage, const MotionScene& scene, const std::vector<Eigen::AlignedBox3d>& boxes,
+               const std::vector<MotionFrame>& some_frames) {
+  Eigen::AlignedBox3d fixed, used = stage.building;
   for (std::size_t b = 0; b < boxes.size(); ++b)
     if (scene.blocks[b].fixed && stage.hidden[b] == stage.on_ground) fixed.extend(boxes[b]);
   if (fixed.isEmpty()) fixed = stage.building;
   stage.table = fixed;
   if (!stage.on_ground) return;
+  for (const MotionFrame& f : some_frames)
+    for (std::size_t b = 0; b < boxes.size(); ++b) {
+      const Vec3 at(f.poses[7 * b], f.poses[7 * b + 1], f.poses[7 * b + 2]), half = Vec3::Constant(0.5 * boxes[b].sizes().norm());
+      if (!stage.hidden[b] && at.allFinite() && at.z() > stage.ground_z) used.extend(Eigen::AlignedBox3d(at - half, at + half));
+    }
   const Vec3 aside = 0.2 * stage.size() * Vec3(1, 1, 0);
-  stage.table = Eigen::AlignedBox3d(stage.reach.min() - aside, stage.reach.max() + aside).intersection(fixed);
+  stage.table = Eigen::AlignedBox3d(used.min() - aside, used.max() + aside).intersection(fixed);
   stage.table.max().z() = stage.ground_z;
   stage.table.min().z() = stage.ground_z - 0.03 * stage.size();
   for (int i = 0; i < 2; ++i)
@@ -100,7 +106,7 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
     }
   if (!ground) stage.ground_z = lowest;
   stage.on_ground = ground;
-  set_table(stage, scene, boxes);
+  set_table(stage, scene, boxes, some_frames);
   if (some_frames.empty()) return stage;
   double radius = 0;  // m, mean of the blocks
   for (std::size_t b = 0; b < boxes.size(); ++b)
@@ -128,6 +134,20 @@ Eigen::Isometry3d table_position(const Stage& stage, const Mat3& levelling) {
   position.linear() = levelling;
   position.translation() = Vec3(middle.x(), middle.y(), stage.table.min().z() - lowest) - levelling * middle;
   return position;
+}
+
+// A scene has no floor beside its ground: what falls past the table never lands. A floor drawn there would be one that it sinks into.
+void turn_table(Stage& stage, const MotionScene& scene, const std::vector<MotionFrame>& some_frames, const std::vector<Mat3>& levelling) {
+  std::vector<double> thin;  // m, half the smallest edge of each block
+  for (const MotionBlock& block : scene.blocks) thin.push_back(0.5 * box_of(scene, block).sizes().minCoeff());
+  for (std::size_t i = 0; i < some_frames.size(); ++i) {
+    const Eigen::Isometry3d position = table_position(stage, levelling[i]);
+    for (std::size_t b = 0; b < thin.size(); ++b) {
+      const Vec3 at = position * Eigen::Map<const Eigen::Vector3f>(&some_frames[i].poses[7 * b]).cast<double>();
+      if (!stage.hidden[b] && !scene.blocks[b].fixed && at.z() - thin[b] < stage.table.min().z()) stage.floor = false;
+    }
+    stage.positions.push_back(position);
+  }
 }
 
 Camera in_scene(const Camera& camera, const Eigen::Isometry3d& position) {

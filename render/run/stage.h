@@ -15,6 +15,7 @@ struct Stage {
   Eigen::AlignedBox3d table;                               // m, what turns in a tilting test: the ground under all that is visible
   bool on_ground = false;                                  // a ground block is drawn as a plane
   std::vector<Eigen::Isometry3d> positions;                // of the table over the run; empty: it stays
+  bool floor = true;                                       // is drawn below a table that turns
   double legend_width = 0, legend_height = 0;              // shares of what a camera sees that a legend covers, at its upper right
   std::vector<bool> hidden;                                // ground blocks, drawn as a plane [blocks]
   double size() const { return building.sizes().norm(); }  // m
@@ -24,6 +25,8 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
 
 // Position of the table in the level world, from the scene: it rests on its lowest edge, on the floor.
 Eigen::Isometry3d table_position(const Stage& stage, const Mat3& levelling);
+// Sets the positions of the table in these frames, with the levelling of each, and whether there is a floor below it.
+void turn_table(Stage& stage, const MotionScene& scene, const std::vector<MotionFrame>& some_frames, const std::vector<Mat3>& levelling);
 // The camera of the level world, as the scene sees it.
 Camera in_scene(const Camera& camera, const Eigen::Isometry3d& position);
 
