@@ -47,15 +47,15 @@ Eigen::AlignedBox3d heap_of(const MotionFrame& frame, const std::vector<bool>& h
   return heap;
 }
 
-// The plate that turns: the fixed blocks or, of a ground, the part on which blocks ever lie, a fifth of the building's size wider on each
-// side. What slides down the ground thus stays on the plate that is drawn.
+// The plate that turns: the fixed blocks or, of a ground, the part near the building, a fifth of the building's size wider than what lies
+// on it. It is drawn as far as anything slides; that the building keeps its height in pictures, this does not lift it.
 void set_table(Stage& stage, const MotionScene& scene, const std::vector<Eigen::AlignedBox3d>& boxes,
                const std::vector<MotionFrame>& some_frames) {
-  Eigen::AlignedBox3d fixed, used = stage.building;
+  Eigen::AlignedBox3d fixed, used = stage.reach;
   for (std::size_t b = 0; b < boxes.size(); ++b)
     if (scene.blocks[b].fixed && stage.hidden[b] == stage.on_ground) fixed.extend(boxes[b]);
   if (fixed.isEmpty()) fixed = stage.building;
-  stage.table = fixed;
+  stage.table = stage.footing = fixed;
   if (!stage.on_ground) return;
   for (const MotionFrame& f : some_frames)
     for (std::size_t b = 0; b < boxes.size(); ++b) {
@@ -63,11 +63,15 @@ void set_table(Stage& stage, const MotionScene& scene, const std::vector<Eigen::
       if (!stage.hidden[b] && at.allFinite() && at.z() > stage.ground_z) used.extend(Eigen::AlignedBox3d(at - half, at + half));
     }
   const Vec3 aside = 0.2 * stage.size() * Vec3(1, 1, 0);
-  stage.table = Eigen::AlignedBox3d(used.min() - aside, used.max() + aside).intersection(fixed);
-  stage.table.max().z() = stage.ground_z;
-  stage.table.min().z() = stage.ground_z - 0.03 * stage.size();
-  for (int i = 0; i < 2; ++i)
-    if (!(stage.table.sizes()[i] > 0)) stage.table.min()[i] = fixed.min()[i], stage.table.max()[i] = fixed.max()[i];
+  const auto plate = [&](const Eigen::AlignedBox3d& below) {
+    Eigen::AlignedBox3d box = Eigen::AlignedBox3d(below.min() - aside, below.max() + aside).intersection(fixed);
+    box.max().z() = stage.ground_z;
+    box.min().z() = stage.ground_z - 0.03 * stage.size();
+    for (int i = 0; i < 2; ++i)
+      if (!(box.sizes()[i] > 0)) box.min()[i] = fixed.min()[i], box.max()[i] = fixed.max()[i];
+    return box;
+  };
+  stage.table = plate(used), stage.footing = plate(stage.reach);
 }
 
 }  // namespace
@@ -126,13 +130,13 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
 }
 
 Eigen::Isometry3d table_position(const Stage& stage, const Mat3& levelling) {
-  const Vec3 middle = stage.table.center();
+  const Vec3 middle = stage.footing.center();
   double lowest = HUGE_VAL;
   for (int i = 0; i < 8; ++i)
-    lowest = std::min(lowest, (levelling * (stage.table.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)) - middle)).z());
+    lowest = std::min(lowest, (levelling * (stage.footing.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)) - middle)).z());
   Eigen::Isometry3d position = Eigen::Isometry3d::Identity();
   position.linear() = levelling;
-  position.translation() = Vec3(middle.x(), middle.y(), stage.table.min().z() - lowest) - levelling * middle;
+  position.translation() = Vec3(middle.x(), middle.y(), stage.footing.min().z() - lowest) - levelling * middle;
   return position;
 }
 
@@ -140,6 +144,7 @@ Eigen::Isometry3d table_position(const Stage& stage, const Mat3& levelling) {
 void turn_table(Stage& stage, const MotionScene& scene, const std::vector<MotionFrame>& some_frames, const std::vector<Mat3>& levelling) {
   std::vector<double> thin;  // m, half the smallest edge of each block
   for (const MotionBlock& block : scene.blocks) thin.push_back(0.5 * box_of(scene, block).sizes().minCoeff());
+  stage.floor = stage.table.isApprox(stage.footing);  // a wider table reaches through it
   for (std::size_t i = 0; i < some_frames.size(); ++i) {
     const Eigen::Isometry3d position = table_position(stage, levelling[i]);
     for (std::size_t b = 0; b < thin.size(); ++b) {

@@ -13,6 +13,7 @@ struct Stage {
   Eigen::AlignedBox3d heap;                                // m, extent of nearly all blocks at the end, each whole
   double ground_z = 0;                                     // m
   Eigen::AlignedBox3d table;                               // m, what turns in a tilting test: the ground under all that is visible
+  Eigen::AlignedBox3d footing;                             // m, its part near the building, with which it rests on a floor
   bool on_ground = false;                                  // a ground block is drawn as a plane
   std::vector<Eigen::Isometry3d> positions;                // of the table over the run; empty: it stays
   bool floor = true;                                       // is drawn below a table that turns
@@ -23,7 +24,7 @@ struct Stage {
 
 Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_frames);
 
-// Position of the table in the level world, from the scene: it rests on its lowest edge, on the floor.
+// Position of the table in the level world, from the scene: its footing rests on the lowest edge, on the floor.
 Eigen::Isometry3d table_position(const Stage& stage, const Mat3& levelling);
 // Sets the positions of the table in these frames, with the levelling of each, and whether there is a floor below it.
 void turn_table(Stage& stage, const MotionScene& scene, const std::vector<MotionFrame>& some_frames, const std::vector<Mat3>& levelling);
