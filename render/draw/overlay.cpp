@@ -324,10 +324,11 @@ void Overlay::draw_axes(Image& image, double t) const {
   // The panel is as large as what it holds; where a table turns, as what it may hold.
   Eigen::AlignedBox2d held(Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero());
   for (const Arrow& a : arrows) {
-    held.extend(Eigen::Vector2d(a.end + 10 * u * a.end.normalized()));
+    const Eigen::Vector2d letter = a.end + 8 * u * a.end.normalized(), half(5 * u, 7 * u);
+    held.extend(Eigen::AlignedBox2d(letter - half, letter + half));
     if (a.shaken) held.extend(Eigen::Vector2d(-a.end));
   }
-  const Eigen::Vector2d around = Eigen::Vector2d::Constant(length + 10 * u);
+  const Eigen::Vector2d around = Eigen::Vector2d::Constant(length + 13 * u);
   if (tilting) held = {-around, around};
   const double wide = std::max(held.sizes().x(), shaking ? regular_.width("shaking", 11.5 * u) : 0.0);
   const double pad = 6 * u, left = margin * u, right = left + wide + 2 * pad, bottom = image.height - look_.bottom - 2 * u;
@@ -350,7 +351,7 @@ void Overlay::draw_axes(Image& image, double t) const {
     regular_.draw(image, a.name, x + a.end.x() + 8 * u * along.x(), y + a.end.y() + 8 * u * along.y() + 4 * u, 12 * u, ink,
                   Font::Align::middle);
   }
-  if (shaking) regular_.draw(image, "shaking", 0.5 * (left + right), bottom - pad + 1 * u, 11.5 * u, accent, Font::Align::middle);
+  if (shaking) regular_.draw(image, "shaking", 0.5 * (left + right), bottom - pad, 11.5 * u, accent, Font::Align::middle);
 }
 
 }  // namespace erbs::render
