@@ -220,7 +220,9 @@ int main(int argc, char** argv) {
   app.add_option("--target", a.target, "x,y,z: the point that it looks at (m; default: the middle of the building)");
   const CLI::Option* fov =
       app.add_option("--fov", a.movie.fov, "its vertical angle of view (deg)")->check(within(0.1, 170.0))->capture_default_str();
-  app.add_flag("--fit", a.movie.fit, "move each camera along its line of sight until building and heap are visible");
+  app.add_flag("--fit", a.movie.fit,
+               "keep the direction of each camera and place it so that the blocks drawn fill the pictures: "
+               "none is cut off in any picture, except those thrown far away");
   app.add_option("--path", a.movie.path,
                  "\"t:x,y,z:x,y,z; ..\": a camera that moves; time (s), eye and target (m) of two or more keyframes");
   app.add_option("--follow", a.movie.follow,

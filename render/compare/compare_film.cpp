@@ -63,13 +63,8 @@ struct RunDrawer {
 
   // Calls take(index, picture); false from it ends the work.
   void draw(Workers& workers, const std::vector<double>& times, const std::function<bool(std::size_t, Image)>& take) const {
-    for (std::size_t i = 0; i < std::min(workers.count(), times.size()); ++i) workers.order(i, i, frame_of(times[i]));
-    for (std::size_t i = 0; i < times.size(); ++i) {
-      Image image = workers.collect(i % workers.count());
-      const std::size_t next = i + workers.count();
-      if (next < times.size()) workers.order(i % workers.count(), next, frame_of(times[next]));
-      if (!take(i, std::move(image))) return;
-    }
+    workers.draw_in_order(
+        times.size(), [&](std::size_t i) { return frame_of(times[i]); }, take);
   }
 };
 
@@ -207,7 +202,15 @@ bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const
   errors.fps = movie.fps * movie.slow;
   const double step = 1 / errors.fps;
   Show show = show_of(run, reader, movie);
-  const Camera camera = chosen_cameras(run, show.stage, movie, static_cast<double>(movie.look.width) / movie.look.height).front();
+  const double aspect = static_cast<double>(movie.look.width) / movie.look.height;
+  std::vector<Camera> cameras = chosen_cameras(run, show.stage, movie, aspect);
+  if (movie.fit)
+    fit_cameras(cameras, run, show.stage, reader.scene(), aspect, reader.times(), [&](double t) {
+      MotionFrame frame = frame_at(reader, t);
+      magnify(reader.scene(), movie.look.magnify, frame);
+      return frame;
+    });
+  const Camera camera = cameras.front();
   errors.camera = camera.name;
   const RunDrawer drawer{run, reader, movie, std::move(show), camera, film.width(), film.height()};
   // These processes prepare themselves, and draw the picture without blocks, while the film is read.

@@ -49,9 +49,9 @@ Image difference_of(const Image& a, const Image& b) {
 }
 
 ComparisonFilms::ComparisonFilms(const std::string& folder, int width, int height, double fps)
-    : side_(folder + "/compare_side.mp4", 2 * width, height, fps, 3, "faster"),
-      blend_(folder + "/compare_blend.mp4", width, height, fps, 3, "faster"),
-      difference_(folder + "/compare_difference.mp4", width, height, fps, 3, "faster"),
+    : side_(folder + "/compare_side.mp4", 2 * width, height, fps),
+      blend_(folder + "/compare_blend.mp4", width, height, fps),
+      difference_(folder + "/compare_difference.mp4", width, height, fps),
       font_(Font::Face::regular) {}
 
 void ComparisonFilms::label(Image& image, const std::string& left, const std::string& right, double t) const {

@@ -297,8 +297,9 @@ struct Painter::Hidden {
     u.vector("zenith", zenith.cast<float>());
     u.vector("high", around.high);
     u.vector("floor_tone", around.floor);
-    u.number("with_floor", position ? 1 : 0);
-    if (position) {
+    const bool with_floor = position && stage.floor;
+    u.number("with_floor", with_floor ? 1 : 0);
+    if (with_floor) {
       const Eigen::AlignedBox3d& table = stage.table;
       const Vec3 below(table.center().x(), table.center().y(), table.min().z());
       u.vector("floor_point", (position->inverse() * below).cast<float>());

@@ -52,16 +52,10 @@ std::vector<plot::Series> curves(const std::string& file, const CsvTable& table,
   return all;
 }
 
-// Range that holds the whole curves, with tics at a fifth of the height. A quantity without a unit is labelled by its column name.
+// Tics at a fifth of the height. A quantity without a unit is labelled by its column name.
 plot::Axis vertical(const CsvTable& table, const Panel& panel) {
-  double low = 0, high = 0;
-  for (int c : panel.columns)
-    for (double value : table.columns[static_cast<std::size_t>(c)])
-      if (std::isfinite(value)) low = std::min(low, value * panel.factor), high = std::max(high, value * panel.factor);
-  if (!(high > low)) return {panel.label, "[-1:1]", "1", "", "noenhanced"};
-  const double step = round_length((high - low) / 5);
-  return {panel.label, fmt::format("[{:g}:{:g}]", step * std::floor(low / step), step * std::ceil(high / step)), fmt::format("{:g}", step),
-          "", "noenhanced"};
+  const auto [low, high] = shown_range(table, panel);
+  return {panel.label, fmt::format("[{:.8g}:{:.8g}]", low, high), fmt::format("{:g}", round_length((high - low) / 5)), "", "noenhanced"};
 }
 
 // A vertical line at the first event of each kind; its name only with `named`.
@@ -171,6 +165,21 @@ plot::Figure energy_figure(const std::string& csv, const CsvTable& table, const 
 }
 
 }  // namespace
+
+std::pair<double, double> shown_range(const CsvTable& table, const Panel& panel) {
+  double low = HUGE_VAL, high = -HUGE_VAL;
+  for (const int c : panel.columns)
+    for (const double value : table.columns[static_cast<std::size_t>(c)])
+      if (std::isfinite(value)) low = std::min(low, value * panel.factor), high = std::max(high, value * panel.factor);
+  if (low > high) return {-1, 1};
+  const double span = high - low, most = std::max(std::abs(low), std::abs(high));
+  if (!(span > 1e-4 * most)) return most > 0 ? std::pair{std::min(0.0, 1.1 * low), std::max(0.0, 1.1 * high)} : std::pair{-1.0, 1.0};
+  // Zero is shown if the curves then still fill two thirds of the height.
+  if (low > 0 && low < 0.5 * span) low = 0;
+  if (high < 0 && -high < 0.5 * span) high = 0;
+  const double air = 0.04 * (high - low);
+  return {low == 0 ? 0 : low - air, high == 0 ? 0 : high + air};
+}
 
 std::vector<Panel> history_panels(const CsvTable& table, std::vector<std::string>* left_out) {
   Panel ground{"ground [g]", 1 / standard_g, {}}, gravity{"gravity [g]", 1 / standard_g, {}};

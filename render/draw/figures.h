@@ -1,5 +1,7 @@
 // Draws histories.svg and energy.svg, or curve.svg of a push, from the CSV files beside them, with gnuplot.
 #pragma once
+#include <utility>
+
 #include "engine/record/folder/run_folder.h"
 #include "engine/record/plot/unit.h"
 #include "render/run/run.h"
@@ -19,6 +21,9 @@ struct Panel {
 // Panels: ground motion first, then by unit in the order of the table. Panels whose curves stay below 2 % of the same quantity in another
 // direction are dropped if `left_out` is given, and named in it.
 std::vector<Panel> history_panels(const CsvTable& table, std::vector<std::string>* left_out = nullptr);
+
+// From where to where the vertical axis of a panel reaches, in the displayed unit: the curves fill it.
+std::pair<double, double> shown_range(const CsvTable& table, const Panel& panel);
 
 using plot::unit_of, plot::words_of;
 

@@ -86,7 +86,8 @@ Overlay::Overlay(const Run& run, const Show& show, const Look& look, const std::
     Reach reach{std::min(a0, a1), std::max(a0, a1)};
     for (; row < r.t.size() && r.t[row] < t1; ++row)
       if (r.t[row] >= t0) reach = {std::min(reach.low, r.a[row]), std::max(reach.high, r.a[row])};
-    strip_.push_back({reach.low / r.peak, reach.high / r.peak});
+    strip_.push_back(reach);
+    range_ = {std::min(range_.low, reach.low), std::max(range_.high, reach.high)};
   }
 }
 
@@ -172,16 +173,16 @@ void Overlay::draw_record(Image& image, double t) const {
   const double now_shown = std::round(100 * value_at(r, t) / one) / 100 + 0.0;  // no -0.00
   bold_.draw(image, fmt::format("{:+.2f}{}", now_shown, unit), x, top + 49 * u, 17 * u, text_ink);
   regular_.draw(image, fmt::format("peak {:.3g}{}", r.peak / one, unit), x, top + 71 * u, 12.5 * u, quiet_ink);
-  const double upper = top + (run_.marks.empty() ? 6 : 18) * u, lower = bottom - 19 * u, middle = 0.5 * (upper + lower);
-  const double half = 0.5 * (lower - upper), thin = 0.65 * u, now = column(t);
-  fill_box(image, strip_left_, middle - 0.5, strip_right_, middle + 0.5, {150, 156, 163, 0.8});
+  const double upper = top + (run_.marks.empty() ? 6 : 18) * u, lower = bottom - 19 * u, thin = 0.65 * u, now = column(t);
+  const auto row = [&](double value) { return upper + (lower - upper) * (range_.high - value) / (range_.high - range_.low); };
+  fill_box(image, strip_left_, row(0) - 0.5, strip_right_, row(0) + 0.5, {150, 156, 163, 0.8});
   for (std::size_t c = 0; c < strip_.size(); ++c) {
     const double left = strip_left_ + static_cast<double>(c);
     const Ink ink = left < now ? Ink{48, 60, 76, 1} : Ink{150, 158, 168, 1};
-    fill_box(image, left, middle - half * strip_[c].high - thin, left + 1, middle - half * strip_[c].low + thin, ink);
+    fill_box(image, left, row(strip_[c].high) - thin, left + 1, row(strip_[c].low) + thin, ink);
   }
   fill_box(image, now - 0.9 * u, top + 3 * u, now + 0.9 * u, lower + 3 * u, accent);
-  const double at = middle - half * value_at(r, t) / r.peak;
+  const double at = row(value_at(r, t));
   fill_box(image, now - 3.5 * u, at - 3.5 * u, now + 3.5 * u, at + 3.5 * u, accent);
   draw_times(image, top, lower + 2 * u, now);  // names lie over the cursor
 }
@@ -301,35 +302,56 @@ void Overlay::draw_scale(Image& image) const {
 
 // Axes of the scene as the camera sees them. The axis of shaking has arrows at both ends; gravity has one where a test tilts.
 void Overlay::draw_axes(Image& image, double t) const {
-  const double u = unit_, length = 30 * u, x = (margin + 46) * u, y = image.height - look_.bottom - 52 * u;
-  const bool tilting = !run_.gravity.empty();
+  const double u = unit_, length = 30 * u;
+  const bool tilting = !run_.gravity.empty(), shaking = !run_.record.axis.empty();
   const Mat3 level = look_.table_turns ? levelling(run_.gravity, t) : Mat3(Mat3::Identity());
-  fill_box(image, x - 46 * u, y - 42 * u, x + 46 * u, y + 50 * u, panel);
-  const auto arrow = [&](const Vec3& direction, const std::string& name, bool shaken) {
-    const Ink ink = shaken ? accent : quiet_ink;
-    const Eigen::Vector3f seen_from = turn_ * (level * direction).cast<float>();
-    const double dx = static_cast<double>(seen_from.x()) * length, dy = -static_cast<double>(seen_from.y()) * length;
-    const double seen = std::hypot(dx, dy), width = (shaken ? 2.4 : 1.5) * u;
-    draw_line(image, shaken ? x - dx : x, shaken ? y - dy : y, x + dx, y + dy, width, ink);
-    if (seen < 0.25 * length) return;  // along the view: no room for an arrow and a letter
-    const double ex = dx / seen, ey = dy / seen, head = 6 * u;
-    for (double end : {1.0, -1.0}) {
-      if (end < 0 && !shaken) continue;
-      for (double side : {1.0, -1.0})
-        draw_line(image, x + end * dx, y + end * dy, x + end * (dx - head * (0.85 * ex + side * 0.55 * ey)),
-                  y + end * (dy - head * (0.85 * ey - side * 0.55 * ex)), width, ink);
-    }
-    regular_.draw(image, name, x + dx + 8 * u * ex, y + dy + 8 * u * ey + 4 * u, 12 * u, ink, Font::Align::middle);
+  struct Arrow {
+    Eigen::Vector2d end;  // px, from the origin; rows count downwards
+    std::string name;
+    bool shaken;
   };
-  bool along_axis = false;
+  std::vector<Arrow> arrows;
+  const auto add = [&](const Vec3& direction, const std::string& name, bool shaken) {
+    const Eigen::Vector3d seen = (turn_ * (level * direction).cast<float>()).cast<double>();
+    arrows.push_back({length * Eigen::Vector2d(seen.x(), -seen.y()), name, shaken});
+  };
   for (int i = 0; i < 3; ++i) {
     const std::string name(1, "xyz"[i]);
-    along_axis = along_axis || name == run_.record.axis;
-    arrow(Vec3::Unit(i), name, name == run_.record.axis);
+    add(Vec3::Unit(i), name, name == run_.record.axis);
   }
-  if (!along_axis && !run_.record.axis.empty()) arrow(run_.record.direction, "", true);
-  if (tilting) arrow(gravity_at(run_.gravity, t).normalized(), "g", false);
-  if (!run_.record.axis.empty()) regular_.draw(image, "shaking", x, y + 46 * u, 11.5 * u, accent, Font::Align::middle);
+  if (shaking && run_.record.axis.size() > 1) add(run_.record.direction, "", true);
+  if (tilting) add(gravity_at(run_.gravity, t).normalized(), "g", false);
+  // The panel is as large as what it holds; where a table turns, as what it may hold.
+  Eigen::AlignedBox2d held(Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero());
+  for (const Arrow& a : arrows) {
+    const Eigen::Vector2d letter = a.end + 8 * u * a.end.normalized(), half(5 * u, 7 * u);
+    held.extend(Eigen::AlignedBox2d(letter - half, letter + half));
+    if (a.shaken) held.extend(Eigen::Vector2d(-a.end));
+  }
+  const Eigen::Vector2d around = Eigen::Vector2d::Constant(length + 13 * u);
+  if (tilting) held = {-around, around};
+  const double wide = std::max(held.sizes().x(), shaking ? regular_.width("shaking", 11.5 * u) : 0.0);
+  const double pad = 6 * u, left = margin * u, right = left + wide + 2 * pad, bottom = image.height - look_.bottom - 2 * u;
+  const double x = 0.5 * (left + right) - held.center().x(), y = bottom - pad - (shaking ? 14 * u : 0) - held.max().y();
+  fill_box(image, left, y + held.min().y() - pad, right, bottom, panel);
+  for (const Arrow& a : arrows) {
+    const Ink ink = a.shaken ? accent : quiet_ink;
+    const double seen = a.end.norm(), width = (a.shaken ? 2.4 : 1.5) * u, head = 6 * u;
+    const Eigen::Vector2d from = a.shaken ? Eigen::Vector2d(-a.end) : Eigen::Vector2d::Zero(), along = a.end / std::max(seen, 1e-9);
+    draw_line(image, x + from.x(), y + from.y(), x + a.end.x(), y + a.end.y(), width, ink);
+    if (seen < 0.25 * length) continue;  // along the view: no room for an arrow and a letter
+    for (const double end : {1.0, -1.0}) {
+      if (end < 0 && !a.shaken) continue;
+      for (const double side : {1.0, -1.0}) {
+        const Eigen::Vector2d tip = end * a.end,
+                              barb = tip - end * head * (0.85 * along + side * 0.55 * Eigen::Vector2d(along.y(), -along.x()));
+        draw_line(image, x + tip.x(), y + tip.y(), x + barb.x(), y + barb.y(), width, ink);
+      }
+    }
+    regular_.draw(image, a.name, x + a.end.x() + 8 * u * along.x(), y + a.end.y() + 8 * u * along.y() + 4 * u, 12 * u, ink,
+                  Font::Align::middle);
+  }
+  if (shaking) regular_.draw(image, "shaking", 0.5 * (left + right), bottom - pad, 11.5 * u, accent, Font::Align::middle);
 }
 
 }  // namespace erbs::render

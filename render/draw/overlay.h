@@ -50,9 +50,10 @@ class Overlay {
   double slow_, unit_;                                  // unit_: pixels per row of a picture with 720 rows
   Font regular_, bold_;
   struct Reach {
-    double low, high;
+    double low = 0, high = 0;
   };
-  std::vector<Reach> strip_;  // range of the record over each pixel column, relative to its peak
+  std::vector<Reach> strip_;  // range of the record over each pixel column
+  Reach range_;               // of the whole record, and zero
   double strip_left_, strip_right_, end_time_;
 };
 

@@ -2,6 +2,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "render/movie/movie.h"
+#include "render/run/framing.h"
 
 namespace erbs::render {
 namespace {
@@ -18,7 +19,9 @@ Camera own_camera(const Movie& movie, const Stage& stage) {
   return camera;
 }
 
-std::vector<Camera> unfitted(const Run& run, const Stage& stage, const Movie& movie, double aspect) {
+}  // namespace
+
+std::vector<Camera> chosen_cameras(const Run& run, const Stage& stage, const Movie& movie, double aspect) {
   if (movie.camera) return {*movie.camera};
   if (movie.eye) return {own_camera(movie, stage)};
   if (!movie.path.empty()) {
@@ -44,15 +47,19 @@ std::vector<Camera> unfitted(const Run& run, const Stage& stage, const Movie& mo
   return chosen;
 }
 
-}  // namespace
+std::size_t cameras_of(const Run& run, const Movie& movie) { return chosen_cameras(run, set_stage({}, {}), movie, 1).size(); }
 
-std::size_t cameras_of(const Run& run, const Movie& movie) { return unfitted(run, set_stage({}, {}), movie, 1).size(); }
-
-std::vector<Camera> chosen_cameras(const Run& run, const Stage& stage, const Movie& movie, double aspect) {
-  std::vector<Camera> cameras = unfitted(run, stage, movie, aspect);
-  if (movie.fit && movie.path.empty() && movie.follow.empty())
-    for (Camera& camera : cameras) fit_camera(camera, camera.eye - camera.target, stage, aspect, true);
-  return cameras;
+void fit_cameras(std::vector<Camera>& cameras, const Run& run, const Stage& stage, const MotionScene& drawn, double aspect,
+                 const std::vector<double>& times, const std::function<MotionFrame(double)>& frame) {
+  std::vector<Framing> framings;
+  for (const Camera& camera : cameras) framings.emplace_back(camera, camera.eye - camera.target, stage, aspect, 0.02);
+  for (const double t : times) {
+    Eigen::Isometry3d position = Eigen::Isometry3d::Identity();
+    if (!stage.positions.empty()) position = table_position(stage, levelling(run.gravity, t));
+    for (const Vec3& corner : visible_corners(drawn, stage, frame(t)))
+      for (Framing& framing : framings) framing.add(position * corner);
+  }
+  for (std::size_t k = 0; k < cameras.size(); ++k) cameras[k] = framings[k].camera();
 }
 
 }  // namespace erbs::render

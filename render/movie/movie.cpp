@@ -201,16 +201,13 @@ bool film(const Run& run, const Show& show, const Scenery& scenery, const Movie&
   if (!files.video.empty()) video.emplace(files.video, movie.look.width, movie.look.height, movie.fps, empty.channels);
   {
     Progress progress(movie.quiet);
-    for (std::size_t i = 0; i < workers.count(); ++i) workers.order(i, i, ordered(i));
-    for (; made < all && !stop; ++made) {
-      const std::size_t worker = made % workers.count(), next = made + workers.count();
-      const Image image = workers.collect(worker);
-      if (next < all) workers.order(worker, next, ordered(next));
+    workers.draw_in_order(stop ? 0 : all, ordered, [&](std::size_t i, const Image& image) {
       if (video) video->add(image);
-      if (!movie.expected.empty())
-        compare_with(movie.expected, image, run, fs::path(files.picture(made, schedule.times[made])).stem().string());
-      progress.tell(named.name, made + 1, all);
-    }
+      if (!movie.expected.empty()) compare_with(movie.expected, image, run, fs::path(files.picture(i, schedule.times[i])).stem().string());
+      made = i + 1;
+      progress.tell(named.name, made, all);
+      return !stop;
+    });
   }
   if (video && made == all) video->finish();  // a video is complete or absent
   const double wall = since(start);
@@ -250,7 +247,7 @@ bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, c
   const std::size_t together = movie.split ? cameras_of(run, movie) : 1;
   Tiles tiles = tiles_of(movie.look, together);
   const Look& l = tiles.look;
-  Scenery scenery(run, reader, movie, l.width / (l.height - l.top - l.bottom));
+  Scenery scenery(run, reader, movie, l.width / (l.height - l.top - l.bottom), schedule.times);
   scenery.check_eyes(schedule.times);
   const Show show = scenery.show(schedule.times);
   if (movie.marks.any())

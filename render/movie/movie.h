@@ -1,6 +1,7 @@
 // Frames of a run as pictures and as a video, one camera after another.
 #pragma once
 #include <atomic>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,7 +20,7 @@ struct Movie {
   double fov = 31;                       // degrees, of that camera
   std::vector<std::string> hide, ghost;  // groups of blocks that are not drawn, or translucent
   std::optional<Section> section;
-  bool fit = false;          // moves each camera along its line of sight until building and heap are visible
+  bool fit = false;          // places each camera so that the blocks fill the pictures
   std::string path, follow;  // of a camera that moves (movie/scenery.h); "": none
   bool split = false;        // all cameras in one picture
   bool svg = false;          // line drawings in place of pictures
@@ -76,6 +77,11 @@ void magnify(const MotionScene& scene, double factor, MotionFrame& frame);
 Show show_of(const Run& run, const MotionReader& reader, const Movie& movie, bool sharp = false);
 // The cameras that the movie asks for; `aspect`: width over height of what they see. Error for an unknown name.
 std::vector<Camera> chosen_cameras(const Run& run, const Stage& stage, const Movie& movie, double aspect);
+
+// Keeps the direction and the fov of each camera, and places it so that the blocks of `drawn` fill the pictures at these times (s): what is
+// visible at any of them is in the picture, and nothing is cut off. Blocks thrown far away do not count.
+void fit_cameras(std::vector<Camera>& cameras, const Run& run, const Stage& stage, const MotionScene& drawn, double aspect,
+                 const std::vector<double>& times, const std::function<MotionFrame(double)>& frame);
 
 // How many of them there are.
 std::size_t cameras_of(const Run& run, const Movie& movie);

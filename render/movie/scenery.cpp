@@ -10,8 +10,11 @@
 namespace erbs::render {
 namespace {
 
-// What lies behind the section for this camera.
-double side_behind(const Section& section, const Camera& camera) { return camera.eye[section.axis] < section.at ? 1 : -1; }
+// What lies behind the section for this camera. One that is fitted stands outside, where it looks from.
+double side_behind(const Section& section, const Camera& camera, bool fitted) {
+  const double towards = (camera.eye - camera.target)[section.axis];
+  return (fitted && towards != 0 ? towards < 0 : camera.eye[section.axis] < section.at) ? 1 : -1;
+}
 
 }  // namespace
 
@@ -26,12 +29,14 @@ Stage stage_of(const Run& run, const MotionReader& reader, const Excerpt& excerp
   for (std::size_t i = 0; i < count; i += step) add(i);
   add(count - 1);
   Stage stage = set_stage(excerpt.scene, some);
-  if (!run.gravity.empty() && movie.look.table_turns)
-    for (const MotionFrame& frame : some) stage.positions.push_back(table_position(stage, levelling(run.gravity, frame.t)));
+  if (run.gravity.empty() || !movie.look.table_turns) return stage;
+  std::vector<Mat3> level;
+  for (const MotionFrame& frame : some) level.push_back(levelling(run.gravity, frame.t));
+  turn_table(stage, excerpt.scene, some, level);
   return stage;
 }
 
-Scenery::Scenery(const Run& run, const MotionReader& reader, const Movie& movie, double aspect)
+Scenery::Scenery(const Run& run, const MotionReader& reader, const Movie& movie, double aspect, const std::vector<double>& times)
     : run_(run), reader_(reader), movie_(movie), excerpt_(without_groups(reader.scene(), movie.hide)), section_(movie.section) {
   if (movie.look.coloring == Coloring::energy) bodies_ = bodies_of(reader.scene(), run);
   stage_ = stage_of(run, reader, excerpt_, movie);
@@ -39,15 +44,31 @@ Scenery::Scenery(const Run& run, const MotionReader& reader, const Movie& movie,
     stage_.legend_width = legend_width * overlay_unit(movie.look.height) / movie.look.width;
     stage_.legend_height = legend_height * overlay_unit(movie.look.height) / (movie.look.height - movie.look.top - movie.look.bottom);
   }
-  for (const Camera& camera : chosen_cameras(run, stage_, movie, aspect)) {
+  for (const Camera& camera : cameras(aspect, times)) {
     Shot shot{camera, [camera](double) { return camera; }};
     if (!movie.path.empty()) shot.at = [camera, keys = camera_path(movie.path)](double t) { return along_path(camera, keys, t); };
     if (!movie.follow.empty()) shot = follow(camera, movie.follow, movie.fit, reader, excerpt_, stage_, movie.look.magnify);
     shots_.push_back(shot);
   }
-  if (section_ && section_->keep == 0) section_->keep = side_behind(*section_, shots_.front().camera);
+  if (section_ && section_->keep == 0) section_->keep = side_behind(*section_, shots_.front().camera, false);
   const std::string& mechanism = movie.marks.mechanism;
   if (!mechanism.empty() && mechanism != "motion") mechanism_ = rates_of_mechanism(mechanism, excerpt_.scene);
+}
+
+std::vector<Camera> Scenery::cameras(double aspect, const std::vector<double>& times) {
+  std::vector<Camera> chosen = chosen_cameras(run_, stage_, movie_, aspect);
+  if (!movie_.fit || !movie_.path.empty() || !movie_.follow.empty()) return chosen;
+  if (section_ && section_->keep == 0) section_->keep = side_behind(*section_, chosen.front(), true);
+  const MotionScene cut = section_ ? cut_scene(excerpt_.scene, *section_, stage_.hidden) : excerpt_.scene;
+  fit_cameras(chosen, run_, stage_, cut, aspect, times, [&](double t) { return moved(t); });
+  return chosen;
+}
+
+// Without a quantity.
+MotionFrame Scenery::moved(double t) const {
+  MotionFrame frame = excerpt_of(excerpt_, frame_at(reader_, t));
+  magnify(excerpt_.scene, movie_.look.magnify, frame);
+  return frame;
 }
 
 MotionFrame Scenery::actual(double t) const {

@@ -17,8 +17,8 @@ struct Shot {
 
 class Scenery {
  public:
-  // `movie` has its overlay's heights; `aspect`: width over height of what a camera sees.
-  Scenery(const Run& run, const MotionReader& reader, const Movie& movie, double aspect);
+  // `movie` has its overlay's heights; `aspect`: width over height of what a camera sees; `times`: s, of the pictures.
+  Scenery(const Run& run, const MotionReader& reader, const Movie& movie, double aspect, const std::vector<double>& times);
   Scenery(const Scenery&) = delete;
   Scenery& operator=(const Scenery&) = delete;
 
@@ -35,6 +35,8 @@ class Scenery {
   Show show(const std::vector<double>& times);
 
  private:
+  std::vector<Camera> cameras(double aspect, const std::vector<double>& times);
+  MotionFrame moved(double t) const;
   MotionFrame actual(double t) const;
   Rates rates(double t) const;
   const Run& run_;

@@ -7,8 +7,7 @@
 
 namespace erbs::render {
 
-Video::Video(std::string path, int width, int height, double fps, int channels, const std::string& preset)
-    : path_(std::move(path)), unfinished_(path_ + ".part") {
+Video::Video(std::string path, int width, int height, double fps, int channels) : path_(std::move(path)), unfinished_(path_ + ".part") {
   const bool webp = path_.ends_with(".webp");
   if (!webp && (width % 2 || height % 2))
     throw Error(fmt::format("a video of {}x{} cannot be made; width and height must be even", width, height));
@@ -16,14 +15,16 @@ Video::Video(std::string path, int width, int height, double fps, int channels, 
   std::vector<std::string> words{
       "ffmpeg", "-y", "-nostdin", "-loglevel", "error", "-f",     "rawvideo", "-pix_fmt", channels == 4 ? "rgba" : "rgb24",
       "-s",     size, "-r",       rate,        "-i",    "pipe:0", "-an"};
+  // x264's veryfast at 18 gives the SSIM of medium at 20, .9937 over 75 frames of the METU house at 1280 x 720, in 19 ms of a core a frame
+  // instead of 44, which the drawing processes lack; the file is a fifth larger.
   const std::vector<std::string> mp4{"-vf",
                                      "scale=out_color_matrix=bt709:out_range=tv,format=yuv420p",
                                      "-c:v",
                                      "libx264",
                                      "-crf",
-                                     "20",
+                                     "18",
                                      "-preset",
-                                     preset,
+                                     "veryfast",
                                      "-color_primaries",
                                      "bt709",
                                      "-color_trc",

@@ -9,7 +9,7 @@ namespace erbs::render {
 
 class Video {
  public:
-  Video(std::string path, int width, int height, double fps, int channels = 3, const std::string& preset = "medium");  // of x264
+  Video(std::string path, int width, int height, double fps, int channels = 3);
   ~Video();  // without finish(), no file remains
   Video(const Video&) = delete;
   Video& operator=(const Video&) = delete;

@@ -3,6 +3,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstring>
 #include <stdexcept>
@@ -39,8 +40,7 @@ Workers::Workers(std::size_t count, Image empty, const MotionFrame& like, const 
       pixels_(empty_.rgb.size()) {
   for (std::size_t i = 0; i < count; ++i) {
     Worker w;
-    void* shared =
-        mmap(nullptr, poses_ + openings_ + derived_ + damages_ + pixels_, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    void* shared = mmap(nullptr, most_orders * bytes(), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (shared == MAP_FAILED) throw Error("no more drawing processes can be started; ask for fewer --threads");
     w.shared = static_cast<unsigned char*>(shared);
     w.process = start_copy([&](int orders, int answers) { serve(w, orders, answers, prepare); });
@@ -51,7 +51,7 @@ Workers::Workers(std::size_t count, Image empty, const MotionFrame& like, const 
 Workers::~Workers() {
   for (Worker& w : workers_) {
     finish(w.process);
-    munmap(w.shared, poses_ + openings_ + derived_ + damages_ + pixels_);
+    munmap(w.shared, most_orders * bytes());
   }
 }
 
@@ -60,11 +60,13 @@ void Workers::serve(const Worker& w, int orders, int answers, const std::functio
   for (const Worker& other : workers_) close(other.process.to), close(other.process.from);
   for (const int stop : {SIGINT, SIGTERM, SIGHUP}) signal(stop, SIG_IGN);
   Draw draw;
-  for (Order order; receive(orders, &order, sizeof order);) {
+  std::size_t drawn = 0;
+  for (Order order; receive(orders, &order, sizeof order); ++drawn) {
+    unsigned char* const place = place_of(w, drawn);
     try {
       if (!draw) draw = prepare();
-      const Image image = draw(order.index, get(w, order.t));
-      std::memcpy(pixels(w), image.rgb.data(), pixels_);
+      const Image image = draw(order.index, get(place, order.t));
+      std::memcpy(place + pixels_at(), image.rgb.data(), pixels_);
       answer(answers, "", false);
     } catch (const Error& e) { answer(answers, e.what(), true); } catch (const std::exception& e) {
       answer(answers, e.what(), false);
@@ -72,32 +74,35 @@ void Workers::serve(const Worker& w, int orders, int answers, const std::functio
   }
 }
 
-void Workers::put(Worker& w, const MotionFrame& f) const {
-  std::memcpy(w.shared, f.poses.data(), poses_);
-  std::memcpy(w.shared + poses_, f.opening.data(), openings_);
-  if (derived_ > 0) std::memcpy(w.shared + poses_ + openings_, f.derived.data(), derived_);
-  std::memcpy(w.shared + poses_ + openings_ + derived_, f.damage.data(), damages_);
+void Workers::put(unsigned char* place, const MotionFrame& f) const {
+  std::memcpy(place, f.poses.data(), poses_);
+  std::memcpy(place + poses_, f.opening.data(), openings_);
+  if (derived_ > 0) std::memcpy(place + poses_ + openings_, f.derived.data(), derived_);
+  std::memcpy(place + poses_ + openings_ + derived_, f.damage.data(), damages_);
 }
 
-MotionFrame Workers::get(const Worker& w, double t) const {
+MotionFrame Workers::get(const unsigned char* place, double t) const {
   MotionFrame f{t, std::vector<float>(poses_ / sizeof(float)), std::vector<std::uint8_t>(damages_),
                 std::vector<float>(openings_ / sizeof(float)), std::vector<float>(derived_ / sizeof(float))};
-  std::memcpy(f.poses.data(), w.shared, poses_);
-  std::memcpy(f.opening.data(), w.shared + poses_, openings_);
-  if (derived_ > 0) std::memcpy(f.derived.data(), w.shared + poses_ + openings_, derived_);
-  std::memcpy(f.damage.data(), w.shared + poses_ + openings_ + derived_, damages_);
+  std::memcpy(f.poses.data(), place, poses_);
+  std::memcpy(f.opening.data(), place + poses_, openings_);
+  if (derived_ > 0) std::memcpy(f.derived.data(), place + poses_ + openings_, derived_);
+  std::memcpy(f.damage.data(), place + poses_ + openings_ + derived_, damages_);
   return f;
 }
 
 void Workers::order(std::size_t worker, std::size_t index, const MotionFrame& frame) {
-  put(workers_[worker], frame);
+  Worker& w = workers_[worker];
+  ERBS_ASSERT(w.ordered - w.collected < most_orders);
+  put(place_of(w, w.ordered++), frame);
   const Order order{index, frame.t};
-  send(workers_[worker].process.to, &order, sizeof order);  // collect() reports a process that no longer reads
+  send(w.process.to, &order, sizeof order);  // collect() reports a process that no longer reads
 }
 
 Image Workers::collect(std::size_t worker) {
-  const Worker& w = workers_[worker];
+  Worker& w = workers_[worker];
   Answer head;
+  const unsigned char* const place = place_of(w, w.collected++);
   if (!receive(w.process.from, &head, sizeof head))
     throw std::runtime_error("a drawing process has died; is the memory full? try --threads 1, or the other --context");
   if (head.text > 0) {
@@ -107,8 +112,19 @@ Image Workers::collect(std::size_t worker) {
     throw std::runtime_error(text);
   }
   Image image = empty_;
-  std::memcpy(image.rgb.data(), pixels(w), pixels_);
+  std::memcpy(image.rgb.data(), place + pixels_at(), pixels_);
   return image;
+}
+
+void Workers::draw_in_order(std::size_t count, const std::function<MotionFrame(std::size_t)>& frame,
+                            const std::function<bool(std::size_t, Image)>& take) {
+  const std::size_t n = workers_.size(), under_way = n * most_orders;
+  for (std::size_t i = 0; i < std::min(under_way, count); ++i) order(i % n, i, frame(i));
+  for (std::size_t i = 0; i < count; ++i) {
+    Image image = collect(i % n);
+    if (const std::size_t next = i + under_way; next < count) order(next % n, next, frame(next));
+    if (!take(i, std::move(image))) return;
+  }
 }
 
 }  // namespace erbs::render

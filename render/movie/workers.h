@@ -19,22 +19,31 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
+  // Orders that a process may have at a time. With a second one it draws on while this process collects the first.
+  static constexpr std::size_t most_orders = 2;
+
   std::size_t count() const { return workers_.size(); }
   void order(std::size_t worker, std::size_t index, const MotionFrame& frame);
-  Image collect(std::size_t worker);  // the picture ordered; rethrows an error of that process
+  Image collect(std::size_t worker);  // the picture ordered first; rethrows an error of that process
+  // Draws `count` frames, all processes at once, and calls take(index, picture) in their order; false from it ends the work.
+  void draw_in_order(std::size_t count, const std::function<MotionFrame(std::size_t)>& frame,
+                     const std::function<bool(std::size_t, Image)>& take);
 
  private:
   struct Worker {
-    Child process;  // takes orders and sends answers
-    unsigned char* shared = nullptr;
+    Child process;                           // takes orders and sends answers
+    unsigned char* shared = nullptr;         // a place for each order, in turn
+    std::size_t ordered = 0, collected = 0;  // so far
   };
   void serve(const Worker& worker, int orders, int answers, const std::function<Draw()>& prepare);
-  void put(Worker& worker, const MotionFrame& frame) const;
-  MotionFrame get(const Worker& worker, double t) const;
-  unsigned char* pixels(const Worker& worker) const { return worker.shared + poses_ + openings_ + derived_ + damages_; }
+  void put(unsigned char* place, const MotionFrame& frame) const;
+  MotionFrame get(const unsigned char* place, double t) const;
+  unsigned char* place_of(const Worker& worker, std::size_t order) const { return worker.shared + order % most_orders * bytes(); }
+  std::size_t bytes() const { return pixels_at() + pixels_; }  // of a place
+  std::size_t pixels_at() const { return poses_ + openings_ + derived_ + damages_; }
 
   Image empty_;
-  std::size_t poses_, openings_, derived_, damages_, pixels_;  // bytes of each part of the shared memory, in this order
+  std::size_t poses_, openings_, derived_, damages_, pixels_;  // bytes of each part of a place, in this order
   std::vector<Worker> workers_;
 };
 

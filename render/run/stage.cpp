@@ -30,8 +30,8 @@ bool is_ground(const MotionBlock& block, const Eigen::AlignedBox3d& box, const M
   return own.x() > free.x() + 0.5 * base && own.y() > free.y() + 0.5 * base && box.max().z() < rest.center().z();
 }
 
-// Extent of most block centroids: along each axis, all but the outermost 1/share on each side.
-Eigen::AlignedBox3d heap_of(const MotionFrame& frame, const std::vector<bool>& hidden, std::size_t share) {
+// Extent of most block centroids: along each axis, all but the outermost 2 % on each side.
+Eigen::AlignedBox3d heap_of(const MotionFrame& frame, const std::vector<bool>& hidden) {
   Eigen::AlignedBox3d heap(Vec3::Zero(), Vec3::Zero());
   for (int axis = 0; axis < 3; ++axis) {
     std::vector<double> at;
@@ -40,28 +40,38 @@ Eigen::AlignedBox3d heap_of(const MotionFrame& frame, const std::vector<bool>& h
         at.push_back(static_cast<double>(x));
     if (at.empty()) return {};
     std::sort(at.begin(), at.end());
-    const std::size_t out = at.size() / share;
+    const std::size_t out = at.size() / 50;
     heap.min()[axis] = at[out];
     heap.max()[axis] = at[at.size() - 1 - out];
   }
   return heap;
 }
 
-// The plate that turns: the part of the ground near the building, a fifth of the building's size wider than what lies on it, or the
-// fixed blocks.
-void set_table(Stage& stage, const MotionScene& scene, const std::vector<Eigen::AlignedBox3d>& boxes) {
-  Eigen::AlignedBox3d fixed;
+// The plate that turns: the fixed blocks or, of a ground, the part near the building, a fifth of the building's size wider than what lies
+// on it. It is drawn as far as anything slides; that the building keeps its height in pictures, this does not lift it.
+void set_table(Stage& stage, const MotionScene& scene, const std::vector<Eigen::AlignedBox3d>& boxes,
+               const std::vector<MotionFrame>& some_frames) {
+  Eigen::AlignedBox3d fixed, used = stage.reach;
   for (std::size_t b = 0; b < boxes.size(); ++b)
     if (scene.blocks[b].fixed && stage.hidden[b] == stage.on_ground) fixed.extend(boxes[b]);
   if (fixed.isEmpty()) fixed = stage.building;
-  stage.table = fixed;
+  stage.table = stage.footing = fixed;
   if (!stage.on_ground) return;
+  for (const MotionFrame& f : some_frames)
+    for (std::size_t b = 0; b < boxes.size(); ++b) {
+      const Vec3 at(f.poses[7 * b], f.poses[7 * b + 1], f.poses[7 * b + 2]), half = Vec3::Constant(0.5 * boxes[b].sizes().norm());
+      if (!stage.hidden[b] && at.allFinite() && at.z() > stage.ground_z) used.extend(Eigen::AlignedBox3d(at - half, at + half));
+    }
   const Vec3 aside = 0.2 * stage.size() * Vec3(1, 1, 0);
-  stage.table = Eigen::AlignedBox3d(stage.reach.min() - aside, stage.reach.max() + aside).intersection(fixed);
-  stage.table.max().z() = stage.ground_z;
-  stage.table.min().z() = stage.ground_z - 0.03 * stage.size();
-  for (int i = 0; i < 2; ++i)
-    if (!(stage.table.sizes()[i] > 0)) stage.table.min()[i] = fixed.min()[i], stage.table.max()[i] = fixed.max()[i];
+  const auto plate = [&](const Eigen::AlignedBox3d& below) {
+    Eigen::AlignedBox3d box = Eigen::AlignedBox3d(below.min() - aside, below.max() + aside).intersection(fixed);
+    box.max().z() = stage.ground_z;
+    box.min().z() = stage.ground_z - 0.03 * stage.size();
+    for (int i = 0; i < 2; ++i)
+      if (!(box.sizes()[i] > 0)) box.min()[i] = fixed.min()[i], box.max()[i] = fixed.max()[i];
+    return box;
+  };
+  stage.table = plate(used), stage.footing = plate(stage.reach);
 }
 
 }  // namespace
@@ -100,81 +110,49 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
     }
   if (!ground) stage.ground_z = lowest;
   stage.on_ground = ground;
-  set_table(stage, scene, boxes);
+  set_table(stage, scene, boxes, some_frames);
   if (some_frames.empty()) return stage;
   double radius = 0;  // m, mean of the blocks
   for (std::size_t b = 0; b < boxes.size(); ++b)
     radius += stage.hidden[b] ? 0 : 0.5 * boxes[b].sizes().norm() / static_cast<double>(boxes.size());
   // Blocks thrown far away are ignored; a view that includes them would show the building too small. What stood above the ground may have
   // fallen to it.
-  const auto heap = [&](std::size_t share, double aside) {
-    Eigen::AlignedBox3d near = stage.building;
-    near.min() -= aside * Vec3(1, 1, 0), near.max() += aside * Vec3(1, 1, 0);
-    near.min().z() = std::min(near.min().z(), ground ? stage.ground_z : std::max(lowest, near.min().z() - aside));
-    Eigen::AlignedBox3d box = heap_of(some_frames.back(), stage.hidden, share);
-    if (box.isEmpty()) return box;
-    box = Eigen::AlignedBox3d(box.min().cwiseMax(near.min()).cwiseMin(near.max()), box.max().cwiseMin(near.max()).cwiseMax(near.min()));
-    box.min() -= Vec3::Constant(radius), box.max() += Vec3::Constant(radius);
-    if (ground) box.min().z() = std::max(box.min().z(), stage.ground_z);
-    return box;
-  };
-  stage.heap = heap(50, 0.9 * stage.size());
-  stage.debris = heap(200, 1.5 * stage.size());
+  const double aside = 0.9 * stage.size();
+  Eigen::AlignedBox3d near = stage.building, &heap = stage.heap;
+  near.min() -= aside * Vec3(1, 1, 0), near.max() += aside * Vec3(1, 1, 0);
+  near.min().z() = std::min(near.min().z(), ground ? stage.ground_z : std::max(lowest, near.min().z() - aside));
+  heap = heap_of(some_frames.back(), stage.hidden);
+  if (heap.isEmpty()) return stage;
+  heap = Eigen::AlignedBox3d(heap.min().cwiseMax(near.min()).cwiseMin(near.max()), heap.max().cwiseMin(near.max()).cwiseMax(near.min()));
+  heap.min() -= Vec3::Constant(radius), heap.max() += Vec3::Constant(radius);
+  if (ground) heap.min().z() = std::max(heap.min().z(), stage.ground_z);
   return stage;
 }
 
-namespace {
-
-// Points that must be visible: the building, room on the ground for what falls beside it, and the heap where it lies at the end.
-std::vector<Vec3> seen_points(const Stage& stage, bool debris) {
-  std::vector<Vec3> seen, heap;
-  const Vec3 size = stage.building.sizes(), aside = 0.14 * size.z() * Vec3(1, 1, 0);
-  for (int i = 0; i < 8; ++i) {
-    const Vec3 p = stage.building.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i));
-    seen.push_back(p);
-    if (i < 4) seen.push_back(p + aside.cwiseProduct((p - stage.building.center()).cwiseSign()));  // the lower corners
-    const Eigen::AlignedBox3d& fallen = debris ? stage.debris : stage.heap;
-    if (!fallen.isEmpty()) heap.push_back(fallen.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
-  }
-  if (stage.positions.empty()) {
-    seen.insert(seen.end(), heap.begin(), heap.end());
-    return seen;
-  }
-  const Vec3 near = 0.4 * stage.size() * Vec3(1, 1, 1);
-  const Eigen::AlignedBox3d table = stage.table.intersection({stage.building.min() - near, stage.building.max() + near});
-  if (!table.isEmpty())
-    for (int i = 0; i < 8; ++i) seen.push_back(table.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)));
-  std::vector<Vec3> turned;
-  for (const Eigen::Isometry3d& position : stage.positions)
-    for (const Vec3& p : seen) turned.push_back(position * p);
-  for (const Vec3& p : heap) turned.push_back(stage.positions.back() * p);
-  return turned;
-}
-
-// Whether the convex hull of the points reaches beyond this corner in both directions.
-bool reaches_corner(const std::vector<Eigen::Vector2d>& points, const Eigen::Vector2d& corner) {
-  for (const Eigen::Vector2d& p : points)
-    for (const Eigen::Vector2d& q : points) {
-      const Eigen::Vector2d a = p - corner, b = q - corner;
-      if (a.minCoeff() > 0) return true;
-      // Where x - y changes its sign on the side from p to q, the lesser of both is greatest.
-      const double from = a.x() - a.y(), to = b.x() - b.y();
-      if (from * to < 0 && (a + from / (from - to) * (b - a)).minCoeff() > 0) return true;
-    }
-  return false;
-}
-
-}  // namespace
-
 Eigen::Isometry3d table_position(const Stage& stage, const Mat3& levelling) {
-  const Vec3 middle = stage.table.center();
+  const Vec3 middle = stage.footing.center();
   double lowest = HUGE_VAL;
   for (int i = 0; i < 8; ++i)
-    lowest = std::min(lowest, (levelling * (stage.table.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)) - middle)).z());
+    lowest = std::min(lowest, (levelling * (stage.footing.corner(static_cast<Eigen::AlignedBox3d::CornerType>(i)) - middle)).z());
   Eigen::Isometry3d position = Eigen::Isometry3d::Identity();
   position.linear() = levelling;
-  position.translation() = Vec3(middle.x(), middle.y(), stage.table.min().z() - lowest) - levelling * middle;
+  position.translation() = Vec3(middle.x(), middle.y(), stage.footing.min().z() - lowest) - levelling * middle;
   return position;
+}
+
+// A scene has no floor beside its ground: what falls past the table never lands. A floor drawn there would be one that it sinks into.
+void turn_table(Stage& stage, const MotionScene& scene, const std::vector<MotionFrame>& some_frames, const std::vector<Mat3>& levelling) {
+  std::vector<double> thin;  // m, half the smallest edge of each block
+  for (const MotionBlock& block : scene.blocks) thin.push_back(0.5 * box_of(scene, block).sizes().minCoeff());
+  stage.floor = stage.table.isApprox(stage.footing);  // a wider table reaches through it
+  for (std::size_t i = 0; i < some_frames.size(); ++i) {
+    const Eigen::Isometry3d position = table_position(stage, levelling[i]);
+    for (std::size_t b = 0; b < thin.size(); ++b) {
+      const Vec3 at = position * Eigen::Map<const Eigen::Vector3f>(&some_frames[i].poses[7 * b]).cast<double>();
+      if (!stage.hidden[b] && !scene.blocks[b].fixed && at.z() - thin[b] < stage.table.min().z()) stage.floor = false;
+    }
+    stage.positions.push_back(position);
+  }
 }
 
 Camera in_scene(const Camera& camera, const Eigen::Isometry3d& position) {
@@ -182,66 +160,6 @@ Camera in_scene(const Camera& camera, const Eigen::Isometry3d& position) {
   const Eigen::Isometry3d back = position.inverse();
   seen.eye = back * camera.eye, seen.target = back * camera.target, seen.up = back.linear() * camera.up;
   return seen;
-}
-
-void fit_camera(Camera& c, const Vec3& direction, const Stage& stage, double aspect, bool debris) {
-  const std::vector<Vec3> seen = seen_points(stage, debris);
-  const Vec3 back = direction.normalized();
-  Vec3 right = c.up.cross(back);
-  if (right.norm() < 1e-6) c.up = Vec3(0, 1, 0), right = c.up.cross(back);
-  right.normalize();
-  const Vec3 up = back.cross(right);
-  const double half = std::tan(0.5 * c.fov);
-  double distance = 0;
-  // Fits all points into the part of the picture, from -1 to 1, that a strip at its right leaves, and at its left one for the axes, which
-  // are little more than half as wide as a legend; returns their places.
-  const auto place = [&](double strip) {
-    const double beside = 0.55 * strip;
-    std::vector<Eigen::Vector2d> places(seen.size());
-    c.target = stage.building.center();
-    distance = std::max(1e-3, 3 * stage.size() / std::min(1.0, 4 * half));
-    for (int iteration = 0; iteration < 9; ++iteration) {  // approaches in iterations and centres the target on the visible points
-      Eigen::AlignedBox2d shown;
-      for (std::size_t i = 0; i < seen.size(); ++i) {
-        const Vec3 v = seen[i] - c.target;
-        places[i] = Eigen::Vector2d(v.dot(right) / aspect, v.dot(up)) / (half * (distance - v.dot(back)));
-        shown.extend(places[i]);
-      }
-      if (iteration == 8) break;
-      c.target += distance * half * ((shown.center().x() + strip - beside) * aspect * right + shown.center().y() * up);
-      distance *= 1.06 * 0.5 * std::max(shown.sizes().x() / (1 - strip - beside), shown.sizes().y());
-    }
-    return places;
-  };
-  const double strip = stage.legend_width;
-  if (reaches_corner(place(0), {1 - 2 * strip, 1 - 2 * stage.legend_height})) place(strip);
-  c.eye = c.target + distance * back;
-}
-
-std::vector<Camera> choose_cameras(const Stage& stage, double aspect) {
-  std::vector<Camera> cameras(2);
-  const Vec3 directions[2] = {Vec3(0.62, -1, 0.34), Vec3(-1, -0.50, 0.42)};
-  const char* names[2] = {"corner", "side"};
-  for (std::size_t k = 0; k < 2; ++k) {
-    cameras[k].name = names[k];
-    cameras[k].fov = 26 * pi / 180;
-    fit_camera(cameras[k], directions[k], stage, aspect);
-  }
-  return cameras;
-}
-
-std::vector<Camera> elevations(const Stage& stage, double aspect) {
-  const std::pair<const char*, Vec3> views[] = {
-      {"from_-x", {-1, 0, 0}}, {"from_+x", {1, 0, 0}}, {"from_-y", {0, -1, 0}}, {"from_+y", {0, 1, 0}}, {"from_above", {0, 0, 1}}};
-  std::vector<Camera> out;
-  for (const auto& [name, direction] : views) {
-    Camera camera;
-    camera.name = name;
-    camera.fov = 1.5 * pi / 180;  // from so far that parallel lines stay parallel within 1 %
-    fit_camera(camera, direction, stage, aspect);
-    out.push_back(camera);
-  }
-  return out;
 }
 
 namespace {

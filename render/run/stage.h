@@ -11,11 +11,12 @@ struct Stage {
   Eigen::AlignedBox3d building;                            // m, all blocks except the ground, at rest
   Eigen::AlignedBox3d reach;                               // m, its visible extent over the whole run (for the shadow)
   Eigen::AlignedBox3d heap;                                // m, extent of nearly all blocks at the end, each whole
-  Eigen::AlignedBox3d debris;                              // m, extent of 99 % of the blocks at the end, each whole
   double ground_z = 0;                                     // m
   Eigen::AlignedBox3d table;                               // m, what turns in a tilting test: the ground under all that is visible
+  Eigen::AlignedBox3d footing;                             // m, its part near the building, with which it rests on a floor
   bool on_ground = false;                                  // a ground block is drawn as a plane
   std::vector<Eigen::Isometry3d> positions;                // of the table over the run; empty: it stays
+  bool floor = true;                                       // is drawn below a table that turns
   double legend_width = 0, legend_height = 0;              // shares of what a camera sees that a legend covers, at its upper right
   std::vector<bool> hidden;                                // ground blocks, drawn as a plane [blocks]
   double size() const { return building.sizes().norm(); }  // m
@@ -23,19 +24,12 @@ struct Stage {
 
 Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_frames);
 
-// Position of the table in the level world, from the scene: it rests on its lowest edge, on the floor.
+// Position of the table in the level world, from the scene: its footing rests on the lowest edge, on the floor.
 Eigen::Isometry3d table_position(const Stage& stage, const Mat3& levelling);
+// Sets the positions of the table in these frames, with the levelling of each, and whether there is a floor below it.
+void turn_table(Stage& stage, const MotionScene& scene, const std::vector<MotionFrame>& some_frames, const std::vector<Mat3>& levelling);
 // The camera of the level world, as the scene sees it.
 Camera in_scene(const Camera& camera, const Eigen::Isometry3d& position);
-
-// Two cameras, each from one corner. They show the whole building and its final heap, in a picture of this width/height.
-std::vector<Camera> choose_cameras(const Stage& stage, double aspect);
-
-// Elevations and a plan, from_-x ... from_+y and from_above: seen from very far, so that they are nearly parallel projections.
-std::vector<Camera> elevations(const Stage& stage, double aspect);
-// Places the camera in this direction from the building so that all of it and its heap are visible; keeps its fov. `debris`: with nearly
-// all blocks at the end, not the middle of the heap alone.
-void fit_camera(Camera& camera, const Vec3& direction, const Stage& stage, double aspect, bool debris = false);
 
 // View of a camera. The overlay covers the top and bottom of the picture; field of view and target of the camera refer to the part between.
 struct View {

@@ -183,7 +183,7 @@ bool make_drawings(const Run& run, const MotionReader& reader, const Movie& wish
   movie.look.bottom = movie.look.overlay ? foot * overlay_unit(movie.look.height) : 0;
   const Schedule schedule = schedule_of(movie, reader.times());
   const Look& l = movie.look;
-  Scenery scenery(run, reader, movie, l.width / (l.height - l.top - l.bottom));
+  Scenery scenery(run, reader, movie, l.width / (l.height - l.top - l.bottom), schedule.times);
   scenery.check_eyes(schedule.times);
   const Show show = scenery.show(schedule.times);
   const MotionScene& whole = scenery.excerpt().scene;

@@ -285,7 +285,7 @@ class Lines {
     }
     if (camera_.eye.z() < z) return;
     Eigen::AlignedBox3d near = stage.building;
-    if (!stage.debris.isEmpty()) near.extend(stage.debris);
+    if (!stage.heap.isEmpty()) near.extend(stage.heap);
     Eigen::Array2d low = ((near.min().head<2>().array() / step).floor() - 1) * step,
                    high = ((near.max().head<2>().array() / step).ceil() + 1) * step;
     for (int axis = 0; axis < 2; ++axis)

@@ -4,7 +4,7 @@
 -- How to run     erbs test scenes/pictures
 -- What to look at  The picture shows the table tilted, the arrow of gravity, and the angle in the strip.
 material { name = "stone", density = 2400, friction = 0.8, restitution = 0.2 }
-ground { z = 0, size = 2.4, material = "stone" }
+ground { z = 0, size = 4, material = "stone" }
 joint { law = dry { kn = 5e9, ks = 2e9, mu = 0.8 } }
 for i = 0, 5 do box { group = "pier", size = { 0.2, 0.3, 0.15 }, at = { 0, 0, i * 0.15 }, material = "stone" } end
 tilt { wave = table_wave { times = { 0, 1.2 }, values = { 0, -25 * deg }, hold = true }, axis = "y" }

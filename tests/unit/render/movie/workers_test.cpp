@@ -41,6 +41,32 @@ TEST_CASE("processes draw what they are ordered to", "[render][workers]") {
   CHECK(b.rgb[0] == 6);
 }
 
+TEST_CASE("a process takes a second order while it draws the first", "[render][workers]") {
+  Workers one(1, Image(4, 2), frame_of(0), echo);
+  one.order(0, 1, frame_of(0.1));
+  one.order(0, 2, frame_of(0.2));
+  CHECK(one.collect(0).rgb[2] == 1);
+  one.order(0, 3, frame_of(0.3));
+  CHECK(one.collect(0).rgb[2] == 2);
+  CHECK(one.collect(0).rgb[2] == 3);
+}
+
+TEST_CASE("pictures are taken in their order by any number of processes", "[render][workers]") {
+  for (const std::size_t count : {1, 2, 3, 7}) {
+    Workers workers(count, Image(4, 2), frame_of(0), echo);
+    std::vector<int> taken;
+    workers.draw_in_order(
+        5, [](std::size_t i) { return frame_of(0.1 * double(i)); },
+        [&](std::size_t i, const Image& image) {
+          CHECK(image.rgb[0] == i);
+          CHECK(int(image.rgb[2]) == int(i));
+          taken.push_back(int(i));
+          return i < 3;
+        });
+    CHECK(taken == std::vector<int>{0, 1, 2, 3});
+  }
+}
+
 TEST_CASE("what goes wrong in a drawing process is told here", "[render][workers]") {
   const auto failing = [](auto what) {
     return [what]() -> Workers::Draw {

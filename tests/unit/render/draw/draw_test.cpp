@@ -13,6 +13,7 @@
 #include "render/image/compare.h"
 #include "render/movie/movie.h"
 #include "render/movie/video.h"
+#include "render/run/framing.h"
 #include "tests/support/folder.h"
 #include "tests/unit/render/brick_house.h"
 

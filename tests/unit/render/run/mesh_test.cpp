@@ -5,7 +5,7 @@
 
 #include "engine/base/units.h"
 #include "render/draw/draw.h"
-#include "render/run/stage.h"
+#include "render/run/framing.h"
 #include "tests/unit/render/brick_house.h"
 
 using namespace erbs;

@@ -88,6 +88,41 @@ TEST_CASE("a table rests on its lowest edge, and the camera sees it turn", "[ren
   }
 }
 
+TEST_CASE("what slides down a tilting ground stays on the plate that is drawn", "[render][stage]") {
+  const MotionScene scene = brick_house({1.2, 1.2, 4, 0.2, 0.1});
+  MotionFrame last = brick_house_frame(scene, 0);
+  float* brick = &last.poses[7 * (scene.blocks.size() - 1)];
+  brick[0] = 8, brick[2] = 0.05F;  // the ground reaches to 10 m
+  const Stage stage = set_stage(scene, {brick_house_frame(scene, 0), last});
+  CHECK(stage.table.contains(Vec3(8.1, brick[1], stage.ground_z)));
+  CHECK(stage.table.max().x() < 10.001);
+}
+
+TEST_CASE("below a table that blocks fall past no floor is drawn", "[render][stage]") {
+  prepare_contexts();
+  const MotionScene scene = brick_house({1.2, 1.2, 4, 0.2, 0.1});
+  MotionFrame last = brick_house_frame(scene, 0);
+  float* brick = &last.poses[7 * (scene.blocks.size() - 1)];
+  const double fallen = GENERATE(0.0, 0.5, 4.0);
+  if (fallen > 0) brick[0] = 10.5F, brick[2] = static_cast<float>(-fallen);  // beyond the edge of the ground
+  const Mat3 level = rotation(Vec3(0, 0.1, 0)).toRotationMatrix();
+  Stage stage = set_stage(scene, {brick_house_frame(scene, 0), last});
+  turn_table(stage, scene, {last}, {level});
+  REQUIRE(stage.positions.size() == 1);
+  CHECK(stage.floor == (fallen == 0));
+  Look l;
+  l.width = 160, l.height = 90;
+  const Run run;
+  const Show show = prepare_show(scene, run, stage, {}, std::nullopt);
+  Camera camera;
+  camera.eye = Vec3(0, -30, 4), camera.target = Vec3(0, 0, 4), camera.fov = 1;
+  const Image image = Painter(show, l, "auto").draw(last, camera, level);
+  const int horizon = *image.pixel(2, 44), foot = *image.pixel(2, 89);
+  INFO(horizon << " " << foot);
+  if (stage.floor) CHECK(foot < horizon - 10);
+  else CHECK(std::abs(foot - horizon) < 4);
+}
+
 TEST_CASE("a tilting test is drawn tilting, or from a camera that stays level with its table", "[render][draw]") {
   prepare_contexts();
   const test::Folder dir;

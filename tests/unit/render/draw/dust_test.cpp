@@ -7,6 +7,7 @@
 #include "engine/base/units.h"
 #include "render/draw/draw.h"
 #include "render/image/compare.h"
+#include "render/run/framing.h"
 #include "tests/unit/render/brick_house.h"
 
 using namespace erbs;

@@ -9,6 +9,7 @@
 #include "engine/base/units.h"
 #include "engine/base/vec.h"
 #include "render/movie/scenery.h"
+#include "render/run/framing.h"
 #include "tests/support/folder.h"
 #include "tests/unit/lua/bench.h"
 #include "tests/unit/render/brick_house.h"
@@ -183,25 +184,4 @@ TEST_CASE("a camera follows the blocks it should, and keeps its direction", "[re
   }
   CHECK((follow(camera, top, true, reader, excerpt, stage, 1).camera.eye - shot.camera.target).norm() < back.norm());
   CHECK_THROWS_WITH(follow(camera, "nobody", false, reader, excerpt, stage, 1), Catch::Contains("no group and no block"));
-}
-
-TEST_CASE("the framing that --fit asks for keeps the heap in the picture", "[render][camera]") {
-  const double far = GENERATE(0.5, 1.5, 3.0);
-  const MotionScene scene = brick_house({1.2, 1.2, 8, 1, 0.5});
-  MotionFrame last = brick_house_frame(scene, 0);
-  std::size_t thrown = 0;
-  for (std::size_t b = 0; b < scene.blocks.size(); b += 12)
-    if (!scene.blocks[b].fixed) last.poses[7 * b] += static_cast<float>(far), last.poses[7 * b + 2] = 0.05F, ++thrown;
-  REQUIRE(thrown > 4);
-  const Stage stage = set_stage(scene, {brick_house_frame(scene, 0), last});
-  Camera camera = choose_cameras(stage, 16.0 / 9).front();
-  fit_camera(camera, camera.eye - camera.target, stage, 16.0 / 9, true);
-  const View view = look(camera, stage, 1280, 720, 0, 0);
-  const Eigen::Matrix4f to_clip = view.projection * view.view;
-  for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
-    if (stage.hidden[b]) continue;
-    const Eigen::Vector4f p = to_clip * Eigen::Vector3f(Eigen::Map<const Eigen::Vector3f>(&last.poses[7 * b])).homogeneous();
-    CHECK(std::fabs(p.x() / p.w()) < 1);
-    CHECK(std::fabs(p.y() / p.w()) < 1);
-  }
 }

@@ -134,6 +134,31 @@ TEST_CASE("curves share a panel when they share unit and direction", "[render][f
   CHECK(panels[3].label == "force x [kN]");
 }
 
+TEST_CASE("curves fill their panel", "[render][figures]") {
+  const Folder dir;
+  const auto range = [&](double low, double high) {
+    dir.write("h.csv", fmt::format("time_s,base_fz_N\n0,{0:.17g}\n1,{1:.17g}\n2,{0:.17g}\n", low, high));
+    return shown_range(read_csv((dir.path / "h.csv").string()), {"force", 1, {1}});
+  };
+  const std::pair<double, double> signs[] = {{-4.1, 4.1}, {-1, 99},      {0, 8.1},       {-13.6, 0},
+                                             {20, 80},    {95e3, 100e3}, {-7e5, -6.9e5}, {-3, 0.1}};
+  for (const auto& [low, high] : signs) {
+    const auto [from, to] = range(low, high);
+    INFO(low << " " << high << " in " << from << " " << to);
+    CHECK(from <= low);
+    CHECK(to >= high);
+    CHECK((high - low) / (to - from) > 0.66);
+  }
+  CHECK(range(20, 80).first == 0);  // zero is near
+  CHECK(range(0, 8.1).first == 0);
+  for (const double flat : {0.0, 5.0, -5.0}) {
+    const auto [from, to] = range(flat, flat);
+    CHECK(from <= std::min(0.0, flat));
+    CHECK(to >= std::max(0.0, flat));
+    CHECK(to > from);
+  }
+}
+
 TEST_CASE("a direction in which next to nothing happens is named, not drawn", "[render][figures]") {
   const Folder dir;
   dir.write("h.csv", "time_s,top_ux_rel_m,top_uy_rel_m,top_ux_abs_m,top_uy_abs_m\n0,0,0,0,0\n1,0.03,0.0005,0.1,0.003\n");

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "render/draw/draw.h"
+#include "render/run/framing.h"
 #include "tests/unit/render/brick_house.h"
 
 using namespace erbs;
