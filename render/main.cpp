@@ -31,7 +31,7 @@ struct Arguments {
   std::vector<std::string> cameras;
   bool figures_only = false, no_figures = false;
   render::Movie movie;
-  render::FilmComparison comparison{"", "rows", "correlation", "", 5, NAN};
+  render::FilmComparison comparison{"", "rows", "correlation", "", 5, 640, NAN};
 };
 
 const std::map<std::string, render::Coloring> colorings{{"material", render::Coloring::material},
@@ -199,6 +199,10 @@ void add_comparison(CLI::App& app, Arguments& a) {
   app.add_option("--compare", a.comparison.film, "a film, or a folder of PNG files: compare the run with it");
   app.add_option("--compare-to", a.comparison.place, "folder of the comparison (default DIR/compare)");
   app.add_option("--film-background", a.comparison.background, "of that film: rows (medians of its first picture), drawn, or a PNG")
+      ->capture_default_str();
+  app.add_option("--film-width", a.comparison.width,
+                 "of the pictures of the run and of the films that show both, at most (px; measured are at most 640)")
+      ->check(within(64, 8192))
       ->capture_default_str();
   app.add_option("--points", a.points, "x,y,z:u,v;..: four or more points (m) and their places in that film (px) give the camera");
   app.add_option("--align", a.comparison.align, "times of that film")

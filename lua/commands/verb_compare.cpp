@@ -149,6 +149,7 @@ std::vector<std::pair<std::string, std::string>> film_options() {
           {"--points", "x,y,z:u,v;..: four or more points (m) and their places in the picture (px), which give the camera"},
           {"--fps", "pictures a second of a folder of frames (default 25)"},
           {"--slow", "seconds of film for one second of the test (default 1)"},
+          {"--film-width", "of the pictures drawn and of the films at most, px (default 640, the size that is measured)"},
           {"--film-background", "rows: the median of each row of its first picture (default); drawn: the run without blocks; or a PNG"}};
 }
 

@@ -43,7 +43,7 @@ std::vector<Verdict> judge_all(const Scene& scene, const std::string& path, cons
   if (!as_written) std::erase_if(expectations, [](const Expectation& item) { return item.stored; });
   expectations = with_stored_values(std::move(expectations), path);
   std::vector<Verdict> verdicts = judge(expectations, metrics);
-  name_stored_values(expectations, path, verdicts);
+  name_stored_values(expectations, path, directory, verdicts);
   if (as_written)
     for (Verdict& verdict : judge_pictures(scene, path, directory)) verdicts.push_back(std::move(verdict));
   return verdicts;

@@ -36,7 +36,12 @@ function verdictCard(metrics) {
   const checks = metrics.expectations ?? {};
   if (checks.passed + checks.failed) lines.push(`Expectations of the scene: ${checks.passed} met, ${checks.failed} not`);
   const ended = metrics.status === 'completed' ? '' : ` (run ${metrics.status})`;
-  const lead = collapse.collapsed ? `Collapses at ${short(collapse.time_s)} s` : 'Does not collapse';
+  // A push, and what does not stand under its own weight, have no time of collapse.
+  const timed = typeof collapse.time_s === 'number';
+  const lead = !collapse.collapsed ? 'Does not collapse' :
+      timed                        ? `Collapses at ${short(collapse.time_s)} s` :
+      collapse.under_gravity       ? 'Does not stand under its own weight' :
+                                     'Collapses';
   return card(collapse.collapsed ? 'bad' : 'good', 'Verdict', lead + ended, lines);
 }
 

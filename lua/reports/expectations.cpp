@@ -117,7 +117,8 @@ Json to_json(const std::vector<Verdict>& verdicts) {
                     {"source", v.source},
                     {"place", v.place},
                     {"stored", v.stored},
-                    {"actual", v.actual}});
+                    {"actual", v.actual},
+                    {"scene", v.scene}});
   return list;
 }
 
@@ -136,7 +137,8 @@ std::vector<Verdict> verdicts_of(const Json& json) {
                                     {"source", &v.source},
                                     {"place", &v.place},
                                     {"stored", &v.stored},
-                                    {"actual", &v.actual}})
+                                    {"actual", &v.actual},
+                                    {"scene", &v.scene}})
       *into = item.value(key, "");
     verdicts.push_back(std::move(v));
   }

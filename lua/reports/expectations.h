@@ -12,6 +12,7 @@ struct Verdict {
   bool passed = false;
   std::string key, expected, got, error, tolerance, source, place;  // as printed in tables
   std::string stored, actual;  // file beside the scene, and what replaces its content; "": nothing is stored
+  std::string scene;           // identity of the run, which is stored with its value
   double used = 0;             // error over tolerance: 1 at the limit, infinite if the run gives no value
 };
 

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "engine/base/text.h"
+#include "engine/record/folder/identity.h"
 #include "engine/record/folder/run_folder.h"
 #include "lua/program/child.h"
 
@@ -31,6 +32,19 @@ std::string draw(const PictureExpectation& picture, const std::string& stored, c
   return code == 0 ? "" : last_words(log, code, directory);
 }
 
+// Of the run that gave the value of this key; "" in files of earlier versions.
+std::string stored_for(const Json& values, const std::string& key) {
+  const auto known = values.find("stored_for");
+  return known != values.end() && known->is_object() ? known->value(key, "") : "";
+}
+
+// Fails what was stored for another scene, and adds to `words` why what was stored may not fit.
+void judge_identity(const std::string& kept, Verdict& verdict, std::string& words) {
+  if (!same_name(kept, verdict.scene)) verdict.passed = false, verdict.used = std::numeric_limits<double>::infinity();
+  if (!verdict.passed)
+    if (const std::string why = difference_of(kept, verdict.scene); !why.empty()) words += "; " + why;
+}
+
 void judge_difference(const PictureExpectation& picture, const Json& difference, Verdict& verdict) {
   if (!difference.value("stored", false)) {
     verdict.got = "no picture is stored yet; erbs test --bless stores this one";
@@ -40,11 +54,13 @@ void judge_difference(const PictureExpectation& picture, const Json& difference,
     verdict.got = "the stored picture has another size";
     return;
   }
+  verdict.scene = difference.value("scene", "");
   const double pixels = difference.value("failed_fraction", 1.0), ssim = difference.value("ssim", 0.0);
   verdict.got = fmt::format("{:.2g} % of the pixels differ, SSIM {:.4f}", 100 * pixels, ssim);
   verdict.passed = pixels <= picture.pixels && ssim >= picture.ssim;
   const auto share = [](double value, double limit) { return value <= 0 ? 0 : limit > 0 ? value / limit : HUGE_VAL; };
   verdict.used = std::max(share(pixels, picture.pixels), share(1 - ssim, 1 - picture.ssim));
+  judge_identity(difference.value("stored_scene", ""), verdict, verdict.got);
 }
 
 Verdict judge_picture(const PictureExpectation& picture, const std::string& scene, const std::string& directory) {
@@ -82,11 +98,18 @@ std::vector<Expectation> with_stored_values(std::vector<Expectation> expectation
   return expectations;
 }
 
-void name_stored_values(const std::vector<Expectation>& expectations, const std::string& scene, std::vector<Verdict>& verdicts) {
+void name_stored_values(const std::vector<Expectation>& expectations, const std::string& scene, const std::string& directory,
+                        std::vector<Verdict>& verdicts) {
+  const std::string file = values_of(scene);
+  const Json values = fs::exists(file) ? read_json(file) : Json::object();
+  const std::optional<SceneIdentity> identity = identity_in(directory);
   for (std::size_t i = 0; i < expectations.size() && i < verdicts.size(); ++i) {
     if (!expectations[i].stored) continue;
-    verdicts[i].stored = values_of(scene);
-    if (std::isnan(expectations[i].value)) verdicts[i].expected = "none stored yet; erbs test --bless stores it";
+    Verdict& verdict = verdicts[i];
+    verdict.stored = file;
+    verdict.scene = identity ? identity->text() : "";
+    if (std::isnan(expectations[i].value)) verdict.expected = "none stored yet; erbs test --bless stores it";
+    else judge_identity(stored_for(values, verdict.key), verdict, verdict.expected);
   }
 }
 
@@ -106,6 +129,7 @@ std::vector<std::string> renew(const std::vector<Verdict>& verdicts) {
       if (!values.contains(verdict.stored))
         values[verdict.stored] = fs::exists(verdict.stored) ? read_json(verdict.stored) : Json::object();
       values[verdict.stored][verdict.key] = Json::parse(verdict.actual);
+      if (!verdict.scene.empty()) values[verdict.stored]["stored_for"][verdict.key] = verdict.scene;
       lines.push_back(fmt::format("stored {} = {} in {} (before: {})", verdict.key, verdict.got, verdict.stored, verdict.expected));
     } else {
       fs::copy_file(verdict.actual, verdict.stored, fs::copy_options::overwrite_existing);

@@ -79,20 +79,20 @@ struct SignalMeter {
   }
 };
 
-MotionSignal signal_of_film(FilmReader& film, const std::string& path, double step) {
+MotionSignal signal_of_film(FilmReader& film, const std::string& path, double step, const std::atomic<bool>& stop) {
   SignalMeter meter;
-  const int factor = reduction_to(film.width(), signal_width);
-  while (const std::optional<Image> image = film.next()) meter.add(reduced(*image, factor), double(film.read() - 1) * step, step);
+  film.rewind(reduction_to(film.width(), signal_width));
+  for (std::optional<Image> image; !stop && (image = film.next());) meter.add(*image, double(film.read() - 1) * step, step);
+  if (stop) return meter.signal;
   if (meter.signal.t.size() < 2) throw Error("it has fewer than three pictures that can be read; name a longer film", {path});
   return meter.signal;
 }
 
-MotionSignal signal_of_run(const RunDrawer& drawer, int factor, double step, const std::atomic<bool>& stop) {
+MotionSignal signal_of_run(const RunDrawer& drawer, Workers& workers, int factor, double step, const std::atomic<bool>& stop) {
   const std::vector<double>& recorded = drawer.reader.times();
   std::vector<double> times;
   for (double t = recorded.front(); t <= recorded.back() + 1e-9; t += step) times.push_back(t);
   SignalMeter meter;
-  Workers workers = drawer.start(times.size());
   drawer.draw(workers, times, [&](std::size_t i, const Image& image) {
     meter.add(reduced(image, factor), times[i], step);
     return !stop;
@@ -111,14 +111,15 @@ void align(FilmErrors& errors, const FilmComparison& wish) {
                 {wish.film});
 }
 
-Image background_of(const FilmComparison& wish, const Image& first, const Image& drawn) {
+// In the size of the first picture.
+Image background_of(const FilmComparison& wish, const FilmReader& film, const Image& first, const Image& drawn) {
   if (wish.background == "rows") return row_medians(first);
   if (wish.background == "drawn") return drawn;
   Image image = read_png(wish.background);
-  if (image.width != first.width || image.height != first.height)
-    throw Error(fmt::format("it has {}x{} pixels, the film {}x{}; make both alike", image.width, image.height, first.width, first.height),
+  if (image.width != film.width() || image.height != film.height())
+    throw Error(fmt::format("it has {}x{} pixels, the film {}x{}; make both alike", image.width, image.height, film.width(), film.height()),
                 {wish.background});
-  return image;
+  return reduced(image, film.width() / first.width);
 }
 
 // Measures pairs of pictures one after another.
@@ -141,6 +142,30 @@ struct Meter {
     run_last = std::move(run_now), film_last = std::move(film_now);
     return e;
   }
+};
+
+// What is done with a pair of pictures, by a thread each, while the next pair is drawn and read: it is measured, and added to each film.
+class PairWork {
+ public:
+  PairWork(Meter& meter, std::vector<FrameErrors>& found, ComparisonFilms& films) : meter_(meter), found_(found), films_(films) {}
+  // The last pair must be finished.
+  void begin(Image run, Image film, double t) {
+    run_ = std::move(run), film_ = std::move(film);
+    tasks_.push_back(std::async(std::launch::async, [this, t] { found_.push_back(meter_.errors(run_, film_, t)); }));
+    for (std::size_t which = 0; which < ComparisonFilms::count; ++which)
+      tasks_.push_back(std::async(std::launch::async, [this, which, t] { films_.add(which, run_, film_, t); }));
+  }
+  void finish() {
+    for (std::future<void>& task : tasks_) task.get();
+    tasks_.clear();
+  }
+
+ private:
+  Meter& meter_;
+  std::vector<FrameErrors>& found_;
+  ComparisonFilms& films_;
+  Image run_, film_;
+  std::vector<std::future<void>> tasks_;  // destroyed first, which waits for them
 };
 
 // The pictures of the film that lie within the run: index of the first one, and their times in the run.
@@ -167,25 +192,26 @@ bool measure(const RunDrawer& drawer, Workers& workers, FilmReader& film, FilmEr
         fmt::format("none of its pictures lies within the run, {:g} s to {:g} s, with a lag of {:g} s; give --fps, --slow or --align",
                     drawer.reader.times().front(), drawer.reader.times().back(), errors.lag),
         {wish.film});
-  film.rewind();
+  film.rewind(film.width() / drawer.width);
   std::optional<Image> picture = film.next();
   Image empty;
   for (std::size_t w = 0; w < workers.count(); ++w) empty = workers.collect(w);
-  const Image background = background_of(wish, *picture, empty);
-  errors.reduction = reduction_to(drawer.width, measured_width);
-  Meter meter{errors.reduction, reduced(empty, errors.reduction), reduced(background, errors.reduction), {}, {}};
+  const Image background = background_of(wish, film, *picture, empty);
+  const int factor = reduction_to(drawer.width, measured_width);
+  errors.reduction = factor * (film.width() / drawer.width);
+  Meter meter{factor, reduced(empty, factor), reduced(background, factor), {}, {}};
   for (std::size_t i = 0; i < first; ++i) picture = film.next();
   fs::create_directories(wish.place);
   films.emplace(wish.place, drawer.width, drawer.height, drawer.movie.fps);
-  drawer.draw(workers, times, [&](std::size_t i, const Image& image) {
+  PairWork work(meter, errors.frames, *films);
+  drawer.draw(workers, times, [&](std::size_t i, Image image) {
     if (!picture || stop) return false;
-    const double t = double(first + i) / errors.fps;
-    auto written = std::async(std::launch::async, [&] { films->add(image, *picture, t); });
-    errors.frames.push_back(meter.errors(image, *picture, t));
-    written.get();
+    work.finish();
+    work.begin(std::move(image), std::move(*picture), double(first + i) / errors.fps);
     picture = film.next();
     return true;
   });
+  work.finish();
   return !stop;
 }
 
@@ -195,14 +221,14 @@ bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const
   const auto start = Clock::now();
   FilmErrors errors;
   FilmReader film(wish.film, movie.fps);
-  movie.look.width = film.width(), movie.look.height = film.height(), movie.fps = film.fps();
-  if (movie.look.width % 2 != 0 || movie.look.height % 2 != 0)
-    throw Error(fmt::format("its pictures have {}x{} pixels; cut them to even numbers", movie.look.width, movie.look.height), {wish.film});
+  const int reduction = reduction_to(film.width(), wish.width);
+  movie.look.width = film.width() / reduction, movie.look.height = film.height() / reduction, movie.fps = film.fps();
   movie.look.overlay = false;
+  if (movie.look.width <= 640) movie.look.shadow_side = 1024;  // as fine as that of the usual pictures, of twice the width
   errors.fps = movie.fps * movie.slow;
   const double step = 1 / errors.fps;
   Show show = show_of(run, reader, movie);
-  const double aspect = static_cast<double>(movie.look.width) / movie.look.height;
+  const double aspect = static_cast<double>(film.width()) / film.height();
   std::vector<Camera> cameras = chosen_cameras(run, show.stage, movie, aspect);
   if (movie.fit)
     fit_cameras(cameras, run, show.stage, reader.scene(), aspect, reader.times(), [&](double t) {
@@ -212,17 +238,23 @@ bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const
     });
   const Camera camera = cameras.front();
   errors.camera = camera.name;
-  const RunDrawer drawer{run, reader, movie, std::move(show), camera, film.width(), film.height()};
+  const RunDrawer drawer{run, reader, movie, std::move(show), camera, movie.look.width, movie.look.height};
   // These processes prepare themselves, and draw the picture without blocks, while the film is read.
   Workers workers = drawer.start(reader.times().size());
   for (std::size_t w = 0; w < workers.count(); ++w) workers.order(w, 0, drawer.frame_of(reader.times().front(), true));
-  errors.film = signal_of_film(film, wish.film, step);
   // Where and when something moves shows in small pictures of sharp blocks without shadows, for a third of the cost.
   const int factor = reduction_to(film.width(), signal_width);
   RunDrawer coarse{run, reader, movie, show_of(run, reader, movie, true), camera, film.width() / factor, film.height() / factor};
   coarse.movie.look.shadow = false;
-  errors.run = signal_of_run(coarse, reduction_to(coarse.width, signal_width), step, stop);
+  {
+    Workers small = coarse.start(reader.times().size());  // before the thread: a copy of a process has one thread only
+    auto of_film = std::async(std::launch::async, [&] { return signal_of_film(film, wish.film, step, stop); });
+    errors.run = signal_of_run(coarse, small, reduction_to(coarse.width, signal_width), step, stop);
+    errors.film = of_film.get();
+  }
   if (stop) return false;
+  // The last picture or two of a whole film may be counted otherwise.
+  if (const std::size_t read = errors.film.t.size() + 1; read + 2 < film.promised()) errors.missing = film.promised() - read;
   align(errors, wish);
   std::optional<ComparisonFilms> films;
   if (!measure(drawer, workers, film, errors, wish, films, stop)) return false;

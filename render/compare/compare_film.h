@@ -15,6 +15,7 @@ struct FilmComparison {
   std::string align;       // none, first-motion, correlation
   std::string place;       // folder of the results
   double reach = 5;        // s, largest lag
+  int width = 640;         // px, of the pictures of the run and of the films at most
   double residual = NAN;   // px, of a camera from marked points
 };
 
@@ -38,6 +39,7 @@ struct FilmErrors {
   MotionSignal run, film;  // each in its own time
   std::vector<FrameErrors> frames;
   std::size_t outside = 0;  // pictures of the film outside the run
+  std::size_t missing = 0;  // pictures that the head of the film names and that cannot be read
   int reduction = 1;        // pixels of a picture for one of the measures, along each side
   std::string camera;
   double wall = 0;  // s

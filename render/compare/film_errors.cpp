@@ -116,9 +116,13 @@ void write_film_errors(const FilmErrors& e, const FilmComparison& wish, bool qui
   json["iou_mean"] = iou, json["iou_least"] = least, json["ssim_mean"] = ssim, json["flow_angle_mean_deg"] = angle;
   json["direction_run_deg"] = direction_of(run), json["direction_reference_deg"] = direction_of(film);
   json["direction_error_deg"] = angle_between(run, film);
-  json["frames_compared"] = e.frames.size(), json["frames_outside"] = e.outside, json["wall_s"] = e.wall;
+  json["frames_compared"] = e.frames.size(), json["frames_outside"] = e.outside, json["frames_missing"] = e.missing,
+  json["wall_s"] = e.wall;
   json["frames"] = list_of(e);
   write_json(wish.place + "/frames.json", json);
+  if (e.missing > 0)
+    tell(stderr, fmt::format("warning: {}: the film breaks off: {} of its {} pictures cannot be read; is the file whole?",
+                             shown(wish.film, 200), e.missing, e.missing + e.film.t.size() + 1));
   if (e.outside > 0) tell(stderr, fmt::format("warning: {} pictures of the film lie outside the run and are left out", e.outside));
   if (e.at_edge) tell(stderr, "warning: the best lag is the largest one searched; the true one may lie beyond, see --reach");
   if (wish.align == "correlation" && e.correlation < 0.9)
@@ -132,9 +136,9 @@ void write_film_errors(const FilmErrors& e, const FilmComparison& wish, bool qui
                            e.correlation));
   tell(stdout, fmt::format("silhouette  mean IoU {:.3f}, least {:.3f} (background of the film: {})", iou, least, wish.background));
   tell(stdout, fmt::format("SSIM        mean {:.3f}", ssim));
-  tell(stdout,
-       fmt::format("motion      run {:.0f} deg, film {:.0f} deg (0: to the right, 90: upwards); by picture {:.1f} deg apart in the mean",
-                   direction_of(run), direction_of(film), angle));
+  const auto degrees = [](double value, int digits) { return std::isfinite(value) ? fmt::format("{:.{}f} deg", value, digits) : "none"; };
+  tell(stdout, fmt::format("motion      run {}, film {} (0: to the right, 90: upwards); by picture {} apart in the mean",
+                           degrees(direction_of(run), 0), degrees(direction_of(film), 0), degrees(angle, 1)));
 }
 
 }  // namespace erbs::render

@@ -48,10 +48,26 @@ Image difference_of(const Image& a, const Image& b) {
   return image;
 }
 
+namespace {
+
+// H.264 has no odd sizes: the last column and row are drawn twice.
+Image even(Image image) {
+  if (image.width % 2 == 0 && image.height % 2 == 0) return image;
+  Image whole(image.width + image.width % 2, image.height + image.height % 2);
+  for (int y = 0; y < whole.height; ++y) {
+    const std::uint8_t* row = image.pixel(0, std::min(y, image.height - 1));
+    std::copy_n(row, 3 * image.width, whole.pixel(0, y));
+    std::copy_n(row + 3 * (image.width - 1), 3 * (whole.width - image.width), whole.pixel(image.width, y));
+  }
+  return whole;
+}
+
+}  // namespace
+
 ComparisonFilms::ComparisonFilms(const std::string& folder, int width, int height, double fps)
-    : side_(folder + "/compare_side.mp4", 2 * width, height, fps),
-      blend_(folder + "/compare_blend.mp4", width, height, fps),
-      difference_(folder + "/compare_difference.mp4", width, height, fps),
+    : side_(folder + "/compare_side.mp4", 2 * width, height + height % 2, fps),
+      blend_(folder + "/compare_blend.mp4", width + width % 2, height + height % 2, fps),
+      difference_(folder + "/compare_difference.mp4", width + width % 2, height + height % 2, fps),
       font_(Font::Face::regular) {}
 
 void ComparisonFilms::label(Image& image, const std::string& left, const std::string& right, double t) const {
@@ -63,16 +79,20 @@ void ComparisonFilms::label(Image& image, const std::string& left, const std::st
   font_.draw(image, right, image.width - 0.6 * size, base, size, {20, 20, 20, 1}, Font::Align::right);
 }
 
-void ComparisonFilms::add(const Image& run, const Image& film, double t) {
-  Image image = side_by_side(film, run);
-  label(image, "reference", "run", t);
-  side_.add(image);
-  image = blended(run, film);
-  label(image, "reference + run", "", t);
-  blend_.add(image);
-  image = difference_of(run, film);
-  label(image, "orange: run brighter", "blue: darker", t);
-  difference_.add(image);
+void ComparisonFilms::add(std::size_t which, const Image& run, const Image& film, double t) {
+  if (which == 0) {
+    Image image = side_by_side(film, run);
+    label(image, "reference", "run", t);
+    side_.add(even(std::move(image)));
+  } else if (which == 1) {
+    Image image = blended(run, film);
+    label(image, "reference + run", "", t);
+    blend_.add(even(std::move(image)));
+  } else {
+    Image image = difference_of(run, film);
+    label(image, "orange: run brighter", "blue: darker", t);
+    difference_.add(even(std::move(image)));
+  }
 }
 
 void ComparisonFilms::end() {

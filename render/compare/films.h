@@ -10,9 +10,11 @@ namespace erbs::render {
 class ComparisonFilms {
  public:
   ComparisonFilms(const std::string& folder, int width, int height, double fps);
-  void add(const Image& run, const Image& film, double t);  // t: s, of the film
-  void end();                                               // after the last pair: the three are finished at the same time
+  // Of the films, each may be written by a thread of its own. t: s, of the film.
+  void add(std::size_t which, const Image& run, const Image& film, double t);
+  void end();  // after the last pair: the three are finished at the same time
   void finish();
+  static constexpr std::size_t count = 3;
 
  private:
   void label(Image& image, const std::string& left, const std::string& right, double t) const;

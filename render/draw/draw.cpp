@@ -42,7 +42,7 @@ struct Painter::Hidden {
 
   Hidden(const Show& s, const Look& l, const std::string& kind)
       : show(s), look_(l), around(backdrop(l.background)), context(make_context(kind)), gl(load_gl(*context)) {
-    canvas = std::make_unique<Canvas>(gl, l.width, l.height);
+    canvas = std::make_unique<Canvas>(gl, l.width, l.height, l.shadow_side);
     solid = make_program(gl, shader_common, solid_vertex, all_taps + solid_fragment);
     fine = make_program(gl, shader_common, solid_vertex, one_tap + solid_fragment);
     shade = make_program(gl, shader_common, shade_vertex, shade_fragment);
@@ -121,7 +121,7 @@ struct Painter::Hidden {
     u.vector("sun", light.sun);
     u.vector("horizon", around.horizon);
     u.number("shadow_texel", light.shadow_texel);
-    u.number("shadow_step", 1.0 / Canvas::shadow_side);
+    u.number("shadow_step", 1.0 / canvas->shadow_side());
     u.four("casters", {light.casters.min().x(), light.casters.min().y(), light.casters.max().x(), light.casters.max().y()});
     u.four("seen_side", light.seen_side);
     u.sampler("blocks", 0);
@@ -340,7 +340,7 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   const double radius = 0.022 * stage.size();  // m, within which corners are dark
   Hidden::Light light{v.projection * v.view, {}, v.eye, sun_of(level_camera), 0, {}, {0, 0, 0, 1}};
   light.to_shadow = shadow_view(stage, light.sun);
-  light.shadow_texel = 2.0 / Canvas::shadow_side / static_cast<double>(light.to_shadow.row(0).head<3>().norm());
+  light.shadow_texel = 2.0 / l.shadow_side / static_cast<double>(light.to_shadow.row(0).head<3>().norm());
   const std::vector<Sphere> spheres = h.extents(frame, dust, 1.6 * radius);
   if (l.shadow) light.casters = box_of(spheres, light.to_shadow).intersection({Eigen::Vector2f::Zero(), Eigen::Vector2f::Ones()});
   const bool above = light.eye.z() >= static_cast<float>(stage.ground_z);

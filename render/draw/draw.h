@@ -35,6 +35,7 @@ struct Look {
   double magnify = 1;                       // factor on the displacements drawn
   Background background = Background::sky;  // white: with the ground, for print; transparent: of the ground, only its shadow
   bool shadow = true;                       // of the sun
+  int shadow_side = 2048;                   // texels of its map, along each side
   bool table_turns = true;                  // a tilting test is drawn level, with its table turning; otherwise gravity turns
 };
 

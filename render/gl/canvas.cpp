@@ -87,7 +87,7 @@ Target picture_target(const Gl& gl, int width, int height, bool with_depth) {
   return t;
 }
 
-Canvas::Canvas(const Gl& gl, int width, int height)
+Canvas::Canvas(const Gl& gl, int width, int height, int shadow_side)
     : gl_(gl),
       width_(width),
       height_(height),
@@ -185,6 +185,7 @@ void Canvas::occlusion_uniforms(GLuint program, const Eigen::Matrix4f& p, double
 }
 
 Image Canvas::finish(const Eigen::Matrix4f& projection, double radius, bool with_opacity) {
+  gl_.Disable(GL_SCISSOR_TEST);  // also for the next picture, whose shadow map is larger than this one
   if (region_.empty()) return read(with_opacity);
   resolve(GL_COLOR_BUFFER_BIT);
   // Each pass reads beyond the pixel that it writes: the passes of the corners' darkness reach beyond the last one, on all sides.

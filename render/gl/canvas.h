@@ -31,7 +31,7 @@ Target picture_target(const Gl& gl, int width, int height, bool with_depth);
 
 class Canvas {
  public:
-  Canvas(const Gl& gl, int width, int height);
+  Canvas(const Gl& gl, int width, int height, int shadow_side);
   ~Canvas();
   Canvas(const Canvas&) = delete;
   Canvas& operator=(const Canvas&) = delete;
@@ -52,8 +52,8 @@ class Canvas {
   int height() const { return height_; }
   GLuint shadow_map() const { return shadow_.depth; }
   GLuint depth_map() const { return resolved_.depth; }  // after begin_depth()
+  int shadow_side() const { return shadow_.width; }     // texels
   static constexpr int border = 8;                      // px, of the region around the model: without model
-  static constexpr int shadow_side = 2048;              // texels
 
  private:
   Image read(bool with_opacity) const;

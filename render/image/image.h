@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace erbs::render {
@@ -19,7 +20,9 @@ struct Image {
   const std::uint8_t* pixel(int x, int y) const { return const_cast<Image*>(this)->pixel(x, y); }
 };
 
-void write_png(const std::string& path, const Image& image);
+using Texts = std::vector<std::pair<std::string, std::string>>;  // keyword (ASCII, at most 79 letters) and UTF-8 text
+void write_png(const std::string& path, const Image& image, const Texts& texts = {});
 Image read_png(const std::string& path);
+std::string png_text(const std::string& path, const std::string& keyword);  // "" where the picture has none
 
 }  // namespace erbs::render

@@ -7,6 +7,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/record/format/json.h"
+#include "render/image/measures.h"
 
 namespace erbs::render {
 namespace {
@@ -16,6 +17,7 @@ namespace fs = std::filesystem;
 struct Shape {
   int width = 0, height = 0;
   double fps = 0;
+  double duration = 0;  // s; 0: unknown
 };
 
 // "30000/1001"
@@ -27,8 +29,8 @@ double ratio_of(const std::string& text) {
 
 // What ffprobe, a part of ffmpeg, says of the film.
 Shape shape_of(const std::string& path) {
-  Child probe = start({"ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries", "stream=width,height,avg_frame_rate", "-of",
-                       "json", "file:" + fs::absolute(path).string()},
+  Child probe = start({"ffprobe", "-v", "error", "-select_streams", "v:0", "-show_entries", "stream=width,height,avg_frame_rate,duration",
+                       "-of", "json", "file:" + fs::absolute(path).string()},
                       {.errors = "/dev/null", .remedy = "install ffmpeg", .heard = true});
   std::string said;
   for (char c = 0; receive(probe.from, &c, 1);) said += c;
@@ -37,7 +39,8 @@ Shape shape_of(const std::string& path) {
   const Json* stream = answer.is_discarded() ? nullptr : find_key(answer, "streams.0");
   Shape shape;
   if (stream != nullptr && stream->is_object())
-    shape = {stream->value("width", 0), stream->value("height", 0), ratio_of(stream->value("avg_frame_rate", "0"))};
+    shape = {stream->value("width", 0), stream->value("height", 0), ratio_of(stream->value("avg_frame_rate", "0")),
+             std::atof(stream->value("duration", "0").c_str())};
   if (shape.width < 16 || shape.height < 16 || shape.width > 8192 || shape.height > 8192 || !(shape.fps > 0) || shape.fps > 1e5)
     throw Error("ffmpeg finds no film in it; name a film, a folder of PNG files, a run folder or a CSV file", {path});
   return shape;
@@ -69,6 +72,7 @@ FilmReader::FilmReader(std::string path, double fps) : path_(std::move(path)), f
           {path_});
   const Shape shape = shape_of(path_);
   width_ = shape.width, height_ = shape.height, fps_ = shape.fps;
+  promised_ = static_cast<std::size_t>(std::lround(std::clamp(shape.duration * shape.fps, 0.0, 1e9)));
 }
 
 FilmReader::~FilmReader() { stop(); }
@@ -79,20 +83,22 @@ void FilmReader::stop() {
   finish(ffmpeg_);
 }
 
-void FilmReader::rewind() {
+void FilmReader::rewind(int reduction) {
   stop();
   read_ = 0;
+  reduction_ = reduction;
 }
 
 std::optional<Image> FilmReader::next() {
   if (pictures_.empty()) {
     // A film of uneven steps is read at even ones.
     if (read_ == 0 && ffmpeg_.pid <= 0)
-      ffmpeg_ =
-          start({"ffmpeg", "-nostdin", "-loglevel", "error", "-noautorotate", "-i", "file:" + fs::absolute(path_).string(), "-vf",
-                 fmt::format("fps={:.9g},scale=in_color_matrix=auto:out_range=pc", fps_), "-f", "rawvideo", "-pix_fmt", "rgb24", "pipe:1"},
-                {.errors = "/dev/null", .remedy = "install ffmpeg", .heard = true, .own_group = true});
-    Image image(width_, height_);
+      ffmpeg_ = start({"ffmpeg", "-nostdin", "-loglevel", "error", "-noautorotate", "-i", "file:" + fs::absolute(path_).string(), "-vf",
+                       fmt::format("fps={:.9g},scale={}:{}:flags=area:in_color_matrix=auto:out_range=pc", fps_, width_ / reduction_,
+                                   height_ / reduction_),
+                       "-f", "rawvideo", "-pix_fmt", "rgb24", "pipe:1"},
+                      {.errors = "/dev/null", .remedy = "install ffmpeg", .heard = true, .own_group = true});
+    Image image(width_ / reduction_, height_ / reduction_);
     if (!receive(ffmpeg_.from, image.rgb.data(), image.rgb.size())) return std::nullopt;
     ++read_;
     return image;
@@ -103,7 +109,7 @@ std::optional<Image> FilmReader::next() {
     throw Error(fmt::format("it has {}x{} pixels, the first picture {}x{}; make all alike", image.width, image.height, width_, height_),
                 {pictures_[read_]});
   ++read_;
-  return image;
+  return reduced(image, reduction_);
 }
 
 }  // namespace erbs::render

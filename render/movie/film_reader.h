@@ -18,20 +18,21 @@ class FilmReader {
   FilmReader(const FilmReader&) = delete;
   FilmReader& operator=(const FilmReader&) = delete;
 
-  int width() const { return width_; }
+  int width() const { return width_; }  // px, of the film
   int height() const { return height_; }
   double fps() const { return fps_; }
-  std::optional<Image> next();  // none after the last frame; a film that breaks off ends there
-  void rewind();                // to the first frame
+  std::optional<Image> next();     // none after the last frame; a film that breaks off ends there
+  void rewind(int reduction = 1);  // to the first frame; frames are then means over squares of `reduction` pixels a side
   std::size_t read() const { return read_; }
+  std::size_t promised() const { return promised_; }  // how many the head of a film names; 0: unknown
 
  private:
   void stop();
   std::string path_;
   std::vector<std::string> pictures_;  // of a folder, in the order of their names
-  int width_ = 0, height_ = 0;
+  int width_ = 0, height_ = 0, reduction_ = 1;
   double fps_ = 0;
-  std::size_t read_ = 0;
+  std::size_t read_ = 0, promised_ = 0;
   Child ffmpeg_;
 };
 

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <thread>
 
@@ -15,6 +14,7 @@
 #include "engine/base/system/affinity.h"
 #include "engine/base/system/process.h"
 #include "engine/base/text.h"
+#include "engine/record/format/json.h"
 #include "render/draw/marks_picture.h"
 #include "render/draw/overlay.h"
 #include "render/image/compare.h"
@@ -93,6 +93,10 @@ void put(Image& image, const Image& tile, int left, int top) {
   for (int y = 0; y < tile.height; ++y) std::copy_n(tile.pixel(0, y), tile.width * tile.channels, image.pixel(left, top + y));
 }
 
+// Tells, in each picture, which run it shows.
+constexpr const char* scene_keyword = "Scene";
+Texts texts_of(const Run& run) { return {{"Software", "erbs " + run.identity.program}, {scene_keyword, run.identity.text()}}; }
+
 // Drawing of single frames in a process of its own: the picture, its overlay, and its file.
 Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const Tiles& tiles, const Files& files,
                      const Schedule& schedule) {
@@ -132,7 +136,7 @@ Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const
         fill_box(image, left, top - thin, left + tile.width, top + thin, {252, 252, 252, 1});
     }
     if (tiles.split() && l.overlay) frame_of_tiles->draw_around_tiles(image, frame.t, marks.legend);
-    write_png(files.picture(index, frame.t), image);
+    write_png(files.picture(index, frame.t), image, texts_of(run));
     return image;
   };
 }
@@ -146,19 +150,23 @@ void compare_with(const std::string& expected, const Image& actual, const Run& r
   if (failed) throw Error("the folder cannot be made; may you write there?", {folder.string(), 0});
   const auto file = [&](const std::string& ending) { return (folder / (name + ending)).string(); };
   for (const char* old : {"_expected.png", "_difference.png", ".json"}) fs::remove(file(old), failed);
-  write_png(file("_actual.png"), actual);
+  write_png(file("_actual.png"), actual, texts_of(run));
   const bool stored = fs::exists(expected);
   Difference difference;
+  std::string stored_scene;
   if (stored) {
     const Image wanted = read_png(expected);
+    stored_scene = png_text(expected, scene_keyword);
     difference = compare(actual, wanted);
     write_png(file("_expected.png"), wanted);
     if (difference.same_size) write_png(file("_difference.png"), difference_picture(actual, wanted));
   }
-  std::ofstream out(file(".json"));
-  out << fmt::format("{{\"stored\": {}, \"same_size\": {}, \"failed_fraction\": {}, \"ssim\": {}}}\n", stored, difference.same_size,
-                     difference.failed_fraction, difference.ssim);
-  if (!out.flush()) throw WriteError("the comparison cannot be written; is the disk full?", {file(".json"), 0});
+  write_json(file(".json"), {{"stored", stored},
+                             {"same_size", difference.same_size},
+                             {"failed_fraction", difference.failed_fraction},
+                             {"ssim", difference.ssim},
+                             {"scene", run.identity.text()},
+                             {"stored_scene", stored_scene}});
 }
 
 // Progress as one updated line on a terminal, otherwise as a new line every ten seconds.

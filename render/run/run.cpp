@@ -110,6 +110,7 @@ Run read_run(const std::string& dir) {
   Run run;
   run.dir = dir;
   run.name = m.scene_name;
+  run.identity = identity_of(m);
   run.title = m.title.empty() ? m.scene_name : m.title;
   while (!run.title.empty() && run.title.back() == '.') run.title.pop_back();  // a heading has no full stop
   run.cameras = m.cameras;

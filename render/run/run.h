@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/record/folder/identity.h"
 #include "engine/record/folder/motion_file.h"
 #include "engine/scene/scene.h"
 
@@ -41,6 +42,7 @@ struct Mark {
 
 struct Run {
   std::string dir, name, title;
+  SceneIdentity identity;
   std::vector<Camera> cameras;   // from the scene; may be empty
   std::vector<Paint> materials;  // by material index
   GroundRecord record;           // the strongest component

@@ -62,7 +62,8 @@ const std::vector<std::pair<std::string, std::string>> doors{
 };
 
 const std::regex seen_by_render(
-    "engine/(base|geometry)/.*|engine/record/(folder/(motion_file|motion_scene|run_folder)|format/json|plot/(figure|gnuplot|unit))\\.h|"
+    "engine/(base|geometry)/.*|engine/record/(folder/(identity|motion_file|motion_scene|run_folder)|format/json|plot/"
+    "(figure|gnuplot|unit))\\.h|"
     "engine/scene/scene\\.h|render/.*");
 
 // The level of `name`, -1 where none has it.

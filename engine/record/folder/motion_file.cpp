@@ -8,6 +8,8 @@
 #include <optional>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "engine/record/folder/identity.h"
 #include "engine/record/folder/motion_scene.h"
 #include "engine/record/format/h5.h"
 #include "engine/record/format/json.h"
@@ -16,6 +18,27 @@ namespace erbs {
 namespace {
 
 std::string in(const std::string& dir, const char* name) { return (std::filesystem::path(dir) / name).string(); }
+
+void put_identity(const h5::File& file, const std::string& dir) {
+  const std::optional<SceneIdentity> own = identity_in(dir);
+  if (!own) return;
+  file.put_text("scene", own->name);
+  file.put_text("scene_hash", own->hash);
+  file.put_text("program", own->program);
+}
+
+// A file of another run would be drawn under the title and verdict of this one.
+void check_identity(const h5::File& file, const std::string& dir, const char* remedy) {
+  const std::optional<std::string> hash = file.get_text("scene_hash");
+  const std::optional<SceneIdentity> own = hash ? identity_in(dir) : std::nullopt;
+  if (!own || own->hash == *hash) return;
+  const std::string name = file.get_text("scene").value_or("");
+  throw Error(
+      fmt::format("it is of another run, by its hash: scene {} ({}), while manifest.json is of {} ({}); the scripts, files or params "
+                  "differ; {}",
+                  shown(name, 60), *hash, shown(own->name, 60), own->hash, remedy),
+      {file.path(), 0});
+}
 
 // Arrays of the frames. The time is written last: a frame is complete if its time exists.
 struct Frames {
@@ -128,6 +151,7 @@ struct MotionWriter::File {
 
 MotionWriter::MotionWriter(const std::string& dir, const MotionScene& scene, bool stress)
     : file_(new File{h5::File(in(dir, "motion.h5"), h5::File::Mode::create), {}, {}}) {
+  put_identity(file_->file, dir);
   put_scene(file_->file, scene);
   file_->frames.create(file_->file, scene.blocks.size(), scene.joints.size(), stress);
   file_->file.single_writer();
@@ -137,6 +161,7 @@ MotionWriter::MotionWriter(const std::string& dir, const MotionScene& scene, boo
 MotionWriter::MotionWriter(const std::string& dir, int keep_frames)
     : file_(new File{h5::File(in(dir, "motion.h5"), h5::File::Mode::extend), {}, {}}) {
   Frames& frames = file_->frames;
+  check_identity(file_->file, dir, "start it anew with --force");
   frames.open(file_->file);
   if (keep_frames < 0 || static_cast<std::size_t>(keep_frames) > frames.size())
     throw Error(fmt::format("{} frames are to be kept but the file has {}; it is not of this run, start it anew with --force", keep_frames,
@@ -191,8 +216,8 @@ struct MotionReader::File {
 
 namespace {
 
-// A file of another run would be drawn under the title and verdict of this one.
-void check_belongs(const std::string& dir, const MotionScene& scene) {
+// The same for files without an identity, as far as the number of blocks and joints tells.
+void check_counts(const std::string& dir, const MotionScene& scene) {
   if (!std::filesystem::exists(in(dir, "metrics.json"))) return;  // the run has not ended
   const Json metrics = read_json(in(dir, "metrics.json"));
   const auto count = [&](const char* key, std::size_t own) {
@@ -215,7 +240,8 @@ MotionReader::MotionReader(const std::string& dir) : file_(new File{h5::File(in(
   if (file_->frames.njoint() != file_->scene.joints.size()) file_->file.unreadable("/joint_damage");
   file_->times = file_->file.get<double>("/time");
   file_->times.resize(file_->frames.size());
-  check_belongs(dir, file_->scene);
+  check_identity(file_->file, dir, "run the scene again");
+  check_counts(dir, file_->scene);
 }
 
 MotionReader::~MotionReader() = default;

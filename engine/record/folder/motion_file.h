@@ -5,6 +5,7 @@
 //   /time [frames]  /poses [frames,blocks,7]  /joint_damage [frames,joints]  /joint_opening [frames,joints]
 //   /joint_normal_stress [frames,joints]  /joint_shear_stress [frames,joints]
 //   /joint_force [frames,joints,3]  /joint_force_at [frames,joints,3], these four if the scene asks for stresses
+//   attributes of /: scene, scene_hash, program (identity.h), of the manifest.json in whose folder the file was begun
 //
 // HDF5's single-writer mode and a flush after every frame keep each whole frame readable, even if the run is killed. Another program may
 // read while the file grows. motion.xdmf beside it shows the blocks in ParaView: 3D glyphs, a box scaled by block_size and rotated by the
@@ -83,6 +84,7 @@ class MotionWriter {
 
 class MotionReader {
  public:
+  // Error for a file of another run than the manifest.json or metrics.json beside it.
   explicit MotionReader(const std::string& dir);
   ~MotionReader();
   MotionReader(MotionReader&&) noexcept;

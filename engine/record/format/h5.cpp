@@ -179,6 +179,24 @@ std::vector<std::string> File::get_names(const std::string& name) const {
   return names;
 }
 
+void File::put_text(const std::string& name, const std::string& text) const {
+  const Handle type = string_type(std::max<std::size_t>(1, text.size())), one(H5Screate(H5S_SCALAR), H5Sclose);
+  const Handle own(H5Acreate2(file_.id(), name.c_str(), type.id(), one.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+  std::string padded = text;
+  padded.resize(std::max<std::size_t>(1, text.size()), '\0');
+  if (!own.ok() || H5Awrite(own.id(), type.id(), padded.data()) < 0) unwritable(name);
+}
+
+std::optional<std::string> File::get_text(const std::string& name) const {
+  if (H5Aexists(file_.id(), name.c_str()) <= 0) return std::nullopt;
+  const Handle own(H5Aopen(file_.id(), name.c_str(), H5P_DEFAULT), H5Aclose);
+  const Handle stored(H5Aget_type(own.id()), H5Tclose);
+  if (H5Tget_class(stored.id()) != H5T_STRING || H5Tis_variable_str(stored.id()) != 0) unreadable(name);
+  std::string text(H5Tget_size(stored.id()), '\0');
+  if (H5Aread(own.id(), stored.id(), text.data()) < 0) unreadable(name);
+  return text.c_str();
+}
+
 bool File::has(const std::string& name) const { return H5Lexists(file_.id(), name.c_str(), H5P_DEFAULT) > 0; }
 void File::single_writer() const {
   if (H5Fstart_swmr_write(file_.id()) < 0) unwritable("the file");

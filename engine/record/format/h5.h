@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,9 @@ class File {
   std::vector<T> get(const std::string& name) const;
   void put_names(const std::string& name, const std::vector<std::string>& names) const;
   std::vector<std::string> get_names(const std::string& name) const;
+  // Attributes of the file as a whole; no text where there is no such attribute.
+  void put_text(const std::string& name, const std::string& text) const;
+  std::optional<std::string> get_text(const std::string& name) const;
 
   bool has(const std::string& name) const;
   void single_writer() const;  // from now on the file is readable after each flush; no new arrays

@@ -10,6 +10,8 @@
 #include <sstream>
 
 #include "engine/base/error.h"
+#include "engine/record/folder/identity.h"
+#include "engine/record/format/h5.h"
 #include "tests/support/folder.h"
 
 using namespace erbs;
@@ -192,4 +194,44 @@ TEST_CASE("a motion file of another run is refused beside the results of this on
     CHECK_THROWS_WITH(MotionReader(dir.path.string()),
                       Catch::Contains("it has 2 blocks and 1 joints") && Catch::Contains("of another run") && Catch::Contains("motion.h5"));
   }
+}
+
+TEST_CASE("a motion file carries the hash of scene and params, and is refused beside those of another run",
+          "[record][motion_file][bad_input]") {
+  const Folder dir;
+  const std::string path = dir.path.string();
+  Manifest manifest;
+  manifest.version = "1.2.3", manifest.git_hash = "abc", manifest.scene_name = "pier", manifest.scene_hash = "0123456789abcdef";
+  manifest.params = {{"peak", 0.1 + 0.2, 1, "", "", {}}};
+  manifest.inputs = {{"a/record.txt", "11"}, {"b/record.txt", "22"}};
+  write_manifest(path, manifest);
+  MotionWriter(path, two_blocks()).write(frame_at(0));
+  const SceneIdentity own = identity_in(path).value();
+  CHECK(h5::File(path + "/motion.h5", h5::File::Mode::read).get_text("scene") == "pier");
+  CHECK(h5::File(path + "/motion.h5", h5::File::Mode::read).get_text("scene_hash") == own.hash);
+  CHECK(h5::File(path + "/motion.h5", h5::File::Mode::read).get_text("program") == "1.2.3 (abc)");
+
+  const auto beside = [&](const Manifest& other) {
+    write_manifest(path, other);
+    return MotionReader(path).times().size();
+  };
+  Manifest moved = manifest, other_params = manifest, other_script = manifest, other_file = manifest;
+  moved.inputs = {{"elsewhere/record.txt", "22"}, {"elsewhere/another.txt", "11"}};
+  moved.scene_file = "elsewhere.lua", moved.threads = 7, moved.version = "1.2.4";
+  CHECK(beside(moved) == 1);
+  MotionWriter(path, 1).write(frame_at(1));  // a resumed run keeps what the file carries
+  CHECK(h5::File(path + "/motion.h5", h5::File::Mode::read).get_text("program") == "1.2.3 (abc)");
+  CHECK(beside(manifest) == 2);
+  other_params.params[0].value = 0.3;
+  other_script.scene_hash = "0123456789abcdee";
+  other_file.inputs.begin()->second = "12";
+  for (const Manifest& other : {other_params, other_script, other_file}) {
+    CHECK_THROWS_WITH(beside(other), Catch::Contains("motion.h5") && Catch::Contains("of another run") && Catch::Contains(own.hash) &&
+                                         Catch::Contains("run the scene again"));
+    CHECK_THROWS_WITH(MotionWriter(path, 1), Catch::Contains("of another run") && Catch::Contains("--force"));
+  }
+  std::filesystem::remove(dir.path / "manifest.json");
+  MotionWriter(path, two_blocks()).write(frame_at(0));  // as earlier versions left it
+  CHECK_FALSE(h5::File(path + "/motion.h5", h5::File::Mode::read).get_text("scene_hash"));
+  CHECK(beside(manifest) == 1);
 }

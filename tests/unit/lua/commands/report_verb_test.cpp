@@ -1,8 +1,10 @@
 // The command erbs report DIR: one page that loads nothing, used in a browser where there is one.
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <regex>
 
 #include "engine/base/system/process.h"
+#include "engine/record/format/json.h"
 #include "lua/page/page.h"
 #include "tests/unit/lua/bench.h"
 
@@ -25,6 +27,16 @@ std::string pier(double duration) {
 bool page_is_built() {
   if (!report_page().script.empty()) return true;
   WARN("the packages of the page were absent when this was built; sh .ci/setup installs them");
+  return false;
+}
+
+// CHROMIUM names another one than that of the distribution.
+bool browser_is_there() {
+  const char* own = std::getenv("CHROMIUM");
+  if (fs::exists(own ? own : "/usr/bin/chromium") && can_start("node") &&
+      fs::exists(ERBS_SOURCE_DIR "/lua/page/node_modules/playwright-core"))
+    return true;
+  WARN("no browser test: it needs chromium, node and the packages of sh .ci/setup");
   return false;
 }
 
@@ -88,10 +100,7 @@ TEST_CASE("a run that did not end has a page too", "[report][program]") {
 
 TEST_CASE("a browser replays, picks and zooms the page", "[report][browser]") {
   if (!page_is_built()) return;
-  if (!fs::exists("/usr/bin/chromium") || !can_start("node") || !fs::exists(ERBS_SOURCE_DIR "/lua/page/node_modules/playwright-core")) {
-    WARN("no browser test: it needs chromium, node and the packages of sh .ci/setup");
-    return;
-  }
+  if (!browser_is_there()) return;
   Bench bench;
   REQUIRE(bench.run(pier(1)) == 0);
   REQUIRE(bench.erbs({"report", bench.out()}) == 0);
@@ -102,6 +111,20 @@ TEST_CASE("a browser replays, picks and zooms the page", "[report][browser]") {
   INFO(text_of(log));
   CHECK(code == 0);
   for (const char* name : {"desktop.png", "phone.png", "dark.png", "large.png", "print.pdf"}) CHECK(fs::exists(fs::path(shots) / name));
+}
+
+TEST_CASE("a browser opens the page of a collapse that has no time", "[report][browser]") {
+  if (!page_is_built() || !browser_is_there()) return;
+  Bench bench;
+  REQUIRE(bench.run(pier(1)) == 0);
+  Json metrics = read_json(bench.out() + "/metrics.json");
+  metrics["collapse"]["collapsed"] = true, metrics["collapse"]["under_gravity"] = true, metrics["collapse"]["time_s"] = nullptr;
+  write_json(bench.out() + "/metrics.json", metrics);
+  REQUIRE(bench.erbs({"report", bench.out()}) == 0);
+  const std::string log = (bench.folder / "browser.log").string();
+  const int code = wait_for(start({"node", ERBS_SOURCE_DIR "/tests/page/browser.mjs", bench.out() + "/report.html"}, log));
+  INFO(text_of(log));
+  CHECK(code == 0);
 }
 
 TEST_CASE("studies of a scene have a page beside the page of their run, which a browser uses", "[report][browser][study_page]") {
@@ -116,10 +139,7 @@ TEST_CASE("studies of a scene have a page beside the page of their run, which a 
   CHECK(contains(text_of(fs::path(bench.out()) / "report.html"), "studies/report.html"));
   for (const char* run : {"twins/runs/000000", "twins/runs/000002"}) CHECK(contains(text_of(page), run));  // links to the runs
   CHECK(bench.erbs({"report", bench.out() + "/studies"}) == 2);
-  if (!fs::exists("/usr/bin/chromium") || !can_start("node") || !fs::exists(ERBS_SOURCE_DIR "/lua/page/node_modules/playwright-core")) {
-    WARN("no browser test: it needs chromium, node and the packages of sh .ci/setup");
-    return;
-  }
+  if (!browser_is_there()) return;
   const std::string log = (bench.folder / "study.log").string();
   const int code = wait_for(start({"node", ERBS_SOURCE_DIR "/tests/page/study.mjs", page.string()}, log));
   INFO(text_of(log));

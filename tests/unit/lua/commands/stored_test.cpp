@@ -108,6 +108,29 @@ TEST_CASE("a changed run is not compared with what is stored", "[stored][program
   CHECK(contains(bench.said, "expectations: 1 passed"));
 }
 
+TEST_CASE("what was stored for another scene fails, and a changed script is named as the cause", "[stored][bad_input][program]") {
+  StoredBench bench;
+  REQUIRE(bench.test(pier(0.8, expected), {"--bless"}) == 0);
+  REQUIRE(bench.test("-- a comment\n" + pier(0.8, expected)) == 0);  // the same run
+  REQUIRE(bench.test(pier(0.6, expected)) == int(exit_expectation));
+  const std::size_t first = bench.said.find("the script, its files or params have changed since it was stored");
+  REQUIRE(first != std::string::npos);
+  CHECK(bench.said.find("the script, its files or params have changed", first + 1) != std::string::npos);  // picture and value
+  // the files of another scene under the name of this one, which gives the same run
+  bench.write("twin.lua", pier(0.8, expected));
+  fs::copy_file(bench.stored(), bench.folder / "expected/twin_near_t0.500s.png");
+  fs::copy_file(bench.folder / "expected/scene.json", bench.folder / "expected/twin.json");
+  const std::vector<std::string> test{"test", (bench.folder / "twin.lua").string(), "-o", (bench.folder / "runs").string(), "-q"};
+  REQUIRE(bench.erbs(test) == int(exit_expectation));
+  const std::size_t picture = bench.said.find("it is of another scene, scene");
+  REQUIRE(picture != std::string::npos);
+  CHECK(bench.said.find("it is of another scene, scene", picture + 1) != std::string::npos);
+  std::vector<std::string> bless = test;
+  bless.emplace_back("--bless");
+  REQUIRE(bench.erbs(bless) == 0);
+  CHECK(bench.erbs(test) == 0);
+}
+
 TEST_CASE("a damaged picture and one of another size are told", "[stored][bad_input][program]") {
   StoredBench bench;
   const std::string text = pier(0.8, expected);

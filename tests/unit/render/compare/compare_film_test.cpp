@@ -88,6 +88,38 @@ TEST_CASE("a run with another peak is told apart from noise of H.264", "[render]
   CHECK(films.bench.erbs(other) == 4);
 }
 
+TEST_CASE("a film that breaks off is told, and so is one whose width is reduced and odd", "[render][compare][program][bad_input]") {
+  Films films;
+  const std::string film = films.film(0, "25", "1282x366"), cut = (films.bench.folder / "cut.mp4").string();
+  std::filesystem::copy_file(film, cut);
+  std::filesystem::resize_file(cut, std::filesystem::file_size(cut) * 2 / 3);
+  const auto compare_with = [&](const std::string& reference, const std::string& place) {
+    return films.bench.erbs(
+        {"compare", films.run, reference, "-o", (films.bench.folder / place).string(), "--align", "none", "--film-background", "drawn"});
+  };
+  CHECK(compare_with(film, "whole") == 0);
+  CHECK(films.bench.said.find("breaks off") == std::string::npos);
+  CHECK(read_json((films.bench.folder / "whole/frames.json").string())["method"]["reduction"] == 3);
+  CHECK(compare_with(cut, "part") == 0);
+  INFO(films.bench.said);
+  CHECK(films.bench.said.find("the film breaks off: ") != std::string::npos);
+  CHECK(read_json((films.bench.folder / "part/frames.json").string())["frames_missing"] > 3);
+}
+
+TEST_CASE("figures of a comparison do not depend on the number of threads", "[render][compare][program]") {
+  Films films;
+  const std::string film = films.film(0, "25", "256x192"), renderer = ERBS_BINARY_DIR "/erbs-render";
+  std::vector<Json> found;
+  for (const std::string threads : {"1", "3"}) {
+    const std::string place = (films.bench.folder / ("by" + threads)).string();
+    REQUIRE(wait_for(start({renderer, films.run, "--compare", film, "--compare-to", place, "--threads", threads, "--no-figures", "-q"},
+                           (films.bench.folder / "log").string())) == 0);
+    found.push_back(read_json(place + "/frames.json"));
+    found.back().erase("wall_s");
+  }
+  CHECK(found[0] == found[1]);
+}
+
 TEST_CASE("what is no film is refused, and nothing is written", "[render][compare][program]") {
   Films films;
   films.bench.write("text.mp4", "no film");

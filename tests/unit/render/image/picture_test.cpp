@@ -38,8 +38,13 @@ TEST_CASE("a PNG gives back its pixels", "[render][image]") {
   CHECK(again.width == 61);
   CHECK(again.height == 33);
   CHECK(again.rgb == image.rgb);
+  CHECK(png_text(path, "Scene").empty());
+  write_png(path, image, {{"Software", "erbs"}, {"Scene", "H\u00e4uschen 12"}});
+  CHECK(png_text(path, "Scene") == "H\u00e4uschen 12");
+  CHECK(read_png(path).rgb == image.rgb);
   std::ofstream(path) << "no picture";
   CHECK_THROWS_AS(read_png(path), Error);
+  CHECK_THROWS_AS(png_text(path, "Scene"), Error);
   CHECK_THROWS_AS(write_png("/nowhere/at/all.png", image), Error);
 }
 
