@@ -33,8 +33,8 @@ constexpr double local_share_beside = 0.1, patience = 10;
 // their factors stay small beside a step.
 constexpr double quick_steps = 40, slow = 10;
 constexpr int least_piece = 40, most_pieces = 200;
-constexpr int control_every = 16;                        // steps between two readings of the displacement that controls the load
-constexpr double controlled_steps = 10 * control_every;  // at least, in a period of the pieces with the loading machine
+constexpr int control_every = 4;                         // steps between two readings of the displacement that controls the load
+constexpr double controlled_steps = 40 * control_every;  // at least, in a period of the pieces with the loading machine
 constexpr double default_step_count = 50;                // steps in a period where the structure has no elastic one
 
 std::size_t z(int i) { return std::size_t(i); }

@@ -29,9 +29,12 @@ double inverse_square(double on_a_block, double share) { return on_a_block * (1 
 
 }  // namespace
 
+// Against the motion forces count more by the local damping, so that steps are shorter by the root of it.
+double ContactLimit::shorter() const { return std::sqrt(1 + model_.local_damping); }
+
 // 1 / dt^2 of the joints, at the share of the bound that the run requested, at least 0.9.
 double ContactLimit::intact() const {
-  const double share = std::clamp(state_.time.dt_target / range_.critical, safe_share, 1.0) * range_.critical;
+  const double share = std::clamp(shorter() * state_.time.dt_target / range_.critical, safe_share, 1.0) * range_.critical;
   return 1 / (share * share);
 }
 
@@ -126,9 +129,10 @@ double ContactLimit::common() const {
 }
 
 double ContactLimit::allowed(double most) const {
-  const double bound = 1 / std::sqrt(common() + most);
+  const double bound = 1 / (shorter() * std::sqrt(common() + most));
   // Beyond the step that the run requested, its requested share of the limit still applies.
-  const double share = std::isfinite(range_.critical) ? std::min(1.0, state_.time.dt_target / range_.critical / safe_share) : 1.0;
+  const double share =
+      std::isfinite(range_.critical) ? std::min(1.0, shorter() * state_.time.dt_target / range_.critical / safe_share) : 1.0;
   return std::max(std::min(state_.time.dt_target, bound), std::min(range_.longest, share * bound));
 }
 

@@ -47,6 +47,7 @@ class ContactLimit {
                     OverlapRoom& room);
 
  private:
+  double shorter() const;
   double intact() const;
   std::vector<double> by_matrices(std::span<const ContactBlock> blocks, std::span<const Mat6> stiffness) const;
   void add_joints(std::span<Mat6> to) const;

@@ -50,7 +50,7 @@ void check_filled(const Free& free, int width, int height) {
 
 }  // namespace
 
-TEST_CASE("--fit fills pictures of any shape with what is drawn, from any direction", "[render][camera]") {
+TEST_CASE("the option --fit fills pictures of any shape with what is drawn, from any direction", "[render][camera]") {
   prepare_contexts();
   const test::Folder dir;
   write_brick_house(dir.path.string(), {1.2, 1.6, 6, 3, 0.1});
@@ -68,7 +68,7 @@ TEST_CASE("--fit fills pictures of any shape with what is drawn, from any direct
   }
 }
 
-TEST_CASE("--fit goes by what is hidden, cut, magnified or moves", "[render][camera]") {
+TEST_CASE("the option --fit goes by what is hidden, cut, magnified or moves", "[render][camera]") {
   prepare_contexts();
   const test::Folder dir;
   write_brick_house(dir.path.string(), {1.2, 1.6, 40, 3, 0.1});
@@ -84,7 +84,7 @@ TEST_CASE("--fit goes by what is hidden, cut, magnified or moves", "[render][cam
                width, height);
 }
 
-TEST_CASE("--fit leaves out what has been thrown far away, and keeps all the rest", "[render][camera]") {
+TEST_CASE("the option --fit leaves out what has been thrown far away, and keeps all the rest", "[render][camera]") {
   const double far = GENERATE(0.5, 2.0, 50.0);
   const MotionScene scene = brick_house({1.2, 1.2, 8, 1, 0.5});
   MotionFrame last = brick_house_frame(scene, 0);
