@@ -52,9 +52,10 @@ std::size_t z(int i) { return std::size_t(i); }
 //   limit of the step is shorter by the root of it.
 class Damper {
  public:
-  Damper(const std::string& name, double period, bool at_once, Model& model)
+  // `faster`: by how much the loading machine raises the frequency.
+  Damper(const std::string& name, double period, double faster, bool at_once, Model& model)
       : model_(model),
-        most_(4 * pi / period),
+        most_(4 * pi / period * faster),
         patience_(at_once ? 0 : patience * period),
         adaptive_(name == "adaptive"),
         kinetic_(name == "kinetic"),
@@ -77,11 +78,12 @@ class Damper {
     kinetic_before_ = brakes_ ? 0 : kinetic;
     lost_ = s.energy.damping;
   }
-  // At a sample. `unbalanced`: N, of each block, with the share of a coarse inertia.
-  void read(const State& s, const std::vector<Vec3>& unbalanced) {
+  // At a sample. `unbalanced`: N, of each block, with the share of a coarse inertia. `ramp`: the load is changing, which the quotient would
+  // take for a negative stiffness.
+  void read(const State& s, const std::vector<Vec3>& unbalanced, bool ramp) {
     if (!critical_) return;
     double power = 0, size = 0;
-    for (int b = 0; b < model_.nblock && !force_.empty(); ++b) {
+    for (int b = 0; b < model_.nblock && !force_.empty() && !ramp; ++b) {
       if (model_.kind[z(b)] != Kind::moving) continue;
       const Vec3 moved = s.pose.u[z(b)] - u_[z(b)];
       power += (force_[z(b)] - unbalanced[z(b)]).dot(moved);
@@ -181,11 +183,11 @@ void Relaxation::soften_inertia() {
   const ElasticPush elastic = elastic_push(model_, run_.state, push_.direction);
   double rate = elastic.frequency * elastic.frequency;  // 1/s2
   const bool forces = push_.control == "displacement" && !push_.pattern.empty();
+  const Freedom freedom = grounded_freedoms(model_, run_.state);
+  if (rate > 0 && !forces && push_.control == "displacement") machine_ = 1 + machine_over_elastic(elastic, freedom);
   if (rate > 0 && !forces && push_.inertia == "scaled" && model_.analysis.solver == "leapfrog") {
-    const Freedom freedom = grounded_freedoms(model_, run_.state);
-    const double quick = push_.control == "displacement"
-                             ? std::pow(2 * pi / (controlled_steps * dt_), 2) / (1 + machine_over_elastic(elastic, freedom))
-                             : std::pow(2 * pi / (quick_steps * dt_), 2);
+    const double steps = push_.control == "displacement" ? controlled_steps : quick_steps;
+    const double quick = std::pow(2 * pi / (steps * dt_), 2) / machine_;
     if (rate * slow * slow < quick) inertia_.emplace(model_, run_.state, freedom, std::max(least_piece, freedom.count / 6 / most_pieces));
     if (inertia_ && !inertia_->definite()) inertia_.reset();
     if (inertia_) {
@@ -261,7 +263,7 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, 
   start(s, dt_);
   const BlockVec3 from = s.pose.u;
   const double monitored = monitor_.along(s.pose);
-  Damper damper(push_.relaxation, period_, inertia_.has_value(), model_);
+  Damper damper(push_.relaxation, period_, machine ? std::sqrt(machine_) : 1, inertia_.has_value(), model_);
   std::optional<Solver> solver;
   const auto engage = [&] {
     if (solver) take_times(*solver);
@@ -291,7 +293,7 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, 
     if (at != Solver::Stop::sample || solver->sample().t < next_check) continue;
     next_check += check;
     const auto [unbalanced, applied] = mean_forces(*solver);
-    damper.read(s, unbalanced_);
+    damper.read(s, unbalanced_, done < 1);
     out.unbalanced = applied > 0 ? unbalanced / applied : 0;
     balanced = done > 1 && out.unbalanced <= push_.unbalanced ? balanced + 1 : 0;
     const bool speeds_up = s.energy.kinetic >= fastest;

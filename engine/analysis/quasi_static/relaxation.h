@@ -86,6 +86,7 @@ class Relaxation {
   StepRange range_;
   std::optional<CoarseInertia> inertia_;
   double quick_ = 0;                 // 1/s2, its rate
+  double machine_ = 1;               // stiffness of the structure with the loading machine over that without it
   double dt_ = 0, true_dt_ = 0;      // s
   double period_ = 0, longest_ = 0;  // s; longest_: of one relaxation
   std::vector<Vec3> unbalanced_;     // N, at the last check, with the share of the coarse inertia
