@@ -15,10 +15,11 @@
 --                erbs run scenes/valens_aqueduct.lua -D dynamic=1 --video  the acceleration grows in time
 -- What is found  The partial model bears .16 g, none at .1625, in 19 states and 7.6 minutes on two cores; its top is at 5.0 cm in the
 --                performance point of N2 (4.1 in the source), 6.1 by mass-proportional pushover (6.19). One pier (-D bays=1) bears
---                .1425, none at .145. The piers overturn out of plane. What is lost against rigid blocks is lost to the beds, which open a little each, and to the
---                lean: one pier of rigid blocks without bond would bear .173 (-D rows=1 -D length=1.03, erbs limit --no-tension). The
---                source loses less, from .21 g at 30 GPa/m to .19 at 2. With these heights .21 g is out of reach of one pier, whatever
---                its joints do. The full model and the trends have not been run on this elevation.
+--                .1425, none at .145. The piers overturn out of plane. What is lost against rigid blocks is lost to the beds, which
+--                open a little each, and to the lean: one pier of rigid blocks without bond would bear .173 (-D rows=1
+--                -D length=1.03, erbs limit --no-tension). The source loses less, from .21 g at 30 GPa/m to .19 at 2. With these
+--                heights .21 g is out of reach of one pier, whatever its joints do. The full model and the trends have not been run
+--                on this elevation.
 -- What to look at  curve.svg: acceleration over the displacement of the top above the middle pier; capacity.multiplier, .21 g (partial) and
 --                .22 g (full) in the source; capacity.mechanism; cracks on the windward side, down to the toe.
 

@@ -40,10 +40,11 @@ constexpr double default_step_count = 50;                // steps in a period wh
 std::size_t z(int i) { return std::size_t(i); }
 
 // Damping on the way to equilibrium, by name.
-// critical: mass damping of twice the circular frequency w of the present motion. Rayleigh's quotient of what moved since the last reading
-//   gives it (Underwood 1983, Dynamic relaxation): w^2 = -du . M da / du . M du, a the accelerations of the unbalanced
-//   forces and of the coarse inertia. The coefficient goes a third of the way there, on a scale of ratios. Where cracks release more than
-//   the motion stores, w^2 is negative, and the coefficient falls.
+// critical: mass damping of twice the circular frequency w; while the load grows, that of the elastic structure with its loading machine,
+//   then that of the present motion. Rayleigh's quotient of what moved since the last reading gives it (Underwood 1983, Dynamic
+//   relaxation): w^2 = -du . M da / du . M du, a the accelerations of the unbalanced forces and of the coarse inertia. The coefficient goes
+//   a third of the way there, on a scale of ratios. Where cracks release more than the motion stores, w^2 is negative, and the coefficient
+//   falls.
 // kinetic: velocities vanish at each peak of the kinetic energy (Cundall 1976; Barnes 1988).
 // Beside both acts a local force of a tenth, with a coarse inertia or where the rest does not lead to equilibrium soon.
 // adaptive: mass damping whose power is held near half the rate of change of the kinetic energy (Cundall 1982, "adaptive global damping").
@@ -299,7 +300,7 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, 
     const bool speeds_up = s.energy.kinetic >= fastest;
     fastest = std::max(fastest, s.energy.kinetic);
     const double held = machine ? longest_lever * std::fabs(monitor_.along(s.pose) - monitored) : 0;  // m
-    if (far(s, from, speeds_up && way == Way::to_rest ? Relaxation::gone : far_away, held, out)) out.ending = Ending::collapse;
+    if (far(s, from, speeds_up && way == Way::to_rest ? gone : far_away, held, out)) out.ending = Ending::collapse;
     else if (balanced >= balanced_checks) out.ending = Ending::equilibrium;
     else if (t > longest_) out.ending = Ending::creep;
     if (!seen(*solver, out) || out.ending != Ending::stopped) break;
