@@ -254,6 +254,7 @@ function masonry_stiffness(keys) end
 ---@field thickness? number nominal gap at rest: faces that touch or lie no further apart are joined (default the thickness of the law) [m; 0 to 1]
 ---@field tolerance? number largest excess of a gap over `thickness`; a gap that is narrower by more is joined with a warning [m; 0 to 1; default 0.0001]
 ---@field rule? "simpson"|"midpoint"|"trapezoid"|"gauss" quadrature rule of the contact points [default simpson]
+---@field pressure? "face"|"points" what bears: the face, its pressure integrated in closed form, or the contact points, each with its share of the area, as the sub-contacts of point-contact models do (rule = "trapezoid", points = 4: the corners); they let a block hinge on its very edge [default face]
 ---@field none? boolean pairs that match get no joint [default false]
 ---@field optional? boolean a group it names may have no blocks in this variant of the scene [default false]
 ---@field points? integer|integer[] contact points: { along the longer side, along the shorter side }, or one square number [1 to 64; default { 3, 3 }]

@@ -6,12 +6,13 @@
 namespace erbs::analysis {
 namespace {
 
-constexpr double sample_every = 0.25, trial = 0.15;  // s
+constexpr double sample_every = 0.25, trial = 0.15;  // s, ...
+constexpr long least_steps = 48;                     // ... and at least so many steps, with their share of searches for contacts
 constexpr double least_rest = 2, longest_rest = 30;  // s between two trials with the same outcome
 // Share of processor time. A team that spins at its barriers uses all its processors; other programs or sleep took the rest.
 constexpr double undisturbed = 0.85;
 constexpr double better = 1.05;     // required ratio of speeds for a change
-constexpr double least_share = 20;  // least ratio of the time between two changes to the cost of one
+constexpr double least_share = 20;  // least ratio of the time between two trials to the cost of their changes
 
 double clock_seconds(clockid_t clock) {
   timespec now{};
@@ -31,15 +32,16 @@ void Crew::begin(Phase phase, int threads, long step, double wall, double proces
   phase_ = phase;
   now_ = threads;
   step_ = step, wall_ = wall, processor_ = processor;
-  window_ = phase == Phase::trial_alone || phase == Phase::trial_together ? trial : phase == Phase::alone ? rest_ : sample_every;
-  window_ = std::max(window_, phase == Phase::together ? 0 : least_share * cost_);
+  window_ = phase == Phase::trial_alone || phase == Phase::trial_together ? trial : phase == Phase::alone ? rest() : sample_every;
 }
+
+double Crew::rest() const { return std::max(rest_, 2 * least_share * cost_); }
 
 bool Crew::should_change(long step, double wall, double processor) {
   if (most_ < 2) return false;
   if (wall_ < 0) begin(phase_, now_, step, wall, processor);
   const double spent = wall - wall_, rate = double(step - step_) / spent;
-  if (spent < window_ || step == step_) return false;
+  if (spent < window_ || step - step_ < least_steps) return false;
   const int before = now_;
   switch (phase_) {
     case Phase::together:
@@ -54,7 +56,7 @@ bool Crew::should_change(long step, double wall, double processor) {
       if (rate > better * rate_) {
         begin(Phase::alone, 1, step, wall, processor);
       } else {
-        quiet_until_ = wall + rest_;
+        quiet_until_ = wall + rest();
         rest_ = std::min(2 * rest_, longest_rest);
         begin(Phase::together, most_, step, wall, processor);
       }

@@ -20,6 +20,7 @@ class Crew {
  private:
   enum class Phase { together, trial_alone, alone, trial_together };
   void begin(Phase phase, int threads, long step, double wall, double processor);
+  double rest() const;  // s, until the next trial
 
   const int most_;
   int now_;

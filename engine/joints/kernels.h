@@ -68,9 +68,10 @@ struct CrackedShape {
   const double* const* face_corner;
   double event_budget;  // J, for `event_bound.h`; 0: no prediction
   Interlock interlock;
-  bool rectangles;         // the overlaps are rectangles along s and t about the centre
-  int lines;               // > 0: so are the cells, in a grid of as many along s and t (strips.h)
-  const CornerPack* line;  // between these lines: at s, and at t [lines + 1]
+  bool rectangles;                               // the overlaps are rectangles along s and t about the centre
+  int lines;                                     // > 0: so are the cells, in a grid of as many along s and t (strips.h)
+  const CornerPack* line;                        // between these lines: at s, and at t [lines + 1]
+  bool lumped() const { return first[1] == 1; }  // points bear the face (Cell::lumped)
 };
 // All other data of eight cracked joints that a step reads and writes, in the order of access and in one piece.
 struct alignas(64) CrackedPack {

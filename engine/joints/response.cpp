@@ -58,6 +58,16 @@ Positive positive_part(const Eigen::Vector2d* corner, int corners, const double*
   return sum;
 }
 
+// The same where the face lies in its points.
+Positive positive_at(const Point* point, int points, const double* gap, double sign) {
+  Positive sum;
+  for (int i = 0; i < points; ++i) {
+    const double p = std::max(0.0, sign * gap_at(gap, point[i].s, point[i].t).n), volume = point[i].weight * p;
+    sum.p += volume, sum.s += volume * point[i].s, sum.t += volume * point[i].t, sum.square += volume * p;
+  }
+  return sum;
+}
+
 // The no-tension integral over the overlap polygon: N = kn Int max(-g, 0) dA, its first moments and its energy.
 Pressed compression(const Model& m, const Joint& joint, const double* gap, double kn) {
   const double share = kn / m.laws[std::size_t(joint.type->law)].kn;
@@ -69,7 +79,10 @@ Pressed compression(const Model& m, const Joint& joint, const double* gap, doubl
                     share * (joint.type->face[2] * gap[4] - joint.type->face[0] * gap[3]), 0};
     return {c.force, c.s, c.t, 0.5 * (c.s * gap[4] - c.force * gap[2] - c.t * gap[3])};
   }
-  const Positive p = positive_part(&m.overlap_corner[std::size_t(joint.type->first_corner)], joint.type->corners, gap, -1);
+  const std::size_t first = std::size_t(joint.type->first_cell);
+  const Positive p = m.cell[first].lumped()
+                         ? positive_at(&m.point[first], joint.type->points, gap, -1)
+                         : positive_part(&m.overlap_corner[std::size_t(joint.type->first_corner)], joint.type->corners, gap, -1);
   return {kn * p.p, kn * p.s, kn * p.t, 0.5 * kn * p.square};
 }
 
@@ -90,7 +103,8 @@ struct Pull {
 
 Pull pull_of(const Model& m, int i, const double* gap) {
   const Cell& cell = m.cell[std::size_t(i)];
-  const Positive p = positive_part(&m.cell_loop[std::size_t(cell.first)], cell.corners, gap, 1);
+  const Positive p = cell.lumped() ? positive_at(&m.point[std::size_t(i)], 1, gap, 1)
+                                   : positive_part(&m.cell_loop[std::size_t(cell.first)], cell.corners, gap, 1);
   return {p.p, p.s, p.t};
 }
 

@@ -26,7 +26,7 @@ struct JointType {
   double area = 0;                    // m2
   double stiffness[6] = {};           // N/m (s, t, n), N m (about s, t, n): elastic resultant = stiffness * q
   // N m, kn times Int t2, Int s2, Int s t over the overlap: bending stiffness of a cracked joint in compression over its whole face. For
-  // rules that are exact in bending: stiffness[3], stiffness[4] and 0.
+  // rules that are exact in bending, and where points bear the face: stiffness[3], stiffness[4] and 0.
   double face[3] = {};
   bool inset = false;             // its cells check tension inside of their corners: no points on the edge
   double half_s = 0, half_t = 0;  // m, largest |s| and |t| of the corners
@@ -51,9 +51,11 @@ struct Point {
   double weight;  // m2
 };
 
-// The part of the overlap that a contact point represents (geometry/quadrature.h), joint frame.
+// The part of the overlap that a contact point represents (geometry/quadrature.h), joint frame. Where a point bears its share of the face
+// alone, all of it lies at the point: the loop has one corner.
 struct Cell {
-  int first = 0, corners = 0;                   // into Model::cell_loop and tension_loop
+  int first = 0, corners = 0;  // into Model::cell_loop and tension_loop
+  bool lumped() const { return corners == 1; }
   double s = 0, t = 0, ss = 0, st = 0, tt = 0;  // m3, m4: integrals of s, t, s2, s t, t2 over it
 };
 

@@ -102,6 +102,7 @@ struct JointRule {
   double tolerance = 1e-4;                // m
   std::string rule = "simpson";           // simpson | midpoint | trapezoid | gauss
   int points_long = 3, points_short = 3;  // contact points along the longer and the shorter side of a rectangle
+  std::string pressure = "face";          // face: integrated over the face | points: each contact point bears its share of it
   bool none = false;                      // matching pairs get no joint
   bool optional = false;                  // a group may have no blocks in this variant of the scene
   Place place;
@@ -114,6 +115,10 @@ struct JointRule {
         {"tolerance", &JointRule::tolerance, "m",
          "largest excess of a gap over `thickness`; a gap that is narrower by more is joined with a warning", 0, 1},
         {"rule", &JointRule::rule, "", "quadrature rule of the contact points", 0, 0, false, "simpson|midpoint|trapezoid|gauss"},
+        {"pressure", &JointRule::pressure, "",
+         "what bears: the face, its pressure integrated in closed form, or the contact points, each with its share of the area, as the "
+         "sub-contacts of point-contact models do (rule = \"trapezoid\", points = 4: the corners); they let a block hinge on its very edge",
+         0, 0, false, "face|points"},
         {"none", &JointRule::none, "", "pairs that match get no joint"},
         {"optional", &JointRule::optional, "", "a group it names may have no blocks in this variant of the scene"},
     };

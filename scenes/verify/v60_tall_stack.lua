@@ -6,6 +6,7 @@
 --                e = b / 6, then by 2 N / (9 kn t (b / 2 - e)^2). From the top down, at a given rotation of the topmost block, moments follow
 --                from the blocks above, turned as they are, and rotations from the moments; the multiplier is the one with which the floor
 --                does not turn, and the capacity is the greatest of them over that rotation (Yokel 1971 for one without lateral load).
+--                From case 15 on the corners bear, a quarter of the bed each: a bed then turns by 4 M / (kn t b^3) up to e = b / 2.
 -- How to run     erbs run scenes/verify/v60_tall_stack.lua [-D case=3]
 -- What to look at  stack_least, stack_most: capacity over the one on paper. on_paper_over_rigid: what the lean leaves.
 local b, t, density = 4, 1, 2000  -- m, m, kg/m3
@@ -14,6 +15,11 @@ for _, blocks in ipairs { 5, 12, 30 } do
   for _, kn in ipairs { 1e9, 3e9, 1e10, 1e11 } do cases[#cases + 1] = { blocks = blocks, kn = kn, height = 20 } end
 end
 for _, shear in ipairs { 4, 40 } do cases[#cases + 1] = { blocks = 12, kn = 1e9, height = 20, shear = shear } end
+for _, blocks in ipairs { 5, 30 } do
+  for _, kn in ipairs { 1e8, 1e9, 1e10 } do
+    cases[#cases + 1] = { blocks = blocks, kn = kn, height = 20, corners = true, shear = kn < 1e9 and 4 or nil }
+  end
+end
 local number = param("case", 1, "the case")
 local c = cases[number] or error("case is 1 to " .. #cases)
 local h = c.height / c.blocks
@@ -22,12 +28,14 @@ local ks = (c.shear or 0.4) * c.kn
 material { name = "stone", density = density, kn = c.kn, ks = ks, friction = 0.7 }
 box { name = "floor", size = { 12, 12, 1 }, at = { -6, -6, -1 }, fixed = true }
 column { name = "stack", blocks = c.blocks, size = { b, t, h } }
-joint { law = dry { kn = c.kn, ks = ks, mu = 0.7 } }
+local law = dry { kn = c.kn, ks = ks, mu = 0.7 }
+if c.corners then joint { law = law, rule = "trapezoid", points = 4, pressure = "points" } else joint { law = law } end
 analysis { kind = "pushover", bracket = 0.002 }
 
 local weight = density * b * t * h * g
 local function turned_by(N, M)  -- rad, rotation of a bed; nothing where the force leaves it
   local e = M / N
+  if c.corners then return e < b / 2 and 4 * M / (c.kn * t * b ^ 3) or nil end
   if e < b / 6 then return 12 * M / (c.kn * t * b ^ 3) end
   return e < b / 2 and 2 * N / (9 * c.kn * t * (b / 2 - e) ^ 2) or nil
 end
@@ -42,7 +50,8 @@ local function too_small(multiplier, rotation)
     local turn = turned_by(N, blocks * weight * (multiplier * (at.z - bed_z) + at.x - bed_x))
     if not turn then return false end
     rotation = rotation - turn
-    x, z = bed_x - h / 2 * math.sin(rotation), bed_z - h / 2 * math.cos(rotation)
+    local closure = N / (c.kn * b * t)
+    x, z = bed_x - h / 2 * math.sin(rotation), bed_z + closure - h / 2 * math.cos(rotation)
   end
   return rotation > 0
 end

@@ -66,6 +66,14 @@ void PushLoads::set(double multiplier) {
   for (std::size_t i = first_force_; i < model_.force_loads.size(); ++i) model_.force_loads[i].wave = constant(multiplier);
 }
 
+std::vector<Vec3> PushLoads::slope() const {
+  std::vector<Vec3> out(z(model_.nblock), Vec3::Zero());
+  for (int b = 0; b < model_.nblock && kind_ != Kind::pattern; ++b) out[z(b)] = weight_mass(model_, b) * g_of(model_) * direction_;
+  for (std::size_t i = first_force_; i < model_.force_loads.size(); ++i)
+    out[z(model_.force_loads[i].block)] += model_.force_loads[i].direction;
+  return out;
+}
+
 Vec3 PushLoads::weight(int b) const { return weight_mass(model_, b) * acceleration_; }
 
 MonitorPoint::MonitorPoint(const PushSettings& push, const Model& m) : arm_(Vec3::Zero()), direction_(push.direction) {

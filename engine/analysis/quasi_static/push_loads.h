@@ -13,8 +13,9 @@ class PushLoads {
   // Adds the loads of `push` to `model`, at the multiplier 0. `blocks`: of the scene, for the groups of its pattern.
   PushLoads(const PushSettings& push, const std::vector<std::string>& groups, Model& model);
 
-  void set(double multiplier);   // of the model given at the start; tilt: rad
-  Vec3 weight(int block) const;  // N, of gravity and the acceleration at the present multiplier, without forces
+  void set(double multiplier);      // of the model given at the start; tilt: rad
+  Vec3 weight(int block) const;     // N, of gravity and the acceleration at the present multiplier, without forces
+  std::vector<Vec3> slope() const;  // N, on each block, per unit of the multiplier near 0
   double multiplier() const { return multiplier_; }
   const Vec3& direction() const { return direction_; }
 

@@ -21,6 +21,9 @@ constexpr double far_away = 0.5;
 // A block that moves by so many times the displacement of the monitored point hangs on no lever that a loading machine holds.
 constexpr double longest_lever = 30;
 constexpr double local_share = 0.8;
+// Of the limit of the step, with local damping: forces count 1 + local_share times against the motion. That leaves 4 / 1.8 for springs and
+// for the dashpots of contacts, which at their cap take 4 / 3 of the 4 (time_step_bound.cpp).
+constexpr double local_step = 0.47;
 // Joined neighbours that meet along an edge: thousands of strips of a micron's slip would each cost as much as a joint.
 constexpr double edge_force = 0.1;
 constexpr int release_rarely = 128;                  // steps, where thousands of joints open one by one: an open one may wait
@@ -35,6 +38,7 @@ constexpr double quick_steps = 40, slow = 10;
 constexpr int least_piece = 40, most_pieces = 200;
 constexpr int control_every = 4;                         // steps between two readings of the displacement that controls the load
 constexpr double controlled_steps = 40 * control_every;  // at least, in a period of the pieces with the loading machine
+constexpr double longest_lag = 0.5;                      // rad, of the swing on the loading machine, between two readings
 constexpr double default_step_count = 50;                // steps in a period where the structure has no elastic one
 
 std::size_t z(int i) { return std::size_t(i); }
@@ -49,8 +53,7 @@ std::size_t z(int i) { return std::size_t(i); }
 // Beside both acts a local force of a tenth, with a coarse inertia or where the rest does not lead to equilibrium soon.
 // adaptive: mass damping whose power is held near half the rate of change of the kinetic energy (Cundall 1982, "adaptive global damping").
 //   Here the coefficient changes by a tenth where the ratio is off.
-// local: a force of 0.8 times the unbalanced one against the motion (Cundall 1987). Against the motion forces count 1.8 times, so that the
-//   limit of the step is shorter by the root of it.
+// local: a force of 0.8 times the unbalanced one against the motion (Cundall 1987), with a shorter step.
 class Damper {
  public:
   // `faster`: by how much the loading machine raises the frequency.
@@ -172,7 +175,7 @@ Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>&
     if (push.inertia == "scaled") scale_inertia(model_, run.state);
     const StepBounds bounds = step_bounds(model_, run.state);
     range_.critical = bounds.cracked;
-    range_.longest = dt_ = 0.9 * bounds.cracked / (push.relaxation == "local" ? std::sqrt(1 + local_share) : 1);
+    range_.longest = dt_ = (push.relaxation == "local" ? local_step : 0.9) * bounds.cracked;
   }
   soften_inertia();
   const double g = run.model.gravity.norm() > 0 ? run.model.gravity.norm() : standard_g;
@@ -181,13 +184,15 @@ Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>&
 
 // Waits for no slow elastic motion: that of a structure of a hundred metres takes thousands of steps.
 void Relaxation::soften_inertia() {
-  const ElasticPush elastic = elastic_push(model_, run_.state, push_.direction);
+  std::vector<Vec3> inertia(z(model_.nblock));  // N, at 1 m/s2
+  for (int b = 0; b < model_.nblock; ++b) inertia[z(b)] = model_.mass[z(b)] * push_.direction;
+  const ElasticPush elastic = elastic_push(model_, run_.state, inertia);
   double rate = elastic.frequency * elastic.frequency;  // 1/s2
-  const bool forces = push_.control == "displacement" && !push_.pattern.empty();
   const Freedom freedom = grounded_freedoms(model_, run_.state);
-  if (rate > 0 && !forces && push_.control == "displacement") machine_ = 1 + machine_over_elastic(elastic, freedom);
-  if (rate > 0 && !forces && push_.inertia == "scaled" && model_.analysis.solver == "leapfrog") {
-    const double steps = push_.control == "displacement" ? controlled_steps : quick_steps;
+  const bool machine = push_.control == "displacement";
+  if (rate > 0 && machine) hold_by_machine(freedom);
+  if (rate > 0 && push_.inertia == "scaled" && model_.analysis.solver == "leapfrog") {
+    const double steps = machine ? controlled_steps : quick_steps;
     const double quick = std::pow(2 * pi / (steps * dt_), 2) / machine_;
     if (rate * slow * slow < quick) inertia_.emplace(model_, run_.state, freedom, std::max(least_piece, freedom.count / 6 / most_pieces));
     if (inertia_ && !inertia_->definite()) inertia_.reset();
@@ -201,18 +206,24 @@ void Relaxation::soften_inertia() {
   period_ = std::max(rate > 0 ? 2 * pi / std::sqrt(rate) : 0, default_step_count * dt_);
 }
 
-// The loading machine stiffens what it controls: its pieces swing faster by the root of 1 + this.
-double Relaxation::machine_over_elastic(const ElasticPush& elastic, const Freedom& freedom) const {
+// The loading machine stiffens what it controls: pieces of the structure swing faster by the root of 1 + its stiffness over that of the
+// structure. Its force lags behind the displacement by up to `control_every` steps, which must be short beside the swing of the block on
+// the machine alone: the lag feeds that swing.
+void Relaxation::hold_by_machine(const Freedom& freedom) {
   const int b = monitor_.block(), i = freedom.first[z(b)];
+  if (i < 0) return;
   const double stiffness = MachinePath(push_, height_of(model_)).stiffness;
-  if (i < 0) return 0;
-  constexpr double small = 1e-6;  // s2/m, of the acceleration: rotations are small
+  const std::vector<Vec3> load = loads_.slope();
+  const ElasticPush elastic = elastic_push(model_, run_.state, load);
+  if (elastic.motion.size() == 0) return;
+  constexpr double small = 1e-6;  // of the load: rotations are small
   BlockPoses pose = run_.state.pose;
   const double before = monitor_.along(pose);
   pose.u[z(b)] += small * elastic.motion.segment<3>(i);
   pose.q[z(b)] = rotation(small * Vec3(elastic.motion.segment<3>(i + 3))) * Quat(pose.q[z(b)]);
-  const double g = model_.gravity.norm() > 0 ? model_.gravity.norm() : standard_g;
-  return stiffness * g * std::fabs(monitor_.along(pose) - before) / small;
+  machine_ = 1 + stiffness * std::fabs(monitor_.along(pose) - before) / small;
+  const double swing = std::sqrt(stiffness * model_.inverse_mass[z(b)] * std::fabs(load[z(b)].dot(push_.direction)));  // 1/s
+  if (swing > 0) range_.longest = dt_ = std::min(dt_, longest_lag / (control_every * swing));
 }
 
 void Relaxation::start(State& s, double dt) const {
@@ -266,21 +277,12 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, 
   const double monitored = monitor_.along(s.pose);
   Damper damper(push_.relaxation, period_, machine ? std::sqrt(machine_) : 1, inertia_.has_value(), model_);
   std::optional<Solver> solver;
-  const auto engage = [&] {
-    if (solver) take_times(*solver);
-    solver.emplace(model_, s, range_, crew_.threads());
-    if (inertia_) solver->use(*inertia_);
-  };
-  engage();
+  engage(solver, model_, s, range_);
   const double check = std::max(period_ / checks, least_check * dt_);
   double next_check = 0, fastest = 0;  // s; J, largest kinetic energy
   int balanced = 0;
   while (true) {
-    if (crew_.should_change(steps_ + s.time.step)) {
-      const double began = seconds();
-      engage();
-      crew_.took(seconds() - began);
-    }
+    if (crew_.should_change(steps_ + s.time.step)) engage(solver, model_, s, range_);
     const double t = s.time.t, done = t / period_;
     loads_.set(course(smooth(done), monitor_.along(s.pose)));
     const double next = damper.one_step() ? t : machine ? std::min(next_check, t + control_every * s.time.dt) : next_check;
@@ -316,6 +318,16 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, 
   return out;
 }
 
+// A solver with as many threads as the crew has now. The coarse inertia acts on the model of the relaxations alone.
+void Relaxation::engage(std::optional<Solver>& solver, const Model& model, State& s, const StepRange& range) {
+  const double began = seconds();
+  const bool changes = solver.has_value();
+  if (changes) take_times(*solver);
+  solver.emplace(model, s, range, crew_.threads());
+  if (inertia_ && &model == &model_) solver->use(*inertia_);
+  if (changes) crew_.took(seconds() - began);
+}
+
 void Relaxation::take_times(const Solver& solver) {
   profile_ += solver.profile();
   searched_ += solver.contacts().searched();
@@ -326,13 +338,15 @@ void Relaxation::release(State& s, double duration, double interval, const Seen&
   falling.edge_force = edge_force;
   falling.grounds = model_.grounds, falling.tilts = model_.tilts, falling.force_loads = model_.force_loads;
   start(s, true_dt_);
-  Solver solver(falling, s, run_.range, crew_.threads());
-  for (double next = interval; next <= duration && !solver.broken();) {
-    if (solver.advance({.next = next, .wrenches = true}) != Solver::Stop::sample) continue;
+  std::optional<Solver> solver;
+  engage(solver, falling, s, run_.range);
+  for (double next = interval; next <= duration && !solver->broken();) {
+    if (crew_.should_change(steps_ + s.time.step)) engage(solver, falling, s, run_.range);
+    if (solver->advance({.next = next, .wrenches = true}) != Solver::Stop::sample) continue;
     next += interval;
-    if (!seen(solver, {})) break;
+    if (!seen(*solver, {})) break;
   }
-  take_times(solver);
+  take_times(*solver);
   steps_ += s.time.step;
   end(s);
 }

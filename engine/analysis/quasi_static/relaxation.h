@@ -68,9 +68,10 @@ class Relaxation {
  private:
   // N, mean unbalanced and mean applied force on moving blocks; the solver is at a sample.
   std::array<double, 2> mean_forces(const Solver& solver);
+  void engage(std::optional<Solver>& solver, const Model& model, State& state, const StepRange& range);
   void take_times(const Solver& solver);
   void soften_inertia();
-  double machine_over_elastic(const ElasticPush& elastic, const Freedom& freedom) const;
+  void hold_by_machine(const Freedom& freedom);
   void start(State& state, double dt) const;
   void end(State& state) const;
   // Whether a block has moved by this share of its smallest edge, and by `least` (m).

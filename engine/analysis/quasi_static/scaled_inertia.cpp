@@ -47,12 +47,12 @@ void scale_inertia(Model& m, const State& s) {
   }
 }
 
-ElasticPush elastic_push(const Model& m, const State& s, const Vec3& direction) {
+ElasticPush elastic_push(const Model& m, const State& s, const std::vector<Vec3>& force) {
   const Freedom f = grounded_freedoms(m, s);
   if (f.count == 0) return {};
   VecX load = VecX::Zero(f.count), x;
   for (int b = 0; b < m.nblock; ++b)
-    if (f.first[z(b)] >= 0) load.segment<3>(f.first[z(b)]) = m.mass[z(b)] * direction;
+    if (f.first[z(b)] >= 0) load.segment<3>(f.first[z(b)]) = force[z(b)];
   NewtonSteps steps(m, s, f, Linear::by_size);
   if (!steps.intact(load, x) || !(x.dot(load) > 0)) return {};
   double kinetic = 0;

@@ -10,11 +10,11 @@ namespace erbs::analysis {
 // blocks then no longer set the step of the others (Underwood 1983, Dynamic relaxation, section 5.3.2). Weights stay: `gravity_factor`.
 void scale_inertia(Model& model, const State& state);
 
-// The elastic structure under its masses' own weight along `direction`.
+// The elastic structure under a force on each block.
 struct ElasticPush {
   double frequency = 0;  // 1/s, Rayleigh's quotient of the motion; 0 if the structure is a mechanism
-  VecX force, motion;    // per unit of acceleration (kg; m / (m/s2)), of the blocks that joints connect to the ground
+  VecX force, motion;    // N; m, of the blocks that joints connect to the ground
 };
-ElasticPush elastic_push(const Model& model, const State& state, const Vec3& direction);
+ElasticPush elastic_push(const Model& model, const State& state, const std::vector<Vec3>& force);  // N [nblock]
 
 }  // namespace erbs::analysis

@@ -71,6 +71,19 @@ struct Compression {
   Pack force, ms, mt, energy;  // N; N m; J
 };
 
+// Integrals of p+ over a face that lies in its points.
+static inline StripIntegrals positive_part_at_points(const CrackedShape& shape, const Pack* gap) {
+  StripIntegrals sum{};
+  for (int i = 0; i < shape.points; ++i) {
+    const Pack depth = max(-gap_of(shape.point[i], gap), 0), volume = load(shape.point[i].weight) * depth;
+    sum.p += volume;
+    sum.s += volume * load(shape.point[i].s);
+    sum.t += volume * load(shape.point[i].t);
+    sum.square += volume * depth;
+  }
+  return sum;
+}
+
 // The no-tension integral over the true overlap polygon. `share`: of the intact stiffness.
 ERBS_INLINE Compression compression(double kn, Pack share, const CrackedShape& shape, const Pack* gap) {
   const FacePack& face = *shape.face;
@@ -82,8 +95,9 @@ ERBS_INLINE Compression compression(double kn, Pack share, const CrackedShape& s
   Pack ms = select(closed, load(face.bend_t) * gap[4] - twist * gap[3], Pack(0));
   Pack energy = 0.5 * (ms * gap[4] - force * gap[2] - mt * gap[3]);
   if (any(partly)) {
-    const StripIntegrals sum = shape.rectangles ? positive_part_of_rectangle(face, -gap[2], gap[4], -gap[3], partly)
-                                                : positive_part(shape.overlap_corner, shape.corners, -gap[2], gap[4], -gap[3], partly);
+    const StripIntegrals sum = shape.lumped()     ? positive_part_at_points(shape, gap)
+                               : shape.rectangles ? positive_part_of_rectangle(face, -gap[2], gap[4], -gap[3], partly)
+                                                  : positive_part(shape.overlap_corner, shape.corners, -gap[2], gap[4], -gap[3], partly);
     force = select(partly, kn * sum.p, force);
     ms = select(partly, kn * sum.s, ms);
     mt = select(partly, kn * sum.t, mt);

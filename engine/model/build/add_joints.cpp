@@ -22,9 +22,15 @@ namespace {
 constexpr double infinite = std::numeric_limits<double>::infinity();
 std::size_t z(int i) { return std::size_t(i); }
 
-// Integrals over a loop, summed over triangles from the origin: Int s s = A/12 ((sum s)^2 + sum s^2) over a triangle.
-Cell cell_of(const std::vector<Vec2>& loop) {
+// Integrals over a loop, summed over triangles from the origin: Int s s = A/12 ((sum s)^2 + sum s^2) over a triangle. A loop of one corner
+// has its weight (m2) there.
+Cell cell_of(const std::vector<Vec2>& loop, double weight = 0) {
   Cell c;
+  if (loop.size() == 1) {
+    const double s = loop[0].x(), t = loop[0].y();
+    c.s = weight * s, c.t = weight * t, c.ss = weight * s * s, c.tt = weight * t * t, c.st = weight * s * t;
+    return c;
+  }
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const Vec2 &a = loop[i], &b = loop[(i + 1) % loop.size()];
     const double area = 0.5 * (a.x() * b.y() - b.x() * a.y());
@@ -37,11 +43,12 @@ Cell cell_of(const std::vector<Vec2>& loop) {
   return c;
 }
 
-// Bending stiffness of the true overlap; that of its points if both agree to round-off.
+// Bending stiffness of the true overlap; that of its points if both agree to round-off, or if they bear it.
 void set_face(const Model& m, const PointLaw& law, JointType& joint) {
   const Cell whole = cell_of({m.overlap_corner.begin() + joint.first_corner, m.overlap_corner.end()});
   const double face[3] = {law.kn * whole.tt, law.kn * whole.ss, law.kn * whole.st}, round_off = 1e-9 * (face[0] + face[1]);
-  const bool exact = std::fabs(face[0] - joint.stiffness[3]) + std::fabs(face[1] - joint.stiffness[4]) + std::fabs(face[2]) < round_off;
+  const bool exact = m.cell[z(joint.first_cell)].lumped() ||
+                     std::fabs(face[0] - joint.stiffness[3]) + std::fabs(face[1] - joint.stiffness[4]) + std::fabs(face[2]) < round_off;
   for (int i = 0; i < 3; ++i) joint.face[i] = !exact ? face[i] : i < 2 ? joint.stiffness[3 + i] : 0;
 }
 
@@ -55,8 +62,8 @@ void set_viscous(const Damping& damping, const Model& m, Joint& joint) {
   joint.viscous_cracked = std::max(joint.viscous, own > 0 && !sequential ? 2 * m.laws[z(joint.type->law)].damping / own : 0);
 }
 
-void add_cell(const std::vector<Vec2>& loop, Model& m) {
-  Cell cell = cell_of(loop);
+void add_cell(const std::vector<Vec2>& loop, double weight, Model& m) {
+  Cell cell = cell_of(loop, weight);
   cell.first = int(m.cell_loop.size());
   cell.corners = int(loop.size());
   m.cell.push_back(cell);
@@ -123,7 +130,9 @@ void add_joint(const Scene& scene, const Interface& face, Model& m, StrengthFiel
   const Vec3 e1 = (face.polygon[1] - origin).normalized(), e2 = n.cross(e1);
   Polygon2 flat;
   for (const Vec3& p : face.polygon) flat.emplace_back(e1.dot(p - origin), e2.dot(p - origin));
-  const auto points = quadrature(flat, rule.rule, rule.points_long, rule.points_short);
+  auto points = quadrature(flat, rule.rule, rule.points_long, rule.points_short);
+  if (rule.pressure == "points")
+    for (auto& p : points) p.cell = p.tension_loop = {Vec2(p.x, p.y)};
   const PrincipalAxes axes = principal_axes(points);
   const double cosine = std::cos(axes.angle), sine = std::sin(axes.angle);
   const auto local = [&](double x, double y) {
@@ -145,7 +154,7 @@ void add_joint(const Scene& scene, const Interface& face, Model& m, StrengthFiel
     m.point.push_back({x.x(), x.y(), p.weight});
     std::vector<Vec2> loop;
     for (const Vec2& v : p.cell) loop.push_back(local(v.x(), v.y()));
-    add_cell(loop, m);
+    add_cell(loop, p.weight, m);
     for (const Vec2& v : p.tension_loop) m.tension_loop.push_back(local(v.x(), v.y()));
     type.inset = type.inset || p.tension_loop != p.cell;
     type.area += p.weight;

@@ -17,15 +17,21 @@ namespace {
 
 // A machine with two processors; another program takes the share `taken` of one. It counts seconds and steps of a `Crew`.
 struct Machine {
+  double speed = 1e5, gain = 1.5,
+         idle = 0;  // steps/s of one thread; of two, over that; share of a second processor that a team leaves idle
+  double cost = 0;  // s, of a change
   double wall = 0, processor = 0, step = 0;
   int changes = 0;
   void run(Crew& crew, double seconds, double taken) {
     for (const double end = wall + seconds; wall < end;) {
       const bool team = crew.threads() == 2;
       wall += 0.01;
-      step += 0.01 * (team ? 1.5e5 * (taken > 0 ? 0.4 * (1 - taken) : 1) : 1e5);
-      processor += 0.01 * (team ? 2 - taken : 1);
-      changes += crew.should_change(long(step), wall, processor);
+      step += 0.01 * speed * (team ? gain * (taken > 0 ? 0.4 * (1 - taken) : 1) : 1);
+      processor += 0.01 * (team ? 2 - taken - idle : 1);
+      if (!crew.should_change(long(step), wall, processor)) continue;
+      ++changes;
+      wall += cost, processor += cost;
+      crew.took(cost);
     }
   }
 };
@@ -44,6 +50,16 @@ TEST_CASE("a team whose processor is taken goes on alone, and comes together onc
   CHECK(machine.step - before > 0.9 * 20e5);  // of the steps of one thread
   machine.run(crew, 31, 0);
   CHECK(crew.threads() == 2);
+}
+
+TEST_CASE("a team with much work for one thread stays together while it is faster, also where steps are long", "[crew]") {
+  const double speed = GENERATE(20.0, 60.0, 1e3, 1e5), cost = GENERATE(0.0, 0.1, 1.0);
+  Crew crew(2);
+  Machine machine{.speed = speed, .gain = 1.4, .idle = 0.5, .cost = cost};
+  machine.run(crew, 300, 0);
+  const double before = machine.step, from = machine.wall;
+  machine.run(crew, 900, 0);
+  CHECK(machine.step - before > 0.92 * 1.4 * speed * (machine.wall - from));
 }
 
 TEST_CASE("one thread stays one", "[crew]") {

@@ -150,6 +150,47 @@ TEST_CASE("what the machine does not hold falls at the capacity all the same", "
   }
 }
 
+TEST_CASE("control by displacement slides a block at its friction, however stiff its bed and whatever pushes", "[push]") {
+  const auto [kn, ks] = GENERATE(std::pair(1e10, 1e9), std::pair(1e8, 1e9), std::pair(1e9, 1e6));
+  const std::string pattern = GENERATE("", "pattern = { { block = 'b', force = { 0, 1000, 0 } } }, ");
+  const double weight = 2000 * 2 * 2 * 0.1 * standard_g, unit = pattern.empty() ? weight : 1000;
+  const test::Scratch dir("push_stiff");
+  const auto metrics = push(fmt::format("material{{ name = 'stone', density = 2000, kn = {0}, ks = {0} }}"
+                                        "box{{ name = 'floor', size = {{6, 6, .5}}, at = {{-3, -3, -.5}}, fixed = true }}"
+                                        "box{{ name = 'b', size = {{2, 2, .1}}, at = {{-1, -1, 0}} }}"
+                                        "joint{{ law = dry{{ kn = {0}, ks = {1}, mu = .3 }} }}"
+                                        "analysis{{ kind = 'pushover', direction = 'y', limit = 'never', control = 'displacement', {2}"
+                                        "displacement = {3} }}",
+                                        kn, ks, pattern, 2 * 0.3 * weight / (4 * ks)),
+                            dir.path)
+                           .metrics;
+  CAPTURE(kn, ks, pattern);
+  REQUIRE(metrics.status == "completed");
+  CHECK(metrics.capacity->peak.multiplier == Approx(0.3 * weight / unit).epsilon(2e-4));
+  CHECK(metrics.capacity->past_peak);
+}
+
+// The block is a contact from 20 mm on, with dashpots that local damping makes count 1.8 times.
+TEST_CASE("a block that has slid out of its bed keeps its friction, whatever damps its way", "[push]") {
+  const std::string how = GENERATE("critical", "kinetic", "local", "adaptive");
+  const test::Scratch dir("push_slid_out");
+  const PushOutcome out = push(
+      "material{ name = 'stone', density = 2000, kn = 1e9, ks = 1e9, friction = 1 }"
+      "box{ name = 'floor', size = {6, 6, .5}, at = {-3, -3, -.5}, fixed = true }"
+      "box{ name = 'b', size = {2, 2, .1}, at = {-1, -1, 0} } joint{ law = dry{ kn = 1e9, ks = 1e5, mu = .3 } }"
+      "analysis{ kind = 'pushover', direction = 'y', limit = 'never', control = 'displacement', "
+      "displacement = 26*mm, relaxation = '" +
+          how + "' }",
+      dir.path);
+  CAPTURE(how);
+  std::istringstream last(out.curve.substr(out.curve.rfind('\n', out.curve.size() - 2) + 1));
+  double multiplier = 0;
+  last >> multiplier;
+  CHECK(multiplier > 0.28);  // where the block overshoots, its springs unload a little
+  CHECK(multiplier < 0.3003);
+  CHECK(out.metrics.residual_relative < 1e-4);
+}
+
 TEST_CASE("control by displacement names the mechanism past the peak, and leaves the state there as it is", "[push]") {
   const auto pushed = [](const char* far) {
     const test::Scratch dir("push_past");

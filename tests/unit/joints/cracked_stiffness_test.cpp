@@ -62,7 +62,7 @@ Scene two_blocks(const std::string& rule, const std::string& shape) {
 TEST_CASE("a cracked joint is nowhere stiffer than a sound one", "[solve][cracked]") {
   const std::string rule = GENERATE("rule=\"simpson\", points={3,3}", "rule=\"simpson\", points={5,4}", "rule=\"gauss\", points={2,2}",
                                     "rule=\"gauss\", points={1,3}", "rule=\"trapezoid\", points={3,2}", "rule=\"midpoint\", points={2,1}",
-                                    "rule=\"midpoint\", points={4,4}");
+                                    "rule=\"midpoint\", points={4,4}", "rule=\"trapezoid\", points={2,2}, pressure=\"points\"");
   const std::string shape = GENERATE("box{name=\"b\", size={.25,.125,.1}, at={0,0,0}, material=\"brick\"}",
                                      "prism{name=\"b\", polygon={{0,0},{.3,0},{.25,.2},{.05,.15}}, height=.1, material=\"brick\"}");
   const Prepared run = prepare(two_blocks(rule, shape), false);
@@ -93,7 +93,8 @@ TEST_CASE("a cracked joint is nowhere stiffer than a sound one", "[solve][cracke
 }
 
 TEST_CASE("cells of sound points and the closed compression make the sound joint", "[solve][cracked]") {
-  const std::string rule = GENERATE("rule=\"simpson\", points={3,3}", "rule=\"simpson\", points={6,5}", "rule=\"gauss\", points={2,3}");
+  const std::string rule = GENERATE("rule=\"simpson\", points={3,3}", "rule=\"simpson\", points={6,5}", "rule=\"gauss\", points={2,3}",
+                                    "rule=\"trapezoid\", points={2,2}, pressure=\"points\"");
   const std::string shape = GENERATE("box{name=\"b\", size={.25,.125,.1}, at={0,0,0}, material=\"brick\"}",
                                      "prism{name=\"b\", polygon={{0,0},{.3,0},{.25,.2},{.05,.15}}, height=.1, material=\"brick\"}");
   const Prepared run = prepare(two_blocks(rule, shape), false);

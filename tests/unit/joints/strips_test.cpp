@@ -43,7 +43,9 @@ struct RandomPath {
 TEST_CASE("joints integrated by strips answer as one by one on random paths", "[joints][cracked]") {
   const char* softening = GENERATE("coupling=\"coulomb\"", "coupling=\"linear\"", "fc=300*kPa", "Gf1=0, Gf2=0");
   const char* rule = GENERATE("rule=\"simpson\", points={3,3}", "rule=\"trapezoid\", points={2,2}", "rule=\"midpoint\", points={4,4}",
-                              "rule=\"simpson\", points={5,5}", "rule=\"simpson\", points={5,3}", "rule=\"gauss\", points={2,2}");
+                              "rule=\"simpson\", points={5,5}", "rule=\"simpson\", points={5,3}", "rule=\"gauss\", points={2,2}",
+                              "rule=\"trapezoid\", points={2,2}, pressure=\"points\"", "pressure=\"points\"");
+  if (std::string(rule).find("pressure") != std::string::npos && std::string(softening).find("fc") != std::string::npos) return;
   const std::string energies = std::string(softening).find("Gf1") == std::string::npos ? "Gf1=0.3, Gf2=0.5, " : "";
   const std::string law =
       "mortar{E=1e9, thickness=10*mm, ft=50*kPa, c=80*kPa, mu=0.6, mu_residual=0.5, " + energies + softening + "}, " + rule;
