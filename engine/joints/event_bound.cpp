@@ -19,14 +19,17 @@ double foresee(const Model& m, const Joint& joint, const double* gap_before, con
   if (!(budget > 0)) return 0;
   double square = 0, soon = 0;
   const auto gap_at = [](const double* x, const Eigen::Vector2d& c) { return x[2] + x[3] * c.y() - x[4] * c.x(); };
-  for (int i = 0; i < joint.type->corners; ++i) {
-    const auto& c = m.overlap_corner[std::size_t(joint.type->first_corner + i)];
+  const bool lumped = m.cell[std::size_t(joint.type->first_cell)].lumped();
+  const int corners = lumped ? joint.type->points : joint.type->corners;
+  for (int i = 0; i < corners; ++i) {
+    const Point& point = m.point[std::size_t(joint.type->first_cell + (lumped ? i : 0))];
+    const Eigen::Vector2d c = lumped ? Eigen::Vector2d(point.s, point.t) : m.overlap_corner[std::size_t(joint.type->first_corner + i)];
     const double opening = gap_at(gap, c), rate = opening - gap_at(gap_before, c);
     if (!(opening * rate < 0)) continue;
-    square += rate * rate;
+    square += lumped ? corners * point.weight / joint.type->area * rate * rate : rate * rate;
     soon = std::max(soon, std::fabs(rate / opening));
   }
-  return std::min(std::sqrt(event_share / (joint.type->corners * budget) * joint.type->stiffness[2] * square), event_steps * soon);
+  return std::min(std::sqrt(event_share / (corners * budget) * joint.type->stiffness[2] * square), event_steps * soon);
 }
 
 }  // namespace erbs

@@ -261,19 +261,24 @@ ERBS_INLINE void advance_asperities(const PointLaw& law, const CrackedShape& sha
   store(lane.least_damage, Face::released(law, own, c.gap, load(shape.face->half_s), load(shape.face->half_t)));
 }
 
-// event_bound.h, by the corners of the face.
+// event_bound.h, by the corners of the face, or by the points that bear it.
 static inline void foresee(const CrackedShape& shape, const Cracking& c, CrackedSums& sums) {
   const Pack dn = c.gap[2] - c.gap_before[2], ds = c.gap[3] - c.gap_before[3], dt = c.gap[4] - c.gap_before[4];
   Pack square{}, soon{};
-  for (int i = 0; i < shape.corners; ++i) {
-    const Pack s = load(shape.overlap_corner[i].s), t = load(shape.overlap_corner[i].t);
+  const bool lumped = shape.lumped();
+  const int corners = lumped ? shape.points : shape.corners;
+  const Pack scale = lumped ? corners * c.kn / nonzero(load(shape.face->stiffness[2]) * c.share_n) : Pack(0);  // points over the area
+  for (int i = 0; i < corners; ++i) {
+    const Pack s = load(lumped ? shape.point[i].s : shape.overlap_corner[i].s),
+               t = load(lumped ? shape.point[i].t : shape.overlap_corner[i].t);
     const Pack gap = c.gap[2] + c.gap[3] * t - c.gap[4] * s, rate = dn + ds * t - dt * s;
     const Mask ahead = gap * rate < 0;
     const Pack near = select(ahead, abs(rate) / abs(nonzero(gap)), Pack(0));
-    square += select(ahead, rate * rate, Pack(0));
+    const Pack part = lumped ? load(shape.point[i].weight) * scale : Pack(1);
+    square += select(ahead, part * rate * rate, Pack(0));
     soon = max(near, soon);
   }
-  const Pack errs = sqrt((event_share / (shape.corners * shape.event_budget)) * load(shape.face->stiffness[2]) * c.share_n * square),
+  const Pack errs = sqrt((event_share / (corners * shape.event_budget)) * load(shape.face->stiffness[2]) * c.share_n * square),
              event_rate = event_steps * soon, both = min(errs, event_rate), most = load(sums.event_rate);
   store(sums.event_rate, max(both, most));
 }

@@ -60,11 +60,15 @@ TEST_CASE("a block that hops on its bed keeps its energy at any step and stiffne
 }
 
 TEST_CASE("a block that topples falls flat and lies there", "[solve][event]") {
+  const std::string bearing = GENERATE("", "pressure=\"points\"", "rule=\"trapezoid\", points=4, pressure=\"points\"");
+  CAPTURE(bearing);
   const Ran one = ran(R"(
     material{name="stone", density=2200, friction=.6}
     ground{}
     box{name="b", size={.3,1,1}, at={0,0,0}}
-    joint{law=dry{kn=5e9, mu=.6}}
+    joint{law=dry{kn=5e9, mu=.6}, )" +
+                          bearing +
+                          R"(}
     ground_motion{wave=half_sine{amplitude=.6*g, frequency=1}, direction="x"}
     analysis{duration=4}
   )",
