@@ -48,6 +48,9 @@ const char* quantity_name(Coloring coloring) {
   }
 }
 
+// Size (px) of small type: in pictures of 360 rows 9.4 in place of 8.3, which H.264 blurs.
+double legible(double size, double unit) { return std::max(size * unit, std::min(12.5 * unit, 9.4)); }
+
 }  // namespace
 
 std::string length_text(double m) {
@@ -199,12 +202,15 @@ void Overlay::draw_times(Image& image, double top, double bottom, double now) co
   double last = strip_left_;  // end of the previous name
   for (const Mark& mark : run_.marks) {
     if (mark.t > end_time_) continue;
-    const double x = column(mark.t), size = 11.5 * u, width = regular_.width(mark.name, size);
-    const Ink ink = x <= now + 0.5 ? text_ink : Ink{150, 158, 168, 1};
+    const double x = column(mark.t), size = legible(11.5, u), width = regular_.width(mark.name, size);
+    const Ink ink = x <= now + 0.5 ? text_ink : quiet_ink;
     fill_box(image, x - 0.6 * u, top + 4 * u, x + 0.6 * u, bottom, ink);
     // The first name stands before its line and later names behind theirs, if there is room.
     const bool before = (&mark == &run_.marks.front() || x + width + 5 * u > strip_right_) && x - width - 5 * u > last;
     const double left = before ? x - 5 * u - width : x + 5 * u;
+    // A name that would reach over the next line is left out: the later event matters more.
+    const Mark* next = &mark == &run_.marks.back() ? nullptr : &mark + 1;
+    if (!before && next && next->t <= end_time_ && left + width > column(next->t)) continue;
     if (now > left - 3 * u && now < left + width + 3 * u)
       fill_box(image, left - 2 * u, top + 2 * u, left + width + 2 * u, top + 16 * u, {250, 251, 252, 0.9});
     regular_.draw(image, mark.name, before ? x - 5 * u : x + 5 * u, top + 13 * u, size, ink,
