@@ -131,13 +131,13 @@ void Overlay::draw(Image& image, double t, const View& view, const std::vector<M
 void Overlay::draw_title(Image& image, double t) const {
   const double u = unit_, base = 36 * u;
   fill_fade(image, 0, static_cast<int>(60 * u), {250, 251, 252, 0.75}, 0.0);
-  bold_.draw(image, fmt::format("{:.2f} s", t), image.width - margin * u, base, 24 * u, text_ink, Font::Align::right);
+  bold_.draw(image, clock_text(run_, t), image.width - margin * u, base, 24 * u, text_ink, Font::Align::right);
   std::string beside = run_.status.empty() ? camera_ : run_.status + "   " + camera_;
   if (std::abs(slow_ - 1) > 0.02)
     beside += slow_ > 1 ? fmt::format("   slow motion {:.3g} : 1", slow_) : fmt::format("   time lapse 1 : {:.3g}", 1 / slow_);
   if (look_.magnify != 1) beside = fmt::format("displacements x {:g}   ", look_.magnify) + beside;
   // Text beside the clock must not move: it ends at the start of the widest clock text.
-  const double right = image.width - margin * u - bold_.width("00.00 s", 24 * u) - 18 * u;
+  const double right = image.width - margin * u - bold_.width(widest_clock(run_), 24 * u) - 18 * u;
   regular_.draw(image, beside, right, base, 14 * u, quiet_ink, Font::Align::right);
   // A long title is drawn smaller, then on two lines; what these cannot hold is cut.
   const double room = right - regular_.width(beside, 14 * u) - 2 * margin * u;
@@ -192,12 +192,13 @@ void Overlay::draw_record(Image& image, double t) const {
 
 // Seconds below the strip, and event names above it.
 void Overlay::draw_times(Image& image, double top, double bottom, double now) const {
-  const double u = unit_, step = round_length(end_time_ * 110 * u / (strip_right_ - strip_left_));
-  for (int i = 0; i * step <= end_time_ * (1 + 1e-9); ++i) {
-    const double x = column(i * step);
+  const bool states = !run_.multipliers.empty() && run_.state_dt > 0;
+  const double u = unit_, one = states ? run_.state_dt : 1, step = round_length(end_time_ / one * 110 * u / (strip_right_ - strip_left_));
+  for (int i = 0; i * step * one <= end_time_ * (1 + 1e-9); ++i) {
+    const double x = column(i * step * one);
     fill_box(image, x - 0.5 * u, bottom, x + 0.5 * u, bottom + 3 * u, quiet_ink);
     const Font::Align align = x + 14 * u > strip_right_ ? Font::Align::right : Font::Align::middle;
-    regular_.draw(image, fmt::format("{:g} s", i * step), x, bottom + 14 * u, 11 * u, quiet_ink, align);
+    regular_.draw(image, fmt::format("{:g}{}", i * step, states ? "" : " s"), x, bottom + 14 * u, legible(11, u), quiet_ink, align);
   }
   double last = strip_left_;  // end of the previous name
   for (const Mark& mark : run_.marks) {

@@ -160,7 +160,7 @@ std::string svg_of(const DrawnInstant& d) {
   const Projection projection(camera, d.parallel, d.look.width, d.look.height, d.look.top, d.look.bottom);
   put_lines(sheet, lines_of(d), d.look.top, d.look.bottom);
   put_marks(sheet, d.marks, projection);
-  const std::string when = fmt::format("{:.2f} s", d.frame.t);
+  const std::string when = clock_text(d.run, d.frame.t);
   if (d.look.overlay) {
     std::string name = d.camera.name == "own" ? "" : d.camera.name;
     std::replace(name.begin(), name.end(), '_', ' ');
@@ -169,7 +169,7 @@ std::string svg_of(const DrawnInstant& d) {
                std::min(20.0, (d.look.width / u - 330) / 0.62 / std::max<double>(1, static_cast<double>(d.run.title.size()))), text_color,
                d.run.title, "start", true);
     sheet.text(d.look.width - margin * u, 34 * u, 20, text_color, when, "end", true);
-    sheet.text(d.look.width - (margin + 100) * u, 34 * u, 13, quiet_color, name, "end");
+    sheet.text(d.look.width - (margin + 40 + 12 * static_cast<double>(when.size())) * u, 34 * u, 13, quiet_color, name, "end");
     put_legend(sheet, d, projection);
   }
   return sheet.whole(d.run.title + ", " + when, "Outlines of the blocks, and cracks of the joints, as computed by ERBS.");
