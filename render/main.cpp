@@ -198,7 +198,9 @@ CLI::Validator within(double low, double high) {
 void add_comparison(CLI::App& app, Arguments& a) {
   app.add_option("--compare", a.comparison.film, "a film, or a folder of PNG files: compare the run with it");
   app.add_option("--compare-to", a.comparison.place, "folder of the comparison (default DIR/compare)");
-  app.add_option("--film-background", a.comparison.background, "of that film: rows (medians of its first picture), drawn, or a PNG")
+  app.add_option("--film-background", a.comparison.background,
+                 "what that film shows without the structure: rows (the median of each row of its first picture), drawn (the run without "
+                 "blocks; for films made with --no-overlay), or a PNG")
       ->capture_default_str();
   app.add_option("--film-width", a.comparison.width,
                  "of the pictures of the run and of the films that show both, at most (px; measured are at most 640)")
