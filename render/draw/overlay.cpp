@@ -190,7 +190,7 @@ void Overlay::draw_record(Image& image, double t) const {
   draw_times(image, top, lower + 2 * u, now);  // names lie over the cursor
 }
 
-// Seconds below the strip, and event names above it.
+// Seconds, or states of a push, below the strip, and event names above it.
 void Overlay::draw_times(Image& image, double top, double bottom, double now) const {
   const bool states = !run_.multipliers.empty() && run_.state_dt > 0;
   const double u = unit_, one = states ? run_.state_dt : 1, step = round_length(end_time_ / one * 110 * u / (strip_right_ - strip_left_));

@@ -175,7 +175,8 @@ std::string svg_of(const DrawnInstant& d) {
   return sheet.whole(d.run.title + ", " + when, "Outlines of the blocks, and cracks of the joints, as computed by ERBS.");
 }
 
-bool make_drawings(const Run& run, const MotionReader& reader, const Movie& wish, const std::atomic<bool>& stop) {
+bool make_drawings(const Run& run, const MotionReader& reader, const Movie& wish, const std::atomic<bool>& stop,
+                   const std::function<void()>& checked) {
   Movie movie = wish;
   if (movie.stills.empty() && !reader.times().empty()) movie.stills = {reader.times().back()};
   movie.look.coloring = Coloring::material;
@@ -197,6 +198,7 @@ bool make_drawings(const Run& run, const MotionReader& reader, const Movie& wish
     for (const double t : schedule.times)
       if (const std::string path = path_of_still(shot, t); !movie.force && fs::exists(path))
         throw Error("it exists already; --force writes it anew", {path, 0});
+  if (checked) checked();
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) throw Error("the folder cannot be made; may you write there?", {folder.string(), 0});
