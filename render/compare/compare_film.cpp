@@ -53,9 +53,7 @@ struct RunDrawer {
     const auto prepare = [this, sized]() -> Workers::Draw {
       const auto painter = std::make_shared<Painter>(show, sized, movie.context);
       return [this, painter](std::size_t, const MotionFrame& frame) {
-        std::optional<Mat3> level;
-        if (!run.gravity.empty() && movie.look.table_turns) level = levelling(run.gravity, frame.t);
-        return painter->draw(frame, camera, level);
+        return painter->draw(frame, camera, levelling_at(run, show.stage, movie.look, frame.t));
       };
     };
     const auto wish = std::size_t(movie.threads > 0 ? movie.threads : usable_processors());

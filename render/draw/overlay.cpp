@@ -298,7 +298,7 @@ void Overlay::draw_scale(Image& image) const {
   const double u = unit_, wish = 110 * u * pixel_, ten = std::pow(10.0, std::floor(std::log10(wish)));
   const double length = ten * (wish < 2 * ten ? 1 : wish < 5 * ten ? 2 : 5), width = length / pixel_;
   const double right = image.width - margin * u, y = image.height - look_.bottom - 14 * u;
-  const bool lines = show_.stage.on_ground || show_.stage.positions.empty();
+  const bool lines = show_.stage.on_ground || (show_.stage.positions.empty() && !show_.stage.bounded);
   const std::string grid = lines ? "grid " + length_text(show_.grid) : "";
   fill_box(image, right - width - 34 * u - regular_.width(grid, 12 * u), y - 26 * u, right + 10 * u, y + 10 * u, panel);
   fill_box(image, right - width, y - u, right, y + u, text_ink);

@@ -111,8 +111,7 @@ Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const
   std::vector<std::shared_ptr<Overlay>> overlays;
   for (const Shot& shot : tiles.shots) overlays.push_back(std::make_shared<Overlay>(run, show, tiles.look, shot.camera.name, slow));
   return [=, &files, &run, &show, &tiles](std::size_t index, const MotionFrame& frame) {
-    std::optional<Mat3> level;
-    if (!run.gravity.empty() && l.table_turns) level = levelling(run.gravity, frame.t);
+    const std::optional<Mat3> level = levelling_at(run, show.stage, l, frame.t);
     const Marks none, &marks = tiles.marks.empty() ? none : tiles.marks[index];
     const Look& of = tiles.look;
     Image image;

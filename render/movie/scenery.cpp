@@ -29,11 +29,20 @@ Stage stage_of(const Run& run, const MotionReader& reader, const Excerpt& excerp
   for (std::size_t i = 0; i < count; i += step) add(i);
   add(count - 1);
   Stage stage = set_stage(excerpt.scene, some);
-  if (run.gravity.empty() || !movie.look.table_turns) return stage;
+  if (run.gravity.empty() || !movie.look.table_turns) {
+    // Of a transparent picture only shadows on the ground are seen, which may lie beyond it.
+    if (movie.look.background != Background::transparent) bound_ground(stage, excerpt.scene, some);
+    return stage;
+  }
   std::vector<Mat3> level;
   for (const MotionFrame& frame : some) level.push_back(levelling(run.gravity, frame.t));
   turn_table(stage, excerpt.scene, some, level);
   return stage;
+}
+
+std::optional<Mat3> levelling_at(const Run& run, const Stage& stage, const Look& look, double t) {
+  if (!run.gravity.empty() && look.table_turns) return levelling(run.gravity, t);
+  return stage.bounded ? std::optional<Mat3>(Mat3::Identity()) : std::nullopt;
 }
 
 Scenery::Scenery(const Run& run, const MotionReader& reader, const Movie& movie, double aspect, const std::vector<double>& times)

@@ -207,7 +207,7 @@ bool make_drawings(const Run& run, const MotionReader& reader, const Movie& wish
       if (stop) return false;
       const MotionFrame frame = scenery.drawn(t);
       DrawnInstant instant{run, show, solid, l, shot.at(t), shot.camera.name.starts_with("from_"), frame, std::nullopt, scenery.marks(t)};
-      if (!run.gravity.empty() && l.table_turns) instant.position = table_position(show.stage, levelling(run.gravity, t));
+      if (const auto level = levelling_at(run, show.stage, l, t)) instant.position = table_position(show.stage, *level);
       const std::string path = path_of_still(shot, t), unfinished = path + ".part";
       std::ofstream out(unfinished);
       out << svg_of(instant);
