@@ -170,13 +170,15 @@ int run(Arguments& a) {
   movie.look.table_turns = a.tilt == "table";
   const render::Run folder = render::read_run(a.dir);
   if (!a.comparison.film.empty()) return compare(folder, a);
-  if (!a.no_figures) write_figures(folder, a);
-  if (a.figures_only) return 0;
-  std::fflush(stdout);
+  const auto figures = [&] {
+    if (!a.no_figures) write_figures(folder, a);
+    std::fflush(stdout);  // before copies of this process are made
+  };
+  if (a.figures_only) return figures(), 0;
   const erbs::MotionReader reader(a.dir);
-  if (movie.svg) return render::make_drawings(folder, reader, movie, erbs::catch_interrupts()) ? 0 : 130;
+  if (movie.svg) return render::make_drawings(folder, reader, movie, erbs::catch_interrupts(), figures) ? 0 : 130;
   render::prepare_contexts();
-  if (!render::make_movie(folder, reader, movie, erbs::catch_interrupts())) return 130;
+  if (!render::make_movie(folder, reader, movie, erbs::catch_interrupts(), figures)) return 130;
   if (!movie.quiet && !folder.verdict.empty()) erbs::tell(stdout, folder.verdict);
   return 0;
 }
@@ -198,7 +200,9 @@ CLI::Validator within(double low, double high) {
 void add_comparison(CLI::App& app, Arguments& a) {
   app.add_option("--compare", a.comparison.film, "a film, or a folder of PNG files: compare the run with it");
   app.add_option("--compare-to", a.comparison.place, "folder of the comparison (default DIR/compare)");
-  app.add_option("--film-background", a.comparison.background, "of that film: rows (medians of its first picture), drawn, or a PNG")
+  app.add_option("--film-background", a.comparison.background,
+                 "what that film shows without the structure: rows (the median of each row of its first picture), drawn (the run without "
+                 "blocks; for films made with --no-overlay), or a PNG")
       ->capture_default_str();
   app.add_option("--film-width", a.comparison.width,
                  "of the pictures of the run and of the films that show both, at most (px; measured are at most 640)")

@@ -67,8 +67,20 @@ Alignment alignment_of(const CompareCommand& command, bool of_run) {
   return command.align == "first-motion" ? Alignment::first_motion : Alignment::correlation;
 }
 
+// "shake 3.9 / 4.1 m/s2, height 2 / 3 m": params of the run and of the reference, at most three of them.
+std::string note_of(const SceneDifferences& scenes) {
+  std::string note;
+  for (std::size_t i = 0; i < std::min<std::size_t>(scenes.params.size(), 3); ++i) {
+    const ParamDifference& p = scenes.params[i];
+    const auto value = [](const std::optional<double>& v) { return v ? fmt::format("{:.4g}", *v) : std::string("none"); };
+    note += fmt::format("; {} {} / {}{}{}", p.name, value(p.run), value(p.reference), p.unit.empty() ? "" : " ", p.unit);
+  }
+  return scenes.params.size() > 3 ? note + "; ..." : note;
+}
+
 // The columns of the largest peaks come first.
-plot::Figure figure_of(const std::vector<ColumnPair>& pairs, const TimeShift& shift, const std::string& run, const std::string& reference) {
+plot::Figure figure_of(const std::vector<ColumnPair>& pairs, const TimeShift& shift, const std::string& run, const std::string& reference,
+                       const std::optional<SceneDifferences>& scenes) {
   std::vector<HistoryCurve> curves;
   for (std::size_t i = 0; i < std::min(pairs.size(), most_drawn); ++i) {
     const ColumnPair& pair = pairs[i];
@@ -81,6 +93,7 @@ plot::Figure figure_of(const std::vector<ColumnPair>& pairs, const TimeShift& sh
                          ? "times as recorded"
                          : fmt::format("time of the reference; the run is {:+.4f} s later, by {}", shift.lag, words_of(shift.how));
   if (pairs.size() > most_drawn) note += fmt::format("; {} of {} columns", most_drawn, pairs.size());
+  if (scenes) note += note_of(*scenes);
   return curve_figure(curves, CurveKind::history, note);
 }
 
@@ -142,15 +155,19 @@ int compare_pictures(const CompareCommand& command, const fs::path& place, const
 }  // namespace
 
 std::vector<std::pair<std::string, std::string>> film_options() {
-  return {{"--camera", "camera of the scene, by name (default: the first)"},
-          {"--eye", "x,y,z: position of a camera of your own (m)"},
-          {"--target", "x,y,z: the point that it looks at (m)"},
-          {"--fov", "its vertical angle of view (deg)"},
-          {"--points", "x,y,z:u,v;..: four or more points (m) and their places in the picture (px), which give the camera"},
-          {"--fps", "pictures a second of a folder of frames (default 25)"},
-          {"--slow", "seconds of film for one second of the test (default 1)"},
-          {"--film-width", "of the pictures drawn and of the films at most, px (default 640, the size that is measured)"},
-          {"--film-background", "rows: the median of each row of its first picture (default); drawn: the run without blocks; or a PNG"}};
+  return {
+      {"--camera", "camera of the scene, by name (default: the first)"},
+      {"--eye", "x,y,z: position of a camera of your own (m)"},
+      {"--target", "x,y,z: the point that it looks at (m)"},
+      {"--fov", "its vertical angle of view (deg)"},
+      {"--points", "x,y,z:u,v;..: four or more points (m) and their places in the picture (px), which give the camera"},
+      {"--fps", "pictures a second of a folder of frames (default 25)"},
+      {"--slow", "seconds of film for one second of the test (default 1)"},
+      {"--film-width", "of the pictures drawn and of the films at most, px (default 640, the size that is measured)"},
+      {"--film-background",
+       "what the film shows where the structure is not, from which its silhouette is told. rows (default): the median colour of each row "
+       "of the first picture, for a structure that fills less than half of each row; drawn: the run drawn without its blocks, for films "
+       "that erbs render has made, with --no-overlay; or a PNG in the size of the film, such as a picture of the empty table"}};
 }
 
 int verb_compare(const CompareCommand& command) {
@@ -167,6 +184,7 @@ int verb_compare(const CompareCommand& command) {
   const CsvTable other = of_run ? read_histories(reference) : read_csv(reference);
   if (of_run) check_blocks(run, reference);
   RunComparison comparison;
+  if (of_run) comparison.scenes = compare_scenes(read_manifest(run), read_manifest(reference));
   const std::vector<ColumnPair> pairs =
       pair_columns(own, other, command.columns, of_run ? run_file(reference, "histories.csv") : reference);
   comparison.shift = find_shift(pairs, alignment_of(command, of_run), command.reach);
@@ -179,8 +197,9 @@ int verb_compare(const CompareCommand& command) {
   const bool passed = all_passed(judged);
   if (!limits.empty()) json["expectations"] = json_of(judged), json["passed"] = passed;
   fs::create_directories(place);
-  const std::string figure = draw_figure(
-      figure_of(pairs, comparison.shift, fs::canonical(run).filename().string(), fs::canonical(reference).filename().string()), place);
+  const std::string figure = draw_figure(figure_of(pairs, comparison.shift, fs::canonical(run).filename().string(),
+                                                   fs::canonical(reference).filename().string(), comparison.scenes),
+                                         place);
   write_json((place / "compare.json").string(), json);
   if (!command.output.quiet) {
     say("{}{}", table_of(comparison), table_of(judged));

@@ -34,6 +34,16 @@ void tell_missing_tractions(const ExportCommand& command, const ExportedRun& run
     say("joints have damage and opening, no tractions: the run kept none; analysis{{ frame_stress = true }} keeps them\n");
 }
 
+void tell_missing_times(const TimeSpan& span, const ExportedRun& run) {
+  const double slack = 1e-6 + run.manifest.frame_dt;  // the last frame may fall short of the duration by one
+  const bool before = std::isfinite(span.from) && span.from < run.first - slack,
+             after = std::isfinite(span.to) && span.to > run.last + slack;
+  if (before || after)
+    tell(stderr, fmt::format("warning: --time {:g}:{:g} reaches beyond the run, which has frames from {:.6g} s to {:.6g} s; only these are "
+                             "written",
+                             span.from, span.to, run.first, run.last));
+}
+
 // What one format writes first; the others of its files lie beside it.
 std::string target(const fs::path& folder, const std::string& stem, const std::string& format) {
   const std::string ending = format == "gltf" ? ".glb" : format == "vtu" ? ".pvd" : format == "hdf5" ? ".h5" : "." + format;
@@ -48,6 +58,7 @@ int verb_export(const ExportCommand& command) {
   const std::string& dir = command.words.front();
   const TimeSpan span = command.time.empty() ? TimeSpan{} : time_span_of(command.time);
   const ExportedRun run = read_exported_run(dir, span.from, span.to, command.every);
+  tell_missing_times(span, run);
   const fs::path folder = command.output.directory.empty() ? fs::path(dir) / "export" : fs::path(command.output.directory);
   const std::string stem = file_stem(run.manifest.scene_name);
   const int instant = frame_at(run, command.at);

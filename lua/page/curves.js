@@ -3,7 +3,7 @@ import 'uplot/dist/uPlot.min.css';
 
 import uPlot from 'uplot';
 
-import {rareEvent, run, short, unitName} from './data.js';
+import {axisName, axisOf, push, rareEvent, run, short, unitName} from './data.js';
 
 const at = (id) => document.getElementById(id);
 const css = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
@@ -37,7 +37,7 @@ function marks(time) {
     hooks: {
       draw: (plot) => {
         const {ctx, bbox} = plot, line = (t, colour, width) => {
-          const x = plot.valToPos(t, 'x', true);
+          const x = plot.valToPos(axisOf(t), 'x', true);
           if (x < bbox.left || x > bbox.left + bbox.width) return;
           ctx.save();
           ctx.strokeStyle = colour, ctx.lineWidth = width * devicePixelRatio;
@@ -47,7 +47,7 @@ function marks(time) {
         };
         const bad = css('--bad'), seen = new Set();
         for (const event of run.events) {
-          const fell = event[1] === 'collapse', x = Math.round(plot.valToPos(event[0], 'x') / 4);
+          const fell = event[1] === 'collapse', x = Math.round(plot.valToPos(axisOf(event[0]), 'x') / 4);
           if (!rareEvent(event) || (!fell && seen.has(x))) continue;  // one line for all events of four pixels
           seen.add(x);
           line(event[0], `${bad}${fell ? 'ff' : '40'}`, fell ? 2 : 1);
@@ -58,7 +58,7 @@ function marks(time) {
   };
 }
 
-// A plot that fills `holder`. `series`: [{label, values}] over `x` (s); `time` gives the time of the replay.
+// A plot that fills `holder`. `series`: [{label, values}] over the times `x` (s); `time` gives the time of the replay.
 export function plotOf(holder, x, series, unit, time, height) {
   const ink = css('--ink'), grid = {stroke: css('--line'), width: 1};
   const axis = {stroke: ink, grid, ticks: grid, font: '13px system-ui, sans-serif', labelFont: '13px system-ui, sans-serif'};
@@ -72,12 +72,12 @@ export function plotOf(holder, x, series, unit, time, height) {
             cursor: {drag: {x: true, y: false}},
             scales: {x: {time: false}},
             axes: [
-              {...axis, label: 'time [s]'},
+              {...axis, label: axisName},
               {...axis, label: unit ? `[${unitName(unit)}]` : '', size: 72, values: (_, all) => all.map(short)}
             ],
             series:
                 [
-                  {label: 'time [s]', value}, ...series.map((one, i) => ({
+                  {label: axisName, value}, ...series.map((one, i) => ({
                                                               label: one.label,
                                                               stroke: colours[i % colours.length],
                                                               width: 1.5,
@@ -87,7 +87,7 @@ export function plotOf(holder, x, series, unit, time, height) {
                                                             }))
                 ],
           },
-          [x, ...series.map((one) => one.values)], holder);
+          [x.map(axisOf), ...series.map((one) => one.values)], holder);
   const watch = new ResizeObserver(() => plot.setSize({width: Math.max(200, holder.clientWidth), height}));
   watch.observe(holder);
   return {plot, remove: () => (watch.disconnect(), plot.destroy())};
@@ -118,7 +118,7 @@ export class Curves {
       at(id).addEventListener('click', () => this.zoom(factor));
     const rows = tables.histories.columns[0]?.length ?? 0;
     at('curves-note').textContent = 'Drag to zoom, double-click for the whole run; a name in the legend switches its curve. ' +
-        'Red lines are events (collapse bold), the blue line is the time of the replay.' +
+        `Red lines are events (collapse bold), the blue line is the ${push ? 'state' : 'time'} of the replay.` +
         (run.history_rows > rows ?
              ` Of ${run.history_rows} rows, those with the extremes of each ${Math.ceil((2 * run.history_rows) / rows)} are drawn.` :
              '');
@@ -134,7 +134,7 @@ export class Curves {
         window.innerWidth < 600 ? 280 : Math.max(340, window.innerHeight * 0.4));
     at('curves').setAttribute(
         'aria-label',
-        `${group.name} over time: ${
+        `${group.name} over ${push ? 'the states' : 'time'}: ${
             group.series
                 .map(
                     (one) => `${one.label}, largest ${short(one.values.reduce((most, v) => Math.max(most, Math.abs(v ?? 0)), 0))} ${
@@ -144,8 +144,8 @@ export class Curves {
 
   // About the time of the replay where it is in view, otherwise about the middle.
   zoom(factor) {
-    const {plot} = this.shown, x = plot.data[0], {min, max} = plot.scales.x;
-    const middle = this.time() > min && this.time() < max ? this.time() : (min + max) / 2, half = (factor * (max - min)) / 2;
+    const {plot} = this.shown, x = plot.data[0], {min, max} = plot.scales.x, now = axisOf(this.time());
+    const middle = now > min && now < max ? now : (min + max) / 2, half = (factor * (max - min)) / 2;
     plot.setScale('x', {min: Math.max(x[0], middle - half), max: Math.min(x.at(-1), middle + half)});
   }
 

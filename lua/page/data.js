@@ -54,6 +54,26 @@ export async function unpack() {
   return {poses, damage, histories, energy};
 }
 
+// A push has states of equilibrium in place of times: the i-th of them stands at i * frame_dt. What follows is the fall under the least
+// load without equilibrium. null for any other run.
+export const push = run.push && {...run.push, states: run.push.multipliers.length, step: run.manifest.frame_dt_s || 1};
+
+// "0.280 g", "tangent 0.280" or "0.280 of the load pattern".
+export function multiplierText(value) {
+  return push.unit === 'tan' ? `tangent ${short(value)}` : push.unit === 'g' ? `${short(value)} g` : `${short(value)} of the load pattern`;
+}
+
+// How a time (s) of the run is told.
+export function momentText(t, digits = 3) {
+  if (!push) return `${t.toFixed(digits)} s`;
+  const last = push.states - 1, state = Math.round(t / push.step);
+  return state > last ? `fall + ${(t - last * push.step).toFixed(2)} s` : `state ${state} of ${last}: ${multiplierText(push.multipliers[state])}`;
+}
+
+// Where a time stands on the axes of curves: its state, or the time itself.
+export const axisOf = (t) => (push ? t / push.step : t);
+export const axisName = !push ? 'time [s]' : run.times.at(-1) > (push.states - 0.5) * push.step ? `state [-]; the fall from state ${push.states} on` : 'state [-]';
+
 // What happens to the structure, not to one joint: engine/record/report/report.cpp keeps all of these.
 export const rareEvent = (event) => ['collapse', 'fall', 'hinge', 'slide', 'part'].includes(event[1]);
 

@@ -1,6 +1,6 @@
 // The page of erbs report: ties replay, curves and texts to one time.
 import './page.css';
-import {rareEvent, run, short, unpack, withUnit} from './data.js';
+import {momentText, rareEvent, run, short, unpack, withUnit} from './data.js';
 import {Curves, plotOf} from './curves.js';
 import {Motion} from './motion.js';
 import {groundBlocks, materialCss, Replay, scaleCss} from './replay.js';
@@ -17,8 +17,8 @@ function setTime(t) {
   curves?.redraw();
   blockCurve?.plot.redraw(false);
   at('scrub').value = time;
-  at('scrub').setAttribute('aria-valuetext', `${time.toFixed(2)} seconds of ${last.toFixed(2)}`);
-  at('clock').textContent = `${time.toFixed(3)} s`;
+  at('scrub').setAttribute('aria-valuetext', `${momentText(time, 2)} of ${momentText(last, 2)}`);
+  at('clock').textContent = momentText(time);
   showJoints(frame);
 }
 

@@ -1,5 +1,6 @@
 // The parts of the page that are read: verdict, trust, events, parameters, effects, provenance.
-import {rareEvent, run, short, unitName, withUnit} from './data.js';
+import {momentText, push, rareEvent, run, short, unitName, withUnit} from './data.js';
+import {pushCards} from './push.js';
 
 const at = (id) => document.getElementById(id);
 
@@ -18,7 +19,7 @@ export function table(caption, head, rows) {
       [make('caption', caption), make('thead', make('tr', head.map((name) => make('th', name, {scope: 'col'})))), make('tbody', body)]);
 }
 
-function card(kind, heading, lead, lines) {
+export function card(kind, heading, lead, lines) {
   return make(
       'section', [make('p', heading, {class: 'quiet'}), make('strong', lead), make('ul', lines.map((line) => make('li', line)))],
       {class: `card ${kind}`, 'aria-label': heading});
@@ -48,14 +49,14 @@ function verdictCard(metrics) {
 function trustCard(metrics) {
   if (!metrics?.trust) return card('warn', 'Trust', 'Unknown', ['The run left no figures by which to judge it.']);
   const t = metrics.trust, percent = (share) => `${short(100 * share)} %`, warned = t.warned_share > 0;
-  const bad = ['failed', 'inaccurate'].includes(metrics.status) || t.past_gate_share > 0;
+  const bad = ['diverged', 'inaccurate'].includes(metrics.status) || t.past_gate_share > 0;
   const lead = bad ? 'With care: the numbers did not hold' :
       warned       ? `Energy accounted for; ${percent(t.warned_share)} of steps with a warning` :
                      'Energy accounted for, no warnings';
   const lines = [
     `Largest energy residual ${short(t.energy_residual)} of all energy, at ${short(t.energy_residual_time_s ?? 0)} s`,
     `Penetration at most ${percent(t.max_penetration_relative)} of a block's smallest edge`,
-    `Time step at most ${short(t.dt_margin)} of its limit`, `Momentum residual ${short(t.momentum_residual ?? 0)}`
+    `Time step at most ${short(t.dt_margin)} of its limit`, `Inner forces balance but for ${short(t.momentum_residual ?? 0)} of their sum`
   ];
   if (t.sinking_share > 0) lines.push(`Deepening penetration in ${percent(t.sinking_share)} of steps`);
   if (t.past_step_share > 0) lines.push(`Time step above its limit in ${percent(t.past_step_share)} of steps`);
@@ -79,7 +80,7 @@ function figures(metrics) {
   if (!own.length) return [];
   const units = Object.fromEntries((run.manifest.metrics ?? []).map((m) => [m.name, m.unit]));
   const lines = own.map(([name, value]) => `${name}: ${withUnit(typeof value === 'object' ? JSON.stringify(value) : value, units[name])}`);
-  return [make('details', [make('summary', `${own.length} figures of the scene`), make('ul', lines.map((line) => make('li', line)))])];
+  return [make('details', [make('summary', `${own.length} figure${own.length === 1 ? '' : 's'} of the scene`), make('ul', lines.map((line) => make('li', line)))])];
 }
 
 function showParameters() {
@@ -133,21 +134,23 @@ const mostRows = 300;
 function showEvents(kind, goTo) {
   const chosen = run.events.filter((e) => (kind === 'rare' ? rareEvent(e) : kind === 'all' || e[1] === kind));
   const rows = chosen.slice(0, mostRows).map((e) => {
-    const button = make('button', `${short(e[0])} s`, {type: 'button', 'aria-label': `Go to ${short(e[0])} s`});
+    const moment = push ? momentText(e[0]) : `${short(e[0])} s`;
+    const button = make('button', moment, {type: 'button', 'aria-label': `Go to ${moment}`});
     button.addEventListener('click', () => goTo(e[0]));
     return [button, String(e[1]), String(e[2] ?? ''), withUnit(e[3], e[4])];
   });
   const more = chosen.length > mostRows ? ` The first ${mostRows} are listed; events.csv holds all.` : '';
-  const caption = `${chosen.length} events. The time moves the replay there.${more}`;
-  at('events').replaceChildren(table(caption, ['Time', 'Event', 'Where', 'Value'], rows));
+  const name = push ? 'State' : 'Time', caption = `${chosen.length} event${chosen.length === 1 ? '' : 's'}. The ${name.toLowerCase()} moves the replay there.${more}`;
+  if (!rows.length) return at('events').replaceChildren(make('p', 'The run recorded no events.', {class: 'quiet'}));
+  at('events').replaceChildren(table(caption, [name, 'Event', 'Where', 'Value'], rows));
 }
 
 export function showTexts(goTo) {
   const {manifest, metrics} = run;
   at('scene-name').textContent = `Scene ${manifest.scene.name}`;
-  const cost = costCard(manifest, metrics);
-  cost.append(...figures(metrics));
-  at('verdict').append(verdictCard(metrics), trustCard(metrics), cost);
+  const cards = push ? pushCards(manifest, metrics) : [verdictCard(metrics), trustCard(metrics), costCard(manifest, metrics)];
+  cards.at(-1).append(...figures(metrics));
+  at('verdict').append(...cards);
   showParameters();
   showEffects();
   showProvenance();

@@ -148,6 +148,9 @@ void add_compare(CLI::App& app, CompareCommand& command) {
     const auto pass = [&command, name = name](const std::string& value) { command.film.insert(command.film.end(), {name, value}); };
     compare.add_option_function<std::string>(name, pass, "of a film: " + text)->check(filled());
   }
+  compare.footer(
+      "A film of erbs render must be made with --no-overlay: its title, legend and strip are taken for the structure otherwise, and they\n"
+      "leave it less room. e.g. erbs render runs/a --no-overlay && erbs compare runs/b runs/a/a_corner.mp4 --film-background drawn");
   add_output(compare, command.output, "DIR/compare");
 }
 

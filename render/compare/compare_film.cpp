@@ -14,6 +14,7 @@
 #include "render/compare/films.h"
 #include "render/image/compare.h"
 #include "render/movie/film_reader.h"
+#include "render/movie/scenery.h"
 #include "render/movie/workers.h"
 
 namespace erbs::render {
@@ -52,9 +53,7 @@ struct RunDrawer {
     const auto prepare = [this, sized]() -> Workers::Draw {
       const auto painter = std::make_shared<Painter>(show, sized, movie.context);
       return [this, painter](std::size_t, const MotionFrame& frame) {
-        std::optional<Mat3> level;
-        if (!run.gravity.empty() && movie.look.table_turns) level = levelling(run.gravity, frame.t);
-        return painter->draw(frame, camera, level);
+        return painter->draw(frame, camera, levelling_at(run, show.stage, movie.look, frame.t));
       };
     };
     const auto wish = std::size_t(movie.threads > 0 ? movie.threads : usable_processors());
@@ -127,11 +126,16 @@ struct Meter {
   int factor;
   Image run_background, film_background;  // reduced
   Gray run_last, film_last;
+  Mask run_ever, film_always;
+  double film_area = 0;  // px, sum over the pictures
+  std::size_t pictures = 0;
   FrameErrors errors(const Image& run, const Image& film, double time) {
     const Image a = reduced(run, factor), b = reduced(film, factor);
     FrameErrors e;
     e.time = time;
-    e.overlap = overlap(silhouette(a, run_background), silhouette(b, film_background));
+    const Mask of_run = silhouette(a, run_background), of_film = silhouette(b, film_background);
+    e.overlap = overlap(of_run, of_film);
+    add(of_run, of_film);
     e.ssim = compare(a, b).ssim;
     const int further = reduction_to(a.width, signal_width);
     Gray run_now = gray_of(reduced(a, further)), film_now = gray_of(reduced(b, further));
@@ -141,6 +145,15 @@ struct Meter {
     }
     run_last = std::move(run_now), film_last = std::move(film_now);
     return e;
+  }
+  void add(const Mask& of_run, const Mask& of_film) {
+    if (++pictures == 1) run_ever.assign(of_run.size(), 0), film_always.assign(of_film.size(), 1);
+    for (std::size_t i = 0; i < of_run.size(); ++i) run_ever[i] |= of_run[i], film_always[i] &= of_film[i], film_area += of_film[i];
+  }
+  double standing() const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < film_always.size(); ++i) count += film_always[i] != 0 && run_ever[i] == 0 ? 1 : 0;
+    return film_area > 0 ? double(count) * double(pictures) / film_area : 0;
   }
 };
 
@@ -199,7 +212,7 @@ bool measure(const RunDrawer& drawer, Workers& workers, FilmReader& film, FilmEr
   const Image background = background_of(wish, film, *picture, empty);
   const int factor = reduction_to(drawer.width, measured_width);
   errors.reduction = factor * (film.width() / drawer.width);
-  Meter meter{factor, reduced(empty, factor), reduced(background, factor), {}, {}};
+  Meter meter{factor, reduced(empty, factor), reduced(background, factor), {}, {}, {}, {}};
   for (std::size_t i = 0; i < first; ++i) picture = film.next();
   fs::create_directories(wish.place);
   films.emplace(wish.place, drawer.width, drawer.height, drawer.movie.fps);
@@ -212,6 +225,7 @@ bool measure(const RunDrawer& drawer, Workers& workers, FilmReader& film, FilmEr
     return true;
   });
   work.finish();
+  errors.standing = meter.standing();
   return !stop;
 }
 
@@ -238,6 +252,8 @@ bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const
     });
   const Camera camera = cameras.front();
   errors.camera = camera.name;
+  if (const MotionBlock* block = block_around(camera.eye, reader.scene(), reader.read(0), show.stage.hidden))
+    throw Error(inside_text(camera, *block, reader.times().front()) + "; move it out, with --eye x,y,z");
   const RunDrawer drawer{run, reader, movie, std::move(show), camera, movie.look.width, movie.look.height};
   // These processes prepare themselves, and draw the picture without blocks, while the film is read.
   Workers workers = drawer.start(reader.times().size());

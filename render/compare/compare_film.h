@@ -40,7 +40,9 @@ struct FilmErrors {
   std::vector<FrameErrors> frames;
   std::size_t outside = 0;  // pictures of the film outside the run
   std::size_t missing = 0;  // pictures that the head of the film names and that cannot be read
-  int reduction = 1;        // pixels of a picture for one of the measures, along each side
+  // Share of the silhouette of the film that is there in every picture, where the run never shows a block.
+  double standing = 0;
+  int reduction = 1;  // pixels of a picture for one of the measures, along each side
   std::string camera;
   double wall = 0;  // s
 };

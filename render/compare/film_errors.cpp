@@ -13,6 +13,8 @@
 namespace erbs::render {
 namespace {
 
+constexpr double most_standing = 0.1;  // of its silhouette; noise of a film and edges of blocks make less than 0.02
+
 // Mean of what is a number; NaN if nothing is.
 template <class Value>
 double mean_of(const std::vector<FrameErrors>& frames, Value&& value) {
@@ -116,6 +118,7 @@ void write_film_errors(const FilmErrors& e, const FilmComparison& wish, bool qui
   json["iou_mean"] = iou, json["iou_least"] = least, json["ssim_mean"] = ssim, json["flow_angle_mean_deg"] = angle;
   json["direction_run_deg"] = direction_of(run), json["direction_reference_deg"] = direction_of(film);
   json["direction_error_deg"] = angle_between(run, film);
+  json["standing_share"] = e.standing;
   json["frames_compared"] = e.frames.size(), json["frames_outside"] = e.outside, json["frames_missing"] = e.missing,
   json["wall_s"] = e.wall;
   json["frames"] = list_of(e);
@@ -123,6 +126,12 @@ void write_film_errors(const FilmErrors& e, const FilmComparison& wish, bool qui
   if (e.missing > 0)
     tell(stderr, fmt::format("warning: {}: the film breaks off: {} of its {} pictures cannot be read; is the file whole?",
                              shown(wish.film, 200), e.missing, e.missing + e.film.t.size() + 1));
+  if (e.standing > most_standing)
+    tell(stderr,
+         fmt::format("warning: {:.0f} % of the silhouette of the film stand still where the run never shows a block, and count against the "
+                     "IoU: a title, legend or strip, or what stands beside the structure. Draw films of erbs render with --no-overlay; for "
+                     "others give a picture of the scene without the structure, by --film-background FILE.png",
+                     100 * e.standing));
   if (e.outside > 0) tell(stderr, fmt::format("warning: {} pictures of the film lie outside the run and are left out", e.outside));
   if (e.at_edge) tell(stderr, "warning: the best lag is the largest one searched; the true one may lie beyond, see --reach");
   if (wish.align == "correlation" && e.correlation < 0.9)

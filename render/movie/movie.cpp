@@ -40,20 +40,24 @@ struct Files {
   }
 };
 
-// With --force, removes the pictures of an earlier and perhaps longer movie. Without it, Error if an output exists.
-Files prepare_files(const Run& run, const Movie& movie, const Camera& camera, const Schedule& schedule) {
+// Error if an output exists, unless --force allows it.
+Files files_of(const Run& run, const Movie& movie, const std::string& camera, const Schedule& schedule) {
   const fs::path dir(run.dir);
-  Files files{dir / "frames", file_stem(camera.name), "", !movie.stills.empty()};
+  Files files{dir / "frames", file_stem(camera), "", !movie.stills.empty()};
   if (movie.video && movie.stills.empty())
     files.video = (dir / fmt::format("{}_{}.{}", file_stem(run.name), files.stem, movie.webp ? "webp" : "mp4")).string();
   for (const std::string& path : {files.video, files.picture(0, schedule.times.front())})
     if (!movie.force && !path.empty() && fs::exists(path)) throw Error("it exists already; --force writes it anew", {path, 0});
+  return files;
+}
+
+// Removes the pictures of an earlier and perhaps longer movie.
+void prepare_folder(const Files& files) {
   std::error_code failed;
   fs::create_directories(files.frames, failed);
   if (failed) throw Error("the folder cannot be made; may you write there?", {files.frames.string(), 0});
   if (!files.stills)
     for (std::size_t i = 0; fs::remove(files.picture(i, 0), failed); ++i) {}
-  return files;
 }
 
 // The cameras of a film side by side, each in a tile of the picture; one tile where there is one camera.
@@ -107,8 +111,7 @@ Workers::Draw drawer(const Run& run, const Show& show, const Movie& movie, const
   std::vector<std::shared_ptr<Overlay>> overlays;
   for (const Shot& shot : tiles.shots) overlays.push_back(std::make_shared<Overlay>(run, show, tiles.look, shot.camera.name, slow));
   return [=, &files, &run, &show, &tiles](std::size_t index, const MotionFrame& frame) {
-    std::optional<Mat3> level;
-    if (!run.gravity.empty() && l.table_turns) level = levelling(run.gravity, frame.t);
+    const std::optional<Mat3> level = levelling_at(run, show.stage, l, frame.t);
     const Marks none, &marks = tiles.marks.empty() ? none : tiles.marks[index];
     const Look& of = tiles.look;
     Image image;
@@ -191,11 +194,14 @@ class Progress {
   Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 
+// Of the pictures of the tiles that begin with this shot.
+std::string name_of(const Shot& first, bool split) { return split ? "split" : first.camera.name; }
+
 bool film(const Run& run, const Show& show, const Scenery& scenery, const Movie& movie, const Tiles& tiles, const Schedule& schedule,
           const std::atomic<bool>& stop) {
-  Camera named = tiles.shots.front().camera;
-  if (tiles.split()) named.name = "split";
-  const Files files = prepare_files(run, movie, named, schedule);
+  const std::string name = name_of(tiles.shots.front(), tiles.split());
+  const Files files = files_of(run, movie, name, schedule);
+  prepare_folder(files);
   const std::size_t all = schedule.times.size();
   const auto wish = static_cast<std::size_t>(movie.threads > 0 ? movie.threads : usable_processors());
   const auto start = Clock::now();
@@ -213,7 +219,7 @@ bool film(const Run& run, const Show& show, const Scenery& scenery, const Movie&
       if (video) video->add(image);
       if (!movie.expected.empty()) compare_with(movie.expected, image, run, fs::path(files.picture(i, schedule.times[i])).stem().string());
       made = i + 1;
-      progress.tell(named.name, made, all);
+      progress.tell(name, made, all);
       return !stop;
     });
   }
@@ -242,7 +248,8 @@ Show show_of(const Run& run, const MotionReader& reader, const Movie& movie, boo
   return prepare_show(reader.scene(), run, stage_of(run, reader, excerpt, movie), {}, std::nullopt, sharp);  // it keeps the scene's address
 }
 
-bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, const std::atomic<bool>& stop) {
+bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, const std::atomic<bool>& stop,
+                const std::function<void()>& checked) {
   Movie movie = wish;
   if (movie.video && movie.stills.empty() && !can_start("ffmpeg")) {
     tell(stderr, "warning: a video needs ffmpeg, which is not there: its frames are written without it; install the package ffmpeg");
@@ -257,6 +264,9 @@ bool make_movie(const Run& run, const MotionReader& reader, const Movie& wish, c
   const Look& l = tiles.look;
   Scenery scenery(run, reader, movie, l.width / (l.height - l.top - l.bottom), schedule.times);
   scenery.check_eyes(schedule.times);
+  for (std::size_t k = 0; k < scenery.shots().size(); k += together)
+    files_of(run, movie, name_of(scenery.shots()[k], tiles.split()), schedule);
+  if (checked) checked();
   const Show show = scenery.show(schedule.times);
   if (movie.marks.any())
     for (const double t : schedule.times) tiles.marks.push_back(scenery.marks(t));

@@ -89,7 +89,12 @@ std::size_t cameras_of(const Run& run, const Movie& movie);
 // The stage of what is drawn, from frames spread over the run.
 Stage stage_of(const Run& run, const MotionReader& reader, const Excerpt& excerpt, const Movie& movie);
 
-// Draws and writes everything, and prints the paths written. False if `stop` was set meanwhile.
-bool make_movie(const Run& run, const MotionReader& reader, const Movie& movie, const std::atomic<bool>& stop);
+// The levelling with which a picture at time t is drawn: that of a table which turns; none of a level one, where the ground has no end.
+std::optional<Mat3> levelling_at(const Run& run, const Stage& stage, const Look& look, double t);
+
+// Draws and writes everything, and prints the paths written. Calls `checked` once all that the movie asks for has been found good, before
+// anything is written. False if `stop` was set meanwhile.
+bool make_movie(const Run& run, const MotionReader& reader, const Movie& movie, const std::atomic<bool>& stop,
+                const std::function<void()>& checked = {});
 
 }  // namespace erbs::render

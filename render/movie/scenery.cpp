@@ -29,11 +29,20 @@ Stage stage_of(const Run& run, const MotionReader& reader, const Excerpt& excerp
   for (std::size_t i = 0; i < count; i += step) add(i);
   add(count - 1);
   Stage stage = set_stage(excerpt.scene, some);
-  if (run.gravity.empty() || !movie.look.table_turns) return stage;
+  if (run.gravity.empty() || !movie.look.table_turns) {
+    // Of a transparent picture only shadows on the ground are seen, which may lie beyond it.
+    if (movie.look.background != Background::transparent) bound_ground(stage, excerpt.scene, some);
+    return stage;
+  }
   std::vector<Mat3> level;
   for (const MotionFrame& frame : some) level.push_back(levelling(run.gravity, frame.t));
   turn_table(stage, excerpt.scene, some, level);
   return stage;
+}
+
+std::optional<Mat3> levelling_at(const Run& run, const Stage& stage, const Look& look, double t) {
+  if (!run.gravity.empty() && look.table_turns) return levelling(run.gravity, t);
+  return stage.bounded ? std::optional<Mat3>(Mat3::Identity()) : std::nullopt;
 }
 
 Scenery::Scenery(const Run& run, const MotionReader& reader, const Movie& movie, double aspect, const std::vector<double>& times)
@@ -106,32 +115,47 @@ std::vector<Impact> Scenery::impacts() const {
   return finder.impacts;
 }
 
+namespace {
+
+std::string words_of(const Camera& camera) { return camera.name == "own" ? "the camera of --eye" : "the camera " + shown(camera.name, 60); }
+
+}  // namespace
+
+const MotionBlock* block_around(const Vec3& point, const MotionScene& scene, const MotionFrame& frame, const std::vector<bool>& left_out) {
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
+    const float* p = &frame.poses[7 * b];
+    const Vec3 from = point - Vec3(p[0], p[1], p[2]);
+    if (left_out[b] || !from.allFinite()) continue;
+    const Vec3 at_rest = Eigen::Quaterniond(p[3], p[4], p[5], p[6]).normalized().conjugate() * from + scene.blocks[b].rest;
+    if (is_inside(scene, b, at_rest)) return &scene.blocks[b];
+  }
+  return nullptr;
+}
+
+std::string inside_text(const Camera& camera, const MotionBlock& block, double t) {
+  return fmt::format("{} stands inside block {} at {:g} s, so that it sees nothing else", words_of(camera), shown(block.name, 60), t);
+}
+
 void Scenery::check_eyes(const std::vector<double>& times) const {
   const MotionScene scene = section_ ? cut_scene(excerpt_.scene, *section_, stage_.hidden) : excerpt_.scene;
-  const std::vector<bool> ghost = in_groups(scene, movie_.ghost, "--ghost");
+  std::vector<bool> unseen = in_groups(scene, movie_.ghost, "--ghost");
+  for (std::size_t b = 0; b < unseen.size(); ++b) unseen[b] = unseen[b] || stage_.hidden[b];
   const std::size_t stride = std::max<std::size_t>(1, times.size() / 24);
   for (const Shot& shot : shots_) {
     bool warned = false;
     for (std::size_t i = 0; i < times.size() && !warned; i += stride) {
       const double t = times[i];
-      const MotionFrame frame = drawn(t);
       Vec3 eye = shot.at(t).eye;
       if (!stage_.positions.empty()) eye = in_scene(shot.at(t), table_position(stage_, levelling(run_.gravity, t))).eye;
-      const std::string camera = shot.camera.name == "own" ? "the camera of --eye" : "the camera " + shown(shot.camera.name, 60);
-      for (std::size_t b = 0; b < scene.blocks.size() && !warned; ++b) {
-        const float* p = &frame.poses[7 * b];
-        const Vec3 from = eye - Vec3(p[0], p[1], p[2]);
-        if (stage_.hidden[b] || ghost[b] || !from.allFinite()) continue;
-        const Vec3 at_rest = Eigen::Quaterniond(p[3], p[4], p[5], p[6]).normalized().conjugate() * from + scene.blocks[b].rest;
-        if (!is_inside(scene, b, at_rest)) continue;
-        const std::string what =
-            fmt::format("{} stands inside block {} at {:g} s, so that it sees nothing else", camera, shown(scene.blocks[b].name, 60), t);
+      if (const MotionBlock* block = block_around(eye, scene, drawn(t), unseen)) {
+        const std::string what = inside_text(shot.camera, *block, t);
         if (i == 0) throw Error(what + "; move it out, with --eye x,y,z or --fit");
         tell(stderr, "warning: " + what);
         warned = true;
       }
       if (!warned && stage_.on_ground && stage_.positions.empty() && eye.z() < stage_.ground_z) {
-        tell(stderr, "warning: " + camera + " stands below the ground and looks at the building from there; raise it with --eye x,y,z");
+        tell(stderr, "warning: " + words_of(shot.camera) +
+                         " stands below the ground and looks at the building from there; raise it with --eye x,y,z");
         warned = true;
       }
     }

@@ -51,6 +51,11 @@ class Scenery {
   MarkScale mark_scale_;
 };
 
+// The block in which a point (m, of the scene) lies in this frame; null in none of those that are not left out [blocks].
+const MotionBlock* block_around(const Vec3& point, const MotionScene& scene, const MotionFrame& frame, const std::vector<bool>& left_out);
+// What is wrong with an eye inside this block.
+std::string inside_text(const Camera& camera, const MotionBlock& block, double t);
+
 // Keyframes of a camera path: "t:x,y,z:x,y,z; ...", each a time (s), the eye and the target (m). Error if the text is none, with fewer than
 // two keyframes, or where times do not grow.
 struct CameraKey {

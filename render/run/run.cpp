@@ -102,6 +102,21 @@ Mat3 levelling(const GravityRecord& gravity, double t) {
   return Eigen::Quaterniond::FromTwoVectors(gravity_at(gravity, t), -Vec3::UnitZ()).toRotationMatrix();
 }
 
+std::string clock_text(const Run& run, double t) {
+  if (run.multipliers.empty() || !(run.state_dt > 0)) return fmt::format("{:.2f} s", t);
+  const std::size_t last = run.multipliers.size() - 1;
+  const double end = static_cast<double>(last) * run.state_dt;
+  if (t > end + 0.5 * run.state_dt) return fmt::format("fall + {:.2f} s", t - end);
+  const auto state = static_cast<std::size_t>(std::lround(std::max(0.0, t) / run.state_dt));
+  const double multiplier = run.multipliers[state];
+  if (run.multiplier_unit == "tan") return fmt::format("state {}: {:.2f}\u00b0", state, std::atan(multiplier) * 180 / pi);
+  return fmt::format("state {}: {:.3f}{}", state, multiplier, run.multiplier_unit == "g" ? " g" : "");
+}
+
+std::string widest_clock(const Run& run) {
+  return run.multipliers.empty() ? "00.00 s" : fmt::format("state {}: 0.000 g", run.multipliers.size());
+}
+
 Run read_run(const std::string& dir) {
   const std::string manifest = run_file(dir, "manifest.json"), histories = run_file(dir, "histories.csv");
   if (!std::filesystem::exists(dir)) throw Error("no such folder; give the folder of a run, e.g. runs/first", {dir, 0});
@@ -136,6 +151,14 @@ Run read_run(const std::string& dir) {
       for (const Vec3& g : run.gravity.g) leans.push_back(lean_of(g));
       run.tilt = along_principal(run.gravity.t, leans);
       if (run.tilt.axis.empty()) run.gravity = {};  // it never leans
+    }
+  }
+  if (const std::string path = run_file(dir, "curve.csv"); std::filesystem::exists(path)) {
+    const CsvTable curve = read_csv(path);
+    const std::string first = curve.names.empty() ? "" : curve.names.front(), stem = "multiplier";
+    if (first.starts_with(stem)) {
+      run.multipliers = curve.columns.front(), run.state_dt = m.frame_dt;
+      run.multiplier_unit = first.size() > stem.size() ? first.substr(stem.size() + 1) : "";
     }
   }
   if (const std::string events = run_file(dir, "events.csv"); std::filesystem::exists(events)) run.marks = first_events(read_csv(events));

@@ -47,14 +47,23 @@ struct Run {
   std::vector<Paint> materials;  // by material index
   GroundRecord record;           // the strongest component
   GravityRecord gravity;
-  GroundRecord tilt;            // the same as angle about a horizontal axis; a and peak in degrees
-  std::vector<Mark> marks;      // in order of time
-  double energy_tolerance = 0;  // relative; 0: unknown
-  std::string verdict;          // one sentence on a collapse; "" without one
-  std::string status;           // status of an unreliable run; "" if completed or still running
+  GroundRecord tilt;        // the same as angle about a horizontal axis; a and peak in degrees
+  std::vector<Mark> marks;  // in order of time
+  // Of a push, which has states of equilibrium in place of times: the i-th stands at i * state_dt, and then the structure may fall.
+  std::vector<double> multipliers;  // [states]
+  std::string multiplier_unit;      // "g", "tan" of a tilt, or ""
+  double state_dt = 0;              // s
+  double energy_tolerance = 0;      // relative; 0: unknown
+  std::string verdict;              // one sentence on a collapse; "" without one
+  std::string status;               // status of an unreliable run; "" if completed or still running
 
   const GroundRecord& strip() const { return record.axis.empty() ? tilt : record; }  // what the strip below pictures shows
 };
+
+// The clock of a picture: "1.25 s", or of a push "state 7: 0.12 g", "fall + 0.40 s".
+std::string clock_text(const Run& run, double t);
+// The widest that it becomes.
+std::string widest_clock(const Run& run);
 
 // Error if DIR is no run folder.
 Run read_run(const std::string& dir);

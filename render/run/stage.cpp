@@ -155,6 +155,29 @@ void turn_table(Stage& stage, const MotionScene& scene, const std::vector<Motion
   }
 }
 
+// The ground of the engine is finite, and so is a wall's foot in a scene without ground. What falls past it never lands: it would sink
+// through a plane that goes on. What is pressed into the ground, or has been driven through it, lies within its outline.
+void bound_ground(Stage& stage, const MotionScene& scene, const std::vector<MotionFrame>& some_frames) {
+  Eigen::AlignedBox3d ground;
+  std::vector<double> thin;  // m, half the smallest edge of each block
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
+    const Eigen::AlignedBox3d box = box_of(scene, scene.blocks[b]);
+    thin.push_back(0.5 * box.sizes().minCoeff());
+    if (stage.hidden[b]) ground.extend(box);
+  }
+  const auto above = [&](const Vec3& at) { return stage.on_ground && ground.contains(Vec3(at.x(), at.y(), ground.center().z())); };
+  for (const MotionFrame& frame : some_frames)
+    for (std::size_t b = 0; b < thin.size(); ++b) {
+      const Vec3 at = Eigen::Map<const Eigen::Vector3f>(&frame.poses[7 * b]).cast<double>();
+      if (stage.hidden[b] || scene.blocks[b].fixed || !at.allFinite() || above(at)) continue;
+      if (at.z() + thin[b] < stage.ground_z) stage.bounded = true;
+    }
+  if (!stage.bounded || !stage.on_ground) return;
+  stage.table = ground;
+  stage.table.max().z() = stage.ground_z, stage.table.min().z() = stage.ground_z - 0.03 * stage.size();
+  stage.footing = stage.table, stage.floor = false;
+}
+
 Camera in_scene(const Camera& camera, const Eigen::Isometry3d& position) {
   Camera seen = camera;
   const Eigen::Isometry3d back = position.inverse();

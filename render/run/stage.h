@@ -17,6 +17,7 @@ struct Stage {
   bool on_ground = false;                                  // a ground block is drawn as a plane
   std::vector<Eigen::Isometry3d> positions;                // of the table over the run; empty: it stays
   bool floor = true;                                       // is drawn below a table that turns
+  bool bounded = false;                                    // blocks fall past a level ground, which is drawn only as far as it reaches
   double legend_width = 0, legend_height = 0;              // shares of what a camera sees that a legend covers, at its upper right
   std::vector<bool> hidden;                                // ground blocks, drawn as a plane [blocks]
   double size() const { return building.sizes().norm(); }  // m
@@ -28,6 +29,8 @@ Stage set_stage(const MotionScene& scene, const std::vector<MotionFrame>& some_f
 Eigen::Isometry3d table_position(const Stage& stage, const Mat3& levelling);
 // Sets the positions of the table in these frames, with the levelling of each, and whether there is a floor below it.
 void turn_table(Stage& stage, const MotionScene& scene, const std::vector<MotionFrame>& some_frames, const std::vector<Mat3>& levelling);
+// Sets `bounded` where a block ends below the ground, or below all that can be its support where the scene has no ground.
+void bound_ground(Stage& stage, const MotionScene& scene, const std::vector<MotionFrame>& some_frames);
 // The camera of the level world, as the scene sees it.
 Camera in_scene(const Camera& camera, const Eigen::Isometry3d& position);
 

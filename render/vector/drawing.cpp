@@ -160,7 +160,7 @@ std::string svg_of(const DrawnInstant& d) {
   const Projection projection(camera, d.parallel, d.look.width, d.look.height, d.look.top, d.look.bottom);
   put_lines(sheet, lines_of(d), d.look.top, d.look.bottom);
   put_marks(sheet, d.marks, projection);
-  const std::string when = fmt::format("{:.2f} s", d.frame.t);
+  const std::string when = clock_text(d.run, d.frame.t);
   if (d.look.overlay) {
     std::string name = d.camera.name == "own" ? "" : d.camera.name;
     std::replace(name.begin(), name.end(), '_', ' ');
@@ -169,13 +169,14 @@ std::string svg_of(const DrawnInstant& d) {
                std::min(20.0, (d.look.width / u - 330) / 0.62 / std::max<double>(1, static_cast<double>(d.run.title.size()))), text_color,
                d.run.title, "start", true);
     sheet.text(d.look.width - margin * u, 34 * u, 20, text_color, when, "end", true);
-    sheet.text(d.look.width - (margin + 100) * u, 34 * u, 13, quiet_color, name, "end");
+    sheet.text(d.look.width - (margin + 40 + 12 * static_cast<double>(when.size())) * u, 34 * u, 13, quiet_color, name, "end");
     put_legend(sheet, d, projection);
   }
   return sheet.whole(d.run.title + ", " + when, "Outlines of the blocks, and cracks of the joints, as computed by ERBS.");
 }
 
-bool make_drawings(const Run& run, const MotionReader& reader, const Movie& wish, const std::atomic<bool>& stop) {
+bool make_drawings(const Run& run, const MotionReader& reader, const Movie& wish, const std::atomic<bool>& stop,
+                   const std::function<void()>& checked) {
   Movie movie = wish;
   if (movie.stills.empty() && !reader.times().empty()) movie.stills = {reader.times().back()};
   movie.look.coloring = Coloring::material;
@@ -197,6 +198,7 @@ bool make_drawings(const Run& run, const MotionReader& reader, const Movie& wish
     for (const double t : schedule.times)
       if (const std::string path = path_of_still(shot, t); !movie.force && fs::exists(path))
         throw Error("it exists already; --force writes it anew", {path, 0});
+  if (checked) checked();
   std::error_code failed;
   fs::create_directories(folder, failed);
   if (failed) throw Error("the folder cannot be made; may you write there?", {folder.string(), 0});
@@ -205,7 +207,7 @@ bool make_drawings(const Run& run, const MotionReader& reader, const Movie& wish
       if (stop) return false;
       const MotionFrame frame = scenery.drawn(t);
       DrawnInstant instant{run, show, solid, l, shot.at(t), shot.camera.name.starts_with("from_"), frame, std::nullopt, scenery.marks(t)};
-      if (!run.gravity.empty() && l.table_turns) instant.position = table_position(show.stage, levelling(run.gravity, t));
+      if (const auto level = levelling_at(run, show.stage, l, t)) instant.position = table_position(show.stage, *level);
       const std::string path = path_of_still(shot, t), unfinished = path + ".part";
       std::ofstream out(unfinished);
       out << svg_of(instant);

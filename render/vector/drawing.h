@@ -41,6 +41,7 @@ std::string svg_of(const DrawnInstant& instant);
 
 // Writes DIR/frames/CAMERA_tTIME.svg for each camera and each time of --stills (without: the end of the run), and prints the paths. The
 // elevations (from_-x ... from_above) are parallel projections. False if `stop` was set meanwhile.
-bool make_drawings(const Run& run, const MotionReader& reader, const Movie& movie, const std::atomic<bool>& stop);
+bool make_drawings(const Run& run, const MotionReader& reader, const Movie& movie, const std::atomic<bool>& stop,
+                   const std::function<void()>& checked = {});
 
 }  // namespace erbs::render

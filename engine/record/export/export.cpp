@@ -61,10 +61,12 @@ ExportedRun read_exported_run(const std::string& dir, double from, double to, in
     hold_last_pose(run.frames.back(), n > 1 ? &run.frames[n - 2] : nullptr, run.scene);
   }
   if (times.empty()) throw Error("the run has no frames yet; run it longer than its frame_dt", {dir, 0});
+  run.first = times.front(), run.last = times.back();
   if (run.frames.empty())
-    throw Error(fmt::format("the span from {} s to {} s holds no frame; the run has frames from {} s to {} s", from, to, times.front(),
-                            times.back()),
-                {dir, 0});
+    throw Error(
+        fmt::format("--time {:g}:{:g} holds no frame; the run has {} frames from {:.6g} s to {:.6g} s: choose a span that holds some", from,
+                    to, times.size(), run.first, run.last),
+        {dir, 0});
   for (const MotionJoint& joint : run.scene.joints) run.joint_area.push_back(static_cast<float>(area_of(joint.polygon)));
   return run;
 }

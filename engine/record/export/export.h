@@ -17,6 +17,7 @@ struct ExportedRun {
   MotionScene scene;
   std::vector<MotionFrame> frames;    // in order of time; a pose that is not finite is that of the frame before
   std::vector<float> joint_area;      // m2 [joints]
+  double first = 0, last = 0;         // s, of the frames that the folder has
   Vec3 color(int block) const;        // linear 0..1, of its material; grey without one
   std::string name(int block) const;  // of the block, or "block 12"
 };

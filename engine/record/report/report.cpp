@@ -1,5 +1,6 @@
 #include "engine/record/report/report.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -73,29 +74,38 @@ Json scene_json(const ExportedRun& run) {
 
 Json table_json(const CsvTable& table) { return {{"names", table.names}, {"rows", table.rows()}}; }
 
-// What the curve of a push says, as text.
-std::vector<std::pair<std::string, std::string>> push_answers(const Json& metrics) {
+// Of the curve of a push, as text. `column`: name of its multiplier, which ends with its unit.
+std::vector<std::pair<std::string, std::string>> push_answers(const Json& metrics, const std::string& column) {
   std::vector<std::pair<std::string, std::string>> answers;
-  const auto add = [&](const char* what, const char* key, const char* unit) {
+  const auto add = [&](const char* what, const char* key, double factor, const char* unit) {
     if (const Json* value = find_key(metrics, key); value && value->is_number())
-      answers.emplace_back(what, fmt::format("{:.4g}{}", value->get<double>(), unit));
+      answers.emplace_back(what, fmt::format("{:.4g}{}", factor * value->get<double>(), unit));
   };
-  const Json* kind = find_key(metrics, "capacity.kind");
-  add(kind && *kind == "tilt" ? "largest tangent of the tilt" : "largest multiplier of the load", "capacity.multiplier", "");
-  add("angle", "capacity.angle_deg", " deg");
-  add("multiplier without equilibrium", "capacity.upper", "");
-  add("displacement there", "capacity.displacement_m", " m");
-  add("base shear there", "capacity.base_shear_N", " N");
-  add("base shear over weight", "capacity.base_shear_over_weight", "");
+  const bool tilts = column == "multiplier_tan";
+  const char* unit = column == "multiplier_g" ? " g" : tilts ? "" : " of the load pattern";
+  add(tilts ? "largest tilt" : "", "capacity.angle_deg", 1, " deg");
+  add(tilts ? "its tangent" : "largest multiplier of the load", "capacity.multiplier", 1, unit);
+  add(tilts ? "tangent without equilibrium" : "multiplier without equilibrium", "capacity.upper", 1, unit);
+  add("displacement of the monitored point there", "capacity.displacement_m", 1000, " mm");
+  add("base shear there", "capacity.base_shear_N", 1e-3, " kN");
+  add("base shear over weight", "capacity.base_shear_over_weight", 100, " %");
+  add("performance point (N2), displacement", "capacity.performance.n2.displacement_m", 1000, " mm");
   if (const Json* course = find_key(metrics, "capacity.mechanism_text");
       course && course->is_string() && !course->get<std::string>().empty())
     answers.emplace_back("mechanism", course->get<std::string>());
   return answers;
 }
 
+// The multiplier of each state, and its unit: the replay of a push names states in place of times. null for a run that is no push.
+Json push_json(const CsvTable& curve) {
+  if (curve.names.empty() || !curve.names.front().starts_with("multiplier")) return nullptr;
+  const std::string unit = curve.names.front().substr(std::min(curve.names.front().size(), std::string("multiplier_").size()));
+  return {{"unit", unit}, {"multipliers", curve.columns.front()}};
+}
+
 // A section of the page; "" for a run that is no push.
 std::string capacity_html(const ReportedRun& run) {
-  if (run.push_figures.empty()) return "";
+  if (run.push_curve.names.empty() || (run.push_answers.empty() && run.push_figures.empty())) return "";
   std::string html = "<section aria-labelledby=\"capacity-title\">\n<h2 id=\"capacity-title\">Capacity</h2>\n<div class=\"cards\">\n";
   for (const auto& [what, value] : run.push_answers)
     html += fmt::format("<div class=\"card\"><span class=\"quiet\">{}</span><strong>{}</strong></div>\n", safe_html(what),
@@ -106,7 +116,9 @@ std::string capacity_html(const ReportedRun& run) {
                         name == "curve.svg" ? "Multiplier of the load over the displacement of the monitored point"
                                             : "Capacity and demand, with the performance point",
                         base64(svg));
-  return html + "</div>\n<p class=\"quiet\">The replay above shows the states of the push, one after another.</p>\n</section>\n";
+  return html +
+         "</div>\n<p class=\"quiet\">The replay above shows the states of equilibrium one after another, and then the fall, if there is "
+         "one.</p>\n</section>\n";
 }
 
 }  // namespace
@@ -131,7 +143,8 @@ ReportedRun read_reported_run(const std::string& dir) {
     for (const char* name : {"curve.svg", "performance.svg"})
       if (std::ifstream in(run_file(dir, name), std::ios::binary); in)
         out.push_figures.emplace_back(name, std::string(std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()));
-    out.push_answers = push_answers(out.metrics);
+    out.push_curve = table_of(dir, "curve.csv");
+    out.push_answers = push_answers(out.metrics, out.push_curve.names.empty() ? "" : out.push_curve.names.front());
   }
   for (const char* name : {"histories.csv", "energy.csv", "events.csv", "metrics.json", "manifest.json", "curve.csv", "performance.json",
                            "scene.lua", "log.txt", "motion.h5", "studies/report.html"})
@@ -155,6 +168,7 @@ std::string report_html(const ReportedRun& run, const ReportPage& page, const st
   data["events_left_out"] = run.events_left_out;
   data["manifest"] = run.manifest;
   data["metrics"] = run.metrics;
+  data["push"] = push_json(run.push_curve);
   const auto packed = [](const std::string& bytes) { return base64(deflated(bytes)); };
   const std::string& title = run.run.manifest.title.empty() ? run.run.manifest.scene_name : run.run.manifest.title;
   return filled(page.html, {{"title", safe_html(for_files(title))},

@@ -24,7 +24,8 @@ struct ReportedRun {
   Json events = Json::array();      // [[time s, event, name, value, unit], ...]
   std::size_t events_left_out = 0;  // events of single joints beyond most_events_of_a_page
   Json files = Json::array();       // names of the run's files that exist
-  // Of a push: names and bytes of its figures (curve.svg, performance.svg), and what its multipliers are.
+  CsvTable push_curve;              // curve.csv of a push, a row for each state of equilibrium
+  // Of a push: names and bytes of its figures (curve.svg, performance.svg), and its capacity.
   std::vector<std::pair<std::string, std::string>> push_figures, push_answers;
 };
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
@@ -46,6 +47,12 @@ std::string link_of(const fs::path& run, const std::string& page) {
   return fs::is_directory(run) ? way_to(run, page) : "";
 }
 
+// "m/s2" reads "m/s²".
+std::string with_square(std::string unit) {
+  if (const std::size_t at = unit.find("s2"); at != std::string::npos) unit.replace(at, 2, "s²");
+  return unit;
+}
+
 std::string number_text(double value) { return fmt::format("{:.6g}", value); }
 
 // Columns by name; the first that is there, -1 without one.
@@ -71,7 +78,10 @@ void read_sweep(const fs::path& dir, const std::string& page, ReportedStudy& stu
         collected.push_back(name.substr(name.rfind('.') == std::string::npos ? 0 : name.rfind('.') + 1));
         collected.push_back(name);
       }
-    if (json.contains("scene")) study.answers.emplace_back("scene", json["scene"].get<std::string>());
+    if (json.contains("scene")) {
+      study.answers.emplace_back("scene", json["scene"].get<std::string>());
+      if (study.title == study.kind) study.title = fs::path(study.answers.back().second).stem().string();  // else it would stand twice
+    }
   }
   const CsvTable& rows = table.table;
   const int first = params.empty() ? -1 : first_of(rows, {params[0]}), second = params.size() < 2 ? -1 : first_of(rows, {params[1]});
@@ -115,23 +125,47 @@ void read_accuracy(const fs::path& dir, ReportedStudy& study) {
   study.tables.push_back(std::move(table));
 }
 
+// What a metric of a study of a scene is, and whether it is a value of the param. `ending`: what follows the name of the study.
+std::pair<std::string, bool> metric_words(const std::string& ending, bool of_convergence) {
+  const std::map<std::string, std::pair<std::string, bool>> words{{"", {"middle of the bracket", true}},
+                                                                  {"_lo", {"lower end of the bracket", true}},
+                                                                  {"_hi", {"upper end of the bracket", true}},
+                                                                  {"_slope", {"order of convergence", false}},
+                                                                  {"_mean", {"mean answer", false}},
+                                                                  {"_deviation", {"standard deviation", false}},
+                                                                  {"_median", {"median answer", false}},
+                                                                  {"_least", {"least answer", false}},
+                                                                  {"_most", {"largest answer", false}},
+                                                                  {"_runs", {"runs", false}},
+                                                                  {"_failed", {"runs without an answer", false}}};
+  if (ending == "_error") return {of_convergence ? "error of the finest" : "standard error of the mean", false};
+  const auto found = words.find(ending);
+  return found == words.end() ? std::pair<std::string, bool>{ending.substr(1), false} : found->second;
+}
+
 void read_scene_studies(const fs::path& dir, const std::string& page, ReportedStudy& study) {
   study.kind = "studies of a scene";
-  study.title = read_manifest(dir.string()).title;
+  const Manifest manifest = read_manifest(dir.string());
+  study.title = manifest.title.empty() ? manifest.scene_name : manifest.title;
   const Json metrics = fs::exists(dir / "metrics.json") ? read_json((dir / "metrics.json").string()) : Json::object();
   for (const fs::path& file : files_with(dir / "studies", ".csv")) {
     const std::string name = file.stem().string();
     StudyTable table{name, read_csv(file.string()), {}};
     const CsvTable& rows = table.table;
     table.x = 0, table.y = std::max(0, rows.find("answer"));
+    const auto param = std::ranges::find(manifest.params, rows.names.front(), &Param::name);
+    table.first_unit = param == manifest.params.end() ? "" : with_square(param->unit);
     if (const int run = rows.find("run"); run >= 0)
       for (const std::string& place : rows.text[static_cast<std::size_t>(run)])
         table.links.push_back(link_of(dir / "studies" / name / place, page));
-    study.tables.push_back(std::move(table));
     if (const Json* all = find_key(metrics, "metrics"); all && all->is_object())
-      for (const auto& [key, value] : all->items())
-        if ((key == name || key.starts_with(name + "_")) && value.is_number())
-          study.answers.emplace_back(key, number_text(value.get<double>()));
+      for (const auto& [key, value] : all->items()) {
+        if ((key != name && !key.starts_with(name + "_")) || !value.is_number()) continue;
+        const auto [what, of_param] = metric_words(key.substr(name.size()), all->contains(name + "_slope"));
+        study.answers.emplace_back(
+            name + ": " + what, number_text(value.get<double>()) + (of_param && !table.first_unit.empty() ? " " + table.first_unit : ""));
+      }
+    study.tables.push_back(std::move(table));
   }
 }
 
@@ -141,6 +175,8 @@ Json table_json(const StudyTable& table) {
   // The hash of the study in its last column tells a reader nothing.
   const std::size_t columns = csv.names.size() - (!csv.names.empty() && csv.names.back() == "study" ? 1 : 0);
   for (const std::string& name : csv.names) labels.push_back(for_files(plot::label_of(name)));
+  if (!labels.empty() && !table.first_unit.empty() && plot::unit_of(csv.names.front()).empty())
+    labels.front() = for_files(plot::label_of(csv.names.front()) + " [" + table.first_unit + "]");
   for (std::size_t row = 0; row < csv.rows(); ++row) {
     Json cells = Json::array();
     for (std::size_t c = 0; c < columns; ++c) {

@@ -15,6 +15,7 @@ struct StudyTable {
   std::vector<std::string> links;  // of each row, from the page to its run; "" where it is not kept
   int x = 0, y = 0, colour = -1;   // columns of the chart at first; colour -1: none
   bool logarithmic = false;
+  std::string first_unit = {};  // of the first column, whose name does not end with it; "": none
 };
 
 struct StudyFigure {

@@ -1,9 +1,11 @@
 // A run against a reference: the histories of common columns, and the collapse. The reference is another run, or measured displacements.
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/correlation.h"
+#include "engine/record/folder/manifest.h"
 #include "engine/record/format/csv.h"
 #include "engine/record/format/json.h"
 
@@ -57,8 +59,20 @@ struct CollapseErrors {
 };
 CollapseErrors compare_collapse(const Json& run, const Json& reference, double shift);
 
+// A param of the scene that the two runs have set to other values, or that one of them has alone. Values are in the unit of the param.
+struct ParamDifference {
+  std::string name, unit;
+  std::optional<double> run, reference;
+};
+struct SceneDifferences {
+  bool script = false;                  // the scenes are not the same text
+  std::vector<ParamDifference> params;  // in the order of the run, then what the reference has alone
+};
+SceneDifferences compare_scenes(const Manifest& run, const Manifest& reference);
+
 struct RunComparison {
   TimeShift shift;
+  std::optional<SceneDifferences> scenes;  // of two runs
   std::vector<ColumnErrors> columns;
   CollapseErrors collapse;
 };

@@ -21,6 +21,21 @@ std::string collapse_text(const CollapseErrors& c) {
                             c.same_sequence ? "the same" : "another");
 }
 
+// Each param on a line of its own: which input tells the two runs apart.
+std::string scenes_text(const SceneDifferences& scenes) {
+  const auto value = [](const std::optional<double>& v, const std::string& unit) {
+    return v ? fmt::format("{:.6g}{}{}", *v, unit.empty() ? "" : " ", unit) : std::string("none");
+  };
+  std::string text = scenes.script ? "scene       the two scripts differ\n" : "";
+  if (scenes.params.empty()) return text + "params      the same\n";
+  for (std::size_t i = 0; i < scenes.params.size(); ++i) {
+    const ParamDifference& p = scenes.params[i];
+    text +=
+        fmt::format("{:<12}{}: run {}, reference {}\n", i == 0 ? "params" : "", p.name, value(p.run, p.unit), value(p.reference, p.unit));
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string words_of(Alignment how) {
@@ -31,6 +46,7 @@ std::string table_of(const RunComparison& c) {
   std::string text = fmt::format("time        aligned by {}", words_of(c.shift.how));
   if (c.shift.how != Alignment::none) text += fmt::format(" of {}: the run is {:+.4f} s later", c.shift.column, c.shift.lag);
   text += "\n";
+  if (c.scenes) text = scenes_text(*c.scenes) + text;
   if (c.shift.at_edge) text += "warning: the best lag is the largest one searched; the true one may lie beyond, see --reach\n";
   if (!c.columns.empty())
     text += fmt::format("{:<28} {:>11} {:>11} {:>10} {:>10} {:>10} {:>9} {:>8} {:>18}\n", "column (SI)", "peak run", "reference", "error",
@@ -63,6 +79,13 @@ Json json_of(const RunComparison& c) {
                                {"frequency_run_Hz", e.frequency_run},
                                {"frequency_reference_Hz", e.frequency_reference},
                                {"frequency_error", e.frequency_error}};
+  if (c.scenes) {
+    const auto value = [](const std::optional<double>& v) { return v ? Json(*v) : Json(); };
+    json["same_script"] = !c.scenes->script;
+    json["params"] = Json::object();
+    for (const ParamDifference& p : c.scenes->params)
+      json["params"][p.name] = {{"run", value(p.run)}, {"reference", value(p.reference)}, {"unit", p.unit}};
+  }
   const CollapseErrors& f = c.collapse;
   if (f.known)
     json["collapse"] = {{"run", f.run},

@@ -51,6 +51,17 @@ TEST_CASE("the page of a sweep shows its points over its params", "[record][repo
   CHECK(html.find("<a href=\"results.csv\">") != std::string::npos);
 }
 
+TEST_CASE("the title of a sweep is not its kind once more", "[record][report][study_page]") {
+  const test::Folder dir;
+  for (const auto& [folder, title] : {std::pair{"sweep", "wall"}, {"two_walls", "two_walls"}}) {
+    const fs::path place = dir.path / folder;
+    write(place / "results.csv", "index,shake_m_s2,collapsed,runs,status,reason,study\n0,1.5,0,1,completed,,k\n");
+    write(place / "study.json",
+          R"({"scene": "scenes/wall.lua", "study": {"axes": [{"params": ["shake"]}], "collect": ["metrics.collapsed"]}})");
+    CHECK(read_reported_study(place.string(), study_page_path(place.string())).title == title);
+  }
+}
+
 TEST_CASE("the page of accuracy has errors over cost, on logarithmic axes", "[record][report][study_page]") {
   const test::Folder dir;
   write(dir.path / "accuracy.csv",

@@ -15,13 +15,14 @@ std::string shaken(Bench& bench, const std::string& name, const std::string& amp
   std::string text = four_bricks();
   text.replace(text.find("\"b\""), 3, "\"" + brick + "\"");
   bench.write(name + ".lua", text + R"(joint{ law = dry{ kn = 1*GPa, mu = 0.6 } }
-ground_motion{ wave = sine{ amplitude = )" +
-                                 amplitude + R"(, frequency = 3*Hz, duration = .3 }, direction = "y" }
+local shake = param("shake", 0.1*g, "of the table [m/s2]")
+ground_motion{ wave = sine{ amplitude = shake, frequency = 3*Hz, duration = .3 }, direction = "y" }
 analysis{ duration = .5 }
 recorder{ name = "top", quantity = "displacement", block = ")" +
                                  brick + R"(3" })");
   const std::string out = (bench.folder / name).string();
-  REQUIRE(bench.erbs({"run", (bench.folder / (name + ".lua")).string(), "-o", out, "-q", "--no-figures"}) == exit_ok);
+  REQUIRE(bench.erbs({"run", (bench.folder / (name + ".lua")).string(), "-o", out, "-q", "--no-figures", "-D", "shake=" + amplitude}) ==
+          exit_ok);
   return out;
 }
 
@@ -35,9 +36,14 @@ TEST_CASE("erbs compare judges a run against another run", "[compare][program]")
   const Json same = read_json(a + "/compare/compare.json");
   CHECK(same["passed"] == true);
   CHECK(same["columns"]["top_uy_rel_m"]["peak_error"] == 0.0);
+  CHECK(same["same_script"] == true);
+  CHECK(same["params"].empty());
+  CHECK(contains(bench.said, "params      the same"));
   CHECK(bench.erbs({"compare", a, b}) == exit_usage);  // there already
   CHECK(bench.erbs({"compare", a, b, "--force", "--expect", "peak<5%"}) == exit_expectation);
   CHECK(bench.said.find("FAILED") != std::string::npos);
+  CHECK(contains(bench.said, "params      shake: run 0.981 m/s2, reference 1.1772 m/s2"));
+  CHECK(read_json(a + "/compare/compare.json")["params"]["shake"]["reference"] == Approx(0.12 * 9.81));
   CHECK(read_json(a + "/compare/compare.json")["columns"]["ground_ay_m_s2"]["peak_error"] == Approx(-1. / 6).margin(1e-3));
 
   const std::string place = (bench.folder / "none").string();

@@ -43,3 +43,27 @@ TEST_CASE("an exported run is read back by VTK and h5py", "[program][export]") {
   }
   CHECK(code == 0);
 }
+
+TEST_CASE("a span or an instant outside of the run is refused before anything is written, or told", "[program][export][bad_input]") {
+  Bench bench;
+  REQUIRE(bench.run(four_bricks() + falling + "analysis{ duration = .3 }") == 0);
+  const auto refused = [&](std::vector<std::string> words, const char* why) {
+    words.insert(words.begin(), {"export", bench.out()});
+    INFO(why);
+    CHECK(bench.erbs(words) == 2);
+    INFO(bench.said);
+    CHECK(contains(bench.said, why));
+    CHECK_FALSE(fs::exists(bench.out() + "/export"));
+  };
+  refused({"--time", "9:12"}, "--time 9:12 holds no frame; the run has 9 frames from 0 s to 0.29");
+  refused({"--time=-3:-1"}, "--time -3:-1 holds no frame");
+  refused({"--time", "0.05:0.07"}, "--time 0.05:0.07 holds no frame");  // between two frames
+  refused({"--time", "2:1"}, "is not a span of seconds");
+  refused({"--time", "0.1"}, "is not a span of seconds");
+  refused({"--format", "obj", "--at", "7"}, "--at 7 is not within the frames exported");
+  refused({"--format", "obj", "--at", "0.02", "--time", "0.1:0.2"}, "--at 0.02 is not within the frames exported");
+  CHECK(bench.erbs({"export", bench.out(), "--format", "csv", "--time", "0.1:9"}) == 0);
+  CHECK(contains(bench.said, "warning: --time 0.1:9 reaches beyond the run"));
+  CHECK(bench.erbs({"export", bench.out(), "--format", "csv", "--time", "0:0.3", "--force"}) == 0);
+  CHECK_FALSE(contains(bench.said, "reaches beyond"));
+}

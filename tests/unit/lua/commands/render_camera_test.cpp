@@ -70,3 +70,38 @@ TEST_CASE("a camera of one's own looks where it should, or says why it cannot", 
   for (const char* name : {"own", "from_-x", "from_above"})
     CHECK(fs::exists(fs::path(bench.out()) / "frames" / (std::string(name) + "_t0.000s.png")));
 }
+
+TEST_CASE("what cannot be drawn is refused before anything is written", "[program][render][bad_input]") {
+  Bench bench;
+  REQUIRE(bench.run(four_bricks() + "joint{ law = dry{ kn = 1*GPa, mu = .6 } } analysis{ duration = .1 }", {"--no-figures"}) == 0);
+  const fs::path dir(bench.out());
+  const std::vector<std::string> small{"render", bench.out(), "--size", "160x120", "--no-video"};
+  const auto render = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), small.begin(), small.end());
+    return bench.erbs(more);
+  };
+  const std::pair<std::vector<std::string>, std::string> wrong[] = {
+      {{"--time", "9:12"}, "--time 9:12 holds no frame; the run has frames from 0 s to 0.1"},
+      {{"--time", "2:1"}, "is not a span of seconds"},
+      {{"--stills", "0,7"}, "--stills 7 is not within the run"},
+      {{"--frames", "0"}, "neither `every` nor a number"},
+      {{"--frames", "3x"}, "neither `every` nor a number"},
+      {{"--svg", "--stills", "-1"}, "--stills -1 is not within the run"},
+      {{"--camera", "nowhere"}, "--camera nowhere is none of this run's"},
+      {{"--eye=.15,.06,.05", "--target=3,0,0"}, "stands inside block b0"},
+  };
+  for (const auto& [words, reason] : wrong) {
+    INFO(reason);
+    CHECK(render(words) == 2);
+    INFO(bench.said);
+    CHECK(contains(bench.said, reason));
+    CHECK_FALSE(fs::exists(dir / "frames"));
+    CHECK_FALSE(fs::exists(dir / "energy.svg"));
+  }
+  CHECK(render({"--stills", "0", "--camera", "from_-x"}) == 0);
+  CHECK(fs::exists(dir / "energy.svg"));
+  // The second of two cameras has its picture already: the first is not drawn, either.
+  CHECK(render({"--stills", "0", "--camera", "from_-y,from_-x"}) == 2);
+  CHECK(contains(bench.said, "--force"));
+  CHECK_FALSE(fs::exists(dir / "frames/from_-y_t0.000s.png"));
+}

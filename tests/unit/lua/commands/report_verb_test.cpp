@@ -127,6 +127,24 @@ TEST_CASE("a browser opens the page of a collapse that has no time", "[report][b
   CHECK(code == 0);
 }
 
+TEST_CASE("the page of a push tells its multiplier and its states, which a browser replays", "[report][browser]") {
+  if (!page_is_built()) return;
+  Bench bench;
+  const char* const kind = GENERATE("'pushover', direction = 'y', step = .1", "'tilt', direction = 'y', step = 2*deg");
+  CAPTURE(kind);
+  REQUIRE(bench.run("-- A pier that is pushed\n" + four_bricks() + dry +
+                    fmt::format("analysis{{ kind = {}, monitor = {{ block = 'b3' }} }}\n", kind)) == 0);
+  REQUIRE(bench.erbs({"report", bench.out()}) == 0);
+  const std::string html = text_of(bench.out() + "/report.html");
+  CHECK(contains(html, kind[1] == 't' ? "<span class=\"quiet\">largest tilt</span>" : " g</strong>"));
+  CHECK(contains(html, kind[1] == 't' ? "\"unit\":\"tan\"" : "\"unit\":\"g\""));
+  if (!browser_is_there()) return;
+  const std::string log = (bench.folder / "browser.log").string();
+  const int code = wait_for(start({"node", ERBS_SOURCE_DIR "/tests/page/browser.mjs", bench.out() + "/report.html"}, log));
+  INFO(text_of(log));
+  CHECK(code == 0);
+}
+
 TEST_CASE("studies of a scene have a page beside the page of their run, which a browser uses", "[report][browser][study_page]") {
   if (!page_is_built()) return;
   Bench bench;

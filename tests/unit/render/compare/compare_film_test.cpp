@@ -30,10 +30,11 @@ struct Films {
   std::string run = (bench.folder / "pier").string();
   Films() { REQUIRE(bench.erbs({"run", ERBS_SOURCE_DIR "/scenes/first.lua", "-o", run, "-q", "--no-figures"}) == 0); }
   // A film of the run from `from` s on.
-  std::string film(double from, const std::string& fps, const std::string& size) const {
+  std::string film(double from, const std::string& fps, const std::string& size, const char* overlay = "--no-overlay") const {
     const std::string renderer = ERBS_BINARY_DIR "/erbs-render", span = std::to_string(from) + ":1.7";
-    REQUIRE(wait_for(start({renderer, run, "--no-overlay", "--size", size, "--fps", fps, "--time", span, "--no-figures", "-q", "--force"},
-                           (bench.folder / "log").string())) == 0);
+    std::vector<std::string> words{renderer, run, "--size", size, "--fps", fps, "--time", span, "--no-figures", "-q", "--force"};
+    if (*overlay) words.emplace_back(overlay);
+    REQUIRE(wait_for(start(words, (bench.folder / "log").string())) == 0);
     for (const auto& entry : std::filesystem::directory_iterator(run))
       if (entry.path().extension() == ".mp4") {
         std::filesystem::rename(entry.path(), bench.folder / "film.mp4");
@@ -104,6 +105,28 @@ TEST_CASE("a film that breaks off is told, and so is one whose width is reduced 
   INFO(films.bench.said);
   CHECK(films.bench.said.find("the film breaks off: ") != std::string::npos);
   CHECK(read_json((films.bench.folder / "part/frames.json").string())["frames_missing"] > 3);
+}
+
+TEST_CASE("a film with a title and a strip is told, one without is not", "[render][compare][program]") {
+  Films films;
+  const char* const overlay = GENERATE("", "--no-overlay");
+  const std::string background = GENERATE("rows", "drawn");
+  CAPTURE(overlay, background);
+  const std::string film = films.film(0, "25", "640x360", overlay), place = (films.bench.folder / "found").string();
+  CHECK(films.bench.erbs({"compare", films.run, film, "-o", place, "--align", "none", "--film-background", background}) == 0);
+  INFO(films.bench.said);
+  const bool told = films.bench.said.find("--no-overlay") != std::string::npos;
+  CHECK(told == (*overlay == 0));
+  CHECK((read_json(place + "/compare.json")["standing_share"] > 0.1) == (*overlay == 0));
+}
+
+TEST_CASE("a camera inside a block compares nothing", "[render][compare][program][bad_input]") {
+  Films films;
+  const std::string film = films.film(0, "25", "256x192"), place = (films.bench.folder / "none").string();
+  CHECK(films.bench.erbs({"compare", films.run, film, "-o", place, "--eye=.15,.06,.07", "--target=3,0,0"}) == 2);
+  INFO(films.bench.said);
+  CHECK(films.bench.said.find("stands inside block brick0") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(place));
 }
 
 TEST_CASE("figures of a comparison do not depend on the number of threads", "[render][compare][program]") {

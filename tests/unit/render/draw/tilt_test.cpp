@@ -123,6 +123,33 @@ TEST_CASE("below a table that blocks fall past no floor is drawn", "[render][sta
   else CHECK(std::abs(foot - horizon) < 4);
 }
 
+TEST_CASE("a level ground that blocks fall past is drawn as far as it reaches", "[render][stage]") {
+  prepare_contexts();
+  const MotionScene scene = brick_house({1.2, 1.2, 4, 0.2, 0.1});
+  MotionFrame last = brick_house_frame(scene, 0);
+  float* brick = &last.poses[7 * (scene.blocks.size() - 1)];
+  const auto [beside, fallen] = GENERATE(std::pair{10.5F, 0.0F}, std::pair{10.5F, 0.5F}, std::pair{10.5F, 400.0F}, std::pair{3.0F, 0.5F});
+  if (fallen > 0)
+    brick[0] = beside, brick[1] = 0, brick[2] = -fallen;  // the ground reaches to 10 m; at 3 m it hides what was driven into it
+  Stage stage = set_stage(scene, {brick_house_frame(scene, 0), last});
+  bound_ground(stage, scene, {last});
+  CHECK(stage.bounded == (fallen > 0 && beside > 10));
+  Look l;
+  l.width = 160, l.height = 90;
+  Run run;
+  run.materials = {{"brick", Vec3(0.5, 0.15, 0.08), 0}};
+  const Show show = prepare_show(scene, run, stage, {}, std::nullopt);
+  Camera camera;
+  camera.eye = Vec3(18, 0, 3), camera.target = Vec3(10.5, 0, -0.5), camera.fov = 0.3;  // at the place where the brick is to be seen
+  const Image image = Painter(show, l, "auto").draw(last, camera, levelling_at(run, stage, l, 0));
+  std::size_t bricks = 0;
+  for (int y = 0; y < image.height; ++y)
+    for (int x = 0; x < image.width; ++x) bricks += is_brick(image.pixel(x, y));
+  INFO(bricks);
+  if (beside > 10 && fallen == 0.5F) CHECK(bricks > 8);
+  else CHECK(bricks == 0);
+}
+
 TEST_CASE("a tilting test is drawn tilting, or from a camera that stays level with its table", "[render][draw]") {
   prepare_contexts();
   const test::Folder dir;

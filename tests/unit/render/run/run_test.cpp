@@ -196,3 +196,16 @@ TEST_CASE("energies that are small beside a fall have a panel of their own", "[r
   CHECK(drawn("0,0,0,0\n1,-1000,49,1e-9\n").find("energy, small terms [J]") != std::string::npos);
   CHECK(drawn("0,0,0,0\n1,-1000,51,1e-9\n").find("small terms") == std::string::npos);
 }
+
+TEST_CASE("the clock of a push tells its states, and then the fall", "[render][run]") {
+  Run run;
+  CHECK(clock_text(run, 1.234) == "1.23 s");
+  run.multipliers = {0, 0.1, 0.15}, run.state_dt = 0.04, run.multiplier_unit = "g";
+  CHECK(clock_text(run, 0.041) == "state 1: 0.100 g");
+  CHECK(clock_text(run, 0.08) == "state 2: 0.150 g");
+  CHECK(clock_text(run, 0.48) == "fall + 0.40 s");
+  run.multiplier_unit = "tan";
+  CHECK(clock_text(run, 0.04) == "state 1: 5.71\u00b0");
+  run.multiplier_unit = "";
+  CHECK(clock_text(run, -1) == "state 0: 0.000");
+}
