@@ -65,6 +65,7 @@ class PushRun {
   std::optional<CsvWriter> curve_;
   bool gravity_alone_ = false;
   bool passed_peak_ = false;  // control by displacement: this step goes too far past the peak
+  std::string fall_;          // how far the fall after the last step has come, for the progress line; empty before it
   NamedMechanism mechanism_;
   std::vector<WallMechanism> walls_;
   std::optional<LimitBeside> limit_;
@@ -156,9 +157,10 @@ bool PushRun::interrupted() {
     p.joints_broken = run_.state.observed.joints_broken;
     p.residual = run_.state.energy.residual_relative;
     p.dt = run_.state.time.dt;
-    p.line = fmt::format("multiplier {:.5g}, highest in equilibrium {:.5g}{}; {} states", shown(relaxation_->loads().multiplier()),
-                         so_far_.peak.multiplier, so_far_.path.above ? fmt::format(", none at {:.5g}", shown(*so_far_.path.above)) : "",
-                         so_far_.states);
+    const std::string none = so_far_.path.above ? fmt::format(", none at {:.5g}", shown(*so_far_.path.above)) : "";
+    p.line = fall_.empty() ? fmt::format("multiplier {:.5g}, highest in equilibrium {:.5g}{}; {} states",
+                                         shown(relaxation_->loads().multiplier()), so_far_.peak.multiplier, none, so_far_.states)
+                           : fmt::format("capacity {:.5g}{}; {}", so_far_.peak.multiplier, none, fall_);
     options_.progress(p);
   }
   if (options_.interrupted != nullptr && options_.interrupted->load()) out_.metrics.status = "interrupted";
@@ -273,6 +275,7 @@ void PushRun::fall(bool drawn) {
       [&](const Solver& solver, const Relaxed& r) {
         const double edges = r.furthest >= 0 ? r.moved / run_.model.smallest_edge[z(r.furthest)] : 0;
         if (drawn && edges > shown) frame(solver), shown += far;
+        fall_ = fmt::format("it falls: a block has moved by {:.3g} of its edge", edges);
         if (!named && edges > Relaxation::gone) name();
         return !interrupted() && (!named || (drawn && push_.fall > 0));
       },
@@ -283,6 +286,7 @@ void PushRun::fall(bool drawn) {
   collapse_.mechanism = joints;
   relaxation_->release(run_.state, push_.fall, scene_.analysis.frame_dt, [&](const Solver& solver, const Relaxed&) {
     frame(solver);
+    fall_ = fmt::format("it falls: {:.2f} of {:.4g} s", run_.state.time.t, push_.fall);
     return !collapse_.collapsed && !interrupted();
   });
 }
