@@ -29,7 +29,7 @@ local bays = param("bays", 0, "piers of a cut-out from the middle, between plane
 local step = param("step", 0.01, "of the acceleration [g]")
 local up_to = math.max(1e-6, param("up_to", 0.5, "largest acceleration [g]"))
 local bracket = param("bracket", 0.02, "of the capacity, relative")
-local fall = param("fall", model == 2 and 1 or 2, "time of the fall drawn after a push [s]")
+local fall = param("fall", 2, "time of the fall drawn after a push [s]")
 local dynamic = param("dynamic", 0, "1: the acceleration grows in time, for films")
 local peak = param("peak", 0.3 * g, "dynamic: acceleration across the aqueduct at the end [m/s2]")
 local ramp = param("ramp", 8, "dynamic: time in which it grows to that, slow beside the period of .6 s [s]")
