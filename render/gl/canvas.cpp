@@ -96,6 +96,7 @@ Canvas::Canvas(const Gl& gl, int width, int height, int shadow_side)
       resolved_(picture_target(gl, width, height, true)),
       occlusion_(picture_target(gl, (width + 1) / 2, (height + 1) / 2, false)),
       blurred_(picture_target(gl, (width + 1) / 2, (height + 1) / 2, false)),
+      backdrop_(picture_target(gl, width, height, false)),
       final_(picture_target(gl, width, height, false)),
       occlusion_program_(make_program(gl, shader_common, screen_vertex, occlusion_fragment)),
       blur_program_(make_program(gl, shader_common, screen_vertex, blur_fragment)),
@@ -149,16 +150,28 @@ void Canvas::begin_translucent() {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
 }
 
-void Canvas::begin_backdrop(const Eigen::Vector4f& clear) {
+// One sample a pixel and no depth.
+void Canvas::begin_flat(const Target& target) const {
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_CULL_FACE);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, final_.framebuffer);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   gl_.Viewport(0, 0, width_, height_);
+}
+
+void Canvas::begin_backdrop(const Eigen::Vector4f& clear) {
+  begin_flat(backdrop_);
   gl_.ClearColor(clear.x(), clear.y(), clear.z(), clear.w());
   gl_.Clear(GL_COLOR_BUFFER_BIT);
   gl_.ClearColor(0, 0, 0, 0);
+}
+
+void Canvas::lay_backdrop() {
+  begin_flat(final_);
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, backdrop_.framebuffer);
+  gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, final_.framebuffer);
 }
 
 void Canvas::screen_pass(GLuint program, const Target& target, const Region& within) {

@@ -37,12 +37,14 @@ class Canvas {
   Canvas& operator=(const Canvas&) = delete;
 
   // The steps of a picture, in this order. The model is drawn with several samples a pixel and only within a region, before nothing; the
-  // backdrop, which has no edges of its own, with one sample a pixel everywhere.
+  // backdrop, which has no edges of its own, with one sample a pixel everywhere. It is kept: pictures of a camera at rest have the same
+  // one.
   void begin_shadow();                     // afterwards draw everything that casts a shadow
   void begin_model(const Region& within);  // afterwards draw what stands on the ground
   void begin_depth();                      // takes the depth of the model; afterwards draw the ground, of which only the depth counts
   void begin_translucent();                // afterwards draw what darkens no corners, if there is any
   void begin_backdrop(const Eigen::Vector4f& clear);  // colour and transparency; afterwards draw ground and sky, with their transparency
+  void lay_backdrop();                                // the one drawn last; afterwards draw shadows on it
   // Darkens corners within `radius` (m), lays the model over the backdrop and returns the pixels, perhaps with their opacity.
   Image finish(const Eigen::Matrix4f& projection, double radius, bool with_opacity);
 
@@ -58,12 +60,13 @@ class Canvas {
  private:
   Image read(bool with_opacity) const;
   void resolve(GLenum what);
+  void begin_flat(const Target& target) const;
   void screen_pass(GLuint program, const Target& target, const Region& within);
   void occlusion_uniforms(GLuint program, const Eigen::Matrix4f& projection, double radius);
   const Gl& gl_;
   int width_, height_;
   Region region_;
-  Target shadow_, sampled_, resolved_, occlusion_, blurred_, final_;
+  Target shadow_, sampled_, resolved_, occlusion_, blurred_, backdrop_, final_;
   GLuint occlusion_program_, blur_program_, finish_program_, empty_;
 };
 
