@@ -196,7 +196,7 @@ struct Painter::Hidden {
   void draw_bricks(GLuint program, const Drawable& what, const Light& light, double opacity) const {
     const Uniforms u = use(program, light, light.camera);
     u.vector("mortar", {0.50F, 0.475F, 0.43F});
-    u.number("darker_edge", show.mortared ? 0.12 : 0.42);
+    u.number("darker_edge", show.darker_edge);
     u.number("by_damage", look_.coloring == Coloring::material ? 0 : 1);
     name_states(u);
     u.number("opacity", opacity);
@@ -367,7 +367,7 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   const Region region =
       with_table ? h.canvas->whole()
                  : region_of(spheres, v.view, v.projection, l.width, l.height, std::min<double>(l.width, shade + 2 + Canvas::border));
-  const FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye);
+  const FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye, static_cast<double>(v.pixel));
   h.gl.ActiveTexture(GL_TEXTURE0);
   fill(h.gl, h.blocks, texels.blocks);
   h.gl.ActiveTexture(GL_TEXTURE1);

@@ -45,6 +45,7 @@ struct Show {
   Stage stage;
   Mesh mesh;
   double chamfer = 0;             // m
+  double darker_edge = 0.42;      // share by which a chamfer is darker than its faces
   double fine_width = 0;          // m, of chamfers and mortar
   double open_crack = 0;          // m, a hundredth of the thinnest brick: a joint parted this far is drawn as open
   bool mortared = false;          // joints have thickness: mortar between the bricks, not an edge
@@ -92,7 +93,8 @@ struct FrameTexels {
   std::vector<std::uint32_t> crack_index;
   std::vector<std::uint32_t> ghost_index;  // triangles of translucent blocks
 };
-FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye);
+// pixel: m, at a distance of 1 m. Blocks whose chamfers such pixels hardly show are drawn without them.
+FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel = 0);
 
 class Painter {
  public:

@@ -83,6 +83,7 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
     show.chamfer = std::min(show.chamfer, 0.3 * joint.thickness);
     gap = std::max(gap, joint.thickness);
   }
+  if (show.mortared) show.darker_edge = 0.12;  // mortar sets bricks apart, not their edges
   show.fine_width = std::max(1.5 * show.chamfer, gap);
   const MotionScene solid = section ? cut_scene(scene, *section, show.stage.hidden) : scene;
   if (sharp) show.chamfer = 0;
@@ -121,7 +122,7 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
 namespace {
 
 // Selects the visible triangles. Around a joint that has visibly parted, everything is drawn.
-void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joints, const Vec3& eye, FrameTexels& t) {
+void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joints, const Vec3& eye, double pixel, FrameTexels& t) {
   const MotionScene& scene = *show.scene;
   const float moved = static_cast<float>(0.1 * show.open_crack);
   std::vector<bool> quiet(scene.blocks.size(), true);
@@ -142,8 +143,15 @@ void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joint
     order.emplace_back(std::isfinite(distance) ? distance : std::numeric_limits<float>::max(), b);
   }
   std::sort(order.begin(), order.end());
+  // A chamfer is left out where it would darken a pixel by less than 3 %.
+  const double plain_from = pixel > 0 && show.chamfer > 0 ? show.chamfer * show.darker_edge / (0.03 * pixel) : HUGE_VAL;  // m
   for (const auto& [distance, b] : order) {
     if (show.ghost[b]) continue;
+    if (static_cast<double>(distance) > plain_from * plain_from) {
+      add(t.index, show.mesh.plain_index, show.mesh.plain_open[b]);
+      if (!quiet[b]) add(t.index, show.mesh.plain_index, show.mesh.plain_buried[b]);
+      continue;
+    }
     for (const std::vector<Surface<Span>>* surfaces : {&show.mesh.open, &show.mesh.buried}) {
       if (surfaces == &show.mesh.buried && quiet[b]) continue;
       add(t.index, show.mesh.index, (*surfaces)[b].faces);
@@ -177,7 +185,7 @@ void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joint
 
 }  // namespace
 
-FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye) {
+FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel) {
   const MotionScene& scene = *show.scene;
   const std::size_t nb = scene.blocks.size(), nj = scene.joints.size();
   FrameTexels t;
@@ -209,7 +217,7 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
     const float values[12] = {p[0], p[1], p[2], share, p[4], p[5], p[6], p[3], c.x(), c.y(), c.z(), 0};
     std::copy_n(values, 12, &t.blocks[12 * b]);
   }
-  choose_triangles(show, frame, coloring == Coloring::joint_state, eye, t);
+  choose_triangles(show, frame, coloring == Coloring::joint_state, eye, pixel, t);
   return t;
 }
 

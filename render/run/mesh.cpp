@@ -182,12 +182,13 @@ Mesh build_mesh(const MotionScene& scene, const std::vector<bool>& hidden, doubl
   for (std::size_t j = 0; j < scene.joints.size(); ++j)
     for (int block : {scene.joints[j].a, scene.joints[j].b}) touching[static_cast<std::size_t>(block)].push_back(static_cast<int>(j));
   for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
-    Surface<std::vector<std::uint32_t>> open, buried;
+    Surface<std::vector<std::uint32_t>> open, buried, plain_open, plain_buried;
     for (int part : scene.blocks[b].parts) {
       if (hidden[b]) continue;
       const MotionShape& shape = scene.shapes[static_cast<std::size_t>(part)];
-      add_part(mesh, shape, static_cast<std::uint32_t>(b), chamfer, find_buried(scene, static_cast<int>(b), shape, touching[b]), open,
-               buried);
+      const std::vector<bool> covered = find_buried(scene, static_cast<int>(b), shape, touching[b]);
+      add_part(mesh, shape, static_cast<std::uint32_t>(b), chamfer, covered, open, buried);
+      if (chamfer > 0) add_part(mesh, shape, static_cast<std::uint32_t>(b), 0, covered, plain_open, plain_buried);
     }
     const auto appended = [&](const Surface<std::vector<std::uint32_t>>& s) -> Surface<Span> {
       const Span faces = append(mesh.index, s.faces);
@@ -195,6 +196,8 @@ Mesh build_mesh(const MotionScene& scene, const std::vector<bool>& hidden, doubl
     };
     mesh.open.push_back(appended(open));
     mesh.buried.push_back(appended(buried));
+    mesh.plain_open.push_back(append(mesh.plain_index, plain_open.faces));
+    mesh.plain_buried.push_back(append(mesh.plain_index, plain_buried.faces));
   }
   add_joints(mesh, scene, touching, chamfer);
   return mesh;
