@@ -96,7 +96,6 @@ struct Painter::Hidden {
     shades = upload(gl, show.mesh.shades);
     floats<Vertex>(gl, 0, 3, offsetof(Vertex, p));
     integers<Vertex>(gl, 2, 1, offsetof(Vertex, block));
-    choose(gl, shades, show.mesh.shade_index);
     cracks = upload(gl, show.mesh.cracks);
     floats<CrackVertex>(gl, 0, 3, offsetof(CrackVertex, pa));
     floats<CrackVertex>(gl, 1, 3, offsetof(CrackVertex, pb));
@@ -375,6 +374,7 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   choose(h.gl, h.bricks, texels.index);
   choose(h.gl, h.edges, texels.fine_index);
   choose(h.gl, h.cracks, texels.crack_index);
+  choose(h.gl, h.shades, texels.shade_index);
   h.draw_shadow(light);
   h.canvas->begin_model(region);
   h.draw_model(light, v, nearest, with_table);

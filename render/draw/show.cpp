@@ -93,7 +93,9 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
     for (std::vector<Span>* spans : {&show.mesh.pointing, &show.mesh.crack}) spans->assign(spans->size(), Span{});
   std::vector<bool> no_shade = show.stage.hidden;
   for (std::size_t b = 0; b < no_shade.size(); ++b) no_shade[b] = no_shade[b] || show.ghost[b];
-  add_shades(show.mesh, solid, no_shade, 0.55 * gap + 0.1 * show.open_crack);
+  const double grow = 0.55 * gap + 0.1 * show.open_crack;
+  add_shades(show.mesh, solid, no_shade, grow);
+  show.shade_overlap = 2 * grow - gap;
   for (const MotionJoint& joint : scene.joints) show.joint_area.push_back(static_cast<float>(0.5 * area_normal(joint.polygon).norm()));
   for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
     float square = 0;
@@ -120,6 +122,21 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
 }
 
 namespace {
+
+// Inside a wall no face throws a shadow of its own: those between casters that still reach into each other are left out.
+void choose_shades(const Show& show, FrameTexels& t) {
+  std::vector<bool> closed(show.scene->blocks.size(), true);
+  for (std::size_t j = 0; j < show.scene->joints.size(); ++j) {
+    if (static_cast<double>(t.joints[4 * j + 1]) < 0.9 * show.shade_overlap) continue;
+    closed[static_cast<std::size_t>(show.scene->joints[j].a)] = closed[static_cast<std::size_t>(show.scene->joints[j].b)] = false;
+  }
+  const std::vector<std::uint32_t>& all = show.mesh.shade_index;
+  for (std::size_t b = 0; b < closed.size(); ++b) {
+    const Span open = show.mesh.open_shade[b], buried = show.mesh.buried_shade[b];
+    t.shade_index.insert(t.shade_index.end(), all.begin() + open.begin, all.begin() + open.end);
+    if (!closed[b]) t.shade_index.insert(t.shade_index.end(), all.begin() + buried.begin, all.begin() + buried.end);
+  }
+}
 
 // Selects the visible triangles. Around a joint that has visibly parted, everything is drawn.
 void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joints, const Vec3& eye, double pixel, FrameTexels& t) {
@@ -218,6 +235,7 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
     std::copy_n(values, 12, &t.blocks[12 * b]);
   }
   choose_triangles(show, frame, coloring == Coloring::joint_state, eye, pixel, t);
+  choose_shades(show, t);
   return t;
 }
 

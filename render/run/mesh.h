@@ -51,6 +51,7 @@ struct Mesh {
   // Shadow casters: bare blocks, enlarged until they meet across their joints, so that no light passes through mortar.
   std::vector<Vertex> shades;
   std::vector<std::uint32_t> shade_index;
+  std::vector<Span> open_shade, buried_shade;  // of each block, in shade_index; buried: faces on other casters [blocks]
   std::vector<CrackVertex> cracks;
   std::vector<std::uint32_t> crack_index;
   std::vector<Span> crack;  // of each joint, in crack_index [joints]
