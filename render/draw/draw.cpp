@@ -245,6 +245,7 @@ struct Painter::Hidden {
     const Eigen::Matrix4f& p = v.projection;
     u.two("depth_range", static_cast<double>(p(2, 3) / (p(2, 2) - 1)), static_cast<double>(p(2, 3) / (p(2, 2) + 1)));
     u.two("size", look_.width, look_.height);
+    u.two("corner", canvas->model_region().left, canvas->model_region().bottom);
     u.vector("right", v.view.row(0).head<3>().transpose());
     u.vector("up", v.view.row(1).head<3>().transpose());
     u.vector("tone", {0.60F, 0.545F, 0.48F});

@@ -92,7 +92,6 @@ Canvas::Canvas(const Gl& gl, int width, int height, int shadow_side)
       width_(width),
       height_(height),
       shadow_(shadow_target(gl, shadow_side)),
-      sampled_(multisampled_target(gl, width, height, 4)),
       resolved_(picture_target(gl, width, height, true)),
       occlusion_(picture_target(gl, (width + 1) / 2, (height + 1) / 2, false)),
       blurred_(picture_target(gl, (width + 1) / 2, (height + 1) / 2, false)),
@@ -122,24 +121,34 @@ void Canvas::limit_to(const Region& r) {
   gl_.Scissor(r.left, r.bottom, std::max(0, r.width()), std::max(0, r.height()));
 }
 
+// The multisampled buffers hold the region alone: to clear those of a whole picture of 1280 x 720 takes 7 ms.
 void Canvas::begin_model(const Region& within) {
   region_ = within;
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
-  gl_.Viewport(0, 0, width_, height_);
+  const auto rounded = [](int pixels) { return std::max(64, (pixels + 63) / 64 * 64); };
+  const int w = std::max(sampled_.width, rounded(within.width())), h = std::max(sampled_.height, rounded(within.height()));
+  if (w > sampled_.width || h > sampled_.height) sampled_ = multisampled_target(gl_, w, h, 4);
+  bind_model();
   gl_.Enable(GL_DEPTH_TEST);
-  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);  // of the whole picture: faster than of a part
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);  // of all buffers: faster than of a part
+}
+
+void Canvas::bind_model() const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
+  gl_.Viewport(-region_.left, -region_.bottom, width_, height_);
 }
 
 void Canvas::resolve(GLenum what) {
   const Region& r = region_;
+  if (r.empty()) return;
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, sampled_.framebuffer);
   gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.framebuffer);
-  gl_.BlitFramebuffer(r.left, r.bottom, r.right, r.top, r.left, r.bottom, r.right, r.top, what, GL_NEAREST);
+  gl_.BlitFramebuffer(0, 0, r.width(), r.height(), r.left, r.bottom, r.right, r.top, what, GL_NEAREST);
 }
 
 void Canvas::begin_depth() {
   resolve(GL_DEPTH_BUFFER_BIT);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, resolved_.framebuffer);
+  gl_.Viewport(0, 0, width_, height_);
   limit_to(region_);
   gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 }
@@ -147,7 +156,7 @@ void Canvas::begin_depth() {
 void Canvas::begin_translucent() {
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
+  bind_model();
 }
 
 // One sample a pixel and no depth.

@@ -50,6 +50,7 @@ class Canvas {
 
   void limit_to(const Region& region);  // draws there alone
   Region whole() const { return {0, 0, width_, height_}; }
+  const Region& model_region() const { return region_; }  // whose lower left corner is gl_FragCoord's origin while the model is drawn
   int width() const { return width_; }
   int height() const { return height_; }
   GLuint shadow_map() const { return shadow_.depth; }
@@ -61,6 +62,7 @@ class Canvas {
   Image read(bool with_opacity) const;
   void resolve(GLenum what);
   void begin_flat(const Target& target) const;
+  void bind_model() const;
   void screen_pass(GLuint program, const Target& target, const Region& within);
   void occlusion_uniforms(GLuint program, const Eigen::Matrix4f& projection, double radius);
   const Gl& gl_;
