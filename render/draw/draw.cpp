@@ -43,10 +43,10 @@ struct Painter::Hidden {
   std::unique_ptr<Context> context;
   Gl gl;
   std::unique_ptr<Canvas> canvas;
-  // fine: solid for what is about a pixel wide. ground, and what is the same for each frame of it: open ground, where no shadow falls;
-  // dim: a ground that only shows its shadow; flat: its depth alone.
-  GLuint solid, fine, shade, crack, ground, open_ground, dim, flat, sky, cloud;
-  Drawable bricks, edges, shades, cracks, plane, discs;
+  // fine: solid for what is about a pixel wide; unlit: for what faces away from the sun, for which no shadow is looked up. ground, and what
+  // is the same for each frame of it: open ground, where no shadow falls; dim: a ground that only shows its shadow; flat: its depth alone.
+  GLuint solid, fine, unlit, shade, crack, ground, open_ground, dim, flat, sky, cloud;
+  Drawable bricks, edges, darks, shades, cracks, plane, discs;
   Texels blocks, joints;
   std::optional<Standpoint> backdrop_of;  // drawn last
 
@@ -55,6 +55,7 @@ struct Painter::Hidden {
     canvas = std::make_unique<Canvas>(gl, l.width, l.height, l.shadow_side);
     solid = make_program(gl, shader_common, solid_vertex, all_taps + solid_fragment);
     fine = make_program(gl, shader_common, solid_vertex, one_tap + solid_fragment);
+    unlit = make_program(gl, shader_common, solid_vertex, no_tap + solid_fragment);
     shade = make_program(gl, shader_common, shade_vertex, shade_fragment);
     crack = make_program(gl, shader_common, crack_vertex, crack_fragment);
     ground = make_program(gl, shader_common, ground_vertex, all_taps + ground_fragment);
@@ -70,10 +71,10 @@ struct Painter::Hidden {
     }
   }
   ~Hidden() {
-    for (GLuint program : {solid, fine, shade, crack, ground, open_ground, dim, flat, sky, cloud}) gl.DeleteProgram(program);
-    for (Drawable* d : {&bricks, &edges, &shades, &cracks, &plane, &discs}) {
+    for (GLuint program : {solid, fine, unlit, shade, crack, ground, open_ground, dim, flat, sky, cloud}) gl.DeleteProgram(program);
+    for (Drawable* d : {&bricks, &edges, &darks, &shades, &cracks, &plane, &discs}) {
       gl.DeleteVertexArrays(1, &d->vao);
-      if (d != &edges) gl.DeleteBuffers(1, &d->vertices);
+      if (d != &edges && d != &darks) gl.DeleteBuffers(1, &d->vertices);
       gl.DeleteBuffers(1, &d->index);
     }
     for (Texels* t : {&blocks, &joints}) {
@@ -86,8 +87,8 @@ struct Painter::Hidden {
 
   void upload_geometry() {
     bricks = upload(gl, show.mesh.vertices);
-    for (Drawable* d : {&bricks, &edges}) {
-      if (d == &edges) edges = again(gl, bricks);
+    for (Drawable* d : {&bricks, &edges, &darks}) {
+      if (d != &bricks) *d = again(gl, bricks);
       floats<Vertex>(gl, 0, 3, offsetof(Vertex, p));
       floats<Vertex>(gl, 1, 3, offsetof(Vertex, n));
       integers<Vertex>(gl, 2, 1, offsetof(Vertex, block));
@@ -263,6 +264,7 @@ struct Painter::Hidden {
   void draw_model(const Light& light, const View& v, double nearest, bool with_table) const {
     gl.Enable(GL_CLIP_DISTANCE0);
     draw_bricks(solid, bricks, light, 1);
+    draw_bricks(unlit, darks, light, 1);
     draw_bricks(show.fine_width < 2.5 * static_cast<double>(v.pixel) * nearest ? fine : solid, edges, light, 1);
     gl.Disable(GL_CULL_FACE);
     const Uniforms u = use(crack, light, light.camera);
@@ -367,11 +369,15 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   const Region region =
       with_table ? h.canvas->whole()
                  : region_of(spheres, v.view, v.projection, l.width, l.height, std::min<double>(l.width, shade + 2 + Canvas::border));
-  const FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye, static_cast<double>(v.pixel));
+  FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye, static_cast<double>(v.pixel));
   h.gl.ActiveTexture(GL_TEXTURE0);
   fill(h.gl, h.blocks, texels.blocks);
   h.gl.ActiveTexture(GL_TEXTURE1);
   fill(h.gl, h.joints, texels.joints);
+  std::vector<std::uint32_t> unlit = take_unlit(h.show.mesh, frame, light.sun, texels.index);
+  const std::vector<std::uint32_t> unlit_edges = take_unlit(h.show.mesh, frame, light.sun, texels.fine_index);
+  unlit.insert(unlit.end(), unlit_edges.begin(), unlit_edges.end());
+  choose(h.gl, h.darks, unlit);
   choose(h.gl, h.bricks, texels.index);
   choose(h.gl, h.edges, texels.fine_index);
   choose(h.gl, h.cracks, texels.crack_index);

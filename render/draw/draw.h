@@ -98,6 +98,10 @@ struct FrameTexels {
 // pixel: m, at a distance of 1 m. Blocks whose chamfers such pixels hardly show are drawn without them.
 FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel = 0);
 
+// Takes the triangles that face away from the sun (unit) at all corners out of an index.
+std::vector<std::uint32_t> take_unlit(const Mesh& mesh, const MotionFrame& frame, const Eigen::Vector3f& sun,
+                                      std::vector<std::uint32_t>& index);
+
 class Painter {
  public:
   // Makes a context current in the calling thread. Only this thread may use the object.

@@ -239,4 +239,24 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
   return t;
 }
 
+std::vector<std::uint32_t> take_unlit(const Mesh& mesh, const MotionFrame& frame, const Eigen::Vector3f& sun,
+                                      std::vector<std::uint32_t>& index) {
+  std::vector<Eigen::Vector3f> suns;  // as each block sees it
+  for (std::size_t b = 0; 7 * b < frame.poses.size(); ++b) suns.push_back(turn_of(frame, b).conjugate() * sun);
+  const auto unlit = [&](std::uint32_t corner) {
+    const Vertex& v = mesh.vertices[corner];
+    return Eigen::Map<const Eigen::Vector3f>(v.n).dot(suns[v.block]) < -1e-4F;  // the shaders round otherwise
+  };
+  std::vector<std::uint32_t> taken;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i + 2 < index.size(); i += 3) {
+    const bool dark = unlit(index[i]) && unlit(index[i + 1]) && unlit(index[i + 2]);
+    if (dark) taken.insert(taken.end(), {index[i], index[i + 1], index[i + 2]});
+    else
+      for (std::size_t k = i; k < i + 3; ++k) index[kept++] = index[k];
+  }
+  index.resize(kept);
+  return taken;
+}
+
 }  // namespace erbs::render

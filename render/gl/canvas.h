@@ -59,7 +59,7 @@ class Canvas {
   static constexpr int border = 8;                      // px, of the region around the model: without model
 
  private:
-  Image read(bool with_opacity) const;
+  Image read(bool with_opacity);
   void resolve(GLenum what);
   void begin_flat(const Target& target) const;
   void bind_model() const;
@@ -68,6 +68,7 @@ class Canvas {
   const Gl& gl_;
   int width_, height_;
   Region region_;
+  std::vector<std::uint8_t> pixels_;  // as read
   Target shadow_, sampled_, resolved_, occlusion_, blurred_, backdrop_, final_;
   GLuint occlusion_program_, blur_program_, finish_program_, empty_;
 };
