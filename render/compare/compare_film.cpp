@@ -78,10 +78,33 @@ struct SignalMeter {
   }
 };
 
-MotionSignal signal_of_film(FilmReader& film, const std::string& path, double step, const std::atomic<bool>& stop) {
+// The pictures of a film, which is read once as far as they fit into this memory; the rest of a longer one is read again.
+class FilmPictures {
+ public:
+  FilmPictures(FilmReader& film, int reduction) : film_(film), reduction_(reduction) { film.rewind(reduction); }
+  std::optional<Image> at(std::size_t index) {  // none after the last one
+    if (index < kept_.size()) return kept_[index];
+    if (index < film_.read()) film_.rewind(reduction_);
+    while (film_.read() < index)
+      if (!film_.next()) return std::nullopt;
+    std::optional<Image> image = film_.next();
+    if (image && index == kept_.size() && (index + 1) * image->rgb.size() <= most_bytes) kept_.push_back(*image);
+    return image;
+  }
+  int width() const { return film_.width() / reduction_; }  // px
+
+ private:
+  static constexpr std::size_t most_bytes = 300'000'000;
+  FilmReader& film_;
+  int reduction_;
+  std::vector<Image> kept_;  // the first ones
+};
+
+MotionSignal signal_of_film(FilmPictures& film, const std::string& path, double step, const std::atomic<bool>& stop) {
   SignalMeter meter;
-  film.rewind(reduction_to(film.width(), signal_width));
-  for (std::optional<Image> image; !stop && (image = film.next());) meter.add(*image, double(film.read() - 1) * step, step);
+  const int factor = reduction_to(film.width(), signal_width);
+  std::optional<Image> image;
+  for (std::size_t i = 0; !stop && (image = film.at(i)); ++i) meter.add(reduced(*image, factor), double(i) * step, step);
   if (stop) return meter.signal;
   if (meter.signal.t.size() < 2) throw Error("it has fewer than three pictures that can be read; name a longer film", {path});
   return meter.signal;
@@ -195,8 +218,8 @@ std::vector<double> times_in_run(const FilmErrors& e, const std::vector<double>&
 }
 
 // `workers` have been ordered the picture without blocks. The films wait for their end.
-bool measure(const RunDrawer& drawer, Workers& workers, FilmReader& film, FilmErrors& errors, const FilmComparison& wish,
-             std::optional<ComparisonFilms>& films, const std::atomic<bool>& stop) {
+bool measure(const RunDrawer& drawer, Workers& workers, const FilmReader& film, FilmPictures& pictures, FilmErrors& errors,
+             const FilmComparison& wish, std::optional<ComparisonFilms>& films, const std::atomic<bool>& stop) {
   std::size_t first = 0;
   const std::vector<double> times = times_in_run(errors, drawer.reader.times(), first);
   errors.outside = errors.film.t.size() + 1 - times.size();
@@ -205,23 +228,20 @@ bool measure(const RunDrawer& drawer, Workers& workers, FilmReader& film, FilmEr
         fmt::format("none of its pictures lies within the run, {:g} s to {:g} s, with a lag of {:g} s; give --fps, --slow or --align",
                     drawer.reader.times().front(), drawer.reader.times().back(), errors.lag),
         {wish.film});
-  film.rewind(film.width() / drawer.width);
-  std::optional<Image> picture = film.next();
   Image empty;
   for (std::size_t w = 0; w < workers.count(); ++w) empty = workers.collect(w);
-  const Image background = background_of(wish, film, *picture, empty);
+  const Image background = background_of(wish, film, *pictures.at(0), empty);
   const int factor = reduction_to(drawer.width, measured_width);
   errors.reduction = factor * (film.width() / drawer.width);
   Meter meter{factor, reduced(empty, factor), reduced(background, factor), {}, {}, {}, {}};
-  for (std::size_t i = 0; i < first; ++i) picture = film.next();
   fs::create_directories(wish.place);
   films.emplace(wish.place, drawer.width, drawer.height, drawer.movie.fps);
   PairWork work(meter, errors.frames, *films);
   drawer.draw(workers, times, [&](std::size_t i, Image image) {
-    if (!picture || stop) return false;
+    std::optional<Image> picture = pictures.at(first + i);
     work.finish();
+    if (!picture || stop) return false;
     work.begin(std::move(image), std::move(*picture), double(first + i) / errors.fps);
-    picture = film.next();
     return true;
   });
   work.finish();
@@ -259,12 +279,13 @@ bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const
   Workers workers = drawer.start(reader.times().size());
   for (std::size_t w = 0; w < workers.count(); ++w) workers.order(w, 0, drawer.frame_of(reader.times().front(), true));
   // Where and when something moves shows in small pictures of sharp blocks without shadows, for a third of the cost.
-  const int factor = reduction_to(film.width(), signal_width);
+  const int factor = reduction * reduction_to(movie.look.width, signal_width);
+  FilmPictures pictures(film, reduction);
   RunDrawer coarse{run, reader, movie, show_of(run, reader, movie, true), camera, film.width() / factor, film.height() / factor};
   coarse.movie.look.shadow = false;
   {
     Workers small = coarse.start(reader.times().size());  // before the thread: a copy of a process has one thread only
-    auto of_film = std::async(std::launch::async, [&] { return signal_of_film(film, wish.film, step, stop); });
+    auto of_film = std::async(std::launch::async, [&] { return signal_of_film(pictures, wish.film, step, stop); });
     errors.run = signal_of_run(coarse, small, reduction_to(coarse.width, signal_width), step, stop);
     errors.film = of_film.get();
   }
@@ -273,7 +294,7 @@ bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const
   if (const std::size_t read = errors.film.t.size() + 1; read + 2 < film.promised()) errors.missing = film.promised() - read;
   align(errors, wish);
   std::optional<ComparisonFilms> films;
-  if (!measure(drawer, workers, film, errors, wish, films, stop)) return false;
+  if (!measure(drawer, workers, film, pictures, errors, wish, films, stop)) return false;
   films->end();
   draw_film_errors(errors, wish);  // while ffmpeg ends the films
   films->finish();
