@@ -184,7 +184,10 @@ int verb_compare(const CompareCommand& command) {
   const CsvTable other = of_run ? read_histories(reference) : read_csv(reference);
   if (of_run) check_blocks(run, reference);
   RunComparison comparison;
-  if (of_run) comparison.scenes = compare_scenes(read_manifest(run), read_manifest(reference));
+  if (of_run) {
+    const Manifest ours = read_manifest(run), theirs = read_manifest(reference);
+    comparison.scenes = SceneDifferences{ours.scene_hash != theirs.scene_hash, compare_params(ours.params, theirs.params)};
+  }
   const std::vector<ColumnPair> pairs =
       pair_columns(own, other, command.columns, of_run ? run_file(reference, "histories.csv") : reference);
   comparison.shift = find_shift(pairs, alignment_of(command, of_run), command.reach);

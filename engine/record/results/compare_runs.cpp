@@ -205,16 +205,15 @@ CollapseErrors compare_collapse(const Json& run, const Json& reference, double s
   return e;
 }
 
-SceneDifferences compare_scenes(const Manifest& run, const Manifest& reference) {
-  SceneDifferences all{run.scene_hash != reference.scene_hash, {}};
-  for (const Param& p : run.params) {
-    const auto partner = std::ranges::find(reference.params, p.name, &Param::name);
-    if (partner == reference.params.end()) all.params.push_back({p.name, p.unit, p.value, std::nullopt});
-    else if (partner->value != p.value) all.params.push_back({p.name, p.unit, p.value, partner->value});
+std::vector<ParamDifference> compare_params(const std::vector<Param>& run, const std::vector<Param>& reference) {
+  std::vector<ParamDifference> all;
+  for (const Param& p : run) {
+    const auto partner = std::ranges::find(reference, p.name, &Param::name);
+    if (partner == reference.end()) all.push_back({p.name, p.unit, p.value, std::nullopt});
+    else if (partner->value != p.value) all.push_back({p.name, p.unit, p.value, partner->value});
   }
-  for (const Param& p : reference.params)
-    if (std::ranges::find(run.params, p.name, &Param::name) == run.params.end())
-      all.params.push_back({p.name, p.unit, std::nullopt, p.value});
+  for (const Param& p : reference)
+    if (std::ranges::find(run, p.name, &Param::name) == run.end()) all.push_back({p.name, p.unit, std::nullopt, p.value});
   return all;
 }
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "engine/base/correlation.h"
-#include "engine/record/folder/manifest.h"
 #include "engine/record/format/csv.h"
 #include "engine/record/format/json.h"
+#include "engine/scene/scene.h"
 
 namespace erbs {
 
@@ -68,7 +68,7 @@ struct SceneDifferences {
   bool script = false;                  // the scenes are not the same text
   std::vector<ParamDifference> params;  // in the order of the run, then what the reference has alone
 };
-SceneDifferences compare_scenes(const Manifest& run, const Manifest& reference);
+std::vector<ParamDifference> compare_params(const std::vector<Param>& run, const std::vector<Param>& reference);
 
 struct RunComparison {
   TimeShift shift;
