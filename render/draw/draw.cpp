@@ -22,15 +22,6 @@ Backdrop backdrop(Background background) {
   return {{0.80F, 0.83F, 0.86F}, {0.46F, 0.60F, 0.76F}, {0.54F, 0.535F, 0.52F}, {0.56F, 0.57F, 0.58F}};
 }
 
-// All that sky and open ground depend on.
-struct Standpoint {
-  Eigen::Matrix4f camera;
-  Eigen::Vector3f eye, sun;
-  float target_distance;
-  Eigen::Matrix4d table;  // its position; zero: it stays
-  bool operator==(const Standpoint&) const = default;
-};
-
 // Of a linear colour, as the shaders encode it.
 float encoded(float linear) { return std::pow(std::clamp(linear, 0.0F, 1.0F), 1 / 2.2F); }
 
@@ -43,19 +34,17 @@ struct Painter::Hidden {
   std::unique_ptr<Context> context;
   Gl gl;
   std::unique_ptr<Canvas> canvas;
-  // fine: solid for what is about a pixel wide; unlit: for what faces away from the sun, for which no shadow is looked up. ground, and what
-  // is the same for each frame of it: open ground, where no shadow falls; dim: a ground that only shows its shadow; flat: its depth alone.
-  GLuint solid, fine, unlit, shade, crack, ground, open_ground, dim, flat, sky, cloud;
-  Drawable bricks, edges, darks, shades, cracks, plane, discs;
+  // fine: solid for what is about a pixel wide. ground, and what is the same for each frame of it: open ground, where no shadow falls;
+  // dim: a ground that only shows its shadow; flat: its depth alone.
+  GLuint solid, fine, shade, crack, ground, open_ground, dim, flat, sky, cloud;
+  Drawable bricks, edges, shades, cracks, plane, discs;
   Texels blocks, joints;
-  std::optional<Standpoint> backdrop_of;  // drawn last
 
   Hidden(const Show& s, const Look& l, const std::string& kind)
       : show(s), look_(l), around(backdrop(l.background)), context(make_context(kind)), gl(load_gl(*context)) {
     canvas = std::make_unique<Canvas>(gl, l.width, l.height, l.shadow_side);
     solid = make_program(gl, shader_common, solid_vertex, all_taps + solid_fragment);
     fine = make_program(gl, shader_common, solid_vertex, one_tap + solid_fragment);
-    unlit = make_program(gl, shader_common, solid_vertex, no_tap + solid_fragment);
     shade = make_program(gl, shader_common, shade_vertex, shade_fragment);
     crack = make_program(gl, shader_common, crack_vertex, crack_fragment);
     ground = make_program(gl, shader_common, ground_vertex, all_taps + ground_fragment);
@@ -71,10 +60,10 @@ struct Painter::Hidden {
     }
   }
   ~Hidden() {
-    for (GLuint program : {solid, fine, unlit, shade, crack, ground, open_ground, dim, flat, sky, cloud}) gl.DeleteProgram(program);
-    for (Drawable* d : {&bricks, &edges, &darks, &shades, &cracks, &plane, &discs}) {
+    for (GLuint program : {solid, fine, shade, crack, ground, open_ground, dim, flat, sky, cloud}) gl.DeleteProgram(program);
+    for (Drawable* d : {&bricks, &edges, &shades, &cracks, &plane, &discs}) {
       gl.DeleteVertexArrays(1, &d->vao);
-      if (d != &edges && d != &darks) gl.DeleteBuffers(1, &d->vertices);
+      if (d != &edges) gl.DeleteBuffers(1, &d->vertices);
       gl.DeleteBuffers(1, &d->index);
     }
     for (Texels* t : {&blocks, &joints}) {
@@ -87,8 +76,8 @@ struct Painter::Hidden {
 
   void upload_geometry() {
     bricks = upload(gl, show.mesh.vertices);
-    for (Drawable* d : {&bricks, &edges, &darks}) {
-      if (d != &bricks) *d = again(gl, bricks);
+    for (Drawable* d : {&bricks, &edges}) {
+      if (d == &edges) edges = again(gl, bricks);
       floats<Vertex>(gl, 0, 3, offsetof(Vertex, p));
       floats<Vertex>(gl, 1, 3, offsetof(Vertex, n));
       integers<Vertex>(gl, 2, 1, offsetof(Vertex, block));
@@ -97,6 +86,7 @@ struct Painter::Hidden {
     shades = upload(gl, show.mesh.shades);
     floats<Vertex>(gl, 0, 3, offsetof(Vertex, p));
     integers<Vertex>(gl, 2, 1, offsetof(Vertex, block));
+    choose(gl, shades, show.mesh.shade_index);
     cracks = upload(gl, show.mesh.cracks);
     floats<CrackVertex>(gl, 0, 3, offsetof(CrackVertex, pa));
     floats<CrackVertex>(gl, 1, 3, offsetof(CrackVertex, pb));
@@ -196,7 +186,7 @@ struct Painter::Hidden {
   void draw_bricks(GLuint program, const Drawable& what, const Light& light, double opacity) const {
     const Uniforms u = use(program, light, light.camera);
     u.vector("mortar", {0.50F, 0.475F, 0.43F});
-    u.number("darker_edge", show.darker_edge);
+    u.number("darker_edge", show.mortared ? 0.12 : 0.42);
     u.number("by_damage", look_.coloring == Coloring::material ? 0 : 1);
     name_states(u);
     u.number("opacity", opacity);
@@ -246,7 +236,6 @@ struct Painter::Hidden {
     const Eigen::Matrix4f& p = v.projection;
     u.two("depth_range", static_cast<double>(p(2, 3) / (p(2, 2) - 1)), static_cast<double>(p(2, 3) / (p(2, 2) + 1)));
     u.two("size", look_.width, look_.height);
-    u.two("corner", canvas->model_region().left, canvas->model_region().bottom);
     u.vector("right", v.view.row(0).head<3>().transpose());
     u.vector("up", v.view.row(1).head<3>().transpose());
     u.vector("tone", {0.60F, 0.545F, 0.48F});
@@ -264,7 +253,6 @@ struct Painter::Hidden {
   void draw_model(const Light& light, const View& v, double nearest, bool with_table) const {
     gl.Enable(GL_CLIP_DISTANCE0);
     draw_bricks(solid, bricks, light, 1);
-    draw_bricks(unlit, darks, light, 1);
     draw_bricks(show.fine_width < 2.5 * static_cast<double>(v.pixel) * nearest ? fine : solid, edges, light, 1);
     gl.Disable(GL_CULL_FACE);
     const Uniforms u = use(crack, light, light.camera);
@@ -287,20 +275,14 @@ struct Painter::Hidden {
     draw_plane(program, light, v, {middle, reach * Vec3::UnitX(), reach * Vec3::UnitY(), true, false});
   }
 
-  // `shaded`: the part of the picture in which the model throws a shadow on the level ground. The rest is drawn for the first picture of a
-  // camera at rest: at 1280 x 720, sky and ground take a fifth of a picture of the house.
-  void draw_backdrop(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position, const Region& shaded) {
+  // `shaded`: the part of the picture in which the model throws a shadow on the level ground.
+  void draw_backdrop(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position, const Region& shaded) const {
     const bool backed = look_.background != Background::transparent;
-    const Standpoint here{light.camera, light.eye, light.sun, v.target_distance, position ? position->matrix() : Eigen::Matrix4d::Zero()};
-    if (!(backdrop_of && *backdrop_of == here)) {
-      const Eigen::Vector3f far = around.horizon.unaryExpr([](float c) { return encoded(c); });
-      canvas->begin_backdrop(backed ? Eigen::Vector4f(far.x(), far.y(), far.z(), 0) : Eigen::Vector4f(0, 0, 0, 1));
-      if (backed) draw_sky(light, v, position);
-      if (backed && !position) draw_ground(open_ground, light, v);
-      backdrop_of = here;
-    }
-    canvas->lay_backdrop();
+    const Eigen::Vector3f far = around.horizon.unaryExpr([](float c) { return encoded(c); });
+    canvas->begin_backdrop(backed ? Eigen::Vector4f(far.x(), far.y(), far.z(), 0) : Eigen::Vector4f(0, 0, 0, 1));
+    if (backed) draw_sky(light, v, position);
     if (position) return;
+    if (backed) draw_ground(open_ground, light, v);
     canvas->limit_to(shaded);
     draw_ground(backed ? ground : dim, light, v);
     canvas->limit_to(canvas->whole());
@@ -369,19 +351,14 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   const Region region =
       with_table ? h.canvas->whole()
                  : region_of(spheres, v.view, v.projection, l.width, l.height, std::min<double>(l.width, shade + 2 + Canvas::border));
-  FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye, static_cast<double>(v.pixel));
+  const FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye);
   h.gl.ActiveTexture(GL_TEXTURE0);
   fill(h.gl, h.blocks, texels.blocks);
   h.gl.ActiveTexture(GL_TEXTURE1);
   fill(h.gl, h.joints, texels.joints);
-  std::vector<std::uint32_t> unlit = take_unlit(h.show.mesh, frame, light.sun, texels.index);
-  const std::vector<std::uint32_t> unlit_edges = take_unlit(h.show.mesh, frame, light.sun, texels.fine_index);
-  unlit.insert(unlit.end(), unlit_edges.begin(), unlit_edges.end());
-  choose(h.gl, h.darks, unlit);
   choose(h.gl, h.bricks, texels.index);
   choose(h.gl, h.edges, texels.fine_index);
   choose(h.gl, h.cracks, texels.crack_index);
-  choose(h.gl, h.shades, texels.shade_index);
   h.draw_shadow(light);
   h.canvas->begin_model(region);
   h.draw_model(light, v, nearest, with_table);

@@ -45,9 +45,7 @@ struct Show {
   Stage stage;
   Mesh mesh;
   double chamfer = 0;             // m
-  double darker_edge = 0.42;      // share by which a chamfer is darker than its faces
   double fine_width = 0;          // m, of chamfers and mortar
-  double shade_overlap = 0;       // m, by which shadow casters of two joined blocks reach into each other
   double open_crack = 0;          // m, a hundredth of the thinnest brick: a joint parted this far is drawn as open
   bool mortared = false;          // joints have thickness: mortar between the bricks, not an edge
   double grid = 1;                // m, spacing of the lines on the ground
@@ -92,15 +90,9 @@ struct FrameTexels {
   std::vector<std::uint32_t> index;       // of faces
   std::vector<std::uint32_t> fine_index;  // of chamfers and mortar
   std::vector<std::uint32_t> crack_index;
-  std::vector<std::uint32_t> shade_index;  // of shadow casters
   std::vector<std::uint32_t> ghost_index;  // triangles of translucent blocks
 };
-// pixel: m, at a distance of 1 m. Blocks whose chamfers such pixels hardly show are drawn without them.
-FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel = 0);
-
-// Takes the triangles that face away from the sun (unit) at all corners out of an index.
-std::vector<std::uint32_t> take_unlit(const Mesh& mesh, const MotionFrame& frame, const Eigen::Vector3f& sun,
-                                      std::vector<std::uint32_t>& index);
+FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye);
 
 class Painter {
  public:

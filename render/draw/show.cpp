@@ -83,7 +83,6 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
     show.chamfer = std::min(show.chamfer, 0.3 * joint.thickness);
     gap = std::max(gap, joint.thickness);
   }
-  if (show.mortared) show.darker_edge = 0.12;  // mortar sets bricks apart, not their edges
   show.fine_width = std::max(1.5 * show.chamfer, gap);
   const MotionScene solid = section ? cut_scene(scene, *section, show.stage.hidden) : scene;
   if (sharp) show.chamfer = 0;
@@ -93,9 +92,7 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
     for (std::vector<Span>* spans : {&show.mesh.pointing, &show.mesh.crack}) spans->assign(spans->size(), Span{});
   std::vector<bool> no_shade = show.stage.hidden;
   for (std::size_t b = 0; b < no_shade.size(); ++b) no_shade[b] = no_shade[b] || show.ghost[b];
-  const double grow = 0.55 * gap + 0.1 * show.open_crack;
-  add_shades(show.mesh, solid, no_shade, grow);
-  show.shade_overlap = 2 * grow - gap;
+  add_shades(show.mesh, solid, no_shade, 0.55 * gap + 0.1 * show.open_crack);
   for (const MotionJoint& joint : scene.joints) show.joint_area.push_back(static_cast<float>(0.5 * area_normal(joint.polygon).norm()));
   for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
     float square = 0;
@@ -123,23 +120,8 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
 
 namespace {
 
-// Inside a wall no face throws a shadow of its own: those between casters that still reach into each other are left out.
-void choose_shades(const Show& show, FrameTexels& t) {
-  std::vector<bool> closed(show.scene->blocks.size(), true);
-  for (std::size_t j = 0; j < show.scene->joints.size(); ++j) {
-    if (static_cast<double>(t.joints[4 * j + 1]) < 0.9 * show.shade_overlap) continue;
-    closed[static_cast<std::size_t>(show.scene->joints[j].a)] = closed[static_cast<std::size_t>(show.scene->joints[j].b)] = false;
-  }
-  const std::vector<std::uint32_t>& all = show.mesh.shade_index;
-  for (std::size_t b = 0; b < closed.size(); ++b) {
-    const Span open = show.mesh.open_shade[b], buried = show.mesh.buried_shade[b];
-    t.shade_index.insert(t.shade_index.end(), all.begin() + open.begin, all.begin() + open.end);
-    if (!closed[b]) t.shade_index.insert(t.shade_index.end(), all.begin() + buried.begin, all.begin() + buried.end);
-  }
-}
-
 // Selects the visible triangles. Around a joint that has visibly parted, everything is drawn.
-void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joints, const Vec3& eye, double pixel, FrameTexels& t) {
+void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joints, const Vec3& eye, FrameTexels& t) {
   const MotionScene& scene = *show.scene;
   const float moved = static_cast<float>(0.1 * show.open_crack);
   std::vector<bool> quiet(scene.blocks.size(), true);
@@ -160,15 +142,8 @@ void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joint
     order.emplace_back(std::isfinite(distance) ? distance : std::numeric_limits<float>::max(), b);
   }
   std::sort(order.begin(), order.end());
-  // A chamfer is left out where it would darken a pixel by less than 3 %.
-  const double plain_from = pixel > 0 && show.chamfer > 0 ? show.chamfer * show.darker_edge / (0.03 * pixel) : HUGE_VAL;  // m
   for (const auto& [distance, b] : order) {
     if (show.ghost[b]) continue;
-    if (static_cast<double>(distance) > plain_from * plain_from) {
-      add(t.index, show.mesh.plain_index, show.mesh.plain_open[b]);
-      if (!quiet[b]) add(t.index, show.mesh.plain_index, show.mesh.plain_buried[b]);
-      continue;
-    }
     for (const std::vector<Surface<Span>>* surfaces : {&show.mesh.open, &show.mesh.buried}) {
       if (surfaces == &show.mesh.buried && quiet[b]) continue;
       add(t.index, show.mesh.index, (*surfaces)[b].faces);
@@ -202,7 +177,7 @@ void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joint
 
 }  // namespace
 
-FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel) {
+FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye) {
   const MotionScene& scene = *show.scene;
   const std::size_t nb = scene.blocks.size(), nj = scene.joints.size();
   FrameTexels t;
@@ -234,29 +209,8 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
     const float values[12] = {p[0], p[1], p[2], share, p[4], p[5], p[6], p[3], c.x(), c.y(), c.z(), 0};
     std::copy_n(values, 12, &t.blocks[12 * b]);
   }
-  choose_triangles(show, frame, coloring == Coloring::joint_state, eye, pixel, t);
-  choose_shades(show, t);
+  choose_triangles(show, frame, coloring == Coloring::joint_state, eye, t);
   return t;
-}
-
-std::vector<std::uint32_t> take_unlit(const Mesh& mesh, const MotionFrame& frame, const Eigen::Vector3f& sun,
-                                      std::vector<std::uint32_t>& index) {
-  std::vector<Eigen::Vector3f> suns;  // as each block sees it
-  for (std::size_t b = 0; 7 * b < frame.poses.size(); ++b) suns.push_back(turn_of(frame, b).conjugate() * sun);
-  const auto unlit = [&](std::uint32_t corner) {
-    const Vertex& v = mesh.vertices[corner];
-    return Eigen::Map<const Eigen::Vector3f>(v.n).dot(suns[v.block]) < -1e-4F;  // the shaders round otherwise
-  };
-  std::vector<std::uint32_t> taken;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i + 2 < index.size(); i += 3) {
-    const bool dark = unlit(index[i]) && unlit(index[i + 1]) && unlit(index[i + 2]);
-    if (dark) taken.insert(taken.end(), {index[i], index[i + 1], index[i + 2]});
-    else
-      for (std::size_t k = i; k < i + 3; ++k) index[kept++] = index[k];
-  }
-  index.resize(kept);
-  return taken;
 }
 
 }  // namespace erbs::render

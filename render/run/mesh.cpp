@@ -51,14 +51,6 @@ std::vector<bool> find_buried(const MotionScene& scene, int block, const MotionS
   return buried;
 }
 
-// The joints of each block [blocks].
-std::vector<std::vector<int>> joints_of(const MotionScene& scene) {
-  std::vector<std::vector<int>> touching(scene.blocks.size());
-  for (std::size_t j = 0; j < scene.joints.size(); ++j)
-    for (int block : {scene.joints[j].a, scene.joints[j].b}) touching[static_cast<std::size_t>(block)].push_back(static_cast<int>(j));
-  return touching;
-}
-
 }  // namespace
 
 Vec3 area_normal(const Loop& loop) {
@@ -155,32 +147,24 @@ void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double 
 }
 
 void add_shades(Mesh& mesh, const MotionScene& scene, const std::vector<bool>& hidden, double grow) {
-  std::vector<std::vector<int>> touching = joints_of(scene);
-  for (std::vector<int>& joints : touching)
-    std::erase_if(joints, [&](int j) {
-      const MotionJoint& joint = scene.joints[static_cast<std::size_t>(j)];
-      return hidden[static_cast<std::size_t>(joint.a)] || hidden[static_cast<std::size_t>(joint.b)];
-    });
   for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
-    std::vector<std::uint32_t> open, buried;
+    if (hidden[b]) continue;
     for (int part : scene.blocks[b].parts) {
-      if (hidden[b]) continue;
       const MotionShape& shape = scene.shapes[static_cast<std::size_t>(part)];
-      const std::vector<bool> covered = find_buried(scene, static_cast<int>(b), shape, touching[b]);
       const auto first = static_cast<std::uint32_t>(mesh.shades.size());
       const std::size_t corners = shape.vertices.size() / 3;
       // Moves each corner so that all its faces move by `grow`; approximately if more than three faces meet.
       std::vector<Mat3> planes(corners, Mat3::Zero());
       std::vector<Vec3> sums(corners, Vec3::Zero());
-      for (std::size_t f = 0; f < shape.faces.size(); ++f) {
-        const Vec3 n = area_normal(loop_of(shape, shape.faces[f])).normalized();
+      for (const std::vector<int>& face : shape.faces) {
+        const Vec3 n = area_normal(loop_of(shape, face)).normalized();
         std::vector<std::uint32_t> loop;
-        for (int i : shape.faces[f]) {
+        for (int i : face) {
           planes[static_cast<std::size_t>(i)] += n * n.transpose();
           sums[static_cast<std::size_t>(i)] += n;
           loop.push_back(first + static_cast<std::uint32_t>(i));
         }
-        add_fan(covered[f] ? buried : open, loop);
+        add_fan(mesh.shade_index, loop);
       }
       for (std::size_t i = 0; i < corners; ++i) {
         const Vec3 p = corner(shape, static_cast<int>(i)) + grow * (planes[i] + 1e-6 * Mat3::Identity()).inverse() * sums[i];
@@ -189,22 +173,21 @@ void add_shades(Mesh& mesh, const MotionScene& scene, const std::vector<bool>& h
         mesh.shades.push_back(v);
       }
     }
-    mesh.open_shade.push_back(append(mesh.shade_index, open));
-    mesh.buried_shade.push_back(append(mesh.shade_index, buried));
   }
 }
 
 Mesh build_mesh(const MotionScene& scene, const std::vector<bool>& hidden, double chamfer) {
   Mesh mesh;
-  const std::vector<std::vector<int>> touching = joints_of(scene);
+  std::vector<std::vector<int>> touching(scene.blocks.size());
+  for (std::size_t j = 0; j < scene.joints.size(); ++j)
+    for (int block : {scene.joints[j].a, scene.joints[j].b}) touching[static_cast<std::size_t>(block)].push_back(static_cast<int>(j));
   for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
-    Surface<std::vector<std::uint32_t>> open, buried, plain_open, plain_buried;
+    Surface<std::vector<std::uint32_t>> open, buried;
     for (int part : scene.blocks[b].parts) {
       if (hidden[b]) continue;
       const MotionShape& shape = scene.shapes[static_cast<std::size_t>(part)];
-      const std::vector<bool> covered = find_buried(scene, static_cast<int>(b), shape, touching[b]);
-      add_part(mesh, shape, static_cast<std::uint32_t>(b), chamfer, covered, open, buried);
-      if (chamfer > 0) add_part(mesh, shape, static_cast<std::uint32_t>(b), 0, covered, plain_open, plain_buried);
+      add_part(mesh, shape, static_cast<std::uint32_t>(b), chamfer, find_buried(scene, static_cast<int>(b), shape, touching[b]), open,
+               buried);
     }
     const auto appended = [&](const Surface<std::vector<std::uint32_t>>& s) -> Surface<Span> {
       const Span faces = append(mesh.index, s.faces);
@@ -212,8 +195,6 @@ Mesh build_mesh(const MotionScene& scene, const std::vector<bool>& hidden, doubl
     };
     mesh.open.push_back(appended(open));
     mesh.buried.push_back(appended(buried));
-    mesh.plain_open.push_back(append(mesh.plain_index, plain_open.faces));
-    mesh.plain_buried.push_back(append(mesh.plain_index, plain_buried.faces));
   }
   add_joints(mesh, scene, touching, chamfer);
   return mesh;

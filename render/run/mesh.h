@@ -43,15 +43,11 @@ struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> index;
   std::vector<Surface<Span>> open, buried;  // of each block [blocks]
-  // Whole faces up to the edges of a block, for one so far away that its chamfers are hardly to be seen: they are most of its triangles.
-  std::vector<std::uint32_t> plain_index;
-  std::vector<Span> plain_open, plain_buried;  // in plain_index; empty where there are no chamfers [blocks]
-  std::vector<Span> pointing;                  // visible mortar of a closed joint, at the wall's surface [joints]
-  std::vector<Surface<Span>> beds;             // mortar bed of a moved joint, half of it on each block: its faces, and its sides [joints]
+  std::vector<Span> pointing;               // visible mortar of a closed joint, at the wall's surface [joints]
+  std::vector<Surface<Span>> beds;          // mortar bed of a moved joint, half of it on each block: its faces, and its sides [joints]
   // Shadow casters: bare blocks, enlarged until they meet across their joints, so that no light passes through mortar.
   std::vector<Vertex> shades;
   std::vector<std::uint32_t> shade_index;
-  std::vector<Span> open_shade, buried_shade;  // of each block, in shade_index; buried: faces on other casters [blocks]
   std::vector<CrackVertex> cracks;
   std::vector<std::uint32_t> crack_index;
   std::vector<Span> crack;  // of each joint, in crack_index [joints]
