@@ -50,7 +50,7 @@ local function too_small(multiplier, rotation)
     local turn = turned_by(N, blocks * weight * (multiplier * (at.z - bed_z) + at.x - bed_x))
     if not turn then return false end
     rotation = rotation - turn
-    local closure = N / (c.kn * b * t)
+    local closure = N / (c.kn * b * t)  -- of the middle; matters for the softest beds, which are pressed all over or at their corners
     x, z = bed_x - h / 2 * math.sin(rotation), bed_z + closure - h / 2 * math.cos(rotation)
   end
   return rotation > 0

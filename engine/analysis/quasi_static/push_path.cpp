@@ -51,12 +51,12 @@ void LoadPath::failed() {
   tried_from = at;
 }
 
-MachinePath::MachinePath(const PushSettings& push, double height)
+MachinePath::MachinePath(const PushSettings& push, double height, double elastic)
     : end(push.displacement),
       step(push.displacement_step > 0 ? push.displacement_step : push.displacement / displacement_steps),
       bracket(push.bracket) {
   // A rigid block of height h on its edge loses less than 2 / h of its weight per displacement of its top.
-  stiffness = std::max(2 * (push.step > 0 ? push.step : default_step) / step, 10 / height);
+  stiffness = std::max(std::min(2 * (push.step > 0 ? push.step : default_step) / step, elastic), 10 / height);
 }
 
 void MachinePath::refine() { parts = parts_at_peak, left = 2 * parts_at_peak; }

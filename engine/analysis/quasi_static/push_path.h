@@ -1,6 +1,7 @@
 // The order in which a push visits its loads: which multiplier comes next, and what is known of the capacity.
 #pragma once
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <type_traits>
 #include <vector>
@@ -36,8 +37,9 @@ struct LoadPath {
 
 // Displacement control: the load grows with the extension of a loading machine, multiplier = stiffness (extension - displacement of the
 // monitored point). The machine is stiffer than the structure is weak past its peak, so that each extension has one state of equilibrium;
-// all other freedoms are free. The displacement itself follows within a step. Until the peak is passed, a step in which the curve bends
-// down is repeated in eight parts. A part of the structure that the monitored point has no share in may come apart all the same: the
+// all other freedoms are free. It is no stiffer than the intact structure: where it pushes one block and looks at another, a stiff machine
+// would drive waves between the two. The displacement itself follows within a step. Until the peak is passed, a step in which the curve
+// bends down is repeated in eight parts. A part of the structure that the monitored point has no share in may come apart all the same: the
 // interval to the first extension without equilibrium is halved until the multiplier there is known as narrowly as asked.
 struct MachinePath {
   double end = 0, step = 0;     // m
@@ -51,7 +53,8 @@ struct MachinePath {
   bool peaked = false;
 
   MachinePath() = default;
-  MachinePath(const PushSettings& push, double height);
+  // `elastic`: 1/m, slope of the curve of the intact structure.
+  explicit MachinePath(const PushSettings& push, double height, double elastic = std::numeric_limits<double>::infinity());
   bool done() const { return displacement >= (1 - 1e-3) * end || bracketed(); }
   bool bracketed() const;
   double next() const;  // the last step ends where a curve that goes on with its slope reaches the end

@@ -81,11 +81,11 @@ void PushRun::begin() {
   const double dt = run_.state.time.dt;
   key_ = checkpoint_key(scene_, script_, dt, options_.override_arguments);
   so_far_.path = LoadPath(push_);
-  so_far_.machine = MachinePath(push_, height_of(run_.model));
   const BlockVec3 built = run_.state.pose.u;
   WriterProgress written;
   for (const Block& block : scene_.blocks) group_.push_back(block.group);
   relaxation_.emplace(push_, group_, run_, options_.threads);  // of the intact structure, so that a resumed push has the same
+  so_far_.machine = relaxation_->loading_machine();
   if (resume) {
     const std::vector<std::size_t> sizes = sizes_of(run_.state);
     read_checkpoint(options_.directory, key_, run_.state, written, collapse_, so_far_);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/analysis/quasi_static/push_path.h"
 #include "engine/base/error.h"
 #include "engine/base/units.h"
 
@@ -184,9 +183,9 @@ Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>&
 
 // Waits for no slow elastic motion: that of a structure of a hundred metres takes thousands of steps.
 void Relaxation::soften_inertia() {
-  std::vector<Vec3> inertia(z(model_.nblock));  // N, at 1 m/s2
-  for (int b = 0; b < model_.nblock; ++b) inertia[z(b)] = model_.mass[z(b)] * push_.direction;
-  const ElasticPush elastic = elastic_push(model_, run_.state, inertia);
+  std::vector<Vec3> along(z(model_.nblock));  // N, of 1 m/s2 on the masses of the relaxation
+  for (int b = 0; b < model_.nblock; ++b) along[z(b)] = model_.mass[z(b)] * push_.direction;
+  const ElasticPush elastic = elastic_push(model_, run_.state, along);
   double rate = elastic.frequency * elastic.frequency;  // 1/s2
   const Freedom freedom = grounded_freedoms(model_, run_.state);
   const bool machine = push_.control == "displacement";
@@ -207,12 +206,11 @@ void Relaxation::soften_inertia() {
 }
 
 // The loading machine stiffens what it controls: pieces of the structure swing faster by the root of 1 + its stiffness over that of the
-// structure. Its force lags behind the displacement by up to `control_every` steps, which must be short beside the swing of the block on
-// the machine alone: the lag feeds that swing.
+// structure. Its force lags behind the displacement by up to `control_every` steps, which must be short beside the swing on the machine
+// alone, of the monitored block and of the whole structure: the lag feeds that swing.
 void Relaxation::hold_by_machine(const Freedom& freedom) {
   const int b = monitor_.block(), i = freedom.first[z(b)];
   if (i < 0) return;
-  const double stiffness = MachinePath(push_, height_of(model_)).stiffness;
   const std::vector<Vec3> load = loads_.slope();
   const ElasticPush elastic = elastic_push(model_, run_.state, load);
   if (elastic.motion.size() == 0) return;
@@ -221,8 +219,10 @@ void Relaxation::hold_by_machine(const Freedom& freedom) {
   const double before = monitor_.along(pose);
   pose.u[z(b)] += small * elastic.motion.segment<3>(i);
   pose.q[z(b)] = rotation(small * Vec3(elastic.motion.segment<3>(i + 3))) * Quat(pose.q[z(b)]);
-  machine_ = 1 + stiffness * std::fabs(monitor_.along(pose) - before) / small;
-  const double swing = std::sqrt(stiffness * model_.inverse_mass[z(b)] * std::fabs(load[z(b)].dot(push_.direction)));  // 1/s
+  elastic_slope_ = small / std::fabs(monitor_.along(pose) - before);
+  const double stiffness = loading_machine().stiffness, block = stiffness * model_.inverse_mass[z(b)] * load[z(b)].dot(push_.direction);
+  machine_ = 1 + stiffness / elastic_slope_;
+  const double swing = std::sqrt(std::max(std::fabs(block), (machine_ - 1) * elastic.frequency * elastic.frequency));  // 1/s
   if (swing > 0) range_.longest = dt_ = std::min(dt_, longest_lag / (control_every * swing));
 }
 

@@ -3,12 +3,14 @@
 #pragma once
 #include <array>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <string>
 
 #include "engine/analysis/crew.h"
 #include "engine/analysis/prepare.h"
 #include "engine/analysis/quasi_static/push_loads.h"
+#include "engine/analysis/quasi_static/push_path.h"
 #include "engine/analysis/quasi_static/scaled_inertia.h"
 #include "engine/solve/step.h"
 
@@ -56,6 +58,7 @@ class Relaxation {
   void release(State& state, double duration, double interval, const Seen& seen);
 
   const PushLoads& loads() const { return loads_; }
+  MachinePath loading_machine() const { return MachinePath(push_, height_of(run_.model), elastic_slope_); }  // at its start
   const MonitorPoint& monitor() const { return monitor_; }
   const Model& model() const { return model_; }
   double period() const { return period_; }            // s, of the relaxation's structure along the push
@@ -86,7 +89,8 @@ class Relaxation {
   MonitorPoint monitor_;
   StepRange range_;
   std::optional<CoarseInertia> inertia_;
-  double quick_ = 0;                 // 1/s2, its rate
+  double quick_ = 0;                                                // 1/s2, its rate
+  double elastic_slope_ = std::numeric_limits<double>::infinity();  // 1/m, of the multiplier over the displacement of the monitored point
   double machine_ = 1;               // stiffness of the structure with the loading machine over that without it
   double dt_ = 0, true_dt_ = 0;      // s
   double period_ = 0, longest_ = 0;  // s; longest_: of one relaxation

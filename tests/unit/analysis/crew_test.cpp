@@ -59,6 +59,7 @@ TEST_CASE("a team with much work for one thread stays together while it is faste
   machine.run(crew, 300, 0);
   const double before = machine.step, from = machine.wall;
   machine.run(crew, 900, 0);
+  // A trial takes 48 steps alone and two changes, in 30 s and in 40 of the cost of a change: at most 3 and 5 %.
   CHECK(machine.step - before > 0.92 * 1.4 * speed * (machine.wall - from));
 }
 

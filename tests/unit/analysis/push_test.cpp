@@ -8,55 +8,23 @@
 #include <map>
 #include <sstream>
 
-#include "engine/analysis/quasi_static/push_run.h"
 #include "engine/base/units.h"
-#include "tests/unit/lua/load.h"
+#include "tests/unit/analysis/push.h"
 #include "tests/unit/record/two_bricks.h"
 
 using namespace erbs;
 using namespace erbs::analysis;
 using namespace erbs::lua;
 
+using test::push, test::PushOutcome, test::slurp, test::stone;
+
 namespace {
-
-std::string slurp(const std::string& path) {
-  std::stringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
-
-const std::string stone = R"(
-material{ name = "stone", density = 2000, kn = 1e10, ks = 4e9 }
-box{ name = "floor", size = {6, 6, .5}, at = {-3, -3, -.5}, fixed = true }
-)";
 
 // A dry wall of four courses, which cracks and slides on its way.
 const std::string wall_text = stone + R"(
 wall{ brick = { length = .4, width = .2, height = .2 }, length = 1.2, courses = 4, joint = 0, at = {-.6, -.1, 0}, material = "stone", quiet = true }
 joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .6 } }
 )";
-
-struct PushOutcome {
-  Metrics metrics;
-  std::string curve;
-};
-
-PushOutcome push(const std::string& text, const std::string& dir, int threads = 1, Existing existing = Existing::refuse, int stop_at = -1,
-                 const std::string& copy_to = "") {
-  Script script(quiet());
-  Scene scene = script.load_text(text, "scene.lua", {});
-  std::atomic<bool> interrupted{false};
-  int calls = 0;
-  RunOptions options;
-  options.directory = dir, options.threads = threads, options.existing = existing, options.interrupted = &interrupted;
-  options.progress = [&](const Progress&) {
-    interrupted = ++calls == stop_at;
-    if (calls == 200 && !copy_to.empty()) std::filesystem::copy(dir, copy_to, std::filesystem::copy_options::recursive);
-  };
-  if (!copy_to.empty()) options.checkpoint_every = 0;
-  const RunOutcome outcome = run_push(std::move(scene), text, options);
-  return {outcome.metrics, slurp(dir + "/curve.csv")};
-}
 
 }  // namespace
 
@@ -122,93 +90,6 @@ TEST_CASE("a structure that falls on the way of its path has its capacity there"
     const CsvTable histories = read_csv(dir.path + "/histories.csv");
     CHECK((histories.find("gravity_ay_m_s2") >= 0) == (kind.find("tilt") != std::string::npos));
   }
-}
-
-// A pier of half the width of its height is held by the machine; a slender one beside it falls first.
-TEST_CASE("what the machine does not hold falls at the capacity all the same", "[push]") {
-  for (const double width : {0.2, 0.3}) {
-    const std::string text = stone + "box{ name = 'stocky', size = {.5, .5, 1}, at = {-1, 0, 0} }" +
-                             fmt::format("box{{ name = 'slender', size = {{ {}, .5, 1 }}, at = {{1, 0, 0}} }}", width) +
-                             "joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .7 } } analysis{ kind = 'pushover', limit = 'never', "
-                             "monitor = { block = 'stocky' }, ";
-    CAPTURE(width);
-    const test::Scratch by_load("push_by_load"), by_machine("push_by_machine");
-    const PushOutcome load = push(text + "}", by_load.path),
-                      machine = push(text + "control = 'displacement', displacement = 1*mm }", by_machine.path);
-    const Capacity &a = *load.metrics.capacity, &b = *machine.metrics.capacity;
-    REQUIRE(machine.metrics.status == "completed");
-    // The toe of the slender pier is pressed in: scenes/verify/v49_push_block.lua has the formula.
-    const double k = std::sqrt(2 * 2000 * width * 0.5 * standard_g / (1e10 * 0.5));
-    CHECK(a.peak.multiplier == Approx(width - 3 * std::pow(k / 3, 2. / 3)).epsilon(0.003));
-    CHECK(b.peak.multiplier == Approx(a.peak.multiplier).epsilon(0.004));  // two brackets
-    REQUIRE(b.above);
-    CHECK(*b.above > b.peak.multiplier);
-    CHECK(*b.above < 1.0021 * b.peak.multiplier);
-    CHECK(b.peak.most < 0.05);
-    CHECK(b.mechanism == a.mechanism);
-    CHECK(machine.metrics.collapse.collapsed);
-  }
-}
-
-TEST_CASE("control by displacement slides a block at its friction, however stiff its bed and whatever pushes", "[push]") {
-  const auto [kn, ks] = GENERATE(std::pair(1e10, 1e9), std::pair(1e8, 1e9), std::pair(1e9, 1e6));
-  const std::string pattern = GENERATE("", "pattern = { { block = 'b', force = { 0, 1000, 0 } } }, ");
-  const double weight = 2000 * 2 * 2 * 0.1 * standard_g, unit = pattern.empty() ? weight : 1000;
-  const test::Scratch dir("push_stiff");
-  const auto metrics = push(fmt::format("material{{ name = 'stone', density = 2000, kn = {0}, ks = {0} }}"
-                                        "box{{ name = 'floor', size = {{6, 6, .5}}, at = {{-3, -3, -.5}}, fixed = true }}"
-                                        "box{{ name = 'b', size = {{2, 2, .1}}, at = {{-1, -1, 0}} }}"
-                                        "joint{{ law = dry{{ kn = {0}, ks = {1}, mu = .3 }} }}"
-                                        "analysis{{ kind = 'pushover', direction = 'y', limit = 'never', control = 'displacement', {2}"
-                                        "displacement = {3} }}",
-                                        kn, ks, pattern, 2 * 0.3 * weight / (4 * ks)),
-                            dir.path)
-                           .metrics;
-  CAPTURE(kn, ks, pattern);
-  REQUIRE(metrics.status == "completed");
-  CHECK(metrics.capacity->peak.multiplier == Approx(0.3 * weight / unit).epsilon(2e-4));
-  CHECK(metrics.capacity->past_peak);
-}
-
-// The block is a contact from 20 mm on, with dashpots that local damping makes count 1.8 times.
-TEST_CASE("a block that has slid out of its bed keeps its friction, whatever damps its way", "[push]") {
-  const std::string how = GENERATE("critical", "kinetic", "local", "adaptive");
-  const test::Scratch dir("push_slid_out");
-  const PushOutcome out = push(
-      "material{ name = 'stone', density = 2000, kn = 1e9, ks = 1e9, friction = 1 }"
-      "box{ name = 'floor', size = {6, 6, .5}, at = {-3, -3, -.5}, fixed = true }"
-      "box{ name = 'b', size = {2, 2, .1}, at = {-1, -1, 0} } joint{ law = dry{ kn = 1e9, ks = 1e5, mu = .3 } }"
-      "analysis{ kind = 'pushover', direction = 'y', limit = 'never', control = 'displacement', "
-      "displacement = 26*mm, relaxation = '" +
-          how + "' }",
-      dir.path);
-  CAPTURE(how);
-  std::istringstream last(out.curve.substr(out.curve.rfind('\n', out.curve.size() - 2) + 1));
-  double multiplier = 0;
-  last >> multiplier;
-  CHECK(multiplier > 0.28);  // where the block overshoots, its springs unload a little
-  CHECK(multiplier < 0.3003);
-  CHECK(out.metrics.residual_relative < 1e-4);
-}
-
-TEST_CASE("control by displacement names the mechanism past the peak, and leaves the state there as it is", "[push]") {
-  const auto pushed = [](const char* far) {
-    const test::Scratch dir("push_past");
-    return push(stone +
-                    "box{ name = 'b', size = {.4, .4, 1.2}, at = {-.2, -.2, 0} } joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .7 } } "
-                    "analysis{ kind = 'pushover', limit = 'never', control = 'displacement', displacement = " +
-                    far + " }",
-                dir.path)
-        .metrics;
-  };
-  const Metrics past = pushed("20*mm"), before = pushed(".5*mm");
-  CHECK(past.capacity->past_peak);
-  CHECK(past.capacity->mechanism == "overturning");
-  CHECK_FALSE(past.capacity->above);
-  CHECK_FALSE(past.collapse.collapsed);
-  CHECK(past.residual_relative < 1e-5);
-  CHECK_FALSE(before.capacity->past_peak);
-  CHECK(before.capacity->mechanism.empty());
 }
 
 TEST_CASE("a push names its mechanism", "[push]") {

@@ -1,0 +1,130 @@
+// Pushes by a loading machine, which controls the displacement of a point: friction, what the machine does not hold, and behind a peak.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <sstream>
+
+#include "engine/base/units.h"
+#include "tests/unit/analysis/push.h"
+#include "tests/unit/record/two_bricks.h"
+
+using namespace erbs;
+using namespace erbs::analysis;
+using test::push, test::PushOutcome, test::stone;
+
+// A pier of half the width of its height is held by the machine; a slender one beside it falls first.
+TEST_CASE("what the machine does not hold falls at the capacity all the same", "[push]") {
+  for (const double width : {0.2, 0.3}) {
+    const std::string text = stone + "box{ name = 'stocky', size = {.5, .5, 1}, at = {-1, 0, 0} }" +
+                             fmt::format("box{{ name = 'slender', size = {{ {}, .5, 1 }}, at = {{1, 0, 0}} }}", width) +
+                             "joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .7 } } analysis{ kind = 'pushover', limit = 'never', "
+                             "monitor = { block = 'stocky' }, ";
+    CAPTURE(width);
+    const test::Scratch by_load("push_by_load"), by_machine("push_by_machine");
+    const PushOutcome load = push(text + "}", by_load.path),
+                      machine = push(text + "control = 'displacement', displacement = 1*mm }", by_machine.path);
+    const Capacity &a = *load.metrics.capacity, &b = *machine.metrics.capacity;
+    REQUIRE(machine.metrics.status == "completed");
+    // The toe of the slender pier is pressed in: scenes/verify/v49_push_block.lua has the formula.
+    const double k = std::sqrt(2 * 2000 * width * 0.5 * standard_g / (1e10 * 0.5));
+    CHECK(a.peak.multiplier == Approx(width - 3 * std::pow(k / 3, 2. / 3)).epsilon(0.003));
+    CHECK(b.peak.multiplier == Approx(a.peak.multiplier).epsilon(0.004));  // two brackets
+    REQUIRE(b.above);
+    CHECK(*b.above > b.peak.multiplier);
+    CHECK(*b.above < 1.0021 * b.peak.multiplier);
+    CHECK(b.peak.most < 0.05);
+    CHECK(b.mechanism == a.mechanism);
+    CHECK(machine.metrics.collapse.collapsed);
+  }
+}
+
+TEST_CASE("control by displacement slides a block at its friction, however stiff its bed and whatever pushes", "[push]") {
+  const auto [kn, ks] = GENERATE(std::pair(1e10, 1e9), std::pair(1e8, 1e9), std::pair(1e9, 1e6));
+  const std::string pattern = GENERATE("", "pattern = { { block = 'b', force = { 0, 1000, 0 } } }, ");
+  const double weight = 2000 * 2 * 2 * 0.1 * standard_g, unit = pattern.empty() ? weight : 1000;
+  const test::Scratch dir("push_stiff");
+  const auto metrics = push(fmt::format("material{{ name = 'stone', density = 2000, kn = {0}, ks = {0} }}"
+                                        "box{{ name = 'floor', size = {{6, 6, .5}}, at = {{-3, -3, -.5}}, fixed = true }}"
+                                        "box{{ name = 'b', size = {{2, 2, .1}}, at = {{-1, -1, 0}} }}"
+                                        "joint{{ law = dry{{ kn = {0}, ks = {1}, mu = .3 }} }}"
+                                        "analysis{{ kind = 'pushover', direction = 'y', limit = 'never', control = 'displacement', {2}"
+                                        "displacement = {3} }}",
+                                        kn, ks, pattern, 2 * 0.3 * weight / (4 * ks)),
+                            dir.path)
+                           .metrics;
+  CAPTURE(kn, ks, pattern);
+  REQUIRE(metrics.status == "completed");
+  CHECK(metrics.capacity->peak.multiplier == Approx(0.3 * weight / unit).epsilon(2e-4));
+  CHECK(metrics.capacity->past_peak);
+}
+
+// A machine as stiff as the way is short would drive waves between the two blocks.
+TEST_CASE("control by displacement may push one block and look at another, however short the way", "[push]") {
+  const auto [kn, ks] = GENERATE(std::pair(1e10, 1e9), std::pair(1e8, 1e9), std::pair(1e9, 1e6));
+  const int on = GENERATE(1, 2), at = GENERATE(1, 2);
+  const double share = GENERATE(0.02, 0.3, 3.0);  // of the displacement at which the lower block slides
+  const double lower = 2000 * (4 + 1) * 0.1 * standard_g, upper = 2000 * 0.1 * standard_g, slides = 0.3 * (on == 1 ? lower : upper) / 1000;
+  const test::Scratch dir("push_remote");
+  const auto metrics = push(fmt::format("material{{ name = 'stone', density = 2000, kn = {0}, ks = {0} }}"
+                                        "box{{ name = 'floor', size = {{6, 6, .5}}, at = {{-3, -3, -.5}}, fixed = true }}"
+                                        "box{{ name = 'b1', size = {{2, 2, .1}}, at = {{-1, -1, 0}} }}"
+                                        "box{{ name = 'b2', size = {{1, 1, .1}}, at = {{-.5, -.5, .1}} }}"
+                                        "joint{{ law = dry{{ kn = {0}, ks = {1}, mu = .3 }} }}"
+                                        "analysis{{ kind = 'pushover', direction = 'y', limit = 'never', control = 'displacement', "
+                                        "displacement = {2}, pattern = {{ {{ block = 'b{3}', force = {{ 0, 1000, 0 }} }} }}, "
+                                        "monitor = {{ block = 'b{4}' }} }}",
+                                        kn, ks, share * 0.3 * lower / (4 * ks), on, at),
+                            dir.path)
+                           .metrics;
+  CAPTURE(kn, ks, on, at, share);
+  REQUIRE(metrics.status == "completed");
+  const double multiplier = metrics.capacity->peak.multiplier;
+  if (share > 1 || (on == 2 && at == 1 && share > 0.2)) {
+    CHECK(multiplier == Approx(slides).epsilon(2e-3));  // the bracket, where what slides off is not what is looked at
+  } else {
+    const double sheared = share * 0.3 * lower / 1000;  // by shear of the beds alone; where they turn as well, less
+    CHECK(multiplier < 1.001 * (on == 2 && at == 2 ? sheared / (1 + 4) : sheared));
+    CHECK(multiplier > 0.7 * (on == 2 && at == 2 ? sheared / (1 + 4) : sheared));
+    CHECK_FALSE(metrics.capacity->above);
+  }
+}
+
+// The block is a contact from 20 mm on, with dashpots that local damping makes count 1.8 times.
+TEST_CASE("a block that has slid out of its bed keeps its friction, whatever damps its way", "[push]") {
+  const std::string how = GENERATE("critical", "kinetic", "local", "adaptive");
+  const test::Scratch dir("push_slid_out");
+  const PushOutcome out = push(
+      "material{ name = 'stone', density = 2000, kn = 1e9, ks = 1e9, friction = 1 }"
+      "box{ name = 'floor', size = {6, 6, .5}, at = {-3, -3, -.5}, fixed = true }"
+      "box{ name = 'b', size = {2, 2, .1}, at = {-1, -1, 0} } joint{ law = dry{ kn = 1e9, ks = 1e5, mu = .3 } }"
+      "analysis{ kind = 'pushover', direction = 'y', limit = 'never', control = 'displacement', "
+      "displacement = 26*mm, relaxation = '" +
+          how + "' }",
+      dir.path);
+  CAPTURE(how);
+  std::istringstream last(out.curve.substr(out.curve.rfind('\n', out.curve.size() - 2) + 1));
+  double multiplier = 0;
+  last >> multiplier;
+  CHECK(multiplier > 0.28);  // where the block overshoots, its springs unload a little
+  CHECK(multiplier < 0.3003);
+  CHECK(out.metrics.residual_relative < 1e-4);
+}
+
+TEST_CASE("control by displacement names the mechanism past the peak, and leaves the state there as it is", "[push]") {
+  const auto pushed = [](const char* far) {
+    const test::Scratch dir("push_past");
+    return push(stone +
+                    "box{ name = 'b', size = {.4, .4, 1.2}, at = {-.2, -.2, 0} } joint{ law = dry{ kn = 1e10, ks = 4e9, mu = .7 } } "
+                    "analysis{ kind = 'pushover', limit = 'never', control = 'displacement', displacement = " +
+                    far + " }",
+                dir.path)
+        .metrics;
+  };
+  const Metrics past = pushed("20*mm"), before = pushed(".5*mm");
+  CHECK(past.capacity->past_peak);
+  CHECK(past.capacity->mechanism == "overturning");
+  CHECK_FALSE(past.capacity->above);
+  CHECK_FALSE(past.collapse.collapsed);
+  CHECK(past.residual_relative < 1e-5);
+  CHECK_FALSE(before.capacity->past_peak);
+  CHECK(before.capacity->mechanism.empty());
+}
