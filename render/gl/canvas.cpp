@@ -1,6 +1,8 @@
 #include "render/gl/canvas.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <utility>
 
 #include "engine/base/error.h"
@@ -92,10 +94,10 @@ Canvas::Canvas(const Gl& gl, int width, int height, int shadow_side)
       width_(width),
       height_(height),
       shadow_(shadow_target(gl, shadow_side)),
-      sampled_(multisampled_target(gl, width, height, 4)),
       resolved_(picture_target(gl, width, height, true)),
       occlusion_(picture_target(gl, (width + 1) / 2, (height + 1) / 2, false)),
       blurred_(picture_target(gl, (width + 1) / 2, (height + 1) / 2, false)),
+      backdrop_(picture_target(gl, width, height, false)),
       final_(picture_target(gl, width, height, false)),
       occlusion_program_(make_program(gl, shader_common, screen_vertex, occlusion_fragment)),
       blur_program_(make_program(gl, shader_common, screen_vertex, blur_fragment)),
@@ -109,6 +111,31 @@ Canvas::~Canvas() {
   gl_.DeleteVertexArrays(1, &empty_);
 }
 
+namespace {
+
+// Pixels of four channels as pixels of the first three. Four at a time, which takes a quarter of the time.
+void drop_last(const std::uint8_t* from, int count, std::uint8_t* to) {
+  for (; count >= 4; count -= 4, from += 16, to += 12) {
+    std::array<std::uint32_t, 4> p;
+    std::memcpy(p.data(), from, sizeof p);
+    for (std::uint32_t& pixel : p) pixel &= 0xffffffU;  // the first byte is the lowest one
+    const std::array<std::uint32_t, 3> packed{p[0] | p[1] << 24U, p[1] >> 8U | p[2] << 16U, p[2] >> 16U | p[3] << 8U};
+    std::memcpy(to, packed.data(), sizeof packed);
+  }
+  for (; count > 0; --count, from += 4, to += 3) std::copy_n(from, 3, to);
+}
+
+// Colours times opacity, and transparency, as colours and opacity.
+void unmultiply(const std::uint8_t* from, int count, std::uint8_t* to) {
+  for (; count > 0; --count, from += 4, to += 4) {
+    const int opacity = to[3] = static_cast<std::uint8_t>(255 - from[3]);
+    for (int c = 0; c < 3; ++c)
+      to[c] = opacity > 0 ? static_cast<std::uint8_t>(std::min(255, (255 * from[c] + opacity / 2) / opacity)) : from[c];
+  }
+}
+
+}  // namespace
+
 void Canvas::begin_shadow() {
   gl_.BindFramebuffer(GL_FRAMEBUFFER, shadow_.framebuffer);
   gl_.Viewport(0, 0, shadow_.width, shadow_.height);
@@ -121,24 +148,34 @@ void Canvas::limit_to(const Region& r) {
   gl_.Scissor(r.left, r.bottom, std::max(0, r.width()), std::max(0, r.height()));
 }
 
+// The multisampled buffers hold the region alone: to clear those of a whole picture of 1280 x 720 takes 7 ms.
 void Canvas::begin_model(const Region& within) {
   region_ = within;
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
-  gl_.Viewport(0, 0, width_, height_);
+  const auto rounded = [](int pixels) { return std::max(64, (pixels + 63) / 64 * 64); };
+  const int w = std::max(sampled_.width, rounded(within.width())), h = std::max(sampled_.height, rounded(within.height()));
+  if (w > sampled_.width || h > sampled_.height) sampled_ = multisampled_target(gl_, w, h, 4);
+  bind_model();
   gl_.Enable(GL_DEPTH_TEST);
-  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);  // of the whole picture: faster than of a part
+  gl_.Clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);  // of all buffers: faster than of a part
+}
+
+void Canvas::bind_model() const {
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
+  gl_.Viewport(-region_.left, -region_.bottom, width_, height_);
 }
 
 void Canvas::resolve(GLenum what) {
   const Region& r = region_;
+  if (r.empty()) return;
   gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, sampled_.framebuffer);
   gl_.BindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.framebuffer);
-  gl_.BlitFramebuffer(r.left, r.bottom, r.right, r.top, r.left, r.bottom, r.right, r.top, what, GL_NEAREST);
+  gl_.BlitFramebuffer(0, 0, r.width(), r.height(), r.left, r.bottom, r.right, r.top, what, GL_NEAREST);
 }
 
 void Canvas::begin_depth() {
   resolve(GL_DEPTH_BUFFER_BIT);
   gl_.BindFramebuffer(GL_FRAMEBUFFER, resolved_.framebuffer);
+  gl_.Viewport(0, 0, width_, height_);
   limit_to(region_);
   gl_.ColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
 }
@@ -146,19 +183,31 @@ void Canvas::begin_depth() {
 void Canvas::begin_translucent() {
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, sampled_.framebuffer);
+  bind_model();
 }
 
-void Canvas::begin_backdrop(const Eigen::Vector4f& clear) {
+// One sample a pixel and no depth.
+void Canvas::begin_flat(const Target& target) const {
   gl_.Disable(GL_SCISSOR_TEST);
   gl_.ColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
   gl_.Disable(GL_DEPTH_TEST);
   gl_.Disable(GL_CULL_FACE);
-  gl_.BindFramebuffer(GL_FRAMEBUFFER, final_.framebuffer);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
   gl_.Viewport(0, 0, width_, height_);
+}
+
+void Canvas::begin_backdrop(const Eigen::Vector4f& clear) {
+  begin_flat(backdrop_);
   gl_.ClearColor(clear.x(), clear.y(), clear.z(), clear.w());
   gl_.Clear(GL_COLOR_BUFFER_BIT);
   gl_.ClearColor(0, 0, 0, 0);
+}
+
+void Canvas::lay_backdrop() {
+  begin_flat(final_);
+  gl_.BindFramebuffer(GL_READ_FRAMEBUFFER, backdrop_.framebuffer);
+  gl_.BlitFramebuffer(0, 0, width_, height_, 0, 0, width_, height_, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  gl_.BindFramebuffer(GL_FRAMEBUFFER, final_.framebuffer);
 }
 
 void Canvas::screen_pass(GLuint program, const Target& target, const Region& within) {
@@ -212,20 +261,14 @@ Image Canvas::finish(const Eigen::Matrix4f& projection, double radius, bool with
   return read(with_opacity);
 }
 
-Image Canvas::read(bool with_opacity) const {
+Image Canvas::read(bool with_opacity) {
   Image image(width_, height_, with_opacity ? 4 : 3);
-  std::vector<std::uint8_t> rgba(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
-  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, rgba.data());
+  pixels_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_) * 4);
+  gl_.ReadPixels(0, 0, width_, height_, GL_RGBA, GL_UNSIGNED_BYTE, pixels_.data());
   for (int y = 0; y < height_; ++y) {
-    const std::uint8_t* from = &rgba[static_cast<std::size_t>(height_ - 1 - y) * static_cast<std::size_t>(width_) * 4];
-    std::uint8_t* to = image.pixel(0, y);
-    for (int x = 0; x < width_; ++x, from += 4, to += image.channels) {
-      std::copy_n(from, 3, to);
-      if (!with_opacity) continue;
-      const int opacity = to[3] = static_cast<std::uint8_t>(255 - from[3]);
-      for (int c = 0; c < 3 && opacity > 0; ++c)  // read as a colour times its opacity
-        to[c] = static_cast<std::uint8_t>(std::min(255, (255 * from[c] + opacity / 2) / opacity));
-    }
+    const std::uint8_t* from = &pixels_[static_cast<std::size_t>(height_ - 1 - y) * static_cast<std::size_t>(width_) * 4];
+    if (with_opacity) unmultiply(from, width_, image.pixel(0, y));
+    else drop_last(from, width_, image.pixel(0, y));
   }
   return image;
 }

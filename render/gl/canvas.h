@@ -37,17 +37,20 @@ class Canvas {
   Canvas& operator=(const Canvas&) = delete;
 
   // The steps of a picture, in this order. The model is drawn with several samples a pixel and only within a region, before nothing; the
-  // backdrop, which has no edges of its own, with one sample a pixel everywhere.
+  // backdrop, which has no edges of its own, with one sample a pixel everywhere. It is kept: pictures of a camera at rest have the same
+  // one.
   void begin_shadow();                     // afterwards draw everything that casts a shadow
   void begin_model(const Region& within);  // afterwards draw what stands on the ground
   void begin_depth();                      // takes the depth of the model; afterwards draw the ground, of which only the depth counts
   void begin_translucent();                // afterwards draw what darkens no corners, if there is any
   void begin_backdrop(const Eigen::Vector4f& clear);  // colour and transparency; afterwards draw ground and sky, with their transparency
+  void lay_backdrop();                                // the one drawn last; afterwards draw shadows on it
   // Darkens corners within `radius` (m), lays the model over the backdrop and returns the pixels, perhaps with their opacity.
   Image finish(const Eigen::Matrix4f& projection, double radius, bool with_opacity);
 
   void limit_to(const Region& region);  // draws there alone
   Region whole() const { return {0, 0, width_, height_}; }
+  const Region& model_region() const { return region_; }  // whose lower left corner is gl_FragCoord's origin while the model is drawn
   int width() const { return width_; }
   int height() const { return height_; }
   GLuint shadow_map() const { return shadow_.depth; }
@@ -56,14 +59,17 @@ class Canvas {
   static constexpr int border = 8;                      // px, of the region around the model: without model
 
  private:
-  Image read(bool with_opacity) const;
+  Image read(bool with_opacity);
   void resolve(GLenum what);
+  void begin_flat(const Target& target) const;
+  void bind_model() const;
   void screen_pass(GLuint program, const Target& target, const Region& within);
   void occlusion_uniforms(GLuint program, const Eigen::Matrix4f& projection, double radius);
   const Gl& gl_;
   int width_, height_;
   Region region_;
-  Target shadow_, sampled_, resolved_, occlusion_, blurred_, final_;
+  std::vector<std::uint8_t> pixels_;  // as read
+  Target shadow_, sampled_, resolved_, occlusion_, blurred_, backdrop_, final_;
   GLuint occlusion_program_, blur_program_, finish_program_, empty_;
 };
 

@@ -210,7 +210,7 @@ in float radius;
 in vec3 world;
 uniform sampler2D depth;
 uniform vec2 depth_range;     // near, far (m)
-uniform vec2 size;            // px
+uniform vec2 size, corner;    // px, of the picture, and of what is drawn in it
 uniform vec3 right, up, tone;
 out vec4 color;
 float scatter(vec2 p) { return fract(sin(dot(p, vec2(127.1, 311.7))) * 43758.5453); }
@@ -228,7 +228,7 @@ void main() {
   vec2 p = at * 1.7 + 31.0 * kind.y;
   float cloud = 0.6 * mottle(p * 1.3) + 0.4 * mottle(p * 2.9);
   float dense = smoothstep(1.0, 0.15, d + 0.55 * (cloud - 0.5));
-  float behind = along(texture(depth, gl_FragCoord.xy / size).r) - along(gl_FragCoord.z);
+  float behind = along(texture(depth, (gl_FragCoord.xy + corner) / size).r) - along(gl_FragCoord.z);
   float alpha = kind.x * dense * clamp((behind + radius * ball) / (1.2 * radius), 0.0, 1.0);
   vec3 n = at.x * right + at.y * up;
   float lit = 0.80 + 0.22 * dot(n, sun) + 0.10 * at.y;
