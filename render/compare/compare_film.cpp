@@ -258,7 +258,6 @@ bool compare_film(const Run& run, const MotionReader& reader, Movie movie, const
   const int reduction = reduction_to(film.width(), wish.width);
   movie.look.width = film.width() / reduction, movie.look.height = film.height() / reduction, movie.fps = film.fps();
   movie.look.overlay = false;
-  if (movie.look.width <= 640) movie.look.shadow_side = 1024;  // as fine as that of the usual pictures, of twice the width
   errors.fps = movie.fps * movie.slow;
   const double step = 1 / errors.fps;
   Show show = show_of(run, reader, movie);

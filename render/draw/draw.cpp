@@ -52,7 +52,7 @@ struct Painter::Hidden {
 
   Hidden(const Show& s, const Look& l, const std::string& kind)
       : show(s), look_(l), around(backdrop(l.background)), context(make_context(kind)), gl(load_gl(*context)) {
-    canvas = std::make_unique<Canvas>(gl, l.width, l.height, l.shadow_side);
+    canvas = std::make_unique<Canvas>(gl, l.width, l.height, l.shadow_side());
     solid = make_program(gl, shader_common, solid_vertex, all_taps + solid_fragment);
     fine = make_program(gl, shader_common, solid_vertex, one_tap + solid_fragment);
     shade = make_program(gl, shader_common, shade_vertex, shade_fragment);
@@ -96,7 +96,6 @@ struct Painter::Hidden {
     shades = upload(gl, show.mesh.shades);
     floats<Vertex>(gl, 0, 3, offsetof(Vertex, p));
     integers<Vertex>(gl, 2, 1, offsetof(Vertex, block));
-    choose(gl, shades, show.mesh.shade_index);
     cracks = upload(gl, show.mesh.cracks);
     floats<CrackVertex>(gl, 0, 3, offsetof(CrackVertex, pa));
     floats<CrackVertex>(gl, 1, 3, offsetof(CrackVertex, pb));
@@ -131,7 +130,7 @@ struct Painter::Hidden {
     u.vector("sun", light.sun);
     u.vector("horizon", around.horizon);
     u.number("shadow_texel", light.shadow_texel);
-    u.number("shadow_step", 1.0 / canvas->shadow_side());
+    u.number("shadow_side", canvas->shadow_side());
     u.four("casters", {light.casters.min().x(), light.casters.min().y(), light.casters.max().x(), light.casters.max().y()});
     u.four("seen_side", light.seen_side);
     u.sampler("blocks", 0);
@@ -357,9 +356,10 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   const double radius = 0.022 * stage.size();  // m, within which corners are dark
   Hidden::Light light{v.projection * v.view, {}, v.eye, sun_of(level_camera), 0, {}, {0, 0, 0, 1}};
   light.to_shadow = shadow_view(stage, light.sun);
-  light.shadow_texel = 2.0 / l.shadow_side / static_cast<double>(light.to_shadow.row(0).head<3>().norm());
+  light.shadow_texel = 2.0 / l.shadow_side() / static_cast<double>(light.to_shadow.row(0).head<3>().norm());
   const std::vector<Sphere> spheres = h.extents(frame, dust, 1.6 * radius);
-  if (l.shadow) light.casters = box_of(spheres, light.to_shadow).intersection({Eigen::Vector2f::Zero(), Eigen::Vector2f::Ones()});
+  const Eigen::Vector2f border = Eigen::Vector2f::Constant(3.0F / static_cast<float>(l.shadow_side()));  // no texel beyond it is asked
+  if (l.shadow) light.casters = box_of(spheres, light.to_shadow).intersection({border, Eigen::Vector2f::Ones() - border});
   const bool above = light.eye.z() >= static_cast<float>(stage.ground_z);
   if (!position) light.seen_side = Eigen::Vector4f(0, 0, 1, -static_cast<float>(stage.ground_z)) * (above ? 1.0F : -1.0F);
   const bool with_table = position && stage.on_ground;
@@ -368,7 +368,7 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   const Region region =
       with_table ? h.canvas->whole()
                  : region_of(spheres, v.view, v.projection, l.width, l.height, std::min<double>(l.width, shade + 2 + Canvas::border));
-  const FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye);
+  const FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye, static_cast<double>(v.pixel));
   h.gl.ActiveTexture(GL_TEXTURE0);
   fill(h.gl, h.blocks, texels.blocks);
   h.gl.ActiveTexture(GL_TEXTURE1);
@@ -376,6 +376,7 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   choose(h.gl, h.bricks, texels.index);
   choose(h.gl, h.edges, texels.fine_index);
   choose(h.gl, h.cracks, texels.crack_index);
+  choose(h.gl, h.shades, texels.shade_index);
   h.draw_shadow(light);
   h.canvas->begin_model(region);
   h.draw_model(light, v, nearest, with_table);

@@ -1,5 +1,6 @@
 // Draws one frame of a run from one camera.
 #pragma once
+#include <algorithm>
 #include <memory>
 #include <optional>
 
@@ -35,8 +36,9 @@ struct Look {
   double magnify = 1;                       // factor on the displacements drawn
   Background background = Background::sky;  // white: with the ground, for print; transparent: of the ground, only its shadow
   bool shadow = true;                       // of the sun
-  int shadow_side = 2048;                   // texels of its map, along each side
   bool table_turns = true;                  // a tilting test is drawn level, with its table turning; otherwise gravity turns
+  // Texels along each side of the shadow map: finer than the picture. Filling the map takes a sixth of the time of a frame.
+  int shadow_side() const { return std::clamp((6 * std::max(width, height) / 5 + 255) / 256 * 256, 1024, 8192); }
 };
 
 // Constant data of a picture, common to all frames and threads.
@@ -90,9 +92,12 @@ struct FrameTexels {
   std::vector<std::uint32_t> index;       // of faces
   std::vector<std::uint32_t> fine_index;  // of chamfers and mortar
   std::vector<std::uint32_t> crack_index;
+  std::vector<std::uint32_t> shade_index;  // of what casts shadows
   std::vector<std::uint32_t> ghost_index;  // triangles of translucent blocks
 };
-FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye);
+// pixel: m, at a distance of 1 m; 0: as small as needed. Where mortar of its own colour sets bricks apart, those whose chamfers are narrower
+// than a quarter of a pixel are drawn without them.
+FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel = 0);
 
 class Painter {
  public:

@@ -92,7 +92,7 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
     for (std::vector<Span>* spans : {&show.mesh.pointing, &show.mesh.crack}) spans->assign(spans->size(), Span{});
   std::vector<bool> no_shade = show.stage.hidden;
   for (std::size_t b = 0; b < no_shade.size(); ++b) no_shade[b] = no_shade[b] || show.ghost[b];
-  add_shades(show.mesh, solid, no_shade, 0.55 * gap + 0.1 * show.open_crack);
+  add_shades(show.mesh, solid, no_shade, 0.55 * gap + 0.1 * show.open_crack, 1.5 * gap + 0.002 * show.stage.size());
   for (const MotionJoint& joint : scene.joints) show.joint_area.push_back(static_cast<float>(0.5 * area_normal(joint.polygon).norm()));
   for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
     float square = 0;
@@ -121,15 +121,17 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
 namespace {
 
 // Selects the visible triangles. Around a joint that has visibly parted, everything is drawn.
-void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joints, const Vec3& eye, FrameTexels& t) {
+void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joints, const Vec3& eye, double pixel, FrameTexels& t) {
   const MotionScene& scene = *show.scene;
   const float moved = static_cast<float>(0.1 * show.open_crack);
-  std::vector<bool> quiet(scene.blocks.size(), true);
+  const auto leaky = static_cast<float>(0.0005 * show.stage.size());  // m, a sixth of a texel of the shadow map lets no light be seen
+  std::vector<bool> quiet(scene.blocks.size(), true), tight = quiet;
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const bool to_ghost =
         show.ghost[static_cast<std::size_t>(scene.joints[j].a)] != show.ghost[static_cast<std::size_t>(scene.joints[j].b)];
-    if (t.joints[4 * j + 1] < moved && !to_ghost) continue;
-    quiet[static_cast<std::size_t>(scene.joints[j].a)] = quiet[static_cast<std::size_t>(scene.joints[j].b)] = false;
+    const auto a = static_cast<std::size_t>(scene.joints[j].a), b = static_cast<std::size_t>(scene.joints[j].b);
+    if (t.joints[4 * j + 1] >= moved || to_ghost) quiet[a] = quiet[b] = false;
+    if (t.joints[4 * j + 1] >= leaky || to_ghost) tight[a] = tight[b] = false;
   }
   const auto add = [](std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from, Span span) {
     to.insert(to.end(), from.begin() + span.begin, from.begin() + span.end);
@@ -142,8 +144,15 @@ void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joint
     order.emplace_back(std::isfinite(distance) ? distance : std::numeric_limits<float>::max(), b);
   }
   std::sort(order.begin(), order.end());
+  const double plain_from = pixel > 0 && show.chamfer > 0 ? show.chamfer / (0.25 * pixel) : HUGE_VAL;  // m
   for (const auto& [distance, b] : order) {
     if (show.ghost[b]) continue;
+    add(t.shade_index, show.mesh.shade_index, (tight[b] ? show.mesh.rim_shade : show.mesh.whole_shade)[b]);
+    if (static_cast<double>(distance) > plain_from * plain_from) {
+      add(t.index, show.mesh.plain_index, show.mesh.plain_open[b]);
+      if (!quiet[b]) add(t.index, show.mesh.plain_index, show.mesh.plain_buried[b]);
+      continue;
+    }
     for (const std::vector<Surface<Span>>* surfaces : {&show.mesh.open, &show.mesh.buried}) {
       if (surfaces == &show.mesh.buried && quiet[b]) continue;
       add(t.index, show.mesh.index, (*surfaces)[b].faces);
@@ -177,7 +186,7 @@ void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joint
 
 }  // namespace
 
-FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye) {
+FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel) {
   const MotionScene& scene = *show.scene;
   const std::size_t nb = scene.blocks.size(), nj = scene.joints.size();
   FrameTexels t;
@@ -209,7 +218,9 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
     const float values[12] = {p[0], p[1], p[2], share, p[4], p[5], p[6], p[3], c.x(), c.y(), c.z(), 0};
     std::copy_n(values, 12, &t.blocks[12 * b]);
   }
-  choose_triangles(show, frame, coloring == Coloring::joint_state, eye, t);
+  // Among other colours, and in walls without mortar, chamfers are the joints that one sees.
+  const bool mortar_shows = coloring == Coloring::material && show.mortared;
+  choose_triangles(show, frame, coloring == Coloring::joint_state, eye, mortar_shows ? pixel : 0, t);
   return t;
 }
 

@@ -52,8 +52,7 @@ void check(const Gl& gl, int width, int height) {
 
 Target shadow_target(const Gl& gl, int side) {
   Target t(&gl, side, side);
-  t.depth = make_texture(gl, GL_DEPTH_COMPONENT24, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, side, side, GL_LINEAR);
-  gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+  t.depth = make_texture(gl, GL_DEPTH_COMPONENT16, GL_DEPTH_COMPONENT, GL_UNSIGNED_INT, side, side, GL_NEAREST);
   gl.BindFramebuffer(GL_FRAMEBUFFER, t.framebuffer);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, t.depth, 0);
   gl.DrawBuffer(GL_NONE);

@@ -20,45 +20,55 @@ vec3 srgb(vec3 c) { return pow(clamp(c, 0.0, 1.0), vec3(1.0 / 2.2)); }
 const std::string all_taps = "const float most_taps = 9.0;\n", one_tap = "const float most_taps = 1.0;\n",
                   no_tap = "const float most_taps = 0.0;\n";
 
-static const std::string lighting = R"(
-uniform sampler2DShadow shadow;
+// Where a point lies in the shadow map, 0..1. It is moved off its surface, so that a surface does not shade itself.
+static const std::string shadow_place = R"(
 uniform mat4 to_shadow;
 uniform float shadow_texel;   // m
-uniform float shadow_step;    // of the map
+vec3 shadow_at(vec3 p, vec3 n) { return (to_shadow * vec4(p + n * (2.0 * shadow_texel), 1.0)).xyz * 0.5 + vec3(0.5, 0.5, 0.4996); }
+)";
+
+static const std::string lighting = R"(
+uniform sampler2D shadow;
+uniform float shadow_side;    // texels
 uniform vec4 casters;         // of the map, 0..1: the part that holds what throws a shadow; empty if none is drawn
 
-// Share of the sun that reaches a point: 3 x 3 taps, each a bilinear comparison. The first four, at the corners, tell most points that lie
-// wholly in the light or in the shade. The software rasteriser runs through both arms of an if, and through the rest of a loop after a
-// break: so it is one loop, left at its end.
-float sunlight(vec3 p, vec3 n, float facing) {
+// Share of the sun that reaches a place of the shadow map: the mean of 3 x 3 bilinear comparisons, which see 4 x 4 texels (percentage-closer
+// filtering; Reeves, Salesin and Cook 1987). The corners of these tell most places that lie wholly in the light or in the shade. The
+// software rasteriser runs through both arms of an if, and through the rest of a loop after a break: so it is one loop, left at its end.
+float sunlight(vec3 place, float facing) {
   if (most_taps == 0.0) return 1.0;
 #ifdef GL_ARB_ES3_1_compatibility
   bool unseen = gl_HelperInvocation;  // computed beside a covered pixel: it need not keep its neighbours in the loop
 #else
   bool unseen = false;
 #endif
-  vec4 s = to_shadow * vec4(p + n * (2.0 * shadow_texel), 1.0);
-  vec3 c = s.xyz * 0.5 + 0.5;
-  bool free = unseen || facing <= 0.0 || any(lessThan(c.xy, casters.xy)) || any(greaterThan(c.xy, casters.zw)) || c.z > 1.0;
-  float lit = 0.0, taps = 0.0;
-  for (;;) {
-    vec2 at = taps < 4.0 ? vec2(mod(taps, 2.0) * 2.0 - 1.0, taps < 2.0 ? -1.0 : 1.0) : vec2(taps == 5.0 ? -1.0 : taps == 6.0 ? 1.0 : 0.0, taps == 7.0 ? -1.0 : taps == 8.0 ? 1.0 : 0.0);
-    lit += textureLod(shadow, vec3(c.xy + at * (1.4 * shadow_step), c.z - 0.0004), 0.0);
-    taps += 1.0;
-    if (free || taps == most_taps || (taps == 4.0 && (lit == 0.0 || lit == 4.0))) break;
+  bool free = unseen || facing <= 0.0 || any(lessThan(place.xy, casters.xy)) || any(greaterThan(place.xy, casters.zw)) || place.z > 1.0;
+  vec2 at = place.xy * shadow_side - 0.5, f = fract(at);
+  ivec2 first = ivec2(floor(at));
+  float lit = 0.0;
+  for (int row = most_taps == 1.0 ? 3 : -2;; ++row) {  // -2: the corners; -1 to 2: the rows; 3: the four texels of a single comparison
+    ivec4 x = row == -2 ? ivec4(-1, 2, -1, 2) : row == 3 ? ivec4(0, 1, 0, 1) : ivec4(-1, 0, 1, 2);
+    ivec4 y = row == -2 ? ivec4(-1, -1, 2, 2) : row == 3 ? ivec4(0, 0, 1, 1) : ivec4(row);
+    vec4 bare = step(place.zzzz, vec4(texelFetch(shadow, first + ivec2(x.x, y.x), 0).r, texelFetch(shadow, first + ivec2(x.y, y.y), 0).r,
+                                      texelFetch(shadow, first + ivec2(x.z, y.z), 0).r, texelFetch(shadow, first + ivec2(x.w, y.w), 0).r));
+    vec4 weight = row == -2 ? vec4(0.25)
+                : row == 3 ? vec4(1.0 - f.x, f.x, 1.0 - f.x, f.x) * vec4(1.0 - f.yy, f.yy)
+                           : vec4(1.0 - f.x, 1.0, 1.0, f.x) * ((row == -1 ? 1.0 - f.y : row == 2 ? f.y : 1.0) / 9.0);
+    lit = (row > -1 ? lit : 0.0) + dot(bare, weight);
+    if (free || row >= 2 || (row == -2 && (lit == 0.0 || lit == 1.0))) break;
   }
-  return free ? 1.0 : lit / taps;
+  return free ? 1.0 : lit;
 }
 
-vec3 lit(vec3 albedo, vec3 p, vec3 n, float cavity) {
+vec3 lit(vec3 albedo, vec3 place, vec3 n, float cavity) {
   float direct = max(dot(n, sun), 0.0);
-  direct *= sunlight(p, n, direct);
+  direct *= sunlight(place, direct);
   vec3 sky = mix(vec3(0.31, 0.29, 0.27), vec3(0.42, 0.45, 0.49), 0.5 + 0.5 * n.z);
   return albedo * (sky * cavity + vec3(1.00, 0.95, 0.87) * direct);
 }
 )";
 
-const std::string solid_vertex = R"(
+const std::string solid_vertex = shadow_place + R"(
 layout(location = 0) in vec3 at;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in uint block;
@@ -66,12 +76,13 @@ layout(location = 3) in uint joint;
 uniform vec3 mortar;
 uniform float by_damage, by_state;
 uniform vec3 states[3];
-out vec3 world, n, albedo;
+out vec3 place, n, albedo;
 void main() {
   int b = int(block) * 3;
-  vec4 place = texelFetch(blocks, b), q = texelFetch(blocks, b + 1);
-  world = place.xyz + turn(q, at);
+  vec4 pose = texelFetch(blocks, b), q = texelFetch(blocks, b + 1);
+  vec3 world = pose.xyz + turn(q, at);
   n = turn(q, normal);
+  place = shadow_at(world, n);
   albedo = texelFetch(blocks, b + 2).rgb;
   if (joint != 0xffffffffu) {
     vec4 j = texelFetch(joints, int(joint));
@@ -85,13 +96,13 @@ void main() {
 
 // Across a chamfer the normal is interpolated from one face to the next. Its length, below 1, gives the distance from the faces.
 const std::string solid_fragment = lighting + R"(
-in vec3 world, n, albedo;
+in vec3 place, n, albedo;
 uniform float darker_edge;
 uniform float opacity;        // of faces; edges are denser
 out vec4 color;
 void main() {
   float edge = clamp((1.0 - dot(n, n)) * 2.2, 0.0, 1.0);
-  color.rgb = srgb(lit(albedo * (1.0 - darker_edge * edge), world, normalize(n), 1.0 - 0.25 * edge));
+  color.rgb = srgb(lit(albedo * (1.0 - darker_edge * edge), place, normalize(n), 1.0 - 0.25 * edge));
   color.a = mix(opacity, 1.0, 0.4 * edge);
 }
 )";
@@ -147,17 +158,18 @@ void main() {
 }
 )";
 
-const std::string ground_vertex = R"(
+const std::string ground_vertex = shadow_place + R"(
 layout(location = 0) in vec2 corner;
-uniform vec3 middle, along, across;
-out vec3 world;
+uniform vec3 middle, along, across, normal;
+out vec3 world, place;
 void main() {
   world = middle + corner.x * along + corner.y * across;
+  place = shadow_at(world, normal);
   gl_Position = camera * vec4(world, 1.0);
 }
 )";
 const std::string ground_fragment = lighting + R"(
-in vec3 world;
+in vec3 world, place;
 uniform vec3 middle, normal, tone;  // tone: linear colour of the ground
 uniform float grid, fade, far;  // m: lines, where they end, where the ground is lost in the haze
 uniform float last;           // component of the colour: opacity of what is part of the model, transparency of the backdrop
@@ -173,17 +185,17 @@ void main() {
   float line = max(lines(p.x, grid, 0.016 * grid), lines(p.y, grid, 0.016 * grid));
   float r = distance(world.xy, middle.xy) / fade;
   vec3 base = mix(tone, 0.6 * tone, line * 0.6 * clamp(1.8 - r, 0.0, 1.0));
-  vec3 c = lit(base, world, normal, 1.0);
+  vec3 c = lit(base, place, normal, 1.0);
   color = vec4(srgb(mix(c, horizon, smoothstep(1.0, 5.0, distance(eye, world) / far))), last);
 }
 )";
 
 // The shadow alone, black and as dense as it darkens the ground; the last component is transparency.
 const std::string dim_fragment = lighting + R"(
-in vec3 world;
+in vec3 place;
 uniform vec3 normal;
 out vec4 color;
-void main() { color = vec4(0.0, 0.0, 0.0, 1.0 - 0.36 * (1.0 - sunlight(world, normal, max(dot(normal, sun), 0.0)))); }
+void main() { color = vec4(0.0, 0.0, 0.0, 1.0 - 0.36 * (1.0 - sunlight(place, max(dot(normal, sun), 0.0)))); }
 )";
 
 // Clouds of dust: discs that face the eye, denser in the middle and mottled, and thinner where something solid is near behind them.

@@ -11,8 +11,8 @@
 
 namespace erbs::render {
 
-// libpng's simplified interface cannot select the filter. No filter and level 1 take a quarter of its time. At 1280 x 720 the house
-// takes 10.9 ms and 212 kB, at level 3 13.9 ms and 194 kB, with the filter "up" 12.9 ms and 272 kB.
+// libpng's simplified interface cannot select the filter. No filter and level 3 take a third of its time, and give smaller files for our
+// pictures; level 4 takes 1.4 times as long for 6 % less.
 void write_png(const std::string& path, const Image& image, const Texts& texts) {
   const std::string beside = path + ".tmp";  // renamed once complete
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(beside.c_str(), "wb"), std::fclose);
@@ -39,7 +39,7 @@ void write_png(const std::string& path, const Image& image, const Texts& texts) 
                image.channels == 4 ? PNG_COLOR_TYPE_RGBA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
-  png_set_compression_level(png, 1);
+  png_set_compression_level(png, 3);
   png_set_text(png, info, chunks.data(), static_cast<int>(chunks.size()));
   png_set_rows(png, info, rows.data());
   png_write_png(png, info, PNG_TRANSFORM_IDENTITY, nullptr);

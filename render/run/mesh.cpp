@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 namespace erbs::render {
 namespace {
@@ -146,48 +147,84 @@ void add_part(Mesh& mesh, const MotionShape& shape, std::uint32_t block, double 
   }
 }
 
-void add_shades(Mesh& mesh, const MotionScene& scene, const std::vector<bool>& hidden, double grow) {
+namespace {
+
+// Joints of each block.
+std::vector<std::vector<int>> joints_of_blocks(const MotionScene& scene) {
+  std::vector<std::vector<int>> joints(scene.blocks.size());
+  for (std::size_t j = 0; j < scene.joints.size(); ++j)
+    for (int block : {scene.joints[j].a, scene.joints[j].b}) joints[static_cast<std::size_t>(block)].push_back(static_cast<int>(j));
+  return joints;
+}
+
+// Corners moved so that all their faces move by `grow`; approximately if more than three faces meet.
+std::vector<Vec3> grown(const MotionShape& shape, double grow) {
+  const std::size_t count = shape.vertices.size() / 3;
+  std::vector<Mat3> planes(count, Mat3::Zero());
+  std::vector<Vec3> sums(count, Vec3::Zero()), result;
+  for (const std::vector<int>& face : shape.faces) {
+    const Vec3 n = area_normal(loop_of(shape, face)).normalized();
+    for (int i : face) {
+      planes[static_cast<std::size_t>(i)] += n * n.transpose();
+      sums[static_cast<std::size_t>(i)] += n;
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i)
+    result.push_back(corner(shape, static_cast<int>(i)) + grow * (planes[i] + 1e-6 * Mat3::Identity()).inverse() * sums[i]);
+  return result;
+}
+
+}  // namespace
+
+void add_shades(Mesh& mesh, const MotionScene& scene, const std::vector<bool>& hidden, double grow, double rim) {
+  const std::vector<std::vector<int>> joints = joints_of_blocks(scene);
   for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
-    if (hidden[b]) continue;
+    std::vector<std::uint32_t> whole, rims;
     for (int part : scene.blocks[b].parts) {
+      if (hidden[b]) continue;
       const MotionShape& shape = scene.shapes[static_cast<std::size_t>(part)];
       const auto first = static_cast<std::uint32_t>(mesh.shades.size());
-      const std::size_t corners = shape.vertices.size() / 3;
-      // Moves each corner so that all its faces move by `grow`; approximately if more than three faces meet.
-      std::vector<Mat3> planes(corners, Mat3::Zero());
-      std::vector<Vec3> sums(corners, Vec3::Zero());
-      for (const std::vector<int>& face : shape.faces) {
-        const Vec3 n = area_normal(loop_of(shape, face)).normalized();
-        std::vector<std::uint32_t> loop;
-        for (int i : face) {
-          planes[static_cast<std::size_t>(i)] += n * n.transpose();
-          sums[static_cast<std::size_t>(i)] += n;
-          loop.push_back(first + static_cast<std::uint32_t>(i));
-        }
-        add_fan(mesh.shade_index, loop);
-      }
-      for (std::size_t i = 0; i < corners; ++i) {
-        const Vec3 p = corner(shape, static_cast<int>(i)) + grow * (planes[i] + 1e-6 * Mat3::Identity()).inverse() * sums[i];
+      const auto add = [&](const Vec3& p) {
         Vertex v{{}, {}, static_cast<std::uint32_t>(b), no_joint};
         for (int k = 0; k < 3; ++k) v.p[k] = static_cast<float>(p[k]);
         mesh.shades.push_back(v);
+        return static_cast<std::uint32_t>(mesh.shades.size() - 1);
+      };
+      const std::vector<Vec3> corners = grown(shape, grow);
+      for (const Vec3& p : corners) add(p);
+      const std::vector<bool> buried = find_buried(scene, static_cast<int>(b), shape, joints[b]);
+      std::set<std::pair<int, int>> open;  // edges of faces that can be seen, in their sense
+      for (std::size_t f = 0; f < shape.faces.size(); ++f)
+        for (std::size_t k = 0; !buried[f] && k < shape.faces[f].size(); ++k)
+          open.emplace(shape.faces[f][k], shape.faces[f][(k + 1) % shape.faces[f].size()]);
+      for (std::size_t f = 0; f < shape.faces.size(); ++f) {
+        Loop loop;
+        std::vector<std::uint32_t> ids;
+        for (int i : shape.faces[f]) loop.push_back(corners[static_cast<std::size_t>(i)]), ids.push_back(first + static_cast<std::uint32_t>(i));
+        add_fan(whole, ids);
+        if (!buried[f]) add_fan(rims, ids);
+        if (!buried[f]) continue;
+        const Loop inner = inset(loop, area_normal(loop).normalized(), rim);
+        for (std::size_t k = 0, next = 1; k < loop.size(); ++k, next = (k + 1) % loop.size())
+          if (open.contains({shape.faces[f][next], shape.faces[f][k]})) add_fan(rims, {ids[k], ids[next], add(inner[next]), add(inner[k])});
       }
     }
+    mesh.whole_shade.push_back(append(mesh.shade_index, whole));
+    mesh.rim_shade.push_back(append(mesh.shade_index, rims));
   }
 }
 
 Mesh build_mesh(const MotionScene& scene, const std::vector<bool>& hidden, double chamfer) {
   Mesh mesh;
-  std::vector<std::vector<int>> touching(scene.blocks.size());
-  for (std::size_t j = 0; j < scene.joints.size(); ++j)
-    for (int block : {scene.joints[j].a, scene.joints[j].b}) touching[static_cast<std::size_t>(block)].push_back(static_cast<int>(j));
+  const std::vector<std::vector<int>> touching = joints_of_blocks(scene);
   for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
-    Surface<std::vector<std::uint32_t>> open, buried;
+    Surface<std::vector<std::uint32_t>> open, buried, plain_open, plain_buried;
     for (int part : scene.blocks[b].parts) {
       if (hidden[b]) continue;
       const MotionShape& shape = scene.shapes[static_cast<std::size_t>(part)];
-      add_part(mesh, shape, static_cast<std::uint32_t>(b), chamfer, find_buried(scene, static_cast<int>(b), shape, touching[b]), open,
-               buried);
+      const std::vector<bool> covered = find_buried(scene, static_cast<int>(b), shape, touching[b]);
+      add_part(mesh, shape, static_cast<std::uint32_t>(b), chamfer, covered, open, buried);
+      if (chamfer > 0) add_part(mesh, shape, static_cast<std::uint32_t>(b), 0, covered, plain_open, plain_buried);
     }
     const auto appended = [&](const Surface<std::vector<std::uint32_t>>& s) -> Surface<Span> {
       const Span faces = append(mesh.index, s.faces);
@@ -195,6 +232,8 @@ Mesh build_mesh(const MotionScene& scene, const std::vector<bool>& hidden, doubl
     };
     mesh.open.push_back(appended(open));
     mesh.buried.push_back(appended(buried));
+    mesh.plain_open.push_back(append(mesh.plain_index, plain_open.faces));
+    mesh.plain_buried.push_back(append(mesh.plain_index, plain_buried.faces));
   }
   add_joints(mesh, scene, touching, chamfer);
   return mesh;

@@ -43,11 +43,17 @@ struct Mesh {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> index;
   std::vector<Surface<Span>> open, buried;  // of each block [blocks]
-  std::vector<Span> pointing;               // visible mortar of a closed joint, at the wall's surface [joints]
-  std::vector<Surface<Span>> beds;          // mortar bed of a moved joint, half of it on each block: its faces, and its sides [joints]
+  // Whole faces up to the edges of a block, for one so far away that its chamfers are hardly to be seen: they are most of its triangles.
+  std::vector<std::uint32_t> plain_index;
+  std::vector<Span> plain_open, plain_buried;  // in plain_index; empty where there are no chamfers [blocks]
+  std::vector<Span> pointing;                  // visible mortar of a closed joint, at the wall's surface [joints]
+  std::vector<Surface<Span>> beds;             // mortar bed of a moved joint, half of it on each block: its faces, and its sides [joints]
   // Shadow casters: bare blocks, enlarged until they meet across their joints, so that no light passes through mortar.
   std::vector<Vertex> shades;
   std::vector<std::uint32_t> shade_index;
+  // A block whose joints are closed casts the shadow of its free faces and of the rims that its buried faces turn to the open, in which
+  // mortar lies in the shade. Deeper in the wall no light is seen, and there are the most faces. [blocks]
+  std::vector<Span> whole_shade, rim_shade;
   std::vector<CrackVertex> cracks;
   std::vector<std::uint32_t> crack_index;
   std::vector<Span> crack;  // of each joint, in crack_index [joints]
@@ -57,8 +63,8 @@ struct Mesh {
 // those of the faces, so a chamfer is shaded round.
 Mesh build_mesh(const MotionScene& scene, const std::vector<bool>& hidden, double chamfer);
 
-// Fills mesh.shades. `grow`: m, outward offset of each face.
-void add_shades(Mesh& mesh, const MotionScene& scene, const std::vector<bool>& hidden, double grow);
+// Fills mesh.shades. `grow`: m, outward offset of each face; `rim`: m, width of the rims.
+void add_shades(Mesh& mesh, const MotionScene& scene, const std::vector<bool>& hidden, double grow, double rim);
 
 // Is this point (m) within the block at rest, or on its surface?
 bool is_inside(const MotionScene& scene, std::size_t block, const Vec3& world);

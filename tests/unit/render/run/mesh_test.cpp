@@ -185,7 +185,7 @@ TEST_CASE("what throws shadow is a block grown on every side", "[render][mesh]")
   MotionScene scene;
   scene.blocks = {{"a", "", 0, false, Vec3(1, 2, 3), {share_shape(scene, wedge())}}};
   Mesh mesh;
-  add_shades(mesh, scene, {false}, 0.01);
+  add_shades(mesh, scene, {false}, 0.01, 0.05);
   const MotionShape shape = wedge();
   REQUIRE(mesh.shades.size() == shape.vertices.size() / 3);
   for (const std::vector<int>& face : shape.faces) {
@@ -197,8 +197,47 @@ TEST_CASE("what throws shadow is a block grown on every side", "[render][mesh]")
       CHECK((Vec3(p[0], p[1], p[2]) - loop.front()).dot(n) == Approx(0.01).epsilon(1e-4));
     }
   }
-  add_shades(mesh, scene, {true}, 0.01);
+  add_shades(mesh, scene, {true}, 0.01, 0.05);
   CHECK(mesh.shades.size() == shape.vertices.size() / 3);
+}
+
+TEST_CASE("a closed wall casts the shadow of its free faces and of the rims of its beds, an open joint that of whole blocks",
+          "[render][mesh]") {
+  const MotionScene scene = brick_house({1.525, 1.83, 8, 1, 0.5});
+  const Show show = prepare_show(scene, {}, {});
+  const auto area = [&](const std::vector<std::uint32_t>& index) {  // m2
+    double sum = 0;
+    const auto p = [&](std::uint32_t i) { return Eigen::Map<const Eigen::Vector3f>(show.mesh.shades[i].p); };
+    for (std::size_t i = 0; i + 2 < index.size(); i += 3)
+      sum += 0.5 * static_cast<double>((p(index[i + 1]) - p(index[i])).cross(p(index[i + 2]) - p(index[i])).norm());
+    return sum;
+  };
+  MotionFrame frame = brick_house_frame(scene, 0);
+  const auto shade = [&] { return texels_of(show, frame, Coloring::material, Vec3(5, -5, 3)).shade_index; };
+  const double closed = area(shade());
+  double whole = 0;
+  for (const Span& span : show.mesh.whole_shade)
+    whole += area({show.mesh.shade_index.begin() + span.begin, show.mesh.shade_index.begin() + span.end});
+  CHECK(closed < 0.75 * whole);
+  for (const std::size_t moved : {std::size_t(20), std::size_t(40)}) {
+    frame = brick_house_frame(scene, 0);
+    frame.poses[7 * moved + 1] += 0.02F;
+    CHECK(area(shade()) > closed);
+    CHECK(area(shade()) < whole);
+  }
+}
+
+TEST_CASE("chamfers narrower than a quarter of a pixel are drawn only where no mortar sets blocks apart", "[render][mesh]") {
+  const MotionScene scene = brick_house({1.525, 1.83, 8, 1, 0.5});
+  const Show show = prepare_show(scene, {}, {});
+  const MotionFrame frame = brick_house_frame(scene, 0);
+  const Vec3 eye(5, -5, 3);
+  REQUIRE((show.mortared && show.chamfer > 0));
+  const auto fine = [&](Coloring coloring, double pixel) { return texels_of(show, frame, coloring, eye, pixel).fine_index.size(); };
+  const double all = 4 * show.chamfer / 20, none = 4 * show.chamfer / 1;  // of all distances, 20 and 1 m as bounds
+  CHECK(fine(Coloring::material, 0) == fine(Coloring::material, all));
+  CHECK(fine(Coloring::material, none) < fine(Coloring::material, all) / 2);
+  CHECK(fine(Coloring::damage, none) == fine(Coloring::damage, 0));
 }
 
 TEST_CASE("a block has the colour of the broken share of its joints", "[render][show]") {
