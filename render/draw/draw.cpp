@@ -6,35 +6,11 @@
 #include <cstddef>
 
 #include "engine/base/error.h"
+#include "render/draw/backdrop.h"
 #include "render/gl/buffers.h"
 #include "render/gl/shaders.h"
 
 namespace erbs::render {
-namespace {
-
-// Linear colours around the model.
-struct Backdrop {
-  Eigen::Vector3f horizon, high, ground, floor;  // high: of the sky
-};
-Backdrop backdrop(Background background) {
-  const Eigen::Vector3f paper = Eigen::Vector3f::Ones();
-  if (background != Background::sky) return {paper, paper, {0.84F, 0.84F, 0.85F}, paper};
-  return {{0.80F, 0.83F, 0.86F}, {0.46F, 0.60F, 0.76F}, {0.54F, 0.535F, 0.52F}, {0.56F, 0.57F, 0.58F}};
-}
-
-// All that sky and open ground depend on.
-struct Standpoint {
-  Eigen::Matrix4f camera;
-  Eigen::Vector3f eye, sun;
-  float target_distance;
-  Eigen::Matrix4d table;  // its position; zero: it stays
-  bool operator==(const Standpoint&) const = default;
-};
-
-// Of a linear colour, as the shaders encode it.
-float encoded(float linear) { return std::pow(std::clamp(linear, 0.0F, 1.0F), 1 / 2.2F); }
-
-}  // namespace
 
 struct Painter::Hidden {
   const Show& show;
@@ -49,6 +25,13 @@ struct Painter::Hidden {
   Drawable bricks, edges, shades, cracks, plane, discs;
   Texels blocks, joints;
   std::optional<Standpoint> backdrop_of;  // drawn last
+  // The last picture, and what it shows: where nothing has moved since, it is the next one as well.
+  struct Last {
+    Standpoint from;
+    FrameTexels texels;
+    Image image;
+  };
+  std::optional<Last> last;
 
   Hidden(const Show& s, const Look& l, const std::string& kind)
       : show(s), look_(l), around(backdrop(l.background)), context(make_context(kind)), gl(load_gl(*context)) {
@@ -285,11 +268,15 @@ struct Painter::Hidden {
     draw_plane(program, light, v, {middle, reach * Vec3::UnitX(), reach * Vec3::UnitY(), true, false});
   }
 
+  static Standpoint standpoint(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position) {
+    return {light.camera, light.eye, light.sun, v.target_distance, position ? position->matrix() : Eigen::Matrix4d::Zero()};
+  }
+
   // `shaded`: the part of the picture in which the model throws a shadow on the level ground. The rest is drawn for the first picture of a
   // camera at rest: at 1280 x 720, sky and ground take a fifth of a picture of the house.
   void draw_backdrop(const Light& light, const View& v, const std::optional<Eigen::Isometry3d>& position, const Region& shaded) {
     const bool backed = look_.background != Background::transparent;
-    const Standpoint here{light.camera, light.eye, light.sun, v.target_distance, position ? position->matrix() : Eigen::Matrix4d::Zero()};
+    const Standpoint here = standpoint(light, v, position);
     if (!(backdrop_of && *backdrop_of == here)) {
       const Eigen::Vector3f far = around.horizon.unaryExpr([](float c) { return encoded(c); });
       canvas->begin_backdrop(backed ? Eigen::Vector4f(far.x(), far.y(), far.z(), 0) : Eigen::Vector4f(0, 0, 0, 1));
@@ -368,7 +355,9 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   const Region region =
       with_table ? h.canvas->whole()
                  : region_of(spheres, v.view, v.projection, l.width, l.height, std::min<double>(l.width, shade + 2 + Canvas::border));
-  const FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye, static_cast<double>(v.pixel));
+  FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye, static_cast<double>(v.pixel));
+  const Standpoint from = Hidden::standpoint(light, v, position);
+  if (dust.empty() && h.last && h.last->from == from && h.last->texels == texels) return h.last->image;
   h.gl.ActiveTexture(GL_TEXTURE0);
   fill(h.gl, h.blocks, texels.blocks);
   h.gl.ActiveTexture(GL_TEXTURE1);
@@ -392,6 +381,8 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   Image image = h.canvas->finish(v.projection, radius, l.background == Background::transparent);
   if (const GLenum error = h.gl.GetError(); error != GL_NO_ERROR)
     throw std::logic_error(fmt::format("internal error: OpenGL reports {:#x}; please report it", error));
+  h.last.reset();
+  if (dust.empty()) h.last = Hidden::Last{from, std::move(texels), image};
   return image;
 }
 

@@ -38,7 +38,7 @@ struct Look {
   bool shadow = true;                       // of the sun
   bool table_turns = true;                  // a tilting test is drawn level, with its table turning; otherwise gravity turns
   // Texels along each side of the shadow map: finer than the picture. Filling the map takes a sixth of the time of a frame.
-  int shadow_side() const { return std::clamp((6 * std::max(width, height) / 5 + 255) / 256 * 256, 1024, 8192); }
+  int shadow_side() const { return std::clamp((6 * std::max(width, height) / 5 + 255) / 256 * 256, 768, 8192); }
 };
 
 // Constant data of a picture, common to all frames and threads.
@@ -94,9 +94,10 @@ struct FrameTexels {
   std::vector<std::uint32_t> crack_index;
   std::vector<std::uint32_t> shade_index;  // of what casts shadows
   std::vector<std::uint32_t> ghost_index;  // triangles of translucent blocks
+  bool operator==(const FrameTexels&) const = default;
 };
 // pixel: m, at a distance of 1 m; 0: as small as needed. Where mortar of its own colour sets bricks apart, those whose chamfers are narrower
-// than a quarter of a pixel are drawn without them.
+// than a quarter of a pixel are drawn without them. Poses are rounded to a fiftieth of a pixel.
 FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel = 0);
 
 class Painter {

@@ -38,6 +38,29 @@ float parted(const MotionScene& scene, const MotionJoint& joint, const MotionFra
   return most;
 }
 
+// Poses with displacements, and rotations times the radius of the block, rounded to this length (m; 0: as they are). Pictures between which
+// nothing moves by a visible distance then have equal texels, and are drawn once.
+std::vector<float> rounded_poses(const Show& show, const MotionFrame& frame, double unit) {
+  std::vector<float> poses = frame.poses;
+  if (!(unit > 0)) return poses;
+  for (std::size_t b = 0; b < show.radius.size(); ++b) {
+    float* p = &poses[7 * b];
+    for (int k = 0; k < 3; ++k) {
+      const double rest = show.scene->blocks[b].rest[k];
+      p[k] = static_cast<float>(rest + unit * std::round((static_cast<double>(p[k]) - rest) / unit));
+    }
+    if (!(show.radius[b] > 0)) continue;
+    const double step = 0.5 * unit / static_cast<double>(show.radius[b]);
+    Eigen::Quaterniond q(p[3], p[4], p[5], p[6]);
+    q.vec() = step * (q.vec() / step).array().round();
+    if (q.vec().squaredNorm() >= 1) continue;
+    q.w() = std::copysign(std::sqrt(1 - q.vec().squaredNorm()), q.w());
+    for (int k = 0; k < 3; ++k) p[4 + k] = static_cast<float>(q.vec()[k]);
+    p[3] = static_cast<float>(q.w());
+  }
+  return poses;
+}
+
 }  // namespace
 
 double round_length(double size) {
@@ -194,6 +217,9 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
   t.joints.resize(4 * std::max<std::size_t>(1, nj));
   std::vector<float> broken(nb), area(nb);
   const std::vector<double> value = block_values(scene, frame, coloring);
+  const auto step_of_parting = static_cast<float>(0.02 * show.open_crack);  // m
+  MotionFrame drawn;
+  drawn.poses = rounded_poses(show, frame, 0.02 * pixel * show.stage.building.exteriorDistance(eye));
   for (std::size_t j = 0; j < nj; ++j) {
     const MotionJoint& joint = scene.joints[j];
     const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
@@ -203,7 +229,7 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
       area[block] += show.joint_area[j];
     }
     t.joints[4 * j] = damage;
-    t.joints[4 * j + 1] = parted(scene, joint, frame);
+    t.joints[4 * j + 1] = step_of_parting * std::round(parted(scene, joint, frame) / step_of_parting);
     const bool open = static_cast<double>(frame.opening[j]) >= show.open_crack;
     t.joints[4 * j + 2] = static_cast<float>(open ? JointState::open : damage > 0 ? JointState::cracked : JointState::intact);
   }
@@ -213,14 +239,14 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
                        : coloring == Coloring::damage      ? damage_color(static_cast<double>(share))
                        : coloring == Coloring::joint_state ? Vec3(0.66, 0.65, 0.63)
                                                            : map_color(map_share(value[b], show.scale, coloring));
-    const float* p = &frame.poses[7 * b];
+    const float* p = &drawn.poses[7 * b];
     const Eigen::Vector3f c = color.cast<float>();
     const float values[12] = {p[0], p[1], p[2], share, p[4], p[5], p[6], p[3], c.x(), c.y(), c.z(), 0};
     std::copy_n(values, 12, &t.blocks[12 * b]);
   }
   // Among other colours, and in walls without mortar, chamfers are the joints that one sees.
   const bool mortar_shows = coloring == Coloring::material && show.mortared;
-  choose_triangles(show, frame, coloring == Coloring::joint_state, eye, mortar_shows ? pixel : 0, t);
+  choose_triangles(show, drawn, coloring == Coloring::joint_state, eye, mortar_shows ? pixel : 0, t);
   return t;
 }
 

@@ -117,6 +117,36 @@ TEST_CASE("broken joints are seen as dark lines, damage as colour", "[render][dr
   CHECK(reddish > 0.05 * static_cast<double>(red.rgb.size()) / 3);
 }
 
+TEST_CASE("a picture is the same whatever was drawn before it, and motion of a fiftieth of a pixel changes none", "[render][draw]") {
+  prepare_contexts();
+  const MotionScene scene = brick_house({1.525, 1.83, 13, 1, 0.5});
+  const MotionFrame rest = brick_house_frame(scene, 0);
+  const Show show = prepare_show(scene, {}, {rest});
+  Look look;
+  look.width = 320, look.height = 180;
+  const Camera camera = choose_cameras(show.stage, 16.0 / 9).front();
+  const auto moved = [&](double far) {  // m
+    MotionFrame frame = rest;
+    for (std::size_t b = 0; b < scene.blocks.size(); ++b)
+      if (!scene.blocks[b].fixed) frame.poses[7 * b] += static_cast<float>(far * (b % 2 == 0 ? 1 : -1));
+    return frame;
+  };
+  const std::vector<double> distances{1e-6, 2e-5, 1e-3, 0.02};
+  std::vector<Image> alone;  // a painter at a time: each makes its context current
+  for (const double far : distances) alone.push_back(Painter(show, look, "auto").draw(moved(far), camera));
+  Painter painter(show, look, "auto");
+  const Image at_rest = painter.draw(rest, camera);
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    INFO(distances[i] << " m");
+    const bool as_alone = painter.draw(moved(distances[i]), camera).rgb == alone[i].rgb;
+    CHECK(as_alone);
+    const bool as_at_rest = alone[i].rgb == at_rest.rgb;
+    CHECK(as_at_rest == (distances[i] < 1e-4));
+    const bool back = painter.draw(rest, camera).rgb == at_rest.rgb;
+    CHECK(back);
+  }
+}
+
 TEST_CASE("a video appears whole or not at all", "[render][video]") {
   const Folder dir;
   fs::create_directories(dir.path);
