@@ -2,9 +2,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
-#include "render/draw/draw.h"
+#include "render/draw/visible.h"
 
 namespace erbs::render {
 namespace {
@@ -19,12 +18,6 @@ double scatter(std::uint32_t x) {
   return static_cast<double>(x & 0xffffU) / 32767.5 - 1.0;
 }
 
-Eigen::Quaternionf turn_of(const MotionFrame& f, std::size_t block) {
-  const float* p = &f.poses[7 * block];
-  return {p[3], p[4], p[5], p[6]};
-}
-Eigen::Vector3f place_of(const MotionFrame& f, std::size_t block) { return Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * block]); }
-
 // Distance (m) between the two sides of a joint, slip included; largest over its corners.
 float parted(const MotionScene& scene, const MotionJoint& joint, const MotionFrame& f) {
   const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
@@ -36,29 +29,6 @@ float parted(const MotionScene& scene, const MotionJoint& joint, const MotionFra
     most = std::max(most, (pa - pb).norm());
   }
   return most;
-}
-
-// Poses with displacements, and rotations times the radius of the block, rounded to this length (m; 0: as they are). Pictures between which
-// nothing moves by a visible distance then have equal texels, and are drawn once.
-std::vector<float> rounded_poses(const Show& show, const MotionFrame& frame, double unit) {
-  std::vector<float> poses = frame.poses;
-  if (!(unit > 0)) return poses;
-  for (std::size_t b = 0; b < show.radius.size(); ++b) {
-    float* p = &poses[7 * b];
-    for (int k = 0; k < 3; ++k) {
-      const double rest = show.scene->blocks[b].rest[k];
-      p[k] = static_cast<float>(rest + unit * std::round((static_cast<double>(p[k]) - rest) / unit));
-    }
-    if (!(show.radius[b] > 0)) continue;
-    const double step = 0.5 * unit / static_cast<double>(show.radius[b]);
-    Eigen::Quaterniond q(p[3], p[4], p[5], p[6]);
-    q.vec() = step * (q.vec() / step).array().round();
-    if (q.vec().squaredNorm() >= 1) continue;
-    q.w() = std::copysign(std::sqrt(1 - q.vec().squaredNorm()), q.w());
-    for (int k = 0; k < 3; ++k) p[4 + k] = static_cast<float>(q.vec()[k]);
-    p[3] = static_cast<float>(q.w());
-  }
-  return poses;
 }
 
 }  // namespace
@@ -141,74 +111,6 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
   return show;
 }
 
-namespace {
-
-// Selects the visible triangles. Around a joint that has visibly parted, everything is drawn.
-void choose_triangles(const Show& show, const MotionFrame& frame, bool all_joints, const Vec3& eye, double pixel, FrameTexels& t) {
-  const MotionScene& scene = *show.scene;
-  const float moved = static_cast<float>(0.1 * show.open_crack);
-  const auto leaky = static_cast<float>(0.0005 * show.stage.size());  // m, a sixth of a texel of the shadow map lets no light be seen
-  std::vector<bool> quiet(scene.blocks.size(), true), tight = quiet;
-  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
-    const bool to_ghost =
-        show.ghost[static_cast<std::size_t>(scene.joints[j].a)] != show.ghost[static_cast<std::size_t>(scene.joints[j].b)];
-    const auto a = static_cast<std::size_t>(scene.joints[j].a), b = static_cast<std::size_t>(scene.joints[j].b);
-    if (t.joints[4 * j + 1] >= moved || to_ghost) quiet[a] = quiet[b] = false;
-    if (t.joints[4 * j + 1] >= leaky || to_ghost) tight[a] = tight[b] = false;
-  }
-  const auto add = [](std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from, Span span) {
-    to.insert(to.end(), from.begin() + span.begin, from.begin() + span.end);
-  };
-  t.index.reserve(show.mesh.index.size());
-  // Near blocks come first: hidden surfaces are then not shaded.
-  std::vector<std::pair<float, std::size_t>> order;
-  for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
-    const float distance = (place_of(frame, b) - eye.cast<float>()).squaredNorm();
-    order.emplace_back(std::isfinite(distance) ? distance : std::numeric_limits<float>::max(), b);
-  }
-  std::sort(order.begin(), order.end());
-  const double plain_from = pixel > 0 && show.chamfer > 0 ? show.chamfer / (0.25 * pixel) : HUGE_VAL;  // m
-  for (const auto& [distance, b] : order) {
-    if (show.ghost[b]) continue;
-    add(t.shade_index, show.mesh.shade_index, (tight[b] ? show.mesh.rim_shade : show.mesh.whole_shade)[b]);
-    if (static_cast<double>(distance) > plain_from * plain_from) {
-      add(t.index, show.mesh.plain_index, show.mesh.plain_open[b]);
-      if (!quiet[b]) add(t.index, show.mesh.plain_index, show.mesh.plain_buried[b]);
-      continue;
-    }
-    for (const std::vector<Surface<Span>>* surfaces : {&show.mesh.open, &show.mesh.buried}) {
-      if (surfaces == &show.mesh.buried && quiet[b]) continue;
-      add(t.index, show.mesh.index, (*surfaces)[b].faces);
-      add(t.fine_index, show.mesh.index, (*surfaces)[b].edges);
-    }
-  }
-  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
-    const bool of_ghosts = show.ghost[static_cast<std::size_t>(scene.joints[j].a)];
-    if (of_ghosts != show.ghost[static_cast<std::size_t>(scene.joints[j].b)]) continue;
-    const bool closed = quiet[static_cast<std::size_t>(scene.joints[j].a)] && quiet[static_cast<std::size_t>(scene.joints[j].b)];
-    if (closed) {
-      add(of_ghosts ? t.ghost_index : t.fine_index, show.mesh.index, show.mesh.pointing[j]);
-    } else {
-      add(of_ghosts ? t.ghost_index : t.index, show.mesh.index, show.mesh.beds[j].faces);
-      add(of_ghosts ? t.ghost_index : t.fine_index, show.mesh.index, show.mesh.beds[j].edges);
-    }
-    // As the shader would drop it: wide open, or hardly damaged.
-    const bool shown =
-        static_cast<double>(t.joints[4 * j + 1]) <= widest_crack * show.open_crack && (all_joints || t.joints[4 * j] >= 0.05F);
-    if (shown && !of_ghosts) add(t.crack_index, show.mesh.crack_index, show.mesh.crack[j]);
-  }
-  for (const auto& [distance, b] : order)
-    if (show.ghost[b]) {
-      for (const std::vector<Surface<Span>>* surfaces : {&show.mesh.open, &show.mesh.buried}) {
-        if (surfaces == &show.mesh.buried && quiet[b]) continue;
-        add(t.ghost_index, show.mesh.index, (*surfaces)[b].faces);
-        add(t.ghost_index, show.mesh.index, (*surfaces)[b].edges);
-      }
-    }
-}
-
-}  // namespace
-
 FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel) {
   const MotionScene& scene = *show.scene;
   const std::size_t nb = scene.blocks.size(), nj = scene.joints.size();
@@ -244,9 +146,7 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
     const float values[12] = {p[0], p[1], p[2], share, p[4], p[5], p[6], p[3], c.x(), c.y(), c.z(), 0};
     std::copy_n(values, 12, &t.blocks[12 * b]);
   }
-  // Among other colours, and in walls without mortar, chamfers are the joints that one sees.
-  const bool mortar_shows = coloring == Coloring::material && show.mortared;
-  choose_triangles(show, drawn, coloring == Coloring::joint_state, eye, mortar_shows ? pixel : 0, t);
+  choose_triangles(show, drawn, coloring, eye, pixel, t);
   return t;
 }
 

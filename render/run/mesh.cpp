@@ -200,7 +200,8 @@ void add_shades(Mesh& mesh, const MotionScene& scene, const std::vector<bool>& h
       for (std::size_t f = 0; f < shape.faces.size(); ++f) {
         Loop loop;
         std::vector<std::uint32_t> ids;
-        for (int i : shape.faces[f]) loop.push_back(corners[static_cast<std::size_t>(i)]), ids.push_back(first + static_cast<std::uint32_t>(i));
+        for (int i : shape.faces[f])
+          loop.push_back(corners[static_cast<std::size_t>(i)]), ids.push_back(first + static_cast<std::uint32_t>(i));
         add_fan(whole, ids);
         if (!buried[f]) add_fan(rims, ids);
         if (!buried[f]) continue;

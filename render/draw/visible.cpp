@@ -1,0 +1,125 @@
+// What of a model is drawn: its triangles that the eye may see, and poses as exact as pixels show.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/draw/visible.h"
+
+namespace erbs::render {
+
+std::vector<float> rounded_poses(const Show& show, const MotionFrame& frame, double unit) {
+  std::vector<float> poses = frame.poses;
+  if (!(unit > 0)) return poses;
+  for (std::size_t b = 0; b < show.radius.size(); ++b) {
+    float* p = &poses[7 * b];
+    for (int k = 0; k < 3; ++k) {
+      const double rest = show.scene->blocks[b].rest[k];
+      p[k] = static_cast<float>(rest + unit * std::round((static_cast<double>(p[k]) - rest) / unit));
+    }
+    if (!(show.radius[b] > 0)) continue;
+    const double step = 0.5 * unit / static_cast<double>(show.radius[b]);
+    Eigen::Quaterniond q(p[3], p[4], p[5], p[6]);
+    q.vec() = step * (q.vec() / step).array().round();
+    if (q.vec().squaredNorm() >= 1) continue;
+    q.w() = std::copysign(std::sqrt(1 - q.vec().squaredNorm()), q.w());
+    for (int k = 0; k < 3; ++k) p[4 + k] = static_cast<float>(q.vec()[k]);
+    p[3] = static_cast<float>(q.w());
+  }
+  return poses;
+}
+
+void choose_triangles(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel, FrameTexels& t) {
+  const MotionScene& scene = *show.scene;
+  const float moved = static_cast<float>(0.1 * show.open_crack);
+  const auto leaky = static_cast<float>(0.0005 * show.stage.size());  // m, a sixth of a texel of the shadow map lets no light be seen
+  std::vector<bool> quiet(scene.blocks.size(), true), tight = quiet;
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    const bool to_ghost =
+        show.ghost[static_cast<std::size_t>(scene.joints[j].a)] != show.ghost[static_cast<std::size_t>(scene.joints[j].b)];
+    const auto a = static_cast<std::size_t>(scene.joints[j].a), b = static_cast<std::size_t>(scene.joints[j].b);
+    if (t.joints[4 * j + 1] >= moved || to_ghost) quiet[a] = quiet[b] = false;
+    if (t.joints[4 * j + 1] >= leaky || to_ghost) tight[a] = tight[b] = false;
+  }
+  const auto add = [](std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from, Span span) {
+    to.insert(to.end(), from.begin() + span.begin, from.begin() + span.end);
+  };
+  // What looks away from the eye at all corners is left out: in a model of many blocks it takes as long as what is seen.
+  std::vector<Eigen::Vector3f> eyes;  // m, as each block sees it
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b)
+    eyes.push_back(turn_of(frame, b).conjugate() * (eye.cast<float>() - place_of(frame, b)));
+  const auto away = [&](const float* at, const float* normal, std::uint32_t block) {
+    const Eigen::Vector3f to_eye = eyes[block] - Eigen::Map<const Eigen::Vector3f>(at);
+    return Eigen::Map<const Eigen::Vector3f>(normal).dot(to_eye) < -1e-4F * to_eye.lpNorm<1>();  // the shaders round otherwise
+  };
+  const auto add_seen = [&](std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from, Span span) {
+    const auto hidden = [&](std::uint32_t corner) {
+      const Vertex& v = show.mesh.vertices[corner];
+      return away(v.p, v.n, v.block);
+    };
+    for (std::uint32_t i = span.begin; i + 2 < span.end; i += 3)
+      if (!hidden(from[i]) || !hidden(from[i + 1]) || !hidden(from[i + 2])) to.insert(to.end(), &from[i], &from[i] + 3);
+  };
+  t.index.reserve(show.mesh.index.size());
+  // Near blocks come first: hidden surfaces are then not shaded.
+  std::vector<std::pair<float, std::size_t>> order;
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
+    const float distance = (place_of(frame, b) - eye.cast<float>()).squaredNorm();
+    order.emplace_back(std::isfinite(distance) ? distance : std::numeric_limits<float>::max(), b);
+  }
+  std::sort(order.begin(), order.end());
+  // Chamfers this narrow, in pixels, are left out. Where mortar has the colour of the bricks, they are the joints that one sees; without
+  // mortar too, but two of them then darken a pixel by a twentieth at most.
+  const double narrow = !show.mortared ? 0.06 : coloring == Coloring::material ? 0.25 : 0;
+  const double plain_from = pixel * narrow * show.chamfer > 0 ? show.chamfer / (narrow * pixel) : HUGE_VAL;  // m
+  for (const auto& [distance, b] : order) {
+    if (show.ghost[b]) continue;
+    add(t.shade_index, show.mesh.shade_index, (tight[b] ? show.mesh.rim_shade : show.mesh.whole_shade)[b]);
+    if (static_cast<double>(distance) > plain_from * plain_from) {
+      add_seen(t.index, show.mesh.plain_index, show.mesh.plain_open[b]);
+      if (!quiet[b]) add_seen(t.index, show.mesh.plain_index, show.mesh.plain_buried[b]);
+      continue;
+    }
+    for (const std::vector<Surface<Span>>* surfaces : {&show.mesh.open, &show.mesh.buried}) {
+      if (surfaces == &show.mesh.buried && quiet[b]) continue;
+      add_seen(t.index, show.mesh.index, (*surfaces)[b].faces);
+      add_seen(t.fine_index, show.mesh.index, (*surfaces)[b].edges);
+    }
+  }
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    const bool of_ghosts = show.ghost[static_cast<std::size_t>(scene.joints[j].a)];
+    if (of_ghosts != show.ghost[static_cast<std::size_t>(scene.joints[j].b)]) continue;
+    const bool closed = quiet[static_cast<std::size_t>(scene.joints[j].a)] && quiet[static_cast<std::size_t>(scene.joints[j].b)];
+    const auto add_mortar = [&](std::vector<std::uint32_t>& solid, Span span) {
+      if (of_ghosts) add(t.ghost_index, show.mesh.index, span);
+      else add_seen(solid, show.mesh.index, span);
+    };
+    if (closed) {
+      add_mortar(t.fine_index, show.mesh.pointing[j]);
+    } else {
+      add_mortar(t.index, show.mesh.beds[j].faces);
+      add_mortar(t.fine_index, show.mesh.beds[j].edges);
+    }
+    // As the shader would drop it: wide open, or hardly damaged.
+    const bool shown = static_cast<double>(t.joints[4 * j + 1]) <= widest_crack * show.open_crack &&
+                       (coloring == Coloring::joint_state || t.joints[4 * j] >= 0.05F);
+    if (!shown || of_ghosts) continue;
+    const Span bands = show.mesh.crack[j];
+    for (std::uint32_t i = bands.begin; i + 5 < bands.end; i += 6) {  // two triangles; the first two corners are the ends of a side
+      const std::uint32_t* const band = &show.mesh.crack_index[i];
+      const CrackVertex &start = show.mesh.cracks[band[0]], &end = show.mesh.cracks[band[1]];
+      float out[3];  // at the ends the bands of two sides meet: there they point between both
+      for (int k = 0; k < 3; ++k) out[k] = start.out[k] + end.out[k];
+      if (!away(start.pa, out, start.a) || !away(end.pa, out, start.a)) t.crack_index.insert(t.crack_index.end(), band, band + 6);
+    }
+  }
+  for (const auto& [distance, b] : order)
+    if (show.ghost[b]) {
+      for (const std::vector<Surface<Span>>* surfaces : {&show.mesh.open, &show.mesh.buried}) {
+        if (surfaces == &show.mesh.buried && quiet[b]) continue;
+        add(t.ghost_index, show.mesh.index, (*surfaces)[b].faces);
+        add(t.ghost_index, show.mesh.index, (*surfaces)[b].edges);
+      }
+    }
+}
+
+}  // namespace erbs::render

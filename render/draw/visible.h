@@ -1,0 +1,23 @@
+// What of a model is drawn.
+#pragma once
+#include "render/draw/draw.h"
+
+namespace erbs::render {
+
+inline Eigen::Quaternionf turn_of(const MotionFrame& f, std::size_t block) {
+  const float* p = &f.poses[7 * block];
+  return {p[3], p[4], p[5], p[6]};
+}
+inline Eigen::Vector3f place_of(const MotionFrame& f, std::size_t block) {  // m
+  return Eigen::Map<const Eigen::Vector3f>(&f.poses[7 * block]);
+}
+
+// Poses with displacements, and rotations times the radius of the block, rounded to this length (m; 0: as they are). Pictures between which
+// nothing moves by a visible distance then have equal texels, and are drawn once.
+std::vector<float> rounded_poses(const Show& show, const MotionFrame& frame, double unit);
+
+// Selects the triangles that may be seen; `t` knows how far joints have parted. Around a joint that has visibly parted, everything is
+// drawn. `pixel`: m, at a distance of 1 m; 0: as small as needed.
+void choose_triangles(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel, FrameTexels& t);
+
+}  // namespace erbs::render
