@@ -67,7 +67,7 @@ TEST_CASE("what lies within an intact wall is not drawn", "[render][mesh]") {
   CHECK(intact.crack_index.empty());
   rest.damage[10] = 255;
   const FrameTexels broken = texels_of(show, rest, Coloring::material, Vec3(5, -5, 3));
-  CHECK(drawn(broken) == drawn(intact));  // closed: its inside is not visible
+  CHECK(drawn(broken) == drawn(intact));      // closed: its inside is not visible
   CHECK(broken.crack_index.size() == 2 * 6);  // of four sides, two look towards the eye
   // A joint that parts without any damage shows its mortar too.
   rest = brick_house_frame(scene, 0);
