@@ -60,6 +60,7 @@ TEST_CASE("a span or an instant outside of the run is refused before anything is
   refused({"--time", "0.05:0.07"}, "--time 0.05:0.07 holds no frame");  // between two frames
   refused({"--time", "2:1"}, "is not a span of seconds");
   refused({"--time", "0.1"}, "is not a span of seconds");
+  refused({"--format", "gltf,vtu", "--at", "0.1"}, "--at 0.1 chooses the instant of an OBJ file, and none is asked for; add --format obj");
   refused({"--format", "obj", "--at", "7"}, "--at 7 is not within the frames exported");
   refused({"--format", "obj", "--at", "0.02", "--time", "0.1:0.2"}, "--at 0.02 is not within the frames exported");
   CHECK(bench.erbs({"export", bench.out(), "--format", "csv", "--time", "0.1:9"}) == 0);
