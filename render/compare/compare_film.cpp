@@ -159,7 +159,7 @@ struct Meter {
     const Mask of_run = silhouette(a, run_background), of_film = silhouette(b, film_background);
     e.overlap = overlap(of_run, of_film);
     add(of_run, of_film);
-    e.ssim = compare(a, b).ssim;
+    e.ssim = ssim(a, b);
     const int further = reduction_to(a.width, signal_width);
     Gray run_now = gray_of(reduced(a, further)), film_now = gray_of(reduced(b, further));
     if (!run_last.v.empty()) {

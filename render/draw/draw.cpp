@@ -86,6 +86,7 @@ struct Painter::Hidden {
     floats<CrackVertex>(gl, 3, 3, offsetof(CrackVertex, normal));
     integers<CrackVertex>(gl, 4, 3, offsetof(CrackVertex, a));
     floats<CrackVertex>(gl, 5, 1, offsetof(CrackVertex, side));
+    floats<CrackVertex>(gl, 6, 3, offsetof(CrackVertex, facing));
     using Disc = std::array<float, 8>;
     discs = upload(gl, std::vector<Disc>{});
     floats<Disc>(gl, 0, 4, 0);

@@ -104,12 +104,13 @@ void choose_triangles(const Show& show, const MotionFrame& frame, Coloring color
                        (coloring == Coloring::joint_state || t.joints[4 * j] >= 0.05F);
     if (!shown || of_ghosts) continue;
     const Span bands = show.mesh.crack[j];
-    for (std::uint32_t i = bands.begin; i + 5 < bands.end; i += 6) {  // two triangles; the first two corners are the ends of a side
-      const std::uint32_t* const band = &show.mesh.crack_index[i];
-      const CrackVertex &start = show.mesh.cracks[band[0]], &end = show.mesh.cracks[band[1]];
-      float out[3];  // at the ends the bands of two sides meet: there they point between both
-      for (int k = 0; k < 3; ++k) out[k] = start.out[k] + end.out[k];
-      if (!away(start.pa, out, start.a) || !away(end.pa, out, start.a)) t.crack_index.insert(t.crack_index.end(), band, band + 6);
+    for (std::uint32_t i = bands.begin; i + 2 < bands.end; i += 3) {
+      const std::uint32_t* const corner = &show.mesh.crack_index[i];
+      const auto hidden = [&](std::uint32_t k) {
+        const CrackVertex& v = show.mesh.cracks[k];
+        return away(v.pa, v.facing, v.a);
+      };
+      if (!hidden(corner[0]) || !hidden(corner[1]) || !hidden(corner[2])) t.crack_index.insert(t.crack_index.end(), corner, corner + 3);
     }
   }
   for (const auto& [distance, b] : order)

@@ -127,6 +127,7 @@ layout(location = 2) in vec3 out_of;
 layout(location = 3) in vec3 normal;
 layout(location = 4) in uvec3 who;
 layout(location = 5) in float side;
+layout(location = 6) in vec3 facing;
 uniform float pixel, thinnest, proud, open, widest, by_state;
 out float strength, state;
 void main() {
@@ -140,7 +141,7 @@ void main() {
   float least = thinnest * at_pixel * (0.3 + 0.3 * j.x + 0.4 * parted) * (1.0 + 0.4 * by_state);
   float half_more = 0.5 * max(0.0, least - gap);
   vec4 q = side < 0.0 ? qa : qb;
-  vec3 p = (side < 0.0 ? pa : pb) + turn(q, normal) * (side * half_more) + turn(q, out_of) * (max(proud, 0.15 * at_pixel) - max(0.0, gap - least));
+  vec3 p = (side < 0.0 ? pa : pb) + turn(q, normal * (side * half_more) + out_of * max(proud, 0.15 * at_pixel) - facing * max(0.0, gap - least));
   state = j.z;
   bool shown = (j.x > 0.05 || by_state > 0.5) && j.y < widest;
   gl_Position = shown ? camera * vec4(p, 1.0) : vec4(0.0, 0.0, 2.0, 1.0);

@@ -20,12 +20,18 @@ struct Sums {
 std::vector<Sums> sums_of_squares(const Image& a, const Image& b) {
   const int columns = a.width / square, rows = a.height / square;
   std::vector<Sums> sums(static_cast<std::size_t>(columns * rows));
-  for (int y = 0; y < rows * square; ++y)
-    for (int x = 0; x < columns * square; ++x) {
-      const double p = brightness(a.pixel(x, y)), q = brightness(b.pixel(x, y));
-      Sums& s = sums[static_cast<std::size_t>(y / square * columns + x / square)];
-      s.a += p, s.b += q, s.aa += p * p, s.bb += q * q, s.ab += p * q;
+  std::vector<double> of_a(static_cast<std::size_t>(columns * square)), of_b = of_a;  // brightness of a row
+  for (int y = 0; y < rows * square; ++y) {
+    const std::uint8_t *p = a.pixel(0, y), *q = b.pixel(0, y);
+    for (std::size_t x = 0; x < of_a.size(); ++x, p += a.channels, q += b.channels) of_a[x] = brightness(p), of_b[x] = brightness(q);
+    for (std::size_t column = 0; column < static_cast<std::size_t>(columns); ++column) {
+      Sums s;
+      for (std::size_t x = column * square; x < (column + 1) * square; ++x)
+        s.a += of_a[x], s.b += of_b[x], s.aa += of_a[x] * of_a[x], s.bb += of_b[x] * of_b[x], s.ab += of_a[x] * of_b[x];
+      Sums& all = sums[static_cast<std::size_t>(y / square * columns) + column];
+      all = all + s;
     }
+  }
   return sums;
 }
 
@@ -55,17 +61,21 @@ Difference compare(const Image& a, const Image& b) {
   std::size_t failed = 0;
   for (std::size_t i = 0; i + 2 < a.rgb.size(); i += 3) failed += channel_difference(a, b, i) > visible ? 1 : 0;
   d.failed_fraction = static_cast<double>(failed) / (static_cast<double>(a.rgb.size()) / 3);
-  // Each square belongs to up to four windows of 8 x 8 pixels.
+  d.ssim = ssim(a, b);
+  return d;
+}
+
+double ssim(const Image& a, const Image& b) {
+  if (a.width < 2 * square || a.height < 2 * square) return 0;
   const std::vector<Sums> sums = sums_of_squares(a, b);
   const int columns = a.width / square, rows = a.height / square;
-  double sum = 0;
+  double sum = 0;  // each square belongs to up to four windows of 8 x 8 pixels
   for (int y = 0; y + 1 < rows; ++y)
     for (int x = 0; x + 1 < columns; ++x) {
       const Sums* s = &sums[static_cast<std::size_t>(y * columns + x)];
       sum += window_ssim(s[0] + s[1] + s[columns] + s[columns + 1]);
     }
-  d.ssim = sum / ((rows - 1) * (columns - 1));
-  return d;
+  return sum / ((rows - 1) * (columns - 1));
 }
 
 Image difference_picture(const Image& a, const Image& b) {

@@ -12,6 +12,7 @@ struct Difference {
   bool alike() const { return same_size && failed_fraction <= 0.01 && ssim >= 0.98; }
 };
 Difference compare(const Image& a, const Image& b);
+double ssim(const Image& a, const Image& b);  // of pictures of one size; 0 below 8 x 8 pixels
 
 // The first picture in pale grey; pixels that differ by more than 4/255 in red, the deeper the more. Both of one size.
 Image difference_picture(const Image& a, const Image& b);

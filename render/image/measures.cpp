@@ -38,14 +38,24 @@ Gray gray_of(const Image& image) {
 Image reduced(const Image& image, int factor) {
   if (factor <= 1) return image;
   Image small(image.width / factor, image.height / factor);
-  for (int y = 0; y < small.height; ++y)
-    for (int x = 0; x < small.width; ++x) {
-      int sum[3] = {0, 0, 0};
-      for (int j = 0; j < factor; ++j)
-        for (int i = 0; i < factor; ++i)
-          for (int c = 0; c < 3; ++c) sum[c] += image.pixel(x * factor + i, y * factor + j)[c];
-      for (int c = 0; c < 3; ++c) small.pixel(x, y)[c] = std::uint8_t((sum[c] + factor * factor / 2) / (factor * factor));
+  const std::size_t length = 3 * std::size_t(small.width * factor);
+  const auto area = std::uint32_t(factor * factor);
+  std::vector<std::uint32_t> sums(length);  // of the rows of a square: a processor adds several columns at once
+  for (int y = 0; y < small.height; ++y) {
+    std::fill(sums.begin(), sums.end(), 0);
+    std::uint32_t* const sum = sums.data();
+    for (int j = 0; j < factor; ++j) {
+      const std::uint8_t* const row = image.pixel(0, y * factor + j);
+      for (std::size_t i = 0; i < length; ++i) sum[i] += row[i];
     }
+    std::uint8_t* to = small.pixel(0, y);
+    for (int x = 0; x < small.width; ++x)
+      for (int c = 0; c < 3; ++c) {
+        std::uint32_t all = area / 2;
+        for (int i = 0; i < factor; ++i) all += sum[3 * (x * factor + i) + c];
+        *to++ = std::uint8_t(all / area);
+      }
+  }
   return small;
 }
 
@@ -68,10 +78,12 @@ Image row_medians(const Image& image) {
 }
 
 Mask silhouette(const Image& image, const Image& background, int threshold) {
-  Mask mask(image.rgb.size() / 3);
-  for (std::size_t i = 0; i < mask.size(); ++i)
-    for (std::size_t c = 3 * i; c < 3 * i + 3; ++c)
-      if (std::abs(image.rgb[c] - background.rgb[c]) > threshold) mask[i] = 1;
+  Mask mask(image.rgb.size() / 3), beyond(image.rgb.size());
+  const std::uint8_t *const a = image.rgb.data(), *const b = background.rgb.data();
+  std::uint8_t* const channel = beyond.data();
+  const auto most = std::uint8_t(threshold);
+  for (std::size_t i = 0; i < beyond.size(); ++i) channel[i] = std::uint8_t(std::max(a[i], b[i]) - std::min(a[i], b[i])) > most;
+  for (std::size_t i = 0; i < mask.size(); ++i) mask[i] = channel[3 * i] | channel[3 * i + 1] | channel[3 * i + 2];
   return mask;
 }
 

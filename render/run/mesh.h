@@ -20,7 +20,8 @@ inline constexpr std::uint32_t no_joint = 0xffffffff;
 struct CrackVertex {
   float pa[3];      // m, a point of the joint at rest, relative to the centroid of a ...
   float pb[3];      // m, ... and the same point relative to the centroid of b
-  float out[3];     // unit, in the plane of the joint, pointing out of the wall (axes at rest)
+  float out[3];     // in the plane of the joint, out of the wall; at the ends of a side between the directions of both sides (axes at rest)
+  float facing[3];  // unit, the direction of its own side (axes at rest)
   float normal[3];  // unit, from a to b (axes at rest)
   std::uint32_t a, b, joint;
   float side;  // -1 on a, +1 on b

@@ -84,11 +84,13 @@ void add_crack(Mesh& mesh, const Loop& polygon, const Vec3& n, const Vec3& to_b,
       const bool at_end = k == 1 || k == 2;
       const Vec3 p = ends[at_end ? 1 : 0], other = at_end ? after : before;
       const Vec3 miter = (here + other) / std::max(0.3, 1 + here.dot(other));
-      CrackVertex v{{}, {}, {}, {}, static_cast<std::uint32_t>(joint.a), static_cast<std::uint32_t>(joint.b), index, k < 2 ? -1.0F : 1.0F};
+      CrackVertex v{
+          {}, {}, {}, {}, {}, static_cast<std::uint32_t>(joint.a), static_cast<std::uint32_t>(joint.b), index, k < 2 ? -1.0F : 1.0F};
       for (int c = 0; c < 3; ++c) {
         v.pa[c] = static_cast<float>(p[c]);
         v.pb[c] = static_cast<float>(p[c] - to_b[c]);
         v.out[c] = static_cast<float>(miter[c]);
+        v.facing[c] = static_cast<float>(here[c]);
         v.normal[c] = static_cast<float>(n[c]);
       }
       mesh.cracks.push_back(v);
