@@ -35,9 +35,12 @@ Gray gray_of(const Image& image) {
   return gray;
 }
 
-Image reduced(const Image& image, int factor) {
-  if (factor <= 1) return image;
-  Image small(image.width / factor, image.height / factor);
+namespace {
+
+// `known`: the factor, which a processor then need not look up; 0: any.
+template <int known>
+void reduce(const Image& image, int any, Image& small) {
+  const int factor = known > 0 ? known : any;
   const std::size_t length = 3 * std::size_t(small.width * factor);
   const auto area = std::uint32_t(factor * factor);
   std::vector<std::uint32_t> sums(length);  // of the rows of a square: a processor adds several columns at once
@@ -56,6 +59,16 @@ Image reduced(const Image& image, int factor) {
         *to++ = std::uint8_t(all / area);
       }
   }
+}
+
+}  // namespace
+
+Image reduced(const Image& image, int factor) {
+  if (factor <= 1) return image;
+  Image small(image.width / factor, image.height / factor);
+  if (factor == 2) reduce<2>(image, 2, small);
+  else if (factor == 4) reduce<4>(image, 4, small);
+  else reduce<0>(image, factor, small);
   return small;
 }
 
