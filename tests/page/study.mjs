@@ -32,19 +32,29 @@ for (const [name, options] of [['wide', {viewport: {width: 1280, height: 900}}],
   const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
   check(wide <= 1, `${name}: the page is ${wide} px wider than the window`);
   const before = await page.$eval('.chart', (chart) => chart.innerHTML);
-  const up = page.locator('.controls select').nth(1), choices = await up.locator('option').count();
+  const up = page.locator('.controls label').filter({hasText: /^Up/}).locator('select').first(), choices = await up.locator('option').count();
   if (choices > 1) {
     await up.selectOption({index: (await up.evaluate((list) => list.selectedIndex)) ? 0 : 1});
     check((await page.$eval('.chart', (chart) => chart.innerHTML)) !== before, `${name}: another column changes nothing`);
   }
+  const only = page.locator('.controls label').filter({hasText: /^quantity/i}).locator('select');
+  if (await only.count()) {
+    const some = await points();
+    check(some < (await page.evaluate(() => study.tables[0].rows.length)), `${name}: the chart shows several quantities at once`);
+    const shown = await page.$eval('.chart', (chart) => chart.innerHTML);
+    await only.first().selectOption({index: 1});
+    check((await page.$eval('.chart', (chart) => chart.innerHTML)) !== shown, `${name}: another quantity changes nothing`);
+  }
   const first = () => page.$$eval('tbody tr', (rows) => rows.map((row) => row.textContent).join('|'));
-  const button = page.locator('th button').first();
+  // The first column whose cells differ; one of equal cells has no order to turn round.
+  const column = await page.$$eval('tbody tr', (rows) => Math.max(0, [...(rows[0]?.cells ?? [])].findIndex((cell, c) => rows.some((row) => row.cells[c].textContent !== cell.textContent))));
+  const button = page.locator('th button').nth(column);
   await button.focus();
   await page.keyboard.press('Enter');
   const rising = await first();
   await page.keyboard.press('Enter');
   check((await page.$$('tbody tr')).length < 2 || rising !== (await first()), `${name}: a second press does not turn the order round`);
-  check((await page.locator('th').first().getAttribute('aria-sort')) === 'descending', `${name}: the order is not told to screen readers`);
+  check((await page.locator('th').nth(column).getAttribute('aria-sort')) === 'descending', `${name}: the order is not told to screen readers`);
 }
 await browser.close();
 console.log(wrong.length ? wrong.join('\n') : 'page: all well');

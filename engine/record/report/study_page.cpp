@@ -6,6 +6,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <set>
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
@@ -118,10 +119,16 @@ void read_accuracy(const fs::path& dir, ReportedStudy& study) {
   table.colour = rows.find("knob");
   table.logarithmic = true;
   table.links.assign(rows.rows(), "");
-  study.answers.emplace_back("rows", fmt::format("{}", rows.rows()));
-  if (const int quantity = rows.find("quantity");
-      quantity >= 0 && rows.rows() > 0 && !rows.text[static_cast<std::size_t>(quantity)].empty())
-    study.answers.emplace_back("quantity", rows.text[static_cast<std::size_t>(quantity)].front());
+  table.only = rows.find("quantity");
+  const auto texts = [&](int column) { return column < 0 ? std::vector<std::string>{} : rows.text[static_cast<std::size_t>(column)]; };
+  const std::vector<std::string> quantities = texts(table.only), problems = texts(rows.find("problem"));
+  if (!problems.empty() && std::ranges::count(problems, problems.front()) == std::ssize(problems)) study.title = problems.front();
+  if (quantities.empty()) study.answers.emplace_back("rows", fmt::format("{}", rows.rows()));
+  else {
+    study.answers.emplace_back("first quantity", quantities.front());
+    study.answers.emplace_back("quantities", fmt::format("{}", std::set(quantities.begin(), quantities.end()).size()));
+    study.answers.emplace_back("settings", fmt::format("{}", std::ranges::count(quantities, quantities.front())));
+  }
   study.tables.push_back(std::move(table));
 }
 
@@ -195,6 +202,7 @@ Json table_json(const StudyTable& table) {
           {"x", table.x},
           {"y", table.y},
           {"colour", table.colour},
+          {"only", table.only},
           {"log", table.logarithmic}};
 }
 

@@ -14,6 +14,7 @@ struct StudyTable {
   CsvTable table;
   std::vector<std::string> links;  // of each row, from the page to its run; "" where it is not kept
   int x = 0, y = 0, colour = -1;   // columns of the chart at first; colour -1: none
+  int only = -1;                   // column that names what a row tells of, where one such value is shown at a time; -1: none
   bool logarithmic = false;
   std::string first_unit = {};  // of the first column, whose name does not end with it; "": none
 };

@@ -76,6 +76,9 @@ TEST_CASE("the page of accuracy has errors over cost, on logarithmic axes", "[re
   CHECK(table.table.names[std::size_t(table.y)] == "error");
   CHECK(table.table.names[std::size_t(table.colour)] == "knob");
   CHECK(table.logarithmic);
+  CHECK(table.table.names[std::size_t(table.only)] == "quantity");  // one is shown at a time
+  CHECK(study.answers ==
+        std::vector<std::pair<std::string, std::string>>{{"first quantity", "metrics.period"}, {"quantities", "1"}, {"settings", "2"}});
 }
 
 TEST_CASE("axes of a study carry the unit of their column", "[record][report][study_page]") {
