@@ -97,7 +97,11 @@ void choose_triangles(const Show& show, const MotionFrame& frame, Coloring color
       add_mortar(t.fine_index, show.mesh.pointing[j]);
     } else {
       add_mortar(t.index, show.mesh.beds[j].faces);
-      add_mortar(t.fine_index, show.mesh.beds[j].edges);
+      // Of debris, the sides of half a bed are left out where they are less than 0.4 pixels wide.
+      const double thick = scene.joints[j].thickness;  // m
+      const auto distance = (place_of(frame, static_cast<std::size_t>(scene.joints[j].a)) - eye.cast<float>()).norm();
+      if (of_ghosts || static_cast<double>(t.joints[4 * j + 1]) < 4 * thick || 0.5 * thick >= 0.4 * pixel * static_cast<double>(distance))
+        add_mortar(t.fine_index, show.mesh.beds[j].edges);
     }
     // As the shader would drop it: wide open, or hardly damaged.
     const bool shown = static_cast<double>(t.joints[4 * j + 1]) <= widest_crack * show.open_crack &&
