@@ -57,9 +57,10 @@ int verb_export(const ExportCommand& command) {
     throw Error(fmt::format("export takes one run folder, not {}; e.g. erbs export runs/first", command.words.size()));
   const std::string& dir = command.words.front();
   if (!std::isnan(command.at) && std::ranges::find(command.formats, "obj") == command.formats.end())
-    throw Error(fmt::format("--at {} chooses the instant of an OBJ file, and none is asked for; add --format obj, or cut a span of time with "
-                            "--time",
-                            command.at));
+    throw Error(
+        fmt::format("--at {} chooses the instant of an OBJ file, and none is asked for; add --format obj, or cut a span of time with "
+                    "--time",
+                    command.at));
   const TimeSpan span = command.time.empty() ? TimeSpan{} : time_span_of(command.time);
   const ExportedRun run = read_exported_run(dir, span.from, span.to, command.every);
   tell_missing_times(span, run);
