@@ -36,13 +36,14 @@ struct Painter::Hidden {
   Hidden(const Show& s, const Look& l, const std::string& kind)
       : show(s), look_(l), around(backdrop(l.background)), context(make_context(kind)), gl(load_gl(*context)) {
     canvas = std::make_unique<Canvas>(gl, l.width, l.height, l.shadow_side());
-    solid = make_program(gl, shader_common, solid_vertex, all_taps + solid_fragment);
-    fine = make_program(gl, shader_common, solid_vertex, one_tap + solid_fragment);
+    const std::string taps = l.shadow ? all_taps : no_tap;
+    solid = make_program(gl, shader_common, solid_vertex, taps + solid_fragment);
+    fine = make_program(gl, shader_common, solid_vertex, (l.shadow ? one_tap : no_tap) + solid_fragment);
     shade = make_program(gl, shader_common, shade_vertex, shade_fragment);
     crack = make_program(gl, shader_common, crack_vertex, crack_fragment);
-    ground = make_program(gl, shader_common, ground_vertex, all_taps + ground_fragment);
+    ground = make_program(gl, shader_common, ground_vertex, taps + ground_fragment);
     open_ground = make_program(gl, shader_common, ground_vertex, no_tap + ground_fragment);
-    dim = make_program(gl, shader_common, ground_vertex, all_taps + dim_fragment);
+    dim = make_program(gl, shader_common, ground_vertex, taps + dim_fragment);
     flat = make_program(gl, shader_common, ground_vertex, shade_fragment);
     sky = make_program(gl, shader_common, screen_vertex, sky_fragment);
     cloud = make_program(gl, shader_common, dust_vertex, dust_fragment);
