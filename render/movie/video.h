@@ -1,6 +1,8 @@
 // An MP4 file, or an animated WebP that repeats itself, which ffmpeg makes from raw pictures. The extension of the path decides.
 #pragma once
+#include <cstdint>
 #include <string>
+#include <vector>
 
 #include "engine/base/system/process.h"
 #include "render/image/image.h"
@@ -20,6 +22,8 @@ class Video {
  private:
   std::string path_, unfinished_;
   Child ffmpeg_;
+  bool as_yuv_ = false;
+  std::vector<std::uint8_t> yuv_;  // of the last picture
 };
 
 }  // namespace erbs::render
