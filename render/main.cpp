@@ -1,6 +1,4 @@
 // erbs-render DIR: pictures, videos and figures of a run.
-#include <malloc.h>
-
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <charconv>
@@ -219,9 +217,6 @@ void add_comparison(CLI::App& app, Arguments& a) {
 
 int main(int argc, char** argv) {
   erbs::prepare_streams();
-  // Pictures come and go. Memory given back to the system in between would be cleared anew, a twentieth of the time.
-  mallopt(M_MMAP_THRESHOLD, 1 << 28);
-  mallopt(M_TRIM_THRESHOLD, 1 << 28);
   Arguments a;
   CLI::App app("Pictures, videos and figures of a run of erbs.", "erbs-render");
   app.add_option("DIR", a.dir, "the run folder")->required();

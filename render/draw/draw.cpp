@@ -25,7 +25,7 @@ struct Painter::Hidden {
   Drawable bricks, edges, shades, cracks, plane, discs;
   Texels blocks, joints;
   std::optional<Standpoint> backdrop_of;  // drawn last
-  // The last picture, and what it shows: where nothing has moved since, it is the next one as well.
+  // The last picture, and all that it depends on: where nothing has moved since, it is the next one as well.
   struct Last {
     Standpoint from;
     FrameTexels texels;
@@ -320,11 +320,11 @@ struct Painter::Hidden {
   }
 
   // What blocks and dust may cover, or darken within `radius` (m).
-  std::vector<Sphere> extents(const MotionFrame& frame, const std::vector<Puff>& dust, double radius) const {
+  std::vector<Sphere> extents(const FrameTexels& texels, const std::vector<Puff>& dust, double radius) const {
     std::vector<Sphere> all;
     for (std::size_t b = 0; b < show.radius.size(); ++b)
       if (show.radius[b] > 0)
-        all.push_back({Eigen::Map<const Eigen::Vector3f>(&frame.poses[7 * b]), show.radius[b] + static_cast<float>(radius)});
+        all.push_back({Eigen::Map<const Eigen::Vector3f>(&texels.blocks[12 * b]), show.radius[b] + static_cast<float>(radius)});
     for (const Puff& puff : dust) all.push_back({puff.at.cast<float>(), static_cast<float>(1.5 * puff.radius)});
     return all;
   }
@@ -344,9 +344,12 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   const Stage& stage = h.show.stage;
   const double radius = 0.022 * stage.size();  // m, within which corners are dark
   Hidden::Light light{v.projection * v.view, {}, v.eye, sun_of(level_camera), 0, {}, {0, 0, 0, 1}};
+  FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye, static_cast<double>(v.pixel));
+  const Standpoint from = Hidden::standpoint(light, v, position);
+  if (dust.empty() && h.last && h.last->from == from && h.last->texels == texels) return h.last->image;
   light.to_shadow = shadow_view(stage, light.sun);
   light.shadow_texel = 2.0 / l.shadow_side() / static_cast<double>(light.to_shadow.row(0).head<3>().norm());
-  const std::vector<Sphere> spheres = h.extents(frame, dust, 1.6 * radius);
+  const std::vector<Sphere> spheres = h.extents(texels, dust, 1.6 * radius);
   const Eigen::Vector2f border = Eigen::Vector2f::Constant(3.0F / static_cast<float>(l.shadow_side()));  // no texel beyond it is asked
   if (l.shadow) light.casters = box_of(spheres, light.to_shadow).intersection({border, Eigen::Vector2f::Ones() - border});
   const bool above = light.eye.z() >= static_cast<float>(stage.ground_z);
@@ -357,9 +360,6 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   const Region region =
       with_table ? h.canvas->whole()
                  : region_of(spheres, v.view, v.projection, l.width, l.height, std::min<double>(l.width, shade + 2 + Canvas::border));
-  FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye, static_cast<double>(v.pixel));
-  const Standpoint from = Hidden::standpoint(light, v, position);
-  if (dust.empty() && h.last && h.last->from == from && h.last->texels == texels) return h.last->image;
   h.gl.ActiveTexture(GL_TEXTURE0);
   fill(h.gl, h.blocks, texels.blocks);
   h.gl.ActiveTexture(GL_TEXTURE1);
@@ -377,7 +377,7 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   if (!texels.ghost_index.empty()) h.draw_ghosts(light, texels.ghost_index);
   if (!dust.empty()) h.draw_dust(light, v, dust);
   const Region shaded =
-      region_of(l.shadow ? fallen_shadows(h.extents(frame, {}, 4 * light.shadow_texel), light.sun, stage.ground_z) : std::vector<Sphere>{},
+      region_of(l.shadow ? fallen_shadows(h.extents(texels, {}, 4 * light.shadow_texel), light.sun, stage.ground_z) : std::vector<Sphere>{},
                 v.view, v.projection, l.width, l.height, 2);
   h.draw_backdrop(light, v, position, shaded);
   Image image = h.canvas->finish(v.projection, radius, l.background == Background::transparent);

@@ -96,8 +96,8 @@ struct FrameTexels {
   std::vector<std::uint32_t> ghost_index;  // triangles of translucent blocks
   bool operator==(const FrameTexels&) const = default;
 };
-// pixel: m, at a distance of 1 m; 0: as small as needed. Where mortar of its own colour sets bricks apart, those whose chamfers are
-// narrower than a quarter of a pixel are drawn without them. Poses are rounded to a fiftieth of a pixel.
+// pixel: m, at a distance of 1 m; 0: as small as needed. What is too narrow to be seen in it is left out, and poses are rounded to a
+// fiftieth of it (visible.h).
 FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel = 0);
 
 class Painter {

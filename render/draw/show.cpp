@@ -121,7 +121,7 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
   const std::vector<double> value = block_values(scene, frame, coloring);
   const auto step_of_parting = static_cast<float>(0.02 * show.open_crack);  // m
   MotionFrame drawn;
-  drawn.poses = rounded_poses(show, frame, 0.02 * pixel * show.stage.building.exteriorDistance(eye));
+  drawn.poses = rounded_poses(show, frame, eye, pixel);
   for (std::size_t j = 0; j < nj; ++j) {
     const MotionJoint& joint = scene.joints[j];
     const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);

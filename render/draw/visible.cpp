@@ -7,23 +7,23 @@
 
 namespace erbs::render {
 
-std::vector<float> rounded_poses(const Show& show, const MotionFrame& frame, double unit) {
+std::vector<float> rounded_poses(const Show& show, const MotionFrame& frame, const Vec3& eye, double pixel) {
   std::vector<float> poses = frame.poses;
-  if (!(unit > 0)) return poses;
   for (std::size_t b = 0; b < show.radius.size(); ++b) {
     float* p = &poses[7 * b];
+    const double radius = static_cast<double>(show.radius[b]);
+    const double near = (Eigen::Map<const Eigen::Vector3f>(p).cast<double>() - eye).norm() - radius, most = pixel / 50 * near;  // m
+    if (!(radius > 0 && most > 0 && std::isfinite(most))) continue;
+    const double unit = std::exp2(std::floor(std::log2(most)));  // which a motion changes at a few distances only
     for (int k = 0; k < 3; ++k) {
       const double rest = show.scene->blocks[b].rest[k];
       p[k] = static_cast<float>(rest + unit * std::round((static_cast<double>(p[k]) - rest) / unit));
     }
-    if (!(show.radius[b] > 0)) continue;
-    const double step = 0.5 * unit / static_cast<double>(show.radius[b]);
+    const double step = 0.5 * unit / radius;
     Eigen::Quaterniond q(p[3], p[4], p[5], p[6]);
-    q.vec() = step * (q.vec() / step).array().round();
-    if (q.vec().squaredNorm() >= 1) continue;
-    q.w() = std::copysign(std::sqrt(1 - q.vec().squaredNorm()), q.w());
-    for (int k = 0; k < 3; ++k) p[4 + k] = static_cast<float>(q.vec()[k]);
-    p[3] = static_cast<float>(q.w());
+    q.coeffs() = (q.coeffs() / step).array().round();
+    q.normalize();
+    p[3] = static_cast<float>(q.w()), p[4] = static_cast<float>(q.x()), p[5] = static_cast<float>(q.y()), p[6] = static_cast<float>(q.z());
   }
   return poses;
 }
@@ -31,7 +31,7 @@ std::vector<float> rounded_poses(const Show& show, const MotionFrame& frame, dou
 void choose_triangles(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel, FrameTexels& t) {
   const MotionScene& scene = *show.scene;
   const float moved = static_cast<float>(0.1 * show.open_crack);
-  const auto leaky = static_cast<float>(0.0005 * show.stage.size());  // m, a sixth of a texel of the shadow map lets no light be seen
+  const auto leaky = static_cast<float>(0.0005 * show.stage.size());  // m, some half a texel of the shadow map: no light is seen through it
   std::vector<bool> quiet(scene.blocks.size(), true), tight = quiet;
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     const bool to_ghost =

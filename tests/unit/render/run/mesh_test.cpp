@@ -1,10 +1,11 @@
 #include "render/run/mesh.h"
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <map>
 
 #include "engine/base/units.h"
-#include "render/draw/draw.h"
+#include "render/draw/visible.h"
 #include "render/run/framing.h"
 #include "tests/unit/render/brick_house.h"
 
@@ -238,6 +239,38 @@ TEST_CASE("chamfers narrower than a quarter of a pixel are drawn only where no m
   CHECK(fine(Coloring::material, 0) == fine(Coloring::material, all));
   CHECK(fine(Coloring::material, none) < fine(Coloring::material, all) / 2);
   CHECK(fine(Coloring::damage, none) == fine(Coloring::damage, 0));
+}
+
+TEST_CASE("poses are drawn as exactly as a pixel shows, however far blocks have gone and turned", "[render][mesh]") {
+  const MotionScene scene = brick_house({1.525, 1.83, 8, 1, 0.5});
+  const Show show = prepare_show(scene, {}, {});
+  const MotionFrame rest = brick_house_frame(scene, 0);
+  const Vec3 eye(5, -5, 3);
+  for (const double pixel : {1e-5, 8e-4, 2e-2})
+    for (const double turn : {0.0, 1e-4, 0.3, pi - 1e-3, pi, 2 * pi - 1e-3})
+      for (const double far : {0.0, 1e-5, 0.4, 30.0}) {
+        MotionFrame frame = rest;
+        for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
+          const double x = static_cast<double>(b);
+          const Quat q = rotation(turn * Vec3(std::sin(x), std::cos(2 * x), std::sin(3 * x + 1)).normalized());
+          const double w[4] = {q.w(), q.x(), q.y(), q.z()};
+          for (std::size_t k = 0; k < 4; ++k) frame.poses[7 * b + 3 + k] = static_cast<float>(w[k]);
+          for (std::size_t k = 0; k < 3; ++k) frame.poses[7 * b + k] += static_cast<float>(far * std::sin(x + static_cast<double>(k)));
+        }
+        MotionFrame drawn = frame;
+        drawn.poses = rounded_poses(show, frame, eye, pixel);
+        double worst = 0;  // px
+        for (std::size_t b = 0; b < scene.blocks.size(); ++b) {
+          const double radius = static_cast<double>(show.radius[b]), near = (place_of(frame, b).cast<double>() - eye).norm() - radius;
+          if (radius <= 0 || near <= 0.01) continue;
+          const double moved = static_cast<double>((place_of(drawn, b) - place_of(frame, b)).norm());
+          const double turned = 2 * static_cast<double>((turn_of(drawn, b).coeffs() - turn_of(frame, b).coeffs()).norm());  // rad
+          const double single = 1e-6 * (near + radius + far);  // m, of its precision
+          worst = std::max(worst, (moved + turned * radius - single) / (pixel * near));
+        }
+        INFO(pixel << " m, " << turn << " rad, " << far << " m");
+        CHECK(worst < 0.05);  // of a fiftieth in each coordinate, for place and rotation
+      }
 }
 
 TEST_CASE("a block has the colour of the broken share of its joints", "[render][show]") {
