@@ -80,9 +80,11 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
   const MotionScene solid = section ? cut_scene(scene, *section, show.stage.hidden) : scene;
   if (sharp) show.chamfer = 0;
   show.mesh = build_mesh(solid, show.stage.hidden, show.chamfer);
-  if (sharp) show.mesh.beds.assign(show.mesh.beds.size(), {});
-  if (sharp)
-    for (std::vector<Span>* spans : {&show.mesh.pointing, &show.mesh.crack}) spans->assign(spans->size(), Span{});
+  if (sharp) {
+    show.mesh.beds.assign(show.mesh.beds.size(), {});
+    show.mesh.sides.assign(show.mesh.sides.size(), {});
+    show.mesh.crack.assign(show.mesh.crack.size(), {});
+  }
   std::vector<bool> no_shade = show.stage.hidden;
   for (std::size_t b = 0; b < no_shade.size(); ++b) no_shade[b] = no_shade[b] || show.ghost[b];
   add_shades(show.mesh, solid, no_shade, 0.55 * gap + 0.1 * show.open_crack, 1.5 * gap + 0.002 * show.stage.size());

@@ -30,15 +30,17 @@ std::vector<float> rounded_poses(const Show& show, const MotionFrame& frame, con
 
 void choose_triangles(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel, FrameTexels& t) {
   const MotionScene& scene = *show.scene;
-  const float moved = static_cast<float>(0.1 * show.open_crack);
-  const auto leaky = static_cast<float>(0.0005 * show.stage.size());  // m, some half a texel of the shadow map: no light is seen through it
+  const double moved = 0.1 * show.open_crack;       // m, ...
+  const double leaky = 0.0005 * show.stage.size();  // ... some half a texel of the shadow map: no light is seen through it
   std::vector<bool> quiet(scene.blocks.size(), true), tight = quiet;
+  std::vector<double> distances, gaps;  // m, of each joint, from the eye and between its two sides
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
-    const bool to_ghost =
-        show.ghost[static_cast<std::size_t>(scene.joints[j].a)] != show.ghost[static_cast<std::size_t>(scene.joints[j].b)];
     const auto a = static_cast<std::size_t>(scene.joints[j].a), b = static_cast<std::size_t>(scene.joints[j].b);
-    if (t.joints[4 * j + 1] >= moved || to_ghost) quiet[a] = quiet[b] = false;
-    if (t.joints[4 * j + 1] >= leaky || to_ghost) tight[a] = tight[b] = false;
+    const bool to_ghost = show.ghost[a] != show.ghost[b];
+    distances.push_back(static_cast<double>((place_of(frame, a) - eye.cast<float>()).norm()));
+    gaps.push_back(static_cast<double>(t.joints[4 * j + 1]));
+    if (gaps[j] >= moved || to_ghost) quiet[a] = quiet[b] = false;
+    if (gaps[j] >= leaky || to_ghost) tight[a] = tight[b] = false;
   }
   const auto add = [](std::vector<std::uint32_t>& to, const std::vector<std::uint32_t>& from, Span span) {
     to.insert(to.end(), from.begin() + span.begin, from.begin() + span.end);
@@ -86,34 +88,32 @@ void choose_triangles(const Show& show, const MotionFrame& frame, Coloring color
     }
   }
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
-    const bool of_ghosts = show.ghost[static_cast<std::size_t>(scene.joints[j].a)];
-    if (of_ghosts != show.ghost[static_cast<std::size_t>(scene.joints[j].b)]) continue;
-    const bool closed = quiet[static_cast<std::size_t>(scene.joints[j].a)] && quiet[static_cast<std::size_t>(scene.joints[j].b)];
+    const auto a = static_cast<std::size_t>(scene.joints[j].a), b = static_cast<std::size_t>(scene.joints[j].b);
+    const bool of_ghosts = show.ghost[a], closed = quiet[a] && quiet[b];
+    if (of_ghosts != show.ghost[b]) continue;
     const auto add_mortar = [&](std::vector<std::uint32_t>& solid, Span span) {
       if (of_ghosts) add(t.ghost_index, show.mesh.index, span);
       else add_seen(solid, show.mesh.index, span);
     };
-    if (closed) {
-      add_mortar(t.fine_index, show.mesh.pointing[j]);
+    if (gaps[j] < moved) {
+      add_mortar(t.fine_index, show.mesh.sides[j].open);
+      if (!closed) add_mortar(t.fine_index, show.mesh.sides[j].covered);
     } else {
+      const double thick = scene.joints[j].thickness;  // m
       add_mortar(t.index, show.mesh.beds[j].faces);
       // Of debris, the sides of half a bed are left out where they are less than 0.4 pixels wide.
-      const double thick = scene.joints[j].thickness;  // m
-      const auto distance = (place_of(frame, static_cast<std::size_t>(scene.joints[j].a)) - eye.cast<float>()).norm();
-      if (of_ghosts || static_cast<double>(t.joints[4 * j + 1]) < 4 * thick || 0.5 * thick >= 0.4 * pixel * static_cast<double>(distance))
-        add_mortar(t.fine_index, show.mesh.beds[j].edges);
+      if (of_ghosts || gaps[j] < 4 * thick || 0.5 * thick >= 0.4 * pixel * distances[j]) add_mortar(t.fine_index, show.mesh.beds[j].edges);
     }
     // As the shader would drop it: wide open, or hardly damaged.
-    const bool shown = static_cast<double>(t.joints[4 * j + 1]) <= widest_crack * show.open_crack &&
-                       (coloring == Coloring::joint_state || t.joints[4 * j] >= 0.05F);
+    const bool shown = gaps[j] <= widest_crack * show.open_crack && (coloring == Coloring::joint_state || t.joints[4 * j] >= 0.05F);
     if (!shown || of_ghosts) continue;
+    const auto hidden = [&](std::uint32_t k) {
+      const CrackVertex& v = show.mesh.cracks[k];
+      return away(v.pa, v.facing, v.a);
+    };
     const Span bands = show.mesh.crack[j];
     for (std::uint32_t i = bands.begin; i + 2 < bands.end; i += 3) {
       const std::uint32_t* const corner = &show.mesh.crack_index[i];
-      const auto hidden = [&](std::uint32_t k) {
-        const CrackVertex& v = show.mesh.cracks[k];
-        return away(v.pa, v.facing, v.a);
-      };
       if (!hidden(corner[0]) || !hidden(corner[1]) || !hidden(corner[2])) t.crack_index.insert(t.crack_index.end(), corner, corner + 3);
     }
   }

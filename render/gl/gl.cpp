@@ -37,7 +37,8 @@ GLuint compile(const Gl& gl, GLenum stage, const std::string& source) {
 }  // namespace
 
 GLuint make_program(const Gl& gl, const std::string& common, const std::string& vertex, const std::string& fragment) {
-  const std::string head = "#version 330 core\n#extension GL_ARB_ES3_1_compatibility : enable\n" + common;
+  const std::string head =
+      "#version 330 core\n#extension GL_ARB_texture_gather : require\n#extension GL_ARB_ES3_1_compatibility : enable\n" + common;
   const std::array<GLuint, 2> shaders{compile(gl, GL_VERTEX_SHADER, head + vertex), compile(gl, GL_FRAGMENT_SHADER, head + fragment)};
   const GLuint program = gl.CreateProgram();
   for (GLuint shader : shaders) gl.AttachShader(program, shader);

@@ -14,16 +14,18 @@
 namespace erbs::render {
 namespace {
 
+std::uint8_t rounded(double level) { return static_cast<std::uint8_t>(level + 0.5); }  // of 0 to 255
+
 void blend(Image& image, int x, int y, Ink ink, double cover) {
   std::uint8_t* pixel = image.pixel(x, y);
   double a = ink.opacity * cover;
   if (image.channels == 4 && a > 0) {  // over what is itself translucent: the share of the ink in the sum of both
     const double below = pixel[3] / 255.0, sum = a + (1 - a) * below;
     a /= sum;
-    pixel[3] = static_cast<std::uint8_t>(std::lround(255 * sum));
+    pixel[3] = rounded(255 * sum);
   }
   const std::uint8_t to[3] = {ink.r, ink.g, ink.b};
-  for (int c = 0; c < 3; ++c) pixel[c] = static_cast<std::uint8_t>(std::lround(pixel[c] + a * (to[c] - pixel[c])));
+  for (int c = 0; c < 3; ++c) pixel[c] = rounded(pixel[c] + a * (to[c] - pixel[c]));
 }
 
 double covered(double low, double high, int cell) { return std::clamp(std::min(high, cell + 1.0) - std::max(low, 1.0 * cell), 0.0, 1.0); }

@@ -51,9 +51,10 @@ void add_bed(Mesh& mesh, std::vector<std::uint32_t>& faces, const Loop& base, co
     add_strip(mesh, base[i], base[(i + 1) % base.size()], n, std::min(0.0, half), std::max(0.0, half), block, joint);
 }
 
-// The strips of mortar that no block covers.
-void add_pointing(Mesh& mesh, const MotionScene& scene, const std::vector<std::vector<int>>& touching, const MotionJoint& joint,
-                  const Loop& base, const Vec3& n, std::uint32_t index) {
+// Which sides of a joint blocks cover, as long as nothing moves; the loop is relative to block a.
+std::vector<bool> covered_sides(const MotionScene& scene, const std::vector<std::vector<int>>& touching, const MotionJoint& joint,
+                                const Loop& base, const Vec3& n) {
+  std::vector<bool> covered;
   std::vector<int> near{joint.a, joint.b};
   for (int block : {joint.a, joint.b})
     for (int j : touching[static_cast<std::size_t>(block)])
@@ -67,9 +68,9 @@ void add_pointing(Mesh& mesh, const MotionScene& scene, const std::vector<std::v
     const auto filled = [&](const Vec3& at) {
       return std::any_of(near.begin(), near.end(), [&](int b) { return is_inside(scene, static_cast<std::size_t>(b), at); });
     };
-    if (filled(beyond + n * t) && filled(beyond - n * t)) continue;
-    add_strip(mesh, p, q, n, -0.5 * t, 0.5 * t, static_cast<std::uint32_t>(joint.a), index);
+    covered.push_back(filled(beyond + n * t) && filled(beyond - n * t));
   }
+  return covered;
 }
 
 // Band of a crack. `polygon` is relative to a; subtracting `to_b` makes it relative to b.
@@ -106,7 +107,7 @@ void add_joints(Mesh& mesh, const MotionScene& scene, const std::vector<std::vec
     const MotionJoint& joint = scene.joints[j];
     const auto index = static_cast<std::uint32_t>(j);
     const std::uint32_t begin = end_of(mesh.index), begin_crack = end_of(mesh.crack_index);
-    std::uint32_t between = begin;
+    std::uint32_t between = begin, shut = begin;
     std::vector<std::uint32_t> faces;
     if (joint.polygon.size() >= 3) {
       const Vec3 n = joint_normal(scene, joint);
@@ -116,14 +117,23 @@ void add_joints(Mesh& mesh, const MotionScene& scene, const std::vector<std::vec
       add_crack(mesh, polygon, n, to_b, joint, index);
       if (joint.thickness > 0) {
         Loop base = inset(polygon, n, 0.5 * chamfer);  // slightly raked
-        add_pointing(mesh, scene, touching, joint, base, n, index);
+        const std::vector<bool> covered = covered_sides(scene, touching, joint, base, n);
+        const double half = 0.5 * (joint.thickness + chamfer);  // as far as the chamfers that are raked with it
+        const auto add_side = [&](std::size_t i) {
+          add_strip(mesh, base[i], base[(i + 1) % base.size()], n, -half, half, static_cast<std::uint32_t>(joint.a), index);
+        };
+        for (std::size_t i = 0; i < base.size(); ++i)
+          if (!covered[i]) add_side(i);
+        shut = end_of(mesh.index);
+        for (std::size_t i = 0; i < base.size(); ++i)
+          if (covered[i]) add_side(i);
         between = end_of(mesh.index);
         add_bed(mesh, faces, base, n, -0.5 * joint.thickness, static_cast<std::uint32_t>(joint.a), index);
         for (Vec3& p : base) p -= to_b;
         add_bed(mesh, faces, base, n, 0.5 * joint.thickness, static_cast<std::uint32_t>(joint.b), index);
       }
     }
-    mesh.pointing.push_back({begin, between});
+    mesh.sides.push_back({{begin, shut}, {shut, between}});
     const std::uint32_t sides = end_of(mesh.index);
     mesh.index.insert(mesh.index.end(), faces.begin(), faces.end());
     mesh.beds.push_back({{sides, end_of(mesh.index)}, {between, sides}});
