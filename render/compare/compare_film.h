@@ -19,6 +19,8 @@ struct FilmComparison {
   double residual = NAN;   // px, of a camera from marked points
 };
 
+inline constexpr double doubtful = 0.9;  // a lower correlation of motions
+
 // Errors of one picture of the film; time is that of the film (s).
 struct FrameErrors {
   double time = 0, overlap = 0, ssim = 0;
@@ -35,8 +37,9 @@ struct MotionSignal {
 struct FilmErrors {
   double lag = 0, correlation = NAN;  // s, by which the run is later than the film
   bool at_edge = false;
-  double fps = 0;          // of the film, in time of the test
-  MotionSignal run, film;  // each in its own time
+  double better_slow = NAN, better_correlation = NAN;  // slow motion at which the film correlates better than as given
+  double fps = 0;                                      // of the film, in time of the test
+  MotionSignal run, film;                              // each in its own time
   std::vector<FrameErrors> frames;
   std::size_t outside = 0;  // pictures of the film outside the run
   std::size_t missing = 0;  // pictures that the head of the film names and that cannot be read

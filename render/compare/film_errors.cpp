@@ -107,6 +107,7 @@ void write_film_errors(const FilmErrors& e, const FilmComparison& wish, bool qui
       std::min_element(e.frames.begin(), e.frames.end(), [](const auto& a, const auto& b) { return a.overlap < b.overlap; })->overlap;
   Json json;
   json["alignment"] = {{"method", wish.align}, {"lag_s", e.lag}, {"correlation", e.correlation}, {"at_edge", e.at_edge}, {"fps", e.fps}};
+  if (std::isfinite(e.better_slow)) json["alignment"]["better"] = {{"slow", e.better_slow}, {"correlation", e.better_correlation}};
   json["camera"] = {{"name", e.camera}, {"residual_px", wish.residual}};
   json["method"] = {{"silhouette",
                      "pixels that differ from the background by more than 30/255 in a channel; of the run: the drawing without "
@@ -134,10 +135,12 @@ void write_film_errors(const FilmErrors& e, const FilmComparison& wish, bool qui
                      100 * e.standing));
   if (e.outside > 0) tell(stderr, fmt::format("warning: {} pictures of the film lie outside the run and are left out", e.outside));
   if (e.at_edge) tell(stderr, "warning: the best lag is the largest one searched; the true one may lie beyond, see --reach");
-  if (wish.align == "correlation" && e.correlation < 0.9)
-    tell(stderr,
-         fmt::format("warning: the motions correlate by {:.2f} only, so that their lag is doubtful; try --align none or another camera",
-                     e.correlation));
+  if (wish.align == "correlation" && e.correlation < doubtful) {
+    const std::string way = std::isfinite(e.better_slow) ? fmt::format("with --slow {:g} they correlate by {:.2f}; is the film that slow?",
+                                                                       e.better_slow, e.better_correlation)
+                                                         : "try --align none or another camera";
+    tell(stderr, fmt::format("warning: the motions correlate by {:.2f} only, so that their lag is doubtful; {}", e.correlation, way));
+  }
   if (quiet) return;
   tell(stdout, fmt::format("pictures    {} compared in {:.1f} s, {:.0f} a second; {} outside the run; measured at 1/{} of their size",
                            e.frames.size(), e.wall, double(e.frames.size()) / e.wall, e.outside, e.reduction));

@@ -30,9 +30,11 @@ struct Films {
   std::string run = (bench.folder / "pier").string();
   Films() { REQUIRE(bench.erbs({"run", ERBS_SOURCE_DIR "/scenes/first.lua", "-o", run, "-q", "--no-figures"}) == 0); }
   // A film of the run from `from` s on.
-  std::string film(double from, const std::string& fps, const std::string& size, const char* overlay = "--no-overlay") const {
+  std::string film(double from, const std::string& fps, const std::string& size, const char* overlay = "--no-overlay",
+                   const std::string& slow = "1") const {
     const std::string renderer = ERBS_BINARY_DIR "/erbs-render", span = std::to_string(from) + ":1.7";
-    std::vector<std::string> words{renderer, run, "--size", size, "--fps", fps, "--time", span, "--no-figures", "-q", "--force"};
+    std::vector<std::string> words{renderer, run,      "--size", size,           "--fps", fps,      "--time",
+                                   span,     "--slow", slow,     "--no-figures", "-q",    "--force"};
     if (*overlay) words.emplace_back(overlay);
     REQUIRE(wait_for(start(words, (bench.folder / "log").string())) == 0);
     for (const auto& entry : std::filesystem::directory_iterator(run))
@@ -73,6 +75,20 @@ TEST_CASE("the shift of a film is found to half a picture, and its noise tells n
     CHECK(std::filesystem::exists(place + "/compare_side.mp4"));
     CHECK(read_json(place + "/compare.json")["passed"] == true);
   }
+}
+
+TEST_CASE("a film in slow motion is recognised", "[render][compare][program]") {
+  Films films;
+  const std::string slow = GENERATE("2", "4", "1");
+  CAPTURE(slow);
+  const std::string film = films.film(0, "25", "256x192", "--no-overlay", slow), place = (films.bench.folder / "found").string();
+  CHECK(films.bench.erbs({"compare", films.run, film, "-o", place, "--film-background", "drawn"}) == 0);
+  INFO(films.bench.said);
+  const std::string wish = "with --slow " + slow + " they correlate by";
+  CHECK((films.bench.said.find(wish) != std::string::npos) == (slow != "1"));
+  CHECK(films.bench.erbs({"compare", films.run, film, "-o", place + "_slow", "--film-background", "drawn", "--slow", slow, "--expect",
+                          "iou>.9,shift<.02,shift>-.02"}) == 0);
+  CHECK(films.bench.said.find("doubtful") == std::string::npos);
 }
 
 TEST_CASE("a run with another peak is told apart from noise of H.264", "[render][compare][program]") {
