@@ -253,7 +253,7 @@ struct Painter::Hidden {
     const Uniforms u = use(crack, light, light.camera);
     name_states(u);
     u.number("pixel", v.pixel);
-    u.number("thinnest", 2.2 * look_.height / 720.0);
+    u.number("thinnest", fineness_of(1, look_.height).band);
     u.number("proud", 0.35 * show.chamfer);
     u.number("open", show.open_crack);
     u.number("widest", widest_crack * show.open_crack);
@@ -344,7 +344,7 @@ Image Painter::draw(const MotionFrame& frame, const Camera& level_camera, const 
   const Stage& stage = h.show.stage;
   const double radius = 0.022 * stage.size();  // m, within which corners are dark
   Hidden::Light light{v.projection * v.view, {}, v.eye, sun_of(level_camera), 0, {}, {0, 0, 0, 1}};
-  FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye, static_cast<double>(v.pixel));
+  FrameTexels texels = texels_of(h.show, frame, l.coloring, camera.eye, fineness_of(static_cast<double>(v.pixel), l.height));
   const Standpoint from = Hidden::standpoint(light, v, position);
   if (dust.empty() && h.last && h.last->from == from && h.last->texels == texels) return h.last->image;
   light.to_shadow = shadow_view(stage, light.sun);

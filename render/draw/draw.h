@@ -96,9 +96,14 @@ struct FrameTexels {
   std::vector<std::uint32_t> ghost_index;  // triangles of translucent blocks
   bool operator==(const FrameTexels&) const = default;
 };
-// pixel: m, at a distance of 1 m; 0: as small as needed. What is too narrow to be seen in it is left out, and poses are rounded to a
-// fiftieth of it (visible.h).
-FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel = 0);
+// How finely a picture is drawn. m, at a distance of 1 m: `pixel`, 0: as small as needed; `band`, the least width of the band of a joint
+// that has opened wide (a joint that is only cracked has three tenths and more of it).
+struct Fineness {
+  double pixel = 0, band = 0;
+};
+Fineness fineness_of(double pixel, int height);
+// What is too narrow to be seen, or lies behind a band, is left out, and poses are rounded to a fiftieth of a pixel (visible.h).
+FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, const Fineness& fineness = {});
 
 class Painter {
  public:

@@ -113,7 +113,9 @@ Show prepare_show(const MotionScene& scene, const Run& run, Stage stage, std::ve
   return show;
 }
 
-FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel) {
+Fineness fineness_of(double pixel, int height) { return {pixel, 2.2 * height / 720.0 * pixel}; }
+
+FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, const Fineness& fineness) {
   const MotionScene& scene = *show.scene;
   const std::size_t nb = scene.blocks.size(), nj = scene.joints.size();
   FrameTexels t;
@@ -123,7 +125,7 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
   const std::vector<double> value = block_values(scene, frame, coloring);
   const auto step_of_parting = static_cast<float>(0.02 * show.open_crack);  // m
   MotionFrame drawn;
-  drawn.poses = rounded_poses(show, frame, eye, pixel);
+  drawn.poses = rounded_poses(show, frame, eye, fineness.pixel);
   for (std::size_t j = 0; j < nj; ++j) {
     const MotionJoint& joint = scene.joints[j];
     const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
@@ -148,7 +150,7 @@ FrameTexels texels_of(const Show& show, const MotionFrame& frame, Coloring color
     const float values[12] = {p[0], p[1], p[2], share, p[4], p[5], p[6], p[3], c.x(), c.y(), c.z(), 0};
     std::copy_n(values, 12, &t.blocks[12 * b]);
   }
-  choose_triangles(show, drawn, coloring, eye, pixel, t);
+  choose_triangles(show, drawn, coloring, eye, fineness, t);
   return t;
 }
 

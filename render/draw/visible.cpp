@@ -28,8 +28,10 @@ std::vector<float> rounded_poses(const Show& show, const MotionFrame& frame, con
   return poses;
 }
 
-void choose_triangles(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel, FrameTexels& t) {
+void choose_triangles(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, const Fineness& fineness,
+                      FrameTexels& t) {
   const MotionScene& scene = *show.scene;
+  const double pixel = fineness.pixel;
   const double moved = 0.1 * show.open_crack;       // m, ...
   const double leaky = 0.0005 * show.stage.size();  // ... some half a texel of the shadow map: no light is seen through it
   std::vector<bool> quiet(scene.blocks.size(), true), tight = quiet;
@@ -95,17 +97,20 @@ void choose_triangles(const Show& show, const MotionFrame& frame, Coloring color
       if (of_ghosts) add(t.ghost_index, show.mesh.index, span);
       else add_seen(solid, show.mesh.index, span);
     };
+    // As the shader would drop it: wide open, or hardly damaged.
+    const double damage = static_cast<double>(t.joints[4 * j]), parted = std::min(1.0, gaps[j] / show.open_crack);
+    const bool shown = gaps[j] <= widest_crack * show.open_crack && (coloring == Coloring::joint_state || damage >= 0.05);
+    const double band = shown ? fineness.band * distances[j] * (0.3 + 0.3 * damage + 0.4 * parted) : 0;  // m, as in the shader
+    const double thick = scene.joints[j].thickness;                                                      // m
+    const bool behind = !of_ghosts && 0.9 * band >= thick + gaps[j];
     if (gaps[j] < moved) {
-      add_mortar(t.fine_index, show.mesh.sides[j].open);
-      if (!closed) add_mortar(t.fine_index, show.mesh.sides[j].covered);
-    } else {
-      const double thick = scene.joints[j].thickness;  // m
+      if (!behind) add_mortar(t.fine_index, show.mesh.sides[j].open);
+      if (!behind && !closed) add_mortar(t.fine_index, show.mesh.sides[j].covered);
+    } else if (!behind) {
       add_mortar(t.index, show.mesh.beds[j].faces);
       // Of debris, the sides of half a bed are left out where they are less than 0.4 pixels wide.
       if (of_ghosts || gaps[j] < 4 * thick || 0.5 * thick >= 0.4 * pixel * distances[j]) add_mortar(t.fine_index, show.mesh.beds[j].edges);
     }
-    // As the shader would drop it: wide open, or hardly damaged.
-    const bool shown = gaps[j] <= widest_crack * show.open_crack && (coloring == Coloring::joint_state || t.joints[4 * j] >= 0.05F);
     if (!shown || of_ghosts) continue;
     const auto hidden = [&](std::uint32_t k) {
       const CrackVertex& v = show.mesh.cracks[k];

@@ -18,7 +18,8 @@ inline Eigen::Vector3f place_of(const MotionFrame& f, std::size_t block) {  // m
 std::vector<float> rounded_poses(const Show& show, const MotionFrame& frame, const Vec3& eye, double pixel);
 
 // Selects the triangles that may be seen; `t` knows how far joints have parted. Around a joint that has visibly parted, everything is
-// drawn. `pixel`: m, at a distance of 1 m; 0: as small as needed.
-void choose_triangles(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, double pixel, FrameTexels& t);
+// drawn, but for mortar behind the band of its crack.
+void choose_triangles(const Show& show, const MotionFrame& frame, Coloring coloring, const Vec3& eye, const Fineness& fineness,
+                      FrameTexels& t);
 
 }  // namespace erbs::render

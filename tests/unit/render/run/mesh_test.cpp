@@ -234,11 +234,30 @@ TEST_CASE("chamfers narrower than a quarter of a pixel are drawn only where no m
   const MotionFrame frame = brick_house_frame(scene, 0);
   const Vec3 eye(5, -5, 3);
   REQUIRE((show.mortared && show.chamfer > 0));
-  const auto fine = [&](Coloring coloring, double pixel) { return texels_of(show, frame, coloring, eye, pixel).fine_index.size(); };
+  const auto fine = [&](Coloring coloring, double pixel) { return texels_of(show, frame, coloring, eye, {pixel}).fine_index.size(); };
   const double all = 4 * show.chamfer / 20, none = 4 * show.chamfer / 1;  // of all distances, 20 and 1 m as bounds
   CHECK(fine(Coloring::material, 0) == fine(Coloring::material, all));
   CHECK(fine(Coloring::material, none) < fine(Coloring::material, all) / 2);
   CHECK(fine(Coloring::damage, none) == fine(Coloring::damage, 0));
+}
+
+TEST_CASE("mortar behind the band of its crack is left out, beside it and of wide gaps it is not", "[render][mesh]") {
+  const MotionScene scene = brick_house({1.525, 1.83, 8, 1, 0.5});
+  const Show show = prepare_show(scene, {}, {});
+  MotionFrame frame = brick_house_frame(scene, 0);
+  const Vec3 eye(5, -5, 3);
+  const auto mortar = [&](double band) {
+    const FrameTexels t = texels_of(show, frame, Coloring::material, eye, {0, band});
+    return t.fine_index.size();
+  };
+  const double wide = 10 * scene.joints.front().thickness / 0.3, narrow = 0.1 * scene.joints.front().thickness / 20;
+  CHECK(mortar(wide) == mortar(0));  // without a crack there is no band
+  std::fill(frame.damage.begin(), frame.damage.end(), std::uint8_t(255));
+  CHECK(mortar(narrow) == mortar(0));
+  const std::size_t hidden = mortar(0) - mortar(wide);
+  CHECK(hidden > 0);
+  for (std::size_t b = 0; b < scene.blocks.size(); ++b) frame.poses[7 * b] += 1.5F * static_cast<float>(b);  // debris
+  CHECK(mortar(wide) == mortar(0));
 }
 
 TEST_CASE("poses are drawn as exactly as a pixel shows, however far blocks have gone and turned", "[render][mesh]") {
