@@ -47,19 +47,20 @@ void settle(Energy& e, double floor, double t, int worst_joint) {
 }
 
 Ledger::Ledger(const Model& model, State& state) : model_(model), state_(state) {
-  double low = 1e300, high = -1e300;
+  double low = 1e300, high = -1e300, kinetic = 0;  // J, of the blocks that a scene throws
   const Vec3 up = model.gravity.norm() > 0 ? Vec3(-model.gravity.normalized()) : Vec3::UnitZ();
   for (std::size_t b = 0; b < model.kind.size(); ++b) {
     if (model.kind[b] != Kind::moving) continue;
     low = std::min(low, up.dot(model.rest[b]) - 0.5 * model.smallest_edge[b]);
     high = std::max(high, up.dot(model.rest[b]) + 0.5 * model.smallest_edge[b]);
     mass_ += model.mass[b];
+    kinetic += 0.5 * model.mass[b] * Vec3(state.motion.v[b]).squaredNorm();
   }
   const double weight = mass_ * model.gravity.norm();
   high = std::max(high, low);
   floor_ = std::max(1e-300, 1e-12 * weight * (high - low));
   lift_ = 1e-3 * weight * (high - low);
-  state.energy.reference = std::max(state.energy.reference, lift_);
+  state.energy.reference = std::max({state.energy.reference, lift_, state.time.step == 0 ? kinetic : 0});
 }
 
 bool Ledger::due(bool contacts) {

@@ -124,9 +124,12 @@ void Solver::transitions() {
     time.joint_level = 0;
   }
   if (has_contacts_) contacts_.gather(contact_wrench_.data(), has_levels(time) ? contact_kick_.data() : nullptr, sampling());
-  if (time.step == 0 && has_contacts_ && contacts_.bound().allowed_dt() < time.dt) {  // contacts present at the start limit the first drift
-    set_dt(time.joints_dt = next_dt(time.dt));
-    loads_.evaluate();
+  if (time.step == 0 && has_contacts_) {  // contacts present at the start, and blows soon after it, limit the first drift
+    if (const double rate = contacts_.bound().event_rate(); rate > 0) time.event_dt = 1 / rate;
+    if (const double dt = next_dt(time.dt); dt < time.dt) {
+      set_dt(time.joints_dt = dt);
+      loads_.evaluate();
+    }
   }
   relisted_ = false;
   const double softened = event_tolerance * state_.energy.reference;

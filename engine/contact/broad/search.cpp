@@ -71,7 +71,8 @@ Grid make_grid(const std::vector<OrientedBox>& parts, double margin) {
   return g;
 }
 
-std::vector<OrientedBox> oriented_boxes(const ContactShapes& shapes, std::span<const ContactBlock> blocks) {
+// Boxes around the parts, and around where they may be within the time `ahead` (s).
+std::vector<OrientedBox> oriented_boxes(const ContactShapes& shapes, std::span<const ContactBlock> blocks, double ahead) {
   std::vector<OrientedBox> parts(shapes.of.size());
   for (size_t i = 0; i < parts.size(); ++i) {
     const ContactBlock& b = blocks[at(shapes.block[i])];
@@ -80,8 +81,9 @@ std::vector<OrientedBox> oriented_boxes(const ContactShapes& shapes, std::span<c
     const Vec3 centre = (b.rest - blocks[0].rest) + b.u + b.rotation * shape.centre;
     std::copy_n(centre.data(), 3, parts[i].centre);
     std::copy_n(b.rotation.data(), 9, parts[i].rotation);
-    std::copy_n(shape.half.data(), 3, parts[i].half);
-    parts[i].radius = shape.radius;
+    const double travel = ahead * (b.v.norm() + b.w.norm() * shape.reach);
+    for (int k = 0; k < 3; ++k) parts[i].half[k] = shape.half[k] + travel;
+    parts[i].radius = shape.radius + std::sqrt(3.0) * travel;
   }
   return parts;
 }
@@ -90,13 +92,13 @@ std::vector<OrientedBox> oriented_boxes(const ContactShapes& shapes, std::span<c
 class Finder {
  public:
   Finder(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
-         std::span<const std::uint64_t> excluded)
+         std::span<const std::uint64_t> excluded, double ahead)
       : margin_(list.margin),
         shapes_(shapes),
         blocks_(blocks),
         loose_(loose),
         excluded_(excluded),
-        parts_(oriented_boxes(shapes, blocks)) {}
+        parts_(oriented_boxes(shapes, blocks, ahead)) {}
 
   std::vector<Found> find() {
     const Grid grid = make_grid(parts_, margin_);
@@ -238,11 +240,12 @@ bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<c
 }
 
 double search(PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
-              std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law, std::span<const std::uint8_t> still,
-              std::vector<int>* fresh) {
+              std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law, double ahead,
+              std::span<const std::uint8_t> still, std::vector<int>* fresh) {
   std::vector<std::uint8_t> looking(loose.begin(), loose.end());
   for (size_t b = 0; b < still.size(); ++b) looking[b] = looking[b] && !still[b];
-  const std::vector<Found> found = shapes.shape.empty() ? std::vector<Found>{} : Finder(list, shapes, blocks, looking, excluded).find();
+  const std::vector<Found> found =
+      shapes.shape.empty() ? std::vector<Found>{} : Finder(list, shapes, blocks, looking, excluded, ahead).find();
   std::vector<ContactPair> now;
   now.reserve(found.size());
   double dropped = 0;

@@ -19,12 +19,12 @@ double suggested_margin(std::vector<double> thickness);
 bool needs_search(const PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks,
                   std::span<const std::uint8_t> still = {});
 
-// Lists every pair of parts closer than the margin of which at least one block is loose. Pairs of blocks with a `pair_key()` in `excluded`
-// (sorted) and pairs that cannot move are left out. Listed pairs that remain keep their memory. Returns the energy in the friction springs
-// of dropped pairs (J, to be booked as reset). Blocks that are `still` do not search but can be found; pairs among them, or of one with a
-// block that is not loose, stay listed. `fresh` receives the indices of new pairs.
+// Lists every pair of parts closer than the margin, or that may be so within the time `ahead` (s), of which at least one block is loose.
+// Pairs of blocks with a `pair_key()` in `excluded` (sorted) and pairs that cannot move are left out. Listed pairs that remain keep their
+// memory. Returns the energy in the friction springs of dropped pairs (J, to be booked as reset). Blocks that are `still` do not search but
+// can be found; pairs among them, or of one with a block that is not loose, stay listed. `fresh` receives the indices of new pairs.
 double search(PairList& list, const ContactShapes& shapes, std::span<const ContactBlock> blocks, std::span<const std::uint8_t> loose,
-              std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law,
+              std::span<const std::uint64_t> excluded, const std::function<PairLaw(int a, int b)>& law, double ahead = 0,
               std::span<const std::uint8_t> still = {}, std::vector<int>* fresh = nullptr);
 
 // Law of two materials in contact: springs in series, scaled so that equal ones stay as they are; the lower friction and restitution.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "engine/contact/broad/search.h"
+#include "engine/joints/event_bound.h"
 #include "engine/model/build/add_joints.h"
 #include "engine/model/levels.h"
 
@@ -126,9 +127,12 @@ std::vector<int> Contacts::search_pairs(double& reset, std::span<const std::uint
   using Clock = std::chrono::steady_clock;
   const Clock::time_point began = Clock::now();
   std::vector<int> fresh;
+  // A blow is predicted once its pair is evaluated, look_ahead steps before it (`MotionBounds`), in one step of foresee_every. A pair that
+  // is listed later meets it at whatever step there is.
+  const double ahead = (1.5 * look_ahead + foresee_every) * std::max(macro_dt(state_.time), state_.time.last_dt);
   reset += search(
       state_.contacts.list, bodies_.shapes, bodies_.block, state_.topology.loose, jointed_,
-      [this](int a, int b) { return bodies_.law(a, b); }, still, &fresh);
+      [this](int a, int b) { return bodies_.law(a, b); }, ahead, still, &fresh);
   searched_ += std::chrono::duration<double>(Clock::now() - began).count();
   return fresh;
 }

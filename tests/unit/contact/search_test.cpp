@@ -20,9 +20,9 @@ TEST_CASE("a search that leaves out what lies still lists what a whole one lists
     b->block[5].u = Vec3(-0.305 * 3, 0, 0.105);                  // comes to rest on a block that has not moved
   }
   CHECK(needs_search(one.list, one.shapes, one.block, still));
-  const double dropped = search(one.list, one.shapes, one.block, loose, {}, law, still);
+  const double dropped = search(one.list, one.shapes, one.block, loose, {}, law, 0, still);
   std::vector<int> fresh;
-  CHECK(dropped == search(other.list, other.shapes, other.block, loose, {}, law, {}, &fresh));
+  CHECK(dropped == search(other.list, other.shapes, other.block, loose, {}, law, 0, {}, &fresh));
   REQUIRE(!fresh.empty());
   for (const int i : fresh) {  // remaining pairs are not new: they keep their history
     CHECK(other.list.pair[std::size_t(i)].b == 5);
