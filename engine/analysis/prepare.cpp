@@ -108,9 +108,10 @@ void choose_dt(const Scene& scene, Prepared& p, bool allow_unstable) {
         "(cracked joints are stiffer in bending than their points, or damped); take at most {:.3g} s",
         dt, b.critical, b.cracked, 0.9 * b.cracked));
   p.state.time.dt = p.range.longest = dt;
-  // A step derived from joints may grow to the contact bound once the joints are gone.
+  // A step derived from joints may grow once they are gone, as far as contacts allow (`ContactBound`), at most to that of a block on one
+  // whole face: `debris_bound` counts the face four times.
   if (a.dt == 0 && jointed && a.solver != "sequential" && a.dt_rule == Analysis{}.dt_rule)
-    p.range.longest = std::max(dt, a.dt_fraction * debris_bound(p.model));
+    p.range.longest = std::max(dt, 2 * a.dt_fraction * debris_bound(p.model));
 }
 
 // Enforces the scene's own limit of use: a run beyond it is refused with the scene's reason.

@@ -17,8 +17,9 @@ constexpr double safe_share = 0.9;  // of the bound of a block, for joints and f
 // cap between two blocks (`pair.cpp`) use up to 4/3 with two contacts on each block, 1 in a heap. Any share below .81 is therefore safe;
 // .7 leaves a margin of a sixth.
 constexpr double contact_share = 0.7;
-// Share of the bound of a face that strikes: an impact begins anywhere within a step and so errs by up to (omega dt)^2 / 4 of its energy.
-constexpr double impact_share = 0.5;
+// Share of the bound of a face that may strike: that with which it counts as a contact in the next step. What an impact errs, by up to
+// (omega dt)^2 / 4 of its energy, is bounded by events (`event_bound.h`).
+constexpr double impact_share = safe_share;
 constexpr int update_every = 256;  // steps between two updates while the step could be longer, ...
 constexpr int update_soon = 32;    // ... and before the step becomes shorter
 constexpr int joints_every = 8;    // updates between two trials of the bound by blocks
