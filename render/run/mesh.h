@@ -39,9 +39,8 @@ struct Surface {
 };
 
 // Sides of the mortar of a joint at the wall's surface, and those that other blocks cover as long as nothing moves.
-template <class T>
 struct Sides {
-  T open, covered;
+  Span open, covered;
 };
 
 // Most of an intact wall is invisible: faces inside it, and mortar behind the pointing. These triangles are kept separate and drawn only
@@ -53,7 +52,7 @@ struct Mesh {
   // Whole faces up to the edges of a block, for one so far away that its chamfers are hardly to be seen: they are most of its triangles.
   std::vector<std::uint32_t> plain_index;
   std::vector<Span> plain_open, plain_buried;  // in plain_index; empty where there are no chamfers [blocks]
-  std::vector<Sides<Span>> sides;              // of the mortar of a closed joint [joints]
+  std::vector<Sides> sides;                    // of the mortar of a closed joint [joints]
   std::vector<Surface<Span>> beds;             // mortar bed of a moved joint, half of it on each block: its faces, and its sides [joints]
   // Shadow casters: bare blocks, enlarged until they meet across their joints, so that no light passes through mortar.
   std::vector<Vertex> shades;
