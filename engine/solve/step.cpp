@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "engine/joints/event_bound.h"
 #include "engine/joints/kinematics.h"
@@ -85,7 +86,7 @@ void Solver::prepare_step(const SamplePlan& plan) {
   if (debris && every(activate_every, time) && (cracked || contacts_.active() || time.step == 0)) contacts_.activate_loose_blocks();
   has_contacts_ = contacts_.active();
   budget_ = together && has_levels(time) ? event_allowance(model_, state_) : event_budget(model_, state_);
-  has_transitions_ = has_contacts_ || (debris && cracked && every(model_.release_every, time));
+  has_transitions_ = has_contacts_ || time.step == 0 || (debris && cracked && every(model_.release_every, time));
   if (has_contacts_ && together) contacts_.prepare(budget_, contact_interlock(model_, state_));
   else if (has_contacts_) contacts_.prepare_substep(contact_interlock(model_, state_));
   if (has_contacts_ && contact_wrench_.empty()) {
@@ -124,8 +125,9 @@ void Solver::transitions() {
     time.joint_level = 0;
   }
   if (has_contacts_) contacts_.gather(contact_wrench_.data(), has_levels(time) ? contact_kick_.data() : nullptr, sampling());
-  if (time.step == 0 && has_contacts_) {  // contacts present at the start, and blows soon after it, limit the first drift
-    if (const double rate = contacts_.bound().event_rate(); rate > 0) time.event_dt = 1 / rate;
+  if (time.step == 0) {  // contacts present at the start, blows soon after it and joints that yield at once limit the first drift
+    const double blows = has_contacts_ ? contacts_.bound().event_rate() : 0, rate = std::max(blows, event_rate_at_start());
+    if (rate > 0) time.event_dt = 1 / rate;
     if (const double dt = next_dt(time.dt); dt < time.dt) {
       set_dt(time.joints_dt = dt);
       loads_.evaluate();
@@ -301,10 +303,11 @@ void Solver::note_excess(int b) {
   sample_.since.push_back(levels.since()[b]);
 }
 
-// Joints and contacts conserve the momentum of all blocks, supports included: their forces and moments must sum to zero.
+// Joints and contacts conserve the momentum of all blocks, supports included: their forces and moments must sum to zero. Forces that do
+// not change a digit of any momentum, as a contact has them that just ends, prove nothing.
 void Solver::check_momentum() {
   Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
-  double forces = 0, moments = 0;
+  double forces = 0, moments = 0, momentum = 0, angular = 0;
   for (int b = 0; b < model_.nblock; ++b) {
     const Vec6 w = block_wrench(b);
     const Vec3 f = w.head<3>(), arm = model_.rest[z(b)] - model_.rest.front() + sample_.pose.u[z(b)], m = arm.cross(f) + w.tail<3>();
@@ -312,10 +315,16 @@ void Solver::check_momentum() {
     moment += m;
     forces += f.norm();
     moments += m.norm();
+    if (model_.kind[z(b)] != Kind::moving) continue;
+    const double moves = model_.mass[z(b)] * Vec3(state_.motion.v[z(b)]).norm();
+    momentum += moves;
+    angular += arm.norm() * moves + Vec3(state_.motion.spin_momentum[z(b)]).norm();
   }
+  constexpr double digit = std::numeric_limits<double>::epsilon();
+  const double kick = loads_.now().kick;
   double& worst = state_.observed.momentum_residual;
-  if (forces > 0) worst = std::max(worst, force.norm() / forces);
-  if (moments > 0) worst = std::max(worst, moment.norm() / moments);
+  if (forces * kick > digit * momentum) worst = std::max(worst, force.norm() / forces);
+  if (moments * kick > digit * angular) worst = std::max(worst, moment.norm() / moments);
 }
 
 Vec6 Solver::block_wrench(int b) const {

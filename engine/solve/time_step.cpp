@@ -6,6 +6,7 @@
 
 #include "engine/joints/event_bound.h"
 #include "engine/joints/kinematics.h"
+#include "engine/laws/yield.h"
 #include "engine/model/levels.h"
 #include "engine/solve/step.h"
 
@@ -14,6 +15,24 @@ namespace {
 
 constexpr double trembling = 0.1;  // of the event rate of free fall; below it a body at rest only trembles under the thresholds of sleep
 std::size_t z(int i) { return std::size_t(i); }
+
+// Relative displacement of a joint and its rate, in the joint frame.
+struct JointMotion {
+  double gap[6], rate[6];  // m, rad; m/s, rad/s
+};
+JointMotion joint_motion(const Model& m, const State& s, int j) {
+  const Joint& joint = m.joint[z(j)];
+  const std::size_t a = z(joint.a), b = z(joint.b);
+  const JointPose now = joint_pose(m, s, j);
+  const Vec3 wa = s.motion.w[a], wb = s.motion.w[b];
+  const Vec3 speed = now.frame.transpose() * (Vec3(s.motion.v[b]) - Vec3(s.motion.v[a]) + wb.cross(s.pose.q[b] * joint.arm_b) -
+                                              wa.cross(s.pose.q[a] * joint.arm_a));
+  const Vec3 spin = now.frame.transpose() * (wb - wa);
+  JointMotion out;
+  std::copy_n(now.gap, 6, out.gap);
+  for (int i = 0; i < 3; ++i) out.rate[i] = speed[i], out.rate[3 + i] = spin[i];
+  return out;
+}
 
 // Rounds dt down to a scale of 32 steps per octave. Differences in the last digits, as sleeping blocks cause them, then leave dt equal.
 double on_scale(double dt) { return std::exp2(std::floor(32 * std::log2(dt)) / 32); }
@@ -124,20 +143,38 @@ double Solver::event_rate_of_first_openings() const {
   for (int j = 0; j < model_.njoint; ++j) {
     const Joint& joint = model_.joint[z(j)];
     if (state_.joints.stage[z(j)] != JointStage::intact || model_.laws[z(joint.type->law)].has_bond()) continue;
-    const std::size_t a = z(joint.a), b = z(joint.b);
-    const JointPose now = joint_pose(model_, state_, j);
-    const Vec3 wa = state_.motion.w[a], wb = state_.motion.w[b];
-    const Vec3 speed = now.frame.transpose() * (Vec3(state_.motion.v[b]) - Vec3(state_.motion.v[a]) +
-                                                wb.cross(state_.pose.q[b] * joint.arm_b) - wa.cross(state_.pose.q[a] * joint.arm_a));
-    const Vec3 spin = now.frame.transpose() * (wb - wa);
+    const JointMotion now = joint_motion(model_, state_, j);
     double before[6];
-    for (int i = 0; i < 3; ++i) before[i] = now.gap[i] - dt * speed[i], before[3 + i] = now.gap[3 + i] - dt * spin[i];
+    for (int i = 0; i < 6; ++i) before[i] = now.gap[i] - dt * now.rate[i];
     event_rate = std::max(event_rate, foresee(model_, joint, before, now.gap, allowance));
   }
   // The error of an opening falls with the square of the step: at dt it is some event_rate^2 of the allowance. A change of dt that costs
   // far more is left alone. Factors of 4 to 20 serve m02_hop and h14_overlap_from_nothing alike; 1 is too few for m02_hop.
   if (event_rate > 1 && vibration() * dt * dt / 8 > 10 * event_rate * event_rate * allowance) return 0;
   return event_rate / dt;
+}
+
+// Event rate (1/s) of intact joints whose blocks move apart or together at the start, so fast that in two steps they may yield, at once or
+// as they swing back: until they have cracked nothing else predicts them. They err as one-sided springs do, each by its whole stiffness.
+double Solver::event_rate_at_start() const {
+  const double allowance = event_allowance(model_, state_);
+  double event_rate = 0;
+  for (int j = 0; j < model_.njoint && allowance > 0; ++j) {
+    const JointType& type = *model_.joint[z(j)].type;
+    if (state_.joints.stage[z(j)] != JointStage::intact) continue;
+    const JointMotion now = joint_motion(model_, state_, j);
+    const auto limits = scalar::yield_limits(model_.laws[z(type.law)]);
+    const auto may_yield = [&](double time) {
+      double gap[6];
+      for (int i = 0; i < 6; ++i) gap[i] = now.gap[i] + time * now.rate[i];
+      return scalar::face_bound(limits, gap, type.half_s, type.half_t, type.radius) > 0;
+    };
+    double power = 0;
+    for (int i = 0; i < 6; ++i) power += type.stiffness[i] * now.rate[i] * now.rate[i];
+    if (power > 0 && (may_yield(2 * state_.time.dt) || may_yield(-2 * state_.time.dt)))
+      event_rate = std::max(event_rate, std::sqrt(event_share / allowance * power));
+  }
+  return event_rate;
 }
 
 // Time step that the next openings and closings allow (`event_bound.h`).
@@ -157,8 +194,11 @@ void Solver::foresee_events() {
 }
 
 // A change of dt changes the energy of a block that vibrates on its springs by F^2 (dt_1^2 - dt_0^2) / (8 m). A longer step is allowed
-// while the sum over all blocks stays within the event tolerance.
+// while the sum over all blocks stays within the event tolerance. A fragment that vibrates from its start keeps the step of
+// `event_rate_at_start` until it breaks or has struck something.
 bool Solver::may_grow(double from, double dt) const {
+  const bool as_at_start = model_.njoint > 0 && !joints_.any_cracked() && state_.energy.contact_damping == 0;
+  if (dt > from && model_.analysis.start == "rest" && as_at_start) return false;
   const double budget = event_tolerance * state_.energy.reference, more = (dt * dt - from * from) / 8;
   if (!(dt > from) || !(budget > 0) || model_.analysis.unstable || sequential_) return true;
   return more * vibration() <= budget;
