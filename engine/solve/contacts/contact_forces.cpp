@@ -1,6 +1,7 @@
 #include "engine/solve/contacts/contact_forces.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -14,6 +15,7 @@ namespace {
 
 // Times the event budget: least energy m v^2 of two blocks relative to each other for which events are predicted.
 constexpr double foresee_threshold = 2;
+using Clock = std::chrono::steady_clock;
 std::size_t z(int i) { return std::size_t(i); }
 
 PairFrame frame_of(const PairBodies& bodies, const ContactBlock& a, const ContactBlock& b) {
@@ -144,6 +146,7 @@ bool ContactForces::evaluate_one(int i, bool sample, OverlapRoom& room, PairResu
 void ContactForces::evaluate(int thread, std::span<const int> live, bool sample) {
   const auto from = [&](int t) { return std::lower_bound(live.begin(), live.end(), first_pair_[z(t)]); };
   ThreadPairs& found = thread_pairs_[z(thread)];
+  const Clock::time_point began = Clock::now();
   find_due(found, std::span<const int>(from(thread), from(thread + 1)));
   OverlapRoom& room = room_[z(thread)];
   PairBatch& batch = *batch_[z(thread)];
@@ -183,6 +186,14 @@ void ContactForces::evaluate(int thread, std::span<const int> live, bool sample)
   for (int level = 0; level < most_levels; ++level)
     if (of_level[level].count > 0) evaluate_batch(level);
   if (at_macro_step(state_.time)) foresee_touching(found);
+  note_cost(found, std::chrono::duration<double>(Clock::now() - began).count());
+}
+
+// Mean over the last steps. A step in which the thread waited for its core counts little.
+void ContactForces::note_cost(ThreadPairs& found, double seconds) {
+  constexpr double newest = 0.02, most = 4;  // share of this step in the mean; times the mean
+  const double cost = seconds / std::max(1.0, double(found.at.size()));
+  found.cost = found.cost > 0 ? found.cost + newest * (std::min(cost, most * found.cost) - found.cost) : cost;
 }
 
 // Predicts events of touching pairs with enough kinetic energy. With less, an event stays within the budget at any step.
@@ -199,15 +210,18 @@ void ContactForces::foresee_touching(ThreadPairs& found) {
   }
 }
 
+// Equal times: pairs that slip cost more than pairs that stick, and the first thread may have a slower core.
 void ContactForces::balance_threads() {
-  std::size_t all = 0, before = 0;
-  for (const ThreadPairs& found : thread_pairs_) all += found.at.size();
-  const std::size_t threads = thread_pairs_.size();
+  double all = 0, before = 0;  // s
+  for (const ThreadPairs& found : thread_pairs_) all += found.cost * double(found.at.size());
+  const double share = all / double(thread_pairs_.size());
   std::size_t next = 1;
   for (const ThreadPairs& found : thread_pairs_) {
-    for (; next < threads && all * next < (before + found.at.size()) * threads; ++next)
-      first_pair_[next] = found.at[all * next / threads - before];
-    before += found.at.size();
+    const std::size_t count = found.at.size();
+    const double until = before + found.cost * double(count);
+    for (; next < thread_pairs_.size() && double(next) * share < until; ++next)
+      first_pair_[next] = found.at[std::min(count - 1, std::size_t((double(next) * share - before) / found.cost))];
+    before = until;
   }
 }
 

@@ -26,6 +26,7 @@ class ContactForces {
     std::vector<int> at;                   // pairs to evaluate
     std::vector<Force> forces;             // pairs with forces
     std::vector<SeparatedPair> separated;  // separated pairs
+    double cost = 0;                       // s, of a pair, mean of the last steps
   };
 
   ContactForces(State& state, const ContactBodies& bodies, MotionBounds& motion, int threads);
@@ -56,6 +57,7 @@ class ContactForces {
   void find_due(ThreadPairs& found, std::span<const int> mine);
   bool evaluate_one(int i, bool sample, OverlapRoom& room, PairResult& result);
   void foresee_touching(ThreadPairs& found);
+  static void note_cost(ThreadPairs& found, double seconds);
   double idle(int i);
   PairInterval interval(int level) const;
   ContactSettings settings_of(int level) const;
@@ -75,7 +77,7 @@ class ContactForces {
   std::vector<std::uint8_t> level_, next_level_;   // per pair, as in `ContactPair`
   std::vector<std::uint8_t> edge_known_;           // per pair: found once it is asked for
   std::vector<EdgeAtRest> edge_;                   // per pair
-  std::vector<int> first_pair_;                    // first pair of each thread; balances the number of evaluations
+  std::vector<int> first_pair_;                    // first pair of each thread; balances their times
   std::vector<ThreadPairs> thread_pairs_;          // per thread
   std::vector<OverlapRoom> room_;                  // per thread
   std::vector<std::unique_ptr<PairBatch>> batch_;  // per thread
