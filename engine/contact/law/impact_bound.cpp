@@ -16,15 +16,17 @@ double event_rate(double k, double speed, double left, const ContactSettings& se
   return std::min(speed * std::sqrt(event_share * k / settings.event_budget), left > 0 ? event_steps * speed / left : 1e300);
 }
 
-// Rates of both bodies if a face lands flat on the other. The patch is within a face of either body and at most as large as the smaller
-// face; both facts bound the rates.
-void face_impact_omega2(const ContactPair& pair, const PairFrame& s, PairResult& result) {
+// Rates of both bodies if a face lands on the other, of which at most `share` presses before the next evaluation. The patch is within a
+// face of either body and at most as large as that share of the smaller face; all of this bounds the rates. A part of a face may be at its
+// edge, at the distance `reach` from the centroid.
+void face_impact_omega2(const ContactPair& pair, const PairFrame& s, double share, PairResult& result) {
   const double k = (pair.law.kn + pair.law.ks) * std::min(s.reference->largest_face, s.other->largest_face);
   // for a face about the centroid above it: Int r^2 dA / A is at most reach^2 / 3 for a rectangle
   const auto rate = [&](const ContactBlock& block, const ContactShape& part) {
     const double by_area = k * (block.inverse_mass + part.reach * part.reach / 3 * block.inverse_inertia);
+    const double by_part = share * k * (block.inverse_mass + part.reach * part.reach * block.inverse_inertia);
     const double by_face = pair.law.kn * part.face_across + pair.law.ks * part.face_along;
-    return by_face > 0 ? std::min(by_area, by_face) : by_area;
+    return std::min({by_area, by_part, by_face > 0 ? by_face : by_area});
   };
   const double other = rate(*s.other_block, *s.other), reference = rate(*s.reference_block, *s.reference);
   result.impact_omega2_a = pair.b_is_reference ? other : reference;
@@ -118,17 +120,17 @@ void impact_bound(const ContactPair& pair, const PairFrame& s, const ContactSett
   const double spin = o.w.norm() * s.other->reach + r.w.norm() * s.reference->reach, speed = way.along + spin;
   const double k = pair.law.kn * std::min(s.reference->largest_face, s.other->largest_face);
   result.event_rate = event_rate(k, speed, way.apart, settings);
-  if (result.event_rate * dt > 0.5 && !way.n.isZero(0) && corners_known(s)) {
+  const bool soon = speed > settings.reference_speed && way.apart <= look_ahead * speed * dt;
+  double share = 1;
+  if ((soon || result.event_rate * dt > 0.5) && !way.n.isZero(0) && corners_known(s)) {
     const double depth = look_ahead * speed * dt, corner_travel = 2 * spin * way.apart / speed;  // evaluated every few steps only
-    double share = 1;
     if (way.by != SeparatingFeature::other_face)
       share *= pressed_share(s.other->small, o.rotation.transpose() * way.n, depth, corner_travel);
     if (way.by != SeparatingFeature::face)
       share *= pressed_share(s.reference->small, -(r.rotation.transpose() * way.n), depth, corner_travel);
     result.event_rate = event_rate(share * k, speed, way.apart, settings);
   }
-  if (!(speed > settings.reference_speed) || way.apart > look_ahead * speed * dt) return;
-  face_impact_omega2(pair, s, result);
+  if (soon) face_impact_omega2(pair, s, share, result);
 }
 
 }  // namespace
@@ -200,7 +202,7 @@ void foresee(const ContactPair& pair, const PairFrame& s, const ContactSettings&
       soon = soon || (rate * lever > settings.reference_speed && time <= look_ahead * dt);
     }
   }
-  if (soon) face_impact_omega2(pair, s, result);
+  if (soon) face_impact_omega2(pair, s, 1, result);
 }
 
 int cached_axis(const ContactPair& pair, const ContactShape& a, const ContactShape& b) {

@@ -23,6 +23,7 @@ constexpr double impact_share = safe_share;
 constexpr int update_every = 256;  // steps between two updates while the step could be longer, ...
 constexpr int update_soon = 32;    // ... and before the step becomes shorter
 constexpr int joints_every = 8;    // updates between two trials of the bound by blocks
+constexpr double little = 0.05;    // of the bound of joints: contacts that add no more need no closer bound
 std::size_t z(int i) { return std::size_t(i); }
 
 // 1 / dt^2 for an upper bound of the total stiffness on a block.
@@ -48,20 +49,20 @@ bool ContactLimit::due(double allowed) const {
 void ContactLimit::update_bound(const ContactShapes& shapes, std::span<const ContactBlock> blocks, const std::vector<double>& scalars,
                                 OverlapRoom& room) {
   PairList& list = state_.contacts.list;
-  std::vector<Mat6> k(blocks.size(), Mat6::Zero());
+  springs_.clear();
   for (ContactPair& p : list.pair) {
     PatchStiffness patch;
     if (!p.touching || p.former_joint || !patch_stiffness(p, shapes, blocks[z(p.a)], blocks[z(p.b)], room, patch)) continue;
-    k[z(p.a)] += patch.on_a;
-    k[z(p.b)] += patch.on_b;
+    springs_.push_back({p.a, p.b, patch.on_a, patch.on_b});
   }
   list.bound_at_last_update = intact();
-  list.block_bounds = by_matrices(blocks, k);
+  const double longest = 1 / (range_.longest * range_.longest);
+  list.block_bounds = by_weights(blocks, std::max(longest, little * list.bound_at_last_update));
   for (std::size_t b = 0; b < scalars.size(); ++b)
     list.block_bounds[b] = std::min(list.block_bounds[b], inverse_square(scalars[b], safe_share));
   if (list.bound_updates % joints_every == 0 || list.by_blocks) {
-    add_joints(k);
-    std::vector<double> of = by_matrices(blocks, k);
+    add_joints();
+    std::vector<double> of = by_weights(blocks, longest);
     list.by_blocks = *std::ranges::max_element(of) < list.bound_at_last_update + *std::ranges::max_element(list.block_bounds);
     if (list.by_blocks) list.bound_at_last_update = 0, list.block_bounds = std::move(of);
   }
@@ -69,8 +70,9 @@ void ContactLimit::update_bound(const ContactShapes& shapes, std::span<const Con
   list.bound_updated_at = state_.time.step;
 }
 
-// Adds remaining joints and former joints with the greatest stiffness that they may reach, and with their dashpots (`stiffness.cpp`).
-void ContactLimit::add_joints(std::span<Mat6> to) const {
+// Adds to the springs remaining joints and former joints with the greatest stiffness that they may reach, and with their dashpots
+// (`stiffness.cpp`).
+void ContactLimit::add_joints() {
   for (int j = 0; j < model_.njoint; ++j) {
     const Joint& joint = model_.joint[z(j)];
     if (state_.joints.stage[z(j)] == JointStage::contact) {
@@ -82,31 +84,80 @@ void ContactLimit::add_joints(std::span<Mat6> to) const {
     constexpr double other_share = contact_share * contact_share / (safe_share * safe_share);
     const Mat6 k = std::max(share.n, share.s) * other_share * (1 + 2 * std::max(joint.viscous, joint.viscous_cracked) / state_.time.dt) *
                    stiffest(joint);
-    to[z(joint.a)] += map.a.transpose() * k * map.a;
-    to[z(joint.b)] += map.b.transpose() * k * map.b;
+    springs_.push_back({joint.a, joint.b, map.a.transpose() * k * map.a, map.b.transpose() * k * map.b});
   }
 }
 
-// 1 / dt^2 for the largest eigenvalue of M^-1/2 K M^-1/2 of each moving block, or for its trace if that is below half the largest so far.
+// A spring between x and y has the energy (x - y) K (x - y) <= (1 + t) x K x + (1 + 1/t) y K y for any t > 0; t = weight of y over weight
+// of x, 0 for the ground. Weights of 1 give twice the stiffness on each block. The few blocks that ask for most, and for more than `enough`
+// (1/s2), become heavier, round by round: up to half of their bound goes over to their neighbours, and all of that to the ground. The best
+// round counts.
+std::vector<double> ContactLimit::by_weights(std::span<const ContactBlock> blocks, double enough) {
+  constexpr int rounds = 4;
+  constexpr double reachable = 0.52;  // of the greatest bound
+  std::vector<Mat6> k(blocks.size(), Mat6::Zero());
+  for (const Spring& s : springs_) k[z(s.a)] += s.on_a, k[z(s.b)] += s.on_b;
+  std::vector<double> best = by_matrices(blocks, k);
+  const double goal = std::max(enough, reachable * *std::ranges::max_element(best));
+  std::vector<int> heavy;
+  const auto find_heavy = [&](const std::vector<double>& bound) {
+    heavy.clear();
+    for (int b = 0; b < model_.nblock; ++b)
+      if (bound[z(b)] > goal) heavy.push_back(b);
+  };
+  find_heavy(best);
+  if (heavy.empty()) return best;
+  std::vector<std::vector<int>> springs_of(blocks.size());
+  for (int i = 0; i < int(springs_.size()); ++i) springs_of[z(springs_[z(i)].a)].push_back(i), springs_of[z(springs_[z(i)].b)].push_back(i);
+  const auto weigh = [&](int b, const std::vector<double>& weight) {  // share of block b in 1 / dt^2
+    Mat6 sum = Mat6::Zero();
+    for (const int i : springs_of[z(b)]) {
+      const Spring& s = springs_[z(i)];
+      const int other = s.a == b ? s.b : s.a;
+      const double t = model_.kind[z(other)] == Kind::moving ? weight[z(other)] / weight[z(b)] : 0;
+      sum += 0.5 * (1 + t) * (s.a == b ? s.on_a : s.on_b);
+    }
+    return share_of(blocks[z(b)], sum, 0.7 * goal);
+  };
+  std::vector<double> weight(blocks.size(), 1.0), bound = best;
+  for (int round = 0; round < rounds && !heavy.empty(); ++round) {
+    std::vector<int> changed = heavy;
+    for (const int b : heavy) {
+      weight[z(b)] *= bound[z(b)] / goal;
+      for (const int i : springs_of[z(b)]) changed.push_back(springs_[z(i)].a == b ? springs_[z(i)].b : springs_[z(i)].a);
+    }
+    std::ranges::sort(changed);
+    changed.erase(std::unique(changed.begin(), changed.end()), changed.end());
+    for (const int b : changed)
+      if (model_.kind[z(b)] == Kind::moving) bound[z(b)] = weigh(b, weight);
+    if (*std::ranges::max_element(bound) < *std::ranges::max_element(best)) best = bound;
+    find_heavy(bound);
+  }
+  return best;
+}
+
+// 1 / dt^2 for the largest eigenvalue of M^-1/2 K M^-1/2 of a block, or for its trace if that is at most `fine` (1/s2).
+double ContactLimit::share_of(const ContactBlock& block, const Mat6& k, double fine) {
+  // the trace of root^T k root, an upper bound
+  const Mat3 tensor = block.rotation * block.inverse_tensor * block.rotation.transpose();
+  const double trace = block.inverse_mass * (k(0, 0) + k(1, 1) + k(2, 2)) + (tensor.array() * k.bottomRightCorner<3, 3>().array()).sum();
+  if (const double share = inverse_square(trace, contact_share); !(share > fine)) return share;
+  Mat6 root = Mat6::Zero();  // root root^T = M^-1
+  root.topLeftCorner<3, 3>() = std::sqrt(block.inverse_mass) * Mat3::Identity();
+  root.bottomRightCorner<3, 3>() = block.rotation * Mat3(block.inverse_tensor.llt().matrixL());
+  const Mat6 scaled = root.transpose() * k * root;
+  return inverse_square(Eigen::SelfAdjointEigenSolver<Mat6>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[5], contact_share);
+}
+
+// `share_of` each moving block: by its trace only where that is below .35 of the largest so far.
 std::vector<double> ContactLimit::by_matrices(std::span<const ContactBlock> blocks, std::span<const Mat6> stiffness) const {
   std::vector<double> out(blocks.size(), 0.0);
   double most = 0;
   for (int b = 0; b < model_.nblock; ++b) {
     const Mat6& k = stiffness[z(b)];
     if (model_.kind[z(b)] != Kind::moving || k(0, 0) + k(1, 1) + k(2, 2) == 0) continue;
-    const ContactBlock& block = blocks[z(b)];
-    // the trace of root^T k root, an upper bound
-    const Mat3 tensor = block.rotation * block.inverse_tensor * block.rotation.transpose();
-    double largest = block.inverse_mass * (k(0, 0) + k(1, 1) + k(2, 2)) + (tensor.array() * k.bottomRightCorner<3, 3>().array()).sum();
-    out[z(b)] = inverse_square(largest, contact_share);
-    if (!(largest > 0.5 * most)) continue;
-    Mat6 root = Mat6::Zero();  // root root^T = M^-1
-    root.topLeftCorner<3, 3>() = std::sqrt(block.inverse_mass) * Mat3::Identity();
-    root.bottomRightCorner<3, 3>() = block.rotation * Mat3(block.inverse_tensor.llt().matrixL());
-    const Mat6 scaled = root.transpose() * k * root;
-    largest = Eigen::SelfAdjointEigenSolver<Mat6>(scaled, Eigen::EigenvaluesOnly).eigenvalues()[5];
-    most = std::max(most, largest);
-    out[z(b)] = inverse_square(largest, contact_share);
+    out[z(b)] = share_of(blocks[z(b)], k, 0.35 * most);
+    most = std::max(most, out[z(b)]);
   }
   return out;
 }

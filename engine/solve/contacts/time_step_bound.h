@@ -5,7 +5,8 @@
 //   contacts'
 //               stiffness on a block (Weyl's inequality). A cracked joint, or the contact that replaced it, is no stiffer.
 //   by blocks   twice the largest eigenvalue of the total stiffness on a block, remaining joints included. Since
-//               (x - y) K (x - y) <= 2 (x K x + y K y), 2 / omega is the block bound of the present structure.
+//               (x - y) K (x - y) <= 2 (x K x + y K y), 2 / omega is the block bound of the present structure. Weights of the blocks
+//               bring it nearer to the true eigenvalue where a few of them ask for a short step (`by_weights`).
 // The matrices are updated at intervals by `update_bound()`. Between two updates each block adds scalars that every step has available: the
 // rates of its contacts beyond the last update (`PairResult::omega2_a`, `omega2_b`), and the rate of a face that may strike it next. The
 // block with the greatest sum decides. So the step may exceed the limit of the intact structure once stiff joints are gone.
@@ -49,12 +50,19 @@ class ContactLimit {
  private:
   double shorter() const;
   double intact() const;
+  struct Spring {
+    int a, b;         // blocks
+    Mat6 on_a, on_b;  // against motions of one of them: N/m, N, N m
+  };
+  std::vector<double> by_weights(std::span<const ContactBlock> blocks, double enough);
+  static double share_of(const ContactBlock& block, const Mat6& k, double fine);
   std::vector<double> by_matrices(std::span<const ContactBlock> blocks, std::span<const Mat6> stiffness) const;
-  void add_joints(std::span<Mat6> to) const;
+  void add_joints();
 
   const Model& model_;
   State& state_;
   const StepRange range_;
+  std::vector<Spring> springs_;  // of the last update
 };
 
 }  // namespace erbs

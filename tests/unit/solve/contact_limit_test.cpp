@@ -47,13 +47,15 @@ Ran go(const std::string& script, double until, int threads = 1) {
 TEST_CASE("once the stiff joint is gone the step grows to what debris bears", "[solve][step]") {
   const Ran r = go(leap + "analysis{ duration = 9, start = 'rest' }", 1.5);
   const State& s = r.run.state;
-  // The longest step is 0.9 sqrt(2 m / (kn A)). A single brick on its face allows 0.7 of that root, with a reserve for its joint.
+  // The longest step is 0.9 sqrt(2 m / (kn A)). A single brick on its face, on ground that does not give way, allows 0.7 of 2 sqrt(m / (kn
+  // A)), with a reserve for rocking.
   const double m = 6.75, k = 2e10 * 0.3 * 0.125, most = 0.9 * std::sqrt(2 * m / k);
   CHECK(r.run.range.longest == Approx(most).epsilon(1e-9));
   CHECK(s.time.dt_target < 0.4 * most);
   CHECK(r.longest <= most);
   CHECK(s.time.dt > 2 * s.time.dt_target);
-  CHECK(s.time.dt < 0.7 * std::sqrt(2 * m / k));
+  CHECK(s.time.dt > 0.7 * std::sqrt(2 * m / k));
+  CHECK(s.time.dt < 0.7 * 2 * std::sqrt(m / k));
   // The only energy error is one impact of a face on a face: 0.1 to 1.3 %, by its start within a step. Measured for launches at 1 to 1.2
   // m/s and restitutions of 0.2 to 1.
   CHECK(s.energy.residual_worst < 1.5e-2);
@@ -63,7 +65,8 @@ TEST_CASE("once the stiff joint is gone the step grows to what debris bears", "[
 
 TEST_CASE("a step that the scene names is not exceeded, and a share of the limit is kept", "[solve][step]") {
   const Ran named = go(leap + "analysis{ duration = 9, start = 'rest', dt = 2e-6 }", 0.8);
-  CHECK(named.longest == 2e-6);
+  CHECK(named.longest <= 2e-6);  // the joint that breaks in the first step shortens it
+  CHECK(named.longest > 1.8e-6);
   const Ran fifth = go(leap + "analysis{ duration = 9, start = 'rest', dt_fraction = 0.2 }", 1.2);
   const Ran whole = go(leap + "analysis{ duration = 9, start = 'rest' }", 1.2);
   CHECK(fifth.longest == Approx(whole.longest * 0.2 / 0.9).epsilon(0.1));
