@@ -63,6 +63,21 @@ TEST_CASE("once the stiff joint is gone the step grows to what debris bears", "[
   CHECK(s.pose.u[2].z() == Approx(-0.11).margin(1e-6));
 }
 
+// A plate of mass m pressed between the ground and a slab 25 times as heavy, k = kn A on either side: omega^2 = 2 k / m (1 + m / 2 M).
+// Twice the stiffness on the plate would allow .71 of that step.
+TEST_CASE("a light plate under a heavy slab holds the step by its own frequency", "[solve][step]") {
+  const Ran r = go(leap + R"(
+    joint{ between = { "loose", "" }, none = true }
+    box{ name = "plate", group = "loose", material = "brick", free = true, size = {.3, .3, .02}, at = {2, 0, 0} }
+    box{ name = "slab", group = "loose", material = "brick", free = true, size = {.3, .3, .5}, at = {2, 0, .02} }
+    analysis{ duration = 9, start = 'rest' })",
+                   1.5);
+  const double m = 1800 * 0.3 * 0.3 * 0.02, k = 2e10 * 0.3 * 0.3, limit = 2 / std::sqrt(2 * k / m * (1 + 1 / 50.));
+  CHECK(r.run.state.time.dt < 0.7 * limit);
+  CHECK(r.run.state.time.dt > 0.6 * limit);
+  CHECK(r.run.state.energy.residual_worst < 1e-3);
+}
+
 TEST_CASE("a step that the scene names is not exceeded, and a share of the limit is kept", "[solve][step]") {
   const Ran named = go(leap + "analysis{ duration = 9, start = 'rest', dt = 2e-6 }", 0.8);
   CHECK(named.longest <= 2e-6);  // the joint that breaks in the first step shortens it
