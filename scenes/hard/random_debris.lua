@@ -16,19 +16,8 @@ local wait = param("wait", 4, "after the last body was to land [s]")
 local kn_given = param("kn", 0, "0: drawn [Pa/m]")
 local most = param("most", 24, "bodies")
 
--- splitmix64: neighbouring seeds are independent
-local state = seed * 0x632be59bd9b4e019
-local function uniform(lo, hi)
-  state = state + 0x9e3779b97f4a7c15
-  local z = state
-  z = (z ~ (z >> 30)) * 0xbf58476d1ce4e5b9
-  z = (z ~ (z >> 27)) * 0x94d049bb133111eb
-  z = z ~ (z >> 31)
-  return lo + (hi - lo) * ((z >> 11) * 2.0 ^ -53)
-end
-local function log_uniform(lo, hi) return math.exp(uniform(math.log(lo), math.log(hi))) end
-local function whole(lo, hi) return lo + math.floor(uniform(0, 1) * (hi - lo + 1)) end
-local function chance(p) return uniform(0, 1) < p end
+local draw = include "parts/draw.lua" (seed)
+local uniform, log_uniform, whole, chance = draw.uniform, draw.log_uniform, draw.whole, draw.chance
 local function direction()
   local z, a = uniform(-1, 1), uniform(0, 2 * pi)
   local r = math.sqrt(1 - z * z)
@@ -164,12 +153,13 @@ else
   for f = 1, n do
     local courses, bricks = whole(2, 4), whole(1, 3)
     local spin, velocity = times(log_uniform(0.1, 5), direction()), { uniform(-2, 2), uniform(-2, 2), uniform(-6, 0) }
-    transform { at = { (f - (n + 1) / 2) * 16 * base, 0, 5 * base * uniform(1, 2) }, rotation = any_rotation(), function()
+    local height, across = 5 * base * uniform(1, 2), math.sqrt((bricks * l) ^ 2 + (courses * h) ^ 2)
+    transform { at = { (f - (n + 1) / 2) * 16 * base, 0, height }, rotation = any_rotation(), function()
       for c = 1, courses do
         for i = 1, bricks do
           local name = "b" .. #names + 1
           names[#names + 1] = name
-          sizes[name] = l
+          starts[name], sizes[name] = { 0, 0, height }, across  -- of the fragment's centre
           local center = { (i - (bricks + 1) / 2 + c % 2 / 2) * l, 0, (c - (courses + 1) / 2) * h }
           box { name = name, group = "f" .. f, free = true, size = { l, w, h }, center = center, material = "heavy",
             initial = { velocity = plus(velocity, cross(spin, center)), spin = spin } }
@@ -215,7 +205,7 @@ local function sunk(run)
   local deepest = 0
   for _, name in ipairs(names) do
     local rise = run.last(name .. "_ux_rel_m") * up[1] + run.last(name .. "_uz_rel_m") * up[3]
-    if starts[name] then deepest = math.max(deepest, -(starts[name][3] + rise) / sizes[name]) end
+    deepest = math.max(deepest, -(starts[name][3] + rise) / sizes[name])
   end
   return falls and deepest or 0
 end

@@ -18,19 +18,8 @@ local kn_given = param("kn", 0, "0: drawn [Pa/m]")
 local still = 20e-6  -- m
 local drift_most = 1e-5  -- m/s
 
--- splitmix64: neighbouring seeds are independent
-local state = seed * 0x632be59bd9b4e019
-local function uniform(lo, hi)
-  state = state + 0x9e3779b97f4a7c15
-  local z = state
-  z = (z ~ (z >> 30)) * 0xbf58476d1ce4e5b9
-  z = (z ~ (z >> 27)) * 0x94d049bb133111eb
-  z = z ~ (z >> 31)
-  return lo + (hi - lo) * ((z >> 11) * 2.0 ^ -53)
-end
-local function log_uniform(lo, hi) return math.exp(uniform(math.log(lo), math.log(hi))) end
-local function whole(lo, hi) return lo + math.floor(uniform(0, 1) * (hi - lo + 1)) end
-local function chance(p) return uniform(0, 1) < p end
+local draw = include "parts/draw.lua" (seed)
+local uniform, log_uniform, whole, chance = draw.uniform, draw.log_uniform, draw.whole, draw.chance
 
 local drawn = whole(1, 6)
 if kind == 0 then kind = drawn end

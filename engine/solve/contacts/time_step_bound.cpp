@@ -57,12 +57,10 @@ void ContactLimit::update_bound(const ContactShapes& shapes, std::span<const Con
   }
   list.bound_at_last_update = intact();
   const double longest = 1 / (range_.longest * range_.longest);
-  list.block_bounds = by_weights(blocks, std::max(longest, little * list.bound_at_last_update));
-  for (std::size_t b = 0; b < scalars.size(); ++b)
-    list.block_bounds[b] = std::min(list.block_bounds[b], inverse_square(scalars[b], safe_share));
+  list.block_bounds = by_weights(blocks, scalars, std::max(longest, little * list.bound_at_last_update));
   if (list.bound_updates % joints_every == 0 || list.by_blocks) {
     add_joints();
-    std::vector<double> of = by_weights(blocks, longest);
+    std::vector<double> of = by_weights(blocks, {}, longest);
     list.by_blocks = *std::ranges::max_element(of) < list.bound_at_last_update + *std::ranges::max_element(list.block_bounds);
     if (list.by_blocks) list.bound_at_last_update = 0, list.block_bounds = std::move(of);
   }
@@ -92,12 +90,14 @@ void ContactLimit::add_joints() {
 // of x, 0 for the ground. Weights of 1 give twice the stiffness on each block. The few blocks that ask for most, and for more than `enough`
 // (1/s2), become heavier, round by round: up to half of their bound goes over to their neighbours, and all of that to the ground. The best
 // round counts.
-std::vector<double> ContactLimit::by_weights(std::span<const ContactBlock> blocks, double enough) {
+std::vector<double> ContactLimit::by_weights(std::span<const ContactBlock> blocks, std::span<const double> scalars, double enough) {
   constexpr int rounds = 4;
   constexpr double reachable = 0.52;  // of the greatest bound
   std::vector<Mat6> k(blocks.size(), Mat6::Zero());
   for (const Spring& s : springs_) k[z(s.a)] += s.on_a, k[z(s.b)] += s.on_b;
   std::vector<double> best = by_matrices(blocks, k);
+  // Scalars stand for weights of 1: a block that is weighed anew, or beside one, loses them.
+  for (std::size_t b = 0; b < scalars.size(); ++b) best[b] = std::min(best[b], inverse_square(scalars[b], safe_share));
   const double goal = std::max(enough, reachable * *std::ranges::max_element(best));
   std::vector<int> heavy;
   const auto find_heavy = [&](const std::vector<double>& bound) {

@@ -54,7 +54,7 @@ class ContactLimit {
     int a, b;         // blocks
     Mat6 on_a, on_b;  // against motions of one of them: N/m, N, N m
   };
-  std::vector<double> by_weights(std::span<const ContactBlock> blocks, double enough);
+  std::vector<double> by_weights(std::span<const ContactBlock> blocks, std::span<const double> scalars, double enough);
   static double share_of(const ContactBlock& block, const Mat6& k, double fine);
   std::vector<double> by_matrices(std::span<const ContactBlock> blocks, std::span<const Mat6> stiffness) const;
   void add_joints();
