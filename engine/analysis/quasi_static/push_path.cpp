@@ -11,7 +11,7 @@ namespace {
 constexpr double default_step = 0.01, default_end = 2;                           // share of g, or of the pattern
 constexpr double default_tilt_step = 0.5 * pi / 180, default_tilt_end = pi / 3;  // rad
 constexpr double displacement_steps = 50;
-constexpr int parts_at_peak = 8;
+constexpr int parts_at_peak = 8, most_parts = 4096;
 constexpr double nearby = 2;  // widths of the bracket
 
 }  // namespace
@@ -59,7 +59,15 @@ MachinePath::MachinePath(const PushSettings& push, double height, double elastic
   stiffness = std::max(std::min(2 * (push.step > 0 ? push.step : default_step) / step, elastic), 10 / height);
 }
 
-void MachinePath::refine() { parts = parts_at_peak, left = 2 * parts_at_peak; }
+bool MachinePath::passes_peak(double displaced) const {
+  if (peaked) return false;
+  const double rises = load(next(), displaced) - multiplier;
+  // A whole step: the curve rises by less than half as much as in the step before.
+  if (parts == 1) return rises < 0.5 * (multiplier - before) * (next() - extension) / step;
+  return rises < 0 && parts < most_parts && slope * (displaced - displacement) > bracket * std::fabs(multiplier);
+}
+
+void MachinePath::refine() { parts *= parts_at_peak, left = 2 * parts_at_peak; }
 
 bool MachinePath::bracketed() const { return above && stiffness * (*above - extension) <= std::max(bracket * std::fabs(multiplier), 1e-9); }
 

@@ -39,12 +39,13 @@ struct LoadPath {
 // monitored point). The machine is stiffer than the structure is weak past its peak, so that each extension has one state of equilibrium;
 // all other freedoms are free. It is no stiffer than the intact structure: where it pushes one block and looks at another, a stiff machine
 // would drive waves between the two. The displacement itself follows within a step. Until the peak is passed, a step in which the curve
-// bends down is repeated in eight parts. A part of the structure that the monitored point has no share in may come apart all the same: the
-// interval to the first extension without equilibrium is halved until the multiplier there is known as narrowly as asked.
+// bends down is repeated in eight parts, and one of these in eight again where it falls, as after a brittle crack, while the curve might
+// have risen by more than the bracket before. A part of the structure that the monitored point has no share in may come apart all the same:
+// the interval to the first extension without equilibrium is halved until the multiplier there is known as narrowly as asked.
 struct MachinePath {
   double end = 0, step = 0;     // m
   double stiffness = 0;         // 1/m
-  double bracket = 0;           // relative, of the multiplier at which the structure comes apart
+  double bracket = 0;           // relative, of the multiplier at which the structure comes apart, and of a peak
   double extension = 0;         // m
   std::optional<double> above;  // m, an extension without equilibrium
   double multiplier = 0, displacement = 0, before = 0;
@@ -59,11 +60,8 @@ struct MachinePath {
   bool bracketed() const;
   double next() const;  // the last step ends where a curve that goes on with its slope reaches the end
   double load(double extended, double displaced) const { return stiffness * (extended - displaced); }
-  // The curve bends down within this step: it rises by less than half as much as in the step before.
-  bool passes_peak(double displaced) const {
-    return !peaked && parts == 1 && load(next(), displaced) - multiplier < 0.5 * (multiplier - before) * (next() - extension) / step;
-  }
-  void refine();  // that step, in parts
+  bool passes_peak(double displaced) const;  // within this step, which then is repeated in parts
+  void refine();
   void found(double displaced);
   void failed() { above = next(); }
 };

@@ -10,11 +10,12 @@
 namespace erbs::analysis {
 namespace {
 
-constexpr double checks = 20;        // of the balance, in a period, ...
-constexpr double least_check = 8;    // ... but no sooner than after so many steps
-constexpr int balanced_checks = 3;   // in balance, one after the other
-constexpr double longest = 600;      // periods until a structure that still moves is said to creep, ...
-constexpr double longest_fall = 30;  // ... and at least this many times sqrt(height / g), the time scale of rocking
+constexpr double checks = 20;       // of the balance, in a period, ...
+constexpr double least_check = 8;   // ... but no sooner than after so many steps
+constexpr int balanced_checks = 3;  // in balance, one after the other
+// Periods until a structure that still moves is said to creep, and at least this many times sqrt(height / g), the time scale of rocking.
+// Walls whose joints slide in turn come to rest after up to 60.
+constexpr double longest = 600, longest_fall = 100;
 // Of a block's smallest edge: any block that has moved so far falls.
 constexpr double far_away = 0.5;
 // A block that moves by so many times the displacement of the monitored point hangs on no lever that a loading machine holds.
@@ -25,8 +26,10 @@ constexpr double local_share = 0.8;
 constexpr double local_step = 0.47;
 // Joined neighbours that meet along an edge: thousands of strips of a micron's slip would each cost as much as a joint.
 constexpr double edge_force = 0.1;
-constexpr int release_rarely = 128;                  // steps, where thousands of joints open one by one: an open one may wait
-constexpr double least_share = 0.01, follows = 0.3;  // of critical damping: of that of the elastic structure; of the way, in a reading
+constexpr int release_rarely = 128;  // steps, where thousands of joints open one by one: an open one may wait
+// Of critical damping: least shares of that of the elastic structure, since next to its capacity a stack on hinges swings thousands of
+// times as slowly, and while it cracks; share of the way to it, in a reading.
+constexpr double least_share = 1e-4, cracking_share = 0.01, follows = 0.3;
 // Beside kinetic and critical damping, with a coarse inertia or once a relaxation takes longer than this many periods. Cracks leave short
 // waves that fill the whole structure at random phases: its kinetic energy has no peaks then, and they would never be braked. The step is
 // short enough for it: 0.9 sqrt(1.1) < 1.
@@ -47,7 +50,7 @@ std::size_t z(int i) { return std::size_t(i); }
 //   then that of the present motion. Rayleigh's quotient of what moved since the last reading gives it (Underwood 1983, Dynamic
 //   relaxation): w^2 = -du . M da / du . M du, a the accelerations of the unbalanced forces and of the coarse inertia. The coefficient goes
 //   a third of the way there, on a scale of ratios. Where cracks release more than the motion stores, w^2 is negative, and the coefficient
-//   falls.
+//   falls to the share of cracking; what still moves after `patience` periods is slower than they are long, and it falls on as 1 / t.
 // kinetic: velocities vanish at each peak of the kinetic energy (Cundall 1976; Barnes 1988).
 // Beside both acts a local force of a tenth, with a coarse inertia or where the rest does not lead to equilibrium soon.
 // adaptive: mass damping whose power is held near half the rate of change of the kinetic energy (Cundall 1982, "adaptive global damping").
@@ -58,6 +61,7 @@ class Damper {
   // `faster`: by how much the loading machine raises the frequency.
   Damper(const std::string& name, double period, double faster, bool at_once, Model& model)
       : model_(model),
+        period_(period),
         most_(4 * pi / period * faster),
         patience_(at_once ? 0 : patience * period),
         adaptive_(name == "adaptive"),
@@ -93,7 +97,8 @@ class Damper {
       size += model_.mass[z(b)] * moved.squaredNorm();
     }
     if (size > 0) {
-      const double to = std::clamp(2 * std::sqrt(std::max(0.0, power / size)), least_share * most_, most_);
+      const double cracking = std::clamp(cracking_share * patience * period_ / s.time.t, least_share, cracking_share) * most_;
+      const double to = power > 0 ? std::clamp(2 * std::sqrt(power / size), least_share * most_, most_) : cracking;
       model_.damping.mass *= std::pow(to / model_.damping.mass, follows);
     }
     u_ = s.pose.u;
@@ -122,6 +127,7 @@ class Damper {
   static double braking(const State& s) { return 2 / s.time.dt; }  // 1/s, leaves no velocity after one step
 
   Model& model_;
+  const double period_;    // s
   const double most_;      // 1/s, critical damping of the lowest mode
   const double patience_;  // s, until short waves are braked as well
   const bool adaptive_, kinetic_, critical_;
