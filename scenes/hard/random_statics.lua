@@ -32,7 +32,7 @@ local ft = density * g * built.height * draw.log_uniform(0.1, 3)
 joint { law = bonded and mortar { kn = kn, ks = 0.4 * kn, ft = ft, c = ft * draw.uniform(1, 2), mu = mu } or dry { kn = kn, mu = mu } }
 
 analysis { kind = way == 2 and "tilt" or "pushover", direction = { math.cos(heading), math.sin(heading), 0 }, fall = 0,
-  monitor = { block = built.blocks[#built.blocks] }, control = way == 3 and "displacement" or nil,
+  up_to = way == 2 and 80 * deg or 5, monitor = { block = built.blocks[#built.blocks] }, control = way == 3 and "displacement" or nil,
   displacement = way == 3 and 0.2 * side or nil, limit = way == 1 and "always" or "never" }
 
 local function capacity(run) return run.capacity.multiplier end
