@@ -51,7 +51,7 @@ local density = param("density", 2200, "assumed [kg/m3]")
 local E = param("E", 5 * GPa, "of the masonry [Pa]")
 local spacing = param("spacing", 0.5, "of the bed joints, the height of a course [m]")
 local nu = param("nu", 0.2, "assumed")
-local corners = param("corners", 1, "1: the corners of a bed bear, as the point contacts of the source; 0: its whole face, as with fc")
+local corners = param("corners", 1, "1: the corners of a bed bear, as the point contacts of the source; 0: its whole face")
 local ft = param("ft", 0.25 * MPa, "tensile strength of the joints [Pa]")
 local c = param("c", 0.4 * MPa, "cohesion, assumed: 1.6 ft; lost with the first slip [Pa]")
 local mu = param("mu", 0.7, "friction, assumed: 35 degrees")
@@ -88,7 +88,7 @@ local kn, ks = joints.kn, joints.ks
 material { name = "stone", density = density, friction = mu, restitution = 0.1, kn = kn, ks = ks, color = { 0.74, 0.68, 0.58 } }
 material { name = "ring", density = density, friction = mu, restitution = 0.1, kn = kn, ks = ks, color = { 0.63, 0.47, 0.37 } }
 local law = mortar { kn = kn, ks = ks, ft = ft, c = c, mu = mu, fc = fc, Gc = fc > 0 and Gc or 0 }
-if corners == 1 and fc == 0 then joint { law = law, tolerance = 1 * mm, rule = "trapezoid", points = 4, pressure = "points" }
+if corners == 1 then joint { law = law, tolerance = 1 * mm, rule = "trapezoid", points = 4, pressure = "points" }
 else joint { law = law, tolerance = 1 * mm } end
 
 -- The valley: the ground rises evenly from the two piers in the middle, in steps from one pier to the next.

@@ -63,9 +63,10 @@ struct CrackedShape {
   const CornerPack* cell_loop;     // corners of the cells
   double per_step;                 // 1/s, one over the last step, for dashpots; 0 without
   const CornerPack* tension_loop;  // where cells measure their opening; equal to `cell_loop` for rules with points on the edge
-  // For laws with a plateau in compression: crushed faces, and corners as in `CompressionFace`; null in empty lanes [lanes].
+  // For laws with a plateau in compression: crushed faces; corners, or points that bear, as in
+  // `CompressionFace`; null in empty lanes [lanes].
   CrushedFace* const* crushed;
-  const double* const* face_corner;
+  const double* const* bearing;
   double event_budget;  // J, for `event_bound.h`; 0: no prediction
   Interlock interlock;
   bool rectangles;                               // the overlaps are rectangles along s and t about the centre

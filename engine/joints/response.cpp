@@ -232,8 +232,10 @@ bool may_release(const Joint& joint, const PointLaw& law, const JointMemory& mem
 }
 
 CompressionFace compression_face(const Model& m, const Joint& joint, double kn) {
-  return {kn, m.laws[std::size_t(joint.type->law)].fc / kn, joint.type->corners,
-          m.overlap_corner[std::size_t(joint.type->first_corner)].data(), m.laws[std::size_t(joint.type->law)].crush_depth};
+  const PointLaw& law = m.laws[std::size_t(joint.type->law)];
+  const std::size_t first = std::size_t(joint.type->first_cell);
+  if (m.cell[first].lumped()) return {kn, law.fc / kn, 0, nullptr, law.crush_depth, joint.type->points, &m.point[first].s};
+  return {kn, law.fc / kn, joint.type->corners, m.overlap_corner[std::size_t(joint.type->first_corner)].data(), law.crush_depth};
 }
 
 namespace {

@@ -194,9 +194,64 @@ double work_of(const CompressionFace& face, const Loop& loop, const Plane& z0, c
           positive_product(had_gone, g0 - z1, z1 - g1));
 }
 
+// Where contact points bear the face: the same law at each of them.
+struct BearingPoint {
+  Vec2 at;
+  double area;
+};
+BearingPoint bearing_point(const CompressionFace& face, int i) {
+  return {{face.point[3 * i], face.point[3 * i + 1]}, face.point[3 * i + 2]};
+}
+const double& closing(const CrushedFace& crushed, int i) { return crushed.plane[i / 3][i % 3]; }
+double& closing(CrushedFace& crushed, int i) { return crushed.plane[i / 3][i % 3]; }
+bool spent(const CompressionFace& face, double z) { return face.ultimate > 0 && z <= -face.ultimate; }
+
+Pressed pressed_at_points(const CompressionFace& face, const CrushedFace& crushed, const Plane& gap) {
+  Pressed out;
+  for (int i = 0; i < face.points; ++i) {
+    const auto [at, area] = bearing_point(face, i);
+    const double z = closing(crushed, i), y = spent(face, z) ? 0 : std::max(0.0, z - gap.at(at)), force = face.kn * area * y;
+    out.force += force, out.s += force * at.x(), out.t += force * at.y(), out.energy += 0.5 * force * y;
+  }
+  return out;
+}
+
+double crush_points(const CompressionFace& face, CrushedFace& crushed, const Plane& g0, const Plane& g1) {
+  const Plane lower = crushed_by(face, g1);
+  const double round_off = 1e-12 * face.limit;
+  double work = 0;
+  for (int i = 0; i < face.points; ++i) {
+    const auto [at, area] = bearing_point(face, i);
+    const double z0 = closing(crushed, i), z1 = lower.at(at), before = std::max(0.0, z0 - g0.at(at));
+    if (spent(face, z0) || z1 >= -round_off || z1 >= z0 - round_off) continue;
+    const bool goes = spent(face, z1);
+    const double fall = z0 - (goes ? g1.at(at) : z1), after = goes ? 0 : std::max(0.0, z1 - g1.at(at));
+    work += 0.5 * face.kn * area * fall * (before + after);
+    closing(crushed, i) = z1, crushed.planes = 1;
+  }
+  return work;
+}
+
+int nearest_point(const CompressionFace& face, const Vec2& x) {
+  int nearest = 0;
+  for (int i = 1; i < face.points; ++i)
+    if ((bearing_point(face, i).at - x).squaredNorm() < (bearing_point(face, nearest).at - x).squaredNorm()) nearest = i;
+  return nearest;
+}
+
+double lost_at_points(const CompressionFace& face, const CrushedFace& crushed) {
+  double lost = 0, whole = 0;
+  for (int i = 0; i < face.points; ++i) {
+    const double area = bearing_point(face, i).area;
+    lost += area * std::min(-closing(crushed, i), face.ultimate), whole += area;
+  }
+  return lost / (face.ultimate * whole);
+}
+
 }  // namespace
 
 Pressed pressed(const CompressionFace& face, const CrushedFace& crushed, const double gap[3]) {
+  if (face.points > 0) return pressed_at_points(face, crushed, plane(gap));
   const Envelope z = envelope(crushed);
   Pressed out;
   for (int k = 0; k < z.count; ++k) {
@@ -214,6 +269,7 @@ Pressed pressed(const CompressionFace& face, const CrushedFace& crushed, const d
 }
 
 double crush(const CompressionFace& face, CrushedFace& crushed, const double before[3], const double now[3]) {
+  if (face.points > 0) return crush_points(face, crushed, plane(before), plane(now));
   const Plane g0 = plane(before), g1 = plane(now), lower = crushed_by(face, g1);
   const Envelope old = envelope(crushed);
   if (!passes(face, old, lower)) return 0;
@@ -240,12 +296,13 @@ double crush(const CompressionFace& face, CrushedFace& crushed, const double bef
 }
 
 double pressed_depth(const CompressionFace& face, const CrushedFace& crushed, const double gap[3], double s, double t) {
-  const double z = -crushed_depth(crushed, s, t);
-  if (face.ultimate > 0 && z <= -face.ultimate) return 0;
+  const double z = -crushed_depth(face, crushed, s, t);
+  if (spent(face, z)) return 0;
   return std::clamp(z - plane(gap).at({s, t}), 0.0, face.limit);
 }
 
-double crushed_depth(const CrushedFace& crushed, double s, double t) {
+double crushed_depth(const CompressionFace& face, const CrushedFace& crushed, double s, double t) {
+  if (face.points > 0) return -closing(crushed, nearest_point(face, {s, t}));
   double lowest = 0;
   for (int k = 0; k < crushed.planes; ++k) lowest = std::min(lowest, plane(crushed.plane[k]).at({s, t}));
   return -lowest;
@@ -253,6 +310,7 @@ double crushed_depth(const CrushedFace& crushed, double s, double t) {
 
 double lost_strength(const CompressionFace& face, const CrushedFace& crushed) {
   if (!(face.ultimate > 0) || crushed.planes == 0) return 0;
+  if (face.points > 0) return lost_at_points(face, crushed);
   return -volume(face, envelope(crushed)) / (face.ultimate * area(whole(face)));
 }
 

@@ -14,15 +14,17 @@
 // ultimate), still linear, and the closed form stays exact. Where z reaches -ultimate the bed is spent: it bears nothing, and z is of no
 // interest.
 //
+// Where the contact points bear a face, each with its share of the area, z is a number for each point instead: the same law, but no plane.
+//
 // Plain data only: files compiled for several instruction sets include this header.
 #pragma once
 
 namespace erbs {
 
 struct CrushedFace {
-  static constexpr int most = 12;
-  long planes = 0;
-  double plane[most][3] = {};  // m at the joint's centre, then the slopes along s and t
+  static constexpr int most = 12, most_points = 3 * most;
+  long planes = 0;             // 1 where points bear and any is crushed
+  double plane[most][3] = {};  // m at the joint's centre, then the slopes along s and t; z of each point, where points bear
 };
 
 // A face in the frame of its joint. `corner`: s, t of each corner, counter-clockwise (m).
@@ -30,8 +32,10 @@ struct CompressionFace {
   static constexpr int most_corners = 128;
   double kn, limit;  // Pa/m; m, fc / kn
   int corners;
-  const double* corner;  // [2 corners]
-  double ultimate = 0;   // m, crushed depth at which the strength is zero; 0: never
+  const double* corner;           // [2 corners]
+  double ultimate = 0;            // m, crushed depth at which the strength is zero; 0: never
+  int points = 0;                 // points that bear; 0: the face does
+  const double* point = nullptr;  // [3 points]: s, t (m) and area (m2)
 };
 
 struct Pressed {
@@ -48,7 +52,8 @@ double crush(const CompressionFace& face, CrushedFace& crushed, const double bef
 // Elastic compression (m) at the position s, t, at most face.limit.
 double pressed_depth(const CompressionFace& face, const CrushedFace& crushed, const double gap[3], double s, double t);
 
-double crushed_depth(const CrushedFace& crushed, double s, double t);           // m, -z at the position s, t
+// m, -z at the position s, t; where points bear, of the nearest.
+double crushed_depth(const CompressionFace& face, const CrushedFace& crushed, double s, double t);
 double lost_strength(const CompressionFace& face, const CrushedFace& crushed);  // 0..1, mean over the face; 0 on a plateau
 
 }  // namespace erbs

@@ -132,10 +132,6 @@ void check_joints(Report& report, const Scene& scene) {
           check_fields(report, law, std::string(L::law_name), rule.place);
           if constexpr (requires { law.mistakes(); })
             for (const std::string& mistake : law.mistakes()) report.say(rule.place, "joint: {}", mistake);
-          if constexpr (requires { law.fc; })
-            if (law.fc > 0 && rule.pressure == "points")
-              report.say(rule.place,
-                         "joint: pressure = \"points\" takes no fc, since a face crushes from its edge inwards; remove fc, or pressure");
         },
         rule.law);
   }

@@ -4,7 +4,6 @@
 --                changed. What the source found for its partial model stands beside it.
 -- Source         The Valens (Bozdogan) aqueduct by discrete elements, parametric study: .19 g at 2 GPa/m, rising to .21 g at 30; ft of .05 to
 --                .5 MPa changes the displacement, not the capacity; friction is weak; fc is critical at 20 MPa, above it at most 5 % more.
---                With fc the whole faces of beds bear, since points do not crush here.
 -- How to run     for t in stiffness tension friction compression; do erbs sweep scenes/studies/valens_trends.lua -D trend=$t -o runs/$t; done
 --                -D rows=1 takes blocks as wide as the aqueduct, a tenth of the time; -D bays=0 the partial model, twenty times of it
 -- What to look at  results.svg and results.csv in each folder: capacity over the property; metrics.capacity.displacement_m over ft.

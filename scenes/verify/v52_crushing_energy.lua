@@ -5,6 +5,7 @@
 -- Source         p = fc (1 - w / (2 Gc / fc)), w = closing - p / kn: linear softening, area Gc below the curve (a compressive fracture energy
 --                as in Lourenco 1996; usual Gc / fc = 1.6 mm). Rotated by theta about the far edge until its near edge is spent, a bed of
 --                width B has N = B Gc / theta, and about that edge M = B fc (e^2 / 3 + (d - e)(d + 2 e) / 6) / theta^2, e = fc / kn, d = 2 Gc / fc.
+--                Where the corners bear, those of the near edge have half the area: N = A p / 2, M = N H at half of that rotation.
 -- How to run     erbs run scenes/verify/v52_crushing_energy.lua [-D kn=...] [-D fc=...] [-D ductility=1.6*mm] [-D steps=...]
 -- What to look at  peak_*, half_*, unloading_*, spent_*: of the pressed blocks; turned_*; crushing_over_paper.
 label("quick")
@@ -25,10 +26,10 @@ local function pair(name, x)
   box { name = name, group = name, size = { H, B, 0.1 }, at = { x, 0, 0 } }
   return base
 end
-local function bed(base, name, stiffness, rule, n, bond)
+local function bed(base, name, stiffness, rule, n, bond, pressure)
   joint {
     law = mortar { kn = stiffness, ks = 0.4 * stiffness, ft = bond or 0, c = 2 * (bond or 0), mu = 0.6, fc = fc, Gc = fc * ductility },
-    between = { base, name }, rule = rule, points = { n, n },
+    between = { base, name }, rule = rule, points = { n, n }, pressure = pressure or "face",
   }
 end
 -- Linear in time between its nodes; the nodes are rows.
@@ -42,12 +43,12 @@ local function one(name, value, tolerance, source)
 end
 
 for i, stiffer in ipairs { 1, 3, 20 } do
-  for k, rule in ipairs { { "simpson", 3 }, { "gauss", 2 }, { "midpoint", 1 } } do
+  for k, rule in ipairs { { "simpson", 3 }, { "gauss", 2 }, { "midpoint", 1 }, { "trapezoid", 2, "points" } } do
     place = place + 1
     local stiffness, name = kn * stiffer, string.format("pressed%d%s", i, rule[1])
     local e = fc / stiffness
     local base = pair(name, 2 * H * place)
-    bed(base, name, stiffness, rule[1], rule[2], k == 1 and 0.1 * MPa or 0)
+    bed(base, name, stiffness, rule[1], rule[2], k % 3 == 1 and 0.1 * MPa or 0, rule[3])
     -- Closings of the nodes: the peak, half of the strength (w = d / 2), back by half of the elastic part, again, spent and past it.
     local half = 0.5 * depth + 0.5 * e
     local times, closings = { 0, 0.2, 0.4, 0.5, 0.6, 0.9, 1 }, { 0, e, half, half - 0.25 * e, half, depth, 1.1 * depth }
@@ -70,16 +71,24 @@ for i, stiffer in ipairs { 1, 3, 20 } do
   end
 end
 
-for i, stiffer in ipairs { 1, 20 } do
+for i, stiffer in ipairs { 1, 20, 1, 20 } do
   place = place + 1
-  local stiffness, name = kn * stiffer, "turned" .. i
+  local stiffness, name, corners = kn * stiffer, "turned" .. i, i > 2
   local e, theta, x = fc / stiffness, depth / H, 2 * H * place
   local base = pair(name, x)
-  bed(base, name, stiffness, "simpson", 3)
+  if corners then bed(base, name, stiffness, "trapezoid", 2, 0, "points") else bed(base, name, stiffness, "simpson", 3) end
   turning { block = name, axis = "y", wave = table_wave { times = { 0, 0.9 * duration }, values = { 0, theta }, hold = true }, about = { x, B / 2, 0 } }
   recorder { name = name, quantity = "normal_force", blocks = { base }, others = { name } }
   recorder { name = name, quantity = "joint_moment", blocks = { base }, others = { name }, axis = "y" }
   -- The far edge is the hinge; M of the recorder is about the middle.
+  if corners then
+    local u = 0.5 * depth
+    local N = 0.5 * B * H * fc * (1 - (u - e) / (1 - e / depth) / depth)
+    one("turned_force_" .. i, function(run) return -value_at(run, name .. "_normal_N", 0.45) / N end, 1e-4, "A p / 2; arms turn")
+    one("turned_moment_" .. i, function(run) return value_at(run, name .. "_my_N_m", 0.45) / (N * H / 2) end, 1e-4, "N H / 2")
+    crushing = crushing + 0.5 * fc * ductility * H * B
+    goto next
+  end
   local N = B * fc * ductility / theta
   local M = B * fc * (e ^ 2 / 3 + (depth - e) * (depth + 2 * e) / 6) / theta ^ 2
   one("turned_force_" .. i, function(run) return -run.last(name .. "_normal_N") / N end, 1e-3, "B Gc / theta; steps cut the corners of the curve")
@@ -95,6 +104,7 @@ for i, stiffer in ipairs { 1, 20 } do
     end
   end
   crushing = crushing + spent * H * B
+  ::next::
 end
 -- A step that begins or ends crushing cuts a corner of the curve: half a step of closing times the change of pressure.
 local closing = depth / (0.3 * steps)

@@ -6,7 +6,8 @@
 --                e = b / 6, then by 2 N / (9 kn t (b / 2 - e)^2). From the top down, at a given rotation of the topmost block, moments follow
 --                from the blocks above, turned as they are, and rotations from the moments; the multiplier is the one with which the floor
 --                does not turn, and the capacity is the greatest of them over that rotation (Yokel 1971 for one without lateral load).
---                From case 15 on the corners bear, a quarter of the bed each: a bed then turns by 4 M / (kn t b^3) up to e = b / 2.
+--                From case 15 on the corners bear, a quarter of the bed each: a bed then turns by 4 M / (kn t b^3) up to e = b / 2. From case
+--                21 on they yield at fc: up to the e at which those of one edge, half of the bed, do, N (1 + 2 e / b) = fc b t.
 -- How to run     erbs run scenes/verify/v60_tall_stack.lua [-D case=3]
 -- What to look at  stack_least, stack_most: capacity over the one on paper. on_paper_over_rigid: what the lean leaves.
 local b, t, density = 4, 1, 2000  -- m, m, kg/m3
@@ -20,6 +21,9 @@ for _, blocks in ipairs { 5, 30 } do
     cases[#cases + 1] = { blocks = blocks, kn = kn, height = 20, corners = true, shear = kn < 1e9 and 4 or nil }
   end
 end
+for _, kn in ipairs { 1e9, 1e10 } do  -- the lowest bed bears this share of fc
+  for _, share in ipairs { 0.4, 0.6, 0.8 } do cases[#cases + 1] = { blocks = 5, kn = kn, height = 20, corners = true, share = share } end
+end
 local number = param("case", 1, "the case")
 local c = cases[number] or error("case is 1 to " .. #cases)
 local h = c.height / c.blocks
@@ -28,14 +32,15 @@ local ks = (c.shear or 0.4) * c.kn
 material { name = "stone", density = density, kn = c.kn, ks = ks, friction = 0.7 }
 box { name = "floor", size = { 12, 12, 1 }, at = { -6, -6, -1 }, fixed = true }
 column { name = "stack", blocks = c.blocks, size = { b, t, h } }
-local law = dry { kn = c.kn, ks = ks, mu = 0.7 }
+local fc = c.share and density * g * c.height / c.share or math.huge
+local law = c.share and mortar { kn = c.kn, ks = ks, mu = 0.7, ft = 0, c = 0, fc = fc } or dry { kn = c.kn, ks = ks, mu = 0.7 }
 if c.corners then joint { law = law, rule = "trapezoid", points = 4, pressure = "points" } else joint { law = law } end
 analysis { kind = "pushover", bracket = 0.002 }
 
 local weight = density * b * t * h * g
 local function turned_by(N, M)  -- rad, rotation of a bed; nothing where the force leaves it
   local e = M / N
-  if c.corners then return e < b / 2 and 4 * M / (c.kn * t * b ^ 3) or nil end
+  if c.corners then return e < b / 2 and N * (1 + 2 * e / b) < fc * b * t and 4 * M / (c.kn * t * b ^ 3) or nil end
   if e < b / 6 then return 12 * M / (c.kn * t * b ^ 3) end
   return e < b / 2 and 2 * N / (9 * c.kn * t * (b / 2 - e) ^ 2) or nil
 end

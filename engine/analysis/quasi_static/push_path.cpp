@@ -61,10 +61,12 @@ MachinePath::MachinePath(const PushSettings& push, double height, double elastic
 
 bool MachinePath::passes_peak(double displaced) const {
   if (peaked) return false;
-  const double rises = load(next(), displaced) - multiplier;
+  const double rises = load(next(), displaced) - multiplier, longer = next() - extension;
   // A whole step: the curve rises by less than half as much as in the step before.
-  if (parts == 1) return rises < 0.5 * (multiplier - before) * (next() - extension) / step;
-  return rises < 0 && parts < most_parts && slope * (displaced - displacement) > bracket * std::fabs(multiplier);
+  if (parts == 1) return rises < 0.5 * (multiplier - before) * longer / step;
+  // It may have risen no further than with its slope, nor than the machine pushes a structure that stands still.
+  const double at_most = std::min(slope * (displaced - displacement), stiffness * longer);
+  return rises < 0 && parts < most_parts && at_most > bracket * std::fabs(multiplier);
 }
 
 void MachinePath::refine() { parts *= parts_at_peak, left = 2 * parts_at_peak; }

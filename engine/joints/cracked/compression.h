@@ -146,7 +146,8 @@ static inline void put(const Pressed& from, int l, Compression& to) {
   for (int l = 0; l < pack_size; ++l) {
     CrushedFace* crushed = shape.crushed[l];
     if (crushed == nullptr || (crushed->planes == 0 && deepest[l] <= limit[l])) continue;
-    const CompressionFace face{c.kn[l], limit[l], shape.corners, shape.face_corner[l], law.crush_depth};
+    CompressionFace face{c.kn[l], limit[l], shape.corners, shape.bearing[l], law.crush_depth};
+    if (shape.lumped()) face.points = shape.points, face.point = shape.bearing[l];
     const double before[3] = {c.gap_before[2][l], -c.gap_before[4][l], c.gap_before[3][l]},
                  gap[3] = {c.gap[2][l], -c.gap[4][l], c.gap[3][l]};
     set_lane(c.work, l, erbs::crush(face, *crushed, before, gap));

@@ -75,7 +75,7 @@ void Cracked::take_all(std::vector<int>& joints) {
 void Cracked::clear(Group& group, int l) {
   group.joint[l] = -1;
   group.crushed[l] = nullptr;
-  group.face_corner[l] = nullptr;
+  group.bearing[l] = nullptr;
   CrackedPack& lane = memory_of(group);
   lane.viscous[l] = 0;
   lane.share_n[l] = lane.share_s[l] = 1;
@@ -102,8 +102,10 @@ void Cracked::fill(Group& group, int l, int j) {
   group.used |= 1U << l;
   group.maybe_out_of_range = true;
   const PointLaw& law = model_.laws[z(joint.type->law)];
-  if (law.crushes())
-    group.crushed[l] = &state_.joints.crushed[z(j)], group.face_corner[l] = model_.overlap_corner[z(joint.type->first_corner)].data();
+  if (law.crushes()) {
+    const CompressionFace face = compression_face(model_, joint, law.kn);
+    group.crushed[l] = &state_.joints.crushed[z(j)], group.bearing[l] = face.points > 0 ? face.point : face.corner;
+  }
   for (int i = 0; i < 6; ++i) lane.gap[i][l] = memory.gap[i];
   lane.least_damage[l] = may_release(joint, law, memory) ? 1 : 0;
   for (int i = 0; i < group.own_numbers; ++i) lane.own(group.points)[i][l] = memory.own[i];
@@ -295,7 +297,7 @@ void Cracked::forces(int first, int last, bool sample, double budget, JointSums&
                              per_step,
                              shapes.tension_loop.empty() ? shapes.cell_loop.data() : shapes.tension_loop.data(),
                              group.crushed,
-                             group.face_corner,
+                             group.bearing,
                              budget,
                              law.interlock ? interlock : Interlock{},
                              shapes.rectangles,

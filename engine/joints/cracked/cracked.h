@@ -70,7 +70,7 @@ class Cracked {
     // A step reads the members above. It reads the members below only for joints that crush or have bonds.
     int joint[pack_size];             // -1: empty
     CrushedFace* crushed[pack_size];  // null without a plateau in compression
-    const double* face_corner[pack_size];
+    const double* bearing[pack_size];
     const JointType* type = nullptr;  // null: several types
     std::vector<BondPack> bond;       // [points]
     bool empty() const { return used == 0; }

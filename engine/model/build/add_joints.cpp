@@ -170,6 +170,11 @@ void add_joint(const Scene& scene, const Interface& face, Model& m, StrengthFiel
     throw Error(fmt::format("the joint between {} and {} has {} corners; a law with fc takes up to {}", m.block_name[z(face.a)],
                             m.block_name[z(face.b)], type.corners, CompressionFace::most_corners),
                 scene.blocks[z(face.a)].place);
+  if (law.crushes() && rule.pressure == "points" && type.points > CrushedFace::most_points)
+    throw Error(fmt::format("joint: {} contact points bear the joint between {} and {}; with fc, up to {} do: take fewer points, or "
+                            "pressure = \"face\"",
+                            type.points, m.block_name[z(face.a)], m.block_name[z(face.b)], CrushedFace::most_points),
+                rule.place);
   for (const Vec2& p : flat) {
     const Vec2 x = local(p.x(), p.y());
     m.overlap_corner.push_back(x);

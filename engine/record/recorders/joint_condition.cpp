@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/joints/response.h"
 #include "engine/laws/crushing.h"
 
 namespace erbs {
@@ -45,7 +46,7 @@ double joint_damage(const Model& model, const JointState& joints, int j) {
     const Point& point = model.point[std::size_t(joint.type->first_cell + i)];
     whole += point.weight;
     if (joints.history[std::size_t(joint.first_point + i)].damage > 0 ||
-        (crushed != nullptr && crushed->planes > 0 && crushed_depth(*crushed, point.s, point.t) > 0))
+        (crushed != nullptr && crushed->planes > 0 && crushed_depth(compression_face(model, joint, 1), *crushed, point.s, point.t) > 0))
       damaged += point.weight;
   }
   return whole > 0 ? damaged / whole : 0.0;

@@ -85,7 +85,7 @@ TEST_CASE("a face that softens presses as its places do one by one", "[laws][cru
       const auto& [s, t, w] = places.place[k];
       const double y = w < b.ultimate ? std::clamp(-w - at(back, s, t), 0.0, b.limit) : 0;
       CHECK(pressed_depth(b, crushed, back.data(), s, t) == Approx(y).margin(1e-9 * b.limit));
-      CHECK(std::min(crushed_depth(crushed, s, t), b.ultimate) == Approx(std::min(w, b.ultimate)).margin(1e-9 * b.ultimate));
+      CHECK(std::min(crushed_depth(b, crushed, s, t), b.ultimate) == Approx(std::min(w, b.ultimate)).margin(1e-9 * b.ultimate));
     }
     last = g;
   }
@@ -107,7 +107,7 @@ TEST_CASE("uniform crushing takes Gc per area, for any stiffness, face and step"
     work += 0.5 * (p.force + last_force) * (before[0] - now[0]);
     peak = std::max(peak, p.force);
     // The envelope: fc (1 - w / ultimate), w the crushed depth.
-    const double w = crushed_depth(crushed, 0, 0);
+    const double w = crushed_depth(b, crushed, 0, 0);
     if (w > 0 && w < b.ultimate) CHECK(p.force == Approx(area * fc * (1 - w / b.ultimate)).epsilon(1e-9));
     before = now, last_force = p.force;
   }
