@@ -583,6 +583,7 @@ function analysis(keys) end
 ---@field nodes? integer mass nodes, levels of equal height (0: each block is one) [0 to 10000; default 0]
 ---@field group? string blocks that give the displaced shape, such as a pier (default: all)
 ---@field iterate? boolean repeat the bilinear curve up to the target displacement until both agree, instead of up to the largest load [default false]
+---@field blocks? string|string[] names of the blocks that give the displaced shape, instead of a group
 
 ---Elastic spectrum whose performance point on the curve of the pushover is computed: capacity.performance, performance.svg.
 ---@param keys erbs.spectrum_keys

@@ -7,20 +7,15 @@
 --                over 102 m; capacity .22 and .21 g. Given: width 5.25 m, height 28 to 29 m, spans 2.4 to 6.15 m, two tiers, E = 5 GPa,
 --                joints every .5 m that bear at their vertices, kn = E / h = 10 GPa/m, ks = kn / (2 (1 + nu)), ft = .25 MPa, blocks half
 --                as high as long, fixed base. Not given, and assumed here, each a param: heights of the tiers, piers, rings, end walls,
---                rows of blocks across the width, density, cohesion, friction, nu. The ground rises from the middle until it meets the
---                lower springing line.
+--                rows of blocks across the width, density, cohesion, friction, nu. A survey of 2009 found the foundations 5.4 to 6 m
+--                below the surface; the height is taken from there, and the ground holds what is in it. The ground rises evenly from the
+--                middle. Both models then have about as many blocks as the source's, 16,506 and 28,740.
 -- How to run     erbs check scenes/valens_aqueduct.lua                     the partial model; -D model=2: the full one
 --                erbs run scenes/valens_aqueduct.lua -D up_to=0            equilibrium under gravity only
 --                erbs run scenes/valens_aqueduct.lua -D bays=1             a pier with half an arch on either side; erbs render with
 --                                                                          --hide plane leaves its planes of symmetry out
 --                erbs run scenes/valens_aqueduct.lua -D dynamic=1 --video  the acceleration grows in time
--- What is found  The partial model bears .17 g, none at .1725, the full one .185, none at .1875; piers overturn out of plane on a stepped
---                crack (.21 and .22 g in the source). One pier (-D bays=1) bears .1525, none at .155; of rigid blocks (-D E=5e12) .1625;
---                in one piece across its width .173 (-D rows=1 -D length=1.03, erbs limit --no-tension). So with these heights, which
---                the text does not give, .21 g is out of reach of one pier whatever its joints do. Where the whole face of a bed bears
---                (-D corners=0), its toe is pressed in: .16 g partial, .1425 for one pier. Trends for one pier, in the order of
---                studies/valens_trends.lua: .1275, .145, .1525, .1575, .1575 g; .15, .1525, .1525, .1525; .1525 throughout; .135, then
---                .1425 from 10 MPa on, with the whole face.
+-- What is found  FOUND
 -- What to look at  curve.svg: acceleration over the displacement of the top above the middle pier; capacity.multiplier, .21 g (partial) and
 --                .22 g (full) in the source; capacity.mechanism; cracks on the windward side, down to the toe.
 
@@ -35,17 +30,18 @@ local peak = param("peak", 0.3 * g, "dynamic: acceleration across the aqueduct a
 local ramp = param("ramp", 8, "dynamic: time in which it grows to that, slow beside the period of .6 s [s]")
 
 local width = param("width", 5.25, "of the whole aqueduct [m]")
-local height = param("height", 28.5, "in the middle, where it is highest: 28 to 29 m [m]")
-local valley = param("valley", 10.5, "rise of the ground over 120 m from the middle, where the two tiers end, assumed; 0: level [m]")
+local height = param("height", 28.5, "in the middle, where it is highest: 28 to 29 m, taken from the foundations [m]")
+local buried = param("buried", 5.5, "of it in the ground, which holds it; a survey found the foundations 5.4 to 6 m deep [m]")
+local valley = param("valley", 5, "rise of the ground over 120 m from the middle, where the two tiers end, assumed; 0: level [m]")
 local span = param("span", 4, "of the arches, but for three [m]")
 local span_least = param("span_least", 2.4, "of the first and the last arch, the least of the source; place assumed [m]")
 local span_most = param("span_most", 6.15, "of the arch in the middle, the greatest of the source; place assumed [m]")
 local pier = param("pier", 3.7, "width of the piers along the aqueduct [m]")
-local springing1 = param("springing1", 10.5, "springing line of the lower tier, assumed [m]")
+local springing1 = param("springing1", 10.5, "springing line of the lower tier above the foundations, assumed [m]")
 local top1 = param("top1", 15, "top of the lower tier, where the upper piers begin, assumed [m]")
 local springing2 = param("springing2", 24, "of the upper tier, assumed: as much masonry over its crowns as over the lower ones [m]")
 local ring = param("ring", 0.55, "least thickness of the arches, assumed; they end in the middle of a course [m]")
-local length = param("length", 1, "of a whole block [m]")
+local length = param("length", 1.03, "of a whole block [m]")
 local rows = param("rows", 4, "blocks across the width, assumed: both models then have about as many blocks as the source's")
 local density = param("density", 2200, "assumed [kg/m3]")
 local E = param("E", 5 * GPa, "of the masonry [Pa]")
@@ -112,8 +108,9 @@ if valley > 0 and bays == 0 then
   end
 end
 local built = arcade {
-  name = "valens", at = { -total / 2, 0, 0 }, spans = spans, piers = piers, feet = feet, ends = bays > 0 and "half" or "pier", width = width,
-  rows = rows, block = { length = length, height = spacing }, fixed_courses = 1, material = "stone", ring_material = "ring",
+  name = "valens", at = { -total / 2, 0, -buried }, spans = spans, piers = piers, feet = feet, ends = bays > 0 and "half" or "pier", width = width,
+  rows = rows, block = { length = length, height = spacing }, fixed_courses = math.max(1, math.floor(buried / spacing + 0.5)),
+  material = "stone", ring_material = "ring",
   tiers = { { springing = springing1, top = top1, thickness = ring }, { springing = springing2, top = height, thickness = ring } },
 }
 if bays > 0 then  -- planes of symmetry: plates without friction, along which the ends of the half arches slide
@@ -128,7 +125,8 @@ end
 
 gravity(g)
 local middle = built.piers[(#built.piers + 1) // 2]
-local top = middle.courses[#middle.courses]
+local top, nodes = middle.courses[#middle.courses], {}
+for _, course in ipairs(middle.courses) do table.move(course, 1, #course, #nodes + 1, nodes) end
 if dynamic == 1 then
   -- The ground accelerates towards -y, which pushes the aqueduct towards +y.
   ground_motion { wave = table_wave { times = { 0, ramp }, values = { 0, peak }, hold = true }, direction = { 0, -1, 0 } }
@@ -137,12 +135,13 @@ if dynamic == 1 then
 else
   analysis { kind = "pushover", direction = "y", step = math.min(step, up_to), up_to = up_to, bracket = bracket, fall = fall,
     monitor = { block = top[(#top + 1) // 2] } }
-  if up_to > step then spectrum { kind = "TBSC 2018", SDS = SDS, SD1 = SD1, shape = "elastic", nodes = 8 } end
+  if up_to > step then spectrum { kind = "TBSC 2018", SDS = SDS, SD1 = SD1, shape = "elastic", nodes = 8, blocks = nodes } end
 end
 recorder { name = "top", quantity = "displacement", blocks = top, axis = "y" }
 metric("blocks_per_metre", "1/m", (#built.blocks + #built.base) / total)
 
-local far = math.max(0.9 * total, 1.9 * height)
-camera { name = "windward", eye = { -0.35 * far, -far, 0.55 * height }, target = { 0, 0, 0.46 * height }, fov = 38 * deg }
-camera { name = "leeward", eye = { 0.35 * far, far, 0.55 * height }, target = { 0, 0, 0.46 * height }, fov = 38 * deg }
-camera { name = "along", eye = { -0.5 * total - 1.6 * height, -0.5 * height, 0.6 * height }, target = { 0, 0, 12 }, fov = 40 * deg }
+local seen = height - buried
+local far = math.max(0.9 * total, 1.9 * seen)
+camera { name = "windward", eye = { -0.35 * far, -far, 0.55 * seen }, target = { 0, 0, 0.46 * seen }, fov = 38 * deg }
+camera { name = "leeward", eye = { 0.35 * far, far, 0.55 * seen }, target = { 0, 0, 0.46 * seen }, fov = 38 * deg }
+camera { name = "along", eye = { -0.5 * total - 1.6 * seen, -0.5 * seen, 0.6 * seen }, target = { 0, 0, 12 }, fov = 40 * deg }

@@ -1,6 +1,7 @@
 // What a pushover is asked: where on its curve a spectrum leaves the structure (the performance point).
 #pragma once
 #include <string>
+#include <vector>
 
 #include "engine/base/error.h"
 #include "engine/base/field.h"
@@ -10,10 +11,11 @@ namespace erbs {
 
 struct PerformanceDemand {
   DesignSpectrum spectrum;
-  std::string shape = "peak";  // peak | elastic: the state whose displacements are the shape of the equivalent oscillator
-  int nodes = 0;               // levels over the height into which the mass is gathered; 0: every block is a mass node
-  std::string group;           // blocks of the shape; "": all that move
-  bool iterate = false;        // repeat the bilinear curve up to the target displacement
+  std::string shape = "peak";       // peak | elastic: the state whose displacements are the shape of the equivalent oscillator
+  int nodes = 0;                    // levels over the height into which the mass is gathered; 0: every block is a mass node
+  std::string group;                // blocks of the shape; "": those of `blocks`
+  std::vector<std::string> blocks;  // names; empty: all that move
+  bool iterate = false;             // repeat the bilinear curve up to the target displacement
   Place place;
 
   bool given() const { return !spectrum.kind.empty(); }

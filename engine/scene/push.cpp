@@ -119,6 +119,19 @@ void check_performance(PushCheck& c) {
   if (c.push.kind != "pushover")
     say("a performance point lies on the curve of a pushover; take analysis{ kind = \"pushover\" }, or leave spectrum out");
   for (const std::string& mistake : check_spectrum(demand.spectrum)) say(mistake);
+  if (!demand.group.empty() && !demand.blocks.empty()) say("give a group or the names of blocks, not both");
+  if (!demand.blocks.empty()) {
+    std::map<std::string, bool> moves;  // by name
+    std::vector<std::string> names;
+    for (const Block& block : c.scene.blocks) moves[block.name] = !block.fixed, names.push_back(block.name);
+    bool any = false;
+    for (const std::string& name : demand.blocks) {
+      const auto found = moves.find(name);
+      if (found == moves.end()) say(fmt::format("there is no block \"{}\"{}", name, did_you_mean(name, names)));
+      else any = any || found->second;
+    }
+    if (!any) say("none of its blocks moves; name others, or leave blocks out");
+  }
   if (demand.group.empty()) return;
   std::vector<std::string> groups;
   bool there = false;

@@ -89,6 +89,7 @@ int spectrum(Call& call) {
   }
   demand.place = call.place;
   arguments.read(demand);
+  arguments.read("blocks", demand.blocks);
   DesignSpectrum& asked = demand.spectrum;
   arguments.read(asked);
   if (arguments.has("table")) {
@@ -167,7 +168,8 @@ std::vector<Function> analysis_functions() {
        joined({keys_of<DesignSpectrum>(),
                {{"table", "list", "", "rows { T = ..., Sa = ... } of another spectrum, from T = 0 on", -unbounded, unbounded, false, "", "",
                  row_keys()}},
-               keys_of<PerformanceDemand>()})},
+               keys_of<PerformanceDemand>(),
+               {{"blocks", "strings", "", "names of the blocks that give the displaced shape, instead of a group"}}})},
       {"recorder", recorder, "{ ... }", "",
        "Writes a quantity of a block to histories.csv; for several blocks their mean, for forces their sum.",
        joined({recorder_keys(),

@@ -180,7 +180,8 @@ Relaxation::Relaxation(const PushSettings& push, const std::vector<std::string>&
     if (push.inertia == "scaled") scale_inertia(model_, run.state);
     const StepBounds bounds = step_bounds(model_, run.state);
     range_.critical = bounds.cracked;
-    range_.longest = dt_ = (push.relaxation == "local" ? local_step : 0.9) * bounds.cracked;
+    const double smaller = std::min(1.0, model_.analysis.dt_fraction / Analysis{}.dt_fraction);  // where the scene says so
+    range_.longest = dt_ = smaller * (push.relaxation == "local" ? local_step : 0.9) * bounds.cracked;
   }
   soften_inertia();
   const double g = run.model.gravity.norm() > 0 ? run.model.gravity.norm() : standard_g;
@@ -275,20 +276,22 @@ bool Relaxation::far(const State& s, const BlockVec3& from, double share, double
   return far;
 }
 
-Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, Way way) {
+Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, Way way, double finer) {
   const bool machine = way == Way::with_machine;
   Relaxed out;
-  start(s, dt_);
+  StepRange range = range_;
+  range.longest /= finer;
+  start(s, dt_ / finer);
   const BlockVec3 from = s.pose.u;
   const double monitored = monitor_.along(s.pose);
   Damper damper(push_.relaxation, period_, machine ? std::sqrt(machine_) : 1, inertia_.has_value(), model_);
   std::optional<Solver> solver;
-  engage(solver, model_, s, range_);
+  engage(solver, model_, s, range);
   const double check = std::max(period_ / checks, least_check * dt_);
   double next_check = 0, fastest = 0;  // s; J, largest kinetic energy
   int balanced = 0;
   while (true) {
-    if (crew_.should_change(steps_ + s.time.step)) engage(solver, model_, s, range_);
+    if (crew_.should_change(steps_ + s.time.step)) engage(solver, model_, s, range);
     const double t = s.time.t, done = t / period_;
     loads_.set(course(smooth(done), monitor_.along(s.pose)));
     const double next = damper.one_step() ? t : machine ? std::min(next_check, t + control_every * s.time.dt) : next_check;

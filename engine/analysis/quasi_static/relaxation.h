@@ -52,7 +52,8 @@ class Relaxation {
   // collapse. On return velocities are zero and time starts anew; in equilibrium the state may be relaxed further.
   using Seen = std::function<bool(const Solver&, const Relaxed&)>;
   enum class Way : std::uint8_t { to_rest, with_machine, falling };
-  Relaxed relax(State& state, const LoadCourse& course, const Seen& seen, Way way = Way::to_rest);
+  // `finer`: with a step so many times shorter.
+  Relaxed relax(State& state, const LoadCourse& course, const Seen& seen, Way way = Way::to_rest, double finer = 1);
   // Lets the structure go under the present loads, with its true masses and without damping, for at most `duration` (s). `seen` is called
   // every `interval` (s).
   void release(State& state, double duration, double interval, const Seen& seen);

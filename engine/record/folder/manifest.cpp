@@ -82,6 +82,7 @@ Json json_of_push(const PushSettings& push) {
 Json json_of_spectrum(const PerformanceDemand& demand) {
   Json json = json_of_fields(demand.spectrum);
   json.update(json_of_fields(demand));
+  json["blocks"] = demand.blocks;
   json["table"] = {{"T_s", demand.spectrum.period}, {"Sa_m_s2", demand.spectrum.acceleration}};
   return json;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "engine/base/error.h"
 #include "engine/base/units.h"
@@ -20,7 +21,10 @@ struct MassNode {
 // Blocks gathered into levels of equal height, or each by itself.
 std::vector<MassNode> nodes_of(const std::vector<ShapeBlock>& blocks, const PerformanceDemand& demand) {
   double low = HUGE_VAL, high = -HUGE_VAL;
-  const auto counts = [&](const ShapeBlock& b) { return demand.group.empty() || b.group == demand.group; };
+  const std::set<std::string> named(demand.blocks.begin(), demand.blocks.end());
+  const auto counts = [&](const ShapeBlock& b) {
+    return (demand.group.empty() || b.group == demand.group) && (named.empty() || named.contains(b.name));
+  };
   for (const ShapeBlock& b : blocks)
     if (counts(b)) low = std::min(low, b.height), high = std::max(high, b.height);
   std::map<int, MassNode> levels;
@@ -114,6 +118,7 @@ Participation participation(const PushShape& shape, const PerformanceDemand& dem
   for (const ShapeBlock& b : shape.blocks) out.mass += b.mass;
   const std::vector<MassNode> nodes = nodes_of(shape.blocks, demand);
   const double monitored = demand.shape == "elastic" ? shape.elastic : shape.peak;
+  if (nodes.empty() && demand.group.empty()) throw Error("spectrum: none of its blocks moves; name others, or leave blocks out");
   if (nodes.empty()) throw Error(fmt::format("group \"{}\" has no blocks that move; name another, or leave group out", demand.group));
   if (!(std::fabs(monitored) > 0))
     throw Error("the monitored point does not move in this state, so that there is no shape; monitor another point of the structure");

@@ -1,8 +1,9 @@
--- Random structures of up to 60 blocks on a fixed base: a stack on a slope, a pier, an arch, a corbel, a wall, a portal. `draw` gives the
--- numbers (draw.lua); blocks are of the material "brick". Returns names, height (m), volume (m3), slope (rad), and the builder's own facts.
+-- Random structures of up to 75 blocks on a fixed base: a stack on a slope, a pier, an arch, a corbel, a wall, a portal, a barrel in bond, a
+-- wall with a buttress, a room with a door. `draw` gives the numbers (draw.lua); blocks are of the material "brick". Returns names, height
+-- (m), volume (m3), slope (rad), monitor (a block to look at; nil: the last).
 return function(draw, kind, mu)
   local uniform, whole = draw.uniform, draw.whole
-  local blocks, height, volume = {}, 0, 0
+  local blocks, height, volume, monitor = {}, 0, 0, nil
   local function lay(name, size, center)
     box { name = name, group = "s", size = size, center = center, material = "brick" }
     blocks[#blocks + 1] = name
@@ -41,6 +42,7 @@ return function(draw, kind, mu)
       local thick, wide = radius * uniform(0.16, 0.35), uniform(0.2, 0.5)
       local made = arch { name = "a", radius = radius, thickness = thick, width = wide, voussoirs = whole(5, 17),
         embrace = uniform(100, 180) * deg, material = "brick" }
+      monitor = made.blocks[(#made.blocks + 1) // 2]
       blocks, height, volume = made.blocks, 1.3 * radius, 2.4 * radius * thick * wide  -- for an embrace of 100 to 180 degrees
     end,
     function()  -- a corbelled stack that leans out by a share of the harmonic series
@@ -74,7 +76,32 @@ return function(draw, kind, mu)
       local thick = uniform(0.1, 0.3)
       lay("lintel", { clear + uniform(1, 2) * a, d, thick }, { 0, 0, n * h + thick / 2 })
     end,
+    function()  -- a barrel in bond
+      local radius, rows = uniform(0.5, 1.5), whole(2, 3)
+      local made = barrel { name = "v", radius = radius, thickness = radius * uniform(0.16, 0.35), width = uniform(0.4, 1.2), rows = rows,
+        voussoirs = whole(5, 13), embrace = uniform(100, 180) * deg, material = "brick" }
+      blocks, height, volume, monitor = made.blocks, made.height, made.volume, made.crown[1]
+    end,
+    function()  -- a wall with a buttress, upright, stepped or battered
+      local l, w, h, courses = uniform(0.2, 0.4), uniform(0.1, 0.25), uniform(0.08, 0.15), whole(4, 8)
+      base(8 * l, 8 * l)
+      local long, depth = whole(3, 5) * l, uniform(0.5, 1) * courses * h
+      local made = wall { name = "w", length = long, at = { -long / 2, 0, 0 }, courses = courses, joint = 0, material = "brick", quiet = true,
+        brick = { length = l, width = w, height = h } }
+      local stands = buttress { at = { 0, w, 0 }, towards = "y", width = l, depth = depth, top_depth = depth * uniform(0.4, 1),
+        courses = whole(2, courses), block = { length = 1.2 * l, height = h }, material = "brick" }
+      blocks, height, volume = stands.blocks, made.height, made.volume + stands.volume
+      table.move(made.blocks, 1, #made.blocks, #blocks + 1, blocks)
+    end,
+    function()  -- a room of three or four bricks by as many, with a door
+      local l, h, courses, bricks = uniform(0.3, 0.5), uniform(0.1, 0.2), whole(3, 5), whole(3, 4)
+      base(8 * l, 8 * l)
+      local made = building { plan = { bricks * l, whole(3, 4) * l }, at = { -2 * l, -2 * l, 0 }, courses = courses, joint = 0, material = "brick",
+        brick = { length = l, width = l / 2, height = h }, quiet = true,
+        openings = { { wall = "south", kind = "door", centre = bricks * l / 2, width = 0.7 * l, height = (courses - 1) * h } } }
+      blocks, height, volume = made.blocks, made.height, made.volume
+    end,
   }
   builders[kind]()
-  return { blocks = blocks, height = height, volume = volume, slope = slope }
+  return { blocks = blocks, height = height, volume = volume, slope = slope, monitor = monitor }
 end

@@ -148,6 +148,10 @@ TEST_CASE("levels and groups gather the mass", "[performance]") {
   CHECK(odd.nodes == 3);
   CHECK(odd.mass == Approx(8));
   CHECK(odd.mass_star == Approx(8.0 / 4 * (0.2 + 0.6 + 2)));
+  demand.group = "", demand.blocks = {"b1", "b3", "b5"};
+  CHECK(participation(s.shape, demand).gamma == odd.gamma);
+  demand.blocks = {"none"};
+  CHECK_THROWS_WITH(participation(s.shape, demand), Catch::Contains("none of its blocks moves"));
   demand.group = "none";
   CHECK_THROWS_WITH(participation(s.shape, demand), Catch::Contains("group \"none\"") && Catch::Contains("leave group out"));
   PushShape still = s.shape;

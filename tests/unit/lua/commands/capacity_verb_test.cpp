@@ -107,6 +107,10 @@ TEST_CASE("mistakes of a spectrum are met with place and remedy", "[capacity][ba
   says(pushes + "spectrum { ground = 'B', ag = 2 }", "there is no spectrum");
   says(pushes + "spectrum { kind = 'TBSC 2018', SDS = 0.9*g, SD1 = 0.3 }", "SDS = 8.8");
   says(pushes + "spectrum { kind = 'TBSC 2018', SDS = 0.9, SD1 = 0.3, group = 'tip' }", "group \"tip\" has no free blocks");
+  says(pushes + "spectrum { kind = 'TBSC 2018', SDS = 0.9, SD1 = 0.3, blocks = { 'blok' } }",
+       "there is no block \"blok\"; did you mean \"block\"?");
+  says(pushes + "spectrum { kind = 'TBSC 2018', SDS = 0.9, SD1 = 0.3, blocks = { 'floor' } }", "none of its blocks moves");
+  says(pushes + "spectrum { kind = 'TBSC 2018', SDS = 0.9, SD1 = 0.3, blocks = { 'block' }, group = 'tip' }", "not both");
   says(pushes + "spectrum { table = { { T = 0, Sa = 1 }, { T = 0.5, Sa = 2 }, { T = 0.4, Sa = 1 } }, TC = 0.2 }", "growing order");
   says(pushes + "spectrum { table = { { 0, 1 } } }", "\"T\" is missing");
   says(pushes + "spectrum { table = { { T = 0, Sa = 1 }, { T = 2, Sa = 1 } } }", "add TC");

@@ -343,7 +343,7 @@ TEST_CASE("the aqueduct of Valens has the size and the number of blocks of its s
       CHECK((!block.fixed || block.group == "valens_pier"));
     }
     CHECK((high - low - Vec3(length, 5.25, 28.5)).norm() < 1e-9);
-    CHECK(count == Approx(blocks).epsilon(0.06));
+    CHECK(count == Approx(blocks).epsilon(0.035));
   }
 }
 
