@@ -15,7 +15,13 @@
 --                erbs run scenes/valens_aqueduct.lua -D bays=1             a pier with half an arch on either side; erbs render with
 --                                                                          --hide plane leaves its planes of symmetry out
 --                erbs run scenes/valens_aqueduct.lua -D dynamic=1 --video  the acceleration grows in time
--- What is found  FOUND
+-- What is found  The partial model bears .2075 g, none at .21, the full one .215, none at .2175; piers overturn out of plane on a stepped
+--                crack (.21 and .22 g in the source). On beds of 2 GPa/m (-D E=1e9) the partial one bears .1825 g (.19), of 30 GPa/m .21
+--                (.21); with ft of .05 MPa .2025, of .5 MPa .2075. One pier (-D bays=1) bears .1925 g; its trends, in the order of
+--                studies/valens_trends.lua: .1725, .1875, .1925, .195, .195 g; .19, .19, .1925, .1975; .1925 throughout; .1775, then
+--                .1925 from fc = 10 MPa on. Gamma phi_top is 1.43 (1.51). With all of its height above the ground (-D buried=0 -D valley=10.5
+--                -D length=1) the partial model bears .17 g, .1875 in two rows, and .2375 of blocks as wide as the aqueduct, which bend
+--                along it (-D rows=2, rows=1).
 -- What to look at  curve.svg: acceleration over the displacement of the top above the middle pier; capacity.multiplier, .21 g (partial) and
 --                .22 g (full) in the source; capacity.mechanism; cracks on the windward side, down to the toe.
 

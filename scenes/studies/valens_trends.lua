@@ -5,7 +5,7 @@
 -- Source         The Valens (Bozdogan) aqueduct by discrete elements, parametric study: .19 g at 2 GPa/m, rising to .21 g at 30; ft of .05 to
 --                .5 MPa changes the displacement, not the capacity; friction is weak; fc is critical at 20 MPa, above it at most 5 % more.
 -- How to run     for t in stiffness tension friction compression; do erbs sweep scenes/studies/valens_trends.lua -D trend=$t -o runs/$t; done
---                -D rows=1 takes blocks as wide as the aqueduct, a tenth of the time; -D bays=0 the partial model, twenty times of it
+--                -D rows=1 takes blocks as wide as the aqueduct, a tenth of the time; -D bays=0 the partial model, ten times of it
 -- What to look at  results.svg and results.csv in each folder: capacity over the property; metrics.capacity.displacement_m over ft.
 local trend = param("trend", "stiffness", "stiffness, tension, friction or compression")
 local rows = param("rows", 4, "blocks across the width")
