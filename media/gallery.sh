@@ -29,5 +29,5 @@ picture house_quality "--set frame_dt=0.005" 0.2 0:0.25 12 "--camera three_quart
 picture sequential_study "" 0.4 0:0.6 4 "--camera front --color displacement --magnify 100"
 picture shake_table_house "-D pga=3*g -D duration=2.8" 2.1 1.35:2.8 3 "--eye 6.4,-7.6,4.0 --target=-0.6,0,1.5 --fov 33"
 picture metu_house "-D dynamic=1" 7.6 5.5:9 1.5 "--eye=6.6,-7.6,4.2 --target 0.2,0,1.3 --fov 33"
-picture valens_aqueduct "-D bays=2 -D dynamic=1 -D ramp=5 -D peak=0.4*g" 5.3 0.5:7 1.5 "--eye=-34,-42,16 --target 0,2,9.5 --fov 40 --hide plane"
+picture valens_aqueduct "-D bays=2 -D dynamic=1 -D ramp=5 -D peak=0.4*g" 5.6 0.5:7 1.5 "--eye=-27,-33,13 --target 0,1.5,9.5 --fov 40 --hide plane"
 picture box_lintel "-D criterion=\"alpha\" -D amplitude=2.6 -D cycles=1 --set frame_dt=0.02" 1.4 0.3:2 2 "--eye 8.6,-9.4,5.6 --target 0.4,0,1.5"
