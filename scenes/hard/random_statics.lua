@@ -1,8 +1,8 @@
 -- Hard case: the capacity of random structures, by push, by tilting and by control of the displacement
 --
 -- What happens   A seed draws a stack on a slope, a pier, an arch, a corbel, a wall, a portal, a barrel, a wall with a buttress or a room of
---                up to 75 blocks, dry or in mortar, and a direction in the plane of the ground. The structure is pushed to its capacity by steps of the acceleration, tilted to it,
---                and pushed by steps of the displacement; limit analysis of rigid blocks stands beside.
+--                up to 75 blocks, dry or in mortar, and a direction in the plane of the ground. The structure is pushed to its capacity by
+--                steps of the acceleration, tilted to it, and pushed by steps of the displacement; limit analysis of rigid blocks stands beside.
 -- Source         Statics: a structure bears no more than the upper bound of limit analysis with dilatancy (Drucker 1954; Gilbert, Casapulla
 --                and Ahmed 2006), and tilting by an angle is pushing by its tangent. A hinge on a bed of kn and width w carries the weight N
 --                on a strip x: kn w theta x^2 / 2 = N. Its lever loses x / 3 by that, and h theta by the height h of the weight; least is
@@ -34,8 +34,8 @@ local ft = density * g * built.height * draw.log_uniform(0.1, 3)
 joint { law = bonded and mortar { kn = kn, ks = 0.4 * kn, ft = ft, c = ft * draw.uniform(1, 2), mu = mu } or dry { kn = kn, mu = mu } }
 
 analysis { kind = way == 2 and "tilt" or "pushover", direction = { math.cos(heading), math.sin(heading), 0 }, fall = 0,
-  up_to = way == 2 and 80 * deg or 5, monitor = { block = built.monitor or built.blocks[#built.blocks] }, control = way == 3 and "displacement" or nil,
-  displacement = way == 3 and 0.2 * side or nil, limit = way == 1 and "always" or "never" }
+  up_to = way == 2 and 80 * deg or 5, monitor = { block = built.monitor or built.blocks[#built.blocks] },
+  control = way == 3 and "displacement" or nil, displacement = way == 3 and 0.2 * side or nil, limit = way == 1 and "always" or "never" }
 
 local function capacity(run) return run.capacity.multiplier end
 metric("capacity", "", capacity)
