@@ -7,9 +7,10 @@
 --                over 102 m; capacity .22 and .21 g. Given: width 5.25 m, height 28 to 29 m, spans 2.4 to 6.15 m, two tiers, E = 5 GPa,
 --                joints every .5 m that bear at their vertices, kn = E / h = 10 GPa/m, ks = kn / (2 (1 + nu)), ft = .25 MPa, blocks half
 --                as high as long, fixed base. Not given, and assumed here, each a param: heights of the tiers, piers, rings, end walls,
---                rows of blocks across the width, density, cohesion, friction, nu. A survey of 2009 found the foundations 5.4 to 6 m
---                below the surface; the height is taken from there, and the ground holds what is in it. The ground rises evenly from the
---                middle. Both models then have about as many blocks as the source's, 16,506 and 28,740.
+--                rows of blocks across the width, density, cohesion, friction, nu. A geophysical survey of 2009 found the
+--                foundations 5.4 to 6 m below the surface (Wikipedia, Aqueduct of Valens); the height is taken from there, and the ground
+--                holds what is in it. The ground rises evenly from the middle. Both models then have about as many blocks as the
+--                source's, 16,506 and 28,740.
 -- How to run     erbs check scenes/valens_aqueduct.lua                     the partial model; -D model=2: the full one
 --                erbs run scenes/valens_aqueduct.lua -D up_to=0            equilibrium under gravity only
 --                erbs run scenes/valens_aqueduct.lua -D bays=1             a pier with half an arch on either side; erbs render with
@@ -20,8 +21,8 @@
 --                (.21); with ft of .05 MPa .2025, of .5 MPa .2075. One pier (-D bays=1) bears .1925 g; its trends, in the order of
 --                studies/valens_trends.lua: .1725, .1875, .1925, .195, .195 g; .19, .19, .1925, .1975; .1925 throughout; .1775, then
 --                .1925 from fc = 10 MPa on. Gamma phi_top is 1.43 (1.51). With all of its height above the ground (-D buried=0 -D valley=10.5
---                -D length=1) the partial model bears .17 g, .1875 in two rows, and .2375 of blocks as wide as the aqueduct, which bend
---                along it (-D rows=2, rows=1).
+--                -D length=1) the partial model bears .17 g, .1875 in two rows, and .2375 of blocks as wide as the aqueduct (-D rows=2,
+--                rows=1); one pier of those .23, of which bond is .06 (.1725 with ft and c of 1 kPa), as of one piece.
 -- What to look at  curve.svg: acceleration over the displacement of the top above the middle pier; capacity.multiplier, .21 g (partial) and
 --                .22 g (full) in the source; capacity.mechanism; cracks on the windward side, down to the toe.
 
@@ -114,8 +115,8 @@ if valley > 0 and bays == 0 then
   end
 end
 local built = arcade {
-  name = "valens", at = { -total / 2, 0, -buried }, spans = spans, piers = piers, feet = feet, ends = bays > 0 and "half" or "pier", width = width,
-  rows = rows, block = { length = length, height = spacing }, fixed_courses = math.max(1, math.floor(buried / spacing + 0.5)),
+  name = "valens", at = { -total / 2, 0, -buried }, spans = spans, piers = piers, feet = feet,
+  ends = bays > 0 and "half" or "pier", width = width, rows = rows, block = { length = length, height = spacing }, fixed_courses = math.max(1, math.floor(buried / spacing + 0.5)),
   material = "stone", ring_material = "ring",
   tiers = { { springing = springing1, top = top1, thickness = ring }, { springing = springing2, top = height, thickness = ring } },
 }

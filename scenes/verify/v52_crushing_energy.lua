@@ -48,7 +48,7 @@ for i, stiffer in ipairs { 1, 3, 20 } do
     local stiffness, name = kn * stiffer, string.format("pressed%d%s", i, rule[1])
     local e = fc / stiffness
     local base = pair(name, 2 * H * place)
-    bed(base, name, stiffness, rule[1], rule[2], k % 3 == 1 and 0.1 * MPa or 0, rule[3])
+    bed(base, name, stiffness, rule[1], rule[2], (k == 1 or k == 4) and 0.1 * MPa or 0, rule[3])
     -- Closings of the nodes: the peak, half of the strength (w = d / 2), back by half of the elastic part, again, spent and past it.
     local half = 0.5 * depth + 0.5 * e
     local times, closings = { 0, 0.2, 0.4, 0.5, 0.6, 0.9, 1 }, { 0, e, half, half - 0.25 * e, half, depth, 1.1 * depth }

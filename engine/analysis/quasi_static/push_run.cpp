@@ -18,10 +18,8 @@
 namespace erbs::analysis {
 namespace {
 
-constexpr double ledger_tolerance = 1e-2;  // relative, of the energy ledger of all relaxations
-constexpr double finer = 3, finest = 27;   // a trial whose ledger misses more is repeated with shorter steps, down to this part of them
-constexpr double beyond = 1.02;            // the fall: the load over the least one without equilibrium
-constexpr int frames_of_last_step = 10;    // on the way to collapse
+constexpr double beyond = 1.02;          // the fall: the load over the least one without equilibrium
+constexpr int frames_of_last_step = 10;  // on the way to collapse
 
 std::size_t z(int i) { return std::size_t(i); }
 
@@ -65,9 +63,8 @@ class PushRun {
   std::optional<RunWriter> writer_;
   std::optional<CsvWriter> curve_;
   bool gravity_alone_ = false;
-  bool inexact_ = false, may_refine_ = false;  // the ledger of this trial misses too much; it is to be repeated then
-  bool passed_peak_ = false;                   // control by displacement: this step goes too far past the peak
-  std::string fall_;                           // how far the fall after the last step has come, for the progress line; empty before it
+  bool passed_peak_ = false;  // control by displacement: this step goes too far past the peak
+  std::string fall_;          // how far the fall after the last step has come, for the progress line; empty before it
   NamedMechanism mechanism_;
   std::vector<WallMechanism> walls_;
   std::optional<LimitBeside> limit_;
@@ -127,8 +124,6 @@ Snapshot PushRun::snapshot(const Solver& solver) const {
 // Writes a state in equilibrium.
 bool PushRun::record(const Solver& solver, const Relaxed& now) {
   if (now.ending != Ending::equilibrium) return !interrupted();
-  inexact_ = run_.state.energy.residual_worst > ledger_tolerance;
-  if (inexact_ && may_refine_) return true;
   const double began = seconds();
   CurvePoint p = curve_point(run_.model, run_.state, *relaxation_, solver, push_);
   p.unbalanced = now.unbalanced, p.steps = double(now.steps);
@@ -174,28 +169,17 @@ bool PushRun::interrupted() {
 
 // From the last state in equilibrium; back to it if there is none under this load.
 Relaxed PushRun::attempt(const LoadCourse& course) {
-  State before = run_.state;
   const PushState known = so_far_;
-  Relaxed r;
-  double steps = 0;
-  for (double part = 1;; part *= finer) {
-    may_refine_ = part < finest && before.energy.residual_worst <= ledger_tolerance;
-    inexact_ = false;
-    r = relaxation_->relax(
-        run_.state, course, [&](const Solver& solver, const Relaxed& now) { return record(solver, now); },
-        so_far_.states > 0 && controlled() ? Relaxation::Way::with_machine : Relaxation::Way::to_rest, part);
-    steps += double(r.steps);
-    if (!inexact_ || !may_refine_) break;
-    run_.state = before;
-  }
+  const Relaxed r = relaxation_->relax(
+      run_.state, course, [&](const Solver& solver, const Relaxed& now) { return record(solver, now); },
+      so_far_.states > 0 && controlled() ? Relaxation::Way::with_machine : Relaxation::Way::to_rest);
   if (r.ending == Ending::stopped) {
     so_far_ = known;
   } else {
-    so_far_.steps += steps;
+    so_far_.steps += double(r.steps);
     ++so_far_.attempts;
     if (r.ending == Ending::broken) out_.metrics.status = "diverged";
   }
-  if (!r.found()) run_.state = std::move(before);
   return r;
 }
 
@@ -383,7 +367,7 @@ RunOutcome PushRun::go() {
     if (status != "completed" || !drawn) run_.state = before, so_far_ = known, collapse_ = watched;
     if (status != "completed") save(written);  // resumed, it falls anew
   }
-  if (status == "completed" && run_.state.energy.residual_worst > ledger_tolerance) {
+  if (status == "completed" && run_.state.energy.residual_worst > Relaxation::ledger_tolerance) {
     status = "inaccurate";
     out_.trouble = fmt::format("the energy ledger misses {:.2g} of all energy; take a smaller analysis{{ dt_fraction }}",
                                run_.state.energy.residual_worst);

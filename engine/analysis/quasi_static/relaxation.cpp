@@ -16,6 +16,8 @@ constexpr int balanced_checks = 3;  // in balance, one after the other
 // Periods until a structure that still moves is said to creep, and at least this many times sqrt(height / g), the time scale of rocking.
 // Walls whose joints slide in turn come to rest after up to 60.
 constexpr double longest = 600, longest_fall = 100;
+// Shorter steps where the ledger misses too much: by this factor again and again, down to this part of the first.
+constexpr double finer = 3, finest = 27;
 // Of a block's smallest edge: any block that has moved so far falls.
 constexpr double far_away = 0.5;
 // A block that moves by so many times the displacement of the monitored point hangs on no lever that a loading machine holds.
@@ -276,7 +278,20 @@ bool Relaxation::far(const State& s, const BlockVec3& from, double share, double
   return far;
 }
 
-Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, Way way, double finer) {
+Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, Way way) {
+  if (way == Way::falling) return relax(s, course, seen, way, 1, true);
+  const State before = s;
+  Relaxed r;
+  long steps = 0;
+  for (double part = 1;; part *= finer) {
+    r = relax(s, course, seen, way, part, part >= finest || before.energy.residual_worst > ledger_tolerance);
+    r.steps = steps += r.steps;
+    if (!r.found()) s = before;
+    if (r.ending != Ending::inexact) return r;
+  }
+}
+
+Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, Way way, double finer, bool exact) {
   const bool machine = way == Way::with_machine;
   Relaxed out;
   StepRange range = range_;
@@ -312,9 +327,10 @@ Relaxed Relaxation::relax(State& s, const LoadCourse& course, const Seen& seen, 
     fastest = std::max(fastest, s.energy.kinetic);
     const double held = machine ? longest_lever * std::fabs(monitor_.along(s.pose) - monitored) : 0;  // m
     if (far(s, from, speeds_up && way == Way::to_rest ? gone : far_away, held, out)) out.ending = Ending::collapse;
-    else if (balanced >= balanced_checks) out.ending = Ending::equilibrium;
+    else if (balanced >= balanced_checks)
+      out.ending = exact || s.energy.residual_worst <= ledger_tolerance ? Ending::equilibrium : Ending::inexact;
     else if (t > longest_) out.ending = Ending::creep;
-    if (!seen(*solver, out) || out.ending != Ending::stopped) break;
+    if (out.ending == Ending::inexact || !seen(*solver, out) || out.ending != Ending::stopped) break;
   }
   if (!solver->broken()) {
     if (inertia_) inertia_->set_rate(0);  // the half of its work that follows a step would be left out of the ledger
