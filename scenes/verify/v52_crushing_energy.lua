@@ -83,7 +83,7 @@ for i, stiffer in ipairs { 1, 20, 1, 20 } do
   -- The far edge is the hinge; M of the recorder is about the middle.
   if corners then
     local u = 0.5 * depth
-    local N = 0.5 * B * H * fc * (1 - (u - e) / (1 - e / depth) / depth)
+    local N = 0.5 * B * H * (u < e and stiffness * u or fc * (1 - (u - e) / (depth - e)))
     one("turned_force_" .. i, function(run) return -value_at(run, name .. "_normal_N", 0.45) / N end, 1e-4, "A p / 2; arms turn")
     one("turned_moment_" .. i, function(run) return value_at(run, name .. "_my_N_m", 0.45) / (N * H / 2) end, 1e-4, "N H / 2")
     crushing = crushing + 0.5 * fc * ductility * H * B
